@@ -1,0 +1,29 @@
+# The one place for compiler flags. Every target of ours links rubble_options.
+
+set(CMAKE_CXX_STANDARD 17)  # Simbody 3.7's headers do not compile as C++20
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+set_property(GLOBAL PROPERTY USE_FOLDERS ON)
+
+find_package(Threads REQUIRED)
+
+add_library(rubble_options INTERFACE)
+target_include_directories(rubble_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_link_libraries(rubble_options INTERFACE Threads::Threads)
+target_compile_options(rubble_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
+  # The same bits from every compiler: no fused multiply-add unless written out.
+  -ffp-contract=off)
+
+set(RUBBLE_SANITIZE "" CACHE STRING "address,undefined or thread; empty: none")
+if(RUBBLE_SANITIZE)
+  target_compile_options(rubble_options INTERFACE
+    -fsanitize=${RUBBLE_SANITIZE} -fno-omit-frame-pointer -g)
+  target_link_options(rubble_options INTERFACE -fsanitize=${RUBBLE_SANITIZE})
+  if(RUBBLE_SANITIZE MATCHES "undefined")
+    target_compile_options(rubble_options INTERFACE -fno-sanitize-recover=undefined)
+  endif()
+endif()

@@ -1,0 +1,45 @@
+// Errors by audience: an assertion for our own bugs, InputError for what the user wrote, and
+// RunError for what the machine could not do. Only main() turns them into exit codes.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace rubble {
+
+// What `rubble` returns to its caller. Stable: scripts and CI read them.
+enum class ExitCode { done = 0, bad_input = 1, failure = 2, did_not_settle = 3 };
+
+// One mistake in something a user wrote. Fields that do not apply stay empty (line: 0).
+struct Diagnostic {
+  std::string file;
+  int line = 0;          // 1-based
+  std::string key;       // whole path, e.g. "camera.width"
+  std::string message;   // what is wrong, in a few words
+  std::string expected;  // e.g. "an integer from 16 to 8192"
+  std::string found;     // e.g. "the string \"wide\""
+  std::string hint;      // what to do about it
+
+  // "file:line: key: message: expected E, found F (hint)", leaving out what is empty.
+  std::string text() const;
+};
+
+// Bad input; carries every mistake found in one pass. Exit code 1.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(Diagnostic diagnostic);
+  explicit InputError(std::vector<Diagnostic> diagnostics);  // not empty
+  const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+
+ private:
+  std::vector<Diagnostic> diagnostics_;
+};
+
+// Something failed that is not the input's fault: disk, EGL, memory. Exit code 2.
+class RunError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace rubble

@@ -1,0 +1,77 @@
+// What a pile is before it falls: piece types, what stands already, and the layers to drop.
+//
+//   PileSpec --generate_pile--> Pile --settle_pile--> PileState
+//
+// Lengths in metres, masses in kg, times in s, angles in rad. World frame: Z up, ground z = 0.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/base/math.h"
+#include "kernel/base/mesh.h"
+
+namespace rubble {
+
+// The convex hull of some points, in the frame of the piece. At least 4 points, not coplanar.
+struct ConvexPart {
+  std::vector<Vec3> points;  // unit: m
+};
+
+// One kind of piece. All lengths at scale 1.
+struct PieceType {
+  std::string name;
+  std::vector<ConvexPart> parts;  // collision geometry; at least one
+  // Volume, centre of mass and inertia at density 1; without it, the sum over the parts.
+  std::optional<VolumeProperties> volume;
+  double density = 2400;  // unit: kg/m3; range: 10 to 20000
+  double friction = 0.8;  // Coulomb, against concrete; a pair has the geometric mean; 0 to 2
+};
+
+// How often a type is drawn and how large.
+struct MixEntry {
+  int type = 0;          // index into the types
+  double weight = 1;     // relative; >= 0
+  double scale_min = 1;  // uniform in [scale_min, scale_max]; range: 0.01 to 100
+  double scale_max = 1;
+};
+
+struct Placement {
+  int type = 0;
+  double scale = 1;
+  Pose world_from_body;  // body: the frame of the type's parts, not the centre of mass
+  bool fixed = false;    // immovable: walls, pipes, terrain
+};
+
+// Where and how much to drop.
+struct PileSpec {
+  std::uint64_t seed = 0;
+  std::vector<PieceType> types;
+  std::vector<MixEntry> mix;
+  std::vector<Placement> placed;     // stands or is laid down before the first layer
+  Vec3 spawn_position{0, 0, 4.5};    // centre of the spawn box; unit: m
+  Vec3 spawn_bounds{10, 10, 7};      // its full edge lengths; unit: m; > 0
+  int layers = 4;                    // 0 to 1000
+  int pieces_per_layer = 300;        // 0 to 100000
+};
+
+// A layer's poses are relative to the bottom of the spawn volume (z) and to the world (x, y).
+struct Layer {
+  std::vector<Placement> pieces;
+};
+
+struct Pile {
+  std::vector<PieceType> types;
+  std::vector<Placement> placed;
+  std::vector<Layer> layers;
+  // Layer k starts at the larger of this height and 1 m above the highest point of the pile.
+  double spawn_bottom = 1.0;  // unit: m
+};
+
+// Draws every layer. Within a layer no two pieces overlap (a placement that would is redrawn).
+// Throws InputError when a layer does not fit, saying how many pieces did.
+Pile generate_pile(const PileSpec& spec);
+
+}  // namespace rubble

@@ -1,0 +1,65 @@
+// The portable functions against libm, and transforms against identities.
+#include "kernel/base/math.h"
+
+#include <gtest/gtest.h>
+
+#include "kernel/base/portable_math.h"
+
+namespace rubble {
+namespace {
+
+TEST(PortableMath, AgreesWithLibm) {
+  for (int i = -20000; i <= 20000; ++i) {
+    const double x = i * 0.00731;
+    EXPECT_NEAR(portable::sin(x), std::sin(x), 2e-15) << x;
+    EXPECT_NEAR(portable::cos(x), std::cos(x), 2e-15) << x;
+    const double e = i * 0.0171;
+    EXPECT_NEAR(portable::exp(e) / std::exp(e), 1.0, 1e-15) << e;
+    const double l = std::exp(i * 0.011);
+    EXPECT_NEAR(portable::log(l), std::log(l), 4e-16 * std::max(1.0, std::fabs(std::log(l)))) << l;
+    const double u = i / 20000.0;
+    EXPECT_NEAR(portable::acos(u), std::acos(u), 1e-15) << u;
+    EXPECT_NEAR(portable::asin(u), std::asin(u), 1e-15) << u;
+    EXPECT_NEAR(portable::atan2(u, 0.3), std::atan2(u, 0.3), 1e-15) << u;
+    EXPECT_NEAR(portable::atan2(u, -0.3), std::atan2(u, -0.3), 1e-15) << u;
+  }
+}
+
+TEST(PortableMath, ReducesLargeAngles) {
+  for (const double x : {1e3, 12345.678, -99999.5, 1e6})
+    EXPECT_NEAR(portable::sin(x), std::sin(x), 1e-12) << x;
+}
+
+TEST(PortableMath, RollPitchYawFollowsRep103) {
+  const double quarter = portable::kPi / 2;
+  // A positive pitch lowers the nose; a positive yaw turns it left; roll leaves it alone.
+  EXPECT_LT(distance(portable::quat_from_rpy(0, quarter, 0).rotate({1, 0, 0}), {0, 0, -1}), 1e-15);
+  EXPECT_LT(distance(portable::quat_from_rpy(0, 0, quarter).rotate({1, 0, 0}), {0, 1, 0}), 1e-15);
+  EXPECT_LT(distance(portable::quat_from_rpy(0.7, 0, 0).rotate({1, 0, 0}), {1, 0, 0}), 1e-15);
+}
+
+TEST(PortableMath, SlerpKeepsAngularSpeed) {
+  const Quat a = portable::quat_from_rpy(0, 0, 0), b = portable::quat_from_rpy(0, 0, 2.0);
+  for (const double t : {0.0, 0.25, 0.5, 1.0}) {
+    const Vec3 x = portable::slerp(a, b, t).rotate({1, 0, 0});
+    EXPECT_NEAR(std::atan2(x.y, x.x), 2.0 * t, 1e-14);
+  }
+}
+
+TEST(Pose, ComposesAndInverts) {
+  const Pose a{portable::quat_from_rpy(0.1, 0.2, 0.3), {1, 2, 3}};
+  const Pose b{portable::quat_from_rpy(-0.5, 0.4, 2.0), {-3, 0.5, 1}};
+  const Vec3 p{0.3, -0.7, 2.2};
+  EXPECT_LT(distance((a * b) * p, a * (b * p)), 1e-14);
+  EXPECT_LT(distance(a.inverse() * (a * p), p), 1e-14);
+  EXPECT_LT(distance(a.rotation.matrix() * p, a.rotation.rotate(p)), 1e-14);
+}
+
+TEST(Pose, OpticalFrameLooksAlongCameraX) {
+  EXPECT_LT(distance(camera_from_optical * Vec3{0, 0, 1}, {1, 0, 0}), 1e-15);   // forward
+  EXPECT_LT(distance(camera_from_optical * Vec3{1, 0, 0}, {0, -1, 0}), 1e-15);  // right
+  EXPECT_LT(distance(camera_from_optical * Vec3{0, 1, 0}, {0, 0, -1}), 1e-15);  // down
+}
+
+}  // namespace
+}  // namespace rubble

@@ -1,0 +1,45 @@
+# A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
+# a newcomer needs; both install what is missing first.
+
+.PHONY: help packages build demo test test-asan test-tsan test-slow format clean
+
+PROGRAM := build/release/rubble
+CTEST   := ctest --output-on-failure
+
+help:
+	@echo "make demo       install what is missing, build, and run scripts/first_pile.lua"
+	@echo "make test       install what is missing, build, and run the test suite"
+	@echo "make build      build the release preset alone: $(PROGRAM)"
+	@echo "make test-asan  the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
+	@echo "make test-tsan  the suite under ThreadSanitizer"
+	@echo "make test-slow  the tests that take minutes (label: slow)"
+	@echo "make format     clang-format over the tree"
+	@echo "make clean      remove build/ and out/"
+
+packages:
+	@tools/install_packages.sh packages.txt
+
+build/%/build.ninja: | packages
+	cmake --preset $*
+
+build: packages build/release/build.ninja
+	cmake --build --preset release
+
+demo: build
+	$(PROGRAM) run scripts/first_pile.lua --out out/first_pile --force
+
+test: build
+	$(CTEST) --preset release --label-exclude slow
+
+test-asan test-tsan: test-%: packages build/%/build.ninja
+	cmake --build --preset $*
+	$(CTEST) --preset $* --label-exclude slow
+
+test-slow: build
+	$(CTEST) --preset release --label-regex slow
+
+format:
+	git ls-files '*.h' '*.cpp' | xargs clang-format -i
+
+clean:
+	rm -rf build out

@@ -27,3 +27,8 @@ if(RUBBLE_SANITIZE)
     target_compile_options(rubble_options INTERFACE -fno-sanitize-recover=undefined)
   endif()
 endif()
+
+# rubble_library_version(NAME VERSION) records a version for `rubble info` and the manifest.
+function(rubble_library_version name version)
+  set_property(GLOBAL APPEND PROPERTY RUBBLE_LIBRARY_VERSIONS "${name}=${version}")
+endfunction()

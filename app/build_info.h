@@ -1,0 +1,20 @@
+// What this program was built from, for `rubble info` and the manifest.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace rubble {
+
+struct BuildInfo {
+  std::string version;   // of Rubble
+  std::string commit;    // of the sources; "unknown" outside a git checkout
+  std::string compiler;  // name and version
+  std::string flags;
+  std::string target;    // processor and system
+  std::map<std::string, std::string> libraries;  // name to version
+};
+
+BuildInfo build_info();
+
+}  // namespace rubble

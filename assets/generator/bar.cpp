@@ -1,0 +1,85 @@
+#include "assets/generator/bar.h"
+
+#include <cmath>
+
+#include "kernel/base/portable_math.h"
+
+namespace rubble::generator {
+namespace {
+
+Vec3 any_across(const Vec3& direction) {
+  const Vec3 axis = std::fabs(direction.z) < 0.8 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
+  return normalized(cross(axis, direction));
+}
+
+// Points along the line, with each bend cut short over twice the bar's radius.
+std::vector<Vec3> ring_centres(const Bar& bar, double spacing) {
+  std::vector<Vec3> points{bar.line.front()};
+  for (std::size_t i = 1; i < bar.line.size(); ++i) {
+    const bool last = i + 1 == bar.line.size();
+    const Vec3 from = points.back(), direction = normalized(bar.line[i] - from);
+    const double cut = last ? 0 : 1.5 * bar.radius;
+    const double length = distance(from, bar.line[i]) - cut;
+    const int steps = std::max(1, static_cast<int>(length / spacing + 0.5));
+    for (int s = 1; s <= steps; ++s) points.push_back(from + direction * (length * s / steps));
+    if (!last) {
+      const Vec3 next = normalized(bar.line[i + 1] - bar.line[i]);
+      points.push_back(bar.line[i] + (next - direction) * (0.35 * cut));
+      points.push_back(bar.line[i] + next * cut);
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+SurfaceMesh mesh_bar(const Bar& bar, int sides, double ring_spacing) {
+  SurfaceMesh mesh;
+  const std::vector<Vec3> centres = ring_centres(bar, ring_spacing);
+  const int rings = static_cast<int>(centres.size());
+  Vec3 across = any_across(normalized(centres[1] - centres[0]));
+  for (int r = 0; r < rings; ++r) {
+    const Vec3 along = normalized(centres[std::min(r + 1, rings - 1)] - centres[std::max(r - 1, 0)]);
+    across = normalized(across - along * dot(across, along));  // carried along without twist
+    const Vec3 up = cross(along, across);
+    for (int s = 0; s < sides; ++s) {
+      const portable::SinCos turn = portable::sincos(2 * portable::kPi * s / sides);
+      mesh.positions.push_back(centres[r] + (across * turn.cos + up * turn.sin) * bar.radius);
+    }
+  }
+  for (int r = 0; r + 1 < rings; ++r) {
+    for (int s = 0; s < sides; ++s) {
+      const int a = r * sides + s, b = r * sides + (s + 1) % sides;
+      mesh.triangles.push_back({a, b, b + sides});
+      mesh.triangles.push_back({a, b + sides, a + sides});
+    }
+  }
+  const int last = (rings - 1) * sides;
+  for (int s = 1; s + 1 < sides; ++s) {
+    mesh.triangles.push_back({0, s + 1, s});
+    mesh.triangles.push_back({last, last + s, last + s + 1});
+  }
+  mesh.surfaces.assign(mesh.triangles.size(), Surface::rebar);
+  return mesh;
+}
+
+std::vector<std::vector<Vec3>> bar_parts(const Bar& bar) {
+  std::vector<std::vector<Vec3>> parts;
+  double buried = bar.hidden;
+  for (std::size_t i = 0; i + 1 < bar.line.size(); ++i) {
+    const Vec3 along = normalized(bar.line[i + 1] - bar.line[i]);
+    const double length = distance(bar.line[i], bar.line[i + 1]);
+    const double skip = std::fmin(buried, length);
+    buried -= skip;
+    if (length - skip < 4 * bar.radius) continue;
+    const Vec3 u = any_across(along) * bar.radius, v = cross(along, u);
+    std::vector<Vec3> part;
+    for (const Vec3& end : {bar.line[i] + along * skip, bar.line[i + 1]}) {
+      for (const Vec3& side : {u + v, v - u, -u - v, u - v}) part.push_back(end + side);
+    }
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+}  // namespace rubble::generator

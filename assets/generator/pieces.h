@@ -1,0 +1,14 @@
+// The pieces of the bundled packs, by family.
+#pragma once
+
+#include <vector>
+
+#include "assets/generator/asset.h"
+
+namespace rubble::generator {
+
+std::vector<Recipe> masonry_pieces();  // bricks and blocks
+std::vector<Recipe> chunk_pieces();    // broken lumps of concrete
+std::vector<Recipe> slab_pieces();     // broken floor slabs with bars
+
+}  // namespace rubble::generator

@@ -14,13 +14,13 @@ namespace rubble::generator {
 // The recipe of one asset. Lengths in metres, frame Z up.
 struct Recipe {
   std::string name;
-  Solid solid;               // without cells: bars only
-  double cell = 0.01;        // of the sampling grid
+  Solid solid;         // without cells: bars only
+  double cell = 0.01;  // of the sampling grid
   std::vector<Bar> bars;
-  bool fit_parts = true;     // shrink the cells onto the surface; else `parts` or the cells as given
-  std::vector<std::vector<Vec3>> parts;  // given collision parts, besides those of the bars
+  bool fit_parts = true;  // shrink the cells onto the surface; else `parts` or the cells as given
+  std::vector<std::vector<Vec3>> parts;         // given collision parts, besides those of the bars
   std::array<int, 3> triangles{2000, 500, 60};  // of the solid, per level
-  double max_edge = 0.15;    // longest edge of level 0; doubles with each level
+  double max_edge = 0.15;                       // longest edge of level 0; doubles with each level
   std::string material = "reinforced_concrete";
   double scale_min = 1, scale_max = 1;
   double weight = 1;

@@ -39,7 +39,8 @@ SurfaceMesh mesh_bar(const Bar& bar, int sides, double ring_spacing) {
   const int rings = static_cast<int>(centres.size());
   Vec3 across = any_across(normalized(centres[1] - centres[0]));
   for (int r = 0; r < rings; ++r) {
-    const Vec3 along = normalized(centres[std::min(r + 1, rings - 1)] - centres[std::max(r - 1, 0)]);
+    const Vec3 along =
+        normalized(centres[std::min(r + 1, rings - 1)] - centres[std::max(r - 1, 0)]);
     across = normalized(across - along * dot(across, along));  // carried along without twist
     const Vec3 up = cross(along, across);
     for (int s = 0; s < sides; ++s) {
@@ -72,7 +73,7 @@ std::vector<std::vector<Vec3>> bar_parts(const Bar& bar) {
     const double skip = std::fmin(buried, length);
     buried -= skip;
     if (length - skip < 4 * bar.radius) continue;
-    const Vec3 u = any_across(along) * bar.radius, v = cross(along, u);
+    const Vec3 u = any_across(along) * (0.9 * bar.radius), v = cross(along, u);
     std::vector<Vec3> part;
     for (const Vec3& end : {bar.line[i] + along * skip, bar.line[i + 1]}) {
       for (const Vec3& side : {u + v, v - u, -u - v, u - v}) part.push_back(end + side);

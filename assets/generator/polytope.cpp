@@ -22,9 +22,8 @@ bool meet(const Face& a, const Face& b, const Face& c, Vec3& point) {
 }
 
 bool contains(const Cell& cell, const Vec3& p) {
-  return std::all_of(cell.begin(), cell.end(), [&](const Face& f) {
-    return f.round || dot(f.normal, p) <= f.offset + 1e-9;
-  });
+  return std::all_of(cell.begin(), cell.end(),
+                     [&](const Face& f) { return f.round || dot(f.normal, p) <= f.offset + 1e-9; });
 }
 
 void add_if_new(std::vector<Vec3>& points, const Vec3& p) {

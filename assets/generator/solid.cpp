@@ -8,6 +8,8 @@
 namespace rubble::generator {
 namespace {
 
+constexpr double kHollowRound = 0.009;  // of the inner edges of hollows; unit: m
+
 struct Local {  // what every face shares at one point
   double fracture, cast, edge;
 };
@@ -18,8 +20,10 @@ Local calc_local(const Solid& solid, const Vec3& p) {
   const double grains = grain_noise(p * (1 / w.grain_size), solid.seed + 11);
   const double bumps = 0.75 * std::fmin(1.0, 1.6 * waves) + 0.25 * (1 - grains);
   const double sway = 0.5 + 0.5 * gradient_noise(p * (1 / w.chip_size), solid.seed + 21);
-  const double pits = std::fmax(0.0, fractal_noise(p * (2.5 / w.chip_size), 2, solid.seed + 31) - 0.25);
-  const double chips = std::fmax(0.0, 1.4 * fractal_noise(p * (1 / w.chip_size), 2, solid.seed + 41));
+  const double pits =
+      std::fmax(0.0, fractal_noise(p * (2.5 / w.chip_size), 2, solid.seed + 31) - 0.25);
+  const double chips =
+      std::fmax(0.0, 1.4 * fractal_noise(p * (1 / w.chip_size), 2, solid.seed + 41));
   return {w.fracture_depth * bumps,
           w.cast_depth * std::fmin(1.0, 0.3 * std::fmax(0.0, sway) + 2 * pits),
           w.edge_round + w.edge_chip * std::fmin(1.0, chips * chips)};
@@ -70,7 +74,7 @@ FieldSample cut_hollow(FieldSample solid, const Cell& hollow, const Vec3& p, con
   for (const Face& face : hollow) {
     const double value = plain_value(face, p);
     if (value > inside) surface = face.surface;
-    inside = inside < -1e8 ? value : smooth_max(inside, value, 0.012);
+    inside = inside < -1e8 ? value : smooth_max(inside, value, kHollowRound);
   }
   const double cut = -inside + local.cast;
   if (cut > solid.value) solid.surface = surface;
@@ -88,9 +92,9 @@ const char* surface_name(Surface surface) {
 }
 
 Cell box_cell(const Vec3& min, const Vec3& max, Surface surface) {
-  return {{{1, 0, 0}, max.x, surface},   {{-1, 0, 0}, -min.x, surface},
-          {{0, 1, 0}, max.y, surface},   {{0, -1, 0}, -min.y, surface},
-          {{0, 0, 1}, max.z, surface},   {{0, 0, -1}, -min.z, surface}};
+  return {{{1, 0, 0}, max.x, surface}, {{-1, 0, 0}, -min.x, surface},
+          {{0, 1, 0}, max.y, surface}, {{0, -1, 0}, -min.y, surface},
+          {{0, 0, 1}, max.z, surface}, {{0, 0, -1}, -min.z, surface}};
 }
 
 FieldSample sample(const Solid& solid, const Vec3& p, double band) {

@@ -120,8 +120,9 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 void write_pack(const Pack& pack, const std::string& folder) {
   const std::filesystem::path root(folder);
   std::filesystem::create_directories(root);
-  std::string lua = "-- Made by rubble_make_assets; see assets/README.md.\nreturn pack {\n  name = \"" +
-                    pack.name + "\",\n  assets = {\n";
+  std::string lua =
+      "-- Made by rubble_make_assets; see assets/README.md.\nreturn pack {\n  name = \"" +
+      pack.name + "\",\n  assets = {\n";
   for (const Recipe& recipe : pack.recipes) {
     const Asset asset = make_asset(recipe);
     for (std::size_t i = 0; i < asset.levels.size(); ++i) {

@@ -36,25 +36,43 @@ std::vector<Vec3> points_to_keep(const Solid& solid, const Cell& cell, const Sur
 }
 
 struct Gap {
+  Vec3 corner;
   double size = 0;
   Vec3 outward;
 };
 
-Gap find_largest_gap(const std::vector<Vec3>& corners, const std::vector<Vec3>& points) {
-  Gap largest;
-  for (const Vec3& corner : corners) {
+// Distances from corners to the nearest of some points; each corner is looked up once.
+class GapFinder {
+ public:
+  explicit GapFinder(const std::vector<Vec3>& points) : points_(points) {}
+
+  Gap largest(const std::vector<Vec3>& corners) {
+    Gap result;
+    for (const Vec3& corner : corners) {
+      const Gap& gap = find(corner);
+      if (gap.size > result.size) result = gap;
+    }
+    return result;
+  }
+
+ private:
+  const Gap& find(const Vec3& corner) {
+    for (const Gap& gap : known_) {
+      if (gap.corner == corner) return gap;
+    }
     Vec3 nearest;
     double best = 1e18;
-    for (const Vec3& p : points) {
+    for (const Vec3& p : points_) {
       const Vec3 d = p - corner;
       if (dot(d, d) < best) best = dot(d, d), nearest = p;
     }
-    if (std::sqrt(best) > largest.size) {
-      largest = {std::sqrt(best), normalized(corner - nearest)};
-    }
+    known_.push_back({corner, std::sqrt(best), normalized(corner - nearest)});
+    return known_.back();
   }
-  return largest;
-}
+
+  const std::vector<Vec3>& points_;
+  std::vector<Gap> known_;
+};
 
 std::vector<Vec3> fit_cell(Cell cell, const std::vector<Vec3>& points) {
   for (Face& face : cell) {
@@ -62,8 +80,9 @@ std::vector<Vec3> fit_cell(Cell cell, const std::vector<Vec3>& points) {
     if (top < face.offset && top > face.offset - kMaxShrink) face.offset = top;
   }
   std::vector<Vec3> corners = corners_of(cell);
+  GapFinder finder(points);
   for (int tries = 0; tries < 3 * kMaxCorners; ++tries) {
-    const Gap gap = find_largest_gap(corners, points);
+    const Gap gap = finder.largest(corners);
     if (gap.size < kCornerGap) break;
     cell.push_back({gap.outward, support(points, gap.outward)});
     std::vector<Vec3> cut = corners_of(cell);

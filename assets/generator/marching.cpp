@@ -8,7 +8,7 @@ namespace {
 
 class Marcher {
  public:
-  Marcher(const Solid& solid, double cell) : solid_(solid), cell_(cell), band_(0.03 + 2 * cell) {
+  Marcher(const Solid& solid, double cell) : solid_(solid), cell_(cell), band_(2 * cell) {
     const Aabb box = bounds(solid);
     origin_ = box.min - Vec3(1.37, 1.41, 1.33) * cell;  // off the faces of boxes
     const Vec3 extent = box.max - origin_;

@@ -8,6 +8,7 @@
 namespace rubble::generator {
 namespace {
 
+constexpr double kDeepest = 0.025;     // what wear removes at most; unit: m
 constexpr double kHollowRound = 0.009;  // of the inner edges of hollows; unit: m
 
 struct Local {  // what every face shares at one point
@@ -101,7 +102,8 @@ FieldSample sample(const Solid& solid, const Vec3& p, double band) {
   double plain = 1e9;
   for (const Cell& cell : solid.cells) plain = std::fmin(plain, plain_value(cell, p));
   for (const Cell& hollow : solid.hollows) plain = std::fmax(plain, -plain_value(hollow, p));
-  if (std::fabs(plain) > band) return {plain, Surface::concrete_cast};
+  // Roughness only ever removes, so outside it is needed on the way to the surface alone.
+  if (plain > band || plain < -band - kDeepest) return {plain, Surface::concrete_cast};
 
   const Local local = calc_local(solid, p);
   FieldSample result{1e9, Surface::concrete_cast};

@@ -61,7 +61,8 @@ struct FieldSample {
   Surface surface;  // of the face that is nearest
 };
 
-// Exact within `band` of the surface; farther out only the sign holds. unit: m
+// Exact within `band` of the surface, farther out only the sign holds; at least twice the distance
+// over which the value is interpolated. unit: m
 FieldSample sample(const Solid& solid, const Vec3& p, double band);
 
 // A box around the solid. Throws RunError when its cells are not bounded.

@@ -1,0 +1,42 @@
+// Meshes from and to files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kernel/base/math.h"
+#include "kernel/base/mesh.h"
+
+namespace rubble {
+
+enum class UpAxis { y, z };
+
+// How the numbers of a file become metres with Z up.
+struct MeshUnits {
+  double metres_per_unit = 1;  // range: > 0; 0.001 for millimetres
+  UpAxis up = UpAxis::z;       // y: turned so that (x, y, z) becomes (x, -z, y)
+};
+
+// Reads any format that assimp knows. Every mesh of the file is joined into one; surfaces are the
+// materials' names, in order of first use. Vertices of equal position and normal are welded.
+// Throws InputError, naming the file and the reason, for one that is missing, unreadable, without
+// triangles, or that holds points or lines.
+TriangleMesh load_mesh(const std::string& path, const MeshUnits& units = {});
+
+// The convex parts of a shape: each object of the file is one, given by its corner points, in order
+// of the file. Throws InputError as load_mesh, and for a part of less than 4 points.
+std::vector<std::vector<Vec3>> load_convex_parts(const std::string& path,
+                                                 const MeshUnits& units = {});
+
+// One mesh placed in the world.
+struct MeshInstance {
+  const TriangleMesh* mesh = nullptr;
+  double scale = 1;
+  Pose world_from_body;
+};
+
+// Writes binary STL: metres, right-handed, Z up, triangles in the order of the instances. Throws
+// RunError when it cannot be written.
+void write_stl(const std::string& path, const std::vector<MeshInstance>& instances);
+
+}  // namespace rubble

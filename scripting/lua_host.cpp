@@ -1,0 +1,172 @@
+#include "scripting/lua_host.h"
+
+#include <cmath>
+#include <new>
+#include <type_traits>
+
+#include "kernel/base/portable_math.h"
+#include "kernel/base/random.h"
+
+// Lua's C++ build reports errors by an exception, so the destructors below run.
+
+namespace rubble {
+namespace {
+
+constexpr const char* kStreamType = "random stream";
+constexpr std::size_t kMostPrinted = 1 << 20;  // unit: byte
+
+RandomStream& stream_at(lua_State* lua, int index) {
+  host_of(lua).used_random = true;
+  return *static_cast<RandomStream*>(luaL_checkudata(lua, index, kStreamType));
+}
+
+double finite_at(lua_State* lua, int index) {
+  const double value = luaL_checknumber(lua, index);
+  luaL_argcheck(lua, std::isfinite(value), index, "a finite number expected");
+  return value;
+}
+
+// unit: whatever the caller's; portable functions are exact only within their stated ranges.
+double limited_at(lua_State* lua, int index, double limit) {
+  const double value = finite_at(lua, index);
+  luaL_argcheck(lua, std::abs(value) <= limit, index, "number too large");
+  return value;
+}
+
+int make_stream(lua_State* lua) {
+  static_assert(std::is_trivially_destructible_v<RandomStream>, "no __gc is needed");
+  const std::string name = luaL_checkstring(lua, 1);
+  void* const memory = lua_newuserdatauv(lua, sizeof(RandomStream), 0);
+  new (memory) RandomStream(host_of(lua).seed, "lua/" + name);
+  luaL_setmetatable(lua, kStreamType);
+  return 1;
+}
+
+int draw_uniform(lua_State* lua) {
+  RandomStream& random = stream_at(lua, 1);
+  const double low = lua_isnoneornil(lua, 2) ? 0.0 : finite_at(lua, 2);
+  const double high = lua_isnoneornil(lua, 3) ? 1.0 : finite_at(lua, 3);
+  luaL_argcheck(lua, low <= high, 3, "the upper limit is below the lower one");
+  lua_pushnumber(lua, random.uniform(low, high));
+  return 1;
+}
+
+int draw_integer(lua_State* lua) {
+  RandomStream& random = stream_at(lua, 1);
+  const lua_Integer low = luaL_checkinteger(lua, 2), high = luaL_checkinteger(lua, 3);
+  luaL_argcheck(lua, low <= high, 3, "the upper limit is below the lower one");
+  const std::uint64_t count = std::uint64_t(high) - std::uint64_t(low) + 1;  // 0: all of 2^64
+  const std::uint64_t offset = count == 0 ? random.next() : random.below(count);
+  lua_pushinteger(lua, static_cast<lua_Integer>(std::uint64_t(low) + offset));
+  return 1;
+}
+
+int draw_normal(lua_State* lua) {
+  RandomStream& random = stream_at(lua, 1);
+  const double mean = lua_isnoneornil(lua, 2) ? 0.0 : finite_at(lua, 2);
+  const double deviation = lua_isnoneornil(lua, 3) ? 1.0 : finite_at(lua, 3);
+  lua_pushnumber(lua, mean + deviation * random.normal());
+  return 1;
+}
+
+int draw_choice(lua_State* lua) {
+  RandomStream& random = stream_at(lua, 1);
+  luaL_checktype(lua, 2, LUA_TTABLE);
+  const lua_Unsigned count = lua_rawlen(lua, 2);
+  luaL_argcheck(lua, count > 0, 2, "an empty list");
+  lua_rawgeti(lua, 2, static_cast<lua_Integer>(random.below(count)) + 1);
+  return 1;
+}
+
+int draw_direction(lua_State* lua) {
+  const Vec3 v = stream_at(lua, 1).direction();
+  lua_createtable(lua, 3, 0);
+  for (int i = 0; i < 3; ++i) {
+    lua_pushnumber(lua, v[i]);
+    lua_rawseti(lua, -2, i + 1);
+  }
+  return 1;
+}
+
+int print_line(lua_State* lua) {
+  std::size_t size = 0;
+  const char* const text = luaL_checklstring(lua, 1, &size);
+  LuaHost& host = host_of(lua);
+  host.printed_bytes += size + 1;
+  if (host.printed_bytes > kMostPrinted)
+    return luaL_error(lua, "the script prints more than 1 MiB");
+  host.printed.emplace_back(text, size);
+  return 0;
+}
+
+int include_file(lua_State* lua) {
+  const std::string name = luaL_checkstring(lua, 1);
+  LuaHost& host = host_of(lua);
+  std::string error;
+  const int chunk = host.open_include(name, error);
+  if (chunk < 0) return luaL_error(lua, "rubble.include: %s", error.c_str());
+  const std::string& text = host.chunk_text(chunk);
+  if (luaL_loadbufferx(lua, text.data(), text.size(), chunk_name(chunk).c_str(), "t") != LUA_OK)
+    return lua_error(lua);
+  lua_call(lua, 0, 1);
+  return 1;
+}
+
+int math_sin(lua_State* lua) {
+  return lua_pushnumber(lua, portable::sin(limited_at(lua, 1, 1e6))), 1;
+}
+int math_cos(lua_State* lua) {
+  return lua_pushnumber(lua, portable::cos(limited_at(lua, 1, 1e6))), 1;
+}
+int math_tan(lua_State* lua) {
+  const portable::SinCos sc = portable::sincos(limited_at(lua, 1, 1e6));
+  return lua_pushnumber(lua, sc.sin / sc.cos), 1;
+}
+int math_asin(lua_State* lua) {
+  return lua_pushnumber(lua, portable::asin(limited_at(lua, 1, 1))), 1;
+}
+int math_acos(lua_State* lua) {
+  return lua_pushnumber(lua, portable::acos(limited_at(lua, 1, 1))), 1;
+}
+int math_atan(lua_State* lua) {
+  const double y = finite_at(lua, 1), x = lua_isnoneornil(lua, 2) ? 1.0 : finite_at(lua, 2);
+  return lua_pushnumber(lua, portable::atan2(y, x)), 1;
+}
+int math_exp(lua_State* lua) {
+  return lua_pushnumber(lua, portable::exp(limited_at(lua, 1, 700))), 1;
+}
+int math_log(lua_State* lua) {
+  const auto positive_at = [lua](int index) {
+    const double x = finite_at(lua, index);
+    luaL_argcheck(lua, std::isnormal(x) && x > 0, index, "a number above 0 expected");
+    return x;
+  };
+  const double value = portable::log(positive_at(1));
+  const double base = lua_isnoneornil(lua, 2) ? 1.0 : portable::log(positive_at(2));
+  return lua_pushnumber(lua, value / base), 1;
+}
+
+const luaL_Reg kFunctions[] = {
+    {"stream", make_stream}, {"print", print_line}, {"include", include_file}, {"sin", math_sin},
+    {"cos", math_cos},       {"tan", math_tan},     {"asin", math_asin},       {"acos", math_acos},
+    {"atan", math_atan},     {"exp", math_exp},     {"log", math_log},         {nullptr, nullptr}};
+
+const luaL_Reg kStreamMethods[] = {{"uniform", draw_uniform},     {"integer", draw_integer},
+                                   {"normal", draw_normal},       {"choice", draw_choice},
+                                   {"direction", draw_direction}, {nullptr, nullptr}};
+
+}  // namespace
+
+LuaHost& host_of(lua_State* lua) { return **static_cast<LuaHost**>(lua_getextraspace(lua)); }
+
+std::string chunk_name(int chunk) { return "=chunk" + std::to_string(chunk); }
+
+void push_host_functions(lua_State* lua) {
+  luaL_newmetatable(lua, kStreamType);
+  luaL_newlib(lua, kStreamMethods);
+  lua_setfield(lua, -2, "__index");
+  lua_pop(lua, 1);
+  luaL_newlib(lua, kFunctions);
+}
+
+}  // namespace rubble

@@ -1,0 +1,41 @@
+// The C++ side of the sandbox: functions that the prelude gives to scripts. Private to scripting.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <lua.hpp>
+
+#include "scripting/lua_sandbox.h"
+
+namespace rubble {
+
+// What the functions need; a pointer to it lives in the Lua state's extra space.
+struct LuaHost {
+  std::uint64_t seed = 0;
+  bool used_random = false;
+  std::size_t printed_bytes = 0;
+  std::vector<std::string> printed;
+  // Reads a file for rubble.include and returns its index among the chunks; on failure it puts the
+  // reason into `error` and returns -1.
+  std::function<int(const std::string& name, std::string& error)> open_include;
+  std::function<const std::string&(int chunk)> chunk_text;
+
+  // Limits, and what has been used of them.
+  SandboxLimits limits;
+  std::size_t memory = 0;
+  std::uint64_t instructions = 0;
+  double started = 0;   // CPU seconds of this thread
+  bool limited = true;  // false once the script has ended and only its table is read
+};
+
+LuaHost& host_of(lua_State* lua);
+
+// Lua names a chunk in its messages; ours are "chunk0", "chunk1", ... and stand for paths.
+std::string chunk_name(int chunk);
+
+// Leaves a table with every host function on the stack.
+void push_host_functions(lua_State* lua);
+
+}  // namespace rubble

@@ -1,0 +1,220 @@
+#include "scripting/lua_sandbox.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "kernel/base/error.h"
+#include "kernel/base/hash.h"
+#include "scripting/lua_host.h"
+#include "scripting/lua_prelude.h"
+#include "scripting/lua_value.h"
+
+namespace rubble {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kHookEvery = 1000;  // instructions
+constexpr std::size_t kMostIncludes = 64;
+constexpr std::uintmax_t kLargestInclude = 4 << 20;  // unit: byte
+
+double thread_cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+// Lua's allocator: refuses to pass the limit, which Lua turns into "not enough memory".
+void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_size) {
+  LuaHost& host = *static_cast<LuaHost*>(user);
+  if (!block) old_size = 0;  // it then tells the kind of object
+  if (new_size == 0) {
+    std::free(block);
+    host.memory -= old_size;
+    return nullptr;
+  }
+  const std::size_t memory = host.memory - old_size + new_size;
+  if (host.limited && new_size > old_size && memory > host.limits.memory) return nullptr;
+  void* const moved = std::realloc(block, new_size);
+  if (moved) host.memory = memory;
+  return moved;
+}
+
+void count_instructions(lua_State* lua, lua_Debug* where) {
+  LuaHost& host = host_of(lua);
+  if (!host.limited) return;
+  host.instructions += kHookEvery;
+  const bool late = thread_cpu_seconds() - host.started > host.limits.seconds;
+  if (host.instructions <= host.limits.instructions && !late) return;
+  lua_getinfo(lua, "Sl", where);
+  lua_pushfstring(lua, "%s:%d: the script does not end: stopped after %s", where->short_src,
+                  where->currentline,
+                  late ? (std::to_string(int(host.limits.seconds)) + " s").c_str()
+                       : (std::to_string(host.limits.instructions) + " instructions").c_str());
+  lua_error(lua);
+}
+
+// Makes any error a string that begins with "chunkN:LINE: ".
+int complete_message(lua_State* lua) {
+  std::string text;
+  if (lua_type(lua, 1) == LUA_TSTRING)
+    text = lua_tostring(lua, 1);
+  else
+    text = std::string("an error that is a ") + luaL_typename(lua, 1) + ", not a message";
+  if (text.rfind("chunk", 0) == 0) return lua_pushstring(lua, text.c_str()), 1;
+  lua_Debug where{};
+  for (int level = 0; lua_getstack(lua, level, &where); ++level) {
+    lua_getinfo(lua, "Sl", &where);
+    if (where.currentline <= 0 || std::strncmp(where.short_src, "chunk", 5) != 0) continue;
+    lua_pushfstring(lua, "%s:%d: %s", where.short_src, where.currentline, text.c_str());
+    return 1;
+  }
+  return lua_pushstring(lua, text.c_str()), 1;
+}
+
+std::string hint_for(const std::string& message) {
+  static const char* const kClosed[] = {"os",           "io",           "require",   "dofile",
+                                        "loadfile",     "package",      "load",      "debug",
+                                        "setmetatable", "getmetatable", "coroutine", "pcall"};
+  for (const char* name : kClosed)
+    if (message.find(std::string("global '") + name + "'") != std::string::npos)
+      return std::string("`") + name + "` is closed to scripts; docs/lua.md lists what is open";
+  if (message.find("binary chunk") != std::string::npos) return "only Lua source text is run";
+  return {};
+}
+
+}  // namespace
+
+struct LuaSandbox::State {
+  LuaHost host;
+  lua_State* lua = nullptr;
+  std::vector<SourceFile> chunks;  // 0: the script itself
+  std::vector<SourceFile> included;
+
+  ~State() {
+    host.limited = false;
+    if (lua) lua_close(lua);
+  }
+
+  int open_include(const std::string& name, std::string& error);
+  Diagnostic diagnostic_of(const std::string& message) const;
+  void call(int arguments, int results);  // throws InputError
+};
+
+int LuaSandbox::State::open_include(const std::string& name, std::string& error) {
+  const fs::path relative(name);
+  const bool climbs = std::find(relative.begin(), relative.end(), "..") != relative.end();
+  if (name.empty() || relative.is_absolute() || climbs)
+    return error = "\"" + name + "\" is not a path inside the script's folder", -1;
+  std::error_code failed;
+  const fs::path folder =
+      fs::weakly_canonical(fs::path(chunks[0].path).parent_path() / ".", failed);
+  const fs::path path = fs::weakly_canonical(folder / relative, failed);
+  const auto apart = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  if (failed || (apart.first != folder.end() && !apart.first->empty()))
+    return error = "\"" + name + "\" leads out of the script's folder", -1;
+  if (!fs::is_regular_file(path, failed) || fs::file_size(path, failed) > kLargestInclude)
+    return error = "no readable file \"" + name + "\" beside the script", -1;
+  if (chunks.size() > kMostIncludes) return error = "more than 64 files", -1;
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) return error = "no readable file \"" + name + "\" beside the script", -1;
+  const std::string shown = (fs::path(chunks[0].path).parent_path() / relative).string();
+  chunks.push_back({shown, text.str(), sha256(text.str())});
+  const bool known = std::any_of(included.begin(), included.end(),
+                                 [&](const SourceFile& file) { return file.path == shown; });
+  if (!known) included.push_back(chunks.back());
+  return int(chunks.size()) - 1;
+}
+
+// "chunk0:12: text" -> the file's path, 12 and the text.
+Diagnostic LuaSandbox::State::diagnostic_of(const std::string& message) const {
+  Diagnostic d;
+  d.file = chunks.empty() ? "" : chunks[0].path;
+  d.message = message;
+  if (message == "not enough memory") {
+    d.message = "the script needs too much memory";
+    d.expected = "at most " + std::to_string(host.limits.memory >> 20) + " MiB";
+  }
+  std::size_t chunk = 0;
+  int line = 0, length = 0;
+  if (std::sscanf(message.c_str(), "chunk%zu:%d: %n", &chunk, &line, &length) == 2 && length > 0 &&
+      chunk < chunks.size()) {
+    d.file = chunks[chunk].path;
+    d.line = line;
+    d.message = message.substr(std::size_t(length));
+  }
+  d.hint = hint_for(d.message);
+  return d;
+}
+
+void LuaSandbox::State::call(int arguments, int results) {
+  const int handler = lua_gettop(lua) - arguments;
+  lua_pushcfunction(lua, complete_message);
+  lua_insert(lua, handler);
+  const int status = lua_pcall(lua, arguments, results, handler);
+  if (status == LUA_OK) return lua_remove(lua, handler);
+  host.limited = false;
+  const char* const text = lua_tostring(lua, -1);
+  throw InputError(diagnostic_of(text ? text : "an error without a message"));
+}
+
+LuaSandbox::LuaSandbox(std::uint64_t seed, const std::string& entry, const SandboxLimits& limits)
+    : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.host.seed = seed;
+  s.host.limits = limits;
+  s.host.open_include = [&s](const std::string& name, std::string& error) {
+    return s.open_include(name, error);
+  };
+  s.host.chunk_text = [&s](int chunk) -> const std::string& {
+    return s.chunks[std::size_t(chunk)].text;
+  };
+  s.host.limited = false;
+  s.lua = lua_newstate(allocate, &s.host);
+  if (!s.lua) throw RunError("no memory for a Lua state");
+  *static_cast<LuaHost**>(lua_getextraspace(s.lua)) = &s.host;
+  for (const auto& [name, open] :
+       {std::pair{"_G", luaopen_base}, std::pair{"string", luaopen_string},
+        std::pair{"table", luaopen_table}, std::pair{"math", luaopen_math}}) {
+    luaL_requiref(s.lua, name, open, 1);
+    lua_pop(s.lua, 1);
+  }
+  if (luaL_loadbufferx(s.lua, kLuaPrelude, std::strlen(kLuaPrelude), "=prelude", "t") != LUA_OK)
+    throw RunError(std::string("prelude: ") + lua_tostring(s.lua, -1));
+  push_host_functions(s.lua);
+  lua_pushlstring(s.lua, entry.data(), entry.size());
+  s.call(2, 0);
+}
+
+LuaSandbox::~LuaSandbox() = default;
+
+Value LuaSandbox::run(const std::string& text, const std::string& path) {
+  State& s = *state_;
+  s.chunks.assign(1, {path, text, ""});
+  s.host.started = thread_cpu_seconds();
+  s.host.limited = true;
+  lua_sethook(s.lua, count_instructions, LUA_MASKCOUNT, kHookEvery);
+  if (luaL_loadbufferx(s.lua, text.data(), text.size(), chunk_name(0).c_str(), "t") != LUA_OK) {
+    s.host.limited = false;
+    throw InputError(s.diagnostic_of(lua_tostring(s.lua, -1)));
+  }
+  s.call(0, 1);
+  s.host.limited = false;  // reading the result is our work
+  lua_sethook(s.lua, nullptr, 0, 0);
+  Value value = read_lua_value(s.lua, -1);
+  lua_settop(s.lua, 0);
+  return value;
+}
+
+bool LuaSandbox::used_random() const { return state_->host.used_random; }
+const std::vector<SourceFile>& LuaSandbox::included() const { return state_->included; }
+const std::vector<std::string>& LuaSandbox::printed() const { return state_->host.printed; }
+
+}  // namespace rubble

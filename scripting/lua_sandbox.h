@@ -1,0 +1,56 @@
+// Runs a stranger's Lua script and hands back the table that it returns, as plain data.
+//
+// A script computes, and nothing else: no files, processes, clock, bytecode, coroutines or
+// metatables, bounded memory, instructions and time, and the same result on every machine: random
+// numbers come from the seed, `pairs` goes in the order of the keys, `table.sort` is stable, and
+// sin, cos and the like have portable bits. (`x ^ y` is the C library's pow, the one exception.)
+// What scripts have instead is listed in docs/lua.md and made in lua_prelude.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scripting/value.h"
+
+namespace rubble {
+
+struct SandboxLimits {
+  std::size_t memory = std::size_t(128) << 20;  // of the script at any time; unit: byte
+  std::uint64_t instructions = 200'000'000;     // of Lua's virtual machine
+  // CPU time, for what instructions do not count (work on huge strings). Only a script that fails
+  // can notice it. unit: s
+  double seconds = 20;
+};
+
+struct SourceFile {
+  std::string path;
+  std::string text;
+  std::string sha256;
+};
+
+class LuaSandbox {
+ public:
+  // seed: of rubble.random and math.random. entry: the function that a script passes its table to,
+  // "rubble.mission" or "pack".
+  LuaSandbox(std::uint64_t seed, const std::string& entry, const SandboxLimits& limits = {});
+  ~LuaSandbox();
+  LuaSandbox(const LuaSandbox&) = delete;
+  LuaSandbox& operator=(const LuaSandbox&) = delete;
+
+  // Runs the script once and returns its value. `path` names it in errors, and files that it
+  // includes are looked for beside it. Throws InputError with file and line.
+  Value run(const std::string& text, const std::string& path);
+
+  bool used_random() const;                         // whether the seed mattered to the script
+  const std::vector<SourceFile>& included() const;  // by rubble.include, in order of first use
+  const std::vector<std::string>& printed() const;  // lines given to print
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace rubble

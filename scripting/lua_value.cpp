@@ -1,0 +1,84 @@
+#include "scripting/lua_value.h"
+
+#include <algorithm>
+#include <map>
+
+namespace rubble {
+namespace {
+
+constexpr int kDeepest = 16;
+constexpr int kMostValues = 1'000'000;
+
+Value other(std::string words) {
+  Value v = Value::of_kind(Value::Kind::other);
+  v.text = std::move(words);
+  return v;
+}
+
+class Reader {
+ public:
+  explicit Reader(lua_State* lua) : lua_(lua) {}
+
+  Value read(int index, int depth) {
+    if (++count_ > kMostValues) return other("too many values");
+    switch (lua_type(lua_, index)) {
+      case LUA_TNIL:
+        return {};
+      case LUA_TBOOLEAN:
+        return Value::make_boolean(lua_toboolean(lua_, index) != 0);
+      case LUA_TNUMBER:
+        return lua_isinteger(lua_, index) ? Value::make_integer(lua_tointeger(lua_, index))
+                                          : Value::make_number(lua_tonumber(lua_, index));
+      case LUA_TSTRING:
+        return Value::make_text(text_at(index));
+      case LUA_TTABLE:
+        return depth < kDeepest ? read_table(index, depth) : other("tables too deep");
+      default:
+        return other(std::string("a ") + luaL_typename(lua_, index));
+    }
+  }
+
+ private:
+  std::string text_at(int index) {
+    std::size_t size = 0;
+    const char* const text = lua_tolstring(lua_, index, &size);
+    return {text, size};
+  }
+
+  Value read_table(int index, int depth) {
+    luaL_checkstack(lua_, 4, "reading a table");
+    const int table = lua_absindex(lua_, index);
+    Value value = Value::make_table();
+    std::map<lua_Integer, Value> numbered;
+    for (lua_pushnil(lua_); lua_next(lua_, table) != 0; lua_pop(lua_, 1)) {
+      if (lua_isinteger(lua_, -2))
+        numbered.emplace(lua_tointeger(lua_, -2), read(-1, depth + 1));
+      else if (lua_type(lua_, -2) == LUA_TSTRING)
+        value.fields.emplace_back(text_at(-2), read(-1, depth + 1));
+      else
+        value.strange_keys.push_back(lua_type(lua_, -2) == LUA_TNUMBER
+                                         ? "the key " + describe(read(-2, kDeepest))
+                                         : std::string("a key that is a ") +
+                                               luaL_typename(lua_, -2));
+    }
+    std::sort(value.fields.begin(), value.fields.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (auto& [key, item] : numbered) {
+      if (key == lua_Integer(value.items.size()) + 1)
+        value.items.push_back(std::move(item));
+      else
+        value.strange_keys.push_back("the key " + std::to_string(key));
+    }
+    std::sort(value.strange_keys.begin(), value.strange_keys.end());
+    return value;
+  }
+
+  lua_State* lua_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+Value read_lua_value(lua_State* lua, int index) { return Reader(lua).read(index, 0); }
+
+}  // namespace rubble

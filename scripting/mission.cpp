@@ -1,0 +1,102 @@
+#include "scripting/mission.h"
+
+#include <filesystem>
+
+#include "kernel/base/hash.h"
+#include "scripting/scenario_schema.h"
+#include "scripting/script_file.h"
+
+namespace rubble {
+namespace {
+
+// The seed that rubble.random uses while the script runs: before its table is known, only a number
+// that stands in it literally can be.
+std::uint64_t seed_for_script(const SourceMap& lines, const MissionOptions& options) {
+  Scenario scenario;
+  std::vector<Diagnostic> ignored;  // reported when the scenario itself is read
+  for (const char* key : {"seed", "randomseed"})
+    if (const auto literal = lines.literal_of(key); literal && *literal >= 0)
+      scenario.seed = std::uint64_t(*literal);
+  const Schema schema = make_scenario_schema(scenario);
+  for (const std::string& text : options.overrides) apply_override(schema, text, ignored);
+  return options.seed.value_or(scenario.seed);
+}
+
+void require_table(const Value& value, const SourceFile& script, const SourceMap& lines) {
+  if (value.kind == Value::Kind::table) return;
+  throw InputError({script.path, lines.line_of(""), "", "the script does not return a mission",
+                    "return rubble.mission { ... }", describe(value), ""});
+}
+
+void check_seed(const LuaSandbox& sandbox, std::uint64_t used, const Scenario& scenario,
+                std::vector<Diagnostic>& mistakes) {
+  if (!sandbox.used_random() || scenario.seed == used) return;
+  mistakes.push_back({"", 0, "seed", "random numbers were drawn before the seed was known",
+                      "a plain number in the mission's table", "", "or give it with --seed"});
+}
+
+void check_asset(const std::string& name, const std::string& key,
+                 const std::vector<std::string>& names, std::vector<Diagnostic>& mistakes) {
+  for (const std::string& known : names)
+    if (known == name) return;
+  const std::string near = nearest_name(name, names);
+  mistakes.push_back({"", 0, key, "unknown asset `" + name + "`", "", "",
+                      near.empty() ? "the packs have " + std::to_string(names.size()) + " assets"
+                                   : "did you mean `" + near + "`?"});
+}
+
+}  // namespace
+
+Mission load_mission(const std::string& path, const MissionOptions& options) {
+  return load_mission_text(read_script(path).text, path, options);
+}
+
+Mission load_mission_text(const std::string& text, const std::string& path,
+                          const MissionOptions& options) {
+  const SourceMap lines(text, "mission");
+  Mission mission{{}, {path, text, sha256(text)}, {}, {}, lines};
+  const std::uint64_t seed = seed_for_script(lines, options);
+  LuaSandbox sandbox(seed, "rubble.mission", options.limits);
+  const Value table = sandbox.run(text, path);
+  mission.included = sandbox.included();
+  mission.printed = sandbox.printed();
+  require_table(table, mission.script, lines);
+
+  Scenario& scenario = mission.scenario;
+  const Schema schema = make_scenario_schema(scenario);
+  std::vector<Diagnostic> mistakes;
+  read_table(schema, table, mistakes);
+  for (const std::string& override_text : options.overrides)
+    apply_override(schema, override_text, mistakes);
+  if (options.seed) scenario.seed = *options.seed;
+  check_seed(sandbox, seed, scenario, mistakes);
+  add_duplicates(lines, mistakes);
+  add_unrelated(find_mistakes(scenario), mistakes);
+  locate(mistakes, path, lines);
+  throw_if_any(std::move(mistakes));
+  return mission;
+}
+
+void check_assets(const Mission& mission, const std::vector<std::string>& names) {
+  std::vector<Diagnostic> mistakes;
+  const PileScenario& pile = mission.scenario.pile;
+  const auto key = [](const char* list, std::size_t i) {
+    return std::string("pile.") + list + "[" + std::to_string(i + 1) + "].asset";
+  };
+  for (std::size_t i = 0; i < pile.mix.size(); ++i)
+    check_asset(pile.mix[i].asset, key("mix", i), names, mistakes);
+  for (std::size_t i = 0; i < pile.placed.size(); ++i)
+    check_asset(pile.placed[i].asset, key("placed", i), names, mistakes);
+  locate(mistakes, mission.script.path, mission.lines);
+  throw_if_any(std::move(mistakes));
+}
+
+std::vector<std::string> pack_folders(const Mission& mission) {
+  const std::filesystem::path beside = std::filesystem::path(mission.script.path).parent_path();
+  std::vector<std::string> folders;
+  for (const std::string& pack : mission.scenario.packs)
+    folders.push_back((beside / pack).lexically_normal().string());
+  return folders;
+}
+
+}  // namespace rubble

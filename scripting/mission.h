@@ -1,0 +1,47 @@
+// From a mission script to a checked Scenario.
+//
+//   return rubble.mission {
+//     seed = 7,
+//     pile = { layers = 2 },
+//   }
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scripting/lua_sandbox.h"
+#include "scripting/scenario.h"
+#include "scripting/source_map.h"
+
+namespace rubble {
+
+struct MissionOptions {
+  std::optional<std::uint64_t> seed;   // instead of the script's
+  std::vector<std::string> overrides;  // "key=value", in order; see apply_override in schema.h
+  SandboxLimits limits;
+};
+
+struct Mission {
+  Scenario scenario;
+  SourceFile script;                 // path as given, text, SHA-256
+  std::vector<SourceFile> included;  // files that the script took in by rubble.include
+  std::vector<std::string> printed;  // lines that the script printed
+  SourceMap lines;                   // where each key was written
+};
+
+// Throws InputError with every mistake in the script and in the overrides; a file that cannot be
+// read is one, too.
+Mission load_mission(const std::string& path, const MissionOptions& options = {});
+// The same for a text that is at hand, as from a manifest; `path` names it.
+Mission load_mission_text(const std::string& text, const std::string& path,
+                          const MissionOptions& options = {});
+
+// Throws InputError with the line of every asset that a mission names and no pack has.
+void check_assets(const Mission& mission, const std::vector<std::string>& names);
+
+// The mission's pack folders, relative ones taken from the script's folder.
+std::vector<std::string> pack_folders(const Mission& mission);
+
+}  // namespace rubble

@@ -1,0 +1,67 @@
+#include "scripting/scenario.h"
+
+#include "kernel/base/portable_math.h"
+#include "kernel/base/random.h"
+#include "scripting/scenario_schema.h"
+
+namespace rubble {
+namespace {
+
+// A mix of which nothing can be drawn.
+void check_mix(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
+  double sum = 0;
+  for (const MixItem& item : pile.mix) sum += item.weight;
+  if (!pile.mix.empty() && sum == 0)
+    mistakes.push_back(
+        {"", 0, "pile.mix", "nothing to draw", "a weight above 0", "only weights of 0", ""});
+}
+
+void check_names(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
+  const auto check = [&](const std::string& name, const char* list, std::size_t i) {
+    if (name.empty())
+      mistakes.push_back({"", 0, std::string(list) + "[" + std::to_string(i + 1) + "].asset",
+                          "no name", "the name of an asset", "an empty string", ""});
+  };
+  for (std::size_t i = 0; i < pile.mix.size(); ++i) check(pile.mix[i].asset, "pile.mix", i);
+  for (std::size_t i = 0; i < pile.placed.size(); ++i)
+    check(pile.placed[i].asset, "pile.placed", i);
+}
+
+}  // namespace
+
+Intrinsics CameraScenario::intrinsics() const {
+  const portable::SinCos half = portable::sincos(fov_deg * (portable::kPi / 360.0));
+  Intrinsics in;
+  in.width = width;
+  in.height = height;
+  in.fx = in.fy = 0.5 * width * half.cos / half.sin;
+  in.cx = 0.5 * (width - 1);
+  in.cy = 0.5 * (height - 1);
+  return in;
+}
+
+std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
+  Scenario copy = scenario;  // a schema binds members that can be written
+  std::vector<Diagnostic> mistakes = check_ranges(make_scenario_schema(copy));
+  if (!mistakes.empty()) return mistakes;  // what follows relies on finite numbers
+  check_names(scenario.pile, mistakes);
+  check_mix(scenario.pile, mistakes);
+  for (Diagnostic& d : find_mistakes(scenario.trajectory)) mistakes.push_back(std::move(d));
+  return mistakes;
+}
+
+void Scenario::validate() const {
+  std::vector<Diagnostic> mistakes = find_mistakes(*this);
+  if (!mistakes.empty()) throw InputError(std::move(mistakes));
+}
+
+LightSpec resolve_light(const Scenario& scenario) {
+  LightSpec light = scenario.light.spec;
+  if (!scenario.light.random_rotation) return light;
+  RandomStream random(scenario.seed, "light/rotation");
+  const double pitch = random.uniform(20, 80);
+  light.rpy_deg = {0, pitch, random.uniform(-180, 180)};
+  return light;
+}
+
+}  // namespace rubble

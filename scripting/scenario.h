@@ -1,0 +1,107 @@
+// What a mission is, complete and in plain data: the product of a script, the input of a run.
+//
+//   mission.lua --load_mission--> Scenario --> Pile, Scene, frames, files
+//
+// Every member has a default, so an empty mission is a valid one. scenario_schema.cpp lists every
+// key that a script can set; the names there are the names here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/base/error.h"
+#include "kernel/base/math.h"
+#include "kernel/settle.h"
+#include "render/frame.h"
+#include "render/scene.h"
+#include "scripting/trajectory.h"
+
+namespace rubble {
+
+// One kind of piece in the mix that is dropped.
+struct MixItem {
+  std::string asset;  // its name in a pack
+  double weight = 1;  // relative; >= 0
+  // Uniform in [first, second]; default: the asset's own range. range: 0.01 to 100
+  std::optional<std::array<double, 2>> scale;
+};
+
+// A piece that stands or lies there before the first layer falls.
+struct PlacedItem {
+  std::string asset;
+  Vec3 position;      // of the asset's origin, in the world; unit: m
+  Vec3 rpy_deg;       // roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll); unit: degree
+  double scale = 1;   // range: 0.01 to 100
+  bool fixed = true;  // immovable; false: it settles with the rest
+};
+
+struct PileScenario {
+  Vec3 spawn_position{0, 0, 4.5};  // centre of the box that layers are drawn in; unit: m
+  Vec3 spawn_bounds{10, 10, 7};    // its full edge lengths; unit: m; > 0
+  int layers = 4;                  // range: 0 to 1000
+  int pieces_per_layer = 300;      // range: 0 to 100000
+  std::vector<MixItem> mix;        // empty: every asset of the packs, by its own weight
+  std::vector<PlacedItem> placed;
+};
+
+struct LightScenario {
+  LightSpec spec;
+  bool random_rotation = false;  // draw the direction from the seed; spec.rpy_deg is then not used
+};
+
+struct CameraScenario {
+  int width = 1024, height = 1024;  // unit: pixel; range: 16 to 8192
+  double fov_deg = 90;              // horizontal, from edge to edge of the image; range: 1 to 170
+
+  // fx = fy = (width / 2) / tan(fov / 2); the principal point is the middle of the image, which is
+  // (width - 1) / 2 where pixel (0, 0) has its centre at (0, 0).
+  Intrinsics intrinsics() const;
+};
+
+enum class DepthEncoding {
+  millimetres,  // "16UC1": uint16, 0: no return
+  metres,       // "32FC1": float, NaN: no return
+};
+
+struct OutputScenario {
+  bool rawlog = true;                                // MRPT: mission.rawlog
+  bool bag = true;                                   // ROS 1: mission.bag
+  bool stl = true;                                   // pile.stl
+  bool groundtruth = true;                           // TUM: groundtruth.txt
+  bool preview = true;                               // preview.png, a contact sheet
+  DepthEncoding depth = DepthEncoding::millimetres;  // in the bag
+};
+
+struct Scenario {
+  std::uint64_t seed = 0;                 // range: 0 to 2^63 - 1
+  std::int64_t start_ns = 1'000'000'000;  // stamp of the first frame; ROS time 0 means invalid
+  std::vector<std::string> packs;         // folders; empty: the bundled pack `concrete`
+  PileScenario pile;
+  SettleOptions settle;  // its `threads` is not part of a scenario: results do not depend on it
+  LightScenario light;
+  AirSpec air;
+  CameraScenario camera;
+  LampSpec lamp;
+  TrajectorySpec trajectory;
+  OutputScenario outputs;
+
+  // Throws InputError with every mistake: out of range, not finite, contradicting each other.
+  void validate() const;
+};
+
+// What validate() would throw; empty: none. Keys are schema paths such as "pile.mix[1].scale".
+std::vector<Diagnostic> find_mistakes(const Scenario& scenario);
+
+// The main light as it shines: with random_rotation, a pitch of 20 to 80 degrees down and any yaw,
+// drawn from the seed.
+LightSpec resolve_light(const Scenario& scenario);
+
+// Complete, in the schema's order, numbers that read back to the same bits. null: not set.
+std::string scenario_to_json(const Scenario& scenario);
+// The inverse. `file` names the text in errors. Throws InputError with every mistake.
+Scenario scenario_from_json(const std::string& text, const std::string& file);
+
+}  // namespace rubble

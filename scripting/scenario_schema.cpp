@@ -1,0 +1,202 @@
+#include "scripting/scenario_schema.h"
+
+#include <limits>
+
+namespace rubble {
+namespace {
+
+void add_top(Schema& k, Scenario& s) {
+  k.value("seed", s.seed, "Everything random follows from it.")
+      .between(0, std::numeric_limits<double>::infinity());
+  k.value("start_ns", s.start_ns, "Stamp of the first frame; ROS takes 0 for an invalid time.")
+      .between(1, 4294967295e9)
+      .unit("ns");
+  k.value("packs", s.packs,
+          "Folders of asset packs, relative to the script; none: the bundled pack `concrete`.");
+}
+
+void add_pile(Schema& k, PileScenario& p) {
+  k.group("pile", "What is dropped, and where.");
+  k.value("pile.spawn_position", p.spawn_position,
+          "Centre of the box that a layer's pieces are drawn in; Z is up.")
+      .between(-1000, 1000)
+      .unit("m");
+  k.value("pile.spawn_bounds", p.spawn_bounds, "Full edge lengths of that box.")
+      .above(0, 1000)
+      .unit("m");
+  k.value("pile.layers", p.layers, "Layers, dropped one after another.").between(0, 1000);
+  k.value("pile.pieces_per_layer", p.pieces_per_layer, "Pieces in each layer.").between(0, 100000);
+  k.list("pile.mix", p.mix, "What is dropped; none: every asset of the packs, by its own weight.");
+  k.item("pile.mix[].asset", p.mix, &MixItem::asset, "Name of an asset.").must();
+  k.item("pile.mix[].weight", p.mix, &MixItem::weight, "How often, relative to the others.")
+      .between(0, 1e9);
+  k.item("pile.mix[].scale", p.mix, &MixItem::scale,
+         "Size, uniform in {min, max}; not given: the asset's own range.")
+      .between(0.01, 100);
+  k.list("pile.placed", p.placed, "Pieces that stand or lie there before the first layer.");
+  k.item("pile.placed[].asset", p.placed, &PlacedItem::asset, "Name of an asset.").must();
+  k.item("pile.placed[].position", p.placed, &PlacedItem::position,
+         "Where the asset's origin is, in the world.")
+      .between(-1000, 1000)
+      .unit("m");
+  k.item("pile.placed[].rpy_deg", p.placed, &PlacedItem::rpy_deg,
+         "Roll, pitch and yaw: Rz(yaw) Ry(pitch) Rx(roll).")
+      .between(-360, 360)
+      .unit("degree");
+  k.item("pile.placed[].scale", p.placed, &PlacedItem::scale, "Size.").between(0.01, 100);
+  k.item("pile.placed[].fixed", p.placed, &PlacedItem::fixed,
+         "Immovable, as a wall; false: it settles with the rest.");
+}
+
+void add_settle(Schema& k, SettleOptions& o) {
+  k.group("settle", "How the pile comes to rest.");
+  k.choice("settle.schedule", o.schedule, {"layers", "planes"},
+           "When a layer falls: once the one before rests, or once it has landed (a steady rain).");
+  k.value("settle.gravity", o.gravity, "Downwards.").between(0, 100).unit("m/s2");
+  k.value("settle.step", o.step, "Time step.").between(0.001, 1.0 / 30.0).unit("s");
+  k.value("settle.rest_speed", o.rest_speed, "A piece rests when slower than this and ...")
+      .above(0, 10)
+      .unit("m/s");
+  k.value("settle.rest_angular_speed", o.rest_angular_speed, "... turning slower than this.")
+      .above(0, 100)
+      .unit("rad/s");
+  k.value("settle.layer_time_limit", o.layer_time_limit, "The next layer comes at the latest then.")
+      .above(0, 3600)
+      .unit("s");
+  k.value("settle.final_time_limit", o.final_time_limit, "Settling ends at the latest then.")
+      .above(0, 3600)
+      .unit("s");
+  k.value("settle.lost_below", o.lost_below, "A piece lower than this has left the world.")
+      .between(-1000, -0.01)
+      .unit("m");
+  k.value("settle.lost_beyond", o.lost_beyond, "Likewise farther than this from the Z axis.")
+      .above(0, 10000)
+      .unit("m");
+}
+
+void add_light(Schema& k, LightScenario& l) {
+  k.group("light", "The main light.");
+  k.choice("light.type", l.spec.type, {"directional", "spot", "point"},
+           "A sun, a floodlight or a bulb.");
+  k.value("light.intensity", l.spec.intensity,
+          "Directional: illuminance (clear sun: 100 klx); spot and point: kcd.")
+      .between(0, 1000)
+      .unit("klx or kcd");
+  k.value("light.rpy_deg", l.spec.rpy_deg, "Direction of the beam: roll, pitch (down), yaw.")
+      .between(-360, 360)
+      .unit("degree");
+  k.value("light.random_rotation", l.random_rotation,
+          "Draw the direction from the seed instead: 20 to 80 degrees down, any yaw.");
+  k.value("light.position", l.spec.position, "Of a spot or point light, in the world.")
+      .between(-1000, 1000)
+      .unit("m");
+  k.value("light.cone_deg", l.spec.cone_deg, "Full angle of a spot's cone.")
+      .between(1, 170)
+      .unit("degree");
+}
+
+void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
+  k.group("air", "What hangs in the air.");
+  k.value("air.fog_density", air.fog_density, "Extinction: transmittance is exp(-density d).")
+      .between(0, 10)
+      .unit("1/m");
+  k.value("air.fog_intensity", air.fog_intensity, "Brightness of the fog.").between(0, 1);
+  k.group("lamp", "A lamp on the camera.");
+  k.value("lamp.on", lamp.on, "Whether it shines.");
+  k.value("lamp.intensity_cd", lamp.intensity_cd, "On its axis.").between(0, 100000).unit("cd");
+  k.value("lamp.cone_deg", lamp.cone_deg, "Full angle where it has fallen to half.")
+      .between(5, 170)
+      .unit("degree");
+  k.value("lamp.position", lamp.position, "In the camera frame: X forward, Y left, Z up.")
+      .between(-10, 10)
+      .unit("m");
+}
+
+void add_camera(Schema& k, CameraScenario& c) {
+  k.group("camera", "A pinhole camera; colour and depth have the same pixels.");
+  k.value("camera.width", c.width, "Of the image.").between(16, 8192).unit("pixel");
+  k.value("camera.height", c.height, "Of the image.").between(16, 8192).unit("pixel");
+  k.value("camera.fov_deg", c.fov_deg, "Horizontal field of view, edge to edge.")
+      .between(1, 170)
+      .unit("degree");
+}
+
+void add_trajectory(Schema& k, TrajectorySpec& t) {
+  k.group("trajectory", "Where the camera goes.");
+  k.value("trajectory.rate_hz", t.rate_hz, "Frames per second.").between(0.001, 1000).unit("Hz");
+  k.choice("trajectory.interpolation", t.interpolation, {"spline", "linear"},
+           "A smooth curve through the waypoints, or straight legs.");
+  k.value("trajectory.speed", t.speed, "To a waypoint that has neither `t` nor `speed`.")
+      .above(0, 1000)
+      .unit("m/s");
+  k.list("trajectory.waypoints", t.waypoints,
+         "Where the camera passes, in order; one gives a single frame.");
+  auto& list = t.waypoints;
+  k.item("trajectory.waypoints[].position", list, &Waypoint::position, "In the world.")
+      .between(-1000, 1000)
+      .unit("m")
+      .must();
+  k.item("trajectory.waypoints[].t", list, &Waypoint::t, "When, from the start; the first has 0.")
+      .between(0, 86400)
+      .unit("s");
+  k.item("trajectory.waypoints[].speed", list, &Waypoint::speed,
+         "Instead of `t`: from the one before, along the straight line.")
+      .above(0, 1000)
+      .unit("m/s");
+  k.item("trajectory.waypoints[].rpy_deg", list, &Waypoint::rpy_deg,
+         "Roll, pitch (positive: nose down) and yaw.")
+      .between(-3600, 3600)
+      .unit("degree");
+  k.item("trajectory.waypoints[].look_at", list, &Waypoint::look_at,
+         "Instead of pitch and yaw: the point in the middle of the view.")
+      .between(-10000, 10000)
+      .unit("m");
+}
+
+void add_outputs(Schema& k, OutputScenario& o) {
+  k.group("outputs", "What is written.");
+  k.value("outputs.rawlog", o.rawlog, "MRPT rawlog: mission.rawlog.");
+  k.value("outputs.bag", o.bag, "ROS 1 bag: mission.bag.");
+  k.value("outputs.stl", o.stl, "The settled pile as a mesh: pile.stl.");
+  k.value("outputs.groundtruth", o.groundtruth, "The camera's poses in TUM format.");
+  k.value("outputs.preview", o.preview, "A contact sheet of colour and depth: preview.png.");
+  k.choice("outputs.depth", o.depth, {"16UC1", "32FC1"},
+           "Depth in the bag: millimetres (0: none) or metres (NaN: none).");
+}
+
+// The parameters of the published Unity simulator, under its names. Axes are ours: Z is up.
+void add_aliases(Schema& k) {
+  for (const std::string axis : {"x", "y", "z"}) {
+    k.alias("spawnpos" + axis, "pile.spawn_position." + axis);
+    k.alias("spawnbound" + axis, "pile.spawn_bounds." + axis);
+    k.alias("lightrot" + axis, "light.rpy_deg." + axis);
+    k.alias("lightpos" + axis, "light.position." + axis);
+  }
+  k.alias("numlayers", "pile.layers");
+  k.alias("numobjs", "pile.pieces_per_layer");
+  k.alias("setlightrot", "light.random_rotation", true);
+  k.alias("lighttype", "light.type");
+  k.alias("lightintensity", "light.intensity");
+  k.alias("fogdensity", "air.fog_density");
+  k.alias("fogintensity", "air.fog_intensity");
+  k.alias("randomseed", "seed");
+  k.alias("exportstl", "outputs.stl");
+}
+
+}  // namespace
+
+Schema make_scenario_schema(Scenario& s) {
+  Schema keys;
+  add_top(keys, s);
+  add_pile(keys, s.pile);
+  add_settle(keys, s.settle);
+  add_light(keys, s.light);
+  add_air_and_lamp(keys, s.air, s.lamp);
+  add_camera(keys, s.camera);
+  add_trajectory(keys, s.trajectory);
+  add_outputs(keys, s.outputs);
+  add_aliases(keys);
+  return keys;
+}
+
+}  // namespace rubble

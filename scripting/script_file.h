@@ -1,0 +1,29 @@
+// Steps that mission and pack scripts share. Private to scripting.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kernel/base/error.h"
+#include "scripting/lua_sandbox.h"
+#include "scripting/source_map.h"
+
+namespace rubble {
+
+// Throws InputError when the file cannot be read.
+SourceFile read_script(const std::string& path);
+
+// Gives each mistake that has no file yet the script's path and the line of its key.
+void locate(std::vector<Diagnostic>& mistakes, const std::string& path, const SourceMap& lines);
+
+// Adds one for each key written twice in one table.
+void add_duplicates(const SourceMap& lines, std::vector<Diagnostic>& mistakes);
+
+// Adds the found ones unless their top-level section has a mistake already, from which they may
+// only follow.
+void add_unrelated(const std::vector<Diagnostic>& found, std::vector<Diagnostic>& mistakes);
+
+// Throws them, by file in order of first appearance, then by line; nothing when there are none.
+void throw_if_any(std::vector<Diagnostic> mistakes);
+
+}  // namespace rubble

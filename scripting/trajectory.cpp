@@ -1,0 +1,297 @@
+#include "scripting/trajectory.h"
+
+#include <cmath>
+
+#include "kernel/base/portable_math.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kDegree = portable::kPi / 180.0;
+constexpr double kNearestTarget = 1e-3;  // unit: m; closer, a direction means nothing
+constexpr double kMostFrames = 10'000'000;
+
+std::string waypoint_key(std::size_t i, const char* name) {
+  return "trajectory.waypoints[" + std::to_string(i + 1) + "]" + name;
+}
+
+bool finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+std::string words(double value) {
+  std::string text = std::to_string(value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+class Checker {
+ public:
+  explicit Checker(const TrajectorySpec& spec) : spec_(spec) {}
+
+  std::vector<Diagnostic> run() {
+    if (!(spec_.rate_hz > 0) || !std::isfinite(spec_.rate_hz))
+      add("trajectory.rate_hz", "out of range", "a number above 0", words(spec_.rate_hz));
+    if (!(spec_.speed > 0) || !std::isfinite(spec_.speed))
+      add("trajectory.speed", "out of range", "a number above 0", words(spec_.speed));
+    if (spec_.waypoints.empty())
+      add("trajectory.waypoints", "no waypoint", "at least one", "an empty list");
+    for (std::size_t i = 0; i < spec_.waypoints.size(); ++i) {
+      check_numbers(i);
+      check_view(i);
+      check_time(i);
+    }
+    if (mistakes_.empty() && !(time_ * spec_.rate_hz < kMostFrames))
+      add("trajectory", "too long", "at most 10000000 frames", words(time_ * spec_.rate_hz));
+    return std::move(mistakes_);
+  }
+
+ private:
+  void add(std::string key, std::string message, std::string expected, std::string found,
+           std::string hint = {}) {
+    mistakes_.push_back({"", 0, std::move(key), std::move(message), std::move(expected),
+                         std::move(found), std::move(hint)});
+  }
+
+  void check_numbers(std::size_t i) {
+    const Waypoint& w = spec_.waypoints[i];
+    const auto check = [&](bool ok, const char* name) {
+      if (!ok) add(waypoint_key(i, name), "not finite", "finite numbers", "");
+    };
+    check(finite(w.position), ".position");
+    check(finite(w.rpy_deg), ".rpy_deg");
+    check(!w.look_at || finite(*w.look_at), ".look_at");
+    check(!w.t || std::isfinite(*w.t), ".t");
+    if (w.speed && (!(*w.speed > 0) || !std::isfinite(*w.speed)))
+      add(waypoint_key(i, ".speed"), "out of range", "a number above 0", words(*w.speed));
+  }
+
+  void check_view(std::size_t i) {
+    const Waypoint& w = spec_.waypoints[i];
+    if (!w.look_at) return;
+    if (distance(*w.look_at, w.position) < kNearestTarget)
+      add(waypoint_key(i, ".look_at"), "nothing to look at", "a point away from the camera",
+          "the camera's own position");
+    if (w.rpy_deg.y != 0 || w.rpy_deg.z != 0)
+      add(waypoint_key(i, ".rpy_deg"), "contradicts look_at", "{roll, 0, 0} beside look_at",
+          "a pitch or a yaw", "keep one of the two");
+  }
+
+  void check_time(std::size_t i) {
+    const Waypoint& w = spec_.waypoints[i];
+    if (w.t && w.speed)
+      add(waypoint_key(i, ".speed"), "contradicts t", "one of t and speed", "both");
+    if (i == 0) {
+      if (w.t && *w.t != 0)
+        add(waypoint_key(i, ".t"), "the first waypoint is the start", "0", words(*w.t));
+      if (w.speed)
+        add(waypoint_key(i, ".speed"), "no way leads to the first waypoint", "nothing",
+            words(*w.speed));
+      return;
+    }
+    const double length = distance(w.position, spec_.waypoints[i - 1].position);
+    const double next = w.t ? *w.t : time_ + length / w.speed.value_or(spec_.speed);
+    if (w.t && !(*w.t > time_))
+      add(waypoint_key(i, ".t"), "times do not increase", "a time after " + words(time_) + " s",
+          words(*w.t));
+    else if (!w.t && length == 0)
+      add(waypoint_key(i, ""), "no time passes", "a `t` where the camera stays in place",
+          "the position of the waypoint before");
+    if (std::isfinite(next) && next > time_) time_ = next;
+  }
+
+  const TrajectorySpec& spec_;
+  std::vector<Diagnostic> mistakes_;
+  double time_ = 0;
+};
+
+// Rotation vectors: the logarithm of a unit quaternion with w >= 0, and back.
+Vec3 log_of(const Quat& q) {
+  const double sign = q.w < 0 ? -1.0 : 1.0;
+  const Vec3 v{sign * q.x, sign * q.y, sign * q.z};
+  const double s = norm(v);
+  if (s < 1e-12) return 2.0 * v;
+  return v * (2.0 * portable::atan2(s, sign * q.w) / s);
+}
+
+Quat exp_of(const Vec3& rotation) {
+  const double angle = norm(rotation);
+  if (angle < 1e-12)
+    return normalized(Quat{1, 0.5 * rotation.x, 0.5 * rotation.y, 0.5 * rotation.z});
+  const portable::SinCos half = portable::sincos(0.5 * angle);
+  const Vec3 v = rotation * (half.sin / angle);
+  return {half.cos, v.x, v.y, v.z};
+}
+
+Quat rotation_of(const Vec3& rpy_deg) {
+  return portable::quat_from_rpy(rpy_deg.x * kDegree, rpy_deg.y * kDegree, rpy_deg.z * kDegree);
+}
+
+// X to the target, no part of Y along the world's Z but for the roll. Straight up or down the yaw
+// is 0.
+Quat rotation_towards(const Vec3& direction, double roll_deg) {
+  const double level = std::sqrt(direction.x * direction.x + direction.y * direction.y);
+  return portable::quat_from_rpy(roll_deg * kDegree, portable::atan2(-direction.z, level),
+                                 portable::atan2(direction.y, direction.x));
+}
+
+Quat rotation_at(const Waypoint& w) {
+  return w.look_at ? rotation_towards(*w.look_at - w.position, w.rpy_deg.x)
+                   : rotation_of(w.rpy_deg);
+}
+
+// What the camera looks at; without a look_at a point ahead of it, which only shapes the curve.
+Vec3 target_of(const Waypoint& w) {
+  return w.look_at ? *w.look_at : w.position + rotation_at(w).rotate({2, 0, 0});
+}
+
+std::vector<double> times_of(const TrajectorySpec& spec) {
+  std::vector<double> times{0.0};
+  for (std::size_t i = 1; i < spec.waypoints.size(); ++i) {
+    const Waypoint& w = spec.waypoints[i];
+    const double length = distance(w.position, spec.waypoints[i - 1].position);
+    times.push_back(w.t ? *w.t : times.back() + length / w.speed.value_or(spec.speed));
+  }
+  return times;
+}
+
+// Derivatives at the knots from the mean rate of each leg (Bessel's weights); zero at both ends of
+// a leg at rest, so that a pause is one.
+std::vector<Vec3> knot_rates(const std::vector<Vec3>& leg_rates, const std::vector<double>& times) {
+  const std::size_t legs = leg_rates.size();
+  std::vector<Vec3> rates(legs + 1);
+  if (legs == 0) return rates;
+  for (std::size_t i = 1; i < legs; ++i) {
+    const double before = times[i] - times[i - 1], after = times[i + 1] - times[i];
+    rates[i] = (leg_rates[i - 1] * after + leg_rates[i] * before) * (1.0 / (before + after));
+  }
+  rates[0] = legs == 1 ? leg_rates[0] : 1.5 * leg_rates[0] - 0.5 * rates[1];
+  rates[legs] = legs == 1 ? leg_rates[0] : 1.5 * leg_rates[legs - 1] - 0.5 * rates[legs - 1];
+  for (std::size_t i = 0; i < legs; ++i)
+    if (leg_rates[i] == Vec3{}) rates[i] = rates[i + 1] = Vec3{};
+  return rates;
+}
+
+// A curve through points, each at its time.
+class VectorCurve {
+ public:
+  VectorCurve(std::vector<Vec3> points, const std::vector<double>& times, Interpolation how)
+      : points_(std::move(points)), times_(times), linear_(how == Interpolation::linear) {
+    std::vector<Vec3> rates;
+    for (std::size_t i = 0; i + 1 < points_.size(); ++i)
+      rates.push_back((points_[i + 1] - points_[i]) * (1.0 / (times[i + 1] - times[i])));
+    rates_ = knot_rates(rates, times);
+  }
+
+  Vec3 at(std::size_t leg, double t) const {
+    const double h = times_[leg + 1] - times_[leg], s = (t - times_[leg]) / h;
+    const Vec3 &a = points_[leg], &b = points_[leg + 1];
+    if (linear_) return a + (b - a) * s;
+    const double r = 1.0 - s;
+    return a * (r * r * (1.0 + 2.0 * s)) + b * (s * s * (3.0 - 2.0 * s)) +
+           rates_[leg] * (h * s * r * r) - rates_[leg + 1] * (h * s * s * r);
+  }
+
+ private:
+  std::vector<Vec3> points_;
+  const std::vector<double>& times_;
+  std::vector<Vec3> rates_;  // unit: m/s
+  bool linear_;
+};
+
+class RotationCurve {
+ public:
+  RotationCurve(std::vector<Quat> rotations, const std::vector<double>& times, Interpolation how)
+      : rotations_(std::move(rotations)), times_(times), linear_(how == Interpolation::linear) {
+    std::vector<Vec3> rates;
+    for (std::size_t i = 0; i + 1 < rotations_.size(); ++i)
+      rates.push_back(log_of(rotations_[i].conjugate() * rotations_[i + 1]) *
+                      (1.0 / (times[i + 1] - times[i])));
+    rates_ = knot_rates(rates, times);
+  }
+
+  Quat at(std::size_t leg, double t) const {
+    const double h = times_[leg + 1] - times_[leg], s = (t - times_[leg]) / h;
+    const Quat &a = rotations_[leg], &b = rotations_[leg + 1];
+    if (linear_) return portable::slerp(a, b, s);
+    const Vec3 first = rates_[leg] * (h / 3.0), last = rates_[leg + 1] * (h / 3.0);
+    const Vec3 middle = log_of((a * exp_of(first)).conjugate() * (b * exp_of(-last)));
+    const double r = 1.0 - s;
+    return normalized(a * exp_of(first * (1.0 - r * r * r)) *
+                      exp_of(middle * (s * s * (3.0 - 2.0 * s))) * exp_of(last * (s * s * s)));
+  }
+
+ private:
+  std::vector<Quat> rotations_;
+  const std::vector<double>& times_;
+  std::vector<Vec3> rates_;  // in the body frame; unit: rad/s
+  bool linear_;
+};
+
+template <typename F>
+auto collect(const TrajectorySpec& spec, F get) {
+  std::vector<decltype(get(spec.waypoints[0]))> all;
+  for (const Waypoint& w : spec.waypoints) all.push_back(get(w));
+  return all;
+}
+
+class Sampler {
+ public:
+  explicit Sampler(const TrajectorySpec& spec)
+      : waypoints_(spec.waypoints),
+        times_(times_of(spec)),
+        positions_(collect(spec, [](const Waypoint& w) { return w.position; }), times_,
+                   spec.interpolation),
+        targets_(collect(spec, target_of), times_, spec.interpolation),
+        rolls_(collect(spec,
+                       [](const Waypoint& w) {
+                         return Vec3{w.rpy_deg.x, 0, 0};
+                       }),
+               times_, spec.interpolation),
+        rotations_(collect(spec, rotation_at), times_, spec.interpolation) {}
+
+  double duration() const { return times_.back(); }
+
+  Pose at(double t) {
+    while (leg_ + 2 < times_.size() && t >= times_[leg_ + 1]) ++leg_;
+    if (times_.size() == 1) return {rotation_at(waypoints_[0]), waypoints_[0].position};
+    const Vec3 position = positions_.at(leg_, t);
+    if (!waypoints_[leg_].look_at || !waypoints_[leg_ + 1].look_at)
+      return {rotations_.at(leg_, t), position};
+    const Vec3 direction = targets_.at(leg_, t) - position;
+    if (norm(direction) < kNearestTarget) return {rotations_.at(leg_, t), position};
+    return {rotation_towards(direction, rolls_.at(leg_, t).x), position};
+  }
+
+ private:
+  const std::vector<Waypoint>& waypoints_;
+  std::vector<double> times_;
+  VectorCurve positions_, targets_, rolls_;
+  RotationCurve rotations_;
+  std::size_t leg_ = 0;
+};
+
+}  // namespace
+
+std::vector<Diagnostic> find_mistakes(const TrajectorySpec& spec) { return Checker(spec).run(); }
+
+std::vector<CameraPose> sample_trajectory(const TrajectorySpec& spec, std::int64_t epoch_ns) {
+  std::vector<Diagnostic> mistakes = find_mistakes(spec);
+  if (!mistakes.empty()) throw InputError(std::move(mistakes));
+  Sampler sampler(spec);
+  // A waypoint at 3.0 s gets its frame although 3.0 * 30 may round to just under 90.
+  constexpr double kSlack = 1e-6;
+  const auto last =
+      static_cast<std::int64_t>(std::floor(sampler.duration() * spec.rate_hz + kSlack));
+  std::vector<CameraPose> poses;
+  poses.reserve(std::size_t(last) + 1);
+  for (std::int64_t k = 0; k <= last; ++k) {
+    const double t = std::min(double(k) / spec.rate_hz, sampler.duration());
+    const auto offset = static_cast<std::int64_t>(std::floor(double(k) * 1e9 / spec.rate_hz + 0.5));
+    poses.push_back({epoch_ns + offset, sampler.at(t)});
+  }
+  return poses;
+}
+
+}  // namespace rubble

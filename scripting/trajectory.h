@@ -1,0 +1,60 @@
+// Where the camera goes: from a few waypoints to one pose for every frame.
+//
+// Positions are a cubic Hermite spline in time whose velocity at a waypoint is that of the parabola
+// through it and its neighbours (non-uniform Catmull-Rom: Catmull and Rom 1974, "A class of local
+// interpolating splines"; the weights are Bessel's, de Boor, "A Practical Guide to Splines", ch.
+// IV). It passes through every waypoint, is C1, reproduces constant speed on a straight line, and
+// stands still between two waypoints at one place. Orientations are a C1 quaternion curve through
+// the waypoints' rotations (cumulative Bezier form: Kim, Kim and Shin 1995, "A general construction
+// scheme for unit quaternion curves with simple high order derivatives"). Between two waypoints
+// that look at targets, the target moves along a spline of its own and stays in the view's centre.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "kernel/base/error.h"
+#include "kernel/base/math.h"
+
+namespace rubble {
+
+enum class Interpolation {
+  spline,  // smooth through the waypoints
+  linear,  // straight legs at constant speed, turning at constant angular speed (slerp)
+};
+
+struct Waypoint {
+  // When the camera is here; unit: s after the start. The first one's is 0. Without it, the camera
+  // comes from the waypoint before at `speed` along the straight line.
+  std::optional<double> t;
+  std::optional<double> speed;  // unit: m/s; range: > 0; default: the trajectory's
+  Vec3 position;                // of the camera, in the world; unit: m
+  // Roll, pitch (positive: nose down) and yaw, R = Rz(yaw) Ry(pitch) Rx(roll) (REP 103); unit:
+  // degree. With look_at only the roll counts, and pitch and yaw must be 0.
+  Vec3 rpy_deg;
+  std::optional<Vec3> look_at;  // the camera's X axis points here, Z up; unit: m
+};
+
+struct TrajectorySpec {
+  double rate_hz = 30;  // frames per second of simulation time; range: 0.001 to 1000
+  Interpolation interpolation = Interpolation::spline;
+  double speed = 0.5;  // where a waypoint has neither t nor speed; unit: m/s; range: > 0
+  // At least one; a single one gives a single frame.
+  std::vector<Waypoint> waypoints{{std::nullopt, std::nullopt, {-9, 0, 4}, {}, Vec3{0, 0, 0.5}}};
+};
+
+struct CameraPose {
+  std::int64_t stamp_ns = 0;
+  Pose world_from_camera;  // camera body: X forward, Y left, Z up
+};
+
+// Every mistake in a trajectory, keyed "trajectory.waypoints[2].t" and so on; empty: none.
+std::vector<Diagnostic> find_mistakes(const TrajectorySpec& spec);
+
+// One pose per frame: frame k is at k / rate_hz seconds and has the stamp epoch_ns + k * 1e9 /
+// rate_hz, rounded to the nearest nanosecond, so that nothing drifts. The last frame is at or
+// before the last waypoint. The same bits on every machine. Throws InputError (find_mistakes).
+std::vector<CameraPose> sample_trajectory(const TrajectorySpec& spec, std::int64_t epoch_ns);
+
+}  // namespace rubble

@@ -31,13 +31,17 @@ struct Negated {  // the member is the opposite of what the user writes
 struct StringOrList {  // "a" or {"a", "b"}
   std::vector<std::string>* member;
 };
+struct WordOrFile {  // the word, or { key = "FILE" }; the word is kept as an empty string
+  std::string word, key;
+  std::string* file;
+};
 using NumberPair = std::array<double, 2>;
 
 // Where a key's value lives, and with that its type.
 using Slot = std::variant<bool*, Negated, int*, std::int64_t*, std::uint64_t*, double*,
                           std::optional<double>*, std::string*, std::optional<std::string>*, Choice,
                           Vec3*, std::optional<Vec3>*, NumberPair*, std::optional<NumberPair>*,
-                          std::vector<std::string>*, StringOrList>;
+                          std::vector<std::string>*, StringOrList, WordOrFile>;
 
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
@@ -85,10 +89,14 @@ class Schema {
     return add(std::move(path), std::move(doc), [&member](std::size_t) { return Slot(&member); });
   }
   template <typename E>
+  static Slot choice_slot(E& member, std::vector<std::string> names) {
+    return Choice{std::move(names), [&member] { return static_cast<int>(member); },
+                  [&member](int i) { member = static_cast<E>(i); }};
+  }
+  template <typename E>
   Key& choice(std::string path, E& member, std::vector<std::string> names, std::string doc) {
     return add(std::move(path), std::move(doc), [&member, names = std::move(names)](std::size_t) {
-      return Slot(Choice{names, [&member] { return static_cast<int>(member); },
-                         [&member](int i) { member = static_cast<E>(i); }});
+      return choice_slot(member, names);
     });
   }
   template <typename T>

@@ -129,6 +129,20 @@ Outcome store_choice(const Choice& choice, const Value& value) {
   return Outcome::stored;
 }
 
+Outcome store_word_or_file(const WordOrFile& to, const Value& value) {
+  if (value.kind == Value::Kind::text) {
+    if (value.text != to.word) return Outcome::out_of_range;
+    to.file->clear();
+    return Outcome::stored;
+  }
+  const Value* file = value.kind == Value::Kind::table ? value.find(to.key) : nullptr;
+  const bool alone = value.items.empty() && value.fields.size() == 1 && value.strange_keys.empty();
+  if (!file || !alone || file->kind != Value::Kind::text || file->text.empty())
+    return Outcome::wrong_type;
+  *to.file = file->text;
+  return Outcome::stored;
+}
+
 Outcome store(const Range& range, const Slot& slot, const Value& value);
 
 template <typename T>
@@ -166,6 +180,8 @@ Outcome store_as(const Range& range, const T& to, const Value& value) {
     if (value.kind != Value::Kind::text) return store_strings(value, *to.member);
     *to.member = {value.text};
     return Outcome::stored;
+  } else if constexpr (std::is_same_v<T, WordOrFile>) {
+    return store_word_or_file(to, value);
   } else {
     return store_strings(value, *to);
   }
@@ -209,6 +225,11 @@ Value read_as(const T& from) {
     return Value::make_text(from.names[std::size_t(from.get())]);
   } else if constexpr (std::is_same_v<T, StringOrList>) {
     return list_of(*from.member);
+  } else if constexpr (std::is_same_v<T, WordOrFile>) {
+    if (from.file->empty()) return Value::make_text(from.word);
+    Value table = Value::make_table();
+    table.set(from.key, Value::make_text(*from.file));
+    return table;
   } else {
     return list_of(*from);
   }
@@ -226,6 +247,8 @@ std::string expected_as(const Key& key, const T& slot) {
   if constexpr (is_pair<T>)
     return "a number or {min, max}" + (range.empty() ? "" : ", each" + range);
   if constexpr (std::is_same_v<T, Choice>) return choice_words(slot);
+  if constexpr (std::is_same_v<T, WordOrFile>)
+    return "\"" + slot.word + "\" or { " + slot.key + " = \"FILE\" }";
   if constexpr (std::is_same_v<T, StringOrList>) return "a string or a list of strings";
   return "a list of strings";
 }

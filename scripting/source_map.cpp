@@ -33,9 +33,11 @@ class SourceMap::Builder {
       if (in_table() && stack_.back().at_field_start) read_field_start();
       read_token();
     }
-    for (Duplicate& d : found_duplicates_)
-      if (begins_with(d.key, "$."))
-        map_.duplicates_.push_back({d.key.substr(2), d.line, d.first_line});
+    for (Duplicate& d : found_duplicates_) {
+      if (!begins_with(d.key, "$")) continue;
+      const std::size_t start = d.key.size() > 1 && d.key[1] == '.' ? 2 : 1;
+      map_.duplicates_.push_back({d.key.substr(start), d.line, d.first_line});
+    }
   }
 
  private:

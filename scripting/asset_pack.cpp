@@ -1,0 +1,172 @@
+#include "scripting/asset_pack.h"
+
+#include <filesystem>
+#include <set>
+
+#include "scripting/pack_schema.h"
+#include "scripting/script_file.h"
+
+namespace rubble {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string asset_key(std::size_t i, const std::string& name) {
+  return "assets[" + std::to_string(i + 1) + "]." + name;
+}
+
+Value run_data_script(const SourceFile& script, const std::string& entry, const SourceMap& lines) {
+  LuaSandbox sandbox(0, entry);
+  Value table = sandbox.run(script.text, script.path);
+  if (table.kind == Value::Kind::table) return table;
+  throw InputError({script.path, lines.line_of(""), "", "the script does not return a table",
+                    "return " + entry + " { ... }", describe(table), ""});
+}
+
+// Whole path of a file of the pack; notes a mistake when it is not there.
+std::string find_file(const fs::path& folder, const std::string& name, const std::string& key,
+                      std::vector<Diagnostic>& mistakes) {
+  const fs::path path = (folder / name).lexically_normal();
+  std::error_code failed;
+  if (name.empty() || !fs::is_regular_file(path, failed))
+    mistakes.push_back(
+        {"", 0, key, "no such file", "a file in " + folder.string(), "\"" + name + "\"", ""});
+  return path.string();
+}
+
+const Material* find_material(const std::vector<Material>& materials, const std::string& name) {
+  for (const Material& material : materials)
+    if (material.name == name) return &material;
+  return nullptr;
+}
+
+Diagnostic unknown_material(const std::vector<Material>& materials, const std::string& name,
+                            const std::string& key) {
+  std::vector<std::string> names;
+  std::string known;
+  for (const Material& material : materials) {
+    known += (names.empty() ? "one of " : ", ") + material.name;
+    names.push_back(material.name);
+  }
+  const std::string near = nearest_name(name, names);
+  return {"",
+          0,
+          key,
+          "unknown material `" + name + "`",
+          near.empty() ? known : "",
+          "",
+          near.empty() ? "" : "did you mean `" + near + "`?"};
+}
+
+class PackBuilder {
+ public:
+  PackBuilder(const fs::path& folder, const std::vector<Material>& materials,
+              const SourceMap& lines, std::vector<Diagnostic>& mistakes)
+      : folder_(folder), materials_(materials), lines_(lines), mistakes_(mistakes) {}
+
+  Asset make_asset(std::size_t i, const AssetTable& from) {
+    Asset asset;
+    asset.name = from.name;
+    asset.line = lines_.line_of("assets[" + std::to_string(i + 1) + "]");
+    asset.metres_per_unit = metres_per(from.units);
+    asset.up = from.up;
+    asset.scale = from.scale;
+    asset.weight = from.weight;
+    asset.tags = from.tags;
+    check_name(i, from.name);
+    find_files(i, from, asset);
+    choose_material(i, from, asset);
+    return asset;
+  }
+
+ private:
+  void check_name(std::size_t i, const std::string& name) {
+    if (!names_.insert(name).second)
+      mistakes_.push_back({"", 0, asset_key(i, "name"), "two assets have the name `" + name + "`",
+                           "", "", "rename one of them"});
+  }
+
+  void find_files(std::size_t i, const AssetTable& from, Asset& asset) {
+    if (from.mesh.empty())
+      mistakes_.push_back(
+          {"", 0, asset_key(i, "mesh"), "no mesh", "at least one file", "an empty list", ""});
+    for (const std::string& name : from.mesh)
+      asset.meshes.push_back(find_file(folder_, name, asset_key(i, "mesh"), mistakes_));
+    if (!from.parts.empty())
+      asset.parts = find_file(folder_, from.parts, asset_key(i, "collision.parts"), mistakes_);
+  }
+
+  void choose_material(std::size_t i, const AssetTable& from, Asset& asset) {
+    asset.material = from.material;
+    const Material* material = find_material(materials_, from.material);
+    if (!material)
+      return mistakes_.push_back(
+          unknown_material(materials_, from.material, asset_key(i, "material")));
+    asset.density = from.density.value_or(material->density);
+    asset.friction = from.friction.value_or(material->friction);
+  }
+
+  const fs::path& folder_;
+  const std::vector<Material>& materials_;
+  const SourceMap& lines_;
+  std::vector<Diagnostic>& mistakes_;
+  std::set<std::string> names_;
+};
+
+// An asset that was not read whole would only give mistakes that follow from the first.
+bool was_read(std::size_t i, const std::vector<Diagnostic>& mistakes) {
+  const std::string prefix = "assets[" + std::to_string(i + 1) + "]";
+  for (const Diagnostic& d : mistakes)
+    if (d.key.rfind(prefix, 0) == 0) return false;
+  return true;
+}
+
+}  // namespace
+
+AssetPack load_asset_pack(const std::string& folder, const std::vector<Material>& materials) {
+  std::error_code failed;
+  if (!fs::is_directory(folder, failed))
+    throw InputError({folder, 0, "", "no such folder", "a folder with a pack.lua", "", ""});
+  const fs::path root = fs::absolute(folder).lexically_normal();
+  const SourceFile script = read_script((fs::path(folder) / "pack.lua").string());
+  const SourceMap lines(script.text, "pack");
+
+  PackTable table;
+  std::vector<Diagnostic> mistakes;
+  read_table(make_pack_schema(table), run_data_script(script, "pack", lines), mistakes);
+  add_duplicates(lines, mistakes);
+  AssetPack pack{table.name, root.string(), script.path, {}};
+  const std::vector<Diagnostic> of_reading = mistakes;
+  PackBuilder builder(root, materials, lines, mistakes);
+  for (std::size_t i = 0; i < table.assets.size(); ++i)
+    if (was_read(i, of_reading)) pack.assets.push_back(builder.make_asset(i, table.assets[i]));
+  if (mistakes.empty() && table.assets.empty())
+    mistakes.push_back({"", 0, "assets", "no assets", "at least one", "an empty list", ""});
+  locate(mistakes, script.path, lines);
+  throw_if_any(std::move(mistakes));
+  return pack;
+}
+
+std::vector<Material> load_materials(const std::string& path) {
+  const SourceFile script = read_script(path);
+  const SourceMap lines(script.text, "materials");
+  MaterialTable table;
+  std::vector<Diagnostic> mistakes;
+  Value wrapped = Value::make_table();
+  wrapped.set("materials", run_data_script(script, "materials", lines));
+  read_table(make_material_schema(table), wrapped, mistakes);
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < table.materials.size(); ++i)
+    if (!names.insert(table.materials[i].name).second)
+      mistakes.push_back({"", 0, "materials[" + std::to_string(i + 1) + "].name",
+                          "two materials have the name `" + table.materials[i].name + "`", "", "",
+                          ""});
+  for (Diagnostic& d : mistakes) {
+    d.file = script.path;  // the script's own table is the list: "materials[2].name" is "[2].name"
+    d.line = lines.line_of(d.key.substr(std::string("materials").size()));
+  }
+  throw_if_any(std::move(mistakes));
+  return table.materials;
+}
+
+}  // namespace rubble

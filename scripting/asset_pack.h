@@ -1,0 +1,58 @@
+// Asset packs and materials as plain records. Meshes are read elsewhere; here is what a pack says
+// of them.
+//
+//   return pack {
+//     name = "concrete",
+//     assets = {
+//       { name = "brick", mesh = "brick.obj", collision = "hull", material = "brick" },
+//     },
+//   }
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace rubble {
+
+struct Material {
+  std::string name;
+  double density = 0;   // unit: kg/m3; range: 10 to 25000
+  double friction = 0;  // Coulomb, against concrete; range: 0 to 2
+  std::string source;   // where the figures come from
+};
+
+enum class UpAxis { z, y };  // y: turned by +90 degrees about X when read, as glTF needs
+
+struct Asset {
+  std::string name;
+  std::vector<std::string> meshes;  // whole paths, finest level of detail first; at least one
+  double metres_per_unit = 1;       // of the mesh and the parts
+  UpAxis up = UpAxis::z;
+  // A mesh whose connected components are the convex parts (whole path); empty: the hull of the
+  // finest mesh is the only part.
+  std::string parts;
+  std::string material = "reinforced_concrete";
+  double density = 0;                 // the pack's, otherwise the material's; unit: kg/m3
+  double friction = 0;                // likewise
+  std::array<double, 2> scale{1, 1};  // uniform in [first, second]
+  double weight = 1;                  // in a mission without a mix
+  std::vector<std::string> tags;
+  int line = 0;  // of its table in pack.lua, for error messages
+};
+
+struct AssetPack {
+  std::string name;
+  std::string folder;
+  std::string script;  // path of its pack.lua
+  std::vector<Asset> assets;
+};
+
+// Reads FOLDER/pack.lua. Throws InputError with every mistake, missing files and unknown materials
+// among them.
+AssetPack load_asset_pack(const std::string& folder, const std::vector<Material>& materials);
+
+// Reads a file such as assets/materials.lua. Throws InputError with every mistake.
+std::vector<Material> load_materials(const std::string& path);
+
+}  // namespace rubble

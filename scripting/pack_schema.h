@@ -1,0 +1,43 @@
+// The keys of pack.lua and of materials.lua.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scripting/asset_pack.h"
+#include "scripting/schema.h"
+
+namespace rubble {
+
+enum class LengthUnit { m, cm, mm, in, ft };
+double metres_per(LengthUnit unit);
+
+// An asset as it is written: paths relative, density and friction only where given.
+struct AssetTable {
+  std::string name;
+  std::vector<std::string> mesh;
+  LengthUnit units = LengthUnit::m;
+  UpAxis up = UpAxis::z;
+  std::string parts;
+  std::string material = "reinforced_concrete";
+  std::optional<double> density, friction;
+  NumberPair scale{1, 1};
+  double weight = 1;
+  std::vector<std::string> tags;
+};
+
+struct PackTable {
+  std::string name;
+  std::vector<AssetTable> assets;
+};
+
+struct MaterialTable {
+  std::vector<Material> materials;
+};
+
+// The tables must outlive the schemas.
+Schema make_pack_schema(PackTable& pack);
+Schema make_material_schema(MaterialTable& table);
+
+}  // namespace rubble

@@ -9,12 +9,10 @@
 
 namespace rubble {
 
-enum class UpAxis { y, z };
-
 // How the numbers of a file become metres with Z up.
 struct MeshUnits {
   double metres_per_unit = 1;  // range: > 0; 0.001 for millimetres
-  UpAxis up = UpAxis::z;       // y: turned so that (x, y, z) becomes (x, -z, y)
+  UpAxis up = UpAxis::z;
 };
 
 // Reads any format that assimp knows. Every mesh of the file is joined into one; surfaces are the

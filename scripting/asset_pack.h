@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "kernel/base/mesh.h"
+
 namespace rubble {
 
 struct Material {
@@ -22,14 +24,12 @@ struct Material {
   std::string source;   // where the figures come from
 };
 
-enum class UpAxis { z, y };  // y: turned by +90 degrees about X when read, as glTF needs
-
 struct Asset {
   std::string name;
   std::vector<std::string> meshes;  // whole paths, finest level of detail first; at least one
   double metres_per_unit = 1;       // of the mesh and the parts
   UpAxis up = UpAxis::z;
-  // A mesh whose connected components are the convex parts (whole path); empty: the hull of the
+  // A mesh each of whose objects is one convex part (whole path); empty: the hull of the
   // finest mesh is the only part.
   std::string parts;
   std::string material = "reinforced_concrete";

@@ -10,6 +10,10 @@
 
 namespace rubble {
 
+// Which axis of a file points up. y: turned by +90 degrees about X when read, so that (x, y, z)
+// becomes (x, -z, y), as glTF needs.
+enum class UpAxis { y, z };
+
 // Triangles are counter-clockwise seen from outside. Lengths in metres, frame Z up.
 struct TriangleMesh {
   std::vector<Vec3f> positions;

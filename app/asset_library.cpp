@@ -1,0 +1,149 @@
+#include "app/asset_library.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "io/atomic_file.h"
+#include "io/mesh_file.h"
+#include "kernel/base/hash.h"
+#include "scripting/asset_pack.h"
+
+namespace rubble {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Found {
+  const AssetPack* pack;
+  const Asset* asset;
+};
+
+// Every asset of the packs by name, in the order of the packs.
+std::vector<Found> list_assets(const std::vector<AssetPack>& packs) {
+  std::vector<Found> all;
+  std::map<std::string, const AssetPack*> first;
+  std::vector<Diagnostic> mistakes;
+  for (const AssetPack& pack : packs)
+    for (const Asset& asset : pack.assets) {
+      const auto [it, is_new] = first.emplace(asset.name, &pack);
+      if (is_new)
+        all.push_back({&pack, &asset});
+      else
+        mistakes.push_back({pack.script, asset.line, asset.name, "asset defined in two packs", "",
+                            "", "the other one is in " + it->second->script + "; rename one"});
+    }
+  if (!mistakes.empty()) throw InputError(std::move(mistakes));
+  return all;
+}
+
+std::set<std::string> names_used(const Scenario& scenario, const std::vector<Found>& all) {
+  std::set<std::string> used;
+  for (const PlacedItem& item : scenario.pile.placed) used.insert(item.asset);
+  for (const MixItem& item : scenario.pile.mix) used.insert(item.asset);
+  if (scenario.pile.mix.empty() && scenario.pile.layers > 0)
+    for (const Found& found : all)
+      if (found.asset->weight > 0) used.insert(found.asset->name);
+  return used;
+}
+
+PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnits& units,
+                    std::vector<std::string>& warnings) {
+  PieceType type;
+  type.name = asset.name;
+  type.density = asset.density;
+  type.friction = asset.friction;
+  if (asset.parts.empty()) {
+    type.parts.emplace_back();
+    for (const Vec3f& p : mesh.positions) type.parts[0].points.push_back(Vec3(p));
+  } else {
+    for (std::vector<Vec3>& points : load_convex_parts(asset.parts, units))
+      type.parts.push_back({std::move(points)});
+  }
+  if (is_closed(mesh) && calc_volume_properties(mesh).volume > 0)
+    type.volume = calc_volume_properties(mesh);
+  else
+    warnings.push_back(asset.meshes.front() +
+                       ": the mesh is not closed: mass and inertia come from its convex parts");
+  return type;
+}
+
+std::string hash_content(const Asset& asset, const PieceType& type) {
+  Sha256 hash;
+  std::vector<std::string> files = asset.meshes;
+  if (!asset.parts.empty()) files.push_back(asset.parts);
+  for (const std::string& file : files) {
+    const std::string content = sha256_of_file(file);
+    hash.add(content.data(), content.size());
+  }
+  for (const double number : {type.density, type.friction, asset.metres_per_unit})
+    hash.add(&number, sizeof number);
+  return hash.hex();
+}
+
+void load_asset(const Found& found, AssetLibrary& library) {
+  const Asset& asset = *found.asset;
+  const MeshUnits units{asset.metres_per_unit, asset.up};
+  auto mesh = std::make_shared<SceneMesh>();
+  for (const std::string& path : asset.meshes) mesh->levels.push_back(load_mesh(path, units));
+  library.types.push_back(make_type(asset, mesh->levels.front(), units, library.warnings));
+  library.contents.push_back(
+      {asset.name, found.pack->name, hash_content(asset, library.types.back())});
+  library.meshes.push_back(std::move(mesh));
+}
+
+// What layers are drawn from: the mission's mix, or every asset by its own weight.
+std::vector<MixEntry> make_mix(const Scenario& scenario, const std::vector<Found>& all,
+                               const AssetLibrary& library) {
+  std::map<std::string, const Asset*> by_name;
+  for (const Found& found : all) by_name[found.asset->name] = found.asset;
+  std::vector<MixEntry> mix;
+  for (const MixItem& item : scenario.pile.mix) {
+    const auto scale = item.scale.value_or(by_name.at(item.asset)->scale);
+    mix.push_back({library.find(item.asset), item.weight, scale[0], scale[1]});
+  }
+  if (!scenario.pile.mix.empty()) return mix;
+  for (const Found& found : all)
+    if (found.asset->weight > 0 && scenario.pile.layers > 0)
+      mix.push_back({library.find(found.asset->name), found.asset->weight, found.asset->scale[0],
+                     found.asset->scale[1]});
+  return mix;
+}
+
+}  // namespace
+
+int AssetLibrary::find(const std::string& name) const {
+  for (std::size_t i = 0; i < types.size(); ++i)
+    if (types[i].name == name) return int(i);
+  throw RunError("asset " + name + " was not loaded");
+}
+
+std::string bundled_assets_folder() {
+  if (const char* folder = std::getenv("RUBBLE_ASSETS")) return folder;
+  return (fs::read_symlink("/proc/self/exe").parent_path() / "assets").string();
+}
+
+AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>& extra_packs) {
+  const std::string bundled = bundled_assets_folder();
+  std::vector<std::string> folders = pack_folders(mission);
+  folders.insert(folders.end(), extra_packs.begin(), extra_packs.end());
+  if (folders.empty()) folders.push_back(bundled + "/concrete");
+
+  const std::vector<Material> materials = load_materials(bundled + "/materials.lua");
+  std::vector<AssetPack> packs;
+  for (const std::string& folder : folders) packs.push_back(load_asset_pack(folder, materials));
+  const std::vector<Found> all = list_assets(packs);
+  std::vector<std::string> names;
+  for (const Found& found : all) names.push_back(found.asset->name);
+  check_assets(mission, names);
+
+  AssetLibrary library;
+  const std::set<std::string> used = names_used(mission.scenario, all);
+  for (const Found& found : all)
+    if (used.count(found.asset->name)) load_asset(found, library);
+  library.mix = make_mix(mission.scenario, all, library);
+  return library;
+}
+
+}  // namespace rubble

@@ -1,0 +1,37 @@
+// The assets of a run, loaded: what the kernel drops and what the renderer draws, by one index.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kernel/pile.h"
+#include "render/scene.h"
+#include "scripting/mission.h"
+
+namespace rubble {
+
+struct AssetContent {
+  std::string name, pack;
+  std::string sha256;  // over the mesh and collision files and the physical properties
+};
+
+struct AssetLibrary {
+  std::vector<PieceType> types;
+  std::vector<std::shared_ptr<const SceneMesh>> meshes;  // one per type
+  std::vector<AssetContent> contents;                    // one per type
+  std::vector<MixEntry> mix;                             // what the mission draws from
+  std::vector<std::string> warnings;                     // e.g. a mesh that is not closed
+
+  int find(const std::string& name) const;  // index of a type that was loaded
+};
+
+// Loads what the mission uses, from its packs and then `extra_packs`; with neither, from the
+// bundled pack `concrete`. Throws InputError with every mistake: an unknown asset, a mesh that
+// cannot be read, two packs with an asset of the same name.
+AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>& extra_packs);
+
+// Where the bundled packs and materials.lua are: $RUBBLE_ASSETS, or `assets` beside the program.
+std::string bundled_assets_folder();
+
+}  // namespace rubble

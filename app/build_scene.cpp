@@ -1,0 +1,61 @@
+#include "app/build_scene.h"
+
+#include "kernel/base/portable_math.h"
+
+namespace rubble {
+namespace {
+
+Placement place(const PlacedItem& item, const AssetLibrary& assets) {
+  constexpr double kRadians = portable::kPi / 180;
+  Placement placement;
+  placement.type = assets.find(item.asset);
+  placement.scale = item.scale;
+  placement.world_from_body = {
+      portable::quat_from_rpy(item.rpy_deg.x * kRadians, item.rpy_deg.y * kRadians,
+                              item.rpy_deg.z * kRadians),
+      item.position};
+  placement.fixed = item.fixed;
+  return placement;
+}
+
+}  // namespace
+
+PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets) {
+  PileSpec spec;
+  spec.seed = scenario.seed;
+  spec.types = assets.types;
+  spec.mix = assets.mix;
+  for (const PlacedItem& item : scenario.pile.placed) spec.placed.push_back(place(item, assets));
+  spec.spawn_position = scenario.pile.spawn_position;
+  spec.spawn_bounds = scenario.pile.spawn_bounds;
+  spec.layers = scenario.pile.layers;
+  spec.pieces_per_layer = scenario.pile.pieces_per_layer;
+  return spec;
+}
+
+Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile) {
+  Scene scene;
+  scene.meshes = assets.meshes;
+  for (std::size_t i = 0; i < pile.pieces.size(); ++i) {
+    const PieceState& piece = pile.pieces[i];
+    if (piece.status == PieceStatus::lost) continue;
+    scene.instances.push_back({std::uint32_t(piece.type), float(piece.scale),
+                               piece.world_from_body, std::uint32_t(i)});
+  }
+  scene.light = resolve_light(scenario);
+  scene.lamp = scenario.lamp;
+  scene.air = scenario.air;
+  scene.seed = scenario.seed;
+  return scene;
+}
+
+std::vector<MeshInstance> build_mesh_instances(const AssetLibrary& assets, const PileState& pile) {
+  std::vector<MeshInstance> instances;
+  for (const PieceState& piece : pile.pieces)
+    if (piece.status != PieceStatus::lost)
+      instances.push_back({&assets.meshes[std::size_t(piece.type)]->levels.front(), piece.scale,
+                           piece.world_from_body});
+  return instances;
+}
+
+}  // namespace rubble

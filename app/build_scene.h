@@ -1,0 +1,23 @@
+// From what settled to what is drawn and exported.
+#pragma once
+
+#include <vector>
+
+#include "app/asset_library.h"
+#include "io/mesh_file.h"
+#include "kernel/pile_state.h"
+#include "render/scene.h"
+#include "scripting/scenario.h"
+
+namespace rubble {
+
+// What the scenario asks to be dropped, in the library's terms.
+PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets);
+
+// Every piece but the lost ones, with the scenario's light, lamp and air.
+Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile);
+
+// The same pieces at full detail, for pile.stl.
+std::vector<MeshInstance> build_mesh_instances(const AssetLibrary& assets, const PileState& pile);
+
+}  // namespace rubble

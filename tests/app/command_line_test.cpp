@@ -1,0 +1,85 @@
+// Bad input and the small commands: wording, places and exit codes.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+// Runs `check` on a script with this text.
+Outcome check_text(const std::string& text, const std::string& options = "") {
+  const ScratchFolder scratch;
+  write_file(scratch / "m.lua", text);
+  return run_rubble("check " + (scratch / "m.lua") + " " + options);
+}
+
+TEST(Check, PrintsTheCompleteScenario) {
+  const Outcome check = run_rubble("check scripts/first_pile.lua --seed 5 --set fogdensity=0.25");
+  ASSERT_EQ(check.exit_code, 0) << check.err;
+  const auto scenario = nlohmann::json::parse(check.out);
+  EXPECT_EQ(scenario.at("seed"), 5);
+  EXPECT_EQ(scenario.at("air").at("fog_density"), 0.25);
+  EXPECT_TRUE(scenario.contains("trajectory"));
+}
+
+TEST(Check, NamesFileLineKeyExpectedAndFoundOfEveryMistake) {
+  const Outcome check = check_text(
+      "return rubble.mission {\n"
+      "  lamps = {},\n"
+      "  camera = { width = \"wide\",\n"
+      "             height = -5 },\n"
+      "}\n");
+  EXPECT_EQ(check.exit_code, 1);
+  EXPECT_NE(check.err.find("m.lua:2: lamps: unknown key"), std::string::npos) << check.err;
+  EXPECT_NE(check.err.find("did you mean `lamp`"), std::string::npos) << check.err;
+  EXPECT_NE(check.err.find("m.lua:3: camera.width: "), std::string::npos) << check.err;
+  EXPECT_NE(check.err.find("\"wide\""), std::string::npos) << check.err;
+  EXPECT_NE(check.err.find("m.lua:4: camera.height: "), std::string::npos) << check.err;
+}
+
+TEST(Check, NamesFileAndLineOfLuaErrors) {
+  const Outcome syntax = check_text("return rubble.mission {\n  seed = = 1\n}\n");
+  EXPECT_EQ(syntax.exit_code, 1);
+  EXPECT_NE(syntax.err.find("m.lua:2:"), std::string::npos) << syntax.err;
+  const Outcome runtime = check_text("local x = nil\nlocal y = x.z\n");
+  EXPECT_EQ(runtime.exit_code, 1);
+  EXPECT_NE(runtime.err.find("m.lua:2:"), std::string::npos) << runtime.err;
+}
+
+TEST(Check, NamesAnUnknownAsset) {
+  const Outcome check = check_text(
+      "return rubble.mission {\n"
+      "  pile = { mix = { { asset = \"brik\" } } },\n"
+      "}\n");
+  EXPECT_EQ(check.exit_code, 1);
+  EXPECT_NE(check.err.find("m.lua:2: "), std::string::npos) << check.err;
+  EXPECT_NE(check.err.find("did you mean `brick`"), std::string::npos) << check.err;
+}
+
+TEST(CommandLine, RefusesWhatItDoesNotKnow) {
+  EXPECT_EQ(run_rubble("").exit_code, 1);
+  EXPECT_EQ(run_rubble("fly").exit_code, 1);
+  EXPECT_EQ(run_rubble("check scripts/first_pile.lua --sed 3").exit_code, 1);
+  EXPECT_EQ(run_rubble("check no/such/mission.lua").exit_code, 1);
+  const Outcome key = run_rubble("check scripts/first_pile.lua --set pile.layer=3");
+  EXPECT_EQ(key.exit_code, 1);
+  EXPECT_NE(key.err.find("did you mean `pile.layers`"), std::string::npos) << key.err;
+}
+
+TEST(Info, NamesTheRendererAndTheLibraries) {
+  const Outcome info = run_rubble("info");
+  ASSERT_EQ(info.exit_code, 0) << info.err;
+  for (const char* name : {"rubble", "EGL", "renderer", "threads", "Simbody", "MRPT", "OpenCV"})
+    EXPECT_NE(info.out.find(name), std::string::npos) << name << " in\n" << info.out;
+}
+
+TEST(Info, SaysWhatWasTriedWithoutAWorkingEgl) {
+  const Outcome info = run_rubble("info", "RUBBLE_EGL_DEVICE=99");
+  EXPECT_EQ(info.exit_code, 2);
+  EXPECT_NE(info.err.find("RUBBLE_EGL_DEVICE"), std::string::npos) << info.err;
+}
+
+}  // namespace
+}  // namespace rubble::testing

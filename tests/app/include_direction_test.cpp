@@ -1,0 +1,111 @@
+// The architecture as a test: who may include whom, and where each third-party library may appear.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace rubble {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Include {
+  fs::path file;  // relative to the root
+  int line;
+  std::string target;
+};
+
+std::vector<Include> find_includes(const fs::path& root, const std::string& folder) {
+  static const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<Include> includes;
+  for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+    if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+    std::ifstream in(entry.path());
+    std::string text;
+    for (int line = 1; std::getline(in, text); ++line) {
+      std::smatch match;
+      if (std::regex_search(text, match, pattern))
+        includes.push_back({fs::relative(entry.path(), root), line, match[1]});
+    }
+  }
+  return includes;
+}
+
+bool starts_with(const std::string& text, const std::string& prefix) {
+  return text.compare(0, prefix.size(), prefix) == 0;
+}
+
+bool starts_with_any(const std::string& text, const std::vector<std::string>& prefixes) {
+  for (const std::string& prefix : prefixes)
+    if (starts_with(text, prefix)) return true;
+  return false;
+}
+
+const std::vector<std::string> kFolders{"kernel/", "render/", "io/", "scripting/", "app/", "bench/"};
+
+// What each folder may include of ours. The first match of the file's folder counts.
+const std::vector<std::pair<std::string, std::vector<std::string>>> kAllowed{
+    {"kernel/base/", {"kernel/base/"}},
+    {"kernel/", {"kernel/"}},
+    {"render/", {"render/", "kernel/base/"}},
+    {"io/", {"io/", "kernel/base/", "kernel/pile_state.h", "kernel/pile.h", "render/frame.h"}},
+    {"scripting/",
+     {"scripting/", "kernel/base/", "kernel/pile.h", "kernel/settle.h", "render/scene.h",
+      "render/frame.h"}},
+    {"app/", {"app/", "kernel/", "render/", "io/", "scripting/"}},
+    {"bench/", {"bench/", "kernel/", "render/", "io/", "scripting/", "app/"}},
+};
+
+std::vector<std::string> find_crossings(const std::vector<Include>& includes) {
+  std::vector<std::string> crossings;
+  for (const Include& include : includes) {
+    if (!starts_with_any(include.target, kFolders)) continue;
+    for (const auto& [folder, allowed] : kAllowed) {
+      if (!starts_with(include.file.string(), folder)) continue;
+      if (!starts_with_any(include.target, allowed))
+        crossings.push_back(include.file.string() + ":" + std::to_string(include.line) +
+                            " includes " + include.target);
+      break;
+    }
+  }
+  return crossings;
+}
+
+TEST(IncludeDirection, GoesOneWayOnly) {
+  std::size_t seen = 0;
+  for (const std::string& folder : kFolders) {
+    const std::vector<Include> includes = find_includes(RUBBLE_SOURCE_DIR, folder);
+    seen += includes.size();
+    for (const std::string& crossing : find_crossings(includes)) ADD_FAILURE() << crossing;
+  }
+  EXPECT_GT(seen, 100u);
+}
+
+TEST(IncludeDirection, TheCheckSeesACrossing) {
+  EXPECT_EQ(find_crossings({{"kernel/world.cpp", 3, "render/scene.h"}}).size(), 1u);
+  EXPECT_EQ(find_crossings({{"io/tum.cpp", 3, "render/renderer.h"}}).size(), 1u);
+  EXPECT_EQ(find_crossings({{"io/tum.cpp", 3, "render/frame.h"}}).size(), 0u);
+}
+
+// Each third-party library stays behind one door.
+TEST(IncludeDirection, ThirdPartiesStayBehindTheirDoor) {
+  const std::map<std::string, std::string> door{
+      {"Simbody.h", "kernel/"},  {"SimTK", "kernel/"},     {"EGL/", "render/"},
+      {"GL/", "render/"},        {"embree3/", "render/"},  {"assimp/", "io/"},
+      {"opencv2/", "io/"},       {"mrpt/", "io/"},         {"rosbag/", "io/"},
+      {"ros/", "io/"},           {"sensor_msgs/", "io/"},  {"lua", "scripting/"},
+      {"CLI/", "app/"},          {"xxhash.h", "kernel/base/"}, {"openssl/", "kernel/base/"}};
+  for (const std::string folder : {"kernel/", "render/", "io/", "scripting/", "app/"})
+    for (const Include& include : find_includes(RUBBLE_SOURCE_DIR, folder))
+      for (const auto& [library, home] : door)
+        if (starts_with(include.target, library) && !starts_with(include.file.string(), home))
+          ADD_FAILURE() << include.file << ":" << include.line << " includes " << include.target
+                        << ", which belongs behind " << home;
+}
+
+}  // namespace
+}  // namespace rubble

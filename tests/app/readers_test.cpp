@@ -1,0 +1,75 @@
+// The files of a real run, read by programs that we did not write.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+// One small dataset for all tests of this file.
+class Readers : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new ScratchFolder;
+    const Outcome run = run_rubble("run scripts/small.lua --out " + (*scratch_ / "data"));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  static void TearDownTestSuite() { delete scratch_; }
+
+  static std::string file(const std::string& name) { return *scratch_ / ("data/" + name); }
+
+  // Runs a command and returns what it printed; its failure is a failure of the test.
+  static std::string read_with(const std::string& command) {
+    const std::string log = *scratch_ / "log";
+    const int status = std::system((command + " >'" + log + "' 2>&1").c_str());
+    const std::string text = read_file(log);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << command << "\n" << text;
+    return text;
+  }
+
+  static inline ScratchFolder* scratch_ = nullptr;
+};
+
+TEST_F(Readers, RosbagListsTheTopics) {
+  const std::string info = read_with("/usr/bin/python3 /usr/bin/rosbag info -y " +
+                                     file("mission.bag"));
+  for (const char* topic :
+       {"/camera/rgb/image_raw", "/camera/rgb/camera_info", "/camera/depth_registered/image_raw",
+        "/camera/depth_registered/camera_info", "/ground_truth/pose", "/tf", "/tf_static",
+        "/clock"})
+    EXPECT_NE(info.find(std::string(topic) + "\n"), std::string::npos) << topic << "\n" << info;
+  EXPECT_NE(info.find("compression: lz4"), std::string::npos) << info;
+}
+
+TEST_F(Readers, RosbagChecksTheMessages) {
+  read_with("/usr/bin/python3 /usr/bin/rosbag check " + file("mission.bag"));
+}
+
+TEST_F(Readers, RawlogEditCountsTheObservations) {
+  const std::string info = read_with("rawlog-edit --info -i " + file("mission.rawlog"));
+  EXPECT_NE(info.find("CObservation3DRangeScan"), std::string::npos) << info;
+  EXPECT_NE(info.find("CObservationRobotPose"), std::string::npos) << info;
+}
+
+// The depth in the bag, at the pose in the bag, lies on the surface in the STL file.
+TEST_F(Readers, DepthUnprojectsOntoThePile) {
+  const std::string text =
+      read_with("/usr/bin/python3 '" RUBBLE_SOURCE_DIR "/tests/app/unproject_bag.py' " +
+                file("mission.bag") + " " + file("pile.stl") + " 200");
+  int points = 0, on_pile = 0;
+  double max_mm = 0, median_mm = 0;
+  ASSERT_EQ(std::sscanf(text.c_str(), "points %d max_mm %lf median_mm %lf on_pile %d", &points,
+                        &max_mm, &median_mm, &on_pile),
+            4)
+      << text;
+  EXPECT_GE(points, 500);
+  EXPECT_GE(on_pile, points / 10) << "the camera does not see the pile";
+  EXPECT_LT(max_mm, 2.0);
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -1,0 +1,87 @@
+// The main job as a user sees it: a mission in, a dataset out.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "kernel/base/hash.h"
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const kFiles[] = {"mission.rawlog", "mission.bag",     "pile.stl",
+                              "pile.bin",       "groundtruth.txt", "preview.png"};
+
+TEST(Run, LeavesEveryFileWithTheHashThatTheManifestNames) {
+  const ScratchFolder scratch;
+  const Outcome run = run_rubble("run scripts/small.lua --out " + (scratch / "a"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto outputs = read_outputs(scratch / "a");
+  for (const char* name : kFiles) {
+    ASSERT_TRUE(outputs.count(name)) << name;
+    EXPECT_EQ(outputs.at(name), sha256_of_file(scratch / "a/" + name)) << name;
+  }
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(scratch / "a")) {
+    ++files;
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+  }
+  EXPECT_EQ(files, outputs.size() + 1) << "something lies there that the manifest does not name";
+}
+
+TEST(Run, GivesTheSameBytesForAnyNumberOfThreads) {
+  const ScratchFolder scratch;
+  ASSERT_EQ(run_rubble("run scripts/small.lua --threads 1 --out " + (scratch / "a")).exit_code, 0);
+  ASSERT_EQ(run_rubble("run scripts/small.lua --threads 2 --out " + (scratch / "b")).exit_code, 0);
+  EXPECT_EQ(read_state_hash(scratch / "a"), read_state_hash(scratch / "b"));
+  EXPECT_EQ(read_outputs(scratch / "a"), read_outputs(scratch / "b"));
+}
+
+TEST(Run, GivesAnotherPileForAnotherSeed) {
+  const ScratchFolder scratch;
+  ASSERT_EQ(run_rubble("settle scripts/small.lua --seed 1 --out " + (scratch / "a")).exit_code, 0);
+  ASSERT_EQ(run_rubble("settle scripts/small.lua --seed 1 --out " + (scratch / "b")).exit_code, 0);
+  ASSERT_EQ(run_rubble("settle scripts/small.lua --seed 2 --out " + (scratch / "c")).exit_code, 0);
+  EXPECT_EQ(read_state_hash(scratch / "a"), read_state_hash(scratch / "b"));
+  EXPECT_NE(read_state_hash(scratch / "a"), read_state_hash(scratch / "c"));
+}
+
+TEST(Run, SaysWhenThePileDidNotSettle) {
+  const ScratchFolder scratch;
+  const Outcome run = run_rubble(
+      "settle scripts/small.lua --set settle.layer_time_limit=0.2 --set "
+      "settle.final_time_limit=0.2 --out " +
+      (scratch / "a"));
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_NE(run.err.find("did not settle"), std::string::npos) << run.err;
+  EXPECT_TRUE(fs::exists(scratch / "a/pile.bin")) << "what was computed is kept";
+}
+
+TEST(Run, RefusesAFolderThatIsNotEmpty) {
+  const ScratchFolder scratch;
+  write_file(scratch / "mine.txt", "precious");
+  const std::string out = " --out " + scratch.path().string();
+  const Outcome refused = run_rubble("settle scripts/small.lua" + out);
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
+  EXPECT_EQ(run_rubble("settle scripts/small.lua --force" + out).exit_code, 0);
+  EXPECT_EQ(read_file(scratch / "mine.txt"), "precious");
+}
+
+// A file-size limit is a disk that is full: writes past it fail.
+TEST(Run, LeavesNothingHalfWrittenWhenTheDiskIsFull) {
+  const ScratchFolder scratch;
+  const Outcome run =
+      run_rubble("run scripts/small.lua --out " + (scratch / "a"), "ulimit -f 64 &&");
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  EXPECT_NE(run.err.find(scratch / "a/"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(scratch / "a/mission.bag"));
+  EXPECT_FALSE(fs::exists(scratch / "a/manifest.json"));
+  for (const auto& entry : fs::directory_iterator(scratch / "a"))
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -1,0 +1,42 @@
+// Contacts as plain data: one per pair of convex parts (or part and ground), kept from step to step.
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/base/math.h"
+#include "kernel/gjk.h"
+
+namespace rubble {
+
+inline constexpr std::int32_t kGround = -1;
+
+struct ContactPoint {
+  Vec3f from_a, from_b;    // from the centres of mass, world orientation; unit: m
+  Vec3f local_a;           // the same point in A's own frame, to find it again
+  float separation = 0;    // negative: overlap; unit: m
+  float normal_impulse = 0;  // of the last step; unit: N s
+};
+
+struct Contact {
+  static constexpr int kMaxPoints = 4;
+
+  std::int32_t collider_a = 0, collider_b = 0;  // b may be kGround
+  std::int32_t body_a = 0, body_b = 0;
+  float friction = 0;
+  int count = 0;                   // points in use
+  ContactPoint points[kMaxPoints];
+  Vec3f normal;                    // unit length, from A to B; of the last search
+  bool has_normal = false;         // a search has found one before
+  Vec3f friction_impulse;          // tangential, at the middle of the points; unit: N s
+  float twist_impulse = 0;         // about the normal; unit: N m s
+  float rest_impulse = 0;          // total normal impulse when one of the two fell asleep
+  GjkCache cache;
+
+  float normal_impulse() const {
+    float sum = 0;
+    for (int i = 0; i < count; ++i) sum += points[i].normal_impulse;
+    return sum;
+  }
+};
+
+}  // namespace rubble

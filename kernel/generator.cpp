@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "kernel/base/error.h"
+#include "kernel/base/random.h"
+#include "kernel/pile.h"
+#include "kernel/shape.h"
+
+namespace rubble {
+namespace {
+
+// A place is drawn anew this often before a layer counts as full.
+constexpr int kMaxTries = 2000;
+
+struct Sphere {
+  Vec3 centre;
+  double radius = 0;
+};
+
+// Spheres of one layer in a grid whose cells are as wide as the largest sphere.
+class SphereGrid {
+ public:
+  explicit SphereGrid(double largest_radius) : cell_(2 * largest_radius) {}
+
+  bool is_free(const Sphere& s) const {
+    const auto [x, y, z] = cell_of(s.centre);
+    for (long dz = -1; dz <= 1; ++dz) {
+      for (long dy = -1; dy <= 1; ++dy) {
+        for (long dx = -1; dx <= 1; ++dx) {
+          const auto found = spheres_.find({x + dx, y + dy, z + dz});
+          if (found == spheres_.end()) continue;
+          for (const Sphere& other : found->second) {
+            const Vec3 d = other.centre - s.centre;
+            const double r = other.radius + s.radius;
+            if (dot(d, d) <= r * r) return false;
+          }
+        }
+      }
+    }
+    return true;
+  }
+  void add(const Sphere& s) { spheres_[cell_of(s.centre)].push_back(s); }
+
+ private:
+  using Cell = std::tuple<long, long, long>;
+  Cell cell_of(const Vec3& p) const {
+    return {long(std::floor(p.x / cell_)), long(std::floor(p.y / cell_)),
+            long(std::floor(p.z / cell_))};
+  }
+  double cell_;
+  std::map<Cell, std::vector<Sphere>> spheres_;
+};
+
+class SpecCheck {
+ public:
+  void expect(bool fine, const std::string& key, const std::string& expected,
+              const std::string& found) {
+    if (fine) return;
+    Diagnostic d;
+    d.key = key;
+    d.message = "out of range";
+    d.expected = expected;
+    d.found = found;
+    problems_.push_back(d);
+  }
+  void expect(bool fine, const std::string& key, const std::string& expected, double found) {
+    expect(fine, key, expected, std::to_string(found));
+  }
+  void finish() const {
+    if (!problems_.empty()) throw InputError(problems_);
+  }
+
+ private:
+  std::vector<Diagnostic> problems_;
+};
+
+void validate(const PileSpec& spec) {
+  SpecCheck check;
+  const int types = int(spec.types.size());
+  const std::string type_range = "0 to " + std::to_string(types - 1);
+  double total = 0;
+  for (std::size_t i = 0; i < spec.mix.size(); ++i) {
+    const MixEntry& e = spec.mix[i];
+    const std::string key = "mix[" + std::to_string(i) + "]";
+    check.expect(e.type >= 0 && e.type < types, key + ".type", type_range, std::to_string(e.type));
+    check.expect(e.weight >= 0 && std::isfinite(e.weight), key + ".weight", "0 or more", e.weight);
+    check.expect(e.scale_min >= 0.01 && e.scale_min <= e.scale_max, key + ".scale_min",
+                 "0.01 to scale_max", e.scale_min);
+    check.expect(e.scale_max <= 100, key + ".scale_max", "100 at most", e.scale_max);
+    total += e.weight;
+  }
+  for (std::size_t i = 0; i < spec.placed.size(); ++i) {
+    const Placement& p = spec.placed[i];
+    const std::string key = "placed[" + std::to_string(i) + "]";
+    check.expect(p.type >= 0 && p.type < types, key + ".type", type_range, std::to_string(p.type));
+    check.expect(p.scale >= 0.01 && p.scale <= 100, key + ".scale", "0.01 to 100", p.scale);
+  }
+  check.expect(spec.layers >= 0 && spec.layers <= 1000, "layers", "0 to 1000",
+               std::to_string(spec.layers));
+  check.expect(spec.pieces_per_layer >= 0 && spec.pieces_per_layer <= 100000, "pieces_per_layer",
+               "0 to 100000", std::to_string(spec.pieces_per_layer));
+  const Vec3& b = spec.spawn_bounds;
+  check.expect(b.x > 0, "spawn_bounds.x", "more than 0", b.x);
+  check.expect(b.y > 0, "spawn_bounds.y", "more than 0", b.y);
+  check.expect(b.z > 0, "spawn_bounds.z", "more than 0", b.z);
+  check.expect(spec.layers == 0 || spec.pieces_per_layer == 0 || total > 0, "mix",
+               "at least one entry with a weight above 0", total);
+  check.finish();
+}
+
+[[noreturn]] void fail_full(const PileSpec& spec, int layer, int fitted) {
+  Diagnostic d;
+  d.key = "pieces_per_layer";
+  d.message = "layer " + std::to_string(layer + 1) + " does not fit into the spawn box";
+  d.expected = "as many pieces as fit without overlap";
+  d.found = std::to_string(spec.pieces_per_layer) + " pieces, of which " + std::to_string(fitted) +
+            " fitted";
+  d.hint = "enlarge spawn_bounds, drop fewer pieces per layer, or use more layers";
+  throw InputError(d);
+}
+
+class LayerMaker {
+ public:
+  LayerMaker(const PileSpec& spec, const std::vector<Shape>& shapes)
+      : spec_(spec), shapes_(shapes), random_(spec.seed, "pile") {
+    for (const MixEntry& e : spec.mix) {
+      if (e.weight > 0) largest_ = std::max(largest_, double(shapes[e.type].radius) * e.scale_max);
+    }
+  }
+
+  Layer make(int number) {
+    std::vector<double> weights;
+    for (const MixEntry& e : spec_.mix) weights.push_back(e.weight);
+    const WeightedChoice choice(weights);
+    SphereGrid grid(largest_);
+    Layer layer;
+    for (int i = 0; i < spec_.pieces_per_layer; ++i) {
+      const MixEntry& entry = spec_.mix[choice.draw(random_)];
+      Placement piece;
+      piece.type = entry.type;
+      piece.scale = random_.uniform(entry.scale_min, entry.scale_max);
+      piece.world_from_body.rotation = random_.rotation();
+      Sphere sphere;
+      sphere.radius = double(shapes_[entry.type].radius) * piece.scale;
+      if (!find_place(grid, sphere)) fail_full(spec_, number, i);
+      grid.add(sphere);
+      const Vec3 com = shapes_[entry.type].volume.centre_of_mass * piece.scale;
+      piece.world_from_body.translation =
+          sphere.centre - piece.world_from_body.rotation.rotate(com);
+      layer.pieces.push_back(piece);
+    }
+    return layer;
+  }
+
+ private:
+  // Centres lie inside the box's footprint; no piece reaches below its bottom.
+  bool find_place(const SphereGrid& grid, Sphere& sphere) {
+    const Vec3 half = spec_.spawn_bounds * 0.5;
+    if (sphere.radius > spec_.spawn_bounds.z) return false;
+    for (int attempt = 0; attempt < kMaxTries; ++attempt) {
+      sphere.centre.x = spec_.spawn_position.x + random_.uniform(-half.x, half.x);
+      sphere.centre.y = spec_.spawn_position.y + random_.uniform(-half.y, half.y);
+      sphere.centre.z = random_.uniform(sphere.radius, spec_.spawn_bounds.z);
+      if (grid.is_free(sphere)) return true;
+    }
+    return false;
+  }
+
+  const PileSpec& spec_;
+  const std::vector<Shape>& shapes_;
+  RandomStream random_;
+  double largest_ = 0.01;
+};
+
+}  // namespace
+
+Pile generate_pile(const PileSpec& spec) {
+  validate(spec);
+  std::vector<Shape> shapes;
+  for (std::size_t i = 0; i < spec.types.size(); ++i) {
+    shapes.push_back(compile_shape(spec.types[i], "types[" + std::to_string(i) + "]"));
+  }
+  Pile pile;
+  pile.types = spec.types;
+  pile.placed = spec.placed;
+  pile.spawn_bottom = spec.spawn_position.z - spec.spawn_bounds.z / 2;
+  LayerMaker maker(spec, shapes);
+  for (int layer = 0; layer < spec.layers; ++layer) pile.layers.push_back(maker.make(layer));
+  return pile;
+}
+
+}  // namespace rubble

@@ -1,0 +1,39 @@
+// Distance between two convex point sets in single precision (Gilbert, Johnson and Keerthi 1988;
+// closest points on a simplex after Ericson 2005, chapter 5).
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/base/math.h"
+
+namespace rubble {
+
+// Corners turned to the world, relative to some origin.
+struct PointSet {
+  const Vec3f* points = nullptr;
+  int count = 0;
+};
+
+// The simplex where the last search ended: the next one starts there.
+struct GjkCache {
+  std::uint16_t a[3] = {}, b[3] = {};  // corners of A and B
+  std::uint8_t size = 0;
+};
+
+struct GjkResult {
+  enum class Kind { separated, beyond_margin, overlapping };
+  Kind kind = Kind::separated;
+  Vec3f normal;            // unit length, from A to B
+  float distance = 0;      // unit: m
+  Vec3f point_a, point_b;  // closest points, in the frame of A's corners
+};
+
+// `offset` is added to B's corners. Beyond `margin` the search ends early, with a normal that
+// proves it. Overlapping (or closer than about 10 micrometres): nothing but the kind is set.
+GjkResult calc_distance(const PointSet& a, const PointSet& b, const Vec3f& offset, float margin,
+                        GjkCache& cache);
+
+// The corner farthest along a direction.
+int find_support(const PointSet& set, const Vec3f& direction);
+
+}  // namespace rubble

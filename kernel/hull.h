@@ -1,0 +1,23 @@
+// Convex hulls of small point sets, with the same topology on every machine.
+//
+// The points are rounded to an integer grid of 2^19 steps along their longest extent, and the hull
+// is gift-wrapped (Chand and Kapur 1970) with exact integer predicates, so coplanar and collinear
+// points are no special cases of rounding. Faces within about one degree of a larger neighbour are
+// then merged into one polygon: contacts on a nearly flat side behave as on a flat one.
+#pragma once
+
+#include <vector>
+
+#include "kernel/base/math.h"
+
+namespace rubble {
+
+struct Hull {
+  std::vector<Vec3> points;             // the corners only, as given (not rounded)
+  std::vector<std::vector<int>> faces;  // corner indices, counter-clockwise seen from outside
+};
+
+// Throws std::invalid_argument when the points do not span a volume.
+Hull calc_hull(const std::vector<Vec3>& points);
+
+}  // namespace rubble

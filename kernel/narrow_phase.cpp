@@ -1,0 +1,150 @@
+#include "kernel/narrow_phase.h"
+
+#include <algorithm>
+
+#include "kernel/manifold.h"
+
+namespace rubble {
+namespace {
+
+// Points of two steps are the same when closer than this; unit: m.
+constexpr float kMatchDistance = 0.01F;
+// Impulses are not carried over when the normal turned by more than 25 degrees.
+constexpr float kKeepCosine = 0.906F;
+// Overlapping parts are shifted apart along the last normal by this and more; unit: m.
+constexpr float kShift = 0.005F;
+constexpr float kNearestShiftCosine = 0.9F;
+
+struct Axis {
+  Vec3f normal;
+  float separation = 0;
+  Vec3f point;  // midway between the closest points
+};
+
+// How far beyond the fixed margin two bodies may come together in one step.
+float motion_margin(const PosedBody& a, const PosedBody* b, const NarrowSettings& settings) {
+  Vec3f relative = a.linear;
+  float turning = norm(a.angular) * a.part.shape->radius;
+  if (b != nullptr) {
+    relative -= b->linear;
+    turning += norm(b->angular) * b->part.shape->radius;
+  }
+  return settings.margin + settings.step * (norm(relative) + turning);
+}
+
+// True when the parts may touch in this step; fills the axis.
+bool find_axis(Contact& contact, const PosedPart& a, const PosedPart& b, const Vec3f& offset,
+               float margin, Axis& axis) {
+  GjkResult gjk = calc_distance(a.corners, b.corners, offset, margin, contact.cache);
+  if (gjk.kind == GjkResult::Kind::beyond_margin) {
+    contact.normal = gjk.normal;
+    contact.has_normal = true;
+    return false;
+  }
+  if (gjk.kind == GjkResult::Kind::separated) {
+    axis = {gjk.normal, gjk.distance, (gjk.point_a + gjk.point_b) * 0.5F};
+    return true;
+  }
+  if (contact.has_normal) {
+    for (float shift : {kShift, 4 * kShift}) {
+      const Vec3f shifted = offset + contact.normal * shift;
+      gjk = calc_distance(a.corners, b.corners, shifted, 1e30F, contact.cache);
+      if (gjk.kind != GjkResult::Kind::separated) continue;
+      const float cosine = dot(gjk.normal, contact.normal);
+      if (cosine < kNearestShiftCosine) break;
+      const float separation = gjk.distance - shift * cosine;
+      axis = {gjk.normal, separation,
+              (gjk.point_a + gjk.point_b - contact.normal * shift) * 0.5F};
+      return true;
+    }
+  }
+  const SatResult sat = find_separating_axis(a, b, offset);
+  const Vec3f deepest = b.corners.points[find_support(b.corners, -sat.normal)] + offset;
+  axis = {sat.normal, sat.separation, deepest - sat.normal * (0.5F * sat.separation)};
+  return true;
+}
+
+void predict(Manifold& m, const PosedBody& a, const PosedBody* b, const Vec3f& offset,
+             const Vec3f& normal, float step) {
+  for (int i = 0; i < m.count; ++i) {
+    Vec3f v = -(a.linear + cross(a.angular, m.points[i].position));
+    if (b != nullptr) v += b->linear + cross(b->angular, m.points[i].position - offset);
+    m.points[i].predicted = m.points[i].separation + step * dot(normal, v);
+  }
+}
+
+// Writes the manifold into the contact and hands over impulses from the points found again.
+void store(Contact& contact, const Manifold& m, const Vec3f& normal, const PosedBody& a,
+           const Vec3f& offset) {
+  const bool keep = contact.count > 0 && dot(normal, contact.normal) > kKeepCosine;
+  ContactPoint old[Contact::kMaxPoints];
+  int old_count = keep ? contact.count : 0;
+  std::copy(contact.points, contact.points + old_count, old);
+  if (!keep) {
+    contact.friction_impulse = {};
+    contact.twist_impulse = 0;
+  }
+  if (m.count < 2) contact.twist_impulse = 0;
+  contact.normal = normal;
+  contact.has_normal = true;
+  contact.count = m.count;
+  const Mat3f body_from_world = a.part.rotation->transposed();
+  for (int i = 0; i < m.count; ++i) {
+    ContactPoint& p = contact.points[i];
+    p.from_a = m.points[i].position;
+    p.from_b = m.points[i].position - offset;
+    p.local_a = body_from_world * p.from_a;
+    p.separation = m.points[i].separation;
+    p.normal_impulse = 0;
+    int match = -1;
+    float best = kMatchDistance * kMatchDistance;
+    for (int j = 0; j < old_count; ++j) {
+      const Vec3f d = old[j].local_a - p.local_a;
+      if (dot(d, d) < best) best = dot(d, d), match = j;
+    }
+    if (match < 0) continue;
+    p.normal_impulse = old[match].normal_impulse;
+    old[match] = old[--old_count];
+  }
+}
+
+void clear(Contact& contact) {
+  contact.count = 0;
+  contact.friction_impulse = {};
+  contact.twist_impulse = 0;
+}
+
+}  // namespace
+
+void update_contact(Contact& contact, const PosedBody& a, const PosedBody& b,
+                    const NarrowSettings& settings) {
+  const Vec3f offset = Vec3f(b.centre - a.centre);
+  const float margin = motion_margin(a, &b, settings);
+  Axis axis;
+  if (!find_axis(contact, a.part, b.part, offset, margin, axis)) return clear(contact);
+  Manifold m;
+  clip_faces(a.part, b.part, offset, axis.normal, margin, m);
+  if (m.count == 0) m.points[m.count++] = {axis.point, axis.separation, axis.separation};
+  predict(m, a, &b, offset, axis.normal, settings.step);
+  reduce_to_four(m, axis.normal);
+  store(contact, m, axis.normal, a, offset);
+}
+
+void update_ground_contact(Contact& contact, const PosedBody& a, const NarrowSettings& settings) {
+  const float height = float(a.centre.z);
+  const float margin = motion_margin(a, nullptr, settings);
+  Manifold m;
+  for (int i = 0; i < a.part.corners.count && m.count < Manifold::kMaxClipped; ++i) {
+    const Vec3f& p = a.part.corners.points[i];
+    const float s = height + p.z;
+    if (s < margin) m.points[m.count++] = {{p.x, p.y, p.z - 0.5F * s}, s, s};
+  }
+  if (m.count == 0) return clear(contact);
+  const Vec3f normal{0, 0, -1};
+  const Vec3f offset = Vec3f(-a.centre);
+  predict(m, a, nullptr, offset, normal, settings.step);
+  reduce_to_four(m, normal);
+  store(contact, m, normal, a, offset);
+}
+
+}  // namespace rubble

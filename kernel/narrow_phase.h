@@ -1,0 +1,28 @@
+// From two posed parts to contact points.
+#pragma once
+
+#include "kernel/contact.h"
+#include "kernel/sat.h"
+
+namespace rubble {
+
+// One side of a contact for the narrow phase.
+struct PosedBody {
+  PosedPart part;
+  Vec3 centre;          // centre of mass in the world; unit: m
+  Vec3f linear, angular;  // velocities; unit: m/s, rad/s
+};
+
+struct NarrowSettings {
+  float margin = 0.02F;  // make points up to this separation, plus what the motion of a step adds
+  float step = 1.0F / 60;  // unit: s
+};
+
+// Finds normal and points anew, and carries over the impulses of points found again. No points:
+// the parts are farther apart than they can come in this step.
+void update_contact(Contact& contact, const PosedBody& a, const PosedBody& b,
+                    const NarrowSettings& settings);
+// The same against the ground, z = 0.
+void update_ground_contact(Contact& contact, const PosedBody& a, const NarrowSettings& settings);
+
+}  // namespace rubble

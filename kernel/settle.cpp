@@ -1,0 +1,172 @@
+#include "kernel/settle.h"
+
+#include <algorithm>
+#include <string>
+
+#include "kernel/base/error.h"
+#include "kernel/world.h"
+
+namespace rubble {
+namespace {
+
+// The bottom of a layer's spawn volume is this far above the highest point of the pile; unit: m.
+constexpr double kSpawnClearance = 1.0;
+
+WorldOptions world_options(const SettleOptions& options) {
+  WorldOptions w;
+  w.gravity = options.gravity;
+  w.step = options.step;
+  w.lost_below = options.lost_below;
+  w.lost_beyond = options.lost_beyond;
+  w.threads = options.threads;
+  return w;
+}
+
+class Settling {
+ public:
+  Settling(const Pile& pile, const SettleOptions& options, const SettleCallback& progress)
+      : pile_(pile), options_(options), progress_(progress),
+        world_(pile.types, world_options(options)) {}
+
+  PileState run() {
+    bool rested = lay_out();
+    for (std::size_t k = 0; k < pile_.layers.size() && !stopped_; ++k) {
+      const bool last = k + 1 == pile_.layers.size();
+      spawn(k);
+      if (!last && options_.schedule == Schedule::planes) {
+        rested = run_until(options_.layer_time_limit, [this] { return world_.all_have_touched(); });
+      } else {
+        rested = run_to_rest(last ? options_.final_time_limit : options_.layer_time_limit);
+      }
+      if (!rested && !stopped_) ++layers_at_limit_;
+    }
+    return result(rested && !stopped_);
+  }
+
+ private:
+  // What stands or lies there before the first layer; comes to rest first if it can move.
+  bool lay_out() {
+    std::vector<NewPiece> pieces;
+    bool movable = false;
+    for (const Placement& placement : pile_.placed) {
+      NewPiece piece;
+      piece.placement = placement;
+      piece.layer = -1;
+      pieces.push_back(piece);
+      movable = movable || !placement.fixed;
+    }
+    world_.add(pieces);
+    if (!movable) return true;
+    return run_to_rest(pile_.layers.empty() ? options_.final_time_limit
+                                            : options_.layer_time_limit);
+  }
+
+  void spawn(std::size_t k) {
+    const bool touched_only = options_.schedule == Schedule::planes;
+    const double bottom =
+        std::max(pile_.spawn_bottom, world_.highest_point(touched_only) + kSpawnClearance);
+    std::vector<NewPiece> pieces;
+    for (const Placement& placement : pile_.layers[k].pieces) {
+      NewPiece piece;
+      piece.placement = placement;
+      piece.placement.world_from_body.translation.z += bottom;
+      piece.layer = int(k);
+      pieces.push_back(piece);
+    }
+    world_.add(pieces);
+    ++layers_;
+  }
+
+  bool run_to_rest(double limit) {
+    return run_until(limit, [this] {
+      return world_.at_rest(options_.rest_speed, options_.rest_angular_speed);
+    });
+  }
+
+  template <typename Done>
+  bool run_until(double limit, Done&& done) {
+    const long most = long(limit / options_.step + 0.5);
+    for (long i = 1; i <= most; ++i) {
+      world_.step();
+      if (progress_ && !report(double(i) * options_.step)) {
+        stopped_ = true;
+        return false;
+      }
+      if (done()) return true;
+    }
+    return false;
+  }
+
+  bool report(double layer_time) const {
+    SettleProgress p;
+    p.layer = layers_;
+    p.layers = int(pile_.layers.size());
+    p.layer_time = layer_time;
+    p.simulated = world_.time();
+    p.pieces = world_.size();
+    p.awake = world_.awake_count();
+    return progress_(p);
+  }
+
+  PileState result(bool settled) const {
+    PileState state;
+    for (const PieceType& type : pile_.types) state.types.push_back(type.name);
+    for (int i = 0; i < world_.size(); ++i) {
+      PieceState piece = world_.piece(i);
+      const double v2 = dot(piece.linear_velocity, piece.linear_velocity);
+      const double w2 = dot(piece.angular_velocity, piece.angular_velocity);
+      if (piece.status == PieceStatus::moving && world_.is_touching(i) &&
+          v2 < options_.rest_speed * options_.rest_speed &&
+          w2 < options_.rest_angular_speed * options_.rest_angular_speed) {
+        piece.status = PieceStatus::resting;
+      }
+      state.pieces.push_back(piece);
+    }
+    state.steps = world_.steps();
+    state.simulated = world_.time();
+    state.settled = settled;
+    state.layers_at_limit = layers_at_limit_;
+    state.lost = world_.lost_count();
+    return state;
+  }
+
+  const Pile& pile_;
+  const SettleOptions& options_;
+  const SettleCallback& progress_;
+  World world_;
+  int layers_ = 0, layers_at_limit_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+void SettleOptions::validate() const {
+  std::vector<Diagnostic> problems;
+  const auto expect = [&problems](bool fine, const char* key, const char* expected, double found) {
+    if (fine) return;
+    Diagnostic d;
+    d.key = key;
+    d.message = "out of range";
+    d.expected = expected;
+    d.found = std::to_string(found);
+    problems.push_back(d);
+  };
+  expect(gravity >= 0 && gravity <= 100, "gravity", "0 to 100 m/s2", gravity);
+  expect(step >= 1e-3 && step <= 1.0 / 30 + 1e-12, "step", "1/1000 to 1/30 s", step);
+  expect(rest_speed > 0, "rest_speed", "more than 0 m/s", rest_speed);
+  expect(rest_angular_speed > 0, "rest_angular_speed", "more than 0 rad/s", rest_angular_speed);
+  expect(layer_time_limit > 0, "layer_time_limit", "more than 0 s", layer_time_limit);
+  expect(final_time_limit > 0, "final_time_limit", "more than 0 s", final_time_limit);
+  expect(lost_below <= 0, "lost_below", "0 m or less", lost_below);
+  expect(lost_beyond > 0, "lost_beyond", "more than 0 m", lost_beyond);
+  expect(threads >= 0 && threads <= 1024, "threads", "0 to 1024", threads);
+  if (!problems.empty()) throw InputError(problems);
+}
+
+PileState settle_pile(const Pile& pile, const SettleOptions& options,
+                      const SettleCallback& progress) {
+  options.validate();
+  return Settling(pile, options, progress).run();
+}
+
+}  // namespace rubble

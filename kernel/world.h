@@ -1,0 +1,92 @@
+// The physics on its own: pieces under gravity over the ground z = 0, advanced in fixed steps.
+//
+// settle_pile() is a schedule on top of it; tests and benchmarks use it directly. Lengths in
+// metres, masses in kg, times in s. Pieces are numbered in the order they were added, for ever.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "kernel/pile.h"
+#include "kernel/pile_state.h"
+
+namespace rubble {
+
+struct WorldOptions {
+  double gravity = 9.81;        // unit: m/s2, downwards
+  double step = 1.0 / 60.0;     // unit: s; range: 1/1000 to 1/30
+  double lost_below = -0.5;     // unit: m
+  double lost_beyond = 100.0;   // from the Z axis; unit: m
+  int threads = 0;              // 0: all processors; the result does not depend on it
+  bool sleeping = true;         // pieces that stay in place are put to sleep
+};
+
+struct NewPiece {
+  Placement placement;
+  Vec3 linear_velocity;   // of the centre of mass; unit: m/s
+  Vec3 angular_velocity;  // unit: rad/s
+  int layer = 0;
+};
+
+// CPU-independent counters and, for the bench, wall seconds by stage (never part of a result).
+struct StepTimes {
+  double broad = 0, narrow = 0, solve = 0, advance = 0, rest = 0;  // unit: s
+};
+
+class World {
+ public:
+  // Throws InputError for a type whose geometry or material is not valid.
+  World(std::vector<PieceType> types, const WorldOptions& options = {});
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  // Adds pieces as a group; returns the number of the first one. Throws InputError when a type
+  // does not exist or a scale is out of range.
+  int add(const std::vector<NewPiece>& pieces);
+
+  void step();
+
+  int size() const;
+  int awake_count() const;
+  int lost_count() const;
+  std::int64_t steps() const;
+  double time() const;  // simulated; unit: s
+
+  PieceState piece(int index) const;
+  bool is_awake(int index) const;
+  bool is_touching(int index) const;  // something, in the last step
+  // Changes a piece's speeds and wakes it. Immovable pieces cannot be changed.
+  void set_velocity(int index, const Vec3& linear, const Vec3& angular);
+  // Moves a piece and wakes it and its neighbours.
+  void set_pose(int index, const Pose& world_from_body);
+  void wake_all();
+  void set_sleeping(bool allowed);  // wakes all when false
+
+  // Every piece sleeps, or touches something and is below both speeds.
+  bool at_rest(double speed, double angular_speed) const;
+  bool all_have_touched() const;
+  // Of all pieces, or of those that have touched something and the immovable ones; 0 when none.
+  double highest_point(bool touched_only = false) const;
+
+  double mass(int index) const;  // 0: immovable
+  double kinetic_energy() const;    // unit: J
+  double potential_energy() const;  // against z = 0; unit: J
+  Vec3 linear_momentum() const;     // unit: kg m/s
+  Vec3 angular_momentum() const;    // about the origin; unit: kg m2/s
+
+  // Everything that the next steps depend on, except options and threads. Restoring one and
+  // repeating gives the same bits. A snapshot belongs to a world with the same types.
+  struct Snapshot;
+  std::shared_ptr<const Snapshot> snapshot() const;
+  void restore(const Snapshot& snapshot);
+
+  const StepTimes& times() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rubble

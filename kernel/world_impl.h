@@ -1,0 +1,81 @@
+// The inside of World: its data and the stages of a step. Not for use outside kernel/.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "kernel/base/parallel.h"
+#include "kernel/body.h"
+#include "kernel/broad_phase.h"
+#include "kernel/contact.h"
+#include "kernel/contact_solver.h"
+#include "kernel/narrow_phase.h"
+#include "kernel/simbody_blocks.h"
+#include "kernel/world.h"
+
+namespace rubble {
+
+// What a snapshot holds: all that changes from step to step.
+struct WorldData {
+  std::vector<Body> bodies;
+  std::vector<Collider> colliders;
+  std::vector<Vec3f> corners;  // turned to the world, from the centre of mass of their piece
+  BroadPhase broad;
+  std::vector<Contact> contacts;
+  std::unordered_map<std::uint64_t, std::int32_t> contact_of_pair;  // looked up, never walked
+  std::vector<std::uint8_t> wake_next;  // by body
+  std::int64_t steps = 0;
+  int lost = 0;
+};
+
+struct World::Impl {
+  Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options);
+
+  std::vector<PieceType> types;
+  std::vector<Shape> shapes;
+  WorldOptions options;
+  SolverSettings solver_settings;
+  ThreadPool pool;
+  WorldData data;
+  SimbodyBlocks blocks;
+  ContactSolver solver;
+  StepTimes times;
+
+  // Scratch of a step.
+  std::vector<std::int32_t> active;
+  std::vector<std::uint8_t> moves;  // by number in SimbodyBlocks
+  std::vector<Motion> velocities, displacements;
+  std::vector<Vec3> extra_linear, extra_angular;
+
+  // world.cpp
+  void add_body(const NewPiece& piece, FreeBody* free);
+  void mirror(Body& body);          // q and u from Simbody
+  void refresh(Body& body);         // rotation, inertia, corners, boxes
+  PosedBody posed(const Collider& collider) const;
+
+  // world_step.cpp: the stages in order
+  void wake_marked();
+  void find_pairs();
+  void drop_pairs_apart();
+  void update_contacts();
+  void apply_forces();
+  void solve_contacts();
+  void advance();
+  void update_touching();
+  void update_sleep();
+  void remove_lost();
+
+  void add_contact(int collider_a, int collider_b);
+  void remove_contact(std::size_t index);
+  void refresh_all_awake();
+  void fall_asleep(int body);
+  void wake(int body);
+  void lose(int body);
+};
+
+struct World::Snapshot {
+  WorldData data;
+  std::vector<FreeBody> simbody;  // pose and speeds, by number in SimbodyBlocks
+};
+
+}  // namespace rubble

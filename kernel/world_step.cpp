@@ -1,0 +1,362 @@
+// The stages of one step, in the order of World::step().
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "kernel/world_impl.h"
+
+namespace rubble {
+namespace {
+
+// A piece falls asleep after it has stayed within this distance for this time.
+constexpr double kStillDistance = 0.002;  // of any of its points; unit: m
+constexpr double kStillTime = 0.5;        // unit: s
+// A sleeper wakes when the impulse of a contact changes by what would give it this speed.
+constexpr float kWakeSpeed = 0.06F;  // unit: m/s
+// Overlaps deeper than this keep a piece awake for a while.
+constexpr float kSleepOverlap = 0.003F;  // unit: m
+constexpr double kSleepOverlapTime = 2.0;  // unit: s
+constexpr float kMaximumSpin = 30.0F;    // unit: rad/s
+constexpr float kMaximumSpeed = 50.0F;   // unit: m/s
+constexpr double kLookAhead = 4;         // steps that an enlarged box reaches ahead
+
+std::uint64_t pair_key(std::int32_t a, std::int32_t b) {
+  return std::uint64_t(std::uint32_t(a)) << 32 | std::uint32_t(b);
+}
+
+// The implicit gyroscopic torque, one Newton step (Catto, GDC 2015): stable at any spin.
+Vec3 gyroscopic(const Body& body, const Vec3& omega, double dt) {
+  const Quat& q = body.world_from_com.rotation;
+  const Vec3 w = q.conjugate().rotate(omega);
+  const Vec3 iw = body.inertia * w;
+  const Vec3 f = cross(w, iw) * dt;
+  // J = I + dt ([w]x I - [I w]x)
+  const Mat3 skew_w{{{0, -w.z, w.y}, {w.z, 0, -w.x}, {-w.y, w.x, 0}}};
+  const Mat3 skew_iw{{{0, -iw.z, iw.y}, {iw.z, 0, -iw.x}, {-iw.y, iw.x, 0}}};
+  const Mat3 jacobian = body.inertia + (skew_w * body.inertia + skew_iw * -1.0) * dt;
+  const Vec3 c0 = cross(jacobian.rows[1], jacobian.rows[2]);
+  const Vec3 c1 = cross(jacobian.rows[2], jacobian.rows[0]);
+  const Vec3 c2 = cross(jacobian.rows[0], jacobian.rows[1]);
+  const double scale = 1 / dot(jacobian.rows[0], c0);
+  const Vec3 change = (c0 * f.x + c1 * f.y + c2 * f.z) * scale;
+  return q.rotate(w - change);
+}
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total), start_(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() {
+    total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  double& total_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace
+
+void World::Impl::wake(int index) {
+  Body& body = data.bodies[index];
+  if (!body.movable() || body.awake) return;
+  body.awake = true;
+  body.still_steps = 0;
+  body.still_pose = body.world_from_com;
+}
+
+void World::Impl::fall_asleep(int index) {
+  Body& body = data.bodies[index];
+  body.awake = false;
+  blocks.set_velocity(body.mobile, {}, {});
+  body.linear = {};
+  body.angular = {};
+}
+
+void World::Impl::wake_marked() {
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    if (data.wake_next[i]) wake(int(i));
+    data.wake_next[i] = 0;
+  }
+}
+
+void World::Impl::add_contact(int first, int second) {
+  const int a = second == kGround ? first : std::min(first, second);
+  const int b = second == kGround ? kGround : std::max(first, second);
+  const std::int32_t body_a = data.colliders[a].body;
+  const std::int32_t body_b = b == kGround ? kGround : data.colliders[b].body;
+  if (body_a == body_b) return;
+  const Body& one = data.bodies[body_a];
+  if (b != kGround && !one.movable() && !data.bodies[body_b].movable()) return;
+  if (!data.contact_of_pair.insert({pair_key(a, b), std::int32_t(data.contacts.size())}).second) {
+    return;
+  }
+  Contact contact;
+  contact.collider_a = a;
+  contact.collider_b = b;
+  contact.body_a = body_a;
+  contact.body_b = body_b;
+  const double mu_a = types[one.type].friction;
+  const double mu_b = b == kGround ? mu_a : types[data.bodies[body_b].type].friction;
+  contact.friction = float(std::sqrt(mu_a * mu_b));
+  data.contacts.push_back(contact);
+}
+
+void World::Impl::remove_contact(std::size_t index) {
+  Contact& contact = data.contacts[index];
+  for (std::int32_t body : {contact.body_a, contact.body_b}) {
+    // A sleeper that loses a support wakes.
+    if (body == kGround || data.bodies[body].awake || !data.bodies[body].movable()) continue;
+    if (contact.rest_impulse * data.bodies[body].inverse_mass > kWakeSpeed) data.wake_next[body] = 1;
+  }
+  data.contact_of_pair.erase(pair_key(contact.collider_a, contact.collider_b));
+  if (index + 1 < data.contacts.size()) {
+    contact = data.contacts.back();
+    data.contact_of_pair[pair_key(contact.collider_a, contact.collider_b)] = std::int32_t(index);
+  }
+  data.contacts.pop_back();
+}
+
+void World::Impl::find_pairs() {
+  for (const Body& body : data.bodies) {
+    if (!body.awake) continue;
+    const Vec3 motion = Vec3(body.linear) * (kLookAhead * options.step);
+    for (int i = 0; i < body.collider_count; ++i) {
+      const int collider = body.first_collider + i;
+      const Aabb& box = data.colliders[collider].box;
+      if (!data.broad.update(collider, box, motion)) continue;
+      data.broad.query(collider, [&](int other) { add_contact(collider, other); });
+      if (data.broad.box(collider).min.z < 0) add_contact(collider, kGround);
+    }
+  }
+}
+
+void World::Impl::drop_pairs_apart() {
+  active.clear();
+  for (std::size_t i = 0; i < data.contacts.size();) {
+    const Contact& contact = data.contacts[i];
+    const bool ground = contact.body_b == kGround;
+    const bool awake =
+        data.bodies[contact.body_a].awake || (!ground && data.bodies[contact.body_b].awake);
+    if (awake) {
+      const Aabb& box = data.broad.box(contact.collider_a);
+      const bool near =
+          ground ? box.min.z < 0
+                 : BroadPhase::overlap(box, data.broad.box(contact.collider_b));
+      if (!near) {
+        remove_contact(i);
+        continue;
+      }
+      active.push_back(std::int32_t(i));
+    }
+    ++i;
+  }
+}
+
+void World::Impl::update_contacts() {
+  NarrowSettings settings;
+  settings.step = float(options.step);
+  pool.run(int(active.size()), 64, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      Contact& contact = data.contacts[active[i]];
+      const PosedBody a = posed(data.colliders[contact.collider_a]);
+      if (contact.collider_b == kGround) {
+        update_ground_contact(contact, a, settings);
+      } else {
+        update_contact(contact, a, posed(data.colliders[contact.collider_b]), settings);
+      }
+    }
+  });
+}
+
+void World::Impl::apply_forces() {
+  velocities.assign(data.bodies.size(), {});
+  displacements.assign(data.bodies.size(), {});
+  const double dt = options.step;
+  pool.run(int(data.bodies.size()), 256, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      Body& body = data.bodies[i];
+      if (!body.awake) continue;
+      Vec3 v = blocks.linear_velocity(body.mobile);
+      Vec3 w = gyroscopic(body, blocks.angular_velocity(body.mobile), dt);
+      v.z -= options.gravity * dt;
+      velocities[i] = {Vec3f(v), Vec3f(w)};
+      // Kept in double precision for pieces that nothing touches.
+      blocks.set_velocity(body.mobile, v, w);
+    }
+  });
+}
+
+void World::Impl::solve_contacts() {
+  active.erase(std::remove_if(active.begin(), active.end(),
+                              [&](std::int32_t i) { return data.contacts[i].count == 0; }),
+               active.end());
+  solver.solve(solver_settings, data.bodies, active, data.contacts, velocities, displacements);
+}
+
+void World::Impl::advance() {
+  moves.assign(blocks.size(), 0);
+  extra_linear.resize(blocks.size());
+  extra_angular.resize(blocks.size());
+  const double per_step = 1 / options.step;
+  std::vector<std::uint8_t> block_awake(blocks.block_count(), 0);
+  std::vector<std::int32_t> body_of(blocks.size(), 0);
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    Body& body = data.bodies[i];
+    if (!body.awake) continue;
+    moves[body.mobile] = 1;
+    body_of[body.mobile] = std::int32_t(i);
+    block_awake[blocks.block_of_body(body.mobile)] = 1;
+    if (body.touching) {
+      Motion m = velocities[i];
+      const float spin = norm(m.angular), speed = norm(m.linear);
+      if (spin > kMaximumSpin) m.angular *= kMaximumSpin / spin;
+      if (speed > kMaximumSpeed) m.linear *= kMaximumSpeed / speed;
+      blocks.set_velocity(body.mobile, Vec3(m.linear), Vec3(m.angular));
+    }
+    extra_linear[body.mobile] = Vec3(displacements[i].linear) * per_step;
+    extra_angular[body.mobile] = Vec3(displacements[i].angular) * per_step;
+  }
+  pool.run(blocks.block_count(), 4, [&](int begin, int end) {
+    for (int block = begin; block < end; ++block) {
+      if (!block_awake[block]) continue;
+      blocks.advance(block, moves, extra_linear.data(), extra_angular.data(), options.step);
+      for (int mobile = blocks.first_of(block); mobile < blocks.first_of(block + 1); ++mobile) {
+        if (!moves[mobile]) continue;
+        Body& body = data.bodies[body_of[mobile]];
+        mirror(body);
+        refresh(body);
+      }
+    }
+  });
+}
+
+// A contact counts as touching when it carries an impulse.
+void World::Impl::update_touching() {
+  for (Body& body : data.bodies) {
+    if (body.awake) body.touching = false;
+  }
+  for (std::int32_t index : active) {
+    const Contact& contact = data.contacts[index];
+    if (contact.normal_impulse() <= 0) continue;
+    for (std::int32_t i : {contact.body_a, contact.body_b}) {
+      if (i == kGround) continue;
+      data.bodies[i].touching = data.bodies[i].has_touched = true;
+    }
+  }
+}
+
+void World::Impl::update_sleep() {
+  // Sleepers that an awake neighbour presses on more, or less, than when they fell asleep.
+  for (std::int32_t index : active) {
+    const Contact& contact = data.contacts[index];
+    for (std::int32_t i : {contact.body_a, contact.body_b}) {
+      if (i == kGround) continue;
+      const Body& body = data.bodies[i];
+      if (body.awake || !body.movable()) continue;
+      const float change = std::abs(contact.normal_impulse() - contact.rest_impulse);
+      if (change * body.inverse_mass > kWakeSpeed) data.wake_next[i] = 1;
+    }
+  }
+  if (!options.sleeping) return;
+  std::vector<std::uint8_t> overlapping(data.bodies.size(), 0);
+  for (std::int32_t index : active) {
+    const Contact& contact = data.contacts[index];
+    for (int p = 0; p < contact.count; ++p) {
+      if (contact.points[p].separation > -kSleepOverlap) continue;
+      overlapping[contact.body_a] = 1;
+      if (contact.body_b != kGround) overlapping[contact.body_b] = 1;
+    }
+  }
+  const int wait = int(kStillTime / options.step), long_wait = int(kSleepOverlapTime / options.step);
+  std::vector<std::uint8_t> slept(data.bodies.size(), 0);
+  bool any = false;
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    Body& body = data.bodies[i];
+    if (!body.awake) continue;
+    const Vec3 moved = body.world_from_com.translation - body.still_pose.translation;
+    const Quat turn = body.still_pose.rotation.conjugate() * body.world_from_com.rotation;
+    const double turned = 2 * norm(Vec3{turn.x, turn.y, turn.z}) * double(body.radius);
+    if (norm(moved) + turned > kStillDistance) {
+      body.still_pose = body.world_from_com;
+      body.still_steps = 0;
+      continue;
+    }
+    ++body.still_steps;
+    if (body.still_steps >= (overlapping[i] ? long_wait : wait)) {
+      fall_asleep(int(i));
+      slept[i] = 1;
+      any = true;
+    }
+  }
+  if (!any) return;
+  for (std::int32_t index : active) {
+    Contact& contact = data.contacts[index];
+    if (slept[contact.body_a] || (contact.body_b != kGround && slept[contact.body_b])) {
+      contact.rest_impulse = contact.normal_impulse();
+    }
+  }
+}
+
+void World::Impl::lose(int index) {
+  Body& body = data.bodies[index];
+  body.lost = true;
+  body.awake = false;
+  body.touching = false;
+  ++data.lost;
+  blocks.set_velocity(body.mobile, {}, {});
+  for (std::size_t i = 0; i < data.contacts.size();) {
+    if (data.contacts[i].body_a == index || data.contacts[i].body_b == index) {
+      remove_contact(i);
+    } else {
+      ++i;
+    }
+  }
+  for (int i = 0; i < body.collider_count; ++i) data.broad.remove(body.first_collider + i);
+}
+
+void World::Impl::remove_lost() {
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    const Body& body = data.bodies[i];
+    if (!body.awake) continue;
+    const Vec3 p = body.world_from_type().translation;
+    // Written so that a pose that is not a number is lost too.
+    const bool inside = p.z >= options.lost_below &&
+                        p.x * p.x + p.y * p.y <= options.lost_beyond * options.lost_beyond;
+    if (!inside) lose(int(i));
+  }
+}
+
+void World::step() {
+  Impl& w = *impl_;
+  {
+    const Stopwatch watch(w.times.broad);
+    w.wake_marked();
+    w.find_pairs();
+    w.drop_pairs_apart();
+  }
+  {
+    const Stopwatch watch(w.times.narrow);
+    w.update_contacts();
+  }
+  {
+    const Stopwatch watch(w.times.solve);
+    w.apply_forces();
+    w.solve_contacts();
+  }
+  {
+    const Stopwatch watch(w.times.rest);
+    w.update_touching();
+  }
+  {
+    const Stopwatch watch(w.times.advance);
+    w.advance();
+  }
+  {
+    const Stopwatch watch(w.times.rest);
+    w.update_sleep();
+    w.remove_lost();
+  }
+  ++w.data.steps;
+}
+
+}  // namespace rubble

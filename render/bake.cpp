@@ -1,0 +1,306 @@
+#include "render/bake.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "kernel/base/portable_math.h"
+#include "kernel/base/random.h"
+#include "render/looks.h"
+#include "render/parallel.h"
+#include "render/ray_scene.h"
+#include "render/tile_noise.h"
+
+namespace rubble {
+
+namespace {
+
+constexpr float kPi = float(portable::kPi);
+constexpr std::uint32_t kSky = 0xffffffffu, kInside = 0xfffffffeu;
+constexpr float kLift = 0.004f;       // rays start this far off the surface; unit: m
+constexpr float kFarthest = 1000.0f;  // unit: m
+constexpr float kMaxInside = 0.3f;    // share of rays that start inside a neighbour
+constexpr std::size_t kChunk = 256;   // points a job
+
+struct Point {
+  Vec3f position, normal;
+};
+
+// Directions for one point: spread evenly, cosine-weighted about +Z (Malley's method over a
+// golden-ratio sequence).
+std::vector<Vec3f> cosine_directions(int count) {
+  std::vector<Vec3f> out;
+  for (int i = 0; i < count; ++i) {
+    const double u = (i + 0.5) / count, turn = i * 0.6180339887498949;
+    const portable::SinCos a = portable::sincos(2 * portable::kPi * (turn - std::floor(turn)));
+    const double r = std::sqrt(u);
+    out.push_back({float(r * a.cos), float(r * a.sin), float(std::sqrt(1 - u))});
+  }
+  return out;
+}
+
+void basis_about(const Vec3f& n, float turn, Vec3f& x, Vec3f& y) {
+  const Vec3f side = std::fabs(n.z) < 0.9f ? Vec3f(0, 0, 1) : Vec3f(1, 0, 0);
+  const Vec3f a = normalized(cross(side, n)), b = cross(n, a);
+  const portable::SinCos t = portable::sincos(2 * portable::kPi * double(turn));
+  x = a * float(t.cos) + b * float(t.sin);
+  y = b * float(t.cos) - a * float(t.sin);
+}
+
+// Bits of the nearest half float; x: finite, not beyond its range.
+std::uint16_t to_half(float x) {
+  x = std::clamp(x, -60000.0f, 60000.0f);
+  std::uint32_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  const std::uint32_t sign = bits >> 16 & 0x8000u;
+  const int exponent = int(bits >> 23 & 0xff) - 127 + 15;
+  const std::uint32_t mantissa = bits & 0x7fffffu;
+  if (exponent <= 0) {
+    if (exponent < -10) return std::uint16_t(sign);
+    const int shift = 14 - exponent;
+    const std::uint32_t full = mantissa | 0x800000u;
+    return std::uint16_t(sign | ((full + (1u << (shift - 1))) >> shift));
+  }
+  return std::uint16_t(sign | ((std::uint32_t(exponent) << 10 | mantissa >> 13) +
+                               (mantissa >> 12 & 1u)));
+}
+
+float luminance(const Vec3f& c) { return (c.x + c.y + c.z) * (1.0f / 3); }
+
+BakedLight pack_light(const Vec3f& vector, const Vec3f& colour) {
+  BakedLight out;
+  out.x = to_half(vector.x), out.y = to_half(vector.y), out.z = to_half(vector.z);
+  const float sum = colour.x + colour.y + colour.z;
+  if (sum > 0) {
+    out.red = std::uint8_t(std::lround(255 * colour.x / sum));
+    out.blue = std::uint8_t(std::lround(255 * colour.z / sum));
+  }
+  return out;
+}
+
+Vec3f mean_albedo(const Look& look) {
+  return Vec3f(look.dark * 0.45f + look.light * 0.45f + look.accent * 0.1f);
+}
+
+Vec3f times(const Vec3f& a, const Vec3f& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+}  // namespace
+
+std::vector<BakedLight> open_sky_light(const PreparedScene& scene, const LightModel& light) {
+  // A dome of the mean of zenith and horizon gives pi L to a level face, half that to a wall.
+  const Vec3f radiance = (light.sky.zenith + light.sky.horizon) * 0.5f;
+  std::vector<BakedLight> out;
+  out.reserve(scene.light_vertices);
+  for (const PlacedMesh& piece : scene.placed) {
+    for (const PreparedVertex& v : scene.meshes[piece.mesh].vertices) {
+      const Vec3f n(piece.world_from_mesh.rotation.rotate(Vec3(v.normal)));
+      const float e = kPi * luminance(radiance) * (0.55f + 0.45f * n.z);
+      out.push_back(pack_light(n * e, radiance));
+    }
+  }
+  return out;
+}
+
+struct Baker::State {
+  State(const PreparedScene& s, const LightModel& l, const BakeOptions& o)
+      : scene(s), light(l), options(o), rays(s), directions(cosine_directions(o.rays)) {}
+
+  const PreparedScene& scene;
+  LightModel light;
+  BakeOptions options;
+  RayScene rays;
+  std::vector<Vec3f> directions;
+  std::vector<Point> points;                 // of all placed meshes
+  std::vector<std::uint32_t> first_point;    // of each placed mesh
+  std::vector<std::uint32_t> triangle_point;  // nearest bake point of each triangle of `rays`
+  std::vector<Vec3f> triangle_albedo;
+  std::vector<std::uint32_t> hits;           // rays a point: triangle, kSky or kInside
+  std::vector<std::uint8_t> valid;           // one a point
+  std::vector<Vec3f> direct, indirect, vector;  // one a point; klx
+  std::vector<Vec3f> radiosity;              // one a triangle of `rays`, over pi: kcd/m2
+
+  void list_points();
+  void list_triangles();
+  Vec3f direction_of(std::size_t point, std::size_t ray) const;
+  void trace(std::size_t point);
+  void gather(std::size_t point);
+  void update_radiosity();
+  void fill_invalid();
+};
+
+void Baker::State::list_points() {
+  for (const PlacedMesh& piece : scene.placed) {
+    first_point.push_back(std::uint32_t(points.size()));
+    for (const BakePoint& p : scene.meshes[piece.mesh].bake_points)
+      points.push_back({Vec3f(piece.world_from_mesh * (Vec3(p.position) * piece.scale)),
+                        Vec3f(piece.world_from_mesh.rotation.rotate(Vec3(p.normal)))});
+  }
+  hits.resize(points.size() * std::size_t(options.rays));
+  valid.assign(points.size(), 1);
+  direct.resize(points.size());
+  indirect.resize(points.size());
+  vector.resize(points.size());
+}
+
+void Baker::State::list_triangles() {
+  const std::vector<Look>& looks = all_looks();
+  for (const RayScene::Triangle& t : rays.triangles()) {
+    const PreparedMesh& mesh = scene.meshes[scene.placed[t.placed].mesh];
+    const PreparedTriangle& source = mesh.triangles[t.source];
+    triangle_point.push_back(first_point[t.placed] +
+                             mesh.vertices[source.vertices[0]].bake_points[0]);
+    triangle_albedo.push_back(mean_albedo(looks[source.material]));
+  }
+  radiosity.resize(triangle_point.size());
+}
+
+Vec3f Baker::State::direction_of(std::size_t point, std::size_t ray) const {
+  Vec3f x, y;
+  const float turn = lattice_value(int(point), int(point >> 31), std::uint32_t(options.seed));
+  basis_about(points[point].normal, turn, x, y);
+  const Vec3f& d = directions[ray];
+  return x * d.x + y * d.y + points[point].normal * d.z;
+}
+
+void Baker::State::trace(std::size_t i) {
+  const Point& p = points[i];
+  const Vec3f from = p.position + p.normal * kLift;
+  const std::size_t count = directions.size();
+  std::size_t inside = 0;
+  for (std::size_t r = 0; r < count; ++r) {
+    const RayScene::Hit hit = rays.cast(from, direction_of(i, r), 0.0005f, kFarthest);
+    std::uint32_t code = hit.triangle == RayScene::kNone ? kSky : hit.triangle;
+    if (hit.triangle != RayScene::kNone && hit.back) code = kInside, ++inside;
+    hits[i * count + r] = code;
+  }
+  valid[i] = float(inside) <= kMaxInside * float(count);
+  const LightModel::Sample sample = light.at(p.position);
+  const float facing = dot(sample.to_light, p.normal);
+  const bool lit = valid[i] && facing > 0 && luminance(sample.illuminance) > 0 &&
+                   !rays.blocked(from + p.normal * 0.01f, sample.to_light, 0.001f,
+                                 std::min(sample.distance * 0.999f, kFarthest));
+  direct[i] = lit ? sample.illuminance * facing : Vec3f();
+}
+
+// Illuminance E = pi / N sum L, and the vector V with E(n') = dot(n', V) for normals near n:
+// V = pi / N sum L w / (n.w), its length kept in check where w grazes the surface.
+void Baker::State::gather(std::size_t i) {
+  Vec3f sum, direction;
+  const std::size_t count = directions.size();
+  for (std::size_t r = 0; r < count; ++r) {
+    const std::uint32_t code = hits[i * count + r];
+    if (code == kInside) continue;
+    const Vec3f w = direction_of(i, r);
+    const Vec3f l = code == kSky ? light.sky.radiance(w) : radiosity[code];
+    sum += l;
+    direction += w * (luminance(l) / std::max(directions[r].z, 0.35f));
+  }
+  const float scale = kPi / float(count);
+  indirect[i] = sum * scale;
+  const float along = dot(direction, points[i].normal) * scale;
+  const float want = luminance(indirect[i]);
+  // Exact for the vertex's own normal whatever the clamping did.
+  vector[i] = direction * scale + points[i].normal * (want - along);
+}
+
+void Baker::State::update_radiosity() {
+  for (std::size_t t = 0; t < radiosity.size(); ++t) {
+    const std::uint32_t p = triangle_point[t];
+    radiosity[t] = times(triangle_albedo[t], direct[p] + indirect[p]) * (1 / kPi);
+  }
+}
+
+// A point inside a neighbour takes the light of the nearest valid one of its own piece.
+void Baker::State::fill_invalid() {
+  first_point.push_back(std::uint32_t(points.size()));
+  for (std::size_t piece = 0; piece < scene.placed.size(); ++piece) {
+    for (std::size_t i = first_point[piece]; i < first_point[piece + 1]; ++i) {
+      if (valid[i]) continue;
+      std::size_t best = i;
+      float nearest = 1e30f;
+      for (std::size_t k = first_point[piece]; k < first_point[piece + 1]; ++k) {
+        const float d = distance(points[k].position, points[i].position) *
+                        (1.5f - 0.5f * dot(points[k].normal, points[i].normal));
+        if (valid[k] && d < nearest) nearest = d, best = k;
+      }
+      indirect[i] = best == i ? Vec3f() : indirect[best] * 0.5f;
+      vector[i] = points[i].normal * luminance(indirect[i]);
+    }
+  }
+  first_point.pop_back();
+}
+
+Baker::Baker(const PreparedScene& scene, const LightModel& light, const BakeOptions& options,
+             const Progress& progress)
+    : state_(std::make_unique<State>(scene, light, options)) {
+  State& s = *state_;
+  s.list_points();
+  s.list_triangles();
+  const std::size_t jobs = (s.points.size() + kChunk - 1) / kChunk;
+  const auto over_points = [&](std::size_t first_job, std::size_t last_job, auto&& work) {
+    parallel_for(last_job - first_job, options.threads, [&](std::size_t job) {
+      const std::size_t first = (first_job + job) * kChunk;
+      for (std::size_t i = first; i < std::min(first + kChunk, s.points.size()); ++i) work(i);
+    });
+  };
+  constexpr std::size_t kSlice = 64;  // jobs between two reports
+  for (std::size_t job = 0; job < jobs; job += kSlice) {
+    over_points(job, std::min(job + kSlice, jobs), [&](std::size_t i) { s.trace(i); });
+    if (progress) progress(0.9 * double(std::min(job + kSlice, jobs)) / double(jobs));
+  }
+  for (int bounce = 0; bounce < options.bounces; ++bounce) {
+    s.update_radiosity();
+    over_points(0, jobs, [&](std::size_t i) { s.gather(i); });
+    s.fill_invalid();
+  }
+  s.update_radiosity();
+  s.hits.clear();
+  s.hits.shrink_to_fit();
+  if (progress) progress(1);
+}
+
+Baker::~Baker() = default;
+
+std::vector<BakedLight> Baker::vertex_light() const {
+  const State& s = *state_;
+  std::vector<BakedLight> out(s.scene.light_vertices);
+  parallel_for(s.scene.placed.size(), s.options.threads, [&](std::size_t i) {
+    const PlacedMesh& piece = s.scene.placed[i];
+    const PreparedMesh& mesh = s.scene.meshes[piece.mesh];
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      Vec3f vector, colour;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const float w = mesh.vertices[v].bake_weights[k];
+        const std::size_t p = s.first_point[i] + mesh.vertices[v].bake_points[k];
+        vector += s.vector[p] * w;
+        colour += s.indirect[p] * w;
+      }
+      out[piece.first_light + v] = pack_light(vector, colour);
+    }
+  });
+  return out;
+}
+
+Vec3f Baker::air_radiance(const Vec3f& point) const {
+  const State& s = *state_;
+  constexpr int kRays = 96;
+  Vec3f sum;
+  for (int i = 0; i < kRays; ++i) {
+    const double z = 1 - (2 * i + 1.0) / kRays, turn = i * 0.6180339887498949;
+    const portable::SinCos a = portable::sincos(2 * portable::kPi * (turn - std::floor(turn)));
+    const double r = std::sqrt(1 - z * z);
+    const Vec3f w(float(r * a.cos), float(r * a.sin), float(z));
+    const RayScene::Hit hit = s.rays.cast(point, w, 0, kFarthest);
+    if (hit.triangle == RayScene::kNone) sum += s.light.sky.radiance(w);
+    else if (!hit.back) sum += s.radiosity[hit.triangle];
+  }
+  Vec3f mean = sum * (1.0f / kRays);
+  // The main light itself, scattered evenly.
+  const LightModel::Sample sample = s.light.at(point);
+  if (!s.rays.blocked(point, sample.to_light, 0, std::min(sample.distance * 0.999f, kFarthest)))
+    mean += sample.illuminance * (1 / (4 * kPi));
+  return mean;
+}
+
+}  // namespace rubble

@@ -1,0 +1,90 @@
+// The OpenGL 4.5 core entry points in use, looked up at run time so that a machine without a
+// driver gets a message instead of a program that does not start. Internal to render/.
+#pragma once
+
+#include <GL/glcorearb.h>
+
+namespace rubble {
+
+#define RUBBLE_GL_FUNCTIONS(X)                                                    \
+  X(BindBufferBase, BINDBUFFERBASE)                                               \
+  X(BindBuffer, BINDBUFFER)                                                       \
+  X(BindFramebuffer, BINDFRAMEBUFFER)                                             \
+  X(BindTextureUnit, BINDTEXTUREUNIT)                                             \
+  X(BindVertexArray, BINDVERTEXARRAY)                                             \
+  X(CheckNamedFramebufferStatus, CHECKNAMEDFRAMEBUFFERSTATUS)                     \
+  X(ClearNamedFramebufferfv, CLEARNAMEDFRAMEBUFFERFV)                             \
+  X(ClearNamedFramebufferuiv, CLEARNAMEDFRAMEBUFFERUIV)                           \
+  X(ClipControl, CLIPCONTROL)                                                     \
+  X(CompileShader, COMPILESHADER)                                                 \
+  X(CreateBuffers, CREATEBUFFERS)                                                 \
+  X(CreateFramebuffers, CREATEFRAMEBUFFERS)                                       \
+  X(CreateProgram, CREATEPROGRAM)                                                 \
+  X(CreateShader, CREATESHADER)                                                   \
+  X(CreateTextures, CREATETEXTURES)                                               \
+  X(CreateVertexArrays, CREATEVERTEXARRAYS)                                       \
+  X(CullFace, CULLFACE)                                                           \
+  X(DeleteBuffers, DELETEBUFFERS)                                                 \
+  X(DeleteFramebuffers, DELETEFRAMEBUFFERS)                                       \
+  X(DeleteProgram, DELETEPROGRAM)                                                 \
+  X(DeleteShader, DELETESHADER)                                                   \
+  X(DeleteTextures, DELETETEXTURES)                                               \
+  X(DeleteVertexArrays, DELETEVERTEXARRAYS)                                       \
+  X(DepthFunc, DEPTHFUNC)                                                         \
+  X(DepthMask, DEPTHMASK)                                                         \
+  X(Disable, DISABLE)                                                             \
+  X(DrawArrays, DRAWARRAYS)                                                       \
+  X(Enable, ENABLE)                                                               \
+  X(EnableVertexArrayAttrib, ENABLEVERTEXARRAYATTRIB)                             \
+  X(Finish, FINISH)                                                               \
+  X(Flush, FLUSH)                                                                 \
+  X(FrontFace, FRONTFACE)                                                         \
+  X(GenerateTextureMipmap, GENERATETEXTUREMIPMAP)                                 \
+  X(GetError, GETERROR)                                                           \
+  X(GetIntegerv, GETINTEGERV)                                                     \
+  X(GetProgramInfoLog, GETPROGRAMINFOLOG)                                         \
+  X(GetProgramiv, GETPROGRAMIV)                                                   \
+  X(GetShaderInfoLog, GETSHADERINFOLOG)                                           \
+  X(GetShaderiv, GETSHADERIV)                                                     \
+  X(GetString, GETSTRING)                                                         \
+  X(GetTextureImage, GETTEXTUREIMAGE)                                             \
+  X(GetUniformBlockIndex, GETUNIFORMBLOCKINDEX)                                   \
+  X(GetUniformLocation, GETUNIFORMLOCATION)                                       \
+  X(LinkProgram, LINKPROGRAM)                                                     \
+  X(AttachShader, ATTACHSHADER)                                                   \
+  X(MultiDrawElementsIndirect, MULTIDRAWELEMENTSINDIRECT)                         \
+  X(NamedBufferData, NAMEDBUFFERDATA)                                             \
+  X(NamedFramebufferDrawBuffers, NAMEDFRAMEBUFFERDRAWBUFFERS)                     \
+  X(NamedFramebufferReadBuffer, NAMEDFRAMEBUFFERREADBUFFER)                       \
+  X(NamedFramebufferTexture, NAMEDFRAMEBUFFERTEXTURE)                             \
+  X(NamedFramebufferTextureLayer, NAMEDFRAMEBUFFERTEXTURELAYER)                   \
+  X(PixelStorei, PIXELSTOREI)                                                     \
+  X(ProgramUniform1i, PROGRAMUNIFORM1I)                                           \
+  X(ReadPixels, READPIXELS)                                                       \
+  X(ShaderSource, SHADERSOURCE)                                                   \
+  X(TextureBuffer, TEXTUREBUFFER)                                                 \
+  X(TextureParameteri, TEXTUREPARAMETERI)                                         \
+  X(TextureStorage1D, TEXTURESTORAGE1D)                                           \
+  X(TextureStorage2D, TEXTURESTORAGE2D)                                           \
+  X(TextureStorage3D, TEXTURESTORAGE3D)                                           \
+  X(TextureSubImage1D, TEXTURESUBIMAGE1D)                                         \
+  X(TextureSubImage2D, TEXTURESUBIMAGE2D)                                         \
+  X(TextureSubImage3D, TEXTURESUBIMAGE3D)                                         \
+  X(UniformBlockBinding, UNIFORMBLOCKBINDING)                                     \
+  X(UseProgram, USEPROGRAM)                                                       \
+  X(VertexArrayAttribBinding, VERTEXARRAYATTRIBBINDING)                           \
+  X(VertexArrayAttribFormat, VERTEXARRAYATTRIBFORMAT)                             \
+  X(VertexArrayAttribIFormat, VERTEXARRAYATTRIBIFORMAT)                           \
+  X(VertexArrayBindingDivisor, VERTEXARRAYBINDINGDIVISOR)                         \
+  X(VertexArrayElementBuffer, VERTEXARRAYELEMENTBUFFER)                           \
+  X(VertexArrayVertexBuffer, VERTEXARRAYVERTEXBUFFER)                             \
+  X(Viewport, VIEWPORT)
+
+// The functions of one context. GL is a set of calls on a current context, so the table is const.
+struct Gl {
+#define RUBBLE_GL_MEMBER(name, upper) PFNGL##upper##PROC name = nullptr;
+  RUBBLE_GL_FUNCTIONS(RUBBLE_GL_MEMBER)
+#undef RUBBLE_GL_MEMBER
+};
+
+}  // namespace rubble

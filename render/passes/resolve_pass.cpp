@@ -1,0 +1,231 @@
+#include "render/passes/resolve_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "kernel/base/error.h"
+#include "kernel/base/portable_math.h"
+#include "render/looks.h"
+#include "render/shader.h"
+
+namespace rubble {
+
+namespace {
+
+constexpr std::size_t kMaxLooks = 12;
+
+// Mirrors shaders/frame.glsl.
+struct FrameBlock {
+  float world_from_optical[3][4];
+  float lens[4], view[4];
+  float light_position[4], light_axis[4], light_colour[4];
+  float lamp_position[4], lamp_axis[4], lamp_colour[4];
+  float fog[4], fog_ambient[4];
+  float sky_zenith[4], sky_horizon[4], sky_glow[4], sun_direction[4];
+  float shadow_rows[24][4];
+  float shadow_texel[4];
+  float looks[kMaxLooks * 4][4];
+};
+
+void set(float (&out)[4], const Vec3f& v, float w = 0) {
+  out[0] = v.x, out[1] = v.y, out[2] = v.z, out[3] = w;
+}
+
+void fill_view(FrameBlock& block, const ViewProjection& view, float exposure) {
+  const Mat3 r = view.world_from_optical.rotation.matrix();
+  for (int i = 0; i < 3; ++i)
+    set(block.world_from_optical[i], Vec3f(r.rows[i]), float(view.world_from_optical.translation[i]));
+  const Intrinsics& k = view.intrinsics;
+  set(block.lens, {float(1 / k.fx), float(1 / k.fy), float(k.cx)}, float(k.cy));
+  set(block.view, {kNearPlane, exposure, float(k.width)}, float(k.height));
+}
+
+void fill_light(FrameBlock& block, const FrameLight& frame, const Pose& world_from_camera) {
+  const LightModel& light = *frame.light;
+  set(block.light_position, light.position);
+  set(block.light_axis, light.axis, light.cos_outer);
+  set(block.light_colour, light.colour, 1 / std::max(light.cos_inner - light.cos_outer, 1e-6f));
+  const double half = 0.5 * frame.lamp.cone_deg * portable::kPi / 180;
+  set(block.lamp_position, Vec3f(world_from_camera * frame.lamp.position));
+  set(block.lamp_axis, Vec3f(world_from_camera.rotation.rotate({1, 0, 0})),
+      float(1 / (1 - portable::cos(half))));
+  // White light-emitting diodes, a little cold; luminance 1 by Rec. 709 weights.
+  const Vec3f tint(0.96f, 1.0f, 1.12f);
+  set(block.lamp_colour, tint * float(frame.lamp.intensity_cd * 1e-3 /
+                                      double(dot(tint, Vec3f(0.2126f, 0.7152f, 0.0722f)))));
+  set(block.fog, {float(frame.air.fog_density), float(frame.air.fog_intensity), 0});
+  set(block.fog_ambient, frame.air_ambient * float(frame.air.fog_intensity));
+  set(block.sky_zenith, light.sky.zenith);
+  set(block.sky_horizon, light.sky.horizon);
+  set(block.sky_glow, light.sky.glow);
+  set(block.sun_direction, light.sky.sun_direction);
+  set(block.shadow_texel, {frame.shadow->texel, 0, 0});
+  for (std::size_t v = 0; v < frame.shadow->clip_from_world.size(); ++v)
+    std::memcpy(block.shadow_rows[v * 4], frame.shadow->clip_from_world[v].data(),
+                sizeof block.shadow_rows[0] * 4);
+}
+
+void fill_looks(FrameBlock& block, int texture_size) {
+  const std::vector<Look>& looks = all_looks();
+  for (std::size_t i = 0; i < looks.size() && i < kMaxLooks; ++i) {
+    const Look& l = looks[i];
+    set(block.looks[i * 4], Vec3f(l.dark), 1 / l.tile);
+    set(block.looks[i * 4 + 1], Vec3f(l.light), l.bump);
+    set(block.looks[i * 4 + 2], Vec3f(l.accent), l.gloss);
+    set(block.looks[i * 4 + 3], {float(l.pattern), l.dust, l.variation},
+        std::log2(float(texture_size) / l.tile));
+  }
+}
+
+ShaderDefines variant(const FrameLight& light) {
+  ShaderDefines defines = {{"LIGHT_TYPE", std::to_string(int(light.light->type))},
+                           {"SHADOW_VIEWS", std::to_string(light.shadow->clip_from_world.size())},
+                           {"GLOSS", ""}};
+  if (light.lamp.on && light.lamp.intensity_cd > 0) defines.push_back({"LAMP", ""});
+  if (light.air.fog_density > 0) defines.push_back({"FOG", ""});
+  return defines;
+}
+
+// Light of the lamp that the air throws back, by how far one looks: per unit of intensity,
+//   L(d) = density * brightness / (4 pi) * integral_0^d exp(-2 density r) / (r^2 + b^2) dr,
+// for isotropic scattering and a lamp b beside the lens. Tabled over d / (d + 2).
+std::vector<float> lamp_glow_table(const AirSpec& air, const LampSpec& lamp, int size) {
+  const double b2 = std::max(dot(lamp.position, lamp.position), 0.02 * 0.02);
+  const double factor = air.fog_density * air.fog_intensity / (4 * portable::kPi);
+  std::vector<float> table;
+  double sum = 0, from = 0;
+  for (int i = 0; i < size; ++i) {
+    const double u = std::min((i + 0.5) / size, 0.9995);
+    const double to = 2 * u / (1 - u);
+    constexpr int kSteps = 64;
+    for (int s = 0; s < kSteps; ++s) {
+      const double r = from + (to - from) * (s + 0.5) / kSteps;
+      sum += (to - from) / kSteps * portable::exp(std::max(-2 * air.fog_density * r, -690.0)) /
+             (r * r + b2);
+    }
+    from = to;
+    table.push_back(float(factor * sum));
+  }
+  return table;
+}
+
+GlTexture upload_looks(const Gl& gl, const std::vector<PatternImage>& patterns) {
+  const int size = patterns.front().size;
+  GlTexture texture(gl, GLenum(GL_TEXTURE_2D_ARRAY));
+  const int levels = int(std::lround(std::log2(size))) + 1;
+  gl.TextureStorage3D(texture.name(), levels, GL_RGBA8, size, size, GLsizei(patterns.size()));
+  for (std::size_t i = 0; i < patterns.size(); ++i)
+    gl.TextureSubImage3D(texture.name(), 0, 0, 0, GLint(i), size, size, 1, GL_RGBA,
+                         GL_UNSIGNED_BYTE, patterns[i].texels.data());
+  gl.GenerateTextureMipmap(texture.name());
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  check_gl(gl, "uploading the textures");
+  return texture;
+}
+
+GlTexture upload_glow(const Gl& gl, const std::vector<float>& table) {
+  GlTexture texture = make_target(gl, GL_R32F, int(table.size()), 1);
+  gl.TextureSubImage2D(texture.name(), 0, 0, 0, GLsizei(table.size()), 1, GL_RED, GL_FLOAT,
+                       table.data());
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return texture;
+}
+
+enum Unit { kVisibility, kDepth, kVertices, kTriangles, kPlaced, kLight, kLooks, kShadow, kGlow };
+
+GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
+  GlProgram program =
+      make_program(gl, "fullscreen.vert.glsl", "resolve.frag.glsl", defines);
+  bind_samplers(gl, program, {{"visibility", kVisibility}, {"depth_values", kDepth},
+                              {"vertex_table", kVertices}, {"triangle_table", kTriangles},
+                              {"placed_table", kPlaced}, {"light_table", kLight},
+                              {"look_textures", kLooks}, {"shadow_map", kShadow},
+                              {"fog_lamp", kGlow}});
+  gl.UniformBlockBinding(program.name(), gl.GetUniformBlockIndex(program.name(), "Frame"), 0);
+  return program;
+}
+
+}  // namespace
+
+ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,
+                         const std::vector<PatternImage>& patterns)
+    : gl_(gl), geometry_(geometry), frame_block_(gl), empty_array_(gl),
+      looks_(upload_looks(gl, patterns)),
+      fog_lamp_(upload_glow(gl, lamp_glow_table(light.air, light.lamp, 512))),
+      texture_size_(patterns.front().size) {
+  const ShaderDefines defines = variant(light);
+  display_ = make_resolve_program(gl, defines);
+}
+
+void ResolvePass::resize(int width, int height) {
+  if (width == width_ && height == height_) return;
+  width_ = width, height_ = height;
+  colour_ = make_target(gl_, GL_RGBA8, width, height);
+  target_ = GlFramebuffer(gl_);
+  gl_.NamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, colour_.name(), 0);
+  check_gl(gl_, "making the colour buffer");
+}
+
+void ResolvePass::draw_with(const GlProgram& program, const GlFramebuffer& target,
+                            const ViewProjection& view, const Pose& world_from_camera,
+                            const VisibilityPass& visibility, const FrameLight& light,
+                            float exposure) {
+  FrameBlock block{};
+  fill_view(block, view, exposure);
+  fill_light(block, light, world_from_camera);
+  fill_looks(block, texture_size_);
+  gl_.NamedBufferData(frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
+  gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
+  const GLuint textures[] = {visibility.ids().name(), visibility.depth().name(),
+                             geometry_.vertices_view.name(), geometry_.triangles_view.name(),
+                             geometry_.placed_view.name(), geometry_.light_view.name(),
+                             looks_.name(), light.shadow->depth.name(), fog_lamp_.name()};
+  for (GLuint unit = 0; unit < sizeof textures / sizeof textures[0]; ++unit)
+    gl_.BindTextureUnit(unit, textures[unit]);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
+  gl_.Viewport(0, 0, view.intrinsics.width, view.intrinsics.height);
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.UseProgram(program.name());
+  gl_.BindVertexArray(empty_array_.name());
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void ResolvePass::draw(const ViewProjection& view, const Pose& world_from_camera,
+                       const VisibilityPass& visibility, const FrameLight& light, float exposure) {
+  resize(view.intrinsics.width, view.intrinsics.height);
+  draw_with(display_, target_, view, world_from_camera, visibility, light, exposure);
+}
+
+void ResolvePass::read(std::vector<std::uint8_t>& rgba) {
+  rgba.resize(std::size_t(width_) * std::size_t(height_) * 4);
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
+  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  check_gl(gl_, "reading the image back");
+}
+
+std::vector<float> ResolvePass::draw_linear(const ViewProjection& view,
+                                            const Pose& world_from_camera,
+                                            const VisibilityPass& visibility,
+                                            const FrameLight& light) {
+  if (!linear_) {
+    ShaderDefines defines = variant(light);
+    defines.push_back({"LINEAR", ""});
+    linear_ = make_resolve_program(gl_, defines);
+  }
+  const int width = view.intrinsics.width, height = view.intrinsics.height;
+  const GlTexture texture = make_target(gl_, GL_RGBA32F, width, height);
+  const GlFramebuffer target(gl_);
+  gl_.NamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+  draw_with(linear_, target, view, world_from_camera, visibility, light, 1);
+  std::vector<float> out(std::size_t(width) * std::size_t(height) * 4);
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target.name());
+  gl_.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, out.data());
+  check_gl(gl_, "reading the linear image back");
+  return out;
+}
+
+}  // namespace rubble

@@ -1,0 +1,56 @@
+// Colours every pixel once, from the triangle that the visibility pass found there.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/geometry.h"
+#include "render/lighting.h"
+#include "render/passes/shadow_pass.h"
+#include "render/passes/visibility_pass.h"
+#include "render/textures.h"
+
+namespace rubble {
+
+struct FrameLight {
+  const LightModel* light = nullptr;
+  const ShadowMap* shadow = nullptr;
+  LampSpec lamp;
+  AirSpec air;
+  Vec3f air_ambient;  // mean radiance of all directions at the camera; unit: kcd/m2
+};
+
+class ResolvePass {
+ public:
+  ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,
+              const std::vector<PatternImage>& patterns);
+
+  // Display colours: 4 bytes a pixel, the last as shaders/tone.glsl says. exposure: what luminance
+  // in kcd/m2 is multiplied by.
+  void draw(const ViewProjection& view, const Pose& world_from_camera,
+            const VisibilityPass& visibility, const FrameLight& light, float exposure);
+  void read(std::vector<std::uint8_t>& rgba);
+
+  // Radiance before exposure and tone mapping, 4 floats a pixel (R, G, B in kcd/m2).
+  std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
+                                 const VisibilityPass& visibility, const FrameLight& light);
+
+ private:
+  void resize(int width, int height);
+  void draw_with(const GlProgram& program, const GlFramebuffer& target, const ViewProjection& view,
+                 const Pose& world_from_camera, const VisibilityPass& visibility,
+                 const FrameLight& light, float exposure);
+
+  const Gl& gl_;
+  const GpuGeometry& geometry_;
+  GlProgram display_, linear_;
+  GlBuffer frame_block_;
+  GlVertexArray empty_array_;
+  GlTexture looks_, fog_lamp_;
+  GlTexture colour_;
+  GlFramebuffer target_;
+  int width_ = 0, height_ = 0;
+  int texture_size_ = 1;
+};
+
+}  // namespace rubble

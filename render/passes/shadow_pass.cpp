@@ -1,0 +1,162 @@
+#include "render/passes/shadow_pass.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/base/error.h"
+#include "render/passes/visibility_pass.h"
+#include "render/shader.h"
+
+namespace rubble {
+
+namespace {
+
+using Rows = std::array<std::array<double, 4>, 4>;
+
+constexpr double kNearest = 0.05;    // unit: m; nothing nearer to a lamp throws a shadow
+constexpr double kFarthest = 500;    // unit: m
+
+struct Basis {
+  Vec3 right, up, forward;
+};
+
+Basis basis_along(const Vec3& forward) {
+  const Vec3 side = std::fabs(forward.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
+  const Vec3 right = normalized(cross(forward, side));
+  return {right, cross(right, forward), forward};
+}
+
+std::array<double, 4> row(const Vec3& v, const Vec3& origin, double scale) {
+  return {v.x * scale, v.y * scale, v.z * scale, -dot(v, origin) * scale};
+}
+
+// A box along the light around the pieces and what they shade nearby.
+Rows directional_view(const Aabb& bounds, const LightModel& light, int size, float& texel) {
+  const Basis b = basis_along(Vec3(light.axis));
+  const Vec3 middle = (bounds.min + bounds.max) * 0.5;
+  double width = 0.1, height = 0.1, depth = 0.1;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
+                 corner & 4 ? bounds.max.z : bounds.min.z);
+    width = std::max(width, std::fabs(dot(p - middle, b.right)));
+    height = std::max(height, std::fabs(dot(p - middle, b.up)));
+    depth = std::max(depth, std::fabs(dot(p - middle, b.forward)));
+  }
+  texel = float(2 * std::max(width, height) / size);
+  Rows rows{row(b.right, middle, 1 / width), row(b.up, middle, 1 / height),
+            row(b.forward, middle, 0.5 / (depth * 1.01)), {0, 0, 0, 1}};
+  rows[2][3] += 0.5;
+  // What lies behind the box (the ground in a long shadow) is still compared: see DEPTH_CLAMP.
+  return rows;
+}
+
+Rows perspective_view(const Vec3& eye, const Basis& b, double tangent) {
+  const double a = kFarthest / (kFarthest - kNearest), c = -kNearest * a;
+  Rows rows{row(b.right, eye, 1 / tangent), row(b.up, eye, 1 / tangent), row(b.forward, eye, a),
+            row(b.forward, eye, 1)};
+  rows[2][3] += c;
+  return rows;
+}
+
+std::vector<Rows> make_views(const PreparedScene& scene, const LightModel& light, int size,
+                             float& texel) {
+  if (light.type == LightType::directional) {
+    Aabb bounds = scene.bounds;
+    if (bounds.empty()) bounds.include({0, 0, 0});
+    return {directional_view(bounds, light, size, texel)};
+  }
+  const Vec3 eye(light.position);
+  const bool wide = light.type == LightType::point || light.cos_outer < 0.64f;
+  if (!wide) {
+    const double c = double(light.cos_outer);
+    const double tangent = std::sqrt(1 - c * c) / c * 1.02;
+    texel = float(2 * tangent / size);
+    return {perspective_view(eye, basis_along(Vec3(light.axis)), tangent)};
+  }
+  texel = 2.0f / float(size);
+  std::vector<Rows> views;
+  for (int face = 0; face < 6; ++face) {
+    Vec3 forward;
+    forward[face / 2] = face % 2 ? -1 : 1;
+    views.push_back(perspective_view(eye, basis_along(forward), 1.005));
+  }
+  return views;
+}
+
+// rows * world_from_mesh * scale, as a draw record.
+DrawRecord make_record(const Rows& rows, const PlacedMesh& piece) {
+  const Mat3 r = piece.world_from_mesh.rotation.matrix() * piece.scale;
+  const Vec3 t = piece.world_from_mesh.translation;
+  DrawRecord record{};
+  float* out[4] = {record.clip_x, record.clip_y, record.clip_z, record.clip_w};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3 v(rows[i][0], rows[i][1], rows[i][2]);
+    for (int k = 0; k < 3; ++k) out[i][k] = float(dot(v, r.column(k)));
+    out[i][3] = float(dot(v, t) + rows[i][3]);
+  }
+  return record;
+}
+
+void draw_view(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry,
+               const Rows& rows) {
+  DrawList list(gl, geometry);
+  for (const PlacedMesh& piece : scene.placed) {
+    if (piece.id == kGroundId) continue;  // nothing lies under it
+    const PreparedLevel& level = scene.meshes[piece.mesh].levels.front();
+    list.add_record(make_record(rows, piece));
+    list.add_run(geometry.first_index[piece.mesh] + level.first_triangle * 3,
+                 level.triangle_count * 3);
+  }
+  list.draw();
+}
+
+}  // namespace
+
+ShadowMap draw_shadow_map(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry,
+                          const LightModel& light, int size) {
+  GLint most = 0;
+  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  size = std::min(size, int(most));
+  ShadowMap map;
+  const std::vector<Rows> views = make_views(scene, light, size, map.texel);
+  if (views.size() > 1) size /= 2, map.texel *= 2;
+  map.depth = GlTexture(gl, GLenum(GL_TEXTURE_2D_ARRAY));
+  const GLuint name = map.depth.name();
+  gl.TextureStorage3D(name, 1, GL_DEPTH_COMPONENT32F, size, size, GLsizei(views.size()));
+  gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl.TextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl.TextureParameteri(name, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  gl.TextureParameteri(name, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  check_gl(gl, "making the shadow map");
+  const GlProgram program =
+      make_program(gl, "visibility.vert.glsl", "visibility.frag.glsl", {{"SHADOW", ""}});
+  gl.UseProgram(program.name());
+  gl.Viewport(0, 0, size, size);
+  gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.Enable(GL_DEPTH_CLAMP);
+  gl.DepthFunc(GL_LESS);
+  gl.DepthMask(GL_TRUE);
+  gl.Disable(GL_CULL_FACE);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    GlFramebuffer target(gl);
+    gl.NamedFramebufferTextureLayer(target.name(), GL_DEPTH_ATTACHMENT, name, 0, GLint(i));
+    gl.NamedFramebufferDrawBuffers(target.name(), 0, nullptr);
+    const float far_value = 1;
+    gl.ClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &far_value);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.name());
+    draw_view(gl, scene, geometry, views[i]);
+    gl.Finish();
+    std::array<std::array<float, 4>, 4> rows;
+    for (std::size_t r = 0; r < 4; ++r)
+      for (std::size_t c = 0; c < 4; ++c) rows[r][c] = float(views[i][r][c]);
+    map.clip_from_world.push_back(rows);
+  }
+  gl.Disable(GL_DEPTH_CLAMP);
+  check_gl(gl, "drawing the shadow map");
+  return map;
+}
+
+}  // namespace rubble

@@ -1,0 +1,67 @@
+// Draws frames of a scene: colour and exact depth of the same pose.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "render/frame.h"
+#include "render/gl_context.h"
+#include "render/looks.h"
+#include "render/scene.h"
+
+namespace rubble {
+
+struct RenderOptions {
+  int threads = 1;   // for preparing and baking; the result does not depend on it
+  bool bake = true;  // light by way of the sky and other surfaces; false: open sky everywhere
+  int bake_rays = 48;        // a bake point; range: 8 to 1024
+  int shadow_size = 4096;    // side of the main light's shadow map; unit: texel
+  int texture_size = 512;    // side of the procedural textures; a power of two
+  bool occlusion_culling = true;
+  double coarse_below = 0;   // allow coarser levels for triangles about this small; unit: pixel;
+                             // 0: the finest always, so that depth is that of the true surface
+  double fixed_exposure = 0;  // factor on luminance in kcd/m2; 0: automatic
+};
+
+// The same view before exposure and tone mapping, for tests and sensors.
+struct LinearFrame {
+  int width = 0, height = 0;
+  std::vector<float> rgb;           // radiance; unit: kcd/m2
+  std::vector<float> depth;         // as in Frame
+  std::vector<std::uint32_t> instance;  // SceneInstance::id; kNoInstance, kGroundInstance
+};
+inline constexpr std::uint32_t kNoInstance = 0xfffffffeu;
+inline constexpr std::uint32_t kGroundInstance = 0xffffffffu;
+
+struct RenderTimes {  // of the last frame; unit: ms
+  double visibility = 0, resolve = 0, read = 0;
+  std::size_t triangles = 0;
+};
+
+class Renderer {
+ public:
+  // Called with the done fraction (0 to 1) while the scene is prepared.
+  using Progress = std::function<void(double)>;
+
+  // Prepares everything that does not depend on the camera. The context must outlive the renderer
+  // and be used by one thread at a time. Throws RunError: unknown look, out of memory.
+  Renderer(GlContext& context, const Scene& scene, const RenderOptions& options = {},
+           const Progress& progress = {});
+  ~Renderer();
+
+  // Exposure follows from frame to frame, so frames are to be asked for in order; a new Renderer
+  // starts afresh. Distortion in `intrinsics` is not applied: it must be zero.
+  Frame render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,
+               std::int64_t stamp_ns);
+  LinearFrame render_linear(const Pose& world_from_camera, const Intrinsics& intrinsics);
+
+  const RenderTimes& times() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace rubble

@@ -1,0 +1,81 @@
+// From "which triangle is here" to colour: surface, light, air, tone.
+// Variants: LIGHT_TYPE 0 directional, 1 spot, 2 point; SHADOW_VIEWS 1 or 6; LAMP; FOG; LINEAR
+// (kcd/m2 out, no tone mapping).
+#include "frame.glsl"
+#include "geometry.glsl"
+#include "lighting.glsl"
+#include "surface.glsl"
+#include "tone.glsl"
+
+uniform usampler2D visibility;
+uniform sampler2D depth_values;
+uniform sampler2D fog_lamp;  // in-scattered lamp light by distance
+
+layout(location = 0) out vec4 colour;
+
+vec3 shade(Surface s, vec3 world, vec3 to_eye) {
+  vec3 to_light;
+  vec3 e = light_at(world, to_light);
+  float facing = max(dot(s.normal, to_light), 0.0);
+  // A bumped normal must not catch light that the face itself cannot see.
+  facing *= clamp(dot(s.face_normal, to_light) * 8.0, 0.0, 1.0);
+  e *= facing * light_visible(world, s.face_normal);
+  vec3 glare = vec3(0.0);
+#ifdef GLOSS
+  glare += e * gloss_lobe(s, to_light, to_eye);
+#endif
+  e += s.ambient;
+#ifdef LAMP
+  vec3 to_lamp;
+  float lamp_distance;
+  vec3 lamp = lamp_at(world, to_lamp, lamp_distance);
+#ifdef FOG
+  lamp *= exp2(-1.442695 * fog.x * lamp_distance);
+#endif
+  lamp *= max(dot(s.normal, to_lamp), 0.0) * clamp(dot(s.face_normal, to_lamp) * 8.0, 0.0, 1.0);
+#ifdef GLOSS
+  glare += lamp * gloss_lobe(s, to_lamp, to_eye);
+#endif
+  e += lamp;
+#endif
+  return (e * s.albedo + glare) * 0.318310;
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  uvec2 seen = texelFetch(visibility, pixel, 0).xy;
+  // Direction with unit Z in the optical frame.
+  vec3 slope = vec3((vec2(pixel) - lens.zw) * lens.xy, 1.0);
+  vec3 ray = vec3(dot(world_from_optical[0].xyz, slope), dot(world_from_optical[1].xyz, slope),
+                  dot(world_from_optical[2].xyz, slope));
+  vec3 eye = vec3(world_from_optical[0].w, world_from_optical[1].w, world_from_optical[2].w);
+  float ray_length = length(slope);
+  vec3 direction = ray / ray_length;
+  vec3 radiance;
+  float far = 1e9;
+  vec3 ambient = sky_radiance(direction) * 3.14159;
+  if (seen.x == 0u) {
+    radiance = sky_radiance(direction);
+  } else {
+    float z = view.x / texelFetch(depth_values, pixel, 0).x;
+    vec3 world = eye + ray * z;
+    far = z * ray_length;
+    Surface s = find_surface(seen.x - 1u, seen.y, world, direction, z, vec2(pixel));
+    ambient = s.ambient;
+    radiance = shade(s, world, -direction);
+  }
+#ifdef FOG
+  float through = exp2(-1.442695 * fog.x * min(far, 1e6));
+  vec3 glow = fog_ambient.rgb * 0.6 + ambient * (0.4 * 0.318310 * fog.y);
+  radiance = radiance * through + glow * (1.0 - through);
+#ifdef LAMP
+  float x = (1.0 - dot(direction, lamp_axis.xyz)) * lamp_axis.w;
+  radiance += lamp_colour.rgb * (exp2(-x * x) * texture(fog_lamp, vec2(far / (far + 2.0), 0.5)).x);
+#endif
+#endif
+#ifdef LINEAR
+  colour = vec4(radiance, 1.0);
+#else
+  colour = develop(radiance * view.y);
+#endif
+}

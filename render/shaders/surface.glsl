@@ -1,0 +1,105 @@
+// What a pixel's surface is: normal, albedo and baked light, from the triangle it lies on.
+struct Surface {
+  vec3 normal, face_normal;  // world; with and without relief
+  vec3 albedo;
+  vec3 ambient;  // klx
+  float gloss;
+};
+
+uniform sampler2DArray look_textures;
+
+// Noise without visible order, from 0 to 1 (Jimenez 2014).
+float dither(vec2 pixel) {
+  return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+}
+
+float gloss_lobe(Surface s, vec3 to_light, vec3 to_eye) {
+  float d = max(dot(normalize(to_light + to_eye), s.normal), 0.0);
+  d *= d;
+  d *= d;
+  d *= d;
+  d *= d;
+  return s.gloss * d * d * 12.0;
+}
+
+Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, float z, vec2 pixel) {
+  Surface s;
+  // The point in the mesh frame.
+  int at = int(placed) * 4;
+  vec4 mx = uintBitsToFloat(texelFetch(placed_table, at));
+  vec4 my = uintBitsToFloat(texelFetch(placed_table, at + 1));
+  vec4 mz = uintBitsToFloat(texelFetch(placed_table, at + 2));
+  uvec4 mw = texelFetch(placed_table, at + 3);
+  float scale = uintBitsToFloat(mw.x);
+  vec4 h = vec4(world, 1.0);
+  vec3 p = vec3(dot(mx, h), dot(my, h), dot(mz, h));
+
+  // The triangle, and the weights of its corners.
+  uvec4 tri = texelFetch(triangle_table, int(triangle));
+  uvec4 c0 = texelFetch(vertex_table, int(tri.x));
+  uvec4 c1 = texelFetch(vertex_table, int(tri.y));
+  uvec4 c2 = texelFetch(vertex_table, int(tri.z));
+  vec3 a = uintBitsToFloat(c0.xyz);
+  vec3 ab = uintBitsToFloat(c1.xyz) - a, ac = uintBitsToFloat(c2.xyz) - a;
+  vec3 area = cross(ab, ac);
+  float inverse_area = 1.0 / max(dot(area, area), 1e-30);
+  vec3 ap = p - a;
+  float w1 = dot(cross(ap, ac), area) * inverse_area;
+  float w2 = dot(cross(ab, ap), area) * inverse_area;
+  w1 = clamp(w1, 0.0, 1.0);
+  w2 = clamp(w2, 0.0, 1.0 - w1);
+  float w0 = 1.0 - w1 - w2;
+  vec3 face = area * inversesqrt(max(dot(area, area), 1e-30));
+  vec3 smooth_normal = w0 * unpack_normal(c0.w) + w1 * unpack_normal(c1.w) +
+                       w2 * unpack_normal(c2.w);
+  smooth_normal = normalize(smooth_normal + 0.001 * face);
+
+  // Baked light.
+  vec2 rb0, rb1, rb2;
+  int first_light = int(mw.y);
+  vec3 l0 = unpack_light(texelFetch(light_table, int(tri.x) + first_light).xy, rb0);
+  vec3 l1 = unpack_light(texelFetch(light_table, int(tri.y) + first_light).xy, rb1);
+  vec3 l2 = unpack_light(texelFetch(light_table, int(tri.z) + first_light).xy, rb2);
+  vec3 light = w0 * l0 + w1 * l1 + w2 * l2;
+  vec2 red_blue = w0 * rb0 + w1 * rb1 + w2 * rb2;
+
+  // The look, on the one of 26 planes that the face is nearest to: little stretching, one fetch.
+  int look = int(tri.w) * 4;
+  vec4 dark = looks[look], bright = looks[look + 1], accent = looks[look + 2];
+  vec4 more = looks[look + 3];
+  uint turn = mw.w & 3u;  // which axis of the mesh is longest: grain runs along it
+  vec3 q = (turn == 1u ? p.yzx : turn == 2u ? p.zxy : p) * scale;
+  vec3 f = turn == 1u ? face.yzx : turn == 2u ? face.zxy : face;
+  vec3 plane = normalize(round(f * 1.2));
+  vec3 along = abs(plane.z) > 0.9 ? vec3(1.0, 0.0, 0.0)
+                                  : normalize(vec3(-plane.y, plane.x, 0.0));
+  vec3 across = cross(plane, along);
+  vec2 seed = vec2(float(mw.z & 0xffffu), float(mw.z >> 16)) * (1.0 / 65536.0);
+  vec2 uv = vec2(dot(q, along), dot(q, across)) * dark.w + seed;
+  vec3 rx = mx.xyz * scale, ry = my.xyz * scale, rz = mz.xyz * scale;  // rotation rows
+  s.face_normal = rx * face.x + ry * face.y + rz * face.z;
+  float grazing = max(-dot(s.face_normal, direction), 0.05);
+  float level = more.w + log2(z * lens.x) - 0.5 * log2(grazing) - 0.25;
+  vec4 texel = textureLod(look_textures, vec3(uv, more.x), max(level + dither(pixel) - 0.5, 0.0));
+
+  // Relief.
+  vec2 slope = (texel.xy * 4.0 - 2.0) * bright.w;
+  vec3 tu = turn == 1u ? along.zxy : turn == 2u ? along.yzx : along;
+  vec3 tv = turn == 1u ? across.zxy : turn == 2u ? across.yzx : across;
+  vec3 bent = smooth_normal - tu * slope.x - tv * slope.y;
+  s.normal = normalize(rx * bent.x + ry * bent.y + rz * bent.z);
+  float up = rx.z * smooth_normal.x + ry.z * smooth_normal.y + rz.z * smooth_normal.z;
+
+  // Colour: texture, piece, dust.
+  s.albedo = mix(mix(dark.rgb, bright.rgb, texel.z), accent.rgb, texel.w);
+  float tint = (float((mw.w >> 16) & 255u) * (2.0 / 255.0) - 1.0) * more.z;
+  float warm = (float(mw.w >> 24) * (2.0 / 255.0) - 1.0) * more.z * 0.25;
+  s.albedo *= (1.0 + tint) * vec3(1.0 + warm, 1.0, 1.0 - warm);
+  float dust = smoothstep(0.25, 1.0, up + (0.5 - texel.z) * 0.9) * more.y;
+  s.albedo = mix(s.albedo, vec3(0.40, 0.375, 0.335), dust);
+  s.gloss = accent.w * (1.0 - dust);
+
+  float lit = max(dot(light, s.normal), 0.15 * length(light));
+  s.ambient = vec3(red_blue.x, 1.0 - red_blue.x - red_blue.y, red_blue.y) * (3.0 * lit);
+  return s;
+}

@@ -1,0 +1,17 @@
+// From exposed radiance to display values. Alpha carries the logarithm of luminance, for metering:
+// 0 to 1 for 2^-12 to 2^12.
+vec3 tone_curve(vec3 x) {
+  // The fit of the ACES reference curve by Narkowicz (2015).
+  return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+}
+
+// sRGB's transfer function, within 0.001, from square roots.
+vec3 srgb(vec3 x) {
+  vec3 a = sqrt(x), b = sqrt(a), c = sqrt(b);
+  return clamp(0.585122381 * a + 0.783140355 * b - 0.368262736 * c, 0.0, 1.0);
+}
+
+vec4 develop(vec3 x) {
+  float luminance = dot(x, vec3(0.2126, 0.7152, 0.0722));
+  return vec4(srgb(tone_curve(x * 0.8)), log2(luminance + 1e-6) * (1.0 / 24.0) + 0.5);
+}

@@ -1,0 +1,226 @@
+#include "render/textures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/parallel.h"
+#include "render/tile_noise.h"
+
+namespace rubble {
+
+namespace {
+
+// What a pattern says about one spot; x and y run over [0, 1).
+struct Spot {
+  float height = 0;  // relief in tile widths times 100
+  float bright = 0.5f;
+  float mask = 0;
+};
+
+float ramp(float low, float high, float x) {
+  const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+
+// Formwork boards, small air pores, blotches of weathering, hairline cracks, rust and dirt stains.
+Spot cast_concrete(float x, float y) {
+  const float blotch = tile_fractal(x, y, 3, 5, 0.55f, 11);
+  const float grain = tile_fractal(x, y, 48, 3, 0.6f, 12);
+  const CellNoise pore = tile_cells(x, y, 34, 13);
+  const float pit = pore.value > 0.72f ? 1 - ramp(0.05f, 0.16f, pore.nearest) : 0.0f;
+  const float board = std::fabs(std::fmod(y * 8.0f, 1.0f) - 0.5f) * 2;
+  const float seam = ramp(0.965f, 1.0f, board);
+  const float wander = tile_fractal(x, y, 4, 4, 0.5f, 14) * 0.12f;
+  const CellNoise crack = tile_cells(x + wander, y + wander, 3, 15);
+  const float hair = (1 - ramp(0.0f, 0.018f, crack.second - crack.nearest)) *
+                     ramp(0.45f, 0.6f, tile_fractal(x, y, 2, 3, 0.5f, 16));
+  Spot s;
+  s.height = 0.10f * grain + 0.35f * blotch - 0.55f * pit - 0.30f * seam - 0.35f * hair;
+  s.bright = 0.18f + 0.75f * blotch + 0.22f * (grain - 0.5f) - 0.45f * pit - 0.16f * seam -
+             0.35f * hair;
+  s.mask = 0.65f * ramp(0.60f, 0.80f, tile_fractal(x, y, 2, 5, 0.6f, 17));
+  return s;
+}
+
+// Aggregate of two sizes standing out of a torn matrix.
+Spot broken_concrete(float x, float y) {
+  const float bend = 0.03f * tile_fractal(x, y, 6, 3, 0.5f, 21);
+  const CellNoise big = tile_cells(x + bend, y - bend, 22, 22);
+  const CellNoise small = tile_cells(x - bend, y + bend, 58, 23);
+  const float matrix = tile_fractal(x, y, 8, 6, 0.62f, 24);
+  const float stone = big.value > 0.55f ? 1 - ramp(0.28f, 0.44f, big.nearest) : 0.0f;
+  const float hole = big.value < 0.14f ? 1 - ramp(0.2f, 0.42f, big.nearest) : 0.0f;
+  const float pebble = small.value > 0.5f ? 1 - ramp(0.25f, 0.42f, small.nearest) : 0.0f;
+  Spot s;
+  s.height = 1.15f * matrix + 0.42f * stone - 0.42f * hole + 0.16f * pebble;
+  const float tone = lattice_value(int(big.value * 9999), 7, 25);
+  s.bright = 0.10f + 0.85f * matrix + stone * (tone - 0.55f) * 0.75f - 0.35f * hole +
+             pebble * (small.value - 0.75f) * 0.9f;
+  s.mask = std::max(stone * ramp(0.55f, 0.75f, tone), 0.3f * hole);
+  return s;
+}
+
+// Fired clay: drag marks, dark firing spots, remnants of mortar.
+Spot brick_face(float x, float y) {
+  const float tone = tile_fractal(x, y, 4, 5, 0.55f, 31);
+  const float drag = tile_noise(x * 12, y * 96, 12, 32) * tile_noise(x * 6, y * 24, 6, 33);
+  const CellNoise spot = tile_cells(x, y, 26, 34);
+  const float pit = spot.value > 0.6f ? 1 - ramp(0.08f, 0.2f, spot.nearest) : 0.0f;
+  const float mortar = tile_fractal(x, y, 3, 6, 0.62f, 35);
+  Spot s;
+  s.mask = 0.9f * ramp(0.565f, 0.63f, mortar);
+  s.height = 0.2f * tone + 0.3f * drag - 0.4f * pit + 0.5f * s.mask * mortar;
+  s.bright = 0.15f + 0.8f * tone - 0.3f * pit + 0.2f * (drag - 0.25f);
+  return s;
+}
+
+Spot broken_brick(float x, float y) {
+  const float rough = tile_fractal(x, y, 10, 5, 0.65f, 41);
+  const CellNoise grit = tile_cells(x, y, 46, 42);
+  const float grain = grit.value > 0.6f ? 1 - ramp(0.15f, 0.4f, grit.nearest) : 0.0f;
+  Spot s;
+  s.height = 1.0f * rough + 0.15f * grain;
+  s.bright = 0.1f + 0.85f * rough + 0.5f * grain * (grit.value - 0.75f);
+  s.mask = grit.value < 0.15f ? 0.8f * (1 - ramp(0.2f, 0.4f, grit.nearest)) : 0.0f;
+  return s;
+}
+
+// Lightweight block: a froth of pores between grains.
+Spot porous_block(float x, float y) {
+  const CellNoise coarse = tile_cells(x, y, 38, 51);
+  const CellNoise fine = tile_cells(x, y, 80, 52);
+  const float tone = tile_fractal(x, y, 4, 5, 0.6f, 53);
+  const float pore = coarse.value > 0.45f ? 1 - ramp(0.1f, 0.34f, coarse.nearest) : 0.0f;
+  const float pin = fine.value > 0.5f ? 1 - ramp(0.1f, 0.3f, fine.nearest) : 0.0f;
+  Spot s;
+  s.height = 0.3f * tone - 0.5f * pore - 0.18f * pin + 0.14f * fine.value;
+  s.bright = 0.25f + 0.7f * tone + 0.2f * (fine.value - 0.5f) - 0.3f * pin;
+  s.mask = 0.9f * pore;
+  return s;
+}
+
+Spot rust(float x, float y) {
+  const float tone = tile_fractal(x, y, 8, 6, 0.62f, 61);
+  const float scale = tile_fractal(x, y, 30, 3, 0.6f, 62);
+  Spot s;
+  s.height = 0.5f * scale + 0.4f * tone;
+  s.bright = 0.05f + 0.95f * tone + 0.3f * (scale - 0.5f);
+  s.mask = ramp(0.60f, 0.68f, tile_fractal(x, y, 5, 4, 0.5f, 63));
+  return s;
+}
+
+// Spangles of zinc crystals, and where the coat has gone.
+Spot galvanised(float x, float y) {
+  const float bend = 0.02f * tile_fractal(x, y, 12, 3, 0.5f, 71);
+  const CellNoise crystal = tile_cells(x + bend, y + bend, 24, 72);
+  const float tone = tile_fractal(x, y, 5, 5, 0.6f, 73);
+  Spot s;
+  s.height = 0.06f * crystal.value + 0.1f * tone;
+  s.bright = 0.5f * crystal.value + 0.5f * tone;
+  s.mask = ramp(0.62f, 0.70f, tile_fractal(x, y, 4, 6, 0.62f, 74));
+  return s;
+}
+
+// Grain along x, knots, and splits.
+Spot wood(float x, float y) {
+  const float warp = tile_fractal(x, y, 2, 3, 0.5f, 81);
+  const float rings = tile_noise(x * 2 + 0.4f * warp, y * 26 + 3 * warp, 26, 82);
+  const float fibre = tile_noise(x * 10, y * 160, 160, 83);
+  const CellNoise knot = tile_cells(x, y, 4, 84);
+  const float eye = knot.value > 0.7f ? 1 - ramp(0.04f, 0.13f, knot.nearest) : 0.0f;
+  const float split = ramp(0.80f, 0.9f, tile_noise(x * 3, y * 44, 44, 85));
+  Spot s;
+  s.height = 0.22f * rings + 0.2f * fibre - 0.5f * split;
+  s.bright = 0.2f + 0.5f * rings + 0.3f * fibre + 0.3f * (warp - 0.5f) - 0.5f * split;
+  s.mask = std::max(0.85f * eye, 0.7f * split);
+  return s;
+}
+
+// Painted plaster with trowel marks, scuffs and old paint.
+Spot plaster(float x, float y) {
+  const float trowel = tile_fractal(x, y, 5, 4, 0.5f, 91);
+  const float grain = tile_fractal(x, y, 60, 2, 0.6f, 92);
+  const float paint = tile_fractal(x, y, 3, 6, 0.6f, 93);
+  const CellNoise scuff = tile_cells(x, y, 18, 94);
+  const float pit = scuff.value > 0.8f ? 1 - ramp(0.05f, 0.2f, scuff.nearest) : 0.0f;
+  Spot s;
+  s.mask = ramp(0.50f, 0.53f, paint);
+  s.height = 0.35f * trowel + 0.08f * grain - 0.4f * pit + 0.12f * s.mask;
+  s.bright = 0.35f + 0.5f * trowel + 0.15f * grain - 0.4f * pit;
+  return s;
+}
+
+// Dirt with gravel and crumbs of concrete.
+Spot soil(float x, float y) {
+  const float dirt = tile_fractal(x, y, 6, 7, 0.62f, 101);
+  const CellNoise gravel = tile_cells(x, y, 70, 102);
+  const CellNoise crumb = tile_cells(x, y, 26, 103);
+  const float stones = gravel.value > 0.45f
+                           ? 1 - ramp(0.12f, 0.34f * gravel.value + 0.05f, gravel.nearest) : 0.0f;
+  const float chips = crumb.value > 0.66f
+                          ? 1 - ramp(0.1f, 0.3f * crumb.value, crumb.nearest) : 0.0f;
+  Spot s;
+  s.height = 0.55f * dirt + 0.13f * stones + 0.3f * chips;
+  s.bright = 0.1f + 0.8f * dirt + 0.25f * stones * (gravel.value - 0.6f) * 2;
+  s.mask = std::max(0.8f * chips, 0.4f * stones * ramp(0.8f, 0.9f, gravel.value));
+  return s;
+}
+
+Spot spot_of(Pattern pattern, float x, float y) {
+  switch (pattern) {
+    case Pattern::cast_concrete: return cast_concrete(x, y);
+    case Pattern::broken_concrete: return broken_concrete(x, y);
+    case Pattern::brick_face: return brick_face(x, y);
+    case Pattern::broken_brick: return broken_brick(x, y);
+    case Pattern::porous_block: return porous_block(x, y);
+    case Pattern::rust: return rust(x, y);
+    case Pattern::galvanised: return galvanised(x, y);
+    case Pattern::wood: return wood(x, y);
+    case Pattern::plaster: return plaster(x, y);
+    case Pattern::soil: return soil(x, y);
+  }
+  return {};
+}
+
+std::uint8_t to_byte(float x) {
+  return std::uint8_t(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f);
+}
+
+}  // namespace
+
+PatternImage make_pattern(Pattern pattern, int size) {
+  std::vector<Spot> spots(std::size_t(size) * std::size_t(size));
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x)
+      spots[std::size_t(y * size + x)] =
+          spot_of(pattern, (float(x) + 0.5f) / float(size), (float(y) + 0.5f) / float(size));
+  PatternImage image{size, std::vector<std::uint8_t>(spots.size() * 4)};
+  const int mask = size - 1;
+  const auto height = [&](int x, int y) {
+    return spots[std::size_t((y & mask) * size + (x & mask))].height;
+  };
+  // Heights are hundredths of a tile: a slope of 1 is a rise of one texel's width in a texel.
+  const float scale = 0.01f * float(size) * 0.5f;
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const std::size_t at = std::size_t(y * size + x);
+      const float sx = (height(x + 1, y) - height(x - 1, y)) * scale;
+      const float sy = (height(x, y + 1) - height(x, y - 1)) * scale;
+      image.texels[at * 4 + 0] = to_byte(0.5f + 0.25f * sx);
+      image.texels[at * 4 + 1] = to_byte(0.5f + 0.25f * sy);
+      image.texels[at * 4 + 2] = to_byte(spots[at].bright);
+      image.texels[at * 4 + 3] = to_byte(spots[at].mask);
+    }
+  }
+  return image;
+}
+
+std::vector<PatternImage> make_patterns(int size, int threads) {
+  std::vector<PatternImage> images(kPatternCount);
+  parallel_for(kPatternCount, threads, [&](std::size_t i) {
+    images[i] = make_pattern(Pattern(i), size);
+  });
+  return images;
+}
+
+}  // namespace rubble

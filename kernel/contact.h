@@ -18,7 +18,7 @@ struct ContactPoint {
 };
 
 struct Contact {
-  static constexpr int kMaxPoints = 4;
+  static constexpr int kMaxPoints = 6;
 
   std::int32_t collider_a = 0, collider_b = 0;  // b may be kGround
   std::int32_t body_a = 0, body_b = 0;

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
-#include <tuple>
 
 #include "kernel/base/error.h"
 #include "kernel/base/random.h"
+#include "kernel/layer_space.h"
 #include "kernel/pile.h"
 #include "kernel/shape.h"
 
@@ -14,45 +13,6 @@ namespace {
 
 // A place is drawn anew this often before a layer counts as full.
 constexpr int kMaxTries = 2000;
-
-struct Sphere {
-  Vec3 centre;
-  double radius = 0;
-};
-
-// Spheres of one layer in a grid whose cells are as wide as the largest sphere.
-class SphereGrid {
- public:
-  explicit SphereGrid(double largest_radius) : cell_(2 * largest_radius) {}
-
-  bool is_free(const Sphere& s) const {
-    const auto [x, y, z] = cell_of(s.centre);
-    for (long dz = -1; dz <= 1; ++dz) {
-      for (long dy = -1; dy <= 1; ++dy) {
-        for (long dx = -1; dx <= 1; ++dx) {
-          const auto found = spheres_.find({x + dx, y + dy, z + dz});
-          if (found == spheres_.end()) continue;
-          for (const Sphere& other : found->second) {
-            const Vec3 d = other.centre - s.centre;
-            const double r = other.radius + s.radius;
-            if (dot(d, d) <= r * r) return false;
-          }
-        }
-      }
-    }
-    return true;
-  }
-  void add(const Sphere& s) { spheres_[cell_of(s.centre)].push_back(s); }
-
- private:
-  using Cell = std::tuple<long, long, long>;
-  Cell cell_of(const Vec3& p) const {
-    return {long(std::floor(p.x / cell_)), long(std::floor(p.y / cell_)),
-            long(std::floor(p.z / cell_))};
-  }
-  double cell_;
-  std::map<Cell, std::vector<Sphere>> spheres_;
-};
 
 class SpecCheck {
  public:
@@ -135,36 +95,36 @@ class LayerMaker {
     std::vector<double> weights;
     for (const MixEntry& e : spec_.mix) weights.push_back(e.weight);
     const WeightedChoice choice(weights);
-    SphereGrid grid(largest_);
+    LayerSpace space(shapes_, largest_);
     Layer layer;
     for (int i = 0; i < spec_.pieces_per_layer; ++i) {
       const MixEntry& entry = spec_.mix[choice.draw(random_)];
       Placement piece;
       piece.type = entry.type;
       piece.scale = random_.uniform(entry.scale_min, entry.scale_max);
-      piece.world_from_body.rotation = random_.rotation();
-      Sphere sphere;
-      sphere.radius = double(shapes_[entry.type].radius) * piece.scale;
-      if (!find_place(grid, sphere)) fail_full(spec_, number, i);
-      grid.add(sphere);
-      const Vec3 com = shapes_[entry.type].volume.centre_of_mass * piece.scale;
-      piece.world_from_body.translation =
-          sphere.centre - piece.world_from_body.rotation.rotate(com);
+      if (!find_place(space, piece)) fail_full(spec_, number, i);
+      space.add(piece);
       layer.pieces.push_back(piece);
     }
     return layer;
   }
 
  private:
-  // Centres lie inside the box's footprint; no piece reaches below its bottom.
-  bool find_place(const SphereGrid& grid, Sphere& sphere) {
+  // Centres of mass lie inside the box's footprint; no piece reaches below its bottom.
+  bool find_place(const LayerSpace& space, Placement& piece) {
+    const Shape& shape = shapes_[piece.type];
+    const double radius = double(shape.radius) * piece.scale;
     const Vec3 half = spec_.spawn_bounds * 0.5;
-    if (sphere.radius > spec_.spawn_bounds.z) return false;
+    const double highest = std::max(radius, spec_.spawn_bounds.z - radius);
     for (int attempt = 0; attempt < kMaxTries; ++attempt) {
-      sphere.centre.x = spec_.spawn_position.x + random_.uniform(-half.x, half.x);
-      sphere.centre.y = spec_.spawn_position.y + random_.uniform(-half.y, half.y);
-      sphere.centre.z = random_.uniform(sphere.radius, spec_.spawn_bounds.z);
-      if (grid.is_free(sphere)) return true;
+      Pose& pose = piece.world_from_body;
+      pose.rotation = random_.rotation();
+      const Vec3 centre{spec_.spawn_position.x + random_.uniform(-half.x, half.x),
+                        spec_.spawn_position.y + random_.uniform(-half.y, half.y),
+                        random_.uniform(radius, highest)};
+      pose.translation =
+          centre - pose.rotation.rotate(shape.volume.centre_of_mass * piece.scale);
+      if (space.is_free(piece)) return true;
     }
     return false;
   }

@@ -1,5 +1,7 @@
 #include "kernel/manifold.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace rubble {
@@ -9,6 +11,9 @@ namespace {
 constexpr float kMinimumCosine = 0.9F;
 // Prefer A's face as reference unless B's is clearly better, so that the choice does not flicker.
 constexpr float kReferencePreference = 1e-3F;
+
+// Points that will be closer than this count as touching; unit: m.
+constexpr float kTouchingDistance = 0.0015F;
 
 struct ClipPolygon {
   Vec3f points[Manifold::kMaxClipped];
@@ -73,8 +78,18 @@ void clip_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, con
   }
 }
 
-void reduce_to_four(Manifold& m, const Vec3f& normal) {
-  if (m.count <= 4) return;
+void reduce(Manifold& m, const Vec3f& normal, int most) {
+  if (m.count <= most) return;
+  std::stable_sort(m.points, m.points + m.count, [](const ManifoldPoint& p, const ManifoldPoint& q) {
+    return p.predicted < q.predicted;
+  });
+  int touching = 0;
+  while (touching < m.count && m.points[touching].predicted < kTouchingDistance) ++touching;
+  if (touching <= most) {
+    m.count = most;
+    return;
+  }
+  m.count = touching;
   const auto move_best_to = [&m](int slot, auto&& score) {
     int best = slot;
     float best_score = score(m.points[slot]);
@@ -84,21 +99,20 @@ void reduce_to_four(Manifold& m, const Vec3f& normal) {
     }
     std::swap(m.points[slot], m.points[best]);
   };
-  move_best_to(0, [](const ManifoldPoint& p) { return -p.predicted; });
   const Vec3f p0 = m.points[0].position;
   move_best_to(1, [&](const ManifoldPoint& p) {
     const Vec3f d = p.position - p0;
     return dot(d, d);
   });
   const Vec3f side = cross(m.points[1].position - p0, normal);
-  move_best_to(2, [&](const ManifoldPoint& p) {
-    const float area = dot(side, p.position - p0);
-    return area < 0 ? -area : area;
-  });
+  move_best_to(2, [&](const ManifoldPoint& p) { return std::abs(dot(side, p.position - p0)); });
   // On the other side of the first edge than the third point.
   const float sign = dot(side, m.points[2].position - p0) > 0 ? -1.0F : 1.0F;
   move_best_to(3, [&](const ManifoldPoint& p) { return sign * dot(side, p.position - p0); });
-  m.count = 4;
+  for (int slot = 4; slot < most; ++slot) {
+    move_best_to(slot, [](const ManifoldPoint& p) { return -p.predicted; });
+  }
+  m.count = most;
 }
 
 }  // namespace rubble

@@ -24,7 +24,8 @@ struct Manifold {
 void clip_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, const Vec3f& normal,
                 float margin, Manifold& manifold);
 
-// Keeps four points: the deepest predicted one and three that span the largest area with it.
-void reduce_to_four(Manifold& manifold, const Vec3f& normal);
+// Keeps the `most` (at least 4) deepest predicted points. When more than that touch: the deepest
+// one, three that span the largest area with it, then by depth.
+void reduce(Manifold& manifold, const Vec3f& normal, int most);
 
 }  // namespace rubble

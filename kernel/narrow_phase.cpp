@@ -126,7 +126,7 @@ void update_contact(Contact& contact, const PosedBody& a, const PosedBody& b,
   clip_faces(a.part, b.part, offset, axis.normal, margin, m);
   if (m.count == 0) m.points[m.count++] = {axis.point, axis.separation, axis.separation};
   predict(m, a, &b, offset, axis.normal, settings.step);
-  reduce_to_four(m, axis.normal);
+  reduce(m, axis.normal, Contact::kMaxPoints);
   store(contact, m, axis.normal, a, offset);
 }
 
@@ -143,7 +143,7 @@ void update_ground_contact(Contact& contact, const PosedBody& a, const NarrowSet
   const Vec3f normal{0, 0, -1};
   const Vec3f offset = Vec3f(-a.centre);
   predict(m, a, nullptr, offset, normal, settings.step);
-  reduce_to_four(m, normal);
+  reduce(m, normal, Contact::kMaxPoints);
   store(contact, m, normal, a, offset);
 }
 

@@ -1,0 +1,136 @@
+#include "io/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "kernel/base/error.h"
+#include "tests/io/support.h"
+
+namespace rubble {
+namespace {
+
+using test::read_text;
+using test::ScratchFolder;
+
+std::string message_of(const InputError& error) { return error.diagnostics().front().text(); }
+
+TEST(AtomicFile, HasItsNameOnlyAfterCommit) {
+  ScratchFolder folder;
+  AtomicFile file(folder / "a.bin");
+  file.write("hello");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.bin.part"});
+  file.commit();
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.bin"});
+  EXPECT_EQ(read_text(folder / "a.bin"), "hello");
+}
+
+TEST(AtomicFile, WithoutCommitNothingIsLeftAndTheOldFileStays) {
+  ScratchFolder folder;
+  write_text_file(folder / "a.bin", "old");
+  {
+    AtomicFile file(folder / "a.bin");
+    file.write("new");
+  }
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.bin"});
+  EXPECT_EQ(read_text(folder / "a.bin"), "old");
+}
+
+TEST(AtomicFile, OverwritesWhatWasWrittenAndCountsBytes) {
+  ScratchFolder folder;
+  AtomicFile file(folder / "a.bin");
+  const std::string large(1 << 20, 'x');
+  file.write("0123456789");
+  file.write(large);
+  file.overwrite(3, "abc");
+  file.write("end");
+  EXPECT_EQ(file.size(), 10 + large.size() + 3);
+  file.commit();
+  EXPECT_EQ(read_text(folder / "a.bin"), "012abc6789" + large + "end");
+}
+
+TEST(AtomicFile, SaysWhichFileAndWhy) {
+  ScratchFolder folder;
+  try {
+    AtomicFile file(folder / "missing/a.bin");
+    FAIL() << "a folder that does not exist was accepted";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("missing/a.bin"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
+  }
+}
+
+TEST(AtomicFile, WritingToAFullDeviceFails) {
+  ScratchFolder folder;
+  std::filesystem::create_symlink("/dev/full", folder / "a.bin.part");
+  AtomicFile file(folder / "a.bin");
+  file.write("does not fit");
+  EXPECT_THROW(file.commit(), RunError);
+  EXPECT_FALSE(test::exists(folder / "a.bin"));
+}
+
+TEST(PendingPath, CommitsWhatAnotherWriterMade) {
+  ScratchFolder folder;
+  {
+    PendingPath kept(folder / "kept"), dropped(folder / "dropped");
+    std::ofstream(kept.part()) << "k";
+    std::ofstream(dropped.part()) << "d";
+    kept.commit();
+  }
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"kept"});
+}
+
+TEST(PendingPath, CommitOfAMissingFileFails) {
+  ScratchFolder folder;
+  PendingPath pending(folder / "never-written");
+  EXPECT_THROW(pending.commit(), RunError);
+}
+
+TEST(OutputFolder, IsCreatedWithItsParents) {
+  ScratchFolder folder;
+  prepare_output_folder(folder / "a/b", false, {});
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "a/b"));
+}
+
+TEST(OutputFolder, RefusesANonEmptyOneWithoutForce) {
+  ScratchFolder folder;
+  write_text_file(folder / "notes.txt", "mine");
+  try {
+    prepare_output_folder(folder.path(), false, {"pile.stl"});
+    FAIL() << "a folder that is not empty was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(message_of(error).find("not empty"), std::string::npos) << message_of(error);
+    EXPECT_NE(message_of(error).find("--force"), std::string::npos) << message_of(error);
+  }
+}
+
+TEST(OutputFolder, ForceRemovesOurFilesAndNoOthers) {
+  ScratchFolder folder;
+  for (const char* name : {"pile.stl", "mission.bag.part", "notes.txt"}) {
+    write_text_file(folder / name, "x");
+  }
+  std::filesystem::create_directory(folder / "mission.rawlog");  // a user's folder of that name
+  prepare_output_folder(folder.path(), true, {"pile.stl", "mission.bag", "mission.rawlog"});
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"mission.rawlog", "notes.txt"}));
+}
+
+TEST(OutputFolder, RefusesAFile) {
+  ScratchFolder folder;
+  write_text_file(folder / "taken", "x");
+  EXPECT_THROW(prepare_output_folder(folder / "taken", true, {}), InputError);
+  EXPECT_EQ(read_text(folder / "taken"), "x");
+}
+
+TEST(ReadWholeFile, NamesAMissingFile) {
+  try {
+    read_whole_file("/nonexistent/file");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(message_of(error).find("/nonexistent/file"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace rubble

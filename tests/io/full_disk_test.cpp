@@ -1,0 +1,152 @@
+// A disk that fills up at any byte: the error is clear and no half-written file has a final name.
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <functional>
+
+#include "io/contact_sheet.h"
+#include "io/mesh_file.h"
+#include "io/pile_state_file.h"
+#include "io/rawlog_recorder.h"
+#include "io/recording_queue.h"
+#include "io/rosbag_recorder.h"
+#include "io/tum_recorder.h"
+#include "kernel/base/error.h"
+#include "tests/io/support.h"
+
+namespace rubble {
+namespace {
+
+using test::make_frame;
+using test::ScratchFolder;
+
+// Makes every write beyond `bytes` of a file fail, as a full disk does.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(std::size_t bytes) {
+    old_handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &old_limit_);
+    const rlimit limit{bytes, old_limit_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &old_limit_);
+    std::signal(SIGXFSZ, old_handler_);
+  }
+
+ private:
+  rlimit old_limit_{};
+  void (*old_handler_)(int);
+};
+
+void record(std::unique_ptr<Recorder> recorder) {
+  for (int i = 0; i < 3; ++i) recorder->write(make_frame(i));
+  recorder->finish();
+}
+
+PileState make_state() {
+  PileState state;
+  state.types = {"slab"};
+  state.pieces.resize(20);
+  return state;
+}
+
+TriangleMesh make_mesh() {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles.assign(100, {0, 1, 2});
+  return mesh;
+}
+
+struct Writer {
+  const char* name;
+  std::function<void(const std::string& path)> write;
+};
+
+std::vector<Writer> all_writers() {
+  ContactSheetOptions sheet;
+  sheet.total_frames = 3;
+  return {
+      {"pile.bin", [](const auto& p) { save_pile_state(make_state(), p); }},
+      {"pile.stl",
+       [](const auto& p) {
+         const TriangleMesh mesh = make_mesh();
+         write_stl(p, {{&mesh, 1.0, {}}});
+       }},
+      {"groundtruth.txt", [](const auto& p) { record(make_tum_trajectory_recorder(p)); }},
+      {"mission.bag", [](const auto& p) { record(make_rosbag_recorder(p)); }},
+      {"mission.rawlog", [](const auto& p) { record(make_rawlog_recorder(p)); }},
+      {"preview.png", [sheet](const auto& p) { record(make_contact_sheet_recorder(p, sheet)); }}};
+}
+
+TEST(FullDisk, AtAnyByteItIsAnErrorAndNothingIsLeft) {
+  for (const Writer& writer : all_writers()) {
+    ScratchFolder folder;
+    const std::string path = folder / writer.name;
+    writer.write(path);
+    const std::size_t size = test::read_text(path).size();
+    std::remove(path.c_str());
+    const std::size_t step = size / 23 + 1;
+    std::vector<std::size_t> limits{size - 1, size - 2};
+    for (std::size_t limit = 0; limit < size; limit += step) limits.push_back(limit);
+    for (const std::size_t limit : limits) {
+      const FileSizeLimit full(limit);
+      try {
+        writer.write(path);
+        ADD_FAILURE() << writer.name << " of " << size << " bytes was written into " << limit;
+      } catch (const RunError& error) {
+        const std::string text = error.what();
+        EXPECT_NE(text.find(path), std::string::npos) << text;
+        EXPECT_NE(text.find("File too large"), std::string::npos) << text;
+      }
+      EXPECT_TRUE(folder.names().empty()) << writer.name << " left " << folder.names().front();
+    }
+    const FileSizeLimit enough(size);
+    EXPECT_NO_THROW(writer.write(path)) << writer.name;
+    EXPECT_EQ(test::read_text(path).size(), size);
+  }
+}
+
+// A small file system of its own; needs the right to mount one.
+class SmallDisk {
+ public:
+  SmallDisk() { mounted_ = mount("tmpfs", folder_.path().c_str(), "tmpfs", 0, "size=256k") == 0; }
+  ~SmallDisk() {
+    if (mounted_) umount2(folder_.path().c_str(), MNT_DETACH);
+  }
+  bool mounted() const { return mounted_; }
+  const ScratchFolder& folder() const { return folder_; }
+
+ private:
+  ScratchFolder folder_;
+  bool mounted_ = false;
+};
+
+TEST(FullDisk, ARealOneStopsTheQueueAndLeavesNothing) {
+  SmallDisk disk;
+  if (!disk.mounted()) {
+    GTEST_SKIP() << "no right to mount a tmpfs here; the size limit above covers the same paths";
+  }
+  {
+    std::vector<std::unique_ptr<Recorder>> recorders;
+    recorders.push_back(make_tum_trajectory_recorder(disk.folder() / "groundtruth.txt"));
+    recorders.push_back(make_rosbag_recorder(disk.folder() / "mission.bag"));
+    recorders.push_back(make_rawlog_recorder(disk.folder() / "mission.rawlog"));
+    RecordingQueue queue(std::move(recorders), 2);
+    std::string message;
+    try {
+      for (int i = 0; i < 60; ++i) queue.push(make_frame(i));
+      queue.finish();
+    } catch (const RunError& error) {
+      message = error.what();
+    }
+    EXPECT_NE(message.find("No space left on device"), std::string::npos) << message;
+  }
+  EXPECT_TRUE(disk.folder().names().empty());
+}
+
+}  // namespace
+}  // namespace rubble

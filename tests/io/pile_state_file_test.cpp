@@ -1,0 +1,148 @@
+#include "io/pile_state_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+#include "io/atomic_file.h"
+#include "kernel/base/error.h"
+#include "kernel/base/random.h"
+#include "tests/io/support.h"
+
+namespace rubble {
+namespace {
+
+using test::read_text;
+using test::ScratchFolder;
+
+PileState make_state(int pieces) {
+  RandomStream random(7, "pile state test");
+  PileState state;
+  state.types = {"slab", "", "Brocken \xC3\xBC"};
+  state.steps = 123456789012;
+  state.simulated = 0.1 + 0.2;
+  state.settled = true;
+  state.layers_at_limit = 2;
+  state.lost = 3;
+  for (int i = 0; i < pieces; ++i) {
+    PieceState p;
+    p.type = i % 3;
+    p.layer = i % 5 - 1;
+    p.scale = random.uniform(0.5, 2);
+    p.world_from_body = {random.rotation(), random.direction()};
+    p.linear_velocity = random.direction();
+    p.angular_velocity = {-0.0, std::numeric_limits<double>::denorm_min(), 1e300};
+    p.status = static_cast<PieceStatus>(i % 4);
+    state.pieces.push_back(p);
+  }
+  return state;
+}
+
+// Without the flush to the disk that write_text_file makes: there are hundreds of files.
+void write_quickly(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+template <typename T>
+bool same_bits(const T& a, const T& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+std::string error_of(const std::string& path) {
+  try {
+    load_pile_state(path);
+  } catch (const InputError& error) {
+    return error.diagnostics().front().text();
+  }
+  return "no error";
+}
+
+void expect_in(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in: " << text;
+}
+
+TEST(PileStateFile, ReloadsBitForBit) {
+  ScratchFolder folder;
+  const PileState state = make_state(100);
+  save_pile_state(state, folder / "pile.bin");
+  const PileState loaded = load_pile_state(folder / "pile.bin");
+  EXPECT_EQ(loaded.types, state.types);
+  EXPECT_EQ(loaded.steps, state.steps);
+  EXPECT_EQ(loaded.simulated, state.simulated);
+  EXPECT_EQ(loaded.settled, state.settled);
+  EXPECT_EQ(loaded.layers_at_limit, state.layers_at_limit);
+  EXPECT_EQ(loaded.lost, state.lost);
+  ASSERT_EQ(loaded.pieces.size(), state.pieces.size());
+  for (std::size_t i = 0; i < state.pieces.size(); ++i) {
+    const PieceState &a = state.pieces[i], &b = loaded.pieces[i];
+    EXPECT_EQ(a.type, b.type);
+    EXPECT_EQ(a.layer, b.layer);
+    EXPECT_EQ(a.status, b.status);
+    EXPECT_TRUE(same_bits(a.scale, b.scale));
+    EXPECT_TRUE(same_bits(a.world_from_body, b.world_from_body)) << "piece " << i;
+    EXPECT_TRUE(same_bits(a.linear_velocity, b.linear_velocity)) << "piece " << i;
+    EXPECT_TRUE(same_bits(a.angular_velocity, b.angular_velocity)) << "piece " << i;
+  }
+}
+
+TEST(PileStateFile, IsTheSameFileForTheSameStateAndAnotherForAnother) {
+  ScratchFolder folder;
+  PileState state = make_state(5);
+  save_pile_state(state, folder / "a");
+  save_pile_state(load_pile_state(folder / "a"), folder / "b");
+  EXPECT_EQ(read_text(folder / "a"), read_text(folder / "b"));
+  state.pieces[3].world_from_body.translation.z += 1e-15;
+  save_pile_state(state, folder / "c");
+  EXPECT_NE(read_text(folder / "a"), read_text(folder / "c"));
+}
+
+TEST(PileStateFile, RefusesEveryTruncation) {
+  ScratchFolder folder;
+  save_pile_state(make_state(2), folder / "whole");
+  const std::string whole = read_text(folder / "whole");
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    write_quickly(folder / "cut", whole.substr(0, size));
+    const std::string error = error_of(folder / "cut");
+    ASSERT_NE(error, "no error") << "the first " << size << " bytes were accepted";
+    expect_in(error, folder / "cut");
+    if (size >= 8) expect_in(error, "truncated");
+  }
+}
+
+TEST(PileStateFile, RefusesEveryAlteredByte) {
+  ScratchFolder folder;
+  save_pile_state(make_state(2), folder / "whole");
+  const std::string whole = read_text(folder / "whole");
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    std::string altered = whole;
+    altered[i] = static_cast<char>(altered[i] ^ 0x10);
+    write_quickly(folder / "altered", altered);
+    ASSERT_NE(error_of(folder / "altered"), "no error") << "byte " << i << " could be changed";
+  }
+  write_text_file(folder / "altered", whole);  // the negative control
+  EXPECT_EQ(error_of(folder / "altered"), "no error");
+}
+
+TEST(PileStateFile, SaysWhatIsWrong) {
+  ScratchFolder folder;
+  save_pile_state(make_state(2), folder / "whole");
+  const std::string whole = read_text(folder / "whole");
+  write_text_file(folder / "foreign", "PNG and so on, long enough to be anything at all..........");
+  expect_in(error_of(folder / "foreign"), "is not a pile state");
+  expect_in(error_of(folder / "missing"), "cannot be opened: No such file");
+  std::string altered = whole;
+  altered[60] = static_cast<char>(altered[60] ^ 1);
+  write_text_file(folder / "altered", altered);
+  expect_in(error_of(folder / "altered"), "does not match its checksum");
+  altered = whole;
+  altered[8] = 9;
+  write_text_file(folder / "newer", altered);
+  expect_in(error_of(folder / "newer"), "format version 9");
+  write_text_file(folder / "longer", whole + "x");
+  expect_in(error_of(folder / "longer"), "longer than it says");
+}
+
+}  // namespace
+}  // namespace rubble

@@ -1,0 +1,137 @@
+// Reads our rawlogs through MRPT itself.
+#include <gtest/gtest.h>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include "io/rawlog_recorder.h"
+#include "tests/io/support.h"
+
+namespace rubble {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation3DRangeScan;
+using mrpt::obs::CObservationRobotPose;
+using test::make_frame;
+using test::ScratchFolder;
+
+constexpr int kFrames = 3;
+
+void record(const std::string& path, int gzip_level) {
+  RawlogOptions options;
+  options.gzip_level = gzip_level;
+  const auto recorder = make_rawlog_recorder(path, options);
+  for (int i = 0; i < kFrames; ++i) recorder->write(make_frame(i));
+  recorder->finish();
+}
+
+std::vector<CObservation::Ptr> read_rawlog(const std::string& path) {
+  mrpt::io::CFileGZInputStream file(path);
+  auto archive = mrpt::serialization::archiveFrom(file);
+  std::vector<CObservation::Ptr> observations;
+  while (!file.checkEOF()) {
+    try {
+      observations.push_back(std::dynamic_pointer_cast<CObservation>(archive.ReadObject()));
+    } catch (const mrpt::serialization::CExceptionEOF&) {
+      break;
+    }
+  }
+  return observations;
+}
+
+void expect_pose(const mrpt::poses::CPose3D& found, const Pose& expected) {
+  const Vec3& t = expected.translation;
+  EXPECT_NEAR(found.x(), t.x, 1e-12);
+  EXPECT_NEAR(found.y(), t.y, 1e-12);
+  EXPECT_NEAR(found.z(), t.z, 1e-12);
+  const Mat3 r = expected.rotation.matrix();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) EXPECT_NEAR(found.getRotationMatrix()(i, j), r.rows[i][j], 1e-9);
+  }
+}
+
+// Unprojects by MRPT's own code at the recorded pose; every point must lie on the scene.
+void expect_points_on_scene(CObservation3DRangeScan& scan, const mrpt::poses::CPose3D& robot) {
+  mrpt::maps::CSimplePointsMap points;
+  mrpt::obs::T3DPointsProjectionParams projection;
+  projection.takeIntoAccountSensorPoseOnRobot = true;
+  projection.robotPoseInTheWorld = robot;
+  scan.unprojectInto(points, projection);
+  ASSERT_GT(points.size(), 1000u);
+  double worst = 0;
+  int on_sphere = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    float x, y, z;
+    points.getPoint(i, x, y, z);
+    const Vec3 p{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+    worst = std::max(worst, test::distance_to_scene(p));
+    on_sphere += p.z > 0.1;
+  }
+  EXPECT_LT(worst, 0.001) << "unit: m";
+  EXPECT_GT(on_sphere, 100) << "the sphere is missing";
+}
+
+TEST(Rawlog, MrptReadsPosesScansAndPicturesAndUnprojectsOntoTheScene) {
+  for (const int level : {0, 1}) {
+    ScratchFolder folder;
+    record(folder / "mission.rawlog", level);
+    const auto observations = read_rawlog(folder / "mission.rawlog");
+    ASSERT_EQ(observations.size(), 2u * kFrames);
+    for (int i = 0; i < kFrames; ++i) {
+      const Frame frame = make_frame(i);
+      const auto truth = std::dynamic_pointer_cast<CObservationRobotPose>(
+          observations[static_cast<std::size_t>(2 * i)]);
+      const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(
+          observations[static_cast<std::size_t>(2 * i + 1)]);
+      ASSERT_TRUE(truth && scan);
+      EXPECT_EQ(truth->sensorLabel, "ground_truth");
+      EXPECT_EQ(truth->timestamp, scan->timestamp);
+      const std::int64_t ticks = truth->timestamp.time_since_epoch().count();
+      EXPECT_EQ((ticks - 116444736000000000) * 100, frame.stamp_ns / 100 * 100);
+      expect_pose(truth->pose.mean, frame.world_from_camera);
+      expect_points_on_scene(*scan, truth->pose.mean);
+    }
+  }
+}
+
+TEST(Rawlog, ScansCarryTheRightCameraAndColours) {
+  ScratchFolder folder;
+  record(folder / "mission.rawlog", 0);
+  const Frame frame = make_frame(1);
+  const auto scan =
+      std::dynamic_pointer_cast<CObservation3DRangeScan>(read_rawlog(folder / "mission.rawlog")[3]);
+  ASSERT_TRUE(scan);
+  EXPECT_TRUE(scan->range_is_depth);
+  EXPECT_TRUE(scan->doDepthAndIntensityCamerasCoincide());
+  EXPECT_EQ(scan->cameraParams.fx(), frame.intrinsics.fx);
+  EXPECT_EQ(scan->cameraParamsIntensity.cy(), frame.intrinsics.cy);
+  EXPECT_FALSE(scan->intensityImage.isExternallyStored());
+  // A colour CImage holds blue, green, red.
+  const int u = 70, v = 33;
+  const std::uint8_t* bgr = scan->intensityImage.ptr<std::uint8_t>(u, v, 0);
+  EXPECT_EQ(bgr[2], u);
+  EXPECT_EQ(bgr[1], v);
+  EXPECT_EQ(bgr[0], 207);
+  const auto width = static_cast<std::size_t>(frame.intrinsics.width);
+  const float depth =
+      frame.depth[static_cast<std::size_t>(v) * width + static_cast<std::size_t>(u)];
+  EXPECT_NEAR(scan->rangeImage(v, u) * scan->rangeUnits, depth, 0.00051);
+  EXPECT_EQ(scan->rangeImage(0, 0), 0) << "the sky must have no return";
+}
+
+TEST(Rawlog, RawlogEditReadsIt) {
+  ScratchFolder folder;
+  record(folder / "mission.rawlog", 0);
+  const auto info = test::run_command("rawlog-edit --info -i " + (folder / "mission.rawlog"));
+  EXPECT_EQ(info.exit_code, 0) << info.output;
+  for (const char* part :
+       {"number of objects         : 6", "camera, ground_truth", "3 /30.000 /0.067"}) {
+    EXPECT_NE(info.output.find(part), std::string::npos) << part << " is not in:\n" << info.output;
+  }
+}
+
+}  // namespace
+}  // namespace rubble

@@ -1,0 +1,198 @@
+// What holds for every recorder alike, and the small ones.
+#include "io/recorder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+#include "io/contact_sheet.h"
+#include "io/depth_encoding.h"
+#include "io/image_file.h"
+#include "io/rawlog_recorder.h"
+#include "io/rosbag_recorder.h"
+#include "io/tum_recorder.h"
+#include "kernel/base/error.h"
+#include "tests/io/support.h"
+
+namespace rubble {
+namespace {
+
+using test::make_frame;
+using test::read_text;
+using test::ScratchFolder;
+
+constexpr int kFrames = 5;
+
+struct Kind {
+  const char* name;
+  std::function<std::unique_ptr<Recorder>(const std::string& path)> make;
+};
+
+std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
+
+std::unique_ptr<Recorder> make_sheet(const std::string& path) {
+  ContactSheetOptions options;
+  options.total_frames = kFrames;
+  options.tile = 96;
+  options.title = "five frames";
+  return make_contact_sheet_recorder(path, options);
+}
+
+class AnyRecorder : public testing::TestWithParam<Kind> {};
+
+void record(Recorder& recorder, int shift = 0) {
+  for (int i = 0; i < kFrames; ++i) {
+    Frame frame = make_frame(i);
+    frame.rgb[0] = static_cast<std::uint8_t>(frame.rgb[0] + shift);
+    frame.world_from_camera.translation.x += shift;
+    if (shift) std::fill(frame.rgb.begin(), frame.rgb.end(), std::uint8_t{9});
+    recorder.write(frame);
+  }
+  recorder.finish();
+}
+
+TEST_P(AnyRecorder, WritesTheSameBytesTwiceAndOthersForOtherFrames) {
+  ScratchFolder folder;
+  record(*GetParam().make(folder / "a"));
+  record(*GetParam().make(folder / "b"));
+  record(*GetParam().make(folder / "c"), 1);
+  EXPECT_FALSE(read_text(folder / "a").empty());
+  EXPECT_TRUE(read_text(folder / "a") == read_text(folder / "b"));
+  EXPECT_FALSE(read_text(folder / "a") == read_text(folder / "c"));
+}
+
+TEST_P(AnyRecorder, HasItsNameOnlyWhenFinished) {
+  ScratchFolder folder;
+  {
+    const auto recorder = GetParam().make(folder / "a");
+    recorder->write(make_frame(0));
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"a.part"});
+  }
+  EXPECT_TRUE(folder.names().empty());
+}
+
+void expect_refusal(Recorder& recorder, const Frame& frame, const std::string& part) {
+  try {
+    recorder.write(frame);
+    ADD_FAILURE() << "the frame was accepted";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+TEST_P(AnyRecorder, NoticesADroppedFrame) {
+  ScratchFolder folder;
+  const auto recorder = GetParam().make(folder / "a");
+  recorder->write(make_frame(0));
+  expect_refusal(*recorder, make_frame(2), "frame 1 was expected");
+}
+
+TEST_P(AnyRecorder, NoticesAStampThatDoesNotGrow) {
+  ScratchFolder folder;
+  const auto recorder = GetParam().make(folder / "a");
+  recorder->write(make_frame(0));
+  Frame frame = make_frame(1);
+  frame.stamp_ns = make_frame(0).stamp_ns;
+  expect_refusal(*recorder, frame, "is not later");
+}
+
+TEST_P(AnyRecorder, NoticesAPictureOfTheWrongSize) {
+  ScratchFolder folder;
+  const auto recorder = GetParam().make(folder / "a");
+  Frame frame = make_frame(0);
+  frame.depth.pop_back();
+  expect_refusal(*recorder, frame, "depth picture");
+}
+
+TEST_P(AnyRecorder, ReportsAFolderThatIsNotThere) {
+  EXPECT_THROW(GetParam().make("/nonexistent/folder/a"), RunError);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, AnyRecorder,
+    testing::Values(Kind{"rosbag", [](const auto& p) { return make_rosbag_recorder(p); }},
+                    Kind{"rawlog", [](const auto& p) { return make_rawlog_recorder(p); }},
+                    Kind{"tum", make_tum_trajectory_recorder}, Kind{"contact_sheet", make_sheet}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(TumTrajectory, HoldsThePoseOfTheOpticalFrame) {
+  ScratchFolder folder;
+  const auto recorder = make_tum_trajectory_recorder(folder / "groundtruth.txt");
+  Frame frame = make_frame(0);
+  frame.stamp_ns = 1'000'000'007;
+  frame.world_from_camera = {{}, {1, 2, 3}};  // looks along X
+  recorder->write(frame);
+  recorder->finish();
+  std::istringstream lines(read_text(folder / "groundtruth.txt"));
+  std::string line, last;
+  while (std::getline(lines, line)) last = line;
+  EXPECT_EQ(last,
+            "1.000000007 1.000000000 2.000000000 3.000000000 "
+            "-0.500000000 0.500000000 -0.500000000 0.500000000");
+}
+
+TEST(DepthEncoding, RoundsAndMarksWhatIsNoReturn) {
+  const auto encoded = encode_depth(
+      {1.0f, 1.0004f, 1.0006f, NAN, 0.0f, -1.0f, INFINITY, 65.535f, 65.536f, 0.0001f}, 0.001);
+  EXPECT_EQ(encoded, (std::vector<std::uint16_t>{1000, 1000, 1001, 0, 0, 0, 0, 65535, 0, 1}));
+}
+
+TEST(ImageFile, RoundTripsColourAndDepth) {
+  ScratchFolder folder;
+  const Frame frame = make_frame(3);
+  const RgbImage colour{96, 64, frame.rgb};
+  const DepthImage depth{96, 64, encode_depth(frame.depth, 0.001)};
+  write_png(folder / "c.png", colour);
+  write_png(folder / "d.png", depth);
+  const RgbImage colour_back = read_rgb_png(folder / "c.png");
+  const DepthImage depth_back = read_depth_png(folder / "d.png");
+  EXPECT_EQ(colour_back.width, 96);
+  EXPECT_EQ(colour_back.height, 64);
+  EXPECT_EQ(colour_back.rgb, colour.rgb);
+  EXPECT_EQ(depth_back.values, depth.values);
+  EXPECT_THROW(read_depth_png(folder / "c.png"), InputError);
+  EXPECT_THROW(read_rgb_png(folder / "missing.png"), InputError);
+}
+
+TEST(ContactSheet, ShowsTheFirstAndTheLastFrameAndTheirDepth) {
+  ScratchFolder folder;
+  record(*make_sheet(folder / "preview.png"));
+  const RgbImage sheet = read_rgb_png(folder / "preview.png");
+  // Two pairs of two 96-pixel pictures a row, three rows of them, 64 pixels high each.
+  EXPECT_EQ(sheet.width, 20 + 2 * (2 * 96 + 4 + 20));
+  EXPECT_GT(sheet.height, 3 * 64);
+  const auto pixel = [&](int x, int y) {
+    const auto* p = sheet.rgb.data() + 3 * (y * sheet.width + x);
+    return std::vector<int>{p[0], p[1], p[2]};
+  };
+  // At this size a tile is the picture itself: colour tells column, row and index.
+  EXPECT_EQ(pixel(20 + 10, 52 + 30), (std::vector<int>{10, 30, 200}));
+  const std::vector<int> sky = pixel(20 + 96 + 4 + 1, 52 + 1);
+  const std::vector<int> ground = pixel(20 + 96 + 4 + 40, 52 + 60);
+  EXPECT_EQ(sky, (std::vector<int>{46, 48, 52})) << "no return is grey";
+  EXPECT_NE(ground, sky);
+}
+
+TEST(ContactSheet, FailsWhenFramesAreMissingAtTheEnd) {
+  ScratchFolder folder;
+  const auto recorder = make_sheet(folder / "preview.png");
+  recorder->write(make_frame(0));
+  EXPECT_THROW(recorder->finish(), RunError);
+}
+
+TEST(ContactSheet, NamesTheOptionThatIsOutOfRange) {
+  ContactSheetOptions options;
+  options.total_frames = 3;
+  options.tile = 5;
+  try {
+    make_contact_sheet_recorder("/tmp/never", options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("tile"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace rubble

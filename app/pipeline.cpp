@@ -60,6 +60,11 @@ MissionOptions mission_options(const RunRequest& request) {
 
 // One run's state, filled from the top down.
 struct Run {
+  explicit Run(const RunRequest& r)
+      : request(r),
+        progress(choose_progress_style(r.quiet)),
+        mission(load_mission(r.mission, mission_options(r))) {}
+
   const RunRequest& request;
   Progress progress;
   Mission mission;
@@ -69,13 +74,12 @@ struct Run {
 };
 
 void load(Run& run) {
-  run.progress.start("script");
-  run.mission = load_mission(run.request.mission, mission_options(run.request));
+  run.progress.start("assets");
   for (const std::string& line : run.mission.printed) std::fprintf(stderr, "%s\n", line.c_str());
   run.assets = load_assets(run.mission, run.request.asset_packs);
   for (const std::string& warning : run.assets.warnings)
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  run.progress.finish(std::to_string(run.assets.types.size()) + " assets, seed " +
+  run.progress.finish(std::to_string(run.assets.types.size()) + " loaded, seed " +
                       std::to_string(run.mission.scenario.seed));
 }
 
@@ -181,7 +185,7 @@ int render_and_record(Run& run, OutputFolder& folder) {
   return int(poses.size());
 }
 
-void write_manifest(Run& run, OutputFolder& folder, int frames) {
+void write_manifest(const Run& run, const OutputFolder& folder, int frames) {
   ManifestContents contents;
   contents.mission = &run.mission;
   contents.assets = &run.assets;
@@ -209,7 +213,7 @@ ExitCode report(const Run& run, const OutputFolder& folder) {
 
 ExitCode run_mission(const RunRequest& request) {
   stop_on_signals();
-  Run run{request, Progress(choose_progress_style(request.quiet)), {}, {}, {}, {}};
+  Run run(request);
   load(run);
   OutputFolder folder(choose_output(request), request.force);
   settle(run);
@@ -221,7 +225,7 @@ ExitCode run_mission(const RunRequest& request) {
 
 ExitCode settle_mission(const RunRequest& request) {
   stop_on_signals();
-  Run run{request, Progress(choose_progress_style(request.quiet)), {}, {}, {}, {}};
+  Run run(request);
   load(run);
   OutputFolder folder(choose_output(request), request.force);
   settle(run);

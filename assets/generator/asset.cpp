@@ -23,6 +23,9 @@ std::vector<std::vector<Vec3>> make_parts(const Recipe& recipe, const SurfaceMes
     if (!bar.collides) continue;
     for (auto& part : bar_parts(bar)) parts.push_back(part);
   }
+  for (auto& part : parts) {
+    for (Vec3& p : part) p = rounded_for_file(p);
+  }
   return parts;
 }
 

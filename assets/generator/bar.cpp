@@ -7,9 +7,17 @@
 namespace rubble::generator {
 namespace {
 
+constexpr double kPrismHalf = 0.886;  // half the side of a square with the circle's area
+
 Vec3 any_across(const Vec3& direction) {
   const Vec3 axis = std::fabs(direction.z) < 0.8 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
   return normalized(cross(axis, direction));
+}
+
+// The radius of a polygon with the area of the unit circle, so that every level has one volume.
+double equal_area(int sides) {
+  const double turn = 2 * portable::kPi / sides;
+  return std::sqrt(turn / portable::sin(turn));
 }
 
 // Points along the line, with each bend cut short over twice the bar's radius.
@@ -37,6 +45,7 @@ SurfaceMesh mesh_bar(const Bar& bar, int sides, double ring_spacing) {
   SurfaceMesh mesh;
   const std::vector<Vec3> centres = ring_centres(bar, ring_spacing);
   const int rings = static_cast<int>(centres.size());
+  const double radius = bar.radius * equal_area(sides);
   Vec3 across = any_across(normalized(centres[1] - centres[0]));
   for (int r = 0; r < rings; ++r) {
     const Vec3 along =
@@ -45,7 +54,7 @@ SurfaceMesh mesh_bar(const Bar& bar, int sides, double ring_spacing) {
     const Vec3 up = cross(along, across);
     for (int s = 0; s < sides; ++s) {
       const portable::SinCos turn = portable::sincos(2 * portable::kPi * s / sides);
-      mesh.positions.push_back(centres[r] + (across * turn.cos + up * turn.sin) * bar.radius);
+      mesh.positions.push_back(centres[r] + (across * turn.cos + up * turn.sin) * radius);
     }
   }
   for (int r = 0; r + 1 < rings; ++r) {
@@ -73,7 +82,7 @@ std::vector<std::vector<Vec3>> bar_parts(const Bar& bar) {
     const double skip = std::fmin(buried, length);
     buried -= skip;
     if (length - skip < 4 * bar.radius) continue;
-    const Vec3 u = any_across(along) * (0.9 * bar.radius), v = cross(along, u);
+    const Vec3 u = any_across(along) * (kPrismHalf * bar.radius), v = cross(along, u);
     std::vector<Vec3> part;
     for (const Vec3& end : {bar.line[i] + along * skip, bar.line[i + 1]}) {
       for (const Vec3& side : {u + v, v - u, -u - v, u - v}) part.push_back(end + side);

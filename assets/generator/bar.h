@@ -18,8 +18,8 @@ struct Bar {
 // rolled-in unevenness; coarser levels have fewer rings.
 SurfaceMesh mesh_bar(const Bar& bar, int sides, double ring_spacing);
 
-// One square prism per straight stretch outside the concrete, of about the rod's section: its
-// faces lie 0.1 radii inside the rod and its edges 0.27 radii outside.
+// One square prism per straight stretch outside the concrete, with the section area of the rod: its
+// faces lie 0.11 radii inside the rod and its edges 0.25 radii outside.
 std::vector<std::vector<Vec3>> bar_parts(const Bar& bar);
 
 }  // namespace rubble::generator

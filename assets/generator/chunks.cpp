@@ -42,9 +42,12 @@ Recipe chunk(const ChunkShape& shape) {
     const Vec3 half{0.6 * h.x, 0.7 * h.y, shape.cast == 2 ? h.z : 0.8 * h.z};
     r.solid.cells.push_back(broken_cell(random, centre, half, shape.faces - 1, shape.cast));
   }
-  r.solid.wear.fracture_size = 0.08;
-  r.cell = norm(h) < 0.2 ? 0.008 : 0.011;
-  r.triangles = {norm(h) < 0.2 ? 1500 : 2400, 450, 50};
+  const bool small = norm(h) < 0.22;
+  r.solid.wear.fracture_size = small ? 0.06 : 0.085;
+  r.solid.wear.fracture_depth = small ? 0.005 : 0.0075;
+  if (small) r.solid.wear.edge_round = 0.010, r.solid.wear.edge_chip = 0.016;
+  r.cell = small ? 0.008 : 0.011;
+  r.triangles = {small ? 1700 : 2600, 450, 50 * shape.lobes};
   r.max_edge = 0.07;
   r.scale_min = 0.6, r.scale_max = 1.3;
   r.weight = 1.5;

@@ -53,6 +53,7 @@ struct Candidate {
   }
 };
 
+constexpr double kBorderWeight = 0.04;  // of the line between surfaces against the surface itself
 constexpr int kSweeps = 4;
 constexpr double kSweepError = 1e-4;  // root mean square distance; unit: m
 
@@ -112,8 +113,8 @@ class Decimator {
       if (other == t || std::find(c.begin(), c.end(), b) == c.end()) continue;
       if (mesh_.surfaces[other] == mesh_.surfaces[t]) return;
       const Vec3 across = normalized(cross(at(b) - at(a), normal));
-      quadrics_[a].add_plane(across, dot(across, at(a)), 0.3 * area);
-      quadrics_[b].add_plane(across, dot(across, at(a)), 0.3 * area);
+      quadrics_[a].add_plane(across, dot(across, at(a)), kBorderWeight * area);
+      quadrics_[b].add_plane(across, dot(across, at(a)), kBorderWeight * area);
     }
   }
 
@@ -163,8 +164,8 @@ class Decimator {
     const Quadric sum = quadrics_[u] + quadrics_[v];
     const Vec3 edge = at(v) - at(u);
     // A small price on length evens out the triangles where the surface is flat.
-    const double cost = std::fmax(0.0, sum.error(calc_target(u, v, sum))) +
-                        2e-4 * sum.weight() * dot(edge, edge);
+    const double cost =
+        std::fmax(0.0, sum.error(calc_target(u, v, sum))) + 2e-4 * sum.weight() * dot(edge, edge);
     queue_.push({cost, u, v, ages_[u] + ages_[v]});
   }
 

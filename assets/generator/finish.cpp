@@ -69,7 +69,7 @@ class Finisher {
     if (found != numbers_.end()) return found->second;
     const auto number = static_cast<std::uint32_t>(result_.positions.size());
     numbers_.emplace(key, number);
-    result_.positions.push_back(Vec3f(rounded(at(v), 1e-5)));
+    result_.positions.push_back(Vec3f(rounded_for_file(at(v))));
     result_.normals.push_back(Vec3f(normalized(n)));
     return number;
   }
@@ -83,6 +83,8 @@ class Finisher {
 };
 
 }  // namespace
+
+Vec3 rounded_for_file(const Vec3& p) { return rounded(p, 1e-5); }
 
 TriangleMesh finish(const SurfaceMesh& mesh, double crease_deg) {
   return Finisher(mesh, crease_deg).run();

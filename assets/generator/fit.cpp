@@ -10,6 +10,20 @@ namespace {
 
 constexpr double kInside = 0.012;  // a corner deeper than this is within the solid; unit: m
 constexpr double kMaxShrink = 0.02;
+constexpr double kSink = 0.8;  // of the mean dent, by which a face goes below the highest bumps
+constexpr double kWorthwhile = 0.001;  // a cut takes off more; unit: m
+constexpr double kApart = 0.004;       // corners of a finished part are farther apart; unit: m
+
+// Corners without those that crowd another, rounded as they will be written.
+std::vector<Vec3> tidy(const std::vector<Vec3>& corners) {
+  std::vector<Vec3> kept;
+  for (const Vec3& c : corners) {
+    const bool crowded = std::any_of(kept.begin(), kept.end(),
+                                     [&](const Vec3& k) { return distance(k, c) < kApart; });
+    if (!crowded) kept.push_back(rounded_for_file(c));
+  }
+  return kept;
+}
 
 bool in_cell(const Cell& cell, const Vec3& p) {
   return std::all_of(cell.begin(), cell.end(),
@@ -20,6 +34,24 @@ double support(const std::vector<Vec3>& points, const Vec3& normal) {
   double top = -1e9;
   for (const Vec3& p : points) top = std::fmax(top, dot(normal, p));
   return top;
+}
+
+// For each face, the mean distance below it of the surface that belongs to it; negative where a
+// face has none because it is inside the solid. unit: m
+std::vector<double> mean_dents(const Cell& cell, const std::vector<Vec3>& points) {
+  std::vector<double> sums(cell.size(), 0), counts(cell.size(), 0);
+  for (const Vec3& p : points) {
+    std::size_t nearest = 0;
+    double highest = -1e9;
+    for (std::size_t f = 0; f < cell.size(); ++f) {
+      const double height = dot(cell[f].normal, p) - cell[f].offset;
+      if (height > highest) highest = height, nearest = f;
+    }
+    sums[nearest] -= highest;
+    counts[nearest] += 1;
+  }
+  for (std::size_t f = 0; f < cell.size(); ++f) sums[f] = counts[f] > 0 ? sums[f] / counts[f] : -1;
+  return sums;
 }
 
 // The points that the part of a cell must contain: the surface inside it, and its own corners
@@ -55,6 +87,12 @@ class GapFinder {
     return result;
   }
 
+  void give_up(const Vec3& corner) {
+    for (Gap& gap : known_) {
+      if (gap.corner == corner) gap.size = 0;
+    }
+  }
+
  private:
   const Gap& find(const Vec3& corner) {
     for (const Gap& gap : known_) {
@@ -75,16 +113,24 @@ class GapFinder {
 };
 
 std::vector<Vec3> fit_cell(Cell cell, const std::vector<Vec3>& points) {
-  for (Face& face : cell) {
-    const double top = support(points, face.normal);
-    if (top < face.offset && top > face.offset - kMaxShrink) face.offset = top;
+  const std::vector<double> dents = mean_dents(cell, points);
+  for (std::size_t f = 0; f < cell.size(); ++f) {
+    const double top = support(points, cell[f].normal);
+    if (dents[f] < 0 || top < cell[f].offset - kMaxShrink) continue;
+    const double below_top = dents[f] - (cell[f].offset - top);
+    cell[f].offset = top - kSink * below_top;
   }
   std::vector<Vec3> corners = corners_of(cell);
   GapFinder finder(points);
   for (int tries = 0; tries < 3 * kMaxCorners; ++tries) {
     const Gap gap = finder.largest(corners);
     if (gap.size < kCornerGap) break;
-    cell.push_back({gap.outward, support(points, gap.outward)});
+    const double top = support(points, gap.outward);
+    if (dot(gap.outward, gap.corner) - top < kWorthwhile) {
+      finder.give_up(gap.corner);  // other parts of the surface stand in the way
+      continue;
+    }
+    cell.push_back({gap.outward, top});
     std::vector<Vec3> cut = corners_of(cell);
     if (static_cast<int>(cut.size()) > kMaxCorners) break;
     corners = std::move(cut);
@@ -96,14 +142,14 @@ std::vector<Vec3> fit_cell(Cell cell, const std::vector<Vec3>& points) {
 
 std::vector<std::vector<Vec3>> cell_parts(const Solid& solid) {
   std::vector<std::vector<Vec3>> parts;
-  for (const Cell& cell : solid.cells) parts.push_back(corners_of(cell));
+  for (const Cell& cell : solid.cells) parts.push_back(tidy(corners_of(cell)));
   return parts;
 }
 
 std::vector<std::vector<Vec3>> fit_parts(const Solid& solid, const SurfaceMesh& surface) {
   std::vector<std::vector<Vec3>> parts;
   for (const Cell& cell : solid.cells) {
-    parts.push_back(fit_cell(cell, points_to_keep(solid, cell, surface)));
+    parts.push_back(tidy(fit_cell(cell, points_to_keep(solid, cell, surface))));
   }
   return parts;
 }

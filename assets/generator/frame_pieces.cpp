@@ -58,7 +58,7 @@ Recipe floor_slab() {
   cell.push_back({normalized(Vec3{1, 0.5, -0.1}), 2.3, kBroken});
   cell.push_back({normalized(Vec3{1, -0.9, 0.1}), 2.48, kBroken});
   r.solid.cells = {cell};
-  for (double y = -1.3; y < 1.35; y += 0.2) {
+  for (double y = -1.3; y < 1.35; y += 0.29) {
     const double z = random.uniform() < 0.6 ? -0.06 : 0.06;
     r.bars.push_back(protruding_bar(cell, {0, y, z}, {1, 0, 0}, 0.006, random));
   }

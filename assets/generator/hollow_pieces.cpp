@@ -44,6 +44,7 @@ Recipe pipe_recipe(const char* name, double length) {
   Cell bore = box_cell({-length, -clear, -clear}, {length, clear, clear}, kCast);
   bore.push_back({{1, 0, 0}, kBore, kCast, true});
   r.solid.hollows = {bore};
+  r.solid.wear.edge_round = 0.010;
   r.solid.wear.edge_chip = 0.02;
   r.cell = 0.014;
   r.max_edge = 0.12;
@@ -55,7 +56,7 @@ Recipe pipe() {
   Recipe r = pipe_recipe("pipe", 1.2);
   r.solid.cells[0][0].surface = kBroken;
   const int segments = 18;
-  add_ring_parts(r, -0.6, 0.6, 0, 2 * portable::kPi / segments, segments);
+  add_ring_parts(r, -0.6, 0.595, 0, 2 * portable::kPi / segments, segments);
   r.triangles = {4200, 1000, 160};
   r.scale_min = 0.8, r.scale_max = 1.2;
   r.weight = 0.15;
@@ -74,8 +75,9 @@ Recipe pipe_shard() {
     body.push_back({{0, side * turn.cos, -turn.sin}, 0, kBroken});
   }
   const int segments = 6;
-  add_ring_parts(r, -0.35, 0.35, portable::kPi / 2 - half_angle, 2 * half_angle / segments,
-                 segments);
+  // The parts end in the middle of the rough breaks: 5 mm short, 0.014 rad at the sides.
+  const double reach = half_angle - 0.014;
+  add_ring_parts(r, -0.35, 0.345, portable::kPi / 2 - reach, 2 * reach / segments, segments);
   r.triangles = {2400, 600, 80};
   r.cell = 0.012;
   r.scale_min = 0.7, r.scale_max = 1.2;

@@ -14,7 +14,7 @@ Recipe brick(const char* name, double length, bool broken, std::uint32_t seed) {
     Face& end = r.solid.cells[0][0];
     end = {normalized(Vec3{1, 0.12, -0.2}), length / 2, Surface::brick_fracture};
   }
-  r.solid.wear = {0.006, 0.035, 0.009, 0.0012, 0.004, 0.012, 0.035};
+  r.solid.wear = {0.005, 0.035, 0.009, 0.0012, 0.004, 0.012, 0.035};
   r.solid.seed = seed;
   r.cell = 0.004;
   r.triangles = {broken ? 800 : 640, 160, 24};
@@ -31,7 +31,7 @@ constexpr double kHalf = 0.095, kShell = 0.032, kWeb = 0.028, kCore = 0.153;
 Recipe block_recipe(const char* name, std::uint32_t seed) {
   Recipe r;
   r.name = name;
-  r.solid.wear = {0.007, 0.05, 0.011, 0.0014, 0.003, 0.012, 0.05};
+  r.solid.wear = {0.006, 0.05, 0.011, 0.0014, 0.003, 0.011, 0.05};
   r.solid.seed = seed;
   r.cell = 0.0055;
   r.triangles = {2200, 550, 90};
@@ -52,17 +52,18 @@ void add_core(Recipe& r, double min_x) {
                                      Surface::cinder_block));
 }
 
-// Shells from the end at `min_x` to the other; `max_x` may cut through a core.
-void add_body(Recipe& r, double min_x, double max_x) {
+// Shells from the end at `min_x` to the other, which may cut through a core; their collision parts
+// end at `part_max_x`, the middle of a rough break.
+void add_body(Recipe& r, double min_x, double max_x, double part_max_x) {
   r.solid.cells = {box_cell({min_x, -kHalf, -kHalf}, {max_x, kHalf, kHalf}, Surface::cinder_block)};
   for (const double y : {-kHalf, kHalf - kShell}) {
-    r.parts.push_back(box_corners({min_x, y, -kHalf}, {max_x, y + kShell, kHalf}));
+    r.parts.push_back(box_corners({min_x, y, -kHalf}, {part_max_x, y + kShell, kHalf}));
   }
 }
 
 Recipe cinder_block() {
   Recipe r = block_recipe("cinder_block", 201);
-  add_body(r, -0.195, 0.195);
+  add_body(r, -0.195, 0.195, 0.195);
   for (const double x : {-0.195, -kWeb / 2, 0.195 - kWeb}) add_web(r, x);
   for (const double x : {-0.195 + kWeb, kWeb / 2}) add_core(r, x);
   return r;
@@ -70,7 +71,7 @@ Recipe cinder_block() {
 
 Recipe half_block() {
   Recipe r = block_recipe("half_cinder_block", 202);
-  add_body(r, -kHalf, kHalf);
+  add_body(r, -kHalf, kHalf, kHalf);
   for (const double x : {-kHalf, kHalf - kWeb}) add_web(r, x);
   r.solid.hollows = {box_cell({-kHalf + kWeb, -kHalf + kShell, -kHalf - 0.1},
                               {kHalf - kWeb, kHalf - kShell, kHalf + 0.1}, Surface::cinder_block)};
@@ -83,7 +84,7 @@ Recipe half_block() {
 Recipe broken_block() {
   Recipe r = block_recipe("broken_cinder_block", 203);
   const double end = 0.085;
-  add_body(r, -0.195, end);
+  add_body(r, -0.195, end, end - 0.003);
   r.solid.cells[0][0].surface = Surface::concrete_fracture;
   for (const double x : {-0.195, -kWeb / 2}) add_web(r, x);
   for (const double x : {-0.195 + kWeb, kWeb / 2}) add_core(r, x);

@@ -39,6 +39,24 @@ double corner_gradient(const Lattice& c, int i, int j, int k, std::uint32_t seed
   return dot(gradient, c.f - Vec3(i, j, k));
 }
 
+// The least of `value(offset, hash)` over the random points of a cell and those around it, one to a
+// cell; offset: from p to the point.
+template <typename Value>
+double least_in_cells(const Vec3& p, std::uint32_t seed, Value value) {
+  const Lattice c(p);
+  double least = 1e9;
+  for (int k = -1; k <= 1; ++k) {
+    for (int j = -1; j <= 1; ++j) {
+      for (int i = -1; i <= 1; ++i) {
+        const std::uint32_t h = hash_cell(c.x + i, c.y + j, c.z + k, seed);
+        const Vec3 d = Vec3(i + part(h, 0), j + part(h, 1), k + part(h, 2)) - c.f;
+        least = std::fmin(least, value(d, h));
+      }
+    }
+  }
+  return least;
+}
+
 }  // namespace
 
 double gradient_noise(const Vec3& p, std::uint32_t seed) {
@@ -81,18 +99,17 @@ double ridged_noise(const Vec3& p, int octaves, std::uint32_t seed) {
 }
 
 double grain_noise(const Vec3& p, std::uint32_t seed) {
-  const Lattice c(p);
-  double nearest = 9;  // squared
-  for (int k = -1; k <= 1; ++k) {
-    for (int j = -1; j <= 1; ++j) {
-      for (int i = -1; i <= 1; ++i) {
-        const std::uint32_t h = hash_cell(c.x + i, c.y + j, c.z + k, seed);
-        const Vec3 d = Vec3(i + part(h, 0), j + part(h, 1), k + part(h, 2)) - c.f;
-        nearest = std::fmin(nearest, dot(d, d));
-      }
-    }
-  }
+  const double nearest =
+      least_in_cells(p, seed, [](const Vec3& d, std::uint32_t) { return dot(d, d); });
   return std::fmax(0.0, 1 - nearest / 0.5);
+}
+
+double flake_noise(const Vec3& p, std::uint32_t seed) {
+  const double nearest = least_in_cells(p, seed, [](const Vec3& d, std::uint32_t hash) {
+    const Vec3 tilt{part(hash, 1) - 0.5, part(hash, 2) - 0.5, part(hash, 0) - 0.5};
+    return dot(d, d) + 1.4 * dot(tilt, d);
+  });
+  return std::fmin(1.0, std::fmax(0.0, 1.2 * nearest + 0.4));
 }
 
 }  // namespace rubble::generator

@@ -20,4 +20,7 @@ double ridged_noise(const Vec3& p, int octaves, std::uint32_t seed);
 // Rounded grains, one at a random place in each lattice cell: 1 on top of a grain, 0 between.
 double grain_noise(const Vec3& p, std::uint32_t seed);
 
+// Shallow tilted bowls that meet in sharp ridges, as flakes come off a brittle break: 0 to 1.
+double flake_noise(const Vec3& p, std::uint32_t seed);
+
 }  // namespace rubble::generator

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
@@ -9,7 +10,8 @@
 namespace rubble::generator {
 namespace {
 
-constexpr double kMerge = 1e-4;  // corners closer than this are one; unit: m
+constexpr double kMerge = 1e-4;    // corners closer than this are one; unit: m
+constexpr double kLattice = 1e-5;  // of the points of hulls; unit: m
 
 bool meet(const Face& a, const Face& b, const Face& c, Vec3& point) {
   const Vec3 bc = cross(b.normal, c.normal);
@@ -32,21 +34,42 @@ void add_if_new(std::vector<Vec3>& points, const Vec3& p) {
   if (!known) points.push_back(p);
 }
 
+// Points on the lattice of the files, in whole units: orientations are then exact, and the faces of
+// a hull fit together whatever the points. Differences up to 10 m keep determinants within 64 bits.
+using Whole = Vec3T<std::int64_t>;
+
+Whole to_lattice(const Vec3& p) {
+  const auto whole = [](double x) {
+    return static_cast<std::int64_t>(std::floor(x / kLattice + 0.5));
+  };
+  return {whole(p.x), whole(p.y), whole(p.z)};
+}
+
 // Whether no point lies above the plane; gathers those on it.
-bool supports(const std::vector<Vec3>& points, const Vec3& normal, double offset, double tolerance,
+bool supports(const std::vector<Whole>& points, const Whole& normal, const Whole& on_plane,
               std::vector<int>& on) {
   on.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double height = dot(normal, points[i]) - offset;
-    if (height > tolerance) return false;
-    if (height > -tolerance) on.push_back(static_cast<int>(i));
+    const std::int64_t height = dot(normal, points[i] - on_plane);
+    if (height > 0) return false;
+    if (height == 0) on.push_back(static_cast<int>(i));
+  }
+  return true;
+}
+
+// Whether i, j, k are the first of the points on a face that span it.
+bool leads(const std::vector<Whole>& points, const std::vector<int>& on, int i, int j, int k) {
+  if (on[0] != i || on[1] != j) return false;
+  for (std::size_t m = 2; on[m] != k; ++m) {
+    const Whole area = cross(points[j] - points[i], points[on[m]] - points[i]);
+    if (!(area == Whole{})) return false;
   }
   return true;
 }
 
 // Sorts the points of a face about their middle and drops those that are no corner of it.
 std::vector<int> order_polygon(const std::vector<Vec3>& points, std::vector<int> on,
-                               const Vec3& normal, double tolerance) {
+                               const Vec3& normal) {
   Vec3 middle;
   for (const int i : on) middle += points[i] * (1.0 / static_cast<double>(on.size()));
   const Vec3 u = normalized(points[on[0]] - middle), v = cross(normal, u);
@@ -56,10 +79,10 @@ std::vector<int> order_polygon(const std::vector<Vec3>& points, std::vector<int>
   std::sort(on.begin(), on.end(), [&](int a, int b) { return angle(a) < angle(b); });
   std::vector<int> kept;
   for (std::size_t i = 0; i < on.size(); ++i) {
-    const Vec3& before = points[on[(i + on.size() - 1) % on.size()]];
-    const Vec3& after = points[on[(i + 1) % on.size()]];
-    const Vec3 out = normalized(cross(after - before, normal));
-    if (dot(out, points[on[i]] - before) > tolerance) kept.push_back(on[i]);
+    const Whole before = to_lattice(points[on[(i + on.size() - 1) % on.size()]]);
+    const Whole after = to_lattice(points[on[(i + 1) % on.size()]]);
+    const Whole turn = cross(to_lattice(points[on[i]]) - before, after - before);
+    if (dot(Vec3(turn), normal) > 0.5) kept.push_back(on[i]);
   }
   return kept;
 }
@@ -81,22 +104,22 @@ std::vector<Vec3> corners_of(const Cell& cell) {
   return corners;
 }
 
-std::vector<Polygon> hull_faces(const std::vector<Vec3>& points, double tolerance) {
+std::vector<Polygon> hull_faces(const std::vector<Vec3>& points) {
   std::vector<Polygon> faces;
+  std::vector<Whole> whole;
+  for (const Vec3& p : points) whole.push_back(to_lattice(p));
   std::vector<int> on;
   const int count = static_cast<int>(points.size());
   for (int i = 0; i < count; ++i) {
     for (int j = i + 1; j < count; ++j) {
       for (int k = j + 1; k < count; ++k) {
-        Vec3 normal = cross(points[j] - points[i], points[k] - points[i]);
-        if (norm(normal) < 1e-9) continue;
-        normal = normalized(normal);
-        for (const Vec3& n : {normal, -normal}) {
-          if (!supports(points, n, dot(n, points[i]), tolerance, on)) continue;
-          // Each face is met once by its first three points.
-          if (on.size() < 3 || on[0] != i || on[1] != j || on[2] != k) continue;
-          Polygon polygon{order_polygon(points, on, n, 0.1 * tolerance), n};
-          if (polygon.corners.size() >= 3) faces.push_back(polygon);
+        const Whole area = cross(whole[j] - whole[i], whole[k] - whole[i]);
+        if (area == Whole{}) continue;
+        for (const Whole& n : {area, -area}) {
+          // Each face is met once by its first three points that are not in line.
+          if (!supports(whole, n, whole[i], on) || !leads(whole, on, i, j, k)) continue;
+          const Vec3 normal = normalized(Vec3(n));
+          faces.push_back({order_polygon(points, on, normal), normal});
         }
       }
     }

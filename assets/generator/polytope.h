@@ -18,9 +18,10 @@ struct Polygon {
   Vec3 normal;               // unit length, outward
 };
 
-// The faces of the convex hull of some points. Points within `tolerance` of a face count as on it;
-// points that are no corner appear in no polygon. unit: m
-std::vector<Polygon> hull_faces(const std::vector<Vec3>& points, double tolerance = 1e-6);
+// The faces of the convex hull of some points, which count as rounded to 10 um and must not be more
+// than 10 m apart. Exact: neighbouring faces share their edges, and no point is above a face.
+// Points that are no corner appear in no polygon.
+std::vector<Polygon> hull_faces(const std::vector<Vec3>& points);
 
 // Volume of the hull. unit: m3
 double hull_volume(const std::vector<Vec3>& points);

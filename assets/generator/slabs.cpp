@@ -10,6 +10,13 @@ struct Lobe {  // a broken outline about a point, half sizes; unit: m
   int sides;
 };
 
+constexpr double kRidged = 0.4;  // share of the rim's sides that broke along two planes
+
+void add_break(Cell& cell, const Vec3& normal, const Vec3& through) {
+  const Vec3 n = normalized(normal);
+  cell.push_back({n, dot(n, through), Surface::concrete_fracture});
+}
+
 // Cast top and bottom; a rim of broken, leaning faces.
 Cell slab_cell(RandomStream& random, const Lobe& lobe, double thickness) {
   Cell cell{{{0, 0, 1}, thickness / 2, Surface::concrete_cast},
@@ -17,10 +24,14 @@ Cell slab_cell(RandomStream& random, const Lobe& lobe, double thickness) {
   for (int i = 0; i < lobe.sides; ++i) {
     const double angle = 2 * portable::kPi * (i + random.uniform(-0.3, 0.3)) / lobe.sides;
     const portable::SinCos turn = portable::sincos(angle);
-    const Vec3 n = normalized(Vec3{turn.cos, turn.sin, random.uniform(-0.45, 0.45)});
-    const double reach = norm(Vec3{n.x * lobe.half_x, n.y * lobe.half_y, 0});
-    const double offset = dot(n, Vec3{lobe.x, lobe.y, 0}) + reach * random.uniform(0.84, 1.0);
-    cell.push_back({n, offset, Surface::concrete_fracture});
+    const double lean = random.uniform(-0.5, 0.5);
+    const double reach = norm(Vec3{turn.cos * lobe.half_x, turn.sin * lobe.half_y, 0});
+    const Vec3 middle = Vec3{lobe.x, lobe.y, random.uniform(-0.2, 0.2) * thickness} +
+                        Vec3{turn.cos, turn.sin, 0} * (reach * random.uniform(0.84, 1.0));
+    add_break(cell, {turn.cos, turn.sin, lean}, middle);
+    if (random.uniform() < kRidged) {  // the break changed its lean at half depth
+      add_break(cell, {turn.cos, turn.sin, lean > 0 ? lean - 0.8 : lean + 0.8}, middle);
+    }
   }
   return cell;
 }
@@ -53,8 +64,11 @@ Recipe slab(const SlabShape& shape) {
   for (const Vec3& side : shape.bar_sides) {
     add_bars(r, random, shape.lobes[0], shape.thickness, side, shape.bar_spacing);
   }
-  r.cell = 0.012;
-  r.triangles = {3400, 800, 80};
+  r.solid.wear.fracture_depth = 0.009;
+  const bool small = shape.lobes[0].half_x < 0.4;
+  if (small) r.solid.wear.edge_round = 0.010, r.solid.wear.edge_chip = 0.016;
+  r.cell = small ? 0.009 : 0.012;
+  r.triangles = {3800, 900, 80};
   r.scale_min = 0.7, r.scale_max = 1.3;
   r.tags = {"concrete", "slab"};
   return r;

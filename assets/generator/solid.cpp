@@ -8,25 +8,28 @@
 namespace rubble::generator {
 namespace {
 
-constexpr double kDeepest = 0.025;     // what wear removes at most; unit: m
+constexpr double kDeepest = 0.025;      // what wear removes at most; unit: m
+constexpr double kScar = 0.0026;        // an edge that receded farther was chipped; unit: m
 constexpr double kHollowRound = 0.009;  // of the inner edges of hollows; unit: m
 
-struct Local {  // what every face shares at one point
-  double fracture, cast, edge;
+struct Local {                  // what every face shares at one point
+  double roughness;             // of a break, 0 to 1
+  double fracture, cast, edge;  // dents of the two kinds of faces, width of edges; unit: m
 };
 
 Local calc_local(const Solid& solid, const Vec3& p) {
   const Wear& w = solid.wear;
   const double waves = ridged_noise(p * (1 / w.fracture_size), 3, solid.seed);
+  const double flakes = flake_noise(p * (1.7 / w.fracture_size), solid.seed + 51);
   const double grains = grain_noise(p * (1 / w.grain_size), solid.seed + 11);
-  const double bumps = 0.75 * std::fmin(1.0, 1.6 * waves) + 0.25 * (1 - grains);
-  const double sway = 0.5 + 0.5 * gradient_noise(p * (1 / w.chip_size), solid.seed + 21);
-  const double pits =
-      std::fmax(0.0, fractal_noise(p * (2.5 / w.chip_size), 2, solid.seed + 31) - 0.25);
-  const double chips =
-      std::fmax(0.0, 1.4 * fractal_noise(p * (1 / w.chip_size), 2, solid.seed + 41));
-  return {w.fracture_depth * bumps,
-          w.cast_depth * std::fmin(1.0, 0.3 * std::fmax(0.0, sway) + 2 * pits),
+  const double mixed = 0.45 * std::fmin(1.0, 1.6 * waves) + 0.35 * flakes + 0.2 * (1 - grains);
+  const double rough = std::fmin(1.0, std::fmax(0.0, 2.1 * mixed - 0.45));
+  const Vec3 in_chips = p * (1 / w.chip_size);
+  const double sway = 0.5 + 0.5 * gradient_noise(in_chips, solid.seed + 21);
+  const double pits = fractal_noise(in_chips * 2.5, 2, solid.seed + 31) - 0.25;
+  const double chips = std::fmax(0.0, 1.4 * fractal_noise(in_chips, 2, solid.seed + 41));
+  return {rough, w.fracture_depth * rough,
+          w.cast_depth * std::fmin(1.0, 0.3 * std::fmax(0.0, sway) + 2 * std::fmax(0.0, pits)),
           w.edge_round + w.edge_chip * std::fmin(1.0, chips * chips)};
 }
 
@@ -52,7 +55,18 @@ double smooth_max(double a, double b, double k) {
   return std::fmax(a, b) + 0.25 * h * h * k;
 }
 
-// Of a cell, or with sign -1 of the outside of a hollow.
+Surface broken(Surface surface) {
+  if (surface == Surface::concrete_cast) return Surface::concrete_fracture;
+  return surface == Surface::brick ? Surface::brick_fracture : surface;
+}
+
+// Where an edge receded far it chipped: the scar is a break, and rough.
+FieldSample chip(FieldSample sample, double receded, const Local& local) {
+  if (receded < kScar) return sample;
+  const double depth = std::fmin(receded - kScar, 0.5 * kScar);
+  return {sample.value + depth * local.roughness, broken(sample.surface)};
+}
+
 FieldSample rough_value(const Cell& cell, const Vec3& p, const Local& local) {
   FieldSample result{-1e9, Surface::concrete_cast};
   double top = -1e9;
@@ -65,7 +79,7 @@ FieldSample rough_value(const Cell& cell, const Vec3& p, const Local& local) {
     }
     result.value = smooth_max(result.value, value, local.edge);
   }
-  return result;
+  return chip(result, result.value - top, local);
 }
 
 // A hollow is smooth inside: its walls were cast, and its edges are worn where it meets a face.
@@ -78,9 +92,10 @@ FieldSample cut_hollow(FieldSample solid, const Cell& hollow, const Vec3& p, con
     inside = inside < -1e8 ? value : smooth_max(inside, value, kHollowRound);
   }
   const double cut = -inside + local.cast;
+  const double top = std::fmax(cut, solid.value);
   if (cut > solid.value) solid.surface = surface;
   solid.value = smooth_max(solid.value, cut, local.edge);
-  return solid;
+  return chip(solid, solid.value - top, local);
 }
 
 }  // namespace

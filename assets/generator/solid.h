@@ -38,12 +38,12 @@ using Cell = std::vector<Face>;  // the intersection of its faces
 
 // How worn the solid is. Lengths in metres.
 struct Wear {
-  double fracture_depth = 0.009;  // the deepest dent of a fracture face below its plane
+  double fracture_depth = 0.008;  // the deepest dent of a fracture face below its plane
   double fracture_size = 0.10;    // wavelength of its largest waves
   double grain_size = 0.024;      // spacing of the aggregate
   double cast_depth = 0.0015;     // the same for all other faces: waves and pits
-  double edge_round = 0.008;      // width of the rounding of every edge; the edge recedes by 1/4
-  double edge_chip = 0.03;        // extra width where an edge is chipped
+  double edge_round = 0.014;      // width of the rounding of every edge; the edge recedes by 1/4
+  double edge_chip = 0.024;        // extra width where an edge is chipped
   double chip_size = 0.06;        // spacing of the chips
 };
 

@@ -30,7 +30,10 @@ SurfaceMesh decimate(const SurfaceMesh& mesh, const DecimateOptions& options);
 
 void append(SurfaceMesh& mesh, const SurfaceMesh& more);
 
-// Rounds the positions to 10 um, as written to files, and gives every corner a normal: smooth
+// To 10 um, the resolution of the files.
+Vec3 rounded_for_file(const Vec3& p);
+
+// Rounds the positions as written to files, and gives every corner a normal: smooth
 // across edges flatter than `crease_deg` within one surface, split at others.
 TriangleMesh finish(const SurfaceMesh& mesh, double crease_deg);
 

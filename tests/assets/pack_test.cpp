@@ -1,0 +1,162 @@
+// The bundled concrete pack as files: closed, convex where it must be, and visual and collision
+// shapes close to each other.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "tests/assets/obj_reader.h"
+#include "tests/assets/probe.h"
+
+namespace rubble::test {
+namespace {
+
+const std::string kFolder = std::string(RUBBLE_ASSETS_DIR) + "/concrete/";
+
+const std::set<std::string> kSurfaces = {
+    "concrete_cast", "concrete_fracture", "brick",  "brick_fracture", "cinder_block",
+    "rebar",         "steel_galvanised",  "timber", "plaster"};
+
+TriangleMesh level(const std::string& name, int number) {
+  return read_mesh(kFolder + name + ".lod" + std::to_string(number) + ".obj");
+}
+
+bool is_masonry(const std::string& name) {
+  return name.find("brick") != std::string::npos || name.find("block") != std::string::npos;
+}
+
+struct GapLimits {  // how far surface and parts may be apart; unit: m
+  double usual;     // for 95 of 100 points
+  double worst;     // at chipped corners
+};
+GapLimits gap_limits(const std::string& name) {
+  return is_masonry(name) ? GapLimits{0.004, 0.008} : GapLimits{0.010, 0.020};
+}
+
+class PackTest : public testing::TestWithParam<std::string> {};
+
+TEST_P(PackTest, EveryLevelIsClosedAndFacesOut) {
+  const double volume = calc_volume_properties(level(GetParam(), 0)).volume;
+  for (int i = 0; i < 3; ++i) {
+    const TriangleMesh mesh = level(GetParam(), i);
+    EXPECT_TRUE(is_closed(mesh)) << "level " << i;
+    EXPECT_NEAR(calc_volume_properties(mesh).volume, volume, (i == 1 ? 0.03 : 0.12) * volume)
+        << "level " << i;
+    ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+    for (const Vec3f& n : mesh.normals) ASSERT_NEAR(norm(n), 1, 2e-3);
+  }
+  EXPECT_GT(volume, 5e-5);
+}
+
+TEST_P(PackTest, NormalsFaceAsTheirTriangles) {
+  const TriangleMesh mesh = level(GetParam(), 0);
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
+    const Vec3 face = normalized(cross(b - a, c - a));
+    for (const auto v : t) ASSERT_GT(dot(face, Vec3(mesh.normals[v])), 0.5);
+  }
+}
+
+TEST_P(PackTest, LevelsHaveFewTriangles) {
+  const std::size_t finest = level(GetParam(), 0).triangles.size();
+  EXPECT_GE(finest, 300u);
+  EXPECT_LE(finest, 6600u);
+  EXPECT_LE(level(GetParam(), 1).triangles.size(), finest / 3);
+  EXPECT_LE(level(GetParam(), 2).triangles.size(), 500u);
+}
+
+TEST_P(PackTest, SurfacesAreKnown) {
+  const TriangleMesh mesh = level(GetParam(), 0);
+  ASSERT_FALSE(mesh.surface_names.empty());
+  for (const std::string& name : mesh.surface_names) EXPECT_EQ(kSurfaces.count(name), 1u) << name;
+}
+
+TEST_P(PackTest, PartsAreConvexAndSolid) {
+  for (const Part& part : read_parts(kFolder + GetParam() + ".parts.obj")) {
+    EXPECT_GE(part.points.size(), 4u);
+    EXPECT_LE(part.points.size(), 32u);
+    EXPECT_TRUE(is_closed(part.hull));
+    double thinnest = 1e9;
+    for (const HalfSpace& plane : planes_of(part)) {
+      double depth = 0;
+      for (const Vec3& p : part.points) {
+        const double height = dot(plane.normal, p) - plane.offset;
+        EXPECT_LE(height, 1e-4) << "a corner above a face";
+        depth = std::max(depth, -height);
+      }
+      thinnest = std::min(thinnest, depth);
+    }
+    EXPECT_GE(thinnest, 0.01);
+    for (std::size_t i = 0; i < part.points.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        EXPECT_GE(distance(part.points[i], part.points[k]), 1e-3) << "corners too close";
+      }
+    }
+  }
+}
+
+TEST_P(PackTest, PartsContainTheSurface) {
+  const TriangleMesh mesh = level(GetParam(), 0);
+  std::vector<std::vector<HalfSpace>> planes;
+  for (const Part& part : read_parts(kFolder + GetParam() + ".parts.obj")) {
+    planes.push_back(planes_of(part));
+  }
+  double worst = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const bool bar = mesh.surface_names[mesh.surfaces[t]] == "rebar";
+    for (const auto v : mesh.triangles[t]) {
+      double height = 1e9;
+      for (const auto& part : planes)
+        height = std::min(height, height_above(part, Vec3(mesh.positions[v])));
+      // Bars broken off shorter than 5 cm have no part of their own.
+      if (bar && height < 0.055) height = std::min(height, 0.0);
+      worst = std::max(worst, height);
+    }
+  }
+  std::printf("[ outside  ] %s: %.1f mm\n", GetParam().c_str(), 1000 * worst);
+  EXPECT_LE(worst, 0.006);
+}
+
+TEST_P(PackTest, SurfaceIsCloseToTheParts) {
+  const TriangleMesh mesh = level(GetParam(), 0);
+  const std::vector<Part> parts = read_parts(kFolder + GetParam() + ".parts.obj");
+  const std::vector<Vec3> points = exposed_points(parts, is_masonry(GetParam()) ? 0.015 : 0.04);
+  ASSERT_GE(points.size(), 8u);
+  std::vector<double> gaps;
+  for (const Vec3& p : points) gaps.push_back(distance_to_mesh(p, mesh));
+  std::sort(gaps.begin(), gaps.end());
+  const double usual = gaps[gaps.size() * 95 / 100], worst = gaps.back();
+  std::printf("[ gaps     ] %s: median %.1f mm, 95 %% %.1f mm, largest %.1f mm\n",
+              GetParam().c_str(), 1000 * gaps[gaps.size() / 2], 1000 * usual, 1000 * worst);
+  EXPECT_LE(usual, gap_limits(GetParam()).usual);
+  EXPECT_LE(worst, gap_limits(GetParam()).worst);
+}
+
+TEST_P(PackTest, VolumesAgree) {
+  const double volume = calc_volume_properties(level(GetParam(), 0)).volume;
+  const double parts = calc_union_volume(read_parts(kFolder + GetParam() + ".parts.obj"));
+  std::printf("[ volume   ] %s: %.5f m3, parts %.5f\n", GetParam().c_str(), volume, parts);
+  EXPECT_NEAR(volume / parts, 1, 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(Concrete, PackTest,
+                         testing::ValuesIn(read_asset_names(kFolder + "pack.lua")),
+                         [](const auto& test) { return test.param; });
+
+TEST(Pack, HasTheAnnouncedPieces) {
+  const std::vector<std::string> names = read_asset_names(kFolder + "pack.lua");
+  EXPECT_GE(names.size(), 20u);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+}
+
+TEST(Pack, IsSmall) {
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) bytes += entry.file_size();
+  EXPECT_LT(bytes, 15u << 20);
+  EXPECT_GT(bytes, 1u << 20);
+}
+
+}  // namespace
+}  // namespace rubble::test

@@ -12,21 +12,11 @@ namespace {
 // The bottom of a layer's spawn volume is this far above the highest point of the pile; unit: m.
 constexpr double kSpawnClearance = 1.0;
 
-WorldOptions world_options(const SettleOptions& options) {
-  WorldOptions w;
-  w.gravity = options.gravity;
-  w.step = options.step;
-  w.lost_below = options.lost_below;
-  w.lost_beyond = options.lost_beyond;
-  w.threads = options.threads;
-  return w;
-}
-
 class Settling {
  public:
-  Settling(const Pile& pile, const SettleOptions& options, const SettleCallback& progress)
-      : pile_(pile), options_(options), progress_(progress),
-        world_(pile.types, world_options(options)) {}
+  Settling(World& world, const Pile& pile, const SettleOptions& options,
+           const SettleCallback& progress)
+      : pile_(pile), options_(options), progress_(progress), world_(world) {}
 
   PileState run() {
     bool rested = lay_out();
@@ -133,7 +123,7 @@ class Settling {
   const Pile& pile_;
   const SettleOptions& options_;
   const SettleCallback& progress_;
-  World world_;
+  World& world_;
   int layers_ = 0, layers_at_limit_ = 0;
   bool stopped_ = false;
 };
@@ -166,7 +156,24 @@ void SettleOptions::validate() const {
 PileState settle_pile(const Pile& pile, const SettleOptions& options,
                       const SettleCallback& progress) {
   options.validate();
-  return Settling(pile, options, progress).run();
+  World world(pile.types, calc_world_options(options));
+  return settle_pile(world, pile, options, progress);
+}
+
+PileState settle_pile(World& world, const Pile& pile, const SettleOptions& options,
+                      const SettleCallback& progress) {
+  options.validate();
+  return Settling(world, pile, options, progress).run();
+}
+
+WorldOptions calc_world_options(const SettleOptions& options) {
+  WorldOptions w;
+  w.gravity = options.gravity;
+  w.step = options.step;
+  w.lost_below = options.lost_below;
+  w.lost_beyond = options.lost_beyond;
+  w.threads = options.threads;
+  return w;
 }
 
 }  // namespace rubble

@@ -8,6 +8,9 @@
 
 namespace rubble {
 
+class World;
+struct WorldOptions;
+
 enum class Schedule {
   layers,  // a layer falls when the one before is at rest
   planes,  // a layer falls when every piece of the one before has touched something
@@ -40,5 +43,10 @@ using SettleCallback = std::function<bool(const SettleProgress&)>;
 // Runs until every piece rests or a time limit comes. Same input, same bits.
 PileState settle_pile(const Pile& pile, const SettleOptions& options = {},
                       const SettleCallback& progress = {});
+// The same in a world of the caller's, who may look at it in the callback and go on from its end.
+// world: empty, with the types of the pile and calc_world_options(options).
+PileState settle_pile(World& world, const Pile& pile, const SettleOptions& options = {},
+                      const SettleCallback& progress = {});
+WorldOptions calc_world_options(const SettleOptions& options);
 
 }  // namespace rubble

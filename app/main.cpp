@@ -1,5 +1,6 @@
 // The command line: parses, calls one command, turns errors into messages and exit codes.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -65,6 +66,7 @@ ExitCode run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using rubble::ExitCode;
+  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of write(), like a full disk
   try {
     return int(rubble::run(argc, argv));
   } catch (const rubble::InputError& error) {

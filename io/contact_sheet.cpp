@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "io/atomic_file.h"
 #include "io/frame_order.h"
+#include "io/image_file.h"
 #include "kernel/base/error.h"
+#include "kernel/base/portable_math.h"
 
 namespace rubble {
 namespace {
@@ -64,13 +65,19 @@ std::vector<float> sample_depth(const Frame& frame, int width, int height) {
 
 bool is_return(float depth) { return std::isfinite(depth) && depth > 0; }
 
-// A round length (1, 2 or 5 times a power of ten) of which about five fit into `range`.
-double tick_step(double range) {
-  double step = 1e-3;
-  const double factors[3] = {2.0, 2.5, 2.0};
-  for (int i = 0; range / step > 6; ++i) step *= factors[i % 3];
-  return step;
-}
+// A logarithmic scale of depth: near things of a void and far ones outside both show their shape.
+struct DepthScale {
+  double near = 1, far = 2;  // unit: m; 0 < near < far
+
+  // 0 at `near` and nearer, 1 at `far` and farther. Portable: the sheet is the same everywhere.
+  double fraction(double depth) const {
+    const double f = portable::log(depth / near) / portable::log(far / near);
+    return std::min(1.0, std::max(0.0, f));
+  }
+  std::uint8_t level(double depth) const {  // 255: near
+    return static_cast<std::uint8_t>(255.0 * (1.0 - fraction(depth)) + 0.5);
+  }
+};
 
 std::string decimal(double value, int places) {
   char text[32];
@@ -110,33 +117,32 @@ class ContactSheetRecorder : public Recorder {
       throw RunError(file_.path() + ": " + std::to_string(options_.total_frames) +
                      " frames were announced and " + std::to_string(order_.count()) + " came");
     }
-    std::vector<unsigned char> bytes;
-    if (!cv::imencode(".png", draw_sheet(), bytes, {cv::IMWRITE_PNG_COMPRESSION, 6})) {
-      throw RunError("cannot encode " + file_.path() + " as PNG");
-    }
-    file_.write(bytes.data(), bytes.size());
+    cv::Mat rgb;
+    cv::cvtColor(draw_sheet(), rgb, cv::COLOR_BGR2RGB);
+    file_.write(encode_png(RgbImage{rgb.cols, rgb.rows, {rgb.datastart, rgb.dataend}}, 6));
     file_.commit();
   }
 
  private:
-  double calc_range() const {
+  // From the 1st to the 99th percentile of what is shown, and at least from 1 to 1.5.
+  DepthScale calc_scale() const {
     std::vector<float> depths;
     for (const Tile& tile : tiles_) {
       std::copy_if(tile.depth.begin(), tile.depth.end(), std::back_inserter(depths), is_return);
     }
-    if (depths.empty()) return 1.0;
-    const auto cut = depths.begin() + static_cast<std::ptrdiff_t>((depths.size() - 1) * 98 / 100);
-    std::nth_element(depths.begin(), cut, depths.end());
-    return static_cast<double>(*cut);
+    if (depths.empty()) return {};
+    std::sort(depths.begin(), depths.end());
+    const double near = static_cast<double>(depths[(depths.size() - 1) / 100]);
+    const double far = static_cast<double>(depths[(depths.size() - 1) * 99 / 100]);
+    return {near, std::max(far, 1.5 * near)};
   }
 
   // Near is warm, far is cold, no return is grey.
-  cv::Mat colour_depth(const Tile& tile, double range) const {
+  cv::Mat colour_depth(const Tile& tile, const DepthScale& scale) const {
     cv::Mat levels(tile.colour.size(), CV_8UC1), colours;
     for (std::size_t i = 0; i < tile.depth.size(); ++i) {
       const float d = tile.depth[i];
-      const double far = is_return(d) ? std::min(1.0, static_cast<double>(d) / range) : 1.0;
-      levels.data[i] = static_cast<std::uint8_t>(255.0 * (1.0 - far) + 0.5);
+      levels.data[i] = is_return(d) ? scale.level(static_cast<double>(d)) : std::uint8_t{0};
     }
     cv::applyColorMap(levels, colours, cv::COLORMAP_TURBO);
     for (std::size_t i = 0; i < tile.depth.size(); ++i) {
@@ -156,28 +162,28 @@ class ContactSheetRecorder : public Recorder {
     cv::Mat sheet(kTitle + rows * (pair_height + kMargin) + kLegend,
                   kMargin + columns * (pair_width + kMargin), CV_8UC3, kPaper);
     put_label(sheet, options_.title, {kMargin, 34}, 0.75, kInk);
-    const double range = calc_range();
+    const DepthScale scale = calc_scale();
     for (int i = 0; i < int(tiles_.size()); ++i) {
-      draw_pair(sheet, tiles_[std::size_t(i)], range,
+      draw_pair(sheet, tiles_[std::size_t(i)], scale,
                 {kMargin + i % columns * (pair_width + kMargin),
                  kTitle + i / columns * (pair_height + kMargin)});
     }
-    draw_legend(sheet, range, sheet.rows - kLegend);
+    draw_legend(sheet, scale, sheet.rows - kLegend);
     return sheet;
   }
 
-  void draw_pair(cv::Mat& sheet, const Tile& tile, double range, cv::Point at) const {
+  void draw_pair(cv::Mat& sheet, const Tile& tile, const DepthScale& scale, cv::Point at) const {
     const cv::Size size = tile.colour.size();
     tile.colour.copyTo(sheet(cv::Rect(at, size)));
-    colour_depth(tile, range).copyTo(sheet(cv::Rect({at.x + size.width + kGap, at.y}, size)));
+    colour_depth(tile, scale).copyTo(sheet(cv::Rect({at.x + size.width + kGap, at.y}, size)));
     const double seconds = static_cast<double>(tile.stamp_ns - tiles_.front().stamp_ns) * 1e-9;
     const int baseline = at.y + size.height + 18;
     put_label(sheet, "frame " + std::to_string(tile.index), {at.x, baseline}, 0.45, kInk);
     put_label(sheet, "t = " + decimal(seconds, 2) + " s", {at.x + 100, baseline}, 0.45, kFaint);
   }
 
-  // A bar from 0 to `range` with its lengths below, and what grey means beside it.
-  void draw_legend(cv::Mat& sheet, double range, int top) const {
+  // A bar from near to far with lengths of 1, 2 and 5 below, and what grey means beside it.
+  void draw_legend(cv::Mat& sheet, const DepthScale& scale, int top) const {
     const int grey_width = 130, label_width = 90;
     const int left = kMargin + label_width, width = sheet.cols - left - kMargin - grey_width;
     put_label(sheet, "depth (m)", {kMargin, top + 14}, 0.45, kInk);
@@ -189,12 +195,15 @@ class ContactSheetRecorder : public Recorder {
     for (int y = 0; y < 18; ++y) {
       colours.copyTo(sheet(cv::Rect(left, top + y, width, 1)));
     }
-    const double step = tick_step(range);
-    const int places = step < 0.01 ? 3 : step < 0.1 ? 2 : step < 1 ? 1 : 0;
-    for (int i = 0; i * step <= range; ++i) {
-      const int x = left + static_cast<int>(i * step / range * (width - 1));
+    for (const double length : {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1., 2., 5., 10., 20., 50., 100.}) {
+      if (length < scale.near || length > scale.far) continue;
+      const int x = left + static_cast<int>(scale.fraction(length) * (width - 1));
       cv::line(sheet, {x, top + 18}, {x, top + 23}, kInk, 1);
-      put_label(sheet, decimal(i * step, places), {x - 4, top + 38}, 0.42, kFaint);
+      put_label(sheet,
+                decimal(length, length < 0.1 ? 2
+                                : length < 1 ? 1
+                                             : 0),
+                {x - 4, top + 38}, 0.42, kFaint);
     }
     const int grey = left + width + 16;
     cv::rectangle(sheet, cv::Rect(grey, top, 18, 18), kNoReturn, cv::FILLED);

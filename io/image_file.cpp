@@ -1,7 +1,11 @@
+// libpng by itself: OpenCV's codecs would start GDAL, with its threads' locks and its drivers.
 #include "io/image_file.h"
 
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
+#include <png.h>
+
+#include <csetjmp>
+#include <cstring>
+#include <string_view>
 
 #include "io/atomic_file.h"
 #include "kernel/base/error.h"
@@ -9,68 +13,166 @@
 namespace rubble {
 namespace {
 
-void write_encoded(const std::string& path, const cv::Mat& pixels, int level) {
-  std::vector<unsigned char> bytes;
-  try {
-    if (!cv::imencode(".png", pixels, bytes, {cv::IMWRITE_PNG_COMPRESSION, level})) {
-      throw RunError("cannot encode " + path + " as PNG");
+// libpng leaves by longjmp, which skips destructors: functions that it can leave own nothing.
+struct Transfer {
+  std::string bytes;        // written so far
+  std::string_view source;  // still to be read
+  std::string error;
+};
+
+void on_error(png_structp png, png_const_charp message) {
+  static_cast<Transfer*>(png_get_error_ptr(png))->error = message;
+  std::longjmp(png_jmpbuf(png), 1);
+}
+void on_warning(png_structp, png_const_charp) {}
+void on_write(png_structp png, png_bytep data, std::size_t size) {
+  static_cast<Transfer*>(png_get_io_ptr(png))->bytes.append(reinterpret_cast<char*>(data), size);
+}
+void on_flush(png_structp) {}
+void on_read(png_structp png, png_bytep data, std::size_t size) {
+  auto& source = static_cast<Transfer*>(png_get_io_ptr(png))->source;
+  if (source.size() < size) png_error(png, "the file ends too early");
+  std::memcpy(data, source.data(), size);
+  source.remove_prefix(size);
+}
+
+struct Layout {
+  int width, height, colour_type, bits;
+  std::size_t row_bytes;
+};
+
+bool write_rows(png_structp png, png_infop info, const Layout& layout, const void* pixels,
+                int level) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  png_set_compression_level(png, level);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(layout.width),
+               static_cast<png_uint_32>(layout.height), layout.bits, layout.colour_type,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  if (layout.bits == 16) png_set_swap(png);  // PNG is big-endian
+  for (int y = 0; y < layout.height; ++y) {
+    png_write_row(
+        png, static_cast<png_const_bytep>(pixels) + static_cast<std::size_t>(y) * layout.row_bytes);
+  }
+  png_write_end(png, info);
+  return true;
+}
+
+std::string encode(const Layout& layout, const void* pixels, int level) {
+  Transfer transfer;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &transfer, on_error, on_warning);
+  if (!png) throw RunError("libpng cannot start");
+  png_infop info = png_create_info_struct(png);
+  png_set_write_fn(png, &transfer, on_write, on_flush);
+  const bool done = info && write_rows(png, info, layout, pixels, level);
+  png_destroy_write_struct(&png, &info);
+  if (!done) throw RunError("cannot encode a PNG: " + transfer.error);
+  return std::move(transfer.bytes);
+}
+
+bool read_header(png_structp png, png_infop info, Layout& layout) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  png_read_info(png, info);
+  layout = {static_cast<int>(png_get_image_width(png, info)),
+            static_cast<int>(png_get_image_height(png, info)), png_get_color_type(png, info),
+            png_get_bit_depth(png, info), png_get_rowbytes(png, info)};
+  return true;
+}
+
+bool read_rows(png_structp png, const Layout& layout, void* pixels) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  if (layout.bits == 16) png_set_swap(png);
+  const int passes = png_set_interlace_handling(png);
+  for (int pass = 0; pass < passes; ++pass) {
+    for (int y = 0; y < layout.height; ++y) {
+      png_read_row(png,
+                   static_cast<png_bytep>(pixels) + static_cast<std::size_t>(y) * layout.row_bytes,
+                   nullptr);
     }
-  } catch (const cv::Exception& error) {
-    throw RunError("cannot encode " + path + " as PNG: " + error.what());
   }
-  AtomicFile file(path);
-  file.write(bytes.data(), bytes.size());
-  file.commit();
+  png_read_end(png, nullptr);
+  return true;
 }
 
-[[noreturn]] void refuse(const std::string& path, const char* message, const char* expected) {
-  Diagnostic diagnostic;
-  diagnostic.file = path;
-  diagnostic.message = message;
-  diagnostic.expected = expected;
-  throw InputError(diagnostic);
-}
-
-cv::Mat read_decoded(const std::string& path, int type, const char* expected) {
-  const std::string bytes = read_whole_file(path);
-  cv::Mat pixels;
-  if (!bytes.empty()) {
-    const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1,
-                          const_cast<char*>(bytes.data()));
-    pixels = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
+// An open PNG file; closes libpng's side in any case.
+class PngReader {
+ public:
+  explicit PngReader(const std::string& path) : path_(path), file_(read_whole_file(path)) {
+    transfer_.source = file_;
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &transfer_, on_error, on_warning);
+    if (png_) info_ = png_create_info_struct(png_);
+    if (!info_) throw RunError("libpng cannot start");
+    png_set_read_fn(png_, &transfer_, on_read);
+    if (!read_header(png_, info_, layout_)) refuse("cannot be read as a PNG: " + transfer_.error);
   }
-  if (pixels.empty()) refuse(path, "cannot be read as a picture", expected);
-  if (pixels.type() != type) refuse(path, "has the wrong kind of pixels", expected);
-  return pixels;
-}
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+
+  const Layout& layout() const { return layout_; }
+
+  void expect(int colour_type, int bits, const char* expected) const {
+    if (layout_.colour_type == colour_type && layout_.bits == bits) return;
+    refuse("has the wrong kind of pixels", expected);
+  }
+  void read(void* pixels) {
+    if (!read_rows(png_, layout_, pixels)) refuse("is a damaged PNG: " + transfer_.error);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& message, const char* expected = "") const {
+    Diagnostic diagnostic;
+    diagnostic.file = path_;
+    diagnostic.message = message;
+    diagnostic.expected = expected;
+    throw InputError(diagnostic);
+  }
+
+  std::string path_, file_;
+  Transfer transfer_;
+  Layout layout_{};
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+};
 
 }  // namespace
 
+std::string encode_png(const RgbImage& image, int level) {
+  const auto row = 3 * static_cast<std::size_t>(image.width);
+  return encode({image.width, image.height, PNG_COLOR_TYPE_RGB, 8, row}, image.rgb.data(), level);
+}
+
+std::string encode_png(const DepthImage& image, int level) {
+  const auto row = 2 * static_cast<std::size_t>(image.width);
+  return encode({image.width, image.height, PNG_COLOR_TYPE_GRAY, 16, row}, image.values.data(),
+                level);
+}
+
 void write_png(const std::string& path, const RgbImage& image, int level) {
-  const cv::Mat rgb(image.height, image.width, CV_8UC3,
-                    const_cast<std::uint8_t*>(image.rgb.data()));
-  cv::Mat bgr;
-  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  write_encoded(path, bgr, level);
+  write_text_file(path, encode_png(image, level));
 }
 
 void write_png(const std::string& path, const DepthImage& image, int level) {
-  const cv::Mat depth(image.height, image.width, CV_16UC1,
-                      const_cast<std::uint16_t*>(image.values.data()));
-  write_encoded(path, depth, level);
+  write_text_file(path, encode_png(image, level));
 }
 
 RgbImage read_rgb_png(const std::string& path) {
-  const cv::Mat bgr = read_decoded(path, CV_8UC3, "a PNG of 8-bit red, green and blue");
-  cv::Mat rgb;
-  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
-  return {rgb.cols, rgb.rows, {rgb.datastart, rgb.dataend}};
+  PngReader reader(path);
+  reader.expect(PNG_COLOR_TYPE_RGB, 8, "a PNG of 8-bit red, green and blue");
+  RgbImage image{reader.layout().width, reader.layout().height, {}};
+  image.rgb.resize(reader.layout().row_bytes * static_cast<std::size_t>(image.height));
+  reader.read(image.rgb.data());
+  return image;
 }
 
 DepthImage read_depth_png(const std::string& path) {
-  const cv::Mat depth = read_decoded(path, CV_16UC1, "a PNG of one 16-bit channel");
-  const auto* first = depth.ptr<std::uint16_t>();
-  return {depth.cols, depth.rows, {first, first + depth.total()}};
+  PngReader reader(path);
+  reader.expect(PNG_COLOR_TYPE_GRAY, 16, "a PNG of one 16-bit channel");
+  DepthImage image{reader.layout().width, reader.layout().height, {}};
+  image.values.resize(static_cast<std::size_t>(image.width) *
+                      static_cast<std::size_t>(image.height));
+  reader.read(image.values.data());
+  return image;
 }
 
 }  // namespace rubble

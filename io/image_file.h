@@ -17,7 +17,11 @@ struct DepthImage {
   std::vector<std::uint16_t> values;  // in the unit of whoever encoded them; 0: no return
 };
 
-// level: 0 (stored) to 9 (smallest). Lossless. Throw RunError when the file cannot be written.
+// The bytes of a PNG file. level: 0 (stored) to 9 (smallest); lossless. Throws RunError.
+std::string encode_png(const RgbImage& image, int level = 1);
+std::string encode_png(const DepthImage& image, int level = 1);
+
+// Throw RunError when the file cannot be written.
 void write_png(const std::string& path, const RgbImage& image, int level = 1);
 void write_png(const std::string& path, const DepthImage& image, int level = 1);
 

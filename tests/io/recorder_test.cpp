@@ -7,6 +7,7 @@
 #include <functional>
 #include <sstream>
 
+#include "io/atomic_file.h"
 #include "io/contact_sheet.h"
 #include "io/depth_encoding.h"
 #include "io/image_file.h"
@@ -36,6 +37,7 @@ std::unique_ptr<Recorder> make_sheet(const std::string& path) {
   ContactSheetOptions options;
   options.total_frames = kFrames;
   options.tile = 96;
+  options.columns = 2;
   options.title = "five frames";
   return make_contact_sheet_recorder(path, options);
 }
@@ -154,6 +156,17 @@ TEST(ImageFile, RoundTripsColourAndDepth) {
   EXPECT_EQ(depth_back.values, depth.values);
   EXPECT_THROW(read_depth_png(folder / "c.png"), InputError);
   EXPECT_THROW(read_rgb_png(folder / "missing.png"), InputError);
+}
+
+TEST(ImageFile, RefusesEveryTruncationAndForeignFiles) {
+  ScratchFolder folder;
+  const std::string whole = encode_png(RgbImage{8, 8, make_frame(0, 8, 8).rgb});
+  for (std::size_t size = 0; size < whole.size(); size += 7) {
+    write_text_file(folder / "cut.png", whole.substr(0, size));
+    EXPECT_THROW(read_rgb_png(folder / "cut.png"), InputError) << size << " bytes";
+  }
+  write_text_file(folder / "foreign.png", "this is no picture at all");
+  EXPECT_THROW(read_rgb_png(folder / "foreign.png"), InputError);
 }
 
 TEST(ContactSheet, ShowsTheFirstAndTheLastFrameAndTheirDepth) {

@@ -17,7 +17,7 @@ std::string asset_key(std::size_t i, const std::string& name) {
 
 Value run_data_script(const SourceFile& script, const std::string& entry, const SourceMap& lines) {
   LuaSandbox sandbox(0, entry);
-  Value table = sandbox.run(script.text, script.path);
+  Value table = run_script(sandbox, script, lines);
   if (table.kind == Value::Kind::table) return table;
   throw InputError({script.path, lines.line_of(""), "", "the script does not return a table",
                     "return " + entry + " { ... }", describe(table), ""});
@@ -155,6 +155,9 @@ std::vector<Material> load_materials(const std::string& path) {
   Value wrapped = Value::make_table();
   wrapped.set("materials", run_data_script(script, "materials", lines));
   read_table(make_material_schema(table), wrapped, mistakes);
+  for (const SourceMap::Duplicate& twice : lines.duplicates())
+    mistakes.push_back({"", 0, "materials" + twice.key, "written twice", "", "",
+                        "first on line " + std::to_string(twice.first_line)});
   std::set<std::string> names;
   for (std::size_t i = 0; i < table.materials.size(); ++i)
     if (!names.insert(table.materials[i].name).second)

@@ -13,6 +13,7 @@ namespace rubble {
 
 // What the functions need; a pointer to it lives in the Lua state's extra space.
 struct LuaHost {
+  lua_State* lua = nullptr;
   std::uint64_t seed = 0;
   bool used_random = false;
   std::size_t printed_bytes = 0;
@@ -26,8 +27,9 @@ struct LuaHost {
   SandboxLimits limits;
   std::size_t memory = 0;
   std::uint64_t instructions = 0;
-  double started = 0;   // CPU seconds of this thread
-  bool limited = true;  // false once the script has ended and only its table is read
+  std::string refused_at;  // "chunk0:12: " where memory was refused last
+  double started = 0;      // CPU seconds of this thread
+  bool limited = true;     // false once the script has ended and only its table is read
 };
 
 LuaHost& host_of(lua_State* lua);

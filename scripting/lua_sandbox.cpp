@@ -29,6 +29,18 @@ double thread_cpu_seconds() {
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
+// "chunk0:12: " of the innermost function of a script, the prelude's left out; empty: none. Reads
+// only what is there: it also runs where Lua has no memory left.
+std::string position_of(lua_State* lua) {
+  lua_Debug where{};
+  for (int level = 0; lua_getstack(lua, level, &where) != 0; ++level) {
+    lua_getinfo(lua, "Sl", &where);
+    if (where.currentline > 0 && std::strncmp(where.short_src, "chunk", 5) == 0)
+      return std::string(where.short_src) + ":" + std::to_string(where.currentline) + ": ";
+  }
+  return {};
+}
+
 // Lua's allocator: refuses to pass the limit, which Lua turns into "not enough memory".
 void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_size) {
   LuaHost& host = *static_cast<LuaHost*>(user);
@@ -39,23 +51,24 @@ void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_si
     return nullptr;
   }
   const std::size_t memory = host.memory - old_size + new_size;
-  if (host.limited && new_size > old_size && memory > host.limits.memory) return nullptr;
+  if (host.limited && new_size > old_size && memory > host.limits.memory) {
+    host.refused_at = position_of(host.lua);
+    return nullptr;
+  }
   void* const moved = std::realloc(block, new_size);
   if (moved) host.memory = memory;
   return moved;
 }
 
-void count_instructions(lua_State* lua, lua_Debug* where) {
+void count_instructions(lua_State* lua, lua_Debug*) {
   LuaHost& host = host_of(lua);
   if (!host.limited) return;
   host.instructions += kHookEvery;
   const bool late = thread_cpu_seconds() - host.started > host.limits.seconds;
   if (host.instructions <= host.limits.instructions && !late) return;
-  lua_getinfo(lua, "Sl", where);
-  lua_pushfstring(lua, "%s:%d: the script does not end: stopped after %s", where->short_src,
-                  where->currentline,
-                  late ? (std::to_string(int(host.limits.seconds)) + " s").c_str()
-                       : (std::to_string(host.limits.instructions) + " instructions").c_str());
+  const std::string limit = late ? std::to_string(int(host.limits.seconds)) + " s"
+                                 : std::to_string(host.limits.instructions) + " instructions";
+  lua_pushfstring(lua, "the script does not end: stopped after %s", limit.c_str());
   lua_error(lua);
 }
 
@@ -66,15 +79,9 @@ int complete_message(lua_State* lua) {
     text = lua_tostring(lua, 1);
   else
     text = std::string("an error that is a ") + luaL_typename(lua, 1) + ", not a message";
-  if (text.rfind("chunk", 0) == 0) return lua_pushstring(lua, text.c_str()), 1;
-  lua_Debug where{};
-  for (int level = 0; lua_getstack(lua, level, &where); ++level) {
-    lua_getinfo(lua, "Sl", &where);
-    if (where.currentline <= 0 || std::strncmp(where.short_src, "chunk", 5) != 0) continue;
-    lua_pushfstring(lua, "%s:%d: %s", where.short_src, where.currentline, text.c_str());
-    return 1;
-  }
-  return lua_pushstring(lua, text.c_str()), 1;
+  if (text.rfind("prelude:", 0) == 0) text.erase(0, text.find(": ") + 2);
+  if (text.rfind("chunk", 0) != 0) text = position_of(lua) + text;
+  return lua_pushlstring(lua, text.data(), text.size()), 1;
 }
 
 std::string hint_for(const std::string& message) {
@@ -92,17 +99,16 @@ std::string hint_for(const std::string& message) {
 
 struct LuaSandbox::State {
   LuaHost host;
-  lua_State* lua = nullptr;
   std::vector<SourceFile> chunks;  // 0: the script itself
   std::vector<SourceFile> included;
 
   ~State() {
     host.limited = false;
-    if (lua) lua_close(lua);
+    if (host.lua) lua_close(host.lua);
   }
 
   int open_include(const std::string& name, std::string& error);
-  Diagnostic diagnostic_of(const std::string& message) const;
+  Diagnostic diagnostic_of(const std::string& raised) const;
   void call(int arguments, int results);  // throws InputError
 };
 
@@ -134,14 +140,12 @@ int LuaSandbox::State::open_include(const std::string& name, std::string& error)
 }
 
 // "chunk0:12: text" -> the file's path, 12 and the text.
-Diagnostic LuaSandbox::State::diagnostic_of(const std::string& message) const {
+Diagnostic LuaSandbox::State::diagnostic_of(const std::string& raised) const {
+  const bool no_memory = raised == "not enough memory";
+  const std::string message = no_memory ? host.refused_at + raised : raised;
   Diagnostic d;
   d.file = chunks.empty() ? "" : chunks[0].path;
   d.message = message;
-  if (message == "not enough memory") {
-    d.message = "the script needs too much memory";
-    d.expected = "at most " + std::to_string(host.limits.memory >> 20) + " MiB";
-  }
   std::size_t chunk = 0;
   int line = 0, length = 0;
   if (std::sscanf(message.c_str(), "chunk%zu:%d: %n", &chunk, &line, &length) == 2 && length > 0 &&
@@ -150,16 +154,24 @@ Diagnostic LuaSandbox::State::diagnostic_of(const std::string& message) const {
     d.line = line;
     d.message = message.substr(std::size_t(length));
   }
+  if (no_memory) {
+    d.message = "the script needs too much memory";
+    d.expected = "at most " + std::to_string(host.limits.memory >> 20) + " MiB";
+  }
   d.hint = hint_for(d.message);
   return d;
 }
 
 void LuaSandbox::State::call(int arguments, int results) {
+  lua_State* const lua = host.lua;
   const int handler = lua_gettop(lua) - arguments;
   lua_pushcfunction(lua, complete_message);
   lua_insert(lua, handler);
   const int status = lua_pcall(lua, arguments, results, handler);
-  if (status == LUA_OK) return lua_remove(lua, handler);
+  if (status == LUA_OK) {
+    lua_remove(lua, handler);
+    return;
+  }
   host.limited = false;
   const char* const text = lua_tostring(lua, -1);
   throw InputError(diagnostic_of(text ? text : "an error without a message"));
@@ -177,19 +189,20 @@ LuaSandbox::LuaSandbox(std::uint64_t seed, const std::string& entry, const Sandb
     return s.chunks[std::size_t(chunk)].text;
   };
   s.host.limited = false;
-  s.lua = lua_newstate(allocate, &s.host);
-  if (!s.lua) throw RunError("no memory for a Lua state");
-  *static_cast<LuaHost**>(lua_getextraspace(s.lua)) = &s.host;
+  s.host.lua = lua_newstate(allocate, &s.host);
+  if (!s.host.lua) throw RunError("no memory for a Lua state");
+  *static_cast<LuaHost**>(lua_getextraspace(s.host.lua)) = &s.host;
   for (const auto& [name, open] :
        {std::pair{"_G", luaopen_base}, std::pair{"string", luaopen_string},
         std::pair{"table", luaopen_table}, std::pair{"math", luaopen_math}}) {
-    luaL_requiref(s.lua, name, open, 1);
-    lua_pop(s.lua, 1);
+    luaL_requiref(s.host.lua, name, open, 1);
+    lua_pop(s.host.lua, 1);
   }
-  if (luaL_loadbufferx(s.lua, kLuaPrelude, std::strlen(kLuaPrelude), "=prelude", "t") != LUA_OK)
-    throw RunError(std::string("prelude: ") + lua_tostring(s.lua, -1));
-  push_host_functions(s.lua);
-  lua_pushlstring(s.lua, entry.data(), entry.size());
+  if (luaL_loadbufferx(s.host.lua, kLuaPrelude, std::strlen(kLuaPrelude), "=prelude", "t") !=
+      LUA_OK)
+    throw RunError(std::string("prelude: ") + lua_tostring(s.host.lua, -1));
+  push_host_functions(s.host.lua);
+  lua_pushlstring(s.host.lua, entry.data(), entry.size());
   s.call(2, 0);
 }
 
@@ -200,16 +213,17 @@ Value LuaSandbox::run(const std::string& text, const std::string& path) {
   s.chunks.assign(1, {path, text, ""});
   s.host.started = thread_cpu_seconds();
   s.host.limited = true;
-  lua_sethook(s.lua, count_instructions, LUA_MASKCOUNT, kHookEvery);
-  if (luaL_loadbufferx(s.lua, text.data(), text.size(), chunk_name(0).c_str(), "t") != LUA_OK) {
+  lua_sethook(s.host.lua, count_instructions, LUA_MASKCOUNT, kHookEvery);
+  if (luaL_loadbufferx(s.host.lua, text.data(), text.size(), chunk_name(0).c_str(), "t") !=
+      LUA_OK) {
     s.host.limited = false;
-    throw InputError(s.diagnostic_of(lua_tostring(s.lua, -1)));
+    throw InputError(s.diagnostic_of(lua_tostring(s.host.lua, -1)));
   }
   s.call(0, 1);
   s.host.limited = false;  // reading the result is our work
-  lua_sethook(s.lua, nullptr, 0, 0);
-  Value value = read_lua_value(s.lua, -1);
-  lua_settop(s.lua, 0);
+  lua_sethook(s.host.lua, nullptr, 0, 0);
+  Value value = read_lua_value(s.host.lua, -1);
+  lua_settop(s.host.lua, 0);
   return value;
 }
 

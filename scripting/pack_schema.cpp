@@ -36,7 +36,7 @@ Schema make_pack_schema(PackTable& pack) {
   });
   k.add("assets[].up", "The axis that points up in the files; the product's is Z.",
         [&list](std::size_t i) {
-          return Schema::choice_slot(list[i].up, {"z", "y"});
+          return Schema::choice_slot(list[i].up, {"y", "z"});
         });
   k.add("assets[].collision",
         "The convex hull of the mesh, or a file whose connected components are convex parts.",

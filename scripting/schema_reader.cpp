@@ -9,7 +9,7 @@ namespace rubble {
 namespace {
 
 std::string joined(const std::string& path, const std::string& name) {
-  return path.empty() ? name : path + "." + name;
+  return path.empty() || name[0] == '[' ? path + name : path + "." + name;
 }
 
 std::string list_names(const std::vector<std::string>& names) {
@@ -242,7 +242,21 @@ Value parse_for(const Slot& slot, const std::string& text) {
   return parse_word(text);
 }
 
+// For a name that is right up to the index of a list's item, or that means more than one value.
+std::optional<Diagnostic> half_known_override(const Schema& schema, const std::string& name) {
+  std::string pattern;
+  std::size_t index = 0;
+  if (!split_index(name, pattern, index)) return std::nullopt;
+  const Key* key = schema.find(pattern);
+  if (key && key->kind != KeyKind::value)
+    return Diagnostic{"", 0, name, "not a single value", "a script for lists and tables", "", ""};
+  if (!key || pattern == name) return std::nullopt;
+  const std::size_t size = schema.find(pattern.substr(0, pattern.find("[]")))->size();
+  return Diagnostic{"", 0, name, "no such item: the list has " + std::to_string(size), "", "", ""};
+}
+
 Diagnostic unknown_override(const Schema& schema, const std::string& name) {
+  if (const auto half_known = half_known_override(schema, name)) return *half_known;
   std::vector<std::string> paths;
   for (const Key& key : schema.keys())
     if (key.kind == KeyKind::value) paths.push_back(key.path);

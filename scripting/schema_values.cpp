@@ -287,6 +287,8 @@ std::optional<Diagnostic> write_slot(const Key& key, const Slot& slot, const Val
   d.message = outcome == Outcome::wrong_type ? "wrong type" : "out of range";
   d.expected = std::visit([&](const auto& to) { return expected_as(key, to); }, slot);
   d.found = found_words(value);
+  const bool is_word = std::holds_alternative<WordOrFile>(slot) && value.kind == Value::Kind::text;
+  if (is_word) d.message = "unknown choice";
   if (const auto* choice = std::get_if<Choice>(&slot); choice && value.kind == Value::Kind::text) {
     d.message = "unknown choice";
     const std::string near = nearest_name(value.text, choice->names);

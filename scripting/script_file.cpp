@@ -27,6 +27,17 @@ SourceFile read_script(const std::string& path) {
   return {path, text.str(), sha256(text.str())};
 }
 
+Value run_script(LuaSandbox& sandbox, const SourceFile& script, const SourceMap& lines) {
+  try {
+    return sandbox.run(script.text, script.path);
+  } catch (const InputError& error) {
+    std::vector<Diagnostic> diagnostics = error.diagnostics();
+    for (Diagnostic& d : diagnostics)
+      if (d.line == 0) d.line = lines.line_of("");
+    throw InputError(std::move(diagnostics));
+  }
+}
+
 void locate(std::vector<Diagnostic>& mistakes, const std::string& path, const SourceMap& lines) {
   for (Diagnostic& d : mistakes) {
     if (!d.file.empty()) continue;

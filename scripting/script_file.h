@@ -13,6 +13,9 @@ namespace rubble {
 // Throws InputError when the file cannot be read.
 SourceFile read_script(const std::string& path);
 
+// Runs it. Where Lua has lost the line (a call in `return f(...)`), errors name that `return`.
+Value run_script(LuaSandbox& sandbox, const SourceFile& script, const SourceMap& lines);
+
 // Gives each mistake that has no file yet the script's path and the line of its key.
 void locate(std::vector<Diagnostic>& mistakes, const std::string& path, const SourceMap& lines);
 

@@ -7,7 +7,8 @@
 namespace rubble {
 namespace {
 
-constexpr int kMostHops = 16;  // through variables that stand for variables
+constexpr std::size_t kDeepestPath = 64;  // open brackets; no schema goes as deep
+constexpr int kMostHops = 16;             // through variables that stand for variables
 
 std::string child(const std::string& parent, const std::string& key) {
   return key.empty() || key[0] == '[' ? parent + key : parent + "." + key;
@@ -128,6 +129,7 @@ class SourceMap::Builder {
     // A value such as `f { ... }` is what f makes of its table, which need not be that table.
     if (!path.empty() && i_ > 0 && is_call_argument()) path.clear();
     if (root_comes_) path = "$", root_comes_ = false;
+    if (stack_.size() > kDeepestPath) path.clear();
     stack_.push_back({Open::table, path});
   }
 

@@ -274,6 +274,13 @@ class Sampler {
 
 }  // namespace
 
+Waypoint default_view() {
+  Waypoint w;
+  w.position = {-9, 0, 4};
+  w.look_at = Vec3{0, 0, 0.5};
+  return w;
+}
+
 std::vector<Diagnostic> find_mistakes(const TrajectorySpec& spec) { return Checker(spec).run(); }
 
 std::vector<CameraPose> sample_trajectory(const TrajectorySpec& spec, std::int64_t epoch_ns) {

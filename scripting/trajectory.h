@@ -36,12 +36,15 @@ struct Waypoint {
   std::optional<Vec3> look_at;  // the camera's X axis points here, Z up; unit: m
 };
 
+// From 9 m in front of the pile's middle and 4 m up, looking at it.
+Waypoint default_view();
+
 struct TrajectorySpec {
   double rate_hz = 30;  // frames per second of simulation time; range: 0.001 to 1000
   Interpolation interpolation = Interpolation::spline;
   double speed = 0.5;  // where a waypoint has neither t nor speed; unit: m/s; range: > 0
   // At least one; a single one gives a single frame.
-  std::vector<Waypoint> waypoints{{std::nullopt, std::nullopt, {-9, 0, 4}, {}, Vec3{0, 0, 0.5}}};
+  std::vector<Waypoint> waypoints{default_view()};
 };
 
 struct CameraPose {

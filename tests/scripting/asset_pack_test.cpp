@@ -1,0 +1,176 @@
+#include "scripting/asset_pack.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/scripting/test_support.h"
+
+namespace rubble {
+namespace {
+
+const std::vector<Material> kMaterials = {{"concrete", 2400, 0.8, "s"}, {"steel", 7850, 0.57, "s"}};
+
+class AssetPackTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    for (const char* name : {"a.obj", "a.lod1.obj", "a.parts.obj", "b.stl"}) write(name, "");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+  }
+  AssetPack load(const std::string& text) {
+    write("pack.lua", text);
+    return load_asset_pack(folder_.string(), kMaterials);
+  }
+  std::string error(const std::string& text) {
+    return error_of([&] { load(text); });
+  }
+  std::string script() const { return (folder_ / "pack.lua").string(); }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(AssetPackTest, EveryKey) {
+  const AssetPack pack = load(R"(return pack {
+  name = "mine",
+  assets = {
+    { name = "a", mesh = { "a.obj", "a.lod1.obj" }, units = "cm", up = "y",
+      collision = { parts = "a.parts.obj" }, material = "steel", density = 7000,
+      scale = { 0.7, 1.3 }, weight = 2, tags = { "bar", "metal" } },
+    { name = "b", mesh = "b.stl", collision = "hull", material = "concrete" },
+  },
+})");
+  EXPECT_EQ(pack.name, "mine");
+  EXPECT_EQ(pack.folder, folder_.string());
+  EXPECT_EQ(pack.script, script());
+  ASSERT_EQ(pack.assets.size(), 2u);
+  const Asset& a = pack.assets[0];
+  EXPECT_EQ(a.name, "a");
+  EXPECT_EQ(a.meshes, (std::vector<std::string>{(folder_ / "a.obj").string(),
+                                                (folder_ / "a.lod1.obj").string()}));
+  EXPECT_EQ(a.metres_per_unit, 0.01);
+  EXPECT_EQ(a.up, UpAxis::y);
+  EXPECT_EQ(a.parts, (folder_ / "a.parts.obj").string());
+  EXPECT_EQ(a.material, "steel");
+  EXPECT_EQ(a.density, 7000);
+  EXPECT_EQ(a.friction, 0.57);
+  EXPECT_EQ(a.scale, (std::array<double, 2>{0.7, 1.3}));
+  EXPECT_EQ(a.weight, 2);
+  EXPECT_EQ(a.tags, (std::vector<std::string>{"bar", "metal"}));
+  EXPECT_EQ(a.line, 4);
+  const Asset& b = pack.assets[1];
+  EXPECT_EQ(b.metres_per_unit, 1);
+  EXPECT_EQ(b.parts, "");
+  EXPECT_EQ(b.density, 2400);
+  EXPECT_EQ(b.friction, 0.8);
+  EXPECT_EQ(b.scale, (std::array<double, 2>{1, 1}));
+  EXPECT_EQ(b.line, 7);
+}
+
+TEST_F(AssetPackTest, EveryMistakeInOneRun) {
+  const std::string at = script() + ":";
+  EXPECT_EQ(
+      error(R"(return pack {
+  nam = "x",
+  assets = {
+    { mesh = "a.obj" },
+    { name = "b", mesh = "gone.obj", material = "steal" },
+    { name = "c", mesh = 5, units = "inch", collision = "box" },
+    { name = "b", mesh = "a.obj", material = "concrete", collision = { part = "a.parts.obj" } },
+    { name = "b", mesh = "a.obj", material = "concrete", density = 0 },
+    { name = "b", mesh = {}, material = "xyzzy" },
+    { name = "d", mesh = "a.obj", material = "steel", collision = { parts = "no" }, wieght = 1 },
+  },
+})"),
+      at + "1: name: missing: expected a string, found nothing\n" +                //
+          at + "2: nam: unknown key `nam` (did you mean `name`?)\n" +              //
+          at + "4: assets[1].name: missing: expected a string, found nothing\n" +  //
+          at + "5: assets[2].mesh: no such file: expected a file in " + folder_.string() +
+          ", found \"gone.obj\"\n" +  //
+          at + "5: assets[2].material: unknown material `steal` (did you mean `steel`?)\n" + at +
+          "6: assets[3].collision: unknown choice: expected \"hull\" or { parts = "
+          "\"FILE\" }, found the string \"box\"\n" +  //
+          at +
+          "6: assets[3].mesh: wrong type: expected a string or a list of strings, found "
+          "5\n" +  //
+          at +
+          "6: assets[3].units: unknown choice: expected one of \"m\", \"cm\", \"mm\", "
+          "\"in\", \"ft\", found the string \"inch\"\n" +  //
+          at +
+          "7: assets[4].collision: wrong type: expected \"hull\" or { parts = \"FILE\" "
+          "}, found a table of named fields\n" +  //
+          at +
+          "8: assets[5].density: out of range: expected a number from 10 to 25000, found "
+          "0\n" +  //
+          at +
+          "9: assets[6].name: two assets have the name `b` (rename one of them)\n" + at +
+          "9: assets[6].mesh: no mesh: expected at least one file, found an empty list\n" + at +
+          "9: assets[6].material: unknown material `xyzzy`: expected one of concrete, "
+          "steel\n" +  //
+          at +
+          "10: assets[7].wieght: unknown key `wieght` (did you mean `weight`?)");
+}
+
+TEST_F(AssetPackTest, NoFolderNoScriptNoAssets) {
+  EXPECT_EQ(error_of([] { load_asset_pack("/nowhere", kMaterials); }),
+            "/nowhere: no such folder: expected a folder with a pack.lua");
+  EXPECT_EQ(error_of([&] { load_asset_pack(folder_.string(), kMaterials); }),
+            script() + ": no such file");
+  EXPECT_EQ(error("return pack { name = 'x', assets = {} }"),
+            script() + ":1: assets: no assets: expected at least one, found an empty list");
+  EXPECT_EQ(
+      error("pack { name = 'x', assets = {} }"),
+      script() +
+          ":1: the script does not return a table: expected return pack { ... }, found nothing");
+}
+
+TEST_F(AssetPackTest, RunsInTheSandbox) {
+  EXPECT_EQ(error("os.exit()").find(script() + ":1: attempt to index a nil value"), 0u);
+  EXPECT_EQ(error("return pack {").find(script() + ":1: "), 0u);
+}
+
+TEST(Materials, TheBundledTable) {
+  const auto materials = load_materials(RUBBLE_SOURCE_DIR "/assets/materials.lua");
+  ASSERT_EQ(materials.size(), 10u);
+  EXPECT_EQ(materials[0].name, "reinforced_concrete");
+  EXPECT_EQ(materials[0].density, 2400);
+  EXPECT_EQ(materials[0].friction, 0.8);
+  EXPECT_EQ(materials[3].name, "steel");
+  EXPECT_EQ(materials[3].density, 7850);
+  for (const Material& m : materials) EXPECT_FALSE(m.source.empty()) << m.name;
+}
+
+TEST(Materials, MistakesHaveLines) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "materials_with_mistakes.lua";
+  std::ofstream(path)
+      << "return materials {\n  { name = 'a', density = 5, friction = 1, source = 's' "
+         "},\n  { name = 'b', friction = 1, source = 's', colour = 1 },\n"
+         "  { name = 'b', density = 50, friction = 1, source = 's',\n    name = 'b' "
+         "},\n}\n";
+  const std::string at = path.string() + ":";
+  EXPECT_EQ(error_of([&] { load_materials(path.string()); }),
+            at +
+                "2: materials[1].density: out of range: expected a number from 10 to 25000, found "
+                "5\n" +  //
+                at +
+                "3: materials[2].colour: unknown key `colour`: expected one of name, density, "
+                "friction, source\n" +  //
+                at +
+                "3: materials[2].density: missing: expected a number from 10 to 25000, found "
+                "nothing\n" +  //
+                at +
+                "5: materials[3].name: written twice (first on line 4)\n" +  //
+                at + "5: materials[3].name: two materials have the name `b`");
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace rubble

@@ -1,0 +1,301 @@
+// Hostile and careless scripts: each must end with an error that has a line, and soon.
+#include "scripting/lua_sandbox.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "kernel/base/portable_math.h"
+#include "kernel/base/random.h"
+#include "tests/scripting/test_support.h"
+
+namespace rubble {
+namespace {
+
+SandboxLimits small_limits() {
+  SandboxLimits limits;
+  limits.memory = 16 << 20;
+  limits.instructions = 2'000'000;
+  limits.seconds = 5;
+  return limits;
+}
+
+std::string run_error(const std::string& text) {
+  return error_of([&] { LuaSandbox(1, "rubble.mission", small_limits()).run(text, "h.lua"); });
+}
+
+Value run(const std::string& text) {
+  return LuaSandbox(1, "rubble.mission", small_limits()).run(text, "h.lua");
+}
+
+TEST(Sandbox, EndlessLoops) {
+  const std::string expected =
+      "h.lua:1: the script does not end: stopped after 2000000 instructions";
+  EXPECT_EQ(run_error("while true do end"), expected);
+  EXPECT_EQ(run_error("repeat local x = 1 until false"), expected);
+  EXPECT_EQ(run_error("::a:: goto a"), expected);
+  EXPECT_EQ(run_error("for i = 1, math.huge do end"), expected);
+  EXPECT_EQ(run_error("local t = {1} for k in pairs(t) do while true do end end"), expected);
+  EXPECT_EQ(run_error("table.sort({2, 1}, function() while true do end end)"), expected);
+}
+
+TEST(Sandbox, MemoryBombs) {
+  const std::string expected = "h.lua:1: the script needs too much memory: expected at most 16 MiB";
+  EXPECT_EQ(run_error("local s = string.rep('x', 1e9)"), expected);
+  EXPECT_EQ(run_error("local s = ('x'):rep(1e9)"), expected);
+  EXPECT_EQ(run_error("local s = 'x' while true do s = s .. s end"), expected);
+  EXPECT_EQ(run_error("local t = {} for i = 1, 1e9 do t[i] = i end"), expected);
+  EXPECT_EQ(run_error("local t = {} while true do t = { t } end"), expected);
+  EXPECT_EQ(run_error("local t = {('x'):rep(1e6)} for i = 1, 20 do t[#t + 1] = t[1] .. i end"),
+            expected);
+  EXPECT_EQ(run_error("local t = {} for i = 1, 10000 do t[i] = 'x' end\n"
+                      "local s = table.concat(t, ('y'):rep(10000))"),
+            "h.lua:2: the script needs too much memory: expected at most 16 MiB");
+}
+
+// Work inside one library call, which the count of instructions does not see.
+TEST(Sandbox, LongCallsIntoTheLibrary) {
+  EXPECT_EQ(run_error("string.rep('', 1e18)"), "");
+  EXPECT_EQ(run_error("table.move({}, 1, 1e15, 2)"),
+            "h.lua:1: attempt to call a nil value (field 'move')");
+  EXPECT_EQ(run_error("local s = ('a'):rep(1e5):find(('.-'):rep(50) .. 'b')"),
+            "h.lua:1: attempt to call a nil value (method 'find')");
+  EXPECT_EQ(run_error("table.unpack({}, 1, 1e8)"), "h.lua:1: too many results to unpack");
+  EXPECT_EQ(run_error("table.concat({}, '', 1, 1e15)"),
+            "h.lua:1: invalid value (nil) at index 1 in table for 'concat'");
+}
+
+TEST(Sandbox, CpuTimeIsTheLastResort) {
+  SandboxLimits limits = small_limits();
+  limits.seconds = 1;
+  limits.instructions = 1'000'000'000'000;
+  EXPECT_EQ(
+      error_of([&] { LuaSandbox(1, "rubble.mission", limits).run("while true do end", "h.lua"); }),
+      "h.lua:1: the script does not end: stopped after 1 s");
+}
+
+TEST(Sandbox, DeepRecursion) {
+  EXPECT_EQ(mission_error("local function f() return 1 + f() end f()"), "m.lua:1: stack overflow");
+  EXPECT_NE(run_error("local s = ('('):rep(1e5)\nlocal t = " + std::string(100000, '(')), "");
+  EXPECT_NE(run_error("return " + std::string(100000, '{')), "");
+  EXPECT_NE(run_error("table.sort({3, 2, 1}, function(a, b) return f(a) < f(b) end)"), "");
+}
+
+TEST(Sandbox, ErrorsThatAreNotStrings) {
+  EXPECT_EQ(run_error("\nerror({})"), "h.lua:2: an error that is a table, not a message");
+  EXPECT_EQ(run_error("error(nil)"), "h.lua:1: an error that is a nil, not a message");
+  EXPECT_EQ(run_error("error(print)"), "h.lua:1: an error that is a function, not a message");
+  EXPECT_EQ(run_error("error()"), "h.lua:1: an error that is a nil, not a message");
+  EXPECT_EQ(run_error("error(true)"), "h.lua:1: an error that is a boolean, not a message");
+  EXPECT_EQ(run_error("error('plain', 0)"), "h.lua:1: plain");
+  EXPECT_EQ(run_error("error('chunk7:9: forged', 0)"), "h.lua: chunk7:9: forged");
+}
+
+TEST(Sandbox, DoorsAreClosed) {
+  for (const char* name :
+       {"os",       "io",     "require",   "dofile",       "loadfile",       "load",   "loadstring",
+        "package",  "debug",  "coroutine", "setmetatable", "getmetatable",   "rawset", "rawget",
+        "rawequal", "rawlen", "pcall",     "xpcall",       "collectgarbage", "next",   "utf8",
+        "warn",     "arg",    "host",      "unpack"})
+    EXPECT_EQ(run(std::string("return { ") + name + " == nil }").items.at(0).boolean, true) << name;
+  for (const char* name :
+       {"string.dump", "string.pack", "string.gsub", "string.gmatch", "string.match", "string.find",
+        "table.move", "('').dump", "_G.os", "math.pow"})
+    EXPECT_EQ(run(std::string("return { ") + name + " == nil }").items.at(0).boolean, true) << name;
+  EXPECT_EQ(run_error("os.exit()"),
+            "h.lua:1: attempt to index a nil value (global 'os') (`os` is closed to scripts; "
+            "docs/lua.md lists what is open)");
+  EXPECT_NE(run_error("local f = load('return 1')"), "");
+}
+
+TEST(Sandbox, GlobalsAreExactlyTheOpenOnes) {
+  const Value names = run("local n = {} for k in pairs(_G) do n[#n + 1] = k end return n");
+  std::string all;
+  for (const Value& name : names.items) all += name.text + " ";
+  EXPECT_EQ(all,
+            "_G _VERSION assert error ipairs math pairs print rubble select string table tonumber "
+            "tostring type ");
+}
+
+TEST(Sandbox, BytecodeIsRefused) {
+  EXPECT_EQ(run_error("\x1bLua\x54"),
+            "h.lua: attempt to load a binary chunk (mode is 't') (only Lua source text is run)");
+}
+
+TEST(Sandbox, MetatablesStayOutOfReach) {
+  EXPECT_NE(run_error("getmetatable('').__index = nil"), "");
+  EXPECT_EQ(run("return { ('').__index == nil }").items.at(0).boolean, true);
+  // A finalizer would run where no limit holds.
+  EXPECT_EQ(run("local v = rubble.vec(1, 2, 3) v.__gc = function() while true do end end v = nil "
+                "for i = 1, 1000 do local t = {} end return { rubble.vec().__index == nil }")
+                .items.at(0)
+                .boolean,
+            true);
+  EXPECT_EQ(run("return { rubble.random('a').__gc == nil }").items.at(0).boolean, true);
+  EXPECT_NE(run_error("rubble.random('a').x = 1"), "");
+  EXPECT_NE(run_error("rubble.random('a').uniform({})"), "");
+  EXPECT_NE(run_error("rubble.random('a').uniform('x')"), "");
+}
+
+// What a script breaks in its own globals stays its own.
+TEST(Sandbox, ScriptsAreApart) {
+  EXPECT_EQ(run_error("string.format = nil math = nil rubble = nil x = 1"), "");
+  EXPECT_EQ(run("return { x == nil and string.format ~= nil }").items.at(0).boolean, true);
+}
+
+TEST(Sandbox, TablesInCirclesAndTooDeep) {
+  const Value circle = run("local t = {} t.t = t return t");
+  EXPECT_EQ(circle.kind, Value::Kind::table);
+  EXPECT_EQ(run("local t = {} for i = 1, 1000 do t = { t } end return t").kind, Value::Kind::table);
+  EXPECT_EQ(mission_error("local t = {} t.pile = t return t"),
+            "m.lua:1: pile.pile: unknown key `pile`: expected one of spawn_position, spawn_bounds, "
+            "layers, pieces_per_layer, mix, placed");
+}
+
+TEST(SandboxDeterminism, PairsGoesInTheOrderOfKeys) {
+  const Value v =
+      run("local t = { z = 1, a = 2, [3] = 3, [1] = 4, [2.5] = 5, [true] = 6, b = 7 } "
+          "local keys = {} for k in pairs(t) do keys[#keys + 1] = tostring(k) end "
+          "return { table.concat(keys, ' ') }");
+  EXPECT_EQ(v.items.at(0).text, "1 2.5 3 a b z true");
+  EXPECT_EQ(run_error("for k in pairs({ [{}] = 1 }) do end"),
+            "h.lua:1: pairs cannot order a key that is a table");
+}
+
+TEST(SandboxDeterminism, SortIsStable) {
+  const Value v =
+      run("local t = {} for i = 1, 300 do t[i] = { i % 3, i } end "
+          "table.sort(t, function(a, b) return a[1] < b[1] end) "
+          "for i = 2, #t do if t[i - 1][1] > t[i][1] or (t[i - 1][1] == t[i][1] and "
+          "t[i - 1][2] > t[i][2]) then return { 'wrong at ' .. i } end end "
+          "return { 'stable' }");
+  EXPECT_EQ(v.items.at(0).text, "stable");
+}
+
+TEST(SandboxDeterminism, NoAddresses) {
+  const Value v =
+      run("return { tostring({}), tostring(print), string.format('%s', {}), "
+          "tostring(rubble.random('a')) }");
+  EXPECT_EQ(v.items.at(0).text, "table");
+  EXPECT_EQ(v.items.at(1).text, "function");
+  EXPECT_EQ(v.items.at(2).text, "table");
+  EXPECT_EQ(v.items.at(3).text, "userdata");
+  EXPECT_EQ(run_error("string.format('%5p', 'x')"), "h.lua:1: string.format: %p is not available");
+  EXPECT_EQ(run("return { string.format('%d%% of %s p', 5, 'x') }").items.at(0).text, "5% of x p");
+}
+
+TEST(SandboxDeterminism, PortableMath) {
+  const Value v =
+      run("return { math.sin(1.5), math.cos(1.5), math.atan(1, -2), math.exp(1), "
+          "math.log(8, 2), math.acos(0.3) }");
+  EXPECT_EQ(v.items.at(0).number, portable::sin(1.5));
+  EXPECT_EQ(v.items.at(1).number, portable::cos(1.5));
+  EXPECT_EQ(v.items.at(2).number, portable::atan2(1, -2));
+  EXPECT_EQ(v.items.at(3).number, portable::exp(1));
+  EXPECT_NEAR(v.items.at(4).number, 3, 1e-14);
+  EXPECT_EQ(v.items.at(5).number, portable::acos(0.3));
+  EXPECT_EQ(run_error("math.acos(2)"), "h.lua:1: bad argument #1 to 'acos' (number too large)");
+}
+
+TEST(SandboxRandom, StreamsAreTheKernels) {
+  RandomStream expected(1, "lua/a");
+  const Value v =
+      run("local r = rubble.random('a') return { r:uniform(), r:uniform(2, 3), "
+          "r:integer(-5, 5), r:normal(1, 2), rubble.random('a'):uniform() }");
+  EXPECT_EQ(v.items.at(0).number, expected.uniform());
+  EXPECT_EQ(v.items.at(1).number, expected.uniform(2, 3));
+  EXPECT_EQ(v.items.at(2).integer, -5 + std::int64_t(expected.below(11)));
+  EXPECT_EQ(v.items.at(3).number, 1 + 2 * expected.normal());
+  EXPECT_EQ(v.items.at(4).number, expected.uniform());  // the same stream goes on
+}
+
+TEST(SandboxRandom, DrawingFromOneLeavesTheOthers) {
+  const Value a = run("local r = rubble.random('a') return { r:uniform() }");
+  const Value b =
+      run("for i = 1, 10 do math.random() rubble.random('b'):uniform() end "
+          "return { rubble.random('a'):uniform() }");
+  EXPECT_EQ(a.items.at(0).number, b.items.at(0).number);
+}
+
+TEST(SandboxRandom, BadArguments) {
+  EXPECT_EQ(run_error("math.random(0)"),
+            "h.lua:1: bad argument #2 to 'integer' (the upper limit is below the lower one)");
+  EXPECT_EQ(run_error("math.randomseed(1)"),
+            "h.lua:1: math.randomseed is closed: the seed is the mission's");
+  EXPECT_EQ(run_error("rubble.random()"), "h.lua:1: rubble.random takes the name of a stream");
+  EXPECT_NE(run_error("rubble.random('a'):choice({})"), "");
+  EXPECT_NE(run_error("rubble.random('a'):uniform(0 / 0)"), "");
+}
+
+TEST(SandboxVectors, Arithmetic) {
+  const Value v =
+      run("local a, b = rubble.vec(1, 2, 3), rubble.vec(4, 5, 6) "
+          "local c = 2 * (a + b) - { 1, 1, 1 } "
+          "return { c.x, c.y, c.z, a:dot(b), a:cross(b).z, rubble.vec(3, 4):norm() }");
+  const double expected[] = {9, 13, 17, 32, -3, 5};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(v.items.at(i).number, expected[i]) << i;
+}
+
+TEST(SandboxPrint, KeepsLinesAndHasALimit) {
+  LuaSandbox sandbox(1, "rubble.mission", small_limits());
+  sandbox.run("print('a', 1, {}) print()", "h.lua");
+  EXPECT_EQ(sandbox.printed(), (std::vector<std::string>{"a\t1\ttable", ""}));
+  EXPECT_EQ(run_error("for i = 1, 1e5 do print(('x'):rep(100)) end"),
+            "h.lua:1: the script prints more than 1 MiB");
+}
+
+class SandboxInclude : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_ / "sub");
+    write("sub/part.lua", "return { n = 3 }");
+    write("bad.lua", "\nerror('inside')");
+    write("endless.lua", "rubble.include('endless.lua')");
+    std::filesystem::create_symlink("/etc/passwd", folder_ / "link.lua");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+  }
+  std::string main_path() const { return (folder_ / "main.lua").string(); }
+  std::string error(const std::string& text) {
+    return error_of(
+        [&] { LuaSandbox(1, "rubble.mission", small_limits()).run(text, main_path()); });
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(SandboxInclude, GivesTheFilesValue) {
+  LuaSandbox sandbox(1, "rubble.mission", small_limits());
+  const Value v = sandbox.run(
+      "local a, b = rubble.include('sub/part.lua'), rubble.include('sub/part.lua') "
+      "return { a.n + b.n }",
+      main_path());
+  EXPECT_EQ(v.items.at(0).integer, 6);
+  ASSERT_EQ(sandbox.included().size(), 1u);
+  EXPECT_EQ(sandbox.included()[0].path, (folder_ / "sub/part.lua").string());
+  EXPECT_EQ(sandbox.included()[0].text, "return { n = 3 }");
+}
+
+TEST_F(SandboxInclude, ErrorsNameTheRightFile) {
+  EXPECT_EQ(error("\n\nrubble.include('bad.lua')"), (folder_ / "bad.lua").string() + ":2: inside");
+}
+
+TEST_F(SandboxInclude, OnlyFilesOfTheScriptsFolder) {
+  for (const char* name :
+       {"../x.lua", "/etc/passwd", "link.lua", "sub/../../x", "", "sub", "no.lua"})
+    EXPECT_NE(error(std::string("rubble.include('") + name + "')"), "") << name;
+  EXPECT_EQ(
+      error("rubble.include('/etc/passwd')"),
+      main_path() + ":1: rubble.include: \"/etc/passwd\" is not a path inside the script's folder");
+  EXPECT_NE(error("rubble.include('endless.lua')"), "");
+}
+
+}  // namespace
+}  // namespace rubble

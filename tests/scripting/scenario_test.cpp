@@ -1,0 +1,118 @@
+#include "scripting/scenario.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/scripting/test_support.h"
+
+namespace rubble {
+namespace {
+
+// Every member away from its default.
+Scenario unusual() {
+  Scenario s;
+  s.seed = 9223372036854775807u;
+  s.start_ns = 1700000000123456789;
+  s.packs = {"a \"quoted\" folder", "b"};
+  s.pile.spawn_position = {0.1, -0.2, 1.0 / 3.0};
+  s.pile.spawn_bounds = {1e-3, 2, 3};
+  s.pile.layers = 0;
+  s.pile.pieces_per_layer = 99999;
+  s.pile.mix = {{"brick", 0.1, std::nullopt}, {"slab", 2, std::array<double, 2>{0.5, 0.75}}};
+  s.pile.placed = {{"pipe", {1, 2, 3}, {10, 20, 30}, 0.7, false}};
+  s.settle.schedule = Schedule::planes;
+  s.settle.rest_speed = 0.06;
+  s.light.spec.type = LightType::point;
+  s.light.random_rotation = true;
+  s.air.fog_density = 0.123456789012345678;
+  s.camera = {640, 480, 70.5};
+  s.lamp.on = false;
+  s.trajectory.interpolation = Interpolation::linear;
+  s.trajectory.waypoints = {{0.0, std::nullopt, {1, 2, 3}, {1, 0, 0}, Vec3{0, 0, 0}},
+                            {std::nullopt, 0.25, {1, 2, 4}, {1, 2, 3}, std::nullopt}};
+  s.outputs.rawlog = false;
+  s.outputs.depth = DepthEncoding::metres;
+  return s;
+}
+
+TEST(ScenarioJson, RoundTrips) {
+  for (const Scenario& s : {Scenario{}, unusual()}) {
+    const std::string json = scenario_to_json(s);
+    EXPECT_EQ(scenario_to_json(scenario_from_json(json, "s.json")), json);
+  }
+  const Scenario back = scenario_from_json(scenario_to_json(unusual()), "s.json");
+  EXPECT_EQ(back.seed, 9223372036854775807u);
+  EXPECT_EQ(back.start_ns, 1700000000123456789);
+  EXPECT_EQ(back.pile.spawn_position, Vec3(0.1, -0.2, 1.0 / 3.0));
+  EXPECT_EQ(back.pile.mix[0].scale, std::nullopt);
+  EXPECT_EQ(back.trajectory.waypoints[1].speed, 0.25);
+  EXPECT_EQ(back.trajectory.waypoints[1].look_at, std::nullopt);
+  EXPECT_NE(scenario_to_json(unusual()), scenario_to_json(Scenario{}));
+}
+
+TEST(ScenarioJson, NamesEveryMistake) {
+  EXPECT_EQ(error_of([] {
+              scenario_from_json(R"({"seed": -1, "sede": 2, "pile": {"layers": 2.5}})", "s.json");
+            }),
+            "s.json: pile.layers: wrong type: expected an integer from 0 to 1000, found 2.5\n"
+            "s.json: sede: unknown key `sede` (did you mean `seed`?)\n"
+            "s.json: seed: out of range: expected an integer of at least 0, found -1");
+  EXPECT_EQ(error_of([] { scenario_from_json("{\n \"seed\": }", "s.json"); }),
+            "s.json:2: not valid JSON");
+  EXPECT_EQ(error_of([] { scenario_from_json("7", "s.json"); }),
+            "s.json: not a scenario: expected an object, found 7");
+}
+
+TEST(ScenarioValidate, DefaultAndUnusualAreFine) {
+  EXPECT_EQ(error_of([] { Scenario{}.validate(); }), "");
+  EXPECT_EQ(error_of([] { unusual().validate(); }), "");
+}
+
+TEST(ScenarioValidate, FindsEveryMistake) {
+  Scenario s;
+  s.pile.layers = -1;
+  s.pile.spawn_bounds = {1, 0, 1};
+  s.pile.mix = {{"a", -1, std::array<double, 2>{2, 1}}};
+  s.camera.fov_deg = std::numeric_limits<double>::quiet_NaN();
+  s.trajectory.waypoints[0].position.y = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(
+      error_of([&] { s.validate(); }),
+      "pile.spawn_bounds: out of range: expected three numbers {x, y, z}, each above 0, up "
+      "to 1000, found {1, 0, 1}\n"
+      "pile.layers: out of range: expected an integer from 0 to 1000, found -1\n"
+      "pile.mix[1].weight: out of range: expected a number from 0 to 1000000000, found -1\n"
+      "pile.mix[1].scale: out of range: expected a number or {min, max}, each from 0.01 to "
+      "100, found {2, 1}\n"
+      "camera.fov_deg: out of range: expected a number from 1 to 170, found nan\n"
+      "trajectory.waypoints[1].position: out of range: expected three numbers {x, y, z}, each "
+      "from -1000 to 1000, found {-9, inf, 4}");
+}
+
+TEST(Camera, IntrinsicsFromTheFieldOfView) {
+  const Intrinsics in = CameraScenario{1024, 512, 90}.intrinsics();
+  EXPECT_EQ(in.width, 1024);
+  EXPECT_EQ(in.height, 512);
+  EXPECT_NEAR(in.fx, 512, 1e-9);  // tan 45 degrees = 1
+  EXPECT_EQ(in.fx, in.fy);
+  EXPECT_EQ(in.cx, 511.5);
+  EXPECT_EQ(in.cy, 255.5);
+  EXPECT_NEAR((CameraScenario{640, 480, 60}.intrinsics().fx), 320 / std::tan(M_PI / 6), 1e-9);
+}
+
+TEST(Light, RandomRotationFollowsTheSeed) {
+  Scenario s;
+  EXPECT_EQ(resolve_light(s).rpy_deg, s.light.spec.rpy_deg);
+  s.light.random_rotation = true;
+  const Vec3 first = resolve_light(s).rpy_deg;
+  EXPECT_EQ(resolve_light(s).rpy_deg, first);
+  for (s.seed = 1; s.seed < 100; ++s.seed) {
+    const Vec3 rpy = resolve_light(s).rpy_deg;
+    EXPECT_FALSE(rpy == first);
+    EXPECT_TRUE(rpy.y >= 20 && rpy.y < 80 && rpy.z >= -180 && rpy.z < 180);
+  }
+}
+
+}  // namespace
+}  // namespace rubble

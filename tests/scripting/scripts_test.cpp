@@ -1,0 +1,63 @@
+// Every bundled script loads, and says what it is there to show.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "scripting/mission.h"
+
+namespace rubble {
+namespace {
+
+const std::string kScripts = RUBBLE_SOURCE_DIR "/scripts";
+
+std::set<std::string> bundled_scripts() {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(kScripts))
+    if (entry.path().extension() == ".lua") names.insert(entry.path().filename().string());
+  return names;
+}
+
+Mission load(const std::string& name) { return load_mission(kScripts + "/" + name); }
+
+TEST(Scripts, AllLoadAndSample) {
+  const auto names = bundled_scripts();
+  EXPECT_GE(names.size(), 12u);
+  for (const std::string& name : names) {
+    const Mission mission = load(name);
+    EXPECT_NO_THROW(mission.scenario.validate()) << name;
+    EXPECT_GE(sample_trajectory(mission.scenario.trajectory, mission.scenario.start_ns).size(), 1u);
+    EXPECT_EQ(mission.script.text.rfind("-- ", 0), 0u) << name << " does not say what it shows";
+  }
+}
+
+TEST(Scripts, TheDemoIsLargeEnough) {
+  const Scenario s = load("first_pile.lua").scenario;
+  EXPECT_GE(s.pile.layers * s.pile.pieces_per_layer, 1200);
+  EXPECT_EQ(s.camera.width, 1024);
+  EXPECT_EQ(s.camera.height, 1024);
+  EXPECT_EQ(s.trajectory.rate_hz, 30);
+  EXPECT_GE(sample_trajectory(s.trajectory, s.start_ns).size(), 90u);
+  EXPECT_FALSE(s.pile.placed.empty());
+}
+
+TEST(Scripts, SmallIsSmall) {
+  const Scenario s = load("small.lua").scenario;
+  EXPECT_EQ(s.pile.layers * s.pile.pieces_per_layer, 40);
+  EXPECT_EQ(s.camera.width, 160);
+  EXPECT_EQ(s.camera.height, 120);
+  EXPECT_EQ(sample_trajectory(s.trajectory, s.start_ns).size(), 5u);
+}
+
+TEST(Scripts, FeaturesAreShown) {
+  EXPECT_EQ(load("lights.lua").scenario.light.spec.type, LightType::spot);
+  EXPECT_TRUE(load("random_light.lua").scenario.light.random_rotation);
+  EXPECT_GT(load("fog.lua").scenario.air.fog_density, 0);
+  EXPECT_EQ(load("rain.lua").scenario.settle.schedule, Schedule::planes);
+  EXPECT_EQ(load("straight_legs.lua").scenario.trajectory.interpolation, Interpolation::linear);
+  EXPECT_EQ(load("outputs.lua").scenario.outputs.depth, DepthEncoding::metres);
+  EXPECT_EQ(load("published_names.lua").scenario.pile.layers, 2);
+}
+
+}  // namespace
+}  // namespace rubble

@@ -12,9 +12,9 @@ inline constexpr std::int32_t kGround = -1;
 
 struct ContactPoint {
   Vec3f from_a, from_b;    // from the centres of mass, world orientation; unit: m
-  Vec3f local_a;           // the same point in A's own frame, to find it again
+  Vec3f local_a, local_b;  // the same point in their own frames, to find it again
   float separation = 0;    // negative: overlap; unit: m
-  float normal_impulse = 0;  // of the last step; unit: N s
+  float normal_impulse = 0;  // of the last substep; unit: N s
 };
 
 struct Contact {
@@ -27,16 +27,11 @@ struct Contact {
   ContactPoint points[kMaxPoints];
   Vec3f normal;                    // unit length, from A to B; of the last search
   bool has_normal = false;         // a search has found one before
-  Vec3f friction_impulse;          // tangential, at the middle of the points; unit: N s
-  float twist_impulse = 0;         // about the normal; unit: N m s
-  float rest_impulse = 0;          // total normal impulse when one of the two fell asleep
+  Vec3f friction_impulse;          // tangential, of the last substep; unit: N s
+  float twist_impulse = 0;         // about the normal, of the last substep; unit: N m s
+  float pressed = 0;               // total normal impulse of the last step; unit: N s
+  float rest_pressed = 0;          // the same when one of the two fell asleep
   GjkCache cache;
-
-  float normal_impulse() const {
-    float sum = 0;
-    for (int i = 0; i < count; ++i) sum += points[i].normal_impulse;
-    return sum;
-  }
 };
 
 }  // namespace rubble

@@ -51,8 +51,8 @@ void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Bo
   for (int i = 0; i < c.count; ++i) {
     const ContactPoint& p = contact.points[i];
     make_row(c.points[i], c.normal, p.from_a, p.from_b);
-    c.points[i].bias = std::max(p.separation - settings.rest_gap, 0.0F) / settings.step;
-    c.points[i].impulse = p.normal_impulse;
+    c.points[i].gap = p.separation - settings.rest_gap;
+    c.points[i].impulse = c.points[i].carried = p.normal_impulse;
     middle_a += p.from_a;
     middle_b += p.from_b;
   }
@@ -63,6 +63,7 @@ void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Bo
     make_row(c.slide[t], c.tangent[t], middle_a, middle_b);
     c.slide[t].impulse = dot(c.tangent[t], contact.friction_impulse);
   }
+  c.pressed = 0;
   c.radius = 0;
   for (int i = 0; i < c.count; ++i) c.radius += norm(contact.points[i].from_a - middle_a);
   c.radius *= share;
@@ -91,9 +92,35 @@ void ContactSolver::warm_start(const Constraint& c, std::vector<Motion>& v) {
   v[c.b].angular += turn_b;
 }
 
-void ContactSolver::solve_velocity(Constraint& c, std::vector<Motion>& v) {
+// What the next substep starts from. An impulse may double from one substep to the next, and grow by
+// its own weight: loads build up fast, but the impulse of an impact is not given twice.
+void ContactSolver::carry_over(Constraint& c, float weight) {
+  float pressed = 0;
+  for (int i = 0; i < c.count; ++i) {
+    Row& row = c.points[i];
+    c.pressed += row.impulse;
+    row.impulse = std::min(row.impulse, 2 * row.carried + row.mass * weight);
+    row.carried = row.impulse;
+    pressed += row.impulse;
+  }
+  const float limit = c.friction * pressed;
+  const float s0 = c.slide[0].impulse, s1 = c.slide[1].impulse;
+  const float length2 = s0 * s0 + s1 * s1;
+  if (length2 > limit * limit) {
+    const float shrink = limit / std::sqrt(length2);
+    c.slide[0].impulse *= shrink;
+    c.slide[1].impulse *= shrink;
+  }
+  const float most = limit * c.radius;
+  c.twist_impulse = std::min(most, std::max(-most, c.twist_impulse));
+}
+
+void ContactSolver::solve_velocity(Constraint& c, float per_substep, const std::vector<Motion>& d,
+                                   std::vector<Motion>& v) {
   Motion a = v[c.a];
   Motion b = c.a == c.b ? Motion{} : v[c.b];
+  const Motion& moved_a = d[c.a];
+  const Motion moved_b = c.a == c.b ? Motion{} : d[c.b];
   const auto apply = [&](const Row& row, const Vec3f& direction, float impulse) {
     a.linear -= direction * (impulse * c.inverse_mass_a);
     a.angular -= row.turn_a * impulse;
@@ -130,7 +157,10 @@ void ContactSolver::solve_velocity(Constraint& c, std::vector<Motion>& v) {
   for (int i = 0; i < c.count; ++i) {
     Row& row = c.points[i];
     const float speed = relative_speed(c.normal, row.arm_a, row.arm_b, a, b);
-    const float next = std::max(0.0F, row.impulse - row.mass * (speed + row.bias));
+    // A point that is still apart may close its gap within the substep.
+    const float gap = row.gap + relative_speed(c.normal, row.arm_a, row.arm_b, moved_a, moved_b);
+    const float allowed = std::max(0.0F, gap) * per_substep;
+    const float next = std::max(0.0F, row.impulse - row.mass * (speed + allowed));
     apply(row, c.normal, next - row.impulse);
     row.impulse = next;
   }
@@ -143,26 +173,24 @@ void ContactSolver::solve_velocity(Constraint& c, std::vector<Motion>& v) {
 // any other pair.
 void ContactSolver::solve_positions(const SolverSettings& settings,
                                     const std::vector<Body>& bodies,
-                                    const std::vector<Contact>& contacts,
-                                    const std::vector<Motion>& v,
                                     std::vector<Motion>& displacements) {
   pushes_.clear();
   float worst = 0;
   for (const Constraint& c : constraints_) {
-    const Motion b = c.a == c.b ? Motion{} : v[c.b];
+    const Motion b = c.a == c.b ? Motion{} : displacements[c.b];
     const float mass_a = c.inverse_mass_a > 0 ? float(bodies[c.a].mass) : 0;
     const float mass_b = c.inverse_mass_b > 0 ? float(bodies[c.b].mass) : 0;
     for (int i = 0; i < c.count; ++i) {
       const Row& row = c.points[i];
-      const float speed = relative_speed(c.normal, row.arm_a, row.arm_b, v[c.a], b);
-      const float gap = contacts[c.contact].points[i].separation - settings.rest_gap +
-                        settings.slop + speed * settings.step;
+      const float moved = relative_speed(c.normal, row.arm_a, row.arm_b, displacements[c.a], b);
+      const float gap = row.gap + moved + settings.slop;
       PushRow push;
       push.mass = 1 / ((mass_a > 0 ? 1.0F : 0.0F) + (mass_b > 0 ? 1.0F : 0.0F) +
                        mass_a * dot(row.arm_a, row.turn_a) + mass_b * dot(row.arm_b, row.turn_b));
-      push.target =
+      const float wanted =
           gap < 0 ? std::min(-gap * settings.position_fraction, settings.maximum_push) : -gap;
-      worst = std::max(worst, push.target);
+      push.target = moved + wanted;
+      worst = std::max(worst, wanted);
       pushes_.push_back(push);
     }
   }
@@ -197,20 +225,38 @@ void ContactSolver::store(const Constraint& c, Contact& contact) {
   contact.friction_impulse =
       c.tangent[0] * c.slide[0].impulse + c.tangent[1] * c.slide[1].impulse;
   contact.twist_impulse = c.twist_impulse;
+  contact.pressed = c.pressed;
 }
 
 void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body>& bodies,
                           const std::vector<std::int32_t>& order, std::vector<Contact>& contacts,
                           std::vector<Motion>& velocities, std::vector<Motion>& displacements) {
   constraints_.resize(order.size());
+  std::vector<std::uint8_t> seen(bodies.size(), 0);
   for (std::size_t i = 0; i < order.size(); ++i) {
     prepare(settings, bodies, contacts[order[i]], order[i], constraints_[i]);
+    for (std::int32_t body : {constraints_[i].a, constraints_[i].b}) {
+      seen[body] = bodies[body].awake;
+    }
   }
-  for (const Constraint& c : constraints_) warm_start(c, velocities);
-  for (int iteration = 0; iteration < settings.velocity_iterations; ++iteration) {
-    for (Constraint& c : constraints_) solve_velocity(c, velocities);
+  moving_.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (seen[i]) moving_.push_back(std::int32_t(i));
   }
-  solve_positions(settings, bodies, contacts, velocities, displacements);
+  const float h = settings.step / float(settings.substeps);
+  for (int substep = 0; substep < settings.substeps; ++substep) {
+    for (std::int32_t i : moving_) velocities[i].linear.z -= settings.gravity * h;
+    for (const Constraint& c : constraints_) warm_start(c, velocities);
+    for (int iteration = 0; iteration < settings.velocity_iterations; ++iteration) {
+      for (Constraint& c : constraints_) solve_velocity(c, 1 / h, displacements, velocities);
+    }
+    for (Constraint& c : constraints_) carry_over(c, settings.gravity * h);
+    for (std::int32_t i : moving_) {
+      displacements[i].linear += velocities[i].linear * h;
+      displacements[i].angular += velocities[i].angular * h;
+    }
+  }
+  solve_positions(settings, bodies, displacements);
   for (const Constraint& c : constraints_) store(c, contacts[c.contact]);
 }
 

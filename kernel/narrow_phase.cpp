@@ -75,7 +75,7 @@ void predict(Manifold& m, const PosedBody& a, const PosedBody* b, const Vec3f& o
 
 // Writes the manifold into the contact and hands over impulses from the points found again.
 void store(Contact& contact, const Manifold& m, const Vec3f& normal, const PosedBody& a,
-           const Vec3f& offset) {
+           const PosedBody* b, const Vec3f& offset) {
   const bool keep = contact.count > 0 && dot(normal, contact.normal) > kKeepCosine;
   ContactPoint old[Contact::kMaxPoints];
   int old_count = keep ? contact.count : 0;
@@ -88,19 +88,23 @@ void store(Contact& contact, const Manifold& m, const Vec3f& normal, const Posed
   contact.normal = normal;
   contact.has_normal = true;
   contact.count = m.count;
-  const Mat3f body_from_world = a.part.rotation->transposed();
+  const Mat3f a_from_world = a.part.rotation->transposed();
+  const Mat3f b_from_world = b != nullptr ? b->part.rotation->transposed() : Mat3f::identity();
   for (int i = 0; i < m.count; ++i) {
     ContactPoint& p = contact.points[i];
     p.from_a = m.points[i].position;
     p.from_b = m.points[i].position - offset;
-    p.local_a = body_from_world * p.from_a;
+    p.local_a = a_from_world * p.from_a;
+    p.local_b = b_from_world * p.from_b;
     p.separation = m.points[i].separation;
     p.normal_impulse = 0;
     int match = -1;
     float best = kMatchDistance * kMatchDistance;
     for (int j = 0; j < old_count; ++j) {
-      const Vec3f d = old[j].local_a - p.local_a;
-      if (dot(d, d) < best) best = dot(d, d), match = j;
+      // A corner stays in one of the two frames when the pieces slide.
+      const Vec3f da = old[j].local_a - p.local_a, db = old[j].local_b - p.local_b;
+      const float d2 = std::min(dot(da, da), dot(db, db));
+      if (d2 < best) best = d2, match = j;
     }
     if (match < 0) continue;
     p.normal_impulse = old[match].normal_impulse;
@@ -112,6 +116,7 @@ void clear(Contact& contact) {
   contact.count = 0;
   contact.friction_impulse = {};
   contact.twist_impulse = 0;
+  contact.pressed = 0;
 }
 
 }  // namespace
@@ -127,7 +132,7 @@ void update_contact(Contact& contact, const PosedBody& a, const PosedBody& b,
   if (m.count == 0) m.points[m.count++] = {axis.point, axis.separation, axis.separation};
   predict(m, a, &b, offset, axis.normal, settings.step);
   reduce(m, axis.normal, Contact::kMaxPoints);
-  store(contact, m, axis.normal, a, offset);
+  store(contact, m, axis.normal, a, &b, offset);
 }
 
 void update_ground_contact(Contact& contact, const PosedBody& a, const NarrowSettings& settings) {
@@ -144,7 +149,7 @@ void update_ground_contact(Contact& contact, const PosedBody& a, const NarrowSet
   const Vec3f offset = Vec3f(-a.centre);
   predict(m, a, nullptr, offset, normal, settings.step);
   reduce(m, normal, Contact::kMaxPoints);
-  store(contact, m, normal, a, offset);
+  store(contact, m, normal, a, nullptr, offset);
 }
 
 }  // namespace rubble

@@ -43,7 +43,7 @@ void try_edges(const PosedPart& a, const PosedPart& b, const Vec3f& offset, SatR
       const float length2 = dot(n, n);
       if (length2 < 1e-6F * dot(da, da) * dot(db, db)) continue;  // parallel
       n *= 1 / std::sqrt(length2);
-      if (dot(n, na) < 0) n = -n;
+      if (dot(n, na + ma) < 0) n = -n;
       const float s =
           dot(n, b.corners.points[eb.a] + offset - a.corners.points[ea.a]);
       if (s > best.separation + kEdgeAdvantage) best = {n, s};

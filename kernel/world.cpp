@@ -45,6 +45,7 @@ void check(const NewPiece& piece, int types, int index) {
 World::Impl::Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options)
     : types(std::move(piece_types)), options(world_options), pool(world_options.threads) {
   solver_settings.step = float(options.step);
+  solver_settings.gravity = float(options.gravity);
   for (std::size_t i = 0; i < types.size(); ++i) {
     shapes.push_back(compile_shape(types[i], "types[" + std::to_string(i) + "]"));
   }

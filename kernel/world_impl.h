@@ -58,6 +58,7 @@ struct World::Impl {
   void find_pairs();
   void drop_pairs_apart();
   void update_contacts();
+  void wake_hit();
   void apply_forces();
   void solve_contacts();
   void advance();
@@ -67,7 +68,8 @@ struct World::Impl {
 
   void add_contact(int collider_a, int collider_b);
   void remove_contact(std::size_t index);
-  void refresh_all_awake();
+  void set_rates(std::size_t body);
+  void sort_by_height();
   void fall_asleep(int body);
   void wake(int body);
   void lose(int body);

@@ -13,6 +13,8 @@ constexpr double kStillDistance = 0.002;  // of any of its points; unit: m
 constexpr double kStillTime = 0.5;        // unit: s
 // A sleeper wakes when the impulse of a contact changes by what would give it this speed.
 constexpr float kWakeSpeed = 0.06F;  // unit: m/s
+// A sleeper wakes at once when an impact would give it this speed.
+constexpr float kHitSpeed = 0.1F;  // unit: m/s
 // Overlaps deeper than this keep a piece awake for a while.
 constexpr float kSleepOverlap = 0.003F;  // unit: m
 constexpr double kSleepOverlapTime = 2.0;  // unit: s
@@ -106,7 +108,7 @@ void World::Impl::remove_contact(std::size_t index) {
   for (std::int32_t body : {contact.body_a, contact.body_b}) {
     // A sleeper that loses a support wakes.
     if (body == kGround || data.bodies[body].awake || !data.bodies[body].movable()) continue;
-    if (contact.rest_impulse * data.bodies[body].inverse_mass > kWakeSpeed) data.wake_next[body] = 1;
+    if (contact.rest_pressed * data.bodies[body].inverse_mass > kWakeSpeed) data.wake_next[body] = 1;
   }
   data.contact_of_pair.erase(pair_key(contact.collider_a, contact.collider_b));
   if (index + 1 < data.contacts.size()) {
@@ -119,11 +121,14 @@ void World::Impl::remove_contact(std::size_t index) {
 void World::Impl::find_pairs() {
   for (const Body& body : data.bodies) {
     if (!body.awake) continue;
-    const Vec3 motion = Vec3(body.linear) * (kLookAhead * options.step);
+    const Vec3 motion = Vec3(body.linear) * options.step;
+    const double turning = double(norm(body.angular) * body.radius) * options.step;
     for (int i = 0; i < body.collider_count; ++i) {
       const int collider = body.first_collider + i;
-      const Aabb& box = data.colliders[collider].box;
-      if (!data.broad.update(collider, box, motion)) continue;
+      Aabb box = data.colliders[collider].box;  // and all that it may sweep in this step
+      box.min += min(motion, Vec3{}) - Vec3{turning, turning, turning};
+      box.max += max(motion, Vec3{}) + Vec3{turning, turning, turning};
+      if (!data.broad.update(collider, box, motion * kLookAhead)) continue;
       data.broad.query(collider, [&](int other) { add_contact(collider, other); });
       if (data.broad.box(collider).min.z < 0) add_contact(collider, kGround);
     }
@@ -168,53 +173,114 @@ void World::Impl::update_contacts() {
   });
 }
 
+// A sleeper that is about to be hit hard enough takes part in this very step, so that momentum is
+// kept. Its other contacts are as it left them: neither side has moved.
+void World::Impl::wake_hit() {
+  bool any = false;
+  for (std::int32_t index : active) {
+    const Contact& contact = data.contacts[index];
+    if (contact.count == 0 || contact.body_b == kGround) continue;
+    const Body &a = data.bodies[contact.body_a], &b = data.bodies[contact.body_b];
+    if (a.awake == b.awake) continue;
+    const Body& sleeper = a.awake ? b : a;
+    if (!sleeper.movable()) continue;
+    const float inverse_masses = a.inverse_mass + b.inverse_mass;
+    for (int i = 0; i < contact.count; ++i) {
+      const ContactPoint& p = contact.points[i];
+      const Vec3f v = b.linear + cross(b.angular, p.from_b) - a.linear - cross(a.angular, p.from_a);
+      const float approach = -dot(contact.normal, v);
+      if (p.separation - approach * solver_settings.step > solver_settings.rest_gap) continue;
+      // The speed that a central plastic impact would give to the sleeper.
+      if (approach * sleeper.inverse_mass / inverse_masses < kHitSpeed) continue;
+      wake(a.awake ? contact.body_b : contact.body_a);
+      any = true;
+      break;
+    }
+  }
+  if (!any) return;
+  std::vector<std::uint8_t> listed(data.contacts.size(), 0);
+  for (std::int32_t index : active) listed[index] = 1;
+  for (std::size_t i = 0; i < data.contacts.size(); ++i) {
+    const Contact& contact = data.contacts[i];
+    if (listed[i]) continue;
+    const bool awake = data.bodies[contact.body_a].awake ||
+                       (contact.body_b != kGround && data.bodies[contact.body_b].awake);
+    if (awake) active.push_back(std::int32_t(i));
+  }
+}
+
+// Gyroscopic torque only; the solver adds gravity in its substeps.
 void World::Impl::apply_forces() {
   velocities.assign(data.bodies.size(), {});
   displacements.assign(data.bodies.size(), {});
-  const double dt = options.step;
   pool.run(int(data.bodies.size()), 256, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      Body& body = data.bodies[i];
+      const Body& body = data.bodies[i];
       if (!body.awake) continue;
-      Vec3 v = blocks.linear_velocity(body.mobile);
-      Vec3 w = gyroscopic(body, blocks.angular_velocity(body.mobile), dt);
-      v.z -= options.gravity * dt;
-      velocities[i] = {Vec3f(v), Vec3f(w)};
-      // Kept in double precision for pieces that nothing touches.
-      blocks.set_velocity(body.mobile, v, w);
+      const Vec3 w = gyroscopic(body, blocks.angular_velocity(body.mobile), options.step);
+      velocities[i] = {body.linear, Vec3f(w)};
     }
   });
+}
+
+// Bottom up: what carries is solved before what is carried.
+void World::Impl::sort_by_height() {
+  const auto height = [this](std::int32_t index) {
+    const Contact& contact = data.contacts[index];
+    const double z = data.bodies[contact.body_a].world_from_com.translation.z;
+    return float(z) + contact.points[0].from_a.z;
+  };
+  std::vector<std::pair<float, std::int32_t>> keys;
+  for (std::int32_t index : active) keys.push_back({height(index), index});
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t i = 0; i < keys.size(); ++i) active[i] = keys[i].second;
 }
 
 void World::Impl::solve_contacts() {
   active.erase(std::remove_if(active.begin(), active.end(),
                               [&](std::int32_t i) { return data.contacts[i].count == 0; }),
                active.end());
+  sort_by_height();
   solver.solve(solver_settings, data.bodies, active, data.contacts, velocities, displacements);
+}
+
+// The speeds after the step, and the extra rates that make up its displacement.
+void World::Impl::set_rates(std::size_t index) {
+  const Body& body = data.bodies[index];
+  Vec3 v, w;
+  if (body.touching) {
+    Motion m = velocities[index];
+    const float spin = norm(m.angular), speed = norm(m.linear);
+    if (spin > kMaximumSpin) m.angular *= kMaximumSpin / spin;
+    if (speed > kMaximumSpeed) m.linear *= kMaximumSpeed / speed;
+    v = Vec3(m.linear), w = Vec3(m.angular);
+    const double per_step = 1 / options.step;
+    extra_linear[body.mobile] = Vec3(displacements[index].linear) * per_step - v;
+    extra_angular[body.mobile] = Vec3(displacements[index].angular) * per_step - w;
+  } else {
+    // Nothing touches it: the exact parabola, in double precision.
+    v = blocks.linear_velocity(body.mobile);
+    w = gyroscopic(body, blocks.angular_velocity(body.mobile), options.step);
+    v.z -= options.gravity * options.step;
+    extra_linear[body.mobile] = {0, 0, 0.5 * options.gravity * options.step};
+    extra_angular[body.mobile] = {};
+  }
+  blocks.set_velocity(body.mobile, v, w);
 }
 
 void World::Impl::advance() {
   moves.assign(blocks.size(), 0);
   extra_linear.resize(blocks.size());
   extra_angular.resize(blocks.size());
-  const double per_step = 1 / options.step;
   std::vector<std::uint8_t> block_awake(blocks.block_count(), 0);
   std::vector<std::int32_t> body_of(blocks.size(), 0);
   for (std::size_t i = 0; i < data.bodies.size(); ++i) {
-    Body& body = data.bodies[i];
+    const Body& body = data.bodies[i];
     if (!body.awake) continue;
     moves[body.mobile] = 1;
     body_of[body.mobile] = std::int32_t(i);
     block_awake[blocks.block_of_body(body.mobile)] = 1;
-    if (body.touching) {
-      Motion m = velocities[i];
-      const float spin = norm(m.angular), speed = norm(m.linear);
-      if (spin > kMaximumSpin) m.angular *= kMaximumSpin / spin;
-      if (speed > kMaximumSpeed) m.linear *= kMaximumSpeed / speed;
-      blocks.set_velocity(body.mobile, Vec3(m.linear), Vec3(m.angular));
-    }
-    extra_linear[body.mobile] = Vec3(displacements[i].linear) * per_step;
-    extra_angular[body.mobile] = Vec3(displacements[i].angular) * per_step;
+    set_rates(i);
   }
   pool.run(blocks.block_count(), 4, [&](int begin, int end) {
     for (int block = begin; block < end; ++block) {
@@ -237,7 +303,7 @@ void World::Impl::update_touching() {
   }
   for (std::int32_t index : active) {
     const Contact& contact = data.contacts[index];
-    if (contact.normal_impulse() <= 0) continue;
+    if (contact.pressed <= 0) continue;
     for (std::int32_t i : {contact.body_a, contact.body_b}) {
       if (i == kGround) continue;
       data.bodies[i].touching = data.bodies[i].has_touched = true;
@@ -253,7 +319,7 @@ void World::Impl::update_sleep() {
       if (i == kGround) continue;
       const Body& body = data.bodies[i];
       if (body.awake || !body.movable()) continue;
-      const float change = std::abs(contact.normal_impulse() - contact.rest_impulse);
+      const float change = std::abs(contact.pressed - contact.rest_pressed);
       if (change * body.inverse_mass > kWakeSpeed) data.wake_next[i] = 1;
     }
   }
@@ -292,7 +358,7 @@ void World::Impl::update_sleep() {
   for (std::int32_t index : active) {
     Contact& contact = data.contacts[index];
     if (slept[contact.body_a] || (contact.body_b != kGround && slept[contact.body_b])) {
-      contact.rest_impulse = contact.normal_impulse();
+      contact.rest_pressed = contact.pressed;
     }
   }
 }
@@ -337,6 +403,7 @@ void World::step() {
   {
     const Stopwatch watch(w.times.narrow);
     w.update_contacts();
+    w.wake_hit();
   }
   {
     const Stopwatch watch(w.times.solve);

@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kernel/base/random.h"
+#include "kernel/gjk.h"
+#include "kernel/manifold.h"
+#include "kernel/sat.h"
+#include "kernel/shape.h"
+#include "scenes.h"
+
+namespace rubble {
+namespace {
+
+struct Posed {
+  Posed(const Shape& compiled, const Quat& q) : shape(compiled.parts[0]) {
+    rotation = Mat3f{{Vec3f(q.matrix().rows[0]), Vec3f(q.matrix().rows[1]), Vec3f(q.matrix().rows[2])}};
+    for (const Vec3f& p : shape.corners) corners.push_back(rotation * p);
+  }
+  PosedPart part() const { return {&shape, {corners.data(), int(corners.size())}, &rotation}; }
+  const ConvexShape& shape;
+  Mat3f rotation;
+  std::vector<Vec3f> corners;
+};
+
+TEST(Gjk, BoxesFaceToFace) {
+  const Shape box = compile_shape(testing::box_type("b", 1, 1, 1), "t");
+  const Posed a(box, {}), b(box, {});
+  GjkCache cache;
+  const GjkResult r =
+      calc_distance(a.part().corners, b.part().corners, {0.3F, 0.2F, 1.001F}, 1, cache);
+  ASSERT_EQ(r.kind, GjkResult::Kind::separated);
+  EXPECT_NEAR(r.distance, 0.001, 1e-6);
+  EXPECT_NEAR(r.normal.z, 1, 1e-5);
+}
+
+TEST(Gjk, AgreesWithTheAxisSearchOnRandomPairs) {
+  RandomStream random(6, "test");
+  const Shape chunk = compile_shape(testing::chunk_type("c", 3), "t");
+  int separated = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Posed a(chunk, random.rotation()), b(chunk, random.rotation());
+    const Vec3f offset(random.direction() * random.uniform(0.8, 2.2));
+    GjkCache cache;
+    const GjkResult r = calc_distance(a.part().corners, b.part().corners, offset, 1e30F, cache);
+    const SatResult s = find_separating_axis(a.part(), b.part(), offset);
+    if (r.kind == GjkResult::Kind::separated) {
+      ++separated;
+      // Faces and edges bound the distance from below; corner pairs reach farther. Merged faces
+      // are off by less than a degree.
+      EXPECT_LE(s.separation, r.distance + 5e-3);
+      EXPECT_NEAR(norm(r.point_b - r.point_a), r.distance, 1e-4);
+    } else {
+      EXPECT_LT(s.separation, 1e-4);
+    }
+  }
+  EXPECT_GT(separated, 300);
+  EXPECT_LT(separated, 1900);
+}
+
+TEST(Gjk, ACacheFromAnotherPlaceDoesNotChangeTheDistance) {
+  RandomStream random(7, "test");
+  const Shape chunk = compile_shape(testing::chunk_type("c", 3), "t");
+  GjkCache kept;
+  for (int i = 0; i < 500; ++i) {
+    const Posed a(chunk, random.rotation()), b(chunk, random.rotation());
+    const Vec3f offset(random.direction() * 2.2);
+    GjkCache fresh;
+    const float d1 = calc_distance(a.part().corners, b.part().corners, offset, 1e30F, fresh).distance;
+    const float d2 = calc_distance(a.part().corners, b.part().corners, offset, 1e30F, kept).distance;
+    EXPECT_NEAR(d1, d2, 2e-3 * d1 + 1e-6);
+  }
+}
+
+TEST(Sat, DepthOfOverlappingBoxes) {
+  const Shape box = compile_shape(testing::box_type("b", 1, 1, 1), "t");
+  const Posed a(box, {}), b(box, testing::turned({0, 0, 1}, 0.3));
+  const SatResult s = find_separating_axis(a.part(), b.part(), {0.1F, 0, 0.95F});
+  EXPECT_NEAR(s.separation, -0.05, 1e-6);
+  EXPECT_NEAR(s.normal.z, 1, 1e-6);
+}
+
+TEST(Manifold, BoxOnBoxHasFourCorners) {
+  const Shape box = compile_shape(testing::box_type("b", 1, 1, 1), "t");
+  const Posed a(box, {}), b(box, {});
+  Manifold m;
+  clip_faces(a.part(), b.part(), {0.5F, 0.25F, 1.001F}, {0, 0, 1}, 0.02F, m);
+  ASSERT_EQ(m.count, 4);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_NEAR(m.points[i].separation, 0.001, 1e-6);
+    EXPECT_GE(m.points[i].position.x, -1e-6);
+    EXPECT_LE(m.points[i].position.x, 0.5 + 1e-6);
+  }
+}
+
+TEST(Manifold, EdgeAgainstEdgeLeavesItToTheClosestPoints) {
+  const Shape box = compile_shape(testing::box_type("b", 1, 1, 1), "t");
+  const Quat up = testing::turned({1, 0, 0}, 0.785398);
+  const Posed a(box, up), b(box, testing::turned({0, 0, 1}, 1.5707963) * up);
+  Manifold m;
+  clip_faces(a.part(), b.part(), {0, 0, 1.415F}, {0, 0, 1}, 0.02F, m);
+  EXPECT_EQ(m.count, 0);
+}
+
+TEST(Manifold, TheDeepestPointAlwaysStays) {
+  Manifold m;
+  RandomStream random(8, "test");
+  for (int i = 0; i < 20; ++i) {
+    const float s = float(random.uniform(-0.01, 0.02));
+    m.points[m.count++] = {Vec3f(float(random.uniform()), float(random.uniform()), 0), s, s};
+  }
+  float deepest = 1;
+  for (int i = 0; i < m.count; ++i) deepest = std::min(deepest, m.points[i].predicted);
+  reduce(m, {0, 0, 1}, 4);
+  EXPECT_EQ(m.count, 4);
+  float kept = 1;
+  for (int i = 0; i < m.count; ++i) kept = std::min(kept, m.points[i].predicted);
+  EXPECT_EQ(deepest, kept);
+}
+
+}  // namespace
+}  // namespace rubble

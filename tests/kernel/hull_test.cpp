@@ -1,0 +1,115 @@
+#include "kernel/hull.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "kernel/base/error.h"
+#include "kernel/base/portable_math.h"
+#include "kernel/base/random.h"
+#include "kernel/shape.h"
+#include "scenes.h"
+
+namespace rubble {
+namespace {
+
+using testing::box_part;
+
+TEST(Hull, BoxHasSixSquares) {
+  const Hull hull = calc_hull(box_part(1, 2, 3).points);
+  EXPECT_EQ(hull.points.size(), 8u);
+  ASSERT_EQ(hull.faces.size(), 6u);
+  for (const auto& face : hull.faces) EXPECT_EQ(face.size(), 4u);
+}
+
+TEST(Hull, TurnedBoxHasSixSquaresToo) {
+  RandomStream random(4, "test");
+  for (int i = 0; i < 50; ++i) {
+    const Quat q = random.rotation();
+    std::vector<Vec3> points = box_part(0.215, 0.1025, 0.065, {1, 2, 3}).points;
+    for (Vec3& p : points) p = q.rotate(p);
+    const Hull hull = calc_hull(points);
+    EXPECT_EQ(hull.points.size(), 8u);
+    EXPECT_EQ(hull.faces.size(), 6u);
+  }
+}
+
+TEST(Hull, PointsInsideAndOnFacesAreDropped) {
+  std::vector<Vec3> points = box_part(2, 2, 2).points;
+  points.push_back({0, 0, 0});
+  points.push_back({0, 0, 1});
+  points.push_back({0, 1, 1});
+  points.push_back(points[0]);
+  EXPECT_EQ(calc_hull(points).points.size(), 8u);
+}
+
+TEST(Hull, EveryPointOfARandomSetIsInside) {
+  RandomStream random(5, "test");
+  for (int n : {4, 5, 20, 200}) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < n; ++i) points.push_back(random.direction() * random.uniform(0.1, 1.0));
+    const Hull hull = calc_hull(points);
+    std::size_t edges = 0;
+    for (const auto& face : hull.faces) {
+      edges += face.size();
+      const Vec3 a = hull.points[face[0]], b = hull.points[face[1]], c = hull.points[face[2]];
+      const Vec3 normal = normalized(cross(b - a, c - a));
+      for (const Vec3& p : points) EXPECT_LE(dot(normal, p - a), 0.02);
+    }
+    // Euler: corners - edges + faces = 2.
+    EXPECT_EQ(hull.points.size() + hull.faces.size(), edges / 2 + 2);
+  }
+}
+
+TEST(Hull, FlatSetsAreRefused) {
+  EXPECT_THROW(calc_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), std::invalid_argument);
+  EXPECT_THROW(calc_hull({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}), std::invalid_argument);
+  EXPECT_THROW(calc_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), std::invalid_argument);
+}
+
+TEST(Shape, BoxInertiaIsTheClosedForm) {
+  const VolumeProperties v = calc_volume_properties(box_part(1, 2, 3, {5, 6, 7}));
+  EXPECT_NEAR(v.volume, 6, 1e-12);
+  EXPECT_NEAR(v.centre_of_mass.y, 6, 1e-12);
+  EXPECT_NEAR(v.inertia.rows[0][0], 6.0 * (4 + 9) / 12, 1e-10);
+  EXPECT_NEAR(v.inertia.rows[1][1], 6.0 * (1 + 9) / 12, 1e-10);
+  EXPECT_NEAR(v.inertia.rows[0][1], 0, 1e-10);
+}
+
+TEST(Shape, PartsAddUp) {
+  // A box cut in two has the properties of the whole.
+  PieceType type;
+  type.parts = {box_part(1, 2, 3, {-0.5, 0, 0}), box_part(1, 2, 3, {0.5, 0, 0})};
+  const Shape shape = compile_shape(type, "t");
+  EXPECT_NEAR(shape.volume.volume, 12, 1e-12);
+  EXPECT_NEAR(shape.volume.inertia.rows[2][2], 12.0 * (4 + 4) / 12, 1e-10);
+}
+
+TEST(Shape, PipeVolumeIsThatOfItsPolygons) {
+  const Shape shape = compile_shape(testing::pipe_type(1.0, 0.15, 0.2), "t");
+  const double area = 12 * 0.5 * portable::sin(portable::kPi / 6) * (0.04 - 0.0225);
+  EXPECT_NEAR(shape.volume.volume, area, 1e-12);
+}
+
+TEST(Shape, BadTypesAreNamed) {
+  PieceType type = testing::box_type("b", 1, 1, 1);
+  type.density = 5;
+  try {
+    compile_shape(type, "types[3]");
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.diagnostics()[0].key, "types[3].density");
+  }
+  type = PieceType{};
+  type.parts = {ConvexPart{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}}};
+  try {
+    compile_shape(type, "types[0]");
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.diagnostics()[0].key, "types[0].parts[0]");
+  }
+}
+
+}  // namespace
+}  // namespace rubble

@@ -94,18 +94,23 @@ bool read_rows(png_structp png, const Layout& layout, void* pixels) {
   return true;
 }
 
-// An open PNG file; closes libpng's side in any case.
+struct ReadHandles {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  ~ReadHandles() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
 class PngReader {
  public:
   explicit PngReader(const std::string& path) : path_(path), file_(read_whole_file(path)) {
     transfer_.source = file_;
-    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &transfer_, on_error, on_warning);
-    if (png_) info_ = png_create_info_struct(png_);
-    if (!info_) throw RunError("libpng cannot start");
-    png_set_read_fn(png_, &transfer_, on_read);
-    if (!read_header(png_, info_, layout_)) refuse("cannot be read as a PNG: " + transfer_.error);
+    handles_.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &transfer_, on_error, on_warning);
+    if (handles_.png) handles_.info = png_create_info_struct(handles_.png);
+    if (!handles_.info) throw RunError("libpng cannot start");
+    png_set_read_fn(handles_.png, &transfer_, on_read);
+    if (!read_header(handles_.png, handles_.info, layout_))
+      refuse("cannot be read as a PNG: " + transfer_.error);
   }
-  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
 
@@ -116,7 +121,7 @@ class PngReader {
     refuse("has the wrong kind of pixels", expected);
   }
   void read(void* pixels) {
-    if (!read_rows(png_, layout_, pixels)) refuse("is a damaged PNG: " + transfer_.error);
+    if (!read_rows(handles_.png, layout_, pixels)) refuse("is a damaged PNG: " + transfer_.error);
   }
 
  private:
@@ -131,8 +136,7 @@ class PngReader {
   std::string path_, file_;
   Transfer transfer_;
   Layout layout_{};
-  png_structp png_ = nullptr;
-  png_infop info_ = nullptr;
+  ReadHandles handles_;  // of their own, so that a constructor that throws frees them
 };
 
 }  // namespace

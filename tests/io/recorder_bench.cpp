@@ -1,5 +1,6 @@
-// recorder_bench FOLDER [FRAMES]: what each recorder costs at 1024x1024. A tool for developers, not
-// a test: it prints CPU and elapsed milliseconds a frame and the size of the file.
+// recorder_bench FOLDER [FRAMES [PNG...]]: what each recorder costs at 1024x1024. A tool for
+// developers, not a test: it prints CPU and elapsed milliseconds a frame and the size of the file.
+// PNG: pictures of 1024x1024 to take the colour from; noise without them.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -8,6 +9,7 @@
 #include <functional>
 
 #include "io/contact_sheet.h"
+#include "io/image_file.h"
 #include "io/rawlog_recorder.h"
 #include "io/recording_queue.h"
 #include "io/rosbag_recorder.h"
@@ -58,7 +60,10 @@ int main(int argc, char** argv) {
   const std::string folder = argc > 1 ? argv[1] : ".";
   const int count = argc > 2 ? std::atoi(argv[2]) : 30;
   std::vector<Frame> frames;
-  for (int i = 0; i < 4; ++i) frames.push_back(test::make_busy_frame(i, 1024));
+  for (int i = 0; i < 4; ++i) {
+    frames.push_back(test::make_busy_frame(i, 1024));
+    if (argc > 3) frames.back().rgb = read_rgb_png(argv[3 + i % (argc - 3)]).rgb;
+  }
   const std::string a = folder + "/bench.a", b = folder + "/bench.b";
   ContactSheetOptions sheet;
   sheet.total_frames = count;

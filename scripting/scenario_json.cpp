@@ -20,9 +20,10 @@ Json json_of(const Value& value) {
     case Value::Kind::text:
       return value.text;
     case Value::Kind::table: {
-      Json list = Json::array();
-      for (const Value& item : value.items) list.push_back(json_of(item));
-      return list;
+      Json json = value.fields.empty() ? Json::array() : Json::object();
+      for (const Value& item : value.items) json.push_back(json_of(item));
+      for (const auto& [name, member] : value.fields) json[name] = json_of(member);
+      return json;
     }
     default:
       return nullptr;
@@ -72,6 +73,8 @@ int line_of_byte(const std::string& text, std::size_t byte) {
 }
 
 }  // namespace
+
+std::string value_to_json(const Value& value) { return json_of(value).dump(); }
 
 std::string members_to_json(const Schema& schema) { return json_of_group(schema, "", 0).dump(2); }
 

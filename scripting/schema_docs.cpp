@@ -1,0 +1,90 @@
+#include "scripting/schema_docs.h"
+
+#include <stdexcept>
+
+#include "scripting/pack_schema.h"
+#include "scripting/scenario_schema.h"
+
+namespace rubble {
+namespace {
+
+constexpr const char* kBegin = "<!-- reference: begin -->\n";
+constexpr const char* kEnd = "<!-- reference: end -->\n";
+
+std::string lua_text(const Value& value) {
+  if (value.kind == Value::Kind::nil) return "";
+  if (value.kind == Value::Kind::text) return value.text.empty() ? "" : "\"" + value.text + "\"";
+  if (value.kind != Value::Kind::table) return describe(value);
+  std::string text = "{";
+  for (const Value& item : value.items) text += (text.size() > 1 ? ", " : "") + lua_text(item);
+  return text + "}";
+}
+
+std::string as_code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
+
+// A table's "|" ends a cell.
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+    text.insert(at, "\\");
+  return text;
+}
+
+std::string row(const Key& key) {
+  const std::string value =
+      key.required ? "must be given" : as_code(lua_text(read_slot(key.bind(0))));
+  return "| `" + key.name() + "` | " + cell(describe_expected(key)) + " | " + key.unit_text +
+         " | " + cell(value) + " | " + cell(key.doc_text) + " |\n";
+}
+
+constexpr const char* kHead =
+    "| key | takes | unit | default | meaning |\n| --- | --- | --- | --- | --- |\n";
+
+// One heading and table for a group, then one for each group or list in it.
+std::string section(const Schema& schema, const std::string& pattern, const std::string& heading,
+                    const std::string& doc) {
+  std::string rows, below;
+  for (const Key* key : schema.children(pattern)) {
+    if (key->kind == KeyKind::value) {
+      rows += row(*key);
+      continue;
+    }
+    const bool is_list = key->kind == KeyKind::list;
+    if (is_list) key->resize(1);  // so that an item's defaults can be read
+    below += section(schema, is_list ? key->path + "[]" : key->path,
+                     "`" + key->path + "`" + (is_list ? ", a list of tables" : ""), key->doc_text);
+  }
+  std::string text = heading.empty() ? "" : "### " + heading + "\n\n" + doc + "\n\n";
+  if (!rows.empty()) text += kHead + rows + "\n";
+  return text + below;
+}
+
+std::string alias_table(const Schema& schema) {
+  std::string text =
+      "### Names of the published simulator\n\nThe parameters of the published Unity simulator "
+      "under its names, at the top level of a mission and in `--set`. Axes are ours: Z is up.\n\n"
+      "| name | is |\n| --- | --- |\n";
+  for (const Alias& alias : schema.aliases())
+    text +=
+        "| `" + alias.name + "` | " + (alias.negated ? "not " : "") + "`" + alias.path + "` |\n";
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string lua_reference() {
+  Scenario scenario;
+  const Schema mission = make_scenario_schema(scenario);
+  PackTable pack_table;
+  const Schema pack = make_pack_schema(pack_table);
+  return "\n## Keys of a mission\n\n" + section(mission, "", "", "") + alias_table(mission) +
+         "## Keys of pack.lua\n\n" + section(pack, "", "", "");
+}
+
+std::string with_reference(const std::string& document) {
+  const std::size_t begin = document.find(kBegin), end = document.find(kEnd);
+  if (begin == std::string::npos || end == std::string::npos || end < begin)
+    throw std::runtime_error("the document lacks the lines that mark the reference");
+  return document.substr(0, begin) + kBegin + lua_reference() + document.substr(end);
+}
+
+}  // namespace rubble

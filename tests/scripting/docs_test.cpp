@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "scripting/scenario.h"
+#include "scripting/scenario_schema.h"
+#include "scripting/schema_docs.h"
+
+namespace rubble {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+TEST(LuaReference, DocumentIsUpToDate) {
+  std::ostringstream text;
+  text << std::ifstream(RUBBLE_SOURCE_DIR "/docs/lua.md").rdbuf();
+  EXPECT_TRUE(with_reference(text.str()) == text.str())
+      << "run: cmake --build build/release --target lua_reference";
+}
+
+TEST(LuaReference, MarkersMustBeThere) {
+  EXPECT_THROW(with_reference("no markers"), std::runtime_error);
+}
+
+TEST(LuaReference, HasEveryKeyAndName) {
+  Scenario scenario;
+  const Schema schema = make_scenario_schema(scenario);
+  const std::string text = lua_reference();
+  for (const Key& key : schema.keys()) {
+    const std::string shown = key.kind == KeyKind::value ? "| `" + key.name() : "### `" + key.path;
+    EXPECT_NE(text.find(shown + "`"), std::string::npos) << key.path;
+    EXPECT_FALSE(key.doc_text.empty()) << key.path;
+    EXPECT_EQ(key.doc_text.find('\n'), std::string::npos) << key.path;
+  }
+  for (const Alias& alias : schema.aliases())
+    EXPECT_NE(text.find("| `" + alias.name + "` |"), std::string::npos) << alias.name;
+}
+
+// A small validator of the parts of JSON Schema that are used: it says where the text fails.
+std::string failure(const Json& schema, const Json& value, const std::string& path) {
+  if (schema.contains("anyOf")) {
+    for (const Json& option : schema["anyOf"])
+      if (failure(option, value, path).empty()) return "";
+    return path + " fits no option";
+  }
+  if (schema.contains("enum")) {
+    for (const Json& option : schema["enum"])
+      if (option == value) return "";
+    return path + " is no choice";
+  }
+  const std::string type = schema.value("type", "");
+  if (type == "null" && !value.is_null()) return path + " is not null";
+  if (type == "boolean" && !value.is_boolean()) return path + " is no boolean";
+  if (type == "string" && !value.is_string()) return path + " is no string";
+  if (type == "integer" && !value.is_number_integer()) return path + " is no integer";
+  if (type == "number" && !value.is_number()) return path + " is no number";
+  if (type == "number" || type == "integer") {
+    const double number = value.get<double>();
+    if (schema.contains("minimum") && number < schema["minimum"].get<double>())
+      return path + " low";
+    if (schema.contains("maximum") && number > schema["maximum"].get<double>())
+      return path + " high";
+    if (schema.contains("exclusiveMinimum") && number <= schema["exclusiveMinimum"].get<double>())
+      return path + " low";
+  }
+  if (type == "array") {
+    if (!value.is_array()) return path + " is no array";
+    for (std::size_t i = 0; i < value.size(); ++i)
+      if (auto f = failure(schema["items"], value[i], path + "[]"); !f.empty()) return f;
+    if (schema.contains("minItems") && value.size() != schema["minItems"].get<std::size_t>())
+      return path + " has another length";
+  }
+  if (type == "object") {
+    if (!value.is_object()) return path + " is no object";
+    for (const auto& [name, member] : value.items()) {
+      if (!schema["properties"].contains(name)) return path + "." + name + " is unknown";
+      if (auto f = failure(schema["properties"][name], member, path + "." + name); !f.empty())
+        return f;
+    }
+    for (const Json& name : schema.value("required", Json::array()))
+      if (!value.contains(name.get<std::string>())) return path + " lacks " + name.dump();
+  }
+  return "";
+}
+
+TEST(JsonSchema, AcceptsTheDefaultScenarioAndRejectsMistakes) {
+  const Json schema = Json::parse(mission_json_schema());
+  EXPECT_EQ(schema["title"], "Rubble mission");
+  Json scenario = Json::parse(scenario_to_json(Scenario{}));
+  EXPECT_EQ(failure(schema, scenario, "$"), "");
+  EXPECT_EQ(failure(schema, Json::parse(R"({"numlayers": 3, "setlightrot": true})"), "$"), "");
+  const auto spoiled = [&](const char* pointer, const Json& value) {
+    Json copy = scenario;
+    copy[Json::json_pointer(pointer)] = value;
+    return failure(schema, copy, "$");
+  };
+  EXPECT_EQ(spoiled("/pile/layers", -1), "$.pile.layers low");
+  EXPECT_EQ(spoiled("/pile/layers", 2.5), "$.pile.layers is no integer");
+  EXPECT_EQ(spoiled("/pile/layres", 2), "$.pile.layres is unknown");
+  EXPECT_EQ(spoiled("/pile/spawn_bounds", Json::array({1, 2})),
+            "$.pile.spawn_bounds fits no option");
+  EXPECT_EQ(spoiled("/settle/schedule", "plane"), "$.settle.schedule is no choice");
+  EXPECT_EQ(spoiled("/trajectory/waypoints", Json::array({Json::object()})),
+            "$.trajectory.waypoints[] lacks \"position\"");
+}
+
+TEST(JsonSchema, HoldsTheDefaults) {
+  const Json schema = Json::parse(mission_json_schema());
+  const Json pile = schema["properties"]["pile"]["properties"];
+  EXPECT_EQ(pile["layers"]["default"], 4);
+  EXPECT_EQ(pile["spawn_bounds"]["default"], Json::array({10.0, 10.0, 7.0}));
+  EXPECT_EQ(schema["properties"]["light"]["properties"]["type"]["default"], "directional");
+}
+
+}  // namespace
+}  // namespace rubble

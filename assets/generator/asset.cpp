@@ -9,8 +9,8 @@ constexpr double kCreaseDeg = 42;
 
 // Bars of a level: sides and ring spacing.
 void append_bars(SurfaceMesh& mesh, const std::vector<Bar>& bars, int level) {
-  static const int kSides[3] = {8, 6, 4};
-  static const double kSpacing[3] = {0.04, 0.15, 9};
+  static const int kSides[3] = {10, 6, 4};
+  static const double kSpacing[3] = {0.06, 0.15, 9};
   for (const Bar& bar : bars) append(mesh, mesh_bar(bar, kSides[level], kSpacing[level]));
 }
 

@@ -7,6 +7,9 @@ namespace {
 constexpr Surface kCast = Surface::concrete_cast;
 constexpr Surface kBroken = Surface::concrete_fracture;
 
+// Long cast edges are knocked off here and there, more coarsely than those of small pieces.
+constexpr double kEdgeChip = 0.037, kChipSize = 0.11;  // unit: m
+
 // A cast prism along X whose ends broke off, with a longitudinal bar near each edge of the section.
 Recipe member(const char* name, const Vec3& half, double bar_radius) {
   RandomStream random = piece_stream(name);
@@ -29,6 +32,7 @@ Recipe member(const char* name, const Vec3& half, double bar_radius) {
       }
     }
   }
+  r.solid.wear.edge_chip = kEdgeChip, r.solid.wear.chip_size = kChipSize;
   r.cell = 0.012;
   r.triangles = {3000, 700, 70};
   r.max_edge = 0.12;
@@ -62,6 +66,7 @@ Recipe floor_slab() {
     const double z = random.uniform() < 0.6 ? -0.06 : 0.06;
     r.bars.push_back(protruding_bar(cell, {0, y, z}, {1, 0, 0}, 0.006, random));
   }
+  r.solid.wear.edge_chip = kEdgeChip, r.solid.wear.chip_size = kChipSize;
   r.cell = 0.02;
   r.triangles = {4600, 1100, 90};
   r.max_edge = 0.3;
@@ -76,11 +81,14 @@ Recipe wall_stub() {
   Recipe r = concrete_recipe("wall_stub", random);
   const double step = 0.5;
   for (int i = 0; i < 6; ++i) {
-    const double left = -1.5 + step * i, lap = 0.02;
+    const double left = -1.5 + step * i, lap = 0.05;
     Cell cell = box_cell({left - (i > 0 ? lap : 0), -0.125, -0.7},
                          {left + step + (i < 5 ? lap : 0), 0.125, 0.7}, kCast);
     const Vec3 lean = normalized(Vec3{random.uniform(-0.5, 0.5), random.uniform(-0.3, 0.3), 1});
     const Vec3 middle{left + step / 2, 0, random.uniform(0.3, 0.58)};
+    // The steps of the top show the broken sides of the sections.
+    if (i < 5) cell[0].surface = kBroken;
+    if (i > 0) cell[1].surface = kBroken;
     cell[4] = {lean, dot(lean, middle), kBroken};
     r.solid.cells.push_back(cell);
     for (const double y : {-0.08, 0.08}) {
@@ -88,6 +96,7 @@ Recipe wall_stub() {
       r.bars.push_back(protruding_bar(cell, through, {0, 0, 1}, 0.006, random));
     }
   }
+  r.solid.wear.edge_chip = kEdgeChip, r.solid.wear.chip_size = kChipSize;
   r.cell = 0.018;
   r.triangles = {4600, 1100, 120};
   r.max_edge = 0.2;

@@ -109,6 +109,7 @@ Recipe box_culvert() {
     r.parts.push_back(box_corners({-half, -in, y > 0 ? in : -out}, {half, in, y > 0 ? out : -in}));
   }
   r.solid.hollows = {bore};
+  r.solid.wear.edge_chip = 0.045, r.solid.wear.chip_size = 0.13;
   r.cell = 0.02;
   r.triangles = {5000, 1200, 150};
   r.max_edge = 0.2;

@@ -49,13 +49,21 @@ class Marcher {
     const int step = difference % size_[0] + 2 * dy + 4 * dz;
     int& vertex = vertices_[7 * static_cast<std::size_t>(low) + step - 1];
     if (vertex < 0) {
-      // Kept off the nodes, so that no triangle shrinks to nothing.
-      const double t = values_[low] / (values_[low] - values_[high]);
-      const double kept = std::fmin(0.96, std::fmax(0.04, t));
       vertex = static_cast<int>(mesh_.positions.size());
-      mesh_.positions.push_back(position(low) + (position(high) - position(low)) * kept);
+      mesh_.positions.push_back(crossing(low, high));
     }
     return vertex;
+  }
+
+  // Two steps of false position: edges bend the field within one cell of the grid.
+  Vec3 crossing(int low, int high) const {
+    const Vec3 from = position(low), along = position(high) - from;
+    const double a = values_[low], b = values_[high];
+    double t = a / (a - b);
+    const double value = sample(solid_, from + along * t, band_).value;
+    t = (value < 0) == (a < 0) ? t + (1 - t) * value / (value - b) : t * a / (a - value);
+    // Kept off the nodes, so that no triangle shrinks to nothing.
+    return from + along * std::fmin(0.96, std::fmax(0.04, t));
   }
 
   void march_cube(int x, int y, int z) {

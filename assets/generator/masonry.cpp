@@ -4,8 +4,8 @@
 namespace rubble::generator {
 namespace {
 
-// UK work size, 215 x 102.5 x 65 mm.
-Recipe brick(const char* name, double length, bool broken, std::uint32_t seed) {
+// UK work size, 215 x 102.5 x 65 mm. wear: widens the rounding and chips of its edges.
+Recipe brick(const char* name, double length, double wear, bool broken, std::uint32_t seed) {
   Recipe r;
   r.name = name;
   r.solid.cells = {
@@ -14,7 +14,7 @@ Recipe brick(const char* name, double length, bool broken, std::uint32_t seed) {
     Face& end = r.solid.cells[0][0];
     end = {normalized(Vec3{1, 0.12, -0.2}), length / 2, Surface::brick_fracture};
   }
-  r.solid.wear = {0.005, 0.035, 0.009, 0.0012, 0.004, 0.012, 0.035};
+  r.solid.wear = {0.005, 0.035, 0.009, 0.0012, 0.004 * wear, 0.012 * wear, 0.035};
   r.solid.seed = seed;
   r.cell = 0.004;
   r.triangles = {broken ? 800 : 640, 160, 24};
@@ -31,7 +31,7 @@ constexpr double kHalf = 0.095, kShell = 0.032, kWeb = 0.028, kCore = 0.153;
 Recipe block_recipe(const char* name, std::uint32_t seed) {
   Recipe r;
   r.name = name;
-  r.solid.wear = {0.006, 0.05, 0.011, 0.0014, 0.003, 0.011, 0.05};
+  r.solid.wear = {0.006, 0.05, 0.011, 0.0014, 0.005, 0.013, 0.045};
   r.solid.seed = seed;
   r.cell = 0.0055;
   r.triangles = {2200, 550, 90};
@@ -85,7 +85,7 @@ Recipe broken_block() {
   Recipe r = block_recipe("broken_cinder_block", 203);
   const double end = 0.085;
   add_body(r, -0.195, end, end - 0.003);
-  r.solid.cells[0][0].surface = Surface::concrete_fracture;
+  r.solid.cells[0][0].rough = true;
   for (const double x : {-0.195, -kWeb / 2}) add_web(r, x);
   for (const double x : {-0.195 + kWeb, kWeb / 2}) add_core(r, x);
   r.triangles = {1900, 450, 80};
@@ -95,9 +95,9 @@ Recipe broken_block() {
 }  // namespace
 
 std::vector<Recipe> masonry_pieces() {
-  return {brick("brick", 0.215, false, 101),
-          brick("worn_brick", 0.213, false, 103),
-          brick("half_brick", 0.115, true, 102),
+  return {brick("brick", 0.215, 1, false, 101),
+          brick("worn_brick", 0.213, 1.7, false, 103),
+          brick("half_brick", 0.115, 1.2, true, 102),
           cinder_block(),
           half_block(),
           broken_block()};

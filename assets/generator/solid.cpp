@@ -8,30 +8,61 @@
 namespace rubble::generator {
 namespace {
 
-constexpr double kDeepest = 0.025;      // what wear removes at most; unit: m
+constexpr double kDeepest = 0.035;      // what wear removes at most; unit: m
 constexpr double kScar = 0.0026;        // an edge that receded farther was chipped; unit: m
 constexpr double kHollowRound = 0.009;  // of the inner edges of hollows; unit: m
 
-struct Local {                  // what every face shares at one point
-  double roughness;             // of a break, 0 to 1
-  double fracture, cast, edge;  // dents of the two kinds of faces, width of edges; unit: m
-};
+// What every face shares at one point, worked out when first asked for: noise is what costs.
+class Spot {
+ public:
+  Spot(const Solid& solid, const Vec3& p)
+      : wear_(solid.wear), seed_(solid.seed), p_(p), in_chips_(p * (1 / solid.wear.chip_size)) {}
 
-Local calc_local(const Solid& solid, const Vec3& p) {
-  const Wear& w = solid.wear;
-  const double waves = ridged_noise(p * (1 / w.fracture_size), 3, solid.seed);
-  const double flakes = flake_noise(p * (1.7 / w.fracture_size), solid.seed + 51);
-  const double grains = grain_noise(p * (1 / w.grain_size), solid.seed + 11);
-  const double mixed = 0.45 * std::fmin(1.0, 1.6 * waves) + 0.35 * flakes + 0.2 * (1 - grains);
-  const double rough = std::fmin(1.0, std::fmax(0.0, 2.1 * mixed - 0.45));
-  const Vec3 in_chips = p * (1 / w.chip_size);
-  const double sway = 0.5 + 0.5 * gradient_noise(in_chips, solid.seed + 21);
-  const double pits = fractal_noise(in_chips * 2.5, 2, solid.seed + 31) - 0.25;
-  const double chips = std::fmax(0.0, 1.4 * fractal_noise(in_chips, 2, solid.seed + 41));
-  return {rough, w.fracture_depth * rough,
-          w.cast_depth * std::fmin(1.0, 0.3 * std::fmax(0.0, sway) + 2 * std::fmax(0.0, pits)),
-          w.edge_round + w.edge_chip * std::fmin(1.0, chips * chips)};
-}
+  const Vec3& position() const { return p_; }
+  // Beyond this far below the highest face another has no part in the surface. unit: m
+  double reach() const {
+    return wear_.edge_round + wear_.edge_chip + wear_.fracture_depth + wear_.cast_depth;
+  }
+
+  double roughness() {  // of a break, 0 to 1
+    if (roughness_ < 0) roughness_ = calc_roughness();
+    return roughness_;
+  }
+  double dent(const Face& face) {  // unit: m
+    if (face.rough || is_fracture(face.surface)) return wear_.fracture_depth * roughness();
+    if (cast_dent_ < 0) cast_dent_ = calc_cast_dent();
+    return cast_dent_;
+  }
+  double edge_width() {  // unit: m
+    if (edge_width_ < 0) {
+      const double chips = std::fmax(0.0, 1.4 * fractal_noise(in_chips_, 2, seed_ + 41));
+      edge_width_ = wear_.edge_round + wear_.edge_chip * std::fmin(1.0, chips * chips);
+    }
+    return edge_width_;
+  }
+
+ private:
+  static bool is_fracture(Surface s) {
+    return s == Surface::concrete_fracture || s == Surface::brick_fracture;
+  }
+  double calc_roughness() const {
+    const double waves = ridged_noise(p_ * (1 / wear_.fracture_size), 3, seed_);
+    const double flakes = flake_noise(p_ * (1.7 / wear_.fracture_size), seed_ + 51);
+    const double grains = grain_noise(p_ * (1 / wear_.grain_size), seed_ + 11);
+    const double mixed = 0.45 * std::fmin(1.0, 1.6 * waves) + 0.35 * flakes + 0.2 * (1 - grains);
+    return std::fmin(1.0, std::fmax(0.0, 2.1 * mixed - 0.45));
+  }
+  double calc_cast_dent() const {
+    const double sway = std::fmax(0.0, 0.5 + 0.5 * gradient_noise(in_chips_, seed_ + 21));
+    const double pits = std::fmax(0.0, fractal_noise(in_chips_ * 2.5, 2, seed_ + 31) - 0.25);
+    return wear_.cast_depth * std::fmin(1.0, 0.3 * sway + 2 * pits);
+  }
+
+  const Wear& wear_;
+  std::uint32_t seed_;
+  Vec3 p_, in_chips_;
+  double roughness_ = -1, cast_dent_ = -1, edge_width_ = -1;
+};
 
 double plain_value(const Face& face, const Vec3& p) {
   const double along = dot(face.normal, p);
@@ -45,10 +76,6 @@ double plain_value(const Cell& cell, const Vec3& p) {
   return value;
 }
 
-bool is_fracture(Surface s) {
-  return s == Surface::concrete_fracture || s == Surface::brick_fracture;
-}
-
 // The larger of two, blended over the width k: a rounded edge (quadratic, after Quilez).
 double smooth_max(double a, double b, double k) {
   const double h = std::fmax(0.0, k - std::fabs(a - b)) / k;
@@ -60,42 +87,43 @@ Surface broken(Surface surface) {
   return surface == Surface::brick ? Surface::brick_fracture : surface;
 }
 
-// Where an edge receded far it chipped: the scar is a break, and rough.
-FieldSample chip(FieldSample sample, double receded, const Local& local) {
-  if (receded < kScar) return sample;
-  const double depth = std::fmin(receded - kScar, 0.5 * kScar);
-  return {sample.value + depth * local.roughness, broken(sample.surface)};
+// The edge between two surfaces: rounded and, where it receded far, chipped. A chip's scar is a
+// break, and rough.
+FieldSample join(const FieldSample& a, const FieldSample& b, Spot& spot) {
+  FieldSample result = a.value >= b.value ? a : b;
+  if (std::fabs(a.value - b.value) > spot.reach()) return result;
+  const double sharp = result.value;
+  result.value = smooth_max(a.value, b.value, spot.edge_width());
+  const double receded = result.value - sharp;
+  if (receded > kScar) {
+    result.value += std::fmin(receded - kScar, 0.5 * kScar) * spot.roughness();
+    result.surface = broken(result.surface);
+  }
+  return result;
 }
 
-FieldSample rough_value(const Cell& cell, const Vec3& p, const Local& local) {
+FieldSample rough_value(const Cell& cell, Spot& spot) {
+  const double highest = plain_value(cell, spot.position());
   FieldSample result{-1e9, Surface::concrete_cast};
-  double top = -1e9;
   for (const Face& face : cell) {
-    const double relief = is_fracture(face.surface) ? local.fracture : local.cast;
-    const double value = plain_value(face, p) + relief;
-    if (value > top) {
-      top = value;
-      result.surface = face.surface;
-    }
-    result.value = smooth_max(result.value, value, local.edge);
+    const double plain = plain_value(face, spot.position());
+    if (plain < highest - spot.reach()) continue;
+    result = join(result, {plain + spot.dent(face), face.surface}, spot);
   }
-  return chip(result, result.value - top, local);
+  return result;
 }
 
 // A hollow is smooth inside: its walls were cast, and its edges are worn where it meets a face.
-FieldSample cut_hollow(FieldSample solid, const Cell& hollow, const Vec3& p, const Local& local) {
-  double inside = -1e9;
-  Surface surface = Surface::concrete_cast;
+FieldSample cut_hollow(const FieldSample& solid, const Cell& hollow, Spot& spot) {
+  double inside = -1e9, highest = -1e9;
+  const Face* nearest = &hollow.front();
   for (const Face& face : hollow) {
-    const double value = plain_value(face, p);
-    if (value > inside) surface = face.surface;
+    const double value = plain_value(face, spot.position());
+    if (value > highest) highest = value, nearest = &face;
     inside = inside < -1e8 ? value : smooth_max(inside, value, kHollowRound);
   }
-  const double cut = -inside + local.cast;
-  const double top = std::fmax(cut, solid.value);
-  if (cut > solid.value) solid.surface = surface;
-  solid.value = smooth_max(solid.value, cut, local.edge);
-  return chip(solid, solid.value - top, local);
+  if (-inside < solid.value - spot.reach()) return solid;
+  return join(solid, {-inside + spot.dent(*nearest), nearest->surface}, spot);
 }
 
 }  // namespace
@@ -120,13 +148,13 @@ FieldSample sample(const Solid& solid, const Vec3& p, double band) {
   // Roughness only ever removes, so outside it is needed on the way to the surface alone.
   if (plain > band || plain < -band - kDeepest) return {plain, Surface::concrete_cast};
 
-  const Local local = calc_local(solid, p);
+  Spot spot(solid, p);
   FieldSample result{1e9, Surface::concrete_cast};
   for (const Cell& cell : solid.cells) {
-    const FieldSample s = rough_value(cell, p, local);
+    const FieldSample s = rough_value(cell, spot);
     if (s.value < result.value) result = s;
   }
-  for (const Cell& hollow : solid.hollows) result = cut_hollow(result, hollow, p, local);
+  for (const Cell& hollow : solid.hollows) result = cut_hollow(result, hollow, spot);
   return result;
 }
 

@@ -32,6 +32,7 @@ struct Face {
   double offset;  // unit: m
   Surface surface = Surface::concrete_cast;
   bool round = false;
+  bool rough = false;  // dented as a break is, whatever its surface
 };
 
 using Cell = std::vector<Face>;  // the intersection of its faces

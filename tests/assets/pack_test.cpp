@@ -122,7 +122,9 @@ TEST_P(PackTest, PartsContainTheSurface) {
 TEST_P(PackTest, SurfaceIsCloseToTheParts) {
   const TriangleMesh mesh = level(GetParam(), 0);
   const std::vector<Part> parts = read_parts(kFolder + GetParam() + ".parts.obj");
-  const std::vector<Vec3> points = exposed_points(parts, is_masonry(GetParam()) ? 0.015 : 0.04);
+  const Vec3 size = mesh.bounds().max - mesh.bounds().min;
+  const double spacing = is_masonry(GetParam()) ? 0.015 : (norm(size) < 1.6 ? 0.04 : 0.09);
+  const std::vector<Vec3> points = exposed_points(parts, spacing);
   ASSERT_GE(points.size(), 8u);
   std::vector<double> gaps;
   for (const Vec3& p : points) gaps.push_back(distance_to_mesh(p, mesh));

@@ -21,7 +21,7 @@ for i = 1, 3 do
 end
 -- A wall still stands beside it, and a floor slab leans on the wall.
 placed[#placed + 1] = { asset = "wall_stub", position = { 0.5, 2.6, 0.72 } }
-placed[#placed + 1] = { asset = "floor_slab", position = { 0.4, 3.95, 0.85 },
+placed[#placed + 1] = { asset = "floor_slab", position = { 0.4, 3.95, 0.97 },
                         rpy_deg = { -28, 0, 0 }, fixed = false }
 
 return rubble.mission {

@@ -6,7 +6,7 @@ return rubble.mission {
     mix = { { asset = "brick", weight = 2 }, { asset = "chunk_4", scale = { 0.8, 1.2 } } },
     placed = {
       { asset = "wall_stub", position = { 0, 0, 0.72 } },
-      { asset = "floor_slab", position = { 0, 1.45, 0.9 }, rpy_deg = { -28, 0, 0 }, fixed = false },
+      { asset = "floor_slab", position = { 0, 1.35, 0.95 }, rpy_deg = { -28, 0, 0 }, fixed = false },
     },
   },
   camera = { width = 320, height = 240 },

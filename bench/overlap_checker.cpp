@@ -1,0 +1,136 @@
+#include "bench/overlap_checker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "bench/penetration.h"
+#include "bench/true_hull.h"
+
+namespace rubble {
+namespace {
+
+struct Part {
+  int piece = 0;
+  bool fixed = false;
+  PlacedHull hull;
+};
+
+std::vector<Part> place_parts(const std::vector<PieceType>& types, const PileState& state) {
+  std::vector<std::vector<TrueHull>> hulls;
+  for (const PieceType& type : types) {
+    hulls.emplace_back();
+    for (const ConvexPart& part : type.parts) hulls.back().push_back(make_true_hull(part.points));
+  }
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < state.pieces.size(); ++i) {
+    const PieceState& piece = state.pieces[i];
+    if (piece.status == PieceStatus::lost) continue;
+    for (const TrueHull& hull : hulls[std::size_t(piece.type)]) {
+      parts.push_back({int(i), piece.status == PieceStatus::fixed,
+                       place_hull(hull, piece.scale, piece.world_from_body)});
+    }
+  }
+  return parts;
+}
+
+// Calls visit(part, part) for parts of different pieces whose boxes come closer than `gap`: sorted
+// and swept along x.
+template <typename Visit>
+void find_near_parts(const std::vector<Part>& parts, double gap, Visit&& visit) {
+  std::vector<std::size_t> order(parts.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(), [&parts](std::size_t i, std::size_t j) {
+    return parts[i].hull.box.min.x < parts[j].hull.box.min.x;
+  });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Part& a = parts[order[i]];
+    const Aabb& box = a.hull.box;
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      const Part& b = parts[order[j]];
+      const Aabb& other = b.hull.box;
+      if (other.min.x > box.max.x + gap) break;
+      if (other.min.y > box.max.y + gap || box.min.y > other.max.y + gap ||
+          other.min.z > box.max.z + gap || box.min.z > other.max.z + gap || a.piece == b.piece ||
+          (a.fixed && b.fixed)) {
+        continue;
+      }
+      visit(a, b);
+    }
+  }
+}
+
+// One entry per pair of pieces, that of the deepest parts.
+std::vector<Overlap> merge_parts(std::vector<Overlap> found) {
+  std::sort(found.begin(), found.end(), [](const Overlap& p, const Overlap& q) {
+    return std::make_tuple(p.a, p.b, -p.depth) < std::make_tuple(q.a, q.b, -q.depth);
+  });
+  const auto same = [](const Overlap& p, const Overlap& q) { return p.a == q.a && p.b == q.b; };
+  found.erase(std::unique(found.begin(), found.end(), same), found.end());
+  return found;
+}
+
+}  // namespace
+
+OverlapReport check_overlaps(const std::vector<PieceType>& types, const PileState& state,
+                             double touch_gap) {
+  const std::vector<Part> parts = place_parts(types, state);
+  std::vector<Overlap> touching;
+  find_near_parts(parts, touch_gap, [&](const Part& a, const Part& b) {
+    const double depth = calc_penetration(a.hull, b.hull).depth;
+    if (depth < -touch_gap) return;
+    if (depth <= 0 && !closer_than_ccd(a.hull, b.hull, touch_gap)) return;
+    const double ccd_depth = depth > 0 ? calc_depth_ccd(a.hull, b.hull) : 0;
+    touching.push_back(
+        {std::min(a.piece, b.piece), std::max(a.piece, b.piece), std::max(depth, 0.0), ccd_depth});
+  });
+  OverlapReport report;
+  for (const Overlap& pair : merge_parts(std::move(touching))) {
+    ++report.touching_pairs;
+    if (pair.depth > 0) report.overlaps.push_back(pair);
+  }
+  std::stable_sort(report.overlaps.begin(), report.overlaps.end(),
+                   [](const Overlap& p, const Overlap& q) { return p.depth > q.depth; });
+  for (const Part& part : parts) {
+    if (part.fixed || -part.hull.box.min.z <= report.ground_max) continue;
+    report.ground_max = -part.hull.box.min.z;
+    report.deepest_in_ground = part.piece;
+  }
+  return report;
+}
+
+int OverlapReport::count_deeper(double depth) const {
+  return int(std::count_if(overlaps.begin(), overlaps.end(),
+                           [depth](const Overlap& o) { return o.depth > depth; }));
+}
+
+double OverlapReport::mean_depth() const {
+  double sum = 0;
+  for (const Overlap& o : overlaps) sum += o.depth;
+  return overlaps.empty() ? 0 : sum / double(overlaps.size());
+}
+
+double OverlapReport::percentile_depth(double percent) const {
+  std::vector<double> depths;
+  for (const Overlap& o : overlaps) depths.push_back(o.depth);
+  return percentile(std::move(depths), percent);
+}
+
+double OverlapReport::max_depth() const { return overlaps.empty() ? 0 : overlaps.front().depth; }
+
+double OverlapReport::largest_disagreement() const {
+  double largest = 0;
+  for (const Overlap& o : overlaps) largest = std::max(largest, std::abs(o.depth - o.ccd_depth));
+  return largest;
+}
+
+double percentile(std::vector<double> values, double percent) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const double rank = std::ceil(percent / 100 * double(values.size()));
+  const auto index = std::size_t(std::max(rank, 1.0)) - 1;
+  return values[std::min(index, values.size() - 1)];
+}
+
+}  // namespace rubble

@@ -1,0 +1,114 @@
+// settle_bench: the standard work, timed and judged.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "bench/report.h"
+#include "bench/settle_run.h"
+#include "bench/workload_file.h"
+#include "kernel/base/error.h"
+
+namespace rubble {
+namespace {
+
+struct Request {
+  std::string work = "w1";
+  Schedule schedule = Schedule::layers;
+  int threads = 1;
+  int repeat = 1;
+  int worst = 0;
+  std::uint64_t seed = 0;
+  bool csv = false;
+};
+
+// A path as it is; a bare name like "w1" stands for the file that the build wrote.
+std::string find_work(const std::string& work) {
+  namespace fs = std::filesystem;
+  if (fs::exists(work)) return work;
+  const fs::path beside = fs::read_symlink("/proc/self/exe").parent_path() / (work + ".txt");
+  return work.find_first_of("./") == std::string::npos ? beside.string() : work;
+}
+
+void print(const SettleRun& run, const Request& request, bool first) {
+  if (request.csv) {
+    if (first) std::printf("%s\n", csv_header().c_str());
+    std::printf("%s\n", csv_line(run).c_str());
+  } else {
+    std::printf("%s", table_text(run).c_str());
+  }
+  // Beside the figures, never among the lines of --csv.
+  if (request.worst > 0) std::fputs(worst_text(run, request.worst).c_str(), stderr);
+  std::fflush(stdout);
+}
+
+ExitCode bench(const Request& request) {
+  const std::string path = find_work(request.work);
+  Pile pile = load_workload(path);
+  if (request.seed != 0) turn_pieces(pile, request.seed);
+  SettleJob job;
+  job.work = std::filesystem::path(path).stem().string();
+  if (request.seed != 0) job.work += "+" + std::to_string(request.seed);
+  job.options.schedule = request.schedule;
+  job.options.threads = request.threads;
+  bool settled = true;
+  std::uint64_t hash = 0;
+  for (int i = 0; i < request.repeat; ++i) {
+    const SettleRun run = run_settling(pile, job);
+    print(run, request, i == 0);
+    settled = settled && run.state.settled;
+    if (i > 0 && run.state.state_hash() != hash) {
+      throw RunError("a repetition ended in another state: the same work must give the same bits");
+    }
+    hash = run.state.state_hash();
+  }
+  return settled ? ExitCode::done : ExitCode::did_not_settle;
+}
+
+ExitCode run(int argc, char** argv) {
+  CLI::App app{"Settles a standard pile, and lets an independent judge measure the result."};
+  app.footer("Exit codes: 0 done, 1 bad input, 2 failure, 3 finished but did not settle.");
+  Request request;
+  const std::map<std::string, Schedule> schedules{{"layers", Schedule::layers},
+                                                  {"planes", Schedule::planes}};
+  app.add_option("--work", request.work, "A workload file, or w0, w1 or w2")->capture_default_str();
+  app.add_option("--schedule", request.schedule, "How layers follow each other: layers or planes")
+      ->transform(CLI::CheckedTransformer(schedules))
+      ->default_str("layers");
+  app.add_option("--threads", request.threads, "Threads of the kernel; 0: all processors")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_option("--repeat", request.repeat, "Run so often; the states must be equal")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--seed", request.seed, "Draw all orientations anew; 0: those of the file")
+      ->capture_default_str();
+  app.add_option("--worst", request.worst, "Also name so many of the worst pieces, on stderr")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  app.add_flag("--csv", request.csv, "Lines of comma-separated figures below a line of names");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
+  }
+  return bench(request);
+}
+
+}  // namespace
+}  // namespace rubble
+
+int main(int argc, char** argv) {
+  using rubble::ExitCode;
+  try {
+    return int(rubble::run(argc, argv));
+  } catch (const rubble::InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return int(ExitCode::bad_input);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "settle_bench: %s\n", error.what());
+    return int(ExitCode::failure);
+  }
+}

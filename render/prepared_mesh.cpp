@@ -12,7 +12,10 @@ namespace rubble {
 
 namespace {
 
-constexpr float kLongestEdge = 0.3f;         // unit: m
+// Longest edge, for light that varies along a face: but not more than some thousand triangles for
+// the sake of it.
+constexpr float kLongestEdge = 0.3f;  // unit: m
+constexpr float kEdgeShare = 0.08f;   // of a large mesh's radius
 constexpr std::size_t kClusterTriangles = 96;
 constexpr std::size_t kMaxBakePoints = 65535;
 
@@ -110,8 +113,14 @@ void cluster_level(PreparedMesh& mesh, std::size_t first) {
   mesh.levels.push_back(level);
 }
 
+float longest_edge(const TriangleMesh& mesh) {
+  const Aabb box = mesh.bounds();
+  return box.empty() ? kLongestEdge
+                     : std::max(kLongestEdge, kEdgeShare * float(distance(box.min, box.max)) / 2);
+}
+
 void append_level(const TriangleMesh& source, PreparedMesh& out) {
-  const TriangleMesh mesh = refine_mesh(source, kLongestEdge);
+  const TriangleMesh mesh = refine_mesh(source, longest_edge(source));
   const std::vector<std::uint32_t> materials = material_table(source);
   const std::uint32_t base = std::uint32_t(out.vertices.size());
   const std::size_t first = out.triangles.size();

@@ -62,7 +62,7 @@ float light_visible(vec3 p, vec3 normal) {
   vec4 clip = vec4(dot(shadow_rows[row], h), dot(shadow_rows[row + 1], h),
                    dot(shadow_rows[row + 2], h), dot(shadow_rows[row + 3], h));
 #if LIGHT_TYPE == 0
-  vec3 at = vec3(clip.xy * 0.5 + 0.5, clip.z);
+  vec3 at = vec3(clip.xy * 0.5 + 0.5, min(clip.z, 1.0));
   // Outside the map nothing is in the way.
   if (any(notEqual(at.xy, clamp(at.xy, 0.0, 1.0)))) return 1.0;
 #else

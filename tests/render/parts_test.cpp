@@ -1,0 +1,131 @@
+// The renderer's parts that need no context: meshes, shaders' text, noise, exposure.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kernel/base/error.h"
+#include "render/exposure.h"
+#include "render/gl_context.h"
+#include "render/mesh_refine.h"
+#include "render/prepared_mesh.h"
+#include "render/shader.h"
+#include "render/textures.h"
+#include "render/tile_noise.h"
+#include "tests/render/test_scene.h"
+
+namespace rubble::testing {
+namespace {
+
+TEST(RefineMesh, CutsLongEdgesAndKeepsTheSurfaceClosed) {
+  const TriangleMesh slab = make_box({3, 2, 0.2});
+  const TriangleMesh fine = refine_mesh(slab, 0.3f);
+  EXPECT_TRUE(is_closed(fine));
+  EXPECT_NEAR(calc_volume_properties(fine).volume, 1.2, 1e-5);
+  float longest = 0;
+  for (const auto& t : fine.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      longest = std::max(longest, distance(fine.positions[t[k]], fine.positions[t[(k + 1) % 3]]));
+  EXPECT_LE(longest, 0.3f);
+  EXPECT_GT(fine.triangles.size(), slab.triangles.size());
+  EXPECT_EQ(fine.normals.size(), fine.positions.size());
+}
+
+TEST(RefineMesh, GivesABoxOneNormalASide) {
+  const TriangleMesh box = refine_mesh(make_box({1, 1, 1}), 10);
+  EXPECT_EQ(box.positions.size(), 24u);
+  for (const Vec3f& n : box.normals)
+    EXPECT_NEAR(std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)}), 1, 1e-6);
+}
+
+TEST(PrepareMesh, ClustersCoverEveryTriangleOnce) {
+  SceneMesh mesh;
+  mesh.levels = {make_chunk(1, "brick", "brick_fracture"), make_box({1, 1, 1})};
+  const PreparedMesh prepared = prepare_mesh(mesh);
+  ASSERT_EQ(prepared.levels.size(), 2u);
+  std::uint32_t next = 0;
+  for (const PreparedLevel& level : prepared.levels) {
+    EXPECT_EQ(level.first_triangle, next);
+    for (std::uint32_t c = 0; c < level.cluster_count; ++c) {
+      const Cluster& cluster = prepared.clusters[level.first_cluster + c];
+      EXPECT_EQ(cluster.first_triangle, next);
+      next += cluster.triangle_count;
+      for (std::uint32_t t = cluster.first_triangle; t < next; ++t)
+        for (std::uint32_t v : prepared.triangles[t].vertices)
+          EXPECT_LE(distance(prepared.vertices[v].position, cluster.centre), cluster.radius * 1.001f);
+    }
+  }
+  EXPECT_EQ(next, prepared.triangles.size());
+  for (const PreparedVertex& v : prepared.vertices) {
+    float sum = 0;
+    for (float w : v.bake_weights) sum += w;
+    EXPECT_NEAR(sum, 1, 1e-4);
+  }
+}
+
+TEST(Shader, ExpandsIncludesWithLineNumbers) {
+  const ExpandedShader shader = expand_shader("resolve.frag.glsl", {{"LIGHT_TYPE", "2"}});
+  EXPECT_EQ(shader.text.find("#version 450 core\n#define LIGHT_TYPE 2\n#line 1 0\n"), 0u);
+  ASSERT_GT(shader.files.size(), 2u);
+  EXPECT_EQ(shader.files[1], "frame.glsl");
+  EXPECT_NE(shader.text.find("#line 1 1\n"), std::string::npos);
+  EXPECT_EQ(shader.text.find("#include"), std::string::npos);
+  EXPECT_THROW(expand_shader("missing.glsl", {}), RunError);
+}
+
+TEST(Shader, NamesFilesInBothKindsOfLogs) {
+  const std::vector<std::string> files = {"a.glsl", "b.glsl"};
+  EXPECT_EQ(name_files_in_log("1:12(5): error: what\n", files), "b.glsl:12(5): error: what\n");
+  EXPECT_EQ(name_files_in_log("0(7) : error C1: what\n", files), "a.glsl:7 : error C1: what\n");
+  EXPECT_EQ(name_files_in_log("9:1: other\nplain\n", files), "9:1: other\nplain\n");
+}
+
+TEST(Shader, ACompileErrorNamesItsFileAndLine) {
+  const GlContext context;
+  try {
+    // A variant that nothing defines: its name is no number where one is needed.
+    make_program(context.gl(), "fullscreen.vert.glsl", "visibility.frag.glsl",
+                 {{"uint", "no_such_type"}});
+    FAIL() << "compiled";
+  } catch (const RunError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("visibility.frag.glsl:"), std::string::npos) << text;
+  }
+}
+
+TEST(TileNoise, RepeatsWithoutASeam) {
+  for (int i = 0; i < 50; ++i) {
+    const float y = float(i) / 50;
+    EXPECT_NEAR(tile_fractal(0, y, 6, 4, 0.5f, 3), tile_fractal(1, y, 6, 4, 0.5f, 3), 1e-5);
+    EXPECT_NEAR(tile_cells(0, y, 7, 4).nearest, tile_cells(1, y, 7, 4).nearest, 1e-4);
+  }
+}
+
+TEST(Textures, DifferAndDoNotDependOnThreads) {
+  const auto one = make_patterns(32, 1), two = make_patterns(32, 2);
+  ASSERT_EQ(one.size(), std::size_t(kPatternCount));
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].texels, two[i].texels);
+    for (std::size_t k = 0; k < i; ++k) EXPECT_NE(one[i].texels, one[k].texels);
+  }
+}
+
+TEST(AutoExposure, MovesTowardsTheMeteredValueAndHolds) {
+  AutoExposure exposure({0.18, 0.25, 0});
+  const auto image_of = [&](double luminance) {  // as the shader codes it
+    const double stops = std::log2(luminance * double(exposure.factor()));
+    return std::vector<std::uint8_t>(
+        16 * 16 * 4, std::uint8_t(std::lround((stops / 24 + 0.5) * 255)));
+  };
+  for (int i = 0; i < 4; ++i) exposure.follow(image_of(3), 16, 16, 0);
+  EXPECT_TRUE(exposure.settled());
+  EXPECT_NEAR(3 * exposure.factor(), 0.18, 0.02);
+  const float before = exposure.factor();
+  exposure.follow(image_of(0.3), 16, 16, 0.033);  // ten times darker: it lags
+  EXPECT_GT(exposure.factor(), before);
+  EXPECT_LT(exposure.factor(), before * 2);
+  for (int i = 0; i < 200; ++i) exposure.follow(image_of(0.3), 16, 16, 0.033);
+  EXPECT_NEAR(0.3 * exposure.factor(), 0.18, 0.02);
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -13,251 +13,235 @@ void make_tangents(const Vec3f& n, Vec3f tangent[2]) {
   tangent[1] = cross(n, tangent[0]);
 }
 
-float relative_speed(const Vec3f& direction, const Vec3f& arm_a, const Vec3f& arm_b,
-                     const Motion& a, const Motion& b) {
-  return dot(direction, b.linear - a.linear) + dot(arm_b, b.angular) - dot(arm_a, a.angular);
+// One side of a contact.
+struct Side {
+  Side(const std::vector<Body>& bodies, std::int32_t index)
+      : body(index == kGround || !bodies[index].awake ? nullptr : &bodies[index]) {}
+  float inverse_mass() const { return body != nullptr ? body->inverse_mass : 0; }
+  float mass() const { return body != nullptr ? float(body->mass) : 0; }
+  Vec3f turn(const Vec3f& arm) const {
+    return body != nullptr ? body->inverse_inertia * arm : Vec3f{};
+  }
+  const Body* body;
+};
+
+// Fills one lane of a row; returns J M^-1 J^T without the linear part.
+float fill(WideRow& row, int lane, const Side& a, const Side& b, const Vec3f& direction,
+           const Vec3f& from_a, const Vec3f& from_b) {
+  const Vec3f arm_a = cross(from_a, direction), arm_b = cross(from_b, direction);
+  const Vec3f turn_a = a.turn(arm_a), turn_b = b.turn(arm_b);
+  row.arm_a.set(lane, arm_a);
+  row.arm_b.set(lane, arm_b);
+  row.turn_a.set(lane, turn_a);
+  row.turn_b.set(lane, turn_b);
+  const float around_a = dot(arm_a, turn_a), around_b = dot(arm_b, turn_b);
+  row.mass[lane] = 1 / (a.inverse_mass() + b.inverse_mass() + around_a + around_b);
+  return a.mass() * around_a + b.mass() * around_b;
+}
+
+PaddedMotion padded(const Motion& m) {
+  return {Wide{m.linear.x, m.linear.y, m.linear.z, 0},
+          Wide{m.angular.x, m.angular.y, m.angular.z, 0}};
+}
+Motion unpadded(const PaddedMotion& m) {
+  return {{m.linear[0], m.linear[1], m.linear[2]}, {m.angular[0], m.angular[1], m.angular[2]}};
 }
 
 }  // namespace
 
-void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Body>& bodies,
-                            const Contact& contact, int index, Constraint& c) const {
-  static const Body kImmovable{};
-  const Body& a = bodies[contact.body_a];
-  const Body& b = contact.body_b == kGround ? kImmovable : bodies[contact.body_b];
-  c.contact = index;
-  c.a = contact.body_a;
-  c.b = contact.body_b == kGround ? contact.body_a : contact.body_b;
-  const Mat3f none{};
-  const Mat3f& inertia_a = a.awake ? a.inverse_inertia : none;
-  const Mat3f& inertia_b = b.awake ? b.inverse_inertia : none;
-  c.inverse_mass_a = a.awake ? a.inverse_mass : 0;
-  c.inverse_mass_b = b.awake ? b.inverse_mass : 0;
-  c.friction = contact.friction;
-  c.normal = contact.normal;
-  c.count = contact.count;
-  make_tangents(c.normal, c.tangent);
+void ContactSolver::number_bodies(const std::vector<Body>& bodies,
+                                  const std::vector<std::int32_t>& order,
+                                  const std::vector<Contact>& contacts) {
+  number_.assign(bodies.size(), -1);
+  for (std::int32_t index : order) {
+    for (std::int32_t body : {contacts[index].body_a, contacts[index].body_b}) {
+      if (body != kGround && bodies[body].awake) number_[body] = 0;
+    }
+  }
+  moving_.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (number_[i] < 0) continue;
+    number_[i] = std::int32_t(moving_.size());
+    moving_.push_back(std::int32_t(i));
+  }
+  for (std::int32_t& n : number_) n = n < 0 ? std::int32_t(moving_.size()) : n;
+}
 
-  const auto make_row = [&](Row& row, const Vec3f& direction, const Vec3f& from_a,
-                            const Vec3f& from_b) {
-    row.arm_a = cross(from_a, direction);
-    row.arm_b = cross(from_b, direction);
-    row.turn_a = inertia_a * row.arm_a;
-    row.turn_b = inertia_b * row.arm_b;
-    row.mass = 1 / (c.inverse_mass_a + c.inverse_mass_b + dot(row.arm_a, row.turn_a) +
-                    dot(row.arm_b, row.turn_b));
-  };
+// The first batch later than `after` with room for a contact of so many rows.
+int ContactSolver::find_batch(int rows, int after) {
+  std::vector<std::int32_t>& open = open_[rows];
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const int batch = open[i];
+    if (batch <= after) continue;
+    if (++lanes_used_[batch] == kLanes) open.erase(open.begin() + std::ptrdiff_t(i));
+    return batch;
+  }
+  ContactBatch batch{};
+  batch.first_row = std::int32_t(rows_.size());
+  batch.rows = rows;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    batch.a[lane] = batch.b[lane] = std::int32_t(moving_.size());
+    batch.contact[lane] = -1;
+  }
+  rows_.resize(rows_.size() + std::size_t(rows), NormalRow{});
+  open.push_back(std::int32_t(batches_.size()));
+  lanes_used_.push_back(1);
+  batches_.push_back(batch);
+  return int(batches_.size()) - 1;
+}
+
+void ContactSolver::pack(const std::vector<std::int32_t>& order,
+                         const std::vector<Contact>& contacts) {
+  batches_.clear();
+  rows_.clear();
+  lanes_used_.clear();
+  for (auto& open : open_) open.clear();
+  last_batch_.assign(moving_.size() + 1, -1);
+  for (std::int32_t index : order) {
+    const Contact& contact = contacts[index];
+    const int beyond = int(moving_.size());
+    const int a = number_[contact.body_a];
+    const int b = contact.body_b == kGround ? beyond : number_[contact.body_b];
+    last_batch_[beyond] = -1;
+    const int found = find_batch(contact.count, std::max(last_batch_[a], last_batch_[b]));
+    last_batch_[a] = last_batch_[b] = found;
+    ContactBatch& batch = batches_[found];
+    const int lane = lanes_used_[found] - 1;
+    batch.a[lane] = a;
+    batch.b[lane] = b;
+    batch.contact[lane] = index;
+  }
+}
+
+void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Body>& bodies,
+                            const Contact& contact, ContactBatch& batch, int lane) {
+  const Side a(bodies, contact.body_a), b(bodies, contact.body_b);
+  batch.inverse_mass_a[lane] = a.inverse_mass();
+  batch.inverse_mass_b[lane] = b.inverse_mass();
+  batch.push_weight_a[lane] = a.mass();
+  batch.push_weight_b[lane] = b.mass();
+  batch.friction[lane] = contact.friction;
+  batch.normal.set(lane, contact.normal);
   Vec3f middle_a, middle_b;
-  for (int i = 0; i < c.count; ++i) {
+  for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& p = contact.points[i];
-    make_row(c.points[i], c.normal, p.from_a, p.from_b);
-    c.points[i].gap = p.separation - settings.rest_gap;
-    c.points[i].impulse = c.points[i].carried = p.normal_impulse;
+    NormalRow& n = rows_[batch.first_row + i];
+    const float around = fill(n.row, lane, a, b, contact.normal, p.from_a, p.from_b);
+    n.push_mass[lane] = 1 / ((a.body ? 1.0F : 0.0F) + (b.body ? 1.0F : 0.0F) + around);
+    n.gap[lane] = p.separation - settings.rest_gap;
+    n.impulse[lane] = n.carried[lane] = p.normal_impulse;
     middle_a += p.from_a;
     middle_b += p.from_b;
   }
-  const float share = 1.0F / float(c.count);
+  const float share = 1.0F / float(contact.count);
   middle_a *= share;
   middle_b *= share;
+  Vec3f tangent[2];
+  make_tangents(contact.normal, tangent);
   for (int t = 0; t < 2; ++t) {
-    make_row(c.slide[t], c.tangent[t], middle_a, middle_b);
-    c.slide[t].impulse = dot(c.tangent[t], contact.friction_impulse);
+    fill(batch.slide[t].row, lane, a, b, tangent[t], middle_a, middle_b);
+    batch.slide[t].direction.set(lane, tangent[t]);
+    batch.slide[t].impulse[lane] = dot(tangent[t], contact.friction_impulse);
   }
-  c.pressed = 0;
-  c.radius = 0;
-  for (int i = 0; i < c.count; ++i) c.radius += norm(contact.points[i].from_a - middle_a);
-  c.radius *= share;
-  c.twist_a = inertia_a * c.normal;
-  c.twist_b = inertia_b * c.normal;
-  const float twist = dot(c.normal, c.twist_a + c.twist_b);
-  c.twist_mass = c.count > 1 && twist > 0 ? 1 / twist : 0;
-  c.twist_impulse = contact.twist_impulse;
+  float radius = 0;
+  for (int i = 0; i < contact.count; ++i) radius += norm(contact.points[i].from_a - middle_a);
+  batch.radius[lane] = radius * share;
+  const Vec3f twist_a = a.turn(contact.normal), twist_b = b.turn(contact.normal);
+  const float twist = dot(contact.normal, twist_a + twist_b);
+  batch.twist_a.set(lane, twist_a);
+  batch.twist_b.set(lane, twist_b);
+  batch.twist_mass[lane] = contact.count > 1 && twist > 0 ? 1 / twist : 0;
+  batch.twist_impulse[lane] = contact.twist_impulse;
 }
 
-void ContactSolver::warm_start(const Constraint& c, std::vector<Motion>& v) {
-  Vec3f push = c.tangent[0] * c.slide[0].impulse + c.tangent[1] * c.slide[1].impulse;
-  Vec3f turn_a = c.twist_a * c.twist_impulse, turn_b = c.twist_b * c.twist_impulse;
-  for (int t = 0; t < 2; ++t) {
-    turn_a += c.slide[t].turn_a * c.slide[t].impulse;
-    turn_b += c.slide[t].turn_b * c.slide[t].impulse;
-  }
-  for (int i = 0; i < c.count; ++i) {
-    push += c.normal * c.points[i].impulse;
-    turn_a += c.points[i].turn_a * c.points[i].impulse;
-    turn_b += c.points[i].turn_b * c.points[i].impulse;
-  }
-  v[c.a].linear -= push * c.inverse_mass_a;
-  v[c.a].angular -= turn_a;
-  v[c.b].linear += push * c.inverse_mass_b;
-  v[c.b].angular += turn_b;
-}
-
-// What the next substep starts from. An impulse may double from one substep to the next, and grow by
-// its own weight: loads build up fast, but the impulse of an impact is not given twice.
-void ContactSolver::carry_over(Constraint& c, float weight) {
-  float pressed = 0;
-  for (int i = 0; i < c.count; ++i) {
-    Row& row = c.points[i];
-    c.pressed += row.impulse;
-    row.impulse = std::min(row.impulse, 2 * row.carried + row.mass * weight);
-    row.carried = row.impulse;
-    pressed += row.impulse;
-  }
-  const float limit = c.friction * pressed;
-  const float s0 = c.slide[0].impulse, s1 = c.slide[1].impulse;
-  const float length2 = s0 * s0 + s1 * s1;
-  if (length2 > limit * limit) {
-    const float shrink = limit / std::sqrt(length2);
-    c.slide[0].impulse *= shrink;
-    c.slide[1].impulse *= shrink;
-  }
-  const float most = limit * c.radius;
-  c.twist_impulse = std::min(most, std::max(-most, c.twist_impulse));
-}
-
-void ContactSolver::solve_velocity(Constraint& c, float per_substep, const std::vector<Motion>& d,
-                                   std::vector<Motion>& v) {
-  Motion a = v[c.a];
-  Motion b = c.a == c.b ? Motion{} : v[c.b];
-  const Motion& moved_a = d[c.a];
-  const Motion moved_b = c.a == c.b ? Motion{} : d[c.b];
-  const auto apply = [&](const Row& row, const Vec3f& direction, float impulse) {
-    a.linear -= direction * (impulse * c.inverse_mass_a);
-    a.angular -= row.turn_a * impulse;
-    b.linear += direction * (impulse * c.inverse_mass_b);
-    b.angular += row.turn_b * impulse;
-  };
-  float pressed = 0;
-  for (int i = 0; i < c.count; ++i) pressed += c.points[i].impulse;
-
-  // Friction first, against the normal impulses so far; the normals have the last word.
-  const float limit = c.friction * pressed;
-  float wanted[2];
-  for (int t = 0; t < 2; ++t) {
-    const Row& row = c.slide[t];
-    const float speed = relative_speed(c.tangent[t], row.arm_a, row.arm_b, a, b);
-    wanted[t] = row.impulse - row.mass * speed;
-  }
-  const float length2 = wanted[0] * wanted[0] + wanted[1] * wanted[1];
-  const float shrink = length2 > limit * limit ? limit / std::sqrt(length2) : 1.0F;
-  for (int t = 0; t < 2; ++t) {
-    const float next = wanted[t] * shrink;
-    apply(c.slide[t], c.tangent[t], next - c.slide[t].impulse);
-    c.slide[t].impulse = next;
-  }
-  if (c.twist_mass > 0) {
-    const float most = limit * c.radius;
-    const float speed = dot(c.normal, b.angular - a.angular);
-    const float next = std::min(most, std::max(-most, c.twist_impulse - c.twist_mass * speed));
-    const float change = next - c.twist_impulse;
-    a.angular -= c.twist_a * change;
-    b.angular += c.twist_b * change;
-    c.twist_impulse = next;
-  }
-  for (int i = 0; i < c.count; ++i) {
-    Row& row = c.points[i];
-    const float speed = relative_speed(c.normal, row.arm_a, row.arm_b, a, b);
-    // A point that is still apart may close its gap within the substep.
-    const float gap = row.gap + relative_speed(c.normal, row.arm_a, row.arm_b, moved_a, moved_b);
-    const float allowed = std::max(0.0F, gap) * per_substep;
-    const float next = std::max(0.0F, row.impulse - row.mass * (speed + allowed));
-    apply(row, c.normal, next - row.impulse);
-    row.impulse = next;
-  }
-  v[c.a] = a;
-  if (c.a != c.b) v[c.b] = b;
-}
-
-// Works on displacements: n . (d_b - d_a) >= target for every point, by pushing only. All movable
-// bodies count as equally heavy, so that a light bar is cleared from under a heavy slab as fast as
-// any other pair.
-void ContactSolver::solve_positions(const SolverSettings& settings,
-                                    const std::vector<Body>& bodies,
-                                    std::vector<Motion>& displacements) {
-  pushes_.clear();
-  float worst = 0;
-  for (const Constraint& c : constraints_) {
-    const Motion b = c.a == c.b ? Motion{} : displacements[c.b];
-    const float mass_a = c.inverse_mass_a > 0 ? float(bodies[c.a].mass) : 0;
-    const float mass_b = c.inverse_mass_b > 0 ? float(bodies[c.b].mass) : 0;
-    for (int i = 0; i < c.count; ++i) {
-      const Row& row = c.points[i];
-      const float moved = relative_speed(c.normal, row.arm_a, row.arm_b, displacements[c.a], b);
-      const float gap = row.gap + moved + settings.slop;
-      PushRow push;
-      push.mass = 1 / ((mass_a > 0 ? 1.0F : 0.0F) + (mass_b > 0 ? 1.0F : 0.0F) +
-                       mass_a * dot(row.arm_a, row.turn_a) + mass_b * dot(row.arm_b, row.turn_b));
-      const float wanted =
-          gap < 0 ? std::min(-gap * settings.position_fraction, settings.maximum_push) : -gap;
-      push.target = moved + wanted;
-      worst = std::max(worst, wanted);
-      pushes_.push_back(push);
+void ContactSolver::run_substeps(const SolverSettings& settings) {
+  const float h = settings.step / float(settings.substeps);
+  const Wide fall{0, 0, -settings.gravity * h, 0};
+  const Wide wide_h = splat(h), per_substep = splat(1 / h), weight = splat(settings.gravity * h);
+  for (int substep = 0; substep < settings.substeps; ++substep) {
+    for (std::size_t i = 0; i < moving_.size(); ++i) speeds_[i].linear += fall;
+    for (ContactBatch& batch : batches_) {
+      NormalRow* rows = &rows_[batch.first_row];
+      if (substep > 0) carry_over(batch, rows, weight);
+      warm_start(batch, rows, speeds_.data());
+    }
+    for (ContactBatch& batch : batches_) {
+      solve_velocities(batch, &rows_[batch.first_row], per_substep, moved_.data(), speeds_.data());
+    }
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+      moved_[i].linear += speeds_[i].linear * wide_h;
+      moved_[i].angular += speeds_[i].angular * wide_h;
     }
   }
-  if (worst <= 0) return;
-  for (int iteration = 0; iteration < settings.position_iterations; ++iteration) {
-    std::size_t at = 0;
-    for (const Constraint& c : constraints_) {
-      Motion& a = displacements[c.a];
-      Motion ground;
-      Motion& b = c.a == c.b ? ground : displacements[c.b];
-      const float mass_a = c.inverse_mass_a > 0 ? float(bodies[c.a].mass) : 0;
-      const float mass_b = c.inverse_mass_b > 0 ? float(bodies[c.b].mass) : 0;
-      for (int i = 0; i < c.count; ++i, ++at) {
-        const Row& row = c.points[i];
-        PushRow& push = pushes_[at];
-        const float moved = relative_speed(c.normal, row.arm_a, row.arm_b, a, b);
-        const float next = std::max(0.0F, push.push + push.mass * (push.target - moved));
-        const float change = next - push.push;
-        if (change == 0) continue;
-        push.push = next;
-        if (mass_a > 0) a.linear -= c.normal * change;
-        a.angular -= row.turn_a * (change * mass_a);
-        if (mass_b > 0) b.linear += c.normal * change;
-        b.angular += row.turn_b * (change * mass_b);
+  for (ContactBatch& batch : batches_) carry_over(batch, &rows_[batch.first_row], weight);
+}
+
+// n . (d_b - d_a) >= target for every point, by pushing only. All movable bodies count as equally
+// heavy, so that a light bar is cleared from under a heavy slab as fast as any other pair.
+void ContactSolver::push_apart(const SolverSettings& settings) {
+  const Wide slop = splat(settings.slop), fraction = splat(settings.position_fraction),
+             most = splat(settings.maximum_push);
+  bool any = false;
+  for (ContactBatch& batch : batches_) {
+    for (int i = 0; i < batch.rows; ++i) {
+      NormalRow& n = rows_[batch.first_row + i];
+      const Wide moved = calc_moved(batch, n.row, moved_.data());
+      const Wide gap = n.gap + moved + slop;
+      const Wide wanted = select(gap < 0, min(-gap * fraction, most), -gap);
+      n.push_target = moved + wanted;
+      n.push = Wide{};
+      for (int lane = 0; lane < kLanes; ++lane) {
+        any = any || (batch.contact[lane] >= 0 && wanted[lane] > 0);
       }
     }
   }
+  if (!any) return;
+  for (int iteration = 0; iteration < settings.position_iterations; ++iteration) {
+    for (const ContactBatch& batch : batches_) {
+      solve_pushes(batch, &rows_[batch.first_row], moved_.data());
+    }
+  }
 }
 
-void ContactSolver::store(const Constraint& c, Contact& contact) {
-  for (int i = 0; i < c.count; ++i) contact.points[i].normal_impulse = c.points[i].impulse;
-  contact.friction_impulse =
-      c.tangent[0] * c.slide[0].impulse + c.tangent[1] * c.slide[1].impulse;
-  contact.twist_impulse = c.twist_impulse;
-  contact.pressed = c.pressed;
+void ContactSolver::store(std::vector<Contact>& contacts) const {
+  for (const ContactBatch& batch : batches_) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (batch.contact[lane] < 0) continue;
+      Contact& contact = contacts[batch.contact[lane]];
+      for (int i = 0; i < batch.rows; ++i) {
+        contact.points[i].normal_impulse = rows_[batch.first_row + i].impulse[lane];
+      }
+      const FrictionRow &s = batch.slide[0], &t = batch.slide[1];
+      contact.friction_impulse = s.direction.get(lane) * s.impulse[lane] +
+                                 t.direction.get(lane) * t.impulse[lane];
+      contact.twist_impulse = batch.twist_impulse[lane];
+      contact.pressed = batch.pressed[lane];
+    }
+  }
 }
 
 void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body>& bodies,
                           const std::vector<std::int32_t>& order, std::vector<Contact>& contacts,
                           std::vector<Motion>& velocities, std::vector<Motion>& displacements) {
-  constraints_.resize(order.size());
-  std::vector<std::uint8_t> seen(bodies.size(), 0);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    prepare(settings, bodies, contacts[order[i]], order[i], constraints_[i]);
-    for (std::int32_t body : {constraints_[i].a, constraints_[i].b}) {
-      seen[body] = bodies[body].awake;
+  number_bodies(bodies, order, contacts);
+  pack(order, contacts);
+  for (ContactBatch& batch : batches_) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (batch.contact[lane] >= 0) {
+        prepare(settings, bodies, contacts[batch.contact[lane]], batch, lane);
+      }
     }
   }
-  moving_.clear();
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (seen[i]) moving_.push_back(std::int32_t(i));
+  speeds_.assign(moving_.size() + 1, {});
+  moved_.assign(moving_.size() + 1, {});
+  for (std::size_t i = 0; i < moving_.size(); ++i) speeds_[i] = padded(velocities[moving_[i]]);
+  run_substeps(settings);
+  push_apart(settings);
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    velocities[moving_[i]] = unpadded(speeds_[i]);
+    displacements[moving_[i]] = unpadded(moved_[i]);
   }
-  const float h = settings.step / float(settings.substeps);
-  for (int substep = 0; substep < settings.substeps; ++substep) {
-    for (std::int32_t i : moving_) velocities[i].linear.z -= settings.gravity * h;
-    for (const Constraint& c : constraints_) warm_start(c, velocities);
-    for (int iteration = 0; iteration < settings.velocity_iterations; ++iteration) {
-      for (Constraint& c : constraints_) solve_velocity(c, 1 / h, displacements, velocities);
-    }
-    for (Constraint& c : constraints_) carry_over(c, settings.gravity * h);
-    for (std::int32_t i : moving_) {
-      displacements[i].linear += velocities[i].linear * h;
-      displacements[i].angular += velocities[i].angular * h;
-    }
-  }
-  solve_positions(settings, bodies, displacements);
-  for (const Constraint& c : constraints_) store(c, contacts[c.contact]);
+  store(contacts);
 }
 
 }  // namespace rubble

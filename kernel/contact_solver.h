@@ -4,22 +4,22 @@
 // start; separations follow the motion. Overlaps are then pushed apart by displacements that never
 // enter the velocities.
 //
-// Every body is a block of generalized speeds with the mass matrix of its own; for a free piece
-// these are six numbers, and M^-1 J^T of a row is a linear and an angular part.
+// Contacts are packed four to a batch such that within a batch no moving body appears twice and
+// that contacts of one body keep their order: the result is that of solving them one by one.
 #pragma once
 
 #include <vector>
 
 #include "kernel/body.h"
 #include "kernel/contact.h"
+#include "kernel/contact_rows.h"
 
 namespace rubble {
 
 struct SolverSettings {
   float step = 1.0F / 60;        // unit: s
   float gravity = 9.81F;         // unit: m/s2, downwards
-  int substeps = 16;
-  int velocity_iterations = 1;   // per substep
+  int substeps = 16;             // one sweep each
   int position_iterations = 8;
   float rest_gap = 0.001F;       // surfaces are kept this far apart, so that normals stay exact; m
   float slop = 0.0005F;          // position error that is left alone; unit: m
@@ -43,39 +43,24 @@ class ContactSolver {
              std::vector<Motion>& velocities, std::vector<Motion>& displacements);
 
  private:
-  struct Row {
-    Vec3f arm_a, arm_b;    // angular part of the Jacobian
-    Vec3f turn_a, turn_b;  // inverse inertia times arm
-    float mass = 0;        // 1 / (J M^-1 J^T)
-    float gap = 0;         // separation at the step's start, less the rest gap; unit: m
-    float impulse = 0, carried = 0;  // now, and at the start of the substep; unit: N s
-  };
-  struct Constraint {
-    std::int32_t contact = 0, a = 0, b = 0, count = 0;
-    float inverse_mass_a = 0, inverse_mass_b = 0, friction = 0, radius = 0;
-    Vec3f normal, tangent[2];
-    Row points[Contact::kMaxPoints];
-    Row slide[2];
-    Vec3f twist_a, twist_b;
-    float twist_mass = 0, twist_impulse = 0, pressed = 0;
-  };
-  struct PushRow {
-    float mass = 0, target = 0, push = 0;
-  };
-
+  void number_bodies(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
+                     const std::vector<Contact>& contacts);
+  void pack(const std::vector<std::int32_t>& order, const std::vector<Contact>& contacts);
+  int find_batch(int rows, int after);
   void prepare(const SolverSettings& settings, const std::vector<Body>& bodies,
-               const Contact& contact, int index, Constraint& c) const;
-  static void carry_over(Constraint& c, float weight);
-  static void warm_start(const Constraint& c, std::vector<Motion>& v);
-  static void solve_velocity(Constraint& c, float per_substep, const std::vector<Motion>& d,
-                             std::vector<Motion>& v);
-  void solve_positions(const SolverSettings& settings, const std::vector<Body>& bodies,
-                       std::vector<Motion>& displacements);
-  static void store(const Constraint& c, Contact& contact);
+               const Contact& contact, ContactBatch& batch, int lane);
+  void run_substeps(const SolverSettings& settings);
+  void push_apart(const SolverSettings& settings);
+  void store(std::vector<Contact>& contacts) const;
 
-  std::vector<Constraint> constraints_;
-  std::vector<PushRow> pushes_;
-  std::vector<std::int32_t> moving_;  // awake bodies with a contact
+  std::vector<std::int32_t> moving_;   // awake bodies with a contact, in order
+  std::vector<std::int32_t> number_;   // of each body in moving_; moving_.size(): does not move
+  std::vector<PaddedMotion> speeds_, moved_;
+  std::vector<ContactBatch> batches_;
+  std::vector<NormalRow> rows_;
+  std::vector<std::int32_t> last_batch_;  // of each moving body, while packing
+  std::vector<std::int32_t> lanes_used_;
+  std::vector<std::int32_t> open_[Contact::kMaxPoints + 1];  // batches with room, by row count
 };
 
 }  // namespace rubble

@@ -1,50 +1,65 @@
--- The mission of `make demo`: 1,200 pieces of a collapsed concrete building over a box culvert. The
--- camera comes down over the pile, turns to the culvert's mouth and goes in with its lamp on.
+-- The mission of `make demo`: two floor slabs of a collapsed building lean on what is left of a
+-- wall, 1,200 pieces have come down over them, and a camera flies over the pile and into the void
+-- beneath (the collapse mode that rescue services call a lean-to).
 
 -- What falls. Walls, floors and culverts are only placed.
 local mix = {
-  { asset = "slab_1", weight = 2 }, { asset = "slab_2", weight = 2 }, { asset = "slab_3", weight = 2 },
-  { asset = "slab_4", weight = 1 }, { asset = "slab_5", weight = 2 },
-  { asset = "chunk_1", weight = 3 }, { asset = "chunk_2", weight = 3 }, { asset = "chunk_3", weight = 3 },
-  { asset = "chunk_4", weight = 4 }, { asset = "chunk_5", weight = 3 }, { asset = "chunk_6", weight = 4 },
-  { asset = "cinder_block", weight = 2 }, { asset = "half_cinder_block" },
-  { asset = "broken_cinder_block", weight = 2 },
-  { asset = "brick", weight = 3 }, { asset = "worn_brick", weight = 2 }, { asset = "half_brick", weight = 2 },
-  { asset = "beam", weight = 0.5 }, { asset = "column", weight = 0.5 }, { asset = "pipe_shard" },
+  { asset = "slab_1", weight = 1.5 }, { asset = "slab_2", weight = 1.5 }, { asset = "slab_3" },
+  { asset = "slab_4" }, { asset = "slab_5", weight = 1.5 },
+  { asset = "chunk_1", weight = 3 }, { asset = "chunk_2", weight = 3 },
+  { asset = "chunk_3", weight = 3 }, { asset = "chunk_4", weight = 4 },
+  { asset = "chunk_5", weight = 3 }, { asset = "chunk_6", weight = 4 },
+  { asset = "cinder_block", weight = 3 }, { asset = "half_cinder_block", weight = 2 },
+  { asset = "broken_cinder_block", weight = 3 },
+  { asset = "brick", weight = 5 }, { asset = "worn_brick", weight = 4 },
+  { asset = "half_brick", weight = 4 },
+  { asset = "beam", weight = 0.5 }, { asset = "column", weight = 0.5 },
+  { asset = "pipe_shard", weight = 0.5 },
   { asset = "rebar_straight" }, { asset = "rebar_bent" }, { asset = "rebar_hook" },
 }
 
--- Three culvert pieces in a row: a void that no pile can close. The first mouth is at x = -4.
-local placed = {}
-for i = 1, 3 do
-  placed[i] = { asset = "box_culvert", position = { -5 + 2 * i, 0, 0.76 } }
+-- The wall runs along X and turns a corner. Each slab has one long edge on it, the other on the
+-- floor: under them is a void of triangular section, 1.4 m high at the wall.
+local placed = {
+  { asset = "wall_stub", position = { -3.05, -1.32, 0.7 } },
+  { asset = "wall_stub", position = { 0.0, -1.3, 0.7 } },
+  { asset = "wall_stub", position = { 3.05, -1.28, 0.7 }, rpy_deg = { 3, 0, -1 } },
+  { asset = "wall_stub", position = { 4.75, 0.3, 0.7 }, rpy_deg = { 0, 0, 90 } },
+  { asset = "floor_slab", position = { -2.15, 0.03, 0.77 }, rpy_deg = { -27.3, 0, 1 } },
+  { asset = "floor_slab", position = { 2.2, 0.08, 0.76 }, rpy_deg = { -26.8, 1, -2 } },
+}
+-- What lay in the room already: it settles before the first layer comes.
+local lying = { "chunk_4", "brick", "cinder_block", "chunk_6", "half_brick", "worn_brick", "chunk_1" }
+local random = rubble.random("room")
+for i = 0, 10 do
+  placed[#placed + 1] = {
+    asset = lying[i % #lying + 1], fixed = false,
+    position = { -2.6 + 0.6 * i, i % 2 == 0 and 0.25 or -0.95, 0.3 },
+    rpy_deg = { random:uniform(-60, 60), random:uniform(-60, 60), random:uniform(0, 360) },
+  }
 end
--- A wall still stands beside it, and a floor slab leans on the wall.
-placed[#placed + 1] = { asset = "wall_stub", position = { 0.5, 2.6, 0.72 } }
-placed[#placed + 1] = { asset = "floor_slab", position = { 0.4, 3.95, 0.97 },
-                        rpy_deg = { -28, 0, 0 }, fixed = false }
 
 return rubble.mission {
   seed = 1,
   pile = {
     layers = 4,
     pieces_per_layer = 300,
-    spawn_position = { 0.5, 0, 5 },
-    spawn_bounds = { 7, 7, 8 },
+    spawn_position = { 1.2, 0.3, 6 },
+    spawn_bounds = { 7, 5, 8 },
     mix = mix,
     placed = placed,
   },
-  light = { type = "directional", intensity = 70, rpy_deg = { 0, 42, 35 } },
-  lamp = { on = true, intensity_cd = 150 },
+  light = { type = "directional", intensity = 80, rpy_deg = { 0, 38, 40 } },
+  lamp = { on = true, intensity_cd = 60 },
   camera = { width = 1024, height = 1024, fov_deg = 80 },
   trajectory = {
     rate_hz = 30,
     waypoints = {
-      { t = 0.0, position = { -6.5, -5.5, 3.6 }, look_at = { 0.5, 0, 0.8 } },
-      { t = 1.0, position = { -7.0, -2.6, 2.6 }, look_at = { -0.5, 0, 0.8 } },
-      { t = 2.0, position = { -6.2, -0.4, 1.3 }, look_at = { -1.5, 0, 0.7 } },
-      { t = 2.8, position = { -4.2, 0.0, 0.8 }, look_at = { 2, 0, 0.6 } },
-      { t = 4.0, position = { -1.0, 0.0, 0.7 }, look_at = { 4, 0, 0.5 } },
+      { t = 0.0, position = { -6.2, -5.2, 2.6 }, look_at = { 0.5, 0, 0.9 } },
+      { t = 1.0, position = { -7.2, -1.6, 1.7 }, look_at = { -0.5, -0.2, 0.8 } },
+      { t = 1.9, position = { -5.9, -0.55, 0.95 }, look_at = { -1.5, -0.5, 0.6 } },
+      { t = 2.8, position = { -3.6, -0.6, 0.75 }, look_at = { 1, -0.5, 0.5 } },
+      { t = 4.0, position = { -0.6, -0.5, 0.7 }, look_at = { 3, -0.5, 0.4 } },
     },
   },
 }

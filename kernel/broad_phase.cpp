@@ -7,7 +7,7 @@ namespace rubble {
 namespace {
 
 constexpr double kCell = 0.6;          // unit: m; about the size of a piece
-constexpr double kEnlarge = 0.05;      // unit: m
+constexpr double kEnlarge = 0.03;      // unit: m
 constexpr std::size_t kBuckets = 1u << 14;
 constexpr std::int64_t kLargeCells = 400;
 

@@ -8,7 +8,7 @@ struct WideMotion {
   Wide3 linear, angular;
 };
 
-WideMotion load(const PaddedMotion* v, const std::int32_t* index) {
+RUBBLE_INLINE WideMotion load(const PaddedMotion* v, const std::int32_t* index) {
   const PaddedMotion &p = v[index[0]], &q = v[index[1]], &r = v[index[2]], &s = v[index[3]];
   Wide lx = p.linear, ly = q.linear, lz = r.linear, lw = s.linear;
   transpose(lx, ly, lz, lw);
@@ -17,7 +17,7 @@ WideMotion load(const PaddedMotion* v, const std::int32_t* index) {
   return {{lx, ly, lz}, {ax, ay, az}};
 }
 
-void save(const WideMotion& m, PaddedMotion* v, const std::int32_t* index) {
+RUBBLE_INLINE void save(const WideMotion& m, PaddedMotion* v, const std::int32_t* index) {
   Wide p = m.linear.x, q = m.linear.y, r = m.linear.z, s = Wide{};
   transpose(p, q, r, s);
   v[index[0]].linear = p, v[index[1]].linear = q, v[index[2]].linear = r, v[index[3]].linear = s;
@@ -27,13 +27,13 @@ void save(const WideMotion& m, PaddedMotion* v, const std::int32_t* index) {
   v[index[3]].angular = s;
 }
 
-Wide relative(const Wide3& direction, const WideRow& row, const WideMotion& a,
+RUBBLE_INLINE Wide relative(const Wide3& direction, const WideRow& row, const WideMotion& a,
               const WideMotion& b) {
   return dot(direction, b.linear - a.linear) + dot(row.arm_b, b.angular) -
          dot(row.arm_a, a.angular);
 }
 
-void apply(const ContactBatch& batch, const WideRow& row, const Wide3& direction, Wide impulse,
+RUBBLE_INLINE void apply(const ContactBatch& batch, const WideRow& row, const Wide3& direction, Wide impulse,
            WideMotion& a, WideMotion& b) {
   a.linear -= direction * (impulse * batch.inverse_mass_a);
   a.angular -= row.turn_a * impulse;
@@ -42,13 +42,13 @@ void apply(const ContactBatch& batch, const WideRow& row, const Wide3& direction
 }
 
 // How much a vector of the given squared length must shrink to be no longer than `limit`.
-Wide shrink_to(Wide limit, Wide length2) {
+RUBBLE_INLINE Wide shrink_to(Wide limit, Wide length2) {
   const WideMask longer = length2 > limit * limit;
   const Wide length = sqrt(select(longer, length2, splat(1)));
   return select(longer, limit / length, splat(1));
 }
 
-void solve_friction(ContactBatch& batch, Wide limit, WideMotion& a, WideMotion& b) {
+RUBBLE_INLINE void solve_friction(ContactBatch& batch, Wide limit, WideMotion& a, WideMotion& b) {
   Wide wanted[2];
   for (int t = 0; t < 2; ++t) {
     const FrictionRow& f = batch.slide[t];

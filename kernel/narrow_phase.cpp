@@ -13,6 +13,9 @@ constexpr float kMatchDistance = 0.01F;
 constexpr float kKeepCosine = 0.906F;
 // Overlapping parts are shifted apart along the last normal by this and more; unit: m.
 constexpr float kShift = 0.005F;
+// Points that stay farther apart than this are left out: more than gravity closes in a step and the
+// change of speed by other contacts usually does; unit: m.
+constexpr float kPointMargin = 0.010F;
 constexpr float kNearestShiftCosine = 0.9F;
 
 struct Axis {
@@ -30,6 +33,12 @@ float motion_margin(const PosedBody& a, const PosedBody* b, const NarrowSettings
     turning += norm(b->angular) * b->part.shape->radius;
   }
   return settings.margin + settings.step * (norm(relative) + turning);
+}
+
+bool boxes_near(const Aabb& a, const Aabb& b, double margin) {
+  return a.min.x <= b.max.x + margin && b.min.x <= a.max.x + margin &&
+         a.min.y <= b.max.y + margin && b.min.y <= a.max.y + margin &&
+         a.min.z <= b.max.z + margin && b.min.z <= a.max.z + margin;
 }
 
 // True when the parts may touch in this step; fills the axis.
@@ -71,6 +80,17 @@ void predict(Manifold& m, const PosedBody& a, const PosedBody* b, const Vec3f& o
     if (b != nullptr) v += b->linear + cross(b->angular, m.points[i].position - offset);
     m.points[i].predicted = m.points[i].separation + step * dot(normal, v);
   }
+}
+
+// Leaves out points that cannot touch in this step: they would only cost time in the solver.
+void drop_far_points(Manifold& m) {
+  int kept = 0;
+  for (int i = 0; i < m.count; ++i) {
+    if (std::min(m.points[i].predicted, m.points[i].separation) < kPointMargin) {
+      m.points[kept++] = m.points[i];
+    }
+  }
+  m.count = kept;
 }
 
 // Writes the manifold into the contact and hands over impulses from the points found again.
@@ -125,12 +145,19 @@ void update_contact(Contact& contact, const PosedBody& a, const PosedBody& b,
                     const NarrowSettings& settings) {
   const Vec3f offset = Vec3f(b.centre - a.centre);
   const float margin = motion_margin(a, &b, settings);
+  if (!boxes_near(a.box, b.box, double(margin))) return clear(contact);
   Axis axis;
   if (!find_axis(contact, a.part, b.part, offset, margin, axis)) return clear(contact);
   Manifold m;
   clip_faces(a.part, b.part, offset, axis.normal, margin, m);
   if (m.count == 0) m.points[m.count++] = {axis.point, axis.separation, axis.separation};
   predict(m, a, &b, offset, axis.normal, settings.step);
+  drop_far_points(m);
+  if (m.count == 0) {
+    contact.normal = axis.normal;
+    contact.has_normal = true;
+    return clear(contact);
+  }
   reduce(m, axis.normal, Contact::kMaxPoints);
   store(contact, m, axis.normal, a, &b, offset);
 }
@@ -144,10 +171,11 @@ void update_ground_contact(Contact& contact, const PosedBody& a, const NarrowSet
     const float s = height + p.z;
     if (s < margin) m.points[m.count++] = {{p.x, p.y, p.z - 0.5F * s}, s, s};
   }
-  if (m.count == 0) return clear(contact);
   const Vec3f normal{0, 0, -1};
   const Vec3f offset = Vec3f(-a.centre);
   predict(m, a, nullptr, offset, normal, settings.step);
+  drop_far_points(m);
+  if (m.count == 0) return clear(contact);
   reduce(m, normal, Contact::kMaxPoints);
   store(contact, m, normal, a, nullptr, offset);
 }

@@ -11,6 +11,7 @@ struct PosedBody {
   PosedPart part;
   Vec3 centre;          // centre of mass in the world; unit: m
   Vec3f linear, angular;  // velocities; unit: m/s, rad/s
+  Aabb box;             // about the part
 };
 
 struct NarrowSettings {

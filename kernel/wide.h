@@ -6,6 +6,9 @@
 
 #include "kernel/base/math.h"
 
+// The optimiser gives up on inlining functions with this many registers in and out.
+#define RUBBLE_INLINE [[gnu::always_inline]] inline
+
 namespace rubble {
 
 typedef float Wide __attribute__((vector_size(16)));
@@ -13,11 +16,11 @@ typedef int WideMask __attribute__((vector_size(16)));
 
 inline constexpr int kLanes = 4;
 
-inline Wide splat(float x) { return Wide{x, x, x, x}; }
-inline Wide select(WideMask mask, Wide a, Wide b) { return mask ? a : b; }
-inline Wide max(Wide a, Wide b) { return a > b ? a : b; }
-inline Wide min(Wide a, Wide b) { return a < b ? a : b; }
-inline Wide sqrt(Wide a) {
+RUBBLE_INLINE Wide splat(float x) { return Wide{x, x, x, x}; }
+RUBBLE_INLINE Wide select(WideMask mask, Wide a, Wide b) { return mask ? a : b; }
+RUBBLE_INLINE Wide max(Wide a, Wide b) { return a > b ? a : b; }
+RUBBLE_INLINE Wide min(Wide a, Wide b) { return a < b ? a : b; }
+RUBBLE_INLINE Wide sqrt(Wide a) {
   return Wide{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
 }
 
@@ -29,13 +32,13 @@ struct Wide3 {
   Wide3& operator+=(const Wide3& v) { return x += v.x, y += v.y, z += v.z, *this; }
   Wide3& operator-=(const Wide3& v) { return x -= v.x, y -= v.y, z -= v.z, *this; }
 };
-inline Wide3 operator+(const Wide3& a, const Wide3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Wide3 operator-(const Wide3& a, const Wide3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Wide3 operator*(const Wide3& a, Wide s) { return {a.x * s, a.y * s, a.z * s}; }
-inline Wide dot(const Wide3& a, const Wide3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+RUBBLE_INLINE Wide3 operator+(const Wide3& a, const Wide3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+RUBBLE_INLINE Wide3 operator-(const Wide3& a, const Wide3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+RUBBLE_INLINE Wide3 operator*(const Wide3& a, Wide s) { return {a.x * s, a.y * s, a.z * s}; }
+RUBBLE_INLINE Wide dot(const Wide3& a, const Wide3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 // Rows to columns: lane i of the k-th result is element k of the i-th argument.
-inline void transpose(Wide& a, Wide& b, Wide& c, Wide& d) {
+RUBBLE_INLINE void transpose(Wide& a, Wide& b, Wide& c, Wide& d) {
   const Wide t0 = __builtin_shufflevector(a, b, 0, 4, 1, 5);
   const Wide t1 = __builtin_shufflevector(c, d, 0, 4, 1, 5);
   const Wide t2 = __builtin_shufflevector(a, b, 2, 6, 3, 7);

@@ -130,6 +130,7 @@ PosedBody World::Impl::posed(const Collider& collider) const {
   result.centre = body.world_from_com.translation;
   result.linear = body.linear;
   result.angular = body.angular;
+  result.box = collider.box;
   return result;
 }
 

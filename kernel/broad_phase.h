@@ -53,6 +53,13 @@ class BroadPhase {
            a.min.z <= b.max.z && b.min.z <= a.max.z;
   }
 
+  // Calls visit for each member, to write and read them (world_fields.h).
+  template <typename Self, typename Visit>
+  static void each_field(Self& self, Visit&& visit) {
+    visit(self.cells_), visit(self.large_), visit(self.boxes_), visit(self.present_);
+    visit(self.is_large_), visit(self.seen_), visit(self.stamp_);
+  }
+
  private:
   struct Range {
     std::int64_t min[3], max[3];

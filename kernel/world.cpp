@@ -313,29 +313,4 @@ Vec3 World::angular_momentum() const {
   return sum;
 }
 
-std::shared_ptr<const World::Snapshot> World::snapshot() const {
-  auto snapshot = std::make_shared<Snapshot>();
-  snapshot->data = impl_->data;
-  for (int i = 0; i < impl_->blocks.size(); ++i) {
-    FreeBody body;
-    body.world_from_com = impl_->blocks.world_from_com(i);
-    body.linear_velocity = impl_->blocks.linear_velocity(i);
-    body.angular_velocity = impl_->blocks.angular_velocity(i);
-    snapshot->simbody.push_back(body);
-  }
-  return snapshot;
-}
-
-void World::restore(const Snapshot& snapshot) {
-  if (int(snapshot.simbody.size()) != impl_->blocks.size()) {
-    throw RunError("a snapshot can only be restored into the world that it was taken from");
-  }
-  impl_->data = snapshot.data;
-  for (int i = 0; i < impl_->blocks.size(); ++i) {
-    impl_->blocks.set_pose(i, snapshot.simbody[i].world_from_com);
-    impl_->blocks.set_velocity(i, snapshot.simbody[i].linear_velocity,
-                               snapshot.simbody[i].angular_velocity);
-  }
-}
-
 }  // namespace rubble

@@ -77,7 +77,8 @@ class World {
   Vec3 angular_momentum() const;    // about the origin; unit: kg m2/s
 
   // Everything that the next steps depend on, except options and threads. Restoring one and
-  // repeating gives the same bits. A snapshot belongs to a world with the same types.
+  // repeating gives the same bits, in any world with the same types (RunError otherwise), an empty
+  // one too. kernel/world_snapshot.h turns snapshots into bytes and back.
   struct Snapshot;
   std::shared_ptr<const Snapshot> snapshot() const;
   void restore(const Snapshot& snapshot);

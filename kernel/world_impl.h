@@ -75,9 +75,12 @@ struct World::Impl {
   void lose(int body);
 };
 
+// Its members, like those of WorldData and what it holds, are listed in world_fields.h as well.
 struct World::Snapshot {
+  std::uint64_t types = 0;  // hash_types() of the world's types
   WorldData data;
-  std::vector<FreeBody> simbody;  // pose and speeds, by number in SimbodyBlocks
+  std::vector<FreeBody> simbody;           // by number in SimbodyBlocks
+  std::vector<std::int32_t> block_starts;  // number of each block's first body
 };
 
 }  // namespace rubble

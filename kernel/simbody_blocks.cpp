@@ -2,7 +2,9 @@
 
 #include <Simbody.h>
 
+#include <algorithm>
 #include <utility>
+
 
 namespace rubble {
 namespace {
@@ -24,7 +26,6 @@ struct SimbodyBlocks::Block {
   SimTK::SimbodyMatterSubsystem matter;
   std::vector<SimTK::MobilizedBody::Free> bodies;
   SimTK::State state;
-  SimTK::Vector rate, qdot;
   int first = 0;  // number of its first body
 };
 
@@ -56,8 +57,6 @@ int SimbodyBlocks::add(const std::vector<FreeBody>& bodies) {
     }
     block->state = block->system.realizeTopology();
     block->system.realizeModel(block->state);
-    block->rate.resize(block->state.getNU());
-    block->qdot.resize(block->state.getNQ());
     blocks_.push_back(std::move(block));
     for (std::size_t i = begin; i < end; ++i, ++size_) {
       set_pose(size_, bodies[i].world_from_com);
@@ -86,31 +85,27 @@ Vec3 SimbodyBlocks::linear_velocity(int body) const {
   return {u[at], u[at + 1], u[at + 2]};
 }
 
+// The kinematics of a Free mobilizer, dq/dt = N(q) u, written out: Simbody's multiplyByN() computes
+// the same, but its arm64 build fuses multiplications with additions, so the last bits differ.
 void SimbodyBlocks::advance(int index, const std::vector<std::uint8_t>& moves,
                             const Vec3* extra_linear, const Vec3* extra_angular, double dt) {
   Block& block = *blocks_[index];
   const SimTK::Vector& u = block.state.getU();
+  SimTK::Vector& q = block.state.updQ();
   const int count = int(block.bodies.size());
   for (int slot = 0; slot < count; ++slot) {
-    const int body = block.first + slot, at = 6 * slot;
-    const Vec3& l = extra_linear[body];
-    const Vec3& a = extra_angular[body];
-    block.rate[at] = u[at] + a.x, block.rate[at + 1] = u[at + 1] + a.y;
-    block.rate[at + 2] = u[at + 2] + a.z, block.rate[at + 3] = u[at + 3] + l.x;
-    block.rate[at + 4] = u[at + 4] + l.y, block.rate[at + 5] = u[at + 5] + l.z;
-  }
-  block.system.realize(block.state, SimTK::Stage::Position);
-  block.matter.multiplyByN(block.state, false, block.rate, block.qdot);
-  SimTK::Vector& q = block.state.updQ();
-  for (int slot = 0; slot < count; ++slot) {
-    if (!moves[block.first + slot]) continue;
-    const int at = 7 * slot;
-    const Quat turned = normalized(Quat{q[at] + block.qdot[at] * dt,
-                                        q[at + 1] + block.qdot[at + 1] * dt,
-                                        q[at + 2] + block.qdot[at + 2] * dt,
-                                        q[at + 3] + block.qdot[at + 3] * dt});
-    q[at] = turned.w, q[at + 1] = turned.x, q[at + 2] = turned.y, q[at + 3] = turned.z;
-    for (int i = 4; i < 7; ++i) q[at + i] += block.qdot[at + i] * dt;
+    const int body = block.first + slot;
+    if (!moves[body]) continue;
+    const int iu = 6 * slot, iq = 7 * slot;
+    const Vec3 w = Vec3{u[iu], u[iu + 1], u[iu + 2]} + extra_angular[body];
+    const Vec3 v = Vec3{u[iu + 3], u[iu + 4], u[iu + 5]} + extra_linear[body];
+    const Quat r{q[iq], q[iq + 1], q[iq + 2], q[iq + 3]};
+    const Quat spin = Quat{0, w.x, w.y, w.z} * r;
+    const double half = 0.5 * dt;
+    const Quat turned = normalized(Quat{r.w + spin.w * half, r.x + spin.x * half,
+                                        r.y + spin.y * half, r.z + spin.z * half});
+    q[iq] = turned.w, q[iq + 1] = turned.x, q[iq + 2] = turned.y, q[iq + 3] = turned.z;
+    for (int i = 0; i < 3; ++i) q[iq + 4 + i] += v[i] * dt;
   }
   block.system.realize(block.state, SimTK::Stage::Position);
 }

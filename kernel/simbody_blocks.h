@@ -1,7 +1,7 @@
 // The kernel's only door to Simbody: free bodies in blocks, each a MultibodySystem with a State of
 // its own that holds the coordinates q and the speeds u of up to 16 bodies.
 //
-// Simbody owns the state and advances it; contact impulses change u in between. A block is realised
+// Simbody owns the state; contact impulses change u, and advance() changes q. A block is realised
 // only when one of its bodies is awake, and the numbers of a sleeping body are never rewritten.
 #pragma once
 

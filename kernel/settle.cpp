@@ -5,6 +5,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/world.h"
+#include "kernel/world_snapshot.h"
 
 namespace rubble {
 namespace {
@@ -19,33 +20,55 @@ class Settling {
       : pile_(pile), options_(options), progress_(progress), world_(world) {}
 
   PileState run() {
-    bool rested = lay_out();
-    for (std::size_t k = 0; k < pile_.layers.size() && !stopped_; ++k) {
-      const bool last = k + 1 == pile_.layers.size();
+    lay_out();
+    return run_layers(0, finish_placed());
+  }
+
+  PileState resume(const SettleCheckpoint& from) {
+    world_.restore(*decode_snapshot(from.world));
+    layers_ = from.layers;
+    layers_at_limit_ = from.layers_at_limit;
+    layer_steps_ = from.layer_steps;
+    const bool rested = layers_ == 0 ? finish_placed() : finish_layer(std::size_t(layers_) - 1);
+    return run_layers(std::size_t(layers_), rested);
+  }
+
+ private:
+  PileState run_layers(std::size_t first, bool rested) {
+    for (std::size_t k = first; k < pile_.layers.size() && !stopped_; ++k) {
       spawn(k);
-      if (!last && options_.schedule == Schedule::planes) {
-        rested = run_until(options_.layer_time_limit, [this] { return world_.all_have_touched(); });
-      } else {
-        rested = run_to_rest(last ? options_.final_time_limit : options_.layer_time_limit);
-      }
-      if (!rested && !stopped_) ++layers_at_limit_;
+      rested = finish_layer(k);
     }
     return result(rested && !stopped_);
   }
 
- private:
+  bool finish_layer(std::size_t k) {
+    const bool last = k + 1 == pile_.layers.size();
+    bool rested = false;
+    if (!last && options_.schedule == Schedule::planes) {
+      rested = run_until(options_.layer_time_limit, [this] { return world_.all_have_touched(); });
+    } else {
+      rested = run_to_rest(last ? options_.final_time_limit : options_.layer_time_limit);
+    }
+    if (!rested && !stopped_) ++layers_at_limit_;
+    return rested;
+  }
+
   // What stands or lies there before the first layer; comes to rest first if it can move.
-  bool lay_out() {
+  void lay_out() {
     std::vector<NewPiece> pieces;
-    bool movable = false;
     for (const Placement& placement : pile_.placed) {
       NewPiece piece;
       piece.placement = placement;
       piece.layer = -1;
       pieces.push_back(piece);
-      movable = movable || !placement.fixed;
     }
     world_.add(pieces);
+  }
+
+  bool finish_placed() {
+    const bool movable = std::any_of(pile_.placed.begin(), pile_.placed.end(),
+                                     [](const Placement& placement) { return !placement.fixed; });
     if (!movable) return true;
     return run_to_rest(pile_.layers.empty() ? options_.final_time_limit
                                             : options_.layer_time_limit);
@@ -65,6 +88,7 @@ class Settling {
     }
     world_.add(pieces);
     ++layers_;
+    layer_steps_ = 0;
   }
 
   bool run_to_rest(double limit) {
@@ -73,12 +97,16 @@ class Settling {
     });
   }
 
+  // A checkpoint is made between a step and the question whether it was the last: resuming starts
+  // with the question.
   template <typename Done>
   bool run_until(double limit, Done&& done) {
-    const long most = long(limit / options_.step + 0.5);
-    for (long i = 1; i <= most; ++i) {
+    const std::int64_t most = std::int64_t(limit / options_.step + 0.5);
+    if (layer_steps_ > 0 && done()) return true;
+    while (layer_steps_ < most) {
       world_.step();
-      if (progress_ && !report(double(i) * options_.step)) {
+      ++layer_steps_;
+      if (progress_ && !report()) {
         stopped_ = true;
         return false;
       }
@@ -87,15 +115,26 @@ class Settling {
     return false;
   }
 
-  bool report(double layer_time) const {
+  bool report() const {
     SettleProgress p;
     p.layer = layers_;
     p.layers = int(pile_.layers.size());
-    p.layer_time = layer_time;
+    p.layer_time = double(layer_steps_) * options_.step;
     p.simulated = world_.time();
     p.pieces = world_.size();
     p.awake = world_.awake_count();
+    p.make_checkpoint = [this] { return make_checkpoint(); };
     return progress_(p);
+  }
+
+  SettleCheckpoint make_checkpoint() const {
+    SettleCheckpoint checkpoint;
+    checkpoint.work = hash_work(pile_, options_);
+    checkpoint.layers = layers_;
+    checkpoint.layers_at_limit = layers_at_limit_;
+    checkpoint.layer_steps = layer_steps_;
+    checkpoint.world = encode_snapshot(*world_.snapshot());
+    return checkpoint;
   }
 
   PileState result(bool settled) const {
@@ -125,8 +164,24 @@ class Settling {
   const SettleCallback& progress_;
   World& world_;
   int layers_ = 0, layers_at_limit_ = 0;
+  std::int64_t layer_steps_ = 0;  // since the last spawn
   bool stopped_ = false;
 };
+
+void check_checkpoint(const SettleCheckpoint& checkpoint, const Pile& pile,
+                      const SettleOptions& options) {
+  Diagnostic d;
+  if (checkpoint.work != hash_work(pile, options)) {
+    d.message = "the checkpoint is of another pile or other settling options";
+    d.hint = "use the script and the seed that it was made with, or settle from the start";
+  } else if (checkpoint.layers < 0 || checkpoint.layers > std::int32_t(pile.layers.size()) ||
+             checkpoint.layer_steps < 1) {
+    d.message = "the checkpoint is at no moment of the schedule";
+  } else {
+    return;
+  }
+  throw InputError(d);
+}
 
 }  // namespace
 
@@ -164,6 +219,20 @@ PileState settle_pile(World& world, const Pile& pile, const SettleOptions& optio
                       const SettleCallback& progress) {
   options.validate();
   return Settling(world, pile, options, progress).run();
+}
+
+PileState resume_settling(const SettleCheckpoint& checkpoint, const Pile& pile,
+                          const SettleOptions& options, const SettleCallback& progress) {
+  options.validate();
+  World world(pile.types, calc_world_options(options));
+  return resume_settling(world, checkpoint, pile, options, progress);
+}
+
+PileState resume_settling(World& world, const SettleCheckpoint& checkpoint, const Pile& pile,
+                          const SettleOptions& options, const SettleCallback& progress) {
+  options.validate();
+  check_checkpoint(checkpoint, pile, options);
+  return Settling(world, pile, options, progress).resume(checkpoint);
 }
 
 WorldOptions calc_world_options(const SettleOptions& options) {

@@ -5,6 +5,7 @@
 
 #include "kernel/pile.h"
 #include "kernel/pile_state.h"
+#include "kernel/settle_checkpoint.h"
 
 namespace rubble {
 
@@ -36,6 +37,8 @@ struct SettleProgress {
   double layer_time = 0;      // simulated since the last spawn; unit: s
   double simulated = 0;       // unit: s
   int pieces = 0, awake = 0;
+  // Makes a checkpoint of this moment; may be called in the callback only.
+  std::function<SettleCheckpoint()> make_checkpoint;
 };
 // Called after each step; return false to stop early (the state is then not settled).
 using SettleCallback = std::function<bool(const SettleProgress&)>;
@@ -47,6 +50,12 @@ PileState settle_pile(const Pile& pile, const SettleOptions& options = {},
 // world: empty, with the types of the pile and calc_world_options(options).
 PileState settle_pile(World& world, const Pile& pile, const SettleOptions& options = {},
                       const SettleCallback& progress = {});
+// Continues from a checkpoint of the same pile and options; only the threads may differ. Equals
+// never having stopped, bit for bit. Throws InputError for a checkpoint of other work.
+PileState resume_settling(const SettleCheckpoint& checkpoint, const Pile& pile,
+                          const SettleOptions& options = {}, const SettleCallback& progress = {});
+PileState resume_settling(World& world, const SettleCheckpoint& checkpoint, const Pile& pile,
+                          const SettleOptions& options = {}, const SettleCallback& progress = {});
 WorldOptions calc_world_options(const SettleOptions& options);
 
 }  // namespace rubble

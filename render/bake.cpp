@@ -17,11 +17,16 @@ namespace rubble {
 namespace {
 
 constexpr float kPi = float(portable::kPi);
-constexpr std::uint32_t kSky = 0xffffffffu, kInside = 0xfffffffeu;
+constexpr std::uint32_t kSky = 0xffffffffu, kInside = 0xfffffffeu, kNone = 0xffffffffu;
 constexpr float kLift = 0.004f;       // rays start this far off the surface; unit: m
 constexpr float kFarthest = 1000.0f;  // unit: m
+constexpr float kDarkest = 1e-4f;     // unit: klx
 constexpr float kMaxInside = 0.3f;    // share of rays that start inside a neighbour
 constexpr std::size_t kChunk = 256;   // points a job
+constexpr float kContact = 0.3f;       // light left where pieces touch
+constexpr std::size_t kMostForSearch = 4000;  // bake points; the ground has more
+constexpr float kSmoothing = 0.5f;    // reach, as a share of the piece's radius
+constexpr float kWidestSmoothing = 0.35f;  // unit: m
 
 struct Point {
   Vec3f position, normal;
@@ -117,6 +122,7 @@ struct Baker::State {
   std::vector<Vec3f> triangle_albedo;
   std::vector<std::uint32_t> hits;           // rays a point: triangle, kSky or kInside
   std::vector<std::uint8_t> valid;           // one a point
+  std::vector<std::uint32_t> open_point;     // for an invalid point: where its light comes from
   std::vector<Vec3f> direct, indirect, vector;  // one a point; klx
   std::vector<Vec3f> radiosity;              // one a triangle of `rays`, over pi: kcd/m2
 
@@ -126,7 +132,9 @@ struct Baker::State {
   void trace(std::size_t point);
   void gather(std::size_t point);
   void update_radiosity();
-  void fill_invalid();
+  void darken_invalid();
+  void find_open_points();
+  void smooth(std::size_t piece, std::vector<Vec3f>& colours, std::vector<Vec3f>& vectors) const;
 };
 
 void Baker::State::list_points() {
@@ -211,24 +219,55 @@ void Baker::State::update_radiosity() {
   }
 }
 
-// A point inside a neighbour takes the light of the nearest valid one of its own piece.
-void Baker::State::fill_invalid() {
-  first_point.push_back(std::uint32_t(points.size()));
-  for (std::size_t piece = 0; piece < scene.placed.size(); ++piece) {
-    for (std::size_t i = first_point[piece]; i < first_point[piece + 1]; ++i) {
-      if (valid[i]) continue;
-      std::size_t best = i;
-      float nearest = 1e30f;
-      for (std::size_t k = first_point[piece]; k < first_point[piece + 1]; ++k) {
-        const float d = distance(points[k].position, points[i].position) *
-                        (1.5f - 0.5f * dot(points[k].normal, points[i].normal));
-        if (valid[k] && d < nearest) nearest = d, best = k;
-      }
-      indirect[i] = best == i ? Vec3f() : indirect[best] * 0.5f;
-      vector[i] = points[i].normal * luminance(indirect[i]);
-    }
+// A point inside a neighbour takes a part of what the nearest open point of its own piece and side
+// gets: it is dark around a contact.
+void Baker::State::darken_invalid() {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (valid[i]) continue;
+    const bool lit = open_point[i] != kNone;
+    indirect[i] = lit ? indirect[open_point[i]] * kContact : Vec3f();
+    vector[i] = points[i].normal * luminance(indirect[i]);
   }
-  first_point.pop_back();
+}
+
+void Baker::State::find_open_points() {
+  open_point.assign(points.size(), kNone);
+  parallel_for(scene.placed.size(), options.threads, [&](std::size_t piece) {
+    const std::size_t first = first_point[piece];
+    const std::size_t count = scene.meshes[scene.placed[piece].mesh].bake_points.size();
+    if (count > kMostForSearch) return;
+    for (std::size_t i = first; i < first + count; ++i) {
+      float nearest = 1e30f;
+      for (std::size_t k = first; k < first + count && !valid[i]; ++k) {
+        const Vec3f d = points[k].position - points[i].position;
+        if (!valid[k] || dot(points[k].normal, points[i].normal) < 0.7f) continue;
+        if (dot(d, d) < nearest) nearest = dot(d, d), open_point[i] = std::uint32_t(k);
+      }
+    }
+  });
+}
+
+// Few rays leave noise from point to point: each takes in those around it on the same side.
+void Baker::State::smooth(std::size_t piece, std::vector<Vec3f>& colours,
+                          std::vector<Vec3f>& vectors) const {
+  const std::size_t first = first_point[piece];
+  const std::size_t count = scene.meshes[scene.placed[piece].mesh].bake_points.size();
+  if (scene.placed[piece].id == kGroundId || count > kMostForSearch) return;
+  const float reach = kSmoothing * scene.placed[piece].radius;
+  const float limit = std::min(reach * reach, kWidestSmoothing * kWidestSmoothing);
+  for (std::size_t i = first; i < first + count; ++i) {
+    if (!valid[i]) continue;
+    Vec3f colour, vector_sum;
+    float sum = 0;
+    for (std::size_t k = first; k < first + count; ++k) {
+      const Vec3f d = points[k].position - points[i].position;
+      const float facing = dot(points[k].normal, points[i].normal);
+      const float near = 1 - dot(d, d) / limit;
+      if (!valid[k] || near <= 0 || facing < 0.7f) continue;
+      colour += indirect[k] * near, vector_sum += vector[k] * near, sum += near;
+    }
+    colours[i] = colour * (1 / sum), vectors[i] = vector_sum * (1 / sum);
+  }
 }
 
 Baker::Baker(const PreparedScene& scene, const LightModel& light, const BakeOptions& options,
@@ -249,11 +288,16 @@ Baker::Baker(const PreparedScene& scene, const LightModel& light, const BakeOpti
     over_points(job, std::min(job + kSlice, jobs), [&](std::size_t i) { s.trace(i); });
     if (progress) progress(0.9 * double(std::min(job + kSlice, jobs)) / double(jobs));
   }
+  s.find_open_points();
   for (int bounce = 0; bounce < options.bounces; ++bounce) {
     s.update_radiosity();
     over_points(0, jobs, [&](std::size_t i) { s.gather(i); });
-    s.fill_invalid();
+    s.darken_invalid();
   }
+  std::vector<Vec3f> colours = s.indirect, vectors = s.vector;
+  parallel_for(scene.placed.size(), options.threads,
+               [&](std::size_t piece) { s.smooth(piece, colours, vectors); });
+  s.indirect.swap(colours), s.vector.swap(vectors);
   s.update_radiosity();
   s.hits.clear();
   s.hits.shrink_to_fit();
@@ -269,13 +313,20 @@ std::vector<BakedLight> Baker::vertex_light() const {
     const PlacedMesh& piece = s.scene.placed[i];
     const PreparedMesh& mesh = s.scene.meshes[piece.mesh];
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      // Directions and colours are mixed as they are; brightness as its logarithm, so that one
+      // bright point behind an edge does not outshine three dark ones.
       Vec3f vector, colour;
+      float logarithm = 0, mean = 0;
       for (std::size_t k = 0; k < 4; ++k) {
         const float w = mesh.vertices[v].bake_weights[k];
         const std::size_t p = s.first_point[i] + mesh.vertices[v].bake_points[k];
+        const float bright = luminance(s.indirect[p]);
         vector += s.vector[p] * w;
         colour += s.indirect[p] * w;
+        mean += w * bright;
+        logarithm += w * std::log2(bright + kDarkest);
       }
+      if (mean > 0) vector *= std::exp2(logarithm) / (mean + kDarkest);
       out[piece.first_light + v] = pack_light(vector, colour);
     }
   });

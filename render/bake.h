@@ -13,7 +13,7 @@ namespace rubble {
 
 struct BakeOptions {
   int threads = 1;       // the result does not depend on it
-  int rays = 48;         // a bake point; range: 8 to 1024
+  int rays = 96;         // a bake point; range: 8 to 1024
   int bounces = 3;       // between surfaces
   std::uint64_t seed = 0;
 };

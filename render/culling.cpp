@@ -73,19 +73,24 @@ bool ViewVolume::sphere_in_view(const Vec3f& c, float r) const {
   return true;
 }
 
-bool ViewVolume::sphere_may_show(const Vec3f& c, float r, const DepthPyramid& pyramid) const {
-  const float reach = r * 1.0001f + 1e-5f;
-  const float near_z = c.z - reach, far_z = c.z + reach;
+bool ViewVolume::box_may_show(const Vec3f& c, const Mat3f& half, const DepthPyramid& pyramid) const {
+  const auto& [x, y, z] = half.rows;
+  const float deep = std::fabs(x.z) + std::fabs(y.z) + std::fabs(z.z) + 1e-5f;
+  const float near_z = c.z - deep * 1.0001f;
   if (near_z <= kNearPlane) return true;
-  // The bounds of x / z over the box around the sphere hold those of the sphere.
-  const auto low = [&](float x) { return (x - reach) / (x < reach ? near_z : far_z); };
-  const auto high = [&](float x) { return (x + reach) / (x > -reach ? near_z : far_z); };
-  // One pixel more on each side makes up for rounding.
-  const float x0 = std::floor(fx_ * low(c.x) + cx_) - 1, x1 = std::ceil(fx_ * high(c.x) + cx_) + 1;
-  const float y0 = std::floor(fy_ * low(c.y) + cy_) - 1, y1 = std::ceil(fy_ * high(c.y) + cy_) + 1;
+  float low_u = 1e30f, high_u = -1e30f, low_v = 1e30f, high_v = -1e30f;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3f p = c + (corner & 1 ? x : -x) + (corner & 2 ? y : -y) + (corner & 4 ? z : -z);
+    const float u = p.x / p.z, v = p.y / p.z;
+    low_u = std::min(low_u, u), high_u = std::max(high_u, u);
+    low_v = std::min(low_v, v), high_v = std::max(high_v, v);
+  }
+  // Rounding outwards takes in every pixel whose centre the box can cover.
+  const float x0 = std::floor(fx_ * low_u + cx_), x1 = std::ceil(fx_ * high_u + cx_);
+  const float y0 = std::floor(fy_ * low_v + cy_), y1 = std::ceil(fy_ * high_v + cy_);
   if (x1 < 0 || y1 < 0 || x0 >= float(width_) || y0 >= float(height_)) return false;
-  const auto clip = [](float v, int size) {
-    return int(std::clamp(v, 0.0f, float(size - 1)));
+  const auto clip = [](float value, int size) {
+    return int(std::clamp(value, 0.0f, float(size - 1)));
   };
   return pyramid.may_show(clip(x0, width_), clip(y0, height_), clip(x1, width_), clip(y1, height_),
                           kNearPlane / near_z * 1.00001f);

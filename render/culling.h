@@ -12,7 +12,7 @@ namespace rubble {
 // Depth-buffer values (near / Z; 0: nothing) as a pyramid of the farthest one in each tile.
 class DepthPyramid {
  public:
-  static constexpr int kTile = 8;  // side of the finest level's tiles; unit: pixel
+  static constexpr int kTile = 4;  // side of the finest level's tiles; unit: pixel
 
   // depth: width * height values, rows from the top.
   void build(const float* depth, int width, int height);
@@ -37,7 +37,9 @@ class ViewVolume {
 
   // Centre in the optical frame; unit: m.
   bool sphere_in_view(const Vec3f& centre, float radius) const;
-  bool sphere_may_show(const Vec3f& centre, float radius, const DepthPyramid& pyramid) const;
+  // A box by its centre and the vectors to the middles of three sides.
+  bool box_may_show(const Vec3f& centre, const Mat3f& half_sides,
+                    const DepthPyramid& pyramid) const;
 
  private:
   float fx_, fy_, cx_, cy_;

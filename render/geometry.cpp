@@ -102,6 +102,40 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
   return out;
 }
 
+namespace {
+
+// Gives each triangle a last vertex of its own, by which a drawn pixel tells its triangle: cheaper
+// than gl_PrimitiveID, for which software drivers leave their fast path. A vertex that is taken is
+// copied to the end of the table. Entry v of the triangle table is the triangle whose last vertex
+// is v, by its vertices before copying.
+class TriangleNamer {
+ public:
+  TriangleNamer(std::vector<Texel>& vertices, std::vector<Texel>& triangles)
+      : vertices_(vertices), triangles_(triangles), taken_(vertices.size(), false) {
+    triangles_.assign(vertices.size(), Texel{});
+  }
+
+  std::array<std::uint32_t, 3> name(std::array<std::uint32_t, 3> t, std::uint32_t material) {
+    for (int turn = 0; turn < 3 && taken_[t[2]]; ++turn) t = {t[1], t[2], t[0]};
+    const Texel entry{t[0], t[1], t[2], material};
+    if (taken_[t[2]]) {
+      vertices_.push_back(vertices_[t[2]]);
+      triangles_.push_back(entry);
+      return {t[0], t[1], std::uint32_t(vertices_.size() - 1)};
+    }
+    taken_[t[2]] = true;
+    triangles_[t[2]] = entry;
+    return t;
+  }
+
+ private:
+  std::vector<Texel>& vertices_;
+  std::vector<Texel>& triangles_;
+  std::vector<bool> taken_;
+};
+
+}  // namespace
+
 GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
                             const std::vector<BakedLight>& light) {
   static_assert(sizeof(BakedLight) == 8, "shaders read it as two 32-bit words");
@@ -109,16 +143,19 @@ GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
   std::vector<Texel> vertices, triangles, placed;
   std::vector<std::uint32_t> indices, first_vertex;
   for (const PreparedMesh& mesh : scene.meshes) {
-    const std::uint32_t base = std::uint32_t(vertices.size());
-    first_vertex.push_back(base);
-    out.first_index.push_back(std::uint32_t(indices.size()));
+    first_vertex.push_back(std::uint32_t(vertices.size()));
     for (const PreparedVertex& v : mesh.vertices)
       vertices.push_back({float_bits(v.position.x), float_bits(v.position.y),
                           float_bits(v.position.z), pack_normal(v.normal)});
-    for (const PreparedTriangle& t : mesh.triangles) {
+  }
+  TriangleNamer namer(vertices, triangles);
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    out.first_index.push_back(std::uint32_t(indices.size()));
+    for (const PreparedTriangle& t : scene.meshes[m].triangles) {
       const auto& i = t.vertices;
-      indices.insert(indices.end(), {base + i[0], base + i[1], base + i[2]});
-      triangles.push_back({base + i[0], base + i[1], base + i[2], t.material});
+      const std::uint32_t base = first_vertex[m];
+      const auto named = namer.name({base + i[0], base + i[1], base + i[2]}, t.material);
+      indices.insert(indices.end(), named.begin(), named.end());
     }
   }
   for (const PlacedMesh& piece : scene.placed)

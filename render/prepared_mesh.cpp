@@ -16,7 +16,7 @@ namespace {
 // the sake of it.
 constexpr float kLongestEdge = 0.3f;  // unit: m
 constexpr float kEdgeShare = 0.08f;   // of a large mesh's radius
-constexpr std::size_t kClusterTriangles = 96;
+constexpr std::size_t kClusterTriangles = 64;
 constexpr std::size_t kMaxBakePoints = 65535;
 
 std::vector<std::uint32_t> material_table(const TriangleMesh& mesh) {
@@ -48,13 +48,15 @@ Vec3f face_normal(const PreparedMesh& mesh, const PreparedTriangle& t) {
                           mesh.vertices[t.vertices[2]].position - a));
 }
 
-void bounding_sphere(const std::vector<Vec3f>& points, Vec3f& centre, float& radius) {
+// A box around the points, and a sphere of the same centre; both a little larger, for rounding.
+void find_bounds(const std::vector<Vec3f>& points, Vec3f& centre, Vec3f& half, float& radius) {
   Vec3f low = points.front(), high = points.front();
   for (const Vec3f& p : points) low = min(low, p), high = max(high, p);
   centre = (low + high) * 0.5f;
+  half = (high - low) * 0.50001f;
   radius = 0;
   for (const Vec3f& p : points) radius = std::max(radius, distance(p, centre));
-  radius *= 1.00001f;  // rounding
+  radius *= 1.00001f;
 }
 
 Cluster make_cluster(const PreparedMesh& mesh, std::size_t first, std::size_t count) {
@@ -68,7 +70,7 @@ Cluster make_cluster(const PreparedMesh& mesh, std::size_t first, std::size_t co
     normals.push_back(face_normal(mesh, mesh.triangles[i]));
     sum += normals.back();
   }
-  bounding_sphere(points, cluster.centre, cluster.radius);
+  find_bounds(points, cluster.centre, cluster.half, cluster.radius);
   cluster.cone_axis = normalized(sum);
   float cosine = 1;
   for (const Vec3f& n : normals) cosine = std::min(cosine, dot(n, cluster.cone_axis));
@@ -137,7 +139,7 @@ void append_level(const TriangleMesh& source, PreparedMesh& out) {
   if (out.levels.empty() && !out.vertices.empty()) {
     std::vector<Vec3f> points;
     for (const PreparedVertex& v : out.vertices) points.push_back(v.position);
-    bounding_sphere(points, out.centre, out.radius);
+    find_bounds(points, out.centre, out.half, out.radius);
   }
   cluster_level(out, first);
 }
@@ -145,7 +147,7 @@ void append_level(const TriangleMesh& source, PreparedMesh& out) {
 // One point for each cell of space and side of the surface, at the vertex nearest to the middle.
 void choose_bake_points(PreparedMesh& mesh, std::size_t vertex_count) {
   using Key = std::tuple<int, int, int, int>;
-  float cell = std::clamp(mesh.radius * 0.4f, 0.04f, 0.25f);
+  float cell = std::clamp(mesh.radius * 0.4f, 0.04f, 0.16f);
   for (;; cell *= 1.5f) {
     std::map<Key, std::vector<std::uint32_t>> cells;
     for (std::size_t i = 0; i < vertex_count; ++i) {
@@ -257,6 +259,7 @@ PreparedMesh prepare_ground(const Aabb& around) {
       out.triangles.push_back({{a, d, c}, material});
     }
   }
+  out.half = Vec3f(4200, 4200, 1e-3f);
   out.radius = 6000;
   cluster_level(out, 0);
   return out;

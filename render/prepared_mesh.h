@@ -27,7 +27,8 @@ struct PreparedTriangle {
 // Neighbouring triangles that face about the same way.
 struct Cluster {
   std::uint32_t first_triangle = 0, triangle_count = 0;
-  Vec3f centre;  // of a sphere around it, mesh frame; unit: m
+  Vec3f centre;  // of a box and of a sphere around it, mesh frame; unit: m
+  Vec3f half;    // of the box's sides
   float radius = 0;
   Vec3f cone_axis;         // mean normal
   float cone_cosine = -1;  // smallest cosine between a normal and the axis; -1: never culled
@@ -48,8 +49,8 @@ struct PreparedMesh {
   std::vector<Cluster> clusters;
   std::vector<PreparedLevel> levels;  // finest first
   std::vector<BakePoint> bake_points;
-  Vec3f centre;  // of a sphere around it; unit: m
-  float radius = 0;
+  Vec3f centre, half;  // of a box around it; unit: m
+  float radius = 0;    // of a sphere about the same centre
 };
 
 // Throws RunError for a surface name that is no known look, naming it and the known ones.

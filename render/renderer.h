@@ -16,7 +16,7 @@ namespace rubble {
 struct RenderOptions {
   int threads = 1;   // for preparing and baking; the result does not depend on it
   bool bake = true;  // light by way of the sky and other surfaces; false: open sky everywhere
-  int bake_rays = 48;        // a bake point; range: 8 to 1024
+  int bake_rays = 96;        // a bake point; range: 8 to 1024
   int shadow_size = 4096;    // side of the main light's shadow map; unit: texel
   int texture_size = 512;    // side of the procedural textures; a power of two
   bool occlusion_culling = true;

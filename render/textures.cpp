@@ -22,37 +22,44 @@ float ramp(float low, float high, float x) {
   return t * t * (3 - 2 * t);
 }
 
-// Formwork boards, small air pores, blotches of weathering, hairline cracks, rust and dirt stains.
+// Formwork boards, air pores of all sizes, blotches of weathering, hairline cracks, stains.
 Spot cast_concrete(float x, float y) {
-  const float blotch = tile_fractal(x, y, 3, 5, 0.55f, 11);
-  const float grain = tile_fractal(x, y, 48, 3, 0.6f, 12);
-  const CellNoise pore = tile_cells(x, y, 34, 13);
-  const float pit = pore.value > 0.72f ? 1 - ramp(0.05f, 0.16f, pore.nearest) : 0.0f;
-  const float board = std::fabs(std::fmod(y * 8.0f, 1.0f) - 0.5f) * 2;
-  const float seam = ramp(0.965f, 1.0f, board);
-  const float wander = tile_fractal(x, y, 4, 4, 0.5f, 14) * 0.12f;
-  const CellNoise crack = tile_cells(x + wander, y + wander, 3, 15);
-  const float hair = (1 - ramp(0.0f, 0.018f, crack.second - crack.nearest)) *
-                     ramp(0.45f, 0.6f, tile_fractal(x, y, 2, 3, 0.5f, 16));
+  const float warp = tile_fractal(x, y, 5, 4, 0.55f, 18) - 0.5f;
+  const float blotch = tile_fractal(x + 0.05f * warp, y - 0.05f * warp, 3, 6, 0.58f, 11);
+  const float grain = tile_fractal(x, y, 64, 3, 0.65f, 12);
+  const CellNoise large = tile_cells(x, y, 22, 13), small = tile_cells(x, y, 70, 19);
+  const float width = 0.02f + 0.12f * (large.value - 0.7f) / 0.3f;
+  const float pit = large.value > 0.7f ? 1 - ramp(0.5f * width, width + 0.02f, large.nearest) : 0;
+  const float pin = small.value > 0.8f ? 1 - ramp(0.08f, 0.2f, small.nearest) : 0;
+  const float board = std::fabs(std::fmod(y * 7.0f + 0.015f * warp, 1.0f) - 0.5f) * 2;
+  const float worn = ramp(0.35f, 0.6f, tile_fractal(x, y, 3, 4, 0.6f, 20));
+  const float seam = ramp(0.975f, 0.998f, board) * worn;
+  const float tone = lattice_value(int(std::floor(y * 7.0f + 0.5f)) % 7, 3, 26) - 0.5f;
+  const float wander = 0.22f * warp + 0.05f * tile_fractal(x, y, 20, 3, 0.6f, 14);
+  const CellNoise crack = tile_cells(x + wander, y - wander, 2, 15);
+  const float hair = (1 - ramp(0.001f, 0.007f, crack.second - crack.nearest)) *
+                     ramp(0.52f, 0.62f, tile_fractal(x, y, 2, 3, 0.5f, 16));
   Spot s;
-  s.height = 0.10f * grain + 0.35f * blotch - 0.55f * pit - 0.30f * seam - 0.35f * hair;
-  s.bright = 0.18f + 0.75f * blotch + 0.22f * (grain - 0.5f) - 0.45f * pit - 0.16f * seam -
-             0.35f * hair;
-  s.mask = 0.65f * ramp(0.60f, 0.80f, tile_fractal(x, y, 2, 5, 0.6f, 17));
+  s.height = 0.06f * grain + 0.30f * blotch - 0.45f * pit - 0.12f * pin - 0.15f * seam - 0.2f * hair;
+  s.bright = 0.05f + 0.95f * blotch + 0.28f * (grain - 0.5f) + 0.10f * tone - 0.55f * pit -
+             0.30f * pin - 0.12f * seam - 0.45f * hair;
+  s.mask = 0.55f * ramp(0.56f, 0.74f, tile_fractal(x - 0.1f * warp, y, 2, 6, 0.62f, 17));
   return s;
 }
 
 // Aggregate of two sizes standing out of a torn matrix.
 Spot broken_concrete(float x, float y) {
-  const float bend = 0.03f * tile_fractal(x, y, 6, 3, 0.5f, 21);
-  const CellNoise big = tile_cells(x + bend, y - bend, 22, 22);
-  const CellNoise small = tile_cells(x - bend, y + bend, 58, 23);
-  const float matrix = tile_fractal(x, y, 8, 6, 0.62f, 24);
-  const float stone = big.value > 0.55f ? 1 - ramp(0.28f, 0.44f, big.nearest) : 0.0f;
-  const float hole = big.value < 0.14f ? 1 - ramp(0.2f, 0.42f, big.nearest) : 0.0f;
-  const float pebble = small.value > 0.5f ? 1 - ramp(0.25f, 0.42f, small.nearest) : 0.0f;
+  // The noise bends the grid of stones so that they are angular rather than round.
+  const float bend = 0.035f * (tile_fractal(x, y, 20, 4, 0.65f, 21) - 0.5f);
+  const CellNoise big = tile_cells(x + bend, y - bend, 26, 22);
+  const CellNoise small = tile_cells(x - bend, y + bend, 66, 23);
+  const float matrix = tile_fractal(x, y, 7, 7, 0.66f, 24);
+  const float size = 0.22f + 0.3f * (big.value - 0.55f);
+  const float stone = big.value > 0.55f ? 1 - ramp(0.7f * size, size, big.nearest) : 0.0f;
+  const float hole = big.value < 0.12f ? 1 - ramp(0.2f, 0.36f, big.nearest) : 0.0f;
+  const float pebble = small.value > 0.5f ? 1 - ramp(0.2f, 0.36f, small.nearest) : 0.0f;
   Spot s;
-  s.height = 1.15f * matrix + 0.42f * stone - 0.42f * hole + 0.16f * pebble;
+  s.height = 1.25f * matrix + 0.22f * stone - 0.3f * hole + 0.08f * pebble;
   const float tone = lattice_value(int(big.value * 9999), 7, 25);
   s.bright = 0.10f + 0.85f * matrix + stone * (tone - 0.55f) * 0.75f - 0.35f * hole +
              pebble * (small.value - 0.75f) * 0.9f;
@@ -150,19 +157,26 @@ Spot plaster(float x, float y) {
   return s;
 }
 
-// Dirt with gravel and crumbs of concrete.
+// Dirt with gravel of three sizes and crumbs of concrete.
 Spot soil(float x, float y) {
-  const float dirt = tile_fractal(x, y, 6, 7, 0.62f, 101);
-  const CellNoise gravel = tile_cells(x, y, 70, 102);
-  const CellNoise crumb = tile_cells(x, y, 26, 103);
-  const float stones = gravel.value > 0.45f
-                           ? 1 - ramp(0.12f, 0.34f * gravel.value + 0.05f, gravel.nearest) : 0.0f;
-  const float chips = crumb.value > 0.66f
-                          ? 1 - ramp(0.1f, 0.3f * crumb.value, crumb.nearest) : 0.0f;
+  const float bend = 0.012f * (tile_fractal(x, y, 24, 3, 0.6f, 104) - 0.5f);
+  const float dirt = tile_fractal(x, y, 5, 8, 0.66f, 101);
+  const CellNoise sand = tile_cells(x + bend, y - bend, 150, 105);
+  const CellNoise gravel = tile_cells(x + bend, y - bend, 64, 102);
+  const CellNoise crumb = tile_cells(x - bend, y + bend, 21, 103);
+  const float patch = ramp(0.35f, 0.65f, tile_fractal(x, y, 3, 4, 0.55f, 106));
+  const auto stone = [](const CellNoise& c, float share, float size) {
+    if (c.value < 1 - share) return 0.0f;
+    const float r = size * (0.4f + 0.6f * (c.value - 1 + share) / share);
+    return 1 - ramp(0.55f * r, r, c.nearest);
+  };
+  const float sands = stone(sand, 0.7f, 0.45f), stones = stone(gravel, 0.25f + 0.4f * patch, 0.42f);
+  const float chips = stone(crumb, 0.16f, 0.30f) * patch;
   Spot s;
-  s.height = 0.55f * dirt + 0.13f * stones + 0.3f * chips;
-  s.bright = 0.1f + 0.8f * dirt + 0.25f * stones * (gravel.value - 0.6f) * 2;
-  s.mask = std::max(0.8f * chips, 0.4f * stones * ramp(0.8f, 0.9f, gravel.value));
+  s.height = 0.45f * dirt + 0.035f * sands + 0.10f * stones + 0.18f * chips;
+  s.bright = 0.02f + 0.9f * dirt + 0.16f * sands * (sand.value - 0.6f) * 3 +
+             0.3f * stones * (gravel.value - 0.7f) * 3;
+  s.mask = std::max(0.75f * chips, 0.5f * stones * ramp(0.8f, 0.95f, gravel.value));
   return s;
 }
 

@@ -33,7 +33,7 @@ DrawList::DrawList(const Gl& gl, const GpuGeometry& geometry)
   attribute(2, 1, 4, offsetof(DrawRecord, clip_y));
   attribute(3, 1, 4, offsetof(DrawRecord, clip_w));
   gl.EnableVertexArrayAttrib(a, 4);
-  gl.VertexArrayAttribIFormat(a, 4, 2, GL_UNSIGNED_INT, offsetof(DrawRecord, placed));
+  gl.VertexArrayAttribIFormat(a, 4, 1, GL_UNSIGNED_INT, offsetof(DrawRecord, placed));
   gl.VertexArrayAttribBinding(a, 4, 1);
   attribute(5, 1, 4, offsetof(DrawRecord, clip_z));
 }
@@ -123,7 +123,11 @@ void VisibilityPass::add_piece(const Candidate& candidate, const ViewProjection&
                     Vec3f(r.rows[2] * piece.scale)}};
   const Vec3f shift(optical_from_mesh.translation);
   const float scale = float(piece.scale);
-  if (second && !volume.sphere_may_show(turn * mesh.centre + shift, piece.radius, pyramid_)) {
+  const auto box_shows = [&](const Vec3f& centre, const Vec3f& half) {
+    const Mat3f sides{{turn.column(0) * half.x, turn.column(1) * half.y, turn.column(2) * half.z}};
+    return volume.box_may_show(centre, sides, pyramid_);
+  };
+  if (second && !box_shows(turn * mesh.centre + shift, mesh.half)) {
     std::fill_n(shown_.begin() + piece.first_flag, mesh.levels[0].cluster_count, std::uint8_t(0));
     return;
   }
@@ -140,7 +144,6 @@ void VisibilityPass::add_piece(const Candidate& candidate, const ViewProjection&
     std::copy(rows[1].begin(), rows[1].end(), record.clip_y);
     std::copy(rows[2].begin(), rows[2].end(), record.clip_w);
     record.placed = candidate.placed;
-    record.first_triangle = base / 3 + run_first;
     list_.add_record(record);
     list_.add_run(base + run_first * 3, run_count * 3);
     run_count = 0;
@@ -155,7 +158,7 @@ void VisibilityPass::add_piece(const Candidate& candidate, const ViewProjection&
       const Vec3f centre = turn * c.centre + shift;
       wanted = !faces_away(eye, c.centre, c.radius, c.cone_axis, c.cone_cosine) &&
                volume.sphere_in_view(centre, c.radius * scale) &&
-               (!second || volume.sphere_may_show(centre, c.radius * scale, pyramid_));
+               (!second || box_shows(centre, c.half));
     }
     if (second) {
       shown_[flag] = wanted;

@@ -25,7 +25,7 @@ struct DrawCommand {  // as glMultiDrawElementsIndirect wants it
 
 struct DrawRecord {  // attributes of one command, see shaders/visibility.vert.glsl
   float clip_x[4], clip_y[4], clip_w[4];
-  std::uint32_t placed, first_triangle;
+  std::uint32_t placed, unused;
   float clip_z[4];
 };
 
@@ -58,7 +58,7 @@ class VisibilityPass {
   // Draws into textures of the image's size.
   void draw(const ViewProjection& view);
 
-  const GlTexture& ids() const { return ids_; }          // placed mesh + 1, triangle
+  const GlTexture& ids() const { return ids_; }          // placed mesh + 1, last vertex of its triangle
   const GlTexture& depth() const { return depth_; }      // near / Z
   const std::vector<float>& depth_values() const { return values_; }  // the same, read back
 

@@ -1,6 +1,6 @@
 // The scene's tables, see geometry.h.
 uniform usamplerBuffer vertex_table;    // position, packed normal
-uniform usamplerBuffer triangle_table;  // three vertices, look
+uniform usamplerBuffer triangle_table;  // by its last vertex: three vertices, look
 uniform usamplerBuffer placed_table;    // four a placed mesh
 uniform usamplerBuffer light_table;     // baked light, one a vertex of each placed mesh
 

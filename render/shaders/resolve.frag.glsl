@@ -63,6 +63,9 @@ void main() {
     Surface s = find_surface(seen.x - 1u, seen.y, world, direction, z, vec2(pixel));
     ambient = s.ambient;
     radiance = shade(s, world, -direction);
+    // Clean air veils what is far: the horizon has no edge.
+    float veil = exp2(-far * far * 4e-5 / (1.0 + far * 0.012));
+    radiance = mix(sky_radiance(vec3(direction.xy, 0.02)), radiance, veil);
   }
 #ifdef FOG
   float through = exp2(-1.442695 * fog.x * min(far, 1e6));
@@ -76,6 +79,6 @@ void main() {
 #ifdef LINEAR
   colour = vec4(radiance, 1.0);
 #else
-  colour = develop(radiance * view.y);
+  colour = develop(radiance * view.y, dither(vec2(pixel)));
 #endif
 }

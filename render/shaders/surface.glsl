@@ -63,13 +63,15 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   vec3 light = w0 * l0 + w1 * l1 + w2 * l2;
   vec2 red_blue = w0 * rb0 + w1 * rb1 + w2 * rb2;
 
-  // The look, on the one of 26 planes that the face is nearest to: little stretching, one fetch.
+  // The look, on the one of 26 planes that the surface is nearest to: little stretching, one
+  // fetch. Noise breaks the line where the plane changes.
   int look = int(tri.w) * 4;
   vec4 dark = looks[look], bright = looks[look + 1], accent = looks[look + 2];
   vec4 more = looks[look + 3];
   uint turn = mw.w & 3u;  // which axis of the mesh is longest: grain runs along it
   vec3 q = (turn == 1u ? p.yzx : turn == 2u ? p.zxy : p) * scale;
-  vec3 f = turn == 1u ? face.yzx : turn == 2u ? face.zxy : face;
+  vec3 f = turn == 1u ? smooth_normal.yzx : turn == 2u ? smooth_normal.zxy : smooth_normal;
+  f += (fract(sin(q * 91.7 + q.yzx * 57.3) * 437.5) - 0.5) * 0.12;
   vec3 plane = normalize(round(f * 1.2));
   vec3 along = abs(plane.z) > 0.9 ? vec3(1.0, 0.0, 0.0)
                                   : normalize(vec3(-plane.y, plane.x, 0.0));
@@ -95,8 +97,9 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   float tint = (float((mw.w >> 16) & 255u) * (2.0 / 255.0) - 1.0) * more.z;
   float warm = (float(mw.w >> 24) * (2.0 / 255.0) - 1.0) * more.z * 0.25;
   s.albedo *= (1.0 + tint) * vec3(1.0 + warm, 1.0, 1.0 - warm);
-  float dust = smoothstep(0.25, 1.0, up + (0.5 - texel.z) * 0.9) * more.y;
-  s.albedo = mix(s.albedo, vec3(0.40, 0.375, 0.335), dust);
+  // Dust settles on what faces up, unevenly, and lets pits and cracks show.
+  float dust = smoothstep(0.30, 1.05, up + (texel.z - 0.45) * 0.8) * more.y;
+  s.albedo = mix(s.albedo, vec3(0.375, 0.36, 0.335) * (0.55 + 0.75 * texel.z), dust);
   s.gloss = accent.w * (1.0 - dust);
 
   float lit = max(dot(light, s.normal), 0.15 * length(light));

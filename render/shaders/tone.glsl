@@ -11,7 +11,8 @@ vec3 srgb(vec3 x) {
   return clamp(0.585122381 * a + 0.783140355 * b - 0.368262736 * c, 0.0, 1.0);
 }
 
-vec4 develop(vec3 x) {
+vec4 develop(vec3 x, float noise) {
   float luminance = dot(x, vec3(0.2126, 0.7152, 0.0722));
-  return vec4(srgb(tone_curve(x * 0.8)), log2(luminance + 1e-6) * (1.0 / 24.0) + 0.5);
+  // Half a step of noise hides the steps of 8 bits.
+  return vec4(srgb(tone_curve(x * 0.8)) + (noise - 0.5) * (1.0 / 255.0), log2(luminance + 1e-6) * (1.0 / 24.0) + 0.5);
 }

@@ -1,11 +1,11 @@
-// Placed mesh + 1 (0: nothing) and triangle.
+// Placed mesh + 1 (0: nothing) and the triangle's last vertex, see geometry.cpp.
 #ifndef SHADOW
-flat in uvec2 draw_source;
+flat in uvec2 named;
 layout(location = 0) out uvec2 visible;
 #endif
 
 void main() {
 #ifndef SHADOW
-  visible = uvec2(draw_source.x + 1u, draw_source.y + uint(gl_PrimitiveID));
+  visible = named;
 #endif
 }

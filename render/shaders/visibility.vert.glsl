@@ -1,14 +1,14 @@
 // Only positions: everything else is looked up once a pixel when the image is resolved.
 layout(location = 0) in vec3 position;  // mesh frame
-// One record a draw: rows x, y and w of clip_from_mesh; placed mesh and first triangle.
+// One record a draw: rows x, y and w of clip_from_mesh; placed mesh.
 layout(location = 1) in vec4 clip_x;
 layout(location = 2) in vec4 clip_y;
 layout(location = 3) in vec4 clip_w;
-layout(location = 4) in uvec2 source;
+layout(location = 4) in uint placed;
 #ifdef SHADOW
 layout(location = 5) in vec4 clip_z;
 #else
-flat out uvec2 draw_source;
+flat out uvec2 named;
 #endif
 
 void main() {
@@ -18,6 +18,7 @@ void main() {
 #else
   // Reversed depth without a far plane: depth = near / Z.
   gl_Position = vec4(dot(clip_x, p), dot(clip_y, p), NEAR_PLANE, dot(clip_w, p));
-  draw_source = source;
+  // Flat: of the triangle's last vertex, which is its own.
+  named = uvec2(placed + 1u, uint(gl_VertexID));
 #endif
 }

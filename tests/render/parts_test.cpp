@@ -82,13 +82,13 @@ TEST(Shader, NamesFilesInBothKindsOfLogs) {
 TEST(Shader, ACompileErrorNamesItsFileAndLine) {
   const GlContext context;
   try {
-    // A variant that nothing defines: its name is no number where one is needed.
-    make_program(context.gl(), "fullscreen.vert.glsl", "visibility.frag.glsl",
-                 {{"uint", "no_such_type"}});
+    // A variant that spoils an included file.
+    make_program(context.gl(), "fullscreen.vert.glsl", "resolve.frag.glsl",
+                 {{"unpackHalf2x16", "no_such_function"}});
     FAIL() << "compiled";
   } catch (const RunError& error) {
     const std::string text = error.what();
-    EXPECT_NE(text.find("visibility.frag.glsl:"), std::string::npos) << text;
+    EXPECT_NE(text.find("geometry.glsl:"), std::string::npos) << text;
   }
 }
 

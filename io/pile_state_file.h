@@ -1,15 +1,10 @@
 // A settled pile as a file: pile.bin. What is loaded equals what was saved bit for bit.
 //
-// Little-endian, no padding:
-//   8 bytes   "RUBPILE\n"
-//   u32       format version (kPileStateVersion)
-//   u64       size of the content, in bytes
-//   content   u32 count of types, each u32 length + UTF-8 name;
-//             i64 steps, f64 simulated s, u8 settled, i32 layers_at_limit, i32 lost;
-//             u64 count of pieces, each: i32 type, i32 layer, f64 scale,
-//             f64 rotation w x y z, f64 translation x y z, f64 linear velocity x y z,
-//             f64 angular velocity x y z, u8 status
-//   32 bytes  SHA-256 of all that precedes it
+// In the envelope of io/sealed_file.h, kind "RUBPILE\n":
+//   u32 count of types, each u32 length + UTF-8 name;
+//   i64 steps, f64 simulated s, u8 settled, i32 layers_at_limit, i32 lost;
+//   u64 count of pieces, each: i32 type, i32 layer, f64 scale, f64 rotation w x y z,
+//       f64 translation x y z, f64 linear velocity x y z, f64 angular velocity x y z, u8 status
 #pragma once
 
 #include <cstdint>

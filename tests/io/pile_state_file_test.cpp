@@ -74,6 +74,7 @@ TEST(PileStateFile, ReloadsBitForBit) {
   EXPECT_EQ(loaded.settled, state.settled);
   EXPECT_EQ(loaded.layers_at_limit, state.layers_at_limit);
   EXPECT_EQ(loaded.lost, state.lost);
+  EXPECT_EQ(loaded.state_hash(), state.state_hash());
   ASSERT_EQ(loaded.pieces.size(), state.pieces.size());
   for (std::size_t i = 0; i < state.pieces.size(); ++i) {
     const PieceState &a = state.pieces[i], &b = loaded.pieces[i];
@@ -93,9 +94,11 @@ TEST(PileStateFile, IsTheSameFileForTheSameStateAndAnotherForAnother) {
   save_pile_state(state, folder / "a");
   save_pile_state(load_pile_state(folder / "a"), folder / "b");
   EXPECT_EQ(read_text(folder / "a"), read_text(folder / "b"));
+  const std::uint64_t hash = state.state_hash();
   state.pieces[3].world_from_body.translation.z += 1e-15;
   save_pile_state(state, folder / "c");
   EXPECT_NE(read_text(folder / "a"), read_text(folder / "c"));
+  EXPECT_NE(load_pile_state(folder / "c").state_hash(), hash);
 }
 
 TEST(PileStateFile, RefusesEveryTruncation) {

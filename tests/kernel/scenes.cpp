@@ -46,7 +46,8 @@ PieceType chunk_type(const std::string& name, std::uint64_t seed, int points) {
   RandomStream random(seed, "chunk");
   ConvexPart part;
   for (int i = 0; i < points; ++i) {
-    const Vec3 d = random.direction() * random.uniform(0.8, 1.0);
+    const double radius = random.uniform(0.8, 1.0);  // one draw a statement: C++ fixes no order
+    const Vec3 d = random.direction() * radius;
     part.points.push_back({d.x, 0.8 * d.y, 0.55 * d.z});
   }
   type.parts = {part};

@@ -1,0 +1,12 @@
+# Makes the golden table anew and shows what changed. PROBE: hash_probe, TABLE: the file.
+execute_process(COMMAND ${PROBE} OUTPUT_FILE ${TABLE}.new COMMAND_ERROR_IS_FATAL ANY)
+if(NOT EXISTS ${TABLE})
+  file(WRITE ${TABLE} "")
+endif()
+execute_process(COMMAND diff -u ${TABLE} ${TABLE}.new RESULT_VARIABLE changed)
+if(changed)
+  message("The table has changed: say why in the commit.")
+else()
+  message("The table is as it was.")
+endif()
+file(RENAME ${TABLE}.new ${TABLE})

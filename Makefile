@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages build demo test test-asan test-tsan test-slow format clean
+.PHONY: help packages build demo pictures test test-asan test-tsan test-slow determinism format clean
 
 PROGRAM := build/release/rubble
 CTEST   := ctest --output-on-failure
@@ -13,6 +13,7 @@ help:
 	@echo "make test-asan  the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
 	@echo "make test-tsan  the suite under ThreadSanitizer"
 	@echo "make test-slow  the tests that take minutes (label: slow)"
+	@echo "make determinism  the same hashes from other compilers, levels and processors (half an hour)"
 	@echo "make format     clang-format over the tree"
 	@echo "make clean      remove build/ and out/"
 
@@ -28,6 +29,11 @@ build: packages build/release/build.ninja
 demo: build
 	$(PROGRAM) run scripts/first_pile.lua --out out/first_pile --force
 
+# The picture of the README, from the frames that the demo recorded.
+pictures: demo
+	mkdir -p docs/pictures
+	tools/frames_of_bag.py out/first_pile/mission.bag docs/pictures/first_pile.png 341 0 55 118
+
 test: build
 	$(CTEST) --preset release --label-exclude slow
 
@@ -37,6 +43,11 @@ test-asan test-tsan: test-%: packages build/%/build.ninja
 
 test-slow: build
 	$(CTEST) --preset release --label-regex slow
+
+# Not part of any suite: it installs compilers and builds the kernel fifteen times.
+determinism: packages
+	@tools/install_packages.sh tools/packages-determinism.txt
+	tools/determinism_matrix.sh $(DETERMINISM_OPTIONS)
 
 format:
 	git ls-files '*.h' '*.cpp' | xargs clang-format -i

@@ -209,27 +209,29 @@ ExitCode report(const Run& run, const OutputFolder& folder) {
   return ExitCode::did_not_settle;
 }
 
+// Up to the files of the pile: what `run` and `settle` share.
+OutputFolder settle_to_files(Run& run) {
+  stop_on_signals();
+  load(run);
+  OutputFolder folder(choose_output(run.request), run.request.force);
+  settle(run);
+  write_pile(run, folder);
+  return folder;
+}
+
 }  // namespace
 
 ExitCode run_mission(const RunRequest& request) {
-  stop_on_signals();
   Run run(request);
-  load(run);
-  OutputFolder folder(choose_output(request), request.force);
-  settle(run);
-  write_pile(run, folder);
+  OutputFolder folder = settle_to_files(run);
   const int frames = render_and_record(run, folder);
   write_manifest(run, folder, frames);
   return report(run, folder);
 }
 
 ExitCode settle_mission(const RunRequest& request) {
-  stop_on_signals();
   Run run(request);
-  load(run);
-  OutputFolder folder(choose_output(request), request.force);
-  settle(run);
-  write_pile(run, folder);
+  const OutputFolder folder = settle_to_files(run);
   write_manifest(run, folder, 0);
   return report(run, folder);
 }

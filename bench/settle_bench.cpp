@@ -1,15 +1,14 @@
 // settle_bench: the standard work, timed and judged.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <map>
 #include <string>
 
+#include "bench/program.h"
 #include "bench/report.h"
 #include "bench/settle_run.h"
 #include "bench/workload_file.h"
-#include "kernel/base/error.h"
 
 namespace rubble {
 namespace {
@@ -101,14 +100,5 @@ ExitCode run(int argc, char** argv) {
 }  // namespace rubble
 
 int main(int argc, char** argv) {
-  using rubble::ExitCode;
-  try {
-    return int(rubble::run(argc, argv));
-  } catch (const rubble::InputError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return int(ExitCode::bad_input);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "settle_bench: %s\n", error.what());
-    return int(ExitCode::failure);
-  }
+  return rubble::run_program("settle_bench", [=] { return rubble::run(argc, argv); });
 }

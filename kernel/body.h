@@ -32,6 +32,7 @@ struct Body {
   // Sleeping: it must stay within a small distance of this pose for a while.
   Pose still_pose;
   std::int32_t still_steps = 0;
+  float load = 0;  // sum of the contacts' impulses in the step when it fell asleep; unit: N s
 
   bool awake = false;    // moves; never true for immovable pieces
   bool lost = false;

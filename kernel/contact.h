@@ -17,11 +17,17 @@ struct ContactPoint {
   float normal_impulse = 0;  // of the last substep; unit: N s
 };
 
+// Who meets whom: read for every pair in every step, so kept small and apart from the contact.
+struct Pair {
+  std::int32_t collider_a = 0, collider_b = 0;  // b may be kGround
+  std::int32_t body_a = 0, body_b = 0;
+  std::int32_t live = 0;  // 1: the contact had points in the last step
+};
+
 struct Contact {
   static constexpr int kMaxPoints = 6;
 
-  std::int32_t collider_a = 0, collider_b = 0;  // b may be kGround
-  std::int32_t body_a = 0, body_b = 0;
+  std::int32_t body_a = 0, body_b = 0;  // b may be kGround
   float friction = 0;
   int count = 0;                   // points in use
   ContactPoint points[kMaxPoints];

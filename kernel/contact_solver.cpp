@@ -6,6 +6,10 @@
 namespace rubble {
 namespace {
 
+// Below these, speeds that pushes undo are dropped.
+constexpr float kSlowSpeed = 0.2F;  // unit: m/s
+constexpr float kSlowSpin = 2.0F;   // unit: rad/s
+
 // Two unit vectors across a normal; the same for the same normal.
 void make_tangents(const Vec3f& n, Vec3f tangent[2]) {
   tangent[0] = std::abs(n.x) < 0.57735F ? normalized(cross(n, Vec3f{1, 0, 0}))
@@ -203,6 +207,22 @@ void ContactSolver::push_apart(const SolverSettings& settings) {
   }
 }
 
+// A piece whose speed turns it into its neighbours, step after step, while the pushes turn it back,
+// does not go anywhere: the part of its speed that was undone is lost. Only for slow pieces, whose
+// momentum is nothing beside that of the weights they carry.
+void ContactSolver::drop_opposed_speeds(const SolverSettings& settings) {
+  const auto drop = [&settings](Wide& speed, Wide push, float slow) {
+    const Wide s2 = speed * speed, sp = speed * push;
+    const float length2 = s2[0] + s2[1] + s2[2], along = sp[0] + sp[1] + sp[2];
+    if (along >= 0 || length2 > slow * slow) return;
+    speed *= splat(std::max(0.0F, 1 + along / (settings.step * length2)));
+  };
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    drop(speeds_[i].linear, moved_[i].linear - before_push_[i].linear, kSlowSpeed);
+    drop(speeds_[i].angular, moved_[i].angular - before_push_[i].angular, kSlowSpin);
+  }
+}
+
 void ContactSolver::store(std::vector<Contact>& contacts) const {
   for (const ContactBatch& batch : batches_) {
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -236,7 +256,9 @@ void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body
   moved_.assign(moving_.size() + 1, {});
   for (std::size_t i = 0; i < moving_.size(); ++i) speeds_[i] = padded(velocities[moving_[i]]);
   run_substeps(settings);
+  before_push_ = moved_;
   push_apart(settings);
+  drop_opposed_speeds(settings);
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     velocities[moving_[i]] = unpadded(speeds_[i]);
     displacements[moving_[i]] = unpadded(moved_[i]);

@@ -51,11 +51,12 @@ class ContactSolver {
                const Contact& contact, ContactBatch& batch, int lane);
   void run_substeps(const SolverSettings& settings);
   void push_apart(const SolverSettings& settings);
+  void drop_opposed_speeds(const SolverSettings& settings);
   void store(std::vector<Contact>& contacts) const;
 
   std::vector<std::int32_t> moving_;   // awake bodies with a contact, in order
   std::vector<std::int32_t> number_;   // of each body in moving_; moving_.size(): does not move
-  std::vector<PaddedMotion> speeds_, moved_;
+  std::vector<PaddedMotion> speeds_, moved_, before_push_;
   std::vector<ContactBatch> batches_;
   std::vector<NormalRow> rows_;
   std::vector<std::int32_t> last_batch_;  // of each moving body, while packing

@@ -16,6 +16,8 @@ constexpr float kShift = 0.005F;
 // Points that stay farther apart than this are left out: more than gravity closes in a step and the
 // change of speed by other contacts usually does; unit: m.
 constexpr float kPointMargin = 0.010F;
+// Clipped points may lie this much farther apart than the axis says; unit: m.
+constexpr float kAxisTolerance = 0.0005F;
 constexpr float kNearestShiftCosine = 0.9F;
 
 struct Axis {
@@ -23,23 +25,6 @@ struct Axis {
   float separation = 0;
   Vec3f point;  // midway between the closest points
 };
-
-// How far beyond the fixed margin two bodies may come together in one step.
-float motion_margin(const PosedBody& a, const PosedBody* b, const NarrowSettings& settings) {
-  Vec3f relative = a.linear;
-  float turning = norm(a.angular) * a.part.shape->radius;
-  if (b != nullptr) {
-    relative -= b->linear;
-    turning += norm(b->angular) * b->part.shape->radius;
-  }
-  return settings.margin + settings.step * (norm(relative) + turning);
-}
-
-bool boxes_near(const Aabb& a, const Aabb& b, double margin) {
-  return a.min.x <= b.max.x + margin && b.min.x <= a.max.x + margin &&
-         a.min.y <= b.max.y + margin && b.min.y <= a.max.y + margin &&
-         a.min.z <= b.max.z + margin && b.min.z <= a.max.z + margin;
-}
 
 // True when the parts may touch in this step; fills the axis.
 bool find_axis(Contact& contact, const PosedPart& a, const PosedPart& b, const Vec3f& offset,
@@ -68,9 +53,18 @@ bool find_axis(Contact& contact, const PosedPart& a, const PosedPart& b, const V
     }
   }
   const SatResult sat = find_separating_axis(a, b, offset);
-  const Vec3f deepest = b.corners.points[find_support(b.corners, -sat.normal)] + offset;
-  axis = {sat.normal, sat.separation, deepest - sat.normal * (0.5F * sat.separation)};
+  axis = {sat.normal, sat.separation, sat.point};
   return true;
+}
+
+// Edges that meet, or a corner that leads, are not on the faces that were clipped: the point that
+// the axis was found at must be among the points.
+void add_axis_point(Manifold& m, const Axis& axis) {
+  float least = 1e30F;
+  for (int i = 0; i < m.count; ++i) least = std::min(least, m.points[i].separation);
+  if (least > axis.separation + kAxisTolerance && m.count < Manifold::kMaxClipped) {
+    m.points[m.count++] = {axis.point, axis.separation, axis.separation};
+  }
 }
 
 void predict(Manifold& m, const PosedBody& a, const PosedBody* b, const Vec3f& offset,
@@ -132,39 +126,47 @@ void store(Contact& contact, const Manifold& m, const Vec3f& normal, const Posed
   }
 }
 
-void clear(Contact& contact) {
+}  // namespace
+
+float motion_margin(const Body& a, const Body* b, const NarrowSettings& settings) {
+  Vec3f relative = a.linear;
+  float turning = norm(a.angular) * a.radius;
+  if (b != nullptr) {
+    relative -= b->linear;
+    turning += norm(b->angular) * b->radius;
+  }
+  return settings.margin + settings.step * (norm(relative) + turning);
+}
+
+void clear_points(Contact& contact) {
   contact.count = 0;
   contact.friction_impulse = {};
   contact.twist_impulse = 0;
   contact.pressed = 0;
 }
 
-}  // namespace
-
-void update_contact(Contact& contact, const PosedBody& a, const PosedBody& b,
+void update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, float margin,
                     const NarrowSettings& settings) {
   const Vec3f offset = Vec3f(b.centre - a.centre);
-  const float margin = motion_margin(a, &b, settings);
-  if (!boxes_near(a.box, b.box, double(margin))) return clear(contact);
   Axis axis;
-  if (!find_axis(contact, a.part, b.part, offset, margin, axis)) return clear(contact);
+  if (!find_axis(contact, a.part, b.part, offset, margin, axis)) return clear_points(contact);
   Manifold m;
   clip_faces(a.part, b.part, offset, axis.normal, margin, m);
-  if (m.count == 0) m.points[m.count++] = {axis.point, axis.separation, axis.separation};
+  add_axis_point(m, axis);
   predict(m, a, &b, offset, axis.normal, settings.step);
   drop_far_points(m);
   if (m.count == 0) {
     contact.normal = axis.normal;
     contact.has_normal = true;
-    return clear(contact);
+    return clear_points(contact);
   }
   reduce(m, axis.normal, Contact::kMaxPoints);
   store(contact, m, axis.normal, a, &b, offset);
 }
 
-void update_ground_contact(Contact& contact, const PosedBody& a, const NarrowSettings& settings) {
+void update_ground_contact(Contact& contact, const PosedBody& a, float margin,
+                           const NarrowSettings& settings) {
   const float height = float(a.centre.z);
-  const float margin = motion_margin(a, nullptr, settings);
   Manifold m;
   for (int i = 0; i < a.part.corners.count && m.count < Manifold::kMaxClipped; ++i) {
     const Vec3f& p = a.part.corners.points[i];
@@ -175,7 +177,7 @@ void update_ground_contact(Contact& contact, const PosedBody& a, const NarrowSet
   const Vec3f offset = Vec3f(-a.centre);
   predict(m, a, nullptr, offset, normal, settings.step);
   drop_far_points(m);
-  if (m.count == 0) return clear(contact);
+  if (m.count == 0) return clear_points(contact);
   reduce(m, normal, Contact::kMaxPoints);
   store(contact, m, normal, a, nullptr, offset);
 }

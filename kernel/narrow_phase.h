@@ -1,6 +1,7 @@
 // From two posed parts to contact points.
 #pragma once
 
+#include "kernel/body.h"
 #include "kernel/contact.h"
 #include "kernel/sat.h"
 
@@ -11,7 +12,6 @@ struct PosedBody {
   PosedPart part;
   Vec3 centre;          // centre of mass in the world; unit: m
   Vec3f linear, angular;  // velocities; unit: m/s, rad/s
-  Aabb box;             // about the part
 };
 
 struct NarrowSettings {
@@ -19,11 +19,16 @@ struct NarrowSettings {
   float step = 1.0F / 60;  // unit: s
 };
 
+// How far beyond the fixed margin the two may come together in one step; `b` may be null: ground.
+float motion_margin(const Body& a, const Body* b, const NarrowSettings& settings);
+void clear_points(Contact& contact);
+
 // Finds normal and points anew, and carries over the impulses of points found again. No points:
 // the parts are farther apart than they can come in this step.
-void update_contact(Contact& contact, const PosedBody& a, const PosedBody& b,
+void update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, float margin,
                     const NarrowSettings& settings);
 // The same against the ground, z = 0.
-void update_ground_contact(Contact& contact, const PosedBody& a, const NarrowSettings& settings);
+void update_ground_contact(Contact& contact, const PosedBody& a, float margin,
+                           const NarrowSettings& settings);
 
 }  // namespace rubble

@@ -18,7 +18,11 @@ void try_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, floa
   for (int f = 0; f < int(owner.shape->faces.size()); ++f) {
     const Vec3f n = owner.face_normal(f) * sign;
     const float s = separation_along(n, a.corners, b.corners, offset);
-    if (s > best.separation) best = {n, s};
+    if (s <= best.separation) continue;
+    // The deepest corner of the other part, halfway back to the face.
+    const Vec3f corner = sign > 0 ? b.corners.points[find_support(b.corners, -n)] + offset
+                                  : a.corners.points[find_support(a.corners, n)];
+    best = {n, s, corner - n * (sign * 0.5F * s)};
   }
 }
 
@@ -28,6 +32,15 @@ bool arcs_cross(const Vec3f& a, const Vec3f& b, const Vec3f& b_x_a, const Vec3f&
   const float cba = dot(c, b_x_a), dba = dot(d, b_x_a);
   const float adc = dot(a, d_x_c), bdc = dot(b, d_x_c);
   return cba * dba < 0 && adc * bdc < 0 && cba * bdc > 0;
+}
+
+// Midway between the closest points of two lines that are not parallel.
+Vec3f crossing(const Vec3f& p, const Vec3f& d, const Vec3f& q, const Vec3f& e) {
+  const Vec3f r = q - p;
+  const float dd = dot(d, d), de = dot(d, e), ee = dot(e, e), dr = dot(d, r), er = dot(e, r);
+  const float scale = 1 / (dd * ee - de * de);
+  const float t = (dr * ee - de * er) * scale, u = (dr * de - dd * er) * scale;
+  return (p + d * t + q + e * u) * 0.5F;
 }
 
 void try_edges(const PosedPart& a, const PosedPart& b, const Vec3f& offset, SatResult& best) {
@@ -44,9 +57,11 @@ void try_edges(const PosedPart& a, const PosedPart& b, const Vec3f& offset, SatR
       if (length2 < 1e-6F * dot(da, da) * dot(db, db)) continue;  // parallel
       n *= 1 / std::sqrt(length2);
       if (dot(n, na + ma) < 0) n = -n;
-      const float s =
-          dot(n, b.corners.points[eb.a] + offset - a.corners.points[ea.a]);
-      if (s > best.separation + kEdgeAdvantage) best = {n, s};
+      const Vec3f from_a = a.corners.points[ea.a], from_b = b.corners.points[eb.a] + offset;
+      const float s = dot(n, from_b - from_a);
+      if (s > best.separation + kEdgeAdvantage) {
+        best = {n, s, crossing(from_a, da, from_b, db)};
+      }
     }
   }
 }
@@ -65,7 +80,7 @@ int PosedPart::find_face(const Vec3f& direction) const {
 }
 
 SatResult find_separating_axis(const PosedPart& a, const PosedPart& b, const Vec3f& offset) {
-  SatResult best{{0, 0, 1}, -1e30F};
+  SatResult best{{0, 0, 1}, -1e30F, {}};
   try_faces(a, b, offset, 1, best);
   try_faces(a, b, offset, -1, best);
   try_edges(a, b, offset, best);

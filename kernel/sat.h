@@ -21,6 +21,7 @@ struct PosedPart {
 struct SatResult {
   Vec3f normal;          // unit length, from A to B
   float separation = 0;  // along it; negative: overlap depth; unit: m
+  Vec3f point;           // midway between the features that meet
 };
 
 // The axis of greatest separation; `offset` is added to B's corners.

@@ -44,7 +44,7 @@ void check(const NewPiece& piece, int types, int index) {
 
 World::Impl::Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options)
     : types(std::move(piece_types)), options(world_options), pool(world_options.threads) {
-  solver_settings.step = float(options.step);
+  solver_settings.step = narrow_settings.step = float(options.step);
   solver_settings.gravity = float(options.gravity);
   for (std::size_t i = 0; i < types.size(); ++i) {
     shapes.push_back(compile_shape(types[i], "types[" + std::to_string(i) + "]"));
@@ -130,7 +130,6 @@ PosedBody World::Impl::posed(const Collider& collider) const {
   result.centre = body.world_from_com.translation;
   result.linear = body.linear;
   result.angular = body.angular;
-  result.box = collider.box;
   return result;
 }
 

@@ -19,7 +19,7 @@ void each_field(Struct& b, Visit&& visit) {
   visit(b.com_in_type), visit(b.inertia), visit(b.inverse_inertia_local), visit(b.inverse_mass);
   visit(b.radius), visit(b.mobile), visit(b.first_collider), visit(b.collider_count);
   visit(b.world_from_com), visit(b.linear), visit(b.angular), visit(b.rotation);
-  visit(b.inverse_inertia), visit(b.still_pose), visit(b.still_steps);
+  visit(b.inverse_inertia), visit(b.still_pose), visit(b.still_steps), visit(b.load);
   visit(b.awake), visit(b.lost), visit(b.touching), visit(b.has_touched);
 }
 
@@ -39,9 +39,14 @@ void each_field(Struct& p, Visit&& visit) {
   visit(p.separation), visit(p.normal_impulse);
 }
 
+template <typename Struct, typename Visit, IfIs<Struct, Pair> = 0>
+void each_field(Struct& p, Visit&& visit) {
+  visit(p.collider_a), visit(p.collider_b), visit(p.body_a), visit(p.body_b), visit(p.live);
+}
+
 template <typename Struct, typename Visit, IfIs<Struct, Contact> = 0>
 void each_field(Struct& c, Visit&& visit) {
-  visit(c.collider_a), visit(c.collider_b), visit(c.body_a), visit(c.body_b), visit(c.friction);
+  visit(c.body_a), visit(c.body_b), visit(c.friction);
   visit(c.count), visit(c.points), visit(c.normal), visit(c.has_normal);
   visit(c.friction_impulse), visit(c.twist_impulse), visit(c.pressed), visit(c.rest_pressed);
   visit(c.cache);
@@ -54,7 +59,8 @@ void each_field(Struct& broad, Visit&& visit) {
 
 template <typename Struct, typename Visit, IfIs<Struct, WorldData> = 0>
 void each_field(Struct& d, Visit&& visit) {
-  visit(d.bodies), visit(d.colliders), visit(d.corners), visit(d.broad), visit(d.contacts);
+  visit(d.bodies), visit(d.colliders), visit(d.corners), visit(d.broad), visit(d.pairs);
+  visit(d.contacts);
   visit(d.contact_of_pair), visit(d.wake_next), visit(d.steps), visit(d.lost);
 }
 

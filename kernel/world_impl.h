@@ -21,7 +21,8 @@ struct WorldData {
   std::vector<Collider> colliders;
   std::vector<Vec3f> corners;  // turned to the world, from the centre of mass of their piece
   BroadPhase broad;
-  std::vector<Contact> contacts;
+  std::vector<Pair> pairs;        // of parts that are near each other
+  std::vector<Contact> contacts;  // one per pair
   std::unordered_map<std::uint64_t, std::int32_t> contact_of_pair;  // looked up, never walked
   std::vector<std::uint8_t> wake_next;  // by body
   std::int64_t steps = 0;
@@ -35,6 +36,7 @@ struct World::Impl {
   std::vector<Shape> shapes;
   WorldOptions options;
   SolverSettings solver_settings;
+  NarrowSettings narrow_settings;
   ThreadPool pool;
   WorldData data;
   SimbodyBlocks blocks;
@@ -56,7 +58,8 @@ struct World::Impl {
   // world_step.cpp: the stages in order
   void wake_marked();
   void find_pairs();
-  void drop_pairs_apart();
+  void select_pairs();
+  bool may_touch(const Pair& pair) const;
   void update_contacts();
   void wake_hit();
   void apply_forces();

@@ -134,7 +134,7 @@ bool in_range(std::int64_t index, std::size_t size) {
 // do harm; those that a disk or a hand changed do not get past the checksum of their file.
 bool is_consistent(const World::Snapshot& s) {
   const WorldData& d = s.data;
-  bool fine = d.wake_next.size() == d.bodies.size() &&
+  bool fine = d.wake_next.size() == d.bodies.size() && d.pairs.size() == d.contacts.size() &&
               d.contact_of_pair.size() == d.contacts.size();
   for (const Body& b : d.bodies) {
     fine = fine && b.type >= 0 && (b.mobile == -1 || in_range(b.mobile, s.simbody.size())) &&
@@ -144,13 +144,17 @@ bool is_consistent(const World::Snapshot& s) {
   for (const Collider& c : d.colliders) {
     fine = fine && in_range(c.body, d.bodies.size()) && c.part >= 0 && c.first_corner >= 0;
   }
+  for (const Pair& p : d.pairs) {
+    const bool ground = p.collider_b == kGround && p.body_b == kGround;
+    fine = fine && in_range(p.collider_a, d.colliders.size()) &&
+           in_range(p.body_a, d.bodies.size()) &&
+           (ground || (in_range(p.collider_b, d.colliders.size()) &&
+                       in_range(p.body_b, d.bodies.size())));
+  }
   for (const Contact& c : d.contacts) {
-    const bool ground = c.collider_b == kGround && c.body_b == kGround;
-    fine = fine && in_range(c.collider_a, d.colliders.size()) &&
-           in_range(c.body_a, d.bodies.size()) && c.count >= 0 && c.count <= Contact::kMaxPoints &&
-           c.cache.size <= 3 &&
-           (ground || (in_range(c.collider_b, d.colliders.size()) &&
-                       in_range(c.body_b, d.bodies.size())));
+    fine = fine && in_range(c.body_a, d.bodies.size()) &&
+           (c.body_b == kGround || in_range(c.body_b, d.bodies.size())) && c.count >= 0 &&
+           c.count <= Contact::kMaxPoints && c.cache.size <= 3;
   }
   for (const auto& entry : d.contact_of_pair) {
     fine = fine && in_range(entry.second, d.contacts.size());

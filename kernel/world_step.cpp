@@ -9,18 +9,30 @@ namespace rubble {
 namespace {
 
 // A piece falls asleep after it has stayed within this distance for this time.
-constexpr double kStillDistance = 0.002;  // of any of its points; unit: m
-constexpr double kStillTime = 0.5;        // unit: s
+constexpr double kStillDistance = 0.001;  // of any of its points; unit: m
+constexpr double kStillTime = 0.25;       // unit: s
 // A sleeper wakes when the impulse of a contact changes by what would give it this speed.
-constexpr float kWakeSpeed = 0.06F;  // unit: m/s
+constexpr float kWakeSpeed = 0.1F;  // unit: m/s
 // A sleeper wakes at once when an impact would give it this speed.
-constexpr float kHitSpeed = 0.1F;  // unit: m/s
+constexpr float kHitSpeed = 0.2F;  // unit: m/s
 // Overlaps deeper than this keep a piece awake for a while.
+constexpr float kWakeLoad = 0.25F;
 constexpr float kSleepOverlap = 0.003F;  // unit: m
 constexpr double kSleepOverlapTime = 2.0;  // unit: s
 constexpr float kMaximumSpin = 30.0F;    // unit: rad/s
 constexpr float kMaximumSpeed = 50.0F;   // unit: m/s
+// Touching pieces that are slower than this lose a part of their speed in each step, the larger the
+// slower they are.
+constexpr float kSlowSpin = 1.0F, kSpinDamping = 0.1F;     // unit: rad/s, 1
+constexpr float kSlowSpeed = 0.1F, kSpeedDamping = 0.02F;  // unit: m/s, 1
 constexpr double kLookAhead = 4;         // steps that an enlarged box reaches ahead
+
+// A contact's impulse must change by this to wake a sleeper. What carries a high load is clamped by
+// it, and changes of a fraction of the load do not matter to it.
+float wake_impulse(const Body& body) {
+  return kWakeSpeed * float(body.mass) + kWakeLoad * body.load;
+}
+float hit_impulse(const Body& body) { return kHitSpeed * float(body.mass) + body.load; }
 
 std::uint64_t pair_key(std::int32_t a, std::int32_t b) {
   return std::uint64_t(std::uint32_t(a)) << 32 | std::uint32_t(b);
@@ -93,28 +105,31 @@ void World::Impl::add_contact(int first, int second) {
     return;
   }
   Contact contact;
-  contact.collider_a = a;
-  contact.collider_b = b;
   contact.body_a = body_a;
   contact.body_b = body_b;
   const double mu_a = types[one.type].friction;
   const double mu_b = b == kGround ? mu_a : types[data.bodies[body_b].type].friction;
   contact.friction = float(std::sqrt(mu_a * mu_b));
+  data.pairs.push_back({a, b, body_a, body_b, 0});
   data.contacts.push_back(contact);
 }
 
 void World::Impl::remove_contact(std::size_t index) {
-  Contact& contact = data.contacts[index];
-  for (std::int32_t body : {contact.body_a, contact.body_b}) {
+  const Pair pair = data.pairs[index];
+  for (std::int32_t body : {pair.body_a, pair.body_b}) {
     // A sleeper that loses a support wakes.
     if (body == kGround || data.bodies[body].awake || !data.bodies[body].movable()) continue;
-    if (contact.rest_pressed * data.bodies[body].inverse_mass > kWakeSpeed) data.wake_next[body] = 1;
+    if (data.contacts[index].rest_pressed > wake_impulse(data.bodies[body])) {
+      data.wake_next[body] = 1;
+    }
   }
-  data.contact_of_pair.erase(pair_key(contact.collider_a, contact.collider_b));
-  if (index + 1 < data.contacts.size()) {
-    contact = data.contacts.back();
-    data.contact_of_pair[pair_key(contact.collider_a, contact.collider_b)] = std::int32_t(index);
+  data.contact_of_pair.erase(pair_key(pair.collider_a, pair.collider_b));
+  if (index + 1 < data.pairs.size()) {
+    const Pair& moved = data.pairs[index] = data.pairs.back();
+    data.contacts[index] = data.contacts.back();
+    data.contact_of_pair[pair_key(moved.collider_a, moved.collider_b)] = std::int32_t(index);
   }
+  data.pairs.pop_back();
   data.contacts.pop_back();
 }
 
@@ -135,40 +150,63 @@ void World::Impl::find_pairs() {
   }
 }
 
-void World::Impl::drop_pairs_apart() {
+// Lists the pairs with somebody awake that may touch in this step, and drops those that are apart.
+void World::Impl::select_pairs() {
   active.clear();
-  for (std::size_t i = 0; i < data.contacts.size();) {
-    const Contact& contact = data.contacts[i];
-    const bool ground = contact.body_b == kGround;
-    const bool awake =
-        data.bodies[contact.body_a].awake || (!ground && data.bodies[contact.body_b].awake);
-    if (awake) {
-      const Aabb& box = data.broad.box(contact.collider_a);
-      const bool near =
-          ground ? box.min.z < 0
-                 : BroadPhase::overlap(box, data.broad.box(contact.collider_b));
-      if (!near) {
-        remove_contact(i);
-        continue;
-      }
+  for (std::size_t i = 0; i < data.pairs.size();) {
+    Pair& pair = data.pairs[i];
+    const bool ground = pair.body_b == kGround;
+    if (!data.bodies[pair.body_a].awake && (ground || !data.bodies[pair.body_b].awake)) {
+      ++i;
+      continue;
+    }
+    const Aabb& box = data.broad.box(pair.collider_a);
+    const bool near =
+        ground ? box.min.z < 0 : BroadPhase::overlap(box, data.broad.box(pair.collider_b));
+    if (!near) {
+      remove_contact(i);
+      continue;
+    }
+    if (may_touch(pair)) {
       active.push_back(std::int32_t(i));
+    } else if (pair.live) {
+      clear_points(data.contacts[i]);
+      pair.live = 0;
     }
     ++i;
   }
 }
 
+// Whether the boxes can meet in this step.
+bool World::Impl::may_touch(const Pair& pair) const {
+  const Body& a = data.bodies[pair.body_a];
+  const Aabb& box = data.colliders[pair.collider_a].box;
+  if (pair.body_b == kGround) {
+    return box.min.z < double(motion_margin(a, nullptr, narrow_settings));
+  }
+  const double margin = motion_margin(a, &data.bodies[pair.body_b], narrow_settings);
+  const Aabb& other = data.colliders[pair.collider_b].box;
+  return box.min.x <= other.max.x + margin && other.min.x <= box.max.x + margin &&
+         box.min.y <= other.max.y + margin && other.min.y <= box.max.y + margin &&
+         box.min.z <= other.max.z + margin && other.min.z <= box.max.z + margin;
+}
+
 void World::Impl::update_contacts() {
-  NarrowSettings settings;
-  settings.step = float(options.step);
   pool.run(int(active.size()), 64, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
+      Pair& pair = data.pairs[active[i]];
       Contact& contact = data.contacts[active[i]];
-      const PosedBody a = posed(data.colliders[contact.collider_a]);
-      if (contact.collider_b == kGround) {
-        update_ground_contact(contact, a, settings);
+      const Body& body = data.bodies[pair.body_a];
+      const PosedBody a = posed(data.colliders[pair.collider_a]);
+      if (pair.collider_b == kGround) {
+        const float margin = motion_margin(body, nullptr, narrow_settings);
+        update_ground_contact(contact, a, margin, narrow_settings);
       } else {
-        update_contact(contact, a, posed(data.colliders[contact.collider_b]), settings);
+        const float margin = motion_margin(body, &data.bodies[pair.body_b], narrow_settings);
+        update_contact(contact, a, posed(data.colliders[pair.collider_b]), margin,
+                       narrow_settings);
       }
+      pair.live = contact.count > 0;
     }
   });
 }
@@ -178,8 +216,9 @@ void World::Impl::update_contacts() {
 void World::Impl::wake_hit() {
   bool any = false;
   for (std::int32_t index : active) {
+    if (!data.pairs[index].live) continue;
     const Contact& contact = data.contacts[index];
-    if (contact.count == 0 || contact.body_b == kGround) continue;
+    if (contact.body_b == kGround) continue;
     const Body &a = data.bodies[contact.body_a], &b = data.bodies[contact.body_b];
     if (a.awake == b.awake) continue;
     const Body& sleeper = a.awake ? b : a;
@@ -190,21 +229,21 @@ void World::Impl::wake_hit() {
       const Vec3f v = b.linear + cross(b.angular, p.from_b) - a.linear - cross(a.angular, p.from_a);
       const float approach = -dot(contact.normal, v);
       if (p.separation - approach * solver_settings.step > solver_settings.rest_gap) continue;
-      // The speed that a central plastic impact would give to the sleeper.
-      if (approach * sleeper.inverse_mass / inverse_masses < kHitSpeed) continue;
+      // The impulse of a central plastic impact.
+      if (approach < inverse_masses * hit_impulse(sleeper)) continue;
       wake(a.awake ? contact.body_b : contact.body_a);
       any = true;
       break;
     }
   }
   if (!any) return;
-  std::vector<std::uint8_t> listed(data.contacts.size(), 0);
+  std::vector<std::uint8_t> listed(data.pairs.size(), 0);
   for (std::int32_t index : active) listed[index] = 1;
-  for (std::size_t i = 0; i < data.contacts.size(); ++i) {
-    const Contact& contact = data.contacts[i];
-    if (listed[i]) continue;
-    const bool awake = data.bodies[contact.body_a].awake ||
-                       (contact.body_b != kGround && data.bodies[contact.body_b].awake);
+  for (std::size_t i = 0; i < data.pairs.size(); ++i) {
+    const Pair& pair = data.pairs[i];
+    if (listed[i] || !pair.live) continue;
+    const bool awake = data.bodies[pair.body_a].awake ||
+                       (pair.body_b != kGround && data.bodies[pair.body_b].awake);
     if (awake) active.push_back(std::int32_t(i));
   }
 }
@@ -238,7 +277,7 @@ void World::Impl::sort_by_height() {
 
 void World::Impl::solve_contacts() {
   active.erase(std::remove_if(active.begin(), active.end(),
-                              [&](std::int32_t i) { return data.contacts[i].count == 0; }),
+                              [&](std::int32_t i) { return !data.pairs[i].live; }),
                active.end());
   sort_by_height();
   solver.solve(solver_settings, data.bodies, active, data.contacts, velocities, displacements);
@@ -253,6 +292,9 @@ void World::Impl::set_rates(std::size_t index) {
     const float spin = norm(m.angular), speed = norm(m.linear);
     if (spin > kMaximumSpin) m.angular *= kMaximumSpin / spin;
     if (speed > kMaximumSpeed) m.linear *= kMaximumSpeed / speed;
+    // Grinding of rough surfaces, for pieces that are nearly at rest.
+    if (spin < kSlowSpin) m.angular *= 1 - kSpinDamping * (1 - spin / kSlowSpin);
+    if (speed < kSlowSpeed) m.linear *= 1 - kSpeedDamping * (1 - speed / kSlowSpeed);
     v = Vec3(m.linear), w = Vec3(m.angular);
     const double per_step = 1 / options.step;
     extra_linear[body.mobile] = Vec3(displacements[index].linear) * per_step - v;
@@ -320,7 +362,7 @@ void World::Impl::update_sleep() {
       const Body& body = data.bodies[i];
       if (body.awake || !body.movable()) continue;
       const float change = std::abs(contact.pressed - contact.rest_pressed);
-      if (change * body.inverse_mass > kWakeSpeed) data.wake_next[i] = 1;
+      if (change > wake_impulse(body)) data.wake_next[i] = 1;
     }
   }
   if (!options.sleeping) return;
@@ -355,9 +397,14 @@ void World::Impl::update_sleep() {
     }
   }
   if (!any) return;
+  for (std::size_t i = 0; i < slept.size(); ++i) {
+    if (slept[i]) data.bodies[i].load = 0;
+  }
   for (std::int32_t index : active) {
     Contact& contact = data.contacts[index];
-    if (slept[contact.body_a] || (contact.body_b != kGround && slept[contact.body_b])) {
+    for (std::int32_t i : {contact.body_a, contact.body_b}) {
+      if (i == kGround || !slept[i]) continue;
+      data.bodies[i].load += contact.pressed;
       contact.rest_pressed = contact.pressed;
     }
   }
@@ -370,8 +417,8 @@ void World::Impl::lose(int index) {
   body.touching = false;
   ++data.lost;
   blocks.set_velocity(body.mobile, {}, {});
-  for (std::size_t i = 0; i < data.contacts.size();) {
-    if (data.contacts[i].body_a == index || data.contacts[i].body_b == index) {
+  for (std::size_t i = 0; i < data.pairs.size();) {
+    if (data.pairs[i].body_a == index || data.pairs[i].body_b == index) {
       remove_contact(i);
     } else {
       ++i;
@@ -398,7 +445,7 @@ void World::step() {
     const Stopwatch watch(w.times.broad);
     w.wake_marked();
     w.find_pairs();
-    w.drop_pairs_apart();
+    w.select_pairs();
   }
   {
     const Stopwatch watch(w.times.narrow);

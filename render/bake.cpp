@@ -84,6 +84,9 @@ BakedLight pack_light(const Vec3f& vector, const Vec3f& colour) {
   return out;
 }
 
+// Skylight as a camera with automatic white balance shows it: half of its blue.
+Vec3f paler(const Vec3f& c) { return c * 0.5f + Vec3f(0.5f, 0.5f, 0.5f) * luminance(c); }
+
 Vec3f mean_albedo(const Look& look) {
   return Vec3f(look.dark * 0.45f + look.light * 0.45f + look.accent * 0.1f);
 }
@@ -200,7 +203,7 @@ void Baker::State::gather(std::size_t i) {
     const std::uint32_t code = hits[i * count + r];
     if (code == kInside) continue;
     const Vec3f w = direction_of(i, r);
-    const Vec3f l = code == kSky ? light.sky.radiance(w) : radiosity[code];
+    const Vec3f l = code == kSky ? paler(light.sky.radiance(w)) : radiosity[code];
     sum += l;
     direction += w * (luminance(l) / std::max(directions[r].z, 0.35f));
   }

@@ -24,8 +24,8 @@ Sky make_sky(const LightSpec& spec, const Vec3f& axis) {
   sky.sun_direction = sunny ? -axis : Vec3f(0, 0, 1);
   const float height = std::clamp(sky.sun_direction.z, 0.0f, 1.0f);
   const float low = 1 - std::min(1.0f, height * 3);  // 1 when the sun is at the horizon
-  sky.zenith = Vec3f(0.52f, 0.70f, 0.98f) * (mean * (1 - 0.35f * low));
-  sky.horizon = Vec3f(2.05f, 2.10f, 2.12f - 0.4f * low) * mean;
+  sky.zenith = Vec3f(0.40f, 0.64f, 1.06f) * (mean * (1 - 0.35f * low));
+  sky.horizon = Vec3f(1.85f, 2.02f, 2.22f - 0.5f * low) * mean;
   sky.glow = sunny ? Vec3f(1.5f, 1.3f - 0.2f * low, 1.0f - 0.4f * low) * mean : Vec3f();
   return sky;
 }

@@ -7,6 +7,7 @@
 
 #include "kernel/base/error.h"
 #include "render/bake.h"
+#include "render/effects/antialias.h"
 #include "render/exposure.h"
 #include "render/geometry.h"
 #include "render/passes/resolve_pass.h"
@@ -161,10 +162,16 @@ Frame Renderer::render(const Pose& world_from_camera, const Intrinsics& intrinsi
   frame.intrinsics = intrinsics;
   frame.world_from_camera = world_from_camera;
   to_metric_depth(s.visibility->depth_values(), frame.depth);
-  const std::size_t pixels = frame.depth.size();
-  frame.rgb.resize(pixels * 3);
-  for (std::size_t i = 0; i < pixels; ++i)
-    for (std::size_t k = 0; k < 3; ++k) frame.rgb[i * 3 + k] = s.rgba[i * 4 + k];
+  const auto finish = Clock::now();
+  if (s.options.antialias) {
+    smooth_edges(s.rgba, s.visibility->depth_values(), intrinsics.width, intrinsics.height,
+                 s.options.threads, frame.rgb);
+  } else {
+    frame.rgb.resize(frame.depth.size() * 3);
+    for (std::size_t i = 0; i < frame.depth.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) frame.rgb[i * 3 + k] = s.rgba[i * 4 + k];
+  }
+  s.times.finish = milliseconds_since(finish);
   return frame;
 }
 

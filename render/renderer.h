@@ -22,6 +22,7 @@ struct RenderOptions {
   bool occlusion_culling = true;
   double coarse_below = 0;   // allow coarser levels for triangles about this small; unit: pixel;
                              // 0: the finest always, so that depth is that of the true surface
+  bool antialias = true;     // smooth silhouettes of the colour image
   double fixed_exposure = 0;  // factor on luminance in kcd/m2; 0: automatic
 };
 
@@ -36,7 +37,7 @@ inline constexpr std::uint32_t kNoInstance = 0xfffffffeu;
 inline constexpr std::uint32_t kGroundInstance = 0xffffffffu;
 
 struct RenderTimes {  // of the last frame; unit: ms
-  double visibility = 0, resolve = 0, read = 0;
+  double visibility = 0, resolve = 0, read = 0, finish = 0;
   std::size_t triangles = 0;
 };
 

@@ -28,21 +28,21 @@ Spot cast_concrete(float x, float y) {
   const float blotch = tile_fractal(x + 0.05f * warp, y - 0.05f * warp, 3, 6, 0.58f, 11);
   const float grain = tile_fractal(x, y, 64, 3, 0.65f, 12);
   const CellNoise large = tile_cells(x, y, 22, 13), small = tile_cells(x, y, 70, 19);
-  const float width = 0.02f + 0.12f * (large.value - 0.7f) / 0.3f;
-  const float pit = large.value > 0.7f ? 1 - ramp(0.5f * width, width + 0.02f, large.nearest) : 0;
+  const float width = 0.02f + 0.10f * (large.value - 0.8f) / 0.2f;
+  const float pit = large.value > 0.8f ? 1 - ramp(0.5f * width, width + 0.02f, large.nearest) : 0;
   const float pin = small.value > 0.8f ? 1 - ramp(0.08f, 0.2f, small.nearest) : 0;
   const float board = std::fabs(std::fmod(y * 7.0f + 0.015f * warp, 1.0f) - 0.5f) * 2;
   const float worn = ramp(0.35f, 0.6f, tile_fractal(x, y, 3, 4, 0.6f, 20));
   const float seam = ramp(0.975f, 0.998f, board) * worn;
   const float tone = lattice_value(int(std::floor(y * 7.0f + 0.5f)) % 7, 3, 26) - 0.5f;
-  const float wander = 0.22f * warp + 0.05f * tile_fractal(x, y, 20, 3, 0.6f, 14);
+  const float wander = 0.12f * warp + 0.05f * tile_fractal(x, y, 24, 4, 0.65f, 14);
   const CellNoise crack = tile_cells(x + wander, y - wander, 2, 15);
-  const float hair = (1 - ramp(0.001f, 0.007f, crack.second - crack.nearest)) *
+  const float hair = (1 - ramp(0.0005f, 0.005f, crack.second - crack.nearest)) *
                      ramp(0.52f, 0.62f, tile_fractal(x, y, 2, 3, 0.5f, 16));
   Spot s;
   s.height = 0.06f * grain + 0.30f * blotch - 0.45f * pit - 0.12f * pin - 0.15f * seam - 0.2f * hair;
-  s.bright = 0.05f + 0.95f * blotch + 0.28f * (grain - 0.5f) + 0.10f * tone - 0.55f * pit -
-             0.30f * pin - 0.12f * seam - 0.45f * hair;
+  s.bright = 0.05f + 0.95f * blotch + 0.28f * (grain - 0.5f) + 0.10f * tone - 0.38f * pit -
+             0.25f * pin - 0.12f * seam - 0.35f * hair;
   s.mask = 0.55f * ramp(0.56f, 0.74f, tile_fractal(x - 0.1f * warp, y, 2, 6, 0.62f, 17));
   return s;
 }

@@ -134,7 +134,8 @@ GlTexture upload_glow(const Gl& gl, const std::vector<float>& table) {
   return texture;
 }
 
-enum Unit { kVisibility, kDepth, kVertices, kTriangles, kPlaced, kLight, kLooks, kShadow, kGlow };
+enum Unit { kVisibility, kDepth, kVertices, kTriangles, kPlaced, kLight, kLooks, kShadow, kGlow,
+            kContact };
 
 GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
   GlProgram program =
@@ -143,7 +144,7 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
                               {"vertex_table", kVertices}, {"triangle_table", kTriangles},
                               {"placed_table", kPlaced}, {"light_table", kLight},
                               {"look_textures", kLooks}, {"shadow_map", kShadow},
-                              {"fog_lamp", kGlow}});
+                              {"fog_lamp", kGlow}, {"openness", kContact}});
   gl.UniformBlockBinding(program.name(), gl.GetUniformBlockIndex(program.name(), "Frame"), 0);
   return program;
 }
@@ -152,7 +153,7 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
 
 ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,
                          const std::vector<PatternImage>& patterns)
-    : gl_(gl), geometry_(geometry), frame_block_(gl), empty_array_(gl),
+    : gl_(gl), geometry_(geometry), frame_block_(gl), empty_array_(gl), contact_(gl),
       looks_(upload_looks(gl, patterns)),
       fog_lamp_(upload_glow(gl, lamp_glow_table(light.air, light.lamp, 512))),
       texture_size_(patterns.front().size) {
@@ -173,6 +174,7 @@ void ResolvePass::draw_with(const GlProgram& program, const GlFramebuffer& targe
                             const ViewProjection& view, const Pose& world_from_camera,
                             const VisibilityPass& visibility, const FrameLight& light,
                             float exposure) {
+  contact_.draw(view, visibility.depth());
   FrameBlock block{};
   fill_view(block, view, exposure);
   fill_light(block, light, world_from_camera);
@@ -182,7 +184,8 @@ void ResolvePass::draw_with(const GlProgram& program, const GlFramebuffer& targe
   const GLuint textures[] = {visibility.ids().name(), visibility.depth().name(),
                              geometry_.vertices_view.name(), geometry_.triangles_view.name(),
                              geometry_.placed_view.name(), geometry_.light_view.name(),
-                             looks_.name(), light.shadow->depth.name(), fog_lamp_.name()};
+                             looks_.name(), light.shadow->depth.name(), fog_lamp_.name(),
+                             contact_.openness().name()};
   for (GLuint unit = 0; unit < sizeof textures / sizeof textures[0]; ++unit)
     gl_.BindTextureUnit(unit, textures[unit]);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());

@@ -6,6 +6,7 @@
 
 #include "render/geometry.h"
 #include "render/lighting.h"
+#include "render/passes/contact_pass.h"
 #include "render/passes/shadow_pass.h"
 #include "render/passes/visibility_pass.h"
 #include "render/textures.h"
@@ -46,6 +47,7 @@ class ResolvePass {
   GlProgram display_, linear_;
   GlBuffer frame_block_;
   GlVertexArray empty_array_;
+  ContactPass contact_;
   GlTexture looks_, fog_lamp_;
   GlTexture colour_;
   GlFramebuffer target_;

@@ -9,11 +9,12 @@
 
 uniform usampler2D visibility;
 uniform sampler2D depth_values;
+uniform sampler2D openness;     // darkness of small corners, half size
 uniform sampler2D fog_lamp;  // in-scattered lamp light by distance
 
 layout(location = 0) out vec4 colour;
 
-vec3 shade(Surface s, vec3 world, vec3 to_eye) {
+vec3 shade(Surface s, vec3 world, vec3 to_eye, float open) {
   vec3 to_light;
   vec3 e = light_at(world, to_light);
   float facing = max(dot(s.normal, to_light), 0.0);
@@ -24,7 +25,7 @@ vec3 shade(Surface s, vec3 world, vec3 to_eye) {
 #ifdef GLOSS
   glare += e * gloss_lobe(s, to_light, to_eye);
 #endif
-  e += s.ambient;
+  e += s.ambient * open;
 #ifdef LAMP
   vec3 to_lamp;
   float lamp_distance;
@@ -32,7 +33,8 @@ vec3 shade(Surface s, vec3 world, vec3 to_eye) {
 #ifdef FOG
   lamp *= exp2(-1.442695 * fog.x * lamp_distance);
 #endif
-  lamp *= max(dot(s.normal, to_lamp), 0.0) * clamp(dot(s.face_normal, to_lamp) * 8.0, 0.0, 1.0);
+  lamp *= max(dot(s.normal, to_lamp), 0.0) * clamp(dot(s.face_normal, to_lamp) * 8.0, 0.0, 1.0) *
+          (0.55 + 0.45 * open);
 #ifdef GLOSS
   glare += lamp * gloss_lobe(s, to_lamp, to_eye);
 #endif
@@ -62,7 +64,8 @@ void main() {
     far = z * ray_length;
     Surface s = find_surface(seen.x - 1u, seen.y, world, direction, z, vec2(pixel));
     ambient = s.ambient;
-    radiance = shade(s, world, -direction);
+    float open = texture(openness, (vec2(pixel) + 0.5) / view.zw).x;
+    radiance = shade(s, world, -direction, open);
     // Clean air veils what is far: the horizon has no edge.
     float veil = exp2(-far * far * 4e-5 / (1.0 + far * 0.012));
     radiance = mix(sky_radiance(vec3(direction.xy, 0.02)), radiance, veil);

@@ -78,6 +78,11 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   vec3 across = cross(plane, along);
   vec2 seed = vec2(float(mw.z & 0xffffu), float(mw.z >> 16)) * (1.0 / 65536.0);
   vec2 uv = vec2(dot(q, along), dot(q, across)) * dark.w + seed;
+  // Slow variation over metres; where it is high the ground shows another part of its texture, so
+  // that no repetition meets the eye.
+  float slow = sin(world.x * 0.83 + 1.7 * sin(world.y * 0.57)) *
+               sin(world.y * 0.91 + 1.3 * sin(world.x * 0.39 + world.z));
+  if (more.y < 0.2 && slow + 0.3 * dither(pixel) > 0.15) uv = uv.yx * 0.83 + 0.37;
   vec3 rx = mx.xyz * scale, ry = my.xyz * scale, rz = mz.xyz * scale;  // rotation rows
   s.face_normal = rx * face.x + ry * face.y + rz * face.z;
   float grazing = max(-dot(s.face_normal, direction), 0.05);
@@ -94,6 +99,7 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
 
   // Colour: texture, piece, dust.
   s.albedo = mix(mix(dark.rgb, bright.rgb, texel.z), accent.rgb, texel.w);
+  s.albedo *= 1.0 + 0.16 * slow;
   float tint = (float((mw.w >> 16) & 255u) * (2.0 / 255.0) - 1.0) * more.z;
   float warm = (float(mw.w >> 24) * (2.0 / 255.0) - 1.0) * more.z * 0.25;
   s.albedo *= (1.0 + tint) * vec3(1.0 + warm, 1.0, 1.0 - warm);

@@ -65,20 +65,20 @@ TEST(Lamp, FallsWithTheSquareOfTheDistance) {
 
 TEST(Lamp, HasHalfItsIntensityAtTheHalfPowerAngle) {
   const double dark = without_light();
-  // Turned up by half of its cone: the wall's middle gets half the intensity.
-  Scene scene = with_lamp(0);
+  // The same spot of the wall under a narrow and a wide lamp, on the axis and 30 degrees off it.
   GlContext context;
-  const Intrinsics k = pinhole(128, 128, 400);
-  const double ahead = middle(Renderer(context, scene, plain()).render_linear({}, k)) - dark;
-  scene.lamp.cone_deg = 170;
-  const double wide = middle(Renderer(context, scene, plain()).render_linear({}, k)) - dark;
-  EXPECT_NEAR(wide / ahead, 1.0, 0.02);  // on the axis the cone does not matter
-  // Off axis: a wider image. At 30 degrees: cos^3 / d^2 for the wall and 1/2 for the lamp.
-  scene.lamp.cone_deg = 60;
-  Intrinsics off = pinhole(64, 64, 400);
-  off.cx = 31.5 - 400 * std::tan(portable::kPi / 6);
-  const double aside = middle(Renderer(context, scene, plain()).render_linear({}, off)) - dark;
-  EXPECT_NEAR(aside / ahead, 0.5 * std::pow(std::cos(portable::kPi / 6), 3), 0.03);
+  const auto lit = [&](double cone_deg, const Intrinsics& k) {
+    Scene scene = with_lamp(0);
+    scene.lamp.cone_deg = cone_deg;
+    return middle(Renderer(context, scene, plain()).render_linear({}, k), 2);
+  };
+  const Intrinsics ahead = pinhole(128, 128, 400);
+  Intrinsics aside = ahead;
+  aside.cx = 63.5 - 400 * std::tan(portable::kPi / 6);
+  EXPECT_NEAR((lit(60, ahead) - dark) / (lit(170, ahead) - dark), 1.0, 0.005);
+  const double x = (1 - std::cos(portable::kPi / 6)) / (1 - std::cos(85 * portable::kPi / 180));
+  const double expected = 0.5 / std::exp2(-x * x);
+  EXPECT_NEAR((lit(60, aside) - dark) / (lit(170, aside) - dark), expected, 0.01);
 }
 
 Scene with_light(LightType type, const Vec3& position, const Vec3& rpy_deg, double intensity) {

@@ -1,9 +1,11 @@
 // The renderer's parts that need no context: meshes, shaders' text, noise, exposure.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/base/error.h"
+#include "render/effects/antialias.h"
 #include "render/exposure.h"
 #include "render/gl_context.h"
 #include "render/mesh_refine.h"
@@ -125,6 +127,48 @@ TEST(AutoExposure, MovesTowardsTheMeteredValueAndHolds) {
   EXPECT_LT(exposure.factor(), before * 2);
   for (int i = 0; i < 200; ++i) exposure.follow(image_of(0.3), 16, 16, 0.033);
   EXPECT_NEAR(0.3 * exposure.factor(), 0.18, 0.02);
+}
+
+// A bright half-plane above a gently sloping line: the exact cover of a pixel is known.
+struct Slope {
+  static constexpr int kSize = 64;
+  std::vector<std::uint8_t> rgba = std::vector<std::uint8_t>(kSize * kSize * 4);
+  std::vector<float> depth = std::vector<float>(kSize * kSize);
+  std::vector<double> cover = std::vector<double>(kSize * kSize);
+
+  explicit Slope(bool depth_too) {
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        const std::size_t i = std::size_t(y * kSize + x);
+        const double below = y - (30.2 + 0.13 * x);  // of the pixel's centre under the line
+        cover[i] = std::clamp(0.5 - below, 0.0, 1.0);
+        depth[i] = depth_too && below < 0 ? 0.02f : 0.01f;
+        for (std::size_t c = 0; c < 4; ++c) rgba[i * 4 + c] = below < 0 ? 200 : 40;
+      }
+    }
+  }
+  double error(const std::vector<std::uint8_t>& image, std::size_t step) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < cover.size(); ++i)
+      sum += std::fabs(40 + 160 * cover[i] - image[i * step]);
+    return sum;
+  }
+};
+
+TEST(SmoothEdges, BringsStairsNearTheExactCover) {
+  const Slope slope(true);
+  std::vector<std::uint8_t> rgb, rgb2;
+  smooth_edges(slope.rgba, slope.depth, Slope::kSize, Slope::kSize, 1, rgb);
+  EXPECT_LT(slope.error(rgb, 3), 0.6 * slope.error(slope.rgba, 4));
+  smooth_edges(slope.rgba, slope.depth, Slope::kSize, Slope::kSize, 2, rgb2);
+  EXPECT_EQ(rgb, rgb2);
+}
+
+TEST(SmoothEdges, LeavesTexturesAlone) {
+  const Slope slope(false);  // the same picture on a plane of one depth
+  std::vector<std::uint8_t> rgb;
+  smooth_edges(slope.rgba, slope.depth, Slope::kSize, Slope::kSize, 1, rgb);
+  EXPECT_EQ(slope.error(rgb, 3), slope.error(slope.rgba, 4));
 }
 
 }  // namespace

@@ -36,8 +36,9 @@ void print(const SettleRun& run) {
 
 ExitCode bench(const Request& request) {
   const Pile work = load_workload(standard_work());
-  std::printf("pieces,threads,wall_s,cpu_s,sim_s,steps,settled,cpu_ms_per_piece,"
-              "cpu_us_per_piece_and_step,peak_rss_mib\n");
+  std::printf(
+      "pieces,threads,wall_s,cpu_s,sim_s,steps,settled,cpu_ms_per_piece,"
+      "cpu_us_per_piece_and_step,peak_rss_mib\n");
   for (int pieces : request.pieces) {
     SettleJob job;
     job.work = std::to_string(pieces);
@@ -49,8 +50,9 @@ ExitCode bench(const Request& request) {
 }
 
 ExitCode run(int argc, char** argv) {
-  CLI::App app{"Settles piles of growing size, of the same density and height, schedule layers, "
-               "and prints the CPU time per piece as comma-separated lines."};
+  CLI::App app{
+      "Settles piles of growing size, of the same density and height, schedule layers, "
+      "and prints the CPU time per piece as comma-separated lines."};
   app.footer("Exit codes: 0 done, 1 bad input, 2 failure.");
   Request request;
   app.add_option("--pieces", request.pieces, "Sizes, separated by commas")

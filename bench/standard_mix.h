@@ -7,7 +7,7 @@
 
 namespace rubble {
 
-inline constexpr double kStandardFootprint = 10;    // edge of the square of w1; unit: m
+inline constexpr double kStandardFootprint = 10;     // edge of the square of w1; unit: m
 inline constexpr int kStandardPiecesPerLayer = 300;  // of w1
 
 // The types of `work` (w0, w1 or w2: they have the same twelve) in the shares and sizes in which

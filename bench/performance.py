@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""Runs the bench and writes its figures into docs/performance.md.
+
+Everything between `<!-- begin NAME -->` and `<!-- end NAME -->` there is replaced; the text around
+it is written by people. Nothing in those tables is typed by hand.
+"""
+import argparse
+import csv
+import datetime
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+DOCUMENT = ROOT / "docs" / "performance.md"
+SETTLING = [  # work, schedule, threads
+    ("w1", "layers", 1), ("w1", "layers", 2), ("w1", "planes", 1), ("w1", "planes", 2),
+    ("w2", "layers", 1), ("w2", "layers", 2), ("w2", "planes", 1), ("w2", "planes", 2),
+]
+SEEDS = 20
+
+
+def rows_of(command):
+    """The lines of a --csv program as dictionaries; not having settled is a result as well."""
+    print("$", " ".join(command), file=sys.stderr, flush=True)
+    run = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    if run.returncode not in (0, 3):
+        sys.exit("%s failed with %d" % (command[0], run.returncode))
+    return list(csv.DictReader(run.stdout.splitlines()))
+
+
+def table(rows, columns):
+    """A Markdown table; `columns` maps a heading to the keys whose values stand there."""
+    lines = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
+    for row in rows:
+        cells = [" / ".join(row[key] for key in keys.split()) for keys in columns.values()]
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def make_settling(build):
+    rows = []
+    for work, schedule, threads in SETTLING:
+        rows += rows_of([str(build / "settle_bench"), "--work", work, "--schedule", schedule,
+                         "--threads", str(threads), "--csv"])
+    speed = {"work": "work", "schedule": "schedule", "threads": "threads", "wall s": "wall_s",
+             "CPU s": "cpu_s", "simulated s": "sim_s", "steps": "steps", "settled": "settled",
+             "memory MiB": "peak_rss_mib", "state hash": "state_hash"}
+    quality = {"work": "work", "schedule": "schedule", "touching pairs": "touching_pairs",
+               "> 5 / > 10 mm": "over_5mm over_10mm",
+               "overlap mean / p99 / max mm": "overlap_mean_mm overlap_p99_mm overlap_max_mm",
+               "ground mm": "ground_max_mm", "ejected": "ejected", "lost": "lost",
+               "drift median / p99 mm": "drift_median_mm drift_p99_mm"}
+    return table(rows, speed) + "\n\n" + table([r for r in rows if r["threads"] == "1"], quality)
+
+
+def make_scaling(build):
+    rows = rows_of([str(build / "scaling_bench")])
+    return table(rows, {"pieces": "pieces", "CPU s": "cpu_s", "simulated s": "sim_s",
+                        "steps": "steps", "settled": "settled",
+                        "CPU ms per piece": "cpu_ms_per_piece",
+                        "CPU us per piece and step": "cpu_us_per_piece_and_step",
+                        "memory MiB": "peak_rss_mib"})
+
+
+def make_seeds(build):
+    rows = []
+    for seed in range(1, SEEDS + 1):
+        rows += rows_of([str(build / "settle_bench"), "--work", "w1", "--schedule", "planes",
+                         "--seed", str(seed), "--csv"])
+    columns = ["settled", "over_5mm", "over_10mm", "overlap_max_mm", "ground_max_mm", "ejected",
+               "lost", "drift_median_mm", "drift_p99_mm"]
+    worst = [{"figure": c, "least": min((r[c] for r in rows), key=float),
+              "largest": max((r[c] for r in rows), key=float)} for c in columns]
+    return table(worst, {"figure, over %d seeds" % SEEDS: "figure", "least": "least",
+                         "largest": "largest"})
+
+
+def make_machine(build):
+    del build
+    model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
+    commit = subprocess.run(["git", "-C", str(ROOT), "describe", "--always", "--abbrev=12",
+                             "--exclude=*"], stdout=subprocess.PIPE, text=True).stdout.strip()
+    load = "%.1f" % os.getloadavg()[0]
+    return "%s, %d logical processors; commit %s; %s; load average before the run %s." % (
+        model.group(1) if model else "unknown processor", os.cpu_count(), commit or "unknown",
+        datetime.date.today().isoformat(), load)
+
+
+SECTIONS = {"machine": make_machine, "settling": make_settling, "seeds": make_seeds,
+            "scaling": make_scaling}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
+    parser.add_argument("sections", nargs="*", help="of: " + ", ".join(SECTIONS))
+    args = parser.parse_args()
+    unknown = [name for name in args.sections if name not in SECTIONS]
+    if unknown:
+        parser.error("no section is named " + ", ".join(unknown))
+    for name in args.sections or SECTIONS:
+        body = SECTIONS[name](args.build)
+        text = DOCUMENT.read_text()
+        begin, end = "<!-- begin %s -->" % name, "<!-- end %s -->" % name
+        head, rest = text.split(begin)
+        DOCUMENT.write_text(head + begin + "\n" + body + "\n" + end + rest.split(end)[1])
+
+
+if __name__ == "__main__":
+    main()

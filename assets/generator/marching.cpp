@@ -92,10 +92,15 @@ class Marcher {
     }
     const int* order = kOrder[mask];
     const int a = t[order[0]], b = t[order[1]], c = t[order[2]], d = t[order[3]];
+    // One vertex a statement: C++ fixes no order among arguments, and vertices are numbered in turn.
     if (count == 1) {
-      add(vertex_on(a, b), vertex_on(a, c), vertex_on(a, d));
+      const int ad = vertex_on(a, d);
+      const int ac = vertex_on(a, c);
+      add(vertex_on(a, b), ac, ad);
     } else if (count == 3) {  // a is the one outside
-      add(vertex_on(a, b), vertex_on(a, d), vertex_on(a, c));
+      const int ac = vertex_on(a, c);
+      const int ad = vertex_on(a, d);
+      add(vertex_on(a, b), ad, ac);
     } else if (count == 2) {
       const int ac = vertex_on(a, c), ad = vertex_on(a, d);
       const int bd = vertex_on(b, d), bc = vertex_on(b, c);

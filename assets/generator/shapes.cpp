@@ -52,7 +52,8 @@ Bar protruding_bar(const Cell& cell, const Vec3& through, const Vec3& direction,
     return bar;
   }
   const Vec3 knee = exit + direction * random.uniform(0.04, 0.10);
-  const Vec3 bent = normalized(direction + random.direction() * random.uniform(0.3, 0.9));
+  const double sideways = random.uniform(0.3, 0.9);  // one draw a statement: C++ fixes no order
+  const Vec3 bent = normalized(direction + random.direction() * sideways);
   bar.line = {start, knee, knee + bent * random.uniform(0.05, 0.16)};
   return bar;
 }

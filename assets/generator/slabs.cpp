@@ -26,8 +26,10 @@ Cell slab_cell(RandomStream& random, const Lobe& lobe, double thickness) {
     const portable::SinCos turn = portable::sincos(angle);
     const double lean = random.uniform(-0.5, 0.5);
     const double reach = norm(Vec3{turn.cos * lobe.half_x, turn.sin * lobe.half_y, 0});
-    const Vec3 middle = Vec3{lobe.x, lobe.y, random.uniform(-0.2, 0.2) * thickness} +
-                        Vec3{turn.cos, turn.sin, 0} * (reach * random.uniform(0.84, 1.0));
+    // One draw a statement: C++ fixes no order within an expression.
+    const double out = reach * random.uniform(0.84, 1.0);
+    const double up = thickness * random.uniform(-0.2, 0.2);
+    const Vec3 middle = Vec3{lobe.x, lobe.y, up} + Vec3{turn.cos, turn.sin, 0} * out;
     add_break(cell, {turn.cos, turn.sin, lean}, middle);
     if (random.uniform() < kRidged) {  // the break changed its lean at half depth
       add_break(cell, {turn.cos, turn.sin, lean > 0 ? lean - 0.8 : lean + 0.8}, middle);

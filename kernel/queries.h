@@ -6,6 +6,7 @@
 // there. Several threads may ask at once.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -60,8 +61,9 @@ class PileQueries {
   // The pieces that a ball touches, is inside of or contains; ascending. Never the ground.
   std::vector<int> find_overlaps(const Vec3& centre, double radius) const;
   // How far a point is from everything solid, at most max_distance (the smaller, the faster); 0
-  // inside a piece and below the ground. Infinite where there is nothing.
-  double clearance(const Vec3& point, double max_distance = 1e300) const;
+  // inside a piece and below the ground.
+  double clearance(const Vec3& point,
+                   double max_distance = std::numeric_limits<double>::infinity()) const;
 
  private:
   struct Impl;

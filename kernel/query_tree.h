@@ -25,7 +25,7 @@ struct QueryPiece {
   double scale = 1;
   Mat3 rotation;  // world from piece
   Vec3 position;
-  Aabb box;       // in the world
+  Aabb box;  // in the world
 
   Vec3 to_world(const Vec3& p) const { return rotation * (p * scale) + position; }
   Vec3 turn_to_local(const Vec3& d) const { return rotation.transposed() * d * (1 / scale); }

@@ -1,8 +1,17 @@
 #include "kernel/query_triangle.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "kernel/base/portable_math.h"
 
 namespace rubble {
+namespace {
+
+// Of a triple product of vectors of length 1, rounded up generously.
+constexpr double kRounding = 2e-15;
+
+}  // namespace
 
 std::optional<double> find_hit(const QueryTriangle& triangle, const Vec3& origin,
                                const Vec3& direction) {
@@ -10,9 +19,12 @@ std::optional<double> find_hit(const QueryTriangle& triangle, const Vec3& origin
   const double u = dot(direction, cross(b, c));
   const double v = dot(direction, cross(c, a));
   const double w = dot(direction, cross(a, b));
-  const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+  const double size = std::max(dot(a, a), std::max(dot(b, b), dot(c, c)));
+  const double rounding = kRounding * size * norm(direction);
+  const bool inside = (u >= -rounding && v >= -rounding && w >= -rounding) ||
+                      (u <= rounding && v <= rounding && w <= rounding);
   const double sum = u + v + w;
-  if (!inside || sum == 0) return std::nullopt;
+  if (!inside || std::abs(sum) <= 4 * rounding) return std::nullopt;
   const Vec3 point = a * (u / sum) + b * (v / sum) + c * (w / sum);
   const double t = dot(point, direction) / dot(direction, direction);
   if (!(t >= 0)) return std::nullopt;

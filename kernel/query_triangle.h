@@ -11,9 +11,9 @@ struct QueryTriangle {
   Vec3 a, b, c;  // counter-clockwise seen from outside
 };
 
-// The t >= 0 with origin + t direction on the triangle; either side. Rays in its plane miss it.
-// Two triangles with an edge in common leave no gap between them: the signed volumes that decide
-// are exact opposites for the two (Platis and Theoharis 2003).
+// The t >= 0 where the ray meets the triangle, from either side; in units of the direction. Rays in
+// its plane miss it. It is larger by the rounding of doubles, so that no ray slips through edges or
+// corners that triangles have in common.
 std::optional<double> find_hit(const QueryTriangle& triangle, const Vec3& origin,
                                const Vec3& direction);
 

@@ -148,8 +148,8 @@ bool is_consistent(const World::Snapshot& s) {
     const bool ground = p.collider_b == kGround && p.body_b == kGround;
     fine = fine && in_range(p.collider_a, d.colliders.size()) &&
            in_range(p.body_a, d.bodies.size()) &&
-           (ground || (in_range(p.collider_b, d.colliders.size()) &&
-                       in_range(p.body_b, d.bodies.size())));
+           (ground ||
+            (in_range(p.collider_b, d.colliders.size()) && in_range(p.body_b, d.bodies.size())));
   }
   for (const Contact& c : d.contacts) {
     fine = fine && in_range(c.body_a, d.bodies.size()) &&

@@ -49,7 +49,8 @@ void expect_equal(const PileState& a, const PileState& b, std::int64_t stop) {
   EXPECT_EQ(a.layers_at_limit, b.layers_at_limit) << "stopped after step " << stop;
   EXPECT_EQ(a.lost, b.lost);
   ASSERT_EQ(a.pieces.size(), b.pieces.size());
-  for (std::size_t i = 0; i < a.pieces.size(); ++i) EXPECT_EQ(a.pieces[i].status, b.pieces[i].status);
+  for (std::size_t i = 0; i < a.pieces.size(); ++i)
+    EXPECT_EQ(a.pieces[i].status, b.pieces[i].status);
 }
 
 class Resume : public ::testing::TestWithParam<Schedule> {};

@@ -29,9 +29,10 @@ struct Body {
   Mat3f rotation;               // world from body
   Mat3f inverse_inertia;        // in the world
 
-  // Sleeping: it must stay within a small distance of this pose for a while.
-  Pose still_pose;
-  std::int32_t still_steps = 0;
+  // Sleeping: it must stay within a small distance of a pose for a while, or within a larger one of
+  // another pose for longer.
+  Pose still_pose, loose_pose;
+  std::int32_t still_steps = 0, loose_steps = 0;
   float load = 0;  // sum of the contacts' impulses in the step when it fell asleep; unit: N s
 
   bool awake = false;    // moves; never true for immovable pieces

@@ -6,6 +6,10 @@
 namespace rubble {
 namespace {
 
+// Inertia of a carrying piece against what it carries, see share_inertia().
+constexpr double kMassRatio = 5;
+constexpr float kAbove = 0.2F;       // the normal's rise from which a piece counts as carrying
+constexpr float kCarrySpeed = 0.5F;  // unit: m/s
 // Below these, speeds that pushes undo are dropped.
 constexpr float kSlowSpeed = 0.2F;  // unit: m/s
 constexpr float kSlowSpin = 2.0F;   // unit: rad/s
@@ -17,16 +21,18 @@ void make_tangents(const Vec3f& n, Vec3f tangent[2]) {
   tangent[1] = cross(n, tangent[0]);
 }
 
-// One side of a contact.
+// One side of a contact. `share`: of the body's inertia in what the solver uses; 1 or less.
 struct Side {
-  Side(const std::vector<Body>& bodies, std::int32_t index)
-      : body(index == kGround || !bodies[index].awake ? nullptr : &bodies[index]) {}
-  float inverse_mass() const { return body != nullptr ? body->inverse_mass : 0; }
-  float mass() const { return body != nullptr ? float(body->mass) : 0; }
+  Side(const std::vector<Body>& bodies, std::int32_t index, float inertia_share)
+      : body(index == kGround || !bodies[index].awake ? nullptr : &bodies[index]),
+        share(inertia_share) {}
+  float inverse_mass() const { return body != nullptr ? body->inverse_mass * share : 0; }
+  float mass() const { return body != nullptr ? float(body->mass) / share : 0; }
   Vec3f turn(const Vec3f& arm) const {
-    return body != nullptr ? body->inverse_inertia * arm : Vec3f{};
+    return body != nullptr ? (body->inverse_inertia * arm) * share : Vec3f{};
   }
   const Body* body;
+  float share;
 };
 
 // Fills one lane of a row; returns J M^-1 J^T without the linear part.
@@ -69,6 +75,30 @@ void ContactSolver::number_bodies(const std::vector<Body>& bodies,
     moving_.push_back(std::int32_t(i));
   }
   for (std::int32_t& n : number_) n = n < 0 ? std::int32_t(moving_.size()) : n;
+}
+
+// A light piece under a heavy one carries a load of many times its weight, which the sweeps reach
+// only after as many rounds, and in the meantime the heavy one bounces on it. While it is slow, its
+// inertia (not its weight) counts as at least 1/kMassRatio of what lies on it: loads at rest stay
+// exact, and momentum that goes into the light piece is lost, never gained.
+void ContactSolver::share_inertia(const std::vector<Body>& bodies,
+                                  const std::vector<std::int32_t>& order,
+                                  const std::vector<Contact>& contacts) {
+  share_.assign(moving_.size() + 1, 1.0F);
+  const auto carry = [&](std::int32_t light, std::int32_t heavy, float up) {
+    const Body &l = bodies[light], &h = bodies[heavy];
+    if (up < kAbove || !l.awake || !h.awake || dot(l.linear, l.linear) > kCarrySpeed * kCarrySpeed) {
+      return;
+    }
+    const float share = float(kMassRatio * l.mass / h.mass);
+    share_[number_[light]] = std::min(share_[number_[light]], share);
+  };
+  for (std::int32_t index : order) {
+    const Contact& contact = contacts[index];
+    if (contact.body_b == kGround) continue;
+    carry(contact.body_a, contact.body_b, contact.normal.z);
+    carry(contact.body_b, contact.body_a, -contact.normal.z);
+  }
 }
 
 // The first batch later than `after` with room for a contact of so many rows.
@@ -119,7 +149,8 @@ void ContactSolver::pack(const std::vector<std::int32_t>& order,
 
 void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Body>& bodies,
                             const Contact& contact, ContactBatch& batch, int lane) {
-  const Side a(bodies, contact.body_a), b(bodies, contact.body_b);
+  const Side a(bodies, contact.body_a, share_[batch.a[lane]]);
+  const Side b(bodies, contact.body_b, share_[batch.b[lane]]);
   batch.inverse_mass_a[lane] = a.inverse_mass();
   batch.inverse_mass_b[lane] = b.inverse_mass();
   batch.push_weight_a[lane] = a.mass();
@@ -163,7 +194,9 @@ void ContactSolver::run_substeps(const SolverSettings& settings) {
   const Wide fall{0, 0, -settings.gravity * h, 0};
   const Wide wide_h = splat(h), per_substep = splat(1 / h), weight = splat(settings.gravity * h);
   for (int substep = 0; substep < settings.substeps; ++substep) {
-    for (std::size_t i = 0; i < moving_.size(); ++i) speeds_[i].linear += fall;
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+      speeds_[i].linear += fall * splat(share_[i]);
+    }
     for (ContactBatch& batch : batches_) {
       NormalRow* rows = &rows_[batch.first_row];
       if (substep > 0) carry_over(batch, rows, weight);
@@ -244,6 +277,7 @@ void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body
                           const std::vector<std::int32_t>& order, std::vector<Contact>& contacts,
                           std::vector<Motion>& velocities, std::vector<Motion>& displacements) {
   number_bodies(bodies, order, contacts);
+  share_inertia(bodies, order, contacts);
   pack(order, contacts);
   for (ContactBatch& batch : batches_) {
     for (int lane = 0; lane < kLanes; ++lane) {

@@ -45,6 +45,8 @@ class ContactSolver {
  private:
   void number_bodies(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
                      const std::vector<Contact>& contacts);
+  void share_inertia(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
+                     const std::vector<Contact>& contacts);
   void pack(const std::vector<std::int32_t>& order, const std::vector<Contact>& contacts);
   int find_batch(int rows, int after);
   void prepare(const SolverSettings& settings, const std::vector<Body>& bodies,
@@ -56,6 +58,7 @@ class ContactSolver {
 
   std::vector<std::int32_t> moving_;   // awake bodies with a contact, in order
   std::vector<std::int32_t> number_;   // of each body in moving_; moving_.size(): does not move
+  std::vector<float> share_;           // of true inertia in what the solver uses, by moving body
   std::vector<PaddedMotion> speeds_, moved_, before_push_;
   std::vector<ContactBatch> batches_;
   std::vector<NormalRow> rows_;

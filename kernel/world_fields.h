@@ -19,7 +19,8 @@ void each_field(Struct& b, Visit&& visit) {
   visit(b.com_in_type), visit(b.inertia), visit(b.inverse_inertia_local), visit(b.inverse_mass);
   visit(b.radius), visit(b.mobile), visit(b.first_collider), visit(b.collider_count);
   visit(b.world_from_com), visit(b.linear), visit(b.angular), visit(b.rotation);
-  visit(b.inverse_inertia), visit(b.still_pose), visit(b.still_steps), visit(b.load);
+  visit(b.inverse_inertia), visit(b.still_pose), visit(b.still_steps);
+  visit(b.loose_pose), visit(b.loose_steps), visit(b.load);
   visit(b.awake), visit(b.lost), visit(b.touching), visit(b.has_touched);
 }
 

@@ -48,6 +48,7 @@ struct World::Impl {
   std::vector<std::uint8_t> moves;  // by number in SimbodyBlocks
   std::vector<Motion> velocities, displacements;
   std::vector<Vec3> extra_linear, extra_angular;
+  std::vector<float> fastest;
 
   // world.cpp
   void add_body(const NewPiece& piece, FreeBody* free);
@@ -71,6 +72,7 @@ struct World::Impl {
 
   void add_contact(int collider_a, int collider_b);
   void remove_contact(std::size_t index);
+  void limit_kicks();
   void set_rates(std::size_t body);
   void sort_by_height();
   void fall_asleep(int body);

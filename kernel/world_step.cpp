@@ -11,6 +11,9 @@ namespace {
 // A piece falls asleep after it has stayed within this distance for this time.
 constexpr double kStillDistance = 0.001;  // of any of its points; unit: m
 constexpr double kStillTime = 0.25;       // unit: s
+// So does one that jitters, but goes nowhere.
+constexpr double kLooseDistance = 0.005;  // unit: m
+constexpr double kLooseTime = 1.0;        // unit: s
 // A sleeper wakes when the impulse of a contact changes by what would give it this speed.
 constexpr float kWakeSpeed = 0.1F;  // unit: m/s
 // A sleeper wakes at once when an impact would give it this speed.
@@ -25,6 +28,8 @@ constexpr float kMaximumSpeed = 50.0F;   // unit: m/s
 // slower they are.
 constexpr float kSlowSpin = 1.0F, kSpinDamping = 0.1F;     // unit: rad/s, 1
 constexpr float kSlowSpeed = 0.1F, kSpeedDamping = 0.02F;  // unit: m/s, 1
+constexpr float kKickShare = 0.35F;  // see limit_kicks()
+constexpr float kFreeKick = 1.0F;   // unit: m/s
 constexpr double kLookAhead = 4;         // steps that an enlarged box reaches ahead
 
 // A contact's impulse must change by this to wake a sleeper. What carries a high load is clamped by
@@ -56,6 +61,18 @@ Vec3 gyroscopic(const Body& body, const Vec3& omega, double dt) {
   return q.rotate(w - change);
 }
 
+// Counts the steps that a body has stayed near `pose`; starts anew where it is when it has left.
+void count_still(const Body& body, double distance, Pose& pose, std::int32_t& steps) {
+  const Vec3 moved = body.world_from_com.translation - pose.translation;
+  const Quat turn = pose.rotation.conjugate() * body.world_from_com.rotation;
+  const double turned = 2 * norm(Vec3{turn.x, turn.y, turn.z}) * double(body.radius);
+  ++steps;
+  if (norm(moved) + turned > distance) {
+    pose = body.world_from_com;
+    steps = 0;
+  }
+}
+
 class Stopwatch {
  public:
   explicit Stopwatch(double& total) : total_(total), start_(std::chrono::steady_clock::now()) {}
@@ -74,8 +91,8 @@ void World::Impl::wake(int index) {
   Body& body = data.bodies[index];
   if (!body.movable() || body.awake) return;
   body.awake = true;
-  body.still_steps = 0;
-  body.still_pose = body.world_from_com;
+  body.still_steps = body.loose_steps = 0;
+  body.still_pose = body.loose_pose = body.world_from_com;
 }
 
 void World::Impl::fall_asleep(int index) {
@@ -283,6 +300,36 @@ void World::Impl::solve_contacts() {
   solver.solve(solver_settings, data.bodies, active, data.contacts, velocities, displacements);
 }
 
+// A piece squeezed out from under a heavy one must not shoot away: sideways and upwards it may
+// become no faster in one step than a share of the speed that the fastest neighbour had before.
+void World::Impl::limit_kicks() {
+  fastest.assign(data.bodies.size(), 0);
+  const auto reach = [this](std::int32_t i) {
+    const Body& body = data.bodies[i];
+    return norm(body.linear) + norm(body.angular) * body.radius;
+  };
+  for (std::int32_t index : active) {
+    const Contact& contact = data.contacts[index];
+    if (contact.body_b == kGround || contact.pressed <= 0) continue;
+    fastest[contact.body_a] = std::max(fastest[contact.body_a], reach(contact.body_b));
+    fastest[contact.body_b] = std::max(fastest[contact.body_b], reach(contact.body_a));
+  }
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    const Body& body = data.bodies[i];
+    if (!body.awake || !body.touching) continue;
+    const auto outwards = [](const Vec3f& v) { return Vec3f{v.x, v.y, std::max(v.z, 0.0F)}; };
+    const float before = norm(outwards(body.linear)), after = norm(outwards(velocities[i].linear));
+    const float fall = float(options.gravity * options.step);
+    const float most = std::max(before + fall, kKickShare * fastest[i] + kFreeKick);
+    if (after <= most) continue;
+    const float keep = most / after;
+    for (Vec3f* v : {&velocities[i].linear, &displacements[i].linear}) {
+      v->x *= keep, v->y *= keep;
+      if (v->z > 0) v->z *= keep;
+    }
+  }
+}
+
 // The speeds after the step, and the extra rates that make up its displacement.
 void World::Impl::set_rates(std::size_t index) {
   const Body& body = data.bodies[index];
@@ -375,22 +422,17 @@ void World::Impl::update_sleep() {
       if (contact.body_b != kGround) overlapping[contact.body_b] = 1;
     }
   }
-  const int wait = int(kStillTime / options.step), long_wait = int(kSleepOverlapTime / options.step);
+  const int wait = int(kStillTime / options.step), loose_wait = int(kLooseTime / options.step);
+  const int long_wait = int(kSleepOverlapTime / options.step);
   std::vector<std::uint8_t> slept(data.bodies.size(), 0);
   bool any = false;
   for (std::size_t i = 0; i < data.bodies.size(); ++i) {
     Body& body = data.bodies[i];
     if (!body.awake) continue;
-    const Vec3 moved = body.world_from_com.translation - body.still_pose.translation;
-    const Quat turn = body.still_pose.rotation.conjugate() * body.world_from_com.rotation;
-    const double turned = 2 * norm(Vec3{turn.x, turn.y, turn.z}) * double(body.radius);
-    if (norm(moved) + turned > kStillDistance) {
-      body.still_pose = body.world_from_com;
-      body.still_steps = 0;
-      continue;
-    }
-    ++body.still_steps;
-    if (body.still_steps >= (overlapping[i] ? long_wait : wait)) {
+    count_still(body, kStillDistance, body.still_pose, body.still_steps);
+    count_still(body, kLooseDistance, body.loose_pose, body.loose_steps);
+    if (body.still_steps >= (overlapping[i] ? long_wait : wait) ||
+        body.loose_steps >= (overlapping[i] ? long_wait : loose_wait)) {
       fall_asleep(int(i));
       slept[i] = 1;
       any = true;
@@ -460,6 +502,7 @@ void World::step() {
   {
     const Stopwatch watch(w.times.rest);
     w.update_touching();
+    w.limit_kicks();
   }
   {
     const Stopwatch watch(w.times.advance);

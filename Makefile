@@ -13,7 +13,7 @@ help:
 	@echo "make test-asan  the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
 	@echo "make test-tsan  the suite under ThreadSanitizer"
 	@echo "make test-slow  the tests that take minutes (label: slow)"
-	@echo "make determinism  the same hashes from other compilers, levels and processors (half an hour)"
+	@echo "make determinism  the same hashes from other compilers, levels and processors (a quarter of an hour)"
 	@echo "make format     clang-format over the tree"
 	@echo "make clean      remove build/ and out/"
 

@@ -1,0 +1,163 @@
+#!/bin/sh
+# Builds the kernel with several compilers, levels and processors, runs the standard scenes, and
+# compares their hashes with tests/golden/kernel.txt. Contract: docs/determinism.md.
+# usage: tools/determinism_matrix.sh [--without-arm64] [--build FOLDER]    (from the root)
+# Exit status: 0 all equal; 1 something differs, does not build or does not run; 2 bad usage.
+set -eu
+cd "$(dirname "$0")/.."
+
+golden=$PWD/tests/golden/kernel.txt
+folder=build/determinism
+arm64=yes
+while [ $# -gt 0 ]; do
+  case $1 in
+    --without-arm64) arm64=no ;;
+    --build) folder=${2:?--build wants a folder}; shift ;;
+    *) echo "usage: $0 [--without-arm64] [--build FOLDER]" >&2; exit 2 ;;
+  esac
+  shift
+done
+mkdir -p "$folder"
+folder=$(cd "$folder" && pwd)
+table=$folder/table.txt
+: >"$table"
+failures=0
+reference=""  # the first probe that runs here: it compares traces
+
+row() { printf '%-9s %-10s %-5s %-10s %-22s %s\n' "$@" >>"$table"; }
+
+fail() {
+  failures=$((failures + 1))
+  row "$@"
+}
+
+# compare ARCHITECTURE COMPILER LEVEL TARGET CONDITION COMMAND...: runs and files one line.
+compare() {
+  label_a=$1 label_b=$2 label_c=$3 label_d=$4 label_e=$5
+  shift 5
+  out=$folder/hashes.txt
+  if ! "$@" >"$out"; then
+    fail "$label_a" "$label_b" "$label_c" "$label_d" "$label_e" "DOES NOT RUN"
+  elif cmp -s "$golden" "$out"; then
+    row "$label_a" "$label_b" "$label_c" "$label_d" "$label_e" same
+  else
+    fail "$label_a" "$label_b" "$label_c" "$label_d" "$label_e" DIFFERENT
+    diff "$golden" "$out" | sed 's/^/    /' >>"$table" || true
+    name_first_difference "$@"
+  fi
+}
+
+name_first_difference() {
+  [ -n "$reference" ] || return 0
+  "$reference" --trace "$folder/reference.trace" >/dev/null
+  "$@" --trace "$folder/other.trace" >/dev/null
+  "$reference" --compare "$folder/reference.trace" "$folder/other.trace" | sed 's/^/    /' \
+    >>"$table" || true
+}
+
+# build NAME CMAKE_ARGUMENTS...: makes $folder/NAME/hash_probe.
+build() {
+  name=$1
+  shift
+  echo "building $name" >&2
+  if cmake -S . -B "$folder/$name" -G Ninja -DRUBBLE_KERNEL_ONLY=ON -DCMAKE_BUILD_TYPE=Release \
+    "$@" >"$folder/$name.log" 2>&1; then
+    cmake --build "$folder/$name" --target hash_probe >>"$folder/$name.log" 2>&1 && return 0
+  fi
+  tail -20 "$folder/$name.log" >&2
+  return 1
+}
+
+can_run_v3() { [ "$(grep -c -w -E 'avx2' /proc/cpuinfo)" -gt 0 ] && grep -q -w fma /proc/cpuinfo; }
+
+native() {
+  for compiler in g++ clang++; do
+    for level in O1 O2 O3; do
+      for target in x86-64 x86-64-v3; do
+        name=$compiler-$level-$target
+        if ! build "$name" "-DCMAKE_CXX_COMPILER=$compiler" \
+          "-DCMAKE_CXX_FLAGS_RELEASE=-$level -march=$target"; then
+          fail x86_64 "$compiler" "-$level" "$target" "" "DOES NOT BUILD"
+          continue
+        fi
+        probe=$folder/$name/hash_probe
+        if [ "$target" = x86-64-v3 ] && ! can_run_v3; then
+          fail x86_64 "$compiler" "-$level" "$target" "" "NOT RUN: this processor is older"
+          continue
+        fi
+        [ -n "$reference" ] || reference=$probe
+        for threads in 1 3; do
+          compare x86_64 "$compiler" "-$level" "$target" "$threads thread(s)" \
+            "$probe" --threads "$threads"
+        done
+      done
+    done
+  done
+}
+
+# The same binary under another libm and another layout of memory.
+conditions() {
+  [ -n "$reference" ] || return 0
+  compare x86_64 g++ -O1 x86-64 "libm without FMA" \
+    env GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA "$reference"
+  compare x86_64 g++ -O1 x86-64 "no ASLR" setarch -R "$reference"
+}
+
+# The bundled pack, which piles are made of, from both compilers; its hash is pinned by tests/assets.
+pack() {
+  packs=""
+  for name in g++-O2-x86-64 clang++-O3-x86-64-v3; do
+    cmake --build "$folder/$name" --target rubble_assets >>"$folder/$name.log" 2>&1 || true
+    packs="$packs $folder/$name/assets/concrete"
+  done
+  # shellcheck disable=SC2086  # two folders on purpose
+  if diff -rq $packs >"$folder/pack.txt" 2>&1; then
+    row x86_64 both -O2/3 "" "bytes of the pack" same
+  else
+    fail x86_64 both -O2/3 "" "bytes of the pack" "DIFFERENT: see $folder/pack.txt"
+  fi
+}
+
+arm64_rows() {
+  if ! command -v aarch64-linux-gnu-g++ >/dev/null || ! command -v qemu-aarch64 >/dev/null; then
+    fail aarch64 g++ "" "" "" "NOT POSSIBLE: install tools/packages-determinism.txt"
+    return 0
+  fi
+  if ! tools/arm64_sysroot.sh "$folder/arm64" >"$folder/arm64.log" 2>&1; then
+    tail -20 "$folder/arm64.log" >&2
+    fail aarch64 g++ "" "" "" "NOT POSSIBLE: no arm64 packages; see $folder/arm64.log"
+    return 0
+  fi
+  for level in O1 O2 O3; do
+    if ! build "aarch64-$level" "-DCMAKE_CXX_FLAGS_RELEASE=-$level" \
+      "-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/Arm64Toolchain.cmake" \
+      "-DRUBBLE_ARM64_ROOT=$folder/arm64/root"; then
+      fail aarch64 g++ "-$level" armv8-a "" "DOES NOT BUILD"
+      continue
+    fi
+    for threads in 1 3; do
+      compare aarch64 g++ "-$level" armv8-a "$threads thread(s), qemu" \
+        qemu-aarch64 -L "$folder/arm64/root" "$folder/aarch64-$level/hash_probe" \
+        --threads "$threads"
+    done
+  done
+}
+
+native
+conditions
+pack
+if [ "$arm64" = yes ]; then
+  arm64_rows
+else
+  row aarch64 "" "" "" "" "LEFT OUT (--without-arm64)"
+fi
+
+echo
+printf '%-9s %-10s %-5s %-10s %-22s %s\n' machine compiler opt target condition hashes
+cat "$table"
+echo
+if [ "$failures" -gt 0 ]; then
+  echo "determinism: $failures of $(grep -c '^[xa]' "$table") rows are not the same as $golden" >&2
+  exit 1
+fi
+echo "determinism: all $(grep -c ' same$' "$table") runs give the hashes of tests/golden/kernel.txt"

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
+#include "render/light_packing.h"
 #include "render/looks.h"
 #include "render/parallel.h"
 #include "render/ray_scene.h"
@@ -18,15 +18,15 @@ namespace {
 
 constexpr float kPi = float(portable::kPi);
 constexpr std::uint32_t kSky = 0xffffffffu, kInside = 0xfffffffeu, kNone = 0xffffffffu;
-constexpr float kLift = 0.004f;       // rays start this far off the surface; unit: m
-constexpr float kFarthest = 1000.0f;  // unit: m
-constexpr float kDarkest = 1e-4f;     // unit: klx
-constexpr float kMaxInside = 0.3f;    // share of rays that start inside a neighbour
-constexpr std::size_t kChunk = 256;   // points a job
-constexpr float kContact = 0.3f;       // light left where pieces touch
+constexpr float kLift = 0.004f;               // rays start this far off the surface; unit: m
+constexpr float kFarthest = 1000.0f;          // unit: m
+constexpr float kDarkest = 1e-4f;             // unit: klx
+constexpr float kMaxInside = 0.3f;            // share of rays that start inside a neighbour
+constexpr std::size_t kChunk = 256;           // points a job
+constexpr float kContact = 0.3f;              // light left where pieces touch
 constexpr std::size_t kMostForSearch = 4000;  // bake points; the ground has more
-constexpr float kSmoothing = 0.5f;    // reach, as a share of the piece's radius
-constexpr float kWidestSmoothing = 0.35f;  // unit: m
+constexpr float kSmoothing = 0.5f;            // reach, as a share of the piece's radius
+constexpr float kWidestSmoothing = 0.35f;     // unit: m
 
 struct Point {
   Vec3f position, normal;
@@ -51,37 +51,6 @@ void basis_about(const Vec3f& n, float turn, Vec3f& x, Vec3f& y) {
   const portable::SinCos t = portable::sincos(2 * portable::kPi * double(turn));
   x = a * float(t.cos) + b * float(t.sin);
   y = b * float(t.cos) - a * float(t.sin);
-}
-
-// Bits of the nearest half float; x: finite, not beyond its range.
-std::uint16_t to_half(float x) {
-  x = std::clamp(x, -60000.0f, 60000.0f);
-  std::uint32_t bits;
-  std::memcpy(&bits, &x, sizeof bits);
-  const std::uint32_t sign = bits >> 16 & 0x8000u;
-  const int exponent = int(bits >> 23 & 0xff) - 127 + 15;
-  const std::uint32_t mantissa = bits & 0x7fffffu;
-  if (exponent <= 0) {
-    if (exponent < -10) return std::uint16_t(sign);
-    const int shift = 14 - exponent;
-    const std::uint32_t full = mantissa | 0x800000u;
-    return std::uint16_t(sign | ((full + (1u << (shift - 1))) >> shift));
-  }
-  return std::uint16_t(sign | ((std::uint32_t(exponent) << 10 | mantissa >> 13) +
-                               (mantissa >> 12 & 1u)));
-}
-
-float luminance(const Vec3f& c) { return (c.x + c.y + c.z) * (1.0f / 3); }
-
-BakedLight pack_light(const Vec3f& vector, const Vec3f& colour) {
-  BakedLight out;
-  out.x = to_half(vector.x), out.y = to_half(vector.y), out.z = to_half(vector.z);
-  const float sum = colour.x + colour.y + colour.z;
-  if (sum > 0) {
-    out.red = std::uint8_t(std::lround(255 * colour.x / sum));
-    out.blue = std::uint8_t(std::lround(255 * colour.z / sum));
-  }
-  return out;
 }
 
 // Skylight as a camera with automatic white balance shows it: half of its blue.
@@ -119,15 +88,15 @@ struct Baker::State {
   BakeOptions options;
   RayScene rays;
   std::vector<Vec3f> directions;
-  std::vector<Point> points;                 // of all placed meshes
-  std::vector<std::uint32_t> first_point;    // of each placed mesh
+  std::vector<Point> points;                  // of all placed meshes
+  std::vector<std::uint32_t> first_point;     // of each placed mesh
   std::vector<std::uint32_t> triangle_point;  // nearest bake point of each triangle of `rays`
   std::vector<Vec3f> triangle_albedo;
-  std::vector<std::uint32_t> hits;           // rays a point: triangle, kSky or kInside
-  std::vector<std::uint8_t> valid;           // one a point
-  std::vector<std::uint32_t> open_point;     // for an invalid point: where its light comes from
+  std::vector<std::uint32_t> hits;              // rays a point: triangle, kSky or kInside
+  std::vector<std::uint8_t> valid;              // one a point
+  std::vector<std::uint32_t> open_point;        // for an invalid point: where its light comes from
   std::vector<Vec3f> direct, indirect, vector;  // one a point; klx
-  std::vector<Vec3f> radiosity;              // one a triangle of `rays`, over pi: kcd/m2
+  std::vector<Vec3f> radiosity;                 // one a triangle of `rays`, over pi: kcd/m2
 
   void list_points();
   void list_triangles();
@@ -346,8 +315,10 @@ Vec3f Baker::air_radiance(const Vec3f& point) const {
     const double r = std::sqrt(1 - z * z);
     const Vec3f w(float(r * a.cos), float(r * a.sin), float(z));
     const RayScene::Hit hit = s.rays.cast(point, w, 0, kFarthest);
-    if (hit.triangle == RayScene::kNone) sum += s.light.sky.radiance(w);
-    else if (!hit.back) sum += s.radiosity[hit.triangle];
+    if (hit.triangle == RayScene::kNone)
+      sum += s.light.sky.radiance(w);
+    else if (!hit.back)
+      sum += s.radiosity[hit.triangle];
   }
   Vec3f mean = sum * (1.0f / kRays);
   // The main light itself, scattered evenly.

@@ -12,9 +12,9 @@
 namespace rubble {
 
 struct BakeOptions {
-  int threads = 1;       // the result does not depend on it
-  int rays = 96;         // a bake point; range: 8 to 1024
-  int bounces = 3;       // between surfaces
+  int threads = 1;  // the result does not depend on it
+  int rays = 64;    // a bake point; range: 8 to 1024
+  int bounces = 3;  // between surfaces
   std::uint64_t seed = 0;
 };
 

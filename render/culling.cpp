@@ -53,9 +53,12 @@ bool DepthPyramid::may_show(int x0, int y0, int x1, int y1, float nearest_value)
 }
 
 ViewVolume::ViewVolume(const ViewProjection& view)
-    : fx_(float(view.intrinsics.fx)), fy_(float(view.intrinsics.fy)),
-      cx_(float(view.intrinsics.cx)), cy_(float(view.intrinsics.cy)),
-      width_(view.intrinsics.width), height_(view.intrinsics.height) {
+    : fx_(float(view.intrinsics.fx)),
+      fy_(float(view.intrinsics.fy)),
+      cx_(float(view.intrinsics.cx)),
+      cy_(float(view.intrinsics.cy)),
+      width_(view.intrinsics.width),
+      height_(view.intrinsics.height) {
   // Slopes of the image's edges, half a pixel outside the outermost pixel centres.
   const float left = (-0.5f - cx_) / fx_, right = (float(width_) - 0.5f - cx_) / fx_;
   const float top = (-0.5f - cy_) / fy_, bottom = (float(height_) - 0.5f - cy_) / fy_;
@@ -73,7 +76,8 @@ bool ViewVolume::sphere_in_view(const Vec3f& c, float r) const {
   return true;
 }
 
-bool ViewVolume::box_may_show(const Vec3f& c, const Mat3f& half, const DepthPyramid& pyramid) const {
+bool ViewVolume::box_may_show(const Vec3f& c, const Mat3f& half,
+                              const DepthPyramid& pyramid) const {
   const auto& [x, y, z] = half.rows;
   const float deep = std::fabs(x.z) + std::fabs(y.z) + std::fabs(z.z) + 1e-5f;
   const float near_z = c.z - deep * 1.0001f;

@@ -26,7 +26,8 @@ void AutoExposure::follow(const std::vector<std::uint8_t>& rgba, int width, int 
   std::int64_t sum = 0, weight = 0;
   for (int y = 2; y < height; y += 4) {
     for (int x = 2; x < width; x += 4) {
-      const bool middle = x > width / 4 && x < width * 3 / 4 && y > height / 4 && y < height * 3 / 4;
+      const bool middle =
+          x > width / 4 && x < width * 3 / 4 && y > height / 4 && y < height * 3 / 4;
       const int w = middle ? 2 : 1;
       sum += w * rgba[(std::size_t(y) * std::size_t(width) + std::size_t(x)) * 4 + 3];
       weight += w;

@@ -8,7 +8,7 @@
 namespace rubble {
 
 struct ExposureOptions {
-  double key = 0.16;     // exposed luminance that the metered mean is brought to
+  double key = 0.16;      // exposed luminance that the metered mean is brought to
   double seconds = 0.25;  // time constant of the lag; unit: s
   // Fixed factor on luminance in kcd/m2; 0: automatic.
   double fixed = 0;

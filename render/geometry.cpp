@@ -12,7 +12,8 @@ namespace {
 
 std::uint32_t longest_axis(const PreparedMesh& mesh) {
   Vec3f low = mesh.vertices.front().position, high = low;
-  for (const PreparedVertex& v : mesh.vertices) low = min(low, v.position), high = max(high, v.position);
+  for (const PreparedVertex& v : mesh.vertices)
+    low = min(low, v.position), high = max(high, v.position);
   const Vec3f size = high - low;
   if (size.x >= size.y && size.x >= size.z) return 0;
   return size.y >= size.z ? 1 : 2;
@@ -24,7 +25,8 @@ void place(PreparedScene& out, PlacedMesh piece, std::uint32_t axis, RandomStrea
   piece.radius = float(mesh.radius * piece.scale);
   piece.first_flag = std::uint32_t(out.cluster_flags);
   piece.first_light = std::uint32_t(out.light_vertices);
-  piece.look_seed = {std::uint32_t(random.next() >> 32), (std::uint32_t(random.next() >> 32) & ~3u) | axis};
+  piece.look_seed = {std::uint32_t(random.next() >> 32),
+                     (std::uint32_t(random.next() >> 32) & ~3u) | axis};
   out.cluster_flags += mesh.levels.front().cluster_count;
   out.light_vertices += mesh.vertices.size();
   if (piece.id != kGroundId) {
@@ -172,8 +174,8 @@ GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
   check_gl(gl, "uploading the scene's geometry");
   GLint most = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-  const std::size_t need = std::max(std::max(vertices.size(), triangles.size()),
-                                    std::max(placed.size(), light.size()));
+  const std::size_t need =
+      std::max(std::max(vertices.size(), triangles.size()), std::max(placed.size(), light.size()));
   if (need > std::size_t(most))
     throw RunError("the scene needs tables of " + std::to_string(need) +
                    " entries; this graphics device holds " + std::to_string(most));

@@ -16,10 +16,10 @@ struct PlacedMesh {
   std::uint32_t mesh = 0;  // index into the prepared meshes
   double scale = 1;
   Pose world_from_mesh;
-  Vec3f centre;       // of its bounding sphere, in the world
+  Vec3f centre;  // of its bounding sphere, in the world
   float radius = 0;
-  std::uint32_t id = 0;        // label
-  std::uint32_t first_flag = 0;  // of its finest level's clusters, in per-cluster tables
+  std::uint32_t id = 0;           // label
+  std::uint32_t first_flag = 0;   // of its finest level's clusters, in per-cluster tables
   std::uint32_t first_light = 0;  // of its vertices, in the table of baked light
   std::array<std::uint32_t, 2> look_seed{};  // varies the look
 };

@@ -12,6 +12,13 @@
 #include "kernel/base/error.h"
 #include "render/gl.h"
 
+#if defined(__SANITIZE_THREAD__)
+// Drivers are built without the thread sanitizer, which then misses their locks and barriers.
+extern "C" const char* __tsan_default_suppressions() {
+  return "race:swrast_dri.so\nrace:libgallium\nrace:libEGL\nrace:libGLX\nrace:libnvidia\n";
+}
+#endif
+
 namespace rubble {
 
 namespace {
@@ -22,17 +29,28 @@ const char* const kInstallHint =
 
 std::string egl_error_name(EGLint code) {
   switch (code) {
-    case EGL_SUCCESS: return "no error reported";
-    case EGL_NOT_INITIALIZED: return "EGL_NOT_INITIALIZED";
-    case EGL_BAD_ACCESS: return "EGL_BAD_ACCESS";
-    case EGL_BAD_ALLOC: return "EGL_BAD_ALLOC";
-    case EGL_BAD_ATTRIBUTE: return "EGL_BAD_ATTRIBUTE";
-    case EGL_BAD_CONFIG: return "EGL_BAD_CONFIG";
-    case EGL_BAD_CONTEXT: return "EGL_BAD_CONTEXT";
-    case EGL_BAD_DISPLAY: return "EGL_BAD_DISPLAY";
-    case EGL_BAD_MATCH: return "EGL_BAD_MATCH";
-    case EGL_BAD_PARAMETER: return "EGL_BAD_PARAMETER";
-    default: break;
+    case EGL_SUCCESS:
+      return "no error reported";
+    case EGL_NOT_INITIALIZED:
+      return "EGL_NOT_INITIALIZED";
+    case EGL_BAD_ACCESS:
+      return "EGL_BAD_ACCESS";
+    case EGL_BAD_ALLOC:
+      return "EGL_BAD_ALLOC";
+    case EGL_BAD_ATTRIBUTE:
+      return "EGL_BAD_ATTRIBUTE";
+    case EGL_BAD_CONFIG:
+      return "EGL_BAD_CONFIG";
+    case EGL_BAD_CONTEXT:
+      return "EGL_BAD_CONTEXT";
+    case EGL_BAD_DISPLAY:
+      return "EGL_BAD_DISPLAY";
+    case EGL_BAD_MATCH:
+      return "EGL_BAD_MATCH";
+    case EGL_BAD_PARAMETER:
+      return "EGL_BAD_PARAMETER";
+    default:
+      break;
   }
   char text[32];
   std::snprintf(text, sizeof text, "EGL error 0x%x", unsigned(code));
@@ -183,8 +201,8 @@ void GlContext::State::close() {
 }
 
 std::string GlContext::State::load_functions() {
-#define RUBBLE_GL_LOAD(name, upper)                                                  \
-  gl.name = reinterpret_cast<PFNGL##upper##PROC>(egl.GetProcAddress("gl" #name));    \
+#define RUBBLE_GL_LOAD(name, upper)                                               \
+  gl.name = reinterpret_cast<PFNGL##upper##PROC>(egl.GetProcAddress("gl" #name)); \
   if (!gl.name) return "the driver has no gl" #name;
   RUBBLE_GL_FUNCTIONS(RUBBLE_GL_LOAD)
 #undef RUBBLE_GL_LOAD
@@ -207,12 +225,15 @@ std::string GlContext::State::try_open(const Candidate& candidate) {
   if (!egl.Initialize(display, &major, &minor))
     return "cannot initialize: " + egl_error_name(egl.GetError());
   const char* extensions = egl.QueryString(display, EGL_EXTENSIONS);
-  if (!has_word(extensions, "EGL_KHR_surfaceless_context"))
-    return "no EGL_KHR_surfaceless_context";
+  if (!has_word(extensions, "EGL_KHR_surfaceless_context")) return "no EGL_KHR_surfaceless_context";
   if (!egl.BindAPI(EGL_OPENGL_API)) return "no desktop OpenGL: " + egl_error_name(egl.GetError());
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                               4,
+                               EGL_CONTEXT_MINOR_VERSION,
+                               5,
                                EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                               EGL_NONE};
   context = egl.CreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
   if (context == EGL_NO_CONTEXT)
     return "no OpenGL 4.5 core context: " + egl_error_name(egl.GetError());

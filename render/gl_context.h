@@ -37,7 +37,7 @@ class GlContext {
 
   const GlInfo& info() const;
   void make_current();
-  void release();       // so that another thread can take it
+  void release();        // so that another thread can take it
   const Gl& gl() const;  // for the passes inside render/
 
  private:

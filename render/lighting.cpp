@@ -59,9 +59,8 @@ LightModel make_light_model(const LightSpec& spec) {
   LightModel model;
   model.type = spec.type;
   model.position = Vec3f(spec.position);
-  const Quat turn = portable::quat_from_rpy(spec.rpy_deg.x * kRadPerDeg,
-                                            spec.rpy_deg.y * kRadPerDeg,
-                                            spec.rpy_deg.z * kRadPerDeg);
+  const Quat turn = portable::quat_from_rpy(
+      spec.rpy_deg.x * kRadPerDeg, spec.rpy_deg.y * kRadPerDeg, spec.rpy_deg.z * kRadPerDeg);
   model.axis = Vec3f(turn.rotate({1, 0, 0}));
   const float intensity = float(spec.intensity);
   // Sunlight is a little warm; both colours have the luminance of white (Rec. 709 weights).

@@ -21,9 +21,9 @@ struct Sky {
 
 struct LightModel {
   LightType type = LightType::directional;
-  Vec3f position;      // of spot and point lights; unit: m
-  Vec3f axis;          // the way the light travels
-  Vec3f colour;        // klx for directional, kcd otherwise
+  Vec3f position;                        // of spot and point lights; unit: m
+  Vec3f axis;                            // the way the light travels
+  Vec3f colour;                          // klx for directional, kcd otherwise
   float cos_outer = -1, cos_inner = -1;  // edge of a spot's cone; -1: none
   Sky sky;
 

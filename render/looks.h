@@ -11,8 +11,16 @@ namespace rubble {
 
 // Which procedural texture a look uses; see textures.h.
 enum class Pattern {
-  cast_concrete, broken_concrete, brick_face, broken_brick, porous_block, rust, galvanised, wood,
-  plaster, soil
+  cast_concrete,
+  broken_concrete,
+  brick_face,
+  broken_brick,
+  porous_block,
+  rust,
+  galvanised,
+  wood,
+  plaster,
+  soil
 };
 inline constexpr int kPatternCount = 10;
 
@@ -20,13 +28,13 @@ inline constexpr int kPatternCount = 10;
 struct Look {
   const char* name;
   Pattern pattern;
-  Vec3f dark, light;   // albedo where the texture is darkest and brightest
-  Vec3f accent;        // albedo of what the texture's mask picks out: stains, grains, mortar
-  float tile;          // side of one repetition; unit: m
-  float bump;          // strength of the relief; 0: flat
-  float gloss;         // mirror-like part at normal incidence; 0: matt
-  float dust;          // share of dust that rests on it facing up; range: 0 to 1
-  float variation;     // how much brightness differs from piece to piece; range: 0 to 1
+  Vec3f dark, light;  // albedo where the texture is darkest and brightest
+  Vec3f accent;       // albedo of what the texture's mask picks out: stains, grains, mortar
+  float tile;         // side of one repetition; unit: m
+  float bump;         // strength of the relief; 0: flat
+  float gloss;        // mirror-like part at normal incidence; 0: matt
+  float dust;         // share of dust that rests on it facing up; range: 0 to 1
+  float variation;    // how much brightness differs from piece to piece; range: 0 to 1
 };
 
 // All of them, in a fixed order; the last is the ground's.

@@ -9,8 +9,8 @@
 
 namespace rubble {
 
-// Calls job(i) once for each i in [0, count), on `threads` threads (at least one). A job writes only
-// to its own slot. The first exception in order of index is thrown again.
+// Calls job(i) once for each i in [0, count), on `threads` threads (at least one). A job writes
+// only to its own slot. The first exception in order of index is thrown again.
 template <typename Job>
 void parallel_for(std::size_t count, int threads, const Job& job) {
   std::atomic<std::size_t> next{0};

@@ -44,8 +44,8 @@ int dominant_direction(const Vec3f& n) {
 
 Vec3f face_normal(const PreparedMesh& mesh, const PreparedTriangle& t) {
   const Vec3f& a = mesh.vertices[t.vertices[0]].position;
-  return normalized(cross(mesh.vertices[t.vertices[1]].position - a,
-                          mesh.vertices[t.vertices[2]].position - a));
+  return normalized(
+      cross(mesh.vertices[t.vertices[1]].position - a, mesh.vertices[t.vertices[2]].position - a));
 }
 
 // A box around the points, and a sphere of the same centre; both a little larger, for rounding.
@@ -97,8 +97,8 @@ void cluster_level(PreparedMesh& mesh, std::size_t first) {
     for (std::uint32_t v : t.vertices) mid += mesh.vertices[v].position * (1.0f / 3);
     const Vec3f q = max((mid - low) * scale, Vec3f());
     const std::uint64_t side = std::uint64_t(dominant_direction(face_normal(mesh, t)));
-    keyed.push_back({side << 32 | morton(std::uint32_t(q.x), std::uint32_t(q.y),
-                                         std::uint32_t(q.z)), t});
+    keyed.push_back(
+        {side << 32 | morton(std::uint32_t(q.x), std::uint32_t(q.y), std::uint32_t(q.z)), t});
   }
   std::stable_sort(keyed.begin(), keyed.end(),
                    [](const Keyed& a, const Keyed& b) { return a.key < b.key; });
@@ -133,8 +133,7 @@ void append_level(const TriangleMesh& source, PreparedMesh& out) {
     if (mesh.surfaces[t] >= materials.size())
       throw RunError("a mesh has a triangle of surface " + std::to_string(mesh.surfaces[t]) +
                      " but names only " + std::to_string(materials.size()));
-    out.triangles.push_back(
-        {{base + v[0], base + v[1], base + v[2]}, materials[mesh.surfaces[t]]});
+    out.triangles.push_back({{base + v[0], base + v[1], base + v[2]}, materials[mesh.surfaces[t]]});
   }
   if (out.levels.empty() && !out.vertices.empty()) {
     std::vector<Vec3f> points;

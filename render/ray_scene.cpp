@@ -38,12 +38,10 @@ RayScene::RayScene(const PreparedScene& scene) : embree_(std::make_unique<Embree
     }
   }
   RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  void* vertex_memory =
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                              sizeof(Vec3f), positions.size() + 1);
-  void* index_memory = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
-                                               RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
-                                               triangles_.size());
+  void* vertex_memory = rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), positions.size() + 1);
+  void* index_memory = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                               3 * sizeof(std::uint32_t), triangles_.size());
   if (!triangles_.empty() && (!vertex_memory || !index_memory))
     throw RunError("cannot bake light: out of memory for " + std::to_string(triangles_.size()) +
                    " triangles");

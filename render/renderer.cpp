@@ -29,8 +29,9 @@ void check_intrinsics(const Intrinsics& k) {
   const bool finite = std::isfinite(k.fx) && std::isfinite(k.fy) && std::isfinite(k.cx) &&
                       std::isfinite(k.cy) && k.fx > 0 && k.fy > 0;
   if (!whole || !finite)
-    throw RunError("cannot draw with these intrinsics: width and height must be 1 to 16384, fx and "
-                   "fy positive, cx and cy finite");
+    throw RunError(
+        "cannot draw with these intrinsics: width and height must be 1 to 16384, fx and "
+        "fy positive, cx and cy finite");
   for (double d : k.distortion)
     if (d != 0) throw RunError("the renderer draws a pinhole image: distortion must be zero");
 }
@@ -69,7 +70,10 @@ struct Renderer::State {
 
 Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
                        const Progress& progress)
-    : context(c), gl(c.gl()), options(o), scene(prepare_scene(s, o.threads)),
+    : context(c),
+      gl(c.gl()),
+      options(o),
+      scene(prepare_scene(s, o.threads)),
       light(make_light_model(s.light)),
       exposure(ExposureOptions{0.2, 0.25, o.fixed_exposure}) {
   const auto report = [&](double fraction) {
@@ -84,8 +88,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
     bake.threads = o.threads;
     bake.rays = o.bake_rays;
     bake.seed = s.seed;
-    baker = std::make_unique<Baker>(scene, light, bake,
-                                    [&](double f) { report(0.15 + 0.7 * f); });
+    baker = std::make_unique<Baker>(scene, light, bake, [&](double f) { report(0.15 + 0.7 * f); });
     baked = baker->vertex_light();
     if (s.air.fog_density <= 0) baker.reset();
   } else {

@@ -14,23 +14,23 @@
 namespace rubble {
 
 struct RenderOptions {
-  int threads = 1;   // for preparing and baking; the result does not depend on it
-  bool bake = true;  // light by way of the sky and other surfaces; false: open sky everywhere
-  int bake_rays = 96;        // a bake point; range: 8 to 1024
-  int shadow_size = 4096;    // side of the main light's shadow map; unit: texel
-  int texture_size = 512;    // side of the procedural textures; a power of two
+  int threads = 1;         // for preparing and baking; the result does not depend on it
+  bool bake = true;        // light by way of the sky and other surfaces; false: open sky everywhere
+  int bake_rays = 64;      // a bake point; range: 8 to 1024
+  int shadow_size = 4096;  // side of the main light's shadow map; unit: texel
+  int texture_size = 512;  // side of the procedural textures; a power of two
   bool occlusion_culling = true;
-  double coarse_below = 0;   // allow coarser levels for triangles about this small; unit: pixel;
-                             // 0: the finest always, so that depth is that of the true surface
-  bool antialias = true;     // smooth silhouettes of the colour image
+  double coarse_below = 0;    // allow coarser levels for triangles about this small; unit: pixel;
+                              // 0: the finest always, so that depth is that of the true surface
+  bool antialias = true;      // smooth silhouettes of the colour image
   double fixed_exposure = 0;  // factor on luminance in kcd/m2; 0: automatic
 };
 
 // The same view before exposure and tone mapping, for tests and sensors.
 struct LinearFrame {
   int width = 0, height = 0;
-  std::vector<float> rgb;           // radiance; unit: kcd/m2
-  std::vector<float> depth;         // as in Frame
+  std::vector<float> rgb;               // radiance; unit: kcd/m2
+  std::vector<float> depth;             // as in Frame
   std::vector<std::uint32_t> instance;  // SceneInstance::id; kNoInstance, kGroundInstance
 };
 inline constexpr std::uint32_t kNoInstance = 0xfffffffeu;

@@ -18,9 +18,9 @@ struct LightSpec {
   // directional: illuminance on a facing surface, in klx (clear sun: 100); spot and point: luminous
   // intensity in kcd. range: 0 to 1000
   double intensity = 60;
-  Vec3 rpy_deg{0, 50, 35};     // roll, pitch (positive: down), yaw; unit: degree
-  Vec3 position{0, 0, 20};     // of spot and point lights; unit: m
-  double cone_deg = 60;        // full angle of a spot; range: 1 to 170
+  Vec3 rpy_deg{0, 50, 35};  // roll, pitch (positive: down), yaw; unit: degree
+  Vec3 position{0, 0, 20};  // of spot and point lights; unit: m
+  double cone_deg = 60;     // full angle of a spot; range: 1 to 170
 };
 
 // A lamp carried by the camera, just beside the lens.

@@ -40,7 +40,8 @@ Spot cast_concrete(float x, float y) {
   const float hair = (1 - ramp(0.0005f, 0.005f, crack.second - crack.nearest)) *
                      ramp(0.52f, 0.62f, tile_fractal(x, y, 2, 3, 0.5f, 16));
   Spot s;
-  s.height = 0.06f * grain + 0.30f * blotch - 0.45f * pit - 0.12f * pin - 0.15f * seam - 0.2f * hair;
+  s.height =
+      0.06f * grain + 0.30f * blotch - 0.45f * pit - 0.12f * pin - 0.15f * seam - 0.2f * hair;
   s.bright = 0.05f + 0.95f * blotch + 0.28f * (grain - 0.5f) + 0.10f * tone - 0.38f * pit -
              0.25f * pin - 0.12f * seam - 0.35f * hair;
   s.mask = 0.55f * ramp(0.56f, 0.74f, tile_fractal(x - 0.1f * warp, y, 2, 6, 0.62f, 17));
@@ -182,23 +183,31 @@ Spot soil(float x, float y) {
 
 Spot spot_of(Pattern pattern, float x, float y) {
   switch (pattern) {
-    case Pattern::cast_concrete: return cast_concrete(x, y);
-    case Pattern::broken_concrete: return broken_concrete(x, y);
-    case Pattern::brick_face: return brick_face(x, y);
-    case Pattern::broken_brick: return broken_brick(x, y);
-    case Pattern::porous_block: return porous_block(x, y);
-    case Pattern::rust: return rust(x, y);
-    case Pattern::galvanised: return galvanised(x, y);
-    case Pattern::wood: return wood(x, y);
-    case Pattern::plaster: return plaster(x, y);
-    case Pattern::soil: return soil(x, y);
+    case Pattern::cast_concrete:
+      return cast_concrete(x, y);
+    case Pattern::broken_concrete:
+      return broken_concrete(x, y);
+    case Pattern::brick_face:
+      return brick_face(x, y);
+    case Pattern::broken_brick:
+      return broken_brick(x, y);
+    case Pattern::porous_block:
+      return porous_block(x, y);
+    case Pattern::rust:
+      return rust(x, y);
+    case Pattern::galvanised:
+      return galvanised(x, y);
+    case Pattern::wood:
+      return wood(x, y);
+    case Pattern::plaster:
+      return plaster(x, y);
+    case Pattern::soil:
+      return soil(x, y);
   }
   return {};
 }
 
-std::uint8_t to_byte(float x) {
-  return std::uint8_t(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f);
-}
+std::uint8_t to_byte(float x) { return std::uint8_t(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f); }
 
 }  // namespace
 
@@ -231,9 +240,8 @@ PatternImage make_pattern(Pattern pattern, int size) {
 
 std::vector<PatternImage> make_patterns(int size, int threads) {
   std::vector<PatternImage> images(kPatternCount);
-  parallel_for(kPatternCount, threads, [&](std::size_t i) {
-    images[i] = make_pattern(Pattern(i), size);
-  });
+  parallel_for(kPatternCount, threads,
+               [&](std::size_t i) { images[i] = make_pattern(Pattern(i), size); });
   return images;
 }
 

@@ -18,8 +18,8 @@ float smooth(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
 // The finalizer of MurmurHash3 (public domain) over a simple combination.
 float lattice_value(int x, int y, std::uint32_t seed) {
-  std::uint32_t h = std::uint32_t(x) * 0x9e3779b1u ^ std::uint32_t(y) * 0x85ebca77u ^
-                    seed * 0xc2b2ae3du;
+  std::uint32_t h =
+      std::uint32_t(x) * 0x9e3779b1u ^ std::uint32_t(y) * 0x85ebca77u ^ seed * 0xc2b2ae3du;
   h ^= h >> 16, h *= 0x85ebca6bu, h ^= h >> 13, h *= 0xc2b2ae35u, h ^= h >> 16;
   return float(h >> 8) * (1.0f / 16777216.0f);
 }

@@ -10,9 +10,9 @@ namespace rubble {
 
 namespace {
 
-constexpr int kFarthestEnd = 10;       // how far a stair is followed; unit: pixel
-constexpr int kLeastContrast = 12;     // of luma, 0 to 255
-constexpr float kDepthEdge = 0.006f;   // bend of depth, as a share of it
+constexpr int kFarthestEnd = 10;      // how far a stair is followed; unit: pixel
+constexpr int kLeastContrast = 12;    // of luma, 0 to 255
+constexpr float kDepthEdge = 0.006f;  // bend of depth, as a share of it
 constexpr int kRowsAJob = 32;
 
 class Smoother {

@@ -13,9 +13,11 @@ constexpr float kReach = 0.08f;  // how far a hollow darkens; unit: m
 }  // namespace
 
 ContactPass::ContactPass(const Gl& gl)
-    : gl_(gl), program_(make_program(gl, "fullscreen.vert.glsl", "contact.frag.glsl")),
+    : gl_(gl),
+      program_(make_program(gl, "fullscreen.vert.glsl", "contact.frag.glsl")),
       blur_(make_program(gl, "fullscreen.vert.glsl", "contact_blur.frag.glsl")),
-      block_(gl), empty_array_(gl) {
+      block_(gl),
+      empty_array_(gl) {
   bind_samplers(gl, program_, {{"depth_values", 0}});
   bind_samplers(gl, blur_, {{"contact", 0}});
   gl.UniformBlockBinding(program_.name(), gl.GetUniformBlockIndex(program_.name(), "Contact"), 0);
@@ -39,8 +41,7 @@ void ContactPass::resize(int width, int height) {
 void ContactPass::draw(const ViewProjection& view, const GlTexture& depth) {
   const Intrinsics& k = view.intrinsics;
   resize(std::max(1, (k.width + 1) / 2), std::max(1, (k.height + 1) / 2));
-  const float block[4] = {kReach * float(std::max(k.fx, k.fy)), kReach, 1 / kNearPlane,
-                          kNearPlane};
+  const float block[4] = {kReach * float(std::max(k.fx, k.fy)), kReach, 1 / kNearPlane, kNearPlane};
   gl_.NamedBufferData(block_.name(), sizeof block, block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_.name());
   gl_.Viewport(0, 0, width_, height_);

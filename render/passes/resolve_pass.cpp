@@ -35,7 +35,8 @@ void set(float (&out)[4], const Vec3f& v, float w = 0) {
 void fill_view(FrameBlock& block, const ViewProjection& view, float exposure) {
   const Mat3 r = view.world_from_optical.rotation.matrix();
   for (int i = 0; i < 3; ++i)
-    set(block.world_from_optical[i], Vec3f(r.rows[i]), float(view.world_from_optical.translation[i]));
+    set(block.world_from_optical[i], Vec3f(r.rows[i]),
+        float(view.world_from_optical.translation[i]));
   const Intrinsics& k = view.intrinsics;
   set(block.lens, {float(1 / k.fx), float(1 / k.fy), float(k.cx)}, float(k.cy));
   set(block.view, {kNearPlane, exposure, float(k.width)}, float(k.height));
@@ -134,17 +135,32 @@ GlTexture upload_glow(const Gl& gl, const std::vector<float>& table) {
   return texture;
 }
 
-enum Unit { kVisibility, kDepth, kVertices, kTriangles, kPlaced, kLight, kLooks, kShadow, kGlow,
-            kContact };
+enum Unit {
+  kVisibility,
+  kDepth,
+  kVertices,
+  kTriangles,
+  kPlaced,
+  kLight,
+  kLooks,
+  kShadow,
+  kGlow,
+  kContact
+};
 
 GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
-  GlProgram program =
-      make_program(gl, "fullscreen.vert.glsl", "resolve.frag.glsl", defines);
-  bind_samplers(gl, program, {{"visibility", kVisibility}, {"depth_values", kDepth},
-                              {"vertex_table", kVertices}, {"triangle_table", kTriangles},
-                              {"placed_table", kPlaced}, {"light_table", kLight},
-                              {"look_textures", kLooks}, {"shadow_map", kShadow},
-                              {"fog_lamp", kGlow}, {"openness", kContact}});
+  GlProgram program = make_program(gl, "fullscreen.vert.glsl", "resolve.frag.glsl", defines);
+  bind_samplers(gl, program,
+                {{"visibility", kVisibility},
+                 {"depth_values", kDepth},
+                 {"vertex_table", kVertices},
+                 {"triangle_table", kTriangles},
+                 {"placed_table", kPlaced},
+                 {"light_table", kLight},
+                 {"look_textures", kLooks},
+                 {"shadow_map", kShadow},
+                 {"fog_lamp", kGlow},
+                 {"openness", kContact}});
   gl.UniformBlockBinding(program.name(), gl.GetUniformBlockIndex(program.name(), "Frame"), 0);
   return program;
 }
@@ -153,7 +169,11 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
 
 ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,
                          const std::vector<PatternImage>& patterns)
-    : gl_(gl), geometry_(geometry), frame_block_(gl), empty_array_(gl), contact_(gl),
+    : gl_(gl),
+      geometry_(geometry),
+      frame_block_(gl),
+      empty_array_(gl),
+      contact_(gl),
       looks_(upload_looks(gl, patterns)),
       fog_lamp_(upload_glow(gl, lamp_glow_table(light.air, light.lamp, 512))),
       texture_size_(patterns.front().size) {
@@ -181,10 +201,15 @@ void ResolvePass::draw_with(const GlProgram& program, const GlFramebuffer& targe
   fill_looks(block, texture_size_);
   gl_.NamedBufferData(frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
-  const GLuint textures[] = {visibility.ids().name(), visibility.depth().name(),
-                             geometry_.vertices_view.name(), geometry_.triangles_view.name(),
-                             geometry_.placed_view.name(), geometry_.light_view.name(),
-                             looks_.name(), light.shadow->depth.name(), fog_lamp_.name(),
+  const GLuint textures[] = {visibility.ids().name(),
+                             visibility.depth().name(),
+                             geometry_.vertices_view.name(),
+                             geometry_.triangles_view.name(),
+                             geometry_.placed_view.name(),
+                             geometry_.light_view.name(),
+                             looks_.name(),
+                             light.shadow->depth.name(),
+                             fog_lamp_.name(),
                              contact_.openness().name()};
   for (GLuint unit = 0; unit < sizeof textures / sizeof textures[0]; ++unit)
     gl_.BindTextureUnit(unit, textures[unit]);

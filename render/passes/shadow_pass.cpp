@@ -13,8 +13,8 @@ namespace {
 
 using Rows = std::array<std::array<double, 4>, 4>;
 
-constexpr double kNearest = 0.05;    // unit: m; nothing nearer to a lamp throws a shadow
-constexpr double kFarthest = 500;    // unit: m
+constexpr double kNearest = 0.05;  // unit: m; nothing nearer to a lamp throws a shadow
+constexpr double kFarthest = 500;  // unit: m
 
 struct Basis {
   Vec3 right, up, forward;
@@ -43,8 +43,10 @@ Rows directional_view(const Aabb& bounds, const LightModel& light, int size, flo
     depth = std::max(depth, std::fabs(dot(p - middle, b.forward)));
   }
   texel = float(2 * std::max(width, height) / size);
-  Rows rows{row(b.right, middle, 1 / width), row(b.up, middle, 1 / height),
-            row(b.forward, middle, 0.5 / (depth * 1.01)), {0, 0, 0, 1}};
+  Rows rows{row(b.right, middle, 1 / width),
+            row(b.up, middle, 1 / height),
+            row(b.forward, middle, 0.5 / (depth * 1.01)),
+            {0, 0, 0, 1}};
   rows[2][3] += 0.5;
   // What lies behind the box (the ground in a long shadow) is still compared: see DEPTH_CLAMP.
   return rows;

@@ -62,10 +62,15 @@ void DrawList::draw() {
 
 VisibilityPass::VisibilityPass(const Gl& gl, const PreparedScene& scene,
                                const GpuGeometry& geometry, const VisibilityOptions& options)
-    : gl_(gl), scene_(scene), geometry_(geometry), options_(options),
+    : gl_(gl),
+      scene_(scene),
+      geometry_(geometry),
+      options_(options),
       program_(make_program(gl, "visibility.vert.glsl", "visibility.frag.glsl",
                             {{"NEAR_PLANE", std::to_string(kNearPlane)}})),
-      list_(gl, geometry), shown_(scene.cluster_flags, 0), drawn_(scene.cluster_flags, 0) {}
+      list_(gl, geometry),
+      shown_(scene.cluster_flags, 0),
+      drawn_(scene.cluster_flags, 0) {}
 
 void VisibilityPass::resize(int width, int height) {
   if (width == width_ && height == height_) return;
@@ -169,8 +174,10 @@ void VisibilityPass::add_piece(const Candidate& candidate, const ViewProjection&
     drawn_[flag] |= std::uint8_t(wanted);
     if (wanted && run_count && run_first + run_count != first) flush();
     if (wanted && !run_count) run_first = first;
-    if (wanted) run_count += count;
-    else flush();
+    if (wanted)
+      run_count += count;
+    else
+      flush();
   }
   flush();
 }

@@ -58,8 +58,8 @@ class VisibilityPass {
   // Draws into textures of the image's size.
   void draw(const ViewProjection& view);
 
-  const GlTexture& ids() const { return ids_; }          // placed mesh + 1, last vertex of its triangle
-  const GlTexture& depth() const { return depth_; }      // near / Z
+  const GlTexture& ids() const { return ids_; }      // placed mesh + 1, last vertex of its triangle
+  const GlTexture& depth() const { return depth_; }  // near / Z
   const std::vector<float>& depth_values() const { return values_; }  // the same, read back
 
   // Two numbers a pixel, as ids().

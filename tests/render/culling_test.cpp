@@ -29,13 +29,14 @@ TEST(OcclusionCulling, NeverDropsWhatShows) {
   const Vec3 eyes[] = {{7, 2, 1.5}, {4, 0.3, 0.7}, {1, 0, 0.6}, {-1, 0.2, 0.5},
                        {-6, -4, 3}, {0.2, 0.1, 5}, {1, 0, 0.6}};
   const Vec3 targets[] = {{0, 0, 1}, {0, 0, 0.6}, {-1.5, 0.5, 0.6}, {3, 0, 0.6},
-                          {0, 0, 1}, {0, 0, 0}, {4, 0.5, 0.4}};
+                          {0, 0, 1}, {0, 0, 0},   {4, 0.5, 0.4}};
   for (std::size_t i = 0; i < 7; ++i) {
     const Pose pose = look_at(eyes[i], targets[i]);
     const LinearFrame a = with.render_linear(pose, k), b = without.render_linear(pose, k);
     std::size_t different_depth = 0, different_piece = 0;
     for (std::size_t p = 0; p < a.depth.size(); ++p) {
-      const bool same = a.depth[p] == b.depth[p] || (std::isnan(a.depth[p]) && std::isnan(b.depth[p]));
+      const bool same =
+          a.depth[p] == b.depth[p] || (std::isnan(a.depth[p]) && std::isnan(b.depth[p]));
       different_depth += !same;
       different_piece += a.instance[p] != b.instance[p];
     }

@@ -58,8 +58,9 @@ TEST_P(ObliquePlane, FollowsTheRayPlaneFormula) {
   const Pose turned{portable::quat_from_rpy(0, 0, portable::kPi / 3), {d, 0, 0}};
   GlContext context;
   // Turned by 60 degrees about the vertical, the near face passes through (d, 0, 0).
-  Renderer renderer(context, scene_of(make_box({1, 80, 80}),
-                                      {turned.rotation, turned * Vec3(0.5, 0, 0)}), plain());
+  Renderer renderer(context,
+                    scene_of(make_box({1, 80, 80}), {turned.rotation, turned * Vec3(0.5, 0, 0)}),
+                    plain());
   const Intrinsics k = odd_pinhole();
   const Frame frame = renderer.render({}, k, 0, 0);
   const Vec3 normal = turned.rotation.rotate({1, 0, 0});
@@ -70,7 +71,8 @@ TEST_P(ObliquePlane, FollowsTheRayPlaneFormula) {
       const Vec3 ray(1, -(u - k.cx) / k.fx, -(v - k.cy) / k.fy);
       const double z = d * normal.x / dot(ray, normal);
       if (z <= 0 || z > 30) continue;
-      ASSERT_NEAR(double(frame.depth[std::size_t(v * k.width + u)]), z, allowed(z)) << u << "," << v;
+      ASSERT_NEAR(double(frame.depth[std::size_t(v * k.width + u)]), z, allowed(z))
+          << u << "," << v;
       ++seen;
     }
   }
@@ -94,7 +96,8 @@ TEST_P(SphereDepth, FollowsTheRaySphereFormula) {
   for (int v = 0; v < k.height; ++v) {
     for (int u = 0; u < k.width; ++u) {
       const Vec3 ray(1, -(u - k.cx) / k.fx, -(v - k.cy) / k.fy);
-      const double a = dot(ray, ray), b = dot(ray, centre), c = dot(centre, centre) - radius * radius;
+      const double a = dot(ray, ray), b = dot(ray, centre),
+                   c = dot(centre, centre) - radius * radius;
       const double inside = b * b - a * c;
       const float z = frame.depth[std::size_t(v * k.width + u)];
       if (inside < -0.02 * d * d) {
@@ -121,9 +124,8 @@ TEST(PixelCentre, LiesAtWholeNumbers) {
   // At x = 2 m a pixel is 2/80 m wide. The box covers columns from 40.5 on and rows from 20.5 on.
   const double left = -(40.5 - k.cx) / k.fx * 2, top = -(20.5 - k.cy) / k.fy * 2;
   GlContext context;
-  Renderer renderer(context, scene_of(make_box({1e-3, 50, 50}),
-                                      {{}, {2 + 5e-4, left - 25, top - 25}}),
-                    plain());
+  Renderer renderer(
+      context, scene_of(make_box({1e-3, 50, 50}), {{}, {2 + 5e-4, left - 25, top - 25}}), plain());
   const Frame frame = renderer.render({}, k, 0, 0);
   for (int v = 0; v < k.height; ++v)
     for (int u = 0; u < k.width; ++u)

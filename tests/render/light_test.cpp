@@ -46,9 +46,7 @@ double draw_middle(const Scene& scene) {
   return middle(Renderer(context, scene, plain()).render_linear({}, pinhole(128, 128, 400)));
 }
 
-double without_light() {
-  return draw_middle(wall());
-}
+double without_light() { return draw_middle(wall()); }
 
 Scene with_lamp(double behind) {
   Scene scene = wall();
@@ -116,7 +114,8 @@ TEST(DirectionalLight, FollowsTheCosine) {
   const auto sun = [&](double yaw, double pitch) {
     return draw_middle(with_light(LightType::directional, {}, {0, pitch, yaw}, 100));
   };
-  const double behind = sun(180, 40), straight = sun(0, 40) - behind, slanting = sun(50, 40) - behind;
+  const double behind = sun(180, 40), straight = sun(0, 40) - behind,
+               slanting = sun(50, 40) - behind;
   EXPECT_NEAR(slanting / straight, std::cos(50 * portable::kPi / 180), 0.03);
   EXPECT_GT(straight, behind);
 }
@@ -143,16 +142,20 @@ TEST_P(Shadow, LiesBehindWhatStandsInTheWay) {
   scene.instances.back().world_from_body.translation = {-1, 5, 0};
   EXPECT_NEAR(draw_middle(scene), lit, 1e-3 * lit);  // negative control: moved aside
   EXPECT_LT(shaded, 0.5 * lit);
-  if (GetParam() != LightType::directional) { EXPECT_LT(shaded, 0.01 * lit); }
+  if (GetParam() != LightType::directional) {
+    EXPECT_LT(shaded, 0.01 * lit);
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(Types, Shadow, ::testing::Values(LightType::directional, LightType::spot,
-                                                          LightType::point));
+INSTANTIATE_TEST_SUITE_P(Types, Shadow,
+                         ::testing::Values(LightType::directional, LightType::spot,
+                                           LightType::point));
 
 class Fog : public ::testing::TestWithParam<double> {};
 
 TEST_P(Fog, LetsThroughByTheLawOfBeerAndLambert) {
-  // Fog that only absorbs; the wall is lit by the sun, whose own way through the fog is not counted.
+  // Fog that only absorbs; the wall is lit by the sun, whose own way through the fog is not
+  // counted.
   Scene scene = with_light(LightType::directional, {}, {0, 40, 0}, 100);
   scene.air.fog_intensity = 0;
   const double clear = draw_middle(scene);

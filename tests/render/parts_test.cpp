@@ -53,7 +53,8 @@ TEST(PrepareMesh, ClustersCoverEveryTriangleOnce) {
       next += cluster.triangle_count;
       for (std::uint32_t t = cluster.first_triangle; t < next; ++t)
         for (std::uint32_t v : prepared.triangles[t].vertices)
-          EXPECT_LE(distance(prepared.vertices[v].position, cluster.centre), cluster.radius * 1.001f);
+          EXPECT_LE(distance(prepared.vertices[v].position, cluster.centre),
+                    cluster.radius * 1.001f);
     }
   }
   EXPECT_EQ(next, prepared.triangles.size());
@@ -115,8 +116,8 @@ TEST(AutoExposure, MovesTowardsTheMeteredValueAndHolds) {
   AutoExposure exposure({0.18, 0.25, 0});
   const auto image_of = [&](double luminance) {  // as the shader codes it
     const double stops = std::log2(luminance * double(exposure.factor()));
-    return std::vector<std::uint8_t>(
-        16 * 16 * 4, std::uint8_t(std::lround((stops / 24 + 0.5) * 255)));
+    return std::vector<std::uint8_t>(16 * 16 * 4,
+                                     std::uint8_t(std::lround((stops / 24 + 0.5) * 255)));
   };
   for (int i = 0; i < 4; ++i) exposure.follow(image_of(3), 16, 16, 0);
   EXPECT_TRUE(exposure.settled());

@@ -89,7 +89,8 @@ TriangleMesh make_chunk(std::uint64_t seed, const char* cast, const char* broken
     Vec3f mid;
     for (uint32_t v : mesh.triangles[t]) mid += mesh.positions[v] * (1.0f / 3);
     bool flat = false;
-    for (std::size_t i = 0; i < 3; ++i) flat |= dot(mid, planes[i].normal) > planes[i].reach * 0.995f;
+    for (std::size_t i = 0; i < 3; ++i)
+      flat |= dot(mid, planes[i].normal) > planes[i].reach * 0.995f;
     mesh.surfaces[t] = flat ? 0 : 1;
   }
   return mesh;
@@ -133,8 +134,8 @@ Scene make_heap(int pieces, std::uint64_t seed) {
     const double x = random.uniform(-4.5, 4.5), y = random.uniform(-4.5, 4.5);
     const double top = std::max(0.05, 2.4 * (1 - std::sqrt(x * x + y * y) / 4.6));
     const double z = 0.12 + random.uniform(0, 1) * top;
-    const bool in_void = x > -2.2 && x < 4.6 && std::fabs(y) < 1.2 + 0.12 * (x > 1.5 ? x - 1.5 : 0) &&
-                         z < 1.6;
+    const bool in_void =
+        x > -2.2 && x < 4.6 && std::fabs(y) < 1.2 + 0.12 * (x > 1.5 ? x - 1.5 : 0) && z < 1.6;
     const Quat turn = mesh >= 7 && mesh < 10
                           ? portable::quat_from_rpy(random.normal() * 0.5, random.normal() * 0.5,
                                                     random.uniform(0, 6.28))
@@ -142,7 +143,8 @@ Scene make_heap(int pieces, std::uint64_t seed) {
     if (!in_void) add(mesh, {turn, {x, y, z}}, float(size));
   }
   for (int i = 0; i < 40; ++i)  // small debris on the floor
-    add(uint32_t(random.below(7)), {random.rotation(), {random.uniform(-1.4, 3), random.uniform(-1.1, 1.1), 0.03}},
+    add(uint32_t(random.below(7)),
+        {random.rotation(), {random.uniform(-1.4, 3), random.uniform(-1.1, 1.1), 0.03}},
         float(random.uniform(0.06, 0.2)));
   return scene;
 }

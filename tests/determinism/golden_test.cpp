@@ -13,8 +13,9 @@ void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
 
 namespace {
 
-constexpr char kHint[] = "if the change of results is meant: cmake --build <build> --target "
-                         "update_golden, and say why in the commit";
+constexpr char kHint[] =
+    "if the change of results is meant: cmake --build <build> --target "
+    "update_golden, and say why in the commit";
 
 // Lines of the golden table by scene.
 std::map<std::string, std::string> golden_lines() {
@@ -43,9 +44,7 @@ TEST_P(GoldenScene, MatchesTheTableForAnyThreadCount) {
   }
 }
 
-TEST_P(GoldenScene, ANanometreChangesTheHash) {
-  EXPECT_NE(line(1, 1e-9), line(1, 0));
-}
+TEST_P(GoldenScene, ANanometreChangesTheHash) { EXPECT_NE(line(1, 1e-9), line(1, 0)); }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, GoldenScene, ::testing::ValuesIn(standard_scenes()),
                          [](const auto& scene) { return scene.param.name; });

@@ -29,8 +29,9 @@ struct Arguments {
 [[noreturn]] void refuse(const std::string& message) {
   Diagnostic d;
   d.message = message;
-  d.hint = "hash_probe [--threads N] [--push METRES] [--scene NAME] [--trace FILE] | "
-           "--compare A B | --libm";
+  d.hint =
+      "hash_probe [--threads N] [--push METRES] [--scene NAME] [--trace FILE] | "
+      "--compare A B | --libm";
   throw InputError(d);
 }
 

@@ -22,10 +22,10 @@ void trip(const char* name) {
 extern "C" void rubble_arm_tripwire() { armed = true; }
 
 // The results are never used: before arming they are those of static initialisers, 0 or 1.
-#define RUBBLE_TRIP(name)       \
-  extern "C" double name() {    \
-    if (armed) trip(#name);     \
-    return 0;                   \
+#define RUBBLE_TRIP(name)    \
+  extern "C" double name() { \
+    if (armed) trip(#name);  \
+    return 0;                \
   }
 #define RUBBLE_TRIP_FLOAT(name) \
   extern "C" float name() {     \

@@ -94,7 +94,7 @@ std::set<std::string> banned_symbols(const std::string& archive) {
   const std::regex banned(
       "(sin|cos|sincos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh|exp|exp2|exp10|"
       "expm1|log|log2|log10|log1p|pow|cbrt|hypot|erf|erfc|tgamma|lgamma)[fl]?"
-      "|[sdcz][a-z0-9]+_"                   // BLAS and LAPACK
+      "|[sdcz][a-z0-9]+_"  // BLAS and LAPACK
       "|s?rand|rand_r|drand48|random|getenv|secure_getenv|time|clock|gettimeofday"
       "|_ZNSt13random_device.*");
   const Outcome outcome = run("nm -u " + archive);

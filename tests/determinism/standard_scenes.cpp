@@ -106,8 +106,8 @@ SceneResult bar_under_slab(const SceneOptions& options) {
   std::vector<NewPiece> pieces = {at(0, {0, 0, 0.03}, turned({0, 0, 1}, 0.4)),
                                   at(0, {0.5, 0.3, 0.03}, turned({0, 0, 1}, -0.9)),
                                   at(1, {0.1, 0.1, 0.6}, turned({1, 1, 0}, 0.12))};
-  return step_world({testing::bar_type(1.5, 0.02), testing::box_type("slab", 2.5, 2, 0.16)},
-                    pieces, 240, options);
+  return step_world({testing::bar_type(1.5, 0.02), testing::box_type("slab", 2.5, 2, 0.16)}, pieces,
+                    240, options);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace rubble::determinism {
 
 struct SceneOptions {
-  int threads = 1;   // 0: all processors
-  double push = 0;   // moves one piece along X before the first step; unit: m
+  int threads = 1;  // 0: all processors
+  double push = 0;  // moves one piece along X before the first step; unit: m
   std::function<void(const World&)> after_step;  // may be empty
 };
 

@@ -12,8 +12,8 @@ namespace {
 constexpr char kFormat[] = "rubble trace 1\n";
 constexpr std::size_t kFormatSize = sizeof kFormat - 1;
 constexpr const char* kFields[13] = {
-    "rotation.w",        "rotation.x",        "rotation.y",        "rotation.z",
-    "position.x",        "position.y",        "position.z",        "linear velocity.x",
+    "rotation.w",        "rotation.x",        "rotation.y",         "rotation.z",
+    "position.x",        "position.y",        "position.z",         "linear velocity.x",
     "linear velocity.y", "linear velocity.z", "angular velocity.x", "angular velocity.y",
     "angular velocity.z"};
 

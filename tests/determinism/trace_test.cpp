@@ -17,8 +17,8 @@ namespace {
 class TraceFile {
  public:
   explicit TraceFile(const std::string& name)
-      : path_(::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name() +
-              name) {}
+      : path_(::testing::TempDir() +
+              ::testing::UnitTest::GetInstance()->current_test_info()->name() + name) {}
   ~TraceFile() { std::remove(path_.c_str()); }
   const std::string& path() const { return path_; }
 
@@ -85,7 +85,8 @@ TEST(Trace, SaysWhichRunEndsFirst) {
   const TraceFile a("_a"), b("_b");
   trace_boxes(a, 0, 0);
   { TraceWriter(b.path()).finish(); }
-  EXPECT_EQ(compare_traces(a.path(), b.path()), "the runs part: scene boxes, step 1 against the end");
+  EXPECT_EQ(compare_traces(a.path(), b.path()),
+            "the runs part: scene boxes, step 1 against the end");
 }
 
 TEST(Trace, RefusesAForeignAndACutFile) {

@@ -75,7 +75,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
       options(o),
       scene(prepare_scene(s, o.threads)),
       light(make_light_model(s.light)),
-      exposure(ExposureOptions{0.2, 0.25, o.fixed_exposure}) {
+      exposure(ExposureOptions{0.17, 0.25, o.fixed_exposure}) {
   const auto report = [&](double fraction) {
     if (progress) progress(fraction);
   };

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -19,18 +18,27 @@ struct Include {
   std::string target;
 };
 
+// What a line includes; empty: nothing.
+std::string target_of(const std::string& line) {
+  const std::size_t hash = line.find_first_not_of(" \t");
+  if (hash == std::string::npos || line[hash] != '#') return "";
+  const std::size_t word = line.find_first_not_of(" \t", hash + 1);
+  if (word == std::string::npos || line.compare(word, 7, "include") != 0) return "";
+  const std::size_t open = line.find_first_of("<\"", word);
+  if (open == std::string::npos) return "";
+  const std::size_t close = line.find_first_of(">\"", open + 1);
+  return close == std::string::npos ? "" : line.substr(open + 1, close - open - 1);
+}
+
 std::vector<Include> find_includes(const fs::path& root, const std::string& folder) {
-  static const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
   std::vector<Include> includes;
   for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
     if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
     std::ifstream in(entry.path());
     std::string text;
-    for (int line = 1; std::getline(in, text); ++line) {
-      std::smatch match;
-      if (std::regex_search(text, match, pattern))
-        includes.push_back({fs::relative(entry.path(), root), line, match[1]});
-    }
+    for (int line = 1; std::getline(in, text); ++line)
+      if (const std::string target = target_of(text); !target.empty())
+        includes.push_back({fs::relative(entry.path(), root), line, target});
   }
   return includes;
 }

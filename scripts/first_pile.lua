@@ -19,14 +19,14 @@ local mix = {
 }
 
 -- The wall runs along X and turns a corner. Each slab has one long edge on it, the other on the
--- floor: under them is a void of triangular section, 1.4 m high at the wall.
+-- floor: under them is a void of triangular section, 1.3 m high at the wall.
 local placed = {
   { asset = "wall_stub", position = { -3.05, -1.32, 0.7 } },
   { asset = "wall_stub", position = { 0.0, -1.3, 0.7 } },
   { asset = "wall_stub", position = { 3.05, -1.28, 0.7 }, rpy_deg = { 3, 0, -1 } },
   { asset = "wall_stub", position = { 4.75, 0.3, 0.7 }, rpy_deg = { 0, 0, 90 } },
-  { asset = "floor_slab", position = { -2.15, 0.03, 0.77 }, rpy_deg = { -27.3, 0, 1 } },
-  { asset = "floor_slab", position = { 2.2, 0.08, 0.76 }, rpy_deg = { -26.8, 1, -2 } },
+  { asset = "floor_slab", position = { -2.15, -0.12, 0.68 }, rpy_deg = { -27.3, 0, 1 } },
+  { asset = "floor_slab", position = { 2.1, -0.08, 0.69 }, rpy_deg = { -26.8, 0.5, -1 } },
 }
 -- What lay in the room already: it settles before the first layer comes.
 local lying = { "chunk_4", "brick", "cinder_block", "chunk_6", "half_brick", "worn_brick", "chunk_1" }
@@ -55,11 +55,11 @@ return rubble.mission {
   trajectory = {
     rate_hz = 30,
     waypoints = {
-      { t = 0.0, position = { -6.2, -5.2, 2.6 }, look_at = { 0.5, 0, 0.9 } },
+      { t = 0.0, position = { -5.6, -4.6, 2.3 }, look_at = { 0.6, 0, 0.8 } },
       { t = 1.0, position = { -7.2, -1.6, 1.7 }, look_at = { -0.5, -0.2, 0.8 } },
-      { t = 1.9, position = { -5.9, -0.55, 0.95 }, look_at = { -1.5, -0.5, 0.6 } },
-      { t = 2.8, position = { -3.6, -0.6, 0.75 }, look_at = { 1, -0.5, 0.5 } },
-      { t = 4.0, position = { -0.6, -0.5, 0.7 }, look_at = { 3, -0.5, 0.4 } },
+      { t = 1.9, position = { -5.9, -0.6, 0.9 }, look_at = { -1.5, -0.6, 0.6 } },
+      { t = 2.8, position = { -3.6, -0.7, 0.62 }, look_at = { 1, -0.6, 0.4 } },
+      { t = 4.0, position = { -0.8, -0.72, 0.58 }, look_at = { 3, -0.55, 0.35 } },
     },
   },
 }

@@ -157,6 +157,9 @@ Shape compile_shape(const PieceType& type, const std::string& key) {
   for (const Hull& hull : hulls) {
     shape.parts.push_back(compile_part(hull, shape.volume.centre_of_mass));
     shape.radius = std::max(shape.radius, shape.parts.back().radius);
+    for (const Vec3f& p : shape.parts.back().corners) {
+      shape.reach = max(shape.reach, max(p, -p));
+    }
   }
   return shape;
 }

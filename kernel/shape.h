@@ -33,6 +33,7 @@ struct Shape {
   std::vector<ConvexShape> parts;
   VolumeProperties volume;  // at scale 1 and density 1, centre in the frame of the type
   float radius = 0;         // of the sphere about the centre of mass; unit: m
+  Vec3f reach;              // largest |x|, |y|, |z| of any corner from there; unit: m
 };
 
 // Throws InputError, with `key` as the path of the type, when a part does not span a volume, when

@@ -30,6 +30,7 @@ constexpr float kSlowSpin = 1.0F, kSpinDamping = 0.1F;     // unit: rad/s, 1
 constexpr float kSlowSpeed = 0.1F, kSpeedDamping = 0.02F;  // unit: m/s, 1
 constexpr float kKickShare = 0.35F;  // see limit_kicks()
 constexpr float kFreeKick = 1.0F;   // unit: m/s
+constexpr float kOrderDistance = 0.1F;  // see sort_by_height(); unit: m
 constexpr double kLookAhead = 4;         // steps that an enlarged box reaches ahead
 
 // A contact's impulse must change by this to wake a sleeper. What carries a high load is clamped by
@@ -65,7 +66,11 @@ Vec3 gyroscopic(const Body& body, const Vec3& omega, double dt) {
 void count_still(const Body& body, double distance, Pose& pose, std::int32_t& steps) {
   const Vec3 moved = body.world_from_com.translation - pose.translation;
   const Quat turn = pose.rotation.conjugate() * body.world_from_com.rotation;
-  const double turned = 2 * norm(Vec3{turn.x, turn.y, turn.z}) * double(body.radius);
+  // How far a corner has gone at most: a bar may spin about its own axis without going anywhere.
+  const Vec3 r = Vec3(body.shape->reach) * (2 * body.scale);
+  const Vec3 t{std::abs(turn.x), std::abs(turn.y), std::abs(turn.z)};
+  const double turned =
+      norm(Vec3{t.y * r.z + t.z * r.y, t.z * r.x + t.x * r.z, t.x * r.y + t.y * r.x});
   ++steps;
   if (norm(moved) + turned > distance) {
     pose = body.world_from_com;
@@ -127,7 +132,7 @@ void World::Impl::add_contact(int first, int second) {
   const double mu_a = types[one.type].friction;
   const double mu_b = b == kGround ? mu_a : types[data.bodies[body_b].type].friction;
   contact.friction = float(std::sqrt(mu_a * mu_b));
-  data.pairs.push_back({a, b, body_a, body_b, 0});
+  data.pairs.push_back({a, b, body_a, body_b});
   data.contacts.push_back(contact);
 }
 
@@ -279,15 +284,17 @@ void World::Impl::apply_forces() {
   });
 }
 
-// Bottom up: what carries is solved before what is carried.
+// Bottom up: what carries is solved before what is carried. The order stays the same from step to
+// step unless something moves far: a sweep in another order would disturb what earlier ones reached.
 void World::Impl::sort_by_height() {
-  const auto height = [this](std::int32_t index) {
-    const Contact& contact = data.contacts[index];
-    const double z = data.bodies[contact.body_a].world_from_com.translation.z;
-    return float(z) + contact.points[0].from_a.z;
-  };
   std::vector<std::pair<float, std::int32_t>> keys;
-  for (std::int32_t index : active) keys.push_back({height(index), index});
+  for (std::int32_t index : active) {
+    Pair& pair = data.pairs[index];
+    const float z = float(data.bodies[pair.body_a].world_from_com.translation.z) +
+                    data.contacts[index].points[0].from_a.z;
+    if (std::abs(z - pair.order) > kOrderDistance) pair.order = z;
+    keys.push_back({pair.order, index});
+  }
   std::sort(keys.begin(), keys.end());
   for (std::size_t i = 0; i < keys.size(); ++i) active[i] = keys[i].second;
 }

@@ -4,7 +4,7 @@
 .PHONY: help packages build demo pictures test test-asan test-tsan test-slow determinism format clean
 
 PROGRAM := build/release/rubble
-CTEST   := ctest --output-on-failure
+CTEST   := ctest --output-on-failure --parallel 2
 
 help:
 	@echo "make demo       install what is missing, build, and run scripts/first_pile.lua"

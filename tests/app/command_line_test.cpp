@@ -48,6 +48,15 @@ TEST(Check, NamesFileAndLineOfLuaErrors) {
   EXPECT_NE(runtime.err.find("m.lua:2:"), std::string::npos) << runtime.err;
 }
 
+// The first thing a newcomer copies.
+TEST(Check, AcceptsTheMissionOfTheReadme) {
+  const std::string readme = read_file(RUBBLE_SOURCE_DIR "/README.md");
+  const std::size_t begin = readme.find("```lua\n") + 7, end = readme.find("```", begin);
+  ASSERT_NE(end, std::string::npos);
+  const Outcome check = check_text(readme.substr(begin, end - begin));
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+}
+
 TEST(Check, NamesAnUnknownAsset) {
   const Outcome check = check_text(
       "return rubble.mission {\n"

@@ -59,6 +59,19 @@ TEST(Run, SaysWhenThePileDidNotSettle) {
   EXPECT_TRUE(fs::exists(scratch / "a/pile.bin")) << "what was computed is kept";
 }
 
+// Each bundled script, made small: what users copy from must work.
+TEST(Run, RunsEveryBundledScript) {
+  for (const auto& entry : fs::directory_iterator(RUBBLE_SOURCE_DIR "/scripts")) {
+    if (entry.path().extension() != ".lua") continue;
+    const ScratchFolder scratch;
+    const Outcome run = run_rubble(
+        "run '" + entry.path().string() + "' --out " + (scratch / "a") +
+        " --set pile.layers=1 --set pile.pieces_per_layer=12 --set camera.width=64"
+        " --set camera.height=48 --set trajectory.rate_hz=1 --set settle.final_time_limit=30");
+    EXPECT_EQ(run.exit_code, 0) << entry.path() << "\n" << run.err;
+  }
+}
+
 TEST(Run, RefusesAFolderThatIsNotEmpty) {
   const ScratchFolder scratch;
   write_file(scratch / "mine.txt", "precious");

@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages build demo pictures test test-asan test-tsan test-slow determinism format clean
+.PHONY: help packages build demo pictures test test-asan test-tsan determinism format clean
 
 PROGRAM := build/release/rubble
 CTEST   := ctest --output-on-failure --parallel 2
@@ -12,8 +12,7 @@ help:
 	@echo "make build      build the release preset alone: $(PROGRAM)"
 	@echo "make test-asan  the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
 	@echo "make test-tsan  the suite under ThreadSanitizer"
-	@echo "make test-slow  the tests that take minutes (label: slow)"
-	@echo "make determinism  the same hashes from other compilers, levels and processors (a quarter of an hour)"
+	@echo "make determinism  the same hashes from other compilers, levels and processors (half an hour)"
 	@echo "make format     clang-format over the tree"
 	@echo "make clean      remove build/ and out/"
 
@@ -35,14 +34,11 @@ pictures: demo
 	tools/frames_of_bag.py out/first_pile/mission.bag docs/pictures/first_pile.png 341 0 55 118
 
 test: build
-	$(CTEST) --preset release --label-exclude slow
+	$(CTEST) --preset release
 
 test-asan test-tsan: test-%: packages build/%/build.ninja
 	cmake --build --preset $*
 	$(CTEST) --preset $* --label-exclude slow
-
-test-slow: build
-	$(CTEST) --preset release --label-regex slow
 
 # Not part of any suite: it installs compilers and builds the kernel fifteen times.
 determinism: packages

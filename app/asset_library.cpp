@@ -5,7 +5,6 @@
 #include <map>
 #include <set>
 
-#include "io/atomic_file.h"
 #include "io/mesh_file.h"
 #include "kernel/base/hash.h"
 #include "scripting/asset_pack.h"
@@ -77,7 +76,8 @@ std::string hash_content(const Asset& asset, const PieceType& type) {
     const std::string content = sha256_of_file(file);
     hash.add(content.data(), content.size());
   }
-  for (const double number : {type.density, type.friction, asset.metres_per_unit})
+  const double up = asset.up == UpAxis::y ? 1 : 0;
+  for (const double number : {type.density, type.friction, asset.metres_per_unit, up})
     hash.add(&number, sizeof number);
   return hash.hex();
 }

@@ -85,7 +85,7 @@ Vec3 SimbodyBlocks::linear_velocity(int body) const {
 }
 
 // The kinematics of a Free mobilizer, dq/dt = N(q) u, written out: Simbody's multiplyByN() computes
-// the same, but its arm64 build fuses multiplications with additions, so the last bits differ.
+// the same, but its arm64 build gave other last bits (most likely by fused multiply-adds).
 void SimbodyBlocks::advance(int index, const std::vector<std::uint8_t>& moves,
                             const Vec3* extra_linear, const Vec3* extra_angular, double dt) {
   Block& block = *blocks_[index];

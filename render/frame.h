@@ -17,6 +17,20 @@ struct Intrinsics {
   std::array<double, 5> distortion{};     // k1 k2 p1 p2 k3
 };
 
+// One change of brightness at one pixel of an event camera.
+struct Event {
+  std::int64_t stamp_ns = 0;
+  std::uint16_t x = 0, y = 0;
+  bool brighter = false;
+};
+
+// What an inertial unit in the camera body measures.
+struct ImuSample {
+  std::int64_t stamp_ns = 0;
+  Vec3 angular_velocity;     // in the camera body frame; unit: rad/s
+  Vec3 linear_acceleration;  // specific force: at rest and level (0, 0, 9.81); unit: m/s2
+};
+
 struct Frame {
   int index = 0;                  // 0-based
   std::int64_t stamp_ns = 0;      // simulation time; one stamp for all that is in the frame
@@ -24,6 +38,25 @@ struct Frame {
   Pose world_from_camera;         // camera body frame: X forward, Y left, Z up
   std::vector<std::uint8_t> rgb;  // 3 bytes a pixel, rows from the top
   std::vector<float> depth;       // planar, along the optical axis; unit: m; NaN: no return
+
+  // What a mission asks for besides; empty otherwise. Rows from the top, as rgb and depth.
+  std::vector<std::uint8_t> rgb_right;  // the right camera of a stereo pair, 3 bytes a pixel
+  std::vector<float> measured_depth;    // as depth, but what the depth sensor reports
+  std::vector<float> normals;           // 3 a pixel: unit, towards the camera, in the optical frame
+                                        // (X right, Y down, Z forward); NaN: no surface
+  std::vector<std::uint32_t> instance;  // piece number; kNoInstance, kGroundInstance
+  std::vector<std::uint16_t> label;     // class: 0 sky, 1 ground, 2 and up: one per asset
+  std::vector<float> flow;              // 2 a pixel: where the point seen here will be in the next
+                                        // frame, less where it is; unit: pixel; NaN: no surface,
+                                        // behind the camera then, or the last frame
+  std::vector<float> sky_visibility;    // share of the sky that reaches the surface, 0 to 1
+  std::vector<Event> events;            // since the frame before, in order of stamp, row, column
+  std::vector<ImuSample> imu;           // later than the frame before, up to and with this one
+  double exposure_s = 0;                // exposure time; 0: not modelled
 };
+
+// In Frame::instance, where there is no piece.
+inline constexpr std::uint32_t kNoInstance = 0xfffffffeu;
+inline constexpr std::uint32_t kGroundInstance = 0xffffffffu;
 
 }  // namespace rubble

@@ -33,8 +33,6 @@ struct LinearFrame {
   std::vector<float> depth;             // as in Frame
   std::vector<std::uint32_t> instance;  // SceneInstance::id; kNoInstance, kGroundInstance
 };
-inline constexpr std::uint32_t kNoInstance = 0xfffffffeu;
-inline constexpr std::uint32_t kGroundInstance = 0xffffffffu;
 
 struct RenderTimes {  // of the last frame; unit: ms
   double visibility = 0, resolve = 0, read = 0, finish = 0;

@@ -24,7 +24,7 @@ struct WorldData {
   std::vector<Pair> pairs;        // of parts that are near each other
   std::vector<Contact> contacts;  // one per pair
   std::unordered_map<std::uint64_t, std::int32_t> contact_of_pair;  // looked up, never walked
-  std::vector<std::uint8_t> wake_next;  // by body
+  std::vector<std::uint8_t> wake_next;                              // by body
   std::int64_t steps = 0;
   int lost = 0;
 };
@@ -52,31 +52,38 @@ struct World::Impl {
 
   // world.cpp
   void add_body(const NewPiece& piece, FreeBody* free);
-  void mirror(Body& body);          // q and u from Simbody
-  void refresh(Body& body);         // rotation, inertia, corners, boxes
+  void mirror(Body& body);   // q and u from Simbody
+  void refresh(Body& body);  // rotation, inertia, corners, boxes
   PosedBody posed(const Collider& collider) const;
 
-  // world_step.cpp: the stages in order
-  void wake_marked();
+  // world_pairs.cpp
   void find_pairs();
   void select_pairs();
-  bool may_touch(const Pair& pair) const;
   void update_contacts();
-  void wake_hit();
-  void apply_forces();
-  void solve_contacts();
-  void advance();
-  void update_touching();
-  void update_sleep();
-  void remove_lost();
-
+  bool may_touch(const Pair& pair) const;
   void add_contact(int collider_a, int collider_b);
   void remove_contact(std::size_t index);
-  void limit_kicks();
-  void set_rates(std::size_t body);
-  void sort_by_height();
-  void fall_asleep(int body);
+
+  // world_sleep.cpp
+  void wake_marked();
+  void wake_hit();
+  void update_sleep();
+  void wake_changed();
+  std::vector<std::uint8_t> find_overlapping() const;  // by body: 1 where it overlaps too deep
+  void note_loads(const std::vector<std::uint8_t>& slept);
   void wake(int body);
+  void fall_asleep(int body);
+  static float wake_impulse(const Body& body);  // a contact's must change by this; unit: N s
+
+  // world_step.cpp
+  void apply_forces();
+  void solve_contacts();
+  void sort_by_height();
+  void update_touching();
+  void limit_kicks();
+  void advance();
+  void set_rates(std::size_t body);
+  void remove_lost();
   void lose(int body);
 };
 

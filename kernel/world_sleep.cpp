@@ -1,0 +1,176 @@
+// Who takes part in a step: falling asleep, and being woken.
+#include <cmath>
+
+#include "kernel/world_impl.h"
+
+namespace rubble {
+namespace {
+
+// A piece falls asleep after it has stayed within this distance for this time.
+constexpr double kStillDistance = 0.001;  // of any of its points; unit: m
+constexpr double kStillTime = 0.25;       // unit: s
+// So does one that jitters, but goes nowhere.
+constexpr double kLooseDistance = 0.005;  // unit: m
+constexpr double kLooseTime = 1.0;        // unit: s
+// A sleeper wakes when the impulse of a contact changes by what would give it this speed.
+constexpr float kWakeSpeed = 0.1F;  // unit: m/s
+// A share of its load comes on top.
+constexpr float kWakeLoad = 0.25F;
+// A sleeper wakes at once when an impact would give it this speed.
+constexpr float kHitSpeed = 0.2F;  // unit: m/s
+// Overlaps deeper than this keep a piece awake for a while.
+constexpr float kSleepOverlap = 0.003F;    // unit: m
+constexpr double kSleepOverlapTime = 2.0;  // unit: s
+
+float hit_impulse(const Body& body) { return kHitSpeed * float(body.mass) + body.load; }
+
+// Counts the steps that a body has stayed near `pose`; starts anew where it is when it has left.
+void count_still(const Body& body, double distance, Pose& pose, std::int32_t& steps) {
+  const Vec3 moved = body.world_from_com.translation - pose.translation;
+  const Quat turn = pose.rotation.conjugate() * body.world_from_com.rotation;
+  // How far a corner has gone at most: a bar may spin about its own axis without going anywhere.
+  const Vec3 r = Vec3(body.shape->reach) * (2 * body.scale);
+  const Vec3 t{std::abs(turn.x), std::abs(turn.y), std::abs(turn.z)};
+  const double turned =
+      norm(Vec3{t.y * r.z + t.z * r.y, t.z * r.x + t.x * r.z, t.x * r.y + t.y * r.x});
+  ++steps;
+  if (norm(moved) + turned > distance) {
+    pose = body.world_from_com;
+    steps = 0;
+  }
+}
+
+}  // namespace
+
+// What carries a high load is clamped by it, and changes of a fraction of the load do not matter.
+float World::Impl::wake_impulse(const Body& body) {
+  return kWakeSpeed * float(body.mass) + kWakeLoad * body.load;
+}
+
+void World::Impl::wake(int index) {
+  Body& body = data.bodies[index];
+  if (!body.movable() || body.awake) return;
+  body.awake = true;
+  body.still_steps = body.loose_steps = 0;
+  body.still_pose = body.loose_pose = body.world_from_com;
+}
+
+void World::Impl::fall_asleep(int index) {
+  Body& body = data.bodies[index];
+  body.awake = false;
+  blocks.set_velocity(body.mobile, {}, {});
+  body.linear = {};
+  body.angular = {};
+}
+
+void World::Impl::wake_marked() {
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    if (data.wake_next[i]) wake(int(i));
+    data.wake_next[i] = 0;
+  }
+}
+
+// A sleeper that is about to be hit hard enough takes part in this very step, so that momentum is
+// kept. Its other contacts are as it left them: neither side has moved.
+void World::Impl::wake_hit() {
+  bool any = false;
+  for (std::int32_t index : active) {
+    if (!data.pairs[index].live) continue;
+    const Contact& contact = data.contacts[index];
+    if (contact.body_b == kGround) continue;
+    const Body &a = data.bodies[contact.body_a], &b = data.bodies[contact.body_b];
+    if (a.awake == b.awake) continue;
+    const Body& sleeper = a.awake ? b : a;
+    if (!sleeper.movable()) continue;
+    const float inverse_masses = a.inverse_mass + b.inverse_mass;
+    for (int i = 0; i < contact.count; ++i) {
+      const ContactPoint& p = contact.points[i];
+      const Vec3f v = b.linear + cross(b.angular, p.from_b) - a.linear - cross(a.angular, p.from_a);
+      const float approach = -dot(contact.normal, v);
+      if (p.separation - approach * solver_settings.step > solver_settings.rest_gap) continue;
+      // The impulse of a central plastic impact.
+      if (approach < inverse_masses * hit_impulse(sleeper)) continue;
+      wake(a.awake ? contact.body_b : contact.body_a);
+      any = true;
+      break;
+    }
+  }
+  if (!any) return;
+  std::vector<std::uint8_t> listed(data.pairs.size(), 0);
+  for (std::int32_t index : active) listed[index] = 1;
+  for (std::size_t i = 0; i < data.pairs.size(); ++i) {
+    const Pair& pair = data.pairs[i];
+    if (listed[i] || !pair.live) continue;
+    const bool awake = data.bodies[pair.body_a].awake ||
+                       (pair.body_b != kGround && data.bodies[pair.body_b].awake);
+    if (awake) active.push_back(std::int32_t(i));
+  }
+}
+
+// Sleepers that an awake neighbour presses on more, or less, than when they fell asleep.
+void World::Impl::wake_changed() {
+  for (std::int32_t index : active) {
+    const Contact& contact = data.contacts[index];
+    for (std::int32_t i : {contact.body_a, contact.body_b}) {
+      if (i == kGround) continue;
+      const Body& body = data.bodies[i];
+      if (body.awake || !body.movable()) continue;
+      const float change = std::abs(contact.pressed - contact.rest_pressed);
+      if (change > wake_impulse(body)) data.wake_next[i] = 1;
+    }
+  }
+}
+
+std::vector<std::uint8_t> World::Impl::find_overlapping() const {
+  std::vector<std::uint8_t> overlapping(data.bodies.size(), 0);
+  for (std::int32_t index : active) {
+    const Contact& contact = data.contacts[index];
+    for (int p = 0; p < contact.count; ++p) {
+      if (contact.points[p].separation > -kSleepOverlap) continue;
+      overlapping[contact.body_a] = 1;
+      if (contact.body_b != kGround) overlapping[contact.body_b] = 1;
+    }
+  }
+  return overlapping;
+}
+
+// What the pieces that fell asleep in this step carry.
+void World::Impl::note_loads(const std::vector<std::uint8_t>& slept) {
+  for (std::size_t i = 0; i < slept.size(); ++i) {
+    if (slept[i]) data.bodies[i].load = 0;
+  }
+  for (std::int32_t index : active) {
+    Contact& contact = data.contacts[index];
+    for (std::int32_t i : {contact.body_a, contact.body_b}) {
+      if (i == kGround || !slept[i]) continue;
+      data.bodies[i].load += contact.pressed;
+      contact.rest_pressed = contact.pressed;
+    }
+  }
+}
+
+void World::Impl::update_sleep() {
+  wake_changed();
+  if (!options.sleeping) return;
+  const std::vector<std::uint8_t> overlapping = find_overlapping();
+  const int wait = int(kStillTime / options.step), loose_wait = int(kLooseTime / options.step);
+  const int long_wait = int(kSleepOverlapTime / options.step);
+  std::vector<std::uint8_t> slept(data.bodies.size(), 0);
+  bool any = false;
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    Body& body = data.bodies[i];
+    if (!body.awake) continue;
+    count_still(body, kStillDistance, body.still_pose, body.still_steps);
+    count_still(body, kLooseDistance, body.loose_pose, body.loose_steps);
+    if (body.still_steps < (overlapping[i] ? long_wait : wait) &&
+        body.loose_steps < (overlapping[i] ? long_wait : loose_wait)) {
+      continue;
+    }
+    fall_asleep(int(i));
+    slept[i] = 1;
+    any = true;
+  }
+  if (any) note_loads(slept);
+}
+
+}  // namespace rubble

@@ -29,6 +29,19 @@ struct ImuSample {
   std::int64_t stamp_ns = 0;
   Vec3 angular_velocity;     // in the camera body frame; unit: rad/s
   Vec3 linear_acceleration;  // specific force: at rest and level (0, 0, 9.81); unit: m/s2
+  Vec3 angular_bias;         // the true offsets that are in the two above; same units
+  Vec3 acceleration_bias;
+};
+
+// White noise and random walk of the biases, as an inertial unit's calibration states them
+// (continuous-time densities; Kalibr and EuRoC's sensor.yaml use the same). The defaults are those
+// that EuRoC states for its ADIS16448.
+struct ImuModel {
+  double rate_hz = 200;
+  double gyroscope_noise = 1.6968e-4;      // unit: rad/s/sqrt(Hz)
+  double gyroscope_walk = 1.9393e-5;       // unit: rad/s2/sqrt(Hz)
+  double accelerometer_noise = 2.0000e-3;  // unit: m/s2/sqrt(Hz)
+  double accelerometer_walk = 3.0000e-3;   // unit: m/s3/sqrt(Hz)
 };
 
 struct Frame {
@@ -36,6 +49,7 @@ struct Frame {
   std::int64_t stamp_ns = 0;      // simulation time; one stamp for all that is in the frame
   Intrinsics intrinsics;          // of colour and depth alike: they are registered
   Pose world_from_camera;         // camera body frame: X forward, Y left, Z up
+  Vec3 linear_velocity;           // of the camera, in the world; unit: m/s
   std::vector<std::uint8_t> rgb;  // 3 bytes a pixel, rows from the top
   std::vector<float> depth;       // planar, along the optical axis; unit: m; NaN: no return
 

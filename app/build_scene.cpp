@@ -46,6 +46,7 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
   scene.lamp = scenario.lamp;
   scene.air = scenario.air;
   scene.seed = scenario.seed;
+  scene.start_ns = scenario.start_ns;
   return scene;
 }
 

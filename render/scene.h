@@ -31,10 +31,29 @@ struct LampSpec {
   Vec3 position{0.02, 0.0, 0.05};  // in the camera body frame; unit: m
 };
 
-// Homogeneous fog: transmittance exp(-density * distance).
+// Dust that bursts out now and then, as when debris shifts: see Medium.
+struct DustSpec {
+  double period = 0;        // mean time between bursts; 0: none; unit: s; range: 0 to 3600
+  double irregularity = 1;  // how far a burst may be off its beat, in periods; range: 0 to 1
+  Vec3 position{0, 0, 1};   // bursts start in the box around this point ...
+  Vec3 bounds{4, 4, 1};     // ... of these full edge lengths; unit: m
+  double density = 3;       // extinction in the middle of a fresh plume; unit: 1/m; range: 0 to 100
+  double radius = 0.3;      // of a fresh plume; unit: m; range: 0.01 to 10
+  double speed = 1.5;       // at which it is thrown out; unit: m/s; range: 0 to 50
+  double spread = 0.03;     // turbulent diffusivity; unit: m2/s; range: 0 to 10
+  double fall = 0.04;       // speed at which it settles; unit: m/s; range: 0 to 10
+  double half_life = 8;     // until half of it is gone from the air; unit: s; range: 0.1 to 3600
+};
+
+// Fog or smoke, and dust. Extinction is what a metre takes away: transmittance exp(-extinction d).
 struct AirSpec {
-  double fog_density = 0;    // extinction; unit: 1/m; range: 0 to 10
-  double fog_intensity = 1;  // albedo-like brightness of the fog; range: 0 to 1
+  double fog_density = 0;    // extinction at the ground; unit: 1/m; range: 0 to 10
+  double fog_intensity = 1;  // share of the extinguished light that is scattered; range: 0 to 1
+  double fog_height = 0;     // scale height: density falls by e every so many metres; 0: it does not
+  double fog_noise = 0;      // 0: even; 1: from nothing to double within fog_noise_size
+  double fog_noise_size = 2;  // of the largest billows; unit: m; range: 0.05 to 100
+  Vec3 wind;                  // carries billows and plumes; unit: m/s
+  DustSpec dust;
 };
 
 struct SceneMesh {
@@ -55,7 +74,8 @@ struct Scene {
   LightSpec light;
   LampSpec lamp;
   AirSpec air;
-  std::uint64_t seed = 0;  // varies looks from piece to piece, never geometry
+  std::uint64_t seed = 0;     // varies looks from piece to piece, never geometry; and the air
+  std::int64_t start_ns = 0;  // the stamp at which the air's time is zero
 };
 
 }  // namespace rubble

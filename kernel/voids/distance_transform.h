@@ -1,0 +1,23 @@
+// For every cell the nearest of some seed cells: the exact Euclidean feature transform.
+//
+// One sweep an axis; along each line the lower envelope of parabolas (Felzenszwalb and Huttenlocher
+// 2012, "Distance transforms of sampled functions"; in whole numbers as Meijster, Roerdink and
+// Hesselink 2000). Of seeds that are equally near, which one is found does not depend on threads.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernel/base/parallel.h"
+#include "kernel/voids/voxel_grid.h"
+
+namespace rubble {
+
+inline constexpr std::uint32_t kNoSeed = 0xffffffffu;
+
+// seeds: cells of the grid. Result: for every cell the number of its nearest seed, or kNoSeed where
+// there are no seeds at all.
+std::vector<std::uint32_t> find_nearest_seeds(const VoxelGrid& grid, const std::vector<Cell>& seeds,
+                                              ThreadPool& pool);
+
+}  // namespace rubble

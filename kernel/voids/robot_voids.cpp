@@ -1,0 +1,252 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include "kernel/voids/distance_transform.h"
+#include "kernel/voids/void_map.h"
+
+namespace rubble {
+namespace {
+
+constexpr std::uint32_t kUnlabelled = 0xffffffffu;
+
+// Calls visit(index, length of the step in cells) for the up to 26 cells around one.
+template <typename Visit>
+void for_each_around(const VoxelGrid& grid, std::size_t index, Visit&& visit) {
+  static const double kLength[4] = {0, 1, std::sqrt(2.0), std::sqrt(3.0)};
+  const Cell c = grid.cell(index);
+  for (int dz = -1; dz <= 1; ++dz)
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const Cell n{c[0] + dx, c[1] + dy, c[2] + dz};
+        const int steps = std::abs(dx) + std::abs(dy) + std::abs(dz);
+        if (steps > 0 && grid.contains(n)) visit(grid.index(n), kLength[steps]);
+      }
+}
+
+class Finder {
+ public:
+  Finder(const VoidSpace& space, const WidestPaths& widest, double radius, int threads)
+      : space_(space), widest_(widest), radius_(float(radius)), pool_(threads) {
+    result_.radius = radius;
+    label_.assign(space.grid.count(), kUnlabelled);
+  }
+
+  RobotVoids run() {
+    label_places();
+    assign_cells();
+    find_depths();
+    for (std::size_t i = 0; i < result_.voids.size(); ++i) describe(result_.voids[i], i);
+    for (Void& v : result_.voids) {
+      v.volume = double(v.cells.size()) * space_.cell_volume();
+      result_.volume += v.volume;
+      if (!v.entrances.empty()) result_.reachable_volume += v.volume;
+    }
+    std::stable_sort(result_.voids.begin(), result_.voids.end(),
+                     [](const Void& a, const Void& b) { return a.volume > b.volume; });
+    return std::move(result_);
+  }
+
+ private:
+  bool is_place(std::size_t i) const {
+    return space_.kind[i] == CellKind::free_void && space_.clearance[i] >= radius_;
+  }
+
+  // Connected places by their faces.
+  void label_places() {
+    std::vector<std::uint32_t> front;
+    for (std::size_t i = 0; i < label_.size(); ++i) {
+      if (label_[i] != kUnlabelled || !is_place(i)) continue;
+      const std::uint32_t label = std::uint32_t(result_.voids.size());
+      Void found;
+      const auto visit = [&](std::size_t k) {
+        if (label_[k] != kUnlabelled || !is_place(k)) return;
+        label_[k] = label;
+        front.push_back(std::uint32_t(k));
+      };
+      visit(i);
+      while (!front.empty()) {
+        const std::uint32_t at = front.back();
+        front.pop_back();
+        found.places.push_back(at);
+        for_each_neighbour(space_.grid, at, visit);
+      }
+      std::sort(found.places.begin(), found.places.end());
+      result_.voids.push_back(std::move(found));
+    }
+  }
+
+  // Void cells within the robot's radius of a place belong to that place's void. Half a voxel is
+  // added, since the centre of a cell at a wall is that far from it.
+  void assign_cells() {
+    const VoxelGrid& grid = space_.grid;
+    std::vector<Cell> seeds;
+    std::vector<std::uint32_t> owner;
+    for (std::size_t v = 0; v < result_.voids.size(); ++v) {
+      for (const std::uint32_t i : result_.voids[v].places) {
+        bool inner = true;
+        for_each_neighbour(grid, i, [&](std::size_t k) { inner = inner && label_[k] == v; });
+        if (inner) continue;
+        seeds.push_back(grid.cell(i));
+        owner.push_back(std::uint32_t(v));
+      }
+    }
+    const auto nearest = find_nearest_seeds(grid, seeds, pool_);
+    const double reach = radius_ / grid.voxel + 0.5;
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+      if (space_.kind[i] != CellKind::free_void) continue;
+      std::uint32_t v = label_[i];
+      if (v == kUnlabelled && nearest[i] != kNoSeed) {
+        const Cell c = grid.cell(i), &s = seeds[nearest[i]];
+        double square = 0;
+        for (std::size_t k = 0; k < 3; ++k) square += double(s[k] - c[k]) * (s[k] - c[k]);
+        if (square <= reach * reach) v = owner[nearest[i]];
+      }
+      if (v != kUnlabelled) result_.voids[v].cells.push_back(std::uint32_t(i));
+    }
+  }
+
+  // For each column the height of the highest cell that is not outside.
+  void find_depths() {
+    const Cell& n = space_.grid.size;
+    const std::size_t layer = std::size_t(n[0]) * std::size_t(n[1]);
+    envelope_.assign(layer, 0);
+    for (std::size_t i = 0; i < space_.kind.size(); ++i) {
+      if (space_.kind[i] != CellKind::outside) envelope_[i % layer] = int(i / layer) + 1;
+    }
+  }
+
+  double find_depth(std::size_t i) const {
+    const std::size_t layer = envelope_.size();
+    return (envelope_[i % layer] - double(i / layer) - 0.5) * space_.grid.voxel;
+  }
+
+  void describe(Void& v, std::size_t number) {
+    std::size_t widest = v.places.front(), lowest = widest;
+    for (const std::uint32_t i : v.places) {
+      if (space_.clearance[i] > space_.clearance[widest]) widest = i;
+      if (find_depth(i) > find_depth(lowest)) lowest = i;
+    }
+    v.widest = space_.grid.centre(widest);
+    v.widest_radius = space_.clearance[widest];
+    v.depth = find_depth(lowest);
+    v.deepest = space_.grid.centre(lowest);
+    v.bottleneck_radius = widest_.radius[widest];
+    if (widest_.narrowest[widest] != kNoCell)
+      v.bottleneck = space_.grid.centre(widest_.narrowest[widest]);
+    const std::vector<std::uint32_t> openings = find_openings(v);
+    group_entrances(v, openings);
+    if (!openings.empty()) find_deepest(v, openings, std::uint32_t(number));
+  }
+
+  // Places from which one step leads outside without getting narrower than the robot.
+  std::vector<std::uint32_t> find_openings(const Void& v) const {
+    std::vector<std::uint32_t> openings;
+    for (const std::uint32_t i : v.places)
+      if (calc_outward(i).first > 0) openings.push_back(i);
+    return openings;
+  }
+
+  // How many faces lead outside, and the sum of their normals.
+  std::pair<int, Vec3> calc_outward(std::size_t i) const {
+    int faces = 0;
+    Vec3 sum;
+    const Vec3 here = space_.grid.centre(i);
+    for_each_neighbour(space_.grid, i, [&](std::size_t k) {
+      if (space_.kind[k] != CellKind::outside || space_.clearance[k] < radius_) return;
+      ++faces;
+      sum += (space_.grid.centre(k) - here) * (1 / space_.grid.voxel);
+    });
+    return {faces, sum};
+  }
+
+  // Openings that touch each other, be it by a corner, are one entrance.
+  void group_entrances(Void& v, const std::vector<std::uint32_t>& openings) const {
+    std::vector<char> done(openings.size(), 0);
+    for (std::size_t first = 0; first < openings.size(); ++first) {
+      if (done[first]) continue;
+      std::vector<std::size_t> group{first};
+      done[first] = 1;
+      for (std::size_t k = 0; k < group.size(); ++k) {
+        for_each_around(space_.grid, openings[group[k]], [&](std::size_t n, double) {
+          const auto found = std::lower_bound(openings.begin(), openings.end(), n);
+          const std::size_t at = std::size_t(found - openings.begin());
+          if (found == openings.end() || *found != n || done[at]) return;
+          done[at] = 1;
+          group.push_back(at);
+        });
+      }
+      v.entrances.push_back(make_entrance(v, openings, group));
+    }
+    std::stable_sort(v.entrances.begin(), v.entrances.end(),
+                     [](const Entrance& a, const Entrance& b) { return a.radius > b.radius; });
+  }
+
+  Entrance make_entrance(const Void& v, const std::vector<std::uint32_t>& openings,
+                         const std::vector<std::size_t>& group) const {
+    Entrance e;
+    Vec3 outward;
+    std::size_t widest = openings[group.front()];
+    for (const std::size_t k : group) {
+      const std::size_t i = openings[k];
+      outward += calc_outward(i).second;
+      if (space_.clearance[i] > space_.clearance[widest] ||
+          (space_.clearance[i] == space_.clearance[widest] && i < widest))
+        widest = i;
+    }
+    e.position = space_.grid.centre(widest);
+    e.radius = space_.clearance[widest];
+    e.area = norm(outward) * space_.grid.voxel * space_.grid.voxel;
+    e.inward = norm(outward) > 0 ? normalized(-outward) : normalized(v.widest - e.position);
+    if (norm(e.inward) == 0) e.inward = {0, 0, -1};
+    return e;
+  }
+
+  // Dijkstra from all openings at once over the void's places.
+  void find_deepest(Void& v, const std::vector<std::uint32_t>& openings, std::uint32_t number) {
+    std::vector<double> length(v.places.size(), std::numeric_limits<double>::infinity());
+    const auto slot = [&](std::size_t i) {
+      return std::size_t(std::lower_bound(v.places.begin(), v.places.end(), i) - v.places.begin());
+    };
+    using Item = std::pair<double, std::uint32_t>;
+    std::priority_queue<Item, std::vector<Item>, std::greater<Item>> front;
+    for (const std::uint32_t i : openings) {
+      length[slot(i)] = 0;
+      front.push({0, i});
+    }
+    while (!front.empty()) {
+      const auto [done, i] = front.top();
+      front.pop();
+      if (done > length[slot(i)]) continue;
+      for_each_around(space_.grid, i, [&, far = done](std::size_t k, double step) {
+        if (label_[k] != number) return;
+        double& best = length[slot(k)];
+        if (far + step >= best) return;
+        best = far + step;
+        front.push({best, std::uint32_t(k)});
+      });
+    }
+    const auto farthest = std::max_element(length.begin(), length.end());
+    v.path_length = *farthest * space_.grid.voxel;
+    v.deepest = space_.grid.centre(v.places[std::size_t(farthest - length.begin())]);
+  }
+
+  const VoidSpace& space_;
+  const WidestPaths& widest_;
+  const float radius_;
+  ThreadPool pool_;
+  std::vector<std::uint32_t> label_;  // of places: the number of their void
+  std::vector<int> envelope_;
+  RobotVoids result_;
+};
+
+}  // namespace
+
+RobotVoids find_robot_voids(const VoidSpace& space, const WidestPaths& widest, double radius,
+                            int threads) {
+  return Finder(space, widest, radius, threads).run();
+}
+
+}  // namespace rubble

@@ -1,0 +1,236 @@
+#include "kernel/voids/solid_voxels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace rubble {
+namespace {
+
+// From a cell's centre to its corners, in cells, and a little for rounding.
+constexpr double kReach = 0.8661;
+constexpr int kSlab = 8;  // layers of cells that are searched at a time
+
+struct CellRange {
+  Cell first, last;  // inclusive; empty where first > last
+
+  bool empty() const { return first[0] > last[0] || first[1] > last[1] || first[2] > last[2]; }
+};
+
+// The cells whose centres may be within a margin of a box, cut to the grid.
+CellRange find_range(const VoxelGrid& grid, const Aabb& box, double margin) {
+  CellRange range;
+  for (int k = 0; k < 3; ++k) {
+    const double low = (box.min[k] - margin - grid.corner[k]) / grid.voxel - 0.5;
+    const double high = (box.max[k] + margin - grid.corner[k]) / grid.voxel - 0.5;
+    range.first[std::size_t(k)] = std::max(0, int(std::ceil(low)));
+    range.last[std::size_t(k)] = std::min(grid.size[std::size_t(k)] - 1, int(std::floor(high)));
+  }
+  return range;
+}
+
+Aabb bounds(const QueryTriangle& t) {
+  Aabb box;
+  for (const Vec3& corner : {t.a, t.b, t.c}) box.include(corner);
+  return box;
+}
+
+// Twice the signed area of a triangle seen along z.
+double cross_xy(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// One piece's columns: how often its surface is crossed upwards, less downwards, below each cell.
+class Columns {
+ public:
+  Columns(const VoxelGrid& grid, const CellRange& range)
+      : grid_(grid),
+        range_(range),
+        width_(range.last[0] - range.first[0] + 1),
+        depth_(range.last[1] - range.first[1] + 1),
+        height_(range.last[2] - range.first[2] + 2),  // and one for what is above all cells
+        turns_(std::size_t(width_) * std::size_t(depth_) * std::size_t(height_), 0) {}
+
+  void add(const QueryTriangle& t) {
+    const CellRange r = find_range(grid_, bounds(t), 0.001 * grid_.voxel);
+    for (int y = std::max(r.first[1], range_.first[1]); y <= std::min(r.last[1], range_.last[1]);
+         ++y) {
+      for (int x = std::max(r.first[0], range_.first[0]); x <= std::min(r.last[0], range_.last[0]);
+           ++x) {
+        add_column(t, x, y);
+      }
+    }
+  }
+
+  // Marks the cells around which the surface is wound.
+  void mark(std::vector<std::uint8_t>& solid) const {
+    for (int y = 0; y < depth_; ++y) {
+      for (int x = 0; x < width_; ++x) mark_column(x, y, solid);
+    }
+  }
+
+ private:
+  std::size_t at(int x, int y, int z) const {
+    return std::size_t(z) +
+           std::size_t(height_) * (std::size_t(x) + std::size_t(width_) * std::size_t(y));
+  }
+
+  // The column is moved off the cells' centres by a hair, so that it meets no edge of a mesh whose
+  // corners are round numbers.
+  void add_column(const QueryTriangle& t, int x, int y) {
+    Vec3 p = grid_.centre(Cell{x, y, 0});
+    p.x += 1.37e-7 * grid_.voxel;
+    p.y += 2.61e-7 * grid_.voxel;
+    const double u = cross_xy(t.b, t.c, p), v = cross_xy(t.c, t.a, p), w = cross_xy(t.a, t.b, p);
+    const bool up = u > 0 && v > 0 && w > 0, down = u < 0 && v < 0 && w < 0;
+    if (!up && !down) return;
+    const double z = (t.a.z * u + t.b.z * v + t.c.z * w) / (u + v + w);
+    const double cell = std::ceil((z - grid_.corner.z) / grid_.voxel - 0.5);
+    const int above = std::clamp(int(cell) - range_.first[2], 0, height_ - 1);
+    turns_[at(x - range_.first[0], y - range_.first[1], above)] += up ? -1 : 1;
+  }
+
+  void mark_column(int x, int y, std::vector<std::uint8_t>& solid) const {
+    int total = 0;
+    for (int z = 0; z < height_; ++z) total += turns_[at(x, y, z)];
+    if (total != 0) return;  // an open mesh: the faces do not pair up here
+    int inside = 0;
+    for (int z = 0; z + 1 < height_; ++z) {
+      inside += turns_[at(x, y, z)];
+      if (inside == 0) continue;
+      const Cell cell{x + range_.first[0], y + range_.first[1], z + range_.first[2]};
+      // Several pieces may fill one cell at once; they all write the same.
+      __atomic_store_n(&solid[grid_.index(cell)], std::uint8_t(1), __ATOMIC_RELAXED);
+    }
+  }
+
+  const VoxelGrid& grid_;
+  const CellRange range_;
+  const int width_, depth_, height_;
+  std::vector<std::int16_t> turns_;
+};
+
+// The nearest points found so far in some layers of cells.
+class SurfaceSlab {
+ public:
+  SurfaceSlab(const VoxelGrid& grid, int first, int last)
+      : grid_(grid),
+        first_(first),
+        last_(last),
+        layer_(std::size_t(grid.size[0]) * std::size_t(grid.size[1])),
+        distance_(layer_ * std::size_t(last - first), kFar),
+        nearest_(distance_.size()) {}
+
+  void add(const QueryTriangle& t, std::uint32_t number) {
+    CellRange r = find_range(grid_, bounds(t), kReach * grid_.voxel);
+    r.first[2] = std::max(r.first[2], first_);
+    r.last[2] = std::min(r.last[2], last_ - 1);
+    if (r.empty()) return;
+    for (int z = r.first[2]; z <= r.last[2]; ++z)
+      for (int y = r.first[1]; y <= r.last[1]; ++y)
+        for (int x = r.first[0]; x <= r.last[0]; ++x) add(t, number, {x, y, z});
+  }
+
+  void append_to(VoxelSurface& surface) const {
+    for (std::size_t i = 0; i < distance_.size(); ++i) {
+      if (distance_[i] == kFar) continue;
+      const std::size_t x = i % layer_ % std::size_t(grid_.size[0]),
+                        y = i % layer_ / std::size_t(grid_.size[0]);
+      surface.cells.push_back({int(x), int(y), first_ + int(i / layer_)});
+      surface.triangles.push_back(nearest_[i]);
+    }
+  }
+
+ private:
+  static constexpr float kFar = 1e30f;
+
+  void add(const QueryTriangle& t, std::uint32_t number, const Cell& cell) {
+    const Vec3 centre = grid_.centre(cell);
+    const Vec3 d = find_closest(t, centre) - centre;
+    const double limit = kReach * grid_.voxel;
+    const double distance = dot(d, d);
+    if (distance > limit * limit) return;
+    const std::size_t i = grid_.index(cell) - layer_ * std::size_t(first_);
+    if (!(float(distance) < distance_[i])) return;
+    distance_[i] = float(distance);
+    nearest_[i] = number;
+  }
+
+  const VoxelGrid& grid_;
+  const int first_, last_;
+  const std::size_t layer_;
+  std::vector<float> distance_;
+  std::vector<std::uint32_t> nearest_;
+};
+
+}  // namespace
+
+Solids place_solids(const PileState& pile, const std::vector<const TriangleMesh*>& meshes) {
+  Solids result;
+  for (const PieceState& state : pile.pieces) {
+    if (state.status == PieceStatus::lost) continue;
+    const std::size_t type = std::size_t(state.type);
+    if (state.type < 0 || type >= meshes.size() || meshes[type] == nullptr) {
+      throw std::invalid_argument("place_solids: a piece without a mesh");
+    }
+    const TriangleMesh& mesh = *meshes[type];
+    std::vector<Vec3> corners;
+    SolidPiece piece;
+    for (const Vec3f& p : mesh.positions) {
+      corners.push_back(state.world_from_body * (Vec3(p) * state.scale));
+      piece.box.include(corners.back());
+    }
+    piece.first = result.triangles.size();
+    for (const auto& t : mesh.triangles) {
+      result.triangles.push_back({corners.at(t[0]), corners.at(t[1]), corners.at(t[2])});
+    }
+    piece.last = result.triangles.size();
+    result.pieces.push_back(piece);
+  }
+  return result;
+}
+
+std::vector<std::uint8_t> fill_solids(const VoxelGrid& grid, const Solids& solids,
+                                      ThreadPool& pool) {
+  std::vector<std::uint8_t> solid(grid.count(), 0);
+  pool.run(int(solids.pieces.size()), 4, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const SolidPiece& piece = solids.pieces[std::size_t(i)];
+      const CellRange range = find_range(grid, piece.box, 0);
+      if (range.empty()) continue;
+      Columns columns(grid, range);
+      for (std::size_t t = piece.first; t < piece.last; ++t) columns.add(solids.triangles[t]);
+      columns.mark(solid);
+    }
+  });
+  return solid;
+}
+
+VoxelSurface find_surface(const VoxelGrid& grid, const Solids& solids, ThreadPool& pool) {
+  const int slabs = (grid.size[2] + kSlab - 1) / kSlab;
+  std::vector<VoxelSurface> parts(std::size_t(std::max(0, slabs)));
+  pool.run(slabs, 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const int first = i * kSlab, last = std::min(grid.size[2], first + kSlab);
+      SurfaceSlab slab(grid, first, last);
+      const double reach = kReach * grid.voxel;
+      const double low = grid.corner.z + first * grid.voxel - reach;
+      const double high = grid.corner.z + last * grid.voxel + reach;
+      for (const SolidPiece& piece : solids.pieces) {
+        if (piece.box.min.z > high || piece.box.max.z < low) continue;
+        for (std::size_t t = piece.first; t < piece.last; ++t)
+          slab.add(solids.triangles[t], std::uint32_t(t));
+      }
+      slab.append_to(parts[std::size_t(i)]);
+    }
+  });
+  VoxelSurface result;
+  for (VoxelSurface& part : parts) {
+    result.cells.insert(result.cells.end(), part.cells.begin(), part.cells.end());
+    result.triangles.insert(result.triangles.end(), part.triangles.begin(), part.triangles.end());
+    part = {};
+  }
+  return result;
+}
+
+}  // namespace rubble

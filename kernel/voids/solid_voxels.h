@@ -1,0 +1,42 @@
+// Which cells a pile fills, and where exactly its surface is.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernel/base/mesh.h"
+#include "kernel/base/parallel.h"
+#include "kernel/pile_state.h"
+#include "kernel/query_triangle.h"
+#include "kernel/voids/voxel_grid.h"
+
+namespace rubble {
+
+// A piece's part of all triangles.
+struct SolidPiece {
+  std::size_t first = 0, last = 0;  // [first, last)
+  Aabb box;
+};
+
+// The pieces of a pile in the world, but for the lost ones.
+struct Solids {
+  std::vector<QueryTriangle> triangles;
+  std::vector<SolidPiece> pieces;
+};
+
+// Throws std::invalid_argument for a piece without a mesh.
+Solids place_solids(const PileState& pile, const std::vector<const TriangleMesh*>& meshes);
+
+// 1 for each cell whose centre is inside a piece. Of a mesh that is not closed, only columns of
+// cells count along which its faces pair up; its surface counts in any case (find_surface).
+std::vector<std::uint8_t> fill_solids(const VoxelGrid& grid, const Solids& solids,
+                                      ThreadPool& pool);
+
+// Every cell that a surface passes through, and the triangle that is nearest to the cell's centre.
+struct VoxelSurface {
+  std::vector<Cell> cells;               // ascending by index
+  std::vector<std::uint32_t> triangles;  // index into Solids::triangles
+};
+VoxelSurface find_surface(const VoxelGrid& grid, const Solids& solids, ThreadPool& pool);
+
+}  // namespace rubble

@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "kernel/voids/void_map.h"
+
+namespace rubble {
+namespace {
+
+constexpr std::uint32_t kOutside = 0xfffffffeu;
+constexpr std::uint32_t kUnvisited = 0xffffffffu;
+
+// Floods the void from its widest places downwards; each place that is reached from none before it
+// is a peak. Where two floods meet is the throat between them, or, when one of the peaks hardly
+// stands out, that peak joins the other (Edelsbrunner, Letscher and Zomorodian 2002, "Topological
+// persistence and simplification").
+class Watershed {
+ public:
+  Watershed(const VoidSpace& space, double smallest, double persistence)
+      : space_(space), persistence_(persistence) {
+    for (std::size_t i = 0; i < space.kind.size(); ++i) {
+      if (space.kind[i] == CellKind::free_void && space.clearance[i] >= float(smallest))
+        order_.push_back(std::uint32_t(i));
+    }
+    std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return space.clearance[a] != space.clearance[b] ? space.clearance[a] > space.clearance[b]
+                                                      : a < b;
+    });
+    basin_of_.assign(space.kind.size(), kUnvisited);
+  }
+
+  VoidGraph run() {
+    for (const std::uint32_t i : order_) visit(i);
+    return collect();
+  }
+
+ private:
+  struct Basin {
+    std::uint32_t peak;
+    std::uint32_t parent;
+  };
+  struct Meeting {
+    std::uint32_t a, b, cell;
+  };
+
+  std::uint32_t find(std::uint32_t basin) {
+    while (basins_[basin].parent != basin) {
+      basins_[basin].parent = basins_[basins_[basin].parent].parent;
+      basin = basins_[basin].parent;
+    }
+    return basin;
+  }
+
+  void visit(std::uint32_t i) {
+    std::set<std::uint32_t> around;
+    bool at_outside = false;
+    for_each_neighbour(space_.grid, i, [&](std::size_t k) {
+      if (space_.kind[k] == CellKind::outside) at_outside = true;
+      if (basin_of_[k] == kUnvisited) return;
+      around.insert(find(basin_of_[k]));
+    });
+    if (around.empty()) {
+      basins_.push_back({i, std::uint32_t(basins_.size())});
+      around.insert(std::uint32_t(basins_.size() - 1));
+    }
+    // The widest peak is the oldest basin, the one with the lowest number.
+    const std::uint32_t widest = *around.begin();
+    basin_of_[i] = widest;
+    for (const std::uint32_t basin : around)
+      if (basin != widest) meet(widest, basin, i);
+    if (at_outside) meetings_.push_back({widest, kOutside, i});
+  }
+
+  void meet(std::uint32_t wider, std::uint32_t narrower, std::uint32_t cell) {
+    const float peak = space_.clearance[basins_[narrower].peak];
+    if (peak - space_.clearance[cell] < persistence_) {
+      basins_[narrower].parent = wider;
+    } else {
+      meetings_.push_back({wider, narrower, cell});
+    }
+  }
+
+  VoidGraph collect() {
+    VoidGraph graph;
+    std::map<std::uint32_t, int> number;  // of a basin that stands: its chamber
+    for (std::uint32_t b = 0; b < basins_.size(); ++b) {
+      if (find(b) != b) continue;
+      number[b] = int(graph.chambers.size());
+      graph.chambers.push_back(
+          {space_.grid.centre(basins_[b].peak), space_.clearance[basins_[b].peak], 0});
+    }
+    for (const std::uint32_t i : order_)
+      graph.chambers[std::size_t(number[find(basin_of_[i])])].volume += space_.cell_volume();
+    // Meetings come widest first, so the first of a pair is its throat.
+    std::map<std::pair<int, int>, bool> known;
+    for (const Meeting& m : meetings_) {
+      int a = number[find(m.a)], b = m.b == kOutside ? -1 : number[find(m.b)];
+      if (a == b) continue;
+      if (b >= 0 && a > b) std::swap(a, b);
+      if (!known.insert({{a, b}, true}).second) continue;
+      graph.throats.push_back({a, b, space_.grid.centre(m.cell), space_.clearance[m.cell]});
+    }
+    return graph;
+  }
+
+  const VoidSpace& space_;
+  const double persistence_;
+  std::vector<std::uint32_t> order_, basin_of_;
+  std::vector<Basin> basins_;
+  std::vector<Meeting> meetings_;
+};
+
+}  // namespace
+
+VoidGraph find_graph(const VoidSpace& space, double smallest, double persistence) {
+  return Watershed(space, smallest, persistence).run();
+}
+
+}  // namespace rubble

@@ -1,0 +1,51 @@
+#include "kernel/voids/void_map.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "kernel/base/error.h"
+
+namespace rubble {
+namespace {
+
+void check_radii(const VoxelGrid& grid, const std::vector<double>& radii) {
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    if (radii[i] >= grid.voxel && radii[i] <= 100) continue;
+    Diagnostic d;
+    d.key = "radius[" + std::to_string(i + 1) + "]";
+    d.message = "cannot be told apart on this grid";
+    d.expected = "at least a voxel, " + std::to_string(grid.voxel) + " m, and at most 100 m";
+    d.found = std::to_string(radii[i]) + " m";
+    d.hint = "ask for smaller voxels";
+    throw InputError(d);
+  }
+}
+
+}  // namespace
+
+VoidMap find_voids(VoidSpace space, const std::vector<double>& radii,
+                   const VoidProgress& progress) {
+  check_radii(space.grid, radii);
+  const auto report = [&](double done) {
+    if (progress && !progress(done)) throw RunError("stopped while looking for voids");
+  };
+  VoidMap map;
+  map.widest = find_widest_paths(space);
+  report(0.3);
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    map.robots.push_back(find_robot_voids(space, map.widest, radii[i], 0));
+    report(0.3 + 0.5 * double(i + 1) / double(radii.size()));
+  }
+  if (!radii.empty()) {
+    const double smallest = *std::min_element(radii.begin(), radii.end());
+    map.graph = find_graph(space, smallest, std::max(2 * space.grid.voxel, 0.2 * smallest));
+  }
+  map.void_volume = space.volume(CellKind::free_void);
+  map.solid_volume = space.volume(CellKind::solid);
+  map.space = std::move(space);
+  report(1);
+  return map;
+}
+
+}  // namespace rubble

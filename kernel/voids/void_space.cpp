@@ -1,0 +1,257 @@
+#include "kernel/voids/void_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "kernel/base/error.h"
+#include "kernel/voids/distance_transform.h"
+#include "kernel/voids/solid_voxels.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kBytesPerCell = 14;     // kind, clearance, two transforms that overlap, marks
+constexpr double kBytesPerSurface = 40;  // of one cell of a surface, while slabs are joined
+
+std::string format(double value, const char* unit) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.4g %s", value, unit);
+  return text;
+}
+
+Aabb find_bounds(const Solids& solids, bool ground) {
+  Aabb box;
+  for (const SolidPiece& piece : solids.pieces) {
+    if (piece.box.empty()) continue;
+    box.include(piece.box.min);
+    box.include(piece.box.max);
+  }
+  if (box.empty()) box.include({0, 0, 0});
+  if (ground) box.min.z = 0;
+  return box;
+}
+
+// Around the pieces, with room for the rolling ball; corners at whole multiples of the voxel, so
+// that a pile is cut in the same way wherever its edge happens to be.
+VoxelGrid make_grid(const Aabb& box, const VoidSpaceOptions& options) {
+  const double margin = options.rolling_radius + 3 * options.voxel;
+  VoxelGrid grid;
+  grid.voxel = options.voxel;
+  for (int k = 0; k < 3; ++k) {
+    const bool floor = k == 2 && options.ground;
+    const double low = std::floor((box.min[k] - (floor ? 0 : margin)) / options.voxel);
+    const double high = std::ceil((std::max(box.max[k], box.min[k]) + margin) / options.voxel);
+    grid.corner[k] = low * options.voxel;
+    grid.size[std::size_t(k)] = int(high - low);
+  }
+  return grid;
+}
+
+double count_cells(const Aabb& box, const VoidSpaceOptions& options) {
+  const double margin = options.rolling_radius + 3 * options.voxel;
+  const Vec3 size = box.max - box.min;
+  const double h = options.voxel;
+  return (size.x + 2 * margin) / h * ((size.y + 2 * margin) / h) *
+         ((size.z + (options.ground ? 1 : 2) * margin) / h);
+}
+
+double estimate(const Solids& solids, const VoidSpaceOptions& options) {
+  double area = 0;
+  for (const QueryTriangle& t : solids.triangles) area += norm(cross(t.b - t.a, t.c - t.a)) / 2;
+  const double surface = 2.2 * area / (options.voxel * options.voxel);
+  return kBytesPerCell * count_cells(find_bounds(solids, options.ground), options) +
+         kBytesPerSurface * surface + double(solids.triangles.size() * sizeof(QueryTriangle));
+}
+
+void check_memory(const Solids& solids, const VoidSpaceOptions& options) {
+  const double need = estimate(solids, options);
+  if (need <= options.memory_limit) return;
+  VoidSpaceOptions coarser = options;
+  while (estimate(solids, coarser) > options.memory_limit && coarser.voxel < 10) {
+    coarser.voxel *= 1.05;
+  }
+  Diagnostic d;
+  d.key = "voxel";
+  d.message = "too small for the memory: about " + format(need / (1 << 30), "GiB") + " are needed";
+  d.expected = "at most " + format(options.memory_limit / (1 << 30), "GiB");
+  d.found = "voxels of " + format(options.voxel, "m");
+  d.hint = "use voxels of " + format(coarser.voxel, "m") + " or raise the limit";
+  throw InputError(d);
+}
+
+// Everything that is worked out on the way to a VoidSpace, from the top down.
+class Builder {
+ public:
+  Builder(Solids solids, const VoidSpaceOptions& options, const VoidProgress& progress)
+      : solids_(std::move(solids)), options_(options), progress_(progress), pool_(options.threads) {
+    space_.grid = make_grid(find_bounds(solids_, options.ground), options);
+    space_.rolling_radius = options.rolling_radius;
+  }
+
+  VoidSpace build() {
+    const std::vector<std::uint8_t> solid = fill_solids(space_.grid, solids_, pool_);
+    space_.kind.assign(space_.grid.count(), CellKind::free_void);
+    for (std::size_t i = 0; i < solid.size(); ++i)
+      if (solid[i]) space_.kind[i] = CellKind::solid;
+    report(0.15);
+    surface_ = find_surface(space_.grid, solids_, pool_);
+    report(0.45);
+    measure_clearance();
+    report(0.7);
+    sweep_outside();
+    report(0.95);
+    if (options_.ground) clip_to_ground();
+    report(1);
+    return std::move(space_);
+  }
+
+ private:
+  void report(double done) const {
+    if (progress_ && !progress_(done)) throw RunError("stopped while looking for voids");
+  }
+
+  // Layers of cells, each to one thread.
+  template <typename Body>
+  void for_each_cell(Body&& body) {
+    const std::size_t layer = std::size_t(space_.grid.size[0]) * std::size_t(space_.grid.size[1]);
+    pool_.run(space_.grid.size[2], 1, [&](int begin, int end) {
+      for (std::size_t i = std::size_t(begin) * layer; i < std::size_t(end) * layer; ++i) body(i);
+    });
+  }
+
+  // From the pieces alone; the ground is added when the ball has rolled. Near is what is nearest
+  // to the cell itself or, since that was the nearest of surface *cells*, to one beside it.
+  void measure_clearance() {
+    const VoxelGrid& grid = space_.grid;
+    const auto nearest = find_nearest_seeds(grid, surface_.cells, pool_);
+    space_.clearance.assign(grid.count(), 0);
+    for_each_cell([&](std::size_t i) {
+      if (space_.kind[i] == CellKind::solid) return;
+      const Vec3 centre = grid.centre(i);
+      double best = 1e12;
+      std::uint32_t last = kNoSeed;
+      const auto consider = [&](std::size_t k) {
+        if (nearest[k] == kNoSeed) return;
+        const std::uint32_t triangle = surface_.triangles[nearest[k]];
+        if (triangle == last) return;
+        last = triangle;
+        const Vec3 d = find_closest(solids_.triangles[triangle], centre) - centre;
+        best = std::min(best, dot(d, d));
+      };
+      consider(i);
+      for_each_neighbour(grid, i, consider);
+      space_.clearance[i] = float(std::sqrt(best));
+    });
+  }
+
+  bool is_border(std::size_t i) const {
+    const Cell c = space_.grid.cell(i);
+    const Cell& n = space_.grid.size;
+    return c[0] == 0 || c[1] == 0 || c[0] + 1 == n[0] || c[1] + 1 == n[1] || c[2] + 1 == n[2] ||
+           (c[2] == 0 && !options_.ground);
+  }
+
+  // Where the rolling ball's centre may be, reached from the border of the grid.
+  std::vector<std::uint8_t> roll() const {
+    const float radius = float(options_.rolling_radius);
+    std::vector<std::uint8_t> reached(space_.grid.count(), 0);
+    std::vector<std::uint32_t> front;
+    const auto visit = [&](std::size_t i) {
+      if (reached[i] || space_.kind[i] == CellKind::solid || space_.clearance[i] < radius) return;
+      reached[i] = 1;
+      front.push_back(std::uint32_t(i));
+    };
+    for (std::size_t i = 0; i < reached.size(); ++i)
+      if (is_border(i)) visit(i);
+    while (!front.empty()) {
+      const std::size_t i = front.back();
+      front.pop_back();
+      for_each_neighbour(space_.grid, i, visit);
+    }
+    return reached;
+  }
+
+  // Cells that the ball covers in one of its places. One voxel is added to its radius, because the
+  // centres of cells stand off the surface that it touches by up to that.
+  void sweep_outside() {
+    const VoxelGrid& grid = space_.grid;
+    const std::vector<std::uint8_t> reached = roll();
+    std::vector<Cell> edge;
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      if (!reached[i]) continue;
+      bool inner = true;
+      for_each_neighbour(grid, i, [&](std::size_t k) { inner = inner && reached[k]; });
+      if (!inner) edge.push_back(grid.cell(i));
+    }
+    const auto nearest = find_nearest_seeds(grid, edge, pool_);
+    const double reach = options_.rolling_radius / grid.voxel + 1;
+    for_each_cell([&](std::size_t i) {
+      if (space_.kind[i] == CellKind::solid) return;
+      bool outside = reached[i] != 0;
+      if (!outside && nearest[i] != kNoSeed) {
+        const Cell cell = grid.cell(i), &seed = edge[nearest[i]];
+        double square = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+          square += double(seed[k] - cell[k]) * (seed[k] - cell[k]);
+        outside = square < reach * reach;
+      }
+      if (outside) space_.kind[i] = CellKind::outside;
+    });
+  }
+
+  void clip_to_ground() {
+    for_each_cell([&](std::size_t i) {
+      const double height = space_.grid.centre(i).z;
+      space_.clearance[i] = float(std::min(double(space_.clearance[i]), std::max(0.0, height)));
+    });
+  }
+
+  Solids solids_;
+  const VoidSpaceOptions& options_;
+  const VoidProgress& progress_;
+  ThreadPool pool_;
+  VoidSpace space_;
+  VoxelSurface surface_;
+};
+
+}  // namespace
+
+void VoidSpaceOptions::validate() const {
+  std::vector<Diagnostic> problems;
+  const auto expect = [&](bool fine, const char* key, const char* expected, double found) {
+    if (fine) return;
+    Diagnostic d;
+    d.key = key;
+    d.message = "out of range";
+    d.expected = expected;
+    d.found = std::to_string(found);
+    problems.push_back(d);
+  };
+  expect(voxel >= 0.001 && voxel <= 1, "voxel", "0.001 to 1 m", voxel);
+  expect(rolling_radius >= 2 * voxel && rolling_radius <= 10, "rolling_radius", "2 voxels to 10 m",
+         rolling_radius);
+  expect(memory_limit > 0, "memory_limit", "more than 0 bytes", memory_limit);
+  expect(threads >= 0 && threads <= 1024, "threads", "0 to 1024", threads);
+  if (!problems.empty()) throw InputError(problems);
+}
+
+double VoidSpace::volume(CellKind wanted) const {
+  return double(std::count(kind.begin(), kind.end(), wanted)) * cell_volume();
+}
+
+double estimate_memory(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
+                       const VoidSpaceOptions& options) {
+  options.validate();
+  return estimate(place_solids(pile, meshes), options);
+}
+
+VoidSpace calc_void_space(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
+                          const VoidSpaceOptions& options, const VoidProgress& progress) {
+  options.validate();
+  Solids solids = place_solids(pile, meshes);
+  check_memory(solids, options);
+  return Builder(std::move(solids), options, progress).build();
+}
+
+}  // namespace rubble

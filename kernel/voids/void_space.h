@@ -1,0 +1,57 @@
+// The space in and around a pile, cell by cell: what is solid, what is outside, what is void, and
+// how far everything is from the nearest surface.
+//
+// Outside is what a ball of `rolling_radius` sweeps that comes from the sky and may go wherever it
+// does not touch a piece; the ground does not hold it up, only its centre stays above. Void is the
+// rest of the free space: the cavities, channels and clefts of a probe-in, probe-out method (Voss
+// and Gerstein 2010, "3V: cavity, channel and cleft volume calculator and extractor").
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "kernel/base/mesh.h"
+#include "kernel/pile_state.h"
+#include "kernel/voids/voxel_grid.h"
+
+namespace rubble {
+
+struct VoidSpaceOptions {
+  double voxel = 0.02;                    // unit: m; range: 0.001 to 1
+  double rolling_radius = 1.0;            // unit: m; range: 2 voxels to 10 m
+  bool ground = true;                     // the plane z = 0 is a surface, below it all is solid
+  double memory_limit = 4.0 * (1 << 30);  // unit: byte
+  int threads = 0;                        // 0: all processors; the result does not depend on it
+
+  void validate() const;  // throws InputError naming the field
+};
+
+enum class CellKind : std::uint8_t { outside, free_void, solid };
+
+struct VoidSpace {
+  VoxelGrid grid;
+  std::vector<CellKind> kind;
+  // From the centre of a cell to the surface, 0 in solids: the exact distance to a triangle that
+  // is the nearest one, or in rare places one beside it that is less than half a voxel farther.
+  // Never too small; unit: m.
+  std::vector<float> clearance;
+  double rolling_radius = 1;  // as asked; unit: m
+
+  double cell_volume() const { return grid.voxel * grid.voxel * grid.voxel; }  // unit: m3
+  double volume(CellKind wanted) const;                                        // unit: m3
+};
+
+// done: 0 to 1. Return false to stop; RunError is thrown then.
+using VoidProgress = std::function<bool(double done)>;
+
+// What calc_void_space will need at its largest; unit: byte.
+double estimate_memory(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
+                       const VoidSpaceOptions& options);
+
+// meshes: by type index, at scale 1. Throws InputError when the memory limit would not do, with the
+// voxel that would.
+VoidSpace calc_void_space(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
+                          const VoidSpaceOptions& options = {}, const VoidProgress& progress = {});
+
+}  // namespace rubble

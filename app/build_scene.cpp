@@ -40,7 +40,8 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
     const PieceState& piece = pile.pieces[i];
     if (piece.status == PieceStatus::lost) continue;
     scene.instances.push_back({std::uint32_t(piece.type), float(piece.scale),
-                               piece.world_from_body, std::uint32_t(i)});
+                               piece.world_from_body, std::uint32_t(i),
+                               std::uint16_t(kFirstAssetLabel + piece.type)});
   }
   scene.light = resolve_light(scenario);
   scene.lamp = scenario.lamp;
@@ -48,6 +49,12 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
   scene.seed = scenario.seed;
   scene.start_ns = scenario.start_ns;
   return scene;
+}
+
+std::vector<std::string> label_names(const AssetLibrary& assets) {
+  std::vector<std::string> names{"sky", "ground"};
+  for (const PieceType& type : assets.types) names.push_back(type.name);
+  return names;
 }
 
 std::vector<MeshInstance> build_mesh_instances(const AssetLibrary& assets, const PileState& pile) {

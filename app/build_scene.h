@@ -1,6 +1,7 @@
 // From what settled to what is drawn and exported.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "app/asset_library.h"
@@ -16,6 +17,9 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets);
 
 // Every piece but the lost ones, with the scenario's light, lamp and air.
 Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile);
+
+// The legend of Frame::label: the name of each class, by its number.
+std::vector<std::string> label_names(const AssetLibrary& assets);
 
 // The same pieces at full detail, for pile.stl.
 std::vector<MeshInstance> build_mesh_instances(const AssetLibrary& assets, const PileState& pile);

@@ -114,6 +114,17 @@ void write_pile(Run& run, OutputFolder& folder) {
   folder.add("pile.stl");
 }
 
+// labels.csv: what the numbers of the label channel mean.
+void write_legend(const Run& run, OutputFolder& folder) {
+  if (!run.mission.scenario.camera.channel_set().label) return;
+  std::string text = "label,name\n";
+  const std::vector<std::string> names = label_names(run.assets);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += std::to_string(i) + "," + names[i] + "\n";
+  write_text_file(folder.file("labels.csv"), text);
+  folder.add("labels.csv");
+}
+
 // What the contact sheet says at its top.
 std::string title(const Run& run) {
   return std::filesystem::path(run.request.mission).stem().string() + "   seed " +
@@ -171,8 +182,11 @@ int render_and_record(Run& run, OutputFolder& folder) {
   RecordingQueue queue(make_recorders(scenario.outputs, int(poses.size()), title(run), folder, names));
   for (std::size_t i = 0; i < poses.size(); ++i) {
     throw_if_stopped();
-    queue.push(renderer.render(poses[i].world_from_camera, scenario.camera.intrinsics(), int(i),
-                               poses[i].stamp_ns));
+    Frame frame = renderer.render(poses[i].world_from_camera, scenario.camera.intrinsics(), int(i),
+                                  poses[i].stamp_ns);
+    const Pose* next = i + 1 < poses.size() ? &poses[i + 1].world_from_camera : nullptr;
+    renderer.add_channels(scenario.camera.channel_set(), next, frame);
+    queue.push(std::move(frame));
     run.progress.update(double(i + 1) / double(poses.size()),
                         "frame " + std::to_string(i + 1) + " of " + std::to_string(poses.size()));
   }
@@ -181,6 +195,7 @@ int render_and_record(Run& run, OutputFolder& folder) {
   run.progress.start("record");
   queue.finish();
   for (const std::string& name : names) folder.add(name);
+  write_legend(run, folder);
   run.progress.finish(std::to_string(names.size()) + " files");
   return int(poses.size());
 }

@@ -9,12 +9,18 @@
 
 namespace rubble {
 
-// Pinhole with Brown-Conrady distortion, as ROS plumb_bob and OpenCV. Pixel (0, 0) is the top-left
-// one and its centre has the coordinates (0, 0).
+enum class LensModel {
+  plumb_bob,  // pinhole with Brown-Conrady distortion: ROS plumb_bob, OpenCV calib3d
+  fisheye,    // Kannala-Brandt: ROS equidistant, OpenCV cv::fisheye
+};
+
+// Pixel (0, 0) is the top-left one and its centre has the coordinates (0, 0). Formulas: lens.h.
 struct Intrinsics {
   int width = 1024, height = 1024;        // unit: pixel
   double fx = 0, fy = 0, cx = 0, cy = 0;  // unit: pixel
-  std::array<double, 5> distortion{};     // k1 k2 p1 p2 k3
+  // plumb_bob: k1 k2 p1 p2 k3, all 0 for a plain pinhole; fisheye: k1 k2 k3 k4 and 0.
+  std::array<double, 5> distortion{};
+  LensModel lens = LensModel::plumb_bob;
 };
 
 // One change of brightness at one pixel of an event camera.
@@ -55,6 +61,8 @@ struct Frame {
 
   // What a mission asks for besides; empty otherwise. Rows from the top, as rgb and depth.
   std::vector<std::uint8_t> rgb_right;  // the right camera of a stereo pair, 3 bytes a pixel
+  double baseline = 0;                  // how far right of this one it is (-Y of the body); same
+                                        // orientation and intrinsics; unit: m; 0: there is none
   std::vector<float> measured_depth;    // as depth, but what the depth sensor reports
   std::vector<float> normals;           // 3 a pixel: unit, towards the camera, in the optical frame
                                         // (X right, Y down, Z forward); NaN: no surface
@@ -63,7 +71,8 @@ struct Frame {
   std::vector<float> flow;              // 2 a pixel: where the point seen here will be in the next
                                         // frame, less where it is; unit: pixel; NaN: no surface,
                                         // behind the camera then, or the last frame
-  std::vector<float> sky_visibility;    // share of the sky that reaches the surface, 0 to 1
+  std::vector<float> sky_visibility;    // sky view factor: the light of an even sky on the surface,
+                                        // as a share of that on open level ground; 1: no surface
   std::vector<Event> events;            // since the frame before, in order of stamp, row, column
   std::vector<ImuSample> imu;           // later than the frame before, up to and with this one
   double exposure_s = 0;                // exposure time; 0: not modelled
@@ -72,5 +81,7 @@ struct Frame {
 // In Frame::instance, where there is no piece.
 inline constexpr std::uint32_t kNoInstance = 0xfffffffeu;
 inline constexpr std::uint32_t kGroundInstance = 0xffffffffu;
+// In Frame::label.
+inline constexpr std::uint16_t kSkyLabel = 0, kGroundLabel = 1, kFirstAssetLabel = 2;
 
 }  // namespace rubble

@@ -92,6 +92,7 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
     piece.scale = double(instance.scale);
     piece.world_from_mesh = instance.world_from_body;
     piece.id = instance.id;
+    piece.label = instance.label;
     place(out, piece, axes[instance.mesh], random);
   }
   if (scene.ground) {
@@ -99,6 +100,7 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
     PlacedMesh ground;
     ground.mesh = std::uint32_t(out.meshes.size() - 1);
     ground.id = kGroundId;
+    ground.label = kGroundLabel;
     place(out, ground, 0, random);
   }
   return out;
@@ -158,8 +160,13 @@ GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
       const std::uint32_t base = first_vertex[m];
       const auto named = namer.name({base + i[0], base + i[1], base + i[2]}, t.material);
       indices.insert(indices.end(), named.begin(), named.end());
+      out.name_of_triangle.push_back(named[2]);
     }
   }
+  out.triangle_of_name.resize(vertices.size());
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+    for (std::uint32_t t = 0; t < scene.meshes[m].triangles.size(); ++t)
+      out.triangle_of_name[out.name_of_triangle[out.first_index[m] / 3 + t]] = t;
   for (const PlacedMesh& piece : scene.placed)
     append_placed(piece, first_vertex[piece.mesh], placed);
   out.vertices = make_buffer(gl, vertices);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/frame.h"
 #include "render/gl_objects.h"
 #include "render/prepared_mesh.h"
 #include "render/scene.h"
@@ -18,13 +19,14 @@ struct PlacedMesh {
   Pose world_from_mesh;
   Vec3f centre;  // of its bounding sphere, in the world
   float radius = 0;
-  std::uint32_t id = 0;           // label
+  std::uint32_t id = 0;           // piece number
+  std::uint16_t label = 0;        // class, as in Frame::label
   std::uint32_t first_flag = 0;   // of its finest level's clusters, in per-cluster tables
   std::uint32_t first_light = 0;  // of its vertices, in the table of baked light
   std::array<std::uint32_t, 2> look_seed{};  // varies the look
 };
 
-inline constexpr std::uint32_t kGroundId = 0xffffffffu;
+inline constexpr std::uint32_t kGroundId = kGroundInstance;
 
 // Plain data: all prepared meshes and where they stand.
 struct PreparedScene {
@@ -49,6 +51,10 @@ struct GpuGeometry {
   GlBuffer vertices, indices, triangles, placed, light;
   GlTexture vertices_view, triangles_view, placed_view, light_view;
   std::vector<std::uint32_t> first_index;  // of each prepared mesh, in `indices`
+  // A drawn pixel names its triangle by that triangle's last vertex, which is its own. From the
+  // name to the triangle's number in its prepared mesh, and back: name of triangle t of mesh m is
+  // name_of_triangle[first_index[m] / 3 + t].
+  std::vector<std::uint32_t> triangle_of_name, name_of_triangle;
 };
 GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
                             const std::vector<BakedLight>& light);

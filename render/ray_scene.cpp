@@ -16,10 +16,11 @@ struct RayScene::Embree {
   }
 };
 
-RayScene::RayScene(const PreparedScene& scene) : embree_(std::make_unique<Embree>()) {
+RayScene::RayScene(const PreparedScene& scene, Detail detail)
+    : embree_(std::make_unique<Embree>()) {
   // One thread builds: the tree, and with it the choice among equal hits, is then always the same.
   embree_->device = rtcNewDevice("threads=1,set_affinity=0");
-  if (!embree_->device) throw RunError("cannot bake light: Embree gives no device");
+  if (!embree_->device) throw RunError("cannot cast rays: Embree gives no device");
   embree_->scene = rtcNewScene(embree_->device);
   rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
   std::vector<Vec3f> positions;
@@ -27,7 +28,7 @@ RayScene::RayScene(const PreparedScene& scene) : embree_(std::make_unique<Embree
   for (std::uint32_t i = 0; i < scene.placed.size(); ++i) {
     const PlacedMesh& piece = scene.placed[i];
     const PreparedMesh& mesh = scene.meshes[piece.mesh];
-    const PreparedLevel& level = mesh.levels.back();
+    const PreparedLevel& level = detail == Detail::finest ? mesh.levels.front() : mesh.levels.back();
     const std::uint32_t base = std::uint32_t(positions.size());
     for (const PreparedVertex& v : mesh.vertices)
       positions.push_back(Vec3f(piece.world_from_mesh * (Vec3(v.position) * piece.scale)));
@@ -43,7 +44,7 @@ RayScene::RayScene(const PreparedScene& scene) : embree_(std::make_unique<Embree
   void* index_memory = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                3 * sizeof(std::uint32_t), triangles_.size());
   if (!triangles_.empty() && (!vertex_memory || !index_memory))
-    throw RunError("cannot bake light: out of memory for " + std::to_string(triangles_.size()) +
+    throw RunError("cannot cast rays: out of memory for " + std::to_string(triangles_.size()) +
                    " triangles");
   std::copy(positions.begin(), positions.end(), static_cast<Vec3f*>(vertex_memory));
   std::copy(indices.begin(), indices.end(), static_cast<std::uint32_t*>(index_memory));
@@ -52,7 +53,7 @@ RayScene::RayScene(const PreparedScene& scene) : embree_(std::make_unique<Embree
   rtcReleaseGeometry(geometry);
   rtcCommitScene(embree_->scene);
   if (rtcGetDeviceError(embree_->device) != RTC_ERROR_NONE)
-    throw RunError("cannot bake light: Embree reports an error while building its tree");
+    throw RunError("cannot cast rays: Embree reports an error while building its tree");
 }
 
 RayScene::~RayScene() = default;

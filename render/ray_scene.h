@@ -1,4 +1,4 @@
-// Ray casting against the pieces' coarsest level. Internal to render/.
+// Ray casting against the pieces. Internal to render/.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,9 @@ class RayScene {
     bool back = false;  // from inside
   };
 
-  explicit RayScene(const PreparedScene& scene);
+  enum class Detail { coarsest, finest };  // which level of each piece
+
+  explicit RayScene(const PreparedScene& scene, Detail detail = Detail::coarsest);
   ~RayScene();
 
   // May be called from several threads.

@@ -13,6 +13,7 @@
 #include "render/passes/resolve_pass.h"
 #include "render/passes/shadow_pass.h"
 #include "render/passes/visibility_pass.h"
+#include "render/truth.h"
 
 namespace rubble {
 
@@ -43,6 +44,16 @@ void to_metric_depth(const std::vector<float>& values, std::vector<float>& out) 
     out[i] = values[i] > 0 ? kNearPlane / values[i] : none;
 }
 
+// Along the rays of a pinhole, from planar depth.
+std::vector<float> distances_of(const std::vector<float>& depth, const Intrinsics& k) {
+  std::vector<float> out(depth.size());
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const double u = double(i % std::size_t(k.width)), v = double(i / std::size_t(k.width));
+    out[i] = float(double(depth[i]) * norm(Vec3((u - k.cx) / k.fx, (v - k.cy) / k.fy, 1)));
+  }
+  return out;
+}
+
 }  // namespace
 
 struct Renderer::State {
@@ -63,6 +74,7 @@ struct Renderer::State {
   std::int64_t last_stamp_ns = 0;
   RenderTimes times;
   std::vector<std::uint8_t> rgba;
+  std::unique_ptr<TruthMaker> truth;
 
   void update_air(const Pose& world_from_camera);
   void draw_colour(const ViewProjection& view, const Pose& pose);
@@ -101,6 +113,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
   visibility = std::make_unique<VisibilityPass>(
       gl, scene, geometry, VisibilityOptions{o.occlusion_culling, o.coarse_below});
   resolve = std::make_unique<ResolvePass>(gl, geometry, frame_light, patterns);
+  truth = std::make_unique<TruthMaker>(scene, geometry, o.threads);
   report(1);
 }
 
@@ -176,6 +189,19 @@ Frame Renderer::render(const Pose& world_from_camera, const Intrinsics& intrinsi
   }
   s.times.finish = milliseconds_since(finish);
   return frame;
+}
+
+void Renderer::add_channels(const ChannelSet& channels, const Pose* next_world_from_camera,
+                            Frame& frame) {
+  if (!channels.any()) return;
+  State& s = *state_;
+  s.context.make_current();
+  const std::vector<std::uint32_t> ids = s.visibility->read_ids();
+  ViewRays rays{frame.intrinsics, {frame.world_from_camera * camera_from_optical}, nullptr};
+  std::vector<Pose> next;
+  if (next_world_from_camera) next.push_back(*next_world_from_camera * camera_from_optical);
+  const std::vector<float> distances = distances_of(frame.depth, frame.intrinsics);
+  s.truth->fill(channels, {rays, ids, distances, std::move(next)}, frame);
 }
 
 LinearFrame Renderer::render_linear(const Pose& world_from_camera, const Intrinsics& intrinsics) {

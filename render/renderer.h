@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "render/camera_spec.h"
 #include "render/frame.h"
 #include "render/gl_context.h"
 #include "render/looks.h"
@@ -54,6 +55,9 @@ class Renderer {
   // starts afresh. Distortion in `intrinsics` is not applied: it must be zero.
   Frame render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,
                std::int64_t stamp_ns);
+  // Fills the channels of the frame that was drawn last. next_world_from_camera: of the frame that
+  // follows, for the flow; null: none follows.
+  void add_channels(const ChannelSet& channels, const Pose* next_world_from_camera, Frame& frame);
   LinearFrame render_linear(const Pose& world_from_camera, const Intrinsics& intrinsics);
 
   const RenderTimes& times() const;

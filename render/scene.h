@@ -64,7 +64,8 @@ struct SceneInstance {
   std::uint32_t mesh = 0;  // index into meshes
   float scale = 1;
   Pose world_from_body;
-  std::uint32_t id = 0;  // piece number, for labels
+  std::uint32_t id = 0;     // piece number
+  std::uint16_t label = 2;  // class, as in Frame::label; range: 2 and up
 };
 
 struct Scene {

@@ -1,5 +1,7 @@
 #include "scripting/scenario.h"
 
+#include <algorithm>
+
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "scripting/scenario_schema.h"
@@ -27,7 +29,45 @@ void check_names(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
     check(pile.placed[i].asset, "pile.placed", i);
 }
 
+struct ChannelName {
+  const char* name;
+  bool ChannelSet::* member;
+};
+constexpr ChannelName kChannels[] = {{"normals", &ChannelSet::normals},
+                                     {"instance", &ChannelSet::instance},
+                                     {"label", &ChannelSet::label},
+                                     {"flow", &ChannelSet::flow},
+                                     {"sky_visibility", &ChannelSet::sky_visibility}};
+
+void check_channels(const CameraScenario& camera, std::vector<Diagnostic>& mistakes) {
+  const std::vector<std::string> names = channel_names();
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "one of " : ", ") + name;
+  for (std::size_t i = 0; i < camera.channels.size(); ++i) {
+    const std::string& written = camera.channels[i];
+    if (std::find(names.begin(), names.end(), written) != names.end()) continue;
+    const std::string near = nearest_name(written, names);
+    mistakes.push_back({"", 0, "camera.channels[" + std::to_string(i + 1) + "]",
+                        "unknown channel `" + written + "`", near.empty() ? list : "", "",
+                        near.empty() ? "" : "did you mean `" + near + "`?"});
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> channel_names() {
+  std::vector<std::string> names;
+  for (const ChannelName& channel : kChannels) names.push_back(channel.name);
+  return names;
+}
+
+ChannelSet CameraScenario::channel_set() const {
+  ChannelSet set;
+  for (const std::string& written : channels)
+    for (const ChannelName& channel : kChannels)
+      if (written == channel.name) set.*channel.member = true;
+  return set;
+}
 
 Intrinsics CameraScenario::intrinsics() const {
   const portable::SinCos half = portable::sincos(fov_deg * (portable::kPi / 360.0));
@@ -46,6 +86,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   if (!mistakes.empty()) return mistakes;  // what follows relies on finite numbers
   check_names(scenario.pile, mistakes);
   check_mix(scenario.pile, mistakes);
+  check_channels(scenario.camera, mistakes);
   for (Diagnostic& d : find_mistakes(scenario.trajectory)) mistakes.push_back(std::move(d));
   return mistakes;
 }

@@ -15,6 +15,7 @@
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
 #include "kernel/settle.h"
+#include "render/camera_spec.h"
 #include "render/frame.h"
 #include "render/scene.h"
 #include "scripting/trajectory.h"
@@ -55,11 +56,17 @@ struct LightScenario {
 struct CameraScenario {
   int width = 1024, height = 1024;  // unit: pixel; range: 16 to 8192
   double fov_deg = 90;              // horizontal, from edge to edge of the image; range: 1 to 170
+  // Ground truth beside colour and depth, of channel_names().
+  std::vector<std::string> channels{};
 
   // fx = fy = (width / 2) / tan(fov / 2); the principal point is the middle of the image, which is
   // (width - 1) / 2 where pixel (0, 0) has its centre at (0, 0).
   Intrinsics intrinsics() const;
+  ChannelSet channel_set() const;  // unknown names are left out
 };
+
+// What CameraScenario::channels may name.
+std::vector<std::string> channel_names();
 
 enum class DepthEncoding {
   millimetres,  // "16UC1": uint16, 0: no return

@@ -119,6 +119,9 @@ void add_camera(Schema& k, CameraScenario& c) {
   k.value("camera.fov_deg", c.fov_deg, "Horizontal field of view, edge to edge.")
       .between(1, 170)
       .unit("degree");
+  k.value("camera.channels", c.channels,
+          "Ground truth beside colour and depth: \"normals\", \"instance\", \"label\", \"flow\", "
+          "\"sky_visibility\".");
 }
 
 void add_trajectory(Schema& k, TrajectorySpec& t) {

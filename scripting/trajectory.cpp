@@ -1,5 +1,6 @@
 #include "scripting/trajectory.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
@@ -236,9 +237,20 @@ auto collect(const TrajectorySpec& spec, F get) {
   return all;
 }
 
-class Sampler {
+}  // namespace
+
+Waypoint default_view() {
+  Waypoint w;
+  w.position = {-9, 0, 4};
+  w.look_at = Vec3{0, 0, 0.5};
+  return w;
+}
+
+std::vector<Diagnostic> find_mistakes(const TrajectorySpec& spec) { return Checker(spec).run(); }
+
+class CameraPath::Curves {
  public:
-  explicit Sampler(const TrajectorySpec& spec)
+  explicit Curves(const TrajectorySpec& spec)
       : waypoints_(spec.waypoints),
         times_(times_of(spec)),
         positions_(collect(spec, [](const Waypoint& w) { return w.position; }), times_,
@@ -253,50 +265,51 @@ class Sampler {
 
   double duration() const { return times_.back(); }
 
-  Pose at(double t) {
-    while (leg_ + 2 < times_.size() && t >= times_[leg_ + 1]) ++leg_;
+  Pose at(double t) const {
     if (times_.size() == 1) return {rotation_at(waypoints_[0]), waypoints_[0].position};
-    const Vec3 position = positions_.at(leg_, t);
-    if (!waypoints_[leg_].look_at || !waypoints_[leg_ + 1].look_at)
-      return {rotations_.at(leg_, t), position};
-    const Vec3 direction = targets_.at(leg_, t) - position;
-    if (norm(direction) < kNearestTarget) return {rotations_.at(leg_, t), position};
-    return {rotation_towards(direction, rolls_.at(leg_, t).x), position};
+    const auto after = std::upper_bound(times_.begin() + 1, times_.end() - 1, t);
+    const std::size_t leg = std::size_t(after - times_.begin()) - 1;
+    const Vec3 position = positions_.at(leg, t);
+    if (!waypoints_[leg].look_at || !waypoints_[leg + 1].look_at)
+      return {rotations_.at(leg, t), position};
+    const Vec3 direction = targets_.at(leg, t) - position;
+    if (norm(direction) < kNearestTarget) return {rotations_.at(leg, t), position};
+    return {rotation_towards(direction, rolls_.at(leg, t).x), position};
   }
 
  private:
-  const std::vector<Waypoint>& waypoints_;
+  std::vector<Waypoint> waypoints_;
   std::vector<double> times_;
   VectorCurve positions_, targets_, rolls_;
   RotationCurve rotations_;
-  std::size_t leg_ = 0;
 };
 
-}  // namespace
-
-Waypoint default_view() {
-  Waypoint w;
-  w.position = {-9, 0, 4};
-  w.look_at = Vec3{0, 0, 0.5};
-  return w;
-}
-
-std::vector<Diagnostic> find_mistakes(const TrajectorySpec& spec) { return Checker(spec).run(); }
-
-std::vector<CameraPose> sample_trajectory(const TrajectorySpec& spec, std::int64_t epoch_ns) {
+CameraPath::CameraPath(const TrajectorySpec& spec) {
   std::vector<Diagnostic> mistakes = find_mistakes(spec);
   if (!mistakes.empty()) throw InputError(std::move(mistakes));
-  Sampler sampler(spec);
+  curves_ = std::make_unique<const Curves>(spec);
+}
+
+CameraPath::~CameraPath() = default;
+
+double CameraPath::duration() const { return curves_->duration(); }
+
+Pose CameraPath::at(double t) const {
+  return curves_->at(std::min(std::max(t, 0.0), curves_->duration()));
+}
+
+std::vector<CameraPose> sample_trajectory(const TrajectorySpec& spec, std::int64_t epoch_ns) {
+  const CameraPath path(spec);
   // A waypoint at 3.0 s gets its frame although 3.0 * 30 may round to just under 90.
   constexpr double kSlack = 1e-6;
   const auto last =
-      static_cast<std::int64_t>(std::floor(sampler.duration() * spec.rate_hz + kSlack));
+      static_cast<std::int64_t>(std::floor(path.duration() * spec.rate_hz + kSlack));
   std::vector<CameraPose> poses;
   poses.reserve(std::size_t(last) + 1);
   for (std::int64_t k = 0; k <= last; ++k) {
-    const double t = std::min(double(k) / spec.rate_hz, sampler.duration());
+    const double t = std::min(double(k) / spec.rate_hz, path.duration());
     const auto offset = static_cast<std::int64_t>(std::floor(double(k) * 1e9 / spec.rate_hz + 0.5));
-    poses.push_back({epoch_ns + offset, sampler.at(t)});
+    poses.push_back({epoch_ns + offset, path.at(t)});
   }
   return poses;
 }

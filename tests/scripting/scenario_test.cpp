@@ -27,7 +27,7 @@ Scenario unusual() {
   s.light.spec.type = LightType::point;
   s.light.random_rotation = true;
   s.air.fog_density = 0.123456789012345678;
-  s.camera = {640, 480, 70.5};
+  s.camera = {640, 480, 70.5, {"label", "flow"}};
   s.lamp.on = false;
   s.trajectory.interpolation = Interpolation::linear;
   s.trajectory.waypoints = {{0.0, std::nullopt, {1, 2, 3}, {1, 0, 0}, Vec3{0, 0, 0}},

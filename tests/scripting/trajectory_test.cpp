@@ -221,5 +221,27 @@ TEST(TrajectoryErrors, EachInItsWords) {
             "trajectory: too long: expected at most 10000000 frames, found 30000000");
 }
 
+TEST(CameraPath, IsTheFramesPathAtAnyTime) {
+  TrajectorySpec spec;
+  spec.rate_hz = 10;
+  spec.waypoints.resize(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    spec.waypoints[i].t = double(i) * 0.5;
+    spec.waypoints[i].position = {double(i), double(i * i), 1};
+    spec.waypoints[i].look_at = Vec3{0, 9, 0};
+  }
+  const CameraPath path(spec);
+  EXPECT_EQ(path.duration(), 1);
+  const std::vector<CameraPose> frames = sample_trajectory(spec, 1);
+  for (const int k : {7, 2, 9, 0, 10}) {  // in no order: no call depends on another
+    const Pose pose = path.at(k / 10.0), frame = frames[std::size_t(k)].world_from_camera;
+    EXPECT_EQ(pose.translation, frame.translation);
+    EXPECT_EQ(pose.rotation, frame.rotation);
+  }
+  EXPECT_EQ(path.at(-1).translation, path.at(0).translation);
+  EXPECT_EQ(path.at(2).translation, path.at(1).translation);
+  EXPECT_FALSE(path.at(0.55).translation == path.at(0.5).translation);
+}
+
 }  // namespace
 }  // namespace rubble

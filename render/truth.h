@@ -1,0 +1,48 @@
+// Ground truth of a drawn view, each pixel for itself: nothing is filtered or interpolated between
+// pixels. Internal to render/.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/camera_spec.h"
+#include "render/geometry.h"
+#include "render/ray_scene.h"
+#include "render/view_rays.h"
+
+namespace rubble {
+
+// What is needed of a view that was drawn.
+struct DrawnView {
+  const ViewRays& rays;
+  const std::vector<std::uint32_t>& ids;  // two a pixel, as VisibilityPass::ids()
+  const std::vector<float>& distances;    // along the ray; NaN: nothing there; unit: m
+  // Where the camera is when it takes the next image: one, or one a row; empty: it takes none.
+  std::vector<Pose> next_world_from_optical;
+};
+
+class TruthMaker {
+ public:
+  TruthMaker(const PreparedScene& scene, const GpuGeometry& geometry, int threads)
+      : scene_(scene), geometry_(geometry), threads_(threads) {}
+
+  void fill(const ChannelSet& channels, const DrawnView& view, Frame& frame);
+
+ private:
+  struct Pixel;
+  struct Corners;
+
+  Corners corners_of(const Pixel& pixel) const;
+  Vec3 find_normal(const Pixel& pixel, const Pose& world_from_optical) const;
+  float find_sky_visibility(const Pixel& pixel, const Vec3& normal) const;
+  void fill_row(const ChannelSet& channels, const DrawnView& view, const Lens& lens, int v,
+                Frame& frame) const;
+
+  const PreparedScene& scene_;
+  const GpuGeometry& geometry_;
+  int threads_;
+  std::unique_ptr<RayScene> rays_;  // made when the sky's visibility is first asked for
+};
+
+}  // namespace rubble

@@ -88,8 +88,9 @@ void load_asset(const Found& found, AssetLibrary& library) {
   auto mesh = std::make_shared<SceneMesh>();
   for (const std::string& path : asset.meshes) mesh->levels.push_back(load_mesh(path, units));
   library.types.push_back(make_type(asset, mesh->levels.front(), units, library.warnings));
-  library.contents.push_back(
-      {asset.name, found.pack->name, hash_content(asset, library.types.back())});
+  library.contents.push_back({asset.name, found.pack->name,
+                              hash_content(asset, library.types.back()), asset.weight,
+                              asset.scale});
   library.meshes.push_back(std::move(mesh));
 }
 
@@ -109,6 +110,73 @@ std::vector<MixEntry> make_mix(const Scenario& scenario, const std::vector<Found
       mix.push_back({library.find(found.asset->name), found.asset->weight, found.asset->scale[0],
                      found.asset->scale[1]});
   return mix;
+}
+
+// A folder of packs stands for all of them.
+void add_packs(const std::string& folder, std::set<std::string>& seen,
+               std::vector<std::string>& packs) {
+  std::error_code failed;
+  const std::string path = fs::absolute(folder).lexically_normal().string();
+  if (fs::is_regular_file(path + "/pack.lua", failed)) {
+    if (seen.insert(path).second) packs.push_back(path);
+    return;
+  }
+  std::set<std::string> inside;  // sorted: the order in which a file system lists is its own
+  for (const auto& entry : fs::directory_iterator(path, failed))
+    if (fs::is_regular_file(entry.path() / "pack.lua", failed))
+      inside.insert(entry.path().string());
+  for (const std::string& pack : inside)
+    if (seen.insert(pack).second) packs.push_back(pack);
+}
+
+// One asset with the content that was asked for, as the recipe weights it.
+struct Search {
+  const std::vector<AssetPack>& packs;
+  std::vector<Diagnostic> missing;
+  std::vector<std::string> looked_in;
+
+  void find(const AssetContent& wanted, const std::string& file, AssetLibrary& library) {
+    std::string other;
+    for (const AssetPack& pack : packs)
+      for (const Asset& candidate : pack.assets) {
+        if (candidate.name != wanted.name) continue;
+        Asset asset = candidate;
+        asset.weight = wanted.weight;
+        asset.scale = wanted.scale;
+        AssetLibrary one;
+        load_asset({&pack, &asset}, one);
+        if (one.contents.back().sha256 == wanted.sha256) return keep(one, wanted, library);
+        other = "in " + pack.folder + " it has the content " + one.contents.back().sha256;
+      }
+    std::string places;
+    for (const std::string& folder : looked_in) places += (places.empty() ? "" : ", ") + folder;
+    missing.push_back({file, 0, "assets",
+                       "the asset `" + wanted.name + "` of pack `" + wanted.pack + "` is missing",
+                       "the content " + wanted.sha256, other,
+                       "looked in " + places + "; name its folder with --assets"});
+  }
+
+  static void keep(AssetLibrary& one, const AssetContent& wanted, AssetLibrary& library) {
+    library.types.push_back(std::move(one.types.back()));
+    library.meshes.push_back(std::move(one.meshes.back()));
+    library.contents.push_back(wanted);
+    for (std::string& warning : one.warnings) library.warnings.push_back(std::move(warning));
+  }
+};
+
+// As make_mix, from what a recipe says of its assets.
+std::vector<MixEntry> make_mix(const Scenario& scenario, const AssetLibrary& library) {
+  AssetPack pack;
+  for (const AssetContent& content : library.contents) {
+    Asset asset;
+    asset.name = content.name;
+    asset.weight = content.weight;
+    asset.scale = content.scale;
+    pack.assets.push_back(asset);
+  }
+  std::vector<Found> all;
+  for (const Asset& asset : pack.assets) all.push_back({&pack, &asset});
+  return make_mix(scenario, all, library);
 }
 
 }  // namespace
@@ -139,10 +207,29 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   check_assets(mission, names);
 
   AssetLibrary library;
+  for (const AssetPack& pack : packs) library.folders.push_back(pack.folder);
   const std::set<std::string> used = names_used(mission.scenario, all);
   for (const Found& found : all)
     if (used.count(found.asset->name)) load_asset(found, library);
   library.mix = make_mix(mission.scenario, all, library);
+  return library;
+}
+
+AssetLibrary load_assets(const Recipe& recipe, const std::vector<std::string>& folders) {
+  const std::string bundled = bundled_assets_folder();
+  std::set<std::string> seen;
+  AssetLibrary library;
+  for (const std::string& folder : folders) add_packs(folder, seen, library.folders);
+  add_packs(bundled, seen, library.folders);
+  const std::vector<Material> materials = load_materials(bundled + "/materials.lua");
+  std::vector<AssetPack> packs;
+  for (const std::string& folder : library.folders)
+    packs.push_back(load_asset_pack(folder, materials));
+  Search search{packs, {}, library.folders};
+  const Recipe& pile = recipe.pile_from ? *recipe.pile_from : recipe;
+  for (const AssetContent& wanted : pile.assets) search.find(wanted, recipe.script.path, library);
+  if (!search.missing.empty()) throw InputError(std::move(search.missing));
+  library.mix = make_mix(stated_scenario(pile), library);
   return library;
 }
 

@@ -5,16 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "app/recipe.h"
 #include "kernel/pile.h"
 #include "render/scene.h"
 #include "scripting/mission.h"
 
 namespace rubble {
-
-struct AssetContent {
-  std::string name, pack;
-  std::string sha256;  // over the mesh and collision files and the physical properties
-};
 
 struct AssetLibrary {
   std::vector<PieceType> types;
@@ -22,6 +18,7 @@ struct AssetLibrary {
   std::vector<AssetContent> contents;                    // one per type
   std::vector<MixEntry> mix;                             // what the mission draws from
   std::vector<std::string> warnings;                     // e.g. a mesh that is not closed
+  std::vector<std::string> folders;                      // of the packs, absolute
 
   int find(const std::string& name) const;  // index of a type that was loaded
 };
@@ -30,6 +27,11 @@ struct AssetLibrary {
 // bundled pack `concrete`. Throws InputError with every mistake: an unknown asset, a mesh that
 // cannot be read, two packs with an asset of the same name.
 AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>& extra_packs);
+
+// Loads the very assets that a recipe names, wherever their packs are now: looks in `folders`
+// (packs, or folders of packs), then among the bundled ones, and takes what has the same content.
+// Throws InputError naming each that is missing, and where it was looked for.
+AssetLibrary load_assets(const Recipe& recipe, const std::vector<std::string>& folders);
 
 // Where the bundled packs and materials.lua are: $RUBBLE_ASSETS, or `assets` beside the program.
 std::string bundled_assets_folder();

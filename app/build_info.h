@@ -11,7 +11,7 @@ struct BuildInfo {
   std::string commit;    // of the sources; "unknown" outside a git checkout
   std::string compiler;  // name and version
   std::string flags;
-  std::string target;    // processor and system
+  std::string target;                            // processor and system
   std::map<std::string, std::string> libraries;  // name to version
 };
 

@@ -1,5 +1,8 @@
-// The subcommands of `rubble`. Each returns its exit code or throws InputError or RunError.
+// The subcommands of `rubble`. Each returns its exit code or throws InputError, RunError or
+// Stopped.
 #pragma once
+
+#include <string>
 
 #include "app/run_request.h"
 #include "kernel/base/error.h"
@@ -10,6 +13,10 @@ namespace rubble {
 ExitCode run_mission(const RunRequest& request);
 // The pile only: pile.bin, pile.stl, manifest.json.
 ExitCode settle_mission(const RunRequest& request);
+// The mission's camera, light and files over the pile of the finished run in the folder `from`.
+ExitCode render_saved_pile(const std::string& from, const RunRequest& request);
+// Goes on with a run that was stopped or killed.
+ExitCode resume_run(const FolderRequest& request);
 // Resolves everything, runs nothing, prints the complete scenario as JSON on standard output.
 ExitCode check_mission(const RunRequest& request);
 // Versions, EGL device and GL renderer in use, threads, on standard output.

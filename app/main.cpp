@@ -11,8 +11,10 @@
 namespace rubble {
 namespace {
 
-void add_mission_options(CLI::App& command, RunRequest& request) {
-  command.add_option("mission", request.mission, "The mission, a Lua script")->required();
+// mission: the name of the option, without dashes: its place is that of an argument.
+void add_mission_options(CLI::App& command, RunRequest& request,
+                         const std::string& mission = "mission") {
+  command.add_option(mission, request.mission, "The mission, a Lua script")->required();
   command.add_option("--seed", request.seed, "Seed of all randomness; overrides the script's");
   command.add_option("--set", request.overrides, "Override a key of the mission: key=value")
       ->type_name("KEY=VALUE")
@@ -24,30 +26,61 @@ void add_mission_options(CLI::App& command, RunRequest& request) {
       ->take_all();
 }
 
+void add_run_options(CLI::App& command, RunOptions& options) {
+  command
+      .add_option("--threads", options.threads,
+                  "Threads to use; 0: all processors. Results do not depend on it")
+      ->check(CLI::Range(0, 256));
+  command.add_flag("--quiet", options.quiet, "No progress, only errors");
+  command
+      .add_option("--checkpoint-every", options.checkpoint_every,
+                  "Keep a checkpoint of settling that often (default: 10 s)")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0.0, 1e6));
+}
+
 void add_output_options(CLI::App& command, RunRequest& request) {
   command.add_option("--out", request.out, "Output folder (default: out/<name of the script>)")
       ->type_name("DIR");
   command.add_flag("--force", request.force, "Replace the files of an earlier run");
-  command.add_option("--threads", request.threads,
-                     "Threads to use; 0: all processors. Results do not depend on it")
-      ->check(CLI::Range(0, 256));
-  command.add_flag("--quiet", request.quiet, "No progress, only errors");
+  add_run_options(command, request.options);
+}
+
+// For commands that begin with the folder of a run.
+void add_folder_options(CLI::App& command, FolderRequest& request) {
+  command.add_option("folder", request.folder, "The output folder of a run")->required();
+  command.add_option("--assets", request.asset_packs, "A folder where packs of the run may be now")
+      ->type_name("DIR")
+      ->allow_extra_args(false)
+      ->take_all();
+  add_run_options(command, request.options);
 }
 
 ExitCode run(int argc, char** argv) {
-  CLI::App app{"Simulates collapsed structures: a seed and a Lua mission give a settled pile, a "
-               "camera flight, RGB-D frames, an MRPT rawlog, a ROS bag and the ground truth."};
-  app.footer("Exit codes: 0 done, 1 bad input, 2 failure, 3 finished but did not settle.");
+  CLI::App app{
+      "Simulates collapsed structures: a seed and a Lua mission give a settled pile, a "
+      "camera flight, RGB-D frames, an MRPT rawlog, a ROS bag and the ground truth."};
+  app.footer(
+      "Exit codes: 0 done, 1 bad input, 2 failure, 3 finished but did not settle, 4 stopped by "
+      "a signal, 5 not the same.");
   app.set_version_flag("--version", "rubble " + build_info().version);
   app.require_subcommand(1);
 
   RunRequest request;
+  FolderRequest of_folder;
+  std::string from;
   CLI::App* run = app.add_subcommand("run", "Run a mission to a finished dataset");
   CLI::App* settle = app.add_subcommand("settle", "Settle the pile of a mission, nothing more");
+  CLI::App* resume = app.add_subcommand("resume", "Continue a run that was stopped or killed");
+  CLI::App* render =
+      app.add_subcommand("render", "Another mission's flight over the pile of a finished run");
   CLI::App* check = app.add_subcommand("check", "Print the complete scenario as JSON; run nothing");
   CLI::App* info = app.add_subcommand("info", "Print versions, the GL renderer and threads");
   for (CLI::App* command : {run, settle, check}) add_mission_options(*command, request);
-  for (CLI::App* command : {run, settle}) add_output_options(*command, request);
+  render->add_option("folder", from, "The output folder of the run with the pile")->required();
+  add_mission_options(*render, request, "--mission");
+  for (CLI::App* command : {run, settle, render}) add_output_options(*command, request);
+  add_folder_options(*resume, of_folder);
 
   try {
     app.parse(argc, argv);
@@ -56,6 +89,8 @@ ExitCode run(int argc, char** argv) {
   }
   if (*run) return run_mission(request);
   if (*settle) return settle_mission(request);
+  if (*resume) return resume_run(of_folder);
+  if (*render) return render_saved_pile(from, request);
   if (*check) return check_mission(request);
   if (*info) return print_info();
   return ExitCode::bad_input;
@@ -72,6 +107,9 @@ int main(int argc, char** argv) {
   } catch (const rubble::InputError& error) {
     std::fprintf(stderr, "\n%s\n", error.what());
     return int(ExitCode::bad_input);
+  } catch (const rubble::Stopped& stopped) {
+    std::fprintf(stderr, "\n%s\n", stopped.what());
+    return int(ExitCode::stopped);
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "\nrubble: out of memory\n");
   } catch (const std::exception& error) {

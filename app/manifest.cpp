@@ -1,9 +1,8 @@
 #include "app/manifest.h"
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/build_info.h"
+#include "app/json_members.h"
 #include "kernel/base/hash.h"
 
 namespace rubble {
@@ -11,57 +10,178 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json describe_program() {
-  const BuildInfo build = build_info();
+constexpr const char* kFormat = "rubble manifest 2";
+
+// A part of the manifest that is sealed by itself, so that a change can be named.
+struct Part {
+  const char* name;
+  std::vector<const char*> members;
+};
+
+const std::vector<Part>& sealed_parts() {
+  static const std::vector<Part> parts{{"program", {"format", "program", "libraries"}},
+                                       {"script", {"kind", "script", "included", "request"}},
+                                       {"scenario", {"seed", "scenario", "pile_from"}},
+                                       {"assets", {"assets"}},
+                                       {"pile", {"state_hash", "pile"}},
+                                       {"frames", {"frames", "frame_hashes"}},
+                                       {"metrics", {"metrics"}},
+                                       {"files", {"outputs"}}};
+  return parts;
+}
+
+std::string seal_of(const Json& manifest, const Part& part) {
+  Json content = Json::object();
+  for (const char* member : part.members)
+    if (manifest.contains(member)) content[member] = manifest[member];
+  return sha256(content.dump());
+}
+
+Json describe_program(const BuildInfo& build) {
   return {{"name", "rubble"},           {"version", build.version}, {"commit", build.commit},
           {"compiler", build.compiler}, {"flags", build.flags},     {"target", build.target}};
 }
 
-Json describe_pile(const PileState& pile) {
+Json describe_pile(const PileSummary& pile) {
   return {{"settled", pile.settled},
-          {"pieces", pile.pieces.size()},
+          {"pieces", pile.pieces},
           {"lost", pile.lost},
           {"steps", pile.steps},
           {"simulated_s", pile.simulated},
           {"layers_at_limit", pile.layers_at_limit}};
 }
 
-Json describe_assets(const AssetLibrary& assets) {
-  Json list = Json::array();
-  for (const AssetContent& asset : assets.contents)
-    list.push_back({{"name", asset.name}, {"pack", asset.pack}, {"sha256", asset.sha256}});
-  return list;
+Json describe_frames(const FrameHashes& frames) {
+  Json rows = Json::array();
+  for (const auto& hashes : frames.frames) rows.push_back(format_hashes(hashes));
+  return {{"channels", frames.channels}, {"xxh64", rows}};
 }
 
-// By its name alone: where it lay is this machine's business.
-Json describe_script(const SourceFile& script) {
-  return {{"name", std::filesystem::path(script.path).filename().string()},
-          {"sha256", script.sha256},
-          {"text", script.text}};
+BuildInfo read_program(const JsonMembers& json) {
+  BuildInfo build;
+  const JsonMembers program = json.object("program");
+  build.version = program.text("version");
+  build.commit = program.text("commit");
+  build.compiler = program.text("compiler");
+  build.flags = program.text("flags");
+  build.target = program.text("target");
+  for (const auto& [name, version] : json.object("libraries").members())
+    build.libraries[name] = version.as_text();
+  return build;
+}
+
+PileSummary read_pile(const JsonMembers& json) {
+  const JsonMembers pile = json.object("pile");
+  PileSummary summary;
+  summary.state_hash = json.text("state_hash");
+  summary.settled = pile.boolean("settled");
+  summary.pieces = pile.integer("pieces");
+  summary.lost = pile.integer("lost");
+  summary.steps = pile.integer("steps");
+  summary.layers_at_limit = pile.integer("layers_at_limit");
+  summary.simulated = pile.number("simulated_s");
+  return summary;
+}
+
+FrameHashes read_frames(const JsonMembers& json) {
+  const JsonMembers table = json.object("frame_hashes");
+  FrameHashes frames;
+  for (const JsonMembers& channel : table.list("channels"))
+    frames.channels.push_back(channel.as_text());
+  for (const JsonMembers& row : table.list("xxh64")) {
+    frames.frames.emplace_back();
+    const bool read = parse_hashes(row.as_text(), frames.frames.back());
+    if (!read || frames.frames.back().size() != frames.channels.size())
+      table.fail("xxh64", "a hash for each channel in every row");
+  }
+  return frames;
+}
+
+void read_not_reproducible(const JsonMembers& json, Manifest& manifest) {
+  for (const auto& [stage, seconds] : json.object("wall_s").members())
+    manifest.wall_seconds[stage] = seconds.as_number();
+  for (const auto& [name, value] : json.object("environment").members())
+    manifest.environment[name] = value.as_text();
+  for (const JsonMembers& folder : json.list("pack_folders"))
+    manifest.pack_folders.push_back(folder.as_text());
+}
+
+void check_format(const JsonMembers& json, const std::string& file) {
+  if (!json.has("format")) json.fail("format", std::string("\"") + kFormat + "\"");
+  const std::string format = json.text("format");
+  if (format != kFormat)
+    throw InputError({file, 0, "format", "another format of manifest", kFormat, format,
+                      "use the program that wrote it: " +
+                          (json.has("program") ? json.object("program").dump() : "unknown")});
 }
 
 }  // namespace
 
-std::string make_manifest(const ManifestContents& contents) {
-  const Mission& mission = *contents.mission;
-  Json manifest;
-  manifest["format"] = "rubble manifest 1";
-  manifest["program"] = describe_program();
-  manifest["seed"] = mission.scenario.seed;
-  manifest["state_hash"] = hex64(contents.pile->state_hash());
-  manifest["pile"] = describe_pile(*contents.pile);
-  manifest["frames"] = contents.frames;
-  manifest["outputs"] = contents.outputs;
-  manifest["script"] = describe_script(mission.script);
-  manifest["included"] = Json::array();
-  for (const SourceFile& file : mission.included)
-    manifest["included"].push_back(describe_script(file));
-  manifest["scenario"] = Json::parse(scenario_to_json(mission.scenario));
-  manifest["assets"] = describe_assets(*contents.assets);
-  manifest["libraries"] = build_info().libraries;
-  manifest["not_reproducible"] = {{"wall_s", contents.wall_seconds},
-                                  {"environment", contents.environment}};
-  return manifest.dump(2) + "\n";
+PileSummary summarize(const PileState& pile) {
+  PileSummary summary;
+  summary.state_hash = hex64(pile.state_hash());
+  summary.settled = pile.settled;
+  summary.pieces = std::int64_t(pile.pieces.size());
+  summary.lost = pile.lost;
+  summary.steps = pile.steps;
+  summary.layers_at_limit = pile.layers_at_limit;
+  summary.simulated = pile.simulated;
+  return summary;
+}
+
+std::string manifest_to_json(const Manifest& m) {
+  Json json;
+  json["format"] = kFormat;
+  json["program"] = describe_program(m.program);
+  json["seed"] = m.seed;
+  json["state_hash"] = m.pile.state_hash;
+  json["pile"] = describe_pile(m.pile);
+  json["frames"] = m.frames.frames.size();
+  json["metrics"] = m.metrics;
+  json["outputs"] = m.outputs;
+  add_recipe(json, m.recipe);
+  json["libraries"] = m.program.libraries;
+  json["frame_hashes"] = describe_frames(m.frames);
+  json["seals"] = Json::object();
+  for (const Part& part : sealed_parts()) json["seals"][part.name] = seal_of(json, part);
+  json["not_reproducible"] = {
+      {"wall_s", m.wall_seconds}, {"environment", m.environment}, {"pack_folders", m.pack_folders}};
+  return json.dump(2) + "\n";
+}
+
+Manifest manifest_from_json(const std::string& text, const std::string& file) {
+  const Json json = parse_json_text(text, file);
+  const JsonMembers members(json, file);
+  check_format(members, file);
+  Manifest m;
+  m.program = read_program(members);
+  m.recipe = recipe_from_json(json, file);
+  m.seed = members.unsigned_integer("seed");
+  m.pile = read_pile(members);
+  m.frames = read_frames(members);
+  for (const auto& [name, value] : members.object("metrics").members())
+    m.metrics[name] = value.as_number();
+  for (const auto& [name, hash] : members.object("outputs").members())
+    m.outputs[name] = hash.as_text();
+  read_not_reproducible(members.object("not_reproducible"), m);
+  return m;
+}
+
+std::vector<std::string> find_altered_parts(const std::string& text, const std::string& file) {
+  const Json json = parse_json_text(text, file);
+  const JsonMembers seals = JsonMembers(json, file).object("seals");
+  std::vector<std::string> altered;
+  for (const Part& part : sealed_parts()) {
+    const std::string found = seal_of(json, part), stated = seals.text(part.name);
+    if (found == stated) continue;
+    std::string members;
+    for (const char* member : part.members)
+      if (json.contains(member))
+        members += (members.empty() ? "`" : ", `") + std::string(member) + "`";
+    altered.push_back("the manifest's part " + std::string(part.name) + " (" + members +
+                      ") was altered: its hash is " + found + ", its seal says " + stated);
+  }
+  return altered;
 }
 
 }  // namespace rubble

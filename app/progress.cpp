@@ -56,8 +56,8 @@ void Progress::draw(double fraction, const std::string& detail) {
     return;
   }
   const int filled = int(fraction * kBarWidth);
-  const std::string bar = std::string(std::size_t(filled), '#') +
-                          std::string(std::size_t(kBarWidth - filled), '.');
+  const std::string bar =
+      std::string(std::size_t(filled), '#') + std::string(std::size_t(kBarWidth - filled), '.');
   std::fprintf(stderr, "\r\033[K%-8s [%s] %3d %%  %s%s", stage_.c_str(), bar.c_str(),
                int(100 * fraction), detail.c_str(), left.c_str());
   std::fflush(stderr);

@@ -1,5 +1,6 @@
 // Progress of one stage of a run, for a person: a bar that redraws itself on a terminal, a plain
-// line at the start and the end otherwise. Writes to standard error; standard output is for results.
+// line at the start and the end otherwise. Writes to standard error; standard output is for
+// results.
 #pragma once
 
 #include <chrono>

@@ -8,15 +8,28 @@
 
 namespace rubble {
 
+// How to run, whatever is run: none of it changes a result.
+struct RunOptions {
+  int threads = 0;               // --threads; 0: all processors
+  bool quiet = false;            // --quiet: no progress
+  double checkpoint_every = 10;  // --checkpoint-every, while settling; unit: s
+};
+
 struct RunRequest {
   std::string mission;                   // path of the Lua script
   std::optional<std::uint64_t> seed;     // --seed; overrides the script's
   std::vector<std::string> overrides;    // --set key=value, in order
   std::vector<std::string> asset_packs;  // --assets DIR, in order
   std::string out;                       // --out; empty: out/<name of the script>
-  int threads = 0;                       // --threads; 0: all processors
   bool force = false;                    // --force: replace an earlier run's files
-  bool quiet = false;                    // --quiet: no progress
+  RunOptions options;
+};
+
+// For the commands that start from a folder of a run.
+struct FolderRequest {
+  std::string folder;
+  std::vector<std::string> asset_packs;  // --assets DIR: where its packs may be now
+  RunOptions options;
 };
 
 }  // namespace rubble

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "kernel/base/error.h"
@@ -101,6 +102,7 @@ struct LuaSandbox::State {
   LuaHost host;
   std::vector<SourceFile> chunks;  // 0: the script itself
   std::vector<SourceFile> included;
+  std::optional<std::map<std::string, std::string>> served;  // instead of files
 
   ~State() {
     host.limited = false;
@@ -108,35 +110,58 @@ struct LuaSandbox::State {
   }
 
   int open_include(const std::string& name, std::string& error);
+  std::optional<std::string> read_include(const fs::path& relative, std::string& error) const;
+  int keep_include(const fs::path& relative, std::string text);
   Diagnostic diagnostic_of(const std::string& raised) const;
   void call(int arguments, int results);  // throws InputError
 };
 
-int LuaSandbox::State::open_include(const std::string& name, std::string& error) {
-  const fs::path relative(name);
-  const bool climbs = std::find(relative.begin(), relative.end(), "..") != relative.end();
-  if (name.empty() || relative.is_absolute() || climbs)
-    return error = "\"" + name + "\" is not a path inside the script's folder", -1;
+// The file's text; otherwise the reason goes into `error`.
+std::optional<std::string> LuaSandbox::State::read_include(const fs::path& relative,
+                                                           std::string& error) const {
+  const std::string name = "\"" + relative.string() + "\"";
+  if (served) {
+    const auto found = served->find(relative.lexically_normal().string());
+    if (found != served->end()) return found->second;
+    return error = name + " is not among the files that were kept with the script", std::nullopt;
+  }
   std::error_code failed;
   const fs::path folder =
       fs::weakly_canonical(fs::path(chunks[0].path).parent_path() / ".", failed);
   const fs::path path = fs::weakly_canonical(folder / relative, failed);
   const auto apart = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
   if (failed || (apart.first != folder.end() && !apart.first->empty()))
-    return error = "\"" + name + "\" leads out of the script's folder", -1;
+    return error = name + " leads out of the script's folder", std::nullopt;
+  error = "no readable file " + name + " beside the script";
   if (!fs::is_regular_file(path, failed) || fs::file_size(path, failed) > kLargestInclude)
-    return error = "no readable file \"" + name + "\" beside the script", -1;
-  if (chunks.size() > kMostIncludes) return error = "more than 64 files", -1;
+    return std::nullopt;
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
-  if (!in) return error = "no readable file \"" + name + "\" beside the script", -1;
+  if (!in) return std::nullopt;
+  return text.str();
+}
+
+// Returns its index among the chunks.
+int LuaSandbox::State::keep_include(const fs::path& relative, std::string text) {
   const std::string shown = (fs::path(chunks[0].path).parent_path() / relative).string();
-  chunks.push_back({shown, text.str(), sha256(text.str())});
+  const std::string hash = sha256(text);
+  chunks.push_back({shown, std::move(text), hash});
   const bool known = std::any_of(included.begin(), included.end(),
                                  [&](const SourceFile& file) { return file.path == shown; });
   if (!known) included.push_back(chunks.back());
   return int(chunks.size()) - 1;
+}
+
+int LuaSandbox::State::open_include(const std::string& name, std::string& error) {
+  const fs::path relative(name);
+  const bool climbs = std::find(relative.begin(), relative.end(), "..") != relative.end();
+  if (name.empty() || relative.is_absolute() || climbs)
+    return error = "\"" + name + "\" is not a path inside the script's folder", -1;
+  std::optional<std::string> text = read_include(relative, error);
+  if (!text) return -1;
+  if (chunks.size() > kMostIncludes) return error = "more than 64 files", -1;
+  return keep_include(relative, std::move(*text));
 }
 
 // "chunk0:12: text" -> the file's path, 12 and the text.
@@ -207,6 +232,10 @@ LuaSandbox::LuaSandbox(std::uint64_t seed, const std::string& entry, const Sandb
 }
 
 LuaSandbox::~LuaSandbox() = default;
+
+void LuaSandbox::serve_includes(std::map<std::string, std::string> texts) {
+  state_->served = std::move(texts);
+}
 
 Value LuaSandbox::run(const std::string& text, const std::string& path) {
   State& s = *state_;

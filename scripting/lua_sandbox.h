@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,6 +40,10 @@ class LuaSandbox {
   ~LuaSandbox();
   LuaSandbox(const LuaSandbox&) = delete;
   LuaSandbox& operator=(const LuaSandbox&) = delete;
+
+  // From now on rubble.include reads these texts, by their path relative to the script's folder, and
+  // no file: a script that is kept in a manifest runs without its folder.
+  void serve_includes(std::map<std::string, std::string> texts);
 
   // Runs the script once and returns its value. `path` names it in errors, and files that it
   // includes are looked for beside it. Throws InputError with file and line.

@@ -57,6 +57,7 @@ Mission load_mission_text(const std::string& text, const std::string& path,
   Mission mission{{}, {path, text, sha256(text)}, {}, {}, lines};
   const std::uint64_t seed = seed_for_script(lines, options);
   LuaSandbox sandbox(seed, "rubble.mission", options.limits);
+  if (options.included) sandbox.serve_includes(*options.included);
   const Value table = run_script(sandbox, mission.script, lines);
   mission.included = sandbox.included();
   mission.printed = sandbox.printed();

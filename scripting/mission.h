@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@ namespace rubble {
 struct MissionOptions {
   std::optional<std::uint64_t> seed;   // instead of the script's
   std::vector<std::string> overrides;  // "key=value", in order; see apply_override in schema.h
+  // What rubble.include reads, by path relative to the script, instead of files.
+  std::optional<std::map<std::string, std::string>> included;
   SandboxLimits limits;
 };
 

@@ -9,7 +9,14 @@
 namespace rubble {
 
 // What `rubble` returns to its caller. Stable: scripts and CI read them.
-enum class ExitCode { done = 0, bad_input = 1, failure = 2, did_not_settle = 3 };
+enum class ExitCode {
+  done = 0,
+  bad_input = 1,
+  failure = 2,
+  did_not_settle = 3,
+  stopped = 4,  // by SIGINT or SIGTERM; `rubble resume` continues
+  differs = 5,  // verify found a difference, or a suite an expectation that is not met
+};
 
 // One mistake in something a user wrote. Fields that do not apply stay empty (line: 0).
 struct Diagnostic {
@@ -38,6 +45,12 @@ class InputError : public std::runtime_error {
 
 // Something failed that is not the input's fault: disk, EGL, memory. Exit code 2.
 class RunError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// The user asked the program to stop, and it did so cleanly. Exit code 4.
+class Stopped : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };

@@ -1,0 +1,97 @@
+// The stage from a settled pile to recorded frames.
+#include <cstdio>
+#include <filesystem>
+
+#include "app/build_scene.h"
+#include "app/frame_journal.h"
+#include "app/recorders.h"
+#include "app/run.h"
+#include "app/stop.h"
+#include "io/atomic_file.h"
+#include "io/recording_queue.h"
+#include "kernel/base/hash.h"
+#include "render/gl_context.h"
+#include "render/renderer.h"
+#include "scripting/trajectory.h"
+
+namespace rubble {
+namespace {
+
+// labels.csv: what the numbers of the label channel mean.
+void write_legend(const Run& run, RunFolder& folder) {
+  if (!run.scenario.camera.channel_set().label) return;
+  std::string text = "label,name\n";
+  const std::vector<std::string> names = label_names(run.assets);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += std::to_string(i) + "," + names[i] + "\n";
+  write_text_file(folder.file("labels.csv"), text);
+  folder.add("labels.csv");
+}
+
+// What the contact sheet says at its top.
+std::string title(const Run& run) {
+  return std::filesystem::path(run.recipe.script.path).stem().string() + "   seed " +
+         std::to_string(run.scenario.seed) + "   " + std::to_string(run.pile.pieces.size()) +
+         " pieces   state " + hex64(run.pile.state_hash());
+}
+
+void note_environment(Run& run, const GlInfo& info) {
+  run.environment = {{"gl_renderer", info.renderer},
+                     {"gl_version", info.version},
+                     {"egl_device", info.egl_device},
+                     {"threads", std::to_string(run.threads())}};
+}
+
+Renderer prepare_renderer(Run& run, GlContext& context) {
+  RenderOptions options;
+  options.threads = run.threads();
+  return Renderer(context, build_scene(run.scenario, run.assets, run.pile), options,
+                  [&](double fraction) { run.progress.update(fraction, "light"); });
+}
+
+// Renders every frame in order, notes its hashes, and hands it to the recorders.
+void render_into(RecordingQueue& queue, Run& run, const RunFolder& folder, Renderer& renderer,
+                 const std::vector<CameraPose>& poses) {
+  FrameJournal journal(folder.frames_file());
+  DepthMetrics depth;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    throw_if_stopped(folder.path());
+    Frame frame = renderer.render(poses[i].world_from_camera, run.scenario.camera.intrinsics(),
+                                  int(i), poses[i].stamp_ns);
+    const Pose* next = i + 1 < poses.size() ? &poses[i + 1].world_from_camera : nullptr;
+    renderer.add_channels(run.scenario.camera.channel_set(), next, frame);
+    run.frames.add(frame);
+    journal.note(i, run.frames.frames.back());
+    depth.add(frame);
+    queue.push(std::move(frame));
+    run.progress.update(double(i + 1) / double(poses.size()),
+                        "frame " + std::to_string(i + 1) + " of " + std::to_string(poses.size()));
+  }
+  depth.add_to(run.metrics);
+}
+
+}  // namespace
+
+void render_frames(Run& run, RunFolder& folder) {
+  const std::vector<CameraPose> poses =
+      sample_trajectory(run.scenario.trajectory, run.scenario.start_ns);
+  run.progress.start("scene");
+  GlContext context({-1, run.threads()});
+  note_environment(run, context.info());
+  Renderer renderer = prepare_renderer(run, context);
+  run.progress.finish("ready on " + context.info().renderer);
+
+  run.progress.start("render");
+  RecorderSet set = make_recorders(run.scenario.outputs, int(poses.size()), title(run), folder);
+  RecordingQueue queue(std::move(set.recorders));
+  render_into(queue, run, folder, renderer, poses);
+  run.progress.finish(std::to_string(poses.size()) + " frames");
+
+  run.progress.start("record");
+  queue.finish();
+  for (const std::string& name : set.names) folder.add(name);
+  write_legend(run, folder);
+  run.progress.finish(std::to_string(set.names.size()) + " files");
+}
+
+}  // namespace rubble

@@ -1,0 +1,80 @@
+#include "app/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace rubble {
+namespace {
+
+double highest_point(const PieceType& type, const PieceState& piece) {
+  double top = -1e300;
+  for (const ConvexPart& part : type.parts)
+    for (const Vec3& point : part.points)
+      top = std::max(top, (piece.world_from_body * (point * piece.scale)).z);
+  return top;
+}
+
+double volume_of(const PieceType& type) { return type.volume ? type.volume->volume : 0; }
+
+// The radius that 95 % of the distances do not exceed.
+double most_of(std::vector<double> squared_distances) {
+  if (squared_distances.empty()) return 0;
+  std::sort(squared_distances.begin(), squared_distances.end());
+  return std::sqrt(squared_distances[(squared_distances.size() - 1) * 95 / 100]);
+}
+
+}  // namespace
+
+void add_pile_metrics(const PileState& pile, const AssetLibrary& assets, Metrics& metrics) {
+  double height = 0, volume = 0, moving = 0;
+  std::vector<double> squared;
+  for (const PieceState& piece : pile.pieces) {
+    if (piece.status == PieceStatus::lost) continue;
+    const PieceType& type = assets.types.at(std::size_t(piece.type));
+    height = std::max(height, highest_point(type, piece));
+    volume += volume_of(type) * piece.scale * piece.scale * piece.scale;
+    moving += piece.status == PieceStatus::moving;
+    const Vec3& at = piece.world_from_body.translation;
+    if (piece.status != PieceStatus::fixed) squared.push_back(at.x * at.x + at.y * at.y);
+  }
+  metrics["pieces"] = double(pile.pieces.size());
+  metrics["pieces_lost"] = pile.lost;
+  metrics["pieces_moving"] = moving;
+  metrics["settled"] = pile.settled;
+  metrics["simulated_s"] = pile.simulated;
+  metrics["pile_height_m"] = height;
+  metrics["pile_radius_m"] = most_of(std::move(squared));
+  metrics["piece_volume_m3"] = volume;
+}
+
+void DepthMetrics::add(const Frame& frame) {
+  double sum = 0;
+  for (const float depth : frame.depth) {
+    if (!(depth > 0)) continue;
+    const double d = double(depth);
+    min_ = returns_ == 0 ? d : std::min(min_, d);
+    max_ = std::max(max_, d);
+    sum += d;
+    ++returns_;
+  }
+  sum_ += sum;
+  pixels_ += std::int64_t(frame.depth.size());
+  const Vec3& position = frame.world_from_camera.translation;
+  const Vec3 leg = position - last_position_;
+  if (frames_ > 0) path_ += std::sqrt(dot(leg, leg));
+  last_position_ = position;
+  ++frames_;
+}
+
+void DepthMetrics::add_to(Metrics& metrics) const {
+  metrics["frames"] = double(frames_);
+  metrics["path_m"] = path_;
+  if (pixels_ == 0) return;
+  metrics["depth_min_m"] = min_;
+  metrics["depth_max_m"] = max_;
+  metrics["depth_mean_m"] = returns_ == 0 ? 0 : sum_ / double(returns_);
+  metrics["depth_none_share"] = double(pixels_ - returns_) / double(pixels_);
+}
+
+}  // namespace rubble

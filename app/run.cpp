@@ -1,0 +1,176 @@
+#include "app/run.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "app/build_info.h"
+#include "app/json_members.h"
+#include "app/manifest.h"
+#include "app/saved_run.h"
+#include "app/stop.h"
+#include "io/atomic_file.h"
+
+namespace rubble {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kRunFormat = "rubble unfinished run 1";
+
+MissionOptions mission_options(const RunRequest& request) {
+  MissionOptions options;
+  options.seed = request.seed;
+  options.overrides = request.overrides;
+  return options;
+}
+
+void finish_assets(Run& run) {
+  for (const std::string& warning : run.assets.warnings)
+    std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  run.progress.finish(std::to_string(run.assets.types.size()) + " loaded, seed " +
+                      std::to_string(run.scenario.seed));
+}
+
+Mission load_and_print(const RunRequest& request) {
+  Mission mission = load_mission(request.mission, mission_options(request));
+  for (const std::string& line : mission.printed) std::fprintf(stderr, "%s\n", line.c_str());
+  return mission;
+}
+
+// The same program, or the rest might not fit what is there.
+void check_program(const Json& json, const std::string& file) {
+  const BuildInfo build = build_info();
+  const Json now = {{"version", build.version},   {"commit", build.commit},
+                    {"compiler", build.compiler}, {"flags", build.flags},
+                    {"target", build.target},     {"libraries", build.libraries}};
+  const Json began = json.value("program", Json::object());
+  for (const auto& [name, value] : now.items())
+    if (!began.contains(name) || began[name] != value)
+      throw InputError({file, 0, name, "another program began this run",
+                        began.contains(name) ? began[name].dump() : "", value.dump(),
+                        "continue with that one, or begin anew: `rubble run ... --force`"});
+}
+
+Json describe_program() {
+  const BuildInfo build = build_info();
+  return {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler},
+          {"flags", build.flags},     {"target", build.target}, {"libraries", build.libraries}};
+}
+
+ExitCode report(const Run& run, const RunFolder& folder) {
+  std::printf("%s\n", folder.path().c_str());
+  if (run.pile.settled) return ExitCode::done;
+  int moving = 0;
+  for (const PieceState& piece : run.pile.pieces) moving += piece.status == PieceStatus::moving;
+  std::fprintf(stderr,
+               "the pile did not settle: %d of %zu pieces still moved when the time limit came "
+               "(settle.final_time_limit = %g s)\n",
+               moving, run.pile.pieces.size(), run.pile_scenario.settle.final_time_limit);
+  return ExitCode::did_not_settle;
+}
+
+}  // namespace
+
+Run::Run(const RunOptions& o, Recipe r)
+    : options(o),
+      progress(choose_progress_style(o.quiet)),
+      recipe(std::move(r)),
+      scenario(stated_scenario(recipe)),
+      pile_scenario(recipe.pile_from ? stated_scenario(*recipe.pile_from) : scenario) {}
+
+int Run::threads() const {
+  if (options.threads > 0) return options.threads;
+  return std::max(1, int(std::thread::hardware_concurrency()));
+}
+
+Run start_run(const RunRequest& request, RunKind kind) {
+  const Mission mission = load_and_print(request);
+  Run run(request.options, make_recipe(kind, mission, mission_options(request)));
+  run.progress.start("assets");
+  run.assets = load_assets(mission, request.asset_packs);
+  run.recipe.assets = run.assets.contents;
+  finish_assets(run);
+  return run;
+}
+
+Run start_run(const RunOptions& options, const Recipe& recipe,
+              const std::vector<std::string>& pack_folders) {
+  Run run(options, recipe);
+  run.progress.start("assets");
+  run.assets = load_assets(recipe, pack_folders);
+  finish_assets(run);
+  return run;
+}
+
+Run start_render(const RunRequest& request, const SavedRun& saved) {
+  const Recipe& source = saved.manifest.recipe;
+  Mission mission = load_and_print(request);
+  const std::shared_ptr<const Recipe> pile_from =
+      source.pile_from ? source.pile_from : std::make_shared<const Recipe>(source);
+  adopt_pile(mission.scenario, stated_scenario(*pile_from));
+  Recipe recipe = make_recipe(RunKind::render, mission, mission_options(request));
+  recipe.assets = pile_from->assets;
+  recipe.pile_from = pile_from;
+  Run run(request.options, std::move(recipe));
+  run.progress.start("assets");
+  run.assets = load_assets_of(saved, request.asset_packs);
+  finish_assets(run);
+  return run;
+}
+
+void write_manifest(const Run& run, RunFolder& folder) {
+  Manifest manifest;
+  manifest.program = build_info();
+  manifest.recipe = run.recipe;
+  manifest.seed = run.scenario.seed;
+  manifest.pile = summarize(run.pile);
+  manifest.frames = run.frames.compact();
+  manifest.metrics = run.metrics;
+  manifest.outputs = folder.hashes();
+  manifest.wall_seconds = run.progress.wall_seconds();
+  manifest.environment = run.environment;
+  manifest.pack_folders = run.assets.folders;
+  write_text_file(folder.file("manifest.json"), manifest_to_json(manifest));
+}
+
+ExitCode complete(Run& run, RunFolder& folder) {
+  stop_on_signals();
+  folder.begin(describe_unfinished(run));
+  try {
+    settle(run, folder);
+    write_pile_files(run, folder);
+    if (run.recipe.kind != RunKind::settle) render_frames(run, folder);
+    write_manifest(run, folder);
+  } catch (const RunError& error) {
+    throw RunError(error.what() + std::string("\nwhat is finished is kept: `rubble resume ") +
+                   folder.path() + "` continues");
+  }
+  folder.finish();
+  return report(run, folder);
+}
+
+std::string describe_unfinished(const Run& run) {
+  Json json;
+  json["format"] = kRunFormat;
+  json["program"] = describe_program();
+  add_recipe(json, run.recipe);
+  json["pack_folders"] = run.assets.folders;
+  return json.dump(2) + "\n";
+}
+
+Run continue_run(const RunOptions& options, const RunFolder& folder,
+                 const std::vector<std::string>& pack_folders) {
+  const std::string file = folder.run_file();
+  const Json json = parse_json_text(read_whole_file(file), file);
+  const JsonMembers members(json, file);
+  if (members.text("format") != kRunFormat) members.fail("format", kRunFormat);
+  check_program(json, file);
+  std::vector<std::string> folders = pack_folders;
+  for (const JsonMembers& pack : members.list("pack_folders")) folders.push_back(pack.as_text());
+  return start_run(options, recipe_from_json(json, file), folders);
+}
+
+}  // namespace rubble

@@ -1,0 +1,111 @@
+#include "app/run_folder.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "io/atomic_file.h"
+#include "kernel/base/error.h"
+#include "kernel/base/hash.h"
+
+namespace rubble {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// What a run may leave before it has a manifest.
+const std::vector<std::string> kUsualFiles{"mission.rawlog", "mission.bag", "pile.stl",
+                                           "pile.bin",       "preview.png", "groundtruth.txt",
+                                           "manifest.json"};
+
+// The files of the run that was here, as far as its manifest can be read.
+std::vector<std::string> files_of_earlier_run(const std::string& folder) {
+  std::vector<std::string> files = kUsualFiles;
+  if (!fs::is_regular_file(folder + "/manifest.json")) return files;
+  const Json manifest = Json::parse(read_whole_file(folder + "/manifest.json"), nullptr, false);
+  if (!manifest.is_object() || !manifest.contains("outputs")) return files;
+  for (const auto& item : manifest["outputs"].items()) {
+    const fs::path name = fs::path(item.key()).lexically_normal();
+    if (name.is_absolute() || *name.begin() == "..") continue;  // not ours, whatever it says
+    files.push_back(name.string());
+  }
+  return files;
+}
+
+// A run that was killed before it could say what it is left only this.
+void remove_unfinished(const std::string& folder) {
+  std::error_code error;
+  fs::remove_all(folder + "/unfinished", error);
+  if (error) throw RunError("cannot remove " + folder + "/unfinished: " + error.message());
+}
+
+void remove_empty_folders(const std::string& folder, const std::vector<std::string>& files) {
+  std::error_code ignored;
+  for (const std::string& file : files) {
+    const fs::path inside = fs::path(file).parent_path();
+    if (!inside.empty()) fs::remove(fs::path(folder) / inside, ignored);  // only when empty
+  }
+}
+
+}  // namespace
+
+bool is_unfinished(const std::string& folder) {
+  std::error_code failed;
+  return fs::is_regular_file(folder + "/unfinished/run.json", failed);
+}
+
+RunFolder RunFolder::create(const std::string& path, bool force) {
+  if (is_unfinished(path) && !force)
+    throw InputError({path, 0, "", "an unfinished run is in the output folder", "", "",
+                      "`rubble resume " + path + "` continues it; --force starts anew"});
+  std::error_code failed;
+  if (fs::is_directory(path + "/unfinished", failed)) remove_unfinished(path);
+  const std::vector<std::string> files = force ? files_of_earlier_run(path) : kUsualFiles;
+  prepare_output_folder(path, force, files);
+  remove_empty_folders(path, files);
+  return RunFolder(path);
+}
+
+RunFolder RunFolder::open_unfinished(const std::string& path) {
+  if (is_unfinished(path)) return RunFolder(path);
+  std::error_code failed;
+  if (!fs::is_directory(path, failed))
+    throw InputError({path, 0, "", "no such folder", "the output folder of a run", "", ""});
+  if (fs::exists(path + "/manifest.json", failed))
+    throw InputError({path, 0, "", "the run in it is finished; nothing is left to do", "", "",
+                      "`rubble verify " + path + "` checks it"});
+  throw InputError({path, 0, "", "no unfinished run is in it", "", "",
+                    "a run that was killed before it had read its mission is begun anew"});
+}
+
+bool RunFolder::has(const std::string& name) const {
+  std::error_code failed;
+  return fs::exists(file(name), failed);
+}
+
+void RunFolder::begin(const std::string& run_json) const {
+  std::error_code error;
+  fs::create_directories(file("unfinished"), error);
+  if (error) throw RunError("cannot create " + file("unfinished") + ": " + error.message());
+  write_text_file(run_file(), run_json);
+}
+
+// run.json goes first: without it nothing is unfinished.
+void RunFolder::finish() const {
+  std::error_code error;
+  fs::remove(run_file(), error);
+  if (error) throw RunError("cannot remove " + run_file() + ": " + error.message());
+  remove_unfinished(path_);
+}
+
+void RunFolder::add(const std::string& name) {
+  if (!fs::is_directory(file(name))) {
+    hashes_[name] = sha256_of_file(file(name));
+    return;
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(file(name)))
+    if (entry.is_regular_file())
+      hashes_[fs::relative(entry.path(), path_).string()] = sha256_of_file(entry.path().string());
+}
+
+}  // namespace rubble

@@ -1,0 +1,49 @@
+// The folder of a dataset: its files, and what an unfinished run keeps there to be continued.
+//
+//   DIR/unfinished/run.json           what is being run: written first, removed last
+//   DIR/unfinished/settle.checkpoint  where settling was a few seconds ago
+//   DIR/unfinished/frames.txt         hashes of the frames that were rendered
+//   DIR/pile.bin, ...                 a file has its final name when it is complete
+//   DIR/manifest.json                 written when all the others are there
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace rubble {
+
+class RunFolder {
+ public:
+  // For a new run. Creates the folder. Throws InputError when an unfinished run or anything else is
+  // in it, unless `force`: then the files of that run are removed, and nothing else.
+  static RunFolder create(const std::string& path, bool force);
+  // For going on with an unfinished one. Throws InputError when there is none.
+  static RunFolder open_unfinished(const std::string& path);
+
+  const std::string& path() const { return path_; }
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+  bool has(const std::string& name) const;
+  std::string run_file() const { return file("unfinished/run.json"); }
+  std::string checkpoint_file() const { return file("unfinished/settle.checkpoint"); }
+  std::string frames_file() const { return file("unfinished/frames.txt"); }
+
+  // Marks the folder as that of an unfinished run, until finish(). run_json: what is being run.
+  void begin(const std::string& run_json) const;
+  void finish() const;
+
+  // Records a file that is complete; of a folder, every file in it.
+  void add(const std::string& name);
+  const std::map<std::string, std::string>& hashes() const { return hashes_; }
+
+ private:
+  explicit RunFolder(std::string path) : path_(std::move(path)) {}
+
+  std::string path_;
+  std::map<std::string, std::string> hashes_;  // name to SHA-256
+};
+
+// Whether `rubble resume` has something to continue there.
+bool is_unfinished(const std::string& folder);
+
+}  // namespace rubble

@@ -1,6 +1,7 @@
 #include "app/recorders.h"
 
 #include "io/contact_sheet.h"
+#include "io/mcap_recorder.h"
 #include "io/rawlog_recorder.h"
 #include "io/rosbag_recorder.h"
 #include "io/tum_recorder.h"
@@ -15,12 +16,16 @@ RecorderSet make_recorders(const OutputScenario& outputs, int frames, const std:
     set.names.push_back(name);
     set.recorders.push_back(make(folder.file(name)));
   };
-  const RosbagOptions bag{
-      outputs.depth == DepthEncoding::metres ? BagDepth::metres : BagDepth::millimetres, true};
+  RosOptions ros;
+  if (outputs.depth == DepthEncoding::metres) ros.depth = RosDepth::metres;
+  if (outputs.pictures == PictureEncoding::png) ros.pictures = RosPictures::png;
+  if (outputs.pictures == PictureEncoding::jpeg) ros.pictures = RosPictures::jpeg;
   add(outputs.rawlog, "mission.rawlog",
       [](const std::string& p) { return make_rawlog_recorder(p); });
   add(outputs.bag, "mission.bag",
-      [&](const std::string& p) { return make_rosbag_recorder(p, bag); });
+      [&](const std::string& p) { return make_rosbag_recorder(p, ros); });
+  add(outputs.mcap, "mission.mcap",
+      [&](const std::string& p) { return make_mcap_recorder(p, ros); });
   add(outputs.groundtruth, "groundtruth.txt",
       [](const std::string& p) { return make_tum_trajectory_recorder(p); });
   ContactSheetOptions sheet;

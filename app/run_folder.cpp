@@ -14,9 +14,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 // What a run may leave before it has a manifest.
-const std::vector<std::string> kUsualFiles{"mission.rawlog", "mission.bag", "pile.stl",
-                                           "pile.bin",       "preview.png", "groundtruth.txt",
-                                           "manifest.json"};
+const std::vector<std::string> kUsualFiles{"mission.rawlog",  "mission.bag",  "mission.mcap",
+                                           "pile.stl",        "pile.bin",     "preview.png",
+                                           "groundtruth.txt", "manifest.json"};
 
 // The files of the run that was here, as far as its manifest can be read.
 std::vector<std::string> files_of_earlier_run(const std::string& folder) {

@@ -1,128 +1,140 @@
 #include "io/ros_messages.h"
 
-#include <string_view>
-
-#include "io/little_endian.h"
-
 namespace rubble::ros {
 namespace {
 
-#define RUBBLE_ROS_SECTION(type)                                                                 \
-  "================================================================================\nMSG: " type \
-  "\n"
-#define RUBBLE_ROS_HEADER \
-  RUBBLE_ROS_SECTION("std_msgs/Header") "uint32 seq\ntime stamp\nstring frame_id\n"
-#define RUBBLE_ROS_QUATERNION \
-  RUBBLE_ROS_SECTION("geometry_msgs/Quaternion") "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"
-
-void put_text(std::string& out, std::string_view text) {
-  put(out, static_cast<std::uint32_t>(text.size()));
-  out.append(text);
+void put_header(Wire& out, const Header& header) {
+  if (out.version() == Version::ros1) out.number(header.sequence);
+  out.time(header.stamp_ns);
+  out.text(header.frame);
 }
 
-void put_time(std::string& out, std::int64_t stamp_ns) {
-  put(out, static_cast<std::uint32_t>(stamp_ns / 1000000000));
-  put(out, static_cast<std::uint32_t>(stamp_ns % 1000000000));
+void put_vector(Wire& out, const Vec3& v) {
+  for (int i = 0; i < 3; ++i) out.number(v[i]);
 }
 
-void put_header(std::string& out, const Header& header) {
-  put(out, header.sequence);
-  put_time(out, header.stamp_ns);
-  put_text(out, header.frame);
-}
-
-void put_pose(std::string& out, const Pose& pose) {
-  const Vec3& t = pose.translation;
+void put_pose(Wire& out, const Pose& pose) {
+  put_vector(out, pose.translation);
   const Quat& q = pose.rotation;
-  for (const double value : {t.x, t.y, t.z, q.x, q.y, q.z, q.w}) put(out, value);
+  for (const double value : {q.x, q.y, q.z, q.w}) out.number(value);
+}
+
+void put_diagonal(Wire& out, double value) {
+  for (int i = 0; i < 9; ++i) out.number(i % 4 == 0 ? value : 0.0);
+}
+
+std::size_t pixels_of(const Intrinsics& k) {
+  return static_cast<std::size_t>(k.width) * static_cast<std::size_t>(k.height);
 }
 
 }  // namespace
 
-const MessageType kClock{"rosgraph_msgs/Clock", "a9c97c1d230cfc112e270351a944ee47", "time clock\n"};
-
-const MessageType kImage{"sensor_msgs/Image", "060021388200f6f0f447d0fcd9c64743",
-                         "Header header\nuint32 height\nuint32 width\nstring encoding\n"
-                         "uint8 is_bigendian\nuint32 step\nuint8[] data\n" RUBBLE_ROS_HEADER};
-
-const MessageType kCameraInfo{
-    "sensor_msgs/CameraInfo", "c9a58c1b0b154e0e6da7578cb991d214",
-    "Header header\nuint32 height\nuint32 width\nstring distortion_model\nfloat64[] D\n"
-    "float64[9] K\nfloat64[9] R\nfloat64[12] P\nuint32 binning_x\nuint32 binning_y\n"
-    "RegionOfInterest roi\n" RUBBLE_ROS_HEADER RUBBLE_ROS_SECTION("sensor_msgs/RegionOfInterest")
-        "uint32 x_offset\nuint32 y_offset\nuint32 height\nuint32 width\nbool do_rectify\n"};
-
-const MessageType kPoseStamped{
-    "geometry_msgs/PoseStamped", "d3812c3cbc69362b77dc0b19b345f8f5",
-    "Header header\nPose pose\n" RUBBLE_ROS_HEADER RUBBLE_ROS_SECTION(
-        "geometry_msgs/Pose") "Point position\nQuaternion orientation\n"
-    RUBBLE_ROS_SECTION("geometry_msgs/Point") "float64 x\nfloat64 y\nfloat64 z\n"
-        RUBBLE_ROS_QUATERNION};
-
-const MessageType kTfMessage{
-    "tf2_msgs/TFMessage", "94810edda583a504dfda3829e70d7eec",
-    "geometry_msgs/TransformStamped[] transforms\n" RUBBLE_ROS_SECTION(
-        "geometry_msgs/TransformStamped") "Header header\nstring child_frame_id\n"
-    "Transform transform\n" RUBBLE_ROS_HEADER RUBBLE_ROS_SECTION(
-        "geometry_msgs/Transform") "Vector3 translation\nQuaternion rotation\n"
-    RUBBLE_ROS_SECTION("geometry_msgs/Vector3") "float64 x\nfloat64 y\nfloat64 z\n"
-        RUBBLE_ROS_QUATERNION};
-
-std::string clock(std::int64_t stamp_ns) {
-  std::string out;
-  put_time(out, stamp_ns);
-  return out;
+std::string type_name(const MessageType& type, Version version) {
+  return std::string(type.package) + (version == Version::ros1 ? "/" : "/msg/") + type.name;
 }
 
-std::string image(const Header& header, const Intrinsics& intrinsics, const std::string& encoding,
-                  int bytes_per_pixel, const void* data) {
-  const auto height = static_cast<std::uint32_t>(intrinsics.height);
+std::string clock(Version version, std::int64_t stamp_ns) {
+  Wire out(version);
+  out.time(stamp_ns);
+  return out.take();
+}
+
+std::string string(Version version, std::string_view text) {
+  Wire out(version, text.size() + 16);
+  out.text(text);
+  return out.take();
+}
+
+std::string image(Version version, const Header& header, const Intrinsics& intrinsics,
+                  const std::string& encoding, int bytes_per_pixel, const void* data) {
   const auto width = static_cast<std::uint32_t>(intrinsics.width);
   const auto step = width * static_cast<std::uint32_t>(bytes_per_pixel);
-  std::string out;
-  out.reserve(128 + std::size_t{step} * height);
+  const std::size_t size = pixels_of(intrinsics) * static_cast<std::size_t>(bytes_per_pixel);
+  Wire out(version, size + 128);
   put_header(out, header);
-  put(out, height);
-  put(out, width);
-  put_text(out, encoding);
-  put(out, std::uint8_t{0});  // is_bigendian
-  put(out, step);
-  put_text(out, {static_cast<const char*>(data), std::size_t{step} * height});
-  return out;
+  out.number(static_cast<std::uint32_t>(intrinsics.height));
+  out.number(width);
+  out.text(encoding);
+  out.boolean(false);  // is_bigendian
+  out.number(step);
+  out.blob({static_cast<const char*>(data), size});
+  return out.take();
 }
 
-std::string camera_info(const Header& header, const Intrinsics& intrinsics) {
+std::string compressed_image(Version version, const Header& header, const std::string& format,
+                             std::string_view bytes) {
+  Wire out(version, bytes.size() + 128);
+  put_header(out, header);
+  out.text(format);
+  out.blob(bytes);
+  return out.take();
+}
+
+std::string camera_info(Version version, const Header& header, const Intrinsics& intrinsics,
+                        double baseline) {
   const Intrinsics& k = intrinsics;
-  std::string out;
+  Wire out(version, 512);
   put_header(out, header);
-  put(out, static_cast<std::uint32_t>(k.height));
-  put(out, static_cast<std::uint32_t>(k.width));
-  put_text(out, "plumb_bob");
-  put(out, static_cast<std::uint32_t>(k.distortion.size()));
-  for (const double d : k.distortion) put(out, d);
-  for (const double v : {k.fx, 0.0, k.cx, 0.0, k.fy, k.cy, 0.0, 0.0, 1.0}) put(out, v);
-  for (const double v : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) put(out, v);
-  for (const double v : {k.fx, 0.0, k.cx, 0.0, 0.0, k.fy, k.cy, 0.0, 0.0, 0.0, 1.0, 0.0})
-    put(out, v);
-  for (int i = 0; i < 6; ++i) put(out, std::uint32_t{0});  // no binning, no region of interest
-  put(out, std::uint8_t{0});                               // do_rectify
-  return out;
+  out.number(static_cast<std::uint32_t>(k.height));
+  out.number(static_cast<std::uint32_t>(k.width));
+  out.text("plumb_bob");
+  out.count(k.distortion.size());
+  for (const double d : k.distortion) out.number(d);
+  for (const double v : {k.fx, 0.0, k.cx, 0.0, k.fy, k.cy, 0.0, 0.0, 1.0}) out.number(v);
+  for (const double v : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) out.number(v);
+  const double shift = baseline == 0 ? 0.0 : -k.fx * baseline;
+  for (const double v : {k.fx, 0.0, k.cx, shift, 0.0, k.fy, k.cy, 0.0, 0.0, 0.0, 1.0, 0.0})
+    out.number(v);
+  for (int i = 0; i < 6; ++i) out.number(std::uint32_t{0});  // no binning, no region of interest
+  out.boolean(false);                                        // do_rectify
+  return out.take();
 }
 
-std::string pose_stamped(const Header& header, const Pose& pose) {
-  std::string out;
+std::string pose_stamped(Version version, const Header& header, const Pose& pose) {
+  Wire out(version);
   put_header(out, header);
   put_pose(out, pose);
-  return out;
+  return out.take();
 }
 
-std::string transform(const Header& header, const std::string& child, const Pose& pose) {
-  std::string out;
-  put(out, std::uint32_t{1});
+std::string transforms(Version version, const Header& header, const std::vector<Transform>& list) {
+  Wire out(version);
+  out.count(list.size());
+  for (const Transform& transform : list) {
+    put_header(out, header);
+    out.text(transform.child);
+    put_pose(out, transform.pose);
+  }
+  return out.take();
+}
+
+std::string imu(Version version, const Header& header, const ImuSample& sample,
+                double angular_variance, double acceleration_variance) {
+  Wire out(version, 384);
   put_header(out, header);
-  put_text(out, child);
-  put_pose(out, pose);
-  return out;
+  for (const double value : {0.0, 0.0, 0.0, 1.0}) out.number(value);
+  for (int i = 0; i < 9; ++i) out.number(i == 0 ? -1.0 : 0.0);  // -1: no orientation
+  put_vector(out, sample.angular_velocity);
+  put_diagonal(out, angular_variance);
+  put_vector(out, sample.linear_acceleration);
+  put_diagonal(out, acceleration_variance);
+  return out.take();
+}
+
+std::string event_array(Version version, const Header& header, const Intrinsics& intrinsics,
+                        const std::vector<Event>& events) {
+  Wire out(version, 128 + 16 * events.size());
+  put_header(out, header);
+  out.number(static_cast<std::uint32_t>(intrinsics.height));
+  out.number(static_cast<std::uint32_t>(intrinsics.width));
+  out.count(events.size());
+  for (const Event& event : events) {
+    out.number(event.x);
+    out.number(event.y);
+    out.time(event.stamp_ns);
+    out.boolean(event.brighter);
+  }
+  return out.take();
 }
 
 }  // namespace rubble::ros

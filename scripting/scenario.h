@@ -73,13 +73,17 @@ enum class DepthEncoding {
   metres,       // "32FC1": float, NaN: no return
 };
 
+enum class PictureEncoding { raw, png, jpeg };
+
 struct OutputScenario {
   bool rawlog = true;                                // MRPT: mission.rawlog
   bool bag = true;                                   // ROS 1: mission.bag
+  bool mcap = false;                                 // ROS 2: mission.mcap
   bool stl = true;                                   // pile.stl
   bool groundtruth = true;                           // TUM: groundtruth.txt
   bool preview = true;                               // preview.png, a contact sheet
-  DepthEncoding depth = DepthEncoding::millimetres;  // in the bag
+  DepthEncoding depth = DepthEncoding::millimetres;  // in bag and MCAP file
+  PictureEncoding pictures = PictureEncoding::raw;   // likewise
 };
 
 struct Scenario {

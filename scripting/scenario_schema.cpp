@@ -160,11 +160,14 @@ void add_outputs(Schema& k, OutputScenario& o) {
   k.group("outputs", "What is written.");
   k.value("outputs.rawlog", o.rawlog, "MRPT rawlog: mission.rawlog.");
   k.value("outputs.bag", o.bag, "ROS 1 bag: mission.bag.");
+  k.value("outputs.mcap", o.mcap, "ROS 2 recording: mission.mcap.");
   k.value("outputs.stl", o.stl, "The settled pile as a mesh: pile.stl.");
   k.value("outputs.groundtruth", o.groundtruth, "The camera's poses in TUM format.");
   k.value("outputs.preview", o.preview, "A contact sheet of colour and depth: preview.png.");
   k.choice("outputs.depth", o.depth, {"16UC1", "32FC1"},
-           "Depth in the bag: millimetres (0: none) or metres (NaN: none).");
+           "Depth in bag and MCAP file: millimetres (0: none) or metres (NaN: none).");
+  k.choice("outputs.pictures", o.pictures, {"raw", "png", "jpeg"},
+           "Pictures there: raw, or CompressedImage; `jpeg` loses detail of colour, never of depth.");
 }
 
 // The parameters of the published Unity simulator, under its names. Axes are ours: Z is up.

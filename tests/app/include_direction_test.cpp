@@ -107,7 +107,7 @@ TEST(IncludeDirection, ThirdPartiesStayBehindTheirDoor) {
       {"Simbody.h", "kernel/"},  {"SimTK", "kernel/"},     {"EGL/", "render/"},
       {"GL/", "render/"},        {"assimp/", "io/"},
       {"opencv2/", "io/"},       {"mrpt/", "io/"},         {"rosbag/", "io/"},
-      {"ros/", "io/"},           {"sensor_msgs/", "io/"},  {"lua", "scripting/"},
+      {"ros/", "io/"}, {"zstd.h", "io/"}, {"jpeglib.h", "io/"},           {"sensor_msgs/", "io/"},  {"lua", "scripting/"},
       {"CLI/", "app/"},          {"xxhash.h", "kernel/base/"}, {"openssl/", "kernel/base/"}};
   for (const std::string folder : {"kernel/", "render/", "io/", "scripting/", "app/"})
     for (const Include& include : find_includes(RUBBLE_SOURCE_DIR, folder))

@@ -1,4 +1,4 @@
-"""read_bag.py BAG EXPECTED.json FOLDER: compares a bag, read by ROS's own rosbag, with what the
+"""read_bag.py BAG EXPECTED.json FOLDER COMPRESSION: compares a bag, read by ROS's own rosbag, with what the
 JSON file and the raw pictures in FOLDER say. An assertion that fails names the difference."""
 
 import json
@@ -7,7 +7,7 @@ import sys
 
 import rosbag
 
-bag_path, expected_path, folder = sys.argv[1:4]
+bag_path, expected_path, folder, compression = sys.argv[1:5]
 with open(expected_path) as file:
     expected = json.load(file)
 frames = expected["frames"]
@@ -22,14 +22,18 @@ def parts(time):
     return {"sec": time.secs, "nsec": time.nsecs}
 
 
+channels = expected["channels"]
 messages = {}
 bag = rosbag.Bag(bag_path)
 for topic, message, time in bag.read_messages():
     messages.setdefault(topic, []).append(message)
+    # ROS computes the sum from the definition in the bag.
+    for connection in bag._get_connections([topic]):
+        equal(connection.md5sum, message._md5sum, topic + ": MD5")
     if hasattr(message, "header"):
         equal(parts(message.header.stamp), parts(time), topic + ": stamp against bag time")
 equal(bag.version, 200, "bag version")
-equal(bag.get_compression_info().compression, expected["compression"], "compression")
+equal(bag.get_compression_info().compression, compression, "compression")
 
 
 def check_image(topic, encoding, suffix):
@@ -67,4 +71,15 @@ for i, frame in enumerate(frames):
 equal(len(messages["/tf_static"]), 1, "/tf_static")
 latching = [c.header.get("latching") for c in bag._get_connections(["/tf_static"])]
 equal([str(b"1" if v in (b"1", "1") else v) for v in latching], [str(b"1")], "latching")
+if channels:
+    check_image("/camera/right/image_raw", "rgb8", "right")
+    check_image("/ground_truth/depth/image", "32FC1", "true_depth")
+    check_image("/ground_truth/normals/image", "32FC3", "normals")
+    check_image("/ground_truth/flow/image", "32FC2", "flow")
+    check_image("/ground_truth/instance/image", "32SC1", "instance")
+    check_image("/ground_truth/label/image", "16UC1", "label")
+    equal(len(messages["/imu"]), sum(len(frame["imu"]) for frame in frames), "messages on /imu")
+    for i, frame in enumerate(frames):
+        found = [[e.x, e.y, parts(e.ts), e.polarity] for e in messages["/camera/events"][i].events]
+        equal(found, frame["events"], "/camera/events")
 print("ok: %d frames" % len(frames))

@@ -69,10 +69,10 @@ int main(int argc, char** argv) {
   sheet.total_frames = count;
   measure("nothing (copying frames)", frames, count, {}, list());
   measure("bag, uncompressed, 16UC1", frames, count, {a},
-          list(make_rosbag_recorder(a, {BagDepth::millimetres, false})));
+          list(make_rosbag_recorder(a, {}, BagCompression::none)));
   measure("bag, LZ4, 16UC1 (default)", frames, count, {a}, list(make_rosbag_recorder(a)));
   measure("bag, LZ4, 32FC1", frames, count, {a},
-          list(make_rosbag_recorder(a, {BagDepth::metres, true})));
+          list(make_rosbag_recorder(a, {RosDepth::metres, RosPictures::raw, {}})));
   measure("rawlog, gz 0 (default)", frames, count, {a}, list(make_rawlog_recorder(a, {0, 0.001})));
   measure("rawlog, gz 1", frames, count, {a}, list(make_rawlog_recorder(a, {1, 0.001})));
   measure("trajectory", frames, count, {a}, list(make_tum_trajectory_recorder(a)));

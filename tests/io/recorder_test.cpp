@@ -4,17 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
+#include <filesystem>
 #include <sstream>
 
 #include "io/atomic_file.h"
 #include "io/contact_sheet.h"
 #include "io/depth_encoding.h"
 #include "io/image_file.h"
-#include "io/rawlog_recorder.h"
-#include "io/rosbag_recorder.h"
 #include "io/tum_recorder.h"
 #include "kernel/base/error.h"
+#include "tests/io/all_recorders.h"
 #include "tests/io/support.h"
 
 namespace rubble {
@@ -26,27 +25,21 @@ using test::ScratchFolder;
 
 constexpr int kFrames = 5;
 
-struct Kind {
-  const char* name;
-  std::function<std::unique_ptr<Recorder>(const std::string& path)> make;
-};
-
-std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
+using test::make_full_frame;
+using test::read_tree;
+using test::RecorderKind;
 
 std::unique_ptr<Recorder> make_sheet(const std::string& path) {
-  ContactSheetOptions options;
-  options.total_frames = kFrames;
-  options.tile = 96;
-  options.columns = 2;
-  options.title = "five frames";
-  return make_contact_sheet_recorder(path, options);
+  for (const RecorderKind& kind : test::all_recorders(kFrames))
+    if (kind.name == "contact_sheet") return kind.make(path);
+  return nullptr;
 }
 
-class AnyRecorder : public testing::TestWithParam<Kind> {};
+class AnyRecorder : public testing::TestWithParam<RecorderKind> {};
 
 void record(Recorder& recorder, int shift = 0) {
   for (int i = 0; i < kFrames; ++i) {
-    Frame frame = make_frame(i);
+    Frame frame = make_full_frame(i);
     frame.rgb[0] = static_cast<std::uint8_t>(frame.rgb[0] + shift);
     frame.world_from_camera.translation.x += shift;
     if (shift) std::fill(frame.rgb.begin(), frame.rgb.end(), std::uint8_t{9});
@@ -60,16 +53,16 @@ TEST_P(AnyRecorder, WritesTheSameBytesTwiceAndOthersForOtherFrames) {
   record(*GetParam().make(folder / "a"));
   record(*GetParam().make(folder / "b"));
   record(*GetParam().make(folder / "c"), 1);
-  EXPECT_FALSE(read_text(folder / "a").empty());
-  EXPECT_TRUE(read_text(folder / "a") == read_text(folder / "b"));
-  EXPECT_FALSE(read_text(folder / "a") == read_text(folder / "c"));
+  EXPECT_FALSE(read_tree(folder / "a").empty());
+  EXPECT_TRUE(read_tree(folder / "a") == read_tree(folder / "b"));
+  EXPECT_FALSE(read_tree(folder / "a") == read_tree(folder / "c"));
 }
 
 TEST_P(AnyRecorder, HasItsNameOnlyWhenFinished) {
   ScratchFolder folder;
   {
     const auto recorder = GetParam().make(folder / "a");
-    recorder->write(make_frame(0));
+    recorder->write(make_full_frame(0));
     EXPECT_EQ(folder.names(), std::vector<std::string>{"a.part"});
   }
   EXPECT_TRUE(folder.names().empty());
@@ -87,23 +80,34 @@ void expect_refusal(Recorder& recorder, const Frame& frame, const std::string& p
 TEST_P(AnyRecorder, NoticesADroppedFrame) {
   ScratchFolder folder;
   const auto recorder = GetParam().make(folder / "a");
-  recorder->write(make_frame(0));
-  expect_refusal(*recorder, make_frame(2), "frame 1 was expected");
+  recorder->write(make_full_frame(0));
+  expect_refusal(*recorder, make_full_frame(2), "frame 1 was expected");
 }
 
 TEST_P(AnyRecorder, NoticesAStampThatDoesNotGrow) {
   ScratchFolder folder;
   const auto recorder = GetParam().make(folder / "a");
-  recorder->write(make_frame(0));
-  Frame frame = make_frame(1);
-  frame.stamp_ns = make_frame(0).stamp_ns;
+  recorder->write(make_full_frame(0));
+  Frame frame = make_full_frame(1);
+  frame.stamp_ns = make_full_frame(0).stamp_ns;
   expect_refusal(*recorder, frame, "is not later");
+}
+
+// Renumbered frames hide what was dropped; the stamps do not.
+TEST_P(AnyRecorder, NoticesAGapInTheStamps) {
+  ScratchFolder folder;
+  const auto recorder = GetParam().make(folder / "a");
+  recorder->write(make_full_frame(0));
+  recorder->write(make_full_frame(1));
+  Frame frame = make_full_frame(3);
+  frame.index = 2;
+  expect_refusal(*recorder, frame, "there is a gap in the stamps");
 }
 
 TEST_P(AnyRecorder, NoticesAPictureOfTheWrongSize) {
   ScratchFolder folder;
   const auto recorder = GetParam().make(folder / "a");
-  Frame frame = make_frame(0);
+  Frame frame = make_full_frame(0);
   frame.depth.pop_back();
   expect_refusal(*recorder, frame, "depth picture");
 }
@@ -112,12 +116,21 @@ TEST_P(AnyRecorder, ReportsAFolderThatIsNotThere) {
   EXPECT_THROW(GetParam().make("/nonexistent/folder/a"), RunError);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, AnyRecorder,
-    testing::Values(Kind{"rosbag", [](const auto& p) { return make_rosbag_recorder(p); }},
-                    Kind{"rawlog", [](const auto& p) { return make_rawlog_recorder(p); }},
-                    Kind{"tum", make_tum_trajectory_recorder}, Kind{"contact_sheet", make_sheet}),
-    [](const auto& test) { return test.param.name; });
+// A folder stands where the file should be: that is found out before the first frame.
+TEST_P(AnyRecorder, ReportsAPathThatIsTaken) {
+  ScratchFolder folder;
+  std::filesystem::create_directories(folder / "a.part/inside");
+  EXPECT_THROW(GetParam().make(folder / "a"), RunError);
+}
+
+TEST_P(AnyRecorder, ReportsAFolderThatIsReadOnly) {
+  // No one can create files there, not even the superuser.
+  if (!test::exists("/proc/version")) GTEST_SKIP() << "no /proc here";
+  EXPECT_THROW(GetParam().make("/proc/a"), RunError);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, AnyRecorder, testing::ValuesIn(test::all_recorders(kFrames)),
+                         [](const auto& test) { return test.param.name; });
 
 TEST(TumTrajectory, HoldsThePoseOfTheOpticalFrame) {
   ScratchFolder folder;

@@ -81,6 +81,48 @@ Frame make_frame(int index, int width, int height) {
   return frame;
 }
 
+Frame make_full_frame(int index, int width, int height) {
+  Frame frame = make_frame(index, width, height);
+  RandomStream random(static_cast<std::uint64_t>(index), "full frame");
+  frame.rgb_right = frame.rgb;
+  std::reverse(frame.rgb_right.begin(), frame.rgb_right.end());
+  for (const float depth : frame.depth) {
+    const bool hit = depth > 0;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    frame.measured_depth.push_back(hit ? depth + 0.01f * static_cast<float>(random.uniform())
+                                       : nan);
+    const Vec3f normal = hit ? Vec3f(random.direction()) : Vec3f(nan, nan, nan);
+    frame.normals.insert(frame.normals.end(), {normal.x, normal.y, normal.z});
+    frame.instance.push_back(hit ? static_cast<std::uint32_t>(random.below(2)) : kNoInstance);
+    if (hit && depth > 5) frame.instance.back() = kGroundInstance;
+    frame.label.push_back(static_cast<std::uint16_t>(hit ? 1 + random.below(3) : 0));
+    const auto flow = static_cast<float>(random.uniform(-5, 5));
+    frame.flow.insert(frame.flow.end(), {hit ? flow : nan, hit ? 0.25f * flow : nan});
+  }
+  const std::int64_t before = frame.stamp_ns - 33'333'333;
+  frame.linear_velocity = {3, 0.25 * index, -0.5};
+  for (int i = 0; index > 0 && i < 5 + index; ++i)
+    frame.events.push_back({before + 1000 * (i + 1), static_cast<std::uint16_t>(i * 7),
+                            static_cast<std::uint16_t>(i), i % 2 == 0});
+  for (int i = index ? 1 : 5; i <= 5; ++i)
+    frame.imu.push_back({before + i * 6'666'666 + (i == 5 ? 3 : 0),
+                         random.direction(),
+                         9.81 * random.direction(),
+                         {0.01, 0.02, 0.03},
+                         {-0.1, 0, 0.1 * i}});
+  return frame;
+}
+
+Recording full_recording() {
+  Recording recording;
+  recording.channels = {true, true, true, true, true, true, true, true};
+  recording.legend.labels = {"sky", "ground", "brick", "slab \"7\""};
+  recording.legend.pieces = {{2, "brick"}, {3, "slab \"7\""}};
+  recording.stereo_baseline = 0.12;
+  recording.imu.rate_hz = 150;
+  return recording;
+}
+
 Frame make_busy_frame(int index, int size) {
   Frame frame = make_frame(index, size, size);
   RandomStream random(static_cast<std::uint64_t>(index), "busy frame");
@@ -108,6 +150,19 @@ CommandResult run_command(const std::string& command) {
   const int status = pclose(pipe);
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
+}
+
+CommandResult run_node(const std::string& script, const std::string& arguments) {
+  const std::string folder = RUBBLE_NODE_FOLDER;
+  // Locked, as tests run side by side; and again whenever the list of packages has changed.
+  const CommandResult install =
+      run_command("cd '" + folder +
+                  "' && flock package.json sh -c 'cmp -s package-lock.json "
+                  "node_modules/installed.json || (npm ci --no-audit --no-fund --ignore-scripts "
+                  "--loglevel=error && cp package-lock.json node_modules/installed.json)'");
+  if (install.exit_code != 0)
+    return {install.exit_code, "npm ci failed in " + folder + ":\n" + install.output};
+  return run_command("node '" + folder + "/" + script + "' " + arguments);
 }
 
 std::string read_text(const std::string& path) {

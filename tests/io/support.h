@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/frame.h"
+#include "io/recording.h"
 
 namespace rubble::test {
 
@@ -34,6 +34,10 @@ double distance_to_scene(const Vec3& point);
 // the horizon. Every pixel's colour tells its column, row and index.
 Frame make_frame(int index, int width = 96, int height = 64);
 
+// make_frame with every optional channel filled, and the recording that asks for them.
+Frame make_full_frame(int index, int width = 96, int height = 64);
+Recording full_recording();
+
 // make_frame with as much fine detail in colour and depth as a rendered one, for timing.
 Frame make_busy_frame(int index, int size);
 
@@ -43,6 +47,10 @@ struct CommandResult {
 };
 // Runs a shell command and waits for it.
 CommandResult run_command(const std::string& command);
+
+// Runs a script of tests/io/node with the npm packages of package-lock.json, which are installed
+// first, into the build folder, when they are not; the network is needed only then.
+CommandResult run_node(const std::string& script, const std::string& arguments);
 
 std::string read_text(const std::string& path);  // empty when there is none
 bool exists(const std::string& path);

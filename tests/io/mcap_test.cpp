@@ -78,7 +78,8 @@ TEST(McapWriter, RefusesNegativeStamps) {
 class FastCdr {
  public:
   FastCdr()
-      : cdr_(buffer_, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS, eprosima::fastcdr::Cdr::DDS_CDR) {
+      : buffer_(memory_.data(), memory_.size()),
+        cdr_(buffer_, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS, eprosima::fastcdr::Cdr::DDS_CDR) {
     cdr_.serialize_encapsulation();
   }
 
@@ -100,6 +101,7 @@ class FastCdr {
   std::string bytes() const { return {buffer_.getBuffer(), cdr_.getSerializedDataLength()}; }
 
  private:
+  std::vector<char> memory_ = std::vector<char>(4096);  // zeros: Fast-CDR leaves padding as it is
   eprosima::fastcdr::FastBuffer buffer_;
   eprosima::fastcdr::Cdr cdr_;
 };

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/run_request.h"
+#include "app/verify.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
@@ -17,6 +18,9 @@ ExitCode settle_mission(const RunRequest& request);
 ExitCode render_saved_pile(const std::string& from, const RunRequest& request);
 // Goes on with a run that was stopped or killed.
 ExitCode resume_run(const FolderRequest& request);
+// Runs again from the manifest alone and compares: `differs` when anything does. The result goes to
+// standard output.
+ExitCode verify_run(const VerifyRequest& request);
 // Resolves everything, runs nothing, prints the complete scenario as JSON on standard output.
 ExitCode check_mission(const RunRequest& request);
 // Versions, EGL device and GL renderer in use, threads, on standard output.

@@ -32,6 +32,9 @@ std::uint64_t hash_pose(const Frame& frame) {
   hash.add(k.width), hash.add(k.height);
   for (const double c : {k.fx, k.fy, k.cx, k.cy}) hash.add(c);
   for (const double c : k.distortion) hash.add(c);
+  hash.add(std::int32_t(k.lens));
+  add(hash, frame.linear_velocity);
+  hash.add(frame.baseline);
   hash.add(frame.exposure_s);
   return hash.digest();
 }
@@ -53,6 +56,8 @@ std::uint64_t hash_imu(const std::vector<ImuSample>& samples) {
     hash.add(s.stamp_ns);
     add(hash, s.angular_velocity);
     add(hash, s.linear_acceleration);
+    add(hash, s.angular_bias);
+    add(hash, s.acceleration_bias);
   }
   return hash.digest();
 }

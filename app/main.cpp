@@ -56,6 +56,14 @@ void add_folder_options(CLI::App& command, FolderRequest& request) {
   add_run_options(command, request.options);
 }
 
+void add_verify_options(CLI::App& command, VerifyRequest& request) {
+  add_folder_options(command, request.of);
+  command.add_option("--work", request.work, "Where to make the run anew (default: $TMPDIR)")
+      ->type_name("DIR");
+  command.add_flag("--pile-only", request.pile_only, "Settle again, but render nothing");
+  command.add_flag("--json", request.json, "The result as JSON");
+}
+
 ExitCode run(int argc, char** argv) {
   CLI::App app{
       "Simulates collapsed structures: a seed and a Lua mission give a settled pile, a "
@@ -68,10 +76,13 @@ ExitCode run(int argc, char** argv) {
 
   RunRequest request;
   FolderRequest of_folder;
+  VerifyRequest to_verify;
   std::string from;
   CLI::App* run = app.add_subcommand("run", "Run a mission to a finished dataset");
   CLI::App* settle = app.add_subcommand("settle", "Settle the pile of a mission, nothing more");
   CLI::App* resume = app.add_subcommand("resume", "Continue a run that was stopped or killed");
+  CLI::App* verify =
+      app.add_subcommand("verify", "Run again from the manifest alone, and compare every hash");
   CLI::App* render =
       app.add_subcommand("render", "Another mission's flight over the pile of a finished run");
   CLI::App* check = app.add_subcommand("check", "Print the complete scenario as JSON; run nothing");
@@ -81,6 +92,7 @@ ExitCode run(int argc, char** argv) {
   add_mission_options(*render, request, "--mission");
   for (CLI::App* command : {run, settle, render}) add_output_options(*command, request);
   add_folder_options(*resume, of_folder);
+  add_verify_options(*verify, to_verify);
 
   try {
     app.parse(argc, argv);
@@ -89,6 +101,7 @@ ExitCode run(int argc, char** argv) {
   }
   if (*run) return run_mission(request);
   if (*settle) return settle_mission(request);
+  if (*verify) return verify_run(to_verify);
   if (*resume) return resume_run(of_folder);
   if (*render) return render_saved_pile(from, request);
   if (*check) return check_mission(request);

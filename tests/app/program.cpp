@@ -4,10 +4,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 namespace rubble::testing {
 
@@ -25,6 +27,44 @@ Outcome run_rubble(const std::string& arguments, const std::string& before) {
   outcome.err = read_file(scratch / "err");
   return outcome;
 }
+
+Outcome run_rubble_and_signal(const std::string& arguments, double seconds, int signal) {
+  const ScratchFolder scratch;
+  const std::string command = "cd '" RUBBLE_SOURCE_DIR "' && exec '" RUBBLE_PROGRAM "' " +
+                              arguments + " >'" + (scratch / "out") + "' 2>'" + (scratch / "err") +
+                              "' </dev/null";
+  const pid_t child = fork();
+  if (child == 0) {
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  int status = 0;
+  pid_t ended = 0;
+  while ((ended = waitpid(child, &status, WNOHANG)) == 0 && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  if (ended == 0) {
+    kill(child, signal);
+    waitpid(child, &status, 0);
+  }
+  Outcome outcome;
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  outcome.out = read_file(scratch / "out");
+  outcome.err = read_file(scratch / "err");
+  return outcome;
+}
+
+const char* const kTinyMission = R"(return rubble.mission {
+  seed = 3,
+  pile = { layers = 2, pieces_per_layer = 8, mix = { { asset = "brick" } },
+           spawn_position = { 0, 0, 1.5 }, spawn_bounds = { 1, 1, 1 } },
+  camera = { width = 64, height = 48 },
+  trajectory = { rate_hz = 10, waypoints = {
+    { t = 0, position = { -1.5, 0, 0.8 }, look_at = { 0, 0, 0.1 } },
+    { t = 0.2, position = { -1.4, 0.1, 0.8 }, look_at = { 0, 0, 0.1 } },
+  } },
+}
+)";
 
 ScratchFolder::ScratchFolder() {
   std::string name = (fs::temp_directory_path() / "rubble-test-XXXXXX").string();

@@ -1,6 +1,7 @@
 // Runs the built program as a user would, and looks at what it left.
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -14,6 +15,13 @@ struct Outcome {
 
 // Runs `rubble ARGUMENTS` through the shell, from the root of the sources.
 Outcome run_rubble(const std::string& arguments, const std::string& before = "");
+
+// Sends it a signal after so many seconds of the clock on the wall, unless it has ended by then; the
+// exit code of one that a signal killed is 128 and the signal.
+Outcome run_rubble_and_signal(const std::string& arguments, double seconds, int signal);
+
+// A mission that takes a fraction of a second: 16 bricks, 3 frames of 64x48.
+extern const char* const kTinyMission;
 
 // A new empty folder for the current test; removed when the object goes.
 class ScratchFolder {

@@ -1,0 +1,321 @@
+// verify, render and resume: what a manifest and a saved pile are good for.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "kernel/base/random.h"
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+const char* const kCube = R"(v 0 0 0
+v 0.3 0 0
+v 0.3 0.2 0
+v 0 0.2 0
+v 0 0 0.1
+v 0.3 0 0.1
+v 0.3 0.2 0.1
+v 0 0.2 0.1
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+)";
+
+Json read_manifest(const std::string& folder) {
+  return Json::parse(read_file(folder + "/manifest.json"));
+}
+
+// All of a manifest that must be the same for the same run.
+Json reproducible(const std::string& folder) {
+  Json manifest = read_manifest(folder);
+  manifest.erase("not_reproducible");
+  return manifest;
+}
+
+void run_tiny(const ScratchFolder& scratch, const std::string& name, const std::string& more = "") {
+  write_file(scratch / "tiny.lua", kTinyMission);
+  const Outcome run =
+      run_rubble("run " + (scratch / "tiny.lua") + " --out " + (scratch / name) + " " + more);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+}
+
+void alter(const std::string& file, const std::string& from, const std::string& to) {
+  std::string text = read_file(file);
+  const std::size_t at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from << " in " << file;
+  write_file(file, text.replace(at, from.size(), to));
+}
+
+#define EXPECT_IN(part, text) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+// The script, a file that it includes and its pack are gone or elsewhere.
+TEST(Verify, NeedsOnlyTheManifestAndThePacksContent) {
+  const ScratchFolder scratch;
+  fs::create_directories(scratch / "here/blocks");
+  write_file(scratch / "here/blocks/block.obj", kCube);
+  write_file(scratch / "here/blocks/pack.lua",
+             "return pack { name = 'mine', assets = {\n"
+             "  { name = 'block', mesh = 'block.obj', density = 1800 } } }\n");
+  write_file(scratch / "here/many.lua", "return 6\n");
+  write_file(scratch / "here/m.lua",
+             "return rubble.mission { packs = { 'blocks' },\n"
+             "  pile = { layers = 1, pieces_per_layer = rubble.include('many.lua'),\n"
+             "           spawn_bounds = { 1, 1, 1 } } }\n");
+  const Outcome settle = run_rubble("settle " + (scratch / "here/m.lua") +
+                                    " --set pile.layers=2 --seed 5 --out " + (scratch / "a"));
+  ASSERT_EQ(settle.exit_code, 0) << settle.err;
+  fs::rename(scratch / "here/blocks", scratch / "elsewhere");
+  fs::remove_all(scratch / "here");
+
+  const Outcome lost = run_rubble("verify " + (scratch / "a"));
+  EXPECT_EQ(lost.exit_code, 1);
+  EXPECT_IN("the asset `block` of pack `mine` is missing", lost.err);
+  EXPECT_IN("--assets", lost.err);
+  const Outcome found =
+      run_rubble("verify " + (scratch / "a") + " --assets " + (scratch / "elsewhere"));
+  EXPECT_EQ(found.exit_code, 0) << found.out << found.err;
+
+  alter(scratch / "elsewhere/block.obj", "v 0.3 0 0", "v 0.4 0 0");
+  const Outcome other =
+      run_rubble("verify " + (scratch / "a") + " --assets " + (scratch / "elsewhere"));
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_IN("it has the content", other.err);
+}
+
+TEST(Verify, NamesWhatIsEqualAndWhatDiffersFirst) {
+  const ScratchFolder scratch;
+  run_tiny(scratch, "a");
+  const Outcome same = run_rubble("verify --json " + (scratch / "a"));
+  ASSERT_EQ(same.exit_code, 0) << same.out << same.err;
+  const Json result = Json::parse(same.out);
+  EXPECT_EQ(result.at("equal"), true);
+  EXPECT_EQ(result.at("findings").size(), 8u);
+
+  // One bit of a recording, one digit of a frame's hash, and another version of a library.
+  std::string bag = read_file(scratch / "a/mission.bag");
+  bag[5000] = char(bag[5000] ^ 1);
+  write_file(scratch / "a/mission.bag", bag);
+  Json manifest = read_manifest(scratch / "a");
+  std::string row = manifest["frame_hashes"]["xxh64"][1];
+  row[17] = row[17] == '0' ? '1' : '0';  // the first digit of the second channel: rgb
+  manifest["frame_hashes"]["xxh64"][1] = row;
+  manifest["libraries"]["zlib"] = "0.1";
+  write_file(scratch / "a/manifest.json", manifest.dump(2));
+  const Outcome differs = run_rubble("verify " + (scratch / "a"));
+  EXPECT_EQ(differs.exit_code, 5) << differs.err;
+  EXPECT_IN("part frames (`frames`, `frame_hashes`) was altered", differs.out);
+  EXPECT_IN("mission.bag was altered", differs.out);
+  EXPECT_IN("frame 1 is the first that differs, in its rgb", differs.out);
+  EXPECT_IN("in the recorded mission.bag, byte 5000 is the first that differs", differs.out);
+  EXPECT_IN("instead of 0.1", differs.out);
+  EXPECT_IN("pile            equal", differs.out);
+}
+
+TEST(Verify, NamesThePieceAndTheKeyWhenTheScenarioWasAltered) {
+  const ScratchFolder scratch;
+  write_file(scratch / "tiny.lua", kTinyMission);
+  ASSERT_EQ(run_rubble("settle " + (scratch / "tiny.lua") + " --out " + (scratch / "a")).exit_code,
+            0);
+  alter(scratch / "a/manifest.json", "\"gravity\": 9.81", "\"gravity\": 9.80");
+  const Outcome differs = run_rubble("verify " + (scratch / "a"));
+  EXPECT_EQ(differs.exit_code, 5);
+  EXPECT_IN("settle.gravity is 9.81 instead of 9.8", differs.out);
+  EXPECT_IN("(brick) is the first that differs, in its ", differs.out);
+  // Nothing is rendered over a pile whose manifest was altered.
+  const Outcome render = run_rubble("render " + (scratch / "a") + " --mission " +
+                                    (scratch / "tiny.lua") + " --out " + (scratch / "b"));
+  EXPECT_EQ(render.exit_code, 1);
+  EXPECT_IN("part scenario", render.err);
+}
+
+TEST(Verify, SaysWhatIsWrongWithAManifestThatCannotBeRead) {
+  const ScratchFolder scratch;
+  fs::create_directories(scratch / "a");
+  EXPECT_EQ(run_rubble("verify " + (scratch / "a")).exit_code, 1);
+  write_file(scratch / "a/manifest.json", "{\n  \"format\": \"rubble mani");
+  const Outcome torn = run_rubble("verify " + (scratch / "a"));
+  EXPECT_EQ(torn.exit_code, 1);
+  EXPECT_IN("manifest.json:2: not valid JSON", torn.err);
+  write_file(scratch / "a/manifest.json", "{\"format\": \"rubble manifest 1\"}");
+  EXPECT_IN("expected rubble manifest 2", run_rubble("verify " + (scratch / "a")).err);
+  write_file(scratch / "a/manifest.json", "{\"format\": \"rubble manifest 2\"}");
+  EXPECT_IN("program: missing", run_rubble("verify " + (scratch / "a")).err);
+}
+
+TEST(Render, FliesAnotherMissionOverTheSamePileAndCanBeVerified) {
+  const ScratchFolder scratch;
+  run_tiny(scratch, "a");
+  std::string other = kTinyMission;
+  other.replace(other.find("seed = 3"), 8, "seed = 9");
+  other.replace(other.find("layers = 2"), 10, "layers = 7");
+  other.replace(other.find("width = 64"), 10, "width = 32");
+  write_file(scratch / "other.lua", other);
+  const Outcome render = run_rubble("render " + (scratch / "a") + " --mission " +
+                                    (scratch / "other.lua") + " --out " + (scratch / "b"));
+  ASSERT_EQ(render.exit_code, 0) << render.err;
+  EXPECT_EQ(read_outputs(scratch / "a").at("pile.bin"), read_outputs(scratch / "b").at("pile.bin"));
+  EXPECT_NE(read_outputs(scratch / "a").at("mission.bag"),
+            read_outputs(scratch / "b").at("mission.bag"));
+  EXPECT_EQ(read_manifest(scratch / "b").at("scenario").at("pile").at("layers"), 2);
+  fs::remove_all(scratch / "a");
+  const Outcome verify = run_rubble("verify " + (scratch / "b"));
+  EXPECT_EQ(verify.exit_code, 0) << verify.out << verify.err;
+}
+
+TEST(Render, RefusesADamagedOrForeignPile) {
+  const ScratchFolder scratch;
+  write_file(scratch / "tiny.lua", kTinyMission);
+  const std::string settle = "settle " + (scratch / "tiny.lua") + " --set outputs.stl=false";
+  ASSERT_EQ(run_rubble(settle + " --out " + (scratch / "a")).exit_code, 0);
+  ASSERT_EQ(run_rubble(settle + " --seed 4 --out " + (scratch / "b")).exit_code, 0);
+  const std::string render = "render " + (scratch / "a") + " --mission " + (scratch / "tiny.lua") +
+                             " --out " + (scratch / "c");
+  const std::string pile = read_file(scratch / "a/pile.bin");
+  write_file(scratch / "a/pile.bin", pile.substr(0, pile.size() / 2));
+  const Outcome truncated = run_rubble(render);
+  EXPECT_EQ(truncated.exit_code, 1);
+  EXPECT_IN("truncated", truncated.err);
+  fs::copy_file(scratch / "b/pile.bin", scratch / "a/pile.bin",
+                fs::copy_options::overwrite_existing);
+  const Outcome foreign = run_rubble(render);
+  EXPECT_EQ(foreign.exit_code, 1);
+  EXPECT_IN("is not the pile of the manifest beside it", foreign.err);
+  write_file(scratch / "a/pile.bin", pile);
+  const Outcome itself = run_rubble("render " + (scratch / "a") + " --mission " +
+                                    (scratch / "tiny.lua") + " --force --out " + (scratch / "a"));
+  EXPECT_EQ(itself.exit_code, 1);
+  EXPECT_IN("would replace", itself.err);
+}
+
+// SIGKILL at any moment, again and again, and in the end the very same bytes.
+void kill_and_resume(std::uint64_t seed, int kills, const ScratchFolder& scratch,
+                     const std::string& command, double seconds) {
+  RandomStream random(seed, "moments of killing");
+  const std::string folder = scratch / ("killed" + std::to_string(seed));
+  const std::string run =
+      command + " " + (scratch / "tiny.lua") + " --checkpoint-every 0.005 --out " + folder;
+  const auto next = [&] {
+    return fs::exists(folder + "/unfinished/run.json") ? "resume " + folder : run;
+  };
+  for (int i = 0; i < kills && !fs::exists(folder + "/manifest.json"); ++i)
+    run_rubble_and_signal(next(), random.uniform(0, seconds), SIGKILL);
+  if (!fs::exists(folder + "/manifest.json") || fs::exists(folder + "/unfinished")) {
+    const Outcome last = run_rubble(next());
+    ASSERT_EQ(last.exit_code, 0) << last.err;
+  }
+  EXPECT_EQ(reproducible(folder), reproducible(scratch / command));
+  for (const auto& [name, hash] : read_outputs(scratch / command))
+    EXPECT_EQ(read_file(folder + "/" + name), read_file(scratch / (command + "/" + name))) << name;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+  EXPECT_FALSE(fs::exists(folder + "/unfinished"));
+}
+
+// Without being killed, into the folder `command`; how long it took.
+double run_whole(const ScratchFolder& scratch, const std::string& command) {
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome whole =
+      run_rubble(command + " " + (scratch / "tiny.lua") + " --out " + (scratch / command));
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+TEST(Resume, GivesTheSameBytesAfterKillsAtTwentyMoments) {
+  const ScratchFolder scratch;
+  write_file(scratch / "tiny.lua", kTinyMission);
+  for (const std::string command : {"run", "settle"}) {
+    const double seconds = run_whole(scratch, command);
+    for (std::uint64_t seed = 1; seed <= 2; ++seed)
+      kill_and_resume(seed + 10 * (command == "run"), 5, scratch, command, seconds);
+  }
+}
+
+TEST(Resume, ContinuesWhatASignalStoppedAndSaysHow) {
+  const ScratchFolder scratch;
+  write_file(scratch / "long.lua", kTinyMission);
+  const std::string folder = scratch / "a";
+  // Large enough to be settling still when it is stopped.
+  const std::string run =
+      "run " + (scratch / "long.lua") + " --out " + folder +
+      " --set pile.layers=100 --set pile.pieces_per_layer=200 --set pile.spawn_bounds=3,3,3";
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const std::string command = fs::exists(folder) ? "resume " + folder : run;
+    const Outcome stopped = run_rubble_and_signal(command, 1.5, signal);
+    EXPECT_EQ(stopped.exit_code, 4) << stopped.err;
+    EXPECT_IN("`rubble resume " + folder + "` continues", stopped.err);
+    EXPECT_TRUE(fs::exists(folder + "/unfinished/settle.checkpoint"));
+    EXPECT_FALSE(fs::exists(folder + "/pile.bin"));
+  }
+  const Outcome again = run_rubble(run);
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_IN("an unfinished run is in the output folder", again.err);
+  EXPECT_IN("`rubble resume", run_rubble("verify " + folder).err);
+  // Another program began it.
+  alter(folder + "/unfinished/run.json", "\"commit\": \"", "\"commit\": \"x");
+  const Outcome other = run_rubble("resume " + folder);
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_IN("another program began this run", other.err);
+  // --force begins anew.
+  const Outcome forced =
+      run_rubble("settle " + (scratch / "long.lua") + " --force --out " + folder);
+  EXPECT_EQ(forced.exit_code, 0) << forced.err;
+  EXPECT_FALSE(fs::exists(folder + "/unfinished"));
+  EXPECT_IN("is finished", run_rubble("resume " + folder).err);
+}
+
+// The disk is full at every step in turn (a file-size limit is one): exit code 2, nothing has a
+// final name that is not whole, and resume goes on from there.
+TEST(Resume, GoesOnAfterAFullDisk) {
+  const ScratchFolder scratch;
+  run_tiny(scratch, "whole");
+  const std::string run = "run " + (scratch / "tiny.lua") + " --out ";
+  int failures = 0;
+  for (const int blocks : {1, 3, 8, 60, 100}) {  // of 512 or 1024 bytes, as the shell has it
+    const std::string folder = scratch / std::to_string(blocks);
+    const Outcome full = run_rubble(run + folder, "ulimit -f " + std::to_string(blocks) + " &&");
+    if (full.exit_code == 0) continue;
+    ++failures;
+    EXPECT_EQ(full.exit_code, 2) << full.err;
+    EXPECT_FALSE(fs::exists(folder + "/manifest.json"));
+    const auto whole = read_outputs(scratch / "whole");
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (!entry.is_regular_file()) continue;
+      const std::string name = entry.path().filename().string();
+      EXPECT_TRUE(whole.count(name)) << name;
+      EXPECT_EQ(read_file(entry.path()), read_file(scratch / ("whole/" + name))) << name;
+    }
+    const bool begun = fs::exists(folder + "/unfinished/run.json");
+    EXPECT_EQ(begun, full.err.find("rubble resume") != std::string::npos) << full.err;
+    const Outcome resumed = run_rubble(begun ? "resume " + folder : run + folder);
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_EQ(reproducible(folder), reproducible(scratch / "whole"));
+  }
+  EXPECT_GE(failures, 4);
+}
+
+TEST(Run, NamesAnOutputPathThatIsTakenOrCannotBeWritten) {
+  const ScratchFolder scratch;
+  write_file(scratch / "tiny.lua", kTinyMission);
+  write_file(scratch / "taken", "a file");
+  const Outcome taken =
+      run_rubble("settle " + (scratch / "tiny.lua") + " --out " + (scratch / "taken"));
+  EXPECT_EQ(taken.exit_code, 1);
+  EXPECT_IN("is not a folder", taken.err);
+  EXPECT_EQ(read_file(scratch / "taken"), "a file");
+  // /proc is a folder that nobody may write to, not even root.
+  const Outcome read_only = run_rubble("settle " + (scratch / "tiny.lua") + " --out /proc/rubble");
+  EXPECT_EQ(read_only.exit_code, 2);
+  EXPECT_IN("/proc/rubble", read_only.err);
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -60,6 +60,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kAllowed{
     {"kernel/base/", {"kernel/base/"}},
     {"kernel/", {"kernel/"}},
     {"render/", {"render/", "kernel/base/"}},
+    {"io/voids/", {"io/", "kernel/base/", "kernel/voids/"}},
     {"io/",
      {"io/", "kernel/base/", "kernel/pile_state.h", "kernel/pile.h", "kernel/settle_checkpoint.h",
       "render/frame.h"}},
@@ -107,7 +108,9 @@ TEST(IncludeDirection, ThirdPartiesStayBehindTheirDoor) {
       {"Simbody.h", "kernel/"},  {"SimTK", "kernel/"},     {"EGL/", "render/"},
       {"GL/", "render/"},        {"assimp/", "io/"},
       {"opencv2/", "io/"},       {"mrpt/", "io/"},         {"rosbag/", "io/"},
-      {"ros/", "io/"}, {"zstd.h", "io/"}, {"jpeglib.h", "io/"},           {"sensor_msgs/", "io/"},  {"lua", "scripting/"},
+      {"ros/", "io/"},           {"zstd.h", "io/"},        {"jpeglib.h", "io/"},
+      {"openvdb/", "io/voids/"}, {"octomap/", "io/voids/"}, {"sensor_msgs/", "io/"},
+      {"lua", "scripting/"},
       {"CLI/", "app/"},          {"xxhash.h", "kernel/base/"}, {"openssl/", "kernel/base/"}};
   for (const std::string folder : {"kernel/", "render/", "io/", "scripting/", "app/"})
     for (const Include& include : find_includes(RUBBLE_SOURCE_DIR, folder))

@@ -64,6 +64,29 @@ void add_verify_options(CLI::App& command, VerifyRequest& request) {
   command.add_flag("--json", request.json, "The result as JSON");
 }
 
+void add_void_options(CLI::App& command, VoidRequest& request) {
+  command
+      .add_option("--radius", request.radii, "Radius of a robot (default: 0.1, 0.2 and 0.3)")
+      ->type_name("METRES")
+      ->allow_extra_args(false)
+      ->take_all();
+  command.add_option("--voxel", request.voxel, "Edge of a voxel (default: 0.02)")
+      ->type_name("METRES");
+  command
+      .add_option("--rolling-radius", request.rolling_radius,
+                  "Outside is what a ball of this radius reaches from the sky (default: 1)")
+      ->type_name("METRES");
+  command.add_option("--memory", request.memory_gib, "Refuse to need more (default: 4)")
+      ->type_name("GIB");
+  command
+      .add_option("--surfaces", request.surfaces,
+                  "Write the surfaces of so many voids of each radius, largest first (default: 20)")
+      ->check(CLI::Range(0, 100000));
+  command.add_option("--out", request.out, "Output folder (default: FOLDER/voids)")
+      ->type_name("DIR");
+  command.add_flag("--force", request.force, "Replace the files of an earlier map");
+}
+
 ExitCode run(int argc, char** argv) {
   CLI::App app{
       "Simulates collapsed structures: a seed and a Lua mission give a settled pile, a "
@@ -85,14 +108,18 @@ ExitCode run(int argc, char** argv) {
       app.add_subcommand("verify", "Run again from the manifest alone, and compare every hash");
   CLI::App* render =
       app.add_subcommand("render", "Another mission's flight over the pile of a finished run");
+  VoidRequest void_request;
+  CLI::App* voids =
+      app.add_subcommand("voids", "Map the voids of a run's pile: entrances, volumes, widest ways");
   CLI::App* check = app.add_subcommand("check", "Print the complete scenario as JSON; run nothing");
   CLI::App* info = app.add_subcommand("info", "Print versions, the GL renderer and threads");
   for (CLI::App* command : {run, settle, check}) add_mission_options(*command, request);
   render->add_option("folder", from, "The output folder of the run with the pile")->required();
   add_mission_options(*render, request, "--mission");
   for (CLI::App* command : {run, settle, render}) add_output_options(*command, request);
-  add_folder_options(*resume, of_folder);
   add_verify_options(*verify, to_verify);
+  for (CLI::App* command : {resume, voids}) add_folder_options(*command, of_folder);
+  add_void_options(*voids, void_request);
 
   try {
     app.parse(argc, argv);
@@ -104,6 +131,7 @@ ExitCode run(int argc, char** argv) {
   if (*verify) return verify_run(to_verify);
   if (*resume) return resume_run(of_folder);
   if (*render) return render_saved_pile(from, request);
+  if (*voids) return map_voids(of_folder, void_request);
   if (*check) return check_mission(request);
   if (*info) return print_info();
   return ExitCode::bad_input;

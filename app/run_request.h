@@ -32,4 +32,15 @@ struct FolderRequest {
   RunOptions options;
 };
 
+// How to look for voids.
+struct VoidRequest {
+  std::vector<double> radii{0.1, 0.2, 0.3};  // --radius, of robots; unit: m
+  double voxel = 0.02;                       // --voxel; unit: m
+  double rolling_radius = 1;                 // --rolling-radius: see kernel/voids/void_space.h
+  double memory_gib = 4;                     // --memory
+  int surfaces = 20;                         // --surfaces: the largest voids of each radius, as PLY
+  std::string out;                           // --out; empty: `voids` in the folder of the run
+  bool force = false;                        // --force
+};
+
 }  // namespace rubble

@@ -20,8 +20,11 @@ void write_octomap(const std::string& path, const VoidSpace& space) {
   }
   tree.updateInnerOccupancy();
   tree.prune();
+  // The header is written here, because OctoMap's own writer talks to standard error.
   std::ostringstream stream(std::ios::binary);
-  if (!tree.writeBinary(stream)) throw RunError(path + ": OctoMap cannot write it");
+  stream << "# Octomap OcTree binary file\nid OcTree\nsize " << tree.size() << "\nres "
+         << tree.getResolution() << "\ndata\n";
+  if (!tree.writeBinaryData(stream)) throw RunError(path + ": OctoMap cannot write it");
   write_text_file(path, stream.str());
 }
 

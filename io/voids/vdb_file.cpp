@@ -50,8 +50,7 @@ openvdb::BoolGrid::Ptr make_solid_grid(const VoidSpace& space) {
   auto grid = make_grid<openvdb::BoolGrid>(space.grid, "solid", false);
   auto accessor = grid->getAccessor();
   for (std::size_t i = 0; i < space.kind.size(); ++i) {
-    if (space.kind[i] == CellKind::solid)
-      accessor.setValue(to_coord(space.grid.cell(i)), true);
+    if (space.kind[i] == CellKind::solid) accessor.setValue(to_coord(space.grid.cell(i)), true);
   }
   grid->tree().prune();
   return grid;

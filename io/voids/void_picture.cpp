@@ -34,12 +34,42 @@ void put_text(cv::Mat& sheet, const std::string& text, cv::Point at, double size
   cv::putText(sheet, text, at, cv::FONT_HERSHEY_SIMPLEX, size, kInk, 1, cv::LINE_AA);
 }
 
+// The cells that are shown: around the voids of a robot, or all where there are none.
+struct Window {
+  Cell first{0, 0, 0}, last{0, 0, 0};  // inclusive
+
+  int size(std::size_t axis) const { return last[axis] - first[axis] + 1; }
+};
+
+Window find_window(const VoxelGrid& grid, const RobotVoids& robot, double margin) {
+  Window w;
+  w.last = {grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1};
+  if (robot.voids.empty()) return w;
+  Cell low = w.last, high = w.first;
+  for (const Void& v : robot.voids) {
+    for (const std::uint32_t i : v.cells) {
+      const Cell c = grid.cell(i);
+      for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], c[k]);
+        high[k] = std::max(high[k], c[k]);
+      }
+    }
+  }
+  const int more = int(std::ceil(margin / grid.voxel));
+  for (std::size_t k = 0; k < 3; ++k) {
+    w.first[k] = std::max(0, low[k] - more);
+    w.last[k] = std::min(w.last[k], high[k] + more);
+  }
+  return w;
+}
+
 // A drawing whose pixels are cells, to be enlarged and put on a sheet with title and legend.
 class Sheet {
  public:
   // width, height: of the drawing in cells; voxel: of a cell; unit: m
   Sheet(int width, int height, double voxel, int long_side)
-      : cells_(height, width, CV_8UC3, kPaper), voxel_(voxel),
+      : cells_(height, width, CV_8UC3, kPaper),
+        voxel_(voxel),
         scale_(std::max(1.0, double(long_side) / std::max(width, height))) {}
 
   cv::Vec3b& at(int x, int y) { return cells_.at<cv::Vec3b>(y, x); }
@@ -59,16 +89,20 @@ class Sheet {
     return {kMargin + int(x * scale_), kHeader + int(y * scale_)};
   }
 
+  // With an empty label it is small and thin.
   void arrow(double x, double y, double dx, double dy, const std::string& label) {
-    const double length = std::hypot(dx, dy), reach = 34;
+    const double length = std::hypot(dx, dy), reach = label.empty() ? 16 : 40;
+    const int width = label.empty() ? 1 : 2;
+    if (x < 0 || y < 0 || x >= cells_.cols || y >= cells_.rows) return;
     const cv::Point tip = place(x, y);
     if (length > 0.2) {
       const cv::Point tail(tip.x - int(dx / length * reach), tip.y - int(dy / length * reach));
-      cv::arrowedLine(sheet_, tail, tip, cv::Scalar(255, 255, 255), 5, cv::LINE_AA, 0, 0.35);
-      cv::arrowedLine(sheet_, tail, tip, kArrow, 2, cv::LINE_AA, 0, 0.35);
+      cv::arrowedLine(sheet_, tail, tip, cv::Scalar(255, 255, 255), width + 3, cv::LINE_AA, 0,
+                      0.35);
+      cv::arrowedLine(sheet_, tail, tip, kArrow, width, cv::LINE_AA, 0, 0.35);
       write(label, {tail.x - 6, tail.y - 6});
     } else {
-      cv::circle(sheet_, tip, 6, kArrow, 2, cv::LINE_AA);
+      cv::circle(sheet_, tip, 2 + 2 * width, kArrow, width, cv::LINE_AA);
       write(label, {tip.x + 8, tip.y - 6});
     }
   }
@@ -117,9 +151,9 @@ class Sheet {
 
 std::string make_title(const VoidMap& map, std::size_t robot, const std::string& title) {
   const RobotVoids& r = map.robots[robot];
-  return (title.empty() ? "" : title + "   ") + "robot radius " + text_of(r.radius, 2) + " m: " +
-         std::to_string(r.voids.size()) + " voids, " + text_of(r.volume, 2) + " m3, of which " +
-         text_of(r.reachable_volume, 2) + " m3 reachable";
+  return (title.empty() ? "" : title + "   ") + "robot radius " + text_of(r.radius, 2) +
+         " m: " + std::to_string(r.voids.size()) + " voids, " + text_of(r.volume, 2) +
+         " m3, of which " + text_of(r.reachable_volume, 2) + " m3 reachable";
 }
 
 // Light from the upper left over the height of the highest solid cell of each column.
@@ -131,6 +165,10 @@ double shade(const std::vector<int>& height, const Cell& size, int x, int y) {
   };
   const double slope = 0.35 * (h(x + 1, y) - h(x - 1, y)) - 0.35 * (h(x, y + 1) - h(x, y - 1));
   return std::clamp(0.78 + 0.16 * slope / std::sqrt(1 + slope * slope), 0.0, 1.0);
+}
+
+std::string label_of(std::size_t rank, const VoidPictureOptions& options) {
+  return int(rank) < options.labels ? std::to_string(rank + 1) : "";
 }
 
 std::vector<int> find_tops(const VoidSpace& space) {
@@ -152,11 +190,12 @@ RgbImage draw_void_plan(const VoidMap& map, std::size_t robot, const VoidPicture
     for (const std::uint32_t i : v.cells) ++open[i % open.size()];
   const int most = std::max(1, *std::max_element(open.begin(), open.end()));
 
-  Sheet sheet(size[0], size[1], space.grid.voxel, options.long_side);
-  for (int y = 0; y < size[1]; ++y) {
-    for (int x = 0; x < size[0]; ++x) {
+  const Window w = find_window(space.grid, map.robots[robot], options.margin);
+  Sheet sheet(w.size(0), w.size(1), space.grid.voxel, options.long_side);
+  for (int y = w.first[1]; y <= w.last[1]; ++y) {
+    for (int x = w.first[0]; x <= w.last[0]; ++x) {
       const std::size_t i = std::size_t(x) + std::size_t(size[0]) * std::size_t(y);
-      cv::Vec3b& pixel = sheet.at(x, size[1] - 1 - y);
+      cv::Vec3b& pixel = sheet.at(x - w.first[0], w.last[1] - y);
       const double light = shade(tops, size, x, y);
       if (tops[i] > 0)
         for (int c = 0; c < 3; ++c) pixel[c] = std::uint8_t(255 * (0.62 + 0.38 * light) * light);
@@ -166,10 +205,11 @@ RgbImage draw_void_plan(const VoidMap& map, std::size_t robot, const VoidPicture
     }
   }
   sheet.enlarge();
-  for (std::size_t v = 0; v < map.robots[robot].voids.size(); ++v) {
+  for (std::size_t v = map.robots[robot].voids.size(); v-- > 0;) {
     for (const Entrance& e : map.robots[robot].voids[v].entrances) {
       const Vec3 p = (e.position - space.grid.corner) * (1 / space.grid.voxel);
-      sheet.arrow(p.x, size[1] - p.y, e.inward.x, -e.inward.y, std::to_string(v + 1));
+      sheet.arrow(p.x - w.first[0], w.last[1] + 1 - p.y, e.inward.x, -e.inward.y,
+                  label_of(v, options));
     }
   }
   return sheet.finish(make_title(map, robot, options.title), "free height",
@@ -182,13 +222,15 @@ RgbImage draw_void_cut(const VoidMap& map, std::size_t robot, int axis, const Ve
   const VoxelGrid& grid = space.grid;
   const std::size_t across = std::size_t(axis), along = axis == 0 ? 1 : 0;
   const int cut = std::clamp(grid.find_cell(through)[across], 0, grid.size[across] - 1);
-  const int width = grid.size[along], height = grid.size[2];
+  const Window w = find_window(grid, map.robots[robot], options.margin);
+  const int width = w.size(along), height = w.last[2] + 1;
 
   cv::Mat covered(height, width, CV_8UC1, cv::Scalar(0));
   for (const Void& v : map.robots[robot].voids) {
     for (const std::uint32_t i : v.cells) {
       const Cell c = grid.cell(i);
-      if (c[across] == cut) covered.at<std::uint8_t>(height - 1 - c[2], c[along]) = 255;
+      if (c[across] != cut || c[along] < w.first[along] || c[along] > w.last[along]) continue;
+      covered.at<std::uint8_t>(height - 1 - c[2], c[along] - w.first[along]) = 255;
     }
   }
   double widest = 0.05;
@@ -196,7 +238,7 @@ RgbImage draw_void_cut(const VoidMap& map, std::size_t robot, int axis, const Ve
     for (int x = 0; x < width; ++x) {
       Cell c{0, 0, z};
       c[across] = cut;
-      c[along] = x;
+      c[along] = w.first[along] + x;
       const std::size_t i = grid.index(c);
       if (space.kind[i] == CellKind::free_void)
         widest = std::max(widest, double(space.clearance[i]));
@@ -207,22 +249,25 @@ RgbImage draw_void_cut(const VoidMap& map, std::size_t robot, int axis, const Ve
     for (int x = 0; x < width; ++x) {
       Cell c{0, 0, z};
       c[across] = cut;
-      c[along] = x;
+      c[along] = w.first[along] + x;
       const std::size_t i = grid.index(c);
       cv::Vec3b& pixel = sheet.at(x, height - 1 - z);
-      if (space.kind[i] == CellKind::solid) pixel = cv::Vec3b(88, 92, 96);
-      else if (space.kind[i] == CellKind::outside) pixel = cv::Vec3b(244, 240, 234);
-      else pixel = colour_of(space.clearance[i] / widest);
+      if (space.kind[i] == CellKind::solid)
+        pixel = cv::Vec3b(88, 92, 96);
+      else if (space.kind[i] == CellKind::outside)
+        pixel = cv::Vec3b(244, 240, 234);
+      else
+        pixel = colour_of(space.clearance[i] / widest);
     }
   }
   sheet.enlarge();
   sheet.outline(covered);
-  for (std::size_t v = 0; v < map.robots[robot].voids.size(); ++v) {
+  for (std::size_t v = map.robots[robot].voids.size(); v-- > 0;) {
     for (const Entrance& e : map.robots[robot].voids[v].entrances) {
       const Vec3 p = (e.position - grid.corner) * (1 / grid.voxel);
       if (std::abs(p[int(across)] - cut) * grid.voxel > 0.3) continue;
-      sheet.arrow(p[int(along)], height - p.z, e.inward[int(along)], -e.inward.z,
-                  std::to_string(v + 1));
+      sheet.arrow(p[int(along)] - w.first[along], height - p.z, e.inward[int(along)], -e.inward.z,
+                  label_of(v, options));
     }
   }
   return sheet.finish(make_title(map, robot, options.title), "clearance", widest);

@@ -6,6 +6,8 @@
 
 #include <mutex>
 
+#include "io/atomic_file.h"
+
 namespace rubble {
 
 TriangleMesh make_void_surface(const VoidSpace& space, const Void& v) {
@@ -32,8 +34,8 @@ TriangleMesh make_void_surface(const VoidSpace& space, const Void& v) {
   openvdb::tools::volumeToMesh(*grid, points, quads, 0.5);
   TriangleMesh mesh;
   for (const openvdb::Vec3s& p : points) {
-    mesh.positions.push_back(Vec3f(
-        space.grid.corner + Vec3{p.x() + 0.5, p.y() + 0.5, p.z() + 0.5} * space.grid.voxel));
+    mesh.positions.push_back(
+        Vec3f(space.grid.corner + Vec3{p.x() + 0.5, p.y() + 0.5, p.z() + 0.5} * space.grid.voxel));
   }
   // Values are high inside, so OpenVDB's faces look inwards: they are turned round.
   for (const openvdb::Vec4I& q : quads) {
@@ -41,6 +43,23 @@ TriangleMesh make_void_surface(const VoidSpace& space, const Void& v) {
     mesh.triangles.push_back({q[3], q[2], q[0]});
   }
   return mesh;
+}
+
+void write_ply(const std::string& path, const TriangleMesh& mesh) {
+  AtomicFile file(path);
+  file.write("ply\nformat binary_little_endian 1.0\nelement vertex " +
+             std::to_string(mesh.positions.size()) +
+             "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+             std::to_string(mesh.triangles.size()) +
+             "\nproperty list uchar uint vertex_indices\nend_header\n");
+  static_assert(sizeof(Vec3f) == 12, "three floats without padding");
+  file.write(mesh.positions.data(), mesh.positions.size() * sizeof(Vec3f));
+  for (const auto& t : mesh.triangles) {
+    const std::uint8_t corners = 3;
+    file.write(&corners, 1);
+    file.write(t.data(), sizeof t);
+  }
+  file.commit();
 }
 
 }  // namespace rubble

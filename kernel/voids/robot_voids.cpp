@@ -39,6 +39,7 @@ class Finder {
     assign_cells();
     find_depths();
     for (std::size_t i = 0; i < result_.voids.size(); ++i) describe(result_.voids[i], i);
+    drop_dents();
     for (Void& v : result_.voids) {
       v.volume = double(v.cells.size()) * space_.cell_volume();
       result_.volume += v.volume;
@@ -139,6 +140,15 @@ class Finder {
     const std::vector<std::uint32_t> openings = find_openings(v);
     group_entrances(v, openings);
     if (!openings.empty()) find_deepest(v, openings, std::uint32_t(number));
+  }
+
+  void drop_dents() {
+    auto& voids = result_.voids;
+    voids.erase(std::remove_if(voids.begin(), voids.end(),
+                               [&](const Void& v) {
+                                 return !v.entrances.empty() && v.path_length < 2 * result_.radius;
+                               }),
+                voids.end());
   }
 
   // Places from which one step leads outside without getting narrower than the robot.

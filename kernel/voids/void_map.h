@@ -3,7 +3,8 @@
 //   PileState --calc_void_space--> VoidSpace --find_voids--> VoidMap
 //
 // A robot is a ball. Its centre may be in a cell of the void whose clearance is at least its
-// radius; such cells that are connected make one void.
+// radius; such cells that are connected make one void. Dents, which the robot cannot enter by more
+// than its own diameter, are left out; sealed voids are not.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,49 @@
+// `rubble voids` on a settled pile.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "kernel/base/hash.h"
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Voids, MapsThePileOfARunTheSameEachTime) {
+  const ScratchFolder scratch;
+  ASSERT_EQ(run_rubble("settle scripts/small.lua --out " + (scratch / "a")).exit_code, 0);
+  const std::string map = "voids " + (scratch / "a") + " --voxel 0.05 --radius 0.1 --out ";
+  const Outcome first = run_rubble(map + (scratch / "b") + " --threads 1");
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_NE(first.out.find("0.100 m"), std::string::npos) << first.out;
+  ASSERT_EQ(run_rubble(map + (scratch / "c") + " --threads 2").exit_code, 0);
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(scratch / "b")) {
+    ++files;
+    EXPECT_EQ(sha256_of_file(entry.path().string()),
+              sha256_of_file(scratch / "c/" + entry.path().filename().string()))
+        << entry.path().filename();
+  }
+  EXPECT_GE(files, 4);
+  const auto json = nlohmann::json::parse(read_file(fs::path(scratch / "b") / "voids.json"));
+  EXPECT_GT(json["solid_volume"].get<double>(), 0.1);
+  EXPECT_EQ(json["robots"][0]["radius"], 0.1);
+}
+
+TEST(Voids, RefusesWhatMemoryWouldNotHoldAndFoldersWithoutARun) {
+  const ScratchFolder scratch;
+  ASSERT_EQ(run_rubble("settle scripts/small.lua --out " + (scratch / "a")).exit_code, 0);
+  const Outcome large = run_rubble("voids " + (scratch / "a") + " --voxel 0.002 --memory 0.1");
+  EXPECT_EQ(large.exit_code, 1);
+  EXPECT_NE(large.err.find("use voxels of"), std::string::npos) << large.err;
+  EXPECT_FALSE(fs::exists(scratch / "a/voids"));
+  const Outcome none = run_rubble("voids " + (scratch / "nowhere"));
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_NE(none.err.find("no such folder"), std::string::npos) << none.err;
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "kernel/base/parallel.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "render/light_packing.h"
 #include "render/looks.h"
-#include "render/parallel.h"
 #include "render/ray_scene.h"
 #include "render/tile_noise.h"
 

@@ -3,8 +3,8 @@
 #include <cstring>
 
 #include "kernel/base/error.h"
+#include "kernel/base/parallel.h"
 #include "kernel/base/random.h"
-#include "render/parallel.h"
 
 namespace rubble {
 

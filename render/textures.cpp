@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/parallel.h"
+#include "kernel/base/parallel.h"
 #include "render/tile_noise.h"
 
 namespace rubble {

@@ -1,11 +1,16 @@
-// A few worker threads for loops whose iterations are independent of each other.
+// Work that threads share: a pool for loops that come again and again, and one-off loops.
 //
 // Every iteration writes to its own slots only, so results do not depend on the thread count or on
 // which thread takes which part.
 #pragma once
 
+#include <atomic>
+#include <cstddef>
+#include <exception>
 #include <functional>
 #include <memory>
+#include <thread>
+#include <vector>
 
 namespace rubble {
 
@@ -26,5 +31,28 @@ class ThreadPool {
   struct Shared;
   std::unique_ptr<Shared> shared_;
 };
+
+// Calls job(i) once for each i in [0, count), on `threads` threads of its own (at least one): for
+// long jobs, which may throw. The first exception in order of index is thrown again.
+template <typename Job>
+void parallel_for(std::size_t count, int threads, const Job& job) {
+  std::atomic<std::size_t> next{0};
+  std::vector<std::exception_ptr> failures(count);
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        job(i);
+      } catch (...) {
+        failures[i] = std::current_exception();
+      }
+    }
+  };
+  std::vector<std::thread> helpers;
+  for (int t = 1; t < threads && std::size_t(t) < count; ++t) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
 
 }  // namespace rubble

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "render/parallel.h"
+#include "kernel/base/parallel.h"
 
 namespace rubble {
 

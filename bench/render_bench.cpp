@@ -1,0 +1,159 @@
+// render_bench: how fast frames of the standard views come, and where the time goes.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bench/program.h"
+#include "bench/render_views.h"
+#include "render/gl_context.h"
+#include "render/renderer.h"
+
+namespace rubble {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Request {
+  std::vector<std::string> views;
+  std::vector<int> sizes = {1024, 512};
+  int frames = 30;
+  int threads = 0;
+  int device = -1;
+  bool csv = false;
+  std::string pictures;
+};
+
+double since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+// What was measured of each frame; unit: ms, but for the triangles.
+struct Series {
+  std::vector<double> total, visibility, resolve, read, finish, triangles;
+
+  void add(double ms, const RenderTimes& t) {
+    total.push_back(ms), visibility.push_back(t.visibility), resolve.push_back(t.resolve);
+    read.push_back(t.read), finish.push_back(t.finish), triangles.push_back(double(t.triangles));
+  }
+};
+
+void print(const Request& request, const char* view, int size, const Series& s) {
+  const double middle = median(s.total), least = *std::min_element(s.total.begin(), s.total.end());
+  if (request.csv) {
+    std::printf("%s,%d,%zu,%.2f,%.2f,%.2f\n", view, size, s.total.size(), middle, least,
+                1000 / middle);
+  } else {
+    std::printf("%-13s %5d %8.1f %8.1f %7.1f %11.1f %8.1f %6.1f %7.1f %10.0f\n", view, size, middle,
+                least, 1000 / middle, median(s.visibility), median(s.resolve), median(s.read),
+                median(s.finish), median(s.triangles));
+  }
+  std::fflush(stdout);
+}
+
+void write_ppm(const std::string& path, const Frame& frame) {
+  std::ofstream out(path, std::ios::binary);
+  out << "P6\n" << frame.intrinsics.width << " " << frame.intrinsics.height << "\n255\n";
+  out.write(reinterpret_cast<const char*>(frame.rgb.data()), std::streamsize(frame.rgb.size()));
+}
+
+Series fly(Renderer& renderer, const BenchView& view, int size, const Request& request) {
+  constexpr int kWarm = 3;  // exposure, history of what shows, pages of memory
+  const Intrinsics camera = bench_camera(size);
+  const std::vector<Pose> poses = view.path(request.frames + kWarm);
+  Series series;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto start = Clock::now();
+    const Frame frame =
+        renderer.render(poses[i], camera, int(i), 1000000000LL + std::int64_t(i) * 33333333);
+    if (i >= kWarm) series.add(since(start), renderer.times());
+    if (i + 1 == poses.size() && !request.pictures.empty())
+      write_ppm(request.pictures + view.name + "_" + std::to_string(size) + ".ppm", frame);
+  }
+  return series;
+}
+
+void print_head(const Request& request, const GlContext& context, double load_ms, double ready_ms) {
+  if (request.csv) {
+    std::printf("view,size,frames,median_ms,min_ms,fps\n");
+    return;
+  }
+  std::printf("%s, %s; scene loaded in %.2f s, lit in %.2f s\n", context.info().renderer.c_str(),
+              context.info().egl_device.c_str(), load_ms / 1000, ready_ms / 1000);
+  std::printf("%-13s %5s %8s %8s %7s %11s %8s %6s %7s %10s\n", "view", "size", "median", "min",
+              "frame/s", "visibility", "resolve", "read", "finish", "triangles");
+}
+
+ExitCode bench(const Request& request) {
+  namespace fs = std::filesystem;
+  const int threads =
+      request.threads > 0 ? request.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+  const fs::path program = fs::read_symlink("/proc/self/exe");
+  const auto start = Clock::now();
+  const Scene scene = load_bench_scene((program.parent_path() / "render_views.lua").string(),
+                                       threads, [](const char* line) {
+                                         std::fprintf(stderr, "render_bench: %s\n", line);
+                                       });
+  const double load_ms = since(start);
+  GlContext context({request.device, threads});
+  RenderOptions options;
+  options.threads = threads;
+  const auto light = Clock::now();
+  Renderer renderer(context, scene, options);
+  print_head(request, context, load_ms, since(light));
+  for (const BenchView& view : bench_views()) {
+    const auto& wanted = request.views;
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), view.name) == wanted.end())
+      continue;
+    for (const int size : request.sizes)
+      print(request, view.name, size, fly(renderer, view, size, request));
+  }
+  return ExitCode::done;
+}
+
+ExitCode run(int argc, char** argv) {
+  CLI::App app{
+      "Draws the standard views of a settled pile of 3,750 pieces, colour and depth, read-back "
+      "included, and prints times in ms: the median and the least frame, and the medians by pass."};
+  Request request;
+  std::vector<std::string> names;
+  for (const BenchView& view : bench_views()) names.push_back(view.name);
+  app.add_option("--view", request.views, "Only this view; may be repeated")
+      ->check(CLI::IsMember(names));
+  app.add_option("--size", request.sizes, "Side of the square image; may be repeated")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  app.add_option("--frames", request.frames, "Frames of each view")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  app.add_option("--threads", request.threads, "0: all processors")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_option("--gl-device", request.device, "Number of the EGL device; -1: the first that works")
+      ->capture_default_str();
+  app.add_option("--pictures", request.pictures, "Also write each view's last frame, PREFIXview.ppm");
+  app.add_flag("--csv", request.csv, "Lines view,size,frames,median_ms,min_ms,fps");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
+  }
+  return bench(request);
+}
+
+}  // namespace
+}  // namespace rubble
+
+int main(int argc, char** argv) {
+  return rubble::run_program("render_bench", [=] { return rubble::run(argc, argv); });
+}

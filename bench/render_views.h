@@ -1,0 +1,26 @@
+// The scene and the camera paths of render_bench.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/frame.h"
+#include "render/scene.h"
+
+namespace rubble {
+
+// bench/render_views.lua, settled. The settled pile is kept in the disk cache. `report` gets lines
+// about what takes long.
+Scene load_bench_scene(const std::string& mission, int threads, void (*report)(const char*));
+
+struct BenchView {
+  const char* name;
+  // Poses of a slow flight at 30 Hz.
+  std::vector<Pose> (*path)(int frames);
+};
+const std::vector<BenchView>& bench_views();
+
+// 80 degrees wide.
+Intrinsics bench_camera(int size);
+
+}  // namespace rubble

@@ -1,0 +1,35 @@
+-- What render_bench draws: 3,750 pieces over a lean-to void, with lamp, fog and a sun.
+local mix = {
+  { asset = "slab_1", weight = 1.5 }, { asset = "slab_2", weight = 1.5 }, { asset = "slab_3" },
+  { asset = "slab_4" }, { asset = "slab_5", weight = 1.5 },
+  { asset = "chunk_1", weight = 3 }, { asset = "chunk_2", weight = 3 },
+  { asset = "chunk_3", weight = 3 }, { asset = "chunk_4", weight = 4 },
+  { asset = "chunk_5", weight = 3 }, { asset = "chunk_6", weight = 4 },
+  { asset = "cinder_block", weight = 3 }, { asset = "half_cinder_block", weight = 2 },
+  { asset = "broken_cinder_block", weight = 3 },
+  { asset = "brick", weight = 5 }, { asset = "worn_brick", weight = 4 },
+  { asset = "half_brick", weight = 4 },
+  { asset = "beam", weight = 0.5 }, { asset = "column", weight = 0.5 },
+  { asset = "pipe_shard", weight = 0.5 },
+  { asset = "rebar_straight" }, { asset = "rebar_bent" }, { asset = "rebar_hook" },
+}
+local placed = {
+  { asset = "wall_stub", position = { -3.05, -1.32, 0.7 } },
+  { asset = "wall_stub", position = { 0.0, -1.3, 0.7 } },
+  { asset = "wall_stub", position = { 3.05, -1.28, 0.7 }, rpy_deg = { 3, 0, -1 } },
+  { asset = "wall_stub", position = { 4.75, 0.3, 0.7 }, rpy_deg = { 0, 0, 90 } },
+  { asset = "floor_slab", position = { -2.15, -0.12, 0.68 }, rpy_deg = { -27.3, 0, 1 } },
+  { asset = "floor_slab", position = { 2.1, -0.08, 0.69 }, rpy_deg = { -26.8, 0.5, -1 } },
+}
+return rubble.mission {
+  seed = 1,
+  pile = {
+    layers = 15, pieces_per_layer = 250,
+    spawn_position = { 1.2, 0.3, 7 }, spawn_bounds = { 10, 8, 8 },
+    mix = mix, placed = placed,
+  },
+  settle = { schedule = "planes" },
+  light = { type = "directional", intensity = 80, rpy_deg = { 0, 38, 40 } },
+  air = { fog_density = 0.04 },
+  lamp = { on = true, intensity_cd = 60 },
+}

@@ -9,6 +9,7 @@
 #include "app/stop.h"
 #include "io/atomic_file.h"
 #include "io/recording_queue.h"
+#include "kernel/base/disk_cache.h"
 #include "kernel/base/hash.h"
 #include "render/gl_context.h"
 #include "render/renderer.h"
@@ -45,6 +46,7 @@ void note_environment(Run& run, const GlInfo& info) {
 Renderer prepare_renderer(Run& run, GlContext& context) {
   RenderOptions options;
   options.threads = run.threads();
+  options.cache_folder = DiskCache::usual_folder();
   return Renderer(context, build_scene(run.scenario, run.assets, run.pile), options,
                   [&](double fraction) { run.progress.update(fraction, "light"); });
 }

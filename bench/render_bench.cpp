@@ -11,6 +11,7 @@
 
 #include "bench/program.h"
 #include "bench/render_views.h"
+#include "kernel/base/disk_cache.h"
 #include "render/gl_context.h"
 #include "render/renderer.h"
 
@@ -108,6 +109,7 @@ ExitCode bench(const Request& request) {
   GlContext context({request.device, threads});
   RenderOptions options;
   options.threads = threads;
+  options.cache_folder = DiskCache::usual_folder();
   const auto light = Clock::now();
   Renderer renderer(context, scene, options);
   print_head(request, context, load_ms, since(light));

@@ -64,23 +64,28 @@ Vec3f times(const Vec3f& a, const Vec3f& b) { return {a.x * b.x, a.y * b.y, a.z 
 
 }  // namespace
 
-std::vector<BakedLight> open_sky_light(const PreparedScene& scene, const LightModel& light) {
+BakedScene open_sky_light(const PreparedScene& scene, const LightModel& light) {
   // A dome of the mean of zenith and horizon gives pi L to a level face, half that to a wall.
   const Vec3f radiance = (light.sky.zenith + light.sky.horizon) * 0.5f;
-  std::vector<BakedLight> out;
-  out.reserve(scene.light_vertices);
+  BakedScene out;
+  out.air.size = {1, 1, 1};
+  out.air.radiance = {radiance * 0.5f};
+  out.vertices.reserve(scene.light_vertices);
   for (const PlacedMesh& piece : scene.placed) {
     for (const PreparedVertex& v : scene.meshes[piece.mesh].vertices) {
       const Vec3f n(piece.world_from_mesh.rotation.rotate(Vec3(v.normal)));
       const float e = kPi * luminance(radiance) * (0.55f + 0.45f * n.z);
-      out.push_back(pack_light(n * e, radiance));
+      out.vertices.push_back(pack_light(n * e, radiance));
     }
   }
   return out;
 }
 
-struct Baker::State {
-  State(const PreparedScene& s, const LightModel& l, const BakeOptions& o)
+namespace {
+
+// The pieces as a ray caster sees them, with the light on them.
+struct Baker {
+  Baker(const PreparedScene& s, const LightModel& l, const BakeOptions& o)
       : scene(s), light(l), options(o), rays(s), directions(cosine_directions(o.rays)) {}
 
   const PreparedScene& scene;
@@ -98,18 +103,27 @@ struct Baker::State {
   std::vector<Vec3f> direct, indirect, vector;  // one a point; klx
   std::vector<Vec3f> radiosity;                 // one a triangle of `rays`, over pi: kcd/m2
 
+  void run(const std::function<void(double)>& progress);
+  std::vector<BakedLight> vertex_light() const;
+  AirLight air_light() const;
+
+  struct Basis {
+    Vec3f x, y, z;
+    Vec3f operator*(const Vec3f& d) const { return x * d.x + y * d.y + z * d.z; }
+  };
   void list_points();
   void list_triangles();
-  Vec3f direction_of(std::size_t point, std::size_t ray) const;
+  Basis basis_of(std::size_t point) const;  // its directions about its normal
   void trace(std::size_t point);
   void gather(std::size_t point);
   void update_radiosity();
   void darken_invalid();
   void find_open_points();
   void smooth(std::size_t piece, std::vector<Vec3f>& colours, std::vector<Vec3f>& vectors) const;
+  bool air_radiance(const Vec3f& point, Vec3f& mean) const;
 };
 
-void Baker::State::list_points() {
+void Baker::list_points() {
   for (const PlacedMesh& piece : scene.placed) {
     first_point.push_back(std::uint32_t(points.size()));
     for (const BakePoint& p : scene.meshes[piece.mesh].bake_points)
@@ -123,7 +137,7 @@ void Baker::State::list_points() {
   vector.resize(points.size());
 }
 
-void Baker::State::list_triangles() {
+void Baker::list_triangles() {
   const std::vector<Look>& looks = all_looks();
   for (const RayScene::Triangle& t : rays.triangles()) {
     const PreparedMesh& mesh = scene.meshes[scene.placed[t.placed].mesh];
@@ -135,21 +149,22 @@ void Baker::State::list_triangles() {
   radiosity.resize(triangle_point.size());
 }
 
-Vec3f Baker::State::direction_of(std::size_t point, std::size_t ray) const {
-  Vec3f x, y;
+Baker::Basis Baker::basis_of(std::size_t point) const {
+  Basis basis;
+  basis.z = points[point].normal;
   const float turn = lattice_value(int(point), int(point >> 31), std::uint32_t(options.seed));
-  basis_about(points[point].normal, turn, x, y);
-  const Vec3f& d = directions[ray];
-  return x * d.x + y * d.y + points[point].normal * d.z;
+  basis_about(basis.z, turn, basis.x, basis.y);
+  return basis;
 }
 
-void Baker::State::trace(std::size_t i) {
+void Baker::trace(std::size_t i) {
   const Point& p = points[i];
   const Vec3f from = p.position + p.normal * kLift;
   const std::size_t count = directions.size();
   std::size_t inside = 0;
+  const Basis basis = basis_of(i);
   for (std::size_t r = 0; r < count; ++r) {
-    const RayScene::Hit hit = rays.cast(from, direction_of(i, r), 0.0005f, kFarthest);
+    const RayScene::Hit hit = rays.cast(from, basis * directions[r], 0.0005f, kFarthest);
     std::uint32_t code = hit.triangle == RayScene::kNone ? kSky : hit.triangle;
     if (hit.triangle != RayScene::kNone && hit.back) code = kInside, ++inside;
     hits[i * count + r] = code;
@@ -165,13 +180,14 @@ void Baker::State::trace(std::size_t i) {
 
 // Illuminance E = pi / N sum L, and the vector V with E(n') = dot(n', V) for normals near n:
 // V = pi / N sum L w / (n.w), its length kept in check where w grazes the surface.
-void Baker::State::gather(std::size_t i) {
+void Baker::gather(std::size_t i) {
   Vec3f sum, direction;
   const std::size_t count = directions.size();
+  const Basis basis = basis_of(i);
   for (std::size_t r = 0; r < count; ++r) {
     const std::uint32_t code = hits[i * count + r];
     if (code == kInside) continue;
-    const Vec3f w = direction_of(i, r);
+    const Vec3f w = basis * directions[r];
     const Vec3f l = code == kSky ? paler(light.sky.radiance(w)) : radiosity[code];
     sum += l;
     direction += w * (luminance(l) / std::max(directions[r].z, 0.35f));
@@ -184,7 +200,7 @@ void Baker::State::gather(std::size_t i) {
   vector[i] = direction * scale + points[i].normal * (want - along);
 }
 
-void Baker::State::update_radiosity() {
+void Baker::update_radiosity() {
   for (std::size_t t = 0; t < radiosity.size(); ++t) {
     const std::uint32_t p = triangle_point[t];
     radiosity[t] = times(triangle_albedo[t], direct[p] + indirect[p]) * (1 / kPi);
@@ -193,7 +209,7 @@ void Baker::State::update_radiosity() {
 
 // A point inside a neighbour takes a part of what the nearest open point of its own piece and side
 // gets: it is dark around a contact.
-void Baker::State::darken_invalid() {
+void Baker::darken_invalid() {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (valid[i]) continue;
     const bool lit = open_point[i] != kNone;
@@ -202,7 +218,7 @@ void Baker::State::darken_invalid() {
   }
 }
 
-void Baker::State::find_open_points() {
+void Baker::find_open_points() {
   open_point.assign(points.size(), kNone);
   parallel_for(scene.placed.size(), options.threads, [&](std::size_t piece) {
     const std::size_t first = first_point[piece];
@@ -220,7 +236,7 @@ void Baker::State::find_open_points() {
 }
 
 // Few rays leave noise from point to point: each takes in those around it on the same side.
-void Baker::State::smooth(std::size_t piece, std::vector<Vec3f>& colours,
+void Baker::smooth(std::size_t piece, std::vector<Vec3f>& colours,
                           std::vector<Vec3f>& vectors) const {
   const std::size_t first = first_point[piece];
   const std::size_t count = scene.meshes[scene.placed[piece].mesh].bake_points.size();
@@ -242,90 +258,169 @@ void Baker::State::smooth(std::size_t piece, std::vector<Vec3f>& colours,
   }
 }
 
-Baker::Baker(const PreparedScene& scene, const LightModel& light, const BakeOptions& options,
-             const Progress& progress)
-    : state_(std::make_unique<State>(scene, light, options)) {
-  State& s = *state_;
-  s.list_points();
-  s.list_triangles();
-  const std::size_t jobs = (s.points.size() + kChunk - 1) / kChunk;
+void Baker::run(const std::function<void(double)>& progress) {
+  list_points();
+  list_triangles();
+  const std::size_t jobs = (points.size() + kChunk - 1) / kChunk;
   const auto over_points = [&](std::size_t first_job, std::size_t last_job, auto&& work) {
     parallel_for(last_job - first_job, options.threads, [&](std::size_t job) {
       const std::size_t first = (first_job + job) * kChunk;
-      for (std::size_t i = first; i < std::min(first + kChunk, s.points.size()); ++i) work(i);
+      for (std::size_t i = first; i < std::min(first + kChunk, points.size()); ++i) work(i);
     });
   };
   constexpr std::size_t kSlice = 64;  // jobs between two reports
   for (std::size_t job = 0; job < jobs; job += kSlice) {
-    over_points(job, std::min(job + kSlice, jobs), [&](std::size_t i) { s.trace(i); });
-    if (progress) progress(0.9 * double(std::min(job + kSlice, jobs)) / double(jobs));
+    over_points(job, std::min(job + kSlice, jobs), [&](std::size_t i) { trace(i); });
+    if (progress) progress(0.8 * double(std::min(job + kSlice, jobs)) / double(jobs));
   }
-  s.find_open_points();
+  find_open_points();
   for (int bounce = 0; bounce < options.bounces; ++bounce) {
-    s.update_radiosity();
-    over_points(0, jobs, [&](std::size_t i) { s.gather(i); });
-    s.darken_invalid();
+    update_radiosity();
+    over_points(0, jobs, [&](std::size_t i) { gather(i); });
+    darken_invalid();
   }
-  std::vector<Vec3f> colours = s.indirect, vectors = s.vector;
+  std::vector<Vec3f> colours = indirect, vectors = vector;
   parallel_for(scene.placed.size(), options.threads,
-               [&](std::size_t piece) { s.smooth(piece, colours, vectors); });
-  s.indirect.swap(colours), s.vector.swap(vectors);
-  s.update_radiosity();
-  s.hits.clear();
-  s.hits.shrink_to_fit();
-  if (progress) progress(1);
+               [&](std::size_t piece) { smooth(piece, colours, vectors); });
+  indirect.swap(colours), vector.swap(vectors);
+  update_radiosity();
+  hits.clear();
+  hits.shrink_to_fit();
+  if (progress) progress(0.9);
 }
 
-Baker::~Baker() = default;
-
 std::vector<BakedLight> Baker::vertex_light() const {
-  const State& s = *state_;
-  std::vector<BakedLight> out(s.scene.light_vertices);
-  parallel_for(s.scene.placed.size(), s.options.threads, [&](std::size_t i) {
-    const PlacedMesh& piece = s.scene.placed[i];
-    const PreparedMesh& mesh = s.scene.meshes[piece.mesh];
+  std::vector<BakedLight> out(scene.light_vertices);
+  parallel_for(scene.placed.size(), options.threads, [&](std::size_t i) {
+    const PlacedMesh& piece = scene.placed[i];
+    const PreparedMesh& mesh = scene.meshes[piece.mesh];
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       // Directions and colours are mixed as they are; brightness as its logarithm, so that one
       // bright point behind an edge does not outshine three dark ones.
-      Vec3f vector, colour;
+      Vec3f along, colour;
       float logarithm = 0, mean = 0;
       for (std::size_t k = 0; k < 4; ++k) {
         const float w = mesh.vertices[v].bake_weights[k];
-        const std::size_t p = s.first_point[i] + mesh.vertices[v].bake_points[k];
-        const float bright = luminance(s.indirect[p]);
-        vector += s.vector[p] * w;
-        colour += s.indirect[p] * w;
+        const std::size_t p = first_point[i] + mesh.vertices[v].bake_points[k];
+        const float bright = luminance(indirect[p]);
+        along += vector[p] * w;
+        colour += indirect[p] * w;
         mean += w * bright;
         logarithm += w * std::log2(bright + kDarkest);
       }
-      if (mean > 0) vector *= std::exp2(logarithm) / (mean + kDarkest);
-      out[piece.first_light + v] = pack_light(vector, colour);
+      if (mean > 0) along *= std::exp2(logarithm) / (mean + kDarkest);
+      out[piece.first_light + v] = pack_light(along, colour);
     }
   });
   return out;
 }
 
-Vec3f Baker::air_radiance(const Vec3f& point) const {
-  const State& s = *state_;
-  constexpr int kRays = 96;
+// False where the point lies inside a piece.
+bool Baker::air_radiance(const Vec3f& point, Vec3f& mean) const {
+  constexpr int kRays = 64;
   Vec3f sum;
+  int inside = 0;
   for (int i = 0; i < kRays; ++i) {
     const double z = 1 - (2 * i + 1.0) / kRays, turn = i * 0.6180339887498949;
     const portable::SinCos a = portable::sincos(2 * portable::kPi * (turn - std::floor(turn)));
     const double r = std::sqrt(1 - z * z);
     const Vec3f w(float(r * a.cos), float(r * a.sin), float(z));
-    const RayScene::Hit hit = s.rays.cast(point, w, 0, kFarthest);
+    const RayScene::Hit hit = rays.cast(point, w, 0, kFarthest);
     if (hit.triangle == RayScene::kNone)
-      sum += s.light.sky.radiance(w);
-    else if (!hit.back)
-      sum += s.radiosity[hit.triangle];
+      sum += light.sky.radiance(w);
+    else if (hit.back)
+      ++inside;
+    else
+      sum += radiosity[hit.triangle];
   }
-  Vec3f mean = sum * (1.0f / kRays);
+  if (inside > kRays / 4) return false;
+  mean = sum * (1.0f / kRays);
   // The main light itself, scattered evenly.
-  const LightModel::Sample sample = s.light.at(point);
-  if (!s.rays.blocked(point, sample.to_light, 0, std::min(sample.distance * 0.999f, kFarthest)))
+  const LightModel::Sample sample = light.at(point);
+  if (!rays.blocked(point, sample.to_light, 0, std::min(sample.distance * 0.999f, kFarthest)))
     mean += sample.illuminance * (1 / (4 * kPi));
-  return mean;
+  return true;
+}
+
+// Points inside pieces take the mean of their neighbours outside, ring by ring.
+void fill_inside(AirLight& air, std::vector<std::uint8_t>& known) {
+  const auto [nx, ny, nz] = air.size;
+  const std::ptrdiff_t steps[6] = {-1, 1, -nx, nx, -nx * ny, nx * ny};
+  for (bool changed = true; changed;) {
+    changed = false;
+    const std::vector<std::uint8_t> before = known;
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (before[i]) continue;
+      const int x = int(i) % nx, y = int(i) / nx % ny, z = int(i) / (nx * ny);
+      const bool there[6] = {x > 0, x + 1 < nx, y > 0, y + 1 < ny, z > 0, z + 1 < nz};
+      Vec3f sum;
+      float count = 0;
+      for (int k = 0; k < 6; ++k) {
+        const std::size_t j = std::size_t(std::ptrdiff_t(i) + steps[k]);
+        if (there[k] && before[j]) sum += air.radiance[j], count += 1;
+      }
+      if (count > 0) air.radiance[i] = sum * (1 / count), known[i] = 1, changed = true;
+    }
+  }
+}
+
+AirLight Baker::air_light() const {
+  constexpr double kMargin = 1.5, kCell = 0.4;  // unit: m
+  constexpr int kMost = 48;                     // points along an axis
+  Aabb box = scene.bounds;
+  if (box.empty()) box.include({0, 0, 1});
+  AirLight air;
+  const Vec3 low = box.min - Vec3(kMargin, kMargin, 0), high = box.max + Vec3(1, 1, 1) * kMargin;
+  air.origin = Vec3f(float(low.x), float(low.y), std::max(float(low.z), 0.05f));
+  for (int i = 0; i < 3; ++i) {
+    const float length = std::max(float(high[i]) - air.origin[i], 0.1f);
+    air.size[std::size_t(i)] = std::clamp(int(std::ceil(length / kCell)) + 1, 2, kMost);
+    air.cell[i] = length / float(air.size[std::size_t(i)] - 1);
+  }
+  const auto [nx, ny, nz] = air.size;
+  air.radiance.resize(std::size_t(nx) * std::size_t(ny) * std::size_t(nz));
+  std::vector<std::uint8_t> known(air.radiance.size());
+  parallel_for(std::size_t(ny * nz), options.threads, [&, row = nx, rows = ny](std::size_t job) {
+    for (int x = 0; x < row; ++x) {
+      const std::size_t i = job * std::size_t(row) + std::size_t(x);
+      const Vec3f step(float(x), float(int(job) % rows), float(int(job) / rows));
+      known[i] = air_radiance(air.origin + times(air.cell, step), air.radiance[i]);
+    }
+  });
+  fill_inside(air, known);
+  return air;
+}
+
+}  // namespace
+
+Vec3f AirLight::at(const Vec3f& point) const {
+  if (radiance.size() == 1) return radiance.front();
+  int low[3];
+  float part[3];
+  for (int i = 0; i < 3; ++i) {
+    const float most = float(size[std::size_t(i)] - 1);
+    const float at = std::clamp((point[i] - origin[i]) / cell[i], 0.0f, most);
+    low[i] = std::min(int(at), int(most) - 1);
+    part[i] = at - float(low[i]);
+  }
+  const auto [nx, ny, nz] = size;
+  const Vec3f* corner = radiance.data() + (low[2] * ny + low[1]) * nx + low[0];
+  const auto row = [&](const Vec3f* p) { return p[0] + (p[1] - p[0]) * part[0]; };
+  const auto layer = [&](const Vec3f* p) {
+    const Vec3f a = row(p);
+    return a + (row(p + size[0]) - a) * part[1];
+  };
+  const Vec3f bottom = layer(corner);
+  return bottom + (layer(corner + size[0] * size[1]) - bottom) * part[2];
+}
+
+BakedScene bake_light(const PreparedScene& scene, const LightModel& light,
+                      const BakeOptions& options, const std::function<void(double)>& progress) {
+  Baker baker(scene, light, options);
+  baker.run(progress);
+  BakedScene out{baker.vertex_light(), baker.air_light()};
+  if (progress) progress(1);
+  return out;
 }
 
 }  // namespace rubble

@@ -1,11 +1,12 @@
 // Light that arrives by way of the sky and other surfaces, computed once by ray casting (Embree).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <vector>
 
+#include "kernel/base/disk_cache.h"
 #include "render/geometry.h"
 #include "render/lighting.h"
 
@@ -18,27 +19,30 @@ struct BakeOptions {
   std::uint64_t seed = 0;
 };
 
-// Every vertex as if nothing stood around it: the sky alone.
-std::vector<BakedLight> open_sky_light(const PreparedScene& scene, const LightModel& light);
+// Light scattered in the air, on a grid over the pieces and a little around them.
+struct AirLight {
+  Vec3f origin, cell;                  // of grid point (0, 0, 0), and from point to point; unit: m
+  std::array<std::int32_t, 3> size{};  // points along x, y and z
+  std::vector<Vec3f> radiance;         // mean over all directions; unit: kcd/m2; x runs fastest
 
-// The pieces as a ray caster sees them, with the light on them.
-class Baker {
- public:
-  // Called with the done fraction, on the calling thread.
-  using Progress = std::function<void(double)>;
-
-  Baker(const PreparedScene& scene, const LightModel& light, const BakeOptions& options,
-        const Progress& progress);
-  ~Baker();
-
-  // One entry a vertex of each placed mesh, in the order of first_light.
-  std::vector<BakedLight> vertex_light() const;
-  // Mean radiance from all directions at a point in the air; unit: kcd/m2.
-  Vec3f air_radiance(const Vec3f& point) const;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
+  Vec3f at(const Vec3f& point) const;  // between points, or of the border's nearest outside
 };
+
+struct BakedScene {
+  std::vector<BakedLight> vertices;  // one a vertex of each placed mesh, in the order of first_light
+  AirLight air;
+};
+
+// Every vertex and all air as if nothing stood around: the sky alone.
+BakedScene open_sky_light(const PreparedScene& scene, const LightModel& light);
+
+// progress: called with the done fraction, on the calling thread.
+BakedScene bake_light(const PreparedScene& scene, const LightModel& light,
+                      const BakeOptions& options, const std::function<void(double)>& progress);
+
+// The same by way of the disk cache: made only if it is not there.
+BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene,
+                           const LightModel& light, const BakeOptions& options,
+                           const std::function<void(double)>& progress);
 
 }  // namespace rubble

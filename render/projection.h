@@ -5,9 +5,7 @@
 //   clip.x = (2 fx/W) X + ((2 cx + 1)/W - 1) Z,  clip.y = (2 fy/H) Y + ((2 cy + 1)/H - 1) Z,
 //   clip.z = near,  clip.w = Z
 // with clip space of depth 0 to 1. The depth buffer then holds near / Z (reversed, no far plane),
-// whose relative error is that of a float at every distance. One limit: a single triangle that
-// comes within 0.1 m of the camera and reaches past 8 m is interpolated with errors up to 0.2 mm
-// there.
+// whose relative error is that of a float at every distance.
 #pragma once
 
 #include <array>

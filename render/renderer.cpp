@@ -54,6 +54,13 @@ std::vector<float> distances_of(const std::vector<float>& depth, const Intrinsic
   return out;
 }
 
+bool draws_on_processor(const RenderOptions& options, const GlInfo& info) {
+  if (options.raster != RasterChoice::automatic) return options.raster == RasterChoice::processor;
+  for (const char* software : {"llvmpipe", "softpipe", "swrast"})
+    if (info.renderer.find(software) != std::string::npos) return true;
+  return false;
+}
+
 }  // namespace
 
 struct Renderer::State {
@@ -64,7 +71,7 @@ struct Renderer::State {
   RenderOptions options;
   PreparedScene scene;
   LightModel light;
-  std::unique_ptr<Baker> baker;  // kept while fog asks for the light in the air
+  AirLight air_light;
   GpuGeometry geometry;
   ShadowMap shadow;
   FrameLight frame_light;
@@ -92,26 +99,28 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
     if (progress) progress(fraction);
   };
   report(0.05);
-  const std::vector<PatternImage> patterns = make_patterns(o.texture_size, o.threads);
+  const DiskCache cache(o.cache_folder);
+  const std::vector<PatternImage> patterns = make_patterns_once(cache, o.texture_size, o.threads);
   report(0.15);
-  std::vector<BakedLight> baked;
+  BakedScene baked;
   if (o.bake) {
     BakeOptions bake;
     bake.threads = o.threads;
     bake.rays = o.bake_rays;
     bake.seed = s.seed;
-    baker = std::make_unique<Baker>(scene, light, bake, [&](double f) { report(0.15 + 0.7 * f); });
-    baked = baker->vertex_light();
-    if (s.air.fog_density <= 0) baker.reset();
+    baked = bake_light_once(cache, scene, light, bake, [&](double f) { report(0.15 + 0.7 * f); });
   } else {
     baked = open_sky_light(scene, light);
   }
-  geometry = upload_geometry(gl, scene, baked);
+  air_light = std::move(baked.air);
+  geometry = upload_geometry(gl, scene, baked.vertices);
   report(0.9);
   shadow = draw_shadow_map(gl, scene, geometry, light, o.shadow_size);
   frame_light = {&light, &shadow, s.lamp, s.air, {}};
   visibility = std::make_unique<VisibilityPass>(
-      gl, scene, geometry, VisibilityOptions{o.occlusion_culling, o.coarse_below});
+      gl, scene, geometry,
+      VisibilityOptions{o.occlusion_culling, o.coarse_below, draws_on_processor(o, c.info()),
+                        o.threads});
   resolve = std::make_unique<ResolvePass>(gl, geometry, frame_light, patterns);
   truth = std::make_unique<TruthMaker>(scene, geometry, o.threads);
   report(1);
@@ -119,8 +128,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
 
 void Renderer::State::update_air(const Pose& world_from_camera) {
   if (frame_light.air.fog_density <= 0) return;
-  frame_light.air_ambient = baker ? baker->air_radiance(Vec3f(world_from_camera.translation))
-                                  : (light.sky.zenith + light.sky.horizon) * 0.25f;
+  frame_light.air_ambient = air_light.at(Vec3f(world_from_camera.translation));
 }
 
 void Renderer::State::draw_colour(const ViewProjection& view, const Pose& pose) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "render/camera_spec.h"
@@ -14,12 +15,19 @@
 
 namespace rubble {
 
+// Who draws the triangles, see passes/triangle_raster.h. automatic: the graphics device, unless it
+// is a software driver.
+enum class RasterChoice { automatic, device, processor };
+
 struct RenderOptions {
+  // Where textures and baked light are kept from run to run, see DiskCache; "": nowhere.
+  std::string cache_folder;
   int threads = 1;         // for preparing and baking; the result does not depend on it
   bool bake = true;        // light by way of the sky and other surfaces; false: open sky everywhere
   int bake_rays = 64;      // a bake point; range: 8 to 1024
   int shadow_size = 4096;  // side of the main light's shadow map; unit: texel
   int texture_size = 512;  // side of the procedural textures; a power of two
+  RasterChoice raster = RasterChoice::automatic;
   bool occlusion_culling = true;
   double coarse_below = 0;    // allow coarser levels for triangles about this small; unit: pixel;
                               // 0: the finest always, so that depth is that of the true surface

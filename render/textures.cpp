@@ -245,4 +245,25 @@ std::vector<PatternImage> make_patterns(int size, int threads) {
   return images;
 }
 
+std::vector<PatternImage> make_patterns_once(const DiskCache& cache, int size, int threads) {
+  constexpr int kVersion = 1;  // raise it when a pattern changes
+  const std::string key = CacheKey("make_patterns", kVersion).add(size).hex();
+  if (const auto bytes = cache.find("textures", key)) {
+    std::vector<PatternImage> images(kPatternCount);
+    CacheReader reader(*bytes);
+    bool good = true;
+    for (PatternImage& image : images) {
+      image.size = size;
+      reader.get(image.texels);
+      good = good && image.texels.size() == std::size_t(size) * std::size_t(size) * 4;
+    }
+    if (good && reader.whole()) return images;
+  }
+  std::vector<PatternImage> images = make_patterns(size, threads);
+  CacheWriter writer;
+  for (const PatternImage& image : images) writer.put(image.texels);
+  cache.store("textures", key, writer.bytes());
+  return images;
+}
+
 }  // namespace rubble

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/base/disk_cache.h"
 #include "render/looks.h"
 
 namespace rubble {
@@ -20,5 +21,7 @@ PatternImage make_pattern(Pattern pattern, int size);
 
 // One image a pattern, in the order of Pattern, made by `threads` threads.
 std::vector<PatternImage> make_patterns(int size, int threads);
+// The same by way of the disk cache.
+std::vector<PatternImage> make_patterns_once(const DiskCache& cache, int size, int threads);
 
 }  // namespace rubble

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/error.h"
-#include "render/passes/visibility_pass.h"
+#include "render/passes/draw_list.h"
 #include "render/shader.h"
 
 namespace rubble {

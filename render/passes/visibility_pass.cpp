@@ -1,11 +1,7 @@
 #include "render/passes/visibility_pass.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <string>
-
-#include "kernel/base/error.h"
-#include "render/shader.h"
+#include <cmath>
 
 namespace rubble {
 
@@ -16,75 +12,14 @@ constexpr std::size_t kFirstBatch = 150000;
 
 }  // namespace
 
-DrawList::DrawList(const Gl& gl, const GpuGeometry& geometry)
-    : gl_(&gl), command_buffer_(gl), record_buffer_(gl), array_(gl) {
-  const GLuint a = array_.name();
-  gl.VertexArrayVertexBuffer(a, 0, geometry.vertices.name(), 0, 16);
-  gl.VertexArrayVertexBuffer(a, 1, record_buffer_.name(), 0, sizeof(DrawRecord));
-  gl.VertexArrayBindingDivisor(a, 1, 1);
-  gl.VertexArrayElementBuffer(a, geometry.indices.name());
-  const auto attribute = [&](GLuint index, GLuint binding, GLint parts, std::size_t offset) {
-    gl.EnableVertexArrayAttrib(a, index);
-    gl.VertexArrayAttribFormat(a, index, parts, GL_FLOAT, GL_FALSE, GLuint(offset));
-    gl.VertexArrayAttribBinding(a, index, binding);
-  };
-  attribute(0, 0, 3, 0);
-  attribute(1, 1, 4, offsetof(DrawRecord, clip_x));
-  attribute(2, 1, 4, offsetof(DrawRecord, clip_y));
-  attribute(3, 1, 4, offsetof(DrawRecord, clip_w));
-  gl.EnableVertexArrayAttrib(a, 4);
-  gl.VertexArrayAttribIFormat(a, 4, 1, GL_UNSIGNED_INT, offsetof(DrawRecord, placed));
-  gl.VertexArrayAttribBinding(a, 4, 1);
-  attribute(5, 1, 4, offsetof(DrawRecord, clip_z));
-}
-
-std::size_t DrawList::triangle_count() const {
-  std::size_t sum = 0;
-  for (const DrawCommand& c : commands_) sum += c.count / 3;
-  return sum;
-}
-
-void DrawList::add_run(std::uint32_t first_index, std::uint32_t count) {
-  commands_.push_back({count, 1, first_index, 0, std::uint32_t(records_.size() - 1)});
-}
-
-void DrawList::draw() {
-  if (commands_.empty()) return;
-  gl_->NamedBufferData(record_buffer_.name(), GLsizeiptr(records_.size() * sizeof(DrawRecord)),
-                       records_.data(), GL_STREAM_DRAW);
-  gl_->NamedBufferData(command_buffer_.name(), GLsizeiptr(commands_.size() * sizeof(DrawCommand)),
-                       commands_.data(), GL_STREAM_DRAW);
-  gl_->BindVertexArray(array_.name());
-  gl_->BindBuffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_.name());
-  gl_->MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, GLsizei(commands_.size()),
-                                 0);
-}
-
 VisibilityPass::VisibilityPass(const Gl& gl, const PreparedScene& scene,
                                const GpuGeometry& geometry, const VisibilityOptions& options)
-    : gl_(gl),
-      scene_(scene),
-      geometry_(geometry),
+    : scene_(scene),
       options_(options),
-      program_(make_program(gl, "visibility.vert.glsl", "visibility.frag.glsl",
-                            {{"NEAR_PLANE", std::to_string(kNearPlane)}})),
-      list_(gl, geometry),
+      raster_(options.software ? make_software_raster(gl, scene, geometry, options.threads)
+                               : make_gl_raster(gl, scene, geometry)),
       shown_(scene.cluster_flags, 0),
       drawn_(scene.cluster_flags, 0) {}
-
-void VisibilityPass::resize(int width, int height) {
-  if (width == width_ && height == height_) return;
-  width_ = width, height_ = height;
-  ids_ = make_target(gl_, GL_RG32UI, width, height);
-  depth_ = make_target(gl_, GL_DEPTH_COMPONENT32F, width, height);
-  target_ = GlFramebuffer(gl_);
-  gl_.NamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, ids_.name(), 0);
-  gl_.NamedFramebufferTexture(target_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
-  check_gl(gl_, "making the image buffers");
-  if (gl_.CheckNamedFramebufferStatus(target_.name(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw RunError("the graphics device cannot draw triangle numbers and depth together");
-  values_.assign(std::size_t(width) * std::size_t(height), 0);
-}
 
 std::uint32_t VisibilityPass::choose_level(const PlacedMesh& piece, float z, double focal) const {
   const auto& levels = scene_.meshes[piece.mesh].levels;
@@ -138,26 +73,11 @@ void VisibilityPass::add_piece(const Candidate& candidate, const ViewProjection&
   }
   const Vec3f eye(optical_from_mesh.inverse().translation * (1 / piece.scale));
   const bool whole = candidate.level > 0;  // coarse levels are small: all or nothing
-  const std::size_t clusters = whole ? 1 : level.cluster_count;
-  const std::uint32_t base = geometry_.first_index[piece.mesh];
-  std::uint32_t run_first = 0, run_count = 0;
-  const auto flush = [&] {
-    if (!run_count) return;
-    DrawRecord record{};
-    const auto rows = view.clip_rows(piece.world_from_mesh, piece.scale);
-    std::copy(rows[0].begin(), rows[0].end(), record.clip_x);
-    std::copy(rows[1].begin(), rows[1].end(), record.clip_y);
-    std::copy(rows[2].begin(), rows[2].end(), record.clip_w);
-    record.placed = candidate.placed;
-    list_.add_record(record);
-    list_.add_run(base + run_first * 3, run_count * 3);
-    run_count = 0;
-  };
-  for (std::size_t k = 0; k < clusters; ++k) {
+  bool running = false;
+  const std::uint32_t step = whole ? level.cluster_count : 1;
+  for (std::uint32_t k = 0; k < level.cluster_count; k += step) {
     const Cluster& c = mesh.clusters[level.first_cluster + k];
     const std::size_t flag = piece.first_flag + k;
-    const std::uint32_t first = whole ? level.first_triangle : c.first_triangle;
-    const std::uint32_t count = whole ? level.triangle_count : c.triangle_count;
     bool wanted = true;
     if (!whole) {
       const Vec3f centre = turn * c.centre + shift;
@@ -172,67 +92,40 @@ void VisibilityPass::add_piece(const Candidate& candidate, const ViewProjection&
       wanted = wanted && (shown_[flag] || !have_history_);
     }
     drawn_[flag] |= std::uint8_t(wanted);
-    if (wanted && run_count && run_first + run_count != first) flush();
-    if (wanted && !run_count) run_first = first;
-    if (wanted)
-      run_count += count;
-    else
-      flush();
+    if (wanted) {
+      if (!running) runs_.push_back({candidate.placed, level.first_cluster + k, 0});
+      runs_.back().cluster_count += step;
+      run_triangles_ += whole ? level.triangle_count : c.triangle_count;
+    }
+    running = wanted;
   }
-  flush();
-}
-
-void VisibilityPass::read_depth() {
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
-  gl_.ReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, values_.data());
-}
-
-std::vector<std::uint32_t> VisibilityPass::read_ids() const {
-  std::vector<std::uint32_t> out(std::size_t(width_) * std::size_t(height_) * 2);
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
-  gl_.ReadPixels(0, 0, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT, out.data());
-  check_gl(gl_, "reading the triangle numbers back");
-  return out;
 }
 
 void VisibilityPass::draw(const ViewProjection& view) {
-  resize(view.intrinsics.width, view.intrinsics.height);
-  const float zero[4] = {0, 0, 0, 0};
-  const GLuint none[4] = {0, 0, 0, 0};
-  gl_.ClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, zero);
-  gl_.ClearNamedFramebufferuiv(target_.name(), GL_COLOR, 0, none);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, target_.name());
-  gl_.Viewport(0, 0, width_, height_);
-  gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  gl_.Enable(GL_DEPTH_TEST);
-  gl_.DepthFunc(GL_GREATER);
-  gl_.DepthMask(GL_TRUE);
-  gl_.Enable(GL_CULL_FACE);
-  gl_.FrontFace(GL_CW);  // rows run downwards, which mirrors the triangles
-  gl_.UseProgram(program_.name());
-
   const ViewVolume volume(view);
   find_candidates(view);
   std::fill(drawn_.begin(), drawn_.end(), std::uint8_t(0));
   const bool cull = options_.occlusion_culling;
   if (!cull) have_history_ = false;
-  list_.clear();
+  runs_.clear();
+  run_triangles_ = 0;
   for (const Candidate& c : candidates_) {
     add_piece(c, view, volume, false);
-    if (cull && !have_history_ && list_.triangle_count() > kFirstBatch) break;
+    if (cull && !have_history_ && run_triangles_ > kFirstBatch) break;
   }
-  counts_ = {list_.triangle_count(), list_.triangle_count()};
-  list_.draw();
-  read_depth();
-  if (!cull) return;
-  pyramid_.build(values_.data(), width_, height_);
-  list_.clear();
-  for (const Candidate& c : candidates_) add_piece(c, view, volume, true);
-  counts_.triangles += list_.triangle_count();
-  have_history_ = true;
-  if (list_.empty()) return;
-  list_.draw();
-  read_depth();
+  counts_ = {run_triangles_, run_triangles_};
+  raster_->begin(view);
+  raster_->draw(runs_);
+  if (cull) {
+    pyramid_.build(raster_->depth_so_far().data(), view.intrinsics.width, view.intrinsics.height);
+    runs_.clear();
+    run_triangles_ = 0;
+    for (const Candidate& c : candidates_) add_piece(c, view, volume, true);
+    counts_.triangles += run_triangles_;
+    have_history_ = true;
+    if (!runs_.empty()) raster_->draw(runs_);
+  }
+  raster_->finish();
 }
 
 }  // namespace rubble

@@ -1,0 +1,31 @@
+// A triangle on the image, ready to be filled. Internal to render/raster.
+#pragma once
+
+#include <cstdint>
+
+namespace rubble {
+
+// Corners are on a grid of 1/256 pixel, as graphics devices do it: so edges that two triangles share
+// leave neither gap nor overlap. Depth is that of the triangle's own plane, not of the grid.
+struct TriangleRecord {
+  static constexpr int kGrid = 256;  // steps a pixel
+
+  std::int32_t x[3], y[3];  // turned so that E(x, y) of every edge is positive inside
+  double a, b, c;           // depth value near / Z = a u + b v + c at the pixel (u, v)
+  float least, most;        // of the depth values at the corners: it never leaves them
+  std::uint64_t id;         // placed mesh + 1, and above bit 32 the triangle's name
+};
+static_assert(sizeof(TriangleRecord) == 64, "one cache line");
+
+// Rows [first_row, last_row) of an image of `width` columns; memory of row 0 is at the pointers.
+struct RasterTarget {
+  float* depth;
+  std::uint64_t* ids;
+  int width, first_row, last_row;
+};
+
+// Draws the part of the triangle that covers pixel centres of those rows and is nearer than what is
+// there. An edge through a pixel's centre gives the pixel to the triangle on its right or below it.
+void fill_triangle(const TriangleRecord& triangle, const RasterTarget& target);
+
+}  // namespace rubble

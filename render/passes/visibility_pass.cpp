@@ -9,6 +9,7 @@ namespace {
 
 // Before any depth is known, draw the nearest pieces up to this many triangles.
 constexpr std::size_t kFirstBatch = 150000;
+constexpr std::size_t kJobPieces = 32;
 
 }  // namespace
 
@@ -18,6 +19,7 @@ VisibilityPass::VisibilityPass(const Gl& gl, const PreparedScene& scene,
       options_(options),
       raster_(options.software ? make_software_raster(gl, scene, geometry, options.threads)
                                : make_gl_raster(gl, scene, geometry)),
+      pool_(std::max(1, options.threads)),
       shown_(scene.cluster_flags, 0),
       drawn_(scene.cluster_flags, 0) {}
 
@@ -53,7 +55,7 @@ void VisibilityPass::find_candidates(const ViewProjection& view) {
 }
 
 void VisibilityPass::add_piece(const Candidate& candidate, const ViewProjection& view,
-                               const ViewVolume& volume, bool second) {
+                               const ViewVolume& volume, bool second, Chosen& chosen) {
   const PlacedMesh& piece = scene_.placed[candidate.placed];
   const PreparedMesh& mesh = scene_.meshes[piece.mesh];
   const PreparedLevel& level = mesh.levels[candidate.level];
@@ -93,34 +95,52 @@ void VisibilityPass::add_piece(const Candidate& candidate, const ViewProjection&
     }
     drawn_[flag] |= std::uint8_t(wanted);
     if (wanted) {
-      if (!running) runs_.push_back({candidate.placed, level.first_cluster + k, 0});
-      runs_.back().cluster_count += step;
-      run_triangles_ += whole ? level.triangle_count : c.triangle_count;
+      if (!running) chosen.runs.push_back({candidate.placed, level.first_cluster + k, 0});
+      chosen.runs.back().cluster_count += step;
+      chosen.triangles += whole ? level.triangle_count : c.triangle_count;
     }
     running = wanted;
   }
 }
 
-void VisibilityPass::draw(const ViewProjection& view) {
+void VisibilityPass::choose(const ViewProjection& view, bool second) {
   const ViewVolume volume(view);
+  const bool unknown = !second && options_.occlusion_culling && !have_history_;
+  const std::size_t count = candidates_.size();
+  const std::size_t jobs = unknown ? 1 : (count + kJobPieces - 1) / kJobPieces;
+  chosen_.resize(std::max(chosen_.size(), jobs));
+  pool_.run(int(jobs), 1, [&](int begin, int end) {
+    for (int job = begin; job < end; ++job) {
+      Chosen& chosen = chosen_[std::size_t(job)];
+      chosen.runs.clear();
+      chosen.triangles = 0;
+      const std::size_t last = unknown ? count : (std::size_t(job) + 1) * kJobPieces;
+      for (std::size_t i = std::size_t(job) * kJobPieces; i < std::min(last, count); ++i) {
+        add_piece(candidates_[i], view, volume, second, chosen);
+        if (unknown && chosen.triangles > kFirstBatch) break;
+      }
+    }
+  });
+  runs_.clear();
+  run_triangles_ = 0;
+  for (std::size_t job = 0; job < jobs; ++job) {
+    runs_.insert(runs_.end(), chosen_[job].runs.begin(), chosen_[job].runs.end());
+    run_triangles_ += chosen_[job].triangles;
+  }
+}
+
+void VisibilityPass::draw(const ViewProjection& view) {
   find_candidates(view);
   std::fill(drawn_.begin(), drawn_.end(), std::uint8_t(0));
   const bool cull = options_.occlusion_culling;
   if (!cull) have_history_ = false;
-  runs_.clear();
-  run_triangles_ = 0;
-  for (const Candidate& c : candidates_) {
-    add_piece(c, view, volume, false);
-    if (cull && !have_history_ && run_triangles_ > kFirstBatch) break;
-  }
+  choose(view, false);
   counts_ = {run_triangles_, run_triangles_};
   raster_->begin(view);
   raster_->draw(runs_);
   if (cull) {
     pyramid_.build(raster_->depth_so_far().data(), view.intrinsics.width, view.intrinsics.height);
-    runs_.clear();
-    run_triangles_ = 0;
-    for (const Candidate& c : candidates_) add_piece(c, view, volume, true);
+    choose(view, true);
     counts_.triangles += run_triangles_;
     have_history_ = true;
     if (!runs_.empty()) raster_->draw(runs_);

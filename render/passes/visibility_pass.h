@@ -52,14 +52,22 @@ class VisibilityPass {
   };
   void find_candidates(const ViewProjection& view);
   std::uint32_t choose_level(const PlacedMesh& piece, float z, double focal) const;
+  struct Chosen {
+    std::vector<ClusterRun> runs;
+    std::size_t triangles = 0;
+  };
   // Adds the candidate's clusters that pass; `second`: those hidden last time but not by depth.
+  // Candidates may be added by several threads at once, each to a list of its own.
   void add_piece(const Candidate& candidate, const ViewProjection& view, const ViewVolume& volume,
-                 bool second);
+                 bool second, Chosen& chosen);
+  void choose(const ViewProjection& view, bool second);  // fills runs_ and run_triangles_
 
   const PreparedScene& scene_;
   VisibilityOptions options_;
   std::unique_ptr<TriangleRaster> raster_;
   std::vector<Candidate> candidates_;
+  ThreadPool pool_;
+  std::vector<Chosen> chosen_;  // one a job
   std::vector<ClusterRun> runs_;
   std::size_t run_triangles_ = 0;    // of runs_
   std::vector<std::uint8_t> shown_;  // one a cluster flag: drawn in the next first batch

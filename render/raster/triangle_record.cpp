@@ -16,14 +16,6 @@ struct Box {
   int x0, x1, y0, y1;  // pixel centres within, both ends included
 };
 
-Box box_of(const TriangleRecord& t, const RasterTarget& target) {
-  const auto [low_x, high_x] = std::minmax({t.x[0], t.x[1], t.x[2]});
-  const auto [low_y, high_y] = std::minmax({t.y[0], t.y[1], t.y[2]});
-  return {std::max(ceil_pixel(low_x), 0), std::min(floor_pixel(high_x), target.width - 1),
-          std::max(ceil_pixel(low_y), target.first_row),
-          std::min(floor_pixel(high_y), target.last_row - 1)};
-}
-
 // E(x, y) = dx (y - py) - dy (x - px) - bias of the edge from corner p, on the grid.
 template <typename Int>
 struct Edge {
@@ -93,16 +85,19 @@ void fill_large(const TriangleRecord& t, const Box& box, const RasterTarget& tar
 
 }  // namespace
 
-void fill_triangle(const TriangleRecord& triangle, const RasterTarget& target) {
-  const Box box = box_of(triangle, target);
+void fill_triangle(const TriangleRecord& t, const RasterTarget& target) {
+  const std::int32_t low_x = std::min(t.x[0], std::min(t.x[1], t.x[2]));
+  const std::int32_t high_x = std::max(t.x[0], std::max(t.x[1], t.x[2]));
+  const std::int32_t low_y = std::min(t.y[0], std::min(t.y[1], t.y[2]));
+  const std::int32_t high_y = std::max(t.y[0], std::max(t.y[1], t.y[2]));
+  const Box box{std::max(ceil_pixel(low_x), 0), std::min(floor_pixel(high_x), target.width - 1),
+                std::max(ceil_pixel(low_y), target.first_row),
+                std::min(floor_pixel(high_y), target.last_row - 1)};
   if (box.x0 > box.x1 || box.y0 > box.y1) return;
-  const auto [low_x, high_x] = std::minmax({triangle.x[0], triangle.x[1], triangle.x[2]});
-  const auto [low_y, high_y] = std::minmax({triangle.y[0], triangle.y[1], triangle.y[2]});
-  const bool small = high_x - low_x < kSmall * kGrid && high_y - low_y < kSmall * kGrid;
-  if (small)
-    fill_small(triangle, box, target);
+  if (high_x - low_x < kSmall * kGrid && high_y - low_y < kSmall * kGrid)
+    fill_small(t, box, target);
   else
-    fill_large(triangle, box, target);
+    fill_large(t, box, target);
 }
 
 }  // namespace rubble

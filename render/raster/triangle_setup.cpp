@@ -11,14 +11,13 @@ namespace rubble {
 namespace {
 
 constexpr std::size_t kMostVertices = 256;  // of a cluster: local numbers are bytes
-constexpr double kGuard = 8192;             // pixels beyond which a triangle is clipped
 constexpr int kGrid = TriangleRecord::kGrid;
 
 // A cluster's vertices as the camera sees them.
 struct Moved {
   float x[kMostVertices], y[kMostVertices], z[kMostVertices];  // optical frame; unit: m
   std::int32_t u[kMostVertices], v[kMostVertices];             // on the grid
-  bool inside[kMostVertices];                                  // of the guard band
+  std::int32_t inside[kMostVertices];                          // of the guard band
 };
 
 void move_vertices(const ClusterShapes& shapes, const ClusterShapes::Range& range,
@@ -29,7 +28,8 @@ void move_vertices(const ClusterShapes& shapes, const ClusterShapes::Range& rang
   const auto& r = view.rows;
   const float fx = float(view.fx * kGrid), fy = float(view.fy * kGrid);
   const float cx = float(view.cx * kGrid), cy = float(view.cy * kGrid);
-  const float guard = float(kGuard * kGrid);
+  const float guard = float(view.guard * kGrid);
+  const std::int32_t shift = view.guard * kGrid;
   for (std::uint32_t i = 0; i < range.vertex_count; ++i) {
     out.x[i] = r[0][0] * mx[i] + r[0][1] * my[i] + r[0][2] * mz[i] + r[0][3];
     out.y[i] = r[1][0] * mx[i] + r[1][1] * my[i] + r[1][2] * mz[i] + r[1][3];
@@ -38,9 +38,10 @@ void move_vertices(const ClusterShapes& shapes, const ClusterShapes::Range& rang
   for (std::uint32_t i = 0; i < range.vertex_count; ++i) {
     const float inverse = 1 / std::max(out.z[i], kNearPlane);
     const float u = fx * out.x[i] * inverse + cx, v = fy * out.y[i] * inverse + cy;
-    out.inside[i] = out.z[i] >= kNearPlane && std::fabs(u) < guard && std::fabs(v) < guard;
-    out.u[i] = std::int32_t(std::floor(std::clamp(u, -guard, guard) + 0.5f));
-    out.v[i] = std::int32_t(std::floor(std::clamp(v, -guard, guard) + 0.5f));
+    out.inside[i] = (out.z[i] >= kNearPlane) & (std::fabs(u) < guard) & (std::fabs(v) < guard);
+    // A shift keeps the number positive, so that cutting off rounds down: as vectors can.
+    out.u[i] = std::int32_t(std::min(std::max(u, -guard), guard) + (guard + 0.5f)) - shift;
+    out.v[i] = std::int32_t(std::min(std::max(v, -guard), guard) + (guard + 0.5f)) - shift;
   }
 }
 
@@ -50,9 +51,11 @@ std::int64_t area_of(const TriangleRecord& t) {
          std::int64_t(t.y[1] - t.y[0]) * (t.x[2] - t.x[0]);
 }
 
-bool covers_a_centre(const TriangleRecord& t, const MeshView& view) {
-  const auto [low_x, high_x] = std::minmax({t.x[0], t.x[1], t.x[2]});
-  const auto [low_y, high_y] = std::minmax({t.y[0], t.y[1], t.y[2]});
+inline bool covers_a_centre(const TriangleRecord& t, const MeshView& view) {
+  const std::int32_t low_x = std::min(t.x[0], std::min(t.x[1], t.x[2]));
+  const std::int32_t high_x = std::max(t.x[0], std::max(t.x[1], t.x[2]));
+  const std::int32_t low_y = std::min(t.y[0], std::min(t.y[1], t.y[2]));
+  const std::int32_t high_y = std::max(t.y[0], std::max(t.y[1], t.y[2]));
   const int x0 = std::max((low_x + kGrid - 1) >> 8, 0);
   const int x1 = std::min(high_x >> 8, view.width - 1);
   const int y0 = std::max((low_y + kGrid - 1) >> 8, 0);
@@ -98,7 +101,7 @@ void append_clipped(const Vec3& p0, const Vec3& p1, const Vec3& p2, const MeshVi
                     TriangleRecord t, std::vector<TriangleRecord>& out) {
   Polygon a{p0, p1, p2}, b;
   int count = clip(a, 3, {0, 0, 1}, double(kNearPlane), b);
-  const double reach = 0.9 * kGuard;
+  const double reach = 0.9 * view.guard;
   const Vec3 sides[4] = {{view.fx, 0, reach + view.cx},
                          {-view.fx, 0, reach - view.cx},
                          {0, view.fy, reach + view.cy},
@@ -154,7 +157,8 @@ MeshView::MeshView(const ViewProjection& view, const Pose& world_from_mesh, doub
       cx(view.intrinsics.cx),
       cy(view.intrinsics.cy),
       width(view.intrinsics.width),
-      height(view.intrinsics.height) {
+      height(view.intrinsics.height),
+      guard(std::max(8192, std::max(width, height) * 5 / 4)) {
   const Pose optical_from_mesh = view.optical_from_world * world_from_mesh;
   const Mat3 r = optical_from_mesh.rotation.matrix();
   for (int i = 0; i < 3; ++i) {

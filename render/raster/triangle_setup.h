@@ -25,9 +25,10 @@ ClusterShapes make_cluster_shapes(const PreparedMesh& mesh);
 struct MeshView {
   MeshView(const ViewProjection& view, const Pose& world_from_mesh, double scale);
 
-  float rows[3][4];        // optical_from_mesh; unit: m
-  double fx, fy, cx, cy;   // unit: pixel
+  float rows[3][4];       // optical_from_mesh; unit: m
+  double fx, fy, cx, cy;  // unit: pixel
   int width, height;
+  int guard;  // pixels from the middle beyond which a triangle is clipped
 };
 
 // Appends those triangles of a cluster that face the camera and may cover a pixel's centre.

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "kernel/base/portable_math.h"
-#include "render/parallel.h"
+#include "kernel/base/parallel.h"
 
 namespace rubble {
 

@@ -1,6 +1,6 @@
 #include "render/view_rays.h"
 
-#include "render/parallel.h"
+#include "kernel/base/parallel.h"
 
 namespace rubble {
 

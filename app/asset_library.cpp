@@ -1,13 +1,17 @@
 #include "app/asset_library.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <set>
 
+#include "assets/generator/box.h"
 #include "io/mesh_file.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/random.h"
 #include "scripting/asset_pack.h"
+#include "scripting/value.h"
 
 namespace rubble {
 namespace {
@@ -39,7 +43,8 @@ std::vector<Found> list_assets(const std::vector<AssetPack>& packs) {
 
 std::set<std::string> names_used(const Scenario& scenario, const std::vector<Found>& all) {
   std::set<std::string> used;
-  for (const PlacedItem& item : scenario.pile.placed) used.insert(item.asset);
+  for (const PlacedItem& item : scenario.pile.placed)
+    if (!item.box) used.insert(item.asset);
   for (const MixItem& item : scenario.pile.mix) used.insert(item.asset);
   if (scenario.pile.mix.empty() && scenario.pile.layers > 0)
     for (const Found& found : all)
@@ -92,6 +97,63 @@ void load_asset(const Found& found, AssetLibrary& library) {
                               hash_content(asset, library.types.back()), asset.weight,
                               asset.scale});
   library.meshes.push_back(std::move(mesh));
+}
+
+// Boxes of one make are one type, whose name says all of it: "box 4x0.2x6 brick +x".
+std::string box_name(const PlacedItem& item) {
+  std::string name = "box";
+  for (int i = 0; i < 3; ++i) name += (i ? "x" : " ") + format_number((*item.box)[i]);
+  name += " " + item.material;
+  for (const std::string& face : item.broken) name += " " + face;
+  return name;
+}
+
+generator::BoxRecipe box_recipe(const PlacedItem& item) {
+  static const char* const kFaces[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
+  generator::BoxRecipe recipe;
+  recipe.size = *item.box;
+  recipe.surface = generator::surface_of_material(item.material);
+  for (std::size_t i = 0; i < 6; ++i)
+    recipe.broken[i] = std::count(item.broken.begin(), item.broken.end(), kFaces[i]) > 0;
+  recipe.seed = std::uint32_t(RandomStream(0, box_name(item)).next() >> 40);
+  return recipe;
+}
+
+PieceType box_type(const PlacedItem& item, const Material& material) {
+  PieceType type;
+  type.name = box_name(item);
+  type.density = material.density;
+  type.friction = material.friction;
+  type.parts.emplace_back();
+  const Vec3 half = *item.box * 0.5;
+  for (int i = 0; i < 8; ++i)
+    type.parts[0].points.push_back(
+        {i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z});
+  return type;
+}
+
+// Every make of box that the mission places. Its mass is that of the exact box.
+void make_boxes(const Mission& mission, const std::vector<Material>& materials,
+                AssetLibrary& library) {
+  std::vector<std::string> names;
+  for (const Material& material : materials) names.push_back(material.name);
+  check_materials(mission, names);
+  std::set<std::string> made;
+  for (const PlacedItem& item : mission.scenario.pile.placed) {
+    if (!item.box || !made.insert(box_name(item)).second) continue;
+    const auto material = std::find_if(materials.begin(), materials.end(), [&](const Material& m) {
+      return m.name == item.material;
+    });
+    auto mesh = std::make_shared<SceneMesh>();
+    mesh->levels = generator::make_box(box_recipe(item));
+    library.types.push_back(box_type(item, *material));
+    Sha256 hash;
+    for (const double number : {material->density, material->friction})
+      hash.add(&number, sizeof number);
+    hash.add(box_name(item).data(), box_name(item).size());
+    library.contents.push_back({box_name(item), "made to measure", hash.hex()});
+    library.meshes.push_back(std::move(mesh));
+  }
 }
 
 // What layers are drawn from: the mission's mix, or every asset by its own weight.
@@ -181,6 +243,10 @@ std::vector<MixEntry> make_mix(const Scenario& scenario, const AssetLibrary& lib
 
 }  // namespace
 
+int AssetLibrary::find(const PlacedItem& item) const {
+  return find(item.box ? box_name(item) : item.asset);
+}
+
 int AssetLibrary::find(const std::string& name) const {
   for (std::size_t i = 0; i < types.size(); ++i)
     if (types[i].name == name) return int(i);
@@ -211,6 +277,7 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   const std::set<std::string> used = names_used(mission.scenario, all);
   for (const Found& found : all)
     if (used.count(found.asset->name)) load_asset(found, library);
+  make_boxes(mission, materials, library);
   library.mix = make_mix(mission.scenario, all, library);
   return library;
 }

@@ -21,6 +21,7 @@ struct AssetLibrary {
   std::vector<std::string> folders;                      // of the packs, absolute
 
   int find(const std::string& name) const;  // index of a type that was loaded
+  int find(const PlacedItem& item) const;   // likewise, of its asset or its box
 };
 
 // Loads what the mission uses, from its packs and then `extra_packs`; with neither, from the

@@ -58,6 +58,7 @@ struct TypeOf {
   Json operator()(NumberPair*) const { return pair_schema(range); }
   Json operator()(std::optional<NumberPair>*) const { return or_null(pair_schema(range)); }
   Json operator()(std::vector<std::string>*) const { return strings_schema(); }
+  Json operator()(Value*) const { return Json::object(); }
   Json operator()(const StringOrList&) const {
     return {{"anyOf", Json::array({{{"type", "string"}}, strings_schema()})}};
   }

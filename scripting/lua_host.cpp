@@ -1,11 +1,15 @@
 #include "scripting/lua_host.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <new>
 #include <type_traits>
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
+#include "scripting/lua_options.h"
+#include "scripting/lua_value.h"
 
 // Lua's C++ build reports errors by an exception, so the destructors below run.
 
@@ -105,11 +109,85 @@ int include_file(lua_State* lua) {
   std::string error;
   const int chunk = host.open_include(name, error);
   if (chunk < 0) return luaL_error(lua, "rubble.include: %s", error.c_str());
-  const std::string& text = host.chunk_text(chunk);
+  const std::string& text = host.chunk(chunk).text;
   if (luaL_loadbufferx(lua, text.data(), text.size(), chunk_name(chunk).c_str(), "t") != LUA_OK)
     return lua_error(lua);
   lua_call(lua, 0, 1);
   return 1;
+}
+
+// The script's line from which the function that asked for its options was called.
+bool find_caller(lua_State* lua, int& chunk, int& line) {
+  lua_Debug where{};
+  for (int level = 2; lua_getstack(lua, level, &where) != 0; ++level) {
+    lua_getinfo(lua, "Sl", &where);
+    line = where.currentline;
+    if (line > 0 && std::sscanf(where.short_src, "chunk%d", &chunk) == 1) return true;
+  }
+  return false;
+}
+
+void note_mistakes(lua_State* lua, const std::string& function, std::vector<Diagnostic> mistakes) {
+  LuaHost& host = host_of(lua);
+  int chunk = 0, call_line = 0;
+  const bool found = find_caller(lua, chunk, call_line);
+  const SourceFile& source = host.chunk(found ? chunk : 0);
+  for (Diagnostic& d : mistakes) {
+    const std::string key = d.key.substr(std::min(d.key.size(), function.size() + 1));
+    d.file = source.path;
+    d.line = find_option_line(source.text, function, key, found ? call_line : 0);
+    host.mistakes.push_back(std::move(d));
+  }
+}
+
+// options(function, given, description) -> every parameter, given or default. Mistakes are noted,
+// not raised: all of them come in one run.
+int read_options(lua_State* lua) {
+  const std::string function = luaL_checkstring(lua, 1);
+  const Value given = read_lua_value(lua, 2), description = read_lua_value(lua, 3);
+  LuaHost& host = host_of(lua);
+  if (host.described) host.described->push_back({function, description});
+  std::string failure;
+  try {
+    OptionTable table(description);
+    note_mistakes(lua, function, table.read(function, given));
+    push_lua_value(lua, table.values());
+  } catch (const InputError& error) {
+    failure = error.diagnostics().front().text();
+  }
+  return failure.empty() ? 1 : luaL_error(lua, "%s", failure.c_str());
+}
+
+// reject(function, parameter, expected, found): a mistake that only the function itself can see.
+int reject_option(lua_State* lua) {
+  const std::string function = luaL_checkstring(lua, 1);
+  Diagnostic d;
+  d.key = function + "." + luaL_checkstring(lua, 2);
+  d.message = "out of range";
+  d.expected = luaL_checkstring(lua, 3);
+  d.found = describe(read_lua_value(lua, 4));
+  note_mistakes(lua, function, {d});
+  return 0;
+}
+
+// rotate({roll, pitch, yaw} in degrees, {x, y, z}) -> {x, y, z}
+int rotate_vector(lua_State* lua) {
+  const auto numbers_at = [lua](int index) {
+    luaL_checktype(lua, index, LUA_TTABLE);
+    static const char* const kNames[] = {"x", "y", "z"};
+    Vec3 v;
+    for (int i = 0; i < 3; ++i) {
+      if (lua_getfield(lua, index, kNames[i]) == LUA_TNIL) lua_rawgeti(lua, index, i + 1);
+      luaL_argcheck(lua, lua_isnumber(lua, -1), index, "three numbers {x, y, z} expected");
+      v[i] = lua_tonumber(lua, -1);
+      luaL_argcheck(lua, std::abs(v[i]) <= 1e6, index, "number too large");
+    }
+    return v;
+  };
+  const Vec3 rpy = numbers_at(1) * (portable::kPi / 180), v = numbers_at(2);
+  const Vec3 turned = portable::quat_from_rpy(rpy.x, rpy.y, rpy.z).rotate(v);
+  for (int i = 0; i < 3; ++i) lua_pushnumber(lua, turned[i]);
+  return 3;
 }
 
 int math_sin(lua_State* lua) {
@@ -147,7 +225,7 @@ int math_log(lua_State* lua) {
 }
 
 const luaL_Reg kFunctions[] = {
-    {"stream", make_stream}, {"print", print_line}, {"include", include_file}, {"sin", math_sin},
+    {"options", read_options}, {"reject", reject_option}, {"rotate", rotate_vector}, {"stream", make_stream}, {"print", print_line}, {"include", include_file}, {"sin", math_sin},
     {"cos", math_cos},       {"tan", math_tan},     {"asin", math_asin},       {"acos", math_acos},
     {"atan", math_atan},     {"exp", math_exp},     {"log", math_log},         {nullptr, nullptr}};
 

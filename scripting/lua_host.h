@@ -7,6 +7,7 @@
 
 #include <lua.hpp>
 
+#include "kernel/base/error.h"
 #include "scripting/lua_sandbox.h"
 
 namespace rubble {
@@ -21,7 +22,11 @@ struct LuaHost {
   // Reads a file for rubble.include and returns its index among the chunks; on failure it puts the
   // reason into `error` and returns -1.
   std::function<int(const std::string& name, std::string& error)> open_include;
-  std::function<const std::string&(int chunk)> chunk_text;
+  std::function<const SourceFile&(int chunk)> chunk;
+
+  // What rubble.options found, and, while the reference is made, what it was asked for.
+  std::vector<Diagnostic> mistakes;
+  std::vector<DescribedFunction>* described = nullptr;
 
   // Limits, and what has been used of them.
   SandboxLimits limits;

@@ -176,8 +176,25 @@ rubble = {
   random = stream,
   include = host.include,
   vec = make_vec,
+  options = host.options,
+  reject = host.reject,
+  rotate = function(rpy_deg, v) return make_vec(host.rotate(rpy_deg, v)) end,
 }
 if entry == "rubble.mission" then rubble.mission = entry_function else _G[entry] = entry_function end
+
+-- Gives a function of the library its place: "collapse/heap" is rubble.collapse.heap.
+return function(name, value)
+  local place, i = rubble, 1
+  while i <= #name do
+    if string.byte(name, i) == 47 then
+      local folder = string.sub(name, 1, i - 1)
+      place[folder] = place[folder] or {}
+      place, name = place[folder], string.sub(name, i + 1)
+    end
+    i = i + 1
+  end
+  place[name] = value
+end
 )lua";
 
 }  // namespace rubble

@@ -12,6 +12,7 @@
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
 #include "scripting/lua_host.h"
+#include "scripting/lua_library.h"
 #include "scripting/lua_prelude.h"
 #include "scripting/lua_value.h"
 
@@ -80,7 +81,9 @@ int complete_message(lua_State* lua) {
     text = lua_tostring(lua, 1);
   else
     text = std::string("an error that is a ") + luaL_typename(lua, 1) + ", not a message";
-  if (text.rfind("prelude:", 0) == 0) text.erase(0, text.find(": ") + 2);
+  // The library's own line helps nobody: the script's line that called it comes instead.
+  if (text.rfind("prelude:", 0) == 0 || text.rfind("library ", 0) == 0)
+    text.erase(0, text.find(": ") + 2);
   if (text.rfind("chunk", 0) != 0) text = position_of(lua) + text;
   return lua_pushlstring(lua, text.data(), text.size()), 1;
 }
@@ -114,6 +117,7 @@ struct LuaSandbox::State {
   int keep_include(const fs::path& relative, std::string text);
   Diagnostic diagnostic_of(const std::string& raised) const;
   void call(int arguments, int results);  // throws InputError
+  void load_library();
 };
 
 // The file's text; otherwise the reason goes into `error`.
@@ -187,6 +191,20 @@ Diagnostic LuaSandbox::State::diagnostic_of(const std::string& raised) const {
   return d;
 }
 
+// On the stack: the prelude's function install(name, value).
+void LuaSandbox::State::load_library() {
+  for (const LibraryFile& file : lua_library()) {
+    lua_pushvalue(host.lua, -1);
+    lua_pushlstring(host.lua, file.name.data(), file.name.size());
+    const std::string chunk = "=library " + file.name;
+    if (luaL_loadbufferx(host.lua, file.text.data(), file.text.size(), chunk.c_str(), "t") !=
+        LUA_OK)
+      throw RunError(lua_tostring(host.lua, -1));
+    call(0, 1);
+    call(2, 0);
+  }
+}
+
 void LuaSandbox::State::call(int arguments, int results) {
   lua_State* const lua = host.lua;
   const int handler = lua_gettop(lua) - arguments;
@@ -199,7 +217,9 @@ void LuaSandbox::State::call(int arguments, int results) {
   }
   host.limited = false;
   const char* const text = lua_tostring(lua, -1);
-  throw InputError(diagnostic_of(text ? text : "an error without a message"));
+  std::vector<Diagnostic> all = host.mistakes;  // which may be why it failed
+  all.push_back(diagnostic_of(text ? text : "an error without a message"));
+  throw InputError(std::move(all));
 }
 
 LuaSandbox::LuaSandbox(std::uint64_t seed, const std::string& entry, const SandboxLimits& limits)
@@ -210,9 +230,7 @@ LuaSandbox::LuaSandbox(std::uint64_t seed, const std::string& entry, const Sandb
   s.host.open_include = [&s](const std::string& name, std::string& error) {
     return s.open_include(name, error);
   };
-  s.host.chunk_text = [&s](int chunk) -> const std::string& {
-    return s.chunks[std::size_t(chunk)].text;
-  };
+  s.host.chunk = [&s](int chunk) -> const SourceFile& { return s.chunks[std::size_t(chunk)]; };
   s.host.limited = false;
   s.host.lua = lua_newstate(allocate, &s.host);
   if (!s.host.lua) throw RunError("no memory for a Lua state");
@@ -228,7 +246,9 @@ LuaSandbox::LuaSandbox(std::uint64_t seed, const std::string& entry, const Sandb
     throw RunError(std::string("prelude: ") + lua_tostring(s.host.lua, -1));
   push_host_functions(s.host.lua);
   lua_pushlstring(s.host.lua, entry.data(), entry.size());
-  s.call(2, 0);
+  s.call(2, 1);
+  if (entry == "rubble.mission") s.load_library();
+  lua_settop(s.host.lua, 0);
 }
 
 LuaSandbox::~LuaSandbox() = default;
@@ -254,6 +274,20 @@ Value LuaSandbox::run(const std::string& text, const std::string& path) {
   Value value = read_lua_value(s.host.lua, -1);
   lua_settop(s.host.lua, 0);
   return value;
+}
+
+const std::vector<Diagnostic>& LuaSandbox::mistakes() const { return state_->host.mistakes; }
+
+std::vector<DescribedFunction> LuaSandbox::describe_library() {
+  LuaSandbox sandbox(0, "rubble.mission");
+  std::vector<DescribedFunction> described;
+  std::string script;
+  for (const LibraryFile& file : lua_library())
+    if (file.name.rfind("collapse/", 0) == 0)
+      script += "rubble.collapse." + file.name.substr(file.name.find('/') + 1) + "{}\n";
+  sandbox.state_->host.described = &described;
+  sandbox.run(script, "library");
+  return described;
 }
 
 bool LuaSandbox::used_random() const { return state_->host.used_random; }

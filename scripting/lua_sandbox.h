@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/base/error.h"
 #include "scripting/value.h"
 
 namespace rubble {
@@ -30,6 +31,12 @@ struct SourceFile {
   std::string path;
   std::string text;
   std::string sha256;
+};
+
+// A function of the library and the parameters that it asked rubble.options for.
+struct DescribedFunction {
+  std::string name;
+  Value description;
 };
 
 class LuaSandbox {
@@ -49,9 +56,15 @@ class LuaSandbox {
   // includes are looked for beside it. Throws InputError with file and line.
   Value run(const std::string& text, const std::string& path);
 
+  // What rubble.options found wrong in that run, with file and line.
+  const std::vector<Diagnostic>& mistakes() const;
+
   bool used_random() const;                         // whether the seed mattered to the script
   const std::vector<SourceFile>& included() const;  // by rubble.include, in order of first use
   const std::vector<std::string>& printed() const;  // lines given to print
+
+  // The functions of rubble.collapse with their parameters, in order, for the reference.
+  static std::vector<DescribedFunction> describe_library();
 
  private:
   struct State;

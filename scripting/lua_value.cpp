@@ -81,4 +81,35 @@ class Reader {
 
 Value read_lua_value(lua_State* lua, int index) { return Reader(lua).read(index, 0); }
 
+void push_lua_value(lua_State* lua, const Value& value) {
+  luaL_checkstack(lua, 4, "making a table");
+  switch (value.kind) {
+    case Value::Kind::nil:
+      return lua_pushnil(lua);
+    case Value::Kind::boolean:
+      return lua_pushboolean(lua, value.boolean);
+    case Value::Kind::integer:
+      return lua_pushinteger(lua, value.integer);
+    case Value::Kind::number:
+      return lua_pushnumber(lua, value.number);
+    case Value::Kind::text:
+      lua_pushlstring(lua, value.text.data(), value.text.size());
+      return;
+    case Value::Kind::other:
+      luaL_error(lua, "a table of plain values expected, found %s in it", value.text.c_str());
+      return;
+    case Value::Kind::table:
+      break;
+  }
+  lua_createtable(lua, int(value.items.size()), int(value.fields.size()));
+  for (std::size_t i = 0; i < value.items.size(); ++i) {
+    push_lua_value(lua, value.items[i]);
+    lua_rawseti(lua, -2, lua_Integer(i) + 1);
+  }
+  for (const auto& [name, member] : value.fields) {
+    push_lua_value(lua, member);
+    lua_setfield(lua, -2, name.c_str());
+  }
+}
+
 }  // namespace rubble

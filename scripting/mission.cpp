@@ -1,5 +1,6 @@
 #include "scripting/mission.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "kernel/base/hash.h"
@@ -45,6 +46,10 @@ void check_asset(const std::string& name, const std::string& key,
                                    : "did you mean `" + near + "`?"});
 }
 
+std::string placed_key(std::size_t i, const char* name) {
+  return "pile.placed[" + std::to_string(i + 1) + "]." + name;
+}
+
 }  // namespace
 
 Mission load_mission(const std::string& path, const MissionOptions& options) {
@@ -65,7 +70,7 @@ Mission load_mission_text(const std::string& text, const std::string& path,
 
   Scenario& scenario = mission.scenario;
   const Schema schema = make_scenario_schema(scenario);
-  std::vector<Diagnostic> mistakes;
+  std::vector<Diagnostic> mistakes = sandbox.mistakes();
   read_table(schema, table, mistakes);
   for (const std::string& override_text : options.overrides)
     apply_override(schema, override_text, mistakes);
@@ -87,7 +92,23 @@ void check_assets(const Mission& mission, const std::vector<std::string>& names)
   for (std::size_t i = 0; i < pile.mix.size(); ++i)
     check_asset(pile.mix[i].asset, key("mix", i), names, mistakes);
   for (std::size_t i = 0; i < pile.placed.size(); ++i)
-    check_asset(pile.placed[i].asset, key("placed", i), names, mistakes);
+    if (!pile.placed[i].box)
+      check_asset(pile.placed[i].asset, key("placed", i), names, mistakes);
+  locate(mistakes, mission.script.path, mission.lines);
+  throw_if_any(std::move(mistakes));
+}
+
+void check_materials(const Mission& mission, const std::vector<std::string>& names) {
+  std::vector<Diagnostic> mistakes;
+  const std::vector<PlacedItem>& placed = mission.scenario.pile.placed;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const std::string& name = placed[i].material;
+    if (!placed[i].box || std::find(names.begin(), names.end(), name) != names.end()) continue;
+    const std::string near = nearest_name(name, names);
+    mistakes.push_back({"", 0, placed_key(i, "material"), "unknown material `" + name + "`", "", "",
+                        near.empty() ? "materials.lua lists those there are"
+                                     : "did you mean `" + near + "`?"});
+  }
   locate(mistakes, mission.script.path, mission.lines);
   throw_if_any(std::move(mistakes));
 }

@@ -44,6 +44,9 @@ Mission load_mission_text(const std::string& text, const std::string& path,
 // Throws InputError with the line of every asset that a mission names and no pack has.
 void check_assets(const Mission& mission, const std::vector<std::string>& names);
 
+// Likewise of every material of a box that materials.lua lacks.
+void check_materials(const Mission& mission, const std::vector<std::string>& names);
+
 // The mission's pack folders, relative ones taken from the script's folder.
 std::vector<std::string> pack_folders(const Mission& mission);
 

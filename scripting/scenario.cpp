@@ -18,15 +18,34 @@ void check_mix(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
         {"", 0, "pile.mix", "nothing to draw", "a weight above 0", "only weights of 0", ""});
 }
 
+std::string item_key(const char* list, std::size_t i, const char* name = "") {
+  return std::string(list) + "[" + std::to_string(i + 1) + "]" + name;
+}
+
+void check_box(const PlacedItem& item, std::size_t i, std::vector<Diagnostic>& mistakes) {
+  if (item.box && !item.asset.empty())
+    mistakes.push_back({"", 0, item_key("pile.placed", i, ".box"), "contradicts asset",
+                        "one of asset and box", "both", ""});
+  static const std::vector<std::string> kFaces{"+x", "-x", "+y", "-y", "+z", "-z"};
+  for (const std::string& face : item.broken)
+    if (std::find(kFaces.begin(), kFaces.end(), face) == kFaces.end())
+      mistakes.push_back({"", 0, item_key("pile.placed", i, ".broken"), "no such face",
+                          "some of \"+x\", \"-x\", \"+y\", \"-y\", \"+z\", \"-z\"",
+                          "\"" + face + "\"", ""});
+}
+
 void check_names(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
-  const auto check = [&](const std::string& name, const char* list, std::size_t i) {
-    if (name.empty())
-      mistakes.push_back({"", 0, std::string(list) + "[" + std::to_string(i + 1) + "].asset",
-                          "no name", "the name of an asset", "an empty string", ""});
-  };
-  for (std::size_t i = 0; i < pile.mix.size(); ++i) check(pile.mix[i].asset, "pile.mix", i);
-  for (std::size_t i = 0; i < pile.placed.size(); ++i)
-    check(pile.placed[i].asset, "pile.placed", i);
+  for (std::size_t i = 0; i < pile.mix.size(); ++i)
+    if (pile.mix[i].asset.empty())
+      mistakes.push_back({"", 0, item_key("pile.mix", i, ".asset"), "no name",
+                          "the name of an asset", "an empty string", ""});
+  for (std::size_t i = 0; i < pile.placed.size(); ++i) {
+    const PlacedItem& item = pile.placed[i];
+    if (item.asset.empty() && !item.box)
+      mistakes.push_back({"", 0, item_key("pile.placed", i), "no piece",
+                          "`asset = NAME` or `box = {x, y, z}`", "neither", ""});
+    check_box(item, i, mistakes);
+  }
 }
 
 struct ChannelName {

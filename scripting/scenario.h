@@ -30,13 +30,17 @@ struct MixItem {
   std::optional<std::array<double, 2>> scale;
 };
 
-// A piece that stands or lies there before the first layer falls.
+// A piece that stands or lies there before the first layer falls: an asset of a pack, or a box made
+// to measure.
 struct PlacedItem {
-  std::string asset;
-  Vec3 position;      // of the asset's origin, in the world; unit: m
+  std::string asset;  // empty: a box
+  Vec3 position;      // of the piece's origin, in the world; unit: m
   Vec3 rpy_deg;       // roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll); unit: degree
   double scale = 1;   // range: 0.01 to 100
   bool fixed = true;  // immovable; false: it settles with the rest
+  std::optional<Vec3> box{};  // full edge lengths; unit: m; range: 0.02 to 100; the origin: its middle
+  std::string material = "reinforced_concrete";  // of a box
+  std::vector<std::string> broken{};  // of a box, the faces that broke off: "+x", "-x", "+y", ...
 };
 
 struct PileScenario {

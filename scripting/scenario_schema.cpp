@@ -34,9 +34,17 @@ void add_pile(Schema& k, PileScenario& p) {
          "Size, uniform in {min, max}; not given: the asset's own range.")
       .between(0.01, 100);
   k.list("pile.placed", p.placed, "Pieces that stand or lie there before the first layer.");
-  k.item("pile.placed[].asset", p.placed, &PlacedItem::asset, "Name of an asset.").must();
+  k.item("pile.placed[].asset", p.placed, &PlacedItem::asset, "Name of an asset.");
+  k.item("pile.placed[].box", p.placed, &PlacedItem::box,
+         "Instead of an asset: full edge lengths of a box about its middle.")
+      .between(0.02, 100)
+      .unit("m");
+  k.item("pile.placed[].material", p.placed, &PlacedItem::material,
+         "Of a box: a name in materials.lua.");
+  k.item("pile.placed[].broken", p.placed, &PlacedItem::broken,
+         "Of a box: the faces that look broken off, such as {\"+x\", \"-y\"}.");
   k.item("pile.placed[].position", p.placed, &PlacedItem::position,
-         "Where the asset's origin is, in the world.")
+         "Where the origin of the asset or box is, in the world.")
       .between(-1000, 1000)
       .unit("m");
   k.item("pile.placed[].rpy_deg", p.placed, &PlacedItem::rpy_deg,

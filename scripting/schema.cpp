@@ -71,6 +71,9 @@ std::string nearest_name(const std::string& written, const std::vector<std::stri
     const int distance = edit_distance(written, name);
     if (distance < best_distance) best = name, best_distance = distance;
   }
+  if (best.empty())  // a unit left out: "yaw" for "yaw_deg"
+    for (const std::string& name : names)
+      if (best.empty() && written.size() > 2 && name.rfind(written + "_", 0) == 0) best = name;
   return best;
 }
 

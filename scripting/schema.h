@@ -37,11 +37,11 @@ struct WordOrFile {  // the word, or { key = "FILE" }; the word is kept as an em
 };
 using NumberPair = std::array<double, 2>;
 
-// Where a key's value lives, and with that its type.
+// Where a key's value lives, and with that its type. Value*: any table, taken as it is.
 using Slot = std::variant<bool*, Negated, int*, std::int64_t*, std::uint64_t*, double*,
                           std::optional<double>*, std::string*, std::optional<std::string>*, Choice,
                           Vec3*, std::optional<Vec3>*, NumberPair*, std::optional<NumberPair>*,
-                          std::vector<std::string>*, StringOrList, WordOrFile>;
+                          std::vector<std::string>*, StringOrList, WordOrFile, Value*>;
 
 struct Range {
   double min = -std::numeric_limits<double>::infinity();

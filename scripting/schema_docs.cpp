@@ -1,7 +1,12 @@
 #include "scripting/schema_docs.h"
 
+#include <algorithm>
+#include <cctype>
 #include <stdexcept>
 
+#include "scripting/lua_library.h"
+#include "scripting/lua_options.h"
+#include "scripting/lua_sandbox.h"
 #include "scripting/pack_schema.h"
 #include "scripting/scenario_schema.h"
 
@@ -29,10 +34,10 @@ std::string cell(std::string text) {
   return text;
 }
 
-std::string row(const Key& key) {
+std::string row(const Key& key, const std::string& name) {
   const std::string value =
       key.required ? "must be given" : as_code(lua_text(read_slot(key.bind(0))));
-  return "| `" + key.name() + "` | " + cell(describe_expected(key)) + " | " + key.unit_text +
+  return "| `" + name + "` | " + cell(describe_expected(key)) + " | " + key.unit_text +
          " | " + cell(value) + " | " + cell(key.doc_text) + " |\n";
 }
 
@@ -45,7 +50,7 @@ std::string section(const Schema& schema, const std::string& pattern, const std:
   std::string rows, below;
   for (const Key* key : schema.children(pattern)) {
     if (key->kind == KeyKind::value) {
-      rows += row(*key);
+      rows += row(*key, key->name());
       continue;
     }
     const bool is_list = key->kind == KeyKind::list;
@@ -56,6 +61,54 @@ std::string section(const Schema& schema, const std::string& pattern, const std:
   std::string text = heading.empty() ? "" : "### " + heading + "\n\n" + doc + "\n\n";
   if (!rows.empty()) text += kHead + rows + "\n";
   return text + below;
+}
+
+// The comment that a library file begins with, as text: "rubble.collapse.heap: nothing ..." without
+// the name.
+std::string leading_comment(const std::string& text) {
+  std::string words;
+  for (std::size_t at = 0; text.compare(at, 2, "--") == 0;) {
+    const std::size_t end = text.find('\n', at);
+    const std::size_t from = std::min(end, at + 3);
+    if (from == end)
+      words += "\n\n";
+    else
+      words += (words.empty() || words.back() == '\n' ? "" : " ") + text.substr(from, end - from);
+    at = end + 1;
+  }
+  const std::size_t colon = words.find(": ");
+  words = words.substr(colon + 2);
+  words[0] = char(std::toupper(static_cast<unsigned char>(words[0])));
+  return words;
+}
+
+// The rows of a description's entries that `wanted` takes.
+template <typename Wanted>
+std::string option_rows(const Value& description, Wanted wanted) {
+  OptionTable table(description);
+  std::string rows;
+  for (const Key& key : table.schema().keys())
+    if (key.kind == KeyKind::value && wanted(key)) rows += row(key, key.path);
+  return rows;
+}
+
+std::string collapse_reference() {
+  const auto is_common = [](const Key& key) {
+    return key.path == "position" || key.path == "yaw_deg" || key.path.rfind("debris.", 0) == 0;
+  };
+  std::string text = "## Collapse modes\n\n", common;
+  for (const DescribedFunction& mode : LuaSandbox::describe_library()) {
+    const std::string name = mode.name.substr(mode.name.rfind('.') + 1);
+    for (const LibraryFile& file : lua_library())
+      if (file.name == "collapse/" + name)
+        text += "### `" + mode.name + "`\n\n" + leading_comment(file.text) + "\n\n";
+    text += kHead + option_rows(mode.description,
+                                [&](const Key& key) { return name == "heap" || !is_common(key); }) +
+            "\n";
+    if (name != "heap") common = option_rows(mode.description, is_common);
+  }
+  return text + "### What every mode but `heap` has\n\nThe structure's place, and the debris that "
+                "covers it.\n\n" + kHead + common + "\n";
 }
 
 std::string alias_table(const Schema& schema) {
@@ -77,7 +130,7 @@ std::string lua_reference() {
   PackTable pack_table;
   const Schema pack = make_pack_schema(pack_table);
   return "\n## Keys of a mission\n\n" + section(mission, "", "", "") + alias_table(mission) +
-         "## Keys of pack.lua\n\n" + section(pack, "", "", "");
+         collapse_reference() + "## Keys of pack.lua\n\n" + section(pack, "", "", "");
 }
 
 std::string with_reference(const std::string& document) {

@@ -182,6 +182,10 @@ Outcome store_as(const Range& range, const T& to, const Value& value) {
     return Outcome::stored;
   } else if constexpr (std::is_same_v<T, WordOrFile>) {
     return store_word_or_file(to, value);
+  } else if constexpr (std::is_same_v<T, Value*>) {
+    if (value.kind != Value::Kind::table || !value.strange_keys.empty()) return Outcome::wrong_type;
+    *to = value;
+    return Outcome::stored;
   } else {
     return store_strings(value, *to);
   }
@@ -225,6 +229,8 @@ Value read_as(const T& from) {
     return Value::make_text(from.names[std::size_t(from.get())]);
   } else if constexpr (std::is_same_v<T, StringOrList>) {
     return list_of(*from.member);
+  } else if constexpr (std::is_same_v<T, Value*>) {
+    return *from;
   } else if constexpr (std::is_same_v<T, WordOrFile>) {
     if (from.file->empty()) return Value::make_text(from.word);
     Value table = Value::make_table();
@@ -249,6 +255,7 @@ std::string expected_as(const Key& key, const T& slot) {
   if constexpr (std::is_same_v<T, Choice>) return choice_words(slot);
   if constexpr (std::is_same_v<T, WordOrFile>)
     return "\"" + slot.word + "\" or { " + slot.key + " = \"FILE\" }";
+  if constexpr (std::is_same_v<T, Value*>) return "a table";
   if constexpr (std::is_same_v<T, StringOrList>) return "a string or a list of strings";
   return "a list of strings";
 }

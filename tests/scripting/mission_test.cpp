@@ -126,8 +126,8 @@ TEST(MissionErrors, WhatContradictsItself) {
     { position = {1, 0, 0}, t = 2, speed = 3 },
     { position = {1, 0, 0}, t = 2, look_at = {1, 0, 0} },
     { position = {1, 0, 0}, look_at = {2, 0, 0}, rpy_deg = {5, 6, 7} } } } })"),
-      "m.lua:2: pile.placed[1].asset: no name: expected the name of an asset, found an empty "
-      "string\n"
+      "m.lua:2: pile.placed[1]: no piece: expected `asset = NAME` or `box = {x, y, z}`, found "
+      "neither\n"
       "m.lua:2: pile.mix: nothing to draw: expected a weight above 0, found only weights of "
       "0\n"
       "m.lua:4: trajectory.waypoints[1].t: the first waypoint is the start: expected 0, found "

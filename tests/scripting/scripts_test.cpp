@@ -13,8 +13,9 @@ const std::string kScripts = RUBBLE_SOURCE_DIR "/scripts";
 
 std::set<std::string> bundled_scripts() {
   std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(kScripts))
-    if (entry.path().extension() == ".lua") names.insert(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kScripts))
+    if (entry.path().extension() == ".lua")
+      names.insert(entry.path().lexically_relative(kScripts).string());
   return names;
 }
 
@@ -22,7 +23,7 @@ Mission load(const std::string& name) { return load_mission(kScripts + "/" + nam
 
 TEST(Scripts, AllLoadAndSample) {
   const auto names = bundled_scripts();
-  EXPECT_GE(names.size(), 12u);
+  EXPECT_GE(names.size(), 23u);
   for (const std::string& name : names) {
     const Mission mission = load(name);
     EXPECT_NO_THROW(mission.scenario.validate()) << name;

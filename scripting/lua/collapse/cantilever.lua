@@ -1,0 +1,36 @@
+-- rubble.collapse.cantilever: slabs still held in a wall at one end, the other end hanging free.
+-- Under the lowest is an open wedge: height at the wall, height - length * sin(droop) at the tip.
+--
+-- The origin is at the foot of the wall's inner face; the slabs hang out along X.
+local name = "rubble.collapse.cantilever"
+
+return function(given)
+  local o = rubble.options(name, given, rubble.structure_options {
+    { "length", 4, min = 0.5, max = 30, unit = "m", doc = "Of a slab, from the wall to its tip." },
+    { "width", 6, min = 0.3, max = 50, unit = "m", doc = "Of the slabs and the wall." },
+    { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Of a slab." },
+    { "height", 2.6, min = 0.2, max = 40, unit = "m", doc = "Of the lowest slab's lower face, at the wall." },
+    { "droop_deg", 15, min = 0, max = 60, unit = "degree", doc = "How far it hangs below level." },
+    { "storey_height", 3, min = 0.3, max = 20, unit = "m", doc = "From one slab to the next." },
+    { "storeys", 1, type = "integer", min = 1, max = 30, doc = "Slabs, one above another." },
+    { "wall_thickness", 0.3, min = 0.1, max = 5, unit = "m", doc = "Of the wall." },
+  })
+  local angle = math.rad(o.droop_deg)
+  if o.height - o.length * math.sin(angle) < 0.05 then
+    rubble.reject(name, "droop_deg", "a slab that hangs clear of the floor", o.droop_deg)
+    o.droop_deg, angle = 0, 0
+  end
+  local top = o.height + (o.storeys - 1) * o.storey_height + o.thickness + 0.5
+  local placed = {
+    rubble.wall { x0 = -o.wall_thickness, x1 = 0, width = o.width, height = top, broken = { "+z" } },
+  }
+  local held = 0.5 * o.wall_thickness * math.cos(angle)
+  for k = 0, o.storeys - 1 do
+    placed[#placed + 1] = rubble.slab {
+      from = { -held * math.cos(angle), 0, o.height + k * o.storey_height + held * math.sin(angle) },
+      size = { o.length + held, o.width, o.thickness }, pitch_deg = o.droop_deg,
+      broken = { "+x" }, fixed = true,
+    }
+  end
+  return rubble.assemble(o, placed)
+end

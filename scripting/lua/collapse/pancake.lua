@@ -1,0 +1,58 @@
+-- rubble.collapse.pancake: floors stacked on one another, the gaps held open by what stood between
+-- them. Flat voids; the stack is storeys * (thickness + gap) high.
+--
+-- The origin is on the ground below the middle of the stack.
+local name = "rubble.collapse.pancake"
+
+return function(given)
+  local o = rubble.options(name, given, rubble.structure_options {
+    { "length", 8, min = 1, max = 100, unit = "m", doc = "Of a floor, along X." },
+    { "width", 6, min = 1, max = 100, unit = "m", doc = "Of a floor, along Y." },
+    { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Of a floor." },
+    { "gap", 0.6, min = 0.05, max = 5, unit = "m", doc = "From floor to floor: how high the contents are." },
+    { "tilt_deg", 2, min = 0, max = 5, unit = "degree",
+      doc = "Floors slope by this, in turn to either side, as their contents are of unequal height." },
+    { "shift", 0.05, min = 0, max = 0.1, doc = "How far floors moved over one another; a share of the length." },
+    { "supports", 2, type = "integer", min = 2, max = 20, doc = "Rows of contents along X, and along Y." },
+    { "storeys", 3, type = "integer", min = 1, max = 30, doc = "Floors." },
+    { "stream", "pancake", doc = "Name of the random stream that draws shifts and contents." },
+  })
+  local random, placed = rubble.random(o.stream), {}
+  local slope = math.tan(math.rad(o.tilt_deg))
+  local reach = 0.36 * o.length
+  if slope * reach > 0.8 * o.gap then
+    rubble.reject(name, "tilt_deg", "a slope that leaves the lower side open", o.tilt_deg)
+    slope = 0
+  end
+  local below, bottom, x, y = 0, 0, 0, 0  -- of the floor that is next: slope and height in its middle
+  for k = 1, o.storeys do
+    local tilt = (k % 2 == 1 and 1 or -1) * slope
+    local x_before = x
+    if k > 1 then
+      x = o.shift * o.length * random:uniform(-0.5, 0.5)
+      y = o.shift * o.length * random:uniform(-0.5, 0.5)
+    end
+    for i = 1, o.supports do
+      for j = 1, o.supports do
+        local side = 0.3 * random:uniform(0.8, 1.2)
+        local px = reach * (2 * (i - 1) / (o.supports - 1) - 1)
+        local py = 0.36 * o.width * (2 * (j - 1) / (o.supports - 1) - 1) + random:uniform(-0.1, 0.1)
+        local floor = bottom + below * (px - x_before)
+        local height = bottom + o.gap + tilt * (px - x) - floor
+        placed[#placed + 1] = {
+          box = { side, side, height }, position = { px, py, floor + height / 2 + 0.002 },
+          rpy_deg = { 0, -math.deg(math.atan(below)), 0 }, broken = { "+x", "-x" }, fixed = false,
+        }
+      end
+    end
+    local angle = -math.deg(math.atan(tilt))
+    local middle = rubble.rotate({ 0, angle, 0 }, { 0, 0, o.thickness / 2 })
+    placed[#placed + 1] = {
+      box = { o.length, o.width, o.thickness }, rpy_deg = { 0, angle, 0 },
+      position = { x + middle.x, y, bottom + o.gap + middle.z + 0.006 },
+      broken = { "+x", "-y" }, fixed = false,
+    }
+    bottom, below = bottom + o.gap + o.thickness + 0.006, tilt
+  end
+  return rubble.assemble(o, placed)
+end

@@ -182,6 +182,7 @@ class SourceMap::Builder {
   }
 
   void read_return() {
+    pending_.clear();  // `p.layers = 2 return rubble.mission { ... }`: 2 is not the mission
     if (map_.root_line_ == 0) map_.root_line_ = token().line;
     if (token(1).is("{")) root_comes_ = true;
     ++i_;

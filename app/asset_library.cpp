@@ -6,12 +6,10 @@
 #include <map>
 #include <set>
 
-#include "assets/generator/box.h"
+#include "app/placed_box.h"
 #include "io/mesh_file.h"
 #include "kernel/base/hash.h"
-#include "kernel/base/random.h"
 #include "scripting/asset_pack.h"
-#include "scripting/value.h"
 
 namespace rubble {
 namespace {
@@ -99,61 +97,42 @@ void load_asset(const Found& found, AssetLibrary& library) {
   library.meshes.push_back(std::move(mesh));
 }
 
-// Boxes of one make are one type, whose name says all of it: "box 4x0.2x6 brick +x".
-std::string box_name(const PlacedItem& item) {
-  std::string name = "box";
-  for (int i = 0; i < 3; ++i) name += (i ? "x" : " ") + format_number((*item.box)[i]);
-  name += " " + item.material;
-  for (const std::string& face : item.broken) name += " " + face;
-  return name;
+void add_box(const PlacedItem& item, const std::vector<Material>& materials,
+             AssetLibrary& library) {
+  MadeBox box = make_placed_box(item, materials);
+  library.contents.push_back(
+      {box.type.name, kMadeToMeasure, std::move(box.sha256), 0, {1, 1}});
+  library.types.push_back(std::move(box.type));
+  library.meshes.push_back(std::move(box.mesh));
 }
 
-generator::BoxRecipe box_recipe(const PlacedItem& item) {
-  static const char* const kFaces[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
-  generator::BoxRecipe recipe;
-  recipe.size = *item.box;
-  recipe.surface = generator::surface_of_material(item.material);
-  for (std::size_t i = 0; i < 6; ++i)
-    recipe.broken[i] = std::count(item.broken.begin(), item.broken.end(), kFaces[i]) > 0;
-  recipe.seed = std::uint32_t(RandomStream(0, box_name(item)).next() >> 40);
-  return recipe;
-}
-
-PieceType box_type(const PlacedItem& item, const Material& material) {
-  PieceType type;
-  type.name = box_name(item);
-  type.density = material.density;
-  type.friction = material.friction;
-  type.parts.emplace_back();
-  const Vec3 half = *item.box * 0.5;
-  for (int i = 0; i < 8; ++i)
-    type.parts[0].points.push_back(
-        {i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z});
-  return type;
-}
-
-// Every make of box that the mission places. Its mass is that of the exact box.
-void make_boxes(const Mission& mission, const std::vector<Material>& materials,
-                AssetLibrary& library) {
+// Every make of box that the mission places.
+void add_boxes(const Mission& mission, const std::vector<Material>& materials,
+               AssetLibrary& library) {
   std::vector<std::string> names;
   for (const Material& material : materials) names.push_back(material.name);
   check_materials(mission, names);
   std::set<std::string> made;
-  for (const PlacedItem& item : mission.scenario.pile.placed) {
-    if (!item.box || !made.insert(box_name(item)).second) continue;
-    const auto material = std::find_if(materials.begin(), materials.end(), [&](const Material& m) {
-      return m.name == item.material;
-    });
-    auto mesh = std::make_shared<SceneMesh>();
-    mesh->levels = generator::make_box(box_recipe(item));
-    library.types.push_back(box_type(item, *material));
-    Sha256 hash;
-    for (const double number : {material->density, material->friction})
-      hash.add(&number, sizeof number);
-    hash.add(box_name(item).data(), box_name(item).size());
-    library.contents.push_back({box_name(item), "made to measure", hash.hex()});
-    library.meshes.push_back(std::move(mesh));
+  for (const PlacedItem& item : mission.scenario.pile.placed)
+    if (item.box && made.insert(placed_box_name(item)).second) add_box(item, materials, library);
+}
+
+// A box that a recipe names, made again.
+void remake_box(const AssetContent& wanted, const Scenario& scenario,
+                const std::vector<Material>& materials, const std::string& file,
+                AssetLibrary& library) {
+  Diagnostic lost{file, 0, "assets", "the box `" + wanted.name + "` cannot be made again", "", "",
+                  ""};
+  for (const PlacedItem& item : scenario.pile.placed) {
+    if (!item.box || placed_box_name(item) != wanted.name) continue;
+    add_box(item, materials, library);
+    if (library.contents.back().sha256 == wanted.sha256) return;
+    lost.expected = "the content " + wanted.sha256;
+    lost.found = library.contents.back().sha256;
+    break;
   }
+  lost.hint = "use the program that the run was made with";
+  throw InputError(lost);
 }
 
 // What layers are drawn from: the mission's mix, or every asset by its own weight.
@@ -244,7 +223,7 @@ std::vector<MixEntry> make_mix(const Scenario& scenario, const AssetLibrary& lib
 }  // namespace
 
 int AssetLibrary::find(const PlacedItem& item) const {
-  return find(item.box ? box_name(item) : item.asset);
+  return find(item.box ? placed_box_name(item) : item.asset);
 }
 
 int AssetLibrary::find(const std::string& name) const {
@@ -277,7 +256,7 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   const std::set<std::string> used = names_used(mission.scenario, all);
   for (const Found& found : all)
     if (used.count(found.asset->name)) load_asset(found, library);
-  make_boxes(mission, materials, library);
+  add_boxes(mission, materials, library);
   library.mix = make_mix(mission.scenario, all, library);
   return library;
 }
@@ -294,9 +273,15 @@ AssetLibrary load_assets(const Recipe& recipe, const std::vector<std::string>& f
     packs.push_back(load_asset_pack(folder, materials));
   Search search{packs, {}, library.folders};
   const Recipe& pile = recipe.pile_from ? *recipe.pile_from : recipe;
-  for (const AssetContent& wanted : pile.assets) search.find(wanted, recipe.script.path, library);
+  const Scenario scenario = stated_scenario(pile);
+  for (const AssetContent& wanted : pile.assets) {
+    if (wanted.pack == kMadeToMeasure)
+      remake_box(wanted, scenario, materials, recipe.script.path, library);
+    else
+      search.find(wanted, recipe.script.path, library);
+  }
   if (!search.missing.empty()) throw InputError(std::move(search.missing));
-  library.mix = make_mix(stated_scenario(pile), library);
+  library.mix = make_mix(scenario, library);
   return library;
 }
 

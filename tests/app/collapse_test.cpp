@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "app/recipe.h"
 #include "tests/app/settled_mission.h"
 
 namespace rubble::testing {
@@ -167,7 +168,7 @@ TEST(Collapse, CurtainComesDownAtTheFootOfTheWall) {
   }
   EXPECT_EQ(all, 105) << "3 x 2.6 m of blocks of 0.39 x 0.19 m";
   EXPECT_GT(inside / all, 0.9);
-  EXPECT_LT(highest, 2.6 / 2);
+  EXPECT_LT(highest, 0.7 * 2.6);
   EXPECT_TRUE(m.state.settled);
 }
 
@@ -233,6 +234,19 @@ TEST(Collapse, DebrisCoversWhatHasSettled) {
   EXPECT_EQ(debris, 120);
   EXPECT_GT(on_top, 110);
   expect_close(calc_free_section(queries, 3 - 4.5, 3, -2), 2 * std::sqrt(21.0) / 2);
+}
+
+// A run is had again from its recipe alone: its boxes, too.
+TEST(PlacedBoxes, AreMadeAgainFromARecipe) {
+  const SettledMission m = settle_mode("lean_to", "");
+  Recipe recipe = make_recipe(RunKind::settle, m.mission, {});
+  recipe.assets = m.assets.contents;
+  const AssetLibrary again = load_assets(recipe, {});
+  ASSERT_EQ(again.types.size(), m.assets.types.size());
+  for (std::size_t i = 0; i < again.types.size(); ++i)
+    EXPECT_EQ(again.contents[i].sha256, m.assets.contents[i].sha256) << again.types[i].name;
+  recipe.assets[0].sha256[0] ^= 1;
+  EXPECT_THROW(load_assets(recipe, {}), InputError);
 }
 
 }  // namespace

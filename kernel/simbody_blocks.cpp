@@ -87,17 +87,21 @@ Vec3 SimbodyBlocks::linear_velocity(int body) const {
 // The kinematics of a Free mobilizer, dq/dt = N(q) u, written out: Simbody's multiplyByN() computes
 // the same, but its arm64 build gave other last bits (most likely by fused multiply-adds).
 void SimbodyBlocks::advance(int index, const std::vector<std::uint8_t>& moves,
-                            const Vec3* extra_linear, const Vec3* extra_angular, double dt) {
+                            const BodyRates* rates, double dt) {
   Block& block = *blocks_[index];
-  const SimTK::Vector& u = block.state.getU();
+  SimTK::Vector& u = block.state.updU();
   SimTK::Vector& q = block.state.updQ();
   const int count = int(block.bodies.size());
   for (int slot = 0; slot < count; ++slot) {
     const int body = block.first + slot;
     if (!moves[body]) continue;
     const int iu = 6 * slot, iq = 7 * slot;
-    const Vec3 w = Vec3{u[iu], u[iu + 1], u[iu + 2]} + extra_angular[body];
-    const Vec3 v = Vec3{u[iu + 3], u[iu + 4], u[iu + 5]} + extra_linear[body];
+    const BodyRates& rate = rates[body];
+    for (int i = 0; i < 3; ++i) {
+      u[iu + i] = rate.angular[i];
+      u[iu + 3 + i] = rate.linear[i];
+    }
+    const Vec3 w = rate.angular + rate.extra_angular, v = rate.linear + rate.extra_linear;
     const Quat r{q[iq], q[iq + 1], q[iq + 2], q[iq + 3]};
     const Quat spin = Quat{0, w.x, w.y, w.z} * r;
     const double half = 0.5 * dt;
@@ -106,7 +110,6 @@ void SimbodyBlocks::advance(int index, const std::vector<std::uint8_t>& moves,
     q[iq] = turned.w, q[iq + 1] = turned.x, q[iq + 2] = turned.y, q[iq + 3] = turned.z;
     for (int i = 0; i < 3; ++i) q[iq + 4 + i] += v[i] * dt;
   }
-  block.system.realize(block.state, SimTK::Stage::Position);
 }
 
 Pose SimbodyBlocks::world_from_com(int body) const {

@@ -1,8 +1,9 @@
 // The kernel's only door to Simbody: free bodies in blocks, each a MultibodySystem with a State of
 // its own that holds the coordinates q and the speeds u of up to 16 bodies.
 //
-// Simbody owns the state; contact impulses change u, and advance() changes q. A block is realised
-// only when one of its bodies is awake, and the numbers of a sleeping body are never rewritten.
+// Simbody owns the state; contact impulses change u, and advance() changes q. Free bodies need
+// nothing else of a State, so a step does not realise it beyond that: who asks Simbody for more
+// realises it first. The numbers of a sleeping body are never rewritten.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +20,12 @@ struct FreeBody {
   Pose world_from_com;
   Vec3 linear_velocity;   // of the centre of mass, in the world; unit: m/s
   Vec3 angular_velocity;  // in the world; unit: rad/s
+};
+
+// How a body moves in a step.
+struct BodyRates {
+  Vec3 linear, angular;              // speeds after the step; unit: m/s, rad/s
+  Vec3 extra_linear, extra_angular;  // on top of them in the displacement only
 };
 
 class SimbodyBlocks {
@@ -44,10 +51,9 @@ class SimbodyBlocks {
   Vec3 angular_velocity(int body) const;
 
   // Moves the bodies of one block that `moves` marks (indexed by body) for the time `dt` by their
-  // speeds u plus the extra displacement rates, and realises the block's positions. Blocks are
-  // independent of each other: different threads may advance different blocks.
-  void advance(int block, const std::vector<std::uint8_t>& moves, const Vec3* extra_linear,
-               const Vec3* extra_angular, double dt);
+  // new speeds u plus the extra displacement rates. Blocks are independent of each other: different
+  // threads may advance different blocks.
+  void advance(int block, const std::vector<std::uint8_t>& moves, const BodyRates* rates, double dt);
   Pose world_from_com(int body) const;
 
   // Puts a body somewhere, bit for bit; used to restore a state.

@@ -18,6 +18,7 @@ inline constexpr int kLanes = 4;
 
 RUBBLE_INLINE Wide splat(float x) { return Wide{x, x, x, x}; }
 RUBBLE_INLINE Wide select(WideMask mask, Wide a, Wide b) { return mask ? a : b; }
+RUBBLE_INLINE bool any(WideMask m) { return (m[0] | m[1] | m[2] | m[3]) != 0; }
 RUBBLE_INLINE Wide max(Wide a, Wide b) { return a > b ? a : b; }
 RUBBLE_INLINE Wide min(Wide a, Wide b) { return a < b ? a : b; }
 RUBBLE_INLINE Wide sqrt(Wide a) {

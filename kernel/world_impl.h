@@ -47,7 +47,7 @@ struct World::Impl {
   std::vector<std::int32_t> active;
   std::vector<std::uint8_t> moves;  // by number in SimbodyBlocks
   std::vector<Motion> velocities, displacements;
-  std::vector<Vec3> extra_linear, extra_angular;
+  std::vector<BodyRates> rates;  // by number in SimbodyBlocks
   std::vector<float> fastest;
 
   // world.cpp

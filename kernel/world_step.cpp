@@ -122,7 +122,7 @@ void World::Impl::limit_kicks() {
 // The speeds after the step, and the extra rates that make up its displacement.
 void World::Impl::set_rates(std::size_t index) {
   const Body& body = data.bodies[index];
-  Vec3 v, w;
+  BodyRates& r = rates[body.mobile];
   if (body.touching) {
     Motion m = velocities[index];
     const float spin = norm(m.angular), speed = norm(m.linear);
@@ -131,25 +131,23 @@ void World::Impl::set_rates(std::size_t index) {
     // Grinding of rough surfaces, for pieces that are nearly at rest.
     if (spin < kSlowSpin) m.angular *= 1 - kSpinDamping * (1 - spin / kSlowSpin);
     if (speed < kSlowSpeed) m.linear *= 1 - kSpeedDamping * (1 - speed / kSlowSpeed);
-    v = Vec3(m.linear), w = Vec3(m.angular);
+    r.linear = Vec3(m.linear), r.angular = Vec3(m.angular);
     const double per_step = 1 / options.step;
-    extra_linear[body.mobile] = Vec3(displacements[index].linear) * per_step - v;
-    extra_angular[body.mobile] = Vec3(displacements[index].angular) * per_step - w;
+    r.extra_linear = Vec3(displacements[index].linear) * per_step - r.linear;
+    r.extra_angular = Vec3(displacements[index].angular) * per_step - r.angular;
   } else {
     // Nothing touches it: the exact parabola, in double precision.
-    v = blocks.linear_velocity(body.mobile);
-    w = gyroscopic(body, blocks.angular_velocity(body.mobile), options.step);
-    v.z -= options.gravity * options.step;
-    extra_linear[body.mobile] = {0, 0, 0.5 * options.gravity * options.step};
-    extra_angular[body.mobile] = {};
+    r.linear = blocks.linear_velocity(body.mobile);
+    r.angular = gyroscopic(body, blocks.angular_velocity(body.mobile), options.step);
+    r.linear.z -= options.gravity * options.step;
+    r.extra_linear = {0, 0, 0.5 * options.gravity * options.step};
+    r.extra_angular = {};
   }
-  blocks.set_velocity(body.mobile, v, w);
 }
 
 void World::Impl::advance() {
   moves.assign(blocks.size(), 0);
-  extra_linear.resize(blocks.size());
-  extra_angular.resize(blocks.size());
+  rates.resize(blocks.size());
   std::vector<std::uint8_t> block_awake(blocks.block_count(), 0);
   std::vector<std::int32_t> body_of(blocks.size(), 0);
   for (std::size_t i = 0; i < data.bodies.size(); ++i) {
@@ -163,7 +161,7 @@ void World::Impl::advance() {
   pool.run(blocks.block_count(), 4, [&](int begin, int end) {
     for (int block = begin; block < end; ++block) {
       if (!block_awake[block]) continue;
-      blocks.advance(block, moves, extra_linear.data(), extra_angular.data(), options.step);
+      blocks.advance(block, moves, rates.data(), options.step);
       for (int mobile = blocks.first_of(block); mobile < blocks.first_of(block + 1); ++mobile) {
         if (!moves[mobile]) continue;
         Body& body = data.bodies[body_of[mobile]];

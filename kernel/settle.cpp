@@ -48,7 +48,7 @@ class Settling {
     if (!last && options_.schedule == Schedule::planes) {
       rested = run_until(options_.layer_time_limit, [this] { return world_.all_have_touched(); });
     } else {
-      rested = run_to_rest(last ? options_.final_time_limit : options_.layer_time_limit);
+      rested = last ? prove_rest() : run_to_rest();
     }
     if (!rested && !stopped_) ++layers_at_limit_;
     return rested;
@@ -70,8 +70,7 @@ class Settling {
     const bool movable = std::any_of(pile_.placed.begin(), pile_.placed.end(),
                                      [](const Placement& placement) { return !placement.fixed; });
     if (!movable) return true;
-    return run_to_rest(pile_.layers.empty() ? options_.final_time_limit
-                                            : options_.layer_time_limit);
+    return pile_.layers.empty() ? prove_rest() : run_to_rest();
   }
 
   void spawn(std::size_t k) {
@@ -91,9 +90,19 @@ class Settling {
     layer_steps_ = 0;
   }
 
-  bool run_to_rest(double limit) {
-    return run_until(limit, [this] {
+  bool run_to_rest() {
+    return run_until(options_.layer_time_limit, [this] {
       return world_.at_rest(options_.rest_speed, options_.rest_angular_speed);
+    });
+  }
+
+  // What fell asleep while the pile grew may have been about to slide: the end must hold awake.
+  bool prove_rest() {
+    return run_until(options_.final_time_limit, [this] {
+      const double speed = options_.rest_speed, angular_speed = options_.rest_angular_speed;
+      if (world_.proving()) return world_.proved_rest(speed, angular_speed);
+      if (world_.at_rest(speed, angular_speed)) world_.prove_rest();
+      return false;
     });
   }
 

@@ -12,6 +12,8 @@
 namespace rubble {
 namespace {
 
+constexpr double kProofTime = 1.0;  // see World::proved_rest(); unit: s
+
 Mat3 inverse_symmetric(const Mat3& m) {
   const Vec3 c0 = cross(m.rows[1], m.rows[2]), c1 = cross(m.rows[2], m.rows[0]),
              c2 = cross(m.rows[0], m.rows[1]);
@@ -142,6 +144,7 @@ World& World::operator=(World&&) noexcept = default;
 int World::add(const std::vector<NewPiece>& pieces) {
   Impl& w = *impl_;
   const int first = size();
+  w.data.proof_steps = -1;
   for (std::size_t i = 0; i < pieces.size(); ++i) check(pieces[i], int(w.types.size()), int(i));
   std::vector<FreeBody> free(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) w.add_body(pieces[i], &free[i]);
@@ -188,6 +191,8 @@ const StepTimes& World::times() const { return impl_->times; }
 bool World::is_awake(int index) const { return impl_->data.bodies[index].awake; }
 bool World::is_touching(int index) const { return impl_->data.bodies[index].touching; }
 double World::mass(int index) const { return impl_->data.bodies[index].mass; }
+
+bool World::proving() const { return impl_->data.proof_steps >= 0; }
 
 int World::awake_count() const {
   int count = 0;
@@ -239,6 +244,11 @@ void World::wake_all() {
   for (int i = 0; i < size(); ++i) impl_->wake(i);
 }
 
+void World::prove_rest() {
+  wake_all();
+  impl_->data.proof_steps = 0;
+}
+
 void World::set_sleeping(bool allowed) {
   impl_->options.sleeping = allowed;
   if (!allowed) wake_all();
@@ -252,6 +262,12 @@ bool World::at_rest(double speed, double angular_speed) const {
     if (dot(v, v) >= speed * speed || dot(w, w) >= angular_speed * angular_speed) return false;
   }
   return true;
+}
+
+bool World::proved_rest(double speed, double angular_speed) const {
+  const auto wanted = std::int64_t(kProofTime / impl_->options.step);
+  if (!proving() || (awake_count() > 0 && impl_->data.proof_steps < wanted)) return false;
+  return at_rest(speed, angular_speed);
 }
 
 bool World::all_have_touched() const {

@@ -66,6 +66,12 @@ class World {
 
   // Every piece sleeps, or touches something and is below both speeds.
   bool at_rest(double speed, double angular_speed) const;
+  // Sleep is cheap to fall into while a pile grows. This wakes every piece, and from now until
+  // pieces are added only those sleep again that stay where they are on stricter terms.
+  void prove_rest();
+  bool proving() const;
+  // After prove_rest(): all sleep again, or a second has passed and they are at rest.
+  bool proved_rest(double speed, double angular_speed) const;
   bool all_have_touched() const;
   // Of all pieces, or of those that have touched something and the immovable ones; 0 when none.
   double highest_point(bool touched_only = false) const;

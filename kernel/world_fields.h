@@ -63,7 +63,8 @@ template <typename Struct, typename Visit, IfIs<Struct, WorldData> = 0>
 void each_field(Struct& d, Visit&& visit) {
   visit(d.bodies), visit(d.colliders), visit(d.corners), visit(d.broad), visit(d.pairs);
   visit(d.contacts);
-  visit(d.contact_of_pair), visit(d.wake_next), visit(d.steps), visit(d.lost);
+  visit(d.contact_of_pair), visit(d.wake_next), visit(d.steps);
+  visit(d.proof_steps), visit(d.lost);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, FreeBody> = 0>

@@ -26,6 +26,7 @@ struct WorldData {
   std::unordered_map<std::uint64_t, std::int32_t> contact_of_pair;  // looked up, never walked
   std::vector<std::uint8_t> wake_next;                              // by body
   std::int64_t steps = 0;
+  std::int64_t proof_steps = -1;  // since prove_rest(); -1: not called since pieces were added
   int lost = 0;
 };
 
@@ -73,7 +74,7 @@ struct World::Impl {
   void note_loads(const std::vector<std::uint8_t>& slept);
   void wake(int body);
   void fall_asleep(int body);
-  static float wake_impulse(const Body& body);  // a contact's must change by this; unit: N s
+  float wake_impulse(const Body& body) const;  // a contact's must change by this; unit: N s
 
   // world_step.cpp
   void apply_forces();

@@ -6,23 +6,36 @@
 namespace rubble {
 namespace {
 
-// A piece falls asleep after it has stayed within this distance for this time.
-constexpr double kStillDistance = 0.001;  // of any of its points; unit: m
-constexpr double kStillTime = 0.25;       // unit: s
-// So does one that jitters, but goes nowhere.
-constexpr double kLooseDistance = 0.005;  // unit: m
-constexpr double kLooseTime = 1.0;        // unit: s
-// A sleeper wakes when the impulse of a contact changes by what would give it this speed.
-constexpr float kWakeSpeed = 0.1F;  // unit: m/s
-// A share of its load comes on top.
-constexpr float kWakeLoad = 0.25F;
-// A sleeper wakes at once when an impact would give it this speed.
-constexpr float kHitSpeed = 0.2F;  // unit: m/s
+// When a piece falls asleep, and what wakes it.
+struct SleepTerms {
+  // It sleeps after it has stayed within this distance for this time.
+  double still_distance;  // of any of its points; unit: m
+  double still_time;      // unit: s
+  // So does one that jitters, but goes nowhere.
+  double loose_distance;  // unit: m
+  double loose_time;      // unit: s
+  // It wakes when the impulse of a contact changes by what would give it this speed, and this share
+  // of its load on top.
+  float wake_speed;  // unit: m/s
+  float wake_load;
+  // It wakes at once when an impact would give it this speed.
+  float hit_speed;  // unit: m/s
+};
+// While a pile grows, what lies still enough sleeps: most of it will be hit again.
+constexpr SleepTerms kGrowing{0.003, 0.2, 0.008, 0.6, 0.2F, 0.5F, 0.4F};
+// Whether it rests is decided on these: who creeps slowly must not pass for one that stays.
+constexpr SleepTerms kProving{0.001, 0.5, 0.004, 1.0, 0.1F, 0.25F, 0.2F};
+
 // Overlaps deeper than this keep a piece awake for a while.
 constexpr float kSleepOverlap = 0.003F;    // unit: m
 constexpr double kSleepOverlapTime = 2.0;  // unit: s
 
-float hit_impulse(const Body& body) { return kHitSpeed * float(body.mass) + body.load; }
+const SleepTerms& terms(const WorldData& data) {
+  return data.proof_steps < 0 ? kGrowing : kProving;
+}
+float hit_impulse(const Body& body, const SleepTerms& t) {
+  return t.hit_speed * float(body.mass) + body.load;
+}
 
 // Counts the steps that a body has stayed near `pose`; starts anew where it is when it has left.
 void count_still(const Body& body, double distance, Pose& pose, std::int32_t& steps) {
@@ -43,8 +56,8 @@ void count_still(const Body& body, double distance, Pose& pose, std::int32_t& st
 }  // namespace
 
 // What carries a high load is clamped by it, and changes of a fraction of the load do not matter.
-float World::Impl::wake_impulse(const Body& body) {
-  return kWakeSpeed * float(body.mass) + kWakeLoad * body.load;
+float World::Impl::wake_impulse(const Body& body) const {
+  return terms(data).wake_speed * float(body.mass) + terms(data).wake_load * body.load;
 }
 
 void World::Impl::wake(int index) {
@@ -89,7 +102,7 @@ void World::Impl::wake_hit() {
       const float approach = -dot(contact.normal, v);
       if (p.separation - approach * solver_settings.step > solver_settings.rest_gap) continue;
       // The impulse of a central plastic impact.
-      if (approach < inverse_masses * hit_impulse(sleeper)) continue;
+      if (approach < inverse_masses * hit_impulse(sleeper, terms(data))) continue;
       wake(a.awake ? contact.body_b : contact.body_a);
       any = true;
       break;
@@ -153,15 +166,16 @@ void World::Impl::update_sleep() {
   wake_changed();
   if (!options.sleeping) return;
   const std::vector<std::uint8_t> overlapping = find_overlapping();
-  const int wait = int(kStillTime / options.step), loose_wait = int(kLooseTime / options.step);
+  const SleepTerms& t = terms(data);
+  const int wait = int(t.still_time / options.step), loose_wait = int(t.loose_time / options.step);
   const int long_wait = int(kSleepOverlapTime / options.step);
   std::vector<std::uint8_t> slept(data.bodies.size(), 0);
   bool any = false;
   for (std::size_t i = 0; i < data.bodies.size(); ++i) {
     Body& body = data.bodies[i];
     if (!body.awake) continue;
-    count_still(body, kStillDistance, body.still_pose, body.still_steps);
-    count_still(body, kLooseDistance, body.loose_pose, body.loose_steps);
+    count_still(body, t.still_distance, body.still_pose, body.still_steps);
+    count_still(body, t.loose_distance, body.loose_pose, body.loose_steps);
     if (body.still_steps < (overlapping[i] ? long_wait : wait) &&
         body.loose_steps < (overlapping[i] ? long_wait : loose_wait)) {
       continue;

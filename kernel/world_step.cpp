@@ -15,7 +15,7 @@ constexpr float kMaximumSpeed = 50.0F;  // unit: m/s
 // slower they are.
 constexpr float kSlowSpin = 1.0F, kSpinDamping = 0.1F;     // unit: rad/s, 1
 constexpr float kSlowSpeed = 0.1F, kSpeedDamping = 0.02F;  // unit: m/s, 1
-constexpr float kKickShare = 0.35F;                        // see limit_kicks()
+constexpr float kKickShare = 0.4F;                        // see limit_kicks()
 constexpr float kFreeKick = 1.0F;                          // unit: m/s
 constexpr float kOrderDistance = 0.1F;                     // see sort_by_height(); unit: m
 
@@ -90,18 +90,19 @@ void World::Impl::solve_contacts() {
 }
 
 // A piece squeezed out from under a heavy one must not shoot away: sideways and upwards it may
-// become no faster in one step than a share of the speed that the fastest neighbour had before.
+// become no faster in one step than a share of the speed that the points which touch it had before.
 void World::Impl::limit_kicks() {
   fastest.assign(data.bodies.size(), 0);
-  const auto reach = [this](std::int32_t i) {
-    const Body& body = data.bodies[i];
-    return norm(body.linear) + norm(body.angular) * body.radius;
-  };
   for (std::int32_t index : active) {
     const Contact& contact = data.contacts[index];
     if (contact.body_b == kGround || contact.pressed <= 0) continue;
-    fastest[contact.body_a] = std::max(fastest[contact.body_a], reach(contact.body_b));
-    fastest[contact.body_b] = std::max(fastest[contact.body_b], reach(contact.body_a));
+    const Body &a = data.bodies[contact.body_a], &b = data.bodies[contact.body_b];
+    float &of_a = fastest[contact.body_a], &of_b = fastest[contact.body_b];
+    for (int i = 0; i < contact.count; ++i) {
+      const ContactPoint& p = contact.points[i];
+      of_a = std::max(of_a, norm(b.linear + cross(b.angular, p.from_b)));
+      of_b = std::max(of_b, norm(a.linear + cross(a.angular, p.from_a)));
+    }
   }
   for (std::size_t i = 0; i < data.bodies.size(); ++i) {
     const Body& body = data.bodies[i];
@@ -249,6 +250,7 @@ void World::step() {
     w.remove_lost();
   }
   ++w.data.steps;
+  if (w.data.proof_steps >= 0) ++w.data.proof_steps;
 }
 
 }  // namespace rubble

@@ -23,6 +23,8 @@ ExitCode resume_run(const FolderRequest& request);
 ExitCode verify_run(const VerifyRequest& request);
 // The voids of the pile of a finished run, as files beside it (docs/voids.md).
 ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids);
+// Errors of an estimated trajectory, on standard output.
+ExitCode eval_trajectory(const TrajectoryRequest& request);
 // Resolves everything, runs nothing, prints the complete scenario as JSON on standard output.
 ExitCode check_mission(const RunRequest& request);
 // Versions, EGL device and GL renderer in use, threads, on standard output.

@@ -87,6 +87,18 @@ void add_void_options(CLI::App& command, VoidRequest& request) {
   command.add_flag("--force", request.force, "Replace the files of an earlier map");
 }
 
+void add_trajectory_options(CLI::App& command, TrajectoryRequest& request) {
+  command.add_option("estimate", request.estimate, "The estimate: a TUM or EuRoC file")->required();
+  command.add_option("truth", request.truth, "The truth: a TUM or EuRoC file")->required();
+  command.add_option("--delta", request.delta, "Relative errors over so many poses (default: 1)");
+  command
+      .add_option("--max-difference", request.max_difference,
+                  "Largest difference of the stamps of a pair (default: 0.01)")
+      ->type_name("SECONDS")
+      ->check(CLI::NonNegativeNumber);
+  command.add_flag("--json", request.json, "The result as JSON");
+}
+
 ExitCode run(int argc, char** argv) {
   CLI::App app{
       "Simulates collapsed structures: a seed and a Lua mission give a settled pile, a "
@@ -111,6 +123,12 @@ ExitCode run(int argc, char** argv) {
   VoidRequest void_request;
   CLI::App* voids =
       app.add_subcommand("voids", "Map the voids of a run's pile: entrances, volumes, widest ways");
+  TrajectoryRequest trajectory_request;
+  CLI::App* eval = app.add_subcommand("eval", "Score what others made of a dataset");
+  eval->require_subcommand(1);
+  CLI::App* trajectory =
+      eval->add_subcommand("trajectory", "Absolute and relative errors of a trajectory, as evo's");
+  add_trajectory_options(*trajectory, trajectory_request);
   CLI::App* check = app.add_subcommand("check", "Print the complete scenario as JSON; run nothing");
   CLI::App* info = app.add_subcommand("info", "Print versions, the GL renderer and threads");
   for (CLI::App* command : {run, settle, check}) add_mission_options(*command, request);
@@ -132,6 +150,7 @@ ExitCode run(int argc, char** argv) {
   if (*resume) return resume_run(of_folder);
   if (*render) return render_saved_pile(from, request);
   if (*voids) return map_voids(of_folder, void_request);
+  if (*trajectory) return eval_trajectory(trajectory_request);
   if (*check) return check_mission(request);
   if (*info) return print_info();
   return ExitCode::bad_input;

@@ -43,4 +43,11 @@ struct VoidRequest {
   bool force = false;                        // --force
 };
 
+struct TrajectoryRequest {
+  std::string estimate, truth;   // TUM or EuRoC files
+  int delta = 1;                 // --delta: poses between which relative errors are taken
+  double max_difference = 0.01;  // --max-difference: of the stamps of a pair; unit: s
+  bool json = false;             // --json
+};
+
 }  // namespace rubble

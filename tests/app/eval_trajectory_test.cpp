@@ -1,0 +1,170 @@
+// ATE and RPE against figures worked out by hand and against Eigen's umeyama.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/eval/alignment.h"
+#include "app/eval/trajectory_error.h"
+#include "kernel/base/error.h"
+#include "kernel/base/random.h"
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+Pose pose_at(const Vec3& position, const Quat& rotation = {}) { return {rotation, position}; }
+
+Quat about_z(double degrees) {
+  const double half = degrees * 3.14159265358979323846 / 360;
+  return {std::cos(half), 0, 0, std::sin(half)};
+}
+
+std::vector<Vec3> draw_points(RandomStream& random, int count) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i)
+    points.push_back({random.uniform(-3, 3), random.uniform(-2, 2), random.uniform(0, 1)});
+  return points;
+}
+
+TEST(Alignment, AgreesWithEigensUmeyamaOnNoisyPoints) {
+  RandomStream random(1, "alignment");
+  for (const bool with_scale : {false, true}) {
+    for (int round = 0; round < 20; ++round) {
+      const std::vector<Vec3> from = draw_points(random, 3 + round);
+      const Quat turn = random.rotation();
+      std::vector<Vec3> to;
+      Eigen::Matrix3Xd x(3, from.size()), y(3, from.size());
+      for (std::size_t i = 0; i < from.size(); ++i) {
+        const Vec3 noise{random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3),
+                         random.uniform(-0.3, 0.3)};
+        to.push_back(2.5 * turn.rotate(from[i]) + Vec3{4, -5, 6} + noise);
+        x.col(long(i)) << from[i].x, from[i].y, from[i].z;
+        y.col(long(i)) << to[i].x, to[i].y, to[i].z;
+      }
+      const auto found = align_points(from, to, with_scale);
+      ASSERT_TRUE(found);
+      const Eigen::Matrix4d expected = Eigen::umeyama(x, y, with_scale);
+      for (const Vec3& p : from) {
+        const Eigen::Vector4d e = expected * Eigen::Vector4d(p.x, p.y, p.z, 1);
+        EXPECT_LT(distance(*found * p, {e[0], e[1], e[2]}), 1e-9) << "round " << round;
+      }
+    }
+  }
+}
+
+TEST(Alignment, GivesNothingForPointsThatDoNotDetermineIt) {
+  const std::vector<Vec3> line{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 0, 0}};
+  EXPECT_FALSE(align_points(line, line, true));
+  EXPECT_FALSE(align_points({{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {1, 0, 0}}, true));
+  EXPECT_FALSE(align_points(std::vector<Vec3>(5), std::vector<Vec3>(5), false));
+}
+
+// A square of 2 m, with the estimate turned by 90 degrees, moved, and half as large.
+TEST(TrajectoryError, IsNothingForAnEstimateThatIsOnlyMovedTurnedAndScaled) {
+  std::vector<PosePair> pairs;
+  const Vec3 corners[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 p = about_z(90).rotate(corners[i]) * 0.5 + Vec3{7, 8, 9};
+    pairs.push_back({pose_at(p, about_z(90)), pose_at(corners[i])});
+  }
+  const TrajectoryError e = calc_trajectory_error(pairs);
+  EXPECT_NEAR(e.ate_rmse_sim3, 0, 1e-12);
+  EXPECT_NEAR(e.sim3_scale, 2, 1e-12);
+  // Rigidly aligned, the square of 1 m lies in the middle of that of 2 m: each corner is off by
+  // half a diagonal of 1 m.
+  EXPECT_NEAR(e.ate_rmse_se3, std::sqrt(0.5), 1e-12);
+  // Each side is 1 m instead of 2 m; the heading is right all along.
+  EXPECT_NEAR(e.rpe_trans_rmse, 1, 1e-12);
+  EXPECT_NEAR(e.rpe_rot_rmse_deg, 0, 1e-9);
+}
+
+// One of four steps is 0.4 m too long and turns 3 degrees too far; delta 2 sees it once, too.
+TEST(TrajectoryError, RelativeErrorsAreThoseOfTheSteps) {
+  std::vector<PosePair> pairs;
+  for (int i = 0; i < 5; ++i) {
+    const bool after = i >= 2;
+    pairs.push_back({pose_at({i + (after ? 0.4 : 0), 0.1 * i * i, 0}, about_z(after ? 3 : 0)),
+                     pose_at({double(i), 0.1 * i * i, 0})});
+  }
+  // Steps after the turn are seen in a frame that is 3 degrees off, in which the true step of
+  // length l appears off by 2 l sin(1.5 degrees).
+  const auto step = [](int i) { return std::hypot(1, 0.1 * ((i + 1) * (i + 1) - i * i)); };
+  const double chord = 2 * std::sin(1.5 * 3.14159265358979323846 / 180);
+  const double sum = 0.16 + std::pow(chord * step(2), 2) + std::pow(chord * step(3), 2);
+  const TrajectoryError e = calc_trajectory_error(pairs);
+  EXPECT_NEAR(e.rpe_trans_rmse, std::sqrt(sum / 4), 1e-12);
+  EXPECT_NEAR(e.rpe_rot_rmse_deg, std::sqrt(9.0 / 4), 1e-9);
+  const TrajectoryError two = calc_trajectory_error(pairs, 2);
+  EXPECT_NEAR(two.rpe_rot_rmse_deg, std::sqrt(9.0 / 2), 1e-9);
+}
+
+TEST(TrajectoryError, PairsEachPoseOfTheShorterWithTheNearestInTime) {
+  std::vector<StampedPose> truth, estimate;
+  for (int i = 0; i < 10; ++i) truth.push_back({0.1 * i, pose_at({double(i), 0, 0}), i});
+  for (const double stamp : {0.104, 0.296, 0.555, 5.0}) estimate.push_back({stamp, Pose{}, 1});
+  const auto pairs = associate(estimate, truth, 0.01);
+  ASSERT_EQ(pairs.size(), 2u);
+  EXPECT_EQ(pairs[0].truth.translation.x, 1);
+  EXPECT_EQ(pairs[1].truth.translation.x, 3);
+}
+
+const char* const kTruth =
+    "# stamp tx ty tz qx qy qz qw\n"
+    "1.00 0 0 0 0 0 0 1\n1.10 1 0 0 0 0 0 1\n1.20 1 1 0 0 0 0 1\n"
+    "1.30 0 1 0 0 0 0 1\n";
+
+TEST(EvalTrajectory, PrintsTheKeysThatOthersRead) {
+  const ScratchFolder scratch;
+  write_file(scratch / "truth.txt", kTruth);
+  write_file(scratch / "estimate.csv",
+             "#timestamp [ns],px,py,pz,qw,qx,qy,qz\n1000000000,0,0,0,1,0,0,0\n"
+             "1100000000,2,0,0,1,0,0,0\n1200000000,2,2,0,1,0,0,0\n1300000000,0,2,0,1,0,0,0\n");
+  const Outcome run = run_rubble("eval trajectory " + (scratch / "estimate.csv") + " " +
+                                 (scratch / "truth.txt") + " --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json.size(), 6u);
+  EXPECT_EQ(json["pairs"], 4);
+  EXPECT_NEAR(json["ate_rmse_se3_m"].get<double>(), std::sqrt(0.5), 1e-9);
+  EXPECT_NEAR(json["ate_rmse_sim3_m"].get<double>(), 0, 1e-9);
+  EXPECT_NEAR(json["sim3_scale"].get<double>(), 0.5, 1e-9);
+  EXPECT_NEAR(json["rpe_trans_rmse_m"].get<double>(), 1, 1e-9);
+  EXPECT_NEAR(json["rpe_rot_rmse_deg"].get<double>(), 0, 1e-6);
+}
+
+struct BadTrajectory {
+  const char* text;
+  const char* message;  // with the line, if it has one
+};
+
+TEST(EvalTrajectory, NamesFileAndLineOfWhatIsWrong) {
+  const ScratchFolder scratch;
+  write_file(scratch / "truth.txt", kTruth);
+  const BadTrajectory kBad[] = {
+      {"", "holds no pose"},
+      {"1.0 0 0 0 0 0 0 1\n1.1 1 0 0 0 0 0\n", "bad.txt:2: not a pose"},
+      {"1.0 0 0 0 0 0 0 1\n\n1.1 x 0 0 0 0 0 1\n", "bad.txt:3: not a number"},
+      {"1.0 nan 0 0 0 0 0 1\n", "bad.txt:1: not finite"},
+      {"1.0 0 0 0 0 0 0 2\n", "bad.txt:1: not a rotation"},
+      {"1.1 0 0 0 0 0 0 1\n1.0 0 0 0 0 0 0 1\n", "bad.txt:2: out of order"},
+      {"1.1 0 0 0 0 0 0 1\n1.1 0 0 0 0 0 0 1\n", "bad.txt:2: the stamp repeats"},
+      {"9.0 0 0 0 0 0 0 1\n", "no time in common"},
+      {"1.0 0 0 0 0 0 0 1\n1.1 1 0 0 0 0 0 1\n", "too few poses"},
+      {"1.0 0 0 0 0 0 0 1\n1.1 1 0 0 0 0 0 1\n1.2 2 0 0 0 0 0 1\n", "on one line"},
+  };
+  for (const BadTrajectory& bad : kBad) {
+    write_file(scratch / "bad.txt", bad.text);
+    const Outcome run =
+        run_rubble("eval trajectory " + (scratch / "bad.txt") + " " + (scratch / "truth.txt"));
+    EXPECT_EQ(run.exit_code, 1) << bad.message;
+    EXPECT_NE(run.err.find(bad.message), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(run_rubble("eval trajectory " + (scratch / "none.txt") + " " + (scratch / "truth.txt"))
+                .exit_code,
+            1);
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -28,6 +28,7 @@ struct Body {
   Vec3f linear, angular;        // unit: m/s, rad/s
   Mat3f rotation;               // world from body
   Mat3f inverse_inertia;        // in the world
+  double travel = 0;            // no point of it has gone farther than this so far; unit: m
 
   // Sleeping: it must stay within a small distance of a pose for a while, or within a larger one of
   // another pose for longer.

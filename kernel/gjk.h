@@ -24,12 +24,13 @@ struct GjkResult {
   enum class Kind { separated, beyond_margin, overlapping };
   Kind kind = Kind::separated;
   Vec3f normal;            // unit length, from A to B
-  float distance = 0;      // unit: m
+  float distance = 0;      // beyond the margin: at least this; unit: m
   Vec3f point_a, point_b;  // closest points, in the frame of A's corners
 };
 
 // `offset` is added to B's corners. Beyond `margin` the search ends early, with a normal that
-// proves it. Overlapping (or closer than about 10 micrometres): nothing but the kind is set.
+// proves it. Overlapping, closer than about 10 micrometres, or beyond what
+// single precision can tell: nothing but the kind is valid.
 GjkResult calc_distance(const PointSet& a, const PointSet& b, const Vec3f& offset, float margin,
                         GjkCache& cache);
 

@@ -13,9 +13,6 @@ constexpr float kMatchDistance = 0.01F;
 constexpr float kKeepCosine = 0.906F;
 // Overlapping parts are shifted apart along the last normal by this and more; unit: m.
 constexpr float kShift = 0.005F;
-// Points that stay farther apart than this are left out: more than gravity closes in a step and the
-// change of speed by other contacts usually does; unit: m.
-constexpr float kPointMargin = 0.010F;
 // Clipped points may lie this much farther apart than the axis says; unit: m.
 constexpr float kAxisTolerance = 0.0005F;
 constexpr float kNearestShiftCosine = 0.9F;
@@ -26,13 +23,14 @@ struct Axis {
   Vec3f point;  // midway between the closest points
 };
 
-// True when the parts may touch in this step; fills the axis.
+// True when the parts may touch in this step; fills the axis, else its separation alone.
 bool find_axis(Contact& contact, const PosedPart& a, const PosedPart& b, const Vec3f& offset,
                float margin, Axis& axis) {
   GjkResult gjk = calc_distance(a.corners, b.corners, offset, margin, contact.cache);
   if (gjk.kind == GjkResult::Kind::beyond_margin) {
     contact.normal = gjk.normal;
     contact.has_normal = true;
+    axis.separation = gjk.distance;
     return false;
   }
   if (gjk.kind == GjkResult::Kind::separated) {
@@ -145,11 +143,14 @@ void clear_points(Contact& contact) {
   contact.pressed = 0;
 }
 
-void update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, float margin,
-                    const NarrowSettings& settings) {
+float update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, float margin,
+                     const NarrowSettings& settings) {
   const Vec3f offset = Vec3f(b.centre - a.centre);
   Axis axis;
-  if (!find_axis(contact, a.part, b.part, offset, margin, axis)) return clear_points(contact);
+  if (!find_axis(contact, a.part, b.part, offset, margin, axis)) {
+    clear_points(contact);
+    return axis.separation;
+  }
   Manifold m;
   clip_faces(a.part, b.part, offset, axis.normal, margin, m);
   add_axis_point(m, axis);
@@ -158,10 +159,12 @@ void update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, fl
   if (m.count == 0) {
     contact.normal = axis.normal;
     contact.has_normal = true;
-    return clear_points(contact);
+    clear_points(contact);
+    return std::max(0.0F, axis.separation);
   }
   reduce(m, axis.normal, Contact::kMaxPoints);
   store(contact, m, axis.normal, a, &b, offset);
+  return 0;
 }
 
 void update_ground_contact(Contact& contact, const PosedBody& a, float margin,

@@ -19,13 +19,18 @@ struct NarrowSettings {
   float step = 1.0F / 60;  // unit: s
 };
 
+// Points that stay farther apart than this are left out: more than gravity closes in a step and the
+// change of speed by other contacts usually does; unit: m.
+inline constexpr float kPointMargin = 0.010F;
+
 // How far beyond the fixed margin the two may come together in one step; `b` may be null: ground.
 float motion_margin(const Body& a, const Body* b, const NarrowSettings& settings);
 void clear_points(Contact& contact);
 
 // Finds normal and points anew, and carries over the impulses of points found again. No points:
-// the parts are farther apart than they can come in this step.
-void update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, float margin,
+// the parts are farther apart than they can come in this step; then returns a distance that they
+// keep at least, else 0; unit: m.
+float update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, float margin,
                     const NarrowSettings& settings);
 // The same against the ground, z = 0.
 void update_ground_contact(Contact& contact, const PosedBody& a, float margin,

@@ -234,6 +234,9 @@ void World::set_pose(int index, const Pose& world_from_body) {
     if (contact.body_a == index && contact.body_b != kGround) impl_->wake(contact.body_b);
     if (contact.body_b == index) impl_->wake(contact.body_a);
   }
+  body.travel += 2 * double(body.radius) +
+                 distance(body.world_from_type().translation, world_from_body.translation) +
+                 2 * norm(body.com_in_type);
   impl_->blocks.set_pose(body.mobile, {normalized(world_from_body.rotation),
                                        world_from_body * body.com_in_type});
   impl_->mirror(body);

@@ -19,7 +19,7 @@ void each_field(Struct& b, Visit&& visit) {
   visit(b.com_in_type), visit(b.inertia), visit(b.inverse_inertia_local), visit(b.inverse_mass);
   visit(b.radius), visit(b.mobile), visit(b.first_collider), visit(b.collider_count);
   visit(b.world_from_com), visit(b.linear), visit(b.angular), visit(b.rotation);
-  visit(b.inverse_inertia), visit(b.still_pose), visit(b.still_steps);
+  visit(b.inverse_inertia), visit(b.travel), visit(b.still_pose), visit(b.still_steps);
   visit(b.loose_pose), visit(b.loose_steps), visit(b.load);
   visit(b.awake), visit(b.lost), visit(b.touching), visit(b.has_touched);
 }
@@ -43,7 +43,7 @@ void each_field(Struct& p, Visit&& visit) {
 template <typename Struct, typename Visit, IfIs<Struct, Pair> = 0>
 void each_field(Struct& p, Visit&& visit) {
   visit(p.collider_a), visit(p.collider_b), visit(p.body_a), visit(p.body_b), visit(p.live);
-  visit(p.order);
+  visit(p.apart_until), visit(p.order);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, Contact> = 0>

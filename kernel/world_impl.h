@@ -84,6 +84,7 @@ struct World::Impl {
   void limit_kicks();
   void advance();
   void set_rates(std::size_t body);
+  double calc_travel(const Body& body) const;
   void remove_lost();
   void lose(int body);
 };

@@ -7,6 +7,9 @@
 namespace rubble {
 namespace {
 
+// Parts make points when they are closer than kPointMargin and what a step adds: the fixed margin
+// of the search asks for more, and a hair is left for rounding.
+constexpr float kSparedMargin = NarrowSettings{}.margin - kPointMargin - 1e-4F;
 constexpr double kLookAhead = 4;  // steps that an enlarged box reaches ahead
 
 std::uint64_t pair_key(std::int32_t a, std::int32_t b) {
@@ -106,7 +109,9 @@ bool World::Impl::may_touch(const Pair& pair) const {
   if (pair.body_b == kGround) {
     return box.min.z < double(motion_margin(a, nullptr, narrow_settings));
   }
-  const double margin = motion_margin(a, &data.bodies[pair.body_b], narrow_settings);
+  const Body& b = data.bodies[pair.body_b];
+  const double margin = motion_margin(a, &b, narrow_settings);
+  if (!pair.live && a.travel + b.travel + margin < pair.apart_until) return false;
   const Aabb& other = data.colliders[pair.collider_b].box;
   return box.min.x <= other.max.x + margin && other.min.x <= box.max.x + margin &&
          box.min.y <= other.max.y + margin && other.min.y <= box.max.y + margin &&
@@ -125,7 +130,10 @@ void World::Impl::update_contacts() {
         update_ground_contact(contact, a, margin, narrow_settings);
       } else {
         const float margin = motion_margin(body, &data.bodies[pair.body_b], narrow_settings);
-        update_contact(contact, a, posed(data.colliders[pair.collider_b]), margin, narrow_settings);
+        const Body& other = data.bodies[pair.body_b];
+        const float apart = update_contact(contact, a, posed(data.colliders[pair.collider_b]),
+                                           margin, narrow_settings);
+        pair.apart_until = body.travel + other.travel + double(apart + kSparedMargin);
       }
       pair.live = contact.count > 0;
     }

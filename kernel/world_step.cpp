@@ -146,6 +146,13 @@ void World::Impl::set_rates(std::size_t index) {
   }
 }
 
+// How far any point of a body can have gone in the step.
+double World::Impl::calc_travel(const Body& body) const {
+  const BodyRates& r = rates[body.mobile];
+  return options.step * (norm(r.linear + r.extra_linear) +
+                         norm(r.angular + r.extra_angular) * double(body.radius));
+}
+
 void World::Impl::advance() {
   moves.assign(blocks.size(), 0);
   rates.resize(blocks.size());
@@ -166,6 +173,7 @@ void World::Impl::advance() {
       for (int mobile = blocks.first_of(block); mobile < blocks.first_of(block + 1); ++mobile) {
         if (!moves[mobile]) continue;
         Body& body = data.bodies[body_of[mobile]];
+        body.travel += calc_travel(body);
         mirror(body);
         refresh(body);
       }

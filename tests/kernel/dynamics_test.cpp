@@ -76,7 +76,7 @@ TEST(Friction, SlidesAsFastAsCoulombSays) {
   const double angle = 0.8;
   const Slide s = slide(angle, 1);
   const double a = 9.81 * (std::sin(angle) - 0.6 * std::cos(angle));
-  EXPECT_NEAR(s.speed, a * 1.2, 0.04 * a * 1.2);
+  EXPECT_NEAR(s.speed, a * 1.2, 0.02 * a * 1.2);
 }
 
 TEST(Friction, PairsTakeTheGeometricMean) {
@@ -167,7 +167,7 @@ TEST(Energy, NeverGrowsWhileAPileFalls) {
     last = now;
   }
   // Pushing overlaps apart lifts pieces by fractions of a millimetre.
-  EXPECT_LT(worst, 5e-4 * start);
+  EXPECT_LT(worst, 2e-4 * start);
   EXPECT_LT(last, 0.5 * start);
 }
 

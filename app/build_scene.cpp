@@ -51,6 +51,22 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
   return scene;
 }
 
+CameraSpec build_camera(const Scenario& scenario, int threads) {
+  const CameraScenario& camera = scenario.camera;
+  CameraSpec spec;
+  spec.intrinsics = camera.intrinsics();
+  spec.channels = camera.channel_set();
+  spec.baseline = camera.stereo_baseline;
+  spec.shutter = camera.shutter;
+  spec.exposure = camera.exposure;
+  spec.sensor = camera.sensor;
+  spec.depth_sensor = scenario.depth_sensor;
+  spec.event_camera = scenario.event_camera;
+  spec.seed = scenario.seed;
+  spec.threads = threads;
+  return spec;
+}
+
 std::vector<std::string> label_names(const AssetLibrary& assets) {
   std::vector<std::string> names{"sky", "ground"};
   for (const PieceType& type : assets.types) names.push_back(type.name);

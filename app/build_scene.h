@@ -18,6 +18,9 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets);
 // Every piece but the lost ones, with the scenario's light, lamp and air.
 Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile);
 
+// The mission's camera and its sensors.
+CameraSpec build_camera(const Scenario& scenario, int threads);
+
 // The legend of Frame::label: the name of each class, by its number.
 std::vector<std::string> label_names(const AssetLibrary& assets);
 

@@ -1,6 +1,7 @@
 // The stage from a settled pile to recorded frames.
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 
 #include "app/build_scene.h"
 #include "app/frame_journal.h"
@@ -13,6 +14,7 @@
 #include "kernel/base/hash.h"
 #include "render/gl_context.h"
 #include "render/renderer.h"
+#include "render/sensors/camera.h"
 #include "scripting/trajectory.h"
 
 namespace rubble {
@@ -51,23 +53,33 @@ Renderer prepare_renderer(Run& run, GlContext& context) {
                   [&](double fraction) { run.progress.update(fraction, "light"); });
 }
 
-// Renders every frame in order, notes its hashes, and hands it to the recorders.
-void render_into(RecordingQueue& queue, Run& run, const RunFolder& folder, Renderer& renderer,
-                 const std::vector<CameraPose>& poses) {
+Flight plan_flight(const Scenario& scenario) {
+  Flight flight;
+  for (const CameraPose& pose : sample_trajectory(scenario.trajectory, scenario.start_ns)) {
+    flight.stamps_ns.push_back(pose.stamp_ns);
+    flight.world_from_camera.push_back(pose.world_from_camera);
+  }
+  const auto path = std::make_shared<CameraPath>(scenario.trajectory);
+  flight.pose_at = [path, start = scenario.start_ns](std::int64_t stamp_ns) {
+    return path->at(double(stamp_ns - start) * 1e-9);
+  };
+  return flight;
+}
+
+// Takes every frame in order, notes its hashes, and hands it to the recorders.
+void take_frames(Camera& camera, RecordingQueue& queue, Run& run, const RunFolder& folder) {
   FrameJournal journal(folder.frames_file());
   DepthMetrics depth;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
+  for (int i = 0; i < camera.frames(); ++i) {
     throw_if_stopped(folder.path());
-    Frame frame = renderer.render(poses[i].world_from_camera, run.scenario.camera.intrinsics(),
-                                  int(i), poses[i].stamp_ns);
-    const Pose* next = i + 1 < poses.size() ? &poses[i + 1].world_from_camera : nullptr;
-    renderer.add_channels(run.scenario.camera.channel_set(), next, frame);
+    Frame frame = camera.take(i);
     run.frames.add(frame);
-    journal.note(i, run.frames.frames.back());
+    journal.note(std::size_t(i), run.frames.frames.back());
     depth.add(frame);
     queue.push(std::move(frame));
-    run.progress.update(double(i + 1) / double(poses.size()),
-                        "frame " + std::to_string(i + 1) + " of " + std::to_string(poses.size()));
+    run.progress.update(double(i + 1) / camera.frames(),
+                        "frame " + std::to_string(i + 1) + " of " +
+                            std::to_string(camera.frames()));
   }
   depth.add_to(run.metrics);
 }
@@ -75,19 +87,19 @@ void render_into(RecordingQueue& queue, Run& run, const RunFolder& folder, Rende
 }  // namespace
 
 void render_frames(Run& run, RunFolder& folder) {
-  const std::vector<CameraPose> poses =
-      sample_trajectory(run.scenario.trajectory, run.scenario.start_ns);
   run.progress.start("scene");
   GlContext context({-1, run.threads()});
   note_environment(run, context.info());
   Renderer renderer = prepare_renderer(run, context);
+  Camera camera(renderer, build_camera(run.scenario, run.threads()), plan_flight(run.scenario),
+                Medium(run.scenario.air, run.scenario.seed));
   run.progress.finish("ready on " + context.info().renderer);
 
   run.progress.start("render");
-  RecorderSet set = make_recorders(run.scenario.outputs, int(poses.size()), title(run), folder);
+  RecorderSet set = make_recorders(run.scenario.outputs, camera.frames(), title(run), folder);
   RecordingQueue queue(std::move(set.recorders));
-  render_into(queue, run, folder, renderer, poses);
-  run.progress.finish(std::to_string(poses.size()) + " frames");
+  take_frames(camera, queue, run, folder);
+  run.progress.finish(std::to_string(camera.frames()) + " frames");
 
   run.progress.start("record");
   queue.finish();

@@ -10,6 +10,7 @@
 #include "render/effects/antialias.h"
 #include "render/exposure.h"
 #include "render/geometry.h"
+#include "render/passes/ray_pass.h"
 #include "render/passes/resolve_pass.h"
 #include "render/passes/shadow_pass.h"
 #include "render/passes/visibility_pass.h"
@@ -25,7 +26,8 @@ double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-void check_intrinsics(const Intrinsics& k) {
+void check_view(const ViewRays& view) {
+  const Intrinsics& k = view.intrinsics;
   const bool whole = k.width > 0 && k.height > 0 && k.width <= 16384 && k.height <= 16384;
   const bool finite = std::isfinite(k.fx) && std::isfinite(k.fy) && std::isfinite(k.cx) &&
                       std::isfinite(k.cy) && k.fx > 0 && k.fy > 0;
@@ -33,8 +35,12 @@ void check_intrinsics(const Intrinsics& k) {
     throw RunError(
         "cannot draw with these intrinsics: width and height must be 1 to 16384, fx and "
         "fy positive, cx and cy finite");
-  for (double d : k.distortion)
-    if (d != 0) throw RunError("the renderer draws a pinhole image: distortion must be zero");
+  if (!view.directions && !Lens(k).is_pinhole())
+    throw RunError("without a table of directions the lens must be a pinhole: distortion zero");
+}
+
+ViewRays pinhole_view(const Pose& world_from_camera, const Intrinsics& k, std::int64_t stamp_ns) {
+  return {stamp_ns, k, world_from_camera, {}, nullptr};
 }
 
 void to_metric_depth(const std::vector<float>& values, std::vector<float>& out) {
@@ -82,9 +88,20 @@ struct Renderer::State {
   RenderTimes times;
   std::vector<std::uint8_t> rgba;
   std::unique_ptr<TruthMaker> truth;
+  std::unique_ptr<RayPass> rays;  // made when a view first needs it
+  ViewRays drawn;                 // what was drawn last
 
   void update_air(const Pose& world_from_camera);
-  void draw_colour(const ViewProjection& view, const Pose& pose);
+  // Which triangle each pixel shows: by rasterising where that will do, by casting rays otherwise.
+  SurfaceImages draw_surfaces(const ViewRays& view);
+  void draw_colour(const SurfaceImages& surfaces);
+  ViewProjection projection() const { return {drawn.world_from_camera, drawn.intrinsics}; }
+  // Of the view drawn last.
+  const std::vector<float>& depth_values() const;
+  std::vector<float> planar_depth() const;
+  std::vector<float> distances() const;
+  std::vector<std::uint32_t> read_ids() const;
+  std::vector<std::uint8_t> finish_colour() const;
 };
 
 Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
@@ -131,14 +148,64 @@ void Renderer::State::update_air(const Pose& world_from_camera) {
   frame_light.air_ambient = air_light.at(Vec3f(world_from_camera.translation));
 }
 
-void Renderer::State::draw_colour(const ViewProjection& view, const Pose& pose) {
+SurfaceImages Renderer::State::draw_surfaces(const ViewRays& view) {
   const auto start = Clock::now();
-  resolve->draw(view, pose, *visibility, frame_light, exposure.factor());
+  drawn = view;
+  update_air(drawn.world_from_camera);
+  if (view.plain()) {
+    visibility->draw(projection());
+    times.triangles = visibility->counts().triangles;
+    times.visibility = milliseconds_since(start);
+    return {visibility->ids(), visibility->depth()};
+  }
+  if (!rays) rays = std::make_unique<RayPass>(gl, scene, geometry, options.threads);
+  rays->draw(view);
+  times.visibility = milliseconds_since(start);
+  return {rays->ids(), rays->depth(), &rays->lens_rays(), &rays->row_poses()};
+}
+
+void Renderer::State::draw_colour(const SurfaceImages& surfaces) {
+  const auto start = Clock::now();
+  resolve->draw(projection(), drawn.world_from_camera, surfaces, frame_light, exposure.factor());
   gl.Finish();
   times.resolve = milliseconds_since(start);
   const auto read_start = Clock::now();
   resolve->read(rgba);
   times.read = milliseconds_since(read_start);
+}
+
+const std::vector<float>& Renderer::State::depth_values() const {
+  return drawn.plain() ? visibility->depth_values() : rays->depth_values();
+}
+
+std::vector<float> Renderer::State::planar_depth() const {
+  std::vector<float> out;
+  if (drawn.plain())
+    to_metric_depth(visibility->depth_values(), out);
+  else
+    out = rays->planar_depth();
+  return out;
+}
+
+std::vector<float> Renderer::State::distances() const {
+  return drawn.plain() ? distances_of(planar_depth(), drawn.intrinsics) : rays->distances();
+}
+
+std::vector<std::uint32_t> Renderer::State::read_ids() const {
+  return drawn.plain() ? visibility->read_ids() : rays->id_values();
+}
+
+std::vector<std::uint8_t> Renderer::State::finish_colour() const {
+  std::vector<std::uint8_t> rgb;
+  const Intrinsics& k = drawn.intrinsics;
+  if (options.antialias) {
+    smooth_edges(rgba, depth_values(), k.width, k.height, options.threads, rgb);
+    return rgb;
+  }
+  rgb.resize(rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i < rgba.size() / 4; ++i)
+    for (std::size_t c = 0; c < 3; ++c) rgb[i * 3 + c] = rgba[i * 4 + c];
+  return rgb;
 }
 
 Renderer::Renderer(GlContext& context, const Scene& scene, const RenderOptions& options,
@@ -158,78 +225,89 @@ Renderer::~Renderer() {
 
 Frame Renderer::render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,
                        std::int64_t stamp_ns) {
+  return render(pinhole_view(world_from_camera, intrinsics, stamp_ns), index);
+}
+
+Frame Renderer::render(const ViewRays& view, int index) {
   State& s = *state_;
-  check_intrinsics(intrinsics);
+  check_view(view);
   s.context.make_current();
-  const ViewProjection view(world_from_camera, intrinsics);
-  const auto start = Clock::now();
-  s.visibility->draw(view);
-  s.times.visibility = milliseconds_since(start);
-  s.times.triangles = s.visibility->counts().triangles;
-  s.update_air(world_from_camera);
+  const Intrinsics& k = view.intrinsics;
+  const SurfaceImages surfaces = s.draw_surfaces(view);
   // The first frame is metered until the exposure holds.
   constexpr int kMostTries = 4;
-  const double elapsed = std::max(0.0, double(stamp_ns - s.last_stamp_ns) * 1e-9);
+  const double elapsed = std::max(0.0, double(view.stamp_ns - s.last_stamp_ns) * 1e-9);
   const bool first = !s.exposure.settled();
   if (s.options.fixed_exposure > 0) s.exposure.follow(s.rgba, 0, 0, 0);
-  s.draw_colour(view, world_from_camera);
+  s.draw_colour(surfaces);
   for (int i = 0; first && i < kMostTries && !s.exposure.settled(); ++i) {
-    s.exposure.follow(s.rgba, intrinsics.width, intrinsics.height, 0);
-    s.draw_colour(view, world_from_camera);
+    s.exposure.follow(s.rgba, k.width, k.height, 0);
+    s.draw_colour(surfaces);
   }
-  s.exposure.follow(s.rgba, intrinsics.width, intrinsics.height, first ? 0 : elapsed);
-  s.last_stamp_ns = stamp_ns;
+  s.exposure.follow(s.rgba, k.width, k.height, first ? 0 : elapsed);
+  s.last_stamp_ns = view.stamp_ns;
 
   Frame frame;
   frame.index = index;
-  frame.stamp_ns = stamp_ns;
-  frame.intrinsics = intrinsics;
-  frame.world_from_camera = world_from_camera;
-  to_metric_depth(s.visibility->depth_values(), frame.depth);
+  frame.stamp_ns = view.stamp_ns;
+  frame.intrinsics = k;
+  frame.world_from_camera = view.world_from_camera;
   const auto finish = Clock::now();
-  if (s.options.antialias) {
-    smooth_edges(s.rgba, s.visibility->depth_values(), intrinsics.width, intrinsics.height,
-                 s.options.threads, frame.rgb);
-  } else {
-    frame.rgb.resize(frame.depth.size() * 3);
-    for (std::size_t i = 0; i < frame.depth.size(); ++i)
-      for (std::size_t k = 0; k < 3; ++k) frame.rgb[i * 3 + k] = s.rgba[i * 4 + k];
-  }
+  frame.depth = s.planar_depth();
+  frame.rgb = s.finish_colour();
   s.times.finish = milliseconds_since(finish);
   return frame;
 }
 
-void Renderer::add_channels(const ChannelSet& channels, const Pose* next_world_from_camera,
-                            Frame& frame) {
+void Renderer::add_channels(const ChannelSet& channels, const ViewRays* next, Frame& frame) {
   if (!channels.any()) return;
   State& s = *state_;
   s.context.make_current();
-  const std::vector<std::uint32_t> ids = s.visibility->read_ids();
-  ViewRays rays{frame.intrinsics, {frame.world_from_camera * camera_from_optical}, nullptr};
-  std::vector<Pose> next;
-  if (next_world_from_camera) next.push_back(*next_world_from_camera * camera_from_optical);
-  const std::vector<float> distances = distances_of(frame.depth, frame.intrinsics);
-  s.truth->fill(channels, {rays, ids, distances, std::move(next)}, frame);
+  const std::vector<std::uint32_t> ids = s.read_ids();
+  const std::vector<float> distances = s.distances();
+  s.truth->fill(channels, {s.drawn, ids, distances, next}, frame);
 }
 
 LinearFrame Renderer::render_linear(const Pose& world_from_camera, const Intrinsics& intrinsics) {
+  return render_linear(pinhole_view(world_from_camera, intrinsics, 0));
+}
+
+LinearFrame Renderer::render_linear(const ViewRays& view) {
   State& s = *state_;
-  check_intrinsics(intrinsics);
+  check_view(view);
   s.context.make_current();
-  const ViewProjection view(world_from_camera, intrinsics);
-  s.visibility->draw(view);
-  s.update_air(world_from_camera);
+  const SurfaceImages surfaces = s.draw_surfaces(view);
   const std::vector<float> rgba =
-      s.resolve->draw_linear(view, world_from_camera, *s.visibility, s.frame_light);
-  const std::vector<std::uint32_t> ids = s.visibility->read_ids();
+      s.resolve->draw_linear(s.projection(), s.drawn.world_from_camera, surfaces, s.frame_light);
+  const std::vector<std::uint32_t> ids = s.read_ids();
   LinearFrame out;
-  out.width = intrinsics.width, out.height = intrinsics.height;
-  to_metric_depth(s.visibility->depth_values(), out.depth);
+  out.width = view.intrinsics.width, out.height = view.intrinsics.height;
+  out.depth = s.planar_depth();
+  out.distance = s.distances();
+  out.rgb.resize(out.depth.size() * 3);
+  out.instance.resize(out.depth.size());
   for (std::size_t i = 0; i < out.depth.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) out.rgb.push_back(rgba[i * 4 + k]);
-    out.instance.push_back(ids[i * 2] ? s.scene.placed[ids[i * 2] - 1].id : kNoInstance);
+    for (std::size_t c = 0; c < 3; ++c) out.rgb[i * 3 + c] = rgba[i * 4 + c];
+    out.instance[i] = ids[i * 2] ? s.scene.placed[ids[i * 2] - 1].id : kNoInstance;
   }
   return out;
+}
+
+std::vector<std::uint8_t> Renderer::render_beside(const ViewRays& view) {
+  State& s = *state_;
+  check_view(view);
+  s.context.make_current();
+  s.draw_colour(s.draw_surfaces(view));
+  return s.finish_colour();
+}
+
+std::vector<float> Renderer::distances() const { return state_->distances(); }
+
+std::vector<std::uint8_t> Renderer::seen_from(const Vec3& place_in_camera) {
+  State& s = *state_;
+  const std::vector<std::uint32_t> ids = s.read_ids();
+  const std::vector<float> distances = s.distances();
+  return s.truth->seen_from({s.drawn, ids, distances, nullptr}, place_in_camera);
 }
 
 const RenderTimes& Renderer::times() const { return state_->times; }

@@ -12,6 +12,7 @@
 #include "render/gl_context.h"
 #include "render/looks.h"
 #include "render/scene.h"
+#include "render/view_rays.h"
 
 namespace rubble {
 
@@ -40,6 +41,7 @@ struct LinearFrame {
   int width = 0, height = 0;
   std::vector<float> rgb;               // radiance; unit: kcd/m2
   std::vector<float> depth;             // as in Frame
+  std::vector<float> distance;          // the same along each pixel's ray
   std::vector<std::uint32_t> instance;  // SceneInstance::id; kNoInstance, kGroundInstance
 };
 
@@ -63,10 +65,19 @@ class Renderer {
   // starts afresh. Distortion in `intrinsics` is not applied: it must be zero.
   Frame render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,
                std::int64_t stamp_ns);
-  // Fills the channels of the frame that was drawn last. next_world_from_camera: of the frame that
+  // The same through any lens and shutter: exact for each pixel's own ray, without resampling.
+  Frame render(const ViewRays& view, int index);
+  // Colour of another view at the same instant, at the exposure of the frame drawn last.
+  std::vector<std::uint8_t> render_beside(const ViewRays& view);
+  // Fills the channels of a frame of the view that was drawn last. next: the view of the frame that
   // follows, for the flow; null: none follows.
-  void add_channels(const ChannelSet& channels, const Pose* next_world_from_camera, Frame& frame);
+  void add_channels(const ChannelSet& channels, const ViewRays* next, Frame& frame);
+  // Of the view that was drawn last: distances along the rays (NaN: none), and 1 where a place in the
+  // camera body frame has a free line to the surface.
+  std::vector<float> distances() const;
+  std::vector<std::uint8_t> seen_from(const Vec3& place_in_camera);
   LinearFrame render_linear(const Pose& world_from_camera, const Intrinsics& intrinsics);
+  LinearFrame render_linear(const ViewRays& view);
 
   const RenderTimes& times() const;
 

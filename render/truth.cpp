@@ -37,11 +37,13 @@ double turn_of_pixel(int u, int v) {
 
 // Where a world point is in an image that is taken row by row: the row at whose time it is seen
 // there. Two rows' poses are enough once the row is known to within one.
-std::optional<PixelPoint> project_rows(const Lens& lens, const std::vector<Pose>& rows,
-                                       const Vec3& world, double guess) {
-  const auto at = [&](std::size_t row) { return lens.project(rows[row].inverse() * world); };
-  if (rows.size() == 1) return at(0);
-  const double last = double(rows.size() - 1);
+std::optional<PixelPoint> project_rows(const Lens& lens, const ViewRays& view, const Vec3& world,
+                                       double guess) {
+  const auto at = [&](std::size_t row) {
+    return lens.project(view.pose(int(row)).inverse() * world);
+  };
+  if (view.row_poses.size() < 2) return at(0);
+  const double last = double(view.row_poses.size() - 1);
   std::optional<PixelPoint> found;
   double v = guess;
   for (int i = 0; i < 8; ++i) {
@@ -109,7 +111,7 @@ float TruthMaker::find_sky_visibility(const Pixel& pixel, const Vec3& normal) co
 
 void TruthMaker::fill_row(const ChannelSet& channels, const DrawnView& view, const Lens& lens,
                           int v, Frame& frame) const {
-  const Pose& pose = view.rays.pose(v);
+  const Pose pose = view.rays.pose(v);
   const std::size_t width = std::size_t(view.rays.intrinsics.width);
   for (std::size_t u = 0; u < width; ++u) {
     const std::size_t i = std::size_t(v) * width + u;
@@ -128,12 +130,38 @@ void TruthMaker::fill_row(const ChannelSet& channels, const DrawnView& view, con
         put(frame.normals, i * 3, pose.rotation.conjugate().rotate(normal));
       if (channels.sky_visibility) frame.sky_visibility[i] = find_sky_visibility(pixel, normal);
     }
-    if (!channels.flow || view.next_world_from_optical.empty()) continue;
-    if (const auto next = project_rows(lens, view.next_world_from_optical, pixel.world, v)) {
+    if (!channels.flow || !view.next) continue;
+    if (const auto next = project_rows(lens, *view.next, pixel.world, v)) {
       frame.flow[i * 2] = float(next->u - double(u));
       frame.flow[i * 2 + 1] = float(next->v - v);
     }
   }
+}
+
+const RayScene& TruthMaker::rays() {
+  if (!rays_) rays_ = std::make_unique<RayScene>(scene_, RayScene::Detail::finest);
+  return *rays_;
+}
+
+std::vector<std::uint8_t> TruthMaker::seen_from(const DrawnView& view,
+                                                const Vec3& place_in_camera) {
+  const RayScene& free = rays();
+  const Vec3 place = camera_from_optical.inverse() * place_in_camera;
+  const std::size_t width = std::size_t(view.rays.intrinsics.width);
+  std::vector<std::uint8_t> out(view.distances.size(), 0);
+  parallel_for(std::size_t(view.rays.intrinsics.height), threads_, [&](std::size_t v) {
+    const Pose pose = view.rays.pose(int(v));
+    const Vec3f from(pose * place);
+    for (std::size_t i = v * width; i < (v + 1) * width; ++i) {
+      if (!view.ids[i * 2] || std::isnan(view.distances[i])) continue;
+      const Vec3 world =
+          pose * (view.rays.direction(int(i - v * width), int(v)) * double(view.distances[i]));
+      const Vec3f way = Vec3f(world) - from;
+      const float length = norm(way);
+      out[i] = !free.blocked(from, way * (1 / length), 0, length - std::max(2e-3f, 2e-3f * length));
+    }
+  });
+  return out;
 }
 
 void TruthMaker::fill(const ChannelSet& channels, const DrawnView& view, Frame& frame) {
@@ -145,7 +173,7 @@ void TruthMaker::fill(const ChannelSet& channels, const DrawnView& view, Frame& 
   if (channels.flow) frame.flow.assign(size * 2, kNone);
   if (channels.sky_visibility) {
     frame.sky_visibility.assign(size, 1);
-    if (!rays_) rays_ = std::make_unique<RayScene>(scene_, RayScene::Detail::finest);
+    rays();
   }
   const Lens lens(view.rays.intrinsics);
   parallel_for(std::size_t(view.rays.intrinsics.height), threads_,

@@ -18,8 +18,7 @@ struct DrawnView {
   const ViewRays& rays;
   const std::vector<std::uint32_t>& ids;  // two a pixel, as VisibilityPass::ids()
   const std::vector<float>& distances;    // along the ray; NaN: nothing there; unit: m
-  // Where the camera is when it takes the next image: one, or one a row; empty: it takes none.
-  std::vector<Pose> next_world_from_optical;
+  const ViewRays* next;                   // the next image's; null: there is none
 };
 
 class TruthMaker {
@@ -28,11 +27,14 @@ class TruthMaker {
       : scene_(scene), geometry_(geometry), threads_(threads) {}
 
   void fill(const ChannelSet& channels, const DrawnView& view, Frame& frame);
+  // 1 where a place in the camera body frame has a free line to the surface, 0 elsewhere.
+  std::vector<std::uint8_t> seen_from(const DrawnView& view, const Vec3& place_in_camera);
 
  private:
   struct Pixel;
   struct Corners;
 
+  const RayScene& rays();
   Corners corners_of(const Pixel& pixel) const;
   Vec3 find_normal(const Pixel& pixel, const Pose& world_from_optical) const;
   float find_sky_visibility(const Pixel& pixel, const Vec3& normal) const;
@@ -42,7 +44,7 @@ class TruthMaker {
   const PreparedScene& scene_;
   const GpuGeometry& geometry_;
   int threads_;
-  std::unique_ptr<RayScene> rays_;  // made when the sky's visibility is first asked for
+  std::unique_ptr<RayScene> rays_;  // made when they are first asked for
 };
 
 }  // namespace rubble

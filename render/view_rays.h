@@ -1,7 +1,8 @@
-// The ray of every pixel of one image: lens and shutter together. Internal to render/.
+// The ray of every pixel of one image: lens and shutter together.
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -13,12 +14,17 @@ namespace rubble {
 using LensDirections = std::vector<Vec3f>;
 
 struct ViewRays {
+  std::int64_t stamp_ns = 0;
   Intrinsics intrinsics;
-  std::vector<Pose> world_from_optical;  // one for the whole image, or one a row
+  Pose world_from_camera;                // in the middle of the exposure
+  std::vector<Pose> row_poses;           // world_from_optical of each row; empty: all as above
   std::shared_ptr<const LensDirections> directions;  // none: a pinhole
 
-  const Pose& pose(int row) const {
-    return world_from_optical[world_from_optical.size() > 1 ? std::size_t(row) : 0];
+  // A pinhole with one pose for all rows can be drawn the fast way.
+  bool plain() const { return !directions && row_poses.empty(); }
+  Pose pose(int row) const {  // world_from_optical
+    return row_poses.empty() ? world_from_camera * camera_from_optical
+                             : row_poses[std::size_t(row)];
   }
   Vec3 direction(int u, int v) const {
     const Intrinsics& k = intrinsics;

@@ -72,6 +72,44 @@ void check_channels(const CameraScenario& camera, std::vector<Diagnostic>& mista
   }
 }
 
+// Smallest value over [0, fov / 2] of the slope of a fisheye's curve: the image must grow with it.
+bool fisheye_grows(const CameraScenario& camera) {
+  const LensScenario& l = camera.lens;
+  const double edge = camera.fov_deg * (portable::kPi / 360.0);
+  for (int i = 0; i <= 200; ++i) {
+    const double a = edge * i / 200, a2 = a * a;
+    if (1 + a2 * (3 * l.k1 + a2 * (5 * l.k2 + a2 * (7 * l.k3 + a2 * 9 * l.k4))) <= 0) return false;
+  }
+  return true;
+}
+
+void check_camera(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  const CameraScenario& c = scenario.camera;
+  const auto add = [&](const char* key, const char* message, const char* expected,
+                       const char* hint) {
+    mistakes.push_back({"", 0, key, message, expected, "", hint});
+  };
+  const LensScenario& l = c.lens;
+  if (l.model != LensKind::fisheye && c.fov_deg > 170)
+    add("camera.fov_deg", "too wide for a flat image", "at most 170",
+        "or camera.lens.model = \"fisheye\"");
+  if (l.model == LensKind::fisheye && !fisheye_grows(c))
+    add("camera.lens", "the lens folds back within the field of view",
+        "a curve that grows up to camera.fov_deg / 2", "");
+  const bool bent = l.k1 != 0 || l.k2 != 0 || l.k3 != 0 || l.k4 != 0 || l.p1 != 0 || l.p2 != 0;
+  if (l.model == LensKind::pinhole && bent)
+    add("camera.lens.model", "a pinhole has no distortion", "\"plumb_bob\" or \"fisheye\"", "");
+  if (l.model == LensKind::plumb_bob && l.k4 != 0)
+    add("camera.lens.k4", "only a fisheye has it", "0", "");
+  if (l.model == LensKind::fisheye && (l.p1 != 0 || l.p2 != 0))
+    add("camera.lens.p1", "a fisheye has no tangential distortion", "p1 and p2 of 0", "");
+  if (c.shutter.motion_blur && c.exposure.mode == ExposureMode::ideal)
+    add("camera.shutter.motion_blur", "an ideal image takes no time",
+        "camera.exposure.mode of \"fixed\" or \"automatic\"", "");
+  if (scenario.depth_sensor.min_range >= scenario.depth_sensor.max_range)
+    add("depth_sensor.max_range", "nothing is within reach", "more than depth_sensor.min_range", "");
+}
+
 }  // namespace
 
 std::vector<std::string> channel_names() {
@@ -89,13 +127,27 @@ ChannelSet CameraScenario::channel_set() const {
 }
 
 Intrinsics CameraScenario::intrinsics() const {
-  const portable::SinCos half = portable::sincos(fov_deg * (portable::kPi / 360.0));
+  const double angle = fov_deg * (portable::kPi / 360.0);
   Intrinsics in;
   in.width = width;
   in.height = height;
-  in.fx = in.fy = 0.5 * width * half.cos / half.sin;
-  in.cx = 0.5 * (width - 1);
-  in.cy = 0.5 * (height - 1);
+  double half = 0;  // from the axis to the edge, at a focal length of 1
+  if (lens.model == LensKind::fisheye) {
+    in.lens = LensModel::fisheye;
+    in.distortion = {lens.k1, lens.k2, lens.k3, lens.k4, 0};
+    const double a2 = angle * angle;
+    half = angle * (1 + a2 * (lens.k1 + a2 * (lens.k2 + a2 * (lens.k3 + a2 * lens.k4))));
+    in.fx = in.fy = 0.5 * width / half;
+  } else {
+    const portable::SinCos edge = portable::sincos(angle);
+    in.fx = in.fy = 0.5 * width * edge.cos / edge.sin;
+    if (lens.model == LensKind::plumb_bob)
+      in.distortion = {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
+  }
+  in.fx = lens.fx.value_or(in.fx);
+  in.fy = lens.fy.value_or(lens.fx.value_or(in.fy));
+  in.cx = lens.cx.value_or(0.5 * (width - 1));
+  in.cy = lens.cy.value_or(0.5 * (height - 1));
   return in;
 }
 
@@ -106,6 +158,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_names(scenario.pile, mistakes);
   check_mix(scenario.pile, mistakes);
   check_channels(scenario.camera, mistakes);
+  check_camera(scenario, mistakes);
   for (Diagnostic& d : find_mistakes(scenario.trajectory)) mistakes.push_back(std::move(d));
   return mistakes;
 }

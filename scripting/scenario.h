@@ -57,14 +57,33 @@ struct LightScenario {
   bool random_rotation = false;  // draw the direction from the seed; spec.rpy_deg is then not used
 };
 
+enum class LensKind { pinhole, plumb_bob, fisheye };
+
+// Formulas: render/lens.h.
+struct LensScenario {
+  LensKind model = LensKind::pinhole;
+  double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  // plumb_bob; k1 to k3 of a fisheye, too
+  double k4 = 0;                                  // of a fisheye
+  // Of a calibrated camera; not given: from the field of view, and the middle. unit: pixel
+  std::optional<double> fx{}, fy{}, cx{}, cy{};
+};
+
 struct CameraScenario {
   int width = 1024, height = 1024;  // unit: pixel; range: 16 to 8192
-  double fov_deg = 90;              // horizontal, from edge to edge of the image; range: 1 to 170
+  // Horizontal, from edge to edge of the image; range: 1 to 170, of a fisheye to 360.
+  double fov_deg = 90;
   // Ground truth beside colour and depth, of channel_names().
   std::vector<std::string> channels{};
+  LensScenario lens{};
+  double stereo_baseline = 0;  // to the right camera of a pair; 0: none; unit: m; range: 0 to 10
+  ShutterSpec shutter{};
+  ExposureSpec exposure{};
+  ImageSensorSpec sensor{};
 
-  // fx = fy = (width / 2) / tan(fov / 2); the principal point is the middle of the image, which is
-  // (width - 1) / 2 where pixel (0, 0) has its centre at (0, 0).
+  // fx = fy = (width / 2) / r(fov / 2), where r is tan for a pinhole and for plumb_bob, whose
+  // distortion is left out of account, and the lens's own curve for a fisheye; the principal point is
+  // the middle of the image, (width - 1) / 2 where pixel (0, 0) has its centre at (0, 0). What the
+  // lens states itself comes first.
   Intrinsics intrinsics() const;
   ChannelSet channel_set() const;  // unknown names are left out
 };
@@ -99,6 +118,8 @@ struct Scenario {
   LightScenario light;
   AirSpec air;
   CameraScenario camera;
+  DepthSensorSpec depth_sensor;
+  EventCameraSpec event_camera;
   LampSpec lamp;
   TrajectorySpec trajectory;
   OutputScenario outputs;

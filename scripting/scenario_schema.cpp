@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "scripting/camera_schema.h"
+
 namespace rubble {
 namespace {
 
@@ -120,18 +122,6 @@ void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
       .unit("m");
 }
 
-void add_camera(Schema& k, CameraScenario& c) {
-  k.group("camera", "A pinhole camera; colour and depth have the same pixels.");
-  k.value("camera.width", c.width, "Of the image.").between(16, 8192).unit("pixel");
-  k.value("camera.height", c.height, "Of the image.").between(16, 8192).unit("pixel");
-  k.value("camera.fov_deg", c.fov_deg, "Horizontal field of view, edge to edge.")
-      .between(1, 170)
-      .unit("degree");
-  k.value("camera.channels", c.channels,
-          "Ground truth beside colour and depth: \"normals\", \"instance\", \"label\", \"flow\", "
-          "\"sky_visibility\".");
-}
-
 void add_trajectory(Schema& k, TrajectorySpec& t) {
   k.group("trajectory", "Where the camera goes.");
   k.value("trajectory.rate_hz", t.rate_hz, "Frames per second.").between(0.001, 1000).unit("Hz");
@@ -206,7 +196,7 @@ Schema make_scenario_schema(Scenario& s) {
   add_settle(keys, s.settle);
   add_light(keys, s.light);
   add_air_and_lamp(keys, s.air, s.lamp);
-  add_camera(keys, s.camera);
+  add_camera_keys(keys, s);
   add_trajectory(keys, s.trajectory);
   add_outputs(keys, s.outputs);
   add_aliases(keys);

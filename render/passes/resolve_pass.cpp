@@ -79,7 +79,7 @@ void fill_looks(FrameBlock& block, int texture_size) {
   }
 }
 
-ShaderDefines variant(const FrameLight& light) {
+ShaderDefines variant_of(const FrameLight& light) {
   ShaderDefines defines = {{"LIGHT_TYPE", std::to_string(int(light.light->type))},
                            {"SHADOW_VIEWS", std::to_string(light.shadow->clip_from_world.size())},
                            {"GLOSS", ""}};
@@ -145,7 +145,9 @@ enum Unit {
   kLooks,
   kShadow,
   kGlow,
-  kContact
+  kContact,
+  kLensRays,
+  kRowPoses
 };
 
 GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
@@ -160,7 +162,9 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
                  {"look_textures", kLooks},
                  {"shadow_map", kShadow},
                  {"fog_lamp", kGlow},
-                 {"openness", kContact}});
+                 {"openness", kContact},
+                 {"lens_rays", kLensRays},
+                 {"row_poses", kRowPoses}});
   gl.UniformBlockBinding(program.name(), gl.GetUniformBlockIndex(program.name(), "Frame"), 0);
   return program;
 }
@@ -177,8 +181,19 @@ ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameL
       looks_(upload_looks(gl, patterns)),
       fog_lamp_(upload_glow(gl, lamp_glow_table(light.air, light.lamp, 512))),
       texture_size_(patterns.front().size) {
-  const ShaderDefines defines = variant(light);
-  display_ = make_resolve_program(gl, defines);
+  defines_ = variant_of(light);
+  program(0);
+}
+
+const GlProgram& ResolvePass::program(int variant) {
+  GlProgram& wanted = programs_[variant];
+  if (!wanted) {
+    ShaderDefines defines = defines_;
+    if (variant & kLinear) defines.push_back({"LINEAR", ""});
+    if (variant & kRays) defines.push_back({"RAYS", ""});
+    wanted = make_resolve_program(gl_, defines);
+  }
+  return wanted;
 }
 
 void ResolvePass::resize(int width, int height) {
@@ -190,19 +205,19 @@ void ResolvePass::resize(int width, int height) {
   check_gl(gl_, "making the colour buffer");
 }
 
-void ResolvePass::draw_with(const GlProgram& program, const GlFramebuffer& target,
+void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
                             const ViewProjection& view, const Pose& world_from_camera,
-                            const VisibilityPass& visibility, const FrameLight& light,
+                            const SurfaceImages& surfaces, const FrameLight& light,
                             float exposure) {
-  contact_.draw(view, visibility.depth());
+  contact_.draw(view, surfaces.depth);
   FrameBlock block{};
   fill_view(block, view, exposure);
   fill_light(block, light, world_from_camera);
   fill_looks(block, texture_size_);
   gl_.NamedBufferData(frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
-  const GLuint textures[] = {visibility.ids().name(),
-                             visibility.depth().name(),
+  const GLuint textures[] = {surfaces.ids.name(),
+                             surfaces.depth.name(),
                              geometry_.vertices_view.name(),
                              geometry_.triangles_view.name(),
                              geometry_.placed_view.name(),
@@ -213,19 +228,24 @@ void ResolvePass::draw_with(const GlProgram& program, const GlFramebuffer& targe
                              contact_.openness().name()};
   for (GLuint unit = 0; unit < sizeof textures / sizeof textures[0]; ++unit)
     gl_.BindTextureUnit(unit, textures[unit]);
+  if (surfaces.lens_rays) {
+    gl_.BindTextureUnit(kLensRays, surfaces.lens_rays->name());
+    gl_.BindTextureUnit(kRowPoses, surfaces.row_poses->name());
+    variant |= kRays;
+  }
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
   gl_.Viewport(0, 0, view.intrinsics.width, view.intrinsics.height);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_CULL_FACE);
-  gl_.UseProgram(program.name());
+  gl_.UseProgram(program(variant).name());
   gl_.BindVertexArray(empty_array_.name());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void ResolvePass::draw(const ViewProjection& view, const Pose& world_from_camera,
-                       const VisibilityPass& visibility, const FrameLight& light, float exposure) {
+                       const SurfaceImages& surfaces, const FrameLight& light, float exposure) {
   resize(view.intrinsics.width, view.intrinsics.height);
-  draw_with(display_, target_, view, world_from_camera, visibility, light, exposure);
+  draw_with(0, target_, view, world_from_camera, surfaces, light, exposure);
 }
 
 void ResolvePass::read(std::vector<std::uint8_t>& rgba) {
@@ -237,18 +257,13 @@ void ResolvePass::read(std::vector<std::uint8_t>& rgba) {
 
 std::vector<float> ResolvePass::draw_linear(const ViewProjection& view,
                                             const Pose& world_from_camera,
-                                            const VisibilityPass& visibility,
+                                            const SurfaceImages& surfaces,
                                             const FrameLight& light) {
-  if (!linear_) {
-    ShaderDefines defines = variant(light);
-    defines.push_back({"LINEAR", ""});
-    linear_ = make_resolve_program(gl_, defines);
-  }
   const int width = view.intrinsics.width, height = view.intrinsics.height;
   const GlTexture texture = make_target(gl_, GL_RGBA32F, width, height);
   const GlFramebuffer target(gl_);
   gl_.NamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
-  draw_with(linear_, target, view, world_from_camera, visibility, light, 1);
+  draw_with(kLinear, target, view, world_from_camera, surfaces, light, 1);
   std::vector<float> out(std::size_t(width) * std::size_t(height) * 4);
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target.name());
   gl_.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, out.data());

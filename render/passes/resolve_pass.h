@@ -8,7 +8,7 @@
 #include "render/lighting.h"
 #include "render/passes/contact_pass.h"
 #include "render/passes/shadow_pass.h"
-#include "render/passes/visibility_pass.h"
+#include "render/shader.h"
 #include "render/textures.h"
 
 namespace rubble {
@@ -21,6 +21,15 @@ struct FrameLight {
   Vec3f air_ambient;  // mean radiance of all directions at the camera; unit: kcd/m2
 };
 
+// Which triangle each pixel shows, and how far it is.
+struct SurfaceImages {
+  const GlTexture& ids;    // as VisibilityPass::ids()
+  const GlTexture& depth;  // near / Z
+  // Of an image whose pixels have rays of their own, as RayPass has them; null: a pinhole.
+  const GlTexture* lens_rays = nullptr;
+  const GlTexture* row_poses = nullptr;
+};
+
 class ResolvePass {
  public:
   ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,
@@ -29,22 +38,26 @@ class ResolvePass {
   // Display colours: 4 bytes a pixel, the last as shaders/tone.glsl says. exposure: what luminance
   // in kcd/m2 is multiplied by.
   void draw(const ViewProjection& view, const Pose& world_from_camera,
-            const VisibilityPass& visibility, const FrameLight& light, float exposure);
+            const SurfaceImages& surfaces, const FrameLight& light, float exposure);
   void read(std::vector<std::uint8_t>& rgba);
 
   // Radiance before exposure and tone mapping, 4 floats a pixel (R, G, B in kcd/m2).
   std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
-                                 const VisibilityPass& visibility, const FrameLight& light);
+                                 const SurfaceImages& surfaces, const FrameLight& light);
 
  private:
   void resize(int width, int height);
-  void draw_with(const GlProgram& program, const GlFramebuffer& target, const ViewProjection& view,
-                 const Pose& world_from_camera, const VisibilityPass& visibility,
+  void draw_with(int variant, const GlFramebuffer& target, const ViewProjection& view,
+                 const Pose& world_from_camera, const SurfaceImages& surfaces,
                  const FrameLight& light, float exposure);
 
   const Gl& gl_;
   const GpuGeometry& geometry_;
-  GlProgram display_, linear_;
+  enum Variant { kLinear = 1, kRays = 2 };
+  const GlProgram& program(int variant);  // made when it is first needed
+
+  ShaderDefines defines_;
+  GlProgram programs_[4];  // by Variant
   GlBuffer frame_block_;
   GlVertexArray empty_array_;
   ContactPass contact_;

@@ -1,6 +1,6 @@
 // From "which triangle is here" to colour: surface, light, air, tone.
 // Variants: LIGHT_TYPE 0 directional, 1 spot, 2 point; SHADOW_VIEWS 1 or 6; LAMP; FOG; LINEAR
-// (kcd/m2 out, no tone mapping).
+// (kcd/m2 out, no tone mapping); RAYS (each pixel has a ray of its own).
 #include "frame.glsl"
 #include "geometry.glsl"
 #include "lighting.glsl"
@@ -11,6 +11,11 @@ uniform usampler2D visibility;
 uniform sampler2D depth_values;
 uniform sampler2D openness;     // darkness of small corners, half size
 uniform sampler2D fog_lamp;  // in-scattered lamp light by distance
+
+#ifdef RAYS
+uniform sampler2D lens_rays;  // optical frame, of length 1 / max(cosine with the axis, 0.05)
+uniform sampler2D row_poses;  // rows of world_from_optical, one column each
+#endif
 
 layout(location = 0) out vec4 colour;
 
@@ -46,11 +51,23 @@ vec3 shade(Surface s, vec3 world, vec3 to_eye, float open) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   uvec2 seen = texelFetch(visibility, pixel, 0).xy;
+#ifdef RAYS
+  // Any lens, and for each row the pose at its own time; see passes/ray_pass.h.
+  vec3 slope = texelFetch(lens_rays, pixel, 0).xyz;
+  if (slope == vec3(0.0)) {
+    colour = vec4(0.0, 0.0, 0.0, 0.3935);  // black, and to the light meter neither dark nor bright
+    return;
+  }
+  vec4 row_x = texelFetch(row_poses, ivec2(0, pixel.y), 0);
+  vec4 row_y = texelFetch(row_poses, ivec2(1, pixel.y), 0);
+  vec4 row_z = texelFetch(row_poses, ivec2(2, pixel.y), 0);
+#else
   // Direction with unit Z in the optical frame.
   vec3 slope = vec3((vec2(pixel) - lens.zw) * lens.xy, 1.0);
-  vec3 ray = vec3(dot(world_from_optical[0].xyz, slope), dot(world_from_optical[1].xyz, slope),
-                  dot(world_from_optical[2].xyz, slope));
-  vec3 eye = vec3(world_from_optical[0].w, world_from_optical[1].w, world_from_optical[2].w);
+  vec4 row_x = world_from_optical[0], row_y = world_from_optical[1], row_z = world_from_optical[2];
+#endif
+  vec3 ray = vec3(dot(row_x.xyz, slope), dot(row_y.xyz, slope), dot(row_z.xyz, slope));
+  vec3 eye = vec3(row_x.w, row_y.w, row_z.w);
   float ray_length = length(slope);
   vec3 direction = ray / ray_length;
   vec3 radiance;

@@ -30,7 +30,9 @@ Frame draw(const Scene& scene, const Pose& pose, const Intrinsics& k, const Chan
   GlContext context;
   Renderer renderer(context, scene, plain());
   Frame frame = renderer.render(pose, k, 0, 0);
-  renderer.add_channels(channels, next, frame);
+  ViewRays rays;
+  if (next) rays.world_from_camera = *next;
+  renderer.add_channels(channels, next ? &rays : nullptr, frame);
   return frame;
 }
 

@@ -70,7 +70,7 @@ return rubble.mission {
             "m.lua:3: seed: wrong type: expected an integer of at least 0, found the string \"x\"\n"
             "m.lua:5: lamps: unknown key `lamps` (did you mean `lamp`?)\n"
             "m.lua:7: camera.width: written twice (first on line 6)\n"
-            "m.lua:8: camera.fov_deg: out of range: expected a number from 1 to 170, found 500\n"
+            "m.lua:8: camera.fov_deg: out of range: expected a number from 1 to 360, found 500\n"
             "m.lua:9: settle.schedule: unknown choice: expected one of \"layers\", \"planes\", "
             "found the string \"plane\" (did you mean \"planes\"?)\n"
             "m.lua:10: air: wrong type: expected a table, found 3\n"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -28,6 +29,13 @@ Scenario unusual() {
   s.light.random_rotation = true;
   s.air.fog_density = 0.123456789012345678;
   s.camera = {640, 480, 70.5, {"label", "flow"}};
+  s.camera.lens = {LensKind::plumb_bob, -0.1, 0.02, 0.001, 0.002, 0.003, 0, 500.5};
+  s.camera.stereo_baseline = 0.11;
+  s.camera.shutter = {0.015, true, 9};
+  s.camera.exposure.mode = ExposureMode::automatic;
+  s.camera.sensor.response = Response::linear;
+  s.depth_sensor.type = DepthSensorType::time_of_flight;
+  s.event_camera.on = true;
   s.lamp.on = false;
   s.trajectory.interpolation = Interpolation::linear;
   s.trajectory.waypoints = {{0.0, std::nullopt, {1, 2, 3}, {1, 0, 0}, Vec3{0, 0, 0}},
@@ -85,7 +93,7 @@ TEST(ScenarioValidate, FindsEveryMistake) {
       "pile.mix[1].weight: out of range: expected a number from 0 to 1000000000, found -1\n"
       "pile.mix[1].scale: out of range: expected a number or {min, max}, each from 0.01 to "
       "100, found {2, 1}\n"
-      "camera.fov_deg: out of range: expected a number from 1 to 170, found nan\n"
+      "camera.fov_deg: out of range: expected a number from 1 to 360, found nan\n"
       "trajectory.waypoints[1].position: out of range: expected three numbers {x, y, z}, each "
       "from -1000 to 1000, found {-9, inf, 4}");
 }
@@ -99,6 +107,56 @@ TEST(Camera, IntrinsicsFromTheFieldOfView) {
   EXPECT_EQ(in.cx, 511.5);
   EXPECT_EQ(in.cy, 255.5);
   EXPECT_NEAR((CameraScenario{640, 480, 60}.intrinsics().fx), 320 / std::tan(M_PI / 6), 1e-9);
+}
+
+TEST(Camera, IntrinsicsOfLenses) {
+  CameraScenario camera{1000, 800, 120};
+  camera.lens.model = LensKind::fisheye;
+  const Intrinsics fisheye = camera.intrinsics();
+  EXPECT_EQ(fisheye.lens, LensModel::fisheye);
+  EXPECT_NEAR(fisheye.fx, 500 / (M_PI / 3), 1e-9);  // equidistant: r = f theta
+  camera.lens.k1 = -0.02;
+  EXPECT_NEAR(camera.intrinsics().fx, 500 / (M_PI / 3 * (1 - 0.02 * M_PI * M_PI / 9)), 1e-9);
+  camera.lens = {};
+  camera.lens.model = LensKind::plumb_bob;
+  camera.lens.k1 = 1, camera.lens.k2 = 2, camera.lens.p1 = 3, camera.lens.p2 = 4;
+  camera.lens.k3 = 5;
+  camera.lens.fx = 610.5;
+  camera.lens.cy = 399;
+  const Intrinsics k = camera.intrinsics();
+  EXPECT_EQ(k.distortion, (std::array<double, 5>{1, 2, 3, 4, 5}));
+  EXPECT_EQ(k.fx, 610.5);
+  EXPECT_EQ(k.fy, 610.5);
+  EXPECT_EQ(k.cx, 499.5);
+  EXPECT_EQ(k.cy, 399);
+}
+
+TEST(Camera, ContradictionsAreNamed) {
+  const auto mistake = [](const auto& spoil) {
+    Scenario s;
+    spoil(s);
+    return error_of([&] { s.validate(); });
+  };
+  EXPECT_EQ(mistake([](Scenario& s) { s.camera.fov_deg = 180; }),
+            "camera.fov_deg: too wide for a flat image: expected at most 170 (or "
+            "camera.lens.model = \"fisheye\")");
+  EXPECT_EQ(mistake([](Scenario& s) {
+              s.camera.fov_deg = 180;
+              s.camera.lens.model = LensKind::fisheye;
+            }),
+            "");
+  EXPECT_NE(mistake([](Scenario& s) {
+              s.camera.lens.model = LensKind::fisheye;
+              s.camera.lens.k1 = -2;
+            }).find("folds back"),
+            std::string::npos);
+  EXPECT_NE(mistake([](Scenario& s) { s.camera.lens.k1 = 0.1; }).find("no distortion"),
+            std::string::npos);
+  EXPECT_NE(mistake([](Scenario& s) { s.camera.shutter.motion_blur = true; })
+                .find("camera.shutter.motion_blur: an ideal image takes no time"),
+            std::string::npos);
+  EXPECT_NE(mistake([](Scenario& s) { s.depth_sensor.min_range = 7; }).find("within reach"),
+            std::string::npos);
 }
 
 TEST(Light, RandomRotationFollowsTheSeed) {

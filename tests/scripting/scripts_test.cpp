@@ -57,6 +57,14 @@ TEST(Scripts, FeaturesAreShown) {
   EXPECT_EQ(load("rain.lua").scenario.settle.schedule, Schedule::planes);
   EXPECT_EQ(load("straight_legs.lua").scenario.trajectory.interpolation, Interpolation::linear);
   EXPECT_EQ(load("outputs.lua").scenario.outputs.depth, DepthEncoding::metres);
+  EXPECT_EQ(load("fisheye.lua").scenario.camera.intrinsics().lens, LensModel::fisheye);
+  EXPECT_EQ(load("distortion.lua").scenario.camera.intrinsics().distortion[0], -0.29);
+  EXPECT_GT(load("stereo.lua").scenario.camera.stereo_baseline, 0);
+  EXPECT_TRUE(load("blur.lua").scenario.camera.shutter.motion_blur);
+  EXPECT_GT(load("rolling_shutter.lua").scenario.camera.shutter.readout, 0);
+  EXPECT_EQ(load("exposure.lua").scenario.camera.exposure.mode, ExposureMode::automatic);
+  EXPECT_EQ(load("depth_sensor.lua").scenario.depth_sensor.type, DepthSensorType::structured_light);
+  EXPECT_TRUE(load("events.lua").scenario.event_camera.on);
   EXPECT_EQ(load("published_names.lua").scenario.pile.layers, 2);
 }
 

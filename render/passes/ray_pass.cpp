@@ -1,0 +1,145 @@
+#include "render/passes/ray_pass.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "kernel/base/parallel.h"
+#include "render/projection.h"
+
+namespace rubble {
+
+namespace {
+
+constexpr float kFarthest = 1e5f;  // unit: m
+constexpr int kMostBacks = 16;     // surfaces seen from behind that a ray passes through
+
+bool same_pinhole(const Intrinsics& a, const Intrinsics& b) {
+  return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
+         a.cx == b.cx && a.cy == b.cy;
+}
+
+}  // namespace
+
+RayPass::RayPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry, int threads)
+    : gl_(gl),
+      scene_(scene),
+      geometry_(geometry),
+      threads_(threads),
+      rays_(scene, RayScene::Detail::finest) {}
+
+void RayPass::resize(const ViewRays& view) {
+  const int width = view.intrinsics.width, height = view.intrinsics.height;
+  if (width == width_ && height == height_) return;
+  width_ = width, height_ = height;
+  ids_ = make_target(gl_, GL_RG32UI, width, height);
+  depth_ = make_target(gl_, GL_R32F, width, height);
+  lens_rays_ = make_target(gl_, GL_RGBA32F, width, height);
+  row_poses_ = make_target(gl_, GL_RGBA32F, 3, height);
+  directions_.reset();
+  own_directions_ = false;
+  const std::size_t size = std::size_t(width) * std::size_t(height);
+  id_values_.resize(size * 2);
+  depth_values_.resize(size);
+  distances_.resize(size);
+  check_gl(gl_, "making the images of a lens");
+}
+
+void RayPass::upload_lens(const ViewRays& view) {
+  const bool known = view.directions ? directions_ == view.directions
+                                     : own_directions_ && same_pinhole(pinhole_, view.intrinsics);
+  if (known) return;
+  pinhole_ = view.intrinsics;
+  own_directions_ = !view.directions;
+  directions_ = view.directions ? view.directions : make_lens_directions(view.intrinsics, threads_);
+  std::vector<float> texels;
+  texels.reserve(directions_->size() * 4);
+  for (const Vec3f& d : *directions_) {
+    const Vec3f r = d * (1 / std::max(d.z, kLeastCosine));
+    texels.insert(texels.end(), {r.x, r.y, r.z, 0.0f});
+  }
+  gl_.TextureSubImage2D(lens_rays_.name(), 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT,
+                        texels.data());
+}
+
+void RayPass::upload_poses(const ViewRays& view) {
+  std::vector<float> texels;
+  for (int v = 0; v < height_; ++v) {
+    const Pose pose = view.pose(v);
+    const Mat3 r = pose.rotation.matrix();
+    for (int i = 0; i < 3; ++i)
+      texels.insert(texels.end(), {float(r.rows[i].x), float(r.rows[i].y), float(r.rows[i].z),
+                                   float(pose.translation[i])});
+  }
+  gl_.TextureSubImage2D(row_poses_.name(), 0, 0, 0, 3, height_, GL_RGBA, GL_FLOAT, texels.data());
+}
+
+// Where the ray meets the triangle's plane, in double precision. A sliver, whose plane its corners
+// hardly fix, keeps the distance that the tree gave.
+double RayPass::exact_distance(const RayScene::Triangle& triangle, const Vec3& eye,
+                               const Vec3& direction, double about) const {
+  const PlacedMesh& piece = scene_.placed[triangle.placed];
+  const PreparedMesh& mesh = scene_.meshes[piece.mesh];
+  const Quat turn = piece.world_from_mesh.rotation.conjugate();
+  const Vec3 from = turn.rotate(eye - piece.world_from_mesh.translation) * (1 / piece.scale);
+  const Vec3 along = turn.rotate(direction) * (1 / piece.scale);
+  Vec3 p[3];
+  for (std::size_t i = 0; i < 3; ++i)
+    p[i] = Vec3(mesh.vertices[mesh.triangles[triangle.source].vertices[i]].position);
+  const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
+  const double t = dot(normal, p[0] - from) / dot(normal, along);
+  return std::fabs(t - about) <= 1e-4 * about ? t : about;
+}
+
+void RayPass::cast_row(const ViewRays& view, int v) {
+  const Pose pose = view.pose(v);
+  const Vec3f eye(pose.translation);
+  for (int u = 0; u < width_; ++u) {
+    const std::size_t i = std::size_t(v) * std::size_t(width_) + std::size_t(u);
+    id_values_[i * 2] = id_values_[i * 2 + 1] = 0;
+    depth_values_[i] = 0;
+    distances_[i] = std::numeric_limits<float>::quiet_NaN();
+    const Vec3f d = (*directions_)[i];
+    if (d == Vec3f()) continue;
+    const float slope = 1 / std::max(d.z, kLeastCosine);
+    const Vec3 along = pose.rotation.rotate(Vec3(d));
+    const Vec3f ray(along);
+    float near = kNearPlane * slope;
+    RayScene::Hit hit = rays_.cast(eye, ray, near, kFarthest);
+    for (int back = 0; hit.triangle != RayScene::kNone && hit.back && back < kMostBacks; ++back) {
+      near = hit.distance * (1 + 1e-6f) + 1e-6f;
+      hit = rays_.cast(eye, ray, near, kFarthest);
+    }
+    if (hit.triangle == RayScene::kNone || hit.back) continue;
+    const RayScene::Triangle& triangle = rays_.triangles()[hit.triangle];
+    const double t = exact_distance(triangle, pose.translation, along, double(hit.distance));
+    const std::uint32_t mesh = scene_.placed[triangle.placed].mesh;
+    id_values_[i * 2] = triangle.placed + 1;
+    id_values_[i * 2 + 1] =
+        geometry_.name_of_triangle[geometry_.first_index[mesh] / 3 + triangle.source];
+    distances_[i] = float(t);
+    depth_values_[i] = kNearPlane * slope / float(t);
+  }
+}
+
+void RayPass::draw(const ViewRays& view) {
+  resize(view);
+  upload_lens(view);
+  upload_poses(view);
+  parallel_for(std::size_t(height_), threads_, [&](std::size_t v) { cast_row(view, int(v)); });
+  gl_.TextureSubImage2D(ids_.name(), 0, 0, 0, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT,
+                        id_values_.data());
+  gl_.TextureSubImage2D(depth_.name(), 0, 0, 0, width_, height_, GL_RED, GL_FLOAT,
+                        depth_values_.data());
+  check_gl(gl_, "handing the cast rays over");
+}
+
+std::vector<float> RayPass::planar_depth() const {
+  std::vector<float> out(distances_.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const float z = distances_[i] * (*directions_)[i].z;
+    out[i] = z > 0 ? z : std::numeric_limits<float>::quiet_NaN();
+  }
+  return out;
+}
+
+}  // namespace rubble

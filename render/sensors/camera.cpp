@@ -1,0 +1,260 @@
+#include "render/sensors/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/base/error.h"
+#include "render/sensors/depth_sensor.h"
+#include "render/sensors/event_camera.h"
+#include "render/sensors/exposure_control.h"
+#include "render/sensors/image_sensor.h"
+#include "render/sensors/motion.h"
+
+namespace rubble {
+
+namespace {
+
+// A motion shorter than this leaves a sharp image; unit: pixel.
+constexpr double kSharp = 0.5;
+constexpr int kMostEventImages = 1000;  // between two frames
+
+void add_scaled(std::vector<float>& sum, const std::vector<float>& image, float factor) {
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factor * image[i];
+}
+
+std::vector<float> luminance_of(const LinearFrame& image) {  // unit: cd/m2
+  std::vector<float> out(image.depth.size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = 1000 * (0.2126f * image.rgb[i * 3] + 0.7152f * image.rgb[i * 3 + 1] +
+                     0.0722f * image.rgb[i * 3 + 2]);
+  return out;
+}
+
+}  // namespace
+
+struct Camera::State {
+  State(Renderer& r, const CameraSpec& s, Flight f, const Medium& m);
+
+  Renderer& renderer;
+  CameraSpec spec;
+  Flight flight;
+  Medium medium;
+  std::shared_ptr<const LensDirections> directions;  // none: a pinhole that needs none
+  ExposureControl exposure;
+  std::unique_ptr<ImageSensor> sensor;  // none: an ideal image
+  DepthSensor depth_sensor;
+  std::unique_ptr<EventPixels> events;
+  bool settled = false;
+  struct Watched {  // the last image of the event camera
+    ViewRays view;
+    std::vector<float> distances;
+  } watched;
+
+  Pose pose_at(std::int64_t stamp_ns, std::int64_t frame_ns, const Pose& at_frame) const;
+  ViewRays view_at(int index, double seconds_off = 0) const;
+  ViewRays right_of(ViewRays view) const;
+
+  Frame take_ideal(int index);
+  Frame take_exposed(int index);
+  int count_samples(int index, const ViewRays& view, const LinearFrame& middle,
+                    const ExposureSettings& settings) const;
+  std::vector<float> gather_light(int index, const LinearFrame* middle, int samples, double time,
+                                  bool right);
+  void add_truth(int index, const ViewRays& view, Frame& frame);
+  void measure_depth(int index, const ViewRays& view, Frame& frame);
+  void watch(int index, Frame& frame);
+};
+
+Camera::State::State(Renderer& r, const CameraSpec& s, Flight f, const Medium& m)
+    : renderer(r),
+      spec(s),
+      flight(std::move(f)),
+      medium(m),
+      exposure(s.exposure),
+      depth_sensor(s) {
+  const Intrinsics& k = spec.intrinsics;
+  const bool modelled = spec.exposure.mode != ExposureMode::ideal;
+  if (spec.shutter.motion_blur && !modelled)
+    throw RunError("motion blur needs an exposure time: the exposure must not be ideal");
+  if (!Lens(k).is_pinhole()) directions = make_lens_directions(k, spec.threads);
+  if (modelled)
+    sensor = std::make_unique<ImageSensor>(
+        spec, directions ? *directions : *make_lens_directions(k, spec.threads));
+  if (spec.event_camera.on)
+    events = std::make_unique<EventPixels>(spec.event_camera, k.width, k.height, spec.seed);
+}
+
+// The frame's own pose at its own stamp, so that rounding between the two cannot show.
+Pose Camera::State::pose_at(std::int64_t stamp_ns, std::int64_t frame_ns,
+                            const Pose& at_frame) const {
+  return stamp_ns == frame_ns ? at_frame : flight.pose_at(stamp_ns);
+}
+
+ViewRays Camera::State::view_at(int index, double seconds_off) const {
+  const std::int64_t frame_ns = flight.stamps_ns[std::size_t(index)];
+  const Pose& at_frame = flight.world_from_camera[std::size_t(index)];
+  ViewRays view;
+  view.stamp_ns = frame_ns + std::llround(seconds_off * 1e9);
+  view.intrinsics = spec.intrinsics;
+  view.world_from_camera = pose_at(view.stamp_ns, frame_ns, at_frame);
+  view.directions = directions;
+  if (spec.shutter.readout <= 0) return view;
+  const int rows = spec.intrinsics.height;
+  for (int v = 0; v < rows; ++v) {
+    const double late = spec.shutter.readout * (double(v) / std::max(1, rows - 1) - 0.5);
+    const std::int64_t stamp = view.stamp_ns + std::llround(late * 1e9);
+    view.row_poses.push_back(pose_at(stamp, frame_ns, at_frame) * camera_from_optical);
+  }
+  return view;
+}
+
+ViewRays Camera::State::right_of(ViewRays view) const {
+  const Pose right{{}, {0, -spec.baseline, 0}};
+  view.world_from_camera = view.world_from_camera * right;
+  const Pose in_optical = camera_from_optical.inverse() * right * camera_from_optical;
+  for (Pose& pose : view.row_poses) pose = pose * in_optical;
+  return view;
+}
+
+void Camera::State::add_truth(int index, const ViewRays& view, Frame& frame) {
+  if (spec.channels.any()) {
+    ViewRays next;
+    const bool more = index + 1 < int(flight.stamps_ns.size());
+    if (more && spec.channels.flow) next = view_at(index + 1);
+    renderer.add_channels(spec.channels, more ? &next : nullptr, frame);
+  }
+  if (spec.depth_sensor.type != DepthSensorType::none) measure_depth(index, view, frame);
+}
+
+void Camera::State::measure_depth(int index, const ViewRays& view, Frame& frame) {
+  Frame truth;
+  ChannelSet channels;
+  channels.normals = true;
+  renderer.add_channels(channels, nullptr, truth);
+  std::vector<std::uint8_t> projected;
+  if (spec.depth_sensor.type == DepthSensorType::structured_light)
+    projected = renderer.seen_from(depth_sensor.projector());
+  const double seconds = double(view.stamp_ns - flight.stamps_ns.front()) * 1e-9;
+  const Air air = medium.at(seconds);
+  frame.measured_depth =
+      depth_sensor.measure({view, renderer.distances(), truth.normals, projected, air, index});
+}
+
+Frame Camera::State::take_ideal(int index) {
+  const ViewRays view = view_at(index);
+  Frame frame = renderer.render(view, index);
+  add_truth(index, view, frame);
+  if (spec.baseline > 0) frame.rgb_right = renderer.render_beside(right_of(view));
+  return frame;
+}
+
+// One more than the pixels of motion, and odd, so that the middle one is the frame's own instant.
+int Camera::State::count_samples(int index, const ViewRays& view, const LinearFrame& middle,
+                                 const ExposureSettings& settings) const {
+  if (!spec.shutter.motion_blur) return 1;
+  const double half = 0.5 * settings.time;
+  const double motion =
+      longest_motion(view, middle.distance, view_at(index, -half).world_from_camera,
+                     view_at(index, half).world_from_camera);
+  if (motion < kSharp) return 1;
+  const int wanted = int(std::min(std::ceil(motion), 1000.0)) + 1;
+  const int most = spec.shutter.most_samples - (spec.shutter.most_samples % 2 ? 0 : 1);
+  return std::clamp(wanted | 1, 3, most);
+}
+
+// The mean light over the exposure: images at the middles of equal parts of it.
+std::vector<float> Camera::State::gather_light(int index, const LinearFrame* middle, int samples,
+                                               double time, bool right) {
+  std::vector<float> sum;
+  for (int i = 0; i < samples; ++i) {
+    LinearFrame drawn;
+    const LinearFrame* image = middle;
+    if (!middle || i != samples / 2) {
+      const ViewRays view = view_at(index, time * ((i + 0.5) / samples - 0.5));
+      drawn = renderer.render_linear(right ? right_of(view) : view);
+      image = &drawn;
+    }
+    if (sum.empty()) sum.assign(image->rgb.size(), 0);
+    add_scaled(sum, image->rgb, 1.0f / float(samples));
+  }
+  return sum;
+}
+
+Frame Camera::State::take_exposed(int index) {
+  const ViewRays view = view_at(index);
+  const LinearFrame middle = renderer.render_linear(view);
+  Frame frame;
+  frame.index = index;
+  frame.stamp_ns = view.stamp_ns;
+  frame.intrinsics = spec.intrinsics;
+  frame.world_from_camera = view.world_from_camera;
+  frame.depth = middle.depth;
+  add_truth(index, view, frame);
+  if (!settled) {
+    const double share = saturation_share(exposure.settings(), spec.exposure.f_number);
+    exposure.settle([&](double factor) { return sensor->mean_of(middle.rgb, share * factor); });
+    settled = true;
+  }
+  const ExposureSettings settings = exposure.settings();
+  frame.exposure_s = settings.time;
+  const int samples = count_samples(index, view, middle, settings);
+  const auto counts =
+      sensor->count(gather_light(index, &middle, samples, settings.time, false), settings, index, 0);
+  frame.rgb = sensor->develop(counts);
+  if (spec.baseline > 0)
+    frame.rgb_right = sensor->develop(sensor->count(
+        gather_light(index, nullptr, samples, settings.time, true), settings, index, 1));
+  if (index + 1 < int(flight.stamps_ns.size())) {
+    const std::int64_t elapsed = flight.stamps_ns[std::size_t(index) + 1] - view.stamp_ns;
+    exposure.follow(sensor->mean_of(counts), double(elapsed) * 1e-9);
+  }
+  return frame;
+}
+
+// Images from the frame before to this one, so close that nothing moves farther than most_motion
+// between two of them.
+void Camera::State::watch(int index, Frame& frame) {
+  const std::int64_t end = flight.stamps_ns[std::size_t(index)];
+  std::int64_t now = index > 0 ? flight.stamps_ns[std::size_t(index) - 1] : end;
+  const auto look = [&](std::int64_t stamp) {
+    ViewRays view;
+    view.stamp_ns = stamp;
+    view.intrinsics = spec.intrinsics;
+    view.directions = directions;
+    view.world_from_camera = pose_at(stamp, end, flight.world_from_camera[std::size_t(index)]);
+    const LinearFrame image = renderer.render_linear(view);
+    events->see(stamp, luminance_of(image), frame.events);
+    return Watched{view, image.distance};
+  };
+  if (index == 0) {
+    watched = look(end);
+    return;
+  }
+  // From the depths of the last look: how many parts the rest of the way is to be cut into.
+  const Pose goal = flight.world_from_camera[std::size_t(index)];
+  for (int left = kMostEventImages; now < end; --left) {
+    const double motion =
+        longest_motion(watched.view, watched.distances, watched.view.world_from_camera, goal);
+    const double parts =
+        left > 0 ? std::max(1.0, std::ceil(motion / spec.event_camera.most_motion)) : 1;
+    now = std::min(end, now + std::int64_t(std::ceil(double(end - now) / parts)));
+    watched = look(now);
+  }
+}
+
+Camera::Camera(Renderer& renderer, const CameraSpec& spec, Flight flight, const Medium& medium)
+    : state_(std::make_unique<State>(renderer, spec, std::move(flight), medium)) {}
+
+Camera::~Camera() = default;
+
+int Camera::frames() const { return int(state_->flight.stamps_ns.size()); }
+
+Frame Camera::take(int index) {
+  State& s = *state_;
+  Frame frame = s.sensor ? s.take_exposed(index) : s.take_ideal(index);
+  frame.baseline = s.spec.baseline;
+  if (s.events) s.watch(index, frame);
+  return frame;
+}
+
+}  // namespace rubble

@@ -1,0 +1,35 @@
+// A camera on its flight: exact frames of the renderer, then the stages that a real one adds.
+//
+//   lens, shutter -> exact light, depth, ground truth -> exposure -> image sensor -> rgb
+//                                                     -> depth sensor -> measured_depth
+//                                                     -> event camera -> events
+//
+// A stage that the specification leaves off does nothing and costs nothing; with all of them off a
+// frame is Renderer::render's, bit for bit. Frames must be taken in order, from the first on.
+#pragma once
+
+#include <memory>
+
+#include "render/camera_spec.h"
+#include "render/medium.h"
+#include "render/renderer.h"
+#include "render/sensors/flight.h"
+
+namespace rubble {
+
+class Camera {
+ public:
+  // The renderer must outlive the camera. medium: what the scene's air is. Throws RunError for a
+  // specification that contradicts itself.
+  Camera(Renderer& renderer, const CameraSpec& spec, Flight flight, const Medium& medium = {});
+  ~Camera();
+
+  int frames() const;
+  Frame take(int index);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace rubble

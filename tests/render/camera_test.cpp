@@ -1,0 +1,397 @@
+// The camera's stages against closed forms: exposure, noise, blur, rolling shutter, stereo, lag.
+#include "render/sensors/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "kernel/base/portable_math.h"
+#include "render/sensors/exposure_control.h"
+#include "render/sensors/image_sensor.h"
+#include "render/sensors/noise_field.h"
+#include "tests/render/test_scene.h"
+
+namespace rubble::testing {
+namespace {
+
+RenderOptions plain() {
+  RenderOptions options;
+  options.bake = false;
+  options.shadow_size = 64;
+  options.texture_size = 16;
+  return options;
+}
+
+// Frames 100 ms apart from start_ns on, the pose a function of the time since then.
+template <typename PoseAt>
+Flight fly(int frames, PoseAt pose_at) {
+  constexpr std::int64_t kStart = 5'000'000'000;
+  Flight flight;
+  flight.pose_at = [pose_at](std::int64_t ns) { return pose_at(double(ns - kStart) * 1e-9); };
+  for (int i = 0; i < frames; ++i) {
+    flight.stamps_ns.push_back(kStart + i * 100'000'000LL);
+    flight.world_from_camera.push_back(flight.pose_at(flight.stamps_ns.back()));
+  }
+  return flight;
+}
+
+Pose sideways(double t) { return {{}, {0, 2 * t, 0}}; }  // 2 m/s to the left
+Pose standing(double) { return {}; }
+
+// A black-and-white edge: a wall that is lit left of y = 0 and, beside it, the empty sky.
+Scene lit_wall() {
+  Scene scene;
+  scene.ground = false;
+  scene.lamp.on = false;
+  scene.light.type = LightType::directional;
+  scene.light.intensity = 50;
+  scene.light.rpy_deg = {0, 30, 0};
+  scene.meshes.push_back(share(make_box({1, 20, 40}, "plaster")));
+  scene.instances.push_back({0, 1, {{}, {4.5, 10, 0}}, 5});
+  return scene;
+}
+
+CameraSpec fixed_camera(int width, int height, double focal) {
+  CameraSpec spec;
+  spec.intrinsics = pinhole(width, height, focal);
+  spec.exposure.mode = ExposureMode::fixed;
+  spec.exposure.time = 0.02;
+  spec.exposure.iso = 100;
+  spec.exposure.f_number = 8;
+  spec.sensor.noise = false;
+  spec.sensor.bits = 16;
+  spec.sensor.response = Response::linear;
+  spec.seed = 3;
+  return spec;
+}
+
+TEST(Camera, WithEveryStageOffIsTheRenderer) {
+  const Scene scene = make_heap(60, 2);
+  GlContext context;
+  const Flight flight = fly(3, [](double t) { return look_at({5 - t, 1, 1.4}, {0, 0, 0.5}); });
+  CameraSpec spec;
+  spec.intrinsics = pinhole(64, 48, 40);
+  Renderer one(context, scene, plain()), two(context, scene, plain());
+  Camera camera(one, spec, flight);
+  for (int i = 0; i < camera.frames(); ++i) {
+    const Frame a = camera.take(i);
+    const Frame b = two.render(flight.world_from_camera[std::size_t(i)], spec.intrinsics, i,
+                               flight.stamps_ns[std::size_t(i)]);
+    EXPECT_EQ(a.rgb, b.rgb);
+    EXPECT_EQ(0, std::memcmp(a.depth.data(), b.depth.data(), a.depth.size() * sizeof(float)));
+    EXPECT_EQ(a.stamp_ns, b.stamp_ns);
+    EXPECT_EQ(a.exposure_s, 0);
+    EXPECT_TRUE(a.measured_depth.empty() && a.rgb_right.empty() && a.events.empty());
+  }
+}
+
+// Mean of an 8-bit linear image, without clipped pixels to spoil it.
+double mean_of(const Frame& frame) {
+  double sum = 0;
+  for (const std::uint8_t c : frame.rgb) sum += c;
+  EXPECT_LT(*std::max_element(frame.rgb.begin(), frame.rgb.end()), 255);
+  return sum / double(frame.rgb.size());
+}
+
+TEST(Exposure, IsLinearInTimeAndSpeedAndAreaOfTheAperture) {
+  GlContext context;
+  Renderer renderer(context, lit_wall(), plain());
+  const auto level = [&](double time, double iso, double f_number) {
+    CameraSpec spec = fixed_camera(32, 32, 200);
+    spec.intrinsics.cx += 200;  // only the wall
+    spec.exposure.time = time, spec.exposure.iso = iso, spec.exposure.f_number = f_number;
+    const Frame frame = Camera(renderer, spec, fly(1, standing)).take(0);
+    EXPECT_EQ(frame.exposure_s, time);
+    return mean_of(frame);
+  };
+  const double one = level(0.0001, 100, 4);
+  EXPECT_GT(one, 5);
+  EXPECT_NEAR(level(0.0002, 100, 4) / one, 2, 0.05);
+  EXPECT_NEAR(level(0.0001, 300, 4) / one, 3, 0.05);
+  EXPECT_NEAR(level(0.0001, 100, 2) / one, 4, 0.05);
+}
+
+// ISO 12232: at speed S a grey of L = 78 N^2 / (0.65 S t) just saturates.
+TEST(Exposure, SaturatesWhereTheStandardSays) {
+  const double luminance = 78 * 4.0 / (0.65 * 200 * 0.01) / 1000;  // kcd/m2
+  EXPECT_NEAR(saturation_share({0.01, 200}, 2) * luminance, 1, 1e-12);
+  CameraSpec spec = fixed_camera(4, 4, 4);
+  const LensDirections ahead(16, Vec3f(0, 0, 1));
+  spec.exposure.f_number = 2;
+  const ImageSensor sensor(spec, ahead);
+  const auto at = [&](double share) {
+    return sensor.count(std::vector<float>(48, float(luminance * share)), {0.01, 200}, 0, 0)[0];
+  };
+  EXPECT_EQ(at(1.01), sensor.most());
+  EXPECT_NEAR(at(0.5), 0.5 * sensor.most(), 1);
+  EXPECT_EQ(at(0), 0);
+}
+
+struct Moments {
+  double mean = 0, variance = 0;
+};
+template <typename T>
+Moments moments_of(const std::vector<T>& values) {
+  Moments m;
+  for (const T v : values) m.mean += double(v) / double(values.size());
+  for (const T v : values)
+    m.variance += (double(v) - m.mean) * (double(v) - m.mean) / double(values.size() - 1);
+  return m;
+}
+
+TEST(NoiseField, HasTheMomentsOfItsDistributions) {
+  const NoiseField field(11, "test");
+  constexpr std::uint64_t kCount = 200000;
+  std::vector<double> values(kCount);
+  for (std::uint64_t i = 0; i < kCount; ++i) values[i] = field.normal(i);
+  EXPECT_NEAR(moments_of(values).mean, 0, 0.01);
+  EXPECT_NEAR(moments_of(values).variance, 1, 0.015);
+  for (const double mean : {0.3, 4.0, 29.0, 31.0, 800.0}) {
+    for (std::uint64_t i = 0; i < kCount; ++i) values[i] = field.poisson(i, mean);
+    EXPECT_NEAR(moments_of(values).mean, mean, 5 * std::sqrt(mean / double(kCount))) << mean;
+    EXPECT_NEAR(moments_of(values).variance / mean, 1, 0.03) << mean;
+  }
+  EXPECT_NE(NoiseField(11, "test", 1).normal(0), field.normal(0));
+  EXPECT_NE(NoiseField(12, "test").normal(0), field.normal(0));
+}
+
+// The photon transfer curve: variance = mean + read^2 + step^2 / 12, in electrons.
+TEST(Noise, FollowsThePhotonTransferCurve) {
+  CameraSpec spec = fixed_camera(200, 200, 100);
+  spec.sensor = {true, 8000, 6, 12, 0, Response::linear, 2.2};
+  const LensDirections ahead(200 * 200, Vec3f(0, 0, 1));
+  const ImageSensor sensor(spec, ahead);
+  for (const double iso : {100.0, 400.0}) {
+    const ExposureSettings settings{0.01, iso};
+    const double well = 8000 * 100 / iso, step = well / sensor.most();
+    for (const double share : {0.02, 0.1, 0.4, 0.8}) {
+      const float light = float(share / saturation_share(settings, spec.exposure.f_number));
+      const auto counts = sensor.count(std::vector<float>(200 * 200 * 3, light), settings, 7, 0);
+      const Moments m = moments_of(counts);
+      const double mean = m.mean * step, variance = m.variance * step * step;
+      EXPECT_NEAR(mean, share * well, 0.01 * share * well + 0.1);
+      EXPECT_NEAR(variance / (share * well + 36 + step * step / 12), 1, 0.03) << iso << " " << share;
+    }
+  }
+}
+
+TEST(Noise, FollowsTheSeedTheFrameAndTheEye) {
+  CameraSpec spec = fixed_camera(16, 16, 16);
+  spec.sensor.noise = true;
+  const std::vector<float> light(16 * 16 * 3, 0.1f);
+  const LensDirections ahead(16 * 16, Vec3f(0, 0, 1));
+  const auto draw = [&](std::uint64_t seed, int threads, int frame, int eye) {
+    spec.seed = seed, spec.threads = threads;
+    return ImageSensor(spec, ahead).count(light, {0.01, 100}, frame, eye);
+  };
+  const auto first = draw(1, 1, 0, 0);
+  EXPECT_EQ(first, draw(1, 2, 0, 0));
+  EXPECT_NE(first, draw(2, 1, 0, 0));
+  EXPECT_NE(first, draw(1, 1, 1, 0));
+  EXPECT_NE(first, draw(1, 1, 0, 1));
+}
+
+TEST(Vignette, FallsWithTheFourthPowerOfTheCosine) {
+  CameraSpec spec = fixed_camera(101, 1, 50);
+  const auto directions = make_lens_directions(spec.intrinsics, 1);
+  const std::vector<float> light(303, 0.1f);
+  const auto even = ImageSensor(spec, *directions).count(light, {0.01, 100}, 0, 0);
+  spec.sensor.vignette = 1;
+  const auto fallen = ImageSensor(spec, *directions).count(light, {0.01, 100}, 0, 0);
+  EXPECT_EQ(fallen[150], even[150]);  // the middle
+  EXPECT_NEAR(double(fallen[0]) / even[0], std::pow(std::cos(portable::kPi / 4), 4), 1e-3);
+}
+
+TEST(Response, IsTheStandardsCurve) {
+  CameraSpec spec = fixed_camera(1, 1, 1);
+  spec.sensor.bits = 10;
+  const LensDirections ahead(1, Vec3f(0, 0, 1));
+  const auto at = [&](Response response, double share) {
+    spec.sensor.response = response;
+    return ImageSensor(spec, ahead).develop({std::uint16_t(std::lround(share * 1023))})[0];
+  };
+  EXPECT_EQ(at(Response::linear, 0.5), 128);
+  EXPECT_EQ(at(Response::srgb, 0.5), 188);   // IEC 61966-2-1: 0.7354
+  EXPECT_EQ(at(Response::srgb, 0.18), 118);  // 0.4614
+  EXPECT_EQ(at(Response::gamma, 0.5), 186);  // 0.5^(1/2.2) = 0.7297
+  EXPECT_EQ(at(Response::srgb, 1), 255);
+}
+
+// Levels of a row as shares of the wall's: the wall is left of the edge.
+std::vector<double> profile(const Frame& frame, int row) {
+  std::vector<double> out;
+  const std::size_t width = std::size_t(frame.intrinsics.width);
+  for (std::size_t u = 0; u < width; ++u)
+    out.push_back(double(frame.rgb[(std::size_t(row) * width + u) * 3 + 1]));
+  return out;
+}
+
+// The camera moves 2 m/s to the left past an edge 4 m away, so the image moves to the right by
+// f * 2 t / 4: the edge becomes a ramp of that width, its middle where the sharp edge is.
+TEST(MotionBlur, IsARampOfTheLengthOfTheMotion) {
+  Scene scene = lit_wall();
+  scene.light.rpy_deg = {0, 30, 180};  // the wall is dark against the sky
+  GlContext context;
+  Renderer renderer(context, scene, plain());
+  CameraSpec spec = fixed_camera(160, 16, 400);
+  spec.exposure.time = 0.06;  // 12 pixels
+  spec.exposure.f_number = 36;
+  const auto take = [&](bool blur, const auto& pose_at) {
+    spec.shutter.motion_blur = blur;
+    return Camera(renderer, spec, fly(1, pose_at)).take(0);
+  };
+  const auto sharp = profile(take(false, sideways), 8), blurred = profile(take(true, sideways), 8);
+  const double wall = sharp[40], sky = sharp[120];
+  ASSERT_GT(sky, wall + 20);
+  ASSERT_LT(sky, 250);
+  double area = 0, width = 0;  // of the part between 10 and 90 %
+  for (std::size_t u = 0; u < 160; ++u) {
+    area += (blurred[u] - sharp[u]) / (wall - sky);
+    const double share = (blurred[u] - sky) / (wall - sky);
+    width += share > 0.1 && share < 0.9;
+  }
+  EXPECT_NEAR(area, 0, 0.7) << "the ramp's middle is the sharp edge";
+  EXPECT_NEAR(width, 0.8 * 12, 1.2);
+  // Direction: nothing is blurred where the motion runs along the edge.
+  const auto climbing = [](double t) { return Pose{{}, {0, 0, 2 * t}}; };
+  const auto along = profile(take(true, climbing), 8);
+  int partly = 0;
+  for (const double v : along) {
+    const double share = (v - sky) / (wall - sky);
+    partly += share > 0.15 && share < 0.85;
+  }
+  EXPECT_LE(partly, 1);
+  EXPECT_EQ(take(true, standing).rgb, take(false, standing).rgb);
+}
+
+// Row v is exposed readout * (v / (rows - 1) - 1/2) after the stamp.
+TEST(RollingShutter, SkewsByTheReadoutTime) {
+  GlContext context;
+  Renderer renderer(context, lit_wall(), plain());
+  CameraSpec spec = fixed_camera(160, 120, 400);
+  spec.shutter.readout = 0.05;  // 20 pixels
+  spec.channels.instance = true;
+  Camera camera(renderer, spec, fly(2, sideways));
+  camera.take(0);
+  const Frame frame = camera.take(1);
+  for (int v = 0; v < 120; v += 17) {
+    const double eye = 2 * (0.1 + 0.05 * (v / 119.0 - 0.5));
+    const double edge = spec.intrinsics.cx + 400 * eye / 4;
+    int first = 0;
+    while (first < 160 && frame.instance[std::size_t(v * 160 + first)] == 5) ++first;
+    EXPECT_EQ(first, int(std::floor(edge)) + 1) << "row " << v;
+  }
+}
+
+// With a rolling shutter the flow ends in the row at whose time the point is seen.
+TEST(RollingShutter, FlowKeepsToTheRowsOwnTimes) {
+  GlContext context;
+  Renderer renderer(context, lit_wall(), plain());
+  CameraSpec spec;
+  spec.intrinsics = pinhole(160, 120, 200);
+  spec.shutter.readout = 0.05;
+  spec.channels.flow = true;
+  // Up at 1 m/s: a point of the wall sinks by f / 4 pixels a second.
+  const auto climbing = [](double t) { return Pose{{}, {0, 0, t}}; };
+  const Frame frame = Camera(renderer, spec, fly(2, climbing)).take(0);
+  for (int v = 20; v < 100; v += 13) {
+    // v' - v = 50 (0.1 + 0.05 (v' - v) / 119)
+    const double expected = 50 * 0.1 / (1 - 50 * 0.05 / 119);
+    EXPECT_NEAR(double(frame.flow[std::size_t(v * 160 + 40) * 2 + 1]), expected, 2e-3);
+    EXPECT_NEAR(double(frame.flow[std::size_t(v * 160 + 40) * 2]), 0, 2e-3);
+  }
+}
+
+TEST(Stereo, DisparityIsFocalLengthTimesBaselineOverDepth) {
+  GlContext context;
+  for (const ExposureMode mode : {ExposureMode::ideal, ExposureMode::fixed}) {
+    Renderer renderer(context, lit_wall(), plain());
+    CameraSpec spec = fixed_camera(160, 16, 200);
+    spec.exposure.mode = mode;
+    spec.exposure.f_number = 16;
+    spec.baseline = 0.2;  // 10 pixels at 4 m
+    const Frame frame = Camera(renderer, spec, fly(1, standing)).take(0);
+    EXPECT_EQ(frame.baseline, 0.2);
+    ASSERT_EQ(frame.rgb_right.size(), frame.rgb.size());
+    Frame right = frame;
+    right.rgb = frame.rgb_right;
+    const auto a = profile(frame, 8), b = profile(right, 8);
+    const auto edge = [](const std::vector<double>& p) {
+      std::size_t best = 1;
+      for (std::size_t u = 1; u < p.size(); ++u)
+        if (std::fabs(p[u] - p[u - 1]) > std::fabs(p[best] - p[best - 1])) best = u;
+      return double(best);
+    };
+    EXPECT_NEAR(edge(a) - edge(b), 10, 1);
+    EXPECT_NEAR(a[30], b[20], 5) << "the same spot of the wall";
+  }
+}
+
+// A step of light by 8: with the time constant tau the error in stops shrinks by exp(-dt / tau).
+TEST(AutoExposure, LagsBehindTheLight) {
+  ExposureSpec spec;
+  spec.mode = ExposureMode::automatic;
+  spec.time_constant = 0.2, spec.delay = 0, spec.longest_time = 1;
+  ExposureControl control(spec);
+  const double before = 0.18;  // share of saturation at the first exposure
+  control.settle([&](double factor) { return before * factor; });
+  const double start = std::log2(control.settings().time);
+  std::vector<double> error;
+  for (int i = 0; i < 10; ++i) {
+    const double exposure = std::log2(control.settings().time) - start;
+    error.push_back(-3 - exposure);  // the light is 8 times brighter now
+    control.follow(std::min(1.0, before * 8 * std::exp2(exposure)), 0.1);
+  }
+  EXPECT_NEAR(error[0], -3, 1e-6);
+  // While the image is clipped the meter sees too little; then it follows the exponential.
+  for (std::size_t i = 4; i < 9; ++i)
+    EXPECT_NEAR(error[i + 1] / error[i], std::exp(-0.1 / 0.2), 0.01) << i;
+  EXPECT_GT(std::fabs(error[1]), 1);  // still overexposed in the next frame
+}
+
+TEST(AutoExposure, RaisesTimeFirstThenSpeedAndEndsThere) {
+  ExposureSpec spec;
+  spec.mode = ExposureMode::automatic;
+  spec.time_constant = 0, spec.delay = 0;
+  spec.longest_time = 0.02, spec.highest_iso = 800;
+  ExposureControl control(spec);
+  for (int i = 0; i < 3; ++i) control.follow(0.09, 0.1);
+  EXPECT_EQ(control.settings().time, 0.02);
+  EXPECT_NEAR(control.settings().iso, 400, 1e-6);
+  for (int i = 0; i < 9; ++i) control.follow(0.001, 0.1);
+  EXPECT_NEAR(control.settings().iso, 800, 1e-6);
+  for (int i = 0; i < 9; ++i) control.follow(1, 0.1);
+  EXPECT_LT(control.settings().time, 0.02);
+  EXPECT_EQ(control.settings().iso, 100);
+}
+
+// A camera that turns from a dark wall to the sky: the first frames after the turn are too bright.
+TEST(AutoExposure, LeavesFramesOverexposedAfterASuddenChange) {
+  Scene scene = lit_wall();
+  scene.light.rpy_deg = {0, 30, 180};  // the wall's face lies in the shade
+  GlContext context;
+  Renderer renderer(context, scene, plain());
+  CameraSpec spec = fixed_camera(32, 32, 100);
+  spec.exposure = {};
+  spec.exposure.mode = ExposureMode::automatic;
+  spec.sensor.response = Response::srgb;
+  const auto turning = [](double t) {
+    return Pose{portable::quat_from_rpy(0, 0, t < 0.25 ? 0.6 : -0.8), {0, 1, 0}};
+  };
+  Camera camera(renderer, spec, fly(12, turning));
+  std::vector<double> means;
+  for (int i = 0; i < 12; ++i) {
+    double sum = 0;
+    const Frame frame = camera.take(i);
+    for (const std::uint8_t c : frame.rgb) sum += c;
+    means.push_back(sum / double(frame.rgb.size()));
+  }
+  EXPECT_NEAR(means[0], means[2], 3) << "settled before the first frame";
+  EXPECT_GT(means[3], means[2] + 30);
+  EXPECT_LT(std::fabs(means[11] - means[2]), 12);
+}
+
+}  // namespace
+}  // namespace rubble::testing

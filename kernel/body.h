@@ -20,7 +20,9 @@ struct Body {
   Mat3f inverse_inertia_local;  // unit: 1/(kg m2)
   float inverse_mass = 0;       // unit: 1/kg
   float radius = 0;             // about the centre of mass, scaled; unit: m
-  std::int32_t mobile = -1;     // its number in SimbodyBlocks; -1: immovable
+  std::int32_t mobile = -1;     // its number in SimbodyBlocks; -1: immovable, or a tree's link
+  std::int32_t tree = -1;       // the articulated tree that it is a link of; -1: none
+  std::int32_t link = -1;       // its number there
   std::int32_t first_collider = 0, collider_count = 0;
 
   // Where it is, mirrored after each step.
@@ -41,7 +43,7 @@ struct Body {
   bool touching = false;      // in contact now
   bool has_touched = false;   // ever
 
-  bool movable() const { return mobile >= 0 && !lost; }
+  bool movable() const { return mass > 0 && !lost; }
   Pose world_from_type() const {
     return {world_from_com.rotation,
             world_from_com.translation - world_from_com.rotation.rotate(com_in_type)};

@@ -59,13 +59,33 @@ Motion unpadded(const PaddedMotion& m) {
 
 }  // namespace
 
+// Contacts with an awake link of a tree are solved after the others in each sweep.
+void ContactSolver::set_trees_apart(const std::vector<Body>& bodies,
+                                    const std::vector<std::int32_t>& order,
+                                    const std::vector<Contact>& contacts,
+                                    const SolvedTrees& trees) {
+  free_order_.clear();
+  tree_order_.clear();
+  if (trees.trees.empty()) {
+    free_order_ = order;
+    return;
+  }
+  const auto is_link = [&bodies](std::int32_t body) {
+    return body != kGround && bodies[body].awake && bodies[body].tree >= 0;
+  };
+  for (std::int32_t index : order) {
+    const bool tree = is_link(contacts[index].body_a) || is_link(contacts[index].body_b);
+    (tree ? tree_order_ : free_order_).push_back(index);
+  }
+}
+
 void ContactSolver::number_bodies(const std::vector<Body>& bodies,
                                   const std::vector<std::int32_t>& order,
                                   const std::vector<Contact>& contacts) {
   number_.assign(bodies.size(), -1);
   for (std::int32_t index : order) {
     for (std::int32_t body : {contacts[index].body_a, contacts[index].body_b}) {
-      if (body != kGround && bodies[body].awake) number_[body] = 0;
+      if (body != kGround && bodies[body].awake && bodies[body].tree < 0) number_[body] = 0;
     }
   }
   moving_.clear();
@@ -87,7 +107,7 @@ void ContactSolver::share_inertia(const std::vector<Body>& bodies,
   share_.assign(moving_.size() + 1, 1.0F);
   const auto carry = [&](std::int32_t light, std::int32_t heavy, float up) {
     const Body &l = bodies[light], &h = bodies[heavy];
-    if (up < kAbove || !l.awake || !h.awake || dot(l.linear, l.linear) > kCarrySpeed * kCarrySpeed) {
+    if (up < kAbove || !l.awake || !h.awake || l.tree >= 0 || dot(l.linear, l.linear) > kCarrySpeed * kCarrySpeed) {
       return;
     }
     const float share = float(kMassRatio * l.mass / h.mass);
@@ -193,6 +213,8 @@ void ContactSolver::run_substeps(const SolverSettings& settings) {
   const float h = settings.step / float(settings.substeps);
   const Wide fall{0, 0, -settings.gravity * h, 0};
   const Wide wide_h = splat(h), per_substep = splat(1 / h), weight = splat(settings.gravity * h);
+  const double tree_weight = double(weight[0]);
+  const bool trees = !tree_contacts_.empty();
   for (int substep = 0; substep < settings.substeps; ++substep) {
     for (std::size_t i = 0; i < moving_.size(); ++i) {
       speeds_[i].linear += fall * splat(share_[i]);
@@ -202,8 +224,13 @@ void ContactSolver::run_substeps(const SolverSettings& settings) {
       if (substep > 0) carry_over(batch, rows, weight);
       warm_start(batch, rows, speeds_.data());
     }
+    if (trees) tree_contacts_.begin_substep(speeds_.data(), substep == 0, tree_weight);
     for (ContactBatch& batch : batches_) {
       solve_velocities(batch, &rows_[batch.first_row], per_substep, moved_.data(), speeds_.data());
+    }
+    if (trees) {
+      tree_contacts_.solve_velocities(1 / double(h), moved_.data(), speeds_.data());
+      tree_contacts_.end_substep();
     }
     for (std::size_t i = 0; i < moving_.size(); ++i) {
       moved_[i].linear += speeds_[i].linear * wide_h;
@@ -211,6 +238,7 @@ void ContactSolver::run_substeps(const SolverSettings& settings) {
     }
   }
   for (ContactBatch& batch : batches_) carry_over(batch, &rows_[batch.first_row], weight);
+  if (trees) tree_contacts_.end_substeps(tree_weight);
 }
 
 // n . (d_b - d_a) >= target for every point, by pushing only. All movable bodies count as equally
@@ -232,11 +260,14 @@ void ContactSolver::push_apart(const SolverSettings& settings) {
       }
     }
   }
+  const bool trees = !tree_contacts_.empty();
+  if (trees && tree_contacts_.begin_pushes(settings, moved_.data())) any = true;
   if (!any) return;
   for (int iteration = 0; iteration < settings.position_iterations; ++iteration) {
     for (const ContactBatch& batch : batches_) {
       solve_pushes(batch, &rows_[batch.first_row], moved_.data());
     }
+    if (trees) tree_contacts_.solve_pushes(moved_.data());
   }
 }
 
@@ -275,10 +306,13 @@ void ContactSolver::store(std::vector<Contact>& contacts) const {
 
 void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body>& bodies,
                           const std::vector<std::int32_t>& order, std::vector<Contact>& contacts,
-                          std::vector<Motion>& velocities, std::vector<Motion>& displacements) {
+                          std::vector<Motion>& velocities, std::vector<Motion>& displacements,
+                          const SolvedTrees& trees) {
+  set_trees_apart(bodies, order, contacts, trees);
   number_bodies(bodies, order, contacts);
   share_inertia(bodies, order, contacts);
-  pack(order, contacts);
+  pack(free_order_, contacts);
+  tree_contacts_.begin(settings, bodies, tree_order_, contacts, number_, share_, trees);
   for (ContactBatch& batch : batches_) {
     for (int lane = 0; lane < kLanes; ++lane) {
       if (batch.contact[lane] >= 0) {
@@ -293,11 +327,13 @@ void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body
   before_push_ = moved_;
   push_apart(settings);
   drop_opposed_speeds(settings);
+  tree_contacts_.drop_opposed_speeds(double(settings.step));
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     velocities[moving_[i]] = unpadded(speeds_[i]);
     displacements[moving_[i]] = unpadded(moved_[i]);
   }
   store(contacts);
+  tree_contacts_.store(bodies, contacts);
 }
 
 }  // namespace rubble

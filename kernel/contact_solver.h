@@ -13,6 +13,7 @@
 #include "kernel/body.h"
 #include "kernel/contact.h"
 #include "kernel/contact_rows.h"
+#include "kernel/tree_contacts.h"
 
 namespace rubble {
 
@@ -39,12 +40,16 @@ class ContactSolver {
   // Solves the contacts in `order` (indices into `contacts`). `velocities` (by body) hold the
   // speeds at the start of the step and are changed to those at its end; `displacements` receive
   // the motion of the step, position correction included. Both are meaningful for bodies with a
-  // contact only. Immovable and sleeping bodies have infinite mass.
+  // contact only. Immovable and sleeping bodies have infinite mass. Links of trees are moved by
+  // their trees' motions instead; every awake tree with a contact must be among `trees`.
   void solve(const SolverSettings& settings, const std::vector<Body>& bodies,
              const std::vector<std::int32_t>& order, std::vector<Contact>& contacts,
-             std::vector<Motion>& velocities, std::vector<Motion>& displacements);
+             std::vector<Motion>& velocities, std::vector<Motion>& displacements,
+             const SolvedTrees& trees = {});
 
  private:
+  void set_trees_apart(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
+                       const std::vector<Contact>& contacts, const SolvedTrees& trees);
   void number_bodies(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
                      const std::vector<Contact>& contacts);
   void share_inertia(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
@@ -58,7 +63,9 @@ class ContactSolver {
   void drop_opposed_speeds(const SolverSettings& settings);
   void store(std::vector<Contact>& contacts) const;
 
-  std::vector<std::int32_t> moving_;   // awake bodies with a contact, in order
+  std::vector<std::int32_t> free_order_, tree_order_;  // contacts without and with a tree
+  TreeContacts tree_contacts_;
+  std::vector<std::int32_t> moving_;   // awake free bodies with a contact, in order
   std::vector<std::int32_t> number_;   // of each body in moving_; moving_.size(): does not move
   std::vector<float> share_;           // of true inertia in what the solver uses, by moving body
   std::vector<PaddedMotion> speeds_, moved_, before_push_;

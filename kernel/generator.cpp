@@ -39,7 +39,7 @@ class SpecCheck {
 
 void validate(const PileSpec& spec) {
   SpecCheck check;
-  const int types = int(spec.types.size());
+  const int types = int(spec.types.size() + spec.assemblies.size());
   const std::string type_range = "0 to " + std::to_string(types - 1);
   double total = 0;
   for (std::size_t i = 0; i < spec.mix.size(); ++i) {
@@ -143,8 +143,14 @@ Pile generate_pile(const PileSpec& spec) {
   for (std::size_t i = 0; i < spec.types.size(); ++i) {
     shapes.push_back(compile_shape(spec.types[i], "types[" + std::to_string(i) + "]"));
   }
+  for (std::size_t i = 0; i < spec.assemblies.size(); ++i) {  // they take room as one rigid piece
+    const std::string key = "assemblies[" + std::to_string(i) + "]";
+    validate(spec.assemblies[i], int(spec.types.size()), key);
+    shapes.push_back(compile_shape(make_rigid_type(spec.assemblies[i], spec.types), key));
+  }
   Pile pile;
   pile.types = spec.types;
+  pile.assemblies = spec.assemblies;
   pile.placed = spec.placed;
   pile.spawn_bottom = spec.spawn_position.z - spec.spawn_bounds.z / 2;
   LayerMaker maker(spec, shapes);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/assembly.h"
 #include "kernel/base/math.h"
 #include "kernel/base/mesh.h"
 
@@ -32,29 +33,31 @@ struct PieceType {
 
 // How often a type is drawn and how large.
 struct MixEntry {
-  int type = 0;          // index into the types
+  int type = 0;          // index into the types, or their number plus that of an assembly
   double weight = 1;     // relative; >= 0
   double scale_min = 1;  // uniform in [scale_min, scale_max]; range: 0.01 to 100
   double scale_max = 1;
 };
 
 struct Placement {
-  int type = 0;
+  int type = 0;          // as in MixEntry
   double scale = 1;
-  Pose world_from_body;  // body: the frame of the type's parts, not the centre of mass
-  bool fixed = false;    // immovable: walls, pipes, terrain
+  Pose world_from_body;  // body: the frame of the type's parts, not the centre of mass; or the
+                         // assembly's
+  bool fixed = false;    // immovable: walls, pipes, terrain; of an assembly its root alone
 };
 
 // Where and how much to drop.
 struct PileSpec {
   std::uint64_t seed = 0;
   std::vector<PieceType> types;
+  std::vector<AssemblyType> assemblies;
   std::vector<MixEntry> mix;
   std::vector<Placement> placed;     // stands or is laid down before the first layer
   Vec3 spawn_position{0, 0, 4.5};    // centre of the spawn box; unit: m
   Vec3 spawn_bounds{10, 10, 7};      // its full edge lengths; unit: m; > 0
   int layers = 4;                    // 0 to 1000
-  int pieces_per_layer = 300;        // 0 to 100000
+  int pieces_per_layer = 300;        // 0 to 100000; an assembly counts as one
 };
 
 // A layer's poses are relative to the bottom of the spawn volume (z) and to the world (x, y).
@@ -64,6 +67,7 @@ struct Layer {
 
 struct Pile {
   std::vector<PieceType> types;
+  std::vector<AssemblyType> assemblies;
   std::vector<Placement> placed;
   std::vector<Layer> layers;
   // Layer k starts at the larger of this height and 1 m above the highest point of the pile.

@@ -41,11 +41,41 @@ void add(StateHash& hash, const std::vector<PieceType>& types) {
   for (const PieceType& type : types) add(hash, type);
 }
 
+void add(StateHash& hash, const Pose& pose) {
+  const Quat& q = pose.rotation;
+  hash.add(q.w), hash.add(q.x), hash.add(q.y), hash.add(q.z);
+  add(hash, pose.translation);
+}
+
+void add(StateHash& hash, const std::vector<AssemblyType>& assemblies) {
+  add_count(hash, assemblies.size());
+  for (const AssemblyType& assembly : assemblies) {
+    add_count(hash, assembly.links.size());
+    for (const AssemblyLink& link : assembly.links) {
+      hash.add(std::int32_t(link.type));
+      add(hash, link.assembly_from_link);
+      hash.add(link.scale);
+    }
+    for (const JointType& j : assembly.joints) {
+      for (int number : {j.parent, j.child, int(j.kind), int(j.collide)}) {
+        hash.add(std::int32_t(number));
+      }
+      add(hash, j.assembly_from_joint);
+      for (double number : {j.stiffness, j.damping, j.yield, j.break_force, j.break_torque,
+                            j.lower, j.upper}) {
+        hash.add(number);
+      }
+    }
+  }
+}
+
 }  // namespace
 
-std::uint64_t hash_types(const std::vector<PieceType>& types) {
+std::uint64_t hash_types(const std::vector<PieceType>& types,
+                         const std::vector<AssemblyType>& assemblies) {
   StateHash hash;
   add(hash, types);
+  if (!assemblies.empty()) add(hash, assemblies);
   return hash.digest();
 }
 
@@ -56,6 +86,7 @@ std::uint64_t hash_pile(const Pile& pile) {
   add_count(hash, pile.layers.size());
   for (const Layer& layer : pile.layers) add(hash, layer.pieces);
   hash.add(pile.spawn_bottom);
+  if (!pile.assemblies.empty()) add(hash, pile.assemblies);
   return hash.digest();
 }
 

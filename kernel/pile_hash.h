@@ -8,8 +8,9 @@
 
 namespace rubble {
 
-// XXH64 over everything that the physics of the types depends on; their names are left out.
-std::uint64_t hash_types(const std::vector<PieceType>& types);
+// XXH64 over everything that the physics of types and assemblies depends on; their names are left out.
+std::uint64_t hash_types(const std::vector<PieceType>& types,
+                         const std::vector<AssemblyType>& assemblies = {});
 // The same over the whole pile: types, what stands already, and the layers.
 std::uint64_t hash_pile(const Pile& pile);
 

@@ -14,6 +14,11 @@ std::uint64_t PileState::state_hash() const {
     add(piece.linear_velocity);
     add(piece.angular_velocity);
   }
+  for (const JointState& joint : joints) {
+    const Quat& q = joint.rest_rotation;
+    hash.add(joint.parent), hash.add(joint.child), hash.add(joint.rest);
+    hash.add(q.w), hash.add(q.x), hash.add(q.y), hash.add(q.z);
+  }
   hash.add(steps);
   return hash.digest();
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/assembly.h"
 #include "kernel/base/math.h"
 
 namespace rubble {
@@ -26,8 +27,18 @@ struct PieceState {
   PieceStatus status = PieceStatus::moving;
 };
 
+// A joint that holds. Joints that broke are not there any more.
+struct JointState {
+  std::int32_t parent = 0, child = 0;  // indices of the pieces
+  JointKind kind = JointKind::ball;
+  Pose parent_from_joint, child_from_joint;  // in the frames of the pieces' types, scaled; unit: m
+  double rest = 0;     // of the spring of a hinge or slider, crept; unit: rad, m
+  Quat rest_rotation;  // of a ball's; on the parent's side
+};
+
 struct PileState {
   std::vector<PieceState> pieces;   // in creation order, lost ones too
+  std::vector<JointState> joints;   // of articulated debris, by parent and child
   std::vector<std::string> types;   // names of the types
   std::int64_t steps = 0;           // steps taken until rest or until the limit
   double simulated = 0;             // unit: s
@@ -35,7 +46,8 @@ struct PileState {
   int layers_at_limit = 0;          // layers whose time limit came before rest
   int lost = 0;
 
-  // XXH64 over poses and velocities as bit patterns in piece order, then the step count.
+  // XXH64 over poses and velocities as bit patterns in piece order, then the joints' rests where
+  // there are joints, then the step count.
   std::uint64_t state_hash() const;
 };
 

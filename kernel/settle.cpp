@@ -160,6 +160,7 @@ class Settling {
       }
       state.pieces.push_back(piece);
     }
+    state.joints = world_.joints();
     state.steps = world_.steps();
     state.simulated = world_.time();
     state.settled = settled;
@@ -220,7 +221,7 @@ void SettleOptions::validate() const {
 PileState settle_pile(const Pile& pile, const SettleOptions& options,
                       const SettleCallback& progress) {
   options.validate();
-  World world(pile.types, calc_world_options(options));
+  World world(pile.types, calc_world_options(options), pile.assemblies);
   return settle_pile(world, pile, options, progress);
 }
 
@@ -233,7 +234,7 @@ PileState settle_pile(World& world, const Pile& pile, const SettleOptions& optio
 PileState resume_settling(const SettleCheckpoint& checkpoint, const Pile& pile,
                           const SettleOptions& options, const SettleCallback& progress) {
   options.validate();
-  World world(pile.types, calc_world_options(options));
+  World world(pile.types, calc_world_options(options), pile.assemblies);
   return resume_settling(world, checkpoint, pile, options, progress);
 }
 

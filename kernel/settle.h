@@ -47,7 +47,7 @@ using SettleCallback = std::function<bool(const SettleProgress&)>;
 PileState settle_pile(const Pile& pile, const SettleOptions& options = {},
                       const SettleCallback& progress = {});
 // The same in a world of the caller's, who may look at it in the callback and go on from its end.
-// world: empty, with the types of the pile and calc_world_options(options).
+// world: empty, with the types and assemblies of the pile and calc_world_options(options).
 PileState settle_pile(World& world, const Pile& pile, const SettleOptions& options = {},
                       const SettleCallback& progress = {});
 // Continues from a checkpoint of the same pile and options; only the threads may differ. Equals

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/base/error.h"
+#include "kernel/tree_joint.h"
 #include "kernel/world_impl.h"
 
 namespace rubble {
@@ -42,14 +43,24 @@ void check(const NewPiece& piece, int types, int index) {
   }
 }
 
+// What hangs by a joint rests when it has stayed in place for this long; unit: s.
+constexpr double kHangingTime = 0.15;
+
 }  // namespace
 
-World::Impl::Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options)
-    : types(std::move(piece_types)), options(world_options), pool(world_options.threads) {
+World::Impl::Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options,
+                  std::vector<AssemblyType> assembly_types)
+    : types(std::move(piece_types)),
+      assemblies(std::move(assembly_types)),
+      options(world_options),
+      pool(world_options.threads) {
   solver_settings.step = narrow_settings.step = float(options.step);
   solver_settings.gravity = float(options.gravity);
   for (std::size_t i = 0; i < types.size(); ++i) {
     shapes.push_back(compile_shape(types[i], "types[" + std::to_string(i) + "]"));
+  }
+  for (std::size_t i = 0; i < assemblies.size(); ++i) {
+    validate(assemblies[i], int(types.size()), "assemblies[" + std::to_string(i) + "]");
   }
 }
 
@@ -122,6 +133,26 @@ void World::Impl::refresh(Body& body) {
   }
 }
 
+// Pairs of a piece with all others; immovable ones need no pair among themselves.
+void World::Impl::find_first_pairs(int index) {
+  const Body& body = data.bodies[index];
+  for (int c = 0; c < body.collider_count; ++c) {
+    const int collider = body.first_collider + c;
+    data.broad.query(collider, [&](int other) { add_contact(collider, other); });
+    if (body.mass > 0) add_contact(collider, kGround);
+  }
+}
+
+Vec3 World::Impl::linear_velocity(const Body& body) const {
+  if (body.tree >= 0) return data.trees[body.tree].links[body.link].linear;
+  return body.mobile >= 0 ? blocks.linear_velocity(body.mobile) : Vec3{};
+}
+
+Vec3 World::Impl::angular_velocity(const Body& body) const {
+  if (body.tree >= 0) return data.trees[body.tree].links[body.link].angular;
+  return body.mobile >= 0 ? blocks.angular_velocity(body.mobile) : Vec3{};
+}
+
 PosedBody World::Impl::posed(const Collider& collider) const {
   const Body& body = data.bodies[collider.body];
   const ConvexShape& shape = body.shape->parts[collider.part];
@@ -135,8 +166,9 @@ PosedBody World::Impl::posed(const Collider& collider) const {
   return result;
 }
 
-World::World(std::vector<PieceType> types, const WorldOptions& options)
-    : impl_(std::make_unique<Impl>(std::move(types), options)) {}
+World::World(std::vector<PieceType> types, const WorldOptions& options,
+             std::vector<AssemblyType> assemblies)
+    : impl_(std::make_unique<Impl>(std::move(types), options, std::move(assemblies))) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -145,14 +177,23 @@ int World::add(const std::vector<NewPiece>& pieces) {
   Impl& w = *impl_;
   const int first = size();
   w.data.proof_steps = -1;
-  for (std::size_t i = 0; i < pieces.size(); ++i) check(pieces[i], int(w.types.size()), int(i));
-  std::vector<FreeBody> free(pieces.size());
-  for (std::size_t i = 0; i < pieces.size(); ++i) w.add_body(pieces[i], &free[i]);
+  const int types = int(w.types.size()), kinds = types + int(w.assemblies.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) check(pieces[i], kinds, int(i));
+  std::vector<FreeBody> free;  // by body; those of links are not used
+  for (const NewPiece& piece : pieces) {
+    if (piece.placement.type < types) {
+      free.emplace_back();
+      w.add_body(piece, &free.back());
+    } else {
+      w.add_tree(piece);
+      free.resize(std::size_t(size() - first));
+    }
+  }
 
   // Neighbours in height land and fall asleep together, so they share a block.
   std::vector<std::int32_t> order;
   for (int i = first; i < size(); ++i) {
-    if (w.data.bodies[i].mass > 0) order.push_back(i);
+    if (w.data.bodies[i].mass > 0 && w.data.bodies[i].tree < 0) order.push_back(i);
   }
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
     return w.data.bodies[a].world_from_com.translation.z <
@@ -171,15 +212,7 @@ int World::add(const std::vector<NewPiece>& pieces) {
       w.data.broad.update(collider, w.data.colliders[collider].box, {});
     }
   }
-  // Pairs of the new pieces with all others; immovable ones need no pair among themselves.
-  for (int i = first; i < size(); ++i) {
-    const Body& body = w.data.bodies[i];
-    for (int c = 0; c < body.collider_count; ++c) {
-      const int collider = body.first_collider + c;
-      w.data.broad.query(collider, [&](int other) { w.add_contact(collider, other); });
-      if (body.mass > 0) w.add_contact(collider, kGround);
-    }
-  }
+  for (int i = first; i < size(); ++i) w.find_first_pairs(i);
   return first;
 }
 
@@ -207,10 +240,8 @@ PieceState World::piece(int index) const {
   state.layer = body.layer;
   state.scale = body.scale;
   state.world_from_body = body.world_from_type();
-  if (body.mobile >= 0) {
-    state.linear_velocity = impl_->blocks.linear_velocity(body.mobile);
-    state.angular_velocity = impl_->blocks.angular_velocity(body.mobile);
-  }
+  state.linear_velocity = impl_->linear_velocity(body);
+  state.angular_velocity = impl_->angular_velocity(body);
   state.status = body.lost        ? PieceStatus::lost
                  : body.mass == 0 ? PieceStatus::fixed
                  : body.awake     ? PieceStatus::moving
@@ -222,6 +253,7 @@ void World::set_velocity(int index, const Vec3& linear, const Vec3& angular) {
   Body& body = impl_->data.bodies[index];
   if (!body.movable()) return;
   impl_->wake(index);
+  if (body.tree >= 0) return impl_->set_tree_motion(index, linear, angular);
   impl_->blocks.set_velocity(body.mobile, linear, angular);
   impl_->mirror(body);
 }
@@ -237,8 +269,10 @@ void World::set_pose(int index, const Pose& world_from_body) {
   body.travel += 2 * double(body.radius) +
                  distance(body.world_from_type().translation, world_from_body.translation) +
                  2 * norm(body.com_in_type);
-  impl_->blocks.set_pose(body.mobile, {normalized(world_from_body.rotation),
-                                       world_from_body * body.com_in_type});
+  const Pose world_from_com{normalized(world_from_body.rotation),
+                            world_from_body * body.com_in_type};
+  if (body.tree >= 0) return impl_->set_tree_pose(index, world_from_com);
+  impl_->blocks.set_pose(body.mobile, world_from_com);
   impl_->mirror(body);
   impl_->refresh(body);
 }
@@ -263,6 +297,8 @@ bool World::at_rest(double speed, double angular_speed) const {
     if (!body.touching) return false;
     const Vec3 v(body.linear), w(body.angular);
     if (dot(v, v) >= speed * speed || dot(w, w) >= angular_speed * angular_speed) return false;
+    // What hangs stands still for a moment where it turns back.
+    if (body.tree >= 0 && body.still_steps < int(kHangingTime / impl_->options.step)) return false;
   }
   return true;
 }
@@ -295,9 +331,9 @@ double World::kinetic_energy() const {
   double sum = 0;
   for (const Body& body : impl_->data.bodies) {
     if (!body.movable()) continue;
-    const Vec3 v = impl_->blocks.linear_velocity(body.mobile);
+    const Vec3 v = impl_->linear_velocity(body);
     const Vec3 w = body.world_from_com.rotation.conjugate().rotate(
-        impl_->blocks.angular_velocity(body.mobile));
+        impl_->angular_velocity(body));
     sum += 0.5 * (body.mass * dot(v, v) + dot(w, body.inertia * w));
   }
   return sum;
@@ -308,13 +344,19 @@ double World::potential_energy() const {
   for (const Body& body : impl_->data.bodies) {
     if (body.movable()) sum += body.mass * impl_->options.gravity * body.world_from_com.translation.z;
   }
+  for (std::size_t i = 0; i < impl_->data.trees.size(); ++i) {
+    const TreeState state = impl_->simbody_trees.state(int(i));
+    for (const TreeLink& link : impl_->data.trees[i].links) {
+      sum += calc_spring_energy(link, state.q.data());
+    }
+  }
   return sum;
 }
 
 Vec3 World::linear_momentum() const {
   Vec3 sum;
   for (const Body& body : impl_->data.bodies) {
-    if (body.movable()) sum += impl_->blocks.linear_velocity(body.mobile) * body.mass;
+    if (body.movable()) sum += impl_->linear_velocity(body) * body.mass;
   }
   return sum;
 }
@@ -324,8 +366,8 @@ Vec3 World::angular_momentum() const {
   for (const Body& body : impl_->data.bodies) {
     if (!body.movable()) continue;
     const Quat& q = body.world_from_com.rotation;
-    const Vec3 v = impl_->blocks.linear_velocity(body.mobile);
-    const Vec3 w = q.conjugate().rotate(impl_->blocks.angular_velocity(body.mobile));
+    const Vec3 v = impl_->linear_velocity(body);
+    const Vec3 w = q.conjugate().rotate(impl_->angular_velocity(body));
     sum += cross(body.world_from_com.translation, v * body.mass) + q.rotate(body.inertia * w);
   }
   return sum;

@@ -24,8 +24,8 @@ struct WorldOptions {
 
 struct NewPiece {
   Placement placement;
-  Vec3 linear_velocity;   // of the centre of mass; unit: m/s
-  Vec3 angular_velocity;  // unit: rad/s
+  Vec3 linear_velocity;   // of the centre of mass; of an assembly that of its root; unit: m/s
+  Vec3 angular_velocity;  // of an assembly as one rigid body; unit: rad/s
   int layer = 0;
 };
 
@@ -36,14 +36,16 @@ struct StepTimes {
 
 class World {
  public:
-  // Throws InputError for a type whose geometry or material is not valid.
-  World(std::vector<PieceType> types, const WorldOptions& options = {});
+  // Throws InputError for a type or assembly whose geometry, material or joints are not valid.
+  World(std::vector<PieceType> types, const WorldOptions& options = {},
+        std::vector<AssemblyType> assemblies = {});
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  // Adds pieces as a group; returns the number of the first one. Throws InputError when a type
-  // does not exist or a scale is out of range.
+  // Adds pieces as a group; returns the number of the first one. An assembly gives as many pieces as
+  // it has links, in their order. Throws InputError when a type does not exist or a scale is out of
+  // range.
   int add(const std::vector<NewPiece>& pieces);
 
   void step();
@@ -57,9 +59,10 @@ class World {
   PieceState piece(int index) const;
   bool is_awake(int index) const;
   bool is_touching(int index) const;  // something, in the last step
-  // Changes a piece's speeds and wakes it. Immovable pieces cannot be changed.
+  // Changes a piece's speeds and wakes it. Immovable pieces cannot be changed. A link takes its tree
+  // with it as one rigid body; what hangs on an immovable root stays as it is.
   void set_velocity(int index, const Vec3& linear, const Vec3& angular);
-  // Moves a piece and wakes it and its neighbours.
+  // Moves a piece and wakes it and its neighbours; links as above.
   void set_pose(int index, const Pose& world_from_body);
   void wake_all();
   void set_sleeping(bool allowed);  // wakes all when false
@@ -76,9 +79,10 @@ class World {
   // Of all pieces, or of those that have touched something and the immovable ones; 0 when none.
   double highest_point(bool touched_only = false) const;
 
-  double mass(int index) const;  // 0: immovable
+  std::vector<JointState> joints() const;  // that hold
+  double mass(int index) const;            // 0: immovable
   double kinetic_energy() const;    // unit: J
-  double potential_energy() const;  // against z = 0; unit: J
+  double potential_energy() const;  // against z = 0, and of springs; unit: J
   Vec3 linear_momentum() const;     // unit: kg m/s
   Vec3 angular_momentum() const;    // about the origin; unit: kg m2/s
 

@@ -17,7 +17,7 @@ template <typename Struct, typename Visit, IfIs<Struct, Body> = 0>
 void each_field(Struct& b, Visit&& visit) {
   visit(b.type), visit(b.layer), visit(b.scale), visit(b.shape), visit(b.mass);
   visit(b.com_in_type), visit(b.inertia), visit(b.inverse_inertia_local), visit(b.inverse_mass);
-  visit(b.radius), visit(b.mobile), visit(b.first_collider), visit(b.collider_count);
+  visit(b.radius), visit(b.mobile), visit(b.tree), visit(b.link), visit(b.first_collider), visit(b.collider_count);
   visit(b.world_from_com), visit(b.linear), visit(b.angular), visit(b.rotation);
   visit(b.inverse_inertia), visit(b.travel), visit(b.still_pose), visit(b.still_steps);
   visit(b.loose_pose), visit(b.loose_steps), visit(b.load);
@@ -59,11 +59,34 @@ void each_field(Struct& broad, Visit&& visit) {
   BroadPhase::each_field(broad, visit);
 }
 
+template <typename Struct, typename Visit, IfIs<Struct, TreeLink> = 0>
+void each_field(Struct& l, Visit&& visit) {
+  visit(l.body), visit(l.parent), visit(l.mobility), visit(l.first_q), visit(l.first_u);
+  visit(l.parent_from_joint), visit(l.link_from_joint), visit(l.stiffness), visit(l.damping);
+  visit(l.yield), visit(l.break_force), visit(l.break_torque), visit(l.lower), visit(l.upper);
+  visit(l.collide), visit(l.rest), visit(l.rest_rotation), visit(l.linear), visit(l.angular);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, Tree> = 0>
+void each_field(Struct& t, Visit&& visit) {
+  visit(t.links), visit(t.q_count), visit(t.u_count), visit(t.mass), visit(t.root);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, TreeState> = 0>
+void each_field(Struct& s, Visit&& visit) {
+  visit(s.q), visit(s.u);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, PartedPair> = 0>
+void each_field(Struct& p, Visit&& visit) {
+  visit(p.body_a), visit(p.body_b);
+}
+
 template <typename Struct, typename Visit, IfIs<Struct, WorldData> = 0>
 void each_field(Struct& d, Visit&& visit) {
   visit(d.bodies), visit(d.colliders), visit(d.corners), visit(d.broad), visit(d.pairs);
   visit(d.contacts);
-  visit(d.contact_of_pair), visit(d.wake_next), visit(d.steps);
+  visit(d.contact_of_pair), visit(d.wake_next), visit(d.trees), visit(d.parted), visit(d.steps);
   visit(d.proof_steps), visit(d.lost);
 }
 
@@ -76,6 +99,7 @@ void each_field(Struct& f, Visit&& visit) {
 template <typename Struct, typename Visit, IfIs<Struct, World::Snapshot> = 0>
 void each_field(Struct& s, Visit&& visit) {
   visit(s.types), visit(s.data), visit(s.simbody), visit(s.block_starts);
+  visit(s.tree_states);
 }
 
 }  // namespace rubble

@@ -11,9 +11,16 @@
 #include "kernel/contact_solver.h"
 #include "kernel/narrow_phase.h"
 #include "kernel/simbody_blocks.h"
+#include "kernel/simbody_trees.h"
+#include "kernel/tree_motion.h"
 #include "kernel/world.h"
 
 namespace rubble {
+
+// Two pieces whose joint broke: they do not touch each other until they have come apart.
+struct PartedPair {
+  std::int32_t body_a = 0, body_b = 0;
+};
 
 // What a snapshot holds: all that changes from step to step.
 struct WorldData {
@@ -25,15 +32,19 @@ struct WorldData {
   std::vector<Contact> contacts;  // one per pair
   std::unordered_map<std::uint64_t, std::int32_t> contact_of_pair;  // looked up, never walked
   std::vector<std::uint8_t> wake_next;                              // by body
+  std::vector<Tree> trees;          // those that came apart keep their place, without links
+  std::vector<PartedPair> parted;
   std::int64_t steps = 0;
   std::int64_t proof_steps = -1;  // since prove_rest(); -1: not called since pieces were added
   int lost = 0;
 };
 
 struct World::Impl {
-  Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options);
+  Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options,
+       std::vector<AssemblyType> assembly_types);
 
   std::vector<PieceType> types;
+  std::vector<AssemblyType> assemblies;
   std::vector<Shape> shapes;
   WorldOptions options;
   SolverSettings solver_settings;
@@ -41,6 +52,7 @@ struct World::Impl {
   ThreadPool pool;
   WorldData data;
   SimbodyBlocks blocks;
+  SimbodyTrees simbody_trees;
   ContactSolver solver;
   StepTimes times;
 
@@ -50,11 +62,18 @@ struct World::Impl {
   std::vector<Motion> velocities, displacements;
   std::vector<BodyRates> rates;  // by number in SimbodyBlocks
   std::vector<float> fastest;
+  std::vector<TreeMotion> tree_motions;       // by number of the tree
+  std::vector<std::int32_t> awake_trees;
+  std::vector<std::uint8_t> is_solved;        // by number of the tree
+  SolvedTrees solved_trees;
 
   // world.cpp
   void add_body(const NewPiece& piece, FreeBody* free);
   void mirror(Body& body);   // q and u from Simbody
   void refresh(Body& body);  // rotation, inertia, corners, boxes
+  void find_first_pairs(int body);
+  Vec3 linear_velocity(const Body& body) const;
+  Vec3 angular_velocity(const Body& body) const;
   PosedBody posed(const Collider& collider) const;
 
   // world_pairs.cpp
@@ -73,6 +92,7 @@ struct World::Impl {
   std::vector<std::uint8_t> find_overlapping() const;  // by body: 1 where it overlaps too deep
   void note_loads(const std::vector<std::uint8_t>& slept);
   void wake(int body);
+  static void wake_one(Body& body);
   void fall_asleep(int body);
   float wake_impulse(const Body& body) const;  // a contact's must change by this; unit: N s
 
@@ -87,6 +107,29 @@ struct World::Impl {
   double calc_travel(const Body& body) const;
   void remove_lost();
   void lose(int body);
+
+  // world_trees.cpp
+  void add_tree(const NewPiece& piece);
+  bool are_joined(int body_a, int body_b) const;
+  bool is_awake(const Tree& tree) const;
+  void begin_trees();
+  void touch_trees();
+  void advance_trees();
+  void limit_tree(int tree);
+  void mirror_tree(int tree, const TreePose& pose, const std::vector<Spatial>& motions);
+  void mirror_state(int tree);
+  void stop_tree(int tree);
+  void keep_trees_whole(std::vector<std::uint8_t>& slept) const;
+  void lose_tree(int tree);
+  void set_tree_motion(int body, const Vec3& linear, const Vec3& angular);
+  void set_tree_pose(int body, const Pose& world_from_com);
+
+  // world_break.cpp
+  void break_joints();
+  void split_tree(int tree, const std::vector<std::uint8_t>& broken);
+  void release(const TreeLink& link);
+  void forget_parted();
+  bool are_apart(const Body& a, const Body& b) const;
 };
 
 // Its members, like those of WorldData and what it holds, are listed in world_fields.h as well.
@@ -95,6 +138,7 @@ struct World::Snapshot {
   WorldData data;
   std::vector<FreeBody> simbody;           // by number in SimbodyBlocks
   std::vector<std::int32_t> block_starts;  // number of each block's first body
+  std::vector<TreeState> tree_states;      // by number of the tree
 };
 
 }  // namespace rubble

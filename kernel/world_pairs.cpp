@@ -24,6 +24,7 @@ void World::Impl::add_contact(int first, int second) {
   const std::int32_t body_a = data.colliders[a].body;
   const std::int32_t body_b = b == kGround ? kGround : data.colliders[b].body;
   if (body_a == body_b) return;
+  if (b != kGround && are_joined(body_a, body_b)) return;
   const Body& one = data.bodies[body_a];
   if (b != kGround && !one.movable() && !data.bodies[body_b].movable()) return;
   if (!data.contact_of_pair.insert({pair_key(a, b), std::int32_t(data.contacts.size())}).second) {

@@ -63,6 +63,15 @@ float World::Impl::wake_impulse(const Body& body) const {
 void World::Impl::wake(int index) {
   Body& body = data.bodies[index];
   if (!body.movable() || body.awake) return;
+  if (body.tree >= 0) {  // all of it at once
+    for (const TreeLink& link : data.trees[body.tree].links) wake_one(data.bodies[link.body]);
+  } else {
+    wake_one(body);
+  }
+}
+
+void World::Impl::wake_one(Body& body) {
+  if (!body.movable()) return;
   body.awake = true;
   body.still_steps = body.loose_steps = 0;
   body.still_pose = body.loose_pose = body.world_from_com;
@@ -71,7 +80,8 @@ void World::Impl::wake(int index) {
 void World::Impl::fall_asleep(int index) {
   Body& body = data.bodies[index];
   body.awake = false;
-  blocks.set_velocity(body.mobile, {}, {});
+  if (body.mobile >= 0) blocks.set_velocity(body.mobile, {}, {});
+  if (body.tree >= 0) stop_tree(body.tree);
   body.linear = {};
   body.angular = {};
 }
@@ -180,8 +190,12 @@ void World::Impl::update_sleep() {
         body.loose_steps < (overlapping[i] ? long_wait : loose_wait)) {
       continue;
     }
-    fall_asleep(int(i));
     slept[i] = 1;
+  }
+  keep_trees_whole(slept);
+  for (std::size_t i = 0; i < slept.size(); ++i) {
+    if (!slept[i]) continue;
+    fall_asleep(int(i));
     any = true;
   }
   if (any) note_loads(slept);

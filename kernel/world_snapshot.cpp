@@ -26,7 +26,8 @@ namespace {
 // Structs of numbers of one kind, without padding.
 template <typename T>
 constexpr bool kIsPlain =
-    std::is_arithmetic_v<T> || std::is_same_v<T, Vec3> || std::is_same_v<T, Vec3f> ||
+    std::is_arithmetic_v<T> || std::is_same_v<T, Mobility> || std::is_same_v<T, Quat> ||
+    std::is_same_v<T, Vec3> || std::is_same_v<T, Vec3f> ||
     std::is_same_v<T, Mat3> || std::is_same_v<T, Mat3f> || std::is_same_v<T, Pose> ||
     std::is_same_v<T, Aabb>;
 static_assert(sizeof(Pose) == 7 * sizeof(double) && sizeof(Aabb) == 6 * sizeof(double) &&
@@ -130,6 +131,22 @@ bool in_range(std::int64_t index, std::size_t size) {
   return index >= 0 && index < std::int64_t(size);
 }
 
+bool is_consistent(const Tree& tree, const TreeState& state, std::size_t bodies) {
+  bool fine = state.q.size() == std::size_t(tree.q_count) &&
+              state.u.size() == std::size_t(tree.u_count) && tree.links.size() <= kMaxLinks;
+  std::int32_t q = 0, u = 0;
+  for (std::size_t i = 0; fine && i < tree.links.size(); ++i) {
+    const TreeLink& link = tree.links[i];
+    fine = in_range(link.body, bodies) && in_range(std::int32_t(link.mobility), kMobilities) &&
+           link.first_q == q && link.first_u == u &&
+           (i == 0 ? link.parent == -1 && link.mobility <= Mobility::fixed
+                   : in_range(link.parent, i) && link.mobility > Mobility::fixed);
+    q += coordinate_count(link.mobility);
+    u += speed_count(link.mobility);
+  }
+  return fine && q == tree.q_count && u == tree.u_count;
+}
+
 // That the indices between the lists fit. Bytes that were written on purpose to mislead can still
 // do harm; those that a disk or a hand changed do not get past the checksum of their file.
 bool is_consistent(const World::Snapshot& s) {
@@ -158,6 +175,17 @@ bool is_consistent(const World::Snapshot& s) {
   }
   for (const auto& entry : d.contact_of_pair) {
     fine = fine && in_range(entry.second, d.contacts.size());
+  }
+  fine = fine && d.trees.size() == s.tree_states.size();
+  for (std::size_t i = 0; fine && i < d.trees.size(); ++i) {
+    fine = is_consistent(d.trees[i], s.tree_states[i], d.bodies.size());
+  }
+  for (const Body& b : d.bodies) {
+    fine = fine && (b.tree == -1 || (in_range(b.tree, d.trees.size()) &&
+                                     in_range(b.link, d.trees[b.tree].links.size())));
+  }
+  for (const PartedPair& p : d.parted) {
+    fine = fine && in_range(p.body_a, d.bodies.size()) && in_range(p.body_b, d.bodies.size());
   }
   std::int32_t start = 0;
   for (const std::int32_t next : s.block_starts) {
@@ -195,7 +223,7 @@ std::shared_ptr<const World::Snapshot> decode_snapshot(const std::vector<std::ui
 std::shared_ptr<const World::Snapshot> World::snapshot() const {
   const Impl& w = *impl_;
   auto snapshot = std::make_shared<Snapshot>();
-  snapshot->types = hash_types(w.types);
+  snapshot->types = hash_types(w.types, w.assemblies);
   snapshot->data = w.data;
   snapshot->simbody.resize(std::size_t(w.blocks.size()));
   for (const Body& body : w.data.bodies) {
@@ -207,16 +235,23 @@ std::shared_ptr<const World::Snapshot> World::snapshot() const {
   for (int block = 0; block < w.blocks.block_count(); ++block) {
     snapshot->block_starts.push_back(w.blocks.first_of(block));
   }
+  for (int i = 0; i < w.simbody_trees.size(); ++i) {
+    snapshot->tree_states.push_back(w.simbody_trees.state(i));
+  }
   return snapshot;
 }
 
 void World::restore(const Snapshot& snapshot) {
   Impl& w = *impl_;
-  if (snapshot.types != hash_types(w.types)) {
+  if (snapshot.types != hash_types(w.types, w.assemblies)) {
     throw RunError("a snapshot can only be restored into a world with the same types of pieces");
   }
   w.data = snapshot.data;
   for (Body& body : w.data.bodies) body.shape = &w.shapes[body.type];
+  w.simbody_trees = SimbodyTrees();
+  for (std::size_t i = 0; i < w.data.trees.size(); ++i) {
+    w.simbody_trees.add(w.data.trees[i], w.data.bodies, snapshot.tree_states[i]);
+  }
   w.blocks = SimbodyBlocks();
   const std::vector<std::int32_t>& starts = snapshot.block_starts;
   for (std::size_t block = 0; block < starts.size(); ++block) {

@@ -4,20 +4,13 @@
 #include <chrono>
 #include <cmath>
 
+#include "kernel/speed_limits.h"
 #include "kernel/world_impl.h"
 
 namespace rubble {
 namespace {
 
-constexpr float kMaximumSpin = 30.0F;   // unit: rad/s
-constexpr float kMaximumSpeed = 50.0F;  // unit: m/s
-// Touching pieces that are slower than this lose a part of their speed in each step, the larger the
-// slower they are.
-constexpr float kSlowSpin = 1.0F, kSpinDamping = 0.1F;     // unit: rad/s, 1
-constexpr float kSlowSpeed = 0.1F, kSpeedDamping = 0.02F;  // unit: m/s, 1
-constexpr float kKickShare = 0.4F;                        // see limit_kicks()
-constexpr float kFreeKick = 1.0F;                          // unit: m/s
-constexpr float kOrderDistance = 0.1F;                     // see sort_by_height(); unit: m
+constexpr float kOrderDistance = 0.1F;  // see sort_by_height(); unit: m
 
 // The implicit gyroscopic torque, one Newton step (Catto, GDC 2015): stable at any spin.
 Vec3 gyroscopic(const Body& body, const Vec3& omega, double dt) {
@@ -58,7 +51,7 @@ void World::Impl::apply_forces() {
   pool.run(int(data.bodies.size()), 256, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const Body& body = data.bodies[i];
-      if (!body.awake) continue;
+      if (!body.awake || body.mobile < 0) continue;
       const Vec3 w = gyroscopic(body, blocks.angular_velocity(body.mobile), options.step);
       velocities[i] = {body.linear, Vec3f(w)};
     }
@@ -86,7 +79,8 @@ void World::Impl::solve_contacts() {
                               [&](std::int32_t i) { return !data.pairs[i].live; }),
                active.end());
   sort_by_height();
-  solver.solve(solver_settings, data.bodies, active, data.contacts, velocities, displacements);
+  solver.solve(solver_settings, data.bodies, active, data.contacts, velocities, displacements,
+               solved_trees);
 }
 
 // A piece squeezed out from under a heavy one must not shoot away: sideways and upwards it may
@@ -106,7 +100,7 @@ void World::Impl::limit_kicks() {
   }
   for (std::size_t i = 0; i < data.bodies.size(); ++i) {
     const Body& body = data.bodies[i];
-    if (!body.awake || !body.touching) continue;
+    if (!body.awake || !body.touching || body.mobile < 0) continue;
     const auto outwards = [](const Vec3f& v) { return Vec3f{v.x, v.y, std::max(v.z, 0.0F)}; };
     const float before = norm(outwards(body.linear)), after = norm(outwards(velocities[i].linear));
     const float fall = float(options.gravity * options.step);
@@ -160,7 +154,7 @@ void World::Impl::advance() {
   std::vector<std::int32_t> body_of(blocks.size(), 0);
   for (std::size_t i = 0; i < data.bodies.size(); ++i) {
     const Body& body = data.bodies[i];
-    if (!body.awake) continue;
+    if (!body.awake || body.mobile < 0) continue;
     moves[body.mobile] = 1;
     body_of[body.mobile] = std::int32_t(i);
     block_awake[blocks.block_of_body(body.mobile)] = 1;
@@ -194,15 +188,17 @@ void World::Impl::update_touching() {
       data.bodies[i].touching = data.bodies[i].has_touched = true;
     }
   }
+  touch_trees();
 }
 
 void World::Impl::lose(int index) {
   Body& body = data.bodies[index];
+  if (body.tree >= 0) return lose_tree(body.tree);
   body.lost = true;
   body.awake = false;
   body.touching = false;
   ++data.lost;
-  blocks.set_velocity(body.mobile, {}, {});
+  if (body.mobile >= 0) blocks.set_velocity(body.mobile, {}, {});
   for (std::size_t i = 0; i < data.pairs.size();) {
     if (data.pairs[i].body_a == index || data.pairs[i].body_b == index) {
       remove_contact(i);
@@ -241,6 +237,7 @@ void World::step() {
   {
     const Stopwatch watch(w.times.solve);
     w.apply_forces();
+    w.begin_trees();
     w.solve_contacts();
   }
   {
@@ -251,9 +248,11 @@ void World::step() {
   {
     const Stopwatch watch(w.times.advance);
     w.advance();
+    w.advance_trees();
   }
   {
     const Stopwatch watch(w.times.rest);
+    w.break_joints();
     w.update_sleep();
     w.remove_lost();
   }

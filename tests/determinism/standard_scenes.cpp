@@ -55,7 +55,7 @@ SceneResult settle(Pile pile, Schedule schedule, const SceneOptions& options) {
   SettleOptions settle_options;
   settle_options.schedule = schedule;
   settle_options.threads = options.threads;
-  World world(pile.types, calc_world_options(settle_options));
+  World world(pile.types, calc_world_options(settle_options), pile.assemblies);
   const PileState state = settle_pile(world, pile, settle_options, [&](const SettleProgress&) {
     if (options.after_step) options.after_step(world);
     return true;
@@ -110,14 +110,28 @@ SceneResult bar_under_slab(const SceneOptions& options) {
                     240, options);
 }
 
+// Chains of slabs, doors and crushed frames among free pieces, one of them hung from a fixed root;
+// joints of every kind spring, yield, meet their stops and break.
+SceneResult articulated(const SceneOptions& options) {
+  PileSpec spec = testing::small_pile(104, 2, 45);
+  const int first = int(spec.types.size());
+  spec.assemblies = testing::assemblies();
+  for (int i = 0; i < int(spec.assemblies.size()); ++i)
+    spec.mix.push_back({first + i, 3, 0.7, 1.1});
+  for (int i = 0; i < int(spec.assemblies.size()); ++i) {
+    const Quat rotation = turned({0, 0, 1}, 0.7 * i);
+    spec.placed.push_back(at(first + i, {-1.5 + 1.5 * i, 0.4, 1.7}, rotation, i != 1).placement);
+  }
+  return settle(generate_pile(spec), Schedule::layers, options);
+}
+
 }  // namespace
 
 const std::vector<Scene>& standard_scenes() {
-  static const std::vector<Scene> scenes = {{"pile_layers", pile_layers},
-                                            {"pile_planes", pile_planes},
-                                            {"pile_midair", pile_midair},
-                                            {"brick_tower", brick_tower},
-                                            {"bar_under_slab", bar_under_slab}};
+  static const std::vector<Scene> scenes = {
+      {"pile_layers", pile_layers},       {"pile_planes", pile_planes},
+      {"pile_midair", pile_midair},       {"brick_tower", brick_tower},
+      {"bar_under_slab", bar_under_slab}, {"articulated", articulated}};
   return scenes;
 }
 

@@ -115,6 +115,51 @@ PileSpec small_pile(std::uint64_t seed, int layers, int pieces) {
   return spec;
 }
 
+std::vector<AssemblyType> assemblies() {
+  AssemblyType chain;
+  chain.name = "slab chain";
+  for (int i = 0; i < 4; ++i) chain.links.push_back({2, {{}, {0.85 * i, 0, 0}}, 0.6});
+  for (int i = 0; i < 3; ++i) {
+    JointType joint;
+    joint.parent = i;
+    joint.child = i + 1;
+    joint.assembly_from_joint.translation = {0.85 * i + 0.425, 0, 0};
+    joint.stiffness = 400;
+    joint.damping = 30;
+    joint.yield = 150;
+    joint.upper = 2.5;
+    joint.break_force = 2e4;
+    chain.joints.push_back(joint);
+  }
+  AssemblyType frame;
+  frame.name = "frame";
+  frame.links = {{3, {}, 1}, {2, {{}, {0.85, 0, 0}}, 0.8}, {4, {{}, {-0.35, 0, 0}}, 1},
+                 {5, {{}, {0.85, 0.45, 0}}, 0.5}};
+  JointType hinge;
+  hinge.kind = JointKind::hinge;
+  hinge.assembly_from_joint.translation = {0.3, 0, 0};
+  hinge.damping = 2;
+  hinge.lower = -1.5;
+  hinge.upper = 1.5;
+  hinge.break_torque = 8000;
+  JointType slider;
+  slider.child = 2;
+  slider.kind = JointKind::slider;
+  slider.assembly_from_joint.rotation = turned({0, 0, 1}, portable::kPi);
+  slider.stiffness = 300;
+  slider.damping = 10;
+  slider.lower = 0;
+  slider.upper = 0.4;
+  JointType weld;
+  weld.parent = 1;
+  weld.child = 3;
+  weld.kind = JointKind::weld;
+  weld.assembly_from_joint.translation = {0.85, 0.4, 0};
+  weld.break_force = 1500;
+  frame.joints = {hinge, slider, weld};
+  return {chain, frame};
+}
+
 NewPiece at(int type, const Vec3& position, const Quat& rotation, bool fixed) {
   NewPiece piece;
   piece.placement.type = type;

@@ -21,6 +21,10 @@ PieceType cinder_block_type(); // 0.39 x 0.19 x 0.19 m with two vertical holes
 std::vector<PieceType> rubble_types();
 PileSpec small_pile(std::uint64_t seed, int layers = 2, int pieces = 60);
 
+// Of rubble_types(): slabs on bars that yield (ball joints), a frame with a leaf on a hinge and a
+// drawer on a slider, a welded bundle; joints that break at loads which a pile reaches.
+std::vector<AssemblyType> assemblies();
+
 NewPiece at(int type, const Vec3& position, const Quat& rotation = {}, bool fixed = false);
 Quat turned(const Vec3& axis, double angle);
 

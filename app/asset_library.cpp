@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "app/assemblies.h"
 #include "app/placed_box.h"
 #include "io/mesh_file.h"
 #include "kernel/base/hash.h"
@@ -21,7 +22,7 @@ struct Found {
   const Asset* asset;
 };
 
-// Every asset of the packs by name, in the order of the packs.
+// Every asset of the packs, in their order, but articulated ones last.
 std::vector<Found> list_assets(const std::vector<AssetPack>& packs) {
   std::vector<Found> all;
   std::map<std::string, const AssetPack*> first;
@@ -36,6 +37,9 @@ std::vector<Found> list_assets(const std::vector<AssetPack>& packs) {
                             "", "the other one is in " + it->second->script + "; rename one"});
     }
   if (!mistakes.empty()) throw InputError(std::move(mistakes));
+  // Pieces before what is made of them.
+  std::stable_partition(all.begin(), all.end(),
+                        [](const Found& found) { return found.asset->links.empty(); });
   return all;
 }
 
@@ -47,6 +51,9 @@ std::set<std::string> names_used(const Scenario& scenario, const std::vector<Fou
   if (scenario.pile.mix.empty() && scenario.pile.layers > 0)
     for (const Found& found : all)
       if (found.asset->weight > 0) used.insert(found.asset->name);
+  for (const Found& found : all)
+    if (used.count(found.asset->name))
+      for (const AssetLink& link : found.asset->links) used.insert(link.asset);
   return used;
 }
 
@@ -87,6 +94,13 @@ std::string hash_content(const Asset& asset, const PieceType& type) {
 
 void load_asset(const Found& found, AssetLibrary& library) {
   const Asset& asset = *found.asset;
+  if (!asset.links.empty()) {
+    library.assemblies.push_back(make_assembly(asset, library));
+    library.contents.push_back(
+        {asset.name, found.pack->name, hash_content(asset, library.assemblies.back(), library),
+         asset.weight, asset.scale});
+    return;
+  }
   const MeshUnits units{asset.metres_per_unit, asset.up};
   auto mesh = std::make_shared<SceneMesh>();
   for (const std::string& path : asset.meshes) mesh->levels.push_back(load_mesh(path, units));
@@ -184,6 +198,11 @@ struct Search {
         Asset asset = candidate;
         asset.weight = wanted.weight;
         asset.scale = wanted.scale;
+        if (!asset.links.empty()) {
+          if (take_assembly({&pack, &asset}, wanted, library)) return;
+          other = "in " + pack.folder + " it has another content";
+          continue;
+        }
         AssetLibrary one;
         load_asset({&pack, &asset}, one);
         if (one.contents.back().sha256 == wanted.sha256) return keep(one, wanted, library);
@@ -195,6 +214,18 @@ struct Search {
                        "the asset `" + wanted.name + "` of pack `" + wanted.pack + "` is missing",
                        "the content " + wanted.sha256, other,
                        "looked in " + places + "; name its folder with --assets"});
+  }
+
+  // Its pieces were found before it, or it is not the one.
+  static bool take_assembly(const Found& found, const AssetContent& wanted,
+                            AssetLibrary& library) {
+    for (const AssetLink& link : found.asset->links)
+      if (!library.has(link.asset)) return false;
+    const AssemblyType assembly = make_assembly(*found.asset, library);
+    if (hash_content(*found.asset, assembly, library) != wanted.sha256) return false;
+    library.assemblies.push_back(assembly);
+    library.contents.push_back(wanted);
+    return true;
   }
 
   static void keep(AssetLibrary& one, const AssetContent& wanted, AssetLibrary& library) {
@@ -229,7 +260,15 @@ int AssetLibrary::find(const PlacedItem& item) const {
 int AssetLibrary::find(const std::string& name) const {
   for (std::size_t i = 0; i < types.size(); ++i)
     if (types[i].name == name) return int(i);
+  for (std::size_t i = 0; i < assemblies.size(); ++i)
+    if (assemblies[i].name == name) return int(types.size() + i);
   throw RunError("asset " + name + " was not loaded");
+}
+
+bool AssetLibrary::has(const std::string& name) const {
+  const auto is_it = [&name](const auto& type) { return type.name == name; };
+  return std::any_of(types.begin(), types.end(), is_it) ||
+         std::any_of(assemblies.begin(), assemblies.end(), is_it);
 }
 
 std::string bundled_assets_folder() {
@@ -254,9 +293,14 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   AssetLibrary library;
   for (const AssetPack& pack : packs) library.folders.push_back(pack.folder);
   const std::set<std::string> used = names_used(mission.scenario, all);
-  for (const Found& found : all)
-    if (used.count(found.asset->name)) load_asset(found, library);
+  const auto load = [&](bool articulated) {
+    for (const Found& found : all)
+      if (used.count(found.asset->name) && found.asset->links.empty() != articulated)
+        load_asset(found, library);
+  };
+  load(false);
   add_boxes(mission, materials, library);
+  load(true);  // made of types, so after all of them
   library.mix = make_mix(mission.scenario, all, library);
   return library;
 }

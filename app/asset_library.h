@@ -15,12 +15,16 @@ namespace rubble {
 struct AssetLibrary {
   std::vector<PieceType> types;
   std::vector<std::shared_ptr<const SceneMesh>> meshes;  // one per type
-  std::vector<AssetContent> contents;                    // one per type
+  std::vector<AssemblyType> assemblies;                  // articulated assets, made of the types
+  std::vector<AssetContent> contents;  // one per type, then one per assembly
   std::vector<MixEntry> mix;                             // what the mission draws from
   std::vector<std::string> warnings;                     // e.g. a mesh that is not closed
   std::vector<std::string> folders;                      // of the packs, absolute
 
-  int find(const std::string& name) const;  // index of a type that was loaded
+  // Index of a type that was loaded, or the number of types plus the index of an assembly: as
+  // placements and mixes have it.
+  int find(const std::string& name) const;  // throws RunError
+  bool has(const std::string& name) const;
   int find(const PlacedItem& item) const;   // likewise, of its asset or its box
 };
 

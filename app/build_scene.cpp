@@ -24,6 +24,7 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets) {
   PileSpec spec;
   spec.seed = scenario.seed;
   spec.types = assets.types;
+  spec.assemblies = assets.assemblies;
   spec.mix = assets.mix;
   for (const PlacedItem& item : scenario.pile.placed) spec.placed.push_back(place(item, assets));
   spec.spawn_position = scenario.pile.spawn_position;

@@ -1,8 +1,10 @@
 #include "scripting/asset_pack.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
+#include "scripting/asset_links.h"
 #include "scripting/pack_schema.h"
 #include "scripting/script_file.h"
 
@@ -61,8 +63,11 @@ Diagnostic unknown_material(const std::vector<Material>& materials, const std::s
 class PackBuilder {
  public:
   PackBuilder(const fs::path& folder, const std::vector<Material>& materials,
-              const SourceMap& lines, std::vector<Diagnostic>& mistakes)
-      : folder_(folder), materials_(materials), lines_(lines), mistakes_(mistakes) {}
+              const SourceMap& lines, const PackTable& table, std::vector<Diagnostic>& mistakes)
+      : folder_(folder), materials_(materials), lines_(lines), mistakes_(mistakes) {
+    for (const AssetTable& asset : table.assets)
+      if (asset.links.empty()) pieces_.insert(asset.name);
+  }
 
   Asset make_asset(std::size_t i, const AssetTable& from) {
     Asset asset;
@@ -74,8 +79,12 @@ class PackBuilder {
     asset.weight = from.weight;
     asset.tags = from.tags;
     check_name(i, from.name);
-    find_files(i, from, asset);
-    choose_material(i, from, asset);
+    if (from.links.empty()) {
+      find_files(i, from, asset);
+      choose_material(i, from, asset);
+    } else {
+      asset.links = make_links(i, from);
+    }
     return asset;
   }
 
@@ -89,11 +98,67 @@ class PackBuilder {
   void find_files(std::size_t i, const AssetTable& from, Asset& asset) {
     if (from.mesh.empty())
       mistakes_.push_back(
-          {"", 0, asset_key(i, "mesh"), "no mesh", "at least one file", "an empty list", ""});
+          {"", 0, asset_key(i, "mesh"), "no mesh", "at least one file, or links", "none", ""});
     for (const std::string& name : from.mesh)
       asset.meshes.push_back(find_file(folder_, name, asset_key(i, "mesh"), mistakes_));
     if (!from.parts.empty())
       asset.parts = find_file(folder_, from.parts, asset_key(i, "collision.parts"), mistakes_);
+  }
+
+  // What a link names: a piece with a mesh, and a link before it.
+  std::vector<AssetLink> make_links(std::size_t i, const AssetTable& from) {
+    std::vector<AssetLink> links;
+    std::vector<std::string> names;
+    const auto complain = [&](std::size_t k, const char* member, const std::string& message,
+                              const std::string& expected, const std::string& found) {
+      const std::string key = "links[" + std::to_string(k + 1) + "]." + member;
+      mistakes_.push_back({"", 0, asset_key(i, key), message, expected, found, ""});
+    };
+    if (!from.mesh.empty()) {
+      mistakes_.push_back({"", 0, asset_key(i, "mesh"), "an asset has a mesh or links, not both", "",
+                           "", "give the mesh to an asset of its own and name that in a link"});
+    }
+    if (from.links.size() < 2 || from.links.size() > kMaxLinks) {
+      mistakes_.push_back({"", 0, asset_key(i, "links"), "wrong number of links",
+                           "2 to " + std::to_string(kMaxLinks), std::to_string(from.links.size()),
+                           ""});
+    }
+    for (std::size_t k = 0; k < from.links.size(); ++k) {
+      const LinkTable& table = from.links[k];
+      const std::string name = table.name.empty() ? table.asset : table.name;
+      if (std::find(names.begin(), names.end(), name) != names.end()) {
+        complain(k, "name", "two links have the name `" + name + "`", "", "");
+      }
+      if (pieces_.count(table.asset) == 0) {
+        complain(k, "asset", "no such piece", "an asset of this pack that has a mesh",
+                 "\"" + table.asset + "\"");
+      }
+      AssetLink link = make_asset_link(table);
+      const auto on = std::find(names.begin(), names.end(), table.on);
+      if (k == 0 && !table.on.empty()) {
+        complain(k, "on", "the first link hangs on nothing", "", "");
+      } else if (k > 0 && on == names.end()) {
+        complain(k, "on", "a link hangs on one that is listed before it", list_of(names),
+                 table.on.empty() ? "nothing" : "\"" + table.on + "\"");
+      } else if (k > 0) {
+        link.on = link.joint.parent = int(on - names.begin());
+        link.joint.child = int(k);
+      }
+      if (!(norm(table.joint_axis) > 0)) complain(k, "joint_axis", "no direction", "", "");
+      if (link.joint.lower > 0 || link.joint.upper < 0) {
+        complain(k, table.joint == JointKind::slider ? "travel" : "limit_deg",
+                 "the designed pose is out of reach", "least <= 0 <= most", "");
+      }
+      names.push_back(name);
+      links.push_back(link);
+    }
+    return links;
+  }
+
+  static std::string list_of(const std::vector<std::string>& names) {
+    std::string text = "one of ";
+    for (std::size_t i = 0; i < names.size(); ++i) text += (i ? ", " : "") + names[i];
+    return text;
   }
 
   void choose_material(std::size_t i, const AssetTable& from, Asset& asset) {
@@ -110,7 +175,7 @@ class PackBuilder {
   const std::vector<Material>& materials_;
   const SourceMap& lines_;
   std::vector<Diagnostic>& mistakes_;
-  std::set<std::string> names_;
+  std::set<std::string> names_, pieces_;
 };
 
 // An asset that was not read whole would only give mistakes that follow from the first.
@@ -137,7 +202,7 @@ AssetPack load_asset_pack(const std::string& folder, const std::vector<Material>
   add_duplicates(lines, mistakes);
   AssetPack pack{table.name, root.string(), script.path, {}};
   const std::vector<Diagnostic> of_reading = mistakes;
-  PackBuilder builder(root, materials, lines, mistakes);
+  PackBuilder builder(root, materials, lines, table, mistakes);
   for (std::size_t i = 0; i < table.assets.size(); ++i)
     if (was_read(i, of_reading)) pack.assets.push_back(builder.make_asset(i, table.assets[i]));
   if (mistakes.empty() && table.assets.empty())

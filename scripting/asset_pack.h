@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "kernel/base/mesh.h"
+#include "kernel/pile.h"
 
 namespace rubble {
 
@@ -24,8 +25,19 @@ struct Material {
   std::string source;   // where the figures come from
 };
 
+// A link of an articulated asset, and the joint by which it hangs on another: see JointType, whose
+// members have the same names.
+struct AssetLink {
+  std::string asset;          // with a mesh, of the same pack
+  Pose whole_from_link;       // as designed; unit: m
+  double scale = 1;
+  int on = -1;                // index of a link before it; -1: the first link
+  JointType joint;            // parent and child are those of `on` and of this link
+};
+
 struct Asset {
   std::string name;
+  std::vector<AssetLink> links;     // of an articulated asset, which has no mesh; otherwise empty
   std::vector<std::string> meshes;  // whole paths, finest level of detail first; at least one
   double metres_per_unit = 1;       // of the mesh and the parts
   UpAxis up = UpAxis::z;

@@ -62,6 +62,9 @@ struct TypeOf {
   Json operator()(const StringOrList&) const {
     return {{"anyOf", Json::array({{{"type", "string"}}, strings_schema()})}};
   }
+  Json operator()(const TableList&) const {
+    return {{"type", "array"}, {"items", {{"type", "object"}}}};
+  }
   Json operator()(const WordOrFile& slot) const {
     const Json file = {{"type", "object"},
                        {"properties", {{slot.key, {{"type", "string"}}}}},

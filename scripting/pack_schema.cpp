@@ -29,8 +29,10 @@ Schema make_pack_schema(PackTable& pack) {
   item("name", &AssetTable::name, "How missions call it.").must();
   k.add("assets[].mesh",
         "File, or files from the finest to the coarsest level of detail, beside pack.lua.",
-        [&list](std::size_t i) { return Slot(StringOrList{&list[i].mesh}); })
-      .must();
+        [&list](std::size_t i) { return Slot(StringOrList{&list[i].mesh}); });
+  k.add("assets[].links",
+        "Instead of a mesh: a tree of other assets of the pack, held together by joints; 2 to 32.",
+        [&list](std::size_t i) { return Schema::table_list(list[i].links, make_link_schema); });
   k.add("assets[].units", "Of lengths in the files.", [&list](std::size_t i) {
     return Schema::choice_slot(list[i].units, {"m", "cm", "mm", "in", "ft"});
   });
@@ -52,6 +54,52 @@ Schema make_pack_schema(PackTable& pack) {
   item("scale", &AssetTable::scale, "Size, uniform in {min, max}.").between(0.01, 100);
   item("weight", &AssetTable::weight, "How often, in a mission without a mix.").between(0, 1e9);
   item("tags", &AssetTable::tags, "Words to find it by.");
+  return k;
+}
+
+Schema make_link_schema(LinkTable& l) {
+  Schema k;
+  k.value("asset", l.asset, "The piece: an asset of the pack with a mesh.").must();
+  k.value("name", l.name, "By which others hang on it; not given: the asset's name.");
+  k.value("position", l.position, "Of the piece's origin in the whole, as designed, at scale 1.")
+      .between(-100, 100)
+      .unit("m");
+  k.value("rpy_deg", l.rpy_deg, "Roll, pitch and yaw in the whole.")
+      .between(-360, 360)
+      .unit("degree");
+  k.value("scale", l.scale, "Of the piece in the whole.").between(0.01, 100);
+  k.value("on", l.on, "Name of the link that it hangs on, listed before it; the first has none.");
+  k.choice("joint", l.joint, {"weld", "hinge", "slider", "ball"},
+           "What holds it: a hinge turns about the axis, a slider moves along it.");
+  k.value("joint_position", l.joint_position, "Of the joint in the whole.")
+      .between(-100, 100)
+      .unit("m");
+  k.value("joint_axis", l.joint_axis, "Of a hinge or slider, in the whole; any length above 0.")
+      .between(-1000, 1000);
+  k.value("stiffness", l.stiffness,
+          "Of the spring towards the designed pose; torque per angle, a slider's force per length.")
+      .between(0, 1e9)
+      .unit("N m/rad, N/m");
+  k.value("damping", l.damping, "Torque per rate, a slider's force per speed.")
+      .between(0, 1e9)
+      .unit("N m s/rad, N s/m");
+  k.value("yield", l.yield, "Load at which the spring bends for good; not given: never.")
+      .above(0, 1e12)
+      .unit("N m, N");
+  k.value("break_force", l.break_force, "Force at which the joint lets go; not given: never.")
+      .above(0, 1e12)
+      .unit("N");
+  k.value("break_torque", l.break_torque, "Moment about the joint at which it lets go.")
+      .above(0, 1e12)
+      .unit("N m");
+  k.value("limit_deg", l.limit_deg,
+          "How far a hinge turns, {least, most}, or that far to either side; a ball's largest bend.")
+      .between(-360, 360)
+      .unit("degree");
+  k.value("travel", l.travel, "How far a slider moves, {least, most}, or that far either way.")
+      .between(-100, 100)
+      .unit("m");
+  k.value("collide", l.collide, "Whether it and the link it hangs on touch each other.");
   return k;
 }
 

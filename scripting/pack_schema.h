@@ -13,10 +13,25 @@ namespace rubble {
 enum class LengthUnit { m, cm, mm, in, ft };
 double metres_per(LengthUnit unit);
 
+// A link of an articulated asset as it is written.
+struct LinkTable {
+  std::string name, asset;
+  Vec3 position, rpy_deg;
+  double scale = 1;
+  std::string on;
+  JointKind joint = JointKind::ball;
+  Vec3 joint_position, joint_axis{0, 0, 1};
+  double stiffness = 0, damping = 0;
+  std::optional<double> yield, break_force, break_torque;
+  std::optional<NumberPair> limit_deg, travel;
+  bool collide = false;
+};
+
 // An asset as it is written: paths relative, density and friction only where given.
 struct AssetTable {
   std::string name;
   std::vector<std::string> mesh;
+  std::vector<LinkTable> links;
   LengthUnit units = LengthUnit::m;
   UpAxis up = UpAxis::z;
   std::string parts;
@@ -38,6 +53,7 @@ struct MaterialTable {
 
 // The tables must outlive the schemas.
 Schema make_pack_schema(PackTable& pack);
+Schema make_link_schema(LinkTable& link);
 Schema make_material_schema(MaterialTable& table);
 
 }  // namespace rubble

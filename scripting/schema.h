@@ -36,12 +36,18 @@ struct WordOrFile {  // the word, or { key = "FILE" }; the word is kept as an em
   std::string* file;
 };
 using NumberPair = std::array<double, 2>;
+class Schema;
+struct TableList {  // a list within an item of a list: each table of it has a schema of its own
+  std::function<std::size_t()> size;
+  std::function<void(std::size_t)> resize;      // new items have the defaults
+  std::function<Schema(std::size_t)> make_item;  // its keys start at the item
+};
 
 // Where a key's value lives, and with that its type. Value*: any table, taken as it is.
 using Slot = std::variant<bool*, Negated, int*, std::int64_t*, std::uint64_t*, double*,
                           std::optional<double>*, std::string*, std::optional<std::string>*, Choice,
                           Vec3*, std::optional<Vec3>*, NumberPair*, std::optional<NumberPair>*,
-                          std::vector<std::string>*, StringOrList, WordOrFile, Value*>;
+                          std::vector<std::string>*, StringOrList, WordOrFile, Value*, TableList>;
 
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
@@ -111,6 +117,13 @@ class Schema {
   Key& item(std::string path, std::vector<T>& list, M T::*member, std::string doc) {
     return add(std::move(path), std::move(doc),
                [&list, member](std::size_t i) { return Slot(&(list[i].*member)); });
+  }
+  // make: the schema of one of its tables.
+  template <typename T>
+  static Slot table_list(std::vector<T>& member, Schema (*make)(T&)) {
+    return TableList{[&member] { return member.size(); },
+                     [&member](std::size_t n) { member.clear(), member.resize(n); },
+                     [&member, make](std::size_t i) { return make(member[i]); }};
   }
   Key& add(std::string path, std::string doc, std::function<Slot(std::size_t)> bind);
   void alias(std::string name, std::string path, bool negated = false);

@@ -51,6 +51,12 @@ std::string section(const Schema& schema, const std::string& pattern, const std:
   for (const Key* key : schema.children(pattern)) {
     if (key->kind == KeyKind::value) {
       rows += row(*key, key->name());
+      const Slot slot = key->bind(0);
+      if (const auto* tables = std::get_if<TableList>(&slot)) {
+        tables->resize(1);
+        below += section(tables->make_item(0), "", "`" + key->path + "`, a list of tables",
+                         key->doc_text);
+      }
       continue;
     }
     const bool is_list = key->kind == KeyKind::list;

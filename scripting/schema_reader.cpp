@@ -148,6 +148,10 @@ class TableReader {
 
   void read_key(const Key& key, const std::string& shown, std::size_t index, const Value& value) {
     if (key.kind == KeyKind::value) {
+      const Slot slot = key.bind(index);
+      if (const auto* tables = std::get_if<TableList>(&slot)) {
+        return read_tables(key, *tables, shown, value);
+      }
       written_.push_back(shown);
       if (auto mistake = write_slot(key, key.bind(index), value, shown))
         mistakes_.push_back(*mistake);
@@ -158,6 +162,24 @@ class TableReader {
       read_group(key.path, shown, index, value);
     } else {
       read_list(key, shown, value);
+    }
+  }
+
+  void read_tables(const Key& key, const TableList& tables, const std::string& shown,
+                   const Value& value) {
+    if (value.kind != Value::Kind::table || !value.fields.empty() || !value.strange_keys.empty()) {
+      mistakes_.push_back({"", 0, shown, "wrong type", describe_expected(key), describe(value),
+                           "write {{...}, {...}}"});
+      return;
+    }
+    tables.resize(value.items.size());
+    for (std::size_t i = 0; i < value.items.size(); ++i) {
+      const std::string item = shown + "[" + std::to_string(i + 1) + "]";
+      const Schema schema = tables.make_item(i);
+      if (value.items[i].kind == Value::Kind::table)
+        TableReader(schema, mistakes_).read_group("", item, 0, value.items[i]);
+      else
+        mistakes_.push_back({"", 0, item, "wrong type", "a table", describe(value.items[i]), ""});
     }
   }
 

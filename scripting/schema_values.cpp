@@ -186,6 +186,8 @@ Outcome store_as(const Range& range, const T& to, const Value& value) {
     if (value.kind != Value::Kind::table || !value.strange_keys.empty()) return Outcome::wrong_type;
     *to = value;
     return Outcome::stored;
+  } else if constexpr (std::is_same_v<T, TableList>) {
+    return Outcome::wrong_type;  // read table by table, by whoever knows its items
   } else {
     return store_strings(value, *to);
   }
@@ -236,6 +238,8 @@ Value read_as(const T& from) {
     Value table = Value::make_table();
     table.set(from.key, Value::make_text(*from.file));
     return table;
+  } else if constexpr (std::is_same_v<T, TableList>) {
+    return {};
   } else {
     return list_of(*from);
   }
@@ -257,6 +261,7 @@ std::string expected_as(const Key& key, const T& slot) {
     return "\"" + slot.word + "\" or { " + slot.key + " = \"FILE\" }";
   if constexpr (std::is_same_v<T, Value*>) return "a table";
   if constexpr (std::is_same_v<T, StringOrList>) return "a string or a list of strings";
+  if constexpr (std::is_same_v<T, TableList>) return "a list of tables";
   return "a list of strings";
 }
 

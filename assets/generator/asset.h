@@ -35,9 +35,19 @@ struct Asset {
 
 Asset make_asset(const Recipe& recipe);
 
+// An asset made of others: each link as its table in pack.lua, without the braces.
+struct ArticulatedRecipe {
+  std::string name;
+  std::vector<std::string> links;
+  double scale_min = 1, scale_max = 1;
+  double weight = 0;
+  std::vector<std::string> tags;
+};
+
 struct Pack {
   std::string name;
   std::vector<Recipe> recipes;
+  std::vector<ArticulatedRecipe> articulated = {};
 };
 
 Pack concrete_pack();

@@ -9,6 +9,7 @@ Pack concrete_pack() {
        {masonry_pieces, chunk_pieces, slab_pieces, frame_pieces, hollow_pieces, rebar_pieces}) {
     for (Recipe& recipe : make()) pack.recipes.push_back(std::move(recipe));
   }
+  pack.articulated = articulated_concrete();
   return pack;
 }
 

@@ -14,4 +14,6 @@ std::vector<Recipe> frame_pieces();    // columns, beams, large slabs, walls
 std::vector<Recipe> hollow_pieces();   // pipes and culverts
 std::vector<Recipe> rebar_pieces();    // loose bars
 
+std::vector<ArticulatedRecipe> articulated_concrete();  // pieces that hang together by bars
+
 }  // namespace rubble::generator

@@ -88,6 +88,24 @@ std::string material_text() {
   return text;
 }
 
+std::string tags_text(const std::vector<std::string>& tags) {
+  std::string text = "{";
+  for (std::size_t i = 0; i < tags.size(); ++i) text += (i ? ", \"" : "\"") + tags[i] + "\"";
+  return text + "}";
+}
+
+std::string articulated_text(const ArticulatedRecipe& r) {
+  std::string text = "    { name = \"" + r.name + "\",\n      links = {\n";
+  for (const std::string& link : r.links) text += "        { " + link + " },\n";
+  text += "      },\n      scale = {";
+  put_number(text, r.scale_min, 3);
+  text += ", ";
+  put_number(text, r.scale_max, 3);
+  text += "},\n      weight = ";
+  put_number(text, r.weight, 3);
+  return text + ",\n      tags = " + tags_text(r.tags) + ",\n    },\n";
+}
+
 std::string asset_text(const Asset& asset) {
   const Recipe& r = asset.recipe;
   std::string text = "    {\n      name = \"" + r.name + "\",\n      mesh = {";
@@ -101,9 +119,7 @@ std::string asset_text(const Asset& asset) {
   put_number(text, r.scale_max, 3);
   text += "},\n      weight = ";
   put_number(text, r.weight, 3);
-  text += ",\n      tags = {";
-  for (std::size_t i = 0; i < r.tags.size(); ++i) text += (i ? ", \"" : "\"") + r.tags[i] + "\"";
-  return text + "},\n    },\n";
+  return text + ",\n      tags = " + tags_text(r.tags) + ",\n    },\n";
 }
 
 void write_file(const std::filesystem::path& path, const std::string& text) {
@@ -132,6 +148,7 @@ void write_pack(const Pack& pack, const std::string& folder) {
     write_file(root / (recipe.name + ".parts.obj"), parts_text(asset.parts));
     lua += asset_text(asset);
   }
+  for (const ArticulatedRecipe& recipe : pack.articulated) lua += articulated_text(recipe);
   write_file(root / "pack.mtl", material_text());
   write_file(root / "pack.lua", lua + "  },\n}\n");  // last: a pack with pack.lua is complete
 }

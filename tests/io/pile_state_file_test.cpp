@@ -37,6 +37,17 @@ PileState make_state(int pieces) {
     p.status = static_cast<PieceStatus>(i % 4);
     state.pieces.push_back(p);
   }
+  for (int i = 0; i + 1 < pieces; i += 3) {
+    JointState joint;
+    joint.parent = i;
+    joint.child = i + 1;
+    joint.kind = static_cast<JointKind>(i % 4);
+    joint.parent_from_joint = {random.rotation(), random.direction()};
+    joint.child_from_joint = {random.rotation(), random.direction()};
+    joint.rest = random.uniform(-1, 1);
+    joint.rest_rotation = random.rotation();
+    state.joints.push_back(joint);
+  }
   return state;
 }
 
@@ -85,6 +96,17 @@ TEST(PileStateFile, ReloadsBitForBit) {
     EXPECT_TRUE(same_bits(a.world_from_body, b.world_from_body)) << "piece " << i;
     EXPECT_TRUE(same_bits(a.linear_velocity, b.linear_velocity)) << "piece " << i;
     EXPECT_TRUE(same_bits(a.angular_velocity, b.angular_velocity)) << "piece " << i;
+  }
+  ASSERT_EQ(loaded.joints.size(), state.joints.size());
+  for (std::size_t i = 0; i < state.joints.size(); ++i) {
+    const JointState &a = state.joints[i], &b = loaded.joints[i];
+    EXPECT_EQ(a.parent, b.parent);
+    EXPECT_EQ(a.child, b.child);
+    EXPECT_EQ(a.kind, b.kind);
+    EXPECT_TRUE(same_bits(a.parent_from_joint, b.parent_from_joint));
+    EXPECT_TRUE(same_bits(a.child_from_joint, b.child_from_joint));
+    EXPECT_TRUE(same_bits(a.rest, b.rest));
+    EXPECT_TRUE(same_bits(a.rest_rotation, b.rest_rotation));
   }
 }
 

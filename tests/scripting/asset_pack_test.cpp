@@ -75,6 +75,91 @@ TEST_F(AssetPackTest, EveryKey) {
   EXPECT_EQ(b.line, 7);
 }
 
+TEST_F(AssetPackTest, ReadsArticulatedAssets) {
+  const AssetPack pack = load(R"(return pack {
+  name = "x",
+  assets = {
+    { name = "a", mesh = "a.obj", material = "concrete" },
+    { name = "b", mesh = "b.stl", material = "steel" },
+    { name = "gate", scale = {0.5, 2}, links = {
+      { asset = "a" },
+      { name = "leaf", asset = "b", on = "a", joint = "hinge", position = {1, 2, 3},
+        rpy_deg = {0, 0, 90}, joint_position = {0.5, 0, 0}, joint_axis = {0, 2, 0},
+        stiffness = 5, damping = 6, yield = 7, break_torque = 8, limit_deg = {-90, 45} },
+      { name = "bolt", asset = "b", scale = 0.5, on = "leaf", joint = "slider",
+        joint_axis = {0, 0, -1}, travel = 0.3, break_force = 9, collide = true },
+      { name = "knob", asset = "a", on = "leaf", limit_deg = 60 },
+    } },
+  },
+})");
+  ASSERT_EQ(pack.assets.size(), 3u);
+  const Asset& gate = pack.assets[2];
+  EXPECT_TRUE(gate.meshes.empty());
+  ASSERT_EQ(gate.links.size(), 4u);
+  EXPECT_EQ(gate.links[0].on, -1);
+  const AssetLink& leaf = gate.links[1];
+  EXPECT_EQ(leaf.asset, "b");
+  EXPECT_EQ(leaf.on, 0);
+  EXPECT_EQ(leaf.joint.parent, 0);
+  EXPECT_EQ(leaf.joint.child, 1);
+  EXPECT_EQ(leaf.joint.kind, JointKind::hinge);
+  EXPECT_EQ(leaf.whole_from_link.translation, (Vec3{1, 2, 3}));
+  EXPECT_NEAR(leaf.whole_from_link.rotation.rotate({1, 0, 0}).y, 1, 1e-12);
+  EXPECT_NEAR(leaf.joint.assembly_from_joint.rotation.rotate({0, 0, 1}).y, 1, 1e-12);
+  EXPECT_EQ(leaf.joint.stiffness, 5);
+  EXPECT_EQ(leaf.joint.damping, 6);
+  EXPECT_EQ(leaf.joint.yield, 7);
+  EXPECT_EQ(leaf.joint.break_torque, 8);
+  EXPECT_EQ(leaf.joint.break_force, kNever);
+  EXPECT_NEAR(leaf.joint.lower, -1.5707963, 1e-6);
+  EXPECT_NEAR(leaf.joint.upper, 0.7853981, 1e-6);
+  const AssetLink& bolt = gate.links[2];
+  EXPECT_EQ(bolt.on, 1);
+  EXPECT_NEAR(bolt.joint.assembly_from_joint.rotation.rotate({1, 0, 0}).z, -1, 1e-12);
+  EXPECT_EQ(bolt.joint.lower, -0.3);
+  EXPECT_EQ(bolt.joint.upper, 0.3);
+  EXPECT_TRUE(bolt.joint.collide);
+  EXPECT_EQ(gate.links[3].joint.kind, JointKind::ball);
+  EXPECT_NEAR(gate.links[3].joint.upper, 1.0471975, 1e-6);
+  EXPECT_EQ(gate.links[3].joint.yield, kNever);
+}
+
+TEST_F(AssetPackTest, NamesEveryMistakeOfLinks) {
+  const std::string text = error(R"(return pack {
+  name = "x",
+  assets = {
+    { name = "a", mesh = "a.obj", material = "concrete" },
+    { name = "gate", links = {
+      { asset = "a", on = "a" },
+      { name = "leaf", asset = "nothing", on = "frame" },
+      { name = "leaf", asset = "gate", on = "a", joint = "hinge", limit_deg = {5, 9} },
+    } },
+    { name = "one", mesh = "a.obj", links = { { asset = "a" } } },
+    { name = "rope", links = { { asset = "a" }, { asset = "a", joint = "rope" } } },
+    { name = "axis", links = { { asset = "a" },
+      { name = "b", asset = "a", on = "a", joint_axis = {0, 0, 0} } } },
+    { name = "list", links = { 5, "a" } },
+  },
+})");
+  for (const char* part :
+       {":6: assets[2].links[1].on: the first link hangs on nothing",
+        ":7: assets[2].links[2].asset: no such piece: expected an asset of this pack that has a "
+        "mesh, found \"nothing\"",
+        ":7: assets[2].links[2].on: a link hangs on one that is listed before it: expected one of "
+        "a, found \"frame\"",
+        ":8: assets[2].links[3].name: two links have the name `leaf`",
+        ":8: assets[2].links[3].asset: no such piece",
+        ":8: assets[2].links[3].limit_deg: the designed pose is out of reach",
+        ":10: assets[3].mesh: an asset has a mesh or links, not both",
+        ":10: assets[3].links: wrong number of links: expected 2 to 32, found 1",
+        ":11: assets[4].links[2].joint: unknown choice: expected one of \"weld\", \"hinge\", "
+        "\"slider\", \"ball\", found the string \"rope\"",
+        ":13: assets[5].links[2].joint_axis: no direction",
+        ":14: assets[6].links[1]: wrong type: expected a table, found 5"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
+  }
+}
+
 TEST_F(AssetPackTest, EveryMistakeInOneRun) {
   const std::string at = script() + ":";
   EXPECT_EQ(
@@ -112,7 +197,7 @@ TEST_F(AssetPackTest, EveryMistakeInOneRun) {
           "0\n" +  //
           at +
           "9: assets[6].name: two assets have the name `b` (rename one of them)\n" + at +
-          "9: assets[6].mesh: no mesh: expected at least one file, found an empty list\n" + at +
+          "9: assets[6].mesh: no mesh: expected at least one file, or links, found none\n" + at +
           "9: assets[6].material: unknown material `xyzzy`: expected one of concrete, "
           "steel\n" +  //
           at +

@@ -76,17 +76,22 @@ void TreeMotion::factor(const TreePose& pose, double time, double span) {
   implicit_.factor(stiff_mass_);
 }
 
-// The forces of `time` at a fixed position.
-void TreeMotion::kick(const TreePose& pose, double time) {
-  forces_.assign(tree_->links.size(), {});
+void TreeMotion::set_weights(const TreePose& pose) {
+  weights_.assign(tree_->links.size(), {});
   for (std::size_t i = 0; i < tree_->links.size(); ++i) {
     if (tree_->links[i].mobility == Mobility::fixed) continue;
     const Vec3 weight{0, 0, -gravity_ * (*bodies_)[std::size_t(tree_->links[i].body)].mass};
     const Vec3 arm = pose.world_from_com[i].translation - pose.reference;
-    forces_[i] = {cross(arm, weight), weight};
-    external_[i] += forces_[i] * time;
+    weights_[i] = {cross(arm, weight), weight};
   }
-  gather(*tree_, pose, forces_, generalized_);
+  forces_ = weights_;
+  gather(*tree_, pose, forces_, generalized_weights_);
+}
+
+// The forces of `time` at a fixed position.
+void TreeMotion::kick(double time) {
+  for (std::size_t i = 0; i < weights_.size(); ++i) external_[i] += weights_[i] * time;
+  generalized_ = generalized_weights_;
   for (std::size_t i = 0; i < tree_->links.size(); ++i) {
     const TreeLink& link = tree_->links[i];
     if (link.parent < 0) continue;
@@ -173,8 +178,9 @@ void TreeMotion::move_freely() {
   end_ = start_;
   TreePose from;
   factor(end_, 0.5 * h, span);
+  set_weights(end_);
   for (int i = 0; i < substeps; ++i) {
-    kick(end_, 0.5 * h);
+    kick(0.5 * h);
     calc_drift(end_, h);
     for (TreeLink& link : tree_->links) {
       move_joint(link, moved.data(), state_.q.data());
@@ -184,7 +190,8 @@ void TreeMotion::move_freely() {
     end_.set(*tree_, *bodies_, state_.q, from.reference);
     factor(end_, 0.5 * h, span);
     carry_speeds(from, end_);
-    kick(end_, 0.5 * h);
+    set_weights(end_);
+    kick(0.5 * h);
   }
   calc_motions(*tree_, end_, state_.u, motions_);
 }
@@ -192,9 +199,10 @@ void TreeMotion::move_freely() {
 void TreeMotion::begin_substeps(double h) {
   substep_ = h;
   factor(start_, h, h);
+  set_weights(start_);
 }
 
-void TreeMotion::add_forces() { kick(start_, substep_); }
+void TreeMotion::add_forces() { kick(substep_); }
 
 void TreeMotion::move() {
   generalized_ = state_.u;

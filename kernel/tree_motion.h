@@ -70,7 +70,8 @@ class TreeMotion {
 
  private:
   void factor(const TreePose& pose, double time, double span);
-  void kick(const TreePose& pose, double time);
+  void set_weights(const TreePose& pose);
+  void kick(double time);
   // What the tree moves in `time` without forces, to second order: into `moved`.
   void calc_drift(const TreePose& pose, double time);
   void carry_speeds(const TreePose& from, const TreePose& to);
@@ -86,6 +87,8 @@ class TreeMotion {
   SymmetricMatrix mass_, stiff_mass_;
   Cholesky plain_, implicit_;  // of M; of M with springs
   bool has_springs_ = false;
+  std::vector<Spatial> weights_;            // by link
+  std::vector<double> generalized_weights_;
   std::vector<double> resistance_;  // by link: C + s K where it is not yielding
   std::vector<Spatial> start_momenta_, external_, loads_;
   std::vector<std::vector<double>> responses_;  // by link: M^-1 J^T of six unit impulses; or empty

@@ -3,12 +3,6 @@
 namespace rubble {
 namespace {
 
-// An impact has no friction from the substep before to start with. Where the normal impulses rise by
-// more than this share, friction and normals take turns once more: without it a heavy slab squeezes
-// a light wedge out at many times its own speed, though friction would hold it.
-constexpr float kImpactRise = 1.0F;
-constexpr int kMostRounds = 2;
-
 // The motions of four bodies, lane by lane.
 struct WideMotion {
   Wide3 linear, angular;

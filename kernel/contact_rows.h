@@ -8,6 +8,12 @@
 
 namespace rubble {
 
+// An impact has no friction from the substep before to start with. Where the normal impulses rise by
+// more than this share, friction and normals take turns once more: without it a heavy slab squeezes
+// a light wedge out at many times its own speed, though friction would hold it.
+inline constexpr float kImpactRise = 1.0F;
+inline constexpr int kMostRounds = 2;
+
 // Speeds, or the displacement of a step, of one body; padded for loading as two wides.
 struct alignas(16) PaddedMotion {
   Wide linear{}, angular{};  // x y z and a zero

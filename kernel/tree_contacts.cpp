@@ -133,24 +133,37 @@ void TreeContacts::begin_substep(PaddedMotion* speeds, bool first, double weight
   }
 }
 
+void TreeContacts::solve_normals(Item& item, double per_substep, const View& moved, View& view) {
+  for (int i = 0; i < item.rows; ++i) {
+    NormalRow& n = rows_[item.first_row + std::size_t(i)];
+    const double gap = n.gap + relative(item, n.row, moved);
+    const double allowed = std::max(0.0, gap) * per_substep;
+    const double speed = relative(item, n.row, view);
+    const double next = std::max(0.0, n.row.impulse - n.row.mass * (speed + allowed));
+    apply(item, n.row, next - n.row.impulse, view);
+    n.row.impulse = next;
+  }
+}
+
+double TreeContacts::sum_impulses(const Item& item) const {
+  double sum = 0;
+  for (int i = 0; i < item.rows; ++i) sum += rows_[item.first_row + std::size_t(i)].row.impulse;
+  return sum;
+}
+
 void TreeContacts::solve_velocities(double per_substep, const PaddedMotion* moved,
                                     PaddedMotion* speeds) {
   for (Item& item : items_) {
     View view, displaced;
     load(item, speeds, false, view);
     load(item, moved, true, displaced);
-    double pressed = 0;
-    for (int i = 0; i < item.rows; ++i)
-      pressed += rows_[item.first_row + std::size_t(i)].row.impulse;
-    if (item.contact >= 0) solve_friction(item, item.friction * pressed, view);
-    for (int i = 0; i < item.rows; ++i) {
-      NormalRow& n = rows_[item.first_row + std::size_t(i)];
-      const double gap = n.gap + relative(item, n.row, displaced);
-      const double allowed = std::max(0.0, gap) * per_substep;
-      const double speed = relative(item, n.row, view);
-      const double next = std::max(0.0, n.row.impulse - n.row.mass * (speed + allowed));
-      apply(item, n.row, next - n.row.impulse, view);
-      n.row.impulse = next;
+    double pressed = sum_impulses(item);
+    for (int round = 0; round < kMostRounds; ++round) {
+      if (item.contact >= 0) solve_friction(item, item.friction * pressed, view);
+      solve_normals(item, per_substep, displaced, view);
+      const double before = pressed;
+      pressed = sum_impulses(item);
+      if (item.contact < 0 || pressed <= before + before * double(kImpactRise)) break;
     }
     save(item, view, speeds);
   }

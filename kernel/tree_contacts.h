@@ -85,6 +85,8 @@ class TreeContacts {
   void apply(const Item& item, const Row& row, double impulse, View& view) const;
   void push(const Item& item, const Row& row, double impulse, View& view) const;
   void solve_friction(Item& item, double limit, View& view);
+  void solve_normals(Item& item, double per_substep, const View& moved, View& view);
+  double sum_impulses(const Item& item) const;
   void carry_over(Item& item, double weight);
   void give(const std::vector<Body>& bodies, std::int32_t body, const Vec3& torque,
             const Vec3& force);

@@ -230,7 +230,11 @@ void World::Impl::mirror_tree(int tree, const TreePose& pose, const std::vector<
     Body& body = data.bodies[link.body];
     link.linear = calc_com_velocity(pose, i, motions[i]);
     link.angular = motions[i].angular;
-    body.world_from_com = pose.world_from_com[i];
+    const Pose& to = pose.world_from_com[i];
+    const Quat turn = body.world_from_com.rotation.conjugate() * to.rotation;
+    body.travel += distance(body.world_from_com.translation, to.translation) +
+                   2 * norm(Vec3{turn.x, turn.y, turn.z}) * double(body.radius);
+    body.world_from_com = to;
     body.linear = Vec3f(link.linear);
     body.angular = Vec3f(link.angular);
     refresh(body);

@@ -40,9 +40,8 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
   for (std::size_t i = 0; i < pile.pieces.size(); ++i) {
     const PieceState& piece = pile.pieces[i];
     if (piece.status == PieceStatus::lost) continue;
-    scene.instances.push_back({std::uint32_t(piece.type), float(piece.scale),
-                               piece.world_from_body, std::uint32_t(i),
-                               std::uint16_t(kFirstAssetLabel + piece.type)});
+    scene.instances.push_back({std::uint32_t(piece.type), float(piece.scale), piece.world_from_body,
+                               std::uint32_t(i), std::uint16_t(kFirstAssetLabel + piece.type)});
   }
   scene.light = resolve_light(scenario);
   scene.lamp = scenario.lamp;

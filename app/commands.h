@@ -4,7 +4,9 @@
 
 #include <string>
 
+#include "app/batch.h"
 #include "app/run_request.h"
+#include "app/suite.h"
 #include "app/verify.h"
 #include "kernel/base/error.h"
 

@@ -25,8 +25,7 @@ void write_legend(const Run& run, RunFolder& folder) {
   if (!run.scenario.camera.channel_set().label) return;
   std::string text = "label,name\n";
   const std::vector<std::string> names = label_names(run.assets);
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += std::to_string(i) + "," + names[i] + "\n";
+  for (std::size_t i = 0; i < names.size(); ++i) text += std::to_string(i) + "," + names[i] + "\n";
   write_text_file(folder.file("labels.csv"), text);
   folder.add("labels.csv");
 }

@@ -1,9 +1,15 @@
-// The command line: parses, calls one command, turns errors into messages and exit codes.
+// The command line: a table of commands; parses, calls one, turns errors into messages and exit
+// codes.
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <functional>
+#include <memory>
 #include <new>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/build_info.h"
 #include "app/commands.h"
@@ -12,25 +18,39 @@ namespace rubble {
 namespace {
 
 // mission: the name of the option, without dashes: its place is that of an argument.
-void add_mission_options(CLI::App& command, RunRequest& request,
-                         const std::string& mission = "mission") {
-  command.add_option(mission, request.mission, "The mission, a Lua script")->required();
-  command.add_option("--seed", request.seed, "Seed of all randomness; overrides the script's");
-  command.add_option("--set", request.overrides, "Override a key of the mission: key=value")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false)
-      ->take_all();
-  command.add_option("--assets", request.asset_packs, "A further folder with a pack.lua")
-      ->type_name("DIR")
+// A subcommand's request, filled by the parser, and what is done with it.
+using Action = std::function<ExitCode()>;
+using Commands = std::vector<std::pair<CLI::App*, Action>>;
+
+// Options that may be given several times, one value each.
+CLI::Option* add_list(CLI::App& command, const std::string& name, std::vector<std::string>& values,
+                      const std::string& text, const std::string& type) {
+  return command.add_option(name, values, text)
+      ->type_name(type)
       ->allow_extra_args(false)
       ->take_all();
 }
 
+// name: "mission" for an argument, "--mission" for an option.
+void add_mission_options(CLI::App& command, RunRequest& request,
+                         const std::string& name = "mission") {
+  command.add_option(name, request.mission, "The mission, a Lua script")->required();
+  add_list(command, "--set", request.overrides, "Override a key of the mission: key=value",
+           "KEY=VALUE");
+  add_list(command, "--assets", request.asset_packs, "A further folder with a pack.lua", "DIR");
+}
+
+void add_seed_option(CLI::App& command, RunRequest& request) {
+  command.add_option("--seed", request.seed, "Seed of all randomness; overrides the script's");
+}
+
+void add_threads_option(CLI::App& command, int& threads, const std::string& text) {
+  command.add_option("--threads", threads, text)->check(CLI::Range(0, 256));
+}
+
 void add_run_options(CLI::App& command, RunOptions& options) {
-  command
-      .add_option("--threads", options.threads,
-                  "Threads to use; 0: all processors. Results do not depend on it")
-      ->check(CLI::Range(0, 256));
+  add_threads_option(command, options.threads,
+                     "Threads to use; 0: all processors. Results do not depend on it");
   command.add_flag("--quiet", options.quiet, "No progress, only errors");
   command
       .add_option("--checkpoint-every", options.checkpoint_every,
@@ -49,19 +69,18 @@ void add_output_options(CLI::App& command, RunRequest& request) {
 // For commands that begin with the folder of a run.
 void add_folder_options(CLI::App& command, FolderRequest& request) {
   command.add_option("folder", request.folder, "The output folder of a run")->required();
-  command.add_option("--assets", request.asset_packs, "A folder where packs of the run may be now")
-      ->type_name("DIR")
-      ->allow_extra_args(false)
-      ->take_all();
+  add_list(command, "--assets", request.asset_packs, "A folder where packs of the run may be now",
+           "DIR");
   add_run_options(command, request.options);
 }
 
-void add_verify_options(CLI::App& command, VerifyRequest& request) {
-  add_folder_options(command, request.of);
-  command.add_option("--work", request.work, "Where to make the run anew (default: $TMPDIR)")
-      ->type_name("DIR");
-  command.add_flag("--pile-only", request.pile_only, "Settle again, but render nothing");
-  command.add_flag("--json", request.json, "The result as JSON");
+// Of commands that start several runs.
+void add_jobs_options(CLI::App& command, int& jobs, RunOptions& options) {
+  command.add_option("--jobs", jobs, "Runs at once (default: one a processor)")
+      ->check(CLI::Range(0, 1024));
+  add_threads_option(command, options.threads,
+                     "Threads of each run (default: the processors, divided by --jobs)");
+  command.add_flag("--quiet", options.quiet, "No progress, only errors");
 }
 
 void add_void_options(CLI::App& command, VoidRequest& request) {
@@ -99,6 +118,120 @@ void add_trajectory_options(CLI::App& command, TrajectoryRequest& request) {
   command.add_flag("--json", request.json, "The result as JSON");
 }
 
+Action add_run(CLI::App& command) {
+  const auto request = std::make_shared<RunRequest>();
+  add_mission_options(command, *request);
+  add_seed_option(command, *request);
+  add_output_options(command, *request);
+  return [request] { return run_mission(*request); };
+}
+
+Action add_settle(CLI::App& command) {
+  const auto request = std::make_shared<RunRequest>();
+  add_mission_options(command, *request);
+  add_seed_option(command, *request);
+  add_output_options(command, *request);
+  return [request] { return settle_mission(*request); };
+}
+
+Action add_resume(CLI::App& command) {
+  const auto request = std::make_shared<FolderRequest>();
+  add_folder_options(command, *request);
+  return [request] { return resume_run(*request); };
+}
+
+Action add_verify(CLI::App& command) {
+  const auto request = std::make_shared<VerifyRequest>();
+  add_folder_options(command, request->of);
+  command.add_option("--work", request->work, "Where to make the run anew (default: $TMPDIR)")
+      ->type_name("DIR");
+  command.add_flag("--pile-only", request->pile_only, "Settle again, but render nothing");
+  command.add_flag("--json", request->json, "The result as JSON");
+  return [request] { return verify_run(*request); };
+}
+
+Action add_render(CLI::App& command) {
+  const auto request = std::make_shared<RunRequest>();
+  const auto from = std::make_shared<std::string>();
+  command.add_option("folder", *from, "The output folder of the run with the pile")->required();
+  add_mission_options(command, *request, "--mission");
+  add_seed_option(command, *request);
+  add_output_options(command, *request);
+  return [request, from] { return render_saved_pile(*from, *request); };
+}
+
+Action add_voids(CLI::App& command) {
+  const auto of = std::make_shared<FolderRequest>();
+  const auto request = std::make_shared<VoidRequest>();
+  add_folder_options(command, *of);
+  add_void_options(command, *request);
+  return [of, request] { return map_voids(*of, *request); };
+}
+
+Action add_eval(CLI::App& command) {
+  command.require_subcommand(1);
+  const auto request = std::make_shared<TrajectoryRequest>();
+  add_trajectory_options(
+      *command.add_subcommand("trajectory", "Absolute and relative errors of a trajectory, as evo's"),
+      *request);
+  return [request] { return eval_trajectory(*request); };
+}
+
+Action add_batch(CLI::App& command) {
+  const auto request = std::make_shared<BatchRequest>();
+  add_mission_options(command, request->of);
+  command.add_option("--seeds", request->seeds, "The seeds, as in 1..1000 or 3,5,9")->required();
+  command.add_option("--shard", request->shard, "Only part I of N, for one of N machines")
+      ->type_name("I/N");
+  command.add_flag("--pile-only", request->pile_only, "Settle the piles, render nothing");
+  command.add_option("--out", request->of.out, "Output folder (default: out/<script>_batch)")
+      ->type_name("DIR");
+  command.add_flag("--force", request->of.force, "Begin although the disk looks too small");
+  add_jobs_options(command, request->jobs, request->of.options);
+  return [request] { return run_batch(*request); };
+}
+
+Action add_suite(CLI::App& command) {
+  const auto request = std::make_shared<SuiteRequest>();
+  command.add_option("suite", request->suite, "The suite, a Lua script")->required();
+  command.add_option("--out", request->out, "Output folder (default: out/<name of the suite>)")
+      ->type_name("DIR");
+  command.add_option("--junit", request->junit, "Write the results as JUnit XML")
+      ->type_name("FILE");
+  command.add_flag("--update", request->update, "Take the hashes of this run as the golden ones");
+  add_list(command, "--only", request->only, "Only the runs of that name", "NAME");
+  add_jobs_options(command, request->jobs, request->options);
+  return [request] { return run_suite(*request); };
+}
+
+Action add_check(CLI::App& command) {
+  const auto request = std::make_shared<RunRequest>();
+  add_mission_options(command, *request);
+  add_seed_option(command, *request);
+  return [request] { return check_mission(*request); };
+}
+
+Action add_info(CLI::App&) { return print_info; }
+
+struct CommandEntry {
+  const char* name;
+  const char* text;
+  Action (*add)(CLI::App&);
+};
+
+const CommandEntry kCommands[] = {
+    {"run", "Run a mission to a finished dataset", add_run},
+    {"settle", "Settle the pile of a mission, nothing more", add_settle},
+    {"resume", "Continue a run that was stopped or killed", add_resume},
+    {"verify", "Run again from the manifest alone, and compare every hash", add_verify},
+    {"render", "Another mission's flight over the pile of a finished run", add_render},
+    {"voids", "Map the voids of a run's pile: entrances, volumes, widest ways", add_voids},
+    {"eval", "Score what others made of a dataset", add_eval},
+    {"batch", "One mission with many seeds, and a table of them", add_batch},
+    {"suite", "Many missions with what is expected of them, for CI", add_suite},
+    {"check", "Print the complete scenario as JSON; run nothing", add_check},
+    {"info", "Print versions, the GL renderer and threads", add_info}};
+
 ExitCode run(int argc, char** argv) {
   CLI::App app{
       "Simulates collapsed structures: a seed and a Lua mission give a settled pile, a "
@@ -108,51 +241,18 @@ ExitCode run(int argc, char** argv) {
       "a signal, 5 not the same.");
   app.set_version_flag("--version", "rubble " + build_info().version);
   app.require_subcommand(1);
-
-  RunRequest request;
-  FolderRequest of_folder;
-  VerifyRequest to_verify;
-  std::string from;
-  CLI::App* run = app.add_subcommand("run", "Run a mission to a finished dataset");
-  CLI::App* settle = app.add_subcommand("settle", "Settle the pile of a mission, nothing more");
-  CLI::App* resume = app.add_subcommand("resume", "Continue a run that was stopped or killed");
-  CLI::App* verify =
-      app.add_subcommand("verify", "Run again from the manifest alone, and compare every hash");
-  CLI::App* render =
-      app.add_subcommand("render", "Another mission's flight over the pile of a finished run");
-  VoidRequest void_request;
-  CLI::App* voids =
-      app.add_subcommand("voids", "Map the voids of a run's pile: entrances, volumes, widest ways");
-  TrajectoryRequest trajectory_request;
-  CLI::App* eval = app.add_subcommand("eval", "Score what others made of a dataset");
-  eval->require_subcommand(1);
-  CLI::App* trajectory =
-      eval->add_subcommand("trajectory", "Absolute and relative errors of a trajectory, as evo's");
-  add_trajectory_options(*trajectory, trajectory_request);
-  CLI::App* check = app.add_subcommand("check", "Print the complete scenario as JSON; run nothing");
-  CLI::App* info = app.add_subcommand("info", "Print versions, the GL renderer and threads");
-  for (CLI::App* command : {run, settle, check}) add_mission_options(*command, request);
-  render->add_option("folder", from, "The output folder of the run with the pile")->required();
-  add_mission_options(*render, request, "--mission");
-  for (CLI::App* command : {run, settle, render}) add_output_options(*command, request);
-  add_verify_options(*verify, to_verify);
-  for (CLI::App* command : {resume, voids}) add_folder_options(*command, of_folder);
-  add_void_options(*voids, void_request);
-
+  Commands commands;
+  for (const CommandEntry& entry : kCommands) {
+    CLI::App* const command = app.add_subcommand(entry.name, entry.text);
+    commands.emplace_back(command, entry.add(*command));
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
   }
-  if (*run) return run_mission(request);
-  if (*settle) return settle_mission(request);
-  if (*verify) return verify_run(to_verify);
-  if (*resume) return resume_run(of_folder);
-  if (*render) return render_saved_pile(from, request);
-  if (*voids) return map_voids(of_folder, void_request);
-  if (*trajectory) return eval_trajectory(trajectory_request);
-  if (*check) return check_mission(request);
-  if (*info) return print_info();
+  for (const auto& [command, action] : commands)
+    if (*command) return action();
   return ExitCode::bad_input;
 }
 

@@ -26,6 +26,25 @@ double most_of(std::vector<double> squared_distances) {
 
 }  // namespace
 
+const std::vector<std::pair<std::string, std::string>>& metric_names() {
+  static const std::vector<std::pair<std::string, std::string>> names{
+      {"pieces", "Pieces that were dropped or placed."},
+      {"pieces_lost", "Of them, those that left the world."},
+      {"pieces_moving", "Of them, those that still moved at the end."},
+      {"settled", "1: the pile came to rest; 0: the time limit came first."},
+      {"simulated_s", "How long it took to settle, in simulation time."},
+      {"pile_height_m", "Highest point of all pieces but the lost ones."},
+      {"pile_radius_m", "Of the circle about the Z axis with the origins of 95 % of what fell."},
+      {"piece_volume_m3", "Volume of all pieces together."},
+      {"frames", "Frames of the flight."},
+      {"path_m", "Length of the flight."},
+      {"depth_min_m", "Least depth of all pixels of all frames."},
+      {"depth_mean_m", "Mean depth of all pixels that have one."},
+      {"depth_max_m", "Largest depth."},
+      {"depth_none_share", "Share of pixels without a return, 0 to 1."}};
+  return names;
+}
+
 void add_pile_metrics(const PileState& pile, const AssetLibrary& assets, Metrics& metrics) {
   double height = 0, volume = 0, moving = 0;
   std::vector<double> squared;

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/asset_library.h"
 #include "kernel/pile_state.h"
@@ -14,14 +16,13 @@ namespace rubble {
 // Name to value; the unit is the last word of the name. The same bits for the same dataset.
 using Metrics = std::map<std::string, double>;
 
-// "pile_height_m": highest point of all pieces but the lost; "pile_radius_m": of the smallest
-// circle about the Z axis that holds the origins of 95 % of the pieces that were dropped;
-// "piece_volume_m3": of all of them together; "pieces", "pieces_lost", "pieces_moving", "settled"
-// (1 or 0), "simulated_s".
+// Every name there is, with a line that says what it means.
+const std::vector<std::pair<std::string, std::string>>& metric_names();
+
+// Those of the pile.
 void add_pile_metrics(const PileState& pile, const AssetLibrary& assets, Metrics& metrics);
 
-// Depth over all frames: "frames", "depth_min_m", "depth_mean_m", "depth_max_m", and
-// "depth_none_share", the share of pixels without a return; "path_m", the length of the flight.
+// Those of the flight and of the depth over all its frames.
 class DepthMetrics {
  public:
   void add(const Frame& frame);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/folder_lock.h"
 #include "io/atomic_file.h"
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
@@ -47,6 +48,11 @@ void remove_empty_folders(const std::string& folder, const std::vector<std::stri
   }
 }
 
+std::shared_ptr<const FolderLock> lock_run(const std::string& folder) {
+  return std::make_shared<const FolderLock>(folder + "/unfinished/lock", FolderLock::Wait::briefly,
+                                            "another process is at work on this run");
+}
+
 }  // namespace
 
 bool is_unfinished(const std::string& folder) {
@@ -59,7 +65,10 @@ RunFolder RunFolder::create(const std::string& path, bool force) {
     throw InputError({path, 0, "", "an unfinished run is in the output folder", "", "",
                       "`rubble resume " + path + "` continues it; --force starts anew"});
   std::error_code failed;
-  if (fs::is_directory(path + "/unfinished", failed)) remove_unfinished(path);
+  if (fs::is_directory(path + "/unfinished", failed)) {
+    lock_run(path);
+    remove_unfinished(path);
+  }
   const std::vector<std::string> files = force ? files_of_earlier_run(path) : kUsualFiles;
   prepare_output_folder(path, force, files);
   remove_empty_folders(path, files);
@@ -67,7 +76,11 @@ RunFolder RunFolder::create(const std::string& path, bool force) {
 }
 
 RunFolder RunFolder::open_unfinished(const std::string& path) {
-  if (is_unfinished(path)) return RunFolder(path);
+  if (is_unfinished(path)) {
+    RunFolder folder(path);
+    folder.lock_ = lock_run(path);
+    return folder;
+  }
   std::error_code failed;
   if (!fs::is_directory(path, failed))
     throw InputError({path, 0, "", "no such folder", "the output folder of a run", "", ""});
@@ -83,10 +96,11 @@ bool RunFolder::has(const std::string& name) const {
   return fs::exists(file(name), failed);
 }
 
-void RunFolder::begin(const std::string& run_json) const {
+void RunFolder::begin(const std::string& run_json) {
   std::error_code error;
   fs::create_directories(file("unfinished"), error);
   if (error) throw RunError("cannot create " + file("unfinished") + ": " + error.message());
+  if (!lock_) lock_ = lock_run(path_);
   write_text_file(run_file(), run_json);
 }
 

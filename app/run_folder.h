@@ -8,17 +8,21 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace rubble {
+
+class FolderLock;
 
 class RunFolder {
  public:
   // For a new run. Creates the folder. Throws InputError when an unfinished run or anything else is
   // in it, unless `force`: then the files of that run are removed, and nothing else.
   static RunFolder create(const std::string& path, bool force);
-  // For going on with an unfinished one. Throws InputError when there is none.
+  // For going on with an unfinished one. Throws InputError when there is none, or when another
+  // process is at work in it.
   static RunFolder open_unfinished(const std::string& path);
 
   const std::string& path() const { return path_; }
@@ -29,7 +33,7 @@ class RunFolder {
   std::string frames_file() const { return file("unfinished/frames.txt"); }
 
   // Marks the folder as that of an unfinished run, until finish(). run_json: what is being run.
-  void begin(const std::string& run_json) const;
+  void begin(const std::string& run_json);
   void finish() const;
 
   // Records a file that is complete; of a folder, every file in it.
@@ -40,6 +44,7 @@ class RunFolder {
   explicit RunFolder(std::string path) : path_(std::move(path)) {}
 
   std::string path_;
+  std::shared_ptr<const FolderLock> lock_;     // while the run is not finished
   std::map<std::string, std::string> hashes_;  // name to SHA-256
 };
 

@@ -1,0 +1,74 @@
+// index.csv: the figures of every seed.
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "app/batch.h"
+#include "app/batch_folder.h"
+#include "app/manifest.h"
+#include "io/atomic_file.h"
+#include "scripting/value.h"
+
+namespace rubble {
+namespace {
+
+struct Row {
+  std::uint64_t seed = 0;
+  SeedState state = SeedState::missing;
+  std::string state_hash;
+  std::uint64_t bytes = 0;  // of the files that the manifest names
+  std::map<std::string, double> metrics;
+};
+
+const char* name_of(const Row& row) {
+  if (row.state == SeedState::failed) return "failed";
+  if (row.state != SeedState::done) return "missing";
+  const auto settled = row.metrics.find("settled");
+  return settled != row.metrics.end() && settled->second == 0 ? "did_not_settle" : "done";
+}
+
+Row make_row(const BatchFolder& folder, std::uint64_t seed) {
+  Row row;
+  row.seed = seed;
+  row.state = folder.state_of(seed);
+  if (row.state != SeedState::done) return row;
+  const std::string path = folder.of_seed(seed) + "/manifest.json";
+  const Manifest manifest = manifest_from_json(read_whole_file(path), path);
+  row.state_hash = manifest.pile.state_hash;
+  row.metrics = manifest.metrics;
+  std::error_code failed;
+  for (const auto& item : manifest.outputs) {
+    const auto size = std::filesystem::file_size(folder.of_seed(seed) + "/" + item.first, failed);
+    if (!failed) row.bytes += size;
+  }
+  return row;
+}
+
+std::string format_row(const Row& row, const std::set<std::string>& columns) {
+  std::string line = std::to_string(row.seed) + "," + name_of(row) + "," + row.state_hash + ",";
+  if (row.state == SeedState::done) line += std::to_string(row.bytes);
+  for (const std::string& column : columns) {
+    const auto found = row.metrics.find(column);
+    line += "," + (found == row.metrics.end() ? "" : format_number(found->second));
+  }
+  return line + "\n";
+}
+
+}  // namespace
+
+std::string make_batch_index(const std::string& path, const std::vector<std::uint64_t>& seeds) {
+  const BatchFolder folder(path);
+  std::vector<Row> rows;
+  std::set<std::string> columns;
+  for (const std::uint64_t seed : seeds) {
+    rows.push_back(make_row(folder, seed));
+    for (const auto& metric : rows.back().metrics) columns.insert(metric.first);
+  }
+  std::string text = "seed,status,state_hash,bytes";
+  for (const std::string& column : columns) text += "," + column;
+  text += "\n";
+  for (const Row& row : rows) text += format_row(row, columns);
+  return text;
+}
+
+}  // namespace rubble

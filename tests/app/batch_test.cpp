@@ -1,0 +1,100 @@
+// Many seeds: the same table whatever was killed, sharded or run at once; failures stay alone.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+#define EXPECT_IN(part, text) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+class Batch : public ::testing::Test {
+ protected:
+  void SetUp() override { write_file(scratch / "tiny.lua", kTinyMission); }
+
+  // Piles alone: that is where the seeds differ.
+  std::string batch(const std::string& out, const std::string& seeds,
+                    const std::string& more = "") {
+    return "batch " + (scratch / "tiny.lua") + " --pile-only --set outputs.stl=false --seeds " +
+           seeds + " --out " + (scratch / out) + " " + more;
+  }
+  std::string index(const std::string& out) { return read_file(scratch / (out + "/index.csv")); }
+
+  ScratchFolder scratch;
+};
+
+TEST_F(Batch, GivesTheSameIndexWhateverTheJobsTheShardsAndTheKills) {
+  const Outcome whole = run_rubble(batch("whole", "1..6", "--jobs 1"));
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_IN("6 runs to do, 0 done before; estimated ", whole.err);
+  EXPECT_IN("\n6,done,", index("whole"));
+  EXPECT_EQ(index("whole").rfind("seed,status,state_hash,bytes,", 0), 0u);
+
+  run_rubble_and_signal(batch("parts", "1..6", "--shard 3/3"), 0.6, SIGKILL);
+  const Outcome stopped =
+      run_rubble_and_signal(batch("parts", "1..6", "--shard 1/3"), 0.6, SIGTERM);
+  EXPECT_TRUE(stopped.exit_code == 4 || stopped.exit_code == 0) << stopped.err;
+  for (const char* shard : {"3/3", "1/3"})
+    EXPECT_EQ(
+        run_rubble(batch("parts", "1..6", std::string("--jobs 2 --shard ") + shard)).exit_code, 0);
+  EXPECT_NE(index("parts"), index("whole"));
+  EXPECT_EQ(run_rubble(batch("parts", "1..6", "--shard 2/3")).exit_code, 0);
+  EXPECT_EQ(index("parts"), index("whole"));
+
+  const Outcome again = run_rubble(batch("whole", "1..6"));
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_IN("0 runs to do, 6 done before", again.err);
+}
+
+TEST_F(Batch, KeepsAFailureToItself) {
+  fs::create_directories(scratch / "a");
+  write_file(scratch / "a/seed_2", "taken by something else");
+  const Outcome batch_run = run_rubble(batch("a", "1..3"));
+  EXPECT_EQ(batch_run.exit_code, 2) << batch_run.err;
+  EXPECT_IN("seed 2 failed", batch_run.err);
+  EXPECT_IN("is not a folder", batch_run.err);
+  EXPECT_IN("is not a folder", read_file(scratch / "a/failed/seed_2.log"));
+  EXPECT_IN("\n2,failed,,", index("a"));
+  EXPECT_IN("\n3,done,", index("a"));
+  fs::remove(scratch / "a/seed_2");
+  EXPECT_EQ(run_rubble(batch("a", "1..3")).exit_code, 0);
+  EXPECT_FALSE(fs::exists(scratch / "a/failed/seed_2.log"));
+  EXPECT_IN("\n2,done,", index("a"));
+}
+
+TEST_F(Batch, RefusesAnotherBatchInTheSameFolder) {
+  ASSERT_EQ(run_rubble(batch("a", "1")).exit_code, 0);
+  const Outcome other = run_rubble(batch("a", "1", "--set pile.layers=1"));
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_IN("another batch is in the output folder", other.err);
+  EXPECT_EQ(run_rubble(batch("a", "1..2")).exit_code, 1);
+}
+
+TEST_F(Batch, AsksForRoomBeforeItBegins) {
+  const std::string huge = "batch " + (scratch / "tiny.lua") + " --seeds 1..1000 --out " +
+                           (scratch / "a") +
+                           " --set camera.width=8192 --set camera.height=8192"
+                           " --set trajectory.rate_hz=1000";
+  const Outcome refused = run_rubble(huge);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_IN("the disk is too small for this batch", refused.err);
+  EXPECT_IN("--force", refused.err);
+  EXPECT_FALSE(fs::exists(scratch / "a/seed_1"));
+}
+
+TEST_F(Batch, RefusesSeedsAndShardsThatAreNone) {
+  for (const char* seeds : {"5..1", "1..", "a", "1,,2", "''", "-1", "99999999999999999999"})
+    EXPECT_EQ(run_rubble(batch("a", seeds)).exit_code, 1) << seeds;
+  for (const char* shard : {"0/2", "3/2", "1", "1/0", "x/y"}) {
+    const Outcome refused = run_rubble(batch("a", "1", std::string("--shard ") + shard));
+    EXPECT_EQ(refused.exit_code, 1) << shard;
+    EXPECT_IN("I/N with 1 <= I <= N", refused.err);
+  }
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -1,0 +1,116 @@
+// Suites: golden hashes, limits of metrics, and reports that CI servers read.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+#define EXPECT_IN(part, text) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+class Suite : public ::testing::Test {
+ protected:
+  void SetUp() override { write_file(scratch / "tiny.lua", kTinyMission); }
+
+  // A suite of one pile with these further members.
+  void write_suite(const std::string& members) {
+    write_file(scratch / "s.lua",
+               "return suite { runs = {\n  { name = \"one\", mission = "
+               "\"tiny.lua\", pile_only = true, " +
+                   members + " },\n} }\n");
+  }
+  Outcome run(const std::string& more = "") {
+    return run_rubble("suite " + (scratch / "s.lua") + " --out " + (scratch / "out") + " " + more);
+  }
+
+  ScratchFolder scratch;
+};
+
+TEST_F(Suite, HoldsRunsToTheirGoldenHashesAndTakesNewOnesOnRequest) {
+  write_suite("seeds = \"1..2\"");
+  const Outcome none = run();
+  EXPECT_EQ(none.exit_code, 5) << none.err;
+  EXPECT_IN("--update takes them", none.out);
+  const Outcome taken = run("--update");
+  EXPECT_EQ(taken.exit_code, 0) << taken.out << taken.err;
+  EXPECT_IN("\n+ one/seed_1 state_hash ", taken.out);
+  const Outcome same = run();
+  EXPECT_EQ(same.exit_code, 0) << same.out;
+  EXPECT_IN("2 of 2 passed", same.out);
+
+  // The control: another pile is another hash.
+  write_suite("seeds = \"1..2\", set = { \"settle.gravity=9.8\" }");
+  const Outcome other = run();
+  EXPECT_EQ(other.exit_code, 5);
+  EXPECT_IN("instead of", other.out);
+  const Outcome diff = run("--update");
+  EXPECT_IN("\n- one/seed_2 state_hash ", diff.out);
+  EXPECT_IN("\n+ one/seed_2 state_hash ", diff.out);
+  EXPECT_EQ(run().exit_code, 0);
+}
+
+TEST_F(Suite, HoldsMetricsToTheirLimits) {
+  write_suite("golden = \"none\", expect = { pieces = { 16, 16 }, pile_height_m = { 0.05, 1 } }");
+  EXPECT_EQ(run().exit_code, 0);
+  write_suite("golden = \"none\", expect = { pieces = { 17, 20 }, frames = { 1, 9 } }");
+  const Outcome outside = run();
+  EXPECT_EQ(outside.exit_code, 5);
+  EXPECT_IN("pieces is 16, not from 17 to 20", outside.out);
+  EXPECT_IN("frames is expected, but this run has none", outside.out);
+  write_suite("golden = \"none\", set = { \"settle.final_time_limit=0.1\" }");
+  EXPECT_IN("the pile did not settle", run().out);
+}
+
+// Read by Python's XML parser and by libxml2, with names and texts that XML must escape.
+TEST_F(Suite, WritesJUnitThatOthersRead) {
+  write_file(scratch / "s.lua",
+             "return suite { runs = {\n"
+             "  { name = \"good\", mission = \"tiny.lua\", pile_only = true, golden = \"none\" },\n"
+             "  { name = \"a<b & \\\"c\\\"\\1\", mission = \"tiny.lua\", pile_only = true, golden "
+             "= \"none\","
+             " expect = { pieces = { 0, 1 } } },\n"
+             "  { name = \"gone\", mission = \"]]>.lua\", golden = \"none\" },\n"
+             "} }\n");
+  const std::string report = scratch / "report.xml";
+  const Outcome outcome = run("--junit " + report);
+  EXPECT_EQ(outcome.exit_code, 5) << outcome.err;
+  EXPECT_EQ(std::system(("xmllint --noout '" + report + "'").c_str()), 0);
+  write_file(
+      scratch / "read.py",
+      "import sys, xml.etree.ElementTree as E\n"
+      "s = E.parse(sys.argv[1]).getroot().find('testsuite')\n"
+      "assert (s.get('tests'), s.get('failures'), s.get('errors')) == ('3', '1', '1'), s.attrib\n"
+      "c = s.findall('testcase')\n"
+      "assert [x.get('name') for x in c] == ['good', 'a<b & \"c\"?', 'gone'], [x.get('name') for x "
+      "in c]\n"
+      "assert len(c[0]) == 0\n"
+      "assert c[1].find('failure').get('message') == 'pieces is 16, not from 0 to 1'\n"
+      "assert 'no such file' in c[2].find('error').text\n");
+  EXPECT_EQ(
+      std::system(("/usr/bin/python3 '" + (scratch / "read.py") + "' '" + report + "'").c_str()), 0)
+      << read_file(report);
+}
+
+TEST_F(Suite, NamesMistakesWithTheirLines) {
+  write_suite("expect = { pile_hight_m = { 0, 1 } }");
+  const Outcome mistake = run();
+  EXPECT_EQ(mistake.exit_code, 1);
+  EXPECT_IN("s.lua:2: runs[1].expect.pile_hight_m: unknown key", mistake.err);
+  EXPECT_IN("did you mean `pile_height_m`", mistake.err);
+  write_suite("seeds = \"9..1\"");
+  EXPECT_IN("runs[1].seeds: not a list of seeds", run().err);
+  write_suite("golden = \"none\"");
+  EXPECT_IN("did you mean `one`", run("--only ome").err);
+}
+
+TEST_F(Suite, OursPasses) {
+  const Outcome ours = run_rubble("suite scripts/ci/suite.lua --out " + (scratch / "out"));
+  EXPECT_EQ(ours.exit_code, 0) << ours.out << ours.err;
+  EXPECT_IN("5 of 5 passed", ours.out);
+}
+
+}  // namespace
+}  // namespace rubble::testing

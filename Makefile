@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages build demo pictures test test-asan test-tsan determinism format clean
+.PHONY: help packages build demo pictures test test-nightly test-asan test-tsan determinism format clean
 
 PROGRAM := build/release/rubble
 CTEST   := ctest --output-on-failure --parallel 2
@@ -10,6 +10,7 @@ help:
 	@echo "make demo       install what is missing, build, and run scripts/first_pile.lua"
 	@echo "make test       install what is missing, build, and run the test suite"
 	@echo "make build      build the release preset alone: $(PROGRAM)"
+	@echo "make test-nightly  the tests that take long, or need a cluster of one node"
 	@echo "make test-asan  the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
 	@echo "make test-tsan  the suite under ThreadSanitizer"
 	@echo "make determinism  the same hashes from other compilers, levels and processors (half an hour)"
@@ -34,11 +35,15 @@ pictures: demo
 	tools/frames_of_bag.py out/first_pile/mission.bag docs/pictures/first_pile.png 341 0 55 118
 
 test: build
-	$(CTEST) --preset release
+	$(CTEST) --preset release --label-exclude nightly
+
+test-nightly: build
+	@tools/install_packages.sh tools/packages-nightly.txt
+	$(CTEST) --preset release --label-regex nightly
 
 test-asan test-tsan: test-%: packages build/%/build.ninja
 	cmake --build --preset $*
-	$(CTEST) --preset $* --label-exclude slow
+	$(CTEST) --preset $* --label-exclude "slow|nightly"
 
 # Not part of any suite: it installs compilers and builds the kernel fifteen times.
 determinism: packages

@@ -48,7 +48,6 @@ class Batch {
     folder_.open(describe());
     make_jobs();
     check_disk(estimate_, "estimated");
-    stop_on_signals();
     progress_.start("batch");
     run_jobs(jobs_, shape_.at_once,
              [this](std::size_t i, const JobResult& result) { return note(i, result); });
@@ -205,6 +204,9 @@ class Batch {
 
 }  // namespace
 
-ExitCode run_batch(const BatchRequest& request) { return Batch(request).run(); }
+ExitCode run_batch(const BatchRequest& request) {
+  stop_on_signals();
+  return Batch(request).run();
+}
 
 }  // namespace rubble

@@ -10,7 +10,6 @@
 #include "app/json_members.h"
 #include "app/manifest.h"
 #include "app/saved_run.h"
-#include "app/stop.h"
 #include "io/atomic_file.h"
 
 namespace rubble {
@@ -137,7 +136,6 @@ void write_manifest(const Run& run, RunFolder& folder) {
 }
 
 ExitCode complete(Run& run, RunFolder& folder) {
-  stop_on_signals();
   folder.begin(describe_unfinished(run));
   try {
     settle(run, folder);

@@ -4,6 +4,7 @@
 #include "app/commands.h"
 #include "app/run.h"
 #include "app/saved_run.h"
+#include "app/stop.h"
 #include "io/pile_state_file.h"
 
 namespace rubble {
@@ -15,6 +16,7 @@ std::string choose_output(const RunRequest& request) {
 }
 
 ExitCode run_to_folder(const RunRequest& request, RunKind kind) {
+  stop_on_signals();
   Run run = start_run(request, kind);
   RunFolder folder = RunFolder::create(choose_output(request), request.force);
   return complete(run, folder);
@@ -29,6 +31,7 @@ ExitCode settle_mission(const RunRequest& request) {
 }
 
 ExitCode render_saved_pile(const std::string& from, const RunRequest& request) {
+  stop_on_signals();
   const SavedRun saved = open_saved_run(from);
   const PileState pile = load_pile_of(saved);
   Run run = start_render(request, saved);
@@ -43,6 +46,7 @@ ExitCode render_saved_pile(const std::string& from, const RunRequest& request) {
 }
 
 ExitCode resume_run(const FolderRequest& request) {
+  stop_on_signals();
   RunFolder folder = RunFolder::open_unfinished(request.folder);
   Run run = continue_run(request.options, folder, request.asset_packs);
   return complete(run, folder);

@@ -37,7 +37,9 @@ TEST_F(Batch, GivesTheSameIndexWhateverTheJobsTheShardsAndTheKills) {
   run_rubble_and_signal(batch("parts", "1..6", "--shard 3/3"), 0.6, SIGKILL);
   const Outcome stopped =
       run_rubble_and_signal(batch("parts", "1..6", "--shard 1/3"), 0.6, SIGTERM);
-  EXPECT_TRUE(stopped.exit_code == 4 || stopped.exit_code == 0) << stopped.err;
+  // 143: it had not come as far as to listen.
+  EXPECT_TRUE(stopped.exit_code == 4 || stopped.exit_code == 0 || stopped.exit_code == 143)
+      << stopped.exit_code << stopped.err;
   for (const char* shard : {"3/3", "1/3"})
     EXPECT_EQ(
         run_rubble(batch("parts", "1..6", std::string("--jobs 2 --shard ") + shard)).exit_code, 0);

@@ -96,6 +96,7 @@ void render_frames(Run& run, RunFolder& folder) {
 
   run.progress.start("render");
   RecorderSet set = make_recorders(run.scenario.outputs, camera.frames(), title(run), folder);
+  folder.expect(set.names);
   RecordingQueue queue(std::move(set.recorders));
   take_frames(camera, queue, run, folder);
   run.progress.finish(std::to_string(camera.frames()) + " frames");

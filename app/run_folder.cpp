@@ -1,6 +1,7 @@
 #include "app/run_folder.h"
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "app/folder_lock.h"
@@ -14,21 +15,27 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// What a run may leave before it has a manifest.
-const std::vector<std::string> kUsualFiles{"mission.rawlog",  "mission.bag",  "mission.mcap",
-                                           "pile.stl",        "pile.bin",     "preview.png",
-                                           "groundtruth.txt", "manifest.json"};
+constexpr const char* kFileList = "/unfinished/files.txt";
 
-// The files of the run that was here, as far as its manifest can be read.
+// What runs leave; the manifest comes first, for without it nothing else is taken for whole.
+const std::vector<std::string> kUsualFiles{"manifest.json", "mission.rawlog",  "mission.bag",
+                                           "mission.mcap",  "pile.stl",        "pile.bin",
+                                           "preview.png",   "groundtruth.txt", "labels.csv"};
+
+bool is_inside(const fs::path& name) { return !name.is_absolute() && *name.begin() != ".."; }
+
+// The files of the run that was here, as far as its manifest and its list can be read.
 std::vector<std::string> files_of_earlier_run(const std::string& folder) {
   std::vector<std::string> files = kUsualFiles;
+  std::ifstream list(folder + kFileList);
+  for (std::string name; std::getline(list, name);)
+    if (!name.empty() && is_inside(name)) files.push_back(name);
   if (!fs::is_regular_file(folder + "/manifest.json")) return files;
   const Json manifest = Json::parse(read_whole_file(folder + "/manifest.json"), nullptr, false);
   if (!manifest.is_object() || !manifest.contains("outputs")) return files;
   for (const auto& item : manifest["outputs"].items()) {
     const fs::path name = fs::path(item.key()).lexically_normal();
-    if (name.is_absolute() || *name.begin() == "..") continue;  // not ours, whatever it says
-    files.push_back(name.string());
+    if (is_inside(name)) files.push_back(name.string());  // otherwise not ours, whatever it says
   }
   return files;
 }
@@ -65,12 +72,12 @@ RunFolder RunFolder::create(const std::string& path, bool force) {
     throw InputError({path, 0, "", "an unfinished run is in the output folder", "", "",
                       "`rubble resume " + path + "` continues it; --force starts anew"});
   std::error_code failed;
-  if (fs::is_directory(path + "/unfinished", failed)) {
-    lock_run(path);
-    remove_unfinished(path);
-  }
+  const bool left = fs::is_directory(path + "/unfinished", failed);
+  if (left) lock_run(path);
+  if (left && !force) remove_unfinished(path);
   const std::vector<std::string> files = force ? files_of_earlier_run(path) : kUsualFiles;
   prepare_output_folder(path, force, files);
+  if (left && force) remove_unfinished(path);
   remove_empty_folders(path, files);
   return RunFolder(path);
 }
@@ -102,6 +109,11 @@ void RunFolder::begin(const std::string& run_json) {
   if (error) throw RunError("cannot create " + file("unfinished") + ": " + error.message());
   if (!lock_) lock_ = lock_run(path_);
   write_text_file(run_file(), run_json);
+}
+
+void RunFolder::expect(const std::vector<std::string>& names) const {
+  std::ofstream list(path_ + kFileList, std::ios::app);
+  for (const std::string& name : names) list << name << '\n';
 }
 
 // run.json goes first: without it nothing is unfinished.

@@ -3,6 +3,7 @@
 //   DIR/unfinished/run.json           what is being run: written first, removed last
 //   DIR/unfinished/settle.checkpoint  where settling was a few seconds ago
 //   DIR/unfinished/frames.txt         hashes of the frames that were rendered
+//   DIR/unfinished/files.txt          names of the files that it writes
 //   DIR/pile.bin, ...                 a file has its final name when it is complete
 //   DIR/manifest.json                 written when all the others are there
 #pragma once
@@ -35,6 +36,8 @@ class RunFolder {
   // Marks the folder as that of an unfinished run, until finish(). run_json: what is being run.
   void begin(const std::string& run_json);
   void finish() const;
+  // Notes files that are about to be written, so that --force finds them whatever happens.
+  void expect(const std::vector<std::string>& names) const;
 
   // Records a file that is complete; of a folder, every file in it.
   void add(const std::string& name);

@@ -1,6 +1,7 @@
 #include "app/build_scene.h"
 
 #include "kernel/base/portable_math.h"
+#include "render/looks.h"
 
 namespace rubble {
 namespace {
@@ -73,13 +74,20 @@ std::vector<std::string> label_names(const AssetLibrary& assets) {
   return names;
 }
 
-std::vector<MeshInstance> build_mesh_instances(const AssetLibrary& assets, const PileState& pile) {
-  std::vector<MeshInstance> instances;
-  for (const PieceState& piece : pile.pieces)
-    if (piece.status != PieceStatus::lost)
-      instances.push_back({&assets.meshes[std::size_t(piece.type)]->levels.front(), piece.scale,
-                           piece.world_from_body});
-  return instances;
+PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile) {
+  PileModel model;
+  for (std::size_t i = 0; i < assets.types.size(); ++i)
+    model.types.push_back({assets.types[i].name, &assets.meshes[i]->levels.front()});
+  for (std::size_t i = 0; i < pile.pieces.size(); ++i) {
+    const PieceState& piece = pile.pieces[i];
+    if (piece.status == PieceStatus::lost) continue;
+    model.pieces.push_back({std::uint32_t(piece.type),
+                            piece_name(assets.types[std::size_t(piece.type)].name, i), piece.scale,
+                            piece.world_from_body});
+  }
+  for (const Look& look : all_looks())
+    model.looks.push_back({look.name, (look.dark + look.light) * 0.5f});
+  return model;
 }
 
 }  // namespace rubble

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/asset_library.h"
-#include "io/mesh_file.h"
+#include "io/pile_model.h"
 #include "kernel/pile_state.h"
 #include "render/scene.h"
 #include "scripting/scenario.h"
@@ -24,7 +24,7 @@ CameraSpec build_camera(const Scenario& scenario, int threads);
 // The legend of Frame::label: the name of each class, by its number.
 std::vector<std::string> label_names(const AssetLibrary& assets);
 
-// The same pieces at full detail, for pile.stl.
-std::vector<MeshInstance> build_mesh_instances(const AssetLibrary& assets, const PileState& pile);
+// The same pieces at full detail, with names and plain colours, for the exports. Refers to `assets`.
+PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile);
 
 }  // namespace rubble

@@ -15,6 +15,7 @@
 #include "render/gl_context.h"
 #include "render/renderer.h"
 #include "render/sensors/camera.h"
+#include "scripting/imu.h"
 #include "scripting/trajectory.h"
 
 namespace rubble {
@@ -65,13 +66,22 @@ Flight plan_flight(const Scenario& scenario) {
   return flight;
 }
 
+double seconds_since(const Scenario& scenario, std::int64_t stamp_ns) {
+  return double(stamp_ns - scenario.start_ns) * 1e-9;
+}
+
 // Takes every frame in order, notes its hashes, and hands it to the recorders.
 void take_frames(Camera& camera, RecordingQueue& queue, Run& run, const RunFolder& folder) {
   FrameJournal journal(folder.frames_file());
+  const CameraPath path(run.scenario.trajectory);
+  Imu imu(path, run.scenario.imu.model, run.scenario.settle.gravity, run.scenario.seed,
+          run.scenario.start_ns);
   DepthMetrics depth;
   for (int i = 0; i < camera.frames(); ++i) {
     throw_if_stopped(folder.path());
     Frame frame = camera.take(i);
+    frame.linear_velocity = path.motion_at(seconds_since(run.scenario, frame.stamp_ns)).velocity;
+    if (run.scenario.imu.on) frame.imu = imu.take_until(frame.stamp_ns);
     run.frames.add(frame);
     journal.note(std::size_t(i), run.frames.frames.back());
     depth.add(frame);
@@ -95,7 +105,9 @@ void render_frames(Run& run, RunFolder& folder) {
   run.progress.finish("ready on " + context.info().renderer);
 
   run.progress.start("render");
-  RecorderSet set = make_recorders(run.scenario.outputs, camera.frames(), title(run), folder);
+  const Recording recording = describe_recording(run.scenario, run.assets, run.pile);
+  RecorderSet set =
+      make_recorders(run.scenario, recording, camera.frames(), title(run), folder.path());
   folder.expect(set.names);
   RecordingQueue queue(std::move(set.recorders));
   take_frames(camera, queue, run, folder);

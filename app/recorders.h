@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "app/run_folder.h"
+#include "app/asset_library.h"
 #include "io/recorder.h"
+#include "io/recording.h"
+#include "kernel/pile_state.h"
 #include "scripting/scenario.h"
 
 namespace rubble {
@@ -16,8 +18,12 @@ struct RecorderSet {
   std::vector<std::string> names;  // of their files or folders, relative to the run's folder
 };
 
+// What every frame of the run holds besides colour and depth, and what its numbers mean.
+Recording describe_recording(const Scenario& scenario, const AssetLibrary& assets,
+                             const PileState& pile);
+
 // Those that the scenario asks for. frames: how many will come; title: of the contact sheet.
-RecorderSet make_recorders(const OutputScenario& outputs, int frames, const std::string& title,
-                           const RunFolder& folder);
+RecorderSet make_recorders(const Scenario& scenario, const Recording& recording, int frames,
+                           const std::string& title, const std::string& folder);
 
 }  // namespace rubble

@@ -50,8 +50,9 @@ void remove_unfinished(const std::string& folder) {
 void remove_empty_folders(const std::string& folder, const std::vector<std::string>& files) {
   std::error_code ignored;
   for (const std::string& file : files) {
-    const fs::path inside = fs::path(file).parent_path();
-    if (!inside.empty()) fs::remove(fs::path(folder) / inside, ignored);  // only when empty
+    for (fs::path inside = fs::path(file).parent_path(); !inside.empty();
+         inside = inside.parent_path())
+      fs::remove(fs::path(folder) / inside, ignored);  // only when empty
   }
 }
 

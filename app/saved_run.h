@@ -3,7 +3,7 @@
 //   const SavedRun saved = open_saved_run("out/first_pile");
 //   const AssetLibrary assets = load_assets_of(saved, {});
 //   const PileState pile = load_pile_of(saved);
-//   write_stl("pile.stl", build_mesh_instances(assets, pile));
+//   export_pile(build_pile_model(assets, pile), "stl", ".");
 #pragma once
 
 #include <string>

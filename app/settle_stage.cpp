@@ -7,7 +7,7 @@
 #include "app/run.h"
 #include "app/stop.h"
 #include "io/checkpoint_file.h"
-#include "io/mesh_file.h"
+#include "io/pile_export.h"
 #include "io/pile_state_file.h"
 #include "kernel/settle.h"
 
@@ -88,9 +88,12 @@ void settle(Run& run, RunFolder& folder) {
 }
 
 void write_pile_files(Run& run, RunFolder& folder) {
-  if (!run.scenario.outputs.stl) return;
-  write_stl(folder.file("pile.stl"), build_mesh_instances(run.assets, run.pile));
-  folder.add("pile.stl");
+  std::vector<std::string> formats = run.scenario.outputs.meshes;
+  if (run.scenario.outputs.stl) formats.push_back("stl");
+  if (formats.empty()) return;
+  const PileModel model = build_pile_model(run.assets, run.pile);
+  for (const std::string& format : formats)
+    for (const std::string& name : export_pile(model, format, folder.path())) folder.add(name);
 }
 
 }  // namespace rubble

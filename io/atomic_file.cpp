@@ -92,6 +92,9 @@ void PendingPath::commit() {
 }
 
 AtomicFile::AtomicFile(const std::string& final_path) : pending_(final_path) {
+  // Found out now rather than when all is written: a file cannot take a folder's name.
+  if (std::error_code error; std::filesystem::is_directory(final_path, error))
+    fail("create", final_path, EISDIR);
   descriptor_ = ::open(pending_.part().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail("create", pending_.part(), errno);
   buffer_.reserve(kBufferSize);
@@ -129,6 +132,29 @@ void AtomicFile::commit() {
   // Network file systems report a full disk only here.
   if (::close(descriptor) != 0) fail("close", pending_.part(), errno);
   pending_.commit();
+}
+
+void write_part_file(const std::string& path, std::string_view bytes) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail("create", path, errno);
+  try {
+    write_all(descriptor, bytes.data(), bytes.size(), path);
+  } catch (...) {
+    ::close(descriptor);
+    throw;
+  }
+  if (::close(descriptor) != 0) fail("close", path, errno);
+}
+
+// One flush of the whole file system: one for each of thousands of files would take minutes.
+void commit_folder(const std::string& part, const std::string& path) {
+  const int descriptor = ::open(part.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) fail("open", part, errno);
+  const int error = ::syncfs(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  if (error) fail("flush", part, error);
+  if (::rename(part.c_str(), path.c_str()) != 0) fail("give its final name to", part, errno);
+  sync_path(folder_of(path), O_RDONLY | O_DIRECTORY);
 }
 
 void write_text_file(const std::string& path, std::string_view text) {

@@ -55,6 +55,12 @@ class AtomicFile {
   std::vector<char> buffer_;
 };
 
+// Writes a file of a folder that has its final name later (io/folder_writer.h); not flushed to the
+// disk. Throws RunError.
+void write_part_file(const std::string& path, std::string_view bytes);
+// Flushes all that was written into the folder `part` to the disk and renames it. Throws RunError.
+void commit_folder(const std::string& part, const std::string& path);
+
 // Writes `text` as the whole of `path`, atomically. Throws RunError.
 void write_text_file(const std::string& path, std::string_view text);
 

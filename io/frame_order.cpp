@@ -24,6 +24,8 @@ void check_pictures(const Frame& frame, const Channels& channels, const std::str
   if (channels.normals) check_size("normal", frame.normals.size(), 3 * pixels, where);
   if (channels.instance) check_size("instance", frame.instance.size(), pixels, where);
   if (channels.label) check_size("label", frame.label.size(), pixels, where);
+  if (channels.sky_visibility)
+    check_size("sky visibility", frame.sky_visibility.size(), pixels, where);
   if (channels.flow) check_size("flow", frame.flow.size(), 2 * pixels, where);
 }
 

@@ -13,7 +13,8 @@ std::string make_gzip_member(std::string_view bytes, int level) {
   if (deflateInit2(&stream, level, Z_DEFLATED, kGzipWindow, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) {
     throw RunError("zlib cannot start at level " + std::to_string(level));
   }
-  std::string out(deflateBound(&stream, bytes.size()), '\0');
+  // The bound forgets some bytes of a few stored ones.
+  std::string out(deflateBound(&stream, bytes.size()) + 64, '\0');
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
   stream.avail_in = static_cast<uInt>(bytes.size());
   stream.next_out = reinterpret_cast<Bytef*>(out.data());

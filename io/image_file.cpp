@@ -146,6 +146,12 @@ std::string encode_png(const RgbImage& image, int level) {
   return encode({image.width, image.height, PNG_COLOR_TYPE_RGB, 8, row}, image.rgb.data(), level);
 }
 
+std::string encode_png(const GrayImage& image, int level) {
+  const auto row = static_cast<std::size_t>(image.width);
+  return encode({image.width, image.height, PNG_COLOR_TYPE_GRAY, 8, row}, image.values.data(),
+                level);
+}
+
 std::string encode_png(const DepthImage& image, int level) {
   const auto row = 2 * static_cast<std::size_t>(image.width);
   return encode({image.width, image.height, PNG_COLOR_TYPE_GRAY, 16, row}, image.values.data(),

@@ -12,6 +12,10 @@ struct RgbImage {
   int width = 0, height = 0;      // unit: pixel
   std::vector<std::uint8_t> rgb;  // 3 bytes a pixel
 };
+struct GrayImage {
+  int width = 0, height = 0;  // unit: pixel
+  std::vector<std::uint8_t> values;
+};
 struct DepthImage {
   int width = 0, height = 0;          // unit: pixel
   std::vector<std::uint16_t> values;  // in the unit of whoever encoded them; 0: no return
@@ -19,6 +23,7 @@ struct DepthImage {
 
 // The bytes of a PNG file. level: 0 (stored) to 9 (smallest); lossless. Throws RunError.
 std::string encode_png(const RgbImage& image, int level = 1);
+std::string encode_png(const GrayImage& image, int level = 1);
 std::string encode_png(const DepthImage& image, int level = 1);
 
 // Throw RunError when the file cannot be written.

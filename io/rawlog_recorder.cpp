@@ -1,71 +1,27 @@
-// The only file of the library that includes MRPT.
 #include "io/rawlog_recorder.h"
 
-#include <mrpt/io/CStream.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationRobotPose.h>
-#include <mrpt/serialization/CArchive.h>
-
-#include <stdexcept>
 
 #include "io/atomic_file.h"
 #include "io/depth_encoding.h"
 #include "io/frame_order.h"
 #include "io/gzip.h"
+#include "io/mrpt_types.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
 namespace {
 
-// MRPT serializes into memory. Its own file streams swallow the errors of closing a file, so the
-// bytes go to the disk through AtomicFile, one gzip member a frame.
-class MemoryStream : public mrpt::io::CStream {
- public:
-  std::size_t Write(const void* data, std::size_t size) override {
-    bytes_.append(static_cast<const char*>(data), size);
-    return size;
-  }
-  std::size_t Read(void*, std::size_t) override { throw std::logic_error("write-only"); }
-  std::uint64_t Seek(std::int64_t, CStream::TSeekOrigin) override {
-    throw std::logic_error("write-only");
-  }
-  std::uint64_t getTotalBytesCount() const override { return bytes_.size(); }
-  std::uint64_t getPosition() const override { return bytes_.size(); }
-  std::string getStreamDescription() const override { return "memory"; }
-
-  const std::string& bytes() const { return bytes_; }
-  void clear() { bytes_.clear(); }  // keeps its memory for the next frame
-
- private:
-  std::string bytes_;
-};
-
-mrpt::Clock::time_point mrpt_time(std::int64_t stamp_ns) {
-  constexpr std::int64_t kTicksTo1970 = 116444736000000000;  // 100 ns each, from 1601
-  return mrpt::Clock::time_point(mrpt::Clock::duration(stamp_ns / 100 + kTicksTo1970));
-}
-
-mrpt::poses::CPose3D mrpt_pose(const Pose& pose) {
-  const Quat& q = pose.rotation;
-  const Vec3& t = pose.translation;
-  return {mrpt::math::CQuaternionDouble(q.w, q.x, q.y, q.z), t.x, t.y, t.z};
-}
-
-mrpt::img::TCamera mrpt_camera(const Intrinsics& k) {
-  mrpt::img::TCamera camera;
-  camera.ncols = static_cast<std::uint32_t>(k.width);
-  camera.nrows = static_cast<std::uint32_t>(k.height);
-  camera.setIntrinsicParamsFromValues(k.fx, k.fy, k.cx, k.cy);
-  const auto& d = k.distortion;
-  camera.setDistortionPlumbBob(d[0], d[1], d[2], d[3], d[4]);
-  camera.cameraName = "camera";
-  return camera;
-}
-
 class RawlogRecorder : public Recorder {
  public:
   RawlogRecorder(const std::string& path, const RawlogOptions& options)
-      : file_(path), order_(path), options_(options) {
+      : file_(path),
+        order_(path, format_channels(options.recording.channels)),
+        channels_(format_channels(options.recording.channels)),
+        options_(options) {
     // A setting of the whole process; colour must be what was rendered, not a JPEG of it.
     mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true);
   }
@@ -84,12 +40,31 @@ class RawlogRecorder : public Recorder {
   void finish() override { file_.commit(); }
 
  private:
+  // What MRPT has observations for.
+  static Channels format_channels(const Channels& asked) {
+    Channels channels;
+    channels.right = asked.right;
+    channels.measured_depth = asked.measured_depth;
+    channels.imu = asked.imu;
+    return channels;
+  }
+
   void write_observations(const Frame& frame) {
     stream_.clear();
     auto archive = mrpt::serialization::archiveFrom(static_cast<mrpt::io::CStream&>(stream_));
+    if (channels_.imu)
+      for (const ImuSample& sample : frame.imu) archive << make_imu(sample);
     archive << make_pose(frame);
-    fill_scan(frame);
+    const bool measured = channels_.measured_depth;
+    fill_scan(frame, "camera", measured ? frame.measured_depth : frame.depth);
+    fill_colour(frame);
     archive << scan_;
+    if (measured) {
+      fill_scan(frame, "ground_truth_depth", frame.depth);
+      scan_.hasIntensityImage = false;
+      archive << scan_;
+    }
+    if (channels_.right) archive << make_right(frame);
     file_.write(make_gzip_member(stream_.bytes(), options_.gzip_level));
   }
 
@@ -102,10 +77,42 @@ class RawlogRecorder : public Recorder {
     return observation;
   }
 
-  void fill_scan(const Frame& frame) {
+  static mrpt::obs::CObservationIMU make_imu(const ImuSample& sample) {
+    mrpt::obs::CObservationIMU observation;
+    observation.timestamp = mrpt_time(sample.stamp_ns);
+    observation.sensorLabel = "imu";
+    const Vec3 &w = sample.angular_velocity, &a = sample.linear_acceleration;
+    observation.set(mrpt::obs::IMU_X_ACC, a.x);
+    observation.set(mrpt::obs::IMU_Y_ACC, a.y);
+    observation.set(mrpt::obs::IMU_Z_ACC, a.z);
+    observation.set(mrpt::obs::IMU_WX, w.x);
+    observation.set(mrpt::obs::IMU_WY, w.y);
+    observation.set(mrpt::obs::IMU_WZ, w.z);
+    return observation;
+  }
+
+  // MRPT's cameras stand in the optical frame.
+  static mrpt::obs::CObservationImage make_right(const Frame& frame) {
+    mrpt::obs::CObservationImage observation;
+    observation.timestamp = mrpt_time(frame.stamp_ns);
+    observation.sensorLabel = "camera_right";
+    observation.cameraParams = mrpt_camera(frame.intrinsics);
+    observation.cameraPose = mrpt_pose({camera_from_optical.rotation, {0, -frame.baseline, 0}});
+    fill_image(observation.image, frame.intrinsics, frame.rgb_right);
+    return observation;
+  }
+
+  // Swapped: a colour CImage is B, G, R in memory.
+  static void fill_image(mrpt::img::CImage& image, const Intrinsics& k,
+                         const std::vector<std::uint8_t>& rgb) {
+    image.loadFromMemoryBuffer(static_cast<unsigned>(k.width), static_cast<unsigned>(k.height),
+                               true, const_cast<unsigned char*>(rgb.data()), true);
+  }
+
+  void fill_scan(const Frame& frame, const char* label, const std::vector<float>& depth) {
     const Intrinsics& k = frame.intrinsics;
     scan_.timestamp = mrpt_time(frame.stamp_ns);
-    scan_.sensorLabel = "camera";
+    scan_.sensorLabel = label;
     scan_.cameraParams = scan_.cameraParamsIntensity = mrpt_camera(k);
     scan_.range_is_depth = true;
     scan_.rangeUnits = static_cast<float>(options_.depth_unit);
@@ -113,19 +120,20 @@ class RawlogRecorder : public Recorder {
     scan_.stdError = static_cast<float>(options_.depth_unit / 2);
     scan_.hasRangeImage = true;
     // MRPT keeps unit and product as floats: round by the very unit that readers multiply with.
-    const auto ranges = encode_depth(frame.depth, static_cast<double>(scan_.rangeUnits));
+    const auto ranges = encode_depth(depth, static_cast<double>(scan_.rangeUnits));
     scan_.rangeImage_setSize(k.height, k.width);
     std::copy(ranges.begin(), ranges.end(), scan_.rangeImage.data());  // row-major, as ours
+  }
+
+  void fill_colour(const Frame& frame) {
     scan_.hasIntensityImage = true;
     scan_.intensityImageChannel = mrpt::obs::CObservation3DRangeScan::CH_VISIBLE;
-    // Swapped: a colour CImage is B, G, R in memory.
-    scan_.intensityImage.loadFromMemoryBuffer(static_cast<unsigned>(k.width),
-                                              static_cast<unsigned>(k.height), true,
-                                              const_cast<unsigned char*>(frame.rgb.data()), true);
+    fill_image(scan_.intensityImage, frame.intrinsics, frame.rgb);
   }
 
   AtomicFile file_;
   FrameOrder order_;
+  Channels channels_;
   RawlogOptions options_;
   MemoryStream stream_;
   mrpt::obs::CObservation3DRangeScan scan_;  // reused: its buffers are large

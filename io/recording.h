@@ -20,6 +20,7 @@ struct Channels {
   bool instance = false;
   bool label = false;
   bool flow = false;
+  bool sky_visibility = false;
   bool events = false;
   bool imu = false;
 };
@@ -40,11 +41,8 @@ std::string legend_to_json(const Legend& legend);
 
 struct Recording {
   Channels channels;
-  Legend legend;                 // with instance or label
-  double stereo_baseline = 0;    // the right camera is this far along the left one's X axis
-                                 // (optical frame); unit: m; with right: > 0
-  ImuModel imu;                  // with imu
-  double depth_sensor_unit = 0;  // unused by files that keep floats; unit: m
+  Legend legend;  // with instance or label
+  ImuModel imu;   // with imu
 };
 
 }  // namespace rubble

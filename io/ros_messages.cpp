@@ -77,9 +77,11 @@ std::string camera_info(Version version, const Header& header, const Intrinsics&
   put_header(out, header);
   out.number(static_cast<std::uint32_t>(k.height));
   out.number(static_cast<std::uint32_t>(k.width));
-  out.text("plumb_bob");
-  out.count(k.distortion.size());
-  for (const double d : k.distortion) out.number(d);
+  const bool fisheye = k.lens == LensModel::fisheye;
+  out.text(fisheye ? "equidistant" : "plumb_bob");
+  const std::size_t coefficients = fisheye ? 4 : k.distortion.size();
+  out.count(coefficients);
+  for (std::size_t i = 0; i < coefficients; ++i) out.number(k.distortion[i]);
   for (const double v : {k.fx, 0.0, k.cx, 0.0, k.fy, k.cy, 0.0, 0.0, 1.0}) out.number(v);
   for (const double v : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) out.number(v);
   const double shift = baseline == 0 ? 0.0 : -k.fx * baseline;

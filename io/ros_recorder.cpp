@@ -34,10 +34,8 @@ class RosRecorder : public Recorder {
     write_imu(frame);
     write_clock_and_poses(frame);
     write_camera(frame, rgb_info_, rgb_, kOptical, frame.rgb, 0);
-    if (channels_.right) {
-      write_camera(frame, right_info_, right_, kRightOptical, frame.rgb_right,
-                   options_.recording.stereo_baseline);
-    }
+    if (channels_.right)
+      write_camera(frame, right_info_, right_, kRightOptical, frame.rgb_right, frame.baseline);
     write_depth(frame);
     write_truth(frame);
     if (channels_.events) {
@@ -83,6 +81,7 @@ class RosRecorder : public Recorder {
     true_depth_ = add(c.measured_depth, "/ground_truth/depth/image", ros::kImage);
     normals_ = add(c.normals, "/ground_truth/normals/image", ros::kImage);
     flow_ = add(c.flow, "/ground_truth/flow/image", ros::kImage);
+    sky_ = add(c.sky_visibility, "/ground_truth/sky_visibility/image", ros::kImage);
     instance_ = add(c.instance, "/ground_truth/instance/image", ros::kImage);
     label_ = add(c.label, "/ground_truth/label/image", ros::kImage);
     legend_ = add(c.instance || c.label, "/ground_truth/legend", ros::kString, true);
@@ -132,7 +131,7 @@ class RosRecorder : public Recorder {
   void write_constants(const Frame& frame) {
     std::vector<ros::Transform> fixed{{kOptical, camera_from_optical}};
     if (channels_.right) {
-      const Vec3 to_the_right{0, -options_.recording.stereo_baseline, 0};
+      const Vec3 to_the_right{0, -frame.baseline, 0};
       fixed.push_back({kRightOptical, {camera_from_optical.rotation, to_the_right}});
     }
     send(tf_static_, frame, ros::transforms(version_, header(frame, kCamera), fixed));
@@ -151,7 +150,7 @@ class RosRecorder : public Recorder {
     }
     const bool jpeg = options_.pictures == RosPictures::jpeg;
     const std::string bytes =
-        jpeg ? encode_jpeg(k.width, k.height, rgb.data()) : encode_png({k.width, k.height, rgb});
+        jpeg ? encode_jpeg(k.width, k.height, rgb.data()) : encode_png(RgbImage{k.width, k.height, rgb});
     // "bgr8": what readers get from OpenCV's decoder, whose order is not the file's.
     send(picture, frame,
          ros::compressed_image(version_, optical,
@@ -188,6 +187,7 @@ class RosRecorder : public Recorder {
     }
     if (c.normals) send_image(normals_, frame, "32FC3", 3, frame.normals);
     if (c.flow) send_image(flow_, frame, "32FC2", 2, frame.flow);
+    if (c.sky_visibility) send_image(sky_, frame, "32FC1", 1, frame.sky_visibility);
     if (c.instance) send_image(instance_, frame, "32SC1", 1, frame.instance);
     if (c.label) send_image(label_, frame, "16UC1", 1, frame.label);
   }
@@ -202,7 +202,8 @@ class RosRecorder : public Recorder {
   std::uint32_t clock_ = 0, tf_static_ = 0, tf_ = 0, pose_ = 0, rgb_info_ = 0, rgb_ = 0,
                 depth_info_ = 0, depth_ = 0;
   std::uint32_t right_info_ = 0, right_ = 0, events_ = 0, imu_ = 0, true_depth_info_ = 0,
-                true_depth_ = 0, normals_ = 0, flow_ = 0, instance_ = 0, label_ = 0, legend_ = 0;
+                true_depth_ = 0, normals_ = 0, flow_ = 0, instance_ = 0, label_ = 0, legend_ = 0,
+                sky_ = 0;
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 //   /ground_truth/depth/image   32FC1, m: exact, where the depth above is that of a sensor
 //   /ground_truth/normals/image 32FC3, in the optical frame, NaN: no surface
 //   /ground_truth/flow/image    32FC2, pixel, to the next frame; NaN: none
+//   /ground_truth/sky_visibility/image  32FC1, 0 to 1
 //   /ground_truth/instance/image  32SC1: piece number; -1: ground; -2: nothing
 //   /ground_truth/label/image   16UC1: 0 sky, 1 ground, 2 and up: assets
 //   /ground_truth/legend        std_msgs/String, JSON (legend_to_json), latched

@@ -50,7 +50,7 @@ void check_names(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
 
 struct ChannelName {
   const char* name;
-  bool ChannelSet::* member;
+  bool ChannelSet::*member;
 };
 constexpr ChannelName kChannels[] = {{"normals", &ChannelSet::normals},
                                      {"instance", &ChannelSet::instance},
@@ -110,7 +110,19 @@ void check_camera(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
     add("depth_sensor.max_range", "nothing is within reach", "more than depth_sensor.min_range", "");
 }
 
+void check_meshes(const OutputScenario& outputs, std::vector<Diagnostic>& mistakes) {
+  const std::vector<std::string> names = export_names();
+  for (std::size_t i = 0; i < outputs.meshes.size(); ++i) {
+    const std::string& written = outputs.meshes[i];
+    if (std::find(names.begin(), names.end(), written) != names.end()) continue;
+    mistakes.push_back({"", 0, "outputs.meshes[" + std::to_string(i + 1) + "]",
+                        "unknown format `" + written + "`", "one of ply, obj, glb, sdf", "", ""});
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> export_names() { return {"ply", "obj", "glb", "sdf"}; }
 
 std::vector<std::string> channel_names() {
   std::vector<std::string> names;
@@ -159,6 +171,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_mix(scenario.pile, mistakes);
   check_channels(scenario.camera, mistakes);
   check_camera(scenario, mistakes);
+  check_meshes(scenario.outputs, mistakes);
   for (Diagnostic& d : find_mistakes(scenario.trajectory)) mistakes.push_back(std::move(d));
   return mistakes;
 }

@@ -91,6 +91,9 @@ struct CameraScenario {
 // What CameraScenario::channels may name.
 std::vector<std::string> channel_names();
 
+// What OutputScenario::meshes may name.
+std::vector<std::string> export_names();
+
 enum class DepthEncoding {
   millimetres,  // "16UC1": uint16, 0: no return
   metres,       // "32FC1": float, NaN: no return
@@ -99,14 +102,27 @@ enum class DepthEncoding {
 enum class PictureEncoding { raw, png, jpeg };
 
 struct OutputScenario {
-  bool rawlog = true;                                // MRPT: mission.rawlog
-  bool bag = true;                                   // ROS 1: mission.bag
-  bool mcap = false;                                 // ROS 2: mission.mcap
-  bool stl = true;                                   // pile.stl
-  bool groundtruth = true;                           // TUM: groundtruth.txt
-  bool preview = true;                               // preview.png, a contact sheet
+  bool rawlog = true;               // MRPT: mission.rawlog
+  int rawlog_gzip = 0;              // range: 0 to 9
+  bool simplemap = true;            // MRPT: mission.simplemap
+  bool bag = true;                  // ROS 1: mission.bag
+  bool mcap = false;                // ROS 2: mission.mcap
+  bool tum = false;                 // TUM RGB-D: a folder
+  bool euroc = false;               // EuRoC MAV: a folder
+  bool colmap = false;              // COLMAP: a folder
+  bool frames = false;              // plain PNG and EXR: a folder
+  bool stl = true;                  // pile.stl
+  std::vector<std::string> meshes;  // the pile in further formats, of export_names()
+  bool groundtruth = true;          // TUM: groundtruth.txt
+  bool preview = true;              // preview.png, a contact sheet
   DepthEncoding depth = DepthEncoding::millimetres;  // in bag and MCAP file
   PictureEncoding pictures = PictureEncoding::raw;   // likewise
+};
+
+// An inertial unit in the camera.
+struct ImuScenario {
+  bool on = false;
+  ImuModel model;
 };
 
 struct Scenario {
@@ -122,6 +138,7 @@ struct Scenario {
   EventCameraSpec event_camera;
   LampSpec lamp;
   TrajectorySpec trajectory;
+  ImuScenario imu;
   OutputScenario outputs;
 
   // Throws InputError with every mistake: out of range, not finite, contradicting each other.

@@ -154,18 +154,49 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
       .unit("m");
 }
 
+void add_imu(Schema& k, ImuScenario& s) {
+  ImuModel& m = s.model;
+  k.group("imu", "An inertial unit in the camera, with white noise and wandering biases.");
+  k.value("imu.on", s.on, "Whether it is recorded.");
+  k.value("imu.rate_hz", m.rate_hz, "Samples per second.").between(1, 10000).unit("Hz");
+  k.value("imu.gyroscope_noise", m.gyroscope_noise, "Density of the white noise.")
+      .between(0, 10)
+      .unit("rad/s/sqrt(Hz)");
+  k.value("imu.gyroscope_walk", m.gyroscope_walk, "Density of the bias's steps.")
+      .between(0, 10)
+      .unit("rad/s2/sqrt(Hz)");
+  k.value("imu.accelerometer_noise", m.accelerometer_noise, "Density of the white noise.")
+      .between(0, 100)
+      .unit("m/s2/sqrt(Hz)");
+  k.value("imu.accelerometer_walk", m.accelerometer_walk, "Density of the bias's steps.")
+      .between(0, 100)
+      .unit("m/s3/sqrt(Hz)");
+}
+
 void add_outputs(Schema& k, OutputScenario& o) {
-  k.group("outputs", "What is written.");
+  k.group("outputs", "What is written; each format is described in docs/formats.md.");
   k.value("outputs.rawlog", o.rawlog, "MRPT rawlog: mission.rawlog.");
+  k.value("outputs.rawlog_gzip", o.rawlog_gzip,
+          "How much it is compressed: 1 halves it and takes 3.5 times as long.")
+      .between(0, 9);
+  k.value("outputs.simplemap", o.simplemap,
+          "MRPT key frames with points and true poses: mission.simplemap.");
   k.value("outputs.bag", o.bag, "ROS 1 bag: mission.bag.");
   k.value("outputs.mcap", o.mcap, "ROS 2 recording: mission.mcap.");
+  k.value("outputs.tum", o.tum, "TUM RGB-D sequence: the folder tum.");
+  k.value("outputs.euroc", o.euroc, "EuRoC MAV sequence, grey pictures: the folder euroc.");
+  k.value("outputs.colmap", o.colmap, "COLMAP model with the true poses: the folder colmap.");
+  k.value("outputs.frames", o.frames, "Every channel as PNG, EXR or text: the folder frames.");
   k.value("outputs.stl", o.stl, "The settled pile as a mesh: pile.stl.");
+  k.value("outputs.meshes", o.meshes,
+          "The settled pile in further formats: any of `ply`, `obj`, `glb`, `sdf`.");
   k.value("outputs.groundtruth", o.groundtruth, "The camera's poses in TUM format.");
   k.value("outputs.preview", o.preview, "A contact sheet of colour and depth: preview.png.");
   k.choice("outputs.depth", o.depth, {"16UC1", "32FC1"},
            "Depth in bag and MCAP file: millimetres (0: none) or metres (NaN: none).");
-  k.choice("outputs.pictures", o.pictures, {"raw", "png", "jpeg"},
-           "Pictures there: raw, or CompressedImage; `jpeg` loses detail of colour, never of depth.");
+  k.choice(
+      "outputs.pictures", o.pictures, {"raw", "png", "jpeg"},
+      "Pictures there: raw, or CompressedImage; `jpeg` loses detail of colour, never of depth.");
 }
 
 // The parameters of the published Unity simulator, under its names. Axes are ours: Z is up.
@@ -198,6 +229,7 @@ Schema make_scenario_schema(Scenario& s) {
   add_air_and_lamp(keys, s.air, s.lamp);
   add_camera_keys(keys, s);
   add_trajectory(keys, s.trajectory);
+  add_imu(keys, s.imu);
   add_outputs(keys, s.outputs);
   add_aliases(keys);
   return keys;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "scripting/curves.h"
 
 namespace rubble {
 namespace {
@@ -107,24 +108,6 @@ class Checker {
   double time_ = 0;
 };
 
-// Rotation vectors: the logarithm of a unit quaternion with w >= 0, and back.
-Vec3 log_of(const Quat& q) {
-  const double sign = q.w < 0 ? -1.0 : 1.0;
-  const Vec3 v{sign * q.x, sign * q.y, sign * q.z};
-  const double s = norm(v);
-  if (s < 1e-12) return 2.0 * v;
-  return v * (2.0 * portable::atan2(s, sign * q.w) / s);
-}
-
-Quat exp_of(const Vec3& rotation) {
-  const double angle = norm(rotation);
-  if (angle < 1e-12)
-    return normalized(Quat{1, 0.5 * rotation.x, 0.5 * rotation.y, 0.5 * rotation.z});
-  const portable::SinCos half = portable::sincos(0.5 * angle);
-  const Vec3 v = rotation * (half.sin / angle);
-  return {half.cos, v.x, v.y, v.z};
-}
-
 Quat rotation_of(const Vec3& rpy_deg) {
   return portable::quat_from_rpy(rpy_deg.x * kDegree, rpy_deg.y * kDegree, rpy_deg.z * kDegree);
 }
@@ -157,84 +140,28 @@ std::vector<double> times_of(const TrajectorySpec& spec) {
   return times;
 }
 
-// Derivatives at the knots from the mean rate of each leg (Bessel's weights); zero at both ends of
-// a leg at rest, so that a pause is one.
-std::vector<Vec3> knot_rates(const std::vector<Vec3>& leg_rates, const std::vector<double>& times) {
-  const std::size_t legs = leg_rates.size();
-  std::vector<Vec3> rates(legs + 1);
-  if (legs == 0) return rates;
-  for (std::size_t i = 1; i < legs; ++i) {
-    const double before = times[i] - times[i - 1], after = times[i + 1] - times[i];
-    rates[i] = (leg_rates[i - 1] * after + leg_rates[i] * before) * (1.0 / (before + after));
-  }
-  rates[0] = legs == 1 ? leg_rates[0] : 1.5 * leg_rates[0] - 0.5 * rates[1];
-  rates[legs] = legs == 1 ? leg_rates[0] : 1.5 * leg_rates[legs - 1] - 0.5 * rates[legs - 1];
-  for (std::size_t i = 0; i < legs; ++i)
-    if (leg_rates[i] == Vec3{}) rates[i] = rates[i + 1] = Vec3{};
-  return rates;
-}
-
-// A curve through points, each at its time.
-class VectorCurve {
- public:
-  VectorCurve(std::vector<Vec3> points, const std::vector<double>& times, Interpolation how)
-      : points_(std::move(points)), times_(times), linear_(how == Interpolation::linear) {
-    std::vector<Vec3> rates;
-    for (std::size_t i = 0; i + 1 < points_.size(); ++i)
-      rates.push_back((points_[i + 1] - points_[i]) * (1.0 / (times[i + 1] - times[i])));
-    rates_ = knot_rates(rates, times);
-  }
-
-  Vec3 at(std::size_t leg, double t) const {
-    const double h = times_[leg + 1] - times_[leg], s = (t - times_[leg]) / h;
-    const Vec3 &a = points_[leg], &b = points_[leg + 1];
-    if (linear_) return a + (b - a) * s;
-    const double r = 1.0 - s;
-    return a * (r * r * (1.0 + 2.0 * s)) + b * (s * s * (3.0 - 2.0 * s)) +
-           rates_[leg] * (h * s * r * r) - rates_[leg + 1] * (h * s * s * r);
-  }
-
- private:
-  std::vector<Vec3> points_;
-  const std::vector<double>& times_;
-  std::vector<Vec3> rates_;  // unit: m/s
-  bool linear_;
-};
-
-class RotationCurve {
- public:
-  RotationCurve(std::vector<Quat> rotations, const std::vector<double>& times, Interpolation how)
-      : rotations_(std::move(rotations)), times_(times), linear_(how == Interpolation::linear) {
-    std::vector<Vec3> rates;
-    for (std::size_t i = 0; i + 1 < rotations_.size(); ++i)
-      rates.push_back(log_of(rotations_[i].conjugate() * rotations_[i + 1]) *
-                      (1.0 / (times[i + 1] - times[i])));
-    rates_ = knot_rates(rates, times);
-  }
-
-  Quat at(std::size_t leg, double t) const {
-    const double h = times_[leg + 1] - times_[leg], s = (t - times_[leg]) / h;
-    const Quat &a = rotations_[leg], &b = rotations_[leg + 1];
-    if (linear_) return portable::slerp(a, b, s);
-    const Vec3 first = rates_[leg] * (h / 3.0), last = rates_[leg + 1] * (h / 3.0);
-    const Vec3 middle = log_of((a * exp_of(first)).conjugate() * (b * exp_of(-last)));
-    const double r = 1.0 - s;
-    return normalized(a * exp_of(first * (1.0 - r * r * r)) *
-                      exp_of(middle * (s * s * (3.0 - 2.0 * s))) * exp_of(last * (s * s * s)));
-  }
-
- private:
-  std::vector<Quat> rotations_;
-  const std::vector<double>& times_;
-  std::vector<Vec3> rates_;  // in the body frame; unit: rad/s
-  bool linear_;
-};
-
 template <typename F>
 auto collect(const TrajectorySpec& spec, F get) {
   std::vector<decltype(get(spec.waypoints[0]))> all;
   for (const Waypoint& w : spec.waypoints) all.push_back(get(w));
   return all;
+}
+
+// The body's angular velocity while it turns by rotation_towards: `direction` changes at
+// `direction_rate`, the roll is `roll` and changes at `roll_rate`. unit: rad.
+// From R = Rz(yaw) Ry(pitch) Rx(roll), yaw = atan2(y, x), pitch = atan2(-z, level).
+Vec3 turning_rate(const Vec3& direction, const Vec3& direction_rate, double roll,
+                  double roll_rate) {
+  const Vec3 &d = direction, &r = direction_rate;
+  const double level2 = d.x * d.x + d.y * d.y, level = std::sqrt(level2);
+  if (level < kNearestTarget) return {roll_rate, 0, 0};  // straight up or down: yaw is undefined
+  const double length = norm(d), level_rate = (d.x * r.x + d.y * r.y) / level;
+  const double yaw_rate = (d.x * r.y - d.y * r.x) / level2;
+  const double pitch_rate = (d.z * level_rate - r.z * level) / (length * length);
+  const double sin_pitch = -d.z / length, cos_pitch = level / length;
+  const portable::SinCos turn = portable::sincos(roll);
+  return {roll_rate - yaw_rate * sin_pitch, pitch_rate * turn.cos + yaw_rate * turn.sin * cos_pitch,
+          yaw_rate * turn.cos * cos_pitch - pitch_rate * turn.sin};
 }
 
 }  // namespace
@@ -267,17 +194,41 @@ class CameraPath::Curves {
 
   Pose at(double t) const {
     if (times_.size() == 1) return {rotation_at(waypoints_[0]), waypoints_[0].position};
-    const auto after = std::upper_bound(times_.begin() + 1, times_.end() - 1, t);
-    const std::size_t leg = std::size_t(after - times_.begin()) - 1;
+    const std::size_t leg = leg_at(t);
     const Vec3 position = positions_.at(leg, t);
-    if (!waypoints_[leg].look_at || !waypoints_[leg + 1].look_at)
-      return {rotations_.at(leg, t), position};
-    const Vec3 direction = targets_.at(leg, t) - position;
-    if (norm(direction) < kNearestTarget) return {rotations_.at(leg, t), position};
-    return {rotation_towards(direction, rolls_.at(leg, t).x), position};
+    if (!looks(leg, t)) return {rotations_.at(leg, t), position};
+    return {rotation_towards(targets_.at(leg, t) - position, rolls_.at(leg, t).x), position};
+  }
+
+  CameraMotion motion_at(double t) const {
+    CameraMotion motion;
+    motion.world_from_camera = at(t);
+    if (times_.size() == 1) return motion;
+    const std::size_t leg = leg_at(t);
+    motion.velocity = positions_.rate(leg, t);
+    motion.acceleration = positions_.second(leg, t);
+    if (!looks(leg, t)) {
+      motion.angular_velocity = rotations_.angular_velocity(leg, t);
+      return motion;
+    }
+    motion.angular_velocity = turning_rate(
+        targets_.at(leg, t) - positions_.at(leg, t), targets_.rate(leg, t) - motion.velocity,
+        rolls_.at(leg, t).x * kDegree, rolls_.rate(leg, t).x * kDegree);
+    return motion;
   }
 
  private:
+  std::size_t leg_at(double t) const {
+    const auto after = std::upper_bound(times_.begin() + 1, times_.end() - 1, t);
+    return std::size_t(after - times_.begin()) - 1;
+  }
+
+  // Whether a target leads the view there, rather than the waypoints' own rotations.
+  bool looks(std::size_t leg, double t) const {
+    return waypoints_[leg].look_at && waypoints_[leg + 1].look_at &&
+           distance(targets_.at(leg, t), positions_.at(leg, t)) >= kNearestTarget;
+  }
+
   std::vector<Waypoint> waypoints_;
   std::vector<double> times_;
   VectorCurve positions_, targets_, rolls_;
@@ -298,12 +249,15 @@ Pose CameraPath::at(double t) const {
   return curves_->at(std::min(std::max(t, 0.0), curves_->duration()));
 }
 
+CameraMotion CameraPath::motion_at(double t) const {
+  return curves_->motion_at(std::min(std::max(t, 0.0), curves_->duration()));
+}
+
 std::vector<CameraPose> sample_trajectory(const TrajectorySpec& spec, std::int64_t epoch_ns) {
   const CameraPath path(spec);
   // A waypoint at 3.0 s gets its frame although 3.0 * 30 may round to just under 90.
   constexpr double kSlack = 1e-6;
-  const auto last =
-      static_cast<std::int64_t>(std::floor(path.duration() * spec.rate_hz + kSlack));
+  const auto last = static_cast<std::int64_t>(std::floor(path.duration() * spec.rate_hz + kSlack));
   std::vector<CameraPose> poses;
   poses.reserve(std::size_t(last) + 1);
   for (std::int64_t k = 0; k <= last; ++k) {

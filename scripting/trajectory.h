@@ -17,13 +17,9 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
+#include "scripting/curves.h"
 
 namespace rubble {
-
-enum class Interpolation {
-  spline,  // smooth through the waypoints
-  linear,  // straight legs at constant speed, turning at constant angular speed (slerp)
-};
 
 struct Waypoint {
   // When the camera is here; unit: s after the start. The first one's is 0. Without it, the camera
@@ -53,6 +49,15 @@ struct CameraPose {
   Pose world_from_camera;  // camera body: X forward, Y left, Z up
 };
 
+// How the camera moves at one instant. Exact derivatives of the path; as that is C1, the
+// acceleration jumps at waypoints.
+struct CameraMotion {
+  Pose world_from_camera;
+  Vec3 velocity;          // in the world; unit: m/s
+  Vec3 acceleration;      // in the world; unit: m/s2
+  Vec3 angular_velocity;  // in the camera body frame; unit: rad/s
+};
+
 // The camera's pose at any time, not only at the frames'.
 class CameraPath {
  public:
@@ -62,6 +67,8 @@ class CameraPath {
   double duration() const;  // unit: s
   // t: s after the start; before it and after the end the camera stands still.
   Pose at(double t) const;
+  // t: from 0 to the duration.
+  CameraMotion motion_at(double t) const;
 
  private:
   class Curves;

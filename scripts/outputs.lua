@@ -1,8 +1,19 @@
--- Only a bag, with depth in metres.
+-- Every format at once, with every channel: what docs/formats.md describes.
 return rubble.mission {
   seed = 2,
   start_ns = 1700000000000000000,
   pile = { layers = 1, pieces_per_layer = 20, spawn_position = { 0, 0, 2.5 }, spawn_bounds = { 3, 3, 3 } },
-  camera = { width = 160, height = 120 },
-  outputs = { rawlog = false, stl = false, groundtruth = false, preview = false, depth = "32FC1" },
+  camera = { width = 160, height = 120, channels = { "normals", "instance", "label", "flow" } },
+  imu = { on = true, rate_hz = 200 },
+  trajectory = {
+    waypoints = {
+      { t = 0, position = { -4, 0, 2 }, look_at = { 0, 0, 0.3 } },
+      { t = 0.2, position = { -3.6, -0.5, 1.8 }, look_at = { 0, 0, 0.3 } },
+    },
+  },
+  outputs = {
+    mcap = true, tum = true, euroc = true, colmap = true, frames = true,
+    meshes = { "ply", "obj", "glb", "sdf" },
+    depth = "32FC1",
+  },
 }

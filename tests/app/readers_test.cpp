@@ -55,6 +55,25 @@ TEST_F(Readers, RawlogEditCountsTheObservations) {
     EXPECT_NE(info.find(row), std::string::npos) << row << "\n" << info;
 }
 
+// MRPT's map of the run lies on the surface in the STL file.
+TEST_F(Readers, Observations2mapPutsThePointsOnThePile) {
+  write_file(file("map.ini"),
+             "[MappingApplication]\npointsMap_count=1\n"
+             "pointsMap_00_insertOpts_minDistBetweenLaserPoints=0\n");
+  read_with("cd " + file("") + " && observations2map map.ini mission.simplemap map </dev/null");
+  const std::string text =
+      read_with("/usr/bin/python3 '" RUBBLE_SOURCE_DIR "/tests/app/map_on_pile.py' " +
+                file("map_mrpt__maps__CSimplePointsMap_00.txt") + " " + file("pile.stl") + " 600");
+  int points = 0, on_pile = 0;
+  double max_mm = 0;
+  ASSERT_EQ(std::sscanf(text.c_str(), "points %d max_mm %lf on_pile %d", &points, &max_mm, &on_pile),
+            3)
+      << text;
+  EXPECT_GE(points, 500);
+  EXPECT_GE(on_pile, points / 10);
+  EXPECT_LT(max_mm, 2.0);
+}
+
 // The depth in the bag, at the pose in the bag, lies on the surface in the STL file.
 TEST_F(Readers, DepthUnprojectsOntoThePile) {
   const std::string text =

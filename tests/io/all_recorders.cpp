@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/colmap_recorder.h"
 #include "io/contact_sheet.h"
+#include "io/euroc_recorder.h"
+#include "io/frames_recorder.h"
 #include "io/mcap_recorder.h"
 #include "io/rawlog_recorder.h"
 #include "io/rosbag_recorder.h"
+#include "io/simplemap_recorder.h"
 #include "io/tum_recorder.h"
 #include "tests/io/support.h"
 
@@ -31,6 +35,9 @@ ContactSheetOptions sheet_options(int total_frames) {
 std::vector<RecorderKind> all_recorders(int total_frames) {
   const RosOptions png = ros_options(RosDepth::millimetres, RosPictures::png);
   const RosOptions jpeg = ros_options(RosDepth::metres, RosPictures::jpeg);
+  const Recording full = full_recording();
+  SimplemapOptions every_frame;
+  every_frame.distance = 0;
   const ContactSheetOptions sheet = sheet_options(total_frames);
   return {
       {"rosbag", [](const auto& p) { return make_rosbag_recorder(p); }},
@@ -38,6 +45,15 @@ std::vector<RecorderKind> all_recorders(int total_frames) {
       {"mcap", [](const auto& p) { return make_mcap_recorder(p); }},
       {"mcap_jpeg", [=](const auto& p) { return make_mcap_recorder(p, jpeg); }},
       {"rawlog", [](const auto& p) { return make_rawlog_recorder(p); }},
+      {"rawlog_full",
+       [=](const auto& p) {
+         return make_rawlog_recorder(p, {1, 0.001, full});
+       }},
+      {"simplemap", [=](const auto& p) { return make_simplemap_recorder(p, every_frame); }},
+      {"tum", [=](const auto& p) { return make_tum_recorder(p, full, 2); }},
+      {"euroc", [=](const auto& p) { return make_euroc_recorder(p, full, 2); }},
+      {"colmap", [=](const auto& p) { return make_colmap_recorder(p, full, 2); }},
+      {"frames", [=](const auto& p) { return make_frames_recorder(p, full, 2); }},
       {"trajectory", [](const auto& p) { return make_tum_trajectory_recorder(p); }},
       {"contact_sheet", [=](const auto& p) { return make_contact_sheet_recorder(p, sheet); }},
   };

@@ -3,10 +3,17 @@
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <map>
+#include <sstream>
+
+#include "io/atomic_file.h"
 #include "io/rawlog_recorder.h"
+#include "io/simplemap_recorder.h"
 #include "tests/io/support.h"
 
 namespace rubble {
@@ -131,6 +138,91 @@ TEST(Rawlog, RawlogEditReadsIt) {
        {"number of objects         : 6", "camera, ground_truth", "3 /30.000 /0.067"}) {
     EXPECT_NE(info.output.find(part), std::string::npos) << part << " is not in:\n" << info.output;
   }
+}
+
+TEST(Rawlog, FurtherChannelsAreObservationsOfTheirOwn) {
+  ScratchFolder folder;
+  RawlogOptions options;
+  options.recording = test::full_recording();
+  const auto recorder = make_rawlog_recorder(folder / "mission.rawlog", options);
+  for (int i = 0; i < 2; ++i) recorder->write(test::make_full_frame(i));
+  recorder->finish();
+  std::map<std::string, std::vector<CObservation::Ptr>> by_label;
+  for (const auto& o : read_rawlog(folder / "mission.rawlog"))
+    by_label[o->sensorLabel].push_back(o);
+  ASSERT_EQ(by_label["imu"].size(), 1u + 5u);
+  ASSERT_EQ(by_label["camera_right"].size(), 2u);
+  ASSERT_EQ(by_label["ground_truth_depth"].size(), 2u);
+  const Frame frame = test::make_full_frame(1);
+  const auto& imu = dynamic_cast<mrpt::obs::CObservationIMU&>(*by_label["imu"].back());
+  EXPECT_EQ(imu.get(mrpt::obs::IMU_WY), frame.imu.back().angular_velocity.y);
+  EXPECT_EQ(imu.get(mrpt::obs::IMU_Z_ACC), frame.imu.back().linear_acceleration.z);
+  const auto& right = dynamic_cast<mrpt::obs::CObservationImage&>(*by_label["camera_right"][1]);
+  EXPECT_NEAR(right.cameraPose.y(), -0.12, 1e-12);
+  EXPECT_EQ(right.image.ptr<std::uint8_t>(0, 0, 0)[2], frame.rgb_right[0]);
+  const std::size_t pixel = 60 * 96 + 48;
+  const auto depth_at = [&](const char* label) {
+    const auto& scan = dynamic_cast<CObservation3DRangeScan&>(*by_label[label][1]);
+    return double(scan.rangeImage(60, 48) * scan.rangeUnits);
+  };
+  EXPECT_NEAR(depth_at("camera"), double(frame.measured_depth[pixel]), 0.00051);
+  EXPECT_NEAR(depth_at("ground_truth_depth"), double(frame.depth[pixel]), 0.00051);
+}
+
+double worst_distance(const std::string& points_file, std::size_t& count) {
+  std::istringstream text(test::read_text(points_file));
+  double worst = 0;
+  count = 0;
+  for (Vec3 p; text >> p.x >> p.y >> p.z; ++count)
+    worst = std::max(worst, test::distance_to_scene(p));
+  return worst;
+}
+
+// MRPT's own program builds a map of it.
+TEST(Simplemap, Observations2mapPutsEveryPointOnTheScene) {
+  ScratchFolder folder;
+  const auto recorder = make_simplemap_recorder(folder / "mission.simplemap");
+  for (int i = 0; i < 8; ++i) recorder->write(make_frame(i));  // 0.1 m from one to the next
+  recorder->finish();
+  write_text_file(folder / "map.ini",
+                  "[MappingApplication]\npointsMap_count=1\n"
+                  "pointsMap_00_insertOpts_minDistBetweenLaserPoints=0\n");
+  const auto made = test::run_command("cd " + folder.path() +
+                                      " && observations2map map.ini mission.simplemap map "
+                                      "</dev/null");
+  EXPECT_EQ(made.exit_code, 0) << made.output;
+  EXPECT_NE(made.output.find("done: 3 observations"), std::string::npos)
+      << "key frames 0, 3 and 6\n"
+      << made.output;
+  std::size_t count = 0;
+  EXPECT_LT(worst_distance(folder / "map_mrpt__maps__CSimplePointsMap_00.txt", count), 0.001);
+  EXPECT_GT(count, 3000u);
+}
+
+// ... and makes point clouds of a rawlog.
+TEST(Rawlog, RawlogEditMakesPointCloudsThatLieOnTheScene) {
+  ScratchFolder folder;
+  record(folder / "mission.rawlog", 0);
+  const auto made =
+      test::run_command("cd " + folder.path() +
+                        " && rawlog-edit --generate-3d-pointclouds -i mission.rawlog -o 3d.rawlog");
+  EXPECT_EQ(made.exit_code, 0) << made.output;
+  const auto observations = read_rawlog(folder / "3d.rawlog");
+  ASSERT_EQ(observations.size(), 2u * kFrames);
+  double worst = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < observations.size(); i += 2) {
+    const auto& scan = dynamic_cast<CObservation3DRangeScan&>(*observations[i]);
+    const Pose world_from_camera = make_frame(int(i) / 2).world_from_camera;
+    ASSERT_TRUE(scan.hasPoints3D);
+    for (std::size_t j = 0; j < scan.points3D_x.size(); ++j, ++count) {
+      const Vec3 p{double(scan.points3D_x[j]), double(scan.points3D_y[j]),
+                   double(scan.points3D_z[j])};
+      worst = std::max(worst, test::distance_to_scene(world_from_camera * p));
+    }
+  }
+  EXPECT_LT(worst, 0.001);
+  EXPECT_GT(count, 3000u);
 }
 
 }  // namespace

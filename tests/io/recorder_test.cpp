@@ -119,7 +119,7 @@ TEST_P(AnyRecorder, ReportsAFolderThatIsNotThere) {
 // A folder stands where the file should be: that is found out before the first frame.
 TEST_P(AnyRecorder, ReportsAPathThatIsTaken) {
   ScratchFolder folder;
-  std::filesystem::create_directories(folder / "a.part/inside");
+  std::filesystem::create_directories(folder / "a/inside");
   EXPECT_THROW(GetParam().make(folder / "a"), RunError);
 }
 

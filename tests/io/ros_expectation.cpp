@@ -49,6 +49,7 @@ void write_pictures(const std::string& stem, const Frame& frame, const RosVarian
   write_values(stem + ".right", frame.rgb_right);
   write_values(stem + ".normals", frame.normals);
   write_values(stem + ".flow", frame.flow);
+  write_values(stem + ".sky", frame.sky_visibility);
   write_values(stem + ".instance", frame.instance);
   write_values(stem + ".label", frame.label);
 }
@@ -72,7 +73,7 @@ void record_and_expect(Recorder& recorder, const ScratchFolder& folder, const Ro
             {"K", {k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1}},
             {"D", k.distortion},
             {"channels", variant.channels},
-            {"baseline", recording.stereo_baseline},
+            {"baseline", make_full_frame(0).baseline},
             {"gyroscope_variance", recording.imu.gyroscope_noise * recording.imu.gyroscope_noise *
                                        recording.imu.rate_hz}};
   for (int i = 0; i < kRosFrames; ++i) {

@@ -84,6 +84,7 @@ Frame make_frame(int index, int width, int height) {
 Frame make_full_frame(int index, int width, int height) {
   Frame frame = make_frame(index, width, height);
   RandomStream random(static_cast<std::uint64_t>(index), "full frame");
+  frame.baseline = 0.12;
   frame.rgb_right = frame.rgb;
   std::reverse(frame.rgb_right.begin(), frame.rgb_right.end());
   for (const float depth : frame.depth) {
@@ -97,6 +98,7 @@ Frame make_full_frame(int index, int width, int height) {
     if (hit && depth > 5) frame.instance.back() = kGroundInstance;
     frame.label.push_back(static_cast<std::uint16_t>(hit ? 1 + random.below(3) : 0));
     const auto flow = static_cast<float>(random.uniform(-5, 5));
+    frame.sky_visibility.push_back(static_cast<float>(random.uniform()));
     frame.flow.insert(frame.flow.end(), {hit ? flow : nan, hit ? 0.25f * flow : nan});
   }
   const std::int64_t before = frame.stamp_ns - 33'333'333;
@@ -115,10 +117,9 @@ Frame make_full_frame(int index, int width, int height) {
 
 Recording full_recording() {
   Recording recording;
-  recording.channels = {true, true, true, true, true, true, true, true};
+  recording.channels = {true, true, true, true, true, true, true, true, true};
   recording.legend.labels = {"sky", "ground", "brick", "slab \"7\""};
   recording.legend.pieces = {{2, "brick"}, {3, "slab \"7\""}};
-  recording.stereo_baseline = 0.12;
   recording.imu.rate_hz = 150;
   return recording;
 }

@@ -97,6 +97,7 @@ export function checkRecording(messages, expectedPath, folder) {
     checkImage("/ground_truth/depth/image", "32FC1", 4, "true_depth");
     checkImage("/ground_truth/normals/image", "32FC3", 12, "normals");
     checkImage("/ground_truth/flow/image", "32FC2", 8, "flow");
+    checkImage("/ground_truth/sky_visibility/image", "32FC1", 4, "sky");
     checkImage("/ground_truth/instance/image", "32SC1", 4, "instance");
     checkImage("/ground_truth/label/image", "16UC1", 2, "label");
     const legend = JSON.parse(take("/ground_truth/legend", 1)[0].message.data);

@@ -1,0 +1,17 @@
+// OpenEXR pictures of exact numbers: depth, normals, piece numbers.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rubble {
+
+// Interleaved values of some channels, rows from the top; `channels` names them in that order.
+// The bytes of an EXR file with ZIP compression, lossless, NaN included. Throws RunError.
+std::string encode_exr(int width, int height, const std::vector<std::string>& channels,
+                       const std::vector<float>& values);
+std::string encode_exr(int width, int height, const std::vector<std::string>& channels,
+                       const std::vector<std::uint32_t>& values);
+
+}  // namespace rubble

@@ -1,0 +1,36 @@
+// Numbers as text that does not depend on the user's locale and reads back to the same bits.
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <string>
+
+namespace rubble {
+
+// The shortest text that reads back to `value`.
+inline std::string exact_text(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+// With `digits` after the point.
+inline std::string fixed_text(double value, int digits) {
+  char text[352];  // the longest double has 309 digits before the point
+  return {text,
+          std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits).ptr};
+}
+
+// Nanoseconds as seconds with nine digits after the point, without rounding. stamp_ns: >= 0.
+inline std::string seconds_text(std::int64_t stamp_ns) {
+  constexpr std::int64_t kSecond = 1000000000;
+  const std::string digits = std::to_string(kSecond + stamp_ns % kSecond);  // a 1 in front
+  return std::to_string(stamp_ns / kSecond) + "." + digits.substr(1);
+}
+
+// 7 as "000007": sorts by name as by number.
+inline std::string index_text(int index) {
+  const std::string digits = std::to_string(index);
+  return digits.size() < 6 ? std::string(6 - digits.size(), '0') + digits : digits;
+}
+
+}  // namespace rubble

@@ -1,0 +1,206 @@
+// Exports of a small pile, read back by assimp, Gazebo's SDF parser, Khronos's glTF validator,
+// ADMesh and meshio.
+#include "io/pile_export.h"
+
+#include <assimp/scene.h>
+#include <gtest/gtest.h>
+
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <fstream>
+#include <sdf/sdf.hh>
+
+#include "io/mesh_file.h"
+#include "kernel/base/error.h"
+#include "kernel/base/portable_math.h"
+#include "tests/io/support.h"
+
+namespace rubble {
+namespace {
+
+using test::ScratchFolder;
+
+// A wedge with normals and two surfaces: no symmetry that could hide a mirrored axis.
+TriangleMesh make_wedge() {
+  const Vec3f corners[] = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 0.5f}};
+  const std::array<int, 3> faces[] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  TriangleMesh mesh;
+  mesh.surface_names = {"concrete_cast", "brick"};
+  for (const auto& f : faces) {
+    const Vec3f a = corners[f[0]], b = corners[f[1]], c = corners[f[2]];
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const Vec3f normal = normalized(cross(b - a, c - a));
+    mesh.positions.insert(mesh.positions.end(), {a, b, c});
+    mesh.normals.insert(mesh.normals.end(), {normal, normal, normal});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.surfaces.push_back(mesh.surfaces.size() < 2 ? 0 : 1);
+  }
+  return mesh;
+}
+
+TriangleMesh make_flat_tetrahedron() {  // without normals, of one surface
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {0.3f, 0, 0}, {0, 0.3f, 0}, {0, 0, 0.6f}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  mesh.surfaces = {0, 0, 0, 0};
+  mesh.surface_names = {"rebar"};
+  return mesh;
+}
+
+class PileExport : public testing::Test {
+ protected:
+  PileExport() {
+    model_.types = {{"wedge", &wedge_}, {"spike", &spike_}};
+    model_.pieces = {
+        {0, piece_name("wedge", 0), 1.5, {portable::quat_from_rpy(0.3, -0.7, 1.9), {1, 2, 3}}},
+        {1, piece_name("spike", 1), 0.5, {portable::quat_from_rpy(-2.0, 0.4, 0.1), {-4, 0, 0.2}}},
+        {0, piece_name("wedge", 7), 2.0, {portable::quat_from_rpy(0, 0, -1), {0, -5, 0}}}};
+    model_.looks = {{"concrete_cast", {0.3f, 0.25f, 0.2f}}, {"brick", {0.4f, 0.1f, 0.1f}}};
+  }
+
+  double expected_volume() const {
+    const double wedge = 2.0 * 1.0 * 0.5 / 6, spike = 0.3 * 0.3 * 0.6 / 6;
+    return wedge * (1.5 * 1.5 * 1.5 + 8.0) + spike * 0.125;
+  }
+
+  // Where a corner of the first piece must be.
+  Vec3 expected_corner() const { return model_.pieces[0].world_from_body * (Vec3{2, 0, 0} * 1.5); }
+
+  std::string write(const std::string& format) {
+    names_ = export_pile(model_, format, folder_.path());
+    return folder_ / names_.back();
+  }
+
+  TriangleMesh wedge_ = make_wedge(), spike_ = make_flat_tetrahedron();
+  PileModel model_;
+  ScratchFolder folder_;
+  std::vector<std::string> names_;
+};
+
+double nearest(const TriangleMesh& mesh, const Vec3& point) {
+  double best = 1e9;
+  for (const Vec3f& p : mesh.positions) best = std::min(best, distance(Vec3(p), point));
+  return best;
+}
+
+// assimp takes OBJ, PLY and STL as they are, and glTF's Y for up.
+TEST_F(PileExport, AssimpFindsTheSamePlacesCountsAndVolume) {
+  for (const std::string format : {"stl", "ply", "obj", "glb"}) {
+    const MeshUnits units{1, format == "glb" ? UpAxis::y : UpAxis::z};
+    const TriangleMesh mesh = load_mesh(write(format), units);
+    EXPECT_EQ(mesh.triangles.size(), 12u) << format;
+    EXPECT_NEAR(calc_volume_properties(mesh).volume, expected_volume(), 1e-5) << format;
+    EXPECT_TRUE(is_closed(mesh)) << format;
+    EXPECT_LT(nearest(mesh, expected_corner()), 1e-6) << format;
+    EXPECT_GT(nearest(mesh, {expected_corner().x, -expected_corner().y, expected_corner().z}), 0.1)
+        << "the check would not see a mirrored " << format;
+  }
+}
+
+TEST_F(PileExport, GlbKeepsNamesMaterialsAndOneMeshPerAsset) {
+  const std::string path = write("glb");
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(path, 0);
+  ASSERT_TRUE(scene) << importer.GetErrorString();
+  EXPECT_EQ(scene->mNumMeshes, 3u) << "two surfaces of the wedge, one of the spike";
+  for (const char* name : {"wedge_000000", "spike_000001", "wedge_000007"})
+    EXPECT_TRUE(scene->mRootNode->FindNode(name)) << name;
+  std::vector<std::string> materials;
+  for (unsigned i = 0; i < scene->mNumMaterials; ++i)
+    materials.push_back(scene->mMaterials[i]->GetName().C_Str());
+  for (const char* name : {"concrete_cast", "brick", "rebar"})
+    EXPECT_EQ(std::count(materials.begin(), materials.end(), name), 1) << name;
+}
+
+TEST_F(PileExport, KhronosValidatorFindsNothingInTheGlb) {
+  const auto result = test::run_node("validate_gltf.mjs", write("glb"));
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("errors 0 warnings 0"), std::string::npos) << result.output;
+}
+
+TEST_F(PileExport, ObjKeepsNamesAndMaterials) {
+  const std::string text = test::read_text(write("obj"));
+  for (const char* line : {"mtllib pile.mtl\n", "o wedge_000000\n", "o spike_000001\n",
+                           "o wedge_000007\n", "usemtl brick\n", "usemtl rebar\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line;
+  const std::string materials = test::read_text(folder_ / "pile.mtl");
+  EXPECT_NE(materials.find("newmtl brick\nKd 0.4 0.1 0.1\n"), std::string::npos) << materials;
+}
+
+TEST_F(PileExport, PlyHasDistinctPositionsAndPieceNumbers) {
+  const std::string text = test::read_text(write("ply"));
+  EXPECT_NE(text.find("element vertex 12\n"), std::string::npos) << "4 corners of 3 pieces";
+  EXPECT_NE(text.find("property int piece\n"), std::string::npos);
+}
+
+TEST_F(PileExport, OtherReadersFindTheSameVolume) {
+  const std::string measure =
+      "; q = p.astype(float)[t]; print('triangles', len(t), 'volume %.6f' % (np.einsum('ij,ij->i', "
+      "q[:,0], np.cross(q[:,1], q[:,2])).sum() / 6))\"";
+  const std::string with_meshio =
+      "import meshio; m = meshio.read(path); t = m.cells_dict['triangle']; p = m.points";
+  // meshio wants as many normals as positions, which OBJ does not.
+  const std::string by_the_book =
+      "r = [l.split() for l in open(path)]; "
+      "p = np.array([[float(x) for x in w[1:]] for w in r if w[0] == 'v']); "
+      "t = np.array([[int(x.split('/')[0]) - 1 for x in w[1:]] for w in r if w[0] == 'f'])";
+  for (const std::string format : {"stl", "ply", "obj"}) {
+    const std::string path = write(format);
+    const auto result =
+        test::run_command("/usr/bin/python3 -c \"import numpy as np; path = '" + path + "'; " +
+                          (format == "obj" ? by_the_book : with_meshio) + measure);
+    char expected[64];
+    std::snprintf(expected, sizeof expected, "triangles 12 volume %.6f", expected_volume());
+    EXPECT_NE(result.output.find(expected), std::string::npos)
+        << format << ": " << expected << " is not in\n"
+        << result.output;
+  }
+}
+
+TEST_F(PileExport, AdmeshFindsThreeWholeParts) {
+  const auto admesh = test::run_command("admesh " + write("stl"));
+  EXPECT_EQ(admesh.exit_code, 0) << admesh.output;
+  for (const char* row : {"Number of parts       :     3", "Degenerate facets     :     0",
+                          "Total disconnected facets        :     0                   0"})
+    EXPECT_NE(admesh.output.find(row), std::string::npos) << row << "\n" << admesh.output;
+}
+
+TEST_F(PileExport, GazebosParserLoadsTheWorld) {
+  write("sdf");
+  sdf::Root root;
+  const sdf::Errors errors = root.Load(folder_ / "sdf/pile.sdf");
+  for (const sdf::Error& error : errors) ADD_FAILURE() << error.Message();
+  ASSERT_EQ(root.WorldCount(), 1u);
+  const sdf::World& world = *root.WorldByIndex(0);
+  EXPECT_EQ(world.ModelCount(), 4u) << "the ground and three pieces";
+  const sdf::Model* model = world.ModelByName("wedge_000007");
+  ASSERT_TRUE(model);
+  EXPECT_TRUE(model->Static());
+  EXPECT_NEAR(model->RawPose().Pos().Y(), -5, 1e-12);
+  EXPECT_NEAR(model->RawPose().Rot().Yaw(), -1, 1e-9);
+  const sdf::Mesh* mesh = model->LinkByIndex(0)->CollisionByIndex(0)->Geom()->MeshShape();
+  ASSERT_TRUE(mesh);
+  EXPECT_EQ(mesh->Uri(), "meshes/wedge.obj");
+  EXPECT_EQ(mesh->Scale().X(), 2.0);
+  const TriangleMesh wedge = load_mesh(folder_ / "sdf/meshes/wedge.obj");
+  EXPECT_NEAR(calc_volume_properties(wedge).volume, 2.0 * 0.5 / 6, 1e-6);
+}
+
+TEST_F(PileExport, GivesTheSameBytesTwice) {
+  for (const std::string format : {"stl", "ply", "obj", "glb"}) {
+    const std::string first = test::read_text(write(format));
+    EXPECT_TRUE(first == test::read_text(write(format))) << format;
+  }
+}
+
+TEST_F(PileExport, NamesTheFormatsThatItKnows) {
+  try {
+    write("fbx");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("stl, ply, obj, glb, sdf"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace rubble

@@ -27,6 +27,8 @@ ExitCode verify_run(const VerifyRequest& request);
 ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids);
 // Errors of an estimated trajectory, on standard output.
 ExitCode eval_trajectory(const TrajectoryRequest& request);
+// The pile of the finished run as meshes and worlds for other programs.
+ExitCode export_saved_pile(const FolderRequest& request, const ExportRequest& to);
 // Resolves everything, runs nothing, prints the complete scenario as JSON on standard output.
 ExitCode check_mission(const RunRequest& request);
 // Versions, EGL device and GL renderer in use, threads, on standard output.

@@ -84,8 +84,7 @@ void add_jobs_options(CLI::App& command, int& jobs, RunOptions& options) {
 }
 
 void add_void_options(CLI::App& command, VoidRequest& request) {
-  command
-      .add_option("--radius", request.radii, "Radius of a robot (default: 0.1, 0.2 and 0.3)")
+  command.add_option("--radius", request.radii, "Radius of a robot (default: 0.1, 0.2 and 0.3)")
       ->type_name("METRES")
       ->allow_extra_args(false)
       ->take_all();
@@ -168,11 +167,25 @@ Action add_voids(CLI::App& command) {
   return [of, request] { return map_voids(*of, *request); };
 }
 
+Action add_export(CLI::App& command) {
+  const auto of = std::make_shared<FolderRequest>();
+  const auto request = std::make_shared<ExportRequest>();
+  add_folder_options(command, *of);
+  command.add_option("--format", request->formats, "stl, ply, obj, glb or sdf (default: all)")
+      ->type_name("FORMAT")
+      ->delimiter(',');
+  command.add_option("--out", request->out, "Output folder (default: FOLDER/export)")
+      ->type_name("DIR");
+  command.add_flag("--force", request->force, "Replace the files of an earlier export");
+  return [of, request] { return export_saved_pile(*of, *request); };
+}
+
 Action add_eval(CLI::App& command) {
   command.require_subcommand(1);
   const auto request = std::make_shared<TrajectoryRequest>();
   add_trajectory_options(
-      *command.add_subcommand("trajectory", "Absolute and relative errors of a trajectory, as evo's"),
+      *command.add_subcommand("trajectory",
+                              "Absolute and relative errors of a trajectory, as evo's"),
       *request);
   return [request] { return eval_trajectory(*request); };
 }
@@ -225,6 +238,7 @@ const CommandEntry kCommands[] = {
     {"resume", "Continue a run that was stopped or killed", add_resume},
     {"verify", "Run again from the manifest alone, and compare every hash", add_verify},
     {"render", "Another mission's flight over the pile of a finished run", add_render},
+    {"export", "The pile of a finished run as STL, PLY, OBJ, glTF or SDF", add_export},
     {"voids", "Map the voids of a run's pile: entrances, volumes, widest ways", add_voids},
     {"eval", "Score what others made of a dataset", add_eval},
     {"batch", "One mission with many seeds, and a table of them", add_batch},

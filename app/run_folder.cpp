@@ -18,9 +18,10 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kFileList = "/unfinished/files.txt";
 
 // What runs leave; the manifest comes first, for without it nothing else is taken for whole.
-const std::vector<std::string> kUsualFiles{"manifest.json", "mission.rawlog",  "mission.bag",
-                                           "mission.mcap",  "pile.stl",        "pile.bin",
-                                           "preview.png",   "groundtruth.txt", "labels.csv"};
+const std::vector<std::string> kUsualFiles{
+    "manifest.json", "mission.rawlog", "mission.bag",     "mission.mcap", "pile.stl",
+    "pile.bin",      "preview.png",    "groundtruth.txt", "labels.csv",   "mission.simplemap",
+    "pile.ply",      "pile.obj",       "pile.mtl",        "pile.glb"};
 
 bool is_inside(const fs::path& name) { return !name.is_absolute() && *name.begin() != ".."; }
 

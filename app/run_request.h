@@ -32,6 +32,13 @@ struct FolderRequest {
   RunOptions options;
 };
 
+// Into which formats a pile goes, and where to.
+struct ExportRequest {
+  std::vector<std::string> formats;  // --format, of export_formats(); empty: all
+  std::string out;                   // --out; empty: `export` in the folder of the run
+  bool force = false;                // --force
+};
+
 // How to look for voids.
 struct VoidRequest {
   std::vector<double> radii{0.1, 0.2, 0.3};  // --radius, of robots; unit: m

@@ -12,6 +12,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DOCUMENT = ROOT / "docs" / "performance.md"
@@ -78,6 +79,14 @@ def make_seeds(build):
                          "largest": "largest"})
 
 
+def make_recording(build):
+    with tempfile.TemporaryDirectory() as folder:
+        rows = rows_of([str(build / "recorder_bench"), folder, "30"])
+    return table(rows, {"recorder": "recorder", "CPU ms a frame": "cpu_ms",
+                        "elapsed ms a frame": "elapsed_ms", "frames/s": "frames_per_s",
+                        "MB a frame": "mb_per_frame"})
+
+
 def make_machine(build):
     del build
     model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
@@ -90,7 +99,7 @@ def make_machine(build):
 
 
 SECTIONS = {"machine": make_machine, "settling": make_settling, "seeds": make_seeds,
-            "scaling": make_scaling}
+            "scaling": make_scaling, "recording": make_recording}
 
 
 def main():

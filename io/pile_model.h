@@ -24,7 +24,7 @@ struct PileModel {
   };
   struct Piece {
     std::uint32_t type = 0;
-    std::string name;  // unlike all others, e.g. "slab_00012"
+    std::string name;  // unlike all others, e.g. "slab_000012"
     double scale = 1;
     Pose world_from_body;
   };
@@ -35,7 +35,7 @@ struct PileModel {
   Vec3f colour_of(const std::string& surface) const;
 };
 
-// "slab_00012": the name of an asset and the number of the piece.
+// "slab_000012": the name of an asset and the number of the piece.
 std::string piece_name(const std::string& asset, std::size_t number);
 
 // A mesh whose vertices are its distinct positions: what a solid needs to be closed.

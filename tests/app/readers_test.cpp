@@ -55,6 +55,23 @@ TEST_F(Readers, RawlogEditCountsTheObservations) {
     EXPECT_NE(info.find(row), std::string::npos) << row << "\n" << info;
 }
 
+TEST_F(Readers, ExportWritesEveryFormatOfAFinishedRun) {
+  const std::string out = *scratch_ / "export";
+  const Outcome all = run_rubble("export " + file("") + " --quiet --out " + out);
+  EXPECT_EQ(all.exit_code, 0) << all.err;
+  for (const char* name : {"pile.stl", "pile.ply", "pile.obj", "pile.mtl", "pile.glb",
+                           "sdf/pile.sdf", "sdf/meshes/materials.mtl"})
+    EXPECT_FALSE(read_file(out + "/" + name).empty()) << name;
+  EXPECT_TRUE(read_file(out + "/pile.stl") == read_file(file("pile.stl")));
+  const Outcome again = run_rubble("export " + file("") + " --format ply,sdf --out " + out);
+  EXPECT_EQ(again.exit_code, 1) << "the folder is not empty";
+  const Outcome forced = run_rubble("export " + file("") + " --format ply,sdf --force --out " + out);
+  EXPECT_EQ(forced.exit_code, 0) << forced.err;
+  const Outcome unknown = run_rubble("export " + file("") + " --format fbx");
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_NE(unknown.err.find("stl, ply, obj, glb, sdf"), std::string::npos) << unknown.err;
+}
+
 // MRPT's map of the run lies on the surface in the STL file.
 TEST_F(Readers, Observations2mapPutsThePointsOnThePile) {
   write_file(file("map.ini"),

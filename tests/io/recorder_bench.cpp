@@ -1,6 +1,7 @@
-// recorder_bench FOLDER [FRAMES [PNG...]]: what each recorder costs at 1024x1024. A tool for
-// developers, not a test: it prints CPU and elapsed milliseconds a frame and the size of the file.
-// PNG: pictures of 1024x1024 to take the colour from; noise without them.
+// recorder_bench FOLDER [FRAMES [PNG...]]: what each recorder costs at 1024x1024, as CSV: CPU and
+// elapsed milliseconds a frame, frames per second, megabytes a frame. bench/performance.py puts it
+// into docs/performance.md. PNG: pictures of 1024x1024 to take the colour from; without them each
+// pixel has noise of 16 grey levels, which compresses worse than rendered concrete.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -8,11 +9,16 @@
 #include <filesystem>
 #include <functional>
 
+#include "io/colmap_recorder.h"
 #include "io/contact_sheet.h"
+#include "io/euroc_recorder.h"
+#include "io/frames_recorder.h"
 #include "io/image_file.h"
+#include "io/mcap_recorder.h"
 #include "io/rawlog_recorder.h"
 #include "io/recording_queue.h"
 #include "io/rosbag_recorder.h"
+#include "io/simplemap_recorder.h"
 #include "io/tum_recorder.h"
 #include "tests/io/support.h"
 
@@ -22,6 +28,15 @@ using namespace rubble;
 using Recorders = std::vector<std::unique_ptr<Recorder>>;
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+std::uintmax_t size_of(const std::string& path) {
+  namespace fs = std::filesystem;
+  if (!fs::is_directory(path)) return fs::file_size(path);
+  std::uintmax_t size = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(path))
+    if (entry.is_regular_file()) size += entry.file_size();
+  return size;
+}
 
 void measure(const char* name, const std::vector<Frame>& frames, int count,
              const std::vector<std::string>& paths, Recorders recorders) {
@@ -39,12 +54,12 @@ void measure(const char* name, const std::vector<Frame>& frames, int count,
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   double megabytes = 0;
   for (const std::string& path : paths) {
-    megabytes += static_cast<double>(std::filesystem::file_size(path)) / 1e6;
-    std::filesystem::remove(path);
+    megabytes += static_cast<double>(size_of(path)) / 1e6;
+    std::filesystem::remove_all(path);
   }
-  std::printf("%-28s %7.1f CPU ms %7.1f ms elapsed %7.1f frames/s %7.2f MB a frame\n", name,
-              1e3 * cpu / count, 1e3 * wall.count() / count, count / wall.count(),
-              megabytes / count);
+  std::printf("%s,%.1f,%.1f,%.1f,%.2f\n", name, 1e3 * cpu / count, 1e3 * wall.count() / count,
+              count / wall.count(), megabytes / count);
+  std::fflush(stdout);
 }
 
 template <typename... R>
@@ -64,19 +79,38 @@ int main(int argc, char** argv) {
     frames.push_back(test::make_busy_frame(i, 1024));
     if (argc > 3) frames.back().rgb = read_rgb_png(argv[3 + i % (argc - 3)]).rgb;
   }
-  const std::string a = folder + "/bench.a", b = folder + "/bench.b";
+  const std::string stem = folder + "/bench.", a = stem + "a", b = stem + "b", c = stem + "c",
+                    d = stem + "d", e = stem + "e";
   ContactSheetOptions sheet;
   sheet.total_frames = count;
-  measure("nothing (copying frames)", frames, count, {}, list());
-  measure("bag, uncompressed, 16UC1", frames, count, {a},
-          list(make_rosbag_recorder(a, {}, BagCompression::none)));
-  measure("bag, LZ4, 16UC1 (default)", frames, count, {a}, list(make_rosbag_recorder(a)));
-  measure("bag, LZ4, 32FC1", frames, count, {a},
-          list(make_rosbag_recorder(a, {RosDepth::metres, RosPictures::raw, {}})));
-  measure("rawlog, gz 0 (default)", frames, count, {a}, list(make_rawlog_recorder(a, {0, 0.001})));
-  measure("rawlog, gz 1", frames, count, {a}, list(make_rawlog_recorder(a, {1, 0.001})));
-  measure("trajectory", frames, count, {a}, list(make_tum_trajectory_recorder(a)));
-  measure("contact sheet", frames, count, {a}, list(make_contact_sheet_recorder(a, sheet)));
-  measure("bag + rawlog, defaults", frames, count, {a, b},
+  const RosOptions metres{RosDepth::metres, RosPictures::raw, {}};
+  const RosOptions png{RosDepth::millimetres, RosPictures::png, {}};
+  const RosOptions jpeg{RosDepth::millimetres, RosPictures::jpeg, {}};
+  const auto run = [&](const char* name, std::unique_ptr<Recorder> recorder) {
+    measure(name, frames, count, {a}, list(std::move(recorder)));
+  };
+  std::printf("recorder,cpu_ms,elapsed_ms,frames_per_s,mb_per_frame\n");
+  measure("none: frames copied", frames, count, {}, list());
+  run("rawlog (default: gzip 0)", make_rawlog_recorder(a));
+  run("rawlog gzip 1", make_rawlog_recorder(a, {1, 0.001, {}}));
+  run("simplemap: every frame a key frame", make_simplemap_recorder(a, {0, 15, 160, {}, {}}));
+  run("bag (default: LZ4 raw 16UC1)", make_rosbag_recorder(a));
+  run("bag 32FC1", make_rosbag_recorder(a, metres));
+  run("bag PNG", make_rosbag_recorder(a, png));
+  run("bag JPEG", make_rosbag_recorder(a, jpeg));
+  run("mcap (default: zstd raw 16UC1)", make_mcap_recorder(a));
+  run("mcap 32FC1", make_mcap_recorder(a, metres));
+  run("mcap JPEG", make_mcap_recorder(a, jpeg));
+  run("TUM folder", make_tum_recorder(a));
+  run("EuRoC folder", make_euroc_recorder(a));
+  run("COLMAP folder", make_colmap_recorder(a));
+  run("plain PNG and EXR", make_frames_recorder(a));
+  run("trajectory", make_tum_trajectory_recorder(a));
+  run("contact sheet", make_contact_sheet_recorder(a, sheet));
+  measure("bag + rawlog", frames, count, {a, b},
           list(make_rosbag_recorder(a), make_rawlog_recorder(b)));
+  measure("all defaults: bag + rawlog + simplemap + trajectory + contact sheet", frames, count,
+          {a, b, c, d, e},
+          list(make_rosbag_recorder(a), make_rawlog_recorder(b), make_simplemap_recorder(c),
+               make_tum_trajectory_recorder(d), make_contact_sheet_recorder(e, sheet)));
 }

@@ -21,8 +21,9 @@ struct SleepTerms {
   // It wakes at once when an impact would give it this speed.
   float hit_speed;  // unit: m/s
 };
-// While a pile grows, what lies still enough sleeps: most of it will be hit again.
-constexpr SleepTerms kGrowing{0.003, 0.2, 0.008, 0.6, 0.2F, 0.5F, 0.4F};
+// While a pile grows, what lies still enough sleeps: most of it will be hit again. It must wake as
+// readily as ever, or slopes freeze steeper than they can stand.
+constexpr SleepTerms kGrowing{0.003, 0.2, 0.008, 0.6, 0.1F, 0.25F, 0.2F};
 // Whether it rests is decided on these: who creeps slowly must not pass for one that stays.
 constexpr SleepTerms kProving{0.001, 0.5, 0.004, 1.0, 0.1F, 0.25F, 0.2F};
 

@@ -4,11 +4,39 @@
 #include <openvdb/tools/Filter.h>
 #include <openvdb/tools/VolumeToMesh.h>
 
+#include <algorithm>
 #include <mutex>
+#include <numeric>
+#include <tuple>
 
 #include "io/atomic_file.h"
 
 namespace rubble {
+
+namespace {
+
+// OpenVDB's threads leave points and faces in any order: into one that is always the same.
+void put_in_order(TriangleMesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.positions.size()), place(order.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const Vec3f &p = mesh.positions[a], &q = mesh.positions[b];
+    return std::tie(p.z, p.y, p.x) < std::tie(q.z, q.y, q.x);
+  });
+  std::vector<Vec3f> positions;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    place[order[i]] = std::uint32_t(i);
+    positions.push_back(mesh.positions[order[i]]);
+  }
+  mesh.positions = std::move(positions);
+  for (auto& t : mesh.triangles) {
+    for (std::uint32_t& corner : t) corner = place[corner];
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  }
+  std::sort(mesh.triangles.begin(), mesh.triangles.end());
+}
+
+}  // namespace
 
 TriangleMesh make_void_surface(const VoidSpace& space, const Void& v) {
   static std::once_flag once;
@@ -42,6 +70,7 @@ TriangleMesh make_void_surface(const VoidSpace& space, const Void& v) {
     mesh.triangles.push_back({q[2], q[1], q[0]});
     mesh.triangles.push_back({q[3], q[2], q[0]});
   }
+  put_in_order(mesh);
   return mesh;
 }
 

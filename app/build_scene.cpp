@@ -45,6 +45,8 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
                                std::uint32_t(i), std::uint16_t(kFirstAssetLabel + piece.type)});
   }
   scene.light = resolve_light(scenario);
+  scene.more_lights = scenario.lights;
+  scene.wetness = scenario.wetness;
   scene.lamp = scenario.lamp;
   scene.air = scenario.air;
   scene.seed = scenario.seed;

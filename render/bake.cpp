@@ -64,9 +64,9 @@ Vec3f times(const Vec3f& a, const Vec3f& b) { return {a.x * b.x, a.y * b.y, a.z 
 
 }  // namespace
 
-BakedScene open_sky_light(const PreparedScene& scene, const LightModel& light) {
-  // A dome of the mean of zenith and horizon gives pi L to a level face, half that to a wall.
-  const Vec3f radiance = (light.sky.zenith + light.sky.horizon) * 0.5f;
+BakedScene open_sky_light(const PreparedScene& scene, const LightSet& light) {
+  // An even dome gives pi L to a level face, half that to a wall.
+  const Vec3f radiance = light.sky.mean;
   BakedScene out;
   out.air.size = {1, 1, 1};
   out.air.radiance = {radiance * 0.5f};
@@ -85,11 +85,11 @@ namespace {
 
 // The pieces as a ray caster sees them, with the light on them.
 struct Baker {
-  Baker(const PreparedScene& s, const LightModel& l, const BakeOptions& o)
+  Baker(const PreparedScene& s, const LightSet& l, const BakeOptions& o)
       : scene(s), light(l), options(o), rays(s), directions(cosine_directions(o.rays)) {}
 
   const PreparedScene& scene;
-  LightModel light;
+  LightSet light;
   BakeOptions options;
   RayScene rays;
   std::vector<Vec3f> directions;
@@ -170,12 +170,15 @@ void Baker::trace(std::size_t i) {
     hits[i * count + r] = code;
   }
   valid[i] = float(inside) <= kMaxInside * float(count);
-  const LightModel::Sample sample = light.at(p.position);
-  const float facing = dot(sample.to_light, p.normal);
-  const bool lit = valid[i] && facing > 0 && luminance(sample.illuminance) > 0 &&
-                   !rays.blocked(from + p.normal * 0.01f, sample.to_light, 0.001f,
-                                 std::min(sample.distance * 0.999f, kFarthest));
-  direct[i] = lit ? sample.illuminance * facing : Vec3f();
+  direct[i] = Vec3f();
+  for (const LightModel& l : light.lights) {
+    const LightModel::Sample sample = l.at(p.position);
+    const float facing = dot(sample.to_light, p.normal);
+    const bool lit = valid[i] && facing > 0 && luminance(sample.illuminance) > 0 &&
+                     !rays.blocked(from + p.normal * 0.01f, sample.to_light, 0.001f,
+                                   std::min(sample.distance * 0.999f, kFarthest));
+    if (lit) direct[i] += sample.illuminance * facing;
+  }
 }
 
 // Illuminance E = pi / N sum L, and the vector V with E(n') = dot(n', V) for normals near n:
@@ -335,10 +338,12 @@ bool Baker::air_radiance(const Vec3f& point, Vec3f& mean) const {
   }
   if (inside > kRays / 4) return false;
   mean = sum * (1.0f / kRays);
-  // The main light itself, scattered evenly.
-  const LightModel::Sample sample = light.at(point);
-  if (!rays.blocked(point, sample.to_light, 0, std::min(sample.distance * 0.999f, kFarthest)))
-    mean += sample.illuminance * (1 / (4 * kPi));
+  // The lights themselves, scattered evenly.
+  for (const LightModel& l : light.lights) {
+    const LightModel::Sample sample = l.at(point);
+    if (!rays.blocked(point, sample.to_light, 0, std::min(sample.distance * 0.999f, kFarthest)))
+      mean += sample.illuminance * (1 / (4 * kPi));
+  }
   return true;
 }
 
@@ -414,7 +419,7 @@ Vec3f AirLight::at(const Vec3f& point) const {
   return bottom + (layer(corner + size[0] * size[1]) - bottom) * part[2];
 }
 
-BakedScene bake_light(const PreparedScene& scene, const LightModel& light,
+BakedScene bake_light(const PreparedScene& scene, const LightSet& light,
                       const BakeOptions& options, const std::function<void(double)>& progress) {
   Baker baker(scene, light, options);
   baker.run(progress);

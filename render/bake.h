@@ -34,15 +34,15 @@ struct BakedScene {
 };
 
 // Every vertex and all air as if nothing stood around: the sky alone.
-BakedScene open_sky_light(const PreparedScene& scene, const LightModel& light);
+BakedScene open_sky_light(const PreparedScene& scene, const LightSet& light);
 
 // progress: called with the done fraction, on the calling thread.
-BakedScene bake_light(const PreparedScene& scene, const LightModel& light,
+BakedScene bake_light(const PreparedScene& scene, const LightSet& light,
                       const BakeOptions& options, const std::function<void(double)>& progress);
 
 // The same by way of the disk cache: made only if it is not there.
 BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene,
-                           const LightModel& light, const BakeOptions& options,
+                           const LightSet& light, const BakeOptions& options,
                            const std::function<void(double)>& progress);
 
 }  // namespace rubble

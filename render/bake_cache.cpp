@@ -6,7 +6,7 @@ namespace rubble {
 
 namespace {
 
-constexpr int kVersion = 1;  // raise it when the same scene bakes to other light
+constexpr int kVersion = 2;  // raise it when the same scene bakes to other light
 
 template <typename T>
 void add_vec(CacheKey& key, const Vec3T<T>& v) {
@@ -31,14 +31,16 @@ void add_placed(CacheKey& key, const PlacedMesh& piece) {
   add_vec(key, piece.world_from_mesh.translation);
 }
 
-void add_light(CacheKey& key, const LightModel& light) {
-  key.add(light.type).add(light.cos_outer).add(light.cos_inner);
-  for (const Vec3f& v : {light.position, light.axis, light.colour, light.sky.zenith,
-                         light.sky.horizon, light.sky.glow, light.sky.sun_direction})
-    add_vec(key, v);
+void add_light(CacheKey& key, const LightSet& light) {
+  key.add(light.lights.size());
+  for (const LightModel& l : light.lights) {
+    key.add(l.type).add(l.cos_outer).add(l.cos_inner);
+    for (const Vec3f& v : {l.position, l.axis, l.colour}) add_vec(key, v);
+  }
+  for (const Vec3f& v : light.sky.map) add_vec(key, v);
 }
 
-std::string key_of(const PreparedScene& scene, const LightModel& light,
+std::string key_of(const PreparedScene& scene, const LightSet& light,
                    const BakeOptions& options) {
   CacheKey key("bake_light", kVersion);
   key.add(options.rays).add(options.bounces).add(options.seed);
@@ -54,7 +56,7 @@ std::string key_of(const PreparedScene& scene, const LightModel& light,
 }  // namespace
 
 BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene,
-                           const LightModel& light, const BakeOptions& options,
+                           const LightSet& light, const BakeOptions& options,
                            const std::function<void(double)>& progress) {
   if (cache.folder().empty()) return bake_light(scene, light, options, progress);
   const std::string key = key_of(scene, light, options);

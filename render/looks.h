@@ -20,9 +20,13 @@ enum class Pattern {
   galvanised,
   wood,
   plaster,
-  soil
+  soil,
+  splinters,
+  paint,
+  weave,
+  smooth
 };
-inline constexpr int kPatternCount = 10;
+inline constexpr int kPatternCount = 14;
 
 // How a surface reflects. Colours are linear-light albedos (0 to 1).
 struct Look {

@@ -6,10 +6,13 @@
 #include <limits>
 
 #include "kernel/base/error.h"
+#include "kernel/base/portable_math.h"
+#include "render/air_volume.h"
 #include "render/bake.h"
 #include "render/effects/antialias.h"
 #include "render/exposure.h"
 #include "render/geometry.h"
+#include "render/medium.h"
 #include "render/passes/ray_pass.h"
 #include "render/passes/resolve_pass.h"
 #include "render/passes/shadow_pass.h"
@@ -76,8 +79,12 @@ struct Renderer::State {
   const Gl& gl;
   RenderOptions options;
   PreparedScene scene;
-  LightModel light;
+  LightSet light;
   AirLight air_light;
+  Medium medium;
+  AirVolume air_volume;
+  std::int64_t start_ns;
+  ThreadPool pool;
   GpuGeometry geometry;
   ShadowMap shadow;
   FrameLight frame_light;
@@ -91,7 +98,7 @@ struct Renderer::State {
   std::unique_ptr<RayPass> rays;  // made when a view first needs it
   ViewRays drawn;                 // what was drawn last
 
-  void update_air(const Pose& world_from_camera);
+  void update_air(const ViewRays& view);
   // Which triangle each pixel shows: by rasterising where that will do, by casting rays otherwise.
   SurfaceImages draw_surfaces(const ViewRays& view);
   void draw_colour(const SurfaceImages& surfaces);
@@ -110,7 +117,10 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
       gl(c.gl()),
       options(o),
       scene(prepare_scene(s, o.threads)),
-      light(make_light_model(s.light)),
+      light(make_lights(s)),
+      medium(s.air, s.seed),
+      start_ns(s.start_ns),
+      pool(std::max(1, o.threads)),
       exposure(ExposureOptions{0.17, 0.25, o.fixed_exposure}) {
   const auto report = [&](double fraction) {
     if (progress) progress(fraction);
@@ -133,7 +143,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
   geometry = upload_geometry(gl, scene, baked.vertices);
   report(0.9);
   shadow = draw_shadow_map(gl, scene, geometry, light, o.shadow_size);
-  frame_light = {&light, &shadow, s.lamp, s.air, {}};
+  frame_light = {&light, &shadow, s.lamp, s.air, medium.homogeneous(), s.wetness, {}, nullptr};
   visibility = std::make_unique<VisibilityPass>(
       gl, scene, geometry,
       VisibilityOptions{o.occlusion_culling, o.coarse_below, draws_on_processor(o, c.info()),
@@ -143,15 +153,27 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
   report(1);
 }
 
-void Renderer::State::update_air(const Pose& world_from_camera) {
-  if (frame_light.air.fog_density <= 0) return;
-  frame_light.air_ambient = air_light.at(Vec3f(world_from_camera.translation));
+void Renderer::State::update_air(const ViewRays& view) {
+  const Pose& pose = view.world_from_camera;
+  if (medium.clear()) return;
+  frame_light.air_ambient = air_light.at(Vec3f(pose.translation));
+  if (medium.homogeneous()) return;
+  const LampSpec& lamp = frame_light.lamp;
+  AirLamp glow;
+  glow.position = Vec3f(pose * lamp.position);
+  glow.axis = Vec3f(pose.rotation.rotate({1, 0, 0}));
+  glow.colour = lamp.on ? lamp_colour(lamp) : Vec3f();
+  glow.cone = float(1 / (1 - portable::cos(0.5 * lamp.cone_deg * portable::kPi / 180)));
+  glow.offset2 = float(std::max(dot(lamp.position, lamp.position), 0.02 * 0.02));
+  const Air air = medium.at(double(view.stamp_ns - start_ns) * 1e-9);
+  air_volume.build(view, air, air_light, &glow, pool);
+  frame_light.air_table = &air_volume;
 }
 
 SurfaceImages Renderer::State::draw_surfaces(const ViewRays& view) {
   const auto start = Clock::now();
   drawn = view;
-  update_air(drawn.world_from_camera);
+  update_air(drawn);
   if (view.plain()) {
     visibility->draw(projection());
     times.triangles = visibility->counts().triangles;

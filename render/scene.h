@@ -10,25 +10,35 @@
 
 namespace rubble {
 
-enum class LightType { directional, spot, point };
+// directional: a beam from very far away, of given strength; sun: one whose strength, colour and sky
+// follow from where the sun stands.
+enum class LightType { directional, spot, point, sun };
 
-// The main light. Its beam leaves along the X axis of its frame.
+// A light of the place. A beam leaves along the X axis of its frame.
 struct LightSpec {
   LightType type = LightType::directional;
   // directional: illuminance on a facing surface, in klx (clear sun: 100); spot and point: luminous
   // intensity in kcd. range: 0 to 1000
   double intensity = 60;
-  Vec3 rpy_deg{0, 50, 35};  // roll, pitch (positive: down), yaw; unit: degree
-  Vec3 position{0, 0, 20};  // of spot and point lights; unit: m
-  double cone_deg = 60;     // full angle of a spot; range: 1 to 170
+  Vec3 rpy_deg{0, 50, 35};   // roll, pitch (positive: down), yaw; not of the sun; unit: degree
+  Vec3 position{0, 0, 20};   // of spot and point lights; unit: m
+  double cone_deg = 60;      // full angle of a spot; range: 1 to 170
+  double elevation_deg = 40;  // of the sun above the horizon; range: -18 (night) to 90
+  double azimuth_deg = 215;   // of the sun, from X towards Y; unit: degree
 };
+inline constexpr std::size_t kMostLights = 4;
+
+enum class LampShape { point, ring, cluster };
 
 // A lamp carried by the camera, just beside the lens.
 struct LampSpec {
   bool on = true;
   double intensity_cd = 120;       // on the axis; range: 0 to 100000
   double cone_deg = 90;            // full angle where it has fallen to half; range: 5 to 170
-  Vec3 position{0.02, 0.0, 0.05};  // in the camera body frame; unit: m
+  Vec3 position{0.02, 0.0, 0.05};  // of its middle, in the camera body frame; unit: m
+  // Light-emitting diodes in a ring or all over a disc facing forward, of this diameter.
+  LampShape shape = LampShape::point;
+  double size = 0.08;  // unit: m; range: 0 to 1
 };
 
 // Dust that bursts out now and then, as when debris shifts: see Medium.
@@ -72,8 +82,10 @@ struct Scene {
   std::vector<std::shared_ptr<const SceneMesh>> meshes;
   std::vector<SceneInstance> instances;
   bool ground = true;  // the plane z = 0
-  LightSpec light;
+  LightSpec light;                     // the main one, which makes the sky
+  std::vector<LightSpec> more_lights;  // at most kMostLights - 1
   LampSpec lamp;
+  double wetness = 0;  // of all surfaces: darker, and glossy where they face up; range: 0 to 1
   AirSpec air;
   std::uint64_t seed = 0;     // varies looks from piece to piece, never geometry; and the air
   std::int64_t start_ns = 0;  // the stamp at which the air's time is zero

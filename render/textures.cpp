@@ -27,10 +27,17 @@ Spot cast_concrete(float x, float y) {
   const float warp = tile_fractal(x, y, 5, 4, 0.55f, 18) - 0.5f;
   const float blotch = tile_fractal(x + 0.05f * warp, y - 0.05f * warp, 3, 6, 0.58f, 11);
   const float grain = tile_fractal(x, y, 64, 3, 0.65f, 12);
-  const CellNoise large = tile_cells(x, y, 22, 13), small = tile_cells(x, y, 70, 19);
-  const float width = 0.02f + 0.10f * (large.value - 0.8f) / 0.2f;
-  const float pit = large.value > 0.8f ? 1 - ramp(0.5f * width, width + 0.02f, large.nearest) : 0;
-  const float pin = small.value > 0.8f ? 1 - ramp(0.08f, 0.2f, small.nearest) : 0;
+  // Pores crowd in some places and are missing in others; few are large, and none is quite round.
+  const float crowd = tile_fractal(x, y, 4, 3, 0.6f, 27);
+  const float bend = 0.02f * (tile_fractal(x, y, 30, 3, 0.6f, 28) - 0.5f);
+  const CellNoise large = tile_cells(x + bend, y - bend, 19, 13);
+  const CellNoise small = tile_cells(x - bend, y + bend, 83, 19);
+  const float rank = (large.value - 0.99f + 0.22f * ramp(0.42f, 0.68f, crowd)) / 0.22f;
+  const float width = 0.015f + 0.13f * rank * rank;
+  const float pit = rank > 0 ? 1 - ramp(0.4f * width, width + 0.03f, large.nearest) : 0;
+  const float pin = small.value > 0.97f - 0.3f * ramp(0.45f, 0.7f, crowd)
+                        ? 1 - ramp(0.06f, 0.2f * small.value, small.nearest)
+                        : 0;
   const float board = std::fabs(std::fmod(y * 7.0f + 0.015f * warp, 1.0f) - 0.5f) * 2;
   const float worn = ramp(0.35f, 0.6f, tile_fractal(x, y, 3, 4, 0.6f, 20));
   const float seam = ramp(0.975f, 0.998f, board) * worn;
@@ -76,7 +83,9 @@ Spot brick_face(float x, float y) {
   const float pit = spot.value > 0.6f ? 1 - ramp(0.08f, 0.2f, spot.nearest) : 0.0f;
   const float mortar = tile_fractal(x, y, 3, 6, 0.62f, 35);
   Spot s;
-  s.mask = 0.9f * ramp(0.565f, 0.63f, mortar);
+  // Mortar clings in crumbs, not in smooth patches.
+  const float crumbs = tile_fractal(x, y, 28, 3, 0.65f, 36);
+  s.mask = 0.6f * ramp(0.60f, 0.72f, mortar + 0.35f * (crumbs - 0.5f));
   s.height = 0.2f * tone + 0.3f * drag - 0.4f * pit + 0.5f * s.mask * mortar;
   s.bright = 0.15f + 0.8f * tone - 0.3f * pit + 0.2f * (drag - 0.25f);
   return s;
@@ -181,6 +190,57 @@ Spot soil(float x, float y) {
   return s;
 }
 
+// Wood torn along its fibres.
+Spot splinters(float x, float y) {
+  const float warp = tile_fractal(x, y, 3, 3, 0.5f, 111);
+  const float coarse = tile_noise(x * 4 + 0.6f * warp, y * 40 + 2 * warp, 40, 112);
+  const float fine = tile_noise(x * 14, y * 130, 130, 113);
+  const float gap = ramp(0.72f, 0.85f, tile_noise(x * 3, y * 56, 56, 114));
+  Spot s;
+  s.height = 0.9f * coarse + 0.35f * fine - 0.6f * gap;
+  s.bright = 0.25f + 0.5f * coarse + 0.35f * (fine - 0.3f);
+  s.mask = 0.7f * gap;
+  return s;
+}
+
+// A coat of paint, dented and scratched down to primer and rust.
+Spot paint(float x, float y) {
+  const float dent = tile_fractal(x, y, 3, 3, 0.5f, 121);
+  const float flake = tile_fractal(x, y, 14, 4, 0.6f, 122);
+  const float line = tile_noise(x * 5 + 3 * dent, y * 90, 90, 123) * tile_noise(x * 3, y * 8, 8, 124);
+  Spot s;
+  s.height = 0.9f * dent;
+  s.bright = 0.45f + 0.25f * (dent - 0.5f) + 0.15f * (flake - 0.5f);
+  s.mask = std::max(ramp(0.66f, 0.72f, flake * 0.7f + 0.3f * dent), 0.8f * ramp(0.62f, 0.75f, line));
+  return s;
+}
+
+// Threads over and under each other, worn in places.
+Spot weave(float x, float y) {
+  constexpr int kThreads = 40;
+  const float fx = x * kThreads, fy = y * kThreads;
+  const float ax = fx - std::floor(fx), ay = fy - std::floor(fy);
+  const bool over = (int(std::floor(fx)) + int(std::floor(fy))) % 2 == 0;
+  const float across = over ? ay : ax, along = over ? ax : ay;
+  const float thread = 1 - std::fabs(across * 2 - 1), arch = 1 - 0.6f * std::fabs(along * 2 - 1);
+  const float worn = tile_fractal(x, y, 3, 5, 0.6f, 131);
+  Spot s;
+  s.height = 0.5f * thread * arch;
+  s.bright = 0.15f + 0.5f * thread * arch + 0.7f * (worn - 0.5f);
+  s.mask = 0.7f * ramp(0.6f, 0.72f, worn);
+  return s;
+}
+
+// Nothing but dirt.
+Spot smooth_sheet(float x, float y) {
+  const float dirt = tile_fractal(x, y, 4, 6, 0.6f, 141);
+  Spot s;
+  s.height = 0.03f * dirt;
+  s.bright = dirt;
+  s.mask = 0.5f * ramp(0.55f, 0.75f, dirt);
+  return s;
+}
+
 Spot spot_of(Pattern pattern, float x, float y) {
   switch (pattern) {
     case Pattern::cast_concrete:
@@ -203,6 +263,14 @@ Spot spot_of(Pattern pattern, float x, float y) {
       return plaster(x, y);
     case Pattern::soil:
       return soil(x, y);
+    case Pattern::splinters:
+      return splinters(x, y);
+    case Pattern::paint:
+      return paint(x, y);
+    case Pattern::weave:
+      return weave(x, y);
+    case Pattern::smooth:
+      return smooth_sheet(x, y);
   }
   return {};
 }
@@ -246,7 +314,7 @@ std::vector<PatternImage> make_patterns(int size, int threads) {
 }
 
 std::vector<PatternImage> make_patterns_once(const DiskCache& cache, int size, int threads) {
-  constexpr int kVersion = 1;  // raise it when a pattern changes
+  constexpr int kVersion = 2;  // raise it when a pattern changes
   const std::string key = CacheKey("make_patterns", kVersion).add(size).hex();
   if (const auto bytes = cache.find("textures", key)) {
     std::vector<PatternImage> images(kPatternCount);

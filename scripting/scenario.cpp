@@ -172,6 +172,10 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_channels(scenario.camera, mistakes);
   check_camera(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
+  if (scenario.lights.size() + 1 > kMostLights)
+    mistakes.push_back({"", 0, "lights", "too many lights",
+                        "at most " + std::to_string(kMostLights - 1) + " besides the main one",
+                        std::to_string(scenario.lights.size()), ""});
   for (Diagnostic& d : find_mistakes(scenario.trajectory)) mistakes.push_back(std::move(d));
   return mistakes;
 }
@@ -183,10 +187,17 @@ void Scenario::validate() const {
 
 LightSpec resolve_light(const Scenario& scenario) {
   LightSpec light = scenario.light.spec;
+  if (scenario.light.random_position) {
+    RandomStream random(scenario.seed, "light/position");
+    for (int i = 0; i < 3; ++i)
+      light.position[i] += random.uniform(-0.5, 0.5) * scenario.light.position_bounds[i];
+  }
   if (!scenario.light.random_rotation) return light;
   RandomStream random(scenario.seed, "light/rotation");
   const double pitch = random.uniform(20, 80);
   light.rpy_deg = {0, pitch, random.uniform(-180, 180)};
+  light.elevation_deg = random.uniform(5, 70);
+  light.azimuth_deg = random.uniform(-180, 180);
   return light;
 }
 

@@ -54,7 +54,11 @@ struct PileScenario {
 
 struct LightScenario {
   LightSpec spec;
-  bool random_rotation = false;  // draw the direction from the seed; spec.rpy_deg is then not used
+  // Draw the direction from the seed; then neither spec.rpy_deg nor the sun's place is used.
+  bool random_rotation = false;
+  // Draw the position from the box around spec.position of these full edge lengths.
+  bool random_position = false;
+  Vec3 position_bounds{8, 8, 4};  // unit: m; >= 0
 };
 
 enum class LensKind { pinhole, plumb_bob, fisheye };
@@ -132,6 +136,8 @@ struct Scenario {
   PileScenario pile;
   SettleOptions settle;  // its `threads` is not part of a scenario: results do not depend on it
   LightScenario light;
+  std::vector<LightSpec> lights;  // besides the main one; at most kMostLights - 1
+  double wetness = 0;             // of all surfaces; range: 0 to 1
   AirSpec air;
   CameraScenario camera;
   DepthSensorSpec depth_sensor;
@@ -148,8 +154,8 @@ struct Scenario {
 // What validate() would throw; empty: none. Keys are schema paths such as "pile.mix[1].scale".
 std::vector<Diagnostic> find_mistakes(const Scenario& scenario);
 
-// The main light as it shines: with random_rotation, a pitch of 20 to 80 degrees down and any yaw,
-// drawn from the seed.
+// The main light as it shines: with random_rotation, a pitch of 20 to 80 degrees down and any yaw (a
+// sun 5 to 70 degrees high, anywhere), drawn from the seed; with random_position, a place in its box.
 LightSpec resolve_light(const Scenario& scenario);
 
 // Complete, in the schema's order, numbers that read back to the same bits. null: not set.

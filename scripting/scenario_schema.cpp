@@ -15,6 +15,8 @@ void add_top(Schema& k, Scenario& s) {
       .unit("ns");
   k.value("packs", s.packs,
           "Folders of asset packs, relative to the script; none: the bundled pack `concrete`.");
+  k.value("wetness", s.wetness, "Of all surfaces: darker, and glossy where they face up.")
+      .between(0, 1);
 }
 
 void add_pile(Schema& k, PileScenario& p) {
@@ -86,8 +88,9 @@ void add_settle(Schema& k, SettleOptions& o) {
 
 void add_light(Schema& k, LightScenario& l) {
   k.group("light", "The main light.");
-  k.choice("light.type", l.spec.type, {"directional", "spot", "point"},
-           "A sun, a floodlight or a bulb.");
+  k.choice("light.type", l.spec.type, {"directional", "spot", "point", "sun"},
+           "A beam from afar, a floodlight, a bulb; or the sun, whose strength, colour and sky follow "
+           "from where it stands.");
   k.value("light.intensity", l.spec.intensity,
           "Directional: illuminance (clear sun: 100 klx); spot and point: kcd.")
       .between(0, 1000)
@@ -103,6 +106,65 @@ void add_light(Schema& k, LightScenario& l) {
   k.value("light.cone_deg", l.spec.cone_deg, "Full angle of a spot's cone.")
       .between(1, 170)
       .unit("degree");
+  k.value("light.elevation_deg", l.spec.elevation_deg,
+          "Of the sun above the horizon; just below it is dusk, at -18 night.")
+      .between(-18, 90)
+      .unit("degree");
+  k.value("light.azimuth_deg", l.spec.azimuth_deg, "Of the sun, from X towards Y.")
+      .between(-360, 360)
+      .unit("degree");
+  k.value("light.random_position", l.random_position,
+          "Draw the position from the seed instead: in a box around `position`.");
+  k.value("light.position_bounds", l.position_bounds, "Full edge lengths of that box.")
+      .between(0, 1000)
+      .unit("m");
+}
+
+void add_more_lights(Schema& k, std::vector<LightSpec>& lights) {
+  k.list("lights", lights, "Lights besides the main one, three at most; the sky is the main one's.");
+  k.add("lights[].type", "A beam from afar, a floodlight or a bulb.", [&lights](std::size_t i) {
+    return Schema::choice_slot(lights[i].type, {"directional", "spot", "point"});
+  });
+  k.item("lights[].intensity", lights, &LightSpec::intensity,
+         "Directional: illuminance; spot and point: kcd.")
+      .between(0, 1000)
+      .unit("klx or kcd");
+  k.item("lights[].rpy_deg", lights, &LightSpec::rpy_deg,
+         "Direction of the beam: roll, pitch (down), yaw.")
+      .between(-360, 360)
+      .unit("degree");
+  k.item("lights[].position", lights, &LightSpec::position, "Of a spot or point light.")
+      .between(-1000, 1000)
+      .unit("m");
+  k.item("lights[].cone_deg", lights, &LightSpec::cone_deg, "Full angle of a spot's cone.")
+      .between(1, 170)
+      .unit("degree");
+}
+
+void add_dust(Schema& k, DustSpec& dust) {
+  k.group("air.dust", "Dust that bursts out now and then, as when debris shifts.");
+  k.value("air.dust.period", dust.period, "Mean time between bursts; 0: none.")
+      .between(0, 3600)
+      .unit("s");
+  k.value("air.dust.irregularity", dust.irregularity,
+          "How far a burst may be off its beat, in periods.")
+      .between(0, 1);
+  k.value("air.dust.position", dust.position, "Bursts start in the box around this point ...")
+      .between(-1000, 1000)
+      .unit("m");
+  k.value("air.dust.bounds", dust.bounds, "... of these full edge lengths.")
+      .between(0, 1000)
+      .unit("m");
+  k.value("air.dust.density", dust.density, "Extinction in the middle of a fresh plume.")
+      .between(0, 100)
+      .unit("1/m");
+  k.value("air.dust.radius", dust.radius, "Of a fresh plume.").between(0.01, 10).unit("m");
+  k.value("air.dust.speed", dust.speed, "At which it is thrown out.").between(0, 50).unit("m/s");
+  k.value("air.dust.spread", dust.spread, "Turbulent diffusivity.").between(0, 10).unit("m2/s");
+  k.value("air.dust.fall", dust.fall, "Speed at which it settles.").between(0, 10).unit("m/s");
+  k.value("air.dust.half_life", dust.half_life, "Until half of it is gone from the air.")
+      .between(0.1, 3600)
+      .unit("s");
 }
 
 void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
@@ -111,12 +173,25 @@ void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
       .between(0, 10)
       .unit("1/m");
   k.value("air.fog_intensity", air.fog_intensity, "Brightness of the fog.").between(0, 1);
+  k.value("air.fog_height", air.fog_height,
+          "Density falls by e over so much height above the ground; 0: it does not.")
+      .between(0, 1000)
+      .unit("m");
+  k.value("air.fog_noise", air.fog_noise, "Billows: 0 even, 1 from nothing to double.").between(0, 1);
+  k.value("air.fog_noise_size", air.fog_noise_size, "Size of the largest billows.")
+      .between(0.05, 100)
+      .unit("m");
+  k.value("air.wind", air.wind, "Carries billows and dust.").between(-50, 50).unit("m/s");
+  add_dust(k, air.dust);
   k.group("lamp", "A lamp on the camera.");
   k.value("lamp.on", lamp.on, "Whether it shines.");
   k.value("lamp.intensity_cd", lamp.intensity_cd, "On its axis.").between(0, 100000).unit("cd");
   k.value("lamp.cone_deg", lamp.cone_deg, "Full angle where it has fallen to half.")
       .between(5, 170)
       .unit("degree");
+  k.choice("lamp.shape", lamp.shape, {"point", "ring", "cluster"},
+           "A small bright spot, or diodes in a ring or all over a disc.");
+  k.value("lamp.size", lamp.size, "Diameter of the ring or disc.").between(0, 1).unit("m");
   k.value("lamp.position", lamp.position, "In the camera frame: X forward, Y left, Z up.")
       .between(-10, 10)
       .unit("m");
@@ -226,6 +301,7 @@ Schema make_scenario_schema(Scenario& s) {
   add_pile(keys, s.pile);
   add_settle(keys, s.settle);
   add_light(keys, s.light);
+  add_more_lights(keys, s.lights);
   add_air_and_lamp(keys, s.air, s.lamp);
   add_camera_keys(keys, s);
   add_trajectory(keys, s.trajectory);

@@ -10,11 +10,16 @@ namespace {
 
 constexpr float kReach = 0.08f;  // how far a hollow darkens; unit: m
 
+ShaderDefines defines_for(bool lamp) {
+  if (!lamp) return {};
+  return {{"LAMP", ""}, {"LAMP_STEPS", "8"}};
+}
+
 }  // namespace
 
-ContactPass::ContactPass(const Gl& gl)
+ContactPass::ContactPass(const Gl& gl, bool lamp)
     : gl_(gl),
-      program_(make_program(gl, "fullscreen.vert.glsl", "contact.frag.glsl")),
+      program_(make_program(gl, "fullscreen.vert.glsl", "contact.frag.glsl", defines_for(lamp))),
       blur_(make_program(gl, "fullscreen.vert.glsl", "contact_blur.frag.glsl")),
       block_(gl),
       empty_array_(gl) {
@@ -27,7 +32,7 @@ void ContactPass::resize(int width, int height) {
   if (width == width_ && height == height_) return;
   width_ = width, height_ = height;
   const auto make = [&](GlTexture& texture, GlFramebuffer& target) {
-    texture = make_target(gl_, GL_R8, width, height);
+    texture = make_target(gl_, GL_RG8, width, height);
     gl_.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl_.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     target = GlFramebuffer(gl_);
@@ -38,10 +43,13 @@ void ContactPass::resize(int width, int height) {
   check_gl(gl_, "making the contact buffer");
 }
 
-void ContactPass::draw(const ViewProjection& view, const GlTexture& depth) {
+void ContactPass::draw(const ViewProjection& view, const GlTexture& depth, const Vec3f& lamp,
+                       float radius) {
   const Intrinsics& k = view.intrinsics;
   resize(std::max(1, (k.width + 1) / 2), std::max(1, (k.height + 1) / 2));
-  const float block[4] = {kReach * float(std::max(k.fx, k.fy)), kReach, 1 / kNearPlane, kNearPlane};
+  const float block[12] = {kReach * float(std::max(k.fx, k.fy)), kReach, 1 / kNearPlane, kNearPlane,
+                           float(k.fx), float(k.fy), float(k.cx), float(k.cy),
+                           lamp.x, lamp.y, lamp.z, radius};
   gl_.NamedBufferData(block_.name(), sizeof block, block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_.name());
   gl_.Viewport(0, 0, width_, height_);

@@ -1,4 +1,4 @@
-// Contact darkness from the depth image, at half its size: see shaders/contact.frag.glsl.
+// Contact darkness and shadows of the lamp from the depth image, at half its size: see shaders/contact.frag.glsl.
 #pragma once
 
 #include "render/gl_objects.h"
@@ -8,11 +8,12 @@ namespace rubble {
 
 class ContactPass {
  public:
-  explicit ContactPass(const Gl& gl);
+  ContactPass(const Gl& gl, bool lamp);
 
-  // depth: near / Z, of the view's size.
-  void draw(const ViewProjection& view, const GlTexture& depth);
-  const GlTexture& openness() const { return openness_; }  // 1: open, 0: closed in
+  // depth: near / Z, of the view's size. lamp: in the optical frame, with its radius; unit: m
+  void draw(const ViewProjection& view, const GlTexture& depth, const Vec3f& lamp, float radius);
+  // 1: open, 0: closed in; and the lamp: 1: in sight, 0: hidden.
+  const GlTexture& openness() const { return openness_; }
 
  private:
   void resize(int width, int height);

@@ -13,23 +13,27 @@ namespace rubble {
 
 namespace {
 
-constexpr std::size_t kMaxLooks = 12;
+constexpr std::size_t kMaxLooks = 20;
+constexpr std::size_t kMostViews = 6 * kMostLights;
 
 // Mirrors shaders/frame.glsl.
 struct FrameBlock {
   float world_from_optical[3][4];
   float lens[4], view[4];
-  float light_position[4], light_axis[4], light_colour[4];
+  float light_position[kMostLights][4], light_axis[kMostLights][4], light_colour[kMostLights][4];
   float lamp_position[4], lamp_axis[4], lamp_colour[4];
   float fog[4], fog_ambient[4];
-  float sky_zenith[4], sky_horizon[4], sky_glow[4], sun_direction[4];
-  float shadow_rows[24][4];
-  float shadow_texel[4];
+  float sun_direction[4], sun_radiance[4], skyline[4];
+  float shadow_rows[kMostViews * 4][4];
   float looks[kMaxLooks * 4][4];
 };
 
 void set(float (&out)[4], const Vec3f& v, float w = 0) {
   out[0] = v.x, out[1] = v.y, out[2] = v.z, out[3] = w;
+}
+
+bool has_lamp(const FrameLight& frame) {
+  return frame.lamp.on && frame.lamp.intensity_cd > 0;
 }
 
 void fill_view(FrameBlock& block, const ViewProjection& view, float exposure) {
@@ -42,29 +46,44 @@ void fill_view(FrameBlock& block, const ViewProjection& view, float exposure) {
   set(block.view, {kNearPlane, exposure, float(k.width)}, float(k.height));
 }
 
-void fill_light(FrameBlock& block, const FrameLight& frame, const Pose& world_from_camera) {
-  const LightModel& light = *frame.light;
-  set(block.light_position, light.position);
-  set(block.light_axis, light.axis, light.cos_outer);
-  set(block.light_colour, light.colour, 1 / std::max(light.cos_inner - light.cos_outer, 1e-6f));
-  const double half = 0.5 * frame.lamp.cone_deg * portable::kPi / 180;
-  set(block.lamp_position, Vec3f(world_from_camera * frame.lamp.position));
-  set(block.lamp_axis, Vec3f(world_from_camera.rotation.rotate({1, 0, 0})),
-      float(1 / (1 - portable::cos(half))));
-  // White light-emitting diodes, a little cold; luminance 1 by Rec. 709 weights.
-  const Vec3f tint(0.96f, 1.0f, 1.12f);
-  set(block.lamp_colour, tint * float(frame.lamp.intensity_cd * 1e-3 /
-                                      double(dot(tint, Vec3f(0.2126f, 0.7152f, 0.0722f)))));
-  set(block.fog, {float(frame.air.fog_density), float(frame.air.fog_intensity), 0});
-  set(block.fog_ambient, frame.air_ambient * float(frame.air.fog_intensity));
-  set(block.sky_zenith, light.sky.zenith);
-  set(block.sky_horizon, light.sky.horizon);
-  set(block.sky_glow, light.sky.glow);
-  set(block.sun_direction, light.sky.sun_direction);
-  set(block.shadow_texel, {frame.shadow->texel, 0, 0});
+void fill_lights(FrameBlock& block, const FrameLight& frame) {
+  const auto& lights = frame.lights->lights;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const LightModel& light = lights[i];
+    set(block.light_position[i], light.position, frame.shadow->lights[i].texel);
+    set(block.light_axis[i], light.axis, light.cos_outer);
+    set(block.light_colour[i], light.colour,
+        1 / std::max(light.cos_inner - light.cos_outer, 1e-6f));
+  }
   for (std::size_t v = 0; v < frame.shadow->clip_from_world.size(); ++v)
     std::memcpy(block.shadow_rows[v * 4], frame.shadow->clip_from_world[v].data(),
                 sizeof block.shadow_rows[0] * 4);
+}
+
+// What the size of the lamp adds to squares of distances.
+float lamp_spread(const LampSpec& lamp) {
+  const float r2 = float(lamp.size * lamp.size / 4);
+  if (lamp.shape == LampShape::point) return 0;
+  return lamp.shape == LampShape::ring ? r2 : 0.5f * r2;
+}
+
+void fill_air_and_lamp(FrameBlock& block, const FrameLight& frame, const Pose& world_from_camera) {
+  const double half = 0.5 * frame.lamp.cone_deg * portable::kPi / 180;
+  set(block.lamp_position, Vec3f(world_from_camera * frame.lamp.position),
+      lamp_spread(frame.lamp));
+  set(block.lamp_axis, Vec3f(world_from_camera.rotation.rotate({1, 0, 0})),
+      float(1 / (1 - portable::cos(half))));
+  set(block.lamp_colour, lamp_colour(frame.lamp));
+  set(block.fog, {float(frame.air.fog_density), float(frame.air.fog_intensity),
+                  float(frame.wetness)});
+  set(block.fog_ambient, frame.air_ambient * float(frame.air.fog_intensity));
+  const Sky& sky = frame.lights->sky;
+  set(block.sun_direction, sky.sun_direction);
+  set(block.sun_radiance, sky.sun_radiance);
+  // Trees and roofs reflect about a tenth of what the sky and the sun give them.
+  const LightModel& main = frame.lights->lights.front();
+  const bool sunny = main.type == LightType::directional;
+  set(block.skyline, sky.mean * 0.10f + (sunny ? main.colour * 0.02f : Vec3f()));
 }
 
 void fill_looks(FrameBlock& block, int texture_size) {
@@ -79,12 +98,20 @@ void fill_looks(FrameBlock& block, int texture_size) {
   }
 }
 
-ShaderDefines variant_of(const FrameLight& light) {
-  ShaderDefines defines = {{"LIGHT_TYPE", std::to_string(int(light.light->type))},
-                           {"SHADOW_VIEWS", std::to_string(light.shadow->clip_from_world.size())},
-                           {"GLOSS", ""}};
-  if (light.lamp.on && light.lamp.intensity_cd > 0) defines.push_back({"LAMP", ""});
-  if (light.air.fog_density > 0) defines.push_back({"FOG", ""});
+ShaderDefines variant_of(const FrameLight& frame) {
+  const auto& lights = frame.lights->lights;
+  ShaderDefines defines = {{"LIGHT_COUNT", std::to_string(lights.size())}};
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const ShadowMap::Light& shadow = frame.shadow->lights[i];
+    defines.push_back({"LIGHT_" + std::to_string(i), std::to_string(int(lights[i].type)) + ", " +
+                                                         std::to_string(shadow.first_view) + ", " +
+                                                         std::to_string(shadow.views)});
+  }
+  if (has_lamp(frame)) defines.push_back({"LAMP", ""});
+  const bool clear = frame.even_air && frame.air.fog_density <= 0;
+  defines.push_back({"FOG", clear ? "0" : frame.even_air ? "1" : "2"});
+  defines.push_back({"AIR_STEPS", std::to_string(AirVolume::kSlices - 1) + ".0"});
+  if (frame.wetness > 0) defines.push_back({"WET", ""});
   return defines;
 }
 
@@ -135,6 +162,29 @@ GlTexture upload_glow(const Gl& gl, const std::vector<float>& table) {
   return texture;
 }
 
+GlTexture upload_sky(const Gl& gl, const Sky& sky) {
+  GlTexture texture = make_target(gl, GL_RGB32F, Sky::kSide, Sky::kSide);
+  gl.TextureSubImage2D(texture.name(), 0, 0, 0, Sky::kSide, Sky::kSide, GL_RGB, GL_FLOAT,
+                       sky.map.data());
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  check_gl(gl, "uploading the sky");
+  return texture;
+}
+
+GlTexture make_air_table(const Gl& gl) {
+  GlTexture texture(gl, GLenum(GL_TEXTURE_3D));
+  const GLuint name = texture.name();
+  gl.TextureStorage3D(name, 1, GL_RGBA32F, AirVolume::kColumns, AirVolume::kRows,
+                      AirVolume::kSlices);
+  gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    gl.TextureParameteri(name, side, GL_CLAMP_TO_EDGE);
+  check_gl(gl, "making the table of the air");
+  return texture;
+}
+
 enum Unit {
   kVisibility,
   kDepth,
@@ -146,6 +196,8 @@ enum Unit {
   kShadow,
   kGlow,
   kContact,
+  kSky,
+  kAir,
   kLensRays,
   kRowPoses
 };
@@ -163,6 +215,8 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
                  {"shadow_map", kShadow},
                  {"fog_lamp", kGlow},
                  {"openness", kContact},
+                 {"sky_map", kSky},
+                 {"air_table", kAir},
                  {"lens_rays", kLensRays},
                  {"row_poses", kRowPoses}});
   gl.UniformBlockBinding(program.name(), gl.GetUniformBlockIndex(program.name(), "Frame"), 0);
@@ -171,15 +225,24 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
 
 }  // namespace
 
+Vec3f lamp_colour(const LampSpec& lamp) {
+  // White light-emitting diodes, a little cold; luminance 1 by Rec. 709 weights.
+  const Vec3f tint(0.96f, 1.0f, 1.12f);
+  return tint * float(lamp.intensity_cd * 1e-3 /
+                      double(dot(tint, Vec3f(0.2126f, 0.7152f, 0.0722f))));
+}
+
 ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,
                          const std::vector<PatternImage>& patterns)
     : gl_(gl),
       geometry_(geometry),
       frame_block_(gl),
       empty_array_(gl),
-      contact_(gl),
+      contact_(gl, has_lamp(light)),
       looks_(upload_looks(gl, patterns)),
       fog_lamp_(upload_glow(gl, lamp_glow_table(light.air, light.lamp, 512))),
+      sky_map_(upload_sky(gl, light.lights->sky)),
+      air_table_(make_air_table(gl)),
       texture_size_(patterns.front().size) {
   defines_ = variant_of(light);
   program(0);
@@ -209,10 +272,16 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
                             const ViewProjection& view, const Pose& world_from_camera,
                             const SurfaceImages& surfaces, const FrameLight& light,
                             float exposure) {
-  contact_.draw(view, surfaces.depth);
+  contact_.draw(view, surfaces.depth,
+                Vec3f(camera_from_optical.inverse() * light.lamp.position),
+                light.lamp.shape == LampShape::point ? 0.004f : float(light.lamp.size / 2));
+  if (light.air_table)
+    gl_.TextureSubImage3D(air_table_.name(), 0, 0, 0, 0, AirVolume::kColumns, AirVolume::kRows,
+                          AirVolume::kSlices, GL_RGBA, GL_FLOAT, light.air_table->table().data());
   FrameBlock block{};
   fill_view(block, view, exposure);
-  fill_light(block, light, world_from_camera);
+  fill_lights(block, light);
+  fill_air_and_lamp(block, light, world_from_camera);
   fill_looks(block, texture_size_);
   gl_.NamedBufferData(frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
@@ -225,7 +294,9 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
                              looks_.name(),
                              light.shadow->depth.name(),
                              fog_lamp_.name(),
-                             contact_.openness().name()};
+                             contact_.openness().name(),
+                             sky_map_.name(),
+                             air_table_.name()};
   for (GLuint unit = 0; unit < sizeof textures / sizeof textures[0]; ++unit)
     gl_.BindTextureUnit(unit, textures[unit]);
   if (surfaces.lens_rays) {

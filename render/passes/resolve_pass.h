@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/air_volume.h"
 #include "render/geometry.h"
 #include "render/lighting.h"
 #include "render/passes/contact_pass.h"
@@ -14,12 +15,18 @@
 namespace rubble {
 
 struct FrameLight {
-  const LightModel* light = nullptr;
+  const LightSet* lights = nullptr;
   const ShadowMap* shadow = nullptr;
   LampSpec lamp;
   AirSpec air;
-  Vec3f air_ambient;  // mean radiance of all directions at the camera; unit: kcd/m2
+  bool even_air = true;                // see Medium::homogeneous()
+  double wetness = 0;                  // of surfaces
+  Vec3f air_ambient;                   // mean radiance of all directions at the camera; kcd/m2
+  const AirVolume* air_table = nullptr;  // of this frame, unless the air is even
 };
+
+// Colours of the lamp's light; kcd.
+Vec3f lamp_colour(const LampSpec& lamp);
 
 // Which triangle each pixel shows, and how far it is.
 struct SurfaceImages {
@@ -61,7 +68,7 @@ class ResolvePass {
   GlBuffer frame_block_;
   GlVertexArray empty_array_;
   ContactPass contact_;
-  GlTexture looks_, fog_lamp_;
+  GlTexture looks_, fog_lamp_, sky_map_, air_table_;
   GlTexture colour_;
   GlFramebuffer target_;
   int width_ = 0, height_ = 0;

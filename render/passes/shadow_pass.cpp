@@ -15,6 +15,7 @@ using Rows = std::array<std::array<double, 4>, 4>;
 
 constexpr double kNearest = 0.05;  // unit: m; nothing nearer to a lamp throws a shadow
 constexpr double kFarthest = 500;  // unit: m
+constexpr std::size_t kMostTexels = std::size_t(6) * 2048 * 2048;  // of all views
 
 struct Basis {
   Vec3 right, up, forward;
@@ -115,13 +116,28 @@ void draw_view(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geom
 }  // namespace
 
 ShadowMap draw_shadow_map(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry,
-                          const LightModel& light, int size) {
+                          const LightSet& lights, int size) {
   GLint most = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   size = std::min(size, int(most));
   ShadowMap map;
-  const std::vector<Rows> views = make_views(scene, light, size, map.texel);
-  if (views.size() > 1) size /= 2, map.texel *= 2;
+  const auto list_views = [&] {
+    std::vector<Rows> all;
+    map.lights.clear();
+    for (const LightModel& light : lights.lights) {
+      ShadowMap::Light entry;
+      const std::vector<Rows> views = make_views(scene, light, size, entry.texel);
+      entry.first_view = int(all.size()), entry.views = int(views.size());
+      map.lights.push_back(entry);
+      all.insert(all.end(), views.begin(), views.end());
+    }
+    return all;
+  };
+  std::vector<Rows> views = list_views();
+  while (views.size() * std::size_t(size) * std::size_t(size) > kMostTexels) {
+    size /= 2;
+    views = list_views();
+  }
   map.depth = GlTexture(gl, GLenum(GL_TEXTURE_2D_ARRAY));
   const GLuint name = map.depth.name();
   gl.TextureStorage3D(name, 1, GL_DEPTH_COMPONENT32F, size, size, GLsizei(views.size()));

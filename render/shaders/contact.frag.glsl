@@ -1,4 +1,5 @@
-// Darkness in corners too small for the baked light, at half the image's size.
+// Darkness in corners too small for the baked light, and the shadows of the lamp, at half the image's
+// size.
 //
 // Depth values are near / Z, which is linear over a plane on the image: the mean of two opposite
 // neighbours exceeds the middle only where the surface is hollow. No normal is needed.
@@ -6,9 +7,32 @@ uniform sampler2D depth_values;
 
 layout(std140) uniform Contact {
   vec4 reach;  // radius (m) * focal length (pixel), radius (m), 1 / near plane, near plane
+  vec4 lens;   // fx, fy, cx, cy
+  vec4 lamp;   // in the optical frame; w: its radius
 };
 
-layout(location = 0) out float openness;
+layout(location = 0) out vec2 openness;
+
+#ifdef LAMP
+// The lamp is close to the lens, so what stands between it and a surface is seen: the way from the
+// surface to the lamp is followed on the depth image. `turn` picks a spot of the lamp.
+float lamp_visible(vec2 pixel, float z, float turn, float part, vec2 last) {
+  vec3 p = vec3((pixel - lens.zw) / lens.xy, 1.0) * z;
+  vec3 to = lamp.xyz + vec3(cos(turn), sin(turn), 0.0) * lamp.w - p;
+  float clear = 1.0;
+  for (int i = 0; i < LAMP_STEPS; ++i) {
+    float s = (float(i) + part) * (4.0 / float(LAMP_STEPS));
+    vec3 q = p + to * (s * s / (1.0 + s * s));
+    vec2 at = q.xy / max(q.z, 1e-3) * lens.xy + lens.zw;
+    float value = texelFetch(depth_values, ivec2(clamp(at, vec2(0.0), last) + 0.5), 0).x;
+    float there = reach.w / max(value, 1e-9);
+    bool known = q.z > 0.02 && all(equal(at, clamp(at, vec2(0.0), last)));
+    bool hides = there < q.z * 0.985 - 0.008 && there > q.z * 0.6 - 0.2;
+    clear = known && hides ? 0.0 : clear;
+  }
+  return clear;
+}
+#endif
 
 void main() {
   ivec2 size = textureSize(depth_values, 0);
@@ -33,5 +57,10 @@ void main() {
     hollow += max(a + b, 0.0) / part;
     direction = vec2(direction.x - direction.y, direction.x + direction.y) * 0.7071068;
   }
-  openness = 1.0 / (1.0 + 0.4 * hollow / max(limit, 1e-9));
+  openness = vec2(1.0 / (1.0 + 0.4 * hollow / max(limit, 1e-9)), 1.0);
+#ifdef LAMP
+  float part = float((cell.x * 5 + cell.y * 11) & 15) * 0.0625;
+  openness.y = lamp_visible(vec2(pixel), z, float((cell.x * 7 + cell.y * 4) & 15) * 0.3927,
+                            part, vec2(size) - 1.0);
+#endif
 }

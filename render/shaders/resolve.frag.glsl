@@ -1,6 +1,7 @@
 // From "which triangle is here" to colour: surface, light, air, tone.
-// Variants: LIGHT_TYPE 0 directional, 1 spot, 2 point; SHADOW_VIEWS 1 or 6; LAMP; FOG; LINEAR
-// (kcd/m2 out, no tone mapping); RAYS (each pixel has a ray of its own).
+// Variants: LIGHT_COUNT 1 to 4; for each light LIGHT_i as "type, first view, views" with type 0
+// directional, 1 spot, 2 point; LAMP; FOG 1 even fog, 2 from the air's table; WET; LINEAR (kcd/m2
+// out, no tone mapping); RAYS (each pixel has a ray of its own).
 #include "frame.glsl"
 #include "geometry.glsl"
 #include "lighting.glsl"
@@ -9,7 +10,7 @@
 
 uniform usampler2D visibility;
 uniform sampler2D depth_values;
-uniform sampler2D openness;     // darkness of small corners, half size
+uniform sampler2D openness;     // of small corners, and to the lamp; half size
 uniform sampler2D fog_lamp;  // in-scattered lamp light by distance
 
 #ifdef RAYS
@@ -19,33 +20,51 @@ uniform sampler2D row_poses;  // rows of world_from_optical, one column each
 
 layout(location = 0) out vec4 colour;
 
-vec3 shade(Surface s, vec3 world, vec3 to_eye, float open) {
+uniform sampler3D air_table;  // light thrown back and transmittance, by pixel and distance
+
+struct Shading {
+  vec3 e, glare;  // on the albedo, and mirrored
+};
+
+void add_light(inout Shading sum, const int i, const int type, const int first_view,
+               const int views, Surface s, vec3 world, vec3 to_eye) {
   vec3 to_light;
-  vec3 e = light_at(world, to_light);
+  vec3 e = light_at(i, type, world, to_light);
   float facing = max(dot(s.normal, to_light), 0.0);
   // A bumped normal must not catch light that the face itself cannot see.
   facing *= clamp(dot(s.face_normal, to_light) * 8.0, 0.0, 1.0);
-  e *= facing * light_visible(world, s.face_normal);
-  vec3 glare = vec3(0.0);
-#ifdef GLOSS
-  glare += e * gloss_lobe(s, to_light, to_eye);
+  e *= facing * light_visible(i, type, first_view, views, world, s.face_normal);
+  sum.glare += e * gloss_lobe(s, to_light, to_eye);
+  sum.e += e;
+}
+
+vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
+  Shading sum = Shading(s.ambient * open.x, vec3(0.0));
+  add_light(sum, 0, LIGHT_0, s, world, to_eye);
+#if LIGHT_COUNT > 1
+  add_light(sum, 1, LIGHT_1, s, world, to_eye);
 #endif
-  e += s.ambient * open;
+#if LIGHT_COUNT > 2
+  add_light(sum, 2, LIGHT_2, s, world, to_eye);
+#endif
+#if LIGHT_COUNT > 3
+  add_light(sum, 3, LIGHT_3, s, world, to_eye);
+#endif
 #ifdef LAMP
   vec3 to_lamp;
   float lamp_distance;
   vec3 lamp = lamp_at(world, to_lamp, lamp_distance);
-#ifdef FOG
+#if FOG == 1
   lamp *= exp2(-1.442695 * fog.x * lamp_distance);
+#else
+  lamp *= passed;
 #endif
   lamp *= max(dot(s.normal, to_lamp), 0.0) * clamp(dot(s.face_normal, to_lamp) * 8.0, 0.0, 1.0) *
-          (0.55 + 0.45 * open);
-#ifdef GLOSS
-  glare += lamp * gloss_lobe(s, to_lamp, to_eye);
+          (0.55 + 0.45 * open.x) * open.y;
+  sum.glare += lamp * gloss_lobe(s, to_lamp, to_eye);
+  sum.e += lamp;
 #endif
-  e += lamp;
-#endif
-  return (e * s.albedo + glare) * 0.318310;
+  return (sum.e * s.albedo + sum.glare) * 0.318310;
 }
 
 void main() {
@@ -72,22 +91,31 @@ void main() {
   vec3 direction = ray / ray_length;
   vec3 radiance;
   float far = 1e9;
-  vec3 ambient = sky_radiance(direction) * 3.14159;
+  vec3 ambient = skyline.rgb * 3.14159;
+  float value = texelFetch(depth_values, pixel, 0).x;
+  float z = view.x / max(value, 1e-9);
+  if (seen.x != 0u) far = z * ray_length;
+  float passed = 1.0;
+#if FOG == 2
+  vec4 air = texture(air_table, vec3((vec2(pixel) + 0.5) / view.zw,
+                                     (far / (far + 2.0) * AIR_STEPS + 0.5) / (AIR_STEPS + 1.0)));
+  passed = air.a;
+#endif
   if (seen.x == 0u) {
-    radiance = sky_radiance(direction);
+    radiance = backdrop(direction);
   } else {
-    float z = view.x / texelFetch(depth_values, pixel, 0).x;
     vec3 world = eye + ray * z;
-    far = z * ray_length;
     Surface s = find_surface(seen.x - 1u, seen.y, world, direction, z, vec2(pixel));
     ambient = s.ambient;
-    float open = texture(openness, (vec2(pixel) + 0.5) / view.zw).x;
-    radiance = shade(s, world, -direction, open);
+    vec2 open = texture(openness, (vec2(pixel) + 0.5) / view.zw).xy;
+    radiance = shade(s, world, -direction, open, passed);
     // Clean air veils what is far: the horizon has no edge.
     float veil = exp2(-far * far * 4e-5 / (1.0 + far * 0.012));
     radiance = mix(sky_radiance(vec3(direction.xy, 0.02)), radiance, veil);
   }
-#ifdef FOG
+#if FOG == 2
+  radiance = radiance * air.a + air.rgb;
+#elif FOG == 1
   float through = exp2(-1.442695 * fog.x * min(far, 1e6));
   vec3 glow = fog_ambient.rgb * 0.6 + ambient * (0.4 * 0.318310 * fog.y);
   radiance = radiance * through + glow * (1.0 - through);

@@ -4,6 +4,7 @@ struct Surface {
   vec3 albedo;
   vec3 ambient;  // klx
   float gloss;
+  float film;  // of water, as gloss
 };
 
 uniform sampler2DArray look_textures;
@@ -19,7 +20,14 @@ float gloss_lobe(Surface s, vec3 to_light, vec3 to_eye) {
   d *= d;
   d *= d;
   d *= d;
-  return s.gloss * d * d * 12.0;
+  d *= d;
+#ifdef WET
+  float film = d * d;
+  film *= film;
+  return s.gloss * d * 12.0 + s.film * film * 40.0;
+#else
+  return s.gloss * d * 12.0;
+#endif
 }
 
 Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, float z, vec2 pixel) {
@@ -83,6 +91,8 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   float slow = sin(world.x * 0.83 + 1.7 * sin(world.y * 0.57)) *
                sin(world.y * 0.91 + 1.3 * sin(world.x * 0.39 + world.z));
   if (more.y < 0.2 && slow + 0.3 * dither(pixel) > 0.15) uv = uv.yx * 0.83 + 0.37;
+  // A wall shows another part of its texture every 1.7 m or so, at the boards' joints.
+  if (more.x < 0.5) uv.x += 0.37 * floor(uv.y) + 0.21 * floor(uv.y * 0.5);
   vec3 rx = mx.xyz * scale, ry = my.xyz * scale, rz = mz.xyz * scale;  // rotation rows
   s.face_normal = rx * face.x + ry * face.y + rz * face.z;
   float grazing = max(-dot(s.face_normal, direction), 0.05);
@@ -107,6 +117,17 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   float dust = smoothstep(0.30, 1.05, up + (texel.z - 0.45) * 0.8) * more.y;
   s.albedo = mix(s.albedo, vec3(0.375, 0.36, 0.335) * (0.55 + 0.75 * texel.z), dust);
   s.gloss = accent.w * (1.0 - dust);
+
+  s.film = 0.0;
+#ifdef WET
+  // Water darkens what it soaks into, and stands as a film on what faces up.
+  float wet = fog.z * smoothstep(-0.6, 0.5, up + 0.5 * slow);
+  s.albedo *= 1.0 - 0.5 * wet;
+  s.gloss = max(s.gloss, 0.05 * wet);
+  s.film = 0.4 * wet * (0.35 + 0.65 * smoothstep(0.2, 0.9, up)) * smoothstep(0.75, 0.25, texel.z);
+  s.normal = normalize(mix(s.normal, rx * smooth_normal.x + ry * smooth_normal.y + rz * smooth_normal.z,
+                           0.6 * wet * smoothstep(0.75, 0.25, texel.z)));
+#endif
 
   float lit = max(dot(light, s.normal), 0.15 * length(light));
   s.ambient = vec3(red_blue.x, 1.0 - red_blue.x - red_blue.y, red_blue.y) * (3.0 * lit);

@@ -1,10 +1,14 @@
 // Light and air against closed forms, in luminance before exposure and tone mapping.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "kernel/base/portable_math.h"
+#include "render/atmosphere.h"
 #include "render/lighting.h"
+#include "render/medium.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
 
@@ -173,6 +177,117 @@ TEST(Fog, GlowsInTheLampAndBrightensWithIt) {
   scene.air.fog_intensity = 1;
   const double bright_fog = draw_middle(scene);
   EXPECT_GT(bright_fog, 3 * dark_fog);
+}
+
+// A ring of radius R gives on its axis, at the distance d, E = I d / (d^2 + R^2)^1.5.
+TEST(Lamp, ARingIsWeakerNearby) {
+  const double dark = without_light();
+  const auto lit = [&](LampShape shape, double distance) {
+    Scene scene = with_lamp(distance - 2);
+    scene.lamp.cone_deg = 170;
+    scene.lamp.shape = shape;
+    scene.lamp.size = 1;
+    return draw_middle(scene) - dark;
+  };
+  for (const double d : {0.7, 1.5, 4.0}) {
+    const double ring = lit(LampShape::ring, d) / lit(LampShape::point, d);
+    EXPECT_NEAR(ring, std::pow(d * d / (d * d + 0.25), 1.5), 0.01) << d;
+  }
+}
+
+TEST(Lamp, ThrowsItsOwnShadow) {
+  // A plate half-way to the wall; the lamp is 20 cm beside the lens, so the shadow lies 20 cm beside.
+  Scene scene = with_lamp(0);
+  scene.lamp.position = {0, 0.2, 0};
+  scene.meshes.push_back(share(make_box({0.01, 0.2, 0.2}, "plaster")));
+  const auto column = [&](bool plate) {
+    scene.instances.resize(1);
+    if (plate) scene.instances.push_back({1, 1, {{}, {1.0, 0.1, 0}}, 2});
+    GlContext context;
+    const LinearFrame f =
+        Renderer(context, scene, plain()).render_linear({}, pinhole(256, 256, 300));
+    // On the wall 5 cm to the right of the axis; the plate is to the left.
+    return double(f.rgb[std::size_t(128 * 256 + 128 + int(0.02 / 2 * 300)) * 3 + 1]);
+  };
+  const double free = column(false), shaded = column(true);
+  EXPECT_LT(shaded, 0.25 * free);
+}
+
+TEST(Lights, AddUp) {
+  const double dark = without_light();
+  Scene one = with_light(LightType::point, {1, 0, 0}, {}, 2);
+  Scene other = with_light(LightType::spot, {0, 0, 0}, {}, 5);
+  Scene both = one;
+  both.more_lights = {other.light};
+  const double a = draw_middle(one) - dark, b = draw_middle(other) - dark;
+  EXPECT_GT(std::min(a, b), 0.01);
+  EXPECT_NEAR(draw_middle(both) - dark, a + b, 0.005 * (a + b));
+  both.more_lights.assign(kMostLights, other.light);
+  EXPECT_THROW(draw_middle(both), std::runtime_error);
+}
+
+// Figures of daylight: 100 klx of sun and 8 to 15 klx of clear sky at noon, 0.4 to 1.5 klx at
+// sunset, about 3.4 lx at the end of civil twilight (IES, and every book on daylight).
+TEST(Sun, GivesDaylightByItsElevation) {
+  const auto lum = [](const Vec3f& c) {
+    return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z);
+  };
+  const auto sky_klx = [&](double elevation) {
+    Scene scene;
+    scene.light.type = LightType::sun;
+    scene.light.elevation_deg = elevation;
+    return portable::kPi * lum(make_lights(scene).sky.mean);
+  };
+  EXPECT_NEAR(lum(sun_illuminance(60)), 105, 10);
+  EXPECT_NEAR(sky_klx(60), 10, 4);
+  EXPECT_GT(sky_klx(0), 0.4);
+  EXPECT_LT(sky_klx(0), 1.6);
+  EXPECT_GT(sky_klx(-6), 0.002);
+  EXPECT_LT(sky_klx(-6), 0.008);
+  EXPECT_LT(sky_klx(-18), 1e-5);
+  EXPECT_EQ(lum(sun_illuminance(-1)), 0);
+  // Reddening: at noon it is nearly white, near the horizon red outweighs blue many times.
+  EXPECT_LT(sun_illuminance(60).x / sun_illuminance(60).z, 1.4f);
+  EXPECT_GT(sun_illuminance(3).x / sun_illuminance(3).z, 6.0f);
+  double last = 1e9;
+  for (double e = 60; e >= -18; e -= 6) {
+    EXPECT_LT(sky_klx(e), last);
+    last = sky_klx(e);
+  }
+}
+
+TEST(Sky, TheMapIsTheFormula) {
+  Scene scene;
+  scene.light.type = LightType::sun;
+  scene.light.elevation_deg = 25;
+  scene.light.azimuth_deg = 70;
+  const Sky sky = make_lights(scene).sky;
+  for (const Vec3f& d : {Vec3f(0, 0, 1), Vec3f(1, 0, 0.3f), Vec3f(-0.3f, -1, 0.15f), Vec3f(0.5f, 1, 1)}) {
+    const Vec3f n = normalized(d), want = clear_sky_radiance(n, sky.sun_direction);
+    EXPECT_NEAR(sky.radiance(n).y, want.y, 0.04f * want.y);
+    EXPECT_NEAR(sky.radiance(n).z, want.z, 0.04f * want.z);
+  }
+}
+
+// What the air's table lets through is what the medium says, and so what the image shows.
+TEST(Air, TheImageFollowsTheMedium) {
+  Scene scene = with_light(LightType::directional, {}, {0, 40, 0}, 100);
+  scene.air.fog_intensity = 0;  // it only absorbs
+  const double clear = draw_middle(scene);
+  scene.air.fog_density = 0.8;
+  scene.air.fog_height = 3;
+  EXPECT_NEAR(draw_middle(scene) / clear, std::exp(-0.8 * 2), 0.01);  // level: as at z = 0
+  scene.air.fog_noise = 0.9;
+  scene.air.fog_noise_size = 0.7;
+  const Air air = Medium(scene.air, scene.seed).at(0);
+  EXPECT_NEAR(draw_middle(scene) / clear, std::exp(-air.optical_depth({}, {1, 0, 0}, 2)), 0.03);
+}
+
+TEST(Wetness, DarkensAndGlitters) {
+  Scene scene = with_light(LightType::directional, {}, {0, 40, 0}, 100);
+  const double dry = draw_middle(scene);
+  scene.wetness = 1;
+  EXPECT_LT(draw_middle(scene), 0.9 * dry);
 }
 
 TEST(LightModel, TheBeamLeavesAlongXAndPitchLowersIt) {

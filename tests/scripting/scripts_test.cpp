@@ -54,6 +54,9 @@ TEST(Scripts, FeaturesAreShown) {
   EXPECT_EQ(load("lights.lua").scenario.light.spec.type, LightType::spot);
   EXPECT_TRUE(load("random_light.lua").scenario.light.random_rotation);
   EXPECT_GT(load("fog.lua").scenario.air.fog_density, 0);
+  EXPECT_EQ(load("dusk.lua").scenario.light.spec.type, LightType::sun);
+  EXPECT_EQ(load("dusk.lua").scenario.lights.size(), 2u);
+  EXPECT_GT(load("dust.lua").scenario.air.dust.period, 0);
   EXPECT_EQ(load("rain.lua").scenario.settle.schedule, Schedule::planes);
   EXPECT_EQ(load("straight_legs.lua").scenario.trajectory.interpolation, Interpolation::linear);
   EXPECT_EQ(load("outputs.lua").scenario.outputs.depth, DepthEncoding::metres);

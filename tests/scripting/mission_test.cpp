@@ -233,12 +233,12 @@ TEST(MissionAliases, PublishedNamesInLuaAndSet) {
 
 TEST(MissionAliases, MistakesInThem) {
   EXPECT_EQ(mission_error("return rubble.mission {\n  numlayers = -1,\n  numobj = 3,\n"
-                          "  seed = 1, randomseed = 2,\n  lighttype = 'sun' }"),
+                          "  seed = 1, randomseed = 2,\n  lighttype = 'moon' }"),
             "m.lua:2: numlayers: out of range: expected an integer from 0 to 1000, found -1\n"
             "m.lua:3: numobj: unknown key `numobj` (did you mean `numobjs`?)\n"
             "m.lua:4: randomseed: given twice (it is another name of `seed`: keep one of them)\n"
             "m.lua:5: lighttype: unknown choice: expected one of \"directional\", \"spot\", "
-            "\"point\", found the string \"sun\"");
+            "\"point\", \"sun\", found the string \"moon\"");
   EXPECT_EQ(mission_error("return { pile = { numlayers = 3 } }"),
             "m.lua:1: pile.numlayers: unknown key `numlayers` (did you mean `layers`?)");
 }

@@ -18,6 +18,13 @@ target_compile_options(rubble_options INTERFACE
   # The same bits from every compiler: no fused multiply-add unless written out.
   -ffp-contract=off)
 
+# For what results depend on. GCC 12 fuses a*b +- c into vfmaddsub when it vectorizes for a processor
+# that has it, whatever -ffp-contract says; the solver's four-wide loops are written out anyway.
+add_library(rubble_exact INTERFACE)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(rubble_exact INTERFACE -fno-tree-vectorize)
+endif()
+
 set(RUBBLE_SANITIZE "" CACHE STRING "address,undefined or thread; empty: none")
 if(RUBBLE_SANITIZE)
   target_compile_options(rubble_options INTERFACE

@@ -1,10 +1,10 @@
 #include "io/voids/void_surface.h"
 
 #include <openvdb/openvdb.h>
-#include <openvdb/tools/Filter.h>
 #include <openvdb/tools/VolumeToMesh.h>
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 #include <numeric>
 #include <tuple>
@@ -15,23 +15,48 @@ namespace rubble {
 
 namespace {
 
-// OpenVDB's threads leave points and faces in any order: into one that is always the same.
-void put_in_order(TriangleMesh& mesh) {
-  std::vector<std::uint32_t> order(mesh.positions.size()), place(order.size());
+// 1 in the void and 0 outside, averaged over 3 x 3 x 3 voxels.
+openvdb::FloatGrid::Ptr make_grid(const VoxelGrid& voxels, const Void& v) {
+  auto grid = openvdb::FloatGrid::create(0.0f);
+  auto accessor = grid->getAccessor();
+  for (const std::uint32_t i : v.cells) {
+    const Cell c = voxels.cell(i);
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          const openvdb::Coord at(c[0] + dx, c[1] + dy, c[2] + dz);
+          accessor.setValue(at, accessor.getValue(at) + 1.0f / 27);
+        }
+  }
+  return grid;
+}
+
+// OpenVDB's threads leave points and faces in any order: into one that is always the same. Returns
+// where each point has gone.
+std::vector<std::uint32_t> put_in_order(std::vector<Vec3f>& positions) {
+  std::vector<std::uint32_t> order(positions.size()), place(order.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Vec3f &p = mesh.positions[a], &q = mesh.positions[b];
+    const Vec3f &p = positions[a], &q = positions[b];
     return std::tie(p.z, p.y, p.x) < std::tie(q.z, q.y, q.x);
   });
-  std::vector<Vec3f> positions;
+  std::vector<Vec3f> ordered;
   for (std::size_t i = 0; i < order.size(); ++i) {
     place[order[i]] = std::uint32_t(i);
-    positions.push_back(mesh.positions[order[i]]);
+    ordered.push_back(positions[order[i]]);
   }
-  mesh.positions = std::move(positions);
-  for (auto& t : mesh.triangles) {
-    for (std::uint32_t& corner : t) corner = place[corner];
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  positions = std::move(ordered);
+  return place;
+}
+
+// Values are high inside, so OpenVDB's faces look inwards: they are turned round.
+void add_faces(const std::vector<openvdb::Vec4I>& quads, const std::vector<std::uint32_t>& place,
+               TriangleMesh& mesh) {
+  for (const openvdb::Vec4I& quad : quads) {
+    std::array<std::uint32_t, 4> q{place[quad[3]], place[quad[2]], place[quad[1]], place[quad[0]]};
+    std::rotate(q.begin(), std::min_element(q.begin(), q.end()), q.end());
+    mesh.triangles.push_back({q[0], q[1], q[2]});
+    mesh.triangles.push_back({q[0], q[2], q[3]});
   }
   std::sort(mesh.triangles.begin(), mesh.triangles.end());
 }
@@ -41,22 +66,7 @@ void put_in_order(TriangleMesh& mesh) {
 TriangleMesh make_void_surface(const VoidSpace& space, const Void& v) {
   static std::once_flag once;
   std::call_once(once, [] { openvdb::initialize(); });
-  auto grid = openvdb::FloatGrid::create(0.0f);
-  auto accessor = grid->getAccessor();
-  // Cells around the void are made active as well, so that smoothing reaches them.
-  for (const std::uint32_t i : v.cells) {
-    const Cell c = space.grid.cell(i);
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
-          const openvdb::Coord at(c[0] + dx, c[1] + dy, c[2] + dz);
-          accessor.setValueOn(at, accessor.getValue(at));
-        }
-    accessor.setValue({c[0], c[1], c[2]}, 1.0f);
-  }
-  openvdb::tools::Filter<openvdb::FloatGrid> filter(*grid);
-  filter.mean(1, 1);
-
+  const auto grid = make_grid(space.grid, v);
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec4I> quads;
   openvdb::tools::volumeToMesh(*grid, points, quads, 0.5);
@@ -65,12 +75,7 @@ TriangleMesh make_void_surface(const VoidSpace& space, const Void& v) {
     mesh.positions.push_back(
         Vec3f(space.grid.corner + Vec3{p.x() + 0.5, p.y() + 0.5, p.z() + 0.5} * space.grid.voxel));
   }
-  // Values are high inside, so OpenVDB's faces look inwards: they are turned round.
-  for (const openvdb::Vec4I& q : quads) {
-    mesh.triangles.push_back({q[2], q[1], q[0]});
-    mesh.triangles.push_back({q[3], q[2], q[0]});
-  }
-  put_in_order(mesh);
+  add_faces(quads, put_in_order(mesh.positions), mesh);
   return mesh;
 }
 

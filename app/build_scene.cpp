@@ -30,6 +30,7 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets) {
   for (const PlacedItem& item : scenario.pile.placed) spec.placed.push_back(place(item, assets));
   spec.spawn_position = scenario.pile.spawn_position;
   spec.spawn_bounds = scenario.pile.spawn_bounds;
+  spec.spawn_density = scenario.pile.spawn_density;
   spec.layers = scenario.pile.layers;
   spec.pieces_per_layer = scenario.pile.pieces_per_layer;
   return spec;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/build_scene.h"
+#include "app/flight.h"
 #include "app/frame_journal.h"
 #include "app/recorders.h"
 #include "app/run.h"
@@ -16,6 +17,7 @@
 #include "render/renderer.h"
 #include "render/sensors/camera.h"
 #include "scripting/imu.h"
+#include "scripting/script_file.h"
 #include "scripting/trajectory.h"
 
 namespace rubble {
@@ -93,9 +95,35 @@ void take_frames(Camera& camera, RecordingQueue& queue, Run& run, const RunFolde
   depth.add_to(run.metrics);
 }
 
+// What the trajectory depends on besides the script becomes known: places in voids, ways around the
+// pile. From here on the scenario's path is what is flown; flight.json holds it.
+void resolve_path(Run& run, RunFolder& folder) {
+  const bool quick = !run.scenario.trajectory.needs_pile();
+  if (!quick) run.progress.start("flight");
+  FlightPlan plan;
+  try {
+    plan = resolve_flight(run.scenario, run.assets, run.pile, run.threads(),
+                          [&](double done, const std::string& what) {
+                            throw_if_stopped(folder.path());
+                            run.progress.update(done, what);
+                          });
+  } catch (const InputError& error) {
+    std::vector<Diagnostic> mistakes = error.diagnostics();
+    locate(mistakes, run.recipe.script.path, SourceMap(run.recipe.script.text, "mission"));
+    throw InputError(std::move(mistakes));
+  }
+  if (!quick) run.progress.finish(plan.summary.empty() ? "planned" : plan.summary);
+  if (!plan.json.empty()) {
+    write_text_file(folder.file("flight.json"), plan.json);
+    folder.add("flight.json");
+  }
+  run.scenario.trajectory = plan.trajectory;
+}
+
 }  // namespace
 
 void render_frames(Run& run, RunFolder& folder) {
+  resolve_path(run, folder);
   run.progress.start("scene");
   GlContext context({-1, run.threads()});
   note_environment(run, context.info());

@@ -13,6 +13,7 @@
 
 #include "app/build_info.h"
 #include "app/commands.h"
+#include "scripting/schema_docs.h"
 
 namespace rubble {
 namespace {
@@ -221,6 +222,13 @@ Action add_check(CLI::App& command) {
   const auto request = std::make_shared<RunRequest>();
   add_mission_options(command, *request);
   add_seed_option(command, *request);
+  command.add_flag_callback(
+      "--schema",
+      [] {
+        std::printf("%s\n", mission_json_schema().c_str());
+        throw CLI::Success();
+      },
+      "Print a JSON Schema of every key of a mission instead");
   return [request] { return check_mission(*request); };
 }
 

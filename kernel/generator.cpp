@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "kernel/base/error.h"
@@ -68,6 +69,15 @@ void validate(const PileSpec& spec) {
   check.expect(b.z > 0, "spawn_bounds.z", "more than 0", b.z);
   check.expect(spec.layers == 0 || spec.pieces_per_layer == 0 || total > 0, "mix",
                "at least one entry with a weight above 0", total);
+  const SpawnDensity& density = spec.spawn_density;
+  double weights = 0;
+  bool fine = true;
+  for (const double w : density.weights) fine = fine && w >= 0 && std::isfinite(w), weights += w;
+  check.expect(density.weights.empty() ||
+                   (fine && weights > 0 && density.columns > 0 && density.rows > 0 &&
+                    density.weights.size() == std::size_t(density.columns) * std::size_t(density.rows)),
+               "spawn_density", "columns * rows weights of at least 0, not all of them 0",
+               std::to_string(density.weights.size()) + " weights");
   check.finish();
 }
 
@@ -86,6 +96,7 @@ class LayerMaker {
  public:
   LayerMaker(const PileSpec& spec, const std::vector<Shape>& shapes)
       : spec_(spec), shapes_(shapes), random_(spec.seed, "pile") {
+    if (!spec.spawn_density.weights.empty()) density_.emplace(spec.spawn_density.weights);
     for (const MixEntry& e : spec.mix) {
       if (e.weight > 0) largest_ = std::max(largest_, double(shapes[e.type].radius) * e.scale_max);
     }
@@ -119,8 +130,8 @@ class LayerMaker {
     for (int attempt = 0; attempt < kMaxTries; ++attempt) {
       Pose& pose = piece.world_from_body;
       pose.rotation = random_.rotation();
-      const Vec3 centre{spec_.spawn_position.x + random_.uniform(-half.x, half.x),
-                        spec_.spawn_position.y + random_.uniform(-half.y, half.y),
+      const Vec3 place = draw_place(half);
+      const Vec3 centre{spec_.spawn_position.x + place.x, spec_.spawn_position.y + place.y,
                         random_.uniform(radius, highest)};
       pose.translation =
           centre - pose.rotation.rotate(shape.volume.centre_of_mass * piece.scale);
@@ -129,8 +140,22 @@ class LayerMaker {
     return false;
   }
 
+  // Relative to the middle of the box; z is 0.
+  Vec3 draw_place(const Vec3& half) {
+    if (!density_) {
+      const double x = random_.uniform(-half.x, half.x);
+      return {x, random_.uniform(-half.y, half.y), 0};
+    }
+    const SpawnDensity& grid = spec_.spawn_density;
+    const int cell = density_->draw(random_);
+    const double column = cell % grid.columns + random_.uniform();
+    const double row = cell / grid.columns + random_.uniform();
+    return {half.x * (2 * column / grid.columns - 1), half.y * (2 * row / grid.rows - 1), 0};
+  }
+
   const PileSpec& spec_;
   const std::vector<Shape>& shapes_;
+  std::optional<WeightedChoice> density_;
   RandomStream random_;
   double largest_ = 0.01;
 };

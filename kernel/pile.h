@@ -47,6 +47,13 @@ struct Placement {
   bool fixed = false;    // immovable: walls, pipes, terrain; of an assembly its root alone
 };
 
+// Where above its footprint a layer's pieces are drawn: a grid of weights over the spawn box, even
+// within a cell. Row by row from the lowest y, each from the lowest x; without weights: evenly.
+struct SpawnDensity {
+  int columns = 0, rows = 0;    // range: 1 to 256
+  std::vector<double> weights;  // columns * rows, finite, >= 0, at least one above 0
+};
+
 // Where and how much to drop.
 struct PileSpec {
   std::uint64_t seed = 0;
@@ -56,6 +63,7 @@ struct PileSpec {
   std::vector<Placement> placed;     // stands or is laid down before the first layer
   Vec3 spawn_position{0, 0, 4.5};    // centre of the spawn box; unit: m
   Vec3 spawn_bounds{10, 10, 7};      // its full edge lengths; unit: m; > 0
+  SpawnDensity spawn_density;
   int layers = 4;                    // 0 to 1000
   int pieces_per_layer = 300;        // 0 to 100000; an assembly counts as one
 };

@@ -58,6 +58,16 @@ struct TypeOf {
   Json operator()(NumberPair*) const { return pair_schema(range); }
   Json operator()(std::optional<NumberPair>*) const { return or_null(pair_schema(range)); }
   Json operator()(std::vector<std::string>*) const { return strings_schema(); }
+  Json operator()(const PlaceSlot&) const {
+    const Json place = {{"type", "object"},
+                        {"properties", {{"find_void", {{"type", "object"}}}}},
+                        {"required", {"find_void"}},
+                        {"additionalProperties", false}};
+    return {{"anyOf", Json::array({vector_schema(range), place, {{"type", "null"}}})}};
+  }
+  Json operator()(std::vector<double>*) const {
+    return {{"type", "array"}, {"items", with_range({{"type", "number"}}, range)}};
+  }
   Json operator()(Value*) const { return Json::object(); }
   Json operator()(const StringOrList&) const {
     return {{"anyOf", Json::array({{{"type", "string"}}, strings_schema()})}};

@@ -178,6 +178,8 @@ rubble = {
   vec = make_vec,
   options = host.options,
   reject = host.reject,
+  read_table = host.read_table,
+  read_image = host.read_image,
   rotate = function(rpy_deg, v) return make_vec(host.rotate(rpy_deg, v)) end,
 }
 if entry == "rubble.mission" then rubble.mission = entry_function else _G[entry] = entry_function end

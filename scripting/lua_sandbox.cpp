@@ -11,6 +11,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "scripting/gray_image.h"
 #include "scripting/lua_host.h"
 #include "scripting/lua_library.h"
 #include "scripting/lua_prelude.h"
@@ -165,6 +166,11 @@ int LuaSandbox::State::open_include(const std::string& name, std::string& error)
   std::optional<std::string> text = read_include(relative, error);
   if (!text) return -1;
   if (chunks.size() > kMostIncludes) return error = "more than 64 files", -1;
+  try {
+    if (is_png(*text)) *text = png_to_pgm(*text);  // manifests keep text
+  } catch (const std::runtime_error& failure) {
+    return error = "\"" + name + "\": " + failure.what(), -1;
+  }
   return keep_include(relative, std::move(*text));
 }
 
@@ -280,13 +286,27 @@ const std::vector<Diagnostic>& LuaSandbox::mistakes() const { return state_->hos
 
 std::vector<DescribedFunction> LuaSandbox::describe_library() {
   LuaSandbox sandbox(0, "rubble.mission");
-  std::vector<DescribedFunction> described;
-  std::string script;
-  for (const LibraryFile& file : lua_library())
-    if (file.name.rfind("collapse/", 0) == 0)
-      script += "rubble.collapse." + file.name.substr(file.name.find('/') + 1) + "{}\n";
-  sandbox.state_->host.described = &described;
+  std::vector<DescribedFunction> all, described;
+  // Called with nothing but what they cannot do without.
+  std::string script = "local function one() return 1 end local function at() return {0, 0, 1} end\n";
+  for (const LibraryFile& file : lua_library()) {
+    const std::size_t slash = file.name.find('/');
+    if (file.name == "find_void") script += "rubble.find_void {}\n";
+    if (slash == std::string::npos || file.name == "density/image") continue;
+    const std::string first = file.name == "density/from"      ? "one, "
+                              : file.name == "trajectory/along" ? "at, "
+                                                                : "";
+    script += "rubble." + file.name.substr(0, slash) + "." + file.name.substr(slash + 1) + "(" +
+              first + "{})\n";
+  }
+  sandbox.state_->host.described = &all;
   sandbox.run(script, "library");
+  for (DescribedFunction& function : all) {
+    const bool known = std::any_of(described.begin(), described.end(), [&](const auto& other) {
+      return other.name == function.name;
+    });
+    if (!known) described.push_back(std::move(function));
+  }
   return described;
 }
 

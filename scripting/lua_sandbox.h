@@ -63,7 +63,7 @@ class LuaSandbox {
   const std::vector<SourceFile>& included() const;  // by rubble.include, in order of first use
   const std::vector<std::string>& printed() const;  // lines given to print
 
-  // The functions of rubble.collapse with their parameters, in order, for the reference.
+  // The functions of the library with their parameters, in order, for the reference.
   static std::vector<DescribedFunction> describe_library();
 
  private:

@@ -18,6 +18,20 @@ void check_mix(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
         {"", 0, "pile.mix", "nothing to draw", "a weight above 0", "only weights of 0", ""});
 }
 
+void check_density(const SpawnDensity& d, std::vector<Diagnostic>& mistakes) {
+  double sum = 0;
+  for (const double weight : d.weights) sum += weight;
+  const auto add = [&](std::string message, std::string expected, std::string found) {
+    mistakes.push_back({"", 0, "pile.spawn_density.weights", std::move(message),
+                        std::move(expected), std::move(found), "rubble.density makes such grids"});
+  };
+  if (d.weights.size() != std::size_t(d.columns) * std::size_t(d.rows))
+    add("not a whole grid", "columns * rows = " + std::to_string(d.columns * d.rows) + " numbers",
+        std::to_string(d.weights.size()));
+  else if (!d.weights.empty() && sum == 0)
+    add("nowhere to draw", "a weight above 0", "only weights of 0");
+}
+
 std::string item_key(const char* list, std::size_t i, const char* name = "") {
   return std::string(list) + "[" + std::to_string(i + 1) + "]" + name;
 }
@@ -169,6 +183,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   if (!mistakes.empty()) return mistakes;  // what follows relies on finite numbers
   check_names(scenario.pile, mistakes);
   check_mix(scenario.pile, mistakes);
+  check_density(scenario.pile.spawn_density, mistakes);
   check_channels(scenario.camera, mistakes);
   check_camera(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);

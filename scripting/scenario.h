@@ -14,6 +14,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
+#include "kernel/pile.h"
 #include "kernel/settle.h"
 #include "render/camera_spec.h"
 #include "render/frame.h"
@@ -46,6 +47,7 @@ struct PlacedItem {
 struct PileScenario {
   Vec3 spawn_position{0, 0, 4.5};  // centre of the box that layers are drawn in; unit: m
   Vec3 spawn_bounds{10, 10, 7};    // its full edge lengths; unit: m; > 0
+  SpawnDensity spawn_density;      // where in the box; without weights: evenly
   int layers = 4;                  // range: 0 to 1000
   int pieces_per_layer = 300;      // range: 0 to 100000
   std::vector<MixItem> mix;        // empty: every asset of the packs, by its own weight

@@ -28,6 +28,14 @@ void add_pile(Schema& k, PileScenario& p) {
   k.value("pile.spawn_bounds", p.spawn_bounds, "Full edge lengths of that box.")
       .above(0, 1000)
       .unit("m");
+  k.group("pile.spawn_density",
+          "Where above the box's footprint pieces are drawn: a grid of weights, as rubble.density "
+          "makes it; none: evenly.");
+  k.value("pile.spawn_density.columns", p.spawn_density.columns, "Cells along X.").between(0, 256);
+  k.value("pile.spawn_density.rows", p.spawn_density.rows, "Cells along Y.").between(0, 256);
+  k.value("pile.spawn_density.weights", p.spawn_density.weights,
+          "Of each cell, row by row from the lowest y, each from the lowest x.")
+      .between(0, 1e9);
   k.value("pile.layers", p.layers, "Layers, dropped one after another.").between(0, 1000);
   k.value("pile.pieces_per_layer", p.pieces_per_layer, "Pieces in each layer.").between(0, 100000);
   k.list("pile.mix", p.mix, "What is dropped; none: every asset of the packs, by its own weight.");
@@ -205,10 +213,33 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
   k.value("trajectory.speed", t.speed, "To a waypoint that has neither `t` nor `speed`.")
       .above(0, 1000)
       .unit("m/s");
+  k.choice("trajectory.plan", t.plan, {"ghost", "refuse", "avoid"},
+           "Fly through pieces; stop at the first contact; or find a way around them.");
+  k.value("trajectory.radius", t.radius, "Of the sphere that is the camera's body, for the plan.")
+      .between(0.005, 10)
+      .unit("m");
+  k.value("trajectory.duration", t.duration,
+          "The whole path takes this long, instead of what its times and speeds add up to.")
+      .above(0, 86400)
+      .unit("s");
+  k.value("trajectory.max_speed", t.limits.max_speed, "Slows the path down where it is faster.")
+      .above(0, 1000)
+      .unit("m/s");
+  k.value("trajectory.max_acceleration", t.limits.max_acceleration,
+          "Likewise, also in bends; straight legs then nearly stop at their corners.")
+      .above(0, 10000)
+      .unit("m/s2");
+  k.value("trajectory.max_turn_rate_deg", t.limits.max_turn_rate_deg,
+          "Likewise where the view turns faster.")
+      .above(0, 36000)
+      .unit("degree/s");
   k.list("trajectory.waypoints", t.waypoints,
          "Where the camera passes, in order; one gives a single frame.");
   auto& list = t.waypoints;
-  k.item("trajectory.waypoints[].position", list, &Waypoint::position, "In the world.")
+  k.add("trajectory.waypoints[].position", "In the world.",
+        [&list](std::size_t i) {
+          return Slot(PlaceSlot{&list[i].position, nullptr, &list[i].position_in_void});
+        })
       .between(-1000, 1000)
       .unit("m")
       .must();
@@ -223,8 +254,11 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
          "Roll, pitch (positive: nose down) and yaw.")
       .between(-3600, 3600)
       .unit("degree");
-  k.item("trajectory.waypoints[].look_at", list, &Waypoint::look_at,
-         "Instead of pitch and yaw: the point in the middle of the view.")
+  k.add("trajectory.waypoints[].look_at",
+        "Instead of pitch and yaw: the point in the middle of the view.",
+        [&list](std::size_t i) {
+          return Slot(PlaceSlot{nullptr, &list[i].look_at, &list[i].look_at_in_void});
+        })
       .between(-10000, 10000)
       .unit("m");
 }

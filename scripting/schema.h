@@ -16,6 +16,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
+#include "scripting/trajectory.h"
 #include "scripting/value.h"
 
 namespace rubble {
@@ -35,6 +36,13 @@ struct WordOrFile {  // the word, or { key = "FILE" }; the word is kept as an em
   std::string word, key;
   std::string* file;
 };
+// A point, or a place in a void that { find_void = { ... } } names (see rubble.find_void). One of
+// `point` and `maybe` is given; when the place is set, they are not used.
+struct PlaceSlot {
+  Vec3* point;
+  std::optional<Vec3>* maybe;
+  std::optional<VoidPlace>* in_void;
+};
 using NumberPair = std::array<double, 2>;
 class Schema;
 struct TableList {  // a list within an item of a list: each table of it has a schema of its own
@@ -47,7 +55,8 @@ struct TableList {  // a list within an item of a list: each table of it has a s
 using Slot = std::variant<bool*, Negated, int*, std::int64_t*, std::uint64_t*, double*,
                           std::optional<double>*, std::string*, std::optional<std::string>*, Choice,
                           Vec3*, std::optional<Vec3>*, NumberPair*, std::optional<NumberPair>*,
-                          std::vector<std::string>*, StringOrList, WordOrFile, Value*, TableList>;
+                          std::vector<std::string>*, StringOrList, WordOrFile, Value*, TableList,
+                          PlaceSlot, std::vector<double>*>;
 
 struct Range {
   double min = -std::numeric_limits<double>::infinity();

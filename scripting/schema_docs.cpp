@@ -88,33 +88,80 @@ std::string leading_comment(const std::string& text) {
   return words;
 }
 
-// The rows of a description's entries that `wanted` takes.
-template <typename Wanted>
-std::string option_rows(const Value& description, Wanted wanted) {
-  OptionTable table(description);
-  std::string rows;
-  for (const Key& key : table.schema().keys())
-    if (key.kind == KeyKind::value && wanted(key)) rows += row(key, key.path);
-  return rows;
+using Names = std::vector<std::string>;
+
+bool has(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string collapse_reference() {
-  const auto is_common = [](const Key& key) {
-    return key.path == "position" || key.path == "yaw_deg" || key.path.rfind("debris.", 0) == 0;
-  };
-  std::string text = "## Collapse modes\n\n", common;
-  for (const DescribedFunction& mode : LuaSandbox::describe_library()) {
-    const std::string name = mode.name.substr(mode.name.rfind('.') + 1);
-    for (const LibraryFile& file : lua_library())
-      if (file.name == "collapse/" + name)
-        text += "### `" + mode.name + "`\n\n" + leading_comment(file.text) + "\n\n";
-    text += kHead + option_rows(mode.description,
-                                [&](const Key& key) { return name == "heap" || !is_common(key); }) +
-            "\n";
-    if (name != "heap") common = option_rows(mode.description, is_common);
+Names parameters_of(const DescribedFunction& function) {
+  OptionTable table(function.description);
+  Names names;
+  for (const Key& key : table.schema().keys())
+    if (key.kind == KeyKind::value) names.push_back(key.path);
+  return names;
+}
+
+// The rows of the parameters that are, or are not, among `names`.
+std::string option_rows(const DescribedFunction& function, const Names& names, bool among) {
+  OptionTable table(function.description);
+  std::string rows;
+  for (const Key& key : table.schema().keys())
+    if (key.kind == KeyKind::value && has(names, key.path) == among) rows += row(key, key.path);
+  return rows.empty() ? "" : kHead + rows + "\n";
+}
+
+std::string comment_of(const std::string& file_name) {
+  for (const LibraryFile& file : lua_library())
+    if (file.name == file_name) return leading_comment(file.text);
+  return "";
+}
+
+std::string function_section(const DescribedFunction& function, const Names& common) {
+  std::string file = function.name.substr(function.name.find('.') + 1);
+  std::replace(file.begin(), file.end(), '.', '/');
+  return "### `" + function.name + "`\n\n" + comment_of(file) + "\n\n" +
+         option_rows(function, common, false);
+}
+
+// Every function of a folder; what all those that have `marker` share comes once, at the end.
+std::string folder_sections(const std::string& folder, const std::string& marker,
+                            const std::string& heading) {
+  std::vector<DescribedFunction> functions;
+  for (DescribedFunction& function : LuaSandbox::describe_library())
+    if (function.name.rfind("rubble." + folder + ".", 0) == 0)
+      functions.push_back(std::move(function));
+  Names common;
+  const DescribedFunction* sample = nullptr;
+  for (const DescribedFunction& function : functions) {
+    const Names names = parameters_of(function);
+    if (!has(names, marker)) continue;
+    Names shared;
+    for (const std::string& name : names)
+      if (!sample || has(common, name)) shared.push_back(name);
+    common = shared, sample = &function;
   }
-  return text + "### What every mode but `heap` has\n\nThe structure's place, and the debris that "
-                "covers it.\n\n" + kHead + common + "\n";
+  std::string text;
+  for (const DescribedFunction& function : functions)
+    text += function_section(function, has(parameters_of(function), marker) ? common : Names{});
+  if (sample) text += "### " + heading + "\n\n" + option_rows(*sample, common, true);
+  return text;
+}
+
+std::string library_reference() {
+  std::string text =
+      "## Collapse modes\n\n" +
+      folder_sections("collapse", "debris.layers",
+                      "Place and debris, which every mode but `heap` has") +
+      "## Densities\n\nWhere layers fall, as `pile.spawn_density`. "
+      "`rubble.density.image(file)` takes a PNG file of the script's folder: white where most "
+      "falls, its upper edge at +Y.\n\n" +
+      folder_sections("density", "", "") + "## Paths\n\n" +
+      folder_sections("trajectory", "rate_hz", "What every path has");
+  for (const DescribedFunction& function : LuaSandbox::describe_library())
+    if (function.name == "rubble.find_void")
+      text += "## Places in voids\n\n" + function_section(function, {});
+  return text;
 }
 
 std::string alias_table(const Schema& schema) {
@@ -136,7 +183,7 @@ std::string lua_reference() {
   PackTable pack_table;
   const Schema pack = make_pack_schema(pack_table);
   return "\n## Keys of a mission\n\n" + section(mission, "", "", "") + alias_table(mission) +
-         collapse_reference() + "## Keys of pack.lua\n\n" + section(pack, "", "", "");
+         library_reference() + "## Keys of pack.lua\n\n" + section(pack, "", "", "");
 }
 
 std::string with_reference(const std::string& document) {

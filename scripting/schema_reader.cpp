@@ -8,6 +8,9 @@
 namespace rubble {
 namespace {
 
+// More help nobody, and a hostile script could name a million keys.
+constexpr std::size_t kMostMistakes = 1000;
+
 std::string joined(const std::string& path, const std::string& name) {
   return path.empty() || name[0] == '[' ? path + name : path + "." + name;
 }
@@ -58,6 +61,10 @@ std::optional<Target> component_of(const Target& whole, const std::string& name)
   if (auto* const* plain = std::get_if<Vec3*>(&whole.slot)) vector = *plain;
   if (auto* const* maybe = std::get_if<std::optional<Vec3>*>(&whole.slot); maybe && **maybe)
     vector = &***maybe;
+  if (const auto* place = std::get_if<PlaceSlot>(&whole.slot); place && !*place->in_void) {
+    if (place->point) vector = place->point;
+    if (place->maybe && *place->maybe) vector = &**place->maybe;
+  }
   if (!vector) return std::nullopt;
   return Target{whole.key, Slot(&(*vector)[name[0] - 'x'])};
 }
@@ -118,6 +125,7 @@ class TableReader {
     const std::vector<const Key*> keys = schema_.children(pattern);
     check_plain_keys(shown, table);
     for (const auto& [name, value] : table.fields) {
+      if (mistakes_.size() >= kMostMistakes) return;
       const auto at = std::find_if(keys.begin(), keys.end(),
                                    [&n = name](const Key* key) { return key->name() == n; });
       if (at != keys.end())

@@ -121,6 +121,19 @@ Outcome store_strings(const Value& value, std::vector<std::string>& out) {
   return Outcome::stored;
 }
 
+Outcome store_numbers(const Range& range, const Value& value, std::vector<double>& out) {
+  if (value.kind != Value::Kind::table || !value.fields.empty() || !value.strange_keys.empty())
+    return Outcome::wrong_type;
+  std::vector<double> numbers;
+  for (const Value& item : value.items) {
+    numbers.emplace_back();
+    const Outcome outcome = store_number(range, item, numbers.back());
+    if (outcome != Outcome::stored) return outcome;
+  }
+  out = std::move(numbers);
+  return Outcome::stored;
+}
+
 Outcome store_choice(const Choice& choice, const Value& value) {
   if (value.kind != Value::Kind::text) return Outcome::wrong_type;
   const auto at = std::find(choice.names.begin(), choice.names.end(), value.text);
@@ -140,6 +153,38 @@ Outcome store_word_or_file(const WordOrFile& to, const Value& value) {
   if (!file || !alone || file->kind != Value::Kind::text || file->text.empty())
     return Outcome::wrong_type;
   *to.file = file->text;
+  return Outcome::stored;
+}
+
+// The members of { find_void = { ... } }.
+Schema void_place_schema(VoidPlace& place) {
+  Schema k;
+  k.value("radius", place.radius, "").between(0.02, 10);
+  k.value("rank", place.rank, "").between(1, 1e6);
+  k.choice("by", place.order, {"volume", "depth"}, "");
+  k.choice("place", place.point, {"entrance", "approach", "deepest", "widest"}, "");
+  k.value("distance", place.distance, "").between(0, 100);
+  k.value("outside_radius", place.outside_radius, "").between(0.2, 10);
+  return k;
+}
+
+Outcome store_place(const Range& range, const PlaceSlot& to, const Value& value) {
+  const Value* marker = value.kind == Value::Kind::table ? value.find("find_void") : nullptr;
+  if (marker && value.fields.size() == 1 && marker->kind == Value::Kind::table) {
+    VoidPlace place;
+    std::vector<Diagnostic> mistakes;
+    read_table(void_place_schema(place), *marker, mistakes);
+    if (!mistakes.empty()) return Outcome::wrong_type;
+    *to.in_void = place;
+    if (to.maybe) to.maybe->reset();
+    return Outcome::stored;
+  }
+  Vec3 v;
+  const Outcome outcome = store_vector(range, value, v);
+  if (outcome != Outcome::stored) return outcome;
+  to.in_void->reset();
+  if (to.point) *to.point = v;
+  if (to.maybe) *to.maybe = v;
   return Outcome::stored;
 }
 
@@ -182,6 +227,10 @@ Outcome store_as(const Range& range, const T& to, const Value& value) {
     return Outcome::stored;
   } else if constexpr (std::is_same_v<T, WordOrFile>) {
     return store_word_or_file(to, value);
+  } else if constexpr (std::is_same_v<T, std::vector<double>*>) {
+    return store_numbers(range, value, *to);
+  } else if constexpr (std::is_same_v<T, PlaceSlot>) {
+    return store_place(range, to, value);
   } else if constexpr (std::is_same_v<T, Value*>) {
     if (value.kind != Value::Kind::table || !value.strange_keys.empty()) return Outcome::wrong_type;
     *to = value;
@@ -233,6 +282,18 @@ Value read_as(const T& from) {
     return list_of(*from.member);
   } else if constexpr (std::is_same_v<T, Value*>) {
     return *from;
+  } else if constexpr (std::is_same_v<T, std::vector<double>*>) {
+    Value list = Value::make_table();
+    for (const double number : *from) list.items.push_back(Value::make_number(number));
+    return list;
+  } else if constexpr (std::is_same_v<T, PlaceSlot>) {
+    if (!*from.in_void) return from.point ? read_slot(Slot(from.point)) : read_slot(Slot(from.maybe));
+    VoidPlace place = **from.in_void;
+    Value marker = Value::make_table(), members = Value::make_table();
+    const Schema schema = void_place_schema(place);
+    for (const Key& key : schema.keys()) members.set(key.name(), read_slot(key.bind(0)));
+    marker.set("find_void", members);
+    return marker;
   } else if constexpr (std::is_same_v<T, WordOrFile>) {
     if (from.file->empty()) return Value::make_text(from.word);
     Value table = Value::make_table();
@@ -259,6 +320,11 @@ std::string expected_as(const Key& key, const T& slot) {
   if constexpr (std::is_same_v<T, Choice>) return choice_words(slot);
   if constexpr (std::is_same_v<T, WordOrFile>)
     return "\"" + slot.word + "\" or { " + slot.key + " = \"FILE\" }";
+  if constexpr (std::is_same_v<T, std::vector<double>*>)
+    return "a list of numbers" + (range.empty() ? "" : ", each" + range);
+  if constexpr (std::is_same_v<T, PlaceSlot>)
+    return "three numbers {x, y, z}" + (range.empty() ? "" : ", each" + range) +
+           ", or a place in a void";
   if constexpr (std::is_same_v<T, Value*>) return "a table";
   if constexpr (std::is_same_v<T, StringOrList>) return "a string or a list of strings";
   if constexpr (std::is_same_v<T, TableList>) return "a list of tables";

@@ -12,6 +12,7 @@ namespace {
 constexpr double kDegree = portable::kPi / 180.0;
 constexpr double kNearestTarget = 1e-3;  // unit: m; closer, a direction means nothing
 constexpr double kMostFrames = 10'000'000;
+constexpr double kUnknownWay = 1e-3;  // unit: m; of a leg to a void, for the order of times
 
 std::string waypoint_key(std::size_t i, const char* name) {
   return "trajectory.waypoints[" + std::to_string(i + 1) + "]" + name;
@@ -35,6 +36,9 @@ class Checker {
   std::vector<Diagnostic> run() {
     if (!(spec_.rate_hz > 0) || !std::isfinite(spec_.rate_hz))
       add("trajectory.rate_hz", "out of range", "a number above 0", words(spec_.rate_hz));
+    if (spec_.plan == Plan::avoid && spec_.waypoints.size() < 2)
+      add("trajectory.waypoints", "nowhere to go", "at least two waypoints for the plan \"avoid\"",
+          std::to_string(spec_.waypoints.size()));
     if (!(spec_.speed > 0) || !std::isfinite(spec_.speed))
       add("trajectory.speed", "out of range", "a number above 0", words(spec_.speed));
     if (spec_.waypoints.empty())
@@ -44,6 +48,7 @@ class Checker {
       check_view(i);
       check_time(i);
     }
+    if (spec_.duration) time_ = *spec_.duration;
     if (mistakes_.empty() && !(time_ * spec_.rate_hz < kMostFrames))
       add("trajectory", "too long", "at most 10000000 frames", words(time_ * spec_.rate_hz));
     return std::move(mistakes_);
@@ -71,8 +76,8 @@ class Checker {
 
   void check_view(std::size_t i) {
     const Waypoint& w = spec_.waypoints[i];
-    if (!w.look_at) return;
-    if (distance(*w.look_at, w.position) < kNearestTarget)
+    if (!w.look_at && !w.look_at_in_void) return;
+    if (w.look_at && !w.position_in_void && distance(*w.look_at, w.position) < kNearestTarget)
       add(waypoint_key(i, ".look_at"), "nothing to look at", "a point away from the camera",
           "the camera's own position");
     if (w.rpy_deg.y != 0 || w.rpy_deg.z != 0)
@@ -92,7 +97,12 @@ class Checker {
             words(*w.speed));
       return;
     }
-    const double length = distance(w.position, spec_.waypoints[i - 1].position);
+    if (w.t && spec_.plan == Plan::avoid)
+      return add(waypoint_key(i, ".t"), "contradicts the plan \"avoid\"",
+                 "`speed`: how long the way is, is not known yet", words(*w.t));
+    const bool unknown = w.position_in_void || spec_.waypoints[i - 1].position_in_void;
+    const double length =
+        unknown ? kUnknownWay : distance(w.position, spec_.waypoints[i - 1].position);
     const double next = w.t ? *w.t : time_ + length / w.speed.value_or(spec_.speed);
     if (w.t && !(*w.t > time_))
       add(waypoint_key(i, ".t"), "times do not increase", "a time after " + words(time_) + " s",
@@ -235,22 +245,56 @@ class CameraPath::Curves {
   RotationCurve rotations_;
 };
 
+bool TrajectorySpec::needs_pile() const {
+  for (const Waypoint& w : waypoints)
+    if (w.position_in_void || w.look_at_in_void) return true;
+  return plan != Plan::ghost;
+}
+
+// Fine enough that a limit is kept to a thousandth between its entries; unit: s.
+static double table_step(double duration, double rate_hz) {
+  constexpr double kMostEntries = 1e6;
+  return std::max(duration / kMostEntries, std::min(duration / 2000, 0.125 / rate_hz));
+}
+
 CameraPath::CameraPath(const TrajectorySpec& spec) {
   std::vector<Diagnostic> mistakes = find_mistakes(spec);
+  for (std::size_t i = 0; i < spec.waypoints.size(); ++i)
+    if (spec.waypoints[i].position_in_void || spec.waypoints[i].look_at_in_void)
+      mistakes.push_back({"", 0, waypoint_key(i, ""), "a place in a void",
+                          "a place that is known before the pile has settled", "", ""});
   if (!mistakes.empty()) throw InputError(std::move(mistakes));
   curves_ = std::make_unique<const Curves>(spec);
+  asked_duration_ = curves_->duration();
+  if (spec.duration && asked_duration_ > 0) asked_duration_ = *spec.duration;
+  const double stretch = asked_duration_ > 0 ? curves_->duration() / asked_duration_ : 1;
+  scale_ = TimeScale([&](double t) { return curves_->at(t * stretch); }, asked_duration_,
+                     table_step(asked_duration_, spec.rate_hz), spec.limits);
 }
 
 CameraPath::~CameraPath() = default;
 
-double CameraPath::duration() const { return curves_->duration(); }
+double CameraPath::duration() const { return scale_.duration(asked_duration_); }
+double CameraPath::asked_duration() const { return asked_duration_; }
 
-Pose CameraPath::at(double t) const {
-  return curves_->at(std::min(std::max(t, 0.0), curves_->duration()));
+// The curves' own time at t: slowed down by the limits, then stretched to the asked duration.
+AskedTime CameraPath::own_time(double t) const {
+  AskedTime own = scale_.at(std::min(std::max(t, 0.0), duration()));
+  if (asked_duration_ == curves_->duration()) return own;
+  const double stretch = curves_->duration() / asked_duration_;
+  own.time *= stretch, own.rate *= stretch, own.change *= stretch;
+  return own;
 }
 
+Pose CameraPath::at(double t) const { return curves_->at(own_time(t).time); }
+
 CameraMotion CameraPath::motion_at(double t) const {
-  return curves_->motion_at(std::min(std::max(t, 0.0), curves_->duration()));
+  const AskedTime own = own_time(t);
+  CameraMotion motion = curves_->motion_at(own.time);
+  motion.acceleration = motion.acceleration * (own.rate * own.rate) + motion.velocity * own.change;
+  motion.velocity *= own.rate;
+  motion.angular_velocity *= own.rate;
+  return motion;
 }
 
 std::vector<CameraPose> sample_trajectory(const TrajectorySpec& spec, std::int64_t epoch_ns) {

@@ -18,8 +18,33 @@
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
 #include "scripting/curves.h"
+#include "scripting/time_scale.h"
 
 namespace rubble {
+
+// A place in a void of the settled pile, which is known only once it has settled.
+struct VoidPlace {
+  enum class Order { volume, depth };  // depth: how far the way into it is
+  enum class Point {
+    entrance,  // the sphere's centre where the widest entrance is widest
+    approach,  // `distance` outside of it
+    deepest,   // the farthest that the sphere gets from the entrances
+    widest,    // where the largest sphere fits
+  };
+  double radius = 0.2;  // of the sphere that must enter; unit: m; range: 0.02 to 10
+  int rank = 1;         // 1: the first of the voids in this order that it can enter
+  Order order = Order::volume;
+  Point point = Point::entrance;
+  double distance = 1;  // unit: m; range: 0 to 100
+  // Outside is what a sphere of this radius reaches from the sky; unit: m; range: 0.2 to 10
+  double outside_radius = 2;
+};
+
+enum class Plan {
+  ghost,   // fly through pieces
+  refuse,  // stop before the first frame when the camera's body would touch anything
+  avoid,   // find a way around everything from each waypoint to the next
+};
 
 struct Waypoint {
   // When the camera is here; unit: s after the start. The first one's is 0. Without it, the camera
@@ -31,6 +56,8 @@ struct Waypoint {
   // degree. With look_at only the roll counts, and pitch and yaw must be 0.
   Vec3 rpy_deg;
   std::optional<Vec3> look_at;  // the camera's X axis points here, Z up; unit: m
+  // Instead of the numbers above, until resolved; see app/flight.h.
+  std::optional<VoidPlace> position_in_void{}, look_at_in_void{};
 };
 
 // From 9 m in front of the pile's middle and 4 m up, looking at it.
@@ -42,6 +69,14 @@ struct TrajectorySpec {
   double speed = 0.5;  // where a waypoint has neither t nor speed; unit: m/s; range: > 0
   // At least one; a single one gives a single frame.
   std::vector<Waypoint> waypoints{default_view()};
+  Plan plan = Plan::ghost;
+  double radius = 0.1;  // of the sphere that is the camera's body; unit: m; range: 0.005 to 10
+  // The whole path takes this long instead of what its times and speeds add up to; unit: s; > 0
+  std::optional<double> duration;
+  SpeedLimits limits;
+
+  // Whether it can be flown only over a settled pile: see plan_flight.
+  bool needs_pile() const;
 };
 
 struct CameraPose {
@@ -61,10 +96,11 @@ struct CameraMotion {
 // The camera's pose at any time, not only at the frames'.
 class CameraPath {
  public:
-  // Throws InputError (find_mistakes).
+  // Throws InputError (find_mistakes), also for places in voids. The plan is not looked at.
   explicit CameraPath(const TrajectorySpec& spec);
   ~CameraPath();
   double duration() const;  // unit: s
+  double asked_duration() const;  // what it was before the limits slowed it down; unit: s
   // t: s after the start; before it and after the end the camera stands still.
   Pose at(double t) const;
   // t: from 0 to the duration.
@@ -72,7 +108,11 @@ class CameraPath {
 
  private:
   class Curves;
+  AskedTime own_time(double t) const;
+
   std::unique_ptr<const Curves> curves_;
+  double asked_duration_ = 0;
+  TimeScale scale_;
 };
 
 // Every mistake in a trajectory, keyed "trajectory.waypoints[2].t" and so on; empty: none.

@@ -14,13 +14,6 @@ local small_pieces = {
 }
 local room_of_a_piece = 0.7  -- of the air that a layer is drawn in; m3
 
--- The angle within -360 to 360.
-local function wrapped(angle)
-  while angle > 360 do angle = angle - 360 end
-  while angle < -360 do angle = angle + 360 end
-  return angle
-end
-
 -- {x, y, z} of a vector in either way of writing it.
 local function listed(v) return { v[1] or v.x, v[2] or v.y, v[3] or v.z } end
 
@@ -29,7 +22,7 @@ local function moved(o, item)
   for name, value in pairs(item) do copy[name] = value end
   local p, rpy = rubble.rotate({ 0, 0, o.yaw_deg }, item.position), listed(item.rpy_deg or { 0, 0, 0 })
   copy.position = { o.position[1] + p.x, o.position[2] + p.y, o.position[3] + p.z }
-  copy.rpy_deg = { rpy[1], rpy[2], wrapped(rpy[3] + o.yaw_deg) }
+  copy.rpy_deg = { rpy[1], rpy[2], math.fmod(rpy[3] + o.yaw_deg, 360) }
   return copy
 end
 

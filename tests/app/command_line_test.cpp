@@ -57,6 +57,15 @@ TEST(Check, AcceptsTheMissionOfTheReadme) {
   EXPECT_EQ(check.exit_code, 0) << check.err;
 }
 
+TEST(Check, PrintsASchemaOfEveryKey) {
+  const Outcome check = run_rubble("check --schema");
+  ASSERT_EQ(check.exit_code, 0) << check.err;
+  const auto schema = nlohmann::json::parse(check.out);
+  EXPECT_EQ(schema.at("title"), "Rubble mission");
+  EXPECT_TRUE(schema.at("properties").contains("trajectory"));
+  EXPECT_EQ(run_rubble("check").exit_code, 1) << "a mission is needed otherwise";
+}
+
 TEST(Check, NamesAnUnknownAsset) {
   const Outcome check = check_text(
       "return rubble.mission {\n"

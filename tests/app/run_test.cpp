@@ -59,18 +59,27 @@ TEST(Run, SaysWhenThePileDidNotSettle) {
   EXPECT_TRUE(fs::exists(scratch / "a/pile.bin")) << "what was computed is kept";
 }
 
-// Each bundled script, made small: what users copy from must work.
-TEST(Run, RunsEveryBundledScript) {
-  for (const auto& entry : fs::recursive_directory_iterator(RUBBLE_SOURCE_DIR "/scripts")) {
-    if (entry.path().extension() != ".lua" || entry.path().parent_path().filename() == "ci") continue;
+// Each bundled script of a folder, made small: what users copy from must work.
+void run_scripts_of(const std::string& folder) {
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(RUBBLE_SOURCE_DIR "/" + folder)) {
+    const fs::path path = entry.path();
+    if (path.extension() != ".lua" || path.stem() == "demonstration_pile") continue;
     const ScratchFolder scratch;
     const Outcome run = run_rubble(
-        "run '" + entry.path().string() + "' --out " + (scratch / "a") +
+        "run '" + path.string() + "' --out " + (scratch / "a") +
         " --set pile.layers=1 --set pile.pieces_per_layer=12 --set camera.width=64"
         " --set camera.height=48 --set trajectory.rate_hz=1 --set settle.final_time_limit=30");
-    EXPECT_EQ(run.exit_code, 0) << entry.path() << "\n" << run.err;
+    EXPECT_EQ(run.exit_code, 0) << path << "\n" << run.err;
+    EXPECT_EQ(run_rubble("check '" + path.string() + "'").exit_code, 0) << path;
+    ++count;
   }
+  EXPECT_GE(count, 3u);
 }
+
+TEST(Run, RunsEveryBundledScript) { run_scripts_of("scripts"); }
+TEST(Run, RunsEveryCollapseMode) { run_scripts_of("scripts/collapse"); }
+TEST(Run, RunsThePublishedDemonstration) { run_scripts_of("scripts/paper"); }
 
 TEST(Run, RefusesAFolderThatIsNotEmpty) {
   const ScratchFolder scratch;

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "kernel/base/error.h"
 #include "kernel/pile.h"
 #include "kernel/shape.h"
@@ -62,6 +64,49 @@ TEST(Generator, AFullLayerSaysHowManyFitted) {
     EXPECT_NE(d.message.find("layer 1"), std::string::npos);
     EXPECT_NE(d.found.find("5000 pieces, of which "), std::string::npos) << d.found;
     EXPECT_NE(d.hint.find("spawn_bounds"), std::string::npos);
+  }
+}
+
+// Shares of the pieces over the quarters of the box, against their weights.
+TEST(Generator, ADensityIsDrawnInProportion) {
+  PileSpec spec = testing::small_pile(1, 20, 100);
+  spec.spawn_bounds = {8, 8, 8};
+  spec.spawn_position = {3, -1, 5};
+  spec.spawn_density = {2, 2, {0, 1, 3, 4}};  // row by row from the lowest y
+  double count[4] = {}, all = 0;
+  for (const Layer& layer : generate_pile(spec).layers) {
+    for (const Placement& p : layer.pieces) {
+      const Shape shape = compile_shape(spec.types[p.type], "");
+      const Vec3 centre = p.world_from_body * (shape.volume.centre_of_mass * p.scale);
+      EXPECT_LT(std::abs(centre.x - 3), 4);
+      EXPECT_LT(std::abs(centre.y + 1), 4);
+      count[(centre.x > 3) + 2 * (centre.y > -1)] += 1;
+      all += 1;
+    }
+  }
+  EXPECT_EQ(count[0], 0);
+  EXPECT_NEAR(count[1] / all, 1.0 / 8, 0.04);  // 5 standard deviations
+  EXPECT_NEAR(count[2] / all, 3.0 / 8, 0.06);
+  EXPECT_NEAR(count[3] / all, 4.0 / 8, 0.06);
+}
+
+TEST(Generator, AnEvenDensityIsEven) {
+  PileSpec spec = testing::small_pile(1, 4, 100);
+  spec.spawn_density = {3, 1, {1, 1, 1}};
+  double left = 0;
+  for (const Layer& layer : generate_pile(spec).layers)
+    for (const Placement& p : layer.pieces)
+      left += p.world_from_body.translation.x < spec.spawn_position.x;
+  EXPECT_NEAR(left / 400, 0.5, 0.13);
+}
+
+TEST(Generator, ABadDensityIsRefused) {
+  for (const SpawnDensity& density :
+       {SpawnDensity{2, 2, {1, 2, 3}}, SpawnDensity{1, 2, {0, 0}}, SpawnDensity{1, 2, {1, -1}},
+        SpawnDensity{0, 0, {1}}}) {
+    PileSpec spec = testing::small_pile(1);
+    spec.spawn_density = density;
+    EXPECT_THROW(generate_pile(spec), InputError);
   }
 }
 

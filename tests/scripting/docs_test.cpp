@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "scripting/mission.h"
 #include "scripting/scenario.h"
 #include "scripting/scenario_schema.h"
 #include "scripting/schema_docs.h"
@@ -37,6 +38,21 @@ TEST(LuaReference, HasEveryKeyAndName) {
   }
   for (const Alias& alias : schema.aliases())
     EXPECT_NE(text.find("| `" + alias.name + "` |"), std::string::npos) << alias.name;
+}
+
+// Everything a reader copies from the page.
+TEST(LuaReference, EveryMissionOfTheTutorialLoads) {
+  std::ostringstream page;
+  page << std::ifstream(RUBBLE_SOURCE_DIR "/docs/lua.md").rdbuf();
+  const std::string text = page.str();
+  int count = 0;
+  for (std::size_t at = text.find("```lua\n"); at != std::string::npos; ++count) {
+    const std::size_t begin = at + 7, end = text.find("```", begin);
+    const std::string script = text.substr(begin, end - begin);
+    EXPECT_NO_THROW(load_mission_text(script, "tutorial.lua")) << script;
+    at = text.find("```lua\n", end);
+  }
+  EXPECT_GE(count, 7);
 }
 
 // A small validator of the parts of JSON Schema that are used: it says where the text fails.

@@ -83,7 +83,7 @@ return rubble.mission {
             "m.lua:13: trajectory.waypoints[2].t: out of range: expected a number from 0 to 86400, "
             "found -1\n"
             "m.lua:13: trajectory.waypoints[2].position: missing: expected three numbers {x, y, "
-            "z}, each from -1000 to 1000, found nothing\n"
+            "z}, each from -1000 to 1000, or a place in a void, found nothing\n"
             "m.lua:14: outputs.bag: wrong type: expected true or false, found the string \"yes\"\n"
             "m.lua:15: packs: wrong type: expected a list of strings, found the string "
             "\"concrete\"");

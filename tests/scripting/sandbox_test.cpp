@@ -67,6 +67,40 @@ TEST(Sandbox, LongCallsIntoTheLibrary) {
             "h.lua:1: invalid value (nil) at index 1 in table for 'concat'");
 }
 
+// The library that is written in Lua runs under the same limits.
+TEST(Sandbox, HostileUseOfTheLibrary) {
+  EXPECT_NE(run_error("rubble.density.from(function() while true do end end)").find("does not end"),
+            std::string::npos);
+  EXPECT_NE(run_error("for i = 1, 1e9 do rubble.options('f', { x = 1 }, {}) end").find("too many"),
+            std::string::npos);
+  EXPECT_NE(run_error("rubble.trajectory.grow { from = {0, 0, 1}, towards = { {1e300, 0, 0} } }"), "x");
+  EXPECT_NE(run_error("local t = {} for i = 1, 3e5 do t['k' .. i] = i end rubble.collapse.heap(t)"), "");
+  EXPECT_NE(run_error("local t = {} t.t = t rubble.collapse.free { pieces = t }"), "");
+  EXPECT_NE(run_error("rubble.options('f', {}, { { 'a', 1, min = {}, max = 'x', choices = 5 } })"), "x");
+  EXPECT_NE(run_error("rubble.rotate({ 1e300, 0, 0 }, { 0, 0, 0 })"), "");
+  EXPECT_NE(run_error("rubble.rotate({ 0, 0, 0 }, { 0 / 0, 0, 0 })"), "x");
+  EXPECT_NE(run_error("rubble.assemble({}, {})"), "");
+  EXPECT_NE(run_error("rubble.slab {}"), "");
+  EXPECT_NE(run_error("rubble.read_table('../../etc/passwd')"), "");
+  EXPECT_NE(run_error("rubble.read_image('/etc/passwd')"), "");
+  EXPECT_NE(run_error("rubble.join(setmetatable({}, {}))"), "");
+}
+
+// What a script does to its library stays its own, too.
+TEST(Sandbox, TheLibraryIsEveryScriptsOwn) {
+  EXPECT_EQ(run_error("rubble.collapse.heap = nil rubble.options = function() return {} end "
+                      "rubble.assemble = 5"),
+            "");
+  EXPECT_EQ(run("return { rubble.collapse.heap {}.layers }").items.at(0).integer, 4);
+}
+
+TEST(Sandbox, AMillionUnknownKeysAreNotAMillionMistakes) {
+  const std::string error = error_of(
+      [&] { load_mission_text("local t = {} for i = 1, 2e5 do t['k' .. i] = 1 end return t", "m.lua"); });
+  EXPECT_LT(error.size(), 1000000u);
+  EXPECT_NE(error, "");
+}
+
 TEST(Sandbox, CpuTimeIsTheLastResort) {
   SandboxLimits limits = small_limits();
   limits.seconds = 1;
@@ -151,7 +185,7 @@ TEST(Sandbox, TablesInCirclesAndTooDeep) {
   EXPECT_EQ(run("local t = {} for i = 1, 1000 do t = { t } end return t").kind, Value::Kind::table);
   EXPECT_EQ(mission_error("local t = {} t.pile = t return t"),
             "m.lua:1: pile.pile: unknown key `pile`: expected one of spawn_position, spawn_bounds, "
-            "layers, pieces_per_layer, mix, placed");
+            "spawn_density, layers, pieces_per_layer, mix, placed");
 }
 
 TEST(SandboxDeterminism, PairsGoesInTheOrderOfKeys) {

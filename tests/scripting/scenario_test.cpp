@@ -95,7 +95,7 @@ TEST(ScenarioValidate, FindsEveryMistake) {
       "100, found {2, 1}\n"
       "camera.fov_deg: out of range: expected a number from 1 to 360, found nan\n"
       "trajectory.waypoints[1].position: out of range: expected three numbers {x, y, z}, each "
-      "from -1000 to 1000, found {-9, inf, 4}");
+      "from -1000 to 1000, or a place in a void, found {-9, inf, 4}");
 }
 
 TEST(Camera, IntrinsicsFromTheFieldOfView) {

@@ -1,0 +1,241 @@
+#include "app/flight_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "kernel/voids/void_path.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kLookAhead = 0.8;  // along the way; unit: m
+constexpr double kStepOfCheck = 0.004;
+constexpr double kTouch = 1e-6;     // a sphere may be this much nearer than its radius; unit: m
+constexpr int kRoundings = 4;       // passes of corner cutting
+
+std::string words(const Vec3& v) {
+  char text[96];
+  std::snprintf(text, sizeof text, "{%.2f, %.2f, %.2f}", v.x, v.y, v.z);
+  return text;
+}
+
+std::string centimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f m", metres);
+  return text;
+}
+
+std::string key_of(std::size_t waypoint) {
+  return "trajectory.waypoints[" + std::to_string(waypoint + 1) + "]";
+}
+
+class LegPlanner {
+ public:
+  LegPlanner(const PileGeometry& geometry, const VoidSpace& space, double radius)
+      : geometry_(geometry), space_(space), radius_(radius) {}
+
+  // From a to b, both included.
+  std::vector<Vec3> plan(const Vec3& a, const Vec3& b, std::size_t goal) const {
+    const Vec3 from = place(a, goal - 1), to = place(b, goal);
+    if (is_straight_free(from, to)) return {from, to};
+    std::vector<Vec3> points = search(from, to, goal);
+    for (int pass = 0; pass < kRoundings; ++pass) points = rounded(points);
+    return points;
+  }
+
+ private:
+  bool inside(const Vec3& p) const {
+    const VoxelGrid& grid = space_.grid;
+    const Vec3 low = grid.corner, high = far_corner();
+    return p.x > low.x && p.y > low.y && p.z > low.z && p.x < high.x && p.y < high.y &&
+           p.z < high.z;
+  }
+  Vec3 far_corner() const {
+    const VoxelGrid& grid = space_.grid;
+    return grid.corner + Vec3(grid.size[0], grid.size[1], grid.size[2]) * grid.voxel;
+  }
+  // The nearest point of the grid: outside of it there is nothing but the ground.
+  Vec3 clamped(const Vec3& p) const {
+    const double inset = 1.5 * space_.grid.voxel;
+    const Vec3 margin{inset, inset, inset};
+    return min(max(p, space_.grid.corner + margin), far_corner() - margin);
+  }
+
+  // Where the sphere has room at a waypoint: there, or very near.
+  Vec3 place(const Vec3& p, std::size_t waypoint) const {
+    if (!inside(p) || geometry_.queries.clearance(p, radius_ + 0.01) >= radius_) return p;
+    const NearestPlace near = find_nearest_place(space_, p, radius_ + 0.5 * space_.grid.voxel, 0.5);
+    if (near.found) return near.position;
+    throw InputError({"", 0, key_of(waypoint) + ".position", "no room for the camera's body there",
+                      centimetres(radius_) + " to the nearest surface",
+                      centimetres(geometry_.queries.clearance(p)) + " at " + words(p),
+                      "move it, or make trajectory.radius smaller"});
+  }
+
+  bool is_straight_free(const Vec3& a, const Vec3& b) const {
+    const double length = distance(a, b);
+    for (double s = 0; s < length;) {
+      const double room =
+          geometry_.queries.clearance(a + (b - a) * (s / length), radius_ + 2.0) - radius_;
+      if (room < -kTouch) return false;
+      s += std::max(room, kStepOfCheck);
+    }
+    return geometry_.queries.clearance(b, radius_ + 0.01) >= radius_ - kTouch;
+  }
+
+  std::vector<Vec3> search(const Vec3& from, const Vec3& to, std::size_t goal) const {
+    const Vec3 entry = clamped(from), exit = clamped(to);
+    // Cells are asked at their centres, so a little more than the radius is kept.
+    FoundPath found;
+    for (const double extra : {0.25, 0.5, 0.75, 1.0}) {
+      found = find_path(space_, entry, exit, radius_ + extra * space_.grid.voxel);
+      if (!found.found) break;
+      std::vector<Vec3> points = found.points;
+      // From the place itself, not from the middle of its cell.
+      if (inside(from)) points.erase(points.begin());
+      if (inside(to)) points.pop_back();
+      points.insert(points.begin(), from);
+      points.push_back(to);
+      if (is_free(points)) return points;
+    }
+    fail(found, from, to, goal);
+  }
+
+  bool is_free(const std::vector<Vec3>& points) const {
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      if (!is_straight_free(points[i], points[i + 1])) return false;
+    return true;
+  }
+
+  [[noreturn]] void fail(const FoundPath& found, const Vec3& from, const Vec3& to,
+                         std::size_t goal) const {
+    const std::string way = "from " + words(from) + " to " + words(to);
+    throw InputError(
+        {"", 0, key_of(goal) + ".position", "no way " + way, "a way for a radius of " + centimetres(radius_),
+         found.narrowest_radius > 0 ? "one for " + centimetres(found.narrowest_radius) +
+                                          " at most, narrowest at " + words(found.narrowest)
+                                    : "none for anything",
+         "make trajectory.radius smaller, or go elsewhere"});
+  }
+
+  // Cuts each corner a quarter of the way along its legs (Chaikin 1974), where there is room.
+  std::vector<Vec3> rounded(const std::vector<Vec3>& points) const {
+    if (points.size() < 3) return points;
+    std::vector<Vec3> result{points.front()};
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+      const Vec3 before = points[i] + (points[i - 1] - points[i]) * 0.25;
+      const Vec3 after = points[i] + (points[i + 1] - points[i]) * 0.25;
+      if (is_straight_free(before, after)) {
+        result.push_back(before);
+        result.push_back(after);
+      } else {
+        result.push_back(points[i]);
+      }
+    }
+    result.push_back(points.back());
+    return result;
+  }
+
+  const PileGeometry& geometry_;
+  const VoidSpace& space_;
+  double radius_;
+};
+
+// The point `ahead` metres further along the way from its point i; beyond the end straight on.
+Vec3 look_ahead(const std::vector<Vec3>& points, std::size_t i, double ahead) {
+  for (; i + 1 < points.size(); ++i) {
+    const double length = distance(points[i], points[i + 1]);
+    if (length >= ahead) return points[i] + (points[i + 1] - points[i]) * (ahead / length);
+    ahead -= length;
+  }
+  Vec3 last = points.back() - points.front();
+  for (std::size_t k = points.size(); k-- > 1;)
+    if (distance(points[k], points[k - 1]) > 1e-6) {
+      last = points[k] - points[k - 1];
+      break;
+    }
+  return points.back() + normalized(last) * ahead;
+}
+
+// A leg as waypoints, without its first; the last is the user's own, moved to where there is room.
+void append_leg(const std::vector<Vec3>& points, const Waypoint& goal, TrajectorySpec& spec) {
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (distance(points[i], spec.waypoints.back().position) < 1e-4) continue;
+    Waypoint w;
+    const bool last = i + 1 == points.size();
+    if (last) w = goal;
+    w.position = points[i];
+    w.speed = goal.speed;
+    if (!w.look_at && w.rpy_deg == Vec3{}) w.look_at = look_ahead(points, i, kLookAhead);
+    spec.waypoints.push_back(w);
+  }
+}
+
+}  // namespace
+
+double plan_around(const PileGeometry& geometry, const PileSpace& space, TrajectorySpec& spec) {
+  const LegPlanner planner(geometry, space.map->space, spec.radius);
+  const std::vector<Waypoint> asked = spec.waypoints;
+  double length = 0;
+  spec.waypoints.clear();
+  spec.interpolation = Interpolation::linear;
+  Vec3 here = asked.front().position;
+  for (std::size_t i = 1; i < asked.size(); ++i) {
+    const std::vector<Vec3> points = planner.plan(here, asked[i].position, i);
+    if (i == 1) {
+      Waypoint start = asked.front();
+      start.position = points.front();
+      if (!start.look_at && start.rpy_deg == Vec3{}) start.look_at = look_ahead(points, 0, kLookAhead);
+      spec.waypoints.push_back(start);
+    }
+    append_leg(points, asked[i], spec);
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) length += distance(points[k], points[k + 1]);
+    here = points.back();
+  }
+  return length;
+}
+
+NearestApproach check_contact(const PileGeometry& geometry, const TrajectorySpec& spec,
+                              const PileState& pile) {
+  const CameraPath trajectory(spec);
+  const double duration = trajectory.duration(), frame = 1 / spec.rate_hz;
+  NearestApproach nearest_approach;
+  double t = 0;
+  while (true) {
+    const Vec3 p = trajectory.at(t).translation;
+    const double room = geometry.queries.clearance(p, spec.radius + 3.0);
+    if (room < nearest_approach.clearance) nearest_approach = {room, p};
+    if (room < spec.radius - kTouch) {
+      const auto nearest = geometry.queries.find_closest(p, 1000);
+      char when[48];
+      std::snprintf(when, sizeof when, "%.3f s (frame %d)", t, int(t * spec.rate_hz + 0.5));
+      std::string what = "the ground";
+      if (nearest && nearest->piece != kGroundPiece)
+        what = pile.types[std::size_t(pile.pieces[std::size_t(nearest->piece)].type)] + ", piece " +
+               std::to_string(nearest->piece);
+      throw InputError({"", 0, "trajectory.plan", "the camera's body touches something",
+                        centimetres(spec.radius) + " of room all the way",
+                        centimetres(room) + " at " + when + ", at " + words(p) + ": " + what,
+                        "move the waypoints, or use plan = \"avoid\" or \"ghost\""});
+    }
+    if (t >= duration) return nearest_approach;
+    // The next place that is not surely free: far from everything, the path is walked in long steps.
+    const double slack = std::max(room - spec.radius, kStepOfCheck);
+    double step = std::min(frame, duration - t);
+    while (step > 1e-7 && distance(trajectory.at(t + step).translation, p) > slack) step *= 0.5;
+    t = std::min(duration, t + step);
+  }
+}
+
+std::vector<double> waypoint_times(const TrajectorySpec& spec) {
+  std::vector<double> times{0};
+  for (std::size_t i = 1; i < spec.waypoints.size(); ++i) {
+    const Waypoint& w = spec.waypoints[i];
+    const double length = distance(w.position, spec.waypoints[i - 1].position);
+    times.push_back(w.t.value_or(times.back() + length / w.speed.value_or(spec.speed)));
+  }
+  return times;
+}
+
+}  // namespace rubble

@@ -1,0 +1,42 @@
+// The pile as a flight sees it, and the voids that a mission names.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "app/asset_library.h"
+#include "app/flight.h"
+#include "kernel/queries.h"
+#include "kernel/voids/void_map.h"
+
+namespace rubble {
+
+// The true meshes of a settled pile, to be asked exactly.
+struct PileGeometry {
+  PileGeometry(const AssetLibrary& assets, const PileState& state);
+
+  const PileState& pile;
+  std::vector<const TriangleMesh*> meshes;  // by type
+  PileQueries queries;
+};
+
+// Its free space in voxels, as fine as the smallest sphere that the flight names asks for; made only
+// when something needs it.
+struct PileSpace {
+  PileSpace(const PileGeometry& geometry, const TrajectorySpec& spec, int threads,
+            const FlightProgress& progress);
+
+  std::optional<VoidMap> map;
+};
+
+struct ResolvedVoid {
+  int waypoint = 0;  // 1-based
+  double radius = 0, volume = 0, way_in = 0;  // unit: m, m3, m
+  Vec3 position;                              // what the place became; unit: m
+};
+
+// Puts numbers in the place of every void that waypoints name. Throws InputError when a pile has no
+// such void, saying how many there are.
+std::vector<ResolvedVoid> resolve_places(const PileSpace& space, TrajectorySpec& spec);
+
+}  // namespace rubble

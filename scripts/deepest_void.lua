@@ -1,0 +1,13 @@
+-- Into the deepest void, whatever the seed: the mission names the void, and the way around all that
+-- lies there is found once the pile has settled. flight.json holds the way that was flown.
+local void = rubble.find_void { radius = 0.22, by = "depth" }
+
+return rubble.mission {
+  seed = 3,
+  pile = rubble.collapse.lean_to { height = 1.8, debris = { layers = 2, pieces_per_layer = 60 } },
+  camera = { width = 320, height = 240, fov_deg = 100 },
+  trajectory = {
+    plan = "avoid", radius = 0.2, speed = 1.5,
+    waypoints = { { position = { 2, -7, 2 } }, { position = void.approach }, { position = void.deepest } },
+  },
+}

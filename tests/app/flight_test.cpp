@@ -1,0 +1,208 @@
+// Flights over settled piles: what is refused, what is avoided, and which voids are found, against
+// scenes whose answers are known.
+#include "app/flight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/settled_mission.h"
+
+namespace rubble::testing {
+namespace {
+
+FlightPlan plan(const SettledMission& m) {
+  return resolve_flight(m.mission.scenario, m.assets, m.state, 1);
+}
+
+std::string plan_error(const SettledMission& m) {
+  try {
+    plan(m);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// A wall across the way with a square window of `opening`, its middle 1.2 m above the ground; closed
+// rooms are made of the same.
+std::string window_wall(double x, double opening, double y = 0) {
+  char text[600];
+  const double low = 1.2 - opening / 2, high = 1.2 + opening / 2, side = opening / 2;
+  std::snprintf(text, sizeof text,
+                "rubble.wall { x0 = %g, x1 = %g, width = 6, height = %g }, "
+                "rubble.wall { x0 = %g, x1 = %g, width = 6, bottom = %g, height = 3 }, "
+                "rubble.wall { x0 = %g, x1 = %g, width = %g, y = %g, bottom = %g, height = %g }, "
+                "rubble.wall { x0 = %g, x1 = %g, width = %g, y = %g, bottom = %g, height = %g }, ",
+                x, x + 0.2, low, x, x + 0.2, high, x, x + 0.2, 3 - side + y, -(3 + side - y) / 2, low,
+                high, x, x + 0.2, 3 - side - y, (3 + side + y) / 2, low, high);
+  return text;
+}
+
+SettledMission scene(const std::string& placed, const std::string& trajectory) {
+  return settle_text("return rubble.mission { pile = { layers = 0, placed = { " + placed +
+                     " } }, trajectory = { rate_hz = 20, " + trajectory + " } }");
+}
+
+// A closed box of 6 x 6 x 3 m about a window at x = 0 and one at x = 2.
+std::string tunnel(double first, double second) {
+  return window_wall(0, first) + window_wall(2, second, 1) +
+         "rubble.wall { x0 = 0, x1 = 4, width = 0.2, y = -2.9, height = 3 }, "
+         "rubble.wall { x0 = 0, x1 = 4, width = 0.2, y = 2.9, height = 3 }, "
+         "rubble.wall { x0 = 0, x1 = 4.2, width = 6, bottom = 3, height = 3.2 }, "
+         "rubble.wall { x0 = 4, x1 = 4.2, width = 6, height = 3 }";
+}
+
+TEST(Refuse, NamesTimePlaceAndPieceOfTheFirstContact) {
+  const SettledMission m = scene(
+      "{ box = { 1, 1, 2 }, position = { 0, 0, 1 } }",
+      "plan = 'refuse', radius = 0.3, interpolation = 'linear', waypoints = { { position = { -5, 0, 1 } }, "
+      "{ t = 10, position = { 5, 0, 1 } } }");
+  const std::string error = plan_error(m);
+  // The sphere meets the worn face at x = -0.5 when its centre is 0.3 m before it: after 4.2 s.
+  EXPECT_NE(error.find("trajectory.plan: the camera's body touches something"), std::string::npos) << error;
+  EXPECT_NE(error.find(" at 4.2"), std::string::npos) << error;
+  EXPECT_NE(error.find("{-0.80, 0.00, 1.00}"), std::string::npos) << error;
+  EXPECT_NE(error.find("box 1x1x2 reinforced_concrete, piece 0"), std::string::npos) << error;
+}
+
+TEST(Refuse, LetsACloseShavePass) {
+  const char* const kPath =
+      "plan = 'refuse', radius = %g, waypoints = { { position = { -5, 0, 2.35 } }, { t = 10, position = { 5, 0, 2.35 } } }";
+  char near_miss[300], hit[300];
+  std::snprintf(near_miss, sizeof near_miss, kPath, 0.34);
+  std::snprintf(hit, sizeof hit, kPath, 0.36);
+  EXPECT_EQ(plan_error(scene("{ box = { 1, 1, 2 }, position = { 0, 0, 1 } }", near_miss)), "");
+  EXPECT_NE(plan_error(scene("{ box = { 1, 1, 2 }, position = { 0, 0, 1 } }", hit)), "");
+}
+
+TEST(Refuse, TheGroundCounts) {
+  const std::string error = plan_error(scene(
+      "{ box = { 1, 1, 2 }, position = { 9, 9, 1 } }",
+      "plan = 'refuse', radius = 0.3, waypoints = { { position = { 0, 0, 1 } }, { t = 1, position = { 1, 0, 0.1 } } }"));
+  EXPECT_NE(error.find("the ground"), std::string::npos) << error;
+}
+
+TEST(Avoid, FindsTheWayThroughTwoWindows) {
+  const SettledMission m = scene(tunnel(0.9, 0.9),
+                                 "plan = 'avoid', radius = 0.3, speed = 1, waypoints = { "
+                                 "{ position = { -3, 0, 1.2 } }, { position = { 3.2, 1, 1.2 } } }");
+  const FlightPlan flight = plan(m);
+  const PileQueries queries = m.queries();
+  for (const CameraPose& pose : flight.poses)
+    EXPECT_GE(queries.clearance(pose.world_from_camera.translation), 0.3 - 0.001);
+  EXPECT_NEAR(distance(flight.poses.front().world_from_camera.translation, {-3, 0, 1.2}), 0, 1e-9);
+  EXPECT_NEAR(distance(flight.poses.back().world_from_camera.translation, {3.2, 1, 1.2}), 0, 0.05) << "at 1 m/s, 20 Hz";
+  const auto report = nlohmann::json::parse(flight.json);
+  EXPECT_GT(report["length_m"], 6.28);  // the straight line
+  EXPECT_LT(report["length_m"], 6.6);
+  EXPECT_GT(report["least_clearance_m"], 0.3);
+  EXPECT_LT(report["least_clearance_m"], 0.46) << "half of the windows";
+  // The camera looks where it goes.
+  for (std::size_t i = 1; i < flight.poses.size(); ++i) {
+    const Pose &a = flight.poses[i - 1].world_from_camera, &b = flight.poses[i].world_from_camera;
+    if (distance(a.translation, b.translation) < 1e-6) continue;
+    EXPECT_GT(dot(normalized(b.translation - a.translation), b.rotation.rotate({1, 0, 0})), 0.8);
+  }
+}
+
+TEST(Avoid, ReportsTheWidestGapWhereThereIsNoWay) {
+  const SettledMission m = scene(tunnel(0.9, 0.5),
+                                 "plan = 'avoid', radius = 0.35, waypoints = { "
+                                 "{ position = { -3, 0, 1.2 } }, { position = { 3.2, 1, 1.2 } } }");
+  const std::string error = plan_error(m);
+  EXPECT_NE(error.find("trajectory.waypoints[2].position: no way from"), std::string::npos) << error;
+  EXPECT_NE(error.find("a way for a radius of 0.350 m"), std::string::npos) << error;
+  const std::size_t at = error.find("one for ");
+  ASSERT_NE(at, std::string::npos) << error;
+  EXPECT_NEAR(std::stod(error.substr(at + 8)), 0.25, 0.05) << error;
+  EXPECT_NE(error.find("narrowest at {2."), std::string::npos) << error;
+}
+
+TEST(Avoid, AStraightWayIsLeftStraight) {
+  const SettledMission m = scene("{ box = { 1, 1, 1 }, position = { 0, 0, 0.5 } }",
+                                 "plan = 'avoid', radius = 0.2, speed = 2, waypoints = { "
+                                 "{ position = { -8, 0, 2 } }, { position = { 8, 0, 2 } } }");
+  const FlightPlan flight = plan(m);
+  EXPECT_EQ(flight.trajectory.waypoints.size(), 2u);
+  EXPECT_NEAR(nlohmann::json::parse(flight.json)["length_m"], 16, 1e-9);
+}
+
+TEST(Avoid, AWaypointInsideAPieceHasNoRoom) {
+  const SettledMission m = scene("{ box = { 3, 3, 3 }, position = { 0, 0, 1.5 } }",
+                                 "plan = 'avoid', radius = 0.2, waypoints = { "
+                                 "{ position = { -8, 0, 2 } }, { position = { 0, 0, 1.5 } } }");
+  EXPECT_NE(plan_error(m).find("waypoints[2].position: no room for the camera's body there"), std::string::npos)
+      << plan_error(m);
+}
+
+// Two dead-end tunnels: a wide short one (larger) and a narrow long one (deeper).
+std::string two_tunnels() {
+  const auto tunnel = [](double y, double inner, double length) {
+    char text[700];
+    const double out = inner / 2 + 0.1;
+    std::snprintf(text, sizeof text,
+                  "rubble.wall { x0 = 0, x1 = %g, width = 0.2, y = %g, height = %g }, "
+                  "rubble.wall { x0 = 0, x1 = %g, width = 0.2, y = %g, height = %g }, "
+                  "rubble.wall { x0 = 0, x1 = %g, width = %g, y = %g, bottom = %g, height = %g }, "
+                  "rubble.wall { x0 = %g, x1 = %g, width = %g, y = %g, height = %g }, ",
+                  length, y - out, inner, length, y + out, inner, length, inner + 0.4, y, inner, inner + 0.2,
+                  length, length + 0.2, inner + 0.4, y, inner + 0.2);
+    return std::string(text);
+  };
+  return tunnel(-3, 1.6, 3) + tunnel(3, 0.8, 5);
+}
+
+TEST(FindVoid, OrdersByVolumeAndByDepth) {
+  const auto fly_to = [](const std::string& options, const std::string& place) {
+    const SettledMission m =
+        scene(two_tunnels(), "waypoints = { { position = rubble.find_void { " + options + " }." + place +
+                                 ", look_at = { 1, 0, 1 } } }");
+    return plan(m).poses.front().world_from_camera.translation;
+  };
+  EXPECT_NEAR(fly_to("radius = 0.25", "deepest").y, -3, 1);
+  EXPECT_NEAR(fly_to("radius = 0.25, rank = 2", "deepest").y, 3, 0.3);
+  const Vec3 deep = fly_to("radius = 0.25, by = 'depth'", "deepest");
+  EXPECT_NEAR(deep.y, 3, 0.3);
+  EXPECT_NEAR(deep.x, 5 - 0.25, 0.2);
+  const Vec3 entrance = fly_to("radius = 0.25, by = 'depth'", "entrance");
+  EXPECT_NEAR(entrance.x, 0, 0.5);
+  const Vec3 approach = fly_to("radius = 0.25, by = 'depth', approach = 2", "approach");
+  EXPECT_LT(approach.x, entrance.x - 1.5);
+}
+
+TEST(FindVoid, SaysHowManyThereAre) {
+  const SettledMission m = scene(
+      two_tunnels(), "waypoints = { { position = rubble.find_void { radius = 0.25, rank = 3 }.widest } }");
+  EXPECT_NE(plan_error(m).find("trajectory.waypoints[1].position: no such void in this pile: expected a rank from 1 "
+                               "to 2, found rank 3"),
+            std::string::npos)
+      << plan_error(m);
+  const SettledMission none = scene(
+      two_tunnels(), "waypoints = { { position = rubble.find_void { radius = 0.95 }.widest } }");
+  EXPECT_NE(plan_error(none).find("a void that a sphere of radius 0.95 m can enter, found none"), std::string::npos)
+      << plan_error(none);
+}
+
+// The promise of the two together: into the deepest void of a lean-to, whatever the seed.
+TEST(FindVoid, IntoTheDeepestVoidForAnySeed) {
+  for (const int seed : {1, 2}) {
+    const SettledMission m = settle_text(
+        "local void = rubble.find_void { radius = 0.25, by = 'depth' }\n"
+        "return rubble.mission { seed = " + std::to_string(seed) +
+        ", pile = rubble.collapse.lean_to { debris = { layers = 1, pieces_per_layer = 40 } }, "
+        "trajectory = { plan = 'avoid', radius = 0.2, speed = 1, rate_hz = 10, waypoints = { "
+        "{ position = { 2, -9, 2 } }, { position = void.deepest } } } }");
+    const FlightPlan flight = plan(m);
+    const PileQueries queries = m.queries();
+    for (const CameraPose& pose : flight.poses)
+      EXPECT_GE(queries.clearance(pose.world_from_camera.translation), 0.199) << seed;
+    const Vec3 end = flight.poses.back().world_from_camera.translation;
+    EXPECT_TRUE(queries.cast_ray(end, {0, 0, 1}, 3)) << "under the slab";
+    EXPECT_EQ(flight.json, plan(m).json) << "the same again";
+  }
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -75,7 +75,7 @@ struct TrajectorySpec {
   std::optional<double> duration;
   SpeedLimits limits;
 
-  // Whether it can be flown only over a settled pile: see plan_flight.
+  // Whether it can be flown only over a settled pile: see app/flight.h.
   bool needs_pile() const;
 };
 

@@ -29,10 +29,12 @@ build: packages build/release/build.ninja
 demo: build
 	$(PROGRAM) run scripts/first_pile.lua --out out/first_pile --force
 
-# The picture of the README, from the frames that the demo recorded.
+# The picture of the README, from the frames that the demo recorded, and one of each pack.
 pictures: demo
 	mkdir -p docs/pictures
 	tools/frames_of_bag.py out/first_pile/mission.bag docs/pictures/first_pile.png 341 0 55 118
+	for pack in concrete residential parking bridge; do \
+	  $(PROGRAM) assets show $$pack --tile 168 --out docs/pictures/pack_$$pack.jpg || exit 1; done
 
 test: build
 	$(CTEST) --preset release --label-exclude nightly

@@ -7,9 +7,11 @@
 #include <set>
 
 #include "app/assemblies.h"
+#include "app/decompose_cache.h"
 #include "app/placed_box.h"
 #include "io/mesh_file.h"
 #include "kernel/base/hash.h"
+#include "render/looks.h"
 #include "scripting/asset_pack.h"
 
 namespace rubble {
@@ -58,12 +60,14 @@ std::set<std::string> names_used(const Scenario& scenario, const std::vector<Fou
 }
 
 PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnits& units,
-                    std::vector<std::string>& warnings) {
+                    std::string& warning) {
   PieceType type;
   type.name = asset.name;
   type.density = asset.density;
   type.friction = asset.friction;
-  if (asset.parts.empty()) {
+  if (asset.decompose) {
+    type.parts = decompose_cached(mesh, DiskCache(DiskCache::usual_folder()));
+  } else if (asset.parts.empty()) {
     type.parts.emplace_back();
     for (const Vec3f& p : mesh.positions) type.parts[0].points.push_back(Vec3(p));
   } else {
@@ -73,8 +77,8 @@ PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnit
   if (is_closed(mesh) && calc_volume_properties(mesh).volume > 0)
     type.volume = calc_volume_properties(mesh);
   else
-    warnings.push_back(asset.meshes.front() +
-                       ": the mesh is not closed: mass and inertia come from its convex parts");
+    warning = asset.meshes.front() +
+              ": the mesh is not closed: mass and inertia come from its convex parts";
   return type;
 }
 
@@ -86,36 +90,44 @@ std::string hash_content(const Asset& asset, const PieceType& type) {
     const std::string content = sha256_of_file(file);
     hash.add(content.data(), content.size());
   }
-  const double up = asset.up == UpAxis::y ? 1 : 0;
-  for (const double number : {type.density, type.friction, asset.metres_per_unit, up})
+  const double up = asset.up == UpAxis::y ? 1 : 0, cut = asset.decompose ? 1 : 0;
+  for (const double number : {type.density, type.friction, asset.metres_per_unit, up, cut})
     hash.add(&number, sizeof number);
   return hash.hex();
 }
 
-void load_asset(const Found& found, AssetLibrary& library) {
-  const Asset& asset = *found.asset;
-  if (!asset.links.empty()) {
-    library.assemblies.push_back(make_assembly(asset, library));
+// The pack's word for it, else a name that is a look, else that of the asset or its material.
+std::string choose_look(const Asset& asset, const std::string& surface) {
+  for (const auto& [name, look] : asset.looks)
+    if (name == surface) return look;
+  const std::vector<std::string> known = known_looks();
+  const bool is_look = std::find(known.begin(), known.end(), surface) != known.end();
+  return is_look || asset.look.empty() ? surface : asset.look;
+}
+
+void add_asset(const Found& found, AssetLibrary& library) {
+  if (!found.asset->links.empty()) {
+    library.assemblies.push_back(make_assembly(*found.asset, library));
     library.contents.push_back(
-        {asset.name, found.pack->name, hash_content(asset, library.assemblies.back(), library),
-         asset.weight, asset.scale});
+        {found.asset->name, found.pack->name,
+         hash_content(*found.asset, library.assemblies.back(), library), found.asset->weight,
+         found.asset->scale, found.asset->spread});
     return;
   }
-  const MeshUnits units{asset.metres_per_unit, asset.up};
-  auto mesh = std::make_shared<SceneMesh>();
-  for (const std::string& path : asset.meshes) mesh->levels.push_back(load_mesh(path, units));
-  library.types.push_back(make_type(asset, mesh->levels.front(), units, library.warnings));
-  library.contents.push_back({asset.name, found.pack->name,
-                              hash_content(asset, library.types.back()), asset.weight,
-                              asset.scale});
-  library.meshes.push_back(std::move(mesh));
+  LoadedAsset loaded = load_asset(*found.asset);
+  if (!loaded.warning.empty()) library.warnings.push_back(loaded.warning);
+  library.contents.push_back(
+      {loaded.type.name, found.pack->name, hash_content(*found.asset, loaded.type),
+       found.asset->weight, found.asset->scale, found.asset->spread});
+  library.types.push_back(std::move(loaded.type));
+  library.meshes.push_back(std::move(loaded.mesh));
 }
 
 void add_box(const PlacedItem& item, const std::vector<Material>& materials,
              AssetLibrary& library) {
   MadeBox box = make_placed_box(item, materials);
   library.contents.push_back(
-      {box.type.name, kMadeToMeasure, std::move(box.sha256), 0, {1, 1}});
+      {box.type.name, kMadeToMeasure, std::move(box.sha256), 0, {1, 1}, {}});
   library.types.push_back(std::move(box.type));
   library.meshes.push_back(std::move(box.mesh));
 }
@@ -156,14 +168,17 @@ std::vector<MixEntry> make_mix(const Scenario& scenario, const std::vector<Found
   for (const Found& found : all) by_name[found.asset->name] = found.asset;
   std::vector<MixEntry> mix;
   for (const MixItem& item : scenario.pile.mix) {
-    const auto scale = item.scale.value_or(by_name.at(item.asset)->scale);
-    mix.push_back({library.find(item.asset), item.weight, scale[0], scale[1]});
+    const Asset& asset = *by_name.at(item.asset);
+    const auto scale = item.scale.value_or(asset.scale);
+    const bool own = !item.scale && item.spread.kind == Spread::uniform;
+    mix.push_back({library.find(item.asset), item.weight, scale[0], scale[1],
+                   own ? asset.spread : item.spread});
   }
   if (!scenario.pile.mix.empty()) return mix;
   for (const Found& found : all)
     if (found.asset->weight > 0 && scenario.pile.layers > 0)
       mix.push_back({library.find(found.asset->name), found.asset->weight, found.asset->scale[0],
-                     found.asset->scale[1]});
+                     found.asset->scale[1], found.asset->spread});
   return mix;
 }
 
@@ -198,13 +213,14 @@ struct Search {
         Asset asset = candidate;
         asset.weight = wanted.weight;
         asset.scale = wanted.scale;
+        asset.spread = wanted.spread;
         if (!asset.links.empty()) {
           if (take_assembly({&pack, &asset}, wanted, library)) return;
           other = "in " + pack.folder + " it has another content";
           continue;
         }
         AssetLibrary one;
-        load_asset({&pack, &asset}, one);
+        add_asset({&pack, &asset}, one);
         if (one.contents.back().sha256 == wanted.sha256) return keep(one, wanted, library);
         other = "in " + pack.folder + " it has the content " + one.contents.back().sha256;
       }
@@ -244,6 +260,7 @@ std::vector<MixEntry> make_mix(const Scenario& scenario, const AssetLibrary& lib
     asset.name = content.name;
     asset.weight = content.weight;
     asset.scale = content.scale;
+    asset.spread = content.spread;
     pack.assets.push_back(asset);
   }
   std::vector<Found> all;
@@ -271,6 +288,28 @@ bool AssetLibrary::has(const std::string& name) const {
          std::any_of(assemblies.begin(), assemblies.end(), is_it);
 }
 
+LoadedAsset load_asset(const Asset& asset) {
+  const MeshUnits units{asset.metres_per_unit, asset.up};
+  auto mesh = std::make_shared<SceneMesh>();
+  for (const std::string& path : asset.meshes) {
+    mesh->levels.push_back(load_mesh(path, units));
+    for (std::string& surface : mesh->levels.back().surface_names)
+      surface = choose_look(asset, surface);
+  }
+  LoadedAsset loaded;
+  loaded.type = make_type(asset, mesh->levels.front(), units, loaded.warning);
+  loaded.mesh = std::move(mesh);
+  return loaded;
+}
+
+std::string find_pack(const std::string& pack) {
+  std::error_code failed;
+  const fs::path bundled = fs::path(bundled_assets_folder()) / pack;
+  if (fs::exists(fs::path(pack) / "pack.lua", failed)) return pack;
+  const bool is_name = !pack.empty() && pack.find_first_of("/.") == std::string::npos;
+  return is_name && fs::exists(bundled / "pack.lua", failed) ? bundled.string() : pack;
+}
+
 std::string bundled_assets_folder() {
   if (const char* folder = std::getenv("RUBBLE_ASSETS")) return folder;
   return (fs::read_symlink("/proc/self/exe").parent_path() / "assets").string();
@@ -278,8 +317,14 @@ std::string bundled_assets_folder() {
 
 AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>& extra_packs) {
   const std::string bundled = bundled_assets_folder();
+  // Beside the script first: a pack of the user's own may have the name of a bundled one.
   std::vector<std::string> folders = pack_folders(mission);
-  folders.insert(folders.end(), extra_packs.begin(), extra_packs.end());
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const std::string& name = mission.scenario.packs[i];
+    if (!fs::exists(fs::path(folders[i]) / "pack.lua") && find_pack(name) != name)
+      folders[i] = find_pack(name);
+  }
+  for (const std::string& pack : extra_packs) folders.push_back(find_pack(pack));
   if (folders.empty()) folders.push_back(bundled + "/concrete");
 
   const std::vector<Material> materials = load_materials(bundled + "/materials.lua");
@@ -296,7 +341,7 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   const auto load = [&](bool articulated) {
     for (const Found& found : all)
       if (used.count(found.asset->name) && found.asset->links.empty() != articulated)
-        load_asset(found, library);
+        add_asset(found, library);
   };
   load(false);
   add_boxes(mission, materials, library);

@@ -8,6 +8,7 @@
 #include "app/recipe.h"
 #include "kernel/pile.h"
 #include "render/scene.h"
+#include "scripting/asset_pack.h"
 #include "scripting/mission.h"
 
 namespace rubble {
@@ -37,6 +38,16 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
 // (packs, or folders of packs), then among the bundled ones, and takes what has the same content.
 // Throws InputError naming each that is missing, and where it was looked for.
 AssetLibrary load_assets(const Recipe& recipe, const std::vector<std::string>& folders);
+// One asset with all that it refers to. Throws InputError for a file that cannot be read.
+struct LoadedAsset {
+  PieceType type;
+  std::shared_ptr<const SceneMesh> mesh;
+  std::string warning;  // e.g. that the mesh is not closed; empty: none
+};
+LoadedAsset load_asset(const Asset& asset);
+
+// The folder of a pack: a folder with a pack.lua, else a bundled pack of that name, else `pack` itself.
+std::string find_pack(const std::string& pack);
 
 // Where the bundled packs and materials.lua are: $RUBBLE_ASSETS, or `assets` beside the program.
 std::string bundled_assets_folder();

@@ -31,6 +31,12 @@ ExitCode eval_trajectory(const TrajectoryRequest& request);
 ExitCode export_saved_pile(const FolderRequest& request, const ExportRequest& to);
 // Resolves everything, runs nothing, prints the complete scenario as JSON on standard output.
 ExitCode check_mission(const RunRequest& request);
+// A table of what is sound and what is not in a pack; json: as JSON. bad_input when there are errors.
+// pack: a folder with a pack.lua, or the name of a bundled one.
+ExitCode check_assets_of(const std::string& pack, bool json);
+// A picture of every asset with its name. out: path of a PNG or JPEG; empty: NAME.png. tile: width
+// of each; unit: pixel
+ExitCode show_assets(const std::string& pack, const std::string& out, int tile);
 // Versions, EGL device and GL renderer in use, threads, on standard output.
 ExitCode print_info();
 

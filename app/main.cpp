@@ -18,7 +18,6 @@
 namespace rubble {
 namespace {
 
-// mission: the name of the option, without dashes: its place is that of an argument.
 // A subcommand's request, filled by the parser, and what is done with it.
 using Action = std::function<ExitCode()>;
 using Commands = std::vector<std::pair<CLI::App*, Action>>;
@@ -232,6 +231,32 @@ Action add_check(CLI::App& command) {
   return [request] { return check_mission(*request); };
 }
 
+struct AssetsRequest {
+  std::string pack, out;
+  bool json = false;
+  int tile = 288;
+};
+
+Action add_assets(CLI::App& command) {
+  command.require_subcommand(1);
+  const auto request = std::make_shared<AssetsRequest>();
+  CLI::App* check = command.add_subcommand(
+      "check", "Say what is sound in a pack: closed meshes, masses, how well the parts fit");
+  CLI::App* show = command.add_subcommand("show", "Draw every asset of a pack on one sheet");
+  for (CLI::App* each : {check, show})
+    each->add_option("pack", request->pack, "A folder with a pack.lua, or a bundled pack")
+        ->required();
+  check->add_flag("--json", request->json, "JSON instead of a table");
+  show->add_option("--out", request->out, "The picture, .png or .jpg (default: NAME.png)")
+      ->type_name("FILE");
+  show->add_option("--tile", request->tile, "Width of one asset's picture, in pixels")
+      ->check(CLI::Range(64, 1024));
+  return [request, check] {
+    if (*check) return check_assets_of(request->pack, request->json);
+    return show_assets(request->pack, request->out, request->tile);
+  };
+}
+
 Action add_info(CLI::App&) { return print_info; }
 
 struct CommandEntry {
@@ -251,6 +276,7 @@ const CommandEntry kCommands[] = {
     {"eval", "Score what others made of a dataset", add_eval},
     {"batch", "One mission with many seeds, and a table of them", add_batch},
     {"suite", "Many missions with what is expected of them, for CI", add_suite},
+    {"assets", "Look into a pack of assets", add_assets},
     {"check", "Print the complete scenario as JSON; run nothing", add_check},
     {"info", "Print versions, the GL renderer and threads", add_info}};
 

@@ -13,6 +13,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr const char* kKindNames[] = {"run", "settle", "render"};
+constexpr const char* kSpreadNames[] = {"uniform", "normal", "lognormal"};
 
 std::string compact(const std::string& json) { return Json::parse(json).dump(); }
 
@@ -25,11 +26,21 @@ Json json_of(const AssetContent& asset) {
           {"pack", asset.pack},
           {"sha256", asset.sha256},
           {"weight", asset.weight},
-          {"scale", asset.scale}};
+          {"scale", asset.scale},
+          {"spread", kSpreadNames[int(asset.spread.kind)]},
+          {"typical", asset.spread.typical},
+          {"deviation", asset.spread.deviation}};
 }
 
 SourceFile read_source(const JsonMembers& json) {
   return {json.text("name"), json.text("text"), json.text("sha256")};
+}
+
+SizeSpread read_spread(const JsonMembers& json) {
+  const std::string name = json.text("spread");
+  for (int i = 0; i < 3; ++i)
+    if (name == kSpreadNames[i]) return {Spread(i), json.number("typical"), json.number("deviation")};
+  json.fail("spread", "\"uniform\", \"normal\" or \"lognormal\"");
 }
 
 AssetContent read_asset(const JsonMembers& json) {
@@ -37,7 +48,8 @@ AssetContent read_asset(const JsonMembers& json) {
           json.text("pack"),
           json.text("sha256"),
           json.number("weight"),
-          {json.list("scale").at(0).as_number(), json.list("scale").at(1).as_number()}};
+          {json.list("scale").at(0).as_number(), json.list("scale").at(1).as_number()},
+          read_spread(json)};
 }
 
 RunKind read_kind(const JsonMembers& json) {

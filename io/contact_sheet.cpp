@@ -8,6 +8,7 @@
 #include "io/atomic_file.h"
 #include "io/frame_order.h"
 #include "io/image_file.h"
+#include "io/lettering.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 
@@ -15,7 +16,6 @@ namespace rubble {
 namespace {
 
 constexpr int kMargin = 20, kGap = 4, kCaption = 26, kTitle = 52, kLegend = 64;   // unit: pixel
-const cv::Scalar kPaper(28, 24, 22), kInk(232, 232, 230), kFaint(150, 148, 144);  // B, G, R
 const cv::Scalar kNoReturn(52, 48, 46);
 
 struct Tile {
@@ -84,11 +84,6 @@ std::string decimal(double value, int places) {
   std::snprintf(text, sizeof text, "%.*f", places, value);
   std::replace(text, text + sizeof text, ',', '.');  // whatever the user's locale
   return text;
-}
-
-void put_label(cv::Mat& sheet, const std::string& text, cv::Point origin, double size,
-               const cv::Scalar& ink) {
-  cv::putText(sheet, text, origin, cv::FONT_HERSHEY_SIMPLEX, size, ink, 1, cv::LINE_AA);
 }
 
 class ContactSheetRecorder : public Recorder {

@@ -51,6 +51,10 @@ void validate(const PileSpec& spec) {
     check.expect(e.scale_min >= 0.01 && e.scale_min <= e.scale_max, key + ".scale_min",
                  "0.01 to scale_max", e.scale_min);
     check.expect(e.scale_max <= 100, key + ".scale_max", "100 at most", e.scale_max);
+    check.expect(e.spread.typical > 0 && e.spread.typical <= 100, key + ".spread.typical",
+                 "above 0, to 100", e.spread.typical);
+    check.expect(e.spread.deviation > 0 && e.spread.deviation <= 10, key + ".spread.deviation",
+                 "above 0, to 10", e.spread.deviation);
     total += e.weight;
   }
   for (std::size_t i = 0; i < spec.placed.size(); ++i) {
@@ -112,7 +116,7 @@ class LayerMaker {
       const MixEntry& entry = spec_.mix[choice.draw(random_)];
       Placement piece;
       piece.type = entry.type;
-      piece.scale = random_.uniform(entry.scale_min, entry.scale_max);
+      piece.scale = draw_size(entry.spread, entry.scale_min, entry.scale_max, random_);
       if (!find_place(space, piece)) fail_full(spec_, number, i);
       space.add(piece);
       layer.pieces.push_back(piece);

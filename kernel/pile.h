@@ -13,6 +13,7 @@
 #include "kernel/assembly.h"
 #include "kernel/base/math.h"
 #include "kernel/base/mesh.h"
+#include "kernel/size_spread.h"
 
 namespace rubble {
 
@@ -35,8 +36,9 @@ struct PieceType {
 struct MixEntry {
   int type = 0;          // index into the types, or their number plus that of an assembly
   double weight = 1;     // relative; >= 0
-  double scale_min = 1;  // uniform in [scale_min, scale_max]; range: 0.01 to 100
+  double scale_min = 1;  // from scale_min to scale_max; range: 0.01 to 100
   double scale_max = 1;
+  SizeSpread spread{};  // between them
 };
 
 struct Placement {

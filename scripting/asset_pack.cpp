@@ -76,8 +76,12 @@ class PackBuilder {
     asset.metres_per_unit = metres_per(from.units);
     asset.up = from.up;
     asset.scale = from.scale;
+    asset.spread = from.spread;
     asset.weight = from.weight;
     asset.tags = from.tags;
+    asset.decompose = from.parts.empty() && from.word == 1;
+    asset.looks = from.looks;
+    asset.look = from.look;
     check_name(i, from.name);
     if (from.links.empty()) {
       find_files(i, from, asset);
@@ -167,6 +171,7 @@ class PackBuilder {
     if (!material)
       return mistakes_.push_back(
           unknown_material(materials_, from.material, asset_key(i, "material")));
+    if (asset.look.empty()) asset.look = material->look;
     asset.density = from.density.value_or(material->density);
     asset.friction = from.friction.value_or(material->friction);
   }

@@ -11,10 +11,12 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/base/mesh.h"
 #include "kernel/pile.h"
+#include "kernel/size_spread.h"
 
 namespace rubble {
 
@@ -23,6 +25,7 @@ struct Material {
   double density = 0;   // unit: kg/m3; range: 10 to 25000
   double friction = 0;  // Coulomb, against concrete; range: 0 to 2
   std::string source;   // where the figures come from
+  std::string look{};   // of surfaces whose own name is no look; one that the renderer knows
 };
 
 // A link of an articulated asset, and the joint by which it hangs on another: see JointType, whose
@@ -41,13 +44,19 @@ struct Asset {
   std::vector<std::string> meshes;  // whole paths, finest level of detail first; at least one
   double metres_per_unit = 1;       // of the mesh and the parts
   UpAxis up = UpAxis::z;
-  // A mesh each of whose objects is one convex part (whole path); empty: the hull of the
-  // finest mesh is the only part.
+  // A mesh each of whose objects is one convex part (whole path); empty: the hull of the finest mesh
+  // is the only part or, with `decompose`, that mesh is cut into convex parts.
   std::string parts;
+  bool decompose = false;
   std::string material = "reinforced_concrete";
+  // How surfaces look that the files call otherwise than the renderer: by their names (an OBJ's
+  // usemtl, a glTF's materials), and `look` for the rest; default: the material's.
+  std::vector<std::pair<std::string, std::string>> looks;
+  std::string look;
   double density = 0;                 // the pack's, otherwise the material's; unit: kg/m3
   double friction = 0;                // likewise
-  std::array<double, 2> scale{1, 1};  // uniform in [first, second]
+  std::array<double, 2> scale{1, 1};  // from first to second
+  SizeSpread spread;                  // between them
   double weight = 1;                  // in a mission without a mix
   std::vector<std::string> tags;
   int line = 0;  // of its table in pack.lua, for error messages

@@ -75,12 +75,15 @@ struct TypeOf {
   Json operator()(const TableList&) const {
     return {{"type", "array"}, {"items", {{"type", "object"}}}};
   }
+  Json operator()(TextMap*) const {
+    return {{"type", "object"}, {"additionalProperties", {{"type", "string"}}}};
+  }
   Json operator()(const WordOrFile& slot) const {
     const Json file = {{"type", "object"},
                        {"properties", {{slot.key, {{"type", "string"}}}}},
                        {"required", {slot.key}},
                        {"additionalProperties", false}};
-    return {{"anyOf", Json::array({{{"const", slot.word}}, file})}};
+    return {{"anyOf", Json::array({{{"enum", slot.words}}, file})}};
   }
 };
 

@@ -41,17 +41,30 @@ Schema make_pack_schema(PackTable& pack) {
           return Schema::choice_slot(list[i].up, {"y", "z"});
         });
   k.add("assets[].collision",
-        "The convex hull of the mesh, or a file whose connected components are convex parts.",
+        "The convex hull of the mesh; the mesh cut into convex parts; or a file each of whose objects "
+        "is a convex part.",
         [&list](std::size_t i) {
-          return Slot(WordOrFile{"hull", "parts", &list[i].parts});
+          return Slot(WordOrFile{{"hull", "decompose"}, &list[i].word, "parts", &list[i].parts});
         });
   item("material", &AssetTable::material, "A name in materials.lua.");
+  item("look", &AssetTable::look, "Of surfaces without a known look; none: the material's.");
+  item("looks", &AssetTable::looks, "The looks of surfaces, by their names in the files.");
   item("density", &AssetTable::density, "Instead of the material's.")
       .between(10, 25000)
       .unit("kg/m3");
   item("friction", &AssetTable::friction, "Instead of the material's, against concrete.")
       .between(0, 2);
-  item("scale", &AssetTable::scale, "Size, uniform in {min, max}.").between(0.01, 100);
+  item("scale", &AssetTable::scale, "Size, between {min, max}.").between(0.01, 100);
+  k.add("assets[].spread", "As in pile.mix: how sizes lie in `scale`.", [&list](std::size_t i) {
+    return Schema::choice_slot(list[i].spread.kind, {"uniform", "normal", "lognormal"});
+  });
+  k.add("assets[].typical", "Mean of the normal, median of the lognormal spread.",
+        [&list](std::size_t i) { return Slot(&list[i].spread.typical); })
+      .above(0, 100);
+  k.add("assets[].deviation",
+        "Standard deviation of the size (normal) or of its natural logarithm (lognormal).",
+        [&list](std::size_t i) { return Slot(&list[i].spread.deviation); })
+      .above(0, 10);
   item("weight", &AssetTable::weight, "How often, in a mission without a mix.").between(0, 1e9);
   item("tags", &AssetTable::tags, "Words to find it by.");
   return k;
@@ -115,6 +128,7 @@ Schema make_material_schema(MaterialTable& table) {
   k.item("materials[].friction", list, &Material::friction, "Coulomb, against concrete.")
       .between(0, 2)
       .must();
+  k.item("materials[].look", list, &Material::look, "Of surfaces that name no known look.");
   k.item("materials[].source", list, &Material::source, "Where the figures come from.").must();
   return k;
 }

@@ -34,10 +34,14 @@ struct AssetTable {
   std::vector<LinkTable> links;
   LengthUnit units = LengthUnit::m;
   UpAxis up = UpAxis::z;
+  int word = 0;  // of collision: 0: hull, 1: decompose
   std::string parts;
   std::string material = "reinforced_concrete";
   std::optional<double> density, friction;
+  std::string look;
+  TextMap looks;
   NumberPair scale{1, 1};
+  SizeSpread spread;
   double weight = 1;
   std::vector<std::string> tags;
 };

@@ -16,6 +16,7 @@
 #include "kernel/base/math.h"
 #include "kernel/pile.h"
 #include "kernel/settle.h"
+#include "kernel/size_spread.h"
 #include "render/camera_spec.h"
 #include "render/frame.h"
 #include "render/scene.h"
@@ -27,8 +28,9 @@ namespace rubble {
 struct MixItem {
   std::string asset;  // its name in a pack
   double weight = 1;  // relative; >= 0
-  // Uniform in [first, second]; default: the asset's own range. range: 0.01 to 100
+  // From first to second; default: the asset's own range and spread. range: 0.01 to 100
   std::optional<std::array<double, 2>> scale;
+  SizeSpread spread{};  // over `scale`
 };
 
 // A piece that stands or lies there before the first layer falls: an asset of a pack, or a box made

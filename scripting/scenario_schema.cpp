@@ -43,8 +43,20 @@ void add_pile(Schema& k, PileScenario& p) {
   k.item("pile.mix[].weight", p.mix, &MixItem::weight, "How often, relative to the others.")
       .between(0, 1e9);
   k.item("pile.mix[].scale", p.mix, &MixItem::scale,
-         "Size, uniform in {min, max}; not given: the asset's own range.")
+         "Size, between {min, max}; not given: the asset's own range and spread.")
       .between(0.01, 100);
+  k.add("pile.mix[].spread",
+        "How sizes lie in `scale`: evenly, or about `typical`, cut off at the ends.",
+        [&p](std::size_t i) {
+          return Schema::choice_slot(p.mix[i].spread.kind, {"uniform", "normal", "lognormal"});
+        });
+  k.add("pile.mix[].typical", "Mean of the normal, median of the lognormal spread.",
+        [&p](std::size_t i) { return Slot(&p.mix[i].spread.typical); })
+      .above(0, 100);
+  k.add("pile.mix[].deviation",
+        "Standard deviation of the size (normal) or of its natural logarithm (lognormal).",
+        [&p](std::size_t i) { return Slot(&p.mix[i].spread.deviation); })
+      .above(0, 10);
   k.list("pile.placed", p.placed, "Pieces that stand or lie there before the first layer.");
   k.item("pile.placed[].asset", p.placed, &PlacedItem::asset, "Name of an asset.");
   k.item("pile.placed[].box", p.placed, &PlacedItem::box,

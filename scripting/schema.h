@@ -32,8 +32,10 @@ struct Negated {  // the member is the opposite of what the user writes
 struct StringOrList {  // "a" or {"a", "b"}
   std::vector<std::string>* member;
 };
-struct WordOrFile {  // the word, or { key = "FILE" }; the word is kept as an empty string
-  std::string word, key;
+struct WordOrFile {  // one of the words, or { key = "FILE" }; with a word, the file is empty
+  std::vector<std::string> words;
+  int* word;  // index of the word
+  std::string key;
   std::string* file;
 };
 // A point, or a place in a void that { find_void = { ... } } names (see rubble.find_void). One of
@@ -50,13 +52,14 @@ struct TableList {  // a list within an item of a list: each table of it has a s
   std::function<void(std::size_t)> resize;      // new items have the defaults
   std::function<Schema(std::size_t)> make_item;  // its keys start at the item
 };
+using TextMap = std::vector<std::pair<std::string, std::string>>;  // { name = "text", ... }
 
 // Where a key's value lives, and with that its type. Value*: any table, taken as it is.
 using Slot = std::variant<bool*, Negated, int*, std::int64_t*, std::uint64_t*, double*,
                           std::optional<double>*, std::string*, std::optional<std::string>*, Choice,
                           Vec3*, std::optional<Vec3>*, NumberPair*, std::optional<NumberPair>*,
                           std::vector<std::string>*, StringOrList, WordOrFile, Value*, TableList,
-                          PlaceSlot, std::vector<double>*>;
+                           PlaceSlot, std::vector<double>*, TextMap*>;
 
 struct Range {
   double min = -std::numeric_limits<double>::infinity();

@@ -142,9 +142,23 @@ Outcome store_choice(const Choice& choice, const Value& value) {
   return Outcome::stored;
 }
 
+Outcome store_map(const Value& value, TextMap& out) {
+  if (value.kind != Value::Kind::table || !value.items.empty() || !value.strange_keys.empty())
+    return Outcome::wrong_type;
+  TextMap map;
+  for (const auto& [name, text] : value.fields) {
+    if (text.kind != Value::Kind::text) return Outcome::wrong_type;
+    map.emplace_back(name, text.text);
+  }
+  out = std::move(map);
+  return Outcome::stored;
+}
+
 Outcome store_word_or_file(const WordOrFile& to, const Value& value) {
   if (value.kind == Value::Kind::text) {
-    if (value.text != to.word) return Outcome::out_of_range;
+    const auto at = std::find(to.words.begin(), to.words.end(), value.text);
+    if (at == to.words.end()) return Outcome::out_of_range;
+    *to.word = int(at - to.words.begin());
     to.file->clear();
     return Outcome::stored;
   }
@@ -237,6 +251,8 @@ Outcome store_as(const Range& range, const T& to, const Value& value) {
     return Outcome::stored;
   } else if constexpr (std::is_same_v<T, TableList>) {
     return Outcome::wrong_type;  // read table by table, by whoever knows its items
+  } else if constexpr (std::is_same_v<T, TextMap*>) {
+    return store_map(value, *to);
   } else {
     return store_strings(value, *to);
   }
@@ -295,12 +311,16 @@ Value read_as(const T& from) {
     marker.set("find_void", members);
     return marker;
   } else if constexpr (std::is_same_v<T, WordOrFile>) {
-    if (from.file->empty()) return Value::make_text(from.word);
+    if (from.file->empty()) return Value::make_text(from.words[std::size_t(*from.word)]);
     Value table = Value::make_table();
     table.set(from.key, Value::make_text(*from.file));
     return table;
   } else if constexpr (std::is_same_v<T, TableList>) {
     return {};
+  } else if constexpr (std::is_same_v<T, TextMap*>) {
+    Value table = Value::make_table();
+    for (const auto& [name, text] : *from) table.set(name, Value::make_text(text));
+    return table;
   } else {
     return list_of(*from);
   }
@@ -318,8 +338,11 @@ std::string expected_as(const Key& key, const T& slot) {
   if constexpr (is_pair<T>)
     return "a number or {min, max}" + (range.empty() ? "" : ", each" + range);
   if constexpr (std::is_same_v<T, Choice>) return choice_words(slot);
-  if constexpr (std::is_same_v<T, WordOrFile>)
-    return "\"" + slot.word + "\" or { " + slot.key + " = \"FILE\" }";
+  if constexpr (std::is_same_v<T, WordOrFile>) {
+    std::string words;
+    for (const std::string& word : slot.words) words += "\"" + word + "\" or ";
+    return words + "{ " + slot.key + " = \"FILE\" }";
+  }
   if constexpr (std::is_same_v<T, std::vector<double>*>)
     return "a list of numbers" + (range.empty() ? "" : ", each" + range);
   if constexpr (std::is_same_v<T, PlaceSlot>)
@@ -328,6 +351,7 @@ std::string expected_as(const Key& key, const T& slot) {
   if constexpr (std::is_same_v<T, Value*>) return "a table";
   if constexpr (std::is_same_v<T, StringOrList>) return "a string or a list of strings";
   if constexpr (std::is_same_v<T, TableList>) return "a list of tables";
+  if constexpr (std::is_same_v<T, TextMap*>) return "a table { name = \"text\" }";
   return "a list of strings";
 }
 

@@ -14,12 +14,25 @@ void append_bars(SurfaceMesh& mesh, const std::vector<Bar>& bars, int level) {
   for (const Bar& bar : bars) append(mesh, mesh_bar(bar, kSides[level], kSpacing[level]));
 }
 
-std::vector<std::vector<Vec3>> make_parts(const Recipe& recipe, const SurfaceMesh& finest) {
-  std::vector<std::vector<Vec3>> parts = recipe.parts;
-  if (parts.empty() && !recipe.solid.cells.empty()) {
-    parts = recipe.fit_parts ? fit_parts(recipe.solid, finest) : cell_parts(recipe.solid);
+std::vector<std::vector<Vec3>> warped(std::vector<std::vector<Vec3>> parts, const Warp& warp) {
+  if (!warp) return parts;
+  for (auto& part : parts) {
+    for (Vec3& p : part) p = warp(p);
   }
-  for (const Bar& bar : recipe.bars) {
+  return parts;
+}
+
+std::vector<std::vector<Vec3>> make_parts(const Recipe& r, const SurfaceMesh& finest) {
+  if (!r.collides) return {};
+  std::vector<std::vector<Vec3>> parts;
+  if (!r.parts.empty()) {
+    parts = warped(r.parts, r.warp);
+  } else if (!r.regions.empty()) {
+    parts = fit_regions(r.solid, r.regions, finest, r.warp);
+  } else if (!r.solid.cells.empty()) {
+    parts = r.fit_parts ? fit_parts(r.solid, finest) : warped(cell_parts(r.solid), r.warp);
+  }
+  for (const Bar& bar : r.bars) {
     if (!bar.collides) continue;
     for (auto& part : bar_parts(bar)) parts.push_back(part);
   }
@@ -29,21 +42,45 @@ std::vector<std::vector<Vec3>> make_parts(const Recipe& recipe, const SurfaceMes
   return parts;
 }
 
-}  // namespace
+// An asset before its corners get normals.
+struct Body {
+  std::array<SurfaceMesh, 3> levels;
+  std::vector<std::vector<Vec3>> parts;
+};
 
-Asset make_asset(const Recipe& recipe) {
-  Asset asset{recipe, {}, {}};
+Body make_body(const Recipe& recipe) {
+  Body body;
   SurfaceMesh solid;
   if (!recipe.solid.cells.empty()) solid = mesh_solid(recipe.solid, recipe.cell);
-  asset.parts = make_parts(recipe, solid);
+  body.parts = make_parts(recipe, solid);
+  for (const Sheet& sheet : recipe.sheets) append(solid, mesh_sheet(sheet));
+  if (recipe.warp) {
+    for (Vec3& p : solid.positions) p = recipe.warp(p);
+  }
   double max_edge = recipe.max_edge;
   for (int level = 0; level < 3; ++level) {
     if (!solid.triangles.empty()) solid = decimate(solid, {recipe.triangles[level], max_edge});
-    SurfaceMesh whole = solid;
-    append_bars(whole, recipe.bars, level);
-    asset.levels.push_back(finish(whole, kCreaseDeg));
+    if (level > 0 && int(solid.triangles.size()) > recipe.triangles[level] * 5 / 4) {
+      solid = decimate(solid, {recipe.triangles[level], max_edge, 0.12});
+    }
+    body.levels[level] = solid;
+    append_bars(body.levels[level], recipe.bars, level);
     max_edge = level == 0 ? 3 * max_edge : 1e9;
   }
+  for (const Recipe& more : recipe.attached) {
+    const Body other = make_body(more);
+    for (int level = 0; level < 3; ++level) append(body.levels[level], other.levels[level]);
+    body.parts.insert(body.parts.end(), other.parts.begin(), other.parts.end());
+  }
+  return body;
+}
+
+}  // namespace
+
+Asset make_asset(const Recipe& recipe) {
+  Body body = make_body(recipe);
+  Asset asset{recipe, {}, std::move(body.parts)};
+  for (const SurfaceMesh& level : body.levels) asset.levels.push_back(finish(level, kCreaseDeg));
   return asset;
 }
 

@@ -69,7 +69,7 @@ SurfaceMesh mesh_bar(const Bar& bar, int sides, double ring_spacing) {
     mesh.triangles.push_back({0, s + 1, s});
     mesh.triangles.push_back({last, last + s, last + s + 1});
   }
-  mesh.surfaces.assign(mesh.triangles.size(), Surface::rebar);
+  mesh.surfaces.assign(mesh.triangles.size(), bar.surface);
   return mesh;
 }
 

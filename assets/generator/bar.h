@@ -12,6 +12,7 @@ struct Bar {
   double radius = 0.006;   // unit: m
   double hidden = 0;       // length at the start that is buried in concrete; unit: m
   bool collides = true;    // false: drawn only
+  Surface surface = Surface::rebar;
 };
 
 // A closed tube with `sides` sides whose bends are rounded and whose ends are flat. Level 0 has

@@ -191,9 +191,9 @@ class Decimator {
       const Vec3& p = at(c[(i + 1) % 3]);
       const Vec3& q = at(c[(i + 2) % 3]);
       const Vec3 before = cross(p - at(v), q - at(v)), after = cross(p - target, q - target);
-      if (dot(before, after) < 0.25 * norm(before) * norm(after)) return false;
+      if (dot(before, after) < options_.facing * norm(before) * norm(after)) return false;
       const double longest = std::fmax(norm(q - p), std::fmax(norm(p - target), norm(q - target)));
-      if (norm(after) < 0.04 * longest * longest) return false;
+      if (norm(after) < 0.16 * options_.facing * longest * longest) return false;
     }
     return true;
   }

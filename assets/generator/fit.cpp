@@ -4,13 +4,17 @@
 #include <cmath>
 
 #include "assets/generator/polytope.h"
+#include "kernel/base/error.h"
 
 namespace rubble::generator {
 namespace {
 
 constexpr double kInside = 0.012;  // a corner deeper than this is within the solid; unit: m
-constexpr double kMaxShrink = 0.02;
+constexpr double kMaxShrink = 0.02;  // of a face of a cell; unit: m
+constexpr double kAnyShrink = 10;    // of a face of a region; unit: m
 constexpr double kSink = 0.8;  // of the mean dent, by which a face goes below the highest bumps
+constexpr double kMaxSink = 0.02;    // where holes count among the dents; unit: m
+constexpr double kThinnest = 0.011;  // of a part; unit: m
 constexpr double kWorthwhile = 0.001;  // a cut takes off more; unit: m
 constexpr double kApart = 0.004;       // corners of a finished part are farther apart; unit: m
 
@@ -62,7 +66,7 @@ std::vector<Vec3> points_to_keep(const Solid& solid, const Cell& cell, const Sur
     if (in_cell(cell, p)) points.push_back(p);
   }
   for (const Vec3& corner : corners_of(cell)) {
-    if (sample(solid, corner, 0.05).value < -kInside) points.push_back(corner);
+    if (sample(whole_view(solid), corner, 0.05).value < -kInside) points.push_back(corner);
   }
   return points;
 }
@@ -112,13 +116,13 @@ class GapFinder {
   std::vector<Gap> known_;
 };
 
-std::vector<Vec3> fit_cell(Cell cell, const std::vector<Vec3>& points) {
+std::vector<Vec3> fit_cell(Cell cell, const std::vector<Vec3>& points, double max_shrink) {
   const std::vector<double> dents = mean_dents(cell, points);
   for (std::size_t f = 0; f < cell.size(); ++f) {
     const double top = support(points, cell[f].normal);
-    if (dents[f] < 0 || top < cell[f].offset - kMaxShrink) continue;
+    if (dents[f] < 0 || top < cell[f].offset - max_shrink) continue;
     const double below_top = dents[f] - (cell[f].offset - top);
-    cell[f].offset = top - kSink * below_top;
+    cell[f].offset = top - std::fmin(kMaxSink, kSink * below_top);
   }
   std::vector<Vec3> corners = corners_of(cell);
   GapFinder finder(points);
@@ -138,6 +142,17 @@ std::vector<Vec3> fit_cell(Cell cell, const std::vector<Vec3>& points) {
   return corners;
 }
 
+// The half-spaces of a region's hull where the warp puts its corners.
+Cell hull_cell(const Cell& region, const Warp& warp) {
+  std::vector<Vec3> corners = corners_of(region);
+  for (Vec3& p : corners) p = warp(p);
+  Cell cell;
+  for (const Polygon& face : hull_faces(corners)) {
+    cell.push_back({face.normal, dot(face.normal, corners[std::size_t(face.corners[0])])});
+  }
+  return cell;
+}
+
 }  // namespace
 
 std::vector<std::vector<Vec3>> cell_parts(const Solid& solid) {
@@ -149,7 +164,39 @@ std::vector<std::vector<Vec3>> cell_parts(const Solid& solid) {
 std::vector<std::vector<Vec3>> fit_parts(const Solid& solid, const SurfaceMesh& surface) {
   std::vector<std::vector<Vec3>> parts;
   for (const Cell& cell : solid.cells) {
-    parts.push_back(tidy(fit_cell(cell, points_to_keep(solid, cell, surface))));
+    parts.push_back(tidy(fit_cell(cell, points_to_keep(solid, cell, surface), kMaxShrink)));
+  }
+  return parts;
+}
+
+// Parts of crushed sheet may come out too thin to collide with: those are widened about their middle.
+std::vector<Vec3> widened(std::vector<Vec3> part) {
+  double least = 1e9;
+  Vec3 across;
+  for (const Polygon& face : hull_faces(part)) {
+    const double top = support(part, face.normal), depth = top + support(part, -face.normal);
+    if (depth < least) least = depth, across = face.normal;
+  }
+  if (least >= kThinnest) return part;
+  const double middle = support(part, across) - 0.5 * least;
+  for (Vec3& p : part) {
+    const double height = dot(across, p) - middle;
+    p += across * ((height > 0 ? 0.5 : -0.5) * (kThinnest - least));
+  }
+  return part;
+}
+
+std::vector<std::vector<Vec3>> fit_regions(const Solid& solid, const std::vector<Cell>& regions,
+                                           const SurfaceMesh& surface, const Warp& warp) {
+  std::vector<std::vector<Vec3>> parts;
+  for (const Cell& region : regions) {
+    std::vector<Vec3> points = points_to_keep(solid, region, surface);
+    if (points.size() < 4) throw RunError("a region of a generated solid holds no surface");
+    if (warp) {
+      for (Vec3& p : points) p = warp(p);
+    }
+    const Cell cell = warp ? hull_cell(region, warp) : region;
+    parts.push_back(widened(tidy(fit_cell(cell, points, kAnyShrink))));
   }
   return parts;
 }

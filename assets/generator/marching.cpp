@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "assets/generator/surface_mesh.h"
@@ -5,6 +6,8 @@
 
 namespace rubble::generator {
 namespace {
+
+constexpr int kBlock = 6;  // nodes a side
 
 class Marcher {
  public:
@@ -34,11 +37,46 @@ class Marcher {
     return origin_ + Vec3(x, y, z) * cell_;
   }
 
+  // Block by block: most are wholly outside or deep inside, which one sample tells.
   void sample_grid() {
     const int count = size_[0] * size_[1] * size_[2];
     values_.resize(count);
     vertices_.assign(7 * static_cast<std::size_t>(count), -1);
-    for (int n = 0; n < count; ++n) values_[n] = sample(solid_, position(n), band_).value;
+    for (int i = 0; i < 3; ++i) blocks_[i] = (size_[i] + kBlock - 1) / kBlock;
+    views_.resize(static_cast<std::size_t>(blocks_[0] * blocks_[1] * blocks_[2]));
+    for (int z = 0; z < size_[2]; z += kBlock) {
+      for (int y = 0; y < size_[1]; y += kBlock) {
+        for (int x = 0; x < size_[0]; x += kBlock) sample_block(x, y, z);
+      }
+    }
+  }
+
+  SolidView& view_at(int x, int y, int z) {
+    const int block = (z / kBlock * blocks_[1] + y / kBlock) * blocks_[0] + x / kBlock;
+    return views_[static_cast<std::size_t>(block)];
+  }
+  // Of the block that a node is in; it reaches to the ends of the edges that start there.
+  const SolidView& view_at(int n) {
+    return view_at(n % size_[0], n / size_[0] % size_[1], n / (size_[0] * size_[1]));
+  }
+
+  void sample_block(int x0, int y0, int z0) {
+    constexpr double kHalf = 0.5 * (kBlock - 1);
+    const Vec3 middle = origin_ + Vec3(x0 + kHalf, y0 + kHalf, z0 + kHalf) * cell_;
+    const double radius = 1.7321 * (kHalf + 1) * cell_;
+    SolidView& view = view_at(x0, y0, z0);
+    view = view_near(solid_, middle, radius, band_);
+    const double plain = plain_value(view, middle);
+    const bool far =
+        plain > radius + band_ || plain < -radius - band_ - view.deepest;
+    for (int z = z0; z < std::min(z0 + kBlock, size_[2]); ++z) {
+      for (int y = y0; y < std::min(y0 + kBlock, size_[1]); ++y) {
+        for (int x = x0; x < std::min(x0 + kBlock, size_[0]); ++x) {
+          const int n = node(x, y, z);
+          values_[n] = far ? plain : sample(view, position(n), band_).value;
+        }
+      }
+    }
   }
 
   // The vertex on the grid edge between nodes a and b, which differ by `step` (bits x, y, z).
@@ -56,11 +94,11 @@ class Marcher {
   }
 
   // Two steps of false position: edges bend the field within one cell of the grid.
-  Vec3 crossing(int low, int high) const {
+  Vec3 crossing(int low, int high) {
     const Vec3 from = position(low), along = position(high) - from;
     const double a = values_[low], b = values_[high];
     double t = a / (a - b);
-    const double value = sample(solid_, from + along * t, band_).value;
+    const double value = sample(view_at(low), from + along * t, band_).value;
     t = (value < 0) == (a < 0) ? t + (1 - t) * value / (value - b) : t * a / (a - value);
     // Kept off the nodes, so that no triangle shrinks to nothing.
     return from + along * std::fmin(0.96, std::fmax(0.04, t));
@@ -115,14 +153,18 @@ class Marcher {
     for (const auto& t : mesh_.triangles) {
       const Vec3 middle =
           (mesh_.positions[t[0]] + mesh_.positions[t[1]] + mesh_.positions[t[2]]) * (1.0 / 3);
-      mesh_.surfaces.push_back(sample(solid_, middle, band_).surface);
+      const Vec3 at = (middle - origin_) * (1 / cell_);
+      const SolidView& view =
+          view_at(static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z));
+      mesh_.surfaces.push_back(sample(view, middle, band_).surface);
     }
   }
 
   const Solid& solid_;
   double cell_, band_;
   Vec3 origin_;
-  int size_[3];
+  int size_[3], blocks_[3];
+  std::vector<SolidView> views_;  // one a block
   std::vector<double> values_;
   std::vector<int> vertices_;  // seven edges start at every node
   SurfaceMesh mesh_;

@@ -15,5 +15,16 @@ std::vector<Recipe> hollow_pieces();   // pipes and culverts
 std::vector<Recipe> rebar_pieces();    // loose bars
 
 std::vector<ArticulatedRecipe> articulated_concrete();  // pieces that hang together by bars
+std::vector<Recipe> concrete_fragments();  // of culverts and planks, and lumps with bars
+std::vector<Recipe> parking_concrete();    // double tees, wheel stops
+std::vector<Recipe> bridge_concrete();     // decks, girders, barriers
+
+std::vector<Recipe> timber_pieces();     // beams, studs, plywood
+std::vector<Recipe> drywall_pieces();    // torn sheets
+std::vector<Recipe> joinery_pieces();    // windows and doors
+std::vector<Recipe> furniture_pieces();  // chairs, tables, sofa, mattress, refrigerator
+
+std::vector<Recipe> guard_pieces();  // guard rails and a post
+std::vector<Recipe> bridge_steel();  // girders, rails, clusters of bars
 
 }  // namespace rubble::generator

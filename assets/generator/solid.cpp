@@ -8,21 +8,31 @@
 namespace rubble::generator {
 namespace {
 
-constexpr double kDeepest = 0.035;      // what wear removes at most; unit: m
 constexpr double kScar = 0.0026;        // an edge that receded farther was chipped; unit: m
 constexpr double kHollowRound = 0.009;  // of the inner edges of hollows; unit: m
+
+bool is_fracture(Surface s) {
+  return s == Surface::concrete_fracture || s == Surface::brick_fracture ||
+         s == Surface::timber_fracture || s == Surface::drywall_core;
+}
+
+// Beyond this far below the highest face another has no part in the surface. unit: m
+double reach_of(const Wear& wear) {
+  return wear.edge_round + wear.edge_chip + wear.fracture_depth + wear.cast_depth;
+}
 
 // What every face shares at one point, worked out when first asked for: noise is what costs.
 class Spot {
  public:
   Spot(const Solid& solid, const Vec3& p)
-      : wear_(solid.wear), seed_(solid.seed), p_(p), in_chips_(p * (1 / solid.wear.chip_size)) {}
+      : wear_(solid.wear),
+        seed_(solid.seed),
+        p_(p),
+        in_chips_(p * (1 / solid.wear.chip_size)),
+        reach_(reach_of(solid.wear)) {}
 
   const Vec3& position() const { return p_; }
-  // Beyond this far below the highest face another has no part in the surface. unit: m
-  double reach() const {
-    return wear_.edge_round + wear_.edge_chip + wear_.fracture_depth + wear_.cast_depth;
-  }
+  double reach() const { return reach_; }
 
   double roughness() {  // of a break, 0 to 1
     if (roughness_ < 0) roughness_ = calc_roughness();
@@ -42,10 +52,15 @@ class Spot {
   }
 
  private:
-  static bool is_fracture(Surface s) {
-    return s == Surface::concrete_fracture || s == Surface::brick_fracture;
+  // Splinters: bundles of fibres that broke off at different lengths, and single ones between.
+  double calc_splinters() const {
+    const Vec3 q = p_ + wear_.along * ((1 / wear_.fibre - 1) * dot(p_, wear_.along));
+    const double bundles = 0.5 + fractal_noise(q * (1 / wear_.fracture_size), 2, seed_);
+    const double fibres = grain_noise(q * (1 / wear_.grain_size), seed_ + 11);
+    return std::fmin(1.0, std::fmax(0.0, 0.8 * bundles + 0.45 * (0.7 - fibres)));
   }
   double calc_roughness() const {
+    if (wear_.fibre > 1) return calc_splinters();
     const double waves = ridged_noise(p_ * (1 / wear_.fracture_size), 3, seed_);
     const double flakes = flake_noise(p_ * (1.7 / wear_.fracture_size), seed_ + 51);
     const double grains = grain_noise(p_ * (1 / wear_.grain_size), seed_ + 11);
@@ -61,20 +76,26 @@ class Spot {
   const Wear& wear_;
   std::uint32_t seed_;
   Vec3 p_, in_chips_;
+  double reach_;
   double roughness_ = -1, cast_dent_ = -1, edge_width_ = -1;
 };
 
 double plain_value(const Face& face, const Vec3& p) {
-  const double along = dot(face.normal, p);
-  if (!face.round) return along - face.offset;
-  return std::sqrt(std::fmax(0.0, dot(p, p) - along * along)) - face.offset;
+  if (!face.round) return dot(face.normal, p) - face.offset;
+  const Vec3 d = p - face.centre;
+  const double along = dot(face.normal, d);
+  return std::sqrt(std::fmax(0.0, dot(d, d) - along * along)) - face.offset;
 }
 
 double plain_value(const Cell& cell, const Vec3& p) {
   double value = -1e9;
-  for (const Face& face : cell) value = std::fmax(value, plain_value(face, p));
+  for (const Face& face : cell) {
+    const double height = plain_value(face, p);
+    if (height > value) value = height;
+  }
   return value;
 }
+
 
 // The larger of two, blended over the width k: a rounded edge (quadratic, after Quilez).
 double smooth_max(double a, double b, double k) {
@@ -83,8 +104,20 @@ double smooth_max(double a, double b, double k) {
 }
 
 Surface broken(Surface surface) {
-  if (surface == Surface::concrete_cast) return Surface::concrete_fracture;
-  return surface == Surface::brick ? Surface::brick_fracture : surface;
+  switch (surface) {
+    case Surface::concrete_cast:
+      return Surface::concrete_fracture;
+    case Surface::brick:
+      return Surface::brick_fracture;
+    case Surface::timber:
+      return Surface::timber_fracture;
+    case Surface::drywall:
+      return Surface::drywall_core;
+    case Surface::car_paint:
+      return Surface::steel_rusty;
+    default:
+      return surface;
+  }
 }
 
 // The edge between two surfaces: rounded and, where it receded far, chipped. A chip's scar is a
@@ -130,8 +163,11 @@ FieldSample cut_hollow(const FieldSample& solid, const Cell& hollow, Spot& spot)
 
 const char* surface_name(Surface surface) {
   static const char* const kNames[kSurfaceCount] = {
-      "concrete_cast", "concrete_fracture", "brick",  "brick_fracture", "cinder_block",
-      "rebar",         "steel_galvanised",  "timber", "plaster"};
+      "concrete_cast", "concrete_fracture", "brick",       "brick_fracture",
+      "cinder_block",  "rebar",             "steel_galvanised", "steel_rusty",
+      "timber",        "timber_fracture",   "drywall",     "drywall_core",
+      "car_paint",     "glass",             "fabric",      "rubber",
+      "plaster"};
   return kNames[static_cast<int>(surface)];
 }
 
@@ -141,20 +177,71 @@ Cell box_cell(const Vec3& min, const Vec3& max, Surface surface) {
           {{0, 0, 1}, max.z, surface}, {{0, 0, -1}, -min.z, surface}};
 }
 
-FieldSample sample(const Solid& solid, const Vec3& p, double band) {
+namespace {
+
+bool is_break(const Face& face) { return face.rough || is_fracture(face.surface); }
+
+// What wear removes at most: two edges may meet, and a face is dented besides. unit: m
+double deepest(const Wear& wear, bool with_breaks) {
+  const double edges = 0.5 * (wear.edge_round + wear.edge_chip) + kScar;
+  return edges + wear.cast_depth + (with_breaks ? wear.fracture_depth : 0);
+}
+
+}  // namespace
+
+SolidView whole_view(const Solid& solid) {
+  SolidView view{&solid, {}, {}, deepest(solid.wear, true)};
+  for (const Cell& cell : solid.cells) view.cells.push_back(&cell);
+  for (const Cell& hollow : solid.hollows) view.hollows.push_back(&hollow);
+  return view;
+}
+
+SolidView view_near(const Solid& solid, const Vec3& centre, double radius, double band) {
+  SolidView view{&solid, {}, {}, 0};
+  const double depth = radius + band + deepest(solid.wear, true);
+  bool breaks = false;
+  for (const Cell& cell : solid.cells) {
+    if (plain_value(cell, centre) >= radius + band) continue;
+    view.cells.push_back(&cell);
+    for (const Face& face : cell) {
+      breaks = breaks || (is_break(face) && plain_value(face, centre) > -depth);
+    }
+  }
+  for (const Cell& hollow : solid.hollows) {
+    if (plain_value(hollow, centre) >= depth + reach_of(solid.wear)) continue;
+    view.hollows.push_back(&hollow);
+    for (const Face& face : hollow) breaks = breaks || is_break(face);
+  }
+  view.deepest = deepest(solid.wear, breaks);
+  return view;
+}
+
+double plain_value(const SolidView& solid, const Vec3& p) {
   double plain = 1e9;
-  for (const Cell& cell : solid.cells) plain = std::fmin(plain, plain_value(cell, p));
-  for (const Cell& hollow : solid.hollows) plain = std::fmax(plain, -plain_value(hollow, p));
+  for (const Cell* cell : solid.cells) {
+    const double value = plain_value(*cell, p);
+    if (value < plain) plain = value;
+  }
+  for (const Cell* hollow : solid.hollows) {
+    const double value = -plain_value(*hollow, p);
+    if (value > plain) plain = value;
+  }
+  return plain;
+}
+
+FieldSample sample(const SolidView& view, const Vec3& p, double band) {
+  const double plain = plain_value(view, p);
+  const Solid& solid = *view.solid;
   // Roughness only ever removes, so outside it is needed on the way to the surface alone.
-  if (plain > band || plain < -band - kDeepest) return {plain, Surface::concrete_cast};
+  if (plain > band || plain < -band - view.deepest) return {plain, Surface::concrete_cast};
 
   Spot spot(solid, p);
   FieldSample result{1e9, Surface::concrete_cast};
-  for (const Cell& cell : solid.cells) {
-    const FieldSample s = rough_value(cell, spot);
+  for (const Cell* cell : view.cells) {
+    const FieldSample s = rough_value(*cell, spot);
     if (s.value < result.value) result = s;
   }
-  for (const Cell& hollow : solid.hollows) result = cut_hollow(result, hollow, spot);
+  for (const Cell* hollow : view.hollows) result = cut_hollow(result, *hollow, spot);
   return result;
 }
 

@@ -22,6 +22,9 @@ SurfaceMesh mesh_solid(const Solid& solid, double cell);
 struct DecimateOptions {
   int triangles = 1000;    // stop at this many
   double max_edge = 0.15;  // collapse nothing into an edge longer than this; unit: m
+  // The least cosine between a triangle's normals before and after a collapse. Where folded sheet
+  // lets too little go at the usual one, coarse levels take a smaller.
+  double facing = 0.25;
 };
 
 // Fewer triangles by edge collapses in order of the quadric error (Garland and Heckbert 1997).

@@ -78,8 +78,11 @@ std::string parts_text(const std::vector<std::vector<Vec3>>& parts) {
 // Colours for programs that know nothing of our surfaces; ours goes by the names.
 std::string material_text() {
   static const char* const kColours[kSurfaceCount] = {
-      "0.62 0.61 0.58", "0.55 0.53 0.50", "0.55 0.27 0.20", "0.60 0.33 0.25", "0.50 0.50 0.49",
-      "0.36 0.22 0.15", "0.60 0.62 0.64", "0.58 0.44 0.29", "0.80 0.78 0.73"};
+      "0.62 0.61 0.58", "0.55 0.53 0.50", "0.55 0.27 0.20", "0.60 0.33 0.25",
+      "0.50 0.50 0.49", "0.36 0.22 0.15", "0.60 0.62 0.64", "0.40 0.27 0.20",
+      "0.58 0.44 0.29", "0.70 0.56 0.38", "0.80 0.78 0.73", "0.85 0.84 0.82",
+      "0.30 0.34 0.42", "0.35 0.40 0.40", "0.45 0.42 0.38", "0.05 0.05 0.05",
+      "0.80 0.78 0.73"};
   std::string text;
   for (int s = 0; s < kSurfaceCount; ++s) {
     text += std::string("newmtl ") + surface_name(static_cast<Surface>(s)) + "\nKd " + kColours[s] +
@@ -113,7 +116,13 @@ std::string asset_text(const Asset& asset) {
     text += (i ? ", \"" : "\"") + r.name + ".lod" + std::to_string(i) + ".obj\"";
   }
   text += "},\n      units = \"m\",\n      up = \"z\",\n      collision = { parts = \"" + r.name +
-          ".parts.obj\" },\n      material = \"" + r.material + "\",\n      scale = {";
+          ".parts.obj\" },\n      material = \"" + r.material + "\",\n";
+  if (r.density > 0) {
+    text += "      density = ";
+    put_number(text, r.density, 1);
+    text += ",\n";
+  }
+  text += "      scale = {";
   put_number(text, r.scale_min, 3);
   text += ", ";
   put_number(text, r.scale_max, 3);

@@ -21,7 +21,8 @@ Scenario unusual() {
   s.pile.spawn_bounds = {1e-3, 2, 3};
   s.pile.layers = 0;
   s.pile.pieces_per_layer = 99999;
-  s.pile.mix = {{"brick", 0.1, std::nullopt}, {"slab", 2, std::array<double, 2>{0.5, 0.75}}};
+  s.pile.mix = {{"brick", 0.1, std::nullopt, {}},
+                {"slab", 2, std::array<double, 2>{0.5, 0.75}, {Spread::lognormal, 0.6, 0.1}}};
   s.pile.placed = {{"pipe", {1, 2, 3}, {10, 20, 30}, 0.7, false}};
   s.settle.schedule = Schedule::planes;
   s.settle.rest_speed = 0.06;
@@ -82,7 +83,7 @@ TEST(ScenarioValidate, FindsEveryMistake) {
   Scenario s;
   s.pile.layers = -1;
   s.pile.spawn_bounds = {1, 0, 1};
-  s.pile.mix = {{"a", -1, std::array<double, 2>{2, 1}}};
+  s.pile.mix = {{"a", -1, std::array<double, 2>{2, 1}, {}}};
   s.camera.fov_deg = std::numeric_limits<double>::quiet_NaN();
   s.trajectory.waypoints[0].position.y = std::numeric_limits<double>::infinity();
   EXPECT_EQ(

@@ -1,0 +1,321 @@
+// `rubble assets`: the bundled packs pass, and packs with mistakes do not.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+Json check_json(const std::string& pack, int exit_code = 0) {
+  const Outcome check = run_rubble("assets check --json " + pack);
+  EXPECT_EQ(check.exit_code, exit_code) << check.err;
+  return Json::parse(check.out);
+}
+
+class BundledPack : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(BundledPack, PassesItsCheck) {
+  const Json report = check_json(GetParam());
+  EXPECT_EQ(report.at("pack"), GetParam());
+  for (const Json& asset : report.at("assets")) {
+    const std::string name = asset.at("name");
+    EXPECT_TRUE(asset.at("closed")) << name;
+    EXPECT_TRUE(asset.at("errors").empty()) << name << ": " << asset.at("errors");
+    EXPECT_TRUE(asset.at("warnings").empty()) << name << ": " << asset.at("warnings");
+    EXPECT_GE(asset.at("thinnest_m"), 0.01) << name;
+    EXPECT_LE(asset.at("most_corners"), 32) << name;
+    EXPECT_GT(asset.at("mass_kg"), 0.5) << name;
+    EXPECT_LT(asset.at("mass_kg"), 8000) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Assets, BundledPack,
+                         ::testing::Values("concrete", "residential", "parking", "bridge"),
+                         [](const auto& test) { return test.param; });
+
+// A cube of side `size` as an OBJ file; open: without its top.
+std::string cube_obj(double size, bool open = false) {
+  std::string text;
+  for (int i = 0; i < 8; ++i) {
+    text += "v";
+    for (int axis = 0; axis < 3; ++axis) text += " " + std::to_string(i >> axis & 1 ? size : 0.0);
+    text += "\n";
+  }
+  text += "f 1 3 4 2\nf 1 2 6 5\nf 2 4 8 6\nf 4 3 7 8\nf 3 1 5 7\n";
+  return open ? text : text + "f 5 6 8 7\n";
+}
+
+std::string one_asset(const std::string& keys) {
+  return "return pack { name = \"own\", assets = { { name = \"cube\", mesh = \"cube.obj\", " + keys +
+         " } } }\n";
+}
+
+TEST(AssetsCheck, MeasuresACubeAgainstItsParts) {
+  const ScratchFolder scratch;
+  write_file(scratch / "cube.obj", cube_obj(1));
+  // A part that is a quarter of the cube: a quarter is covered, three quarters are not.
+  write_file(scratch / "part.obj",
+             "o a\nv 0 0 0\nv 0.5 0 0\nv 0 0.5 0\nv 0.5 0.5 0\nv 0 0 1\nv 0.5 0 1\nv 0 0.5 1\n"
+             "v 0.5 0.5 1\nf 1 3 4\nf 1 2 6\nf 2 4 8\nf 4 3 7\nf 3 1 5\nf 5 6 8\n");
+  write_file(scratch / "pack.lua", one_asset("collision = \"hull\", material = \"timber\""));
+  const Json whole = check_json(scratch.path().string()).at("assets")[0];
+  EXPECT_NEAR(whole.at("volume_m3"), 1, 1e-6);
+  EXPECT_NEAR(whole.at("mass_kg"), 500, 1e-3);
+  EXPECT_NEAR(whole.at("parts_outside_mesh_m3"), 0, 1e-5);
+  EXPECT_NEAR(whole.at("mesh_outside_parts_m3"), 0, 1e-5);
+  write_file(scratch / "pack.lua", one_asset("collision = { parts = \"part.obj\" }"));
+  const Json quarter = check_json(scratch.path().string()).at("assets")[0];
+  EXPECT_NEAR(quarter.at("parts_outside_mesh_m3"), 0, 1e-5);
+  EXPECT_NEAR(quarter.at("mesh_outside_parts_m3"), 0.75, 0.01);
+  EXPECT_FALSE(quarter.at("warnings").empty());
+}
+
+TEST(AssetsCheck, SaysThatAnOpenMeshHasNoVolumeOfItsOwn) {
+  const ScratchFolder scratch;
+  write_file(scratch / "cube.obj", cube_obj(1, true));
+  write_file(scratch / "pack.lua", one_asset("collision = \"hull\""));
+  const Json cube = check_json(scratch.path().string()).at("assets")[0];
+  EXPECT_FALSE(cube.at("closed"));
+  EXPECT_NEAR(cube.at("volume_m3"), 1, 1e-5) << "of the hull";
+  ASSERT_EQ(cube.at("warnings").size(), 1u);
+  EXPECT_NE(cube.at("warnings")[0].get<std::string>().find("not closed"), std::string::npos);
+}
+
+TEST(AssetsCheck, FailsForDegenerateParts) {
+  const ScratchFolder scratch;
+  write_file(scratch / "cube.obj", cube_obj(1));
+  write_file(scratch / "part.obj", "o flat\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
+  write_file(scratch / "pack.lua", one_asset("collision = { parts = \"part.obj\" }"));
+  const Json cube = check_json(scratch.path().string(), 1).at("assets")[0];
+  EXPECT_FALSE(cube.at("errors").empty());
+  const Outcome table = run_rubble("assets check " + scratch.path().string());
+  EXPECT_EQ(table.exit_code, 1);
+  EXPECT_NE(table.out.find("error: cube: "), std::string::npos) << table.out;
+}
+
+// A box of 100 x 200 x 300 units, in the formats that people export; made by hand, so that what is
+// read is what the format's description says.
+struct MeshText {
+  const char* file;
+  std::string text;
+};
+
+constexpr int kBoxFaces[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                  {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+
+std::string corner(int i, const char* between) {
+  return std::string(i & 1 ? "100" : "0") + between + (i & 2 ? "200" : "0") + between +
+         (i & 4 ? "300" : "0");
+}
+
+std::string obj_box() {
+  std::string text = "o box\nusemtl steel_galvanised\n";
+  for (int i = 0; i < 8; ++i) text += "v " + corner(i, " ") + "\n";
+  for (const auto& f : kBoxFaces)
+    text += "f " + std::to_string(f[0] + 1) + " " + std::to_string(f[1] + 1) + " " +
+            std::to_string(f[2] + 1) + "\n";
+  return text;
+}
+
+std::string stl_box() {
+  std::string text = "solid box\n";
+  for (const auto& f : kBoxFaces) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const int i : f) text += "vertex " + corner(i, " ") + "\n";
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid box\n";
+}
+
+std::string ply_box() {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 12\nproperty list uchar int vertex_indices\nend_header\n";
+  for (int i = 0; i < 8; ++i) text += corner(i, " ") + "\n";
+  for (const auto& f : kBoxFaces)
+    text += "3 " + std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]) +
+            "\n";
+  return text;
+}
+
+std::string base64(const std::string& bytes) {
+  static const char* const kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      word = word << 8 | (i + k < bytes.size() ? std::uint8_t(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k > bytes.size() ? '=' : kDigits[word >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+std::string gltf_box() {
+  std::string bytes;
+  for (int i = 0; i < 8; ++i) {
+    for (const float x : {i & 1 ? 100.f : 0.f, i & 2 ? 200.f : 0.f, i & 4 ? 300.f : 0.f})
+      bytes.append(reinterpret_cast<const char*>(&x), 4);
+  }
+  for (const auto& f : kBoxFaces) {
+    for (const int i : f) {
+      const auto index = std::uint16_t(i);
+      bytes.append(reinterpret_cast<const char*>(&index), 2);
+    }
+  }
+  const Json gltf = {
+      {"asset", {{"version", "2.0"}}},
+      {"scene", 0},
+      {"scenes", {{{"nodes", {0}}}}},
+      {"nodes", {{{"mesh", 0}}}},
+      {"materials", {{{"name", "Material.001"}}}},
+      {"meshes",
+       {{{"primitives",
+          {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"material", 0}}}}}}},
+      {"accessors",
+       {{{"bufferView", 0},
+         {"componentType", 5126},
+         {"count", 8},
+         {"type", "VEC3"},
+         {"min", {0, 0, 0}},
+         {"max", {100, 200, 300}}},
+        {{"bufferView", 1}, {"componentType", 5123}, {"count", 36}, {"type", "SCALAR"}}}},
+      {"bufferViews",
+       {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 96}},
+        {{"buffer", 0}, {"byteOffset", 96}, {"byteLength", 72}}}},
+      {"buffers",
+       {{{"byteLength", bytes.size()},
+         {"uri", "data:application/octet-stream;base64," + base64(bytes)}}}}};
+  return gltf.dump();
+}
+
+std::string fbx_box() {
+  std::string vertices, indices;
+  for (int i = 0; i < 8; ++i) vertices += (i ? "," : "") + corner(i, ",");
+  for (const auto& f : kBoxFaces)
+    indices += (indices.empty() ? "" : ",") + std::to_string(f[0]) + "," + std::to_string(f[1]) +
+               "," + std::to_string(-f[2] - 1);
+  return "; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n FBXHeaderVersion: 1003\n FBXVersion: "
+         "7300\n}\n"
+         "GlobalSettings:  {\n Version: 1000\n Properties70:  {\n"
+         "  P: \"UpAxis\", \"int\", \"Integer\", \"\",1\n  P: \"UpAxisSign\", \"int\", \"Integer\", \"\",1\n"
+         "  P: \"FrontAxis\", \"int\", \"Integer\", \"\",2\n  P: \"FrontAxisSign\", \"int\", \"Integer\", \"\",1\n"
+         "  P: \"CoordAxis\", \"int\", \"Integer\", \"\",0\n  P: \"CoordAxisSign\", \"int\", \"Integer\", \"\",1\n"
+         "  P: \"UnitScaleFactor\", \"double\", \"Number\", \"\",1\n }\n}\n"
+         "Objects:  {\n Geometry: 1000, \"Geometry::box\", \"Mesh\" {\n  Vertices: *24 {\n   a: " +
+         vertices + "\n  }\n  PolygonVertexIndex: *36 {\n   a: " + indices +
+         "\n  }\n  GeometryVersion: 124\n }\n"
+         " Model: 2000, \"Model::box\", \"Mesh\" {\n  Version: 232\n }\n}\n"
+         "Connections:  {\n C: \"OO\",1000,2000\n C: \"OO\",2000,0\n}\n";
+}
+
+class Formats : public ::testing::TestWithParam<MeshText> {};
+
+// In centimetres, with Y up: 1 m x 2 m high x 3 m.
+TEST_P(Formats, AreReadWithTheirUnitsAndUpAxis) {
+  const ScratchFolder scratch;
+  write_file(scratch / GetParam().file, GetParam().text);
+  write_file(scratch / "pack.lua",
+             std::string("return pack { name = \"own\", assets = { { name = \"box\", mesh = \"") +
+                 GetParam().file +
+                 "\", units = \"cm\", up = \"y\", collision = \"hull\", material = \"timber\",\n"
+                 " looks = { [\"Material.001\"] = \"timber\" } } } }\n");
+  const Json box = check_json(scratch.path().string()).at("assets")[0];
+  EXPECT_TRUE(box.at("closed")) << box;
+  EXPECT_NEAR(box.at("volume_m3"), 6, 1e-4);
+  EXPECT_NEAR(box.at("mass_kg"), 3000, 0.05);
+  EXPECT_NEAR(box.at("size_m")[0], 1, 1e-5);
+  EXPECT_NEAR(box.at("size_m")[1], 3, 1e-5);
+  EXPECT_NEAR(box.at("size_m")[2], 2, 1e-5);
+  EXPECT_TRUE(box.at("errors").empty()) << box.at("errors");
+}
+
+INSTANTIATE_TEST_SUITE_P(Assets, Formats,
+                         ::testing::Values(MeshText{"box.obj", obj_box()},
+                                           MeshText{"box.stl", stl_box()},
+                                           MeshText{"box.ply", ply_box()},
+                                           MeshText{"box.gltf", gltf_box()},
+                                           MeshText{"box.fbx", fbx_box()}),
+                         [](const auto& test) {
+                           return std::string(test.param.file).substr(4);
+                         });
+
+// A table's legs: one hull would fill the space below it.
+TEST(AssetsCheck, DecomposesAndKeepsThePartsOnDisk) {
+  const ScratchFolder scratch;
+  std::string obj;
+  int first = 1;
+  const auto box = [&](double x0, double y0, double z0, double x1, double y1, double z1) {
+    for (int i = 0; i < 8; ++i)
+      obj += "v " + std::to_string(i & 1 ? x1 : x0) + " " + std::to_string(i & 2 ? y1 : y0) + " " +
+             std::to_string(i & 4 ? z1 : z0) + "\n";
+    for (const auto& f : kBoxFaces)
+      obj += "f " + std::to_string(f[0] + first) + " " + std::to_string(f[1] + first) + " " +
+             std::to_string(f[2] + first) + "\n";
+    first += 8;
+  };
+  box(0, 0, 0.7, 1.2, 0.8, 0.75);
+  for (const double x : {0.0, 1.12})
+    for (const double y : {0.0, 0.72}) box(x, y, 0, x + 0.08, y + 0.08, 0.7);
+  write_file(scratch / "cube.obj", obj);
+  const std::string cache = scratch / "cache";
+  const auto check = [&](const std::string& collision) {
+    write_file(scratch / "pack.lua", one_asset("collision = \"" + collision + "\""));
+    const Outcome outcome = run_rubble("assets check --json " + scratch.path().string(),
+                                       "RUBBLE_CACHE=" + cache);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return Json::parse(outcome.out).at("assets")[0];
+  };
+  const Json hull = check("hull"), cut = check("decompose");
+  EXPECT_GT(hull.at("parts_outside_mesh_m3"), 0.5);
+  EXPECT_LT(cut.at("parts_outside_mesh_m3"), 0.01);
+  EXPECT_LT(cut.at("mesh_outside_parts_m3"), 0.005);
+  EXPECT_GE(cut.at("parts"), 5);
+
+  // The second run reads what the first one kept; a damaged entry is noticed and made anew.
+  std::vector<std::filesystem::path> entries;
+  for (const auto& e : std::filesystem::recursive_directory_iterator(cache))
+    if (e.is_regular_file()) entries.push_back(e.path());
+  ASSERT_EQ(entries.size(), 1u);
+  const std::string kept = read_file(entries[0]);
+  EXPECT_EQ(check("decompose"), cut);
+  std::string damaged = kept;
+  damaged[damaged.size() / 2] ^= 1;
+  write_file(entries[0], damaged);
+  EXPECT_EQ(check("decompose"), cut);
+  EXPECT_EQ(read_file(entries[0]), kept);
+}
+
+TEST(AssetsShow, DrawsEveryAssetOnASheet) {
+  const ScratchFolder scratch;
+  write_file(scratch / "cube.obj", cube_obj(0.4));
+  write_file(scratch / "pack.lua", one_asset("collision = \"hull\""));
+  const Outcome show =
+      run_rubble("assets show " + scratch.path().string() + " --out " + (scratch / "sheet.png"));
+  ASSERT_EQ(show.exit_code, 0) << show.err;
+  const std::string png = read_file(scratch / "sheet.png");
+  ASSERT_GT(png.size(), 5000u);
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+}
+
+TEST(Assets, AreFoundByTheNameOfABundledPack) {
+  const ScratchFolder scratch;
+  write_file(scratch / "m.lua",
+             "return rubble.mission { packs = { \"parking\", \"bridge\" },\n"
+             "  pile = { mix = { { asset = \"car_flat\" }, { asset = \"girder\" } } } }\n");
+  EXPECT_EQ(run_rubble("check " + (scratch / "m.lua")).exit_code, 0);
+  write_file(scratch / "m.lua", "return rubble.mission { packs = { \"parking_\" } }\n");
+  const Outcome wrong = run_rubble("check " + (scratch / "m.lua"));
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_NE(wrong.err.find("parking_"), std::string::npos) << wrong.err;
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -48,15 +48,20 @@ class FilesTest : public testing::TestWithParam<std::string> {
   }
 };
 
+// How much volume a level may gain or lose, as a share: thin sheet and thin webs lose most.
+double level_limit(const std::string& name, int level) {
+  const bool thin = name.rfind("car_", 0) == 0 || name.rfind("guard_", 0) == 0 || name == "hollow_core";
+  return level == 0 ? 1e-12 : level == 1 ? (thin ? 0.08 : 0.03) : (thin ? 0.30 : 0.12);
+}
+
 TEST_P(FilesTest, EveryLevelIsClosedAndFacesOut) {
   for (const std::string& name : names()) {
     const double volume = calc_volume_properties(read_level(name, 0)).volume;
-    const double share = name.rfind("car_", 0) == 0 ? 1.6 : 1;  // crumpled sheet yields more
     for (int i = 0; i < 3; ++i) {
       const TriangleMesh mesh = read_level(name, i);
       EXPECT_TRUE(is_closed(mesh)) << name << " level " << i;
       EXPECT_NEAR(calc_volume_properties(mesh).volume, volume,
-                  (i == 1 ? 0.03 : 0.12) * share * volume)
+                  level_limit(name, i) * volume)
           << name << " level " << i;
       ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
       for (const Vec3f& n : mesh.normals) ASSERT_NEAR(norm(n), 1, 2e-3) << name;

@@ -16,7 +16,6 @@
 
 #include "kernel/base/mesh.h"
 #include "kernel/pile.h"
-#include "kernel/size_spread.h"
 
 namespace rubble {
 

@@ -16,7 +16,6 @@
 #include "kernel/base/math.h"
 #include "kernel/pile.h"
 #include "kernel/settle.h"
-#include "kernel/size_spread.h"
 #include "render/camera_spec.h"
 #include "render/frame.h"
 #include "render/scene.h"

@@ -181,7 +181,7 @@ TEST_F(AssetPackTest, EveryMistakeInOneRun) {
           at + "5: assets[2].mesh: no such file: expected a file in " + folder_.string() +
           ", found \"gone.obj\"\n" +  //
           at + "5: assets[2].material: unknown material `steal` (did you mean `steel`?)\n" + at +
-          "6: assets[3].collision: unknown choice: expected \"hull\" or { parts = "
+          "6: assets[3].collision: unknown choice: expected \"hull\" or \"decompose\" or { parts = "
           "\"FILE\" }, found the string \"box\"\n" +  //
           at +
           "6: assets[3].mesh: wrong type: expected a string or a list of strings, found "
@@ -190,7 +190,7 @@ TEST_F(AssetPackTest, EveryMistakeInOneRun) {
           "6: assets[3].units: unknown choice: expected one of \"m\", \"cm\", \"mm\", "
           "\"in\", \"ft\", found the string \"inch\"\n" +  //
           at +
-          "7: assets[4].collision: wrong type: expected \"hull\" or { parts = \"FILE\" "
+          "7: assets[4].collision: wrong type: expected \"hull\" or \"decompose\" or { parts = \"FILE\" "
           "}, found a table of named fields\n" +  //
           at +
           "8: assets[5].density: out of range: expected a number from 10 to 25000, found "

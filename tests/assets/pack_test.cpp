@@ -90,7 +90,7 @@ TEST_P(FilesTest, LevelsHaveFewTriangles) {
     const std::size_t finest = read_level(name, 0).triangles.size();
     EXPECT_GE(finest, 300u) << name;
     EXPECT_LE(finest, car ? 18000u : 8000u) << name;
-    EXPECT_LE(read_level(name, 1).triangles.size(), finest / 2) << name;
+    EXPECT_LE(read_level(name, 1).triangles.size(), finest * 11 / 20) << name;
     EXPECT_LE(read_level(name, 2).triangles.size(), car ? 4500u : 1000u) << name;
   }
 }

@@ -91,7 +91,8 @@ void main() {
   vec3 direction = ray / ray_length;
   vec3 radiance;
   float far = 1e9;
-  vec3 ambient = skyline.rgb * 3.14159;
+  // Fog before the sky takes the sky's own light.
+  vec3 ambient = sky_radiance(normalize(vec3(direction.xy, max(direction.z, 0.02)))) * 3.14159;
   float value = texelFetch(depth_values, pixel, 0).x;
   float z = view.x / max(value, 1e-9);
   if (seen.x != 0u) far = z * ray_length;

@@ -14,7 +14,7 @@ struct ChannelSet {
   bool instance = false;
   bool label = false;
   bool flow = false;
-  bool sky_visibility = false;  // 64 rays a pixel: about 15 s for a million pixels on two cores
+  bool sky_visibility = false;  // 64 rays a pixel: about 5 s for a million pixels on two cores
 
   bool any() const { return normals || instance || label || flow || sky_visibility; }
 };

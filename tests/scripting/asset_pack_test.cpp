@@ -247,7 +247,7 @@ TEST(Materials, MistakesHaveLines) {
                 "5\n" +  //
                 at +
                 "3: materials[2].colour: unknown key `colour`: expected one of name, density, "
-                "friction, source\n" +  //
+                "friction, look, source\n" +  //
                 at +
                 "3: materials[2].density: missing: expected a number from 10 to 25000, found "
                 "nothing\n" +  //

@@ -7,13 +7,15 @@ namespace {
 
 constexpr Surface kWood = Surface::timber;
 
-// The shards that a pane leaves in its frame, along the rim of the opening (x and z, y = 0).
+// The shards that a pane leaves in its frame, along the rim of the opening (x and z, y = 0); none
+// hang from above where the head is gone.
 void add_shards(Recipe& r, double min_x, double max_x, double min_z, double max_z,
-                RandomStream& random) {
+                bool with_head, RandomStream& random) {
   const Vec3 rim[5] = {{min_x, 0, min_z}, {max_x, 0, min_z}, {max_x, 0, max_z}, {min_x, 0, max_z},
                        {min_x, 0, min_z}};
   const Vec3 middle{(min_x + max_x) / 2, 0, (min_z + max_z) / 2};
   for (int side = 0; side < 4; ++side) {
+    if (side == 2 && !with_head) continue;
     const double length = distance(rim[side], rim[side + 1]);
     const Vec3 along = (rim[side + 1] - rim[side]) * (1 / length);
     Vec3 in = middle - (rim[side] + rim[side + 1]) * 0.5;
@@ -61,8 +63,9 @@ Recipe window(const char* name, bool broken) {
     r.solid.cells[2].push_back({n, dot(n, {half_x + 0.02, 0, 0.1}), Surface::timber_fracture});
   }
   const double pane_top = broken ? 0.12 : half_z - wide;
-  add_shards(r, -half_x + wide, -0.025, -half_z + wide, pane_top, random);
-  add_shards(r, 0.025, half_x - wide, -half_z + wide, broken ? 0.02 : pane_top, random);
+  add_shards(r, -half_x + wide, -0.025, -half_z + wide, pane_top, !broken, random);
+  add_shards(r, 0.025, half_x - wide, -half_z + wide, broken ? 0.02 : pane_top, !broken,
+             random);
   if (!broken) {  // a sill that throws the water off
     r.solid.cells.push_back(extruded_cell(
         0, {{-deep, -half_z - 0.03}, {-deep - 0.06, -half_z - 0.03}, {-deep - 0.06, -half_z - 0.012},

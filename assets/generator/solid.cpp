@@ -113,8 +113,6 @@ Surface broken(Surface surface) {
       return Surface::timber_fracture;
     case Surface::drywall:
       return Surface::drywall_core;
-    case Surface::car_paint:
-      return Surface::steel_rusty;
     default:
       return surface;
   }

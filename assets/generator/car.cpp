@@ -316,7 +316,7 @@ Recipe make_car(const CarDamage& damage) {
     }
   }
   r.density = 270;  // of the body's solid: about 1.2 t in all
-  r.triangles = {9000, 3400, 1500};
+  r.triangles = {9000, 3800, 2700};
   r.max_edge = 0.16;
   r.weight = 0.1;
   r.tags = {"vehicle", "car", "large"};

@@ -27,6 +27,10 @@ ExitCode verify_run(const VerifyRequest& request);
 ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids);
 // Errors of an estimated trajectory, on standard output.
 ExitCode eval_trajectory(const TrajectoryRequest& request);
+// COLMAP's models of datasets against the true cameras and surface, as a table.
+ExitCode eval_sfm(const SfmRequest& request);
+// A mesh or point cloud against the true surface.
+ExitCode eval_surface(const SurfaceRequest& request);
 // The pile of the finished run as meshes and worlds for other programs.
 ExitCode export_saved_pile(const FolderRequest& request, const ExportRequest& to);
 // Resolves everything, runs nothing, prints the complete scenario as JSON on standard output.

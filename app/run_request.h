@@ -57,4 +57,25 @@ struct TrajectoryRequest {
   bool json = false;             // --json
 };
 
+// Where scores go.
+struct ScoreOutput {
+  std::vector<std::string> files;  // --out: .csv, .json or .tex
+  bool json = false;               // --json: on standard output
+};
+
+struct SfmRequest {
+  std::vector<std::string> datasets;     // folders of runs
+  std::string model = "sfm/sparse";      // --model: inside each, or absolute
+  double bound = 0.1;                    // --bound: on track are frames nearer than this; unit: m
+  std::vector<std::string> asset_packs;  // --assets DIR: where its packs may be now
+  ScoreOutput output;
+};
+
+struct SurfaceRequest {
+  std::string dataset, mesh;             // the folder of a run; a PLY file
+  std::string align;                     // --align: COLMAP model whose frame the mesh has
+  std::vector<std::string> asset_packs;  // --assets
+  ScoreOutput output;
+};
+
 }  // namespace rubble

@@ -69,6 +69,22 @@ std::vector<PosePair> associate(const std::vector<StampedPose>& estimate,
   return pairs;
 }
 
+RelativeError calc_relative_error(const std::vector<PosePair>& pairs, int delta) {
+  RelativeError error;
+  std::vector<double> lengths, angles;
+  for (std::size_t i = 0; i + std::size_t(delta) < pairs.size(); i += std::size_t(delta)) {
+    const PosePair &a = pairs[i], &b = pairs[i + std::size_t(delta)];
+    const Pose truth = a.truth.inverse() * b.truth, estimate = a.estimate.inverse() * b.estimate;
+    const Pose difference = truth.inverse() * estimate;
+    lengths.push_back(norm(difference.translation));
+    angles.push_back(angle_deg(difference.rotation));
+  }
+  error.trans_rmse = root_mean_square(lengths);
+  error.rot_rmse_deg = root_mean_square(angles);
+  error.steps = int(lengths.size());
+  return error;
+}
+
 TrajectoryError calc_trajectory_error(const std::vector<PosePair>& pairs, int delta) {
   if (pairs.size() < 3)
     throw InputError({"", 0, "", "too few poses have a partner in time", "at least 3",
@@ -82,16 +98,9 @@ TrajectoryError calc_trajectory_error(const std::vector<PosePair>& pairs, int de
   const Similarity similarity = align(pairs, true);
   error.sim3_scale = similarity.scale;
   error.ate_rmse_sim3 = calc_ate(pairs, similarity);
-  std::vector<double> lengths, angles;
-  for (std::size_t i = 0; i + std::size_t(delta) < pairs.size(); i += std::size_t(delta)) {
-    const PosePair &a = pairs[i], &b = pairs[i + std::size_t(delta)];
-    const Pose truth = a.truth.inverse() * b.truth, estimate = a.estimate.inverse() * b.estimate;
-    const Pose difference = truth.inverse() * estimate;
-    lengths.push_back(norm(difference.translation));
-    angles.push_back(angle_deg(difference.rotation));
-  }
-  error.rpe_trans_rmse = root_mean_square(lengths);
-  error.rpe_rot_rmse_deg = root_mean_square(angles);
+  const RelativeError relative = calc_relative_error(pairs, delta);
+  error.rpe_trans_rmse = relative.trans_rmse;
+  error.rpe_rot_rmse_deg = relative.rot_rmse_deg;
   return error;
 }
 

@@ -28,6 +28,16 @@ struct TrajectoryError {
   double rpe_rot_rmse_deg = 0;  // unit: degree
 };
 
+// The relative part of it alone: of the steps 0 to delta, delta to 2 delta, ...
+struct RelativeError {
+  int steps = 0;
+  double trans_rmse = 0;    // unit: m
+  double rot_rmse_deg = 0;  // unit: degree
+};
+
+// delta: >= 1, fewer than the pairs.
+RelativeError calc_relative_error(const std::vector<PosePair>& pairs, int delta);
+
 // delta: >= 1, fewer than the pairs. Throws InputError: fewer than 3 pairs, or positions all on one
 // line, which leave the alignment undetermined.
 TrajectoryError calc_trajectory_error(const std::vector<PosePair>& pairs, int delta = 1);

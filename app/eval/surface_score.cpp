@@ -1,0 +1,138 @@
+#include "app/eval/surface_score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "kernel/base/random.h"
+
+namespace rubble {
+namespace {
+
+constexpr int kRaysPerRow = 64;
+constexpr double kRange = 12;    // unit: m
+constexpr double kCell = 0.05;   // unit: m
+constexpr double kCover = 0.05;  // unit: m; at most kCell, so that neighbours of a cell are enough
+
+// A cell of the grid as one number, for coordinates within 50 km.
+std::int64_t cell_key(std::int64_t x, std::int64_t y, std::int64_t z) {
+  constexpr std::int64_t kHalf = 1 << 20;
+  return ((x + kHalf) << 42) | ((y + kHalf) << 21) | (z + kHalf);
+}
+
+std::int64_t cell_index(double v) { return std::int64_t(std::floor(v / kCell)); }
+
+std::int64_t cell_of(const Vec3& p) {
+  return cell_key(cell_index(p.x), cell_index(p.y), cell_index(p.z));
+}
+
+// The ray of a pixel in the optical frame; u and v in COLMAP's pixels.
+Vec3 ray_of(const ColmapCamera& camera, double u, double v) {
+  const bool one_focal = camera.model.find("SIMPLE") == 0 || camera.model.find("RADIAL") == 0;
+  const std::size_t c = one_focal ? 1 : 2;
+  const double fx = camera.params[0], fy = camera.params[one_focal ? 0 : 1];
+  const double x = (u - camera.params[c]) / fx, y = (v - camera.params[c + 1]) / fy;
+  if (camera.model.find("FISHEYE") == std::string::npos) return {x, y, 1};
+  const double angle = std::hypot(x, y);
+  if (angle == 0) return {0, 0, 1};
+  return {std::sin(angle) * x / angle, std::sin(angle) * y / angle, std::cos(angle)};
+}
+
+const ColmapCamera& camera_of(const ColmapModel& model, std::uint32_t id) {
+  for (const ColmapCamera& camera : model.cameras)
+    if (camera.id == id) return camera;
+  return model.cameras.front();  // load_colmap_model let no other pass
+}
+
+// Points by the cell they are in; asks whether one is within kCover of a place.
+class PointGrid {
+ public:
+  explicit PointGrid(const std::vector<Vec3>& points) {
+    for (const Vec3& p : points) cells_[cell_of(p)].push_back(p);
+  }
+
+  bool covers(const Vec3& p) const {
+    for (int dx = -1; dx <= 1; ++dx)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dz = -1; dz <= 1; ++dz) {
+          const auto cell = cells_.find(
+              cell_key(cell_index(p.x) + dx, cell_index(p.y) + dy, cell_index(p.z) + dz));
+          if (cell == cells_.end()) continue;
+          for (const Vec3& q : cell->second)
+            if (distance(p, q) <= kCover) return true;
+        }
+    return false;
+  }
+
+ private:
+  std::unordered_map<std::int64_t, std::vector<Vec3>> cells_;
+};
+
+bool is_near_origin(const Vec3& p) {
+  return std::abs(p.x) < 1e4 && std::abs(p.y) < 1e4 && std::abs(p.z) < 1e4;
+}
+
+}  // namespace
+
+std::vector<Vec3> find_visible_surface(const PileQueries& queries, const ColmapModel& truth) {
+  std::vector<Vec3> visible;
+  std::unordered_set<std::int64_t> taken;
+  for (const ColmapImage& image : truth.images) {
+    const ColmapCamera& camera = camera_of(truth, image.camera);
+    const Pose world_from_optical = image.camera_from_world.inverse();
+    const double step = double(camera.width) / kRaysPerRow;
+    for (double v = step / 2; v < double(camera.height); v += step)
+      for (double u = step / 2; u < double(camera.width); u += step) {
+        const Vec3 direction = world_from_optical.rotation.rotate(ray_of(camera, u, v));
+        const auto hit = queries.cast_ray(world_from_optical.translation, direction, kRange);
+        if (hit && taken.insert(cell_of(hit->point)).second) visible.push_back(hit->point);
+      }
+  }
+  return visible;
+}
+
+std::vector<Vec3> sample_surface(const PlyMesh& mesh, double spacing) {
+  if (mesh.triangles.empty()) return mesh.positions;
+  RandomStream random(0, "surface");
+  std::vector<Vec3> samples;
+  double owed = 0;  // samples that small triangles have not had yet
+  for (const auto& triangle : mesh.triangles) {
+    const Vec3& a = mesh.positions[triangle[0]];
+    const Vec3 ab = mesh.positions[triangle[1]] - a, ac = mesh.positions[triangle[2]] - a;
+    for (owed += norm(cross(ab, ac)) / 2 / (spacing * spacing); owed >= 1; --owed) {
+      const double s = std::sqrt(random.uniform(0, 1)), t = random.uniform(0, 1);
+      samples.push_back(a + ab * (s * (1 - t)) + ac * (s * t));
+    }
+  }
+  return samples;
+}
+
+std::optional<SurfaceScore> calc_surface_score(const std::vector<Vec3>& points,
+                                               const PileQueries& queries,
+                                               const std::vector<Vec3>& visible) {
+  if (points.empty()) return std::nullopt;
+  SurfaceScore score;
+  score.samples = std::int64_t(points.size());
+  std::vector<double> distances;
+  for (const Vec3& p : points) {
+    const auto closest = queries.find_closest(p, kFarthest);
+    distances.push_back(closest ? closest->distance : kFarthest);
+  }
+  std::sort(distances.begin(), distances.end());
+  const auto share = [&](double limit) {
+    const auto end = std::upper_bound(distances.begin(), distances.end(), limit);
+    return double(end - distances.begin()) / double(distances.size());
+  };
+  score.within_1cm = share(0.01), score.within_2cm = share(0.02), score.within_5cm = share(0.05);
+  score.median = distances[distances.size() / 2];
+  std::vector<Vec3> near;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(near), is_near_origin);
+  const PointGrid grid(near);
+  const auto covered = std::count_if(visible.begin(), visible.end(),
+                                     [&](const Vec3& p) { return grid.covers(p); });
+  if (!visible.empty()) score.completeness_5cm = double(covered) / double(visible.size());
+  return score;
+}
+
+}  // namespace rubble

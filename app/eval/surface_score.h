@@ -1,0 +1,39 @@
+// How near points are to the true surface of a pile, and how much of what was seen they cover.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "io/colmap_model.h"
+#include "io/ply_reader.h"
+#include "kernel/queries.h"
+
+namespace rubble {
+
+struct SurfaceScore {
+  std::int64_t samples = 0;  // points, or samples of a mesh's surface
+  // Shares of the samples within 1, 2 and 5 cm of the true surface; range: 0 to 1
+  double within_1cm = 0, within_2cm = 0, within_5cm = 0;
+  double median = 0;  // distance, at most kFarthest; unit: m
+  // Share of the visible surface that has a sample within 5 cm of it; range: 0 to 1
+  double completeness_5cm = 0;
+};
+
+// Farther is as good as anywhere; unit: m
+inline constexpr double kFarthest = 1;
+
+// Points of the true surface that the cameras see, at most one in each cell of 5 cm: rays through a
+// grid of 64 pixels a row, no farther than 12 m. Lens distortion is left out of account, of a
+// fisheye all but its equidistant projection.
+std::vector<Vec3> find_visible_surface(const PileQueries& queries, const ColmapModel& truth);
+
+// Points spread evenly over the triangles, about one every `spacing` (unit: m), the same each time;
+// of a point cloud its points.
+std::vector<Vec3> sample_surface(const PlyMesh& mesh, double spacing);
+
+// Nothing for no points.
+std::optional<SurfaceScore> calc_surface_score(const std::vector<Vec3>& points,
+                                               const PileQueries& queries,
+                                               const std::vector<Vec3>& visible);
+
+}  // namespace rubble

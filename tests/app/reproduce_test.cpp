@@ -229,15 +229,20 @@ double run_whole(const ScratchFolder& scratch, const std::string& command) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-TEST(Resume, GivesTheSameBytesAfterKillsAtTwentyMoments) {
+// times: how often each of `run` and `settle` is begun anew.
+void kill_both(int times, int kills) {
   const ScratchFolder scratch;
   write_file(scratch / "tiny.lua", kTinyMission);
   for (const std::string command : {"run", "settle"}) {
     const double seconds = run_whole(scratch, command);
-    for (std::uint64_t seed = 1; seed <= 2; ++seed)
-      kill_and_resume(seed + 10 * (command == "run"), 5, scratch, command, seconds);
+    for (int seed = 1; seed <= times; ++seed)
+      kill_and_resume(std::uint64_t(seed + 10 * (command == "run")), kills, scratch, command,
+                      seconds);
   }
 }
+
+TEST(Resume, GivesTheSameBytesAfterKills) { kill_both(1, 3); }
+TEST(NightlyResume, GivesTheSameBytesAfterKillsAtTwentyMoments) { kill_both(2, 5); }
 
 TEST(Resume, ContinuesWhatASignalStoppedAndSaysHow) {
   const ScratchFolder scratch;

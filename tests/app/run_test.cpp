@@ -14,38 +14,46 @@ namespace fs = std::filesystem;
 const char* const kFiles[] = {"mission.rawlog", "mission.bag",     "pile.stl",
                               "pile.bin",       "groundtruth.txt", "preview.png"};
 
-TEST(Run, LeavesEveryFileWithTheHashThatTheManifestNames) {
-  const ScratchFolder scratch;
-  const Outcome run = run_rubble("run scripts/small.lua --out " + (scratch / "a"));
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto outputs = read_outputs(scratch / "a");
+// Two runs of one mission, by one thread and by two.
+class TwoRuns : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new ScratchFolder;
+    for (const char* threads : {"1", "2"}) {
+      const Outcome run = run_rubble("run scripts/small.lua --threads " + std::string(threads) +
+                                     " --out " + folder(threads));
+      ASSERT_EQ(run.exit_code, 0) << run.err;
+    }
+  }
+  static void TearDownTestSuite() { delete scratch_; }
+  static std::string folder(const char* threads) { return *scratch_ / threads; }
+
+  static inline ScratchFolder* scratch_ = nullptr;
+};
+
+TEST_F(TwoRuns, LeaveEveryFileWithTheHashThatTheManifestNames) {
+  const auto outputs = read_outputs(folder("1"));
   for (const char* name : kFiles) {
     ASSERT_TRUE(outputs.count(name)) << name;
-    EXPECT_EQ(outputs.at(name), sha256_of_file(scratch / "a/" + name)) << name;
+    EXPECT_EQ(outputs.at(name), sha256_of_file(folder("1") + "/" + name)) << name;
   }
   std::size_t files = 0;
-  for (const auto& entry : fs::directory_iterator(scratch / "a")) {
+  for (const auto& entry : fs::directory_iterator(folder("1"))) {
     ++files;
     EXPECT_NE(entry.path().extension(), ".part") << entry.path();
   }
   EXPECT_EQ(files, outputs.size() + 1) << "something lies there that the manifest does not name";
 }
 
-TEST(Run, GivesTheSameBytesForAnyNumberOfThreads) {
-  const ScratchFolder scratch;
-  ASSERT_EQ(run_rubble("run scripts/small.lua --threads 1 --out " + (scratch / "a")).exit_code, 0);
-  ASSERT_EQ(run_rubble("run scripts/small.lua --threads 2 --out " + (scratch / "b")).exit_code, 0);
-  EXPECT_EQ(read_state_hash(scratch / "a"), read_state_hash(scratch / "b"));
-  EXPECT_EQ(read_outputs(scratch / "a"), read_outputs(scratch / "b"));
+TEST_F(TwoRuns, GiveTheSameBytesForAnyNumberOfThreads) {
+  EXPECT_EQ(read_state_hash(folder("1")), read_state_hash(folder("2")));
+  EXPECT_EQ(read_outputs(folder("1")), read_outputs(folder("2")));
 }
 
-TEST(Run, GivesAnotherPileForAnotherSeed) {
-  const ScratchFolder scratch;
-  ASSERT_EQ(run_rubble("settle scripts/small.lua --seed 1 --out " + (scratch / "a")).exit_code, 0);
-  ASSERT_EQ(run_rubble("settle scripts/small.lua --seed 1 --out " + (scratch / "b")).exit_code, 0);
-  ASSERT_EQ(run_rubble("settle scripts/small.lua --seed 2 --out " + (scratch / "c")).exit_code, 0);
-  EXPECT_EQ(read_state_hash(scratch / "a"), read_state_hash(scratch / "b"));
-  EXPECT_NE(read_state_hash(scratch / "a"), read_state_hash(scratch / "c"));
+TEST_F(TwoRuns, GiveAnotherPileForAnotherSeed) {
+  const std::string other = *scratch_ / "other";
+  ASSERT_EQ(run_rubble("settle scripts/small.lua --seed 2 --out " + other).exit_code, 0);
+  EXPECT_NE(read_state_hash(folder("1")), read_state_hash(other));
 }
 
 TEST(Run, SaysWhenThePileDidNotSettle) {
@@ -59,27 +67,38 @@ TEST(Run, SaysWhenThePileDidNotSettle) {
   EXPECT_TRUE(fs::exists(scratch / "a/pile.bin")) << "what was computed is kept";
 }
 
-// Each bundled script of a folder, made small: what users copy from must work.
+// A bundled script, made small: what users copy from must work.
+void run_script(const fs::path& path) {
+  const ScratchFolder scratch;
+  const Outcome run = run_rubble(
+      "run '" + path.string() + "' --out " + (scratch / "a") +
+      " --set pile.layers=1 --set pile.pieces_per_layer=12 --set camera.width=64"
+      " --set camera.height=48 --set trajectory.rate_hz=1 --set settle.final_time_limit=30");
+  EXPECT_EQ(run.exit_code, 0) << path << "\n" << run.err;
+}
+
 void run_scripts_of(const std::string& folder) {
   std::size_t count = 0;
   for (const auto& entry : fs::directory_iterator(RUBBLE_SOURCE_DIR "/" + folder)) {
     const fs::path path = entry.path();
     if (path.extension() != ".lua" || path.stem() == "demonstration_pile") continue;
-    const ScratchFolder scratch;
-    const Outcome run = run_rubble(
-        "run '" + path.string() + "' --out " + (scratch / "a") +
-        " --set pile.layers=1 --set pile.pieces_per_layer=12 --set camera.width=64"
-        " --set camera.height=48 --set trajectory.rate_hz=1 --set settle.final_time_limit=30");
-    EXPECT_EQ(run.exit_code, 0) << path << "\n" << run.err;
+    run_script(path);
     EXPECT_EQ(run_rubble("check '" + path.string() + "'").exit_code, 0) << path;
     ++count;
   }
   EXPECT_GE(count, 3u);
 }
 
-TEST(Run, RunsEveryBundledScript) { run_scripts_of("scripts"); }
-TEST(Run, RunsEveryCollapseMode) { run_scripts_of("scripts/collapse"); }
-TEST(Run, RunsThePublishedDemonstration) { run_scripts_of("scripts/paper"); }
+TEST(NightlyRun, RunsEveryBundledScript) { run_scripts_of("scripts"); }
+TEST(NightlyRun, RunsEveryCollapseMode) { run_scripts_of("scripts/collapse"); }
+TEST(NightlyRun, RunsThePublishedDemonstration) { run_scripts_of("scripts/paper"); }
+
+// Some of them in every run of the tests: all outputs, a sensor's chain, a collapse, a planned
+// path.
+TEST(Run, RunsBundledScripts) {
+  for (const char* name : {"outputs", "blur", "collapse/lean_to", "deepest_void"})
+    run_script(std::string(RUBBLE_SOURCE_DIR "/scripts/") + name + ".lua");
+}
 
 TEST(Run, RefusesAFolderThatIsNotEmpty) {
   const ScratchFolder scratch;

@@ -12,9 +12,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(Voids, MapsThePileOfARunTheSameEachTime) {
-  const ScratchFolder scratch;
-  ASSERT_EQ(run_rubble("settle scripts/small.lua --out " + (scratch / "a")).exit_code, 0);
+class Voids : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new ScratchFolder;
+    ASSERT_EQ(run_rubble("settle scripts/small.lua --out " + (*scratch_ / "a")).exit_code, 0);
+  }
+  static void TearDownTestSuite() { delete scratch_; }
+
+  static inline ScratchFolder* scratch_ = nullptr;  // in it, `a`: a settled pile
+};
+
+TEST_F(Voids, MapsThePileOfARunTheSameEachTime) {
+  const ScratchFolder& scratch = *scratch_;
   const std::string map = "voids " + (scratch / "a") + " --voxel 0.05 --radius 0.1 --out ";
   const Outcome first = run_rubble(map + (scratch / "b") + " --threads 1");
   ASSERT_EQ(first.exit_code, 0) << first.err;
@@ -33,9 +43,8 @@ TEST(Voids, MapsThePileOfARunTheSameEachTime) {
   EXPECT_EQ(json["robots"][0]["radius"], 0.1);
 }
 
-TEST(Voids, RefusesWhatMemoryWouldNotHoldAndFoldersWithoutARun) {
-  const ScratchFolder scratch;
-  ASSERT_EQ(run_rubble("settle scripts/small.lua --out " + (scratch / "a")).exit_code, 0);
+TEST_F(Voids, RefusesWhatMemoryWouldNotHoldAndFoldersWithoutARun) {
+  const ScratchFolder& scratch = *scratch_;
   const Outcome large = run_rubble("voids " + (scratch / "a") + " --voxel 0.002 --memory 0.1");
   EXPECT_EQ(large.exit_code, 1);
   EXPECT_NE(large.err.find("use voxels of"), std::string::npos) << large.err;

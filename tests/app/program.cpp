@@ -29,6 +29,13 @@ Outcome run_rubble(const std::string& arguments, const std::string& before) {
 }
 
 Outcome run_rubble_and_signal(const std::string& arguments, double seconds, int signal) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  return run_rubble_and_signal(
+      arguments, [end] { return std::chrono::steady_clock::now() >= end; }, signal);
+}
+
+Outcome run_rubble_and_signal(const std::string& arguments, const std::function<bool()>& when,
+                              int signal) {
   const ScratchFolder scratch;
   const std::string command = "cd '" RUBBLE_SOURCE_DIR "' && exec '" RUBBLE_PROGRAM "' " +
                               arguments + " >'" + (scratch / "out") + "' 2>'" + (scratch / "err") +
@@ -38,10 +45,9 @@ Outcome run_rubble_and_signal(const std::string& arguments, double seconds, int 
     execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     _exit(127);
   }
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   int status = 0;
   pid_t ended = 0;
-  while ((ended = waitpid(child, &status, WNOHANG)) == 0 && std::chrono::steady_clock::now() < end)
+  while ((ended = waitpid(child, &status, WNOHANG)) == 0 && !when())
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   if (ended == 0) {
     kill(child, signal);

@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -16,9 +17,12 @@ struct Outcome {
 // Runs `rubble ARGUMENTS` through the shell, from the root of the sources.
 Outcome run_rubble(const std::string& arguments, const std::string& before = "");
 
-// Sends it a signal after so many seconds of the clock on the wall, unless it has ended by then; the
-// exit code of one that a signal killed is 128 and the signal.
+// Sends it a signal after so many seconds of the clock on the wall, unless it has ended by then;
+// the exit code of one that a signal killed is 128 and the signal.
 Outcome run_rubble_and_signal(const std::string& arguments, double seconds, int signal);
+// Likewise, as soon as `when` is true.
+Outcome run_rubble_and_signal(const std::string& arguments, const std::function<bool()>& when,
+                              int signal);
 
 // A mission that takes a fraction of a second: 16 bricks, 3 frames of 64x48.
 extern const char* const kTinyMission;

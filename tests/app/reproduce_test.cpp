@@ -252,12 +252,21 @@ TEST(Resume, ContinuesWhatASignalStoppedAndSaysHow) {
   const std::string run =
       "run " + (scratch / "long.lua") + " --out " + folder +
       " --set pile.layers=100 --set pile.pieces_per_layer=200 --set pile.spawn_bounds=3,3,3";
+  const std::string checkpoint = folder + "/unfinished/settle.checkpoint";
   for (const int signal : {SIGINT, SIGTERM}) {
     const std::string command = fs::exists(folder) ? "resume " + folder : run;
-    const Outcome stopped = run_rubble_and_signal(command, 1.5, signal);
+    std::error_code none;  // the first time there is no checkpoint yet
+    const auto before = fs::last_write_time(checkpoint, none);
+    const auto settles = [&] {
+      std::error_code failed;
+      const auto now = fs::last_write_time(checkpoint, failed);
+      return !failed && now != before;
+    };
+    const Outcome stopped =
+        run_rubble_and_signal(command + " --checkpoint-every 0.1", settles, signal);
     EXPECT_EQ(stopped.exit_code, 4) << stopped.err;
     EXPECT_IN("`rubble resume " + folder + "` continues", stopped.err);
-    EXPECT_TRUE(fs::exists(folder + "/unfinished/settle.checkpoint"));
+    EXPECT_TRUE(fs::exists(checkpoint));
     EXPECT_FALSE(fs::exists(folder + "/pile.bin"));
   }
   const Outcome again = run_rubble(run);

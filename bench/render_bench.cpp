@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
+#include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -34,6 +35,8 @@ double since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+double processor_ms() { return double(std::clock()) * 1e3 / CLOCKS_PER_SEC; }
+
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
@@ -41,23 +44,38 @@ double median(std::vector<double> values) {
 
 // What was measured of each frame; unit: ms, but for the triangles.
 struct Series {
-  std::vector<double> total, visibility, resolve, read, finish, triangles;
+  struct Pass {
+    std::vector<double> elapsed, processor;
 
-  void add(double ms, const RenderTimes& t) {
-    total.push_back(ms), visibility.push_back(t.visibility), resolve.push_back(t.resolve);
-    read.push_back(t.read), finish.push_back(t.finish), triangles.push_back(double(t.triangles));
+    void add(const PassTime& t) { elapsed.push_back(t.elapsed), processor.push_back(t.processor); }
+  };
+  Pass total, visibility, resolve, read, finish;
+  std::vector<double> triangles;
+
+  void add(const PassTime& all, const RenderTimes& t) {
+    total.add(all), visibility.add(t.visibility), resolve.add(t.resolve);
+    read.add(t.read), finish.add(t.finish), triangles.push_back(double(t.triangles));
   }
 };
 
+// Elapsed and processor time.
+std::string both(const Series::Pass& pass) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f/%.1f", median(pass.elapsed), median(pass.processor));
+  return text;
+}
+
 void print(const Request& request, const char* view, int size, const Series& s) {
-  const double middle = median(s.total), least = *std::min_element(s.total.begin(), s.total.end());
+  const double middle = median(s.total.elapsed);
+  const double least = *std::min_element(s.total.elapsed.begin(), s.total.elapsed.end());
   if (request.csv) {
-    std::printf("%s,%d,%zu,%.2f,%.2f,%.2f\n", view, size, s.total.size(), middle, least,
+    std::printf("%s,%d,%zu,%.2f,%.2f,%.2f\n", view, size, s.total.elapsed.size(), middle, least,
                 1000 / middle);
   } else {
-    std::printf("%-13s %5d %8.1f %8.1f %7.1f %11.1f %8.1f %6.1f %7.1f %10.0f\n", view, size, middle,
-                least, 1000 / middle, median(s.visibility), median(s.resolve), median(s.read),
-                median(s.finish), median(s.triangles));
+    std::printf("%-13s %5d %8.1f %8.1f %8.1f %7.1f %13s %13s %9s %11s %10.0f\n", view, size, middle,
+                least, median(s.total.processor), 1000 / middle, both(s.visibility).c_str(),
+                both(s.resolve).c_str(), both(s.read).c_str(), both(s.finish).c_str(),
+                median(s.triangles));
   }
   std::fflush(stdout);
 }
@@ -75,9 +93,11 @@ Series fly(Renderer& renderer, const BenchView& view, int size, const Request& r
   Series series;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const auto start = Clock::now();
+    const double processor_start = processor_ms();
     const Frame frame =
         renderer.render(poses[i], camera, int(i), 1000000000LL + std::int64_t(i) * 33333333);
-    if (i >= kWarm) series.add(since(start), renderer.times());
+    const PassTime all{since(start), processor_ms() - processor_start};
+    if (i >= kWarm) series.add(all, renderer.times());
     if (i + 1 == poses.size() && !request.pictures.empty())
       write_ppm(request.pictures + view.name + "_" + std::to_string(size) + ".ppm", frame);
   }
@@ -91,8 +111,8 @@ void print_head(const Request& request, const GlContext& context, double load_ms
   }
   std::printf("%s, %s; scene loaded in %.2f s, lit in %.2f s\n", context.info().renderer.c_str(),
               context.info().egl_device.c_str(), load_ms / 1000, ready_ms / 1000);
-  std::printf("%-13s %5s %8s %8s %7s %11s %8s %6s %7s %10s\n", "view", "size", "median", "min",
-              "frame/s", "visibility", "resolve", "read", "finish", "triangles");
+  std::printf("%-13s %5s %8s %8s %8s %7s %13s %13s %9s %11s %10s\n", "view", "size", "median",
+              "min", "CPU", "frame/s", "visibility", "resolve", "read", "finish", "triangles");
 }
 
 ExitCode bench(const Request& request) {

@@ -1,5 +1,7 @@
 #include "render/renderer.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -23,11 +25,23 @@ namespace rubble {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+class Stopwatch {
+ public:
+  PassTime time() const {
+    return {std::chrono::duration<double, std::milli>(Clock::now() - start_).count(),
+            (processor_seconds() - start_processor_) * 1e3};
+  }
 
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
+ private:
+  using Clock = std::chrono::steady_clock;
+  static double processor_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return double(now.tv_sec) + double(now.tv_nsec) * 1e-9;
+  }
+  Clock::time_point start_ = Clock::now();
+  double start_processor_ = processor_seconds();
+};
 
 void check_view(const ViewRays& view) {
   const Intrinsics& k = view.intrinsics;
@@ -171,29 +185,29 @@ void Renderer::State::update_air(const ViewRays& view) {
 }
 
 SurfaceImages Renderer::State::draw_surfaces(const ViewRays& view) {
-  const auto start = Clock::now();
+  const Stopwatch start;
   drawn = view;
   update_air(drawn);
   if (view.plain()) {
     visibility->draw(projection());
     times.triangles = visibility->counts().triangles;
-    times.visibility = milliseconds_since(start);
+    times.visibility = start.time();
     return {visibility->ids(), visibility->depth()};
   }
   if (!rays) rays = std::make_unique<RayPass>(gl, scene, geometry, options.threads);
   rays->draw(view);
-  times.visibility = milliseconds_since(start);
+  times.visibility = start.time();
   return {rays->ids(), rays->depth(), &rays->lens_rays(), &rays->row_poses()};
 }
 
 void Renderer::State::draw_colour(const SurfaceImages& surfaces) {
-  const auto start = Clock::now();
+  const Stopwatch start;
   resolve->draw(projection(), drawn.world_from_camera, surfaces, frame_light, exposure.factor());
   gl.Finish();
-  times.resolve = milliseconds_since(start);
-  const auto read_start = Clock::now();
+  times.resolve = start.time();
+  const Stopwatch read_start;
   resolve->read(rgba);
-  times.read = milliseconds_since(read_start);
+  times.read = read_start.time();
 }
 
 const std::vector<float>& Renderer::State::depth_values() const {
@@ -274,10 +288,10 @@ Frame Renderer::render(const ViewRays& view, int index) {
   frame.stamp_ns = view.stamp_ns;
   frame.intrinsics = k;
   frame.world_from_camera = view.world_from_camera;
-  const auto finish = Clock::now();
+  const Stopwatch finish;
   frame.depth = s.planar_depth();
   frame.rgb = s.finish_colour();
-  s.times.finish = milliseconds_since(finish);
+  s.times.finish = finish.time();
   return frame;
 }
 

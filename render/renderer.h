@@ -45,8 +45,18 @@ struct LinearFrame {
   std::vector<std::uint32_t> instance;  // SceneInstance::id; kNoInstance, kGroundInstance
 };
 
-struct RenderTimes {  // of the last frame; unit: ms
-  double visibility = 0, resolve = 0, read = 0, finish = 0;
+// What a pass of the last frame took. Where other programs share the processors only the processor
+// time means something.
+struct PassTime {
+  double elapsed = 0;    // unit: ms
+  double processor = 0;  // of all threads of this program; unit: ms
+};
+
+struct RenderTimes {
+  PassTime visibility;  // which triangle each pixel shows
+  PassTime resolve;     // colours
+  PassTime read;        // the image back from the device
+  PassTime finish;      // smooth edges, metric depth
   std::size_t triangles = 0;
 };
 

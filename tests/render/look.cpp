@@ -56,7 +56,8 @@ int main(int argc, char** argv) {
                               1000000000LL + i * 33000000LL);
       const RenderTimes& t = renderer.times();
       std::printf("%s %d: visibility %.1f ms (%zu triangles), resolve %.1f ms, read %.1f ms\n",
-                  view.name, i, t.visibility, t.triangles, t.resolve, t.read);
+                  view.name, i, t.visibility.elapsed, t.triangles, t.resolve.elapsed,
+                  t.read.elapsed);
     }
     write_ppm(prefix + "_" + view.name + ".ppm", frame);
   }

@@ -61,6 +61,7 @@ namespace rubble {
   X(PixelStorei, PIXELSTOREI)                                   \
   X(ProgramUniform1i, PROGRAMUNIFORM1I)                         \
   X(ReadPixels, READPIXELS)                                     \
+  X(Scissor, SCISSOR)                                           \
   X(ShaderSource, SHADERSOURCE)                                 \
   X(TextureBuffer, TEXTUREBUFFER)                               \
   X(TextureParameteri, TEXTUREPARAMETERI)                       \

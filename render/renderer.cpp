@@ -77,6 +77,14 @@ std::vector<float> distances_of(const std::vector<float>& depth, const Intrinsic
   return out;
 }
 
+float most_gloss(const PreparedScene& scene) {
+  float most = 0;
+  for (const PreparedMesh& mesh : scene.meshes)
+    for (const PreparedTriangle& t : mesh.triangles)
+      most = std::max(most, all_looks()[t.material].gloss);
+  return most;
+}
+
 bool draws_on_processor(const RenderOptions& options, const GlInfo& info) {
   if (options.raster != RasterChoice::automatic) return options.raster == RasterChoice::processor;
   for (const char* software : {"llvmpipe", "softpipe", "swrast"})
@@ -157,7 +165,8 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
   geometry = upload_geometry(gl, scene, baked.vertices);
   report(0.9);
   shadow = draw_shadow_map(gl, scene, geometry, light, o.shadow_size);
-  frame_light = {&light, &shadow, s.lamp, s.air, medium.homogeneous(), s.wetness, {}, nullptr};
+  frame_light = {&light, &shadow, s.lamp, s.air, medium.homogeneous(), s.wetness,
+                 most_gloss(scene), {}, nullptr};
   visibility = std::make_unique<VisibilityPass>(
       gl, scene, geometry,
       VisibilityOptions{o.occlusion_culling, o.coarse_below, draws_on_processor(o, c.info()),
@@ -192,12 +201,12 @@ SurfaceImages Renderer::State::draw_surfaces(const ViewRays& view) {
     visibility->draw(projection());
     times.triangles = visibility->counts().triangles;
     times.visibility = start.time();
-    return {visibility->ids(), visibility->depth()};
+    return {visibility->ids(), visibility->depth(), visibility->depth_values()};
   }
   if (!rays) rays = std::make_unique<RayPass>(gl, scene, geometry, options.threads);
   rays->draw(view);
   times.visibility = start.time();
-  return {rays->ids(), rays->depth(), &rays->lens_rays(), &rays->row_poses()};
+  return {rays->ids(), rays->depth(), rays->depth_values(), &rays->lens_rays(), &rays->row_poses()};
 }
 
 void Renderer::State::draw_colour(const SurfaceImages& surfaces) {

@@ -8,18 +8,25 @@ namespace rubble {
 
 class ContactPass {
  public:
-  ContactPass(const Gl& gl, bool lamp);
+  explicit ContactPass(const Gl& gl);
 
-  // depth: near / Z, of the view's size. lamp: in the optical frame, with its radius; unit: m
-  void draw(const ViewProjection& view, const GlTexture& depth, const Vec3f& lamp, float radius);
-  // 1: open, 0: closed in; and the lamp: 1: in sight, 0: hidden.
+  struct Lamp {
+    bool on = false;
+    Vec3f place;       // in the optical frame; unit: m
+    float radius = 0;  // unit: m
+  };
+  // depth: near / Z, of the view's size. Only the rows [first_row, last_row) of the view are wanted.
+  void draw(const ViewProjection& view, const GlTexture& depth, const Lamp& lamp, int first_row,
+            int last_row);
+  // 1: open, 0: closed in; and the lamp: 1: in sight, 0: hidden, undefined if it is not on.
   const GlTexture& openness() const { return openness_; }
 
  private:
+  const GlProgram& program(bool lamp);
   void resize(int width, int height);
 
   const Gl& gl_;
-  GlProgram program_, blur_;
+  GlProgram programs_[2], blur_;  // without and with a lamp; made when first needed
   GlBuffer block_;
   GlVertexArray empty_array_;
   GlTexture raw_, openness_;

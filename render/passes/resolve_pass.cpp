@@ -7,6 +7,7 @@
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "render/looks.h"
+#include "render/passes/ray_pass.h"
 #include "render/shader.h"
 
 namespace rubble {
@@ -14,6 +15,8 @@ namespace rubble {
 namespace {
 
 constexpr std::size_t kMaxLooks = 20;
+// Where the clean air begins to veil what is seen; unit: m.
+constexpr double kVeilFrom = 12;
 constexpr std::size_t kMostViews = 6 * kMostLights;
 
 // Mirrors shaders/frame.glsl.
@@ -107,7 +110,6 @@ ShaderDefines variant_of(const FrameLight& frame) {
                                                          std::to_string(shadow.first_view) + ", " +
                                                          std::to_string(shadow.views)});
   }
-  if (has_lamp(frame)) defines.push_back({"LAMP", ""});
   const bool clear = frame.even_air && frame.air.fog_density <= 0;
   defines.push_back({"FOG", clear ? "0" : frame.even_air ? "1" : "2"});
   defines.push_back({"AIR_STEPS", std::to_string(AirVolume::kSlices - 1) + ".0"});
@@ -238,22 +240,26 @@ ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameL
       geometry_(geometry),
       frame_block_(gl),
       empty_array_(gl),
-      contact_(gl, has_lamp(light)),
+      contact_(gl),
       looks_(upload_looks(gl, patterns)),
-      fog_lamp_(upload_glow(gl, lamp_glow_table(light.air, light.lamp, 512))),
       sky_map_(upload_sky(gl, light.lights->sky)),
       air_table_(make_air_table(gl)),
       texture_size_(patterns.front().size) {
   defines_ = variant_of(light);
-  program(0);
+  const std::vector<float> glow = lamp_glow_table(light.air, light.lamp, 512);
+  fog_lamp_ = upload_glow(gl, glow);
+  if (light.even_air) most_glow_ = glow.back();
 }
 
-const GlProgram& ResolvePass::program(int variant) {
-  GlProgram& wanted = programs_[variant];
+const GlProgram& ResolvePass::program(int variant, TileContent content) {
+  GlProgram& wanted = programs_[variant][int(content)];
   if (!wanted) {
     ShaderDefines defines = defines_;
     if (variant & kLinear) defines.push_back({"LINEAR", ""});
     if (variant & kRays) defines.push_back({"RAYS", ""});
+    if (variant & kLamp) defines.push_back({"LAMP", ""});
+    defines.push_back({"CONTENT", std::to_string(int(content))});
+    defines.push_back({"VEIL_FROM", std::to_string(kVeilFrom)});
     wanted = make_resolve_program(gl_, defines);
   }
   return wanted;
@@ -272,9 +278,13 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
                             const ViewProjection& view, const Pose& world_from_camera,
                             const SurfaceImages& surfaces, const FrameLight& light,
                             float exposure) {
+  const ImageTiles tiles = tiles_of(view, surfaces);
+  const bool lamp = has_lamp(light) && ((variant & kLinear) || lamp_shows(light, tiles, exposure));
+  if (lamp) variant |= kLamp;
   contact_.draw(view, surfaces.depth,
-                Vec3f(camera_from_optical.inverse() * light.lamp.position),
-                light.lamp.shape == LampShape::point ? 0.004f : float(light.lamp.size / 2));
+                {lamp, Vec3f(camera_from_optical.inverse() * light.lamp.position),
+                 light.lamp.shape == LampShape::point ? 0.004f : float(light.lamp.size / 2)},
+                tiles.first_row, tiles.last_row);
   if (light.air_table)
     gl_.TextureSubImage3D(air_table_.name(), 0, 0, 0, 0, AirVolume::kColumns, AirVolume::kRows,
                           AirVolume::kSlices, GL_RGBA, GL_FLOAT, light.air_table->table().data());
@@ -308,9 +318,49 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
   gl_.Viewport(0, 0, view.intrinsics.width, view.intrinsics.height);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_CULL_FACE);
-  gl_.UseProgram(program(variant).name());
   gl_.BindVertexArray(empty_array_.name());
-  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  draw_tiles(variant, tiles);
+}
+
+ImageTiles ResolvePass::tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const {
+  const Intrinsics& k = view.intrinsics;
+  // The longest ray that reaches unit depth.
+  const double x = std::max(k.cx + 0.5, k.width - k.cx) / k.fx;
+  const double y = std::max(k.cy + 0.5, k.height - k.cy) / k.fy;
+  const double longest =
+      surfaces.lens_rays ? 1 / double(RayPass::kLeastCosine) : std::sqrt(1 + x * x + y * y);
+  return cut_into_tiles(surfaces.depth_values, k.width, k.height,
+                        float(double(kNearPlane) * longest / kVeilFrom));
+}
+
+// In daylight the lamp adds less than the image's steps can show.
+bool ResolvePass::lamp_shows(const FrameLight& light, const ImageTiles& tiles,
+                             float exposure) const {
+  // Exposed radiance that moves the darkest of 8-bit values by a quarter, see shaders/tone.glsl.
+  constexpr float kUnseen = 4e-4f;
+  const Vec3f colour = lamp_colour(light.lamp);
+  const float intensity = std::max(colour.x, std::max(colour.y, colour.z)) * exposure;
+  if (intensity * most_glow_ > kUnseen) return true;
+  if (tiles.nearest_value <= 0) return false;
+  // Of albedo 1, and the peak of the mirrored part, see gloss_lobe() in shaders/surface.glsl.
+  const float film = light.wetness > 0 ? 16.0f : 0.0f;
+  const float reflected = (1 + 12 * light.most_gloss + film) / float(portable::kPi);
+  const float offset = float(norm(light.lamp.position));
+  const float distance = std::max(kNearPlane / tiles.nearest_value - offset, 0.01f);
+  return intensity * reflected / (distance * distance) > kUnseen;
+}
+
+void ResolvePass::draw_tiles(int variant, const ImageTiles& tiles) {
+  gl_.Enable(GL_SCISSOR_TEST);
+  const GlProgram* current = nullptr;
+  for (const TileRun& run : tiles.runs) {
+    const GlProgram& wanted = program(variant, run.content);
+    if (current != &wanted) gl_.UseProgram(wanted.name());
+    current = &wanted;
+    gl_.Scissor(run.x, run.y, run.width, run.height);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  gl_.Disable(GL_SCISSOR_TEST);
 }
 
 void ResolvePass::draw(const ViewProjection& view, const Pose& world_from_camera,

@@ -8,6 +8,7 @@
 #include "render/geometry.h"
 #include "render/lighting.h"
 #include "render/passes/contact_pass.h"
+#include "render/passes/image_tiles.h"
 #include "render/passes/shadow_pass.h"
 #include "render/shader.h"
 #include "render/textures.h"
@@ -21,6 +22,7 @@ struct FrameLight {
   AirSpec air;
   bool even_air = true;                // see Medium::homogeneous()
   double wetness = 0;                  // of surfaces
+  float most_gloss = 1;                // of the looks in use, see Look::gloss
   Vec3f air_ambient;                   // mean radiance of all directions at the camera; kcd/m2
   const AirVolume* air_table = nullptr;  // of this frame, unless the air is even
 };
@@ -32,6 +34,7 @@ Vec3f lamp_colour(const LampSpec& lamp);
 struct SurfaceImages {
   const GlTexture& ids;    // as VisibilityPass::ids()
   const GlTexture& depth;  // near / Z
+  const std::vector<float>& depth_values;  // the same
   // Of an image whose pixels have rays of their own, as RayPass has them; null: a pinhole.
   const GlTexture* lens_rays = nullptr;
   const GlTexture* row_poses = nullptr;
@@ -60,11 +63,14 @@ class ResolvePass {
 
   const Gl& gl_;
   const GpuGeometry& geometry_;
-  enum Variant { kLinear = 1, kRays = 2 };
-  const GlProgram& program(int variant);  // made when it is first needed
+  enum Variant { kLinear = 1, kRays = 2, kLamp = 4 };
+  const GlProgram& program(int variant, TileContent content);  // made when it is first needed
+  ImageTiles tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const;
+  bool lamp_shows(const FrameLight& light, const ImageTiles& tiles, float exposure) const;
+  void draw_tiles(int variant, const ImageTiles& tiles);
 
   ShaderDefines defines_;
-  GlProgram programs_[4];  // by Variant
+  GlProgram programs_[8][4];  // by Variant and TileContent
   GlBuffer frame_block_;
   GlVertexArray empty_array_;
   ContactPass contact_;
@@ -72,6 +78,7 @@ class ResolvePass {
   GlTexture colour_;
   GlFramebuffer target_;
   int width_ = 0, height_ = 0;
+  float most_glow_ = 0;  // of the lamp in even fog, per unit of intensity
   int texture_size_ = 1;
 };
 

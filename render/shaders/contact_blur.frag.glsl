@@ -6,8 +6,8 @@ layout(location = 0) out vec2 openness;
 void main() {
   vec2 texel = 1.0 / vec2(textureSize(contact, 0));
   vec2 at = gl_FragCoord.xy * texel;
-  openness = 0.25 * (texture(contact, at + texel * vec2(-1.0, -1.0)).xy +
-                     texture(contact, at + texel * vec2(1.0, -1.0)).xy +
-                     texture(contact, at + texel * vec2(-1.0, 1.0)).xy +
-                     texture(contact, at + texel * vec2(1.0, 1.0)).xy);
+  openness = 0.25 * (texture(contact, at + texel * vec2(-0.5, -0.5)).xy +
+                     texture(contact, at + texel * vec2(1.5, -0.5)).xy +
+                     texture(contact, at + texel * vec2(-0.5, 1.5)).xy +
+                     texture(contact, at + texel * vec2(1.5, 1.5)).xy);
 }

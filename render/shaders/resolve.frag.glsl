@@ -1,7 +1,8 @@
 // From "which triangle is here" to colour: surface, light, air, tone.
 // Variants: LIGHT_COUNT 1 to 4; for each light LIGHT_i as "type, first view, views" with type 0
 // directional, 1 spot, 2 point; LAMP; FOG 1 even fog, 2 from the air's table; WET; LINEAR (kcd/m2
-// out, no tone mapping); RAYS (each pixel has a ray of its own).
+// out, no tone mapping); RAYS (each pixel has a ray of its own); CONTENT 0 sky, 1 surfaces no farther
+// than VEIL_FROM, 2 surfaces, 3 both.
 #include "frame.glsl"
 #include "geometry.glsl"
 #include "lighting.glsl"
@@ -70,6 +71,13 @@ vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   uvec2 seen = texelFetch(visibility, pixel, 0).xy;
+#if CONTENT == 0
+  const bool surface = false;
+#elif CONTENT == 3
+  bool surface = seen.x != 0u;
+#else
+  const bool surface = true;
+#endif
 #ifdef RAYS
   // Any lens, and for each row the pose at its own time; see passes/ray_pass.h.
   vec3 slope = texelFetch(lens_rays, pixel, 0).xyz;
@@ -95,14 +103,14 @@ void main() {
   vec3 ambient = sky_radiance(normalize(vec3(direction.xy, max(direction.z, 0.02)))) * 3.14159;
   float value = texelFetch(depth_values, pixel, 0).x;
   float z = view.x / max(value, 1e-9);
-  if (seen.x != 0u) far = z * ray_length;
+  if (surface) far = z * ray_length;
   float passed = 1.0;
 #if FOG == 2
   vec4 air = texture(air_table, vec3((vec2(pixel) + 0.5) / view.zw,
                                      (far / (far + 2.0) * AIR_STEPS + 0.5) / (AIR_STEPS + 1.0)));
   passed = air.a;
 #endif
-  if (seen.x == 0u) {
+  if (!surface) {
     radiance = backdrop(direction);
   } else {
     vec3 world = eye + ray * z;
@@ -110,9 +118,12 @@ void main() {
     ambient = s.ambient;
     vec2 open = texture(openness, (vec2(pixel) + 0.5) / view.zw).xy;
     radiance = shade(s, world, -direction, open, passed);
+#if CONTENT != 1
     // Clean air veils what is far: the horizon has no edge.
-    float veil = exp2(-far * far * 4e-5 / (1.0 + far * 0.012));
+    float there = max(far - VEIL_FROM, 0.0);
+    float veil = exp2(-there * there * 4e-5 / (1.0 + there * 0.012));
     radiance = mix(sky_radiance(vec3(direction.xy, 0.02)), radiance, veil);
+#endif
   }
 #if FOG == 2
   radiance = radiance * air.a + air.rgb;

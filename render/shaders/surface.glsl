@@ -9,6 +9,12 @@ struct Surface {
 
 uniform sampler2DArray look_textures;
 
+// About sin(x), within 0.06: in parabolas, as sines are dear.
+float wave(float x) {
+  float t = fract(x * 0.15915494) * 2.0 - 1.0;
+  return 4.0 * t * (abs(t) - 1.0);
+}
+
 // Noise without visible order, from 0 to 1 (Jimenez 2014).
 float dither(vec2 pixel) {
   return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
@@ -79,7 +85,8 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   uint turn = mw.w & 3u;  // which axis of the mesh is longest: grain runs along it
   vec3 q = (turn == 1u ? p.yzx : turn == 2u ? p.zxy : p) * scale;
   vec3 f = turn == 1u ? smooth_normal.yzx : turn == 2u ? smooth_normal.zxy : smooth_normal;
-  f += (fract(sin(q * 91.7 + q.yzx * 57.3) * 437.5) - 0.5) * 0.12;
+  vec3 hash = fract(q * 91.7 + q.yzx * 57.3);
+  f += (fract(hash * (hash + 33.33) * 437.5) - 0.5) * 0.12;
   vec3 plane = normalize(round(f * 1.2));
   vec3 along = abs(plane.z) > 0.9 ? vec3(1.0, 0.0, 0.0)
                                   : normalize(vec3(-plane.y, plane.x, 0.0));
@@ -88,8 +95,8 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   vec2 uv = vec2(dot(q, along), dot(q, across)) * dark.w + seed;
   // Slow variation over metres; where it is high the ground shows another part of its texture, so
   // that no repetition meets the eye.
-  float slow = sin(world.x * 0.83 + 1.7 * sin(world.y * 0.57)) *
-               sin(world.y * 0.91 + 1.3 * sin(world.x * 0.39 + world.z));
+  float slow = wave(world.x * 0.83 + 1.7 * wave(world.y * 0.57)) *
+               wave(world.y * 0.91 + 1.3 * wave(world.x * 0.39 + world.z));
   if (more.y < 0.2 && slow + 0.3 * dither(pixel) > 0.15) uv = uv.yx * 0.83 + 0.37;
   // A wall shows another part of its texture every 1.7 m or so, at the boards' joints.
   if (more.x < 0.5) uv.x += 0.37 * floor(uv.y) + 0.21 * floor(uv.y * 0.5);

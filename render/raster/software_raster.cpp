@@ -34,8 +34,15 @@ SoftwareRaster::~SoftwareRaster() = default;
 void SoftwareRaster::begin(const ViewProjection& view) {
   view_ = &view;
   const std::size_t pixels = std::size_t(view.intrinsics.width * view.intrinsics.height);
-  depth_.assign(pixels, 0);
-  ids_.assign(pixels, 0);
+  depth_.resize(pixels);
+  ids_.resize(pixels);
+  constexpr std::size_t kPart = 1 << 17;  // pixels
+  pool_.run(int((pixels + kPart - 1) / kPart), 1, [&](int begin, int end) {
+    const std::size_t first = std::size_t(begin) * kPart;
+    const std::size_t last = std::min(std::size_t(end) * kPart, pixels);
+    std::fill(depth_.begin() + std::ptrdiff_t(first), depth_.begin() + std::ptrdiff_t(last), 0.0f);
+    std::fill(ids_.begin() + std::ptrdiff_t(first), ids_.begin() + std::ptrdiff_t(last), 0u);
+  });
 }
 
 void SoftwareRaster::draw(const std::vector<ClusterRun>& runs) {
@@ -90,7 +97,12 @@ void SoftwareRaster::fill(std::size_t band) {
                             std::min(first_row + kBandRows, view_->intrinsics.height)};
   for (std::size_t j = 0; j < job_count_; ++j) {
     const Job& job = *jobs_[j];
-    for (const std::uint32_t i : job.bands[band]) fill_triangle(job.triangles[i], target);
+    const std::vector<std::uint32_t>& list = job.bands[band];
+    constexpr std::size_t kAhead = 6;  // what memory needs to bring a record
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (i + kAhead < list.size()) __builtin_prefetch(&job.triangles[list[i + kAhead]]);
+      fill_triangle(job.triangles[list[i]], target);
+    }
   }
 }
 

@@ -11,15 +11,26 @@ namespace rubble {
 namespace {
 
 constexpr std::size_t kMostVertices = 256;  // of a cluster: local numbers are bytes
+constexpr std::size_t kMostTriangles = 256;
 constexpr int kGrid = TriangleRecord::kGrid;
+
+// The same function for wide vectors where the processor has them, chosen as the program starts; not
+// under the sanitizers, which are not ready by then.
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define RUBBLE_WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define RUBBLE_WIDE
+#endif
 
 // A cluster's vertices as the camera sees them.
 struct Moved {
   float x[kMostVertices], y[kMostVertices], z[kMostVertices];  // optical frame; unit: m
+  float value[kMostVertices];                                  // near / Z
   std::int32_t u[kMostVertices], v[kMostVertices];             // on the grid
   std::int32_t inside[kMostVertices];                          // of the guard band
 };
 
+RUBBLE_WIDE
 void move_vertices(const ClusterShapes& shapes, const ClusterShapes::Range& range,
                    const MeshView& view, Moved& out) {
   const float* mx = shapes.x.data() + range.first_vertex;
@@ -37,6 +48,7 @@ void move_vertices(const ClusterShapes& shapes, const ClusterShapes::Range& rang
   }
   for (std::uint32_t i = 0; i < range.vertex_count; ++i) {
     const float inverse = 1 / std::max(out.z[i], kNearPlane);
+    out.value[i] = kNearPlane * inverse;
     const float u = fx * out.x[i] * inverse + cx, v = fy * out.y[i] * inverse + cy;
     out.inside[i] = (out.z[i] >= kNearPlane) & (std::fabs(u) < guard) & (std::fabs(v) < guard);
     // A shift keeps the number positive, so that cutting off rounds down: as vectors can.
@@ -63,6 +75,29 @@ inline bool covers_a_centre(const TriangleRecord& t, const MeshView& view) {
   return x0 <= x1 && y0 <= y1;
 }
 
+// What comes of a triangle of a cluster: nothing, a record, or one to be clipped first.
+enum Fate : std::int32_t { kDropped, kWhole, kToClip };
+
+// area_of() and covers_a_centre() of all triangles of a cluster, in a loop that vectors can take.
+RUBBLE_WIDE
+void judge(const std::uint8_t* corners, std::uint32_t count, const Moved& m, const MeshView& view,
+           std::int32_t* fates) {
+  const std::int32_t right = (view.width - 1) * kGrid, bottom = (view.height - 1) * kGrid;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t c0 = corners[3 * i], c1 = corners[3 * i + 2], c2 = corners[3 * i + 1];
+    const std::int32_t x0 = m.u[c0], x1 = m.u[c1], x2 = m.u[c2];
+    const std::int32_t y0 = m.v[c0], y1 = m.v[c1], y2 = m.v[c2];
+    const std::int64_t area = std::int64_t(x1 - x0) * (y2 - y0) - std::int64_t(y1 - y0) * (x2 - x0);
+    const std::int32_t low_x = std::max(std::min(x0, std::min(x1, x2)) + (kGrid - 1), 0) >> 8;
+    const std::int32_t low_y = std::max(std::min(y0, std::min(y1, y2)) + (kGrid - 1), 0) >> 8;
+    const std::int32_t high_x = std::min(std::max(x0, std::max(x1, x2)), right) >> 8;
+    const std::int32_t high_y = std::min(std::max(y0, std::max(y1, y2)), bottom) >> 8;
+    const std::int32_t shows = (area > 0) & (low_x <= high_x) & (low_y <= high_y);
+    const std::int32_t whole = m.inside[c0] & m.inside[c1] & m.inside[c2];
+    fates[i] = whole ? (shows ? kWhole : kDropped) : kToClip;
+  }
+}
+
 // Depth over the image is near (n.ray) / (n.p) for a plane of normal n through p: linear in the
 // pixel. False for a plane seen edge-on or from behind.
 bool set_plane(const Vec3& p0, const Vec3& p1, const Vec3& p2, const MeshView& view,
@@ -71,8 +106,8 @@ bool set_plane(const Vec3& p0, const Vec3& p1, const Vec3& p2, const MeshView& v
   const double reach = dot(n, p0);
   if (!(reach < 0)) return false;
   const double scale = double(kNearPlane) / reach;
-  t.a = n.x * scale / view.fx;
-  t.b = n.y * scale / view.fy;
+  t.a = n.x * scale * view.inverse_fx;
+  t.b = n.y * scale * view.inverse_fy;
   t.c = n.z * scale - t.a * view.cx - t.b * view.cy;
   return true;
 }
@@ -135,12 +170,15 @@ ClusterShapes make_cluster_shapes(const PreparedMesh& mesh) {
     std::vector<std::uint32_t> vertices;
     for (std::uint32_t t = 0; t < c.triangle_count; ++t) {
       for (const std::uint32_t v : mesh.triangles[c.first_triangle + t].vertices) {
-        const auto at = std::find(vertices.begin(), vertices.end(), v);
+        // Vertices that differ by their normals alone are one here.
+        const auto at = std::find_if(vertices.begin(), vertices.end(), [&](std::uint32_t w) {
+          return mesh.vertices[w].position == mesh.vertices[v].position;
+        });
         out.corners.push_back(std::uint8_t(at - vertices.begin()));
         if (at == vertices.end()) vertices.push_back(v);
       }
     }
-    if (vertices.size() > kMostVertices) throw RunError("a cluster of triangles is too large");
+    if (vertices.size() > kMostVertices || c.triangle_count > kMostTriangles) throw RunError("a cluster of triangles is too large");
     for (const std::uint32_t v : vertices) {
       const Vec3f& p = mesh.vertices[v].position;
       out.x.push_back(p.x), out.y.push_back(p.y), out.z.push_back(p.z);
@@ -156,6 +194,8 @@ MeshView::MeshView(const ViewProjection& view, const Pose& world_from_mesh, doub
       fy(view.intrinsics.fy),
       cx(view.intrinsics.cx),
       cy(view.intrinsics.cy),
+      inverse_fx(1 / fx),
+      inverse_fy(1 / fy),
       width(view.intrinsics.width),
       height(view.intrinsics.height),
       guard(std::max(8192, std::max(width, height) * 5 / 4)) {
@@ -174,15 +214,17 @@ void set_up_cluster(const ClusterShapes& shapes, std::uint32_t cluster, const Me
   Moved m;
   move_vertices(shapes, range, view, m);
   const std::uint8_t* corner = shapes.corners.data() + 3 * range.first_triangle;
+  std::int32_t fates[kMostTriangles];
+  judge(corner, range.triangle_count, m, view, fates);
   for (std::uint32_t i = 0; i < range.triangle_count; ++i, corner += 3) {
+    if (fates[i] == kDropped) continue;
     // Seen from its front a triangle runs the other way round on an image of downward rows.
     const std::size_t c0 = corner[0], c1 = corner[2], c2 = corner[1];
     TriangleRecord t;
-    const bool easy = m.inside[c0] && m.inside[c1] && m.inside[c2];
+    const bool easy = fates[i] == kWhole;
     if (easy) {
       t.x[0] = m.u[c0], t.x[1] = m.u[c1], t.x[2] = m.u[c2];
       t.y[0] = m.v[c0], t.y[1] = m.v[c1], t.y[2] = m.v[c2];
-      if (area_of(t) <= 0 || !covers_a_centre(t, view)) continue;
     } else if (m.z[c0] < kNearPlane && m.z[c1] < kNearPlane && m.z[c2] < kNearPlane) {
       continue;
     }
@@ -194,8 +236,8 @@ void set_up_cluster(const ClusterShapes& shapes, std::uint32_t cluster, const Me
       append_clipped(p0, p1, p2, view, t, out);
       continue;
     }
-    const auto [near, far] = std::minmax({m.z[c0], m.z[c1], m.z[c2]});
-    t.least = kNearPlane / far, t.most = kNearPlane / near;
+    t.least = std::min(m.value[c0], std::min(m.value[c1], m.value[c2]));
+    t.most = std::max(m.value[c0], std::max(m.value[c1], m.value[c2]));
     out.push_back(t);
   }
 }

@@ -27,6 +27,7 @@ struct MeshView {
 
   float rows[3][4];       // optical_from_mesh; unit: m
   double fx, fy, cx, cy;  // unit: pixel
+  double inverse_fx, inverse_fy;
   int width, height;
   int guard;  // pixels from the middle beyond which a triangle is clipped
 };

@@ -1,0 +1,90 @@
+// Which parts of an image are coloured by which shader, and that leaving light out does not show.
+#include "render/passes/image_tiles.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "render/renderer.h"
+#include "tests/render/test_scene.h"
+
+namespace rubble::testing {
+namespace {
+
+// 100 by 70: tiles at the right and lower edge are cut. Sky above, ground from row 40 on, the left
+// half of it near.
+std::vector<float> make_landscape() {
+  std::vector<float> values(100 * 70, 0);
+  for (int y = 40; y < 70; ++y)
+    for (int x = 0; x < 100; ++x) values[std::size_t(y * 100 + x)] = x < 50 ? 0.01f : 0.0001f;
+  return values;
+}
+
+TEST(ImageTiles, CoverEveryPixelOnceWithAContentThatHoldsThere) {
+  const std::vector<float> values = make_landscape();
+  const ImageTiles tiles = cut_into_tiles(values, 100, 70, 0.001f);
+  std::vector<int> covered(values.size(), 0);
+  int of_content[4] = {};
+  for (const TileRun& run : tiles.runs) {
+    ++of_content[int(run.content)];
+    for (int y = run.y; y < run.y + run.height; ++y) {
+      for (int x = run.x; x < run.x + run.width; ++x) {
+        const std::size_t i = std::size_t(y * 100 + x);
+        ++covered[i];
+        if (run.content == TileContent::sky) {
+          EXPECT_EQ(values[i], 0);
+        }
+        if (run.content == TileContent::surfaces) {
+          EXPECT_GT(values[i], 0);
+        }
+        if (run.content == TileContent::near_surfaces) {
+          EXPECT_GT(values[i], 0.001f);
+        }
+      }
+    }
+  }
+  for (const int times : covered) ASSERT_EQ(times, 1);
+  for (const int runs : of_content) EXPECT_GT(runs, 0);
+  EXPECT_EQ(tiles.first_row, 32);
+  EXPECT_EQ(tiles.last_row, 70);
+  EXPECT_EQ(tiles.nearest_value, 0.01f);
+}
+
+TEST(ImageTiles, OfSkyAloneHaveNoRows) {
+  const ImageTiles tiles = cut_into_tiles(std::vector<float>(64 * 64, 0), 64, 64, 0.001f);
+  ASSERT_EQ(tiles.runs.size(), 2u);
+  EXPECT_EQ(tiles.first_row, tiles.last_row);
+  EXPECT_EQ(tiles.nearest_value, 0);
+}
+
+// The largest difference that the camera's lamp makes in the 8-bit image of a heap.
+int difference_by_lamp(double sun_klx, double intensity_cd) {
+  Scene scene = make_heap(60, 3);
+  scene.light.intensity = sun_klx;
+  scene.lamp.intensity_cd = intensity_cd;
+  RenderOptions options;
+  options.bake_rays = 8;
+  options.shadow_size = 256;
+  options.texture_size = 32;
+  options.fixed_exposure = 0.02;
+  GlContext context;
+  const auto draw = [&](bool lamp) {
+    scene.lamp.on = lamp;
+    return Renderer(context, scene, options)
+        .render(look_at({5, 2, 2.5}, {0, 0, 0.3}), pinhole(160, 120, 100), 0, 0);
+  };
+  const Frame with = draw(true), without = draw(false);
+  int most = 0;
+  for (std::size_t i = 0; i < with.rgb.size(); ++i)
+    most = std::max(most, std::abs(int(with.rgb[i]) - int(without.rgb[i])));
+  return most;
+}
+
+TEST(LampInDaylight, IsLeftOutOnlyWhereItCannotBeSeen) {
+  EXPECT_LE(difference_by_lamp(80, 5), 1);
+  EXPECT_GT(difference_by_lamp(80, 5000), 3);  // too strong to be left out
+}
+
+}  // namespace
+}  // namespace rubble::testing

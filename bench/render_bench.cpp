@@ -86,7 +86,8 @@ void write_ppm(const std::string& path, const Frame& frame) {
   out.write(reinterpret_cast<const char*>(frame.rgb.data()), std::streamsize(frame.rgb.size()));
 }
 
-Series fly(Renderer& renderer, const BenchView& view, int size, const Request& request) {
+Series fly(Renderer& renderer, const BenchView& view, int size, const Request& request,
+           std::int64_t& now_ns) {
   constexpr int kWarm = 3;  // exposure, history of what shows, pages of memory
   const Intrinsics camera = bench_camera(size);
   const std::vector<Pose> poses = view.path(request.frames + kWarm);
@@ -94,8 +95,9 @@ Series fly(Renderer& renderer, const BenchView& view, int size, const Request& r
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const auto start = Clock::now();
     const double processor_start = processor_ms();
-    const Frame frame =
-        renderer.render(poses[i], camera, int(i), 1000000000LL + std::int64_t(i) * 33333333);
+    // Seconds pass before the first that counts, so that the exposure is that of this view.
+    now_ns += i < kWarm ? 2000000000 : 33333333;
+    const Frame frame = renderer.render(poses[i], camera, int(i), now_ns);
     const PassTime all{since(start), processor_ms() - processor_start};
     if (i >= kWarm) series.add(all, renderer.times());
     if (i + 1 == poses.size() && !request.pictures.empty())
@@ -133,12 +135,13 @@ ExitCode bench(const Request& request) {
   const auto light = Clock::now();
   Renderer renderer(context, scene, options);
   print_head(request, context, load_ms, since(light));
+  std::int64_t now_ns = 0;
   for (const BenchView& view : bench_views()) {
     const auto& wanted = request.views;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), view.name) == wanted.end())
       continue;
     for (const int size : request.sizes)
-      print(request, view.name, size, fly(renderer, view, size, request));
+      print(request, view.name, size, fly(renderer, view, size, request, now_ns));
   }
   return ExitCode::done;
 }

@@ -165,8 +165,8 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
   geometry = upload_geometry(gl, scene, baked.vertices);
   report(0.9);
   shadow = draw_shadow_map(gl, scene, geometry, light, o.shadow_size);
-  frame_light = {&light, &shadow, s.lamp, s.air, medium.homogeneous(), s.wetness,
-                 most_gloss(scene), {}, nullptr};
+  frame_light = {&light,    &shadow,           s.lamp, s.air,  medium.homogeneous(),
+                 s.wetness, most_gloss(scene), {},     nullptr};
   visibility = std::make_unique<VisibilityPass>(
       gl, scene, geometry,
       VisibilityOptions{o.occlusion_culling, o.coarse_below, draws_on_processor(o, c.info()),

@@ -54,9 +54,18 @@ void ContactPass::draw(const ViewProjection& view, const GlTexture& depth, const
                        int first_row, int last_row) {
   const Intrinsics& k = view.intrinsics;
   resize(std::max(1, (k.width + 1) / 2), std::max(1, (k.height + 1) / 2));
-  const float block[12] = {kReach * float(std::max(k.fx, k.fy)), kReach, 1 / kNearPlane, kNearPlane,
-                           float(k.fx), float(k.fy), float(k.cx), float(k.cy),
-                           lamp.place.x, lamp.place.y, lamp.place.z, lamp.radius};
+  const float block[12] = {kReach * float(std::max(k.fx, k.fy)),
+                           kReach,
+                           1 / kNearPlane,
+                           kNearPlane,
+                           float(k.fx),
+                           float(k.fy),
+                           float(k.cx),
+                           float(k.cy),
+                           lamp.place.x,
+                           lamp.place.y,
+                           lamp.place.z,
+                           lamp.radius};
   gl_.NamedBufferData(block_.name(), sizeof block, block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_.name());
   gl_.Viewport(0, 0, width_, height_);

@@ -15,7 +15,8 @@ class ContactPass {
     Vec3f place;       // in the optical frame; unit: m
     float radius = 0;  // unit: m
   };
-  // depth: near / Z, of the view's size. Only the rows [first_row, last_row) of the view are wanted.
+  // depth: near / Z, of the view's size. Only the rows [first_row, last_row) of the view are
+  // wanted.
   void draw(const ViewProjection& view, const GlTexture& depth, const Lamp& lamp, int first_row,
             int last_row);
   // 1: open, 0: closed in; and the lamp: 1: in sight, 0: hidden, undefined if it is not on.

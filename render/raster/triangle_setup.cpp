@@ -14,8 +14,8 @@ constexpr std::size_t kMostVertices = 256;  // of a cluster: local numbers are b
 constexpr std::size_t kMostTriangles = 256;
 constexpr int kGrid = TriangleRecord::kGrid;
 
-// The same function for wide vectors where the processor has them, chosen as the program starts; not
-// under the sanitizers, which are not ready by then.
+// The same function for wide vectors where the processor has them, chosen as the program starts;
+// not under the sanitizers, which are not ready by then.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define RUBBLE_WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
@@ -178,7 +178,8 @@ ClusterShapes make_cluster_shapes(const PreparedMesh& mesh) {
         if (at == vertices.end()) vertices.push_back(v);
       }
     }
-    if (vertices.size() > kMostVertices || c.triangle_count > kMostTriangles) throw RunError("a cluster of triangles is too large");
+    if (vertices.size() > kMostVertices || c.triangle_count > kMostTriangles)
+      throw RunError("a cluster of triangles is too large");
     for (const std::uint32_t v : vertices) {
       const Vec3f& p = mesh.vertices[v].position;
       out.x.push_back(p.x), out.y.push_back(p.y), out.z.push_back(p.z);

@@ -86,7 +86,7 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   vec3 q = (turn == 1u ? p.yzx : turn == 2u ? p.zxy : p) * scale;
   vec3 f = turn == 1u ? smooth_normal.yzx : turn == 2u ? smooth_normal.zxy : smooth_normal;
   vec3 hash = fract(q * 91.7 + q.yzx * 57.3);
-  f += (fract(hash * (hash + 33.33) * 437.5) - 0.5) * 0.12;
+  f += (fract(hash * (hash + 3.33) * 97.0) - 0.5) * 0.12;
   vec3 plane = normalize(round(f * 1.2));
   vec3 along = abs(plane.z) > 0.9 ? vec3(1.0, 0.0, 0.0)
                                   : normalize(vec3(-plane.y, plane.x, 0.0));

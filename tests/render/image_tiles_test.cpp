@@ -64,7 +64,7 @@ int difference_by_lamp(double sun_klx, double intensity_cd) {
   scene.light.intensity = sun_klx;
   scene.lamp.intensity_cd = intensity_cd;
   RenderOptions options;
-  options.bake_rays = 8;
+  options.bake = false;
   options.shadow_size = 256;
   options.texture_size = 32;
   options.fixed_exposure = 0.02;

@@ -40,7 +40,7 @@ test: build
 	$(CTEST) --preset release --label-exclude nightly
 
 test-nightly: build
-	@tools/install_packages.sh tools/packages-nightly.txt
+	@tools/install_packages.sh tools/packages-nightly.txt tools/packages-sfm.txt
 	$(CTEST) --preset release --label-regex nightly
 
 test-asan test-tsan: test-%: packages build/%/build.ninja

@@ -205,6 +205,10 @@ Action add_eval_sfm(CLI::App& command) {
                   "A frame is on track when it is no farther from the truth (default: 0.1)")
       ->type_name("METRES")
       ->check(CLI::PositiveNumber);
+  command
+      .add_option("--details", request->details,
+                  "Write there, for each dataset, the points in its world (PLY) and the track (CSV)")
+      ->type_name("DIR");
   add_list(command, "--assets", request->asset_packs, "A folder where packs may be now", "DIR");
   add_score_options(command, request->output);
   return [request] { return eval_sfm(*request); };

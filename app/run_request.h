@@ -67,6 +67,7 @@ struct SfmRequest {
   std::vector<std::string> datasets;     // folders of runs
   std::string model = "sfm/sparse";      // --model: inside each, or absolute
   double bound = 0.1;                    // --bound: on track are frames nearer than this; unit: m
+  std::string details;                   // --details: folder for aligned points and tracks
   std::vector<std::string> asset_packs;  // --assets DIR: where its packs may be now
   ScoreOutput output;
 };

@@ -5,6 +5,7 @@
 #include "app/commands.h"
 #include "app/eval/saved_surface.h"
 #include "app/eval/score_table.h"
+#include "app/eval/sfm_details.h"
 #include "app/eval/sfm_score.h"
 #include "app/eval/surface_score.h"
 
@@ -50,6 +51,7 @@ ScoreRow score_dataset(const std::string& dataset, const SfmRequest& request) {
   const std::string models = (std::filesystem::path(dataset) / request.model).string();
   const std::vector<SfmSegment> segments = load_segments(models, truth);
   ScoreRow row{name_of(dataset), make_cells(calc_sfm_score(segments, truth, request.bound))};
+  if (!request.details.empty()) write_sfm_details(request.details, row.name, segments, truth);
   const SavedSurface surface(dataset, request.asset_packs);
   const PileQueries& queries = surface.geometry.queries;
   add_surface_cells(calc_surface_score(align_points_of(segments), queries,
@@ -79,6 +81,7 @@ ExitCode eval_sfm(const SfmRequest& request) {
   if (request.datasets.size() > 1 && std::filesystem::path(request.model).is_absolute())
     throw InputError({"", 0, "--model", "is one folder for several datasets",
                       "a path inside each dataset", request.model, ""});
+  if (!request.details.empty()) std::filesystem::create_directories(request.details);
   std::vector<ScoreRow> rows;
   for (const std::string& dataset : request.datasets) rows.push_back(score_dataset(dataset, request));
   print_score(rows, request.output);

@@ -1,12 +1,14 @@
 // `rubble eval sfm` and `eval surface` on reconstructions whose errors are known in advance.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "app/eval/sfm_score.h"
+#include "io/ply_reader.h"
 #include "kernel/base/random.h"
 #include "tests/app/program.h"
 
@@ -158,6 +160,22 @@ TEST_F(EvalSfm, CountsSegmentsAndWhatIsNearTheSurface) {
   EXPECT_EQ(s["within_2cm_percent"], 75.0);
   EXPECT_EQ(s["within_5cm_percent"], 100.0);
   EXPECT_NEAR(s["median_distance_m"].get<double>(), 0.015, 1e-6);
+}
+
+TEST_F(EvalSfm, LaysPointsAndTrackIntoTheWorld) {
+  write_model(dataset() + "/exact", range(0, kFrames - 1), std::vector<Vec3>(kFrames),
+              make_points(0.25, 7));
+  const std::string folder = *scratch_ / "details";
+  score(dataset() + " --model exact --details " + folder);
+  const PlyMesh points = load_ply(folder + "/data_points.ply");
+  const std::vector<Vec3> expected = make_points(0.25, 7);
+  ASSERT_EQ(points.positions.size(), 7u);
+  for (std::size_t i = 0; i < 7; ++i)
+    EXPECT_LT(distance(points.positions[i], expected[i]), 1e-5);
+  const std::string track = read_file(folder + "/data_track.csv");
+  EXPECT_EQ(std::count(track.begin(), track.end(), '\n'), kFrames + 1);
+  EXPECT_EQ(track.find("frame,image,segment,x,y,z,"), 0u);
+  EXPECT_NE(track.find("\n3,000003.png,0,"), std::string::npos);
 }
 
 // One frame of twelve is 1 m off. The aligned positions follow from Eigen's umeyama in the test of

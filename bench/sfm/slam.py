@@ -1,0 +1,169 @@
+#!/usr/bin/python3
+"""RGB-D odometry and mapping from a recorded ROS bag by programs that nobody here wrote, fed as by a robot:
+odometry by OpenCV's rgbd module (contrib) and by Open3D, and the frames fused along the estimated track into a
+truncated signed distance volume by Open3D. (OpenCV's KinFu is there, but Debian leaves it out as patented.)
+
+usage: slam.py BAG OUT METHOD    METHOD: rgbd, rgbd_icp, icp (OpenCV), open3d
+
+Writes OUT/METHOD.txt, the estimated trajectory in TUM format from the true first pose on; OUT/METHOD.ply, the
+fused mesh in the world; OUT/METHOD.json: the time taken, and how many frames were lost (an odometry that fails
+keeps its last motion).
+"""
+import json
+import pathlib
+import sys
+import time
+
+import cv2
+import numpy as np
+import open3d as o3d
+import rosbag
+
+NEAR, FAR = 0.2, 8.0  # of the depth that is used; unit: m
+
+
+def read(bag):
+    """(stamp, grey, colour, depth in metres with NaN for none) of each frame, K, and the true poses."""
+    depth_topic, rgb_topic = "/camera/depth_registered/image_raw", "/camera/rgb/image_raw"
+    k, truth, frames, pending = None, {}, [], {}
+    topics = [depth_topic, rgb_topic, "/camera/rgb/camera_info", "/ground_truth/pose"]
+    for topic, message, _ in bag.read_messages(topics=topics):
+        stamp = message.header.stamp.to_nsec()
+        if topic == topics[2]:
+            k = np.array(message.K if hasattr(message, "K") else message.k).reshape(3, 3)
+        elif topic == topics[3]:
+            truth[stamp] = pose_matrix(message.pose)
+        else:
+            pending.setdefault(stamp, {})[topic] = message
+            if len(pending[stamp]) == 2:
+                both = pending.pop(stamp)
+                frames.append((stamp, colour_of(both[rgb_topic]), depth_of(both[depth_topic])))
+    return frames, k, truth
+
+
+def colour_of(message):
+    return np.frombuffer(message.data, np.uint8).reshape(message.height, message.width, 3)
+
+
+def depth_of(message):
+    millimetres = np.frombuffer(message.data, "<u2").reshape(message.height, message.width)
+    depth = millimetres.astype(np.float32) / 1000
+    depth[(depth < NEAR) | (depth > FAR)] = np.nan
+    return depth
+
+
+def rotation_matrix(x, y, z, w):
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
+def pose_matrix(pose):
+    """world_from_optical; the bag has the camera body (REP 103)."""
+    m = np.eye(4)
+    q, p = pose.orientation, pose.position
+    m[:3, :3] = rotation_matrix(q.x, q.y, q.z, q.w)
+    m[:3, 3] = p.x, p.y, p.z
+    body_from_optical = np.eye(4)
+    body_from_optical[:3, :3] = [[0, 0, 1], [-1, 0, 0], [0, -1, 0]]
+    return m @ body_from_optical
+
+
+def quaternion(r):
+    """x y z w of a rotation matrix."""
+    vector, _ = cv2.Rodrigues(r)
+    angle = float(np.linalg.norm(vector))
+    axis = vector.ravel() / angle if angle > 0 else np.zeros(3)
+    return [*(np.sin(angle / 2) * axis), np.cos(angle / 2)]
+
+
+def make_odometry(method, k):
+    make = {"rgbd": cv2.rgbd.RgbdOdometry_create, "rgbd_icp": cv2.rgbd.RgbdICPOdometry_create,
+            "icp": cv2.rgbd.ICPOdometry_create}[method]
+    odometry = make()
+    odometry.setCameraMatrix(k)
+    return odometry
+
+
+def run_odometry(method, frames, k, start):
+    odometry = make_odometry(method, k)
+    poses, lost, motion = [start], 0, np.eye(4)
+    previous = None
+    for _, rgb, depth in frames:
+        grey = cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY)
+        mask = np.where(np.isfinite(depth), 255, 0).astype(np.uint8)
+        now = cv2.rgbd.OdometryFrame_create(grey, depth, mask)
+        if previous is not None:
+            found, transform = odometry.compute2(previous, now)
+            if found:
+                motion = np.linalg.inv(transform)
+            else:
+                lost += 1
+            poses.append(poses[-1] @ motion)
+        previous = now
+    return poses, lost
+
+
+def rgbd_image(rgb, depth):
+    return o3d.geometry.RGBDImage.create_from_color_and_depth(
+        o3d.geometry.Image(np.ascontiguousarray(rgb)), o3d.geometry.Image(np.nan_to_num(depth)),
+        depth_scale=1.0, depth_trunc=FAR, convert_rgb_to_intensity=False)
+
+
+def camera_of(frames, k):
+    rows, columns = frames[0][2].shape
+    return o3d.camera.PinholeCameraIntrinsic(columns, rows, k[0, 0], k[1, 1], k[0, 2], k[1, 2])
+
+
+def run_open3d(frames, k, start):
+    camera = camera_of(frames, k)
+    images = [o3d.geometry.RGBDImage.create_from_color_and_depth(
+        o3d.geometry.Image(np.ascontiguousarray(rgb)), o3d.geometry.Image(np.nan_to_num(depth)),
+        depth_scale=1.0, depth_trunc=FAR) for _, rgb, depth in frames]
+    poses, lost, motion = [start], 0, np.eye(4)
+    method = o3d.pipelines.odometry.RGBDOdometryJacobianFromHybridTerm()
+    option = o3d.pipelines.odometry.OdometryOption(depth_min=NEAR, depth_max=FAR)
+    for previous, now in zip(images, images[1:]):
+        found, transform, _ = o3d.pipelines.odometry.compute_rgbd_odometry(
+            previous, now, camera, np.eye(4), method, option)
+        if found:
+            motion = np.linalg.inv(transform)
+        else:
+            lost += 1
+        poses.append(poses[-1] @ motion)
+    return poses, lost
+
+
+def fuse(frames, k, poses):
+    """Every third frame in a volume of 2 cm voxels; poses: world_from_optical."""
+    volume = o3d.pipelines.integration.ScalableTSDFVolume(
+        voxel_length=0.02, sdf_trunc=0.06, color_type=o3d.pipelines.integration.TSDFVolumeColorType.RGB8)
+    for (_, rgb, depth), pose in list(zip(frames, poses))[::3]:
+        volume.integrate(rgbd_image(rgb, depth), camera_of(frames, k), np.linalg.inv(pose))
+    return volume
+
+
+def main():
+    bag_path, out, method = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
+    out.mkdir(parents=True, exist_ok=True)
+    with rosbag.Bag(bag_path) as bag:
+        frames, k, truth = read(bag)
+    start = truth[frames[0][0]]
+    begin = time.monotonic()
+    if method == "open3d":
+        poses, lost = run_open3d(frames, k, start)
+    else:
+        poses, lost = run_odometry(method, frames, k, start)
+    seconds = time.monotonic() - begin
+    mesh = fuse(frames, k, poses).extract_triangle_mesh()
+    o3d.io.write_triangle_mesh(str(out / (method + ".ply")), mesh)
+    lines = ["%d.%09d %s" % (stamp // 10**9, stamp % 10**9, " ".join(
+        "%.9g" % v for v in [*pose[:3, 3], *quaternion(pose[:3, :3])]))
+        for (stamp, _, _), pose in zip(frames, poses)]
+    (out / (method + ".txt")).write_text("\n".join(lines) + "\n")
+    (out / (method + ".json")).write_text(json.dumps(
+        {"method": method, "frames": len(frames), "lost": lost, "wall_s": round(seconds, 2)}))
+
+
+if __name__ == "__main__":
+    main()

@@ -206,8 +206,9 @@ Action add_eval_sfm(CLI::App& command) {
       ->type_name("METRES")
       ->check(CLI::PositiveNumber);
   command
-      .add_option("--details", request->details,
-                  "Write there, for each dataset, the points in its world (PLY) and the track (CSV)")
+      .add_option(
+          "--details", request->details,
+          "Write there, for each dataset, the points in its world (PLY) and the track (CSV)")
       ->type_name("DIR");
   add_list(command, "--assets", request->asset_packs, "A folder where packs may be now", "DIR");
   add_score_options(command, request->output);
@@ -220,8 +221,9 @@ Action add_eval_surface(CLI::App& command) {
       ->required();
   command.add_option("mesh", request->mesh, "A mesh or point cloud, PLY")->required();
   command
-      .add_option("--align", request->align,
-                  "The COLMAP model whose frame it has (default: it is in the world of the dataset)")
+      .add_option(
+          "--align", request->align,
+          "The COLMAP model whose frame it has (default: it is in the world of the dataset)")
       ->type_name("DIR");
   add_list(command, "--assets", request->asset_packs, "A folder where packs may be now", "DIR");
   add_score_options(command, request->output);

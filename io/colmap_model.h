@@ -11,7 +11,7 @@ namespace rubble {
 
 struct ColmapCamera {
   std::uint32_t id = 0;
-  std::string model;  // e.g. "PINHOLE"
+  std::string model;                    // e.g. "PINHOLE"
   std::uint64_t width = 0, height = 0;  // unit: pixel
   std::vector<double> params;           // as many as the model has; pixel centres at 0.5
 };
@@ -57,10 +57,10 @@ std::string colmap_model_name(int number);
 // Whether the folder holds cameras, images and points3D, all as .bin or all as .txt.
 bool is_colmap_model(const std::string& folder);
 
-// Reads the binary files where all three are there, as COLMAP does, else the text. Throws InputError
-// with file and line (text) or byte (binary) for: a missing file, one that ends early, a number that
-// is none or not finite, an unknown camera model, a rotation of length 0, an id that repeats or that
-// no list has, a track and an image that do not agree.
+// Reads the binary files where all three are there, as COLMAP does, else the text. Throws
+// InputError with file and line (text) or byte (binary) for: a missing file, one that ends early, a
+// number that is none or not finite, an unknown camera model, a rotation of length 0, an id that
+// repeats or that no list has, a track and an image that do not agree.
 ColmapModel load_colmap_model(const std::string& folder);
 
 }  // namespace rubble

@@ -77,8 +77,7 @@ class PlyFile {
     const std::string& w = words_[word_++];
     double value = 0;
     const auto [end, failed] = std::from_chars(w.data(), w.data() + w.size(), value);
-    if (failed != std::errc() || end != w.data() + w.size())
-      refuse("not a number", "a number", w);
+    if (failed != std::errc() || end != w.data() + w.size()) refuse("not a number", "a number", w);
     return value;
   }
 
@@ -90,9 +89,9 @@ class PlyFile {
 };
 
 bool is_type(const std::string& type) {
-  for (const char* known : {"char", "uchar", "short", "ushort", "int", "uint", "float", "double",
-                            "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32",
-                            "float64"})
+  for (const char* known :
+       {"char", "uchar", "short", "ushort", "int", "uint", "float", "double", "int8", "uint8",
+        "int16", "uint16", "int32", "uint32", "float32", "float64"})
     if (type == known) return true;
   return false;
 }
@@ -178,7 +177,8 @@ void check_vertex(PlyFile& file, const Element& element) {
   for (const char* axis : {"x", "y", "z"}) {
     bool found = false;
     for (const Property& property : element.properties) found |= property.name == axis;
-    if (!found) file.refuse("a vertex without a place", "properties x, y and z", "no " + std::string(axis));
+    if (!found)
+      file.refuse("a vertex without a place", "properties x, y and z", "no " + std::string(axis));
   }
 }
 
@@ -191,9 +191,12 @@ PlyMesh load_ply(const std::string& path) {
     if (element.name == "vertex") check_vertex(file, element);
     PlyMesh others;  // elements that are passed over
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      if (element.name == "vertex") read_vertex(file, element, mesh);
-      else if (element.name == "face") read_face(file, element, mesh);
-      else read_vertex(file, element, others);
+      if (element.name == "vertex")
+        read_vertex(file, element, mesh);
+      else if (element.name == "face")
+        read_face(file, element, mesh);
+      else
+        read_vertex(file, element, others);
     }
   }
   if (mesh.positions.empty()) file.refuse("holds no vertex", "points or a mesh", "none");

@@ -1,4 +1,5 @@
-// `rubble eval sfm` and `rubble eval surface`: reconstructions against the true cameras and surface.
+// `rubble eval sfm` and `rubble eval surface`: reconstructions against the true cameras and
+// surface.
 #include <cstdio>
 #include <filesystem>
 
@@ -83,7 +84,8 @@ ExitCode eval_sfm(const SfmRequest& request) {
                       "a path inside each dataset", request.model, ""});
   if (!request.details.empty()) std::filesystem::create_directories(request.details);
   std::vector<ScoreRow> rows;
-  for (const std::string& dataset : request.datasets) rows.push_back(score_dataset(dataset, request));
+  for (const std::string& dataset : request.datasets)
+    rows.push_back(score_dataset(dataset, request));
   print_score(rows, request.output);
   return ExitCode::done;
 }

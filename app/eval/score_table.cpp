@@ -69,9 +69,12 @@ std::string score_json(const std::vector<ScoreRow>& rows) {
   for (const ScoreRow& row : rows) {
     nlohmann::ordered_json item{{"name", row.name}};
     for (const ScoreCell& cell : row.cells) {
-      if (!cell.value) item[cell.key] = nullptr;
-      else if (cell.digits == 0) item[cell.key] = std::int64_t(*cell.value);  // a count
-      else item[cell.key] = *cell.value;
+      if (!cell.value)
+        item[cell.key] = nullptr;
+      else if (cell.digits == 0)
+        item[cell.key] = std::int64_t(*cell.value);  // a count
+      else
+        item[cell.key] = *cell.value;
     }
     list.push_back(item);
   }
@@ -79,8 +82,8 @@ std::string score_json(const std::vector<ScoreRow>& rows) {
 }
 
 std::string score_latex(const std::vector<ScoreRow>& rows) {
-  std::string text = "\\begin{tabular}{l" + std::string(rows.front().cells.size(), 'r') +
-                     "}\n\\toprule\ndataset";
+  std::string text =
+      "\\begin{tabular}{l" + std::string(rows.front().cells.size(), 'r') + "}\n\\toprule\ndataset";
   for (const ScoreCell& cell : rows.front().cells) text += " & " + escape_latex(cell.heading);
   text += " \\\\\n\\midrule\n";
   for (const ScoreRow& row : rows) {
@@ -99,7 +102,9 @@ void check_score_file(const std::string& path) {
 
 void write_score_file(const std::string& path, const std::vector<ScoreRow>& rows) {
   const std::string extension = extension_of(path);
-  const auto text = extension == ".csv" ? score_csv : extension == ".json" ? score_json : score_latex;
+  const auto text = extension == ".csv"    ? score_csv
+                    : extension == ".json" ? score_json
+                                           : score_latex;
   write_text_file(path, text(rows));
 }
 

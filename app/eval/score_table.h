@@ -8,8 +8,8 @@
 namespace rubble {
 
 struct ScoreCell {
-  std::string key;      // in JSON and CSV; its last word is the unit
-  std::string heading;  // in text and LaTeX
+  std::string key;              // in JSON and CSV; its last word is the unit
+  std::string heading;          // in text and LaTeX
   std::optional<double> value;  // nothing: could not be determined; null, empty or a dash
   int digits = 0;               // after the point, for people
 };

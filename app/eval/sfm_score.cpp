@@ -34,8 +34,7 @@ std::vector<PosePair> make_pairs(const SfmSegment& segment, const SfmTruth& trut
 void add_steps(const SfmSegment& segment, const SfmTruth& truth, Squares& sum) {
   const auto& alignment = segment.for_positions();
   if (!alignment || segment.frames.size() < 2) return;
-  const RelativeError error =
-      calc_relative_error(make_pairs(segment, truth, *alignment), 1);
+  const RelativeError error = calc_relative_error(make_pairs(segment, truth, *alignment), 1);
   sum.trans += error.trans_rmse * error.trans_rmse * error.steps;
   sum.rot += error.rot_rmse_deg * error.rot_rmse_deg * error.steps;
   sum.steps += error.steps;

@@ -12,19 +12,20 @@ namespace rubble {
 
 // The true cameras of a dataset, in the order of time.
 struct SfmTruth {
-  ColmapModel model;                    // colmap/sparse of the dataset
+  ColmapModel model;                     // colmap/sparse of the dataset
   std::vector<Pose> world_from_optical;  // one per image
 };
 
 // Throws InputError for a dataset without outputs.colmap.
 SfmTruth load_sfm_truth(const std::string& dataset);
 
-// One model of a reconstruction: a part of the track that hangs together. Models share neither frame
-// nor scale, so each is aligned by itself.
+// One model of a reconstruction: a part of the track that hangs together. Models share neither
+// frame nor scale, so each is aligned by itself.
 struct SfmSegment {
   ColmapModel model;
   std::vector<int> frames;  // index into the truth, one per image of the model
-  // Umeyama's, from the positions: for errors of the trajectory. Nothing where they are on one line.
+  // Umeyama's, from the positions: for errors of the trajectory. Nothing where they are on one
+  // line.
   std::optional<Similarity> by_positions;
   // From positions and directions of view, which hold the turn about a straight track, too: for the
   // points. Nothing for less than two different positions.
@@ -35,9 +36,9 @@ struct SfmSegment {
   }
 };
 
-// The model in `folder`, or those in its numbered subfolders, as COLMAP's mapper leaves them; by the
-// number of their images, most first. Throws InputError for: no model, a model without an image, an
-// image that the truth does not have or that a model has twice.
+// The model in `folder`, or those in its numbered subfolders, as COLMAP's mapper leaves them; by
+// the number of their images, most first. Throws InputError for: no model, a model without an
+// image, an image that the truth does not have or that a model has twice.
 std::vector<SfmSegment> load_segments(const std::string& folder, const SfmTruth& truth);
 
 // Least squares over the centres of the cameras and the ends of their three axes, each as long as
@@ -51,8 +52,8 @@ struct SfmScore {
   // Frames whose position, in the largest model that has them, is within `bound` of the truth once
   // that model is aligned by positions, or by poses where positions leave it undetermined.
   int on_track = 0;
-  std::int64_t points = 0;       // of all models
-  double reprojection = 0;       // mean of the points' own; unit: pixel
+  std::int64_t points = 0;  // of all models
+  double reprojection = 0;  // mean of the points' own; unit: pixel
   // Over the registered frames, each by its own model; nothing when no model could be aligned.
   std::optional<double> ate_rmse;  // unit: m
   // Between frames that follow one another in a model, scaled as aligned; unit: m, degree

@@ -54,7 +54,8 @@ SfmSegment make_segment(ColmapModel model, const SfmTruth& truth,
                         "names as in " + truth.model.folder, image.name,
                         "is this model of another dataset?"});
     if (!seen.insert(found->second).second)
-      throw InputError({model.folder, 0, "", "has an image twice", "each name once", image.name, ""});
+      throw InputError(
+          {model.folder, 0, "", "has an image twice", "each name once", image.name, ""});
     segment.frames.push_back(found->second);
     from.push_back(world_from_optical(image));
     to.push_back(truth.world_from_optical[std::size_t(found->second)]);
@@ -90,13 +91,15 @@ void add_ends(const std::vector<Pose>& poses, double length, std::vector<Vec3>& 
 SfmTruth load_sfm_truth(const std::string& dataset) {
   const std::string folder = dataset + "/colmap/sparse";
   if (!fs::exists(dataset))
-    throw InputError({dataset, 0, "", "no such folder", "the output folder of a run", "nothing", ""});
+    throw InputError(
+        {dataset, 0, "", "no such folder", "the output folder of a run", "nothing", ""});
   if (!is_colmap_model(folder))
     throw InputError({dataset, 0, "", "has no ground truth for COLMAP", folder, "nothing",
                       "run the mission with --set outputs.colmap=true"});
   SfmTruth truth{load_colmap_model(folder), {}};
   if (truth.model.images.empty())
-    throw InputError({folder + "/images.txt", 0, "", "holds no image", "the true poses", "none", ""});
+    throw InputError(
+        {folder + "/images.txt", 0, "", "holds no image", "the true poses", "none", ""});
   for (const ColmapImage& image : truth.model.images)
     truth.world_from_optical.push_back(world_from_optical(image));
   return truth;

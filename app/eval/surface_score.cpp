@@ -129,8 +129,8 @@ std::optional<SurfaceScore> calc_surface_score(const std::vector<Vec3>& points,
   std::vector<Vec3> near;
   std::copy_if(points.begin(), points.end(), std::back_inserter(near), is_near_origin);
   const PointGrid grid(near);
-  const auto covered = std::count_if(visible.begin(), visible.end(),
-                                     [&](const Vec3& p) { return grid.covers(p); });
+  const auto covered =
+      std::count_if(visible.begin(), visible.end(), [&](const Vec3& p) { return grid.covers(p); });
   if (!visible.empty()) score.completeness_5cm = double(covered) / double(visible.size());
   return score;
 }

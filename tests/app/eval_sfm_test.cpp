@@ -170,8 +170,7 @@ TEST_F(EvalSfm, LaysPointsAndTrackIntoTheWorld) {
   const PlyMesh points = load_ply(folder + "/data_points.ply");
   const std::vector<Vec3> expected = make_points(0.25, 7);
   ASSERT_EQ(points.positions.size(), 7u);
-  for (std::size_t i = 0; i < 7; ++i)
-    EXPECT_LT(distance(points.positions[i], expected[i]), 1e-5);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_LT(distance(points.positions[i], expected[i]), 1e-5);
   const std::string track = read_file(folder + "/data_track.csv");
   EXPECT_EQ(std::count(track.begin(), track.end(), '\n'), kFrames + 1);
   EXPECT_EQ(track.find("frame,image,segment,x,y,z,"), 0u);

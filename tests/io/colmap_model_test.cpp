@@ -53,7 +53,9 @@ void expect_as_made(ColmapModel model) {
   EXPECT_EQ(model.points[1].track[0].feature, 2u);
 }
 
-TEST(ColmapModel, ReadsWhatColmapWroteAsText) { expect_as_made(load_colmap_model(kWritten + "text")); }
+TEST(ColmapModel, ReadsWhatColmapWroteAsText) {
+  expect_as_made(load_colmap_model(kWritten + "text"));
+}
 
 TEST(ColmapModel, ReadsWhatColmapWroteAsBinary) {
   expect_as_made(load_colmap_model(kWritten + "binary"));

@@ -1,9 +1,10 @@
-// The light of sun and clear sky by the sun's elevation, from physics: single scattering by air and
-// haze and absorption by ozone in a round atmosphere, so that dusk has its colours and the earth's
-// shadow (Nishita et al., "Display of the Earth Taking into Account Atmospheric Scattering", 1993;
-// densities and cross-sections after Bruneton and Neyret 2008 and Bruneton 2017; 128 klx outside
-// the atmosphere). Light scattered more than once is added as an even share of what was scattered.
+// Sunlight and the clear sky by where the sun stands, from physics: air, haze and ozone over a round
+// earth, so that dusk has its colours and the earth's shadow (Nishita et al., "Display of the Earth
+// Taking into Account Atmospheric Scattering", 1993; densities and cross-sections after Bruneton and
+// Neyret 2008 and Bruneton 2017; 133 klx outside the atmosphere).
 #pragma once
+
+#include <vector>
 
 #include "kernel/base/math.h"
 
@@ -11,12 +12,33 @@ namespace rubble {
 
 inline constexpr double kLowestSun = -18;  // degrees; below, night has fallen
 
-// What the atmosphere leaves of the sun: illuminance on a facing surface at the ground, as red,
-// green and blue in klx; black once the whole disc is below the horizon.
+// On a surface that faces the sun, at the ground; black once its disc has set. Unit: klx.
 Vec3f sun_illuminance(double elevation_deg);
 
-// Radiance of the clear sky in a direction (unit length; below the horizon: as at it); kcd/m2.
-// to_sun: unit length, also below the horizon.
-Vec3f clear_sky_radiance(const Vec3f& direction, const Vec3f& to_sun);
+// Light scattered once is integrated along each ray; what is scattered again is taken to come evenly
+// from everywhere, as bright as the mean of sky and ground. That keeps the horizon from going black
+// at dusk, when the air before it lies in the earth's shadow.
+// The haze has an optical depth of 0.05 at 550 nm, a clear day, and an Angstrom exponent of 1.3.
+class ClearSky {
+ public:
+  // to_sun: unit length, also below the horizon.
+  explicit ClearSky(const Vec3f& to_sun);
+
+  // Without the sun's disc. direction: unit length; below the horizon as level. Unit: kcd/m2.
+  Vec3f radiance(const Vec3f& direction) const;
+
+ private:
+  // Scattered along a ray: sunlight, and light that comes evenly from everywhere at radiance 1.
+  struct Scattered {
+    Vec3 sun, even;
+  };
+  Scattered scatter(const Vec3& direction) const;
+  Vec3 sunlight_at(const Vec3& point) const;  // as a share of that outside the atmosphere
+
+  static constexpr int kHeights = 32, kCosines = 48;
+  Vec3 sun_;
+  Vec3 around_;                 // mean radiance of sky and ground; unit: kcd/m2
+  std::vector<Vec3> sunlight_;  // by height and by the sun's place above that height's horizon
+};
 
 }  // namespace rubble

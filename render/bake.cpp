@@ -119,8 +119,11 @@ struct Baker {
   void update_radiosity();
   void darken_invalid();
   void find_open_points();
+  void smooth_ground(std::size_t piece, std::vector<Vec3f>& colours,
+                     std::vector<Vec3f>& vectors) const;
   void smooth(std::size_t piece, std::vector<Vec3f>& colours, std::vector<Vec3f>& vectors) const;
   bool air_radiance(const Vec3f& point, Vec3f& mean) const;
+  void keep_light_out(AirLight& air, const std::vector<std::uint8_t>& known) const;
 };
 
 void Baker::list_points() {
@@ -261,6 +264,37 @@ void Baker::smooth(std::size_t piece, std::vector<Vec3f>& colours,
   }
 }
 
+// The ground is a grid: each point takes in those about it that it has a free line to, so that
+// light does not creep under walls.
+void Baker::smooth_ground(std::size_t piece, std::vector<Vec3f>& colours,
+                          std::vector<Vec3f>& vectors) const {
+  constexpr float kReach = 0.75f, kHeight = 0.03f;  // unit: m
+  const std::size_t first = first_point[piece];
+  const std::size_t count = scene.meshes[scene.placed[piece].mesh].bake_points.size();
+  std::size_t row = 1;
+  while (row < count && points[first + row].position.y == points[first].position.y) ++row;
+  const Vec3f up(0, 0, kHeight);
+  parallel_for(count / row, options.threads, [&](std::size_t j) {
+    for (std::size_t c = 0; c < row; ++c) {
+      const std::size_t i = first + j * row + c;
+      if (!valid[i]) continue;
+      Vec3f colour = indirect[i], vector_sum = vector[i];
+      float sum = 1;
+      for (std::size_t y = j > 2 ? j - 2 : 0; y <= std::min(j + 2, count / row - 1); ++y) {
+        for (std::size_t x = c > 2 ? c - 2 : 0; x <= std::min(c + 2, row - 1); ++x) {
+          const std::size_t k = first + y * row + x;
+          const Vec3f d = points[k].position - points[i].position;
+          const float away = norm(d), near = 1 - away / kReach;
+          if (k == i || !valid[k] || near <= 0) continue;
+          if (rays.blocked(points[i].position + up, d * (1 / away), 0, away)) continue;
+          colour += indirect[k] * near, vector_sum += vector[k] * near, sum += near;
+        }
+      }
+      colours[i] = colour * (1 / sum), vectors[i] = vector_sum * (1 / sum);
+    }
+  });
+}
+
 void Baker::run(const std::function<void(double)>& progress) {
   list_points();
   list_triangles();
@@ -285,6 +319,8 @@ void Baker::run(const std::function<void(double)>& progress) {
   std::vector<Vec3f> colours = indirect, vectors = vector;
   parallel_for(scene.placed.size(), options.threads,
                [&](std::size_t piece) { smooth(piece, colours, vectors); });
+  for (std::size_t i = 0; i < scene.placed.size(); ++i)
+    if (scene.placed[i].id == kGroundId) smooth_ground(i, colours, vectors);
   indirect.swap(colours), vector.swap(vectors);
   update_radiosity();
   hits.clear();
@@ -369,6 +405,35 @@ void fill_inside(AirLight& air, std::vector<std::uint8_t>& known) {
   }
 }
 
+// Between two points on either side of a slab, light would be taken from both: sunlight would glow in
+// the void beneath. So a point takes the light of the darkest neighbour that it does not see.
+void Baker::keep_light_out(AirLight& air, const std::vector<std::uint8_t>& known) const {
+  const std::vector<Vec3f> before = air.radiance;
+  const auto [nx, ny, nz] = air.size;
+  const auto index = [nx = nx, ny = ny](int x, int y, int z) {
+    return std::size_t((z * ny + y) * nx + x);
+  };
+  const auto darken = [&, nx = nx, ny = ny, nz = nz](int x, int y, int z) {
+    const std::size_t i = index(x, y, z);
+    float least = luminance(before[i]);
+    for (int k = 0; k < 27; ++k) {
+      const int a = k % 3 - 1, b = k / 3 % 3 - 1, c = k / 9 - 1;
+      const int u = x + a, v = y + b, w = z + c;
+      if (u < 0 || v < 0 || w < 0 || u >= nx || v >= ny || w >= nz) continue;
+      const std::size_t j = index(u, v, w);
+      if (!known[j] || luminance(before[j]) >= 0.7f * least) continue;
+      const Vec3f step = times(air.cell, Vec3f(float(a), float(b), float(c)));
+      const Vec3f from = air.origin + times(air.cell, Vec3f(float(x), float(y), float(z)));
+      const float length = norm(step);
+      if (!rays.blocked(from, step * (1 / length), 0, length)) continue;
+      least = luminance(before[j]), air.radiance[i] = before[j];
+    }
+  };
+  parallel_for(std::size_t(ny * nz), options.threads, [&, nx = nx, ny = ny](std::size_t row) {
+    for (int x = 0; x < nx; ++x) darken(x, int(row) % ny, int(row) / ny);
+  });
+}
+
 AirLight Baker::air_light() const {
   constexpr double kMargin = 1.5, kCell = 0.4;  // unit: m
   constexpr int kMost = 48;                     // points along an axis
@@ -392,6 +457,7 @@ AirLight Baker::air_light() const {
       known[i] = air_radiance(air.origin + times(air.cell, step), air.radiance[i]);
     }
   });
+  keep_light_out(air, known);
   fill_inside(air, known);
   return air;
 }

@@ -6,7 +6,7 @@ namespace rubble {
 
 namespace {
 
-constexpr int kVersion = 2;  // raise it when the same scene bakes to other light
+constexpr int kVersion = 3;  // raise it when the same scene bakes to other light
 
 template <typename T>
 void add_vec(CacheKey& key, const Vec3T<T>& v) {

@@ -8,7 +8,10 @@
 namespace rubble {
 
 struct ExposureOptions {
-  double key = 0.16;      // exposed luminance that the metered mean is brought to
+  double key = 0.16;      // exposed luminance that the metered mean is brought to, in daylight
+  // Share of that which is left at very low light: dusk looks darker than noon, as to the eye. After
+  // Krawczyk, Myszkowski and Seidel, "Lightness Perception in Tone Reproduction" (2005).
+  double dusk = 0.35;
   double seconds = 0.25;  // time constant of the lag; unit: s
   // Fixed factor on luminance in kcd/m2; 0: automatic.
   double fixed = 0;
@@ -19,6 +22,7 @@ class AutoExposure {
   explicit AutoExposure(const ExposureOptions& options) : options_(options) {}
 
   float factor() const { return factor_; }
+  void restart() { settled_ = false; }  // the next frame is metered like a first one
   bool settled() const { return settled_; }
   // Meters a drawn image (alpha as in shaders/tone.glsl). The first frames jump to the metered
   // value until it holds; later ones approach it over `elapsed` seconds.

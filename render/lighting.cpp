@@ -43,12 +43,12 @@ Vec3f direction_of(int x, int y) {
 class SkyTable {
  public:
   SkyTable(double sun_elevation_deg) {
-    const Vec3f sun = sun_direction(sun_elevation_deg, 0);
+    const ClearSky sky(sun_direction(sun_elevation_deg, 0));
     for (int e = 0; e < kElevations; ++e) {
       const double t = double(e) / (kElevations - 1);
       for (int a = 0; a < kAzimuths; ++a)
         values_.push_back(
-            clear_sky_radiance(sun_direction(90 * t * t, 180.0 * a / (kAzimuths - 1)), sun));
+            sky.radiance(sun_direction(90 * t * t, 180.0 * a / (kAzimuths - 1))));
     }
   }
   Vec3f at(double elevation_deg, double azimuth_deg) const {

@@ -14,6 +14,7 @@
 #include "render/effects/antialias.h"
 #include "render/exposure.h"
 #include "render/geometry.h"
+#include "render/ground_map.h"
 #include "render/medium.h"
 #include "render/passes/ray_pass.h"
 #include "render/passes/resolve_pass.h"
@@ -143,7 +144,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
       medium(s.air, s.seed),
       start_ns(s.start_ns),
       pool(std::max(1, o.threads)),
-      exposure(ExposureOptions{0.17, 0.25, o.fixed_exposure}) {
+      exposure(ExposureOptions{0.21, 0.35, 0.25, o.fixed_exposure}) {
   const auto report = [&](double fraction) {
     if (progress) progress(fraction);
   };
@@ -171,7 +172,8 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
       gl, scene, geometry,
       VisibilityOptions{o.occlusion_culling, o.coarse_below, draws_on_processor(o, c.info()),
                         o.threads});
-  resolve = std::make_unique<ResolvePass>(gl, geometry, frame_light, patterns);
+  resolve = std::make_unique<ResolvePass>(gl, geometry, frame_light, make_ground_map(scene),
+                                          patterns);
   truth = std::make_unique<TruthMaker>(scene, geometry, o.threads);
   report(1);
 }
@@ -282,7 +284,10 @@ Frame Renderer::render(const ViewRays& view, int index) {
   // The first frame is metered until the exposure holds.
   constexpr int kMostTries = 4;
   const double elapsed = std::max(0.0, double(view.stamp_ns - s.last_stamp_ns) * 1e-9);
-  const bool first = !s.exposure.settled();
+  // So does one after a gap in which an exposure would have come to rest.
+  constexpr double kGap = 1;  // unit: s
+  const bool first = !s.exposure.settled() || elapsed > kGap;
+  if (first) s.exposure.restart();
   if (s.options.fixed_exposure > 0) s.exposure.follow(s.rgba, 0, 0, 0);
   s.draw_colour(surfaces);
   for (int i = 0; first && i < kMostTries && !s.exposure.settled(); ++i) {

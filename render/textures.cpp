@@ -141,14 +141,16 @@ Spot galvanised(float x, float y) {
 // Grain along x, knots, and splits.
 Spot wood(float x, float y) {
   const float warp = tile_fractal(x, y, 2, 3, 0.5f, 81);
-  const float rings = tile_noise(x * 2 + 0.4f * warp, y * 26 + 3 * warp, 26, 82);
+  const float rings = 0.6f * tile_noise(x * 2 + 0.4f * warp, y * 26 + 3 * warp, 26, 82) +
+                      0.4f * tile_noise(x * 3, y * 64 + 5 * warp, 64, 87);
+  const float worn = tile_fractal(x, y, 4, 5, 0.6f, 86);
   const float fibre = tile_noise(x * 10, y * 160, 160, 83);
   const CellNoise knot = tile_cells(x, y, 4, 84);
-  const float eye = knot.value > 0.7f ? 1 - ramp(0.04f, 0.13f, knot.nearest) : 0.0f;
+  const float eye = knot.value > 0.82f ? 1 - ramp(0.02f, 0.09f, knot.nearest) : 0.0f;
   const float split = ramp(0.80f, 0.9f, tile_noise(x * 3, y * 44, 44, 85));
   Spot s;
   s.height = 0.22f * rings + 0.2f * fibre - 0.5f * split;
-  s.bright = 0.2f + 0.5f * rings + 0.3f * fibre + 0.3f * (warp - 0.5f) - 0.5f * split;
+  s.bright = 0.12f + 0.34f * rings + 0.26f * fibre + 0.55f * (worn - 0.3f) - 0.4f * split;
   s.mask = std::max(0.85f * eye, 0.7f * split);
   return s;
 }
@@ -167,26 +169,34 @@ Spot plaster(float x, float y) {
   return s;
 }
 
-// Dirt with gravel of three sizes and crumbs of concrete.
+// Dirt and sand, and crumbs of debris of three sizes. The mask ranks the crumbs, from 0 to 1: how many
+// of them lie there is for the shader to say, by the map of the ground.
 Spot soil(float x, float y) {
-  const float bend = 0.012f * (tile_fractal(x, y, 24, 3, 0.6f, 104) - 0.5f);
+  const float bend = 0.07f * (tile_fractal(x, y, 30, 4, 0.7f, 104) - 0.5f);
   const float dirt = tile_fractal(x, y, 5, 8, 0.66f, 101);
-  const CellNoise sand = tile_cells(x + bend, y - bend, 150, 105);
-  const CellNoise gravel = tile_cells(x + bend, y - bend, 64, 102);
-  const CellNoise crumb = tile_cells(x - bend, y + bend, 21, 103);
-  const float patch = ramp(0.35f, 0.65f, tile_fractal(x, y, 3, 4, 0.55f, 106));
-  const auto stone = [](const CellNoise& c, float share, float size) {
-    if (c.value < 1 - share) return 0.0f;
-    const float r = size * (0.4f + 0.6f * (c.value - 1 + share) / share);
-    return 1 - ramp(0.55f * r, r, c.nearest);
+  const float clods = tile_fractal(x + bend, y - bend, 22, 4, 0.6f, 107);
+  const CellNoise sand = tile_cells(x + bend, y - bend, 170, 105);
+  const CellNoise grit = tile_cells(x - bend, y - bend, 72, 102);
+  const CellNoise gravel = tile_cells(x + bend, y + bend, 40, 106);
+  const CellNoise chip = tile_cells(x - bend, y + bend, 17, 103);
+  // Angular: the distance to the border of its cell bounds a stone as much as that to its middle.
+  const auto stone = [](const CellNoise& c, float size, float edge) {
+    const float r = size * (0.45f + 0.55f * c.value);
+    return std::min(1 - ramp(0.3f * r, r, c.nearest),
+                    ramp(0.0f, edge, c.second - c.nearest - 0.02f));
   };
-  const float sands = stone(sand, 0.7f, 0.45f), stones = stone(gravel, 0.25f + 0.4f * patch, 0.42f);
-  const float chips = stone(crumb, 0.16f, 0.30f) * patch;
+  const float sands = stone(sand, 0.5f, 0.2f), grits = stone(grit, 0.5f, 0.2f);
+  const float stones = stone(gravel, 0.45f, 0.2f), chips = stone(chip, 0.26f, 0.3f);
+  // Ranks: most of what lies there is small.
+  const float rank = std::max({grits * (0.35f + 0.65f * grit.value),
+                               stones * (0.2f + 0.75f * gravel.value),
+                               chips * (0.1f + 0.8f * chip.value)});
   Spot s;
-  s.height = 0.45f * dirt + 0.035f * sands + 0.10f * stones + 0.18f * chips;
-  s.bright = 0.02f + 0.9f * dirt + 0.16f * sands * (sand.value - 0.6f) * 3 +
-             0.3f * stones * (gravel.value - 0.7f) * 3;
-  s.mask = std::max(0.75f * chips, 0.5f * stones * ramp(0.8f, 0.95f, gravel.value));
+  s.height = 0.42f * dirt + 0.2f * clods + 0.03f * sands + 0.05f * grits * grit.value +
+             0.08f * stones * gravel.value + 0.12f * chips * chip.value;
+  s.bright = 0.06f + 0.62f * dirt + 0.22f * (clods - 0.4f) + 0.14f * sands * (sand.value - 0.5f) +
+             0.3f * grits * (lattice_value(int(grit.value * 9999), 3, 108) - 0.45f);
+  s.mask = rank;
   return s;
 }
 
@@ -206,12 +216,17 @@ Spot splinters(float x, float y) {
 // A coat of paint, dented and scratched down to primer and rust.
 Spot paint(float x, float y) {
   const float dent = tile_fractal(x, y, 3, 3, 0.5f, 121);
-  const float flake = tile_fractal(x, y, 14, 4, 0.6f, 122);
-  const float line = tile_noise(x * 5 + 3 * dent, y * 90, 90, 123) * tile_noise(x * 3, y * 8, 8, 124);
+  const float dirt = tile_fractal(x, y, 5, 6, 0.62f, 125);
+  const float flake = tile_fractal(x, y, 26, 5, 0.72f, 122);
+  // Scratches are thin, run where something scraped along, and come in sheaves.
+  const float bend = 0.05f * tile_fractal(x, y, 6, 3, 0.5f, 126);
+  const float line = tile_noise(x * 6, (y + bend) * 220, 220, 123) *
+                     ramp(0.55f, 0.75f, tile_fractal(x, y, 5, 3, 0.5f, 124));
   Spot s;
   s.height = 0.9f * dent;
-  s.bright = 0.45f + 0.25f * (dent - 0.5f) + 0.15f * (flake - 0.5f);
-  s.mask = std::max(ramp(0.66f, 0.72f, flake * 0.7f + 0.3f * dent), 0.8f * ramp(0.62f, 0.75f, line));
+  s.bright = 0.15f + 0.75f * dirt + 0.2f * (flake - 0.5f);
+  const float chipped = ramp(0.69f, 0.73f, flake * 0.75f + 0.25f * dirt);
+  s.mask = std::max(0.9f * chipped, 0.55f * ramp(0.72f, 0.85f, line));
   return s;
 }
 
@@ -314,7 +329,7 @@ std::vector<PatternImage> make_patterns(int size, int threads) {
 }
 
 std::vector<PatternImage> make_patterns_once(const DiskCache& cache, int size, int threads) {
-  constexpr int kVersion = 2;  // raise it when a pattern changes
+  constexpr int kVersion = 3;  // raise it when a pattern changes
   const std::string key = CacheKey("make_patterns", kVersion).add(size).hex();
   if (const auto bytes = cache.find("textures", key)) {
     std::vector<PatternImage> images(kPatternCount);

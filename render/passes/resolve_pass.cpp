@@ -14,6 +14,7 @@ namespace rubble {
 
 namespace {
 
+constexpr float kPi = float(portable::kPi);
 constexpr std::size_t kMaxLooks = 20;
 // Where the clean air begins to veil what is seen; unit: m.
 constexpr double kVeilFrom = 12;
@@ -27,6 +28,7 @@ struct FrameBlock {
   float lamp_position[4], lamp_axis[4], lamp_colour[4];
   float fog[4], fog_ambient[4];
   float sun_direction[4], sun_radiance[4], skyline[4];
+  float ground[4], balance[4];
   float shadow_rows[kMostViews * 4][4];
   float looks[kMaxLooks * 4][4];
 };
@@ -70,6 +72,23 @@ float lamp_spread(const LampSpec& lamp) {
   return lamp.shape == LampShape::ring ? r2 : 0.5f * r2;
 }
 
+float grey_of(const Vec3f& c) { return dot(c, Vec3f(0.2126f, 0.7152f, 0.0722f)); }
+
+// Cameras take most of the light's own colour away: gains for a level grey surface under the open
+// sky, of luminance 1.
+Vec3f white_balance(const LightSet& set) {
+  const LightModel& main = set.lights.front();
+  Vec3f light = set.sky.mean * kPi;
+  if (main.type == LightType::directional) light += main.colour * std::max(-main.axis.z, 0.0f);
+  const float bright = grey_of(light);
+  if (bright <= 0) return {1, 1, 1};
+  // Less at dusk, which is to look blue: 0.75 in daylight, 0.35 at 10 lx.
+  const float adapted = std::clamp(0.35f + 0.1f * std::log10(bright * 100), 0.35f, 0.75f);
+  const auto gain = [&](float c) { return 1 / (1 + adapted * (c / bright - 1)); };
+  const Vec3f gains(gain(light.x), gain(light.y), gain(light.z));
+  return gains * (1 / grey_of(gains));
+}
+
 void fill_air_and_lamp(FrameBlock& block, const FrameLight& frame, const Pose& world_from_camera) {
   const double half = 0.5 * frame.lamp.cone_deg * portable::kPi / 180;
   set(block.lamp_position, Vec3f(world_from_camera * frame.lamp.position),
@@ -87,6 +106,7 @@ void fill_air_and_lamp(FrameBlock& block, const FrameLight& frame, const Pose& w
   const LightModel& main = frame.lights->lights.front();
   const bool sunny = main.type == LightType::directional;
   set(block.skyline, sky.mean * 0.10f + (sunny ? main.colour * 0.02f : Vec3f()));
+  set(block.balance, white_balance(*frame.lights));
 }
 
 void fill_looks(FrameBlock& block, int texture_size) {
@@ -110,6 +130,7 @@ ShaderDefines variant_of(const FrameLight& frame) {
                                                          std::to_string(shadow.first_view) + ", " +
                                                          std::to_string(shadow.views)});
   }
+  defines.push_back({"SOIL", std::to_string(int(Pattern::soil)) + ".0"});
   const bool clear = frame.even_air && frame.air.fog_density <= 0;
   defines.push_back({"FOG", clear ? "0" : frame.even_air ? "1" : "2"});
   defines.push_back({"AIR_STEPS", std::to_string(AirVolume::kSlices - 1) + ".0"});
@@ -174,6 +195,16 @@ GlTexture upload_sky(const Gl& gl, const Sky& sky) {
   return texture;
 }
 
+GlTexture upload_ground(const Gl& gl, const GroundMap& ground) {
+  GlTexture texture = make_target(gl, GL_RG8, GroundMap::kSide, GroundMap::kSide);
+  gl.TextureSubImage2D(texture.name(), 0, 0, 0, GroundMap::kSide, GroundMap::kSide, GL_RG,
+                       GL_UNSIGNED_BYTE, ground.texels.data());
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  check_gl(gl, "uploading the map of the ground");
+  return texture;
+}
+
 GlTexture make_air_table(const Gl& gl) {
   GlTexture texture(gl, GLenum(GL_TEXTURE_3D));
   const GLuint name = texture.name();
@@ -200,6 +231,7 @@ enum Unit {
   kContact,
   kSky,
   kAir,
+  kGround,
   kLensRays,
   kRowPoses
 };
@@ -219,6 +251,7 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
                  {"openness", kContact},
                  {"sky_map", kSky},
                  {"air_table", kAir},
+                 {"ground_map", kGround},
                  {"lens_rays", kLensRays},
                  {"row_poses", kRowPoses}});
   gl.UniformBlockBinding(program.name(), gl.GetUniformBlockIndex(program.name(), "Frame"), 0);
@@ -235,7 +268,7 @@ Vec3f lamp_colour(const LampSpec& lamp) {
 }
 
 ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,
-                         const std::vector<PatternImage>& patterns)
+                         const GroundMap& ground, const std::vector<PatternImage>& patterns)
     : gl_(gl),
       geometry_(geometry),
       frame_block_(gl),
@@ -244,6 +277,8 @@ ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameL
       looks_(upload_looks(gl, patterns)),
       sky_map_(upload_sky(gl, light.lights->sky)),
       air_table_(make_air_table(gl)),
+      ground_map_(upload_ground(gl, ground)),
+      ground_{ground.x, ground.y, 1 / ground.reach, 0},
       texture_size_(patterns.front().size) {
   defines_ = variant_of(light);
   const std::vector<float> glow = lamp_glow_table(light.air, light.lamp, 512);
@@ -293,6 +328,7 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
   fill_lights(block, light);
   fill_air_and_lamp(block, light, world_from_camera);
   fill_looks(block, texture_size_);
+  std::memcpy(block.ground, ground_, sizeof ground_);
   gl_.NamedBufferData(frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
   const GLuint textures[] = {surfaces.ids.name(),
@@ -306,7 +342,8 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
                              fog_lamp_.name(),
                              contact_.openness().name(),
                              sky_map_.name(),
-                             air_table_.name()};
+                             air_table_.name(),
+                             ground_map_.name()};
   for (GLuint unit = 0; unit < sizeof textures / sizeof textures[0]; ++unit)
     gl_.BindTextureUnit(unit, textures[unit]);
   if (surfaces.lens_rays) {

@@ -6,6 +6,7 @@
 
 #include "render/air_volume.h"
 #include "render/geometry.h"
+#include "render/ground_map.h"
 #include "render/lighting.h"
 #include "render/passes/contact_pass.h"
 #include "render/passes/image_tiles.h"
@@ -43,7 +44,7 @@ struct SurfaceImages {
 class ResolvePass {
  public:
   ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,
-              const std::vector<PatternImage>& patterns);
+              const GroundMap& ground, const std::vector<PatternImage>& patterns);
 
   // Display colours: 4 bytes a pixel, the last as shaders/tone.glsl says. exposure: what luminance
   // in kcd/m2 is multiplied by.
@@ -74,7 +75,8 @@ class ResolvePass {
   GlBuffer frame_block_;
   GlVertexArray empty_array_;
   ContactPass contact_;
-  GlTexture looks_, fog_lamp_, sky_map_, air_table_;
+  GlTexture looks_, fog_lamp_, sky_map_, air_table_, ground_map_;
+  float ground_[4];  // as in shaders/frame.glsl
   GlTexture colour_;
   GlFramebuffer target_;
   int width_ = 0, height_ = 0;

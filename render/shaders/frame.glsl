@@ -15,6 +15,8 @@ layout(std140) uniform Frame {
   vec4 sun_direction;
   vec4 sun_radiance;           // of its disc, kcd/m2
   vec4 skyline;                // colour of what stands far away, kcd/m2
+  vec4 ground;                 // middle of the ground's map, 1 / its reach
+  vec4 balance;                // white balance of the display image
   vec4 shadow_rows[96];        // rows of clip_from_world, four for each view
   vec4 looks[80];              // four for each look: dark + 1/tile, light + bump, accent + gloss,
                                // (layer, dust, variation, log2(texels per m))

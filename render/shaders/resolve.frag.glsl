@@ -139,6 +139,6 @@ void main() {
 #ifdef LINEAR
   colour = vec4(radiance, 1.0);
 #else
-  colour = develop(radiance * view.y, dither(vec2(pixel)));
+  colour = develop(radiance * (view.y * balance.rgb), dither(vec2(pixel)));
 #endif
 }

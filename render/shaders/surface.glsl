@@ -8,6 +8,7 @@ struct Surface {
 };
 
 uniform sampler2DArray look_textures;
+uniform sampler2D ground_map;  // from above: debris on the ground, tone; see ground_map.h
 
 // About sin(x), within 0.06: in parabolas, as sines are dear.
 float wave(float x) {
@@ -95,8 +96,9 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   vec2 uv = vec2(dot(q, along), dot(q, across)) * dark.w + seed;
   // Slow variation over metres; where it is high the ground shows another part of its texture, so
   // that no repetition meets the eye.
-  float slow = wave(world.x * 0.83 + 1.7 * wave(world.y * 0.57)) *
-               wave(world.y * 0.91 + 1.3 * wave(world.x * 0.39 + world.z));
+  vec2 above = (world.xy + 0.6 * world.z - ground.xy) * ground.z;
+  vec2 map = texture(ground_map, 0.5 + 0.5 * above / (1.0 + abs(above))).xy;
+  float slow = 4.0 * map.y - 2.0;
   if (more.y < 0.2 && slow + 0.3 * dither(pixel) > 0.15) uv = uv.yx * 0.83 + 0.37;
   // A wall shows another part of its texture every 1.7 m or so, at the boards' joints.
   if (more.x < 0.5) uv.x += 0.37 * floor(uv.y) + 0.21 * floor(uv.y * 0.5);
@@ -115,13 +117,18 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   float up = rx.z * smooth_normal.x + ry.z * smooth_normal.y + rz.z * smooth_normal.z;
 
   // Colour: texture, piece, dust.
-  s.albedo = mix(mix(dark.rgb, bright.rgb, texel.z), accent.rgb, texel.w);
-  s.albedo *= 1.0 + 0.16 * slow;
+  // On the ground the mask ranks crumbs: the more debris, the more of them lie there, and dust.
+  bool soil = more.x == SOIL;
+  float crumbs = smoothstep(0.0, 0.12, texel.w - 1.0 + 0.05 + 0.75 * map.x);
+  s.albedo = mix(mix(dark.rgb, bright.rgb, texel.z), accent.rgb * (soil ? 0.55 + 0.7 * texel.z : 1.0),
+                 soil ? crumbs : texel.w);
+  s.albedo *= 1.0 + (soil ? 0.3 : 0.16) * slow;
   float tint = (float((mw.w >> 16) & 255u) * (2.0 / 255.0) - 1.0) * more.z;
   float warm = (float(mw.w >> 24) * (2.0 / 255.0) - 1.0) * more.z * 0.25;
   s.albedo *= (1.0 + tint) * vec3(1.0 + warm, 1.0, 1.0 - warm);
   // Dust settles on what faces up, unevenly, and lets pits and cracks show.
-  float dust = smoothstep(0.30, 1.05, up + (texel.z - 0.45) * 0.8) * more.y;
+  float dust = smoothstep(0.30, 1.05, up + (texel.z - 0.45) * 0.8) *
+               (soil ? 0.85 * map.x : more.y);
   s.albedo = mix(s.albedo, vec3(0.375, 0.36, 0.335) * (0.55 + 0.75 * texel.z), dust);
   s.gloss = accent.w * (1.0 - dust);
 

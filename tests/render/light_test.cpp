@@ -263,7 +263,7 @@ TEST(Sky, TheMapIsTheFormula) {
   scene.light.azimuth_deg = 70;
   const Sky sky = make_lights(scene).sky;
   for (const Vec3f& d : {Vec3f(0, 0, 1), Vec3f(1, 0, 0.3f), Vec3f(-0.3f, -1, 0.15f), Vec3f(0.5f, 1, 1)}) {
-    const Vec3f n = normalized(d), want = clear_sky_radiance(n, sky.sun_direction);
+    const Vec3f n = normalized(d), want = ClearSky(sky.sun_direction).radiance(n);
     EXPECT_NEAR(sky.radiance(n).y, want.y, 0.04f * want.y);
     EXPECT_NEAR(sky.radiance(n).z, want.z, 0.04f * want.z);
   }

@@ -42,6 +42,6 @@ ExitCode check_assets_of(const std::string& pack, bool json);
 // of each; unit: pixel
 ExitCode show_assets(const std::string& pack, const std::string& out, int tile);
 // Versions, EGL device and GL renderer in use, threads, on standard output.
-ExitCode print_info();
+ExitCode print_info(const InfoRequest& request);
 
 }  // namespace rubble

@@ -6,6 +6,7 @@
 #include "app/build_scene.h"
 #include "app/flight.h"
 #include "app/frame_journal.h"
+#include "app/frame_watch.h"
 #include "app/recorders.h"
 #include "app/run.h"
 #include "app/stop.h"
@@ -79,6 +80,7 @@ void take_frames(Camera& camera, RecordingQueue& queue, Run& run, const RunFolde
   Imu imu(path, run.scenario.imu.model, run.scenario.settle.gravity, run.scenario.seed,
           run.scenario.start_ns);
   DepthMetrics depth;
+  FrameWatch watch;
   for (int i = 0; i < camera.frames(); ++i) {
     throw_if_stopped(folder.path());
     Frame frame = camera.take(i);
@@ -87,6 +89,7 @@ void take_frames(Camera& camera, RecordingQueue& queue, Run& run, const RunFolde
     run.frames.add(frame);
     journal.note(std::size_t(i), run.frames.frames.back());
     depth.add(frame);
+    if (watch.notice(frame)) run.warnings.push_back(watch.warning());
     queue.push(std::move(frame));
     run.progress.update(double(i + 1) / camera.frames(),
                         "frame " + std::to_string(i + 1) + " of " +
@@ -125,7 +128,7 @@ void resolve_path(Run& run, RunFolder& folder) {
 void render_frames(Run& run, RunFolder& folder) {
   resolve_path(run, folder);
   run.progress.start("scene");
-  GlContext context({-1, run.threads()});
+  GlContext context({run.options.gl_device, run.threads()});
   note_environment(run, context.info());
   Renderer renderer = prepare_renderer(run, context);
   Camera camera(renderer, build_camera(run.scenario, run.threads()), plan_flight(run.scenario),
@@ -140,6 +143,8 @@ void render_frames(Run& run, RunFolder& folder) {
   RecordingQueue queue(std::move(set.recorders));
   take_frames(camera, queue, run, folder);
   run.progress.finish(std::to_string(camera.frames()) + " frames");
+  for (const std::string& warning : run.warnings)
+    std::fprintf(stderr, "rubble: warning: %s\n", warning.c_str());
 
   run.progress.start("record");
   queue.finish();

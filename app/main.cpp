@@ -48,7 +48,17 @@ void add_threads_option(CLI::App& command, int& threads, const std::string& text
   command.add_option("--threads", threads, text)->check(CLI::Range(0, 256));
 }
 
+void add_device_option(CLI::App& command, int& device) {
+  command
+      .add_option("--gl-device", device,
+                  "Number of the EGL device that draws (default: $RUBBLE_EGL_DEVICE, or the first that "
+                  "works, hardware before software)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000));
+}
+
 void add_run_options(CLI::App& command, RunOptions& options) {
+  add_device_option(command, options.gl_device);
   add_threads_option(command, options.threads,
                      "Threads to use; 0: all processors. Results do not depend on it");
   command.add_flag("--quiet", options.quiet, "No progress, only errors");
@@ -310,7 +320,12 @@ Action add_assets(CLI::App& command) {
   };
 }
 
-Action add_info(CLI::App&) { return print_info; }
+Action add_info(CLI::App& command) {
+  const auto request = std::make_shared<InfoRequest>();
+  command.add_flag("--gl", request->gl, "Every EGL device, what it gives, which is chosen and why");
+  add_device_option(command, request->gl_device);
+  return [request] { return print_info(*request); };
+}
 
 struct CommandEntry {
   const char* name;

@@ -138,6 +138,7 @@ std::string manifest_to_json(const Manifest& m) {
   json["pile"] = describe_pile(m.pile);
   json["frames"] = m.frames.frames.size();
   json["metrics"] = m.metrics;
+  json["warnings"] = m.warnings;
   json["outputs"] = m.outputs;
   add_recipe(json, m.recipe);
   json["libraries"] = m.program.libraries;
@@ -163,6 +164,9 @@ Manifest manifest_from_json(const std::string& text, const std::string& file) {
     m.metrics[name] = value.as_number();
   for (const auto& [name, hash] : members.object("outputs").members())
     m.outputs[name] = hash.as_text();
+  if (members.has("warnings"))
+    for (const JsonMembers& warning : members.list("warnings"))
+      m.warnings.push_back(warning.as_text());
   read_not_reproducible(members.object("not_reproducible"), m);
   return m;
 }

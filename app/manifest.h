@@ -34,6 +34,8 @@ struct Manifest {
   std::map<std::string, double> metrics;       // of the pile and the frames: app/metrics.h
   std::map<std::string, std::string> outputs;  // file name to SHA-256
 
+  std::vector<std::string> warnings;           // what is likely not as it was meant
+
   // What may differ from run to run.
   std::map<std::string, double> wall_seconds;      // a stage's name to its time
   std::map<std::string, std::string> environment;  // what this machine drew with, and the like

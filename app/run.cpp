@@ -128,6 +128,7 @@ void write_manifest(const Run& run, RunFolder& folder) {
   manifest.pile = summarize(run.pile);
   manifest.frames = run.frames.compact();
   manifest.metrics = run.metrics;
+  manifest.warnings = run.warnings;
   manifest.outputs = folder.hashes();
   manifest.wall_seconds = run.progress.wall_seconds();
   manifest.environment = run.environment;

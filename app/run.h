@@ -40,6 +40,7 @@ struct Run {
   FrameHashes frames;
   Metrics metrics;
   std::map<std::string, std::string> environment;
+  std::vector<std::string> warnings;  // what is likely not as it was meant, for a person
 
   int threads() const;  // as asked, or all processors
 };

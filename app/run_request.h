@@ -12,6 +12,7 @@ namespace rubble {
 struct RunOptions {
   int threads = 0;               // --threads; 0: all processors
   bool quiet = false;            // --quiet: no progress
+  int gl_device = -1;            // --gl-device, see GlContextOptions
   double checkpoint_every = 10;  // --checkpoint-every, while settling; unit: s
 };
 
@@ -23,6 +24,11 @@ struct RunRequest {
   std::string out;                       // --out; empty: out/<name of the script>
   bool force = false;                    // --force: replace an earlier run's files
   RunOptions options;
+};
+
+struct InfoRequest {
+  bool gl = false;     // --gl: every way to draw, and the device's limits
+  int gl_device = -1;  // --gl-device
 };
 
 // For the commands that start from a folder of a run.

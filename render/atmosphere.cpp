@@ -12,7 +12,7 @@ constexpr double kAirHeight = 8000, kHazeHeight = 1200;
 // Per metre at the ground, at 615, 550 and 465 nm, about where the primaries of sRGB are. (Taken at 680
 // nm, as is common, red escapes the ozone, and the zenith of dusk turns purple instead of blue.)
 const Vec3 kAir(8.67e-6, 13.558e-6, 26.5e-6);
-const Vec3 kHaze(3.60e-5, 4.17e-5, 5.19e-5);  // what it takes away
+const Vec3 kHaze(2.52e-5, 2.92e-5, 3.63e-5);  // what it takes away
 constexpr double kHazeScatters = 0.94;        // the share of this that it scatters
 const Vec3 kOzone(2.5e-6, 1.881e-6, 0.25e-6);
 constexpr double kHazeForward = 0.76;   // asymmetry of its phase function
@@ -20,7 +20,7 @@ constexpr double kOuterKlx = 133;       // sunlight outside the atmosphere
 const Vec3 kSunColour(1.00, 1.00, 0.98);
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kGroundAlbedo = 0.25;
-constexpr double kTwiceAndMore = 0.3;  // of light scattered evenly, the share scattered once more
+constexpr double kTwiceAndMore = 0.25;  // of light scattered evenly, the share scattered once more
 constexpr double kNightSky = 1.5e-6;    // airglow and stars; unit: kcd/m2
 constexpr double kSunRadius = 0.267 * kPi / 180;
 

@@ -18,7 +18,7 @@ Vec3f sun_illuminance(double elevation_deg);
 // Light scattered once is integrated along each ray; what is scattered again is taken to come evenly
 // from everywhere, as bright as the mean of sky and ground. That keeps the horizon from going black
 // at dusk, when the air before it lies in the earth's shadow.
-// The haze has an optical depth of 0.05 at 550 nm, a clear day, and an Angstrom exponent of 1.3.
+// The haze has an optical depth of 0.035 at 550 nm, a clear day, and an Angstrom exponent of 1.3.
 class ClearSky {
  public:
   // to_sun: unit length, also below the horizon.

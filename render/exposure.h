@@ -9,12 +9,12 @@ namespace rubble {
 
 struct ExposureOptions {
   double key = 0.16;      // exposed luminance that the metered mean is brought to, in daylight
-  // Share of that which is left at very low light: dusk looks darker than noon, as to the eye. After
-  // Krawczyk, Myszkowski and Seidel, "Lightness Perception in Tone Reproduction" (2005).
-  double dusk = 0.35;
   double seconds = 0.25;  // time constant of the lag; unit: s
   // Fixed factor on luminance in kcd/m2; 0: automatic.
   double fixed = 0;
+  // Share of the key that is left at very low light: dusk looks darker than noon, as to the eye; 1:
+  // all. After Krawczyk, Myszkowski and Seidel, "Perceptual Effects in Real-time Tone Mapping" (2005).
+  double dusk = 0.35;
 };
 
 class AutoExposure {

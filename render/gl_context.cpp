@@ -1,15 +1,10 @@
 #include "render/gl_context.h"
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
-#include <dlfcn.h>
-
 #include <cerrno>
-#include <cstdio>
 #include <cstdlib>
-#include <cstring>
 
 #include "kernel/base/error.h"
+#include "render/egl.h"
 #include "render/gl.h"
 
 #if defined(__SANITIZE_THREAD__)
@@ -22,124 +17,6 @@ extern "C" const char* __tsan_default_suppressions() {
 namespace rubble {
 
 namespace {
-
-const char* const kInstallHint =
-    "on Debian install libegl1, libegl-mesa0 and libgl1-mesa-dri (software or Mesa drivers), or "
-    "the vendor's driver with its EGL library; RUBBLE_EGL_DEVICE=N chooses a device";
-
-std::string egl_error_name(EGLint code) {
-  switch (code) {
-    case EGL_SUCCESS:
-      return "no error reported";
-    case EGL_NOT_INITIALIZED:
-      return "EGL_NOT_INITIALIZED";
-    case EGL_BAD_ACCESS:
-      return "EGL_BAD_ACCESS";
-    case EGL_BAD_ALLOC:
-      return "EGL_BAD_ALLOC";
-    case EGL_BAD_ATTRIBUTE:
-      return "EGL_BAD_ATTRIBUTE";
-    case EGL_BAD_CONFIG:
-      return "EGL_BAD_CONFIG";
-    case EGL_BAD_CONTEXT:
-      return "EGL_BAD_CONTEXT";
-    case EGL_BAD_DISPLAY:
-      return "EGL_BAD_DISPLAY";
-    case EGL_BAD_MATCH:
-      return "EGL_BAD_MATCH";
-    case EGL_BAD_PARAMETER:
-      return "EGL_BAD_PARAMETER";
-    default:
-      break;
-  }
-  char text[32];
-  std::snprintf(text, sizeof text, "EGL error 0x%x", unsigned(code));
-  return text;
-}
-
-// The entry points of libEGL, opened at run time.
-struct Egl {
-  PFNEGLGETPROCADDRESSPROC GetProcAddress = nullptr;
-  PFNEGLGETERRORPROC GetError = nullptr;
-  PFNEGLGETDISPLAYPROC GetDisplay = nullptr;
-  PFNEGLINITIALIZEPROC Initialize = nullptr;
-  PFNEGLTERMINATEPROC Terminate = nullptr;
-  PFNEGLBINDAPIPROC BindAPI = nullptr;
-  PFNEGLCREATECONTEXTPROC CreateContext = nullptr;
-  PFNEGLDESTROYCONTEXTPROC DestroyContext = nullptr;
-  PFNEGLMAKECURRENTPROC MakeCurrent = nullptr;
-  PFNEGLQUERYSTRINGPROC QueryString = nullptr;
-  // Extensions; absent where the driver lacks them.
-  PFNEGLGETPLATFORMDISPLAYEXTPROC GetPlatformDisplay = nullptr;
-  PFNEGLQUERYDEVICESEXTPROC QueryDevices = nullptr;
-  PFNEGLQUERYDEVICESTRINGEXTPROC QueryDeviceString = nullptr;
-};
-
-template <typename F>
-void find_symbol(void* library, const char* name, F& function) {
-  function = reinterpret_cast<F>(dlsym(library, name));
-  if (!function) throw RunError(std::string("libEGL.so.1 has no ") + name + "; " + kInstallHint);
-}
-
-Egl load_egl() {
-  // Never closed: drivers leave threads and thread-local state behind.
-  void* library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
-  if (!library) {
-    const char* why = dlerror();
-    throw RunError(std::string("cannot draw: libEGL.so.1 does not load (") + (why ? why : "?") +
-                   "); " + kInstallHint);
-  }
-  Egl egl;
-  find_symbol(library, "eglGetProcAddress", egl.GetProcAddress);
-  find_symbol(library, "eglGetError", egl.GetError);
-  find_symbol(library, "eglGetDisplay", egl.GetDisplay);
-  find_symbol(library, "eglInitialize", egl.Initialize);
-  find_symbol(library, "eglTerminate", egl.Terminate);
-  find_symbol(library, "eglBindAPI", egl.BindAPI);
-  find_symbol(library, "eglCreateContext", egl.CreateContext);
-  find_symbol(library, "eglDestroyContext", egl.DestroyContext);
-  find_symbol(library, "eglMakeCurrent", egl.MakeCurrent);
-  find_symbol(library, "eglQueryString", egl.QueryString);
-  egl.GetPlatformDisplay = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
-      egl.GetProcAddress("eglGetPlatformDisplayEXT"));
-  egl.QueryDevices =
-      reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(egl.GetProcAddress("eglQueryDevicesEXT"));
-  egl.QueryDeviceString = reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(
-      egl.GetProcAddress("eglQueryDeviceStringEXT"));
-  return egl;
-}
-
-// One way to a display.
-struct Candidate {
-  std::string name;
-  EGLenum platform = 0;  // 0: eglGetDisplay
-  void* native = nullptr;
-};
-
-bool has_word(const char* list, const char* word) {
-  return list && std::strstr(list, word) != nullptr;
-}
-
-std::vector<Candidate> find_devices(const Egl& egl, std::vector<bool>& is_software) {
-  std::vector<Candidate> found;
-  EGLDeviceEXT devices[32];
-  EGLint count = 0;
-  if (!egl.QueryDevices || !egl.GetPlatformDisplay || !egl.QueryDevices(32, devices, &count))
-    return found;
-  for (EGLint i = 0; i < count; ++i) {
-    const char* extensions =
-        egl.QueryDeviceString ? egl.QueryDeviceString(devices[i], EGL_EXTENSIONS) : nullptr;
-    const bool software = has_word(extensions, "EGL_MESA_device_software");
-    const char* file = has_word(extensions, "EGL_EXT_device_drm")
-                           ? egl.QueryDeviceString(devices[i], EGL_DRM_DEVICE_FILE_EXT)
-                           : nullptr;
-    std::string name = "EGL device " + std::to_string(i) + " (";
-    name += software ? "software" : (file ? file : "hardware");
-    found.push_back({name + ")", EGL_PLATFORM_DEVICE_EXT, devices[i]});
-    is_software.push_back(software);
-  }
-  return found;
-}
 
 int chosen_device(const GlContextOptions& options) {
   if (options.device >= 0) return options.device;
@@ -154,26 +31,37 @@ int chosen_device(const GlContextOptions& options) {
   return int(value);
 }
 
-std::vector<Candidate> list_candidates(const Egl& egl, int device) {
-  std::vector<bool> software;
-  const std::vector<Candidate> devices = find_devices(egl, software);
-  if (device >= 0) {
-    if (std::size_t(device) < devices.size()) return {devices[std::size_t(device)]};
-    std::string known;
-    for (const Candidate& d : devices) known += (known.empty() ? "" : ", ") + d.name;
-    throw RunError("cannot draw: there is no EGL device " + std::to_string(device) +
-                   "; EGL lists " + (known.empty() ? "none" : known) + "; " + kInstallHint);
+// Those that may be used, in the order in which they are tried.
+std::vector<EglCandidate> candidates_for(const Egl& egl, int device) {
+  const std::vector<EglCandidate> all = list_egl_candidates(egl);
+  if (device < 0) return all;
+  std::string known;
+  for (const EglCandidate& candidate : all) {
+    if (candidate.device == device) return {candidate};
+    if (candidate.device >= 0) known += (known.empty() ? "" : ", ") + candidate.name;
   }
-  std::vector<Candidate> order;
-  for (std::size_t i = 0; i < devices.size(); ++i)
-    if (!software[i]) order.push_back(devices[i]);
-  for (std::size_t i = 0; i < devices.size(); ++i)
-    if (software[i]) order.push_back(devices[i]);
-  if (egl.GetPlatformDisplay)
-    order.push_back({"surfaceless platform", EGL_PLATFORM_SURFACELESS_MESA, nullptr});
-  order.push_back({"default display", 0, nullptr});
-  return order;
+  throw RunError("cannot draw: there is no EGL device " + std::to_string(device) + "; EGL lists " +
+                 (known.empty() ? "none" : known) + "; " + kEglInstallHint);
 }
+
+std::string why_chosen(const GlContextOptions& options, const EglCandidate& candidate,
+                       const std::vector<std::string>& failed) {
+  if (options.device >= 0) return "asked for by option";
+  if (candidate.device >= 0 && chosen_device(options) >= 0) return "asked for by RUBBLE_EGL_DEVICE";
+  if (failed.empty()) return candidate.software ? "no device is hardware" : "the first that works";
+  return "the first that works, after " + std::to_string(failed.size()) + " that do not";
+}
+
+struct NamedLimit {
+  const char* name;
+  GLenum code;
+  GLint least;  // what the renderer needs; 0: any
+};
+constexpr NamedLimit kLimits[] = {{"texture size", GL_MAX_TEXTURE_SIZE, 4096},
+                                  {"array texture layers", GL_MAX_ARRAY_TEXTURE_LAYERS, 24},
+                                  {"texture buffer entries", GL_MAX_TEXTURE_BUFFER_SIZE, 0},
+                                  {"texture units", GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS, 16},
+                                  {"uniform block bytes", GL_MAX_UNIFORM_BLOCK_SIZE, 16384}};
 
 }  // namespace
 
@@ -185,7 +73,8 @@ struct GlContext::State {
   GlInfo info;
 
   // Empty when it worked, else what failed.
-  std::string try_open(const Candidate& candidate);
+  std::string try_open(const EglCandidate& candidate);
+  std::string read_limits();
   std::string load_functions();
   void close();
 };
@@ -213,10 +102,29 @@ std::string GlContext::State::load_functions() {
   info.vendor = text(GL_VENDOR);
   info.renderer = text(GL_RENDERER);
   info.version = text(GL_VERSION);
-  return info.renderer.empty() ? "the driver reports no renderer" : "";
+  if (info.renderer.empty()) return "the driver reports no renderer";
+  return read_limits();
 }
 
-std::string GlContext::State::try_open(const Candidate& candidate) {
+std::string GlContext::State::read_limits() {
+  info.limits.clear();
+  GLint major = 0, minor = 0;
+  gl.GetIntegerv(GL_MAJOR_VERSION, &major);
+  gl.GetIntegerv(GL_MINOR_VERSION, &minor);
+  if (major * 10 + minor < 45)
+    return "OpenGL 4.5 is needed, the driver gives \"" + info.version + "\"";
+  for (const NamedLimit& limit : kLimits) {
+    GLint value = 0;
+    gl.GetIntegerv(limit.code, &value);
+    if (value < limit.least)
+      return std::string(limit.name) + ": at least " + std::to_string(limit.least) +
+             " are needed, the driver has " + std::to_string(value);
+    info.limits.push_back({limit.name, value});
+  }
+  return "";
+}
+
+std::string GlContext::State::try_open(const EglCandidate& candidate) {
   display = candidate.platform
                 ? egl.GetPlatformDisplay(candidate.platform, candidate.native, nullptr)
                 : egl.GetDisplay(EGL_DEFAULT_DISPLAY);
@@ -248,15 +156,20 @@ std::string GlContext::State::try_open(const Candidate& candidate) {
 GlContext::GlContext(const GlContextOptions& options) : state_(std::make_unique<State>()) {
   if (options.threads > 0) setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 0);
   state_->egl = load_egl();
-  std::string tried;
-  for (const Candidate& candidate : list_candidates(state_->egl, chosen_device(options))) {
+  std::vector<std::string> failed;
+  for (const EglCandidate& candidate : candidates_for(state_->egl, chosen_device(options))) {
     const std::string failure = state_->try_open(candidate);
-    if (failure.empty()) return;
+    if (failure.empty()) {
+      state_->info.why = why_chosen(options, candidate, failed);
+      return;
+    }
     state_->close();
-    tried += "\n  " + candidate.name + ": " + failure;
+    failed.push_back(candidate.name + ": " + failure);
   }
-  throw RunError("cannot draw: no EGL device gives an OpenGL 4.5 context. Tried:" + tried + "\n" +
-                 kInstallHint);
+  std::string message = "cannot draw: no EGL device gives an OpenGL 4.5 context. Tried:";
+  for (const std::string& line : failed) message += "\n  " + line;
+  for (const std::string& line : egl_circumstances()) message += "\n" + line;
+  throw RunError(message + "\n" + kEglInstallHint);
 }
 
 GlContext::~GlContext() {
@@ -275,6 +188,20 @@ void GlContext::make_current() {
 
 void GlContext::release() {
   state_->egl.MakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
+GlReport report_gl() {
+  GlReport report;
+  for (const EglCandidate& candidate : list_egl_candidates(load_egl())) {
+    GlContext::State state;
+    state.egl = load_egl();
+    std::string outcome = state.try_open(candidate);
+    if (outcome.empty()) outcome = state.info.renderer + ", OpenGL " + state.info.version;
+    state.close();
+    report.candidates.push_back({candidate.name, outcome});
+  }
+  report.circumstances = egl_circumstances();
+  return report;
 }
 
 }  // namespace rubble

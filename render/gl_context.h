@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rubble {
@@ -14,6 +15,8 @@ struct GlInfo {
   std::string vendor, renderer, version;  // as GL reports them
   std::string egl_device;                 // e.g. "device 0 (/dev/dri/card0)" or "surfaceless"
   std::string egl_version;
+  std::string why;  // this device and no other was chosen
+  std::vector<std::pair<std::string, int>> limits;  // names and values of those that matter here
 };
 
 struct GlContextOptions {
@@ -23,6 +26,17 @@ struct GlContextOptions {
   // Threads of a software rasteriser (0: its own choice). Used only when LP_NUM_THREADS is unset.
   int threads = 0;
 };
+
+// What each way to a display gives, for `rubble info --gl`.
+struct GlReport {
+  struct Candidate {
+    std::string name, outcome;  // the renderer and its version, or what failed
+  };
+  std::vector<Candidate> candidates;       // in the order in which they are tried
+  std::vector<std::string> circumstances;  // what on this machine decides how they fare
+};
+// Opens each once. Throws RunError where libEGL itself is missing.
+GlReport report_gl();
 
 // Owns the context and makes it current on the thread that constructs it. One thread at a time
 // may draw; make_current() moves the context to another.
@@ -41,6 +55,7 @@ class GlContext {
   const Gl& gl() const;  // for the passes inside render/
 
  private:
+  friend GlReport report_gl();
   struct State;
   std::unique_ptr<State> state_;
 };

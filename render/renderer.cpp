@@ -144,7 +144,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
       medium(s.air, s.seed),
       start_ns(s.start_ns),
       pool(std::max(1, o.threads)),
-      exposure(ExposureOptions{0.21, 0.35, 0.25, o.fixed_exposure}) {
+      exposure(ExposureOptions{0.21, 0.25, o.fixed_exposure}) {
   const auto report = [&](double fraction) {
     if (progress) progress(fraction);
   };

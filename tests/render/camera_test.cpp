@@ -232,7 +232,7 @@ std::vector<double> profile(const Frame& frame, int row) {
 // f * 2 t / 4: the edge becomes a ramp of that width, its middle where the sharp edge is.
 TEST(MotionBlur, IsARampOfTheLengthOfTheMotion) {
   Scene scene = lit_wall();
-  scene.light.rpy_deg = {0, 30, 180};  // the wall is dark against the sky
+  scene.light.rpy_deg = {0, 70, 180};  // the wall is dark against an even sky
   GlContext context;
   Renderer renderer(context, scene, plain());
   CameraSpec spec = fixed_camera(160, 16, 400);

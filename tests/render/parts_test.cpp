@@ -113,7 +113,7 @@ TEST(Textures, DifferAndDoNotDependOnThreads) {
 }
 
 TEST(AutoExposure, MovesTowardsTheMeteredValueAndHolds) {
-  AutoExposure exposure({0.18, 0.25, 0});
+  AutoExposure exposure({0.18, 0.25, 0, 1});
   const auto image_of = [&](double luminance) {  // as the shader codes it
     const double stops = std::log2(luminance * double(exposure.factor()));
     return std::vector<std::uint8_t>(16 * 16 * 4,
@@ -128,6 +128,21 @@ TEST(AutoExposure, MovesTowardsTheMeteredValueAndHolds) {
   EXPECT_LT(exposure.factor(), before * 2);
   for (int i = 0; i < 200; ++i) exposure.follow(image_of(0.3), 16, 16, 0.033);
   EXPECT_NEAR(0.3 * exposure.factor(), 0.18, 0.02);
+}
+
+TEST(AutoExposure, ShowsDuskDarkerThanNoon) {
+  const auto shown = [](double kcd_per_m2) {
+    AutoExposure exposure({0.18, 0.25, 0, 0.35});
+    for (int i = 0; i < 12; ++i) {
+      const double stops = std::log2(kcd_per_m2 * double(exposure.factor()));
+      const auto code = std::uint8_t(std::lround(std::clamp(stops / 24 + 0.5, 0.0, 1.0) * 255));
+      exposure.follow(std::vector<std::uint8_t>(16 * 16 * 4, code), 16, 16, 0);
+    }
+    return kcd_per_m2 * double(exposure.factor());
+  };
+  EXPECT_NEAR(shown(5), 0.18, 0.02);
+  EXPECT_NEAR(shown(0.01) / shown(5), 0.58, 0.08);  // key(10) / key(4000) of the formula
+  EXPECT_NEAR(shown(1e-5) / shown(5), 0.35, 0.05);
 }
 
 // A bright half-plane above a gently sloping line: the exact cover of a pixel is known.

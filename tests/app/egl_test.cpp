@@ -1,0 +1,146 @@
+// Every way in which a machine can lack a working EGL gives a message that says what was tried and
+// what to do. Most are played by a libEGL of ours, which breaks where it is told to.
+#include <gtest/gtest.h>
+
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+// Whether a text holds all of these.
+::testing::AssertionResult holds(const std::string& text, const std::vector<const char*>& parts) {
+  for (const char* part : parts)
+    if (text.find(part) == std::string::npos)
+      return ::testing::AssertionFailure() << "no \"" << part << "\" in\n" << text;
+  return ::testing::AssertionSuccess();
+}
+
+Outcome with_fake_egl(const std::string& stage, const std::string& arguments = "info") {
+  return run_rubble(arguments, "RUBBLE_EGL_LIBRARY='" RUBBLE_FAKE_EGL "' FAKE_EGL=" + stage);
+}
+
+struct Breakage {
+  const char* stage;
+  std::vector<const char*> says;
+};
+
+class BrokenEgl : public ::testing::TestWithParam<Breakage> {};
+
+TEST_P(BrokenEgl, IsNamedWithWhatWasTriedAndWhatToDo) {
+  const Outcome info = with_fake_egl(GetParam().stage);
+  EXPECT_EQ(info.exit_code, 2);
+  EXPECT_TRUE(holds(info.err, GetParam().says));
+  EXPECT_TRUE(holds(info.err, {"cannot draw", "Tried:", "surfaceless platform", "default display",
+                               "libgl1-mesa-dri", "RUBBLE_EGL_DEVICE", "rubble info --gl"}));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Stages, BrokenEgl,
+    ::testing::Values(
+        Breakage{"no_devices", {"default display: no display: EGL_NOT_INITIALIZED"}},
+        Breakage{"no_display", {"EGL device 0 (hardware): no display"}},
+        Breakage{"no_initialize", {"cannot initialize: EGL_NOT_INITIALIZED"}},
+        Breakage{"no_surfaceless", {"no EGL_KHR_surfaceless_context"}},
+        Breakage{"no_desktop_gl", {"no desktop OpenGL"}},
+        Breakage{"no_context", {"no OpenGL 4.5 core context"}},
+        Breakage{"no_current", {"cannot make the context current"}},
+        Breakage{"no_function", {"the driver has no glClipControl"}},
+        Breakage{"old_gl", {"OpenGL 4.5 is needed, the driver gives \"3.3 fake\""}},
+        Breakage{"small", {"texture size: at least 4096 are needed, the driver has 1024"}}),
+    [](const auto& stage) { return std::string(stage.param.stage); });
+
+// The control: the fake works where nothing is to break.
+TEST(FakeEgl, WorksUnlessItIsToBreak) {
+  const Outcome info = with_fake_egl("nowhere", "info --gl");
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_TRUE(holds(info.out, {"EGL device 0 (hardware): fake, OpenGL 4.5 fake", "chosen",
+                               "the first that works", "texture size"}));
+}
+
+TEST(InfoGl, ShowsEveryWayEvenWhereNoneWorks) {
+  const Outcome info = with_fake_egl("no_context", "info --gl");
+  EXPECT_EQ(info.exit_code, 2);
+  EXPECT_TRUE(holds(info.out, {"ways to draw", "EGL device 0 (hardware): no OpenGL 4.5 core context",
+                               "surfaceless platform", "RUBBLE_EGL_DEVICE: not set"}));
+}
+
+TEST(InfoGl, SaysWhyADeviceWasChosen) {
+  const Outcome option = run_rubble("info --gl --gl-device 0", "RUBBLE_EGL_DEVICE=7");
+  EXPECT_EQ(option.exit_code, 0) << option.err;
+  EXPECT_TRUE(holds(option.out, {"asked for by option", "RUBBLE_EGL_DEVICE: 7", "texture units"}));
+  const Outcome environment = run_rubble("info --gl", "RUBBLE_EGL_DEVICE=0");
+  EXPECT_TRUE(holds(environment.out, {"asked for by RUBBLE_EGL_DEVICE"}));
+}
+
+TEST(MissingEgl, ALibraryThatDoesNotLoadIsNamed) {
+  const ScratchFolder folder;
+  write_file(folder / "libEGL.so.1", "no library at all");
+  const Outcome info = run_rubble("info", "RUBBLE_EGL_LIBRARY='" + (folder / "libEGL.so.1") + "'");
+  EXPECT_EQ(info.exit_code, 2);
+  EXPECT_TRUE(holds(info.err, {"libEGL.so.1 does not load", "libegl1"}));
+  const Outcome other = run_rubble("info", "RUBBLE_EGL_LIBRARY=libm.so.6");
+  EXPECT_TRUE(holds(other.err, {"the EGL library has no eglGetProcAddress"}));
+}
+
+TEST(MissingEgl, AVariableThatHidesTheDriversIsNamed) {
+  const Outcome files = run_rubble("info", "__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere/50_none.json");
+  EXPECT_EQ(files.exit_code, 2);
+  EXPECT_TRUE(holds(files.err, {"__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere/50_none.json is set",
+                                "there is no /nowhere/50_none.json", "try without it"}));
+  const ScratchFolder empty;
+  const Outcome folder =
+      run_rubble("info", "__EGL_VENDOR_LIBRARY_DIRS='" + empty.path().string() + "'");
+  EXPECT_EQ(folder.exit_code, 2);
+  EXPECT_TRUE(holds(folder.err, {"__EGL_VENDOR_LIBRARY_DIRS=", "drivers are looked for only there"}));
+}
+
+TEST(MissingEgl, ADriverTooOldIsNamed) {
+  const Outcome info = run_rubble("info", "MESA_GL_VERSION_OVERRIDE=3.3");
+  EXPECT_EQ(info.exit_code, 2);
+  EXPECT_TRUE(holds(info.err, {"no OpenGL 4.5 core context", "MESA_GL_VERSION_OVERRIDE=3.3 is set"}));
+}
+
+TEST(MissingEgl, ARunSaysSoBeforeItHasDrawnAnything) {
+  const ScratchFolder folder;
+  write_file(folder / "tiny.lua", kTinyMission);
+  const Outcome run = run_rubble("run '" + (folder / "tiny.lua") + "' --quiet --out '" +
+                                     (folder / "out") + "' --gl-device 42",
+                                 "");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_TRUE(holds(run.err, {"there is no EGL device 42", "EGL lists"}));
+}
+
+// A millionth of a second is too short for any light.
+TEST(EvenFrames, AreNamedOnceInTheLogAndTheManifest) {
+  const ScratchFolder folder;
+  write_file(folder / "tiny.lua", kTinyMission);
+  const Outcome run =
+      run_rubble("run '" + (folder / "tiny.lua") + "' --quiet --out '" + (folder / "out") +
+                 "' --set camera.exposure.mode=fixed --set camera.exposure.time=1e-6"
+                 " --set camera.exposure.iso=1 --set camera.sensor.noise=false");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(holds(run.err, {"warning: frame 0 is all one colour"}));
+  EXPECT_EQ(run.err.find("frame 1 is all"), std::string::npos);
+  EXPECT_TRUE(holds(read_file(folder / "out/manifest.json"), {"\"warnings\": [", "frame 0 is all"}));
+  const Outcome good = run_rubble("run '" + (folder / "tiny.lua") + "' --quiet --out '" +
+                                  (folder / "good") + "'");
+  EXPECT_EQ(good.err.find("warning"), std::string::npos) << good.err;
+}
+
+// Sanitizers reserve more addresses than any limit leaves.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(OutOfMemory, IsAnErrorAndNoBlackFrame) {
+  const ScratchFolder folder;
+  write_file(folder / "tiny.lua", kTinyMission);
+  const Outcome run = run_rubble("run '" + (folder / "tiny.lua") + "' --quiet --out '" +
+                                     (folder / "out") +
+                                     "' --set camera.width=8192 --set camera.height=8192",
+                                 "ulimit -v 1500000 &&");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_TRUE(holds(run.err, {"out of memory"}));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "manifest.json"));
+}
+#endif
+
+}  // namespace
+}  // namespace rubble::testing

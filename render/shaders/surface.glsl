@@ -10,12 +10,6 @@ struct Surface {
 uniform sampler2DArray look_textures;
 uniform sampler2D ground_map;  // from above: debris on the ground, tone; see ground_map.h
 
-// About sin(x), within 0.06: in parabolas, as sines are dear.
-float wave(float x) {
-  float t = fract(x * 0.15915494) * 2.0 - 1.0;
-  return 4.0 * t * (abs(t) - 1.0);
-}
-
 // Noise without visible order, from 0 to 1 (Jimenez 2014).
 float dither(vec2 pixel) {
   return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));

@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages build demo pictures test test-nightly test-asan test-tsan determinism format clean
+.PHONY: help packages build demo gallery pictures test test-nightly test-asan test-tsan determinism format clean
 
 PROGRAM := build/release/rubble
 CTEST   := ctest --output-on-failure --parallel 2
@@ -9,6 +9,7 @@ CTEST   := ctest --output-on-failure --parallel 2
 help:
 	@echo "make demo       install what is missing, build, and run scripts/first_pile.lua"
 	@echo "make test       install what is missing, build, and run the test suite"
+	@echo "make gallery    draw docs/gallery.md and its pictures anew"
 	@echo "make build      build the release preset alone: $(PROGRAM)"
 	@echo "make test-nightly  the tests that take long, or need a cluster of one node"
 	@echo "make test-asan  the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
@@ -35,6 +36,10 @@ pictures: demo
 	tools/frames_of_bag.py out/first_pile/mission.bag docs/pictures/first_pile.png 341 0 55 118
 	for pack in concrete residential parking bridge; do \
 	  $(PROGRAM) assets show $$pack --tile 168 --out docs/pictures/pack_$$pack.jpg || exit 1; done
+
+# Every picture of docs/gallery.md, from bundled missions.
+gallery: build
+	build/release/gallery
 
 test: build
 	$(CTEST) --preset release --label-exclude nightly

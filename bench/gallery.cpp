@@ -1,0 +1,144 @@
+// gallery: draws every picture that docs/gallery.json lists from bundled missions, and writes the page
+// that shows them.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/asset_library.h"
+#include "app/build_scene.h"
+#include "bench/channel_picture.h"
+#include "bench/gallery_list.h"
+#include "bench/program.h"
+#include "io/atomic_file.h"
+#include "io/jpeg_file.h"
+#include "kernel/base/disk_cache.h"
+#include "kernel/settle.h"
+#include "render/gl_context.h"
+#include "render/sensors/camera.h"
+#include "scripting/mission.h"
+#include "scripting/trajectory.h"
+
+namespace rubble {
+namespace {
+
+struct Request {
+  std::string list = "docs/gallery.json", page = "docs/gallery.md", only;
+  int threads = 0;
+};
+
+constexpr std::size_t kMostBytes = 145000;  // of a picture
+
+// Piles that were settled already, by all that a pile follows from.
+class Piles {
+ public:
+  explicit Piles(int threads) : threads_(threads) {}
+
+  const PileState& of(const GalleryPicture& picture, const Scenario& scenario,
+                      const AssetLibrary& assets) {
+    std::string key = picture.mission;
+    for (const std::string& change : picture.set)
+      if (change.rfind("pile.", 0) == 0 || change.rfind("seed", 0) == 0) key += "\n" + change;
+    const auto found = piles_.find(key);
+    if (found != piles_.end()) return found->second;
+    SettleOptions options = scenario.settle;
+    options.threads = threads_;
+    return piles_[key] = settle_pile(generate_pile(build_pile_spec(scenario, assets)), options);
+  }
+
+ private:
+  int threads_;
+  std::map<std::string, PileState> piles_;
+};
+
+Flight plan_flight(const Scenario& scenario) {
+  Flight flight;
+  for (const CameraPose& pose : sample_trajectory(scenario.trajectory, scenario.start_ns)) {
+    flight.stamps_ns.push_back(pose.stamp_ns);
+    flight.world_from_camera.push_back(pose.world_from_camera);
+  }
+  const auto path = std::make_shared<CameraPath>(scenario.trajectory);
+  flight.pose_at = [path, start = scenario.start_ns](std::int64_t stamp_ns) {
+    return path->at(double(stamp_ns - start) * 1e-9);
+  };
+  return flight;
+}
+
+Frame take(GlContext& context, const GalleryPicture& picture, Piles& piles, int threads) {
+  MissionOptions changes;
+  changes.overrides = picture.set;
+  const Mission mission = load_mission(picture.mission, changes);
+  const Scenario& scenario = mission.scenario;
+  const AssetLibrary assets = load_assets(mission, {});
+  RenderOptions options;
+  options.threads = threads;
+  options.cache_folder = DiskCache::usual_folder();
+  Renderer renderer(context, build_scene(scenario, assets, piles.of(picture, scenario, assets)),
+                    options);
+  CameraSpec spec = build_camera(scenario, threads);
+  ask_for_channel(picture.channel, spec);
+  Camera camera(renderer, spec, plan_flight(scenario), Medium(scenario.air, scenario.seed));
+  if (picture.frame >= camera.frames())
+    throw RunError(picture.name + ": frame " + std::to_string(picture.frame) + " of " +
+                   std::to_string(camera.frames()));
+  Frame frame;
+  for (int i = 0; i <= picture.frame; ++i) frame = camera.take(i);
+  return frame;
+}
+
+void write_jpeg(const std::string& path, const RgbImage& image) {
+  std::string bytes;
+  for (int quality = 90; quality >= 40; quality -= 5) {
+    bytes = encode_jpeg(image.width, image.height, image.rgb.data(), quality);
+    if (bytes.size() <= kMostBytes) break;
+  }
+  write_text_file(path, bytes);
+}
+
+ExitCode draw(const Request& request) {
+  namespace fs = std::filesystem;
+  const int threads =
+      request.threads > 0 ? request.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+  const Gallery gallery = load_gallery(request.list);
+  const fs::path folder = fs::path(request.page).parent_path() / "pictures/gallery";
+  fs::create_directories(folder);
+  GlContext context({-1, threads});
+  Piles piles(threads);
+  for (const GallerySection& section : gallery.sections) {
+    for (const GalleryPicture& picture : section.pictures) {
+      if (picture.name.find(request.only) == std::string::npos) continue;
+      std::fprintf(stderr, "gallery: %s\n", picture.name.c_str());
+      write_jpeg((folder / (picture.name + ".jpg")).string(),
+                 channel_picture(picture.channel, take(context, picture, piles, threads)));
+    }
+  }
+  write_text_file(request.page, gallery_page(gallery));
+  std::printf("%s\n", request.page.c_str());
+  return ExitCode::done;
+}
+
+ExitCode run(int argc, char** argv) {
+  CLI::App app{"Draws the pictures of the gallery from bundled missions, and writes its page."};
+  Request request;
+  app.add_option("--list", request.list, "What is drawn")->capture_default_str();
+  app.add_option("--page", request.page, "The page; pictures go to pictures/gallery beside it")
+      ->capture_default_str();
+  app.add_option("--only", request.only, "Only pictures whose name has this in it");
+  app.add_option("--threads", request.threads, "0: all processors")->check(CLI::Range(0, 1024));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
+  }
+  return draw(request);
+}
+
+}  // namespace
+}  // namespace rubble
+
+int main(int argc, char** argv) {
+  return rubble::run_program("gallery", [=] { return rubble::run(argc, argv); });
+}

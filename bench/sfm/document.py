@@ -122,6 +122,7 @@ def write(work):
     document = replace(document, "slam", slam_table(work))
     DOCUMENT.write_text(document)
     for size in conditions.SIZES:
-        names = [n for n in conditions.PAPER if 1 in found.get((size, n), {})]
-        if names:
-            pictures.draw(work, size, names, found, FIGURES / ("sfm_%s.png" % size))
+        for names, end in ((list(conditions.PAPER), ""), (conditions.HARD, "_hard")):
+            shown = [n for n in names if found.get((size, n), {}).get(1, {}).get("points")]
+            if shown:
+                pictures.draw(work, size, shown, found, FIGURES / ("sfm_%s%s.png" % (size, end)))

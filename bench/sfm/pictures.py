@@ -63,7 +63,7 @@ def draw(work, size, names, found, path):
     for name, place in zip(names, axes[0]):
         condition = conditions.find([name])[0]
         score = found[(size, name)][1]
-        draw_panel(place, plan, work.sfm(1, size, condition) / "details", "%s: %d of %d frames on track, %s points" % (
+        draw_panel(place, plan, work.sfm(1, size, condition) / "details", "%s:\n%d of %d frames on track, %s points" % (
             condition.title, score["on_track"], score["frames"], format(score["points"], ",")))
     figure.tight_layout()
     figure.savefig(path, dpi=85)

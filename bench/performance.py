@@ -21,6 +21,8 @@ SETTLING = [  # work, schedule, threads
     ("w2", "layers", 1), ("w2", "layers", 2), ("w2", "planes", 1), ("w2", "planes", 2),
 ]
 SEEDS = 20
+GOALS = {("void_lamp", "1024"): "12", ("exterior_sun", "1024"): "10", ("void_lamp", "512"): "30",
+         ("exterior_sun", "512"): "30"}  # frames/s
 
 
 def rows_of(command):
@@ -87,6 +89,18 @@ def make_recording(build):
                         "MB a frame": "mb_per_frame"})
 
 
+def make_render(build):
+    rows = rows_of([str(build / "render_bench"), "--csv", "--split", "--frames", "15"])
+    for row in rows:
+        row["goal"] = GOALS.get((row["view"], row["size"]), "")
+    text = table(rows, {"view": "view", "size": "size", "median ms": "median_ms", "min ms": "min_ms",
+                        "frames/s": "fps", "goal": "goal", "CPU ms": "cpu_ms",
+                        "visibility": "visibility_ms", "resolve": "resolve_ms", "read": "read_ms",
+                        "finish": "finish_ms", "triangles": "triangles"})
+    return text + "\n\nFirst frame %s s after the start of the program; %s MiB of memory at most." % (
+        rows[0]["first_frame_s"], max(int(r["peak_rss_mib"]) for r in rows))
+
+
 def make_machine(build):
     del build
     model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
@@ -99,7 +113,7 @@ def make_machine(build):
 
 
 SECTIONS = {"machine": make_machine, "settling": make_settling, "seeds": make_seeds,
-            "scaling": make_scaling, "recording": make_recording}
+            "scaling": make_scaling, "recording": make_recording, "render": make_render}
 
 
 def main():

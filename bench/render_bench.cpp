@@ -1,4 +1,6 @@
 // render_bench: how fast frames of the standard views come, and where the time goes.
+#include <sys/resource.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -27,8 +29,15 @@ struct Request {
   int frames = 30;
   int threads = 0;
   int device = -1;
-  bool csv = false;
+  bool csv = false, split = false;
   std::string pictures;
+};
+
+// What goes on from view to view.
+struct Session {
+  Clock::time_point start = Clock::now();  // of the program
+  double first_frame_s = 0;                // after it
+  std::int64_t now_ns = 0;                 // in the scene
 };
 
 double since(Clock::time_point start) {
@@ -58,6 +67,12 @@ struct Series {
   }
 };
 
+double peak_mib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return double(usage.ru_maxrss) / 1024;  // Linux: KiB
+}
+
 // Elapsed and processor time.
 std::string both(const Series::Pass& pass) {
   char text[32];
@@ -65,12 +80,18 @@ std::string both(const Series::Pass& pass) {
   return text;
 }
 
-void print(const Request& request, const char* view, int size, const Series& s) {
+void print(const Request& request, const char* view, int size, const Series& s,
+           const Session& session) {
   const double middle = median(s.total.elapsed);
   const double least = *std::min_element(s.total.elapsed.begin(), s.total.elapsed.end());
   if (request.csv) {
-    std::printf("%s,%d,%zu,%.2f,%.2f,%.2f\n", view, size, s.total.elapsed.size(), middle, least,
+    std::printf("%s,%d,%zu,%.2f,%.2f,%.2f", view, size, s.total.elapsed.size(), middle, least,
                 1000 / middle);
+    if (request.split)
+      std::printf(",%.2f,%s,%s,%s,%s,%.0f,%.2f,%.0f", median(s.total.processor),
+                  both(s.visibility).c_str(), both(s.resolve).c_str(), both(s.read).c_str(),
+                  both(s.finish).c_str(), median(s.triangles), session.first_frame_s, peak_mib());
+    std::printf("\n");
   } else {
     std::printf("%-13s %5d %8.1f %8.1f %8.1f %7.1f %13s %13s %9s %11s %10.0f\n", view, size, middle,
                 least, median(s.total.processor), 1000 / middle, both(s.visibility).c_str(),
@@ -87,7 +108,7 @@ void write_ppm(const std::string& path, const Frame& frame) {
 }
 
 Series fly(Renderer& renderer, const BenchView& view, int size, const Request& request,
-           std::int64_t& now_ns) {
+           Session& session) {
   constexpr int kWarm = 3;  // exposure, history of what shows, pages of memory
   const Intrinsics camera = bench_camera(size);
   const std::vector<Pose> poses = view.path(request.frames + kWarm);
@@ -96,8 +117,9 @@ Series fly(Renderer& renderer, const BenchView& view, int size, const Request& r
     const auto start = Clock::now();
     const double processor_start = processor_ms();
     // Seconds pass before the first that counts, so that the exposure is that of this view.
-    now_ns += i < kWarm ? 2000000000 : 33333333;
-    const Frame frame = renderer.render(poses[i], camera, int(i), now_ns);
+    session.now_ns += i < kWarm ? 2000000000 : 33333333;
+    const Frame frame = renderer.render(poses[i], camera, int(i), session.now_ns);
+    if (session.first_frame_s == 0) session.first_frame_s = since(session.start) / 1000;
     const PassTime all{since(start), processor_ms() - processor_start};
     if (i >= kWarm) series.add(all, renderer.times());
     if (i + 1 == poses.size() && !request.pictures.empty())
@@ -108,7 +130,10 @@ Series fly(Renderer& renderer, const BenchView& view, int size, const Request& r
 
 void print_head(const Request& request, const GlContext& context, double load_ms, double ready_ms) {
   if (request.csv) {
-    std::printf("view,size,frames,median_ms,min_ms,fps\n");
+    std::printf("view,size,frames,median_ms,min_ms,fps%s\n",
+                request.split ? ",cpu_ms,visibility_ms,resolve_ms,read_ms,finish_ms,triangles,"
+                                "first_frame_s,peak_rss_mib"
+                              : "");
     return;
   }
   std::printf("%s, %s; scene loaded in %.2f s, lit in %.2f s\n", context.info().renderer.c_str(),
@@ -122,12 +147,12 @@ ExitCode bench(const Request& request) {
   const int threads =
       request.threads > 0 ? request.threads : int(std::max(1u, std::thread::hardware_concurrency()));
   const fs::path program = fs::read_symlink("/proc/self/exe");
-  const auto start = Clock::now();
+  Session session;
   const Scene scene = load_bench_scene((program.parent_path() / "render_views.lua").string(),
                                        threads, [](const char* line) {
                                          std::fprintf(stderr, "render_bench: %s\n", line);
                                        });
-  const double load_ms = since(start);
+  const double load_ms = since(session.start);
   GlContext context({request.device, threads});
   RenderOptions options;
   options.threads = threads;
@@ -135,14 +160,16 @@ ExitCode bench(const Request& request) {
   const auto light = Clock::now();
   Renderer renderer(context, scene, options);
   print_head(request, context, load_ms, since(light));
-  std::int64_t now_ns = 0;
   for (const BenchView& view : bench_views()) {
     const auto& wanted = request.views;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), view.name) == wanted.end())
       continue;
     for (const int size : request.sizes)
-      print(request, view.name, size, fly(renderer, view, size, request, now_ns));
+      print(request, view.name, size, fly(renderer, view, size, request, session), session);
   }
+  if (!request.csv)
+    std::printf("first frame %.2f s after the start; %.0f MiB of memory at most\n",
+                session.first_frame_s, peak_mib());
   return ExitCode::done;
 }
 
@@ -168,6 +195,9 @@ ExitCode run(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--pictures", request.pictures, "Also write each view's last frame, PREFIXview.ppm");
   app.add_flag("--csv", request.csv, "Lines view,size,frames,median_ms,min_ms,fps");
+  app.add_flag("--split", request.split,
+               "With --csv also processor time, each pass (elapsed/processor), the first frame "
+               "after the start (s) and peak memory");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

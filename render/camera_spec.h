@@ -82,7 +82,8 @@ struct DepthSensorSpec {
   double modulation_mhz = 20;      // range: 1 to 1000
   double signal = 2e4;             // electrons of a facing white surface at 1 m; above 0
   double background = 2e3;         // electrons of other light; range: 0 and up
-  double reflectance = 0.4;        // of the surfaces, in the infrared; range: 0.01 to 1
+  double reflectance = 0;          // of all surfaces, in the infrared; 0: of each its own;
+                                   // range: 0 to 1
   double least_amplitude = 60;     // electrons; weaker returns are dropped
   double step = 0.001;             // unit: m; 0: not quantised
 };

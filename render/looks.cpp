@@ -1,5 +1,7 @@
 #include "render/looks.h"
 
+#include <algorithm>
+
 #include "kernel/base/error.h"
 
 namespace rubble {
@@ -190,6 +192,13 @@ const std::vector<Look>& all_looks() {
        0.0f},
   };
   return looks;
+}
+
+// As shaders/surface.glsl mixes them, with its texture at its mean.
+float mean_red_albedo(const Look& look, float up) {
+  const float t = std::clamp((up - 0.26f) / 0.75f, 0.0f, 1.0f);
+  const float dust = t * t * (3 - 2 * t) * look.dust;
+  return 0.5f * (look.dark.x + look.light.x) * (1 - dust) + 0.34f * dust;
 }
 
 std::vector<std::string> known_looks() {

@@ -44,6 +44,10 @@ struct Look {
 // All of them, in a fixed order; the last is the ground's.
 const std::vector<Look>& all_looks();
 
+// Mean red albedo of a surface, dust included, for light just beyond red. up: the Z part of its
+// unit normal in the world.
+float mean_red_albedo(const Look& look, float up);
+
 // The names that meshes may use.
 std::vector<std::string> known_looks();
 

@@ -360,6 +360,12 @@ std::vector<std::uint8_t> Renderer::seen_from(const Vec3& place_in_camera) {
   return s.truth->seen_from({s.drawn, ids, distances, nullptr}, place_in_camera);
 }
 
+std::vector<float> Renderer::albedos() const {
+  const std::vector<std::uint32_t> ids = state_->read_ids();
+  const std::vector<float> distances = state_->distances();
+  return state_->truth->albedos({state_->drawn, ids, distances, nullptr});
+}
+
 const RenderTimes& Renderer::times() const { return state_->times; }
 
 }  // namespace rubble

@@ -86,6 +86,8 @@ class Renderer {
   // camera body frame has a free line to the surface.
   std::vector<float> distances() const;
   std::vector<std::uint8_t> seen_from(const Vec3& place_in_camera);
+  // Of the same view: each surface's share of light just beyond red that it throws back; 0: none.
+  std::vector<float> albedos() const;
   LinearFrame render_linear(const Pose& world_from_camera, const Intrinsics& intrinsics);
   LinearFrame render_linear(const ViewRays& view);
 

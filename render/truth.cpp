@@ -2,8 +2,9 @@
 
 #include <limits>
 
-#include "kernel/base/portable_math.h"
 #include "kernel/base/parallel.h"
+#include "kernel/base/portable_math.h"
+#include "render/looks.h"
 
 namespace rubble {
 
@@ -159,6 +160,25 @@ std::vector<std::uint8_t> TruthMaker::seen_from(const DrawnView& view,
       const Vec3f way = Vec3f(world) - from;
       const float length = norm(way);
       out[i] = !free.blocked(from, way * (1 / length), 0, length - std::max(2e-3f, 2e-3f * length));
+    }
+  });
+  return out;
+}
+
+std::vector<float> TruthMaker::albedos(const DrawnView& view) const {
+  std::vector<float> out(view.distances.size(), 0);
+  parallel_for(std::size_t(view.rays.intrinsics.height), threads_, [&](std::size_t v) {
+    const std::size_t width = std::size_t(view.rays.intrinsics.width);
+    for (std::size_t i = v * width; i < (v + 1) * width; ++i) {
+      if (!view.ids[i * 2]) continue;
+      Pixel pixel;
+      pixel.piece = &scene_.placed[view.ids[i * 2] - 1];
+      pixel.triangle = geometry_.triangle_of_name[view.ids[i * 2 + 1]];
+      const Corners c = corners_of(pixel);
+      const Vec3 area = cross(c.points[1] - c.points[0], c.points[2] - c.points[0]);
+      const Vec3 up = normalized(pixel.piece->world_from_mesh.rotation.rotate(area));
+      const PreparedMesh& mesh = scene_.meshes[pixel.piece->mesh];
+      out[i] = mean_red_albedo(all_looks()[mesh.triangles[pixel.triangle].material], float(up.z));
     }
   });
   return out;

@@ -29,6 +29,8 @@ class TruthMaker {
   void fill(const ChannelSet& channels, const DrawnView& view, Frame& frame);
   // 1 where a place in the camera body frame has a free line to the surface, 0 elsewhere.
   std::vector<std::uint8_t> seen_from(const DrawnView& view, const Vec3& place_in_camera);
+  // Of each pixel's surface for light just beyond red; 0: nothing there.
+  std::vector<float> albedos(const DrawnView& view) const;
 
  private:
   struct Pixel;

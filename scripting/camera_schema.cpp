@@ -127,8 +127,9 @@ void add_depth_sensor(Schema& k, DepthSensorSpec& d) {
       .above(0, 1e9);
   k.value("depth_sensor.background", d.background, "Time of flight: electrons of other light.")
       .between(0, 1e9);
-  k.value("depth_sensor.reflectance", d.reflectance, "Of all surfaces, in the infrared.")
-      .between(0.01, 1);
+  k.value("depth_sensor.reflectance", d.reflectance,
+          "Of all surfaces, in the infrared; 0: of each its own, by its look.")
+      .between(0, 1);
   k.value("depth_sensor.least_amplitude", d.least_amplitude,
           "Time of flight: weaker returns, in electrons, are none.")
       .between(0, 1e9);

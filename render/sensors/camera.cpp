@@ -134,10 +134,12 @@ void Camera::State::measure_depth(int index, const ViewRays& view, Frame& frame)
   std::vector<std::uint8_t> projected;
   if (spec.depth_sensor.type == DepthSensorType::structured_light)
     projected = renderer.seen_from(depth_sensor.projector());
+  std::vector<float> albedos;
+  if (spec.depth_sensor.reflectance <= 0) albedos = renderer.albedos();
   const double seconds = double(view.stamp_ns - flight.stamps_ns.front()) * 1e-9;
   const Air air = medium.at(seconds);
-  frame.measured_depth =
-      depth_sensor.measure({view, renderer.distances(), truth.normals, projected, air, index});
+  frame.measured_depth = depth_sensor.measure(
+      {view, renderer.distances(), truth.normals, projected, albedos, air, index});
 }
 
 Frame Camera::State::take_ideal(int index) {

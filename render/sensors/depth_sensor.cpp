@@ -59,6 +59,11 @@ void DepthSensor::Returns::sum_up() {
   }
 }
 
+double DepthSensor::reflectance_at(const DepthView& view, int u, int v) const {
+  const double stated = spec_.depth_sensor.reflectance;
+  return stated > 0 ? stated : double(view.albedos[at(view, u, v)]);
+}
+
 DepthSensor::Returns DepthSensor::trace_air(const DepthView& view, int u, int v,
                                             double distance) const {
   Returns out;
@@ -80,8 +85,8 @@ DepthSensor::Returns DepthSensor::trace_air(const DepthView& view, int u, int v,
     out.sum_up();
   }
   if (!std::isnan(distance))
-    out.surface = spec_.depth_sensor.reflectance / kPi * cosine_at(view, u, v) *
-                  std::exp(-2 * depth) / (distance * distance);
+    out.surface = reflectance_at(view, u, v) / kPi * cosine_at(view, u, v) * std::exp(-2 * depth) /
+                  (distance * distance);
   return out;
 }
 

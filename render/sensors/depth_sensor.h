@@ -16,7 +16,8 @@
 //   weights 1 2 1 over neighbours, so that an edge gives pixels that fly between two surfaces), with
 //   A = signal * reflectance * cos a / r^2, in electrons. Range noise is (L / sqrt 8) sqrt(A + B) /
 //   (2 A), L = c / 2f, B the background (Lange and Seitz 2001, eq. 13); ranges wrap at L; a return
-//   below least_amplitude is none.
+//   below least_amplitude is none. Unless the specification states one reflectance for all surfaces,
+//   it is that of each surface's look for red light: the infrared of such sensors is next to it.
 //
 // Air of extinction s(r) and albedo w, the same Medium as the colour image looks through: light to a
 // surface and back keeps the share T^2 = exp(-2 tau), and the air throws back
@@ -43,6 +44,8 @@ struct DepthView {
   const std::vector<float>& distances;  // along the ray; NaN: none
   const std::vector<float>& normals;    // as Frame::normals
   const std::vector<std::uint8_t>& projected;  // 1: the projector sees it; only structured light
+  // Of the surfaces, 0 to 1, in the sensor's light: for a specification that states none.
+  const std::vector<float>& albedos;
   const Air& air;
   int frame = 0;
 };
@@ -63,6 +66,7 @@ class DepthSensor {
   };
 
   Returns trace_air(const DepthView& view, int u, int v, double distance) const;
+  double reflectance_at(const DepthView& view, int u, int v) const;
   float measure_ideal(const DepthView& view, int u, int v) const;
   float measure_disparity(const DepthView& view, int u, int v) const;
   float measure_phase(const DepthView& view, const std::vector<Phasor>& phasors, int u,

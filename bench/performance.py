@@ -97,8 +97,9 @@ def make_render(build):
                         "frames/s": "fps", "goal": "goal", "CPU ms": "cpu_ms",
                         "visibility": "visibility_ms", "resolve": "resolve_ms", "read": "read_ms",
                         "finish": "finish_ms", "triangles": "triangles"})
-    return text + "\n\nFirst frame %s s after the start of the program; %s MiB of memory at most." % (
-        rows[0]["first_frame_s"], max(int(r["peak_rss_mib"]) for r in rows))
+    return "%s\n\n%s\n\nFirst frame %s s after the start of the program; %s MiB of memory at most." % (
+        make_machine(build), text, rows[0]["first_frame_s"],
+        max(int(row["peak_rss_mib"]) for row in rows))
 
 
 def make_machine(build):

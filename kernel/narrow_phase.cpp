@@ -143,6 +143,11 @@ void clear_points(Contact& contact) {
   contact.pressed = 0;
 }
 
+void store_points(Contact& contact, const Manifold& manifold, const Vec3f& normal,
+                  const PosedBody& a) {
+  store(contact, manifold, normal, a, nullptr, Vec3f(-a.centre));
+}
+
 float update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, float margin,
                      const NarrowSettings& settings) {
   const Vec3f offset = Vec3f(b.centre - a.centre);
@@ -177,12 +182,11 @@ void update_ground_contact(Contact& contact, const PosedBody& a, float margin,
     if (s < margin) m.points[m.count++] = {{p.x, p.y, p.z - 0.5F * s}, s, s};
   }
   const Vec3f normal{0, 0, -1};
-  const Vec3f offset = Vec3f(-a.centre);
-  predict(m, a, nullptr, offset, normal, settings.step);
+  predict(m, a, nullptr, {}, normal, settings.step);
   drop_far_points(m);
   if (m.count == 0) return clear_points(contact);
   reduce(m, normal, Contact::kMaxPoints);
-  store(contact, m, normal, a, nullptr, offset);
+  store_points(contact, m, normal, a);
 }
 
 }  // namespace rubble

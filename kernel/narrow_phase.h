@@ -27,6 +27,11 @@ inline constexpr float kPointMargin = 0.010F;
 float motion_margin(const Body& a, const Body* b, const NarrowSettings& settings);
 void clear_points(Contact& contact);
 
+struct Manifold;
+// Writes points against something immovable into the contact; those found again keep their impulses.
+void store_points(Contact& contact, const Manifold& manifold, const Vec3f& normal,
+                  const PosedBody& a);
+
 // Finds normal and points anew, and carries over the impulses of points found again. No points:
 // the parts are farther apart than they can come in this step; then returns a distance that they
 // keep at least, else 0; unit: m.

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +26,10 @@ struct ConvexPart {
 // One kind of piece. All lengths at scale 1.
 struct PieceType {
   std::string name;
-  std::vector<ConvexPart> parts;  // collision geometry; at least one
+  std::vector<ConvexPart> parts;  // collision geometry; at least one, or a surface
+  // Terrain: collides by its own triangles, from the side that they face, and can only be fixed. It
+  // need not be closed, but only what is closed has an inside for queries and void maps.
+  std::shared_ptr<const TriangleMesh> surface;
   // Volume, centre of mass and inertia at density 1; without it, the sum over the parts.
   std::optional<VolumeProperties> volume;
   double density = 2400;  // unit: kg/m3; range: 10 to 20000

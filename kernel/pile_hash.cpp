@@ -22,6 +22,11 @@ void add(StateHash& hash, const PieceType& type) {
   }
   hash.add(type.density);
   hash.add(type.friction);
+  if (!type.surface) return;
+  for (const Vec3f& p : type.surface->positions) add(hash, Vec3(p));
+  for (const auto& corners : type.surface->triangles) {
+    for (const std::uint32_t corner : corners) hash.add(std::int32_t(corner));
+  }
 }
 
 void add(StateHash& hash, const std::vector<Placement>& placements) {

@@ -121,7 +121,25 @@ void check_material(const PieceType& type, const std::string& key) {
   if (!(type.friction >= 0 && type.friction <= 2)) {
     fail(key + ".friction", "out of range", "0 to 2", std::to_string(type.friction));
   }
-  if (type.parts.empty()) fail(key + ".parts", "no collision part", "at least one", "none");
+  if (type.parts.empty() == !type.surface) {
+    fail(key + ".parts", type.surface ? "both parts and a surface" : "no collision part",
+         "at least one part, or a surface", type.surface ? "both" : "none");
+  }
+}
+
+// It never moves: mass and centre do not matter.
+Shape compile_surface(const TriangleMesh& mesh, const std::string& key) {
+  Shape shape;
+  try {
+    shape.surface = std::make_shared<const Surface>(mesh);
+  } catch (const std::exception& error) {
+    fail(key + ".surface", error.what(), "a mesh with triangles that have an area",
+         std::to_string(mesh.triangles.size()) + " triangles");
+  }
+  const Aabb box = shape.surface->bounds();
+  shape.reach = Vec3f(max(box.max, -box.min));
+  shape.radius = norm(shape.reach);
+  return shape;
 }
 
 }  // namespace
@@ -132,6 +150,7 @@ VolumeProperties calc_volume_properties(const ConvexPart& part) {
 
 Shape compile_shape(const PieceType& type, const std::string& key) {
   check_material(type, key);
+  if (type.surface) return compile_surface(*type.surface, key);
   std::vector<Hull> hulls;
   std::vector<VolumeProperties> volumes;
   for (std::size_t i = 0; i < type.parts.size(); ++i) {

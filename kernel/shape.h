@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "kernel/base/math.h"
 #include "kernel/base/mesh.h"
 #include "kernel/pile.h"
+#include "kernel/surface.h"
 
 namespace rubble {
 
@@ -31,6 +33,7 @@ struct ConvexShape {
 
 struct Shape {
   std::vector<ConvexShape> parts;
+  std::shared_ptr<const Surface> surface;  // instead of parts
   VolumeProperties volume;  // at scale 1 and density 1, centre in the frame of the type
   float radius = 0;         // of the sphere about the centre of mass; unit: m
   Vec3f reach;              // largest |x|, |y|, |z| of any corner from there; unit: m

@@ -24,6 +24,17 @@ Mat3 inverse_symmetric(const Mat3& m) {
 
 Mat3f to_float(const Mat3& m) { return {{Vec3f(m.rows[0]), Vec3f(m.rows[1]), Vec3f(m.rows[2])}}; }
 
+void check_movable(const NewPiece& piece, const std::vector<PieceType>& types, int index) {
+  const std::size_t type = std::size_t(piece.placement.type);
+  if (piece.placement.fixed || type >= types.size() || !types[type].surface) return;
+  Diagnostic d;
+  d.key = "pieces[" + std::to_string(index) + "].fixed";
+  d.message = "a surface cannot move";
+  d.expected = "true";
+  d.found = "false";
+  throw InputError(d);
+}
+
 void check(const NewPiece& piece, int types, int index) {
   Diagnostic d;
   d.key = "pieces[" + std::to_string(index) + "]";
@@ -60,7 +71,12 @@ World::Impl::Impl(std::vector<PieceType> piece_types, const WorldOptions& world_
     shapes.push_back(compile_shape(types[i], "types[" + std::to_string(i) + "]"));
   }
   for (std::size_t i = 0; i < assemblies.size(); ++i) {
-    validate(assemblies[i], int(types.size()), "assemblies[" + std::to_string(i) + "]");
+    const std::string key = "assemblies[" + std::to_string(i) + "]";
+    validate(assemblies[i], int(types.size()), key);
+    for (const AssemblyLink& link : assemblies[i].links) {
+      if (!types[link.type].surface) continue;
+      throw InputError({"", 0, key, "a link is a surface, which cannot move", "", "", ""});
+    }
   }
 }
 
@@ -140,6 +156,14 @@ void World::Impl::find_first_pairs(int index) {
     const int collider = body.first_collider + c;
     data.broad.query(collider, [&](int other) { add_contact(collider, other); });
     if (body.mass > 0) add_contact(collider, kGround);
+    update_surface_pairs(collider);
+  }
+}
+
+void World::Impl::list_surfaces() {
+  surfaces.clear();
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    if (data.bodies[i].shape->surface) surfaces.push_back(std::int32_t(i));
   }
 }
 
@@ -178,7 +202,10 @@ int World::add(const std::vector<NewPiece>& pieces) {
   const int first = size();
   w.data.proof_steps = -1;
   const int types = int(w.types.size()), kinds = types + int(w.assemblies.size());
-  for (std::size_t i = 0; i < pieces.size(); ++i) check(pieces[i], kinds, int(i));
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    check(pieces[i], kinds, int(i));
+    check_movable(pieces[i], w.types, int(i));
+  }
   std::vector<FreeBody> free;  // by body; those of links are not used
   for (const NewPiece& piece : pieces) {
     if (piece.placement.type < types) {
@@ -212,7 +239,10 @@ int World::add(const std::vector<NewPiece>& pieces) {
       w.data.broad.update(collider, w.data.colliders[collider].box, {});
     }
   }
-  for (int i = first; i < size(); ++i) w.find_first_pairs(i);
+  const std::size_t surfaces = w.surfaces.size();
+  w.list_surfaces();
+  // What was there before may lie near a surface that is new.
+  for (int i = w.surfaces.size() > surfaces ? 0 : first; i < size(); ++i) w.find_first_pairs(i);
   return first;
 }
 

@@ -58,6 +58,7 @@ struct World::Impl {
 
   // Scratch of a step.
   std::vector<std::int32_t> active;
+  std::vector<std::int32_t> surfaces;  // the bodies that are one, ascending
   std::vector<std::uint8_t> moves;  // by number in SimbodyBlocks
   std::vector<Motion> velocities, displacements;
   std::vector<BodyRates> rates;  // by number in SimbodyBlocks
@@ -72,6 +73,7 @@ struct World::Impl {
   void mirror(Body& body);   // q and u from Simbody
   void refresh(Body& body);  // rotation, inertia, corners, boxes
   void find_first_pairs(int body);
+  void list_surfaces();
   Vec3 linear_velocity(const Body& body) const;
   Vec3 angular_velocity(const Body& body) const;
   PosedBody posed(const Collider& collider) const;
@@ -82,7 +84,10 @@ struct World::Impl {
   void update_contacts();
   bool may_touch(const Pair& pair) const;
   void add_contact(int collider_a, int collider_b);
+  void push_contact(const Pair& pair);
   void remove_contact(std::size_t index);
+  void update_surface_pairs(int collider);
+  void update_surface_slots(const Pair& first);
 
   // world_sleep.cpp
   void wake_marked();

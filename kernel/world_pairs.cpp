@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/surface_contact.h"
 #include "kernel/world_impl.h"
 
 namespace rubble {
@@ -30,14 +31,41 @@ void World::Impl::add_contact(int first, int second) {
   if (!data.contact_of_pair.insert({pair_key(a, b), std::int32_t(data.contacts.size())}).second) {
     return;
   }
+  push_contact({a, b, body_a, body_b});
+}
+
+void World::Impl::push_contact(const Pair& pair) {
   Contact contact;
-  contact.body_a = body_a;
-  contact.body_b = body_b;
-  const double mu_a = types[one.type].friction;
-  const double mu_b = b == kGround ? mu_a : types[data.bodies[body_b].type].friction;
+  contact.body_a = pair.body_a;
+  contact.body_b = pair.body_b;
+  const double mu_a = types[data.bodies[pair.body_a].type].friction;
+  const double mu_b =
+      pair.body_b == kGround ? mu_a : types[data.bodies[pair.body_b].type].friction;
   contact.friction = float(std::sqrt(mu_a * mu_b));
-  data.pairs.push_back({a, b, body_a, body_b});
+  data.pairs.push_back(pair);
   data.contacts.push_back(contact);
+}
+
+// A part near a surface has all slots there, far from it none.
+void World::Impl::update_surface_pairs(int collider) {
+  const std::int32_t body = data.colliders[collider].body;
+  if (data.bodies[body].mass <= 0) return;
+  for (const std::int32_t surface : surfaces) {
+    const PosedSurface posed_surface(data.bodies[surface]);
+    const bool near =
+        posed_surface.surface->meets(posed_surface.to_local(data.broad.box(collider)));
+    for (int slot = 0; slot < kSurfaceSlots; ++slot) {
+      const std::int32_t other = surface_collider(surface, slot);
+      const auto known = data.contact_of_pair.find(pair_key(collider, other));
+      if (near == (known != data.contact_of_pair.end())) continue;
+      if (!near) {
+        remove_contact(std::size_t(known->second));
+        continue;
+      }
+      data.contact_of_pair[pair_key(collider, other)] = std::int32_t(data.contacts.size());
+      push_contact({collider, other, body, surface});
+    }
+  }
 }
 
 void World::Impl::remove_contact(std::size_t index) {
@@ -72,6 +100,7 @@ void World::Impl::find_pairs() {
       if (!data.broad.update(collider, box, motion * kLookAhead)) continue;
       data.broad.query(collider, [&](int other) { add_contact(collider, other); });
       if (data.broad.box(collider).min.z < 0) add_contact(collider, kGround);
+      update_surface_pairs(collider);
     }
   }
 }
@@ -84,6 +113,10 @@ void World::Impl::select_pairs() {
     const bool ground = pair.body_b == kGround;
     if (!data.bodies[pair.body_a].awake && (ground || !data.bodies[pair.body_b].awake)) {
       ++i;
+      continue;
+    }
+    if (is_surface_collider(pair.collider_b)) {  // dropped in find_pairs()
+      active.push_back(std::int32_t(i++));
       continue;
     }
     const Aabb& box = data.broad.box(pair.collider_a);
@@ -119,10 +152,32 @@ bool World::Impl::may_touch(const Pair& pair) const {
          box.min.z <= other.max.z + margin && other.min.z <= box.max.z + margin;
 }
 
+// All slots of a part at once.
+void World::Impl::update_surface_slots(const Pair& first) {
+  Contact* slots[kSurfaceSlots];
+  std::int32_t numbers[kSurfaceSlots];
+  for (int slot = 0; slot < kSurfaceSlots; ++slot) {
+    numbers[slot] = data.contact_of_pair.at(
+        pair_key(first.collider_a, surface_collider(first.body_b, slot)));
+    slots[slot] = &data.contacts[numbers[slot]];
+  }
+  const Collider& collider = data.colliders[first.collider_a];
+  const float margin = motion_margin(data.bodies[first.body_a], nullptr, narrow_settings);
+  update_surface_contacts(slots, posed(collider), collider.box, data.bodies[first.body_b], margin,
+                          narrow_settings);
+  for (const std::int32_t number : numbers) {
+    data.pairs[number].live = data.contacts[number].count > 0;
+  }
+}
+
 void World::Impl::update_contacts() {
   pool.run(int(active.size()), 64, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       Pair& pair = data.pairs[active[i]];
+      if (is_surface_collider(pair.collider_b)) {
+        if (surface_slot(pair.collider_b) == 0) update_surface_slots(pair);
+        continue;
+      }
       Contact& contact = data.contacts[active[i]];
       const Body& body = data.bodies[pair.body_a];
       const PosedBody a = posed(data.colliders[pair.collider_a]);

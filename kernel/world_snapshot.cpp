@@ -131,6 +131,11 @@ bool in_range(std::int64_t index, std::size_t size) {
   return index >= 0 && index < std::int64_t(size);
 }
 
+bool is_surface_pair(const Pair& pair, std::size_t bodies) {
+  return is_surface_collider(pair.collider_b) && in_range(pair.body_b, bodies) &&
+         surface_collider(pair.body_b, surface_slot(pair.collider_b)) == pair.collider_b;
+}
+
 bool is_consistent(const Tree& tree, const TreeState& state, std::size_t bodies) {
   bool fine = state.q.size() == std::size_t(tree.q_count) &&
               state.u.size() == std::size_t(tree.u_count) && tree.links.size() <= kMaxLinks;
@@ -165,7 +170,7 @@ bool is_consistent(const World::Snapshot& s) {
     const bool ground = p.collider_b == kGround && p.body_b == kGround;
     fine = fine && in_range(p.collider_a, d.colliders.size()) &&
            in_range(p.body_a, d.bodies.size()) &&
-           (ground ||
+           (ground || is_surface_pair(p, d.bodies.size()) ||
             (in_range(p.collider_b, d.colliders.size()) && in_range(p.body_b, d.bodies.size())));
   }
   for (const Contact& c : d.contacts) {
@@ -248,6 +253,7 @@ void World::restore(const Snapshot& snapshot) {
   }
   w.data = snapshot.data;
   for (Body& body : w.data.bodies) body.shape = &w.shapes[body.type];
+  w.list_surfaces();
   w.simbody_trees = SimbodyTrees();
   for (std::size_t i = 0; i < w.data.trees.size(); ++i) {
     w.simbody_trees.add(w.data.trees[i], w.data.bodies, snapshot.tree_states[i]);

@@ -41,7 +41,7 @@ TEST(Rest, TenBoxesStand) {
   run(world, 5);
   for (int i = 0; i < 10; ++i) {
     const PieceState piece = world.piece(i);
-    EXPECT_LT(norm(piece.linear_velocity), 0.015) << i;
+    EXPECT_LT(norm(piece.linear_velocity), 0.005) << i;
     EXPECT_NEAR(piece.world_from_body.translation.z, 0.1 + 0.2 * i, 0.001 * (i + 2)) << i;
     EXPECT_LT(std::hypot(piece.world_from_body.translation.x, piece.world_from_body.translation.y),
               0.002) << i;

@@ -100,14 +100,21 @@ void ContactSolver::number_bodies(const std::vector<Body>& bodies,
 // A light piece under a heavy one carries a load of many times its weight, which the sweeps reach
 // only after as many rounds, and in the meantime the heavy one bounces on it. While it is slow, its
 // inertia (not its weight) counts as at least 1/kMassRatio of what lies on it: loads at rest stay
-// exact, and momentum that goes into the light piece is lost, never gained.
+// exact, and momentum that goes into the light piece is lost, never gained. What nothing holds up from
+// below carries nothing: where two meet in the air, momentum is kept.
 void ContactSolver::share_inertia(const std::vector<Body>& bodies,
                                   const std::vector<std::int32_t>& order,
                                   const std::vector<Contact>& contacts) {
   share_.assign(moving_.size() + 1, 1.0F);
+  held_.assign(moving_.size() + 1, 0);
+  for (std::int32_t index : order) {
+    const Contact& contact = contacts[index];
+    if (contact.normal.z < -kAbove) held_[number_[contact.body_a]] = 1;
+    if (contact.body_b != kGround && contact.normal.z > kAbove) held_[number_[contact.body_b]] = 1;
+  }
   const auto carry = [&](std::int32_t light, std::int32_t heavy, float up) {
     const Body &l = bodies[light], &h = bodies[heavy];
-    if (up < kAbove || !l.awake || !h.awake || l.tree >= 0 || dot(l.linear, l.linear) > kCarrySpeed * kCarrySpeed) {
+    if (up < kAbove || held_[number_[light]] == 0 || !l.awake || !h.awake || l.tree >= 0 || dot(l.linear, l.linear) > kCarrySpeed * kCarrySpeed) {
       return;
     }
     const float share = float(kMassRatio * l.mass / h.mass);

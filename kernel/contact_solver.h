@@ -67,6 +67,7 @@ class ContactSolver {
   TreeContacts tree_contacts_;
   std::vector<std::int32_t> moving_;   // awake free bodies with a contact, in order
   std::vector<std::int32_t> number_;   // of each body in moving_; moving_.size(): does not move
+  std::vector<std::uint8_t> held_;     // something is below it; by moving body
   std::vector<float> share_;           // of true inertia in what the solver uses, by moving body
   std::vector<PaddedMotion> speeds_, moved_, before_push_;
   std::vector<ContactBatch> batches_;

@@ -63,6 +63,7 @@ struct World::Impl {
   std::vector<Motion> velocities, displacements;
   std::vector<BodyRates> rates;  // by number in SimbodyBlocks
   std::vector<float> fastest;
+  std::vector<std::int32_t> neighbour;
   std::vector<TreeMotion> tree_motions;       // by number of the tree
   std::vector<std::int32_t> awake_trees;
   std::vector<std::uint8_t> is_solved;        // by number of the tree
@@ -106,6 +107,7 @@ struct World::Impl {
   void solve_contacts();
   void sort_by_height();
   void update_touching();
+  void give_back(std::size_t piece, const Vec3f& speed);
   void limit_kicks();
   void advance();
   void set_rates(std::size_t body);

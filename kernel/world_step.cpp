@@ -10,6 +10,8 @@
 namespace rubble {
 namespace {
 
+// Who touches a piece, beside the number of the only one; see limit_kicks().
+constexpr std::int32_t kNobody = -2, kSeveral = -3;
 constexpr float kOrderDistance = 0.1F;  // see sort_by_height(); unit: m
 
 // The implicit gyroscopic torque, one Newton step (Catto, GDC 2015): stable at any spin.
@@ -83,13 +85,33 @@ void World::Impl::solve_contacts() {
                solved_trees);
 }
 
+// What a piece loses goes back to the only one that touches it, if that is as heavy: where two meet,
+// momentum is kept. With several, the one that squeezes is not known.
+void World::Impl::give_back(std::size_t piece, const Vec3f& speed) {
+  const std::int32_t other = neighbour[piece];
+  if (other < 0) return;
+  const Body &light = data.bodies[piece], &heavy = data.bodies[other];
+  if (!heavy.awake || heavy.mobile < 0 || heavy.mass < light.mass) return;
+  const Vec3f change = speed * float(light.mass / heavy.mass);
+  velocities[other].linear += change;
+  displacements[other].linear += change * float(options.step);
+}
+
 // A piece squeezed out from under a heavy one must not shoot away: sideways and upwards it may
 // become no faster in one step than a share of the speed that the points which touch it had before.
 void World::Impl::limit_kicks() {
   fastest.assign(data.bodies.size(), 0);
+  neighbour.assign(data.bodies.size(), kNobody);
+  const auto note = [this](std::int32_t body, std::int32_t other) {
+    if (body == kGround) return;
+    neighbour[body] = neighbour[body] == kNobody || neighbour[body] == other ? other : kSeveral;
+  };
   for (std::int32_t index : active) {
     const Contact& contact = data.contacts[index];
-    if (contact.body_b == kGround || contact.pressed <= 0) continue;
+    if (contact.pressed <= 0) continue;
+    note(contact.body_a, contact.body_b);
+    note(contact.body_b, contact.body_a);
+    if (contact.body_b == kGround) continue;
     const Body &a = data.bodies[contact.body_a], &b = data.bodies[contact.body_b];
     float &of_a = fastest[contact.body_a], &of_b = fastest[contact.body_b];
     for (int i = 0; i < contact.count; ++i) {
@@ -107,6 +129,7 @@ void World::Impl::limit_kicks() {
     const float most = std::max(before + fall, kKickShare * fastest[i] + kFreeKick);
     if (after <= most) continue;
     const float keep = most / after;
+    give_back(i, outwards(velocities[i].linear) * (1 - keep));
     for (Vec3f* v : {&velocities[i].linear, &displacements[i].linear}) {
       v->x *= keep, v->y *= keep;
       if (v->z > 0) v->z *= keep;

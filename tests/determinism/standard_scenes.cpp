@@ -125,13 +125,19 @@ SceneResult articulated(const SceneOptions& options) {
   return settle(generate_pile(spec), Schedule::layers, options);
 }
 
+// Pieces fall on hills of triangles and slide down them.
+SceneResult hills(const SceneOptions& options) {
+  return step_world(testing::hilly_types(), testing::pieces_on_hills(), 120, options);
+}
+
 }  // namespace
 
 const std::vector<Scene>& standard_scenes() {
   static const std::vector<Scene> scenes = {
       {"pile_layers", pile_layers},       {"pile_planes", pile_planes},
       {"pile_midair", pile_midair},       {"brick_tower", brick_tower},
-      {"bar_under_slab", bar_under_slab}, {"articulated", articulated}};
+      {"bar_under_slab", bar_under_slab}, {"articulated", articulated},
+      {"hills", hills}};
   return scenes;
 }
 

@@ -3,6 +3,7 @@
 #include "kernel/base/hash.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
+#include "kernel/height_field.h"
 
 namespace rubble::testing {
 
@@ -89,6 +90,45 @@ PieceType cinder_block_type() {
     type.parts.push_back(box_part(t, w - 2 * t, h, {x, 0, 0}));
   }
   return type;
+}
+
+PieceType terrain_type(double size, double spacing,
+                       const std::function<double(double x, double y)>& height) {
+  HeightField field;
+  field.columns = field.rows = int(size / spacing + 0.5) + 1;
+  field.spacing = spacing;
+  field.origin = {-size / 2, -size / 2, 0};
+  for (int row = 0; row < field.rows; ++row) {
+    for (int column = 0; column < field.columns; ++column) {
+      field.heights.push_back(
+          height(field.origin.x + column * spacing, field.origin.y + row * spacing));
+    }
+  }
+  PieceType type;
+  type.name = "terrain";
+  type.friction = 0.6;
+  type.surface = std::make_shared<const TriangleMesh>(make_height_field_mesh(field, 1, "ground"));
+  return type;
+}
+
+std::vector<PieceType> hilly_types() {
+  std::vector<PieceType> types = rubble_types();
+  types.push_back(terrain_type(12, 0.4, [](double x, double y) {
+    const double step = x * x > 1.5 ? 0.3 : y * y > 2.5 ? 0.15 : 0.0;
+    return 1 + 0.02 * (x * x - y * y) + step;
+  }));
+  return types;
+}
+
+std::vector<NewPiece> pieces_on_hills() {
+  std::vector<NewPiece> pieces{at(8, {}, {}, true)};
+  for (int i = 0; i < 40; ++i) {
+    NewPiece piece = at(i % 8, {-2.0 + 0.6 * (i % 7), -1.8 + 0.7 * (i / 7), 3.2 + 0.4 * (i % 3)},
+                        turned({1, double(i % 5) - 2, 2}, 0.7 * i));
+    if (i % 8 < 2) piece.placement.scale = 0.3;
+    pieces.push_back(piece);
+  }
+  return pieces;
 }
 
 std::vector<PieceType> rubble_types() {

@@ -19,26 +19,9 @@ using testing::at;
 using testing::box_type;
 using testing::run;
 using testing::run_to_rest;
+using testing::hilly_types;
+using testing::terrain_type;
 using testing::turned;
-
-template <typename Height>
-PieceType make_terrain(double size, double spacing, Height&& height) {
-  HeightField field;
-  field.columns = field.rows = int(std::lround(size / spacing)) + 1;
-  field.spacing = spacing;
-  field.origin = {-size / 2, -size / 2, 0};
-  for (int row = 0; row < field.rows; ++row) {
-    for (int column = 0; column < field.columns; ++column) {
-      field.heights.push_back(height(field.origin.x + column * spacing,
-                                     field.origin.y + row * spacing));
-    }
-  }
-  PieceType type;
-  type.name = "terrain";
-  type.friction = 0.6;
-  type.surface = std::make_shared<const TriangleMesh>(make_height_field_mesh(field, 1, "ground"));
-  return type;
-}
 
 // A box on a plane of 0.25 m triangles that goes down along X; returns how far it slid and how fast
 // it was, step by step.
@@ -48,7 +31,7 @@ struct Slide {
 };
 Slide slide(double angle, double seconds, double turn = 0.3) {
   const double slope = std::tan(angle), mu = 0.6;
-  World world({make_terrain(60, 0.25, [&](double x, double) { return 40 - slope * x; }),
+  World world({terrain_type(60, 0.25, [&](double x, double) { return 40 - slope * x; }),
                box_type("box", 0.4, 0.4, 0.2)});
   const Quat down = turned({0, 1, 0}, angle), q = down * turned({0, 0, 1}, turn);
   const Vec3 start = Vec3{-20, 0.07, 40 + slope * 20} + down.rotate({0, 0, 0.101});
@@ -92,7 +75,7 @@ TEST(Terrain, FrictionHoldsJustUnderTheAngleAndNotOverIt) {
 
 // A ball (a fine polyhedron) and a thin plate, fast over level triangles: nothing turns them aside.
 TEST(Terrain, NoEdgeBetweenLevelTrianglesCatchesWhatSlides) {
-  PieceType ground = make_terrain(40, 0.2, [](double, double) { return 1.0; });
+  PieceType ground = terrain_type(40, 0.2, [](double, double) { return 1.0; });
   ground.friction = 0;
   PieceType plate = box_type("plate", 0.9, 0.5, 0.03);
   World world({ground, plate});
@@ -111,7 +94,7 @@ TEST(Terrain, NoEdgeBetweenLevelTrianglesCatchesWhatSlides) {
 
 TEST(Terrain, PiecesGatherAtTheBottomOfABowl) {
   std::vector<PieceType> types{
-      make_terrain(16, 0.25, [](double x, double y) { return 0.5 + 0.12 * (x * x + y * y); }),
+      terrain_type(16, 0.25, [](double x, double y) { return 0.5 + 0.12 * (x * x + y * y); }),
       testing::chunk_type("chunk", 3), box_type("brick", 0.215, 0.1025, 0.065)};
   types[0].friction = types[1].friction = types[2].friction = 0.1;
   World world(types);
@@ -190,7 +173,7 @@ TEST(Terrain, ALevelFieldIsAsGoodAsTheGround) {
   for (const bool field : {false, true}) {
     PileSpec spec = testing::small_pile(5, 2, 50);
     if (field) {
-      spec.types.push_back(make_terrain(16, 0.25, [](double, double) { return 1.0; }));
+      spec.types.push_back(terrain_type(16, 0.25, [](double, double) { return 1.0; }));
       spec.types.back().friction = 0.6;
       Placement terrain;
       terrain.type = int(spec.types.size()) - 1;
@@ -217,31 +200,11 @@ TEST(Terrain, ALevelFieldIsAsGoodAsTheGround) {
   EXPECT_LT(deepest[1], 0.005);
 }
 
-std::vector<PieceType> hilly_types() {
-  std::vector<PieceType> types = testing::rubble_types();
-  types.push_back(make_terrain(12, 0.4, [](double x, double y) {
-    // A saddle with steps: ridges, hollows and level places. No library function: the same anywhere.
-    return 1 + 0.05 * (x * x - y * y) * 0.3 + 0.1 * std::floor(std::abs(x) + 0.5 * std::abs(y));
-  }));
-  return types;
-}
-
-void fill_hills(World& world) {
-  std::vector<NewPiece> pieces{at(8, {}, {}, true)};
-  for (int i = 0; i < 40; ++i) {
-    NewPiece piece = at(i % 8, {-2.0 + 0.6 * (i % 7), -1.8 + 0.7 * (i / 7), 3.2 + 0.4 * (i % 3)},
-                        turned({1, double(i % 5) - 2, 2}, 0.7 * i));
-    if (i % 8 < 2) piece.placement.scale = 0.3;
-    pieces.push_back(piece);
-  }
-  world.add(pieces);
-}
-
 std::uint64_t hash_on_hills(int threads) {
   WorldOptions options;
   options.threads = threads;
   World world(hilly_types(), options);
-  fill_hills(world);
+  world.add(testing::pieces_on_hills());
   run(world, 1.5);
   return testing::hash_of(world);
 }
@@ -254,7 +217,7 @@ TEST(Terrain, GivesTheSameBitsForAnyNumberOfThreads) {
 
 TEST(Terrain, GoesOnFromASnapshotAsIfItHadNeverStopped) {
   World world(hilly_types());
-  fill_hills(world);
+  world.add(testing::pieces_on_hills());
   run(world, 0.8);
   const auto bytes = encode_snapshot(*world.snapshot());
   World other(hilly_types());
@@ -266,7 +229,7 @@ TEST(Terrain, GoesOnFromASnapshotAsIfItHadNeverStopped) {
 
 TEST(Terrain, ASnapshotIsOfItsOwnTerrain) {
   World world(hilly_types());
-  fill_hills(world);
+  world.add(testing::pieces_on_hills());
   std::vector<PieceType> types = hilly_types();
   auto mesh = std::make_shared<TriangleMesh>(*types[8].surface);
   mesh->positions[5].z += 1e-6F;
@@ -299,7 +262,7 @@ TEST(Terrain, RefusesWhatIsNoSurfaceAndToMove) {
 }
 
 TEST(HeightField, IsAClosedBlock) {
-  const PieceType type = make_terrain(6, 0.5, [](double x, double y) { return 2 + 0.1 * x * y; });
+  const PieceType type = terrain_type(6, 0.5, [](double x, double y) { return 2 + 0.1 * x * y; });
   EXPECT_TRUE(is_closed(*type.surface));
   // 6 x 6 m, on average 2 m high, down to 1 m below the lowest corner (1.1 m); and over the diagonals,
   // where x y is above its triangles, 0.1 * 0.5^2 / 12 on average.

@@ -1,0 +1,95 @@
+// World::prove_rest(): who rests passes; who only sleeps, creeps or hangs in the air does not.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "kernel/world.h"
+#include "kernel/world_impl.h"
+#include "scenes.h"
+
+namespace rubble {
+namespace {
+
+using testing::at;
+using testing::box_type;
+using testing::run;
+using testing::turned;
+
+constexpr double kSpeed = 0.05, kAngularSpeed = 0.2;
+
+// Steps until rest is proved or `seconds` are over; the seconds it took, or infinity.
+double prove(World& world, double seconds) {
+  world.prove_rest();
+  const double start = world.time();
+  while (world.time() < start + seconds) {
+    world.step();
+    if (world.proved_rest(kSpeed, kAngularSpeed)) return world.time() - start;
+  }
+  return INFINITY;
+}
+
+TEST(ProofOfRest, APileAtRestPasses) {
+  World world({box_type("b", 0.4, 0.4, 0.2)});
+  world.add({at(0, {0, 0, 0.1}), at(0, {0.05, 0, 0.302}), at(0, {-0.05, 0, 0.504}),
+             at(0, {1, 0, 0.1}, turned({0, 0, 1}, 0.3))});
+  run(world, 2);
+  ASSERT_EQ(world.awake_count(), 0);
+  const double seconds = prove(world, 3);
+  EXPECT_LE(seconds, 1.1);
+  EXPECT_GE(seconds, 0.45);  // not at once: they were woken, and had to stay in place
+}
+
+TEST(ProofOfRest, WhoOnlySleepsHasProvedNothing) {
+  World world({box_type("b", 0.4, 0.4, 0.2)});
+  world.add({at(0, {0, 0, 0.1})});
+  run(world, 2);
+  ASSERT_EQ(world.awake_count(), 0);
+  EXPECT_TRUE(world.at_rest(kSpeed, kAngularSpeed));
+  EXPECT_FALSE(world.proving());
+  EXPECT_FALSE(world.proved_rest(kSpeed, kAngularSpeed));
+  EXPECT_LT(prove(world, 2), 2);
+  world.add({at(0, {2, 0, 0.1})});  // what is new has proved nothing
+  EXPECT_FALSE(world.proved_rest(kSpeed, kAngularSpeed));
+}
+
+// On a slope a little steeper than friction holds it begins so slowly that it falls asleep.
+TEST(ProofOfRest, WhoSlidesSlowlyDoesNotPass) {
+  World world({box_type("ramp", 40, 4, 1), box_type("box", 0.4, 0.4, 0.2)});
+  const Quat q = turned({0, 1, 0}, std::atan(0.6 * 1.02));
+  world.add({at(0, {0, 0, 20}, q, true), at(1, Vec3{0, 0, 20} + q.rotate({-15, 0, 0.601}), q)});
+  bool slept = false;
+  for (int i = 0; i < 60 && !slept; ++i) {
+    world.step();
+    slept = world.awake_count() == 0;
+  }
+  ASSERT_TRUE(slept);
+  ASSERT_TRUE(world.at_rest(kSpeed, kAngularSpeed));
+  const Vec3 before = world.piece(1).world_from_body.translation;
+  EXPECT_EQ(prove(world, 2.5), INFINITY);
+  EXPECT_GT(distance(world.piece(1).world_from_body.translation, before), 0.1);
+}
+
+TEST(ProofOfRest, WhoSleepsInTheAirDoesNotPass) {
+  World world({box_type("b", 0.4, 0.4, 0.2)});
+  world.add({at(0, {0, 0, 0.1}), at(0, {2, 0, 1.5})});
+  run(world, 0.1);
+  auto snapshot = std::make_shared<World::Snapshot>(*world.snapshot());
+  for (Body& body : snapshot->data.bodies) {  // as if its support had gone and left it asleep
+    body.awake = false;
+    body.linear = body.angular = {};
+  }
+  for (FreeBody& body : snapshot->simbody) body.linear_velocity = body.angular_velocity = {};
+  world.restore(*snapshot);
+  run(world, 0.5);
+  ASSERT_TRUE(world.at_rest(kSpeed, kAngularSpeed));
+  ASSERT_GT(world.piece(1).world_from_body.translation.z, 1.3);
+  const double seconds = prove(world, 5);
+  // It falls first, and rest is proved on the ground alone.
+  EXPECT_NEAR(world.piece(1).world_from_body.translation.z, 0.1, 0.002);
+  EXPECT_GT(seconds, std::sqrt(2 * 1.25 / 9.81));
+  EXPECT_LT(seconds, 3);
+}
+
+}  // namespace
+}  // namespace rubble

@@ -9,6 +9,7 @@
 #include "app/assemblies.h"
 #include "app/decompose_cache.h"
 #include "app/placed_box.h"
+#include "app/terrain.h"
 #include "io/mesh_file.h"
 #include "kernel/base/hash.h"
 #include "render/looks.h"
@@ -141,6 +142,28 @@ void add_boxes(const Mission& mission, const std::vector<Material>& materials,
   std::set<std::string> made;
   for (const PlacedItem& item : mission.scenario.pile.placed)
     if (item.box && made.insert(placed_box_name(item)).second) add_box(item, materials, library);
+}
+
+void add_terrain(const TerrainScenario& spec, std::vector<std::string> folders,
+                 AssetLibrary& library) {
+  if (!spec.given()) return;
+  MadeTerrain terrain = make_terrain(spec, folders);
+  if (!terrain.warning.empty()) library.warnings.push_back(terrain.warning);
+  if (!terrain.folder.empty()) library.folders.push_back(terrain.folder);
+  library.contents.push_back({kTerrainName, kTerrainPack, terrain.sha256, 0, {1, 1}, {}});
+  library.types.push_back(std::move(terrain.type));
+  library.meshes.push_back(std::move(terrain.mesh));
+}
+
+// Likewise, the terrain.
+void remake_terrain(const AssetContent& wanted, const TerrainScenario& spec,
+                    const std::vector<std::string>& folders, const std::string& file,
+                    AssetLibrary& library) {
+  add_terrain(spec, folders, library);
+  if (library.contents.back().sha256 == wanted.sha256) return;
+  throw InputError({file, 0, "assets", "the terrain is another one now",
+                    "the content " + wanted.sha256, library.contents.back().sha256,
+                    "name the folder of its file with --assets"});
 }
 
 // A box that a recipe names, made again.
@@ -282,6 +305,13 @@ int AssetLibrary::find(const std::string& name) const {
   throw RunError("asset " + name + " was not loaded");
 }
 
+std::vector<int> AssetLibrary::terrain() const {
+  std::vector<int> found;
+  for (std::size_t i = 0; i < types.size(); ++i)
+    if (types[i].surface) found.push_back(int(i));
+  return found;
+}
+
 bool AssetLibrary::has(const std::string& name) const {
   const auto is_it = [&name](const auto& type) { return type.name == name; };
   return std::any_of(types.begin(), types.end(), is_it) ||
@@ -345,6 +375,8 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   };
   load(false);
   add_boxes(mission, materials, library);
+  add_terrain(mission.scenario.pile.terrain,
+              {fs::path(mission.script.path).parent_path().string()}, library);
   load(true);  // made of types, so after all of them
   library.mix = make_mix(mission.scenario, all, library);
   return library;
@@ -366,6 +398,8 @@ AssetLibrary load_assets(const Recipe& recipe, const std::vector<std::string>& f
   for (const AssetContent& wanted : pile.assets) {
     if (wanted.pack == kMadeToMeasure)
       remake_box(wanted, scenario, materials, recipe.script.path, library);
+    else if (wanted.pack == kTerrainPack)
+      remake_terrain(wanted, scenario.pile.terrain, folders, recipe.script.path, library);
     else
       search.find(wanted, recipe.script.path, library);
   }

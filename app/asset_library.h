@@ -27,6 +27,7 @@ struct AssetLibrary {
   int find(const std::string& name) const;  // throws RunError
   bool has(const std::string& name) const;
   int find(const PlacedItem& item) const;   // likewise, of its asset or its box
+  std::vector<int> terrain() const;         // the indices of types that are terrain; one or none
 };
 
 // Loads what the mission uses, from its packs and then `extra_packs`; with neither, from the

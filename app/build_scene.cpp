@@ -1,5 +1,6 @@
 #include "app/build_scene.h"
 
+#include "app/terrain.h"
 #include "kernel/base/portable_math.h"
 #include "render/looks.h"
 
@@ -28,6 +29,8 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets) {
   spec.assemblies = assets.assemblies;
   spec.mix = assets.mix;
   for (const PlacedItem& item : scenario.pile.placed) spec.placed.push_back(place(item, assets));
+  for (const int type : assets.terrain())
+    spec.placed.push_back(place_terrain(scenario.pile.terrain, type));
   spec.spawn_position = scenario.pile.spawn_position;
   spec.spawn_bounds = scenario.pile.spawn_bounds;
   spec.spawn_density = scenario.pile.spawn_density;

@@ -91,7 +91,8 @@ class Resolver {
 }  // namespace
 
 PileGeometry::PileGeometry(const AssetLibrary& assets, const PileState& state)
-    : pile(state), meshes(finest_meshes(assets)), queries(state, meshes) {}
+    : pile(state), meshes(finest_meshes(assets)), terrain(assets.terrain()),
+      queries(state, meshes) {}
 
 PileSpace::PileSpace(const PileGeometry& geometry, const TrajectorySpec& spec, int threads,
                      const FlightProgress& progress) {
@@ -105,6 +106,7 @@ PileSpace::PileSpace(const PileGeometry& geometry, const TrajectorySpec& spec, i
   options.voxel = std::min(options.voxel, *radii.begin());
   options.rolling_radius = std::max(outside_radius(spec), 2 * *radii.rbegin());
   options.threads = threads;
+  options.scenery = geometry.terrain;
   const auto report = [&](double from, double to) {
     return [&progress, from, to](double done) {
       if (progress) progress(from + (to - from) * done, "free space");

@@ -17,6 +17,7 @@ struct PileGeometry {
 
   const PileState& pile;
   std::vector<const TriangleMesh*> meshes;  // by type
+  std::vector<int> terrain;                 // types that are
   PileQueries queries;
 };
 

@@ -58,6 +58,7 @@ VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progres
   options.rolling_radius = voids.rolling_radius;
   options.memory_limit = voids.memory_gib * (1 << 30);
   options.threads = request.options.threads;
+  options.scenery = assets.terrain();
   const auto report = [&](const char* what, double from, double share) {
     return [&progress, what, from, share](double done) {
       progress.update(from + share * done, what);

@@ -14,6 +14,8 @@ namespace {
 
 // A place is drawn anew this often before a layer counts as full.
 constexpr int kMaxTries = 2000;
+// What is dropped starts so far above the terrain under its box and beside it; unit: m.
+constexpr double kTerrainClearance = 0.5, kTerrainMargin = 1.0;
 
 class SpecCheck {
  public:
@@ -164,6 +166,26 @@ class LayerMaker {
   double largest_ = 0.01;
 };
 
+// What lies highest of the terrain under the spawn box, and the clearance above it.
+double lowest_spawn(const PileSpec& spec, const std::vector<Shape>& shapes) {
+  double top = -1e300;
+  const Vec3 half = spec.spawn_bounds * 0.5;
+  for (const Placement& placement : spec.placed) {
+    if (placement.type >= int(spec.types.size()) || !shapes[placement.type].surface) continue;
+    const Pose& pose = placement.world_from_body;
+    for (const Vec3& corner : shapes[placement.type].surface->corners()) {
+      const Vec3 p = pose * (corner * placement.scale);
+      const Vec3 from_middle = p - spec.spawn_position;
+      const double margin = kTerrainMargin;
+      if (std::abs(from_middle.x) > half.x + margin || std::abs(from_middle.y) > half.y + margin) {
+        continue;
+      }
+      top = std::max(top, p.z);
+    }
+  }
+  return top + kTerrainClearance;
+}
+
 }  // namespace
 
 Pile generate_pile(const PileSpec& spec) {
@@ -181,7 +203,8 @@ Pile generate_pile(const PileSpec& spec) {
   pile.types = spec.types;
   pile.assemblies = spec.assemblies;
   pile.placed = spec.placed;
-  pile.spawn_bottom = spec.spawn_position.z - spec.spawn_bounds.z / 2;
+  pile.spawn_bottom = std::max(spec.spawn_position.z - spec.spawn_bounds.z / 2,
+                               lowest_spawn(spec, shapes));
   LayerMaker maker(spec, shapes);
   for (int layer = 0; layer < spec.layers; ++layer) pile.layers.push_back(maker.make(layer));
   return pile;

@@ -84,7 +84,7 @@ struct Pile {
   std::vector<AssemblyType> assemblies;
   std::vector<Placement> placed;
   std::vector<Layer> layers;
-  // Layer k starts at the larger of this height and 1 m above the highest point of the pile.
+  // Above the terrain under the spawn box. Layer k starts at the larger of this height and 1 m above the highest point of the pile.
   double spawn_bottom = 1.0;  // unit: m
 };
 

@@ -111,6 +111,9 @@ class Nearest {
   std::vector<Candidate> candidates_;
 };
 
+// Of a mesh with more than so many, the inside is told by a ray.
+constexpr std::size_t kManyTriangles = 5000;
+
 // A piece and what a query is in its frame: triangles of one piece are offered one after another.
 template <typename Local>
 struct Cached {
@@ -157,14 +160,43 @@ struct PileQueries::Impl {
     bool go_on = true;
     tree.at(point, [&](int number) {
       if (!go_on) return;
-      const QueryPiece& p = piece(number);
-      const Vec3 local = p.to_local(point);
-      double winding = 0;
-      for (const QueryTriangle& t : tree.meshes()[std::size_t(p.mesh)].triangles) {
-        winding += calc_winding(t, local);
-      }
-      if (winding > 0.5) go_on = inside(number);
+      const bool is_inside = mesh_of(number).triangles.size() > kManyTriangles
+                                 ? leaves(number, point)
+                                 : winding(number, point) > 0.5;
+      if (is_inside) go_on = inside(number);
     });
+  }
+
+  double winding(int number, const Vec3& point) const {
+    const Vec3 local = piece(number).to_local(point);
+    double sum = 0;
+    for (const QueryTriangle& t : mesh_of(number).triangles) sum += calc_winding(t, local);
+    return sum;
+  }
+
+  // For terrain, whose triangles are too many for the winding: whether a ray that goes up meets its
+  // surface from behind first. The ray is not quite upright, so as not to run along walls.
+  bool leaves(int number, const Vec3& point) const {
+    const QueryPiece& p = piece(number);
+    const Vec3 direction = normalized(Vec3{0.0131, 0.0237, 1});
+    const Vec3 local = p.to_local(point), local_direction = p.turn_to_local(direction);
+    double nearest = std::numeric_limits<double>::infinity();
+    bool from_behind = false;
+    tree.along_ray(point, direction, nearest, [&](int other, int index) {
+      if (other != number) return nearest;
+      const QueryTriangle& t = triangle(number, index);
+      const auto distance = find_hit(t, local, local_direction);
+      if (distance && *distance < nearest) {
+        nearest = *distance;
+        from_behind = dot(cross(t.b - t.a, t.c - t.a), local_direction) > 0;
+      }
+      return nearest;
+    });
+    return from_behind;
+  }
+
+  const QueryMesh& mesh_of(int number) const {
+    return tree.meshes()[std::size_t(piece(number).mesh)];
   }
 
   QueryTree tree;
@@ -263,6 +295,7 @@ std::vector<TriangleMesh> make_collision_meshes(const std::vector<PieceType>& ty
   for (std::size_t i = 0; i < types.size(); ++i) {
     const Shape shape = compile_shape(types[i], "types[" + std::to_string(i) + "]");
     TriangleMesh mesh;
+    if (types[i].surface) mesh = *types[i].surface;
     for (const ConvexShape& part : shape.parts) {
       const std::uint32_t base = std::uint32_t(mesh.positions.size());
       for (const Vec3f& corner : part.corners) {

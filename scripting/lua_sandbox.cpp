@@ -292,8 +292,11 @@ std::vector<DescribedFunction> LuaSandbox::describe_library() {
   for (const LibraryFile& file : lua_library()) {
     const std::size_t slash = file.name.find('/');
     if (file.name == "find_void") script += "rubble.find_void {}\n";
-    if (slash == std::string::npos || file.name == "density/image") continue;
-    const std::string first = file.name == "density/from"      ? "one, "
+    if (slash == std::string::npos || file.name == "density/image" ||
+        file.name == "terrain/image")
+      continue;
+    const std::string first = file.name == "density/from" || file.name == "terrain/from"
+                                  ? "one, "
                               : file.name == "trajectory/along" ? "at, "
                                                                 : "";
     script += "rubble." + file.name.substr(0, slash) + "." + file.name.substr(slash + 1) + "(" +

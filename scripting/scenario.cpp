@@ -32,6 +32,27 @@ void check_density(const SpawnDensity& d, std::vector<Diagnostic>& mistakes) {
     add("nowhere to draw", "a weight above 0", "only weights of 0");
 }
 
+void check_terrain(const TerrainScenario& t, std::vector<Diagnostic>& mistakes) {
+  const auto add = [&](const char* key, std::string message, std::string expected,
+                       std::string found) {
+    mistakes.push_back({"", 0, std::string("pile.terrain.") + key, std::move(message),
+                        std::move(expected), std::move(found), "rubble.terrain makes such grids"});
+  };
+  if (!t.given()) return;
+  if (!t.file.empty() && !t.heights.empty())
+    return add("file", "contradicts heights", "one of file and heights", "both");
+  if (!t.file.empty()) return;
+  if (t.columns < 2 || t.rows < 2 ||
+      t.heights.size() != std::size_t(t.columns) * std::size_t(t.rows))
+    return add("heights", "not a whole grid",
+               "columns * rows numbers, 2 or more each way",
+               std::to_string(t.heights.size()) + " for " + std::to_string(t.columns) + " by " +
+                   std::to_string(t.rows));
+  const double lowest = *std::min_element(t.heights.begin(), t.heights.end()) + t.position.z;
+  if (lowest < 0)
+    add("heights", "below the ground", "z of 0 m or more", std::to_string(lowest) + " m");
+}
+
 std::string item_key(const char* list, std::size_t i, const char* name = "") {
   return std::string(list) + "[" + std::to_string(i + 1) + "]" + name;
 }
@@ -184,6 +205,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_names(scenario.pile, mistakes);
   check_mix(scenario.pile, mistakes);
   check_density(scenario.pile.spawn_density, mistakes);
+  check_terrain(scenario.pile.terrain, mistakes);
   check_channels(scenario.camera, mistakes);
   check_camera(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);

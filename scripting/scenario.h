@@ -45,6 +45,21 @@ struct PlacedItem {
   std::vector<std::string> broken{};  // of a box, the faces that broke off: "+x", "-x", "+y", ...
 };
 
+// What pieces lie on besides the ground z = 0: heights on a grid, or a mesh. Neither: the ground alone.
+struct TerrainScenario {
+  int columns = 0, rows = 0;     // corners of the grid along X and Y; range: 0 to 1024
+  double spacing = 0.5;          // of neighbouring corners; unit: m; range: 0.01 to 100
+  std::vector<double> heights{};  // row by row from the lowest y; above `position`; unit: m
+  std::string file{};            // instead: a mesh, relative to the script
+  double metres_per_unit = 1;    // of the file; range: > 0
+  UpAxis up = UpAxis::z;         // of the file
+  Vec3 position;                 // of the grid's middle, or of the mesh's origin; unit: m
+  double friction = 0.8;         // Coulomb, against concrete; range: 0 to 2
+  std::string look = "ground";   // of the grid, and of surfaces of the mesh that name none
+
+  bool given() const { return !heights.empty() || !file.empty(); }
+};
+
 struct PileScenario {
   Vec3 spawn_position{0, 0, 4.5};  // centre of the box that layers are drawn in; unit: m
   Vec3 spawn_bounds{10, 10, 7};    // its full edge lengths; unit: m; > 0
@@ -53,6 +68,7 @@ struct PileScenario {
   int pieces_per_layer = 300;      // range: 0 to 100000
   std::vector<MixItem> mix;        // empty: every asset of the packs, by its own weight
   std::vector<PlacedItem> placed;
+  TerrainScenario terrain;
 };
 
 struct LightScenario {

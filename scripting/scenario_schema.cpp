@@ -80,6 +80,30 @@ void add_pile(Schema& k, PileScenario& p) {
          "Immovable, as a wall; false: it settles with the rest.");
 }
 
+void add_terrain(Schema& k, TerrainScenario& t) {
+  k.group("pile.terrain",
+          "What pieces lie on besides the ground z = 0, fixed: heights on a grid, as rubble.terrain "
+          "makes them, or a mesh; neither: the ground alone.");
+  k.value("pile.terrain.columns", t.columns, "Corners of the grid along X.").between(0, 1024);
+  k.value("pile.terrain.rows", t.rows, "Corners of the grid along Y.").between(0, 1024);
+  k.value("pile.terrain.spacing", t.spacing, "Of neighbouring corners.").between(0.01, 100).unit("m");
+  k.value("pile.terrain.heights", t.heights,
+          "Of each corner above `position`, row by row from the lowest y, each from the lowest x.")
+      .between(-1000, 1000)
+      .unit("m");
+  k.value("pile.terrain.file", t.file,
+          "Instead of a grid: a mesh in any usual format, relative to the script; pieces lie on the "
+          "side that its triangles face.");
+  k.value("pile.terrain.metres_per_unit", t.metres_per_unit, "Of the file.").above(0, 1000);
+  k.choice("pile.terrain.up", t.up, {"y", "z"}, "Of the file.");
+  k.value("pile.terrain.position", t.position, "Of the grid's middle, or of the mesh's origin.")
+      .between(-1000, 1000)
+      .unit("m");
+  k.value("pile.terrain.friction", t.friction, "Coulomb, against concrete.").between(0, 2);
+  k.value("pile.terrain.look", t.look,
+          "Of the grid, and of surfaces of the mesh that are no look themselves.");
+}
+
 void add_settle(Schema& k, SettleOptions& o) {
   k.group("settle", "How the pile comes to rest.");
   k.choice("settle.schedule", o.schedule, {"layers", "planes"},
@@ -345,6 +369,7 @@ Schema make_scenario_schema(Scenario& s) {
   Schema keys;
   add_top(keys, s);
   add_pile(keys, s.pile);
+  add_terrain(keys, s.pile.terrain);
   add_settle(keys, s.settle);
   add_light(keys, s.light);
   add_more_lights(keys, s.lights);

@@ -156,7 +156,12 @@ std::string library_reference() {
       "## Densities\n\nWhere layers fall, as `pile.spawn_density`. "
       "`rubble.density.image(file)` takes a PNG file of the script's folder: white where most "
       "falls, its upper edge at +Y.\n\n" +
-      folder_sections("density", "", "") + "## Paths\n\n" +
+      folder_sections("density", "", "") +
+      "## Terrain\n\nWhat pieces lie on, as `pile.terrain`. `rubble.terrain.image(file, { length = 40, "
+      "amplitude = 2, smooth = 1 })` takes a PNG file of the script's folder: black is 0, white is "
+      "`amplitude`, its upper edge is at +Y; the other options are those of `rubble.terrain.from`. "
+      "A mesh is named as `pile.terrain = { file = \"site.obj\" }`.\n\n" +
+      folder_sections("terrain", "", "") + "## Paths\n\n" +
       folder_sections("trajectory", "rate_hz", "What every path has");
   for (const DescribedFunction& function : LuaSandbox::describe_library())
     if (function.name == "rubble.find_void")

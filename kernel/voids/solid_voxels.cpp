@@ -176,6 +176,7 @@ Solids place_solids(const PileState& pile, const std::vector<const TriangleMesh*
     const TriangleMesh& mesh = *meshes[type];
     std::vector<Vec3> corners;
     SolidPiece piece;
+    piece.type = state.type;
     for (const Vec3f& p : mesh.positions) {
       corners.push_back(state.world_from_body * (Vec3(p) * state.scale));
       piece.box.include(corners.back());

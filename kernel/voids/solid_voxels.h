@@ -16,6 +16,7 @@ namespace rubble {
 struct SolidPiece {
   std::size_t first = 0, last = 0;  // [first, last)
   Aabb box;
+  int type = 0;
 };
 
 // The pieces of a pile in the world, but for the lost ones.

@@ -20,15 +20,21 @@ std::string format(double value, const char* unit) {
   return text;
 }
 
-Aabb find_bounds(const Solids& solids, bool ground) {
+bool is_scenery(const SolidPiece& piece, const VoidSpaceOptions& options) {
+  const std::vector<int>& types = options.scenery;
+  return std::find(types.begin(), types.end(), piece.type) != types.end();
+}
+
+// With terrain, the lowest cells are in it.
+Aabb find_bounds(const Solids& solids, const VoidSpaceOptions& options) {
   Aabb box;
   for (const SolidPiece& piece : solids.pieces) {
-    if (piece.box.empty()) continue;
+    if (piece.box.empty() || is_scenery(piece, options)) continue;
     box.include(piece.box.min);
     box.include(piece.box.max);
   }
   if (box.empty()) box.include({0, 0, 0});
-  if (ground) box.min.z = 0;
+  if (options.ground) box.min.z = 0;
   return box;
 }
 
@@ -57,10 +63,20 @@ double count_cells(const Aabb& box, const VoidSpaceOptions& options) {
 }
 
 double estimate(const Solids& solids, const VoidSpaceOptions& options) {
+  const Vec3 room = find_bounds(solids, options).max - find_bounds(solids, options).min;
   double area = 0;
-  for (const QueryTriangle& t : solids.triangles) area += norm(cross(t.b - t.a, t.c - t.a)) / 2;
+  for (const SolidPiece& piece : solids.pieces) {
+    if (is_scenery(piece, options)) {
+      area += 2 * room.x * room.y;  // about what of it is in the grid
+      continue;
+    }
+    for (std::size_t i = piece.first; i < piece.last; ++i) {
+      const QueryTriangle& t = solids.triangles[i];
+      area += norm(cross(t.b - t.a, t.c - t.a)) / 2;
+    }
+  }
   const double surface = 2.2 * area / (options.voxel * options.voxel);
-  return kBytesPerCell * count_cells(find_bounds(solids, options.ground), options) +
+  return kBytesPerCell * count_cells(find_bounds(solids, options), options) +
          kBytesPerSurface * surface + double(solids.triangles.size() * sizeof(QueryTriangle));
 }
 
@@ -85,7 +101,7 @@ class Builder {
  public:
   Builder(Solids solids, const VoidSpaceOptions& options, const VoidProgress& progress)
       : solids_(std::move(solids)), options_(options), progress_(progress), pool_(options.threads) {
-    space_.grid = make_grid(find_bounds(solids_, options.ground), options);
+    space_.grid = make_grid(find_bounds(solids_, options), options);
     space_.rolling_radius = options.rolling_radius;
   }
 

@@ -21,6 +21,9 @@ struct VoidSpaceOptions {
   double voxel = 0.02;                    // unit: m; range: 0.001 to 1
   double rolling_radius = 1.0;            // unit: m; range: 2 voxels to 10 m
   bool ground = true;                     // the plane z = 0 is a surface, below it all is solid
+  // Types that are solid, but around which no voids are looked for: terrain. The map is around the
+  // other pieces.
+  std::vector<int> scenery{};
   double memory_limit = 4.0 * (1 << 30);  // unit: byte
   int threads = 0;                        // 0: all processors; the result does not depend on it
 

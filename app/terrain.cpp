@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDepth = 0.5;  // of a height field under its lowest place; unit: m
+constexpr double kDepth = 0.5;  // of a height field's bottom under the ground; unit: m
 constexpr const char* kGroundLook = "ground";
 
 bool is_look(const std::string& name) {
@@ -41,7 +41,8 @@ TriangleMesh make_heights(const TerrainScenario& spec) {
   field.origin = {-0.5 * (spec.columns - 1) * spec.spacing, -0.5 * (spec.rows - 1) * spec.spacing,
                   0};
   field.heights = spec.heights;
-  return make_height_field_mesh(field, kDepth + spec.position.z, spec.look);
+  const double lowest = *std::min_element(spec.heights.begin(), spec.heights.end());
+  return make_height_field_mesh(field, lowest + spec.position.z + kDepth, spec.look);
 }
 
 std::string find_file(const std::string& name, const std::vector<std::string>& folders) {

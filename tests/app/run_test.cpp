@@ -94,9 +94,9 @@ TEST(NightlyRun, RunsEveryCollapseMode) { run_scripts_of("scripts/collapse"); }
 TEST(NightlyRun, RunsThePublishedDemonstration) { run_scripts_of("scripts/paper"); }
 
 // Some of them in every run of the tests: all outputs, a sensor's chain, a collapse, a planned
-// path.
+// path, terrain.
 TEST(Run, RunsBundledScripts) {
-  for (const char* name : {"outputs", "blur", "collapse/lean_to", "deepest_void"})
+  for (const char* name : {"outputs", "blur", "collapse/lean_to", "deepest_void", "terrain"})
     run_script(std::string(RUBBLE_SOURCE_DIR "/scripts/") + name + ".lua");
 }
 

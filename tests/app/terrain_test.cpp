@@ -109,7 +109,9 @@ TEST(Terrain, AMeshOfAFileIsTerrainToo) {
   EXPECT_TRUE(state.settled);
   for (std::size_t i = 1; i < state.pieces.size(); ++i) {
     const Vec3 p = state.pieces[i].world_from_body.translation;
-    if (std::abs(p.x) < 6 && std::abs(p.y) < 6) EXPECT_GT(p.z, 0.995) << i;
+    if (std::abs(p.x) < 6 && std::abs(p.y) < 6) {
+      EXPECT_GT(p.z, 0.995) << i;
+    }
   }
   // Again from a recipe: the file is looked for where it was, and must be the same.
   Recipe recipe = make_recipe(RunKind::settle, mission, {});

@@ -42,19 +42,12 @@ int BroadPhase::add() {
   return int(boxes_.size()) - 1;
 }
 
-bool BroadPhase::update(int item, const Aabb& tight, const Vec3& motion) {
-  const Aabb& old = boxes_[item];
-  if (present_[item] && old.min.x <= tight.min.x && old.min.y <= tight.min.y &&
-      old.min.z <= tight.min.z && old.max.x >= tight.max.x && old.max.y >= tight.max.y &&
-      old.max.z >= tight.max.z) {
-    return false;
-  }
+void BroadPhase::update(int item, const Aabb& tight, const Vec3& motion) {
   if (present_[item]) erase(item);
   const Vec3 grow{kEnlarge, kEnlarge, kEnlarge};
   boxes_[item].min = tight.min - grow + min(motion, Vec3{});
   boxes_[item].max = tight.max + grow + max(motion, Vec3{});
   insert(item);
-  return true;
 }
 
 void BroadPhase::remove(int item) {

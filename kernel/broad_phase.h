@@ -18,9 +18,16 @@ class BroadPhase {
 
   // Adds an item with the next number.
   int add();
-  // Puts an item where `tight` is when it has left its enlarged box; returns whether it had.
-  // `motion`: how far it will go in a few steps; the box reaches ahead.
-  bool update(int item, const Aabb& tight, const Vec3& motion);
+  // Whether an item's enlarged box still holds it.
+  bool holds(int item, const Aabb& tight) const {
+    const Aabb& old = boxes_[item];
+    return present_[item] && old.min.x <= tight.min.x && old.min.y <= tight.min.y &&
+           old.min.z <= tight.min.z && old.max.x >= tight.max.x && old.max.y >= tight.max.y &&
+           old.max.z >= tight.max.z;
+  }
+  // Puts an item where `tight` is, in a new enlarged box. `motion`: how far it will go in a few
+  // steps; the box reaches ahead.
+  void update(int item, const Aabb& tight, const Vec3& motion);
   void remove(int item);
 
   // Calls visit(other) for every item whose enlarged box overlaps that of `item`.

@@ -140,23 +140,28 @@ void carry_over(ContactBatch& batch, NormalRow* rows, Wide weight) {
   batch.twist_impulse = min(most, max(-most, batch.twist_impulse));
 }
 
-void solve_pushes(const ContactBatch& batch, NormalRow* rows, PaddedMotion* moved) {
+bool solve_pushes(const ContactBatch& batch, const NormalRow* rows, PushRow* pushes,
+                  PaddedMotion* moved) {
   WideMotion a = load(moved, batch.a), b = load(moved, batch.b);
   const Wide unit_a = select(batch.push_weight_a > 0, splat(1), Wide{});
   const Wide unit_b = select(batch.push_weight_b > 0, splat(1), Wide{});
+  Wide most{};
   for (int i = 0; i < batch.rows; ++i) {
-    NormalRow& n = rows[i];
-    const Wide done = relative(batch.normal, n.row, a, b);
-    const Wide next = max(Wide{}, n.push + n.push_mass * (n.push_target - done));
-    const Wide change = next - n.push;
-    n.push = next;
+    const WideRow& row = rows[i].row;
+    PushRow& p = pushes[i];
+    const Wide done = relative(batch.normal, row, a, b);
+    const Wide next = max(Wide{}, p.push + p.mass * (p.target - done));
+    const Wide change = next - p.push;
+    p.push = next;
+    most = max(most, next);
     a.linear -= batch.normal * (change * unit_a);
-    a.angular -= n.row.turn_a * (change * batch.push_weight_a);
+    a.angular -= row.turn_a * (change * batch.push_weight_a);
     b.linear += batch.normal * (change * unit_b);
-    b.angular += n.row.turn_b * (change * batch.push_weight_b);
+    b.angular += row.turn_b * (change * batch.push_weight_b);
   }
   save(a, moved, batch.a);
   save(b, moved, batch.b);
+  return any(most > 0);
 }
 
 Wide calc_moved(const ContactBatch& batch, const WideRow& row, const PaddedMotion* moved) {

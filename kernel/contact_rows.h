@@ -31,7 +31,11 @@ struct NormalRow {
   Wide gap;      // separation at the step's start, less the rest gap; unit: m
   Wide impulse;  // unit: N s
   Wide carried;  // what the substep started from
-  Wide push_mass, push_target, push;  // position correction
+};
+
+// The position correction of a normal row; apart from it, as the sweeps over speeds do not need it.
+struct PushRow {
+  Wide mass, target, push;
 };
 
 struct FrictionRow {
@@ -65,8 +69,9 @@ void solve_velocities(ContactBatch& batch, NormalRow* rows, Wide per_substep,
 // times its mass. Loads build up fast, but the impulse of an impact is not given twice.
 void carry_over(ContactBatch& batch, NormalRow* rows, Wide weight);
 
-// One sweep of position correction on the displacements.
-void solve_pushes(const ContactBatch& batch, NormalRow* rows, PaddedMotion* moved);
+// One sweep of position correction on the displacements; returns whether any point pushes.
+bool solve_pushes(const ContactBatch& batch, const NormalRow* rows, PushRow* pushes,
+                  PaddedMotion* moved);
 
 // The relative displacement along each normal row.
 Wide calc_moved(const ContactBatch& batch, const WideRow& row, const PaddedMotion* moved);

@@ -60,32 +60,36 @@ Motion unpadded(const PaddedMotion& m) {
 }  // namespace
 
 // Contacts with an awake link of a tree are solved after the others in each sweep.
-void ContactSolver::set_trees_apart(const std::vector<Body>& bodies,
-                                    const std::vector<std::int32_t>& order,
-                                    const std::vector<Contact>& contacts,
-                                    const SolvedTrees& trees) {
-  free_order_.clear();
-  tree_order_.clear();
-  if (trees.trees.empty()) {
-    free_order_ = order;
-    return;
-  }
+void ContactSolver::note_heads(const std::vector<Body>& bodies,
+                               const std::vector<std::int32_t>& order,
+                               const std::vector<Contact>& contacts, const SolvedTrees& trees,
+                               ThreadPool& pool) {
+  const bool any_trees = !trees.trees.empty();
   const auto is_link = [&bodies](std::int32_t body) {
     return body != kGround && bodies[body].awake && bodies[body].tree >= 0;
   };
-  for (std::int32_t index : order) {
-    const bool tree = is_link(contacts[index].body_a) || is_link(contacts[index].body_b);
-    (tree ? tree_order_ : free_order_).push_back(index);
+  heads_.resize(order.size());
+  pool.run(int(order.size()), 128, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const Contact& contact = contacts[order[i]];
+      heads_[i] = {order[i], contact.body_a, contact.body_b, contact.count, contact.normal.z,
+                   any_trees && (is_link(contact.body_a) || is_link(contact.body_b))};
+    }
+  });
+  tree_order_.clear();
+  if (!any_trees) return;
+  for (const Head& head : heads_) {
+    if (head.tree) tree_order_.push_back(head.contact);
   }
 }
 
-void ContactSolver::number_bodies(const std::vector<Body>& bodies,
-                                  const std::vector<std::int32_t>& order,
-                                  const std::vector<Contact>& contacts) {
-  number_.assign(bodies.size(), -1);
-  for (std::int32_t index : order) {
-    for (std::int32_t body : {contacts[index].body_a, contacts[index].body_b}) {
-      if (body != kGround && bodies[body].awake && bodies[body].tree < 0) number_[body] = 0;
+void ContactSolver::number_bodies(const std::vector<Body>& bodies) {
+  constexpr std::int32_t kUnseen = -1, kStays = -2;
+  number_.assign(bodies.size(), kUnseen);
+  for (const Head& head : heads_) {
+    for (std::int32_t body : {head.body_a, head.body_b}) {
+      if (body == kGround || number_[body] != kUnseen) continue;
+      number_[body] = bodies[body].awake && bodies[body].tree < 0 ? 0 : kStays;
     }
   }
   moving_.clear();
@@ -102,29 +106,25 @@ void ContactSolver::number_bodies(const std::vector<Body>& bodies,
 // inertia (not its weight) counts as at least 1/kMassRatio of what lies on it: loads at rest stay
 // exact, and momentum that goes into the light piece is lost, never gained. What nothing holds up from
 // below carries nothing: where two meet in the air, momentum is kept.
-void ContactSolver::share_inertia(const std::vector<Body>& bodies,
-                                  const std::vector<std::int32_t>& order,
-                                  const std::vector<Contact>& contacts) {
+void ContactSolver::share_inertia(const std::vector<Body>& bodies) {
   share_.assign(moving_.size() + 1, 1.0F);
   held_.assign(moving_.size() + 1, 0);
-  for (std::int32_t index : order) {
-    const Contact& contact = contacts[index];
-    if (contact.normal.z < -kAbove) held_[number_[contact.body_a]] = 1;
-    if (contact.body_b != kGround && contact.normal.z > kAbove) held_[number_[contact.body_b]] = 1;
+  for (const Head& head : heads_) {
+    if (head.up < -kAbove) held_[number_[head.body_a]] = 1;
+    if (head.body_b != kGround && head.up > kAbove) held_[number_[head.body_b]] = 1;
   }
   const auto carry = [&](std::int32_t light, std::int32_t heavy, float up) {
+    if (up < kAbove || number_[light] == std::int32_t(moving_.size())) return;
     const Body &l = bodies[light], &h = bodies[heavy];
-    if (up < kAbove || held_[number_[light]] == 0 || !l.awake || !h.awake || l.tree >= 0 || dot(l.linear, l.linear) > kCarrySpeed * kCarrySpeed) {
-      return;
-    }
+    if (held_[number_[light]] == 0 || !h.awake) return;
+    if (dot(l.linear, l.linear) > kCarrySpeed * kCarrySpeed) return;
     const float share = float(kMassRatio * l.mass / h.mass);
     share_[number_[light]] = std::min(share_[number_[light]], share);
   };
-  for (std::int32_t index : order) {
-    const Contact& contact = contacts[index];
-    if (contact.body_b == kGround) continue;
-    carry(contact.body_a, contact.body_b, contact.normal.z);
-    carry(contact.body_b, contact.body_a, -contact.normal.z);
+  for (const Head& head : heads_) {
+    if (head.body_b == kGround) continue;
+    carry(head.body_a, head.body_b, head.up);
+    carry(head.body_b, head.body_a, -head.up);
   }
 }
 
@@ -138,39 +138,38 @@ int ContactSolver::find_batch(int rows, int after) {
     return batch;
   }
   ContactBatch batch{};
-  batch.first_row = std::int32_t(rows_.size());
+  batch.first_row = row_count_;
   batch.rows = rows;
   for (int lane = 0; lane < kLanes; ++lane) {
     batch.a[lane] = batch.b[lane] = std::int32_t(moving_.size());
     batch.contact[lane] = -1;
   }
-  rows_.resize(rows_.size() + std::size_t(rows), NormalRow{});
+  row_count_ += rows;
   open.push_back(std::int32_t(batches_.size()));
   lanes_used_.push_back(1);
   batches_.push_back(batch);
   return int(batches_.size()) - 1;
 }
 
-void ContactSolver::pack(const std::vector<std::int32_t>& order,
-                         const std::vector<Contact>& contacts) {
+void ContactSolver::pack() {
   batches_.clear();
-  rows_.clear();
+  row_count_ = 0;
   lanes_used_.clear();
   for (auto& open : open_) open.clear();
   last_batch_.assign(moving_.size() + 1, -1);
-  for (std::int32_t index : order) {
-    const Contact& contact = contacts[index];
-    const int beyond = int(moving_.size());
-    const int a = number_[contact.body_a];
-    const int b = contact.body_b == kGround ? beyond : number_[contact.body_b];
+  const int beyond = int(moving_.size());
+  for (const Head& head : heads_) {
+    if (head.tree) continue;
+    const int a = number_[head.body_a];
+    const int b = head.body_b == kGround ? beyond : number_[head.body_b];
     last_batch_[beyond] = -1;
-    const int found = find_batch(contact.count, std::max(last_batch_[a], last_batch_[b]));
+    const int found = find_batch(head.count, std::max(last_batch_[a], last_batch_[b]));
     last_batch_[a] = last_batch_[b] = found;
     ContactBatch& batch = batches_[found];
     const int lane = lanes_used_[found] - 1;
     batch.a[lane] = a;
     batch.b[lane] = b;
-    batch.contact[lane] = index;
+    batch.contact[lane] = head.contact;
   }
 }
 
@@ -189,7 +188,7 @@ void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Bo
     const ContactPoint& p = contact.points[i];
     NormalRow& n = rows_[batch.first_row + i];
     const float around = fill(n.row, lane, a, b, contact.normal, p.from_a, p.from_b);
-    n.push_mass[lane] = 1 / ((a.body ? 1.0F : 0.0F) + (b.body ? 1.0F : 0.0F) + around);
+    pushes_[batch.first_row + i].mass[lane] = 1 / ((a.body ? 1.0F : 0.0F) + (b.body ? 1.0F : 0.0F) + around);
     n.gap[lane] = p.separation - settings.rest_gap;
     n.impulse[lane] = n.carried[lane] = p.normal_impulse;
     middle_a += p.from_a;
@@ -248,34 +247,64 @@ void ContactSolver::run_substeps(const SolverSettings& settings) {
   if (trees) tree_contacts_.end_substeps(tree_weight);
 }
 
-// n . (d_b - d_a) >= target for every point, by pushing only. All movable bodies count as equally
-// heavy, so that a light bar is cleared from under a heavy slab as fast as any other pair.
-void ContactSolver::push_apart(const SolverSettings& settings) {
+template <typename Action>
+void ContactSolver::each_batch(ThreadPool& pool, Action&& action) {
+  pool.run(int(batches_.size()), 16, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) action(batches_[i]);
+  });
+}
+
+// What the points of a batch are to be pushed by; returns whether any is.
+bool ContactSolver::begin_pushes(const SolverSettings& settings, const ContactBatch& batch) {
   const Wide slop = splat(settings.slop), fraction = splat(settings.position_fraction),
              most = splat(settings.maximum_push);
   bool any = false;
-  for (ContactBatch& batch : batches_) {
-    for (int i = 0; i < batch.rows; ++i) {
-      NormalRow& n = rows_[batch.first_row + i];
-      const Wide moved = calc_moved(batch, n.row, moved_.data());
-      const Wide gap = n.gap + moved + slop;
-      const Wide wanted = select(gap < 0, min(-gap * fraction, most), -gap);
-      n.push_target = moved + wanted;
-      n.push = Wide{};
-      for (int lane = 0; lane < kLanes; ++lane) {
-        any = any || (batch.contact[lane] >= 0 && wanted[lane] > 0);
-      }
+  for (int i = batch.first_row; i < batch.first_row + batch.rows; ++i) {
+    const Wide moved = calc_moved(batch, rows_[i].row, moved_.data());
+    const Wide gap = rows_[i].gap + moved + slop;
+    const Wide wanted = select(gap < 0, min(-gap * fraction, most), -gap);
+    pushes_[i].target = moved + wanted;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      any = any || (batch.contact[lane] >= 0 && wanted[lane] > 0);
     }
   }
+  return any;
+}
+
+// n . (d_b - d_a) >= target for every point, by pushing only. All movable bodies count as equally
+// heavy, so that a light bar is cleared from under a heavy slab as fast as any other pair. Where
+// nothing is to be pushed, and no neighbour has been, a batch would change nothing.
+void ContactSolver::push_apart(const SolverSettings& settings, ThreadPool& pool) {
+  wants_push_.assign(batches_.size(), 0);
+  each_batch(pool, [&](const ContactBatch& batch) {
+    wants_push_[std::size_t(&batch - batches_.data())] = begin_pushes(settings, batch);
+  });
   const bool trees = !tree_contacts_.empty();
-  if (trees && tree_contacts_.begin_pushes(settings, moved_.data())) any = true;
-  if (!any) return;
+  const bool tree_pushes = trees && tree_contacts_.begin_pushes(settings, moved_.data());
+  const bool any = std::find(wants_push_.begin(), wants_push_.end(), 1) != wants_push_.end();
+  if (!any && !tree_pushes) return;
+  pushed_.assign(moving_.size() + 1, trees ? 1 : 0);
   for (int iteration = 0; iteration < settings.position_iterations; ++iteration) {
-    for (const ContactBatch& batch : batches_) {
-      solve_pushes(batch, &rows_[batch.first_row], moved_.data());
+    for (std::size_t i = 0; i < batches_.size(); ++i) {
+      const ContactBatch& batch = batches_[i];
+      if (!wants_push_[i] && !is_pushed(batch)) continue;
+      wants_push_[i] = 1;
+      if (solve_pushes(batch, &rows_[batch.first_row], &pushes_[batch.first_row], moved_.data())) {
+        for (int lane = 0; lane < kLanes; ++lane) {
+          pushed_[batch.a[lane]] = pushed_[batch.b[lane]] = 1;
+        }
+        pushed_[moving_.size()] = 0;  // stands for what does not move
+      }
     }
     if (trees) tree_contacts_.solve_pushes(moved_.data());
   }
+}
+
+bool ContactSolver::is_pushed(const ContactBatch& batch) const {
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (pushed_[batch.a[lane]] || pushed_[batch.b[lane]]) return true;
+  }
+  return false;
 }
 
 // A piece whose speed turns it into its neighbours, step after step, while the pushes turn it back,
@@ -294,52 +323,53 @@ void ContactSolver::drop_opposed_speeds(const SolverSettings& settings) {
   }
 }
 
-void ContactSolver::store(std::vector<Contact>& contacts) const {
-  for (const ContactBatch& batch : batches_) {
-    for (int lane = 0; lane < kLanes; ++lane) {
-      if (batch.contact[lane] < 0) continue;
-      Contact& contact = contacts[batch.contact[lane]];
-      for (int i = 0; i < batch.rows; ++i) {
-        contact.points[i].normal_impulse = rows_[batch.first_row + i].impulse[lane];
-      }
-      const FrictionRow &s = batch.slide[0], &t = batch.slide[1];
-      contact.friction_impulse = s.direction.get(lane) * s.impulse[lane] +
-                                 t.direction.get(lane) * t.impulse[lane];
-      contact.twist_impulse = batch.twist_impulse[lane];
-      contact.pressed = batch.pressed[lane];
+void ContactSolver::store(const ContactBatch& batch, std::vector<Contact>& contacts) const {
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (batch.contact[lane] < 0) continue;
+    Contact& contact = contacts[batch.contact[lane]];
+    for (int i = 0; i < batch.rows; ++i) {
+      contact.points[i].normal_impulse = rows_[batch.first_row + i].impulse[lane];
     }
+    const FrictionRow &s = batch.slide[0], &t = batch.slide[1];
+    contact.friction_impulse = s.direction.get(lane) * s.impulse[lane] +
+                               t.direction.get(lane) * t.impulse[lane];
+    contact.twist_impulse = batch.twist_impulse[lane];
+    contact.pressed = batch.pressed[lane];
   }
 }
 
 void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body>& bodies,
                           const std::vector<std::int32_t>& order, std::vector<Contact>& contacts,
                           std::vector<Motion>& velocities, std::vector<Motion>& displacements,
-                          const SolvedTrees& trees) {
-  set_trees_apart(bodies, order, contacts, trees);
-  number_bodies(bodies, order, contacts);
-  share_inertia(bodies, order, contacts);
-  pack(free_order_, contacts);
+                          const SolvedTrees& trees, ThreadPool& pool) {
+  note_heads(bodies, order, contacts, trees, pool);
+  number_bodies(bodies);
+  share_inertia(bodies);
+  pack();
+  rows_.resize(std::size_t(row_count_));
+  pushes_.resize(std::size_t(row_count_));
   tree_contacts_.begin(settings, bodies, tree_order_, contacts, number_, share_, trees);
-  for (ContactBatch& batch : batches_) {
+  each_batch(pool, [&](ContactBatch& batch) {
+    std::fill_n(&rows_[batch.first_row], batch.rows, NormalRow{});
+    std::fill_n(&pushes_[batch.first_row], batch.rows, PushRow{});
     for (int lane = 0; lane < kLanes; ++lane) {
-      if (batch.contact[lane] >= 0) {
-        prepare(settings, bodies, contacts[batch.contact[lane]], batch, lane);
-      }
+      if (batch.contact[lane] < 0) continue;
+      prepare(settings, bodies, contacts[batch.contact[lane]], batch, lane);
     }
-  }
+  });
   speeds_.assign(moving_.size() + 1, {});
   moved_.assign(moving_.size() + 1, {});
   for (std::size_t i = 0; i < moving_.size(); ++i) speeds_[i] = padded(velocities[moving_[i]]);
   run_substeps(settings);
   before_push_ = moved_;
-  push_apart(settings);
+  push_apart(settings, pool);
   drop_opposed_speeds(settings);
   tree_contacts_.drop_opposed_speeds(double(settings.step));
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     velocities[moving_[i]] = unpadded(speeds_[i]);
     displacements[moving_[i]] = unpadded(moved_[i]);
   }
-  store(contacts);
+  each_batch(pool, [&](const ContactBatch& batch) { store(batch, contacts); });
   tree_contacts_.store(bodies, contacts);
 }
 

@@ -10,6 +10,7 @@
 
 #include <vector>
 
+#include "kernel/base/parallel.h"
 #include "kernel/body.h"
 #include "kernel/contact.h"
 #include "kernel/contact_rows.h"
@@ -45,25 +46,37 @@ class ContactSolver {
   void solve(const SolverSettings& settings, const std::vector<Body>& bodies,
              const std::vector<std::int32_t>& order, std::vector<Contact>& contacts,
              std::vector<Motion>& velocities, std::vector<Motion>& displacements,
-             const SolvedTrees& trees = {});
+             const SolvedTrees& trees, ThreadPool& pool);
 
  private:
-  void set_trees_apart(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
-                       const std::vector<Contact>& contacts, const SolvedTrees& trees);
-  void number_bodies(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
-                     const std::vector<Contact>& contacts);
-  void share_inertia(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
-                     const std::vector<Contact>& contacts);
-  void pack(const std::vector<std::int32_t>& order, const std::vector<Contact>& contacts);
+  // What planning asks of a contact, in the order of solving, close together in memory.
+  struct Head {
+    std::int32_t contact = 0, body_a = 0, body_b = 0, count = 0;
+    float up = 0;       // of the normal
+    bool tree = false;  // with an awake link of a tree
+  };
+
+  void note_heads(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
+                  const std::vector<Contact>& contacts, const SolvedTrees& trees,
+                  ThreadPool& pool);
+  void number_bodies(const std::vector<Body>& bodies);
+  void share_inertia(const std::vector<Body>& bodies);
+  void pack();
   int find_batch(int rows, int after);
   void prepare(const SolverSettings& settings, const std::vector<Body>& bodies,
                const Contact& contact, ContactBatch& batch, int lane);
+  // Calls action(batch) for each on the threads of the pool.
+  template <typename Action>
+  void each_batch(ThreadPool& pool, Action&& action);
   void run_substeps(const SolverSettings& settings);
-  void push_apart(const SolverSettings& settings);
+  bool begin_pushes(const SolverSettings& settings, const ContactBatch& batch);
+  void push_apart(const SolverSettings& settings, ThreadPool& pool);
+  bool is_pushed(const ContactBatch& batch) const;
   void drop_opposed_speeds(const SolverSettings& settings);
-  void store(std::vector<Contact>& contacts) const;
+  void store(const ContactBatch& batch, std::vector<Contact>& contacts) const;
 
-  std::vector<std::int32_t> free_order_, tree_order_;  // contacts without and with a tree
+  std::vector<Head> heads_;
+  std::vector<std::int32_t> tree_order_;  // contacts with a tree
   TreeContacts tree_contacts_;
   std::vector<std::int32_t> moving_;   // awake free bodies with a contact, in order
   std::vector<std::int32_t> number_;   // of each body in moving_; moving_.size(): does not move
@@ -72,6 +85,10 @@ class ContactSolver {
   std::vector<PaddedMotion> speeds_, moved_, before_push_;
   std::vector<ContactBatch> batches_;
   std::vector<NormalRow> rows_;
+  std::vector<PushRow> pushes_;               // by row
+  std::vector<std::uint8_t> wants_push_;      // by batch
+  std::vector<std::uint8_t> pushed_;          // by moving body
+  std::int32_t row_count_ = 0;
   std::vector<std::int32_t> last_batch_;  // of each moving body, while packing
   std::vector<std::int32_t> lanes_used_;
   std::vector<std::int32_t> open_[Contact::kMaxPoints + 1];  // batches with room, by row count

@@ -126,13 +126,7 @@ void store(Contact& contact, const Manifold& m, const Vec3f& normal, const Posed
 
 }  // namespace
 
-float motion_margin(const Body& a, const Body* b, const NarrowSettings& settings) {
-  Vec3f relative = a.linear;
-  float turning = norm(a.angular) * a.radius;
-  if (b != nullptr) {
-    relative -= b->linear;
-    turning += norm(b->angular) * b->radius;
-  }
+float motion_margin(const Vec3f& relative, float turning, const NarrowSettings& settings) {
   return settings.margin + settings.step * (norm(relative) + turning);
 }
 

@@ -23,8 +23,9 @@ struct NarrowSettings {
 // change of speed by other contacts usually does; unit: m.
 inline constexpr float kPointMargin = 0.010F;
 
-// How far beyond the fixed margin the two may come together in one step; `b` may be null: ground.
-float motion_margin(const Body& a, const Body* b, const NarrowSettings& settings);
+// The fixed margin and what two may come together in one step. relative: linear velocity; turning:
+// sum of the angular speeds times radius; unit: m/s.
+float motion_margin(const Vec3f& relative, float turning, const NarrowSettings& settings);
 void clear_points(Contact& contact);
 
 struct Manifold;

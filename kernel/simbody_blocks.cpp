@@ -25,7 +25,8 @@ struct SimbodyBlocks::Block {
   SimTK::SimbodyMatterSubsystem matter;
   std::vector<SimTK::MobilizedBody::Free> bodies;
   SimTK::State state;
-  int first = 0;  // number of its first body
+  const double *q = nullptr, *u = nullptr;  // where the State has them, to read
+  int first = 0;                            // number of its first body
 };
 
 SimbodyBlocks::SimbodyBlocks() = default;
@@ -56,6 +57,8 @@ int SimbodyBlocks::add(const std::vector<FreeBody>& bodies) {
     }
     block->state = block->system.realizeTopology();
     block->system.realizeModel(block->state);
+    block->q = block->state.getQ().getContiguousScalarData();
+    block->u = block->state.getU().getContiguousScalarData();
     blocks_.push_back(std::move(block));
     for (std::size_t i = begin; i < end; ++i, ++size_) {
       set_pose(size_, bodies[i].world_from_com);
@@ -73,13 +76,13 @@ void SimbodyBlocks::set_velocity(int body, const Vec3& linear, const Vec3& angul
 }
 
 Vec3 SimbodyBlocks::angular_velocity(int body) const {
-  const SimTK::Vector& u = block_of(body).state.getU();
+  const double* u = block_of(body).u;
   const int at = 6 * slot_[body];
   return {u[at], u[at + 1], u[at + 2]};
 }
 
 Vec3 SimbodyBlocks::linear_velocity(int body) const {
-  const SimTK::Vector& u = block_of(body).state.getU();
+  const double* u = block_of(body).u;
   const int at = 6 * slot_[body] + 3;
   return {u[at], u[at + 1], u[at + 2]};
 }
@@ -89,8 +92,8 @@ Vec3 SimbodyBlocks::linear_velocity(int body) const {
 void SimbodyBlocks::advance(int index, const std::vector<std::uint8_t>& moves,
                             const BodyRates* rates, double dt) {
   Block& block = *blocks_[index];
-  SimTK::Vector& u = block.state.updU();
-  SimTK::Vector& q = block.state.updQ();
+  double* u = block.state.updU().updContiguousScalarData();
+  double* q = block.state.updQ().updContiguousScalarData();
   const int count = int(block.bodies.size());
   for (int slot = 0; slot < count; ++slot) {
     const int body = block.first + slot;
@@ -113,7 +116,7 @@ void SimbodyBlocks::advance(int index, const std::vector<std::uint8_t>& moves,
 }
 
 Pose SimbodyBlocks::world_from_com(int body) const {
-  const SimTK::Vector& q = block_of(body).state.getQ();
+  const double* q = block_of(body).q;
   const int at = 7 * slot_[body];
   return {{q[at], q[at + 1], q[at + 2], q[at + 3]}, {q[at + 4], q[at + 5], q[at + 6]}};
 }

@@ -39,6 +39,14 @@ struct WorldData {
   int lost = 0;
 };
 
+// What the search for pairs asks of every piece in every step, close together in memory.
+struct Sweep {
+  Vec3f linear;        // unit: m/s
+  float turning = 0;   // angular speed times radius; unit: m/s
+  float reach = 0;     // no point goes farther in this step; unit: m
+  bool awake = false;
+};
+
 struct World::Impl {
   Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options,
        std::vector<AssemblyType> assembly_types);
@@ -59,6 +67,13 @@ struct World::Impl {
   // Scratch of a step.
   std::vector<std::int32_t> active;
   std::vector<std::int32_t> surfaces;  // the bodies that are one, ascending
+  std::vector<Sweep> sweeps;                // by body
+  std::vector<std::uint8_t> leaves_box;     // by collider
+  std::vector<std::uint8_t> pair_states;    // by pair: a PairState
+  std::vector<std::pair<float, std::int32_t>> order_keys;
+  std::vector<std::uint8_t> overlapping, slept;  // by body
+  std::vector<std::uint8_t> block_awake;
+  std::vector<std::int32_t> body_of;  // by number in SimbodyBlocks
   std::vector<std::uint8_t> moves;  // by number in SimbodyBlocks
   std::vector<Motion> velocities, displacements;
   std::vector<BodyRates> rates;  // by number in SimbodyBlocks
@@ -83,6 +98,10 @@ struct World::Impl {
   void find_pairs();
   void select_pairs();
   void update_contacts();
+  void note_sweeps();
+  Aabb calc_swept_box(int collider) const;
+  std::uint8_t classify(const Pair& pair) const;
+  float calc_margin(int body_a, int body_b) const;  // body_b may be kGround
   bool may_touch(const Pair& pair) const;
   void add_contact(int collider_a, int collider_b);
   void push_contact(const Pair& pair);
@@ -95,8 +114,8 @@ struct World::Impl {
   void wake_hit();
   void update_sleep();
   void wake_changed();
-  std::vector<std::uint8_t> find_overlapping() const;  // by body: 1 where it overlaps too deep
-  void note_loads(const std::vector<std::uint8_t>& slept);
+  void find_overlapping();  // those that overlap too deep
+  void note_loads();
   void wake(int body);
   static void wake_one(Body& body);
   void fall_asleep(int body);
@@ -126,7 +145,7 @@ struct World::Impl {
   void mirror_tree(int tree, const TreePose& pose, const std::vector<Spatial>& motions);
   void mirror_state(int tree);
   void stop_tree(int tree);
-  void keep_trees_whole(std::vector<std::uint8_t>& slept) const;
+  void keep_trees_whole();  // in `slept`
   void lose_tree(int tree);
   void set_tree_motion(int body, const Vec3& linear, const Vec3& angular);
   void set_tree_pose(int body, const Pose& world_from_com);

@@ -13,6 +13,17 @@ namespace {
 constexpr float kSparedMargin = NarrowSettings{}.margin - kPointMargin - 1e-4F;
 constexpr double kLookAhead = 4;  // steps that an enlarged box reaches ahead
 
+// What becomes of a pair in a step.
+enum PairState : std::uint8_t {
+  kAsleep,   // neither moves
+  kApart,    // the enlarged boxes have parted: it is dropped
+  kWaiting,  // too far apart to touch in this step
+  kActive,
+};
+
+// Bounds on lengths that are found in another order of rounding are this much wider.
+constexpr float kRounding = 1.001F;
+
 std::uint64_t pair_key(std::int32_t a, std::int32_t b) {
   return std::uint64_t(std::uint32_t(a)) << 32 | std::uint32_t(b);
 }
@@ -87,69 +98,109 @@ void World::Impl::remove_contact(std::size_t index) {
   data.contacts.pop_back();
 }
 
-void World::Impl::find_pairs() {
-  for (const Body& body : data.bodies) {
-    if (!body.awake) continue;
-    const Vec3 motion = Vec3(body.linear) * options.step;
-    const double turning = double(norm(body.angular) * body.radius) * options.step;
-    for (int i = 0; i < body.collider_count; ++i) {
-      const int collider = body.first_collider + i;
-      Aabb box = data.colliders[collider].box;  // and all that it may sweep in this step
-      box.min += min(motion, Vec3{}) - Vec3{turning, turning, turning};
-      box.max += max(motion, Vec3{}) + Vec3{turning, turning, turning};
-      if (!data.broad.update(collider, box, motion * kLookAhead)) continue;
-      data.broad.query(collider, [&](int other) { add_contact(collider, other); });
-      if (data.broad.box(collider).min.z < 0) add_contact(collider, kGround);
-      update_surface_pairs(collider);
+void World::Impl::note_sweeps() {
+  sweeps.resize(data.bodies.size());
+  pool.run(int(data.bodies.size()), 256, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const Body& body = data.bodies[i];
+      Sweep& sweep = sweeps[i];
+      sweep.awake = body.awake;
+      sweep.linear = body.linear;
+      sweep.turning = norm(body.angular) * body.radius;
+      sweep.reach = narrow_settings.step * (norm(body.linear) + sweep.turning) * kRounding;
     }
+  });
+}
+
+// All that a part may sweep in this step.
+Aabb World::Impl::calc_swept_box(int collider) const {
+  const Body& body = data.bodies[data.colliders[collider].body];
+  const Vec3 motion = Vec3(body.linear) * options.step;
+  const double turning = double(norm(body.angular) * body.radius) * options.step;
+  Aabb box = data.colliders[collider].box;
+  box.min += min(motion, Vec3{}) - Vec3{turning, turning, turning};
+  box.max += max(motion, Vec3{}) + Vec3{turning, turning, turning};
+  return box;
+}
+
+void World::Impl::find_pairs() {
+  note_sweeps();
+  leaves_box.resize(data.colliders.size());
+  pool.run(int(data.colliders.size()), 128, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      leaves_box[i] = sweeps[data.colliders[i].body].awake &&
+                      !data.broad.holds(i, calc_swept_box(i));
+    }
+  });
+  for (std::size_t i = 0; i < leaves_box.size(); ++i) {
+    if (!leaves_box[i]) continue;
+    const int collider = int(i);
+    const Vec3 motion = Vec3(data.bodies[data.colliders[i].body].linear) * options.step;
+    data.broad.update(collider, calc_swept_box(collider), motion * kLookAhead);
+    data.broad.query(collider, [&](int other) { add_contact(collider, other); });
+    if (data.broad.box(collider).min.z < 0) add_contact(collider, kGround);
+    update_surface_pairs(collider);
   }
 }
 
 // Lists the pairs with somebody awake that may touch in this step, and drops those that are apart.
 void World::Impl::select_pairs() {
+  pair_states.resize(data.pairs.size());
+  pool.run(int(data.pairs.size()), 1024, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) pair_states[i] = classify(data.pairs[i]);
+  });
   active.clear();
   for (std::size_t i = 0; i < data.pairs.size();) {
-    Pair& pair = data.pairs[i];
-    const bool ground = pair.body_b == kGround;
-    if (!data.bodies[pair.body_a].awake && (ground || !data.bodies[pair.body_b].awake)) {
-      ++i;
+    const std::uint8_t state = pair_states[i];
+    if (state == kApart) {
+      remove_contact(i);  // the last one takes its place
+      pair_states[i] = pair_states[data.pairs.size()];
       continue;
     }
-    if (is_surface_collider(pair.collider_b)) {  // dropped in find_pairs()
-      active.push_back(std::int32_t(i++));
-      continue;
-    }
-    const Aabb& box = data.broad.box(pair.collider_a);
-    const bool near =
-        ground ? box.min.z < 0 : BroadPhase::overlap(box, data.broad.box(pair.collider_b));
-    if (!near) {
-      remove_contact(i);
-      continue;
-    }
-    if (may_touch(pair)) {
-      active.push_back(std::int32_t(i));
-    } else if (pair.live) {
+    if (state == kActive) active.push_back(std::int32_t(i));
+    if (state == kWaiting && data.pairs[i].live) {
       clear_points(data.contacts[i]);
-      pair.live = 0;
+      data.pairs[i].live = 0;
     }
     ++i;
   }
 }
 
+std::uint8_t World::Impl::classify(const Pair& pair) const {
+  const bool ground = pair.body_b == kGround;
+  if (!sweeps[pair.body_a].awake && (ground || !sweeps[pair.body_b].awake)) return kAsleep;
+  if (is_surface_collider(pair.collider_b)) return kActive;  // dropped in find_pairs()
+  const Aabb& box = data.broad.box(pair.collider_a);
+  const bool near =
+      ground ? box.min.z < 0 : BroadPhase::overlap(box, data.broad.box(pair.collider_b));
+  if (!near) return kApart;
+  return may_touch(pair) ? kActive : kWaiting;
+}
+
+float World::Impl::calc_margin(int body_a, int body_b) const {
+  const Sweep& a = sweeps[body_a];
+  if (body_b == kGround) return motion_margin(a.linear, a.turning, narrow_settings);
+  const Sweep& b = sweeps[body_b];
+  return motion_margin(a.linear - b.linear, a.turning + b.turning, narrow_settings);
+}
+
 // Whether the boxes can meet in this step.
 bool World::Impl::may_touch(const Pair& pair) const {
-  const Body& a = data.bodies[pair.body_a];
   const Aabb& box = data.colliders[pair.collider_a].box;
-  if (pair.body_b == kGround) {
-    return box.min.z < double(motion_margin(a, nullptr, narrow_settings));
-  }
-  const Body& b = data.bodies[pair.body_b];
-  const double margin = motion_margin(a, &b, narrow_settings);
-  if (!pair.live && a.travel + b.travel + margin < pair.apart_until) return false;
+  if (pair.body_b == kGround) return box.min.z < double(calc_margin(pair.body_a, kGround));
   const Aabb& other = data.colliders[pair.collider_b].box;
-  return box.min.x <= other.max.x + margin && other.min.x <= box.max.x + margin &&
-         box.min.y <= other.max.y + margin && other.min.y <= box.max.y + margin &&
-         box.min.z <= other.max.z + margin && other.min.z <= box.max.z + margin;
+  const auto meet = [&](double margin) {
+    return box.min.x <= other.max.x + margin && other.min.x <= box.max.x + margin &&
+           box.min.y <= other.max.y + margin && other.min.y <= box.max.y + margin &&
+           box.min.z <= other.max.z + margin && other.min.z <= box.max.z + margin;
+  };
+  const float most = narrow_settings.margin * kRounding + sweeps[pair.body_a].reach +
+                     sweeps[pair.body_b].reach;
+  if (!meet(most)) return false;
+  const double margin = calc_margin(pair.body_a, pair.body_b);
+  const Body &a = data.bodies[pair.body_a], &b = data.bodies[pair.body_b];
+  if (!pair.live && a.travel + b.travel + margin < pair.apart_until) return false;
+  return meet(margin);
 }
 
 // All slots of a part at once.
@@ -162,7 +213,7 @@ void World::Impl::update_surface_slots(const Pair& first) {
     slots[slot] = &data.contacts[numbers[slot]];
   }
   const Collider& collider = data.colliders[first.collider_a];
-  const float margin = motion_margin(data.bodies[first.body_a], nullptr, narrow_settings);
+  const float margin = calc_margin(first.body_a, kGround);
   update_surface_contacts(slots, posed(collider), collider.box, data.bodies[first.body_b], margin,
                           narrow_settings);
   for (const std::int32_t number : numbers) {
@@ -179,17 +230,15 @@ void World::Impl::update_contacts() {
         continue;
       }
       Contact& contact = data.contacts[active[i]];
-      const Body& body = data.bodies[pair.body_a];
       const PosedBody a = posed(data.colliders[pair.collider_a]);
+      const float margin = calc_margin(pair.body_a, pair.body_b);
       if (pair.collider_b == kGround) {
-        const float margin = motion_margin(body, nullptr, narrow_settings);
         update_ground_contact(contact, a, margin, narrow_settings);
       } else {
-        const float margin = motion_margin(body, &data.bodies[pair.body_b], narrow_settings);
-        const Body& other = data.bodies[pair.body_b];
         const float apart = update_contact(contact, a, posed(data.colliders[pair.collider_b]),
                                            margin, narrow_settings);
-        pair.apart_until = body.travel + other.travel + double(apart + kSparedMargin);
+        pair.apart_until = data.bodies[pair.body_a].travel + data.bodies[pair.body_b].travel +
+                           double(apart + kSparedMargin);
       }
       pair.live = contact.count > 0;
     }

@@ -145,8 +145,8 @@ void World::Impl::wake_changed() {
   }
 }
 
-std::vector<std::uint8_t> World::Impl::find_overlapping() const {
-  std::vector<std::uint8_t> overlapping(data.bodies.size(), 0);
+void World::Impl::find_overlapping() {
+  overlapping.assign(data.bodies.size(), 0);
   for (std::int32_t index : active) {
     const Contact& contact = data.contacts[index];
     for (int p = 0; p < contact.count; ++p) {
@@ -155,11 +155,10 @@ std::vector<std::uint8_t> World::Impl::find_overlapping() const {
       if (contact.body_b != kGround) overlapping[contact.body_b] = 1;
     }
   }
-  return overlapping;
 }
 
 // What the pieces that fell asleep in this step carry.
-void World::Impl::note_loads(const std::vector<std::uint8_t>& slept) {
+void World::Impl::note_loads() {
   for (std::size_t i = 0; i < slept.size(); ++i) {
     if (slept[i]) data.bodies[i].load = 0;
   }
@@ -176,30 +175,29 @@ void World::Impl::note_loads(const std::vector<std::uint8_t>& slept) {
 void World::Impl::update_sleep() {
   wake_changed();
   if (!options.sleeping) return;
-  const std::vector<std::uint8_t> overlapping = find_overlapping();
+  find_overlapping();
   const SleepTerms& t = terms(data);
   const int wait = int(t.still_time / options.step), loose_wait = int(t.loose_time / options.step);
   const int long_wait = int(kSleepOverlapTime / options.step);
-  std::vector<std::uint8_t> slept(data.bodies.size(), 0);
+  slept.assign(data.bodies.size(), 0);
   bool any = false;
-  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
-    Body& body = data.bodies[i];
-    if (!body.awake) continue;
-    count_still(body, t.still_distance, body.still_pose, body.still_steps);
-    count_still(body, t.loose_distance, body.loose_pose, body.loose_steps);
-    if (body.still_steps < (overlapping[i] ? long_wait : wait) &&
-        body.loose_steps < (overlapping[i] ? long_wait : loose_wait)) {
-      continue;
+  pool.run(int(data.bodies.size()), 256, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      Body& body = data.bodies[i];
+      if (!body.awake) continue;
+      count_still(body, t.still_distance, body.still_pose, body.still_steps);
+      count_still(body, t.loose_distance, body.loose_pose, body.loose_steps);
+      slept[i] = body.still_steps >= (overlapping[i] ? long_wait : wait) ||
+                 body.loose_steps >= (overlapping[i] ? long_wait : loose_wait);
     }
-    slept[i] = 1;
-  }
-  keep_trees_whole(slept);
+  });
+  keep_trees_whole();
   for (std::size_t i = 0; i < slept.size(); ++i) {
     if (!slept[i]) continue;
     fall_asleep(int(i));
     any = true;
   }
-  if (any) note_loads(slept);
+  if (any) note_loads();
 }
 
 }  // namespace rubble

@@ -64,16 +64,18 @@ void World::Impl::apply_forces() {
 // step unless something moves far: a sweep in another order would disturb what earlier ones
 // reached.
 void World::Impl::sort_by_height() {
-  std::vector<std::pair<float, std::int32_t>> keys;
-  for (std::int32_t index : active) {
-    Pair& pair = data.pairs[index];
-    const float z = float(data.bodies[pair.body_a].world_from_com.translation.z) +
-                    data.contacts[index].points[0].from_a.z;
-    if (std::abs(z - pair.order) > kOrderDistance) pair.order = z;
-    keys.push_back({pair.order, index});
-  }
-  std::sort(keys.begin(), keys.end());
-  for (std::size_t i = 0; i < keys.size(); ++i) active[i] = keys[i].second;
+  order_keys.resize(active.size());
+  pool.run(int(active.size()), 128, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      Pair& pair = data.pairs[active[i]];
+      const float z = float(data.bodies[pair.body_a].world_from_com.translation.z) +
+                      data.contacts[active[i]].points[0].from_a.z;
+      if (std::abs(z - pair.order) > kOrderDistance) pair.order = z;
+      order_keys[i] = {pair.order, active[i]};
+    }
+  });
+  std::sort(order_keys.begin(), order_keys.end());
+  for (std::size_t i = 0; i < active.size(); ++i) active[i] = order_keys[i].second;
 }
 
 void World::Impl::solve_contacts() {
@@ -82,7 +84,7 @@ void World::Impl::solve_contacts() {
                active.end());
   sort_by_height();
   solver.solve(solver_settings, data.bodies, active, data.contacts, velocities, displacements,
-               solved_trees);
+               solved_trees, pool);
 }
 
 // What a piece loses goes back to the only one that touches it, if that is as heavy: where two meet,
@@ -100,6 +102,20 @@ void World::Impl::give_back(std::size_t piece, const Vec3f& speed) {
 // A piece squeezed out from under a heavy one must not shoot away: sideways and upwards it may
 // become no faster in one step than a share of the speed that the points which touch it had before.
 void World::Impl::limit_kicks() {
+  const auto outwards = [](const Vec3f& v) { return Vec3f{v.x, v.y, std::max(v.z, 0.0F)}; };
+  const auto may_kick = [&](const Body& body) {
+    return body.awake && body.touching && body.mobile >= 0;
+  };
+  const auto speed_before = [&](const Body& body) {
+    return norm(outwards(body.linear)) + float(options.gravity * options.step);
+  };
+  bool any = !awake_trees.empty();  // limit_tree() asks for all of their links
+  for (std::size_t i = 0; i < data.bodies.size() && !any; ++i) {
+    const Body& body = data.bodies[i];
+    any = may_kick(body) &&
+          norm(outwards(velocities[i].linear)) > std::max(speed_before(body), kFreeKick);
+  }
+  if (!any) return;
   fastest.assign(data.bodies.size(), 0);
   neighbour.assign(data.bodies.size(), kNobody);
   const auto note = [this](std::int32_t body, std::int32_t other) {
@@ -121,12 +137,10 @@ void World::Impl::limit_kicks() {
     }
   }
   for (std::size_t i = 0; i < data.bodies.size(); ++i) {
-    const Body& body = data.bodies[i];
-    if (!body.awake || !body.touching || body.mobile < 0) continue;
-    const auto outwards = [](const Vec3f& v) { return Vec3f{v.x, v.y, std::max(v.z, 0.0F)}; };
-    const float before = norm(outwards(body.linear)), after = norm(outwards(velocities[i].linear));
-    const float fall = float(options.gravity * options.step);
-    const float most = std::max(before + fall, kKickShare * fastest[i] + kFreeKick);
+    if (!may_kick(data.bodies[i])) continue;
+    const float after = norm(outwards(velocities[i].linear));
+    const float most =
+        std::max(speed_before(data.bodies[i]), kKickShare * fastest[i] + kFreeKick);
     if (after <= most) continue;
     const float keep = most / after;
     give_back(i, outwards(velocities[i].linear) * (1 - keep));
@@ -173,19 +187,21 @@ double World::Impl::calc_travel(const Body& body) const {
 void World::Impl::advance() {
   moves.assign(blocks.size(), 0);
   rates.resize(blocks.size());
-  std::vector<std::uint8_t> block_awake(blocks.block_count(), 0);
-  std::vector<std::int32_t> body_of(blocks.size(), 0);
+  block_awake.assign(blocks.block_count(), 0);
+  body_of.resize(blocks.size());
   for (std::size_t i = 0; i < data.bodies.size(); ++i) {
     const Body& body = data.bodies[i];
     if (!body.awake || body.mobile < 0) continue;
     moves[body.mobile] = 1;
     body_of[body.mobile] = std::int32_t(i);
     block_awake[blocks.block_of_body(body.mobile)] = 1;
-    set_rates(i);
   }
   pool.run(blocks.block_count(), 4, [&](int begin, int end) {
     for (int block = begin; block < end; ++block) {
       if (!block_awake[block]) continue;
+      for (int mobile = blocks.first_of(block); mobile < blocks.first_of(block + 1); ++mobile) {
+        if (moves[mobile]) set_rates(body_of[mobile]);
+      }
       blocks.advance(block, moves, rates.data(), options.step);
       for (int mobile = blocks.first_of(block); mobile < blocks.first_of(block + 1); ++mobile) {
         if (!moves[mobile]) continue;

@@ -253,7 +253,7 @@ void World::Impl::mirror_state(int tree) {
 }
 
 // Nobody falls asleep before all links of its tree do.
-void World::Impl::keep_trees_whole(std::vector<std::uint8_t>& slept) const {
+void World::Impl::keep_trees_whole() {
   for (std::int32_t tree : awake_trees) {
     bool all = true;
     for (const TreeLink& link : data.trees[tree].links) {

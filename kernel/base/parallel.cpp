@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -9,16 +10,51 @@
 
 namespace rubble {
 
+namespace {
+
+// How long a thread looks out for the next loop, or for the others' end, before it sleeps: to wake a
+// sleeping one takes a tenth of a millisecond, as long as many a loop. unit: s
+constexpr double kPatience = 5e-4;
+// Where it is in vain, other programs have the processors: then it sleeps at once, and tries again
+// only every so often.
+constexpr int kTryAgain = 200;
+
+class LookOut {
+ public:
+  // Returns what ready() says at the end.
+  template <typename Ready>
+  bool operator()(const Ready& ready) {
+    if (ready()) return true;
+    if (pause_ > 0) {
+      --pause_;
+      return false;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    while (!ready()) {
+      const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
+      if (waited.count() < kPatience) continue;
+      pause_ = kTryAgain;
+      return false;
+    }
+    return true;
+  }
+
+ private:
+  int pause_ = 0;
+};
+
+}  // namespace
+
 struct ThreadPool::Shared {
   std::vector<std::thread> workers;
+  LookOut caller;
   std::mutex mutex;
   std::condition_variable wake, done;
   const std::function<void(int, int)>* body = nullptr;
   int count = 0, grain = 1;
-  std::atomic<int> next{0};
-  long round = 0;
-  int busy = 0;
-  bool stop = false;
+  std::atomic<int> next{0}, busy{0};
+  std::atomic<long> round{0};
+  std::atomic<bool> stop{false};
 
   void take_all() {
     for (;;) {
@@ -29,17 +65,18 @@ struct ThreadPool::Shared {
   }
 
   void work() {
-    long seen = 0;
-    for (;;) {
-      {
+    LookOut look_out;
+    for (long seen = 0;; ++seen) {
+      const auto called = [&] { return stop || round != seen; };
+      if (!look_out(called)) {
         std::unique_lock<std::mutex> lock(mutex);
-        wake.wait(lock, [&] { return stop || round != seen; });
-        if (stop) return;
-        seen = round;
+        wake.wait(lock, called);
       }
+      if (stop) return;
       take_all();
+      if (busy.fetch_sub(1) > 1) continue;
       const std::lock_guard<std::mutex> lock(mutex);
-      if (--busy == 0) done.notify_one();
+      done.notify_one();
     }
   }
 };
@@ -77,8 +114,10 @@ void ThreadPool::run(int count, int grain, const std::function<void(int, int)>& 
   }
   s.wake.notify_all();
   s.take_all();
+  const auto finished = [&] { return s.busy == 0; };
+  if (s.caller(finished)) return;
   std::unique_lock<std::mutex> lock(s.mutex);
-  s.done.wait(lock, [&] { return s.busy == 0; });
+  s.done.wait(lock, finished);
 }
 
 }  // namespace rubble

@@ -188,7 +188,8 @@ void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Bo
     const ContactPoint& p = contact.points[i];
     NormalRow& n = rows_[batch.first_row + i];
     const float around = fill(n.row, lane, a, b, contact.normal, p.from_a, p.from_b);
-    pushes_[batch.first_row + i].mass[lane] = 1 / ((a.body ? 1.0F : 0.0F) + (b.body ? 1.0F : 0.0F) + around);
+    const float movable = (a.body ? 1.0F : 0.0F) + (b.body ? 1.0F : 0.0F);
+    pushes_[batch.first_row + i].mass[lane] = 1 / (movable + around);
     n.gap[lane] = p.separation - settings.rest_gap;
     n.impulse[lane] = n.carried[lane] = p.normal_impulse;
     middle_a += p.from_a;

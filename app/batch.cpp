@@ -64,7 +64,7 @@ class Batch {
     options.overrides = request_.of.overrides;
     const Mission mission = load_mission(request_.of.mission, options);
     const AssetLibrary assets = load_assets(mission, request_.of.asset_packs);
-    estimate_ = estimate_bytes(mission.scenario, assets);
+    estimate_ = estimate_bytes(mission.scenario, assets, request_.pile_only);
     recipe_ = make_recipe(request_.pile_only ? RunKind::settle : RunKind::run, mission, options);
     recipe_.assets = assets.contents;
     recipe_.seed.reset();

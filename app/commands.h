@@ -23,6 +23,9 @@ ExitCode resume_run(const FolderRequest& request);
 // Runs again from the manifest alone and compares: `differs` when anything does. The result goes to
 // standard output.
 ExitCode verify_run(const VerifyRequest& request);
+// What recordings or folders of runs hold, and which file is damaged at which byte: `differs` when
+// one is.
+ExitCode print_info_of(const std::vector<std::string>& paths);
 // The voids of the pile of a finished run, as files beside it (docs/voids.md).
 ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids);
 // Errors of an estimated trajectory, on standard output.

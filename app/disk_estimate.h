@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "app/asset_library.h"
@@ -9,9 +10,17 @@
 
 namespace rubble {
 
-// unit: byte. Nothing is counted as compressed, so a run takes this much at most, or a few per cent
-// more for what formats add; usually it is half.
-std::uint64_t estimate_bytes(const Scenario& scenario, const AssetLibrary& assets);
+// Each file or folder that the run will leave, by the name that the manifest has, and how large it
+// gets at most; unit: byte. Nothing is counted as compressed: what is written as it is (bag, MCAP,
+// rawlog, meshes) takes between a fifth of it and all, pictures in PNG and EXR files and a
+// trajectory's plan less. Changes of brightness, of an event camera, are counted as one for every
+// second pixel of a frame.
+std::map<std::string, std::uint64_t> estimate_outputs(const Scenario& scenario,
+                                                      const AssetLibrary& assets);
+
+// Of all of them, or of those that a run leaves which renders nothing (`pile_only`).
+std::uint64_t estimate_bytes(const Scenario& scenario, const AssetLibrary& assets,
+                             bool pile_only = false);
 
 // Of all files in a folder; 0 when it is not there.
 std::uint64_t count_bytes(const std::string& folder);

@@ -93,6 +93,10 @@ FrameHashes FrameHashes::compact() const {
   return kept;
 }
 
+bool is_picture(const std::string& channel) {
+  return channel != "pose" && channel != "events" && channel != "imu";
+}
+
 FrameDifference find_difference(const FrameHashes& was, const FrameHashes& is) {
   if (was.channels != is.channels) return {0, "", "the frames have other channels"};
   const std::size_t both = std::min(was.frames.size(), is.frames.size());

@@ -26,6 +26,8 @@ struct FrameDifference {
   int frame = -1;
   std::string channel, why;
 };
+// Whether a channel is one value or more a pixel.
+bool is_picture(const std::string& channel);
 FrameDifference find_difference(const FrameHashes& was, const FrameHashes& is);
 
 // "0123456789abcdef 0123...": one row of `frames`, and back (false: not that).

@@ -333,6 +333,16 @@ struct CommandEntry {
   Action (*add)(CLI::App&);
 };
 
+// Of this machine, or of what lies at some paths.
+Action add_any_info(CLI::App& command) {
+  const Action of_machine = add_info(command);
+  const auto paths = std::make_shared<std::vector<std::string>>();
+  command.add_option("path", *paths,
+                     "Recordings, or folders of runs: what they hold, and whether they are whole")
+      ->type_name("PATH");
+  return [paths, of_machine] { return paths->empty() ? of_machine() : print_info_of(*paths); };
+}
+
 const CommandEntry kCommands[] = {
     {"run", "Run a mission to a finished dataset", add_run},
     {"settle", "Settle the pile of a mission, nothing more", add_settle},
@@ -346,7 +356,8 @@ const CommandEntry kCommands[] = {
     {"suite", "Many missions with what is expected of them, for CI", add_suite},
     {"assets", "Look into a pack of assets", add_assets},
     {"check", "Print the complete scenario as JSON; run nothing", add_check},
-    {"info", "Print versions, the GL renderer and threads", add_info}};
+    {"info", "Print versions, the GL renderer and threads; or look over a dataset",
+     add_any_info}};
 
 ExitCode run(int argc, char** argv) {
   CLI::App app{

@@ -6,10 +6,12 @@
 #include "app/build_scene.h"
 #include "app/run.h"
 #include "app/stop.h"
+#include "app/void_metrics.h"
 #include "io/checkpoint_file.h"
 #include "io/pile_export.h"
 #include "io/pile_state_file.h"
 #include "kernel/settle.h"
+#include "scripting/value.h"
 
 namespace rubble {
 namespace {
@@ -69,6 +71,17 @@ PileState settle_from_checkpoint_or_start(Run& run, const RunFolder& folder) {
   return resume_settling(load_checkpoint(folder.checkpoint_file()), pile, options, step);
 }
 
+void measure_voids(Run& run, const RunFolder& folder) {
+  run.progress.start("voids");
+  const auto report = [&](double done) {
+    run.progress.update(done, "free space");
+    throw_if_stopped(folder.path());
+    return true;
+  };
+  add_void_metrics(run.scenario.voids, run.pile, run.assets, run.threads(), report, run.metrics);
+  run.progress.finish(format_number(run.metrics["void_volume_m3"]) + " m3");
+}
+
 }  // namespace
 
 void settle(Run& run, RunFolder& folder) {
@@ -85,6 +98,7 @@ void settle(Run& run, RunFolder& folder) {
                 run.pile.pieces.size(), run.pile.settled ? "at rest" : "did not settle",
                 run.pile.simulated, run.pile.lost);
   run.progress.finish(text + std::string(loaded ? ", as settled before" : ""));
+  if (run.scenario.voids.on) measure_voids(run, folder);
 }
 
 void write_pile_files(Run& run, RunFolder& folder) {

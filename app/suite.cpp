@@ -150,7 +150,8 @@ class Suite {
                            const Manifest& manifest, CaseResult& result) {
     const auto found = manifest.metrics.find(name);
     if (found == manifest.metrics.end())
-      result.failures.push_back(name + " is expected, but this run has none");
+      result.failures.push_back(name + " is expected, but this run has none" +
+                                (name.rfind("void_", 0) == 0 ? " (`voids.on = true`)" : ""));
     else if (!(found->second >= limits[0] && found->second <= limits[1]))
       result.failures.push_back(name + " is " + format_number(found->second) + ", not from " +
                                 format_number(limits[0]) + " to " + format_number(limits[1]));

@@ -2,9 +2,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/commands.h"
 #include "app/compare.h"
@@ -13,7 +15,10 @@
 #include "app/stop.h"
 #include "io/atomic_file.h"
 #include "io/pile_state_file.h"
+#include "io/recorded_picture.h"
+#include "io/recording_check.h"
 #include "kernel/base/hash.h"
+#include "scripting/value.h"
 
 namespace rubble {
 namespace {
@@ -87,7 +92,10 @@ class Verifier {
       const bool there = fs::is_regular_file(recorded(name));
       if (there && sha256_of_file(recorded(name)) == hash) continue;
       wrong += (wrong.empty() ? "" : "; ") + name + (there ? " was altered" : " is missing");
-      if (there) altered_.push_back(name);
+      if (!there) continue;
+      altered_.insert(name);
+      if (const auto fault = find_fault(recorded(name)))
+        wrong += " (at byte " + std::to_string(fault->byte) + ": " + fault->what + ")";
     }
     add("recorded files", wrong.empty(),
         wrong.empty() ? std::to_string(was_.outputs.size()) + " as the manifest says" : wrong);
@@ -144,12 +152,32 @@ class Verifier {
     render_frames(run, folder);
     const FrameDifference apart = find_difference(was_.frames, run.frames.compact());
     add("frames", apart.why.empty(),
-        apart.why.empty() ? std::to_string(was_.frames.frames.size()) + " frames" : apart.why);
+        apart.why.empty() ? std::to_string(was_.frames.frames.size()) + " frames"
+                          : apart.why + find_pixel(apart, folder));
     for (const auto& [name, value] : run.environment) {
       const auto before = was_.environment.find(name);
       if (name != "threads" && before != was_.environment.end() && before->second != value)
         result_.notes.push_back(name + " " + value + " instead of " + before->second);
     }
+  }
+
+  // Where in the picture: the manifest holds hashes of frames alone, the recordings the frames.
+  std::string find_pixel(const FrameDifference& apart, const RunFolder& folder) const {
+    if (apart.channel.empty() || !is_picture(apart.channel)) return "";
+    const auto& channels = was_.frames.channels;
+    PictureWanted wanted{apart.channel, apart.frame, false};
+    wanted.measured_depth =
+        std::find(channels.begin(), channels.end(), "measured_depth") != channels.end();
+    const auto was = find_recorded_picture(request_.of.folder, wanted, altered_);
+    const auto is = find_recorded_picture(folder.path(), wanted, altered_);
+    if (!was || !is || was->file != is->file)
+      return "; no recording holds its pixels without losses, so which of them stays open";
+    const std::string pixel = describe_difference(*was, *is);
+    if (!pixel.empty()) return "; " + pixel + ", by " + was->file;
+    return was->step > 0
+               ? "; " + was->file + " rounds depth to " + format_number(was->step) +
+                     " m and shows no difference"
+               : "; yet " + was->file + " holds the same pixels: the manifest was altered";
   }
 
   void check_metrics(const Run& run) {
@@ -187,7 +215,7 @@ class Verifier {
   const VerifyRequest& request_;
   std::string text_;
   Manifest was_;
-  std::vector<std::string> altered_;  // recorded files that are not as the manifest says
+  std::set<std::string> altered_;  // recorded files that are not as the manifest says
   Verification result_;
 };
 

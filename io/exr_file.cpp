@@ -5,6 +5,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
+#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 
 #include <exception>
@@ -58,7 +59,44 @@ std::string encode(int width, int height, const std::vector<std::string>& channe
   return bytes;
 }
 
+// One channel after another, into every channels.size()-th value.
+template <typename T>
+void read_channel(Imf::InputFile& file, const std::string& name, Imf::PixelType type, int width,
+                  int height, std::size_t first, std::size_t step, std::vector<double>& values) {
+  std::vector<T> plane(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  Imf::FrameBuffer pixels;
+  pixels.insert(name, Imf::Slice(type, reinterpret_cast<char*>(plane.data()), sizeof(T),
+                                 sizeof(T) * static_cast<std::size_t>(width)));
+  file.setFrameBuffer(pixels);
+  file.readPixels(0, height - 1);
+  for (std::size_t i = 0; i < plane.size(); ++i)
+    values[first + i * step] = static_cast<double>(plane[i]);
+}
+
 }  // namespace
+
+ExrImage read_exr(const std::string& path, const std::vector<std::string>& channels) {
+  try {
+    Imf::InputFile file(path.c_str(), 0);
+    const auto window = file.header().dataWindow();
+    ExrImage image{window.max.x + 1, window.max.y + 1, {}};
+    if (window.min.x != 0 || window.min.y != 0) throw std::runtime_error("not ours");
+    image.values.resize(channels.size() * static_cast<std::size_t>(image.width) *
+                        static_cast<std::size_t>(image.height));
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const Imf::Channel* channel = file.header().channels().findChannel(channels[c]);
+      if (!channel) throw std::runtime_error("it has no channel " + channels[c]);
+      const auto read =
+          channel->type == Imf::UINT ? read_channel<std::uint32_t> : read_channel<float>;
+      read(file, channels[c], channel->type == Imf::UINT ? Imf::UINT : Imf::FLOAT, image.width,
+           image.height, c, channels.size(), image.values);
+    }
+    return image;
+  } catch (const std::exception& error) {
+    throw InputError(
+        {path, 0, "", std::string("cannot be read as an EXR: ") + error.what(), "", "", ""});
+  }
+}
 
 std::string encode_exr(int width, int height, const std::vector<std::string>& channels,
                        const std::vector<float>& values) {

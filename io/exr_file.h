@@ -14,4 +14,12 @@ std::string encode_exr(int width, int height, const std::vector<std::string>& ch
 std::string encode_exr(int width, int height, const std::vector<std::string>& channels,
                        const std::vector<std::uint32_t>& values);
 
+// The same values again, as numbers that hold each of them exactly. Throws InputError for a file
+// that is missing, damaged, or without these channels.
+struct ExrImage {
+  int width = 0, height = 0;  // unit: pixel
+  std::vector<double> values;
+};
+ExrImage read_exr(const std::string& path, const std::vector<std::string>& channels);
+
 }  // namespace rubble

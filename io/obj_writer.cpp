@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 
 #include "io/atomic_file.h"
 #include "io/pile_export.h"
@@ -74,8 +75,8 @@ void write_obj(const std::string& path, const PileModel& model) {
   const std::string library = stem.substr(stem.find_last_of('/') + 1) + ".mtl";
   std::vector<WeldedMesh> welded;
   for (const PileModel::Type& type : model.types) welded.push_back(weld(*type.mesh));
-  write_text_file(stem + ".mtl", make_mtl(model));
-  AtomicFile file(path);
+  AtomicFile file(path), materials(stem + ".mtl");
+  materials.write(make_mtl(model));
   file.write(kComment + ("mtllib " + library + "\n"));
   std::size_t vertices = 0, normals = 0;
   std::string text;
@@ -85,7 +86,13 @@ void write_obj(const std::string& path, const PileModel& model) {
                    normals);
     file.write(text);
   }
-  file.commit();
+  materials.commit();
+  try {
+    file.commit();
+  } catch (...) {  // neither is of use without the other
+    std::remove((stem + ".mtl").c_str());
+    throw;
+  }
 }
 
 }  // namespace rubble

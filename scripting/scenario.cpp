@@ -5,6 +5,7 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "scripting/scenario_schema.h"
+#include "scripting/value.h"
 
 namespace rubble {
 namespace {
@@ -209,6 +210,10 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_channels(scenario.camera, mistakes);
   check_camera(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
+  if (scenario.voids.radius < scenario.voids.voxel)
+    mistakes.push_back({"", 0, "voids.radius", "smaller than a voxel",
+                        "at least voids.voxel = " + format_number(scenario.voids.voxel),
+                        format_number(scenario.voids.radius), ""});
   if (scenario.lights.size() + 1 > kMostLights)
     mistakes.push_back({"", 0, "lights", "too many lights",
                         "at most " + std::to_string(kMostLights - 1) + " besides the main one",

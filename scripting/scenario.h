@@ -148,6 +148,13 @@ struct ImuScenario {
   ImuModel model;
 };
 
+// The voids of the settled pile, measured for suites and batches; kernel/voids/void_map.h.
+struct VoidScenario {
+  bool on = false;
+  double voxel = 0.05;   // unit: m; range: 0.01 to 1
+  double radius = 0.15;  // of a robot, at least a voxel; unit: m; range: 0.02 to 5
+};
+
 struct Scenario {
   std::uint64_t seed = 0;                 // range: 0 to 2^63 - 1
   std::int64_t start_ns = 1'000'000'000;  // stamp of the first frame; ROS time 0 means invalid
@@ -165,6 +172,7 @@ struct Scenario {
   TrajectorySpec trajectory;
   ImuScenario imu;
   OutputScenario outputs;
+  VoidScenario voids;
 
   // Throws InputError with every mistake: out of range, not finite, contradicting each other.
   void validate() const;

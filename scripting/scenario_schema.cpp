@@ -132,9 +132,10 @@ void add_settle(Schema& k, SettleOptions& o) {
 
 void add_light(Schema& k, LightScenario& l) {
   k.group("light", "The main light.");
-  k.choice("light.type", l.spec.type, {"directional", "spot", "point", "sun"},
-           "A beam from afar, a floodlight, a bulb; or the sun, whose strength, colour and sky follow "
-           "from where it stands.");
+  k.choice(
+      "light.type", l.spec.type, {"directional", "spot", "point", "sun"},
+      "A beam from afar, a floodlight, a bulb; or the sun, whose strength, colour and sky follow "
+      "from where it stands.");
   k.value("light.intensity", l.spec.intensity,
           "Directional: illuminance (clear sun: 100 klx); spot and point: kcd.")
       .between(0, 1000)
@@ -165,7 +166,8 @@ void add_light(Schema& k, LightScenario& l) {
 }
 
 void add_more_lights(Schema& k, std::vector<LightSpec>& lights) {
-  k.list("lights", lights, "Lights besides the main one, three at most; the sky is the main one's.");
+  k.list("lights", lights,
+         "Lights besides the main one, three at most; the sky is the main one's.");
   k.add("lights[].type", "A beam from afar, a floodlight or a bulb.", [&lights](std::size_t i) {
     return Schema::choice_slot(lights[i].type, {"directional", "spot", "point"});
   });
@@ -221,7 +223,8 @@ void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
           "Density falls by e over so much height above the ground; 0: it does not.")
       .between(0, 1000)
       .unit("m");
-  k.value("air.fog_noise", air.fog_noise, "Billows: 0 even, 1 from nothing to double.").between(0, 1);
+  k.value("air.fog_noise", air.fog_noise, "Billows: 0 even, 1 from nothing to double.")
+      .between(0, 1);
   k.value("air.fog_noise_size", air.fog_noise_size, "Size of the largest billows.")
       .between(0.05, 100)
       .unit("m");
@@ -344,6 +347,17 @@ void add_outputs(Schema& k, OutputScenario& o) {
       "Pictures there: raw, or CompressedImage; `jpeg` loses detail of colour, never of depth.");
 }
 
+void add_voids(Schema& k, VoidScenario& v) {
+  k.group("voids", "The voids of the settled pile as metrics, which suites and batches list.");
+  k.value("voids.on", v.on, "Whether they are measured; `rubble voids` draws them at any time.");
+  k.value("voids.voxel", v.voxel, "Edge of a voxel; half of it: eight times the memory.")
+      .between(0.01, 1)
+      .unit("m");
+  k.value("voids.radius", v.radius, "Of the robot that has to fit in; at least a voxel.")
+      .between(0.02, 5)
+      .unit("m");
+}
+
 // The parameters of the published Unity simulator, under its names. Axes are ours: Z is up.
 void add_aliases(Schema& k) {
   for (const std::string axis : {"x", "y", "z"}) {
@@ -377,6 +391,7 @@ Schema make_scenario_schema(Scenario& s) {
   add_camera_keys(keys, s);
   add_trajectory(keys, s.trajectory);
   add_imu(keys, s.imu);
+  add_voids(keys, s.voids);
   add_outputs(keys, s.outputs);
   add_aliases(keys);
   return keys;

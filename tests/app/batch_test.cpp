@@ -88,6 +88,26 @@ TEST_F(Batch, AsksForRoomBeforeItBegins) {
   EXPECT_FALSE(fs::exists(scratch / "a/seed_1"));
 }
 
+// Each output alone is enough to be too large; a path into a void is known only later.
+TEST_F(Batch, AsksForRoomForEveryOutputAndEveryPath) {
+  const std::string none =
+      " --seeds 1..100000 --set camera.width=8192 --set camera.height=8192"
+      " --set trajectory.rate_hz=100 --set outputs.rawlog=false --set outputs.bag=false"
+      " --set outputs.preview=false --set outputs.stl=false --set outputs.simplemap=false";
+  for (const char* output : {"mcap", "tum", "frames"}) {
+    const Outcome refused =
+        run_rubble("batch " + (scratch / "tiny.lua") + none + " --set outputs." + output +
+                   "=true --out " + (scratch / "b"));
+    EXPECT_EQ(refused.exit_code, 2) << output << refused.err;
+    EXPECT_IN("the disk is too small for this batch", refused.err);
+    fs::remove_all(scratch / "b");
+  }
+  const Outcome into = run_rubble("batch scripts/deepest_void.lua" + none +
+                                  " --set outputs.bag=true --out " + (scratch / "c"));
+  EXPECT_EQ(into.exit_code, 2) << into.err;
+  EXPECT_IN("the disk is too small for this batch", into.err);
+}
+
 TEST_F(Batch, RefusesSeedsAndShardsThatAreNone) {
   for (const char* seeds : {"5..1", "1..", "a", "1,,2", "''", "-1", "99999999999999999999"})
     EXPECT_EQ(run_rubble(batch("a", seeds)).exit_code, 1) << seeds;

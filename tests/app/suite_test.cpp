@@ -64,6 +64,30 @@ TEST_F(Suite, HoldsMetricsToTheirLimits) {
   EXPECT_IN("the pile did not settle", run().out);
 }
 
+// The room in a culvert, by the suite's limits and in a batch's table; against the closed form.
+TEST_F(Suite, HoldsVoidsToTheirLimits) {
+  write_file(scratch / "tiny.lua",
+             "return rubble.mission { pile = rubble.collapse.culvert { bore = 0.9, rows = 1, "
+             "segments = 2,\n"
+             "  debris = { layers = 0 } },\n"
+             "  voids = { on = true, voxel = 0.03, radius = 0.3 } }\n");
+  // Two pipes of 1.8 m: a bore of 3.61 m and 0.45 m radius has 2.30 m3, less a cap at each end that
+  // a ball of 1 m fills, 0.03 m3. Beside the pipes, above the ground, the robot has no room.
+  write_suite(
+      "golden = \"none\", expect = { void_reachable_m3 = { 2.0, 2.3 }, void_count = { 1, 1 } }");
+  const Outcome met = run();
+  EXPECT_EQ(met.exit_code, 0) << met.out;
+  write_suite("golden = \"none\", expect = { void_volume_m3 = { 5, 9 } }");
+  EXPECT_IN("void_volume_m3 is ", run().out);
+  write_suite(
+      "golden = \"none\", set = { \"voids.on=false\" }, expect = { void_volume_m3 = { 0, 9 } }");
+  EXPECT_IN("this run has none (`voids.on = true`)", run().out);
+  const Outcome batch = run_rubble("batch " + (scratch / "tiny.lua") +
+                                   " --pile-only --seeds 1 --out " + (scratch / "many"));
+  EXPECT_EQ(batch.exit_code, 0) << batch.err;
+  EXPECT_IN(",void_volume_m3,", read_file(scratch / "many/index.csv"));
+}
+
 // Read by Python's XML parser and by libxml2, with names and texts that XML must escape.
 TEST_F(Suite, WritesJUnitThatOthersRead) {
   write_file(scratch / "s.lua",

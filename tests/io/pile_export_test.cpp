@@ -7,12 +7,14 @@
 
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sdf/sdf.hh>
 
 #include "io/mesh_file.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
+#include "tests/io/all_recorders.h"
 #include "tests/io/support.h"
 
 namespace rubble {
@@ -186,10 +188,36 @@ TEST_F(PileExport, GazebosParserLoadsTheWorld) {
   EXPECT_NEAR(calc_volume_properties(wedge).volume, 2.0 * 0.5 / 6, 1e-6);
 }
 
-TEST_F(PileExport, GivesTheSameBytesTwice) {
-  for (const std::string format : {"stl", "ply", "obj", "glb"}) {
-    const std::string first = test::read_text(write(format));
-    EXPECT_TRUE(first == test::read_text(write(format))) << format;
+// Of every file of every format, the SDF world's folder included; another pile gives others.
+TEST_F(PileExport, GivesTheSameBytesTwiceAndOthersForAnotherPile) {
+  for (const std::string& format : export_formats()) {
+    const ScratchFolder a, b, c;
+    export_pile(model_, format, a.path());
+    export_pile(model_, format, b.path());
+    PileModel moved = model_;
+    moved.pieces[1].world_from_body.translation.z += 1e-3;
+    export_pile(moved, format, c.path());
+    EXPECT_FALSE(test::read_tree(a.path()).empty());
+    EXPECT_TRUE(test::read_tree(a.path()) == test::read_tree(b.path())) << format;
+    EXPECT_FALSE(test::read_tree(a.path()) == test::read_tree(c.path())) << format;
+  }
+}
+
+TEST_F(PileExport, NamesAPathThatIsTakenOrCannotBeWritten) {
+  for (const std::string& format : export_formats()) {
+    const std::string name = format == "sdf" ? "sdf" : "pile." + format;
+    const ScratchFolder taken;
+    std::filesystem::create_directories(taken / (name + "/inside"));
+    // /proc is a folder that nobody may write to, not even root.
+    for (const std::string& folder : {taken.path(), std::string("/proc")}) {
+      try {
+        export_pile(model_, format, folder);
+        ADD_FAILURE() << format << " was written into " << folder;
+      } catch (const RunError& error) {
+        EXPECT_NE(std::string(error.what()).find(folder + "/"), std::string::npos) << error.what();
+      }
+    }
+    EXPECT_EQ(taken.names(), std::vector<std::string>{name}) << "something is left";
   }
 }
 

@@ -93,7 +93,7 @@ TEST(NightlyRun, RunsEveryBundledScript) { run_scripts_of("scripts"); }
 TEST(NightlyRun, RunsEveryCollapseMode) { run_scripts_of("scripts/collapse"); }
 TEST(NightlyRun, RunsThePublishedDemonstration) { run_scripts_of("scripts/paper"); }
 
-// Some of them in every run of the tests: all outputs, a sensor's chain, a collapse, a planned
+// Two of them in every run of the tests: all outputs; a collapse, its voids and a planned path.
 // path, terrain.
 TEST(Run, RunsBundledScripts) {
   for (const char* name : {"outputs", "blur", "collapse/lean_to", "deepest_void", "terrain"})

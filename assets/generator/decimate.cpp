@@ -118,8 +118,9 @@ class Decimator {
     }
   }
 
-  std::vector<int> neighbours(int v) const {
-    std::vector<int> result;
+  // Ascending, into `result`: lists that are kept spare an allocation for each of millions of calls.
+  void find_neighbours(int v, std::vector<int>& result) const {
+    result.clear();
     for (const int t : around_[v]) {
       for (const int w : mesh_.triangles[t]) {
         if (w != v) result.push_back(w);
@@ -127,11 +128,11 @@ class Decimator {
     }
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
   }
 
   void push_edges(int v, bool upward_only) {
-    for (const int w : neighbours(v)) {
+    find_neighbours(v, around_v_);
+    for (const int w : around_v_) {
       if (!upward_only || w > v) push(std::min(v, w), std::max(v, w));
     }
   }
@@ -144,7 +145,8 @@ class Decimator {
       if (ages_[v] < 0) continue;
       Candidate best{kSweepError * kSweepError, -1, v, 0};
       Vec3 best_target;
-      for (const int w : neighbours(v)) {
+      find_neighbours(v, around_v_);
+      for (const int w : around_v_) {
         const Quadric sum = quadrics_[v] + quadrics_[w];
         const Vec3 target = calc_target(w, v, sum);
         const double error = sum.error(target) / sum.weight();
@@ -169,12 +171,14 @@ class Decimator {
     queue_.push({cost, u, v, ages_[u] + ages_[v]});
   }
 
-  bool allowed(const Candidate& c, const Vec3& target) const {
-    const std::vector<int> a = neighbours(c.u), b = neighbours(c.v);
-    std::vector<int> shared;
-    std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(shared));
-    if (shared.size() != 2 || a.size() + b.size() < 9) return false;  // stays manifold
-    for (const auto* ring : {&a, &b}) {
+  bool allowed(const Candidate& c, const Vec3& target) {
+    find_neighbours(c.u, ring_u_);
+    find_neighbours(c.v, ring_v_);
+    shared_.clear();
+    std::set_intersection(ring_u_.begin(), ring_u_.end(), ring_v_.begin(), ring_v_.end(),
+                          std::back_inserter(shared_));
+    if (shared_.size() != 2 || ring_u_.size() + ring_v_.size() < 9) return false;  // stays manifold
+    for (const auto* ring : {&ring_u_, &ring_v_}) {
       for (const int w : *ring) {
         if (w != c.u && w != c.v && distance(at(w), target) > options_.max_edge) return false;
       }
@@ -214,7 +218,8 @@ class Decimator {
     ages_[c.v] = -1;
     ages_[c.u] += 1;
     forget_dead(c.u);
-    for (const int w : neighbours(c.u)) forget_dead(w);
+    find_neighbours(c.u, ring_u_);
+    for (const int w : ring_u_) forget_dead(w);
   }
 
   void forget_dead(int v) {
@@ -255,6 +260,7 @@ class Decimator {
   std::vector<bool> dead_;
   std::vector<Quadric> quadrics_;
   std::priority_queue<Candidate> queue_;
+  std::vector<int> around_v_, ring_u_, ring_v_, shared_;  // of the call at hand
 };
 
 }  // namespace

@@ -8,6 +8,7 @@ namespace rubble::generator {
 namespace {
 
 constexpr int kBlock = 6;  // nodes a side
+constexpr double kLater = 1e8;  // stands for a value of this sign that nobody has asked for yet
 
 class Marcher {
  public:
@@ -73,10 +74,28 @@ class Marcher {
       for (int y = y0; y < std::min(y0 + kBlock, size_[1]); ++y) {
         for (int x = x0; x < std::min(x0 + kBlock, size_[0]); ++x) {
           const int n = node(x, y, z);
-          values_[n] = far ? plain : sample(view, position(n), band_).value;
+          if (far) {
+            values_[n] = plain;
+          } else {
+            sample_node(view, n);
+          }
         }
       }
     }
+  }
+
+  // Noise is what costs: where the side is plain to see, the value waits until an edge asks for it.
+  void sample_node(const SolidView& view, int n) {
+    const Vec3 p = position(n);
+    const FieldSide side = side_of(view, p);
+    values_[n] = side == FieldSide::inside    ? -kLater
+                 : side == FieldSide::outside ? kLater
+                                              : sample(view, p, band_).value;
+  }
+  double value_at(int n) {
+    double& value = values_[n];
+    if (value == kLater || value == -kLater) value = sample(view_at(n), position(n), band_).value;
+    return value;
   }
 
   // The vertex on the grid edge between nodes a and b, which differ by `step` (bits x, y, z).
@@ -96,7 +115,7 @@ class Marcher {
   // Two steps of false position: edges bend the field within one cell of the grid.
   Vec3 crossing(int low, int high) {
     const Vec3 from = position(low), along = position(high) - from;
-    const double a = values_[low], b = values_[high];
+    const double a = value_at(low), b = value_at(high);
     double t = a / (a - b);
     const double value = sample(view_at(low), from + along * t, band_).value;
     t = (value < 0) == (a < 0) ? t + (1 - t) * value / (value - b) : t * a / (a - value);
@@ -156,7 +175,7 @@ class Marcher {
       const Vec3 at = (middle - origin_) * (1 / cell_);
       const SolidView& view =
           view_at(static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z));
-      mesh_.surfaces.push_back(sample(view, middle, band_).surface);
+      mesh_.surfaces.push_back(surface_at(view, middle, band_));
     }
   }
 

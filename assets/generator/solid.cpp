@@ -11,6 +11,9 @@ namespace {
 constexpr double kScar = 0.0026;        // an edge that receded farther was chipped; unit: m
 constexpr double kHollowRound = 0.009;  // of the inner edges of hollows; unit: m
 
+double larger(double a, double b) { return a > b ? a : b; }  // unlike fmax, inline
+double smaller(double a, double b) { return a < b ? a : b; }
+
 bool is_fracture(Surface s) {
   return s == Surface::concrete_fracture || s == Surface::brick_fracture ||
          s == Surface::timber_fracture || s == Surface::drywall_core;
@@ -45,8 +48,8 @@ class Spot {
   }
   double edge_width() {  // unit: m
     if (edge_width_ < 0) {
-      const double chips = std::fmax(0.0, 1.4 * fractal_noise(in_chips_, 2, seed_ + 41));
-      edge_width_ = wear_.edge_round + wear_.edge_chip * std::fmin(1.0, chips * chips);
+      const double chips = larger(0.0, 1.4 * fractal_noise(in_chips_, 2, seed_ + 41));
+      edge_width_ = wear_.edge_round + wear_.edge_chip * smaller(1.0, chips * chips);
     }
     return edge_width_;
   }
@@ -57,20 +60,20 @@ class Spot {
     const Vec3 q = p_ + wear_.along * ((1 / wear_.fibre - 1) * dot(p_, wear_.along));
     const double bundles = 0.5 + fractal_noise(q * (1 / wear_.fracture_size), 2, seed_);
     const double fibres = grain_noise(q * (1 / wear_.grain_size), seed_ + 11);
-    return std::fmin(1.0, std::fmax(0.0, 0.8 * bundles + 0.45 * (0.7 - fibres)));
+    return smaller(1.0, larger(0.0, 0.8 * bundles + 0.45 * (0.7 - fibres)));
   }
   double calc_roughness() const {
     if (wear_.fibre > 1) return calc_splinters();
     const double waves = ridged_noise(p_ * (1 / wear_.fracture_size), 3, seed_);
     const double flakes = flake_noise(p_ * (1.7 / wear_.fracture_size), seed_ + 51);
     const double grains = grain_noise(p_ * (1 / wear_.grain_size), seed_ + 11);
-    const double mixed = 0.45 * std::fmin(1.0, 1.6 * waves) + 0.35 * flakes + 0.2 * (1 - grains);
-    return std::fmin(1.0, std::fmax(0.0, 2.1 * mixed - 0.45));
+    const double mixed = 0.45 * smaller(1.0, 1.6 * waves) + 0.35 * flakes + 0.2 * (1 - grains);
+    return smaller(1.0, larger(0.0, 2.1 * mixed - 0.45));
   }
   double calc_cast_dent() const {
-    const double sway = std::fmax(0.0, 0.5 + 0.5 * gradient_noise(in_chips_, seed_ + 21));
-    const double pits = std::fmax(0.0, fractal_noise(in_chips_ * 2.5, 2, seed_ + 31) - 0.25);
-    return wear_.cast_depth * std::fmin(1.0, 0.3 * sway + 2 * pits);
+    const double sway = larger(0.0, 0.5 + 0.5 * gradient_noise(in_chips_, seed_ + 21));
+    const double pits = larger(0.0, fractal_noise(in_chips_ * 2.5, 2, seed_ + 31) - 0.25);
+    return wear_.cast_depth * smaller(1.0, 0.3 * sway + 2 * pits);
   }
 
   const Wear& wear_;
@@ -84,7 +87,7 @@ double plain_value(const Face& face, const Vec3& p) {
   if (!face.round) return dot(face.normal, p) - face.offset;
   const Vec3 d = p - face.centre;
   const double along = dot(face.normal, d);
-  return std::sqrt(std::fmax(0.0, dot(d, d) - along * along)) - face.offset;
+  return std::sqrt(larger(0.0, dot(d, d) - along * along)) - face.offset;
 }
 
 double plain_value(const Cell& cell, const Vec3& p) {
@@ -99,8 +102,8 @@ double plain_value(const Cell& cell, const Vec3& p) {
 
 // The larger of two, blended over the width k: a rounded edge (quadratic, after Quilez).
 double smooth_max(double a, double b, double k) {
-  const double h = std::fmax(0.0, k - std::fabs(a - b)) / k;
-  return std::fmax(a, b) + 0.25 * h * h * k;
+  const double h = larger(0.0, k - std::fabs(a - b)) / k;
+  return larger(a, b) + 0.25 * h * h * k;
 }
 
 Surface broken(Surface surface) {
@@ -127,7 +130,7 @@ FieldSample join(const FieldSample& a, const FieldSample& b, Spot& spot) {
   result.value = smooth_max(a.value, b.value, spot.edge_width());
   const double receded = result.value - sharp;
   if (receded > kScar) {
-    result.value += std::fmin(receded - kScar, 0.5 * kScar) * spot.roughness();
+    result.value += smaller(receded - kScar, 0.5 * kScar) * spot.roughness();
     result.surface = broken(result.surface);
   }
   return result;
@@ -225,6 +228,53 @@ double plain_value(const SolidView& solid, const Vec3& p) {
     if (value > plain) plain = value;
   }
   return plain;
+}
+
+namespace {
+
+// The only face that has a part in the surface near p, or none where several meet.
+const Face* find_lone_face(const SolidView& view, const Vec3& p) {
+  const double reach = reach_of(view.solid->wear);
+  const Face* lone = nullptr;
+  double height = 1e9;
+  for (const Cell* cell : view.cells) {
+    const double highest = plain_value(*cell, p);
+    // A higher cell stays above whatever the others' wear does to them.
+    if (highest > height + reach) continue;
+    const bool only = highest < height - reach;
+    if (!only && lone) return nullptr;
+    height = highest < height ? highest : height;
+    lone = nullptr;
+    for (const Face& face : *cell) {
+      if (plain_value(face, p) < highest - reach) continue;
+      if (lone) return nullptr;
+      lone = &face;
+    }
+  }
+  for (const Cell* hollow : view.hollows) {
+    if (-plain_value(*hollow, p) >= height - 2 * reach) return nullptr;
+  }
+  return lone;
+}
+
+}  // namespace
+
+FieldSide side_of(const SolidView& view, const Vec3& p) {
+  const double plain = plain_value(view, p);
+  // Wear only ever removes, but hollows are filled a little along their inner edges.
+  if (plain > (view.hollows.empty() ? 0 : kHollowRound)) return FieldSide::outside;
+  if (plain < -view.deepest) return FieldSide::inside;
+  const Wear& wear = view.solid->wear;
+  if (plain >= -wear.cast_depth) return FieldSide::near;
+  const Face* lone = find_lone_face(view, p);
+  if (!lone) return FieldSide::near;
+  return plain < -(is_break(*lone) ? wear.fracture_depth : wear.cast_depth) ? FieldSide::inside
+                                                                            : FieldSide::near;
+}
+
+Surface surface_at(const SolidView& view, const Vec3& p, double band) {
+  const Face* lone = find_lone_face(view, p);
+  return lone ? lone->surface : sample(view, p, band).surface;
 }
 
 FieldSample sample(const SolidView& view, const Vec3& p, double band) {

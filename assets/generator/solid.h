@@ -94,6 +94,12 @@ double plain_value(const SolidView& solid, const Vec3& p);
 // over which the value is interpolated. unit: m
 FieldSample sample(const SolidView& solid, const Vec3& p, double band);
 
+// On which side of the surface a place is, as far as that can be told without noise.
+enum class FieldSide : std::uint8_t { inside, outside, near };
+FieldSide side_of(const SolidView& solid, const Vec3& p);
+// The surface that sample() gives, for places on it.
+Surface surface_at(const SolidView& solid, const Vec3& p, double band);
+
 // A box around the solid. Throws RunError when its cells are not bounded.
 Aabb bounds(const Solid& solid);
 

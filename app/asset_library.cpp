@@ -8,6 +8,7 @@
 
 #include "app/assemblies.h"
 #include "app/decompose_cache.h"
+#include "app/material_variant.h"
 #include "app/placed_box.h"
 #include "app/terrain.h"
 #include "io/mesh_file.h"
@@ -124,6 +125,41 @@ void add_asset(const Found& found, AssetLibrary& library) {
   library.meshes.push_back(std::move(loaded.mesh));
 }
 
+std::vector<std::string> material_names(const std::vector<Material>& materials) {
+  std::vector<std::string> names;
+  for (const Material& material : materials) names.push_back(material.name);
+  return names;
+}
+
+// What is made of several pieces has several materials.
+void check_variants(const Mission& mission, const std::vector<Found>& all) {
+  std::vector<Diagnostic> mistakes;
+  const std::vector<MixItem>& mix = mission.scenario.pile.mix;
+  for (std::size_t i = 0; i < mix.size(); ++i)
+    for (const Found& found : all)
+      if (found.asset->name == mix[i].asset && !found.asset->links.empty() &&
+          !mix[i].materials.empty())
+        mistakes.push_back({mission.script.path, 0,
+                            "pile.mix[" + std::to_string(i + 1) + "].materials",
+                            "an articulated asset keeps its materials", "an asset with a mesh",
+                            "`" + mix[i].asset + "`", "leave them out"});
+  if (!mistakes.empty()) throw InputError(std::move(mistakes));
+}
+
+// The assets of the mix in the materials that they are drawn in.
+void add_variants(const Mission& mission, const std::vector<Found>& all,
+                  const std::vector<Material>& materials, AssetLibrary& library) {
+  for (const MixItem& item : mission.scenario.pile.mix)
+    for (const MixMaterial& drawn : item.materials)
+      for (const Found& found : all)
+        for (const Material& material : materials)
+          if (found.asset->name == item.asset && material.name == drawn.material &&
+              !library.has(variant_name(item.asset, material.name))) {
+            const Asset variant = make_variant(*found.asset, material);
+            add_asset({found.pack, &variant}, library);
+          }
+}
+
 void add_box(const PlacedItem& item, const std::vector<Material>& materials,
              AssetLibrary& library) {
   MadeBox box = make_placed_box(item, materials);
@@ -136,9 +172,6 @@ void add_box(const PlacedItem& item, const std::vector<Material>& materials,
 // Every make of box that the mission places.
 void add_boxes(const Mission& mission, const std::vector<Material>& materials,
                AssetLibrary& library) {
-  std::vector<std::string> names;
-  for (const Material& material : materials) names.push_back(material.name);
-  check_materials(mission, names);
   std::set<std::string> made;
   for (const PlacedItem& item : mission.scenario.pile.placed)
     if (item.box && made.insert(placed_box_name(item)).second) add_box(item, materials, library);
@@ -194,8 +227,16 @@ std::vector<MixEntry> make_mix(const Scenario& scenario, const std::vector<Found
     const Asset& asset = *by_name.at(item.asset);
     const auto scale = item.scale.value_or(asset.scale);
     const bool own = !item.scale && item.spread.kind == Spread::uniform;
-    mix.push_back({library.find(item.asset), item.weight, scale[0], scale[1],
-                   own ? asset.spread : item.spread});
+    const MixEntry entry{library.find(item.asset), item.weight, scale[0], scale[1],
+                         own ? asset.spread : item.spread};
+    if (item.materials.empty()) mix.push_back(entry);
+    double sum = 0;
+    for (const MixMaterial& m : item.materials) sum += m.weight;
+    for (const MixMaterial& m : item.materials) {
+      mix.push_back(entry);
+      mix.back().type = library.find(variant_name(item.asset, m.material));
+      mix.back().weight = item.weight * m.weight / sum;
+    }
   }
   if (!scenario.pile.mix.empty()) return mix;
   for (const Found& found : all)
@@ -225,6 +266,7 @@ void add_packs(const std::string& folder, std::set<std::string>& seen,
 // One asset with the content that was asked for, as the recipe weights it.
 struct Search {
   const std::vector<AssetPack>& packs;
+  const std::vector<Material>& materials;
   std::vector<Diagnostic> missing;
   std::vector<std::string> looked_in;
 
@@ -232,8 +274,9 @@ struct Search {
     std::string other;
     for (const AssetPack& pack : packs)
       for (const Asset& candidate : pack.assets) {
-        if (candidate.name != wanted.name) continue;
-        Asset asset = candidate;
+        const std::optional<Asset> named = find_variant(candidate, wanted.name, materials);
+        if (!named) continue;
+        Asset asset = *named;
         asset.weight = wanted.weight;
         asset.scale = wanted.scale;
         asset.spread = wanted.spread;
@@ -374,6 +417,9 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
         add_asset(found, library);
   };
   load(false);
+  check_materials(mission, material_names(materials));
+  check_variants(mission, all);
+  add_variants(mission, all, materials, library);
   add_boxes(mission, materials, library);
   add_terrain(mission.scenario.pile.terrain,
               {fs::path(mission.script.path).parent_path().string()}, library);
@@ -392,7 +438,7 @@ AssetLibrary load_assets(const Recipe& recipe, const std::vector<std::string>& f
   std::vector<AssetPack> packs;
   for (const std::string& folder : library.folders)
     packs.push_back(load_asset_pack(folder, materials));
-  Search search{packs, {}, library.folders};
+  Search search{packs, materials, {}, library.folders};
   const Recipe& pile = recipe.pile_from ? *recipe.pile_from : recipe;
   const Scenario scenario = stated_scenario(pile);
   for (const AssetContent& wanted : pile.assets) {

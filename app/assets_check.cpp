@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/asset_library.h"
+#include "app/assets_tree.h"
 #include "app/commands.h"
 #include "app/hull_error.h"
 #include "render/looks.h"
@@ -89,7 +90,8 @@ void check_hull(const TriangleMesh& mesh, const Shape& shape, AssetReport& repor
                               " in the mean: pieces will sink into it");
 }
 
-AssetReport check_asset(const Asset& asset) {
+// A sound one goes into the library, for what is made of it.
+AssetReport check_asset(const Asset& asset, AssetLibrary& library) {
   AssetReport report;
   report.name = asset.name;
   try {
@@ -105,13 +107,42 @@ AssetReport check_asset(const Asset& asset) {
     report.mass = report.volume * loaded.type.density;
     check_parts(shape, report);
     if (report.closed) check_hull(mesh, shape, report);
+    library.types.push_back(loaded.type);
+    library.meshes.push_back(loaded.mesh);
   } catch (const InputError& error) {
     for (const Diagnostic& d : error.diagnostics()) report.errors.push_back(d.text());
   }
   return report;
 }
 
-void print_table(const AssetPack& pack, const std::vector<AssetReport>& reports) {
+// Of what is made of others: false where one of them could not be loaded, which was said of it.
+bool add_tree(const Asset& asset, const AssetLibrary& library, std::vector<TreeReport>& trees) {
+  for (const AssetLink& link : asset.links)
+    if (!library.has(link.asset)) return false;
+  trees.push_back(check_tree(asset, library));
+  return trees.back().errors.empty();
+}
+
+template <typename Report>
+void print_remarks(const std::vector<Report>& reports) {
+  for (const Report& r : reports) {
+    for (const std::string& text : r.errors) std::printf("error: %s: %s\n", r.name.c_str(), text.c_str());
+    for (const std::string& text : r.warnings)
+      std::printf("warning: %s: %s\n", r.name.c_str(), text.c_str());
+  }
+}
+
+void print_trees(const std::vector<TreeReport>& trees) {
+  if (trees.empty()) return;
+  std::printf("\n%-24s %6s %6s %10s %5s  %s\n", "articulated", "links", "joints", "mass (kg)",
+              "parts", "size (m)");
+  for (const TreeReport& t : trees)
+    std::printf("%-24s %6zu %6zu %10.2f %5zu  %.2f x %.2f x %.2f\n", t.name.c_str(), t.links,
+                t.joints, t.mass, t.parts, t.size.x, t.size.y, t.size.z);
+}
+
+void print_table(const AssetPack& pack, const std::vector<AssetReport>& reports,
+                 const std::vector<TreeReport>& trees) {
   std::printf("%-24s %6s %12s %10s %5s %7s %8s %8s %8s  %s\n", "asset", "closed", "volume (m3)",
               "mass (kg)", "parts", "corners", "thin(mm)", "out (%)", "in (%)", "triangles");
   for (const AssetReport& r : reports) {
@@ -127,15 +158,22 @@ void print_table(const AssetPack& pack, const std::vector<AssetReport>& reports)
       std::printf("%8s %8s", "-", "-");
     std::printf("  %s\n", triangles.c_str());
   }
-  for (const AssetReport& r : reports) {
-    for (const std::string& text : r.errors) std::printf("error: %s: %s\n", r.name.c_str(), text.c_str());
-    for (const std::string& text : r.warnings)
-      std::printf("warning: %s: %s\n", r.name.c_str(), text.c_str());
-  }
-  std::printf("%s: %zu assets\n", pack.name.c_str(), reports.size());
+  print_trees(trees);
+  print_remarks(reports);
+  print_remarks(trees);
+  std::printf("%s: %zu assets, %zu of them articulated\n", pack.name.c_str(),
+              reports.size() + trees.size(), trees.size());
 }
 
-void print_json(const AssetPack& pack, const std::vector<AssetReport>& reports) {
+nlohmann::ordered_json json_of(const TreeReport& t) {
+  return {{"name", t.name},      {"links", t.links},
+          {"joints", t.joints},  {"size_m", {t.size.x, t.size.y, t.size.z}},
+          {"mass_kg", t.mass},   {"parts", t.parts},
+          {"errors", t.errors},  {"warnings", t.warnings}};
+}
+
+void print_json(const AssetPack& pack, const std::vector<AssetReport>& reports,
+                const std::vector<TreeReport>& trees) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const AssetReport& r : reports) {
     nlohmann::ordered_json entry{{"name", r.name},          {"closed", r.closed},
@@ -151,7 +189,12 @@ void print_json(const AssetPack& pack, const std::vector<AssetReport>& reports) 
     entry["warnings"] = r.warnings;
     list.push_back(std::move(entry));
   }
-  const nlohmann::ordered_json whole{{"pack", pack.name}, {"folder", pack.folder}, {"assets", list}};
+  nlohmann::ordered_json articulated = nlohmann::ordered_json::array();
+  for (const TreeReport& tree : trees) articulated.push_back(json_of(tree));
+  const nlohmann::ordered_json whole{{"pack", pack.name},
+                                     {"folder", pack.folder},
+                                     {"assets", list},
+                                     {"articulated", articulated}};
   std::printf("%s\n", whole.dump(2).c_str());
 }
 
@@ -161,13 +204,17 @@ ExitCode check_assets_of(const std::string& pack_name, bool json) {
   const std::vector<Material> materials = load_materials(bundled_assets_folder() + "/materials.lua");
   const AssetPack pack = load_asset_pack(find_pack(pack_name), materials);
   std::vector<AssetReport> reports;
+  std::vector<TreeReport> trees;
+  AssetLibrary library;
   bool sound = true;
   for (const Asset& asset : pack.assets) {
-    if (!asset.links.empty()) continue;  // made of the others, and read whole when the pack was
-    reports.push_back(check_asset(asset));
+    if (!asset.links.empty()) continue;
+    reports.push_back(check_asset(asset, library));
     sound = sound && reports.back().errors.empty();
   }
-  json ? print_json(pack, reports) : print_table(pack, reports);
+  for (const Asset& asset : pack.assets)
+    if (!asset.links.empty()) sound = add_tree(asset, library, trees) && sound;
+  json ? print_json(pack, reports, trees) : print_table(pack, reports, trees);
   return sound ? ExitCode::done : ExitCode::bad_input;
 }
 

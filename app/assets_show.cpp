@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <numeric>
 
+#include "app/assemblies.h"
 #include "app/asset_library.h"
+#include "app/assets_tree.h"
 #include "app/commands.h"
 #include "app/progress.h"
 #include "io/picture_sheet.h"
@@ -23,20 +25,38 @@ constexpr double kFovDeg = 24;
 constexpr double kSizeRange = 2;
 
 struct Exhibit {
-  LoadedAsset asset;
+  std::string name;
+  std::shared_ptr<const SceneMesh> mesh;
+  double mass = 0;    // unit: kg
   Vec3 centre, size;  // of its box, in its frame; unit: m
   double radius = 0;  // unit: m
   double x = 0;       // where it stands, in a row along X; unit: m
 };
 
-Exhibit make_exhibit(const Asset& asset) {
+Exhibit make_exhibit(const std::string& name, std::shared_ptr<const SceneMesh> mesh, double mass) {
   Exhibit e;
-  e.asset = load_asset(asset);
-  const Aabb box = e.asset.mesh->levels.front().bounds();
+  e.name = name;
+  e.mesh = std::move(mesh);
+  e.mass = mass;
+  const Aabb box = e.mesh->levels.front().bounds();
   e.centre = (box.min + box.max) * 0.5;
   e.size = box.max - box.min;
   e.radius = 0.5 * norm(e.size);
   return e;
+}
+
+Exhibit load_exhibit(const Asset& asset, AssetLibrary& library) {
+  if (asset.links.empty()) {
+    const LoadedAsset loaded = load_asset(asset);
+    library.types.push_back(loaded.type);
+    library.meshes.push_back(loaded.mesh);
+    const double volume = compile_shape(loaded.type, asset.name).volume.volume;
+    return make_exhibit(asset.name, loaded.mesh, volume * loaded.type.density);
+  }
+  const AssemblyType assembly = make_assembly(asset, library);
+  auto mesh = std::make_shared<SceneMesh>();
+  mesh->levels.push_back(merge_links(assembly, library));
+  return make_exhibit(asset.name, std::move(mesh), calc_mass(assembly, library));
 }
 
 // From the front left, a little above, as near as shows the whole box.
@@ -78,11 +98,9 @@ RgbImage shrink(const Frame& frame) {
 }
 
 std::string note_of(const Exhibit& e) {
-  const Shape shape = compile_shape(e.asset.type, e.asset.type.name);
-  const double mass = shape.volume.volume * e.asset.type.density;
   char text[120];
   std::snprintf(text, sizeof text, "%.2f x %.2f x %.2f m  %.*f kg", e.size.x, e.size.y, e.size.z,
-                mass < 10 ? 1 : 0, mass);
+                e.mass < 10 ? 1 : 0, e.mass);
   return text;
 }
 
@@ -97,7 +115,7 @@ Scene stage(std::vector<Exhibit*>& row) {
   }
   for (Exhibit* e : row) {
     e->x -= x / 2;
-    scene.meshes.push_back(e->asset.mesh);
+    scene.meshes.push_back(e->mesh);
     const Vec3 at{e->x - e->centre.x, -e->centre.y, 0.5 * e->size.z - e->centre.z};
     scene.instances.push_back({std::uint32_t(scene.instances.size()), 1, {Quat{}, at},
                                std::uint32_t(scene.instances.size())});
@@ -122,7 +140,7 @@ void draw_row(GlContext& context, std::vector<Exhibit*> row, std::vector<SheetTi
   for (Exhibit* e : row) {
     Frame frame;
     for (int i = 0; i < 3; ++i) frame = renderer.render(view_of(*e), k, i, 1000000000LL * (i + 1));
-    tiles[std::size_t(e - all.data())] = {shrink(frame), e->asset.type.name, note_of(*e)};
+    tiles[std::size_t(e - all.data())] = {shrink(frame), e->name, note_of(*e)};
   }
 }
 
@@ -134,8 +152,11 @@ ExitCode show_assets(const std::string& pack_name, const std::string& out, int t
   Progress progress(choose_progress_style(false));
   progress.start("assets");
   std::vector<Exhibit> exhibits;
-  for (const Asset& asset : pack.assets) {  // trees are made of the others
-    if (asset.links.empty()) exhibits.push_back(make_exhibit(asset));
+  AssetLibrary library;
+  for (const bool articulated : {false, true}) {  // these are made of the others
+    for (const Asset& asset : pack.assets) {
+      if (asset.links.empty() != articulated) exhibits.push_back(load_exhibit(asset, library));
+    }
   }
   progress.finish(std::to_string(exhibits.size()) + " loaded");
 

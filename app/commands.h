@@ -28,6 +28,8 @@ ExitCode verify_run(const VerifyRequest& request);
 ExitCode print_info_of(const std::vector<std::string>& paths);
 // The voids of the pile of a finished run, as files beside it (docs/voids.md).
 ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids);
+// A picture of the pile, cut open: cut faces marked, a person for scale.
+ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutaway);
 // Errors of an estimated trajectory, on standard output.
 ExitCode eval_trajectory(const TrajectoryRequest& request);
 // COLMAP's models of datasets against the true cameras and surface, as a table.

@@ -101,8 +101,8 @@ void add_void_options(CLI::App& command, VoidRequest& request) {
   command.add_option("--voxel", request.voxel, "Edge of a voxel (default: 0.02)")
       ->type_name("METRES");
   command
-      .add_option("--rolling-radius", request.rolling_radius,
-                  "Outside is what a ball of this radius reaches from the sky (default: 1)")
+      .add_option("--outside-radius", request.outside_radius,
+                  "Outside is what a ball of this radius reaches from the sky (default: 2)")
       ->type_name("METRES");
   command.add_option("--memory", request.memory_gib, "Refuse to need more (default: 4)")
       ->type_name("GIB");
@@ -240,6 +240,21 @@ Action add_eval_surface(CLI::App& command) {
   return [request] { return eval_surface(*request); };
 }
 
+Action add_cutaway(CLI::App& command) {
+  const auto of = std::make_shared<FolderRequest>();
+  const auto request = std::make_shared<CutawayRequest>();
+  add_folder_options(command, *of);
+  command.add_option("--y", request->y, "Where the plane is that cuts across Y (default: 0)")
+      ->type_name("METRES")
+      ->check(CLI::Range(-1000.0, 1000.0));
+  command.add_option("--width", request->width, "Of the picture, in pixels (default: 900)")
+      ->check(CLI::Range(200, 4000));
+  command.add_option("--title", request->title, "Printed above the picture");
+  command.add_option("--out", request->out, "The picture, .png or .jpg (default: FOLDER/cutaway.png)")
+      ->type_name("FILE");
+  return [of, request] { return draw_cutaway(*of, *request); };
+}
+
 Action add_eval(CLI::App& command) {
   command.require_subcommand(1);
   CLI::App* const trajectory = command.add_subcommand(
@@ -350,6 +365,7 @@ const CommandEntry kCommands[] = {
     {"verify", "Run again from the manifest alone, and compare every hash", add_verify},
     {"render", "Another mission's flight over the pile of a finished run", add_render},
     {"export", "The pile of a finished run as STL, PLY, OBJ, glTF or SDF", add_export},
+    {"cutaway", "Draw a run's pile cut open, to scale", add_cutaway},
     {"voids", "Map the voids of a run's pile: entrances, volumes, widest ways", add_voids},
     {"eval", "Score what others made of a dataset", add_eval},
     {"batch", "One mission with many seeds, and a table of them", add_batch},

@@ -45,11 +45,19 @@ struct ExportRequest {
   bool force = false;                // --force
 };
 
+// A picture of the pile, cut open across Y.
+struct CutawayRequest {
+  double y = 0;        // --y, of the plane; what is in front of it is taken away; unit: m
+  int width = 900;     // --width; unit: pixel
+  std::string title;   // --title, printed above
+  std::string out;     // --out; empty: cutaway.png in the folder of the run
+};
+
 // How to look for voids.
 struct VoidRequest {
   std::vector<double> radii{0.1, 0.2, 0.3};  // --radius, of robots; unit: m
   double voxel = 0.02;                       // --voxel; unit: m
-  double rolling_radius = 1;                 // --rolling-radius: see kernel/voids/void_space.h
+  double outside_radius = 2;                 // --outside-radius: see kernel/voids/void_space.h
   double memory_gib = 4;                     // --memory
   int surfaces = 20;                         // --surfaces: the largest voids of each radius, as PLY
   std::string out;                           // --out; empty: `voids` in the folder of the run

@@ -27,11 +27,11 @@ std::set<double> void_radii(const TrajectorySpec& spec) {
 }
 
 double outside_radius(const TrajectorySpec& spec) {
-  double largest = 1;  // without voids it does not matter: a way may lead anywhere
+  double largest = 0;
   for (const Waypoint& w : spec.waypoints)
     for (const auto& place : {w.position_in_void, w.look_at_in_void})
       if (place) largest = std::max(largest, place->outside_radius);
-  return largest;
+  return largest > 0 ? largest : kOutsideRadius;  // without voids: a way may lead anywhere
 }
 
 class Resolver {
@@ -104,7 +104,7 @@ PileSpace::PileSpace(const PileGeometry& geometry, const TrajectorySpec& spec, i
   options.voxel =
       std::clamp(*radii.begin() / kVoxelsPerRadius, kFinestVoxel, kCoarsestVoxel);
   options.voxel = std::min(options.voxel, *radii.begin());
-  options.rolling_radius = std::max(outside_radius(spec), 2 * *radii.rbegin());
+  options.rolling_radius = outside_radius_for(outside_radius(spec), *radii.rbegin());
   options.threads = threads;
   options.scenery = geometry.terrain;
   const auto report = [&](double from, double to) {

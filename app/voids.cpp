@@ -55,7 +55,9 @@ VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progres
   for (const auto& mesh : assets.meshes) meshes.push_back(mesh ? &mesh->levels.front() : nullptr);
   VoidSpaceOptions options;
   options.voxel = voids.voxel;
-  options.rolling_radius = voids.rolling_radius;
+  double largest = 0;
+  for (const double radius : voids.radii) largest = std::max(largest, radius);
+  options.rolling_radius = outside_radius_for(voids.outside_radius, largest);
   options.memory_limit = voids.memory_gib * (1 << 30);
   options.threads = request.options.threads;
   options.scenery = assets.terrain();

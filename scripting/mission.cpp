@@ -100,15 +100,20 @@ void check_assets(const Mission& mission, const std::vector<std::string>& names)
 
 void check_materials(const Mission& mission, const std::vector<std::string>& names) {
   std::vector<Diagnostic> mistakes;
-  const std::vector<PlacedItem>& placed = mission.scenario.pile.placed;
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    const std::string& name = placed[i].material;
-    if (!placed[i].box || std::find(names.begin(), names.end(), name) != names.end()) continue;
+  const auto check = [&](const std::string& name, const std::string& key) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) return;
     const std::string near = nearest_name(name, names);
-    mistakes.push_back({"", 0, placed_key(i, "material"), "unknown material `" + name + "`", "", "",
+    mistakes.push_back({"", 0, key, "unknown material `" + name + "`", "", "",
                         near.empty() ? "materials.lua lists those there are"
                                      : "did you mean `" + near + "`?"});
-  }
+  };
+  const PileScenario& pile = mission.scenario.pile;
+  for (std::size_t i = 0; i < pile.mix.size(); ++i)
+    for (std::size_t k = 0; k < pile.mix[i].materials.size(); ++k)
+      check(pile.mix[i].materials[k].material, "pile.mix[" + std::to_string(i + 1) + "].materials[" +
+                                                   std::to_string(k + 1) + "].material");
+  for (std::size_t i = 0; i < pile.placed.size(); ++i)
+    if (pile.placed[i].box) check(pile.placed[i].material, placed_key(i, "material"));
   locate(mistakes, mission.script.path, mission.lines);
   throw_if_any(std::move(mistakes));
 }

@@ -17,6 +17,13 @@ void check_mix(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
   if (!pile.mix.empty() && sum == 0)
     mistakes.push_back(
         {"", 0, "pile.mix", "nothing to draw", "a weight above 0", "only weights of 0", ""});
+  for (std::size_t i = 0; i < pile.mix.size(); ++i) {
+    double materials = 0;
+    for (const MixMaterial& m : pile.mix[i].materials) materials += m.weight;
+    if (!pile.mix[i].materials.empty() && materials == 0)
+      mistakes.push_back({"", 0, "pile.mix[" + std::to_string(i + 1) + "].materials",
+                          "nothing to draw", "a weight above 0", "only weights of 0", ""});
+  }
 }
 
 void check_density(const SpawnDensity& d, std::vector<Diagnostic>& mistakes) {

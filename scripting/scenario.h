@@ -23,6 +23,12 @@
 
 namespace rubble {
 
+// What a piece of the mix may be made of instead of what its pack says.
+struct MixMaterial {
+  std::string material;  // a name in materials.lua
+  double weight = 1;     // relative; >= 0
+};
+
 // One kind of piece in the mix that is dropped.
 struct MixItem {
   std::string asset;  // its name in a pack
@@ -30,6 +36,7 @@ struct MixItem {
   // From first to second; default: the asset's own range and spread. range: 0.01 to 100
   std::optional<std::array<double, 2>> scale;
   SizeSpread spread{};  // over `scale`
+  std::vector<MixMaterial> materials{};  // drawn for every piece; empty: as the pack says
 };
 
 // A piece that stands or lies there before the first layer falls: an asset of a pack, or a box made

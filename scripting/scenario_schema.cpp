@@ -7,6 +7,14 @@
 namespace rubble {
 namespace {
 
+Schema mix_material_schema(MixMaterial& m) {
+  Schema k;
+  k.value("material", m.material, "A name in materials.lua; it gives density, friction and look.")
+      .must();
+  k.value("weight", m.weight, "How often, relative to the others.").between(0, 1e9);
+  return k;
+}
+
 void add_top(Schema& k, Scenario& s) {
   k.value("seed", s.seed, "Everything random follows from it.")
       .between(0, std::numeric_limits<double>::infinity());
@@ -57,6 +65,10 @@ void add_pile(Schema& k, PileScenario& p) {
         "Standard deviation of the size (normal) or of its natural logarithm (lognormal).",
         [&p](std::size_t i) { return Slot(&p.mix[i].spread.deviation); })
       .above(0, 10);
+  k.add("pile.mix[].materials",
+        "Drawn for every piece, by their weights; none: what the pack says.", [&p](std::size_t i) {
+          return Schema::table_list(p.mix[i].materials, mix_material_schema);
+        });
   k.list("pile.placed", p.placed, "Pieces that stand or lie there before the first layer.");
   k.item("pile.placed[].asset", p.placed, &PlacedItem::asset, "Name of an asset.");
   k.item("pile.placed[].box", p.placed, &PlacedItem::box,

@@ -346,6 +346,14 @@ std::vector<Diagnostic> check_ranges(const Schema& schema) {
       std::string shown = key.path;
       if (item != std::string::npos) shown.insert(item + 1, std::to_string(i + 1));
       const Slot slot = key.bind(i);
+      if (const auto* tables = std::get_if<TableList>(&slot)) {
+        for (std::size_t k = 0; k < tables->size(); ++k)
+          for (Diagnostic& d : check_ranges(tables->make_item(k))) {
+            d.key = shown + "[" + std::to_string(k + 1) + "]." + d.key;
+            mistakes.push_back(std::move(d));
+          }
+        continue;
+      }
       const Value value = read_slot(slot);
       if (value.kind == Value::Kind::nil) continue;
       if (auto mistake = write_slot(key, slot, value, shown)) mistakes.push_back(*mistake);

@@ -316,7 +316,14 @@ Value read_as(const T& from) {
     table.set(from.key, Value::make_text(*from.file));
     return table;
   } else if constexpr (std::is_same_v<T, TableList>) {
-    return {};
+    Value list = Value::make_table();
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      const Schema item = from.make_item(i);
+      list.items.push_back(Value::make_table());
+      for (const Key& key : item.keys())
+        if (key.kind == KeyKind::value) list.items.back().set(key.name(), read_slot(key.bind(0)));
+    }
+    return list;
   } else if constexpr (std::is_same_v<T, TextMap*>) {
     Value table = Value::make_table();
     for (const auto& [name, text] : *from) table.set(name, Value::make_text(text));

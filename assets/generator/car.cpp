@@ -260,21 +260,44 @@ void add_panes(Recipe& r, const CarDamage& d) {
   r.attached.push_back(pane);
 }
 
+// The doorway of an open car, and the bay below its bonnet.
+void add_gaps(Recipe& r) {
+  r.solid.hollows.push_back(extruded_cell(
+      1, {{0.80, 0.40}, {0.80, 0.99}, {-0.31, 0.99}, {-0.31, 0.40}}, 0.6, 1.1, kDark));
+  r.solid.hollows.push_back(extruded_cell(
+      1, {{0.99, 0.80}, {0.99, 1.2}, {1.93, 1.2}, {1.93, 0.66}}, -0.64, 0.64, kDark));
+}
+
 // Convex regions of the body: front and rear block, floor, sides, pillars, roof.
-std::vector<Cell> body_regions() {
+std::vector<Cell> body_regions(bool open) {
   std::vector<Cell> regions;
   const auto add = [&](const Vec3& low, const Vec3& high) {
     regions.push_back(box_cell(low, high, kPaint));
   };
-  add({0.77, -0.9, 0.1}, {1.45, 0.9, 1.15});
-  add({1.45, -0.9, 0.1}, {2.2, 0.9, 1.15});
+  if (!open) {
+    add({0.77, -0.9, 0.1}, {1.45, 0.9, 1.15});
+    add({1.45, -0.9, 0.1}, {2.2, 0.9, 1.15});
+  } else {  // around the bay, its floor, and the nose
+    add({0.77, -0.9, 0.1}, {1.0, 0.9, 1.15});
+    add({0.99, -0.9, 0.1}, {1.47, 0.9, 0.79});
+    add({1.46, -0.9, 0.1}, {1.94, 0.9, 0.72});
+    for (const auto& x : {std::array<double, 2>{0.99, 1.47}, {1.46, 1.94}}) {
+      add({x[0], 0.63, 0.65}, {x[1], 0.9, 1.15});
+      add({x[0], -0.9, 0.65}, {x[1], -0.63, 1.15});
+    }
+    add({1.92, -0.9, 0.1}, {2.2, 0.9, 1.15});
+  }
   add({-1.75, -0.9, 0.1}, {-1.30, 0.9, 1.1});
   add({-2.2, -0.9, 0.1}, {-1.75, 0.9, 1.1});
   for (const double x : {-1.31, -0.56, 0.19}) {
     const double high = x + 0.76;
     add({x, -0.9, 0.1}, {high, 0.9, 0.375});                // floor
-    add({x, 0.735, 0.36}, {high, 0.92, 0.985});             // sides
+    if (!open) add({x, 0.735, 0.36}, {high, 0.92, 0.985});  // sides
     add({x, -0.92, 0.36}, {high, -0.735, 0.985});
+  }
+  if (open) {  // before and behind the doorway
+    add({-1.31, 0.735, 0.36}, {-0.32, 0.92, 0.985});
+    add({0.81, 0.70, 0.36}, {0.95, 0.92, 0.985});
   }
   for (const double side : {1.0, -1.0}) {
     const auto pillar = [&](double x0, double x1, double x2, double x3) {
@@ -293,18 +316,74 @@ std::vector<Cell> body_regions() {
 
 }  // namespace
 
-Recipe make_car(const CarDamage& damage) {
-  RandomStream random = piece_stream(damage.name);
+namespace {
+
+Recipe car_recipe(const CarDamage& damage, RandomStream& random) {
   Wear wear = steel_wear();
   wear.edge_round = 0.05, wear.cast_depth = 0.001;
-  Recipe r = plain_recipe(damage.name, random, "vehicle", wear, 0.017);
+  return plain_recipe(damage.name, random, "vehicle", wear, 0.017);
+}
+
+// A piece of bodywork that is bent as the car is.
+Recipe bodywork(const CarDamage& damage, const char* name, const Cell& cell, double density) {
+  RandomStream random = piece_stream(damage.name);
+  Recipe r = car_recipe(damage, random);
+  r.name = name;
+  r.warp = make_warp(damage, r.solid.seed);
+  r.solid.cells = {cell};
+  r.regions = {cell};  // parts that are bent with it
+  r.solid.wear.edge_round = 0.012;
+  r.cell = 0.011;
+  r.density = density;
+  r.triangles = {2400, 900, 400};
+  r.max_edge = 0.14;
+  r.weight = 0;
+  r.tags = {"vehicle", "car", "bodywork"};
+  return r;
+}
+
+}  // namespace
+
+Recipe make_car_door(const CarDamage& damage) {
+  Cell leaf = body_cell();
+  leaf.push_back({normalized(Vec3{0, -1, -0.28}), -0.898, kDark});  // inside
+  leaf.push_back({{0, -1, 0}, -0.6, kDark});
+  leaf.push_back({{1, 0, 0}, 0.785, kPaint});
+  leaf.push_back({{-1, 0, 0}, 0.295, kPaint});
+  leaf.push_back({{0, 0, 1}, 0.98, kPaint});
+  leaf.push_back({{0, 0, -1}, -0.415, kPaint});
+  return bodywork(damage, "car_door", leaf, 420);
+}
+
+Recipe make_car_bonnet(const CarDamage& damage) {
+  Cell plate = extruded_cell(1, {{0.97, 0.99}, {0.97, 0.955}, {1.94, 0.755}, {1.94, 0.79}}, -0.68,
+                             0.68, kPaint);
+  Recipe r = bodywork(damage, "car_bonnet", plate, 300);
+  r.regions.clear();  // it buckled: one convex part would fill the hollow
+  for (const double x : {0.96, 1.28, 1.61}) {
+    for (const double y : {-0.69, -0.01}) {
+      Cell region = plate;
+      region.push_back({{1, 0, 0}, x + 0.34, kPaint});
+      region.push_back({{-1, 0, 0}, -x, kPaint});
+      region.push_back({{0, 1, 0}, y + 0.70, kPaint});
+      region.push_back({{0, -1, 0}, -y, kPaint});
+      r.regions.push_back(region);
+    }
+  }
+  return r;
+}
+
+Recipe make_car(const CarDamage& damage) {
+  RandomStream random = piece_stream(damage.name);
+  Recipe r = car_recipe(damage, random);
   r.solid.cells = {body_cell(), cabin_cell(0, kPaint)};
   add_trim(r);
   r.solid.hollows = {room_cell()};
   add_openings(r);
   add_seams(r);
+  if (damage.open) add_gaps(r);
   r.warp = make_warp(damage, r.solid.seed);
-  r.regions = body_regions();
+  r.regions = body_regions(damage.open);
   add_panes(r, damage);
   r.attached.push_back(seats(r.warp));
   r.attached.push_back(fittings(r.warp));
@@ -318,7 +397,7 @@ Recipe make_car(const CarDamage& damage) {
   r.density = 270;  // of the body's solid: about 1.2 t in all
   r.triangles = {9000, 3800, 2700};
   r.max_edge = 0.16;
-  r.weight = 0.1;
+  r.weight = damage.open ? 0 : 0.1;
   r.tags = {"vehicle", "car", "large"};
   return r;
 }

@@ -18,8 +18,13 @@ struct CarDamage {
   double dents = 0.02;    // depth of the dents all over; unit: m
   int wheels = 4;         // that are still there
   bool windscreen = true;
+  bool open = false;  // the left front door and the bonnet are pieces of their own
 };
 
 Recipe make_car(const CarDamage& damage);
+
+// Of the same car and bent with it, in its frame: what closes the gaps of an open one.
+Recipe make_car_door(const CarDamage& damage);
+Recipe make_car_bonnet(const CarDamage& damage);
 
 }  // namespace rubble::generator

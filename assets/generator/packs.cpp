@@ -32,14 +32,21 @@ std::vector<std::string> pack_names() { return {"concrete", "residential", "park
 Pack make_pack(const std::string& name) {
   if (name == "concrete") {
     Pack pack = gather(name, {masonry_pieces, chunk_pieces, slab_pieces, frame_pieces, hollow_pieces,
-                              concrete_fragments, rebar_pieces});
+                              concrete_fragments, rebar_pieces, facade_pieces});
     pack.articulated = articulated_concrete();
     return pack;
   }
   if (name == "residential") {
-    return gather(name, {timber_pieces, drywall_pieces, joinery_pieces, furniture_pieces});
+    Pack pack = gather(
+        name, {timber_pieces, drywall_pieces, joinery_pieces, furniture_pieces, door_frames});
+    pack.articulated = articulated_residential();
+    return pack;
   }
-  if (name == "parking") return gather(name, {cars, parking_concrete, guard_pieces});
+  if (name == "parking") {
+    Pack pack = gather(name, {cars, parking_concrete, guard_pieces, open_cars});
+    pack.articulated = articulated_parking();
+    return pack;
+  }
   if (name == "bridge") return gather(name, {bridge_concrete, bridge_steel});
   throw RunError("there is no bundled pack " + name);
 }

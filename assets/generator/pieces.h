@@ -14,7 +14,14 @@ std::vector<Recipe> frame_pieces();    // columns, beams, large slabs, walls
 std::vector<Recipe> hollow_pieces();   // pipes and culverts
 std::vector<Recipe> rebar_pieces();    // loose bars
 
-std::vector<ArticulatedRecipe> articulated_concrete();  // pieces that hang together by bars
+// What hangs together by bars, clips and hinges, and pieces that are made for it alone.
+std::vector<ArticulatedRecipe> articulated_concrete();
+std::vector<ArticulatedRecipe> articulated_residential();
+std::vector<ArticulatedRecipe> articulated_parking();
+std::vector<Recipe> facade_pieces();
+std::vector<Recipe> door_frames();
+std::vector<Recipe> open_cars();
+
 std::vector<Recipe> concrete_fragments();  // of culverts and planks, and lumps with bars
 std::vector<Recipe> parking_concrete();    // double tees, wheel stops
 std::vector<Recipe> bridge_concrete();     // decks, girders, barriers

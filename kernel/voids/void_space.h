@@ -17,9 +17,18 @@
 
 namespace rubble {
 
+// What is outside, wherever it is not said otherwise: what a ball of this radius reaches. As the ground
+// does not hold the ball up, one of 1 m gets below a slab that leans on a wall 2 m high; unit: m
+inline constexpr double kOutsideRadius = 2;
+// The one rule of `rubble voids` and of rubble.find_void: as asked, but never less than twice the
+// radius of the largest robot, for which everything would be outside otherwise; unit: m
+inline double outside_radius_for(double asked, double largest_robot) {
+  return asked > 2 * largest_robot ? asked : 2 * largest_robot;
+}
+
 struct VoidSpaceOptions {
   double voxel = 0.02;                    // unit: m; range: 0.001 to 1
-  double rolling_radius = 1.0;            // unit: m; range: 2 voxels to 10 m
+  double rolling_radius = kOutsideRadius;  // unit: m; range: 2 voxels to 10 m
   bool ground = true;                     // the plane z = 0 is a surface, below it all is solid
   // Types that are solid, but around which no voids are looked for: terrain. The map is around the
   // other pieces.
@@ -39,7 +48,7 @@ struct VoidSpace {
   // is the nearest one, or in rare places one beside it that is less than half a voxel farther.
   // Never too small; unit: m.
   std::vector<float> clearance;
-  double rolling_radius = 1;  // as asked; unit: m
+  double rolling_radius = kOutsideRadius;  // as asked; unit: m
 
   double cell_volume() const { return grid.voxel * grid.voxel * grid.voxel; }  // unit: m3
   double volume(CellKind wanted) const;                                        // unit: m3

@@ -9,7 +9,7 @@ return function(given)
     { "by", "volume", choices = { "volume", "depth" },
       doc = "Largest first, or the one that it gets deepest into." },
     { "outside_radius", 2, min = 0.2, max = 10, unit = "m",
-      doc = "Outside is what a sphere of this radius reaches from the sky; all other free space is void." },
+      doc = "Outside is what a sphere of this radius reaches from the sky, and all other free space is void: as `rubble voids` has it (docs/voids.md)." },
     { "approach", 1, min = 0, max = 100, unit = "m", doc = "How far outside `approach` is." },
   })
   local void = {}

@@ -2,7 +2,7 @@
 return rubble.mission {
   seed = 4,
   pile = rubble.collapse.heap {
-    layers = 4, pieces_per_layer = 120, length = 5, width = 5, height = 5,
+    layers = 4, pieces_per_layer = 80, length = 5, width = 5, height = 5,
   },
   light = { rpy_deg = { 0, 48, 60 } },
   camera = { width = 800, height = 800, fov_deg = 48 },

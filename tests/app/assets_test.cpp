@@ -33,6 +33,11 @@ TEST_P(BundledPack, PassesItsCheck) {
     EXPECT_GT(asset.at("mass_kg"), 0.5) << name;
     EXPECT_LT(asset.at("mass_kg"), 8000) << name;
   }
+  for (const Json& tree : report.at("articulated")) {
+    EXPECT_TRUE(tree.at("errors").empty()) << tree.at("name") << ": " << tree.at("errors");
+    EXPECT_TRUE(tree.at("warnings").empty()) << tree.at("name") << ": " << tree.at("warnings");
+    EXPECT_EQ(tree.at("joints").get<int>(), tree.at("links").get<int>() - 1);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Assets, BundledPack,
@@ -85,6 +90,44 @@ TEST(AssetsCheck, SaysThatAnOpenMeshHasNoVolumeOfItsOwn) {
   EXPECT_NEAR(cube.at("volume_m3"), 1, 1e-5) << "of the hull";
   ASSERT_EQ(cube.at("warnings").size(), 1u);
   EXPECT_NE(cube.at("warnings")[0].get<std::string>().find("not closed"), std::string::npos);
+}
+
+// Two cubes on a third: joined ones may overlap, the two that are not must be apart.
+std::string two_on_one(double apart, double joint_z) {
+  const auto link = [&](const char* name, double x) {
+    return std::string("{ asset = \"cube\", name = \"") + name + "\", on = \"base\", position = { " +
+           std::to_string(x) + ", 0, 1 }, joint_position = { 0.5, 0.5, " + std::to_string(joint_z) +
+           " } }, ";
+  };
+  return "return pack { name = \"own\", assets = { { name = \"cube\", mesh = \"cube.obj\", material = "
+         "\"timber\" },\n{ name = \"tree\", links = { { asset = \"cube\", name = \"base\" }, " +
+         link("a", 0) + link("b", apart) + "} } } }\n";
+}
+
+TEST(AssetsCheck, LooksAtArticulatedAssetsWhole) {
+  const ScratchFolder scratch;
+  write_file(scratch / "cube.obj", cube_obj(1));
+  write_file(scratch / "pack.lua", two_on_one(1.2, 1));
+  const Json tree = check_json(scratch.path().string()).at("articulated")[0];
+  EXPECT_EQ(tree.at("links"), 3);
+  EXPECT_NEAR(tree.at("mass_kg"), 1500, 1e-2);
+  EXPECT_NEAR(tree.at("size_m")[0], 2.2, 1e-5);
+  EXPECT_NEAR(tree.at("size_m")[2], 2, 1e-5);
+  EXPECT_TRUE(tree.at("errors").empty()) << tree;
+
+  write_file(scratch / "pack.lua", two_on_one(0.7, 1));
+  const Json overlap = check_json(scratch.path().string(), 1).at("articulated")[0];
+  ASSERT_EQ(overlap.at("errors").size(), 1u);
+  EXPECT_NE(overlap.at("errors")[0].get<std::string>().find("link 3 (cube) overlaps link 2 (cube)"),
+            std::string::npos);
+
+  write_file(scratch / "pack.lua", two_on_one(1.2, -0.5));
+  const Json astray = check_json(scratch.path().string()).at("articulated")[0];
+  EXPECT_FALSE(astray.at("warnings").empty()) << "the joint is 50 cm below the base";
+
+  const Outcome show =
+      run_rubble("assets show " + scratch.path().string() + " --out " + (scratch / "sheet.png"));
+  EXPECT_EQ(show.exit_code, 0) << show.err;
 }
 
 TEST(AssetsCheck, FailsForDegenerateParts) {

@@ -1,8 +1,10 @@
 // Every collapse mode, bare and settled, against the closed form of its void's cross-section.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "app/pile_section.h"
 #include "app/recipe.h"
 #include "tests/app/settled_mission.h"
 
@@ -38,6 +40,39 @@ TEST(Collapse, LeanToHasOneTriangle) {
     for (const double y : {-2.5, 0.0, 2.5})
       expect_close(calc_free_section(m.queries(), 0, reach, y), t.height * reach / 2);
   }
+}
+
+// What `rubble cutaway` shows as cut is what is there: the free part of the picture is the closed form.
+TEST(Collapse, TheCutShowsTheTriangle) {
+  const SettledMission m = settle_mode("lean_to", "length = 5, height = 2");
+  const PileSection section = cut_pile(build_scene(m.mission.scenario, m.assets, m.state), 0);
+  ASSERT_EQ(section.faces.size(), 2u) << "the stub and the slab";
+  const double reach = std::sqrt(21.0), step = 0.01;
+  double solid = 0, all = 0;
+  for (double z = step / 2; z < 2; z += step) {
+    const double slope = reach * (1 - z / 2);  // of the slab's lower face
+    all += slope * step;
+    for (const CutFace& face : section.faces) {
+      const std::vector<double> x = find_insides(face, z);
+      for (std::size_t i = 0; i + 1 < x.size(); i += 2)
+        solid += step * std::max(0.0, std::min(x[i + 1], slope) - std::max(x[i], 0.0));
+    }
+  }
+  expect_close(all - solid, reach);
+  EXPECT_GT(section.x1, 4.5);
+  EXPECT_NEAR(section.top, 2.2, 0.3);
+}
+
+TEST(Collapse, ACutMissesWhatIsInFrontOfIt) {
+  const SettledMission m = settle_mode("lean_to", "length = 5, height = 2, width = 4");
+  const Scene scene = build_scene(m.mission.scenario, m.assets, m.state);
+  EXPECT_TRUE(cut_pile(scene, 5).scene.instances.empty());
+  const PileSection whole = cut_pile(scene, -5);
+  EXPECT_EQ(whole.scene.instances.size(), scene.instances.size());
+  EXPECT_TRUE(whole.faces.empty());
+  for (const SceneInstance& left : cut_pile(scene, 0.5).scene.instances)
+    EXPECT_GE((left.world_from_body * Vec3(cut_pile(scene, 0.5).scene.meshes[left.mesh]
+                                               ->levels[0].bounds().min)).y, 0.5 - 1e-5);
 }
 
 // The check must see a slab that fell.

@@ -54,5 +54,19 @@ TEST_F(Voids, RefusesWhatMemoryWouldNotHoldAndFoldersWithoutARun) {
   EXPECT_NE(none.err.find("no such folder"), std::string::npos) << none.err;
 }
 
+TEST(Cutaway, DrawsARunsPile) {
+  const ScratchFolder scratch;
+  write_file(scratch / "m.lua",
+             "return rubble.mission { pile = { layers = 0, placed = { { box = { 2, 2, 1 }, position = "
+             "{ 0, 0, 0.5 } } } } }\n");
+  ASSERT_EQ(run_rubble("settle " + (scratch / "m.lua") + " --quiet --out " + (scratch / "run")).exit_code, 0);
+  const Outcome drawn = run_rubble("cutaway " + (scratch / "run") + " --width 300 --out " + (scratch / "c.png"));
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_EQ(read_file(scratch / "c.png").substr(1, 3), "PNG");
+  const Outcome beside = run_rubble("cutaway " + (scratch / "run") + " --y 3");
+  EXPECT_EQ(beside.exit_code, 1);
+  EXPECT_NE(beside.err.find("--y: the plane cuts no piece"), std::string::npos) << beside.err;
+}
+
 }  // namespace
 }  // namespace rubble::testing

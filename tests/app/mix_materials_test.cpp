@@ -1,0 +1,134 @@
+// Materials that a mix draws: as often as stated, with the figures of the material, and found again.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "app/build_scene.h"
+#include "app/recipe.h"
+#include "kernel/shape.h"
+#include "scripting/mission.h"
+
+namespace rubble::testing {
+namespace {
+
+Mission load(const std::string& mix, int seed = 1) {
+  return load_mission_text("return rubble.mission { seed = " + std::to_string(seed) +
+                               ", pile = { layers = 4, pieces_per_layer = 1000, spawn_bounds = "
+                               "{ 30, 30, 20 },\nmix = {\n" + mix + "} } }",
+                           "m.lua");
+}
+
+const char* const kMix =
+    "{ asset = 'half_brick', weight = 3 },\n"
+    "{ asset = 'chunk_4', weight = 5, materials = { { material = 'brick', weight = 3 },\n"
+    "  { material = 'reinforced_concrete', weight = 6 }, { material = 'timber' } } },\n";
+
+std::map<std::string, int> count(const Mission& mission, const AssetLibrary& assets) {
+  std::map<std::string, int> counts;
+  for (const Layer& layer : generate_pile(build_pile_spec(mission.scenario, assets)).layers)
+    for (const Placement& piece : layer.pieces)
+      ++counts[assets.types[std::size_t(piece.type)].name];
+  return counts;
+}
+
+double chi_square(std::map<std::string, int> counts, const std::map<std::string, double>& shares) {
+  double sum = 0;
+  for (const auto& [name, share] : shares) {
+    const double expected = 4000 * share, off = counts[name] - expected;
+    sum += off * off / expected;
+  }
+  return sum;
+}
+
+TEST(MixMaterials, AreDrawnByTheirWeights) {
+  const double limit = 16.27;  // three degrees of freedom, one in a thousand
+  const std::map<std::string, double> stated = {{"half_brick", 0.375},
+                                                {"chunk_4 of brick", 0.1875},
+                                                {"chunk_4 of reinforced_concrete", 0.375},
+                                                {"chunk_4 of timber", 0.0625}};
+  const std::map<std::string, double> other = {{"half_brick", 0.375},
+                                               {"chunk_4 of brick", 0.2175},
+                                               {"chunk_4 of reinforced_concrete", 0.345},
+                                               {"chunk_4 of timber", 0.0625}};
+  for (const int seed : {1, 2, 3}) {
+    const Mission mission = load(kMix, seed);
+    const auto counts = count(mission, load_assets(mission, {}));
+    EXPECT_EQ(counts.size(), 4u);
+    EXPECT_LT(chi_square(counts, stated), limit) << "seed " << seed;
+    EXPECT_GT(chi_square(counts, other), limit) << "seed " << seed;
+  }
+}
+
+TEST(MixMaterials, GiveWeightFrictionAndLook) {
+  const AssetLibrary assets = load_assets(load(kMix), {});
+  const auto type = [&](const char* name) -> const PieceType& {
+    return assets.types[std::size_t(assets.find(name))];
+  };
+  EXPECT_EQ(type("chunk_4 of brick").density, 1900);
+  EXPECT_EQ(type("chunk_4 of brick").friction, 0.65);
+  EXPECT_EQ(type("chunk_4 of timber").density, 500);
+  EXPECT_EQ(type("chunk_4 of reinforced_concrete").density, type("chunk_4").density);
+  EXPECT_EQ(type("chunk_4 of timber").parts.size(), type("chunk_4").parts.size());
+  const auto looks = [&](const char* name) {
+    std::string all;
+    for (const std::string& look :
+         assets.meshes[std::size_t(assets.find(name))]->levels.front().surface_names)
+      all += look + " ";
+    return all;
+  };
+  EXPECT_NE(looks("chunk_4 of brick").find("brick_fracture"), std::string::npos);
+  EXPECT_EQ(looks("chunk_4 of brick").find("concrete"), std::string::npos);
+  EXPECT_NE(looks("chunk_4").find("concrete"), std::string::npos);
+}
+
+TEST(MixMaterials, AreFoundAgainFromARecipe) {
+  const Mission mission = load(kMix);
+  const AssetLibrary assets = load_assets(mission, {});
+  Recipe recipe = make_recipe(RunKind::settle, mission, {});
+  recipe.assets = assets.contents;
+  const AssetLibrary again = load_assets(recipe, {});
+  ASSERT_EQ(again.types.size(), assets.types.size());
+  for (std::size_t i = 0; i < again.types.size(); ++i) {
+    EXPECT_EQ(again.types[i].name, assets.types[i].name);
+    EXPECT_EQ(again.contents[i].sha256, assets.contents[i].sha256);
+  }
+  ASSERT_EQ(again.mix.size(), assets.mix.size());
+  for (std::size_t i = 0; i < again.mix.size(); ++i) {
+    EXPECT_EQ(again.mix[i].type, assets.mix[i].type);
+    EXPECT_EQ(again.mix[i].weight, assets.mix[i].weight);
+  }
+}
+
+TEST(MixMaterials, AreInTheResolvedScenario) {
+  const std::string json = scenario_to_json(load(kMix).scenario);
+  EXPECT_NE(json.find("\"material\": \"timber\""), std::string::npos) << json;
+  EXPECT_EQ(scenario_to_json(scenario_from_json(json, "s.json")), json);
+}
+
+std::string error_of(const std::string& mix) {
+  try {
+    load_assets(load(mix), {});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MixMaterials, MistakesAreNamed) {
+  EXPECT_NE(error_of("{ asset = 'chunk_4', materials = { { material = 'brik' } } }")
+                .find("m.lua:3: pile.mix[1].materials[1].material: unknown material `brik`"),
+            std::string::npos)
+      << error_of("{ asset = 'chunk_4', materials = { { material = 'brik' } } }");
+  EXPECT_NE(error_of("{ asset = 'chunk_4', materials = { { material = 'brik' } } }")
+                .find("did you mean `brick`?"),
+            std::string::npos);
+  EXPECT_NE(error_of("{ asset = 'chunk_4', materials = { { material = 'brick', weight = 0 } } }")
+                .find("nothing to draw"),
+            std::string::npos);
+  EXPECT_NE(error_of("{ asset = 'hinged_slab', materials = { { material = 'brick' } } }")
+                .find("keeps its materials"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -40,7 +40,8 @@ Sizes measure(const std::filesystem::path& folder) {
 // How much smaller than said an output may be. What packs pictures, or leaves some out, depends on
 // them.
 double allowed_factor(const std::string& name) {
-  for (const char* packed : {"tum", "euroc", "colmap", "frames", "mission.simplemap"})
+  for (const char* packed :
+       {"tum", "euroc", "colmap", "frames", "mission.simplemap", "mission.mcap"})
     if (name == packed) return 6;
   // Small ones, whose estimate is that of the largest that they can be.
   for (const char* small :

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/batch.h"
+#include "app/drive/drive_request.h"
 #include "app/run_request.h"
 #include "app/suite.h"
 #include "app/verify.h"
@@ -14,6 +15,8 @@ namespace rubble {
 
 // The whole pipeline: script, settled pile, scene, frames, files, manifest.
 ExitCode run_mission(const RunRequest& request);
+// The mission's pile to be driven through in a window: docs/drive.md.
+ExitCode drive_mission(const DriveRequest& request);
 // The pile only: pile.bin, pile.stl, manifest.json.
 ExitCode settle_mission(const RunRequest& request);
 // The mission's camera, light and files over the pile of the finished run in the folder `from`.

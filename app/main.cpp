@@ -143,6 +143,44 @@ Action add_settle(CLI::App& command) {
   return [request] { return settle_mission(*request); };
 }
 
+// "480x360", both within what a camera may have.
+std::string read_size(const std::string& text, DriveRequest& request) {
+  int width = 0, height = 0, end = 0;
+  const int read = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &end);
+  const bool whole = read == 2 && std::size_t(end) == text.size();
+  if (!whole || width < 16 || height < 16 || width > 8192 || height > 8192)
+    return "expected WIDTHxHEIGHT from 16x16 to 8192x8192, found " + text;
+  request.width = width;
+  request.height = height;
+  return "";
+}
+
+Action add_drive(CLI::App& command) {
+  const auto request = std::make_shared<DriveRequest>();
+  add_mission_options(command, request->of);
+  add_seed_option(command, request->of);
+  command
+      .add_option_function<std::string>(
+          "--size",
+          [request](const std::string& text) {
+            const std::string mistake = read_size(text, *request);
+            if (!mistake.empty()) throw CLI::ValidationError("--size", mistake);
+          },
+          "Size of the colour image (default: 480x360)")
+      ->type_name("WxH");
+  command.add_option("--steps", request->steps, "End after so many steps (default: none)")
+      ->check(CLI::Range(0, 1000000000));
+  command.add_flag("--record", request->record, "Write the mission's recordings while driving");
+  command.add_option("--out", request->of.out, "Output folder (default: out/<script>_drive)")
+      ->type_name("DIR");
+  command.add_flag("--force", request->of.force, "Replace the legs of an earlier drive");
+  add_device_option(command, request->of.options.gl_device);
+  add_threads_option(command, request->of.options.threads,
+                     "Threads to use; 0: all processors. Results do not depend on it");
+  command.add_flag("--quiet", request->of.options.quiet, "No progress, only errors");
+  return [request] { return drive_mission(*request); };
+}
+
 Action add_resume(CLI::App& command) {
   const auto request = std::make_shared<FolderRequest>();
   add_folder_options(command, *request);
@@ -361,6 +399,7 @@ Action add_any_info(CLI::App& command) {
 const CommandEntry kCommands[] = {
     {"run", "Run a mission to a finished dataset", add_run},
     {"settle", "Settle the pile of a mission, nothing more", add_settle},
+    {"drive", "Fly the camera by hand in a window; what is driven becomes a mission", add_drive},
     {"resume", "Continue a run that was stopped or killed", add_resume},
     {"verify", "Run again from the manifest alone, and compare every hash", add_verify},
     {"render", "Another mission's flight over the pile of a finished run", add_render},

@@ -107,6 +107,7 @@ struct Renderer::State {
   Medium medium;
   AirVolume air_volume;
   std::int64_t start_ns;
+  std::uint64_t seed;
   ThreadPool pool;
   GpuGeometry geometry;
   ShadowMap shadow;
@@ -143,6 +144,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
       light(make_lights(s)),
       medium(s.air, s.seed),
       start_ns(s.start_ns),
+      seed(s.seed),
       pool(std::max(1, o.threads)),
       exposure(ExposureOptions{0.21, 0.25, o.fixed_exposure}) {
   const auto report = [&](double fraction) {
@@ -268,6 +270,23 @@ Renderer::~Renderer() {
   } catch (const RunError&) {
     // Nothing can be deleted without a context; the driver frees it with the context.
   }
+}
+
+void Renderer::restart(const LampSpec& lamp, const AirSpec& air) {
+  State& s = *state_;
+  s.context.make_current();
+  s.medium = Medium(air, s.seed);
+  s.frame_light.lamp = lamp;
+  s.frame_light.air = air;
+  s.frame_light.even_air = s.medium.homogeneous();
+  s.frame_light.air_ambient = {};
+  s.frame_light.air_table = nullptr;
+  const DiskCache cache(s.options.cache_folder);
+  s.resolve = std::make_unique<ResolvePass>(
+      s.gl, s.geometry, s.frame_light, make_ground_map(s.scene),
+      make_patterns_once(cache, s.options.texture_size, s.options.threads));
+  s.exposure = AutoExposure(ExposureOptions{0.21, 0.25, s.options.fixed_exposure});
+  s.last_stamp_ns = 0;
 }
 
 Frame Renderer::render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,

@@ -71,6 +71,10 @@ class Renderer {
            const Progress& progress = {});
   ~Renderer();
 
+  // Another lamp and other air over the same scene, from a first frame on: the frames are those of a
+  // new Renderer for it, but light that was baked is not baked again.
+  void restart(const LampSpec& lamp, const AirSpec& air);
+
   // Exposure follows from frame to frame, so frames are to be asked for in order; a new Renderer
   // starts afresh. Distortion in `intrinsics` is not applied: it must be zero.
   Frame render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,

@@ -96,7 +96,7 @@ RotationCurve::Bezier RotationCurve::bezier(std::size_t leg) const {
 
 Quat RotationCurve::at(std::size_t leg, double t) const {
   const double h = times_[leg + 1] - times_[leg], s = (t - times_[leg]) / h, r = 1.0 - s;
-  if (linear_) return portable::slerp(rotations_[leg], rotations_[leg + 1], s);
+  if (linear_) return s == 0 ? rotations_[leg] : portable::slerp(rotations_[leg], rotations_[leg + 1], s);
   const Bezier z = bezier(leg);
   return normalized(rotations_[leg] * exp_of(z.first * (1.0 - r * r * r)) *
                     exp_of(z.middle * (s * s * (3.0 - 2.0 * s))) * exp_of(z.last * (s * s * s)));

@@ -11,7 +11,9 @@ namespace rubble {
 
 enum class Interpolation {
   spline,  // smooth through the waypoints
-  linear,  // straight legs at constant speed, turning at constant angular speed (slerp)
+  // Straight legs at constant speed, turning at constant angular speed (slerp). At the time of a point
+  // it is that point, bit for bit, whatever comes after: so a pose that was seen can be kept.
+  linear,
 };
 
 // leg: between the times [leg] and [leg + 1]; t: within it; unit: s. The times must increase and

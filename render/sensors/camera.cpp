@@ -45,6 +45,7 @@ struct Camera::State {
   DepthSensor depth_sensor;
   std::unique_ptr<EventPixels> events;
   bool settled = false;
+  double last_mean = 0;  // of the frame before, for the exposure
   struct Watched {  // the last image of the event camera
     ViewRays view;
     std::vector<float> distances;
@@ -192,6 +193,10 @@ Frame Camera::State::take_exposed(int index) {
   frame.world_from_camera = view.world_from_camera;
   frame.depth = middle.depth;
   add_truth(index, view, frame);
+  if (index > 0) {
+    const std::int64_t elapsed = view.stamp_ns - flight.stamps_ns[std::size_t(index) - 1];
+    exposure.follow(last_mean, double(elapsed) * 1e-9);
+  }
   if (!settled) {
     const double share = saturation_share(exposure.settings(), spec.exposure.f_number);
     exposure.settle([&](double factor) { return sensor->mean_of(middle.rgb, share * factor); });
@@ -206,10 +211,7 @@ Frame Camera::State::take_exposed(int index) {
   if (spec.baseline > 0)
     frame.rgb_right = sensor->develop(sensor->count(
         gather_light(index, nullptr, samples, settings.time, true), settings, index, 1));
-  if (index + 1 < int(flight.stamps_ns.size())) {
-    const std::int64_t elapsed = flight.stamps_ns[std::size_t(index) + 1] - view.stamp_ns;
-    exposure.follow(sensor->mean_of(counts), double(elapsed) * 1e-9);
-  }
+  last_mean = sensor->mean_of(counts);
   return frame;
 }
 
@@ -250,6 +252,11 @@ Camera::Camera(Renderer& renderer, const CameraSpec& spec, Flight flight, const 
 Camera::~Camera() = default;
 
 int Camera::frames() const { return int(state_->flight.stamps_ns.size()); }
+
+void Camera::fly_on(std::int64_t stamp_ns, const Pose& world_from_camera) {
+  state_->flight.stamps_ns.push_back(stamp_ns);
+  state_->flight.world_from_camera.push_back(world_from_camera);
+}
 
 Frame Camera::take(int index) {
   State& s = *state_;

@@ -26,6 +26,9 @@ class Camera {
 
   int frames() const;
   Frame take(int index);
+  // A frame more, for a flight that is being flown. What needs the way after a frame (flow, rolling
+  // shutter, motion blur) must be off then.
+  void fly_on(std::int64_t stamp_ns, const Pose& world_from_camera);
 
  private:
   struct State;

@@ -111,7 +111,7 @@ TEST(IncludeDirection, ThirdPartiesStayBehindTheirDoor) {
       {"ros/", "io/"},           {"zstd.h", "io/"},        {"jpeglib.h", "io/"},
       {"openvdb/", "io/voids/"}, {"octomap/", "io/voids/"}, {"sensor_msgs/", "io/"},
       {"lua", "scripting/"},
-      {"CLI/", "app/"},          {"xxhash.h", "kernel/base/"}, {"openssl/", "kernel/base/"}};
+      {"CLI/", "app/"},          {"SDL", "app/drive/"},          {"xxhash.h", "kernel/base/"}, {"openssl/", "kernel/base/"}};
   for (const std::string folder : {"kernel/", "render/", "io/", "scripting/", "app/"})
     for (const Include& include : find_includes(RUBBLE_SOURCE_DIR, folder))
       for (const auto& [library, home] : door)

@@ -1,0 +1,46 @@
+// From SDL's events to a DriveInput: keyboard, mouse and game controllers.
+//
+// Knows which keys are held and where the sticks are; a controller that is unplugged stops pushing.
+// Events come from SDL_PollEvent; nothing here needs a window.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/drive/drive_input.h"
+
+union SDL_Event;
+
+namespace rubble {
+
+// One line of the help overlay and of docs/drive.md.
+struct KeyHelp {
+  const char* what;
+  const char* keys;
+  const char* gamepad;
+};
+const std::vector<KeyHelp>& all_key_help();
+
+class Controls {
+ public:
+  Controls();
+  ~Controls();
+  Controls(const Controls&) = delete;
+  Controls& operator=(const Controls&) = delete;
+
+  // Opens a controller that was plugged in and lets go of one that is gone. What there is to say to
+  // the person comes back; mostly nothing.
+  std::string handle(const SDL_Event& event);
+  // What is held now, and what has been asked since the last call.
+  DriveInput take();
+  // Lets go of all keys, as when the window loses the keyboard.
+  void release_all();
+  int gamepads() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace rubble

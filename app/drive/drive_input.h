@@ -1,0 +1,35 @@
+// What a person asks of the driven camera in one simulation step, whatever it was asked with.
+#pragma once
+
+#include <vector>
+
+#include "kernel/base/math.h"
+
+namespace rubble {
+
+enum class DriveAction {
+  lamp,       // on or off
+  lamp_up,    // a quarter more power
+  lamp_down,  // a fifth less
+  fog,        // on or off
+  fog_up,     // a quarter more
+  fog_down,   // a fifth less
+  faster,
+  slower,
+  reset,      // back to the entry
+  next_seed,  // another pile
+  pause,
+  help,
+  picture,    // save what the window shows
+  quit,
+};
+
+struct DriveInput {
+  // Held axes, range: -1 to 1. Turns are about the camera body's X, Y and Z axes: positive rolls to
+  // the right, lowers the nose, turns left.
+  double forward = 0, roll = 0, pitch = 0, yaw = 0;
+  Vec3 look_deg;                     // turned at once, by the mouse: about X, Y, Z; unit: degree
+  std::vector<DriveAction> actions;  // in the order in which they came
+};
+
+}  // namespace rubble

@@ -1,0 +1,95 @@
+#include "app/drive/drive_leg.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "app/build_scene.h"
+#include "app/recorders.h"
+#include "io/atomic_file.h"
+
+namespace rubble {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSaveEvery = 300;  // frames; a program that dies loses no more
+
+std::string number_name(int number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "leg_%03d", number);
+  return text;
+}
+
+// How many frames will come is not known, so there is no contact sheet.
+std::unique_ptr<RecordingQueue> start_recording(const DriveWorld& world,
+                                                const std::string& folder) {
+  Scenario scenario = world.scenario;
+  scenario.outputs.preview = false;
+  fs::create_directories(folder);
+  const Recording recording = describe_recording(scenario, world.assets, world.pile);
+  RecorderSet set = make_recorders(scenario, recording, 0, "", folder);
+  return std::make_unique<RecordingQueue>(std::move(set.recorders));
+}
+
+}  // namespace
+
+DriveLeg::DriveLeg(DriveWorld& world, const std::string& folder, int number, bool record)
+    : folder_(folder),
+      name_(number_name(number)),
+      log_(world.scenario),
+      camera_(*world.renderer, build_camera(world.scenario, world.threads), Flight{},
+              Medium(world.scenario.air, world.scenario.seed)) {
+  if (record) queue_ = start_recording(world, folder_ + "/" + name_);
+}
+
+const Frame& DriveLeg::step(const DrivenPose& pose) {
+  const int index = log_.frames();
+  log_.add(pose);
+  if (index > 0) pass_on();
+  camera_.fly_on(log_.stamp_ns(index), pose.world_from_camera());
+  frame_ = camera_.take(index);
+  if ((index + 1) % kSaveEvery == 0) save();
+  return frame_;
+}
+
+void DriveLeg::pass_on() {
+  frame_.linear_velocity = log_.velocity(frame_.index);
+  hashes_.add(frame_);
+  if (queue_) queue_->push(frame_);
+}
+
+void DriveLeg::save() {
+  write_text_file(folder_ + "/" + name_ + ".lua",
+                  log_.mission("Driven by hand with `rubble drive`: " +
+                               std::to_string(log_.frames()) + " frames.\n`rubble run` on this "
+                               "gives the frames that were seen."));
+}
+
+void DriveLeg::finish() {
+  pass_on();
+  save();
+  const FrameHashes hashes = hashes_.compact();
+  std::string text;
+  for (const std::string& channel : hashes.channels) text += (text.empty() ? "" : " ") + channel;
+  text += "\n";
+  for (const auto& frame : hashes.frames) text += format_hashes(frame) + "\n";
+  write_text_file(folder_ + "/" + name_ + ".hashes", text);
+  if (queue_) queue_->finish();
+}
+
+void prepare_drive_folder(const std::string& folder, bool force) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed)
+    throw InputError({folder, 0, "--out", "the folder cannot be made", "", failed.message(), ""});
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename().string().rfind("leg_", 0) != 0) continue;
+    if (!force)
+      throw InputError({folder, 0, "--out", "an earlier drive is in it", "",
+                        entry.path().filename().string(),
+                        "choose another folder, or --force to replace it"});
+    fs::remove_all(entry.path());
+  }
+}
+
+}  // namespace rubble

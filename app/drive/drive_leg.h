@@ -1,0 +1,48 @@
+// One leg of a drive: frames under unchanged lamp, air and pile, and the files about them.
+//
+//   DIR/leg_001.lua      the mission that gives these frames again
+//   DIR/leg_001.hashes   the hashes of the frames that were seen, as in a manifest
+//   DIR/leg_001/         with --record: the mission's recordings
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/drive/drive_log.h"
+#include "app/drive/drive_world.h"
+#include "app/frame_hashes.h"
+#include "io/recording_queue.h"
+#include "render/sensors/camera.h"
+
+namespace rubble {
+
+class DriveLeg {
+ public:
+  // The renderer must be new, or restarted. Both must outlive the leg.
+  DriveLeg(DriveWorld& world, const std::string& folder, int number, bool record);
+
+  // The frame from there, one step after the one before.
+  const Frame& step(const DrivenPose& pose);
+  const Frame& shown() const { return frame_; }
+  int frames() const { return log_.frames(); }
+  const std::string& name() const { return name_; }
+  // Completes the files. Nothing can be added afterwards.
+  void finish();
+
+ private:
+  void pass_on();  // the last frame, now that its velocity is known
+  void save();
+
+  std::string folder_, name_;
+  DriveLog log_;
+  Camera camera_;
+  FrameHashes hashes_;
+  Frame frame_;
+  std::unique_ptr<RecordingQueue> queue_;
+};
+
+// Makes the folder. Throws InputError when legs of an earlier drive are in it; with `force` they are
+// removed, and nothing else.
+void prepare_drive_folder(const std::string& folder, bool force);
+
+}  // namespace rubble

@@ -1,0 +1,76 @@
+#include "app/drive/drive_log.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/drive/scenario_lua.h"
+
+namespace rubble {
+
+std::vector<std::string> adapt_to_driving(Scenario& scenario) {
+  std::vector<std::string> off;
+  const auto turn_off = [&off](bool on, const char* what) {
+    if (on) off.push_back(what);
+    return on;
+  };
+  CameraScenario& camera = scenario.camera;
+  if (turn_off(camera.shutter.readout > 0, "rolling shutter")) camera.shutter.readout = 0;
+  if (turn_off(camera.shutter.motion_blur, "motion blur")) camera.shutter.motion_blur = false;
+  std::vector<std::string>& channels = camera.channels;
+  const auto flow = std::find(channels.begin(), channels.end(), "flow");
+  if (turn_off(flow != channels.end(), "optical flow")) channels.erase(flow);
+  if (turn_off(scenario.event_camera.on, "event camera")) scenario.event_camera.on = false;
+  if (turn_off(scenario.imu.on, "inertial unit")) scenario.imu.on = false;
+  TrajectorySpec& spec = scenario.trajectory;
+  spec.limits = {};
+  spec.duration.reset();
+  spec.interpolation = Interpolation::linear;
+  // A run walks the path again and says so if the body touches anything.
+  if (spec.plan == Plan::avoid) spec.plan = Plan::refuse;
+  return off;
+}
+
+DriveLog::DriveLog(const Scenario& scenario) : scenario_(scenario) {}
+
+void DriveLog::add(const DrivenPose& pose) { poses_.push_back(pose); }
+
+double DriveLog::time(int frame) const { return double(frame) / scenario_.trajectory.rate_hz; }
+
+// As sample_trajectory() has it.
+std::int64_t DriveLog::stamp_ns(int frame) const {
+  const double rate = scenario_.trajectory.rate_hz;
+  return scenario_.start_ns + static_cast<std::int64_t>(std::floor(double(frame) * 1e9 / rate + 0.5));
+}
+
+// That of the leg in which the frame's stamp lies: rounded to nanoseconds, it may be just before the
+// waypoint's time. After the last pose the camera stands still.
+Vec3 DriveLog::velocity(int frame) const {
+  const double t = double(stamp_ns(frame) - scenario_.start_ns) * 1e-9;
+  const int leg = t < time(frame) ? frame - 1 : frame;
+  if (leg + 1 >= frames()) return {};
+  const Vec3 step = poses_[std::size_t(leg) + 1].position - poses_[std::size_t(leg)].position;
+  return step * (1.0 / (time(leg + 1) - time(leg)));
+}
+
+// A last waypoint a little after the last frame: what comes after a frame is a leg on which the
+// camera stands, so that the last frame, too, is exactly at its waypoint.
+Scenario DriveLog::scenario() const {
+  Scenario whole = scenario_;
+  std::vector<Waypoint>& waypoints = whole.trajectory.waypoints;
+  waypoints.clear();
+  for (int k = 0; k <= frames() && frames() > 0; ++k) {
+    const DrivenPose& pose = poses_[std::size_t(std::min(k, frames() - 1))];
+    Waypoint w;
+    w.t = k < frames() ? time(k) : (double(k) - 0.99) / whole.trajectory.rate_hz;
+    w.position = pose.position;
+    w.rpy_deg = pose.rpy_deg;
+    waypoints.push_back(w);
+  }
+  return whole;
+}
+
+std::string DriveLog::mission(const std::string& comment) const {
+  return scenario_to_lua(scenario(), comment);
+}
+
+}  // namespace rubble

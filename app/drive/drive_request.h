@@ -1,0 +1,15 @@
+// What a person asked `rubble drive` for on the command line.
+#pragma once
+
+#include "app/run_request.h"
+
+namespace rubble {
+
+struct DriveRequest {
+  RunRequest of;                 // the mission; out: folder of what is driven
+  int width = 480, height = 360;  // --size, of the colour image; unit: pixel
+  int steps = 0;                 // --steps: ends after so many; 0: when the person quits
+  bool record = false;           // --record: the mission's recordings, while driving
+};
+
+}  // namespace rubble

@@ -1,0 +1,231 @@
+#include "app/drive/drive_session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "app/commands.h"
+#include "app/stop.h"
+
+namespace rubble {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kLongestLeg = 9000;    // frames: five minutes; then a new leg goes on from there
+constexpr int kNoticeSteps = 90;
+constexpr double kLeastLamp = 1, kMostLamp = 100000;  // unit: cd
+constexpr double kLeastFog = 0.005, kMostFog = 10;    // unit: 1/m
+
+std::string choose_folder(const DriveRequest& request) {
+  if (!request.of.out.empty()) return request.of.out;
+  return "out/" + std::filesystem::path(request.of.mission).stem().string() + "_drive";
+}
+
+template <typename... Values>
+std::string words(const char* format, Values... values) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+double changed(double value, bool up, double least, double most) {
+  return std::clamp(value * (up ? 1.25 : 0.8), least, most);
+}
+
+std::array<int, 2> window_size(const DriveRequest& request) {
+  return drive_picture_size(request.width, request.height);
+}
+
+}  // namespace
+
+DriveSession::DriveSession(const DriveRequest& request)
+    : request_(request),
+      folder_(choose_folder(request)),
+      window_("rubble drive", window_size(request)[0], window_size(request)[1]),
+      context_({request.of.options.gl_device,
+                request.of.options.threads > 0 ? request.of.options.threads
+                                               : int(std::thread::hardware_concurrency())}) {
+  prepare_drive_folder(folder_, request_.of.force);
+  enter(std::nullopt);
+  std::fprintf(stderr, "drive: ready, H for help\n");
+}
+
+DriveSession::~DriveSession() = default;
+
+bool DriveSession::stay() {
+  for (const std::string& heard : window_.poll(controls_)) say(heard);
+  for (const DriveAction action : controls_.take().actions)
+    if (action == DriveAction::quit) quit_ = true;
+  return !quit_ && !stop_requested();
+}
+
+void DriveSession::enter(std::optional<std::uint64_t> seed) {
+  window_.set_title("rubble drive: the pile settles");
+  camera_.reset();
+  world_.reset();
+  world_ = make_drive_world(request_, seed, context_, [this] { return stay(); });
+  if (!world_->pile.settled) say("some pieces still moved when the time limit came");
+  camera_ = std::make_unique<DrivenCamera>(world_->entry, world_->plan,
+                                           world_->scenario.trajectory.radius,
+                                           world_->geometry->queries, world_->limits);
+  map_frame_ = frame_map(world_->pile, world_->entry.position, request_.height);
+  map_ = draw_height_map(world_->geometry->queries, map_frame_, world_->threads);
+  picture_.track.clear();
+  window_.set_title("rubble drive: " + request_.of.mission + ", seed " +
+                    std::to_string(world_->scenario.seed));
+}
+
+void DriveSession::run() {
+  const auto step_time = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(1 / world_->scenario.trajectory.rate_hz));
+  Clock::time_point due = Clock::now(), counted = due;
+  while (!quit_ && !stop_requested() && (request_.steps == 0 || steps_ < request_.steps)) {
+    for (const std::string& heard : window_.poll(controls_)) say(heard);
+    const DriveInput input = controls_.take();
+    for (const DriveAction action : input.actions) act(action);
+    if (quit_) break;
+    if (!paused_) step(input);
+    show();
+    // No faster than simulation time; slower where the machine cannot keep up.
+    due = std::max(due + step_time, Clock::now() - step_time);
+    std::this_thread::sleep_until(due);
+    const Clock::time_point now = Clock::now();
+    const double took = std::chrono::duration<double>(now - counted).count();
+    rate_ += 0.1 * (1 / std::max(took, 1e-3) - rate_);
+    counted = now;
+  }
+  end_leg();
+}
+
+void DriveSession::step(const DriveInput& input) {
+  if (leg_ && leg_->frames() >= kLongestLeg) {
+    end_leg();
+    change_lamp_and_air();
+  }
+  if (!leg_)
+    leg_ = std::make_unique<DriveLeg>(*world_, folder_, ++legs_, request_.record);
+  else
+    camera_->step(input, 1 / world_->scenario.trajectory.rate_hz);
+  leg_->step(camera_->pose());
+  const Vec3& p = camera_->pose().position;
+  picture_.track.push_back({map_frame_.column(p), map_frame_.row(p)});
+  ++steps_;
+}
+
+void DriveSession::end_leg() {
+  if (!leg_) return;
+  leg_->finish();
+  std::printf("%s/%s.lua\n", folder_.c_str(), leg_->name().c_str());
+  std::fflush(stdout);
+  leg_.reset();
+}
+
+// A leg has one lamp and one air: what was driven so far is complete, and a new leg begins here.
+void DriveSession::change_lamp_and_air() {
+  end_leg();
+  world_->renderer->restart(world_->scenario.lamp, world_->scenario.air);
+}
+
+void DriveSession::act(DriveAction action) {
+  LampSpec& lamp = world_->scenario.lamp;
+  double& fog = world_->scenario.air.fog_density;
+  switch (action) {
+    case DriveAction::lamp:
+      lamp.on = !lamp.on;
+      return change_lamp_and_air();
+    case DriveAction::lamp_up:
+    case DriveAction::lamp_down:
+      lamp.intensity_cd =
+          changed(lamp.intensity_cd, action == DriveAction::lamp_up, kLeastLamp, kMostLamp);
+      return change_lamp_and_air();
+    case DriveAction::fog:
+      if (fog > 0) fog_ = fog;
+      fog = fog > 0 ? 0 : fog_;
+      return change_lamp_and_air();
+    case DriveAction::fog_up:
+    case DriveAction::fog_down:
+      fog_ = changed(fog > 0 ? fog : fog_, action == DriveAction::fog_up, kLeastFog, kMostFog);
+      if (fog <= 0) return;
+      fog = fog_;
+      return change_lamp_and_air();
+    case DriveAction::faster:
+    case DriveAction::slower:
+      return camera_->change_speed(action == DriveAction::faster ? 1 : -1);
+    case DriveAction::reset:
+      camera_->put(world_->entry);
+      picture_.track.clear();
+      return change_lamp_and_air();
+    case DriveAction::next_seed:
+      end_leg();
+      return enter(world_->scenario.seed + 1);
+    case DriveAction::pause:
+      paused_ = !paused_;
+      return;
+    case DriveAction::help:
+      help_ = !help_;
+      return;
+    case DriveAction::picture:
+      return save_picture();
+    case DriveAction::quit:
+      quit_ = true;
+      return;
+  }
+}
+
+void DriveSession::show() {
+  if (!leg_) return;  // paused before a first step: what was shown stays
+  picture_.frame = &leg_->shown();
+  picture_.map = &map_;
+  const Vec3 ahead = camera_->pose().world_from_camera().rotation.rotate({1, 0, 0});
+  const double level = std::sqrt(ahead.x * ahead.x + ahead.y * ahead.y);
+  picture_.heading = {ahead.x / std::max(level, 1e-3), -ahead.y / std::max(level, 1e-3)};
+  picture_.status = status();
+  picture_.notice = steps_ < notice_until_ ? notice_ : "";
+  picture_.help.clear();
+  if (help_) {
+    picture_.help.push_back({"", "keys", "gamepad"});
+    for (const KeyHelp& row : all_key_help())
+      picture_.help.push_back({row.what, row.keys, row.gamepad});
+  }
+  shown_ = draw_drive_picture(picture_);
+  window_.show(shown_);
+}
+
+std::vector<std::string> DriveSession::status() const {
+  const Scenario& s = world_->scenario;
+  const DrivenPose& pose = camera_->pose();
+  return {words("seed %llu   leg %d   frame %d   %.2f m/s   lamp %s   fog %s%s%s",
+                static_cast<unsigned long long>(s.seed), legs_, leg_->frames(), camera_->speed(),
+                s.lamp.on ? words("%.0f cd", s.lamp.intensity_cd).c_str() : "off",
+                s.air.fog_density > 0 ? words("%.3f 1/m", s.air.fog_density).c_str() : "off",
+                camera_->held_back() ? "   TOUCHES" : "", paused_ ? "   PAUSED" : ""),
+          words("x %.2f  y %.2f  z %.2f m   roll %.0f  pitch %.0f  yaw %.0f deg   %.0f steps/s   %s"
+                "   H: help",
+                pose.position.x, pose.position.y, pose.position.z, pose.rpy_deg.x, pose.rpy_deg.y,
+                pose.rpy_deg.z, rate_, controls_.gamepads() > 0 ? "gamepad" : "no gamepad")};
+}
+
+void DriveSession::say(const std::string& text) {
+  std::fprintf(stderr, "drive: %s\n", text.c_str());
+  notice_ = text;
+  notice_until_ = steps_ + kNoticeSteps;
+}
+
+void DriveSession::save_picture() {
+  if (shown_.rgb.empty()) return;
+  const std::string path = folder_ + words("/picture_%03d.png", ++pictures_);
+  write_png(path, shown_, 6);
+  say(path);
+}
+
+ExitCode drive_mission(const DriveRequest& request) {
+  stop_on_signals();
+  DriveSession session(request);
+  session.run();
+  return ExitCode::done;
+}
+
+}  // namespace rubble

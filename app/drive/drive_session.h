@@ -1,0 +1,54 @@
+// A drive from the first step to the last: events -> step -> frame -> window -> log.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/drive/drive_leg.h"
+#include "app/drive/drive_window.h"
+#include "app/drive/height_map.h"
+#include "io/drive_picture.h"
+
+namespace rubble {
+
+class DriveSession {
+ public:
+  // Opens the window first, so that its absence is known before anything settles.
+  explicit DriveSession(const DriveRequest& request);
+  ~DriveSession();
+
+  // Until the person quits, or the steps that were asked for are done. Prints the missions.
+  void run();
+
+ private:
+  bool stay();  // looks at events while something takes long
+  void enter(std::optional<std::uint64_t> seed);
+  void act(DriveAction action);
+  void change_lamp_and_air();
+  void end_leg();
+  void step(const DriveInput& input);
+  void show();
+  std::vector<std::string> status() const;
+  void say(const std::string& words);
+  void save_picture();
+
+  DriveRequest request_;
+  std::string folder_;
+  Controls controls_;
+  DriveWindow window_;
+  GlContext context_;
+  std::unique_ptr<DriveWorld> world_;
+  std::unique_ptr<DrivenCamera> camera_;
+  std::unique_ptr<DriveLeg> leg_;  // none until its first step
+  MapFrame map_frame_;
+  DrivePicture picture_;
+  RgbImage map_, shown_;
+  int legs_ = 0, steps_ = 0, pictures_ = 0;
+  double fog_ = 0.15;  // what the fog is turned on to; unit: 1/m
+  double rate_ = 0;    // steps a second that are reached
+  bool help_ = false, paused_ = false, quit_ = false;
+  std::string notice_;
+  int notice_until_ = 0;  // step
+};
+
+}  // namespace rubble

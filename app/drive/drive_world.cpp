@@ -1,0 +1,125 @@
+#include "app/drive/drive_world.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/build_scene.h"
+#include "app/drive/drive_log.h"
+#include "app/flight.h"
+#include "kernel/base/disk_cache.h"
+#include "kernel/settle.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kLeastRate = 5, kMostRate = 120;  // of steps that a person can steer by; unit: Hz
+
+// A calibrated lens sees the same through fewer pixels.
+void resize_camera(CameraScenario& camera, int width, int height) {
+  const double sx = double(width) / camera.width, sy = double(height) / camera.height;
+  LensScenario& lens = camera.lens;
+  if (lens.fx) lens.fx = *lens.fx * sx;
+  if (lens.fy) lens.fy = *lens.fy * sy;
+  if (lens.cx) lens.cx = (*lens.cx + 0.5) * sx - 0.5;
+  if (lens.cy) lens.cy = (*lens.cy + 0.5) * sy - 0.5;
+  camera.width = width;
+  camera.height = height;
+}
+
+PileState settle_for_drive(Run& run, const GoOn& go_on) {
+  run.progress.start("settle");
+  SettleOptions options = run.scenario.settle;
+  options.threads = run.threads();
+  bool stopped = false;
+  const Pile pile = generate_pile(build_pile_spec(run.scenario, run.assets));
+  PileState state = settle_pile(pile, options, [&](const SettleProgress& p) {
+    run.progress.update(double(p.layer) / std::max(1, p.layers + 1),
+                        std::to_string(p.awake) + " of " + std::to_string(p.pieces) +
+                            " pieces moving");
+    stopped = !go_on();
+    return !stopped;
+  });
+  if (stopped) throw Stopped("stopped while the pile settled; nothing was driven");
+  run.progress.finish(std::to_string(state.pieces.size()) + " pieces" +
+                      (state.settled ? "" : ", some of them still moving"));
+  return state;
+}
+
+// Where the mission's own flight begins, places in voids included.
+DrivenPose find_entry(const Scenario& scenario, const DriveWorld& world) {
+  Scenario first = scenario;
+  first.trajectory.waypoints.resize(1);
+  first.trajectory.plan = Plan::ghost;
+  first.trajectory.duration.reset();
+  const FlightPlan plan = resolve_flight(first, world.assets, world.pile, world.threads);
+  return make_driven_pose(plan.poses.front().world_from_camera);
+}
+
+void check_entry(const DriveWorld& world) {
+  const double radius = world.scenario.trajectory.radius;
+  const DrivenCamera camera(world.entry, world.plan, radius, world.geometry->queries);
+  if (camera.has_room()) return;
+  char found[64];
+  std::snprintf(found, sizeof found, "%.3f m",
+                world.geometry->queries.clearance(world.entry.position));
+  throw InputError({"", 0, "trajectory.waypoints[1].position",
+                    "no room for the camera's body at the entry",
+                    "trajectory.radius = " + std::to_string(radius) + " m of clearance", found,
+                    "move it, make trajectory.radius smaller, or use plan = \"ghost\""});
+}
+
+DriveLimits limits_of(const TrajectorySpec& spec) {
+  DriveLimits limits;
+  if (spec.limits.max_speed) limits.most_speed = *spec.limits.max_speed;
+  if (spec.limits.max_turn_rate_deg)
+    limits.turn_rate_deg = std::min(limits.turn_rate_deg, *spec.limits.max_turn_rate_deg);
+  limits.least_speed = std::min(limits.least_speed, limits.most_speed);
+  limits.speed = spec.speed;
+  return limits;
+}
+
+void adapt(Scenario& scenario, const DriveRequest& request, const AssetLibrary& assets) {
+  resize_camera(scenario.camera, request.width, request.height);
+  // The mission that is saved lies elsewhere.
+  if (!scenario.packs.empty() || !request.of.asset_packs.empty()) scenario.packs = assets.folders;
+  double& rate = scenario.trajectory.rate_hz;
+  if (rate < kLeastRate || rate > kMostRate) rate = TrajectorySpec{}.rate_hz;
+  for (const std::string& off : adapt_to_driving(scenario))
+    std::fprintf(stderr, "drive: without %s, which needs the way ahead\n", off.c_str());
+}
+
+}  // namespace
+
+std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
+                                             std::optional<std::uint64_t> seed, GlContext& context,
+                                             const GoOn& go_on) {
+  RunRequest of = request.of;
+  if (seed) of.seed = seed;
+  Run run = start_run(of, RunKind::run);
+  auto world = std::make_unique<DriveWorld>();
+  world->threads = run.threads();
+  world->pile = settle_for_drive(run, go_on);
+  world->assets = std::move(run.assets);
+  world->scenario = run.scenario;
+  world->plan = run.scenario.trajectory.plan;
+  world->limits = limits_of(run.scenario.trajectory);
+  world->entry = find_entry(run.scenario, *world);
+  adapt(world->scenario, request, world->assets);
+  world->geometry = std::make_unique<PileGeometry>(world->assets, world->pile);
+  check_entry(*world);
+
+  run.progress.start("scene");
+  RenderOptions options;
+  options.threads = world->threads;
+  options.cache_folder = DiskCache::usual_folder();
+  world->renderer = std::make_unique<Renderer>(
+      context, build_scene(world->scenario, world->assets, world->pile), options,
+      [&](double fraction) {
+        run.progress.update(fraction, "light");
+        go_on();
+      });
+  run.progress.finish("ready on " + context.info().renderer);
+  return world;
+}
+
+}  // namespace rubble

@@ -1,0 +1,37 @@
+// What is driven through: one seed's settled pile, ready to be asked and drawn.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "app/drive/drive_request.h"
+#include "app/drive/driven_camera.h"
+#include "app/run.h"
+#include "app/void_places.h"
+#include "render/renderer.h"
+
+namespace rubble {
+
+struct DriveWorld {
+  Scenario scenario;  // of the camera's size that was asked for, adapted to driving
+  Plan plan = Plan::ghost;
+  AssetLibrary assets;
+  PileState pile;
+  DrivenPose entry;       // the first waypoint of the mission
+  DriveLimits limits;     // the mission's speed limits, where it has any
+  std::unique_ptr<PileGeometry> geometry;
+  std::unique_ptr<Renderer> renderer;
+  int threads = 1;
+};
+
+// Asked now and then while that takes long; false: the person wants to leave.
+using GoOn = std::function<bool()>;
+
+// Loads the mission with that seed (none: its own) and settles its pile. The context must outlive
+// the world. Throws as `rubble run` does, Stopped when `go_on` was false, and InputError when the
+// camera's body has no room at the entry.
+std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
+                                             std::optional<std::uint64_t> seed, GlContext& context,
+                                             const GoOn& go_on);
+
+}  // namespace rubble

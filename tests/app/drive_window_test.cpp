@@ -1,0 +1,102 @@
+// `rubble drive` in a real window: a screen of its own (Xvfb), keys from xdotool.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+// What the screen shows, as Xvfb keeps it: X's window dump format, big-endian header.
+struct Screen {
+  std::string bytes;
+  unsigned word(std::size_t i) const {
+    unsigned value = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      value = value << 8 | static_cast<unsigned char>(bytes.at(4 * i + k));
+    return value;
+  }
+  unsigned long at(unsigned x, unsigned y) const {  // a pixel's bytes
+    const std::size_t start = word(0) + 12ul * word(19) + std::size_t(word(12)) * y + 4ul * x;
+    return static_cast<unsigned char>(bytes.at(start)) |
+           static_cast<unsigned char>(bytes.at(start + 1)) << 8 |
+           static_cast<unsigned char>(bytes.at(start + 2)) << 16;
+  }
+};
+
+// Pixels of a square at x0 that differ between two screens, or from black.
+int count_changes(const Screen& a, const Screen* b, unsigned x0, unsigned y0, unsigned side) {
+  int count = 0;
+  for (unsigned y = y0; y < y0 + side; ++y)
+    for (unsigned x = x0; x < x0 + side; ++x) count += a.at(x, y) != (b ? b->at(x, y) : 0);
+  return count;
+}
+
+// Starts Xvfb and the drive, sends keys, keeps what the screen showed before and after.
+const char* const kScript = R"(
+d=$1; program=$2
+Xvfb -displayfd 3 -screen 0 448x168x24 -fbdir $d -nolisten tcp 3>$d/display >/dev/null 2>&1 & xvfb=$!
+trap 'kill $xvfb' EXIT
+for i in $(seq 100); do [ -s $d/display ] && break; sleep 0.1; done
+export DISPLAY=:$(cat $d/display)
+unset SDL_VIDEODRIVER
+$program drive scripts/small.lua --size 160x120 --record --set outputs.rawlog=false --quiet \
+  --set outputs.stl=false --out $d/out >$d/stdout 2>$d/stderr & drive=$!
+for i in $(seq 600); do grep -q 'drive: ready' $d/stderr && break; sleep 0.1; done
+w=$(xdotool search --sync --onlyvisible --name 'rubble drive' | head -1)
+xdotool windowfocus $w; xdotool mousemove --window $w 80 60
+sleep 0.4; cp $d/Xvfb_screen0 $d/before
+xdotool keydown w keydown d; sleep 0.6; xdotool keyup w keyup d
+xdotool key l; sleep 0.3; xdotool key f; sleep 0.3
+cp $d/Xvfb_screen0 $d/after
+xdotool key Escape
+wait $drive
+)";
+
+TEST(DriveWindow, WhatIsDrivenByKeysRunsAgainByteForByte) {
+  const ScratchFolder scratch;
+  write_file(scratch / "drive.sh", kScript);
+  const std::string command = "cd '" RUBBLE_SOURCE_DIR "' && timeout 120 bash " +
+                              (scratch / "drive.sh") + " " + scratch.path().string() +
+                              " " RUBBLE_PROGRAM;
+  ASSERT_EQ(std::system(command.c_str()), 0) << read_file(scratch / "stderr");
+
+  const Screen before{read_file(scratch / "before")}, after{read_file(scratch / "after")};
+  for (const unsigned pane : {0u, 160u, 320u}) {
+    EXPECT_GT(count_changes(before, nullptr, pane + 10, 20, 90), 4000) << pane;  // not black
+    EXPECT_GT(count_changes(before, &after, pane + 10, 20, 90), 20) << pane;     // it moved
+  }
+  for (const std::string leg : {"leg_001", "leg_002", "leg_003"}) {
+    const Outcome again =
+        run_rubble("run " + (scratch / "out/") + leg + ".lua --quiet --out " + (scratch / leg));
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    const auto json = nlohmann::json::parse(read_file(scratch / (leg + "/manifest.json")));
+    std::istringstream seen(read_file(scratch / ("out/" + leg + ".hashes")));
+    std::string row;
+    std::getline(seen, row);
+    std::size_t frames = 0;
+    for (; std::getline(seen, row); ++frames)
+      ASSERT_EQ(row, json["frame_hashes"]["xxh64"].at(frames)) << leg << " frame " << frames;
+    EXPECT_EQ(frames, json["frame_hashes"]["xxh64"].size());
+    EXPECT_GT(frames, 1u);
+    EXPECT_EQ(read_file(scratch / ("out/" + leg + "/mission.bag")),
+              read_file(scratch / (leg + "/mission.bag")));
+  }
+}
+
+TEST(DriveWindow, SaysWhatToDoWithoutADisplay) {
+  const ScratchFolder scratch;
+  const Outcome outcome =
+      run_rubble("drive scripts/small.lua --out " + (scratch / "a"),
+                 "env -u DISPLAY -u WAYLAND_DISPLAY -u SDL_VIDEODRIVER timeout 60");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("DISPLAY is not set"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("xvfb-run"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("settle"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace rubble::testing

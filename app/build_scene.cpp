@@ -1,8 +1,11 @@
 #include "app/build_scene.h"
 
+#include <memory>
+
 #include "app/terrain.h"
 #include "kernel/base/portable_math.h"
 #include "render/looks.h"
+#include "scripting/trajectory.h"
 
 namespace rubble {
 namespace {
@@ -94,6 +97,19 @@ PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile) {
   for (const Look& look : all_looks())
     model.looks.push_back({look.name, (look.dark + look.light) * 0.5f});
   return model;
+}
+
+Flight build_flight(const Scenario& scenario) {
+  Flight flight;
+  for (const CameraPose& pose : sample_trajectory(scenario.trajectory, scenario.start_ns)) {
+    flight.stamps_ns.push_back(pose.stamp_ns);
+    flight.world_from_camera.push_back(pose.world_from_camera);
+  }
+  const auto path = std::make_shared<CameraPath>(scenario.trajectory);
+  flight.pose_at = [path, start = scenario.start_ns](std::int64_t stamp_ns) {
+    return path->at(double(stamp_ns - start) * 1e-9);
+  };
+  return flight;
 }
 
 }  // namespace rubble

@@ -8,6 +8,7 @@
 #include "io/pile_model.h"
 #include "kernel/pile_state.h"
 #include "render/scene.h"
+#include "render/sensors/flight.h"
 #include "scripting/scenario.h"
 
 namespace rubble {
@@ -26,5 +27,8 @@ std::vector<std::string> label_names(const AssetLibrary& assets);
 
 // The same pieces at full detail, with names and plain colours, for the exports. Refers to `assets`.
 PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile);
+
+// Where the camera is along the scenario's trajectory, whose places are resolved: app/flight.h.
+Flight build_flight(const Scenario& scenario);
 
 }  // namespace rubble

@@ -56,19 +56,6 @@ Renderer prepare_renderer(Run& run, GlContext& context) {
                   [&](double fraction) { run.progress.update(fraction, "light"); });
 }
 
-Flight plan_flight(const Scenario& scenario) {
-  Flight flight;
-  for (const CameraPose& pose : sample_trajectory(scenario.trajectory, scenario.start_ns)) {
-    flight.stamps_ns.push_back(pose.stamp_ns);
-    flight.world_from_camera.push_back(pose.world_from_camera);
-  }
-  const auto path = std::make_shared<CameraPath>(scenario.trajectory);
-  flight.pose_at = [path, start = scenario.start_ns](std::int64_t stamp_ns) {
-    return path->at(double(stamp_ns - start) * 1e-9);
-  };
-  return flight;
-}
-
 double seconds_since(const Scenario& scenario, std::int64_t stamp_ns) {
   return double(stamp_ns - scenario.start_ns) * 1e-9;
 }
@@ -131,7 +118,7 @@ void render_frames(Run& run, RunFolder& folder) {
   GlContext context({run.options.gl_device, run.threads()});
   note_environment(run, context.info());
   Renderer renderer = prepare_renderer(run, context);
-  Camera camera(renderer, build_camera(run.scenario, run.threads()), plan_flight(run.scenario),
+  Camera camera(renderer, build_camera(run.scenario, run.threads()), build_flight(run.scenario),
                 Medium(run.scenario.air, run.scenario.seed));
   run.progress.finish("ready on " + context.info().renderer);
 

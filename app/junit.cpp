@@ -2,31 +2,10 @@
 
 #include <cstdio>
 
+#include "io/xml_text.h"
+
 namespace rubble {
 namespace {
-
-// Bytes that XML 1.0 forbids, or that may be no UTF-8, become question marks.
-std::string escape(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (c == '\n')
-      out += "&#10;";
-    else if ((byte < 0x20 && c != '\t') || byte >= 0x7f)
-      out += '?';
-    else
-      out += c;
-  }
-  return out;
-}
 
 std::string seconds_text(double seconds) {
   char text[32];
@@ -35,13 +14,13 @@ std::string seconds_text(double seconds) {
 }
 
 std::string problem(const char* kind, const std::string& message, const std::string& text) {
-  return std::string("    <") + kind + " message=\"" + escape(message) + "\">" + escape(text) +
+  return std::string("    <") + kind + " message=\"" + xml_text(message) + "\">" + xml_text(text) +
          "</" + kind + ">\n";
 }
 
 std::string make_case(const std::string& suite, const CaseResult& result) {
-  std::string xml = "  <testcase classname=\"" + escape(suite) + "\" name=\"" +
-                    escape(result.name) + "\" time=\"" + seconds_text(result.seconds) + "\"";
+  std::string xml = "  <testcase classname=\"" + xml_text(suite) + "\" name=\"" +
+                    xml_text(result.name) + "\" time=\"" + seconds_text(result.seconds) + "\"";
   if (result.passed()) return xml + "/>\n";
   xml += ">\n";
   if (!result.error.empty()) xml += problem("error", result.error, result.log);
@@ -67,7 +46,7 @@ std::string make_junit(const std::string& suite, const std::vector<CaseResult>& 
                              std::to_string(failures) + "\" errors=\"" + std::to_string(errors) +
                              "\" time=\"" + seconds_text(seconds) + "\"";
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites " + counts +
-         ">\n<testsuite name=\"" + escape(suite) + "\" " + counts + ">\n" + body +
+         ">\n<testsuite name=\"" + xml_text(suite) + "\" " + counts + ">\n" + body +
          "</testsuite>\n</testsuites>\n";
 }
 

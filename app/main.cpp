@@ -4,13 +4,13 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <functional>
 #include <memory>
 #include <new>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/arguments.h"
 #include "app/build_info.h"
 #include "app/commands.h"
 #include "scripting/schema_docs.h"
@@ -18,80 +18,7 @@
 namespace rubble {
 namespace {
 
-// A subcommand's request, filled by the parser, and what is done with it.
-using Action = std::function<ExitCode()>;
 using Commands = std::vector<std::pair<CLI::App*, Action>>;
-
-// Options that may be given several times, one value each.
-CLI::Option* add_list(CLI::App& command, const std::string& name, std::vector<std::string>& values,
-                      const std::string& text, const std::string& type) {
-  return command.add_option(name, values, text)
-      ->type_name(type)
-      ->allow_extra_args(false)
-      ->take_all();
-}
-
-// name: "mission" for an argument, "--mission" for an option.
-void add_mission_options(CLI::App& command, RunRequest& request,
-                         const std::string& name = "mission") {
-  command.add_option(name, request.mission, "The mission, a Lua script")->required();
-  add_list(command, "--set", request.overrides, "Override a key of the mission: key=value",
-           "KEY=VALUE");
-  add_list(command, "--assets", request.asset_packs, "A further folder with a pack.lua", "DIR");
-}
-
-void add_seed_option(CLI::App& command, RunRequest& request) {
-  command.add_option("--seed", request.seed, "Seed of all randomness; overrides the script's");
-}
-
-void add_threads_option(CLI::App& command, int& threads, const std::string& text) {
-  command.add_option("--threads", threads, text)->check(CLI::Range(0, 256));
-}
-
-void add_device_option(CLI::App& command, int& device) {
-  command
-      .add_option("--gl-device", device,
-                  "Number of the EGL device that draws (default: $RUBBLE_EGL_DEVICE, or the first that "
-                  "works, hardware before software)")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1000));
-}
-
-void add_run_options(CLI::App& command, RunOptions& options) {
-  add_device_option(command, options.gl_device);
-  add_threads_option(command, options.threads,
-                     "Threads to use; 0: all processors. Results do not depend on it");
-  command.add_flag("--quiet", options.quiet, "No progress, only errors");
-  command
-      .add_option("--checkpoint-every", options.checkpoint_every,
-                  "Keep a checkpoint of settling that often (default: 10 s)")
-      ->type_name("SECONDS")
-      ->check(CLI::Range(0.0, 1e6));
-}
-
-void add_output_options(CLI::App& command, RunRequest& request) {
-  command.add_option("--out", request.out, "Output folder (default: out/<name of the script>)")
-      ->type_name("DIR");
-  command.add_flag("--force", request.force, "Replace the files of an earlier run");
-  add_run_options(command, request.options);
-}
-
-// For commands that begin with the folder of a run.
-void add_folder_options(CLI::App& command, FolderRequest& request) {
-  command.add_option("folder", request.folder, "The output folder of a run")->required();
-  add_list(command, "--assets", request.asset_packs, "A folder where packs of the run may be now",
-           "DIR");
-  add_run_options(command, request.options);
-}
-
-// Of commands that start several runs.
-void add_jobs_options(CLI::App& command, int& jobs, RunOptions& options) {
-  command.add_option("--jobs", jobs, "Runs at once (default: one a processor)")
-      ->check(CLI::Range(0, 1024));
-  add_threads_option(command, options.threads,
-                     "Threads of each run (default: the processors, divided by --jobs)");
-  command.add_flag("--quiet", options.quiet, "No progress, only errors");
-}
 
 void add_void_options(CLI::App& command, VoidRequest& request) {
   command.add_option("--radius", request.radii, "Radius of a robot (default: 0.1, 0.2 and 0.3)")
@@ -113,18 +40,6 @@ void add_void_options(CLI::App& command, VoidRequest& request) {
   command.add_option("--out", request.out, "Output folder (default: FOLDER/voids)")
       ->type_name("DIR");
   command.add_flag("--force", request.force, "Replace the files of an earlier map");
-}
-
-void add_trajectory_options(CLI::App& command, TrajectoryRequest& request) {
-  command.add_option("estimate", request.estimate, "The estimate: a TUM or EuRoC file")->required();
-  command.add_option("truth", request.truth, "The truth: a TUM or EuRoC file")->required();
-  command.add_option("--delta", request.delta, "Relative errors over so many poses (default: 1)");
-  command
-      .add_option("--max-difference", request.max_difference,
-                  "Largest difference of the stamps of a pair (default: 0.01)")
-      ->type_name("SECONDS")
-      ->check(CLI::NonNegativeNumber);
-  command.add_flag("--json", request.json, "The result as JSON");
 }
 
 Action add_run(CLI::App& command) {
@@ -228,56 +143,6 @@ Action add_export(CLI::App& command) {
   return [of, request] { return export_saved_pile(*of, *request); };
 }
 
-void add_score_options(CLI::App& command, ScoreOutput& output) {
-  command.add_flag("--json", output.json, "The result as JSON");
-  add_list(command, "--out", output.files, "Write the table: .csv, .json or .tex (LaTeX)", "FILE");
-}
-
-Action add_eval_trajectory(CLI::App& command) {
-  const auto request = std::make_shared<TrajectoryRequest>();
-  add_trajectory_options(command, *request);
-  return [request] { return eval_trajectory(*request); };
-}
-
-Action add_eval_sfm(CLI::App& command) {
-  const auto request = std::make_shared<SfmRequest>();
-  command.add_option("datasets", request->datasets, "Output folders of runs with outputs.colmap")
-      ->required();
-  command
-      .add_option("--model", request->model,
-                  "In each dataset, COLMAP's model or the folder of its numbered models "
-                  "(default: sfm/sparse)")
-      ->type_name("DIR");
-  command
-      .add_option("--bound", request->bound,
-                  "A frame is on track when it is no farther from the truth (default: 0.1)")
-      ->type_name("METRES")
-      ->check(CLI::PositiveNumber);
-  command
-      .add_option(
-          "--details", request->details,
-          "Write there, for each dataset, the points in its world (PLY) and the track (CSV)")
-      ->type_name("DIR");
-  add_list(command, "--assets", request->asset_packs, "A folder where packs may be now", "DIR");
-  add_score_options(command, request->output);
-  return [request] { return eval_sfm(*request); };
-}
-
-Action add_eval_surface(CLI::App& command) {
-  const auto request = std::make_shared<SurfaceRequest>();
-  command.add_option("dataset", request->dataset, "Output folder of a run with outputs.colmap")
-      ->required();
-  command.add_option("mesh", request->mesh, "A mesh or point cloud, PLY")->required();
-  command
-      .add_option(
-          "--align", request->align,
-          "The COLMAP model whose frame it has (default: it is in the world of the dataset)")
-      ->type_name("DIR");
-  add_list(command, "--assets", request->asset_packs, "A folder where packs may be now", "DIR");
-  add_score_options(command, request->output);
-  return [request] { return eval_surface(*request); };
-}
-
 Action add_cutaway(CLI::App& command) {
   const auto of = std::make_shared<FolderRequest>();
   const auto request = std::make_shared<CutawayRequest>();
@@ -288,22 +153,10 @@ Action add_cutaway(CLI::App& command) {
   command.add_option("--width", request->width, "Of the picture, in pixels (default: 900)")
       ->check(CLI::Range(200, 4000));
   command.add_option("--title", request->title, "Printed above the picture");
-  command.add_option("--out", request->out, "The picture, .png or .jpg (default: FOLDER/cutaway.png)")
+  command
+      .add_option("--out", request->out, "The picture, .png or .jpg (default: FOLDER/cutaway.png)")
       ->type_name("FILE");
   return [of, request] { return draw_cutaway(*of, *request); };
-}
-
-Action add_eval(CLI::App& command) {
-  command.require_subcommand(1);
-  CLI::App* const trajectory = command.add_subcommand(
-      "trajectory", "Absolute and relative errors of a trajectory, as evo's");
-  CLI::App* const sfm = command.add_subcommand(
-      "sfm", "What COLMAP made of datasets: track, points, distance to the true surface");
-  CLI::App* const surface =
-      command.add_subcommand("surface", "Distance of a mesh or cloud from the true surface");
-  const Action on_trajectory = add_eval_trajectory(*trajectory), on_sfm = add_eval_sfm(*sfm),
-               on_surface = add_eval_surface(*surface);
-  return [=] { return *sfm ? on_sfm() : *surface ? on_surface() : on_trajectory(); };
 }
 
 Action add_batch(CLI::App& command) {
@@ -390,8 +243,9 @@ struct CommandEntry {
 Action add_any_info(CLI::App& command) {
   const Action of_machine = add_info(command);
   const auto paths = std::make_shared<std::vector<std::string>>();
-  command.add_option("path", *paths,
-                     "Recordings, or folders of runs: what they hold, and whether they are whole")
+  command
+      .add_option("path", *paths,
+                  "Recordings, or folders of runs: what they hold, and whether they are whole")
       ->type_name("PATH");
   return [paths, of_machine] { return paths->empty() ? of_machine() : print_info_of(*paths); };
 }
@@ -411,8 +265,7 @@ const CommandEntry kCommands[] = {
     {"suite", "Many missions with what is expected of them, for CI", add_suite},
     {"assets", "Look into a pack of assets", add_assets},
     {"check", "Print the complete scenario as JSON; run nothing", add_check},
-    {"info", "Print versions, the GL renderer and threads; or look over a dataset",
-     add_any_info}};
+    {"info", "Print versions, the GL renderer and threads; or look over a dataset", add_any_info}};
 
 ExitCode run(int argc, char** argv) {
   CLI::App app{

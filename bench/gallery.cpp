@@ -54,19 +54,6 @@ class Piles {
   std::map<std::string, PileState> piles_;
 };
 
-Flight plan_flight(const Scenario& scenario) {
-  Flight flight;
-  for (const CameraPose& pose : sample_trajectory(scenario.trajectory, scenario.start_ns)) {
-    flight.stamps_ns.push_back(pose.stamp_ns);
-    flight.world_from_camera.push_back(pose.world_from_camera);
-  }
-  const auto path = std::make_shared<CameraPath>(scenario.trajectory);
-  flight.pose_at = [path, start = scenario.start_ns](std::int64_t stamp_ns) {
-    return path->at(double(stamp_ns - start) * 1e-9);
-  };
-  return flight;
-}
-
 Frame take(GlContext& context, const GalleryPicture& picture, Piles& piles, int threads) {
   MissionOptions changes;
   changes.overrides = picture.set;
@@ -80,7 +67,7 @@ Frame take(GlContext& context, const GalleryPicture& picture, Piles& piles, int 
                     options);
   CameraSpec spec = build_camera(scenario, threads);
   ask_for_channel(picture.channel, spec);
-  Camera camera(renderer, spec, plan_flight(scenario), Medium(scenario.air, scenario.seed));
+  Camera camera(renderer, spec, build_flight(scenario), Medium(scenario.air, scenario.seed));
   if (picture.frame >= camera.frames())
     throw RunError(picture.name + ": frame " + std::to_string(picture.frame) + " of " +
                    std::to_string(camera.frames()));

@@ -1,4 +1,3 @@
-#include <zlib.h>
 #include <zstd.h>
 
 #include <map>
@@ -6,30 +5,16 @@
 #include <utility>
 
 #include "io/little_endian.h"
+#include "io/mcap_format.h"
 #include "io/ros_message_reader.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
 namespace {
 
-constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
+using namespace mcap;
+
 constexpr std::uint64_t kFooterSize = 8 + 8 + 4;
-
-enum Opcode : std::uint8_t {
-  kHeader = 0x01,
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kMessageIndex = 0x07,
-  kDataEnd = 0x0F
-};
-
-std::uint32_t crc_of(std::uint32_t crc, std::string_view bytes) {
-  return static_cast<std::uint32_t>(
-      crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 bool take_text(std::string_view& bytes, std::string_view& text) {
   std::uint32_t size = 0;

@@ -1,6 +1,5 @@
 #include "io/mcap_writer.h"
 
-#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
@@ -8,35 +7,18 @@
 #include <memory>
 
 #include "io/little_endian.h"
+#include "io/mcap_format.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
 namespace {
 
+using namespace mcap;
+
 // Large enough to compress well, small enough that one picture of 1024x1024 is a chunk of its own
 // and the threads share the work evenly. unit: byte
 constexpr std::size_t kChunkThreshold = 1 << 20;
 constexpr int kZstdLevel = 1;
-constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
-
-enum Opcode : std::uint8_t {
-  kHeader = 0x01,
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kMessageIndex = 0x07,
-  kChunkIndex = 0x08,
-  kStatistics = 0x0B,
-  kSummaryOffset = 0x0E,
-  kDataEnd = 0x0F
-};
-
-std::uint32_t crc_of(std::uint32_t crc, std::string_view bytes) {
-  return static_cast<std::uint32_t>(
-      crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 void put_text(std::string& out, std::string_view text) {
   put(out, static_cast<std::uint32_t>(text.size()));

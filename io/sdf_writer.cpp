@@ -3,6 +3,7 @@
 #include "io/number_text.h"
 #include "io/obj_writer.h"
 #include "io/pile_export.h"
+#include "io/xml_text.h"
 
 namespace rubble {
 namespace {
@@ -30,23 +31,6 @@ constexpr char kBegin[] = R"(<?xml version="1.0"?>
     </model>
 )";
 
-std::string escape(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 std::string numbers(const std::vector<double>& values) {
   std::string text;
   for (const double value : values) text += (text.empty() ? "" : " ") + exact_text(value);
@@ -57,9 +41,9 @@ std::string model_element(const PileModel::Piece& piece, const std::string& mesh
   const Vec3& t = piece.world_from_body.translation;
   const Quat& q = piece.world_from_body.rotation;
   const std::string geometry =
-      "          <geometry><mesh><uri>meshes/" + escape(mesh) + ".obj</uri><scale>" +
+      "          <geometry><mesh><uri>meshes/" + xml_text(mesh) + ".obj</uri><scale>" +
       numbers({piece.scale, piece.scale, piece.scale}) + "</scale></mesh></geometry>\n";
-  return "    <model name=\"" + escape(piece.name) +
+  return "    <model name=\"" + xml_text(piece.name) +
          "\">\n      <static>true</static>\n      <pose rotation_format=\"quat_xyzw\">" +
          numbers({t.x, t.y, t.z, q.x, q.y, q.z, q.w}) +
          "</pose>\n      <link name=\"link\">\n        <collision name=\"collision\">\n" +

@@ -1,0 +1,32 @@
+// Text inside an XML 1.0 document.
+#pragma once
+
+#include <string>
+
+namespace rubble {
+
+// For an attribute or an element. Bytes that XML forbids, or that may be no UTF-8, become question
+// marks.
+inline std::string xml_text(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else if (c == '\n')
+      out += "&#10;";
+    else if ((byte < 0x20 && c != '\t') || byte >= 0x7f)
+      out += '?';
+    else
+      out += c;
+  }
+  return out;
+}
+
+}  // namespace rubble

@@ -70,17 +70,19 @@ DepthSensor::Returns DepthSensor::trace_air(const DepthView& view, int u, int v,
   const double reach = std::isnan(distance) ? 2 * spec_.depth_sensor.max_range : distance;
   const Pose pose = view.rays.pose(v);
   const Vec3 direction = pose.rotation.rotate(view.rays.direction(u, v));
-  const double step = (reach - kNearestAir) / kAirSteps;
   double depth = 0;  // optical, up to the step
-  if (!view.air.clear() && step > 0) {
+  if (!view.air.clear() && reach > kNearestAir) {
     depth = view.air.extinction(pose.translation) * kNearestAir;
-    for (int i = 0; i < kAirSteps; ++i) {
-      const double r = kNearestAir + (i + 0.5) * step;
+    // Each step is longer than the one before, as what comes back falls with the square of range.
+    const double growth = std::pow(reach / kNearestAir, 1.0 / kAirSteps);
+    double begin = kNearestAir;
+    for (int i = 0; i < kAirSteps; ++i, begin *= growth) {
+      const double end = begin * growth, r = std::sqrt(begin * end);
       const double extinction = view.air.extinction(pose.translation + direction * r);
-      depth += 0.5 * extinction * step;
       out.range[i] = r;
-      out.part[i] = view.air.albedo() * extinction * step / (4 * kPi) * std::exp(-2 * depth) / (r * r);
-      depth += 0.5 * extinction * step;
+      out.part[i] = view.air.albedo() * extinction / (4 * kPi) * (1 / begin - 1 / end) *
+                    std::exp(-2 * (depth + extinction * (r - begin)));
+      depth += extinction * (end - begin);
     }
     out.sum_up();
   }

@@ -115,7 +115,6 @@ void main() {
   } else {
     vec3 world = eye + ray * z;
     Surface s = find_surface(seen.x - 1u, seen.y, world, direction, z, vec2(pixel));
-    ambient = s.ambient;
     vec2 open = texture(openness, (vec2(pixel) + 0.5) / view.zw).xy;
     radiance = shade(s, world, -direction, open, passed);
 #if CONTENT != 1
@@ -123,6 +122,10 @@ void main() {
     float there = max(far - VEIL_FROM, 0.0);
     float veil = exp2(-there * there * 4e-5 / (1.0 + there * 0.012));
     radiance = mix(sky_radiance(vec3(direction.xy, 0.02)), radiance, veil);
+    // Nothing so far is within a void: fog before it takes the sky's light, as before the sky beside.
+    ambient = mix(s.ambient, ambient, smoothstep(VEIL_FROM, 5.0 * VEIL_FROM, far));
+#else
+    ambient = s.ambient;
 #endif
   }
 #if FOG == 2

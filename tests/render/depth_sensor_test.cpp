@@ -256,7 +256,7 @@ TEST(TimeOfFlight, ReturnsEarlyInFog) {
     }
     const double surface = 0.4 * std::exp(-8 * density) / 16;
     real += surface * std::cos(turn * 4), imaginary += surface * std::sin(turn * 4);
-    EXPECT_NEAR(z, std::atan2(imaginary, real) / turn, 0.05) << density;
+    EXPECT_NEAR(z, std::atan2(imaginary, real) / turn, 2e-3) << density;
   }
 }
 

@@ -179,6 +179,19 @@ TEST(Fog, GlowsInTheLampAndBrightensWithIt) {
   EXPECT_GT(bright_fog, 3 * dark_fog);
 }
 
+// What is far behind fog cannot be told apart: just below the horizon the ground, just above it the
+// sky.
+TEST(Fog, HidesTheHorizon) {
+  Scene scene;
+  scene.lamp.on = false;
+  scene.air.fog_density = 0.3;
+  GlContext context;
+  const LinearFrame frame =
+      Renderer(context, scene, plain()).render_linear({{}, {0, 0, 1.5}}, pinhole(64, 64, 200));
+  const auto green = [&](int row) { return double(frame.rgb[std::size_t(row * 64 + 32) * 3 + 1]); };
+  EXPECT_NEAR(green(35) / green(28), 1, 0.02);
+}
+
 // A ring of radius R gives on its axis, at the distance d, E = I d / (d^2 + R^2)^1.5.
 TEST(Lamp, ARingIsWeakerNearby) {
   const double dark = without_light();

@@ -10,6 +10,7 @@ help:
 	@echo "make demo       install what is missing, build, and run scripts/first_pile.lua"
 	@echo "make test       install what is missing, build, and run the test suite"
 	@echo "make gallery    draw docs/gallery.md and its pictures anew"
+	@echo "make pictures   draw the other pictures of the documents anew"
 	@echo "make build      build the release preset alone: $(PROGRAM)"
 	@echo "make test-nightly  the tests that take long, or need a cluster of one node"
 	@echo "make test-asan  the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
@@ -30,12 +31,17 @@ build: packages build/release/build.ninja
 demo: build
 	$(PROGRAM) run scripts/first_pile.lua --out out/first_pile --force
 
-# The picture of the README, from the frames that the demo recorded, and one of each pack.
+# The picture of the README, from the frames that the demo recorded; its voids, a sheet of each pack,
+# and each collapse mode cut open.
 pictures: demo
 	mkdir -p docs/pictures
 	tools/frames_of_bag.py out/first_pile/mission.bag docs/pictures/first_pile.png 341 0 55 118
 	for pack in concrete residential parking bridge; do \
 	  $(PROGRAM) assets show $$pack --tile 168 --out docs/pictures/pack_$$pack.jpg || exit 1; done
+	$(PROGRAM) voids out/first_pile --radius 0.2 --force
+	cp out/first_pile/voids/plan_r200.png docs/pictures/void_plan.png
+	cp out/first_pile/voids/cut_y_r200.png docs/pictures/void_cut.png
+	tools/collapse_pictures.sh
 
 # Every picture of docs/gallery.md, from bundled missions.
 gallery: build

@@ -18,9 +18,11 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-std::string fitted(std::string text, double size, int width) {
-  while (!text.empty() && label_width(text, size) > width) text.pop_back();
-  return text;
+// A caption within its tile's width: smaller letters rather than fewer.
+void put_caption(cv::Mat& sheet, const std::string& text, cv::Point at, double size, int width,
+                 const cv::Scalar& colour) {
+  const double fits = double(width) / std::max(1, label_width(text, size));
+  put_label(sheet, text, at, size * std::min(1.0, fits), colour);
 }
 
 cv::Mat as_matrix(const RgbImage& image) {
@@ -46,9 +48,8 @@ void write_picture_sheet(const std::string& path, const std::string& title,
     const cv::Point at{kMargin + i % columns * (width + kMargin),
                        kTitle + i / columns * (height + kCaption)};
     as_matrix(tile.picture).copyTo(sheet(cv::Rect(at, cv::Size(width, height))));
-    put_label(sheet, fitted(tile.name, kNameSize, width), {at.x, at.y + height + 14}, kNameSize, kInk);
-    put_label(sheet, fitted(tile.note, kNoteSize, width), {at.x, at.y + height + 29}, kNoteSize,
-              kFaint);
+    put_caption(sheet, tile.name, {at.x, at.y + height + 14}, kNameSize, width, kInk);
+    put_caption(sheet, tile.note, {at.x, at.y + height + 29}, kNoteSize, width, kFaint);
   }
   cv::Mat rgb;
   cv::cvtColor(sheet, rgb, cv::COLOR_BGR2RGB);

@@ -17,7 +17,7 @@ struct AssetLibrary {
   std::vector<PieceType> types;
   std::vector<std::shared_ptr<const SceneMesh>> meshes;  // one per type
   std::vector<AssemblyType> assemblies;                  // articulated assets, made of the types
-  std::vector<AssetContent> contents;  // one per type, then one per assembly
+  std::vector<AssetContent> contents;                    // one per type, then one per assembly
   std::vector<MixEntry> mix;                             // what the mission draws from
   std::vector<std::string> warnings;                     // e.g. a mesh that is not closed
   std::vector<std::string> folders;                      // of the packs, absolute
@@ -26,8 +26,8 @@ struct AssetLibrary {
   // placements and mixes have it.
   int find(const std::string& name) const;  // throws RunError
   bool has(const std::string& name) const;
-  int find(const PlacedItem& item) const;   // likewise, of its asset or its box
-  std::vector<int> terrain() const;         // the indices of types that are terrain; one or none
+  int find(const PlacedItem& item) const;  // likewise, of its asset or its box
+  std::vector<int> terrain() const;        // the indices of types that are terrain; one or none
 };
 
 // Loads what the mission uses, from its packs and then `extra_packs`; with neither, from the
@@ -47,7 +47,8 @@ struct LoadedAsset {
 };
 LoadedAsset load_asset(const Asset& asset);
 
-// The folder of a pack: a folder with a pack.lua, else a bundled pack of that name, else `pack` itself.
+// The folder of a pack: a folder with a pack.lua, else a bundled pack of that name, else `pack`
+// itself.
 std::string find_pack(const std::string& pack);
 
 // Where the bundled packs and materials.lua are: $RUBBLE_ASSETS, or `assets` beside the program.

@@ -1,0 +1,144 @@
+#include "app/asset_loading.h"
+
+#include <algorithm>
+#include <map>
+
+#include "app/assemblies.h"
+#include "app/decompose_cache.h"
+#include "app/material_variant.h"
+#include "app/placed_box.h"
+#include "app/terrain.h"
+#include "io/mesh_file.h"
+#include "kernel/base/hash.h"
+#include "render/looks.h"
+
+namespace rubble {
+namespace {
+
+PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnits& units,
+                    std::string& warning) {
+  PieceType type;
+  type.name = asset.name;
+  type.density = asset.density;
+  type.friction = asset.friction;
+  if (asset.decompose) {
+    type.parts = decompose_cached(mesh, DiskCache(DiskCache::usual_folder()));
+  } else if (asset.parts.empty()) {
+    type.parts.emplace_back();
+    for (const Vec3f& p : mesh.positions) type.parts[0].points.push_back(Vec3(p));
+  } else {
+    for (std::vector<Vec3>& points : load_convex_parts(asset.parts, units))
+      type.parts.push_back({std::move(points)});
+  }
+  if (is_closed(mesh) && calc_volume_properties(mesh).volume > 0)
+    type.volume = calc_volume_properties(mesh);
+  else
+    warning = asset.meshes.front() +
+              ": the mesh is not closed: mass and inertia come from its convex parts";
+  return type;
+}
+
+std::string hash_content(const Asset& asset, const PieceType& type) {
+  Sha256 hash;
+  std::vector<std::string> files = asset.meshes;
+  if (!asset.parts.empty()) files.push_back(asset.parts);
+  for (const std::string& file : files) {
+    const std::string content = sha256_of_file(file);
+    hash.add(content.data(), content.size());
+  }
+  const double up = asset.up == UpAxis::y ? 1 : 0, cut = asset.decompose ? 1 : 0;
+  for (const double number : {type.density, type.friction, asset.metres_per_unit, up, cut})
+    hash.add(&number, sizeof number);
+  return hash.hex();
+}
+
+// The pack's word for it, else a name that is a look, else that of the asset or its material.
+std::string choose_look(const Asset& asset, const std::string& surface) {
+  for (const auto& [name, look] : asset.looks)
+    if (name == surface) return look;
+  const std::vector<std::string> known = known_looks();
+  const bool is_look = std::find(known.begin(), known.end(), surface) != known.end();
+  return is_look || asset.look.empty() ? surface : asset.look;
+}
+
+}  // namespace
+
+LoadedAsset load_asset(const Asset& asset) {
+  const MeshUnits units{asset.metres_per_unit, asset.up};
+  auto mesh = std::make_shared<SceneMesh>();
+  for (const std::string& path : asset.meshes) {
+    mesh->levels.push_back(load_mesh(path, units));
+    for (std::string& surface : mesh->levels.back().surface_names)
+      surface = choose_look(asset, surface);
+  }
+  LoadedAsset loaded;
+  loaded.type = make_type(asset, mesh->levels.front(), units, loaded.warning);
+  loaded.mesh = std::move(mesh);
+  return loaded;
+}
+
+void add_asset(const FoundAsset& found, AssetLibrary& library) {
+  if (!found.asset->links.empty()) {
+    library.assemblies.push_back(make_assembly(*found.asset, library));
+    library.contents.push_back({found.asset->name, found.pack->name,
+                                hash_content(*found.asset, library.assemblies.back(), library),
+                                found.asset->weight, found.asset->scale, found.asset->spread});
+    return;
+  }
+  LoadedAsset loaded = load_asset(*found.asset);
+  if (!loaded.warning.empty()) library.warnings.push_back(loaded.warning);
+  library.contents.push_back({loaded.type.name, found.pack->name,
+                              hash_content(*found.asset, loaded.type), found.asset->weight,
+                              found.asset->scale, found.asset->spread});
+  library.types.push_back(std::move(loaded.type));
+  library.meshes.push_back(std::move(loaded.mesh));
+}
+
+void add_box(const PlacedItem& item, const std::vector<Material>& materials,
+             AssetLibrary& library) {
+  MadeBox box = make_placed_box(item, materials);
+  library.contents.push_back({box.type.name, kMadeToMeasure, std::move(box.sha256), 0, {1, 1}, {}});
+  library.types.push_back(std::move(box.type));
+  library.meshes.push_back(std::move(box.mesh));
+}
+
+void add_terrain(const TerrainScenario& spec, const std::vector<std::string>& folders,
+                 AssetLibrary& library) {
+  if (!spec.given()) return;
+  MadeTerrain terrain = make_terrain(spec, folders);
+  if (!terrain.warning.empty()) library.warnings.push_back(terrain.warning);
+  if (!terrain.folder.empty()) library.folders.push_back(terrain.folder);
+  library.contents.push_back({kTerrainName, kTerrainPack, terrain.sha256, 0, {1, 1}, {}});
+  library.types.push_back(std::move(terrain.type));
+  library.meshes.push_back(std::move(terrain.mesh));
+}
+
+std::vector<MixEntry> make_mix(const Scenario& scenario, const std::vector<FoundAsset>& all,
+                               const AssetLibrary& library) {
+  std::map<std::string, const Asset*> by_name;
+  for (const FoundAsset& found : all) by_name[found.asset->name] = found.asset;
+  std::vector<MixEntry> mix;
+  for (const MixItem& item : scenario.pile.mix) {
+    const Asset& asset = *by_name.at(item.asset);
+    const auto scale = item.scale.value_or(asset.scale);
+    const bool own = !item.scale && item.spread.kind == Spread::uniform;
+    const MixEntry entry{library.find(item.asset), item.weight, scale[0], scale[1],
+                         own ? asset.spread : item.spread};
+    if (item.materials.empty()) mix.push_back(entry);
+    double sum = 0;
+    for (const MixMaterial& m : item.materials) sum += m.weight;
+    for (const MixMaterial& m : item.materials) {
+      mix.push_back(entry);
+      mix.back().type = library.find(variant_name(item.asset, m.material));
+      mix.back().weight = item.weight * m.weight / sum;
+    }
+  }
+  if (!scenario.pile.mix.empty()) return mix;
+  for (const FoundAsset& found : all)
+    if (found.asset->weight > 0 && scenario.pile.layers > 0)
+      mix.push_back({library.find(found.asset->name), found.asset->weight, found.asset->scale[0],
+                     found.asset->scale[1], found.asset->spread});
+  return mix;
+}
+
+}  // namespace rubble

@@ -136,6 +136,25 @@ TEST_F(Suite, APartOfOursPasses) {
   EXPECT_EQ(ours.exit_code, 0) << ours.out << ours.err;
 }
 
+// The commands of the examples for CI servers, as written, on a suite of one mission.
+TEST_F(Suite, ExamplesForCiServersDoWhatTheySay) {
+  for (const std::string name : {"github-actions", "gitlab-ci"}) {
+    const std::string folder = scratch / name;
+    for (const std::string& missions : {folder + "/missions", folder + "/robot/missions"}) {
+      std::filesystem::create_directories(missions);
+      write_file(missions + "/tiny.lua", kTinyMission);
+      write_file(missions + "/suite.lua",
+                 "return suite { runs = { { name = \"one\", mission = \"tiny.lua\", "
+                 "golden = \"none\", expect = { frames = { 3, 3 } } } } }\n");
+    }
+    const std::string command = "/usr/bin/python3 '" RUBBLE_SOURCE_DIR
+                                "/tests/app/ci_example.py' '" RUBBLE_SOURCE_DIR "/examples/ci/" +
+                                name + ".yml' '" RUBBLE_SOURCE_DIR "' '" RUBBLE_PROGRAM "' '" +
+                                folder + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0) << name;
+  }
+}
+
 using NightlySuite = Suite;
 
 TEST_F(NightlySuite, OursPasses) {

@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages build demo gallery pictures test test-nightly test-asan test-tsan determinism format clean
+.PHONY: help packages build live demo gallery pictures test test-nightly test-asan test-tsan determinism format clean
 
 PROGRAM := build/release/rubble
 CTEST   := ctest --output-on-failure --parallel 2
@@ -12,6 +12,7 @@ help:
 	@echo "make gallery    draw docs/gallery.md and its pictures anew"
 	@echo "make pictures   draw the other pictures of the documents anew"
 	@echo "make build      build the release preset alone: $(PROGRAM)"
+	@echo "make live       the same with what publishes over ROS (docs/live.md)"
 	@echo "make test-nightly  the tests that take long, or need a cluster of one node"
 	@echo "make test-asan  the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
 	@echo "make test-tsan  the suite under ThreadSanitizer"
@@ -26,6 +27,12 @@ build/%/build.ninja: | packages
 	cmake --preset $*
 
 build: packages build/release/build.ninja
+	cmake --build --preset release
+
+# With the optional parts that publish over ROS; CMake looks for them anew.
+live: packages
+	@tools/install_packages.sh tools/packages-live.txt
+	cmake --preset release
 	cmake --build --preset release
 
 demo: build
@@ -50,7 +57,7 @@ gallery: build
 test: build
 	$(CTEST) --preset release --label-exclude nightly
 
-test-nightly: build
+test-nightly: live
 	@tools/install_packages.sh tools/packages-nightly.txt tools/packages-sfm.txt
 	$(CTEST) --preset release --label-regex nightly
 

@@ -30,6 +30,9 @@ void add_device_option(CLI::App& command, int& device);
 
 void add_run_options(CLI::App& command, RunOptions& options);
 
+// For commands that draw frames: publish them meanwhile.
+void add_live_options(CLI::App& command, LiveRequest& live);
+
 void add_output_options(CLI::App& command, RunRequest& request);
 
 // For commands that begin with the folder of a run.

@@ -7,6 +7,7 @@
 #include "app/flight.h"
 #include "app/frame_journal.h"
 #include "app/frame_watch.h"
+#include "app/live.h"
 #include "app/recorders.h"
 #include "app/run.h"
 #include "app/stop.h"
@@ -127,6 +128,7 @@ void render_frames(Run& run, RunFolder& folder) {
   RecorderSet set =
       make_recorders(run.scenario, recording, camera.frames(), title(run), folder.path());
   folder.expect(set.names);
+  add_live_recorders(set, run.options, ros_options(run.scenario.outputs, recording));
   RecordingQueue queue(std::move(set.recorders));
   take_frames(camera, queue, run, folder);
   run.progress.finish(std::to_string(camera.frames()) + " frames");

@@ -5,6 +5,7 @@
 
 #include "app/build_info.h"
 #include "app/commands.h"
+#include "io/live/live_ros.h"
 #include "render/gl_context.h"
 
 namespace rubble {
@@ -38,6 +39,7 @@ ExitCode print_info(const InfoRequest& request) {
   std::printf("threads       %u\n", std::thread::hardware_concurrency());
   for (const auto& [name, version] : build.libraries)
     std::printf("%-13s %s\n", name.c_str(), version.c_str());
+  std::printf("live ROS 1    %s\n", describe_ros1().c_str());
   std::fflush(stdout);  // the versions are worth having even if EGL fails below
   if (request.gl) print_ways();
   const GlContext context({request.gl_device, 0});

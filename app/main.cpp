@@ -47,6 +47,7 @@ Action add_run(CLI::App& command) {
   add_mission_options(command, *request);
   add_seed_option(command, *request);
   add_output_options(command, *request);
+  add_live_options(command, request->options.live);
   return [request] { return run_mission(*request); };
 }
 
@@ -119,6 +120,7 @@ Action add_render(CLI::App& command) {
   add_mission_options(command, *request, "--mission");
   add_seed_option(command, *request);
   add_output_options(command, *request);
+  add_live_options(command, request->options.live);
   return [request, from] { return render_saved_pile(*from, *request); };
 }
 

@@ -17,15 +17,6 @@
 namespace rubble {
 namespace {
 
-RosOptions ros_options(const OutputScenario& outputs, const Recording& recording) {
-  RosOptions ros;
-  ros.recording = recording;
-  if (outputs.depth == DepthEncoding::metres) ros.depth = RosDepth::metres;
-  if (outputs.pictures == PictureEncoding::png) ros.pictures = RosPictures::png;
-  if (outputs.pictures == PictureEncoding::jpeg) ros.pictures = RosPictures::jpeg;
-  return ros;
-}
-
 SimplemapOptions simplemap_options(const Scenario& scenario, const Recording& recording) {
   SimplemapOptions options;
   options.recording = recording;
@@ -42,6 +33,15 @@ ContactSheetOptions sheet_options(int frames, const std::string& title) {
 }
 
 }  // namespace
+
+RosOptions ros_options(const OutputScenario& outputs, const Recording& recording) {
+  RosOptions ros;
+  ros.recording = recording;
+  if (outputs.depth == DepthEncoding::metres) ros.depth = RosDepth::metres;
+  if (outputs.pictures == PictureEncoding::png) ros.pictures = RosPictures::png;
+  if (outputs.pictures == PictureEncoding::jpeg) ros.pictures = RosPictures::jpeg;
+  return ros;
+}
 
 Recording describe_recording(const Scenario& scenario, const AssetLibrary& assets,
                              const PileState& pile) {

@@ -8,6 +8,7 @@
 #include "app/asset_library.h"
 #include "io/recorder.h"
 #include "io/recording.h"
+#include "io/ros_recorder.h"
 #include "kernel/pile_state.h"
 #include "scripting/scenario.h"
 
@@ -21,6 +22,9 @@ struct RecorderSet {
 // What every frame of the run holds besides colour and depth, and what its numbers mean.
 Recording describe_recording(const Scenario& scenario, const AssetLibrary& assets,
                              const PileState& pile);
+
+// How messages of ROS hold the frames of that scenario, in files and live.
+RosOptions ros_options(const OutputScenario& outputs, const Recording& recording);
 
 // Those that the scenario asks for. frames: how many will come; title: of the contact sheet.
 RecorderSet make_recorders(const Scenario& scenario, const Recording& recording, int frames,

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "app/commands.h"
+#include "app/live.h"
 #include "app/run.h"
 #include "app/saved_run.h"
 #include "app/stop.h"
@@ -17,6 +18,7 @@ std::string choose_output(const RunRequest& request) {
 
 ExitCode run_to_folder(const RunRequest& request, RunKind kind) {
   stop_on_signals();
+  check_live(request.options);
   Run run = start_run(request, kind);
   RunFolder folder = RunFolder::create(choose_output(request), request.force);
   return complete(run, folder);
@@ -32,6 +34,7 @@ ExitCode settle_mission(const RunRequest& request) {
 
 ExitCode render_saved_pile(const std::string& from, const RunRequest& request) {
   stop_on_signals();
+  check_live(request.options);
   const SavedRun saved = open_saved_run(from);
   const PileState pile = load_pile_of(saved);
   Run run = start_render(request, saved);

@@ -8,12 +8,22 @@
 
 namespace rubble {
 
+// What goes over a network while frames are drawn; nothing unless asked (docs/live.md).
+struct LiveRequest {
+  bool ros1 = false;       // --ros1
+  std::string ros_master;  // --ros-master
+  std::string ros_ip;      // --ros-ip
+  double rate = 1;         // --rate, of simulation time to the wall's; 0: as fast as frames come
+  double wait = 0;         // --wait-for-subscribers; unit: s
+};
+
 // How to run, whatever is run: none of it changes a result.
 struct RunOptions {
   int threads = 0;               // --threads; 0: all processors
   bool quiet = false;            // --quiet: no progress
   int gl_device = -1;            // --gl-device, see GlContextOptions
   double checkpoint_every = 10;  // --checkpoint-every, while settling; unit: s
+  LiveRequest live;
 };
 
 struct RunRequest {

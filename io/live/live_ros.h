@@ -1,0 +1,42 @@
+// Live publishing: the messages of a recording, byte for byte those of its bag or MCAP file, over a
+// network while the frames are drawn. Components of the build that may be missing; what is asked of
+// a missing one throws InputError naming the Debian package.
+//
+// Simulation time goes out on /clock. Latched topics reach subscribers that come late. A slow
+// subscriber never holds up the run: it loses messages (see kQueue in the sources).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "io/ros_recorder.h"
+
+namespace rubble {
+
+struct LiveOptions {
+  double rate = 1;  // seconds of simulation in one of the wall's; 0: as fast as frames come
+  double wait = 0;  // before the first frame, at most that long, until every topic has a
+                    // subscriber; unit: s
+  std::function<bool()> stopped = [] { return false; };       // then nothing waits any longer
+  std::function<void(const std::string&)> notice = [](auto&) {};  // a line for a person; from any
+                                                                  // thread
+};
+
+struct Ros1Options : LiveOptions {
+  std::string master;   // URI; empty: $ROS_MASTER_URI, or http://localhost:11311
+  std::string address;  // by which others reach this machine; empty: $ROS_HOSTNAME, $ROS_IP, or
+                        // 127.0.0.1, and then only programs of this machine can connect
+};
+
+// Whether the component is there, for `rubble info`: its version, or what is missing.
+std::string describe_ros1();
+// To be called once, before other threads run. InputError: not built in, or a URI that is none.
+// RunError: no master answers.
+void check_ros1(const Ros1Options& options);
+// After check_ros1(), with the same options. Registers with the master; at most one at a time. A
+// master that goes is waited for and told of every topic when it returns; who was connected keeps
+// receiving meanwhile.
+std::unique_ptr<RosFile> make_ros1_stream(const Ros1Options& options);
+
+}  // namespace rubble

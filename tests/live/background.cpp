@@ -1,0 +1,68 @@
+#include "tests/live/background.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+
+Background::Background(const std::string& command, const std::string& output) : output_(output) {
+  const std::string line = command + " >'" + output + "' 2>&1 </dev/null";
+  pid_ = fork();
+  if (pid_ == 0) {
+    setpgid(0, 0);
+    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+    _exit(127);
+  }
+  setpgid(pid_, pid_);
+}
+
+Background::~Background() {
+  kill(-pid_, SIGKILL);
+  if (!ended_) waitpid(pid_, &status_, 0);
+}
+
+void Background::signal(int number) { kill(-pid_, number); }
+
+bool Background::ended() {
+  if (!ended_) ended_ = waitpid(pid_, &status_, WNOHANG) == pid_;
+  return ended_;
+}
+
+int Background::wait(double seconds) {
+  if (!eventually(seconds, [this] { return ended(); })) return -1;
+  return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+}
+
+std::string Background::output() const { return read_file(output_); }
+
+bool eventually(double seconds, const std::function<bool()>& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return true;
+}
+
+int free_port() {
+  const int socket_number = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  bind(socket_number, reinterpret_cast<sockaddr*>(&address), size);
+  getsockname(socket_number, reinterpret_cast<sockaddr*>(&address), &size);
+  close(socket_number);
+  return ntohs(address.sin_port);
+}
+
+}  // namespace rubble::testing

@@ -26,8 +26,11 @@ Background::Background(const std::string& command, const std::string& output) : 
 }
 
 Background::~Background() {
-  kill(-pid_, SIGKILL);
-  if (!ended_) waitpid(pid_, &status_, 0);
+  if (ended()) return;
+  signal(SIGINT);
+  if (eventually(10, [this] { return ended(); })) return;
+  signal(SIGKILL);
+  waitpid(pid_, &status_, 0);
 }
 
 void Background::signal(int number) { kill(-pid_, number); }

@@ -13,7 +13,7 @@ class Background {
   // Starts `command` by the shell, in a process group of its own; what it prints goes to the file
   // `output`.
   Background(const std::string& command, const std::string& output);
-  ~Background();  // kills the group
+  ~Background();  // as Ctrl-C does; who does not end by it is killed
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
 

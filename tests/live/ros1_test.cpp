@@ -16,8 +16,10 @@ constexpr char kTopics[] =
     "/clock /tf /tf_static /ground_truth/pose /camera/rgb/image_raw /camera/rgb/camera_info "
     "/camera/depth_registered/image_raw /camera/depth_registered/camera_info";
 
-// A flight of 15 s at 10 Hz, in real time.
-constexpr char kLong[] = "--set 'trajectory.waypoints[2].t=15' --set outputs.bag=false";
+// A flight at 10 Hz, in real time, long enough for what is done meanwhile.
+std::string flight_of(int seconds) {
+  return "--set 'trajectory.waypoints[2].t=" + std::to_string(seconds) + "' --set outputs.bag=false";
+}
 
 class LiveRos1 : public ::testing::Test {
  protected:
@@ -107,7 +109,7 @@ TEST_F(LiveRos1, TheStreamThatRosbagRecordsIsTheBag) {
 
 TEST_F(NightlyLiveRos1, ToolsSeeTheStreamInRealTimeAndLateComersTheStaticTransforms) {
   const auto master = start_master();
-  Background run(rubble(kLong), scratch_ / "run.txt");
+  Background run(rubble(flight_of(15)), scratch_ / "run.txt");
   ASSERT_TRUE(eventually(30, [this] { return succeeds("timeout 2 rostopic echo -n 1 /clock"); }));
   Background frequency(shell("rostopic hz -w 20 /camera/rgb/image_raw"), scratch_ / "hz.txt");
   Background fixed(shell("rostopic echo -n 1 /tf_static"), scratch_ / "static.txt");
@@ -125,7 +127,7 @@ TEST_F(NightlyLiveRos1, ToolsSeeTheStreamInRealTimeAndLateComersTheStaticTransfo
 
 TEST_F(NightlyLiveRos1, AMasterThatDiesAndReturnsIsToldOfTheTopicsAgain) {
   auto master = start_master();
-  Background run(rubble(kLong), scratch_ / "run.txt");
+  Background run(rubble(flight_of(30)), scratch_ / "run.txt");
   ASSERT_TRUE(eventually(30, [this] { return succeeds("timeout 2 rostopic echo -n 1 /clock"); }));
   Background early(shell("rostopic echo /clock"), scratch_ / "early.txt");
   ASSERT_TRUE(eventually(10, [&] { return !early.output().empty(); }));

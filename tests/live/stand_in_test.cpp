@@ -1,0 +1,27 @@
+// What stands in for a component of live publishing where its packages are not installed. Compiled in
+// every build, so that it is known to compile in the others.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "io/live/live_ros.h"
+#include "kernel/base/error.h"
+
+namespace rubble {
+namespace {
+
+TEST(LiveStandIn, NamesThePackageThatRos1Needs) {
+  EXPECT_NE(describe_ros1().find("libroscpp-dev"), std::string::npos);
+  try {
+    check_ros1({});
+    FAIL() << "it went on";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("--ros1"), std::string::npos) << text;
+    EXPECT_NE(text.find("libroscpp-dev"), std::string::npos) << text;
+  }
+  EXPECT_THROW(make_ros1_stream({}), InputError);
+}
+
+}  // namespace
+}  // namespace rubble

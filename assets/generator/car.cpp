@@ -11,6 +11,7 @@ namespace {
 constexpr Surface kPaint = Surface::car_paint;
 constexpr Surface kDark = Surface::rubber;
 constexpr Surface kPane = Surface::glass;
+constexpr Surface kUnderside = Surface::steel_rusty;
 
 // Of a compact saloon; unit: m
 constexpr double kNose = 2.10, kTail = -2.10, kHalfWidth = 0.86;
@@ -73,6 +74,8 @@ Cell body_cell() {
     cell.push_back({normalized(Vec3{1, side * 0.55, 0}), 2.12, kPaint});  // corners of the nose
     cell.push_back({normalized(Vec3{-1, side * 0.45, 0}), 2.16, kPaint});
   }
+  for (Face& f : cell)
+    if (f.normal.z < -0.9) f.surface = kUnderside;
   return cell;
 }
 

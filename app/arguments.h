@@ -30,6 +30,8 @@ void add_device_option(CLI::App& command, int& device);
 
 void add_run_options(CLI::App& command, RunOptions& options);
 
+// Who to publish to; `text` says what --ros1 does.
+void add_ros_options(CLI::App& command, LiveRequest& live, const std::string& text);
 // For commands that draw frames: publish them meanwhile.
 void add_live_options(CLI::App& command, LiveRequest& live);
 

@@ -38,4 +38,11 @@ void add_live_recorders(RecorderSet& set, const RunOptions& options, const RosOp
         make_ros_recorder("--ros1", make_ros1_stream(ros1_options(options)), ros));
 }
 
+std::unique_ptr<DriveStream> make_drive_stream(const RunOptions& options) {
+  if (!options.live.ros1) return nullptr;
+  Ros1Options ros1 = ros1_options(options);
+  ros1.rate = 0;
+  return make_ros1_drive(ros1);
+}
+
 }  // namespace rubble

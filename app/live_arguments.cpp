@@ -16,9 +16,8 @@ double read_rate(const std::string& text) {
 
 }  // namespace
 
-void add_live_options(CLI::App& command, LiveRequest& live) {
-  CLI::Option* const ros1 =
-      command.add_flag("--ros1", live.ros1, "Publish the frames to ROS 1 while they are drawn");
+void add_ros_options(CLI::App& command, LiveRequest& live, const std::string& text) {
+  CLI::Option* const ros1 = command.add_flag("--ros1", live.ros1, text);
   command.add_option("--ros-master", live.ros_master, "The ROS master (default: $ROS_MASTER_URI)")
       ->type_name("URI")
       ->needs(ros1);
@@ -28,6 +27,10 @@ void add_live_options(CLI::App& command, LiveRequest& live) {
                   "only this machine)")
       ->type_name("ADDRESS")
       ->needs(ros1);
+}
+
+void add_live_options(CLI::App& command, LiveRequest& live) {
+  add_ros_options(command, live, "Publish the frames to ROS 1 while they are drawn");
   command
       .add_option_function<std::string>(
           "--rate", [&live](const std::string& text) { live.rate = read_rate(text); },

@@ -87,6 +87,8 @@ Action add_drive(CLI::App& command) {
   command.add_option("--steps", request->steps, "End after so many steps (default: none)")
       ->check(CLI::Range(0, 1000000000));
   command.add_flag("--record", request->record, "Write the mission's recordings while driving");
+  add_ros_options(command, request->of.options.live,
+                  "Publish the frames to ROS 1, and let /cmd_vel and /joy drive, too");
   command.add_option("--out", request->of.out, "Output folder (default: out/<script>_drive)")
       ->type_name("DIR");
   command.add_flag("--force", request->of.force, "Replace the legs of an earlier drive");

@@ -28,6 +28,9 @@ struct DriveInput {
   // Held axes, range: -1 to 1. Turns are about the camera body's X, Y and Z axes: positive rolls to
   // the right, lowers the nose, turns left.
   double forward = 0, roll = 0, pitch = 0, yaw = 0;
+  // Asked for in figures, besides; bounded by DriveLimits. In the camera body frame (X forward,
+  // Y left, Z up); units: m/s, rad/s
+  Vec3 linear, angular;
   Vec3 look_deg;                     // turned at once, by the mouse: about X, Y, Z; unit: degree
   std::vector<DriveAction> actions;  // in the order in which they came
 };

@@ -33,12 +33,14 @@ std::unique_ptr<RecordingQueue> start_recording(const DriveWorld& world,
 
 }  // namespace
 
-DriveLeg::DriveLeg(DriveWorld& world, const std::string& folder, int number, bool record)
+DriveLeg::DriveLeg(DriveWorld& world, const std::string& folder, int number, bool record,
+                   FrameListener listener)
     : folder_(folder),
       name_(number_name(number)),
       log_(world.scenario),
       camera_(*world.renderer, build_camera(world.scenario, world.threads), Flight{},
-              Medium(world.scenario.air, world.scenario.seed)) {
+              Medium(world.scenario.air, world.scenario.seed)),
+      listener_(std::move(listener)) {
   if (record) queue_ = start_recording(world, folder_ + "/" + name_);
 }
 
@@ -56,6 +58,7 @@ void DriveLeg::pass_on() {
   frame_.linear_velocity = log_.velocity(frame_.index);
   hashes_.add(frame_);
   if (queue_) queue_->push(frame_);
+  if (listener_) listener_(frame_);
 }
 
 void DriveLeg::save() {

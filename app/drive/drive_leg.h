@@ -5,6 +5,7 @@
 //   DIR/leg_001/         with --record: the mission's recordings
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -16,10 +17,14 @@
 
 namespace rubble {
 
+// Told of each frame once all is known of it, in order.
+using FrameListener = std::function<void(const Frame&)>;
+
 class DriveLeg {
  public:
-  // The renderer must be new, or restarted. Both must outlive the leg.
-  DriveLeg(DriveWorld& world, const std::string& folder, int number, bool record);
+  // The renderer must be new, or restarted. World and renderer must outlive the leg.
+  DriveLeg(DriveWorld& world, const std::string& folder, int number, bool record,
+           FrameListener listener = {});
 
   // The frame from there, one step after the one before.
   const Frame& step(const DrivenPose& pose);
@@ -39,6 +44,7 @@ class DriveLeg {
   FrameHashes hashes_;
   Frame frame_;
   std::unique_ptr<RecordingQueue> queue_;
+  FrameListener listener_;
 };
 
 // Makes the folder. Throws InputError when legs of an earlier drive are in it; with `force` they are

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/commands.h"
+#include "app/live.h"
 #include "app/stop.h"
 
 namespace rubble {
@@ -49,6 +50,7 @@ DriveSession::DriveSession(const DriveRequest& request)
                 request.of.options.threads > 0 ? request.of.options.threads
                                                : int(std::thread::hardware_concurrency())}) {
   prepare_drive_folder(folder_, request_.of.force);
+  link_ = DriveLink::connect(request_.of.options);
   enter(std::nullopt);
   std::fprintf(stderr, "drive: ready, H for help\n");
 }
@@ -73,6 +75,7 @@ void DriveSession::enter(std::optional<std::uint64_t> seed) {
                                            world_->geometry->queries, world_->limits);
   map_frame_ = frame_map(world_->pile, world_->entry.position, request_.height);
   map_ = draw_height_map(world_->geometry->queries, map_frame_, world_->threads);
+  if (link_) link_->enter(*world_);
   picture_.track.clear();
   window_.set_title("rubble drive: " + request_.of.mission + ", seed " +
                     std::to_string(world_->scenario.seed));
@@ -84,7 +87,8 @@ void DriveSession::run() {
   Clock::time_point due = Clock::now(), counted = due;
   while (!quit_ && !stop_requested() && (request_.steps == 0 || steps_ < request_.steps)) {
     for (const std::string& heard : window_.poll(controls_)) say(heard);
-    const DriveInput input = controls_.take();
+    DriveInput input = controls_.take();
+    if (link_) link_->add_to(input, 1 / world_->scenario.trajectory.rate_hz);
     for (const DriveAction action : input.actions) act(action);
     if (quit_) break;
     if (!paused_) step(input);
@@ -98,6 +102,7 @@ void DriveSession::run() {
     counted = now;
   }
   end_leg();
+  if (link_) link_->finish();
 }
 
 void DriveSession::step(const DriveInput& input) {
@@ -106,13 +111,18 @@ void DriveSession::step(const DriveInput& input) {
     change_lamp_and_air();
   }
   if (!leg_)
-    leg_ = std::make_unique<DriveLeg>(*world_, folder_, ++legs_, request_.record);
+    leg_ = std::make_unique<DriveLeg>(*world_, folder_, ++legs_, request_.record, listener());
   else
     camera_->step(input, 1 / world_->scenario.trajectory.rate_hz);
   leg_->step(camera_->pose());
   const Vec3& p = camera_->pose().position;
   picture_.track.push_back({map_frame_.column(p), map_frame_.row(p)});
   ++steps_;
+}
+
+FrameListener DriveSession::listener() {
+  if (!link_) return {};
+  return [this](const Frame& frame) { link_->publish(frame); };
 }
 
 void DriveSession::end_leg() {
@@ -223,6 +233,7 @@ void DriveSession::save_picture() {
 
 ExitCode drive_mission(const DriveRequest& request) {
   stop_on_signals();
+  check_live(request.of.options);
   DriveSession session(request);
   session.run();
   return ExitCode::done;

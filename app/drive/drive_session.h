@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/drive/drive_leg.h"
+#include "app/drive/drive_link.h"
 #include "app/drive/drive_window.h"
 #include "app/drive/height_map.h"
 #include "io/drive_picture.h"
@@ -26,6 +27,7 @@ class DriveSession {
   void act(DriveAction action);
   void change_lamp_and_air();
   void end_leg();
+  FrameListener listener();
   void step(const DriveInput& input);
   void show();
   std::vector<std::string> status() const;
@@ -39,6 +41,7 @@ class DriveSession {
   GlContext context_;
   std::unique_ptr<DriveWorld> world_;
   std::unique_ptr<DrivenCamera> camera_;
+  std::unique_ptr<DriveLink> link_;  // none unless asked for
   std::unique_ptr<DriveLeg> leg_;  // none until its first step
   MapFrame map_frame_;
   DrivePicture picture_;

@@ -71,8 +71,10 @@ void check_entry(const DriveWorld& world) {
 DriveLimits limits_of(const TrajectorySpec& spec) {
   DriveLimits limits;
   if (spec.limits.max_speed) limits.most_speed = *spec.limits.max_speed;
-  if (spec.limits.max_turn_rate_deg)
-    limits.turn_rate_deg = std::min(limits.turn_rate_deg, *spec.limits.max_turn_rate_deg);
+  if (spec.limits.max_turn_rate_deg) {
+    limits.most_turn_rate_deg = *spec.limits.max_turn_rate_deg;
+    limits.turn_rate_deg = std::min(limits.turn_rate_deg, limits.most_turn_rate_deg);
+  }
   limits.least_speed = std::min(limits.least_speed, limits.most_speed);
   limits.speed = spec.speed;
   return limits;

@@ -13,6 +13,12 @@ constexpr double kFineStep = 1e-3;  // near things the way is walked in steps of
 constexpr double kLift = 1e-5;      // off the surface that is slid along; unit: m
 constexpr int kMostSlides = 3;      // a corner has three faces
 
+// No longer than that, in the same direction.
+Vec3 bounded(const Vec3& v, double most) {
+  const double length = norm(v);
+  return length > most ? v * (most / length) : v;
+}
+
 Vec3 without_negative_zero(const Vec3& v) { return v + Vec3{}; }
 
 }  // namespace
@@ -61,14 +67,18 @@ bool DrivenCamera::has_room() const {
 void DrivenCamera::step(const DriveInput& input, double seconds) {
   held_back_ = false;
   turn(input, seconds);
-  const Vec3 axis = pose_.world_from_camera().rotation.rotate({1, 0, 0});
-  if (input.forward != 0) move(axis * (input.forward * speed_ * seconds));
+  const Quat rotation = pose_.world_from_camera().rotation;
+  const Vec3 linear = bounded(input.linear, limits_.most_speed);
+  Vec3 way = rotation.rotate({1, 0, 0}) * (input.forward * speed_ * seconds);
+  if (norm(linear) > 0) way += rotation.rotate(linear) * seconds;
+  if (norm(way) > 0) move(way);
 }
 
 // The three turns are one, about an axis of their own: none comes before another.
 void DrivenCamera::turn(const DriveInput& input, double seconds) {
   const Vec3 held{input.roll, input.pitch, input.yaw};
   Vec3 by = (held * (limits_.turn_rate_deg * seconds) + input.look_deg) * kDegree;
+  by += bounded(input.angular, limits_.most_turn_rate_deg * kDegree) * seconds;
   const double angle = norm(by);
   if (!(angle > 0)) return;
   const portable::SinCos half = portable::sincos(0.5 * std::min(angle, portable::kPi));

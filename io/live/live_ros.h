@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 
+#include "io/live/drive_commands.h"
 #include "io/ros_recorder.h"
 
 namespace rubble {
@@ -38,5 +39,12 @@ void check_ros1(const Ros1Options& options);
 // master that goes is waited for and told of every topic when it returns; who was connected keeps
 // receiving meanwhile.
 std::unique_ptr<RosFile> make_ros1_stream(const Ros1Options& options);
+
+// A stream that hears commands, too: those of /cmd_vel and /joy.
+class DriveStream : public RosFile {
+ public:
+  virtual DriveCommands take() = 0;  // what came since the last call; never waits
+};
+std::unique_ptr<DriveStream> make_ros1_drive(const Ros1Options& options);
 
 }  // namespace rubble

@@ -9,6 +9,7 @@
 #include "io/live/live_ros.h"
 #include "io/live/master_watch.h"
 #include "io/live/pace.h"
+#include "io/live/ros1_commands.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
@@ -98,11 +99,14 @@ void choose_address(const std::string& address) {
   }
 }
 
-class Ros1Stream : public RosFile {
+class Ros1Stream : public DriveStream {
  public:
-  explicit Ros1Stream(const Ros1Options& options) : options_(options), pace_(options) {
+  Ros1Stream(const Ros1Options& options, bool hears) : options_(options), pace_(options) {
     ::ros::master::setRetryTimeout(::ros::WallDuration(5));
     node_ = std::make_unique<::ros::NodeHandle>();
+    if (!hears) return;
+    commands_ = std::make_unique<Ros1Commands>(*node_, options.notice);
+    topics_ = commands_->topics();
   }
   ~Ros1Stream() override { close(); }
 
@@ -126,6 +130,8 @@ class Ros1Stream : public RosFile {
     pace_.wait_until(stamp_ns);
     publishers_[topic].publish(SerializedBytes{message});
   }
+
+  DriveCommands take() override { return commands_ ? commands_->take() : DriveCommands{}; }
 
   void finish() override {
     if (any_subscriber()) std::this_thread::sleep_for(kLinger);
@@ -151,6 +157,7 @@ class Ros1Stream : public RosFile {
 
   void close() {
     watch_.reset();
+    commands_.reset();
     publishers_.clear();
     node_.reset();
     ::ros::shutdown();
@@ -160,7 +167,8 @@ class Ros1Stream : public RosFile {
   Pace pace_;
   std::unique_ptr<::ros::NodeHandle> node_;
   std::vector<::ros::Publisher> publishers_;
-  std::vector<PublishedTopic> topics_;
+  std::unique_ptr<Ros1Commands> commands_;  // of a stream that hears
+  std::vector<KnownTopic> topics_;
   std::unique_ptr<MasterWatch> watch_;  // from the first message on
 };
 
@@ -183,7 +191,11 @@ void check_ros1(const Ros1Options& options) {
 }
 
 std::unique_ptr<RosFile> make_ros1_stream(const Ros1Options& options) {
-  return std::make_unique<Ros1Stream>(options);
+  return std::make_unique<Ros1Stream>(options, false);
+}
+
+std::unique_ptr<DriveStream> make_ros1_drive(const Ros1Options& options) {
+  return std::make_unique<Ros1Stream>(options, true);
 }
 
 }  // namespace rubble

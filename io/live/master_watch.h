@@ -10,15 +10,16 @@
 
 namespace rubble {
 
-struct PublishedTopic {
+struct KnownTopic {
   std::string topic, type;  // as the master lists them
+  enum Way { published, heard } way = published;
 };
 
 class MasterWatch {
  public:
   // From now on asks the master twice a second whether it knows this node, and registers `topics`
   // when it does not. notice: told when the master is gone and when it is back.
-  MasterWatch(std::vector<PublishedTopic> topics, std::function<void(const std::string&)> notice);
+  MasterWatch(std::vector<KnownTopic> topics, std::function<void(const std::string&)> notice);
   ~MasterWatch();  // waits for a request under way
 
  private:
@@ -26,7 +27,7 @@ class MasterWatch {
   bool knows_us() const;
   bool register_all() const;
 
-  std::vector<PublishedTopic> topics_;
+  std::vector<KnownTopic> topics_;
   std::function<void(const std::string&)> notice_;
   std::atomic<bool> stop_{false};
   std::thread thread_;  // last: it uses the others

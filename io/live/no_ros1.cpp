@@ -16,4 +16,9 @@ std::unique_ptr<RosFile> make_ros1_stream(const Ros1Options& options) {
   return nullptr;
 }
 
+std::unique_ptr<DriveStream> make_ros1_drive(const Ros1Options& options) {
+  check_ros1(options);
+  return nullptr;
+}
+
 }  // namespace rubble

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "io/live/live_ros.h"
 #include "tests/app/program.h"
 #include "tests/live/background.h"
 
@@ -142,6 +143,38 @@ TEST_F(NightlyLiveRos1, AMasterThatDiesAndReturnsIsToldOfTheTopicsAgain) {
   EXPECT_TRUE(succeeds("timeout 5 rostopic echo -n 1 /camera/rgb/camera_info"));
   EXPECT_TRUE(succeeds("timeout 5 rostopic echo -n 1 /tf_static"));
   EXPECT_EQ(run.wait(60), 0) << run.output();
+}
+
+// In this process, as a drive does it, but without one.
+TEST_F(NightlyLiveRos1, CommandsAreHeardAgainWhenAMasterReturns) {
+  auto master = start_master();
+  Ros1Options options;
+  options.master = uri_;
+  options.rate = 0;
+  check_ros1(options);
+  const std::unique_ptr<DriveStream> drive = make_ros1_drive(options);
+  drive->write(drive->add("/clock", ros::kClock, false), 1, ros::clock(drive->version(), 1));
+  const auto hears = [&](double speed) {
+    return eventually(20, [&] {
+      const DriveCommands commands = drive->take();
+      return !commands.twists.empty() && commands.twists.back().linear.x == speed;
+    });
+  };
+  const auto say = [&](const char* speed, const std::string& file) {
+    return std::make_unique<Background>(
+        shell("rostopic pub -r 10 /cmd_vel geometry_msgs/Twist '{linear: {x: " + std::string(speed) + "}}'"),
+        scratch_ / file);
+  };
+  auto first = say("0.25", "first.txt");
+  EXPECT_TRUE(hears(0.25)) << first->output();
+  first.reset();
+  EXPECT_FALSE(eventually(1, [&] { return !drive->take().twists.empty(); }));
+  master->signal(SIGKILL);
+  master.reset();
+  master = start_master();
+  const auto second = say("0.5", "second.txt");
+  EXPECT_TRUE(hears(0.5)) << second->output();
+  drive->finish();
 }
 
 }  // namespace

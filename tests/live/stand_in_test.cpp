@@ -21,6 +21,7 @@ TEST(LiveStandIn, NamesThePackageThatRos1Needs) {
     EXPECT_NE(text.find("libroscpp-dev"), std::string::npos) << text;
   }
   EXPECT_THROW(make_ros1_stream({}), InputError);
+  EXPECT_THROW(make_ros1_drive({}), InputError);
 }
 
 }  // namespace

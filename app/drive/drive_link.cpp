@@ -1,0 +1,69 @@
+#include "app/drive/drive_link.h"
+
+#include <cmath>
+
+#include "app/live.h"
+#include "io/live/live_ros.h"
+
+namespace rubble {
+namespace {
+
+// A recorder's view of the stream: what is known stays, and the end of one world is not the end.
+class KeptStream : public RosFile {
+ public:
+  KeptStream(DriveStream& stream, std::map<std::string, std::uint32_t>& topics)
+      : stream_(stream), topics_(topics) {}
+
+  ros::Version version() const override { return stream_.version(); }
+  std::uint32_t add(const std::string& topic, const ros::MessageType& type, bool latched) override {
+    const auto known = topics_.find(topic);
+    if (known != topics_.end()) return known->second;
+    return topics_[topic] = stream_.add(topic, type, latched);
+  }
+  void write(std::uint32_t topic, std::int64_t stamp_ns, std::string_view message) override {
+    stream_.write(topic, stamp_ns, message);
+  }
+  void finish() override {}
+
+ private:
+  DriveStream& stream_;
+  std::map<std::string, std::uint32_t>& topics_;
+};
+
+}  // namespace
+
+std::unique_ptr<DriveLink> DriveLink::connect(const RunOptions& options) {
+  std::unique_ptr<DriveStream> stream = make_drive_stream(options);
+  if (!stream) return nullptr;
+  return std::unique_ptr<DriveLink>(new DriveLink(std::move(stream)));
+}
+
+DriveLink::DriveLink(std::unique_ptr<DriveStream> stream) : stream_(std::move(stream)) {}
+DriveLink::~DriveLink() = default;
+
+void DriveLink::enter(const DriveWorld& world) {
+  const Recording recording = describe_recording(world.scenario, world.assets, world.pile);
+  recorder_ = make_ros_recorder("the live stream", std::make_unique<KeptStream>(*stream_, topics_),
+                                ros_options(world.scenario.outputs, recording));
+  start_ns_ = world.scenario.start_ns;
+  rate_hz_ = world.scenario.trajectory.rate_hz;
+  of_this_world_ = 0;
+}
+
+void DriveLink::add_to(DriveInput& input, double seconds) {
+  controls_.hear(stream_->take(), seconds);
+  controls_.add_to(input);
+}
+
+// Stamps as DriveLog::stamp_ns().
+void DriveLink::publish(const Frame& frame) {
+  Frame sent = frame;
+  sent.index = of_this_world_++;
+  sent.stamp_ns =
+      start_ns_ + std::int64_t(std::floor(double(published_++) * 1e9 / rate_hz_ + 0.5));
+  recorder_->write(sent);
+}
+
+void DriveLink::finish() { stream_->finish(); }
+
+}  // namespace rubble

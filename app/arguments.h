@@ -43,6 +43,23 @@ void add_folder_options(CLI::App& command, FolderRequest& request);
 // Of commands that start several runs.
 void add_jobs_options(CLI::App& command, int& jobs, RunOptions& options);
 
+// Of commands that look for voids: of VoidRequest and MapRequest alike. voxel: its default.
+template <typename Request>
+void add_space_options(CLI::App& command, Request& request, const std::string& voxel) {
+  command.add_option("--radius", request.radii, "Radius of a robot (default: 0.1, 0.2 and 0.3)")
+      ->type_name("METRES")
+      ->allow_extra_args(false)
+      ->take_all();
+  command.add_option("--voxel", request.voxel, "Edge of a voxel (default: " + voxel + ")")
+      ->type_name("METRES");
+  command
+      .add_option("--outside-radius", request.outside_radius,
+                  "Outside is what a ball of this radius reaches from the sky (default: 2)")
+      ->type_name("METRES");
+  command.add_option("--memory", request.memory_gib, "Refuse to need more (default: 4)")
+      ->type_name("GIB");
+}
+
 // `rubble eval`.
 Action add_eval(CLI::App& command);
 

@@ -39,6 +39,8 @@ ExitCode eval_trajectory(const TrajectoryRequest& request);
 ExitCode eval_sfm(const SfmRequest& request);
 // A mesh or point cloud against the true surface.
 ExitCode eval_surface(const SurfaceRequest& request);
+// A map against the surface that its run saw, and against the voids (docs/map_score.md).
+ExitCode eval_map(const MapRequest& request);
 // The pile of the finished run as meshes and worlds for other programs.
 ExitCode export_saved_pile(const FolderRequest& request, const ExportRequest& to);
 // Resolves everything, runs nothing, prints the complete scenario as JSON on standard output.

@@ -68,6 +68,35 @@ Action add_eval_surface(CLI::App& command) {
   return [request] { return eval_surface(*request); };
 }
 
+Action add_eval_map(CLI::App& command) {
+  const auto request = std::make_shared<MapRequest>();
+  command.add_option("map", request->map, "The map: a mesh or point cloud, PLY")->required();
+  command.add_option("dataset", request->dataset, "Output folder of the run it was made from")
+      ->required();
+  command
+      .add_option("--align", request->align,
+                  "The COLMAP model whose frame the map has, brought to the world by a similarity "
+                  "(default: the map is in the world of the dataset)")
+      ->type_name("DIR");
+  command
+      .add_option("--range", request->range,
+                  "Farther than this no frame sees (default: the depth sensor's range, or 10)")
+      ->type_name("METRES")
+      ->check(CLI::Range(0.01, 1000.0));
+  add_space_options(command, *request, "0.05");
+  command
+      .add_option("--details", request->details,
+                  "Write there the map by its errors and the seen surface by what the map has of it "
+                  "(PLY), and the entrances (CSV)")
+      ->type_name("DIR");
+  add_list(command, "--assets", request->asset_packs, "A folder where packs may be now", "DIR");
+  add_score_options(command, request->output);
+  add_threads_option(command, request->options.threads,
+                     "Threads to use; 0: all processors. Results do not depend on it");
+  command.add_flag("--quiet", request->options.quiet, "No progress, only errors");
+  return [request] { return eval_map(*request); };
+}
+
 }  // namespace
 
 Action add_eval(CLI::App& command) {
@@ -78,9 +107,13 @@ Action add_eval(CLI::App& command) {
       "sfm", "What COLMAP made of datasets: track, points, distance to the true surface");
   CLI::App* const surface =
       command.add_subcommand("surface", "Distance of a mesh or cloud from the true surface");
+  CLI::App* const map = command.add_subcommand(
+      "map", "A map against the surface that its run saw, and the voids it found");
   const Action on_trajectory = add_eval_trajectory(*trajectory), on_sfm = add_eval_sfm(*sfm),
-               on_surface = add_eval_surface(*surface);
-  return [=] { return *sfm ? on_sfm() : *surface ? on_surface() : on_trajectory(); };
+               on_surface = add_eval_surface(*surface), on_map = add_eval_map(*map);
+  return [=] {
+    return *sfm ? on_sfm() : *surface ? on_surface() : *map ? on_map() : on_trajectory();
+  };
 }
 
 }  // namespace rubble

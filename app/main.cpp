@@ -21,18 +21,7 @@ namespace {
 using Commands = std::vector<std::pair<CLI::App*, Action>>;
 
 void add_void_options(CLI::App& command, VoidRequest& request) {
-  command.add_option("--radius", request.radii, "Radius of a robot (default: 0.1, 0.2 and 0.3)")
-      ->type_name("METRES")
-      ->allow_extra_args(false)
-      ->take_all();
-  command.add_option("--voxel", request.voxel, "Edge of a voxel (default: 0.02)")
-      ->type_name("METRES");
-  command
-      .add_option("--outside-radius", request.outside_radius,
-                  "Outside is what a ball of this radius reaches from the sky (default: 2)")
-      ->type_name("METRES");
-  command.add_option("--memory", request.memory_gib, "Refuse to need more (default: 4)")
-      ->type_name("GIB");
+  add_space_options(command, request, "0.02");
   command
       .add_option("--surfaces", request.surfaces,
                   "Write the surfaces of so many voids of each radius, largest first (default: 20)")

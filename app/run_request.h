@@ -103,4 +103,18 @@ struct SurfaceRequest {
   ScoreOutput output;
 };
 
+struct MapRequest {
+  std::string map, dataset;                  // a PLY file; the folder of a run
+  std::string align;                         // --align: COLMAP model whose frame the map has
+  std::vector<double> radii{0.1, 0.2, 0.3};  // --radius, of robots; unit: m
+  double voxel = 0.05;                       // --voxel, of the map's free space; unit: m
+  double outside_radius = 2;                 // --outside-radius: see kernel/voids/void_space.h
+  std::optional<double> range;               // --range: of the camera's depth; unit: m
+  double memory_gib = 4;                     // --memory, of the free space
+  std::string details;                       // --details: folder for clouds and the entrances
+  std::vector<std::string> asset_packs;      // --assets
+  ScoreOutput output;
+  RunOptions options;
+};
+
 }  // namespace rubble

@@ -66,15 +66,6 @@ void print_score(const std::vector<ScoreRow>& rows, const ScoreOutput& output) {
   std::fputs((output.json ? score_json(rows) : score_text(rows)).c_str(), stdout);
 }
 
-// A mesh that was made in the frame of a model, brought to the world of the dataset.
-void align_mesh(const std::string& model, const SfmTruth& truth, PlyMesh& mesh) {
-  const std::vector<SfmSegment> segments = load_segments(model, truth);
-  if (!segments.front().by_poses)
-    throw InputError({model, 0, "--align", "cannot be aligned", "cameras at two different places",
-                      std::to_string(segments.front().frames.size()) + " cameras", ""});
-  for (Vec3& p : mesh.positions) p = *segments.front().by_poses * p;
-}
-
 }  // namespace
 
 ExitCode eval_sfm(const SfmRequest& request) {
@@ -95,7 +86,7 @@ ExitCode eval_surface(const SurfaceRequest& request) {
   for (const std::string& path : request.output.files) check_score_file(path);
   const SfmTruth truth = load_sfm_truth(request.dataset);
   PlyMesh mesh = load_ply(request.mesh);
-  if (!request.align.empty()) align_mesh(request.align, truth, mesh);
+  if (!request.align.empty()) align_to_world(request.align, truth, mesh.positions);
   const SavedSurface surface(request.dataset, request.asset_packs);
   const PileQueries& queries = surface.geometry.queries;
   const auto score = calc_surface_score(sample_surface(mesh, kSpacing), queries,

@@ -41,6 +41,10 @@ struct SfmSegment {
 // image, an image that the truth does not have or that a model has twice.
 std::vector<SfmSegment> load_segments(const std::string& folder, const SfmTruth& truth);
 
+// Brings points from the frame of a model, the largest in `folder`, to the world. Throws InputError
+// when its cameras do not determine that.
+void align_to_world(const std::string& folder, const SfmTruth& truth, std::vector<Vec3>& points);
+
 // Least squares over the centres of the cameras and the ends of their three axes, each as long as
 // the centres are apart (root mean square of the true ones about their mean).
 std::optional<Similarity> align_poses(const std::vector<Pose>& from, const std::vector<Pose>& to);

@@ -128,4 +128,12 @@ std::vector<SfmSegment> load_segments(const std::string& folder, const SfmTruth&
   return segments;
 }
 
+void align_to_world(const std::string& folder, const SfmTruth& truth, std::vector<Vec3>& points) {
+  const std::vector<SfmSegment> segments = load_segments(folder, truth);
+  if (!segments.front().by_poses)
+    throw InputError({folder, 0, "--align", "cannot be aligned", "cameras at two different places",
+                      std::to_string(segments.front().frames.size()) + " cameras", ""});
+  for (Vec3& p : points) p = *segments.front().by_poses * p;
+}
+
 }  // namespace rubble

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <unordered_set>
 
+#include "app/eval/point_grid.h"
+#include "app/eval/space_key.h"
 #include "kernel/base/random.h"
 
 namespace rubble {
@@ -13,19 +14,7 @@ namespace {
 constexpr int kRaysPerRow = 64;
 constexpr double kRange = 12;    // unit: m
 constexpr double kCell = 0.05;   // unit: m
-constexpr double kCover = 0.05;  // unit: m; at most kCell, so that neighbours of a cell are enough
-
-// A cell of the grid as one number, for coordinates within 50 km.
-std::int64_t cell_key(std::int64_t x, std::int64_t y, std::int64_t z) {
-  constexpr std::int64_t kHalf = 1 << 20;
-  return ((x + kHalf) << 42) | ((y + kHalf) << 21) | (z + kHalf);
-}
-
-std::int64_t cell_index(double v) { return std::int64_t(std::floor(v / kCell)); }
-
-std::int64_t cell_of(const Vec3& p) {
-  return cell_key(cell_index(p.x), cell_index(p.y), cell_index(p.z));
-}
+constexpr double kCover = 0.05;  // unit: m
 
 // The ray of a pixel in the optical frame; u and v in COLMAP's pixels.
 Vec3 ray_of(const ColmapCamera& camera, double u, double v) {
@@ -45,34 +34,6 @@ const ColmapCamera& camera_of(const ColmapModel& model, std::uint32_t id) {
   return model.cameras.front();  // load_colmap_model let no other pass
 }
 
-// Points by the cell they are in; asks whether one is within kCover of a place.
-class PointGrid {
- public:
-  explicit PointGrid(const std::vector<Vec3>& points) {
-    for (const Vec3& p : points) cells_[cell_of(p)].push_back(p);
-  }
-
-  bool covers(const Vec3& p) const {
-    for (int dx = -1; dx <= 1; ++dx)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dz = -1; dz <= 1; ++dz) {
-          const auto cell = cells_.find(
-              cell_key(cell_index(p.x) + dx, cell_index(p.y) + dy, cell_index(p.z) + dz));
-          if (cell == cells_.end()) continue;
-          for (const Vec3& q : cell->second)
-            if (distance(p, q) <= kCover) return true;
-        }
-    return false;
-  }
-
- private:
-  std::unordered_map<std::int64_t, std::vector<Vec3>> cells_;
-};
-
-bool is_near_origin(const Vec3& p) {
-  return std::abs(p.x) < 1e4 && std::abs(p.y) < 1e4 && std::abs(p.z) < 1e4;
-}
-
 }  // namespace
 
 std::vector<Vec3> find_visible_surface(const PileQueries& queries, const ColmapModel& truth) {
@@ -86,7 +47,7 @@ std::vector<Vec3> find_visible_surface(const PileQueries& queries, const ColmapM
       for (double u = step / 2; u < double(camera.width); u += step) {
         const Vec3 direction = world_from_optical.rotation.rotate(ray_of(camera, u, v));
         const auto hit = queries.cast_ray(world_from_optical.translation, direction, kRange);
-        if (hit && taken.insert(cell_of(hit->point)).second) visible.push_back(hit->point);
+        if (hit && taken.insert(space_key_of(hit->point, kCell)).second) visible.push_back(hit->point);
       }
   }
   return visible;
@@ -126,11 +87,10 @@ std::optional<SurfaceScore> calc_surface_score(const std::vector<Vec3>& points,
   };
   score.within_1cm = share(0.01), score.within_2cm = share(0.02), score.within_5cm = share(0.05);
   score.median = distances[distances.size() / 2];
-  std::vector<Vec3> near;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(near), is_near_origin);
-  const PointGrid grid(near);
+  const PointGrid grid(points, 1.000001 * kCover);  // a point at kCover sharp covers, too
   const auto covered =
-      std::count_if(visible.begin(), visible.end(), [&](const Vec3& p) { return grid.covers(p); });
+      std::count_if(visible.begin(), visible.end(),
+                    [&](const Vec3& p) { return grid.find_distance(p) <= kCover; });
   if (!visible.empty()) score.completeness_5cm = double(covered) / double(visible.size());
   return score;
 }

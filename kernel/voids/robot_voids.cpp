@@ -201,6 +201,7 @@ class Finder {
     std::size_t widest = openings[group.front()];
     for (const std::size_t k : group) {
       const std::size_t i = openings[k];
+      e.openings.push_back(std::uint32_t(i));
       outward += calc_outward(i).second;
       if (space_.clearance[i] > space_.clearance[widest] ||
           (space_.clearance[i] == space_.clearance[widest] && i < widest))

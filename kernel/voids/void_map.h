@@ -22,6 +22,7 @@ struct Entrance {
   Vec3 inward;        // unit length
   double radius = 0;  // of the largest ball that passes there; unit: m
   double area = 0;    // of the opening, for the robot's centre, seen along `inward`; unit: m2
+  std::vector<std::uint32_t> openings;  // places of its centre from which one step leads outside
 };
 
 struct Void {

@@ -20,6 +20,8 @@
 namespace rubble {
 namespace {
 
+constexpr double kShownAround = 0.5;  // of the outside, in pictures; unit: m
+
 std::string millimetres(double radius) { return std::to_string(int(std::lround(radius * 1000))); }
 
 std::string surface_name(double radius, std::size_t rank) {
@@ -68,6 +70,7 @@ VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progres
     };
   };
   VoidSpace space = calc_void_space(pile, meshes, options, report("clearance", 0, 0.6));
+  space = crop_to_pile(space, kShownAround);
   return find_voids(std::move(space), voids.radii, report("voids", 0.6, 0.4));
 }
 

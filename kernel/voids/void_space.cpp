@@ -11,7 +11,7 @@
 namespace rubble {
 namespace {
 
-constexpr double kBytesPerCell = 14;     // kind, clearance, two transforms that overlap, marks
+constexpr double kBytesPerCell = 10.5;   // kind, clearance, a transform, marks of the rolling ball
 constexpr double kBytesPerSurface = 40;  // of one cell of a surface, while slabs are joined
 
 std::string format(double value, const char* unit) {
@@ -106,14 +106,14 @@ class Builder {
   }
 
   VoidSpace build() {
-    const std::vector<std::uint8_t> solid = fill_solids(space_.grid, solids_, pool_);
-    space_.kind.assign(space_.grid.count(), CellKind::free_void);
-    for (std::size_t i = 0; i < solid.size(); ++i)
-      if (solid[i]) space_.kind[i] = CellKind::solid;
+    mark_solids();
     report(0.15);
     surface_ = find_surface(space_.grid, solids_, pool_);
     report(0.45);
     measure_clearance();
+    // What comes now needs as much again.
+    surface_ = {};
+    solids_ = {};
     report(0.7);
     sweep_outside();
     report(0.95);
@@ -133,6 +133,14 @@ class Builder {
     const std::size_t layer = std::size_t(space_.grid.size[0]) * std::size_t(space_.grid.size[1]);
     pool_.run(space_.grid.size[2], 1, [&](int begin, int end) {
       for (std::size_t i = std::size_t(begin) * layer; i < std::size_t(end) * layer; ++i) body(i);
+    });
+  }
+
+  void mark_solids() {
+    const std::vector<std::uint8_t> solid = fill_solids(space_.grid, solids_, pool_);
+    space_.kind.assign(space_.grid.count(), CellKind::free_void);
+    for_each_cell([&](std::size_t i) {
+      if (solid[i]) space_.kind[i] = CellKind::solid;
     });
   }
 

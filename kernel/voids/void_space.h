@@ -66,4 +66,9 @@ double estimate_memory(const PileState& pile, const std::vector<const TriangleMe
 VoidSpace calc_void_space(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
                           const VoidSpaceOptions& options = {}, const VoidProgress& progress = {});
 
+// The part of it that holds everything solid or void, and as much around that as asked (unit: m; at
+// least a voxel). The rolling ball needs more room than that; voids need no more: find_voids() gives
+// the same for both, in less memory. A way through the outside has less room to go round.
+VoidSpace crop_to_pile(const VoidSpace& space, double margin);
+
 }  // namespace rubble

@@ -116,6 +116,28 @@ TEST_F(VoidFiles, OctoMapKnowsSolidFromVoid) {
   }
 }
 
+// The tree that OctoMap makes of the same voxels, pruned and written by itself.
+TEST_F(VoidFiles, OctoMapWouldHaveWrittenTheSame) {
+  const VoidSpace& space = map_->space;
+  octomap::OcTree tree(space.grid.voxel);
+  for (std::size_t i = 0; i < space.kind.size(); ++i) {
+    if (space.kind[i] == CellKind::outside) continue;
+    const Vec3 p = space.grid.centre(i);
+    tree.setNodeValue(octomap::point3d(float(p.x), float(p.y), float(p.z)),
+                      space.kind[i] == CellKind::solid ? 1.0f : -1.0f, true);
+  }
+  tree.updateInnerOccupancy();
+  tree.prune();
+  std::ostringstream theirs(std::ios::binary);
+  tree.writeBinaryData(theirs);
+  write_octomap(folder_ + "/same.bt", space);
+  const std::string ours = read_file(folder_ + "/same.bt");
+  const std::size_t data = ours.find("data\n") + 5;
+  EXPECT_GT(theirs.str().size(), 1000u);
+  EXPECT_TRUE(ours.substr(data) == theirs.str());
+  EXPECT_NE(ours.find("\nsize " + std::to_string(tree.size()) + "\n"), std::string::npos);
+}
+
 TEST_F(VoidFiles, TheSurfaceOfAVoidHoldsItsVolume) {
   const Void& v = map_->robots[0].voids[0];
   const TriangleMesh mesh = make_void_surface(map_->space, v);

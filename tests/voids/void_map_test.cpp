@@ -147,6 +147,31 @@ TEST(VoidMap, ResultsAreStableUnderTheVoxel) {
   EXPECT_EQ(fine.robots[0].voids[0].entrances.size(), coarse.robots[0].voids[0].entrances.size());
 }
 
+TEST(VoidMap, IsTheSameInTheCroppedSpace) {
+  VoidSpaceOptions options;
+  options.voxel = 0.04;
+  options.rolling_radius = 0.8;
+  const VoidScene scene = pipe_scene(0.4, 0.5);
+  const VoidSpace whole = calc_void_space(scene.pile, scene.pointers(), options);
+  const VoidSpace part = crop_to_pile(whole, 0);
+  EXPECT_LT(part.grid.count(), whole.grid.count() / 4);
+  for (std::size_t i = 0; i < part.kind.size(); i += 7) {
+    const std::size_t k = whole.grid.index(whole.grid.find_cell(part.grid.centre(i)));
+    ASSERT_EQ(part.kind[i], whole.kind[k]);
+    ASSERT_EQ(part.clearance[i], whole.clearance[k]);
+  }
+  const VoidMap a = find_voids(whole, {0.2}), b = find_voids(part, {0.2});
+  EXPECT_EQ(a.void_volume, b.void_volume);
+  EXPECT_EQ(a.robots[0].volume, b.robots[0].volume);
+  ASSERT_EQ(a.robots[0].voids.size(), b.robots[0].voids.size());
+  const Void &v = a.robots[0].voids[0], &w = b.robots[0].voids[0];
+  EXPECT_EQ(v.path_length, w.path_length);
+  EXPECT_EQ(v.depth, w.depth);
+  EXPECT_EQ(v.bottleneck_radius, w.bottleneck_radius);
+  EXPECT_EQ(v.entrances.size(), w.entrances.size());
+  EXPECT_EQ(a.graph.throats.size(), b.graph.throats.size());
+}
+
 TEST(VoidMap, RefusesARobotSmallerThanAVoxel) {
   try {
     map_of(room_with_door(0, 0), 0.05, {0.04});

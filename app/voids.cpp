@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <set>
 
 #include "app/commands.h"
@@ -15,12 +16,13 @@
 #include "io/voids/void_json.h"
 #include "io/voids/void_picture.h"
 #include "io/voids/void_surface.h"
+#include "kernel/base/parallel.h"
 #include "kernel/voids/void_map.h"
 
 namespace rubble {
 namespace {
 
-constexpr double kShownAround = 0.5;  // of the outside, in pictures; unit: m
+constexpr double kShownAround = 0.2;  // of the outside, in pictures; unit: m
 
 std::string millimetres(double radius) { return std::to_string(int(std::lround(radius * 1000))); }
 
@@ -74,15 +76,6 @@ VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progres
   return find_voids(std::move(space), voids.radii, report("voids", 0.6, 0.4));
 }
 
-void write_surfaces(const VoidMap& map, int count, const std::string& folder) {
-  for (const RobotVoids& robot : map.robots) {
-    const std::size_t shown = std::min(robot.voids.size(), std::size_t(count));
-    for (std::size_t i = 0; i < shown; ++i)
-      write_ply(folder + "/" + surface_name(robot.radius, i + 1),
-                make_void_surface(map.space, robot.voids[i]));
-  }
-}
-
 // Through the deepest place of the largest void, both ways.
 void write_pictures(const VoidMap& map, const std::string& title, const std::string& folder) {
   for (std::size_t r = 0; r < map.robots.size(); ++r) {
@@ -96,6 +89,25 @@ void write_pictures(const VoidMap& map, const std::string& title, const std::str
     write_png(folder + "/cut_x" + end, draw_void_cut(map, r, 0, through, options), 6);
     write_png(folder + "/cut_y" + end, draw_void_cut(map, r, 1, through, options), 6);
   }
+}
+
+// Everything that is written, as jobs for several threads; what takes long comes first.
+std::vector<std::function<void()>> list_jobs(const VoidMap& map, int surfaces,
+                                             const std::string& title, const std::string& folder) {
+  std::vector<std::function<void()>> jobs{
+      [&map, folder] { write_vdb(folder + "/voids.vdb", map); },
+      [&map, folder] { write_octomap(folder + "/voids.bt", map.space); }};
+  for (const RobotVoids& robot : map.robots) {
+    const std::size_t shown = std::min(robot.voids.size(), std::size_t(surfaces));
+    for (std::size_t i = 0; i < shown; ++i)
+      jobs.push_back([&map, &robot, i, folder] {
+        write_ply(folder + "/" + surface_name(robot.radius, i + 1),
+                  make_void_surface(map.space, robot.voids[i]));
+      });
+  }
+  jobs.push_back([&map, folder] { write_text_file(folder + "/voids.json", make_void_json(map)); });
+  jobs.push_back([&map, title, folder] { write_pictures(map, title, folder); });
+  return jobs;
 }
 
 void print_summary(const VoidMap& map) {
@@ -134,14 +146,10 @@ ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids) {
 
   progress.start("files");
   prepare_output_folder(folder, voids.force, list_outputs(voids));
-  write_text_file(folder + "/voids.json", make_void_json(map));
-  write_pictures(map, std::filesystem::path(request.folder).filename().string(), folder);
-  progress.update(0.3, "surfaces");
-  write_surfaces(map, voids.surfaces, folder);
-  progress.update(0.5, "voids.vdb");
-  write_vdb(folder + "/voids.vdb", map);
-  progress.update(0.7, "voids.bt");
-  write_octomap(folder + "/voids.bt", map.space);
+  const std::string title = std::filesystem::path(request.folder).filename().string();
+  const auto jobs = list_jobs(map, voids.surfaces, title, folder);
+  parallel_for(jobs.size(), ThreadPool(request.options.threads).threads(),
+               [&](std::size_t i) { jobs[i](); });
   progress.finish(folder);
   print_summary(map);
   std::printf("%s\n", folder.c_str());

@@ -72,8 +72,8 @@ void put_help(cv::Mat& pane, const DrivePicture& picture) {
   int y = 24 + line;
   for (const auto& row : picture.help) {
     put_label(pane, row[0], {8, y}, size, kInk);
-    put_label(pane, row[1], {8 + pane.cols * 34 / 100, y}, size, kInk);
-    put_label(pane, row[2], {8 + pane.cols * 74 / 100, y}, size, kFaint);
+    put_label(pane, row[1], {8 + pane.cols * 31 / 100, y}, size, kInk);
+    put_label(pane, row[2], {8 + pane.cols * 63 / 100, y}, size, kFaint);
     y += line;
   }
 }

@@ -82,8 +82,8 @@ double past_dead_zone(Sint16 raw) {
 const std::vector<KeyHelp>& all_key_help() {
   static const std::vector<KeyHelp> help{
       {"forward, back", "W, S", "left stick, up and down"},
-      {"turn left, right", "A, D or left, right; drag the mouse", "right stick"},
-      {"nose up, down", "up, down; drag the mouse", "right stick"},
+      {"turn left, right", "A, D, arrows or mouse", "right stick"},
+      {"nose up, down", "up, down or mouse", "right stick"},
       {"roll left, right", "Q, E", "left stick, left and right"},
       {"slower, faster", "Z, X or the wheel", "shoulder buttons"},
       {"lamp on, off", "L", "A"},

@@ -55,7 +55,8 @@ MapFrame frame_map(const PileState& pile, const Vec3& camera, int pixels) {
 
 RgbImage draw_height_map(const PileQueries& queries, const MapFrame& frame, int threads) {
   const std::vector<double> heights = measure_heights(queries, frame, threads);
-  const double highest = std::max(0.5, *std::max_element(heights.begin(), heights.end()));
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  const double lowest = *low, range = std::max(0.5, *high - lowest);  // of a hillside, too
   const double step = frame.side / frame.pixels;
   RgbImage image{frame.pixels, frame.pixels, {}};
   for (int row = 0; row < frame.pixels; ++row)
@@ -64,7 +65,7 @@ RgbImage draw_height_map(const PileQueries& queries, const MapFrame& frame, int 
         r = std::clamp(r, 0, frame.pixels - 1), c = std::clamp(c, 0, frame.pixels - 1);
         return heights[std::size_t(r * frame.pixels + c)];
       };
-      const double height = at(row, column) / highest;
+      const double height = (at(row, column) - lowest) / range;
       const double slope = (at(row + 1, column + 1) - at(row - 1, column - 1)) / (2 * step);
       const double light = (60 + 150 * height) * (1 - std::clamp(0.35 * slope, -0.35, 0.5));
       for (const double tint : {1.0, 0.97, 0.88})

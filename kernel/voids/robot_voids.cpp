@@ -38,6 +38,7 @@ class Finder {
     label_places();
     assign_cells();
     find_depths();
+    slot_.resize(space_.grid.count());  // in the memory that assign_cells() has given back
     for (std::size_t i = 0; i < result_.voids.size(); ++i) describe(result_.voids[i], i);
     drop_dents();
     for (Void& v : result_.voids) {
@@ -218,22 +219,20 @@ class Finder {
   // Dijkstra from all openings at once over the void's places.
   void find_deepest(Void& v, const std::vector<std::uint32_t>& openings, std::uint32_t number) {
     std::vector<double> length(v.places.size(), std::numeric_limits<double>::infinity());
-    const auto slot = [&](std::size_t i) {
-      return std::size_t(std::lower_bound(v.places.begin(), v.places.end(), i) - v.places.begin());
-    };
+    for (std::size_t k = 0; k < v.places.size(); ++k) slot_[v.places[k]] = std::uint32_t(k);
     using Item = std::pair<double, std::uint32_t>;
     std::priority_queue<Item, std::vector<Item>, std::greater<Item>> front;
     for (const std::uint32_t i : openings) {
-      length[slot(i)] = 0;
+      length[slot_[i]] = 0;
       front.push({0, i});
     }
     while (!front.empty()) {
       const auto [done, i] = front.top();
       front.pop();
-      if (done > length[slot(i)]) continue;
+      if (done > length[slot_[i]]) continue;
       for_each_around(space_.grid, i, [&, far = done](std::size_t k, double step) {
         if (label_[k] != number) return;
-        double& best = length[slot(k)];
+        double& best = length[slot_[k]];
         if (far + step >= best) return;
         best = far + step;
         front.push({best, std::uint32_t(k)});
@@ -249,6 +248,7 @@ class Finder {
   const float radius_;
   ThreadPool pool_;
   std::vector<std::uint32_t> label_;  // of places: the number of their void
+  std::vector<std::uint32_t> slot_;   // of places: where in their void's list they are
   std::vector<int> envelope_;
   RobotVoids result_;
 };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kernel/base/error.h"
+#include "kernel/base/parallel.h"
 
 namespace rubble {
 namespace {
@@ -22,6 +23,11 @@ void check_radii(const VoxelGrid& grid, const std::vector<double>& radii) {
   }
 }
 
+VoidGraph make_graph(const VoidSpace& space, const std::vector<double>& radii) {
+  const double smallest = *std::min_element(radii.begin(), radii.end());
+  return find_graph(space, smallest, std::max(2 * space.grid.voxel, 0.2 * smallest));
+}
+
 }  // namespace
 
 VoidMap find_voids(VoidSpace space, const std::vector<double>& radii,
@@ -31,15 +37,15 @@ VoidMap find_voids(VoidSpace space, const std::vector<double>& radii,
     if (progress && !progress(done)) throw RunError("stopped while looking for voids");
   };
   VoidMap map;
-  map.widest = find_widest_paths(space);
+  // Neither can be shared among threads, but there are two of them.
+  parallel_for(2, 2, [&](std::size_t i) {
+    if (i == 0) map.widest = find_widest_paths(space);
+    if (i == 1 && !radii.empty()) map.graph = make_graph(space, radii);
+  });
   report(0.3);
   for (std::size_t i = 0; i < radii.size(); ++i) {
     map.robots.push_back(find_robot_voids(space, map.widest, radii[i], 0));
-    report(0.3 + 0.5 * double(i + 1) / double(radii.size()));
-  }
-  if (!radii.empty()) {
-    const double smallest = *std::min_element(radii.begin(), radii.end());
-    map.graph = find_graph(space, smallest, std::max(2 * space.grid.voxel, 0.2 * smallest));
+    report(0.3 + 0.7 * double(i + 1) / double(radii.size()));
   }
   map.void_volume = space.volume(CellKind::free_void);
   map.solid_volume = space.volume(CellKind::solid);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "kernel/base/error.h"
 #include "kernel/voids/distance_transform.h"
@@ -169,31 +170,79 @@ class Builder {
     });
   }
 
-  bool is_border(std::size_t i) const {
-    const Cell c = space_.grid.cell(i);
+  // Where the rolling ball's centre may be, reached from the border of the grid; runs of cells along X
+  // at a time, since most of the grid is such runs.
+  std::vector<std::uint8_t> roll() const {
     const Cell& n = space_.grid.size;
-    return c[0] == 0 || c[1] == 0 || c[0] + 1 == n[0] || c[1] + 1 == n[1] || c[2] + 1 == n[2] ||
-           (c[2] == 0 && !options_.ground);
+    std::vector<std::uint8_t> reached(space_.grid.count(), 0);
+    std::vector<Cell> front;
+    const auto drain = [&] {
+      while (!front.empty()) {
+        const Cell c = front.back();
+        front.pop_back();
+        fill_run(c, reached, front);
+      }
+    };
+    for (int z = 0; z < n[2]; ++z)
+      for (int y = 0; y < n[1]; ++y) {
+        const bool whole = y == 0 || y + 1 == n[1] || z + 1 == n[2] || (z == 0 && !options_.ground);
+        for (int x = 0; x < n[0]; x += whole ? 1 : std::max(1, n[0] - 1)) {
+          front.push_back({x, y, z});
+          drain();
+        }
+      }
+    return reached;
   }
 
-  // Where the rolling ball's centre may be, reached from the border of the grid.
-  std::vector<std::uint8_t> roll() const {
-    const float radius = float(options_.rolling_radius);
-    std::vector<std::uint8_t> reached(space_.grid.count(), 0);
-    std::vector<std::uint32_t> front;
-    const auto visit = [&](std::size_t i) {
-      if (reached[i] || space_.kind[i] == CellKind::solid || space_.clearance[i] < radius) return;
-      reached[i] = 1;
-      front.push_back(std::uint32_t(i));
-    };
-    for (std::size_t i = 0; i < reached.size(); ++i)
-      if (is_border(i)) visit(i);
-    while (!front.empty()) {
-      const std::size_t i = front.back();
-      front.pop_back();
-      for_each_neighbour(space_.grid, i, visit);
+  bool is_open(std::size_t i, const std::vector<std::uint8_t>& reached) const {
+    return !reached[i] && space_.kind[i] != CellKind::solid &&
+           space_.clearance[i] >= float(options_.rolling_radius);
+  }
+
+  // Marks the run of open cells along X that a cell is in; the runs beside it go to the front.
+  void fill_run(const Cell& c, std::vector<std::uint8_t>& reached, std::vector<Cell>& front) const {
+    const VoxelGrid& grid = space_.grid;
+    const std::size_t row = grid.index({0, c[1], c[2]});
+    if (!is_open(row + std::size_t(c[0]), reached)) return;
+    int first = c[0], last = c[0];
+    while (first > 0 && is_open(row + std::size_t(first) - 1, reached)) --first;
+    while (last + 1 < grid.size[0] && is_open(row + std::size_t(last) + 1, reached)) ++last;
+    for (int x = first; x <= last; ++x) reached[row + std::size_t(x)] = 1;
+    for (const auto& [dy, dz] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      const Cell start{first, c[1] + dy, c[2] + dz};
+      if (!grid.contains(start)) continue;
+      const std::size_t beside = grid.index(start) - std::size_t(first);
+      bool inside = false;
+      for (int x = first; x <= last; ++x) {
+        const bool open = is_open(beside + std::size_t(x), reached);
+        if (open && !inside) front.push_back({x, start[1], start[2]});
+        inside = open;
+      }
     }
-    return reached;
+  }
+
+  // The cells of a region that have a neighbour which is not of it, in the order of their numbers.
+  std::vector<Cell> find_edge(const std::vector<std::uint8_t>& region) {
+    const Cell& n = space_.grid.size;
+    const std::size_t row = std::size_t(n[0]), layer = row * std::size_t(n[1]);
+    std::vector<std::vector<Cell>> edges;
+    edges.resize(std::size_t(n[2]));
+    pool_.run(n[2], 1, [&](int begin, int end) {
+      for (int z = begin; z < end; ++z) {
+        std::size_t i = std::size_t(z) * layer;
+        for (int y = 0; y < n[1]; ++y)
+          for (int x = 0; x < n[0]; ++x, ++i) {
+            if (!region[i]) continue;
+            const bool inner = (x == 0 || region[i - 1]) && (x + 1 == n[0] || region[i + 1]) &&
+                               (y == 0 || region[i - row]) && (y + 1 == n[1] || region[i + row]) &&
+                               (z == 0 || region[i - layer]) && (z + 1 == n[2] || region[i + layer]);
+            if (!inner) edges[std::size_t(z)].push_back({x, y, z});
+          }
+      }
+    });
+    std::vector<Cell> all;
+    for (const std::vector<Cell>& edge : edges) all.insert(all.end(), edge.begin(), edge.end());
+    return all;
   }
 
   // Cells that the ball covers in one of its places. One voxel is added to its radius, because the
@@ -201,13 +250,7 @@ class Builder {
   void sweep_outside() {
     const VoxelGrid& grid = space_.grid;
     const std::vector<std::uint8_t> reached = roll();
-    std::vector<Cell> edge;
-    for (std::size_t i = 0; i < reached.size(); ++i) {
-      if (!reached[i]) continue;
-      bool inner = true;
-      for_each_neighbour(grid, i, [&](std::size_t k) { inner = inner && reached[k]; });
-      if (!inner) edge.push_back(grid.cell(i));
-    }
+    const std::vector<Cell> edge = find_edge(reached);
     const auto nearest = find_nearest_seeds(grid, edge, pool_);
     const double reach = options_.rolling_radius / grid.voxel + 1;
     for_each_cell([&](std::size_t i) {

@@ -40,6 +40,7 @@ ExitCode print_info(const InfoRequest& request) {
   for (const auto& [name, version] : build.libraries)
     std::printf("%-13s %s\n", name.c_str(), version.c_str());
   std::printf("live ROS 1    %s\n", describe_ros1().c_str());
+  std::printf("live ROS 2    %s\n", describe_ros2().c_str());
   std::fflush(stdout);  // the versions are worth having even if EGL fails below
   if (request.gl) print_ways();
   const GlContext context({request.gl_device, 0});

@@ -13,6 +13,9 @@ struct LiveRequest {
   bool ros1 = false;       // --ros1
   std::string ros_master;  // --ros-master
   std::string ros_ip;      // --ros-ip
+  bool ros2 = false;              // --ros2
+  std::optional<int> ros_domain;  // --ros-domain
+  std::string ros_interface;      // --ros-interface
   double rate = 1;         // --rate, of simulation time to the wall's; 0: as fast as frames come
   double wait = 0;         // --wait-for-subscribers; unit: s
 };

@@ -30,6 +30,11 @@ struct Ros1Options : LiveOptions {
                         // 127.0.0.1, and then only programs of this machine can connect
 };
 
+struct Ros2Options : LiveOptions {
+  int domain = 0;         // 0 to 232
+  std::string interface;  // of the network, e.g. "eth0"; empty: as $CYCLONEDDS_URI says, or "lo"
+};
+
 // Whether the component is there, for `rubble info`: its version, or what is missing.
 std::string describe_ros1();
 // To be called once, before other threads run. InputError: not built in, or a URI that is none.
@@ -46,5 +51,11 @@ class DriveStream : public RosFile {
   virtual DriveCommands take() = 0;  // what came since the last call; never waits
 };
 std::unique_ptr<DriveStream> make_ros1_drive(const Ros1Options& options);
+
+// The same for ROS 2. RunError: DDS cannot start, or knows no such interface. There is no master:
+// readers come and go as they like.
+std::string describe_ros2();
+void check_ros2(const Ros2Options& options);
+std::unique_ptr<RosFile> make_ros2_stream(const Ros2Options& options);
 
 }  // namespace rubble

@@ -108,7 +108,7 @@ TEST(IncludeDirection, ThirdPartiesStayBehindTheirDoor) {
       {"Simbody.h", "kernel/"},  {"SimTK", "kernel/"},     {"EGL/", "render/"},
       {"GL/", "render/"},        {"assimp/", "io/"},
       {"opencv2/", "io/"},       {"mrpt/", "io/"},         {"rosbag/", "io/"},
-      {"ros/", "io/live/"},         {"zstd.h", "io/"},        {"jpeglib.h", "io/"},
+      {"ros/", "io/live/"},      {"dds/", "io/live/"},   {"zstd.h", "io/"},        {"jpeglib.h", "io/"},
       {"openvdb/", "io/voids/"}, {"octomap/", "io/voids/"}, {"sensor_msgs/", "io/"},
       {"lua", "scripting/"},
       {"CLI/", "app/"},          {"SDL", "app/drive/"},          {"xxhash.h", "kernel/base/"}, {"openssl/", "kernel/base/"}};

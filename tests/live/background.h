@@ -18,6 +18,7 @@ class Background {
   Background& operator=(const Background&) = delete;
 
   void signal(int number);
+  pid_t pid() const { return pid_; }
   bool ended();
   // Its exit code, or 128 and a signal; -1 when it has not ended after so many seconds.
   int wait(double seconds);

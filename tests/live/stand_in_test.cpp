@@ -24,5 +24,18 @@ TEST(LiveStandIn, NamesThePackageThatRos1Needs) {
   EXPECT_THROW(make_ros1_drive({}), InputError);
 }
 
+TEST(LiveStandIn, NamesThePackageThatRos2Needs) {
+  EXPECT_NE(describe_ros2().find("cyclonedds-dev"), std::string::npos);
+  try {
+    check_ros2({});
+    FAIL() << "it went on";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("--ros2"), std::string::npos) << text;
+    EXPECT_NE(text.find("cyclonedds-dev"), std::string::npos) << text;
+  }
+  EXPECT_THROW(make_ros2_stream({}), InputError);
+}
+
 }  // namespace
 }  // namespace rubble

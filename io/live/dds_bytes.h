@@ -1,0 +1,20 @@
+// A type of Cyclone DDS whose samples are CDR already, whatever the type: what is written is sent as
+// it is, so that what is heard live is what a file holds. For writers alone; nothing can be read.
+#pragma once
+
+#include <dds/dds.h>
+
+#include <string>
+#include <string_view>
+
+namespace rubble {
+
+// The sample that dds_write() of such a topic takes a pointer to: CDR with its header of 4 bytes.
+using DdsBytes = std::string_view;
+
+// type: e.g. "sensor_msgs::msg::dds_::Image_". A topic, or a negative number as dds_create_topic()
+// gives it.
+dds_entity_t create_bytes_topic(dds_entity_t participant, const std::string& topic,
+                                const std::string& type);
+
+}  // namespace rubble

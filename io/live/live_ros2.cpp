@@ -1,0 +1,135 @@
+#include <dds/dds.h>
+
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "io/live/dds_bytes.h"
+#include "io/live/live_ros.h"
+#include "io/live/pace.h"
+#include "kernel/base/error.h"
+
+namespace rubble {
+namespace {
+
+// How many pictures or other messages of a topic are kept for readers that have not confirmed them;
+// then the oldest goes.
+constexpr std::int32_t kPictureDepth = 30, kDepth = 1000;
+// How long a write would wait for them if more than kMostHeld were kept, which is never.
+constexpr dds_duration_t kPatience = DDS_MSECS(100);
+constexpr char kMostHeld[] = "1 GiB";
+constexpr dds_duration_t kLinger = DDS_SECS(2);  // for what readers have not confirmed at the end
+
+// Cyclone binds its sockets to all addresses, but announces and sends on this interface alone. Linux
+// calls the loopback interface unfit for multicast, and many participants believe it: those are looked
+// for one by one, twice a second. The others are heard by multicast.
+std::string configuration(const std::string& interface) {
+  const char* environment = std::getenv("CYCLONEDDS_URI");
+  if (interface.empty() && environment && *environment) return environment;
+  const bool loopback = interface.empty() || interface == "lo";
+  const std::string name = loopback ? "lo" : interface;
+  std::string general = "<Interfaces><NetworkInterface name=\"" + name + "\"" +
+                        (loopback ? " multicast=\"true\"" : "") + "/></Interfaces>";
+  std::string discovery;
+  if (loopback) {
+    general += "<AllowMulticast>spdp</AllowMulticast>";
+    discovery =
+        "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
+        "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
+        "<Peers><Peer address=\"127.0.0.1\"/></Peers>"
+        "<SPDPInterval>500 ms</SPDPInterval></Discovery>";
+  }
+  return "<CycloneDDS><Domain Id=\"any\"><General>" + general + "</General>" + discovery +
+         "<Internal><WriterLingerDuration>0 s</WriterLingerDuration><Watermarks><WhcAdaptive>false</WhcAdaptive><WhcHigh>" + kMostHeld +
+         "</WhcHigh><WhcHighInit>" + kMostHeld + "</WhcHighInit></Watermarks></Internal>"
+         "<Tracing><Verbosity>none</Verbosity></Tracing></Domain></CycloneDDS>";
+}
+
+void check(dds_return_t code, const std::string& what) {
+  if (code < 0) throw RunError("DDS: " + what + ": " + dds_strretcode(code));
+}
+
+class Ros2Stream : public RosFile {
+ public:
+  explicit Ros2Stream(const Ros2Options& options) : pace_(options) {
+    const auto number = dds_domainid_t(options.domain);
+    domain_ = dds_create_domain(number, configuration(options.interface).c_str());
+    check(domain_, "domain " + std::to_string(options.domain));
+    participant_ = dds_create_participant(number, nullptr, nullptr);
+    if (participant_ < 0) dds_delete(domain_);
+    check(participant_, "no participant on " +
+                            (options.interface.empty() ? "lo, or as $CYCLONEDDS_URI says"
+                                                       : "interface " + options.interface));
+  }
+  ~Ros2Stream() override { close(); }
+
+  ros::Version version() const override { return ros::Version::ros2; }
+
+  std::uint32_t add(const std::string& topic, const ros::MessageType& type, bool latched) override {
+    const std::string dds_type = std::string(type.package) + "::msg::dds_::" + type.name + "_";
+    const dds_entity_t entity = create_bytes_topic(participant_, "rt" + topic, dds_type);
+    check(entity, "topic " + topic);
+    const bool picture = &type == &ros::kImage || &type == &ros::kCompressedImage;
+    const std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)> qos(dds_create_qos(), dds_delete_qos);
+    const std::int32_t depth = latched ? 1 : picture ? kPictureDepth : kDepth;
+    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
+    dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kPatience);
+    dds_qset_writer_data_lifecycle(qos.get(), false);  // the end of a run takes nothing back
+    dds_qset_durability(qos.get(), latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+    if (latched)
+      dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, depth, DDS_LENGTH_UNLIMITED,
+                                  DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+    writers_.push_back(dds_create_writer(participant_, entity, qos.get(), nullptr));
+    check(writers_.back(), "writer of " + topic);
+    return std::uint32_t(writers_.size() - 1);
+  }
+
+  void write(std::uint32_t topic, std::int64_t stamp_ns, std::string_view message) override {
+    if (!started_) pace_.wait_for([this] { return all_have_readers(); });
+    started_ = true;
+    pace_.wait_until(stamp_ns);
+    const dds_return_t code = dds_write(writers_[topic], &message);
+    if (code != DDS_RETCODE_TIMEOUT) check(code, "write");
+  }
+
+  void finish() override {
+    const dds_time_t end = dds_time() + kLinger;
+    for (const dds_entity_t writer : writers_)
+      if (dds_time() < end) dds_wait_for_acks(writer, end - dds_time());
+    close();
+  }
+
+ private:
+  bool all_have_readers() const {
+    for (const dds_entity_t writer : writers_) {
+      dds_publication_matched_status_t status;
+      if (dds_get_publication_matched_status(writer, &status) < 0 || status.current_count == 0)
+        return false;
+    }
+    return true;
+  }
+
+  void close() {
+    if (domain_ > 0) dds_delete(domain_);  // and all that is in it
+    domain_ = 0;
+  }
+
+  Pace pace_;
+  dds_entity_t domain_ = 0, participant_ = 0;
+  std::vector<dds_entity_t> writers_;
+  bool started_ = false;
+};
+
+}  // namespace
+
+std::string describe_ros2() { return "Cyclone DDS " RUBBLE_CYCLONE_VERSION; }
+
+void check_ros2(const Ros2Options& options) {
+  const Ros2Stream attempt(options);
+}
+
+std::unique_ptr<RosFile> make_ros2_stream(const Ros2Options& options) {
+  return std::make_unique<Ros2Stream>(options);
+}
+
+}  // namespace rubble

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/friction_axes.h"
+
 namespace rubble {
 namespace {
 
@@ -35,18 +37,44 @@ struct Side {
   float share;
 };
 
+// The angular part of a row.
+struct Turns {
+  Turns(const Side& a, const Side& b, const Vec3f& direction, const Vec3f& from_a,
+        const Vec3f& from_b)
+      : arm_a(cross(from_a, direction)),
+        arm_b(cross(from_b, direction)),
+        turn_a(a.turn(arm_a)),
+        turn_b(b.turn(arm_b)) {}
+  Vec3f arm_a, arm_b, turn_a, turn_b;
+};
+
 // Fills one lane of a row; returns J M^-1 J^T without the linear part.
-float fill(WideRow& row, int lane, const Side& a, const Side& b, const Vec3f& direction,
-           const Vec3f& from_a, const Vec3f& from_b) {
-  const Vec3f arm_a = cross(from_a, direction), arm_b = cross(from_b, direction);
-  const Vec3f turn_a = a.turn(arm_a), turn_b = b.turn(arm_b);
-  row.arm_a.set(lane, arm_a);
-  row.arm_b.set(lane, arm_b);
-  row.turn_a.set(lane, turn_a);
-  row.turn_b.set(lane, turn_b);
-  const float around_a = dot(arm_a, turn_a), around_b = dot(arm_b, turn_b);
+float fill(WideRow& row, int lane, const Side& a, const Side& b, const Turns& turns) {
+  row.arm_a.set(lane, turns.arm_a);
+  row.arm_b.set(lane, turns.arm_b);
+  row.turn_a.set(lane, turns.turn_a);
+  row.turn_b.set(lane, turns.turn_b);
+  const float around_a = dot(turns.arm_a, turns.turn_a);
+  const float around_b = dot(turns.arm_b, turns.turn_b);
   row.mass[lane] = 1 / (a.inverse_mass() + b.inverse_mass() + around_a + around_b);
   return a.mass() * around_a + b.mass() * around_b;
+}
+
+// J M^-1 J^T of two rows across each other.
+float couple(const Turns& s, const Turns& t) {
+  return dot(s.arm_a, t.turn_a) + dot(s.arm_b, t.turn_b);
+}
+
+// Turns the tangents, and their rows with them, such that neither row feels the other's impulse.
+void uncouple(Vec3f tangent[2], Turns turns[2]) {
+  const PlaneTurn<float> turn =
+      find_friction_axes(couple(turns[0], turns[0]), couple(turns[0], turns[1]),
+                         couple(turns[1], turns[1]));
+  turn.apply(tangent[0], tangent[1]);
+  turn.apply(turns[0].arm_a, turns[1].arm_a);
+  turn.apply(turns[0].arm_b, turns[1].arm_b);
+  turn.apply(turns[0].turn_a, turns[1].turn_a);
+  turn.apply(turns[0].turn_b, turns[1].turn_b);
 }
 
 PaddedMotion padded(const Motion& m) {
@@ -187,7 +215,8 @@ void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Bo
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& p = contact.points[i];
     NormalRow& n = rows_[batch.first_row + i];
-    const float around = fill(n.row, lane, a, b, contact.normal, p.from_a, p.from_b);
+    const Turns turns(a, b, contact.normal, p.from_a, p.from_b);
+    const float around = fill(n.row, lane, a, b, turns);
     const float movable = (a.body ? 1.0F : 0.0F) + (b.body ? 1.0F : 0.0F);
     pushes_[batch.first_row + i].mass[lane] = 1 / (movable + around);
     n.gap[lane] = p.separation - settings.rest_gap;
@@ -200,8 +229,10 @@ void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Bo
   middle_b *= share;
   Vec3f tangent[2];
   make_tangents(contact.normal, tangent);
+  Turns turns[2] = {{a, b, tangent[0], middle_a, middle_b}, {a, b, tangent[1], middle_a, middle_b}};
+  uncouple(tangent, turns);
   for (int t = 0; t < 2; ++t) {
-    fill(batch.slide[t].row, lane, a, b, tangent[t], middle_a, middle_b);
+    fill(batch.slide[t].row, lane, a, b, turns[t]);
     batch.slide[t].direction.set(lane, tangent[t]);
     batch.slide[t].impulse[lane] = dot(tangent[t], contact.friction_impulse);
   }

@@ -28,7 +28,8 @@ struct PieceType {
   std::string name;
   std::vector<ConvexPart> parts;  // collision geometry; at least one, or a surface
   // Terrain: collides by its own triangles, from the side that they face, and can only be fixed. It
-  // need not be closed, but only what is closed has an inside for queries and void maps.
+  // need not be closed, but only what is closed has an inside for queries and void maps. Bars a few
+  // centimetres thin may go through a sheet with spikes at more than 5 m/s.
   std::shared_ptr<const TriangleMesh> surface;
   // Volume, centre of mass and inertia at density 1; without it, the sum over the parts.
   std::optional<VolumeProperties> volume;

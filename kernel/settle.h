@@ -24,7 +24,7 @@ struct SettleOptions {
   double rest_speed = 0.05;         // a piece rests below both limits; unit: m/s
   double rest_angular_speed = 0.2;  // unit: rad/s
   double layer_time_limit = 4.0;    // the next layer comes at the latest then; unit: s
-  double final_time_limit = 10.0;   // after the last layer; unit: s
+  double final_time_limit = 20.0;   // after the last layer; unit: s
   double lost_below = -0.5;         // a piece whose origin is lower has left the world; unit: m
   double lost_beyond = 100.0;       // likewise farther than this from the Z axis; unit: m
   int threads = 0;                  // 0: all processors; the result does not depend on it

@@ -78,6 +78,7 @@ class TreeContacts {
 
   void add_stops(std::int32_t tree);
   void finish_row(Row& row, const Item& item) const;
+  void uncouple_friction(Item& item);
   double calc_push_mass(const Row& row, const Item& item) const;
   void load(const Item& item, const PaddedMotion* free, bool displacements, View& view) const;
   static void save(const Item& item, const View& view, PaddedMotion* free);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "kernel/contact_solver.h"
+#include "kernel/friction_axes.h"
 #include "kernel/tree_contacts.h"
 #include "kernel/tree_joint.h"
 
@@ -70,6 +71,9 @@ class TreeContacts::Builder {
     item.tangents[1] = cross(n, item.tangents[0]);
     for (int t = 0; t < 2; ++t) {
       item.slide[t] = make_row(item, item.tangents[t], item.middle_a, item.middle_b);
+    }
+    all_.uncouple_friction(item);
+    for (int t = 0; t < 2; ++t) {
       item.slide[t].impulse = dot(item.tangents[t], Vec3(contact.friction_impulse));
     }
     for (int i = 0; i < contact.count; ++i) {
@@ -133,6 +137,27 @@ void TreeContacts::finish_row(Row& row, const Item& item) const {
     at += 2 * side.size;
   }
   row.mass = sum > 0 ? 1 / sum : 0;
+}
+
+// Turns the tangents and their rows such that neither row feels the other's impulse.
+void TreeContacts::uncouple_friction(Item& item) {
+  double k[3] = {};  // first with itself, with the second, and the second with itself
+  double* first = coefficients_.data() + item.slide[0].first;
+  double* second = coefficients_.data() + item.slide[1].first;
+  std::size_t at = 0;
+  for (const Side& side : item.sides) {
+    for (int i = 0; i < side.size; ++i, ++at) {
+      const std::size_t turned = at + std::size_t(side.size);
+      k[0] += first[at] * first[turned];
+      k[1] += first[at] * second[turned];
+      k[2] += second[at] * second[turned];
+    }
+    at += std::size_t(side.size);
+  }
+  const PlaneTurn<double> turn = find_friction_axes(k[0], k[1], k[2]);
+  turn.apply(item.tangents[0], item.tangents[1]);
+  for (std::size_t i = 0; i < at; ++i) turn.apply(first[i], second[i]);
+  for (Row& row : item.slide) finish_row(row, item);
 }
 
 // Free pieces count as equally heavy, as in the push rows of other contacts; trees as a whole too.

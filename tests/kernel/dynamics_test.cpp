@@ -148,9 +148,15 @@ TEST(Collision, NothingTunnels) {
   EXPECT_GT(world.piece(2).world_from_body.translation.z, 2.0);
 }
 
-TEST(Energy, NeverGrowsWhileAPileFalls) {
-  const Pile pile = generate_pile(testing::small_pile(11, 1, 80));
-  World world(pile.types);
+struct EnergyOfFall {
+  double rises = 0, end = 0;  // sum of all that it rose from step to step; shares of the start's
+};
+
+EnergyOfFall drop_pile(std::uint64_t seed) {
+  const Pile pile = generate_pile(testing::small_pile(seed, 1, 80));
+  WorldOptions options;
+  options.threads = 1;
+  World world(pile.types, options);
   std::vector<NewPiece> pieces;
   for (const Placement& p : pile.layers[0].pieces) {
     pieces.push_back({});
@@ -159,16 +165,31 @@ TEST(Energy, NeverGrowsWhileAPileFalls) {
   }
   world.add(pieces);
   const double start = world.kinetic_energy() + world.potential_energy();
-  double last = start, worst = 0;
+  EnergyOfFall fall;
+  double last = start;
   for (int i = 0; i < 240; ++i) {
     world.step();
     const double now = world.kinetic_energy() + world.potential_energy();
-    worst = std::max(worst, now - last);
+    fall.rises += std::max(0.0, now - last) / start;
     last = now;
   }
-  // Pushing overlaps apart lifts pieces by fractions of a millimetre.
-  EXPECT_LT(worst, 2e-4 * start);
-  EXPECT_LT(last, 0.5 * start);
+  fall.end = last / start;
+  return fall;
+}
+
+// It may rise in a step: pushing overlaps apart lifts pieces, and an impact's one sweep of impulses
+// is not the exact answer. All rises of a fall together stay below 1 % of what is lost (the worst of
+// 120 seeds had 0.3 %), and most falls have far less.
+TEST(Energy, HardlyRisesWhileAPileFalls) {
+  double mean = 0;
+  const int falls = 24;
+  for (int seed = 1; seed <= falls; ++seed) {
+    const EnergyOfFall fall = drop_pile(std::uint64_t(seed));
+    EXPECT_LT(fall.rises, 0.009) << "seed " << seed;
+    EXPECT_LT(fall.end, 0.1) << "seed " << seed;
+    mean += fall.rises / falls;
+  }
+  EXPECT_LT(mean, 5e-4);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace rubble {
 namespace {
 
-constexpr double kProofTime = 1.0;  // see World::proved_rest(); unit: s
+constexpr double kProofTime = 1.0, kStayTime = 0.5;  // see World::proved_rest(); unit: s
 
 Mat3 inverse_symmetric(const Mat3& m) {
   const Vec3 c0 = cross(m.rows[1], m.rows[2]), c1 = cross(m.rows[2], m.rows[0]),
@@ -336,7 +336,11 @@ bool World::at_rest(double speed, double angular_speed) const {
 bool World::proved_rest(double speed, double angular_speed) const {
   const auto wanted = std::int64_t(kProofTime / impl_->options.step);
   if (!proving() || (awake_count() > 0 && impl_->data.proof_steps < wanted)) return false;
-  return at_rest(speed, angular_speed);
+  const auto stays = [this](const Body& body) {
+    return !body.awake || body.loose_steps >= int(kStayTime / impl_->options.step);
+  };
+  const std::vector<Body>& bodies = impl_->data.bodies;
+  return at_rest(speed, angular_speed) && std::all_of(bodies.begin(), bodies.end(), stays);
 }
 
 bool World::all_have_touched() const {

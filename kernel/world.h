@@ -73,7 +73,10 @@ class World {
   // pieces are added only those sleep again that stay where they are on stricter terms.
   void prove_rest();
   bool proving() const;
-  // After prove_rest(): all sleep again, or a second has passed and they are at rest.
+  // After prove_rest(): all sleep again, or a second has passed, they are at rest, and each that is
+  // awake has stayed within 4 mm for half a second. Sleepers have stayed within 1 mm for 0.5 s, or
+  // within 4 mm for 1 s (jointed or deep in another: longer). So nothing that slides or creeps
+  // faster than 8 mm/s passes. Needs sleeping to be allowed: nobody counts the time otherwise.
   bool proved_rest(double speed, double angular_speed) const;
   bool all_have_touched() const;
   // Of all pieces, or of those that have touched something and the immovable ones; 0 when none.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "kernel/world.h"
 #include "kernel/world_impl.h"
@@ -68,6 +69,27 @@ TEST(ProofOfRest, WhoSlidesSlowlyDoesNotPass) {
   const Vec3 before = world.piece(1).world_from_body.translation;
   EXPECT_EQ(prove(world, 2.5), INFINITY);
   EXPECT_GT(distance(world.piece(1).world_from_body.translation, before), 0.1);
+}
+
+// Without friction only the damping of what hardly moves brings it to a stand.
+TEST(ProofOfRest, WhoSlidesMoreSlowlyThanTheLimitsPassesOnlyOnceItStays) {
+  for (const double speed : {0.012, 0.03, 0.049}) {
+    PieceType box = box_type("b", 0.4, 0.4, 0.2);
+    box.friction = 0;
+    World world({box});
+    world.add({at(0, {0, 0, 0.1})});
+    run(world, 1);
+    world.prove_rest();
+    world.set_velocity(0, {speed, 0, 0}, {});
+    std::vector<Vec3> places;
+    while (places.size() < 600 && !world.proved_rest(kSpeed, kAngularSpeed)) {
+      world.step();
+      places.push_back(world.piece(0).world_from_body.translation);
+    }
+    ASSERT_GT(places.size(), 30u) << speed;
+    ASSERT_LT(places.size(), 600u) << speed;
+    EXPECT_LE(distance(places.back(), places[places.size() - 30]), 0.004) << speed;
+  }
 }
 
 TEST(ProofOfRest, WhoSleepsInTheAirDoesNotPass) {

@@ -64,6 +64,11 @@ void add_live_recorders(RecorderSet& set, const RunOptions& options, const RosOp
 }
 
 std::unique_ptr<DriveStream> make_drive_stream(const RunOptions& options) {
+  if (options.live.ros2) {
+    Ros2Options ros2 = ros2_options(options);
+    ros2.rate = 0;
+    return make_ros2_drive(ros2);
+  }
   if (!options.live.ros1) return nullptr;
   Ros1Options ros1 = ros1_options(options);
   ros1.rate = 0;

@@ -27,12 +27,8 @@ void add_ros_options(CLI::App& command, LiveRequest& live, const std::string& te
                   "only this machine)")
       ->type_name("ADDRESS")
       ->needs(ros1);
-}
-
-void add_live_options(CLI::App& command, LiveRequest& live) {
-  add_ros_options(command, live, "Publish the frames to ROS 1 while they are drawn");
   CLI::Option* const ros2 =
-      command.add_flag("--ros2", live.ros2, "Publish the frames to ROS 2, over DDS");
+      command.add_flag("--ros2", live.ros2, "The same to ROS 2, over DDS");
   command.add_option("--ros-domain", live.ros_domain, "The DDS domain (default: $ROS_DOMAIN_ID, or 0)")
       ->check(CLI::Range(0, 232))
       ->type_name("N")
@@ -42,6 +38,10 @@ void add_live_options(CLI::App& command, LiveRequest& live) {
                   "The network interface of DDS (default: as $CYCLONEDDS_URI says, or lo)")
       ->type_name("NAME")
       ->needs(ros2);
+}
+
+void add_live_options(CLI::App& command, LiveRequest& live) {
+  add_ros_options(command, live, "Publish the frames to ROS 1 while they are drawn");
   command
       .add_option_function<std::string>(
           "--rate", [&live](const std::string& text) { live.rate = read_rate(text); },

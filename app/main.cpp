@@ -77,7 +77,8 @@ Action add_drive(CLI::App& command) {
       ->check(CLI::Range(0, 1000000000));
   command.add_flag("--record", request->record, "Write the mission's recordings while driving");
   add_ros_options(command, request->of.options.live,
-                  "Publish the frames to ROS 1, and let /cmd_vel and /joy drive, too");
+                  "Publish to ROS 1 what is seen, and let /cmd_vel and /joy drive, too");
+  command.get_option("--ros1")->excludes("--ros2");  // one that is heard
   command.add_option("--out", request->of.out, "Output folder (default: out/<script>_drive)")
       ->type_name("DIR");
   command.add_flag("--force", request->of.force, "Replace the legs of an earlier drive");

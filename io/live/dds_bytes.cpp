@@ -2,6 +2,7 @@
 
 #include <dds/ddsi/ddsi_serdata.h>
 #include <dds/ddsi/ddsi_sertype.h>
+#include <dds/ddsi/q_radmin.h>
 
 #include <algorithm>
 #include <cstring>
@@ -49,8 +50,19 @@ ddsi_serdata* from_iov(const ddsi_sertype* type, ddsi_serdata_kind kind, ddsrt_m
   return new_sample(type, kind, std::move(bytes));
 }
 
-ddsi_serdata* from_network(const ddsi_sertype*, ddsi_serdata_kind, const nn_rdata*, size_t) {
-  return nullptr;  // there are no readers
+// In fragments, in order, which may overlap.
+ddsi_serdata* from_network(const ddsi_sertype* type, ddsi_serdata_kind kind, const nn_rdata* part,
+                           size_t size) {
+  std::string bytes;
+  for (; part; part = part->nextfrag) {
+    if (part->maxp1 <= bytes.size()) continue;
+    const auto* payload = reinterpret_cast<const char*>(
+        NN_RMSG_PAYLOADOFF(part->rmsg, NN_RDATA_PAYLOAD_OFF(part)));
+    const std::size_t known = bytes.size() - part->min;
+    bytes.append(payload + known, part->maxp1 - bytes.size());
+  }
+  bytes.resize(size);
+  return new_sample(type, kind, std::move(bytes));
 }
 
 ddsi_serdata* from_keyhash(const ddsi_sertype* type, const ddsi_keyhash*) {
@@ -75,7 +87,10 @@ ddsi_serdata* to_untyped(const ddsi_serdata* data) {
   return sample;
 }
 
-bool to_sample(const ddsi_serdata*, void*, void**, void*) { return false; }
+bool to_sample(const ddsi_serdata* data, void* sample, void**, void*) {
+  *static_cast<std::string*>(sample) = bytes_of(data).substr(0, get_size(data));
+  return true;
+}
 bool untyped_to_sample(const ddsi_sertype*, const ddsi_serdata*, void*, void**, void*) {
   return true;
 }
@@ -148,6 +163,16 @@ dds_entity_t create_bytes_topic(dds_entity_t participant, const std::string& top
       dds_create_topic_sertype(participant, topic.c_str(), &made, nullptr, nullptr, nullptr);
   if (entity < 0) ddsi_sertype_unref(made);
   return entity;
+}
+
+std::vector<std::string> take_bytes(dds_entity_t reader) {
+  std::vector<std::string> all;
+  std::string bytes;
+  void* sample = &bytes;
+  dds_sample_info_t info;
+  while (dds_take(reader, &sample, &info, 1, 1) > 0)
+    if (info.valid_data) all.push_back(std::move(bytes));
+  return all;
 }
 
 }  // namespace rubble

@@ -1,11 +1,12 @@
 // A type of Cyclone DDS whose samples are CDR already, whatever the type: what is written is sent as
-// it is, so that what is heard live is what a file holds. For writers alone; nothing can be read.
+// it is, so that what is heard live is what a file holds; what is read comes as it was sent.
 #pragma once
 
 #include <dds/dds.h>
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rubble {
 
@@ -16,5 +17,8 @@ using DdsBytes = std::string_view;
 // gives it.
 dds_entity_t create_bytes_topic(dds_entity_t participant, const std::string& topic,
                                 const std::string& type);
+
+// What has come to a reader of such a topic, in order.
+std::vector<std::string> take_bytes(dds_entity_t reader);
 
 }  // namespace rubble

@@ -57,5 +57,6 @@ std::unique_ptr<DriveStream> make_ros1_drive(const Ros1Options& options);
 std::string describe_ros2();
 void check_ros2(const Ros2Options& options);
 std::unique_ptr<RosFile> make_ros2_stream(const Ros2Options& options);
+std::unique_ptr<DriveStream> make_ros2_drive(const Ros2Options& options);
 
 }  // namespace rubble

@@ -18,6 +18,7 @@ constexpr std::int32_t kPictureDepth = 30, kDepth = 1000;
 // How long a write would wait for them if more than kMostHeld were kept, which is never.
 constexpr dds_duration_t kPatience = DDS_MSECS(100);
 constexpr char kMostHeld[] = "1 GiB";
+constexpr std::int32_t kHeard = 100;  // commands; older ones go when steps are slower
 constexpr dds_duration_t kLinger = DDS_SECS(2);  // for what readers have not confirmed at the end
 
 // Cyclone binds its sockets to all addresses, but announces and sends on this interface alone. Linux
@@ -49,9 +50,9 @@ void check(dds_return_t code, const std::string& what) {
   if (code < 0) throw RunError("DDS: " + what + ": " + dds_strretcode(code));
 }
 
-class Ros2Stream : public RosFile {
+class Ros2Stream : public DriveStream {
  public:
-  explicit Ros2Stream(const Ros2Options& options) : pace_(options) {
+  Ros2Stream(const Ros2Options& options, bool hears) : pace_(options), notice_(options.notice) {
     const auto number = dds_domainid_t(options.domain);
     domain_ = dds_create_domain(number, configuration(options.interface).c_str());
     check(domain_, "domain " + std::to_string(options.domain));
@@ -60,6 +61,10 @@ class Ros2Stream : public RosFile {
     check(participant_, "no participant on " +
                             (options.interface.empty() ? "lo, or as $CYCLONEDDS_URI says"
                                                        : "interface " + options.interface));
+    if (!hears) return;
+    // Best effort readers hear reliable writers, too; but of buttons none may be lost.
+    twist_ = read("/cmd_vel", "geometry_msgs::msg::dds_::Twist_", DDS_RELIABILITY_BEST_EFFORT);
+    joy_ = read("/joy", "sensor_msgs::msg::dds_::Joy_", DDS_RELIABILITY_RELIABLE);
   }
   ~Ros2Stream() override { close(); }
 
@@ -92,6 +97,20 @@ class Ros2Stream : public RosFile {
     if (code != DDS_RETCODE_TIMEOUT) check(code, "write");
   }
 
+  DriveCommands take() override {
+    DriveCommands commands;
+    for (const std::string& bytes : take_bytes(twist_)) hear("/cmd_vel", [&] {
+        commands.twists.push_back(read_twist(version(), bytes));
+      });
+    for (const std::string& bytes : take_bytes(joy_)) hear("/joy", [&] {
+        commands.joys.push_back(read_joy(version(), bytes));
+      });
+    dds_subscription_matched_status_t status;
+    commands.joy_connected =
+        dds_get_subscription_matched_status(joy_, &status) == 0 && status.current_count > 0;
+    return commands;
+  }
+
   void finish() override {
     const dds_time_t end = dds_time() + kLinger;
     for (const dds_entity_t writer : writers_)
@@ -100,6 +119,28 @@ class Ros2Stream : public RosFile {
   }
 
  private:
+  dds_entity_t read(const std::string& topic, const std::string& type,
+                    dds_reliability_kind_t reliability) {
+    const dds_entity_t entity = create_bytes_topic(participant_, "rt" + topic, type);
+    check(entity, "topic " + topic);
+    const std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)> qos(dds_create_qos(), dds_delete_qos);
+    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kHeard);
+    dds_qset_reliability(qos.get(), reliability, kPatience);
+    const dds_entity_t reader = dds_create_reader(participant_, entity, qos.get(), nullptr);
+    check(reader, "reader of " + topic);
+    return reader;
+  }
+
+  // One that is no such message is said and left out: others go on driving.
+  template <typename Read>
+  void hear(const char* topic, Read read) {
+    try {
+      read();
+    } catch (const RunError& error) {
+      notice_(std::string(topic) + ": " + error.what());
+    }
+  }
+
   bool all_have_readers() const {
     for (const dds_entity_t writer : writers_) {
       dds_publication_matched_status_t status;
@@ -115,7 +156,8 @@ class Ros2Stream : public RosFile {
   }
 
   Pace pace_;
-  dds_entity_t domain_ = 0, participant_ = 0;
+  std::function<void(const std::string&)> notice_;
+  dds_entity_t domain_ = 0, participant_ = 0, twist_ = 0, joy_ = 0;
   std::vector<dds_entity_t> writers_;
   bool started_ = false;
 };
@@ -125,11 +167,15 @@ class Ros2Stream : public RosFile {
 std::string describe_ros2() { return "Cyclone DDS " RUBBLE_CYCLONE_VERSION; }
 
 void check_ros2(const Ros2Options& options) {
-  const Ros2Stream attempt(options);
+  const Ros2Stream attempt(options, false);
 }
 
 std::unique_ptr<RosFile> make_ros2_stream(const Ros2Options& options) {
-  return std::make_unique<Ros2Stream>(options);
+  return std::make_unique<Ros2Stream>(options, false);
+}
+
+std::unique_ptr<DriveStream> make_ros2_drive(const Ros2Options& options) {
+  return std::make_unique<Ros2Stream>(options, true);
 }
 
 }  // namespace rubble

@@ -16,4 +16,9 @@ std::unique_ptr<RosFile> make_ros2_stream(const Ros2Options& options) {
   return nullptr;
 }
 
+std::unique_ptr<DriveStream> make_ros2_drive(const Ros2Options& options) {
+  check_ros2(options);
+  return nullptr;
+}
+
 }  // namespace rubble

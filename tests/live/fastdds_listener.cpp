@@ -5,76 +5,34 @@
 // have it. With --as-installed: over every interface, multicast and shared memory, as Fast DDS does
 // unless told otherwise, and not by UDP on the loopback interface alone. Prints "ready" when it listens.
 #include <fastdds/dds/core/policy/QosPolicies.hpp>
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/topic/Topic.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <functional>
-#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "tests/live/fastdds_bytes.h"
+
 namespace {
 
-namespace fast = eprosima::fastdds::dds;
-using eprosima::fastrtps::rtps::SerializedPayload_t;
+using namespace rubble::testing;
 
-// A type of that name whose samples are the bytes that came.
-class Bytes : public fast::TopicDataType {
- public:
-  explicit Bytes(const std::string& name) {
-    setName(name.c_str());
-    m_typeSize = 32 << 20;
-    m_isGetKeyDefined = false;
-  }
-  bool serialize(void*, SerializedPayload_t*) override { return false; }
-  bool deserialize(SerializedPayload_t* payload, void* data) override {
-    static_cast<std::string*>(data)->assign(reinterpret_cast<const char*>(payload->data),
-                                            payload->length);
-    return true;
-  }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void*) override {
-    return [] { return 0u; };
-  }
-  void* createData() override { return new std::string; }
-  void deleteData(void* data) override { delete static_cast<std::string*>(data); }
-  bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
-};
 
 struct Heard {
   fast::DataReader* reader;
   int wanted, count;
 };
 
-fast::DomainParticipant* join(unsigned domain, bool as_installed) {
-  fast::DomainParticipantQos qos;
-  if (as_installed)
-    return fast::DomainParticipantFactory::get_instance()->create_participant(domain, qos);
-  // UDP on the loopback interface alone; no shared memory, which the other maker does not speak.
-  const auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-  udp->interfaceWhiteList.push_back("127.0.0.1");
-  qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports.push_back(udp);
-  return fast::DomainParticipantFactory::get_instance()->create_participant(domain, qos);
-}
-
 fast::DataReader* listen(fast::DomainParticipant* participant, fast::Subscriber* subscriber,
                         const std::string& topic, const std::string& type, bool sensor_data) {
-  const fast::TypeSupport support(new Bytes(type));
-  support.register_type(participant);
-  fast::Topic* const entity =
-      participant->create_topic("rt" + topic, type, fast::TOPIC_QOS_DEFAULT);
+  fast::Topic* const entity = make_topic(participant, topic, type);
   fast::DataReaderQos qos;
   qos.history().kind = fast::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = 100;
@@ -125,7 +83,6 @@ int main(int argc, char** argv) {
   while (!(complete = take(all, folder)) && std::chrono::steady_clock::now() < end)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   for (const Heard& each : all) std::printf("%d of %d\n", each.count, each.wanted);
-  participant->delete_contained_entities();
-  fast::DomainParticipantFactory::get_instance()->delete_participant(participant);
+  leave(participant);
   return complete ? 0 : 1;
 }

@@ -111,7 +111,7 @@ TEST_F(LiveRos2, AnotherMakersDdsHearsWhatTheMcapFileHolds) {
   EXPECT_NE(read_recording(scratch_ / "4/mission.mcap"), recorded);
 }
 
-TEST_F(LiveRos2, SensorDataReadersHearItAndLateOnesTheStaticTransforms) {
+TEST_F(NightlyLiveRos2, SensorDataReadersHearItAndLateOnesTheStaticTransforms) {
   std::vector<Topic> topics = kTopics;
   topics.erase(topics.begin() + 2);  // best effort is for what comes again
   for (Topic& each : topics) each.count = 5;

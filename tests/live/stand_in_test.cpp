@@ -35,6 +35,7 @@ TEST(LiveStandIn, NamesThePackageThatRos2Needs) {
     EXPECT_NE(text.find("cyclonedds-dev"), std::string::npos) << text;
   }
   EXPECT_THROW(make_ros2_stream({}), InputError);
+  EXPECT_THROW(make_ros2_drive({}), InputError);
 }
 
 }  // namespace

@@ -1,0 +1,22 @@
+// `rubble drive --ros2`, driven by Fast DDS with what Fast CDR writes (fastdds_driver.cpp).
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "tests/live/driven.h"
+
+namespace rubble::testing {
+namespace {
+
+TEST(NightlyLiveRos2Drive, WhatTopicsDriveRunsAgainByteForByte) {
+  if (std::system("command -v Xvfb >/dev/null") != 0) GTEST_SKIP() << "no Xvfb";
+  const ScratchFolder scratch;
+  const std::string domain = std::to_string(101 + getpid() % 100);
+  drive_in_a_window(scratch, "", "--ros2 --ros-domain " + domain,
+                    "'" RUBBLE_DRIVER "' " + domain + " >$d/published || exit 1");
+  if (!HasFatalFailure()) expect_the_drive_runs_again(scratch, false);
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -8,6 +8,9 @@
 
 #include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "tests/app/program.h"
@@ -66,6 +69,31 @@ int free_port() {
   getsockname(socket_number, reinterpret_cast<sockaddr*>(&address), &size);
   close(socket_number);
   return ntohs(address.sin_port);
+}
+
+std::multiset<std::string> listening_addresses(pid_t process) {
+  namespace fs = std::filesystem;
+  const std::string folder = "/proc/" + std::to_string(process);
+  std::set<std::string> own;  // sockets, as "socket:[INODE]"
+  for (const auto& entry : fs::directory_iterator(folder + "/fd")) {
+    std::error_code gone;
+    own.insert(fs::read_symlink(entry.path(), gone).string());
+  }
+  std::multiset<std::string> addresses;
+  for (const char* table : {"/net/tcp", "/net/tcp6"}) {
+    std::ifstream in(folder + table);
+    std::string line, number, local, remote, state, skipped, inode;
+    for (std::getline(in, line); std::getline(in, line);) {
+      std::istringstream row(line);
+      row >> number >> local >> remote >> state;
+      for (int i = 0; i < 5; ++i) row >> skipped;
+      row >> inode;
+      const bool listens = state == "0A";
+      if (listens && own.count("socket:[" + inode + "]"))
+        addresses.insert(local.substr(0, local.find(':')));
+    }
+  }
+  return addresses;
 }
 
 }  // namespace rubble::testing

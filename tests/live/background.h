@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <functional>
+#include <set>
 #include <string>
 
 namespace rubble::testing {
@@ -36,5 +37,9 @@ bool eventually(double seconds, const std::function<bool()>& condition);
 
 // A TCP port of the loopback interface that nobody uses now.
 int free_port();
+
+// The IPv4 and IPv6 addresses on which a process listens for TCP connections, one for each socket, as
+// the kernel lists them in hexadecimal.
+std::multiset<std::string> listening_addresses(pid_t process);
 
 }  // namespace rubble::testing

@@ -115,6 +115,12 @@ std::vector<int> AssetLibrary::terrain() const {
   return found;
 }
 
+std::vector<const TriangleMesh*> AssetLibrary::finest_meshes() const {
+  std::vector<const TriangleMesh*> finest;
+  for (const auto& mesh : meshes) finest.push_back(&mesh->levels.front());
+  return finest;
+}
+
 bool AssetLibrary::has(const std::string& name) const {
   const auto is_it = [&name](const auto& type) { return type.name == name; };
   return std::any_of(types.begin(), types.end(), is_it) ||

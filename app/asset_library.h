@@ -28,6 +28,7 @@ struct AssetLibrary {
   bool has(const std::string& name) const;
   int find(const PlacedItem& item) const;  // likewise, of its asset or its box
   std::vector<int> terrain() const;        // the indices of types that are terrain; one or none
+  std::vector<const TriangleMesh*> finest_meshes() const;  // one per type, kept by the library
 };
 
 // Loads what the mission uses, from its packs and then `extra_packs`; with neither, from the

@@ -9,11 +9,11 @@ namespace {
 
 VoidMap make_map(const VoidScenario& voids, const PileState& pile, const AssetLibrary& assets,
                  int threads, const std::function<bool(double done)>& progress) {
-  std::vector<const TriangleMesh*> meshes;
-  for (const auto& mesh : assets.meshes) meshes.push_back(&mesh->levels.front());
+  const std::vector<const TriangleMesh*> meshes = assets.finest_meshes();
   VoidSpaceOptions options;
   options.voxel = voids.voxel;
   options.rolling_radius = std::max(options.rolling_radius, 2 * voids.radius);
+  options.scenery = assets.terrain();
   options.threads = threads;
   VoidSpace space =
       calc_void_space(pile, meshes, options, [&](double done) { return progress(0.7 * done); });

@@ -11,12 +11,6 @@ namespace {
 constexpr double kFinestVoxel = 0.02, kCoarsestVoxel = 0.1;  // unit: m
 constexpr double kVoxelsPerRadius = 4;
 
-std::vector<const TriangleMesh*> finest_meshes(const AssetLibrary& assets) {
-  std::vector<const TriangleMesh*> meshes;
-  for (const auto& mesh : assets.meshes) meshes.push_back(&mesh->levels.front());
-  return meshes;
-}
-
 std::set<double> void_radii(const TrajectorySpec& spec) {
   std::set<double> radii;
   for (const Waypoint& w : spec.waypoints) {
@@ -91,7 +85,7 @@ class Resolver {
 }  // namespace
 
 PileGeometry::PileGeometry(const AssetLibrary& assets, const PileState& state)
-    : pile(state), meshes(finest_meshes(assets)), terrain(assets.terrain()),
+    : pile(state), meshes(assets.finest_meshes()), terrain(assets.terrain()),
       queries(state, meshes) {}
 
 PileSpace::PileSpace(const PileGeometry& geometry, const TrajectorySpec& spec, int threads,

@@ -55,8 +55,7 @@ VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progres
   const SavedRun saved = open_saved_run(request.folder);
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
   const PileState pile = load_pile_of(saved);
-  std::vector<const TriangleMesh*> meshes;
-  for (const auto& mesh : assets.meshes) meshes.push_back(mesh ? &mesh->levels.front() : nullptr);
+  const std::vector<const TriangleMesh*> meshes = assets.finest_meshes();
   VoidSpaceOptions options;
   options.voxel = voids.voxel;
   double largest = 0;

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "tests/app/program.h"
 
@@ -86,6 +87,25 @@ TEST_F(Suite, HoldsVoidsToTheirLimits) {
                                    " --pile-only --seeds 1 --out " + (scratch / "many"));
   EXPECT_EQ(batch.exit_code, 0) << batch.err;
   EXPECT_IN(",void_volume_m3,", read_file(scratch / "many/index.csv"));
+}
+
+// What a suite measures is what `rubble voids` maps; a hill is solid in both, and no pile.
+TEST_F(Suite, VoidsOnTerrainAreThoseOfTheMap) {
+  const std::string data = scratch / "hill";
+  const Outcome settled =
+      run_rubble("settle scripts/terrain.lua --set pile.pieces_per_layer=20 --set voids.on=true "
+                 "--set voids.voxel=0.06 --set voids.radius=0.15 --quiet --out " + data);
+  ASSERT_EQ(settled.exit_code, 0) << settled.err;
+  const Outcome mapped =
+      run_rubble("voids " + data + " --voxel 0.06 --radius 0.15 --quiet --out " + data + "/voids");
+  ASSERT_EQ(mapped.exit_code, 0) << mapped.err;
+  const auto read = [](const std::string& path) { return nlohmann::json::parse(read_file(path)); };
+  const nlohmann::json metrics = read(data + "/manifest.json").at("metrics");
+  const nlohmann::json map = read(data + "/voids/voids.json"), robot = map.at("robots").at(0);
+  EXPECT_GT(metrics.at("void_robot_m3"), 0.1);
+  EXPECT_NEAR(metrics.at("void_volume_m3"), map.at("void_volume"), 1e-3);
+  EXPECT_NEAR(metrics.at("void_robot_m3"), robot.at("volume"), 1e-3);
+  EXPECT_NEAR(metrics.at("void_reachable_m3"), robot.at("reachable_volume"), 1e-3);
 }
 
 // Read by Python's XML parser and by libxml2, with names and texts that XML must escape.

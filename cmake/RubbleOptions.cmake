@@ -28,9 +28,7 @@ endif()
 set(RUBBLE_SANITIZE "" CACHE STRING "address,undefined or thread; empty: none")
 if(RUBBLE_SANITIZE)
   target_compile_options(rubble_options INTERFACE
-    -fsanitize=${RUBBLE_SANITIZE} -fno-omit-frame-pointer -g
-    # GCC 12 takes the checks themselves for uses of uninitialized values: std::regex warns.
-    -Wno-error=maybe-uninitialized)
+    -fsanitize=${RUBBLE_SANITIZE} -fno-omit-frame-pointer -g)
   target_link_options(rubble_options INTERFACE -fsanitize=${RUBBLE_SANITIZE})
   if(RUBBLE_SANITIZE MATCHES "undefined")
     target_compile_options(rubble_options INTERFACE -fno-sanitize-recover=undefined)

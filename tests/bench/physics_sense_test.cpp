@@ -59,9 +59,10 @@ PileState pour_heap(double friction, std::uint64_t seed) {
 }
 
 double heap_degrees(double friction) {
+  constexpr int kHeaps = 6;
   double sum = 0;
-  for (std::uint64_t seed : {1, 2}) sum += calc_slope(pour_heap(friction, seed));
-  return 0.5 * sum * 180 / portable::kPi;
+  for (std::uint64_t seed = 1; seed <= kHeaps; ++seed) sum += calc_slope(pour_heap(friction, seed));
+  return sum / kHeaps * 180 / portable::kPi;
 }
 
 TEST(Heap, LiesAtItsAngleOfReposeAndSteeperWithFriction) {
@@ -73,8 +74,8 @@ TEST(Heap, LiesAtItsAngleOfReposeAndSteeperWithFriction) {
   EXPECT_GE(rough, 30);
   EXPECT_LE(rough, 45);
   EXPECT_GT(middle, smooth + 2);
-  // Angular lumps lock into each other: beyond 0.6 friction adds little, and heaps vary by 1
-  // degree.
+  // Angular lumps lock into each other: beyond 0.6 friction adds little, and single heaps
+  // vary by 1 to 2 degrees (standard deviation), the mean of six by 0.7.
   EXPECT_GT(rough, middle - 1.5);
 }
 

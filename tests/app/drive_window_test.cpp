@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/app/driven_leg.h"
 #include "tests/app/program.h"
 
 namespace rubble::testing {
@@ -70,18 +71,7 @@ TEST(DriveWindow, WhatIsDrivenByKeysRunsAgainByteForByte) {
     EXPECT_GT(count_changes(before, &after, pane + 10, 20, 90), 20) << pane;     // it moved
   }
   for (const std::string leg : {"leg_001", "leg_002", "leg_003"}) {
-    const Outcome again =
-        run_rubble("run " + (scratch / "out/") + leg + ".lua --quiet --out " + (scratch / leg));
-    ASSERT_EQ(again.exit_code, 0) << again.err;
-    const auto json = nlohmann::json::parse(read_file(scratch / (leg + "/manifest.json")));
-    std::istringstream seen(read_file(scratch / ("out/" + leg + ".hashes")));
-    std::string row;
-    std::getline(seen, row);
-    std::size_t frames = 0;
-    for (; std::getline(seen, row); ++frames)
-      ASSERT_EQ(row, json["frame_hashes"]["xxh64"].at(frames)) << leg << " frame " << frames;
-    EXPECT_EQ(frames, json["frame_hashes"]["xxh64"].size());
-    EXPECT_GT(frames, 0u);
+    expect_same_frames(scratch, leg, 1);
     EXPECT_EQ(read_file(scratch / ("out/" + leg + "/mission.bag")),
               read_file(scratch / (leg + "/mission.bag")));
   }

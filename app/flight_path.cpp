@@ -32,8 +32,8 @@ std::string key_of(std::size_t waypoint) {
 
 class LegPlanner {
  public:
-  LegPlanner(const PileGeometry& geometry, const VoidSpace& space, double radius)
-      : geometry_(geometry), space_(space), radius_(radius) {}
+  LegPlanner(const PileGeometry& geometry, const PileSpace& space, double radius)
+      : geometry_(geometry), pile_space_(space), radius_(radius) {}
 
   // From a to b, both included.
   std::vector<Vec3> plan(const Vec3& a, const Vec3& b, std::size_t goal) const {
@@ -45,27 +45,28 @@ class LegPlanner {
   }
 
  private:
+  const VoidSpace& space() const { return pile_space_.map().space; }
   bool inside(const Vec3& p) const {
-    const VoxelGrid& grid = space_.grid;
+    const VoxelGrid& grid = space().grid;
     const Vec3 low = grid.corner, high = far_corner();
     return p.x > low.x && p.y > low.y && p.z > low.z && p.x < high.x && p.y < high.y &&
            p.z < high.z;
   }
   Vec3 far_corner() const {
-    const VoxelGrid& grid = space_.grid;
+    const VoxelGrid& grid = space().grid;
     return grid.corner + Vec3(grid.size[0], grid.size[1], grid.size[2]) * grid.voxel;
   }
   // The nearest point of the grid: outside of it there is nothing but the ground.
   Vec3 clamped(const Vec3& p) const {
-    const double inset = 1.5 * space_.grid.voxel;
+    const double inset = 1.5 * space().grid.voxel;
     const Vec3 margin{inset, inset, inset};
-    return min(max(p, space_.grid.corner + margin), far_corner() - margin);
+    return min(max(p, space().grid.corner + margin), far_corner() - margin);
   }
 
   // Where the sphere has room at a waypoint: there, or very near.
   Vec3 place(const Vec3& p, std::size_t waypoint) const {
-    if (!inside(p) || geometry_.queries.clearance(p, radius_ + 0.01) >= radius_) return p;
-    const NearestPlace near = find_nearest_place(space_, p, radius_ + 0.5 * space_.grid.voxel, 0.5);
+    if (geometry_.queries.clearance(p, radius_ + 0.01) >= radius_ || !inside(p)) return p;
+    const NearestPlace near = find_nearest_place(space(), p, radius_ + 0.5 * space().grid.voxel, 0.5);
     if (near.found) return near.position;
     throw InputError({"", 0, key_of(waypoint) + ".position", "no room for the camera's body there",
                       centimetres(radius_) + " to the nearest surface",
@@ -89,7 +90,7 @@ class LegPlanner {
     // Cells are asked at their centres, so a little more than the radius is kept.
     FoundPath found;
     for (const double extra : {0.25, 0.5, 0.75, 1.0}) {
-      found = find_path(space_, entry, exit, radius_ + extra * space_.grid.voxel);
+      found = find_path(space(), entry, exit, radius_ + extra * space().grid.voxel);
       if (!found.found) break;
       std::vector<Vec3> points = found.points;
       // From the place itself, not from the middle of its cell.
@@ -138,7 +139,7 @@ class LegPlanner {
   }
 
   const PileGeometry& geometry_;
-  const VoidSpace& space_;
+  const PileSpace& pile_space_;
   double radius_;
 };
 
@@ -175,7 +176,7 @@ void append_leg(const std::vector<Vec3>& points, const Waypoint& goal, Trajector
 }  // namespace
 
 double plan_around(const PileGeometry& geometry, const PileSpace& space, TrajectorySpec& spec) {
-  const LegPlanner planner(geometry, space.map->space, spec.radius);
+  const LegPlanner planner(geometry, space, spec.radius);
   const std::vector<Waypoint> asked = spec.waypoints;
   double length = 0;
   spec.waypoints.clear();

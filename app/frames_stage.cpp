@@ -139,6 +139,7 @@ void render_frames(Run& run, RunFolder& folder) {
   queue.finish();
   for (const std::string& name : set.names) folder.add(name);
   write_legend(run, folder);
+  folder.hash_files(run.threads());
   run.progress.finish(std::to_string(set.names.size()) + " files");
 }
 

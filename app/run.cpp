@@ -129,7 +129,7 @@ void write_manifest(const Run& run, RunFolder& folder) {
   manifest.frames = run.frames.compact();
   manifest.metrics = run.metrics;
   manifest.warnings = run.warnings;
-  manifest.outputs = folder.hashes();
+  manifest.outputs = folder.hash_files(run.threads());
   manifest.wall_seconds = run.progress.wall_seconds();
   manifest.environment = run.environment;
   manifest.pack_folders = run.assets.folders;

@@ -3,11 +3,14 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "app/folder_lock.h"
 #include "io/atomic_file.h"
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/parallel.h"
 
 namespace rubble {
 namespace {
@@ -128,12 +131,20 @@ void RunFolder::finish() const {
 
 void RunFolder::add(const std::string& name) {
   if (!fs::is_directory(file(name))) {
-    hashes_[name] = sha256_of_file(file(name));
+    hashes_[name].clear();
     return;
   }
   for (const auto& entry : fs::recursive_directory_iterator(file(name)))
-    if (entry.is_regular_file())
-      hashes_[fs::relative(entry.path(), path_).string()] = sha256_of_file(entry.path().string());
+    if (entry.is_regular_file()) hashes_[fs::relative(entry.path(), path_).string()].clear();
+}
+
+const std::map<std::string, std::string>& RunFolder::hash_files(int threads) {
+  std::vector<std::pair<const std::string, std::string>*> left;
+  for (auto& item : hashes_)
+    if (item.second.empty()) left.push_back(&item);
+  parallel_for(left.size(), threads,
+               [&](std::size_t i) { left[i]->second = sha256_of_file(file(left[i]->first)); });
+  return hashes_;
 }
 
 }  // namespace rubble

@@ -39,16 +39,18 @@ class RunFolder {
   // Notes files that are about to be written, so that --force finds them whatever happens.
   void expect(const std::vector<std::string>& names) const;
 
-  // Records a file that is complete; of a folder, every file in it.
+  // Notes a file that is complete; of a folder, every file in it.
   void add(const std::string& name);
-  const std::map<std::string, std::string>& hashes() const { return hashes_; }
+  // SHA-256 by name of all that was added. A dataset has gigabytes, so threads share the files; what
+  // was hashed before is not hashed again.
+  const std::map<std::string, std::string>& hash_files(int threads);
 
  private:
   explicit RunFolder(std::string path) : path_(std::move(path)) {}
 
   std::string path_;
   std::shared_ptr<const FolderLock> lock_;     // while the run is not finished
-  std::map<std::string, std::string> hashes_;  // name to SHA-256
+  std::map<std::string, std::string> hashes_;  // name to SHA-256; empty: not calculated yet
 };
 
 // Whether `rubble resume` has something to continue there.

@@ -105,9 +105,11 @@ void write_pile_files(Run& run, RunFolder& folder) {
   std::vector<std::string> formats = run.scenario.outputs.meshes;
   if (run.scenario.outputs.stl) formats.push_back("stl");
   if (formats.empty()) return;
+  run.progress.start("export");
   const PileModel model = build_pile_model(run.assets, run.pile);
   for (const std::string& format : formats)
     for (const std::string& name : export_pile(model, format, folder.path())) folder.add(name);
+  run.progress.finish(std::to_string(formats.size()) + (formats.size() == 1 ? " mesh" : " meshes"));
 }
 
 }  // namespace rubble

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -128,7 +129,7 @@ class Verifier {
     if (frames) check_frames(run, folder);
     if (!frames && was_.recipe.kind != RunKind::settle) skip("frames", "--pile-only");
     if (!request_.pile_only) check_metrics(run);
-    check_files(folder);
+    check_files(folder, folder.hash_files(run.threads()));
   }
 
   bool check_pile(const Run& run) {
@@ -185,22 +186,22 @@ class Verifier {
     add("metrics", apart.empty(), apart.empty() ? std::to_string(run.metrics.size()) : apart);
   }
 
-  void check_files(const RunFolder& folder) {
+  void check_files(const RunFolder& folder, const std::map<std::string, std::string>& hashes) {
     std::string wrong;
     for (const auto& [name, hash] : was_.outputs) {
-      const auto is = folder.hashes().find(name);
-      if (is == folder.hashes().end()) {
+      const auto is = hashes.find(name);
+      if (is == hashes.end()) {
         if (!request_.pile_only) wrong += name + " is not made any more; ";
       } else if (is->second != hash) {
         wrong += name + ": " + compare_file(name, folder) + "; ";
       }
     }
-    for (const auto& item : folder.hashes())
+    for (const auto& item : hashes)
       if (!was_.outputs.count(item.first)) wrong += item.first + " is new; ";
     if (!wrong.empty()) wrong.resize(wrong.size() - 2);
     add("files", wrong.empty(), wrong.empty() ? "made anew, the same bytes" : wrong);
     for (const std::string& name : altered_)
-      if (folder.hashes().count(name))
+      if (hashes.count(name))
         result_.findings.back().detail +=
             "; in the recorded " + name + ", " +
             describe_difference_of_files(folder.file(name), recorded(name));

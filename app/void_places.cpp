@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "scripting/value.h"
 
@@ -25,7 +26,7 @@ double outside_radius(const TrajectorySpec& spec) {
   for (const Waypoint& w : spec.waypoints)
     for (const auto& place : {w.position_in_void, w.look_at_in_void})
       if (place) largest = std::max(largest, place->outside_radius);
-  return largest > 0 ? largest : kOutsideRadius;  // without voids: a way may lead anywhere
+  return largest;  // 0 without voids: there is room enough to go round the pile all the same
 }
 
 class Resolver {
@@ -89,26 +90,35 @@ PileGeometry::PileGeometry(const AssetLibrary& assets, const PileState& state)
       queries(state, meshes) {}
 
 PileSpace::PileSpace(const PileGeometry& geometry, const TrajectorySpec& spec, int threads,
-                     const FlightProgress& progress) {
+                     FlightProgress progress)
+    : geometry_(geometry), progress_(std::move(progress)) {
   std::set<double> radii = void_radii(spec);
-  if (radii.empty() && spec.plan != Plan::avoid) return;
-  const std::vector<double> robots(radii.begin(), radii.end());
-  if (spec.plan == Plan::avoid) radii.insert(spec.radius);
-  VoidSpaceOptions options;
-  options.voxel =
-      std::clamp(*radii.begin() / kVoxelsPerRadius, kFinestVoxel, kCoarsestVoxel);
-  options.voxel = std::min(options.voxel, *radii.begin());
-  options.rolling_radius = outside_radius_for(outside_radius(spec), *radii.rbegin());
-  options.threads = threads;
-  options.scenery = geometry.terrain;
-  const auto report = [&](double from, double to) {
-    return [&progress, from, to](double done) {
-      if (progress) progress(from + (to - from) * done, "free space");
+  robots_.assign(radii.begin(), radii.end());
+  if (spec.plan == Plan::avoid || radii.empty()) radii.insert(spec.radius);
+  options_.voxel = std::clamp(*radii.begin() / kVoxelsPerRadius, kFinestVoxel, kCoarsestVoxel);
+  options_.voxel = std::min(options_.voxel, *radii.begin());
+  options_.rolling_radius = outside_radius_for(outside_radius(spec), *radii.rbegin());
+  options_.threads = threads;
+  options_.scenery = geometry.terrain;
+}
+
+const VoidMap& PileSpace::map() const {
+  if (!map_) map_ = make();
+  return *map_;
+}
+
+VoidMap PileSpace::make() const {
+  const auto report = [this](double from, double to) {
+    return [this, from, to](double done) {
+      if (progress_) progress_(from + (to - from) * done, "free space");
       return true;
     };
   };
-  VoidSpace space = calc_void_space(geometry.pile, geometry.meshes, options, report(0, 0.7));
-  map = find_voids(std::move(space), robots, report(0.7, 1));
+  VoidSpace space = calc_void_space(geometry_.pile, geometry_.meshes, options_, report(0, 0.7));
+  if (!robots_.empty()) return find_voids(std::move(space), robots_, report(0.7, 1));
+  VoidMap map;
+  map.space = std::move(space);
+  return map;
 }
 
 std::vector<ResolvedVoid> resolve_places(const PileSpace& space, TrajectorySpec& spec) {
@@ -119,7 +129,7 @@ std::vector<ResolvedVoid> resolve_places(const PileSpace& space, TrajectorySpec&
     const auto resolve = [&](std::optional<VoidPlace>& place, const char* name) {
       ResolvedVoid found;
       found.waypoint = int(i) + 1;
-      const Vec3 position = Resolver(*space.map).resolve(*place, key + name, found);
+      const Vec3 position = Resolver(space.map()).resolve(*place, key + name, found);
       place.reset();
       all.push_back(found);
       return position;

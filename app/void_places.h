@@ -21,13 +21,24 @@ struct PileGeometry {
   PileQueries queries;
 };
 
-// Its free space in voxels, as fine as the smallest sphere that the flight names asks for; made only
-// when something needs it.
-struct PileSpace {
+// Its free space in voxels, as fine as the smallest sphere that the flight names asks for. It takes
+// seconds to make, so it is made when something first asks for it: a way of straight legs never does.
+class PileSpace {
+ public:
+  // The geometry must outlive it.
   PileSpace(const PileGeometry& geometry, const TrajectorySpec& spec, int threads,
-            const FlightProgress& progress);
+            FlightProgress progress);
 
-  std::optional<VoidMap> map;
+  const VoidMap& map() const;  // robots: of the voids that the flight names, maybe none
+
+ private:
+  VoidMap make() const;
+
+  const PileGeometry& geometry_;
+  std::vector<double> robots_;  // radii of the voids that are named; unit: m
+  VoidSpaceOptions options_;
+  FlightProgress progress_;
+  mutable std::optional<VoidMap> map_;
 };
 
 struct ResolvedVoid {

@@ -84,6 +84,21 @@ TEST(Refuse, TheGroundCounts) {
   EXPECT_NE(error.find("the ground"), std::string::npos) << error;
 }
 
+// How often planning told how far the free space was.
+int count_reports(const std::string& goal) {
+  const SettledMission m =
+      scene("{ box = { 1, 1, 2 }, position = { 0, 0, 1 } }",
+            "plan = 'avoid', radius = 0.3, waypoints = { { position = { -3, 0, 1 } }, { position = " + goal + " } }");
+  int reports = 0;
+  resolve_flight(m.mission.scenario, m.assets, m.state, 1, [&](double, const std::string&) { ++reports; });
+  return reports;
+}
+
+TEST(Avoid, MakesTheFreeSpaceOnlyWhereNoStraightLegWillDo) {
+  EXPECT_EQ(count_reports("{ -3, 4, 1 }"), 0);
+  EXPECT_GT(count_reports("{ 3, 0, 1 }"), 0);
+}
+
 TEST(Avoid, FindsTheWayThroughTwoWindows) {
   const SettledMission m = scene(tunnel(0.9, 0.9),
                                  "plan = 'avoid', radius = 0.3, speed = 1, waypoints = { "

@@ -78,7 +78,7 @@ def surface_table(work):
     for path in sorted(work.out.glob("seed*/meshes/*.score.json")):
         score = json.loads(path.read_text())["datasets"][0]
         rows.append([json.loads((path.parent / (path.name[:-11] + ".title.json")).read_text()),
-                     format(score["triangles"], ",")] +
+                     format(score["triangles"], ",") if score["triangles"] else "-"] +
                     [text([score[key]], digits) for key, digits in
                      [("within_1cm_percent", 1), ("within_2cm_percent", 1), ("within_5cm_percent", 1),
                       ("median_distance_m", 4), ("completeness_5cm_percent", 1)]])
@@ -101,7 +101,8 @@ def slam_table(work):
 
 
 METHODS = {"rgbd": "OpenCV `RgbdOdometry`", "rgbd_icp": "OpenCV `RgbdICPOdometry`",
-           "icp": "OpenCV `ICPOdometry`", "open3d": "Open3D, hybrid term"}
+           "icp": "OpenCV `ICPOdometry`", "open3d": "Open3D, hybrid term",
+           "mrpt_icp": "MRPT `icp-slam`, in the plane"}
 
 
 def replace(document, name, content):

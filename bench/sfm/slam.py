@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """RGB-D odometry and mapping from a recorded ROS bag by programs that nobody here wrote, fed as by a robot:
-odometry by OpenCV's rgbd module (contrib) and by Open3D, and the frames fused along the estimated track into a
-truncated signed distance volume by Open3D. (OpenCV's KinFu is there, but Debian leaves it out as patented.)
+odometry by OpenCV's rgbd module (contrib) and by Open3D, SLAM in the plane by MRPT from the rawlog beside the
+bag, and the frames fused along the estimated track into a truncated signed distance volume by Open3D. (OpenCV's
+KinFu is there, but Debian leaves it out as patented.)
 
-usage: slam.py BAG OUT METHOD    METHOD: rgbd, rgbd_icp, icp (OpenCV), open3d
+usage: slam.py BAG OUT METHOD    METHOD: rgbd, rgbd_icp, icp (OpenCV), open3d, mrpt_icp
 
 Writes OUT/METHOD.txt, the estimated trajectory in TUM format from the true first pose on; OUT/METHOD.ply, the
 fused mesh in the world; OUT/METHOD.json: the time taken, and how many frames were lost (an odometry that fails
@@ -18,6 +19,8 @@ import cv2
 import numpy as np
 import open3d as o3d
 import rosbag
+
+import mrpt
 
 NEAR, FAR = 0.2, 8.0  # of the depth that is used; unit: m
 
@@ -150,7 +153,10 @@ def main():
         frames, k, truth = read(bag)
     start = truth[frames[0][0]]
     begin = time.monotonic()
-    if method == "open3d":
+    if method == "mrpt_icp":
+        rawlog = pathlib.Path(bag_path).with_suffix(".rawlog")
+        poses, lost = mrpt.world_from_optical(mrpt.follow(rawlog, out / "mrpt"), start), 0
+    elif method == "open3d":
         poses, lost = run_open3d(frames, k, start)
     else:
         poses, lost = run_odometry(method, frames, k, start)

@@ -152,10 +152,10 @@ class Stages:
     # RGB-D consumers and surfaces
 
     def record(self, seed, condition):
-        """A flight with all its frames, 640x640, as a bag. Returns its folder."""
+        """A flight with all its frames, 640x640, as a bag and for MRPT. Returns its folder."""
         folder = self.out / ("seed%d" % seed) / ("slam_" + condition.name)
-        settings = ["camera.width=640", "camera.height=640", "outputs.colmap=true", "outputs.rawlog=false",
-                    "outputs.simplemap=false", "outputs.stl=false", "outputs.preview=false"]
+        settings = ["camera.width=640", "camera.height=640", "outputs.colmap=true", "outputs.stl=false",
+                    "outputs.preview=false"]
         settings += condition.settings
 
         def work():
@@ -191,12 +191,13 @@ class Stages:
         pathlib.Path(stem + ".title.json").write_text(json.dumps(title))
 
     def surfaces(self, seed, condition, size_name):
-        """Meshes of the true depth, and of COLMAP's points where this COLMAP can."""
+        """Meshes and points of the true depth, and of COLMAP's points where this COLMAP can."""
         folder, out = self.record(seed, condition), self.out / ("seed%d" % seed) / "meshes"
         log = out / "meshes.log"
 
         def fuse():
             self.run(["/usr/bin/python3", HERE / "meshes.py", folder / "mission.bag", out], log)
+            self.run(["/usr/bin/python3", HERE / "mrpt.py", folder / "mission.simplemap", out / "mrpt_points.ply"], log)
             self.run(["colmap", "poisson_mesher", "--input_path", out / "fused_points.ply", "--output_path",
                       out / "fused_poisson.ply", "--PoissonMeshing.depth", 10, "--PoissonMeshing.trim", 8], log)
 
@@ -204,6 +205,8 @@ class Stages:
             self.score_surface(folder, out / "fused_tsdf.ply", "true depth and poses, Open3D's volume of 2 cm")
             self.score_surface(folder, out / "fused_poisson.ply",
                                "the same points, `colmap poisson_mesher` (depth 10, trim 8)")
+            self.score_surface(folder, out / "mrpt_points.ply",
+                               "the simplemap's frames, points of MRPT's `observations2map` (2 cm apart)")
             for model in sorted((self.sfm(seed, size_name, condition) / "sparse").glob("[0-9]*"))[:1]:
                 self.mesh_points(self.dataset(seed, size_name, condition), model, out)
 

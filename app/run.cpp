@@ -59,15 +59,28 @@ Json describe_program() {
           {"flags", build.flags},     {"target", build.target}, {"libraries", build.libraries}};
 }
 
+std::string describe_moving(const PileState& pile) {
+  std::string first;
+  int moving = 0;
+  for (std::size_t i = 0; i < pile.pieces.size(); ++i) {
+    const PieceState& piece = pile.pieces[i];
+    if (piece.status != PieceStatus::moving || ++moving > 1) continue;
+    const Vec3& p = piece.world_from_body.translation;
+    char text[160];
+    std::snprintf(text, sizeof text, ", the first %s, piece %zu, at {%.2f, %.2f, %.2f},",
+                  pile.types[std::size_t(piece.type)].c_str(), i, p.x, p.y, p.z);
+    first = text;
+  }
+  return std::to_string(moving) + " of " + std::to_string(pile.pieces.size()) +
+         " pieces still moved" + first;
+}
+
 ExitCode report(const Run& run, const RunFolder& folder) {
   std::printf("%s\n", folder.path().c_str());
   if (run.pile.settled) return ExitCode::done;
-  int moving = 0;
-  for (const PieceState& piece : run.pile.pieces) moving += piece.status == PieceStatus::moving;
-  std::fprintf(stderr,
-               "the pile did not settle: %d of %zu pieces still moved when the time limit came "
+  std::fprintf(stderr, "the pile did not settle: %s when the time limit came "
                "(settle.final_time_limit = %g s)\n",
-               moving, run.pile.pieces.size(), run.pile_scenario.settle.final_time_limit);
+               describe_moving(run.pile).c_str(), run.pile_scenario.settle.final_time_limit);
   return ExitCode::did_not_settle;
 }
 

@@ -153,7 +153,8 @@ class Settling {
       PieceState piece = world_.piece(i);
       const double v2 = dot(piece.linear_velocity, piece.linear_velocity);
       const double w2 = dot(piece.angular_velocity, piece.angular_velocity);
-      if (piece.status == PieceStatus::moving && world_.is_touching(i) &&
+      const bool stays = !world_.proving() || world_.stays(i);
+      if (piece.status == PieceStatus::moving && world_.is_touching(i) && stays &&
           v2 < options_.rest_speed * options_.rest_speed &&
           w2 < options_.rest_angular_speed * options_.rest_angular_speed) {
         piece.status = PieceStatus::resting;

@@ -336,11 +336,15 @@ bool World::at_rest(double speed, double angular_speed) const {
 bool World::proved_rest(double speed, double angular_speed) const {
   const auto wanted = std::int64_t(kProofTime / impl_->options.step);
   if (!proving() || (awake_count() > 0 && impl_->data.proof_steps < wanted)) return false;
-  const auto stays = [this](const Body& body) {
-    return !body.awake || body.loose_steps >= int(kStayTime / impl_->options.step);
-  };
-  const std::vector<Body>& bodies = impl_->data.bodies;
-  return at_rest(speed, angular_speed) && std::all_of(bodies.begin(), bodies.end(), stays);
+  if (!at_rest(speed, angular_speed)) return false;
+  for (int i = 0; i < size(); ++i)
+    if (!stays(i)) return false;
+  return true;
+}
+
+bool World::stays(int index) const {
+  const Body& body = impl_->data.bodies[index];
+  return !body.awake || body.loose_steps >= int(kStayTime / impl_->options.step);
 }
 
 bool World::all_have_touched() const {

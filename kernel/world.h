@@ -77,7 +77,10 @@ class World {
   // awake has stayed within 4 mm for half a second. Sleepers have stayed within 1 mm for 0.5 s, or
   // within 4 mm for 1 s (jointed or deep in another: longer). So nothing that slides or creeps
   // faster than 8 mm/s passes. Needs sleeping to be allowed: nobody counts the time otherwise.
+  // What fails for more than 9 s is damped; see kernel/speed_limits.h.
   bool proved_rest(double speed, double angular_speed) const;
+  // Whether a piece sleeps, or has stayed in place as proved_rest() demands.
+  bool stays(int index) const;
   bool all_have_touched() const;
   // Of all pieces, or of those that have touched something and the immovable ones; 0 when none.
   double highest_point(bool touched_only = false) const;

@@ -151,6 +151,12 @@ void World::Impl::limit_kicks() {
   }
 }
 
+// 0 while a proof of rest may yet succeed by itself, 1 when it has lasted too long.
+float World::Impl::calc_lateness() const {
+  const float seconds = float(data.proof_steps) * float(options.step);
+  return std::clamp((seconds - kPatience) / (kPatienceEnds - kPatience), 0.0F, 1.0F);
+}
+
 // The speeds after the step, and the extra rates that make up its displacement.
 void World::Impl::set_rates(std::size_t index) {
   const Body& body = data.bodies[index];
@@ -163,6 +169,8 @@ void World::Impl::set_rates(std::size_t index) {
     // Grinding of rough surfaces, for pieces that are nearly at rest.
     if (spin < kSlowSpin) m.angular *= 1 - kSpinDamping * (1 - spin / kSlowSpin);
     if (speed < kSlowSpeed) m.linear *= 1 - kSpeedDamping * (1 - speed / kSlowSpeed);
+    if (lateness > 0 && spin < kTremblingSpin) m.angular *= 1 - kLateDamping * lateness;
+    if (lateness > 0 && speed < kTremblingSpeed) m.linear *= 1 - kLateDamping * lateness;
     r.linear = Vec3(m.linear), r.angular = Vec3(m.angular);
     const double per_step = 1 / options.step;
     r.extra_linear = Vec3(displacements[index].linear) * per_step - r.linear;
@@ -189,6 +197,7 @@ void World::Impl::advance() {
   rates.resize(blocks.size());
   block_awake.assign(blocks.block_count(), 0);
   body_of.resize(blocks.size());
+  lateness = calc_lateness();
   for (std::size_t i = 0; i < data.bodies.size(); ++i) {
     const Body& body = data.bodies[i];
     if (!body.awake || body.mobile < 0) continue;

@@ -91,6 +91,14 @@ void run_scripts_of(const std::string& folder) {
 
 TEST(NightlyRun, RunsEveryBundledScript) { run_scripts_of("scripts"); }
 TEST(NightlyRun, RunsEveryCollapseMode) { run_scripts_of("scripts/collapse"); }
+TEST(NightlyRun, SettlesThePublishedDemonstrationOfOtherSeeds) {
+  for (const char* seed : {"2", "3", "4", "5"}) {
+    const ScratchFolder scratch;
+    const Outcome run = run_rubble("settle scripts/paper/exterior.lua --seed " + std::string(seed) +
+                                   " --out " + (scratch / "pile"));
+    EXPECT_EQ(run.exit_code, 0) << seed << ": " << run.err;
+  }
+}
 TEST(NightlyRun, RunsThePublishedDemonstration) { run_scripts_of("scripts/paper"); }
 
 // Three of them in every run of the tests: all outputs; a collapse, its voids and a planned path;

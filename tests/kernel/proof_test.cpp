@@ -92,6 +92,27 @@ TEST(ProofOfRest, WhoSlidesMoreSlowlyThanTheLimitsPassesOnlyOnceItStays) {
   }
 }
 
+// How long the proof takes of a box that nothing but damping holds on a slope.
+double prove_on_slope(double slope) {
+  PieceType ramp = box_type("ramp", 40, 4, 1), box = box_type("box", 0.4, 0.4, 0.2);
+  ramp.friction = box.friction = 0;
+  World world({ramp, box});
+  const Quat q = turned({0, 1, 0}, std::atan(slope));
+  world.add({at(0, {0, 0, 2}, q, true), at(1, Vec3{0, 0, 2} + q.rotate({-15, 0, 0.601}), q)});
+  return prove(world, 20);
+}
+
+// It slides with 3 cm/s, for ever: less than that and it counts as at rest, but only after 9 s.
+TEST(ProofOfRest, WhatOnlyTremblesIsBroughtToRestInTheEnd) {
+  const double seconds = prove_on_slope(0.003);
+  EXPECT_GT(seconds, 9);
+  EXPECT_LT(seconds, 14);
+}
+
+TEST(ProofOfRest, WhatSlidesInEarnestIsNot) {
+  EXPECT_EQ(prove_on_slope(0.03), INFINITY);
+}
+
 TEST(ProofOfRest, WhoSleepsInTheAirDoesNotPass) {
   World world({box_type("b", 0.4, 0.4, 0.2)});
   world.add({at(0, {0, 0, 0.1}), at(0, {2, 0, 1.5})});

@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages build live demo gallery pictures test test-nightly test-asan test-tsan determinism format clean
+.PHONY: help packages build asset-maker live demo gallery pictures test test-nightly test-asan test-tsan determinism format clean
 
 PROGRAM := build/release/rubble
 CTEST   := ctest --output-on-failure --parallel 2
@@ -60,6 +60,13 @@ test: build
 test-nightly: live
 	@tools/install_packages.sh tools/packages-nightly.txt tools/packages-sfm.txt
 	$(CTEST) --preset release --label-regex nightly
+
+# See RUBBLE_ASSET_MAKER in assets/CMakeLists.txt.
+asset-maker: packages build/release/build.ninja
+	cmake --build --preset release --target rubble_make_assets
+
+build/tsan/build.ninja: | asset-maker
+test-tsan: asset-maker
 
 test-asan test-tsan: test-%: packages build/%/build.ninja
 	cmake --build --preset $*

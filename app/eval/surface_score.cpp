@@ -66,6 +66,7 @@ std::vector<Vec3> sample_surface(const PlyMesh& mesh, double spacing) {
       samples.push_back(a + ab * (s * (1 - t)) + ac * (s * t));
     }
   }
+  if (samples.empty()) return mesh.positions;  // a mesh too small, or without any area
   return samples;
 }
 

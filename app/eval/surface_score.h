@@ -28,7 +28,7 @@ inline constexpr double kFarthest = 1;
 std::vector<Vec3> find_visible_surface(const PileQueries& queries, const ColmapModel& truth);
 
 // Points spread evenly over the triangles, about one every `spacing` (unit: m), the same each time;
-// of a point cloud its points.
+// of a point cloud its points, of a mesh too small for one sample its corners.
 std::vector<Vec3> sample_surface(const PlyMesh& mesh, double spacing);
 
 // Nothing for no points.

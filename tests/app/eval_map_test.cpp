@@ -243,6 +243,16 @@ TEST_F(EvalMap, WritesTablesAndDetailsTheSameForAnyThreads) {
   EXPECT_NE(entrances.find(",1,1\n"), std::string::npos) << entrances;
 }
 
+// Its corners are what it has: on the ground, where the camera sees it.
+TEST_F(EvalMap, AMeshWithoutAnyAreaCountsByItsCorners) {
+  Rectangles line;
+  line.add({-0.2, 0.5, 0}, {0.4, 0, 0}, {});
+  write_file(*scratch_ / "line.ply", line.text());
+  const auto s = score("line.ply");
+  EXPECT_EQ(number(s, "samples"), 4);
+  EXPECT_EQ(number(s, "within_1cm_percent"), 100);
+}
+
 TEST_F(EvalMap, SaysWhatIsWrongWithTheInput) {
   const auto error = [](const std::string& map, const std::string& folder) {
     const Outcome run = run_rubble("eval map " + map + " " + folder);

@@ -33,8 +33,9 @@ void stop_on_signals() {
 bool stop_requested() { return stop_signal != 0; }
 
 void throw_if_stopped(const std::string& folder) {
-  if (stop_requested())
-    throw Stopped("stopped by a signal; `rubble resume " + folder + "` continues");
+  if (!stop_requested()) return;
+  throw Stopped("stopped by a signal" +
+                (folder.empty() ? "" : "; `rubble resume " + folder + "` continues"));
 }
 
 }  // namespace rubble

@@ -10,7 +10,7 @@ namespace rubble {
 void stop_on_signals();
 bool stop_requested();
 
-// Throws Stopped once one of them came. folder: of the unfinished run, for the message.
+// Throws Stopped once one of them came. folder: of the unfinished run, for the message; empty: none.
 void throw_if_stopped(const std::string& folder);
 
 }  // namespace rubble

@@ -165,7 +165,7 @@ void read_face(PlyFile& file, const Element& element, PlyMesh& mesh) {
       if (!corners_here) continue;
       if (!(value >= 0 && value < double(mesh.positions.size())))
         file.refuse("no such corner", "0 to " + std::to_string(mesh.positions.size() - 1),
-                    std::to_string(value));
+                    (std::ostringstream() << value).str());
       corners.push_back(std::uint32_t(value));
     }
     for (std::size_t i = 2; i < corners.size(); ++i)

@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kMapSpacing = 0.02;  // of samples of a mesh; unit: m
 
+double sample_spacing(const MapRequest& request) { return std::min(kMapSpacing, request.voxel / 2); }
+
 RecordedViews load_views(const SavedRun& saved, const MapRequest& request) {
   const Scenario scenario = stated_scenario(saved.manifest.recipe);
   const DepthSensorSpec& sensor = scenario.depth_sensor;
@@ -74,7 +76,7 @@ MapFindings score_map(const MapRequest& request, const SavedSurface& surface, Pl
   };
   MapFindings findings;
   findings.map = std::move(map);
-  findings.samples = sample_surface(findings.map, std::min(kMapSpacing, request.voxel / 2));
+  findings.samples = sample_surface(findings.map, sample_spacing(request));
   step(0, "visible surface");
   findings.seen = find_seen_surface(surface.pile, surface.geometry.meshes, queries, views,
                                     std::min(SeenSurface().spacing, request.voxel / 2), pool);
@@ -111,6 +113,7 @@ ExitCode eval_map(const MapRequest& request) {
   load_views(surface.saved, request);  // complains before anything takes long
   if (!request.align.empty())
     align_to_world(request.align, load_sfm_truth(request.dataset), map.positions);
+  check_area(map, sample_spacing(request), request.map);
   Progress progress(choose_progress_style(request.options.quiet));
   progress.start("voids");
   const VoidMap voids = make_void_map(surface, request, progress);

@@ -87,6 +87,7 @@ ExitCode eval_surface(const SurfaceRequest& request) {
   const SfmTruth truth = load_sfm_truth(request.dataset);
   PlyMesh mesh = load_ply(request.mesh);
   if (!request.align.empty()) align_to_world(request.align, truth, mesh.positions);
+  check_area(mesh, kSpacing, request.mesh);
   const SavedSurface surface(request.dataset, request.asset_packs);
   const PileQueries& queries = surface.geometry.queries;
   const auto score = calc_surface_score(sample_surface(mesh, kSpacing), queries,

@@ -1,11 +1,14 @@
 #include "app/eval/surface_score.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <unordered_set>
 
 #include "app/eval/point_grid.h"
 #include "app/eval/space_key.h"
+#include "kernel/base/error.h"
 #include "kernel/base/random.h"
 
 namespace rubble {
@@ -15,6 +18,12 @@ constexpr int kRaysPerRow = 64;
 constexpr double kRange = 12;    // unit: m
 constexpr double kCell = 0.05;   // unit: m
 constexpr double kCover = 0.05;  // unit: m
+constexpr double kMostSamples = 1e8;
+
+double calc_area(const PlyMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  const Vec3& a = mesh.positions[triangle[0]];
+  return norm(cross(mesh.positions[triangle[1]] - a, mesh.positions[triangle[2]] - a)) / 2;
+}
 
 // The ray of a pixel in the optical frame; u and v in COLMAP's pixels.
 Vec3 ray_of(const ColmapCamera& camera, double u, double v) {
@@ -53,6 +62,17 @@ std::vector<Vec3> find_visible_surface(const PileQueries& queries, const ColmapM
   return visible;
 }
 
+void check_area(const PlyMesh& mesh, double spacing, const std::string& path) {
+  double area = 0;
+  for (const auto& triangle : mesh.triangles) area += calc_area(mesh, triangle);
+  const double most = kMostSamples * spacing * spacing;
+  if (area <= most) return;
+  char expected[64], found[64];
+  std::snprintf(expected, sizeof expected, "at most %.0f m2, with a sample every %g m", most, spacing);
+  std::snprintf(found, sizeof found, "%.4g m2", area);
+  throw InputError({path, 0, "", "the surface is too large", expected, found, "is it in metres?"});
+}
+
 std::vector<Vec3> sample_surface(const PlyMesh& mesh, double spacing) {
   if (mesh.triangles.empty()) return mesh.positions;
   RandomStream random(0, "surface");
@@ -61,7 +81,7 @@ std::vector<Vec3> sample_surface(const PlyMesh& mesh, double spacing) {
   for (const auto& triangle : mesh.triangles) {
     const Vec3& a = mesh.positions[triangle[0]];
     const Vec3 ab = mesh.positions[triangle[1]] - a, ac = mesh.positions[triangle[2]] - a;
-    for (owed += norm(cross(ab, ac)) / 2 / (spacing * spacing); owed >= 1; --owed) {
+    for (owed += calc_area(mesh, triangle) / (spacing * spacing); owed >= 1; --owed) {
       const double s = std::sqrt(random.uniform(0, 1)), t = random.uniform(0, 1);
       samples.push_back(a + ab * (s * (1 - t)) + ac * (s * t));
     }

@@ -30,6 +30,8 @@ std::vector<Vec3> find_visible_surface(const PileQueries& queries, const ColmapM
 // Points spread evenly over the triangles, about one every `spacing` (unit: m), the same each time;
 // of a point cloud its points, of a mesh too small for one sample its corners.
 std::vector<Vec3> sample_surface(const PlyMesh& mesh, double spacing);
+// InputError where that would be more than a hundred million points, as of a map in millimetres.
+void check_area(const PlyMesh& mesh, double spacing, const std::string& path);
 
 // Nothing for no points.
 std::optional<SurfaceScore> calc_surface_score(const std::vector<Vec3>& points,

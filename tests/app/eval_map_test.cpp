@@ -273,10 +273,14 @@ TEST_F(EvalMap, SaysWhatIsWrongWithTheInput) {
   write_file(bad, "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
                   "property float z\nend_header\n");
   has(error(bad, dataset()), "holds no vertex");
+  Rectangles large;
+  large.add({0, 0, 0}, {1e5, 0, 0}, {0, 1e5, 0});
+  write_file(bad, large.text());
+  has(error(bad, dataset()), "found 1e+10 m2 (is it in metres?)");
   has(error(whole, *scratch_ / "nowhere"), "no such folder");
   has(error(whole, dataset() + " --radius 0.01"), "at least a voxel");
   has(error(whole, dataset() + " --out t.xls"), "unknown kind of file");
-  has(error(whole, dataset() + " --voxel 0.002 --memory 0.05"), "use voxels of");
+  has(error(whole, dataset() + " --voxel 0.004 --memory 0.05"), "use voxels of");
   fs::rename(dataset() + "/groundtruth.txt", dataset() + "/away");
   has(error(whole, dataset()), "the run has no true poses");
   fs::rename(dataset() + "/away", dataset() + "/groundtruth.txt");

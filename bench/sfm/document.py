@@ -26,12 +26,12 @@ def collect(work):
 
 
 def text(values, digits=0):
-    """A mean and, of more than one, the standard deviation; a dash for what could not be determined."""
+    """A mean and, where they differ, the standard deviation; a dash for what could not be determined."""
     values = [v for v in values if v is not None]
     if not values:
         return "-"
     mean = format(statistics.mean(values), ",.%df" % digits)
-    return mean if len(values) == 1 else "%s ± %s" % (mean, format(statistics.stdev(values), ",.%df" % digits))
+    return mean if len(set(values)) == 1 else "%s ± %s" % (mean, format(statistics.stdev(values), ",.%df" % digits))
 
 
 COLUMNS = [  # heading, key, digits
@@ -66,16 +66,16 @@ def condition_table(found, size):
     rows = []
     for condition in conditions.CONDITIONS:
         scores = found.get((size, condition.name))
-        seeds = ", ".join(map(str, sorted(scores))) if scores else "not run"
-        cells = [text([s[key] for s in scores.values()], digits) for _, key, digits in COLUMNS] if scores \
-            else [""] * len(COLUMNS)
-        rows.append([condition.title, seeds] + cells)
+        if scores:
+            cells = [text([s[key] for s in scores.values()], digits) for _, key, digits in COLUMNS]
+            rows.append([condition.title, ", ".join(map(str, sorted(scores)))] + cells)
     return markdown(["condition", "seeds"] + [heading for heading, _, _ in COLUMNS], rows)
 
 
 def surface_table(work):
     rows = []
-    for path in sorted(work.out.glob("seed*/meshes/*.score.json")):
+    paths = [path for stem in SURFACES for path in sorted(work.out.glob("seed*/meshes/%s.score.json" % stem))]
+    for path in paths:
         score = json.loads(path.read_text())["datasets"][0]
         rows.append([json.loads((path.parent / (path.name[:-11] + ".title.json")).read_text()),
                      format(score["triangles"], ",") if score["triangles"] else "-"] +
@@ -100,6 +100,7 @@ def slam_table(work):
                      "fused model ≤ 5 cm, %", "covered, %", "s / frame"], rows)
 
 
+SURFACES = ["fused_tsdf", "fused_poisson", "mrpt_points", "sparse_delaunay"]
 METHODS = {"rgbd": "OpenCV `RgbdOdometry`", "rgbd_icp": "OpenCV `RgbdICPOdometry`",
            "icp": "OpenCV `ICPOdometry`", "open3d": "Open3D, hybrid term",
            "mrpt_icp": "MRPT `icp-slam`, in the plane"}

@@ -40,13 +40,12 @@ def read_points(path):
     return np.frombuffer(data[start:], kind)
 
 
-def draw_panel(axes, plan, folder, title):
+def draw_panel(axes, plan, folder, truth, title):
     axes.imshow(plan, cmap="gray", vmin=0, vmax=255, extent=(-HALF, HALF, -HALF, HALF), interpolation="antialiased")
     points = read_points(next(folder.glob("*_points.ply")))
     axes.scatter(points["p"][:, 0], points["p"][:, 1], s=1.2, c="#0050c0", linewidths=0, label="points")
     rows = list(csv.DictReader(open(next(folder.glob("*_track.csv")))))
-    truth = np.array([[float(r["true_x"]), float(r["true_y"])] for r in rows])
-    axes.plot(truth[:, 0], truth[:, 1], "-", color=TRUE, lw=4, alpha=0.6, label="true cameras")
+    axes.plot(truth[:, 1], truth[:, 2], "-", color=TRUE, lw=4, alpha=0.6, label="true cameras")
     for segment in sorted({int(r["segment"]) for r in rows}):
         mine = np.array([[float(r["x"]), float(r["y"])] for r in rows if int(r["segment"]) == segment])
         axes.plot(mine[:, 0], mine[:, 1], ".", color=ESTIMATED[segment % 4], ms=4,
@@ -63,7 +62,8 @@ def draw(work, size, names, found, path):
     for name, place in zip(names, axes[0]):
         condition = conditions.find([name])[0]
         score = found[(size, name)][1]
-        draw_panel(place, plan, work.sfm(1, size, condition) / "details", "%s:\n%d of %d frames on track, %s points" % (
+        truth = np.loadtxt(work.dataset(1, size, condition) / "groundtruth.txt")
+        draw_panel(place, plan, work.sfm(1, size, condition) / "details", truth, "%s:\n%d of %d frames on track, %s points" % (
             condition.title, score["on_track"], score["frames"], format(score["points"], ",")))
     figure.tight_layout()
     figure.savefig(path, dpi=85)

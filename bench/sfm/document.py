@@ -1,14 +1,16 @@
-"""Writes the figures of docs/sfm.md: what stands there between `<!-- begin NAME -->` and `<!-- end NAME -->`
-is made from the results in --out; the text around it is written by people."""
+"""Writes the figures of docs/sfm.md and docs/map_score.md: what stands there between `<!-- begin NAME -->` and
+`<!-- end NAME -->` is made from the results in --out; the text around it is written by people."""
 import json
 import re
 import statistics
 
 import conditions
+import map_picture
+import maps
 import pictures
 import stages
 
-DOCUMENT = stages.ROOT / "docs" / "sfm.md"
+DOCUMENT, MAP_SCORE = stages.ROOT / "docs" / "sfm.md", stages.ROOT / "docs" / "map_score.md"
 FIGURES = stages.ROOT / "docs" / "pictures"
 
 
@@ -106,6 +108,29 @@ METHODS = {"rgbd": "OpenCV `RgbdOdometry`", "rgbd_icp": "OpenCV `RgbdICPOdometry
            "mrpt_icp": "MRPT `icp-slam`, in the plane"}
 
 
+def map_table(scores):
+    rows = [[title] + [text([scores[name][key]], digits) for key, digits in
+                       [("within_5cm_percent", 1), ("median_distance_m", 4), ("complete_2cm_percent", 1),
+                        ("complete_5cm_percent", 1), ("void_found_percent", 1), ("r300_found_percent", 1)]]
+            for name, title, _ in maps.MAPS if name in scores]
+    best = next(iter(scores.values()))
+    rows.append(["the most that could be", "", "", "", ""] +
+                [text([best[key]], 1) for key in ("void_visible_percent", "r300_visible_percent")])
+    return markdown(["map", "within 5 cm, %", "median, m", "visible surface within 2 cm, %", "within 5 cm, %",
+                     "void found, %", "by a robot of 0.3 m, %"], rows)
+
+
+def write_maps(work):
+    """The table and the picture of docs/map_score.md, where maps of pile 1 were scored."""
+    if not (work.out / "seed1" / "maps").exists():
+        return
+    scores = work.map_scores(1, conditions.find(["lit"])[0])
+    MAP_SCORE.write_text(replace(MAP_SCORE.read_text(), "maps", map_table(scores)))
+    if maps.PICTURE in scores:
+        title = "%s points of COLMAP" % format(scores[maps.PICTURE]["samples"], ",")
+        map_picture.draw(work.out / "seed1" / "maps" / maps.PICTURE, maps.PICTURE, title, FIGURES / "map_score.png")
+
+
 def replace(document, name, content):
     begin, end = "<!-- begin %s -->" % name, "<!-- end %s -->" % name
     if begin not in document or end not in document:
@@ -115,6 +140,7 @@ def replace(document, name, content):
 
 
 def write(work):
+    write_maps(work)
     found = collect(work)
     document = DOCUMENT.read_text()
     document = replace(document, "paper", paper_table(found))

@@ -8,6 +8,8 @@ import subprocess
 import sys
 import time
 
+import maps
+
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 MISSIONS = ROOT / "scripts" / "paper"
@@ -212,6 +214,24 @@ class Stages:
 
         self.once(out, "fused", fuse)
         self.once(out, "scored", score)
+
+    def map_scores(self, seed, condition):
+        """`rubble eval map` of maps.MAPS against the flight with all its frames. {name: score}"""
+        folder, out = self.record(seed, condition), self.out / ("seed%d" % seed) / "maps"
+        scores = {}
+        for name, _, pattern in maps.MAPS:
+            for path in sorted(folder.parent.glob(pattern))[:1]:
+                ply = out / (name + ".ply")
+                score = out / (name + ".json")
+
+                def work():
+                    shutil.copyfile(path, ply)
+                    self.run([self.program, "eval", "map", ply, folder, "--out", score, "--details", out / name,
+                              "--quiet"], out / "maps.log")
+
+                self.once(out, name + ".scored", work)
+                scores[name] = json.loads(score.read_text())["datasets"][0]
+        return scores
 
     def mesh_points(self, dataset, model, out):
         mesh = out / "sparse_delaunay.ply"

@@ -71,6 +71,7 @@ std::string describe_moving(const PileState& pile) {
                   pile.types[std::size_t(piece.type)].c_str(), i, p.x, p.y, p.z);
     first = text;
   }
+  if (moving == 0) return "all pieces are slow, but rest was not proved yet";
   return std::to_string(moving) + " of " + std::to_string(pile.pieces.size()) +
          " pieces still moved" + first;
 }

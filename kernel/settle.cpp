@@ -153,8 +153,7 @@ class Settling {
       PieceState piece = world_.piece(i);
       const double v2 = dot(piece.linear_velocity, piece.linear_velocity);
       const double w2 = dot(piece.angular_velocity, piece.angular_velocity);
-      const bool stays = !world_.proving() || world_.stays(i);
-      if (piece.status == PieceStatus::moving && world_.is_touching(i) && stays &&
+      if (piece.status == PieceStatus::moving && world_.is_touching(i) && world_.stays(i) &&
           v2 < options_.rest_speed * options_.rest_speed &&
           w2 < options_.rest_angular_speed * options_.rest_angular_speed) {
         piece.status = PieceStatus::resting;

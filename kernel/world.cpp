@@ -344,7 +344,8 @@ bool World::proved_rest(double speed, double angular_speed) const {
 
 bool World::stays(int index) const {
   const Body& body = impl_->data.bodies[index];
-  return !body.awake || body.loose_steps >= int(kStayTime / impl_->options.step);
+  const int wanted = int(kStayTime / impl_->options.step);
+  return !body.awake || body.loose_steps >= wanted || impl_->data.proof_steps < wanted;
 }
 
 bool World::all_have_touched() const {

@@ -79,7 +79,8 @@ class World {
   // faster than 8 mm/s passes. Needs sleeping to be allowed: nobody counts the time otherwise.
   // What fails for more than 9 s is damped; see kernel/speed_limits.h.
   bool proved_rest(double speed, double angular_speed) const;
-  // Whether a piece sleeps, or has stayed in place as proved_rest() demands.
+  // Whether a piece sleeps, or has stayed in place as proved_rest() demands; true of all while no proof
+  // has lasted long enough to tell.
   bool stays(int index) const;
   bool all_have_touched() const;
   // Of all pieces, or of those that have touched something and the immovable ones; 0 when none.

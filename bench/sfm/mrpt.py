@@ -75,20 +75,6 @@ def follow(rawlog, work):
     return np.loadtxt(work / "icp_slam" / "log_estimated_path.txt")[:, 1:4]
 
 
-def world_from_optical(plane_poses, start):
-    """start: world_from_optical of the first frame, as 4x4; the robot's body is the camera's (REP 103)."""
-    body_from_optical = np.eye(4)
-    body_from_optical[:3, :3] = [[0, 0, 1], [-1, 0, 0], [0, -1, 0]]
-    world_from_start = start @ np.linalg.inv(body_from_optical)
-    poses = []
-    for x, y, yaw in plane_poses:
-        moved = np.eye(4)
-        moved[:2, :2] = [[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]]
-        moved[:2, 3] = x, y
-        poses.append(world_from_start @ moved @ body_from_optical)
-    return poses
-
-
 def build_map(simplemap, ply):
     work = ply.parent / "observations2map"
     work.mkdir(parents=True, exist_ok=True)

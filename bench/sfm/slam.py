@@ -23,6 +23,8 @@ import rosbag
 import mrpt
 
 NEAR, FAR = 0.2, 8.0  # of the depth that is used; unit: m
+BODY_FROM_OPTICAL = np.eye(4)  # the bag's poses are of the camera body (REP 103)
+BODY_FROM_OPTICAL[:3, :3] = [[0, 0, 1], [-1, 0, 0], [0, -1, 0]]
 
 
 def read(bag):
@@ -62,14 +64,23 @@ def rotation_matrix(x, y, z, w):
 
 
 def pose_matrix(pose):
-    """world_from_optical; the bag has the camera body (REP 103)."""
+    """world_from_optical"""
     m = np.eye(4)
     q, p = pose.orientation, pose.position
     m[:3, :3] = rotation_matrix(q.x, q.y, q.z, q.w)
     m[:3, 3] = p.x, p.y, p.z
-    body_from_optical = np.eye(4)
-    body_from_optical[:3, :3] = [[0, 0, 1], [-1, 0, 0], [0, -1, 0]]
-    return m @ body_from_optical
+    return m @ BODY_FROM_OPTICAL
+
+
+def leave_plane(plane_poses, start):
+    """world_from_optical of poses (x, y, yaw) of the body, in the plane in which it begins at `start`."""
+    poses = []
+    for x, y, yaw in plane_poses:
+        moved = np.eye(4)
+        moved[:2, :2] = [[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]]
+        moved[:2, 3] = x, y
+        poses.append(start @ np.linalg.inv(BODY_FROM_OPTICAL) @ moved @ BODY_FROM_OPTICAL)
+    return poses
 
 
 def quaternion(r):
@@ -155,7 +166,7 @@ def main():
     begin = time.monotonic()
     if method == "mrpt_icp":
         rawlog = pathlib.Path(bag_path).with_suffix(".rawlog")
-        poses, lost = mrpt.world_from_optical(mrpt.follow(rawlog, out / "mrpt"), start), 0
+        poses, lost = leave_plane(mrpt.follow(rawlog, out / "mrpt"), start), 0
     elif method == "open3d":
         poses, lost = run_open3d(frames, k, start)
     else:

@@ -125,6 +125,8 @@ def write_maps(work):
     if not (work.out / "seed1" / "maps").exists():
         return
     scores = work.map_scores(1, conditions.find(["lit"])[0])
+    if not scores:
+        return
     MAP_SCORE.write_text(replace(MAP_SCORE.read_text(), "maps", map_table(scores)))
     if maps.PICTURE in scores:
         title = "%s points of COLMAP" % format(scores[maps.PICTURE]["samples"], ",")
@@ -134,7 +136,7 @@ def write_maps(work):
 def replace(document, name, content):
     begin, end = "<!-- begin %s -->" % name, "<!-- end %s -->" % name
     if begin not in document or end not in document:
-        raise SystemExit("%s has no place for %s" % (DOCUMENT, name))
+        raise SystemExit("the page has no place for %s: expected %s ... %s" % (name, begin, end))
     return re.sub(re.escape(begin) + ".*?" + re.escape(end),
                   lambda _: begin + "\n" + content + "\n" + end, document, flags=re.S)
 

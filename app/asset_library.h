@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/recipe.h"
-#include "kernel/pile.h"
+#include "kernel/model/pile.h"
 #include "render/scene.h"
 #include "scripting/asset_pack.h"
 #include "scripting/mission.h"

@@ -11,7 +11,7 @@
 #include "app/progress.h"
 #include "io/picture_sheet.h"
 #include "kernel/base/portable_math.h"
-#include "kernel/shape.h"
+#include "kernel/geometry/shape.h"
 #include "render/renderer.h"
 
 namespace rubble {

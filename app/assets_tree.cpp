@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "app/assemblies.h"
-#include "kernel/gjk.h"
-#include "kernel/shape.h"
+#include "kernel/collision/gjk.h"
+#include "kernel/geometry/shape.h"
 
 namespace rubble {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "app/asset_library.h"
 #include "io/pile_model.h"
-#include "kernel/pile_state.h"
+#include "kernel/model/pile_state.h"
 #include "render/scene.h"
 #include "render/sensors/flight.h"
 #include "scripting/scenario.h"

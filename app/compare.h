@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/build_info.h"
-#include "kernel/pile_state.h"
+#include "kernel/model/pile_state.h"
 
 namespace rubble {
 

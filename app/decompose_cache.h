@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kernel/base/disk_cache.h"
-#include "kernel/decompose.h"
+#include "kernel/geometry/decompose.h"
 
 namespace rubble {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/asset_library.h"
-#include "kernel/pile_state.h"
+#include "kernel/model/pile_state.h"
 #include "scripting/scenario.h"
 #include "scripting/trajectory.h"
 

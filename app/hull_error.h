@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "kernel/base/mesh.h"
-#include "kernel/pile.h"
-#include "kernel/shape.h"
+#include "kernel/geometry/shape.h"
+#include "kernel/model/pile.h"
 
 namespace rubble {
 

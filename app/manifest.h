@@ -13,7 +13,7 @@
 #include "app/build_info.h"
 #include "app/frame_hashes.h"
 #include "app/recipe.h"
-#include "kernel/pile_state.h"
+#include "kernel/model/pile_state.h"
 
 namespace rubble {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/asset_library.h"
-#include "kernel/pile_state.h"
+#include "kernel/model/pile_state.h"
 #include "render/frame.h"
 
 namespace rubble {

@@ -9,7 +9,7 @@
 #include "io/recorder.h"
 #include "io/recording.h"
 #include "io/ros_recorder.h"
-#include "kernel/pile_state.h"
+#include "kernel/model/pile_state.h"
 #include "scripting/scenario.h"
 
 namespace rubble {

@@ -22,7 +22,7 @@
 #include "app/run_folder.h"
 #include "app/run_request.h"
 #include "kernel/base/error.h"
-#include "kernel/pile_state.h"
+#include "kernel/model/pile_state.h"
 
 namespace rubble {
 

@@ -11,7 +11,7 @@
 
 #include "app/asset_library.h"
 #include "app/manifest.h"
-#include "kernel/pile_state.h"
+#include "kernel/model/pile_state.h"
 
 namespace rubble {
 

@@ -10,7 +10,8 @@
 #include "io/checkpoint_file.h"
 #include "io/pile_export.h"
 #include "io/pile_state_file.h"
-#include "kernel/settle.h"
+#include "kernel/settling/generator.h"
+#include "kernel/settling/settle.h"
 #include "scripting/value.h"
 
 namespace rubble {

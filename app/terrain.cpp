@@ -5,7 +5,7 @@
 
 #include "io/mesh_file.h"
 #include "kernel/base/hash.h"
-#include "kernel/height_field.h"
+#include "kernel/geometry/height_field.h"
 #include "render/looks.h"
 
 namespace rubble {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/pile.h"
+#include "kernel/model/pile.h"
 #include "render/scene.h"
 #include "scripting/scenario.h"
 

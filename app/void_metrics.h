@@ -5,7 +5,7 @@
 
 #include "app/asset_library.h"
 #include "app/metrics.h"
-#include "kernel/pile_state.h"
+#include "kernel/model/pile_state.h"
 #include "scripting/scenario.h"
 
 namespace rubble {

@@ -6,7 +6,7 @@
 
 #include "app/asset_library.h"
 #include "app/flight.h"
-#include "kernel/queries.h"
+#include "kernel/queries/queries.h"
 #include "kernel/voids/void_map.h"
 
 namespace rubble {

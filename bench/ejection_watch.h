@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernel/world.h"
+#include "kernel/world/world.h"
 
 namespace rubble {
 

@@ -9,7 +9,8 @@
 #include "kernel/base/disk_cache.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
-#include "kernel/settle.h"
+#include "kernel/settling/generator.h"
+#include "kernel/settling/settle.h"
 #include "scripting/mission.h"
 #include "scripting/scenario.h"
 

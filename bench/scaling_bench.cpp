@@ -10,6 +10,7 @@
 #include "bench/settle_run.h"
 #include "bench/standard_mix.h"
 #include "bench/workload_file.h"
+#include "kernel/settling/generator.h"
 
 namespace rubble {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "bench/ejection_watch.h"
 #include "bench/overlap_checker.h"
-#include "kernel/pile.h"
-#include "kernel/settle.h"
-#include "kernel/world.h"
+#include "kernel/model/pile.h"
+#include "kernel/settling/settle.h"
+#include "kernel/world/world.h"
 
 namespace rubble {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "kernel/pile.h"
+#include "kernel/model/pile.h"
 
 namespace rubble {
 

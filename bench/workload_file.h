@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "kernel/pile.h"
+#include "kernel/model/pile.h"
 
 namespace rubble {
 

@@ -3,13 +3,13 @@
 // In the envelope of io/sealed_file.h, kind "RUBCHKP\n":
 //   u64 fingerprint of the pile and the options; i32 layers spawned, i32 layers that ran into their
 //   limit, i64 steps since the last spawn; u64 size of the world's state and its bytes, whose
-//   format and version are those of kernel/world_snapshot.h
+//   format and version are those of kernel/world/world_snapshot.h
 #pragma once
 
 #include <cstdint>
 #include <string>
 
-#include "kernel/settle_checkpoint.h"
+#include "kernel/settling/settle_checkpoint.h"
 
 namespace rubble {
 

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <string>
 
-#include "kernel/pile_state.h"
+#include "kernel/model/pile_state.h"
 
 namespace rubble {
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "kernel/base/mesh.h"
-#include "kernel/pile.h"
+#include "kernel/model/pile.h"
 
 namespace rubble {
 

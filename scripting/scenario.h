@@ -14,8 +14,8 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
-#include "kernel/pile.h"
-#include "kernel/settle.h"
+#include "kernel/model/pile.h"
+#include "kernel/settling/settle.h"
 #include "render/camera_spec.h"
 #include "render/frame.h"
 #include "render/scene.h"

@@ -7,7 +7,8 @@
 #include "app/drive/drive_log.h"
 #include "app/flight.h"
 #include "kernel/base/disk_cache.h"
-#include "kernel/settle.h"
+#include "kernel/settling/generator.h"
+#include "kernel/settling/settle.h"
 
 namespace rubble {
 namespace {

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "app/drive/drive_input.h"
-#include "kernel/queries.h"
+#include "kernel/queries/queries.h"
 #include "scripting/trajectory.h"
 
 namespace rubble {

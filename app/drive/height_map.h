@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/image_file.h"
-#include "kernel/queries.h"
+#include "kernel/queries/queries.h"
 
 namespace rubble {
 

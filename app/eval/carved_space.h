@@ -6,7 +6,7 @@
 
 #include "app/eval/recorded_views.h"
 #include "kernel/base/parallel.h"
-#include "kernel/queries.h"
+#include "kernel/queries/queries.h"
 #include "kernel/voids/void_space.h"
 
 namespace rubble {

@@ -6,7 +6,7 @@
 #include "app/eval/seen_surface.h"
 #include "io/ply_reader.h"
 #include "kernel/base/parallel.h"
-#include "kernel/queries.h"
+#include "kernel/queries/queries.h"
 
 namespace rubble {
 

@@ -6,8 +6,8 @@
 #include "app/eval/recorded_views.h"
 #include "kernel/base/mesh.h"
 #include "kernel/base/parallel.h"
-#include "kernel/pile_state.h"
-#include "kernel/queries.h"
+#include "kernel/model/pile_state.h"
+#include "kernel/queries/queries.h"
 
 namespace rubble {
 

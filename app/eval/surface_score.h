@@ -6,7 +6,7 @@
 
 #include "io/colmap_model.h"
 #include "io/ply_reader.h"
-#include "kernel/queries.h"
+#include "kernel/queries/queries.h"
 
 namespace rubble {
 

@@ -6,8 +6,8 @@
 
 #include "kernel/base/mesh.h"
 #include "kernel/base/parallel.h"
-#include "kernel/pile_state.h"
-#include "kernel/query_triangle.h"
+#include "kernel/model/pile_state.h"
+#include "kernel/queries/query_triangle.h"
 #include "kernel/voids/voxel_grid.h"
 
 namespace rubble {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "kernel/base/mesh.h"
-#include "kernel/pile_state.h"
+#include "kernel/model/pile_state.h"
 #include "kernel/voids/voxel_grid.h"
 
 namespace rubble {

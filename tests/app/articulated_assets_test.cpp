@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "app/build_scene.h"
-#include "kernel/world.h"
+#include "kernel/settling/generator.h"
+#include "kernel/world/world.h"
 #include "scripting/mission.h"
 
 namespace rubble::testing {

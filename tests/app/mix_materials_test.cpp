@@ -5,7 +5,8 @@
 
 #include "app/build_scene.h"
 #include "app/recipe.h"
-#include "kernel/shape.h"
+#include "kernel/geometry/shape.h"
+#include "kernel/settling/generator.h"
 #include "scripting/mission.h"
 
 namespace rubble::testing {

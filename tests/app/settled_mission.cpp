@@ -1,3 +1,4 @@
+#include "kernel/settling/generator.h"
 #include "tests/app/settled_mission.h"
 
 #include <algorithm>

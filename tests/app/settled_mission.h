@@ -6,8 +6,8 @@
 
 #include "app/asset_library.h"
 #include "app/build_scene.h"
-#include "kernel/queries.h"
-#include "kernel/settle.h"
+#include "kernel/queries/queries.h"
+#include "kernel/settling/settle.h"
 #include "scripting/mission.h"
 
 namespace rubble::testing {

@@ -7,6 +7,7 @@
 
 #include "io/mesh_file.h"
 #include "kernel/base/error.h"
+#include "kernel/settling/generator.h"
 #include "kernel/voids/void_space.h"
 #include "tests/app/settled_mission.h"
 

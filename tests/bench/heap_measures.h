@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "kernel/pile.h"
-#include "kernel/pile_state.h"
+#include "kernel/model/pile.h"
+#include "kernel/model/pile_state.h"
 
 namespace rubble {
 

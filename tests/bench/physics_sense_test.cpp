@@ -11,8 +11,9 @@
 #include "heap_measures.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
-#include "kernel/settle.h"
-#include "kernel/world.h"
+#include "kernel/settling/generator.h"
+#include "kernel/settling/settle.h"
+#include "kernel/world/world.h"
 
 namespace rubble {
 namespace {

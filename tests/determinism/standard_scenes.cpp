@@ -5,7 +5,8 @@
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/random.h"
-#include "kernel/settle.h"
+#include "kernel/settling/generator.h"
+#include "kernel/settling/settle.h"
 #include "tests/kernel/scenes.h"
 
 namespace rubble::determinism {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/world.h"
+#include "kernel/world/world.h"
 
 namespace rubble::determinism {
 

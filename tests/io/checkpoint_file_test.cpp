@@ -7,7 +7,8 @@
 #include "io/atomic_file.h"
 #include "io/pile_state_file.h"
 #include "kernel/base/error.h"
-#include "kernel/settle.h"
+#include "kernel/settling/generator.h"
+#include "kernel/settling/settle.h"
 #include "tests/io/support.h"
 
 namespace rubble {

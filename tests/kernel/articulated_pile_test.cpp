@@ -4,9 +4,10 @@
 #include <algorithm>
 
 #include "kernel/base/error.h"
-#include "kernel/settle.h"
-#include "kernel/world.h"
-#include "kernel/world_snapshot.h"
+#include "kernel/settling/generator.h"
+#include "kernel/settling/settle.h"
+#include "kernel/world/world.h"
+#include "kernel/world/world_snapshot.h"
 #include "scenes.h"
 
 namespace rubble {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/error.h"
-#include "kernel/world.h"
+#include "kernel/world/world.h"
 #include "scenes.h"
 
 namespace rubble {

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "kernel/base/random.h"
-#include "kernel/gjk.h"
-#include "kernel/manifold.h"
-#include "kernel/sat.h"
-#include "kernel/shape.h"
+#include "kernel/collision/gjk.h"
+#include "kernel/collision/manifold.h"
+#include "kernel/collision/sat.h"
+#include "kernel/geometry/shape.h"
 #include "scenes.h"
 
 namespace rubble {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "kernel/base/error.h"
-#include "kernel/decompose.h"
-#include "kernel/decompose_voxels.h"
-#include "kernel/shape.h"
+#include "kernel/geometry/decompose.h"
+#include "kernel/geometry/decompose_voxels.h"
+#include "kernel/geometry/shape.h"
 
 namespace rubble {
 namespace {

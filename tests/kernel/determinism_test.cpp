@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "kernel/base/hash.h"
-#include "kernel/settle.h"
-#include "kernel/world.h"
+#include "kernel/settling/generator.h"
+#include "kernel/settling/settle.h"
+#include "kernel/world/world.h"
 #include "scenes.h"
 
 namespace rubble {

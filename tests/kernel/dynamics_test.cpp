@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "kernel/world.h"
+#include "kernel/settling/generator.h"
+#include "kernel/world/world.h"
 #include "scenes.h"
 
 namespace rubble {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "kernel/base/random.h"
-#include "kernel/friction_axes.h"
-#include "kernel/world.h"
+#include "kernel/solver/friction_axes.h"
+#include "kernel/world/world.h"
 #include "scenes.h"
 
 namespace rubble {

@@ -3,8 +3,9 @@
 #include <cmath>
 
 #include "kernel/base/error.h"
-#include "kernel/pile.h"
-#include "kernel/shape.h"
+#include "kernel/geometry/shape.h"
+#include "kernel/model/pile.h"
+#include "kernel/settling/generator.h"
 #include "scenes.h"
 
 namespace rubble {

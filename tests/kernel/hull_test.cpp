@@ -1,4 +1,4 @@
-#include "kernel/hull.h"
+#include "kernel/geometry/hull.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
-#include "kernel/shape.h"
+#include "kernel/geometry/shape.h"
 #include "scenes.h"
 
 namespace rubble {

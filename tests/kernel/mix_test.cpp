@@ -3,8 +3,9 @@
 
 #include <cmath>
 
-#include "kernel/pile.h"
-#include "kernel/size_spread.h"
+#include "kernel/model/pile.h"
+#include "kernel/model/size_spread.h"
+#include "kernel/settling/generator.h"
 
 namespace rubble {
 namespace {

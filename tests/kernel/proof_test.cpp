@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "kernel/world.h"
-#include "kernel/world_impl.h"
+#include "kernel/world/world.h"
+#include "kernel/world/world_impl.h"
 #include "scenes.h"
 
 namespace rubble {

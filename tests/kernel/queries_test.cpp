@@ -1,6 +1,6 @@
 // Queries against closed forms, and against trying every triangle in the world's frame by other
 // formulas than the queries use.
-#include "kernel/queries.h"
+#include "kernel/queries/queries.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,8 @@
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
-#include "kernel/settle.h"
+#include "kernel/settling/generator.h"
+#include "kernel/settling/settle.h"
 #include "scenes.h"
 
 namespace rubble {

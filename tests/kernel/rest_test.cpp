@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/world.h"
+#include "kernel/world/world.h"
 #include "scenes.h"
 
 namespace rubble {

@@ -5,7 +5,8 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
-#include "kernel/settle.h"
+#include "kernel/settling/generator.h"
+#include "kernel/settling/settle.h"
 #include "scenes.h"
 
 namespace rubble {

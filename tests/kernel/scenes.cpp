@@ -3,7 +3,7 @@
 #include "kernel/base/hash.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
-#include "kernel/height_field.h"
+#include "kernel/geometry/height_field.h"
 
 namespace rubble::testing {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "kernel/pile.h"
-#include "kernel/world.h"
+#include "kernel/model/pile.h"
+#include "kernel/world/world.h"
 
 namespace rubble::testing {
 

@@ -1,4 +1,5 @@
-#include "kernel/settle.h"
+#include "kernel/settling/generator.h"
+#include "kernel/settling/settle.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // A world's state as bytes: nothing is forgotten, and what is decoded continues bit for bit.
-#include "kernel/world_snapshot.h"
+#include "kernel/settling/generator.h"
+#include "kernel/world/world_snapshot.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
-#include "kernel/world_fields.h"
+#include "kernel/world/world_fields.h"
 #include "scenes.h"
 
 namespace rubble {
@@ -67,7 +68,7 @@ struct Probe {
 
 TEST(WorldFields, EveryMemberIsListed) {
   ASSERT_EQ(member_count<Probe>(), 6);  // the count itself works
-  const char* help = "a new member must be listed in kernel/world_fields.h";
+  const char* help = "a new member must be listed in kernel/world/world_fields.h";
   EXPECT_EQ(listed_count<Body>(), member_count<Body>()) << help;
   EXPECT_EQ(listed_count<Collider>(), member_count<Collider>()) << help;
   EXPECT_EQ(listed_count<ContactPoint>(), member_count<ContactPoint>()) << help;

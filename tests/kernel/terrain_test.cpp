@@ -6,10 +6,11 @@
 #include <memory>
 
 #include "kernel/base/error.h"
-#include "kernel/height_field.h"
-#include "kernel/settle.h"
-#include "kernel/world.h"
-#include "kernel/world_snapshot.h"
+#include "kernel/geometry/height_field.h"
+#include "kernel/settling/generator.h"
+#include "kernel/settling/settle.h"
+#include "kernel/world/world.h"
+#include "kernel/world/world_snapshot.h"
 #include "scenes.h"
 
 namespace rubble {

@@ -1,13 +1,13 @@
 // The dynamics of trees against Simbody's own, which computes nothing else in this program.
-#include "kernel/tree_motion.h"
+#include "kernel/multibody/tree_motion.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "kernel/base/random.h"
-#include "kernel/simbody_trees.h"
-#include "kernel/tree_joint.h"
+#include "kernel/multibody/simbody_trees.h"
+#include "kernel/multibody/tree_joint.h"
 
 namespace rubble {
 namespace {

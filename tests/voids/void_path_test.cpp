@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "kernel/queries.h"
+#include "kernel/queries/queries.h"
 #include "void_scenes.h"
 
 namespace rubble {

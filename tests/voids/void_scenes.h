@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kernel/base/mesh.h"
-#include "kernel/pile_state.h"
+#include "kernel/model/pile_state.h"
 
 namespace rubble::testing {
 

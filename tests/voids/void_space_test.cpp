@@ -7,7 +7,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/random.h"
-#include "kernel/queries.h"
+#include "kernel/queries/queries.h"
 #include "void_scenes.h"
 
 namespace rubble {

@@ -1,0 +1,54 @@
+// Contacts as plain data: one per pair of convex parts (or part and ground), kept from step to step.
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/base/math.h"
+#include "kernel/collision/gjk.h"
+
+namespace rubble {
+
+inline constexpr std::int32_t kGround = -1;
+
+// A part's contacts with a surface: the pair's second collider is none of the world's, but the number
+// of the surface's body and of the slot in one. What is kGround or a collider is never below -1.
+inline constexpr int kSurfaceSlots = 4;
+inline std::int32_t surface_collider(std::int32_t body, int slot) {
+  return -2 - (body * kSurfaceSlots + slot);
+}
+inline bool is_surface_collider(std::int32_t collider) { return collider <= -2; }
+inline int surface_slot(std::int32_t collider) { return (-2 - collider) % kSurfaceSlots; }
+
+struct ContactPoint {
+  Vec3f from_a, from_b;    // from the centres of mass, world orientation; unit: m
+  Vec3f local_a, local_b;  // the same point in their own frames, to find it again
+  float separation = 0;    // negative: overlap; unit: m
+  float normal_impulse = 0;  // of the last substep; unit: N s
+};
+
+// Who meets whom: read for every pair in every step, so kept small and apart from the contact.
+struct Pair {
+  std::int32_t collider_a = 0, collider_b = 0;  // b may be kGround or a surface
+  std::int32_t body_a = 0, body_b = 0;
+  std::int32_t live = 0;  // 1: the contact had points in the last step
+  double apart_until = 0;   // no points while the sum of the two travels is less; unit: m
+  float order = 1e30F;    // height that decides its place in the solver's order; unit: m
+};
+
+struct Contact {
+  static constexpr int kMaxPoints = 6;
+
+  std::int32_t body_a = 0, body_b = 0;  // b may be kGround
+  float friction = 0;
+  int count = 0;                   // points in use
+  ContactPoint points[kMaxPoints];
+  Vec3f normal;                    // unit length, from A to B; of the last search
+  bool has_normal = false;         // a search has found one before
+  Vec3f friction_impulse;          // tangential, of the last substep; unit: N s
+  float twist_impulse = 0;         // about the normal, of the last substep; unit: N m s
+  float pressed = 0;               // total normal impulse of the last step; unit: N s
+  float rest_pressed = 0;          // the same when one of the two fell asleep
+  GjkCache cache;
+};
+
+}  // namespace rubble

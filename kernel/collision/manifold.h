@@ -1,0 +1,31 @@
+// Contact points between two parts along a given normal: the faces that face each other, clipped.
+#pragma once
+
+#include <vector>
+
+#include "kernel/collision/sat.h"
+
+namespace rubble {
+
+struct ManifoldPoint {
+  Vec3f position;        // in the frame of A's corners, midway between the surfaces
+  float separation = 0;  // along the normal
+  float predicted = 0;   // at the end of the step, if nothing stops it
+};
+
+struct Manifold {
+  static constexpr int kMaxClipped = 64;
+  ManifoldPoint points[kMaxClipped];
+  int count = 0;
+};
+
+// Clips the incident face against the reference face; keeps points closer than `margin`. Leaves
+// nothing when no face looks along the normal (an edge against an edge).
+void clip_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, const Vec3f& normal,
+                float margin, Manifold& manifold);
+
+// Keeps the `most` (at least 4) deepest predicted points. When more than that touch: the deepest
+// one, three that span the largest area with it, then by depth.
+void reduce(Manifold& manifold, const Vec3f& normal, int most);
+
+}  // namespace rubble

@@ -1,0 +1,186 @@
+#include "kernel/collision/narrow_phase.h"
+
+#include <algorithm>
+
+#include "kernel/collision/manifold.h"
+
+namespace rubble {
+namespace {
+
+// Points of two steps are the same when closer than this; unit: m.
+constexpr float kMatchDistance = 0.01F;
+// Impulses are not carried over when the normal turned by more than 25 degrees.
+constexpr float kKeepCosine = 0.906F;
+// Overlapping parts are shifted apart along the last normal by this and more; unit: m.
+constexpr float kShift = 0.005F;
+// Clipped points may lie this much farther apart than the axis says; unit: m.
+constexpr float kAxisTolerance = 0.0005F;
+constexpr float kNearestShiftCosine = 0.9F;
+
+struct Axis {
+  Vec3f normal;
+  float separation = 0;
+  Vec3f point;  // midway between the closest points
+};
+
+// True when the parts may touch in this step; fills the axis, else its separation alone.
+bool find_axis(Contact& contact, const PosedPart& a, const PosedPart& b, const Vec3f& offset,
+               float margin, Axis& axis) {
+  GjkResult gjk = calc_distance(a.corners, b.corners, offset, margin, contact.cache);
+  if (gjk.kind == GjkResult::Kind::beyond_margin) {
+    contact.normal = gjk.normal;
+    contact.has_normal = true;
+    axis.separation = gjk.distance;
+    return false;
+  }
+  if (gjk.kind == GjkResult::Kind::separated) {
+    axis = {gjk.normal, gjk.distance, (gjk.point_a + gjk.point_b) * 0.5F};
+    return true;
+  }
+  if (contact.has_normal) {
+    for (float shift : {kShift, 4 * kShift}) {
+      const Vec3f shifted = offset + contact.normal * shift;
+      gjk = calc_distance(a.corners, b.corners, shifted, 1e30F, contact.cache);
+      if (gjk.kind != GjkResult::Kind::separated) continue;
+      const float cosine = dot(gjk.normal, contact.normal);
+      if (cosine < kNearestShiftCosine) break;
+      const float separation = gjk.distance - shift * cosine;
+      axis = {gjk.normal, separation,
+              (gjk.point_a + gjk.point_b - contact.normal * shift) * 0.5F};
+      return true;
+    }
+  }
+  const SatResult sat = find_separating_axis(a, b, offset);
+  axis = {sat.normal, sat.separation, sat.point};
+  return true;
+}
+
+// Edges that meet, or a corner that leads, are not on the faces that were clipped: the point that
+// the axis was found at must be among the points.
+void add_axis_point(Manifold& m, const Axis& axis) {
+  float least = 1e30F;
+  for (int i = 0; i < m.count; ++i) least = std::min(least, m.points[i].separation);
+  if (least > axis.separation + kAxisTolerance && m.count < Manifold::kMaxClipped) {
+    m.points[m.count++] = {axis.point, axis.separation, axis.separation};
+  }
+}
+
+void predict(Manifold& m, const PosedBody& a, const PosedBody* b, const Vec3f& offset,
+             const Vec3f& normal, float step) {
+  for (int i = 0; i < m.count; ++i) {
+    Vec3f v = -(a.linear + cross(a.angular, m.points[i].position));
+    if (b != nullptr) v += b->linear + cross(b->angular, m.points[i].position - offset);
+    m.points[i].predicted = m.points[i].separation + step * dot(normal, v);
+  }
+}
+
+// Leaves out points that cannot touch in this step: they would only cost time in the solver.
+void drop_far_points(Manifold& m) {
+  int kept = 0;
+  for (int i = 0; i < m.count; ++i) {
+    if (std::min(m.points[i].predicted, m.points[i].separation) < kPointMargin) {
+      m.points[kept++] = m.points[i];
+    }
+  }
+  m.count = kept;
+}
+
+// Writes the manifold into the contact and hands over impulses from the points found again.
+void store(Contact& contact, const Manifold& m, const Vec3f& normal, const PosedBody& a,
+           const PosedBody* b, const Vec3f& offset) {
+  const bool keep = contact.count > 0 && dot(normal, contact.normal) > kKeepCosine;
+  ContactPoint old[Contact::kMaxPoints];
+  int old_count = keep ? contact.count : 0;
+  std::copy(contact.points, contact.points + old_count, old);
+  if (!keep) {
+    contact.friction_impulse = {};
+    contact.twist_impulse = 0;
+  }
+  if (m.count < 2) contact.twist_impulse = 0;
+  contact.normal = normal;
+  contact.has_normal = true;
+  contact.count = m.count;
+  const Mat3f a_from_world = a.part.rotation->transposed();
+  const Mat3f b_from_world = b != nullptr ? b->part.rotation->transposed() : Mat3f::identity();
+  for (int i = 0; i < m.count; ++i) {
+    ContactPoint& p = contact.points[i];
+    p.from_a = m.points[i].position;
+    p.from_b = m.points[i].position - offset;
+    p.local_a = a_from_world * p.from_a;
+    p.local_b = b_from_world * p.from_b;
+    p.separation = m.points[i].separation;
+    p.normal_impulse = 0;
+    int match = -1;
+    float best = kMatchDistance * kMatchDistance;
+    for (int j = 0; j < old_count; ++j) {
+      // A corner stays in one of the two frames when the pieces slide.
+      const Vec3f da = old[j].local_a - p.local_a, db = old[j].local_b - p.local_b;
+      const float d2 = std::min(dot(da, da), dot(db, db));
+      if (d2 < best) best = d2, match = j;
+    }
+    if (match < 0) continue;
+    p.normal_impulse = old[match].normal_impulse;
+    old[match] = old[--old_count];
+  }
+}
+
+}  // namespace
+
+float motion_margin(const Vec3f& relative, float turning, const NarrowSettings& settings) {
+  return settings.margin + settings.step * (norm(relative) + turning);
+}
+
+void clear_points(Contact& contact) {
+  contact.count = 0;
+  contact.friction_impulse = {};
+  contact.twist_impulse = 0;
+  contact.pressed = 0;
+}
+
+void store_points(Contact& contact, const Manifold& manifold, const Vec3f& normal,
+                  const PosedBody& a) {
+  store(contact, manifold, normal, a, nullptr, Vec3f(-a.centre));
+}
+
+float update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, float margin,
+                     const NarrowSettings& settings) {
+  const Vec3f offset = Vec3f(b.centre - a.centre);
+  Axis axis;
+  if (!find_axis(contact, a.part, b.part, offset, margin, axis)) {
+    clear_points(contact);
+    return axis.separation;
+  }
+  Manifold m;
+  clip_faces(a.part, b.part, offset, axis.normal, margin, m);
+  add_axis_point(m, axis);
+  predict(m, a, &b, offset, axis.normal, settings.step);
+  drop_far_points(m);
+  if (m.count == 0) {
+    contact.normal = axis.normal;
+    contact.has_normal = true;
+    clear_points(contact);
+    return std::max(0.0F, axis.separation);
+  }
+  reduce(m, axis.normal, Contact::kMaxPoints);
+  store(contact, m, axis.normal, a, &b, offset);
+  return 0;
+}
+
+void update_ground_contact(Contact& contact, const PosedBody& a, float margin,
+                           const NarrowSettings& settings) {
+  const float height = float(a.centre.z);
+  Manifold m;
+  for (int i = 0; i < a.part.corners.count && m.count < Manifold::kMaxClipped; ++i) {
+    const Vec3f& p = a.part.corners.points[i];
+    const float s = height + p.z;
+    if (s < margin) m.points[m.count++] = {{p.x, p.y, p.z - 0.5F * s}, s, s};
+  }
+  const Vec3f normal{0, 0, -1};
+  predict(m, a, nullptr, {}, normal, settings.step);
+  drop_far_points(m);
+  if (m.count == 0) return clear_points(contact);
+  reduce(m, normal, Contact::kMaxPoints);
+  store_points(contact, m, normal, a);
+}
+
+}  // namespace rubble

@@ -1,0 +1,90 @@
+#include "kernel/collision/sat.h"
+
+namespace rubble {
+namespace {
+
+// Edge pairs are worth it only when clearly better than the best face: faces make larger contacts.
+constexpr float kEdgeAdvantage = 1e-4F;
+
+float separation_along(const Vec3f& n, const PointSet& a, const PointSet& b, const Vec3f& offset) {
+  const Vec3f pa = a.points[find_support(a, n)];
+  const Vec3f pb = b.points[find_support(b, -n)] + offset;
+  return dot(n, pb - pa);
+}
+
+void try_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, float sign,
+               SatResult& best) {
+  const PosedPart& owner = sign > 0 ? a : b;
+  for (int f = 0; f < int(owner.shape->faces.size()); ++f) {
+    const Vec3f n = owner.face_normal(f) * sign;
+    const float s = separation_along(n, a.corners, b.corners, offset);
+    if (s <= best.separation) continue;
+    // The deepest corner of the other part, halfway back to the face.
+    const Vec3f corner = sign > 0 ? b.corners.points[find_support(b.corners, -n)] + offset
+                                  : a.corners.points[find_support(a.corners, n)];
+    best = {n, s, corner - n * (sign * 0.5F * s)};
+  }
+}
+
+// Two edges make a face of the Minkowski difference when their arcs on the Gauss map cross.
+bool arcs_cross(const Vec3f& a, const Vec3f& b, const Vec3f& b_x_a, const Vec3f& c, const Vec3f& d,
+                const Vec3f& d_x_c) {
+  const float cba = dot(c, b_x_a), dba = dot(d, b_x_a);
+  const float adc = dot(a, d_x_c), bdc = dot(b, d_x_c);
+  return cba * dba < 0 && adc * bdc < 0 && cba * bdc > 0;
+}
+
+// Midway between the closest points of two lines that are not parallel.
+Vec3f crossing(const Vec3f& p, const Vec3f& d, const Vec3f& q, const Vec3f& e) {
+  const Vec3f r = q - p;
+  const float dd = dot(d, d), de = dot(d, e), ee = dot(e, e), dr = dot(d, r), er = dot(e, r);
+  const float scale = 1 / (dd * ee - de * de);
+  const float t = (dr * ee - de * er) * scale, u = (dr * de - dd * er) * scale;
+  return (p + d * t + q + e * u) * 0.5F;
+}
+
+void try_edges(const PosedPart& a, const PosedPart& b, const Vec3f& offset, SatResult& best) {
+  for (const auto& ea : a.shape->edges) {
+    const Vec3f na = a.face_normal(ea.left_face), ma = a.face_normal(ea.right_face);
+    const Vec3f da = a.corners.points[ea.b] - a.corners.points[ea.a];
+    const Vec3f m_x_n = cross(ma, na);
+    for (const auto& eb : b.shape->edges) {
+      const Vec3f nb = -b.face_normal(eb.left_face), mb = -b.face_normal(eb.right_face);
+      if (!arcs_cross(na, ma, m_x_n, nb, mb, cross(mb, nb))) continue;
+      const Vec3f db = b.corners.points[eb.b] - b.corners.points[eb.a];
+      Vec3f n = cross(da, db);
+      const float length2 = dot(n, n);
+      if (length2 < 1e-6F * dot(da, da) * dot(db, db)) continue;  // parallel
+      n *= 1 / std::sqrt(length2);
+      if (dot(n, na + ma) < 0) n = -n;
+      const Vec3f from_a = a.corners.points[ea.a], from_b = b.corners.points[eb.a] + offset;
+      const float s = dot(n, from_b - from_a);
+      if (s > best.separation + kEdgeAdvantage) {
+        best = {n, s, crossing(from_a, da, from_b, db)};
+      }
+    }
+  }
+}
+
+}  // namespace
+
+int PosedPart::find_face(const Vec3f& direction) const {
+  const Vec3f local = rotation->transposed() * direction;
+  int best = 0;
+  float best_dot = -2;
+  for (int f = 0; f < int(shape->faces.size()); ++f) {
+    const float d = dot(shape->faces[f].normal, local);
+    if (d > best_dot) best_dot = d, best = f;
+  }
+  return best;
+}
+
+SatResult find_separating_axis(const PosedPart& a, const PosedPart& b, const Vec3f& offset) {
+  SatResult best{{0, 0, 1}, -1e30F, {}};
+  try_faces(a, b, offset, 1, best);
+  try_faces(a, b, offset, -1, best);
+  try_edges(a, b, offset, best);
+  return best;
+}
+
+}  // namespace rubble

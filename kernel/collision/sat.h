@@ -1,0 +1,30 @@
+// Separating axis search over all faces and edge pairs: slow and sure, for overlapping parts.
+#pragma once
+
+#include "kernel/base/math.h"
+#include "kernel/collision/gjk.h"
+#include "kernel/geometry/shape.h"
+
+namespace rubble {
+
+// A part in world orientation; corners relative to the centre of mass of its piece.
+struct PosedPart {
+  const ConvexShape* shape = nullptr;
+  PointSet corners;
+  const Mat3f* rotation = nullptr;  // world from body
+
+  Vec3f face_normal(int face) const { return *rotation * shape->faces[face].normal; }
+  // The face whose normal is nearest to a direction given in the world.
+  int find_face(const Vec3f& direction) const;
+};
+
+struct SatResult {
+  Vec3f normal;          // unit length, from A to B
+  float separation = 0;  // along it; negative: overlap depth; unit: m
+  Vec3f point;           // midway between the features that meet
+};
+
+// The axis of greatest separation; `offset` is added to B's corners.
+SatResult find_separating_axis(const PosedPart& a, const PosedPart& b, const Vec3f& offset);
+
+}  // namespace rubble

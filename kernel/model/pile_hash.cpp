@@ -1,0 +1,98 @@
+#include "kernel/model/pile_hash.h"
+
+#include "kernel/base/hash.h"
+
+namespace rubble {
+namespace {
+
+void add(StateHash& hash, const Vec3& v) { hash.add(v.x), hash.add(v.y), hash.add(v.z); }
+void add_count(StateHash& hash, std::size_t count) { hash.add(std::uint64_t(count)); }
+
+void add(StateHash& hash, const PieceType& type) {
+  add_count(hash, type.parts.size());
+  for (const ConvexPart& part : type.parts) {
+    add_count(hash, part.points.size());
+    for (const Vec3& point : part.points) add(hash, point);
+  }
+  hash.add(std::uint8_t(type.volume.has_value()));
+  if (type.volume) {
+    hash.add(type.volume->volume);
+    add(hash, type.volume->centre_of_mass);
+    for (const Vec3& row : type.volume->inertia.rows) add(hash, row);
+  }
+  hash.add(type.density);
+  hash.add(type.friction);
+  if (!type.surface) return;
+  for (const Vec3f& p : type.surface->positions) add(hash, Vec3(p));
+  for (const auto& corners : type.surface->triangles) {
+    for (const std::uint32_t corner : corners) hash.add(std::int32_t(corner));
+  }
+}
+
+void add(StateHash& hash, const std::vector<Placement>& placements) {
+  add_count(hash, placements.size());
+  for (const Placement& placement : placements) {
+    const Quat& q = placement.world_from_body.rotation;
+    hash.add(std::int32_t(placement.type));
+    hash.add(placement.scale);
+    hash.add(q.w), hash.add(q.x), hash.add(q.y), hash.add(q.z);
+    add(hash, placement.world_from_body.translation);
+    hash.add(std::uint8_t(placement.fixed));
+  }
+}
+
+void add(StateHash& hash, const std::vector<PieceType>& types) {
+  add_count(hash, types.size());
+  for (const PieceType& type : types) add(hash, type);
+}
+
+void add(StateHash& hash, const Pose& pose) {
+  const Quat& q = pose.rotation;
+  hash.add(q.w), hash.add(q.x), hash.add(q.y), hash.add(q.z);
+  add(hash, pose.translation);
+}
+
+void add(StateHash& hash, const std::vector<AssemblyType>& assemblies) {
+  add_count(hash, assemblies.size());
+  for (const AssemblyType& assembly : assemblies) {
+    add_count(hash, assembly.links.size());
+    for (const AssemblyLink& link : assembly.links) {
+      hash.add(std::int32_t(link.type));
+      add(hash, link.assembly_from_link);
+      hash.add(link.scale);
+    }
+    for (const JointType& j : assembly.joints) {
+      for (int number : {j.parent, j.child, int(j.kind), int(j.collide)}) {
+        hash.add(std::int32_t(number));
+      }
+      add(hash, j.assembly_from_joint);
+      for (double number : {j.stiffness, j.damping, j.yield, j.break_force, j.break_torque,
+                            j.lower, j.upper}) {
+        hash.add(number);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::uint64_t hash_types(const std::vector<PieceType>& types,
+                         const std::vector<AssemblyType>& assemblies) {
+  StateHash hash;
+  add(hash, types);
+  if (!assemblies.empty()) add(hash, assemblies);
+  return hash.digest();
+}
+
+std::uint64_t hash_pile(const Pile& pile) {
+  StateHash hash;
+  add(hash, pile.types);
+  add(hash, pile.placed);
+  add_count(hash, pile.layers.size());
+  for (const Layer& layer : pile.layers) add(hash, layer.pieces);
+  hash.add(pile.spawn_bottom);
+  if (!pile.assemblies.empty()) add(hash, pile.assemblies);
+  return hash.digest();
+}
+
+}  // namespace rubble

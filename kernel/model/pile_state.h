@@ -1,0 +1,54 @@
+// A pile at one instant: plain data, the product of settling and the input of all that follows.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernel/base/math.h"
+#include "kernel/model/assembly.h"
+
+namespace rubble {
+
+enum class PieceStatus : std::uint8_t {
+  resting,  // below the speed limits, or asleep
+  moving,
+  fixed,
+  lost,  // left the world and was removed; its pose is the last one seen
+};
+
+struct PieceState {
+  std::int32_t type = 0;   // index into the pile's types
+  std::int32_t layer = 0;  // -1: placed before the first layer
+  double scale = 1;
+  Pose world_from_body;  // body: the frame of the type's parts
+  Vec3 linear_velocity;  // of the centre of mass, in the world; unit: m/s
+  Vec3 angular_velocity; // in the world; unit: rad/s
+  PieceStatus status = PieceStatus::moving;
+};
+
+// A joint that holds. Joints that broke are not there any more.
+struct JointState {
+  std::int32_t parent = 0, child = 0;  // indices of the pieces
+  JointKind kind = JointKind::ball;
+  Pose parent_from_joint, child_from_joint;  // in the frames of the pieces' types, scaled; unit: m
+  double rest = 0;     // of the spring of a hinge or slider, crept; unit: rad, m
+  Quat rest_rotation;  // of a ball's; on the parent's side
+};
+
+struct PileState {
+  std::vector<PieceState> pieces;   // in creation order, lost ones too
+  std::vector<JointState> joints;   // of articulated debris, by parent and child
+  std::vector<std::string> types;   // names of the types
+  std::int64_t steps = 0;           // steps taken until rest or until the limit
+  double simulated = 0;             // unit: s
+  bool settled = false;             // every piece rests, and no layer ran into its limit at the end
+  int layers_at_limit = 0;          // layers whose time limit came before rest
+  int lost = 0;
+
+  // XXH64 over poses and velocities as bit patterns in piece order, then the joints' rests where
+  // there are joints, then the step count.
+  std::uint64_t state_hash() const;
+};
+
+}  // namespace rubble

@@ -1,0 +1,133 @@
+#include "kernel/multibody/simbody_blocks.h"
+
+#include <Simbody.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace rubble {
+namespace {
+
+SimTK::MassProperties mass_properties(const FreeBody& body) {
+  const auto& r = body.inertia.rows;
+  return {body.mass, SimTK::Vec3(0),
+          SimTK::Inertia(SimTK::Vec3(r[0].x, r[1].y, r[2].z), SimTK::Vec3(r[0].y, r[0].z, r[1].z))};
+}
+
+}  // namespace
+
+// q of a Free mobilizer: quaternion w x y z, then the position; u: angular, then linear velocity,
+// both in the ground frame. A body's frame sits in its centre of mass.
+struct SimbodyBlocks::Block {
+  Block() : matter(system) {}
+
+  SimTK::MultibodySystem system;
+  SimTK::SimbodyMatterSubsystem matter;
+  std::vector<SimTK::MobilizedBody::Free> bodies;
+  SimTK::State state;
+  const double *q = nullptr, *u = nullptr;  // where the State has them, to read
+  int first = 0;                            // number of its first body
+};
+
+SimbodyBlocks::SimbodyBlocks() = default;
+SimbodyBlocks::~SimbodyBlocks() = default;
+SimbodyBlocks::SimbodyBlocks(SimbodyBlocks&&) noexcept = default;
+SimbodyBlocks& SimbodyBlocks::operator=(SimbodyBlocks&&) noexcept = default;
+
+int SimbodyBlocks::block_count() const { return int(blocks_.size()); }
+int SimbodyBlocks::first_of(int block) const {
+  return block < block_count() ? blocks_[block]->first : size_;
+}
+SimbodyBlocks::Block& SimbodyBlocks::block_of(int body) const {
+  return *blocks_[block_index_[body]];
+}
+
+int SimbodyBlocks::add(const std::vector<FreeBody>& bodies) {
+  const int first = size_;
+  for (std::size_t begin = 0; begin < bodies.size(); begin += kBlockSize) {
+    const std::size_t end = std::min(bodies.size(), begin + kBlockSize);
+    auto block = std::make_unique<Block>();
+    block->first = size_;
+    for (std::size_t i = begin; i < end; ++i) {
+      block->bodies.emplace_back(block->matter.Ground(), SimTK::Transform(),
+                                 SimTK::Body::Rigid(mass_properties(bodies[i])),
+                                 SimTK::Transform());
+      block_index_.push_back(std::int32_t(blocks_.size()));
+      slot_.push_back(std::int32_t(i - begin));
+    }
+    block->state = block->system.realizeTopology();
+    block->system.realizeModel(block->state);
+    block->q = block->state.getQ().getContiguousScalarData();
+    block->u = block->state.getU().getContiguousScalarData();
+    blocks_.push_back(std::move(block));
+    for (std::size_t i = begin; i < end; ++i, ++size_) {
+      set_pose(size_, bodies[i].world_from_com);
+      set_velocity(size_, bodies[i].linear_velocity, bodies[i].angular_velocity);
+    }
+  }
+  return first;
+}
+
+void SimbodyBlocks::set_velocity(int body, const Vec3& linear, const Vec3& angular) {
+  SimTK::Vector& u = block_of(body).state.updU();
+  const int at = 6 * slot_[body];
+  u[at] = angular.x, u[at + 1] = angular.y, u[at + 2] = angular.z;
+  u[at + 3] = linear.x, u[at + 4] = linear.y, u[at + 5] = linear.z;
+}
+
+Vec3 SimbodyBlocks::angular_velocity(int body) const {
+  const double* u = block_of(body).u;
+  const int at = 6 * slot_[body];
+  return {u[at], u[at + 1], u[at + 2]};
+}
+
+Vec3 SimbodyBlocks::linear_velocity(int body) const {
+  const double* u = block_of(body).u;
+  const int at = 6 * slot_[body] + 3;
+  return {u[at], u[at + 1], u[at + 2]};
+}
+
+// The kinematics of a Free mobilizer, dq/dt = N(q) u, written out: Simbody's multiplyByN() computes
+// the same, but its arm64 build gave other last bits (most likely by fused multiply-adds).
+void SimbodyBlocks::advance(int index, const std::vector<std::uint8_t>& moves,
+                            const BodyRates* rates, double dt) {
+  Block& block = *blocks_[index];
+  double* u = block.state.updU().updContiguousScalarData();
+  double* q = block.state.updQ().updContiguousScalarData();
+  const int count = int(block.bodies.size());
+  for (int slot = 0; slot < count; ++slot) {
+    const int body = block.first + slot;
+    if (!moves[body]) continue;
+    const int iu = 6 * slot, iq = 7 * slot;
+    const BodyRates& rate = rates[body];
+    for (int i = 0; i < 3; ++i) {
+      u[iu + i] = rate.angular[i];
+      u[iu + 3 + i] = rate.linear[i];
+    }
+    const Vec3 w = rate.angular + rate.extra_angular, v = rate.linear + rate.extra_linear;
+    const Quat r{q[iq], q[iq + 1], q[iq + 2], q[iq + 3]};
+    const Quat spin = Quat{0, w.x, w.y, w.z} * r;
+    const double half = 0.5 * dt;
+    const Quat turned = normalized(Quat{r.w + spin.w * half, r.x + spin.x * half,
+                                        r.y + spin.y * half, r.z + spin.z * half});
+    q[iq] = turned.w, q[iq + 1] = turned.x, q[iq + 2] = turned.y, q[iq + 3] = turned.z;
+    for (int i = 0; i < 3; ++i) q[iq + 4 + i] += v[i] * dt;
+  }
+}
+
+Pose SimbodyBlocks::world_from_com(int body) const {
+  const double* q = block_of(body).q;
+  const int at = 7 * slot_[body];
+  return {{q[at], q[at + 1], q[at + 2], q[at + 3]}, {q[at + 4], q[at + 5], q[at + 6]}};
+}
+
+void SimbodyBlocks::set_pose(int body, const Pose& pose) {
+  SimTK::Vector& q = block_of(body).state.updQ();
+  const int at = 7 * slot_[body];
+  q[at] = pose.rotation.w, q[at + 1] = pose.rotation.x;
+  q[at + 2] = pose.rotation.y, q[at + 3] = pose.rotation.z;
+  q[at + 4] = pose.translation.x, q[at + 5] = pose.translation.y;
+  q[at + 6] = pose.translation.z;
+}
+
+}  // namespace rubble

@@ -1,0 +1,73 @@
+// A tree of bodies joined by mobilizers, as the kernel keeps it between two steps. SimbodyTrees
+// holds its coordinates q and speeds u; here is how they are to be read, and what the joints
+// remember.
+//
+// Coordinates are Simbody's. A link hangs on its parent by a joint with a frame on either side:
+//   world_from_link = world_from_parent * parent_from_joint * joint(q) * link_from_joint^-1
+// where the frames of links sit in their centres of mass.
+//   free    q: quaternion w x y z, position;  u: angular, linear velocity in the world (roots only)
+//   fixed   none: an immovable root
+//   weld    none
+//   hinge   q: angle about Z;     u: its rate
+//   slider  q: travel along X;    u: its rate
+//   ball    q: quaternion;        u: angular velocity in the joint's frame on the parent
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernel/base/math.h"
+#include "kernel/model/assembly.h"
+
+namespace rubble {
+
+enum class Mobility : std::int32_t { free, fixed, weld, hinge, slider, ball };
+inline constexpr int kMobilities = 6;
+
+constexpr int coordinate_count(Mobility m) {
+  return m == Mobility::free   ? 7
+         : m == Mobility::ball ? 4
+                               : m == Mobility::hinge || m == Mobility::slider;
+}
+constexpr int speed_count(Mobility m) {
+  return m == Mobility::free   ? 6
+         : m == Mobility::ball ? 3
+                               : m == Mobility::hinge || m == Mobility::slider;
+}
+
+struct TreeLink {
+  std::int32_t body = 0;     // index of the piece
+  std::int32_t parent = -1;  // index of a link before this one; -1: the root
+  Mobility mobility = Mobility::free;
+  std::int32_t first_q = 0, first_u = 0;
+  Pose parent_from_joint, link_from_joint;  // unit: m
+  // The joint to the parent: see JointType.
+  double stiffness = 0, damping = 0, yield = kNever;
+  double break_force = kNever, break_torque = kNever;
+  double lower = -kNever, upper = kNever;
+  bool collide = false;
+  // Where the spring is at rest: it creeps.
+  double rest = 0;     // hinge, slider; unit: rad, m
+  Quat rest_rotation;  // ball
+  // Motion of the centre of mass, mirrored after each step.
+  Vec3 linear, angular;  // unit: m/s, rad/s
+};
+
+struct Tree {
+  std::vector<TreeLink> links;  // parents before children; empty: the tree has come apart
+  std::int32_t q_count = 0, u_count = 0;
+  double mass = 0;  // of what moves; unit: kg
+  Pose root;        // world_from_com of a fixed root
+
+  bool has_fixed_root() const { return !links.empty() && links[0].mobility == Mobility::fixed; }
+};
+
+// Coordinates and speeds of one tree.
+struct TreeState {
+  std::vector<double> q, u;
+};
+
+// Numbers the coordinates of the links.
+void number_coordinates(Tree& tree);
+
+}  // namespace rubble

@@ -1,0 +1,408 @@
+#include "kernel/solver/contact_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/solver/friction_axes.h"
+
+namespace rubble {
+namespace {
+
+// Inertia of a carrying piece against what it carries, see share_inertia().
+constexpr double kMassRatio = 5;
+constexpr float kAbove = 0.2F;       // the normal's rise from which a piece counts as carrying
+constexpr float kCarrySpeed = 0.5F;  // unit: m/s
+// Below these, speeds that pushes undo are dropped.
+constexpr float kSlowSpeed = 0.2F;  // unit: m/s
+constexpr float kSlowSpin = 2.0F;   // unit: rad/s
+
+// Two unit vectors across a normal; the same for the same normal.
+void make_tangents(const Vec3f& n, Vec3f tangent[2]) {
+  tangent[0] = std::abs(n.x) < 0.57735F ? normalized(cross(n, Vec3f{1, 0, 0}))
+                                        : normalized(cross(n, Vec3f{0, 1, 0}));
+  tangent[1] = cross(n, tangent[0]);
+}
+
+// One side of a contact. `share`: of the body's inertia in what the solver uses; 1 or less.
+struct Side {
+  Side(const std::vector<Body>& bodies, std::int32_t index, float inertia_share)
+      : body(index == kGround || !bodies[index].awake ? nullptr : &bodies[index]),
+        share(inertia_share) {}
+  float inverse_mass() const { return body != nullptr ? body->inverse_mass * share : 0; }
+  float mass() const { return body != nullptr ? float(body->mass) / share : 0; }
+  Vec3f turn(const Vec3f& arm) const {
+    return body != nullptr ? (body->inverse_inertia * arm) * share : Vec3f{};
+  }
+  const Body* body;
+  float share;
+};
+
+// The angular part of a row.
+struct Turns {
+  Turns(const Side& a, const Side& b, const Vec3f& direction, const Vec3f& from_a,
+        const Vec3f& from_b)
+      : arm_a(cross(from_a, direction)),
+        arm_b(cross(from_b, direction)),
+        turn_a(a.turn(arm_a)),
+        turn_b(b.turn(arm_b)) {}
+  Vec3f arm_a, arm_b, turn_a, turn_b;
+};
+
+// Fills one lane of a row; returns J M^-1 J^T without the linear part.
+float fill(WideRow& row, int lane, const Side& a, const Side& b, const Turns& turns) {
+  row.arm_a.set(lane, turns.arm_a);
+  row.arm_b.set(lane, turns.arm_b);
+  row.turn_a.set(lane, turns.turn_a);
+  row.turn_b.set(lane, turns.turn_b);
+  const float around_a = dot(turns.arm_a, turns.turn_a);
+  const float around_b = dot(turns.arm_b, turns.turn_b);
+  row.mass[lane] = 1 / (a.inverse_mass() + b.inverse_mass() + around_a + around_b);
+  return a.mass() * around_a + b.mass() * around_b;
+}
+
+// J M^-1 J^T of two rows across each other.
+float couple(const Turns& s, const Turns& t) {
+  return dot(s.arm_a, t.turn_a) + dot(s.arm_b, t.turn_b);
+}
+
+// Turns the tangents, and their rows with them, such that neither row feels the other's impulse.
+void uncouple(Vec3f tangent[2], Turns turns[2]) {
+  const PlaneTurn<float> turn =
+      find_friction_axes(couple(turns[0], turns[0]), couple(turns[0], turns[1]),
+                         couple(turns[1], turns[1]));
+  turn.apply(tangent[0], tangent[1]);
+  turn.apply(turns[0].arm_a, turns[1].arm_a);
+  turn.apply(turns[0].arm_b, turns[1].arm_b);
+  turn.apply(turns[0].turn_a, turns[1].turn_a);
+  turn.apply(turns[0].turn_b, turns[1].turn_b);
+}
+
+PaddedMotion padded(const Motion& m) {
+  return {Wide{m.linear.x, m.linear.y, m.linear.z, 0},
+          Wide{m.angular.x, m.angular.y, m.angular.z, 0}};
+}
+Motion unpadded(const PaddedMotion& m) {
+  return {{m.linear[0], m.linear[1], m.linear[2]}, {m.angular[0], m.angular[1], m.angular[2]}};
+}
+
+}  // namespace
+
+// Contacts with an awake link of a tree are solved after the others in each sweep.
+void ContactSolver::note_heads(const std::vector<Body>& bodies,
+                               const std::vector<std::int32_t>& order,
+                               const std::vector<Contact>& contacts, const SolvedTrees& trees,
+                               ThreadPool& pool) {
+  const bool any_trees = !trees.trees.empty();
+  const auto is_link = [&bodies](std::int32_t body) {
+    return body != kGround && bodies[body].awake && bodies[body].tree >= 0;
+  };
+  heads_.resize(order.size());
+  pool.run(int(order.size()), 128, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const Contact& contact = contacts[order[i]];
+      heads_[i] = {order[i], contact.body_a, contact.body_b, contact.count, contact.normal.z,
+                   any_trees && (is_link(contact.body_a) || is_link(contact.body_b))};
+    }
+  });
+  tree_order_.clear();
+  if (!any_trees) return;
+  for (const Head& head : heads_) {
+    if (head.tree) tree_order_.push_back(head.contact);
+  }
+}
+
+void ContactSolver::number_bodies(const std::vector<Body>& bodies) {
+  constexpr std::int32_t kUnseen = -1, kStays = -2;
+  number_.assign(bodies.size(), kUnseen);
+  for (const Head& head : heads_) {
+    for (std::int32_t body : {head.body_a, head.body_b}) {
+      if (body == kGround || number_[body] != kUnseen) continue;
+      number_[body] = bodies[body].awake && bodies[body].tree < 0 ? 0 : kStays;
+    }
+  }
+  moving_.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (number_[i] < 0) continue;
+    number_[i] = std::int32_t(moving_.size());
+    moving_.push_back(std::int32_t(i));
+  }
+  for (std::int32_t& n : number_) n = n < 0 ? std::int32_t(moving_.size()) : n;
+}
+
+// A light piece under a heavy one carries a load of many times its weight, which the sweeps reach
+// only after as many rounds, and in the meantime the heavy one bounces on it. While it is slow, its
+// inertia (not its weight) counts as at least 1/kMassRatio of what lies on it: loads at rest stay
+// exact, and momentum that goes into the light piece is lost, never gained. What nothing holds up from
+// below carries nothing: where two meet in the air, momentum is kept.
+void ContactSolver::share_inertia(const std::vector<Body>& bodies) {
+  share_.assign(moving_.size() + 1, 1.0F);
+  held_.assign(moving_.size() + 1, 0);
+  for (const Head& head : heads_) {
+    if (head.up < -kAbove) held_[number_[head.body_a]] = 1;
+    if (head.body_b != kGround && head.up > kAbove) held_[number_[head.body_b]] = 1;
+  }
+  const auto carry = [&](std::int32_t light, std::int32_t heavy, float up) {
+    if (up < kAbove || number_[light] == std::int32_t(moving_.size())) return;
+    const Body &l = bodies[light], &h = bodies[heavy];
+    if (held_[number_[light]] == 0 || !h.awake) return;
+    if (dot(l.linear, l.linear) > kCarrySpeed * kCarrySpeed) return;
+    const float share = float(kMassRatio * l.mass / h.mass);
+    share_[number_[light]] = std::min(share_[number_[light]], share);
+  };
+  for (const Head& head : heads_) {
+    if (head.body_b == kGround) continue;
+    carry(head.body_a, head.body_b, head.up);
+    carry(head.body_b, head.body_a, -head.up);
+  }
+}
+
+// The first batch later than `after` with room for a contact of so many rows.
+int ContactSolver::find_batch(int rows, int after) {
+  std::vector<std::int32_t>& open = open_[rows];
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const int batch = open[i];
+    if (batch <= after) continue;
+    if (++lanes_used_[batch] == kLanes) open.erase(open.begin() + std::ptrdiff_t(i));
+    return batch;
+  }
+  ContactBatch batch{};
+  batch.first_row = row_count_;
+  batch.rows = rows;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    batch.a[lane] = batch.b[lane] = std::int32_t(moving_.size());
+    batch.contact[lane] = -1;
+  }
+  row_count_ += rows;
+  open.push_back(std::int32_t(batches_.size()));
+  lanes_used_.push_back(1);
+  batches_.push_back(batch);
+  return int(batches_.size()) - 1;
+}
+
+void ContactSolver::pack() {
+  batches_.clear();
+  row_count_ = 0;
+  lanes_used_.clear();
+  for (auto& open : open_) open.clear();
+  last_batch_.assign(moving_.size() + 1, -1);
+  const int beyond = int(moving_.size());
+  for (const Head& head : heads_) {
+    if (head.tree) continue;
+    const int a = number_[head.body_a];
+    const int b = head.body_b == kGround ? beyond : number_[head.body_b];
+    last_batch_[beyond] = -1;
+    const int found = find_batch(head.count, std::max(last_batch_[a], last_batch_[b]));
+    last_batch_[a] = last_batch_[b] = found;
+    ContactBatch& batch = batches_[found];
+    const int lane = lanes_used_[found] - 1;
+    batch.a[lane] = a;
+    batch.b[lane] = b;
+    batch.contact[lane] = head.contact;
+  }
+}
+
+void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Body>& bodies,
+                            const Contact& contact, ContactBatch& batch, int lane) {
+  const Side a(bodies, contact.body_a, share_[batch.a[lane]]);
+  const Side b(bodies, contact.body_b, share_[batch.b[lane]]);
+  batch.inverse_mass_a[lane] = a.inverse_mass();
+  batch.inverse_mass_b[lane] = b.inverse_mass();
+  batch.push_weight_a[lane] = a.mass();
+  batch.push_weight_b[lane] = b.mass();
+  batch.friction[lane] = contact.friction;
+  batch.normal.set(lane, contact.normal);
+  Vec3f middle_a, middle_b;
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& p = contact.points[i];
+    NormalRow& n = rows_[batch.first_row + i];
+    const Turns turns(a, b, contact.normal, p.from_a, p.from_b);
+    const float around = fill(n.row, lane, a, b, turns);
+    const float movable = (a.body ? 1.0F : 0.0F) + (b.body ? 1.0F : 0.0F);
+    pushes_[batch.first_row + i].mass[lane] = 1 / (movable + around);
+    n.gap[lane] = p.separation - settings.rest_gap;
+    n.impulse[lane] = n.carried[lane] = p.normal_impulse;
+    middle_a += p.from_a;
+    middle_b += p.from_b;
+  }
+  const float share = 1.0F / float(contact.count);
+  middle_a *= share;
+  middle_b *= share;
+  Vec3f tangent[2];
+  make_tangents(contact.normal, tangent);
+  Turns turns[2] = {{a, b, tangent[0], middle_a, middle_b}, {a, b, tangent[1], middle_a, middle_b}};
+  uncouple(tangent, turns);
+  for (int t = 0; t < 2; ++t) {
+    fill(batch.slide[t].row, lane, a, b, turns[t]);
+    batch.slide[t].direction.set(lane, tangent[t]);
+    batch.slide[t].impulse[lane] = dot(tangent[t], contact.friction_impulse);
+  }
+  float radius = 0;
+  for (int i = 0; i < contact.count; ++i) radius += norm(contact.points[i].from_a - middle_a);
+  batch.radius[lane] = radius * share;
+  const Vec3f twist_a = a.turn(contact.normal), twist_b = b.turn(contact.normal);
+  const float twist = dot(contact.normal, twist_a + twist_b);
+  batch.twist_a.set(lane, twist_a);
+  batch.twist_b.set(lane, twist_b);
+  batch.twist_mass[lane] = contact.count > 1 && twist > 0 ? 1 / twist : 0;
+  batch.twist_impulse[lane] = contact.twist_impulse;
+}
+
+void ContactSolver::run_substeps(const SolverSettings& settings) {
+  const float h = settings.step / float(settings.substeps);
+  const Wide fall{0, 0, -settings.gravity * h, 0};
+  const Wide wide_h = splat(h), per_substep = splat(1 / h), weight = splat(settings.gravity * h);
+  const double tree_weight = double(weight[0]);
+  const bool trees = !tree_contacts_.empty();
+  for (int substep = 0; substep < settings.substeps; ++substep) {
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+      speeds_[i].linear += fall * splat(share_[i]);
+    }
+    for (ContactBatch& batch : batches_) {
+      NormalRow* rows = &rows_[batch.first_row];
+      if (substep > 0) carry_over(batch, rows, weight);
+      warm_start(batch, rows, speeds_.data());
+    }
+    if (trees) tree_contacts_.begin_substep(speeds_.data(), substep == 0, tree_weight);
+    for (ContactBatch& batch : batches_) {
+      solve_velocities(batch, &rows_[batch.first_row], per_substep, moved_.data(), speeds_.data());
+    }
+    if (trees) {
+      tree_contacts_.solve_velocities(1 / double(h), moved_.data(), speeds_.data());
+      tree_contacts_.end_substep();
+    }
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+      moved_[i].linear += speeds_[i].linear * wide_h;
+      moved_[i].angular += speeds_[i].angular * wide_h;
+    }
+  }
+  for (ContactBatch& batch : batches_) carry_over(batch, &rows_[batch.first_row], weight);
+  if (trees) tree_contacts_.end_substeps(tree_weight);
+}
+
+template <typename Action>
+void ContactSolver::each_batch(ThreadPool& pool, Action&& action) {
+  pool.run(int(batches_.size()), 16, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) action(batches_[i]);
+  });
+}
+
+// What the points of a batch are to be pushed by; returns whether any is.
+bool ContactSolver::begin_pushes(const SolverSettings& settings, const ContactBatch& batch) {
+  const Wide slop = splat(settings.slop), fraction = splat(settings.position_fraction),
+             most = splat(settings.maximum_push);
+  bool any = false;
+  for (int i = batch.first_row; i < batch.first_row + batch.rows; ++i) {
+    const Wide moved = calc_moved(batch, rows_[i].row, moved_.data());
+    const Wide gap = rows_[i].gap + moved + slop;
+    const Wide wanted = select(gap < 0, min(-gap * fraction, most), -gap);
+    pushes_[i].target = moved + wanted;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      any = any || (batch.contact[lane] >= 0 && wanted[lane] > 0);
+    }
+  }
+  return any;
+}
+
+// n . (d_b - d_a) >= target for every point, by pushing only. All movable bodies count as equally
+// heavy, so that a light bar is cleared from under a heavy slab as fast as any other pair. Where
+// nothing is to be pushed, and no neighbour has been, a batch would change nothing.
+void ContactSolver::push_apart(const SolverSettings& settings, ThreadPool& pool) {
+  wants_push_.assign(batches_.size(), 0);
+  each_batch(pool, [&](const ContactBatch& batch) {
+    wants_push_[std::size_t(&batch - batches_.data())] = begin_pushes(settings, batch);
+  });
+  const bool trees = !tree_contacts_.empty();
+  const bool tree_pushes = trees && tree_contacts_.begin_pushes(settings, moved_.data());
+  const bool any = std::find(wants_push_.begin(), wants_push_.end(), 1) != wants_push_.end();
+  if (!any && !tree_pushes) return;
+  pushed_.assign(moving_.size() + 1, trees ? 1 : 0);
+  for (int iteration = 0; iteration < settings.position_iterations; ++iteration) {
+    for (std::size_t i = 0; i < batches_.size(); ++i) {
+      const ContactBatch& batch = batches_[i];
+      if (!wants_push_[i] && !is_pushed(batch)) continue;
+      wants_push_[i] = 1;
+      if (solve_pushes(batch, &rows_[batch.first_row], &pushes_[batch.first_row], moved_.data())) {
+        for (int lane = 0; lane < kLanes; ++lane) {
+          pushed_[batch.a[lane]] = pushed_[batch.b[lane]] = 1;
+        }
+        pushed_[moving_.size()] = 0;  // stands for what does not move
+      }
+    }
+    if (trees) tree_contacts_.solve_pushes(moved_.data());
+  }
+}
+
+bool ContactSolver::is_pushed(const ContactBatch& batch) const {
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (pushed_[batch.a[lane]] || pushed_[batch.b[lane]]) return true;
+  }
+  return false;
+}
+
+// A piece whose speed turns it into its neighbours, step after step, while the pushes turn it back,
+// does not go anywhere: the part of its speed that was undone is lost. Only for slow pieces, whose
+// momentum is nothing beside that of the weights they carry.
+void ContactSolver::drop_opposed_speeds(const SolverSettings& settings) {
+  const auto drop = [&settings](Wide& speed, Wide push, float slow) {
+    const Wide s2 = speed * speed, sp = speed * push;
+    const float length2 = s2[0] + s2[1] + s2[2], along = sp[0] + sp[1] + sp[2];
+    if (along >= 0 || length2 > slow * slow) return;
+    speed *= splat(std::max(0.0F, 1 + along / (settings.step * length2)));
+  };
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    drop(speeds_[i].linear, moved_[i].linear - before_push_[i].linear, kSlowSpeed);
+    drop(speeds_[i].angular, moved_[i].angular - before_push_[i].angular, kSlowSpin);
+  }
+}
+
+void ContactSolver::store(const ContactBatch& batch, std::vector<Contact>& contacts) const {
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (batch.contact[lane] < 0) continue;
+    Contact& contact = contacts[batch.contact[lane]];
+    for (int i = 0; i < batch.rows; ++i) {
+      contact.points[i].normal_impulse = rows_[batch.first_row + i].impulse[lane];
+    }
+    const FrictionRow &s = batch.slide[0], &t = batch.slide[1];
+    contact.friction_impulse = s.direction.get(lane) * s.impulse[lane] +
+                               t.direction.get(lane) * t.impulse[lane];
+    contact.twist_impulse = batch.twist_impulse[lane];
+    contact.pressed = batch.pressed[lane];
+  }
+}
+
+void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body>& bodies,
+                          const std::vector<std::int32_t>& order, std::vector<Contact>& contacts,
+                          std::vector<Motion>& velocities, std::vector<Motion>& displacements,
+                          const SolvedTrees& trees, ThreadPool& pool) {
+  note_heads(bodies, order, contacts, trees, pool);
+  number_bodies(bodies);
+  share_inertia(bodies);
+  pack();
+  rows_.resize(std::size_t(row_count_));
+  pushes_.resize(std::size_t(row_count_));
+  tree_contacts_.begin(settings, bodies, tree_order_, contacts, number_, share_, trees);
+  each_batch(pool, [&](ContactBatch& batch) {
+    std::fill_n(&rows_[batch.first_row], batch.rows, NormalRow{});
+    std::fill_n(&pushes_[batch.first_row], batch.rows, PushRow{});
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (batch.contact[lane] < 0) continue;
+      prepare(settings, bodies, contacts[batch.contact[lane]], batch, lane);
+    }
+  });
+  speeds_.assign(moving_.size() + 1, {});
+  moved_.assign(moving_.size() + 1, {});
+  for (std::size_t i = 0; i < moving_.size(); ++i) speeds_[i] = padded(velocities[moving_[i]]);
+  run_substeps(settings);
+  before_push_ = moved_;
+  push_apart(settings, pool);
+  drop_opposed_speeds(settings);
+  tree_contacts_.drop_opposed_speeds(double(settings.step));
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    velocities[moving_[i]] = unpadded(speeds_[i]);
+    displacements[moving_[i]] = unpadded(moved_[i]);
+  }
+  each_batch(pool, [&](const ContactBatch& batch) { store(batch, contacts); });
+  tree_contacts_.store(bodies, contacts);
+}
+
+}  // namespace rubble

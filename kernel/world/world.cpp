@@ -1,0 +1,415 @@
+#include "kernel/world/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "kernel/base/error.h"
+#include "kernel/multibody/tree_joint.h"
+#include "kernel/world/world_impl.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kProofTime = 1.0, kStayTime = 0.5;  // see World::proved_rest(); unit: s
+
+Mat3 inverse_symmetric(const Mat3& m) {
+  const Vec3 c0 = cross(m.rows[1], m.rows[2]), c1 = cross(m.rows[2], m.rows[0]),
+             c2 = cross(m.rows[0], m.rows[1]);
+  const double scale = 1 / dot(m.rows[0], c0);
+  return Mat3{{c0, c1, c2}}.transposed() * scale;
+}
+
+Mat3f to_float(const Mat3& m) { return {{Vec3f(m.rows[0]), Vec3f(m.rows[1]), Vec3f(m.rows[2])}}; }
+
+void check_movable(const NewPiece& piece, const std::vector<PieceType>& types, int index) {
+  const std::size_t type = std::size_t(piece.placement.type);
+  if (piece.placement.fixed || type >= types.size() || !types[type].surface) return;
+  Diagnostic d;
+  d.key = "pieces[" + std::to_string(index) + "].fixed";
+  d.message = "a surface cannot move";
+  d.expected = "true";
+  d.found = "false";
+  throw InputError(d);
+}
+
+void check(const NewPiece& piece, int types, int index) {
+  Diagnostic d;
+  d.key = "pieces[" + std::to_string(index) + "]";
+  if (piece.placement.type < 0 || piece.placement.type >= types) {
+    d.key += ".type";
+    d.message = "no such type";
+    d.expected = "0 to " + std::to_string(types - 1);
+    d.found = std::to_string(piece.placement.type);
+    throw InputError(d);
+  }
+  if (!(piece.placement.scale >= 0.01 && piece.placement.scale <= 100)) {
+    d.key += ".scale";
+    d.message = "out of range";
+    d.expected = "0.01 to 100";
+    d.found = std::to_string(piece.placement.scale);
+    throw InputError(d);
+  }
+}
+
+// What hangs by a joint rests when it has stayed in place for this long; unit: s.
+constexpr double kHangingTime = 0.15;
+
+}  // namespace
+
+World::Impl::Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options,
+                  std::vector<AssemblyType> assembly_types)
+    : types(std::move(piece_types)),
+      assemblies(std::move(assembly_types)),
+      options(world_options),
+      pool(world_options.threads) {
+  solver_settings.step = narrow_settings.step = float(options.step);
+  solver_settings.gravity = float(options.gravity);
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    shapes.push_back(compile_shape(types[i], "types[" + std::to_string(i) + "]"));
+  }
+  for (std::size_t i = 0; i < assemblies.size(); ++i) {
+    const std::string key = "assemblies[" + std::to_string(i) + "]";
+    validate(assemblies[i], int(types.size()), key);
+    for (const AssemblyLink& link : assemblies[i].links) {
+      if (!types[link.type].surface) continue;
+      throw InputError({"", 0, key, "a link is a surface, which cannot move", "", "", ""});
+    }
+  }
+}
+
+void World::Impl::add_body(const NewPiece& piece, FreeBody* free) {
+  const Placement& at = piece.placement;
+  Body body;
+  body.type = at.type;
+  body.layer = piece.layer;
+  body.scale = at.scale;
+  body.shape = &shapes[at.type];
+  body.com_in_type = body.shape->volume.centre_of_mass * at.scale;
+  body.radius = body.shape->radius * float(at.scale);
+  body.world_from_com = {normalized(at.world_from_body.rotation),
+                         at.world_from_body * body.com_in_type};
+  if (!at.fixed) {
+    const double s3 = at.scale * at.scale * at.scale;
+    body.mass = types[at.type].density * body.shape->volume.volume * s3;
+    body.inertia =
+        body.shape->volume.inertia * (types[at.type].density * s3 * at.scale * at.scale);
+    body.inverse_mass = float(1 / body.mass);
+    body.inverse_inertia_local = to_float(inverse_symmetric(body.inertia));
+    body.awake = true;
+    body.linear = Vec3f(piece.linear_velocity);
+    body.angular = Vec3f(piece.angular_velocity);
+    body.still_pose = body.loose_pose = body.world_from_com;
+    *free = {body.mass, body.inertia, body.world_from_com, piece.linear_velocity,
+             piece.angular_velocity};
+  }
+  body.first_collider = std::int32_t(data.colliders.size());
+  body.collider_count = std::int32_t(body.shape->parts.size());
+  for (int part = 0; part < body.collider_count; ++part) {
+    Collider collider;
+    collider.body = std::int32_t(data.bodies.size());
+    collider.part = part;
+    collider.first_corner = std::int32_t(data.corners.size());
+    data.corners.resize(data.corners.size() + body.shape->parts[part].corners.size());
+    data.colliders.push_back(collider);
+    data.broad.add();
+  }
+  data.wake_next.push_back(0);
+  data.bodies.push_back(body);
+}
+
+void World::Impl::mirror(Body& body) {
+  body.world_from_com = blocks.world_from_com(body.mobile);
+  body.linear = Vec3f(blocks.linear_velocity(body.mobile));
+  body.angular = Vec3f(blocks.angular_velocity(body.mobile));
+}
+
+void World::Impl::refresh(Body& body) {
+  body.rotation = to_float(body.world_from_com.rotation.matrix());
+  if (body.mass > 0) {
+    body.inverse_inertia =
+        body.rotation * body.inverse_inertia_local * body.rotation.transposed();
+  }
+  const float scale = float(body.scale);
+  const Mat3f scaled = body.rotation * scale;
+  const Vec3& centre = body.world_from_com.translation;
+  for (int i = 0; i < body.collider_count; ++i) {
+    Collider& collider = data.colliders[body.first_collider + i];
+    const auto& corners = body.shape->parts[collider.part].corners;
+    Vec3f low{1e30F, 1e30F, 1e30F}, high = -low;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec3f p = scaled * corners[k];
+      data.corners[collider.first_corner + k] = p;
+      low = min(low, p);
+      high = max(high, p);
+    }
+    collider.box = {centre + Vec3(low), centre + Vec3(high)};
+  }
+}
+
+// Pairs of a piece with all others; immovable ones need no pair among themselves.
+void World::Impl::find_first_pairs(int index) {
+  const Body& body = data.bodies[index];
+  for (int c = 0; c < body.collider_count; ++c) {
+    const int collider = body.first_collider + c;
+    data.broad.query(collider, [&](int other) { add_contact(collider, other); });
+    if (body.mass > 0) add_contact(collider, kGround);
+    update_surface_pairs(collider);
+  }
+}
+
+void World::Impl::list_surfaces() {
+  surfaces.clear();
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    if (data.bodies[i].shape->surface) surfaces.push_back(std::int32_t(i));
+  }
+}
+
+Vec3 World::Impl::linear_velocity(const Body& body) const {
+  if (body.tree >= 0) return data.trees[body.tree].links[body.link].linear;
+  return body.mobile >= 0 ? blocks.linear_velocity(body.mobile) : Vec3{};
+}
+
+Vec3 World::Impl::angular_velocity(const Body& body) const {
+  if (body.tree >= 0) return data.trees[body.tree].links[body.link].angular;
+  return body.mobile >= 0 ? blocks.angular_velocity(body.mobile) : Vec3{};
+}
+
+PosedBody World::Impl::posed(const Collider& collider) const {
+  const Body& body = data.bodies[collider.body];
+  const ConvexShape& shape = body.shape->parts[collider.part];
+  PosedBody result;
+  result.part = {&shape,
+                 {&data.corners[collider.first_corner], int(shape.corners.size())},
+                 &body.rotation};
+  result.centre = body.world_from_com.translation;
+  result.linear = body.linear;
+  result.angular = body.angular;
+  return result;
+}
+
+World::World(std::vector<PieceType> types, const WorldOptions& options,
+             std::vector<AssemblyType> assemblies)
+    : impl_(std::make_unique<Impl>(std::move(types), options, std::move(assemblies))) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+int World::add(const std::vector<NewPiece>& pieces) {
+  Impl& w = *impl_;
+  const int first = size();
+  w.data.proof_steps = -1;
+  const int types = int(w.types.size()), kinds = types + int(w.assemblies.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    check(pieces[i], kinds, int(i));
+    check_movable(pieces[i], w.types, int(i));
+  }
+  std::vector<FreeBody> free;  // by body; those of links are not used
+  for (const NewPiece& piece : pieces) {
+    if (piece.placement.type < types) {
+      free.emplace_back();
+      w.add_body(piece, &free.back());
+    } else {
+      w.add_tree(piece);
+      free.resize(std::size_t(size() - first));
+    }
+  }
+
+  // Neighbours in height land and fall asleep together, so they share a block.
+  std::vector<std::int32_t> order;
+  for (int i = first; i < size(); ++i) {
+    if (w.data.bodies[i].mass > 0 && w.data.bodies[i].tree < 0) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return w.data.bodies[a].world_from_com.translation.z <
+           w.data.bodies[b].world_from_com.translation.z;
+  });
+  std::vector<FreeBody> sorted;
+  for (int body : order) sorted.push_back(free[body - first]);
+  int mobile = w.blocks.add(sorted);
+  for (int body : order) w.data.bodies[body].mobile = mobile++;
+
+  for (int i = first; i < size(); ++i) {
+    Body& body = w.data.bodies[i];
+    w.refresh(body);
+    for (int c = 0; c < body.collider_count; ++c) {
+      const int collider = body.first_collider + c;
+      w.data.broad.update(collider, w.data.colliders[collider].box, {});
+    }
+  }
+  const std::size_t surfaces = w.surfaces.size();
+  w.list_surfaces();
+  // What was there before may lie near a surface that is new.
+  for (int i = w.surfaces.size() > surfaces ? 0 : first; i < size(); ++i) w.find_first_pairs(i);
+  return first;
+}
+
+int World::size() const { return int(impl_->data.bodies.size()); }
+int World::lost_count() const { return impl_->data.lost; }
+std::int64_t World::steps() const { return impl_->data.steps; }
+double World::time() const { return double(impl_->data.steps) * impl_->options.step; }
+const StepTimes& World::times() const { return impl_->times; }
+bool World::is_awake(int index) const { return impl_->data.bodies[index].awake; }
+bool World::is_touching(int index) const { return impl_->data.bodies[index].touching; }
+double World::mass(int index) const { return impl_->data.bodies[index].mass; }
+
+bool World::proving() const { return impl_->data.proof_steps >= 0; }
+
+int World::awake_count() const {
+  int count = 0;
+  for (const Body& body : impl_->data.bodies) count += body.awake;
+  return count;
+}
+
+PieceState World::piece(int index) const {
+  const Body& body = impl_->data.bodies[index];
+  PieceState state;
+  state.type = body.type;
+  state.layer = body.layer;
+  state.scale = body.scale;
+  state.world_from_body = body.world_from_type();
+  state.linear_velocity = impl_->linear_velocity(body);
+  state.angular_velocity = impl_->angular_velocity(body);
+  state.status = body.lost        ? PieceStatus::lost
+                 : body.mass == 0 ? PieceStatus::fixed
+                 : body.awake     ? PieceStatus::moving
+                                  : PieceStatus::resting;
+  return state;
+}
+
+void World::set_velocity(int index, const Vec3& linear, const Vec3& angular) {
+  Body& body = impl_->data.bodies[index];
+  if (!body.movable()) return;
+  impl_->wake(index);
+  if (body.tree >= 0) return impl_->set_tree_motion(index, linear, angular);
+  impl_->blocks.set_velocity(body.mobile, linear, angular);
+  impl_->mirror(body);
+}
+
+void World::set_pose(int index, const Pose& world_from_body) {
+  Body& body = impl_->data.bodies[index];
+  if (!body.movable()) return;
+  impl_->wake(index);
+  for (const Contact& contact : impl_->data.contacts) {
+    if (contact.body_a == index && contact.body_b != kGround) impl_->wake(contact.body_b);
+    if (contact.body_b == index) impl_->wake(contact.body_a);
+  }
+  body.travel += 2 * double(body.radius) +
+                 distance(body.world_from_type().translation, world_from_body.translation) +
+                 2 * norm(body.com_in_type);
+  const Pose world_from_com{normalized(world_from_body.rotation),
+                            world_from_body * body.com_in_type};
+  if (body.tree >= 0) return impl_->set_tree_pose(index, world_from_com);
+  impl_->blocks.set_pose(body.mobile, world_from_com);
+  impl_->mirror(body);
+  impl_->refresh(body);
+}
+
+void World::wake_all() {
+  for (int i = 0; i < size(); ++i) impl_->wake(i);
+}
+
+void World::prove_rest() {
+  wake_all();
+  impl_->data.proof_steps = 0;
+}
+
+void World::set_sleeping(bool allowed) {
+  impl_->options.sleeping = allowed;
+  if (!allowed) wake_all();
+}
+
+bool World::at_rest(double speed, double angular_speed) const {
+  for (const Body& body : impl_->data.bodies) {
+    if (!body.awake) continue;
+    if (!body.touching) return false;
+    const Vec3 v(body.linear), w(body.angular);
+    if (dot(v, v) >= speed * speed || dot(w, w) >= angular_speed * angular_speed) return false;
+    // What hangs stands still for a moment where it turns back.
+    if (body.tree >= 0 && body.still_steps < int(kHangingTime / impl_->options.step)) return false;
+  }
+  return true;
+}
+
+bool World::proved_rest(double speed, double angular_speed) const {
+  const auto wanted = std::int64_t(kProofTime / impl_->options.step);
+  if (!proving() || (awake_count() > 0 && impl_->data.proof_steps < wanted)) return false;
+  if (!at_rest(speed, angular_speed)) return false;
+  for (int i = 0; i < size(); ++i)
+    if (!stays(i)) return false;
+  return true;
+}
+
+bool World::stays(int index) const {
+  const Body& body = impl_->data.bodies[index];
+  const int wanted = int(kStayTime / impl_->options.step);
+  return !body.awake || body.loose_steps >= wanted || impl_->data.proof_steps < wanted;
+}
+
+bool World::all_have_touched() const {
+  for (const Body& body : impl_->data.bodies) {
+    if (body.movable() && !body.has_touched) return false;
+  }
+  return true;
+}
+
+double World::highest_point(bool touched_only) const {
+  double top = 0;
+  for (const Body& body : impl_->data.bodies) {
+    if (body.lost || (touched_only && body.mass > 0 && !body.has_touched)) continue;
+    for (int i = 0; i < body.collider_count; ++i) {
+      top = std::max(top, impl_->data.colliders[body.first_collider + i].box.max.z);
+    }
+  }
+  return top;
+}
+
+double World::kinetic_energy() const {
+  double sum = 0;
+  for (const Body& body : impl_->data.bodies) {
+    if (!body.movable()) continue;
+    const Vec3 v = impl_->linear_velocity(body);
+    const Vec3 w = body.world_from_com.rotation.conjugate().rotate(
+        impl_->angular_velocity(body));
+    sum += 0.5 * (body.mass * dot(v, v) + dot(w, body.inertia * w));
+  }
+  return sum;
+}
+
+double World::potential_energy() const {
+  double sum = 0;
+  for (const Body& body : impl_->data.bodies) {
+    if (body.movable()) sum += body.mass * impl_->options.gravity * body.world_from_com.translation.z;
+  }
+  for (std::size_t i = 0; i < impl_->data.trees.size(); ++i) {
+    const TreeState state = impl_->simbody_trees.state(int(i));
+    for (const TreeLink& link : impl_->data.trees[i].links) {
+      sum += calc_spring_energy(link, state.q.data());
+    }
+  }
+  return sum;
+}
+
+Vec3 World::linear_momentum() const {
+  Vec3 sum;
+  for (const Body& body : impl_->data.bodies) {
+    if (body.movable()) sum += impl_->linear_velocity(body) * body.mass;
+  }
+  return sum;
+}
+
+Vec3 World::angular_momentum() const {
+  Vec3 sum;
+  for (const Body& body : impl_->data.bodies) {
+    if (!body.movable()) continue;
+    const Quat& q = body.world_from_com.rotation;
+    const Vec3 v = impl_->linear_velocity(body);
+    const Vec3 w = q.conjugate().rotate(impl_->angular_velocity(body));
+    sum += cross(body.world_from_com.translation, v * body.mass) + q.rotate(body.inertia * w);
+  }
+  return sum;
+}
+
+}  // namespace rubble

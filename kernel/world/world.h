@@ -1,0 +1,110 @@
+// The physics on its own: pieces under gravity over the ground z = 0, advanced in fixed steps.
+//
+// settle_pile() is a schedule on top of it; tests and benchmarks use it directly. Lengths in
+// metres, masses in kg, times in s. Pieces are numbered in the order they were added, for ever.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "kernel/model/pile.h"
+#include "kernel/model/pile_state.h"
+
+namespace rubble {
+
+struct WorldOptions {
+  double gravity = 9.81;        // unit: m/s2, downwards
+  double step = 1.0 / 60.0;     // unit: s; range: 1/1000 to 1/30
+  double lost_below = -0.5;     // unit: m
+  double lost_beyond = 100.0;   // from the Z axis; unit: m
+  int threads = 0;              // 0: all processors; the result does not depend on it
+  bool sleeping = true;         // pieces that stay in place are put to sleep
+};
+
+struct NewPiece {
+  Placement placement;
+  Vec3 linear_velocity;   // of the centre of mass; of an assembly that of its root; unit: m/s
+  Vec3 angular_velocity;  // of an assembly as one rigid body; unit: rad/s
+  int layer = 0;
+};
+
+// CPU-independent counters and, for the bench, wall seconds by stage (never part of a result).
+struct StepTimes {
+  double broad = 0, narrow = 0, solve = 0, advance = 0, rest = 0;  // unit: s
+};
+
+class World {
+ public:
+  // Throws InputError for a type or assembly whose geometry, material or joints are not valid.
+  World(std::vector<PieceType> types, const WorldOptions& options = {},
+        std::vector<AssemblyType> assemblies = {});
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  // Adds pieces as a group; returns the number of the first one. An assembly gives as many pieces as
+  // it has links, in their order. Throws InputError when a type does not exist or a scale is out of
+  // range.
+  int add(const std::vector<NewPiece>& pieces);
+
+  void step();
+
+  int size() const;
+  int awake_count() const;
+  int lost_count() const;
+  std::int64_t steps() const;
+  double time() const;  // simulated; unit: s
+
+  PieceState piece(int index) const;
+  bool is_awake(int index) const;
+  bool is_touching(int index) const;  // something, in the last step
+  // Changes a piece's speeds and wakes it. Immovable pieces cannot be changed. A link takes its tree
+  // with it as one rigid body; what hangs on an immovable root stays as it is.
+  void set_velocity(int index, const Vec3& linear, const Vec3& angular);
+  // Moves a piece and wakes it and its neighbours; links as above.
+  void set_pose(int index, const Pose& world_from_body);
+  void wake_all();
+  void set_sleeping(bool allowed);  // wakes all when false
+
+  // Every piece sleeps, or touches something and is below both speeds.
+  bool at_rest(double speed, double angular_speed) const;
+  // Sleep is cheap to fall into while a pile grows. This wakes every piece, and from now until
+  // pieces are added only those sleep again that stay where they are on stricter terms.
+  void prove_rest();
+  bool proving() const;
+  // After prove_rest(): all sleep again, or a second has passed, they are at rest, and each that is
+  // awake has stayed within 4 mm for half a second. Sleepers have stayed within 1 mm for 0.5 s, or
+  // within 4 mm for 1 s (jointed or deep in another: longer). So nothing that slides or creeps
+  // faster than 8 mm/s passes. Needs sleeping to be allowed: nobody counts the time otherwise.
+  // What fails for more than 9 s is damped; see kernel/solver/speed_limits.h.
+  bool proved_rest(double speed, double angular_speed) const;
+  // Whether a piece sleeps, or has stayed in place as proved_rest() demands; true of all while no proof
+  // has lasted long enough to tell.
+  bool stays(int index) const;
+  bool all_have_touched() const;
+  // Of all pieces, or of those that have touched something and the immovable ones; 0 when none.
+  double highest_point(bool touched_only = false) const;
+
+  std::vector<JointState> joints() const;  // that hold
+  double mass(int index) const;            // 0: immovable
+  double kinetic_energy() const;    // unit: J
+  double potential_energy() const;  // against z = 0, and of springs; unit: J
+  Vec3 linear_momentum() const;     // unit: kg m/s
+  Vec3 angular_momentum() const;    // about the origin; unit: kg m2/s
+
+  // Everything that the next steps depend on, except options and threads. Restoring one and
+  // repeating gives the same bits, in any world with the same types (RunError otherwise), an empty
+  // one too. kernel/world/world_snapshot.h turns snapshots into bytes and back.
+  struct Snapshot;
+  std::shared_ptr<const Snapshot> snapshot() const;
+  void restore(const Snapshot& snapshot);
+
+  const StepTimes& times() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rubble

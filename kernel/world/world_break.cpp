@@ -1,0 +1,168 @@
+// Joints that break: the tree falls into smaller ones and free pieces.
+#include <algorithm>
+
+#include "kernel/multibody/tree_joint.h"
+#include "kernel/world/world_impl.h"
+
+namespace rubble {
+namespace {
+
+constexpr float kPartedDistance = 0.002F;  // unit: m
+
+// Links of an old tree that stay together, the first of them as root.
+struct Fragment {
+  std::vector<std::int32_t> links;
+};
+
+std::vector<Fragment> find_fragments(const Tree& tree, const std::vector<std::uint8_t>& broken) {
+  std::vector<Fragment> fragments;
+  std::vector<std::size_t> fragment_of;
+  for (std::size_t i = 0; i < tree.links.size(); ++i) {
+    const std::int32_t parent = tree.links[i].parent;
+    if (parent < 0 || broken[i]) {
+      fragment_of.push_back(fragments.size());
+      fragments.emplace_back();
+    } else {
+      fragment_of.push_back(fragment_of[std::size_t(parent)]);
+    }
+    fragments[fragment_of.back()].links.push_back(std::int32_t(i));
+  }
+  return fragments;
+}
+
+// A fragment as a tree of its own, at the same coordinates and speeds.
+Tree cut_out(const Tree& from, const TreeState& state, const Fragment& fragment,
+             const std::vector<Body>& bodies, TreeState& cut) {
+  Tree tree;
+  for (std::int32_t i : fragment.links) {
+    TreeLink link = from.links[std::size_t(i)];
+    const auto at = std::find(fragment.links.begin(), fragment.links.end(), link.parent);
+    if (at != fragment.links.end()) {
+      link.parent = std::int32_t(at - fragment.links.begin());
+    } else if (link.mobility != Mobility::fixed) {
+      TreeLink root;  // its joint is gone
+      root.body = link.body;
+      root.linear = link.linear;
+      root.angular = link.angular;
+      link = root;
+    }
+    tree.mass += bodies[std::size_t(link.body)].mass;
+    tree.links.push_back(link);
+  }
+  tree.root = bodies[std::size_t(tree.links[0].body)].world_from_com;
+  number_coordinates(tree);
+  cut.q.assign(std::size_t(tree.q_count), 0);
+  cut.u.assign(std::size_t(tree.u_count), 0);
+  for (std::size_t k = 0; k < tree.links.size(); ++k) {
+    const TreeLink& link = tree.links[k];
+    if (link.mobility == Mobility::free) {
+      const Quat& r = tree.root.rotation;
+      const Vec3 &p = tree.root.translation, &w = link.angular, &v = link.linear;
+      const double q[7] = {r.w, r.x, r.y, r.z, p.x, p.y, p.z};
+      const double u[6] = {w.x, w.y, w.z, v.x, v.y, v.z};
+      std::copy(q, q + 7, cut.q.begin());
+      std::copy(u, u + 6, cut.u.begin());
+      continue;
+    }
+    const TreeLink& old = from.links[std::size_t(fragment.links[k])];
+    std::copy_n(state.q.begin() + old.first_q, coordinate_count(link.mobility),
+                cut.q.begin() + link.first_q);
+    std::copy_n(state.u.begin() + old.first_u, speed_count(link.mobility),
+                cut.u.begin() + link.first_u);
+  }
+  return tree;
+}
+
+}  // namespace
+
+void World::Impl::break_joints() {
+  forget_parted();
+  for (std::int32_t tree : awake_trees) {
+    const std::vector<Spatial>& loads = tree_motions[tree].loads();
+    const std::vector<TreeLink>& links = data.trees[tree].links;
+    std::vector<std::uint8_t> broken(links.size(), 0);
+    bool any = false;
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      if (links[i].parent < 0) continue;
+      broken[i] = norm(loads[i].linear) > links[i].break_force ||
+                  norm(loads[i].angular) > links[i].break_torque;
+      any = any || broken[i];
+    }
+    if (any) split_tree(tree, broken);
+  }
+}
+
+void World::Impl::split_tree(int index, const std::vector<std::uint8_t>& broken) {
+  const Tree old = data.trees[index];
+  const TreeState state = simbody_trees.state(index);
+  for (std::size_t i = 0; i < old.links.size(); ++i) {
+    if (!broken[i]) continue;
+    const std::int32_t a = old.links[i].body, b = old.links[std::size_t(old.links[i].parent)].body;
+    data.parted.push_back({std::min(a, b), std::max(a, b)});
+  }
+  data.trees[index] = {};
+  simbody_trees.replace(index, {}, data.bodies, {});
+  for (const Fragment& fragment : find_fragments(old, broken)) {
+    if (fragment.links.size() == 1) {
+      release(old.links[std::size_t(fragment.links[0])]);
+      continue;
+    }
+    TreeState cut;
+    const Tree tree = cut_out(old, state, fragment, data.bodies, cut);
+    int number = index;
+    if (data.trees[index].links.empty()) {
+      data.trees[index] = tree;
+      simbody_trees.replace(index, tree, data.bodies, cut);
+    } else {
+      number = simbody_trees.add(tree, data.bodies, cut);
+      data.trees.push_back(tree);
+    }
+    for (std::size_t k = 0; k < tree.links.size(); ++k) {
+      data.bodies[tree.links[k].body].tree = number;
+      data.bodies[tree.links[k].body].link = std::int32_t(k);
+    }
+  }
+}
+
+// A link that is left alone goes on as an ordinary piece.
+void World::Impl::release(const TreeLink& link) {
+  Body& body = data.bodies[link.body];
+  body.tree = body.link = -1;
+  if (body.mass == 0) return;
+  body.mobile =
+      blocks.add({{body.mass, body.inertia, body.world_from_com, link.linear, link.angular}});
+}
+
+bool World::Impl::are_apart(const Body& a, const Body& b) const {
+  for (int i = 0; i < a.collider_count; ++i) {
+    const PosedBody one = posed(data.colliders[a.first_collider + i]);
+    for (int k = 0; k < b.collider_count; ++k) {
+      const PosedBody other = posed(data.colliders[b.first_collider + k]);
+      GjkCache cache;
+      const GjkResult result =
+          calc_distance(one.part.corners, other.part.corners, Vec3f(other.centre - one.centre),
+                        kPartedDistance, cache);
+      if (result.kind == GjkResult::Kind::overlapping) return false;
+      if (result.kind == GjkResult::Kind::separated && result.distance < kPartedDistance) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+void World::Impl::forget_parted() {
+  for (std::size_t i = 0; i < data.parted.size();) {
+    const PartedPair pair = data.parted[i];
+    const Body &a = data.bodies[pair.body_a], &b = data.bodies[pair.body_b];
+    const bool gone = a.lost || b.lost;
+    if (!gone && ((!a.awake && !b.awake) || !are_apart(a, b))) {
+      ++i;
+      continue;
+    }
+    data.parted.erase(data.parted.begin() + std::ptrdiff_t(i));
+    if (!gone) find_first_pairs(pair.body_a);
+  }
+}
+
+}  // namespace rubble

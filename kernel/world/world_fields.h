@@ -1,0 +1,105 @@
+// Every member of what a world's next steps depend on, listed once, in order: what is written is
+// what is read. A member that is added to one of these structs must be added here; the test
+// WorldFields.EveryMemberIsListed says so when it is forgotten. Not for use outside kernel/.
+#pragma once
+
+#include <type_traits>
+
+#include "kernel/world/world_impl.h"
+
+namespace rubble {
+
+// Struct is T or const T.
+template <typename Struct, typename T>
+using IfIs = std::enable_if_t<std::is_same_v<std::remove_const_t<Struct>, T>, int>;
+
+template <typename Struct, typename Visit, IfIs<Struct, Body> = 0>
+void each_field(Struct& b, Visit&& visit) {
+  visit(b.type), visit(b.layer), visit(b.scale), visit(b.shape), visit(b.mass);
+  visit(b.com_in_type), visit(b.inertia), visit(b.inverse_inertia_local), visit(b.inverse_mass);
+  visit(b.radius), visit(b.mobile), visit(b.tree), visit(b.link), visit(b.first_collider), visit(b.collider_count);
+  visit(b.world_from_com), visit(b.linear), visit(b.angular), visit(b.rotation);
+  visit(b.inverse_inertia), visit(b.travel), visit(b.still_pose), visit(b.still_steps);
+  visit(b.loose_pose), visit(b.loose_steps), visit(b.load);
+  visit(b.awake), visit(b.lost), visit(b.touching), visit(b.has_touched);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, Collider> = 0>
+void each_field(Struct& c, Visit&& visit) {
+  visit(c.body), visit(c.part), visit(c.first_corner), visit(c.box);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, GjkCache> = 0>
+void each_field(Struct& c, Visit&& visit) {
+  visit(c.a), visit(c.b), visit(c.size);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, ContactPoint> = 0>
+void each_field(Struct& p, Visit&& visit) {
+  visit(p.from_a), visit(p.from_b), visit(p.local_a), visit(p.local_b);
+  visit(p.separation), visit(p.normal_impulse);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, Pair> = 0>
+void each_field(Struct& p, Visit&& visit) {
+  visit(p.collider_a), visit(p.collider_b), visit(p.body_a), visit(p.body_b), visit(p.live);
+  visit(p.apart_until), visit(p.order);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, Contact> = 0>
+void each_field(Struct& c, Visit&& visit) {
+  visit(c.body_a), visit(c.body_b), visit(c.friction);
+  visit(c.count), visit(c.points), visit(c.normal), visit(c.has_normal);
+  visit(c.friction_impulse), visit(c.twist_impulse), visit(c.pressed), visit(c.rest_pressed);
+  visit(c.cache);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, BroadPhase> = 0>
+void each_field(Struct& broad, Visit&& visit) {
+  BroadPhase::each_field(broad, visit);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, TreeLink> = 0>
+void each_field(Struct& l, Visit&& visit) {
+  visit(l.body), visit(l.parent), visit(l.mobility), visit(l.first_q), visit(l.first_u);
+  visit(l.parent_from_joint), visit(l.link_from_joint), visit(l.stiffness), visit(l.damping);
+  visit(l.yield), visit(l.break_force), visit(l.break_torque), visit(l.lower), visit(l.upper);
+  visit(l.collide), visit(l.rest), visit(l.rest_rotation), visit(l.linear), visit(l.angular);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, Tree> = 0>
+void each_field(Struct& t, Visit&& visit) {
+  visit(t.links), visit(t.q_count), visit(t.u_count), visit(t.mass), visit(t.root);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, TreeState> = 0>
+void each_field(Struct& s, Visit&& visit) {
+  visit(s.q), visit(s.u);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, PartedPair> = 0>
+void each_field(Struct& p, Visit&& visit) {
+  visit(p.body_a), visit(p.body_b);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, WorldData> = 0>
+void each_field(Struct& d, Visit&& visit) {
+  visit(d.bodies), visit(d.colliders), visit(d.corners), visit(d.broad), visit(d.pairs);
+  visit(d.contacts);
+  visit(d.contact_of_pair), visit(d.wake_next), visit(d.trees), visit(d.parted), visit(d.steps);
+  visit(d.proof_steps), visit(d.lost);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, FreeBody> = 0>
+void each_field(Struct& f, Visit&& visit) {
+  visit(f.mass), visit(f.inertia), visit(f.world_from_com), visit(f.linear_velocity);
+  visit(f.angular_velocity);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, World::Snapshot> = 0>
+void each_field(Struct& s, Visit&& visit) {
+  visit(s.types), visit(s.data), visit(s.simbody), visit(s.block_starts);
+  visit(s.tree_states);
+}
+
+}  // namespace rubble

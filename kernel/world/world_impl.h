@@ -1,0 +1,172 @@
+// The inside of World: its data and the stages of a step. Not for use outside kernel/.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "kernel/base/parallel.h"
+#include "kernel/collision/body.h"
+#include "kernel/collision/broad_phase.h"
+#include "kernel/collision/contact.h"
+#include "kernel/collision/narrow_phase.h"
+#include "kernel/multibody/simbody_blocks.h"
+#include "kernel/multibody/simbody_trees.h"
+#include "kernel/multibody/tree_motion.h"
+#include "kernel/solver/contact_solver.h"
+#include "kernel/world/world.h"
+
+namespace rubble {
+
+// Two pieces whose joint broke: they do not touch each other until they have come apart.
+struct PartedPair {
+  std::int32_t body_a = 0, body_b = 0;
+};
+
+// What a snapshot holds: all that changes from step to step.
+struct WorldData {
+  std::vector<Body> bodies;
+  std::vector<Collider> colliders;
+  std::vector<Vec3f> corners;  // turned to the world, from the centre of mass of their piece
+  BroadPhase broad;
+  std::vector<Pair> pairs;        // of parts that are near each other
+  std::vector<Contact> contacts;  // one per pair
+  std::unordered_map<std::uint64_t, std::int32_t> contact_of_pair;  // looked up, never walked
+  std::vector<std::uint8_t> wake_next;                              // by body
+  std::vector<Tree> trees;          // those that came apart keep their place, without links
+  std::vector<PartedPair> parted;
+  std::int64_t steps = 0;
+  std::int64_t proof_steps = -1;  // since prove_rest(); -1: not called since pieces were added
+  int lost = 0;
+};
+
+// What the search for pairs asks of every piece in every step, close together in memory.
+struct Sweep {
+  Vec3f linear;        // unit: m/s
+  float turning = 0;   // angular speed times radius; unit: m/s
+  float reach = 0;     // no point goes farther in this step; unit: m
+  bool awake = false;
+};
+
+struct World::Impl {
+  Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options,
+       std::vector<AssemblyType> assembly_types);
+
+  std::vector<PieceType> types;
+  std::vector<AssemblyType> assemblies;
+  std::vector<Shape> shapes;
+  WorldOptions options;
+  SolverSettings solver_settings;
+  NarrowSettings narrow_settings;
+  ThreadPool pool;
+  WorldData data;
+  SimbodyBlocks blocks;
+  SimbodyTrees simbody_trees;
+  ContactSolver solver;
+  StepTimes times;
+
+  // Scratch of a step.
+  std::vector<std::int32_t> active;
+  std::vector<std::int32_t> surfaces;  // the bodies that are one, ascending
+  std::vector<Sweep> sweeps;                // by body
+  std::vector<std::uint8_t> leaves_box;     // by collider
+  std::vector<std::uint8_t> pair_states;    // by pair: a PairState
+  std::vector<std::pair<float, std::int32_t>> order_keys;
+  std::vector<std::uint8_t> overlapping, slept;  // by body
+  std::vector<std::uint8_t> block_awake;
+  std::vector<std::int32_t> body_of;  // by number in SimbodyBlocks
+  std::vector<std::uint8_t> moves;  // by number in SimbodyBlocks
+  std::vector<Motion> velocities, displacements;
+  std::vector<BodyRates> rates;  // by number in SimbodyBlocks
+  float lateness = 0;  // see calc_lateness()
+  std::vector<float> fastest;
+  std::vector<std::int32_t> neighbour;
+  std::vector<TreeMotion> tree_motions;       // by number of the tree
+  std::vector<std::int32_t> awake_trees;
+  std::vector<std::uint8_t> is_solved;        // by number of the tree
+  SolvedTrees solved_trees;
+
+  // world.cpp
+  void add_body(const NewPiece& piece, FreeBody* free);
+  void mirror(Body& body);   // q and u from Simbody
+  void refresh(Body& body);  // rotation, inertia, corners, boxes
+  void find_first_pairs(int body);
+  void list_surfaces();
+  Vec3 linear_velocity(const Body& body) const;
+  Vec3 angular_velocity(const Body& body) const;
+  PosedBody posed(const Collider& collider) const;
+
+  // world_pairs.cpp
+  void find_pairs();
+  void select_pairs();
+  void update_contacts();
+  void note_sweeps();
+  Aabb calc_swept_box(int collider) const;
+  std::uint8_t classify(const Pair& pair) const;
+  float calc_margin(int body_a, int body_b) const;  // body_b may be kGround
+  bool may_touch(const Pair& pair) const;
+  void add_contact(int collider_a, int collider_b);
+  void push_contact(const Pair& pair);
+  void remove_contact(std::size_t index);
+  void update_surface_pairs(int collider);
+  void update_surface_slots(const Pair& first);
+
+  // world_sleep.cpp
+  void wake_marked();
+  void wake_hit();
+  void update_sleep();
+  void wake_changed();
+  void find_overlapping();  // those that overlap too deep
+  void note_loads();
+  void wake(int body);
+  static void wake_one(Body& body);
+  void fall_asleep(int body);
+  float wake_impulse(const Body& body) const;  // a contact's must change by this; unit: N s
+
+  // world_step.cpp
+  void apply_forces();
+  void solve_contacts();
+  void sort_by_height();
+  void update_touching();
+  void give_back(std::size_t piece, const Vec3f& speed);
+  void limit_kicks();
+  void advance();
+  float calc_lateness() const;
+  void set_rates(std::size_t body);
+  double calc_travel(const Body& body) const;
+  void remove_lost();
+  void lose(int body);
+
+  // world_trees.cpp
+  void add_tree(const NewPiece& piece);
+  bool are_joined(int body_a, int body_b) const;
+  bool is_awake(const Tree& tree) const;
+  void begin_trees();
+  void touch_trees();
+  void advance_trees();
+  void limit_tree(int tree);
+  void mirror_tree(int tree, const TreePose& pose, const std::vector<Spatial>& motions);
+  void mirror_state(int tree);
+  void stop_tree(int tree);
+  void keep_trees_whole();  // in `slept`
+  void lose_tree(int tree);
+  void set_tree_motion(int body, const Vec3& linear, const Vec3& angular);
+  void set_tree_pose(int body, const Pose& world_from_com);
+
+  // world_break.cpp
+  void break_joints();
+  void split_tree(int tree, const std::vector<std::uint8_t>& broken);
+  void release(const TreeLink& link);
+  void forget_parted();
+  bool are_apart(const Body& a, const Body& b) const;
+};
+
+// Its members, like those of WorldData and what it holds, are listed in world_fields.h as well.
+struct World::Snapshot {
+  std::uint64_t types = 0;  // hash_types() of the world's types
+  WorldData data;
+  std::vector<FreeBody> simbody;           // by number in SimbodyBlocks
+  std::vector<std::int32_t> block_starts;  // number of each block's first body
+  std::vector<TreeState> tree_states;      // by number of the tree
+};
+
+}  // namespace rubble

@@ -1,0 +1,248 @@
+// Who may touch whom: the pairs of a step and their contacts.
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/collision/surface_contact.h"
+#include "kernel/world/world_impl.h"
+
+namespace rubble {
+namespace {
+
+// Parts make points when they are closer than kPointMargin and what a step adds: the fixed margin
+// of the search asks for more, and a hair is left for rounding.
+constexpr float kSparedMargin = NarrowSettings{}.margin - kPointMargin - 1e-4F;
+constexpr double kLookAhead = 4;  // steps that an enlarged box reaches ahead
+
+// What becomes of a pair in a step.
+enum PairState : std::uint8_t {
+  kAsleep,   // neither moves
+  kApart,    // the enlarged boxes have parted: it is dropped
+  kWaiting,  // too far apart to touch in this step
+  kActive,
+};
+
+// Bounds on lengths that are found in another order of rounding are this much wider.
+constexpr float kRounding = 1.001F;
+
+std::uint64_t pair_key(std::int32_t a, std::int32_t b) {
+  return std::uint64_t(std::uint32_t(a)) << 32 | std::uint32_t(b);
+}
+
+}  // namespace
+
+void World::Impl::add_contact(int first, int second) {
+  const int a = second == kGround ? first : std::min(first, second);
+  const int b = second == kGround ? kGround : std::max(first, second);
+  const std::int32_t body_a = data.colliders[a].body;
+  const std::int32_t body_b = b == kGround ? kGround : data.colliders[b].body;
+  if (body_a == body_b) return;
+  if (b != kGround && are_joined(body_a, body_b)) return;
+  const Body& one = data.bodies[body_a];
+  if (b != kGround && !one.movable() && !data.bodies[body_b].movable()) return;
+  if (!data.contact_of_pair.insert({pair_key(a, b), std::int32_t(data.contacts.size())}).second) {
+    return;
+  }
+  push_contact({a, b, body_a, body_b});
+}
+
+void World::Impl::push_contact(const Pair& pair) {
+  Contact contact;
+  contact.body_a = pair.body_a;
+  contact.body_b = pair.body_b;
+  const double mu_a = types[data.bodies[pair.body_a].type].friction;
+  const double mu_b =
+      pair.body_b == kGround ? mu_a : types[data.bodies[pair.body_b].type].friction;
+  contact.friction = float(std::sqrt(mu_a * mu_b));
+  data.pairs.push_back(pair);
+  data.contacts.push_back(contact);
+}
+
+// A part near a surface has all slots there, far from it none.
+void World::Impl::update_surface_pairs(int collider) {
+  const std::int32_t body = data.colliders[collider].body;
+  if (data.bodies[body].mass <= 0) return;
+  for (const std::int32_t surface : surfaces) {
+    const PosedSurface posed_surface(data.bodies[surface]);
+    const bool near =
+        posed_surface.surface->meets(posed_surface.to_local(data.broad.box(collider)));
+    for (int slot = 0; slot < kSurfaceSlots; ++slot) {
+      const std::int32_t other = surface_collider(surface, slot);
+      const auto known = data.contact_of_pair.find(pair_key(collider, other));
+      if (near == (known != data.contact_of_pair.end())) continue;
+      if (!near) {
+        remove_contact(std::size_t(known->second));
+        continue;
+      }
+      data.contact_of_pair[pair_key(collider, other)] = std::int32_t(data.contacts.size());
+      push_contact({collider, other, body, surface});
+    }
+  }
+}
+
+void World::Impl::remove_contact(std::size_t index) {
+  const Pair pair = data.pairs[index];
+  for (std::int32_t body : {pair.body_a, pair.body_b}) {
+    // A sleeper that loses a support wakes.
+    if (body == kGround || data.bodies[body].awake || !data.bodies[body].movable()) continue;
+    if (data.contacts[index].rest_pressed > wake_impulse(data.bodies[body])) {
+      data.wake_next[body] = 1;
+    }
+  }
+  data.contact_of_pair.erase(pair_key(pair.collider_a, pair.collider_b));
+  if (index + 1 < data.pairs.size()) {
+    const Pair& moved = data.pairs[index] = data.pairs.back();
+    data.contacts[index] = data.contacts.back();
+    data.contact_of_pair[pair_key(moved.collider_a, moved.collider_b)] = std::int32_t(index);
+  }
+  data.pairs.pop_back();
+  data.contacts.pop_back();
+}
+
+void World::Impl::note_sweeps() {
+  sweeps.resize(data.bodies.size());
+  pool.run(int(data.bodies.size()), 256, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const Body& body = data.bodies[i];
+      Sweep& sweep = sweeps[i];
+      sweep.awake = body.awake;
+      sweep.linear = body.linear;
+      sweep.turning = norm(body.angular) * body.radius;
+      sweep.reach = narrow_settings.step * (norm(body.linear) + sweep.turning) * kRounding;
+    }
+  });
+}
+
+// All that a part may sweep in this step.
+Aabb World::Impl::calc_swept_box(int collider) const {
+  const Body& body = data.bodies[data.colliders[collider].body];
+  const Vec3 motion = Vec3(body.linear) * options.step;
+  const double turning = double(norm(body.angular) * body.radius) * options.step;
+  Aabb box = data.colliders[collider].box;
+  box.min += min(motion, Vec3{}) - Vec3{turning, turning, turning};
+  box.max += max(motion, Vec3{}) + Vec3{turning, turning, turning};
+  return box;
+}
+
+void World::Impl::find_pairs() {
+  note_sweeps();
+  leaves_box.resize(data.colliders.size());
+  pool.run(int(data.colliders.size()), 128, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      leaves_box[i] = sweeps[data.colliders[i].body].awake &&
+                      !data.broad.holds(i, calc_swept_box(i));
+    }
+  });
+  for (std::size_t i = 0; i < leaves_box.size(); ++i) {
+    if (!leaves_box[i]) continue;
+    const int collider = int(i);
+    const Vec3 motion = Vec3(data.bodies[data.colliders[i].body].linear) * options.step;
+    data.broad.update(collider, calc_swept_box(collider), motion * kLookAhead);
+    data.broad.query(collider, [&](int other) { add_contact(collider, other); });
+    if (data.broad.box(collider).min.z < 0) add_contact(collider, kGround);
+    update_surface_pairs(collider);
+  }
+}
+
+// Lists the pairs with somebody awake that may touch in this step, and drops those that are apart.
+void World::Impl::select_pairs() {
+  pair_states.resize(data.pairs.size());
+  pool.run(int(data.pairs.size()), 1024, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) pair_states[i] = classify(data.pairs[i]);
+  });
+  active.clear();
+  for (std::size_t i = 0; i < data.pairs.size();) {
+    const std::uint8_t state = pair_states[i];
+    if (state == kApart) {
+      remove_contact(i);  // the last one takes its place
+      pair_states[i] = pair_states[data.pairs.size()];
+      continue;
+    }
+    if (state == kActive) active.push_back(std::int32_t(i));
+    if (state == kWaiting && data.pairs[i].live) {
+      clear_points(data.contacts[i]);
+      data.pairs[i].live = 0;
+    }
+    ++i;
+  }
+}
+
+std::uint8_t World::Impl::classify(const Pair& pair) const {
+  const bool ground = pair.body_b == kGround;
+  if (!sweeps[pair.body_a].awake && (ground || !sweeps[pair.body_b].awake)) return kAsleep;
+  if (is_surface_collider(pair.collider_b)) return kActive;  // dropped in find_pairs()
+  const Aabb& box = data.broad.box(pair.collider_a);
+  const bool near =
+      ground ? box.min.z < 0 : BroadPhase::overlap(box, data.broad.box(pair.collider_b));
+  if (!near) return kApart;
+  return may_touch(pair) ? kActive : kWaiting;
+}
+
+float World::Impl::calc_margin(int body_a, int body_b) const {
+  const Sweep& a = sweeps[body_a];
+  if (body_b == kGround) return motion_margin(a.linear, a.turning, narrow_settings);
+  const Sweep& b = sweeps[body_b];
+  return motion_margin(a.linear - b.linear, a.turning + b.turning, narrow_settings);
+}
+
+// Whether the boxes can meet in this step.
+bool World::Impl::may_touch(const Pair& pair) const {
+  const Aabb& box = data.colliders[pair.collider_a].box;
+  if (pair.body_b == kGround) return box.min.z < double(calc_margin(pair.body_a, kGround));
+  const Aabb& other = data.colliders[pair.collider_b].box;
+  const auto meet = [&](double margin) {
+    return box.min.x <= other.max.x + margin && other.min.x <= box.max.x + margin &&
+           box.min.y <= other.max.y + margin && other.min.y <= box.max.y + margin &&
+           box.min.z <= other.max.z + margin && other.min.z <= box.max.z + margin;
+  };
+  const float most = narrow_settings.margin * kRounding + sweeps[pair.body_a].reach +
+                     sweeps[pair.body_b].reach;
+  if (!meet(most)) return false;
+  const double margin = calc_margin(pair.body_a, pair.body_b);
+  const Body &a = data.bodies[pair.body_a], &b = data.bodies[pair.body_b];
+  if (!pair.live && a.travel + b.travel + margin < pair.apart_until) return false;
+  return meet(margin);
+}
+
+// All slots of a part at once.
+void World::Impl::update_surface_slots(const Pair& first) {
+  Contact* slots[kSurfaceSlots];
+  std::int32_t numbers[kSurfaceSlots];
+  for (int slot = 0; slot < kSurfaceSlots; ++slot) {
+    numbers[slot] = data.contact_of_pair.at(
+        pair_key(first.collider_a, surface_collider(first.body_b, slot)));
+    slots[slot] = &data.contacts[numbers[slot]];
+  }
+  const Collider& collider = data.colliders[first.collider_a];
+  const float margin = calc_margin(first.body_a, kGround);
+  update_surface_contacts(slots, posed(collider), collider.box, data.bodies[first.body_b], margin,
+                          narrow_settings);
+  for (const std::int32_t number : numbers) {
+    data.pairs[number].live = data.contacts[number].count > 0;
+  }
+}
+
+void World::Impl::update_contacts() {
+  pool.run(int(active.size()), 64, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      Pair& pair = data.pairs[active[i]];
+      if (is_surface_collider(pair.collider_b)) {
+        if (surface_slot(pair.collider_b) == 0) update_surface_slots(pair);
+        continue;
+      }
+      Contact& contact = data.contacts[active[i]];
+      const PosedBody a = posed(data.colliders[pair.collider_a]);
+      const float margin = calc_margin(pair.body_a, pair.body_b);
+      if (pair.collider_b == kGround) {
+        update_ground_contact(contact, a, margin, narrow_settings);
+      } else {
+        const float apart = update_contact(contact, a, posed(data.colliders[pair.collider_b]),
+                                           margin, narrow_settings);
+        pair.apart_until = data.bodies[pair.body_a].travel + data.bodies[pair.body_b].travel +
+                           double(apart + kSparedMargin);
+      }
+      pair.live = contact.count > 0;
+    }
+  });
+}
+
+}  // namespace rubble

@@ -1,0 +1,203 @@
+// Who takes part in a step: falling asleep, and being woken.
+#include <cmath>
+
+#include "kernel/world/world_impl.h"
+
+namespace rubble {
+namespace {
+
+// When a piece falls asleep, and what wakes it.
+struct SleepTerms {
+  // It sleeps after it has stayed within this distance for this time.
+  double still_distance;  // of any of its points; unit: m
+  double still_time;      // unit: s
+  // So does one that jitters, but goes nowhere.
+  double loose_distance;  // unit: m
+  double loose_time;      // unit: s
+  // It wakes when the impulse of a contact changes by what would give it this speed, and this share
+  // of its load on top.
+  float wake_speed;  // unit: m/s
+  float wake_load;
+  // It wakes at once when an impact would give it this speed.
+  float hit_speed;  // unit: m/s
+};
+// While a pile grows, what lies still enough sleeps: most of it will be hit again. It must wake as
+// readily as ever, or slopes freeze steeper than they can stand.
+constexpr SleepTerms kGrowing{0.003, 0.2, 0.008, 0.6, 0.1F, 0.25F, 0.2F};
+// Whether it rests is decided on these: who creeps slowly must not pass for one that stays.
+constexpr SleepTerms kProving{0.001, 0.5, 0.004, 1.0, 0.1F, 0.25F, 0.2F};
+
+// Overlaps deeper than this keep a piece awake for a while.
+constexpr float kSleepOverlap = 0.003F;    // unit: m
+constexpr double kSleepOverlapTime = 2.0;  // unit: s
+
+const SleepTerms& terms(const WorldData& data) {
+  return data.proof_steps < 0 ? kGrowing : kProving;
+}
+float hit_impulse(const Body& body, const SleepTerms& t) {
+  return t.hit_speed * float(body.mass) + body.load;
+}
+
+// Counts the steps that a body has stayed near `pose`; starts anew where it is when it has left.
+void count_still(const Body& body, double distance, Pose& pose, std::int32_t& steps) {
+  const Vec3 moved = body.world_from_com.translation - pose.translation;
+  const Quat turn = pose.rotation.conjugate() * body.world_from_com.rotation;
+  // How far a corner has gone at most: a bar may spin about its own axis without going anywhere.
+  const Vec3 r = Vec3(body.shape->reach) * (2 * body.scale);
+  const Vec3 t{std::abs(turn.x), std::abs(turn.y), std::abs(turn.z)};
+  const double turned =
+      norm(Vec3{t.y * r.z + t.z * r.y, t.z * r.x + t.x * r.z, t.x * r.y + t.y * r.x});
+  ++steps;
+  if (norm(moved) + turned > distance) {
+    pose = body.world_from_com;
+    steps = 0;
+  }
+}
+
+}  // namespace
+
+// What carries a high load is clamped by it, and changes of a fraction of the load do not matter.
+float World::Impl::wake_impulse(const Body& body) const {
+  return terms(data).wake_speed * float(body.mass) + terms(data).wake_load * body.load;
+}
+
+void World::Impl::wake(int index) {
+  Body& body = data.bodies[index];
+  if (!body.movable() || body.awake) return;
+  if (body.tree >= 0) {  // all of it at once
+    for (const TreeLink& link : data.trees[body.tree].links) wake_one(data.bodies[link.body]);
+  } else {
+    wake_one(body);
+  }
+}
+
+void World::Impl::wake_one(Body& body) {
+  if (!body.movable()) return;
+  body.awake = true;
+  body.still_steps = body.loose_steps = 0;
+  body.still_pose = body.loose_pose = body.world_from_com;
+}
+
+void World::Impl::fall_asleep(int index) {
+  Body& body = data.bodies[index];
+  body.awake = false;
+  if (body.mobile >= 0) blocks.set_velocity(body.mobile, {}, {});
+  if (body.tree >= 0) stop_tree(body.tree);
+  body.linear = {};
+  body.angular = {};
+}
+
+void World::Impl::wake_marked() {
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    if (data.wake_next[i]) wake(int(i));
+    data.wake_next[i] = 0;
+  }
+}
+
+// A sleeper that is about to be hit hard enough takes part in this very step, so that momentum is
+// kept. Its other contacts are as it left them: neither side has moved.
+void World::Impl::wake_hit() {
+  bool any = false;
+  for (std::int32_t index : active) {
+    if (!data.pairs[index].live) continue;
+    const Contact& contact = data.contacts[index];
+    if (contact.body_b == kGround) continue;
+    const Body &a = data.bodies[contact.body_a], &b = data.bodies[contact.body_b];
+    if (a.awake == b.awake) continue;
+    const Body& sleeper = a.awake ? b : a;
+    if (!sleeper.movable()) continue;
+    const float inverse_masses = a.inverse_mass + b.inverse_mass;
+    for (int i = 0; i < contact.count; ++i) {
+      const ContactPoint& p = contact.points[i];
+      const Vec3f v = b.linear + cross(b.angular, p.from_b) - a.linear - cross(a.angular, p.from_a);
+      const float approach = -dot(contact.normal, v);
+      if (p.separation - approach * solver_settings.step > solver_settings.rest_gap) continue;
+      // The impulse of a central plastic impact.
+      if (approach < inverse_masses * hit_impulse(sleeper, terms(data))) continue;
+      wake(a.awake ? contact.body_b : contact.body_a);
+      any = true;
+      break;
+    }
+  }
+  if (!any) return;
+  std::vector<std::uint8_t> listed(data.pairs.size(), 0);
+  for (std::int32_t index : active) listed[index] = 1;
+  for (std::size_t i = 0; i < data.pairs.size(); ++i) {
+    const Pair& pair = data.pairs[i];
+    if (listed[i] || !pair.live) continue;
+    const bool awake = data.bodies[pair.body_a].awake ||
+                       (pair.body_b != kGround && data.bodies[pair.body_b].awake);
+    if (awake) active.push_back(std::int32_t(i));
+  }
+}
+
+// Sleepers that an awake neighbour presses on more, or less, than when they fell asleep.
+void World::Impl::wake_changed() {
+  for (std::int32_t index : active) {
+    const Contact& contact = data.contacts[index];
+    for (std::int32_t i : {contact.body_a, contact.body_b}) {
+      if (i == kGround) continue;
+      const Body& body = data.bodies[i];
+      if (body.awake || !body.movable()) continue;
+      const float change = std::abs(contact.pressed - contact.rest_pressed);
+      if (change > wake_impulse(body)) data.wake_next[i] = 1;
+    }
+  }
+}
+
+void World::Impl::find_overlapping() {
+  overlapping.assign(data.bodies.size(), 0);
+  for (std::int32_t index : active) {
+    const Contact& contact = data.contacts[index];
+    for (int p = 0; p < contact.count; ++p) {
+      if (contact.points[p].separation > -kSleepOverlap) continue;
+      overlapping[contact.body_a] = 1;
+      if (contact.body_b != kGround) overlapping[contact.body_b] = 1;
+    }
+  }
+}
+
+// What the pieces that fell asleep in this step carry.
+void World::Impl::note_loads() {
+  for (std::size_t i = 0; i < slept.size(); ++i) {
+    if (slept[i]) data.bodies[i].load = 0;
+  }
+  for (std::int32_t index : active) {
+    Contact& contact = data.contacts[index];
+    for (std::int32_t i : {contact.body_a, contact.body_b}) {
+      if (i == kGround || !slept[i]) continue;
+      data.bodies[i].load += contact.pressed;
+      contact.rest_pressed = contact.pressed;
+    }
+  }
+}
+
+void World::Impl::update_sleep() {
+  wake_changed();
+  if (!options.sleeping) return;
+  find_overlapping();
+  const SleepTerms& t = terms(data);
+  const int wait = int(t.still_time / options.step), loose_wait = int(t.loose_time / options.step);
+  const int long_wait = int(kSleepOverlapTime / options.step);
+  slept.assign(data.bodies.size(), 0);
+  bool any = false;
+  pool.run(int(data.bodies.size()), 256, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      Body& body = data.bodies[i];
+      if (!body.awake) continue;
+      count_still(body, t.still_distance, body.still_pose, body.still_steps);
+      count_still(body, t.loose_distance, body.loose_pose, body.loose_steps);
+      slept[i] = body.still_steps >= (overlapping[i] ? long_wait : wait) ||
+                 body.loose_steps >= (overlapping[i] ? long_wait : loose_wait);
+    }
+  });
+  keep_trees_whole();
+  for (std::size_t i = 0; i < slept.size(); ++i) {
+    if (!slept[i]) continue;
+    fall_asleep(int(i));
+    any = true;
+  }
+  if (any) note_loads();
+}
+
+}  // namespace rubble

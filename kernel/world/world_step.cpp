@@ -1,0 +1,311 @@
+// The stages of one step, in the order of World::step(). Pairs are found in world_pairs.cpp; who
+// sleeps is decided in world_sleep.cpp.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "kernel/solver/speed_limits.h"
+#include "kernel/world/world_impl.h"
+
+namespace rubble {
+namespace {
+
+// Who touches a piece, beside the number of the only one; see limit_kicks().
+constexpr std::int32_t kNobody = -2, kSeveral = -3;
+constexpr float kOrderDistance = 0.1F;  // see sort_by_height(); unit: m
+
+// The implicit gyroscopic torque, one Newton step (Catto, GDC 2015): stable at any spin.
+Vec3 gyroscopic(const Body& body, const Vec3& omega, double dt) {
+  const Quat& q = body.world_from_com.rotation;
+  const Vec3 w = q.conjugate().rotate(omega);
+  const Vec3 iw = body.inertia * w;
+  const Vec3 f = cross(w, iw) * dt;
+  // J = I + dt ([w]x I - [I w]x)
+  const Mat3 skew_w{{{0, -w.z, w.y}, {w.z, 0, -w.x}, {-w.y, w.x, 0}}};
+  const Mat3 skew_iw{{{0, -iw.z, iw.y}, {iw.z, 0, -iw.x}, {-iw.y, iw.x, 0}}};
+  const Mat3 jacobian = body.inertia + (skew_w * body.inertia + skew_iw * -1.0) * dt;
+  const Vec3 c0 = cross(jacobian.rows[1], jacobian.rows[2]);
+  const Vec3 c1 = cross(jacobian.rows[2], jacobian.rows[0]);
+  const Vec3 c2 = cross(jacobian.rows[0], jacobian.rows[1]);
+  const double scale = 1 / dot(jacobian.rows[0], c0);
+  const Vec3 change = (c0 * f.x + c1 * f.y + c2 * f.z) * scale;
+  return q.rotate(w - change);
+}
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total), start_(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() {
+    total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  double& total_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace
+
+// Gyroscopic torque only; the solver adds gravity in its substeps.
+void World::Impl::apply_forces() {
+  velocities.assign(data.bodies.size(), {});
+  displacements.assign(data.bodies.size(), {});
+  pool.run(int(data.bodies.size()), 256, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const Body& body = data.bodies[i];
+      if (!body.awake || body.mobile < 0) continue;
+      const Vec3 w = gyroscopic(body, blocks.angular_velocity(body.mobile), options.step);
+      velocities[i] = {body.linear, Vec3f(w)};
+    }
+  });
+}
+
+// Bottom up: what carries is solved before what is carried. The order stays the same from step to
+// step unless something moves far: a sweep in another order would disturb what earlier ones
+// reached.
+void World::Impl::sort_by_height() {
+  order_keys.resize(active.size());
+  pool.run(int(active.size()), 128, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      Pair& pair = data.pairs[active[i]];
+      const float z = float(data.bodies[pair.body_a].world_from_com.translation.z) +
+                      data.contacts[active[i]].points[0].from_a.z;
+      if (std::abs(z - pair.order) > kOrderDistance) pair.order = z;
+      order_keys[i] = {pair.order, active[i]};
+    }
+  });
+  std::sort(order_keys.begin(), order_keys.end());
+  for (std::size_t i = 0; i < active.size(); ++i) active[i] = order_keys[i].second;
+}
+
+void World::Impl::solve_contacts() {
+  active.erase(std::remove_if(active.begin(), active.end(),
+                              [&](std::int32_t i) { return !data.pairs[i].live; }),
+               active.end());
+  sort_by_height();
+  solver.solve(solver_settings, data.bodies, active, data.contacts, velocities, displacements,
+               solved_trees, pool);
+}
+
+// What a piece loses goes back to the only one that touches it, if that is as heavy: where two meet,
+// momentum is kept. With several, the one that squeezes is not known.
+void World::Impl::give_back(std::size_t piece, const Vec3f& speed) {
+  const std::int32_t other = neighbour[piece];
+  if (other < 0) return;
+  const Body &light = data.bodies[piece], &heavy = data.bodies[other];
+  if (!heavy.awake || heavy.mobile < 0 || heavy.mass < light.mass) return;
+  const Vec3f change = speed * float(light.mass / heavy.mass);
+  velocities[other].linear += change;
+  displacements[other].linear += change * float(options.step);
+}
+
+// A piece squeezed out from under a heavy one must not shoot away: sideways and upwards it may
+// become no faster in one step than a share of the speed that the points which touch it had before.
+void World::Impl::limit_kicks() {
+  const auto outwards = [](const Vec3f& v) { return Vec3f{v.x, v.y, std::max(v.z, 0.0F)}; };
+  const auto may_kick = [&](const Body& body) {
+    return body.awake && body.touching && body.mobile >= 0;
+  };
+  const auto speed_before = [&](const Body& body) {
+    return norm(outwards(body.linear)) + float(options.gravity * options.step);
+  };
+  bool any = !awake_trees.empty();  // limit_tree() asks for all of their links
+  for (std::size_t i = 0; i < data.bodies.size() && !any; ++i) {
+    const Body& body = data.bodies[i];
+    any = may_kick(body) &&
+          norm(outwards(velocities[i].linear)) > std::max(speed_before(body), kFreeKick);
+  }
+  if (!any) return;
+  fastest.assign(data.bodies.size(), 0);
+  neighbour.assign(data.bodies.size(), kNobody);
+  const auto note = [this](std::int32_t body, std::int32_t other) {
+    if (body == kGround) return;
+    neighbour[body] = neighbour[body] == kNobody || neighbour[body] == other ? other : kSeveral;
+  };
+  for (std::int32_t index : active) {
+    const Contact& contact = data.contacts[index];
+    if (contact.pressed <= 0) continue;
+    note(contact.body_a, contact.body_b);
+    note(contact.body_b, contact.body_a);
+    if (contact.body_b == kGround) continue;
+    const Body &a = data.bodies[contact.body_a], &b = data.bodies[contact.body_b];
+    float &of_a = fastest[contact.body_a], &of_b = fastest[contact.body_b];
+    for (int i = 0; i < contact.count; ++i) {
+      const ContactPoint& p = contact.points[i];
+      of_a = std::max(of_a, norm(b.linear + cross(b.angular, p.from_b)));
+      of_b = std::max(of_b, norm(a.linear + cross(a.angular, p.from_a)));
+    }
+  }
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    if (!may_kick(data.bodies[i])) continue;
+    const float after = norm(outwards(velocities[i].linear));
+    const float most =
+        std::max(speed_before(data.bodies[i]), kKickShare * fastest[i] + kFreeKick);
+    if (after <= most) continue;
+    const float keep = most / after;
+    give_back(i, outwards(velocities[i].linear) * (1 - keep));
+    for (Vec3f* v : {&velocities[i].linear, &displacements[i].linear}) {
+      v->x *= keep, v->y *= keep;
+      if (v->z > 0) v->z *= keep;
+    }
+  }
+}
+
+// 0 while a proof of rest may yet succeed by itself, 1 when it has lasted too long.
+float World::Impl::calc_lateness() const {
+  const float seconds = float(data.proof_steps) * float(options.step);
+  return std::clamp((seconds - kPatience) / (kPatienceEnds - kPatience), 0.0F, 1.0F);
+}
+
+// The speeds after the step, and the extra rates that make up its displacement.
+void World::Impl::set_rates(std::size_t index) {
+  const Body& body = data.bodies[index];
+  BodyRates& r = rates[body.mobile];
+  if (body.touching) {
+    Motion m = velocities[index];
+    const float spin = norm(m.angular), speed = norm(m.linear);
+    if (spin > kMaximumSpin) m.angular *= kMaximumSpin / spin;
+    if (speed > kMaximumSpeed) m.linear *= kMaximumSpeed / speed;
+    // Grinding of rough surfaces, for pieces that are nearly at rest.
+    if (spin < kSlowSpin) m.angular *= 1 - kSpinDamping * (1 - spin / kSlowSpin);
+    if (speed < kSlowSpeed) m.linear *= 1 - kSpeedDamping * (1 - speed / kSlowSpeed);
+    if (lateness > 0 && spin < kTremblingSpin) m.angular *= 1 - kLateDamping * lateness;
+    if (lateness > 0 && speed < kTremblingSpeed) m.linear *= 1 - kLateDamping * lateness;
+    r.linear = Vec3(m.linear), r.angular = Vec3(m.angular);
+    const double per_step = 1 / options.step;
+    r.extra_linear = Vec3(displacements[index].linear) * per_step - r.linear;
+    r.extra_angular = Vec3(displacements[index].angular) * per_step - r.angular;
+  } else {
+    // Nothing touches it: the exact parabola, in double precision.
+    r.linear = blocks.linear_velocity(body.mobile);
+    r.angular = gyroscopic(body, blocks.angular_velocity(body.mobile), options.step);
+    r.linear.z -= options.gravity * options.step;
+    r.extra_linear = {0, 0, 0.5 * options.gravity * options.step};
+    r.extra_angular = {};
+  }
+}
+
+// How far any point of a body can have gone in the step.
+double World::Impl::calc_travel(const Body& body) const {
+  const BodyRates& r = rates[body.mobile];
+  return options.step * (norm(r.linear + r.extra_linear) +
+                         norm(r.angular + r.extra_angular) * double(body.radius));
+}
+
+void World::Impl::advance() {
+  moves.assign(blocks.size(), 0);
+  rates.resize(blocks.size());
+  block_awake.assign(blocks.block_count(), 0);
+  body_of.resize(blocks.size());
+  lateness = calc_lateness();
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    const Body& body = data.bodies[i];
+    if (!body.awake || body.mobile < 0) continue;
+    moves[body.mobile] = 1;
+    body_of[body.mobile] = std::int32_t(i);
+    block_awake[blocks.block_of_body(body.mobile)] = 1;
+  }
+  pool.run(blocks.block_count(), 4, [&](int begin, int end) {
+    for (int block = begin; block < end; ++block) {
+      if (!block_awake[block]) continue;
+      for (int mobile = blocks.first_of(block); mobile < blocks.first_of(block + 1); ++mobile) {
+        if (moves[mobile]) set_rates(body_of[mobile]);
+      }
+      blocks.advance(block, moves, rates.data(), options.step);
+      for (int mobile = blocks.first_of(block); mobile < blocks.first_of(block + 1); ++mobile) {
+        if (!moves[mobile]) continue;
+        Body& body = data.bodies[body_of[mobile]];
+        body.travel += calc_travel(body);
+        mirror(body);
+        refresh(body);
+      }
+    }
+  });
+}
+
+// A contact counts as touching when it carries an impulse.
+void World::Impl::update_touching() {
+  for (Body& body : data.bodies) {
+    if (body.awake) body.touching = false;
+  }
+  for (std::int32_t index : active) {
+    const Contact& contact = data.contacts[index];
+    if (contact.pressed <= 0) continue;
+    for (std::int32_t i : {contact.body_a, contact.body_b}) {
+      if (i == kGround) continue;
+      data.bodies[i].touching = data.bodies[i].has_touched = true;
+    }
+  }
+  touch_trees();
+}
+
+void World::Impl::lose(int index) {
+  Body& body = data.bodies[index];
+  if (body.tree >= 0) return lose_tree(body.tree);
+  body.lost = true;
+  body.awake = false;
+  body.touching = false;
+  ++data.lost;
+  if (body.mobile >= 0) blocks.set_velocity(body.mobile, {}, {});
+  for (std::size_t i = 0; i < data.pairs.size();) {
+    if (data.pairs[i].body_a == index || data.pairs[i].body_b == index) {
+      remove_contact(i);
+    } else {
+      ++i;
+    }
+  }
+  for (int i = 0; i < body.collider_count; ++i) data.broad.remove(body.first_collider + i);
+}
+
+void World::Impl::remove_lost() {
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    const Body& body = data.bodies[i];
+    if (!body.awake) continue;
+    const Vec3 p = body.world_from_type().translation;
+    // Written so that a pose that is not a number is lost too.
+    const bool inside = p.z >= options.lost_below &&
+                        p.x * p.x + p.y * p.y <= options.lost_beyond * options.lost_beyond;
+    if (!inside) lose(int(i));
+  }
+}
+
+void World::step() {
+  Impl& w = *impl_;
+  {
+    const Stopwatch watch(w.times.broad);
+    w.wake_marked();
+    w.find_pairs();
+    w.select_pairs();
+  }
+  {
+    const Stopwatch watch(w.times.narrow);
+    w.update_contacts();
+    w.wake_hit();
+  }
+  {
+    const Stopwatch watch(w.times.solve);
+    w.apply_forces();
+    w.begin_trees();
+    w.solve_contacts();
+  }
+  {
+    const Stopwatch watch(w.times.rest);
+    w.update_touching();
+    w.limit_kicks();
+  }
+  {
+    const Stopwatch watch(w.times.advance);
+    w.advance();
+    w.advance_trees();
+  }
+  {
+    const Stopwatch watch(w.times.rest);
+    w.break_joints();
+    w.update_sleep();
+    w.remove_lost();
+  }
+  ++w.data.steps;
+  if (w.data.proof_steps >= 0) ++w.data.proof_steps;
+}
+
+}  // namespace rubble

@@ -94,5 +94,29 @@ TEST(ClosedFormSlope, AnUnevenlyLoadedBoxIsHeldWithoutTurning) {
   EXPECT_LT(distance(world.piece(1).world_from_body.translation, start), 0.001);
 }
 
+// On level ground: a bar of 1 x 0.2 x 0.1 m whose mass is 5 cm off one end. Whatever the pressures
+// are, they balance that; the torque of friction is largest with all of them in the corners.
+TEST(ClosedFormSlope, FrictionOfAnUnevenlyLoadedBarTurnsItNoMoreThanItsCornersCan) {
+  const double friction = 0.3, gyration_squared = 0.05;
+  PieceType bar = box_type("bar", 1, 0.2, 0.1);
+  VolumeProperties volume;
+  volume.volume = 1 * 0.2 * 0.1;
+  volume.centre_of_mass = {0.45, 0, 0};
+  volume.inertia = Mat3::diagonal(Vec3{0.01, gyration_squared, gyration_squared} * volume.volume);
+  bar.volume = volume;
+  bar.friction = friction;
+  World world({bar}, awake_options());
+  world.add({at(0, {-0.45, 0, 0.05 + kGap})});
+  run(world, 0.5);
+  world.set_velocity(0, {}, {0, 0, 5});
+  const double seconds = 0.2;
+  run(world, seconds);
+  const double lever = 0.95 * std::hypot(0.05, 0.1) + 0.05 * std::hypot(0.95, 0.1);
+  const double most = friction * kG * lever / gyration_squared * seconds;
+  const double lost = 5 - world.piece(0).angular_velocity.z;
+  EXPECT_LT(lost, 1.05 * most);
+  EXPECT_GT(lost, 0.05 * most);  // the load spreads over some of its base
+}
+
 }  // namespace
 }  // namespace rubble

@@ -109,7 +109,8 @@ TEST(ClosedFormSpin, ASecondOfTumblingFollowsEulersEquations) {
   EXPECT_LT(norm(body_spin(world) - solve_euler(kFlipping, 1)), 0.03 * norm(kFlipping));
 }
 
-// 200 rad/s and 60 m/s: in the air, and flat on ground without friction.
+// 200 rad/s and 60 m/s: in the air, and flat on ground without friction, where contacts in single
+// precision may take 1 %.
 TEST(ClosedFormSpin, NothingLimitsWhatIsFreeOrTouches) {
   PieceType disc = drum_type(0.2, 0.05, 48);
   disc.friction = 0;
@@ -123,8 +124,8 @@ TEST(ClosedFormSpin, NothingLimitsWhatIsFreeOrTouches) {
     run(world, 1);
     const PieceState after = world.piece(0);
     EXPECT_EQ(world.is_touching(0), touching);
-    EXPECT_NEAR(after.linear_velocity.x, 60, 0.06) << touching;
-    EXPECT_NEAR(after.angular_velocity.z, 200, 0.2) << touching;
+    EXPECT_NEAR(after.linear_velocity.x, 60, touching ? 0.06 : 1e-9) << touching;
+    EXPECT_NEAR(after.angular_velocity.z, 200, touching ? 2 : 0.002) << touching;
     EXPECT_NEAR(after.world_from_body.translation.x, 30, 0.06) << touching;
   }
 }

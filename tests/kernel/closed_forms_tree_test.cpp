@@ -1,6 +1,7 @@
 // Slow articulated debris loses nothing that friction does not take.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "closed_forms.h"
@@ -92,25 +93,39 @@ TEST(ClosedFormTree, ASlowTreeWithoutFrictionTurnsOn) {
   EXPECT_NEAR(world.angular_momentum().z, turning, 0.01 * turning);
 }
 
-// A gate: an arm on an upright hinge whose end rests on ground without friction, turning slowly. It
-// touches, and nothing takes its spin.
-TEST(ClosedFormTree, ASlowGateThatTouchesTheGroundTurnsOn) {
-  PieceType arm = box_type("arm", 1, 0.1, 0.1);
-  arm.friction = 0;
-  AssemblyType gate;
-  gate.name = "gate";
-  gate.links = {{0, {}, 1}, {1, {{}, {0.55, 0, 0}}, 1}};
-  JointType hinge;
-  hinge.kind = JointKind::ball;  // so that the ground carries a half of its weight
-  gate.joints = {hinge};
-  World world({box_type("post", 0.05, 0.05, 0.2), arm}, awake_options(), {gate});
-  world.add({at(2, {0, 0, 0.1}, turned({0, 1, 0}, 0.04), true)});
-  run(world, 1);
-  world.set_velocity(1, {0, 0.3 * 0.55, 0}, {0, 0, 0.3});
-  const double energy = world.kinetic_energy();
-  run(world, 5);
-  EXPECT_TRUE(world.is_touching(1));
-  EXPECT_NEAR(world.kinetic_energy(), energy, 0.05 * energy);
+// An arm on a ball joint that lies on a smooth ramp of 5 degrees and swings there like a pendulum under
+// g sin(a), half its weight on the ramp: nothing takes its energy.
+TEST(ClosedFormTree, ASlowPendulumThatLiesOnASmoothRampSwingsOn) {
+  const double slope = 0.0873, angle = 0.2, length = 1, thick = 0.1, from_joint = 0.55;
+  PieceType arm = box_type("arm", length, thick, thick), ramp = box_type("ramp", 6, 6, 1);
+  arm.friction = ramp.friction = 0;
+  AssemblyType swing;
+  swing.name = "swing";
+  swing.links = {{0, {}, 1}, {1, {{}, {from_joint, 0, 0}}, 1}};
+  swing.joints = {JointType{}};
+  swing.joints[0].kind = JointKind::ball;
+  World world({box_type("post", 0.05, 0.05, 0.05), arm, ramp}, awake_options(), {swing});
+  const Quat down = turned({0, 1, 0}, slope);
+  world.add({at(2, {0, 0, 3}, down, true),
+             at(3, Vec3{0, 0, 3} + down.rotate({0, 0, 0.5 + thick / 2 + 0.001}),
+                down * turned({0, 0, 1}, angle), true)});
+  const double gyration_squared =
+      (length * length + thick * thick) / 12 + from_joint * from_joint;
+  const double period = 2 * 3.14159265358979 * (1 + angle * angle / 16) *
+                        std::sqrt(gyration_squared / (kG * std::sin(slope) * from_joint));
+  bool touched = true;
+  const double end = 2 * period;
+  double highest = 0;  // of the second swing to this side
+  while (world.time() < end) {
+    world.step();
+    touched = touched && world.is_touching(2);
+    const double side = world.piece(2).world_from_body.translation.y / from_joint;
+    if (world.time() > 1.5 * period) highest = std::max(highest, side);
+  }
+  EXPECT_TRUE(touched);
+  EXPECT_NEAR(highest, std::sin(angle), 0.03 * angle);  // its amplitude
+  EXPECT_NEAR(world.piece(2).world_from_body.translation.y / from_joint, std::sin(angle),
+              0.05 * angle);  // at the end of a period
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct Ramp {
   int facets;
   bool terrain = false;  // triangles instead of a slab
   double step = 1.0 / 60;
+  bool sleeping = true;
 
   Quat down() const { return turned({0, 1, 0}, slope); }
   Vec3 start() const {
@@ -36,6 +37,7 @@ struct Ramp {
     WorldOptions options;
     options.lost_below = -1e4, options.lost_beyond = 1e4;
     options.step = step;
+    options.sleeping = sleeping;
     World world({ground, drum_type(radius, width, facets)}, options);
     const double height = 0.5 * length;  // clear of the ground z = 0
     const Quat q = terrain ? Quat{} : down();
@@ -70,15 +72,13 @@ TEST(ClosedFormRolling, ADrumOnASlopeOfOneDegreeRollsOn) {
 
 // With steps much shorter than a facet takes, it is the prism's way.
 TEST(ClosedFormRolling, ADrumInShortStepsRollsAsAPrismDoes) {
-  for (const int facets : {256, 320}) {
-    Ramp ramp{80, portable::kPi / 180, 1, 1, facets};
-    ramp.step = 1.0 / 960;
-    World world = ramp.make();
-    run(world, 20);
-    const double prism = calc_prism_rolling(1, facets, ramp.slope, 20);
-    EXPECT_GT(ramp.moved(world).x, 0.95 * prism) << facets;
-    EXPECT_LT(ramp.moved(world).x, 1.01 * calc_round_rolling(ramp.slope, 20)) << facets;
-  }
+  Ramp ramp{80, portable::kPi / 180, 1, 1, 320};
+  ramp.step = 1.0 / 960;
+  ramp.sleeping = false;
+  World world = ramp.make();
+  run(world, 10);
+  EXPECT_GT(ramp.moved(world).x, 0.95 * calc_prism_rolling(1, 320, ramp.slope, 10));
+  EXPECT_LT(ramp.moved(world).x, 1.01 * calc_round_rolling(ramp.slope, 10));
 }
 
 // A prism that lies on a facet wider than the slope is steep stays there.

@@ -67,7 +67,7 @@ TEST(ClosedFormSleep, APlankThatLosesOneOfTwoBricksTips) {
   World world = make_shelf(2, 500);
   throw_brick(world, 1);
   run(world, 2);
-  EXPECT_NEAR(std::abs(tilt_of(world, 0)), 0.065 / 1.95, 0.005);
+  EXPECT_NEAR(std::abs(tilt_of(world, 0)), 0.065 / 1.85, 0.005);
 }
 
 // Bit patterns of the first `count` pieces.

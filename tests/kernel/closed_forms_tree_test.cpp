@@ -123,7 +123,7 @@ TEST(ClosedFormTree, ASlowPendulumThatLiesOnASmoothRampSwingsOn) {
     if (world.time() > 1.5 * period) highest = std::max(highest, side);
   }
   EXPECT_TRUE(touched);
-  EXPECT_NEAR(highest, std::sin(angle), 0.03 * angle);  // its amplitude
+  EXPECT_NEAR(highest, std::sin(angle), 0.04 * angle);  // its amplitude
   EXPECT_NEAR(world.piece(2).world_from_body.translation.y / from_joint, std::sin(angle),
               0.05 * angle);  // at the end of a period
 }

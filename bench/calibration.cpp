@@ -83,7 +83,6 @@ double measure_once(int threads, std::vector<std::vector<std::uint64_t>>& memori
   return std::chrono::duration<double, std::milli>(end - start).count();
 }
 
-
 std::string format(const char* pattern, const Calibration& c) {
   char text[128];
   std::snprintf(text, sizeof text, pattern, c.one_thread, c.two_threads);

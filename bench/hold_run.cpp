@@ -74,8 +74,9 @@ std::vector<HoldRun> run_hold(const Pile& pile, const SettleJob& job,
     runs.push_back(hold(pile, job, *snapshot, count));
     runs.back().settled = settled;
     if (runs.back().state_hash != runs.front().state_hash) {
-      throw RunError("the state held awake depends on the number of threads: the same work must "
-                     "give the same bits");
+      throw RunError(
+          "the state held awake depends on the number of threads: the same work must "
+          "give the same bits");
     }
   }
   return runs;
@@ -92,10 +93,12 @@ std::string hold_csv_line(const HoldRun& run) {
 }
 
 std::string hold_text(const HoldRun& run) {
-  return format("%s by %s, held awake on %d threads: %d pieces (settled: %d), %d steps, "
-                "%lld piece-steps awake\n"
-                "  ms a step: wall %.3f, CPU %.3f, median %.3f; us per awake piece %.3f; "
-                "peak memory %.0f MiB; state %s\n", run);
+  return format(
+      "%s by %s, held awake on %d threads: %d pieces (settled: %d), %d steps, "
+      "%lld piece-steps awake\n"
+      "  ms a step: wall %.3f, CPU %.3f, median %.3f; us per awake piece %.3f; "
+      "peak memory %.0f MiB; state %s\n",
+      run);
 }
 
 }  // namespace rubble

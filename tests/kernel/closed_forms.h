@@ -20,8 +20,8 @@ PieceType drum_type(double radius, double width, int facets);
 double calc_apothem(double radius, int facets);  // from the axis to the middle of a facet
 
 // Distance after rolling from rest down a plane, without slip and without bouncing: the prism turns
-// about one edge after the other, and each impact of a new edge keeps the angular momentum about it.
-// Valid while speed^2 < g radius; a round drum is the limit, g sin(slope) t^2 / 3.
+// about one edge after the other, and each impact of a new edge keeps the angular momentum about
+// it. Valid while speed^2 < g radius; a round drum is the limit, g sin(slope) t^2 / 3.
 double calc_prism_rolling(double radius, int facets, double slope, double seconds);
 inline double calc_round_rolling(double slope, double seconds) {
   return kG * std::sin(slope) * seconds * seconds / 3;
@@ -29,9 +29,9 @@ inline double calc_round_rolling(double slope, double seconds) {
 
 // A rigid body that turns about a fixed edge.
 struct Toppling {
-  double x = 0, z = 0;             // centre of mass from the edge, at the start; unit: m
-  double gyration_squared = 0;     // moment of inertia about the edge over the mass; unit: m2
-  double spin = 0;                 // at the start; unit: rad/s
+  double x = 0, z = 0;          // centre of mass from the edge, at the start; unit: m
+  double gyration_squared = 0;  // moment of inertia about the edge over the mass; unit: m2
+  double spin = 0;              // at the start; unit: rad/s
   // Until it has turned by `angle`; infinite where it comes back first. unit: s
   double calc_time(double angle) const;
 };

@@ -1,5 +1,6 @@
 // Plastic impacts between light and heavy: common speeds, momentum, and nobody passes through. At
-// most 2 % of the approach speed may come back: one sweep of impulses a substep is not the exact answer.
+// most 2 % of the approach speed may come back: one sweep of impulses a substep is not the exact
+// answer.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +34,8 @@ TEST(ClosedFormImpact, HeavyAndLightGoOnAtTheCommonSpeed) {
     EXPECT_NEAR(hit.linear_velocity.x, expected, 0.02 * speed) << ratio;
     EXPECT_NEAR(hitting.linear_velocity.x, expected, 0.02 * speed) << ratio;
     EXPECT_NEAR(world.linear_momentum().x, momentum, 1e-4 * momentum) << ratio;
-    const double between = hit.world_from_body.translation.x - hitting.world_from_body.translation.x;
+    const double between =
+        hit.world_from_body.translation.x - hitting.world_from_body.translation.x;
     EXPECT_GT(between, 0.39) << ratio;
     EXPECT_LT(between, 0.4 + 0.02 * speed * 0.5) << ratio;
   }
@@ -101,7 +103,8 @@ TEST(ClosedFormImpact, ThreeHundredKilogramsFallOntoTwo) {
   world.add({at(0, {0, 0, 0.051}), heavy});
   for (int i = 0; i < 60; ++i) {
     world.step();
-    ASSERT_GT(world.piece(1).world_from_body.translation.z, 0.35 - 0.03) << i;  // a moment's squeeze
+    ASSERT_GT(world.piece(1).world_from_body.translation.z, 0.35 - 0.03)
+        << i;  // a moment's squeeze
   }
   EXPECT_NEAR(world.piece(0).world_from_body.translation.z, 0.05, 0.005);
   EXPECT_NEAR(world.piece(1).world_from_body.translation.z, 0.35, 0.01);

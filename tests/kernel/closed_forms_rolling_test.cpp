@@ -42,8 +42,8 @@ struct Ramp {
     const double height = 0.5 * length;  // clear of the ground z = 0
     const Quat q = terrain ? Quat{} : down();
     const Vec3 middle = terrain ? Vec3{} : q.rotate({0, 0, -0.5});
-    world.add({at(0, middle + Vec3{0, 0, height}, q, true),
-               at(1, start() + Vec3{0, 0, height}, down())});
+    world.add(
+        {at(0, middle + Vec3{0, 0, height}, q, true), at(1, start() + Vec3{0, 0, height}, down())});
     return world;
   }
 
@@ -91,9 +91,9 @@ TEST(ClosedFormRolling, APrismOfFewFacetsStaysOnOneDegree) {
 }
 
 // On 5 degrees for 10 s: 28.5 m at most. It never sinks in, and it is never thrown up by more than
-// what its edges stand out. It keeps `share` of the way: an edge half a facet ahead of the axis that
-// carried all the weight would take pi / (facets tan 5 degrees) of it, in steps as long as these a
-// whole facet twice that.
+// what its edges stand out. It keeps `share` of the way: an edge half a facet ahead of the axis
+// that carried all the weight would take pi / (facets tan 5 degrees) of it, in steps as long as
+// these a whole facet twice that.
 void roll_far(const Ramp& ramp, double share) {
   World world = ramp.make();
   const double sagitta = ramp.radius - calc_apothem(ramp.radius, ramp.facets);
@@ -149,8 +149,9 @@ TEST(ClosedFormRolling, AWheelAt200RadiansASecondKeepsItsSpin) {
   EXPECT_LT(std::abs(after.world_from_body.translation.y), 0.1);
 }
 
-// A drum set down spinning at 200 rad/s slips until it rolls. Friction has no moment about the ground,
-// so it then rolls at a third of its rim speed; its facets take 2 % of that meanwhile, at most.
+// A drum set down spinning at 200 rad/s slips until it rolls. Friction has no moment about the
+// ground, so it then rolls at a third of its rim speed; its facets take 2 % of that meanwhile, at
+// most.
 TEST(ClosedFormRolling, ASpinningDrumEndsAtAThirdOfItsRimSpeed) {
   World world({drum_type(0.05, 0.1, 320)});
   NewPiece drum = at(0, {0, 0, calc_apothem(0.05, 320) + kGap});

@@ -107,8 +107,10 @@ TEST(ClosedFormSleep, AFallThirtyMetresAwayDoesNotChangeAPile) {
     alone.step();
     expected.push_back(hash_of_first(alone, size));
   }
-  for (const auto& [extra, away] : {std::pair(1, Vec3{30, 0, 0}), {3, Vec3{0, -30, 0}},
-                                    {7, Vec3{-45, 20, 0}}, {24, Vec3{25, 30, 0}}}) {
+  for (const auto& [extra, away] : {std::pair(1, Vec3{30, 0, 0}),
+                                    {3, Vec3{0, -30, 0}},
+                                    {7, Vec3{-45, 20, 0}},
+                                    {24, Vec3{25, 30, 0}}}) {
     World world = make_pile(extra, away);
     for (int i = 0; i < steps; ++i) {
       world.step();

@@ -26,8 +26,8 @@ World make_ramp(PieceType block, double slope, double friction, double half_heig
 TEST(ClosedFormSlope, SticksBelowTheAngleOfFriction) {
   for (int i = 2; i <= 9; ++i) {
     const double friction = 0.1 * i;
-    World world = make_ramp(box_type("box", 0.4, 0.4, 0.1), std::atan(0.98 * friction), friction,
-                            0.05);
+    World world =
+        make_ramp(box_type("box", 0.4, 0.4, 0.1), std::atan(0.98 * friction), friction, 0.05);
     run(world, 0.5);
     const Vec3 start = world.piece(1).world_from_body.translation;
     run(world, 4);
@@ -52,7 +52,8 @@ TEST(ClosedFormSlope, SlidesAboveTheAngleOfFriction) {
   }
 }
 
-// A box of 1 x 0.8 x 0.2 m whose mass is in its left half: half of its base carries next to nothing.
+// A box of 1 x 0.8 x 0.2 m whose mass is in its left half: half of its base carries next to
+// nothing.
 PieceType uneven_type() {
   PieceType type = box_type("uneven", 1, 0.8, 0.2);
   VolumeProperties volume;
@@ -68,8 +69,8 @@ double yaw_of(const World& world, int piece, double slope) {
   return 2 * std::atan2(q.z, q.w);
 }
 
-// All friction points up the slope, and the middle of the pressure is under the centre of mass: there
-// is no torque about the normal, and it slides straight.
+// All friction points up the slope, and the middle of the pressure is under the centre of mass:
+// there is no torque about the normal, and it slides straight.
 TEST(ClosedFormSlope, AnUnevenlyLoadedBoxSlidesStraight) {
   const double slope = 0.5, friction = 0.3, seconds = 2;
   World world = make_ramp(uneven_type(), slope, friction, 0.1);

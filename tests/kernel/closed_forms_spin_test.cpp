@@ -32,7 +32,8 @@ Vec3 solve_euler(Vec3 w, double seconds) {
   return w;
 }
 
-// Of the spin in the body's frame: Jacobi's elliptic functions (Landau and Lifshitz, Mechanics, 37).
+// Of the spin in the body's frame: Jacobi's elliptic functions (Landau and Lifshitz, Mechanics,
+// 37).
 double calc_period(const Vec3& w) {
   double first = kInertia.x, last = kInertia.z;
   const double middle = kInertia.y;

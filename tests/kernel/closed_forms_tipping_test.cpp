@@ -41,8 +41,8 @@ TEST(ClosedFormTipping, APlankFiveMillimetresBeforeItsBalanceStays) {
   }
 }
 
-// A beam of 4 m on two supports, whose overhang carries a block of `share` of the mass that lifts the
-// beam off its far support: M 1.2 m = m 0.6 m about the outer edge of the near one.
+// A beam of 4 m on two supports, whose overhang carries a block of `share` of the mass that lifts
+// the beam off its far support: M 1.2 m = m 0.6 m about the outer edge of the near one.
 struct Beam {
   static constexpr double kMass = 2400 * 4 * 0.3 * 0.2, kEdge = 0.6, kLoadAt = 1.8, kLoad = 0.3;
   double load;  // unit: kg
@@ -62,8 +62,7 @@ struct Beam {
   Toppling topple() const {
     const double total = kMass + load, from_edge = kLoadAt - kEdge, load_z = 0.2 + kLoad / 2;
     const double beam = kMass * ((16 + 0.04) / 12 + kEdge * kEdge + 0.01);
-    const double block =
-        load * (kLoad * kLoad / 6 + from_edge * from_edge + load_z * load_z);
+    const double block = load * (kLoad * kLoad / 6 + from_edge * from_edge + load_z * load_z);
     return {(load * from_edge - kMass * kEdge) / total, (load * load_z + kMass * 0.1) / total,
             (beam + block) / total};
   }

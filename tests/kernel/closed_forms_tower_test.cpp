@@ -36,8 +36,8 @@ double measure_drift(int bricks, double seconds, bool sleeping, bool mess) {
   run(world, seconds);
   double worst = 0;
   for (int i = 0; i < bricks; ++i) {
-    const Vec3 moved = world.piece(i).world_from_body.translation -
-                       start.piece(i).world_from_body.translation;
+    const Vec3 moved =
+        world.piece(i).world_from_body.translation - start.piece(i).world_from_body.translation;
     worst = std::max(worst, std::hypot(moved.x, moved.y));
     EXPECT_GT(moved.z, -0.0015 * (i + 1)) << "brick " << i;  // a joint's slack each, not a fall
   }

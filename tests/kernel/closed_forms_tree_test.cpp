@@ -30,8 +30,8 @@ AssemblyType make_hanging(int count) {
   return chain;
 }
 
-// As large a share of the energy of a small swing as is left after 20 s: ten periods or more.
-double swing(int count, double angle) {
+// The share of the energy of a swing that is left after so many seconds.
+double swing(int count, double angle, double seconds) {
   World world({box_type("block", 0.1, 0.1, 0.1), box_type("bar", 0.04, 0.04, 1)}, awake_options(),
               {make_hanging(count)});
   world.add({at(2, {0, 0, 6}, turned({0, 1, 0}, angle), true)});
@@ -41,16 +41,17 @@ double swing(int count, double angle) {
   const auto energy = [&] { return world.kinetic_energy() + world.potential_energy() - lowest; };
   const double at_first = energy();
   EXPECT_GT(at_first, 0);
-  run(world, 20);
+  run(world, seconds);
   return energy() / at_first;
 }
 
+// Ten periods each, of 1.64 s and 3.4 s in the slowest mode.
 TEST(ClosedFormTree, ASlowPendulumKeepsItsEnergy) {
-  for (const double angle : {0.02, 0.1, 0.5}) EXPECT_NEAR(swing(1, angle), 1, 0.03) << angle;
+  for (const double angle : {0.02, 0.1, 0.5}) EXPECT_NEAR(swing(1, angle, 17), 1, 0.03) << angle;
 }
 
 TEST(ClosedFormTree, ASlowChainKeepsItsEnergy) {
-  for (const double angle : {0.02, 0.1}) EXPECT_NEAR(swing(4, angle), 1, 0.03) << angle;
+  for (const double angle : {0.02, 0.1}) EXPECT_NEAR(swing(4, angle, 35), 1, 0.03) << angle;
 }
 
 // Two slabs joined by a hinge across them, flat on ground without friction.
@@ -93,8 +94,8 @@ TEST(ClosedFormTree, ASlowTreeWithoutFrictionTurnsOn) {
   EXPECT_NEAR(world.angular_momentum().z, turning, 0.01 * turning);
 }
 
-// An arm on a ball joint that lies on a smooth ramp of 5 degrees and swings there like a pendulum under
-// g sin(a), half its weight on the ramp: nothing takes its energy.
+// An arm on a ball joint that lies on a smooth ramp of 5 degrees and swings there like a pendulum
+// under g sin(a), half its weight on the ramp: nothing takes its energy.
 TEST(ClosedFormTree, ASlowPendulumThatLiesOnASmoothRampSwingsOn) {
   const double slope = 0.0873, angle = 0.2, length = 1, thick = 0.1, from_joint = 0.55;
   PieceType arm = box_type("arm", length, thick, thick), ramp = box_type("ramp", 6, 6, 1);
@@ -109,8 +110,7 @@ TEST(ClosedFormTree, ASlowPendulumThatLiesOnASmoothRampSwingsOn) {
   world.add({at(2, {0, 0, 3}, down, true),
              at(3, Vec3{0, 0, 3} + down.rotate({0, 0, 0.5 + thick / 2 + 0.001}),
                 down * turned({0, 0, 1}, angle), true)});
-  const double gyration_squared =
-      (length * length + thick * thick) / 12 + from_joint * from_joint;
+  const double gyration_squared = (length * length + thick * thick) / 12 + from_joint * from_joint;
   const double period = 2 * 3.14159265358979 * (1 + angle * angle / 16) *
                         std::sqrt(gyration_squared / (kG * std::sin(slope) * from_joint));
   bool touched = true;

@@ -1,7 +1,6 @@
-// How fast the machine is at this moment, so that tables from different machines, or from a busy
-// and an idle one, can be read together: the time of a fixed amount of work that has nothing to do
-// with this project's code. It is the same work in every version, on every machine; figures are
-// those of a release build.
+// How fast the machine is, so that tables from different machines can be read together: the
+// processor time of a fixed amount of work that has nothing to do with this project's code. It is
+// the same work in every version, on every machine; figures are those of a release build.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +10,8 @@
 namespace rubble {
 
 struct Calibration {
-  double one_thread = 0;   // wall time of the work; unit: ms
-  double two_threads = 0;  // until two threads have each done all of it, side by side; unit: ms
+  double one_thread = 0;   // processor time of the work; unit: ms
+  double two_threads = 0;  // of the slower of two threads that do it side by side; unit: ms
 };
 
 // The best of a few tries each. Takes about a fifth of a second on an idle machine, and 8 MiB.

@@ -101,7 +101,7 @@ TEST(ClosedFormSpin, ABodyFlipsWithThePeriodOfItsEllipticFunctions) {
   const double period = calc_period(kFlipping);
   ASSERT_NEAR(double(turns.size()), 2 * 20 / period, 1.01);
   const double measured = 2 * (turns.back() - turns.front()) / double(turns.size() - 1);
-  EXPECT_NEAR(measured, period, 0.02 * period);
+  EXPECT_NEAR(measured, period, 0.01 * period);
 }
 
 TEST(ClosedFormSpin, ASecondOfTumblingFollowsEulersEquations) {

@@ -54,14 +54,14 @@ struct JointType {
 };
 
 // The first link is the root; every other is the child of one joint, whose parent is listed before
-// it. 2 to 32 links.
+// it. 2 to 256 links.
 struct AssemblyType {
   std::string name;
   std::vector<AssemblyLink> links;
   std::vector<JointType> joints;
 };
 
-inline constexpr int kMaxLinks = 32;
+inline constexpr int kMaxLinks = 256;
 
 // Throws InputError naming the member, with `key` as the path of the assembly.
 void validate(const AssemblyType& assembly, int types, const std::string& key);

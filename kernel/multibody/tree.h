@@ -53,8 +53,22 @@ struct TreeLink {
   Vec3 linear, angular;  // unit: m/s, rad/s
 };
 
+// A joint between two links that hang together without it: it closes a loop, and is held by rows in
+// the contact solver's sweeps.
+struct TreeLoop {
+  std::int32_t link_a = 0, link_b = 0;
+  Mobility mobility = Mobility::ball;
+  Pose a_from_joint, b_from_joint;  // unit: m
+  double break_force = kNever, break_torque = kNever;
+  bool collide = false;
+  // Along and about the axes of the joint in A, of the last substep; unit: N s, N m s.
+  Vec3 force_impulse, torque_impulse;
+  bool broken = false;  // in this step
+};
+
 struct Tree {
   std::vector<TreeLink> links;  // parents before children; empty: the tree has come apart
+  std::vector<TreeLoop> loops;
   std::int32_t q_count = 0, u_count = 0;
   double mass = 0;  // of what moves; unit: kg
   Pose root;        // world_from_com of a fixed root

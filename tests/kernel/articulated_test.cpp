@@ -217,7 +217,7 @@ TEST(Articulated, ASwingingChainNeverGainsEnergy) {
     if (wall) {
       EXPECT_LT(last, 0.5 * swing);  // impacts take it
     } else {
-      EXPECT_GT(last, 0.6 * swing);  // nothing takes it but the method
+      EXPECT_GT(last, 0.99 * swing);  // nothing takes it
     }
   }
 }

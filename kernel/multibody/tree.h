@@ -42,13 +42,15 @@ struct TreeLink {
   std::int32_t first_q = 0, first_u = 0;
   Pose parent_from_joint, link_from_joint;  // unit: m
   // The joint to the parent: see JointType.
-  double stiffness = 0, damping = 0, yield = kNever;
+  double stiffness = 0, damping = 0, friction = 0, yield = kNever;
   double break_force = kNever, break_torque = kNever;
   double lower = -kNever, upper = kNever;
   bool collide = false;
   // Where the spring is at rest: it creeps.
   double rest = 0;     // hinge, slider; unit: rad, m
   Quat rest_rotation;  // ball
+  // Of dry friction on the joint's speeds, in the last substep; unit: N m s, slider N s.
+  Vec3 friction_impulse;
   // Motion of the centre of mass, mirrored after each step.
   Vec3 linear, angular;  // unit: m/s, rad/s
 };

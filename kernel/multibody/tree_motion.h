@@ -26,6 +26,8 @@ class TreeMotion {
 
   // Whether a joint may reach a stop in this step.
   bool near_stop() const;
+  // Whether rows of its own hold it: friction in joints, or loops.
+  bool has_rows() const;
   double stop_margin(const TreeLink& link) const;
 
   // The whole step without contacts.
@@ -94,6 +96,7 @@ class TreeMotion {
   void take_runge_kutta_step(double h);
   std::vector<double> normalized_coordinates(std::vector<double> q) const;
   void carry_speeds();
+  double calc_missed_work() const;
   void conserve(const Sums& before, double energy, bool gain);
   void move_joints(const std::vector<double>& displacement);
   void end_step();

@@ -125,6 +125,22 @@ void TreeContacts::solve_loop(Item& item, View& view) {
   }
 }
 
+// Coulomb's law for the speeds of a joint: no more than a torque, or force, that is given.
+void TreeContacts::solve_dry(Item& item, View& view) {
+  double wanted[3] = {}, length2 = 0;
+  for (int i = 0; i < item.rows; ++i) {
+    const Row& row = rows_[item.first_row + std::size_t(i)].row;
+    wanted[i] = row.impulse - row.mass * row.relative<2>(view);
+    length2 += wanted[i] * wanted[i];
+  }
+  const double shrink = contact_law::shrink_into_cone(item.friction, length2);
+  for (int i = 0; i < item.rows; ++i) {
+    Row& row = rows_[item.first_row + std::size_t(i)].row;
+    row.apply<2>(wanted[i] * shrink - row.impulse, view);
+    row.impulse = wanted[i] * shrink;
+  }
+}
+
 double TreeContacts::sum_impulses(const Item& item) const {
   double sum = 0;
   for (int i = 0; i < item.rows; ++i) sum += rows_[item.first_row + std::size_t(i)].row.impulse;
@@ -137,7 +153,7 @@ void TreeContacts::carry_over(Item& item, double weight) {
   for (int i = 0; i < item.rows; ++i) {
     NormalRow& n = rows_[item.first_row + std::size_t(i)];
     n.row.total += n.row.impulse;
-    if (item.kind == Kind::loop) continue;
+    if (item.kind == Kind::loop || item.kind == Kind::dry) continue;
     n.row.impulse = contact_law::carry_over(n.row.impulse, n.carried, n.row.mass, weight);
     n.carried = n.row.impulse;
     carried += n.row.impulse;
@@ -158,7 +174,7 @@ void TreeContacts::note_total(Item& item) {
   for (const Side& side : item.sides) {
     any = any || (side.tree >= 0 && motion(side.tree).may_break());
   }
-  if (!any || item.kind == Kind::stop) return;
+  if (!any || item.kind == Kind::stop || item.kind == Kind::dry) return;
   const auto add = [&](const Row& row) {
     for (int s = 0; s < 2; ++s) item.total[s].add_scaled(row.jacobian[s], row.impulse);
   };
@@ -215,6 +231,8 @@ void TreeContacts::solve_velocities(double per_substep, const PaddedMotion* move
     load(item, speeds, false, view);
     if (item.kind == Kind::loop) {
       solve_loop(item, view);
+    } else if (item.kind == Kind::dry) {
+      solve_dry(item, view);
     } else {
       load_moved(item, moved, displaced);
       if (item.moving == 1) {
@@ -241,6 +259,7 @@ bool TreeContacts::begin_pushes(const SolverSettings& settings, const PaddedMoti
   const double most = double(settings.maximum_push);
   for (std::int32_t index : sequence_) {
     const Item& item = items_[std::size_t(index)];
+    if (item.kind == Kind::dry) continue;
     View view;
     load(item, moved, true, view);
     for (int i = 0; i < item.rows; ++i) {
@@ -264,6 +283,7 @@ bool TreeContacts::begin_pushes(const SolverSettings& settings, const PaddedMoti
 void TreeContacts::solve_pushes(PaddedMotion* moved) {
   for (std::int32_t index : sequence_) {
     Item& item = items_[std::size_t(index)];
+    if (item.kind == Kind::dry) continue;
     View view;
     load(item, moved, true, view);
     for (int i = 0; i < item.rows; ++i) {
@@ -323,6 +343,12 @@ void TreeContacts::store(const std::vector<Body>&, std::vector<Contact>& contact
       tree.impelled = tree.impelled || acts(item);
     }
     if (item.kind == Kind::loop) store_loop(item);
+    if (item.kind == Kind::dry) {
+      Vec3& kept = motion(item.sides[0].tree).tree().links[std::size_t(item.source)].friction_impulse;
+      for (int i = 0; i < item.rows; ++i) {
+        kept[i] = rows_[item.first_row + std::size_t(i)].row.impulse;
+      }
+    }
     if (item.kind != Kind::contact) continue;
     Contact& contact = contacts[std::size_t(item.source)];
     double pressed = 0;

@@ -88,16 +88,16 @@ class TreeContacts {
     double gap = 0, carried = 0, push_mass = 0, push_target = 0, push = 0;
     Vec3 from_a, from_b;  // of the point, from the centres of mass
   };
-  enum class Kind : std::uint8_t { contact, stop, loop };
+  enum class Kind : std::uint8_t { contact, stop, loop, dry };  // dry friction in a joint
   struct Item {
     Kind kind = Kind::contact;
-    std::int32_t source = -1;  // index of the contact, or of the loop in its tree
+    std::int32_t source = -1;  // index of the contact; of the loop or the link in its tree
     Side sides[2];
     int moving = 2;            // 1: the second side does not move
     std::int32_t cross = -1;   // both sides in one tree: index of what each feels of the other
     std::size_t first_row = 0;
     int rows = 0;
-    double friction = 0, radius = 0;
+    double friction = 0, radius = 0;  // a coefficient; of a joint: impulse of a substep at most
     Vec3 normal, tangents[2];
     Row slide[2], twist;
     double slide_inverse[3] = {};  // of the symmetric matrix J M^-1 J^T of the two
@@ -106,6 +106,7 @@ class TreeContacts {
   class Builder;
 
   void add_stops(std::int32_t tree);
+  void add_dry_friction(std::int32_t tree);
   void add_loops(const std::vector<Body>& bodies, std::int32_t tree);
   // By tree, bottom up, and along each tree: the focus of LinkMotions then seldom goes far.
   void sort_items(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
@@ -131,6 +132,7 @@ class TreeContacts {
   template <int sides>
   void place_friction_of(Item& item);
   void solve_loop(Item& item, View& view);
+  void solve_dry(Item& item, View& view);
   double sum_impulses(const Item& item) const;
   void carry_over(Item& item, double weight);
   void note_total(Item& item);
@@ -142,6 +144,7 @@ class TreeContacts {
   std::vector<std::int32_t> sequence_;  // the items in the order of solving
   std::vector<NormalRow> rows_;
   std::vector<SpatialMatrix> crosses_;
+  double substep_ = 0;  // unit: s
 };
 
 }  // namespace rubble

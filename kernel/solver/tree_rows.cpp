@@ -10,6 +10,10 @@
 namespace rubble {
 namespace {
 
+// Below this share of the answer of a free point mass as heavy as its tree, a row within a tree
+// counts as held by the tree's joints.
+constexpr double kRedundant = 1e-6;
+
 // The spatial force of a force at a point.
 Spatial force_at(const Vec3& point, const Vec3& force) { return {cross(point, force), force}; }
 
@@ -120,8 +124,14 @@ TreeContacts::Row TreeContacts::make_row(const Item& item, const Spatial& a,
                                          const Spatial& b) const {
   Row row;
   set_row(item, a, b, row);
+  // What other joints hold already leaves nothing but rounding.
+  double least = 0;
+  for (int s = 0; s < 2 && item.cross >= 0; ++s) {
+    least = std::max(least, kRedundant * dot(row.jacobian[s], row.jacobian[s]) /
+                                item.sides[s].push_weight);
+  }
   const double sum = row.couple<2>(row);
-  row.mass = sum > 0 ? 1 / sum : 0;
+  row.mass = sum > least ? 1 / sum : 0;
   return row;
 }
 
@@ -148,6 +158,7 @@ void TreeContacts::set_row(const Item& item, const Spatial& a, const Spatial& b,
 
 // Free pieces count as equally heavy, as in the push rows of other contacts; trees as a whole too.
 double TreeContacts::calc_push_mass(const Item& item, const Row& row) const {
+  if (row.mass == 0) return 0;
   double sum = 0;
   for (int s = 0; s < 2; ++s) {
     sum += dot(row.jacobian[s], row.response[s]) * item.sides[s].push_weight;
@@ -219,6 +230,31 @@ void TreeContacts::add_stops(std::int32_t tree) {
       rows_.push_back(n);
       items_.push_back(item);
     }
+  }
+}
+
+void TreeContacts::add_dry_friction(std::int32_t tree) {
+  const TreeMotion& m = motion(tree);
+  for (std::size_t link = 1; link < m.tree().links.size(); ++link) {
+    const TreeLink& l = m.tree().links[link];
+    if (l.friction <= 0 || speed_count(l.mobility) == 0) continue;
+    Item item;
+    item.kind = Kind::dry;
+    item.source = std::int32_t(link);
+    item.sides[0] = link_side(tree, l.parent);
+    item.sides[1] = link_side(tree, std::int32_t(link));
+    couple_sides(item);
+    item.friction = l.friction * substep_;
+    item.first_row = rows_.size();
+    item.rows = speed_count(l.mobility);
+    for (int k = 0; k < item.rows; ++k) {
+      const Spatial& force = m.pose().duals[std::size_t(l.first_u + k)];
+      NormalRow n;
+      n.row = make_row(item, force * -1.0, force);
+      n.row.impulse = l.friction_impulse[k];
+      rows_.push_back(n);
+    }
+    items_.push_back(item);
   }
 }
 
@@ -316,10 +352,11 @@ void TreeContacts::begin(const SolverSettings& settings, const std::vector<Body>
   rows_.clear();
   crosses_.clear();
   if (empty()) return;
-  const double h = double(settings.step) / settings.substeps;
+  substep_ = double(settings.step) / settings.substeps;
   for (std::int32_t tree : trees_.trees) {
-    motion(tree).begin_substeps(h);
+    motion(tree).begin_substeps(substep_);
     add_stops(tree);
+    add_dry_friction(tree);
     add_loops(bodies, tree);
   }
   Builder builder(*this, bodies, number, share);

@@ -146,7 +146,7 @@ void World::Impl::begin_trees() {
     }
   }
   for (std::int32_t tree : awake_trees) {
-    const bool asks = !data.trees[tree].loops.empty() || tree_motions[tree].near_stop();
+    const bool asks = tree_motions[tree].has_rows() || tree_motions[tree].near_stop();
     if (asks) is_solved[tree] = 1;
     if (is_solved[tree]) solved_trees.trees.push_back(tree);
   }

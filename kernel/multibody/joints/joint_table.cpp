@@ -68,6 +68,7 @@ void Joint::set_figures(const JointType& type, double s, TreeLink& link) const {
   const double s2 = s * s, s3 = s2 * s;
   link.stiffness = type.stiffness * s3;
   link.damping = type.damping * (s3 * s);
+  link.friction = type.friction * s3;
   link.yield = type.yield * s3;
   link.break_force = type.break_force * s2;
   link.break_torque = type.break_torque * s3;

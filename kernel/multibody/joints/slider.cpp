@@ -16,6 +16,7 @@ class Slider : public SingleJoint {
     SingleJoint::set_figures(type, s, link);
     link.stiffness = type.stiffness * s;
     link.damping = type.damping * (s * s);
+    link.friction = type.friction * (s * s);
     link.yield = type.yield * (s * s);
     link.lower = type.lower * s;
     link.upper = type.upper * s;

@@ -74,7 +74,7 @@ void clip_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, con
   for (int i = 0; i < in->count; ++i) {
     const float s = dot(ref_normal, in->points[i] - p) * per_cosine;
     if (s >= margin) continue;
-    manifold.points[manifold.count++] = {in->points[i] - n * (0.5F * s), s, s};
+    manifold.points[manifold.count++] = {in->points[i] - n * (0.5F * s), s, s, -1};
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "kernel/collision/gjk.h"
 #include "kernel/collision/manifold.h"
@@ -98,6 +99,30 @@ TEST(Sat, DepthOfOverlappingBoxes) {
   const SatResult s = find_separating_axis(a.part(), b.part(), {0.1F, 0, 0.95F});
   EXPECT_NEAR(s.separation, -0.05, 1e-6);
   EXPECT_NEAR(s.normal.z, 1, 1e-6);
+}
+
+// Sides that are nearly level with the ramp, and edges that are nearly along its own: no pair of
+// edges may pass for an axis that keeps them apart.
+TEST(Sat, DepthOfAFineDrumInALongRamp) {
+  const Shape ramp = compile_shape(testing::box_type("ramp", 300, 6, 1), "t");
+  PieceType type = testing::box_type("drum", 1, 1, 1);
+  type.parts[0].points.clear();
+  for (int i = 0; i < 800; ++i) {
+    const double angle = 2 * portable::kPi * (i / 2 + 0.5) / 400;
+    type.parts[0].points.push_back({portable::sin(angle), i % 2 - 0.5, portable::cos(angle)});
+  }
+  const Shape drum = compile_shape(type, "t");
+  RandomStream random(7, "test");
+  const Quat slope = testing::turned({0, 1, 0}, 0.0873);
+  const Posed below(ramp, slope);
+  for (int i = 0; i < 100; ++i) {
+    const Posed above(drum, slope * testing::turned({1, 0, 0}, random.uniform(-2e-4, 2e-4)) *
+                                testing::turned({0, 1, 0}, random.uniform(0, 7)));
+    const Vec3 offset = slope.rotate({random.uniform(-140, 140), 0, 1.5 - 0.0012});
+    const SatResult s = find_separating_axis(below.part(), above.part(), Vec3f(offset));
+    EXPECT_NEAR(s.separation, -0.0012, 0.0004) << i;
+    EXPECT_GT(dot(Vec3(s.normal), slope.rotate({0, 0, 1})), 0.9998) << i;
+  }
 }
 
 TEST(Manifold, BoxOnBoxHasFourCorners) {

@@ -1,6 +1,8 @@
 #include "kernel/collision/narrow_phase.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "kernel/collision/manifold.h"
 
@@ -113,6 +115,32 @@ void drop_far_points(Manifold& m) {
   m.count = kept;
 }
 
+// A corner runs on a circle: how much less than its speed says it comes down at most. unit: m
+float calc_arc_gain(const Vec3f& p, const Vec3f& angular, float step) {
+  const float spin2 = dot(angular, angular);
+  if (!(spin2 > 0)) return 0;
+  const float rise = cross(angular, p).z, high = p.z - angular.z * (dot(p, angular) / spin2);
+  const float radius = std::sqrt(high * high + rise * rise / spin2);
+  return std::max(0.0F, -radius - high - step * rise);
+}
+
+// All points where they fit, else the lowest predicted and an even choice of the others: those of a
+// level face with many corners lie about equally low.
+void keep_some(std::vector<ManifoldPoint>& found, Manifold& m) {
+  constexpr int kLowest = Manifold::kMaxClipped / 2, kOthers = Manifold::kMaxClipped - kLowest;
+  const int count = int(found.size());
+  if (count <= Manifold::kMaxClipped) {
+    m.count = count;
+    std::copy(found.begin(), found.end(), m.points);
+    return;
+  }
+  for (int i = 0; i < kOthers; ++i) m.points[m.count++] = found[std::size_t(i * count / kOthers)];
+  std::stable_sort(found.begin(), found.end(), [](const ManifoldPoint& p, const ManifoldPoint& q) {
+    return p.predicted < q.predicted;
+  });
+  for (int i = 0; i < kLowest; ++i) m.points[m.count++] = found[std::size_t(i)];
+}
+
 // Writes the manifold into the contact and hands over impulses from the points found again.
 void store(Contact& contact, const Manifold& m, const Vec3f& normal, const PosedBody& a,
            const PosedBody* b, const Vec3f& offset) {
@@ -204,16 +232,21 @@ float update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, f
 void update_ground_contact(Contact& contact, const PosedBody& a, float margin,
                            const NarrowSettings& settings) {
   const float height = float(a.centre.z);
-  Manifold m;
-  for (int i = 0; i < a.part.corners.count && m.count < Manifold::kMaxClipped; ++i) {
+  const Vec3f normal{0, 0, -1};
+  thread_local std::vector<ManifoldPoint> found;
+  found.clear();
+  for (int i = 0; i < a.part.corners.count; ++i) {
     const Vec3f& p = a.part.corners.points[i];
     const float s = height + p.z;
-    if (s < margin) m.points[m.count++] = {{p.x, p.y, p.z - 0.5F * s}, s, s, -1};
+    if (s >= margin) continue;
+    const float apart = s > 0 ? s + calc_arc_gain(p, a.angular, settings.step) : s;
+    const float predicted = apart + settings.step * (a.linear + cross(a.angular, p)).z;
+    if (std::min(predicted, apart) >= kPointMargin) continue;
+    found.push_back({{p.x, p.y, p.z - 0.5F * s}, apart, predicted, -1});
   }
-  const Vec3f normal{0, 0, -1};
-  predict(m, a, nullptr, {}, normal, settings.step);
-  drop_far_points(m);
-  if (m.count == 0) return clear_points(contact);
+  if (found.empty()) return clear_points(contact);
+  Manifold m;
+  keep_some(found, m);
   reduce(m, normal, Contact::kMaxPoints);
   store_points(contact, m, normal, a);
 }

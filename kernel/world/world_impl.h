@@ -1,6 +1,7 @@
 // The inside of World: its data and the stages of a step. Not for use outside kernel/.
 #pragma once
 
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -47,6 +48,17 @@ struct Sweep {
   bool awake = false;
 };
 
+// Where a contact stands in the solver's order.
+struct OrderKey {
+  float height = 0;  // unit: m
+  std::int32_t collider_a = 0, collider_b = 0;
+  std::int32_t index = 0;  // of the pair; decides nothing
+
+  bool operator<(const OrderKey& k) const {
+    return std::tie(height, collider_a, collider_b) < std::tie(k.height, k.collider_a, k.collider_b);
+  }
+};
+
 struct World::Impl {
   Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options,
        std::vector<AssemblyType> assembly_types);
@@ -70,7 +82,7 @@ struct World::Impl {
   std::vector<Sweep> sweeps;                // by body
   std::vector<std::uint8_t> leaves_box;     // by collider
   std::vector<std::uint8_t> pair_states;    // by pair: a PairState
-  std::vector<std::pair<float, std::int32_t>> order_keys;
+  std::vector<OrderKey> order_keys;
   std::vector<std::uint8_t> overlapping, slept;  // by body
   std::vector<Vec3f> lost_support;               // by body: of sleepers, to awake neighbours
   std::vector<std::uint8_t> block_awake;

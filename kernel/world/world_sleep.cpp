@@ -23,9 +23,9 @@ struct SleepTerms {
 };
 // While a pile grows, what lies still enough sleeps: most of it will be hit again. It must wake as
 // readily as ever, or slopes freeze steeper than they can stand.
-constexpr SleepTerms kGrowing{0.003, 0.2, 0.008, 0.6, 0.1F, 0.25F, 0.2F};
+constexpr SleepTerms kGrowing{0.0015, 0.2, 0.006, 0.6, 0.1F, 0.25F, 0.05F};
 // Whether it rests is decided on these: who creeps slowly must not pass for one that stays.
-constexpr SleepTerms kVerifying{0.001, 0.5, 0.004, 1.0, 0.1F, 0.25F, 0.2F};
+constexpr SleepTerms kVerifying{0.001, 0.5, 0.004, 1.0, 0.1F, 0.25F, 0.05F};
 
 // A sleeper wakes when the sum over its contacts has changed, since it fell asleep, by what would give
 // it this speed in a step and by this share of its load: one brick in six that carried it may go.
@@ -37,11 +37,13 @@ constexpr float kUnbalancedLoad = 0.05F;   // unit: 1
 constexpr float kSleepOverlap = 0.003F;    // unit: m
 constexpr double kSleepOverlapTime = 2.0;  // unit: s
 
+constexpr float kHitLoad = 0.2F;  // and by this share of the impulse that it carries in a step; unit: 1
+
 const SleepTerms& terms(const WorldData& data) {
   return data.verification_steps < 0 ? kGrowing : kVerifying;
 }
 float hit_impulse(const Body& body, const SleepTerms& t) {
-  return t.hit_speed * float(body.mass) + body.load;
+  return t.hit_speed * float(body.mass) + kHitLoad * body.load;
 }
 
 // Counts the steps that a body has stayed near `pose`; starts anew where it is when it has left.

@@ -55,11 +55,11 @@ void World::Impl::sort_by_height() {
       const float z = float(data.bodies[pair.body_a].world_from_com.translation.z) +
                       data.contacts[active[i]].points[0].from_a.z;
       if (std::abs(z - pair.order) > kOrderDistance) pair.order = z;
-      order_keys[i] = {pair.order, active[i]};
+      order_keys[i] = {pair.order, pair.collider_a, pair.collider_b, active[i]};
     }
   });
   std::sort(order_keys.begin(), order_keys.end());
-  for (std::size_t i = 0; i < active.size(); ++i) active[i] = order_keys[i].second;
+  for (std::size_t i = 0; i < active.size(); ++i) active[i] = order_keys[i].index;
 }
 
 void World::Impl::solve_contacts() {

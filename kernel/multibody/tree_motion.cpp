@@ -333,20 +333,6 @@ void TreeMotion::begin_pushes() {
   }
 }
 
-void TreeMotion::drop_opposed_speed(double step, double slow) {
-  moved.settle();
-  double length2 = 0, along = 0;  // u M u and u M push
-  for (std::size_t i = 0; i < motions_.size(); ++i) {
-    const Spatial momentum = start_.links[i].momentum(motions_[i]);
-    length2 += dot(momentum, motions_[i]);
-    along += dot(momentum, moved.motion(std::int32_t(i)) - before_push_[i]);
-  }
-  if (along >= 0 || length2 > slow * slow * tree_->mass) return;
-  const double keep = std::max(0.0, 1 + along / (step * length2));
-  for (Spatial& motion : motions_) motion = motion * keep;
-  for (double& speed : state_.u) speed *= keep;
-}
-
 // From the speeds at the start's position to those at the end's: what inertia alone does.
 void TreeMotion::carry_speeds() {
   const std::size_t count = state_.u.size();

@@ -43,8 +43,6 @@ class TreeMotion {
   void add_forces();
   void move();
   void begin_pushes();
-  // The part of a slow speed that pushes undo is lost.
-  void drop_opposed_speed(double step, double slow);
   void finish();
   // Where nothing has acted on the tree in the substeps: back to the step's start, for
   // move_freely().

@@ -2,7 +2,7 @@
 // falling through the air and lying on the ground. One thread, nothing sleeps; the median of the
 // rounds is printed, so that two programs can take turns on a machine that others use too.
 //
-//   tree_bench [--links N] [--rounds N]
+//   tree_bench [--links N ...] [--rounds N]
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>

@@ -101,7 +101,7 @@ JointState read_joint(SealedReader& reader, std::uint64_t piece_count) {
   }
   joint.rest = reader.number<double>();
   joint.rest_rotation = read_rotation(reader);
-  if (kind > static_cast<std::uint8_t>(JointKind::ball)) reader.fail("a joint has no known kind");
+  if (kind >= kJointKinds) reader.fail("a joint has no known kind");
   joint.kind = static_cast<JointKind>(kind);
   for (const std::int32_t piece : {joint.parent, joint.child}) {
     if (piece < 0 || std::uint64_t(piece) >= piece_count) {

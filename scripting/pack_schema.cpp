@@ -82,7 +82,7 @@ Schema make_link_schema(LinkTable& l) {
       .unit("degree");
   k.value("scale", l.scale, "Of the piece in the whole.").between(0.01, 100);
   k.value("on", l.on, "Name of the link that it hangs on, listed before it; the first has none.");
-  k.choice("joint", l.joint, {"weld", "hinge", "slider", "ball"},
+  k.choice("joint", l.joint, {std::begin(kJointNames), std::end(kJointNames)},
            "What holds it: a hinge turns about the axis, a slider moves along it.");
   k.value("joint_position", l.joint_position, "Of the joint in the whole.")
       .between(-100, 100)

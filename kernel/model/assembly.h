@@ -25,6 +25,10 @@ enum class JointKind : std::uint8_t {
   ball,    // turns in every direction
 };
 
+inline constexpr int kJointKinds = 4;
+// As scripts write them: by kind.
+inline constexpr const char* kJointNames[kJointKinds] = {"weld", "hinge", "slider", "ball"};
+
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 struct AssemblyLink {

@@ -111,24 +111,6 @@ void ArticulatedInertia::factor(const Tree& tree, const TreePose& pose,
   }
 }
 
-Spatial ArticulatedInertia::inwards(std::int32_t index, const Spatial& impulse) const {
-  const Link& link = links_[std::size_t(index)];
-  Spatial result = impulse;
-  for (int k = 0; k < link.count; ++k) {
-    result.add_scaled(link.gains[k], -dot(link.axes[k], impulse));
-  }
-  return result;
-}
-
-Spatial ArticulatedInertia::outwards(std::int32_t index, const Spatial& change) const {
-  const Link& link = links_[std::size_t(index)];
-  Spatial result = change;
-  for (int k = 0; k < link.count; ++k) {
-    result.add_scaled(link.axes[k], -dot(link.gains[k], change));
-  }
-  return result;
-}
-
 SpatialMatrix ArticulatedInertia::calc_cross_response(std::int32_t link, std::int32_t other) const {
   std::int32_t meeting = link, from = other;
   while (meeting != from) {

@@ -27,8 +27,22 @@ class ArticulatedInertia {
 
   // What an impulse on a link is to its parent, and what a change of the parent's motion is to the
   // link, where nothing else acts on the link and what hangs on it.
-  Spatial inwards(std::int32_t link, const Spatial& impulse) const;
-  Spatial outwards(std::int32_t link, const Spatial& change) const;
+  Spatial inwards(std::int32_t index, const Spatial& impulse) const {
+    const Link& link = links_[std::size_t(index)];
+    Spatial result = impulse;
+    for (int k = 0; k < link.count; ++k) {
+      result.add_scaled(link.gains[k], -dot(link.axes[k], impulse));
+    }
+    return result;
+  }
+  Spatial outwards(std::int32_t index, const Spatial& change) const {
+    const Link& link = links_[std::size_t(index)];
+    Spatial result = change;
+    for (int k = 0; k < link.count; ++k) {
+      result.add_scaled(link.axes[k], -dot(link.gains[k], change));
+    }
+    return result;
+  }
 
   // Changes of all motions by impulses on links (which are used up) and on joints (by speed; of a
   // free root's speeds: moment about its centre of mass and force).

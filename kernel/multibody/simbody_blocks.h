@@ -1,7 +1,8 @@
-// The kernel's only door to Simbody: free bodies in blocks, each a MultibodySystem with a State of
-// its own that holds the coordinates q and the speeds u of up to 16 bodies.
+// The kernel's first door to Simbody: free bodies in blocks, each a MultibodySystem with a State of
+// its own that holds the coordinates q and the speeds u of up to 16 bodies. What is articulated is
+// behind the second one, simbody_trees.h.
 //
-// Simbody owns the state; contact impulses change u, and advance() changes q. Free bodies need
+// Simbody owns the state and computes nothing here; contact impulses change u, and advance() changes q. Free bodies need
 // nothing else of a State, so a step does not realise it beyond that: who asks Simbody for more
 // realises it first. The numbers of a sleeping body are never rewritten.
 #pragma once

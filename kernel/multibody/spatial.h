@@ -51,6 +51,11 @@ inline double dot(const Spatial& a, const Spatial& b) {
   return s[0] + s[1];
 }
 
+// The spatial force of a force at a point.
+inline Spatial force_at(const Vec3& point, const Vec3& force) {
+  return {cross(point, force), force};
+}
+
 // Six columns.
 struct SpatialMatrix {
   Spatial columns[6];

@@ -1,6 +1,6 @@
-// A tree of bodies joined by mobilizers, as the kernel keeps it between two steps. SimbodyTrees
-// holds its coordinates q and speeds u; here is how they are to be read, and what the joints
-// remember.
+// A tree of bodies joined by mobilizers, as the kernel keeps it between two steps. SimbodyTree holds
+// its coordinates q and speeds u and computes with them; here is how they are to be read, and what
+// the joints remember.
 //
 // Coordinates are Simbody's. A link hangs on its parent by a joint with a frame on either side:
 //   world_from_link = world_from_parent * parent_from_joint * joint(q) * link_from_joint^-1
@@ -24,15 +24,36 @@ namespace rubble {
 enum class Mobility : std::int32_t { free, fixed, weld, hinge, slider, ball };
 inline constexpr int kMobilities = 6;
 
+// No default: a kind that is missing does not compile.
 constexpr int coordinate_count(Mobility m) {
-  return m == Mobility::free   ? 7
-         : m == Mobility::ball ? 4
-                               : m == Mobility::hinge || m == Mobility::slider;
+  switch (m) {
+    case Mobility::free:
+      return 7;
+    case Mobility::ball:
+      return 4;
+    case Mobility::hinge:
+    case Mobility::slider:
+      return 1;
+    case Mobility::fixed:
+    case Mobility::weld:
+      return 0;
+  }
+  return 0;
 }
 constexpr int speed_count(Mobility m) {
-  return m == Mobility::free   ? 6
-         : m == Mobility::ball ? 3
-                               : m == Mobility::hinge || m == Mobility::slider;
+  switch (m) {
+    case Mobility::free:
+      return 6;
+    case Mobility::ball:
+      return 3;
+    case Mobility::hinge:
+    case Mobility::slider:
+      return 1;
+    case Mobility::fixed:
+    case Mobility::weld:
+      return 0;
+  }
+  return 0;
 }
 
 struct TreeLink {

@@ -43,8 +43,6 @@ class TreeMotion {
   void add_forces();
   void move();
   void begin_pushes();
-  // The part of a slow speed that pushes undo is lost.
-  void drop_opposed_speed(double step, double slow);
   void finish();
   // Where nothing has acted on the tree in the substeps: back to the step's start, for
   // move_freely().
@@ -97,7 +95,9 @@ class TreeMotion {
   std::vector<double> normalized_coordinates(std::vector<double> q) const;
   void carry_speeds();
   double calc_missed_work() const;
-  void conserve(const Sums& before, double energy, bool gain);
+  void conserve(const Sums& wanted, double energy, bool gain);
+  Spatial calc_rigid_motion(const Mat3& inverse_inertia, const Vec3& centre, const Vec3& linear,
+                            const Vec3& angular) const;
   void move_joints(const std::vector<double>& displacement);
   void end_step();
 

@@ -401,7 +401,6 @@ void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body
   before_push_ = moved_;
   push_apart(settings, pool);
   drop_opposed_speeds(settings);
-  tree_contacts_.drop_opposed_speeds(double(settings.step));
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     velocities[moving_[i]] = unpadded(speeds_[i]);
     displacements[moving_[i]] = unpadded(moved_[i]);

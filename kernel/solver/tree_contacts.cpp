@@ -9,8 +9,6 @@
 namespace rubble {
 namespace {
 
-// Below this speed of its mean particle, what pushes undo of a tree's speed is dropped.
-constexpr double kSlowSpeed = 0.2;  // unit: m/s
 // Of the error of a loop that a step removes.
 constexpr double kLoopFraction = 0.5;
 
@@ -299,11 +297,6 @@ void TreeContacts::solve_pushes(PaddedMotion* moved) {
     }
     save(item, view, true, moved);
   }
-}
-
-// As for free pieces, in the metric of the tree's kinetic energy.
-void TreeContacts::drop_opposed_speeds(double step) {
-  for (std::int32_t tree : trees_.trees) motion(tree).drop_opposed_speed(step, kSlowSpeed);
 }
 
 void TreeContacts::store_loop(const Item& item) {

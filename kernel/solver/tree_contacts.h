@@ -43,7 +43,6 @@ class TreeContacts {
   // Returns whether anything is to be pushed.
   bool begin_pushes(const SolverSettings& settings, const PaddedMotion* moved);
   void solve_pushes(PaddedMotion* moved);
-  void drop_opposed_speeds(double step);
   void store(const std::vector<Body>& bodies, std::vector<Contact>& contacts);
 
  private:

@@ -1,0 +1,112 @@
+// Rows of a tree's own joints: stops, dry friction, loops.
+#include <algorithm>
+
+#include "kernel/multibody/joints/joint.h"
+#include "kernel/solver/contact_solver.h"
+#include "kernel/solver/tree_contacts.h"
+
+namespace rubble {
+
+void TreeContacts::add_stops(std::int32_t tree) {
+  const TreeMotion& m = motion(tree);
+  for (std::size_t link = 1; link < m.tree().links.size(); ++link) {
+    const TreeLink& l = m.tree().links[link];
+    if (l.lower == -kNever && l.upper == kNever) continue;
+    JointStop stops[2];
+    const double* q = m.q().data() + l.first_q;
+    const int count = joint_of(l.mobility).find_stops(l, q, m.stop_margin(l), stops);
+    for (int i = 0; i < count; ++i) {
+      Item item;
+      item.kind = Kind::stop;
+      item.sides[0] = link_side(tree, l.parent);
+      item.sides[1] = link_side(tree, std::int32_t(link));
+      couple_sides(item);
+      item.first_row = rows_.size();
+      item.rows = 1;
+      Spatial force;
+      for (int k = 0; k < speed_count(l.mobility); ++k) {
+        force.add_scaled(m.pose().duals[std::size_t(l.first_u + k)], stops[i].direction[k]);
+      }
+      NormalRow n;
+      n.row = make_row(item, force * -1.0, force);
+      n.gap = stops[i].gap;
+      n.push_mass = calc_push_mass(item, n.row);
+      rows_.push_back(n);
+      items_.push_back(item);
+    }
+  }
+}
+
+void TreeContacts::add_dry_friction(std::int32_t tree) {
+  const TreeMotion& m = motion(tree);
+  for (std::size_t link = 1; link < m.tree().links.size(); ++link) {
+    const TreeLink& l = m.tree().links[link];
+    if (l.friction <= 0 || speed_count(l.mobility) == 0) continue;
+    Item item;
+    item.kind = Kind::dry;
+    item.source = std::int32_t(link);
+    item.sides[0] = link_side(tree, l.parent);
+    item.sides[1] = link_side(tree, std::int32_t(link));
+    couple_sides(item);
+    item.friction = l.friction * substep_;
+    item.first_row = rows_.size();
+    item.rows = speed_count(l.mobility);
+    for (int k = 0; k < item.rows; ++k) {
+      const Spatial& force = m.pose().duals[std::size_t(l.first_u + k)];
+      NormalRow n;
+      n.row = make_row(item, force * -1.0, force);
+      n.row.impulse = l.friction_impulse[k];
+      rows_.push_back(n);
+    }
+    items_.push_back(item);
+  }
+}
+
+// What a loop holds: the joint's frame in B along and about the axes of that in A.
+void TreeContacts::add_loops(const std::vector<Body>& bodies, std::int32_t tree) {
+  const TreeMotion& m = motion(tree);
+  for (std::size_t i = 0; i < m.tree().loops.size(); ++i) {
+    const TreeLoop& loop = m.tree().loops[i];
+    const Joint& joint = joint_of(loop.mobility);
+    Item item;
+    item.kind = Kind::loop;
+    item.source = std::int32_t(i);
+    item.sides[0] = link_side(tree, loop.link_a);
+    item.sides[1] = link_side(tree, loop.link_b);
+    couple_sides(item);
+    item.first_row = rows_.size();
+    const auto frame = [&](std::int32_t link, const Pose& from_joint) {
+      return bodies[std::size_t(m.tree().links[std::size_t(link)].body)].world_from_com *
+             from_joint;
+    };
+    const Pose a = frame(loop.link_a, loop.a_from_joint), b = frame(loop.link_b, loop.b_from_joint);
+    const Mat3 axes = a.rotation.matrix();
+    const Vec3 apart = b.translation - a.translation;
+    const Vec3 point = b.translation - m.pose().reference;
+    Quat turn = b.rotation * a.rotation.conjugate();  // in the world
+    if (turn.w < 0) turn = {-turn.w, -turn.x, -turn.y, -turn.z};
+    const Vec3 twice{2 * turn.x, 2 * turn.y, 2 * turn.z};
+    const auto add = [&](const Spatial& force, double gap, double impulse) {
+      NormalRow n;
+      n.row = make_row(item, force * -1.0, force);
+      n.row.impulse = impulse;
+      n.gap = gap;
+      n.push_mass = calc_push_mass(item, n.row);
+      rows_.push_back(n);
+      ++item.rows;
+    };
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 axis = axes.column(k);
+      if (joint.holds_travel(k)) {
+        add(force_at(point, axis), dot(axis, apart), loop.force_impulse[k]);
+      }
+    }
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 axis = axes.column(k);
+      if (joint.holds_turn(k)) add({axis, {}}, dot(axis, twice), loop.torque_impulse[k]);
+    }
+    items_.push_back(item);
+  }
+}
+
+}  // namespace rubble

@@ -259,8 +259,9 @@ void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
 void add_trajectory(Schema& k, TrajectorySpec& t) {
   k.group("trajectory", "Where the camera goes.");
   k.value("trajectory.rate_hz", t.rate_hz, "Frames per second.").between(0.001, 1000).unit("Hz");
-  k.choice("trajectory.interpolation", t.interpolation, {"spline", "linear"},
-           "A smooth curve through the waypoints, or straight legs.");
+  k.choice("trajectory.interpolation", t.interpolation, {"automatic", "spline", "linear"},
+           "A smooth curve through the waypoints, or straight legs; with the plan \"avoid\", the "
+           "way that was found made smooth, or its legs. Automatic: the curve, or those legs.");
   k.value("trajectory.speed", t.speed, "To a waypoint that has neither `t` nor `speed`.")
       .above(0, 1000)
       .unit("m/s");
@@ -284,6 +285,19 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
           "Likewise where the view turns faster.")
       .above(0, 36000)
       .unit("degree/s");
+  k.value("trajectory.max_jerk", t.limits.max_jerk,
+          "Bounds the third derivative: the path is made smooth, softer where that is needed, and "
+          "slower where that is not enough.")
+      .above(0, 1e6)
+      .unit("m/s3");
+  k.value("trajectory.smoothing", t.smoothing,
+          "Rounds corners in place and in view over about this long, so that the acceleration has no "
+          "jumps; 0: leaves them. Not given: 0.1 where an inertial unit is on, with `max_jerk`, "
+          "with `rest_at_ends`, and for a spline with the plan \"avoid\"; otherwise 0.")
+      .between(0, 2)
+      .unit("s");
+  k.value("trajectory.rest_at_ends", t.rest_at_ends,
+          "It begins and ends standing still, and takes four times `smoothing` longer.");
   k.list("trajectory.waypoints", t.waypoints,
          "Where the camera passes, in order; one gives a single frame.");
   auto& list = t.waypoints;

@@ -218,6 +218,8 @@ GlTexture make_air_table(const Gl& gl) {
   return texture;
 }
 
+constexpr int kMeterEvery = 4;  // as METER in resolve.frag.glsl
+
 enum Unit {
   kVisibility,
   kDepth,
@@ -293,6 +295,7 @@ const GlProgram& ResolvePass::program(int variant, TileContent content) {
     if (variant & kLinear) defines.push_back({"LINEAR", ""});
     if (variant & kRays) defines.push_back({"RAYS", ""});
     if (variant & kLamp) defines.push_back({"LAMP", ""});
+    if (variant & kMeter) defines.push_back({"METER", ""});
     defines.push_back({"CONTENT", std::to_string(int(content))});
     defines.push_back({"VEIL_FROM", std::to_string(kVeilFrom)});
     wanted = make_resolve_program(gl_, defines);
@@ -312,14 +315,16 @@ void ResolvePass::resize(int width, int height) {
 void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
                             const ViewProjection& view, const Pose& world_from_camera,
                             const SurfaceImages& surfaces, const FrameLight& light,
-                            float exposure) {
+                            float exposure, bool with_contact) {
   const ImageTiles tiles = tiles_of(view, surfaces);
-  const bool lamp = has_lamp(light) && ((variant & kLinear) || lamp_shows(light, tiles, exposure));
+  const bool all_light = variant & (kLinear | kMeter);
+  const bool lamp = has_lamp(light) && (all_light || lamp_shows(light, tiles, exposure));
   if (lamp) variant |= kLamp;
-  contact_.draw(view, surfaces.depth,
-                {lamp, Vec3f(camera_from_optical.inverse() * light.lamp.position),
-                 light.lamp.shape == LampShape::point ? 0.004f : float(light.lamp.size / 2)},
-                tiles.first_row, tiles.last_row);
+  if (with_contact)
+    contact_.draw(view, surfaces.depth,
+                  {lamp, Vec3f(camera_from_optical.inverse() * light.lamp.position),
+                   light.lamp.shape == LampShape::point ? 0.004f : float(light.lamp.size / 2)},
+                  tiles.first_row, tiles.last_row);
   if (light.air_table)
     gl_.TextureSubImage3D(air_table_.name(), 0, 0, 0, 0, AirVolume::kColumns, AirVolume::kRows,
                           AirVolume::kSlices, GL_RGBA, GL_FLOAT, light.air_table->table().data());
@@ -352,11 +357,13 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
     variant |= kRays;
   }
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
-  gl_.Viewport(0, 0, view.intrinsics.width, view.intrinsics.height);
+  const int every = variant & kMeter ? kMeterEvery : 1;
+  gl_.Viewport(0, 0, (view.intrinsics.width + every - 1) / every,
+               (view.intrinsics.height + every - 1) / every);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_CULL_FACE);
   gl_.BindVertexArray(empty_array_.name());
-  draw_tiles(variant, tiles);
+  draw_tiles(variant, tiles, every);
 }
 
 ImageTiles ResolvePass::tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const {
@@ -387,23 +394,43 @@ bool ResolvePass::lamp_shows(const FrameLight& light, const ImageTiles& tiles,
   return intensity * reflected / (distance * distance) > kUnseen;
 }
 
-void ResolvePass::draw_tiles(int variant, const ImageTiles& tiles) {
+void ResolvePass::draw_tiles(int variant, const ImageTiles& tiles, int every) {
+  // Of pixels `every` apart, the first at half of that: those before `end`.
+  const auto count = [every](int end) { return std::max(0, end + every - 1 - every / 2) / every; };
   gl_.Enable(GL_SCISSOR_TEST);
   const GlProgram* current = nullptr;
   for (const TileRun& run : tiles.runs) {
     const GlProgram& wanted = program(variant, run.content);
     if (current != &wanted) gl_.UseProgram(wanted.name());
     current = &wanted;
-    gl_.Scissor(run.x, run.y, run.width, run.height);
+    const int x = count(run.x), y = count(run.y);
+    gl_.Scissor(x, y, count(run.x + run.width) - x, count(run.y + run.height) - y);
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
   }
   gl_.Disable(GL_SCISSOR_TEST);
 }
 
+MeteredImage ResolvePass::meter(const ViewProjection& view, const Pose& world_from_camera,
+                                const SurfaceImages& surfaces, const FrameLight& light) {
+  const auto count = [](int pixels) { return (pixels + kMeterEvery / 2 - 1) / kMeterEvery; };
+  MeteredImage out;
+  out.width = count(view.intrinsics.width), out.height = count(view.intrinsics.height);
+  const GlTexture texture = make_target(gl_, GL_R32F, std::max(1, out.width), std::max(1, out.height));
+  const GlFramebuffer target(gl_);
+  gl_.NamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+  draw_with(kMeter, target, view, world_from_camera, surfaces, light, 1);
+  out.stops.resize(std::size_t(out.width) * std::size_t(out.height));
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target.name());
+  gl_.ReadPixels(0, 0, out.width, out.height, GL_RED, GL_FLOAT, out.stops.data());
+  check_gl(gl_, "metering the image");
+  return out;
+}
+
 void ResolvePass::draw(const ViewProjection& view, const Pose& world_from_camera,
-                       const SurfaceImages& surfaces, const FrameLight& light, float exposure) {
+                       const SurfaceImages& surfaces, const FrameLight& light, float exposure,
+                       bool metered) {
   resize(view.intrinsics.width, view.intrinsics.height);
-  draw_with(0, target_, view, world_from_camera, surfaces, light, exposure);
+  draw_with(0, target_, view, world_from_camera, surfaces, light, exposure, !metered);
 }
 
 void ResolvePass::read(std::vector<std::uint8_t>& rgba) {

@@ -1,7 +1,8 @@
 // From "which triangle is here" to colour: surface, light, air, tone.
 // Variants: LIGHT_COUNT 1 to 4; for each light LIGHT_i as "type, first view, views" with type 0
 // directional, 1 spot, 2 point; LAMP; FOG 1 even fog, 2 from the air's table; WET; LINEAR (kcd/m2
-// out, no tone mapping); RAYS (each pixel has a ray of its own); CONTENT 0 sky, 1 surfaces no farther
+// out, no tone mapping); METER (log2 of luminance of each 4th pixel in each direction, for the
+// exposure; below -1000: none); RAYS (each pixel has a ray of its own); CONTENT 0 sky, 1 surfaces no farther
 // than VEIL_FROM, 2 surfaces, 3 both.
 #include "frame.glsl"
 #include "geometry.glsl"
@@ -69,7 +70,11 @@ vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
 }
 
 void main() {
+#ifdef METER
+  ivec2 pixel = ivec2(gl_FragCoord.xy) * 4 + 2;
+#else
   ivec2 pixel = ivec2(gl_FragCoord.xy);
+#endif
   uvec2 seen = texelFetch(visibility, pixel, 0).xy;
 #if CONTENT == 0
   const bool surface = false;
@@ -82,7 +87,10 @@ void main() {
   // Any lens, and for each row the pose at its own time; see passes/ray_pass.h.
   vec3 slope = texelFetch(lens_rays, pixel, 0).xyz;
   if (slope == vec3(0.0)) {
-    colour = vec4(0.0, 0.0, 0.0, 0.3935);  // black, and to the light meter neither dark nor bright
+    colour = vec4(0.0, 0.0, 0.0, 1.0);  // black, and nothing to the light meter
+#ifdef METER
+    colour.x = -2000.0;
+#endif
     return;
   }
   vec4 row_x = texelFetch(row_poses, ivec2(0, pixel.y), 0);
@@ -139,9 +147,11 @@ void main() {
   radiance += lamp_colour.rgb * (exp2(-x * x) * texture(fog_lamp, vec2(far / (far + 2.0), 0.5)).x);
 #endif
 #endif
-#ifdef LINEAR
+#ifdef METER
+  colour.x = log2(max(dot(radiance * balance.rgb, vec3(0.2126, 0.7152, 0.0722)), 1e-30));
+#elif defined LINEAR
   colour = vec4(radiance, 1.0);
 #else
-  colour = develop(radiance * (view.y * balance.rgb), dither(vec2(pixel)));
+  colour = vec4(develop(radiance * (view.y * balance.rgb), dither(vec2(pixel))), 1.0);
 #endif
 }

@@ -167,8 +167,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
   geometry = upload_geometry(gl, scene, baked.vertices);
   report(0.9);
   shadow = draw_shadow_map(gl, scene, geometry, light, o.shadow_size);
-  frame_light = {&light,    &shadow,           s.lamp, s.air,  medium.homogeneous(),
-                 s.wetness, most_gloss(scene), {},     nullptr};
+  frame_light = {&light, &shadow, s.lamp, medium.clear(), s.wetness, most_gloss(scene), nullptr};
   visibility = std::make_unique<VisibilityPass>(
       gl, scene, geometry,
       VisibilityOptions{o.occlusion_culling, o.coarse_below, draws_on_processor(o, c.info()),
@@ -182,17 +181,15 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
 void Renderer::State::update_air(const ViewRays& view) {
   const Pose& pose = view.world_from_camera;
   if (medium.clear()) return;
-  frame_light.air_ambient = air_light.at(Vec3f(pose.translation));
-  if (medium.homogeneous()) return;
   const LampSpec& lamp = frame_light.lamp;
   AirLamp glow;
   glow.position = Vec3f(pose * lamp.position);
   glow.axis = Vec3f(pose.rotation.rotate({1, 0, 0}));
   glow.colour = lamp.on ? lamp_colour(lamp) : Vec3f();
   glow.cone = float(1 / (1 - portable::cos(0.5 * lamp.cone_deg * portable::kPi / 180)));
-  glow.offset2 = float(std::max(dot(lamp.position, lamp.position), 0.02 * 0.02));
+  glow.size2 = float(std::max(lamp.shape == LampShape::point ? 0.0 : 0.25 * lamp.size * lamp.size, 1e-4));
   const Air air = medium.at(double(view.stamp_ns - start_ns) * 1e-9);
-  air_volume.build(view, air, air_light, &glow, pool);
+  air_volume.build(view, air, air_light, light, &glow, pool);
   frame_light.air_table = &air_volume;
 }
 
@@ -282,9 +279,7 @@ void Renderer::restart(const LampSpec& lamp, const AirSpec& air) {
   s.context.make_current();
   s.medium = Medium(air, s.seed);
   s.frame_light.lamp = lamp;
-  s.frame_light.air = air;
-  s.frame_light.even_air = s.medium.homogeneous();
-  s.frame_light.air_ambient = {};
+  s.frame_light.clear_air = s.medium.clear();
   s.frame_light.air_table = nullptr;
   const DiskCache cache(s.options.cache_folder);
   s.resolve = std::make_unique<ResolvePass>(

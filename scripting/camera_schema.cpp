@@ -127,6 +127,10 @@ void add_depth_sensor(Schema& k, DepthSensorSpec& d) {
       .above(0, 1e9);
   k.value("depth_sensor.background", d.background, "Time of flight: electrons of other light.")
       .between(0, 1e9);
+  k.value("depth_sensor.emitter_offset", d.emitter_offset,
+          "Time of flight: from the lens to the emitter on its right; near it the air is not lit.")
+      .between(0.001, 1)
+      .unit("m");
   k.value("depth_sensor.reflectance", d.reflectance,
           "Of all surfaces, in the infrared; 0: of each its own, by its look.")
       .between(0, 1);

@@ -223,6 +223,8 @@ void add_dust(Schema& k, DustSpec& dust) {
   k.value("air.dust.half_life", dust.half_life, "Until half of it is gone from the air.")
       .between(0.1, 3600)
       .unit("s");
+  k.value("air.dust.asymmetry", dust.asymmetry, "As `air.fog_asymmetry`, of the dust.")
+      .between(-0.99, 0.99);
 }
 
 void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
@@ -231,6 +233,10 @@ void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
       .between(0, 10)
       .unit("1/m");
   k.value("air.fog_intensity", air.fog_intensity, "Brightness of the fog.").between(0, 1);
+  k.value("air.fog_asymmetry", air.fog_asymmetry,
+          "Mean cosine of the angle by which light is scattered (Henyey-Greenstein): 0 evenly, near 1 "
+          "almost straight on. Smoke 0.75, droplets 0.85.")
+      .between(-0.99, 0.99);
   k.value("air.fog_height", air.fog_height,
           "Density falls by e over so much height above the ground; 0: it does not.")
       .between(0, 1000)

@@ -21,12 +21,10 @@ struct FrameLight {
   const LightSet* lights = nullptr;
   const ShadowMap* shadow = nullptr;
   LampSpec lamp;
-  AirSpec air;
-  bool even_air = true;                // see Medium::homogeneous()
+  bool clear_air = true;               // at all times
   double wetness = 0;                  // of surfaces
   float most_gloss = 1;                // of the looks in use, see Look::gloss
-  Vec3f air_ambient;                   // mean radiance of all directions at the camera; kcd/m2
-  const AirVolume* air_table = nullptr;  // of this frame, unless the air is even
+  const AirVolume* air_table = nullptr;  // of this frame, unless the air is clear
 };
 
 // Colours of the lamp's light; kcd.
@@ -79,12 +77,11 @@ class ResolvePass {
   GlBuffer frame_block_;
   GlVertexArray empty_array_;
   ContactPass contact_;
-  GlTexture looks_, fog_lamp_, sky_map_, air_table_, ground_map_;
+  GlTexture looks_, sky_map_, air_table_, ground_map_;
   float ground_[4];  // as in shaders/frame.glsl
   GlTexture colour_;
   GlFramebuffer target_;
   int width_ = 0, height_ = 0;
-  float most_glow_ = 0;  // of the lamp in even fog, per unit of intensity
   int texture_size_ = 1;
 };
 

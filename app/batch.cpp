@@ -168,9 +168,11 @@ class Batch {
            std::to_string(mine_.size()) + " seeds, " + std::to_string(tally_.failed) + " failed";
   }
 
-  void write_index() const {
+  void write_index() {
     const FolderLock lock(folder_.path() + "/batch.lock", FolderLock::Wait::yes);
-    write_text_file(folder_.path() + "/index.csv", make_batch_index(folder_.path(), all_));
+    const BatchIndex index = make_batch_index(folder_.path(), all_);
+    altered_ = index.altered;
+    write_text_file(folder_.path() + "/index.csv", index.text);
   }
 
   ExitCode report() {
@@ -184,7 +186,9 @@ class Batch {
       throw Stopped("stopped by a signal, with " + words() + "; the same command continues");
     if (!too_small_.empty()) throw RunError(too_small_);
     std::printf("%s/index.csv\n", folder_.path().c_str());
-    if (tally_.failed > 0) return ExitCode::failure;
+    for (const std::string& sentence : altered_)
+      std::fprintf(stderr, "%s\nremove its folder and run the batch again\n", sentence.c_str());
+    if (tally_.failed > 0 || !altered_.empty()) return ExitCode::failure;
     return tally_.not_settled > 0 ? ExitCode::did_not_settle : ExitCode::done;
   }
 
@@ -199,6 +203,7 @@ class Batch {
   std::vector<Job> jobs_;
   std::vector<std::uint64_t> failures_;
   std::string too_small_;
+  std::vector<std::string> altered_;  // sentences, see BatchIndex
   Tally tally_;
 };
 

@@ -30,8 +30,15 @@ struct BatchRequest {
 // same); `did_not_settle` when one did not. Throws Stopped: the same command goes on.
 ExitCode run_batch(const BatchRequest& request);
 
+struct BatchIndex {
+  std::string text;                  // of index.csv
+  std::vector<std::string> altered;  // a sentence for each seed whose figures cannot be trusted
+};
+
 // index.csv for these seeds, from what lies in the folder: the same text whoever asks. Columns:
-// seed, status (done, did_not_settle, failed, missing), state_hash, bytes, then every metric.
-std::string make_batch_index(const std::string& folder, const std::vector<std::uint64_t>& seeds);
+// seed, status (done, did_not_settle, failed, missing, altered), state_hash, bytes, then every metric.
+// altered: the manifest cannot be read, is not sealed, or is not of this seed or of the pile.bin
+// beside it; the row has no figures.
+BatchIndex make_batch_index(const std::string& folder, const std::vector<std::uint64_t>& seeds);
 
 }  // namespace rubble

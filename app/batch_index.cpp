@@ -6,7 +6,7 @@
 #include "app/batch.h"
 #include "app/batch_folder.h"
 #include "app/manifest.h"
-#include "io/atomic_file.h"
+#include "app/saved_run.h"
 #include "scripting/value.h"
 
 namespace rubble {
@@ -18,13 +18,26 @@ struct Row {
   std::string state_hash;
   std::uint64_t bytes = 0;  // of the files that the manifest names
   std::map<std::string, double> metrics;
+  std::string altered;  // why its figures cannot be trusted; empty: they can
 };
 
 const char* name_of(const Row& row) {
   if (row.state == SeedState::failed) return "failed";
   if (row.state != SeedState::done) return "missing";
+  if (!row.altered.empty()) return "altered";
   const auto settled = row.metrics.find("settled");
   return settled != row.metrics.end() && settled->second == 0 ? "did_not_settle" : "done";
+}
+
+// Throws InputError when it cannot be read, is altered, or is not of what lies beside it.
+Manifest read_trusted_manifest(const std::string& folder, std::uint64_t seed) {
+  const SavedRun saved = open_saved_run(folder);
+  const std::string path = folder + "/manifest.json";
+  if (saved.manifest.seed != seed)
+    throw InputError({path, 0, "seed", "is of another seed", std::to_string(seed),
+                      std::to_string(saved.manifest.seed), ""});
+  load_pile_of(saved);
+  return saved.manifest;
 }
 
 Row make_row(const BatchFolder& folder, std::uint64_t seed) {
@@ -32,21 +45,24 @@ Row make_row(const BatchFolder& folder, std::uint64_t seed) {
   row.seed = seed;
   row.state = folder.state_of(seed);
   if (row.state != SeedState::done) return row;
-  const std::string path = folder.of_seed(seed) + "/manifest.json";
-  const Manifest manifest = manifest_from_json(read_whole_file(path), path);
-  row.state_hash = manifest.pile.state_hash;
-  row.metrics = manifest.metrics;
-  std::error_code failed;
-  for (const auto& item : manifest.outputs) {
-    const auto size = std::filesystem::file_size(folder.of_seed(seed) + "/" + item.first, failed);
-    if (!failed) row.bytes += size;
+  try {
+    const Manifest manifest = read_trusted_manifest(folder.of_seed(seed), seed);
+    row.state_hash = manifest.pile.state_hash;
+    row.metrics = manifest.metrics;
+    std::error_code failed;
+    for (const auto& item : manifest.outputs) {
+      const auto size = std::filesystem::file_size(folder.of_seed(seed) + "/" + item.first, failed);
+      if (!failed) row.bytes += size;
+    }
+  } catch (const InputError& error) {
+    row.altered = error.what();
   }
   return row;
 }
 
 std::string format_row(const Row& row, const std::set<std::string>& columns) {
   std::string line = std::to_string(row.seed) + "," + name_of(row) + "," + row.state_hash + ",";
-  if (row.state == SeedState::done) line += std::to_string(row.bytes);
+  if (row.state == SeedState::done && row.altered.empty()) line += std::to_string(row.bytes);
   for (const std::string& column : columns) {
     const auto found = row.metrics.find(column);
     line += "," + (found == row.metrics.end() ? "" : format_number(found->second));
@@ -56,7 +72,7 @@ std::string format_row(const Row& row, const std::set<std::string>& columns) {
 
 }  // namespace
 
-std::string make_batch_index(const std::string& path, const std::vector<std::uint64_t>& seeds) {
+BatchIndex make_batch_index(const std::string& path, const std::vector<std::uint64_t>& seeds) {
   const BatchFolder folder(path);
   std::vector<Row> rows;
   std::set<std::string> columns;
@@ -64,11 +80,17 @@ std::string make_batch_index(const std::string& path, const std::vector<std::uin
     rows.push_back(make_row(folder, seed));
     for (const auto& metric : rows.back().metrics) columns.insert(metric.first);
   }
-  std::string text = "seed,status,state_hash,bytes";
+  BatchIndex index;
+  std::string& text = index.text;
+  text = "seed,status,state_hash,bytes";
   for (const std::string& column : columns) text += "," + column;
   text += "\n";
-  for (const Row& row : rows) text += format_row(row, columns);
-  return text;
+  for (const Row& row : rows) {
+    text += format_row(row, columns);
+    if (!row.altered.empty())
+      index.altered.push_back("seed " + std::to_string(row.seed) + ": " + row.altered);
+  }
+  return index;
 }
 
 }  // namespace rubble

@@ -100,7 +100,7 @@ bool leads_into_voids(const TrajectorySpec& path) {
 
 FlightSize size_of_flight(const Scenario& s) {
   FlightSize size;
-  const TrajectorySpec& path = s.trajectory;
+  const TrajectorySpec path = flown_trajectory(s);
   if (leads_into_voids(path)) {
     size.frames = std::floor(path.duration.value_or(kUnknownFlight) * path.rate_hz) + 1;
     size.key_frames = size.frames;

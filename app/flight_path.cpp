@@ -197,30 +197,16 @@ double plan_around(const PileGeometry& geometry, const PileSpace& space, Traject
   return length;
 }
 
-NearestApproach check_contact(const PileGeometry& geometry, const TrajectorySpec& spec,
-                              const PileState& pile) {
+// Calls visit(t, position, room) along the path, nowhere farther apart than the room allows; visit
+// gives whether to go on.
+template <typename Visit>
+void walk(const PileGeometry& geometry, const TrajectorySpec& spec, const Visit& visit) {
   const CameraPath trajectory(spec);
   const double duration = trajectory.duration(), frame = 1 / spec.rate_hz;
-  NearestApproach nearest_approach;
-  double t = 0;
-  while (true) {
+  for (double t = 0;;) {
     const Vec3 p = trajectory.at(t).translation;
     const double room = geometry.queries.clearance(p, spec.radius + 3.0);
-    if (room < nearest_approach.clearance) nearest_approach = {room, p};
-    if (room < spec.radius - kTouch) {
-      const auto nearest = geometry.queries.find_closest(p, 1000);
-      char when[48];
-      std::snprintf(when, sizeof when, "%.3f s (frame %d)", t, int(t * spec.rate_hz + 0.5));
-      std::string what = "the ground";
-      if (nearest && nearest->piece != kGroundPiece)
-        what = pile.types[std::size_t(pile.pieces[std::size_t(nearest->piece)].type)] + ", piece " +
-               std::to_string(nearest->piece);
-      throw InputError({"", 0, "trajectory.plan", "the camera's body touches something",
-                        centimetres(spec.radius) + " of room all the way",
-                        centimetres(room) + " at " + when + ", at " + words(p) + ": " + what,
-                        "move the waypoints, or use plan = \"avoid\" or \"ghost\""});
-    }
-    if (t >= duration) return nearest_approach;
+    if (!visit(t, p, room) || t >= duration) return;
     // The next place that is not surely free: far from everything, the path is walked in long steps.
     const double slack = std::max(room - spec.radius, kStepOfCheck);
     double step = std::min(frame, duration - t);
@@ -229,14 +215,76 @@ NearestApproach check_contact(const PileGeometry& geometry, const TrajectorySpec
   }
 }
 
-std::vector<double> waypoint_times(const TrajectorySpec& spec) {
-  std::vector<double> times{0};
+NearestApproach check_contact(const PileGeometry& geometry, const TrajectorySpec& spec,
+                              const PileState& pile) {
+  NearestApproach nearest_approach;
+  walk(geometry, spec, [&](double t, const Vec3& p, double room) {
+    if (room < nearest_approach.clearance) nearest_approach = {room, p};
+    if (room >= spec.radius - kTouch) return true;
+    const auto nearest = geometry.queries.find_closest(p, 1000);
+    char when[48];
+    std::snprintf(when, sizeof when, "%.3f s (frame %d)", t, int(t * spec.rate_hz + 0.5));
+    std::string what = "the ground";
+    if (nearest && nearest->piece != kGroundPiece)
+      what = pile.types[std::size_t(pile.pieces[std::size_t(nearest->piece)].type)] + ", piece " +
+             std::to_string(nearest->piece);
+    throw InputError({"", 0, "trajectory.plan", "the camera's body touches something",
+                      centimetres(spec.radius) + " of room all the way",
+                      centimetres(room) + " at " + when + ", at " + words(p) + ": " + what,
+                      "move the waypoints, or use plan = \"avoid\" or \"ghost\""});
+  });
+  return nearest_approach;
+}
+
+namespace {
+
+std::vector<Vec3> find_contacts(const PileGeometry& geometry, const TrajectorySpec& spec) {
+  std::vector<Vec3> contacts;
+  walk(geometry, spec, [&](double, const Vec3& p, double room) {
+    if (room < spec.radius - kTouch) contacts.push_back(p);
+    return true;
+  });
+  return contacts;
+}
+
+double distance_to_leg(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 way = b - a;
+  const double length2 = dot(way, way);
+  const double s = length2 > 0 ? std::min(std::max(dot(p - a, way) / length2, 0.0), 1.0) : 0;
+  return distance(p, a + way * s);
+}
+
+// Halves the speed of the legs that shape the path near the contacts.
+void slow_down_at(const std::vector<Vec3>& contacts, TrajectorySpec& spec) {
+  const double reach = 3 * *spec.smoothing;  // unit: s
   for (std::size_t i = 1; i < spec.waypoints.size(); ++i) {
-    const Waypoint& w = spec.waypoints[i];
-    const double length = distance(w.position, spec.waypoints[i - 1].position);
-    times.push_back(w.t.value_or(times.back() + length / w.speed.value_or(spec.speed)));
+    Waypoint& w = spec.waypoints[i];
+    const double speed = w.speed.value_or(spec.speed);
+    for (const Vec3& p : contacts) {
+      if (distance_to_leg(p, spec.waypoints[i - 1].position, w.position) > reach * speed) continue;
+      w.speed = 0.5 * speed;
+      break;
+    }
   }
-  return times;
+}
+
+}  // namespace
+
+bool fit_smoothing(const PileGeometry& geometry, bool fixed, TrajectorySpec& spec) {
+  constexpr int kMostTries = 10;
+  constexpr double kLeastSmoothing = 0.02;  // 4 samples of a unit of 200 Hz; unit: s
+  const bool may_slow = spec.plan == Plan::avoid;
+  for (int i = 0;; ++i) {
+    const std::vector<Vec3> contacts = find_contacts(geometry, spec);
+    if (contacts.empty()) return true;
+    if (i == kMostTries) return false;
+    if (may_slow)
+      slow_down_at(contacts, spec);
+    else if (!fixed && *spec.smoothing >= 2 * kLeastSmoothing)
+      *spec.smoothing *= 0.5;
+    else
+      return false;
+  }
 }
 
 }  // namespace rubble

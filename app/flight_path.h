@@ -22,7 +22,10 @@ double plan_around(const PileGeometry& geometry, const PileSpace& space, Traject
 NearestApproach check_contact(const PileGeometry& geometry, const TrajectorySpec& spec,
                               const PileState& pile);
 
-// When each waypoint is passed, before limits slow the path down; unit: s
-std::vector<double> waypoint_times(const TrajectorySpec& spec);
+// Gives a smoothed path room: rounding its corners takes it nearer to what they go around. With the
+// plan "avoid" it becomes slower there, which makes the roundings smaller; with "refuse", where times
+// are the user's, it is smoothed less. Does what can be done and leaves the rest to check_contact().
+// fixed: the smoothing is the user's own, and stays. Gives whether the smoothed path is free.
+bool fit_smoothing(const PileGeometry& geometry, bool fixed, TrajectorySpec& spec);
 
 }  // namespace rubble

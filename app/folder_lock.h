@@ -1,6 +1,7 @@
 // One process at a time in a folder, also among the machines that share it.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace rubble {
@@ -11,8 +12,9 @@ class FolderLock {
     briefly,  // ten seconds: a process that was told to stop may be about to
     yes,
   };
-  // Locks FILE, which is created. Throws InputError with `message` when another process holds it
-  // after waiting briefly. A file system without locks is not an error: then there is no
+  // Locks FILE, which is created; if whoever held it removed it meanwhile, the one that is there now.
+  // Throws InputError with `message` when another process holds it after waiting briefly, RunError
+  // when it cannot be created. A file system without locks is not an error: then there is no
   // protection.
   FolderLock(const std::string& file, Wait wait, const std::string& message = "");
   ~FolderLock();
@@ -20,6 +22,10 @@ class FolderLock {
   FolderLock& operator=(const FolderLock&) = delete;
 
  private:
+  void open_file(const std::string& file);
+  bool lock_before(std::int64_t end_ms, Wait wait);  // gives whether it is held
+  bool is_still(const std::string& file) const;
+
   int descriptor_ = -1;
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "kernel/geometry/shape.h"
+
 namespace rubble {
 namespace {
 
@@ -15,7 +17,8 @@ double highest_point(const PieceType& type, const PieceState& piece) {
   return top;
 }
 
-double volume_of(const PieceType& type) { return type.volume ? type.volume->volume : 0; }
+// That of the shape the kernel moves: of the mesh where the type states it, else of the parts.
+double volume_of(const PieceType& type) { return compile_shape(type, type.name).volume.volume; }
 
 // The radius that 95 % of the distances do not exceed.
 double most_of(std::vector<double> squared_distances) {
@@ -54,12 +57,13 @@ const std::vector<std::pair<std::string, std::string>>& metric_names() {
 
 void add_pile_metrics(const PileState& pile, const AssetLibrary& assets, Metrics& metrics) {
   double height = 0, volume = 0, moving = 0;
-  std::vector<double> squared;
+  std::vector<double> squared, volumes;
+  for (const PieceType& type : assets.types) volumes.push_back(volume_of(type));
   for (const PieceState& piece : pile.pieces) {
     if (piece.status == PieceStatus::lost) continue;
     const PieceType& type = assets.types.at(std::size_t(piece.type));
     height = std::max(height, highest_point(type, piece));
-    volume += volume_of(type) * piece.scale * piece.scale * piece.scale;
+    volume += volumes[std::size_t(piece.type)] * piece.scale * piece.scale * piece.scale;
     moving += piece.status == PieceStatus::moving;
     const Vec3& at = piece.world_from_body.translation;
     if (piece.status != PieceStatus::fixed) squared.push_back(at.x * at.x + at.y * at.y);

@@ -54,7 +54,11 @@ Run start_run(const RunOptions& options, const Recipe& recipe,
 struct SavedRun;
 Run start_render(const RunRequest& request, const SavedRun& saved);
 
-// The stages. settle() takes pile.bin if it is there, and goes on from a checkpoint if one is.
+// Keeps a pile that another run settled as the product of this run's first stage.
+void keep_pile(const Run& run, const PileState& state, const RunFolder& folder);
+
+// The stages. settle() takes pile.bin if it is there and was made from the same pile and options, and
+// goes on from a checkpoint if one is.
 void settle(Run& run, RunFolder& folder);
 void write_pile_files(Run& run, RunFolder& folder);
 void render_frames(Run& run, RunFolder& folder);

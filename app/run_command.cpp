@@ -6,7 +6,6 @@
 #include "app/run.h"
 #include "app/saved_run.h"
 #include "app/stop.h"
-#include "io/pile_state_file.h"
 
 namespace rubble {
 namespace {
@@ -44,7 +43,7 @@ ExitCode render_saved_pile(const std::string& from, const RunRequest& request) {
                       "choose another folder"});
   RunFolder folder = RunFolder::create(choose_output(request), request.force);
   folder.begin(describe_unfinished(run));
-  save_pile_state(pile, folder.file("pile.bin"));
+  keep_pile(run, pile, folder);
   return complete(run, folder);
 }
 

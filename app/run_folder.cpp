@@ -60,9 +60,46 @@ void remove_empty_folders(const std::string& folder, const std::vector<std::stri
   }
 }
 
+// null: the run that was waited for has ended, and its folder `unfinished` with it.
 std::shared_ptr<const FolderLock> lock_run(const std::string& folder) {
-  return std::make_shared<const FolderLock>(folder + "/unfinished/lock", FolderLock::Wait::briefly,
-                                            "another process is at work on this run");
+  try {
+    return std::make_shared<const FolderLock>(folder + "/unfinished/lock",
+                                              FolderLock::Wait::briefly,
+                                              "another process is at work on this run");
+  } catch (const RunError&) {
+    std::error_code failed;
+    if (fs::is_directory(folder + "/unfinished", failed)) throw;
+    return nullptr;
+  }
+}
+
+// All that an earlier run kept there, but for the lock, which is ours.
+void clear_unfinished(const std::string& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder + "/unfinished", error)) {
+    if (entry.path().filename() == "lock") continue;
+    fs::remove_all(entry.path(), error);
+    if (error) throw RunError("cannot remove " + entry.path().string() + ": " + error.message());
+  }
+  if (error) throw RunError("cannot read " + folder + "/unfinished: " + error.message());
+}
+
+void refuse_unfinished(const std::string& path, bool force) {
+  if (is_unfinished(path) && !force)
+    throw InputError({path, 0, "", "an unfinished run is in the output folder", "", "",
+                      "`rubble resume " + path + "` continues it; --force starts anew"});
+}
+
+// Only what a process that was killed before it could say what it is has left there.
+bool holds_nothing_but_unfinished(const std::string& path) {
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(path, failed))
+    if (entry.path().filename() != "unfinished") return false;
+  return !failed;
+}
+
+std::string pile_note(const RunFolder& folder, std::uint64_t work) {
+  return hex64(work) + " " + sha256_of_file(folder.file("pile.bin")) + "\n";
 }
 
 }  // namespace
@@ -72,26 +109,31 @@ bool is_unfinished(const std::string& folder) {
   return fs::is_regular_file(folder + "/unfinished/run.json", failed);
 }
 
+// Whoever waited for the lock looks again: what was there may be finished, or begun, by now.
 RunFolder RunFolder::create(const std::string& path, bool force) {
-  if (is_unfinished(path) && !force)
-    throw InputError({path, 0, "", "an unfinished run is in the output folder", "", "",
-                      "`rubble resume " + path + "` continues it; --force starts anew"});
+  refuse_unfinished(path, force);
   std::error_code failed;
   const bool left = fs::is_directory(path + "/unfinished", failed);
-  if (left) lock_run(path);
-  if (left && !force) remove_unfinished(path);
+  if (!left) prepare_output_folder(path, force, {});
+  RunFolder folder(path);
+  while (!folder.lock_) {
+    fs::create_directories(path + "/unfinished", failed);
+    if (failed) throw RunError("cannot create " + path + "/unfinished: " + failed.message());
+    folder.lock_ = lock_run(path);
+  }
+  refuse_unfinished(path, force);
   const std::vector<std::string> files = force ? files_of_earlier_run(path) : kUsualFiles;
-  prepare_output_folder(path, force, files);
-  if (left && force) remove_unfinished(path);
+  if (!holds_nothing_but_unfinished(path)) prepare_output_folder(path, force, files);
+  clear_unfinished(path);
   remove_empty_folders(path, files);
-  return RunFolder(path);
+  return folder;
 }
 
 RunFolder RunFolder::open_unfinished(const std::string& path) {
   if (is_unfinished(path)) {
     RunFolder folder(path);
     folder.lock_ = lock_run(path);
-    return folder;
+    if (folder.lock_ && is_unfinished(path)) return folder;
   }
   std::error_code failed;
   if (!fs::is_directory(path, failed))
@@ -103,16 +145,21 @@ RunFolder RunFolder::open_unfinished(const std::string& path) {
                     "a run that was killed before it had read its mission is begun anew"});
 }
 
+void RunFolder::note_pile(std::uint64_t work) const {
+  write_text_file(file("unfinished/settled.txt"), pile_note(*this, work));
+}
+
+bool RunFolder::has_pile_of(std::uint64_t work) const {
+  if (!has("pile.bin") || !has("unfinished/settled.txt")) return false;
+  return read_whole_file(file("unfinished/settled.txt")) == pile_note(*this, work);
+}
+
 bool RunFolder::has(const std::string& name) const {
   std::error_code failed;
   return fs::exists(file(name), failed);
 }
 
 void RunFolder::begin(const std::string& run_json) {
-  std::error_code error;
-  fs::create_directories(file("unfinished"), error);
-  if (error) throw RunError("cannot create " + file("unfinished") + ": " + error.message());
-  if (!lock_) lock_ = lock_run(path_);
   write_text_file(run_file(), run_json);
 }
 

@@ -1,13 +1,16 @@
 // The folder of a dataset: its files, and what an unfinished run keeps there to be continued.
 //
+//   DIR/unfinished/lock               held by the process at work, from the first to the last
 //   DIR/unfinished/run.json           what is being run: written first, removed last
 //   DIR/unfinished/settle.checkpoint  where settling was a few seconds ago
+//   DIR/unfinished/settled.txt        what pile.bin was made from, and its SHA-256
 //   DIR/unfinished/frames.txt         hashes of the frames that were rendered
 //   DIR/unfinished/files.txt          names of the files that it writes
 //   DIR/pile.bin, ...                 a file has its final name when it is complete
 //   DIR/manifest.json                 written when all the others are there
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -19,8 +22,9 @@ class FolderLock;
 
 class RunFolder {
  public:
-  // For a new run. Creates the folder. Throws InputError when an unfinished run or anything else is
-  // in it, unless `force`: then the files of that run are removed, and nothing else.
+  // For a new run. Creates the folder, and locks it until the object goes. Throws InputError when
+  // another process is at work in it, and when an unfinished run or anything else is in it, unless
+  // `force`: then the files of that run are removed, and nothing else.
   static RunFolder create(const std::string& path, bool force);
   // For going on with an unfinished one. Throws InputError when there is none, or when another
   // process is at work in it.
@@ -36,6 +40,11 @@ class RunFolder {
   // Marks the folder as that of an unfinished run, until finish(). run_json: what is being run.
   void begin(const std::string& run_json);
   void finish() const;
+  // Of pile.bin, which is complete: `work` is the hash of what it was made from (hash_work()).
+  void note_pile(std::uint64_t work) const;
+  // Whether pile.bin is there, is the one that was noted, and was made from this work.
+  bool has_pile_of(std::uint64_t work) const;
+
   // Notes files that are about to be written, so that --force finds them whatever happens.
   void expect(const std::vector<std::string>& names) const;
 

@@ -12,6 +12,7 @@
 #include "io/pile_state_file.h"
 #include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"
+#include "kernel/settling/settle_checkpoint.h"
 #include "scripting/value.h"
 
 namespace rubble {
@@ -62,14 +63,17 @@ class SettleWatch {
   bool warned_ = false;
 };
 
-PileState settle_from_checkpoint_or_start(Run& run, const RunFolder& folder) {
-  const Pile pile = generate_pile(build_pile_spec(run.pile_scenario, run.assets));
+PileState settle_from_checkpoint_or_start(Run& run, const RunFolder& folder, const Pile& pile) {
   SettleOptions options = run.pile_scenario.settle;
   options.threads = run.threads();
   SettleWatch watch(run, folder, options);
   const auto step = [&watch](const SettleProgress& p) { return watch.step(p); };
   if (!folder.has("unfinished/settle.checkpoint")) return settle_pile(pile, options, step);
   return resume_settling(load_checkpoint(folder.checkpoint_file()), pile, options, step);
+}
+
+std::uint64_t hash_pile_work(const Run& run, const Pile& pile) {
+  return hash_work(pile, run.pile_scenario.settle);
 }
 
 void measure_voids(Run& run, const RunFolder& folder) {
@@ -85,13 +89,24 @@ void measure_voids(Run& run, const RunFolder& folder) {
 
 }  // namespace
 
+void keep_pile(const Run& run, const PileState& state, const RunFolder& folder) {
+  const Pile pile = generate_pile(build_pile_spec(run.pile_scenario, run.assets));
+  save_pile_state(state, folder.file("pile.bin"));
+  folder.note_pile(hash_pile_work(run, pile));
+}
+
 void settle(Run& run, RunFolder& folder) {
   run.progress.start("settle");
-  const bool loaded = folder.has("pile.bin");
+  const Pile pile = generate_pile(build_pile_spec(run.pile_scenario, run.assets));
+  const std::uint64_t work = hash_pile_work(run, pile);
+  const bool loaded = folder.has_pile_of(work);
   run.pile = loaded ? load_pile_state(folder.file("pile.bin"))
-                    : settle_from_checkpoint_or_start(run, folder);
+                    : settle_from_checkpoint_or_start(run, folder, pile);
   throw_if_stopped(folder.path());
-  if (!loaded) save_pile_state(run.pile, folder.file("pile.bin"));
+  if (!loaded) {
+    save_pile_state(run.pile, folder.file("pile.bin"));
+    folder.note_pile(work);
+  }
   folder.add("pile.bin");
   add_pile_metrics(run.pile, run.assets, run.metrics);
   char text[160];

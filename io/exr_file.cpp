@@ -33,19 +33,20 @@ class StringStream : public Imf::OStream {
   std::size_t position_ = 0;
 };
 
-template <typename T>
-std::string encode(int width, int height, const std::vector<std::string>& channels,
-                   Imf::PixelType type, const std::vector<T>& values) {
+}  // namespace
+
+std::string encode_exr(int width, int height, const std::vector<std::string>& channels,
+                       const std::vector<float>& values) {
   Imf::Header header(width, height);
   header.compression() = Imf::ZIP_COMPRESSION;
   Imf::FrameBuffer pixels;
-  const std::size_t step = channels.size() * sizeof(T);
+  const std::size_t step = channels.size() * sizeof(float);
   for (std::size_t c = 0; c < channels.size(); ++c) {
-    header.channels().insert(channels[c], Imf::Channel(type));
+    header.channels().insert(channels[c], Imf::Channel(Imf::FLOAT));
     // The library only reads; its interface is the one for reading files, too.
-    auto* base = reinterpret_cast<char*>(const_cast<T*>(values.data() + c));
+    auto* base = reinterpret_cast<char*>(const_cast<float*>(values.data() + c));
     pixels.insert(channels[c],
-                  Imf::Slice(type, base, step, step * static_cast<std::size_t>(width)));
+                  Imf::Slice(Imf::FLOAT, base, step, step * static_cast<std::size_t>(width)));
   }
   std::string bytes;
   StringStream stream(bytes);
@@ -59,14 +60,15 @@ std::string encode(int width, int height, const std::vector<std::string>& channe
   return bytes;
 }
 
+namespace {
+
 // One channel after another, into every channels.size()-th value.
-template <typename T>
-void read_channel(Imf::InputFile& file, const std::string& name, Imf::PixelType type, int width,
-                  int height, std::size_t first, std::size_t step, std::vector<double>& values) {
-  std::vector<T> plane(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+void read_channel(Imf::InputFile& file, const std::string& name, int width, int height,
+                  std::size_t first, std::size_t step, std::vector<double>& values) {
+  std::vector<float> plane(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   Imf::FrameBuffer pixels;
-  pixels.insert(name, Imf::Slice(type, reinterpret_cast<char*>(plane.data()), sizeof(T),
-                                 sizeof(T) * static_cast<std::size_t>(width)));
+  pixels.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(plane.data()), sizeof(float),
+                                 sizeof(float) * static_cast<std::size_t>(width)));
   file.setFrameBuffer(pixels);
   file.readPixels(0, height - 1);
   for (std::size_t i = 0; i < plane.size(); ++i)
@@ -86,26 +88,13 @@ ExrImage read_exr(const std::string& path, const std::vector<std::string>& chann
     for (std::size_t c = 0; c < channels.size(); ++c) {
       const Imf::Channel* channel = file.header().channels().findChannel(channels[c]);
       if (!channel) throw std::runtime_error("it has no channel " + channels[c]);
-      const auto read =
-          channel->type == Imf::UINT ? read_channel<std::uint32_t> : read_channel<float>;
-      read(file, channels[c], channel->type == Imf::UINT ? Imf::UINT : Imf::FLOAT, image.width,
-           image.height, c, channels.size(), image.values);
+      read_channel(file, channels[c], image.width, image.height, c, channels.size(), image.values);
     }
     return image;
   } catch (const std::exception& error) {
     throw InputError(
         {path, 0, "", std::string("cannot be read as an EXR: ") + error.what(), "", "", ""});
   }
-}
-
-std::string encode_exr(int width, int height, const std::vector<std::string>& channels,
-                       const std::vector<float>& values) {
-  return encode(width, height, channels, Imf::FLOAT, values);
-}
-
-std::string encode_exr(int width, int height, const std::vector<std::string>& channels,
-                       const std::vector<std::uint32_t>& values) {
-  return encode(width, height, channels, Imf::UINT, values);
 }
 
 }  // namespace rubble

@@ -7,12 +7,11 @@
 
 namespace rubble {
 
+// OpenCV's reader knows a single channel by the name Y alone, and three as R, G and B.
 // Interleaved values of some channels, rows from the top; `channels` names them in that order.
 // The bytes of an EXR file with ZIP compression, lossless, NaN included. Throws RunError.
 std::string encode_exr(int width, int height, const std::vector<std::string>& channels,
                        const std::vector<float>& values);
-std::string encode_exr(int width, int height, const std::vector<std::string>& channels,
-                       const std::vector<std::uint32_t>& values);
 
 // The same values again, as numbers that hold each of them exactly. Throws InputError for a file
 // that is missing, damaged, or without these channels.

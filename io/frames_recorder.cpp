@@ -30,6 +30,21 @@ std::string camera_json(const Intrinsics& k, double baseline) {
   return json.dump(2) + "\n";
 }
 
+// Piece numbers as 32-bit signed integers, so that the ground is -1 and nothing -2, in floats: readers
+// of EXR files that know no integers make floats of them anyway, and could not tell the two apart.
+std::vector<float> signed_numbers(const std::vector<std::uint32_t>& instance) {
+  constexpr std::int32_t kMost = 1 << 24;  // floats hold all integers up to it
+  std::vector<float> out;
+  out.reserve(instance.size());
+  for (const std::uint32_t id : instance) {
+    const auto number = std::int32_t(id);
+    if (number < -2 || number > kMost)
+      throw RunError("piece " + std::to_string(id) + " has no number that an EXR file can hold");
+    out.push_back(float(number));
+  }
+  return out;
+}
+
 class FramesRecorder : public Recorder {
  public:
   FramesRecorder(const std::string& path, const Recording& recording, int threads)
@@ -83,9 +98,8 @@ class FramesRecorder : public Recorder {
                 [image = RgbImage{k.width, k.height, rgb}] { return encode_png(image); });
   }
 
-  template <typename T>
   void add_exr(const char* channel, const Frame& frame, std::vector<std::string> names,
-               const std::vector<T>& values) {
+               const std::vector<float>& values) {
     const int width = frame.intrinsics.width, height = frame.intrinsics.height;
     folder_.add(name(channel, frame, ".exr"), [width, height, names = std::move(names), values] {
       return encode_exr(width, height, names, values);
@@ -99,15 +113,15 @@ class FramesRecorder : public Recorder {
 
   void add_depths(const Frame& frame) {
     const bool measured = channels_.measured_depth;
-    add_exr("depth", frame, {"Z"}, measured ? frame.measured_depth : frame.depth);
-    if (measured) add_exr("depth_true", frame, {"Z"}, frame.depth);
+    add_exr("depth", frame, {"Y"}, measured ? frame.measured_depth : frame.depth);
+    if (measured) add_exr("depth_true", frame, {"Y"}, frame.depth);
   }
 
   void add_truth(const Frame& frame) {
     const Channels& c = channels_;
     const int width = frame.intrinsics.width, height = frame.intrinsics.height;
-    if (c.normals) add_exr("normals", frame, {"X", "Y", "Z"}, frame.normals);
-    if (c.instance) add_exr("instance", frame, {"instance"}, frame.instance);
+    if (c.normals) add_exr("normals", frame, {"R", "G", "B"}, frame.normals);
+    if (c.instance) add_exr("instance", frame, {"Y"}, signed_numbers(frame.instance));
     if (c.sky_visibility) add_exr("sky_visibility", frame, {"Y"}, frame.sky_visibility);
     if (c.label) {
       folder_.add(name("label", frame, ".png"),

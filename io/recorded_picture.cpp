@@ -48,6 +48,13 @@ Found read_exr_picture(const std::string& folder, const std::string& name,
                          std::move(image.values)};
 }
 
+// As frames_recorder.cpp writes them.
+Found read_exr_instances(const std::string& folder, const std::string& name) {
+  Found picture = read_exr_picture(folder, name, {"Y"});
+  for (double& value : picture->values) value = double(std::uint32_t(std::int32_t(value)));
+  return picture;
+}
+
 Found read_flow_picture(const std::string& folder, const std::string& name) {
   const FlowImage image = read_flow(folder + "/" + name);
   return RecordedPicture{name, image.width, image.height, 2, numbers(image.flow)};
@@ -63,11 +70,11 @@ Found from_frames(const std::string& folder, Wanted wanted) {
   if (c == "rgb_right") return read_colour(folder, name("right", ".png"));
   if (c == "label") return read_integers(folder, name("label", ".png"), 0);
   if (c == "flow") return read_flow_picture(folder, name("flow", ".flo"));
-  if (c == "normals") return read_exr_picture(folder, name(c, ".exr"), {"X", "Y", "Z"});
-  if (c == "instance") return read_exr_picture(folder, name(c, ".exr"), {"instance"});
+  if (c == "normals") return read_exr_picture(folder, name(c, ".exr"), {"R", "G", "B"});
+  if (c == "instance") return read_exr_instances(folder, name(c, ".exr"));
   if (c == "sky_visibility") return read_exr_picture(folder, name(c, ".exr"), {"Y"});
   const bool truth_aside = c == "depth" && wanted.measured_depth;
-  return read_exr_picture(folder, name(truth_aside ? "depth_true" : "depth", ".exr"), {"Z"});
+  return read_exr_picture(folder, name(truth_aside ? "depth_true" : "depth", ".exr"), {"Y"});
 }
 
 // The file of a row of a TUM list, such as rgb.txt; empty: it has not so many.

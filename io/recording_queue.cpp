@@ -1,10 +1,12 @@
 #include "io/recording_queue.h"
 
 #include <algorithm>
+#include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <string>
 #include <thread>
 
 #include "kernel/base/error.h"
@@ -118,7 +120,38 @@ RecordingQueue::RecordingQueue(std::vector<std::unique_ptr<Recorder>> recorders,
 
 RecordingQueue::~RecordingQueue() = default;
 
+namespace {
+
+bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// What of a frame is not a number; null: nothing.
+const char* find_not_finite(const Frame& frame) {
+  const Quat& q = frame.world_from_camera.rotation;
+  const Intrinsics& k = frame.intrinsics;
+  if (!is_finite(frame.world_from_camera.translation)) return "position";
+  if (!is_finite({q.x, q.y, q.z}) || !std::isfinite(q.w)) return "orientation";
+  if (!is_finite(frame.linear_velocity)) return "velocity";
+  if (!is_finite({k.fx, k.fy, k.cx}) || !std::isfinite(k.cy)) return "camera matrix";
+  for (const double c : k.distortion)
+    if (!std::isfinite(c)) return "distortion";
+  if (!std::isfinite(frame.exposure_s)) return "exposure time";
+  if (!std::isfinite(frame.baseline)) return "stereo baseline";
+  for (const ImuSample& s : frame.imu)
+    if (!is_finite(s.angular_velocity) || !is_finite(s.linear_acceleration) ||
+        !is_finite(s.angular_bias) || !is_finite(s.acceleration_bias))
+      return "inertial measurement";
+  return nullptr;
+}
+
+}  // namespace
+
 void RecordingQueue::push(Frame frame) {
+  if (const char* what = find_not_finite(frame))
+    throw RunError("frame " + std::to_string(frame.index) + " is not recorded: its " + what +
+                   " is not a finite number; this is a fault of the program or of the numbers in "
+                   "the mission's trajectory");
   auto shared_frame = std::make_shared<const Frame>(std::move(frame));
   Shared& s = *shared_;
   std::unique_lock lock(s.mutex);

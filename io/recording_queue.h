@@ -23,7 +23,9 @@ class RecordingQueue {
   RecordingQueue(const RecordingQueue&) = delete;
   RecordingQueue& operator=(const RecordingQueue&) = delete;
 
-  // Waits while the slowest recorder is `capacity` frames behind.
+  // Waits while the slowest recorder is `capacity` frames behind. Throws RunError, and gives the frame
+  // to no recorder, when a number in it that must be finite is not: pose, velocity, intrinsics,
+  // exposure, and what the inertial unit measures. (NaN in a depth image says that nothing is there.)
   void push(Frame frame);
   // Waits until every recorder has every frame, then finishes them all. No push() afterwards.
   void finish();

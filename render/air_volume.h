@@ -1,5 +1,6 @@
 // The air in front of the camera, tabled for one frame: how much light passes up to each distance,
-// and how much is thrown towards the lens on the way. Reckoned on the processor from the same Medium
+// and how much is thrown towards the lens on the way: of the lights and the lamp by the phase function
+// of what hangs there, of sky and surfaces, whose light comes from all around, evenly. Reckoned on the processor from the same Medium
 // that the depth sensor asks.
 #pragma once
 
@@ -8,6 +9,7 @@
 
 #include "kernel/base/parallel.h"
 #include "render/bake.h"
+#include "render/lighting.h"
 #include "render/medium.h"
 #include "render/view_rays.h"
 
@@ -17,7 +19,7 @@ namespace rubble {
 struct AirLamp {
   Vec3f position, axis, colour;  // world; the way it looks; kcd
   float cone = 0;                // 1 / (1 - cosine of the half-power angle)
-  float offset2 = 4e-4f;         // square of the distance that softens the pole beside the lens; m2
+  float size2 = 4e-4f;           // square of its size, nearer than which it gets no brighter; m2
 };
 
 class AirVolume {
@@ -29,7 +31,8 @@ class AirVolume {
   static constexpr double kFarthest = 300;  // unit: m
   static double slice_distance(int slice);
 
-  void build(const ViewRays& view, const Air& air, const AirLight& light,
+  // light: what is baked; lights: where its direct part comes from.
+  void build(const ViewRays& view, const Air& air, const AirLight& light, const LightSet& lights,
              const AirLamp* lamp, ThreadPool& pool);
 
   // Red, green, blue (kcd/m2) and transmittance; x runs fastest, then y (rows from the top), then
@@ -43,6 +46,7 @@ class AirVolume {
   const ViewRays* view_ = nullptr;
   const Air* air_ = nullptr;
   const AirLight* light_ = nullptr;
+  const LightSet* lights_ = nullptr;
   const AirLamp* lamp_ = nullptr;
 };
 

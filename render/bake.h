@@ -23,9 +23,20 @@ struct BakeOptions {
 struct AirLight {
   Vec3f origin, cell;                  // of grid point (0, 0, 0), and from point to point; unit: m
   std::array<std::int32_t, 3> size{};  // points along x, y and z
-  std::vector<Vec3f> radiance;         // mean over all directions; unit: kcd/m2; x runs fastest
+  // Of sky and surfaces, the mean over all directions; unit: kcd/m2; x runs fastest
+  std::vector<Vec3f> radiance;
+  // Of each light in turn, in grids like that: its illuminance where it arrives; unit: klx. Empty:
+  // none arrives anywhere.
+  std::vector<Vec3f> direct;
 
-  Vec3f at(const Vec3f& point) const;  // between points, or of the border's nearest outside
+  // Between points, or of the border's nearest outside.
+  Vec3f at(const Vec3f& point) const { return at(radiance.data(), point); }
+  Vec3f direct_at(std::size_t light, const Vec3f& point) const {
+    return direct.empty() ? Vec3f() : at(direct.data() + light * radiance.size(), point);
+  }
+
+ private:
+  Vec3f at(const Vec3f* grid, const Vec3f& point) const;
 };
 
 struct BakedScene {

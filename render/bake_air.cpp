@@ -20,6 +20,7 @@ Vec3f times(const Vec3f& a, const Vec3f& b) { return {a.x * b.x, a.y * b.y, a.z 
 struct AirBaker : AirBakeInput {
   AirLight bake() const;
   bool air_radiance(const Vec3f& point, Vec3f& mean) const;
+  void add_lights(const Vec3f& point, AirLight& air, std::size_t at) const;
   void keep_light_out(AirLight& air, const std::vector<std::uint8_t>& known) const;
 };
 
@@ -43,14 +44,35 @@ bool AirBaker::air_radiance(const Vec3f& point, Vec3f& mean) const {
   }
   if (inside > kRays / 4) return false;
   mean = sum * (1.0f / kRays);
-  // The lights themselves, scattered evenly.
-  for (const LightModel& l : light.lights) {
-    const LightModel::Sample sample = l.at(point);
-    if (!rays.blocked(point, sample.to_light, 0, std::min(sample.distance * 0.999f, kFarthest)))
-      mean += sample.illuminance * (1 / (4 * kPi));
-  }
   return true;
 }
+
+// The lights themselves: how they are scattered depends on where one looks from.
+void AirBaker::add_lights(const Vec3f& point, AirLight& air, std::size_t at) const {
+  for (std::size_t i = 0; i < light.lights.size(); ++i) {
+    const LightModel::Sample sample = light.lights[i].at(point);
+    if (!rays.blocked(point, sample.to_light, 0, std::min(sample.distance * 0.999f, kFarthest)))
+      air.direct[i * air.radiance.size() + at] = sample.illuminance;
+  }
+}
+
+// Makes grid point `to` of every kind of light that of `from`, in grids as they were before.
+struct AirCopy {
+  explicit AirCopy(const AirLight& air) : radiance(air.radiance), direct(air.direct) {}
+  void copy(std::size_t from, std::size_t to, AirLight& air) const {
+    air.radiance[to] = radiance[from];
+    for (std::size_t first = 0; first < direct.size(); first += radiance.size())
+      air.direct[first + to] = direct[first + from];
+  }
+  // If it were scattered evenly; unit: kcd/m2
+  float brightness(std::size_t i) const {
+    float sum = luminance(radiance[i]);
+    for (std::size_t first = 0; first < direct.size(); first += radiance.size())
+      sum += luminance(direct[first + i]) / (4 * kPi);
+    return sum;
+  }
+  std::vector<Vec3f> radiance, direct;
+};
 
 // Points inside pieces take the mean of their neighbours outside, ring by ring.
 void fill_inside(AirLight& air, std::vector<std::uint8_t>& known) {
@@ -63,13 +85,20 @@ void fill_inside(AirLight& air, std::vector<std::uint8_t>& known) {
       if (before[i]) continue;
       const int x = int(i) % nx, y = int(i) / nx % ny, z = int(i) / (nx * ny);
       const bool there[6] = {x > 0, x + 1 < nx, y > 0, y + 1 < ny, z > 0, z + 1 < nz};
-      Vec3f sum;
-      float count = 0;
-      for (int k = 0; k < 6; ++k) {
-        const std::size_t j = std::size_t(std::ptrdiff_t(i) + steps[k]);
-        if (there[k] && before[j]) sum += air.radiance[j], count += 1;
-      }
-      if (count > 0) air.radiance[i] = sum * (1 / count), known[i] = 1, changed = true;
+      const auto mean = [&](std::vector<Vec3f>& grid, std::size_t first) {
+        Vec3f sum;
+        float count = 0;
+        for (int k = 0; k < 6; ++k) {
+          const std::size_t j = std::size_t(std::ptrdiff_t(i) + steps[k]);
+          if (there[k] && before[j]) sum += grid[first + j], count += 1;
+        }
+        if (count > 0) grid[first + i] = sum * (1 / count);
+        return count > 0;
+      };
+      if (!mean(air.radiance, 0)) continue;
+      for (std::size_t first = 0; first < air.direct.size(); first += known.size())
+        mean(air.direct, first);
+      known[i] = 1, changed = true;
     }
   }
 }
@@ -77,25 +106,25 @@ void fill_inside(AirLight& air, std::vector<std::uint8_t>& known) {
 // Between two points on either side of a slab, light would be taken from both: sunlight would glow
 // in the void beneath. So a point takes the light of the darkest neighbour that it does not see.
 void AirBaker::keep_light_out(AirLight& air, const std::vector<std::uint8_t>& known) const {
-  const std::vector<Vec3f> before = air.radiance;
+  const AirCopy before(air);
   const auto [nx, ny, nz] = air.size;
   const auto index = [nx = nx, ny = ny](int x, int y, int z) {
     return std::size_t((z * ny + y) * nx + x);
   };
   const auto darken = [&, nx = nx, ny = ny, nz = nz](int x, int y, int z) {
     const std::size_t i = index(x, y, z);
-    float least = luminance(before[i]);
+    float least = before.brightness(i);
     for (int k = 0; k < 27; ++k) {
       const int a = k % 3 - 1, b = k / 3 % 3 - 1, c = k / 9 - 1;
       const int u = x + a, v = y + b, w = z + c;
       if (u < 0 || v < 0 || w < 0 || u >= nx || v >= ny || w >= nz) continue;
       const std::size_t j = index(u, v, w);
-      if (!known[j] || luminance(before[j]) >= 0.7f * least) continue;
+      if (!known[j] || before.brightness(j) >= 0.7f * least) continue;
       const Vec3f step = times(air.cell, Vec3f(float(a), float(b), float(c)));
       const Vec3f from = air.origin + times(air.cell, Vec3f(float(x), float(y), float(z)));
       const float length = norm(step);
       if (!rays.blocked(from, step * (1 / length), 0, length)) continue;
-      least = luminance(before[j]), air.radiance[i] = before[j];
+      least = before.brightness(j), before.copy(j, i, air);
     }
   };
   parallel_for(std::size_t(ny * nz), threads, [&, nx = nx, ny = ny](std::size_t row) {
@@ -118,12 +147,15 @@ AirLight AirBaker::bake() const {
   }
   const auto [nx, ny, nz] = air.size;
   air.radiance.resize(std::size_t(nx) * std::size_t(ny) * std::size_t(nz));
+  air.direct.resize(air.radiance.size() * light.lights.size());
   std::vector<std::uint8_t> known(air.radiance.size());
   parallel_for(std::size_t(ny * nz), threads, [&, row = nx, rows = ny](std::size_t job) {
     for (int x = 0; x < row; ++x) {
       const std::size_t i = job * std::size_t(row) + std::size_t(x);
       const Vec3f step(float(x), float(int(job) % rows), float(int(job) / rows));
-      known[i] = air_radiance(air.origin + times(air.cell, step), air.radiance[i]);
+      const Vec3f point = air.origin + times(air.cell, step);
+      known[i] = air_radiance(point, air.radiance[i]);
+      if (known[i]) add_lights(point, air, i);
     }
   });
   keep_light_out(air, known);
@@ -135,8 +167,8 @@ AirLight AirBaker::bake() const {
 
 AirLight bake_air(const AirBakeInput& input) { return AirBaker{input}.bake(); }
 
-Vec3f AirLight::at(const Vec3f& point) const {
-  if (radiance.size() == 1) return radiance.front();
+Vec3f AirLight::at(const Vec3f* grid, const Vec3f& point) const {
+  if (radiance.size() == 1) return *grid;
   int low[3];
   float part[3];
   for (int i = 0; i < 3; ++i) {
@@ -146,7 +178,7 @@ Vec3f AirLight::at(const Vec3f& point) const {
     part[i] = at - float(low[i]);
   }
   const auto [nx, ny, nz] = size;
-  const Vec3f* corner = radiance.data() + (low[2] * ny + low[1]) * nx + low[0];
+  const Vec3f* corner = grid + (low[2] * ny + low[1]) * nx + low[0];
   const auto row = [&](const Vec3f* p) { return p[0] + (p[1] - p[0]) * part[0]; };
   const auto layer = [&](const Vec3f* p) {
     const Vec3f a = row(p);

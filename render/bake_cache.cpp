@@ -6,7 +6,7 @@ namespace rubble {
 
 namespace {
 
-constexpr int kVersion = 3;  // raise it when the same scene bakes to other light
+constexpr int kVersion = 4;  // raise it when the same scene bakes to other light
 
 template <typename T>
 void add_vec(CacheKey& key, const Vec3T<T>& v) {
@@ -64,13 +64,13 @@ BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene,
     BakedScene out;
     CacheReader reader(*bytes);
     reader.get(out.vertices), reader.get(out.air.origin), reader.get(out.air.cell);
-    reader.get(out.air.size), reader.get(out.air.radiance);
+    reader.get(out.air.size), reader.get(out.air.radiance), reader.get(out.air.direct);
     if (reader.whole() && out.vertices.size() == scene.light_vertices) return out;
   }
   const BakedScene out = bake_light(scene, light, options, progress);
   CacheWriter writer;
   writer.put(out.vertices), writer.put(out.air.origin), writer.put(out.air.cell);
-  writer.put(out.air.size), writer.put(out.air.radiance);
+  writer.put(out.air.size), writer.put(out.air.radiance), writer.put(out.air.direct);
   cache.store("baked_light", key, writer.bytes());
   return out;
 }

@@ -1,7 +1,7 @@
 #include "render/exposure.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 
 #include "kernel/base/portable_math.h"
 
@@ -24,33 +24,26 @@ double shown_brightness(double kcd_per_m2, double least) {
 
 }  // namespace
 
-void AutoExposure::follow(const std::vector<std::uint8_t>& rgba, int width, int height,
-                          double elapsed) {
-  if (options_.fixed > 0) {
-    factor_ = float(options_.fixed);
-    settled_ = true;
-    return;
-  }
-  // Mean of the logarithm of luminance, the middle counting double; every 4th pixel will do.
-  std::int64_t sum = 0, weight = 0;
-  for (int y = 2; y < height; y += 4) {
-    for (int x = 2; x < width; x += 4) {
-      const bool middle =
-          x > width / 4 && x < width * 3 / 4 && y > height / 4 && y < height * 3 / 4;
-      const int w = middle ? 2 : 1;
-      sum += w * rgba[(std::size_t(y) * std::size_t(width) + std::size_t(x)) * 4 + 3];
-      weight += w;
+float find_exposure(const ExposureOptions& options, const MeteredImage& image) {
+  constexpr float kNothing = -1000;
+  constexpr double kUnknown = 0.1, kDarkest = -40;  // unit of the latter: stops from 1 kcd/m2
+  if (options.fixed > 0) return float(options.fixed);
+  double sum = 0, weights = 0;
+  const int w = image.width, h = image.height;
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) {
+      const float stops = image.stops[std::size_t(y) * std::size_t(w) + std::size_t(x)];
+      if (!(stops > kNothing)) continue;
+      const bool middle = 4 * x > w && 4 * x < 3 * w && 4 * y > h && 4 * y < 3 * h;
+      const double weight = middle ? 2 : 1;
+      sum += weight * std::max(double(stops), kDarkest);
+      weights += weight;
     }
   }
-  if (!weight) return;
-  const double stops = (double(sum) / double(weight) / 255 - 0.5) * 24;
-  const double brightness =
-      shown_brightness(exp2_portable(stops) / double(factor_), options_.dusk);
-  const double wanted = portable::log(options_.key * brightness) / kLog2 - stops;
-  double share = 1;
-  if (settled_) share = 1 - portable::exp(-std::clamp(elapsed / options_.seconds, 0.0, 50.0));
-  factor_ = float(std::clamp(double(factor_) * exp2_portable(wanted * share), 1e-5, 1e6));
-  if (std::fabs(wanted) < 0.15) settled_ = true;
+  if (weights == 0) return float(kUnknown);
+  const double stops = sum / weights;
+  const double brightness = shown_brightness(exp2_portable(stops), options.dusk);
+  return float(std::clamp(options.key * brightness * exp2_portable(-stops), 1e-5, 1e6));
 }
 
 }  // namespace rubble

@@ -97,6 +97,15 @@ double Air::extinction(const Vec3& p) const {
   return sum > 0 ? sum * billows(p) : 0;
 }
 
+double Air::scattering(const Vec3& p, double cosine) const {
+  double dust = 0;
+  for (const DustPuff& puff : puffs_) dust += puff.at(p);
+  const double mist = fog(p);
+  if (!(mist + dust > 0)) return 0;
+  return albedo() * billows(p) * (mist * phase_function(fog_asymmetry(), cosine) +
+                                  dust * phase_function(dust_asymmetry(), cosine));
+}
+
 double Air::optical_depth(const Vec3& from, const Vec3& direction, double distance) const {
   double sum = 0;
   if (spec_.fog_noise <= 0) {

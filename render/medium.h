@@ -8,10 +8,12 @@
 //     extinction = density (r/s)^3 m exp(-|p - c|^2 / (2 s^2)),  s^2 = r^2 + 2 spread age,
 //     c = start + wind age + throw * 0.5 s * (1 - exp(-age / 0.5 s)) - fall age,
 //     m = 2^(-age / half_life) (1 - age / (5 half_life)) (1 - exp(-age / 0.2 s))
+// Light that is scattered is turned by the phase function below, of fog and of dust by their own g.
 // Each burst throws out kPuffs of them in directions of its own; bursts, places and directions
 // follow from the seed and the number of the burst alone. Time zero is the start of the mission.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -20,6 +22,14 @@
 #include "render/scene.h"
 
 namespace rubble {
+
+// Henyey and Greenstein 1941, "Diffuse radiation in the galaxy": the share of scattered light that
+// leaves per steradian at an angle to its way, for a mean cosine g; over all directions it is 1.
+// cosine: 1 straight on, -1 straight back. unit: 1/sr
+inline double phase_function(double g, double cosine) {
+  const double base = 1 + g * g - 2 * g * cosine;
+  return (1 - g * g) / (4 * 3.14159265358979324 * base * std::sqrt(base));
+}
 
 struct DustPuff {
   Vec3 centre;
@@ -44,6 +54,11 @@ class Air {
   // The same everywhere: optical depth is extinction({}) times distance.
   bool homogeneous() const;
   double albedo() const { return spec_.fog_intensity; }
+  // Light that is scattered at p by an angle of this cosine, per metre and steradian, as a share of
+  // the light that comes: of fog and dust, each by its own phase function; unit: 1/(m sr)
+  double scattering(const Vec3& p, double cosine) const;
+  double fog_asymmetry() const { return spec_.fog_asymmetry; }
+  double dust_asymmetry() const { return spec_.dust.asymmetry; }
 
   // The parts that extinction is made of.
   double fog(const Vec3& p) const;

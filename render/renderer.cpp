@@ -114,8 +114,7 @@ struct Renderer::State {
   FrameLight frame_light;
   std::unique_ptr<VisibilityPass> visibility;
   std::unique_ptr<ResolvePass> resolve;
-  AutoExposure exposure;
-  std::int64_t last_stamp_ns = 0;
+  float exposure = 0.1f;  // of the frame drawn last
   RenderTimes times;
   std::vector<std::uint8_t> rgba;
   std::unique_ptr<TruthMaker> truth;
@@ -125,7 +124,8 @@ struct Renderer::State {
   void update_air(const ViewRays& view);
   // Which triangle each pixel shows: by rasterising where that will do, by casting rays otherwise.
   SurfaceImages draw_surfaces(const ViewRays& view);
-  void draw_colour(const SurfaceImages& surfaces);
+  // metered: at the exposure that the view itself asks for; otherwise at that of the frame before.
+  void draw_colour(const SurfaceImages& surfaces, bool metered);
   ViewProjection projection() const { return {drawn.world_from_camera, drawn.intrinsics}; }
   // Of the view drawn last.
   const std::vector<float>& depth_values() const;
@@ -145,8 +145,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
       medium(s.air, s.seed),
       start_ns(s.start_ns),
       seed(s.seed),
-      pool(std::max(1, o.threads)),
-      exposure(ExposureOptions{0.21, 0.25, o.fixed_exposure}) {
+      pool(std::max(1, o.threads)) {
   const auto report = [&](double fraction) {
     if (progress) progress(fraction);
   };
@@ -168,8 +167,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
   geometry = upload_geometry(gl, scene, baked.vertices);
   report(0.9);
   shadow = draw_shadow_map(gl, scene, geometry, light, o.shadow_size);
-  frame_light = {&light,    &shadow,           s.lamp, s.air,  medium.homogeneous(),
-                 s.wetness, most_gloss(scene), {},     nullptr};
+  frame_light = {&light, &shadow, s.lamp, medium.clear(), s.wetness, most_gloss(scene), nullptr};
   visibility = std::make_unique<VisibilityPass>(
       gl, scene, geometry,
       VisibilityOptions{o.occlusion_culling, o.coarse_below, draws_on_processor(o, c.info()),
@@ -183,17 +181,15 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
 void Renderer::State::update_air(const ViewRays& view) {
   const Pose& pose = view.world_from_camera;
   if (medium.clear()) return;
-  frame_light.air_ambient = air_light.at(Vec3f(pose.translation));
-  if (medium.homogeneous()) return;
   const LampSpec& lamp = frame_light.lamp;
   AirLamp glow;
   glow.position = Vec3f(pose * lamp.position);
   glow.axis = Vec3f(pose.rotation.rotate({1, 0, 0}));
   glow.colour = lamp.on ? lamp_colour(lamp) : Vec3f();
   glow.cone = float(1 / (1 - portable::cos(0.5 * lamp.cone_deg * portable::kPi / 180)));
-  glow.offset2 = float(std::max(dot(lamp.position, lamp.position), 0.02 * 0.02));
+  glow.size2 = float(std::max(lamp.shape == LampShape::point ? 0.0 : 0.25 * lamp.size * lamp.size, 1e-4));
   const Air air = medium.at(double(view.stamp_ns - start_ns) * 1e-9);
-  air_volume.build(view, air, air_light, &glow, pool);
+  air_volume.build(view, air, air_light, light, &glow, pool);
   frame_light.air_table = &air_volume;
 }
 
@@ -213,9 +209,15 @@ SurfaceImages Renderer::State::draw_surfaces(const ViewRays& view) {
   return {rays->ids(), rays->depth(), rays->depth_values(), &rays->lens_rays(), &rays->row_poses()};
 }
 
-void Renderer::State::draw_colour(const SurfaceImages& surfaces) {
+void Renderer::State::draw_colour(const SurfaceImages& surfaces, bool metered) {
   const Stopwatch start;
-  resolve->draw(projection(), drawn.world_from_camera, surfaces, frame_light, exposure.factor());
+  const Pose& pose = drawn.world_from_camera;
+  const bool automatic = metered && options.fixed_exposure <= 0;
+  const ExposureOptions wanted{0.21, options.fixed_exposure};
+  if (metered)
+    exposure = find_exposure(
+        wanted, automatic ? resolve->meter(projection(), pose, surfaces, frame_light) : MeteredImage());
+  resolve->draw(projection(), pose, surfaces, frame_light, exposure, automatic);
   gl.Finish();
   times.resolve = start.time();
   const Stopwatch read_start;
@@ -277,16 +279,12 @@ void Renderer::restart(const LampSpec& lamp, const AirSpec& air) {
   s.context.make_current();
   s.medium = Medium(air, s.seed);
   s.frame_light.lamp = lamp;
-  s.frame_light.air = air;
-  s.frame_light.even_air = s.medium.homogeneous();
-  s.frame_light.air_ambient = {};
+  s.frame_light.clear_air = s.medium.clear();
   s.frame_light.air_table = nullptr;
   const DiskCache cache(s.options.cache_folder);
   s.resolve = std::make_unique<ResolvePass>(
       s.gl, s.geometry, s.frame_light, make_ground_map(s.scene),
       make_patterns_once(cache, s.options.texture_size, s.options.threads));
-  s.exposure = AutoExposure(ExposureOptions{0.21, 0.25, s.options.fixed_exposure});
-  s.last_stamp_ns = 0;
 }
 
 Frame Renderer::render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,
@@ -300,21 +298,7 @@ Frame Renderer::render(const ViewRays& view, int index) {
   s.context.make_current();
   const Intrinsics& k = view.intrinsics;
   const SurfaceImages surfaces = s.draw_surfaces(view);
-  // The first frame is metered until the exposure holds.
-  constexpr int kMostTries = 4;
-  const double elapsed = std::max(0.0, double(view.stamp_ns - s.last_stamp_ns) * 1e-9);
-  // So does one after a gap in which an exposure would have come to rest.
-  constexpr double kGap = 1;  // unit: s
-  const bool first = !s.exposure.settled() || elapsed > kGap;
-  if (first) s.exposure.restart();
-  if (s.options.fixed_exposure > 0) s.exposure.follow(s.rgba, 0, 0, 0);
-  s.draw_colour(surfaces);
-  for (int i = 0; first && i < kMostTries && !s.exposure.settled(); ++i) {
-    s.exposure.follow(s.rgba, k.width, k.height, 0);
-    s.draw_colour(surfaces);
-  }
-  s.exposure.follow(s.rgba, k.width, k.height, first ? 0 : elapsed);
-  s.last_stamp_ns = view.stamp_ns;
+  s.draw_colour(surfaces, true);
 
   Frame frame;
   frame.index = index;
@@ -366,7 +350,7 @@ std::vector<std::uint8_t> Renderer::render_beside(const ViewRays& view) {
   State& s = *state_;
   check_view(view);
   s.context.make_current();
-  s.draw_colour(s.draw_surfaces(view));
+  s.draw_colour(s.draw_surfaces(view), false);
   return s.finish_colour();
 }
 

@@ -71,12 +71,12 @@ class Renderer {
            const Progress& progress = {});
   ~Renderer();
 
-  // Another lamp and other air over the same scene, from a first frame on: the frames are those of a
-  // new Renderer for it, but light that was baked is not baked again.
+  // Another lamp and other air over the same scene: the frames are those of a new Renderer for it, but
+  // light that was baked is not baked again.
   void restart(const LampSpec& lamp, const AirSpec& air);
 
-  // Exposure follows from frame to frame, so frames are to be asked for in order; a new Renderer
-  // starts afresh. Distortion in `intrinsics` is not applied: it must be zero.
+  // Metered on the frame itself: a frame is the same whichever were drawn before it. Distortion in
+  // `intrinsics` is not applied: it must be zero.
   Frame render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,
                std::int64_t stamp_ns);
   // The same through any lens and shutter: exact for each pixel's own ray, without resampling.

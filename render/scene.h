@@ -53,12 +53,18 @@ struct DustSpec {
   double spread = 0.03;     // turbulent diffusivity; unit: m2/s; range: 0 to 10
   double fall = 0.04;       // speed at which it settles; unit: m/s; range: 0 to 10
   double half_life = 8;     // until half of it is gone from the air; unit: s; range: 0.1 to 3600
+  // As AirSpec::fog_asymmetry; mineral dust has 0.7 to 0.8 (Hess, Koepke and Schult 1998, "Optical
+  // properties of aerosols and clouds").
+  double asymmetry = 0.75;
 };
 
 // Fog or smoke, and dust. Extinction is what a metre takes away: transmittance exp(-extinction d).
 struct AirSpec {
   double fog_density = 0;    // extinction at the ground; unit: 1/m; range: 0 to 10
   double fog_intensity = 1;  // share of the extinguished light that is scattered; range: 0 to 1
+  // Mean cosine g of the angle by which light is turned when it is scattered: 0 evenly, near 1 almost
+  // straight on. Smoke about 0.75, droplets of fog 0.85; range: -0.99 to 0.99
+  double fog_asymmetry = 0.75;
   double fog_height = 0;     // scale height: density falls by e every so many metres; 0: it does not
   double fog_noise = 0;      // 0: even; 1: from nothing to double within fog_noise_size
   double fog_noise_size = 2;  // of the largest billows; unit: m; range: 0.05 to 100

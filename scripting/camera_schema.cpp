@@ -61,8 +61,8 @@ void add_exposure(Schema& k, ExposureSpec& e) {
           "How much light the image gets: the share of saturation is 0.65 L t S / (78 N^2), with the "
           "luminance L in cd/m2 (ISO 12232:2006).");
   k.choice("camera.exposure.mode", e.mode, {"ideal", "fixed", "automatic"},
-           "Ideal: a display image, always well exposed, without noise; the rest of the keys count "
-           "otherwise.");
+           "Ideal: a display image, metered on the frame itself, without noise; the rest of the keys "
+           "count otherwise.");
   k.value("camera.exposure.time", e.time, "Exposure time t.").between(1e-6, 1).unit("s");
   k.value("camera.exposure.iso", e.iso, "Speed S; automatic: the lowest.").between(1, 1e6);
   k.value("camera.exposure.f_number", e.f_number, "Aperture N.").between(0.5, 64);
@@ -127,6 +127,10 @@ void add_depth_sensor(Schema& k, DepthSensorSpec& d) {
       .above(0, 1e9);
   k.value("depth_sensor.background", d.background, "Time of flight: electrons of other light.")
       .between(0, 1e9);
+  k.value("depth_sensor.emitter_offset", d.emitter_offset,
+          "Time of flight: from the lens to the emitter on its right; near it the air is not lit.")
+      .between(0.001, 1)
+      .unit("m");
   k.value("depth_sensor.reflectance", d.reflectance,
           "Of all surfaces, in the infrared; 0: of each its own, by its look.")
       .between(0, 1);

@@ -10,6 +10,7 @@
 namespace rubble {
 
 enum class Interpolation {
+  automatic,  // as spline, but with the plan "avoid" the legs of the way that was found
   spline,  // smooth through the waypoints
   // Straight legs at constant speed, turning at constant angular speed (slerp). At the time of a point
   // it is that point, bit for bit, whatever comes after: so a pose that was seen can be kept.

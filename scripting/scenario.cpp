@@ -10,6 +10,8 @@
 namespace rubble {
 namespace {
 
+constexpr double kLeastSmoothing = 0.01;  // of a path with an inertial unit; unit: s
+
 // A mix of which nothing can be drawn.
 void check_mix(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
   double sum = 0;
@@ -163,6 +165,22 @@ void check_meshes(const OutputScenario& outputs, std::vector<Diagnostic>& mistak
   }
 }
 
+// What can be told before there is a pile.
+void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  const TrajectorySpec spec = flown_trajectory(scenario);
+  if (scenario.imu.on && spec.smoothing && *spec.smoothing < kLeastSmoothing)
+    mistakes.push_back({"", 0, "trajectory.smoothing", "too little for an inertial unit",
+                        "at least " + format_number(kLeastSmoothing) + " s, or nothing",
+                        format_number(*spec.smoothing) + " s",
+                        "without it the velocity jumps, and the accelerometer does not feel it"});
+  if (!mistakes.empty() || !spec.smoothing || spec.needs_pile()) return;
+  try {
+    CameraPath{spec};
+  } catch (const InputError& error) {
+    for (const Diagnostic& d : error.diagnostics()) mistakes.push_back(d);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> export_names() { return {"ply", "obj", "glb", "sdf"}; }
@@ -226,7 +244,16 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
                         "at most " + std::to_string(kMostLights - 1) + " besides the main one",
                         std::to_string(scenario.lights.size()), ""});
   for (Diagnostic& d : find_mistakes(scenario.trajectory)) mistakes.push_back(std::move(d));
+  if (mistakes.empty()) check_smoothness(scenario, mistakes);
   return mistakes;
+}
+
+TrajectorySpec flown_trajectory(const Scenario& scenario) {
+  TrajectorySpec spec = scenario.trajectory;
+  const bool curved_way = spec.plan == Plan::avoid && spec.interpolation == Interpolation::spline;
+  if (!spec.smoothing && !spec.limits.max_jerk && (scenario.imu.on || curved_way))
+    spec.smoothing = kUsualSmoothing;
+  return spec;
 }
 
 void Scenario::validate() const {

@@ -188,6 +188,10 @@ struct Scenario {
 // What validate() would throw; empty: none. Keys are schema paths such as "pile.mix[1].scale".
 std::vector<Diagnostic> find_mistakes(const Scenario& scenario);
 
+// The trajectory with its smoothing chosen where the mission leaves that open: kUsualSmoothing where
+// an inertial unit is on, and for a curve around what lies there; none elsewhere.
+TrajectorySpec flown_trajectory(const Scenario& scenario);
+
 // The main light as it shines: with random_rotation, a pitch of 20 to 80 degrees down and any yaw (a
 // sun 5 to 70 degrees high, anywhere), drawn from the seed; with random_position, a place in its box.
 LightSpec resolve_light(const Scenario& scenario);

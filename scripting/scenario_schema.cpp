@@ -223,6 +223,8 @@ void add_dust(Schema& k, DustSpec& dust) {
   k.value("air.dust.half_life", dust.half_life, "Until half of it is gone from the air.")
       .between(0.1, 3600)
       .unit("s");
+  k.value("air.dust.asymmetry", dust.asymmetry, "As `air.fog_asymmetry`, of the dust.")
+      .between(-0.99, 0.99);
 }
 
 void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
@@ -231,6 +233,10 @@ void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
       .between(0, 10)
       .unit("1/m");
   k.value("air.fog_intensity", air.fog_intensity, "Brightness of the fog.").between(0, 1);
+  k.value("air.fog_asymmetry", air.fog_asymmetry,
+          "Mean cosine of the angle by which light is scattered (Henyey-Greenstein): 0 evenly, near 1 "
+          "almost straight on. Smoke 0.75, droplets 0.85.")
+      .between(-0.99, 0.99);
   k.value("air.fog_height", air.fog_height,
           "Density falls by e over so much height above the ground; 0: it does not.")
       .between(0, 1000)
@@ -259,8 +265,9 @@ void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
 void add_trajectory(Schema& k, TrajectorySpec& t) {
   k.group("trajectory", "Where the camera goes.");
   k.value("trajectory.rate_hz", t.rate_hz, "Frames per second.").between(0.001, 1000).unit("Hz");
-  k.choice("trajectory.interpolation", t.interpolation, {"spline", "linear"},
-           "A smooth curve through the waypoints, or straight legs.");
+  k.choice("trajectory.interpolation", t.interpolation, {"automatic", "spline", "linear"},
+           "A smooth curve through the waypoints, or straight legs; with the plan \"avoid\", the "
+           "way that was found made smooth, or its legs. Automatic: the curve, or those legs.");
   k.value("trajectory.speed", t.speed, "To a waypoint that has neither `t` nor `speed`.")
       .above(0, 1000)
       .unit("m/s");
@@ -284,6 +291,19 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
           "Likewise where the view turns faster.")
       .above(0, 36000)
       .unit("degree/s");
+  k.value("trajectory.max_jerk", t.limits.max_jerk,
+          "Bounds the third derivative: the path is made smooth, softer where that is needed, and "
+          "slower where that is not enough.")
+      .above(0, 1e6)
+      .unit("m/s3");
+  k.value("trajectory.smoothing", t.smoothing,
+          "Rounds corners in place and in view over about this long, so that the acceleration has no "
+          "jumps; 0: leaves them. Not given: 0.1 where an inertial unit is on, with `max_jerk`, "
+          "with `rest_at_ends`, and for a spline with the plan \"avoid\"; otherwise 0.")
+      .between(0, 2)
+      .unit("s");
+  k.value("trajectory.rest_at_ends", t.rest_at_ends,
+          "It begins and ends standing still, and takes four times `smoothing` longer.");
   k.list("trajectory.waypoints", t.waypoints,
          "Where the camera passes, in order; one gives a single frame.");
   auto& list = t.waypoints;

@@ -52,12 +52,17 @@ std::vector<double> calc_ceilings(const Steps& s, const SpeedLimits& limits) {
 }
 
 // Bounds how fast the speed changes from one way to the next.
-void bound_changes(const Steps& s, double most, std::vector<double>& speeds) {
+void bound_changes(const Steps& s, double most, bool at_rest, std::vector<double>& speeds) {
   const auto bound = [&](std::size_t from, std::size_t to) {
     const double distance = 0.5 * (norm(s.ways[from]) + norm(s.ways[to]));
     if (distance < kShortest) return;
     speeds[to] = std::min(speeds[to], std::sqrt(speeds[from] * speeds[from] + 2 * most * distance));
   };
+  // From rest, the mean speed over the first way is that in its middle.
+  const auto bound_end = [&](std::size_t i) {
+    if (norm(s.ways[i]) >= kShortest) speeds[i] = std::min(speeds[i], std::sqrt(most * norm(s.ways[i])));
+  };
+  if (at_rest) bound_end(0), bound_end(speeds.size() - 1);
   for (std::size_t i = 1; i < speeds.size(); ++i) bound(i - 1, i);
   for (std::size_t i = speeds.size(); i-- > 1;) bound(i, i - 1);
 }
@@ -65,8 +70,8 @@ void bound_changes(const Steps& s, double most, std::vector<double>& speeds) {
 }  // namespace
 
 TimeScale::TimeScale(const std::function<Pose(double)>& path, double duration, double step,
-                     const SpeedLimits& limits) {
-  if (!limits.any() || !(duration > 0)) return;
+                     const SpeedLimits& limits, bool at_rest) {
+  if (!limits.scales_time() || !(duration > 0)) return;
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(duration / step)));
   Steps s;
   s.step = duration / double(count);
@@ -79,7 +84,7 @@ TimeScale::TimeScale(const std::function<Pose(double)>& path, double duration, d
   }
   std::vector<double> speeds = calc_ceilings(s, limits);
   if (limits.max_acceleration)
-    bound_changes(s, *limits.max_acceleration * std::sqrt(0.5), speeds);
+    bound_changes(s, *limits.max_acceleration * std::sqrt(0.5), at_rest, speeds);
 
   asked_.push_back(0), new_.push_back(0);
   for (std::size_t i = 0; i < count; ++i) {
@@ -98,6 +103,16 @@ TimeScale::TimeScale(const std::function<Pose(double)>& path, double duration, d
   for (std::size_t i = 1; i < count; ++i)
     rates_.push_back(2 * mean(i - 1) * mean(i) / (mean(i - 1) + mean(i)));
   rates_.push_back(mean(count - 1));
+}
+
+double TimeScale::when(double asked) const {
+  double low = 0, high = duration(asked);
+  if (new_.empty()) return asked;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (at(middle).time < asked ? low : high) = middle;
+  }
+  return high;
 }
 
 AskedTime TimeScale::at(double t) const {

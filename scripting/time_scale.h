@@ -20,8 +20,11 @@ struct SpeedLimits {
   std::optional<double> max_speed;          // unit: m/s; > 0
   std::optional<double> max_acceleration;   // unit: m/s2; > 0
   std::optional<double> max_turn_rate_deg;  // unit: degree/s; > 0
+  // Kept by smoothing and, where that is not enough, by slowing down; CameraPath. unit: m/s3; > 0
+  std::optional<double> max_jerk{};
 
-  bool any() const { return max_speed || max_acceleration || max_turn_rate_deg; }
+  bool any() const { return max_speed || max_acceleration || max_turn_rate_deg || max_jerk; }
+  bool scales_time() const { return max_speed || max_acceleration || max_turn_rate_deg; }
 };
 
 // When the path was to be where it is, and how fast that time runs.
@@ -34,14 +37,16 @@ struct AskedTime {
 class TimeScale {
  public:
   TimeScale() = default;  // leaves every time as it is
-  // path: the pose at an asked time from 0 to duration; step: of the table; unit: s
+  // path: the pose at an asked time from 0 to duration; step: of the table; unit: s. at_rest: with a
+  // max_acceleration, the path starts from rest and comes to rest.
   TimeScale(const std::function<Pose(double)>& path, double duration, double step,
-            const SpeedLimits& limits);
+            const SpeedLimits& limits, bool at_rest = false);
 
   double duration(double asked) const { return new_.empty() ? asked : new_.back(); }
   // Monotone and C1: cubic between the table's entries (Fritsch and Butland 1984, "A method for
   // constructing local monotone piecewise cubic interpolants").
   AskedTime at(double t) const;
+  double when(double asked) const;  // the inverse; unit: s
 
  private:
   std::vector<double> asked_, new_;  // ascending, of equal length

@@ -5,6 +5,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "scripting/curves.h"
+#include "scripting/value.h"
 
 namespace rubble {
 namespace {
@@ -12,6 +13,8 @@ namespace {
 constexpr double kDegree = portable::kPi / 180.0;
 constexpr double kNearestTarget = 1e-3;  // unit: m; closer, a direction means nothing
 constexpr double kMostFrames = 10'000'000;
+constexpr double kShortestLeg = 1e-6;  // shorter, speeds are no numbers any more; unit: s
+constexpr double kSoftest = 0.4;  // smoothing that max_jerk may ask for by itself; unit: s
 constexpr double kUnknownWay = 1e-3;  // unit: m; of a leg to a void, for the order of times
 
 std::string waypoint_key(std::size_t i, const char* name) {
@@ -49,6 +52,17 @@ class Checker {
       check_time(i);
     }
     if (spec_.duration) time_ = *spec_.duration;
+    if (spec_.duration && !(*spec_.duration >= kShortestLeg))
+      add("trajectory.duration", "too short", "at least a microsecond",
+          format_number(*spec_.duration) + " s");
+    if (spec_.smoothing && !(*spec_.smoothing >= 0 && *spec_.smoothing <= 2))
+      add("trajectory.smoothing", "out of range", "a number from 0 to 2",
+          words(*spec_.smoothing));
+    const bool smooth = spec_.limits.max_jerk || spec_.rest_at_ends;
+    if (spec_.smoothing && *spec_.smoothing == 0 && smooth)
+      add("trajectory.smoothing",
+          std::string("contradicts ") + (spec_.limits.max_jerk ? "max_jerk" : "rest_at_ends"),
+          "a number above 0, or nothing", "0");
     if (mistakes_.empty() && !(time_ * spec_.rate_hz < kMostFrames))
       add("trajectory", "too long", "at most 10000000 frames", words(time_ * spec_.rate_hz));
     return std::move(mistakes_);
@@ -110,6 +124,12 @@ class Checker {
     else if (!w.t && length == 0)
       add(waypoint_key(i, ""), "no time passes", "a `t` where the camera stays in place",
           "the position of the waypoint before");
+    else if (!std::isfinite(next))
+      add(waypoint_key(i, ""), "never reached", "a speed at which the way takes less than 1e300 s",
+          std::to_string(w.speed.value_or(spec_.speed)) + " m/s");
+    else if (!(next - time_ >= kShortestLeg))
+      add(waypoint_key(i, w.t ? ".t" : ""), "too soon after the waypoint before",
+          "at least a microsecond between two waypoints", format_number(next - time_) + " s");
     if (std::isfinite(next) && next > time_) time_ = next;
   }
 
@@ -201,6 +221,7 @@ class CameraPath::Curves {
         rotations_(collect(spec, rotation_at), times_, spec.interpolation) {}
 
   double duration() const { return times_.back(); }
+  const std::vector<double>& times() const { return times_; }
 
   Pose at(double t) const {
     if (times_.size() == 1) return {rotation_at(waypoints_[0]), waypoints_[0].position};
@@ -269,26 +290,80 @@ CameraPath::CameraPath(const TrajectorySpec& spec) {
   if (spec.duration && asked_duration_ > 0) asked_duration_ = *spec.duration;
   const double stretch = asked_duration_ > 0 ? curves_->duration() / asked_duration_ : 1;
   scale_ = TimeScale([&](double t) { return curves_->at(t * stretch); }, asked_duration_,
-                     table_step(asked_duration_, spec.rate_hz), spec.limits);
+                     table_step(asked_duration_, spec.rate_hz), spec.limits, spec.rest_at_ends);
+  const bool smooth = spec.limits.max_jerk || spec.rest_at_ends;
+  knot_ = spec.smoothing.value_or(smooth ? kUsualSmoothing : 0);
+  if (!(knot_ > 0) || !(asked_duration_ > 0)) return;
+  make_smooth(spec);
+  if (spec.limits.max_jerk) fit_jerk(spec);
 }
 
 CameraPath::~CameraPath() = default;
 
-double CameraPath::duration() const { return scale_.duration(asked_duration_); }
+// The path before smoothing is walked at 1 / slower_ of its speed.
+void CameraPath::make_smooth(const TrajectorySpec& spec) {
+  const double length = scale_.duration(asked_duration_);
+  smooth_.emplace(
+      [&](double t) { return curves_->at(own_time(std::min(t / slower_, length)).time); },
+      length * slower_, knot_, spec.rest_at_ends ? PathEnds::at_rest : PathEnds::moving);
+  const auto wild = smooth_->wildest_turn();
+  if (!wild) return;
+  throw InputError({"", 0, "trajectory", "the view turns too fast to be made smooth",
+                    "at most 90 degrees within " + words(knot_) + " s",
+                    words(std::round(wild->angle_deg)) + " degrees at " + words(wild->time) + " s",
+                    "an inertial unit or max_jerk needs a smooth path: turn slower, look at a point "
+                    "that is not passed straight above or below, or set trajectory.smoothing"});
+}
+
+// Softer corners first, then a slower path.
+void CameraPath::fit_jerk(const TrajectorySpec& spec) {
+  constexpr int kMostTries = 60;
+  const double most = *spec.limits.max_jerk;
+  for (int i = 0; i < kMostTries && smooth_->largest_jerk() > most; ++i) {
+    if (!spec.smoothing && knot_ < kSoftest)
+      knot_ = std::min(kSoftest, 1.2 * knot_);
+    else
+      slower_ *= std::min(2.0, std::max(1.02, std::sqrt(smooth_->largest_jerk() / most)));
+    make_smooth(spec);
+  }
+  if (smooth_->largest_jerk() > most)
+    throw InputError({"", 0, "trajectory.max_jerk", "cannot be kept on this path",
+                      words(most) + " m/s3", words(smooth_->largest_jerk()) + " m/s3 at best",
+                      "make it larger, or give trajectory.smoothing"});
+}
+
+double CameraPath::duration() const {
+  return smooth_ ? smooth_->duration() : scale_.duration(asked_duration_);
+}
+
+std::vector<double> CameraPath::waypoint_times() const {
+  std::vector<double> times;
+  const double stretch = asked_duration_ > 0 ? asked_duration_ / curves_->duration() : 1;
+  for (const double t : curves_->times())
+    times.push_back(scale_.when(t * stretch) * slower_ + (smooth_ ? smooth_->delay() : 0));
+  return times;
+}
+
 double CameraPath::asked_duration() const { return asked_duration_; }
 
 // The curves' own time at t: slowed down by the limits, then stretched to the asked duration.
 AskedTime CameraPath::own_time(double t) const {
-  AskedTime own = scale_.at(std::min(std::max(t, 0.0), duration()));
+  AskedTime own = scale_.at(std::min(std::max(t, 0.0), scale_.duration(asked_duration_)));
   if (asked_duration_ == curves_->duration()) return own;
   const double stretch = curves_->duration() / asked_duration_;
   own.time *= stretch, own.rate *= stretch, own.change *= stretch;
   return own;
 }
 
-Pose CameraPath::at(double t) const { return curves_->at(own_time(t).time); }
+Pose CameraPath::at(double t) const {
+  return smooth_ ? smooth_->at(t) : curves_->at(own_time(t).time);
+}
 
 CameraMotion CameraPath::motion_at(double t) const {
+  return smooth_ ? smooth_->motion_at(t) : sharp_motion_at(t);
+}
+
+CameraMotion CameraPath::sharp_motion_at(double t) const {
   const AskedTime own = own_time(t);
   CameraMotion motion = curves_->motion_at(own.time);
   motion.acceleration = motion.acceleration * (own.rate * own.rate) + motion.velocity * own.change;

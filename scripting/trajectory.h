@@ -18,6 +18,7 @@
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
 #include "scripting/curves.h"
+#include "scripting/smooth_path.h"
 #include "scripting/time_scale.h"
 
 namespace rubble {
@@ -65,7 +66,7 @@ Waypoint default_view();
 
 struct TrajectorySpec {
   double rate_hz = 30;  // frames per second of simulation time; range: 0.001 to 1000
-  Interpolation interpolation = Interpolation::spline;
+  Interpolation interpolation = Interpolation::automatic;
   double speed = 0.5;  // where a waypoint has neither t nor speed; unit: m/s; range: > 0
   // At least one; a single one gives a single frame.
   std::vector<Waypoint> waypoints{default_view()};
@@ -74,6 +75,11 @@ struct TrajectorySpec {
   // The whole path takes this long instead of what its times and speeds add up to; unit: s; > 0
   std::optional<double> duration;
   SpeedLimits limits;
+  // The path is averaged over about this long, in place and in view, until it is smooth enough for an
+  // inertial unit: the knots of SmoothPath. 0: not at all. Not given: see flown_trajectory(),
+  // max_jerk and rest_at_ends. unit: s; range: 0 to 2
+  std::optional<double> smoothing;
+  bool rest_at_ends = false;  // of a smoothed path, see PathEnds
 
   // Whether it can be flown only over a settled pile: see app/flight.h.
   bool needs_pile() const;
@@ -82,15 +88,6 @@ struct TrajectorySpec {
 struct CameraPose {
   std::int64_t stamp_ns = 0;
   Pose world_from_camera;  // camera body: X forward, Y left, Z up
-};
-
-// How the camera moves at one instant. Exact derivatives of the path; as that is C1, the
-// acceleration jumps at waypoints.
-struct CameraMotion {
-  Pose world_from_camera;
-  Vec3 velocity;          // in the world; unit: m/s
-  Vec3 acceleration;      // in the world; unit: m/s2
-  Vec3 angular_velocity;  // in the camera body frame; unit: rad/s
 };
 
 // The camera's pose at any time, not only at the frames'.
@@ -103,17 +100,31 @@ class CameraPath {
   double asked_duration() const;  // what it was before the limits slowed it down; unit: s
   // t: s after the start; before it and after the end the camera stands still.
   Pose at(double t) const;
-  // t: from 0 to the duration.
+  // t: from 0 to the duration. Without smoothing the path is C1 at best, and the acceleration jumps
+  // at waypoints.
   CameraMotion motion_at(double t) const;
+  // When each waypoint is passed, or where the path is smoothed, passed by; unit: s
+  std::vector<double> waypoint_times() const;
+  double smoothing() const { return smooth_ ? knot_ : 0; }  // as it was chosen; unit: s
 
  private:
   class Curves;
   AskedTime own_time(double t) const;
+  CameraMotion sharp_motion_at(double t) const;  // before smoothing
+  void make_smooth(const TrajectorySpec& spec);
+  void fit_jerk(const TrajectorySpec& spec);
 
   std::unique_ptr<const Curves> curves_;
   double asked_duration_ = 0;
   TimeScale scale_;
+  double slower_ = 1;  // than all this, so that max_jerk is kept
+  double knot_ = 0;    // unit: s
+  std::optional<SmoothPath> smooth_;
 };
+
+// Of the knots where nothing else is asked for; unit: s. An inertial unit of 200 Hz takes 20 samples
+// in it, so that what is lost between two of them does not show.
+inline constexpr double kUsualSmoothing = 0.1;
 
 // Every mistake in a trajectory, keyed "trajectory.waypoints[2].t" and so on; empty: none.
 std::vector<Diagnostic> find_mistakes(const TrajectorySpec& spec);

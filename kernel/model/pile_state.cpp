@@ -3,22 +3,36 @@
 #include "kernel/base/hash.h"
 
 namespace rubble {
+namespace {
+
+void add(StateHash& hash, const Vec3& v) { hash.add(v.x), hash.add(v.y), hash.add(v.z); }
+void add(StateHash& hash, const Quat& q) { hash.add(q.w), hash.add(q.x), hash.add(q.y), hash.add(q.z); }
+void add(StateHash& hash, const Pose& pose) { add(hash, pose.rotation), add(hash, pose.translation); }
+
+void add(StateHash& hash, const PieceState& piece) {
+  hash.add(piece.type), hash.add(piece.layer), hash.add(piece.scale);
+  add(hash, piece.world_from_body);
+  add(hash, piece.linear_velocity);
+  add(hash, piece.angular_velocity);
+  hash.add(std::uint8_t(piece.status));
+}
+
+void add(StateHash& hash, const JointState& joint) {
+  hash.add(joint.parent), hash.add(joint.child), hash.add(std::uint8_t(joint.kind));
+  add(hash, joint.parent_from_joint);
+  add(hash, joint.child_from_joint);
+  hash.add(joint.rest);
+  add(hash, joint.rest_rotation);
+}
+
+}  // namespace
 
 std::uint64_t PileState::state_hash() const {
   StateHash hash;
-  const auto add = [&hash](const Vec3& v) { hash.add(v.x), hash.add(v.y), hash.add(v.z); };
-  for (const PieceState& piece : pieces) {
-    const Quat& q = piece.world_from_body.rotation;
-    hash.add(q.w), hash.add(q.x), hash.add(q.y), hash.add(q.z);
-    add(piece.world_from_body.translation);
-    add(piece.linear_velocity);
-    add(piece.angular_velocity);
-  }
-  for (const JointState& joint : joints) {
-    const Quat& q = joint.rest_rotation;
-    hash.add(joint.parent), hash.add(joint.child), hash.add(joint.rest);
-    hash.add(q.w), hash.add(q.x), hash.add(q.y), hash.add(q.z);
-  }
+  hash.add(std::uint64_t(pieces.size()));
+  for (const PieceState& piece : pieces) add(hash, piece);
+  hash.add(std::uint64_t(joints.size()));
+  for (const JointState& joint : joints) add(hash, joint);
   hash.add(steps);
   return hash.digest();
 }

@@ -55,8 +55,8 @@ struct PileState {
   int layers_at_limit = 0;          // layers whose time limit came before rest
   int lost = 0;
 
-  // XXH64 over poses and velocities as bit patterns in piece order, then the joints' rests where
-  // there are joints, then the step count.
+  // XXH64 over the bit patterns of every field of the pieces in their order, then of the joints in
+  // theirs, each list after its length, then the step count. The names of types are not in it.
   std::uint64_t state_hash() const;
 };
 

@@ -26,7 +26,7 @@ struct FrameBlock {
   float lens[4], view[4];
   float light_position[kMostLights][4], light_axis[kMostLights][4], light_colour[kMostLights][4];
   float lamp_position[4], lamp_axis[4], lamp_colour[4];
-  float fog[4], fog_ambient[4];
+  float wetness[4];
   float sun_direction[4], sun_radiance[4], skyline[4];
   float ground[4], balance[4];
   float shadow_rows[kMostViews * 4][4];
@@ -96,9 +96,7 @@ void fill_air_and_lamp(FrameBlock& block, const FrameLight& frame, const Pose& w
   set(block.lamp_axis, Vec3f(world_from_camera.rotation.rotate({1, 0, 0})),
       float(1 / (1 - portable::cos(half))));
   set(block.lamp_colour, lamp_colour(frame.lamp));
-  set(block.fog, {float(frame.air.fog_density), float(frame.air.fog_intensity),
-                  float(frame.wetness)});
-  set(block.fog_ambient, frame.air_ambient * float(frame.air.fog_intensity));
+  set(block.wetness, {float(frame.wetness), 0, 0});
   const Sky& sky = frame.lights->sky;
   set(block.sun_direction, sky.sun_direction);
   set(block.sun_radiance, sky.sun_radiance);
@@ -131,34 +129,10 @@ ShaderDefines variant_of(const FrameLight& frame) {
                                                          std::to_string(shadow.views)});
   }
   defines.push_back({"SOIL", std::to_string(int(Pattern::soil)) + ".0"});
-  const bool clear = frame.even_air && frame.air.fog_density <= 0;
-  defines.push_back({"FOG", clear ? "0" : frame.even_air ? "1" : "2"});
+  if (!frame.clear_air) defines.push_back({"AIR", ""});
   defines.push_back({"AIR_STEPS", std::to_string(AirVolume::kSlices - 1) + ".0"});
   if (frame.wetness > 0) defines.push_back({"WET", ""});
   return defines;
-}
-
-// Light of the lamp that the air throws back, by how far one looks: per unit of intensity,
-//   L(d) = density * brightness / (4 pi) * integral_0^d exp(-2 density r) / (r^2 + b^2) dr,
-// for isotropic scattering and a lamp b beside the lens. Tabled over d / (d + 2).
-std::vector<float> lamp_glow_table(const AirSpec& air, const LampSpec& lamp, int size) {
-  const double b2 = std::max(dot(lamp.position, lamp.position), 0.02 * 0.02);
-  const double factor = air.fog_density * air.fog_intensity / (4 * portable::kPi);
-  std::vector<float> table;
-  double sum = 0, from = 0;
-  for (int i = 0; i < size; ++i) {
-    const double u = std::min((i + 0.5) / size, 0.9995);
-    const double to = 2 * u / (1 - u);
-    constexpr int kSteps = 64;
-    for (int s = 0; s < kSteps; ++s) {
-      const double r = from + (to - from) * (s + 0.5) / kSteps;
-      sum += (to - from) / kSteps * portable::exp(std::max(-2 * air.fog_density * r, -690.0)) /
-             (r * r + b2);
-    }
-    from = to;
-    table.push_back(float(factor * sum));
-  }
-  return table;
 }
 
 GlTexture upload_looks(const Gl& gl, const std::vector<PatternImage>& patterns) {
@@ -173,15 +147,6 @@ GlTexture upload_looks(const Gl& gl, const std::vector<PatternImage>& patterns) 
   gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   check_gl(gl, "uploading the textures");
-  return texture;
-}
-
-GlTexture upload_glow(const Gl& gl, const std::vector<float>& table) {
-  GlTexture texture = make_target(gl, GL_R32F, int(table.size()), 1);
-  gl.TextureSubImage2D(texture.name(), 0, 0, 0, GLsizei(table.size()), 1, GL_RED, GL_FLOAT,
-                       table.data());
-  gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   return texture;
 }
 
@@ -218,6 +183,8 @@ GlTexture make_air_table(const Gl& gl) {
   return texture;
 }
 
+constexpr int kMeterEvery = 4;  // as METER in resolve.frag.glsl
+
 enum Unit {
   kVisibility,
   kDepth,
@@ -227,7 +194,6 @@ enum Unit {
   kLight,
   kLooks,
   kShadow,
-  kGlow,
   kContact,
   kSky,
   kAir,
@@ -247,7 +213,6 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
                  {"light_table", kLight},
                  {"look_textures", kLooks},
                  {"shadow_map", kShadow},
-                 {"fog_lamp", kGlow},
                  {"openness", kContact},
                  {"sky_map", kSky},
                  {"air_table", kAir},
@@ -281,9 +246,6 @@ ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameL
       ground_{ground.x, ground.y, 1 / ground.reach, 0},
       texture_size_(patterns.front().size) {
   defines_ = variant_of(light);
-  const std::vector<float> glow = lamp_glow_table(light.air, light.lamp, 512);
-  fog_lamp_ = upload_glow(gl, glow);
-  if (light.even_air) most_glow_ = glow.back();
 }
 
 const GlProgram& ResolvePass::program(int variant, TileContent content) {
@@ -293,6 +255,7 @@ const GlProgram& ResolvePass::program(int variant, TileContent content) {
     if (variant & kLinear) defines.push_back({"LINEAR", ""});
     if (variant & kRays) defines.push_back({"RAYS", ""});
     if (variant & kLamp) defines.push_back({"LAMP", ""});
+    if (variant & kMeter) defines.push_back({"METER", ""});
     defines.push_back({"CONTENT", std::to_string(int(content))});
     defines.push_back({"VEIL_FROM", std::to_string(kVeilFrom)});
     wanted = make_resolve_program(gl_, defines);
@@ -312,14 +275,16 @@ void ResolvePass::resize(int width, int height) {
 void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
                             const ViewProjection& view, const Pose& world_from_camera,
                             const SurfaceImages& surfaces, const FrameLight& light,
-                            float exposure) {
+                            float exposure, bool with_contact) {
   const ImageTiles tiles = tiles_of(view, surfaces);
-  const bool lamp = has_lamp(light) && ((variant & kLinear) || lamp_shows(light, tiles, exposure));
+  const bool all_light = variant & (kLinear | kMeter);
+  const bool lamp = has_lamp(light) && (all_light || lamp_shows(light, tiles, exposure));
   if (lamp) variant |= kLamp;
-  contact_.draw(view, surfaces.depth,
-                {lamp, Vec3f(camera_from_optical.inverse() * light.lamp.position),
-                 light.lamp.shape == LampShape::point ? 0.004f : float(light.lamp.size / 2)},
-                tiles.first_row, tiles.last_row);
+  if (with_contact)
+    contact_.draw(view, surfaces.depth,
+                  {lamp, Vec3f(camera_from_optical.inverse() * light.lamp.position),
+                   light.lamp.shape == LampShape::point ? 0.004f : float(light.lamp.size / 2)},
+                  tiles.first_row, tiles.last_row);
   if (light.air_table)
     gl_.TextureSubImage3D(air_table_.name(), 0, 0, 0, 0, AirVolume::kColumns, AirVolume::kRows,
                           AirVolume::kSlices, GL_RGBA, GL_FLOAT, light.air_table->table().data());
@@ -339,7 +304,6 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
                              geometry_.light_view.name(),
                              looks_.name(),
                              light.shadow->depth.name(),
-                             fog_lamp_.name(),
                              contact_.openness().name(),
                              sky_map_.name(),
                              air_table_.name(),
@@ -352,11 +316,13 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
     variant |= kRays;
   }
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
-  gl_.Viewport(0, 0, view.intrinsics.width, view.intrinsics.height);
+  const int every = variant & kMeter ? kMeterEvery : 1;
+  gl_.Viewport(0, 0, (view.intrinsics.width + every - 1) / every,
+               (view.intrinsics.height + every - 1) / every);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_CULL_FACE);
   gl_.BindVertexArray(empty_array_.name());
-  draw_tiles(variant, tiles);
+  draw_tiles(variant, tiles, every);
 }
 
 ImageTiles ResolvePass::tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const {
@@ -377,7 +343,6 @@ bool ResolvePass::lamp_shows(const FrameLight& light, const ImageTiles& tiles,
   constexpr float kUnseen = 4e-4f;
   const Vec3f colour = lamp_colour(light.lamp);
   const float intensity = std::max(colour.x, std::max(colour.y, colour.z)) * exposure;
-  if (intensity * most_glow_ > kUnseen) return true;
   if (tiles.nearest_value <= 0) return false;
   // Of albedo 1, and the peak of the mirrored part, see gloss_lobe() in shaders/surface.glsl.
   const float film = light.wetness > 0 ? 16.0f : 0.0f;
@@ -387,23 +352,43 @@ bool ResolvePass::lamp_shows(const FrameLight& light, const ImageTiles& tiles,
   return intensity * reflected / (distance * distance) > kUnseen;
 }
 
-void ResolvePass::draw_tiles(int variant, const ImageTiles& tiles) {
+void ResolvePass::draw_tiles(int variant, const ImageTiles& tiles, int every) {
+  // Of pixels `every` apart, the first at half of that: those before `end`.
+  const auto count = [every](int end) { return std::max(0, end + every - 1 - every / 2) / every; };
   gl_.Enable(GL_SCISSOR_TEST);
   const GlProgram* current = nullptr;
   for (const TileRun& run : tiles.runs) {
     const GlProgram& wanted = program(variant, run.content);
     if (current != &wanted) gl_.UseProgram(wanted.name());
     current = &wanted;
-    gl_.Scissor(run.x, run.y, run.width, run.height);
+    const int x = count(run.x), y = count(run.y);
+    gl_.Scissor(x, y, count(run.x + run.width) - x, count(run.y + run.height) - y);
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
   }
   gl_.Disable(GL_SCISSOR_TEST);
 }
 
+MeteredImage ResolvePass::meter(const ViewProjection& view, const Pose& world_from_camera,
+                                const SurfaceImages& surfaces, const FrameLight& light) {
+  const auto count = [](int pixels) { return (pixels + kMeterEvery / 2 - 1) / kMeterEvery; };
+  MeteredImage out;
+  out.width = count(view.intrinsics.width), out.height = count(view.intrinsics.height);
+  const GlTexture texture = make_target(gl_, GL_R32F, std::max(1, out.width), std::max(1, out.height));
+  const GlFramebuffer target(gl_);
+  gl_.NamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+  draw_with(kMeter, target, view, world_from_camera, surfaces, light, 1);
+  out.stops.resize(std::size_t(out.width) * std::size_t(out.height));
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target.name());
+  gl_.ReadPixels(0, 0, out.width, out.height, GL_RED, GL_FLOAT, out.stops.data());
+  check_gl(gl_, "metering the image");
+  return out;
+}
+
 void ResolvePass::draw(const ViewProjection& view, const Pose& world_from_camera,
-                       const SurfaceImages& surfaces, const FrameLight& light, float exposure) {
+                       const SurfaceImages& surfaces, const FrameLight& light, float exposure,
+                       bool metered) {
   resize(view.intrinsics.width, view.intrinsics.height);
-  draw_with(0, target_, view, world_from_camera, surfaces, light, exposure);
+  draw_with(0, target_, view, world_from_camera, surfaces, light, exposure, !metered);
 }
 
 void ResolvePass::read(std::vector<std::uint8_t>& rgba) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/air_volume.h"
+#include "render/exposure.h"
 #include "render/geometry.h"
 #include "render/ground_map.h"
 #include "render/lighting.h"
@@ -20,12 +21,10 @@ struct FrameLight {
   const LightSet* lights = nullptr;
   const ShadowMap* shadow = nullptr;
   LampSpec lamp;
-  AirSpec air;
-  bool even_air = true;                // see Medium::homogeneous()
+  bool clear_air = true;               // at all times
   double wetness = 0;                  // of surfaces
   float most_gloss = 1;                // of the looks in use, see Look::gloss
-  Vec3f air_ambient;                   // mean radiance of all directions at the camera; kcd/m2
-  const AirVolume* air_table = nullptr;  // of this frame, unless the air is even
+  const AirVolume* air_table = nullptr;  // of this frame, unless the air is clear
 };
 
 // Colours of the lamp's light; kcd.
@@ -46,10 +45,13 @@ class ResolvePass {
   ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,
               const GroundMap& ground, const std::vector<PatternImage>& patterns);
 
-  // Display colours: 4 bytes a pixel, the last as shaders/tone.glsl says. exposure: what luminance
-  // in kcd/m2 is multiplied by.
+  // How bright the view is, for its exposure.
+  MeteredImage meter(const ViewProjection& view, const Pose& world_from_camera,
+                     const SurfaceImages& surfaces, const FrameLight& light);
+  // Display colours: 4 bytes a pixel, the last unused. exposure: what luminance in kcd/m2 is
+  // multiplied by. metered: meter() was the last call, for the same view.
   void draw(const ViewProjection& view, const Pose& world_from_camera,
-            const SurfaceImages& surfaces, const FrameLight& light, float exposure);
+            const SurfaceImages& surfaces, const FrameLight& light, float exposure, bool metered);
   void read(std::vector<std::uint8_t>& rgba);
 
   // Radiance before exposure and tone mapping, 4 floats a pixel (R, G, B in kcd/m2).
@@ -60,27 +62,26 @@ class ResolvePass {
   void resize(int width, int height);
   void draw_with(int variant, const GlFramebuffer& target, const ViewProjection& view,
                  const Pose& world_from_camera, const SurfaceImages& surfaces,
-                 const FrameLight& light, float exposure);
+                 const FrameLight& light, float exposure, bool with_contact = true);
 
   const Gl& gl_;
   const GpuGeometry& geometry_;
-  enum Variant { kLinear = 1, kRays = 2, kLamp = 4 };
+  enum Variant { kLinear = 1, kRays = 2, kLamp = 4, kMeter = 8 };
   const GlProgram& program(int variant, TileContent content);  // made when it is first needed
   ImageTiles tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const;
   bool lamp_shows(const FrameLight& light, const ImageTiles& tiles, float exposure) const;
-  void draw_tiles(int variant, const ImageTiles& tiles);
+  void draw_tiles(int variant, const ImageTiles& tiles, int every);  // n-th pixel
 
   ShaderDefines defines_;
-  GlProgram programs_[8][4];  // by Variant and TileContent
+  GlProgram programs_[16][4];  // by Variant and TileContent
   GlBuffer frame_block_;
   GlVertexArray empty_array_;
   ContactPass contact_;
-  GlTexture looks_, fog_lamp_, sky_map_, air_table_, ground_map_;
+  GlTexture looks_, sky_map_, air_table_, ground_map_;
   float ground_[4];  // as in shaders/frame.glsl
   GlTexture colour_;
   GlFramebuffer target_;
   int width_ = 0, height_ = 0;
-  float most_glow_ = 0;  // of the lamp in even fog, per unit of intensity
   int texture_size_ = 1;
 };
 

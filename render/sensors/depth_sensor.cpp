@@ -18,7 +18,7 @@ constexpr double kWidestAngle = 80 * kPi / 180;
 constexpr int kWindow = 4;         // half the correlation window, in pixels of a 640-pixel image
 constexpr double kJump = 0.03;     // of depth, as a share of it: another surface
 constexpr int kAirSteps = 48;
-constexpr double kNearestAir = 0.1;  // where projector and camera begin to see the same air; unit: m
+constexpr double kNearestAir = 1e-3;  // of a ray that the emitter lights from the lens on; unit: m
 constexpr double kCompact = 0.1;
 
 std::size_t at(const DepthView& view, int u, int v) {
@@ -64,24 +64,42 @@ double DepthSensor::reflectance_at(const DepthView& view, int u, int v) const {
   return stated > 0 ? stated : double(view.albedos[at(view, u, v)]);
 }
 
+double DepthSensor::emitter_offset() const {
+  const DepthSensorSpec& s = spec_.depth_sensor;
+  return s.type == DepthSensorType::structured_light ? s.baseline : s.emitter_offset;
+}
+
+// The emitter stands to the right and lights no more than the image's width: a ray of the slope x / z
+// is lit from the z on at which it comes into the emitter's left edge.
+double DepthSensor::lit_from(const DepthView& view, const Vec3& direction) const {
+  const Intrinsics& k = view.rays.intrinsics;
+  if (direction.z <= 0) return kNearestAir;
+  const double left = -(k.cx + 0.5) / k.fx, slope = direction.x / direction.z;
+  const double z = slope > left ? emitter_offset() / (slope - left) : 1e9;
+  return std::max(kNearestAir, z / direction.z);
+}
+
 DepthSensor::Returns DepthSensor::trace_air(const DepthView& view, int u, int v,
                                             double distance) const {
   Returns out;
   const double reach = std::isnan(distance) ? 2 * spec_.depth_sensor.max_range : distance;
   const Pose pose = view.rays.pose(v);
-  const Vec3 direction = pose.rotation.rotate(view.rays.direction(u, v));
+  const Vec3 seen = view.rays.direction(u, v), direction = pose.rotation.rotate(seen);
+  const Vec3 emitter{emitter_offset(), 0, 0};
   double depth = 0;  // optical, up to the step
-  if (!view.air.clear() && reach > kNearestAir) {
-    depth = view.air.extinction(pose.translation) * kNearestAir;
+  if (!view.air.clear()) {
+    const double first = std::min(lit_from(view, seen), reach);
+    depth = view.air.optical_depth(pose.translation, direction, first);
     // Each step is longer than the one before, as what comes back falls with the square of range.
-    const double growth = std::pow(reach / kNearestAir, 1.0 / kAirSteps);
-    double begin = kNearestAir;
-    for (int i = 0; i < kAirSteps; ++i, begin *= growth) {
+    const double growth = std::pow(reach / first, 1.0 / kAirSteps);
+    double begin = first;
+    for (int i = 0; i < kAirSteps && growth > 1; ++i, begin *= growth) {
       const double end = begin * growth, r = std::sqrt(begin * end);
-      const double extinction = view.air.extinction(pose.translation + direction * r);
-      out.range[i] = r;
-      out.part[i] = view.air.albedo() * extinction / (4 * kPi) * (1 / begin - 1 / end) *
-                    std::exp(-2 * (depth + extinction * (r - begin)));
+      const Vec3 p = pose.translation + direction * r, from = seen * r - emitter;
+      const double extinction = view.air.extinction(p), out2 = dot(from, from);
+      out.range[i] = 0.5 * (r + std::sqrt(out2));
+      out.part[i] = view.air.scattering(p, -dot(from, seen) / std::sqrt(out2)) * (end - begin) /
+                    out2 * std::exp(-2 * (depth + extinction * (r - begin)));
       depth += extinction * (end - begin);
     }
     out.sum_up();

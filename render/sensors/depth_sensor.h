@@ -19,10 +19,12 @@
 //   below least_amplitude is none. Unless the specification states one reflectance for all surfaces,
 //   it is that of each surface's look for red light: the infrared of such sensors is next to it.
 //
-// Air of extinction s(r) and albedo w, the same Medium as the colour image looks through: light to a
-// surface and back keeps the share T^2 = exp(-2 tau), and the air throws back
-//   w s(r) / (4 pi) * exp(-2 tau(r)) / r^2 dr,  against  reflectance / pi * cos a / Z^2 * T^2
-// of the surface. A time-of-flight sensor adds both, so that dense air pulls ranges towards itself.
+// Air of extinction s(r), albedo w and phase function p, the same Medium as the colour image looks
+// through: light to a surface and back keeps the share T^2 = exp(-2 tau), and the air throws back
+//   w s(r) p(cos b) * exp(-2 tau(r)) / e^2 dr,  against  reflectance / pi * cos a / Z^2 * T^2
+// of the surface, where e is the distance from the emitter beside the lens, which lights what the
+// camera sees (a cone as wide as the image, so that the air just before the lens is dark), and b the
+// angle between the light's way out and its way back: near 180 degrees far away, less near by. A time-of-flight sensor adds both, so that dense air pulls ranges towards itself.
 // To structured light what the air throws back is a veil of the ratio q to the surface's light: noise
 // grows as 1 + q, the pattern is lost with the probability q / (1 + q) less a third, times 1.5, and a
 // lost pixel reports the air instead (an early return) where the air is as compact as a surface: the
@@ -66,6 +68,8 @@ class DepthSensor {
   };
 
   Returns trace_air(const DepthView& view, int u, int v, double distance) const;
+  double emitter_offset() const;  // of whatever sends the light, to the lens's right; unit: m
+  double lit_from(const DepthView& view, const Vec3& direction) const;  // along the ray; unit: m
   double reflectance_at(const DepthView& view, int u, int v) const;
   float measure_ideal(const DepthView& view, int u, int v) const;
   float measure_disparity(const DepthView& view, int u, int v) const;

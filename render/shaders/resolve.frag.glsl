@@ -1,7 +1,8 @@
 // From "which triangle is here" to colour: surface, light, air, tone.
 // Variants: LIGHT_COUNT 1 to 4; for each light LIGHT_i as "type, first view, views" with type 0
-// directional, 1 spot, 2 point; LAMP; FOG 1 even fog, 2 from the air's table; WET; LINEAR (kcd/m2
-// out, no tone mapping); RAYS (each pixel has a ray of its own); CONTENT 0 sky, 1 surfaces no farther
+// directional, 1 spot, 2 point; LAMP; AIR that is not clear; WET; LINEAR (kcd/m2
+// out, no tone mapping); METER (log2 of luminance of each 4th pixel in each direction, for the
+// exposure; below -1000: none); RAYS (each pixel has a ray of its own); CONTENT 0 sky, 1 surfaces no farther
 // than VEIL_FROM, 2 surfaces, 3 both.
 #include "frame.glsl"
 #include "geometry.glsl"
@@ -12,7 +13,6 @@
 uniform usampler2D visibility;
 uniform sampler2D depth_values;
 uniform sampler2D openness;     // of small corners, and to the lamp; half size
-uniform sampler2D fog_lamp;  // in-scattered lamp light by distance
 
 #ifdef RAYS
 uniform sampler2D lens_rays;  // optical frame, of length 1 / max(cosine with the axis, 0.05)
@@ -55,11 +55,7 @@ vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
   vec3 to_lamp;
   float lamp_distance;
   vec3 lamp = lamp_at(world, to_lamp, lamp_distance);
-#if FOG == 1
-  lamp *= exp2(-1.442695 * fog.x * lamp_distance);
-#else
   lamp *= passed;
-#endif
   lamp *= max(dot(s.normal, to_lamp), 0.0) * clamp(dot(s.face_normal, to_lamp) * 8.0, 0.0, 1.0) *
           (0.55 + 0.45 * open.x) * open.y;
   sum.glare += lamp * gloss_lobe(s, to_lamp, to_eye);
@@ -69,7 +65,11 @@ vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
 }
 
 void main() {
+#ifdef METER
+  ivec2 pixel = ivec2(gl_FragCoord.xy) * 4 + 2;
+#else
   ivec2 pixel = ivec2(gl_FragCoord.xy);
+#endif
   uvec2 seen = texelFetch(visibility, pixel, 0).xy;
 #if CONTENT == 0
   const bool surface = false;
@@ -82,7 +82,10 @@ void main() {
   // Any lens, and for each row the pose at its own time; see passes/ray_pass.h.
   vec3 slope = texelFetch(lens_rays, pixel, 0).xyz;
   if (slope == vec3(0.0)) {
-    colour = vec4(0.0, 0.0, 0.0, 0.3935);  // black, and to the light meter neither dark nor bright
+    colour = vec4(0.0, 0.0, 0.0, 1.0);  // black, and nothing to the light meter
+#ifdef METER
+    colour.x = -2000.0;
+#endif
     return;
   }
   vec4 row_x = texelFetch(row_poses, ivec2(0, pixel.y), 0);
@@ -99,13 +102,11 @@ void main() {
   vec3 direction = ray / ray_length;
   vec3 radiance;
   float far = 1e9;
-  // Fog before the sky takes the sky's own light.
-  vec3 ambient = sky_radiance(normalize(vec3(direction.xy, max(direction.z, 0.02)))) * 3.14159;
   float value = texelFetch(depth_values, pixel, 0).x;
   float z = view.x / max(value, 1e-9);
   if (surface) far = z * ray_length;
   float passed = 1.0;
-#if FOG == 2
+#ifdef AIR
   vec4 air = texture(air_table, vec3((vec2(pixel) + 0.5) / view.zw,
                                      (far / (far + 2.0) * AIR_STEPS + 0.5) / (AIR_STEPS + 1.0)));
   passed = air.a;
@@ -122,26 +123,16 @@ void main() {
     float there = max(far - VEIL_FROM, 0.0);
     float veil = exp2(-there * there * 4e-5 / (1.0 + there * 0.012));
     radiance = mix(sky_radiance(vec3(direction.xy, 0.02)), radiance, veil);
-    // Nothing so far is within a void: fog before it takes the sky's light, as before the sky beside.
-    ambient = mix(s.ambient, ambient, smoothstep(VEIL_FROM, 5.0 * VEIL_FROM, far));
-#else
-    ambient = s.ambient;
 #endif
   }
-#if FOG == 2
+#ifdef AIR
   radiance = radiance * air.a + air.rgb;
-#elif FOG == 1
-  float through = exp2(-1.442695 * fog.x * min(far, 1e6));
-  vec3 glow = fog_ambient.rgb * 0.6 + ambient * (0.4 * 0.318310 * fog.y);
-  radiance = radiance * through + glow * (1.0 - through);
-#ifdef LAMP
-  float x = (1.0 - dot(direction, lamp_axis.xyz)) * lamp_axis.w;
-  radiance += lamp_colour.rgb * (exp2(-x * x) * texture(fog_lamp, vec2(far / (far + 2.0), 0.5)).x);
 #endif
-#endif
-#ifdef LINEAR
+#ifdef METER
+  colour.x = log2(max(dot(radiance * balance.rgb, vec3(0.2126, 0.7152, 0.0722)), 1e-30));
+#elif defined LINEAR
   colour = vec4(radiance, 1.0);
 #else
-  colour = develop(radiance * (view.y * balance.rgb), dither(vec2(pixel)));
+  colour = vec4(develop(radiance * (view.y * balance.rgb), dither(vec2(pixel))), 1.0);
 #endif
 }

@@ -129,7 +129,7 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   s.film = 0.0;
 #ifdef WET
   // Water darkens what it soaks into, and stands as a film on what faces up.
-  float wet = fog.z * smoothstep(-0.6, 0.5, up + 0.5 * slow);
+  float wet = wetness.x * smoothstep(-0.6, 0.5, up + 0.5 * slow);
   s.albedo *= 1.0 - 0.5 * wet;
   s.gloss = max(s.gloss, 0.05 * wet);
   s.film = 0.4 * wet * (0.35 + 0.65 * smoothstep(0.2, 0.9, up)) * smoothstep(0.75, 0.25, texel.z);

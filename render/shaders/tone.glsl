@@ -1,5 +1,4 @@
-// From exposed radiance to display values. Alpha carries the logarithm of luminance, for metering:
-// 0 to 1 for 2^-12 to 2^12.
+// From exposed radiance to display values.
 vec3 tone_curve(vec3 x) {
   // The form of Narkowicz's fit of the ACES curve (2015), with a lighter toe: a camera keeps more of
   // its shadows than film.
@@ -12,8 +11,7 @@ vec3 srgb(vec3 x) {
   return clamp(0.585122381 * a + 0.783140355 * b - 0.368262736 * c, 0.0, 1.0);
 }
 
-vec4 develop(vec3 x, float noise) {
-  float luminance = dot(x, vec3(0.2126, 0.7152, 0.0722));
+vec3 develop(vec3 x, float noise) {
   // Half a step of noise hides the steps of 8 bits.
-  return vec4(srgb(tone_curve(x * 0.8)) + (noise - 0.5) * (1.0 / 255.0), log2(luminance + 1e-6) * (1.0 / 24.0) + 0.5);
+  return srgb(tone_curve(x * 0.8)) + (noise - 0.5) * (1.0 / 255.0);
 }

@@ -11,6 +11,9 @@ return function(list)
       doc = "As `trajectory.max_acceleration`." },
     { "max_turn_rate_deg", nil, type = "number", above = 0, max = 36000, unit = "degree/s",
       doc = "As `trajectory.max_turn_rate_deg`." },
+    { "max_jerk", nil, type = "number", above = 0, max = 1000000, unit = "m/s3", doc = "As `trajectory.max_jerk`." },
+    { "smoothing", nil, type = "number", min = 0, max = 2, unit = "s", doc = "As `trajectory.smoothing`." },
+    { "rest_at_ends", false, doc = "As `trajectory.rest_at_ends`." },
   }
   local all = {}
   for i, entry in ipairs(list) do all[i] = entry end

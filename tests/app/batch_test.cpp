@@ -68,6 +68,30 @@ TEST_F(Batch, KeepsAFailureToItself) {
   EXPECT_IN("\n2,done,", index("a"));
 }
 
+// A figure changed by hand, another seed's dataset, another seed's pile, and a manifest that is none.
+TEST_F(Batch, TakesNoFiguresFromWhatWasAltered) {
+  ASSERT_EQ(run_rubble(batch("a", "1..5")).exit_code, 0);
+  const std::string manifest = scratch / "a/seed_1/manifest.json";
+  std::string text = read_file(manifest);
+  const std::size_t at = text.find("\"pile_height_m\": ");
+  ASSERT_NE(at, std::string::npos);
+  write_file(manifest, text.insert(at + 17, "9"));
+  fs::remove_all(scratch / "a/seed_2");
+  fs::copy(scratch / "a/seed_5", scratch / "a/seed_2", fs::copy_options::recursive);
+  fs::copy_file(scratch / "a/seed_5/pile.bin", scratch / "a/seed_3/pile.bin", fs::copy_options::overwrite_existing);
+  write_file(scratch / "a/seed_4/manifest.json", "{}");
+  const Outcome again = run_rubble(batch("a", "1..5"));
+  EXPECT_EQ(again.exit_code, 2) << again.err;
+  for (const char* seed : {"1", "2", "3", "4"}) {
+    EXPECT_IN(std::string("\n") + seed + ",altered,,,", index("a"));
+    EXPECT_IN(std::string("seed ") + seed + ": ", again.err);
+  }
+  EXPECT_IN("\n5,done,", index("a"));
+  EXPECT_IN("was altered", again.err);
+  EXPECT_IN("is of another seed", again.err);
+  EXPECT_IN("is not the pile of the manifest", again.err);
+}
+
 TEST_F(Batch, RefusesAnotherBatchInTheSameFolder) {
   ASSERT_EQ(run_rubble(batch("a", "1")).exit_code, 0);
   const Outcome other = run_rubble(batch("a", "1", "--set pile.layers=1"));

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
 
 #include "io/image_file.h"
 #include "kernel/base/hash.h"
@@ -362,6 +364,79 @@ TEST(Resume, ContinuesWhatASignalStoppedAndSaysHow) {
   EXPECT_TRUE(fs::exists(scratch / "precious"));
   EXPECT_FALSE(fs::exists(folder + "/unfinished"));
   EXPECT_IN("is finished", run_rubble("resume " + folder).err);
+}
+
+// A pile.bin that this run did not make: of another seed, with and without the note of that one, or
+// altered. It is settled anew, and the files are those of a run that was left alone.
+TEST(Resume, TakesNoPileOfAnotherSeed) {
+  const ScratchFolder scratch;
+  run_tiny(scratch, "one", "--seed 1"), run_tiny(scratch, "two", "--seed 2");
+  ASSERT_NE(read_state_hash(scratch / "one"), read_state_hash(scratch / "two"));
+  const std::string folder = scratch / "stopped";
+  const auto has_pile = [&] { return fs::exists(folder + "/unfinished/settled.txt"); };
+  for (const std::string of : {"pile", "pile and note", "altered note"}) {
+    fs::remove_all(folder);
+    const Outcome killed = run_rubble_and_signal(
+        "run " + (scratch / "tiny.lua") + " --seed 2 --set camera.width=400 --set camera.height=300 --out " + folder,
+        has_pile, SIGKILL);
+    if (killed.exit_code == 0) continue;  // it was quicker
+    ASSERT_TRUE(has_pile());
+    const std::string note = read_file(folder + "/unfinished/settled.txt");
+    EXPECT_EQ(note.substr(17), sha256_of_file(folder + "/pile.bin") + "\n");
+    fs::copy_file(scratch / "one/pile.bin", folder + "/pile.bin", fs::copy_options::overwrite_existing);
+    if (of == "pile and note")  // of another seed: its file is whole, but not of this work
+      write_file(folder + "/unfinished/settled.txt",
+                 std::string(16, '1') + " " + sha256_of_file(folder + "/pile.bin") + "\n");
+    if (of == "altered note") fs::remove(folder + "/unfinished/settled.txt");
+    const Outcome resumed = run_rubble("resume " + folder);
+    ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_EQ(read_state_hash(folder), read_state_hash(scratch / "two")) << of;
+    EXPECT_EQ(read_file(folder + "/pile.bin"), read_file(scratch / "two/pile.bin")) << of;
+  }
+}
+
+// Runs at once in one folder: one has it from its creation to its end, the others say so.
+TEST(Resume, OneProcessAtATimeInAFolder) {
+  const ScratchFolder scratch;
+  write_file(scratch / "tiny.lua", kTinyMission);
+  const std::string folder = scratch / "shared";
+  const std::string run = "run " + (scratch / "tiny.lua") + " --set camera.width=300 --force --out " + folder + " --seed ";
+  std::vector<Outcome> ends(4);
+  std::vector<std::thread> together;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    together.emplace_back([&, i] { ends[i] = run_rubble(run + std::to_string(i + 1)); });
+  for (std::thread& t : together) t.join();
+  for (const Outcome& end : ends) {
+    if (end.exit_code != 0) {
+      EXPECT_IN("another process is at work", end.err);
+    }
+  }
+  // Whoever was last made all of it.
+  EXPECT_EQ(run_rubble("info " + folder).exit_code, 0);
+  const Outcome verified = run_rubble("verify " + folder);
+  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+  EXPECT_FALSE(fs::exists(folder + "/unfinished"));
+}
+
+TEST(Resume, ARunThatIsAtWorkKeepsOthersOut) {
+  const ScratchFolder scratch;
+  write_file(scratch / "long.lua", kTinyMission);
+  const std::string folder = scratch / "a";
+  const std::string more = " --set pile.layers=100 --set pile.pieces_per_layer=200 --set pile.spawn_bounds=3,3,3 --out " + folder;
+  Outcome second, third;
+  const auto meanwhile = [&] {  // asked again and again while the first is at work
+    if (!fs::exists(folder + "/unfinished/run.json")) return false;
+    second = run_rubble("run " + (scratch / "long.lua") + " --force --out " + folder);
+    third = run_rubble("resume " + folder);
+    return true;
+  };
+  const Outcome first = run_rubble_and_signal("run " + (scratch / "long.lua") + more, meanwhile, SIGTERM);
+  EXPECT_EQ(first.exit_code, 4) << first.err;
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_IN("another process is at work on this run", second.err);
+  EXPECT_EQ(third.exit_code, 1);
+  EXPECT_IN("another process is at work on this run", third.err);
+  EXPECT_TRUE(fs::exists(folder + "/unfinished/run.json"));
 }
 
 // The disk is full at every step in turn (a file-size limit is one): exit code 2, nothing has a

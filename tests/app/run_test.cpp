@@ -1,6 +1,8 @@
 // The main job as a user sees it: a mission in, a dataset out.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 
 #include "kernel/base/hash.h"
@@ -54,6 +56,18 @@ TEST_F(TwoRuns, GiveAnotherPileForAnotherSeed) {
   const std::string other = *scratch_ / "other";
   ASSERT_EQ(run_rubble("settle scripts/small.lua --seed 2 --out " + other).exit_code, 0);
   EXPECT_NE(read_state_hash(folder("1")), read_state_hash(other));
+}
+
+TEST(Run, MeasuresTheVolumeOfBoxes) {
+  const ScratchFolder scratch;
+  write_file(scratch / "boxes.lua",
+             "return rubble.mission { pile = { layers = 0, placed = {\n"
+             "  { box = { 1, 2, 0.5 }, position = { 0, 0, 0.25 } },\n"
+             "  { box = { 1, 1, 1 }, position = { 5, 0, 0.5 } } } } }\n");
+  const Outcome run = run_rubble("settle " + (scratch / "boxes.lua") + " --out " + (scratch / "a"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto manifest = nlohmann::json::parse(read_file(scratch / "a/manifest.json"));
+  EXPECT_NEAR(double(manifest.at("metrics").at("piece_volume_m3")), 2, 1e-9);
 }
 
 TEST(Run, SaysWhenThePileDidNotSettle) {

@@ -21,7 +21,11 @@ double SettledMission::largest_move() const {
 }
 
 SettledMission settle_text(const std::string& script) {
-  SettledMission m{load_mission_text(script, "m.lua"), {}, {}, {}};
+  return settle(load_mission_text(script, "m.lua"));
+}
+
+SettledMission settle(const Mission& mission) {
+  SettledMission m{mission, {}, {}, {}};
   m.assets = load_assets(m.mission, {});
   m.pile = generate_pile(build_pile_spec(m.mission.scenario, m.assets));
   SettleOptions options = m.mission.scenario.settle;

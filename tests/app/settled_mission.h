@@ -24,6 +24,7 @@ struct SettledMission {
   double largest_move() const;
 };
 
+SettledMission settle(const Mission& mission);
 SettledMission settle_text(const std::string& script);
 
 // The area of what is free in the plane y = `y`, for x0 < x < x1, between the ground and the first

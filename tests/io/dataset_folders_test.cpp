@@ -234,15 +234,16 @@ TEST(Frames, EveryChannelReadsBackBitForBit) {
   EXPECT_EQ(read_rgb_png(at + "rgb/000002.png").rgb, frame.rgb);
   EXPECT_EQ(read_rgb_png(at + "right/000002.png").rgb, frame.rgb_right);
   EXPECT_EQ(read_depth_png(at + "label/000002.png").values, frame.label);
-  EXPECT_TRUE(same_bits(read_exr<float>(at + "depth/000002.exr", {"Z"}), frame.measured_depth));
-  EXPECT_TRUE(same_bits(read_exr<float>(at + "depth_true/000002.exr", {"Z"}), frame.depth));
+  EXPECT_TRUE(same_bits(read_exr<float>(at + "depth/000002.exr", {"Y"}), frame.measured_depth));
+  EXPECT_TRUE(same_bits(read_exr<float>(at + "depth_true/000002.exr", {"Y"}), frame.depth));
   EXPECT_TRUE(
-      same_bits(read_exr<float>(at + "normals/000002.exr", {"X", "Y", "Z"}), frame.normals));
-  EXPECT_TRUE(
-      same_bits(read_exr<std::uint32_t>(at + "instance/000002.exr", {"instance"}), frame.instance));
+      same_bits(read_exr<float>(at + "normals/000002.exr", {"R", "G", "B"}), frame.normals));
+  std::vector<float> signed_instance;  // the ground is -1, nothing -2
+  for (const std::uint32_t id : frame.instance) signed_instance.push_back(float(std::int32_t(id)));
+  EXPECT_TRUE(same_bits(read_exr<float>(at + "instance/000002.exr", {"Y"}), signed_instance));
   EXPECT_TRUE(
       same_bits(read_exr<float>(at + "sky_visibility/000002.exr", {"Y"}), frame.sky_visibility));
-  EXPECT_FALSE(same_bits(read_exr<float>(at + "depth/000001.exr", {"Z"}), frame.measured_depth));
+  EXPECT_FALSE(same_bits(read_exr<float>(at + "depth/000001.exr", {"Y"}), frame.measured_depth));
 
   const std::string flow = read_text(at + "flow/000002.flo");
   ASSERT_EQ(flow.size(), 12 + 96 * 64 * 8u);

@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <functional>
 #include <thread>
 
 #include "io/tum_recorder.h"
@@ -47,6 +49,32 @@ class FakeRecorder : public Recorder {
 template <typename... Arguments>
 void add(std::vector<std::unique_ptr<Recorder>>& recorders, Arguments&&... arguments) {
   recorders.push_back(std::make_unique<FakeRecorder>(std::forward<Arguments>(arguments)...));
+}
+
+TEST(RecordingQueue, LetsNothingThroughThatIsNotFinite) {
+  const double nan = std::nan(""), inf = HUGE_VAL;
+  const std::vector<std::pair<const char*, std::function<void(Frame&)>>> faults = {
+      {"position", [&](Frame& f) { f.world_from_camera.translation.y = nan; }},
+      {"orientation", [&](Frame& f) { f.world_from_camera.rotation.w = nan; }},
+      {"velocity", [&](Frame& f) { f.linear_velocity.x = inf; }},
+      {"camera matrix", [&](Frame& f) { f.intrinsics.cy = nan; }},
+      {"exposure time", [&](Frame& f) { f.exposure_s = inf; }},
+      {"inertial measurement", [&](Frame& f) { f.imu.resize(2), f.imu[1].linear_acceleration.z = nan; }}};
+  for (const auto& [what, spoil] : faults) {
+    Log log;
+    std::vector<std::unique_ptr<Recorder>> recorders;
+    add(recorders, log);
+    RecordingQueue queue(std::move(recorders));
+    queue.push(make_frame(0, 8, 8));
+    Frame bad = make_frame(1, 8, 8);
+    spoil(bad);
+    try {
+      queue.push(bad);
+      ADD_FAILURE() << what;
+    } catch (const RunError& error) {
+      EXPECT_NE(std::string(error.what()).find(std::string("its ") + what), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(RecordingQueue, GivesEveryFrameInOrderToEveryRecorder) {

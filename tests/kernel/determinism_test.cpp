@@ -123,5 +123,36 @@ TEST(Determinism, ASnapshotContinuesInAnotherWorld) {
   EXPECT_EQ(lockstep(world, other, 90), "");
 }
 
+// Each field alone.
+TEST(StateHash, ChangesWithEveryFieldOfPiecesAndJoints) {
+  PileState state;
+  state.pieces.resize(2), state.joints.resize(1);
+  const std::uint64_t before = state.state_hash();
+  const auto changed = [&](const char* what, const auto& change) {
+    PileState other = state;
+    change(other);
+    EXPECT_NE(other.state_hash(), before) << what;
+  };
+  changed("type", [](PileState& s) { s.pieces[1].type = 3; });
+  changed("layer", [](PileState& s) { s.pieces[1].layer = -1; });
+  changed("scale", [](PileState& s) { s.pieces[1].scale = 1.5; });
+  changed("status", [](PileState& s) { s.pieces[1].status = PieceStatus::fixed; });
+  changed("place", [](PileState& s) { s.pieces[1].world_from_body.translation.y = 1e-300; });
+  changed("turn", [](PileState& s) { s.pieces[1].world_from_body.rotation.x = 1e-9; });
+  changed("velocity", [](PileState& s) { s.pieces[0].linear_velocity.z = -0.0; });
+  changed("turn rate", [](PileState& s) { s.pieces[0].angular_velocity.x = 1; });
+  changed("parent", [](PileState& s) { s.joints[0].parent = 1; });
+  changed("child", [](PileState& s) { s.joints[0].child = 1; });
+  changed("kind", [](PileState& s) { s.joints[0].kind = JointKind::hinge; });
+  changed("parent frame", [](PileState& s) { s.joints[0].parent_from_joint.translation.x = 1; });
+  changed("child frame", [](PileState& s) { s.joints[0].child_from_joint.rotation.z = 1; });
+  changed("rest", [](PileState& s) { s.joints[0].rest = 0.1; });
+  changed("rest rotation", [](PileState& s) { s.joints[0].rest_rotation.y = 0.1; });
+  changed("a piece more", [](PileState& s) { s.pieces.emplace_back(); });
+  changed("a joint less", [](PileState& s) { s.joints.clear(); });
+  changed("steps", [](PileState& s) { s.steps = 1; });
+  EXPECT_EQ(PileState(state).state_hash(), before);
+}
+
 }  // namespace
 }  // namespace rubble

@@ -87,6 +87,53 @@ TEST(Camera, WithEveryStageOffIsTheRenderer) {
   }
 }
 
+// From noon's open sky into the dark of a box and back, once a second: each frame is that of a camera
+// that never saw another one.
+TEST(Camera, AnIdealExposureMetersTheFrameItself) {
+  Scene scene = make_heap(60, 2);
+  scene.meshes.push_back(share(make_box({4, 4, 0.2}, "concrete_cast")));
+  const std::uint32_t slab = std::uint32_t(scene.meshes.size() - 1);
+  scene.instances.push_back({slab, 1, {{}, {30, 0, 1.5}}, 900});
+  GlContext context;
+  const auto pose = [](double t) {
+    return std::lround(t * 10) % 2 ? look_at({29.5, 0, 0.6}, {30.5, 0.2, 0.3})
+                                   : look_at({5, 1, 1.4}, {0, 0, 0.5});
+  };
+  const Flight flight = fly(4, pose);
+  CameraSpec spec;
+  spec.intrinsics = pinhole(64, 48, 40);
+  RenderOptions options = plain();
+  options.bake = true, options.bake_rays = 16;
+  Renderer one(context, scene, options);
+  Camera camera(one, spec, flight);
+  for (int i = 0; i < camera.frames(); ++i) {
+    const Frame frame = camera.take(i);
+    Renderer fresh(context, scene, options);
+    EXPECT_EQ(frame.rgb, Camera(fresh, spec, flight).take(i).rgb) << i;
+    int white = 0;
+    for (const std::uint8_t c : frame.rgb) white += c >= 250;
+    EXPECT_LT(white, 0.5 * double(frame.rgb.size())) << i;
+  }
+}
+
+// The right camera of a pair stands where the left one of another pair does: the same picture but for
+// the exposure, which is its own pair's.
+TEST(Camera, BothEyesShareOneExposure) {
+  const Scene scene = make_heap(60, 2);
+  GlContext context;
+  const Flight flight = fly(4, [](double t) { return look_at({5 - 12 * t, 1 + t, 1.4}, {0, 9 * t, 0.5}); });
+  CameraSpec spec;
+  spec.intrinsics = pinhole(64, 48, 40);
+  spec.baseline = 1e-9;  // nothing but the exposure can differ
+  Renderer renderer(context, scene, plain());
+  Camera camera(renderer, spec, flight);
+  for (int i = 0; i < camera.frames(); ++i) {
+    const Frame frame = camera.take(i);
+    ASSERT_EQ(frame.rgb.size(), frame.rgb_right.size());
+    EXPECT_EQ(frame.rgb, frame.rgb_right) << i;
+  }
+}
+
 // Mean of an 8-bit linear image, without clipped pixels to spoil it.
 double mean_of(const Frame& frame) {
   double sum = 0;

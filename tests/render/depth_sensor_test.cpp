@@ -195,7 +195,7 @@ TEST(TimeOfFlight, HasTheNoiseOfLangeAndSeitz) {
   for (const double z : {0.7, 2.0, 4.0}) {
     const Plane plane(60, 60, 4000, z, 0);  // so narrow that all rays are alike
     const Statistics s = statistics_of(sensor.measure(plane.view()));
-    const double a = 2e4 * 0.4 / (z * z);
+    const double a = spec.depth_sensor.signal * 0.4 / (z * z);
     const double sigma = span / std::sqrt(8) * std::sqrt(a + 2e3) / (2 * a);
     EXPECT_NEAR(s.deviation / sigma, 1, 0.05) << z;
     EXPECT_NEAR(s.mean, z, 4 * sigma / 60 + 1e-4) << z;
@@ -209,6 +209,7 @@ TEST(TimeOfFlight, WrapsAtHalfAWavelengthAndLosesWeakReturns) {
   const double span = 299792458 / 40e6;  // 7.49 m
   EXPECT_NEAR(statistics_of(DepthSensor(spec).measure(Plane(8, 8, 4000, 9, 0).view())).mean,
               9 - span, 1e-3);
+  spec.depth_sensor.least_amplitude = 60;
   spec.depth_sensor.signal = 1e3;  // 1e3 * 0.4 / 25 = 16 electrons
   EXPECT_EQ(statistics_of(DepthSensor(spec).measure(Plane(8, 8, 4000, 5, 0).view())).valid, 0);
   spec.depth_sensor.signal = 2e4;
@@ -232,16 +233,26 @@ TEST(TimeOfFlight, FliesBetweenTheSurfacesOfAnEdge) {
   EXPECT_NEAR(depth[row + 33], 3, 1e-3);
 }
 
-// In fog the air answers too: range is pulled towards the camera, as the sum of phasors says.
+// Toelgyessy et al. 2021, Sensors 21(2) 413: at most 17 mm up to 3.5 m.
+TEST(TimeOfFlight, DefaultsHaveTheNoiseThatWasMeasuredOfAzureKinect) {
+  const DepthSensor sensor(time_of_flight());
+  const double far = statistics_of(sensor.measure(Plane(60, 60, 4000, 3.5, 0).view())).deviation;
+  EXPECT_NEAR(far, 0.017, 0.001);
+  EXPECT_LT(statistics_of(sensor.measure(Plane(60, 60, 4000, 2, 0).view())).deviation, 0.01);
+}
+
+// In fog the air answers too: range is pulled towards the camera, as the sum of phasors says. The
+// emitter is 3 cm to the right, and lights what the one pixel sees: from z = 3 cm * 0.6 / 0.5 on.
 TEST(TimeOfFlight, ReturnsEarlyInFog) {
   CameraSpec spec = time_of_flight();
   spec.depth_sensor.noise = false;
   spec.depth_sensor.least_amplitude = 0;
-  Plane plane(8, 8, 4000, 4, 0);
-  double before = 4;
-  for (const double density : {0.05, 0.2, 0.8}) {
+  Plane plane(1, 1, 0.6, 3, 0);
+  double before = 3;
+  for (const double density : {0.003, 0.02, 0.1}) {
     AirSpec air;
     air.fog_density = density;
+    air.fog_asymmetry = 0.75;
     plane.air = Medium(air, 1).at(0);
     const double z = statistics_of(DepthSensor(spec).measure(plane.view())).mean;
     EXPECT_LT(z, before) << density;
@@ -249,13 +260,17 @@ TEST(TimeOfFlight, ReturnsEarlyInFog) {
     double real = 0, imaginary = 0;
     const double turn = 4 * kPi * 20e6 / 299792458;
     const int steps = 20000;
+    const double first = 0.03 * 0.6 / 0.5;
     for (int i = 0; i < steps; ++i) {
-      const double r = 0.1 + (4 - 0.1) * (i + 0.5) / steps, part =
-          density / 4 * std::exp(-2 * density * r) / (r * r) * (4 - 0.1) / steps;
-      real += part * std::cos(turn * r), imaginary += part * std::sin(turn * r);
+      const double r = first + (3 - first) * (i + 0.5) / steps, e = std::hypot(r, 0.03);
+      const double base = 1 + 0.75 * 0.75 + 2 * 0.75 * r / e;  // back: the cosine is -r / e
+      const double phase = (1 - 0.75 * 0.75) / (4 * kPi * std::pow(base, 1.5));
+      const double part = density * kPi * phase * std::exp(-2 * density * r) / (e * e) * (3 - first) / steps;
+      const double path = turn * 0.5 * (r + e);
+      real += part * std::cos(path), imaginary += part * std::sin(path);
     }
-    const double surface = 0.4 * std::exp(-8 * density) / 16;
-    real += surface * std::cos(turn * 4), imaginary += surface * std::sin(turn * 4);
+    const double surface = 0.4 * std::exp(-6 * density) / 9;
+    real += surface * std::cos(turn * 3), imaginary += surface * std::sin(turn * 3);
     EXPECT_NEAR(z, std::atan2(imaginary, real) / turn, 2e-3) << density;
   }
 }
@@ -265,7 +280,7 @@ TEST(StructuredLight, DropsOutAndGrowsNoisierInSmoke) {
   Plane plane(640, 48, 586, 2.5, 0);
   const Statistics clear = statistics_of(DepthSensor(spec).measure(plane.view()));
   AirSpec air;
-  air.fog_density = 0.12;
+  air.fog_density = 0.3;
   plane.air = Medium(air, 1).at(0);
   const Statistics thin = statistics_of(DepthSensor(spec).measure(plane.view()));
   EXPECT_GT(thin.deviation, clear.deviation * 1.1);
@@ -312,7 +327,7 @@ double noise_on(const char* look, double stated, double albedo) {
   flight.stamps_ns = {1};
   flight.world_from_camera = {Pose{}};
   const Frame frame = Camera(renderer, spec, flight).take(0);
-  const double a = 2e4 * albedo / 9;
+  const double a = spec.depth_sensor.signal * albedo / 9;
   const double sigma = 299792458 / 40e6 / std::sqrt(8) * std::sqrt(a + 2e3) / (2 * a);
   return statistics_of(frame.measured_depth).deviation / sigma;
 }

@@ -179,6 +179,66 @@ TEST(Fog, GlowsInTheLampAndBrightensWithIt) {
   EXPECT_GT(bright_fog, 3 * dark_fog);
 }
 
+// The lamp alone in thin smoke before black nothing: what each pixel sees is the sum along its ray,
+// with the lamp where it is and light turned by the phase function.
+TEST(Air, LampsBeamIsScatteredByThePhaseFunction) {
+  for (const double g : {0.0, 0.75}) {
+    Scene scene;
+    scene.ground = false;
+    scene.light.intensity = 0;
+    scene.lamp.on = true;
+    scene.lamp.intensity_cd = 50000;  // beside it the night sky is nothing
+    scene.lamp.position = {0, -1.2, 0};  // to the right: the beam is seen from its side
+    scene.lamp.cone_deg = 60;
+    scene.air.fog_density = 0.1;
+    scene.air.fog_asymmetry = g;
+    GlContext context;
+    Renderer renderer(context, scene, plain());
+    const Intrinsics k = pinhole(65, 65, 40);
+    const LinearFrame image = renderer.render_linear(Pose{{}, {0, 0, 20}}, k);
+    for (const int u : {20, 32, 44}) {
+      const Vec3 d = normalized(Vec3(1, -(u - k.cx) / k.fx, 0));  // body frame
+      double sum = 0;
+      const double step = 0.002;
+      for (double r = step / 2; r < 60; r += step) {
+        const Vec3 from = d * r - scene.lamp.position;
+        const double e = norm(from), x = (1 - from.x / e) / (1 - std::cos(M_PI / 6));
+        const double c = -dot(from, d) / e, base = 1 + g * g - 2 * g * c;
+        sum += 0.1 * std::exp(-0.2 * r) * 50 * std::exp2(-x * x) / (e * e) * step *
+               (1 - g * g) / (4 * M_PI * std::pow(base, 1.5));
+      }
+      const std::size_t at = (32 * 65 + std::size_t(u)) * 3;
+      const double seen = 0.2126 * image.rgb[at] + 0.7152 * image.rgb[at + 1] + 0.0722 * image.rgb[at + 2];
+      EXPECT_NEAR(seen / sum, 1, 0.06) << g << " " << u;
+    }
+  }
+}
+
+// Fog before a low sun: looking towards it is brighter than looking away.
+TEST(Air, SunlightIsScatteredForwards) {
+  const auto seen = [](double g, double yaw, double height) {
+    Scene scene;
+    scene.lamp.on = false;
+    scene.light.type = LightType::directional;
+    scene.light.intensity = 40;
+    scene.light.rpy_deg = {0, 30, 0};  // travels along X, and down
+    scene.air.fog_density = 0.5;
+    scene.air.fog_height = height;
+    scene.air.fog_asymmetry = g;
+    GlContext context;
+    RenderOptions options = plain();
+    options.bake = true, options.bake_rays = 16;
+    Renderer renderer(context, scene, options);
+    const Pose pose{portable::quat_from_rpy(0, 0, yaw), {0, 0, 1}};
+    return double(renderer.render_linear(pose, pinhole(32, 32, 40)).rgb[(8 * 32 + 16) * 3 + 1]);
+  };
+  // Against what even scattering gives, the sky behind the fog included.
+  EXPECT_GT(seen(0.75, portable::kPi, 1), 1.2 * seen(0, portable::kPi, 1));
+  EXPECT_LT(seen(0.75, 0, 1), 0.9 * seen(0, 0, 1));
+  // In fog without end no light comes straight.
+  EXPECT_NEAR(seen(0.75, portable::kPi, 0) / seen(0, portable::kPi, 0), 1, 1e-3);
+}
+
 // What is far behind fog cannot be told apart: just below the horizon the ground, just above it the
 // sky.
 TEST(Fog, HidesTheHorizon) {

@@ -46,6 +46,37 @@ TEST(Medium, HomogeneousFogFollowsBeerAndLambert) {
   EXPECT_FALSE(Medium(dusty(), 1).homogeneous());
 }
 
+// Over all directions 1, and the mean cosine is g: what defines the function.
+TEST(PhaseFunction, IsNormalizedAndHasItsMeanCosine) {
+  for (const double g : {-0.5, 0.0, 0.3, 0.75, 0.9}) {
+    double sum = 0, mean = 0;
+    constexpr int kSteps = 200000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double c = -1 + 2 * (i + 0.5) / kSteps;
+      sum += phase_function(g, c) * 2 * M_PI * 2 / kSteps;
+      mean += c * phase_function(g, c) * 2 * M_PI * 2 / kSteps;
+    }
+    EXPECT_NEAR(sum, 1, 1e-6) << g;
+    EXPECT_NEAR(mean, g, 1e-6) << g;
+  }
+  EXPECT_NEAR(phase_function(0, 0.3), 1 / (4 * M_PI), 1e-15);
+  EXPECT_NEAR(phase_function(0.75, -1) * 4 * M_PI, 0.25 / (1.75 * 1.75), 1e-12);
+}
+
+TEST(Medium, FogAndDustScatterEachByItsOwnPhaseFunction) {
+  AirSpec spec = dusty();
+  spec.fog_density = 0.2, spec.fog_intensity = 0.8;
+  spec.fog_asymmetry = 0.5, spec.dust.asymmetry = 0.8;
+  const Air air = Medium(spec, 5).at(6);
+  ASSERT_FALSE(air.puffs().empty());
+  const Vec3 p = air.puffs()[0].centre;
+  double dust = 0;
+  for (const DustPuff& puff : air.puffs()) dust += puff.at(p);
+  ASSERT_GT(dust, 0.01);
+  for (const double c : {-1.0, 0.2, 1.0})
+    EXPECT_NEAR(air.scattering(p, c), 0.8 * (0.2 * phase_function(0.5, c) + dust * phase_function(0.8, c)), 1e-12);
+}
+
 TEST(Medium, FogThatThinsWithHeightHasItsClosedForm) {
   const Air air = Medium(fog(0.5, 2), 1).at(0);
   EXPECT_FALSE(air.homogeneous());

@@ -112,33 +112,25 @@ TEST(Textures, DifferAndDoNotDependOnThreads) {
   }
 }
 
-TEST(AutoExposure, MovesTowardsTheMeteredValueAndHolds) {
-  AutoExposure exposure({0.18, 0.25, 0, 1});
-  const auto image_of = [&](double luminance) {  // as the shader codes it
-    const double stops = std::log2(luminance * double(exposure.factor()));
-    return std::vector<std::uint8_t>(16 * 16 * 4,
-                                     std::uint8_t(std::lround((stops / 24 + 0.5) * 255)));
-  };
-  for (int i = 0; i < 4; ++i) exposure.follow(image_of(3), 16, 16, 0);
-  EXPECT_TRUE(exposure.settled());
-  EXPECT_NEAR(3 * exposure.factor(), 0.18, 0.02);
-  const float before = exposure.factor();
-  exposure.follow(image_of(0.3), 16, 16, 0.033);  // ten times darker: it lags
-  EXPECT_GT(exposure.factor(), before);
-  EXPECT_LT(exposure.factor(), before * 2);
-  for (int i = 0; i < 200; ++i) exposure.follow(image_of(0.3), 16, 16, 0.033);
-  EXPECT_NEAR(0.3 * exposure.factor(), 0.18, 0.02);
+MeteredImage metered(double kcd_per_m2) {
+  return {8, 8, std::vector<float>(64, float(std::log2(kcd_per_m2)))};
 }
 
-TEST(AutoExposure, ShowsDuskDarkerThanNoon) {
+TEST(DisplayExposure, BringsTheMeteredMeanToTheKeyWhateverItIs) {
+  for (const double luminance : {1e-6, 1e-4, 0.3, 3.0, 400.0})
+    EXPECT_NEAR(luminance * double(find_exposure({0.18, 0, 1}, metered(luminance))), 0.18, 1e-3)
+        << luminance;
+  EXPECT_EQ(find_exposure({0.18, 0.02, 1}, metered(3)), 0.02f);
+  MeteredImage half = metered(3);
+  for (std::size_t i = 0; i < 32; ++i) half.stops[i] = -2000;  // no lens there
+  EXPECT_EQ(find_exposure({}, half), find_exposure({}, metered(3)));
+  half.stops.assign(64, -2000);
+  EXPECT_EQ(find_exposure({}, half), 0.1f);
+}
+
+TEST(DisplayExposure, ShowsDuskDarkerThanNoon) {
   const auto shown = [](double kcd_per_m2) {
-    AutoExposure exposure({0.18, 0.25, 0, 0.35});
-    for (int i = 0; i < 12; ++i) {
-      const double stops = std::log2(kcd_per_m2 * double(exposure.factor()));
-      const auto code = std::uint8_t(std::lround(std::clamp(stops / 24 + 0.5, 0.0, 1.0) * 255));
-      exposure.follow(std::vector<std::uint8_t>(16 * 16 * 4, code), 16, 16, 0);
-    }
-    return kcd_per_m2 * double(exposure.factor());
+    return kcd_per_m2 * double(find_exposure({0.18, 0, 0.35}, metered(kcd_per_m2)));
   };
   EXPECT_NEAR(shown(5), 0.18, 0.02);
   EXPECT_NEAR(shown(0.01) / shown(5), 0.58, 0.08);  // key(10) / key(4000) of the formula

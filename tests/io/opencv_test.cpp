@@ -1,0 +1,56 @@
+// Our EXR files through OpenCV's reader, the one behind cv2.imread.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <opencv2/imgcodecs.hpp>
+
+#include "io/frames_recorder.h"
+#include "tests/io/support.h"
+
+namespace rubble {
+namespace {
+
+using test::make_full_frame;
+using test::ScratchFolder;
+
+cv::Mat read(const std::string& path) {
+  setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
+  const cv::Mat image = cv::imread(path, cv::IMREAD_UNCHANGED);
+  EXPECT_FALSE(image.empty()) << path;
+  return image.isContinuous() ? image : image.clone();
+}
+
+// Bit for bit, NaN included; of three channels OpenCV has the last first.
+template <typename T>
+void expect_same(const cv::Mat& image, const std::vector<T>& expected, int channels) {
+  ASSERT_EQ(image.channels(), channels);
+  ASSERT_EQ(image.total() * std::size_t(channels), expected.size());
+  ASSERT_EQ(image.elemSize1(), sizeof(T));
+  const T* found = reinterpret_cast<const T*>(image.data);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const std::size_t c = i % std::size_t(channels), j = i - c + (std::size_t(channels) - 1 - c);
+    ASSERT_EQ(0, std::memcmp(&found[i], &expected[j], sizeof(T))) << i << ": " << found[i] << ", " << expected[j];
+  }
+}
+
+TEST(OpenCv, ReadsTheNumbersOfEveryExr) {
+  ScratchFolder folder;
+  auto recorder = make_frames_recorder(folder / "frames", test::full_recording(), 2);
+  const Frame frame = make_full_frame(0);
+  recorder->write(frame);
+  recorder->finish();
+  const std::string at = folder / "frames/";
+  expect_same(read(at + "depth/000000.exr"), frame.measured_depth, 1);
+  expect_same(read(at + "depth_true/000000.exr"), frame.depth, 1);
+  expect_same(read(at + "sky_visibility/000000.exr"), frame.sky_visibility, 1);
+  expect_same(read(at + "normals/000000.exr"), frame.normals, 3);
+  std::vector<float> pieces;
+  for (const std::uint32_t id : frame.instance) pieces.push_back(float(std::int32_t(id)));
+  expect_same(read(at + "instance/000000.exr"), pieces, 1);
+  EXPECT_EQ(std::count(pieces.begin(), pieces.end(), -1.0f), std::count(frame.instance.begin(), frame.instance.end(), kGroundInstance));
+}
+
+}  // namespace
+}  // namespace rubble

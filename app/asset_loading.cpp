@@ -16,7 +16,7 @@ namespace rubble {
 namespace {
 
 PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnits& units,
-                    std::string& warning) {
+                    MeshImporter& importer, std::string& warning) {
   PieceType type;
   type.name = asset.name;
   type.density = asset.density;
@@ -27,7 +27,7 @@ PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnit
     type.parts.emplace_back();
     for (const Vec3f& p : mesh.positions) type.parts[0].points.push_back(Vec3(p));
   } else {
-    for (std::vector<Vec3>& points : load_convex_parts(asset.parts, units))
+    for (std::vector<Vec3>& points : importer.load_convex_parts(asset.parts, units))
       type.parts.push_back({std::move(points)});
   }
   if (is_closed(mesh) && calc_volume_properties(mesh).volume > 0)
@@ -63,16 +63,16 @@ std::string choose_look(const Asset& asset, const std::string& surface) {
 
 }  // namespace
 
-LoadedAsset load_asset(const Asset& asset) {
+LoadedAsset load_asset(const Asset& asset, MeshImporter& importer) {
   const MeshUnits units{asset.metres_per_unit, asset.up};
   auto mesh = std::make_shared<SceneMesh>();
   for (const std::string& path : asset.meshes) {
-    mesh->levels.push_back(load_mesh(path, units));
+    mesh->levels.push_back(importer.load_mesh(path, units));
     for (std::string& surface : mesh->levels.back().surface_names)
       surface = choose_look(asset, surface);
   }
   LoadedAsset loaded;
-  loaded.type = make_type(asset, mesh->levels.front(), units, loaded.warning);
+  loaded.type = make_type(asset, mesh->levels.front(), units, importer, loaded.warning);
   loaded.mesh = std::move(mesh);
   return loaded;
 }
@@ -85,7 +85,7 @@ void add_asset(const FoundAsset& found, AssetLibrary& library) {
                                 found.asset->weight, found.asset->scale, found.asset->spread});
     return;
   }
-  LoadedAsset loaded = load_asset(*found.asset);
+  LoadedAsset loaded = load_asset(*found.asset, *library.importer);
   if (!loaded.warning.empty()) library.warnings.push_back(loaded.warning);
   library.contents.push_back({loaded.type.name, found.pack->name,
                               hash_content(*found.asset, loaded.type), found.asset->weight,
@@ -105,7 +105,7 @@ void add_box(const PlacedItem& item, const std::vector<Material>& materials,
 void add_terrain(const TerrainScenario& spec, const std::vector<std::string>& folders,
                  AssetLibrary& library) {
   if (!spec.given()) return;
-  MadeTerrain terrain = make_terrain(spec, folders);
+  MadeTerrain terrain = make_terrain(spec, folders, *library.importer);
   if (!terrain.warning.empty()) library.warnings.push_back(terrain.warning);
   if (!terrain.folder.empty()) library.folders.push_back(terrain.folder);
   library.contents.push_back({kTerrainName, kTerrainPack, terrain.sha256, 0, {1, 1}, {}});

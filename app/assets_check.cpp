@@ -95,7 +95,7 @@ AssetReport check_asset(const Asset& asset, AssetLibrary& library) {
   AssetReport report;
   report.name = asset.name;
   try {
-    const LoadedAsset loaded = load_asset(asset);
+    const LoadedAsset loaded = load_asset(asset, *library.importer);
     const TriangleMesh& mesh = loaded.mesh->levels.front();
     report.size = mesh.bounds().max - mesh.bounds().min;
     report.closed = is_closed(mesh);

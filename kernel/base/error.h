@@ -28,7 +28,8 @@ struct Diagnostic {
   std::string found;     // e.g. "the string \"wide\""
   std::string hint;      // what to do about it
 
-  // "file:line: key: message: expected E, found F (hint)", leaving out what is empty.
+  // "file:line: key: message: expected E, found F (hint)", leaving out what is empty and
+  // with control characters made visible (kernel/base/text.h).
   std::string text() const;
 };
 

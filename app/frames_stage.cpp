@@ -15,6 +15,7 @@
 #include "io/recording_queue.h"
 #include "kernel/base/disk_cache.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/text.h"
 #include "render/gl_context.h"
 #include "render/renderer.h"
 #include "render/sensors/camera.h"
@@ -133,7 +134,7 @@ void render_frames(Run& run, RunFolder& folder) {
   take_frames(camera, queue, run, folder);
   run.progress.finish(std::to_string(camera.frames()) + " frames");
   for (const std::string& warning : run.warnings)
-    std::fprintf(stderr, "rubble: warning: %s\n", warning.c_str());
+    std::fprintf(stderr, "rubble: warning: %s\n", printable(warning).c_str());
 
   run.progress.start("record");
   queue.finish();

@@ -106,6 +106,9 @@ bool print_report(const std::string& path) {
   if (!fs::exists(path, failed))
     throw InputError(
         {path, 0, "", "no such file or folder", "a recording, or the folder of a run", "", ""});
+  if (!fs::is_regular_file(path, failed))
+    throw InputError({path, 0, "", "is no file that can be looked into", "a file or a folder",
+                      "a pipe or a device", ""});
   const FileReport report = look_over_file(path, stated_hash(path));
   print_row(path, report);
   return is_sound(report.verdict);

@@ -2,12 +2,13 @@
 
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
+#include "app/earlier_files.h"
 #include "app/folder_lock.h"
 #include "io/atomic_file.h"
+#include "io/remove_files.h"
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/parallel.h"
@@ -16,49 +17,8 @@ namespace rubble {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kFileList = "/unfinished/files.txt";
-
-// What runs leave; the manifest comes first, for without it nothing else is taken for whole.
-const std::vector<std::string> kUsualFiles{
-    "manifest.json", "mission.rawlog", "mission.bag",     "mission.mcap", "pile.stl",
-    "pile.bin",      "preview.png",    "groundtruth.txt", "labels.csv",   "mission.simplemap",
-    "pile.ply",      "pile.obj",       "pile.mtl",        "pile.glb"};
-
-bool is_inside(const fs::path& name) { return !name.is_absolute() && *name.begin() != ".."; }
-
-// The files of the run that was here, as far as its manifest and its list can be read.
-std::vector<std::string> files_of_earlier_run(const std::string& folder) {
-  std::vector<std::string> files = kUsualFiles;
-  std::ifstream list(folder + kFileList);
-  for (std::string name; std::getline(list, name);)
-    if (!name.empty() && is_inside(name)) files.push_back(name);
-  if (!fs::is_regular_file(folder + "/manifest.json")) return files;
-  const Json manifest = Json::parse(read_whole_file(folder + "/manifest.json"), nullptr, false);
-  if (!manifest.is_object() || !manifest.contains("outputs")) return files;
-  for (const auto& item : manifest["outputs"].items()) {
-    const fs::path name = fs::path(item.key()).lexically_normal();
-    if (is_inside(name)) files.push_back(name.string());  // otherwise not ours, whatever it says
-  }
-  return files;
-}
-
-// A run that was killed before it could say what it is left only this.
-void remove_unfinished(const std::string& folder) {
-  std::error_code error;
-  fs::remove_all(folder + "/unfinished", error);
-  if (error) throw RunError("cannot remove " + folder + "/unfinished: " + error.message());
-}
-
-void remove_empty_folders(const std::string& folder, const std::vector<std::string>& files) {
-  std::error_code ignored;
-  for (const std::string& file : files) {
-    for (fs::path inside = fs::path(file).parent_path(); !inside.empty();
-         inside = inside.parent_path())
-      fs::remove(fs::path(folder) / inside, ignored);  // only when empty
-  }
-}
 
 std::shared_ptr<const FolderLock> lock_run(const std::string& folder) {
   return std::make_shared<const FolderLock>(folder + "/unfinished/lock", FolderLock::Wait::briefly,
@@ -80,10 +40,11 @@ RunFolder RunFolder::create(const std::string& path, bool force) {
   const bool left = fs::is_directory(path + "/unfinished", failed);
   if (left) lock_run(path);
   if (left && !force) remove_unfinished(path);
-  const std::vector<std::string> files = force ? files_of_earlier_run(path) : kUsualFiles;
+  const std::vector<std::string> files = force ? files_of_earlier_run(path) : usual_run_files();
   prepare_output_folder(path, force, files);
   if (left && force) remove_unfinished(path);
-  remove_empty_folders(path, files);
+  remove_empty_parents(path, files);
+  if (force) refuse_foreign_recordings(path);
   return RunFolder(path);
 }
 

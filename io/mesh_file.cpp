@@ -13,6 +13,7 @@
 #include "io/mesh_bytes.h"
 #include "kernel/base/error.h"
 #include "kernel/base/isolated_worker.h"
+#include "kernel/base/text.h"
 
 // assimp is called in child processes alone: kernel/base/isolated_worker.h says why.
 
@@ -141,10 +142,10 @@ class MeshBuilder {
 
   std::uint8_t find_surface(const std::string& name) {
     for (std::size_t i = 0; i < mesh_.surface_names.size(); ++i) {
-      if (mesh_.surface_names[i] == name) return static_cast<std::uint8_t>(i);
+      if (mesh_.surface_names[i] == printable(name)) return static_cast<std::uint8_t>(i);
     }
     if (mesh_.surface_names.size() == 256) refuse(path_, "has more than 256 materials");
-    mesh_.surface_names.push_back(name);
+    mesh_.surface_names.push_back(printable(name));  // it comes to be text of JSON
     return static_cast<std::uint8_t>(mesh_.surface_names.size() - 1);
   }
 

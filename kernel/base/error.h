@@ -14,7 +14,7 @@ enum class ExitCode {
   bad_input = 1,
   failure = 2,
   did_not_settle = 3,
-  stopped = 4,  // by SIGINT or SIGTERM; `rubble resume` continues
+  stopped = 4,  // by SIGINT, SIGTERM or SIGHUP; `rubble resume` continues
   differs = 5,  // verify found a difference, or a suite an expectation that is not met
 };
 

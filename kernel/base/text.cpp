@@ -1,5 +1,6 @@
 #include "kernel/base/text.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace rubble {
@@ -40,6 +41,20 @@ std::size_t find_invalid_utf8(std::string_view text) {
     if (size == 0) return i;
   }
   return std::string_view::npos;
+}
+
+int calc_json_depth(std::string_view text) {
+  int depth = 0, deepest = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string && c == '\\') ++i;
+    if (c == '"') in_string = !in_string;
+    if (in_string) continue;
+    if (c == '{' || c == '[') deepest = std::max(deepest, ++depth);
+    if (c == '}' || c == ']') --depth;
+  }
+  return deepest;
 }
 
 std::string printable(std::string_view text) {

@@ -47,7 +47,7 @@ AssetLibrary load_assets(const Recipe& recipe, const std::vector<std::string>& f
 struct LoadedAsset {
   PieceType type;
   std::shared_ptr<const SceneMesh> mesh;
-  std::string warning;  // e.g. that the mesh is not closed; empty: none
+  std::vector<std::string> warnings;  // e.g. that the mesh is not closed; each begins with a file
 };
 LoadedAsset load_asset(const Asset& asset, MeshImporter& importer);
 

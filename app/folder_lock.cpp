@@ -28,6 +28,14 @@ FolderLock::FolderLock(const std::string& file, Wait wait, const std::string& me
   }
 }
 
+bool FolderLock::is_held(const std::string& file) {
+  const int descriptor = open(file.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool held = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(descriptor);
+  return held;
+}
+
 FolderLock::~FolderLock() { close(descriptor_); }
 
 }  // namespace rubble

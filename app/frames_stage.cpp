@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/build_scene.h"
+#include "app/camera_inside.h"
 #include "app/flight.h"
 #include "app/frame_journal.h"
 #include "app/frame_watch.h"
@@ -110,6 +111,10 @@ void resolve_path(Run& run, RunFolder& folder) {
     folder.add("flight.json");
   }
   run.scenario.trajectory = plan.trajectory;
+  std::vector<Vec3> positions;
+  for (const CameraPose& pose : plan.poses) positions.push_back(pose.world_from_camera.translation);
+  if (const auto warning = find_camera_inside(run.assets, run.pile, positions))
+    run.warnings.push_back(*warning);
 }
 
 }  // namespace

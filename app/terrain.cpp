@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "kernel/base/hash.h"
+#include "kernel/base/mesh_edges.h"
 #include "kernel/geometry/height_field.h"
 #include "render/looks.h"
 
@@ -83,7 +84,8 @@ MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::str
       if (!is_look(surface)) surface = spec.look;
     terrain.folder = fs::absolute(fs::path(path).parent_path()).lexically_normal().string();
     if (!is_closed(mesh))
-      terrain.warning = path + ": the mesh is not closed: it has no inside for maps of voids";
+      terrain.warning = path + ": the mesh is not closed: " + describe(find_open_edges(mesh)) +
+                        ". It has no inside for maps of voids";
   }
   const TriangleMesh& mesh = scene->levels.front();
   terrain.sha256 = hash_mesh(mesh, spec.friction);

@@ -10,19 +10,30 @@
 
 namespace rubble {
 
-inline std::string mesh_to_bytes(const TriangleMesh& mesh) {
+inline void put_text(CacheWriter& writer, const std::string& text) {
+  writer.put(std::vector<char>(text.begin(), text.end()));
+}
+
+inline std::string get_text(CacheReader& reader) {
+  std::vector<char> text;
+  reader.get(text);
+  return {text.begin(), text.end()};
+}
+
+// note: goes with it.
+inline std::string mesh_to_bytes(const TriangleMesh& mesh, const std::string& note) {
   CacheWriter writer;
   writer.put(mesh.positions);
   writer.put(mesh.normals);
   writer.put(mesh.triangles);
   writer.put(mesh.surfaces);
   writer.put(std::uint64_t(mesh.surface_names.size()));
-  for (const std::string& name : mesh.surface_names)
-    writer.put(std::vector<char>(name.begin(), name.end()));
+  for (const std::string& name : mesh.surface_names) put_text(writer, name);
+  put_text(writer, note);
   return writer.bytes();
 }
 
-inline TriangleMesh mesh_from_bytes(const std::string& bytes) {
+inline TriangleMesh mesh_from_bytes(const std::string& bytes, std::string& note) {
   CacheReader reader(bytes);
   TriangleMesh mesh;
   reader.get(mesh.positions);
@@ -31,11 +42,9 @@ inline TriangleMesh mesh_from_bytes(const std::string& bytes) {
   reader.get(mesh.surfaces);
   std::uint64_t names = 0;
   reader.get(names);
-  for (std::uint64_t i = 0; i < names && i < 256; ++i) {
-    std::vector<char> name;
-    reader.get(name);
-    mesh.surface_names.emplace_back(name.begin(), name.end());
-  }
+  for (std::uint64_t i = 0; i < names && i < 256; ++i)
+    mesh.surface_names.push_back(get_text(reader));
+  note = get_text(reader);
   if (!reader.whole()) throw RunError("a mesh was cut short between two processes");
   return mesh;
 }

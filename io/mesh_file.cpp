@@ -3,6 +3,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstring>
@@ -187,7 +188,32 @@ std::string name_of_material(const aiScene& scene, const aiMesh& mesh) {
   return scene.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
 }
 
-TriangleMesh import_mesh(const std::string& path, const MeshUnits& units) {
+bool has_texture(const aiMaterial& material) {
+  for (int type = aiTextureType_DIFFUSE; type <= AI_TEXTURE_TYPE_MAX; ++type)
+    if (material.GetTextureCount(aiTextureType(type)) > 0) return true;
+  return false;
+}
+
+// Grey is no loss: nearly every exporter writes some.
+bool has_colour(const aiMaterial& material) {
+  aiColor3D c;
+  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, c) != aiReturn_SUCCESS) return false;
+  return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b}) > 0.05f;
+}
+
+std::string find_left_out(const aiScene& scene) {
+  bool colours = false, textures = scene.mNumTextures > 0;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i)
+    colours = colours || scene.mMeshes[i]->HasVertexColors(0);
+  for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
+    colours = colours || has_colour(*scene.mMaterials[i]);
+    textures = textures || has_texture(*scene.mMaterials[i]);
+  }
+  if (colours && textures) return "colours and textures";
+  return colours ? "colours" : textures ? "textures" : "";
+}
+
+TriangleMesh import_mesh(const std::string& path, const MeshUnits& units, std::string& left_out) {
   Assimp::Importer importer;
   const aiScene& scene = import(importer, path, aiProcess_Triangulate);
   const std::vector<PlacedMesh> placed = collect(scene);
@@ -197,6 +223,7 @@ TriangleMesh import_mesh(const std::string& path, const MeshUnits& units) {
     if (p.mesh->mPrimitiveTypes & (aiPrimitiveType_POINT | aiPrimitiveType_LINE))
       refuse_points_and_lines(path);
   }
+  left_out = find_left_out(scene);
   MeshBuilder builder(path, units, with_normals);
   for (const PlacedMesh& p : placed) builder.add(p, name_of_material(scene, *p.mesh));
   return builder.take();
@@ -251,8 +278,10 @@ std::string answer_request(const std::string& request) {
   reader.get(units.metres_per_unit);
   reader.get(units.up);
   const std::string path = request.substr(size);
-  return kind == kMesh ? mesh_to_bytes(import_mesh(path, units))
-                       : parts_to_bytes(import_convex_parts(path, units));
+  if (kind == kParts) return parts_to_bytes(import_convex_parts(path, units));
+  std::string left_out;
+  const TriangleMesh mesh = import_mesh(path, units, left_out);
+  return mesh_to_bytes(mesh, left_out);
 }
 
 }  // namespace
@@ -268,7 +297,7 @@ std::string MeshImporter::ask(char kind, const std::string& path, const MeshUnit
 }
 
 TriangleMesh MeshImporter::load_mesh(const std::string& path, const MeshUnits& units) {
-  return mesh_from_bytes(ask(kMesh, path, units));
+  return mesh_from_bytes(ask(kMesh, path, units), left_out_);
 }
 
 std::vector<std::vector<Vec3>> MeshImporter::load_convex_parts(const std::string& path,

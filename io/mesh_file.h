@@ -28,11 +28,15 @@ class MeshImporter {
   TriangleMesh load_mesh(const std::string& path, const MeshUnits& units = {});
   std::vector<std::vector<Vec3>> load_convex_parts(const std::string& path,
                                                    const MeshUnits& units = {});
+  // What the last mesh that was loaded has in its file and not here: "colours and textures";
+  // empty: nothing.
+  const std::string& left_out() const { return left_out_; }
 
  private:
   std::string ask(char kind, const std::string& path, const MeshUnits& units);
 
   std::unique_ptr<IsolatedWorker> worker_;
+  std::string left_out_;
 };
 
 // Reads any format that assimp knows. Every mesh of the file is joined into one; surfaces are the

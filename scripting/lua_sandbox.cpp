@@ -283,9 +283,10 @@ LuaSandbox::LuaSandbox(std::uint64_t seed, const std::string& entry, const Sandb
   s.host.lua = lua_newstate(allocate, &s.host);
   if (!s.host.lua) throw RunError("no memory for a Lua state");
   *static_cast<LuaHost**>(lua_getextraspace(s.host.lua)) = &s.host;
+  using Opener = std::pair<const char*, lua_CFunction>;
   for (const auto& [name, open] :
-       {std::pair{"_G", luaopen_base}, std::pair{"string", luaopen_string},
-        std::pair{"table", luaopen_table}, std::pair{"math", luaopen_math}}) {
+       {Opener{"_G", luaopen_base}, Opener{"string", luaopen_string},
+        Opener{"table", luaopen_table}, Opener{"math", luaopen_math}}) {
     luaL_requiref(s.host.lua, name, open, 1);
     lua_pop(s.host.lua, 1);
   }

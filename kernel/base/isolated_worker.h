@@ -25,7 +25,11 @@ struct ImportLimits {
   // Beyond what this process has already. Not held under the sanitizers, whose shadow memory alone
   // is larger. unit: byte
   std::uint64_t memory = std::uint64_t(4) << 30;
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+  int cpu_seconds = 2;  // a fuzzer has a million files to try
+#else
   int cpu_seconds = 120;   // for one file
+#endif
   int wall_seconds = 300;  // for a file that never comes, such as a pipe behind a `mtllib`
 };
 

@@ -24,7 +24,7 @@ def fuzz(build, corpus, seconds, target):
     for folder in (grown, findings):
         folder.mkdir(parents=True, exist_ok=True)
     environment = dict(os.environ, **ENVIRONMENT)
-    call = [str(build / f"fuzz_{target}"), f"-max_total_time={seconds}", "-timeout=20",
+    call = [str(build / f"fuzz_{target}"), f"-max_total_time={seconds}", f"-timeout={120 if target in ISOLATED else 20}",
             "-rss_limit_mb=4096", "-malloc_limit_mb=2048", "-print_final_stats=1", "-max_len=8192",
             "-reload=0", f"-artifact_prefix={findings}/", str(grown), str(corpus / target)]
     if target in ISOLATED:

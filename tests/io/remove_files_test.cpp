@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "io/folder_writer.h"
+#include "kernel/base/error.h"
 #include "tests/io/support.h"
 
 namespace rubble {
@@ -71,6 +73,14 @@ TEST_F(RemoveFiles, NeverWhatIsNoFile) {
   remove_plain_files(at("in"), {"pipe", "sub"});
   EXPECT_TRUE(there("in/pipe"));
   EXPECT_TRUE(there("in/sub/b"));
+}
+
+// A folder of recordings that cannot be made whole leaves nothing behind.
+TEST_F(RemoveFiles, OfAFolderThatCannotBeMade) {
+  const std::string too_long(300, 'x');
+  EXPECT_THROW(FolderWriter(at("tum"), {"rgb", too_long}, 1), RunError);
+  EXPECT_FALSE(there("tum.part"));
+  EXPECT_FALSE(there("tum"));
 }
 
 }  // namespace

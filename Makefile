@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages build asset-maker live demo gallery pictures test test-nightly test-asan test-tsan determinism format clean
+.PHONY: help packages build asset-maker live demo gallery pictures test test-nightly test-asan test-tsan fuzz faults determinism format clean
 
 PROGRAM := build/release/rubble
 CTEST   := ctest --output-on-failure --parallel 2
@@ -16,6 +16,8 @@ help:
 	@echo "make test-nightly  the tests that take long, or need a cluster of one node"
 	@echo "make test-asan  the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
 	@echo "make test-tsan  the suite under ThreadSanitizer"
+	@echo "make fuzz SECONDS=60  every fuzz target for so long, two at once (docs/reliability.md)"
+	@echo "make faults     break a small run at many places, continue it, compare the bytes (an hour)"
 	@echo "make determinism  the same hashes from other compilers, levels and processors (half an hour)"
 	@echo "make format     clang-format over the tree"
 	@echo "make clean      remove build/ and out/"
@@ -60,6 +62,7 @@ test: build
 test-nightly: live
 	@tools/install_packages.sh tools/packages-nightly.txt tools/packages-sfm.txt
 	$(CTEST) --preset release --label-regex nightly
+	$(MAKE) fuzz SECONDS=4  # of each target: a minute in all, two at once
 
 # See RUBBLE_ASSET_MAKER in assets/CMakeLists.txt.
 asset-maker: packages build/release/build.ninja
@@ -71,6 +74,19 @@ test-tsan: asset-maker
 test-asan test-tsan: test-%: packages build/%/build.ninja
 	cmake --build --preset $*
 	$(CTEST) --preset $* --label-exclude "slow|nightly"
+
+# TARGETS: some of tests/fuzz alone, as in TARGETS="ply_map pack".
+SECONDS := 60
+fuzz: build
+	@tools/install_packages.sh tools/packages-fuzz.txt
+	cmake --preset fuzz
+	cmake --build --preset fuzz
+	tests/fuzz/make_corpus.py . $(PROGRAM) build/fuzz/seeds
+	tests/fuzz/run_fuzz.py build/fuzz build/fuzz/seeds $(SECONDS) $(TARGETS)
+
+# 200 kills, and 40 places of each call that can fail.
+faults: build
+	tests/faults/run_faults.py $(PROGRAM) build/faults 200 40
 
 # Not part of any suite: it installs compilers and builds the kernel fifteen times.
 determinism: packages

@@ -1,5 +1,8 @@
 #include "app/arguments.h"
 
+#include <charconv>
+#include <cstdint>
+
 namespace rubble {
 
 CLI::Option* add_list(CLI::App& command, const std::string& name, std::vector<std::string>& values,
@@ -18,7 +21,20 @@ void add_mission_options(CLI::App& command, RunRequest& request, const std::stri
 }
 
 void add_seed_option(CLI::App& command, RunRequest& request) {
-  command.add_option("--seed", request.seed, "Seed of all randomness; overrides the script's");
+  command
+      .add_option_function<std::string>(
+          "--seed",
+          [&request](const std::string& text) {
+            std::int64_t seed = -1;  // as a script's
+            const char* const end = text.data() + text.size();
+            const auto read = std::from_chars(text.data(), end, seed);
+            if (read.ec != std::errc() || read.ptr != end || seed < 0)
+              throw CLI::ValidationError(
+                  "--seed", "expected a whole number from 0 to 9223372036854775807, found " + text);
+            request.seed = std::uint64_t(seed);
+          },
+          "Seed of all randomness; overrides the script's")
+      ->type_name("UINT");
 }
 
 void add_threads_option(CLI::App& command, int& threads, const std::string& text) {

@@ -177,6 +177,8 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
               library);
   load(true);  // made of types, so after all of them
   library.mix = make_mix(mission.scenario, all, library);
+  for (std::string& warning : find_suspicious(mission)) library.warnings.push_back(std::move(warning));
+  library.importer.reset();
   return library;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/recipe.h"
+#include "io/mesh_file.h"
 #include "kernel/model/pile.h"
 #include "render/scene.h"
 #include "scripting/asset_pack.h"
@@ -21,6 +22,8 @@ struct AssetLibrary {
   std::vector<MixEntry> mix;                             // what the mission draws from
   std::vector<std::string> warnings;                     // e.g. a mesh that is not closed
   std::vector<std::string> folders;                      // of the packs, absolute
+  // What reads the meshes; let go when all are loaded.
+  std::shared_ptr<MeshImporter> importer = std::make_shared<MeshImporter>();
 
   // Index of a type that was loaded, or the number of types plus the index of an assembly: as
   // placements and mixes have it.
@@ -44,9 +47,9 @@ AssetLibrary load_assets(const Recipe& recipe, const std::vector<std::string>& f
 struct LoadedAsset {
   PieceType type;
   std::shared_ptr<const SceneMesh> mesh;
-  std::string warning;  // e.g. that the mesh is not closed; empty: none
+  std::vector<std::string> warnings;  // e.g. that the mesh is not closed; each begins with a file
 };
-LoadedAsset load_asset(const Asset& asset);
+LoadedAsset load_asset(const Asset& asset, MeshImporter& importer);
 
 // The folder of a pack: a folder with a pack.lua, else a bundled pack of that name, else `pack`
 // itself.

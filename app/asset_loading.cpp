@@ -1,6 +1,7 @@
 #include "app/asset_loading.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 
 #include "app/assemblies.h"
@@ -10,13 +11,15 @@
 #include "app/terrain.h"
 #include "io/mesh_file.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/mesh_edges.h"
 #include "render/looks.h"
+#include "scripting/schema.h"
 
 namespace rubble {
 namespace {
 
 PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnits& units,
-                    std::string& warning) {
+                    MeshImporter& importer, std::vector<std::string>& warnings) {
   PieceType type;
   type.name = asset.name;
   type.density = asset.density;
@@ -27,14 +30,17 @@ PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnit
     type.parts.emplace_back();
     for (const Vec3f& p : mesh.positions) type.parts[0].points.push_back(Vec3(p));
   } else {
-    for (std::vector<Vec3>& points : load_convex_parts(asset.parts, units))
+    for (std::vector<Vec3>& points : importer.load_convex_parts(asset.parts, units))
       type.parts.push_back({std::move(points)});
   }
-  if (is_closed(mesh) && calc_volume_properties(mesh).volume > 0)
+  const bool closed = is_closed(mesh);
+  if (closed && calc_volume_properties(mesh).volume > 0)
     type.volume = calc_volume_properties(mesh);
   else
-    warning = asset.meshes.front() +
-              ": the mesh is not closed: mass and inertia come from its convex parts";
+    warnings.push_back(asset.meshes.front() + ": the mesh is " +
+                       (closed ? "inside out: its triangles face inwards"
+                               : "not closed: " + describe(find_open_edges(mesh))) +
+                       ". Mass and inertia come from its convex parts");
   return type;
 }
 
@@ -61,18 +67,61 @@ std::string choose_look(const Asset& asset, const std::string& surface) {
   return is_look || asset.look.empty() ? surface : asset.look;
 }
 
+constexpr double kSmallest = 1e-3, kLargest = 1e3;  // of a piece that was meant so; unit: m
+
+void warn_of_size(const Asset& asset, const TriangleMesh& mesh, std::vector<std::string>& warnings) {
+  const Vec3 size = mesh.bounds().max - mesh.bounds().min;
+  const double largest = std::max({size.x, size.y, size.z});
+  if (largest >= kSmallest && largest <= kLargest) return;
+  char text[64];
+  std::snprintf(text, sizeof text, ": the mesh is %.3g m large", largest);
+  warnings.push_back(asset.meshes.front() + text + ": are its `units` right?");
+}
+
+// One that the pack says nothing of: there the file's own colour may have been what was meant.
+bool has_surface_of_its_own(const Asset& asset, const TriangleMesh& mesh) {
+  const std::vector<std::string> known = known_looks();
+  return std::any_of(mesh.surface_names.begin(), mesh.surface_names.end(), [&](const auto& name) {
+    const bool given = std::any_of(asset.looks.begin(), asset.looks.end(),
+                                   [&name](const auto& look) { return look.first == name; });
+    return !given && std::find(known.begin(), known.end(), name) == known.end();
+  });
+}
+
+// A surface that `looks` names and no mesh of the asset has.
+void warn_of_looks(const Asset& asset, const std::vector<std::string>& surfaces,
+                   std::vector<std::string>& warnings) {
+  for (const auto& [name, look] : asset.looks) {
+    if (std::find(surfaces.begin(), surfaces.end(), name) != surfaces.end()) continue;
+    const std::string near = nearest_name(name, surfaces);
+    std::string there;
+    for (const std::string& surface : surfaces) there += (there.empty() ? "`" : ", `") + surface + "`";
+    warnings.push_back(asset.meshes.front() + ": `looks` of `" + asset.name +
+                       "` names the surface `" + name + "`, which the mesh has not: " +
+                       (near.empty() ? "it has " + there : "did you mean `" + near + "`?"));
+  }
+}
+
 }  // namespace
 
-LoadedAsset load_asset(const Asset& asset) {
+LoadedAsset load_asset(const Asset& asset, MeshImporter& importer) {
   const MeshUnits units{asset.metres_per_unit, asset.up};
   auto mesh = std::make_shared<SceneMesh>();
-  for (const std::string& path : asset.meshes) {
-    mesh->levels.push_back(load_mesh(path, units));
-    for (std::string& surface : mesh->levels.back().surface_names)
-      surface = choose_look(asset, surface);
-  }
   LoadedAsset loaded;
-  loaded.type = make_type(asset, mesh->levels.front(), units, loaded.warning);
+  std::vector<std::string> surfaces;
+  for (const std::string& path : asset.meshes) {
+    mesh->levels.push_back(importer.load_mesh(path, units));
+    if (!importer.left_out().empty() && has_surface_of_its_own(asset, mesh->levels.back()))
+      loaded.warnings.push_back(path + ": " + importer.left_out() +
+                                " of the file are not drawn: surfaces look as `looks` says");
+    for (std::string& surface : mesh->levels.back().surface_names) {
+      surfaces.push_back(surface);
+      surface = choose_look(asset, surface);
+    }
+  }
+  warn_of_size(asset, mesh->levels.front(), loaded.warnings);
+  warn_of_looks(asset, surfaces, loaded.warnings);
+  loaded.type = make_type(asset, mesh->levels.front(), units, importer, loaded.warnings);
   loaded.mesh = std::move(mesh);
   return loaded;
 }
@@ -85,8 +134,8 @@ void add_asset(const FoundAsset& found, AssetLibrary& library) {
                                 found.asset->weight, found.asset->scale, found.asset->spread});
     return;
   }
-  LoadedAsset loaded = load_asset(*found.asset);
-  if (!loaded.warning.empty()) library.warnings.push_back(loaded.warning);
+  LoadedAsset loaded = load_asset(*found.asset, *library.importer);
+  library.warnings.insert(library.warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
   library.contents.push_back({loaded.type.name, found.pack->name,
                               hash_content(*found.asset, loaded.type), found.asset->weight,
                               found.asset->scale, found.asset->spread});
@@ -105,7 +154,7 @@ void add_box(const PlacedItem& item, const std::vector<Material>& materials,
 void add_terrain(const TerrainScenario& spec, const std::vector<std::string>& folders,
                  AssetLibrary& library) {
   if (!spec.given()) return;
-  MadeTerrain terrain = make_terrain(spec, folders);
+  MadeTerrain terrain = make_terrain(spec, folders, *library.importer);
   if (!terrain.warning.empty()) library.warnings.push_back(terrain.warning);
   if (!terrain.folder.empty()) library.folders.push_back(terrain.folder);
   library.contents.push_back({kTerrainName, kTerrainPack, terrain.sha256, 0, {1, 1}, {}});

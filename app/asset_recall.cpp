@@ -83,6 +83,7 @@ struct Search {
           continue;
         }
         AssetLibrary one;
+        one.importer = library.importer;
         add_asset({&pack, &asset}, one);
         if (one.contents.back().sha256 == wanted.sha256) return keep(one, wanted, library);
         other = "in " + pack.folder + " it has the content " + one.contents.back().sha256;
@@ -156,6 +157,7 @@ AssetLibrary load_assets(const Recipe& recipe, const std::vector<std::string>& f
   }
   if (!search.missing.empty()) throw InputError(std::move(search.missing));
   library.mix = make_mix(scenario, library);
+  library.importer.reset();
   return library;
 }
 

@@ -95,12 +95,11 @@ AssetReport check_asset(const Asset& asset, AssetLibrary& library) {
   AssetReport report;
   report.name = asset.name;
   try {
-    const LoadedAsset loaded = load_asset(asset);
+    const LoadedAsset loaded = load_asset(asset, *library.importer);
     const TriangleMesh& mesh = loaded.mesh->levels.front();
     report.size = mesh.bounds().max - mesh.bounds().min;
     report.closed = is_closed(mesh);
-    if (!loaded.warning.empty())
-      report.warnings.push_back("the mesh is not closed: mass and inertia come from the parts");
+    report.warnings.insert(report.warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
     check_levels(*loaded.mesh, report);
     const Shape shape = compile_shape(loaded.type, asset.name);
     report.volume = shape.volume.volume;

@@ -47,7 +47,7 @@ Exhibit make_exhibit(const std::string& name, std::shared_ptr<const SceneMesh> m
 
 Exhibit load_exhibit(const Asset& asset, AssetLibrary& library) {
   if (asset.links.empty()) {
-    const LoadedAsset loaded = load_asset(asset);
+    const LoadedAsset loaded = load_asset(asset, *library.importer);
     library.types.push_back(loaded.type);
     library.meshes.push_back(loaded.mesh);
     const double volume = compile_shape(loaded.type, asset.name).volume.volume;

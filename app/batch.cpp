@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 struct Tally {
   std::size_t ended = 0, failed = 0, not_settled = 0, done_before = 0;
+  std::size_t elsewhere = 0;  // another process made or makes them
   std::uint64_t bytes = 0;  // of the seeds that ended well in this process
 };
 
@@ -142,6 +143,12 @@ class Batch {
       folder_.file_log(seed, false);
       return false;
     }
+    // The same batch, begun twice, must not call what the other process does a failure.
+    if (!well && (folder_.state_of(seed) == SeedState::done || folder_.is_at_work(seed))) {
+      folder_.file_log(seed, false);
+      ++tally_.elsewhere;
+      return true;
+    }
     folder_.file_log(seed, !well);
     ++tally_.ended;
     tally_.failed += !well;
@@ -164,8 +171,13 @@ class Batch {
   }
 
   std::string words() const {
+    const std::string others =
+        tally_.elsewhere == 0
+            ? ""
+            : ", " + std::to_string(tally_.elsewhere) + " in the hands of another process";
     return std::to_string(tally_.ended + tally_.done_before) + " of " +
-           std::to_string(mine_.size()) + " seeds, " + std::to_string(tally_.failed) + " failed";
+           std::to_string(mine_.size()) + " seeds, " + std::to_string(tally_.failed) + " failed" +
+           others;
   }
 
   void write_index() {

@@ -41,6 +41,10 @@ SeedState BatchFolder::state_of(std::uint64_t seed) const {
   return unfinished ? SeedState::unfinished : SeedState::missing;
 }
 
+bool BatchFolder::is_at_work(std::uint64_t seed) const {
+  return FolderLock::is_held(of_seed(seed) + "/unfinished/lock");
+}
+
 void BatchFolder::open(const std::string& description) const {
   create_folder(path_);
   const std::string file = path_ + "/batch.json";

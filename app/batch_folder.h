@@ -23,6 +23,8 @@ class BatchFolder {
   // Where the log of a seed goes while it runs.
   std::string running_log(std::uint64_t seed) const;
   SeedState state_of(std::uint64_t seed) const;
+  // Whether another process holds the lock of its folder.
+  bool is_at_work(std::uint64_t seed) const;
 
   // Creates the folder and writes batch.json, or compares with the one that is there. Throws
   // InputError when another batch is in it. description: JSON.

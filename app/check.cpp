@@ -3,6 +3,7 @@
 
 #include "app/asset_library.h"
 #include "app/commands.h"
+#include "kernel/base/text.h"
 #include "scripting/mission.h"
 
 namespace rubble {
@@ -15,7 +16,7 @@ ExitCode check_mission(const RunRequest& request) {
   for (const std::string& line : mission.printed) std::fprintf(stderr, "%s\n", line.c_str());
   const AssetLibrary assets = load_assets(mission, request.asset_packs);
   for (const std::string& warning : assets.warnings)
-    std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    std::fprintf(stderr, "warning: %s\n", printable(warning).c_str());
   std::printf("%s\n", scenario_to_json(mission.scenario).c_str());
   return ExitCode::done;
 }

@@ -57,6 +57,14 @@ bool FolderLock::is_still(const std::string& file) const {
          mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
 }
 
+bool FolderLock::is_held(const std::string& file) {
+  const int descriptor = open(file.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool held = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(descriptor);
+  return held;
+}
+
 FolderLock::~FolderLock() { close(descriptor_); }
 
 }  // namespace rubble

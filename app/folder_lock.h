@@ -18,6 +18,8 @@ class FolderLock {
   // protection.
   FolderLock(const std::string& file, Wait wait, const std::string& message = "");
   ~FolderLock();
+  // Whether a process holds it now.
+  static bool is_held(const std::string& file);
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/build_scene.h"
+#include "app/camera_inside.h"
 #include "app/flight.h"
 #include "app/frame_journal.h"
 #include "app/frame_watch.h"
@@ -15,6 +16,7 @@
 #include "io/recording_queue.h"
 #include "kernel/base/disk_cache.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/text.h"
 #include "render/gl_context.h"
 #include "render/renderer.h"
 #include "render/sensors/camera.h"
@@ -109,6 +111,10 @@ void resolve_path(Run& run, RunFolder& folder) {
     folder.add("flight.json");
   }
   run.scenario.trajectory = plan.trajectory;
+  std::vector<Vec3> positions;
+  for (const CameraPose& pose : plan.poses) positions.push_back(pose.world_from_camera.translation);
+  if (const auto warning = find_camera_inside(run.assets, run.pile, positions))
+    run.warnings.push_back(*warning);
 }
 
 }  // namespace
@@ -133,7 +139,7 @@ void render_frames(Run& run, RunFolder& folder) {
   take_frames(camera, queue, run, folder);
   run.progress.finish(std::to_string(camera.frames()) + " frames");
   for (const std::string& warning : run.warnings)
-    std::fprintf(stderr, "rubble: warning: %s\n", warning.c_str());
+    std::fprintf(stderr, "rubble: warning: %s\n", printable(warning).c_str());
 
   run.progress.start("record");
   queue.finish();

@@ -9,7 +9,10 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <system_error>
 #include <thread>
@@ -23,10 +26,25 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr auto kGrace = std::chrono::seconds(60);  // to stop between two steps and write what is done
+
 struct Running {
   std::size_t index;
   Clock::time_point started;
+  std::string log;
 };
+
+std::string signal_words(int signal) {
+  return "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
+}
+
+// What the job itself cannot say any more. A log that cannot be written is no reason to fail.
+void note_death(const std::string& log, int status) {
+  if (!WIFSIGNALED(status)) return;
+  std::ofstream(log, std::ios::app) << "killed by " << signal_words(WTERMSIG(status))
+                                    << (WTERMSIG(status) == SIGKILL ? ": was memory short?" : "")
+                                    << "\n";
+}
 
 // Only calls that are safe between fork and exec.
 [[noreturn]] void become_program(const char* program, char* const* arguments, int log,
@@ -68,26 +86,41 @@ class Pool {
  public:
   ~Pool() {
     stop_all();
-    for (const auto& item : running_) waitpid(item.first, nullptr, 0);
+    const auto end = Clock::now() + kGrace;
+    for (const auto& item : running_) wait_until(item.first, end);
   }
 
-  void begin(const Job& job, std::size_t index) { running_[start(job)] = {index, Clock::now()}; }
+  void begin(const Job& job, std::size_t index) {
+    running_[start(job)] = {index, Clock::now(), job.log};
+  }
   std::size_t size() const { return running_.size(); }
 
+  // One that somebody suspended must run to see its signal.
   void stop_all() {
-    for (const auto& item : running_) kill(item.first, SIGTERM);
+    for (const auto& item : running_) kill(item.first, SIGTERM), kill(item.first, SIGCONT);
+  }
+  void kill_all() {
+    for (const auto& item : running_) kill(item.first, SIGKILL);
   }
 
   // Waits for one of ours to end.
   std::pair<std::size_t, JobResult> wait() {
-    for (bool stopping = false;;) {
-      if (stop_requested() && !stopping) {
+    for (;;) {
+      if (stop_requested() && !stopping_) {
         stop_all();
-        stopping = true;
+        stopping_ = true;
+        stop_end_ = Clock::now() + kGrace;
       }
+      if (stopping_ && Clock::now() > stop_end_) kill_all();
       for (const auto& [pid, job] : running_) {
         int status = 0;
-        if (waitpid(pid, &status, WNOHANG) != pid) continue;
+        if (waitpid(pid, &status, WNOHANG | WUNTRACED) != pid) continue;
+        if (WIFSTOPPED(status)) {
+          std::fprintf(stderr, "process %d was suspended by %s; `kill -CONT %d` continues it\n",
+                       int(pid), signal_words(WSTOPSIG(status)).c_str(), int(pid));
+          continue;
+        }
+        note_death(job.log, status);
         const std::chrono::duration<double> took = Clock::now() - job.started;
         const std::pair<std::size_t, JobResult> ended{job.index,
                                                       {exit_code_of(status), took.count()}};
@@ -99,7 +132,16 @@ class Pool {
   }
 
  private:
+  static void wait_until(pid_t pid, Clock::time_point end) {
+    while (waitpid(pid, nullptr, WNOHANG) == 0) {
+      if (Clock::now() > end) kill(pid, SIGKILL);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+
   std::map<pid_t, Running> running_;
+  bool stopping_ = false;
+  Clock::time_point stop_end_{};
 };
 
 }  // namespace

@@ -18,8 +18,10 @@ struct JobResult {
 };
 
 // Runs them in order, `at_once` of them at a time, and calls `ended` as each one ends; when that
-// returns false, no further one is begun. On SIGINT and SIGTERM (see app/stop.h) all are stopped
-// cleanly; returns when none is left. They do not outlive this process. Throws RunError.
+// returns false, no further one is begun. On a signal to stop (see app/stop.h) all are stopped
+// cleanly, and killed if they are not done after a minute; returns when none is left. They do not
+// outlive this process. The log of one that a signal killed says so; that one is suspended is said on
+// standard error. Throws RunError.
 void run_jobs(const std::vector<Job>& jobs, int at_once,
               const std::function<bool(std::size_t index, const JobResult&)>& ended);
 

@@ -1,6 +1,9 @@
 #include "app/json_members.h"
 
 #include <algorithm>
+#include <cstdint>
+
+#include "kernel/base/text.h"
 
 namespace rubble {
 
@@ -67,13 +70,20 @@ double JsonMembers::as_number() const {
 }
 
 std::int64_t JsonMembers::as_integer() const {
-  if (!json_.is_number_integer()) fail_here("a whole number");
+  const bool too_large = json_.is_number_unsigned() &&
+                         json_.get<std::uint64_t>() > std::uint64_t(INT64_MAX);
+  if (!json_.is_number_integer() || too_large) fail_here("a whole number");
   return json_.get<std::int64_t>();
 }
 
 Json parse_json_text(const std::string& text, const std::string& file) {
+  if (calc_json_depth(text) > kDeepestJson)
+    throw InputError({file, 0, "", "nested too deep", "at most 200 levels of brackets",
+                      std::to_string(calc_json_depth(text)), "it was altered"});
   try {
     return Json::parse(text);
+  } catch (const Json::out_of_range&) {
+    throw InputError({file, 0, "", "a number in it is too large", "", "", "it was altered"});
   } catch (const Json::parse_error& error) {
     const auto end = text.begin() + std::ptrdiff_t(std::min(error.byte, text.size()));
     const int line = 1 + int(std::count(text.begin(), end, '\n'));

@@ -2,15 +2,20 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <map>
 
+#include "app/batch_folder.h"
 #include "app/commands.h"
 #include "app/disk_estimate.h"
+#include "app/json_members.h"
 #include "app/manifest.h"
 #include "app/run_folder.h"
+#include "app/seed_list.h"
 #include "io/atomic_file.h"
 #include "io/recording_check.h"
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/text.h"
 
 namespace rubble {
 namespace {
@@ -27,14 +32,15 @@ std::string describe_content(const RecordingCheck& check) {
          std::to_string(check.messages.size()) + " topics";
 }
 
-std::string size_of(const std::string& path) {
+std::uint64_t size_of(const std::string& path) {
   std::error_code failed;
-  return ", " + format_bytes(fs::file_size(path, failed));
+  const std::uint64_t size = fs::file_size(path, failed);
+  return failed ? 0 : size;
 }
 
 void print_row(const std::string& name, const FileReport& report) {
-  std::printf("%-24s %-12s %s\n", name.c_str(), kVerdictNames[int(report.verdict)],
-              report.detail.c_str());
+  std::printf("%-24s %-12s %s\n", printable(name).c_str(), kVerdictNames[int(report.verdict)],
+              printable(report.detail).c_str());
 }
 
 bool is_sound(FileVerdict verdict) {
@@ -54,17 +60,76 @@ std::optional<std::string> stated_hash(const std::string& path) {
 
 void print_summary(const Manifest& m) {
   std::printf("script                   %s, seed %llu, by rubble %s (%s)\n",
-              m.recipe.script.path.c_str(), static_cast<unsigned long long>(m.seed),
-              m.program.version.c_str(), m.program.commit.c_str());
+              printable(m.recipe.script.path).c_str(), static_cast<unsigned long long>(m.seed),
+              printable(m.program.version).c_str(), printable(m.program.commit).c_str());
   std::printf("pile                     %lld pieces, %s, state hash %s\n",
               static_cast<long long>(m.pile.pieces), m.pile.settled ? "at rest" : "not at rest",
-              m.pile.state_hash.c_str());
+              printable(m.pile.state_hash).c_str());
   std::printf("frames                   %zu\n", m.frames.frames.size());
+}
+
+// The files of a recording that is a folder, as one row; those that are not sound have one each.
+class FileTable {
+ public:
+  void add(const std::string& name, const FileReport& report) {
+    sound_ = sound_ && is_sound(report.verdict);
+    const std::size_t slash = name.find('/');
+    if (slash == std::string::npos || !is_sound(report.verdict)) return print_row(name, report);
+    Group& group = groups_[name.substr(0, slash + 1)];
+    ++group.files;
+    group.bytes += report.bytes;
+  }
+  // Prints what was not printed yet. Whether all is sound.
+  bool finish() const {
+    for (const auto& [name, group] : groups_)
+      print_row(name, {FileVerdict::sound,
+                       std::to_string(group.files) + (group.files == 1 ? " file, " : " files, ") +
+                           format_bytes(group.bytes)});
+    return sound_;
+  }
+
+ private:
+  struct Group {
+    std::size_t files = 0;
+    std::uint64_t bytes = 0;
+  };
+  std::map<std::string, Group> groups_;
+  bool sound_ = true;
+};
+
+// How far a batch is; whether a seed's dataset is whole is asked of its own folder.
+bool print_batch(const std::string& folder) {
+  const std::string file = folder + "/batch.json";
+  const auto json = parse_json_text(read_whole_file(file), file);
+  const JsonMembers members(json, file);
+  const std::string seeds = members.text("seeds");
+  const BatchFolder batch(folder);
+  std::map<SeedState, std::vector<std::uint64_t>> by_state;
+  for (const std::uint64_t seed : parse_seeds(seeds, "seeds"))
+    by_state[batch.state_of(seed)].push_back(seed);
+  std::printf("batch                    %s, seeds %s\n",
+              printable(members.object("script").text("name")).c_str(), printable(seeds).c_str());
+  for (const auto& [state, name] :
+       {std::pair(SeedState::done, "done"), std::pair(SeedState::failed, "failed"),
+        std::pair(SeedState::unfinished, "unfinished"), std::pair(SeedState::missing, "not begun")}) {
+    const std::vector<std::uint64_t>& of = by_state[state];
+    std::string first;
+    for (std::size_t i = 0; i < of.size() && i < 5 && state != SeedState::done; ++i)
+      first += (i ? ", " : ": seed ") + std::to_string(of[i]);
+    if (!first.empty() && of.size() > 5) first += ", ...";
+    if (!of.empty()) std::printf("%-24s %zu%s\n", name, of.size(), first.c_str());
+  }
+  std::error_code failed;
+  if (fs::exists(folder + "/index.csv", failed))
+    std::printf("%-24s %s/index.csv\n", "table", folder.c_str());
+  return by_state[SeedState::failed].empty();
 }
 
 bool print_folder(const std::string& folder) {
   const std::string file = folder + "/manifest.json";
   std::error_code failed;
+  if (!fs::exists(file, failed) && fs::exists(folder + "/batch.json", failed))
+    return print_batch(folder);
   if (!fs::exists(file, failed) && is_unfinished(folder)) {
     std::printf("unfinished: `rubble resume %s` continues it\n", folder.c_str());
     return true;
@@ -75,13 +140,10 @@ bool print_folder(const std::string& folder) {
   const auto altered = find_altered_parts(text, file);
   for (const std::string& sentence : altered)
     print_row("manifest.json", {FileVerdict::altered, sentence});
-  bool sound = altered.empty();
-  for (const auto& [name, hash] : manifest.outputs) {
-    const FileReport report = look_over_file(folder + "/" + name, hash);
-    print_row(name, report);
-    sound = sound && is_sound(report.verdict);
-  }
-  return sound;
+  FileTable table;
+  for (const auto& [name, hash] : manifest.outputs)
+    table.add(name, look_over_file(folder + "/" + name, hash));
+  return table.finish() && altered.empty();
 }
 
 }  // namespace
@@ -93,9 +155,11 @@ FileReport look_over_file(const std::string& path, const std::optional<std::stri
   if (check && check->fault)
     return {FileVerdict::altered,
             "at byte " + std::to_string(check->fault->byte) + ": " + check->fault->what};
-  const std::string content = (check ? describe_content(*check) : "file") + size_of(path);
-  if (!hash) return {check ? FileVerdict::sound : FileVerdict::not_checked, content};
-  if (sha256_of_file(path) == *hash) return {FileVerdict::sound, content};
+  const std::uint64_t size = size_of(path);
+  const std::string content =
+      (check ? describe_content(*check) : "file") + ", " + format_bytes(size);
+  if (!hash) return {check ? FileVerdict::sound : FileVerdict::not_checked, content, size};
+  if (sha256_of_file(path) == *hash) return {FileVerdict::sound, content, size};
   return {FileVerdict::altered,
           "its SHA-256 is not the manifest's; `rubble verify` finds the first byte"};
 }
@@ -106,6 +170,9 @@ bool print_report(const std::string& path) {
   if (!fs::exists(path, failed))
     throw InputError(
         {path, 0, "", "no such file or folder", "a recording, or the folder of a run", "", ""});
+  if (!fs::is_regular_file(path, failed))
+    throw InputError({path, 0, "", "is no file that can be looked into", "a file or a folder",
+                      "a pipe or a device", ""});
   const FileReport report = look_over_file(path, stated_hash(path));
   print_row(path, report);
   return is_sound(report.verdict);

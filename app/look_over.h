@@ -2,6 +2,7 @@
 // Nothing is run again; `rubble verify` does that.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -16,13 +17,16 @@ enum class FileVerdict {
 
 struct FileReport {
   FileVerdict verdict = FileVerdict::sound;
-  std::string detail;  // kind and content, or where it is damaged
+  std::string detail;       // kind and content, or where it is damaged
+  std::uint64_t bytes = 0;  // size of one that is there
 };
 
 // hash: the SHA-256 that a manifest states for it. Throws InputError when it cannot be read.
 FileReport look_over_file(const std::string& path, const std::optional<std::string>& hash);
 
-// Prints a row for the file, or for every file of the dataset. Returns whether all of it is sound.
+// Prints a row for the file; for every file of a dataset, those of a folder as one row as long as
+// they are sound; or how far the seeds of a batch are. Returns whether all of it is sound and no seed
+// failed.
 // Throws InputError: no such path, a folder without a run.
 bool print_report(const std::string& path);
 

@@ -1,18 +1,27 @@
 // The command line: a table of commands; parses, calls one, turns errors into messages and exit
 // codes.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <memory>
 #include <new>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "app/arguments.h"
 #include "app/build_info.h"
 #include "app/commands.h"
+#include "kernel/base/text.h"
+#include "scripting/schema.h"
 #include "scripting/schema_docs.h"
 
 namespace rubble {
@@ -261,6 +270,37 @@ const CommandEntry kCommands[] = {
     {"check", "Print the complete scenario as JSON; run nothing", add_check},
     {"info", "Print versions, the GL renderer and threads; or look over a dataset", add_any_info}};
 
+// Says so where the first word is no command.
+bool is_unknown_command(int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  std::vector<std::string> names;
+  for (const CommandEntry& entry : kCommands) names.push_back(entry.name);
+  const bool known = std::find(names.begin(), names.end(), word) != names.end();
+  if (word.empty() || word[0] == '-' || known) return false;
+  const std::string near = nearest_name(word, names);
+  std::fprintf(stderr, "no such command: `%s`%s\n`rubble --help` lists all\n",
+               printable(word).c_str(),
+               near.empty() ? "" : (" (did you mean `" + near + "`?)").c_str());
+  return true;
+}
+
+// A descriptor that is closed would become the number of the first file that is opened, and what is
+// printed would go into that. One that only reads in its place makes printing fail, as it should.
+void reserve_standard_files() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) < 0 && errno == EBADF) open("/dev/null", O_RDONLY);
+}
+
+// What was printed is a result: a full disk must not look like success.
+ExitCode check_standard_output(ExitCode code) {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
+  const std::string reason = errno ? ": " + std::generic_category().message(errno) : "";
+  std::fprintf(stderr, "\nrubble: cannot write to standard output%s\n", reason.c_str());
+  return code == ExitCode::done ? ExitCode::failure : code;
+}
+
 ExitCode run(int argc, char** argv) {
   CLI::App app{
       "Simulates collapsed structures: a seed and a Lua mission give a settled pile, a "
@@ -278,6 +318,7 @@ ExitCode run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0 && is_unknown_command(argc, argv)) return ExitCode::bad_input;
     return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
   }
   for (const auto& [command, action] : commands)
@@ -291,8 +332,9 @@ ExitCode run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using rubble::ExitCode;
   std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of write(), like a full disk
+  rubble::reserve_standard_files();
   try {
-    return int(rubble::run(argc, argv));
+    return int(rubble::check_standard_output(rubble::run(argc, argv)));
   } catch (const rubble::InputError& error) {
     std::fprintf(stderr, "\n%s\n", error.what());
     return int(ExitCode::bad_input);
@@ -302,7 +344,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "\nrubble: out of memory\n");
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "\nrubble: %s\n", error.what());
+    std::fprintf(stderr, "\nrubble: %s\n", rubble::printable(error.what()).c_str());
   }
   return int(ExitCode::failure);
 }

@@ -149,7 +149,8 @@ std::string manifest_to_json(const Manifest& m) {
   for (const Part& part : sealed_parts()) json["seals"][part.name] = seal_of(json, part);
   json["not_reproducible"] = {
       {"wall_s", m.wall_seconds}, {"environment", m.environment}, {"pack_folders", m.pack_folders}};
-  return json.dump(2) + "\n";
+  // The name of a folder may be no UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Manifest manifest_from_json(const std::string& text, const std::string& file) {

@@ -5,6 +5,7 @@
 
 #include "app/json_members.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/text.h"
 
 namespace rubble {
 namespace {
@@ -43,13 +44,19 @@ SizeSpread read_spread(const JsonMembers& json) {
   json.fail("spread", "\"uniform\", \"normal\" or \"lognormal\"");
 }
 
+std::array<double, 2> read_scale(const JsonMembers& json) {
+  const std::vector<JsonMembers> scale = json.list("scale");
+  if (scale.size() != 2) json.fail("scale", "two numbers");
+  const std::array<double, 2> range{scale[0].as_number(), scale[1].as_number()};
+  if (!(range[0] > 0 && range[0] <= range[1])) json.fail("scale", "two numbers, 0 < least <= most");
+  return range;
+}
+
 AssetContent read_asset(const JsonMembers& json) {
-  return {json.text("name"),
-          json.text("pack"),
-          json.text("sha256"),
-          json.number("weight"),
-          {json.list("scale").at(0).as_number(), json.list("scale").at(1).as_number()},
-          read_spread(json)};
+  const double weight = json.number("weight");
+  if (!(weight >= 0)) json.fail("weight", "a number of at least 0");
+  return {json.text("name"), json.text("pack"),  json.text("sha256"),
+          weight,            read_scale(json), read_spread(json)};
 }
 
 RunKind read_kind(const JsonMembers& json) {
@@ -82,7 +89,7 @@ Recipe make_recipe(RunKind kind, const Mission& mission, const MissionOptions& o
   recipe.kind = kind;
   const fs::path folder = fs::path(mission.script.path).parent_path();
   recipe.script = mission.script;
-  recipe.script.path = fs::path(mission.script.path).filename().string();
+  recipe.script.path = printable(fs::path(mission.script.path).filename().string());
   for (SourceFile file : mission.included) {
     file.path = fs::path(file.path).lexically_relative(folder).lexically_normal().string();
     recipe.included.push_back(std::move(file));

@@ -11,6 +11,7 @@
 #include "app/manifest.h"
 #include "app/saved_run.h"
 #include "io/atomic_file.h"
+#include "kernel/base/text.h"
 
 namespace rubble {
 namespace {
@@ -28,7 +29,7 @@ MissionOptions mission_options(const RunRequest& request) {
 
 void finish_assets(Run& run) {
   for (const std::string& warning : run.assets.warnings)
-    std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    std::fprintf(stderr, "warning: %s\n", printable(warning).c_str());
   run.progress.finish(std::to_string(run.assets.types.size()) + " loaded, seed " +
                       std::to_string(run.scenario.seed));
 }
@@ -171,7 +172,8 @@ std::string describe_unfinished(const Run& run) {
   json["program"] = describe_program();
   add_recipe(json, run.recipe);
   json["pack_folders"] = run.assets.folders;
-  return json.dump(2) + "\n";
+  // The name of a folder may be no UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Run continue_run(const RunOptions& options, const RunFolder& folder,

@@ -2,12 +2,13 @@
 
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
+#include "app/earlier_files.h"
 #include "app/folder_lock.h"
 #include "io/atomic_file.h"
+#include "io/remove_files.h"
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/parallel.h"
@@ -16,49 +17,8 @@ namespace rubble {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kFileList = "/unfinished/files.txt";
-
-// What runs leave; the manifest comes first, for without it nothing else is taken for whole.
-const std::vector<std::string> kUsualFiles{
-    "manifest.json", "mission.rawlog", "mission.bag",     "mission.mcap", "pile.stl",
-    "pile.bin",      "preview.png",    "groundtruth.txt", "labels.csv",   "mission.simplemap",
-    "pile.ply",      "pile.obj",       "pile.mtl",        "pile.glb"};
-
-bool is_inside(const fs::path& name) { return !name.is_absolute() && *name.begin() != ".."; }
-
-// The files of the run that was here, as far as its manifest and its list can be read.
-std::vector<std::string> files_of_earlier_run(const std::string& folder) {
-  std::vector<std::string> files = kUsualFiles;
-  std::ifstream list(folder + kFileList);
-  for (std::string name; std::getline(list, name);)
-    if (!name.empty() && is_inside(name)) files.push_back(name);
-  if (!fs::is_regular_file(folder + "/manifest.json")) return files;
-  const Json manifest = Json::parse(read_whole_file(folder + "/manifest.json"), nullptr, false);
-  if (!manifest.is_object() || !manifest.contains("outputs")) return files;
-  for (const auto& item : manifest["outputs"].items()) {
-    const fs::path name = fs::path(item.key()).lexically_normal();
-    if (is_inside(name)) files.push_back(name.string());  // otherwise not ours, whatever it says
-  }
-  return files;
-}
-
-// A run that was killed before it could say what it is left only this.
-void remove_unfinished(const std::string& folder) {
-  std::error_code error;
-  fs::remove_all(folder + "/unfinished", error);
-  if (error) throw RunError("cannot remove " + folder + "/unfinished: " + error.message());
-}
-
-void remove_empty_folders(const std::string& folder, const std::vector<std::string>& files) {
-  std::error_code ignored;
-  for (const std::string& file : files) {
-    for (fs::path inside = fs::path(file).parent_path(); !inside.empty();
-         inside = inside.parent_path())
-      fs::remove(fs::path(folder) / inside, ignored);  // only when empty
-  }
-}
 
 // null: the run that was waited for has ended, and its folder `unfinished` with it.
 std::shared_ptr<const FolderLock> lock_run(const std::string& folder) {
@@ -71,17 +31,6 @@ std::shared_ptr<const FolderLock> lock_run(const std::string& folder) {
     if (fs::is_directory(folder + "/unfinished", failed)) throw;
     return nullptr;
   }
-}
-
-// All that an earlier run kept there, but for the lock, which is ours.
-void clear_unfinished(const std::string& folder) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder + "/unfinished", error)) {
-    if (entry.path().filename() == "lock") continue;
-    fs::remove_all(entry.path(), error);
-    if (error) throw RunError("cannot remove " + entry.path().string() + ": " + error.message());
-  }
-  if (error) throw RunError("cannot read " + folder + "/unfinished: " + error.message());
 }
 
 void refuse_unfinished(const std::string& path, bool force) {
@@ -122,10 +71,11 @@ RunFolder RunFolder::create(const std::string& path, bool force) {
     folder.lock_ = lock_run(path);
   }
   refuse_unfinished(path, force);
-  const std::vector<std::string> files = force ? files_of_earlier_run(path) : kUsualFiles;
+  const std::vector<std::string> files = force ? files_of_earlier_run(path) : usual_run_files();
   if (!holds_nothing_but_unfinished(path)) prepare_output_folder(path, force, files);
   clear_unfinished(path);
-  remove_empty_folders(path, files);
+  remove_empty_parents(path, files);
+  if (force) refuse_foreign_recordings(path);
   return folder;
 }
 

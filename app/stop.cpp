@@ -28,6 +28,8 @@ void on_signal(int signal) {
 
 void stop_on_signals() {
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_signal);
+  // A terminal that closes stops the run as politely, but not one begun with `nohup`.
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 bool stop_requested() { return stop_signal != 0; }

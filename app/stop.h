@@ -5,7 +5,7 @@
 
 namespace rubble {
 
-// From now on SIGINT and SIGTERM only set a mark; one that comes two seconds later ends the
+// From now on SIGINT, SIGTERM and SIGHUP (unless ignored: `nohup`) only set a mark; one that comes two seconds later ends the
 // program.
 void stop_on_signals();
 bool stop_requested();

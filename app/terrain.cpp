@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "io/mesh_file.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/mesh_edges.h"
 #include "kernel/geometry/height_field.h"
 #include "render/looks.h"
 
@@ -69,7 +69,8 @@ std::string hash_mesh(const TriangleMesh& mesh, double friction) {
 
 }  // namespace
 
-MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::string>& folders) {
+MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::string>& folders,
+                         MeshImporter& importer) {
   check_look(spec.look);
   MadeTerrain terrain;
   auto scene = std::make_shared<SceneMesh>();
@@ -77,13 +78,14 @@ MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::str
     scene->levels.push_back(make_heights(spec));
   } else {
     const std::string path = find_file(spec.file, folders);
-    scene->levels.push_back(load_mesh(path, {spec.metres_per_unit, spec.up}));
+    scene->levels.push_back(importer.load_mesh(path, {spec.metres_per_unit, spec.up}));
     TriangleMesh& mesh = scene->levels.back();
     for (std::string& surface : mesh.surface_names)
       if (!is_look(surface)) surface = spec.look;
     terrain.folder = fs::absolute(fs::path(path).parent_path()).lexically_normal().string();
     if (!is_closed(mesh))
-      terrain.warning = path + ": the mesh is not closed: it has no inside for maps of voids";
+      terrain.warning = path + ": the mesh is not closed: " + describe(find_open_edges(mesh)) +
+                        ". It has no inside for maps of voids";
   }
   const TriangleMesh& mesh = scene->levels.front();
   terrain.sha256 = hash_mesh(mesh, spec.friction);

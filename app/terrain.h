@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/mesh_file.h"
 #include "kernel/model/pile.h"
 #include "render/scene.h"
 #include "scripting/scenario.h"
@@ -25,7 +26,8 @@ struct MadeTerrain {
 
 // `folders`: where a file may be, in order. Throws InputError for a file that is not there or cannot
 // be read, and for an unknown look. spec: TerrainScenario::given().
-MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::string>& folders);
+MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::string>& folders,
+                         MeshImporter& importer);
 
 // Where it lies: fixed.
 Placement place_terrain(const TerrainScenario& spec, int type);

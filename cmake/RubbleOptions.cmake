@@ -35,6 +35,12 @@ if(RUBBLE_SANITIZE)
   endif()
 endif()
 
+# `make fuzz`: every function reports what it reaches to libFuzzer. Clang warns of more than GCC does.
+option(RUBBLE_FUZZ "Build the fuzz targets alone, by clang" OFF)
+if(RUBBLE_FUZZ)
+  target_compile_options(rubble_options INTERFACE -fsanitize=fuzzer-no-link -Wno-error)
+endif()
+
 # rubble_library_version(NAME VERSION) records a version for `rubble info` and the manifest.
 function(rubble_library_version name version)
   set_property(GLOBAL APPEND PROPERTY RUBBLE_LIBRARY_VERSIONS "${name}=${version}")

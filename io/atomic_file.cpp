@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <system_error>
 
+#include "io/remove_files.h"
 #include "kernel/base/error.h"
+#include "kernel/base/read_file.h"
 
 namespace rubble {
 namespace {
@@ -163,24 +165,7 @@ void write_text_file(const std::string& path, std::string_view text) {
   file.commit();
 }
 
-std::string read_whole_file(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) refuse(path, "cannot be opened: " + reason(errno));
-  std::string content;
-  std::vector<char> block(kBufferSize);
-  ssize_t count = 0;
-  while ((count = ::read(descriptor, block.data(), block.size())) != 0) {
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) {
-      const int error = errno;
-      ::close(descriptor);
-      refuse(path, "cannot be read: " + reason(error));
-    }
-    content.append(block.data(), static_cast<std::size_t>(count));
-  }
-  ::close(descriptor);
-  return content;
-}
+std::string read_whole_file(const std::string& path) { return read_file(path); }
 
 void prepare_output_folder(const std::string& folder, bool force,
                            const std::vector<std::string>& outputs) {
@@ -199,14 +184,8 @@ void prepare_output_folder(const std::string& folder, bool force,
     refuse(folder, "the output folder is not empty",
            "--force replaces our files in it and leaves all others");
   }
-  for (const std::string& name : outputs) {
-    for (const char* suffix : {"", ".part"}) {
-      const fs::path file = fs::path(folder) / (name + suffix);
-      if (!fs::is_regular_file(fs::symlink_status(file, error))) continue;
-      fs::remove(file, error);
-      if (error) throw RunError("cannot remove " + file.string() + ": " + error.message());
-    }
-  }
+  remove_plain_files(folder, outputs);
+  remove_plain_files(folder, outputs, ".part");
 }
 
 }  // namespace rubble

@@ -64,7 +64,8 @@ void commit_folder(const std::string& part, const std::string& path);
 // Writes `text` as the whole of `path`, atomically. Throws RunError.
 void write_text_file(const std::string& path, std::string_view text);
 
-// The whole file. Throws InputError naming the path and the reason: what is read is the user's.
+// The whole file. Throws InputError naming the path and the reason: what is read is the user's. See
+// kernel/base/read_file.h for pipes and devices.
 std::string read_whole_file(const std::string& path);
 
 // Makes `folder` ready for a run whose files are `outputs` (names, without folders). A missing one

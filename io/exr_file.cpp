@@ -10,6 +10,7 @@
 
 #include <exception>
 
+#include "io/isolated_picture.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
@@ -75,14 +76,16 @@ void read_channel(Imf::InputFile& file, const std::string& name, int width, int 
     values[first + i * step] = static_cast<double>(plane[i]);
 }
 
-}  // namespace
+constexpr std::int64_t kMostPixels = std::int64_t(1) << 28;
 
-ExrImage read_exr(const std::string& path, const std::vector<std::string>& channels) {
+ExrImage import_exr(const std::string& path, const std::vector<std::string>& channels) {
   try {
     Imf::InputFile file(path.c_str(), 0);
     const auto window = file.header().dataWindow();
-    ExrImage image{window.max.x + 1, window.max.y + 1, {}};
     if (window.min.x != 0 || window.min.y != 0) throw std::runtime_error("not ours");
+    if ((std::int64_t(window.max.x) + 1) * (std::int64_t(window.max.y) + 1) > kMostPixels)
+      throw std::runtime_error("it has more than 268 million pixels");
+    ExrImage image{window.max.x + 1, window.max.y + 1, {}};
     image.values.resize(channels.size() * static_cast<std::size_t>(image.width) *
                         static_cast<std::size_t>(image.height));
     for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -95,6 +98,12 @@ ExrImage read_exr(const std::string& path, const std::vector<std::string>& chann
     throw InputError(
         {path, 0, "", std::string("cannot be read as an EXR: ") + error.what(), "", "", ""});
   }
+}
+
+}  // namespace
+
+ExrImage read_exr(const std::string& path, const std::vector<std::string>& channels) {
+  return read_isolated_picture(path, &ExrImage::values, [&] { return import_exr(path, channels); });
 }
 
 }  // namespace rubble

@@ -6,8 +6,11 @@
 
 namespace rubble {
 
-FileCursor::FileCursor(const std::string& path) : in_(path, std::ios::binary) {
+FileCursor::FileCursor(const std::string& path) {
   std::error_code failed;
+  if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed))
+    throw InputError({path, 0, "", "cannot be read", "a file", "a pipe, folder or device", ""});
+  in_.open(path, std::ios::binary);  // opening a pipe would wait for its writer
   size_ = std::filesystem::file_size(path, failed);
   if (!in_ || failed)
     throw InputError({path, 0, "", "cannot be read", "a file",

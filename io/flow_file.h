@@ -1,6 +1,7 @@
 // Optical flow as a Middlebury .flo file (https://vision.middlebury.edu/flow/data/).
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -36,9 +37,10 @@ inline FlowImage read_flow(const std::string& path) {
   FlowImage image;
   float mark = 0;
   const bool head = take(left, mark) && take(left, image.width) && take(left, image.height);
-  const auto pixels =
-      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  if (!head || mark != kFlowMark || left.size() != 8 * pixels)
+  const auto width = static_cast<std::uint32_t>(image.width);
+  const auto height = static_cast<std::uint32_t>(image.height);
+  const std::uint64_t pixels = std::uint64_t(width) * height;  // below 2^64
+  if (!head || mark != kFlowMark || left.size() % 8 != 0 || left.size() / 8 != pixels)
     throw InputError({path, 0, "", "is no flow file, or a damaged one", "", "", ""});
   for (float value; take(left, value);) image.flow.push_back(value);
   return image;

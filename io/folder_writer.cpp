@@ -20,7 +20,10 @@ FolderWriter::FolderWriter(std::string final_path, const std::vector<std::string
   fs::create_directory(part_, error);
   for (const std::string& folder : folders)
     if (!error) fs::create_directories(fs::path(part_) / folder, error);
-  if (error) throw RunError("cannot create " + part_ + ": " + error.message());
+  if (!error) return;
+  std::error_code ignored;
+  fs::remove_all(part_, ignored);  // the destructor will not run
+  throw RunError("cannot create " + part_ + ": " + error.message());
 }
 
 FolderWriter::~FolderWriter() {

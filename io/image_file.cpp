@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "io/atomic_file.h"
+#include "io/isolated_picture.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
@@ -139,6 +140,25 @@ class PngReader {
   ReadHandles handles_;  // of their own, so that a constructor that throws frees them
 };
 
+RgbImage decode_rgb(const std::string& path) {
+  PngReader reader(path);
+  reader.expect(PNG_COLOR_TYPE_RGB, 8, "a PNG of 8-bit red, green and blue");
+  RgbImage image{reader.layout().width, reader.layout().height, {}};
+  image.rgb.resize(reader.layout().row_bytes * static_cast<std::size_t>(image.height));
+  reader.read(image.rgb.data());
+  return image;
+}
+
+DepthImage decode_depth(const std::string& path) {
+  PngReader reader(path);
+  reader.expect(PNG_COLOR_TYPE_GRAY, 16, "a PNG of one 16-bit channel");
+  DepthImage image{reader.layout().width, reader.layout().height, {}};
+  image.values.resize(static_cast<std::size_t>(image.width) *
+                      static_cast<std::size_t>(image.height));
+  reader.read(image.values.data());
+  return image;
+}
+
 }  // namespace
 
 std::string encode_png(const RgbImage& image, int level) {
@@ -167,22 +187,11 @@ void write_png(const std::string& path, const DepthImage& image, int level) {
 }
 
 RgbImage read_rgb_png(const std::string& path) {
-  PngReader reader(path);
-  reader.expect(PNG_COLOR_TYPE_RGB, 8, "a PNG of 8-bit red, green and blue");
-  RgbImage image{reader.layout().width, reader.layout().height, {}};
-  image.rgb.resize(reader.layout().row_bytes * static_cast<std::size_t>(image.height));
-  reader.read(image.rgb.data());
-  return image;
+  return read_isolated_picture(path, &RgbImage::rgb, [&] { return decode_rgb(path); });
 }
 
 DepthImage read_depth_png(const std::string& path) {
-  PngReader reader(path);
-  reader.expect(PNG_COLOR_TYPE_GRAY, 16, "a PNG of one 16-bit channel");
-  DepthImage image{reader.layout().width, reader.layout().height, {}};
-  image.values.resize(static_cast<std::size_t>(image.width) *
-                      static_cast<std::size_t>(image.height));
-  reader.read(image.values.data());
-  return image;
+  return read_isolated_picture(path, &DepthImage::values, [&] { return decode_depth(path); });
 }
 
 }  // namespace rubble

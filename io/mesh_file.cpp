@@ -3,6 +3,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstring>
@@ -10,7 +11,12 @@
 #include <limits>
 #include <unordered_map>
 
+#include "io/mesh_bytes.h"
 #include "kernel/base/error.h"
+#include "kernel/base/isolated_worker.h"
+#include "kernel/base/text.h"
+
+// assimp is called in child processes alone: kernel/base/isolated_worker.h says why.
 
 namespace rubble {
 namespace {
@@ -35,7 +41,6 @@ void check_readable(const std::string& path) {
 
 // The importer owns the scene: it must live as long as that is read.
 const aiScene& import(Assimp::Importer& importer, const std::string& path, unsigned steps) {
-  check_readable(path);
   const aiScene* scene = importer.ReadFile(path, steps);
   if (!scene) refuse(path, std::string("cannot be read as a mesh: ") + importer.GetErrorString());
   if (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE || scene->mNumMeshes == 0 || !scene->mRootNode) {
@@ -73,6 +78,10 @@ Vec3 turn_up(const aiVector3D& v, UpAxis up) {
   return up == UpAxis::z ? a : Vec3(a.x, -a.z, a.y);
 }
 
+[[noreturn]] void refuse_points_and_lines(const std::string& path) {
+  refuse(path, "holds points or lines beside its faces", "export faces only");
+}
+
 // What makes two vertices one: equal bits of position and normal.
 struct VertexKey {
   float values[6];
@@ -106,6 +115,7 @@ class MeshBuilder {
     turn.Inverse().Transpose();  // normals go by the inverse transpose
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
+      check_face(mesh, face);
       std::array<std::uint32_t, 3> triangle{};
       for (unsigned k = 0; k < 3; ++k) {
         const unsigned corner = face.mIndices[mirrored ? 2 - k : k];
@@ -125,12 +135,18 @@ class MeshBuilder {
   }
 
  private:
+  void check_face(const aiMesh& mesh, const aiFace& face) const {
+    if (face.mNumIndices != 3) refuse_points_and_lines(path_);
+    for (unsigned k = 0; k < 3; ++k)
+      if (face.mIndices[k] >= mesh.mNumVertices) refuse(path_, "has a face with a corner too many");
+  }
+
   std::uint8_t find_surface(const std::string& name) {
     for (std::size_t i = 0; i < mesh_.surface_names.size(); ++i) {
-      if (mesh_.surface_names[i] == name) return static_cast<std::uint8_t>(i);
+      if (mesh_.surface_names[i] == printable(name)) return static_cast<std::uint8_t>(i);
     }
     if (mesh_.surface_names.size() == 256) refuse(path_, "has more than 256 materials");
-    mesh_.surface_names.push_back(name);
+    mesh_.surface_names.push_back(printable(name));  // it comes to be text of JSON
     return static_cast<std::uint8_t>(mesh_.surface_names.size() - 1);
   }
 
@@ -167,29 +183,54 @@ void check_units(const MeshUnits& units, const std::string& path) {
   refuse(path, "the mesh needs a positive unit, not " + std::to_string(units.metres_per_unit));
 }
 
-}  // namespace
+std::string name_of_material(const aiScene& scene, const aiMesh& mesh) {
+  if (mesh.mMaterialIndex >= scene.mNumMaterials) return "";
+  return scene.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
+}
 
-TriangleMesh load_mesh(const std::string& path, const MeshUnits& units) {
-  check_units(units, path);
+bool has_texture(const aiMaterial& material) {
+  for (int type = aiTextureType_DIFFUSE; type <= AI_TEXTURE_TYPE_MAX; ++type)
+    if (material.GetTextureCount(aiTextureType(type)) > 0) return true;
+  return false;
+}
+
+// Grey is no loss: nearly every exporter writes some.
+bool has_colour(const aiMaterial& material) {
+  aiColor3D c;
+  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, c) != aiReturn_SUCCESS) return false;
+  return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b}) > 0.05f;
+}
+
+std::string find_left_out(const aiScene& scene) {
+  bool colours = false, textures = scene.mNumTextures > 0;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i)
+    colours = colours || scene.mMeshes[i]->HasVertexColors(0);
+  for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
+    colours = colours || has_colour(*scene.mMaterials[i]);
+    textures = textures || has_texture(*scene.mMaterials[i]);
+  }
+  if (colours && textures) return "colours and textures";
+  return colours ? "colours" : textures ? "textures" : "";
+}
+
+TriangleMesh import_mesh(const std::string& path, const MeshUnits& units, std::string& left_out) {
   Assimp::Importer importer;
   const aiScene& scene = import(importer, path, aiProcess_Triangulate);
   const std::vector<PlacedMesh> placed = collect(scene);
   bool with_normals = true;
   for (const PlacedMesh& p : placed) {
     with_normals = with_normals && p.mesh->HasNormals();
-    if (p.mesh->mPrimitiveTypes & (aiPrimitiveType_POINT | aiPrimitiveType_LINE)) {
-      refuse(path, "holds points or lines beside its faces", "export faces only");
-    }
+    if (p.mesh->mPrimitiveTypes & (aiPrimitiveType_POINT | aiPrimitiveType_LINE))
+      refuse_points_and_lines(path);
   }
+  left_out = find_left_out(scene);
   MeshBuilder builder(path, units, with_normals);
-  for (const PlacedMesh& p : placed) {
-    builder.add(p, scene.mMaterials[p.mesh->mMaterialIndex]->GetName().C_Str());
-  }
+  for (const PlacedMesh& p : placed) builder.add(p, name_of_material(scene, *p.mesh));
   return builder.take();
 }
 
-std::vector<std::vector<Vec3>> load_convex_parts(const std::string& path, const MeshUnits& units) {
-  check_units(units, path);
+std::vector<std::vector<Vec3>> import_convex_parts(const std::string& path,
+                                                   const MeshUnits& units) {
   Assimp::Importer importer;
   const aiScene& scene = import(importer, path, 0);
   std::vector<std::vector<Vec3>> parts;
@@ -203,6 +244,8 @@ std::vector<std::vector<Vec3>> load_convex_parts(const std::string& path, const 
     }
     for (unsigned i = 0; i < placed.mesh->mNumVertices; ++i) {
       const aiVector3D v = placed.file_from_mesh * placed.mesh->mVertices[i];
+      if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+        refuse(path, "has a vertex that is not a number");
       const VertexKey key{{v.x + 0.0f, v.y + 0.0f, v.z + 0.0f, 0, 0, 0}};
       if (!seen.try_emplace(key, 0).second) continue;
       parts.back().push_back(turn_up(v, units.up) * units.metres_per_unit);
@@ -214,6 +257,60 @@ std::vector<std::vector<Vec3>> load_convex_parts(const std::string& path, const 
                      " corner points; a convex part needs at least 4");
   }
   return parts;
+}
+
+constexpr char kMesh = 'm', kParts = 'p';  // what is asked for
+
+std::string pack_request(char kind, const std::string& path, const MeshUnits& units) {
+  CacheWriter writer;
+  writer.put(kind);
+  writer.put(units.metres_per_unit);
+  writer.put(units.up);
+  return writer.bytes() + path;
+}
+
+std::string answer_request(const std::string& request) {
+  char kind = 0;
+  MeshUnits units;
+  const std::size_t size = sizeof kind + sizeof units.metres_per_unit + sizeof units.up;
+  CacheReader reader(std::string_view(request).substr(0, size));
+  reader.get(kind);
+  reader.get(units.metres_per_unit);
+  reader.get(units.up);
+  const std::string path = request.substr(size);
+  if (kind == kParts) return parts_to_bytes(import_convex_parts(path, units));
+  std::string left_out;
+  const TriangleMesh mesh = import_mesh(path, units, left_out);
+  return mesh_to_bytes(mesh, left_out);
+}
+
+}  // namespace
+
+MeshImporter::MeshImporter() : worker_(std::make_unique<IsolatedWorker>("mesh", answer_request)) {}
+
+MeshImporter::~MeshImporter() = default;
+
+std::string MeshImporter::ask(char kind, const std::string& path, const MeshUnits& units) {
+  check_units(units, path);
+  check_readable(path);
+  return worker_->ask(path, pack_request(kind, path, units));
+}
+
+TriangleMesh MeshImporter::load_mesh(const std::string& path, const MeshUnits& units) {
+  return mesh_from_bytes(ask(kMesh, path, units), left_out_);
+}
+
+std::vector<std::vector<Vec3>> MeshImporter::load_convex_parts(const std::string& path,
+                                                               const MeshUnits& units) {
+  return parts_from_bytes(ask(kParts, path, units));
+}
+
+TriangleMesh load_mesh(const std::string& path, const MeshUnits& units) {
+  return MeshImporter().load_mesh(path, units);
+}
+
+std::vector<std::vector<Vec3>> load_convex_parts(const std::string& path, const MeshUnits& units) {
+  return MeshImporter().load_convex_parts(path, units);
 }
 
 }  // namespace rubble

@@ -1,6 +1,7 @@
 // Meshes from and to files.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,16 +10,40 @@
 
 namespace rubble {
 
+class IsolatedWorker;
+
 // How the numbers of a file become metres with Z up.
 struct MeshUnits {
   double metres_per_unit = 1;  // range: > 0; 0.001 for millimetres
   UpAxis up = UpAxis::z;
 };
 
+// Reads many files by one child process: a child for each would cost 13 ms more a file.
+class MeshImporter {
+ public:
+  MeshImporter();
+  ~MeshImporter();
+
+  // As the functions of these names.
+  TriangleMesh load_mesh(const std::string& path, const MeshUnits& units = {});
+  std::vector<std::vector<Vec3>> load_convex_parts(const std::string& path,
+                                                   const MeshUnits& units = {});
+  // What the last mesh that was loaded has in its file and not here: "colours and textures";
+  // empty: nothing.
+  const std::string& left_out() const { return left_out_; }
+
+ private:
+  std::string ask(char kind, const std::string& path, const MeshUnits& units);
+
+  std::unique_ptr<IsolatedWorker> worker_;
+  std::string left_out_;
+};
+
 // Reads any format that assimp knows. Every mesh of the file is joined into one; surfaces are the
 // materials' names, in order of first use. Vertices of equal position and normal are welded.
 // Throws InputError, naming the file and the reason, for one that is missing, unreadable, without
-// triangles, or that holds points or lines.
+// triangles, or that holds points or lines; that crashes assimp, or makes it take too much time or
+// memory (kernel/base/isolated_worker.h).
 TriangleMesh load_mesh(const std::string& path, const MeshUnits& units = {});
 
 // The convex parts of a shape: each object of the file is one, given by its corner points, in order

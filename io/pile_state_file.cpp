@@ -1,5 +1,8 @@
 #include "io/pile_state_file.h"
 
+#include <cmath>
+#include <initializer_list>
+
 #include "io/little_endian.h"
 #include "io/sealed_file.h"
 
@@ -9,6 +12,7 @@ namespace {
 constexpr SealedKind kKind{"RUBPILE\n", kPileStateVersion, "pile state",
                            "a pile state is the pile.bin of a run",
                            "settle the pile again, or use the program that wrote it"};
+constexpr double kFarthest = 1e6;  // of a piece from the origin; unit: m
 constexpr std::size_t kPieceSize = 2 * 4 + 14 * 8 + 1;   // unit: byte
 constexpr std::size_t kJointSize = 2 * 4 + 1 + 19 * 8;  // unit: byte
 
@@ -63,6 +67,21 @@ std::string make_content(const PileState& state) {
   return bytes;
 }
 
+// A number that is none would end the program in a stage that has no words for it.
+void check_finite(const SealedReader& reader, std::initializer_list<double> numbers,
+                  const char* what) {
+  for (const double number : numbers)
+    if (!std::isfinite(number)) reader.fail(std::string(what) + " has a number that is not finite");
+}
+
+void check_pose(const SealedReader& reader, const Pose& pose, const char* what) {
+  const Quat& q = pose.rotation;
+  const Vec3& t = pose.translation;
+  check_finite(reader, {q.w, q.x, q.y, q.z, t.x, t.y, t.z}, what);
+  const double length = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  if (std::abs(length - 1) > 0.01) reader.fail(std::string(what) + " has no rotation of length 1");
+}
+
 PieceState read_piece(SealedReader& reader, std::size_t type_count) {
   PieceState p;
   p.type = reader.number<std::int32_t>();
@@ -78,6 +97,12 @@ PieceState read_piece(SealedReader& reader, std::size_t type_count) {
     reader.fail("a piece has no known status");
   }
   p.status = static_cast<PieceStatus>(status);
+  check_pose(reader, p.world_from_body, "a piece");
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(p.world_from_body.translation[i]) > kFarthest) reader.fail("a piece is too far away");
+  const Vec3 &v = p.linear_velocity, &w = p.angular_velocity;
+  check_finite(reader, {p.scale, v.x, v.y, v.z, w.x, w.y, w.z}, "a piece");
+  if (!(p.scale > 0 && p.scale < kFarthest)) reader.fail("a piece has no sensible scale");
   if (p.type < 0 || static_cast<std::size_t>(p.type) >= type_count) {
     reader.fail("a piece is of a type that the pile does not have");
   }
@@ -101,6 +126,10 @@ JointState read_joint(SealedReader& reader, std::uint64_t piece_count) {
   }
   joint.rest = reader.number<double>();
   joint.rest_rotation = read_rotation(reader);
+  check_pose(reader, joint.parent_from_joint, "a joint");
+  check_pose(reader, joint.child_from_joint, "a joint");
+  check_pose(reader, {joint.rest_rotation, {}}, "a joint");
+  check_finite(reader, {joint.rest}, "a joint");
   if (kind >= kJointKinds) reader.fail("a joint has no known kind");
   joint.kind = static_cast<JointKind>(kind);
   for (const std::int32_t piece : {joint.parent, joint.child}) {
@@ -118,6 +147,7 @@ PileState parse_content(std::string_view content, const std::string& path) {
   for (std::uint32_t i = 0; i < types; ++i) state.types.push_back(reader.text());
   state.steps = reader.number<std::int64_t>();
   state.simulated = reader.number<double>();
+  check_finite(reader, {state.simulated}, "the pile");
   state.settled = reader.number<std::uint8_t>() != 0;
   state.layers_at_limit = reader.number<std::int32_t>();
   state.lost = reader.number<std::int32_t>();

@@ -22,7 +22,8 @@ inline constexpr std::uint32_t kPileStateVersion = 2;
 // Throws RunError when the file cannot be written.
 void save_pile_state(const PileState& state, const std::string& path);
 
-// Throws InputError for a missing, foreign, truncated or altered file, or another version.
+// Throws InputError for a missing, foreign, truncated or altered file, another version, and
+// numbers that are not finite.
 PileState load_pile_state(const std::string& path);
 
 }  // namespace rubble

@@ -47,6 +47,16 @@ class PlyFile {
 
   double number(const std::string& type) { return binary ? read_binary(type) : read_word(); }
 
+  // The length of a list.
+  std::uint64_t list_size(const std::string& type) {
+    const double size = number(type);
+    if (!(size >= 0 && size <= double(bytes_.size())))
+      refuse("no length of a list", "0 or more", (std::ostringstream() << size).str());
+    return std::uint64_t(size);
+  }
+
+  std::uint64_t left() const { return rest_.size(); }  // unit: byte
+
   bool binary = false, in_header = true;
 
  private:
@@ -142,7 +152,7 @@ void read_vertex(PlyFile& file, const Element& element, PlyMesh& mesh) {
   Vec3 position;
   for (const Property& property : element.properties) {
     std::uint64_t count = 1;
-    if (!property.count_type.empty()) count = std::uint64_t(file.number(property.count_type));
+    if (!property.count_type.empty()) count = file.list_size(property.count_type);
     for (std::uint64_t i = 0; i < count; ++i) {
       const double value = file.number(property.type);
       const int axis = property.name.size() == 1 ? property.name[0] - 'x' : -1;
@@ -158,9 +168,9 @@ void read_face(PlyFile& file, const Element& element, PlyMesh& mesh) {
   for (const Property& property : element.properties) {
     const bool list = !property.count_type.empty();
     const bool corners_here = property.name == "vertex_indices" || property.name == "vertex_index";
-    const double count = list ? file.number(property.count_type) : 1;
+    const std::uint64_t count = list ? file.list_size(property.count_type) : 1;
     std::vector<std::uint32_t> corners;
-    for (double i = 0; i < count; ++i) {
+    for (std::uint64_t i = 0; i < count; ++i) {
       const double value = file.number(property.type);
       if (!corners_here) continue;
       if (!(value >= 0 && value < double(mesh.positions.size())))
@@ -170,6 +180,31 @@ void read_face(PlyFile& file, const Element& element, PlyMesh& mesh) {
     }
     for (std::size_t i = 2; i < corners.size(); ++i)
       mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+  }
+}
+
+void pass_over(PlyFile& file, const Element& element) {
+  for (const Property& property : element.properties) {
+    std::uint64_t count = 1;
+    if (!property.count_type.empty()) count = file.list_size(property.count_type);
+    for (std::uint64_t i = 0; i < count; ++i) file.number(property.type);
+  }
+}
+
+// Every item takes a byte at least for each of its properties: what a file says of itself must not
+// take more time or memory than the file has bytes. One of an element without properties takes none.
+void read_items(PlyFile& file, const Element& element, PlyMesh& mesh) {
+  if (element.properties.empty()) return;
+  if (element.count > file.left())
+    file.refuse("the file ends early", std::to_string(element.count) + " of " + element.name,
+                std::to_string(file.left()) + " bytes");
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    if (element.name == "vertex")
+      read_vertex(file, element, mesh);
+    else if (element.name == "face")
+      read_face(file, element, mesh);
+    else
+      pass_over(file, element);
   }
 }
 
@@ -189,15 +224,7 @@ PlyMesh load_ply(const std::string& path) {
   PlyMesh mesh;
   for (const Element& element : read_header(file)) {
     if (element.name == "vertex") check_vertex(file, element);
-    PlyMesh others;  // elements that are passed over
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      if (element.name == "vertex")
-        read_vertex(file, element, mesh);
-      else if (element.name == "face")
-        read_face(file, element, mesh);
-      else
-        read_vertex(file, element, others);
-    }
+    read_items(file, element, mesh);
   }
   if (mesh.positions.empty()) file.refuse("holds no vertex", "points or a mesh", "none");
   return mesh;

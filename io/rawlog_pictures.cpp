@@ -7,7 +7,9 @@
 
 #include <exception>
 
+#include "kernel/base/disk_cache.h"
 #include "kernel/base/error.h"
+#include "kernel/base/isolated_worker.h"
 
 namespace rubble {
 namespace {
@@ -54,12 +56,9 @@ RecordedPicture picture_of(const mrpt::obs::CObservation& observation, bool colo
   return colour ? colour_of(scan.intensityImage) : depth_of(scan);
 }
 
-}  // namespace
-
-std::optional<RecordedPicture> find_rawlog_picture(const std::string& folder,
-                                                   const PictureWanted& wanted) {
-  const std::string label = label_of(wanted), path = folder + "/mission.rawlog";
-  if (label.empty()) return std::nullopt;
+// Of no pixels: there is none.
+RecordedPicture import_picture(const std::string& path, const std::string& label,
+                               const PictureWanted& wanted) {
   try {
     mrpt::io::CFileGZInputStream file;
     if (!file.open(path)) throw std::runtime_error("no such file");
@@ -67,16 +66,41 @@ std::optional<RecordedPicture> find_rawlog_picture(const std::string& folder,
     for (int left = wanted.frame; !file.checkEOF();) {
       const auto object = archive.ReadObject<mrpt::obs::CObservation>();
       if (object->sensorLabel != label || left-- > 0) continue;
-      RecordedPicture picture =
-          picture_of(*object, wanted.channel == "rgb" || wanted.channel == "rgb_right");
-      picture.file = "mission.rawlog";
-      return picture;
+      return picture_of(*object, wanted.channel == "rgb" || wanted.channel == "rgb_right");
     }
   } catch (const std::exception& error) {
     throw InputError(
         {path, 0, "", std::string("cannot be read as a rawlog: ") + error.what(), "", "", ""});
   }
-  return std::nullopt;
+  return {};
+}
+
+}  // namespace
+
+std::optional<RecordedPicture> find_rawlog_picture(const std::string& folder,
+                                                   const PictureWanted& wanted) {
+  const std::string label = label_of(wanted), path = folder + "/mission.rawlog";
+  if (label.empty()) return std::nullopt;
+  const std::string bytes = run_isolated(path, "rawlog", [&] {
+    const RecordedPicture picture = import_picture(path, label, wanted);
+    CacheWriter writer;
+    writer.put(picture.width);
+    writer.put(picture.height);
+    writer.put(picture.components);
+    writer.put(picture.step);
+    writer.put(picture.values);
+    return writer.bytes();
+  });
+  CacheReader reader(bytes);
+  RecordedPicture picture;
+  reader.get(picture.width);
+  reader.get(picture.height);
+  reader.get(picture.components);
+  reader.get(picture.step);
+  reader.get(picture.values);
+  if (picture.values.empty()) return std::nullopt;
+  picture.file = "mission.rawlog";
+  return picture;
 }
 
 }  // namespace rubble

@@ -72,8 +72,9 @@ std::optional<RecordedPicture> parse_image(const RosMessage& message, bool is_de
   wire.number<std::uint32_t>(), wire.number<std::uint32_t>();               // stamp
   wire.text();                                                              // frame
   RecordedPicture picture;
-  picture.height = static_cast<int>(wire.number<std::uint32_t>());
-  picture.width = static_cast<int>(wire.number<std::uint32_t>());
+  const auto height = wire.number<std::uint32_t>(), width = wire.number<std::uint32_t>();
+  picture.height = static_cast<int>(height);
+  picture.width = static_cast<int>(width);
   const std::string encoding = wire.text();
   wire.number<std::uint8_t>(), wire.number<std::uint32_t>();  // byte order, bytes of a row
   const std::string_view data = wire.block();
@@ -82,6 +83,10 @@ std::optional<RecordedPicture> parse_image(const RosMessage& message, bool is_de
     if (encoding != known.name) continue;
     picture.components = known.components;
     picture.values = known.unpack(data);
+    const std::uint64_t pixels = std::uint64_t(height) * width;
+    if (picture.values.size() % std::size_t(known.components) != 0 ||
+        picture.values.size() / std::size_t(known.components) != pixels)
+      return std::nullopt;
     if (is_depth && encoding == "16UC1") {
       picture.step = 0.001;
       for (double& value : picture.values) value *= picture.step;

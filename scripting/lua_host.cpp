@@ -10,6 +10,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
+#include "kernel/base/text.h"
 #include "scripting/gray_image.h"
 #include "scripting/lua_options.h"
 #include "scripting/lua_value.h"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr const char* kStreamType = "random stream";
 constexpr std::size_t kMostPrinted = 1 << 20;  // unit: byte
+constexpr std::uint64_t kInstructionsPerValue = 50;  // that cost as much as to read it
 constexpr std::size_t kMostMistakes = 1000;    // that rubble.options keeps
 
 RandomStream& stream_at(lua_State* lua, int index) {
@@ -103,7 +105,7 @@ int print_line(lua_State* lua) {
   host.printed_bytes += size + 1;
   if (host.printed_bytes > kMostPrinted)
     return luaL_error(lua, "the script prints more than 1 MiB");
-  host.printed.emplace_back(text, size);
+  host.printed.push_back(printable({text, size}));
   return 0;
 }
 
@@ -113,7 +115,7 @@ int include_file(lua_State* lua) {
   std::string error;
   const int chunk = host.open_include(name, error);
   if (chunk < 0) return luaL_error(lua, "rubble.include: %s", error.c_str());
-  const std::string& text = host.chunk(chunk).text;
+  const std::string_view text = lua_source(host.chunk(chunk).text);
   if (luaL_loadbufferx(lua, text.data(), text.size(), chunk_name(chunk).c_str(), "t") != LUA_OK)
     return lua_error(lua);
   lua_call(lua, 0, 1);
@@ -138,10 +140,16 @@ void note_mistakes(lua_State* lua, const std::string& function, std::vector<Diag
   const SourceFile& source = host.chunk(found ? chunk : 0);
   if (host.mistakes.size() + mistakes.size() > kMostMistakes)
     luaL_error(lua, "%s: too many mistakes", function.c_str());
+  if (mistakes.empty()) return;
+  const auto known = host.tokens.find(found ? chunk : 0);
+  const std::vector<LuaToken>& tokens =
+      known != host.tokens.end() ? known->second
+                                 : host.tokens[found ? chunk : 0] = read_lua_tokens(source.text);
+  count_work(lua, tokens.size() * mistakes.size());
   for (Diagnostic& d : mistakes) {
     const std::string key = d.key.substr(std::min(d.key.size(), function.size() + 1));
     d.file = source.path;
-    d.line = find_option_line(source.text, function, key, found ? call_line : 0);
+    d.line = find_option_line(tokens, function, key, found ? call_line : 0);
     host.mistakes.push_back(std::move(d));
   }
 }
@@ -150,7 +158,9 @@ void note_mistakes(lua_State* lua, const std::string& function, std::vector<Diag
 // not raised: all of them come in one run.
 int read_options(lua_State* lua) {
   const std::string function = luaL_checkstring(lua, 1);
-  const Value given = read_lua_value(lua, 2), description = read_lua_value(lua, 3);
+  std::size_t values = 0;
+  const Value given = read_lua_value(lua, 2, &values), description = read_lua_value(lua, 3, &values);
+  count_work(lua, kInstructionsPerValue * values);
   LuaHost& host = host_of(lua);
   if (host.described) host.described->push_back({function, description});
   std::string failure;

@@ -3,12 +3,15 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
+#include <string_view>
 
 #include <lua.hpp>
 
 #include "kernel/base/error.h"
 #include "scripting/lua_sandbox.h"
+#include "scripting/lua_tokens.h"
 
 namespace rubble {
 
@@ -27,6 +30,7 @@ struct LuaHost {
   // What rubble.options found, and, while the reference is made, what it was asked for.
   std::vector<Diagnostic> mistakes;
   std::vector<DescribedFunction>* described = nullptr;
+  std::map<int, std::vector<LuaToken>> tokens;  // of chunks in which mistakes were found
 
   // Limits, and what has been used of them.
   SandboxLimits limits;
@@ -38,6 +42,13 @@ struct LuaHost {
 };
 
 LuaHost& host_of(lua_State* lua);
+
+// Counts work that a function of ours does for a script as if it were so many instructions. An error
+// of Lua when a limit is reached.
+void count_work(lua_State* lua, std::uint64_t instructions);
+
+// What Lua shall read of a file: all but a byte order mark and a first line that begins with `#`.
+std::string_view lua_source(std::string_view text);
 
 // Lua names a chunk in its messages; ours are "chunk0", "chunk1", ... and stand for paths.
 std::string chunk_name(int chunk);

@@ -7,6 +7,8 @@
 namespace rubble {
 namespace {
 
+constexpr std::size_t kMostParameters = 1000;
+
 [[noreturn]] void fail(std::size_t number, const std::string& message) {
   throw InputError({"", 0, "", "rubble.options: entry " + std::to_string(number) + " " + message, "",
                     "", ""});
@@ -48,6 +50,8 @@ std::vector<std::string> choices_of(const Value& entry) {
 OptionTable::OptionTable(const Value& description) {
   if (description.kind != Value::Kind::table || !description.fields.empty())
     throw InputError({"", 0, "", "rubble.options takes a list of parameters", "", "", ""});
+  if (description.items.size() > kMostParameters)
+    throw InputError({"", 0, "", "rubble.options takes at most 1000 parameters", "", "", ""});
   for (std::size_t i = 0; i < description.items.size(); ++i) add(description.items[i], i + 1);
 }
 
@@ -145,9 +149,8 @@ int find_field(const std::vector<LuaToken>& tokens, std::size_t i,
 
 }  // namespace
 
-int find_option_line(const std::string& text, const std::string& function, const std::string& key,
-                     int call_line) {
-  const std::vector<LuaToken> tokens = read_lua_tokens(text);
+int find_option_line(const std::vector<LuaToken>& tokens, const std::string& function,
+                     const std::string& key, int call_line) {
   const std::string name = function.substr(function.rfind('.') + 1);
   std::vector<std::string> names{""};
   for (const char c : key) {

@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "scripting/lua_tokens.h"
 #include "scripting/schema.h"
 #include "scripting/value.h"
 
@@ -48,9 +49,9 @@ class OptionTable {
 };
 
 // Where a call gave a parameter: the line of `key` in a table constructor that follows the name
-// `function` in a script's text, by preference of the call on that line; the call's own line when it
+// `function` in a script, by preference of the call on that line; the call's own line when it
 // is nowhere.
-int find_option_line(const std::string& text, const std::string& function, const std::string& key,
-                     int call_line);
+int find_option_line(const std::vector<LuaToken>& tokens, const std::string& function,
+                     const std::string& key, int call_line);
 
 }  // namespace rubble

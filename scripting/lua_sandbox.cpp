@@ -11,11 +11,13 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/text.h"
 #include "scripting/gray_image.h"
 #include "scripting/lua_host.h"
 #include "scripting/lua_library.h"
 #include "scripting/lua_prelude.h"
 #include "scripting/lua_value.h"
+#include "scripting/schema.h"
 
 namespace rubble {
 namespace {
@@ -63,17 +65,7 @@ void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_si
   return moved;
 }
 
-void count_instructions(lua_State* lua, lua_Debug*) {
-  LuaHost& host = host_of(lua);
-  if (!host.limited) return;
-  host.instructions += kHookEvery;
-  const bool late = thread_cpu_seconds() - host.started > host.limits.seconds;
-  if (host.instructions <= host.limits.instructions && !late) return;
-  const std::string limit = late ? std::to_string(int(host.limits.seconds)) + " s"
-                                 : std::to_string(host.limits.instructions) + " instructions";
-  lua_pushfstring(lua, "the script does not end: stopped after %s", limit.c_str());
-  lua_error(lua);
-}
+void count_instructions(lua_State* lua, lua_Debug*) { count_work(lua, kHookEvery); }
 
 // Makes any error a string that begins with "chunkN:LINE: ".
 int complete_message(lua_State* lua) {
@@ -89,6 +81,33 @@ int complete_message(lua_State* lua) {
   return lua_pushlstring(lua, text.data(), text.size()), 1;
 }
 
+// Everything that a mission script may call below `rubble`, by its whole name.
+std::vector<std::string> library_names() {
+  std::vector<std::string> names{"include",    "mission",    "options", "random", "read_image",
+                                 "read_table", "reject",     "rotate",  "vec"};
+  for (const LibraryFile& file : lua_library()) names.push_back(file.name);
+  for (std::string& name : names) {
+    std::replace(name.begin(), name.end(), '/', '.');
+    name = "rubble." + name;
+  }
+  return names;
+}
+
+// Of "attempt to call a nil value (field 'leanto')": the function that has nearly that name.
+std::string find_near_function(const std::string& message) {
+  const std::size_t field = message.find(" a nil value (field '");
+  if (field == std::string::npos) return {};
+  const std::size_t begin = message.find('\'', field) + 1;
+  const std::string written = message.substr(begin, message.find('\'', begin) - begin);
+  std::vector<std::string> last_words;
+  const std::vector<std::string> names = library_names();
+  for (const std::string& name : names) last_words.push_back(name.substr(name.rfind('.') + 1));
+  const std::string near = nearest_name(written, last_words);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (!near.empty() && last_words[i] == near) return names[i];
+  return {};
+}
+
 std::string hint_for(const std::string& message) {
   static const char* const kClosed[] = {"os",           "io",           "require",   "dofile",
                                         "loadfile",     "package",      "load",      "debug",
@@ -97,10 +116,31 @@ std::string hint_for(const std::string& message) {
     if (message.find(std::string("global '") + name + "'") != std::string::npos)
       return std::string("`") + name + "` is closed to scripts; docs/lua.md lists what is open";
   if (message.find("binary chunk") != std::string::npos) return "only Lua source text is run";
-  return {};
+  const std::string near = find_near_function(message);
+  return near.empty() ? "" : "did you mean `" + near + "`?";
 }
 
 }  // namespace
+
+void count_work(lua_State* lua, std::uint64_t instructions) {
+  LuaHost& host = host_of(lua);
+  if (!host.limited) return;
+  host.instructions += instructions;
+  const bool late = thread_cpu_seconds() - host.started > host.limits.seconds;
+  if (host.instructions <= host.limits.instructions && !late) return;
+  const std::string limit = late ? std::to_string(int(host.limits.seconds)) + " s"
+                                 : std::to_string(host.limits.instructions) + " instructions";
+  lua_pushfstring(lua, "the script does not end: stopped after %s", limit.c_str());
+  lua_error(lua);
+}
+
+std::string_view lua_source(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";  // of UTF-8, which some editors write
+  if (text.substr(0, kMark.size()) == kMark) text.remove_prefix(kMark.size());
+  if (!text.empty() && text[0] == '#')  // "#!/usr/bin/env ...": the line feed keeps the line numbers
+    text.remove_prefix(std::min(text.find('\n'), text.size()));
+  return text;
+}
 
 struct LuaSandbox::State {
   LuaHost host;
@@ -171,6 +211,8 @@ int LuaSandbox::State::open_include(const std::string& name, std::string& error)
   } catch (const std::runtime_error& failure) {
     return error = "\"" + name + "\": " + failure.what(), -1;
   }
+  if (find_invalid_utf8(*text) != std::string_view::npos)
+    return error = "\"" + name + "\" is not UTF-8 text", -1;
   return keep_include(relative, std::move(*text));
 }
 
@@ -241,9 +283,10 @@ LuaSandbox::LuaSandbox(std::uint64_t seed, const std::string& entry, const Sandb
   s.host.lua = lua_newstate(allocate, &s.host);
   if (!s.host.lua) throw RunError("no memory for a Lua state");
   *static_cast<LuaHost**>(lua_getextraspace(s.host.lua)) = &s.host;
+  using Opener = std::pair<const char*, lua_CFunction>;
   for (const auto& [name, open] :
-       {std::pair{"_G", luaopen_base}, std::pair{"string", luaopen_string},
-        std::pair{"table", luaopen_table}, std::pair{"math", luaopen_math}}) {
+       {Opener{"_G", luaopen_base}, Opener{"string", luaopen_string},
+        Opener{"table", luaopen_table}, Opener{"math", luaopen_math}}) {
     luaL_requiref(s.host.lua, name, open, 1);
     lua_pop(s.host.lua, 1);
   }
@@ -269,7 +312,8 @@ Value LuaSandbox::run(const std::string& text, const std::string& path) {
   s.host.started = thread_cpu_seconds();
   s.host.limited = true;
   lua_sethook(s.host.lua, count_instructions, LUA_MASKCOUNT, kHookEvery);
-  if (luaL_loadbufferx(s.host.lua, text.data(), text.size(), chunk_name(0).c_str(), "t") !=
+  const std::string_view source = lua_source(text);
+  if (luaL_loadbufferx(s.host.lua, source.data(), source.size(), chunk_name(0).c_str(), "t") !=
       LUA_OK) {
     s.host.limited = false;
     throw InputError(s.diagnostic_of(lua_tostring(s.host.lua, -1)));

@@ -61,7 +61,7 @@ class LuaSandbox {
 
   bool used_random() const;                         // whether the seed mattered to the script
   const std::vector<SourceFile>& included() const;  // by rubble.include, in order of first use
-  const std::vector<std::string>& printed() const;  // lines given to print
+  const std::vector<std::string>& printed() const;  // lines given to print, made printable
 
   // The functions of the library with their parameters, in order, for the reference.
   static std::vector<DescribedFunction> describe_library();

@@ -24,6 +24,7 @@ class Tokenizer {
   explicit Tokenizer(std::string_view text) : text_(text) {}
 
   std::vector<LuaToken> run() {
+    if (text_.substr(0, 3) == "\xef\xbb\xbf") advance(3);  // a byte order mark
     if (at(0) == '#') skip_line();  // "#!/usr/bin/env ..."
     while (skip_blank(), position_ < text_.size()) read_one();
     add(LuaToken::Kind::end, "", line_);

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
+
+#include "kernel/base/text.h"
 
 namespace rubble {
 namespace {
 
 constexpr int kDeepest = 16;
 constexpr int kMostValues = 1'000'000;
+constexpr std::size_t kMostText = std::size_t(16) << 20;  // unit: byte
 
 Value other(std::string words) {
   Value v = Value::of_kind(Value::Kind::other);
@@ -18,6 +22,9 @@ Value other(std::string words) {
 class Reader {
  public:
   explicit Reader(lua_State* lua) : lua_(lua) {}
+
+  // The values read, a long string counting for several.
+  std::size_t cost() const { return std::size_t(count_) + bytes_ / 64; }
 
   Value read(int index, int depth) {
     if (++count_ > kMostValues) return other("too many values");
@@ -30,7 +37,7 @@ class Reader {
         return lua_isinteger(lua_, index) ? Value::make_integer(lua_tointeger(lua_, index))
                                           : Value::make_number(lua_tonumber(lua_, index));
       case LUA_TSTRING:
-        return Value::make_text(text_at(index));
+        return read_text(index);
       case LUA_TTABLE:
         return depth < kDeepest ? read_table(index, depth) : other("tables too deep");
       default:
@@ -39,10 +46,27 @@ class Reader {
   }
 
  private:
-  std::string text_at(int index) {
+  Value read_text(int index) {
+    const std::string_view text = text_at(index);
+    bytes_ += text.size();
+    if (bytes_ > kMostText) return other("strings of more than 16 MiB in all");
+    if (find_invalid_utf8(text) != std::string_view::npos)
+      return other("a string that is not UTF-8");
+    return Value::make_text(std::string(text));
+  }
+
+  std::string_view text_at(int index) {
     std::size_t size = 0;
     const char* const text = lua_tolstring(lua_, index, &size);
     return {text, size};
+  }
+
+  // Of a field: made to be shown, for what is not UTF-8 or beyond all bounds is no key of ours.
+  std::string read_name(int index) {
+    const std::string_view text = text_at(index);
+    bytes_ += text.size();
+    const bool whole = bytes_ <= kMostText && find_invalid_utf8(text) == std::string_view::npos;
+    return whole ? std::string(text) : printable(text.substr(0, 64));
   }
 
   Value read_table(int index, int depth) {
@@ -54,7 +78,7 @@ class Reader {
       if (lua_isinteger(lua_, -2))
         numbered.emplace(lua_tointeger(lua_, -2), read(-1, depth + 1));
       else if (lua_type(lua_, -2) == LUA_TSTRING)
-        value.fields.emplace_back(text_at(-2), read(-1, depth + 1));
+        value.fields.emplace_back(read_name(-2), read(-1, depth + 1));
       else
         value.strange_keys.push_back(lua_type(lua_, -2) == LUA_TNUMBER
                                          ? "the key " + describe(read(-2, kDeepest))
@@ -75,11 +99,17 @@ class Reader {
 
   lua_State* lua_;
   int count_ = 0;
+  std::size_t bytes_ = 0;  // of strings
 };
 
 }  // namespace
 
-Value read_lua_value(lua_State* lua, int index) { return Reader(lua).read(index, 0); }
+Value read_lua_value(lua_State* lua, int index, std::size_t* count) {
+  Reader reader(lua);
+  Value value = reader.read(index, 0);
+  if (count) *count += reader.cost();
+  return value;
+}
 
 void push_lua_value(lua_State* lua, const Value& value) {
   luaL_checkstack(lua, 4, "making a table");

@@ -118,6 +118,18 @@ void check_materials(const Mission& mission, const std::vector<std::string>& nam
   throw_if_any(std::move(mistakes));
 }
 
+std::vector<std::string> find_suspicious(const Mission& mission) {
+  constexpr double kLargestInRadians = 3.2;  // pi; unit: rad
+  std::vector<std::string> sentences;
+  const double fov = mission.scenario.camera.fov_deg;
+  if (fov <= kLargestInRadians)
+    sentences.push_back(Diagnostic{mission.script.path, mission.lines.line_of("camera.fov_deg"),
+                                   "camera.fov_deg", format_number(fov) + " degrees is very narrow",
+                                   "", "", "is it in radians?"}
+                            .text());
+  return sentences;
+}
+
 std::vector<std::string> pack_folders(const Mission& mission) {
   const std::filesystem::path beside = std::filesystem::path(mission.script.path).parent_path();
   std::vector<std::string> folders;

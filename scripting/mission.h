@@ -34,6 +34,9 @@ struct Mission {
   SourceMap lines;                   // where each key was written
 };
 
+// What is allowed and hardly meant, each with file and line: an angle that looks like radians.
+std::vector<std::string> find_suspicious(const Mission& mission);
+
 // Throws InputError with every mistake in the script and in the overrides; a file that cannot be
 // read is one, too.
 Mission load_mission(const std::string& path, const MissionOptions& options = {});

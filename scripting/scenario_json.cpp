@@ -1,6 +1,7 @@
 // A resolved scenario as JSON and back, by the schema.
 #include <nlohmann/json.hpp>
 
+#include "kernel/base/text.h"
 #include "scripting/scenario_schema.h"
 #include "scripting/schema_json.h"
 
@@ -79,8 +80,12 @@ std::string value_to_json(const Value& value) { return json_of(value).dump(); }
 std::string members_to_json(const Schema& schema) { return json_of_group(schema, "", 0).dump(2); }
 
 Value parse_json(const std::string& text, const std::string& file) {
+  if (calc_json_depth(text) > kDeepestJson)
+    throw InputError({file, 0, "", "nested too deep", "at most 200 levels of brackets", "", ""});
   try {
     return value_of(Json::parse(text));
+  } catch (const Json::out_of_range&) {
+    throw InputError({file, 0, "", "a number in it is too large", "", "", ""});
   } catch (const Json::parse_error& error) {
     throw InputError({file, line_of_byte(text, error.byte), "", "not valid JSON", "", "", ""});
   }

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <charconv>
 
+#include "kernel/base/text.h"
 #include "scripting/schema.h"
 
 namespace rubble {
@@ -315,7 +316,9 @@ void apply_override(const Schema& schema, const std::string& text,
                     std::vector<Diagnostic>& mistakes) {
   const std::size_t equals = text.find('=');
   Diagnostic mistake;
-  if (equals == std::string::npos || equals == 0) {
+  if (find_invalid_utf8(text) != std::string_view::npos) {
+    mistake = {"", 0, "", "is not UTF-8 text", "UTF-8", "\"" + text + "\"", ""};
+  } else if (equals == std::string::npos || equals == 0) {
     mistake = {"", 0, "", "not an assignment", "KEY=VALUE", "\"" + text + "\"", ""};
   } else {
     const std::string name = trimmed(text.substr(0, equals));

@@ -1,12 +1,13 @@
 #include "scripting/script_file.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "kernel/base/hash.h"
+#include "kernel/base/read_file.h"
+#include "kernel/base/text.h"
 
 namespace rubble {
 
@@ -20,11 +21,19 @@ SourceFile read_script(const std::string& path) {
     throw InputError({path, 0, "", "no such file", "", "", ""});
   if (std::filesystem::is_directory(path, failed))
     throw InputError({path, 0, "", "is a folder", "a Lua script", "", ""});
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in || in.bad()) throw InputError({path, 0, "", "cannot be read", "", "", ""});
-  return {path, text.str(), sha256(text.str())};
+  const std::string text = read_file(path, kLargestScript);
+  check_utf8(text, path);
+  return {path, text, sha256(text)};
+}
+
+void check_utf8(const std::string& text, const std::string& path) {
+  const std::size_t at = find_invalid_utf8(text);
+  if (at == std::string_view::npos) return;
+  char byte[8];
+  std::snprintf(byte, sizeof byte, "0x%02x", unsigned(static_cast<unsigned char>(text[at])));
+  const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n');
+  throw InputError({path, int(line), "", "is not UTF-8 text", "UTF-8",
+                    "the byte " + std::string(byte), "save the script as UTF-8"});
 }
 
 Value run_script(LuaSandbox& sandbox, const SourceFile& script, const SourceMap& lines) {

@@ -10,8 +10,13 @@
 
 namespace rubble {
 
-// Throws InputError when the file cannot be read.
+inline constexpr std::size_t kLargestScript = std::size_t(4) << 20;  // unit: byte
+
+// Throws InputError when the file cannot be read, is larger than that or is not UTF-8.
 SourceFile read_script(const std::string& path);
+
+// Throws InputError with the line of the first byte that is no UTF-8: manifests keep scripts as text.
+void check_utf8(const std::string& text, const std::string& path);
 
 // Runs it. Where Lua has lost the line (a call in `return f(...)`), errors name that `return`.
 Value run_script(LuaSandbox& sandbox, const SourceFile& script, const SourceMap& lines);

@@ -88,23 +88,25 @@ class SourceMap::Builder {
     pending_ = path;
     std::size_t n = 0;
     const std::string name = dotted_name(n);
-    if (n > 0 && ends_value(token(n))) map_.aliases_[path] = name;
+    if (!name.empty() && ends_value(token(n))) map_.aliases_[path] = name;
     if (token().kind == LuaToken::Kind::number && ends_value(token(1)))
       map_.literals_[path] = token().text;
     else
       map_.literals_.erase(path);
   }
 
-  // "a.b.c" at the token here, and how many tokens it has.
+  // "a.b.c" at the token here, and how many tokens it has. Empty: none, or one that is longer than
+  // any path of ours; to follow it would take time by the square of its length.
   std::string dotted_name(std::size_t& count) const {
     count = 0;
     if (!is_name(0)) return {};
     std::string name = token().text;
     count = 1;
     while (token(count).is(".") && is_name(count + 1)) {
-      name += "." + token(count + 1).text;
+      if (count / 2 < kDeepestPath) name += "." + token(count + 1).text;
       count += 2;
     }
+    if (count / 2 >= kDeepestPath) return {};
     return map_.resolve(name);
   }
 
@@ -154,7 +156,7 @@ class SourceMap::Builder {
     if (!is_name(0) || (i_ > 0 && tokens_[i_ - 1].is("."))) return;
     std::size_t n = 0;
     const std::string name = dotted_name(n);
-    if (!token(n).is("=")) return;
+    if (!token(n).is("=") || name.empty()) return;
     const int line = token().line;
     i_ += n + 1;
     note_value(name, line, [line](const LuaToken& t) {
@@ -171,7 +173,8 @@ class SourceMap::Builder {
     if (parenthesis && is_name(2)) {
       i_ += 2;
       std::size_t n = 0;
-      map_.aliases_["$"] = dotted_name(n);
+      const std::string name = dotted_name(n);
+      if (!name.empty()) map_.aliases_["$"] = name;
       i_ -= 2;
     } else {
       // `local m = rubble.mission { ... }`: m is another name of the returned table.
@@ -189,7 +192,7 @@ class SourceMap::Builder {
     std::size_t n = 0;
     const std::string name = dotted_name(n);
     --i_;
-    const bool whole = n > 0 && (token(n + 1).kind == LuaToken::Kind::end || token(n + 1).is(";"));
+    const bool whole = !name.empty() && (token(n + 1).kind == LuaToken::Kind::end || token(n + 1).is(";"));
     if (whole && name != "$") map_.aliases_["$"] = name;
   }
 

@@ -1,5 +1,7 @@
 #include "kernel/base/error.h"
 
+#include "kernel/base/text.h"
+
 namespace rubble {
 namespace {
 
@@ -24,7 +26,7 @@ std::string Diagnostic::text() const {
   if (!found.empty()) comparison += (comparison.empty() ? "found " : ", found ") + found;
   add(comparison);
   if (!hint.empty()) out += " (" + hint + ")";
-  return out;
+  return printable(out);  // keys and strings of a script may hold anything
 }
 
 InputError::InputError(Diagnostic diagnostic)

@@ -14,7 +14,7 @@ enum class ExitCode {
   bad_input = 1,
   failure = 2,
   did_not_settle = 3,
-  stopped = 4,  // by SIGINT or SIGTERM; `rubble resume` continues
+  stopped = 4,  // by SIGINT, SIGTERM or SIGHUP; `rubble resume` continues
   differs = 5,  // verify found a difference, or a suite an expectation that is not met
 };
 
@@ -28,7 +28,8 @@ struct Diagnostic {
   std::string found;     // e.g. "the string \"wide\""
   std::string hint;      // what to do about it
 
-  // "file:line: key: message: expected E, found F (hint)", leaving out what is empty.
+  // "file:line: key: message: expected E, found F (hint)", leaving out what is empty and
+  // with control characters made visible (kernel/base/text.h).
   std::string text() const;
 };
 

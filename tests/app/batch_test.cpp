@@ -1,7 +1,10 @@
 // Many seeds: the same table whatever was killed, sharded or run at once; failures stay alone.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdlib>
 #include <filesystem>
+#include <thread>
 
 #include "tests/app/program.h"
 
@@ -11,6 +14,17 @@ namespace {
 namespace fs = std::filesystem;
 
 #define EXPECT_IN(part, text) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+// The process of which one argument is this.
+pid_t find_process_with(const std::string& argument) {
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator("/proc", failed)) {
+    const std::string line = read_file(entry.path() / "cmdline");
+    if (line.find('\0' + argument + '\0') != std::string::npos)
+      return std::atoi(entry.path().filename().c_str());
+  }
+  return -1;
+}
 
 class Batch : public ::testing::Test {
  protected:
@@ -52,6 +66,59 @@ TEST_F(Batch, GivesTheSameIndexWhateverTheJobsTheShardsAndTheKills) {
   EXPECT_IN("0 runs to do, 6 done before", again.err);
 }
 
+// A job that the kernel kills cannot say so itself.
+TEST_F(Batch, TheLogOfAKilledJobNamesTheSignal) {
+  // 2 s of CPU time: SIGXCPU is for the job, which computes; the batch itself only waits.
+  write_file(scratch / "long.lua",
+             "return rubble.mission { seed = 1, pile = { layers = 20, pieces_per_layer = 300 } }");
+  const Outcome run = run_rubble("batch " + (scratch / "long.lua") +
+                                     " --pile-only --seeds 1 --jobs 1 --out " + (scratch / "a"),
+                                 "ulimit -S -t 2 && ulimit -c 0 &&");
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  EXPECT_IN("killed by signal 24 (CPU time limit exceeded)", run.err);
+  EXPECT_IN("killed by signal 24", read_file(scratch / "a/failed/seed_1.log"));
+}
+
+// Both end well, whoever makes a seed.
+TEST_F(Batch, BegunTwiceFailsNoSeed) {
+  Outcome first;
+  std::thread other([&] { first = run_rubble(batch("a", "1..4", "--jobs 1")); });
+  const Outcome second = run_rubble(batch("a", "1..4", "--jobs 1"));
+  other.join();
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_FALSE(fs::exists(scratch / "a/failed/seed_1.log"));
+  ASSERT_EQ(run_rubble(batch("a", "1..4")).exit_code, 0);
+  for (const char* seed : {"\n1,done,", "\n2,done,", "\n3,done,", "\n4,done,"})
+    EXPECT_IN(seed, index("a"));
+}
+
+// Somebody suspends a job (kill -STOP): it is named, and Ctrl-C still ends the batch.
+TEST_F(Batch, ASuspendedJobIsNamedAndStopped) {
+  write_file(scratch / "long.lua",
+             "return rubble.mission { seed = 1, pile = { layers = 20, pieces_per_layer = 300 } }");
+  const auto begun = [&] { return fs::exists(scratch / "a/seed_1/unfinished/run.json"); };
+  std::thread suspender([&] {
+    for (int i = 0; i < 3000 && !begun(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    const pid_t job = find_process_with(scratch / "a/seed_1");
+    EXPECT_GT(job, 0);
+    if (job > 0) kill(job, SIGSTOP);
+  });
+  const auto enough = std::chrono::steady_clock::now() + std::chrono::seconds(15);
+  bool seen = false;
+  const Outcome run = run_rubble_and_signal(
+      "batch " + (scratch / "long.lua") + " --pile-only --seeds 1 --jobs 1 --out " + (scratch / "a"),
+      [&] {
+        if (begun() && !seen) seen = true, suspender.join();
+        return seen && std::chrono::steady_clock::now() > enough - std::chrono::seconds(10);
+      },
+      SIGTERM);
+  if (suspender.joinable()) suspender.join();
+  EXPECT_EQ(run.exit_code, 4) << run.err;
+  EXPECT_IN("was suspended by signal 19", run.err);
+}
+
 TEST_F(Batch, KeepsAFailureToItself) {
   fs::create_directories(scratch / "a");
   write_file(scratch / "a/seed_2", "taken by something else");
@@ -90,6 +157,15 @@ TEST_F(Batch, TakesNoFiguresFromWhatWasAltered) {
   EXPECT_IN("was altered", again.err);
   EXPECT_IN("is of another seed", again.err);
   EXPECT_IN("is not the pile of the manifest", again.err);
+}
+
+TEST_F(Batch, InfoSaysHowFarItIs) {
+  ASSERT_EQ(run_rubble(batch("a", "1..4", "--shard 1/2")).exit_code, 0);
+  const Outcome half = run_rubble("info " + (scratch / "a"));
+  EXPECT_EQ(half.exit_code, 0) << half.err;
+  EXPECT_IN("tiny.lua, seeds 1..4", half.out);
+  EXPECT_IN("done                     2\n", half.out);
+  EXPECT_IN("not begun                2: seed ", half.out);
 }
 
 TEST_F(Batch, RefusesAnotherBatchInTheSameFolder) {

@@ -86,6 +86,42 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   EXPECT_NE(key.err.find("did you mean `pile.layers`"), std::string::npos) << key.err;
 }
 
+TEST(CommandLine, SaysWhatIsWrongWithASeed) {
+  for (const char* seed : {"-1", "1e3", "99999999999999999999", "18446744073709551615"}) {
+    const Outcome outcome = run_rubble("check scripts/small.lua --seed " + std::string(seed));
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("--seed: expected a whole number"), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("small.lua"), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(run_rubble("check scripts/small.lua --seed 9223372036854775807").exit_code, 0);
+}
+
+TEST(CommandLine, KnowsWhatWasMeant) {
+  const Outcome command = run_rubble("rn scripts/small.lua");
+  EXPECT_EQ(command.exit_code, 1);
+  EXPECT_NE(command.err.find("`rn` (did you mean `run`?)"), std::string::npos) << command.err;
+  const Outcome mode = check_text("return rubble.mission {\n  pile = rubble.collapse.leanto {} }");
+  EXPECT_EQ(mode.exit_code, 1);
+  EXPECT_NE(mode.err.find("m.lua:2: "), std::string::npos) << mode.err;
+  EXPECT_NE(mode.err.find("did you mean `rubble.collapse.lean_to`?"), std::string::npos) << mode.err;
+}
+
+// What is printed is a result.
+TEST(CommandLine, NoticesAStandardOutputThatTakesNothing) {
+  for (const char* out : {">/dev/full", ">&-"}) {
+    const ScratchFolder scratch;
+    for (const char* command : {"check scripts/small.lua", "--help", "check --schema"}) {
+      const Outcome outcome = run_rubble_to(command, out);
+      EXPECT_EQ(outcome.exit_code, 2) << command << out;
+      EXPECT_NE(outcome.err.find("cannot write to standard output"), std::string::npos)
+          << outcome.err;
+    }
+    const Outcome settle = run_rubble_to("settle scripts/small.lua --out " + (scratch / "a"), out);
+    EXPECT_EQ(settle.exit_code, 2) << settle.err;
+    EXPECT_EQ(run_rubble("info " + (scratch / "a")).exit_code, 0) << "the run itself is whole";
+  }
+}
+
 TEST(Info, NamesTheRendererAndTheLibraries) {
   const Outcome info = run_rubble("info");
   ASSERT_EQ(info.exit_code, 0) << info.err;

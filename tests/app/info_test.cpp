@@ -1,6 +1,8 @@
 // `rubble info PATH`: which file of a dataset is not whole any more, and at which byte.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <filesystem>
 
 #include "tests/app/program.h"
@@ -45,6 +47,25 @@ TEST_F(InfoOfData, SaysWhatIsThereAndThatItIsWhole) {
   EXPECT_EQ(whole.out.find("altered"), std::string::npos) << whole.out;
   const Outcome file = run_rubble("info " + folder() + "/mission.bag");
   EXPECT_EQ(file.exit_code, 0) << file.out;
+}
+
+// Hundreds of pictures are one row, as long as each is whole.
+TEST_F(InfoOfData, IsShort) {
+  const ScratchFolder scratch;
+  write_file(scratch / "tiny.lua", kTinyMission);
+  ASSERT_EQ(run_rubble("run " + (scratch / "tiny.lua") + " --quiet --set outputs.tum=true --set " +
+                       "outputs.frames=true --out " + (scratch / "a"))
+                .exit_code,
+            0);
+  const Outcome whole = run_rubble("info " + (scratch / "a"));
+  EXPECT_EQ(whole.exit_code, 0) << whole.out;
+  EXPECT_IN("tum/                     sound        ", whole.out);
+  EXPECT_EQ(whole.out.find("tum/rgb"), std::string::npos) << whole.out;
+  EXPECT_LT(std::count(whole.out.begin(), whole.out.end(), '\n'), 20) << whole.out;
+  write_file(scratch / "a/tum/rgb.txt", "altered");
+  const Outcome altered = run_rubble("info " + (scratch / "a"));
+  EXPECT_EQ(altered.exit_code, 5);
+  EXPECT_IN("tum/rgb.txt              altered", altered.out);
 }
 
 TEST_F(InfoOfData, NamesTheFileAndTheByteOfDamage) {

@@ -28,6 +28,17 @@ Outcome run_rubble(const std::string& arguments, const std::string& before) {
   return outcome;
 }
 
+Outcome run_rubble_to(const std::string& arguments, const std::string& redirection) {
+  const ScratchFolder scratch;
+  const std::string command = "cd '" RUBBLE_SOURCE_DIR "' && '" RUBBLE_PROGRAM "' " + arguments +
+                              " 2>'" + (scratch / "err") + "' </dev/null " + redirection;
+  const int status = std::system(command.c_str());
+  Outcome outcome;
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  outcome.err = read_file(scratch / "err");
+  return outcome;
+}
+
 Outcome run_rubble_and_signal(const std::string& arguments, double seconds, int signal) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   return run_rubble_and_signal(

@@ -17,6 +17,9 @@ struct Outcome {
 // Runs `rubble ARGUMENTS` through the shell, from the root of the sources.
 Outcome run_rubble(const std::string& arguments, const std::string& before = "");
 
+// With its standard output elsewhere, as in ">/dev/full".
+Outcome run_rubble_to(const std::string& arguments, const std::string& redirection);
+
 // Sends it a signal after so many seconds of the clock on the wall, unless it has ended by then;
 // the exit code of one that a signal killed is 128 and the signal.
 Outcome run_rubble_and_signal(const std::string& arguments, double seconds, int signal);

@@ -133,6 +133,68 @@ TEST(Run, RefusesAFolderThatIsNotEmpty) {
   EXPECT_EQ(read_file(scratch / "mine.txt"), "precious");
 }
 
+// Lists of an unfinished run and of a manifest, made by somebody who means harm.
+TEST(Run, ForceRemovesNothingOutsideNorThroughLinks) {
+  const ScratchFolder scratch;
+  const auto at = [&](const std::string& name) { return scratch / name; };
+  fs::create_directories(at("run/unfinished"));
+  fs::create_directories(at("run/sub"));
+  fs::create_directories(at("elsewhere"));
+  for (const char* name : {"x", "run/mine.txt", "elsewhere/y", "run/frames_of_mine.png"})
+    write_file(at(name), "precious");
+  fs::create_directory_symlink(at("elsewhere"), at("run/frames"));
+  fs::create_directory_symlink(at("elsewhere"), at("run/link"));
+  write_file(at("run/unfinished/run.json"), "{}");
+  write_file(at("run/unfinished/files.txt"),
+             "sub/../../x\n../x\nmine.txt\nlink/y\nframes/y\nframes\n" + at("x") + "\n\n");
+  write_file(at("run/manifest.json"),
+             "{\"outputs\": {\"sub/../../x\": \"0\", \"link/y\": \"0\", \"frames/y\": \"0\", "
+             "\"mine.txt\": \"0\", \"\": \"0\"}}");
+  const Outcome run = run_rubble("settle scripts/small.lua --force --out " + at("run"));
+  EXPECT_EQ(run.exit_code, 1) << "`frames` is not ours: " << run.err;
+  EXPECT_NE(run.err.find("frames"), std::string::npos) << run.err;
+  for (const char* name : {"x", "run/mine.txt", "elsewhere/y", "run/frames_of_mine.png"})
+    EXPECT_EQ(read_file(at(name)), "precious") << name;
+  EXPECT_TRUE(fs::is_symlink(at("run/frames")));
+  fs::remove(at("run/frames"));
+  EXPECT_EQ(run_rubble("settle scripts/small.lua --force --out " + at("run")).exit_code, 0);
+  EXPECT_EQ(read_file(at("run/mine.txt")), "precious");
+}
+
+// A folder that happens to have the name of ours.
+TEST(Run, LeavesAFolderCalledUnfinishedThatIsNotOurs) {
+  const ScratchFolder scratch;
+  fs::create_directories(scratch / "run/unfinished");
+  write_file(scratch / "run/unfinished/novel.txt", "precious");
+  for (const char* force : {"", " --force"}) {
+    run_rubble("settle scripts/small.lua --out " + (scratch / "run") + force);
+    EXPECT_EQ(read_file(scratch / "run/unfinished/novel.txt"), "precious") << force;
+  }
+}
+
+TEST(Run, ForceKeepsForeignFilesAmongTheRecordings) {
+  const ScratchFolder scratch;
+  const std::string command = "run scripts/outputs.lua --quiet --out " +
+                              (scratch / "run");
+  ASSERT_EQ(run_rubble(command).exit_code, 0);
+  ASSERT_TRUE(fs::exists(scratch / "run/tum/rgb.txt"));
+  write_file(scratch / "run/tum/notes.txt", "precious");
+  const Outcome again = run_rubble(command + " --force");
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_NE(again.err.find("notes.txt"), std::string::npos) << again.err;
+  EXPECT_EQ(read_file(scratch / "run/tum/notes.txt"), "precious");
+}
+
+// A terminal that closes.
+TEST(Run, HangingUpStopsAsPolitelyAsCtrlC) {
+  const ScratchFolder scratch;
+  const Outcome stopped = run_rubble_and_signal(
+      "run scripts/first_pile.lua --quiet --out " + (scratch / "run"),
+      [&] { return fs::exists(scratch / "run/unfinished/run.json"); }, SIGHUP);
+  EXPECT_EQ(stopped.exit_code, 4) << stopped.err;
+  EXPECT_NE(stopped.err.find("`rubble resume"), std::string::npos) << stopped.err;
+}
+
 // A file-size limit is a disk that is full: writes past it fail.
 TEST(Run, LeavesNothingHalfWrittenWhenTheDiskIsFull) {
   const ScratchFolder scratch;

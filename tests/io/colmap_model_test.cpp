@@ -184,5 +184,33 @@ TEST(PlyReader, NamesTheLineOfWhatIsWrong) {
   EXPECT_NE(damaged("4 0 1 2 3\n", "").find("the file ends early"), std::string::npos);
 }
 
+// 200 bytes that took all memory, or for ever.
+TEST(PlyReader, BelievesNoNumberThatTheFileCannotHold) {
+  const test::ScratchFolder folder;
+  const std::string vertex =
+      "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+  const auto error_with = [&](const std::string& format, const std::string& elements,
+                              const std::string& data) {
+    write(folder / "a.ply", "ply\nformat " + format + " 1.0\n" + elements + "end_header\n" + data);
+    return error_of([&] { load_ply(folder / "a.ply"); });
+  };
+  const std::string huge = "18446744073709551615\n";
+  EXPECT_EQ(error_with("ascii", "element foo " + huge + vertex, "0 0 0\n"), "");
+  EXPECT_NE(error_with("ascii", vertex + "element foo " + huge + "property int a\n", "0 0 0\n1\n")
+                .find("the file ends early: expected 18446744073709551615 of foo"),
+            std::string::npos);
+  EXPECT_NE(error_with("binary_little_endian", "element vertex " + huge + vertex.substr(17),
+                       std::string(24, '\0'))
+                .find("the file ends early"),
+            std::string::npos);
+  const std::string list = vertex + "element foo 1\nproperty list int int a\n";
+  EXPECT_NE(error_with("binary_little_endian", list, std::string(12, '\0') + "\xff\xff\xff\xff")
+                .find("no length of a list"),
+            std::string::npos);
+  EXPECT_NE(error_with("binary_little_endian", list, std::string(12, '\0') + "\x7f\xff\xff\x7f")
+                .find("no length of a list"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace rubble

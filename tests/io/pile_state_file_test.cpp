@@ -123,6 +123,35 @@ TEST(PileStateFile, IsTheSameFileForTheSameStateAndAnotherForAnother) {
   EXPECT_NE(load_pile_state(folder / "c").state_hash(), hash);
 }
 
+// With its checksum right: a file that somebody made so, or a bug of ours.
+TEST(PileStateFile, RefusesWhatIsNotFinite) {
+  ScratchFolder folder;
+  const auto error_with = [&](const auto& change) {
+    PileState state = make_state(4);
+    change(state);
+    save_pile_state(state, folder / "odd");
+    return error_of(folder / "odd");
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinite = std::numeric_limits<double>::infinity();
+  expect_in(error_with([&](PileState& s) { s.pieces[1].world_from_body.translation.y = nan; }),
+            "odd: a piece has a number that is not finite");
+  expect_in(error_with([&](PileState& s) { s.pieces[1].world_from_body.rotation.w = nan; }),
+            "not finite");
+  expect_in(error_with([&](PileState& s) { s.pieces[3].linear_velocity.x = infinite; }),
+            "not finite");
+  expect_in(error_with([&](PileState& s) { s.pieces[0].scale = nan; }), "not finite");
+  expect_in(error_with([&](PileState& s) { s.pieces[0].scale = 0; }), "no sensible scale");
+  expect_in(error_with([&](PileState& s) { s.pieces[0].world_from_body.rotation = {0, 0, 0, 0}; }),
+            "no rotation of length 1");
+  expect_in(error_with([&](PileState& s) { s.pieces[0].world_from_body.translation.z = 1e30; }),
+            "too far away");
+  expect_in(error_with([&](PileState& s) { s.simulated = nan; }), "the pile has a number");
+  expect_in(error_with([&](PileState& s) { s.joints[0].parent_from_joint.translation.x = nan; }),
+            "a joint has a number");
+  EXPECT_EQ(error_with([](PileState&) {}), "no error");
+}
+
 TEST(PileStateFile, RefusesEveryTruncation) {
   ScratchFolder folder;
   save_pile_state(make_state(2), folder / "whole");

@@ -58,7 +58,8 @@ TEST(CollapseErrors, WrongWaysToCall) {
             "m.lua:1: rubble.collapse.lean_to[1]: a value without a name: expected named fields, "
             "found 5 (write `name = value`)");
   EXPECT_EQ(mission_error("return { pile = rubble.collapse.lean_too {} }"),
-            "m.lua:1: attempt to call a nil value (field 'lean_too')");
+            "m.lua:1: attempt to call a nil value (field 'lean_too') "
+            "(did you mean `rubble.collapse.lean_to`?)");
   EXPECT_EQ(mission_error("return { pile = rubble.collapse.free { pieces = { { box = {1, 1, 1} } } } }"),
             "");
   EXPECT_NE(mission_error("return { pile = rubble.collapse.free { pieces = { 5 } } }"), "");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -99,6 +100,58 @@ TEST(Sandbox, AMillionUnknownKeysAreNotAMillionMistakes) {
       [&] { load_mission_text("local t = {} for i = 1, 2e5 do t['k' .. i] = 1 end return t", "m.lua"); });
   EXPECT_LT(error.size(), 1000000u);
   EXPECT_NE(error, "");
+}
+
+// One string in 2,000 places: Lua has it once, a copy of the table would have it 2,000 times.
+TEST(Sandbox, ReferencesToOneLongString) {
+  const Value value = LuaSandbox(1, "rubble.mission")
+                          .run("local s = ('x'):rep(60 << 20) local t = {}\n"
+                               "for i = 1, 2000 do t[i] = s end return t",
+                               "h.lua");
+  ASSERT_EQ(value.items.size(), 2000u);
+  EXPECT_EQ(value.items[0].kind, Value::Kind::other);
+  EXPECT_EQ(value.items[1999].text, "strings of more than 16 MiB in all");
+  EXPECT_EQ(run("return { a = ('x'):rep(1 << 20) }").find("a")->text.size(), std::size_t(1) << 20);
+}
+
+// Work of the program for a script counts as the script's.
+TEST(Sandbox, LongTablesForOptions) {
+  EXPECT_EQ(run_error("local t = {} for i = 1, 100000 do t[i] = i end\n"
+                      "for i = 1, 100 do rubble.options('f', { a = t }, { { 'a', {}, type = 'table' } "
+                      "}) end"),
+            "h.lua:2: the script does not end: stopped after 2000000 instructions");
+  EXPECT_NE(run_error("local t = {} for i = 1, 5000 do t[i] = { 'a' .. i, 1 } end\n"
+                      "rubble.options('f', {}, t)")
+                .find("h.lua:2: "),
+            std::string::npos);
+}
+
+// Chains that took time by the square of their length, after the script had ended.
+TEST(Sandbox, LongChainsOfDots) {
+  std::string chain = "a";
+  for (int i = 0; i < 200000; ++i) chain += ".a";
+  std::string text = "if false then\n";
+  for (int i = 0; i < 4; ++i) text += "local x" + std::to_string(i) + " = " + chain + "\n";
+  const auto start = std::chrono::steady_clock::now();
+  mission_error(text + "end\nreturn rubble.mission {}");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+}
+
+TEST(Sandbox, StringsThatAreNotUtf8) {
+  EXPECT_EQ(run("return { 'caf\\xe9' }").items[0].text, "a string that is not UTF-8");
+  EXPECT_NE(mission_error("return rubble.mission { packs = { 'caf\\xe9' } }").find("not UTF-8"),
+            std::string::npos);
+}
+
+// As other programs that run Lua files.
+TEST(Sandbox, SkipsAByteOrderMarkAndAFirstLineForTheShell) {
+  EXPECT_EQ(run("\xef\xbb\xbfreturn 7").integer, 7);
+  EXPECT_EQ(run("#!/usr/bin/env rubble\nreturn 8").integer, 8);
+  EXPECT_EQ(run("\xef\xbb\xbf#!/usr/bin/env rubble\nreturn 9").integer, 9);
+  EXPECT_EQ(run_error("#!/usr/bin/env rubble\nlocal x = nil + 1"),
+            "h.lua:2: attempt to perform arithmetic on a nil value");
+  EXPECT_NE(mission_error("\xef\xbb\xbfreturn rubble.mission {\n  sed = 1 }").find("m.lua:2: sed"),
+            std::string::npos);
 }
 
 TEST(Sandbox, CpuTimeIsTheLastResort) {

@@ -1,0 +1,32 @@
+// Pictures that strangers made, decoded in a child process (kernel/base/isolated_worker.h).
+#pragma once
+
+#include <string>
+
+#include "kernel/base/disk_cache.h"
+#include "kernel/base/error.h"
+#include "kernel/base/isolated_worker.h"
+
+namespace rubble {
+
+// What `decode` returns: an image with width, height and, as the member `values`, its pixels.
+template <typename Image, typename Values, typename Decode>
+Image read_isolated_picture(const std::string& path, Values Image::*values, Decode decode) {
+  const std::string bytes = run_isolated(path, "picture", [&] {
+    const Image image = decode();
+    CacheWriter writer;
+    writer.put(image.width);
+    writer.put(image.height);
+    writer.put(image.*values);
+    return writer.bytes();
+  });
+  CacheReader reader(bytes);
+  Image image;
+  reader.get(image.width);
+  reader.get(image.height);
+  reader.get(image.*values);
+  if (!reader.whole()) throw RunError("a picture was cut short between two processes");
+  return image;
+}
+
+}  // namespace rubble

@@ -1,0 +1,22 @@
+// Text that strangers wrote: whether it is UTF-8, and what of it may go to a terminal.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace rubble {
+
+// The first byte that is not part of well-formed UTF-8 (RFC 3629: no overlong forms, no surrogates,
+// at most U+10FFFF); npos: there is none.
+std::size_t find_invalid_utf8(std::string_view text);
+
+// How deep the brackets of a JSON text are nested, those in strings left out. For texts that may be
+// no JSON at all: whoever is to read it recursively asks first.
+int calc_json_depth(std::string_view text);
+inline constexpr int kDeepestJson = 200;
+
+// The text without what steers a terminal: control characters but line feed and tab (ASCII's, and
+// U+0080 to U+009F), and bytes that are not UTF-8, are written as \x1b.
+std::string printable(std::string_view text);
+
+}  // namespace rubble

@@ -1,0 +1,91 @@
+// What is allowed and hardly meant is said.
+#include <gtest/gtest.h>
+
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+constexpr char kCube[] =
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nusemtl paint\n"
+    "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n";
+
+class Warnings : public ::testing::Test {
+ protected:
+  // What `check` prints for a pack of one asset with this mesh.
+  std::string of_asset(const std::string& mesh, const std::string& more = "") {
+    write_file(scratch_ / "a.obj", mesh);
+    write_file(scratch_ / "pack.lua",
+               "return pack { name = 'p', assets = { { name = 'a', mesh = 'a.obj', collision = "
+               "'hull', material = 'brick'" +
+                   more + " } } }\n");
+    return of_mission("return rubble.mission { packs = { '.' }, pile = { mix = { { asset = 'a' } } } }");
+  }
+  std::string of_mission(const std::string& text) {
+    write_file(scratch_ / "m.lua", text);
+    const Outcome check = run_rubble("check " + (scratch_ / "m.lua"));
+    EXPECT_EQ(check.exit_code, 0) << check.err;
+    return check.err;
+  }
+
+  const ScratchFolder scratch_;
+};
+
+#define EXPECT_IN(part, text) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+TEST_F(Warnings, OfASoundAssetThereAreNone) {
+  EXPECT_EQ(of_asset(kCube), "");
+  EXPECT_EQ(of_asset(kCube, ", looks = { paint = 'brick' }"), "");
+}
+
+TEST_F(Warnings, NameASurfaceThatTheMeshHasNot) {
+  EXPECT_IN("`looks` of `a` names the surface `pain`, which the mesh has not: did you mean `paint`?",
+            of_asset(kCube, ", looks = { pain = 'brick' }"));
+}
+
+TEST_F(Warnings, NameAMeshThatIsFarTooSmallOrLarge) {
+  EXPECT_IN("a.obj: the mesh is 1e-09 m large: are its `units` right?",
+            of_asset("v 0 0 0\nv 1e-9 0 0\nv 0 1e-9 0\nv 0 0 1e-9\n"
+                     "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"));
+}
+
+TEST_F(Warnings, NameAnEdgeOfAMeshThatIsNotClosed) {
+  std::string open = kCube;
+  open.erase(open.rfind("f 5 6 7 8"));
+  const std::string said = of_asset(open);
+  EXPECT_IN("a.obj: the mesh is not closed: 4 edges are not shared by two triangles", said);
+  EXPECT_IN("the first, from (", said);
+}
+
+TEST_F(Warnings, NameColoursAndTexturesThatAreNotDrawn) {
+  write_file(scratch_ / "a.mtl", "newmtl paint\nKd 0.8 0.1 0.1\nmap_Kd red.png\n");
+  EXPECT_IN("a.obj: colours and textures of the file are not drawn",
+            of_asset("mtllib a.mtl\n" + std::string(kCube)));
+  write_file(scratch_ / "a.mtl", "newmtl paint\nKd 0.8 0.8 0.8\n");
+  EXPECT_EQ(of_asset("mtllib a.mtl\n" + std::string(kCube)), "") << "grey is no loss";
+}
+
+TEST_F(Warnings, NameAnAngleThatLooksLikeRadians) {
+  const std::string said = of_mission("return rubble.mission {\n  camera = { fov_deg = 1.57 } }");
+  EXPECT_IN("m.lua:2: camera.fov_deg: 1.57 degrees is very narrow (is it in radians?)", said);
+}
+
+TEST_F(Warnings, NameAPieceThatTheCameraIsInside) {
+  std::string text = kTinyMission;
+  text.replace(text.find("layers = 2"), 10,
+               "placed = { { box = { 1, 4, 3 }, material = 'reinforced_concrete', position = { -1.5, "
+               "0, 1.5 }, fixed = true } }, layers = 1");
+  write_file(scratch_ / "m.lua", text);
+  const Outcome run = run_rubble("run " + (scratch_ / "m.lua") + " --quiet --out " + (scratch_ / "a"));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_IN("the camera is inside piece 0 (", run.err);
+  EXPECT_IN("inside a piece at 3 of 3 frames", run.err);
+  EXPECT_IN("the camera is inside piece 0", read_file(scratch_ / "a/manifest.json"));
+  write_file(scratch_ / "m.lua", kTinyMission);
+  const Outcome outside =
+      run_rubble("run " + (scratch_ / "m.lua") + " --quiet --out " + (scratch_ / "b"));
+  EXPECT_EQ(outside.err.find("inside"), std::string::npos) << outside.err;
+}
+
+}  // namespace
+}  // namespace rubble::testing

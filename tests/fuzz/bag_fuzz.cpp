@@ -1,0 +1,12 @@
+#include "io/recording_check.h"
+#include "io/ros_pictures.h"
+#include "tests/fuzz/fuzz_file.h"
+
+using namespace rubble;
+
+void fuzz_one(std::string_view bytes) {
+  const std::string path = fuzz::folder().write("mission.bag", bytes);
+  fuzz::knock([&] { check_recording(path); });
+  for (const char* channel : {"rgb", "depth", "normals"})
+    fuzz::knock([&] { find_ros_picture(fuzz::folder().path(), "mission.bag", {channel, 0, false}); });
+}

@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+"""Makes the small seed inputs of the fuzz targets: make_corpus.py SOURCES PROGRAM OUT
+
+Scripts and packs are those that come with Rubble; recordings and saved states are of a run of 16 x 16
+pixels, made by PROGRAM. OUT gets a folder for each target and is made anew.
+"""
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+MISSION = """return rubble.mission {
+  seed = 3,
+  pile = { layers = 1, pieces_per_layer = 3, mix = { { asset = "brick" } },
+           spawn_position = { 0, 0, 1 }, spawn_bounds = { 0.5, 0.5, 0.5 } },
+  camera = { width = 16, height = 16 },
+  trajectory = { rate_hz = 10, waypoints = {
+    { t = 0, position = { -1.5, 0, 0.8 }, look_at = { 0, 0, 0.1 } },
+    { t = 0.1, position = { -1.4, 0.1, 0.8 }, look_at = { 0, 0, 0.1 } },
+  } },
+  outputs = { bag = true, mcap = true, rawlog = true, simplemap = true, tum = true, colmap = true,
+              frames = true },
+}
+"""
+
+CUBE = ("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nusemtl a\n"
+        "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n")
+
+DAE = ('<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" '
+       'version="1.4.1"><library_geometries><geometry id="g"><mesh><source id="p"><float_array '
+       'id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source="#a" '
+       'count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param '
+       'name="Z" type="float"/></accessor></technique_common></source><vertices id="v"><input '
+       'semantic="POSITION" source="#p"/></vertices><triangles count="1"><input semantic="VERTEX" '
+       'source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>'
+       '<library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/>'
+       '</node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/>'
+       '</scene></COLLADA>')
+
+
+class Corpus:
+    def __init__(self, out):
+        self.out = Path(out)
+        shutil.rmtree(out, ignore_errors=True)
+
+    def add(self, target, content):
+        folder = self.out / target
+        folder.mkdir(parents=True, exist_ok=True)
+        data = content.encode() if isinstance(content, str) else content
+        (folder / f"seed_{len(list(folder.iterdir()))}").write_bytes(data)
+
+
+def unsealed(path):
+    """The content of one of our sealed files: without 20 bytes of head and 32 of checksum."""
+    return path.read_bytes()[20:-32]
+
+
+def binary_ply():
+    head = ("ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty "
+            "float y\nproperty float z\nelement face 4\nproperty list uchar int vertex_indices\n"
+            "end_header\n").encode()
+    for p in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)):
+        head += struct.pack("<3f", *p)
+    for f in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)):
+        head += struct.pack("<B3i", 3, *f)
+    return head
+
+
+ASCII_PLY = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
+             "float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+             "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+
+
+def run(program, folder):
+    script = folder / "m.lua"
+    script.write_text(MISSION)
+    call = [program, "run", str(script), "--quiet", "--out", str(folder / "run")]
+    subprocess.run(call, check=True, stdout=subprocess.DEVNULL)
+    export = [program, "export", str(folder / "run"), "--out", str(folder / "export")]
+    subprocess.run(export, check=True, stdout=subprocess.DEVNULL)
+    # A checkpoint is there while a run is unfinished: one that is killed after its pile leaves it.
+    call = [program, "settle", str(script), "--quiet", "--checkpoint-every", "0", "--set",
+            "pile.layers=3", "--out", str(folder / "cut")]
+    process = subprocess.Popen(call, stdout=subprocess.DEVNULL)
+    checkpoint = folder / "cut/unfinished/settle.checkpoint"
+    kept = folder / "checkpoint"
+    while process.poll() is None:
+        try:
+            shutil.copy(checkpoint, kept)
+        except OSError:
+            pass
+    return folder / "run"
+
+
+def add_recordings(corpus, run_folder):
+    for target, name in (("bag", "mission.bag"), ("mcap", "mission.mcap"),
+                         ("rawlog", "mission.rawlog"), ("simplemap", "mission.simplemap"),
+                         ("trajectory", "groundtruth.txt"), ("sealed_file", "pile.bin"),
+                         ("manifest", "manifest.json")):
+        corpus.add(target, (run_folder / name).read_bytes())
+    corpus.add("pile_state", unsealed(run_folder / "pile.bin"))
+    text = "-----".join((run_folder / "colmap" / f).read_text() for f in
+                        ("cameras.txt", "images.txt", "points3D.txt")
+                        if (run_folder / "colmap" / f).exists())
+    corpus.add("colmap_text", text)
+    corpus.add("picture_png", sorted((run_folder / "frames/rgb").glob("*.png"))[0].read_bytes())
+    corpus.add("picture_exr", sorted((run_folder / "frames/depth").glob("*.exr"))[0].read_bytes())
+
+
+def colmap_binary():
+    cameras = struct.pack("<QIiQQ4d", 1, 1, 1, 16, 16, 8, 8, 8, 8)
+    images = struct.pack("<QI7dI", 1, 1, 1, 0, 0, 0, 0, 0, 0, 1) + b"a.png\0"
+    images += struct.pack("<Qddq", 1, 1.0, 2.0, 7)
+    points = struct.pack("<QQ3d3BdQII", 1, 7, 0, 0, 1, 9, 9, 9, 0.5, 1, 1, 0)
+    return b"-----".join((cameras, images, points))
+
+
+def main():
+    sources, program, out = Path(sys.argv[1]), sys.argv[2], sys.argv[3]
+    corpus = Corpus(out)
+    for script in sorted((sources / "scripts").glob("*.lua")):
+        corpus.add("mission", script.read_text())
+        corpus.add("source_map", script.read_text())
+    corpus.add("suite", (sources / "scripts/ci/suite.lua").read_text())
+    corpus.add("pack", "return pack { name = 'p', assets = { { name = 'a', mesh = 'a.obj', "
+                       "collision = 'hull', material = 'brick', looks = { x = 'brick' } } } }")
+    for text in ("seed=4", "pile.mix[1].weight=2", "camera.width=64", "fogdensity=0.2"):
+        corpus.add("override", text)
+    corpus.add("frame_journal", "0123456789abcdef 0123456789abcdef 0\n" * 3)
+    corpus.add("flow", struct.pack("<fii", 202021.25, 2, 1) + bytes(16))
+    corpus.add("pgm", "P2\n2 2\n255\n0 1 2 3\n")
+    corpus.add("trajectory", "1000,0,0,0,1,0,0,0\n")
+    corpus.add("ply_map", ASCII_PLY)
+    corpus.add("ply_map", binary_ply())
+    corpus.add("colmap_binary", colmap_binary())
+    corpus.add("colmap_text", "1 PINHOLE 16 16 8 8 8 8\n-----1 1 0 0 0 0 0 0 1 a.png\n1 2 7\n-----"
+                              "7 0 0 1 9 9 9 0.5 1 0\n")
+    corpus.add("mesh_obj", CUBE)
+    corpus.add("mesh_dae", DAE)
+    corpus.add("mesh_ply", binary_ply())
+    corpus.add("mesh_ply", ASCII_PLY)
+    with tempfile.TemporaryDirectory() as folder:
+        made = run(program, Path(folder))
+        add_recordings(corpus, made)
+        corpus.add("mesh_stl", (made / "pile.stl").read_bytes()[:84 + 50 * 12])
+        corpus.add("mesh_glb", (Path(folder) / "export/pile.glb").read_bytes())
+        corpus.add("gray_png", sorted((made / "frames/rgb").glob("*.png"))[0].read_bytes())
+        checkpoint = Path(folder) / "checkpoint"
+        corpus.add("checkpoint", unsealed(checkpoint) if checkpoint.exists() else b"")
+        scenario = subprocess.run([program, "check", str(Path(folder) / "m.lua")], check=True,
+                                  capture_output=True, text=True).stdout
+        corpus.add("scenario_json", scenario)
+        manifest = (made / "manifest.json").read_text()
+        corpus.add("unfinished", manifest)
+
+
+if __name__ == "__main__":
+    main()

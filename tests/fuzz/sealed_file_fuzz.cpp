@@ -1,0 +1,9 @@
+#include "io/pile_state_file.h"
+#include "tests/fuzz/fuzz_file.h"
+
+using namespace rubble;
+
+void fuzz_one(std::string_view bytes) {
+  const std::string path = fuzz::folder().write("pile.bin", bytes);
+  fuzz::knock([&] { load_pile_state(path); });
+}

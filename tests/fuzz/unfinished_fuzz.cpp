@@ -1,0 +1,13 @@
+#include "app/json_members.h"
+#include "app/recipe.h"
+#include "tests/fuzz/fuzz_file.h"
+
+using namespace rubble;
+
+void fuzz_one(std::string_view bytes) {
+  fuzz::knock([&] {
+    const auto json = parse_json_text(std::string(bytes), "run.json");
+    const Recipe recipe = recipe_from_json(json, "run.json");
+    stated_scenario(recipe);
+  });
+}

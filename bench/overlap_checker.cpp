@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "bench/penetration.h"
@@ -33,6 +34,14 @@ std::vector<Part> place_parts(const std::vector<PieceType>& types, const PileSta
     }
   }
   return parts;
+}
+
+// Pieces that a joint holds together are built into each other.
+std::set<std::pair<int, int>> find_joined(const PileState& state) {
+  std::set<std::pair<int, int>> joined;
+  for (const JointState& joint : state.joints)
+    joined.insert(std::minmax(int(joint.parent), int(joint.child)));
+  return joined;
 }
 
 // Calls visit(part, part) for parts of different pieces whose boxes come closer than `gap`: sorted
@@ -76,8 +85,10 @@ std::vector<Overlap> merge_parts(std::vector<Overlap> found) {
 OverlapReport check_overlaps(const std::vector<PieceType>& types, const PileState& state,
                              double touch_gap) {
   const std::vector<Part> parts = place_parts(types, state);
+  const std::set<std::pair<int, int>> joined = find_joined(state);
   std::vector<Overlap> touching;
   find_near_parts(parts, touch_gap, [&](const Part& a, const Part& b) {
+    if (joined.count(std::minmax(a.piece, b.piece))) return;
     const double depth = calc_penetration(a.hull, b.hull).depth;
     if (depth < -touch_gap) return;
     if (depth <= 0 && !closer_than_ccd(a.hull, b.hull, touch_gap)) return;

@@ -53,7 +53,7 @@ SettleRun run_settling(const Pile& pile, const SettleJob& job) {
   run.threads =
       job.options.threads > 0 ? job.options.threads : int(std::thread::hardware_concurrency());
   const Times begin = now();
-  World world(pile.types, calc_world_options(job.options));
+  World world(pile.types, calc_world_options(job.options), pile.assemblies);
   EjectionWatch watch(world);
   Times watching;  // is not the kernel's
   run.state = settle_pile(world, pile, job.options, [&](const SettleProgress&) {

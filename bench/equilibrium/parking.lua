@@ -1,0 +1,11 @@
+-- Standard work of the equilibrium bench: crushed cars, double tees and guard rails of the pack parking, of which fewer fit.
+return rubble.mission {
+  seed = 1,
+  packs = { "parking" },
+  pile = {
+    layers = 4,
+    pieces_per_layer = 60,
+    spawn_position = { 0, 0, 5 },
+    spawn_bounds = { 7, 7, 8 },
+  },
+}

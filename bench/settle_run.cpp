@@ -71,7 +71,7 @@ SettleRun run_settling(const Pile& pile, const SettleJob& job) {
   for (int i = 0; i < world.size(); ++i) run.masses.push_back(world.mass(i));
   if (!job.judge) return run;
   run.overlaps = check_overlaps(pile.types, run.state);
-  measure_drift(world, job.options.step, run);
+  if (job.drift) measure_drift(world, job.options.step, run);
   return run;
 }
 

@@ -11,6 +11,7 @@
 #include "app/job_pool.h"
 #include "app/seed_list.h"
 #include "app/stop.h"
+#include "bench/equilibrium/contact_finder.h"
 #include "bench/equilibrium/pile_record.h"
 #include "bench/equilibrium/work.h"
 #include "bench/program.h"
@@ -31,7 +32,9 @@ struct Request {
   int threads = 1;
   int jobs = 1;
   bool one = false;  // this process is a job: print one record
-  bool no_judge = false;
+  bool pile_only = false;
+  bool no_balance = false;
+  double tolerance = kContactTolerance;
   bool markdown = false;
 };
 
@@ -47,8 +50,13 @@ Record run_one(const Item& item, const Request& request) {
   job.options = work.settle;
   job.options.schedule = request.schedule;
   job.options.threads = request.threads;
-  job.judge = !request.no_judge;
-  return make_record(work, run_settling(work.pile, job));
+  job.drift = !request.pile_only;
+  const SettleRun run = run_settling(work.pile, job);
+  Record record = make_record(work, run);
+  add_surface_depth(work.pile, run.state, record);
+  if (!request.pile_only && !request.no_balance)
+    add_balance(work, run.state, request.tolerance, record);
+  return record;
 }
 
 // The file of finished records: a line of JSON each, so that a long list can be continued.
@@ -95,7 +103,10 @@ Job make_job(const Item& item, const Request& request, const fs::path& folder) {
     job.arguments.push_back("--set");
     job.arguments.push_back(change);
   }
-  if (request.no_judge) job.arguments.push_back("--no-judge");
+  if (request.pile_only) job.arguments.push_back("--pile-only");
+  if (request.no_balance) job.arguments.push_back("--no-lp");
+  job.arguments.push_back("--tolerance");
+  job.arguments.push_back(std::to_string(request.tolerance));
   job.log = folder / (fs::path(item.work).stem().string() + "-" + std::to_string(item.seed));
   return job;
 }
@@ -160,7 +171,6 @@ ExitCode bench(const Request& request) {
 ExitCode run(int argc, char** argv) {
   CLI::App app{"Settles the piles of a work list and judges them apart from the kernel."};
   app.footer("Works:\n" + describe_work_names() +
-             "Each pile takes seconds; --pile-only leaves out overlaps and drift.\n"
              "Exit codes: 0 all rest, 1 bad input, 2 failure, 3 not all rest, 4 stopped.");
   Request request;
   const std::map<std::string, Schedule> schedules{{"layers", Schedule::layers},
@@ -183,7 +193,11 @@ ExitCode run(int argc, char** argv) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   app.add_option("--out", request.out, "File of records; what it holds already is not run again");
-  app.add_flag("--pile-only", request.no_judge, "Rest and time only: no overlaps, no drift");
+  app.add_flag("--pile-only", request.pile_only, "Rest, overlaps and time: no drift, no balance");
+  app.add_flag("--no-lp", request.no_balance, "No balance: the linear program is left out");
+  app.add_option("--tolerance", request.tolerance, "Surfaces nearer than this touch; unit: m")
+      ->check(CLI::Range(1e-5, 0.05))
+      ->capture_default_str();
   app.add_flag("--markdown", request.markdown, "Tables for a document");
   app.add_flag("--one", request.one, "Print the record of the first pile as JSON");
   try {

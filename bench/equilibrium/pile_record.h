@@ -15,6 +15,12 @@ using Record = nlohmann::ordered_json;
 // Lengths in mm, times in s, speeds in m/s. Pieces are named "#index type".
 Record make_record(const Work& work, const SettleRun& run);
 
+// Adds how far in terrain pieces are, where there is any.
+void add_surface_depth(const Pile& pile, const PileState& state, Record& record);
+
+// Asks whether forces exist that hold the pile, and adds what is left over. seconds: of the processor.
+void add_balance(const Work& work, const PileState& state, double tolerance, Record& record);
+
 // "#12 stud_long".
 std::string name_of_piece(const PileState& state, int index);
 

@@ -34,14 +34,14 @@ class Finder {
     const Penetration found = calc_penetration(a.hull, b.hull, tolerance_);
     if (found.depth < -tolerance_) return;
     add(a.piece, b.piece, found.direction,
-        find_patch(regions_.of(a), regions_.of(b), found.direction, tolerance_));
+        find_patch(regions_.of(a), regions_.of(b), found.direction, reach(found.depth)));
   }
 
   void touch_ground(const PlacedPart& part) {
     if (part.hull.box.min.z > tolerance_) return;
     const Vec3 up{0, 0, 1};
     add(kGroundPiece, part.piece, up,
-        find_patch({{{up, 0}}, {}}, regions_.of(part), up, tolerance_));
+        find_patch({{{up, 0}}, {}}, regions_.of(part), up, reach(-part.hull.box.min.z)));
   }
 
   void touch_surfaces(const PlacedPart& part, const PlacedSurfaces& surfaces) {
@@ -59,6 +59,9 @@ class Finder {
   std::vector<TouchPoint> take() { return std::move(points_); }
 
  private:
+  // What overlaps touches where it is deepest, not in all of the overlap.
+  double reach(double depth) const { return tolerance_ - std::max(depth, 0.0); }
+
   void add(int a, int b, const Vec3& normal, const std::vector<Vec3>& patch) {
     for (const Vec3& point : patch) points_.push_back({a, b, point, normal});
   }

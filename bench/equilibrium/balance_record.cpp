@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 
 #include "bench/equilibrium/pile_balance.h"
 #include "bench/equilibrium/pile_record.h"
@@ -22,6 +23,22 @@ double weighed_residual(const BalanceProblem& problem, const BalanceResult& resu
   return weight > 0 ? left / weight : 0;
 }
 
+// What a piece touches, each with how far it is away in mm: overlap is negative.
+Record name_neighbours(const PileBalance& balance, int piece, const PileState& state) {
+  Record neighbours = Record::array();
+  std::map<int, double> gaps;
+  for (const TouchPoint& touch : balance.touches) {
+    if (touch.a != piece && touch.b != piece) continue;
+    const int other = touch.a == piece ? touch.b : touch.a;
+    const auto known = gaps.emplace(other, touch.gap).first;
+    known->second = std::min(known->second, touch.gap);
+  }
+  for (const auto& [other, gap] : gaps)
+    neighbours.push_back({other == kGroundPiece ? "ground" : name_of_piece(state, other),
+                          std::round(gap * 1e5) * 1e-2});
+  return neighbours;
+}
+
 Record name_worst(const PileBalance& balance, const BalanceResult& result, const PileState& state) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < result.residual.size(); ++i)
@@ -32,7 +49,9 @@ Record name_worst(const PileBalance& balance, const BalanceResult& result, const
   if (order.size() > kMostNamed) order.resize(kMostNamed);
   Record worst = Record::array();
   for (std::size_t i : order)
-    worst.push_back({name_of_piece(state, balance.pieces[i]), in_percent(result.residual[i])});
+    worst.push_back({{"piece", name_of_piece(state, balance.pieces[i])},
+                     {"percent", in_percent(result.residual[i])},
+                     {"touches", name_neighbours(balance, balance.pieces[i], state)}});
   return worst;
 }
 

@@ -33,15 +33,16 @@ class Finder {
     if (apart_.count(std::minmax(a.piece, b.piece))) return;
     const Penetration found = calc_penetration(a.hull, b.hull, tolerance_);
     if (found.depth < -tolerance_) return;
-    add(a.piece, b.piece, found.direction,
+    add(a.piece, b.piece, found.direction, -found.depth,
         find_patch(regions_.of(a), regions_.of(b), found.direction, reach(found.depth)));
   }
 
   void touch_ground(const PlacedPart& part) {
     if (part.hull.box.min.z > tolerance_) return;
     const Vec3 up{0, 0, 1};
-    add(kGroundPiece, part.piece, up,
-        find_patch({{{up, 0}}, {}}, regions_.of(part), up, reach(-part.hull.box.min.z)));
+    const double gap = part.hull.box.min.z;
+    add(kGroundPiece, part.piece, up, gap,
+        find_patch({{{up, 0}}, {}}, regions_.of(part), up, reach(-gap)));
   }
 
   void touch_surfaces(const PlacedPart& part, const PlacedSurfaces& surfaces) {
@@ -52,18 +53,20 @@ class Finder {
     for (const PlacedTriangle* t : surfaces.find(box)) {
       const ConvexRegion column = make_column(t->corners, t->normal, kDeepest);
       const ConvexRegion& region = regions_.of(part);
-      add(t->piece, part.piece, t->normal, find_patch(column, region, t->normal, tolerance_));
+      const double gap = 0;  // see find_surface_depth()
+      add(t->piece, part.piece, t->normal, gap,
+          find_patch(column, region, t->normal, tolerance_));
     }
   }
 
   std::vector<TouchPoint> take() { return std::move(points_); }
 
  private:
-  // What overlaps touches where it is deepest, not in all of the overlap.
-  double reach(double depth) const { return tolerance_ - std::max(depth, 0.0); }
+  // What overlaps by more than the tolerance touches where it is deepest, not in all of the overlap.
+  double reach(double depth) const { return tolerance_ - std::max(depth - tolerance_, 0.0); }
 
-  void add(int a, int b, const Vec3& normal, const std::vector<Vec3>& patch) {
-    for (const Vec3& point : patch) points_.push_back({a, b, point, normal});
+  void add(int a, int b, const Vec3& normal, double gap, const std::vector<Vec3>& patch) {
+    for (const Vec3& point : patch) points_.push_back({a, b, point, normal, gap});
   }
 
   const PiecePairs& apart_;

@@ -21,6 +21,7 @@ struct TouchPoint {
   int a = 0, b = 0;  // pieces; a may be kGroundPiece
   Vec3 point;        // unit: m
   Vec3 normal;       // from a to b, unit length
+  double gap = 0;    // between the parts that touch, negative: they overlap; unit: m
 };
 
 // How deep pieces are in surfaces such as terrain: the deepest corner of either in the other.

@@ -51,6 +51,7 @@ class Maker {
   }
 
   void add_contact(const TouchPoint& touch) {
+    made_.touches.push_back(touch);
     const double on_b = type_of(touch.b).friction;
     // The ground has the friction of what lies on it: coefficients are against concrete.
     const double on_a = touch.a == kGroundPiece ? on_b : type_of(touch.a).friction;

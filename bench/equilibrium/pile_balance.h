@@ -13,7 +13,8 @@ namespace rubble {
 
 struct PileBalance {
   BalanceProblem problem;
-  std::vector<int> pieces;  // by body: which piece it is
+  std::vector<int> pieces;          // by body: which piece it is
+  std::vector<TouchPoint> touches;  // by contact
 };
 
 // pile: what the state came from. Mass properties are those of the types (PieceType::volume, or the sum

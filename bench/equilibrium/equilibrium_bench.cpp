@@ -28,6 +28,7 @@ struct Request {
   std::vector<std::string> overrides;
   std::string seeds = "1..3";
   std::string out;
+  std::string saved;  // the folder of a finished run: judge its pile, settle nothing
   Schedule schedule = Schedule::layers;
   int threads = 1;
   int jobs = 1;
@@ -56,6 +57,22 @@ Record run_one(const Item& item, const Request& request) {
   add_surface_depth(work.pile, run.state, record);
   if (!request.pile_only && !request.no_balance)
     add_balance(work, run.state, request.tolerance, record);
+  return record;
+}
+
+// What can be said of a pile that lies on the disk: all but times, ejection and drift.
+Record judge_saved(const Request& request) {
+  const SavedPile saved = load_saved_pile(request.saved);
+  SettleRun run;
+  run.work = saved.work.name;
+  run.state = saved.state;
+  run.overlaps = check_overlaps(saved.work.pile.types, saved.state);
+  Record record = make_record(saved.work, run);
+  for (const char* unknown : {"schedule", "cpu_s", "wall_s", "ejected", "drift_median_mm",
+                              "drift_p99_mm", "drift_max_mm", "drift_over_20mm"})
+    record.erase(unknown);
+  add_surface_depth(saved.work.pile, saved.state, record);
+  if (!request.no_balance) add_balance(saved.work, saved.state, request.tolerance, record);
   return record;
 }
 
@@ -157,15 +174,19 @@ ExitCode run_list(const std::vector<Item>& items, const Request& request) {
   return settled ? ExitCode::done : ExitCode::did_not_settle;
 }
 
+ExitCode print(const Record& record) {
+  std::printf("%s\n", record.dump().c_str());
+  return record.at("settled").get<bool>() ? ExitCode::done : ExitCode::did_not_settle;
+}
+
 ExitCode bench(const Request& request) {
+  if (!request.saved.empty()) return print(judge_saved(request));
   std::vector<Item> items;
   for (const std::string& work : expand_work_names(request.works))
     for (const std::uint64_t seed : parse_seeds(request.seeds, "--seeds"))
       items.push_back({work, seed});
   if (!request.one) return run_list(items, request);
-  const Record record = run_one(items.front(), request);
-  std::printf("%s\n", record.dump().c_str());
-  return record.at("settled").get<bool>() ? ExitCode::done : ExitCode::did_not_settle;
+  return print(run_one(items.front(), request));
 }
 
 ExitCode run(int argc, char** argv) {
@@ -193,6 +214,8 @@ ExitCode run(int argc, char** argv) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   app.add_option("--out", request.out, "File of records; what it holds already is not run again");
+  app.add_option("--pile", request.saved,
+                 "Judge the settled pile of this finished run, and print its record");
   app.add_flag("--pile-only", request.pile_only, "Rest, overlaps and time: no drift, no balance");
   app.add_flag("--no-lp", request.no_balance, "No balance: the linear program is left out");
   app.add_option("--tolerance", request.tolerance, "Surfaces nearer than this touch; unit: m")

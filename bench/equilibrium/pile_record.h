@@ -18,7 +18,7 @@ Record make_record(const Work& work, const SettleRun& run);
 // Adds how far in terrain pieces are, where there is any.
 void add_surface_depth(const Pile& pile, const PileState& state, Record& record);
 
-// Asks whether forces exist that hold the pile, and adds what is left over. seconds: of the processor.
+// Asks whether forces exist that hold the pile, and adds what is left over.
 void add_balance(const Work& work, const PileState& state, double tolerance, Record& record);
 
 // "#12 stud_long".
@@ -27,7 +27,7 @@ std::string name_of_piece(const PileState& state, int index);
 // One row a pile. markdown: a table for a document, else columns for a terminal.
 std::string make_pile_table(const std::vector<Record>& records, bool markdown);
 
-// One row a work: how many piles settled, and the worst figure of its seeds.
+// One row a work: how many piles settled, mean times, and the worst or sum of its seeds.
 std::string make_work_table(const std::vector<Record>& records, bool markdown);
 
 }  // namespace rubble

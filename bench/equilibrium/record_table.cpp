@@ -42,6 +42,13 @@ std::string join_pair(const Record& pair) {
   return pair.at(0).get<std::string>() + ", " + pair.at(1).get<std::string>();
 }
 
+// Pieces that are off balance, and one of them.
+std::string off_balance(const Record& r) {
+  if (!r.contains("off_1_percent")) return "-";
+  return r["off_1_percent"].dump() + ", " + r["off_10_percent"].dump() + ", " +
+         r["off_50_percent"].dump();
+}
+
 std::vector<Column> pile_columns() {
   return {
       {"work", [](const Record& r) { return r.at("work").get<std::string>(); }},
@@ -53,6 +60,9 @@ std::vector<Column> pile_columns() {
       number_column("overlap mm", "overlap_max_mm", 1),
       count_column("> 5 mm", "over_5mm"),
       number_column("ground mm", "ground_max_mm", 1),
+      number_column("terrain mm", "terrain_max_mm", 1),
+      number_column("residual %", "residual_percent", 3),
+      {"off > 1, 10, 50 %", off_balance},
       count_column("lost", "lost"),
       count_column("ejected", "ejected"),
       number_column("drift p99 mm", "drift_p99_mm", 2),
@@ -100,21 +110,48 @@ double sum(const Group& group, const std::string& key) {
   return all;
 }
 
+// The worst of the seeds; "-" where none has the figure.
+std::string worst(const Group& group, const std::string& key, int digits) {
+  const bool known = std::any_of(group.begin(), group.end(),
+                                 [&key](const Record* r) { return r->contains(key); });
+  return known ? fixed(largest(group, key), digits) : "-";
+}
+
+std::string mean(const Group& group, const std::string& key, int digits) {
+  return fixed(sum(group, key) / double(group.size()), digits);
+}
+
+// Of the pieces of all seeds, in percent.
+std::string off_shares(const Group& group) {
+  const double bodies = sum(group, "bodies");
+  if (bodies == 0) return "-";
+  std::string text;
+  for (const char* key : {"off_1_percent", "off_10_percent", "off_50_percent"})
+    text += (text.empty() ? "" : ", ") + fixed(100 * sum(group, key) / bodies, 2);
+  return text;
+}
+
+const Row kWorkHeadings{"work", "rest", "sim s", "CPU s", "overlap mm", "pairs > 5 mm",
+                        "ground mm", "terrain mm", "residual %", "% off > 1, 10, 50 %",
+                        "lost", "ejected", "drift p99 mm", "drift max mm"};
+
 Row work_row(const std::string& name, const Group& group) {
   int rested = 0;
   for (const Record* r : group) rested += r->at("settled").get<bool>();
-  const double count = double(group.size());
   return {name,
           std::to_string(rested) + " of " + std::to_string(group.size()),
-          fixed(sum(group, "simulated_s") / count, 1),
-          fixed(sum(group, "cpu_s") / count, 2),
-          fixed(largest(group, "overlap_max_mm"), 1),
+          mean(group, "simulated_s", 1),
+          mean(group, "cpu_s", 2),
+          worst(group, "overlap_max_mm", 1),
           fixed(sum(group, "over_5mm"), 0),
-          fixed(largest(group, "ground_max_mm"), 1),
+          worst(group, "ground_max_mm", 1),
+          worst(group, "terrain_max_mm", 1),
+          worst(group, "residual_percent", 3),
+          off_shares(group),
           fixed(sum(group, "lost"), 0),
           fixed(sum(group, "ejected"), 0),
-          fixed(largest(group, "drift_p99_mm"), 2),
-          fixed(largest(group, "drift_max_mm"), 1)};
+          worst(group, "drift_p99_mm", 2),
+          worst(group, "drift_max_mm", 1)};
 }
 
 }  // namespace
@@ -138,9 +175,7 @@ std::string make_work_table(const std::vector<Record>& records, bool markdown) {
     if (groups[name].empty()) names.push_back(name);
     groups[name].push_back(&record);
   }
-  std::vector<Row> rows{{"work", "rest", "sim s, mean", "CPU s, mean", "overlap mm, worst",
-                         "pairs > 5 mm", "ground mm, worst", "lost", "ejected",
-                         "drift p99 mm, worst", "drift max mm, worst"}};
+  std::vector<Row> rows{kWorkHeadings};
   for (const std::string& name : names) rows.push_back(work_row(name, groups[name]));
   return format_table(rows, markdown);
 }

@@ -122,11 +122,13 @@ Work load_work(const std::string& name, std::uint64_t seed,
 SavedPile load_saved_pile(const std::string& folder) {
   const SavedRun run = open_saved_run(folder);
   const AssetLibrary assets = load_assets_of(run, {});
+  const Recipe& recipe = run.manifest.recipe;
+  const Scenario scenario = stated_scenario(recipe.pile_from ? *recipe.pile_from : recipe);
   SavedPile saved;
   saved.work.name = folder;
   saved.work.seed = run.manifest.seed;
-  saved.work.pile.types = assets.types;
-  saved.work.pile.assemblies = assets.assemblies;
+  saved.work.settle = scenario.settle;
+  saved.work.pile = generate_pile(build_pile_spec(scenario, assets));
   saved.state = load_pile_of(run);
   return saved;
 }

@@ -30,9 +30,9 @@ std::string describe_work_names();
 Work load_work(const std::string& name, std::uint64_t seed,
                const std::vector<std::string>& overrides = {});
 
-// A settled pile from the folder of a finished run: its pieces, as they were settled.
+// A settled pile from the folder of a finished run (pile.bin), and what it was settled from.
 struct SavedPile {
-  Work work;  // without layers
+  Work work;
   PileState state;
 };
 SavedPile load_saved_pile(const std::string& folder);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostNamed = 5;  // of the pieces farthest off balance
 
-double in_percent(double share) { return std::round(share * 1e8) * 1e-6; }
+double in_percent(double share) { return std::round(share * 1e8) / 1e6; }
 
 // Of all pieces together, by their weight.
 double weighed_residual(const BalanceProblem& problem, const BalanceResult& result) {
@@ -35,7 +35,7 @@ Record name_neighbours(const PileBalance& balance, int piece, const PileState& s
   }
   for (const auto& [other, gap] : gaps)
     neighbours.push_back({other == kGroundPiece ? "ground" : name_of_piece(state, other),
-                          std::round(gap * 1e5) * 1e-2});
+                          std::round(gap * 1e5) / 1e2});
   return neighbours;
 }
 
@@ -60,7 +60,7 @@ Record name_worst(const PileBalance& balance, const BalanceResult& result, const
 void add_surface_depth(const Pile& pile, const PileState& state, Record& record) {
   const SurfaceDepth deepest = find_surface_depth(pile.types, state);
   if (deepest.piece < 0) return;
-  record["terrain_max_mm"] = std::round(deepest.depth * 1e6) * 1e-3;
+  record["terrain_max_mm"] = std::round(deepest.depth * 1e6) / 1e3;
   record["deepest_in_terrain"] = name_of_piece(state, deepest.piece);
 }
 
@@ -72,7 +72,7 @@ void add_balance(const Work& work, const PileState& state, double tolerance, Rec
   const BalanceResult result = solve_balance(balance.problem);
   const auto end = std::chrono::steady_clock::now();
   const auto seconds = [](auto span) {
-    return std::round(std::chrono::duration<double>(span).count() * 1e3) * 1e-3;
+    return std::round(std::chrono::duration<double>(span).count() * 1e3) / 1e3;
   };
   record["tolerance_mm"] = tolerance * 1e3;
   record["bodies"] = balance.problem.bodies.size();

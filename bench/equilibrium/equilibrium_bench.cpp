@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <string>
 
@@ -13,10 +12,10 @@
 #include "app/stop.h"
 #include "bench/equilibrium/contact_finder.h"
 #include "bench/equilibrium/pile_record.h"
+#include "bench/equilibrium/record_file.h"
 #include "bench/equilibrium/work.h"
 #include "bench/program.h"
 #include "bench/settle_run.h"
-#include "io/atomic_file.h"
 
 namespace rubble {
 namespace {
@@ -76,41 +75,6 @@ Record judge_saved(const Request& request) {
   return record;
 }
 
-// The file of finished records: a line of JSON each, so that a long list can be continued.
-class RecordFile {
- public:
-  explicit RecordFile(const std::string& path) : path_(path) {
-    if (path_.empty() || !fs::exists(path_)) return;
-    std::ifstream file(path_);
-    for (std::string line; std::getline(file, line);) {
-      Record record = Record::parse(line, nullptr, false);
-      if (!record.is_discarded()) records_[key_of(record)] = std::move(record);
-    }
-  }
-
-  const Record* find(const Item& item) const {
-    const auto found = records_.find({item.work, item.seed});
-    return found == records_.end() ? nullptr : &found->second;
-  }
-
-  void add(const Record& record) {
-    records_[key_of(record)] = record;
-    if (path_.empty()) return;
-    std::ofstream file(path_, std::ios::app);
-    file << record.dump() << "\n" << std::flush;
-    if (!file) throw RunError("cannot write " + path_);
-  }
-
- private:
-  using Key = std::pair<std::string, std::uint64_t>;
-  static Key key_of(const Record& record) {
-    return {record.value("work", ""), record.value("seed", std::uint64_t(0))};
-  }
-
-  std::string path_;
-  std::map<Key, Record> records_;
-};
-
 Job make_job(const Item& item, const Request& request, const fs::path& folder) {
   Job job;
   job.arguments = {"--one", "--work", item.work, "--seeds", std::to_string(item.seed),
@@ -145,13 +109,14 @@ void take_record(const Item& item, const Job& job, const JobResult& result, Reco
 }
 
 ExitCode run_list(const std::vector<Item>& items, const Request& request) {
+  stop_on_signals();
   RecordFile file(request.out);
   const fs::path folder = fs::temp_directory_path() / ("equilibrium." + std::to_string(getpid()));
   fs::create_directories(folder);
   std::vector<Item> open;
   std::vector<Job> jobs;
   for (const Item& item : items) {
-    if (file.find(item)) continue;
+    if (file.find(item.work, item.seed)) continue;
     open.push_back(item);
     jobs.push_back(make_job(item, request, folder));
   }
@@ -163,7 +128,7 @@ ExitCode run_list(const std::vector<Item>& items, const Request& request) {
   std::vector<Record> records;
   bool settled = true;
   for (const Item& item : items) {
-    const Record* record = file.find(item);
+    const Record* record = file.find(item.work, item.seed);
     if (record) records.push_back(*record);
     settled = settled && record && record->at("settled").get<bool>();
   }

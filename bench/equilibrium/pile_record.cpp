@@ -11,8 +11,9 @@ namespace {
 constexpr double kMillimetre = 1e3;   // per metre
 constexpr double kFarDrift = 0.020;   // no piece of a pile at rest should go farther; unit: m
 
-double round_to(double value, double step) { return std::round(value / step) * step; }
-double in_mm(double metres) { return round_to(metres * kMillimetre, 1e-3); }
+// To so many parts of one.
+double round_to(double value, double parts) { return std::round(value * parts) / parts; }
+double in_mm(double metres) { return round_to(metres * kMillimetre, 1e3); }
 
 void add_settling(const Work& work, const SettleRun& run, Record& record) {
   const PileState& state = run.state;
@@ -25,10 +26,10 @@ void add_settling(const Work& work, const SettleRun& run, Record& record) {
   record["settled"] = state.settled;
   record["layers_at_limit"] = state.layers_at_limit;
   record["moving"] = moving;
-  record["simulated_s"] = round_to(state.simulated, 1e-4);
+  record["simulated_s"] = round_to(state.simulated, 1e4);
   record["steps"] = state.steps;
-  record["cpu_s"] = round_to(run.cpu, 1e-3);
-  record["wall_s"] = round_to(run.wall, 1e-3);
+  record["cpu_s"] = round_to(run.cpu, 1e3);
+  record["wall_s"] = round_to(run.wall, 1e3);
   record["lost"] = state.lost;
   record["ejected"] = run.ejected.size();
   record["state_hash"] = hex64(state.state_hash());

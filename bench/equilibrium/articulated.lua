@@ -1,5 +1,5 @@
--- Standard work of the equilibrium bench: what falls from a house of concrete and timber, with slabs
--- that hang together on bent bars and doors that hang in their frames.
+-- Standard work of the equilibrium bench: what falls from a house of concrete and timber, with
+-- slabs that hang together on bent bars and doors that hang in their frames.
 local weights = {
   hinged_slab = 2, door_on_frame = 1,
   brick = 2, worn_brick = 2, half_brick = 1, cinder_block = 1, broken_cinder_block = 1,

@@ -15,7 +15,8 @@ class Islands {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
   int root(int i) {
-    while (parent_[std::size_t(i)] != i) i = parent_[std::size_t(i)] = parent_[std::size_t(parent_[std::size_t(i)])];
+    for (int* parent = &parent_[std::size_t(i)]; *parent != i; parent = &parent_[std::size_t(i)])
+      i = *parent = parent_[std::size_t(*parent)];
     return i;
   }
   void join(int a, int b) {
@@ -34,42 +35,52 @@ struct Island {
   std::vector<std::size_t> contacts, reactions;
 };
 
-std::vector<Island> split(const BalanceProblem& problem) {
-  Islands islands(problem.bodies.size());
-  for (const BalanceContact& c : problem.contacts) islands.join(c.a, c.b);
-  for (const BalanceReaction& r : problem.reactions) islands.join(r.a, r.b);
-  std::vector<int> island_of(problem.bodies.size()), number(problem.bodies.size());
-  std::vector<Island> parts;
-  for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
-    const int root = islands.root(int(i));
-    if (root == int(i)) island_of[i] = int(parts.size()), parts.emplace_back();
-    island_of[i] = island_of[std::size_t(root)];
-    BalanceProblem& part = parts[std::size_t(island_of[i])].problem;
-    number[i] = int(part.bodies.size());
-    part.bodies.push_back(problem.bodies[i]);
+class Splitter {
+ public:
+  explicit Splitter(const BalanceProblem& problem)
+      : island_of_(problem.bodies.size()), number_(problem.bodies.size()) {
+    Islands islands(problem.bodies.size());
+    for (const BalanceContact& c : problem.contacts) islands.join(c.a, c.b);
+    for (const BalanceReaction& r : problem.reactions) islands.join(r.a, r.b);
+    for (std::size_t i = 0; i < problem.bodies.size(); ++i)
+      add_body(i, islands.root(int(i)), problem.bodies[i]);
+    for (std::size_t i = 0; i < problem.contacts.size(); ++i)
+      add(i, problem.contacts[i], &Island::contacts, &BalanceProblem::contacts);
+    for (std::size_t i = 0; i < problem.reactions.size(); ++i)
+      add(i, problem.reactions[i], &Island::reactions, &BalanceProblem::reactions);
   }
-  const auto renumber = [&](int i) { return i == kImmovable ? kImmovable : number[std::size_t(i)]; };
-  const auto part_of = [&](int a, int b) -> Island& {
-    return parts[std::size_t(island_of[std::size_t(a == kImmovable ? b : a)])];
-  };
-  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
-    BalanceContact c = problem.contacts[i];
-    if (c.a == kImmovable && c.b == kImmovable) continue;
-    Island& part = part_of(c.a, c.b);
-    c.a = renumber(c.a), c.b = renumber(c.b);
-    part.problem.contacts.push_back(c);
-    part.contacts.push_back(i);
+
+  const std::vector<Island>& islands() const { return parts_; }
+
+ private:
+  // The root is the smallest of its island, so it comes first.
+  void add_body(std::size_t i, int root, const BalanceBody& body) {
+    if (root == int(i)) {
+      island_of_[i] = int(parts_.size());
+      parts_.emplace_back();
+    }
+    island_of_[i] = island_of_[std::size_t(root)];
+    BalanceProblem& part = parts_[std::size_t(island_of_[i])].problem;
+    number_[i] = int(part.bodies.size());
+    part.bodies.push_back(body);
   }
-  for (std::size_t i = 0; i < problem.reactions.size(); ++i) {
-    BalanceReaction r = problem.reactions[i];
-    if (r.a == kImmovable && r.b == kImmovable) continue;
-    Island& part = part_of(r.a, r.b);
-    r.a = renumber(r.a), r.b = renumber(r.b);
-    part.problem.reactions.push_back(r);
-    part.reactions.push_back(i);
+
+  // A contact or a reaction, with the bodies' numbers in their island.
+  template <typename Link>
+  void add(std::size_t index, Link link, std::vector<std::size_t> Island::* indices,
+           std::vector<Link> BalanceProblem::* links) {
+    const int body = link.a == kImmovable ? link.b : link.a;
+    if (body == kImmovable) return;
+    Island& part = parts_[std::size_t(island_of_[std::size_t(body)])];
+    for (int* i : {&link.a, &link.b})
+      if (*i != kImmovable) *i = number_[std::size_t(*i)];
+    (part.problem.*links).push_back(link);
+    (part.*indices).push_back(index);
   }
-  return parts;
-}
+
+  std::vector<Island> parts_;
+  std::vector<int> island_of_, number_;  // by body
+};
 
 void apply(const BalanceProblem& problem, BalanceResult& result, int i, const Vec3& force,
            const Vec3& torque, const Vec3& point) {
@@ -96,11 +107,10 @@ void sum_up(const BalanceProblem& problem, const std::vector<double>& factors,
     apply(problem, result, r.b, r.force * factors[i], r.torque * factors[i], r.point);
     apply(problem, result, r.a, r.force * -factors[i], r.torque * -factors[i], r.point);
   }
-  for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
-    const BalanceBody& body = problem.bodies[i];
-    result.residual.push_back(std::max(norm(result.force[i]) / body.weight,
-                                       norm(result.torque[i]) / (body.weight * body.length)));
-  }
+}
+
+double residual_of(const BalanceBody& body, const Vec3& force, const Vec3& torque) {
+  return std::max(norm(force) / body.weight, norm(torque) / (body.weight * body.length));
 }
 
 }  // namespace
@@ -109,7 +119,8 @@ BalanceResult solve_balance(const BalanceProblem& problem) {
   BalanceResult result;
   result.contact_force.resize(problem.contacts.size());
   std::vector<double> factors(problem.reactions.size());
-  for (const Island& part : split(problem)) {
+  const Splitter splitter(problem);
+  for (const Island& part : splitter.islands()) {
     result.largest_island = std::max(result.largest_island, int(part.problem.bodies.size()));
     if (part.contacts.empty() && part.reactions.empty()) continue;  // it hangs in the air
     const IslandForces forces = solve_island(part.problem);
@@ -120,6 +131,9 @@ BalanceResult solve_balance(const BalanceProblem& problem) {
       factors[part.reactions[i]] = forces.reaction_factor[i];
   }
   sum_up(problem, factors, result);
+  for (std::size_t i = 0; i < problem.bodies.size(); ++i)
+    result.residual.push_back(
+        residual_of(problem.bodies[i], result.force[i], result.torque[i]));
   return result;
 }
 

@@ -1,4 +1,5 @@
-// Can forces at given contacts and joints hold rigid bodies at rest under gravity? A linear program.
+// Can forces at given contacts and joints hold rigid bodies at rest under gravity? A linear
+// program.
 //
 //   minimise    sum over the bodies i of |f_i|_1 / w_i + |t_i|_1 / (w_i k_i)
 //   subject to  f_i = load + sum of the forces on i,   t_i = their torque about its centre of mass,

@@ -62,7 +62,7 @@ class Finder {
   std::vector<TouchPoint> take() { return std::move(points_); }
 
  private:
-  // What overlaps by more than the tolerance touches where it is deepest, not in all of the overlap.
+  // What overlaps by more than the tolerance touches where it is deepest, not in all of it.
   double reach(double depth) const { return tolerance_ - std::max(depth - tolerance_, 0.0); }
 
   void add(int a, int b, const Vec3& normal, double gap, const std::vector<Vec3>& patch) {

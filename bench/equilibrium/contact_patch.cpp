@@ -9,7 +9,7 @@ namespace {
 // Corners of a patch that are nearer to each other, or to the line between their neighbours, add
 // nothing to what forces can do there. unit: m
 constexpr double kMerge = 1e-4;
-constexpr double kLevel = 1e-7;  // a plane whose normal has less along a direction is parallel to it
+constexpr double kLevel = 1e-7;  // a plane whose normal has less along a line is parallel to it
 
 using Polygon = std::vector<Vec3>;
 

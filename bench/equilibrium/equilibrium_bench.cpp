@@ -103,15 +103,14 @@ void take_record(const Item& item, const Job& job, const JobResult& result, Reco
     return;
   }
   file.add(record);
-  std::fprintf(stderr, "%s, seed %llu: %s, overlap %s mm\n", item.work.c_str(),
-               (unsigned long long)item.seed, record.at("settled").get<bool>() ? "rests" : "DOES NOT REST",
-               record.at("overlap_max_mm").dump().c_str());
+  std::fprintf(stderr, "%s\n", describe_record(record).c_str());
 }
 
 ExitCode run_list(const std::vector<Item>& items, const Request& request) {
   stop_on_signals();
   RecordFile file(request.out);
-  const fs::path folder = fs::temp_directory_path() / ("equilibrium." + std::to_string(getpid()));
+  const fs::path folder =
+      fs::temp_directory_path() / ("equilibrium." + std::to_string(getpid()));
   fs::create_directories(folder);
   std::vector<Item> open;
   std::vector<Job> jobs;
@@ -135,7 +134,8 @@ ExitCode run_list(const std::vector<Item>& items, const Request& request) {
   if (!records.empty())
     std::printf("%s\n%s", make_pile_table(records, request.markdown).c_str(),
                 make_work_table(records, request.markdown).c_str());
-  if (records.size() < items.size()) return stop_requested() ? ExitCode::stopped : ExitCode::failure;
+  if (records.size() < items.size())
+    return stop_requested() ? ExitCode::stopped : ExitCode::failure;
   return settled ? ExitCode::done : ExitCode::did_not_settle;
 }
 

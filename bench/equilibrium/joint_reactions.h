@@ -23,8 +23,8 @@ std::vector<DesignedJoint> find_designed_joints(const Pile& pile, const PileStat
 // Joined pieces that do not collide.
 PiecePairs find_pairs_apart(const std::vector<DesignedJoint>& joints);
 
-// What a joint does at rest, in the world: any multiple of the reactions, and the spring's own torque
-// and force, which the pose of the joint states.
+// What a joint does at rest, in the world: any multiple of the reactions, and the spring's own
+// torque and force, which the pose of the joint states.
 struct JointLoad {
   std::vector<BalanceReaction> reactions;  // bodies not yet set
   Vec3 spring_force, spring_torque;        // on the child; unit: N, N m

@@ -1,4 +1,5 @@
--- Standard work of the equilibrium bench: crushed cars, double tees and guard rails of the pack parking, of which fewer fit.
+-- Standard work of the equilibrium bench: crushed cars, double tees and guard rails of the pack
+-- parking. They are large: 60 of them fit into the box.
 return rubble.mission {
   seed = 1,
   packs = { "parking" },

@@ -17,8 +17,9 @@ struct PileBalance {
   std::vector<TouchPoint> touches;  // by contact
 };
 
-// pile: what the state came from. Mass properties are those of the types (PieceType::volume, or the sum
-// over the parts); the length of a body is the root mean square distance of its mass from its centre.
+// pile: what the state came from. Mass properties are those of the types (PieceType::volume, or the
+// sum over the parts); the length of a body is the root mean square distance of its mass from its
+// centre.
 PileBalance make_pile_balance(const Pile& pile, const PileState& state, double gravity,
                               double tolerance = kContactTolerance);
 

@@ -24,6 +24,9 @@ void add_balance(const Work& work, const PileState& state, double tolerance, Rec
 // "#12 stud_long".
 std::string name_of_piece(const PileState& state, int index);
 
+// One line for a person: rest, the deepest pair, what is off balance.
+std::string describe_record(const Record& record);
+
 // One row a pile. markdown: a table for a document, else columns for a terminal.
 std::string make_pile_table(const std::vector<Record>& records, bool markdown);
 

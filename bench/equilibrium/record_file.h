@@ -12,7 +12,7 @@ namespace rubble {
 
 class RecordFile {
  public:
-  // Reads what is there; a last line that was cut short counts as absent. path empty: keeps no file.
+  // Reads what is there; a line that was cut short counts as absent. path empty: keeps no file.
   explicit RecordFile(const std::string& path);
 
   // Null when that pile was not judged yet.

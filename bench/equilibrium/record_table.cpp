@@ -156,6 +156,19 @@ Row work_row(const std::string& name, const Group& group) {
 
 }  // namespace
 
+std::string describe_record(const Record& r) {
+  std::ostringstream text;
+  text << r.at("work").get<std::string>() << ", seed " << r.at("seed") << ": "
+       << (r.at("settled").get<bool>() ? "rests" : "DOES NOT REST") << " after "
+       << fixed(number_of(r, "simulated_s"), 1) << " s, overlap "
+       << fixed(number_of(r, "overlap_max_mm"), 1) << " mm";
+  if (r.contains("deepest_pair")) text << " (" << join_pair(r["deepest_pair"]) << ")";
+  if (r.contains("residual_percent"))
+    text << ", residual " << fixed(number_of(r, "residual_percent"), 3)
+         << " %, off by > 1, 10, 50 %: " << off_balance(r);
+  return text.str();
+}
+
 std::string make_pile_table(const std::vector<Record>& records, bool markdown) {
   const std::vector<Column> columns = pile_columns();
   std::vector<Row> rows(1);

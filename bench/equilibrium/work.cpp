@@ -113,7 +113,8 @@ Work load_work(const std::string& name, std::uint64_t seed,
                const std::vector<std::string>& overrides) {
   const std::string file = find_file(name);
   if (is_workload(file) && !overrides.empty())
-    throw InputError({"", 0, "--set", "a workload file has no keys", "a mission", "\"" + name + "\"", ""});
+    throw InputError(
+        {"", 0, "--set", "a workload file has no keys", "a mission", "\"" + name + "\"", ""});
   Work work = is_workload(file) ? load_workload_work(file, seed)
                                 : load_mission_work(file, seed, overrides);
   work.name = name;

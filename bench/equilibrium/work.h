@@ -18,7 +18,7 @@ struct Work {
   SettleOptions settle;  // the mission's; those of a workload file are the defaults
 };
 
-// A group of names that can be asked for at once: "packs", "collapse", "all", ... or the name itself.
+// Groups such as "packs", "collapse" or "all" become their members; other names stay as they are.
 // Throws InputError for a name that is neither known nor the path of a mission.
 std::vector<std::string> expand_work_names(const std::vector<std::string>& names);
 

@@ -128,7 +128,7 @@ def make_render(build):
 
 
 def make_equilibrium(build):
-    """The records of an earlier run are used again: out/equilibrium.jsonl; delete it for new ones."""
+    """What out/equilibrium.jsonl has of an earlier run is used again; delete it for a new table."""
     records = ROOT / "out" / "equilibrium.jsonl"
     records.parent.mkdir(exist_ok=True)
     command = [str(build / "equilibrium_bench"), "--work", "all", "--seeds", "1..%d" % SEEDS,
@@ -157,10 +157,13 @@ SECTIONS = {"machine": make_machine, "settling": make_settling, "stages": make_s
 
 
 def main():
+    global SEEDS
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
+    parser.add_argument("--seeds", type=int, default=SEEDS, help="piles of a work (default: %d)" % SEEDS)
     parser.add_argument("sections", nargs="*", help="of: " + ", ".join(SECTIONS))
     args = parser.parse_args()
+    SEEDS = args.seeds
     unknown = [name for name in args.sections if name not in SECTIONS]
     if unknown:
         parser.error("no section is named " + ", ".join(unknown))

@@ -34,7 +34,7 @@ std::string hash_content(const Asset& asset, const AssemblyType& assembly,
   for (const JointType& j : assembly.joints) {
     add_pose(j.assembly_from_joint);
     for (const double number :
-         {double(j.kind), j.stiffness, j.damping, j.yield, j.break_force, j.break_torque, j.lower,
+         {double(j.kind), j.stiffness, j.damping, j.friction, j.yield, j.break_force, j.break_torque, j.lower,
           j.upper, double(j.collide)}) {
       hash.add(&number, sizeof number);
     }

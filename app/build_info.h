@@ -13,6 +13,9 @@ struct BuildInfo {
   std::string flags;
   std::string target;                            // processor and system
   std::map<std::string, std::string> libraries;  // name to version
+  // "reference" where Simbody computes what the determinism contract is made for, or "other": see
+  // kernel/multibody/simbody_build.h. Empty in manifests that do not say.
+  std::string simbody_bits;
 };
 
 BuildInfo build_info();

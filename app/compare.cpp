@@ -148,6 +148,7 @@ std::vector<std::string> describe_differences(const BuildInfo& was, const BuildI
   compare("compiler", was.compiler, is.compiler);
   compare("flags", was.flags, is.flags);
   compare("target", was.target, is.target);
+  if (!was.simbody_bits.empty()) compare("Simbody's bits", was.simbody_bits, is.simbody_bits);
   std::map<std::string, std::string> names = was.libraries;
   names.insert(is.libraries.begin(), is.libraries.end());
   const auto version = [](const BuildInfo& build, const std::string& name) {

@@ -39,6 +39,11 @@ ExitCode print_info(const InfoRequest& request) {
   std::printf("threads       %u\n", std::thread::hardware_concurrency());
   for (const auto& [name, version] : build.libraries)
     std::printf("%-13s %s\n", name.c_str(), version.c_str());
+  std::printf("Simbody bits  %s\n",
+              build.simbody_bits == "reference"
+                  ? "reference: piles with joints are the same on every machine that says so"
+                  : "other: piles with joints differ in last bits from those of x86-64; see "
+                    "docs/determinism.md");
   std::printf("live ROS 1    %s\n", describe_ros1().c_str());
   std::printf("live ROS 2    %s\n", describe_ros2().c_str());
   std::fflush(stdout);  // the versions are worth having even if EGL fails below

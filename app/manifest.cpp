@@ -39,7 +39,8 @@ std::string seal_of(const Json& manifest, const Part& part) {
 
 Json describe_program(const BuildInfo& build) {
   return {{"name", "rubble"},           {"version", build.version}, {"commit", build.commit},
-          {"compiler", build.compiler}, {"flags", build.flags},     {"target", build.target}};
+          {"compiler", build.compiler}, {"flags", build.flags},     {"target", build.target},
+          {"simbody_bits", build.simbody_bits}};
 }
 
 Json describe_pile(const PileSummary& pile) {
@@ -65,6 +66,7 @@ BuildInfo read_program(const JsonMembers& json) {
   build.compiler = program.text("compiler");
   build.flags = program.text("flags");
   build.target = program.text("target");
+  if (program.has("simbody_bits")) build.simbody_bits = program.text("simbody_bits");
   for (const auto& [name, version] : json.object("libraries").members())
     build.libraries[name] = version.as_text();
   return build;

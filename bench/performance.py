@@ -23,6 +23,7 @@ SETTLING = [  # work, schedule, threads
     ("w2", "layers", 1), ("w2", "layers", 2), ("w2", "planes", 1), ("w2", "planes", 2),
 ]
 SEEDS = 20
+CALIBRATION = {"calibration ms": "calibration_1_ms calibration_2_ms"}
 GOALS = {("void_lamp", "1024"): "12", ("exterior_sun", "1024"): "10", ("void_lamp", "512"): "30",
          ("exterior_sun", "512"): "30"}  # frames/s
 
@@ -52,7 +53,7 @@ def make_settling(build):
                          "--threads", str(threads), "--csv"])
     speed = {"work": "work", "schedule": "schedule", "threads": "threads", "wall s": "wall_s",
              "CPU s": "cpu_s", "simulated s": "sim_s", "steps": "steps", "settled": "settled",
-             "memory MiB": "peak_rss_mib", "state hash": "state_hash"}
+             "memory MiB": "peak_rss_mib", "state hash": "state_hash", **CALIBRATION}
     quality = {"work": "work", "schedule": "schedule", "touching pairs": "touching_pairs",
                "> 5 / > 10 mm": "over_5mm over_10mm",
                "overlap mean / p99 / max mm": "overlap_mean_mm overlap_p99_mm overlap_max_mm",
@@ -67,7 +68,16 @@ def make_scaling(build):
                         "steps": "steps", "settled": "settled",
                         "CPU ms per piece": "cpu_ms_per_piece",
                         "CPU us per piece and step": "cpu_us_per_piece_and_step",
-                        "memory MiB": "peak_rss_mib"})
+                        "memory MiB": "peak_rss_mib", **CALIBRATION})
+
+
+def make_hold(build):
+    rows = rows_of([str(build / "settle_bench"), "--work", "w1", "--hold", "--csv"])
+    return table(rows, {"work": "work", "threads": "threads", "pieces": "pieces", "steps": "steps",
+                        "ms a step": "hold_ms_per_step", "CPU ms a step": "hold_cpu_ms_per_step",
+                        "median ms": "hold_median_ms_per_step",
+                        "us per awake piece": "hold_us_per_awake_body_step",
+                        "memory MiB": "peak_rss_mib", **CALIBRATION})
 
 
 def make_stages(build):
@@ -121,7 +131,7 @@ def make_render(build):
     text = table(rows, {"view": "view", "size": "size", "median ms": "median_ms", "min ms": "min_ms",
                         "frames/s": "fps", "goal": "goal", "CPU ms": "cpu_ms",
                         "visibility": "visibility_ms", "resolve": "resolve_ms", "read": "read_ms",
-                        "finish": "finish_ms", "triangles": "triangles"})
+                        "finish": "finish_ms", "triangles": "triangles", **CALIBRATION})
     return "%s\n\n%s\n\nFirst frame %s s after the start of the program; %s MiB of memory at most." % (
         make_machine(build), text, rows[0]["first_frame_s"],
         max(int(row["peak_rss_mib"]) for row in rows))
@@ -152,7 +162,7 @@ def make_machine(build):
 
 
 SECTIONS = {"machine": make_machine, "settling": make_settling, "stages": make_stages,
-            "seeds": make_seeds, "scaling": make_scaling, "recording": make_recording,
+            "seeds": make_seeds, "hold": make_hold, "scaling": make_scaling, "recording": make_recording,
             "render": make_render, "equilibrium": make_equilibrium}
 
 

@@ -1,6 +1,4 @@
 // render_bench: how fast frames of the standard views come, and where the time goes.
-#include <sys/resource.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -12,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "bench/calibration.h"
+#include "bench/process_times.h"
 #include "bench/program.h"
 #include "bench/render_views.h"
 #include "kernel/base/disk_cache.h"
@@ -35,6 +35,7 @@ struct Request {
 
 // What goes on from view to view.
 struct Session {
+  Calibration machine;
   Clock::time_point start = Clock::now();  // of the program
   double first_frame_s = 0;                // after it
   std::int64_t now_ns = 0;                 // in the scene
@@ -67,12 +68,6 @@ struct Series {
   }
 };
 
-double peak_mib() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return double(usage.ru_maxrss) / 1024;  // Linux: KiB
-}
-
 // Elapsed and processor time.
 std::string both(const Series::Pass& pass) {
   char text[32];
@@ -88,9 +83,10 @@ void print(const Request& request, const char* view, int size, const Series& s,
     std::printf("%s,%d,%zu,%.2f,%.2f,%.2f", view, size, s.total.elapsed.size(), middle, least,
                 1000 / middle);
     if (request.split)
-      std::printf(",%.2f,%s,%s,%s,%s,%.0f,%.2f,%.0f", median(s.total.processor),
+      std::printf(",%.2f,%s,%s,%s,%s,%.0f,%.2f,%.0f,%s", median(s.total.processor),
                   both(s.visibility).c_str(), both(s.resolve).c_str(), both(s.read).c_str(),
-                  both(s.finish).c_str(), median(s.triangles), session.first_frame_s, peak_mib());
+                  both(s.finish).c_str(), median(s.triangles), session.first_frame_s, read_peak_rss(),
+                  calibration_csv(session.machine).c_str());
     std::printf("\n");
   } else {
     std::printf("%-13s %5d %8.1f %8.1f %8.1f %7.1f %13s %13s %9s %11s %10.0f\n", view, size, middle,
@@ -132,7 +128,7 @@ void print_head(const Request& request, const GlContext& context, double load_ms
   if (request.csv) {
     std::printf("view,size,frames,median_ms,min_ms,fps%s\n",
                 request.split ? ",cpu_ms,visibility_ms,resolve_ms,read_ms,finish_ms,triangles,"
-                                "first_frame_s,peak_rss_mib"
+                                "first_frame_s,peak_rss_mib,calibration_1_ms,calibration_2_ms"
                               : "");
     return;
   }
@@ -147,7 +143,9 @@ ExitCode bench(const Request& request) {
   const int threads =
       request.threads > 0 ? request.threads : int(std::max(1u, std::thread::hardware_concurrency()));
   const fs::path program = fs::read_symlink("/proc/self/exe");
+  const Calibration machine = calibrate();  // before the clock of the program starts
   Session session;
+  session.machine = machine;
   const Scene scene = load_bench_scene((program.parent_path() / "render_views.lua").string(),
                                        threads, [](const char* line) {
                                          std::fprintf(stderr, "render_bench: %s\n", line);
@@ -168,8 +166,10 @@ ExitCode bench(const Request& request) {
       print(request, view.name, size, fly(renderer, view, size, request, session), session);
   }
   if (!request.csv)
-    std::printf("first frame %.2f s after the start; %.0f MiB of memory at most\n",
-                session.first_frame_s, peak_mib());
+    std::printf("first frame %.2f s after the start; %.0f MiB of memory at most\n%s",
+                session.first_frame_s, read_peak_rss(), calibration_text(machine).c_str());
+  else if (!request.split)
+    std::fputs(calibration_text(machine).c_str(), stderr);
   return ExitCode::done;
 }
 
@@ -197,7 +197,7 @@ ExitCode run(int argc, char** argv) {
   app.add_flag("--csv", request.csv, "Lines view,size,frames,median_ms,min_ms,fps");
   app.add_flag("--split", request.split,
                "With --csv also processor time, each pass (elapsed/processor), the first frame "
-               "after the start (s) and peak memory");
+               "after the start (s), peak memory and the calibration of the machine");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

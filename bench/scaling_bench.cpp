@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/calibration.h"
 #include "bench/program.h"
 #include "bench/settle_run.h"
 #include "bench/standard_mix.h"
@@ -28,10 +29,10 @@ std::string standard_work() {
 void print(const SettleRun& run) {
   const double pieces = double(run.state.pieces.size());
   const double steps = double(std::max<std::int64_t>(run.state.steps, 1));
-  std::printf("%d,%d,%.3f,%.3f,%.4f,%lld,%d,%.4f,%.4f,%.1f\n", int(run.state.pieces.size()),
+  std::printf("%d,%d,%.3f,%.3f,%.4f,%lld,%d,%.4f,%.4f,%.1f,%s\n", int(run.state.pieces.size()),
               run.threads, run.wall, run.cpu, run.state.simulated, (long long)run.state.steps,
               int(run.state.settled), 1e3 * run.cpu / pieces, 1e6 * run.cpu / pieces / steps,
-              run.peak_rss);
+              run.peak_rss, calibration_csv(calibrate()).c_str());
   std::fflush(stdout);
 }
 
@@ -39,7 +40,8 @@ ExitCode bench(const Request& request) {
   const Pile work = load_workload(standard_work());
   std::printf(
       "pieces,threads,wall_s,cpu_s,sim_s,steps,settled,cpu_ms_per_piece,"
-      "cpu_us_per_piece_and_step,peak_rss_mib\n");
+      "cpu_us_per_piece_and_step,peak_rss_mib,%s\n",
+      calibration_csv_header().c_str());
   for (int pieces : request.pieces) {
     SettleJob job;
     job.work = std::to_string(pieces);

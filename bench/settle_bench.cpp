@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 
+#include "bench/calibration.h"
+#include "bench/hold_run.h"
 #include "bench/program.h"
 #include "bench/report.h"
 #include "bench/settle_run.h"
@@ -21,6 +23,7 @@ struct Request {
   int worst = 0;
   std::uint64_t seed = 0;
   bool csv = false;
+  bool hold = false;
 };
 
 // A path as it is; a bare name like "w1" stands for the file that the build wrote.
@@ -31,16 +34,36 @@ std::string find_work(const std::string& work) {
   return work.find_first_of("./") == std::string::npos ? beside.string() : work;
 }
 
-void print(const SettleRun& run, const Request& request, bool first) {
+// A line of figures, or text for people; beside either how fast the machine is just now.
+void print(const std::string& header, const std::string& line, const std::string& text,
+           const Request& request, bool first) {
+  const Calibration machine = calibrate();
   if (request.csv) {
-    if (first) std::printf("%s\n", csv_header().c_str());
-    std::printf("%s\n", csv_line(run).c_str());
+    if (first) std::printf("%s,%s\n", header.c_str(), calibration_csv_header().c_str());
+    std::printf("%s,%s\n", line.c_str(), calibration_csv(machine).c_str());
   } else {
-    std::printf("%s", table_text(run).c_str());
+    std::printf("%s  %s", text.c_str(), calibration_text(machine).c_str());
   }
+  std::fflush(stdout);
+}
+
+void print(const SettleRun& run, const Request& request, bool first) {
+  print(csv_header(), csv_line(run), table_text(run), request, first);
   // Beside the figures, never among the lines of --csv.
   if (request.worst > 0) std::fputs(worst_text(run, request.worst).c_str(), stderr);
-  std::fflush(stdout);
+}
+
+// On one thread and on two, whatever the pile was settled on.
+ExitCode hold(const Pile& pile, const SettleJob& job, const Request& request) {
+  bool settled = true;
+  for (int i = 0; i < request.repeat; ++i) {
+    for (const HoldRun& run : run_hold(pile, job, {1, 2})) {
+      print(hold_csv_header(), hold_csv_line(run), hold_text(run), request,
+            i == 0 && run.threads == 1);
+      settled = settled && run.settled;
+    }
+  }
+  return settled ? ExitCode::done : ExitCode::did_not_settle;
 }
 
 ExitCode bench(const Request& request) {
@@ -52,6 +75,7 @@ ExitCode bench(const Request& request) {
   if (request.seed != 0) job.work += "+" + std::to_string(request.seed);
   job.options.schedule = request.schedule;
   job.options.threads = request.threads;
+  if (request.hold) return hold(pile, job, request);
   bool settled = true;
   std::uint64_t hash = 0;
   for (int i = 0; i < request.repeat; ++i) {
@@ -87,6 +111,8 @@ ExitCode run(int argc, char** argv) {
   app.add_option("--worst", request.worst, "Also name so many of the worst pieces, on stderr")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
+  app.add_flag("--hold", request.hold,
+               "Instead measure steps of the settled pile with sleep off, on one thread and two");
   app.add_flag("--csv", request.csv, "Lines of comma-separated figures below a line of names");
   try {
     app.parse(argc, argv);

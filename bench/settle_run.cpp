@@ -1,34 +1,12 @@
 #include "bench/settle_run.h"
 
-#include <sys/resource.h>
-
 #include <cmath>
-#include <ctime>
 #include <thread>
+
+#include "bench/process_times.h"
 
 namespace rubble {
 namespace {
-
-double read_clock(clockid_t clock) {
-  timespec t{};
-  clock_gettime(clock, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
-
-struct Times {
-  double wall = 0, cpu = 0;
-
-  Times operator-(const Times& t) const { return {wall - t.wall, cpu - t.cpu}; }
-  Times& operator+=(const Times& t) { return wall += t.wall, cpu += t.cpu, *this; }
-};
-
-Times now() { return {read_clock(CLOCK_MONOTONIC), read_clock(CLOCK_PROCESS_CPUTIME_ID)}; }
-
-double read_peak_rss() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return double(usage.ru_maxrss) / 1024;  // Linux: KiB
-}
 
 void measure_drift(World& world, double step, SettleRun& run) {
   world.set_sleeping(false);
@@ -52,17 +30,17 @@ SettleRun run_settling(const Pile& pile, const SettleJob& job) {
   run.schedule = job.options.schedule;
   run.threads =
       job.options.threads > 0 ? job.options.threads : int(std::thread::hardware_concurrency());
-  const Times begin = now();
+  const Times begin = read_times();
   World world(pile.types, calc_world_options(job.options), pile.assemblies);
   EjectionWatch watch(world);
   Times watching;  // is not the kernel's
   run.state = settle_pile(world, pile, job.options, [&](const SettleProgress&) {
-    const Times before = now();
+    const Times before = read_times();
     watch.look();
-    watching += now() - before;
+    watching += read_times() - before;
     return true;
   });
-  const Times spent = now() - begin - watching;
+  const Times spent = read_times() - begin - watching;
   run.wall = spent.wall;
   run.cpu = spent.cpu;
   run.stages = world.times();

@@ -35,6 +35,7 @@ AssetLink make_asset_link(const LinkTable& table) {
                            table.joint_position};
   j.stiffness = table.stiffness;
   j.damping = table.damping;
+  j.friction = table.friction;
   j.yield = table.yield.value_or(kNever);
   j.break_force = table.break_force.value_or(kNever);
   j.break_torque = table.break_torque.value_or(kNever);

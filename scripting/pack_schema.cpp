@@ -31,7 +31,7 @@ Schema make_pack_schema(PackTable& pack) {
         "File, or files from the finest to the coarsest level of detail, beside pack.lua.",
         [&list](std::size_t i) { return Slot(StringOrList{&list[i].mesh}); });
   k.add("assets[].links",
-        "Instead of a mesh: a tree of other assets of the pack, held together by joints; 2 to 32.",
+        "Instead of a mesh: a tree of other assets of the pack, held together by joints; 2 to 256.",
         [&list](std::size_t i) { return Schema::table_list(list[i].links, make_link_schema); });
   k.add("assets[].units", "Of lengths in the files.", [&list](std::size_t i) {
     return Schema::choice_slot(list[i].units, {"m", "cm", "mm", "in", "ft"});
@@ -96,6 +96,10 @@ Schema make_link_schema(LinkTable& l) {
   k.value("damping", l.damping, "Torque per rate, a slider's force per speed.")
       .between(0, 1e9)
       .unit("N m s/rad, N s/m");
+  k.value("friction", l.friction,
+          "Dry friction in the joint: it holds up to this load and resists with it when it moves.")
+      .between(0, 1e9)
+      .unit("N m, N");
   k.value("yield", l.yield, "Load at which the spring bends for good; not given: never.")
       .above(0, 1e12)
       .unit("N m, N");

@@ -22,6 +22,7 @@ struct LinkTable {
   JointKind joint = JointKind::ball;
   Vec3 joint_position, joint_axis{0, 0, 1};
   double stiffness = 0, damping = 0;
+  double friction = 0;
   std::optional<double> yield, break_force, break_torque;
   std::optional<NumberPair> limit_deg, travel;
   bool collide = false;

@@ -13,6 +13,7 @@
 // very direction is added and the program is solved on, until none helps.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "kernel/base/math.h"
@@ -35,13 +36,14 @@ struct BalanceContact {
   double friction = 0;                 // Coulomb coefficient
 };
 
-// One force or torque of a joint on b, and its reaction on a: any multiple of a direction.
+// One force or torque of a joint on b, and its reaction on a: a multiple of a direction.
 struct BalanceReaction {
   int a = kImmovable, b = kImmovable;
   Vec3 force;              // on b at `point`; zero: none
   Vec3 torque;             // on b
   Vec3 point;              // unit: m
   bool one_sided = false;  // multiples >= 0 only, as of a stop
+  double limit = std::numeric_limits<double>::infinity();  // of the multiple, either way; >= 0
 };
 
 struct BalanceProblem {

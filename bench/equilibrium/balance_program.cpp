@@ -5,6 +5,7 @@
 #include <CoinPackedMatrix.hpp>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,11 @@ struct Wrench {
   Vec3 force, torque;
 };
 
+// Of a variable.
+struct Range {
+  double least = 0, most = std::numeric_limits<double>::infinity();
+};
+
 // Columns on their way to Clp.
 struct Columns {
   std::vector<CoinBigIndex> starts{0};
@@ -37,15 +43,15 @@ struct Columns {
 
   int count() const { return int(lower.size()); }
 
-  void add(int size, const int* r, const double* e, double least, double cost) {
+  void add(int size, const int* r, const double* e, const Range& range, double cost) {
     for (int i = 0; i < size; ++i) {
       if (std::abs(e[i]) < kNothing) continue;
       rows.push_back(r[i]);
       elements.push_back(e[i]);
     }
     starts.push_back(CoinBigIndex(rows.size()));
-    lower.push_back(least);
-    upper.push_back(COIN_DBL_MAX);
+    lower.push_back(std::max(range.least, -COIN_DBL_MAX));
+    upper.push_back(std::min(range.most, COIN_DBL_MAX));
     costs.push_back(cost);
   }
 };
@@ -107,15 +113,15 @@ class Program {
 
   void add_slacks() {
     for (int row = 0; row < int(row_values_.size()); ++row) {
-      for (const double sign : {1.0, -1.0}) new_.add(1, &row, &sign, 0, 1);
+      for (const double sign : {1.0, -1.0}) new_.add(1, &row, &sign, {}, 1);
     }
     fixed_columns_ = new_.count();
   }
 
   void add_reaction(const BalanceReaction& r) {
     const double unit = unit_of(island_, r.a, r.b);
-    const double least = r.one_sided ? 0 : -COIN_DBL_MAX;
-    add_column(r.a, r.b, {r.force, r.torque}, r.point, unit, least);
+    const Range range{r.one_sided ? 0 : -r.limit / unit, r.limit / unit};
+    add_column(r.a, r.b, {r.force, r.torque}, r.point, unit, range);
     reaction_units_.push_back(unit);
     ++fixed_columns_;
   }
@@ -136,11 +142,12 @@ class Program {
     const BalanceContact& contact = island_.contacts[std::size_t(c)];
     const Column column{c, contact.normal + tangent * contact.friction,
                         unit_of(island_, contact.a, contact.b)};
-    add_column(contact.a, contact.b, {column.direction, {}}, contact.point, column.unit, 0);
+    add_column(contact.a, contact.b, {column.direction, {}}, contact.point, column.unit, {});
     columns_.push_back(column);
   }
 
-  void add_column(int a, int b, const Wrench& on_b, const Vec3& point, double unit, double least) {
+  void add_column(int a, int b, const Wrench& on_b, const Vec3& point, double unit,
+                  const Range& range) {
     int rows[2 * kRows];
     double elements[2 * kRows];
     int count = 0;
@@ -157,7 +164,7 @@ class Program {
         elements[count++] = k < 3 ? force[k] : torque[k - 3];
       }
     }
-    new_.add(count, rows, elements, least, 0);
+    new_.add(count, rows, elements, range, 0);
   }
 
   void load() {
@@ -210,8 +217,9 @@ class Program {
     const std::size_t slacks = std::size_t(fixed_columns_) - reactions;
     for (std::size_t i = 0; i < reactions; ++i) {
       const double factor = x[slacks + i] * reaction_units_[i];
-      forces.reaction_factor.push_back(island_.reactions[i].one_sided ? std::max(factor, 0.0)
-                                                                      : factor);
+      const BalanceReaction& r = island_.reactions[i];
+      const double least = r.one_sided ? 0 : -r.limit;
+      forces.reaction_factor.push_back(std::min(r.limit, std::max(least, factor)));
     }
     forces.contact_force.resize(island_.contacts.size());
     for (std::size_t i = 0; i < columns_.size(); ++i) {

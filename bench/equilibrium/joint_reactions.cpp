@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernel/base/error.h"
 
@@ -109,16 +110,24 @@ class LoadMaker {
     }
   }
 
-  void push(const Vec3& force, const Vec3& torque, bool one_sided) {
-    load_.reactions.push_back({kImmovable, kImmovable, force, torque, load_.point, one_sided});
+  void push(const Vec3& force, const Vec3& torque, bool one_sided,
+            double limit = std::numeric_limits<double>::infinity()) {
+    load_.reactions.push_back(
+        {kImmovable, kImmovable, force, torque, load_.point, one_sided, limit});
+  }
+
+  // Dry friction of the joint, along or about an axis of its frame. unit of most: N, N m
+  void rub(const Vec3& force, const Vec3& torque, double most) {
+    if (most > 0) push(force, torque, false, most);
   }
 
   void spring_of_hinge() {
     const Quat& r = pose_.joint.rotation;
     const double angle = std::remainder(2 * std::atan2(r.z, r.w), kTurn);
     const double bend = std::remainder(angle - rests_.rest, kTurn);
-    const double stiffness = type_.stiffness * scale_ * scale_ * scale_;
-    load_.spring_torque = axis(2) * (-stiffness * bend);
+    const double s3 = scale_ * scale_ * scale_;
+    load_.spring_torque = axis(2) * (-type_.stiffness * s3 * bend);
+    rub({}, axis(2), type_.friction * s3);
     if (angle < type_.lower + kAtStop) push({}, axis(2), true);
     if (angle > type_.upper - kAtStop) push({}, -axis(2), true);
   }
@@ -126,6 +135,7 @@ class LoadMaker {
   void spring_of_slider() {
     const double travel = pose_.joint.translation.x;
     load_.spring_force = axis(0) * (-type_.stiffness * scale_ * (travel - rests_.rest));
+    rub(axis(0), {}, type_.friction * scale_ * scale_);
     if (travel < type_.lower * scale_ + kAtEnd) push(axis(0), {}, true);
     if (travel > type_.upper * scale_ - kAtEnd) push(-axis(0), {}, true);
   }
@@ -135,6 +145,7 @@ class LoadMaker {
     const double sign = bend.w < 0 ? -1 : 1, s3 = scale_ * scale_ * scale_;
     const Vec3 torque = Vec3{bend.x, bend.y, bend.z} * (-2 * sign * type_.stiffness * s3);
     load_.spring_torque = pose_.world_from_joint.rotation.rotate(torque);
+    for (int i = 0; i < 3; ++i) rub({}, axis(i), type_.friction * s3);
     const Quat& r = pose_.joint.rotation;
     const Vec3 turn = Vec3{r.x, r.y, r.z} * (r.w < 0 ? -1.0 : 1.0);
     const double angle = 2 * std::atan2(norm(turn), std::abs(r.w));

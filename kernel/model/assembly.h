@@ -45,6 +45,8 @@ struct JointType {
   Pose assembly_from_joint;                // unit: m
   double stiffness = 0;                    // unit: N m/rad, slider N/m; range: 0 to 1e9
   double damping = 0;                      // unit: N m s/rad, slider N s/m; range: 0 to 1e9
+  double friction = 0;                     // dry, in the joint: holds up to it, and resists with it
+                                           // when it moves; unit: N m, slider N; range: 0 to 1e9
   double yield = kNever;                   // unit: N m, slider N; > 0
   double break_force = kNever;             // that the joint carries, mean of a step; unit: N; > 0
   double break_torque = kNever;            // likewise, about the joint; unit: N m; > 0
@@ -53,15 +55,16 @@ struct JointType {
   bool collide = false;  // whether the two links touch each other as other pieces do
 };
 
-// The first link is the root; every other is the child of one joint, whose parent is listed before
-// it. 2 to 32 links.
+// The first link is the root; every other is the child of a joint, whose parent is listed before it:
+// the first joint of each child makes the tree. Further joints of a child close loops: they hold it to
+// another link, without spring, friction and stops of their own. 2 to 256 links.
 struct AssemblyType {
   std::string name;
   std::vector<AssemblyLink> links;
   std::vector<JointType> joints;
 };
 
-inline constexpr int kMaxLinks = 32;
+inline constexpr int kMaxLinks = 256;
 
 // Throws InputError naming the member, with `key` as the path of the assembly.
 void validate(const AssemblyType& assembly, int types, const std::string& key);

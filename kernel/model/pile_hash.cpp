@@ -66,7 +66,7 @@ void add(StateHash& hash, const std::vector<AssemblyType>& assemblies) {
         hash.add(std::int32_t(number));
       }
       add(hash, j.assembly_from_joint);
-      for (double number : {j.stiffness, j.damping, j.yield, j.break_force, j.break_torque,
+      for (double number : {j.stiffness, j.damping, j.friction, j.yield, j.break_force, j.break_torque,
                             j.lower, j.upper}) {
         hash.add(number);
       }

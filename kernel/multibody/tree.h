@@ -42,19 +42,35 @@ struct TreeLink {
   std::int32_t first_q = 0, first_u = 0;
   Pose parent_from_joint, link_from_joint;  // unit: m
   // The joint to the parent: see JointType.
-  double stiffness = 0, damping = 0, yield = kNever;
+  double stiffness = 0, damping = 0, friction = 0, yield = kNever;
   double break_force = kNever, break_torque = kNever;
   double lower = -kNever, upper = kNever;
   bool collide = false;
   // Where the spring is at rest: it creeps.
   double rest = 0;     // hinge, slider; unit: rad, m
   Quat rest_rotation;  // ball
+  // Of dry friction on the joint's speeds, in the last substep; unit: N m s, slider N s.
+  Vec3 friction_impulse;
   // Motion of the centre of mass, mirrored after each step.
   Vec3 linear, angular;  // unit: m/s, rad/s
 };
 
+// A joint between two links that hang together without it: it closes a loop, and is held by rows in
+// the contact solver's sweeps.
+struct TreeLoop {
+  std::int32_t link_a = 0, link_b = 0;
+  Mobility mobility = Mobility::ball;
+  Pose a_from_joint, b_from_joint;  // unit: m
+  double break_force = kNever, break_torque = kNever;
+  bool collide = false;
+  // Along and about the axes of the joint in A, of the last substep; unit: N s, N m s.
+  Vec3 force_impulse, torque_impulse;
+  bool broken = false;  // in this step
+};
+
 struct Tree {
   std::vector<TreeLink> links;  // parents before children; empty: the tree has come apart
+  std::vector<TreeLoop> loops;
   std::int32_t q_count = 0, u_count = 0;
   double mass = 0;  // of what moves; unit: kg
   Pose root;        // world_from_com of a fixed root

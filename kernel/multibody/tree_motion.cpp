@@ -2,41 +2,53 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "kernel/multibody/tree_joint.h"
+#include "kernel/multibody/joints/joint.h"
 
 namespace rubble {
 namespace {
 
-// A free tree takes shorter steps when a link would turn by more than this in one; unit: rad.
-constexpr double kTurnPerSubstep = 0.1;
-constexpr int kMaxSubsteps = 16;
+// A tree that touches nothing takes shorter steps, or those of Runge and Kutta, when a link would
+// turn by more than this in one; unit: rad.
+constexpr double kTurnPerSubstep = 0.05, kFastTurn = 0.02, kTurnPerRungeKutta = 0.25;
+constexpr int kMaxSubsteps = 32;
 // Springs look ahead by this share of the time: 0.5 would be neutral, 1 damps the most.
 constexpr double kSpringSpan = 0.6;
-constexpr int kCarryRounds = 3;
 constexpr double kStopMargin = 0.02;  // unit: rad, m
+// What is given back of the motion within a tree is at most this share of its energy in a step.
+constexpr double kMostGain = 0.1;
+
+Mat3 inverse_of(const Mat3& m) {
+  const Vec3 a = cross(m.rows[1], m.rows[2]), b = cross(m.rows[2], m.rows[0]),
+             c = cross(m.rows[0], m.rows[1]);
+  return Mat3{{a, b, c}}.transposed() * (1 / dot(m.rows[0], a));
+}
 
 }  // namespace
 
-void TreeMotion::begin(Tree& tree, const std::vector<Body>& bodies, TreeState state, double gravity,
-                       double step) {
+void TreeMotion::begin(Tree& tree, SimbodyTree& simbody, double gravity, double step) {
   tree_ = &tree;
-  bodies_ = &bodies;
-  state_ = std::move(state);
+  simbody_ = &simbody;
+  state_ = simbody.state();
   gravity_ = gravity;
   step_ = step;
-  has_springs_ = false;
+  has_springs_ = may_break_ = false;
   for (const TreeLink& link : tree.links) {
     has_springs_ = has_springs_ || link.stiffness > 0 || link.damping > 0;
+    may_break_ = may_break_ || link.break_force < kNever || link.break_torque < kNever;
   }
-  const std::int32_t root = tree.links[0].body;
-  start_.set(tree, bodies, state_.q, bodies[std::size_t(root)].world_from_com.translation);
+  start_ = simbody.pose();
+  end_ = start_;
   calc_motions(tree, start_, state_.u, motions_);
-  calc_momenta(tree, bodies, start_, motions_, start_momenta_);
+  start_state_ = state_;
+  start_links_.clear();
+  if (has_springs_) start_links_ = tree.links;
+  impelled = false;
   external_.assign(tree.links.size(), {});
-  responses_.assign(tree.links.size(), {});
-  moved.assign(std::size_t(tree.u_count), 0);
+  start_momenta_.clear();
+  for (std::size_t i = 0; may_break_ && i < motions_.size(); ++i) {
+    start_momenta_.push_back(start_.links[i].momentum(motions_[i]));
+  }
 }
 
 double TreeMotion::stop_margin(const TreeLink& link) const {
@@ -49,262 +61,369 @@ double TreeMotion::stop_margin(const TreeLink& link) const {
 
 bool TreeMotion::near_stop() const {
   for (const TreeLink& link : tree_->links) {
+    if (link.parent < 0 || (link.lower == -kNever && link.upper == kNever)) continue;
     JointStop stops[2];
-    if (find_stops(link, state_.q.data(), stop_margin(link), stops) > 0) return true;
+    const double* q = state_.q.data() + link.first_q;
+    if (joint_of(link.mobility).find_stops(link, q, stop_margin(link), stops) > 0) return true;
   }
   return false;
 }
 
-void TreeMotion::factor(const TreePose& pose, double time, double span) {
-  calc_mass_matrix(*tree_, *bodies_, pose, mass_);
+bool TreeMotion::has_rows() const {
+  if (!tree_->loops.empty()) return true;
+  for (const TreeLink& link : tree_->links) {
+    if (link.friction > 0) return true;
+  }
+  return false;
+}
+
+void TreeMotion::move_joints(const std::vector<double>& displacement) {
+  for (TreeLink& link : tree_->links) {
+    const Joint& joint = joint_of(link.mobility);
+    double* q = state_.q.data() + link.first_q;
+    joint.move(displacement.data() + link.first_u, q);
+    joint.creep(link, q);
+  }
+}
+
+void TreeMotion::set_diagonal(double time, double span) {
+  diagonal_.assign(tree_->links.size(), 0);
   resistance_.assign(tree_->links.size(), 0);
-  plain_.factor(mass_);
+  for (std::size_t i = 1; has_springs_ && i < tree_->links.size(); ++i) {
+    const TreeLink& link = tree_->links[i];
+    const double tangent = joint_of(link.mobility)
+                               .calc_tangent_stiffness(link, state_.q.data() + link.first_q,
+                                                       state_.u.data() + link.first_u);
+    resistance_[i] = link.damping + span * tangent;
+    diagonal_[i] = time * resistance_[i];
+  }
+}
+
+TreeMotion::Sums TreeMotion::calc_sums(const TreePose& pose,
+                                       const std::vector<Spatial>& motions) const {
+  Sums sums;
+  Vec3 first;
+  Spatial momentum;
+  double twice = 0;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const LinkPose& link = pose.links[i];
+    if (link.mass <= 0) continue;
+    const Spatial p = link.momentum(motions[i]);
+    momentum += p;
+    twice += dot(p, motions[i]);
+    first += link.centre * link.mass;
+  }
+  const Vec3 centre = first * (1 / tree_->mass);
+  sums.centre = pose.reference + centre;
+  sums.linear = momentum.linear();
+  sums.angular = momentum.angular() - cross(centre, momentum.linear());
+  sums.energy = 0.5 * twice;
+  return sums;
+}
+
+double TreeMotion::calc_spring_energy() const {
+  double sum = 0;
+  for (const TreeLink& link : tree_->links) {
+    if (link.parent < 0) continue;
+    sum += joint_of(link.mobility).calc_spring_energy(link, state_.q.data() + link.first_q);
+  }
+  return sum;
+}
+
+void TreeMotion::calc_accelerations(const std::vector<double>& at,
+                                    std::vector<double>& accelerations) {
+  simbody_->set_speeds(at);
+  simbody_->calc_forces(gravity_, forces_);
   if (!has_springs_) {
-    implicit_ = plain_;
+    simbody_->multiply_by_inverse_mass(forces_, accelerations);
     return;
   }
-  stiff_mass_ = mass_;
-  for (std::size_t i = 0; i < tree_->links.size(); ++i) {
+  for (std::size_t i = 1; i < tree_->links.size(); ++i) {
     const TreeLink& link = tree_->links[i];
-    if (speed_count(link.mobility) == 0 || link.parent < 0) continue;
-    resistance_[i] =
-        link.damping + span * calc_tangent_stiffness(link, state_.q.data(), state_.u.data());
-    for (int k = link.first_u; k < link.first_u + speed_count(link.mobility); ++k) {
-      stiff_mass_.at(k, k) += time * resistance_[i];
+    double* f = forces_.data() + link.first_u;
+    joint_of(link.mobility).add_spring(link, state_.q.data() + link.first_q, f);
+    for (int k = 0; k < speed_count(link.mobility); ++k) {
+      f[k] -= resistance_[i] * state_.u[std::size_t(link.first_u + k)];
     }
   }
-  implicit_.factor(stiff_mass_);
+  inertia_.factor(*tree_, end_, diagonal_);
+  impulses_.assign(tree_->links.size(), {});
+  inertia_.solve(impulses_, forces_, changes_);
+  calc_speeds(*tree_, end_, changes_, accelerations);
 }
 
-void TreeMotion::set_weights(const TreePose& pose) {
-  weights_.assign(tree_->links.size(), {});
-  for (std::size_t i = 0; i < tree_->links.size(); ++i) {
-    if (tree_->links[i].mobility == Mobility::fixed) continue;
-    const Vec3 weight{0, 0, -gravity_ * (*bodies_)[std::size_t(tree_->links[i].body)].mass};
-    const Vec3 arm = pose.world_from_com[i].translation - pose.reference;
-    weights_[i] = {cross(arm, weight), weight};
+// Gives back what a motion without outer forces, gravity apart, has taken from the momentum, and
+// what it has taken from the energy or added to it.
+void TreeMotion::conserve(const Sums& wanted, double energy, bool gain) {
+  const std::size_t count = motions_.size();
+  const Sums now = calc_sums(end_, motions_);
+  double share_energy = 0;  // of the motion as one rigid body
+  Spatial rigid;
+  if (!tree_->has_fixed_root()) {
+    const Vec3 centre = now.centre - end_.reference;
+    Mat3 inertia;
+    for (const LinkPose& link : end_.links) {
+      const Vec3 c = link.centre - centre;
+      inertia = inertia + link.inertia +
+                Mat3{{Vec3{dot(c, c), 0, 0} - c * c.x, Vec3{0, dot(c, c), 0} - c * c.y,
+                      Vec3{0, 0, dot(c, c)} - c * c.z}} *
+                    link.mass;
+    }
+    const Mat3 inverse = inverse_of(inertia);
+    const auto motion_of = [&](const Vec3& linear, const Vec3& angular) {
+      const Vec3 w = inverse * angular;
+      return Spatial{w, linear * (1 / tree_->mass) - cross(w, centre)};
+    };
+    const Spatial lost = motion_of(wanted.linear - now.linear, wanted.angular - now.angular);
+    for (Spatial& motion : motions_) motion += lost;
+    rigid = motion_of(wanted.linear, wanted.angular);
+    share_energy = 0.5 * (dot(wanted.linear, wanted.linear) / tree_->mass +
+                          dot(wanted.angular, inverse * wanted.angular));
   }
-  forces_ = weights_;
-  gather(*tree_, pose, forces_, generalized_weights_);
+  const double within = calc_sums(end_, motions_).energy - share_energy;
+  const double aim = energy - share_energy;
+  if (within > 0) {
+    const double most = gain ? 1 + kMostGain : 1;
+    const double share = std::sqrt(std::clamp(aim / within, 0.0, most));
+    for (std::size_t i = 0; i < count; ++i) motions_[i] = rigid + (motions_[i] - rigid) * share;
+  }
+  calc_speeds(*tree_, end_, motions_, state_.u);
 }
 
-// The forces of `time` at a fixed position.
-void TreeMotion::kick(double time) {
-  for (std::size_t i = 0; i < weights_.size(); ++i) external_[i] += weights_[i] * time;
-  generalized_ = generalized_weights_;
-  for (std::size_t i = 0; i < tree_->links.size(); ++i) {
-    const TreeLink& link = tree_->links[i];
-    if (link.parent < 0) continue;
-    add_spring(link, state_.q.data(), generalized_.data());
-    for (int k = link.first_u; k < link.first_u + speed_count(link.mobility); ++k) {
-      generalized_[std::size_t(k)] -= resistance_[i] * state_.u[std::size_t(k)];
+void TreeMotion::take_verlet_step(double h) {
+  set_diagonal(0.5 * h, kSpringSpan * h);
+  const std::size_t count = state_.u.size();
+  calc_accelerations(state_.u, first_);
+  between_.resize(count);
+  for (std::size_t k = 0; k < count; ++k) between_[k] = h * (state_.u[k] + 0.5 * h * first_[k]);
+  move_joints(between_);
+  for (std::size_t k = 0; k < count; ++k) {
+    state_.u[k] += 0.5 * h * first_[k];
+    between_[k] = state_.u[k] + 0.5 * h * first_[k];
+  }
+  simbody_->set_state({state_.q, between_});
+  end_ = simbody_->pose();
+  set_diagonal(0.5 * h, kSpringSpan * h);
+  calc_accelerations(between_, second_);
+  for (std::size_t k = 0; k < count; ++k) state_.u[k] += 0.5 * h * second_[k];
+}
+
+// The classical method of fourth order, for trees without springs. Quaternions are integrated as
+// four numbers.
+void TreeMotion::take_runge_kutta_step(double h) {
+  const TreeState start = state_;
+  TreeState sum = start, at = start;
+  constexpr double kShare[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6}, kAhead[4] = {0.5, 0.5, 1, 0};
+  std::vector<double>& rates = second_;
+  for (int stage = 0; stage < 4; ++stage) {
+    if (stage > 0) {
+      simbody_->set_state({normalized_coordinates(at.q), at.u});
+      simbody_->pose();
+    }
+    calc_accelerations(at.u, first_);
+    rates.resize(at.q.size());
+    for (const TreeLink& link : tree_->links) {
+      joint_of(link.mobility)
+          .calc_rates(at.q.data() + link.first_q, at.u.data() + link.first_u,
+                      rates.data() + link.first_q);
+    }
+    for (std::size_t k = 0; k < at.q.size(); ++k) {
+      sum.q[k] += h * kShare[stage] * rates[k];
+      at.q[k] = start.q[k] + h * kAhead[stage] * rates[k];
+    }
+    for (std::size_t k = 0; k < at.u.size(); ++k) {
+      sum.u[k] += h * kShare[stage] * first_[k];
+      at.u[k] = start.u[k] + h * kAhead[stage] * first_[k];
     }
   }
-  implicit_.solve(generalized_.data());
-  for (std::size_t k = 0; k < state_.u.size(); ++k) state_.u[k] += time * generalized_[k];
+  state_ = {normalized_coordinates(sum.q), sum.u};
+  simbody_->set_state(state_);
+  end_ = simbody_->pose();
 }
 
-double TreeMotion::calc_energy(const TreePose& pose) {
-  calc_motions(*tree_, pose, state_.u, motions_);
-  calc_momenta(*tree_, *bodies_, pose, motions_, momenta_);
-  double twice = 0;
-  for (std::size_t i = 0; i < motions_.size(); ++i) twice += dot(motions_[i], momenta_[i]);
-  return 0.5 * twice;
-}
-
-// Slows the tree down to an energy it may have. A free tree keeps the speed of its centre of mass.
-void TreeMotion::limit_energy(double energy, const TreePose& pose) {
-  const double now = calc_energy(pose);
-  if (now <= energy) return;
-  double common = 0;
-  Vec3 drift;
-  const bool is_free = tree_->links[0].mobility == Mobility::free;
-  if (is_free) {
-    for (const Spatial& momentum : momenta_) drift += momentum.linear;
-    drift *= 1 / tree_->mass;
-    common = 0.5 * tree_->mass * dot(drift, drift);
+std::vector<double> TreeMotion::normalized_coordinates(std::vector<double> q) const {
+  for (const TreeLink& link : tree_->links) {
+    if (coordinate_count(link.mobility) < 4) continue;
+    double* x = q.data() + link.first_q;
+    const Quat r = normalized(Quat{x[0], x[1], x[2], x[3]});
+    x[0] = r.w, x[1] = r.x, x[2] = r.y, x[3] = r.z;
   }
-  const double left = energy - common;
-  const double share =
-      left > 0 && now > common ? std::sqrt(std::min(1.0, left / (now - common))) : 0;
-  for (int i = 0; is_free && i < 3; ++i) state_.u[std::size_t(3 + i)] -= drift[i];
-  for (double& speed : state_.u) speed *= share;
-  for (int i = 0; is_free && i < 3; ++i) state_.u[std::size_t(3 + i)] += drift[i];
+  return q;
 }
 
-void TreeMotion::calc_drift(const TreePose& pose, double time) {
-  calc_motions(*tree_, pose, state_.u, motions_);
-  calc_momenta(*tree_, *bodies_, pose, motions_, momenta_);
-  calc_bias_forces(*tree_, *bodies_, pose, state_.u, motions_, momenta_, forces_);
-  gather(*tree_, pose, forces_, generalized_);
-  plain_.solve(generalized_.data());
-  for (std::size_t k = 0; k < moved.size(); ++k) {
-    moved[k] = time * (state_.u[k] - 0.5 * time * generalized_[k]);
+void TreeMotion::take_free_step(double h, bool fast) {
+  Sums wanted = calc_sums(end_, motions_);
+  double energy = wanted.energy + tree_->mass * gravity_ * wanted.centre.z;
+  if (has_springs_) energy += calc_spring_energy();
+  if (may_break_) add_weights(end_, 0.5 * h, external_);
+  if (fast) {
+    take_runge_kutta_step(h);
+  } else {
+    take_verlet_step(h);
   }
-}
-
-// The speeds at one position to the speeds at another, whose matrix is factored.
-void TreeMotion::carry_speeds(const TreePose& from, const TreePose& to) {
-  const double energy = calc_energy(from);
-  const std::vector<Spatial> before = momenta_;
-  for (int round = 0; round < kCarryRounds; ++round) {
-    calc_motions(*tree_, to, state_.u, motions_);
-    calc_momenta(*tree_, *bodies_, to, motions_, momenta_);
-    for (std::size_t i = 0; i < momenta_.size(); ++i) momenta_[i] -= before[i];
-    forces_ = momenta_;
-    gather(*tree_, from, forces_, generalized_);
-    forces_ = momenta_;
-    gather(*tree_, to, forces_, other_);
-    for (std::size_t k = 0; k < other_.size(); ++k) {
-      generalized_[k] = 0.5 * (generalized_[k] + other_[k]);
-    }
-    plain_.solve(generalized_.data());
-    for (std::size_t k = 0; k < other_.size(); ++k) state_.u[k] -= generalized_[k];
-  }
-  limit_energy(energy, to);
-}
-
-int TreeMotion::count_substeps() const {
-  double fastest = 0;
-  for (const Spatial& motion : motions_) fastest = std::max(fastest, norm(motion.angular));
-  const double wanted = std::ceil(fastest * step_ / kTurnPerSubstep);
-  return wanted >= kMaxSubsteps ? kMaxSubsteps : std::max(1, int(wanted));
+  if (may_break_) add_weights(end_, 0.5 * h, external_);
+  calc_motions(*tree_, end_, state_.u, motions_);
+  wanted.linear.z -= tree_->mass * gravity_ * h;
+  energy -= tree_->mass * gravity_ * calc_sums(end_, motions_).centre.z;
+  if (has_springs_) energy -= calc_spring_energy();
+  conserve(wanted, energy, !has_springs_);
 }
 
 void TreeMotion::move_freely() {
-  const int substeps = count_substeps();
-  const double h = step_ / substeps;
-  const double span = kSpringSpan * h;
-  end_ = start_;
-  TreePose from;
-  factor(end_, 0.5 * h, span);
-  set_weights(end_);
-  for (int i = 0; i < substeps; ++i) {
-    kick(0.5 * h);
-    calc_drift(end_, h);
-    for (TreeLink& link : tree_->links) {
-      move_joint(link, moved.data(), state_.q.data());
-      creep(link, state_.q.data());
-    }
-    std::swap(from, end_);
-    end_.set(*tree_, *bodies_, state_.q, from.reference);
-    factor(end_, 0.5 * h, span);
-    carry_speeds(from, end_);
-    set_weights(end_);
-    kick(0.5 * h);
-  }
-  calc_motions(*tree_, end_, state_.u, motions_);
+  double fastest = 0;
+  for (const Spatial& motion : motions_) fastest = std::max(fastest, norm(motion.angular()));
+  const double turn = fastest * step_;
+  const bool fast = turn > kFastTurn && !has_springs_;
+  const double wanted = std::ceil(turn / (fast ? kTurnPerRungeKutta : kTurnPerSubstep));
+  const int substeps = wanted >= kMaxSubsteps ? kMaxSubsteps : std::max(1, int(wanted));
+  for (int i = 0; i < substeps; ++i) take_free_step(step_ / substeps, fast);
+  end_step();
 }
 
 void TreeMotion::begin_substeps(double h) {
   substep_ = h;
-  factor(start_, h, h);
-  set_weights(start_);
+  set_diagonal(h, h);
+  inertia_.factor(*tree_, start_, diagonal_);
+  speeds.begin(inertia_, motions_);
+  moved.begin(inertia_, std::vector<Spatial>(motions_.size()), tree_->mass);
+  impulses_.assign(motions_.size(), {});
 }
 
-void TreeMotion::add_forces() { kick(substep_); }
+// Of the links' weights over a time, about the start's reference.
+void TreeMotion::add_weights(const TreePose& pose, double time, std::vector<Spatial>& to) const {
+  const Vec3 shift = pose.reference - start_.reference;
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    const LinkPose& link = pose.links[i];
+    const Vec3 weight{0, 0, -gravity_ * time * link.mass};
+    to[i] += {cross(link.centre + shift, weight), weight};
+  }
+}
+
+void TreeMotion::add_forces() {
+  add_weights(start_, substep_, impulses_);
+  if (may_break_) add_weights(start_, substep_, external_);
+  forces_.assign(state_.u.size(), 0);
+  for (std::size_t i = 1; has_springs_ && i < tree_->links.size(); ++i) {
+    const TreeLink& link = tree_->links[i];
+    double* f = forces_.data() + link.first_u;
+    joint_of(link.mobility).add_spring(link, state_.q.data() + link.first_q, f);
+    for (int k = 0; k < speed_count(link.mobility); ++k) {
+      f[k] = substep_ * (f[k] - resistance_[i] * state_.u[std::size_t(link.first_u + k)]);
+    }
+  }
+  inertia_.solve(impulses_, forces_, changes_);
+  speeds.add(changes_);
+  impulses_.assign(impulses_.size(), {});
+}
 
 void TreeMotion::move() {
-  generalized_ = state_.u;
-  for (double& d : generalized_) d *= substep_;
-  for (std::size_t k = 0; k < moved.size(); ++k) moved[k] += generalized_[k];
-  for (TreeLink& link : tree_->links) {
-    move_joint(link, generalized_.data(), state_.q.data());
-    creep(link, state_.q.data());
+  speeds.settle();
+  for (std::size_t i = 0; i < motions_.size(); ++i) motions_[i] = speeds.motion(std::int32_t(i));
+  moved.add(motions_, substep_);
+  calc_speeds(*tree_, start_, motions_, state_.u);
+  between_ = state_.u;
+  for (double& d : between_) d *= substep_;
+  move_joints(between_);
+}
+
+void TreeMotion::begin_pushes() {
+  before_push_.resize(motions_.size());
+  for (std::size_t i = 0; i < motions_.size(); ++i) {
+    before_push_[i] = moved.motion(std::int32_t(i));
   }
 }
 
 void TreeMotion::drop_opposed_speed(double step, double slow) {
-  // u.M.u and u.M.push
-  double length2 = 0, along = 0;
-  for (int i = 0; i < size(); ++i) {
-    for (int j = 0; j < size(); ++j) {
-      const double m = i >= j ? mass_.at(i, j) : mass_.at(j, i);
-      const std::size_t a = std::size_t(i), b = std::size_t(j);
-      length2 += m * state_.u[a] * state_.u[b];
-      along += m * state_.u[a] * (moved[b] - before_push[b]);
-    }
+  moved.settle();
+  double length2 = 0, along = 0;  // u M u and u M push
+  for (std::size_t i = 0; i < motions_.size(); ++i) {
+    const Spatial momentum = start_.links[i].momentum(motions_[i]);
+    length2 += dot(momentum, motions_[i]);
+    along += dot(momentum, moved.motion(std::int32_t(i)) - before_push_[i]);
   }
   if (along >= 0 || length2 > slow * slow * tree_->mass) return;
   const double keep = std::max(0.0, 1 + along / (step * length2));
+  for (Spatial& motion : motions_) motion = motion * keep;
   for (double& speed : state_.u) speed *= keep;
 }
 
-void TreeMotion::finish() {
-  for (std::size_t k = 0; k < moved.size(); ++k) generalized_[k] = moved[k] - before_push[k];
-  for (TreeLink& link : tree_->links) {
-    move_joint(link, generalized_.data(), state_.q.data());
-    creep(link, state_.q.data());
+// From the speeds at the start's position to those at the end's: what inertia alone does.
+void TreeMotion::carry_speeds() {
+  const std::size_t count = state_.u.size();
+  const Sums before = calc_sums(start_, motions_);
+  simbody_->set_speeds(state_.u);
+  simbody_->calc_forces(0, forces_);
+  simbody_->multiply_by_inverse_mass(forces_, first_);
+  between_.resize(count);
+  for (std::size_t k = 0; k < count; ++k) between_[k] = state_.u[k] + step_ * first_[k];
+  simbody_->set_state({state_.q, between_});
+  end_ = simbody_->pose();
+  simbody_->calc_forces(0, forces_);
+  simbody_->multiply_by_inverse_mass(forces_, second_);
+  for (std::size_t k = 0; k < count; ++k) {
+    state_.u[k] += 0.5 * step_ * (first_[k] + second_[k]);
   }
-  end_.set(*tree_, *bodies_, state_.q, start_.reference);
-  factor(end_, 0, 0);
-  carry_speeds(start_, end_);
   calc_motions(*tree_, end_, state_.u, motions_);
+  conserve(before, before.energy + calc_missed_work(), true);
 }
 
-void TreeMotion::slow_down(double share) {
-  for (double& speed : state_.u) speed *= share;
-  for (Spatial& motion : motions_) motion = motion * share;
-}
-
-void TreeMotion::add_row(int link, const Vec3& torque, const Vec3& force, double* jacobian,
-                         double* response) {
-  const std::size_t n = state_.u.size();
-  std::vector<double>& columns = responses_[std::size_t(link)];
-  const Vec3 arm = start_.world_from_com[std::size_t(link)].translation - start_.reference;
-  const auto each_axis = [&](auto&& visit) {
-    for (std::int32_t up = link; up >= 0; up = tree_->links[std::size_t(up)].parent) {
-      const TreeLink& l = tree_->links[std::size_t(up)];
-      for (int k = l.first_u; k < l.first_u + speed_count(l.mobility); ++k) {
-        const Spatial& axis = start_.axes[std::size_t(k)];
-        visit(std::size_t(k), axis.angular, axis.linear + cross(axis.angular, arm));
-      }
-    }
-  };
-  if (columns.empty()) {
-    columns.assign(6 * n, 0);
-    each_axis([&](std::size_t k, const Vec3& angular, const Vec3& linear) {
-      for (int i = 0; i < 3; ++i) {
-        columns[std::size_t(i) * n + k] = angular[i];
-        columns[std::size_t(3 + i) * n + k] = linear[i];
-      }
-    });
-    for (std::size_t i = 0; i < 6; ++i) implicit_.solve(columns.data() + i * n);
+// Gravity acted on the speeds at the start's position throughout: what it does to where the links
+// have really gone, less what it has done so far. Without this a pendulum gains 10 % a second.
+double TreeMotion::calc_missed_work() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < motions_.size(); ++i) {
+    const double by_speeds = start_.links[i].centre_velocity(moved.motion(std::int32_t(i))).z;
+    const double risen = end_.reference.z + end_.links[i].centre.z - start_.reference.z -
+                         start_.links[i].centre.z;
+    sum += end_.links[i].mass * (by_speeds - risen);
   }
-  each_axis([&](std::size_t k, const Vec3& angular, const Vec3& linear) {
-    jacobian[k] += dot(angular, torque) + dot(linear, force);
-  });
-  const double unit[6] = {torque.x, torque.y, torque.z, force.x, force.y, force.z};
-  for (std::size_t i = 0; i < 6; ++i) {
-    const double* column = columns.data() + i * n;
-    for (std::size_t k = 0; k < n; ++k) response[k] += column[k] * unit[i];
-  }
+  return gravity_ * sum;
 }
 
-void TreeMotion::add_impulse(int link, const Vec3& torque, const Vec3& force) {
-  const Vec3 arm = start_.world_from_com[std::size_t(link)].translation - start_.reference;
-  external_[std::size_t(link)] += {torque + cross(arm, force), force};
+void TreeMotion::finish() {
+  moved.settle();
+  std::vector<Spatial> pushed(motions_.size());
+  for (std::size_t i = 0; i < pushed.size(); ++i) {
+    pushed[i] = moved.motion(std::int32_t(i)) - before_push_[i];
+  }
+  calc_speeds(*tree_, start_, pushed, between_);
+  move_joints(between_);
+  carry_speeds();
+  end_step();
+}
+
+void TreeMotion::begin_again() {
+  state_ = start_state_;
+  if (has_springs_) tree_->links = start_links_;
+  calc_motions(*tree_, start_, state_.u, motions_);
+  external_.assign(motions_.size(), {});
+}
+
+void TreeMotion::end_step() {
+  simbody_->set_speeds(state_.u);
+  simbody_->calc_world_from_links(world_from_links_);
 }
 
 // The change of momentum of all that hangs on a joint, less what others did to it.
 void TreeMotion::note_loads() {
   loads_.clear();
-  bool any = false;
-  for (const TreeLink& link : tree_->links) {
-    any = any || link.break_force < kNever || link.break_torque < kNever;
-  }
-  if (!any) return;
-  calc_momenta(*tree_, *bodies_, end_, motions_, loads_);
-  for (std::size_t i = 0; i < loads_.size(); ++i) {
+  if (!may_break_) return;
+  const Vec3 shift = end_.reference - start_.reference;
+  for (std::size_t i = 0; i < motions_.size(); ++i) {
+    const Spatial p = end_.links[i].momentum(motions_[i]);
+    loads_.push_back(Spatial{p.angular() + cross(shift, p.linear()), p.linear()});
     loads_[i] -= start_momenta_[i];
     loads_[i] -= external_[i];
   }
-  gather(*tree_, end_, loads_, generalized_);
+  for (std::size_t i = loads_.size(); i-- > 1;) {
+    loads_[std::size_t(tree_->links[i].parent)] += loads_[i];
+  }
   const double per_step = 1 / step_;
   for (std::size_t i = 0; i < loads_.size(); ++i) {
-    const Vec3 arm = end_.joint_position[i] - end_.reference;
-    loads_[i] = {(loads_[i].angular - cross(arm, loads_[i].linear)) * per_step,
-                 loads_[i].linear * per_step};
+    const TreeLink& link = tree_->links[i];
+    const Vec3 joint = world_from_links_[i] * link.link_from_joint.translation - start_.reference;
+    loads_[i] = {(loads_[i].angular() - cross(joint, loads_[i].linear())) * per_step,
+                 loads_[i].linear() * per_step};
   }
 }
 

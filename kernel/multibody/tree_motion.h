@@ -1,100 +1,123 @@
 // One awake tree during one step.
 //
-// Forces change the speeds at a fixed position: (M + t (C + s K)) du = t (f - (C + s K) u), springs
-// and dampers implicit over the span s. Then the tree moves, and the speeds are carried to the new
-// position by the midpoint rule: (J + J')^T / 2 (p(u') - p(u)) = 0, where p are the links' momenta.
-// It holds the centrifugal and gyroscopic terms, keeps momentum, and its energy error is of third
-// order in the step; what it would gain is taken away again.
+// A tree that touches nothing takes velocity Verlet steps with Simbody's accelerations:
+//   q' = q + h u + h^2/2 a(q, u),   u' = u + h/2 (a(q, u) + a(q', u + h a(q, u)))
+// and steps of fourth order (Runge-Kutta) where it turns fast. Springs and dampers are implicit:
+// where there are any, M is M + h/2 (C + s K) (see articulated_inertia.h). What the method's error
+// takes from the momentum and the energy of a step is given back.
 //
-// A tree that touches nothing takes half the forces before and half after it moves (leapfrog); one
-// in contact moves with the substeps of the contact solver, at the Jacobian of the step's start.
+// A tree in contact moves with the substeps of the contact solver: forces and impulses change the
+// speeds at the position of the step's start. Then the speeds are carried to where the tree has
+// gone, by Simbody's Coriolis, centrifugal and gyroscopic forces at both ends.
 #pragma once
 
 #include <vector>
 
-#include "kernel/multibody/tree_dynamics.h"
+#include "kernel/multibody/link_motions.h"
+#include "kernel/multibody/simbody_trees.h"
 
 namespace rubble {
 
 class TreeMotion {
  public:
-  // `tree` and `bodies` must stay where they are until the step's end; the rests of the tree's
-  // springs creep. gravity: downwards, unit: m/s2; step: unit: s.
-  void begin(Tree& tree, const std::vector<Body>& bodies, TreeState state, double gravity,
-             double step);
+  // `tree` and `simbody`, which has its state, must stay where they are until the step's end; the
+  // rests of the tree's springs creep. gravity: downwards, unit: m/s2; step: unit: s.
+  void begin(Tree& tree, SimbodyTree& simbody, double gravity, double step);
 
   // Whether a joint may reach a stop in this step.
   bool near_stop() const;
+  // Whether rows of its own hold it: friction in joints, or loops.
+  bool has_rows() const;
   double stop_margin(const TreeLink& link) const;
 
   // The whole step without contacts.
   void move_freely();
 
-  // With contacts: begin, then for each substep add_forces(), impulses on `u`, move(); then pushes
-  // on `moved` and finish().
+  // With contacts: begin_substeps(), then for each substep push() and twist_joint() for what
+  // impulses it starts with, add_forces(), impulses on `speeds`, move(); then pushes on `moved` and
+  // finish().
   void begin_substeps(double h);
+  void push(std::int32_t link, const Spatial& impulse) {
+    impulses_[std::size_t(link)] += impulse;
+  }
   void add_forces();
   void move();
+  void begin_pushes();
   // The part of a slow speed that pushes undo is lost.
   void drop_opposed_speed(double step, double slow);
   void finish();
+  // Where nothing has acted on the tree in the substeps: back to the step's start, for
+  // move_freely().
+  void begin_again();
 
-  // Row of a unit impulse at a link, by speed: J for a torque about the link's centre of mass and
-  // a force there, and M^-1 J^T of the same.
-  void add_row(int link, const Vec3& torque, const Vec3& force, double* jacobian, double* response);
-  void solve(double* x) const { implicit_.solve(x); }
-  // What a contact did to a link in this step; unit: N m s, N s.
-  void add_impulse(int link, const Vec3& torque, const Vec3& force);
+  LinkMotions speeds;  // of this substep; about pose().reference
+  LinkMotions moved;   // displacement of the step
 
+  const ArticulatedInertia& inertia() const { return inertia_; }
+  const TreePose& pose() const { return start_; }  // of the step's start
+  const std::vector<double>& q() const { return state_.q; }
+  Tree& tree() const { return *tree_; }
+  double step() const { return step_; }
+
+  // What a contact did to a link in this step, about pose().reference; unit: N m s, N s.
+  void note_impulse(std::int32_t link, const Spatial& impulse) {
+    external_[std::size_t(link)] += impulse;
+  }
+  bool may_break() const { return may_break_; }
   // After the step: notes what each joint carried on average, where one may break.
   void note_loads();
   // By link, moment about its joint; empty where none may break. unit: N m, N
   const std::vector<Spatial>& loads() const { return loads_; }
-  // By link, at the end: pose and speeds.
-  const TreePose& pose() const { return end_; }
-  Vec3 linear_velocity(std::size_t link) const {
-    return calc_com_velocity(end_, link, motions_[link]);
-  }
-  Vec3 angular_velocity(std::size_t link) const { return motions_[link].angular; }
-  const std::vector<Spatial>& motions() const { return motions_; }
-  const Tree& tree() const { return *tree_; }
-  const TreeState& state() const { return state_; }
-  int size() const { return tree_->u_count; }
-  // Makes all speeds at the end slower.
-  void slow_down(double factor);
 
-  std::vector<double> moved;        // displacement of the step, by speed
-  std::vector<double> before_push;  // the same without what push_apart() adds
-  bool touching = false;            // something else, in this step
-  double* u() { return state_.u.data(); }
+  // By link, at the end.
+  const std::vector<Pose>& world_from_links() const { return world_from_links_; }
+  Vec3 linear_velocity(std::size_t link) const {
+    return end_.links[link].centre_velocity(motions_[link]);
+  }
+  Vec3 angular_velocity(std::size_t link) const { return motions_[link].angular(); }
+
+  bool touching = false;  // something else, in this step
+  bool impelled = false;  // by a contact, a stop or a loop, in this step
 
  private:
-  void factor(const TreePose& pose, double time, double span);
-  void set_weights(const TreePose& pose);
-  void kick(double time);
-  // What the tree moves in `time` without forces, to second order: into `moved`.
-  void calc_drift(const TreePose& pose, double time);
-  void carry_speeds(const TreePose& from, const TreePose& to);
-  void limit_energy(double energy, const TreePose& pose);
-  double calc_energy(const TreePose& pose);
-  int count_substeps() const;
+  // Momentum about the centre of mass, and the kinetic energy.
+  struct Sums {
+    Vec3 centre, linear, angular;  // from the world's origin; unit: m, kg m/s, kg m2/s
+    double energy = 0;             // unit: J
+  };
+  Sums calc_sums(const TreePose& pose, const std::vector<Spatial>& motions) const;
+  double calc_spring_energy() const;
+  // By speed; `at`: the speeds that motion's forces are taken at.
+  void calc_accelerations(const std::vector<double>& at, std::vector<double>& accelerations);
+  void add_weights(const TreePose& pose, double time, std::vector<Spatial>& to) const;
+  void set_diagonal(double time, double span);
+  void take_free_step(double h, bool fast);
+  void take_verlet_step(double h);
+  void take_runge_kutta_step(double h);
+  std::vector<double> normalized_coordinates(std::vector<double> q) const;
+  void carry_speeds();
+  double calc_missed_work() const;
+  void conserve(const Sums& before, double energy, bool gain);
+  void move_joints(const std::vector<double>& displacement);
+  void end_step();
 
   Tree* tree_ = nullptr;
-  const std::vector<Body>* bodies_ = nullptr;
-  TreeState state_;
+  SimbodyTree* simbody_ = nullptr;
+  TreeState state_, start_state_;
+  std::vector<TreeLink> start_links_;  // of trees with springs: the rests creep
   double gravity_ = 0, step_ = 0, substep_ = 0;
+  bool has_springs_ = false, may_break_ = false;
   TreePose start_, end_;
-  SymmetricMatrix mass_, stiff_mass_;
-  Cholesky plain_, implicit_;  // of M; of M with springs
-  bool has_springs_ = false;
-  std::vector<Spatial> weights_;            // by link
-  std::vector<double> generalized_weights_;
-  std::vector<double> resistance_;  // by link: C + s K where it is not yielding
+  std::vector<Spatial> motions_;  // at the end, or where it is now
+  ArticulatedInertia inertia_;
+  std::vector<double> diagonal_;    // by link: of a time, C + s K where it is not yielding
+  std::vector<double> resistance_;  // the same, without the time
   std::vector<Spatial> start_momenta_, external_, loads_;
-  std::vector<std::vector<double>> responses_;  // by link: M^-1 J^T of six unit impulses; or empty
+  std::vector<Spatial> impulses_, before_push_;
+  std::vector<Pose> world_from_links_;
   // Scratch.
-  std::vector<Spatial> motions_, momenta_, forces_;
-  std::vector<double> generalized_, other_;
+  std::vector<Spatial> changes_;
+  std::vector<double> forces_, first_, second_, between_;
 };
 
 }  // namespace rubble

@@ -1,8 +1,9 @@
 #include "kernel/solver/tree_contacts.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "kernel/multibody/joints/joint.h"
+#include "kernel/solver/contact_law.h"
 #include "kernel/solver/contact_solver.h"
 
 namespace rubble {
@@ -10,138 +11,133 @@ namespace {
 
 // Below this speed of its mean particle, what pushes undo of a tree's speed is dropped.
 constexpr double kSlowSpeed = 0.2;  // unit: m/s
+// Of the error of a loop that a step removes.
+constexpr double kLoopFraction = 0.5;
 
-double shrink_to(double limit, double length2) {
-  return length2 > limit * limit ? limit / std::sqrt(length2) : 1;
+void write(const Spatial& motion, PaddedMotion& to) {
+  const Vec3f v(motion.linear()), w(motion.angular());
+  to.linear = Wide{v.x, v.y, v.z, 0};
+  to.angular = Wide{w.x, w.y, w.z, 0};
 }
 
 }  // namespace
+
+Spatial TreeContacts::read(const Side& side, const PaddedMotion* free) {
+  if (side.number < 0) return {};
+  const PaddedMotion& m = free[side.number];
+  return {{double(m.angular[0]), double(m.angular[1]), double(m.angular[2])},
+          {double(m.linear[0]), double(m.linear[1]), double(m.linear[2])}};
+}
 
 void TreeContacts::load(const Item& item, const PaddedMotion* free, bool displacements,
                         View& view) const {
   for (int s = 0; s < 2; ++s) {
     const Side& side = item.sides[s];
-    view.x[s] = view.local[s];
+    view.impulse[s] = {};
     if (side.tree >= 0) {
-      TreeMotion& motion = (*trees_.motions)[std::size_t(side.tree)];
-      view.x[s] = displacements ? motion.moved.data() : motion.u();
-    } else if (side.number >= 0) {
-      const PaddedMotion& m = free[side.number];
-      for (int i = 0; i < 3; ++i) {
-        view.local[s][i] = double(m.linear[i]), view.local[s][3 + i] = double(m.angular[i]);
-      }
+      TreeMotion& tree = motion(side.tree);
+      view.x[s] = (displacements ? tree.moved : tree.speeds).focus_on(side.link);
+    } else {
+      view.x[s] = read(side, free);
     }
   }
 }
 
-void TreeContacts::save(const Item& item, const View& view, PaddedMotion* free) {
+// While nothing is pushed, all displacements are up to date.
+void TreeContacts::load_moved(const Item& item, const PaddedMotion* free, View& view) const {
   for (int s = 0; s < 2; ++s) {
-    if (item.sides[s].number < 0) continue;
-    PaddedMotion& m = free[item.sides[s].number];
-    const double* x = view.local[s];
-    m.linear = Wide{float(x[0]), float(x[1]), float(x[2]), 0};
-    m.angular = Wide{float(x[3]), float(x[4]), float(x[5]), 0};
+    const Side& side = item.sides[s];
+    view.x[s] = side.tree >= 0 ? motion(side.tree).moved.motion(side.link) : read(side, free);
   }
 }
 
-double TreeContacts::relative(const Item& item, const Row& row, const View& view) const {
-  double sum = 0;
-  const double* at = coefficients_.data() + row.first;
-  for (int s = 0; s < 2; ++s) {
-    for (int k = 0; k < item.sides[s].size; ++k) sum += at[k] * view.x[s][k];
-    at += 2 * item.sides[s].size;
-  }
-  return sum;
-}
-
-void TreeContacts::apply(const Item& item, const Row& row, double impulse, View& view) const {
-  const double* at = coefficients_.data() + row.first;
-  for (int s = 0; s < 2; ++s) {
-    const int n = item.sides[s].size;
-    for (int k = 0; k < n; ++k) view.x[s][k] += at[n + k] * impulse;
-    at += 2 * n;
-  }
-}
-
-void TreeContacts::push(const Item& item, const Row& row, double impulse, View& view) const {
-  const double* at = coefficients_.data() + row.first;
-  for (int s = 0; s < 2; ++s) {
-    const int n = item.sides[s].size;
-    const double weighted = impulse * item.sides[s].push_weight;
-    for (int k = 0; k < n; ++k) view.x[s][k] += at[n + k] * weighted;
-    at += 2 * n;
+void TreeContacts::save(const Item& item, const View& view, bool displacements,
+                        PaddedMotion* free) const {
+  for (int s = 1; s >= 0; --s) {  // the second side is still in focus
+    const Side& side = item.sides[s];
+    if (side.tree >= 0) {
+      TreeMotion& tree = motion(side.tree);
+      LinkMotions& motions = displacements ? tree.moved : tree.speeds;
+      const Spatial before = motions.focus_on(side.link);
+      if (item.cross >= 0) {
+        motions.apply(view.impulse[s]);
+      } else {
+        motions.apply(view.impulse[s], view.x[s] - before);
+      }
+    } else if (side.number >= 0) {
+      write(view.x[s], free[side.number]);
+    }
   }
 }
 
+template <int sides>
 void TreeContacts::solve_friction(Item& item, double limit, View& view) {
-  double wanted[2];
+  Row &first = item.slide[0], &second = item.slide[1];
+  const double v0 = first.relative<sides>(view), v1 = second.relative<sides>(view);
+  const double* inverse = item.slide_inverse;
+  const double wanted[2] = {first.impulse - inverse[0] * v0 - inverse[1] * v1,
+                            second.impulse - inverse[1] * v0 - inverse[2] * v1};
+  const double shrink =
+      contact_law::shrink_into_cone(limit, wanted[0] * wanted[0] + wanted[1] * wanted[1]);
   for (int t = 0; t < 2; ++t) {
-    const Row& row = item.slide[t];
-    wanted[t] = row.impulse - row.mass * relative(item, row, view);
-  }
-  const double shrink = shrink_to(limit, wanted[0] * wanted[0] + wanted[1] * wanted[1]);
-  for (int t = 0; t < 2; ++t) {
-    Row& row = item.slide[t];
     const double next = wanted[t] * shrink;
-    apply(item, row, next - row.impulse, view);
-    row.impulse = next;
+    item.slide[t].apply<sides>(next - item.slide[t].impulse, view);
+    item.slide[t].impulse = next;
   }
   Row& twist = item.twist;
-  const double most = limit * item.radius;
-  const double free = twist.impulse - twist.mass * relative(item, twist, view);
-  const double next = std::min(most, std::max(-most, free));
-  apply(item, twist, next - twist.impulse, view);
+  const double free = twist.impulse - twist.mass * twist.relative<sides>(view);
+  const double next = contact_law::clamp_twist(limit, item.radius, free);
+  twist.apply<sides>(next - twist.impulse, view);
   twist.impulse = next;
 }
 
-// As carry_over() of contact_rows.h; the totals are kept for the loads of joints.
-void TreeContacts::carry_over(Item& item, double weight) {
-  double carried = 0;
-  for (int i = 0; i < item.rows; ++i) {
-    NormalRow& n = rows_[item.first_row + std::size_t(i)];
-    n.row.total += n.row.impulse;
-    n.row.impulse = std::min(n.row.impulse, n.carried + n.carried + n.row.mass * weight);
-    n.carried = n.row.impulse;
-    carried += n.row.impulse;
-  }
-  if (item.contact < 0) return;
-  const double limit = item.friction * carried, most = limit * item.radius;
-  for (Row* row : {&item.slide[0], &item.slide[1], &item.twist}) row->total += row->impulse;
-  const double s0 = item.slide[0].impulse, s1 = item.slide[1].impulse;
-  const double shrink = shrink_to(limit, s0 * s0 + s1 * s1);
-  item.slide[0].impulse = s0 * shrink;
-  item.slide[1].impulse = s1 * shrink;
-  item.twist.impulse = std::min(most, std::max(-most, item.twist.impulse));
-}
-
-void TreeContacts::begin_substep(PaddedMotion* speeds, bool first, double weight) {
-  for (std::int32_t tree : trees_.trees) (*trees_.motions)[std::size_t(tree)].add_forces();
-  for (Item& item : items_) {
-    if (!first) carry_over(item, weight);
-    View view;
-    load(item, speeds, false, view);
-    if (item.contact >= 0) {
-      for (const Row* row : {&item.slide[0], &item.slide[1], &item.twist}) {
-        apply(item, *row, row->impulse, view);
-      }
-    }
-    for (int i = 0; i < item.rows; ++i) {
-      const Row& row = rows_[item.first_row + std::size_t(i)].row;
-      apply(item, row, row.impulse, view);
-    }
-    save(item, view, speeds);
-  }
-}
-
+template <int sides>
 void TreeContacts::solve_normals(Item& item, double per_substep, const View& moved, View& view) {
   for (int i = 0; i < item.rows; ++i) {
     NormalRow& n = rows_[item.first_row + std::size_t(i)];
-    const double gap = n.gap + relative(item, n.row, moved);
-    const double allowed = std::max(0.0, gap) * per_substep;
-    const double speed = relative(item, n.row, view);
-    const double next = std::max(0.0, n.row.impulse - n.row.mass * (speed + allowed));
-    apply(item, n.row, next - n.row.impulse, view);
+    const double gap = n.gap + n.row.relative<sides>(moved);
+    const double next =
+        contact_law::solve_normal(n.row.impulse, n.row.mass, n.row.relative<sides>(view),
+                                  contact_law::closing_speed(gap, per_substep));
+    n.row.apply<sides>(next - n.row.impulse, view);
     n.row.impulse = next;
+  }
+}
+
+template <int sides>
+void TreeContacts::solve_item(Item& item, double per_substep, const View& moved, View& view) {
+  double pressed = sum_impulses(item);
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (item.kind == Kind::contact) solve_friction<sides>(item, item.friction * pressed, view);
+    solve_normals<sides>(item, per_substep, moved, view);
+    const double before = pressed;
+    pressed = sum_impulses(item);
+    if (item.kind == Kind::stop || pressed <= before + before * double(kImpactRise)) break;
+  }
+}
+
+void TreeContacts::solve_loop(Item& item, View& view) {
+  for (int i = 0; i < item.rows; ++i) {
+    Row& row = rows_[item.first_row + std::size_t(i)].row;
+    const double change = -row.mass * row.relative<2>(view);
+    row.apply<2>(change, view);
+    row.impulse += change;
+  }
+}
+
+// Coulomb's law for the speeds of a joint: no more than a torque, or force, that is given.
+void TreeContacts::solve_dry(Item& item, View& view) {
+  double wanted[3] = {}, length2 = 0;
+  for (int i = 0; i < item.rows; ++i) {
+    const Row& row = rows_[item.first_row + std::size_t(i)].row;
+    wanted[i] = row.impulse - row.mass * row.relative<2>(view);
+    length2 += wanted[i] * wanted[i];
+  }
+  const double shrink = contact_law::shrink_into_cone(item.friction, length2);
+  for (int i = 0; i < item.rows; ++i) {
+    Row& row = rows_[item.first_row + std::size_t(i)].row;
+    row.apply<2>(wanted[i] * shrink - row.impulse, view);
+    row.impulse = wanted[i] * shrink;
   }
 }
 
@@ -151,115 +147,220 @@ double TreeContacts::sum_impulses(const Item& item) const {
   return sum;
 }
 
+// The totals are kept for the loads of joints.
+void TreeContacts::carry_over(Item& item, double weight) {
+  double carried = 0;
+  for (int i = 0; i < item.rows; ++i) {
+    NormalRow& n = rows_[item.first_row + std::size_t(i)];
+    n.row.total += n.row.impulse;
+    if (item.kind == Kind::loop || item.kind == Kind::dry) continue;
+    n.row.impulse = contact_law::carry_over(n.row.impulse, n.carried, n.row.mass, weight);
+    n.carried = n.row.impulse;
+    carried += n.row.impulse;
+  }
+  if (item.kind != Kind::contact) return;
+  Row &first = item.slide[0], &second = item.slide[1];
+  const double limit = item.friction * carried;
+  const double shrink = contact_law::shrink_into_cone(
+      limit, first.impulse * first.impulse + second.impulse * second.impulse);
+  first.impulse *= shrink;
+  second.impulse *= shrink;
+  item.twist.impulse = contact_law::clamp_twist(limit, item.radius, item.twist.impulse);
+}
+
+// The impulse that a substep ended with, on each side that may break.
+void TreeContacts::note_total(Item& item) {
+  bool any = false;
+  for (const Side& side : item.sides) {
+    any = any || (side.tree >= 0 && motion(side.tree).may_break());
+  }
+  if (!any || item.kind == Kind::stop || item.kind == Kind::dry) return;
+  const auto add = [&](const Row& row) {
+    for (int s = 0; s < 2; ++s) item.total[s].add_scaled(row.jacobian[s], row.impulse);
+  };
+  for (int i = 0; i < item.rows; ++i) add(rows_[item.first_row + std::size_t(i)].row);
+  if (item.kind != Kind::contact) return;
+  for (const Row* row : {&item.slide[0], &item.slide[1], &item.twist}) add(*row);
+}
+
+// Hands the impulses that the item starts with to its sides.
+void TreeContacts::start(const Item& item, PaddedMotion* speeds) const {
+  View view;
+  for (int s = 0; s < 2; ++s) {
+    view.impulse[s] = {};
+    view.x[s] = read(item.sides[s], speeds);
+  }
+  const auto apply = [&](const Row& row) {
+    for (int s = 0; s < item.moving; ++s) {
+      if (item.sides[s].tree >= 0) {
+        view.impulse[s].add_scaled(row.jacobian[s], row.impulse);
+      } else {
+        view.x[s].add_scaled(row.response[s], row.impulse);
+      }
+    }
+  };
+  for (int i = 0; i < item.rows; ++i) apply(rows_[item.first_row + std::size_t(i)].row);
+  if (item.kind == Kind::contact) {
+    for (const Row* row : {&item.slide[0], &item.slide[1], &item.twist}) apply(*row);
+  }
+  for (int s = 0; s < 2; ++s) {
+    const Side& side = item.sides[s];
+    if (side.tree >= 0) {
+      motion(side.tree).push(side.link, view.impulse[s]);
+    } else if (side.number >= 0) {
+      write(view.x[s], speeds[side.number]);
+    }
+  }
+}
+
+void TreeContacts::begin_substep(PaddedMotion* speeds, bool first, double weight) {
+  for (std::int32_t index : sequence_) {
+    Item& item = items_[std::size_t(index)];
+    if (!first) note_total(item), carry_over(item, weight);
+    if (item.kind == Kind::contact) place_friction(item);
+    start(item, speeds);
+  }
+  for (std::int32_t tree : trees_.trees) motion(tree).add_forces();
+}
+
 void TreeContacts::solve_velocities(double per_substep, const PaddedMotion* moved,
                                     PaddedMotion* speeds) {
-  for (Item& item : items_) {
+  for (std::int32_t index : sequence_) {
+    Item& item = items_[std::size_t(index)];
     View view, displaced;
     load(item, speeds, false, view);
-    load(item, moved, true, displaced);
-    double pressed = sum_impulses(item);
-    for (int round = 0; round < kMostRounds; ++round) {
-      if (item.contact >= 0) solve_friction(item, item.friction * pressed, view);
-      solve_normals(item, per_substep, displaced, view);
-      const double before = pressed;
-      pressed = sum_impulses(item);
-      if (item.contact < 0 || pressed <= before + before * double(kImpactRise)) break;
+    if (item.kind == Kind::loop) {
+      solve_loop(item, view);
+    } else if (item.kind == Kind::dry) {
+      solve_dry(item, view);
+    } else {
+      load_moved(item, moved, displaced);
+      if (item.moving == 1) {
+        solve_item<1>(item, per_substep, displaced, view);
+      } else {
+        solve_item<2>(item, per_substep, displaced, view);
+      }
     }
-    save(item, view, speeds);
+    save(item, view, false, speeds);
   }
 }
 
 void TreeContacts::end_substep() {
-  for (std::int32_t tree : trees_.trees) (*trees_.motions)[std::size_t(tree)].move();
+  for (std::int32_t tree : trees_.trees) motion(tree).move();
 }
 
 void TreeContacts::end_substeps(double weight) {
-  for (Item& item : items_) carry_over(item, weight);
+  for (Item& item : items_) note_total(item), carry_over(item, weight);
 }
 
 bool TreeContacts::begin_pushes(const SolverSettings& settings, const PaddedMotion* moved) {
-  for (std::int32_t tree : trees_.trees) {
-    TreeMotion& motion = (*trees_.motions)[std::size_t(tree)];
-    motion.before_push = motion.moved;
-  }
+  for (std::int32_t tree : trees_.trees) motion(tree).begin_pushes();
   bool any = false;
-  for (Item& item : items_) {
+  const double most = double(settings.maximum_push);
+  for (std::int32_t index : sequence_) {
+    const Item& item = items_[std::size_t(index)];
+    if (item.kind == Kind::dry) continue;
     View view;
     load(item, moved, true, view);
     for (int i = 0; i < item.rows; ++i) {
       NormalRow& n = rows_[item.first_row + std::size_t(i)];
-      const double done = relative(item, n.row, view);
-      const double gap = n.gap + done + double(settings.slop);
-      const double wanted = gap < 0 ? std::min(-gap * double(settings.position_fraction),
-                                               double(settings.maximum_push))
-                                    : -gap;
+      const double done = n.row.relative<2>(view);
+      const double gap = n.gap + done;
+      double wanted = 0;
+      if (item.kind == Kind::loop) {
+        wanted = std::clamp(-gap * kLoopFraction, -most, most);
+      } else {
+        const double left = gap + double(settings.slop);
+        wanted = left < 0 ? std::min(-left * double(settings.position_fraction), most) : -left;
+      }
       n.push_target = done + wanted;
-      n.push = 0;
-      any = any || wanted > 0;
+      any = any || wanted > 0 || (item.kind == Kind::loop && wanted != 0);
     }
   }
   return any;
 }
 
 void TreeContacts::solve_pushes(PaddedMotion* moved) {
-  for (Item& item : items_) {
+  for (std::int32_t index : sequence_) {
+    Item& item = items_[std::size_t(index)];
+    if (item.kind == Kind::dry) continue;
     View view;
     load(item, moved, true, view);
     for (int i = 0; i < item.rows; ++i) {
       NormalRow& n = rows_[item.first_row + std::size_t(i)];
-      const double done = relative(item, n.row, view);
-      const double next = std::max(0.0, n.push + n.push_mass * (n.push_target - done));
-      push(item, n.row, next - n.push, view);
+      double next = n.push + n.push_mass * (n.push_target - n.row.relative<2>(view));
+      if (item.kind != Kind::loop) next = std::max(0.0, next);
+      for (int s = 0; s < 2; ++s) {
+        const double change = next - n.push;
+        view.x[s].add_scaled(n.row.response[s], change * item.sides[s].push_weight);
+        view.impulse[s].add_scaled(n.row.jacobian[s], change);
+      }
       n.push = next;
     }
-    save(item, view, moved);
+    save(item, view, true, moved);
   }
 }
 
 // As for free pieces, in the metric of the tree's kinetic energy.
 void TreeContacts::drop_opposed_speeds(double step) {
-  for (std::int32_t tree : trees_.trees) {
-    (*trees_.motions)[std::size_t(tree)].drop_opposed_speed(step, kSlowSpeed);
-  }
+  for (std::int32_t tree : trees_.trees) motion(tree).drop_opposed_speed(step, kSlowSpeed);
 }
 
-void TreeContacts::store(const std::vector<Body>& bodies, std::vector<Contact>& contacts) {
+void TreeContacts::store_loop(const Item& item) {
+  TreeMotion& tree = motion(item.sides[0].tree);
+  TreeLoop& loop = tree.tree().loops[std::size_t(item.source)];
+  const Joint& joint = joint_of(loop.mobility);
+  std::size_t at = item.first_row;
+  Vec3 force, torque;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!joint.holds_travel(axis)) continue;
+    loop.force_impulse[axis] = rows_[at].row.impulse;
+    force[axis] = rows_[at++].row.total;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!joint.holds_turn(axis)) continue;
+    loop.torque_impulse[axis] = rows_[at].row.impulse;
+    torque[axis] = rows_[at++].row.total;
+  }
+  loop.broken = norm(force) > loop.break_force * tree.step() ||
+                norm(torque) > loop.break_torque * tree.step();
+}
+
+bool TreeContacts::acts(const Item& item) const {
+  for (int i = 0; i < item.rows; ++i) {
+    const NormalRow& n = rows_[item.first_row + std::size_t(i)];
+    if (n.row.total != 0 || n.push != 0 || item.kind == Kind::loop) return true;
+  }
+  return false;
+}
+
+void TreeContacts::store(const std::vector<Body>&, std::vector<Contact>& contacts) {
   for (const Item& item : items_) {
-    if (item.contact < 0) continue;
-    Contact& contact = contacts[std::size_t(item.contact)];
+    for (int s = 0; s < 2; ++s) {
+      if (item.sides[s].tree < 0) continue;
+      TreeMotion& tree = motion(item.sides[s].tree);
+      tree.note_impulse(item.sides[s].link, item.total[s]);
+      tree.impelled = tree.impelled || acts(item);
+    }
+    if (item.kind == Kind::loop) store_loop(item);
+    if (item.kind == Kind::dry) {
+      Vec3& kept = motion(item.sides[0].tree).tree().links[std::size_t(item.source)].friction_impulse;
+      for (int i = 0; i < item.rows; ++i) {
+        kept[i] = rows_[item.first_row + std::size_t(i)].row.impulse;
+      }
+    }
+    if (item.kind != Kind::contact) continue;
+    Contact& contact = contacts[std::size_t(item.source)];
     double pressed = 0;
-    Vec3 torque_a, torque_b, force;
-    const auto add = [&](const Vec3& f, const Vec3& from_a, const Vec3& from_b) {
-      force += f, torque_a += cross(from_a, f), torque_b += cross(from_b, f);
-    };
     for (int i = 0; i < item.rows; ++i) {
       const Row& row = rows_[item.first_row + std::size_t(i)].row;
-      ContactPoint& p = contact.points[i];
-      p.normal_impulse = float(row.impulse);
+      contact.points[i].normal_impulse = float(row.impulse);
       pressed += row.total;
-      add(item.normal * row.total, Vec3(p.from_a), Vec3(p.from_b));
     }
-    Vec3 friction;
-    for (int t = 0; t < 2; ++t) {
-      friction += item.tangents[t] * item.slide[t].impulse;
-      add(item.tangents[t] * item.slide[t].total, item.middle_a, item.middle_b);
-    }
-    const Vec3 twist = item.normal * item.twist.total;
-    torque_a += twist, torque_b += twist;
-    contact.friction_impulse = Vec3f(friction);
+    contact.friction_impulse = Vec3f(item.tangents[0] * item.slide[0].impulse +
+                                     item.tangents[1] * item.slide[1].impulse);
     contact.twist_impulse = float(item.twist.impulse);
     contact.pressed = float(pressed);
-    give(bodies, contact.body_a, torque_a * -1.0, force * -1.0);
-    give(bodies, contact.body_b, torque_b, force);
-  }
-}
-
-void TreeContacts::give(const std::vector<Body>& bodies, std::int32_t index, const Vec3& torque,
-                        const Vec3& force) {
-  if (index == kGround) return;
-  const Body& body = bodies[std::size_t(index)];
-  if (body.awake && body.tree >= 0) {
-    (*trees_.motions)[std::size_t(body.tree)].add_impulse(body.link, torque, force);
   }
 }
 

@@ -1,9 +1,10 @@
-// Contacts in which a tree takes part, and the stops of its joints: generalized rows in the same
-// sweeps as all other contacts, so that impulses flow both ways.
+// Contacts in which a tree takes part, the stops of its joints and the joints that close loops: in
+// the same sweeps as all other contacts, so that impulses flow both ways.
 //
-// A row's Jacobian runs over the speeds of each side: those of a whole tree, or the six of a free
-// piece. Where the two sides are links of one tree, it is one side. Arithmetic is in double
-// precision, one row after another; the steps are those of contact_rows.h.
+// A row has a spatial Jacobian for each of its two sides, which are links of trees or free pieces:
+// solving one costs the same in a tree of any size. What an impulse on a link does to its tree is
+// LinkMotions' affair. Arithmetic is in double precision, one row after another; the law is that of
+// contact_law.h.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ namespace rubble {
 
 struct SolverSettings;
 
-// The trees that the contact solver moves in a step: those in contact or near a stop.
+// The trees that the contact solver moves in a step: those in contact, near a stop or with loops.
 struct SolvedTrees {
   std::vector<TreeMotion>* motions = nullptr;  // by number of the tree
   std::vector<std::int32_t> trees;             // which of them, ascending
@@ -47,55 +48,103 @@ class TreeContacts {
 
  private:
   struct Side {
-    std::int32_t tree = -1;    // number of the tree, or
-    std::int32_t number = -1;  // of a moving free body; neither: immovable
-    int size = 0;              // speeds
+    std::int32_t tree = -1, link = -1;  // of a tree, or
+    std::int32_t number = -1;           // of a moving free body; neither: immovable
+    const SpatialMatrix* response = nullptr;  // of a link
     double push_weight = 0;
+    double inverse_mass = 0;            // of a free body
+    Mat3 inverse_inertia;
+    Vec3 arm;  // from the reference of its spatial vectors to the centre of mass
+  };
+  // The speeds or displacements of an item's sides, and the impulses on them.
+  struct View {
+    Spatial x[2], impulse[2];
   };
   struct Row {
-    std::size_t first = 0;  // of its coefficients: J, then M^-1 J^T, of one side and of the other
+    Spatial jacobian[2], response[2];  // J; M^-1 J^T
     double mass = 0, impulse = 0, total = 0;
+
+    // Sides: of the first only, or of both.
+    template <int sides>
+    RUBBLE_INLINE double relative(const View& view) const {
+      const double first = dot(jacobian[0], view.x[0]);
+      return sides == 1 ? first : first + dot(jacobian[1], view.x[1]);
+    }
+    template <int sides>
+    RUBBLE_INLINE void apply(double change, View& view) const {
+      for (int s = 0; s < sides; ++s) {
+        view.x[s].add_scaled(response[s], change);
+        view.impulse[s].add_scaled(jacobian[s], change);
+      }
+    }
+    template <int sides>
+    RUBBLE_INLINE double couple(const Row& other) const {
+      const double first = dot(jacobian[0], other.response[0]);
+      return sides == 1 ? first : first + dot(jacobian[1], other.response[1]);
+    }
   };
   struct NormalRow {
     Row row;
     double gap = 0, carried = 0, push_mass = 0, push_target = 0, push = 0;
+    Vec3 from_a, from_b;  // of the point, from the centres of mass
   };
-  struct Item {  // a contact or a stop
-    std::int32_t contact = -1;
+  enum class Kind : std::uint8_t { contact, stop, loop, dry };  // dry friction in a joint
+  struct Item {
+    Kind kind = Kind::contact;
+    std::int32_t source = -1;  // index of the contact; of the loop or the link in its tree
     Side sides[2];
+    int moving = 2;            // 1: the second side does not move
+    std::int32_t cross = -1;   // both sides in one tree: index of what each feels of the other
     std::size_t first_row = 0;
     int rows = 0;
-    double friction = 0, radius = 0;
-    Vec3 normal, tangents[2], middle_a, middle_b;
+    double friction = 0, radius = 0;  // a coefficient; of a joint: impulse of a substep at most
+    Vec3 normal, tangents[2];
     Row slide[2], twist;
-  };
-  // The speeds or displacements of an item's sides.
-  struct View {
-    double* x[2];
-    double local[2][6];
+    double slide_inverse[3] = {};  // of the symmetric matrix J M^-1 J^T of the two
+    Spatial total[2];  // impulse of the step, where joints may break
   };
   class Builder;
 
   void add_stops(std::int32_t tree);
-  void finish_row(Row& row, const Item& item) const;
-  void uncouple_friction(Item& item);
-  double calc_push_mass(const Row& row, const Item& item) const;
+  void add_dry_friction(std::int32_t tree);
+  void add_loops(const std::vector<Body>& bodies, std::int32_t tree);
+  // By tree, bottom up, and along each tree: the focus of LinkMotions then seldom goes far.
+  void sort_items(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
+                  const std::vector<Contact>& contacts);
+  Side link_side(std::int32_t tree, std::int32_t link) const;
+  void couple_sides(Item& item);
+  Row make_row(const Item& item, const Spatial& a, const Spatial& b) const;
+  void set_row(const Item& item, const Spatial& a, const Spatial& b, Row& row) const;
+  double calc_push_mass(const Item& item, const Row& row) const;
+  void place_friction(Item& item);
+  TreeMotion& motion(std::int32_t tree) const { return (*trees_.motions)[std::size_t(tree)]; }
   void load(const Item& item, const PaddedMotion* free, bool displacements, View& view) const;
-  static void save(const Item& item, const View& view, PaddedMotion* free);
-  double relative(const Item& item, const Row& row, const View& view) const;
-  void apply(const Item& item, const Row& row, double impulse, View& view) const;
-  void push(const Item& item, const Row& row, double impulse, View& view) const;
+  static Spatial read(const Side& side, const PaddedMotion* free);
+  void load_moved(const Item& item, const PaddedMotion* free, View& view) const;
+  void save(const Item& item, const View& view, bool displacements, PaddedMotion* free) const;
+  void start(const Item& item, PaddedMotion* speeds) const;
+  template <int sides>
   void solve_friction(Item& item, double limit, View& view);
+  template <int sides>
   void solve_normals(Item& item, double per_substep, const View& moved, View& view);
+  template <int sides>
+  void solve_item(Item& item, double per_substep, const View& moved, View& view);
+  template <int sides>
+  void place_friction_of(Item& item);
+  void solve_loop(Item& item, View& view);
+  void solve_dry(Item& item, View& view);
   double sum_impulses(const Item& item) const;
   void carry_over(Item& item, double weight);
-  void give(const std::vector<Body>& bodies, std::int32_t body, const Vec3& torque,
-            const Vec3& force);
+  void note_total(Item& item);
+  void store_loop(const Item& item);
+  bool acts(const Item& item) const;
 
   SolvedTrees trees_;
   std::vector<Item> items_;
+  std::vector<std::int32_t> sequence_;  // the items in the order of solving
   std::vector<NormalRow> rows_;
-  std::vector<double> coefficients_;
+  std::vector<SpatialMatrix> crosses_;
+  double substep_ = 0;  // unit: s
 };
 
 }  // namespace rubble

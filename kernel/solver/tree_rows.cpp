@@ -1,12 +1,39 @@
-// The rows of TreeContacts at the start of a step.
+// The rows of TreeContacts: made at the start of a step; those of friction in each substep.
+#include <algorithm>
 #include <cmath>
 
-#include "kernel/multibody/tree_joint.h"
+#include "kernel/multibody/joints/joint.h"
+#include "kernel/solver/contact_law.h"
 #include "kernel/solver/contact_solver.h"
-#include "kernel/solver/friction_axes.h"
 #include "kernel/solver/tree_contacts.h"
 
 namespace rubble {
+namespace {
+
+// Below this share of the answer of a free point mass as heavy as its tree, a row within a tree
+// counts as held by the tree's joints.
+constexpr double kRedundant = 1e-6;
+
+// The spatial force of a force at a point.
+Spatial force_at(const Vec3& point, const Vec3& force) { return {cross(point, force), force}; }
+
+// Places of the links in a walk along the tree, each branch after the other.
+std::vector<std::int32_t> calc_places(const Tree& tree) {
+  const std::size_t count = tree.links.size();
+  std::vector<std::int32_t> sizes(count, 1), places(count, 0), next(count, 1);
+  for (std::size_t i = count; i-- > 1;) {
+    sizes[std::size_t(tree.links[i].parent)] += sizes[i];
+  }
+  for (std::size_t i = 1; i < count; ++i) {
+    std::int32_t& free = next[std::size_t(tree.links[i].parent)];
+    places[i] = free;
+    free += sizes[i];
+    next[i] = places[i] + 1;
+  }
+  return places;
+}
+
+}  // namespace
 
 // Fills the rows of one contact.
 class TreeContacts::Builder {
@@ -17,27 +44,25 @@ class TreeContacts::Builder {
 
   void add(const SolverSettings& settings, const Contact& contact, std::int32_t index) {
     Item item;
-    item.contact = index;
+    item.source = index;
     item.friction = double(contact.friction);
     item.normal = Vec3(contact.normal);
-    a_ = contact.body_a;
-    b_ = contact.body_b;
-    item.sides[0] = side_of(a_);
-    item.sides[1] = side_of(b_);
-    same_tree_ = item.sides[0].tree >= 0 && item.sides[0].tree == item.sides[1].tree;
-    if (same_tree_) item.sides[1] = {};
+    item.sides[0] = side_of(contact.body_a);
+    item.sides[1] = side_of(contact.body_b);
+    all_.couple_sides(item);
     item.first_row = all_.rows_.size();
     item.rows = contact.count;
     for (int i = 0; i < contact.count; ++i) {
       const ContactPoint& p = contact.points[i];
       NormalRow n;
-      n.row = make_row(item, item.normal, Vec3(p.from_a), Vec3(p.from_b));
+      n.from_a = Vec3(p.from_a);
+      n.from_b = Vec3(p.from_b);
+      n.row = all_.make_row(item, force_at(item.sides[0].arm + n.from_a, item.normal * -1.0),
+                            force_at(item.sides[1].arm + n.from_b, item.normal));
       n.row.impulse = n.carried = double(p.normal_impulse);
       n.gap = double(p.separation) - double(settings.rest_gap);
-      n.push_mass = all_.calc_push_mass(n.row, item);
+      n.push_mass = all_.calc_push_mass(item, n.row);
       all_.rows_.push_back(n);
-      item.middle_a += Vec3(p.from_a);
-      item.middle_b += Vec3(p.from_b);
     }
     add_friction(item, contact);
     all_.items_.push_back(item);
@@ -45,158 +70,276 @@ class TreeContacts::Builder {
 
  private:
   Side side_of(std::int32_t index) const {
-    Side side;
-    if (index == kGround || !bodies_[std::size_t(index)].awake) return side;
+    if (index == kGround || !bodies_[std::size_t(index)].awake) return {};
     const Body& body = bodies_[std::size_t(index)];
-    if (body.tree >= 0) {
-      side.tree = body.tree;
-      const TreeMotion& motion = (*all_.trees_.motions)[std::size_t(body.tree)];
-      side.size = motion.size();
-      side.push_weight = motion.tree().mass;
-    } else {
-      side.number = number_[std::size_t(index)];
-      side.size = 6;
-      side.push_weight = body.mass / double(share_[std::size_t(side.number)]);
-    }
+    if (body.tree >= 0) return all_.link_side(body.tree, body.link);
+    Side side;
+    side.number = number_[std::size_t(index)];
+    const double share = double(share_[std::size_t(side.number)]);
+    side.push_weight = body.mass / share;
+    side.inverse_mass = share / body.mass;
+    const Mat3f& m = body.inverse_inertia;
+    side.inverse_inertia = Mat3{{Vec3(m.rows[0]), Vec3(m.rows[1]), Vec3(m.rows[2])}} * share;
     return side;
   }
 
   void add_friction(Item& item, const Contact& contact) {
-    const double part = 1.0 / contact.count;
-    item.middle_a *= part;
-    item.middle_b *= part;
     const Vec3& n = item.normal;
     item.tangents[0] =
         normalized(cross(n, std::abs(n.x) < 0.57735 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
     item.tangents[1] = cross(n, item.tangents[0]);
     for (int t = 0; t < 2; ++t) {
-      item.slide[t] = make_row(item, item.tangents[t], item.middle_a, item.middle_b);
-    }
-    all_.uncouple_friction(item);
-    for (int t = 0; t < 2; ++t) {
       item.slide[t].impulse = dot(item.tangents[t], Vec3(contact.friction_impulse));
     }
-    for (int i = 0; i < contact.count; ++i) {
-      item.radius += part * norm(Vec3(contact.points[i].from_a) - item.middle_a);
-    }
-    item.twist = make_row(item, n, {}, {}, true);
+    item.twist = all_.make_row(item, {n * -1.0, {}}, {n, {}});
     if (contact.count < 2) item.twist.mass = 0;
     item.twist.impulse = double(contact.twist_impulse);
-  }
-
-  // A row along `direction`, or about it where it turns.
-  Row make_row(const Item& item, const Vec3& direction, const Vec3& from_a, const Vec3& from_b,
-               bool turns = false) {
-    Row row;
-    row.first = all_.coefficients_.size();
-    all_.coefficients_.resize(row.first + 2 * std::size_t(item.sides[0].size + item.sides[1].size));
-    double* at = all_.coefficients_.data() + row.first;
-    fill(item.sides[0], a_, direction * -1.0, from_a, turns, at);
-    if (same_tree_) {
-      fill(item.sides[0], b_, direction, from_b, turns, at);
-    } else {
-      fill(item.sides[1], b_, direction, from_b, turns, at + 2 * item.sides[0].size);
-    }
-    all_.finish_row(row, item);
-    return row;
-  }
-
-  void fill(const Side& side, std::int32_t index, const Vec3& direction, const Vec3& from,
-            bool turns, double* at) {
-    const Vec3 torque = turns ? direction : cross(from, direction);
-    const Vec3 force = turns ? Vec3{} : direction;
-    if (side.tree >= 0) {
-      TreeMotion& motion = (*all_.trees_.motions)[std::size_t(side.tree)];
-      motion.add_row(bodies_[std::size_t(index)].link, torque, force, at, at + side.size);
-    } else if (side.number >= 0) {
-      const Body& body = bodies_[std::size_t(index)];
-      const double share = double(share_[std::size_t(side.number)]);
-      const Mat3f& m = body.inverse_inertia;
-      const Mat3 inverse{{Vec3(m.rows[0]), Vec3(m.rows[1]), Vec3(m.rows[2])}};
-      const Vec3 turn = inverse * torque * share, shift = force * (share / body.mass);
-      for (int i = 0; i < 3; ++i) {
-        at[i] = force[i], at[3 + i] = torque[i];
-        at[6 + i] = shift[i], at[9 + i] = turn[i];
-      }
-    }
   }
 
   TreeContacts& all_;
   const std::vector<Body>& bodies_;
   const std::vector<std::int32_t>& number_;
   const std::vector<float>& share_;
-  std::int32_t a_ = 0, b_ = 0;
-  bool same_tree_ = false;
 };
 
-void TreeContacts::finish_row(Row& row, const Item& item) const {
-  double sum = 0;
-  const double* at = coefficients_.data() + row.first;
-  for (const Side& side : item.sides) {
-    for (int k = 0; k < side.size; ++k) sum += at[k] * at[side.size + k];
-    at += 2 * side.size;
-  }
-  row.mass = sum > 0 ? 1 / sum : 0;
+TreeContacts::Side TreeContacts::link_side(std::int32_t tree, std::int32_t link) const {
+  Side side;
+  side.tree = tree;
+  side.link = link;
+  side.push_weight = motion(tree).tree().mass;
+  side.response = &motion(tree).inertia().response(link);
+  side.arm = motion(tree).pose().links[std::size_t(link)].centre;
+  return side;
 }
 
-// Turns the tangents and their rows such that neither row feels the other's impulse.
-void TreeContacts::uncouple_friction(Item& item) {
-  double k[3] = {};  // first with itself, with the second, and the second with itself
-  double* first = coefficients_.data() + item.slide[0].first;
-  double* second = coefficients_.data() + item.slide[1].first;
-  std::size_t at = 0;
-  for (const Side& side : item.sides) {
-    for (int i = 0; i < side.size; ++i, ++at) {
-      const std::size_t turned = at + std::size_t(side.size);
-      k[0] += first[at] * first[turned];
-      k[1] += first[at] * second[turned];
-      k[2] += second[at] * second[turned];
-    }
-    at += std::size_t(side.size);
+void TreeContacts::couple_sides(Item& item) {
+  const Side &a = item.sides[0], &b = item.sides[1];
+  if (b.tree < 0 && b.number < 0) item.moving = 1;
+  if (a.tree < 0 || a.tree != b.tree) return;
+  item.cross = std::int32_t(crosses_.size());
+  crosses_.push_back(motion(a.tree).inertia().calc_cross_response(a.link, b.link));
+}
+
+TreeContacts::Row TreeContacts::make_row(const Item& item, const Spatial& a,
+                                         const Spatial& b) const {
+  Row row;
+  set_row(item, a, b, row);
+  // What other joints hold already leaves nothing but rounding.
+  double least = 0;
+  for (int s = 0; s < 2 && item.cross >= 0; ++s) {
+    least = std::max(least, kRedundant * dot(row.jacobian[s], row.jacobian[s]) /
+                                item.sides[s].push_weight);
   }
-  const PlaneTurn<double> turn = find_friction_axes(k[0], k[1], k[2]);
-  turn.apply(item.tangents[0], item.tangents[1]);
-  for (std::size_t i = 0; i < at; ++i) turn.apply(first[i], second[i]);
-  for (Row& row : item.slide) finish_row(row, item);
+  const double sum = row.couple<2>(row);
+  row.mass = sum > least ? 1 / sum : 0;
+  return row;
+}
+
+void TreeContacts::set_row(const Item& item, const Spatial& a, const Spatial& b, Row& row) const {
+  const Spatial* forces[2] = {&a, &b};
+  for (int s = 0; s < 2; ++s) {
+    const Side& side = item.sides[s];
+    const Spatial& force = *forces[s];
+    if (side.tree >= 0) {
+      row.jacobian[s] = force;
+      row.response[s] = *side.response * force;
+    } else if (side.number >= 0) {
+      row.jacobian[s] = force;
+      row.response[s] = {side.inverse_inertia * force.angular(),
+                         force.linear() * side.inverse_mass};
+    }
+  }
+  if (item.cross >= 0) {
+    const SpatialMatrix& cross = crosses_[std::size_t(item.cross)];
+    row.response[0] += cross * b;
+    row.response[1] += cross.transposed_times(a);
+  }
 }
 
 // Free pieces count as equally heavy, as in the push rows of other contacts; trees as a whole too.
-double TreeContacts::calc_push_mass(const Row& row, const Item& item) const {
+double TreeContacts::calc_push_mass(const Item& item, const Row& row) const {
+  if (row.mass == 0) return 0;
   double sum = 0;
-  const double* at = coefficients_.data() + row.first;
-  for (const Side& side : item.sides) {
-    for (int k = 0; k < side.size; ++k) sum += at[k] * at[side.size + k] * side.push_weight;
-    at += 2 * side.size;
+  for (int s = 0; s < 2; ++s) {
+    sum += dot(row.jacobian[s], row.response[s]) * item.sides[s].push_weight;
   }
   return sum > 0 ? 1 / sum : 0;
 }
 
+// Friction acts at the centre of the points, weighted by what pressed them last.
+void TreeContacts::place_friction(Item& item) {
+  if (item.moving == 1) {
+    place_friction_of<1>(item);
+  } else {
+    place_friction_of<2>(item);
+  }
+}
+
+template <int sides>
+void TreeContacts::place_friction_of(Item& item) {
+  const auto shares =
+      contact_law::find_centre_shares<double>(sum_impulses(item), double(item.rows));
+  const NormalRow* rows = &rows_[item.first_row];
+  Vec3 centre_a, centre_b;
+  double share[Contact::kMaxPoints];
+  for (int i = 0; i < item.rows; ++i) {
+    share[i] = shares.each + shares.per_impulse * rows[i].row.impulse;
+    centre_a += rows[i].from_a * share[i];
+    if (sides == 2) centre_b += rows[i].from_b * share[i];
+  }
+  item.radius = 0;
+  for (int i = 0; i < item.rows; ++i) item.radius += share[i] * norm(rows[i].from_a - centre_a);
+  for (int t = 0; t < 2; ++t) {
+    const Vec3& along = item.tangents[t];
+    set_row(item, force_at(item.sides[0].arm + centre_a, along * -1.0),
+            force_at(item.sides[1].arm + centre_b, along), item.slide[t]);
+  }
+  const Row &r = item.slide[0], &s = item.slide[1];
+  const double k00 = r.couple<sides>(r), k01 = r.couple<sides>(s), k11 = s.couple<sides>(s);
+  const double determinant = k00 * k11 - k01 * k01;
+  const double inverse = determinant > 0 ? 1 / determinant : 0;
+  item.slide_inverse[0] = k11 * inverse;
+  item.slide_inverse[1] = -k01 * inverse;
+  item.slide_inverse[2] = k00 * inverse;
+}
+
 void TreeContacts::add_stops(std::int32_t tree) {
-  TreeMotion& motion = (*trees_.motions)[std::size_t(tree)];
-  const std::size_t n = std::size_t(motion.size());
-  for (const TreeLink& link : motion.tree().links) {
+  const TreeMotion& m = motion(tree);
+  for (std::size_t link = 1; link < m.tree().links.size(); ++link) {
+    const TreeLink& l = m.tree().links[link];
+    if (l.lower == -kNever && l.upper == kNever) continue;
     JointStop stops[2];
-    const int count = find_stops(link, motion.state().q.data(), motion.stop_margin(link), stops);
+    const double* q = m.q().data() + l.first_q;
+    const int count = joint_of(l.mobility).find_stops(l, q, m.stop_margin(l), stops);
     for (int i = 0; i < count; ++i) {
       Item item;
-      item.sides[0] = {tree, -1, int(n), motion.tree().mass};
+      item.kind = Kind::stop;
+      item.sides[0] = link_side(tree, l.parent);
+      item.sides[1] = link_side(tree, std::int32_t(link));
+      couple_sides(item);
       item.first_row = rows_.size();
       item.rows = 1;
-      NormalRow row;
-      row.row.first = coefficients_.size();
-      coefficients_.resize(row.row.first + 2 * n);
-      double* at = coefficients_.data() + row.row.first;
-      for (int k = 0; k < speed_count(link.mobility); ++k) {
-        at[link.first_u + k] = at[n + std::size_t(link.first_u + k)] = stops[i].direction[k];
+      Spatial force;
+      for (int k = 0; k < speed_count(l.mobility); ++k) {
+        force.add_scaled(m.pose().duals[std::size_t(l.first_u + k)], stops[i].direction[k]);
       }
-      motion.solve(at + n);
-      finish_row(row.row, item);
-      row.gap = stops[i].gap;
-      row.push_mass = calc_push_mass(row.row, item);
-      rows_.push_back(row);
+      NormalRow n;
+      n.row = make_row(item, force * -1.0, force);
+      n.gap = stops[i].gap;
+      n.push_mass = calc_push_mass(item, n.row);
+      rows_.push_back(n);
       items_.push_back(item);
     }
   }
+}
+
+void TreeContacts::add_dry_friction(std::int32_t tree) {
+  const TreeMotion& m = motion(tree);
+  for (std::size_t link = 1; link < m.tree().links.size(); ++link) {
+    const TreeLink& l = m.tree().links[link];
+    if (l.friction <= 0 || speed_count(l.mobility) == 0) continue;
+    Item item;
+    item.kind = Kind::dry;
+    item.source = std::int32_t(link);
+    item.sides[0] = link_side(tree, l.parent);
+    item.sides[1] = link_side(tree, std::int32_t(link));
+    couple_sides(item);
+    item.friction = l.friction * substep_;
+    item.first_row = rows_.size();
+    item.rows = speed_count(l.mobility);
+    for (int k = 0; k < item.rows; ++k) {
+      const Spatial& force = m.pose().duals[std::size_t(l.first_u + k)];
+      NormalRow n;
+      n.row = make_row(item, force * -1.0, force);
+      n.row.impulse = l.friction_impulse[k];
+      rows_.push_back(n);
+    }
+    items_.push_back(item);
+  }
+}
+
+// What a loop holds: the joint's frame in B along and about the axes of that in A.
+void TreeContacts::add_loops(const std::vector<Body>& bodies, std::int32_t tree) {
+  const TreeMotion& m = motion(tree);
+  for (std::size_t i = 0; i < m.tree().loops.size(); ++i) {
+    const TreeLoop& loop = m.tree().loops[i];
+    const Joint& joint = joint_of(loop.mobility);
+    Item item;
+    item.kind = Kind::loop;
+    item.source = std::int32_t(i);
+    item.sides[0] = link_side(tree, loop.link_a);
+    item.sides[1] = link_side(tree, loop.link_b);
+    couple_sides(item);
+    item.first_row = rows_.size();
+    const auto frame = [&](std::int32_t link, const Pose& from_joint) {
+      return bodies[std::size_t(m.tree().links[std::size_t(link)].body)].world_from_com *
+             from_joint;
+    };
+    const Pose a = frame(loop.link_a, loop.a_from_joint), b = frame(loop.link_b, loop.b_from_joint);
+    const Mat3 axes = a.rotation.matrix();
+    const Vec3 apart = b.translation - a.translation;
+    const Vec3 point = b.translation - m.pose().reference;
+    Quat turn = b.rotation * a.rotation.conjugate();  // in the world
+    if (turn.w < 0) turn = {-turn.w, -turn.x, -turn.y, -turn.z};
+    const Vec3 twice{2 * turn.x, 2 * turn.y, 2 * turn.z};
+    const auto add = [&](const Spatial& force, double gap, double impulse) {
+      NormalRow n;
+      n.row = make_row(item, force * -1.0, force);
+      n.row.impulse = impulse;
+      n.gap = gap;
+      n.push_mass = calc_push_mass(item, n.row);
+      rows_.push_back(n);
+      ++item.rows;
+    };
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 axis = axes.column(k);
+      if (joint.holds_travel(k)) {
+        add(force_at(point, axis), dot(axis, apart), loop.force_impulse[k]);
+      }
+    }
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 axis = axes.column(k);
+      if (joint.holds_turn(k)) add({axis, {}}, dot(axis, twice), loop.torque_impulse[k]);
+    }
+    items_.push_back(item);
+  }
+}
+
+void TreeContacts::sort_items(const std::vector<Body>& bodies,
+                              const std::vector<std::int32_t>& order,
+                              const std::vector<Contact>& contacts) {
+  std::vector<std::int32_t> rank(trees_.motions->size(), -1);
+  std::int32_t ranks = 0;
+  const auto note = [&](std::int32_t tree) {
+    if (tree >= 0 && rank[std::size_t(tree)] < 0) rank[std::size_t(tree)] = ranks++;
+  };
+  for (std::int32_t index : order) {
+    const Contact& contact = contacts[std::size_t(index)];
+    note(bodies[std::size_t(contact.body_a)].tree);
+    if (contact.body_b != kGround) note(bodies[std::size_t(contact.body_b)].tree);
+  }
+  for (std::int32_t tree : trees_.trees) note(tree);
+  std::vector<std::vector<std::int32_t>> places(trees_.motions->size());
+  for (std::int32_t tree : trees_.trees) {
+    places[std::size_t(tree)] = calc_places(motion(tree).tree());
+  }
+  std::vector<std::pair<std::int32_t, std::int32_t>> keys;
+  for (const Item& item : items_) {
+    std::pair<std::int32_t, std::int32_t> key{ranks, 0};
+    for (const Side& side : item.sides) {
+      if (side.tree < 0) continue;
+      const std::pair<std::int32_t, std::int32_t> own{
+          rank[std::size_t(side.tree)],
+          places[std::size_t(side.tree)][std::size_t(side.link)]};
+      if (own.first < key.first || item.cross >= 0) key = own;
+    }
+    keys.push_back(key);
+  }
+  sequence_.resize(items_.size());
+  for (std::size_t i = 0; i < items_.size(); ++i) sequence_[i] = std::int32_t(i);
+  std::stable_sort(sequence_.begin(), sequence_.end(), [&](std::int32_t a, std::int32_t b) {
+    return keys[std::size_t(a)] < keys[std::size_t(b)];
+  });
 }
 
 void TreeContacts::begin(const SolverSettings& settings, const std::vector<Body>& bodies,
@@ -207,14 +350,18 @@ void TreeContacts::begin(const SolverSettings& settings, const std::vector<Body>
   trees_ = trees;
   items_.clear();
   rows_.clear();
-  coefficients_.clear();
-  const double h = double(settings.step) / settings.substeps;
+  crosses_.clear();
+  if (empty()) return;
+  substep_ = double(settings.step) / settings.substeps;
   for (std::int32_t tree : trees_.trees) {
-    (*trees_.motions)[std::size_t(tree)].begin_substeps(h);
+    motion(tree).begin_substeps(substep_);
     add_stops(tree);
+    add_dry_friction(tree);
+    add_loops(bodies, tree);
   }
   Builder builder(*this, bodies, number, share);
   for (std::int32_t index : order) builder.add(settings, contacts[std::size_t(index)], index);
+  sort_items(bodies, order, contacts);
 }
 
 }  // namespace rubble

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "kernel/base/error.h"
-#include "kernel/multibody/tree_joint.h"
+#include "kernel/multibody/joints/joint.h"
 #include "kernel/world/world_impl.h"
 
 namespace rubble {
@@ -386,7 +386,7 @@ double World::potential_energy() const {
   for (std::size_t i = 0; i < impl_->data.trees.size(); ++i) {
     const TreeState state = impl_->simbody_trees.state(int(i));
     for (const TreeLink& link : impl_->data.trees[i].links) {
-      sum += calc_spring_energy(link, state.q.data());
+      sum += joint_of(link.mobility).calc_spring_energy(link, state.q.data() + link.first_q);
     }
   }
   return sum;

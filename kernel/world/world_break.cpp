@@ -1,7 +1,6 @@
 // Joints that break: the tree falls into smaller ones and free pieces.
 #include <algorithm>
 
-#include "kernel/multibody/tree_joint.h"
 #include "kernel/world/world_impl.h"
 
 namespace rubble {
@@ -49,6 +48,16 @@ Tree cut_out(const Tree& from, const TreeState& state, const Fragment& fragment,
     tree.mass += bodies[std::size_t(link.body)].mass;
     tree.links.push_back(link);
   }
+  // A loop between two fragments opens with the tree.
+  for (TreeLoop loop : from.loops) {
+    const auto place = [&](std::int32_t& link) {
+      const auto at = std::find(fragment.links.begin(), fragment.links.end(), link);
+      link = std::int32_t(at - fragment.links.begin());
+      return at != fragment.links.end();
+    };
+    const bool a = place(loop.link_a), b = place(loop.link_b);
+    if (a && b) tree.loops.push_back(loop);
+  }
   tree.root = bodies[std::size_t(tree.links[0].body)].world_from_com;
   number_coordinates(tree);
   cut.q.assign(std::size_t(tree.q_count), 0);
@@ -84,11 +93,28 @@ void World::Impl::break_joints() {
     bool any = false;
     for (std::size_t i = 0; i < loads.size(); ++i) {
       if (links[i].parent < 0) continue;
-      broken[i] = norm(loads[i].linear) > links[i].break_force ||
-                  norm(loads[i].angular) > links[i].break_torque;
+      broken[i] = norm(loads[i].linear()) > links[i].break_force ||
+                  norm(loads[i].angular()) > links[i].break_torque;
       any = any || broken[i];
     }
+    open_loops(tree);
     if (any) split_tree(tree, broken);
+  }
+}
+
+// Joints that closed a loop and broke: the tree stays as it is.
+void World::Impl::open_loops(int index) {
+  Tree& tree = data.trees[index];
+  for (std::size_t i = 0; i < tree.loops.size();) {
+    const TreeLoop& loop = tree.loops[i];
+    if (!loop.broken) {
+      ++i;
+      continue;
+    }
+    const std::int32_t a = tree.links[std::size_t(loop.link_a)].body,
+                       b = tree.links[std::size_t(loop.link_b)].body;
+    data.parted.push_back({std::min(a, b), std::max(a, b)});
+    tree.loops.erase(tree.loops.begin() + std::ptrdiff_t(i));
   }
 }
 

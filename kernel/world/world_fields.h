@@ -62,14 +62,21 @@ void each_field(Struct& broad, Visit&& visit) {
 template <typename Struct, typename Visit, IfIs<Struct, TreeLink> = 0>
 void each_field(Struct& l, Visit&& visit) {
   visit(l.body), visit(l.parent), visit(l.mobility), visit(l.first_q), visit(l.first_u);
-  visit(l.parent_from_joint), visit(l.link_from_joint), visit(l.stiffness), visit(l.damping);
+  visit(l.parent_from_joint), visit(l.link_from_joint), visit(l.stiffness), visit(l.damping), visit(l.friction);
   visit(l.yield), visit(l.break_force), visit(l.break_torque), visit(l.lower), visit(l.upper);
-  visit(l.collide), visit(l.rest), visit(l.rest_rotation), visit(l.linear), visit(l.angular);
+  visit(l.collide), visit(l.rest), visit(l.rest_rotation), visit(l.friction_impulse), visit(l.linear), visit(l.angular);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, TreeLoop> = 0>
+void each_field(Struct& l, Visit&& visit) {
+  visit(l.link_a), visit(l.link_b), visit(l.mobility), visit(l.a_from_joint);
+  visit(l.b_from_joint), visit(l.break_force), visit(l.break_torque), visit(l.collide);
+  visit(l.force_impulse), visit(l.torque_impulse), visit(l.broken);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, Tree> = 0>
 void each_field(Struct& t, Visit&& visit) {
-  visit(t.links), visit(t.q_count), visit(t.u_count), visit(t.mass), visit(t.root);
+  visit(t.links), visit(t.loops), visit(t.q_count), visit(t.u_count), visit(t.mass), visit(t.root);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, TreeState> = 0>

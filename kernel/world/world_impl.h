@@ -143,8 +143,8 @@ struct World::Impl {
   void begin_trees();
   void touch_trees();
   void advance_trees();
-  void limit_tree(int tree);
-  void mirror_tree(int tree, const TreePose& pose, const std::vector<Spatial>& motions);
+  void mirror_link(TreeLink& link, const Pose& world_from_com);
+  void mirror_tree(int tree, const TreeMotion& motion);
   void mirror_state(int tree);
   void stop_tree(int tree);
   void keep_trees_whole();  // in `slept`
@@ -154,6 +154,7 @@ struct World::Impl {
 
   // world_break.cpp
   void break_joints();
+  void open_loops(int tree);
   void split_tree(int tree, const std::vector<std::uint8_t>& broken);
   void release(const TreeLink& link);
   void forget_parted();

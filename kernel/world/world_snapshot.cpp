@@ -149,6 +149,11 @@ bool is_consistent(const Tree& tree, const TreeState& state, std::size_t bodies)
     q += coordinate_count(link.mobility);
     u += speed_count(link.mobility);
   }
+  for (const TreeLoop& loop : tree.loops) {
+    fine = fine && in_range(loop.link_a, tree.links.size()) &&
+           in_range(loop.link_b, tree.links.size()) &&
+           in_range(std::int32_t(loop.mobility), kMobilities);
+  }
   return fine && q == tree.q_count && u == tree.u_count;
 }
 

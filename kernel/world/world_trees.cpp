@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/multibody/tree_joint.h"
-#include "kernel/solver/speed_limits.h"
+#include "kernel/multibody/joints/joint.h"
 #include "kernel/world/world_impl.h"
 
 namespace rubble {
@@ -12,35 +11,22 @@ namespace {
 
 constexpr int kTreesPerTask = 4;
 
-Mobility mobility_of(JointKind kind) {
-  switch (kind) {
-    case JointKind::weld:
-      return Mobility::weld;
-    case JointKind::hinge:
-      return Mobility::hinge;
-    case JointKind::slider:
-      return Mobility::slider;
-    default:
-      return Mobility::ball;
-  }
-}
-
-// Figures of a joint at a size; see assembly.h.
-void set_joint(const JointType& joint, double s, TreeLink& link) {
-  const bool slides = joint.kind == JointKind::slider;
-  const double s2 = s * s, s3 = s2 * s;
-  link.mobility = mobility_of(joint.kind);
-  link.stiffness = joint.stiffness * (slides ? s : s3);
-  link.damping = joint.damping * (slides ? s2 : s3 * s);
-  link.yield = joint.yield * (slides ? s2 : s3);
-  link.break_force = joint.break_force * s2;
-  link.break_torque = joint.break_torque * s3;
-  link.lower = joint.kind == JointKind::ball ? -kNever : joint.lower * (slides ? s : 1);
-  link.upper = joint.upper * (slides ? s : 1);
-  link.collide = joint.collide;
-}
-
 Pose scaled(const Pose& pose, double scale) { return {pose.rotation, pose.translation * scale}; }
+
+// A joint between two links that hang together already.
+void add_loop(const JointType& joint, double scale, const Pose& assembly_from_joint,
+              const std::vector<Pose>& assembly_from_com, Tree& tree) {
+  TreeLoop loop;
+  loop.link_a = joint.parent;
+  loop.link_b = joint.child;
+  loop.mobility = mobility_of(joint.kind);
+  loop.a_from_joint = assembly_from_com[std::size_t(joint.parent)].inverse() * assembly_from_joint;
+  loop.b_from_joint = assembly_from_com[std::size_t(joint.child)].inverse() * assembly_from_joint;
+  loop.break_force = joint.break_force * (scale * scale);
+  loop.break_torque = joint.break_torque * (scale * scale * scale);
+  loop.collide = joint.collide;
+  tree.loops.push_back(loop);
+}
 
 }  // namespace
 
@@ -74,10 +60,15 @@ void World::Impl::add_tree(const NewPiece& piece) {
   for (const JointType& joint : assembly.joints) {
     TreeLink& link = tree.links[std::size_t(joint.child)];
     const Pose frame = scaled(joint.assembly_from_joint, scale);
+    if (link.parent >= 0) {
+      add_loop(joint, scale, frame, assembly_from_com, tree);
+      continue;
+    }
     link.parent = joint.parent;
     link.parent_from_joint = assembly_from_com[std::size_t(joint.parent)].inverse() * frame;
     link.link_from_joint = assembly_from_com[std::size_t(joint.child)].inverse() * frame;
-    set_joint(joint, scale, link);
+    link.mobility = mobility_of(joint.kind);
+    joint_of(link.mobility).set_figures(joint, scale, link);
   }
   number_coordinates(tree);
   tree.root = data.bodies[first].world_from_com;
@@ -111,6 +102,11 @@ bool World::Impl::are_joined(int body_a, int body_b) const {
     const TreeLink &one = links[a.link], &other = links[b.link];
     if (one.parent == b.link) return !one.collide;
     if (other.parent == a.link) return !other.collide;
+    for (const TreeLoop& loop : data.trees[a.tree].loops) {
+      const bool these = (loop.link_a == a.link && loop.link_b == b.link) ||
+                         (loop.link_a == b.link && loop.link_b == a.link);
+      if (these) return !loop.collide;
+    }
   }
   for (const PartedPair& p : data.parted) {
     if (p.body_a == std::min(body_a, body_b) && p.body_b == std::max(body_a, body_b)) return true;
@@ -139,8 +135,8 @@ void World::Impl::begin_trees() {
   pool.run(int(awake_trees.size()), kTreesPerTask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const int tree = awake_trees[i];
-      tree_motions[tree].begin(data.trees[tree], data.bodies, simbody_trees.state(tree),
-                               options.gravity, options.step);
+      tree_motions[tree].begin(data.trees[tree], simbody_trees.at(tree), options.gravity,
+                               options.step);
     }
   });
   for (std::int32_t index : active) {
@@ -150,7 +146,8 @@ void World::Impl::begin_trees() {
     }
   }
   for (std::int32_t tree : awake_trees) {
-    if (!is_solved[tree] && tree_motions[tree].near_stop()) is_solved[tree] = 1;
+    const bool asks = tree_motions[tree].has_rows() || tree_motions[tree].near_stop();
+    if (asks) is_solved[tree] = 1;
     if (is_solved[tree]) solved_trees.trees.push_back(tree);
   }
 }
@@ -182,74 +179,54 @@ void World::Impl::advance_trees() {
     for (int i = begin; i < end; ++i) {
       const int tree = awake_trees[i];
       TreeMotion& motion = tree_motions[tree];
-      if (is_solved[tree]) {
+      if (is_solved[tree] && motion.impelled) {
         motion.finish();
       } else {
+        if (is_solved[tree]) motion.begin_again();
         motion.move_freely();
       }
       motion.note_loads();
-      limit_tree(tree);
-      simbody_trees.set_state(tree, motion.state());
-      mirror_tree(tree, motion.pose(), motion.motions());
+      mirror_tree(tree, motion);
     }
   });
 }
 
-// What limit_kicks() and set_rates() do with free pieces, for all speeds of a tree at once.
-void World::Impl::limit_tree(int tree) {
-  TreeMotion& motion = tree_motions[tree];
-  if (!motion.touching) return;
-  float spin = 0, speed = 0, keep = 1;
-  const auto outwards = [](const Vec3f& v) { return Vec3f{v.x, v.y, std::max(v.z, 0.0F)}; };
-  const float fall = float(options.gravity * options.step);
-  const std::vector<TreeLink>& links = data.trees[tree].links;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    const Body& body = data.bodies[links[i].body];
-    if (!body.awake) continue;
-    const Vec3f linear(motion.linear_velocity(i)), angular(motion.angular_velocity(i));
-    spin = std::max(spin, norm(angular));
-    speed = std::max(speed, norm(linear));
-    const float before = norm(outwards(body.linear)), after = norm(outwards(linear));
-    const float most = std::max(before + fall, kKickShare * fastest[links[i].body] + kFreeKick);
-    if (after > most) keep = std::min(keep, most / after);
-  }
-  if (spin > kMaximumSpin) keep = std::min(keep, kMaximumSpin / spin);
-  if (speed > kMaximumSpeed) keep = std::min(keep, kMaximumSpeed / speed);
-  if (spin < kSlowSpin && speed < kSlowSpeed) {
-    keep *= 1 - kSpinDamping * (1 - spin / kSlowSpin);
-    keep *= 1 - kSpeedDamping * (1 - speed / kSlowSpeed);
-  }
-  if (keep < 1) motion.slow_down(double(keep));
+void World::Impl::mirror_link(TreeLink& link, const Pose& to) {
+  Body& body = data.bodies[link.body];
+  const Quat turn = body.world_from_com.rotation.conjugate() * to.rotation;
+  body.travel += distance(body.world_from_com.translation, to.translation) +
+                 2 * norm(Vec3{turn.x, turn.y, turn.z}) * double(body.radius);
+  body.world_from_com = to;
+  body.linear = Vec3f(link.linear);
+  body.angular = Vec3f(link.angular);
+  refresh(body);
 }
 
-void World::Impl::mirror_tree(int tree, const TreePose& pose, const std::vector<Spatial>& motions) {
+void World::Impl::mirror_tree(int tree, const TreeMotion& motion) {
   std::vector<TreeLink>& links = data.trees[tree].links;
   for (std::size_t i = 0; i < links.size(); ++i) {
-    TreeLink& link = links[i];
-    if (link.mobility == Mobility::fixed) continue;
-    Body& body = data.bodies[link.body];
-    link.linear = calc_com_velocity(pose, i, motions[i]);
-    link.angular = motions[i].angular;
-    const Pose& to = pose.world_from_com[i];
-    const Quat turn = body.world_from_com.rotation.conjugate() * to.rotation;
-    body.travel += distance(body.world_from_com.translation, to.translation) +
-                   2 * norm(Vec3{turn.x, turn.y, turn.z}) * double(body.radius);
-    body.world_from_com = to;
-    body.linear = Vec3f(link.linear);
-    body.angular = Vec3f(link.angular);
-    refresh(body);
+    if (links[i].mobility == Mobility::fixed) continue;
+    links[i].linear = motion.linear_velocity(i);
+    links[i].angular = motion.angular_velocity(i);
+    mirror_link(links[i], motion.world_from_links()[i]);
   }
 }
 
 // The same from what Simbody holds, after it was changed from outside.
 void World::Impl::mirror_state(int tree) {
-  const TreeState state = simbody_trees.state(tree);
-  const Tree& t = data.trees[tree];
-  TreePose pose;
+  std::vector<TreeLink>& links = data.trees[tree].links;
+  SimbodyTree& simbody = simbody_trees.at(tree);
+  const TreePose& pose = simbody.pose();
   std::vector<Spatial> motions;
-  pose.set(t, data.bodies, state.q, data.bodies[t.links[0].body].world_from_com.translation);
-  calc_motions(t, pose, state.u, motions);
-  mirror_tree(tree, pose, motions);
+  std::vector<Pose> poses;
+  calc_motions(data.trees[tree], pose, simbody.state().u, motions);
+  simbody.calc_world_from_links(poses);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (links[i].mobility == Mobility::fixed) continue;
+    links[i].linear = pose.links[i].centre_velocity(motions[i]);
+    links[i].angular = motions[i].angular();
+    mirror_link(links[i], poses[i]);
+  }
 }
 
 // Nobody falls asleep before all links of its tree do.
@@ -317,8 +294,6 @@ void World::Impl::set_tree_pose(int index, const Pose& world_from_com) {
 
 std::vector<JointState> World::joints() const {
   const Impl& w = *impl_;
-  constexpr JointKind kKinds[kMobilities] = {JointKind::weld,  JointKind::weld,   JointKind::weld,
-                                             JointKind::hinge, JointKind::slider, JointKind::ball};
   std::vector<JointState> joints;
   for (const Tree& tree : w.data.trees) {
     for (const TreeLink& link : tree.links) {
@@ -326,7 +301,7 @@ std::vector<JointState> World::joints() const {
       JointState joint;
       joint.parent = tree.links[std::size_t(link.parent)].body;
       joint.child = link.body;
-      joint.kind = kKinds[int(link.mobility)];
+      joint.kind = kind_of(link.mobility);
       joint.parent_from_joint =
           Pose{{}, w.data.bodies[joint.parent].com_in_type} * link.parent_from_joint;
       joint.child_from_joint =
@@ -335,9 +310,19 @@ std::vector<JointState> World::joints() const {
       joint.rest_rotation = link.rest_rotation;
       joints.push_back(joint);
     }
+    for (const TreeLoop& loop : tree.loops) {
+      JointState joint;
+      joint.parent = tree.links[std::size_t(loop.link_a)].body;
+      joint.child = tree.links[std::size_t(loop.link_b)].body;
+      joint.kind = kind_of(loop.mobility);
+      joint.parent_from_joint = Pose{{}, w.data.bodies[joint.parent].com_in_type} * loop.a_from_joint;
+      joint.child_from_joint = Pose{{}, w.data.bodies[joint.child].com_in_type} * loop.b_from_joint;
+      joints.push_back(joint);
+    }
   }
-  std::sort(joints.begin(), joints.end(), [](const JointState& a, const JointState& b) {
-    return a.child < b.child;  // a piece hangs on one other at most
+  // A piece hangs on one other at most; then come the joints that close loops, as they were made.
+  std::stable_sort(joints.begin(), joints.end(), [](const JointState& a, const JointState& b) {
+    return a.child < b.child;
   });
   return joints;
 }

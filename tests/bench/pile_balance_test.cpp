@@ -166,6 +166,14 @@ TEST(PileBalance, AHingedPairHangsOnItsSpring) {
   EXPECT_GT(residual(make_flap(JointKind::hinge, stiffness, -rest)), 0.5);
 }
 
+TEST(PileBalance, DryFrictionHoldsAHingeUpToItsLimit) {
+  Flap flap = make_flap(JointKind::hinge, 0, 0);
+  flap.pile.assemblies[0].joints[0].friction = kFlapMoment * 1.001;
+  EXPECT_LT(judge(flap.pile, flap.state).residual[0], kSolved);
+  flap.pile.assemblies[0].joints[0].friction = kFlapMoment * 0.9;
+  EXPECT_GT(judge(flap.pile, flap.state).residual[0], 0.05);
+}
+
 TEST(PileBalance, AStopCarriesWhatLeansOnIt) {
   Flap flap = make_flap(JointKind::hinge, 0, 0);
   flap.pile.assemblies[0].joints[0].upper = 0;  // it cannot turn down

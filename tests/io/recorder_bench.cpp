@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "bench/calibration.h"
 #include "io/colmap_recorder.h"
 #include "io/contact_sheet.h"
 #include "io/euroc_recorder.h"
@@ -89,6 +90,7 @@ int main(int argc, char** argv) {
   const auto run = [&](const char* name, std::unique_ptr<Recorder> recorder) {
     measure(name, frames, count, {a}, list(std::move(recorder)));
   };
+  std::fputs(calibration_text(calibrate()).c_str(), stderr);
   std::printf("recorder,cpu_ms,elapsed_ms,frames_per_s,mb_per_frame\n");
   measure("none: frames copied", frames, count, {}, list());
   run("rawlog (default: gzip 0)", make_rawlog_recorder(a));

@@ -151,7 +151,7 @@ TEST_F(AssetPackTest, NamesEveryMistakeOfLinks) {
         ":8: assets[2].links[3].asset: no such piece",
         ":8: assets[2].links[3].limit_deg: the designed pose is out of reach",
         ":10: assets[3].mesh: an asset has a mesh or links, not both",
-        ":10: assets[3].links: wrong number of links: expected 2 to 32, found 1",
+        ":10: assets[3].links: wrong number of links: expected 2 to 256, found 1",
         ":11: assets[4].links[2].joint: unknown choice: expected one of \"weld\", \"hinge\", "
         "\"slider\", \"ball\", found the string \"rope\"",
         ":13: assets[5].links[2].joint_axis: no direction",

@@ -1,0 +1,15 @@
+// Where a joint goes in a Simbody system. Only for kernel/multibody.
+#pragma once
+
+#include <Simbody.h>
+
+namespace rubble {
+
+struct MobilizerPlace {
+  SimTK::MobilizedBody parent;
+  SimTK::Transform in_parent, in_link;  // the joint's frames
+  SimTK::Body::Rigid body;
+  SimTK::MobilizedBody made;  // out
+};
+
+}  // namespace rubble

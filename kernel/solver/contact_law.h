@@ -1,0 +1,86 @@
+// The contact law, once: what an impulse at a contact may be. For double, for float, and for four
+// lanes of float at a time. Not for use outside kernel/.
+#pragma once
+
+#include <cmath>
+
+#include "kernel/solver/wide.h"
+
+namespace rubble::contact_law {
+
+// The operations that Wide has, for single numbers.
+template <typename T>
+inline constexpr bool kIsNumber = false;
+template <>
+inline constexpr bool kIsNumber<float> = true;
+template <>
+inline constexpr bool kIsNumber<double> = true;
+
+template <typename T>
+RUBBLE_INLINE T larger(T a, T b) {
+  return a > b ? a : b;
+}
+template <typename T>
+RUBBLE_INLINE T smaller(T a, T b) {
+  return a < b ? a : b;
+}
+template <typename T>
+RUBBLE_INLINE T root(T a) {
+  if constexpr (kIsNumber<T>) {
+    return std::sqrt(a);
+  } else {
+    return sqrt(a);
+  }
+}
+
+// Signorini: a contact pushes only, and only where it would be closed at the substep's end. `speed`
+// of parting; `allowed`: the speed at which what is left of the gap closes within the substep.
+template <typename T>
+RUBBLE_INLINE T solve_normal(T impulse, T mass, T speed, T allowed) {
+  return larger(T{}, impulse - mass * (speed + allowed));
+}
+
+// Coulomb: how much a friction impulse of the given squared length must shrink to lie in the cone.
+// limit: the coefficient times the normal impulse.
+template <typename T>
+RUBBLE_INLINE T shrink_into_cone(T limit, T length2) {
+  const T one = T{} + 1;
+  const T length = root(length2 > limit * limit ? length2 : one);
+  return length2 > limit * limit ? limit / length : one;
+}
+
+// Friction about the normal, of a patch with that mean radius.
+template <typename T>
+RUBBLE_INLINE T clamp_twist(T limit, T radius, T twist) {
+  const T most = limit * radius;
+  return smaller(most, larger(-most, twist));
+}
+
+// What a substep starts from: an impulse may double from one substep to the next and grow by
+// `weight` (a speed) times its mass. Loads build up fast, but the impulse of an impact is not given
+// twice. carried: what the substep before started from.
+template <typename T>
+RUBBLE_INLINE T carry_over(T impulse, T carried, T mass, T weight) {
+  return smaller(impulse, carried + carried + mass * weight);
+}
+
+// The speed at which a gap closes within the substep; none of an overlap.
+template <typename T>
+RUBBLE_INLINE T closing_speed(T gap, T per_substep) {
+  return larger(T{}, gap) * per_substep;
+}
+
+// Where friction acts: at the centre of the points, each with a share by its normal impulse of the
+// substep before; the same for all where none is pressed. share = each + per_impulse * impulse.
+template <typename T>
+struct CentreShares {
+  T each, per_impulse;
+};
+template <typename T>
+RUBBLE_INLINE CentreShares<T> find_centre_shares(T total, T count) {
+  const T one = T{} + 1;
+  const T inverse = one / (total > T{} ? total : count);
+  return {total > T{} ? T{} : inverse, total > T{} ? inverse : T{}};
+}
+
+}  // namespace rubble::contact_law

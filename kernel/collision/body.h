@@ -37,6 +37,7 @@ struct Body {
   Pose still_pose, loose_pose;
   std::int32_t still_steps = 0, loose_steps = 0;
   float load = 0;  // sum of the contacts' impulses in the step when it fell asleep; unit: N s
+  Vec3f lost_support;  // impulses of a step that contacts gave it then and that are gone; unit: N s
 
   bool awake = false;    // moves; never true for immovable pieces
   bool lost = false;

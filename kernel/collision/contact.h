@@ -23,6 +23,7 @@ struct ContactPoint {
   Vec3f from_a, from_b;    // from the centres of mass, world orientation; unit: m
   Vec3f local_a, local_b;  // the same point in their own frames, to find it again
   float separation = 0;    // negative: overlap; unit: m
+  float found_separation = 0;  // when a search last found the point, at local_a and local_b; unit: m
   float normal_impulse = 0;  // of the last substep; unit: N s
 };
 

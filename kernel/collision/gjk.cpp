@@ -66,8 +66,9 @@ void solve_triangle(Simplex& s) {
   s.weight[0] = 1 - s.weight[1] - s.weight[2];
 }
 
-// Returns true when the origin is inside.
-bool solve_tetrahedron(Simplex& s) {
+// Returns true when the origin is inside. `rounded`: the tetrahedron is so flat that rounding decides
+// on which side of a face the origin is; then it is outside, and every face counts.
+bool solve_tetrahedron(Simplex& s, bool rounded) {
   static constexpr int kFaces[4][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 3, 2, 0}};
   Simplex best;
   float best2 = 1e30F;
@@ -76,7 +77,7 @@ bool solve_tetrahedron(Simplex& s) {
     const Vec3f &a = s.v[f[0]].w, &b = s.v[f[1]].w, &c = s.v[f[2]].w, &d = s.v[f[3]].w;
     const Vec3f n = cross(b - a, c - a);
     // The origin is not strictly on the same side as the fourth corner.
-    if (-dot(n, a) * dot(n, d - a) > 0) continue;
+    if (!rounded && -dot(n, a) * dot(n, d - a) > 0) continue;
     inside = false;
     Simplex t;
     t.v[0] = s.v[f[0]], t.v[1] = s.v[f[1]], t.v[2] = s.v[f[2]], t.size = 3;
@@ -92,7 +93,7 @@ bool solve(Simplex& s) {
   if (s.size == 1) s.weight[0] = 1;
   if (s.size == 2) solve_segment(s);
   if (s.size == 3) solve_triangle(s);
-  return s.size == 4 && solve_tetrahedron(s);
+  return s.size == 4 && solve_tetrahedron(s, false);
 }
 
 struct Search {
@@ -133,17 +134,24 @@ GjkResult finish(const Search& search, const Simplex& s, const Vec3f& v, float v
 
 // False when the descent ended short of the closest points: the simplex was too flat for it.
 bool descend(const Search& search, float margin, GjkCache& cache, GjkResult& result) {
-  Simplex s = search.start(cache);
+  Simplex s = search.start(cache), whole;
   result = {};
   Vec3f v;
   float v2 = 0, vw = 0, last2 = 1e30F;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const bool inside = solve(s);
+    if (s.size == 4) whole = s;
+    const bool flat = s.size == 4, inside = solve(s);
     v = s.closest();
     v2 = dot(v, v);
     if (inside || v2 < kTouching2) {
       result.kind = GjkResult::Kind::overlapping;
       return true;
+    }
+    if (flat && v2 >= last2) {
+      s = whole;
+      solve_tetrahedron(s, true);
+      v = s.closest();
+      v2 = dot(v, v);
     }
     if (v2 >= last2 && iteration > 3) break;  // rounding ends the descent
     last2 = v2;

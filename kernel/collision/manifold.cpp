@@ -38,8 +38,16 @@ void clip(const ClipPolygon& in, const Vec3f& plane_point, const Vec3f& outward,
   }
 }
 
+// Faces of more corners are clipped as if they had this many, evenly chosen: the ends of fine drums.
+constexpr int kMostCorners = Manifold::kMaxClipped / 2;
+
+int count_corners(const ConvexShape::Face& face) {
+  return std::min(int(face.count), kMostCorners);
+}
+
 Vec3f corner(const PosedPart& part, const ConvexShape::Face& face, int i) {
-  return part.corners.points[part.shape->loops[face.first + i]];
+  const int of_face = face.count <= kMostCorners ? i : i * face.count / kMostCorners;
+  return part.corners.points[part.shape->loops[face.first + of_face]];
 }
 
 }  // namespace
@@ -62,9 +70,11 @@ void clip_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, con
 
   ClipPolygon buffers[2];
   ClipPolygon *in = &buffers[0], *out = &buffers[1];
-  for (int i = 0; i < inc_face.count; ++i) in->add(corner(inc, inc_face, i) + inc_offset);
-  Vec3f p = corner(ref, ref_face, ref_face.count - 1) + ref_offset;
-  for (int i = 0; i < ref_face.count && in->count > 0; ++i) {
+  for (int i = 0; i < count_corners(inc_face); ++i) {
+    in->add(corner(inc, inc_face, i) + inc_offset);
+  }
+  Vec3f p = corner(ref, ref_face, count_corners(ref_face) - 1) + ref_offset;
+  for (int i = 0; i < count_corners(ref_face) && in->count > 0; ++i) {
     const Vec3f q = corner(ref, ref_face, i) + ref_offset;
     clip(*in, p, cross(q - p, n), *out);
     std::swap(in, out);
@@ -74,7 +84,7 @@ void clip_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, con
   for (int i = 0; i < in->count; ++i) {
     const float s = dot(ref_normal, in->points[i] - p) * per_cosine;
     if (s >= margin) continue;
-    manifold.points[manifold.count++] = {in->points[i] - n * (0.5F * s), s, s};
+    manifold.points[manifold.count++] = {in->points[i] - n * (0.5F * s), s, s, -1};
   }
 }
 

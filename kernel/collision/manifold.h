@@ -11,6 +11,7 @@ struct ManifoldPoint {
   Vec3f position;        // in the frame of A's corners, midway between the surfaces
   float separation = 0;  // along the normal
   float predicted = 0;   // at the end of the step, if nothing stops it
+  int retained = -1;     // the number that it had in the contact before the search; -1: found anew
 };
 
 struct Manifold {

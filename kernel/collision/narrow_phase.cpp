@@ -1,6 +1,8 @@
 #include "kernel/collision/narrow_phase.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "kernel/collision/manifold.h"
 
@@ -16,6 +18,10 @@ constexpr float kShift = 0.005F;
 // Clipped points may lie this much farther apart than the axis says; unit: m.
 constexpr float kAxisTolerance = 0.0005F;
 constexpr float kNearestShiftCosine = 0.9F;
+// A point of the step before is retained while its two ends have come apart by no more than this,
+// and while the normal has turned by no more than 8 degrees since the last search; unit: m.
+constexpr float kRetainDistance = 0.004F;
+constexpr float kRetainCosine = 0.99F;
 
 struct Axis {
   Vec3f normal;
@@ -61,7 +67,31 @@ void add_axis_point(Manifold& m, const Axis& axis) {
   float least = 1e30F;
   for (int i = 0; i < m.count; ++i) least = std::min(least, m.points[i].separation);
   if (least > axis.separation + kAxisTolerance && m.count < Manifold::kMaxClipped) {
-    m.points[m.count++] = {axis.point, axis.separation, axis.separation};
+    m.points[m.count++] = {axis.point, axis.separation, axis.separation, -1};
+  }
+}
+
+// Points of the step before that the search did not find again, where they are now. A search sees one
+// pair of faces and one closest point: of two broken surfaces that rest on three chips, it finds another
+// chip in each step, and without the others the piece rocks for ever.
+void retain_points(const Contact& contact, const PosedBody& a, const PosedBody& b,
+                   const Vec3f& offset, const Vec3f& normal, Manifold& m) {
+  if (contact.count == 0 || dot(normal, contact.normal) < kRetainCosine) return;
+  const int found = m.count;
+  for (int i = 0; i < contact.count && m.count < Manifold::kMaxClipped; ++i) {
+    const ContactPoint& p = contact.points[i];
+    const Vec3f end_a = *a.part.rotation * p.local_a;
+    const Vec3f end_b = *b.part.rotation * p.local_b + offset;
+    const Vec3f apart = end_b - end_a;
+    if (dot(apart, apart) > kRetainDistance * kRetainDistance) continue;
+    const Vec3f position = (end_a + end_b) * 0.5F;
+    const bool known = std::any_of(m.points, m.points + found, [&](const ManifoldPoint& q) {
+      const Vec3f d = q.position - position;
+      return dot(d, d) < kMatchDistance * kMatchDistance;
+    });
+    if (known) continue;
+    const float separation = p.found_separation + dot(normal, apart);
+    m.points[m.count++] = {position, separation, separation, i};
   }
 }
 
@@ -85,13 +115,40 @@ void drop_far_points(Manifold& m) {
   m.count = kept;
 }
 
+// A corner runs on a circle: how much less than its speed says it comes down at most. unit: m
+float calc_arc_gain(const Vec3f& p, const Vec3f& angular, float step) {
+  const float spin2 = dot(angular, angular);
+  if (!(spin2 > 0)) return 0;
+  const float rise = cross(angular, p).z, high = p.z - angular.z * (dot(p, angular) / spin2);
+  const float radius = std::sqrt(high * high + rise * rise / spin2);
+  return std::max(0.0F, -radius - high - step * rise);
+}
+
+// All points where they fit, else the lowest predicted and an even choice of the others: those of a
+// level face with many corners lie about equally low.
+void keep_some(std::vector<ManifoldPoint>& found, Manifold& m) {
+  constexpr int kLowest = Manifold::kMaxClipped / 2, kOthers = Manifold::kMaxClipped - kLowest;
+  const int count = int(found.size());
+  if (count <= Manifold::kMaxClipped) {
+    m.count = count;
+    std::copy(found.begin(), found.end(), m.points);
+    return;
+  }
+  for (int i = 0; i < kOthers; ++i) m.points[m.count++] = found[std::size_t(i * count / kOthers)];
+  std::stable_sort(found.begin(), found.end(), [](const ManifoldPoint& p, const ManifoldPoint& q) {
+    return p.predicted < q.predicted;
+  });
+  for (int i = 0; i < kLowest; ++i) m.points[m.count++] = found[std::size_t(i)];
+}
+
 // Writes the manifold into the contact and hands over impulses from the points found again.
 void store(Contact& contact, const Manifold& m, const Vec3f& normal, const PosedBody& a,
            const PosedBody* b, const Vec3f& offset) {
   const bool keep = contact.count > 0 && dot(normal, contact.normal) > kKeepCosine;
-  ContactPoint old[Contact::kMaxPoints];
+  ContactPoint before[Contact::kMaxPoints], old[Contact::kMaxPoints];
+  std::copy(contact.points, contact.points + contact.count, before);
   int old_count = keep ? contact.count : 0;
-  std::copy(contact.points, contact.points + old_count, old);
+  std::copy(before, before + old_count, old);
   if (!keep) {
     contact.friction_impulse = {};
     contact.twist_impulse = 0;
@@ -108,7 +165,12 @@ void store(Contact& contact, const Manifold& m, const Vec3f& normal, const Posed
     p.from_b = m.points[i].position - offset;
     p.local_a = a_from_world * p.from_a;
     p.local_b = b_from_world * p.from_b;
-    p.separation = m.points[i].separation;
+    p.separation = p.found_separation = m.points[i].separation;
+    if (const int retained = m.points[i].retained; retained >= 0) {
+      p.local_a = before[retained].local_a;
+      p.local_b = before[retained].local_b;
+      p.found_separation = before[retained].found_separation;
+    }
     p.normal_impulse = 0;
     int match = -1;
     float best = kMatchDistance * kMatchDistance;
@@ -153,6 +215,7 @@ float update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, f
   Manifold m;
   clip_faces(a.part, b.part, offset, axis.normal, margin, m);
   add_axis_point(m, axis);
+  retain_points(contact, a, b, offset, axis.normal, m);
   predict(m, a, &b, offset, axis.normal, settings.step);
   drop_far_points(m);
   if (m.count == 0) {
@@ -169,16 +232,21 @@ float update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, f
 void update_ground_contact(Contact& contact, const PosedBody& a, float margin,
                            const NarrowSettings& settings) {
   const float height = float(a.centre.z);
-  Manifold m;
-  for (int i = 0; i < a.part.corners.count && m.count < Manifold::kMaxClipped; ++i) {
+  const Vec3f normal{0, 0, -1};
+  thread_local std::vector<ManifoldPoint> found;
+  found.clear();
+  for (int i = 0; i < a.part.corners.count; ++i) {
     const Vec3f& p = a.part.corners.points[i];
     const float s = height + p.z;
-    if (s < margin) m.points[m.count++] = {{p.x, p.y, p.z - 0.5F * s}, s, s};
+    if (s >= margin) continue;
+    const float apart = s > 0 ? s + calc_arc_gain(p, a.angular, settings.step) : s;
+    const float predicted = apart + settings.step * (a.linear + cross(a.angular, p)).z;
+    if (std::min(predicted, apart) >= kPointMargin) continue;
+    found.push_back({{p.x, p.y, p.z - 0.5F * s}, apart, predicted, -1});
   }
-  const Vec3f normal{0, 0, -1};
-  predict(m, a, nullptr, {}, normal, settings.step);
-  drop_far_points(m);
-  if (m.count == 0) return clear_points(contact);
+  if (found.empty()) return clear_points(contact);
+  Manifold m;
+  keep_some(found, m);
   reduce(m, normal, Contact::kMaxPoints);
   store_points(contact, m, normal, a);
 }

@@ -5,6 +5,8 @@ namespace {
 
 // Edge pairs are worth it only when clearly better than the best face: faces make larger contacts.
 constexpr float kEdgeAdvantage = 1e-4F;
+// Two edges separate the parts only if no corner reaches farther over their axis than this; unit: m.
+constexpr float kEdgeTolerance = 1e-4F;
 
 float separation_along(const Vec3f& n, const PointSet& a, const PointSet& b, const Vec3f& offset) {
   const Vec3f pa = a.points[find_support(a, n)];
@@ -59,9 +61,10 @@ void try_edges(const PosedPart& a, const PosedPart& b, const Vec3f& offset, SatR
       if (dot(n, na + ma) < 0) n = -n;
       const Vec3f from_a = a.corners.points[ea.a], from_b = b.corners.points[eb.a] + offset;
       const float s = dot(n, from_b - from_a);
-      if (s > best.separation + kEdgeAdvantage) {
-        best = {n, s, crossing(from_a, da, from_b, db)};
-      }
+      if (s <= best.separation + kEdgeAdvantage) continue;
+      // Where faces are nearly level with each other, rounding lets arcs cross that do not.
+      if (separation_along(n, a.corners, b.corners, offset) < s - kEdgeTolerance) continue;
+      best = {n, s, crossing(from_a, da, from_b, db)};
     }
   }
 }

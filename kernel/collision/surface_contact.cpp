@@ -35,7 +35,7 @@ bool is_known(const Manifold& m, const Vec3f& position) {
 void add(Cluster& cluster, const SurfacePoint& point, float predicted) {
   Manifold& m = cluster.manifold;
   if (m.count == Manifold::kMaxClipped || is_known(m, point.position)) return;
-  m.points[m.count++] = {point.position, point.separation, predicted};
+  m.points[m.count++] = {point.position, point.separation, predicted, -1};
   cluster.sum += point.normal * std::max(0.0F, kWeighted - point.separation);
 }
 

@@ -14,7 +14,7 @@ using Fold = Surface::Fold;
 constexpr float kSeam = 1e-4F;
 // A part that is deeper than this behind a triangle does not belong to it; unit: m.
 constexpr float kDeepest = 0.3F;
-// Of an axis that neighbours are in the way of, the triangle's own may be deeper by this; unit: m.
+// Of an axis that neighbours are in the way of, another may be deeper by this; unit: m.
 constexpr float kFallback = 0.05F;
 // Axes nearer to the triangle's normal than this are that normal.
 constexpr float kSameCosine = 0.9999F;
@@ -65,17 +65,29 @@ class Search {
       const float h = t_.height(part_.corners.points[i]);
       lowest = std::min(lowest, h), highest = std::max(highest, h);
     }
-    if (lowest > margin_ || highest < 0 || lowest < -kDeepest - margin_) return;
-    if (!triangle.sharp) return add_face_points();
-    Axis axis;
-    if (!find_axis(lowest, axis)) return;
-    if (dot(axis.normal, t_.normal) > kSameCosine) return add_face_points();
-    const Vec3 local = surface_.rotation.transposed() * Vec3(axis.normal);
-    if (surface_.surface->is_exposed(triangle, local)) return add_edge_points(axis);
-    if (lowest > std::min(axis.separation, 0.0F) - kFallback) add_face_points();
+    if (lowest > margin_ || highest < 0) return;
+    if (triangle.sharp) return visit_sharp(lowest);
+    if (lowest >= -kDeepest - margin_) add_face_points();
   }
 
  private:
+  // How deep a part is counts along the axis: the planes of a spike's sides go on far below the
+  // corners of what lies on its tip.
+  void visit_sharp(float lowest) {
+    Axis axis;
+    if (!find_axis(lowest, axis) || axis.separation < -kDeepest - margin_) return;
+    if (dot(axis.normal, t_.normal) > kSameCosine) return add_face_points();
+    if (is_exposed(axis.normal)) return add_edge_points(axis);
+    const float least = std::min(axis.separation, 0.0F) - kFallback;
+    if (!has_point_) {
+      axis = {t_.normal, lowest};
+      try_axes(axis, true);
+      const bool own = dot(axis.normal, t_.normal) > kSameCosine;
+      if (!own && axis.separation > least) return add_edge_points(axis);
+    }
+    if (lowest > least) add_face_points();
+  }
+
   void pose(const Surface::Triangle& triangle) {
     t_.triangle = &triangle;
     t_.normal = Vec3f(surface_.rotation * triangle.normal);
@@ -164,28 +176,44 @@ class Search {
       return dot(axis.normal, t_.normal) > -kLeastCosine;
     }
     axis = {t_.normal, lowest};
-    for (int f = 0; f < int(part_.shape->faces.size()); ++f) try_axis(-part_.face_normal(f), axis);
-    for (const auto& edge : part_.shape->edges) {
-      const Vec3f along = part_.corners.points[edge.b] - part_.corners.points[edge.a];
-      for (int k = 0; k < 3; ++k) try_edges(along, t_.corners[(k + 1) % 3] - t_.corners[k], axis);
-    }
+    try_axes(axis, false);
     return true;
   }
 
-  void try_edges(const Vec3f& a, const Vec3f& b, Axis& best) {
+  bool is_exposed(const Vec3f& normal) const {
+    const Vec3 local = surface_.rotation.transposed() * Vec3(normal);
+    return surface_.surface->is_exposed(*t_.triangle, local);
+  }
+
+  // Those of the part's faces, and of its edges with the triangle's. `exposed`: only those that no
+  // neighbour is in the way of.
+  void try_axes(Axis& best, bool exposed) {
+    for (int f = 0; f < int(part_.shape->faces.size()); ++f) {
+      try_axis(-part_.face_normal(f), best, exposed);
+    }
+    for (const auto& edge : part_.shape->edges) {
+      const Vec3f along = part_.corners.points[edge.b] - part_.corners.points[edge.a];
+      for (int k = 0; k < 3; ++k) {
+        try_edges(along, t_.corners[(k + 1) % 3] - t_.corners[k], best, exposed);
+      }
+    }
+  }
+
+  void try_edges(const Vec3f& a, const Vec3f& b, Axis& best, bool exposed) {
     const Vec3f n = cross(a, b);
     const float length2 = dot(n, n);
     if (length2 < 1e-6F * dot(a, a) * dot(b, b)) return;  // parallel
     const Vec3f unit = n * (1 / std::sqrt(length2));
-    try_axis(dot(unit, t_.normal) < 0 ? -unit : unit, best);
+    try_axis(dot(unit, t_.normal) < 0 ? -unit : unit, best, exposed);
   }
 
-  void try_axis(const Vec3f& normal, Axis& best) {
+  void try_axis(const Vec3f& normal, Axis& best, bool exposed) {
     if (dot(normal, t_.normal) < kLeastCosine) return;
     const float top = std::max({dot(normal, t_.corners[0]), dot(normal, t_.corners[1]),
                                 dot(normal, t_.corners[2])});
     const float s = dot(normal, part_.corners.points[find_support(part_.corners, -normal)]) - top;
-    if (s > best.separation + kAxisAdvantage) best = {normal, s};
+    if (s <= best.separation + kAxisAdvantage || (exposed && !is_exposed(normal))) return;
+    best = {normal, s};
   }
 
   const PosedPart& part_;

@@ -13,8 +13,12 @@ namespace {
 
 // With 2^19 steps every product below stays under 2^60.
 constexpr double kGridSteps = 524288.0;
-// Merge faces whose normals differ by less than about 1 degree.
+// Faces are merged when their normals differ by less than about 1 degree, and only while every
+// corner stays this near to the plane of the largest among them. The angle alone would make one
+// bent polygon of several sides of a fine drum. Packs write corners to 0.01 mm.
 constexpr double kCoplanarCosine = 0.99985;
+constexpr double kPlanarShare = 1e-5;  // of the hull's longest extent
+constexpr double kPlanarLeast = 3e-5;  // unit: m
 
 struct GridPoint {
   std::int64_t x, y, z;
@@ -173,8 +177,16 @@ Polygon outline(const std::vector<Polygon>& faces, const std::vector<int>& group
   return polygon.size() == next.size() ? polygon : Polygon{};
 }
 
+bool is_within(double tolerance, const std::vector<Vec3>& points, const Polygon& face,
+               const Vec3& n, const Vec3& from) {
+  return std::all_of(face.begin(), face.end(), [&](int p) {
+    return std::abs(dot(n, points[p] - from)) <= tolerance;
+  });
+}
+
+// `tolerance`: how far a corner of a merged face may be from its plane; unit: m.
 std::vector<Polygon> merge_coplanar(const std::vector<Vec3>& points,
-                                    const std::vector<Polygon>& faces) {
+                                    const std::vector<Polygon>& faces, double tolerance) {
   std::map<std::pair<int, int>, int> face_of_edge;
   std::vector<Vec3> areas;
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -199,6 +211,7 @@ std::vector<Polygon> merge_coplanar(const std::vector<Vec3>& points,
       for (std::size_t i = 0; i < face.size(); ++i) {
         const int other = face_of_edge.at({face[(i + 1) % face.size()], face[i]});
         if (taken[other] || dot(normalized(areas[other]), n) < kCoplanarCosine) continue;
+        if (!is_within(tolerance, points, faces[other], n, points[faces[seed][0]])) continue;
         taken[other] = 1;
         group.push_back(other);
       }
@@ -235,7 +248,9 @@ Hull calc_hull(const std::vector<Vec3>& points) {
 
   std::vector<Vec3> candidates;
   for (int index : source) candidates.push_back(points[index]);
-  const std::vector<Polygon> faces = merge_coplanar(candidates, Wrapper(std::move(grid)).wrap());
+  const std::vector<Polygon> faces =
+      merge_coplanar(candidates, Wrapper(std::move(grid)).wrap(),
+                     std::max(kPlanarShare * longest, kPlanarLeast));
 
   Hull hull;
   std::vector<int> corner(candidates.size(), -1);

@@ -3,7 +3,9 @@
 // The points are rounded to an integer grid of 2^19 steps along their longest extent, and the hull
 // is gift-wrapped (Chand and Kapur 1970) with exact integer predicates, so coplanar and collinear
 // points are no special cases of rounding. Faces within about one degree of a larger neighbour are
-// then merged into one polygon: contacts on a nearly flat side behave as on a flat one.
+// then merged into one polygon while all corners stay in its plane, to 1e-5 of the longest extent or
+// 0.03 mm, whichever is more: contacts on a nearly flat side behave as on a flat one, and a drum
+// keeps its sides, however many.
 #pragma once
 
 #include <vector>

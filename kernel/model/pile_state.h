@@ -36,13 +36,22 @@ struct JointState {
   Quat rest_rotation;  // of a ball's; on the parent's side
 };
 
+// Two pieces, or one and the ground, that reach into each other.
+struct DeepestOverlap {
+  double depth = 0;                        // 0: none; unit: m
+  std::int32_t piece_a = -1, piece_b = -1;  // b: -1 is the ground
+};
+
 struct PileState {
   std::vector<PieceState> pieces;   // in creation order, lost ones too
   std::vector<JointState> joints;   // of articulated debris, by parent and child
   std::vector<std::string> types;   // names of the types
   std::int64_t steps = 0;           // steps taken until rest or until the limit
   double simulated = 0;             // unit: s
-  bool settled = false;             // every piece rests, and no layer ran into its limit at the end
+  // Every piece rests, no layer ran into its limit at the end, and no overlap is deeper than the
+  // options allow.
+  bool settled = false;
+  DeepestOverlap deepest_overlap;          // when settling ended; not kept in files
   int layers_at_limit = 0;          // layers whose time limit came before rest
   int lost = 0;
 

@@ -14,6 +14,13 @@ SimTK::MassProperties mass_properties(const FreeBody& body) {
           SimTK::Inertia(SimTK::Vec3(r[0].x, r[1].y, r[2].z), SimTK::Vec3(r[0].y, r[0].z, r[1].z))};
 }
 
+Quat turn(const Quat& r, const Vec3& w, double dt) {
+  const Quat spin = Quat{0, w.x, w.y, w.z} * r;
+  const double half = 0.5 * dt;
+  return normalized(Quat{r.w + spin.w * half, r.x + spin.x * half, r.y + spin.y * half,
+                         r.z + spin.z * half});
+}
+
 }  // namespace
 
 // q of a Free mobilizer: quaternion w x y z, then the position; u: angular, then linear velocity,
@@ -104,12 +111,11 @@ void SimbodyBlocks::advance(int index, const std::vector<std::uint8_t>& moves,
       u[iu + i] = rate.angular[i];
       u[iu + 3 + i] = rate.linear[i];
     }
-    const Vec3 w = rate.angular + rate.extra_angular, v = rate.linear + rate.extra_linear;
-    const Quat r{q[iq], q[iq + 1], q[iq + 2], q[iq + 3]};
-    const Quat spin = Quat{0, w.x, w.y, w.z} * r;
-    const double half = 0.5 * dt;
-    const Quat turned = normalized(Quat{r.w + spin.w * half, r.x + spin.x * half,
-                                        r.y + spin.y * half, r.z + spin.z * half});
+    const Vec3 v = rate.linear + rate.extra_linear;
+    const Quat turned = rate.turns_freely
+                            ? rate.rotation
+                            : turn({q[iq], q[iq + 1], q[iq + 2], q[iq + 3]},
+                                   rate.angular + rate.extra_angular, dt);
     q[iq] = turned.w, q[iq + 1] = turned.x, q[iq + 2] = turned.y, q[iq + 3] = turned.z;
     for (int i = 0; i < 3; ++i) q[iq + 4 + i] += v[i] * dt;
   }

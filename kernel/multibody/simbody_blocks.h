@@ -26,6 +26,8 @@ struct FreeBody {
 struct BodyRates {
   Vec3 linear, angular;              // speeds after the step; unit: m/s, rad/s
   Vec3 extra_linear, extra_angular;  // on top of them in the displacement only
+  bool turns_freely = false;         // then this is where it has turned to, whatever the rates
+  Quat rotation;
 };
 
 class SimbodyBlocks {

@@ -48,7 +48,7 @@ class Settling {
     if (!last && options_.schedule == Schedule::planes) {
       rested = run_until(options_.layer_time_limit, [this] { return world_.all_have_touched(); });
     } else {
-      rested = last ? prove_rest() : run_to_rest();
+      rested = last ? verify_rest() : run_to_rest();
     }
     if (!rested && !stopped_) ++layers_at_limit_;
     return rested;
@@ -70,7 +70,7 @@ class Settling {
     const bool movable = std::any_of(pile_.placed.begin(), pile_.placed.end(),
                                      [](const Placement& placement) { return !placement.fixed; });
     if (!movable) return true;
-    return pile_.layers.empty() ? prove_rest() : run_to_rest();
+    return pile_.layers.empty() ? verify_rest() : run_to_rest();
   }
 
   void spawn(std::size_t k) {
@@ -97,13 +97,19 @@ class Settling {
   }
 
   // What fell asleep while the pile grew may have been about to slide: the end must hold awake.
-  bool prove_rest() {
-    return run_until(options_.final_time_limit, [this] {
+  bool verify_rest() {
+    const bool rests = run_until(options_.final_time_limit, [this] {
       const double speed = options_.rest_speed, angular_speed = options_.rest_angular_speed;
-      if (world_.proving()) return world_.proved_rest(speed, angular_speed);
-      if (world_.at_rest(speed, angular_speed)) world_.prove_rest();
+      if (world_.verifying_rest()) {
+        return world_.rest_verified(speed, angular_speed) &&
+               world_.deepest_overlap().depth <= options_.rest_overlap;
+      }
+      if (world_.at_rest(speed, angular_speed)) world_.begin_rest_verification();
       return false;
     });
+    overlap_ = world_.deepest_overlap();
+    if (rests) world_.put_all_to_sleep();
+    return rests;
   }
 
   // A checkpoint is made between a step and the question whether it was the last: resuming starts
@@ -153,7 +159,7 @@ class Settling {
       PieceState piece = world_.piece(i);
       const double v2 = dot(piece.linear_velocity, piece.linear_velocity);
       const double w2 = dot(piece.angular_velocity, piece.angular_velocity);
-      if (piece.status == PieceStatus::moving && world_.is_touching(i) && world_.stays(i) &&
+      if (piece.status == PieceStatus::moving && world_.is_touching(i) && world_.within_rest_tolerance(i) &&
           v2 < options_.rest_speed * options_.rest_speed &&
           w2 < options_.rest_angular_speed * options_.rest_angular_speed) {
         piece.status = PieceStatus::resting;
@@ -164,6 +170,7 @@ class Settling {
     state.steps = world_.steps();
     state.simulated = world_.time();
     state.settled = settled;
+    state.deepest_overlap = overlap_;
     state.layers_at_limit = layers_at_limit_;
     state.lost = world_.lost_count();
     return state;
@@ -176,6 +183,7 @@ class Settling {
   int layers_ = 0, layers_at_limit_ = 0;
   std::int64_t layer_steps_ = 0;  // since the last spawn
   bool stopped_ = false;
+  DeepestOverlap overlap_;  // at the end
 };
 
 void check_checkpoint(const SettleCheckpoint& checkpoint, const Pile& pile,
@@ -210,6 +218,7 @@ void SettleOptions::validate() const {
   expect(step >= 1e-3 && step <= 1.0 / 30 + 1e-12, "step", "1/1000 to 1/30 s", step);
   expect(rest_speed > 0, "rest_speed", "more than 0 m/s", rest_speed);
   expect(rest_angular_speed > 0, "rest_angular_speed", "more than 0 rad/s", rest_angular_speed);
+  expect(rest_overlap > 0, "rest_overlap", "more than 0 m", rest_overlap);
   expect(layer_time_limit > 0, "layer_time_limit", "more than 0 s", layer_time_limit);
   expect(final_time_limit > 0, "final_time_limit", "more than 0 s", final_time_limit);
   expect(lost_below <= 0, "lost_below", "0 m or less", lost_below);

@@ -11,7 +11,8 @@ std::uint64_t hash_work(const Pile& pile, const SettleOptions& options) {
   hash.add(hash_pile(pile));
   hash.add(std::int32_t(options.schedule));
   for (double value : {options.gravity, options.step, options.rest_speed,
-                       options.rest_angular_speed, options.layer_time_limit,
+                       options.rest_angular_speed, options.rest_overlap,
+                       options.layer_time_limit,
                        options.final_time_limit, options.lost_below, options.lost_beyond}) {
     hash.add(value);
   }

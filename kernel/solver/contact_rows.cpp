@@ -1,5 +1,8 @@
 #include "kernel/solver/contact_rows.h"
 
+#include "kernel/collision/contact.h"
+#include "kernel/solver/contact_law.h"
+
 namespace rubble {
 namespace {
 
@@ -41,29 +44,23 @@ RUBBLE_INLINE void apply(const ContactBatch& batch, const WideRow& row, const Wi
   b.angular += row.turn_b * impulse;
 }
 
-// How much a vector of the given squared length must shrink to be no longer than `limit`.
-RUBBLE_INLINE Wide shrink_to(Wide limit, Wide length2) {
-  const WideMask longer = length2 > limit * limit;
-  const Wide length = sqrt(select(longer, length2, splat(1)));
-  return select(longer, limit / length, splat(1));
-}
-
 RUBBLE_INLINE void solve_friction(ContactBatch& batch, Wide limit, WideMotion& a, WideMotion& b) {
   Wide wanted[2];
   for (int t = 0; t < 2; ++t) {
     const FrictionRow& f = batch.slide[t];
     wanted[t] = f.impulse - f.row.mass * relative(f.direction, f.row, a, b);
   }
-  const Wide shrink = shrink_to(limit, wanted[0] * wanted[0] + wanted[1] * wanted[1]);
+  const Wide shrink =
+      contact_law::shrink_into_cone(limit, wanted[0] * wanted[0] + wanted[1] * wanted[1]);
   for (int t = 0; t < 2; ++t) {
     FrictionRow& f = batch.slide[t];
     const Wide next = wanted[t] * shrink;
     apply(batch, f.row, f.direction, next - f.impulse, a, b);
     f.impulse = next;
   }
-  const Wide most = limit * batch.radius;
   const Wide speed = dot(batch.normal, b.angular - a.angular);
-  const Wide next = min(most, max(-most, batch.twist_impulse - batch.twist_mass * speed));
+  const Wide next = contact_law::clamp_twist(limit, batch.radius,
+                                             batch.twist_impulse - batch.twist_mass * speed);
   const Wide change = next - batch.twist_impulse;
   a.angular -= batch.twist_a * change;
   b.angular += batch.twist_b * change;
@@ -78,12 +75,38 @@ RUBBLE_INLINE void solve_normals(ContactBatch& batch, NormalRow* rows, Wide per_
     const Wide speed = relative(batch.normal, n.row, a, b);
     // A point that is still apart may close its gap within the substep.
     const Wide gap = n.gap + relative(batch.normal, n.row, moved_a, moved_b);
-    const Wide allowed = max(Wide{}, gap) * per_substep;
-    const Wide next = max(Wide{}, n.impulse - n.row.mass * (speed + allowed));
+    const Wide next = contact_law::solve_normal(n.impulse, n.row.mass, speed,
+                                                contact_law::closing_speed(gap, per_substep));
     apply(batch, n.row, batch.normal, next - n.impulse, a, b);
     n.impulse = next;
   }
 }
+
+RUBBLE_INLINE WideMotion choose(WideMask mask, const WideMotion& a, const WideMotion& b) {
+  const auto pick = [mask](const Wide3& p, const Wide3& q) {
+    return Wide3{select(mask, p.x, q.x), select(mask, p.y, q.y), select(mask, p.z, q.z)};
+  };
+  return {pick(a.linear, b.linear), pick(a.angular, b.angular)};
+}
+
+// The impulses of a batch at some moment.
+class BatchImpulses {
+ public:
+  BatchImpulses(const ContactBatch& batch, const NormalRow* rows)
+      : slide_{batch.slide[0].impulse, batch.slide[1].impulse}, twist_(batch.twist_impulse) {
+    for (int i = 0; i < batch.rows; ++i) normal_[i] = rows[i].impulse;
+  }
+  void restore_outside(WideMask mask, ContactBatch& batch, NormalRow* rows) const {
+    for (int t = 0; t < 2; ++t) {
+      batch.slide[t].impulse = select(mask, batch.slide[t].impulse, slide_[t]);
+    }
+    batch.twist_impulse = select(mask, batch.twist_impulse, twist_);
+    for (int i = 0; i < batch.rows; ++i) rows[i].impulse = select(mask, rows[i].impulse, normal_[i]);
+  }
+
+ private:
+  Wide slide_[2], twist_, normal_[Contact::kMaxPoints];
+};
 
 RUBBLE_INLINE Wide sum_impulses(const ContactBatch& batch, const NormalRow* rows) {
   Wide sum{};
@@ -109,14 +132,21 @@ void solve_velocities(ContactBatch& batch, NormalRow* rows, Wide per_substep,
                       const PaddedMotion* moved, PaddedMotion* v) {
   WideMotion a = load(v, batch.a), b = load(v, batch.b);
   const WideMotion moved_a = load(moved, batch.a), moved_b = load(moved, batch.b);
-  Wide pressed = sum_impulses(batch, rows);
-  for (int round = 0; round < kMostRounds; ++round) {
-    // Friction first, against the normal impulses so far; the normals have the last word.
+  const Wide before = sum_impulses(batch, rows);
+  // Friction first, against the normal impulses so far; the normals have the last word.
+  solve_friction(batch, batch.friction * before, a, b);
+  solve_normals(batch, rows, per_substep, moved_a, moved_b, a, b);
+  const Wide pressed = sum_impulses(batch, rows);
+  const WideMask impact = pressed > before + before * splat(kImpactRise);
+  if (any(impact)) {
+    // Only for the lanes that need it: who shares a batch must not change the result.
+    const BatchImpulses impulses(batch, rows);
+    const WideMotion first_a = a, first_b = b;
     solve_friction(batch, batch.friction * pressed, a, b);
     solve_normals(batch, rows, per_substep, moved_a, moved_b, a, b);
-    const Wide before = pressed;
-    pressed = sum_impulses(batch, rows);
-    if (!any(pressed > before + before * splat(kImpactRise))) break;
+    impulses.restore_outside(impact, batch, rows);
+    a = choose(impact, a, first_a);
+    b = choose(impact, b, first_b);
   }
   save(a, v, batch.a);
   save(b, v, batch.b);
@@ -127,17 +157,16 @@ void carry_over(ContactBatch& batch, NormalRow* rows, Wide weight) {
   for (int i = 0; i < batch.rows; ++i) {
     NormalRow& n = rows[i];
     batch.pressed += n.impulse;
-    n.impulse = min(n.impulse, n.carried + n.carried + n.row.mass * weight);
+    n.impulse = contact_law::carry_over(n.impulse, n.carried, n.row.mass, weight);
     n.carried = n.impulse;
     carried += n.impulse;
   }
   const Wide limit = batch.friction * carried;
   const Wide s0 = batch.slide[0].impulse, s1 = batch.slide[1].impulse;
-  const Wide shrink = shrink_to(limit, s0 * s0 + s1 * s1);
+  const Wide shrink = contact_law::shrink_into_cone(limit, s0 * s0 + s1 * s1);
   batch.slide[0].impulse = s0 * shrink;
   batch.slide[1].impulse = s1 * shrink;
-  const Wide most = limit * batch.radius;
-  batch.twist_impulse = min(most, max(-most, batch.twist_impulse));
+  batch.twist_impulse = contact_law::clamp_twist(limit, batch.radius, batch.twist_impulse);
 }
 
 bool solve_pushes(const ContactBatch& batch, const NormalRow* rows, PushRow* pushes,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/solver/contact_law.h"
 #include "kernel/solver/friction_axes.h"
 
 namespace rubble {
@@ -211,6 +212,9 @@ void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Bo
   batch.push_weight_b[lane] = b.mass();
   batch.friction[lane] = contact.friction;
   batch.normal.set(lane, contact.normal);
+  float total = 0;
+  for (int i = 0; i < contact.count; ++i) total += contact.points[i].normal_impulse;
+  const auto shares = contact_law::find_centre_shares(total, float(contact.count));
   Vec3f middle_a, middle_b;
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& p = contact.points[i];
@@ -221,12 +225,10 @@ void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Bo
     pushes_[batch.first_row + i].mass[lane] = 1 / (movable + around);
     n.gap[lane] = p.separation - settings.rest_gap;
     n.impulse[lane] = n.carried[lane] = p.normal_impulse;
-    middle_a += p.from_a;
-    middle_b += p.from_b;
+    const float share = shares.each + shares.per_impulse * p.normal_impulse;
+    middle_a += p.from_a * share;
+    middle_b += p.from_b * share;
   }
-  const float share = 1.0F / float(contact.count);
-  middle_a *= share;
-  middle_b *= share;
   Vec3f tangent[2];
   make_tangents(contact.normal, tangent);
   Turns turns[2] = {{a, b, tangent[0], middle_a, middle_b}, {a, b, tangent[1], middle_a, middle_b}};
@@ -237,8 +239,11 @@ void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Bo
     batch.slide[t].impulse[lane] = dot(tangent[t], contact.friction_impulse);
   }
   float radius = 0;
-  for (int i = 0; i < contact.count; ++i) radius += norm(contact.points[i].from_a - middle_a);
-  batch.radius[lane] = radius * share;
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& p = contact.points[i];
+    radius += norm(p.from_a - middle_a) * (shares.each + shares.per_impulse * p.normal_impulse);
+  }
+  batch.radius[lane] = radius;
   const Vec3f twist_a = a.turn(contact.normal), twist_b = b.turn(contact.normal);
   const float twist = dot(contact.normal, twist_a + twist_b);
   batch.twist_a.set(lane, twist_a);

@@ -13,8 +13,6 @@
 namespace rubble {
 namespace {
 
-constexpr double kProofTime = 1.0, kStayTime = 0.5;  // see World::proved_rest(); unit: s
-
 Mat3 inverse_symmetric(const Mat3& m) {
   const Vec3 c0 = cross(m.rows[1], m.rows[2]), c1 = cross(m.rows[2], m.rows[0]),
              c2 = cross(m.rows[0], m.rows[1]);
@@ -200,7 +198,7 @@ World& World::operator=(World&&) noexcept = default;
 int World::add(const std::vector<NewPiece>& pieces) {
   Impl& w = *impl_;
   const int first = size();
-  w.data.proof_steps = -1;
+  w.data.verification_steps = -1;
   const int types = int(w.types.size()), kinds = types + int(w.assemblies.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     check(pieces[i], kinds, int(i));
@@ -255,7 +253,7 @@ bool World::is_awake(int index) const { return impl_->data.bodies[index].awake; 
 bool World::is_touching(int index) const { return impl_->data.bodies[index].touching; }
 double World::mass(int index) const { return impl_->data.bodies[index].mass; }
 
-bool World::proving() const { return impl_->data.proof_steps >= 0; }
+bool World::verifying_rest() const { return impl_->data.verification_steps >= 0; }
 
 int World::awake_count() const {
   int count = 0;
@@ -311,9 +309,9 @@ void World::wake_all() {
   for (int i = 0; i < size(); ++i) impl_->wake(i);
 }
 
-void World::prove_rest() {
+void World::begin_rest_verification() {
   wake_all();
-  impl_->data.proof_steps = 0;
+  impl_->data.verification_steps = 0;
 }
 
 void World::set_sleeping(bool allowed) {
@@ -333,19 +331,37 @@ bool World::at_rest(double speed, double angular_speed) const {
   return true;
 }
 
-bool World::proved_rest(double speed, double angular_speed) const {
-  const auto wanted = std::int64_t(kProofTime / impl_->options.step);
-  if (!proving() || (awake_count() > 0 && impl_->data.proof_steps < wanted)) return false;
-  if (!at_rest(speed, angular_speed)) return false;
+bool World::rest_verified(double speed, double angular_speed) const {
+  if (!verifying_rest() || !at_rest(speed, angular_speed)) return false;
   for (int i = 0; i < size(); ++i)
-    if (!stays(i)) return false;
+    if (!within_rest_tolerance(i)) return false;
   return true;
 }
 
-bool World::stays(int index) const {
+bool World::within_rest_tolerance(int index) const {
   const Body& body = impl_->data.bodies[index];
-  const int wanted = int(kStayTime / impl_->options.step);
-  return !body.awake || body.loose_steps >= wanted || impl_->data.proof_steps < wanted;
+  return !body.awake || impl_->within_rest_tolerance(body);
+}
+
+void World::put_all_to_sleep() {
+  Impl& w = *impl_;
+  w.slept.assign(w.data.bodies.size(), 0);
+  for (int i = 0; i < size(); ++i) w.slept[i] = w.data.bodies[i].awake;
+  w.put_to_sleep();
+  w.data.verification_steps = -1;
+}
+
+DeepestOverlap World::deepest_overlap() const {
+  DeepestOverlap deepest;
+  for (std::size_t i = 0; i < impl_->data.pairs.size(); ++i) {
+    if (!impl_->data.pairs[i].live) continue;
+    const Contact& contact = impl_->data.contacts[i];
+    for (int k = 0; k < contact.count; ++k) {
+      const double depth = -double(contact.points[k].separation);
+      if (depth > deepest.depth) deepest = {depth, contact.body_a, contact.body_b};
+    }
+  }
+  return deepest;
 }
 
 bool World::all_have_touched() const {

@@ -69,24 +69,25 @@ class World {
 
   // Every piece sleeps, or touches something and is below both speeds.
   bool at_rest(double speed, double angular_speed) const;
-  // Sleep is cheap to fall into while a pile grows. This wakes every piece, and from now until
-  // pieces are added only those sleep again that stay where they are on stricter terms.
-  void prove_rest();
-  bool proving() const;
-  // After prove_rest(): all sleep again, or a second has passed, they are at rest, and each that is
-  // awake has stayed within 4 mm for half a second. Sleepers have stayed within 1 mm for 0.5 s, or
-  // within 4 mm for 1 s (jointed or deep in another: longer). So nothing that slides or creeps
-  // faster than 8 mm/s passes. Needs sleeping to be allowed: nobody counts the time otherwise.
-  // What fails for more than 9 s is damped; see kernel/solver/speed_limits.h.
-  bool proved_rest(double speed, double angular_speed) const;
-  // Whether a piece sleeps, or has stayed in place as proved_rest() demands; true of all while no proof
-  // has lasted long enough to tell.
-  bool stays(int index) const;
+  // Sleep is cheap to fall into while a pile grows, and who sleeps holds up others whatever they
+  // weigh. This wakes every piece, and nobody sleeps again until pieces are added: rest is that of
+  // all at once. Needs sleeping to be allowed: nobody counts the time otherwise.
+  void begin_rest_verification();
+  bool verifying_rest() const;
+  // Since begin_rest_verification(): every piece is below both speeds, touches something, and has
+  // stayed within 1 mm for 0.5 s or within 4 mm for 1 s, all at the same time. So nothing that
+  // slides or creeps faster than 4 mm/s passes.
+  bool rest_verified(double speed, double angular_speed) const;
+  // Whether a piece sleeps, or has stayed in place as rest_verified() demands.
+  bool within_rest_tolerance(int index) const;
+  // All that move fall asleep where they are. Ends a verification.
+  void put_all_to_sleep();
   bool all_have_touched() const;
   // Of all pieces, or of those that have touched something and the immovable ones; 0 when none.
   double highest_point(bool touched_only = false) const;
 
   std::vector<JointState> joints() const;  // that hold
+  DeepestOverlap deepest_overlap() const;         // of all contacts, as the kernel sees them
   double mass(int index) const;            // 0: immovable
   double kinetic_energy() const;    // unit: J
   double potential_energy() const;  // against z = 0, and of springs; unit: J

@@ -20,7 +20,7 @@ void each_field(Struct& b, Visit&& visit) {
   visit(b.radius), visit(b.mobile), visit(b.tree), visit(b.link), visit(b.first_collider), visit(b.collider_count);
   visit(b.world_from_com), visit(b.linear), visit(b.angular), visit(b.rotation);
   visit(b.inverse_inertia), visit(b.travel), visit(b.still_pose), visit(b.still_steps);
-  visit(b.loose_pose), visit(b.loose_steps), visit(b.load);
+  visit(b.loose_pose), visit(b.loose_steps), visit(b.load), visit(b.lost_support);
   visit(b.awake), visit(b.lost), visit(b.touching), visit(b.has_touched);
 }
 
@@ -37,7 +37,7 @@ void each_field(Struct& c, Visit&& visit) {
 template <typename Struct, typename Visit, IfIs<Struct, ContactPoint> = 0>
 void each_field(Struct& p, Visit&& visit) {
   visit(p.from_a), visit(p.from_b), visit(p.local_a), visit(p.local_b);
-  visit(p.separation), visit(p.normal_impulse);
+  visit(p.separation), visit(p.found_separation), visit(p.normal_impulse);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, Pair> = 0>
@@ -94,7 +94,7 @@ void each_field(Struct& d, Visit&& visit) {
   visit(d.bodies), visit(d.colliders), visit(d.corners), visit(d.broad), visit(d.pairs);
   visit(d.contacts);
   visit(d.contact_of_pair), visit(d.wake_next), visit(d.trees), visit(d.parted), visit(d.steps);
-  visit(d.proof_steps), visit(d.lost);
+  visit(d.verification_steps), visit(d.lost);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, FreeBody> = 0>

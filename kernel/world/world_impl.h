@@ -35,7 +35,7 @@ struct WorldData {
   std::vector<Tree> trees;          // those that came apart keep their place, without links
   std::vector<PartedPair> parted;
   std::int64_t steps = 0;
-  std::int64_t proof_steps = -1;  // since prove_rest(); -1: not called since pieces were added
+  std::int64_t verification_steps = -1;  // since prove_rest(); -1: not called since pieces were added
   int lost = 0;
 };
 
@@ -72,12 +72,12 @@ struct World::Impl {
   std::vector<std::uint8_t> pair_states;    // by pair: a PairState
   std::vector<std::pair<float, std::int32_t>> order_keys;
   std::vector<std::uint8_t> overlapping, slept;  // by body
+  std::vector<Vec3f> lost_support;               // by body: of sleepers, to awake neighbours
   std::vector<std::uint8_t> block_awake;
   std::vector<std::int32_t> body_of;  // by number in SimbodyBlocks
   std::vector<std::uint8_t> moves;  // by number in SimbodyBlocks
   std::vector<Motion> velocities, displacements;
   std::vector<BodyRates> rates;  // by number in SimbodyBlocks
-  float lateness = 0;  // see calc_lateness()
   std::vector<float> fastest;
   std::vector<std::int32_t> neighbour;
   std::vector<TreeMotion> tree_motions;       // by number of the tree
@@ -115,6 +115,10 @@ struct World::Impl {
   void wake_hit();
   void update_sleep();
   void wake_changed();
+  bool is_unbalanced(const Body& body, const Vec3f& change) const;
+  void note_lost_contact(const Contact& contact);
+  void put_to_sleep();
+  bool within_rest_tolerance(const Body& body) const;
   void find_overlapping();  // those that overlap too deep
   void note_loads();
   void wake(int body);
@@ -130,7 +134,6 @@ struct World::Impl {
   void give_back(std::size_t piece, const Vec3f& speed);
   void limit_kicks();
   void advance();
-  float calc_lateness() const;
   void set_rates(std::size_t body);
   double calc_travel(const Body& body) const;
   void remove_lost();

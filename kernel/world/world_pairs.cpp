@@ -81,13 +81,7 @@ void World::Impl::update_surface_pairs(int collider) {
 
 void World::Impl::remove_contact(std::size_t index) {
   const Pair pair = data.pairs[index];
-  for (std::int32_t body : {pair.body_a, pair.body_b}) {
-    // A sleeper that loses a support wakes.
-    if (body == kGround || data.bodies[body].awake || !data.bodies[body].movable()) continue;
-    if (data.contacts[index].rest_pressed > wake_impulse(data.bodies[body])) {
-      data.wake_next[body] = 1;
-    }
-  }
+  note_lost_contact(data.contacts[index]);
   data.contact_of_pair.erase(pair_key(pair.collider_a, pair.collider_b));
   if (index + 1 < data.pairs.size()) {
     const Pair& moved = data.pairs[index] = data.pairs.back();

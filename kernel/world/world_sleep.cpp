@@ -25,14 +25,20 @@ struct SleepTerms {
 // readily as ever, or slopes freeze steeper than they can stand.
 constexpr SleepTerms kGrowing{0.003, 0.2, 0.008, 0.6, 0.1F, 0.25F, 0.2F};
 // Whether it rests is decided on these: who creeps slowly must not pass for one that stays.
-constexpr SleepTerms kProving{0.001, 0.5, 0.004, 1.0, 0.1F, 0.25F, 0.2F};
+constexpr SleepTerms kVerifying{0.001, 0.5, 0.004, 1.0, 0.1F, 0.25F, 0.2F};
+
+// A sleeper wakes when the sum over its contacts has changed, since it fell asleep, by what would give
+// it this speed in a step and by this share of its load: one brick in six that carried it may go.
+// The sum is of vectors: what one neighbour takes over from another changes nothing.
+constexpr float kUnbalancedSpeed = 0.01F;  // unit: m/s
+constexpr float kUnbalancedLoad = 0.05F;   // unit: 1
 
 // Overlaps deeper than this keep a piece awake for a while.
 constexpr float kSleepOverlap = 0.003F;    // unit: m
 constexpr double kSleepOverlapTime = 2.0;  // unit: s
 
 const SleepTerms& terms(const WorldData& data) {
-  return data.proof_steps < 0 ? kGrowing : kProving;
+  return data.verification_steps < 0 ? kGrowing : kVerifying;
 }
 float hit_impulse(const Body& body, const SleepTerms& t) {
   return t.hit_speed * float(body.mass) + body.load;
@@ -74,6 +80,7 @@ void World::Impl::wake(int index) {
 void World::Impl::wake_one(Body& body) {
   if (!body.movable()) return;
   body.awake = true;
+  body.lost_support = {};
   body.still_steps = body.loose_steps = 0;
   body.still_pose = body.loose_pose = body.world_from_com;
 }
@@ -131,17 +138,41 @@ void World::Impl::wake_hit() {
   }
 }
 
-// Sleepers that an awake neighbour presses on more, or less, than when they fell asleep.
+bool World::Impl::is_unbalanced(const Body& body, const Vec3f& change) const {
+  const float most = kUnbalancedSpeed * float(body.mass) + kUnbalancedLoad * body.load;
+  return dot(change, change) > most * most;
+}
+
+// A contact that is about to be forgotten: what it gave to sleepers is gone.
+void World::Impl::note_lost_contact(const Contact& contact) {
+  for (std::int32_t i : {contact.body_a, contact.body_b}) {
+    if (i == kGround || data.bodies[i].awake || !data.bodies[i].movable()) continue;
+    Body& body = data.bodies[i];
+    body.lost_support += contact.normal * (i == contact.body_a ? -contact.rest_pressed
+                                                               : contact.rest_pressed);
+    if (is_unbalanced(body, body.lost_support)) data.wake_next[i] = 1;
+  }
+}
+
+// Sleepers that an awake neighbour presses on more, or less, than when they fell asleep; and those
+// whose contacts no longer add up to what they were.
 void World::Impl::wake_changed() {
+  lost_support.assign(data.bodies.size(), {});
   for (std::int32_t index : active) {
     const Contact& contact = data.contacts[index];
     for (std::int32_t i : {contact.body_a, contact.body_b}) {
       if (i == kGround) continue;
       const Body& body = data.bodies[i];
       if (body.awake || !body.movable()) continue;
-      const float change = std::abs(contact.pressed - contact.rest_pressed);
-      if (change > wake_impulse(body)) data.wake_next[i] = 1;
+      const float change = contact.pressed - contact.rest_pressed;
+      if (std::abs(change) > wake_impulse(body)) data.wake_next[i] = 1;
+      lost_support[i] += contact.normal * (i == contact.body_a ? change : -change);
     }
+  }
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    const Body& body = data.bodies[i];
+    if (body.awake || !body.movable()) continue;
+    if (is_unbalanced(body, body.lost_support + lost_support[i])) data.wake_next[i] = 1;
   }
 }
 
@@ -180,24 +211,38 @@ void World::Impl::update_sleep() {
   const int wait = int(t.still_time / options.step), loose_wait = int(t.loose_time / options.step);
   const int long_wait = int(kSleepOverlapTime / options.step);
   slept.assign(data.bodies.size(), 0);
-  bool any = false;
+  const bool verifying = data.verification_steps >= 0;
   pool.run(int(data.bodies.size()), 256, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       Body& body = data.bodies[i];
       if (!body.awake) continue;
       count_still(body, t.still_distance, body.still_pose, body.still_steps);
       count_still(body, t.loose_distance, body.loose_pose, body.loose_steps);
-      slept[i] = body.still_steps >= (overlapping[i] ? long_wait : wait) ||
-                 body.loose_steps >= (overlapping[i] ? long_wait : loose_wait);
+      slept[i] = !verifying && (body.still_steps >= (overlapping[i] ? long_wait : wait) ||
+                                body.loose_steps >= (overlapping[i] ? long_wait : loose_wait));
     }
   });
+  if (verifying) return;  // who falls asleep holds up others, whatever they weigh
   keep_trees_whole();
+  put_to_sleep();
+}
+
+// Those that `slept` marks.
+void World::Impl::put_to_sleep() {
+  bool any = false;
   for (std::size_t i = 0; i < slept.size(); ++i) {
     if (!slept[i]) continue;
     fall_asleep(int(i));
     any = true;
   }
   if (any) note_loads();
+}
+
+// Whether a piece has stayed where it is for long enough to count as at rest.
+bool World::Impl::within_rest_tolerance(const Body& body) const {
+  const SleepTerms& t = kVerifying;
+  return body.still_steps >= int(t.still_time / options.step) ||
+         body.loose_steps >= int(t.loose_time / options.step);
 }
 
 }  // namespace rubble

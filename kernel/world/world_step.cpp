@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "kernel/multibody/free_rotation.h"
 #include "kernel/solver/speed_limits.h"
 #include "kernel/world/world_impl.h"
 
@@ -13,24 +14,6 @@ namespace {
 // Who touches a piece, beside the number of the only one; see limit_kicks().
 constexpr std::int32_t kNobody = -2, kSeveral = -3;
 constexpr float kOrderDistance = 0.1F;  // see sort_by_height(); unit: m
-
-// The implicit gyroscopic torque, one Newton step (Catto, GDC 2015): stable at any spin.
-Vec3 gyroscopic(const Body& body, const Vec3& omega, double dt) {
-  const Quat& q = body.world_from_com.rotation;
-  const Vec3 w = q.conjugate().rotate(omega);
-  const Vec3 iw = body.inertia * w;
-  const Vec3 f = cross(w, iw) * dt;
-  // J = I + dt ([w]x I - [I w]x)
-  const Mat3 skew_w{{{0, -w.z, w.y}, {w.z, 0, -w.x}, {-w.y, w.x, 0}}};
-  const Mat3 skew_iw{{{0, -iw.z, iw.y}, {iw.z, 0, -iw.x}, {-iw.y, iw.x, 0}}};
-  const Mat3 jacobian = body.inertia + (skew_w * body.inertia + skew_iw * -1.0) * dt;
-  const Vec3 c0 = cross(jacobian.rows[1], jacobian.rows[2]);
-  const Vec3 c1 = cross(jacobian.rows[2], jacobian.rows[0]);
-  const Vec3 c2 = cross(jacobian.rows[0], jacobian.rows[1]);
-  const double scale = 1 / dot(jacobian.rows[0], c0);
-  const Vec3 change = (c0 * f.x + c1 * f.y + c2 * f.z) * scale;
-  return q.rotate(w - change);
-}
 
 class Stopwatch {
  public:
@@ -46,7 +29,7 @@ class Stopwatch {
 
 }  // namespace
 
-// Gyroscopic torque only; the solver adds gravity in its substeps.
+// The turning of free rotation only; the solver adds gravity in its substeps.
 void World::Impl::apply_forces() {
   velocities.assign(data.bodies.size(), {});
   displacements.assign(data.bodies.size(), {});
@@ -54,8 +37,9 @@ void World::Impl::apply_forces() {
     for (int i = begin; i < end; ++i) {
       const Body& body = data.bodies[i];
       if (!body.awake || body.mobile < 0) continue;
-      const Vec3 w = gyroscopic(body, blocks.angular_velocity(body.mobile), options.step);
-      velocities[i] = {body.linear, Vec3f(w)};
+      const FreeRotation free = rotate_freely(body.world_from_com.rotation, body.inertia,
+                                              blocks.angular_velocity(body.mobile), options.step);
+      velocities[i] = {body.linear, Vec3f(free.angular)};
     }
   });
 }
@@ -100,7 +84,7 @@ void World::Impl::give_back(std::size_t piece, const Vec3f& speed) {
 }
 
 // A piece squeezed out from under a heavy one must not shoot away: sideways and upwards it may
-// become no faster in one step than a share of the speed that the points which touch it had before.
+// become hardly faster in one step than the points which touch it were before.
 void World::Impl::limit_kicks() {
   const auto outwards = [](const Vec3f& v) { return Vec3f{v.x, v.y, std::max(v.z, 0.0F)}; };
   const auto may_kick = [&](const Body& body) {
@@ -109,7 +93,7 @@ void World::Impl::limit_kicks() {
   const auto speed_before = [&](const Body& body) {
     return norm(outwards(body.linear)) + float(options.gravity * options.step);
   };
-  bool any = !awake_trees.empty();  // limit_tree() asks for all of their links
+  bool any = false;
   for (std::size_t i = 0; i < data.bodies.size() && !any; ++i) {
     const Body& body = data.bodies[i];
     any = may_kick(body) &&
@@ -140,7 +124,7 @@ void World::Impl::limit_kicks() {
     if (!may_kick(data.bodies[i])) continue;
     const float after = norm(outwards(velocities[i].linear));
     const float most =
-        std::max(speed_before(data.bodies[i]), kKickShare * fastest[i] + kFreeKick);
+        std::max(speed_before(data.bodies[i]), fastest[i] + kFreeKick);
     if (after <= most) continue;
     const float keep = most / after;
     give_back(i, outwards(velocities[i].linear) * (1 - keep));
@@ -151,37 +135,30 @@ void World::Impl::limit_kicks() {
   }
 }
 
-// 0 while a proof of rest may yet succeed by itself, 1 when it has lasted too long.
-float World::Impl::calc_lateness() const {
-  const float seconds = float(data.proof_steps) * float(options.step);
-  return std::clamp((seconds - kPatience) / (kPatienceEnds - kPatience), 0.0F, 1.0F);
-}
-
 // The speeds after the step, and the extra rates that make up its displacement.
 void World::Impl::set_rates(std::size_t index) {
   const Body& body = data.bodies[index];
   BodyRates& r = rates[body.mobile];
+  r = {};
   if (body.touching) {
     Motion m = velocities[index];
-    const float spin = norm(m.angular), speed = norm(m.linear);
-    if (spin > kMaximumSpin) m.angular *= kMaximumSpin / spin;
-    if (speed > kMaximumSpeed) m.linear *= kMaximumSpeed / speed;
-    // Grinding of rough surfaces, for pieces that are nearly at rest.
-    if (spin < kSlowSpin) m.angular *= 1 - kSpinDamping * (1 - spin / kSlowSpin);
-    if (speed < kSlowSpeed) m.linear *= 1 - kSpeedDamping * (1 - speed / kSlowSpeed);
-    if (lateness > 0 && spin < kTremblingSpin) m.angular *= 1 - kLateDamping * lateness;
-    if (lateness > 0 && speed < kTremblingSpeed) m.linear *= 1 - kLateDamping * lateness;
+    const float spin = norm(m.angular);
+    const float most = std::max(kFreeSpin, norm(body.angular) + kSpinGain);
+    if (spin > most) m.angular *= most / spin;
     r.linear = Vec3(m.linear), r.angular = Vec3(m.angular);
     const double per_step = 1 / options.step;
     r.extra_linear = Vec3(displacements[index].linear) * per_step - r.linear;
     r.extra_angular = Vec3(displacements[index].angular) * per_step - r.angular;
   } else {
-    // Nothing touches it: the exact parabola, in double precision.
+    // Nothing touches it: the exact parabola and free rotation, in double precision.
+    const FreeRotation free = rotate_freely(body.world_from_com.rotation, body.inertia,
+                                            blocks.angular_velocity(body.mobile), options.step);
     r.linear = blocks.linear_velocity(body.mobile);
-    r.angular = gyroscopic(body, blocks.angular_velocity(body.mobile), options.step);
     r.linear.z -= options.gravity * options.step;
     r.extra_linear = {0, 0, 0.5 * options.gravity * options.step};
-    r.extra_angular = {};
+    r.angular = free.angular;
+    r.turns_freely = true;
+    r.rotation = free.rotation;
   }
 }
 
@@ -197,7 +174,6 @@ void World::Impl::advance() {
   rates.resize(blocks.size());
   block_awake.assign(blocks.block_count(), 0);
   body_of.resize(blocks.size());
-  lateness = calc_lateness();
   for (std::size_t i = 0; i < data.bodies.size(); ++i) {
     const Body& body = data.bodies[i];
     if (!body.awake || body.mobile < 0) continue;
@@ -305,7 +281,7 @@ void World::step() {
     w.remove_lost();
   }
   ++w.data.steps;
-  if (w.data.proof_steps >= 0) ++w.data.proof_steps;
+  if (w.data.verification_steps >= 0) ++w.data.verification_steps;
 }
 
 }  // namespace rubble

@@ -91,10 +91,10 @@ TEST_P(ArticulatedAsset, SettlesWithinItsLimitsAndDoesNotCreep) {
     for (int i = 0; i < 10; ++i) world.step();
     check_joints();
     if (!still()) continue;
-    world.prove_rest();
+    world.begin_rest_verification();
     for (int i = 0; i < 75 && !rests; ++i) {
       world.step();
-      rests = world.proved_rest(0.05, 0.2);
+      rests = world.rest_verified(0.05, 0.2);
     }
   }
   EXPECT_TRUE(rests) << "after " << world.time() << " s";

@@ -52,7 +52,7 @@ PileState pour_heap(double friction, std::uint64_t seed) {
     world.add(pieces);
     for (int step = 0; step < kSteps; ++step) world.step();
   }
-  world.prove_rest();  // as settling does
+  world.begin_rest_verification();  // as settling does
   for (int step = 0; step < kLastSteps; ++step) world.step();
   PileState state;
   for (int i = 0; i < world.size(); ++i) state.pieces.push_back(world.piece(i));

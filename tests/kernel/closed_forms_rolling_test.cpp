@@ -163,5 +163,21 @@ TEST(ClosedFormRolling, ASpinningDrumEndsAtAThirdOfItsRimSpeed) {
   EXPECT_NEAR(world.piece(0).angular_velocity.y, 200.0 / 3, 0.05 * 200 / 3);
 }
 
+// The ends of drums, of more corners than a contact takes: they stand on all of the rim.
+TEST(ClosedFormRolling, ADrumOfManyFacetsStandsOnItsEnd) {
+  for (const bool on_slab : {false, true}) {
+    World world({drum_type(0.3, 0.5, 500), box_type("slab", 2, 2, 0.2)}, awake_options());
+    const double bottom = on_slab ? 1 : 0;
+    const Quat upright = turned({1, 0, 0}, 0.5 * portable::kPi);
+    world.add({at(0, {0, 0, bottom + 0.25 + kGap}, upright),
+               at(1, {0, 0, on_slab ? 0.9 : -9}, {}, true)});
+    run(world, 3);
+    const Pose pose = world.piece(0).world_from_body;
+    EXPECT_NEAR(std::abs(pose.rotation.rotate({0, 1, 0}).z), 1, 1e-5) << on_slab;
+    EXPECT_NEAR(pose.translation.z, bottom + 0.25, 0.002) << on_slab;
+    EXPECT_LT(std::hypot(pose.translation.x, pose.translation.y), 0.002) << on_slab;
+  }
+}
+
 }  // namespace
 }  // namespace rubble

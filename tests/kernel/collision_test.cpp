@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "kernel/collision/gjk.h"
 #include "kernel/collision/manifold.h"
+#include "kernel/collision/narrow_phase.h"
 #include "kernel/collision/sat.h"
 #include "kernel/geometry/shape.h"
 #include "scenes.h"
@@ -100,6 +103,30 @@ TEST(Sat, DepthOfOverlappingBoxes) {
   EXPECT_NEAR(s.normal.z, 1, 1e-6);
 }
 
+// Sides that are nearly level with the ramp, and edges that are nearly along its own: no pair of
+// edges may pass for an axis that keeps them apart.
+TEST(Sat, DepthOfAFineDrumInALongRamp) {
+  const Shape ramp = compile_shape(testing::box_type("ramp", 300, 6, 1), "t");
+  PieceType type = testing::box_type("drum", 1, 1, 1);
+  type.parts[0].points.clear();
+  for (int i = 0; i < 800; ++i) {
+    const double angle = 2 * portable::kPi * (i / 2 + 0.5) / 400;
+    type.parts[0].points.push_back({portable::sin(angle), i % 2 - 0.5, portable::cos(angle)});
+  }
+  const Shape drum = compile_shape(type, "t");
+  RandomStream random(7, "test");
+  const Quat slope = testing::turned({0, 1, 0}, 0.0873);
+  const Posed below(ramp, slope);
+  for (int i = 0; i < 100; ++i) {
+    const Posed above(drum, slope * testing::turned({1, 0, 0}, random.uniform(-2e-4, 2e-4)) *
+                                testing::turned({0, 1, 0}, random.uniform(0, 7)));
+    const Vec3 offset = slope.rotate({random.uniform(-140, 140), 0, 1.5 - 0.0012});
+    const SatResult s = find_separating_axis(below.part(), above.part(), Vec3f(offset));
+    EXPECT_NEAR(s.separation, -0.0012, 0.0004) << i;
+    EXPECT_GT(dot(Vec3(s.normal), slope.rotate({0, 0, 1})), 0.9998) << i;
+  }
+}
+
 TEST(Manifold, BoxOnBoxHasFourCorners) {
   const Shape box = compile_shape(testing::box_type("b", 1, 1, 1), "t");
   const Posed a(box, {}), b(box, {});
@@ -136,6 +163,41 @@ TEST(Manifold, TheDeepestPointAlwaysStays) {
   float kept = 1;
   for (int i = 0; i < m.count; ++i) kept = std::min(kept, m.points[i].predicted);
   EXPECT_EQ(deepest, kept);
+}
+
+// A wheel that rolls at 200 rad/s, 1 mm above the ground: its corners ahead come down at up to
+// 20 m/s, but none comes below the ground in the step, so no point may ask it to rise.
+TEST(GroundContact, DoesNotThrowAFastWheelUp) {
+  constexpr int kSides = 320;
+  PieceType type = testing::box_type("wheel", 1, 1, 1);
+  type.parts[0].points.clear();
+  for (int i = 0; i < 2 * kSides; ++i) {
+    const double angle = 2 * portable::kPi * (i / 2 + 0.5) / kSides;
+    type.parts[0].points.push_back(
+        {0.1 * portable::sin(angle), 0.05 * (i % 2), 0.1 * portable::cos(angle)});
+  }
+  const Shape wheel = compile_shape(type, "t");
+  const Posed posed(wheel, {});
+  PosedBody body{posed.part(), {0, 0, 0.101}, {20, 0, 0}, {0, 200, 0}};
+  const NarrowSettings settings;
+  Contact contact;
+  update_ground_contact(contact, body, motion_margin({20, 0, 0}, 20.8F, settings), settings);
+  ASSERT_GT(contact.count, 0);
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& p = contact.points[i];
+    const float falls = -(body.linear + cross(body.angular, p.from_a)).z;
+    EXPECT_LT(falls - p.separation / settings.step, 0.05) << i;
+  }
+  // Falling at 3 m/s it must be caught: by 3 m/s less 1 mm a step.
+  body.linear.z = -3;
+  update_ground_contact(contact, body, motion_margin({20, 0, -3}, 20.8F, settings), settings);
+  float most = 0;
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& p = contact.points[i];
+    const float falls = -(body.linear + cross(body.angular, p.from_a)).z;
+    most = std::max(most, falls - p.separation / settings.step);
+  }
+  EXPECT_NEAR(most, 3 - 0.06, 0.05);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "kernel/base/error.h"
@@ -59,6 +60,52 @@ TEST(Hull, EveryPointOfARandomSetIsInside) {
     }
     // Euler: corners - edges + faces = 2.
     EXPECT_EQ(hull.points.size() + hull.faces.size(), edges / 2 + 2);
+  }
+}
+
+// Of a face's corners, from the plane of its area.
+double calc_bend(const Hull& hull, const std::vector<int>& face) {
+  Vec3 area, middle;
+  for (std::size_t i = 0; i < face.size(); ++i) {
+    const Vec3 &p = hull.points[face[i]], &q = hull.points[face[(i + 1) % face.size()]];
+    area += cross(p - hull.points[face[0]], q - hull.points[face[0]]);
+    middle += p * (1.0 / double(face.size()));
+  }
+  double bend = 0;
+  for (const int p : face) {
+    bend = std::max(bend, std::abs(dot(normalized(area), hull.points[p] - middle)));
+  }
+  return bend;
+}
+
+// Sides of 1.2 to 0.72 degrees: each is a face of its own, and plane.
+TEST(Hull, ADrumKeepsItsSidesHoweverMany) {
+  for (const int sides : {300, 363, 400, 500}) {
+    for (const double radius : {0.3, 1.0, 4.0}) {
+      std::vector<Vec3> points;
+      for (int i = 0; i < 2 * sides; ++i) {
+        const auto [s, c] = portable::sincos(portable::kPi * (i / 2 * 2 + 1) / sides);
+        points.push_back({radius * s, i % 2 - 0.5, radius * c});
+      }
+      const Hull hull = calc_hull(points);
+      EXPECT_EQ(hull.points.size(), points.size()) << sides;
+      EXPECT_EQ(hull.faces.size(), std::size_t(sides) + 2) << sides << " " << radius;
+      for (const auto& face : hull.faces) ASSERT_LT(calc_bend(hull, face), 2e-5 * radius) << sides;
+    }
+  }
+}
+
+// A box whose corners are off by up to 0.01 mm is a box still.
+TEST(Hull, CornersWrittenToAHundredthOfAMillimetreAreStillPlane) {
+  RandomStream random(6, "test");
+  for (int i = 0; i < 50; ++i) {
+    const Quat q = random.rotation();
+    std::vector<Vec3> points = box_part(0.5, 0.2, 0.1).points;
+    for (Vec3& p : points) {
+      p = q.rotate(p);
+      for (int k = 0; k < 3; ++k) p[k] = std::round(p[k] * 1e5) * 1e-5;
+    }
+    EXPECT_EQ(calc_hull(points).faces.size(), 6u);
   }
 }
 

@@ -21,11 +21,11 @@ constexpr double kSpeed = 0.05, kAngularSpeed = 0.2;
 
 // Steps until rest is proved or `seconds` are over; the seconds it took, or infinity.
 double prove(World& world, double seconds) {
-  world.prove_rest();
+  world.begin_rest_verification();
   const double start = world.time();
   while (world.time() < start + seconds) {
     world.step();
-    if (world.proved_rest(kSpeed, kAngularSpeed)) return world.time() - start;
+    if (world.rest_verified(kSpeed, kAngularSpeed)) return world.time() - start;
   }
   return INFINITY;
 }
@@ -47,11 +47,11 @@ TEST(ProofOfRest, WhoOnlySleepsHasProvedNothing) {
   run(world, 2);
   ASSERT_EQ(world.awake_count(), 0);
   EXPECT_TRUE(world.at_rest(kSpeed, kAngularSpeed));
-  EXPECT_FALSE(world.proving());
-  EXPECT_FALSE(world.proved_rest(kSpeed, kAngularSpeed));
+  EXPECT_FALSE(world.verifying_rest());
+  EXPECT_FALSE(world.rest_verified(kSpeed, kAngularSpeed));
   EXPECT_LT(prove(world, 2), 2);
   world.add({at(0, {2, 0, 0.1})});  // what is new has proved nothing
-  EXPECT_FALSE(world.proved_rest(kSpeed, kAngularSpeed));
+  EXPECT_FALSE(world.rest_verified(kSpeed, kAngularSpeed));
 }
 
 // On a slope a little steeper than friction holds it begins so slowly that it falls asleep.
@@ -79,10 +79,10 @@ TEST(ProofOfRest, WhoSlidesMoreSlowlyThanTheLimitsPassesOnlyOnceItStays) {
     World world({box});
     world.add({at(0, {0, 0, 0.1})});
     run(world, 1);
-    world.prove_rest();
+    world.begin_rest_verification();
     world.set_velocity(0, {speed, 0, 0}, {});
     std::vector<Vec3> places;
-    while (places.size() < 600 && !world.proved_rest(kSpeed, kAngularSpeed)) {
+    while (places.size() < 600 && !world.rest_verified(kSpeed, kAngularSpeed)) {
       world.step();
       places.push_back(world.piece(0).world_from_body.translation);
     }

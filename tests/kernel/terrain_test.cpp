@@ -142,7 +142,7 @@ PieceType wavy_sheet() {
   return type;
 }
 
-// Thin bars come at half the speed: at 10 m/s about one in ten of them goes through these spikes.
+// Thin bars tumble past an edge now and then: docs/performance.md, "Where the physics gives way".
 TEST(Terrain, NothingFallsThroughAMeshAtTenMetresASecond) {
   std::vector<PieceType> types{wavy_sheet(), testing::chunk_type("chunk", 3),
                                box_type("brick", 0.215, 0.1025, 0.065), testing::bar_type(1, 0.01),
@@ -156,7 +156,7 @@ TEST(Terrain, NothingFallsThroughAMeshAtTenMetresASecond) {
       NewPiece piece = at(1 + i % 5, {-1.6 + 0.8 * (i % 5) + 1e-3 * run, -1.6 + 0.8 * (i / 5), 5.0},
                           turned({1, double(i % 7) - 3, 2}, 0.7 * i));
       if (i % 5 == 0) piece.placement.scale = 0.2;
-      piece.linear_velocity = {1.0, 0, i % 5 == 2 ? -5.0 : -10.0};
+      piece.linear_velocity = {1.0, 0, -10.0};
       pieces.push_back(piece);
     }
     world.add(pieces);

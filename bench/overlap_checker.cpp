@@ -2,63 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <set>
 #include <tuple>
 
 #include "bench/penetration.h"
-#include "bench/true_hull.h"
+#include "bench/placed_parts.h"
 
 namespace rubble {
 namespace {
 
-struct Part {
-  int piece = 0;
-  bool fixed = false;
-  PlacedHull hull;
-};
-
-std::vector<Part> place_parts(const std::vector<PieceType>& types, const PileState& state) {
-  std::vector<std::vector<TrueHull>> hulls;
-  for (const PieceType& type : types) {
-    hulls.emplace_back();
-    for (const ConvexPart& part : type.parts) hulls.back().push_back(make_true_hull(part.points));
-  }
-  std::vector<Part> parts;
-  for (std::size_t i = 0; i < state.pieces.size(); ++i) {
-    const PieceState& piece = state.pieces[i];
-    if (piece.status == PieceStatus::lost) continue;
-    for (const TrueHull& hull : hulls[std::size_t(piece.type)]) {
-      parts.push_back({int(i), piece.status == PieceStatus::fixed,
-                       place_hull(hull, piece.scale, piece.world_from_body)});
-    }
-  }
-  return parts;
-}
-
-// Calls visit(part, part) for parts of different pieces whose boxes come closer than `gap`: sorted
-// and swept along x.
-template <typename Visit>
-void find_near_parts(const std::vector<Part>& parts, double gap, Visit&& visit) {
-  std::vector<std::size_t> order(parts.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::sort(order.begin(), order.end(), [&parts](std::size_t i, std::size_t j) {
-    return parts[i].hull.box.min.x < parts[j].hull.box.min.x;
-  });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Part& a = parts[order[i]];
-    const Aabb& box = a.hull.box;
-    for (std::size_t j = i + 1; j < order.size(); ++j) {
-      const Part& b = parts[order[j]];
-      const Aabb& other = b.hull.box;
-      if (other.min.x > box.max.x + gap) break;
-      if (other.min.y > box.max.y + gap || box.min.y > other.max.y + gap ||
-          other.min.z > box.max.z + gap || box.min.z > other.max.z + gap || a.piece == b.piece ||
-          (a.fixed && b.fixed)) {
-        continue;
-      }
-      visit(a, b);
-    }
-  }
+// Pieces that a joint holds together are built into each other.
+std::set<std::pair<int, int>> find_joined(const PileState& state) {
+  std::set<std::pair<int, int>> joined;
+  for (const JointState& joint : state.joints)
+    joined.insert(std::minmax(int(joint.parent), int(joint.child)));
+  return joined;
 }
 
 // One entry per pair of pieces, that of the deepest parts.
@@ -75,9 +33,11 @@ std::vector<Overlap> merge_parts(std::vector<Overlap> found) {
 
 OverlapReport check_overlaps(const std::vector<PieceType>& types, const PileState& state,
                              double touch_gap) {
-  const std::vector<Part> parts = place_parts(types, state);
+  const std::vector<PlacedPart> parts = place_parts(types, state);
+  const std::set<std::pair<int, int>> joined = find_joined(state);
   std::vector<Overlap> touching;
-  find_near_parts(parts, touch_gap, [&](const Part& a, const Part& b) {
+  find_near_parts(parts, touch_gap, [&](const PlacedPart& a, const PlacedPart& b) {
+    if (joined.count(std::minmax(a.piece, b.piece))) return;
     const double depth = calc_penetration(a.hull, b.hull).depth;
     if (depth < -touch_gap) return;
     if (depth <= 0 && !closer_than_ccd(a.hull, b.hull, touch_gap)) return;
@@ -92,7 +52,7 @@ OverlapReport check_overlaps(const std::vector<PieceType>& types, const PileStat
   }
   std::stable_sort(report.overlaps.begin(), report.overlaps.end(),
                    [](const Overlap& p, const Overlap& q) { return p.depth > q.depth; });
-  for (const Part& part : parts) {
+  for (const PlacedPart& part : parts) {
     if (part.fixed || -part.hull.box.min.z <= report.ground_max) continue;
     report.ground_max = -part.hull.box.min.z;
     report.deepest_in_ground = part.piece;

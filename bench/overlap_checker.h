@@ -35,7 +35,7 @@ struct OverlapReport {
   double largest_disagreement() const;
 };
 
-// Lost pieces are left out, and so are pairs of immovable ones.
+// Lost pieces are left out, and so are pairs of immovable ones and pairs that a joint holds.
 OverlapReport check_overlaps(const std::vector<PieceType>& types, const PileState& state,
                              double touch_gap = kTouchGap);
 

@@ -28,14 +28,14 @@ Interval project(const std::vector<Vec3>& corners, const Vec3& direction) {
 }
 
 // Keeps the shorter of the two ways along a direction, if it is shorter than the best so far.
-// Returns false when the hulls are apart along it.
-bool try_direction(const PlacedHull& a, const PlacedHull& b, const Vec3& direction,
+// Returns false when the hulls are farther apart along it than `gap`.
+bool try_direction(const PlacedHull& a, const PlacedHull& b, const Vec3& direction, double gap,
                    Penetration& best) {
   const Interval ia = project(a.hull.corners, direction);
   const Interval ib = project(b.hull.corners, direction);
   if (ia.high - ib.low < best.depth) best = {ia.high - ib.low, direction};
   if (ib.high - ia.low < best.depth) best = {ib.high - ia.low, -direction};
-  return best.depth >= 0;
+  return best.depth >= -gap;
 }
 
 // A hull as libccd sees it: corners about a common origin, enlarged by a sphere.
@@ -68,18 +68,18 @@ ccd_t make_settings() {
 
 }  // namespace
 
-Penetration calc_penetration(const PlacedHull& a, const PlacedHull& b) {
+Penetration calc_penetration(const PlacedHull& a, const PlacedHull& b, double gap) {
   Penetration best;
   for (const PlacedHull* hull : {&a, &b}) {
     for (const Vec3& n : hull->hull.face_normals) {
-      if (!try_direction(a, b, n, best)) return best;
+      if (!try_direction(a, b, n, gap, best)) return best;
     }
   }
   for (const Vec3& ea : a.hull.edge_directions) {
     for (const Vec3& eb : b.hull.edge_directions) {
       const Vec3 c = cross(ea, eb);
       const double length = norm(c);
-      if (length > kParallel && !try_direction(a, b, c * (1 / length), best)) return best;
+      if (length > kParallel && !try_direction(a, b, c * (1 / length), gap, best)) return best;
     }
   }
   return best;

@@ -15,7 +15,9 @@ struct Penetration {
   double depth = 1e300;
   Vec3 direction;  // moving b by depth along it parts the hulls; unit length
 };
-Penetration calc_penetration(const PlacedHull& a, const PlacedHull& b);
+// gap: hulls that are apart by less than this get their exact figures, too: the direction along which
+// they are farthest apart; at most their distance, which it equals unless corner is next to corner or edge. unit: m; >= 0
+Penetration calc_penetration(const PlacedHull& a, const PlacedHull& b, double gap = 0);
 
 // libccd's depth, 0 when it finds the hulls apart. unit: m
 double calc_depth_ccd(const PlacedHull& a, const PlacedHull& b);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the bench and writes its figures into docs/performance.md.
+"""Runs the bench and writes its figures into docs/performance.md and docs/equilibrium.md.
 
 Everything between `<!-- begin NAME -->` and `<!-- end NAME -->` there is replaced; the text around
 it is written by people. Nothing in those tables is typed by hand.
@@ -17,6 +17,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DOCUMENT = ROOT / "docs" / "performance.md"
+DOCUMENTS = {"equilibrium": ROOT / "docs" / "equilibrium.md"}  # of sections that stand elsewhere
 SETTLING = [  # work, schedule, threads
     ("w1", "layers", 1), ("w1", "layers", 2), ("w1", "planes", 1), ("w1", "planes", 2),
     ("w2", "layers", 1), ("w2", "layers", 2), ("w2", "planes", 1), ("w2", "planes", 2),
@@ -136,6 +137,19 @@ def make_render(build):
         max(int(row["peak_rss_mib"]) for row in rows))
 
 
+def make_equilibrium(build):
+    """What out/equilibrium.jsonl has of an earlier run is used again; delete it for a new table."""
+    records = ROOT / "out" / "equilibrium.jsonl"
+    records.parent.mkdir(exist_ok=True)
+    command = [str(build / "equilibrium_bench"), "--work", "all", "--seeds", "1..%d" % SEEDS,
+               "--jobs", str(os.cpu_count()), "--markdown", "--out", str(records)]
+    print("$", " ".join(command), file=sys.stderr, flush=True)
+    run = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    if run.returncode not in (0, 3):
+        sys.exit("%s failed with %d" % (command[0], run.returncode))
+    return make_machine(build) + "\n\n" + run.stdout.split("\n\n")[1].strip()
+
+
 def make_machine(build):
     del build
     model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
@@ -149,23 +163,27 @@ def make_machine(build):
 
 SECTIONS = {"machine": make_machine, "settling": make_settling, "stages": make_stages,
             "seeds": make_seeds, "hold": make_hold, "scaling": make_scaling, "recording": make_recording,
-            "render": make_render}
+            "render": make_render, "equilibrium": make_equilibrium}
 
 
 def main():
+    global SEEDS
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
+    parser.add_argument("--seeds", type=int, default=SEEDS, help="piles of a work (default: %d)" % SEEDS)
     parser.add_argument("sections", nargs="*", help="of: " + ", ".join(SECTIONS))
     args = parser.parse_args()
+    SEEDS = args.seeds
     unknown = [name for name in args.sections if name not in SECTIONS]
     if unknown:
         parser.error("no section is named " + ", ".join(unknown))
     for name in args.sections or SECTIONS:
         body = SECTIONS[name](args.build)
-        text = DOCUMENT.read_text()
+        document = DOCUMENTS.get(name, DOCUMENT)
+        text = document.read_text()
         begin, end = "<!-- begin %s -->" % name, "<!-- end %s -->" % name
         head, rest = text.split(begin)
-        DOCUMENT.write_text(head + begin + "\n" + body + "\n" + end + rest.split(end)[1])
+        document.write_text(head + begin + "\n" + body + "\n" + end + rest.split(end)[1])
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ SettleRun run_settling(const Pile& pile, const SettleJob& job) {
   run.threads =
       job.options.threads > 0 ? job.options.threads : int(std::thread::hardware_concurrency());
   const Times begin = read_times();
-  World world(pile.types, calc_world_options(job.options));
+  World world(pile.types, calc_world_options(job.options), pile.assemblies);
   EjectionWatch watch(world);
   Times watching;  // is not the kernel's
   run.state = settle_pile(world, pile, job.options, [&](const SettleProgress&) {
@@ -49,7 +49,7 @@ SettleRun run_settling(const Pile& pile, const SettleJob& job) {
   for (int i = 0; i < world.size(); ++i) run.masses.push_back(world.mass(i));
   if (!job.judge) return run;
   run.overlaps = check_overlaps(pile.types, run.state);
-  measure_drift(world, job.options.step, run);
+  if (job.drift) measure_drift(world, job.options.step, run);
   return run;
 }
 

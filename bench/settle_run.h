@@ -37,6 +37,7 @@ struct SettleJob {
   std::string work;  // its name in the report
   SettleOptions options;
   bool judge = true;  // overlaps and drift; they take longer than settling
+  bool drift = true;  // with judge: drift, too
 };
 
 SettleRun run_settling(const Pile& pile, const SettleJob& job);

@@ -1,6 +1,7 @@
 #include "bench/true_hull.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -45,6 +46,39 @@ void add_direction(std::vector<Vec3>& directions, const Vec3& direction) {
   directions.push_back(unit);
 }
 
+// The members that span the face, counter-clockwise about its normal.
+std::vector<int> make_loop(const std::vector<Vec3>& points, const Members& members,
+                           const Vec3& normal) {
+  const Vec3 least = std::abs(normal.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 u = normalized(cross(normal, least)), v = cross(normal, u);
+  const auto x = [&](int i) { return dot(u, points[i]); };
+  const auto y = [&](int i) { return dot(v, points[i]); };
+  std::vector<int> order = members, loop;
+  std::sort(order.begin(), order.end(), [&](int i, int j) {
+    return std::make_pair(x(i), y(i)) < std::make_pair(x(j), y(j));
+  });
+  // Andrew's monotone chain: the lower side from left to right, then the upper one back.
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t begin = loop.size();
+    for (int i : order) {
+      while (loop.size() >= begin + 2) {
+        const int a = loop[loop.size() - 2], b = loop.back();
+        if ((x(b) - x(a)) * (y(i) - y(a)) > (y(b) - y(a)) * (x(i) - x(a))) break;
+        loop.pop_back();
+      }
+      loop.push_back(i);
+    }
+    loop.pop_back();
+    std::reverse(order.begin(), order.end());
+  }
+  return loop;
+}
+
+Vec3 outward_normal(const std::vector<Vec3>& points, int i, int j, int k, const Vec3& middle) {
+  const Vec3 normal = normalized(cross(points[j] - points[i], points[k] - points[i]));
+  return dot(normal, middle - points[i]) > 0 ? -normal : normal;
+}
+
 double longest_extent(const std::vector<Vec3>& points) {
   Aabb box;
   for (const Vec3& p : points) box.include(p);
@@ -59,12 +93,16 @@ TrueHull make_true_hull(const std::vector<Vec3>& points) {
   const double size = count > 0 ? longest_extent(points) : 0;
   std::set<Members> faces;
   TrueHull hull;
+  Vec3 middle;
+  for (const Vec3& p : points) middle += p * (1.0 / count);
   for (int i = 0; i < count; ++i) {
     for (int j = i + 1; j < count; ++j) {
       for (int k = j + 1; k < count; ++k) {
         const Plane plane = find_plane(points, i, j, k, size);
         if (!plane.supporting || !faces.insert(plane.members).second) continue;
-        add_direction(hull.face_normals, cross(points[j] - points[i], points[k] - points[i]));
+        const Vec3 normal = outward_normal(points, i, j, k, middle);
+        add_direction(hull.face_normals, normal);
+        hull.faces.push_back({normal, make_loop(points, plane.members, normal)});
       }
     }
   }
@@ -80,7 +118,13 @@ TrueHull make_true_hull(const std::vector<Vec3>& points) {
   for (const auto& [pair, shared] : faces_of_pair) {
     if (shared >= 2) add_direction(hull.edge_directions, points[pair.second] - points[pair.first]);
   }
-  for (int corner : corners) hull.corners.push_back(points[corner]);
+  std::map<int, int> number;  // of each corner, by its place among the points
+  for (int corner : corners) {
+    number[corner] = int(hull.corners.size());
+    hull.corners.push_back(points[corner]);
+  }
+  for (TrueHull::Face& face : hull.faces)
+    for (int& corner : face.loop) corner = number[corner];
   return hull;
 }
 
@@ -93,6 +137,9 @@ PlacedHull place_hull(const TrueHull& hull, double scale, const Pose& world_from
     placed.middle += p;
   }
   placed.middle *= 1.0 / double(hull.corners.size());
+  for (const TrueHull::Face& face : hull.faces) {
+    placed.hull.faces.push_back({world_from_body.rotation.rotate(face.normal), face.loop});
+  }
   for (const Vec3& n : hull.face_normals) {
     placed.hull.face_normals.push_back(world_from_body.rotation.rotate(n));
   }

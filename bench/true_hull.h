@@ -10,7 +10,12 @@ namespace rubble {
 
 // In the frame of the piece's type, scale 1.
 struct TrueHull {
+  struct Face {
+    Vec3 normal;            // unit length, outwards
+    std::vector<int> loop;  // corners, counter-clockwise seen from outside
+  };
   std::vector<Vec3> corners;          // unit: m
+  std::vector<Face> faces;            // none twice; what lies in one plane is one face
   std::vector<Vec3> face_normals;     // unit length; one of each pair of opposite ones
   std::vector<Vec3> edge_directions;  // unit length; one of each set of parallel ones
 };

@@ -1,0 +1,11 @@
+-- Standard work of the equilibrium bench: all bundled packs in one pile.
+return rubble.mission {
+  seed = 1,
+  packs = { "concrete", "residential", "parking", "bridge" },
+  pile = {
+    layers = 4,
+    pieces_per_layer = 120,
+    spawn_position = { 0, 0, 5 },
+    spawn_bounds = { 7, 7, 8 },
+  },
+}

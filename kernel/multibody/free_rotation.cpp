@@ -42,6 +42,12 @@ Quat turned(const Quat& q, const Vec3& angle) {
   return normalized(q * Quat{1, angle.x * half, angle.y * half, angle.z * half});
 }
 
+// The smallest turn that brings one vector onto another of the same length, not opposite to it.
+Quat turn_onto(const Vec3& from, const Vec3& to) {
+  const Vec3 axis = cross(from, to);
+  return normalized(Quat{norm(from) * norm(to) + dot(from, to), axis.x, axis.y, axis.z});
+}
+
 }  // namespace
 
 FreeRotation rotate_freely(const Quat& world_from_body, const Mat3& inertia, const Vec3& angular,
@@ -51,12 +57,15 @@ FreeRotation rotate_freely(const Quat& world_from_body, const Mat3& inertia, con
   if (!(speed > kStill)) return {turned(world_from_body, w0 * dt), angular};
   const double count = std::min(kMostSubsteps, std::floor(speed * dt / kSubstepAngle) + 1);
   const double h = dt / count;
+  const Vec3 momentum = world_from_body.rotate(inertia * w0);
   Quat q = world_from_body;
   for (int i = 0; i < int(count); ++i) {
     const Vec3 w1 = step_velocity(inertia, w0, h);
     q = turned(q, (w0 + w1) * (0.5 * h));
     w0 = w1;
   }
+  // The momentum keeps its length, and is turned back to where it points in the world.
+  q = normalized(turn_onto(q.rotate(inertia * w0), momentum) * q);
   return {q, q.rotate(w0)};
 }
 

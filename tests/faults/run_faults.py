@@ -138,7 +138,7 @@ def main():
                             environment=machine.fault(call, n, machine.work / "count", out))
              for n in places(count, most)])
     sizes = [int(1024 * 1.5 ** i) for i in range(min(most, 20))]
-    row("no file larger than 1 kB to 2.2 MB", [machine.broken(f"limit {s}", (0, 2), limit=s)
+    row(f"no file larger than 1 kB to {sizes[-1] // 1000} kB", [machine.broken(f"limit {s}", (0, 2), limit=s)
                                                for s in sizes])
     row("killed", [machine.broken(f"kill {i}", (0, -signal.SIGKILL),
                                   kill_after=machine.seconds * (i + 0.5) / kills)

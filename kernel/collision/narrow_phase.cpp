@@ -204,6 +204,18 @@ void store_points(Contact& contact, const Manifold& manifold, const Vec3f& norma
   store(contact, manifold, normal, a, nullptr, Vec3f(-a.centre));
 }
 
+void follow_contact(Contact& contact, const PosedBody& a, const PosedBody& b) {
+  const Vec3f offset = Vec3f(b.centre - a.centre);
+  for (int i = 0; i < contact.count; ++i) {
+    ContactPoint& p = contact.points[i];
+    const Vec3f end_a = *a.part.rotation * p.local_a;
+    const Vec3f end_b = *b.part.rotation * p.local_b + offset;
+    p.from_a = (end_a + end_b) * 0.5F;
+    p.from_b = p.from_a - offset;
+    p.separation = p.found_separation + dot(contact.normal, end_b - end_a);
+  }
+}
+
 float update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, float margin,
                      const NarrowSettings& settings) {
   const Vec3f offset = Vec3f(b.centre - a.centre);

@@ -38,6 +38,8 @@ void store_points(Contact& contact, const Manifold& manifold, const Vec3f& norma
 // keep at least, else 0; unit: m.
 float update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, float margin,
                     const NarrowSettings& settings);
+// Moves the points along with two parts that have hardly moved since the last search.
+void follow_contact(Contact& contact, const PosedBody& a, const PosedBody& b);
 // The same against the ground, z = 0.
 void update_ground_contact(Contact& contact, const PosedBody& a, float margin,
                            const NarrowSettings& settings);

@@ -43,7 +43,7 @@ void each_field(Struct& p, Visit&& visit) {
 template <typename Struct, typename Visit, IfIs<Struct, Pair> = 0>
 void each_field(Struct& p, Visit&& visit) {
   visit(p.collider_a), visit(p.collider_b), visit(p.body_a), visit(p.body_b), visit(p.live);
-  visit(p.apart_until), visit(p.order);
+  visit(p.apart_until), visit(p.searched_until), visit(p.order);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, Contact> = 0>

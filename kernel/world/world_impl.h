@@ -111,6 +111,7 @@ struct World::Impl {
   void find_pairs();
   void select_pairs();
   void update_contacts();
+  void update_pair(Pair& pair, Contact& contact);
   void note_sweeps();
   Aabb calc_swept_box(int collider) const;
   std::uint8_t classify(const Pair& pair) const;

@@ -11,6 +11,9 @@ namespace {
 // Parts make points when they are closer than kPointMargin and what a step adds: the fixed margin
 // of the search asks for more, and a hair is left for rounding.
 constexpr float kSparedMargin = NarrowSettings{}.margin - kPointMargin - 1e-4F;
+// Where two parts have moved by less than this in all since the last search, their points only move
+// along: normals and lengths change by the square of it over their size; unit: m.
+constexpr double kFollowedTravel = 1e-4;
 constexpr double kLookAhead = 4;  // steps that an enlarged box reaches ahead
 
 // What becomes of a pair in a step.
@@ -215,6 +218,23 @@ void World::Impl::update_surface_slots(const Pair& first) {
   }
 }
 
+void World::Impl::update_pair(Pair& pair, Contact& contact) {
+  const PosedBody a = posed(data.colliders[pair.collider_a]);
+  const float margin = calc_margin(pair.body_a, pair.body_b);
+  if (pair.collider_b == kGround) {
+    update_ground_contact(contact, a, margin, narrow_settings);
+    pair.live = contact.count > 0;
+    return;
+  }
+  const PosedBody b = posed(data.colliders[pair.collider_b]);
+  const double travel = data.bodies[pair.body_a].travel + data.bodies[pair.body_b].travel;
+  if (pair.live && travel < pair.searched_until) return follow_contact(contact, a, b);
+  const float apart = update_contact(contact, a, b, margin, narrow_settings);
+  pair.apart_until = travel + double(apart + kSparedMargin);
+  pair.searched_until = travel + kFollowedTravel;
+  pair.live = contact.count > 0;
+}
+
 void World::Impl::update_contacts() {
   pool.run(int(active.size()), 64, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
@@ -223,18 +243,7 @@ void World::Impl::update_contacts() {
         if (surface_slot(pair.collider_b) == 0) update_surface_slots(pair);
         continue;
       }
-      Contact& contact = data.contacts[active[i]];
-      const PosedBody a = posed(data.colliders[pair.collider_a]);
-      const float margin = calc_margin(pair.body_a, pair.body_b);
-      if (pair.collider_b == kGround) {
-        update_ground_contact(contact, a, margin, narrow_settings);
-      } else {
-        const float apart = update_contact(contact, a, posed(data.colliders[pair.collider_b]),
-                                           margin, narrow_settings);
-        pair.apart_until = data.bodies[pair.body_a].travel + data.bodies[pair.body_b].travel +
-                           double(apart + kSparedMargin);
-      }
-      pair.live = contact.count > 0;
+      update_pair(pair, data.contacts[active[i]]);
     }
   });
 }

@@ -1,10 +1,15 @@
 #include "kernel/collision/sat.h"
 
+#include <algorithm>
+
 namespace rubble {
 namespace {
 
 // Edge pairs are worth it only when clearly better than the best face: faces make larger contacts.
 constexpr float kEdgeAdvantage = 1e-4F;
+// From this overlap an axis must lead out of the whole piece, and so far beyond the surface it must be
+// outside; unit: m.
+constexpr float kDeep = 0.003F, kBeyond = 0.005F;
 // Two edges separate the parts only if no corner reaches farther over their axis than this; unit: m.
 constexpr float kEdgeTolerance = 1e-4F;
 
@@ -14,17 +19,48 @@ float separation_along(const Vec3f& n, const PointSet& a, const PointSet& b, con
   return dot(n, pb - pa);
 }
 
+// The best axis of all, and the best of those that lead out of both pieces.
+class Candidates {
+ public:
+  Candidates(const PosedPart& a, const PosedPart& b, const Vec3f& offset)
+      : a_(a), b_(b), offset_(offset) {}
+
+  // Nothing is to be gained from an axis with less than this.
+  float least(float advantage) const { return free_.separation + advantage; }
+  void offer(const SatResult& r, float advantage) {
+    if (r.separation > any_.separation + advantage) any_ = r;
+    if (r.separation > free_.separation + advantage && leads_out(r)) free_ = r;
+  }
+  SatResult choose() const {
+    const bool deep = any_.separation < -kDeep;
+    return deep && free_.separation > kNone ? free_ : any_;
+  }
+
+ private:
+  static constexpr float kNone = -1e30F;
+
+  bool leads_out(const SatResult& r) const {
+    const Vec3f beyond = r.normal * (kBeyond - 0.5F * r.separation);
+    return !a_.is_inside_sibling(r.point + beyond) &&
+           !b_.is_inside_sibling(r.point - beyond - offset_);
+  }
+
+  const PosedPart &a_, &b_;
+  Vec3f offset_;
+  SatResult any_{{0, 0, 1}, kNone, {}}, free_{{0, 0, 1}, kNone, {}};
+};
+
 void try_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, float sign,
-               SatResult& best) {
+               Candidates& best) {
   const PosedPart& owner = sign > 0 ? a : b;
   for (int f = 0; f < int(owner.shape->faces.size()); ++f) {
     const Vec3f n = owner.face_normal(f) * sign;
     const float s = separation_along(n, a.corners, b.corners, offset);
-    if (s <= best.separation) continue;
+    if (s <= best.least(0)) continue;
     // The deepest corner of the other part, halfway back to the face.
     const Vec3f corner = sign > 0 ? b.corners.points[find_support(b.corners, -n)] + offset
                                   : a.corners.points[find_support(a.corners, n)];
-    best = {n, s, corner - n * (sign * 0.5F * s)};
+    best.offer({n, s, corner - n * (sign * 0.5F * s)}, 0);
   }
 }
 
@@ -45,7 +81,7 @@ Vec3f crossing(const Vec3f& p, const Vec3f& d, const Vec3f& q, const Vec3f& e) {
   return (p + d * t + q + e * u) * 0.5F;
 }
 
-void try_edges(const PosedPart& a, const PosedPart& b, const Vec3f& offset, SatResult& best) {
+void try_edges(const PosedPart& a, const PosedPart& b, const Vec3f& offset, Candidates& best) {
   for (const auto& ea : a.shape->edges) {
     const Vec3f na = a.face_normal(ea.left_face), ma = a.face_normal(ea.right_face);
     const Vec3f da = a.corners.points[ea.b] - a.corners.points[ea.a];
@@ -61,10 +97,10 @@ void try_edges(const PosedPart& a, const PosedPart& b, const Vec3f& offset, SatR
       if (dot(n, na + ma) < 0) n = -n;
       const Vec3f from_a = a.corners.points[ea.a], from_b = b.corners.points[eb.a] + offset;
       const float s = dot(n, from_b - from_a);
-      if (s <= best.separation + kEdgeAdvantage) continue;
+      if (s <= best.least(kEdgeAdvantage)) continue;
       // Where faces are nearly level with each other, rounding lets arcs cross that do not.
       if (separation_along(n, a.corners, b.corners, offset) < s - kEdgeTolerance) continue;
-      best = {n, s, crossing(from_a, da, from_b, db)};
+      best.offer({n, s, crossing(from_a, da, from_b, db)}, kEdgeAdvantage);
     }
   }
 }
@@ -82,12 +118,25 @@ int PosedPart::find_face(const Vec3f& direction) const {
   return best;
 }
 
+bool PosedPart::is_inside_sibling(const Vec3f& point) const {
+  if (piece == nullptr) return false;
+  const Vec3f local = rotation->transposed() * point * (1 / scale);
+  for (const ConvexShape& part : piece->parts) {
+    if (&part == shape) continue;
+    const bool inside = std::all_of(part.faces.begin(), part.faces.end(), [&](const auto& face) {
+      return dot(face.normal, local - part.corners[part.loops[face.first]]) < 0;
+    });
+    if (inside) return true;
+  }
+  return false;
+}
+
 SatResult find_separating_axis(const PosedPart& a, const PosedPart& b, const Vec3f& offset) {
-  SatResult best{{0, 0, 1}, -1e30F, {}};
+  Candidates best(a, b, offset);
   try_faces(a, b, offset, 1, best);
   try_faces(a, b, offset, -1, best);
   try_edges(a, b, offset, best);
-  return best;
+  return best.choose();
 }
 
 }  // namespace rubble

@@ -3,10 +3,19 @@
 
 namespace rubble {
 
-// A piece becomes no faster sideways or upwards in one step than the fastest point that touches it was,
-// and this much on top: the speed of a plastic impact is within it, what a wedge between two heavy
-// pieces may gain beyond it is not. See World::Impl::limit_kicks(). unit: m/s
-inline constexpr float kFreeKick = 1.0F;
+// A piece squeezed out from under a heavy one becomes faster sideways or upwards by this much in a step
+// at most, or by as much as brings it to this share of the speed of the fastest point that touches it; and
+// never faster than that point by more than the former. A plastic impact that needs more takes two or
+// three steps. Without it one piece in a thousand leaves the pile at more than 8 m/s.
+inline constexpr float kFreeKick = 1.0F;   // unit: m/s
+inline constexpr float kKickShare = 0.4F;  // unit: 1
+// What still trembles when a verification of rest has lasted this long, such as a slab that rocks between
+// two supports close together, loses its last speed by up to this share in each step. A slope must then be
+// steeper than friction holds by 1 % of gravity, or what slides on it counts as at rest. Nothing else is
+// damped, and nothing outside a verification.
+inline constexpr float kPatience = 6, kPatienceEnds = 8;               // unit: s
+inline constexpr float kLateDamping = 0.2F;                            // unit: 1
+inline constexpr float kTremblingSpin = 3.0F, kTremblingSpeed = 0.2F;  // below these; unit: rad/s, m/s
 // Contacts spin a piece no faster than this, unless it turned faster before: then they add this much
 // a step at most. Arms are those of the step's start: what turns by more than half a radian in a step
 // is pushed where it no longer is, gains spin by it, and passes it on. unit: rad/s

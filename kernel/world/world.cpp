@@ -181,7 +181,9 @@ PosedBody World::Impl::posed(const Collider& collider) const {
   PosedBody result;
   result.part = {&shape,
                  {&data.corners[collider.first_corner], int(shape.corners.size())},
-                 &body.rotation};
+                 &body.rotation,
+                 body.collider_count > 1 ? body.shape : nullptr,
+                 float(body.scale)};
   result.centre = body.world_from_com.translation;
   result.linear = body.linear;
   result.angular = body.angular;

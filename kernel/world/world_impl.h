@@ -90,6 +90,7 @@ struct World::Impl {
   std::vector<std::uint8_t> moves;  // by number in SimbodyBlocks
   std::vector<Motion> velocities, displacements;
   std::vector<BodyRates> rates;  // by number in SimbodyBlocks
+  float lateness = 0;  // see calc_lateness()
   std::vector<float> fastest;
   std::vector<std::int32_t> neighbour;
   std::vector<TreeMotion> tree_motions;       // by number of the tree
@@ -147,6 +148,7 @@ struct World::Impl {
   void give_back(std::size_t piece, const Vec3f& speed);
   void limit_kicks();
   void advance();
+  float calc_lateness() const;
   void set_rates(std::size_t body);
   double calc_travel(const Body& body) const;
   void remove_lost();

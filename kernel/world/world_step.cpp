@@ -123,8 +123,10 @@ void World::Impl::limit_kicks() {
   for (std::size_t i = 0; i < data.bodies.size(); ++i) {
     if (!may_kick(data.bodies[i])) continue;
     const float after = norm(outwards(velocities[i].linear));
-    const float most =
-        std::max(speed_before(data.bodies[i]), fastest[i] + kFreeKick);
+    const float before = speed_before(data.bodies[i]);
+    const float squeezed = std::max(before, kKickShare * fastest[i]) + kFreeKick;
+    const float struck = fastest[i] + kFreeKick;  // one neighbour alone cannot squeeze
+    const float most = std::max(before, neighbour[i] == kSeveral ? std::min(squeezed, struck) : struck);
     if (after <= most) continue;
     const float keep = most / after;
     give_back(i, outwards(velocities[i].linear) * (1 - keep));
@@ -135,6 +137,12 @@ void World::Impl::limit_kicks() {
   }
 }
 
+// 0 while a verification of rest may yet succeed by itself, 1 when it has lasted too long.
+float World::Impl::calc_lateness() const {
+  const float seconds = float(data.verification_steps) * float(options.step);
+  return std::clamp((seconds - kPatience) / (kPatienceEnds - kPatience), 0.0F, 1.0F);
+}
+
 // The speeds after the step, and the extra rates that make up its displacement.
 void World::Impl::set_rates(std::size_t index) {
   const Body& body = data.bodies[index];
@@ -142,9 +150,11 @@ void World::Impl::set_rates(std::size_t index) {
   r = {};
   if (body.touching) {
     Motion m = velocities[index];
-    const float spin = norm(m.angular);
+    const float spin = norm(m.angular), speed = norm(m.linear);
     const float most = std::max(kFreeSpin, norm(body.angular) + kSpinGain);
     if (spin > most) m.angular *= most / spin;
+    if (lateness > 0 && spin < kTremblingSpin) m.angular *= 1 - kLateDamping * lateness;
+    if (lateness > 0 && speed < kTremblingSpeed) m.linear *= 1 - kLateDamping * lateness;
     r.linear = Vec3(m.linear), r.angular = Vec3(m.angular);
     const double per_step = 1 / options.step;
     r.extra_linear = Vec3(displacements[index].linear) * per_step - r.linear;
@@ -174,6 +184,7 @@ void World::Impl::advance() {
   rates.resize(blocks.size());
   block_awake.assign(blocks.block_count(), 0);
   body_of.resize(blocks.size());
+  lateness = calc_lateness();
   for (std::size_t i = 0; i < data.bodies.size(); ++i) {
     const Body& body = data.bodies[i];
     if (!body.awake || body.mobile < 0) continue;

@@ -17,7 +17,7 @@ constexpr double kThin = 0.01;
 constexpr std::size_t kManyCorners = 64;
 // Pieces that look far apart where they touch, or far sunk: the mean gap over the surface that a
 // volume amounts to, beyond what thin sheet needs for its parts' least thickness. unit: m
-constexpr double kLooseHull = 0.015;
+constexpr double kLooseHull = 0.016;
 
 struct AssetReport {
   std::string name;

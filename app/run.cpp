@@ -77,12 +77,37 @@ std::string describe_moving(const PileState& pile) {
          " pieces still moved" + first;
 }
 
+// From here on an overlap is worth a word; unit: m
+constexpr double kNotedOverlap = 0.005;
+
+std::string describe_overlap(const PileState& pile) {
+  const DeepestOverlap& o = pile.deepest_overlap;
+  const auto name = [&pile](std::int32_t piece) {
+    if (piece < 0) return std::string("the ground");
+    const std::string& type = pile.types[std::size_t(pile.pieces[std::size_t(piece)].type)];
+    return type + " (piece " + std::to_string(piece) + ")";
+  };
+  char depth[32];
+  std::snprintf(depth, sizeof depth, "%.0f mm", o.depth * 1000);
+  return name(o.piece_a) + " and " + name(o.piece_b) + " reach " + depth + " into each other";
+}
+
 ExitCode report(const Run& run, const RunFolder& folder) {
   std::printf("%s\n", folder.path().c_str());
-  if (run.pile.settled) return ExitCode::done;
+  const SettleOptions& options = run.pile_scenario.settle;
+  const double depth = run.pile.deepest_overlap.depth;
+  if (run.pile.settled) {
+    if (depth > kNotedOverlap) {
+      std::fprintf(stderr, "warning: %s; settle.rest_overlap = %g m allows it\n",
+                   describe_overlap(run.pile).c_str(), options.rest_overlap);
+    }
+    return ExitCode::done;
+  }
+  const std::string why = depth > options.rest_overlap ? describe_overlap(run.pile)
+                                                       : describe_moving(run.pile);
   std::fprintf(stderr, "the pile did not settle: %s when the time limit came "
                "(settle.final_time_limit = %g s)\n",
-               describe_moving(run.pile).c_str(), run.pile_scenario.settle.final_time_limit);
+               why.c_str(), options.final_time_limit);
   return ExitCode::did_not_settle;
 }
 

@@ -128,6 +128,10 @@ void add_settle(Schema& k, SettleOptions& o) {
   k.value("settle.rest_angular_speed", o.rest_angular_speed, "... turning slower than this.")
       .above(0, 100)
       .unit("rad/s");
+  k.value("settle.rest_overlap", o.rest_overlap,
+          "A pile in which two pieces reach deeper into each other has not settled.")
+      .above(0, 1)
+      .unit("m");
   k.value("settle.layer_time_limit", o.layer_time_limit, "The next layer comes at the latest then.")
       .above(0, 3600)
       .unit("s");

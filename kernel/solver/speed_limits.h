@@ -13,7 +13,7 @@ inline constexpr float kKickShare = 0.4F;  // unit: 1
 // two supports close together, loses its last speed by up to this share in each step. A slope must then be
 // steeper than friction holds by 1 % of gravity, or what slides on it counts as at rest. Nothing else is
 // damped, and nothing outside a verification.
-inline constexpr float kPatience = 6, kPatienceEnds = 8;               // unit: s
+inline constexpr float kPatience = 3, kPatienceEnds = 5;               // unit: s
 inline constexpr float kLateDamping = 0.2F;                            // unit: 1
 inline constexpr float kTremblingSpin = 3.0F, kTremblingSpeed = 0.2F;  // below these; unit: rad/s, m/s
 // Contacts spin a piece no faster than this, unless it turned faster before: then they add this much

@@ -67,7 +67,11 @@ void World::Impl::solve_contacts() {
                               [&](std::int32_t i) { return !data.pairs[i].live; }),
                active.end());
   sort_by_height();
-  solver.solve(solver_settings, data.bodies, active, data.contacts, velocities, displacements,
+  lateness = calc_lateness();
+  // Pieces that are stuck in each other are pushed to and fro for ever, and others with them.
+  SolverSettings settings = solver_settings;
+  settings.maximum_push *= 1 - lateness;
+  solver.solve(settings, data.bodies, active, data.contacts, velocities, displacements,
                solved_trees, pool);
 }
 
@@ -184,7 +188,6 @@ void World::Impl::advance() {
   rates.resize(blocks.size());
   block_awake.assign(blocks.block_count(), 0);
   body_of.resize(blocks.size());
-  lateness = calc_lateness();
   for (std::size_t i = 0; i < data.bodies.size(); ++i) {
     const Body& body = data.bodies[i];
     if (!body.awake || body.mobile < 0) continue;

@@ -354,13 +354,13 @@ TEST(Resume, ContinuesWhatASignalStoppedAndSaysHow) {
   EXPECT_EQ(other.exit_code, 1);
   EXPECT_IN("another program began this run", other.err);
   // --force begins anew, and takes away what that run had left.
-  write_file(folder + "/unfinished/files.txt", "left.over\n../precious\n");
-  write_file(folder + "/left.over", "");
+  write_file(folder + "/unfinished/files.txt", "mission.mcap\n../precious\n");
+  write_file(folder + "/mission.mcap", "");
   write_file(scratch / "precious", "");
   const Outcome forced =
       run_rubble("settle " + (scratch / "long.lua") + " --force --out " + folder);
   EXPECT_EQ(forced.exit_code, 0) << forced.err;
-  EXPECT_FALSE(fs::exists(folder + "/left.over"));
+  EXPECT_FALSE(fs::exists(folder + "/mission.mcap"));
   EXPECT_TRUE(fs::exists(scratch / "precious"));
   EXPECT_FALSE(fs::exists(folder + "/unfinished"));
   EXPECT_IN("is finished", run_rubble("resume " + folder).err);

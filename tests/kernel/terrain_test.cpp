@@ -189,7 +189,7 @@ TEST(Terrain, ALevelFieldIsAsGoodAsTheGround) {
     const PileState state = settle_pile(generate_pile(spec));
     EXPECT_TRUE(state.settled) << field;
     EXPECT_EQ(state.lost, 0);
-    EXPECT_LT(state.simulated, 14) << field;
+    EXPECT_LT(state.simulated, 24) << field;
     deepest[field] = 0;
     for (const PieceState& piece : state.pieces) {
       const PieceType& type = spec.types[std::size_t(piece.type)];

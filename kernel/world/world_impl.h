@@ -36,7 +36,7 @@ struct WorldData {
   std::vector<Tree> trees;          // those that came apart keep their place, without links
   std::vector<PartedPair> parted;
   std::int64_t steps = 0;
-  std::int64_t verification_steps = -1;  // since prove_rest(); -1: not called since pieces were added
+  std::int64_t verification_steps = -1;  // since begin_rest_verification(); -1: no verification
   int lost = 0;
 };
 

@@ -46,6 +46,7 @@ struct Contact {
   ContactPoint points[kMaxPoints];
   Vec3f normal;                    // unit length, from A to B; of the last search
   bool has_normal = false;         // a search has found one before
+  Vec3f way_out;                   // what the parts of two overlapping pieces agreed on; zero: none
   Vec3f friction_impulse;          // tangential, of the last substep; unit: N s
   float twist_impulse = 0;         // about the normal, of the last substep; unit: N m s
   float pressed = 0;               // total normal impulse of the last step; unit: N s

@@ -172,8 +172,6 @@ void carry_over(ContactBatch& batch, NormalRow* rows, Wide weight) {
 bool solve_pushes(const ContactBatch& batch, const NormalRow* rows, PushRow* pushes,
                   PaddedMotion* moved) {
   WideMotion a = load(moved, batch.a), b = load(moved, batch.b);
-  const Wide unit_a = select(batch.push_weight_a > 0, splat(1), Wide{});
-  const Wide unit_b = select(batch.push_weight_b > 0, splat(1), Wide{});
   Wide most{};
   for (int i = 0; i < batch.rows; ++i) {
     const WideRow& row = rows[i].row;
@@ -183,10 +181,10 @@ bool solve_pushes(const ContactBatch& batch, const NormalRow* rows, PushRow* pus
     const Wide change = next - p.push;
     p.push = next;
     most = max(most, next);
-    a.linear -= batch.normal * (change * unit_a);
-    a.angular -= row.turn_a * (change * batch.push_weight_a);
-    b.linear += batch.normal * (change * unit_b);
-    b.angular += row.turn_b * (change * batch.push_weight_b);
+    a.linear -= batch.normal * (change * batch.push_share_a);
+    a.angular -= row.turn_a * (change * batch.push_mass_a);
+    b.linear += batch.normal * (change * batch.push_share_b);
+    b.angular += row.turn_b * (change * batch.push_mass_b);
   }
   save(a, moved, batch.a);
   save(b, moved, batch.b);

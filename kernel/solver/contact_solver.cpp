@@ -49,16 +49,20 @@ struct Turns {
   Vec3f arm_a, arm_b, turn_a, turn_b;
 };
 
-// Fills one lane of a row; returns J M^-1 J^T without the linear part.
-float fill(WideRow& row, int lane, const Side& a, const Side& b, const Turns& turns) {
+// The angular parts of J M^-1 J^T of the two sides.
+struct Around {
+  float a, b;
+};
+
+// Fills one lane of a row.
+Around fill(WideRow& row, int lane, const Side& a, const Side& b, const Turns& turns) {
   row.arm_a.set(lane, turns.arm_a);
   row.arm_b.set(lane, turns.arm_b);
   row.turn_a.set(lane, turns.turn_a);
   row.turn_b.set(lane, turns.turn_b);
-  const float around_a = dot(turns.arm_a, turns.turn_a);
-  const float around_b = dot(turns.arm_b, turns.turn_b);
-  row.mass[lane] = 1 / (a.inverse_mass() + b.inverse_mass() + around_a + around_b);
-  return a.mass() * around_a + b.mass() * around_b;
+  const Around around{dot(turns.arm_a, turns.turn_a), dot(turns.arm_b, turns.turn_b)};
+  row.mass[lane] = 1 / (a.inverse_mass() + b.inverse_mass() + around.a + around.b);
+  return around;
 }
 
 // J M^-1 J^T of two rows across each other.
@@ -208,9 +212,12 @@ void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Bo
   const Side b(bodies, contact.body_b, share_[batch.b[lane]]);
   batch.inverse_mass_a[lane] = a.inverse_mass();
   batch.inverse_mass_b[lane] = b.inverse_mass();
-  batch.push_weight_a[lane] = a.mass();
-  batch.push_weight_b[lane] = b.mass();
   batch.friction[lane] = contact.friction;
+  const auto push = contact_law::find_push_shares(contact.normal.z);
+  batch.push_share_a[lane] = a.body != nullptr ? push.a : 0;
+  batch.push_share_b[lane] = b.body != nullptr ? push.b : 0;
+  batch.push_mass_a[lane] = push.a * a.mass();
+  batch.push_mass_b[lane] = push.b * b.mass();
   batch.normal.set(lane, contact.normal);
   float total = 0;
   for (int i = 0; i < contact.count; ++i) total += contact.points[i].normal_impulse;
@@ -220,9 +227,10 @@ void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Bo
     const ContactPoint& p = contact.points[i];
     NormalRow& n = rows_[batch.first_row + i];
     const Turns turns(a, b, contact.normal, p.from_a, p.from_b);
-    const float around = fill(n.row, lane, a, b, turns);
-    const float movable = (a.body ? 1.0F : 0.0F) + (b.body ? 1.0F : 0.0F);
-    pushes_[batch.first_row + i].mass[lane] = 1 / (movable + around);
+    const Around around = fill(n.row, lane, a, b, turns);
+    pushes_[batch.first_row + i].mass[lane] =
+        1 / (batch.push_share_a[lane] + batch.push_mass_a[lane] * around.a +
+             batch.push_share_b[lane] + batch.push_mass_b[lane] * around.b);
     n.gap[lane] = p.separation - settings.rest_gap;
     n.impulse[lane] = n.carried[lane] = p.normal_impulse;
     const float share = shares.each + shares.per_impulse * p.normal_impulse;
@@ -308,9 +316,8 @@ bool ContactSolver::begin_pushes(const SolverSettings& settings, const ContactBa
   return any;
 }
 
-// n . (d_b - d_a) >= target for every point, by pushing only. All movable bodies count as equally
-// heavy, so that a light bar is cleared from under a heavy slab as fast as any other pair. Where
-// nothing is to be pushed, and no neighbour has been, a batch would change nothing.
+// n . (d_b - d_a) >= target for every point, by pushing only. Where nothing is to be pushed, and no
+// neighbour has been, a batch would change nothing.
 void ContactSolver::push_apart(const SolverSettings& settings, ThreadPool& pool) {
   wants_push_.assign(batches_.size(), 0);
   each_batch(pool, [&](const ContactBatch& batch) {
@@ -358,6 +365,18 @@ void ContactSolver::drop_opposed_speeds(const SolverSettings& settings) {
     drop(speeds_[i].linear, moved_[i].linear - before_push_[i].linear, kSlowSpeed);
     drop(speeds_[i].angular, moved_[i].angular - before_push_[i].angular, kSlowSpin);
   }
+}
+
+bool ContactSolver::has_intervened(std::int32_t body) const {
+  const std::int32_t n = number_[std::size_t(body)];
+  if (n == std::int32_t(moving_.size())) return false;
+  const auto differ = [](Wide p, Wide q) {
+    const Wide d = p - q;
+    return d[0] != 0 || d[1] != 0 || d[2] != 0;
+  };
+  const PaddedMotion &now = moved_[std::size_t(n)], &before = before_push_[std::size_t(n)];
+  return share_[std::size_t(n)] < 1 || differ(now.linear, before.linear) ||
+         differ(now.angular, before.angular);
 }
 
 void ContactSolver::store(const ContactBatch& batch, std::vector<Contact>& contacts) const {

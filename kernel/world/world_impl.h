@@ -37,6 +37,7 @@ struct WorldData {
   std::vector<PartedPair> parted;
   std::int64_t steps = 0;
   std::int64_t verification_steps = -1;  // since begin_rest_verification(); -1: no verification
+  std::int64_t all_awake_since = -1;  // in verification_steps; -1: some pieces doze
   int lost = 0;
 };
 
@@ -83,7 +84,7 @@ struct World::Impl {
   std::vector<std::uint8_t> leaves_box;     // by collider
   std::vector<std::uint8_t> pair_states;    // by pair: a PairState
   std::vector<OrderKey> order_keys;
-  std::vector<std::uint8_t> overlapping, slept;  // by body
+  std::vector<std::uint8_t> overlapping, slept, disturbed;  // by body
   std::vector<Vec3f> lost_support;               // by body: of sleepers, to awake neighbours
   std::vector<std::uint8_t> block_awake;
   std::vector<std::int32_t> body_of;  // by number in SimbodyBlocks
@@ -139,6 +140,13 @@ struct World::Impl {
   static void wake_one(Body& body);
   void fall_asleep(int body);
   float wake_impulse(const Body& body) const;  // a contact's must change by this; unit: N s
+
+  // world_verification.cpp
+  void update_verification();
+  int mark_restless();
+  void spread_disturbance();
+  void doze();
+  void wake_dozing();
 
   // world_step.cpp
   void apply_forces();

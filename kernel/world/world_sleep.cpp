@@ -224,7 +224,7 @@ void World::Impl::update_sleep() {
                                 body.loose_steps >= (overlapping[i] ? long_wait : loose_wait));
     }
   });
-  if (verifying) return;  // who falls asleep holds up others, whatever they weigh
+  if (verifying) return update_verification();
   keep_trees_whole();
   put_to_sleep();
 }

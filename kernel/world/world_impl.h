@@ -78,6 +78,7 @@ struct World::Impl {
   StepTimes times;
 
   // Scratch of a step.
+  std::vector<std::int32_t> awake_bodies;  // those that take part in the step, ascending
   std::vector<std::int32_t> active;
   std::vector<std::int32_t> surfaces;  // the bodies that are one, ascending
   std::vector<Sweep> sweeps;                // by body
@@ -86,6 +87,8 @@ struct World::Impl {
   std::vector<OrderKey> order_keys;
   std::vector<std::uint8_t> overlapping, slept, disturbed;  // by body
   std::vector<Vec3f> lost_support;               // by body: of sleepers, to awake neighbours
+  std::vector<std::int32_t> unsettled;           // sleepers whose lost_support is not zero
+  std::vector<std::uint8_t> is_deep;             // by pair: overlaps deeper than sleep allows
   std::vector<std::uint8_t> block_awake;
   std::vector<std::int32_t> body_of;  // by number in SimbodyBlocks
   std::vector<std::uint8_t> moves;  // by number in SimbodyBlocks
@@ -114,6 +117,7 @@ struct World::Impl {
   void select_pairs();
   void update_contacts();
   void update_pair(Pair& pair, Contact& contact);
+  void list_awake();
   void note_sweeps();
   Aabb calc_swept_box(int collider) const;
   std::uint8_t classify(const Pair& pair) const;
@@ -134,7 +138,8 @@ struct World::Impl {
   void note_lost_contact(const Contact& contact);
   void put_to_sleep();
   bool within_rest_tolerance(const Body& body) const;
-  void find_overlapping();  // those that overlap too deep
+  static bool overlaps_deep(const Contact& contact);  // too deep to fall asleep soon
+  void find_overlapping();
   void note_loads();
   void wake(int body);
   static void wake_one(Body& body);

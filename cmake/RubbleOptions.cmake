@@ -19,7 +19,7 @@ target_compile_options(rubble_options INTERFACE
   -ffp-contract=off)
 
 # For what results depend on. GCC 12 fuses a*b +- c into vfmaddsub when it vectorizes for a processor
-# that has it, whatever -ffp-contract says; the solver's four-wide loops are written out anyway.
+# that has it, whatever -ffp-contract says; the solver's wide loops are written out anyway.
 add_library(rubble_exact INTERFACE)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(rubble_exact INTERFACE -fno-tree-vectorize)

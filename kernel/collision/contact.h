@@ -20,11 +20,13 @@ inline bool is_surface_collider(std::int32_t collider) { return collider <= -2; 
 inline int surface_slot(std::int32_t collider) { return (-2 - collider) % kSurfaceSlots; }
 
 struct ContactPoint {
-  Vec3f from_a, from_b;    // from the centres of mass, world orientation; unit: m
-  Vec3f local_a, local_b;  // the same point in their own frames, to find it again
-  float separation = 0;    // negative: overlap; unit: m
-  float found_separation = 0;  // when a search last found the point, at local_a and local_b; unit: m
+  // What the solver asks: eight numbers in a row, as it reads them.
+  Vec3f from_a, from_b;      // from the centres of mass, world orientation; unit: m
+  float separation = 0;      // negative: overlap; unit: m
   float normal_impulse = 0;  // of the last substep; unit: N s
+
+  Vec3f local_a, local_b;      // the same point in their own frames, to find it again
+  float found_separation = 0;  // when a search last found the point, at local_a and local_b; unit: m
 };
 
 // Who meets whom: read for every pair in every step, so kept small and apart from the contact.
@@ -41,14 +43,15 @@ struct Contact {
   static constexpr int kMaxPoints = 6;
 
   std::int32_t body_a = 0, body_b = 0;  // b may be kGround
-  float friction = 0;
   int count = 0;                   // points in use
-  ContactPoint points[kMaxPoints];
-  Vec3f normal;                    // unit length, from A to B; of the last search
   bool has_normal = false;         // a search has found one before
   Vec3f way_out;                   // what the parts of two overlapping pieces agreed on; zero: none
+  // Each vector and its number in a row, as the solver reads them.
+  Vec3f normal;                    // unit length, from A to B; of the last search
+  float friction = 0;
   Vec3f friction_impulse;          // tangential, of the last substep; unit: N s
   float twist_impulse = 0;         // about the normal, of the last substep; unit: N m s
+  ContactPoint points[kMaxPoints];
   float pressed = 0;               // total normal impulse of the last step; unit: N s
   float rest_pressed = 0;          // the same when one of the two fell asleep
   GjkCache cache;

@@ -1,5 +1,5 @@
-// The contact law, once: what an impulse at a contact may be. For double, for float, and for four
-// lanes of float at a time. Not for use outside kernel/.
+// The contact law, once: what an impulse at a contact may be. For double, for float, and for packets
+// of lanes. Not for use outside kernel/.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace rubble::contact_law {
 
-// The operations that Wide has, for single numbers.
+// The operations that packets have, for single numbers.
 template <typename T>
 inline constexpr bool kIsNumber = false;
 template <>
@@ -16,13 +16,22 @@ inline constexpr bool kIsNumber<float> = true;
 template <>
 inline constexpr bool kIsNumber<double> = true;
 
+// condition: a truth value, or a mask of lanes.
+template <typename Condition, typename T>
+RUBBLE_INLINE T choose(Condition condition, T a, T b) {
+  if constexpr (kIsNumber<T>) {
+    return condition ? a : b;
+  } else {
+    return select(condition, a, b);
+  }
+}
 template <typename T>
 RUBBLE_INLINE T larger(T a, T b) {
-  return a > b ? a : b;
+  return choose(a > b, a, b);
 }
 template <typename T>
 RUBBLE_INLINE T smaller(T a, T b) {
-  return a < b ? a : b;
+  return choose(b > a, a, b);
 }
 template <typename T>
 RUBBLE_INLINE T root(T a) {
@@ -44,9 +53,9 @@ RUBBLE_INLINE T solve_normal(T impulse, T mass, T speed, T allowed) {
 // limit: the coefficient times the normal impulse.
 template <typename T>
 RUBBLE_INLINE T shrink_into_cone(T limit, T length2) {
-  const T one = T{} + 1;
-  const T length = root(length2 > limit * limit ? length2 : one);
-  return length2 > limit * limit ? limit / length : one;
+  const auto outside = length2 > limit * limit;
+  const T length = root(choose(outside, length2, T(1)));
+  return choose(outside, limit / length, T(1));
 }
 
 // Friction about the normal, of a patch with that mean radius.
@@ -81,8 +90,8 @@ struct PushShares {
 };
 template <typename T>
 RUBBLE_INLINE PushShares<T> find_push_shares(T up) {
-  constexpr T kGivesWayLess = T(0.9);
-  return {up > 0 ? 1 - kGivesWayLess * up : T(1), up < 0 ? 1 + kGivesWayLess * up : T(1)};
+  const T one(1), less(0.9F);
+  return {one - less * larger(T{}, up), one - less * larger(T{}, -up)};
 }
 
 // Where friction acts: at the centre of the points, each with a share by its normal impulse of the
@@ -93,9 +102,9 @@ struct CentreShares {
 };
 template <typename T>
 RUBBLE_INLINE CentreShares<T> find_centre_shares(T total, T count) {
-  const T one = T{} + 1;
-  const T inverse = one / (total > T{} ? total : count);
-  return {total > T{} ? T{} : inverse, total > T{} ? inverse : T{}};
+  const auto pressed = total > T{};
+  const T inverse = T(1) / choose(pressed, total, count);
+  return {choose(pressed, T{}, inverse), choose(pressed, inverse, T{})};
 }
 
 }  // namespace rubble::contact_law

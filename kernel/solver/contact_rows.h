@@ -1,9 +1,12 @@
-// The inner loops of the contact solver: four contacts at a time, no two of which share a moving
+// The inner loops of the contact solver: eight contacts at a time, no two of which share a moving
 // body. A row is one scalar constraint with Jacobian (-n, -arm_a, n, arm_b).
+//
+// The loops exist twice, for any machine and for those with AVX2. Both give the same bits.
 #pragma once
 
 #include <cstdint>
 
+#include "kernel/collision/contact.h"
 #include "kernel/solver/wide.h"
 
 namespace rubble {
@@ -14,67 +17,94 @@ namespace rubble {
 inline constexpr float kImpactRise = 1.0F;
 inline constexpr int kMostRounds = 2;
 
-// Speeds, or the displacement of a step, of one body; padded for loading as two wides.
-struct alignas(16) PaddedMotion {
-  Wide linear{}, angular{};  // x y z and a zero
+// Speeds, or the displacement of a step, of one body.
+struct alignas(32) PaddedMotion {
+  Quad linear{}, angular{};  // x y z and a zero
 };
 
-struct WideRow {
-  Wide3 arm_a, arm_b;    // angular part of the Jacobian
-  Wide3 turn_a, turn_b;  // inverse inertia times arm
-  Wide mass;             // 1 / (J M^-1 J^T); 0: lane not in use
+// What rows ask of a moving body; all zero for what does not move. Three rows of the matrix
+// world-oriented inverse inertia, each with a number beside it.
+struct alignas(64) BodyTerms {
+  float row0[3] = {}, inverse_mass = 0;  // unit: 1/(kg m2), 1/kg
+  float row1[3] = {}, mass = 0;          // unit: kg
+  float row2[3] = {}, share = 0;         // of the true inertia in what the solver uses
+};
+
+struct ContactRow {
+  Lanes3 arm_a, arm_b;    // angular part of the Jacobian
+  Lanes3 turn_a, turn_b;  // inverse inertia times arm
+  Lanes mass;             // 1 / (J M^-1 J^T); 0: lane not in use
 };
 
 // A normal row: it pushes only.
 struct NormalRow {
-  WideRow row;
-  Wide gap;      // separation at the step's start, less the rest gap; unit: m
-  Wide impulse;  // unit: N s
-  Wide carried;  // what the substep started from
+  ContactRow row;
+  Lanes gap;      // separation at the step's start, less the rest gap; unit: m
+  Lanes impulse;  // unit: N s
+  Lanes carried;  // what the substep started from
 };
 
 // The position correction of a normal row; apart from it, as the sweeps over speeds do not need it.
 struct PushRow {
-  Wide mass, target, push;
+  Lanes mass, target, push;
 };
 
 struct FrictionRow {
-  WideRow row;
-  Wide3 direction;
-  Wide impulse;
+  ContactRow row;
+  Lanes3 direction;
+  Lanes impulse;
 };
 
-// Up to four contacts; `first_row` and `rows` say where their normal rows are.
+// Up to eight contacts with as many points each; `first_row` and `rows` say where their normal rows
+// are.
 struct ContactBatch {
   std::int32_t a[kLanes], b[kLanes];        // indices of moving bodies; one beyond: immovable
   std::int32_t contact[kLanes];             // index of the contact; -1: lane not in use
   std::int32_t first_row = 0, rows = 0;
-  Wide inverse_mass_a, inverse_mass_b, friction, radius;
-  Wide push_share_a, push_share_b;          // see contact_law; 0 for immovable bodies
-  Wide push_mass_a, push_mass_b;            // share times mass, or 0
-  Wide3 normal;
+  Lanes inverse_mass_a, inverse_mass_b, friction, radius;
+  Lanes push_share_a, push_share_b;         // see contact_law; 0 for immovable bodies
+  Lanes push_mass_a, push_mass_b;           // share times mass, or 0
+  Lanes3 normal;
   FrictionRow slide[2];
-  Wide3 twist_a, twist_b;                   // inverse inertia times the normal
-  Wide twist_mass, twist_impulse;
-  Wide pressed;                             // sum of normal impulses over the step
+  Lanes3 twist_a, twist_b;                  // inverse inertia times the normal
+  Lanes twist_mass, twist_impulse;
+  Lanes pressed;                            // sum of normal impulses over the step
 };
 
-// Applies the impulses that the batch starts a substep with.
-void warm_start(const ContactBatch& batch, const NormalRow* rows, PaddedMotion* v);
+// Batches that follow each other in the order of solving.
+struct BatchRange {
+  ContactBatch* begin = nullptr;
+  ContactBatch* end = nullptr;
+  NormalRow* rows = nullptr;   // of all batches
+  PushRow* pushes = nullptr;
+};
 
-// One sweep over friction, twist and normals. `moved`: displacements since the step's start.
-void solve_velocities(ContactBatch& batch, NormalRow* rows, Wide per_substep,
-                      const PaddedMotion* moved, PaddedMotion* v);
+struct PushTerms {
+  float slop = 0, fraction = 0, most = 0;  // as in SolverSettings
+};
 
-// Ends a substep: an impulse may double from one substep to the next and grow by `weight` (a speed)
-// times its mass. Loads build up fast, but the impulse of an impact is not given twice.
-void carry_over(ContactBatch& batch, NormalRow* rows, Wide weight);
+struct RowKernels {
+  // Fills the rows of batches whose lanes have their contacts and bodies. terms: by moving body.
+  void (*prepare)(const BatchRange& range, const Contact* contacts, const BodyTerms* terms,
+                  float rest_gap);
+  // Applies the impulses that the batches start a substep with.
+  void (*warm_start)(const BatchRange& range, PaddedMotion* v);
+  // One sweep over friction, twist and normals. `moved`: displacements since the step's start. Each
+  // batch then ends its substep: an impulse may double from one substep to the next and grow by
+  // `weight` (a speed) times its mass. Loads build up fast, but the impulse of an impact is not given
+  // twice.
+  void (*solve_velocities)(const BatchRange& range, float per_substep, float weight,
+                           const PaddedMotion* moved, PaddedMotion* v);
+  // What the points of a batch are to be pushed by; returns whether any is.
+  bool (*begin_pushes)(const ContactBatch& batch, const NormalRow* rows, PushRow* pushes,
+                       const PushTerms& terms, const PaddedMotion* moved);
+  // One sweep of position correction on the displacements; returns whether any point pushes.
+  bool (*solve_pushes)(const ContactBatch& batch, const NormalRow* rows, PushRow* pushes,
+                       PaddedMotion* moved);
+};
 
-// One sweep of position correction on the displacements; returns whether any point pushes.
-bool solve_pushes(const ContactBatch& batch, const NormalRow* rows, PushRow* pushes,
-                  PaddedMotion* moved);
-
-// The relative displacement along each normal row.
-Wide calc_moved(const ContactBatch& batch, const WideRow& row, const PaddedMotion* moved);
+const RowKernels& portable_row_kernels();
+// Those for the processor that this runs on.
+const RowKernels& best_row_kernels();
 
 }  // namespace rubble

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/solver/contact_law.h"
-#include "kernel/solver/friction_axes.h"
 
 namespace rubble {
 namespace {
@@ -17,74 +15,9 @@ constexpr float kCarrySpeed = 0.5F;  // unit: m/s
 constexpr float kSlowSpeed = 0.2F;  // unit: m/s
 constexpr float kSlowSpin = 2.0F;   // unit: rad/s
 
-// Two unit vectors across a normal; the same for the same normal.
-void make_tangents(const Vec3f& n, Vec3f tangent[2]) {
-  tangent[0] = std::abs(n.x) < 0.57735F ? normalized(cross(n, Vec3f{1, 0, 0}))
-                                        : normalized(cross(n, Vec3f{0, 1, 0}));
-  tangent[1] = cross(n, tangent[0]);
-}
-
-// One side of a contact. `share`: of the body's inertia in what the solver uses; 1 or less.
-struct Side {
-  Side(const std::vector<Body>& bodies, std::int32_t index, float inertia_share)
-      : body(index == kGround || !bodies[index].awake ? nullptr : &bodies[index]),
-        share(inertia_share) {}
-  float inverse_mass() const { return body != nullptr ? body->inverse_mass * share : 0; }
-  float mass() const { return body != nullptr ? float(body->mass) / share : 0; }
-  Vec3f turn(const Vec3f& arm) const {
-    return body != nullptr ? (body->inverse_inertia * arm) * share : Vec3f{};
-  }
-  const Body* body;
-  float share;
-};
-
-// The angular part of a row.
-struct Turns {
-  Turns(const Side& a, const Side& b, const Vec3f& direction, const Vec3f& from_a,
-        const Vec3f& from_b)
-      : arm_a(cross(from_a, direction)),
-        arm_b(cross(from_b, direction)),
-        turn_a(a.turn(arm_a)),
-        turn_b(b.turn(arm_b)) {}
-  Vec3f arm_a, arm_b, turn_a, turn_b;
-};
-
-// The angular parts of J M^-1 J^T of the two sides.
-struct Around {
-  float a, b;
-};
-
-// Fills one lane of a row.
-Around fill(WideRow& row, int lane, const Side& a, const Side& b, const Turns& turns) {
-  row.arm_a.set(lane, turns.arm_a);
-  row.arm_b.set(lane, turns.arm_b);
-  row.turn_a.set(lane, turns.turn_a);
-  row.turn_b.set(lane, turns.turn_b);
-  const Around around{dot(turns.arm_a, turns.turn_a), dot(turns.arm_b, turns.turn_b)};
-  row.mass[lane] = 1 / (a.inverse_mass() + b.inverse_mass() + around.a + around.b);
-  return around;
-}
-
-// J M^-1 J^T of two rows across each other.
-float couple(const Turns& s, const Turns& t) {
-  return dot(s.arm_a, t.turn_a) + dot(s.arm_b, t.turn_b);
-}
-
-// Turns the tangents, and their rows with them, such that neither row feels the other's impulse.
-void uncouple(Vec3f tangent[2], Turns turns[2]) {
-  const PlaneTurn<float> turn =
-      find_friction_axes(couple(turns[0], turns[0]), couple(turns[0], turns[1]),
-                         couple(turns[1], turns[1]));
-  turn.apply(tangent[0], tangent[1]);
-  turn.apply(turns[0].arm_a, turns[1].arm_a);
-  turn.apply(turns[0].arm_b, turns[1].arm_b);
-  turn.apply(turns[0].turn_a, turns[1].turn_a);
-  turn.apply(turns[0].turn_b, turns[1].turn_b);
-}
-
 PaddedMotion padded(const Motion& m) {
-  return {Wide{m.linear.x, m.linear.y, m.linear.z, 0},
-          Wide{m.angular.x, m.angular.y, m.angular.z, 0}};
+  return {Quad{m.linear.x, m.linear.y, m.linear.z, 0},
+          Quad{m.angular.x, m.angular.y, m.angular.z, 0}};
 }
 Motion unpadded(const PaddedMotion& m) {
   return {{m.linear[0], m.linear[1], m.linear[2]}, {m.angular[0], m.angular[1], m.angular[2]}};
@@ -206,79 +139,37 @@ void ContactSolver::pack() {
   }
 }
 
-void ContactSolver::prepare(const SolverSettings& settings, const std::vector<Body>& bodies,
-                            const Contact& contact, ContactBatch& batch, int lane) {
-  const Side a(bodies, contact.body_a, share_[batch.a[lane]]);
-  const Side b(bodies, contact.body_b, share_[batch.b[lane]]);
-  batch.inverse_mass_a[lane] = a.inverse_mass();
-  batch.inverse_mass_b[lane] = b.inverse_mass();
-  batch.friction[lane] = contact.friction;
-  const auto push = contact_law::find_push_shares(contact.normal.z);
-  batch.push_share_a[lane] = a.body != nullptr ? push.a : 0;
-  batch.push_share_b[lane] = b.body != nullptr ? push.b : 0;
-  batch.push_mass_a[lane] = push.a * a.mass();
-  batch.push_mass_b[lane] = push.b * b.mass();
-  batch.normal.set(lane, contact.normal);
-  float total = 0;
-  for (int i = 0; i < contact.count; ++i) total += contact.points[i].normal_impulse;
-  const auto shares = contact_law::find_centre_shares(total, float(contact.count));
-  Vec3f middle_a, middle_b;
-  for (int i = 0; i < contact.count; ++i) {
-    const ContactPoint& p = contact.points[i];
-    NormalRow& n = rows_[batch.first_row + i];
-    const Turns turns(a, b, contact.normal, p.from_a, p.from_b);
-    const Around around = fill(n.row, lane, a, b, turns);
-    pushes_[batch.first_row + i].mass[lane] =
-        1 / (batch.push_share_a[lane] + batch.push_mass_a[lane] * around.a +
-             batch.push_share_b[lane] + batch.push_mass_b[lane] * around.b);
-    n.gap[lane] = p.separation - settings.rest_gap;
-    n.impulse[lane] = n.carried[lane] = p.normal_impulse;
-    const float share = shares.each + shares.per_impulse * p.normal_impulse;
-    middle_a += p.from_a * share;
-    middle_b += p.from_b * share;
+// What the rows ask of the moving bodies.
+void ContactSolver::note_bodies(const std::vector<Body>& bodies) {
+  terms_.assign(moving_.size() + 1, {});
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    const Body& body = bodies[moving_[i]];
+    BodyTerms& t = terms_[i];
+    for (int k = 0; k < 3; ++k) {
+      t.row0[k] = body.inverse_inertia.rows[0][k];
+      t.row1[k] = body.inverse_inertia.rows[1][k];
+      t.row2[k] = body.inverse_inertia.rows[2][k];
+    }
+    t.share = share_[i];
+    t.inverse_mass = body.inverse_mass * t.share;
+    t.mass = float(body.mass) / t.share;
   }
-  Vec3f tangent[2];
-  make_tangents(contact.normal, tangent);
-  Turns turns[2] = {{a, b, tangent[0], middle_a, middle_b}, {a, b, tangent[1], middle_a, middle_b}};
-  uncouple(tangent, turns);
-  for (int t = 0; t < 2; ++t) {
-    fill(batch.slide[t].row, lane, a, b, turns[t]);
-    batch.slide[t].direction.set(lane, tangent[t]);
-    batch.slide[t].impulse[lane] = dot(tangent[t], contact.friction_impulse);
-  }
-  float radius = 0;
-  for (int i = 0; i < contact.count; ++i) {
-    const ContactPoint& p = contact.points[i];
-    radius += norm(p.from_a - middle_a) * (shares.each + shares.per_impulse * p.normal_impulse);
-  }
-  batch.radius[lane] = radius;
-  const Vec3f twist_a = a.turn(contact.normal), twist_b = b.turn(contact.normal);
-  const float twist = dot(contact.normal, twist_a + twist_b);
-  batch.twist_a.set(lane, twist_a);
-  batch.twist_b.set(lane, twist_b);
-  batch.twist_mass[lane] = contact.count > 1 && twist > 0 ? 1 / twist : 0;
-  batch.twist_impulse[lane] = contact.twist_impulse;
 }
 
 void ContactSolver::run_substeps(const SolverSettings& settings) {
   const float h = settings.step / float(settings.substeps);
-  const Wide fall{0, 0, -settings.gravity * h, 0};
-  const Wide wide_h = splat(h), per_substep = splat(1 / h), weight = splat(settings.gravity * h);
-  const double tree_weight = double(weight[0]);
+  const Quad fall{0, 0, -settings.gravity * h, 0};
+  const Quad wide_h = make_quad(h);
+  const float per_substep = 1 / h, weight = settings.gravity * h;
   const bool trees = !tree_contacts_.empty();
+  const BatchRange all = range(0, int(batches_.size()));
   for (int substep = 0; substep < settings.substeps; ++substep) {
     for (std::size_t i = 0; i < moving_.size(); ++i) {
-      speeds_[i].linear += fall * splat(share_[i]);
+      speeds_[i].linear += fall * make_quad(share_[i]);
     }
-    for (ContactBatch& batch : batches_) {
-      NormalRow* rows = &rows_[batch.first_row];
-      if (substep > 0) carry_over(batch, rows, weight);
-      warm_start(batch, rows, speeds_.data());
-    }
-    if (trees) tree_contacts_.begin_substep(speeds_.data(), substep == 0, tree_weight);
-    for (ContactBatch& batch : batches_) {
-      solve_velocities(batch, &rows_[batch.first_row], per_substep, moved_.data(), speeds_.data());
-    }
+    kernels_.warm_start(all, speeds_.data());
+    if (trees) tree_contacts_.begin_substep(speeds_.data(), substep == 0, double(weight));
+    kernels_.solve_velocities(all, per_substep, weight, moved_.data(), speeds_.data());
     if (trees) {
       tree_contacts_.solve_velocities(1 / double(h), moved_.data(), speeds_.data());
       tree_contacts_.end_substep();
@@ -288,40 +179,29 @@ void ContactSolver::run_substeps(const SolverSettings& settings) {
       moved_[i].angular += speeds_[i].angular * wide_h;
     }
   }
-  for (ContactBatch& batch : batches_) carry_over(batch, &rows_[batch.first_row], weight);
-  if (trees) tree_contacts_.end_substeps(tree_weight);
+  if (trees) tree_contacts_.end_substeps(double(weight));
+}
+
+BatchRange ContactSolver::range(int begin, int end) {
+  return {batches_.data() + begin, batches_.data() + end, rows_.data(), pushes_.data()};
 }
 
 template <typename Action>
 void ContactSolver::each_batch(ThreadPool& pool, Action&& action) {
-  pool.run(int(batches_.size()), 16, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) action(batches_[i]);
-  });
-}
-
-// What the points of a batch are to be pushed by; returns whether any is.
-bool ContactSolver::begin_pushes(const SolverSettings& settings, const ContactBatch& batch) {
-  const Wide slop = splat(settings.slop), fraction = splat(settings.position_fraction),
-             most = splat(settings.maximum_push);
-  bool any = false;
-  for (int i = batch.first_row; i < batch.first_row + batch.rows; ++i) {
-    const Wide moved = calc_moved(batch, rows_[i].row, moved_.data());
-    const Wide gap = rows_[i].gap + moved + slop;
-    const Wide wanted = select(gap < 0, min(-gap * fraction, most), -gap);
-    pushes_[i].target = moved + wanted;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      any = any || (batch.contact[lane] >= 0 && wanted[lane] > 0);
-    }
-  }
-  return any;
+  pool.run(int(batches_.size()), 8, [&](int begin, int end) { action(range(begin, end)); });
 }
 
 // n . (d_b - d_a) >= target for every point, by pushing only. Where nothing is to be pushed, and no
 // neighbour has been, a batch would change nothing.
 void ContactSolver::push_apart(const SolverSettings& settings, ThreadPool& pool) {
   wants_push_.assign(batches_.size(), 0);
-  each_batch(pool, [&](const ContactBatch& batch) {
-    wants_push_[std::size_t(&batch - batches_.data())] = begin_pushes(settings, batch);
+  const PushTerms terms{settings.slop, settings.position_fraction, settings.maximum_push};
+  each_batch(pool, [&](const BatchRange& part) {
+    for (const ContactBatch* batch = part.begin; batch != part.end; ++batch) {
+      wants_push_[std::size_t(batch - batches_.data())] =
+          kernels_.begin_pushes(*batch, &rows_[batch->first_row], &pushes_[batch->first_row],
+                                terms, moved_.data());
+    }
   });
   const bool trees = !tree_contacts_.empty();
   const bool tree_pushes = trees && tree_contacts_.begin_pushes(settings, moved_.data());
@@ -333,7 +213,8 @@ void ContactSolver::push_apart(const SolverSettings& settings, ThreadPool& pool)
       const ContactBatch& batch = batches_[i];
       if (!wants_push_[i] && !is_pushed(batch)) continue;
       wants_push_[i] = 1;
-      if (solve_pushes(batch, &rows_[batch.first_row], &pushes_[batch.first_row], moved_.data())) {
+      if (kernels_.solve_pushes(batch, &rows_[batch.first_row], &pushes_[batch.first_row],
+                                moved_.data())) {
         for (int lane = 0; lane < kLanes; ++lane) {
           pushed_[batch.a[lane]] = pushed_[batch.b[lane]] = 1;
         }
@@ -355,11 +236,11 @@ bool ContactSolver::is_pushed(const ContactBatch& batch) const {
 // does not go anywhere: the part of its speed that was undone is lost. Only for slow pieces, whose
 // momentum is nothing beside that of the weights they carry.
 void ContactSolver::drop_opposed_speeds(const SolverSettings& settings) {
-  const auto drop = [&settings](Wide& speed, Wide push, float slow) {
-    const Wide s2 = speed * speed, sp = speed * push;
+  const auto drop = [&settings](Quad& speed, Quad push, float slow) {
+    const Quad s2 = speed * speed, sp = speed * push;
     const float length2 = s2[0] + s2[1] + s2[2], along = sp[0] + sp[1] + sp[2];
     if (along >= 0 || length2 > slow * slow) return;
-    speed *= splat(std::max(0.0F, 1 + along / (settings.step * length2)));
+    speed *= make_quad(std::max(0.0F, 1 + along / (settings.step * length2)));
   };
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     drop(speeds_[i].linear, moved_[i].linear - before_push_[i].linear, kSlowSpeed);
@@ -370,8 +251,8 @@ void ContactSolver::drop_opposed_speeds(const SolverSettings& settings) {
 bool ContactSolver::has_intervened(std::int32_t body) const {
   const std::int32_t n = number_[std::size_t(body)];
   if (n == std::int32_t(moving_.size())) return false;
-  const auto differ = [](Wide p, Wide q) {
-    const Wide d = p - q;
+  const auto differ = [](Quad p, Quad q) {
+    const Quad d = p - q;
     return d[0] != 0 || d[1] != 0 || d[2] != 0;
   };
   const PaddedMotion &now = moved_[std::size_t(n)], &before = before_push_[std::size_t(n)];
@@ -405,13 +286,9 @@ void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body
   rows_.resize(std::size_t(row_count_));
   pushes_.resize(std::size_t(row_count_));
   tree_contacts_.begin(settings, bodies, tree_order_, contacts, number_, share_, trees);
-  each_batch(pool, [&](ContactBatch& batch) {
-    std::fill_n(&rows_[batch.first_row], batch.rows, NormalRow{});
-    std::fill_n(&pushes_[batch.first_row], batch.rows, PushRow{});
-    for (int lane = 0; lane < kLanes; ++lane) {
-      if (batch.contact[lane] < 0) continue;
-      prepare(settings, bodies, contacts[batch.contact[lane]], batch, lane);
-    }
+  note_bodies(bodies);
+  each_batch(pool, [&](const BatchRange& part) {
+    kernels_.prepare(part, contacts.data(), terms_.data(), settings.rest_gap);
   });
   speeds_.assign(moving_.size() + 1, {});
   moved_.assign(moving_.size() + 1, {});
@@ -424,7 +301,11 @@ void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body
     velocities[moving_[i]] = unpadded(speeds_[i]);
     displacements[moving_[i]] = unpadded(moved_[i]);
   }
-  each_batch(pool, [&](const ContactBatch& batch) { store(batch, contacts); });
+  each_batch(pool, [&](const BatchRange& part) {
+    for (const ContactBatch* batch = part.begin; batch != part.end; ++batch) {
+      store(*batch, contacts);
+    }
+  });
   tree_contacts_.store(bodies, contacts);
 }
 

@@ -4,7 +4,7 @@
 // start; separations follow the motion. Overlaps are then pushed apart by displacements that never
 // enter the velocities.
 //
-// Contacts are packed four to a batch such that within a batch no moving body appears twice and
+// Contacts are packed eight to a batch such that within a batch no moving body appears twice and
 // that contacts of one body keep their order: the result is that of solving them one by one.
 #pragma once
 
@@ -68,13 +68,12 @@ class ContactSolver {
   void share_inertia(const std::vector<Body>& bodies);
   void pack();
   int find_batch(int rows, int after);
-  void prepare(const SolverSettings& settings, const std::vector<Body>& bodies,
-               const Contact& contact, ContactBatch& batch, int lane);
-  // Calls action(batch) for each on the threads of the pool.
+  void note_bodies(const std::vector<Body>& bodies);
+  BatchRange range(int begin, int end);
+  // Calls action(range) for ranges that cover all batches, on the threads of the pool.
   template <typename Action>
   void each_batch(ThreadPool& pool, Action&& action);
   void run_substeps(const SolverSettings& settings);
-  bool begin_pushes(const SolverSettings& settings, const ContactBatch& batch);
   void push_apart(const SolverSettings& settings, ThreadPool& pool);
   bool is_pushed(const ContactBatch& batch) const;
   void drop_opposed_speeds(const SolverSettings& settings);
@@ -87,6 +86,8 @@ class ContactSolver {
   std::vector<std::int32_t> number_;   // of each body in moving_; moving_.size(): does not move
   std::vector<std::uint8_t> held_;     // something is below it; by moving body
   std::vector<float> share_;           // of true inertia in what the solver uses, by moving body
+  const RowKernels& kernels_ = best_row_kernels();
+  std::vector<BodyTerms> terms_;       // by moving body
   std::vector<PaddedMotion> speeds_, moved_, before_push_;
   std::vector<ContactBatch> batches_;
   std::vector<NormalRow> rows_;

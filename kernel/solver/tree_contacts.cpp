@@ -14,8 +14,8 @@ constexpr double kLoopFraction = 0.5;
 
 void write(const Spatial& motion, PaddedMotion& to) {
   const Vec3f v(motion.linear()), w(motion.angular());
-  to.linear = Wide{v.x, v.y, v.z, 0};
-  to.angular = Wide{w.x, w.y, w.z, 0};
+  to.linear = Quad{v.x, v.y, v.z, 0};
+  to.angular = Quad{w.x, w.y, w.z, 0};
 }
 
 }  // namespace

@@ -313,7 +313,7 @@ void World::wake_all() {
 
 void World::begin_rest_verification() {
   wake_all();
-  impl_->data.verification_steps = 0;
+  impl_->data.verification_steps = impl_->data.all_awake_since = 0;
 }
 
 void World::set_sleeping(bool allowed) {
@@ -334,7 +334,8 @@ bool World::at_rest(double speed, double angular_speed) const {
 }
 
 bool World::rest_verified(double speed, double angular_speed) const {
-  if (!verifying_rest() || !at_rest(speed, angular_speed)) return false;
+  if (!verifying_rest() || impl_->data.all_awake_since < 0) return false;
+  if (!at_rest(speed, angular_speed)) return false;
   for (int i = 0; i < size(); ++i)
     if (!within_rest_tolerance(i)) return false;
   return true;

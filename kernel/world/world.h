@@ -70,12 +70,13 @@ class World {
   // Every piece sleeps, or touches something and is below both speeds.
   bool at_rest(double speed, double angular_speed) const;
   // Sleep is cheap to fall into while a pile grows, and who sleeps holds up others whatever they
-  // weigh. This wakes every piece, and nobody sleeps again until pieces are added: rest is that of
-  // all at once. Needs sleeping to be allowed: nobody counts the time otherwise.
+  // weigh. This wakes every piece. Those that stay in place, far from what still moves, may doze until
+  // nothing moves; then all are woken again, as rest is that of all at once. Needs sleeping to be
+  // allowed: nobody counts the time otherwise.
   void begin_rest_verification();
   bool verifying_rest() const;
-  // Since begin_rest_verification(): every piece is below both speeds, touches something, and has
-  // stayed within 1 mm for 0.5 s or within 4 mm for 1 s, all at the same time. So nothing that
+  // Since begin_rest_verification(): every piece is awake, below both speeds, touches something, and
+  // has stayed within 1 mm for 0.5 s or within 4 mm for 1 s, all at the same time. So nothing that
   // slides or creeps faster than 4 mm/s passes.
   bool rest_verified(double speed, double angular_speed) const;
   // Whether a piece sleeps, or has stayed in place as rest_verified() demands.

@@ -94,7 +94,7 @@ void each_field(Struct& d, Visit&& visit) {
   visit(d.bodies), visit(d.colliders), visit(d.corners), visit(d.broad), visit(d.pairs);
   visit(d.contacts);
   visit(d.contact_of_pair), visit(d.wake_next), visit(d.trees), visit(d.parted), visit(d.steps);
-  visit(d.verification_steps), visit(d.lost);
+  visit(d.verification_steps), visit(d.all_awake_since), visit(d.lost);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, FreeBody> = 0>

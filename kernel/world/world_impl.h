@@ -37,6 +37,7 @@ struct WorldData {
   std::vector<PartedPair> parted;
   std::int64_t steps = 0;
   std::int64_t verification_steps = -1;  // since begin_rest_verification(); -1: no verification
+  std::int64_t all_awake_since = -1;  // in verification_steps; -1: some pieces doze
   int lost = 0;
 };
 
@@ -89,6 +90,7 @@ struct World::Impl {
   StepTimes times;
 
   // Scratch of a step.
+  std::vector<std::int32_t> awake_bodies;  // those that take part in the step, ascending
   std::vector<std::int32_t> active;
   std::vector<std::int32_t> surfaces;  // the bodies that are one, ascending
   std::vector<Sweep> sweeps;                // by body
@@ -96,8 +98,10 @@ struct World::Impl {
   std::vector<std::uint8_t> pair_states;    // by pair: a PairState
   std::vector<OrderKey> order_keys;
   std::vector<DeepPair> deep_pairs;
-  std::vector<std::uint8_t> overlapping, slept;  // by body
+  std::vector<std::uint8_t> overlapping, slept, disturbed;  // by body
   std::vector<Vec3f> lost_support;               // by body: of sleepers, to awake neighbours
+  std::vector<std::int32_t> unsettled;           // sleepers whose lost_support is not zero
+  std::vector<std::uint8_t> is_deep;             // by pair: overlaps deeper than sleep allows
   std::vector<std::uint8_t> block_awake;
   std::vector<std::int32_t> body_of;  // by number in SimbodyBlocks
   std::vector<std::uint8_t> moves;  // by number in SimbodyBlocks
@@ -126,6 +130,7 @@ struct World::Impl {
   void select_pairs();
   void update_contacts();
   void update_pair(Pair& pair, Contact& contact);
+  void list_awake();
   void note_sweeps();
   Aabb calc_swept_box(int collider) const;
   std::uint8_t classify(const Pair& pair) const;
@@ -139,7 +144,7 @@ struct World::Impl {
 
   // world_overlaps.cpp
   void lead_out();
-  bool is_deep(const Contact& contact) const;
+  bool is_stuck(const Contact& contact) const;
   void lead_out_of(const std::vector<std::int32_t>& deep);
   std::vector<PosedPart> posed_parts(const Body& body) const;
 
@@ -152,12 +157,20 @@ struct World::Impl {
   void note_lost_contact(const Contact& contact);
   void put_to_sleep();
   bool within_rest_tolerance(const Body& body) const;
-  void find_overlapping();  // those that overlap too deep
+  static bool overlaps_deep(const Contact& contact);  // too deep to fall asleep soon
+  void find_overlapping();
   void note_loads();
   void wake(int body);
   static void wake_one(Body& body);
   void fall_asleep(int body);
   float wake_impulse(const Body& body) const;  // a contact's must change by this; unit: N s
+
+  // world_verification.cpp
+  void update_verification();
+  int mark_restless();
+  void spread_disturbance();
+  void doze();
+  void wake_dozing();
 
   // world_step.cpp
   void apply_forces();

@@ -19,7 +19,7 @@ float calc_least_separation(const Contact& contact) {
 
 }  // namespace
 
-bool World::Impl::is_deep(const Contact& contact) const {
+bool World::Impl::is_stuck(const Contact& contact) const {
   const bool led = dot(contact.way_out, contact.way_out) > 0;
   return calc_least_separation(contact) < (led ? -kNearlyOut : -kDeep);
 }
@@ -65,7 +65,7 @@ void World::Impl::lead_out() {
     const Pair& pair = data.pairs[i];
     if (pair.collider_b < 0 || !pair.live) continue;
     Contact& contact = data.contacts[i];
-    if (!is_deep(contact)) {
+    if (!is_stuck(contact)) {
       contact.way_out = {};
       continue;
     }

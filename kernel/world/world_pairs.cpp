@@ -95,13 +95,21 @@ void World::Impl::remove_contact(std::size_t index) {
   data.contacts.pop_back();
 }
 
+void World::Impl::list_awake() {
+  awake_bodies.clear();
+  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+    if (data.bodies[i].awake) awake_bodies.push_back(std::int32_t(i));
+  }
+}
+
+// Of those that do not move all is zero.
 void World::Impl::note_sweeps() {
-  sweeps.resize(data.bodies.size());
-  pool.run(int(data.bodies.size()), 256, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      const Body& body = data.bodies[i];
-      Sweep& sweep = sweeps[i];
-      sweep.awake = body.awake;
+  sweeps.assign(data.bodies.size(), {});
+  pool.run(int(awake_bodies.size()), 128, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const Body& body = data.bodies[awake_bodies[k]];
+      Sweep& sweep = sweeps[awake_bodies[k]];
+      sweep.awake = true;
       sweep.linear = body.linear;
       sweep.turning = norm(body.angular) * body.radius;
       sweep.reach = narrow_settings.step * (norm(body.linear) + sweep.turning) * kRounding;
@@ -121,12 +129,15 @@ Aabb World::Impl::calc_swept_box(int collider) const {
 }
 
 void World::Impl::find_pairs() {
+  list_awake();
   note_sweeps();
-  leaves_box.resize(data.colliders.size());
-  pool.run(int(data.colliders.size()), 128, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      leaves_box[i] = sweeps[data.colliders[i].body].awake &&
-                      !data.broad.holds(i, calc_swept_box(i));
+  leaves_box.assign(data.colliders.size(), 0);
+  pool.run(int(awake_bodies.size()), 64, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const Body& body = data.bodies[awake_bodies[k]];
+      for (int i = body.first_collider; i < body.first_collider + body.collider_count; ++i) {
+        leaves_box[i] = !data.broad.holds(i, calc_swept_box(i));
+      }
     }
   });
   for (std::size_t i = 0; i < leaves_box.size(); ++i) {
@@ -215,6 +226,7 @@ void World::Impl::update_surface_slots(const Pair& first) {
                           narrow_settings);
   for (const std::int32_t number : numbers) {
     data.pairs[number].live = data.contacts[number].count > 0;
+    is_deep[number] = overlaps_deep(data.contacts[number]);
   }
 }
 
@@ -236,6 +248,7 @@ void World::Impl::update_pair(Pair& pair, Contact& contact) {
 }
 
 void World::Impl::update_contacts() {
+  is_deep.resize(data.pairs.size());
   pool.run(int(active.size()), 64, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       Pair& pair = data.pairs[active[i]];
@@ -244,6 +257,7 @@ void World::Impl::update_contacts() {
         continue;
       }
       update_pair(pair, data.contacts[active[i]]);
+      is_deep[active[i]] = overlaps_deep(data.contacts[active[i]]);
     }
   });
 }

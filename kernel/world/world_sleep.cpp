@@ -108,9 +108,10 @@ void World::Impl::wake_marked() {
 void World::Impl::wake_hit() {
   bool any = false;
   for (std::int32_t index : active) {
-    if (!data.pairs[index].live) continue;
+    const Pair& pair = data.pairs[index];
+    if (!pair.live || pair.body_b == kGround) continue;
+    if (sweeps[pair.body_a].awake == sweeps[pair.body_b].awake) continue;
     const Contact& contact = data.contacts[index];
-    if (contact.body_b == kGround) continue;
     const Body &a = data.bodies[contact.body_a], &b = data.bodies[contact.body_b];
     if (a.awake == b.awake) continue;
     const Body& sleeper = a.awake ? b : a;
@@ -129,6 +130,7 @@ void World::Impl::wake_hit() {
     }
   }
   if (!any) return;
+  list_awake();
   std::vector<std::uint8_t> listed(data.pairs.size(), 0);
   for (std::int32_t index : active) listed[index] = 1;
   for (std::size_t i = 0; i < data.pairs.size(); ++i) {
@@ -136,7 +138,9 @@ void World::Impl::wake_hit() {
     if (listed[i] || !pair.live) continue;
     const bool awake = data.bodies[pair.body_a].awake ||
                        (pair.body_b != kGround && data.bodies[pair.body_b].awake);
-    if (awake) active.push_back(std::int32_t(i));
+    if (!awake) continue;
+    active.push_back(std::int32_t(i));
+    is_deep[i] = overlaps_deep(data.contacts[i]);
   }
 }
 
@@ -159,8 +163,11 @@ void World::Impl::note_lost_contact(const Contact& contact) {
 // Sleepers that an awake neighbour presses on more, or less, than when they fell asleep; and those
 // whose contacts no longer add up to what they were.
 void World::Impl::wake_changed() {
-  lost_support.assign(data.bodies.size(), {});
+  lost_support.resize(data.bodies.size());
+  unsettled.clear();
   for (std::int32_t index : active) {
+    const Pair& pair = data.pairs[index];
+    if (sweeps[pair.body_a].awake && (pair.body_b == kGround || sweeps[pair.body_b].awake)) continue;
     const Contact& contact = data.contacts[index];
     for (std::int32_t i : {contact.body_a, contact.body_b}) {
       if (i == kGround) continue;
@@ -169,24 +176,30 @@ void World::Impl::wake_changed() {
       const float change = contact.pressed - contact.rest_pressed;
       if (std::abs(change) > wake_impulse(body)) data.wake_next[i] = 1;
       lost_support[i] += contact.normal * (i == contact.body_a ? change : -change);
+      unsettled.push_back(i);
     }
   }
-  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+  for (std::int32_t i : unsettled) {
     const Body& body = data.bodies[i];
-    if (body.awake || !body.movable()) continue;
     if (is_unbalanced(body, body.lost_support + lost_support[i])) data.wake_next[i] = 1;
   }
+  for (std::int32_t i : unsettled) lost_support[i] = {};
+}
+
+bool World::Impl::overlaps_deep(const Contact& contact) {
+  for (int p = 0; p < contact.count; ++p) {
+    if (contact.points[p].separation <= -kSleepOverlap) return true;
+  }
+  return false;
 }
 
 void World::Impl::find_overlapping() {
   overlapping.assign(data.bodies.size(), 0);
   for (std::int32_t index : active) {
-    const Contact& contact = data.contacts[index];
-    for (int p = 0; p < contact.count; ++p) {
-      if (contact.points[p].separation > -kSleepOverlap) continue;
-      overlapping[contact.body_a] = 1;
-      if (contact.body_b != kGround) overlapping[contact.body_b] = 1;
-    }
+    if (!is_deep[index]) continue;
+    const Pair& pair = data.pairs[index];
+    overlapping[pair.body_a] = 1;
+    if (pair.body_b != kGround) overlapping[pair.body_b] = 1;
   }
 }
 
@@ -214,8 +227,9 @@ void World::Impl::update_sleep() {
   const int long_wait = int(kSleepOverlapTime / options.step);
   slept.assign(data.bodies.size(), 0);
   const bool verifying = data.verification_steps >= 0;
-  pool.run(int(data.bodies.size()), 256, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
+  pool.run(int(awake_bodies.size()), 128, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const std::int32_t i = awake_bodies[k];
       Body& body = data.bodies[i];
       if (!body.awake) continue;
       count_still(body, t.still_distance, body.still_pose, body.still_steps);
@@ -224,7 +238,7 @@ void World::Impl::update_sleep() {
                                 body.loose_steps >= (overlapping[i] ? long_wait : loose_wait));
     }
   });
-  if (verifying) return;  // who falls asleep holds up others, whatever they weigh
+  if (verifying) return update_verification();
   keep_trees_whole();
   put_to_sleep();
 }

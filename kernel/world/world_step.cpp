@@ -33,10 +33,11 @@ class Stopwatch {
 void World::Impl::apply_forces() {
   velocities.assign(data.bodies.size(), {});
   displacements.assign(data.bodies.size(), {});
-  pool.run(int(data.bodies.size()), 256, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
+  pool.run(int(awake_bodies.size()), 64, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const std::int32_t i = awake_bodies[k];
       const Body& body = data.bodies[i];
-      if (!body.awake || body.mobile < 0) continue;
+      if (body.mobile < 0) continue;
       const FreeRotation free = rotate_freely(body.world_from_com.rotation, body.inertia,
                                               blocks.angular_velocity(body.mobile), options.step);
       velocities[i] = {body.linear, Vec3f(free.angular)};
@@ -97,12 +98,11 @@ void World::Impl::limit_kicks() {
   const auto speed_before = [&](const Body& body) {
     return norm(outwards(body.linear)) + float(options.gravity * options.step);
   };
-  bool any = false;
-  for (std::size_t i = 0; i < data.bodies.size() && !any; ++i) {
+  const bool any = std::any_of(awake_bodies.begin(), awake_bodies.end(), [&](std::int32_t i) {
     const Body& body = data.bodies[i];
-    any = may_kick(body) &&
-          norm(outwards(velocities[i].linear)) > std::max(speed_before(body), kFreeKick);
-  }
+    return may_kick(body) &&
+           norm(outwards(velocities[i].linear)) > std::max(speed_before(body), kFreeKick);
+  });
   if (!any) return;
   fastest.assign(data.bodies.size(), 0);
   neighbour.assign(data.bodies.size(), kNobody);
@@ -124,7 +124,7 @@ void World::Impl::limit_kicks() {
       of_b = std::max(of_b, norm(a.linear + cross(a.angular, p.from_a)));
     }
   }
-  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+  for (std::int32_t i : awake_bodies) {
     if (!may_kick(data.bodies[i])) continue;
     const float after = norm(outwards(velocities[i].linear));
     const float before = speed_before(data.bodies[i]);
@@ -188,11 +188,11 @@ void World::Impl::advance() {
   rates.resize(blocks.size());
   block_awake.assign(blocks.block_count(), 0);
   body_of.resize(blocks.size());
-  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+  for (std::int32_t i : awake_bodies) {
     const Body& body = data.bodies[i];
-    if (!body.awake || body.mobile < 0) continue;
+    if (body.mobile < 0) continue;
     moves[body.mobile] = 1;
-    body_of[body.mobile] = std::int32_t(i);
+    body_of[body.mobile] = i;
     block_awake[blocks.block_of_body(body.mobile)] = 1;
   }
   pool.run(blocks.block_count(), 4, [&](int begin, int end) {
@@ -215,9 +215,7 @@ void World::Impl::advance() {
 
 // A contact counts as touching when it carries an impulse.
 void World::Impl::update_touching() {
-  for (Body& body : data.bodies) {
-    if (body.awake) body.touching = false;
-  }
+  for (std::int32_t i : awake_bodies) data.bodies[i].touching = false;
   for (std::int32_t index : active) {
     const Contact& contact = data.contacts[index];
     if (contact.pressed <= 0) continue;
@@ -248,14 +246,14 @@ void World::Impl::lose(int index) {
 }
 
 void World::Impl::remove_lost() {
-  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
+  for (std::int32_t i : awake_bodies) {
     const Body& body = data.bodies[i];
     if (!body.awake) continue;
     const Vec3 p = body.world_from_type().translation;
     // Written so that a pose that is not a number is lost too.
     const bool inside = p.z >= options.lost_below &&
                         p.x * p.x + p.y * p.y <= options.lost_beyond * options.lost_beyond;
-    if (!inside) lose(int(i));
+    if (!inside) lose(i);
   }
 }
 

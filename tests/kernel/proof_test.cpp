@@ -1,6 +1,7 @@
 // World::begin_rest_verification(): who rests passes; who only sleeps, creeps or hangs in the air does not.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -105,6 +106,45 @@ TEST(ProofOfRest, WhatOnlyTremblesIsBroughtToRestInTheEnd) {
 
 TEST(ProofOfRest, WhatSlidesInEarnestIsNot) {
   EXPECT_EQ(prove_on_slope(0.03), INFINITY);
+}
+
+// While one piece slides for seconds the others need not be computed; but rest is verified of all at once.
+TEST(ProofOfRest, PiecesFarFromWhatMovesDozeAndAreVerifiedAwakeAllTheSame) {
+  PieceType ramp = box_type("ramp", 40, 4, 1), box = box_type("box", 0.4, 0.4, 0.2);
+  ramp.friction = box.friction = 0;
+  World world({ramp, box});
+  const Quat q = turned({0, 1, 0}, std::atan(0.003));
+  std::vector<NewPiece> pieces = {at(0, {0, 0, 2}, q, true),
+                                  at(1, Vec3{0, 0, 2} + q.rotate({-15, 0, 0.601}), q)};
+  for (int i = 0; i < 10; ++i) pieces.push_back(at(1, {double(i), 5, 0.1}));
+  world.add(pieces);
+  world.begin_rest_verification();
+  int least = world.awake_count(), all_awake_steps = 0, steps = 0;
+  ASSERT_EQ(least, 11);
+  while (!world.rest_verified(kSpeed, kAngularSpeed) && ++steps < 1200) {
+    world.step();
+    least = std::min(least, world.awake_count());
+    all_awake_steps = world.awake_count() == 11 ? all_awake_steps + 1 : 0;
+  }
+  EXPECT_GT(steps, 180);  // the one that slides
+  EXPECT_LT(steps, 1200);
+  EXPECT_EQ(least, 1);
+  EXPECT_GE(all_awake_steps, 30);  // half a second at the end
+}
+
+// What lies on others is not left out of account: they stay awake with it.
+TEST(ProofOfRest, NeighboursOfWhatMovesStayAwake) {
+  PieceType plate = box_type("plate", 3, 3, 0.1), box = box_type("box", 0.4, 0.4, 0.2);
+  box.friction = 0;
+  World world({plate, box});
+  world.add({at(0, {0, 0, 0.05}), at(1, {-1, 0, 0.202}), at(1, {5, 0, 0.1}), at(1, {7, 0, 0.1})});
+  run(world, 1);
+  world.begin_rest_verification();
+  world.set_velocity(1, {0.03, 0, 0}, {});
+  run(world, 1.5);
+  ASSERT_FALSE(world.rest_verified(kSpeed, kAngularSpeed));
+  EXPECT_TRUE(world.is_awake(0) && world.is_awake(1));
+  EXPECT_FALSE(world.is_awake(2) || world.is_awake(3));
 }
 
 TEST(ProofOfRest, WhoSleepsInTheAirDoesNotPass) {

@@ -1,0 +1,234 @@
+// Filling the rows of contact_rows.h from contacts and bodies, for either kind of packet. Not for use
+// outside kernel/.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+
+#include "kernel/solver/contact_law.h"
+#include "kernel/solver/contact_rows.h"
+#include "kernel/solver/friction_axes.h"
+#include "kernel/solver/packets.h"
+
+namespace rubble::contact_prepare {
+
+// One side of a batch.
+template <typename P>
+struct Side {
+  Packet3<P> row0, row1, row2;  // of the inverse inertia in the world
+  P inverse_mass, mass, share;
+
+  RUBBLE_INLINE Side(const BodyTerms* terms, const std::int32_t* index) {
+    const auto row = [&](float (BodyTerms::*numbers)[3], int i) __attribute__((always_inline)) {
+      return load_quad(terms[index[i]].*numbers);
+    };
+    const auto gather = [&](float (BodyTerms::*n)[3]) __attribute__((always_inline)) {
+      return P::gather(row(n, 0), row(n, 1), row(n, 2), row(n, 3), row(n, 4), row(n, 5), row(n, 6),
+                       row(n, 7));
+    };
+    const Columns<P> first = gather(&BodyTerms::row0), second = gather(&BodyTerms::row1),
+                     third = gather(&BodyTerms::row2);
+    row0 = {first.x, first.y, first.z}, inverse_mass = first.w;
+    row1 = {second.x, second.y, second.z}, mass = second.w;
+    row2 = {third.x, third.y, third.z}, share = third.w;
+  }
+  RUBBLE_INLINE Packet3<P> turn(const Packet3<P>& arm) const {
+    return Packet3<P>{dot(row0, arm), dot(row1, arm), dot(row2, arm)} * share;
+  }
+};
+
+// The angular part of a row.
+template <typename P>
+struct Turns {
+  Packet3<P> arm_a, arm_b, turn_a, turn_b;
+
+  RUBBLE_INLINE Turns(const Side<P>& a, const Side<P>& b, const Packet3<P>& direction,
+                      const Packet3<P>& from_a, const Packet3<P>& from_b)
+      : arm_a(cross(from_a, direction)),
+        arm_b(cross(from_b, direction)),
+        turn_a(a.turn(arm_a)),
+        turn_b(b.turn(arm_b)) {}
+};
+
+// The angular parts of J M^-1 J^T of the two sides.
+template <typename P>
+struct Around {
+  P a, b;
+};
+
+// Stores a row.
+template <typename P>
+RUBBLE_INLINE Around<P> store(const Turns<P>& turns, const Side<P>& a, const Side<P>& b,
+                      typename P::Mask used, ContactRow& row) {
+  turns.arm_a.store(row.arm_a);
+  turns.arm_b.store(row.arm_b);
+  turns.turn_a.store(row.turn_a);
+  turns.turn_b.store(row.turn_b);
+  const Around<P> around{dot(turns.arm_a, turns.turn_a), dot(turns.arm_b, turns.turn_b)};
+  const P mass = P(1) / (a.inverse_mass + b.inverse_mass + around.a + around.b);
+  select(used, mass, P{}).store(row.mass);
+  return around;
+}
+
+// J M^-1 J^T of two rows across each other.
+template <typename P>
+RUBBLE_INLINE P couple(const Turns<P>& s, const Turns<P>& t) {
+  return dot(s.arm_a, t.turn_a) + dot(s.arm_b, t.turn_b);
+}
+
+RUBBLE_INLINE Quad read_quad(const void* from, int index) {
+  Quad q;
+  std::memcpy(&q, static_cast<const char*>(from) + index * int(sizeof q), sizeof q);
+  return q;
+}
+
+// The points of that number of the contacts in the lanes.
+template <typename P>
+struct Points {
+  Packet3<P> from_a, from_b;
+  P separation, impulse;
+
+  RUBBLE_INLINE Points(const Contact* const* contact, int point) {
+    static_assert(offsetof(ContactPoint, normal_impulse) == 7 * sizeof(float),
+                  "eight numbers in a row");
+    const auto quad = [&](int i, int half) __attribute__((always_inline)) {
+      return read_quad(&contact[i]->points[point], half);
+    };
+    const Columns<P> c = P::gather(quad(0, 0), quad(1, 0), quad(2, 0), quad(3, 0), quad(4, 0),
+                                   quad(5, 0), quad(6, 0), quad(7, 0));
+    const Columns<P> d = P::gather(quad(0, 1), quad(1, 1), quad(2, 1), quad(3, 1), quad(4, 1),
+                                   quad(5, 1), quad(6, 1), quad(7, 1));
+    from_a = {c.x, c.y, c.z};
+    from_b = {c.w, d.x, d.y};
+    separation = d.z, impulse = d.w;
+  }
+};
+
+// Four numbers of each contact, from `offset` on.
+template <typename P>
+RUBBLE_INLINE Columns<P> gather(const Contact* const* contact, std::size_t offset) {
+  const auto quad = [&](int i) __attribute__((always_inline)) {
+    return read_quad(reinterpret_cast<const char*>(contact[i]) + offset, 0);
+  };
+  return P::gather(quad(0), quad(1), quad(2), quad(3), quad(4), quad(5), quad(6), quad(7));
+}
+
+// Two unit vectors across a normal; the same for the same normal.
+template <typename P>
+RUBBLE_INLINE void make_tangents(const Packet3<P>& n, Packet3<P>* tangent) {
+  const P zero{}, one(1);
+  const auto upright = P(0.57735F) > select(n.x > zero, n.x, -n.x);
+  const Packet3<P> across =
+      cross(n, Packet3<P>{select(upright, one, zero), select(upright, zero, one), zero});
+  tangent[0] = across * (one / sqrt(dot(across, across)));
+  tangent[1] = cross(n, tangent[0]);
+}
+
+template <typename P>
+RUBBLE_INLINE void prepare_friction(const Side<P>& a, const Side<P>& b, const Packet3<P>& middle_a,
+                                    const Packet3<P>& middle_b, const Packet3<P>& impulse,
+                                    const Packet3<P>& normal, typename P::Mask used,
+                                    ContactBatch& batch) {
+  Packet3<P> tangent[2];
+  make_tangents(normal, tangent);
+  Turns<P> s(a, b, tangent[0], middle_a, middle_b), t(a, b, tangent[1], middle_a, middle_b);
+  // Neither row shall feel the other's impulse.
+  const PlaneTurn<P> turn = find_friction_axes(couple(s, s), couple(s, t), couple(t, t));
+  turn.apply(tangent[0], tangent[1]);
+  turn.apply(s.arm_a, t.arm_a);
+  turn.apply(s.arm_b, t.arm_b);
+  turn.apply(s.turn_a, t.turn_a);
+  turn.apply(s.turn_b, t.turn_b);
+  store(s, a, b, used, batch.slide[0].row);
+  store(t, a, b, used, batch.slide[1].row);
+  for (int k = 0; k < 2; ++k) {
+    tangent[k].store(batch.slide[k].direction);
+    dot(tangent[k], impulse).store(batch.slide[k].impulse);
+  }
+}
+
+template <typename P>
+RUBBLE_INLINE void prepare_batch(ContactBatch& batch, const Contact* contacts,
+                                 const BodyTerms* terms, float rest_gap, NormalRow* rows,
+                                 PushRow* pushes) {
+  static_assert(offsetof(Contact, friction) == offsetof(Contact, normal) + sizeof(Vec3f) &&
+                    offsetof(Contact, twist_impulse) ==
+                        offsetof(Contact, friction_impulse) + sizeof(Vec3f),
+                "each vector and its number in a row");
+  const Contact* contact[kLanes];
+  Lanes in_use;
+  for (int i = 0; i < kLanes; ++i) {
+    // Lanes not in use compute with the first contact, and their rows weigh nothing.
+    contact[i] = &contacts[batch.contact[batch.contact[i] >= 0 ? i : 0]];
+    in_use[i] = batch.contact[i] >= 0 ? 1.0F : 0.0F;
+  }
+  const P one(1), zero{};
+  const auto used = P(in_use) > zero;
+  const Side<P> a(terms, batch.a), b(terms, batch.b);
+  const Columns<P> across = gather<P>(contact, offsetof(Contact, normal));
+  const Columns<P> along = gather<P>(contact, offsetof(Contact, friction_impulse));
+  const Packet3<P> normal{across.x, across.y, across.z};
+  const Packet3<P> friction_impulse{along.x, along.y, along.z};
+  const auto push = contact_law::find_push_shares(normal.z);
+  const P share_a = select(a.mass > zero, push.a, zero), mass_a = push.a * a.mass;
+  const P share_b = select(b.mass > zero, push.b, zero), mass_b = push.b * b.mass;
+  P total{};
+  for (int i = 0; i < batch.rows; ++i) {
+    const Points<P> p(contact, i);
+    const Turns<P> turns(a, b, normal, p.from_a, p.from_b);
+    NormalRow& n = rows[i];
+    const Around<P> around = store(turns, a, b, used, n.row);
+    const P push_mass =
+        one / (share_a + mass_a * around.a + share_b + mass_b * around.b);
+    select(used, push_mass, zero).store(pushes[i].mass);
+    (p.separation - P(rest_gap)).store(n.gap);
+    const P impulse = select(used, p.impulse, zero);
+    impulse.store(n.impulse);
+    impulse.store(n.carried);
+    total = total + impulse;
+  }
+  const P count(float(batch.rows));
+  const auto shares = contact_law::find_centre_shares(total, count);
+  Packet3<P> middle_a, middle_b;
+  for (int i = 0; i < batch.rows; ++i) {
+    const Points<P> p(contact, i);
+    const P share = shares.each + shares.per_impulse * p.impulse;
+    middle_a += p.from_a * share;
+    middle_b += p.from_b * share;
+  }
+  P radius{};
+  for (int i = 0; i < batch.rows; ++i) {
+    const Points<P> p(contact, i);
+    const Packet3<P> from = p.from_a - middle_a;
+    radius = radius + sqrt(dot(from, from)) * (shares.each + shares.per_impulse * p.impulse);
+  }
+  prepare_friction(a, b, middle_a, middle_b, friction_impulse, normal, used, batch);
+  const Packet3<P> twist_a = a.turn(normal), twist_b = b.turn(normal);
+  const P twist = dot(normal, twist_a + twist_b);
+  const P twist_mass = batch.rows > 1 ? select(twist > zero, one / twist, zero) : zero;
+  select(used, twist_mass, zero).store(batch.twist_mass);
+  select(used, along.w, zero).store(batch.twist_impulse);
+  select(used, across.w, zero).store(batch.friction);
+  radius.store(batch.radius);
+  normal.store(batch.normal);
+  twist_a.store(batch.twist_a);
+  twist_b.store(batch.twist_b);
+  a.inverse_mass.store(batch.inverse_mass_a);
+  b.inverse_mass.store(batch.inverse_mass_b);
+  share_a.store(batch.push_share_a);
+  share_b.store(batch.push_share_b);
+  mass_a.store(batch.push_mass_a);
+  mass_b.store(batch.push_mass_b);
+  zero.store(batch.pressed);
+}
+
+template <typename P>
+RUBBLE_INLINE void prepare(const BatchRange& range, const Contact* contacts,
+                           const BodyTerms* terms, float rest_gap) {
+  for (ContactBatch* batch = range.begin; batch != range.end; ++batch) {
+    prepare_batch<P>(*batch, contacts, terms, rest_gap, range.rows + batch->first_row,
+                     range.pushes + batch->first_row);
+  }
+}
+
+}  // namespace rubble::contact_prepare

@@ -17,12 +17,12 @@
 #include <utility>
 #include <vector>
 
-#include "app/arguments.h"
-#include "app/build_info.h"
-#include "app/commands.h"
+#include "app/commands/arguments.h"
+#include "app/commands/commands.h"
+#include "app/support/build_info.h"
 #include "kernel/base/text.h"
-#include "scripting/schema.h"
-#include "scripting/schema_docs.h"
+#include "scripting/reference/schema_docs.h"
+#include "scripting/schema/schema.h"
 
 namespace rubble {
 namespace {

@@ -1,11 +1,12 @@
 // `rubble assets check`: what is sound in a pack and what is not.
 #include <cstdio>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/assets/asset_library.h"
 #include "app/assets/assets_tree.h"
 #include "app/assets/hull_error.h"
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
 #include "render/materials/surface_appearance.h"
 
 namespace rubble {
@@ -197,9 +198,8 @@ void print_json(const AssetPack& pack, const std::vector<AssetReport>& reports,
   std::printf("%s\n", whole.dump(2).c_str());
 }
 
-}  // namespace
-
-ExitCode check_assets_of(const std::string& pack_name, bool json) {
+// `bad_input` when something is not sound.
+ExitCode check_pack(const std::string& pack_name, bool json) {
   const std::vector<Material> materials = load_materials(bundled_assets_folder() + "/materials.lua");
   const AssetPack pack = load_asset_pack(find_pack(pack_name), materials);
   std::vector<AssetReport> reports;
@@ -215,6 +215,24 @@ ExitCode check_assets_of(const std::string& pack_name, bool json) {
     if (!asset.links.empty()) sound = add_tree(asset, library, trees) && sound;
   json ? print_json(pack, reports, trees) : print_table(pack, reports, trees);
   return sound ? ExitCode::done : ExitCode::bad_input;
+}
+
+struct Request {
+  std::string pack;   // a folder with a pack.lua, or the name of a bundled one
+  bool json = false;  // --json
+};
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<Request>();
+  line.add("pack", request->pack, "A folder with a pack.lua, or a bundled pack").required();
+  line.add_flag("--json", request->json, "JSON instead of a table");
+  return [request] { return check_pack(request->pack, request->json); };
+}
+
+}  // namespace
+
+Command assets_check_command() {
+  return {"assets", "check", "Say what is sound in a pack: closed meshes, masses, how well the parts fit", declare};
 }
 
 }  // namespace rubble

@@ -2,12 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <numeric>
 
 #include "app/assets/assemblies.h"
 #include "app/assets/asset_library.h"
 #include "app/assets/assets_tree.h"
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
 #include "app/support/progress.h"
 #include "io/image/picture_sheet.h"
 #include "kernel/base/portable_math.h"
@@ -144,9 +145,7 @@ void draw_row(GlContext& context, std::vector<Exhibit*> row, std::vector<SheetTi
   }
 }
 
-}  // namespace
-
-ExitCode show_assets(const std::string& pack_name, const std::string& out, int tile) {
+ExitCode show_pack(const std::string& pack_name, const std::string& out, int tile) {
   const std::vector<Material> materials = load_materials(bundled_assets_folder() + "/materials.lua");
   const AssetPack pack = load_asset_pack(find_pack(pack_name), materials);
   Progress progress(choose_progress_style(false));
@@ -185,6 +184,29 @@ ExitCode show_assets(const std::string& pack_name, const std::string& out, int t
                       tiles, kColumns);
   std::printf("%s\n", path.c_str());
   return ExitCode::done;
+}
+
+struct Request {
+  std::string pack, out;  // as of `assets check`; --out; empty: NAME.png
+  int tile = 288;         // --tile; unit: pixel
+};
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<Request>();
+  line.add("pack", request->pack, "A folder with a pack.lua, or a bundled pack").required();
+  line.add("--out", request->out, "The picture, .png or .jpg")
+      .shows_default_text("NAME.png")
+      .metavar("FILE");
+  line.add("--tile", request->tile, "Width of one asset's picture, in pixels")
+      .shows_default()
+      .between(64, 1024);
+  return [request] { return show_pack(request->pack, request->out, request->tile); };
+}
+
+}  // namespace
+
+Command assets_show_command() {
+  return {"assets", "show", "Draw every asset of a pack on one sheet", declare};
 }
 
 }  // namespace rubble

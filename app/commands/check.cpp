@@ -1,12 +1,16 @@
 // `rubble check`: resolves everything and runs nothing.
 #include <cstdio>
+#include <memory>
 
 #include "app/assets/asset_library.h"
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
 #include "kernel/base/text.h"
 #include "scripting/mission.h"
+#include "scripting/reference/schema_docs.h"
 
 namespace rubble {
+namespace {
 
 ExitCode check_mission(const RunRequest& request) {
   MissionOptions options;
@@ -19,6 +23,21 @@ ExitCode check_mission(const RunRequest& request) {
     std::fprintf(stderr, "warning: %s\n", printable(warning).c_str());
   std::printf("%s\n", scenario_to_json(mission.scenario).c_str());
   return ExitCode::done;
+}
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<RunRequest>();
+  add_mission_options(line, *request);
+  add_seed_option(line, *request);
+  line.add_print("--schema", mission_json_schema,
+                 "Print a JSON Schema of every key of a mission instead");
+  return [request] { return check_mission(*request); };
+}
+
+}  // namespace
+
+Command check_command() {
+  return {"", "check", "Print the complete scenario as JSON; run nothing", declare};
 }
 
 }  // namespace rubble

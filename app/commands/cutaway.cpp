@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
 #include "app/commands/pile_section.h"
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/finished_run.h"
@@ -13,6 +15,14 @@
 
 namespace rubble {
 namespace {
+
+// A picture of the pile, cut open across Y.
+struct CutawayRequest {
+  double y = 0;       // --y, of the plane; what is in front of it is taken away; unit: m
+  int width = 900;    // --width; unit: pixel
+  std::string title;  // --title, printed above
+  std::string out;    // --out; empty: cutaway.png in the folder of the run
+};
 
 constexpr int kOversample = 2;
 constexpr double kMargin = 0.5;         // around the pile; unit: m
@@ -151,8 +161,6 @@ void light_up(Scene& scene) {
   scene.wetness = 0;
 }
 
-}  // namespace
-
 ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutaway) {
   const SavedRun saved = open_saved_run(request.folder);
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
@@ -181,6 +189,28 @@ ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutawa
   write_picture_sheet(path, cutaway.title, {{picture.shrunk(), "", note}}, 1);
   std::printf("%s\n", path.c_str());
   return ExitCode::done;
+}
+
+Action declare(CommandLine& line) {
+  const auto of = std::make_shared<FolderRequest>();
+  const auto request = std::make_shared<CutawayRequest>();
+  add_folder_options(line, *of);
+  line.add("--y", request->y, "Where the plane is that cuts across Y")
+      .shows_default()
+      .metavar("METRES")
+      .within(-1000.0, 1000.0);
+  line.add("--width", request->width, "Of the picture, in pixels").shows_default().between(200, 4000);
+  line.add("--title", request->title, "Printed above the picture");
+  line.add("--out", request->out, "The picture, .png or .jpg")
+      .shows_default_text("FOLDER/cutaway.png")
+      .metavar("FILE");
+  return [of, request] { return draw_cutaway(*of, *request); };
+}
+
+}  // namespace
+
+Command cutaway_command() {
+  return {"", "cutaway", "Draw a run's pile cut open, to scale", declare};
 }
 
 }  // namespace rubble

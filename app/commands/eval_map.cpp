@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
 #include "app/eval/map/map_report.h"
 #include "app/eval/scores/saved_surface.h"
 #include "app/eval/scores/surface_score.h"
@@ -15,9 +17,20 @@
 namespace rubble {
 namespace {
 
+struct MapRequest {
+  std::string map, dataset;               // a PLY file; the folder of a run
+  std::string align;                      // --align: COLMAP model whose frame the map has
+  SpaceRequest space;                     // voxel: of the map's free space
+  std::optional<double> range;            // --range: of the camera's depth; unit: m
+  std::string details;                    // --details: folder for clouds and the entrances
+  std::vector<std::string> asset_packs;   // --assets
+  ScoreOutput output;
+  RunOptions options;
+};
+
 constexpr double kMapSpacing = 0.02;  // of samples of a mesh; unit: m
 
-double sample_spacing(const MapRequest& request) { return std::min(kMapSpacing, request.voxel / 2); }
+double sample_spacing(const MapRequest& request) { return std::min(kMapSpacing, request.space.voxel / 2); }
 
 RecordedViews load_views(const SavedRun& saved, const MapRequest& request) {
   const Scenario scenario = stated_scenario(saved.manifest.recipe);
@@ -32,10 +45,10 @@ RecordedViews load_views(const SavedRun& saved, const MapRequest& request) {
 
 VoidMap make_void_map(const SavedSurface& surface, const MapRequest& request, Progress& progress) {
   VoidSpaceOptions options;
-  options.voxel = request.voxel;
-  const double largest = *std::max_element(request.radii.begin(), request.radii.end());
-  options.rolling_radius = outside_radius_for(request.outside_radius, largest);
-  options.memory_limit = request.memory_gib * (1 << 30);
+  options.voxel = request.space.voxel;
+  const double largest = *std::max_element(request.space.radii.begin(), request.space.radii.end());
+  options.rolling_radius = outside_radius_for(request.space.outside_radius, largest);
+  options.memory_limit = request.space.memory_gib * (1 << 30);
   options.threads = request.options.threads;
   options.scenery = surface.geometry.terrain;
   const auto report = [&](double from, double share) {
@@ -46,7 +59,7 @@ VoidMap make_void_map(const SavedSurface& surface, const MapRequest& request, Pr
   };
   VoidSpace space =
       calc_void_space(surface.pile, surface.geometry.meshes, options, report(0, 0.6));
-  return find_voids(std::move(space), request.radii, report(0.6, 0.4));
+  return find_voids(std::move(space), request.space.radii, report(0.6, 0.4));
 }
 
 MapFindings::Voids find_by(const std::vector<Vec3>& map, const VoidMap& voids,
@@ -79,7 +92,7 @@ MapFindings score_map(const MapRequest& request, const SavedSurface& surface, Pl
   findings.samples = sample_surface(findings.map, sample_spacing(request));
   step(0, "visible surface");
   findings.seen = find_seen_surface(surface.pile, surface.geometry.meshes, queries, views,
-                                    std::min(SeenSurface().spacing, request.voxel / 2), pool);
+                                    std::min(SeenSurface().spacing, request.space.voxel / 2), pool);
   step(0.4, "accuracy");
   findings.accuracy = calc_map_accuracy(findings.samples, queries, findings.seen, pool);
   step(0.5, "completeness");
@@ -103,8 +116,6 @@ void print_map(const MapRequest& request, const MapFindings& findings, const Voi
   if (!request.output.json) std::fputs(entrance_text(findings, voids).c_str(), stdout);
 }
 
-}  // namespace
-
 ExitCode eval_map(const MapRequest& request) {
   stop_on_signals();
   for (const std::string& path : request.output.files) check_score_file(path);
@@ -123,6 +134,37 @@ ExitCode eval_map(const MapRequest& request) {
   progress.finish("");
   print_map(request, findings, voids);
   return ExitCode::done;
+}
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<MapRequest>();
+  request->space.voxel = 0.05;
+  line.add("map", request->map, "The map: a mesh or point cloud, PLY").required();
+  line.add("dataset", request->dataset, "Output folder of the run it was made from").required();
+  line.add("--align", request->align,
+           "The COLMAP model whose frame the map has, brought to the world by a similarity")
+      .shows_default_text("the map is in the world of the dataset")
+      .metavar("DIR");
+  line.add("--range", request->range, "Farther than this no frame sees")
+      .shows_default_text("the depth sensor's range, or 10")
+      .metavar("METRES")
+      .within(0.01, 1000.0);
+  add_space_options(line, request->space);
+  line.add("--details", request->details,
+           "Write there the map by its errors and the seen surface by what the map has of it "
+           "(PLY), and the entrances (CSV)")
+      .metavar("DIR");
+  add_packs_option(line, request->asset_packs, "A folder where packs may be now");
+  add_score_options(line, request->output);
+  add_threads_option(line, request->options.threads);
+  add_quiet_option(line, request->options.quiet);
+  return [request] { return eval_map(*request); };
+}
+
+}  // namespace
+
+Command eval_map_command() {
+  return {"eval", "map", "A map against the surface that its run saw, and the voids it found", declare};
 }
 
 }  // namespace rubble

@@ -1,36 +1,24 @@
-// `rubble eval sfm` and `rubble eval surface`: reconstructions against the true cameras and
-// surface.
-#include <cstdio>
+// `rubble eval sfm`: reconstructions against the true cameras and surface.
 #include <filesystem>
+#include <memory>
 
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
+#include "app/commands/score_output.h"
 #include "app/eval/scores/saved_surface.h"
-#include "app/eval/scores/score_table.h"
-#include "app/eval/scores/surface_score.h"
 #include "app/eval/sfm/sfm_details.h"
 #include "app/eval/sfm/sfm_score.h"
 
 namespace rubble {
 namespace {
 
-std::string name_of(const std::string& folder) {
-  const auto path = std::filesystem::path(folder).lexically_normal();
-  return (path.has_filename() ? path : path.parent_path()).filename().string();
-}
-
-void add_surface_cells(const std::optional<SurfaceScore>& s, std::vector<ScoreCell>& cells) {
-  const auto percent = [&](double SurfaceScore::*share) {
-    return s ? std::optional<double>(100 * (*s).*share) : std::nullopt;
-  };
-  cells.push_back({"within_1cm_percent", "within 1 cm of the surface, %",
-                   percent(&SurfaceScore::within_1cm), 1});
-  cells.push_back({"within_2cm_percent", "within 2 cm, %", percent(&SurfaceScore::within_2cm), 1});
-  cells.push_back({"within_5cm_percent", "within 5 cm, %", percent(&SurfaceScore::within_5cm), 1});
-  cells.push_back({"median_distance_m", "median distance, m",
-                   s ? std::optional<double>(s->median) : std::nullopt, 4});
-  cells.push_back({"completeness_5cm_percent", "visible surface covered within 5 cm, %",
-                   percent(&SurfaceScore::completeness_5cm), 1});
-}
+struct SfmRequest {
+  std::vector<std::string> datasets;     // folders of runs
+  std::string model = "sfm/sparse";      // --model: inside each, or absolute
+  double bound = 0.1;                    // --bound: on track are frames nearer than this; unit: m
+  std::string details;                   // --details: folder for aligned points and tracks
+  std::vector<std::string> asset_packs;  // --assets DIR: where its packs may be now
+  ScoreOutput output;
+};
 
 std::vector<ScoreCell> make_cells(const SfmScore& s) {
   return {{"frames", "sequence length", s.frames, 0},
@@ -61,13 +49,6 @@ ScoreRow score_dataset(const std::string& dataset, const SfmRequest& request) {
   return row;
 }
 
-void print_score(const std::vector<ScoreRow>& rows, const ScoreOutput& output) {
-  for (const std::string& path : output.files) write_score_file(path, rows);
-  std::fputs((output.json ? score_json(rows) : score_text(rows)).c_str(), stdout);
-}
-
-}  // namespace
-
 ExitCode eval_sfm(const SfmRequest& request) {
   for (const std::string& path : request.output.files) check_score_file(path);
   if (request.datasets.size() > 1 && std::filesystem::path(request.model).is_absolute())
@@ -81,23 +62,30 @@ ExitCode eval_sfm(const SfmRequest& request) {
   return ExitCode::done;
 }
 
-ExitCode eval_surface(const SurfaceRequest& request) {
-  constexpr double kSpacing = 0.02;  // unit: m
-  for (const std::string& path : request.output.files) check_score_file(path);
-  const SfmTruth truth = load_sfm_truth(request.dataset);
-  PlyMesh mesh = load_ply(request.mesh);
-  if (!request.align.empty()) align_to_world(request.align, truth, mesh.positions);
-  check_area(mesh, kSpacing, request.mesh);
-  const SavedSurface surface(request.dataset, request.asset_packs);
-  const PileQueries& queries = surface.geometry.queries;
-  const auto score = calc_surface_score(sample_surface(mesh, kSpacing), queries,
-                                        find_visible_surface(queries, truth.model));
-  ScoreRow row{name_of(request.mesh), {}};
-  row.cells.push_back({"triangles", "triangles", double(mesh.triangles.size()), 0});
-  row.cells.push_back({"samples", "samples", score ? double(score->samples) : 0, 0});
-  add_surface_cells(score, row.cells);
-  print_score({row}, request.output);
-  return ExitCode::done;
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<SfmRequest>();
+  line.add("datasets", request->datasets, "Output folders of runs with outputs.colmap").required();
+  line.add("--model", request->model,
+           "In each dataset, COLMAP's model or the folder of its numbered models")
+      .shows_default()
+      .metavar("DIR");
+  line.add("--bound", request->bound,
+           "A frame is on track when it is no farther from the truth")
+      .shows_default()
+      .metavar("METRES")
+      .positive();
+  line.add("--details", request->details,
+           "Write there, for each dataset, the points in its world (PLY) and the track (CSV)")
+      .metavar("DIR");
+  add_packs_option(line, request->asset_packs, "A folder where packs may be now");
+  add_score_options(line, request->output);
+  return [request] { return eval_sfm(*request); };
+}
+
+}  // namespace
+
+Command eval_sfm_command() {
+  return {"eval", "sfm", "What COLMAP made of datasets: track, points, distance to the true surface", declare};
 }
 
 }  // namespace rubble

@@ -1,12 +1,21 @@
 // `rubble eval trajectory`: an estimate against the truth.
 #include <cstdio>
+#include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
 #include "app/eval/scores/trajectory_error.h"
 
 namespace rubble {
 namespace {
+
+struct TrajectoryRequest {
+  std::string estimate, truth;   // TUM or EuRoC files
+  int delta = 1;                 // --delta: poses between which relative errors are taken
+  double max_difference = 0.01;  // --max-difference: of the stamps of a pair; unit: s
+  bool json = false;             // --json
+};
 
 std::string span_of(const std::vector<StampedPose>& poses) {
   return std::to_string(poses.front().stamp) + " to " + std::to_string(poses.back().stamp) + " s";
@@ -33,8 +42,6 @@ void print_table(const TrajectoryError& e) {
   std::printf("RPE, rotation               %.6f degrees\n", e.rpe_rot_rmse_deg);
 }
 
-}  // namespace
-
 ExitCode eval_trajectory(const TrajectoryRequest& request) {
   const auto estimate = load_trajectory(request.estimate);
   const auto truth = load_trajectory(request.truth);
@@ -58,6 +65,26 @@ ExitCode eval_trajectory(const TrajectoryRequest& request) {
                                     {"rpe_rot_rmse_deg", error.rpe_rot_rmse_deg}};
   std::printf("%s\n", json.dump(1).c_str());
   return ExitCode::done;
+}
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<TrajectoryRequest>();
+  line.add("estimate", request->estimate, "The estimate: a TUM or EuRoC file").required();
+  line.add("truth", request->truth, "The truth: a TUM or EuRoC file").required();
+  line.add("--delta", request->delta, "Relative errors over so many poses").shows_default();
+  line.add("--max-difference", request->max_difference,
+           "Largest difference of the stamps of a pair")
+      .shows_default()
+      .metavar("SECONDS")
+      .non_negative();
+  line.add_flag("--json", request->json, "The result as JSON");
+  return [request] { return eval_trajectory(*request); };
+}
+
+}  // namespace
+
+Command eval_trajectory_command() {
+  return {"eval", "trajectory", "Absolute and relative errors of a trajectory, as evo's", declare};
 }
 
 }  // namespace rubble

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/finished_run.h"
 #include "app/support/progress.h"
@@ -13,6 +15,22 @@
 namespace rubble {
 namespace {
 
+// Into which formats a pile goes, and where to.
+struct ExportRequest {
+  std::vector<std::string> formats;  // --format, of export_formats(); empty: all
+  std::string out;                   // --out; empty: `export` in the folder of the run
+  bool force = false;                // --force
+};
+
+// "stl, ply, obj, glb or sdf".
+std::string join_formats() {
+  std::string text;
+  const std::vector<std::string> known = export_formats();
+  for (std::size_t i = 0; i < known.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == known.size() ? " or " : ", ") + known[i];
+  return text;
+}
+
 // Every format asked for, once, or all of them. Throws InputError for an unknown one.
 std::vector<std::string> choose_formats(const std::vector<std::string>& asked) {
   const std::vector<std::string> known = export_formats();
@@ -21,7 +39,7 @@ std::vector<std::string> choose_formats(const std::vector<std::string>& asked) {
   for (const std::string& format : asked) {
     if (std::find(known.begin(), known.end(), format) == known.end())
       throw InputError({"", 0, "--format", "unknown export format",
-                        "one of stl, ply, obj, glb, sdf", "`" + format + "`", ""});
+                        join_formats(), "`" + format + "`", ""});
     if (std::find(chosen.begin(), chosen.end(), format) == chosen.end()) chosen.push_back(format);
   }
   return chosen;
@@ -34,9 +52,7 @@ void prepare(const std::string& out, bool force) {
   if (force) std::filesystem::remove_all(out + "/sdf", error);
 }
 
-}  // namespace
-
-ExitCode export_saved_pile(const FolderRequest& request, const ExportRequest& to) {
+ExitCode export_finished_pile(const FolderRequest& request, const ExportRequest& to) {
   const std::vector<std::string> formats = choose_formats(to.formats);
   const SavedRun saved = open_saved_run(request.folder);
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
@@ -55,6 +71,27 @@ ExitCode export_saved_pile(const FolderRequest& request, const ExportRequest& to
                   " files and folders");
   std::printf("%s\n", out.c_str());
   return ExitCode::done;
+}
+
+Action declare(CommandLine& line) {
+  const auto of = std::make_shared<FolderRequest>();
+  const auto request = std::make_shared<ExportRequest>();
+  add_folder_options(line, *of);
+  line.add("--format", request->formats, join_formats())
+      .shows_default_text("all")
+      .metavar("FORMAT")
+      .separated_by(',');
+  line.add("--out", request->out, "Output folder")
+      .shows_default_text("FOLDER/export")
+      .metavar("DIR");
+  line.add_flag("--force", request->force, "Replace the files of an earlier export");
+  return [of, request] { return export_finished_pile(*of, *request); };
+}
+
+}  // namespace
+
+Command export_command() {
+  return {"", "export", "The pile of a finished run as STL, PLY, OBJ, glTF or SDF", declare};
 }
 
 }  // namespace rubble

@@ -1,16 +1,24 @@
-// `rubble info`: what this program and this machine are.
+// `rubble info`: what this program and this machine are, or what lies at some paths.
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <thread>
 
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/commands/inspect_dataset.h"
 #include "app/support/build_info.h"
 #include "io/live/live_ros.h"
 #include "render/gl/gl_context.h"
 
 namespace rubble {
-
 namespace {
+
+struct InfoRequest {
+  bool gl = false;                 // --gl: every way to draw, and the device's limits
+  int gl_device = -1;              // --gl-device
+  std::vector<std::string> paths;  // recordings or folders of runs, instead of this machine
+};
 
 // Every way to draw on this machine, and what decides how it fares.
 void print_ways() {
@@ -28,8 +36,6 @@ void print_limits(const GlInfo& info) {
   std::printf("chosen        %s: %s\n", info.egl_device.c_str(), info.why.c_str());
   for (const auto& [name, value] : info.limits) std::printf("  %-24s%d\n", name.c_str(), value);
 }
-
-}  // namespace
 
 ExitCode print_info(const InfoRequest& request) {
   const BuildInfo build = build_info();
@@ -55,6 +61,24 @@ ExitCode print_info(const InfoRequest& request) {
   std::printf("GL version    %s (%s)\n", info.version.c_str(), info.vendor.c_str());
   if (request.gl) print_limits(info);
   return ExitCode::done;
+}
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<InfoRequest>();
+  line.add_flag("--gl", request->gl, "Every EGL device, what it gives, which is chosen and why");
+  add_device_option(line, request->gl_device);
+  line.add("path", request->paths,
+           "Recordings, or folders of runs: what they hold, and whether they are whole")
+      .metavar("PATH");
+  return [request] {
+    return request->paths.empty() ? print_info(*request) : inspect_datasets(request->paths);
+  };
+}
+
+}  // namespace
+
+Command info_command() {
+  return {"", "info", "Print versions, the GL renderer and threads; or look over a dataset", declare};
 }
 
 }  // namespace rubble

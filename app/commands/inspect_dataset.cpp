@@ -6,7 +6,6 @@
 
 #include "app/batch/batch_folder.h"
 #include "app/batch/seed_list.h"
-#include "app/commands/commands.h"
 #include "app/pipeline/disk_estimate.h"
 #include "app/provenance/manifest.h"
 #include "app/provenance/run_folder.h"
@@ -142,13 +141,13 @@ bool print_folder(const std::string& folder) {
     print_row("manifest.json", {FileVerdict::altered, sentence});
   FileTable table;
   for (const auto& [name, hash] : manifest.outputs)
-    table.add(name, look_over_file(folder + "/" + name, hash));
+    table.add(name, inspect_file(folder + "/" + name, hash));
   return table.finish() && altered.empty();
 }
 
 }  // namespace
 
-FileReport look_over_file(const std::string& path, const std::optional<std::string>& hash) {
+FileReport inspect_file(const std::string& path, const std::optional<std::string>& hash) {
   std::error_code failed;
   if (hash && !fs::is_regular_file(path, failed)) return {FileVerdict::missing, ""};
   const auto check = check_recording(path);
@@ -173,12 +172,12 @@ bool print_report(const std::string& path) {
   if (!fs::is_regular_file(path, failed))
     throw InputError({path, 0, "", "is no file that can be looked into", "a file or a folder",
                       "a pipe or a device", ""});
-  const FileReport report = look_over_file(path, stated_hash(path));
+  const FileReport report = inspect_file(path, stated_hash(path));
   print_row(path, report);
   return is_sound(report.verdict);
 }
 
-ExitCode print_info_of(const std::vector<std::string>& paths) {
+ExitCode inspect_datasets(const std::vector<std::string>& paths) {
   bool sound = true;
   for (const std::string& path : paths) sound = print_report(path) && sound;
   return sound ? ExitCode::done : ExitCode::differs;

@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "kernel/base/error.h"
 
 namespace rubble {
 
@@ -22,12 +25,15 @@ struct FileReport {
 };
 
 // hash: the SHA-256 that a manifest states for it. Throws InputError when it cannot be read.
-FileReport look_over_file(const std::string& path, const std::optional<std::string>& hash);
+FileReport inspect_file(const std::string& path, const std::optional<std::string>& hash);
 
 // Prints a row for the file; for every file of a dataset, those of a folder as one row as long as
 // they are sound; or how far the seeds of a batch are. Returns whether all of it is sound and no seed
 // failed.
 // Throws InputError: no such path, a folder without a run.
 bool print_report(const std::string& path);
+
+// All of them. `differs` when one is damaged.
+ExitCode inspect_datasets(const std::vector<std::string>& paths);
 
 }  // namespace rubble

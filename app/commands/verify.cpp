@@ -1,5 +1,6 @@
-#include "app/commands/verify.h"
-
+// `rubble verify`: whether a dataset can be had again. Everything is run anew from its manifest alone,
+// and compared.
+#include <memory>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,7 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
 #include "app/pipeline/run.h"
 #include "app/provenance/compare.h"
 #include "app/provenance/manifest.h"
@@ -26,6 +28,28 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+enum class Verdict { equal, differs, skipped };
+
+// What became of one part of a dataset: "manifest", "recorded files", "scenario", "assets", "pile",
+// "frames", "metrics", "files".
+struct Finding {
+  std::string part;
+  Verdict verdict = Verdict::equal;
+  std::string detail;  // where it differs first, or what was compared
+};
+
+struct Verification {
+  std::vector<Finding> findings;   // in the order of the run
+  std::vector<std::string> notes;  // what is another here: versions, graphics driver
+};
+
+struct VerifyRequest {
+  FolderRequest of;
+  std::string work;        // --work: where the run is made anew; empty: a temporary folder
+  bool pile_only = false;  // --pile-only: no frames
+  bool json = false;       // --json
+};
 
 // Where the run is made anew; goes with all that is in it.
 class WorkFolder {
@@ -222,14 +246,15 @@ class Verifier {
 
 constexpr const char* kVerdictNames[] = {"equal", "differs", "skipped"};
 
-}  // namespace
-
-bool Verification::equal() const {
-  for (const Finding& finding : findings)
+// Nothing differs.
+bool is_equal(const Verification& verification) {
+  for (const Finding& finding : verification.findings)
     if (finding.verdict == Verdict::differs) return false;
   return true;
 }
 
+// Throws InputError for a folder without a manifest, or with one that cannot be read, and for packs
+// that are nowhere to be found.
 Verification verify(const VerifyRequest& request) {
   try {
     return Verifier(request).run();
@@ -238,6 +263,7 @@ Verification verify(const VerifyRequest& request) {
   }
 }
 
+// For a person, and for a program.
 std::string to_text(const Verification& verification) {
   std::string text;
   for (const Finding& finding : verification.findings) {
@@ -248,12 +274,12 @@ std::string to_text(const Verification& verification) {
     text += row + finding.detail + "\n";
   }
   for (const std::string& note : verification.notes) text += "here is         " + note + "\n";
-  return text + (verification.equal() ? "the same\n" : "not the same\n");
+  return text + (is_equal(verification) ? "the same\n" : "not the same\n");
 }
 
 std::string to_json(const Verification& verification) {
   Json json;
-  json["equal"] = verification.equal();
+  json["equal"] = is_equal(verification);
   json["findings"] = Json::array();
   for (const Finding& finding : verification.findings)
     json["findings"].push_back({{"part", finding.part},
@@ -266,7 +292,24 @@ std::string to_json(const Verification& verification) {
 ExitCode verify_run(const VerifyRequest& request) {
   const Verification verification = verify(request);
   std::fputs((request.json ? to_json(verification) : to_text(verification)).c_str(), stdout);
-  return verification.equal() ? ExitCode::done : ExitCode::differs;
+  return is_equal(verification) ? ExitCode::done : ExitCode::differs;
+}
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<VerifyRequest>();
+  add_folder_options(line, request->of);
+  line.add("--work", request->work, "Where to make the run anew")
+      .shows_default_text("$TMPDIR")
+      .metavar("DIR");
+  line.add_flag("--pile-only", request->pile_only, "Settle again, but render nothing");
+  line.add_flag("--json", request->json, "The result as JSON");
+  return [request] { return verify_run(*request); };
+}
+
+}  // namespace
+
+Command verify_command() {
+  return {"", "verify", "Run again from the manifest alone, and compare every hash", declare};
 }
 
 }  // namespace rubble

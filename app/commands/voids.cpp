@@ -4,9 +4,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <set>
 
-#include "app/commands/commands.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
 #include "app/pipeline/finished_run.h"
 #include "app/support/progress.h"
 #include "app/support/stop.h"
@@ -22,6 +24,13 @@
 namespace rubble {
 namespace {
 
+struct VoidRequest {
+  SpaceRequest space;
+  int surfaces = 20;   // --surfaces: the largest voids of each radius, as PLY
+  std::string out;     // --out; empty: `voids` in the folder of the run
+  bool force = false;  // --force
+};
+
 constexpr double kShownAround = 0.2;  // of the outside, in pictures; unit: m
 
 std::string millimetres(double radius) { return std::to_string(int(std::lround(radius * 1000))); }
@@ -33,7 +42,7 @@ std::string surface_name(double radius, std::size_t rank) {
 // Every name that this command may write, so that an earlier map can be replaced and nothing else.
 std::vector<std::string> list_outputs(const VoidRequest& request) {
   std::vector<std::string> names{"voids.json", "voids.vdb", "voids.bt"};
-  for (const double radius : request.radii) {
+  for (const double radius : request.space.radii) {
     for (const char* kind : {"plan_r", "cut_x_r", "cut_y_r"})
       names.push_back(kind + millimetres(radius) + ".png");
     for (int i = 1; i <= request.surfaces; ++i)
@@ -57,11 +66,11 @@ VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progres
   const PileState pile = load_pile_of(saved);
   const std::vector<const TriangleMesh*> meshes = assets.finest_meshes();
   VoidSpaceOptions options;
-  options.voxel = voids.voxel;
+  options.voxel = voids.space.voxel;
   double largest = 0;
-  for (const double radius : voids.radii) largest = std::max(largest, radius);
-  options.rolling_radius = outside_radius_for(voids.outside_radius, largest);
-  options.memory_limit = voids.memory_gib * (1 << 30);
+  for (const double radius : voids.space.radii) largest = std::max(largest, radius);
+  options.rolling_radius = outside_radius_for(voids.space.outside_radius, largest);
+  options.memory_limit = voids.space.memory_gib * (1 << 30);
   options.threads = request.options.threads;
   options.scenery = assets.terrain();
   const auto report = [&](const char* what, double from, double share) {
@@ -72,7 +81,7 @@ VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progres
   };
   VoidSpace space = calc_void_space(pile, meshes, options, report("clearance", 0, 0.6));
   space = crop_to_pile(space, kShownAround);
-  return find_voids(std::move(space), voids.radii, report("voids", 0.6, 0.4));
+  return find_voids(std::move(space), voids.space.radii, report("voids", 0.6, 0.4));
 }
 
 // Through the deepest place of the largest void, both ways.
@@ -128,11 +137,9 @@ void print_summary(const VoidMap& map) {
   }
 }
 
-}  // namespace
-
 ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids) {
   stop_on_signals();
-  check_radii(voids.radii);
+  check_radii(voids.space.radii);
   Progress progress(choose_progress_style(request.options.quiet));
   const std::string folder = voids.out.empty() ? request.folder + "/voids" : voids.out;
   progress.start("voids");
@@ -153,6 +160,28 @@ ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids) {
   print_summary(map);
   std::printf("%s\n", folder.c_str());
   return ExitCode::done;
+}
+
+Action declare(CommandLine& line) {
+  const auto of = std::make_shared<FolderRequest>();
+  const auto request = std::make_shared<VoidRequest>();
+  add_folder_options(line, *of);
+  add_space_options(line, request->space);
+  line.add("--surfaces", request->surfaces,
+           "Write the surfaces of so many voids of each radius, largest first")
+      .shows_default()
+      .between(0, 100000);
+  line.add("--out", request->out, "Output folder")
+      .shows_default_text("FOLDER/voids")
+      .metavar("DIR");
+  line.add_flag("--force", request->force, "Replace the files of an earlier map");
+  return [of, request] { return map_voids(*of, *request); };
+}
+
+}  // namespace
+
+Command voids_command() {
+  return {"", "voids", "Map the voids of a run's pile: entrances, volumes, widest ways", declare};
 }
 
 }  // namespace rubble

@@ -39,84 +39,10 @@ struct RunRequest {
   RunOptions options;
 };
 
-struct InfoRequest {
-  bool gl = false;     // --gl: every way to draw, and the device's limits
-  int gl_device = -1;  // --gl-device
-};
-
 // For the commands that start from a folder of a run.
 struct FolderRequest {
   std::string folder;
   std::vector<std::string> asset_packs;  // --assets DIR: where its packs may be now
-  RunOptions options;
-};
-
-// Into which formats a pile goes, and where to.
-struct ExportRequest {
-  std::vector<std::string> formats;  // --format, of export_formats(); empty: all
-  std::string out;                   // --out; empty: `export` in the folder of the run
-  bool force = false;                // --force
-};
-
-// A picture of the pile, cut open across Y.
-struct CutawayRequest {
-  double y = 0;        // --y, of the plane; what is in front of it is taken away; unit: m
-  int width = 900;     // --width; unit: pixel
-  std::string title;   // --title, printed above
-  std::string out;     // --out; empty: cutaway.png in the folder of the run
-};
-
-// How to look for voids.
-struct VoidRequest {
-  std::vector<double> radii{0.1, 0.2, 0.3};  // --radius, of robots; unit: m
-  double voxel = 0.02;                       // --voxel; unit: m
-  double outside_radius = 2;                 // --outside-radius: see kernel/voids/void_space.h
-  double memory_gib = 4;                     // --memory
-  int surfaces = 20;                         // --surfaces: the largest voids of each radius, as PLY
-  std::string out;                           // --out; empty: `voids` in the folder of the run
-  bool force = false;                        // --force
-};
-
-struct TrajectoryRequest {
-  std::string estimate, truth;   // TUM or EuRoC files
-  int delta = 1;                 // --delta: poses between which relative errors are taken
-  double max_difference = 0.01;  // --max-difference: of the stamps of a pair; unit: s
-  bool json = false;             // --json
-};
-
-// Where scores go.
-struct ScoreOutput {
-  std::vector<std::string> files;  // --out: .csv, .json or .tex
-  bool json = false;               // --json: on standard output
-};
-
-struct SfmRequest {
-  std::vector<std::string> datasets;     // folders of runs
-  std::string model = "sfm/sparse";      // --model: inside each, or absolute
-  double bound = 0.1;                    // --bound: on track are frames nearer than this; unit: m
-  std::string details;                   // --details: folder for aligned points and tracks
-  std::vector<std::string> asset_packs;  // --assets DIR: where its packs may be now
-  ScoreOutput output;
-};
-
-struct SurfaceRequest {
-  std::string dataset, mesh;             // the folder of a run; a PLY file
-  std::string align;                     // --align: COLMAP model whose frame the mesh has
-  std::vector<std::string> asset_packs;  // --assets
-  ScoreOutput output;
-};
-
-struct MapRequest {
-  std::string map, dataset;                  // a PLY file; the folder of a run
-  std::string align;                         // --align: COLMAP model whose frame the map has
-  std::vector<double> radii{0.1, 0.2, 0.3};  // --radius, of robots; unit: m
-  double voxel = 0.05;                       // --voxel, of the map's free space; unit: m
-  double outside_radius = 2;                 // --outside-radius: see kernel/voids/void_space.h
-  std::optional<double> range;               // --range: of the camera's depth; unit: m
-  double memory_gib = 4;                     // --memory, of the free space
-  std::string details;                       // --details: folder for clouds and the entrances
-  std::vector<std::string> asset_packs;      // --assets
-  ScoreOutput output;
   RunOptions options;
 };
 

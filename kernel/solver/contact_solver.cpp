@@ -77,34 +77,51 @@ void ContactSolver::number_bodies(const std::vector<Body>& bodies) {
 // of a cache.
 void ContactSolver::divide(const std::vector<Body>& bodies) {
   domains_.assign(moving_.size(), 0);
-  domain_starts_.assign(1, 0);
-  if (domain_count_ > 1) {
-    float low[2] = {1e30F, 1e30F}, high[2] = {-1e30F, -1e30F};
-    const auto place = [&](std::int32_t body, int axis) {
-      return float(bodies[body].world_from_com.translation[axis]);
-    };
-    for (std::int32_t body : moving_) {
-      for (int axis = 0; axis < 2; ++axis) {
-        low[axis] = std::min(low[axis], place(body, axis));
-        high[axis] = std::max(high[axis], place(body, axis));
-      }
-    }
-    const int axis = high[1] - low[1] > high[0] - low[0] ? 1 : 0;
-    const auto before = [&](std::int32_t a, std::int32_t b) { return place(a, axis) < place(b, axis); };
-    auto begin = moving_.begin();
-    for (int domain = 0; domain < domain_count_; ++domain) {
-      const auto end = moving_.begin() + std::ptrdiff_t(moving_.size() * std::size_t(domain + 1) /
-                                                        std::size_t(domain_count_));
-      if (end != moving_.end()) std::nth_element(begin, end, moving_.end(), before);
-      std::sort(begin, end);
-      std::fill(domains_.begin() + (begin - moving_.begin()),
-                domains_.begin() + (end - moving_.begin()), std::uint8_t(domain));
-      begin = end;
-      domain_starts_.push_back(std::int32_t(end - moving_.begin()));
-    }
-  } else {
-    domain_starts_.push_back(std::int32_t(moving_.size()));
+  domain_starts_.assign(std::size_t(domain_count_) + 1, std::int32_t(moving_.size()));
+  domain_starts_[0] = 0;
+  if (domain_count_ < 2) return;
+  note_places(bodies);
+  sorted_places_ = places_;
+  std::vector<float> borders;
+  auto begin = sorted_places_.begin();
+  for (int domain = 1; domain < domain_count_; ++domain) {
+    const auto border = sorted_places_.begin() +
+                        std::ptrdiff_t(moving_.size() * std::size_t(domain) / std::size_t(domain_count_));
+    std::nth_element(begin, border, sorted_places_.end());
+    borders.push_back(*border);
+    begin = border;
   }
+  const std::vector<std::int32_t> before = moving_;
+  std::vector<std::vector<std::int32_t>> members(static_cast<std::size_t>(domain_count_));
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const auto domain = std::upper_bound(borders.begin(), borders.end(), places_[i]) - borders.begin();
+    members[std::size_t(domain)].push_back(before[i]);
+  }
+  moving_.clear();
+  for (std::size_t domain = 0; domain < members.size(); ++domain) {
+    domain_starts_[domain] = std::int32_t(moving_.size());
+    std::fill_n(domains_.begin() + std::ptrdiff_t(moving_.size()), members[domain].size(),
+                std::uint8_t(domain));
+    moving_.insert(moving_.end(), members[domain].begin(), members[domain].end());
+  }
+}
+
+// Along the longer side of the ground that they lie on.
+void ContactSolver::note_places(const std::vector<Body>& bodies) {
+  float low[2] = {1e30F, 1e30F}, high[2] = {-1e30F, -1e30F};
+  places_.clear();
+  sorted_places_.clear();  // here those across
+  for (std::int32_t body : moving_) {
+    const Vec3 at = bodies[body].world_from_com.translation;
+    const float place[2] = {float(at.x), float(at.y)};
+    for (int axis = 0; axis < 2; ++axis) {
+      low[axis] = std::min(low[axis], place[axis]);
+      high[axis] = std::max(high[axis], place[axis]);
+    }
+    places_.push_back(place[0]);
+    sorted_places_.push_back(place[1]);
+  }
+  if (high[1] - low[1] > high[0] - low[0]) places_.swap(sorted_places_);
 }
 
 // A light piece under a heavy one carries a load of many times its weight, which the sweeps reach

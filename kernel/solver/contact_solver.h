@@ -68,6 +68,7 @@ class ContactSolver {
   void share_inertia(const std::vector<Body>& bodies);
   int choose_domain_count(const ThreadPool& pool);
   void divide(const std::vector<Body>& bodies);
+  void note_places(const std::vector<Body>& bodies);
   void pack();
   void note_bodies(const std::vector<Body>& bodies);
   std::size_t slot_count() const;  // moving bodies, and what does not move
@@ -99,6 +100,7 @@ class ContactSolver {
   std::vector<std::uint8_t> pushed_;          // by moving body
   SweepPlan plan_;
   int domain_count_ = 1;
+  std::vector<float> places_, sorted_places_;  // by moving body
   std::vector<std::uint8_t> domains_;         // by moving body
   std::vector<std::int32_t> domain_starts_;   // numbers of each domain's first moving body; the end
   int crowded_steps_ = 0;

@@ -84,7 +84,7 @@ struct World::Impl {
   std::vector<Sweep> sweeps;                // by body
   std::vector<std::uint8_t> leaves_box;     // by collider
   std::vector<std::uint8_t> pair_states;    // by pair: a PairState
-  std::vector<OrderKey> order_keys;
+  std::vector<OrderKey> order_keys, key_scratch;
   std::vector<std::uint8_t> overlapping, slept, disturbed;  // by body
   std::vector<Vec3f> lost_support;               // by body: of sleepers, to awake neighbours
   std::vector<std::int32_t> unsettled;           // sleepers whose lost_support is not zero

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "io/image_file.h"
-#include "render/camera_spec.h"
+#include "io/image/image_file.h"
+#include "render/scene/camera_spec.h"
 
 namespace rubble {
 

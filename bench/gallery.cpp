@@ -8,20 +8,20 @@
 #include <thread>
 #include <vector>
 
-#include "app/asset_library.h"
-#include "app/build_scene.h"
+#include "app/assets/asset_library.h"
+#include "app/pipeline/build_scene.h"
 #include "bench/channel_picture.h"
 #include "bench/gallery_list.h"
 #include "bench/program.h"
-#include "io/atomic_file.h"
-#include "io/jpeg_file.h"
+#include "io/base/atomic_file.h"
+#include "io/image/jpeg_file.h"
 #include "kernel/base/disk_cache.h"
 #include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"
-#include "render/gl_context.h"
+#include "render/gl/gl_context.h"
 #include "render/sensors/camera.h"
 #include "scripting/mission.h"
-#include "scripting/trajectory.h"
+#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 namespace {

@@ -15,7 +15,7 @@
 #include "bench/program.h"
 #include "bench/render_views.h"
 #include "kernel/base/disk_cache.h"
-#include "render/gl_context.h"
+#include "render/gl/gl_context.h"
 #include "render/renderer.h"
 
 namespace rubble {

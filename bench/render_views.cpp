@@ -3,16 +3,16 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/asset_library.h"
-#include "app/build_scene.h"
-#include "io/pile_state_file.h"
+#include "app/assets/asset_library.h"
+#include "app/pipeline/build_scene.h"
+#include "io/state/pile_state_file.h"
 #include "kernel/base/disk_cache.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"
 #include "scripting/mission.h"
-#include "scripting/scenario.h"
+#include "scripting/scenario/scenario.h"
 
 namespace rubble {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "render/frame.h"
-#include "render/scene.h"
+#include "render/scene/frame.h"
+#include "render/scene/scene.h"
 
 namespace rubble {
 

@@ -9,18 +9,18 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
-#include "render/air_volume.h"
-#include "render/bake.h"
-#include "render/effects/antialias.h"
-#include "render/exposure.h"
-#include "render/geometry.h"
-#include "render/ground_map.h"
-#include "render/medium.h"
+#include "render/geometry/geometry.h"
+#include "render/geometry/ground_map.h"
+#include "render/lighting/bake.h"
+#include "render/lighting/exposure.h"
+#include "render/media/air_volume.h"
+#include "render/media/medium.h"
+#include "render/passes/antialias.h"
+#include "render/passes/ground_truth.h"
 #include "render/passes/ray_pass.h"
 #include "render/passes/resolve_pass.h"
 #include "render/passes/shadow_pass.h"
 #include "render/passes/visibility_pass.h"
-#include "render/truth.h"
 
 namespace rubble {
 

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "render/camera_spec.h"
-#include "render/frame.h"
-#include "render/gl_context.h"
-#include "render/looks.h"
-#include "render/scene.h"
-#include "render/view_rays.h"
+#include "render/camera/view_rays.h"
+#include "render/gl/gl_context.h"
+#include "render/materials/surface_appearance.h"
+#include "render/scene/camera_spec.h"
+#include "render/scene/frame.h"
+#include "render/scene/scene.h"
 
 namespace rubble {
 

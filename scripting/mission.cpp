@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "kernel/base/hash.h"
-#include "scripting/scenario_schema.h"
-#include "scripting/script_file.h"
+#include "scripting/sandbox/script_file.h"
+#include "scripting/scenario/scenario_schema.h"
 
 namespace rubble {
 namespace {

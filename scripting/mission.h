@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "scripting/lua_sandbox.h"
-#include "scripting/scenario.h"
-#include "scripting/source_map.h"
+#include "scripting/sandbox/lua_sandbox.h"
+#include "scripting/sandbox/source_map.h"
+#include "scripting/scenario/scenario.h"
 
 namespace rubble {
 

@@ -2,9 +2,9 @@
 
 #include <set>
 
-#include "scripting/lua_sandbox.h"
-#include "scripting/script_file.h"
-#include "scripting/source_map.h"
+#include "scripting/sandbox/lua_sandbox.h"
+#include "scripting/sandbox/script_file.h"
+#include "scripting/sandbox/source_map.h"
 
 namespace rubble {
 namespace {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "scripting/schema.h"
+#include "scripting/schema/schema.h"
 
 namespace rubble {
 

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "app/build_scene.h"
-#include "app/recorders.h"
-#include "io/atomic_file.h"
+#include "app/pipeline/build_scene.h"
+#include "app/pipeline/recorders.h"
+#include "io/base/atomic_file.h"
 
 namespace rubble {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "app/drive/drive_log.h"
 #include "app/drive/drive_world.h"
-#include "app/frame_hashes.h"
-#include "io/recording_queue.h"
+#include "app/provenance/frame_hashes.h"
+#include "io/recording/recording_queue.h"
 #include "render/sensors/camera.h"
 
 namespace rubble {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/live.h"
+#include "app/pipeline/live.h"
 #include "io/live/live_ros.h"
 
 namespace rubble {

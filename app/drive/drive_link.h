@@ -8,7 +8,7 @@
 
 #include "app/drive/drive_world.h"
 #include "app/drive/remote_controls.h"
-#include "io/recorder.h"
+#include "io/recording/recorder.h"
 
 namespace rubble {
 

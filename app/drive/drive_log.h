@@ -1,7 +1,7 @@
 // What was driven, as a mission: under unchanged lamp, air and pile, one pose for every frame.
 //
 // The trajectory is linear with a waypoint at the time of every frame, where it passes exactly
-// (scripting/curves.h); so `rubble run` on the mission gives the poses that were seen, bit for bit.
+// (scripting/trajectory/curves.h); so `rubble run` on the mission gives the poses that were seen, bit for bit.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/drive/driven_camera.h"
-#include "scripting/scenario.h"
+#include "scripting/scenario/scenario.h"
 
 namespace rubble {
 

@@ -1,7 +1,8 @@
 // What a person asked `rubble drive` for on the command line.
 #pragma once
 
-#include "app/run_request.h"
+#include "app/pipeline/run_request.h"
+#include "kernel/base/error.h"
 
 namespace rubble {
 
@@ -11,5 +12,8 @@ struct DriveRequest {
   int steps = 0;                 // --steps: ends after so many; 0: when the person quits
   bool record = false;           // --record: the mission's recordings, while driving
 };
+
+// The mission's pile to be driven through in a window: docs/drive.md.
+ExitCode drive_mission(const DriveRequest& request);
 
 }  // namespace rubble

@@ -6,9 +6,8 @@
 #include <filesystem>
 #include <thread>
 
-#include "app/commands.h"
-#include "app/live.h"
-#include "app/stop.h"
+#include "app/pipeline/live.h"
+#include "app/support/stop.h"
 
 namespace rubble {
 namespace {

@@ -8,7 +8,7 @@
 #include "app/drive/drive_link.h"
 #include "app/drive/drive_window.h"
 #include "app/drive/height_map.h"
-#include "io/drive_picture.h"
+#include "io/image/drive_picture.h"
 
 namespace rubble {
 

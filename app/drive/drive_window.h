@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/drive/controls.h"
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 
 namespace rubble {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "app/build_scene.h"
 #include "app/drive/drive_log.h"
-#include "app/flight.h"
+#include "app/pipeline/build_scene.h"
+#include "app/planning/flight.h"
 #include "kernel/base/disk_cache.h"
 #include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"

@@ -6,8 +6,8 @@
 
 #include "app/drive/drive_request.h"
 #include "app/drive/driven_camera.h"
-#include "app/run.h"
-#include "app/void_places.h"
+#include "app/pipeline/run.h"
+#include "app/planning/void_places.h"
 #include "render/renderer.h"
 
 namespace rubble {

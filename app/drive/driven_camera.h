@@ -6,7 +6,7 @@
 
 #include "app/drive/drive_input.h"
 #include "kernel/queries/queries.h"
-#include "scripting/trajectory.h"
+#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 

@@ -1,7 +1,7 @@
 // The pile from above: how high the topmost surface is, for the map beside the camera's picture.
 #pragma once
 
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "kernel/queries/queries.h"
 
 namespace rubble {

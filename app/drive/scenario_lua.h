@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scripting/scenario.h"
+#include "scripting/scenario/scenario.h"
 
 namespace rubble {
 

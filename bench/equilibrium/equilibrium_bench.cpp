@@ -7,9 +7,9 @@
 #include <map>
 #include <string>
 
-#include "app/job_pool.h"
-#include "app/seed_list.h"
-#include "app/stop.h"
+#include "app/batch/seed_list.h"
+#include "app/support/job_pool.h"
+#include "app/support/stop.h"
 #include "bench/equilibrium/contact_finder.h"
 #include "bench/equilibrium/pile_record.h"
 #include "bench/equilibrium/record_file.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "io/little_endian.h"
+#include "io/base/little_endian.h"
 #include "kernel/base/error.h"
 
 namespace rubble {

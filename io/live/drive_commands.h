@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/ros_wire.h"
+#include "io/ros/ros_wire.h"
 #include "kernel/base/math.h"
 
 namespace rubble {

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "io/live/drive_commands.h"
-#include "io/ros_recorder.h"
+#include "io/ros/ros_recorder.h"
 
 namespace rubble {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "io/atomic_file.h"
-#include "io/number_text.h"
+#include "io/base/atomic_file.h"
+#include "io/base/number_text.h"
 
 namespace rubble {
 namespace {

@@ -1,13 +1,13 @@
 #include "io/voids/vdb_file.h"
 
 #include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
 
 #include <cmath>
 #include <mutex>
 #include <sstream>
 
-#include "io/atomic_file.h"
+#include "io/base/atomic_file.h"
+#include "io/voids/vdb_grids.h"
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
 

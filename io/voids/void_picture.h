@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "kernel/voids/void_map.h"
 
 namespace rubble {

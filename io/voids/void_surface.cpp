@@ -1,6 +1,5 @@
 #include "io/voids/void_surface.h"
 
-#include <openvdb/openvdb.h>
 #include <openvdb/tools/VolumeToMesh.h>
 
 #include <algorithm>
@@ -9,7 +8,8 @@
 #include <numeric>
 #include <tuple>
 
-#include "io/atomic_file.h"
+#include "io/base/atomic_file.h"
+#include "io/voids/vdb_grids.h"
 
 namespace rubble {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernel/collision/manifold.h"
+#include "kernel/collision/way_out.h"
 
 namespace rubble {
 namespace {
@@ -186,6 +187,24 @@ void store(Contact& contact, const Manifold& m, const Vec3f& normal, const Posed
   }
 }
 
+// The points along an axis; none where the parts stay apart in this step.
+void make_points(Contact& contact, const PosedBody& a, const PosedBody& b, const Vec3f& offset,
+                 const Axis& axis, float margin, const NarrowSettings& settings) {
+  Manifold m;
+  clip_faces(a.part, b.part, offset, axis.normal, margin, m);
+  add_axis_point(m, axis);
+  retain_points(contact, a, b, offset, axis.normal, m);
+  predict(m, a, &b, offset, axis.normal, settings.step);
+  drop_far_points(m);
+  if (m.count == 0) {
+    contact.normal = axis.normal;
+    contact.has_normal = true;
+    return clear_points(contact);
+  }
+  reduce(m, axis.normal, Contact::kMaxPoints);
+  store(contact, m, axis.normal, a, &b, offset);
+}
+
 }  // namespace
 
 float motion_margin(const Vec3f& relative, float turning, const NarrowSettings& settings) {
@@ -224,21 +243,25 @@ float update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, f
     clear_points(contact);
     return axis.separation;
   }
-  Manifold m;
-  clip_faces(a.part, b.part, offset, axis.normal, margin, m);
-  add_axis_point(m, axis);
-  retain_points(contact, a, b, offset, axis.normal, m);
-  predict(m, a, &b, offset, axis.normal, settings.step);
-  drop_far_points(m);
-  if (m.count == 0) {
-    contact.normal = axis.normal;
-    contact.has_normal = true;
-    clear_points(contact);
-    return std::max(0.0F, axis.separation);
+  make_points(contact, a, b, offset, axis, margin, settings);
+  return contact.count > 0 ? 0 : std::max(0.0F, axis.separation);
+}
+
+void search_along(Contact& contact, const PosedBody& a, const PosedBody& b, const Vec3f& normal,
+                  float margin, const NarrowSettings& settings) {
+  const Vec3f offset = Vec3f(b.centre - a.centre);
+  Axis axis{normal, -calc_depth_along(a.part, b.part, offset, normal), {}};
+  const ContactPoint* deepest = std::min_element(
+      contact.points, contact.points + contact.count,
+      [](const ContactPoint& p, const ContactPoint& q) { return p.separation < q.separation; });
+  if (contact.count > 0) {
+    axis.point = deepest->from_a;
+  } else {
+    axis.point = (a.part.corners.points[find_support(a.part.corners, normal)] +
+                  b.part.corners.points[find_support(b.part.corners, -normal)] + offset) *
+                 0.5F;
   }
-  reduce(m, axis.normal, Contact::kMaxPoints);
-  store(contact, m, axis.normal, a, &b, offset);
-  return 0;
+  make_points(contact, a, b, offset, axis, margin, settings);
 }
 
 void update_ground_contact(Contact& contact, const PosedBody& a, float margin,

@@ -23,9 +23,8 @@ struct SettleOptions {
   double step = 1.0 / 60.0;         // unit: s; range: 1/1000 to 1/30
   double rest_speed = 0.05;         // a piece rests below both limits; unit: m/s
   double rest_angular_speed = 0.2;  // unit: rad/s
-  // A pile with a deeper overlap is not settled. Sheets and bars that are stuck in each other are
-  // found at 10 to 30 mm in one mixed pile of three: `deepest_overlap` says who. unit: m
-  double rest_overlap = 0.03;
+  // A pile with a deeper overlap is not settled; `deepest_overlap` says who. unit: m
+  double rest_overlap = 0.005;
   double layer_time_limit = 4.0;    // the next layer comes at the latest then; unit: s
   double final_time_limit = 20.0;   // after the last layer; unit: s
   double lost_below = -0.5;         // a piece whose origin is lower has left the world; unit: m

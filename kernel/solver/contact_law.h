@@ -79,6 +79,21 @@ RUBBLE_INLINE T closing_speed(T gap, T per_substep) {
   return larger(T{}, gap) * per_substep;
 }
 
+// Who gives way when an overlap is undone: all pieces count as equally heavy, so that a light bar is
+// cleared from under a heavy slab as fast as any other pair, but the one below as up to ten times as heavy
+// as the one above. Otherwise a slab with hundreds of bricks on it is pressed into its support, as each of
+// them pushes it as much as the support does. A push moves a body by its share. `up`: the rise of the
+// normal, which points from A to B.
+template <typename T>
+struct PushShares {
+  T a, b;
+};
+template <typename T>
+RUBBLE_INLINE PushShares<T> find_push_shares(T up) {
+  const T one(1), less(0.9F);
+  return {one - less * larger(T{}, up), one - less * larger(T{}, -up)};
+}
+
 // Where friction acts: at the centre of the points, each with a share by its normal impulse of the
 // substep before; the same for all where none is pressed. share = each + per_impulse * impulse.
 template <typename T>

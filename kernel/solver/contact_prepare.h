@@ -50,18 +50,24 @@ struct Turns {
         turn_b(b.turn(arm_b)) {}
 };
 
-// Stores a row; returns J M^-1 J^T without the linear part, times the masses.
+// The angular parts of J M^-1 J^T of the two sides.
 template <typename P>
-RUBBLE_INLINE P store(const Turns<P>& turns, const Side<P>& a, const Side<P>& b,
+struct Around {
+  P a, b;
+};
+
+// Stores a row.
+template <typename P>
+RUBBLE_INLINE Around<P> store(const Turns<P>& turns, const Side<P>& a, const Side<P>& b,
                       typename P::Mask used, ContactRow& row) {
   turns.arm_a.store(row.arm_a);
   turns.arm_b.store(row.arm_b);
   turns.turn_a.store(row.turn_a);
   turns.turn_b.store(row.turn_b);
-  const P around_a = dot(turns.arm_a, turns.turn_a), around_b = dot(turns.arm_b, turns.turn_b);
-  const P mass = P(1) / (a.inverse_mass + b.inverse_mass + around_a + around_b);
+  const Around<P> around{dot(turns.arm_a, turns.turn_a), dot(turns.arm_b, turns.turn_b)};
+  const P mass = P(1) / (a.inverse_mass + b.inverse_mass + around.a + around.b);
   select(used, mass, P{}).store(row.mass);
-  return a.mass * around_a + b.mass * around_b;
+  return around;
 }
 
 // J M^-1 J^T of two rows across each other.
@@ -163,14 +169,18 @@ RUBBLE_INLINE void prepare_batch(ContactBatch& batch, const Contact* contacts,
   const Columns<P> along = gather<P>(contact, offsetof(Contact, friction_impulse));
   const Packet3<P> normal{across.x, across.y, across.z};
   const Packet3<P> friction_impulse{along.x, along.y, along.z};
+  const auto push = contact_law::find_push_shares(normal.z);
+  const P share_a = select(a.mass > zero, push.a, zero), mass_a = push.a * a.mass;
+  const P share_b = select(b.mass > zero, push.b, zero), mass_b = push.b * b.mass;
   P total{};
   for (int i = 0; i < batch.rows; ++i) {
     const Points<P> p(contact, i);
     const Turns<P> turns(a, b, normal, p.from_a, p.from_b);
     NormalRow& n = rows[i];
-    const P around = store(turns, a, b, used, n.row);
-    const P movable = select(a.mass > zero, one, zero) + select(b.mass > zero, one, zero);
-    select(used, one / (movable + around), zero).store(pushes[i].mass);
+    const Around<P> around = store(turns, a, b, used, n.row);
+    const P push_mass =
+        one / (share_a + mass_a * around.a + share_b + mass_b * around.b);
+    select(used, push_mass, zero).store(pushes[i].mass);
     (p.separation - P(rest_gap)).store(n.gap);
     const P impulse = select(used, p.impulse, zero);
     impulse.store(n.impulse);
@@ -205,8 +215,10 @@ RUBBLE_INLINE void prepare_batch(ContactBatch& batch, const Contact* contacts,
   twist_b.store(batch.twist_b);
   a.inverse_mass.store(batch.inverse_mass_a);
   b.inverse_mass.store(batch.inverse_mass_b);
-  a.mass.store(batch.push_weight_a);
-  b.mass.store(batch.push_weight_b);
+  share_a.store(batch.push_share_a);
+  share_b.store(batch.push_share_b);
+  mass_a.store(batch.push_mass_a);
+  mass_b.store(batch.push_mass_b);
   zero.store(batch.pressed);
 }
 

@@ -62,7 +62,8 @@ struct ContactBatch {
   std::int32_t contact[kLanes];             // index of the contact; -1: lane not in use
   std::int32_t first_row = 0, rows = 0;
   Lanes inverse_mass_a, inverse_mass_b, friction, radius;
-  Lanes push_weight_a, push_weight_b;       // mass, or 0 for immovable bodies
+  Lanes push_share_a, push_share_b;         // see contact_law; 0 for immovable bodies
+  Lanes push_mass_a, push_mass_b;           // share times mass, or 0
   Lanes3 normal;
   FrictionRow slide[2];
   Lanes3 twist_a, twist_b;                  // inverse inertia times the normal

@@ -320,9 +320,8 @@ void ContactSolver::each_batch(ThreadPool& pool, Action&& action) {
   pool.run(int(batches_.size()), 8, [&](int begin, int end) { action(range(begin, end)); });
 }
 
-// n . (d_b - d_a) >= target for every point, by pushing only. All movable bodies count as equally
-// heavy, so that a light bar is cleared from under a heavy slab as fast as any other pair. Where
-// nothing is to be pushed, and no neighbour has been, a batch would change nothing.
+// n . (d_b - d_a) >= target for every point, by pushing only. Where nothing is to be pushed, and no
+// neighbour has been, a batch would change nothing.
 void ContactSolver::push_apart(const SolverSettings& settings, ThreadPool& pool) {
   wants_push_.assign(batches_.size(), 0);
   const PushTerms terms{settings.slop, settings.position_fraction, settings.maximum_push};
@@ -385,6 +384,18 @@ void ContactSolver::drop_opposed_speeds(const SolverSettings& settings) {
     drop(speeds_[i].linear, moved_[i].linear - before_push_[i].linear, kSlowSpeed);
     drop(speeds_[i].angular, moved_[i].angular - before_push_[i].angular, kSlowSpin);
   }
+}
+
+bool ContactSolver::has_intervened(std::int32_t body) const {
+  const std::int32_t n = number_[std::size_t(body)];
+  if (n == std::int32_t(moving_.size())) return false;
+  const auto differ = [](Quad p, Quad q) {
+    const Quad d = p - q;
+    return d[0] != 0 || d[1] != 0 || d[2] != 0;
+  };
+  const PaddedMotion &now = moved_[std::size_t(n)], &before = before_push_[std::size_t(n)];
+  return share_[std::size_t(n)] < 1 || differ(now.linear, before.linear) ||
+         differ(now.angular, before.angular);
 }
 
 void ContactSolver::store(const ContactBatch& batch, std::vector<Contact>& contacts) const {

@@ -51,6 +51,10 @@ class ContactSolver {
              std::vector<Motion>& velocities, std::vector<Motion>& displacements,
              const SolvedTrees& trees, ThreadPool& pool);
 
+  // Whether the last solve() moved a piece otherwise than its weight does, impulses aside: by pushes, or
+  // as it counted as heavier than it is (see share_inertia).
+  bool has_intervened(std::int32_t body) const;
+
  private:
   class Sweeper;
 

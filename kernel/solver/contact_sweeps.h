@@ -242,8 +242,8 @@ template <typename P>
 RUBBLE_INLINE bool solve_pushes(const ContactBatch& batch, const NormalRow* rows, PushRow* pushes,
                                 PaddedMotion* moved) {
   Motions<P> a = load<P>(moved, batch.a), b = load<P>(moved, batch.b);
-  const P weight_a(batch.push_weight_a), weight_b(batch.push_weight_b);
-  const P unit_a = select(weight_a > P{}, P(1), P{}), unit_b = select(weight_b > P{}, P(1), P{});
+  const P share_a(batch.push_share_a), share_b(batch.push_share_b);
+  const P mass_a(batch.push_mass_a), mass_b(batch.push_mass_b);
   const Packet3<P> normal(batch.normal);
   P most{};
   for (int i = 0; i < batch.rows; ++i) {
@@ -254,10 +254,10 @@ RUBBLE_INLINE bool solve_pushes(const ContactBatch& batch, const NormalRow* rows
     const P change = next - push;
     next.store(p.push);
     most = max(most, next);
-    a.linear -= normal * (change * unit_a);
-    a.angular -= Packet3<P>(row.turn_a) * (change * weight_a);
-    b.linear += normal * (change * unit_b);
-    b.angular += Packet3<P>(row.turn_b) * (change * weight_b);
+    a.linear -= normal * (change * share_a);
+    a.angular -= Packet3<P>(row.turn_a) * (change * mass_a);
+    b.linear += normal * (change * share_b);
+    b.angular += Packet3<P>(row.turn_b) * (change * mass_b);
   }
   save(a, moved, batch.a);
   save(b, moved, batch.b);

@@ -49,7 +49,7 @@ void each_field(Struct& p, Visit&& visit) {
 template <typename Struct, typename Visit, IfIs<Struct, Contact> = 0>
 void each_field(Struct& c, Visit&& visit) {
   visit(c.body_a), visit(c.body_b), visit(c.friction);
-  visit(c.count), visit(c.points), visit(c.normal), visit(c.has_normal);
+  visit(c.count), visit(c.points), visit(c.normal), visit(c.has_normal), visit(c.way_out);
   visit(c.friction_impulse), visit(c.twist_impulse), visit(c.pressed), visit(c.rest_pressed);
   visit(c.cache);
 }

@@ -60,6 +60,18 @@ struct OrderKey {
   }
 };
 
+// Two parts that overlap too deep.
+struct DeepPair {
+  std::int32_t body_a = 0, body_b = 0;
+  std::int32_t collider_a = 0, collider_b = 0;
+  std::int32_t index = 0;  // of the pair; decides nothing
+
+  bool operator<(const DeepPair& p) const {
+    return std::tie(body_a, body_b, collider_a, collider_b) <
+           std::tie(p.body_a, p.body_b, p.collider_a, p.collider_b);
+  }
+};
+
 struct World::Impl {
   Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options,
        std::vector<AssemblyType> assembly_types);
@@ -85,10 +97,12 @@ struct World::Impl {
   std::vector<std::uint8_t> leaves_box;     // by collider
   std::vector<std::uint8_t> pair_states;    // by pair: a PairState
   std::vector<OrderKey> order_keys, key_scratch;
+  std::vector<DeepPair> deep_pairs;
   std::vector<std::uint8_t> overlapping, slept, disturbed;  // by body
   std::vector<Vec3f> lost_support;               // by body: of sleepers, to awake neighbours
   std::vector<std::int32_t> unsettled;           // sleepers whose lost_support is not zero
   std::vector<std::uint8_t> is_deep;             // by pair: overlaps deeper than sleep allows
+  std::vector<std::uint8_t> may_be_stuck;        // by pair: is_stuck(), or was led out before
   std::vector<std::uint8_t> block_awake;
   std::vector<std::int32_t> body_of;  // by number in SimbodyBlocks
   std::vector<std::uint8_t> moves;  // by number in SimbodyBlocks
@@ -117,6 +131,7 @@ struct World::Impl {
   void select_pairs();
   void update_contacts();
   void update_pair(Pair& pair, Contact& contact);
+  void note_overlap(std::int32_t pair);
   void list_awake();
   void note_sweeps();
   Aabb calc_swept_box(int collider) const;
@@ -128,6 +143,12 @@ struct World::Impl {
   void remove_contact(std::size_t index);
   void update_surface_pairs(int collider);
   void update_surface_slots(const Pair& first);
+
+  // world_overlaps.cpp
+  void lead_out();
+  bool is_stuck(const Contact& contact) const;
+  void lead_out_of(const std::vector<std::int32_t>& deep);
+  std::vector<PosedPart> posed_parts(const Body& body) const;
 
   // world_sleep.cpp
   void wake_marked();

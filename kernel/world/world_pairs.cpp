@@ -226,7 +226,7 @@ void World::Impl::update_surface_slots(const Pair& first) {
                           narrow_settings);
   for (const std::int32_t number : numbers) {
     data.pairs[number].live = data.contacts[number].count > 0;
-    is_deep[number] = overlaps_deep(data.contacts[number]);
+    note_overlap(number);
   }
 }
 
@@ -247,8 +247,16 @@ void World::Impl::update_pair(Pair& pair, Contact& contact) {
   pair.live = contact.count > 0;
 }
 
+// While the contact is at hand.
+void World::Impl::note_overlap(std::int32_t index) {
+  const Contact& contact = data.contacts[index];
+  is_deep[index] = overlaps_deep(contact);
+  may_be_stuck[index] = dot(contact.way_out, contact.way_out) > 0 || is_stuck(contact);
+}
+
 void World::Impl::update_contacts() {
   is_deep.resize(data.pairs.size());
+  may_be_stuck.resize(data.pairs.size());
   pool.run(int(active.size()), 64, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       Pair& pair = data.pairs[active[i]];
@@ -257,7 +265,7 @@ void World::Impl::update_contacts() {
         continue;
       }
       update_pair(pair, data.contacts[active[i]]);
-      is_deep[active[i]] = overlaps_deep(data.contacts[active[i]]);
+      note_overlap(active[i]);
     }
   });
 }

@@ -183,7 +183,7 @@ void World::Impl::set_rates(std::size_t index) {
   const Body& body = data.bodies[index];
   BodyRates& r = rates[body.mobile];
   r = {};
-  if (body.touching) {
+  if (body.touching || solver.has_intervened(std::int32_t(index))) {
     Motion m = velocities[index];
     const float spin = norm(m.angular), speed = norm(m.linear);
     const float most = std::max(kFreeSpin, norm(body.angular) + kSpinGain);
@@ -299,6 +299,7 @@ void World::step() {
   {
     const Stopwatch watch(w.times.narrow);
     w.update_contacts();
+    w.lead_out();
     w.wake_hit();
   }
   {

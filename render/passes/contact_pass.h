@@ -1,8 +1,8 @@
 // Contact darkness and shadows of the lamp from the depth image, at half its size: see shaders/contact.frag.glsl.
 #pragma once
 
-#include "render/gl_objects.h"
-#include "render/projection.h"
+#include "render/camera/projection.h"
+#include "render/gl/gl_objects.h"
 
 namespace rubble {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/geometry.h"
+#include "render/geometry/geometry.h"
 
 namespace rubble {
 

@@ -2,9 +2,9 @@
 #include <string>
 
 #include "kernel/base/error.h"
+#include "render/gl/shader.h"
 #include "render/passes/draw_list.h"
 #include "render/passes/triangle_raster.h"
-#include "render/shader.h"
 
 namespace rubble {
 

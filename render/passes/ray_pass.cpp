@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "kernel/base/parallel.h"
-#include "render/projection.h"
+#include "render/camera/projection.h"
 
 namespace rubble {
 

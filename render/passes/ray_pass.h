@@ -10,10 +10,10 @@
 #include <memory>
 #include <vector>
 
-#include "render/geometry.h"
-#include "render/gl_objects.h"
-#include "render/ray_scene.h"
-#include "render/view_rays.h"
+#include "render/camera/view_rays.h"
+#include "render/geometry/geometry.h"
+#include "render/geometry/ray_scene.h"
+#include "render/gl/gl_objects.h"
 
 namespace rubble {
 

@@ -6,9 +6,9 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
-#include "render/looks.h"
+#include "render/gl/shader.h"
+#include "render/materials/surface_appearance.h"
 #include "render/passes/ray_pass.h"
-#include "render/shader.h"
 
 namespace rubble {
 

@@ -4,16 +4,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/air_volume.h"
-#include "render/exposure.h"
-#include "render/geometry.h"
-#include "render/ground_map.h"
-#include "render/lighting.h"
+#include "render/geometry/geometry.h"
+#include "render/geometry/ground_map.h"
+#include "render/gl/shader.h"
+#include "render/lighting/exposure.h"
+#include "render/lighting/lighting.h"
+#include "render/materials/textures.h"
+#include "render/media/air_volume.h"
 #include "render/passes/contact_pass.h"
 #include "render/passes/image_tiles.h"
 #include "render/passes/shadow_pass.h"
-#include "render/shader.h"
-#include "render/textures.h"
 
 namespace rubble {
 

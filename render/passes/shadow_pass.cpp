@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "kernel/base/error.h"
+#include "render/gl/shader.h"
 #include "render/passes/draw_list.h"
-#include "render/shader.h"
 
 namespace rubble {
 

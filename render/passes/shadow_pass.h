@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "render/geometry.h"
-#include "render/lighting.h"
+#include "render/geometry/geometry.h"
+#include "render/lighting/lighting.h"
 
 namespace rubble {
 

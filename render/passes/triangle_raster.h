@@ -9,8 +9,8 @@
 #include <memory>
 #include <vector>
 
-#include "render/geometry.h"
-#include "render/projection.h"
+#include "render/camera/projection.h"
+#include "render/geometry/geometry.h"
 #include "render/raster/software_raster.h"
 
 namespace rubble {

@@ -7,10 +7,10 @@
 #include <memory>
 #include <vector>
 
-#include "render/culling.h"
-#include "render/geometry.h"
+#include "render/camera/culling.h"
+#include "render/camera/projection.h"
+#include "render/geometry/geometry.h"
 #include "render/passes/triangle_raster.h"
-#include "render/projection.h"
 
 namespace rubble {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "kernel/base/parallel.h"
-#include "render/geometry.h"
-#include "render/projection.h"
+#include "render/camera/projection.h"
+#include "render/geometry/geometry.h"
 #include "render/raster/triangle_setup.h"
 
 namespace rubble {

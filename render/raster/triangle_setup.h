@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/prepared_mesh.h"
-#include "render/projection.h"
+#include "render/camera/projection.h"
+#include "render/geometry/prepared_mesh.h"
 #include "render/raster/triangle_record.h"
 
 namespace rubble {

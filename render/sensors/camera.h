@@ -10,9 +10,9 @@
 
 #include <memory>
 
-#include "render/camera_spec.h"
-#include "render/medium.h"
+#include "render/media/medium.h"
 #include "render/renderer.h"
+#include "render/scene/camera_spec.h"
 #include "render/sensors/flight.h"
 
 namespace rubble {

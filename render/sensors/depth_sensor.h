@@ -34,9 +34,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/camera_spec.h"
-#include "render/medium.h"
-#include "render/view_rays.h"
+#include "render/camera/view_rays.h"
+#include "render/media/medium.h"
+#include "render/scene/camera_spec.h"
 
 namespace rubble {
 

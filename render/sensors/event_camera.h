@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/camera_spec.h"
+#include "render/scene/camera_spec.h"
 
 namespace rubble {
 

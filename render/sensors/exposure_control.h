@@ -5,7 +5,7 @@
 #include <cmath>
 #include <deque>
 
-#include "render/camera_spec.h"
+#include "render/scene/camera_spec.h"
 
 namespace rubble {
 

@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/camera_spec.h"
+#include "render/camera/view_rays.h"
+#include "render/scene/camera_spec.h"
 #include "render/sensors/exposure_control.h"
-#include "render/view_rays.h"
 
 namespace rubble {
 

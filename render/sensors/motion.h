@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/view_rays.h"
+#include "render/camera/view_rays.h"
 
 namespace rubble {
 

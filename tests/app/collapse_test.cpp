@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/pile_section.h"
-#include "app/recipe.h"
+#include "app/commands/pile_section.h"
+#include "app/provenance/provenance.h"
 #include "tests/app/settled_mission.h"
 
 namespace rubble::testing {

@@ -1,7 +1,11 @@
 // Bad input and the small commands: wording, places and exit codes.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "tests/app/program.h"
 
@@ -104,6 +108,28 @@ TEST(CommandLine, KnowsWhatWasMeant) {
   EXPECT_EQ(mode.exit_code, 1);
   EXPECT_NE(mode.err.find("m.lua:2: "), std::string::npos) << mode.err;
   EXPECT_NE(mode.err.find("did you mean `rubble.collapse.lean_to`?"), std::string::npos) << mode.err;
+}
+
+// A command is a file with a function NAME_command(), and its name in RUBBLE_COMMANDS. A name without
+// the file does not build; a file without the name is found here.
+TEST(CommandLine, HasEveryCommandThatIsWritten) {
+  const std::string cmake = read_file(RUBBLE_SOURCE_DIR "/app/CMakeLists.txt");
+  const std::size_t begin = cmake.find("set(RUBBLE_COMMANDS"), end = cmake.find(')', begin);
+  ASSERT_NE(end, std::string::npos);
+  std::istringstream words(cmake.substr(begin, end - begin));
+  const std::set<std::string> listed{std::istream_iterator<std::string>(words), {}};
+  std::size_t written = 0;
+  for (const auto& file : std::filesystem::directory_iterator(RUBBLE_SOURCE_DIR "/app/commands")) {
+    const std::string name = file.path().stem().string();
+    const bool is_command = read_file(file.path().string()).find("Command " + name + "_command()") !=
+                            std::string::npos;
+    written += is_command;
+    EXPECT_EQ(listed.count(name), is_command) << name << " and RUBBLE_COMMANDS do not agree";
+  }
+  EXPECT_EQ(written + 1, listed.size()) << "the word RUBBLE_COMMANDS is one of them";
+  const Outcome help = run_rubble("eval map --help");
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_NE(help.out.find("Edge of a voxel (default: 0.05)"), std::string::npos) << help.out;
 }
 
 // What is printed is a result.

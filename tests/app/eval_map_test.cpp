@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "io/colmap_model.h"
+#include "io/datasets/colmap_model.h"
 #include "tests/app/program.h"
 
 namespace rubble::testing {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/eval/sfm_score.h"
-#include "io/ply_reader.h"
+#include "app/eval/sfm/sfm_score.h"
+#include "io/mesh/ply_reader.h"
 #include "kernel/base/random.h"
 #include "tests/app/program.h"
 

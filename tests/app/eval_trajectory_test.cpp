@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/eval/alignment.h"
-#include "app/eval/trajectory_error.h"
+#include "app/eval/scores/alignment.h"
+#include "app/eval/scores/trajectory_error.h"
 #include "kernel/base/error.h"
 #include "kernel/base/random.h"
 #include "tests/app/program.h"

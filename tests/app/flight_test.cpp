@@ -1,6 +1,6 @@
 // Flights over settled piles: what is refused, what is avoided, and which voids are found, against
 // scenes whose answers are known.
-#include "app/flight.h"
+#include "app/planning/flight.h"
 
 #include <gtest/gtest.h>
 

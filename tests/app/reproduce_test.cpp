@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/random.h"
 #include "tests/app/program.h"

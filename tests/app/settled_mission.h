@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/asset_library.h"
-#include "app/build_scene.h"
+#include "app/assets/asset_library.h"
+#include "app/pipeline/build_scene.h"
 #include "kernel/queries/queries.h"
 #include "kernel/settling/settle.h"
 #include "scripting/mission.h"

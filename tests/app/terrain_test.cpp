@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/mesh_file.h"
+#include "io/mesh/mesh_file.h"
 #include "kernel/base/error.h"
 #include "kernel/settling/generator.h"
 #include "kernel/voids/void_space.h"

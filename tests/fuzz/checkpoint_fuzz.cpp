@@ -1,5 +1,5 @@
-#include "io/checkpoint_file.h"
-#include "io/little_endian.h"
+#include "io/base/little_endian.h"
+#include "io/state/checkpoint_file.h"
 #include "kernel/base/hash.h"
 #include "kernel/world/world_snapshot.h"
 #include "tests/fuzz/fuzz_file.h"

@@ -1,4 +1,4 @@
-#include "io/colmap_model.h"
+#include "io/datasets/colmap_model.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

@@ -1,4 +1,4 @@
-#include "io/flow_file.h"
+#include "io/image/flow_file.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

@@ -1,5 +1,5 @@
-#include "app/frame_hashes.h"
-#include "app/frame_journal.h"
+#include "app/provenance/frame_hashes.h"
+#include "app/provenance/frame_journal.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

@@ -1,4 +1,4 @@
-#include "app/manifest.h"
+#include "app/provenance/manifest.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

@@ -1,4 +1,4 @@
-#include "io/mesh_file.h"
+#include "io/mesh/mesh_file.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

@@ -1,4 +1,4 @@
-#include "scripting/asset_pack.h"
+#include "scripting/packs/asset_pack.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

@@ -1,4 +1,4 @@
-#include "scripting/gray_image.h"
+#include "scripting/sandbox/gray_image.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

@@ -1,4 +1,4 @@
-#include "io/exr_file.h"
+#include "io/image/exr_file.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

@@ -1,4 +1,4 @@
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

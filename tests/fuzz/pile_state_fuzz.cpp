@@ -1,5 +1,5 @@
-#include "io/little_endian.h"
-#include "io/pile_state_file.h"
+#include "io/base/little_endian.h"
+#include "io/state/pile_state_file.h"
 #include "kernel/base/hash.h"
 #include "tests/fuzz/fuzz_file.h"
 

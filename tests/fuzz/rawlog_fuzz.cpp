@@ -1,5 +1,5 @@
-#include "io/rawlog_pictures.h"
-#include "io/recording_check.h"
+#include "io/playback/rawlog_pictures.h"
+#include "io/playback/recording_check.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

@@ -1,4 +1,4 @@
-#include "io/pile_state_file.h"
+#include "io/state/pile_state_file.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

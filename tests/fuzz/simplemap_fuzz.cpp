@@ -1,4 +1,4 @@
-#include "io/recording_check.h"
+#include "io/playback/recording_check.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

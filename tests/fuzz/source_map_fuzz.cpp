@@ -1,4 +1,4 @@
-#include "scripting/source_map.h"
+#include "scripting/sandbox/source_map.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

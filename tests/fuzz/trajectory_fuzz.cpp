@@ -1,4 +1,4 @@
-#include "app/eval/trajectory_file.h"
+#include "app/eval/scores/trajectory_file.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

@@ -1,5 +1,5 @@
-#include "app/json_members.h"
-#include "app/recipe.h"
+#include "app/provenance/provenance.h"
+#include "app/support/json_members.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "io/colmap_recorder.h"
-#include "io/contact_sheet.h"
-#include "io/euroc_recorder.h"
-#include "io/frames_recorder.h"
-#include "io/mcap_recorder.h"
-#include "io/rawlog_recorder.h"
-#include "io/rosbag_recorder.h"
-#include "io/simplemap_recorder.h"
-#include "io/tum_recorder.h"
+#include "io/datasets/colmap_recorder.h"
+#include "io/datasets/euroc_recorder.h"
+#include "io/datasets/frames_recorder.h"
+#include "io/datasets/tum_recorder.h"
+#include "io/mrpt/rawlog_recorder.h"
+#include "io/mrpt/simplemap_recorder.h"
+#include "io/recording/contact_sheet.h"
+#include "io/ros/mcap_recorder.h"
+#include "io/ros/rosbag_recorder.h"
 #include "tests/io/support.h"
 
 namespace rubble::test {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/recorder.h"
+#include "io/recording/recorder.h"
 
 namespace rubble::test {
 

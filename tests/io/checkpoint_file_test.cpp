@@ -1,11 +1,11 @@
-#include "io/checkpoint_file.h"
+#include "io/state/checkpoint_file.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "io/atomic_file.h"
-#include "io/pile_state_file.h"
+#include "io/base/atomic_file.h"
+#include "io/state/pile_state_file.h"
 #include "kernel/base/error.h"
 #include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"

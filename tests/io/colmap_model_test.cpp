@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/atomic_file.h"
-#include "io/colmap_model.h"
-#include "io/ply_reader.h"
+#include "io/base/atomic_file.h"
+#include "io/datasets/colmap_model.h"
+#include "io/mesh/ply_reader.h"
 #include "kernel/base/error.h"
 #include "tests/io/support.h"
 

@@ -9,11 +9,11 @@
 #include <cstring>
 #include <sstream>
 
-#include "io/colmap_recorder.h"
-#include "io/euroc_recorder.h"
-#include "io/frames_recorder.h"
-#include "io/image_file.h"
-#include "io/tum_recorder.h"
+#include "io/datasets/colmap_recorder.h"
+#include "io/datasets/euroc_recorder.h"
+#include "io/datasets/frames_recorder.h"
+#include "io/datasets/tum_recorder.h"
+#include "io/image/image_file.h"
 #include "kernel/base/error.h"
 #include "tests/io/support.h"
 

@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <functional>
 
-#include "io/mesh_file.h"
-#include "io/pile_export.h"
-#include "io/pile_state_file.h"
-#include "io/recording_queue.h"
-#include "io/tum_recorder.h"
+#include "io/datasets/tum_recorder.h"
+#include "io/mesh/mesh_file.h"
+#include "io/mesh/pile_export.h"
+#include "io/recording/recording_queue.h"
+#include "io/state/pile_state_file.h"
 #include "kernel/base/error.h"
 #include "tests/io/all_recorders.h"
 #include "tests/io/support.h"

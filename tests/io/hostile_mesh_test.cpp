@@ -1,8 +1,8 @@
-// Files that crash the library behind io/mesh_file.h.
+// Files that crash the library behind io/mesh/mesh_file.h.
 #include <gtest/gtest.h>
 
-#include "io/atomic_file.h"
-#include "io/mesh_file.h"
+#include "io/base/atomic_file.h"
+#include "io/mesh/mesh_file.h"
 #include "kernel/base/error.h"
 #include "tests/io/support.h"
 

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "io/atomic_file.h"
+#include "io/base/atomic_file.h"
 #include "kernel/base/error.h"
 #include "tests/io/support.h"
 

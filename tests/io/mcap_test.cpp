@@ -3,8 +3,8 @@
 #include <fastcdr/FastBuffer.h>
 #include <gtest/gtest.h>
 
-#include "io/atomic_file.h"
-#include "io/mcap_recorder.h"
+#include "io/base/atomic_file.h"
+#include "io/ros/mcap_recorder.h"
 #include "kernel/base/error.h"
 #include "tests/io/ros_expectation.h"
 

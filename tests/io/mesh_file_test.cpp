@@ -1,4 +1,4 @@
-#include "io/mesh_file.h"
+#include "io/mesh/mesh_file.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 
-#include "io/atomic_file.h"
+#include "io/base/atomic_file.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "tests/io/support.h"

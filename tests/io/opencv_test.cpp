@@ -6,7 +6,7 @@
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
 
-#include "io/frames_recorder.h"
+#include "io/datasets/frames_recorder.h"
 #include "tests/io/support.h"
 
 namespace rubble {

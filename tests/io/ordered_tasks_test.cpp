@@ -1,4 +1,4 @@
-#include "io/ordered_tasks.h"
+#include "io/base/ordered_tasks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Exports of a small pile, read back by assimp, Gazebo's SDF parser, Khronos's glTF validator,
 // ADMesh and meshio.
-#include "io/pile_export.h"
+#include "io/mesh/pile_export.h"
 
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <fstream>
 #include <sdf/sdf.hh>
 
-#include "io/mesh_file.h"
+#include "io/mesh/mesh_file.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "tests/io/all_recorders.h"

@@ -1,4 +1,4 @@
-#include "io/pile_state_file.h"
+#include "io/state/pile_state_file.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <limits>
 
-#include "io/atomic_file.h"
+#include "io/base/atomic_file.h"
 #include "kernel/base/error.h"
 #include "kernel/base/random.h"
 #include "tests/io/support.h"

@@ -11,9 +11,9 @@
 #include <map>
 #include <sstream>
 
-#include "io/atomic_file.h"
-#include "io/rawlog_recorder.h"
-#include "io/simplemap_recorder.h"
+#include "io/base/atomic_file.h"
+#include "io/mrpt/rawlog_recorder.h"
+#include "io/mrpt/simplemap_recorder.h"
 #include "tests/io/support.h"
 
 namespace rubble {

@@ -1,17 +1,17 @@
 // Pictures read back from every recording that keeps them, against the frames that were written.
-#include "io/recorded_picture.h"
+#include "io/playback/recorded_picture.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 
-#include "io/colmap_recorder.h"
-#include "io/frames_recorder.h"
-#include "io/mcap_recorder.h"
-#include "io/rawlog_recorder.h"
-#include "io/rosbag_recorder.h"
-#include "io/tum_recorder.h"
+#include "io/datasets/colmap_recorder.h"
+#include "io/datasets/frames_recorder.h"
+#include "io/datasets/tum_recorder.h"
+#include "io/mrpt/rawlog_recorder.h"
+#include "io/ros/mcap_recorder.h"
+#include "io/ros/rosbag_recorder.h"
 #include "tests/io/support.h"
 
 namespace rubble {

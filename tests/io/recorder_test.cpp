@@ -1,5 +1,5 @@
 // What holds for every recorder alike, and the small ones.
-#include "io/recorder.h"
+#include "io/recording/recorder.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <sstream>
 
-#include "io/atomic_file.h"
-#include "io/contact_sheet.h"
-#include "io/depth_encoding.h"
-#include "io/image_file.h"
-#include "io/tum_recorder.h"
+#include "io/base/atomic_file.h"
+#include "io/datasets/tum_recorder.h"
+#include "io/image/depth_encoding.h"
+#include "io/image/image_file.h"
+#include "io/recording/contact_sheet.h"
 #include "kernel/base/error.h"
 #include "tests/io/all_recorders.h"
 #include "tests/io/support.h"

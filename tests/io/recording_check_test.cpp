@@ -1,15 +1,15 @@
 // Recordings that were cut off or altered: the fault is seen, and where it is.
-#include "io/recording_check.h"
+#include "io/playback/recording_check.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "io/atomic_file.h"
-#include "io/mcap_recorder.h"
-#include "io/rawlog_recorder.h"
-#include "io/ros_message_reader.h"
-#include "io/rosbag_recorder.h"
+#include "io/base/atomic_file.h"
+#include "io/mrpt/rawlog_recorder.h"
+#include "io/ros/mcap_recorder.h"
+#include "io/ros/ros_message_reader.h"
+#include "io/ros/rosbag_recorder.h"
 #include "kernel/base/error.h"
 #include "kernel/base/random.h"
 #include "tests/io/support.h"

@@ -1,4 +1,4 @@
-#include "io/recording_queue.h"
+#include "io/recording/recording_queue.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <functional>
 #include <thread>
 
-#include "io/tum_recorder.h"
+#include "io/datasets/tum_recorder.h"
 #include "kernel/base/error.h"
 #include "tests/io/support.h"
 

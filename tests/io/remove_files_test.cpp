@@ -1,4 +1,4 @@
-#include "io/remove_files.h"
+#include "io/base/remove_files.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/folder_writer.h"
+#include "io/base/folder_writer.h"
 #include "kernel/base/error.h"
 #include "tests/io/support.h"
 

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/atomic_file.h"
-#include "io/depth_encoding.h"
+#include "io/base/atomic_file.h"
+#include "io/image/depth_encoding.h"
 
 namespace rubble::test {
 namespace {

@@ -1,7 +1,7 @@
 // A recording in ROS's terms and what it must hold, for readers in other languages.
 #pragma once
 
-#include "io/ros_recorder.h"
+#include "io/ros/ros_recorder.h"
 #include "tests/io/support.h"
 
 namespace rubble::test {

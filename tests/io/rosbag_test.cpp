@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "io/atomic_file.h"
-#include "io/bag_writer.h"
-#include "io/rosbag_recorder.h"
+#include "io/base/atomic_file.h"
+#include "io/ros/bag_writer.h"
+#include "io/ros/rosbag_recorder.h"
 #include "kernel/base/error.h"
 #include "tests/io/ros_expectation.h"
 

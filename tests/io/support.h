@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/recording.h"
+#include "io/recording/recording.h"
 
 namespace rubble::test {
 

@@ -1,6 +1,8 @@
 // Rest is not all: what is wedged into something else is not a settled pile.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "closed_forms.h"
 #include "kernel/settling/settle.h"
 
@@ -41,10 +43,71 @@ TEST(ClosedFormOverlap, AWedgedPieceIsNotSettled) {
 }
 
 // Two cubes that have too little room have to share 6 cm of overlap between three contacts.
-// Not yet: see docs/performance.md, "Closed forms".
-TEST(ClosedFormOverlap, DISABLED_TwoWedgedPiecesAreNotSettled) {
+TEST(ClosedFormOverlap, TwoWedgedPiecesAreNotSettled) {
   EXPECT_TRUE(settles(make_shaft(2, 0.803)));
   EXPECT_FALSE(settles(make_shaft(2, 0.74)));
+}
+
+// Four bars side by side and two across, 10 mm thick with openings of 90 mm: a mat of rebar.
+PieceType make_mat() {
+  PieceType mat;
+  mat.name = "mat";
+  for (int i = 0; i < 4; ++i) mat.parts.push_back(box_part(0.4, 0.01, 0.01, {0, -0.15 + 0.1 * i, 0}));
+  for (const double x : {-0.15, 0.15}) mat.parts.push_back(box_part(0.01, 0.4, 0.01, {x, 0, 0}));
+  return mat;
+}
+
+double sink_of(const std::vector<PieceType>& types, const NewPiece& lower, const NewPiece& upper) {
+  World world(types);
+  world.add({lower, upper});
+  run(world, 4);
+  return world.deepest_overlap().depth;
+}
+
+// A post through an opening that is too narrow for it: the bars beside it push it to and fro, and only
+// upwards leads out.
+TEST(ClosedFormOverlap, APostLeavesTheOpeningThatIsTooNarrow) {
+  const std::vector<PieceType> types{make_mat(), box_type("post", 0.1, 0.098, 0.5), box_type("block", 1, 1, 0.2)};
+  for (const double depth : {0.004, 0.02}) {
+    World world(types);
+    NewPiece post = at(1, {0, 0, 0.205 + 0.25 - depth});
+    world.add({at(2, {0, 0, 0.1}, {}, true), at(0, {0, 0, 0.205}, {}, true), post});
+    run(world, 4);
+    EXPECT_LT(world.deepest_overlap().depth, 0.001) << depth;
+  }
+}
+
+// A sheet that has sunk into a table made of two boards: each board alone would push it off sideways,
+// into the other board.
+TEST(ClosedFormOverlap, ASheetLeavesTheSeamOfTwoBoards) {
+  PieceType table;
+  table.name = "table";
+  for (const double x : {-0.5, 0.5}) table.parts.push_back(box_part(1, 1, 0.1, {x, 0, 0}));
+  const std::vector<PieceType> types{table, box_type("sheet", 0.01, 0.6, 0.3)};
+  for (const double depth : {0.01, 0.03, 0.045}) {
+    for (const double x : {0.0, 0.003, 0.02}) {
+      const NewPiece sheet = at(1, {x, 0, 0.55 + 0.15 - depth}, {});
+      EXPECT_LT(sink_of(types, at(0, {0, 0, 0.5}, {}, true), sheet), 0.001) << depth << " at " << x;
+    }
+  }
+}
+
+// 300 bricks on a slab that lies on two posts push it down, each a little; it must not sink.
+TEST(ClosedFormOverlap, ASlabUnderManyBricksDoesNotSinkIntoItsSupports) {
+  World world({box_type("slab", 4, 4, 0.2), box_type("post", 0.3, 4, 1), box_type("brick", 0.2, 0.2, 0.2)});
+  std::vector<NewPiece> pieces{at(1, {-1.7, 0, 0.5}, {}, true), at(1, {1.7, 0, 0.5}, {}, true),
+                               at(0, {0, 0, 1.1})};
+  for (int i = 0; i < 300; ++i) {  // 20 mm deep in the slab, two layers
+    pieces.push_back(at(2, {-1.8 + 0.25 * (i % 15), -1.2 + 0.25 * (i / 15 % 10), 1.28 + 0.2 * (i / 150)}));
+  }
+  world.add(pieces);
+  double lowest = 2;
+  for (int i = 0; i < 240; ++i) {
+    world.step();
+    lowest = std::min(lowest, world.piece(2).world_from_body.translation.z);
+  }
+  EXPECT_GT(lowest, 1.1 - 0.02);
+  EXPECT_LT(world.deepest_overlap().depth, 0.0025);
 }
 
 }  // namespace

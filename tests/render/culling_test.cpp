@@ -1,4 +1,4 @@
-#include "render/culling.h"
+#include "render/camera/culling.h"
 
 #include <gtest/gtest.h>
 

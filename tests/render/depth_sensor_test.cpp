@@ -333,7 +333,7 @@ double noise_on(const char* look, double stated, double albedo) {
 }
 
 TEST(TimeOfFlight, SeesEachSurfaceByItsOwnAlbedo) {
-  // Means of red in render/looks.cpp; upright walls hold no dust.
+  // Means of red in render/materials/surface_appearance.cpp; upright walls hold no dust.
   EXPECT_NEAR(noise_on("drywall", 0, 0.59), 1, 0.05);
   EXPECT_NEAR(noise_on("brick", 0, 0.26), 1, 0.05);
   EXPECT_NEAR(noise_on("brick", 0.59, 0.59), 1, 0.05) << "a stated reflectance counts for all";

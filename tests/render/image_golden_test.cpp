@@ -11,7 +11,7 @@
 #include <cmath>
 #include <functional>
 
-#include "io/image_file.h"
+#include "io/image/image_file.h"
 #include "kernel/base/portable_math.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"

@@ -1,5 +1,5 @@
 // Lenses against OpenCV, and images drawn through them against OpenCV's geometry.
-#include "render/lens.h"
+#include "render/camera/lens.h"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "kernel/base/portable_math.h"
-#include "render/atmosphere.h"
-#include "render/lighting.h"
-#include "render/medium.h"
+#include "render/lighting/atmosphere.h"
+#include "render/lighting/lighting.h"
+#include "render/media/medium.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
 

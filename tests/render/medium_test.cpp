@@ -1,5 +1,5 @@
 // The medium against closed forms, against a fine quadrature of its own extinction, and in time.
-#include "render/medium.h"
+#include "render/media/medium.h"
 
 #include <gtest/gtest.h>
 

@@ -5,14 +5,14 @@
 #include <cmath>
 
 #include "kernel/base/error.h"
-#include "render/effects/antialias.h"
-#include "render/exposure.h"
-#include "render/gl_context.h"
-#include "render/mesh_refine.h"
-#include "render/prepared_mesh.h"
-#include "render/shader.h"
-#include "render/textures.h"
-#include "render/tile_noise.h"
+#include "render/geometry/mesh_refine.h"
+#include "render/geometry/prepared_mesh.h"
+#include "render/gl/gl_context.h"
+#include "render/gl/shader.h"
+#include "render/lighting/exposure.h"
+#include "render/materials/textures.h"
+#include "render/materials/tile_noise.h"
+#include "render/passes/antialias.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {

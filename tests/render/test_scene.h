@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "render/frame.h"
-#include "render/scene.h"
+#include "render/scene/frame.h"
+#include "render/scene/scene.h"
 
 namespace rubble::testing {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kernel/base/portable_math.h"
-#include "render/lens.h"
+#include "render/camera/lens.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
 

@@ -1,4 +1,4 @@
-#include "scripting/asset_pack.h"
+#include "scripting/packs/asset_pack.h"
 
 #include <gtest/gtest.h>
 

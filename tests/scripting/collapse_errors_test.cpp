@@ -1,8 +1,8 @@
 // The parameters of collapse modes are checked as a mission's own keys are.
 #include <gtest/gtest.h>
 
-#include "scripting/lua_library.h"
-#include "scripting/lua_options.h"
+#include "scripting/sandbox/lua_library.h"
+#include "scripting/sandbox/lua_options.h"
 #include "tests/scripting/test_support.h"
 
 namespace rubble {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scripting/imu.h"
+#include "scripting/trajectory/imu.h"
 
 namespace rubble {
 

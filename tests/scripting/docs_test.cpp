@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "scripting/mission.h"
-#include "scripting/scenario.h"
-#include "scripting/scenario_schema.h"
-#include "scripting/schema_docs.h"
+#include "scripting/reference/schema_docs.h"
+#include "scripting/scenario/scenario.h"
+#include "scripting/scenario/scenario_schema.h"
 
 namespace rubble {
 namespace {

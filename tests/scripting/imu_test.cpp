@@ -1,5 +1,5 @@
 // The inertial unit against closed forms, finite differences and dead reckoning.
-#include "scripting/imu.h"
+#include "scripting/trajectory/imu.h"
 
 #include <gtest/gtest.h>
 

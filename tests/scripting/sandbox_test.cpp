@@ -1,5 +1,5 @@
 // Hostile and careless scripts: each must end with an error that has a line, and soon.
-#include "scripting/lua_sandbox.h"
+#include "scripting/sandbox/lua_sandbox.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "scripting/scenario.h"
+#include "scripting/scenario/scenario.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Paths that an inertial unit can fly: what it measures leads to where the poses are, on every bundled
 // path; and how smooth they are, how far from the asked path, and within which limits.
-#include "scripting/smooth_path.h"
+#include "scripting/trajectory/smooth_path.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "scripting/source_map.h"
+#include "scripting/sandbox/source_map.h"
 
 #include <gtest/gtest.h>
 
-#include "scripting/lua_tokens.h"
+#include "scripting/sandbox/lua_tokens.h"
 
 namespace rubble {
 namespace {

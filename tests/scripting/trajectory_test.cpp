@@ -1,4 +1,4 @@
-#include "scripting/trajectory.h"
+#include "scripting/trajectory/trajectory.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,61 @@
+// The assets of a run, loaded: what the kernel drops and what the renderer draws, by one index.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/provenance/provenance.h"
+#include "io/mesh/mesh_file.h"
+#include "kernel/model/pile.h"
+#include "render/scene/scene.h"
+#include "scripting/mission.h"
+#include "scripting/packs/asset_pack.h"
+
+namespace rubble {
+
+struct AssetLibrary {
+  std::vector<PieceType> types;
+  std::vector<std::shared_ptr<const SceneMesh>> meshes;  // one per type
+  std::vector<AssemblyType> assemblies;                  // articulated assets, made of the types
+  std::vector<AssetContent> contents;                    // one per type, then one per assembly
+  std::vector<MixEntry> mix;                             // what the mission draws from
+  std::vector<std::string> warnings;                     // e.g. a mesh that is not closed
+  std::vector<std::string> folders;                      // of the packs, absolute
+  // What reads the meshes; let go when all are loaded.
+  std::shared_ptr<MeshImporter> importer = std::make_shared<MeshImporter>();
+
+  // Index of a type that was loaded, or the number of types plus the index of an assembly: as
+  // placements and mixes have it.
+  int find(const std::string& name) const;  // throws RunError
+  bool has(const std::string& name) const;
+  int find(const PlacedItem& item) const;  // likewise, of its asset or its box
+  std::vector<int> terrain() const;        // the indices of types that are terrain; one or none
+  std::vector<const TriangleMesh*> finest_meshes() const;  // one per type, kept by the library
+};
+
+// Loads what the mission uses, from its packs and then `extra_packs`; with neither, from the
+// bundled pack `concrete`. Throws InputError with every mistake: an unknown asset, a mesh that
+// cannot be read, two packs with an asset of the same name.
+AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>& extra_packs);
+
+// Loads the very assets that a recipe names, wherever their packs are now: looks in `folders`
+// (packs, or folders of packs), then among the bundled ones, and takes what has the same content.
+// Throws InputError naming each that is missing, and where it was looked for.
+AssetLibrary load_assets(const Recipe& recipe, const std::vector<std::string>& folders);
+// One asset with all that it refers to. Throws InputError for a file that cannot be read.
+struct LoadedAsset {
+  PieceType type;
+  std::shared_ptr<const SceneMesh> mesh;
+  std::vector<std::string> warnings;  // e.g. that the mesh is not closed; each begins with a file
+};
+LoadedAsset load_asset(const Asset& asset, MeshImporter& importer);
+
+// The folder of a pack: a folder with a pack.lua, else a bundled pack of that name, else `pack`
+// itself.
+std::string find_pack(const std::string& pack);
+
+// Where the bundled packs and materials.lua are: $RUBBLE_ASSETS, or `assets` beside the program.
+std::string bundled_assets_folder();
+
+}  // namespace rubble

@@ -1,0 +1,193 @@
+#include "app/assets/asset_loading.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "app/assets/assemblies.h"
+#include "app/assets/decompose_cache.h"
+#include "app/assets/material_variant.h"
+#include "app/assets/placed_box.h"
+#include "app/assets/terrain.h"
+#include "io/mesh/mesh_file.h"
+#include "kernel/base/hash.h"
+#include "kernel/base/mesh_edges.h"
+#include "render/materials/surface_appearance.h"
+#include "scripting/schema/schema.h"
+
+namespace rubble {
+namespace {
+
+PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnits& units,
+                    MeshImporter& importer, std::vector<std::string>& warnings) {
+  PieceType type;
+  type.name = asset.name;
+  type.density = asset.density;
+  type.friction = asset.friction;
+  if (asset.decompose) {
+    type.parts = decompose_cached(mesh, DiskCache(DiskCache::usual_folder()));
+  } else if (asset.parts.empty()) {
+    type.parts.emplace_back();
+    for (const Vec3f& p : mesh.positions) type.parts[0].points.push_back(Vec3(p));
+  } else {
+    for (std::vector<Vec3>& points : importer.load_convex_parts(asset.parts, units))
+      type.parts.push_back({std::move(points)});
+  }
+  const bool closed = is_closed(mesh);
+  if (closed && calc_volume_properties(mesh).volume > 0)
+    type.volume = calc_volume_properties(mesh);
+  else
+    warnings.push_back(asset.meshes.front() + ": the mesh is " +
+                       (closed ? "inside out: its triangles face inwards"
+                               : "not closed: " + describe(find_open_edges(mesh))) +
+                       ". Mass and inertia come from its convex parts");
+  return type;
+}
+
+std::string hash_content(const Asset& asset, const PieceType& type) {
+  Sha256 hash;
+  std::vector<std::string> files = asset.meshes;
+  if (!asset.parts.empty()) files.push_back(asset.parts);
+  for (const std::string& file : files) {
+    const std::string content = sha256_of_file(file);
+    hash.add(content.data(), content.size());
+  }
+  const double up = asset.up == UpAxis::y ? 1 : 0, cut = asset.decompose ? 1 : 0;
+  for (const double number : {type.density, type.friction, asset.metres_per_unit, up, cut})
+    hash.add(&number, sizeof number);
+  return hash.hex();
+}
+
+// The pack's word for it, else a name that is a look, else that of the asset or its material.
+std::string choose_look(const Asset& asset, const std::string& surface) {
+  for (const auto& [name, look] : asset.looks)
+    if (name == surface) return look;
+  const std::vector<std::string> known = known_looks();
+  const bool is_look = std::find(known.begin(), known.end(), surface) != known.end();
+  return is_look || asset.look.empty() ? surface : asset.look;
+}
+
+constexpr double kSmallest = 1e-3, kLargest = 1e3;  // of a piece that was meant so; unit: m
+
+void warn_of_size(const Asset& asset, const TriangleMesh& mesh, std::vector<std::string>& warnings) {
+  const Vec3 size = mesh.bounds().max - mesh.bounds().min;
+  const double largest = std::max({size.x, size.y, size.z});
+  if (largest >= kSmallest && largest <= kLargest) return;
+  char text[64];
+  std::snprintf(text, sizeof text, ": the mesh is %.3g m large", largest);
+  warnings.push_back(asset.meshes.front() + text + ": are its `units` right?");
+}
+
+// One that the pack says nothing of: there the file's own colour may have been what was meant.
+bool has_surface_of_its_own(const Asset& asset, const TriangleMesh& mesh) {
+  const std::vector<std::string> known = known_looks();
+  return std::any_of(mesh.surface_names.begin(), mesh.surface_names.end(), [&](const auto& name) {
+    const bool given = std::any_of(asset.looks.begin(), asset.looks.end(),
+                                   [&name](const auto& look) { return look.first == name; });
+    return !given && std::find(known.begin(), known.end(), name) == known.end();
+  });
+}
+
+// A surface that `looks` names and no mesh of the asset has.
+void warn_of_looks(const Asset& asset, const std::vector<std::string>& surfaces,
+                   std::vector<std::string>& warnings) {
+  for (const auto& [name, look] : asset.looks) {
+    if (std::find(surfaces.begin(), surfaces.end(), name) != surfaces.end()) continue;
+    const std::string near = nearest_name(name, surfaces);
+    std::string there;
+    for (const std::string& surface : surfaces) there += (there.empty() ? "`" : ", `") + surface + "`";
+    warnings.push_back(asset.meshes.front() + ": `looks` of `" + asset.name +
+                       "` names the surface `" + name + "`, which the mesh has not: " +
+                       (near.empty() ? "it has " + there : "did you mean `" + near + "`?"));
+  }
+}
+
+}  // namespace
+
+LoadedAsset load_asset(const Asset& asset, MeshImporter& importer) {
+  const MeshUnits units{asset.metres_per_unit, asset.up};
+  auto mesh = std::make_shared<SceneMesh>();
+  LoadedAsset loaded;
+  std::vector<std::string> surfaces;
+  for (const std::string& path : asset.meshes) {
+    mesh->levels.push_back(importer.load_mesh(path, units));
+    if (!importer.left_out().empty() && has_surface_of_its_own(asset, mesh->levels.back()))
+      loaded.warnings.push_back(path + ": " + importer.left_out() +
+                                " of the file are not drawn: surfaces look as `looks` says");
+    for (std::string& surface : mesh->levels.back().surface_names) {
+      surfaces.push_back(surface);
+      surface = choose_look(asset, surface);
+    }
+  }
+  warn_of_size(asset, mesh->levels.front(), loaded.warnings);
+  warn_of_looks(asset, surfaces, loaded.warnings);
+  loaded.type = make_type(asset, mesh->levels.front(), units, importer, loaded.warnings);
+  loaded.mesh = std::move(mesh);
+  return loaded;
+}
+
+void add_asset(const FoundAsset& found, AssetLibrary& library) {
+  if (!found.asset->links.empty()) {
+    library.assemblies.push_back(make_assembly(*found.asset, library));
+    library.contents.push_back({found.asset->name, found.pack->name,
+                                hash_content(*found.asset, library.assemblies.back(), library),
+                                found.asset->weight, found.asset->scale, found.asset->spread});
+    return;
+  }
+  LoadedAsset loaded = load_asset(*found.asset, *library.importer);
+  library.warnings.insert(library.warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
+  library.contents.push_back({loaded.type.name, found.pack->name,
+                              hash_content(*found.asset, loaded.type), found.asset->weight,
+                              found.asset->scale, found.asset->spread});
+  library.types.push_back(std::move(loaded.type));
+  library.meshes.push_back(std::move(loaded.mesh));
+}
+
+void add_box(const PlacedItem& item, const std::vector<Material>& materials,
+             AssetLibrary& library) {
+  MadeBox box = make_placed_box(item, materials);
+  library.contents.push_back({box.type.name, kMadeToMeasure, std::move(box.sha256), 0, {1, 1}, {}});
+  library.types.push_back(std::move(box.type));
+  library.meshes.push_back(std::move(box.mesh));
+}
+
+void add_terrain(const TerrainScenario& spec, const std::vector<std::string>& folders,
+                 AssetLibrary& library) {
+  if (!spec.given()) return;
+  MadeTerrain terrain = make_terrain(spec, folders, *library.importer);
+  if (!terrain.warning.empty()) library.warnings.push_back(terrain.warning);
+  if (!terrain.folder.empty()) library.folders.push_back(terrain.folder);
+  library.contents.push_back({kTerrainName, kTerrainPack, terrain.sha256, 0, {1, 1}, {}});
+  library.types.push_back(std::move(terrain.type));
+  library.meshes.push_back(std::move(terrain.mesh));
+}
+
+std::vector<MixEntry> make_mix(const Scenario& scenario, const std::vector<FoundAsset>& all,
+                               const AssetLibrary& library) {
+  std::map<std::string, const Asset*> by_name;
+  for (const FoundAsset& found : all) by_name[found.asset->name] = found.asset;
+  std::vector<MixEntry> mix;
+  for (const MixItem& item : scenario.pile.mix) {
+    const Asset& asset = *by_name.at(item.asset);
+    const auto scale = item.scale.value_or(asset.scale);
+    const bool own = !item.scale && item.spread.kind == Spread::uniform;
+    const MixEntry entry{library.find(item.asset), item.weight, scale[0], scale[1],
+                         own ? asset.spread : item.spread};
+    if (item.materials.empty()) mix.push_back(entry);
+    double sum = 0;
+    for (const MixMaterial& m : item.materials) sum += m.weight;
+    for (const MixMaterial& m : item.materials) {
+      mix.push_back(entry);
+      mix.back().type = library.find(variant_name(item.asset, m.material));
+      mix.back().weight = item.weight * m.weight / sum;
+    }
+  }
+  if (!scenario.pile.mix.empty()) return mix;
+  for (const FoundAsset& found : all)
+    if (found.asset->weight > 0 && scenario.pile.layers > 0)
+      mix.push_back({library.find(found.asset->name), found.asset->weight, found.asset->scale[0],
+                     found.asset->scale[1], found.asset->spread});
+  return mix;
+}
+
+}  // namespace rubble

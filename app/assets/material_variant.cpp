@@ -1,0 +1,67 @@
+#include "app/assets/material_variant.h"
+
+#include <algorithm>
+
+#include "render/materials/surface_appearance.h"
+
+namespace rubble {
+namespace {
+
+bool is_known(const std::string& look) {
+  const std::vector<std::string> known = known_looks();
+  return std::find(known.begin(), known.end(), look) != known.end();
+}
+
+// Looks of one material begin alike: "concrete_cast", "concrete_fracture".
+std::string stem(const std::string& name) { return name.substr(0, name.find('_')); }
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+bool is_break(const std::string& look) { return ends_with(look, "_fracture") || ends_with(look, "_core"); }
+
+std::string break_of(const Material& material) {
+  for (const std::string& begin : {stem(material.look), stem(material.name)})
+    for (const char* end : {"_fracture", "_core"})
+      if (is_known(begin + end)) return begin + end;
+  return material.look;
+}
+
+}  // namespace
+
+std::string variant_name(const std::string& asset, const std::string& material) {
+  return asset + " of " + material;
+}
+
+Asset make_variant(const Asset& asset, const Material& material) {
+  Asset variant = asset;
+  variant.name = variant_name(asset.name, material.name);
+  variant.material = material.name;
+  variant.density = material.density;
+  variant.friction = material.friction;
+  variant.look = material.look;
+  const std::string own[] = {stem(asset.look), stem(asset.material)};
+  const auto is_own = [&](const std::string& look) {
+    return look == asset.look || stem(look) == own[0] || stem(look) == own[1];
+  };
+  const auto changed = [&](const std::string& look) {
+    return is_break(look) ? break_of(material) : material.look;
+  };
+  for (auto& [surface, look] : variant.looks)
+    if (is_own(look)) look = changed(look);
+  for (const std::string& look : known_looks())
+    if (is_own(look)) variant.looks.emplace_back(look, changed(look));
+  return variant;
+}
+
+std::optional<Asset> find_variant(const Asset& asset, const std::string& name,
+                                  const std::vector<Material>& materials) {
+  if (asset.name == name) return asset;
+  if (!asset.links.empty()) return std::nullopt;
+  for (const Material& material : materials)
+    if (variant_name(asset.name, material.name) == name) return make_variant(asset, material);
+  return std::nullopt;
+}
+
+}  // namespace rubble

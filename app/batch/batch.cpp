@@ -1,0 +1,229 @@
+#include "app/batch/batch.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/assets/asset_library.h"
+#include "app/batch/batch_folder.h"
+#include "app/batch/seed_list.h"
+#include "app/pipeline/disk_estimate.h"
+#include "app/provenance/folder_lock.h"
+#include "app/provenance/provenance.h"
+#include "app/support/build_info.h"
+#include "app/support/job_pool.h"
+#include "app/support/progress.h"
+#include "app/support/stop.h"
+#include "io/base/atomic_file.h"
+
+namespace rubble {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+struct Tally {
+  std::size_t ended = 0, failed = 0, not_settled = 0, done_before = 0;
+  std::size_t elsewhere = 0;  // another process made or makes them
+  std::uint64_t bytes = 0;  // of the seeds that ended well in this process
+};
+
+class Batch {
+ public:
+  explicit Batch(const BatchRequest& request)
+      : request_(request),
+        all_(parse_seeds(request.seeds, "--seeds")),
+        shape_(choose_job_shape(request.jobs, request.of.options.threads)),
+        folder_(request.of.out.empty()
+                    ? "out/" + fs::path(request.of.mission).stem().string() + "_batch"
+                    : request.of.out),
+        progress_(choose_progress_style(request.of.options.quiet)) {
+    const Shard shard = request.shard.empty() ? Shard{} : parse_shard(request.shard);
+    for (const std::uint64_t seed : all_)
+      if (shard.has(seed)) mine_.push_back(seed);
+  }
+
+  ExitCode run() {
+    check_mission();
+    folder_.open(describe());
+    make_jobs();
+    check_disk(estimate_, "estimated");
+    progress_.start("batch");
+    run_jobs(jobs_, shape_.at_once,
+             [this](std::size_t i, const JobResult& result) { return note(i, result); });
+    write_index();
+    progress_.finish(words());
+    return report();
+  }
+
+ private:
+  // What every seed has in common is read once, so that a mistake is not found a thousand times.
+  void check_mission() {
+    MissionOptions options;
+    options.seed = all_.front();
+    options.overrides = request_.of.overrides;
+    const Mission mission = load_mission(request_.of.mission, options);
+    const AssetLibrary assets = load_assets(mission, request_.of.asset_packs);
+    estimate_ = estimate_bytes(mission.scenario, assets, request_.pile_only);
+    recipe_ = make_recipe(request_.pile_only ? RunKind::settle : RunKind::run, mission, options);
+    recipe_.assets = assets.contents;
+    recipe_.seed.reset();
+  }
+
+  std::string describe() const {
+    Json json;
+    const BuildInfo build = build_info();
+    json["format"] = "rubble batch 1";
+    json["program"] = build.version + " " + build.commit;
+    json["seeds"] = request_.seeds;
+    add_recipe(json, recipe_);
+    return json.dump(2) + "\n";
+  }
+
+  std::vector<std::string> arguments_for(std::uint64_t seed) const {
+    const bool resume = is_begun(seed);
+    std::vector<std::string> list;
+    if (resume) {
+      list = {"resume", folder_.of_seed(seed)};
+    } else {
+      list = {request_.pile_only ? "settle" : "run",
+              request_.of.mission,
+              "--seed",
+              std::to_string(seed),
+              "--out",
+              folder_.of_seed(seed)};
+      for (const std::string& text : request_.of.overrides)
+        list.insert(list.end(), {"--set", text});
+    }
+    for (const std::string& pack : request_.of.asset_packs)
+      list.insert(list.end(), {"--assets", pack});
+    list.insert(list.end(), {"--quiet", "--threads", std::to_string(shape_.threads)});
+    return list;
+  }
+
+  bool is_begun(std::uint64_t seed) const {
+    std::error_code failed;
+    return fs::exists(folder_.of_seed(seed) + "/unfinished/run.json", failed);
+  }
+
+  void make_jobs() {
+    for (const std::uint64_t seed : mine_) {
+      if (folder_.state_of(seed) == SeedState::done) {
+        ++tally_.done_before;
+        continue;
+      }
+      seeds_.push_back(seed);
+      jobs_.push_back({arguments_for(seed), folder_.running_log(seed)});
+    }
+  }
+
+  void check_disk(std::uint64_t bytes_each, const char* how) const {
+    const std::uint64_t needed = bytes_each * (jobs_.size() - tally_.ended);
+    const std::uint64_t there = free_bytes(folder_.path());
+    if (tally_.ended == 0)
+      std::fprintf(stderr,
+                   "batch: %zu runs to do, %zu done before; %s %s each, %s in all; %s free\n",
+                   jobs_.size(), tally_.done_before, how, format_bytes(bytes_each).c_str(),
+                   format_bytes(needed).c_str(), format_bytes(there).c_str());
+    if (needed <= there || request_.of.force) return;
+    throw RunError("the disk is too small for this batch: " + format_bytes(needed) + " needed (" +
+                   how + ", " + format_bytes(bytes_each) + " each), " + format_bytes(there) +
+                   " free in " + folder_.path() +
+                   "; fewer seeds, smaller pictures, another --out, or "
+                   "--force to begin all the same");
+  }
+
+  // Returns whether to go on.
+  bool note(std::size_t i, const JobResult& result) {
+    const std::uint64_t seed = seeds_[i];
+    const bool well = result.exit_code == int(ExitCode::done) ||
+                      result.exit_code == int(ExitCode::did_not_settle);
+    if (result.exit_code == int(ExitCode::stopped)) {
+      folder_.file_log(seed, false);
+      return false;
+    }
+    // The same batch, begun twice, must not call what the other process does a failure.
+    if (!well && (folder_.state_of(seed) == SeedState::done || folder_.is_at_work(seed))) {
+      folder_.file_log(seed, false);
+      ++tally_.elsewhere;
+      return true;
+    }
+    folder_.file_log(seed, !well);
+    ++tally_.ended;
+    tally_.failed += !well;
+    tally_.not_settled += result.exit_code == int(ExitCode::did_not_settle);
+    if (well) tally_.bytes += count_bytes(folder_.of_seed(seed));
+    if (!well) failures_.push_back(seed);
+    progress_.update(double(tally_.ended) / double(jobs_.size()), words());
+    return well ? disk_is_enough() : true;
+  }
+
+  // Now that some have been measured: stop before the disk is full rather than when it is.
+  bool disk_is_enough() {
+    const std::size_t measured = tally_.ended - tally_.failed;
+    try {
+      check_disk(tally_.bytes / measured, "measured");
+    } catch (const RunError& error) {
+      too_small_ = error.what();
+    }
+    return too_small_.empty();
+  }
+
+  std::string words() const {
+    const std::string others =
+        tally_.elsewhere == 0
+            ? ""
+            : ", " + std::to_string(tally_.elsewhere) + " in the hands of another process";
+    return std::to_string(tally_.ended + tally_.done_before) + " of " +
+           std::to_string(mine_.size()) + " seeds, " + std::to_string(tally_.failed) + " failed" +
+           others;
+  }
+
+  void write_index() {
+    const FolderLock lock(folder_.path() + "/batch.lock", FolderLock::Wait::yes);
+    const BatchIndex index = make_batch_index(folder_.path(), all_);
+    altered_ = index.altered;
+    write_text_file(folder_.path() + "/index.csv", index.text);
+  }
+
+  ExitCode report() {
+    std::sort(failures_.begin(), failures_.end());
+    for (const std::uint64_t seed : failures_) {
+      const std::string log = folder_.failure_log(seed);
+      std::fprintf(stderr, "seed %llu failed (%s):\n%s\n", static_cast<unsigned long long>(seed),
+                   log.c_str(), tail_of_log(log, 3).c_str());
+    }
+    if (stop_requested())
+      throw Stopped("stopped by a signal, with " + words() + "; the same command continues");
+    if (!too_small_.empty()) throw RunError(too_small_);
+    std::printf("%s/index.csv\n", folder_.path().c_str());
+    for (const std::string& sentence : altered_)
+      std::fprintf(stderr, "%s\nremove its folder and run the batch again\n", sentence.c_str());
+    if (tally_.failed > 0 || !altered_.empty()) return ExitCode::failure;
+    return tally_.not_settled > 0 ? ExitCode::did_not_settle : ExitCode::done;
+  }
+
+  const BatchRequest& request_;
+  std::vector<std::uint64_t> all_, mine_;  // of the whole batch, of this shard
+  JobShape shape_;
+  BatchFolder folder_;
+  Progress progress_;
+  Recipe recipe_;
+  std::uint64_t estimate_ = 0;
+  std::vector<std::uint64_t> seeds_;  // one per job
+  std::vector<Job> jobs_;
+  std::vector<std::uint64_t> failures_;
+  std::string too_small_;
+  std::vector<std::string> altered_;  // sentences, see BatchIndex
+  Tally tally_;
+};
+
+}  // namespace
+
+ExitCode run_batch(const BatchRequest& request) {
+  stop_on_signals();
+  return Batch(request).run();
+}
+
+}  // namespace rubble

@@ -1,0 +1,211 @@
+#include "app/batch/suite.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "app/batch/golden_file.h"
+#include "app/batch/junit.h"
+#include "app/batch/seed_list.h"
+#include "app/pipeline/metrics.h"
+#include "app/provenance/manifest.h"
+#include "app/support/job_pool.h"
+#include "app/support/stop.h"
+#include "io/base/atomic_file.h"
+#include "scripting/suite_script.h"
+#include "scripting/values/value.h"
+
+namespace rubble {
+namespace {
+
+namespace fs = std::filesystem;
+
+// One mission with one seed.
+struct Case {
+  const SuiteRun* run;
+  std::string name;    // "heap" or "heap/seed_3"
+  std::string folder;  // of its dataset
+  CaseResult result;
+};
+
+class Suite {
+ public:
+  explicit Suite(const SuiteRequest& request)
+      : request_(request),
+        script_(load_suite(request.suite, metric_names())),
+        stem_(fs::path(request.suite).stem().string()),
+        out_(request.out.empty() ? "out/" + stem_ : request.out),
+        golden_(fs::path(request.suite).replace_extension(".golden.json").string()),
+        shape_(choose_job_shape(request.jobs, request.options.threads)) {
+    for (const std::string& name : request.only) check_known(name);
+    for (std::size_t i = 0; i < script_.runs.size(); ++i)
+      if (wanted(script_.runs[i].name)) add_cases(script_.runs[i], i);
+  }
+
+  ExitCode run() {
+    stop_on_signals();
+    run_jobs(make_jobs(), shape_.at_once, [this](std::size_t i, const JobResult& result) {
+      judge(cases_[i], result);
+      return true;
+    });
+    if (stop_requested()) throw Stopped("stopped by a signal; the suite is not finished");
+    if (request_.update) update_golden();
+    write_junit();
+    return report();
+  }
+
+ private:
+  bool wanted(const std::string& name) const {
+    const auto& only = request_.only;
+    return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
+  }
+
+  void check_known(const std::string& name) const {
+    std::vector<std::string> names;
+    for (const SuiteRun& run : script_.runs) {
+      if (run.name == name) return;
+      names.push_back(run.name);
+    }
+    const std::string near = nearest_name(name, names);
+    throw InputError({request_.suite, 0, "--only", "no run has the name `" + name + "`", "", "",
+                      near.empty() ? "" : "did you mean `" + near + "`?"});
+  }
+
+  void add_cases(const SuiteRun& run, std::size_t index) {
+    if (run.seeds.empty()) {
+      cases_.push_back({&run, run.name, out_ + "/" + run.name, {}});
+      seeds_.emplace_back();
+      return;
+    }
+    const std::string key = "runs[" + std::to_string(index + 1) + "].seeds";
+    for (const std::uint64_t seed : parse_seeds(run.seeds, key)) {
+      const std::string name = run.name + "/seed_" + std::to_string(seed);
+      cases_.push_back({&run, name, out_ + "/" + name, {}});
+      seeds_.push_back(std::to_string(seed));
+    }
+  }
+
+  std::vector<Job> make_jobs() const {
+    std::vector<Job> jobs;
+    const fs::path beside = fs::path(request_.suite).parent_path();
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      const Case& c = cases_[i];
+      Job job;
+      job.log = c.folder + ".log";
+      job.arguments = {c.run->pile_only ? "settle" : "run",
+                       (beside / c.run->mission).string(),
+                       "--out",
+                       c.folder,
+                       "--force",
+                       "--quiet",
+                       "--threads",
+                       std::to_string(shape_.threads)};
+      if (!seeds_[i].empty()) job.arguments.insert(job.arguments.end(), {"--seed", seeds_[i]});
+      for (const std::string& text : c.run->set)
+        job.arguments.insert(job.arguments.end(), {"--set", text});
+      std::error_code failed;
+      fs::create_directories(fs::path(c.folder).parent_path(), failed);
+      if (failed)
+        throw RunError("cannot create the folder for " + c.folder + ": " + failed.message());
+      jobs.push_back(std::move(job));
+    }
+    return jobs;
+  }
+
+  void judge(Case& c, const JobResult& ended) {
+    c.result.name = c.name;
+    c.result.seconds = ended.seconds;
+    const bool finished =
+        ended.exit_code == int(ExitCode::done) || ended.exit_code == int(ExitCode::did_not_settle);
+    if (finished) {
+      const std::string path = c.folder + "/manifest.json";
+      judge_manifest(c, manifest_from_json(read_whole_file(path), path));
+    } else {
+      c.result.error = "the run failed with exit code " + std::to_string(ended.exit_code);
+      c.result.log = tail_of_log(c.folder + ".log", 20);
+    }
+    print(c.result);
+  }
+
+  void judge_manifest(Case& c, const Manifest& manifest) {
+    const auto& names = metric_names();
+    bool settled_limited = false;
+    for (std::size_t m = 0; m < names.size(); ++m) {
+      if (!c.run->expect[m]) continue;
+      settled_limited |= names[m].first == "settled";
+      judge_metric(names[m].first, *c.run->expect[m], manifest, c.result);
+    }
+    if (!settled_limited && !manifest.pile.settled)
+      c.result.failures.push_back("the pile did not settle (`settled = { 0, 1 }` allows it)");
+    const GoldenHashes found = golden_hashes(manifest, c.run->golden);
+    if (request_.update)
+      found_.emplace_back(c.name, found);
+    else
+      for (std::string& sentence : golden_.compare(c.name, found))
+        c.result.failures.push_back(std::move(sentence));
+  }
+
+  static void judge_metric(const std::string& name, const NumberPair& limits,
+                           const Manifest& manifest, CaseResult& result) {
+    const auto found = manifest.metrics.find(name);
+    if (found == manifest.metrics.end())
+      result.failures.push_back(name + " is expected, but this run has none" +
+                                (name.rfind("void_", 0) == 0 ? " (`voids.on = true`)" : ""));
+    else if (!(found->second >= limits[0] && found->second <= limits[1]))
+      result.failures.push_back(name + " is " + format_number(found->second) + ", not from " +
+                                format_number(limits[0]) + " to " + format_number(limits[1]));
+  }
+
+  void print(const CaseResult& result) const {
+    if (request_.options.quiet && result.passed()) return;
+    std::printf("%s %s (%.1f s)\n", result.passed() ? "ok  " : "FAIL", result.name.c_str(),
+                result.seconds);
+    if (!result.error.empty())
+      std::printf("     %s\n%s\n", result.error.c_str(), result.log.c_str());
+    for (const std::string& sentence : result.failures) std::printf("     %s\n", sentence.c_str());
+    std::fflush(stdout);
+  }
+
+  // In the order of the suite, whichever ended first. Runs that failed keep what they had.
+  void update_golden() {
+    std::vector<std::string> diff, names;
+    std::sort(found_.begin(), found_.end());
+    for (const auto& [name, hashes] : found_)
+      for (const std::string& line : golden_.update(name, hashes)) diff.push_back(line);
+    for (const Case& c : cases_) names.push_back(c.name);
+    if (request_.only.empty())
+      for (const std::string& line : golden_.keep_only(names)) diff.push_back(line);
+    golden_.save();
+    for (const std::string& line : diff) std::printf("%s\n", line.c_str());
+    if (diff.empty()) std::printf("the golden hashes are as they were\n");
+  }
+
+  void write_junit() const {
+    if (request_.junit.empty()) return;
+    std::vector<CaseResult> results;
+    for (const Case& c : cases_) results.push_back(c.result);
+    write_text_file(request_.junit, make_junit(stem_, results));
+  }
+
+  ExitCode report() const {
+    const auto passed = std::count_if(cases_.begin(), cases_.end(),
+                                      [](const Case& c) { return c.result.passed(); });
+    std::printf("%d of %zu passed\n", int(passed), cases_.size());
+    return std::size_t(passed) == cases_.size() ? ExitCode::done : ExitCode::differs;
+  }
+
+  const SuiteRequest& request_;
+  SuiteScript script_;
+  std::string stem_, out_;
+  GoldenFile golden_;
+  JobShape shape_;
+  std::vector<Case> cases_;
+  std::vector<std::string> seeds_;  // one per case; empty: the mission's own
+  std::vector<std::pair<std::string, GoldenHashes>> found_;
+};
+
+}  // namespace
+
+ExitCode run_suite(const SuiteRequest& request) { return Suite(request).run(); }
+
+}  // namespace rubble

@@ -1,0 +1,203 @@
+#include "app/command_line/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <string_view>
+#include <utility>
+
+#include "app/command_line/command.h"
+#include "kernel/base/text.h"
+#include "scripting/schema/schema.h"
+#include "scripting/values/value.h"
+
+namespace rubble {
+namespace {
+
+std::string to_text(const std::string& value) { return value; }
+std::string to_text(int value) { return std::to_string(value); }
+std::string to_text(double value) { return format_number(value); }
+template <typename T>
+std::string to_text(const std::optional<T>& value) {
+  return value ? to_text(*value) : "";
+}
+template <typename T>
+std::string to_text(const std::vector<T>& values) {
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == values.size() ? " and " : ", ") + to_text(values[i]);
+  return text;
+}
+
+template <typename T>
+Option add_bound(CLI::App& command, const std::string& name, T& member, const std::string& help) {
+  return Option(*command.add_option(name, member, help), to_text(member));
+}
+
+template <typename T>
+Option add_several(CLI::App& command, const std::string& name, std::vector<T>& member,
+                   const std::string& help) {
+  CLI::Option* const option = command.add_option(name, member, help);
+  if (name[0] == '-') option->allow_extra_args(false)->take_all();
+  return Option(*option, to_text(member));
+}
+
+}  // namespace
+
+Option::Option(CLI::Option& option, std::string value)
+    : option_(&option), value_(std::move(value)) {}
+
+Option& Option::metavar(const std::string& name) { return option_->type_name(name), *this; }
+
+Option& Option::shows_default(const std::string& unit) {
+  return shows_default_text(unit.empty() ? value_ : value_ + " " + unit);
+}
+
+Option& Option::shows_default_text(const std::string& text) {
+  option_->description(option_->get_description() + " (default: " + text + ")");
+  return *this;
+}
+
+Option& Option::required() { return option_->required(), *this; }
+
+Option& Option::between(int least, int most) {
+  return option_->check(CLI::Range(least, most)), *this;
+}
+
+Option& Option::within(double least, double most) {
+  return option_->check(CLI::Range(least, most)), *this;
+}
+
+Option& Option::positive() { return option_->check(CLI::PositiveNumber), *this; }
+Option& Option::non_negative() { return option_->check(CLI::NonNegativeNumber), *this; }
+
+Option& Option::separated_by(char delimiter) {
+  // Then what follows in the same word belongs to it, and as many words as there are.
+  return option_->delimiter(delimiter)->allow_extra_args(true), *this;
+}
+
+Option& Option::needs(const Option& other) { return option_->needs(other.option_), *this; }
+Option& Option::excludes(const Option& other) { return option_->excludes(other.option_), *this; }
+
+Option CommandLine::add(const std::string& name, std::string& member, const std::string& help) {
+  return add_bound(*command_, name, member, help);
+}
+Option CommandLine::add(const std::string& name, int& member, const std::string& help) {
+  return add_bound(*command_, name, member, help);
+}
+Option CommandLine::add(const std::string& name, double& member, const std::string& help) {
+  return add_bound(*command_, name, member, help);
+}
+Option CommandLine::add(const std::string& name, std::optional<int>& member,
+                        const std::string& help) {
+  return add_bound(*command_, name, member, help);
+}
+Option CommandLine::add(const std::string& name, std::optional<double>& member,
+                        const std::string& help) {
+  return add_bound(*command_, name, member, help);
+}
+Option CommandLine::add(const std::string& name, std::vector<std::string>& member,
+                        const std::string& help) {
+  return add_several(*command_, name, member, help);
+}
+Option CommandLine::add(const std::string& name, std::vector<double>& member,
+                        const std::string& help) {
+  return add_several(*command_, name, member, help);
+}
+
+Option CommandLine::add_flag(const std::string& name, bool& member, const std::string& help) {
+  return Option(*command_->add_flag(name, member, help), "");
+}
+
+Option CommandLine::add_read(const std::string& name, ReadOption read, const std::string& help) {
+  const auto take = [name, read = std::move(read)](const std::string& text) {
+    if (const std::string mistake = read(text); !mistake.empty())
+      throw CLI::ValidationError(name, mistake);
+  };
+  return Option(*command_->add_option_function<std::string>(name, take, help), "");
+}
+
+void CommandLine::add_print(const std::string& name, std::function<std::string()> make_text,
+                            const std::string& help) {
+  const auto print = [make_text = std::move(make_text)] {
+    std::printf("%s\n", make_text().c_str());
+    throw CLI::Success();
+  };
+  command_->add_flag_callback(name, print, help);
+}
+
+namespace {
+
+// The groups, each with what --help says of it.
+constexpr std::pair<std::string_view, const char*> kGroups[] = {
+    {"eval", "Score what others made of a dataset"},
+    {"assets", "Look into a pack of assets"},
+};
+
+CLI::App* find_subcommand(CLI::App& app, const std::string& name) {
+  for (CLI::App* const command : app.get_subcommands(nullptr))
+    if (command->get_name() == name) return command;
+  return nullptr;
+}
+
+CLI::App& find_group(CLI::App& app, const std::string& name) {
+  if (name.empty()) return app;
+  if (CLI::App* const known = find_subcommand(app, name)) return *known;
+  for (const auto& [group, text] : kGroups)
+    if (group == name) {
+      CLI::App* const added = app.add_subcommand(name, text);
+      added->require_subcommand(1);
+      return *added;
+    }
+  throw RunError("the group of commands `" + name + "` has no row in kGroups");
+}
+
+std::vector<std::string> names_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* const command : app.get_subcommands(nullptr))
+    names.push_back(command->get_name());
+  return names;
+}
+
+// Says so where the first word is no command.
+bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  const std::vector<std::string> names = names_of(app);
+  const bool known = std::find(names.begin(), names.end(), word) != names.end();
+  if (word.empty() || word[0] == '-' || known) return false;
+  const std::string near = nearest_name(word, names);
+  std::fprintf(stderr, "no such command: `%s`%s\n`rubble --help` lists all\n",
+               printable(word).c_str(),
+               near.empty() ? "" : (" (did you mean `" + near + "`?)").c_str());
+  return true;
+}
+
+}  // namespace
+
+ExitCode run_command_line(int argc, char** argv, const std::string& about,
+                          const std::string& footer, const std::string& version,
+                          const std::vector<Command>& commands) {
+  CLI::App app{about};
+  app.footer(footer);
+  app.set_version_flag("--version", version);
+  app.require_subcommand(1);
+  std::vector<std::pair<CLI::App*, Action>> actions;
+  for (const Command& command : commands) {
+    CLI::App& group = find_group(app, command.group);
+    CLI::App* const added = group.add_subcommand(command.name, command.summary);
+    CommandLine line(*added);
+    actions.emplace_back(added, command.declare(line));
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0 && is_unknown_command(app, argc, argv))
+      return ExitCode::bad_input;
+    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
+  }
+  for (const auto& [command, action] : actions)
+    if (*command) return action();
+  return ExitCode::bad_input;
+}
+
+}  // namespace rubble

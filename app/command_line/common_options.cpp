@@ -1,0 +1,99 @@
+#include "app/command_line/common_options.h"
+
+#include <charconv>
+#include <cstdint>
+
+namespace rubble {
+
+void add_mission_options(CommandLine& line, RunRequest& request, const std::string& name) {
+  line.add(name, request.mission, "The mission, a Lua script").required();
+  line.add("--set", request.overrides, "Override a key of the mission: key=value")
+      .metavar("KEY=VALUE");
+  add_packs_option(line, request.asset_packs, "A further folder with a pack.lua");
+}
+
+void add_seed_option(CommandLine& line, RunRequest& request) {
+  const auto read = [&request](const std::string& text) -> std::string {
+    std::int64_t seed = -1;  // as a script's
+    const char* const end = text.data() + text.size();
+    const auto result = std::from_chars(text.data(), end, seed);
+    if (result.ec != std::errc() || result.ptr != end || seed < 0)
+      return "expected a whole number from 0 to 9223372036854775807, found " + text;
+    request.seed = std::uint64_t(seed);
+    return "";
+  };
+  line.add_read("--seed", read, "Seed of all randomness; overrides the script's").metavar("UINT");
+}
+
+void add_threads_option(CommandLine& line, int& threads) {
+  line.add("--threads", threads,
+           "Threads to use; 0: all processors. Results do not depend on it")
+      .between(0, 256);
+}
+
+void add_device_option(CommandLine& line, int& device) {
+  line.add("--gl-device", device, "Number of the EGL device that draws")
+      .shows_default_text(
+          "$RUBBLE_EGL_DEVICE, or the first that works, hardware before software")
+      .metavar("N")
+      .between(0, 1000);
+}
+
+void add_quiet_option(CommandLine& line, bool& quiet) {
+  line.add_flag("--quiet", quiet, "No progress, only errors");
+}
+
+void add_packs_option(CommandLine& line, std::vector<std::string>& folders,
+                      const std::string& help) {
+  line.add("--assets", folders, help).metavar("DIR");
+}
+
+void add_run_options(CommandLine& line, RunOptions& options) {
+  add_device_option(line, options.gl_device);
+  add_threads_option(line, options.threads);
+  add_quiet_option(line, options.quiet);
+  line.add("--checkpoint-every", options.checkpoint_every,
+           "Keep a checkpoint of settling that often")
+      .shows_default("s")
+      .metavar("SECONDS")
+      .within(0.0, 1e6);
+}
+
+void add_output_options(CommandLine& line, RunRequest& request) {
+  line.add("--out", request.out, "Output folder")
+      .shows_default_text("out/<name of the script>")
+      .metavar("DIR");
+  line.add_flag("--force", request.force, "Replace the files of an earlier run");
+  add_run_options(line, request.options);
+}
+
+void add_folder_options(CommandLine& line, FolderRequest& request) {
+  line.add("folder", request.folder, "The output folder of a run").required();
+  add_packs_option(line, request.asset_packs, "A folder where packs of the run may be now");
+  add_run_options(line, request.options);
+}
+
+void add_jobs_options(CommandLine& line, int& jobs, RunOptions& options) {
+  line.add("--jobs", jobs, "Runs at once").shows_default_text("one a processor").between(0, 1024);
+  line.add("--threads", options.threads, "Threads of each run")
+      .shows_default_text("the processors, divided by --jobs")
+      .between(0, 256);
+  add_quiet_option(line, options.quiet);
+}
+
+void add_space_options(CommandLine& line, SpaceRequest& request) {
+  line.add("--radius", request.radii, "Radius of a robot").shows_default().metavar("METRES");
+  line.add("--voxel", request.voxel, "Edge of a voxel").shows_default().metavar("METRES");
+  line.add("--outside-radius", request.outside_radius,
+           "Outside is what a ball of this radius reaches from the sky")
+      .shows_default()
+      .metavar("METRES");
+  line.add("--memory", request.memory_gib, "Refuse to need more").shows_default().metavar("GIB");
+}
+
+void add_score_options(CommandLine& line, ScoreOutput& output) {
+  line.add_flag("--json", output.json, "The result as JSON");
+  line.add("--out", output.files, "Write the table: .csv, .json or .tex (LaTeX)").metavar("FILE");
+}
+
+}  // namespace rubble

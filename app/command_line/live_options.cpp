@@ -1,0 +1,58 @@
+// The options of live publishing (docs/live.md).
+#include <charconv>
+
+#include "app/command_line/common_options.h"
+
+namespace rubble {
+namespace {
+
+// `realtime`, `fast`, or a factor.
+std::string read_rate(const std::string& text, double& rate) {
+  if (text == "realtime") return rate = 1, "";
+  if (text == "fast") return rate = 0, "";
+  const char* const end = text.data() + text.size();
+  double factor = 0;
+  const auto read = std::from_chars(text.data(), end, factor);
+  if (read.ec != std::errc() || read.ptr != end || !(factor >= 0.01 && factor <= 100))
+    return "expected realtime, fast, or a factor from 0.01 to 100, found " + text;
+  return rate = factor, "";
+}
+
+}  // namespace
+
+void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& text, bool one) {
+  const Option ros1 = line.add_flag("--ros1", live.ros1, text);
+  line.add("--ros-master", live.ros_master, "The ROS master")
+      .shows_default_text("$ROS_MASTER_URI")
+      .metavar("URI")
+      .needs(ros1);
+  line.add("--ros-ip", live.ros_ip, "Let programs of other machines connect, to this address")
+      .shows_default_text("$ROS_IP, or only this machine")
+      .metavar("ADDRESS")
+      .needs(ros1);
+  Option ros2 = line.add_flag("--ros2", live.ros2, "The same to ROS 2, over DDS");
+  if (one) ros2.excludes(ros1);
+  line.add("--ros-domain", live.ros_domain, "The DDS domain")
+      .shows_default_text("$ROS_DOMAIN_ID, or 0")
+      .between(0, 232)
+      .metavar("N")
+      .needs(ros2);
+  line.add("--ros-interface", live.ros_interface, "The network interface of DDS")
+      .shows_default_text("as $CYCLONEDDS_URI says, or lo")
+      .metavar("NAME")
+      .needs(ros2);
+}
+
+void add_live_options(CommandLine& line, LiveRequest& live) {
+  add_ros_options(line, live, "Publish the frames to ROS 1 while they are drawn");
+  line.add_read("--rate", [&live](const std::string& text) { return read_rate(text, live.rate); },
+                "How fast to publish: realtime (default), fast, or a factor")
+      .metavar("RATE");
+  line.add("--wait-for-subscribers", live.wait,
+           "Hold the first frame until every topic has one, at most that long")
+      .shows_default()
+      .metavar("SECONDS")
+      .within(0.0, 1e6);
+}
+
+}  // namespace rubble

@@ -1,0 +1,56 @@
+// `rubble drive`: the mission's pile, flown through by hand in a window (docs/drive.md).
+#include <cstdio>
+#include <memory>
+
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/drive/drive_request.h"
+
+namespace rubble {
+namespace {
+
+// "480x360", both within what a camera may have.
+std::string read_size(const std::string& text, DriveRequest& request) {
+  int width = 0, height = 0, end = 0;
+  const int read = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &end);
+  const bool whole = read == 2 && std::size_t(end) == text.size();
+  if (!whole || width < 16 || height < 16 || width > 8192 || height > 8192)
+    return "expected WIDTHxHEIGHT from 16x16 to 8192x8192, found " + text;
+  request.width = width;
+  request.height = height;
+  return "";
+}
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<DriveRequest>();
+  add_mission_options(line, request->of);
+  add_seed_option(line, request->of);
+  line.add_read("--size",
+                [request](const std::string& text) { return read_size(text, *request); },
+                "Size of the colour image")
+      .shows_default_text(std::to_string(request->width) + "x" + std::to_string(request->height))
+      .metavar("WxH");
+  line.add("--steps", request->steps, "End after so many steps")
+      .shows_default_text("none")
+      .between(0, 1000000000);
+  line.add_flag("--record", request->record, "Write the mission's recordings while driving");
+  add_ros_options(line, request->of.options.live,
+                  "Publish to ROS 1 what is seen, and let /cmd_vel and /joy drive, too", true);
+  line.add("--out", request->of.out, "Output folder")
+      .shows_default_text("out/<script>_drive")
+      .metavar("DIR");
+  line.add_flag("--force", request->of.force, "Replace the legs of an earlier drive");
+  add_device_option(line, request->of.options.gl_device);
+  add_threads_option(line, request->of.options.threads);
+  add_quiet_option(line, request->of.options.quiet);
+  return [request] { return drive_mission(*request); };
+}
+
+}  // namespace
+
+Command drive_command() {
+  return {"", "drive", "Fly the camera by hand in a window; what is driven becomes a mission",
+          declare};
+}
+
+}  // namespace rubble

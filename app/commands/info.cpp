@@ -1,0 +1,84 @@
+// `rubble info`: what this program and this machine are, or what lies at some paths.
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <thread>
+
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/commands/inspect_dataset.h"
+#include "app/support/build_info.h"
+#include "io/live/live_ros.h"
+#include "render/gl/gl_context.h"
+
+namespace rubble {
+namespace {
+
+struct InfoRequest {
+  bool gl = false;                 // --gl: every way to draw, and the device's limits
+  int gl_device = -1;              // --gl-device
+  std::vector<std::string> paths;  // recordings or folders of runs, instead of this machine
+};
+
+// Every way to draw on this machine, and what decides how it fares.
+void print_ways() {
+  const GlReport report = report_gl();
+  std::printf("ways to draw, in the order in which they are tried\n");
+  for (const GlReport::Candidate& candidate : report.candidates)
+    std::printf("  %s: %s\n", candidate.name.c_str(), candidate.outcome.c_str());
+  const char* environment = std::getenv("RUBBLE_EGL_DEVICE");
+  std::printf("RUBBLE_EGL_DEVICE: %s\n", environment && *environment ? environment : "not set");
+  for (const std::string& line : report.circumstances) std::printf("note: %s\n", line.c_str());
+  std::fflush(stdout);
+}
+
+void print_limits(const GlInfo& info) {
+  std::printf("chosen        %s: %s\n", info.egl_device.c_str(), info.why.c_str());
+  for (const auto& [name, value] : info.limits) std::printf("  %-24s%d\n", name.c_str(), value);
+}
+
+ExitCode print_info(const InfoRequest& request) {
+  const BuildInfo build = build_info();
+  std::printf("rubble        %s (%s)\n", build.version.c_str(), build.commit.c_str());
+  std::printf("built with    %s, %s, for %s\n", build.compiler.c_str(), build.flags.c_str(),
+              build.target.c_str());
+  std::printf("threads       %u\n", std::thread::hardware_concurrency());
+  for (const auto& [name, version] : build.libraries)
+    std::printf("%-13s %s\n", name.c_str(), version.c_str());
+  std::printf("Simbody bits  %s\n",
+              build.simbody_bits == "reference"
+                  ? "reference: piles with joints are the same on every machine that says so"
+                  : "other: piles with joints differ in last bits from those of x86-64; see "
+                    "docs/determinism.md");
+  std::printf("live ROS 1    %s\n", describe_ros1().c_str());
+  std::printf("live ROS 2    %s\n", describe_ros2().c_str());
+  std::fflush(stdout);  // the versions are worth having even if EGL fails below
+  if (request.gl) print_ways();
+  const GlContext context({request.gl_device, 0});
+  const GlInfo& info = context.info();
+  std::printf("EGL           %s, %s\n", info.egl_version.c_str(), info.egl_device.c_str());
+  std::printf("GL renderer   %s\n", info.renderer.c_str());
+  std::printf("GL version    %s (%s)\n", info.version.c_str(), info.vendor.c_str());
+  if (request.gl) print_limits(info);
+  return ExitCode::done;
+}
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<InfoRequest>();
+  line.add_flag("--gl", request->gl, "Every EGL device, what it gives, which is chosen and why");
+  add_device_option(line, request->gl_device);
+  line.add("path", request->paths,
+           "Recordings, or folders of runs: what they hold, and whether they are whole")
+      .metavar("PATH");
+  return [request] {
+    return request->paths.empty() ? print_info(*request) : inspect_datasets(request->paths);
+  };
+}
+
+}  // namespace
+
+Command info_command() {
+  return {"", "info", "Print versions, the GL renderer and threads; or look over a dataset", declare};
+}
+
+}  // namespace rubble

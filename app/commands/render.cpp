@@ -1,0 +1,48 @@
+// `rubble render`: a mission's camera, light and recordings over the pile of a finished run.
+#include <filesystem>
+#include <memory>
+
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/pipeline/finished_run.h"
+#include "app/pipeline/live.h"
+#include "app/pipeline/run_to_folder.h"
+#include "app/support/stop.h"
+
+namespace rubble {
+namespace {
+
+ExitCode render_finished_pile(const std::string& from, const RunRequest& request) {
+  stop_on_signals();
+  check_live(request.options);
+  const SavedRun saved = open_saved_run(from);
+  const PileState pile = load_pile_of(saved);
+  Run run = start_render(request, saved);
+  std::error_code failed;
+  if (std::filesystem::equivalent(from, choose_output(request), failed))
+    throw InputError({from, 0, "--out", "would replace the run that the pile comes from", "", "",
+                      "choose another folder"});
+  RunFolder folder = RunFolder::create(choose_output(request), request.force);
+  folder.begin(describe_unfinished(run));
+  keep_pile(run, pile, folder);
+  return complete(run, folder);
+}
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<RunRequest>();
+  const auto from = std::make_shared<std::string>();
+  line.add("folder", *from, "The output folder of the run with the pile").required();
+  add_mission_options(line, *request, "--mission");
+  add_seed_option(line, *request);
+  add_output_options(line, *request);
+  add_live_options(line, request->options.live);
+  return [request, from] { return render_finished_pile(*from, *request); };
+}
+
+}  // namespace
+
+Command render_command() {
+  return {"", "render", "Another mission's flight over the pile of a finished run", declare};
+}
+
+}  // namespace rubble

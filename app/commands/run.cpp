@@ -1,0 +1,24 @@
+// `rubble run`: the whole pipeline, from a script to recordings and a manifest.
+#include <memory>
+
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/pipeline/run_to_folder.h"
+
+namespace rubble {
+namespace {
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<RunRequest>();
+  add_mission_options(line, *request);
+  add_seed_option(line, *request);
+  add_output_options(line, *request);
+  add_live_options(line, request->options.live);
+  return [request] { return run_to_folder(*request, RunKind::run); };
+}
+
+}  // namespace
+
+Command run_command() { return {"", "run", "Run a mission to a finished dataset", declare}; }
+
+}  // namespace rubble

@@ -1,0 +1,23 @@
+// `rubble settle`: the pile only: pile.bin, pile.stl, manifest.json.
+#include <memory>
+
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/pipeline/run_to_folder.h"
+
+namespace rubble {
+namespace {
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<RunRequest>();
+  add_mission_options(line, *request);
+  add_seed_option(line, *request);
+  add_output_options(line, *request);
+  return [request] { return run_to_folder(*request, RunKind::settle); };
+}
+
+}  // namespace
+
+Command settle_command() { return {"", "settle", "Settle the pile of a mission, nothing more", declare}; }
+
+}  // namespace rubble

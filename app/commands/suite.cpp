@@ -1,0 +1,31 @@
+// `rubble suite`: many missions with what is expected of them, for continuous integration.
+#include "app/batch/suite.h"
+
+#include <memory>
+
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+
+namespace rubble {
+namespace {
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<SuiteRequest>();
+  line.add("suite", request->suite, "The suite, a Lua script").required();
+  line.add("--out", request->out, "Output folder")
+      .shows_default_text("out/<name of the suite>")
+      .metavar("DIR");
+  line.add("--junit", request->junit, "Write the results as JUnit XML").metavar("FILE");
+  line.add_flag("--update", request->update, "Take the hashes of this run as the golden ones");
+  line.add("--only", request->only, "Only the runs of that name").metavar("NAME");
+  add_jobs_options(line, request->jobs, request->options);
+  return [request] { return run_suite(*request); };
+}
+
+}  // namespace
+
+Command suite_command() {
+  return {"", "suite", "Many missions with what is expected of them, for CI", declare};
+}
+
+}  // namespace rubble

@@ -1,0 +1,315 @@
+// `rubble verify`: whether a dataset can be had again. Everything is run anew from its manifest alone,
+// and compared.
+#include <memory>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/pipeline/run.h"
+#include "app/provenance/compare.h"
+#include "app/provenance/manifest.h"
+#include "app/support/stop.h"
+#include "io/base/atomic_file.h"
+#include "io/playback/recorded_picture.h"
+#include "io/playback/recording_check.h"
+#include "io/state/pile_state_file.h"
+#include "kernel/base/hash.h"
+#include "scripting/values/value.h"
+
+namespace rubble {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+enum class Verdict { equal, differs, skipped };
+
+// What became of one part of a dataset: "manifest", "recorded files", "scenario", "assets", "pile",
+// "frames", "metrics", "files".
+struct Finding {
+  std::string part;
+  Verdict verdict = Verdict::equal;
+  std::string detail;  // where it differs first, or what was compared
+};
+
+struct Verification {
+  std::vector<Finding> findings;   // in the order of the run
+  std::vector<std::string> notes;  // what is another here: versions, graphics driver
+};
+
+struct VerifyRequest {
+  FolderRequest of;
+  std::string work;        // --work: where the run is made anew; empty: a temporary folder
+  bool pile_only = false;  // --pile-only: no frames
+  bool json = false;       // --json
+};
+
+// Where the run is made anew; goes with all that is in it.
+class WorkFolder {
+ public:
+  explicit WorkFolder(const std::string& asked) {
+    if (!asked.empty()) fs::create_directories(asked);
+    path_ = ((asked.empty() ? fs::temp_directory_path() : fs::path(asked)) / "rubble-verify-XXXXXX")
+                .string();
+    if (!mkdtemp(path_.data())) throw RunError("cannot create a folder such as " + path_);
+  }
+  ~WorkFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+class Verifier {
+ public:
+  explicit Verifier(const VerifyRequest& request) : request_(request) {
+    const std::string path = request.of.folder + "/manifest.json";
+    if (!fs::exists(path) && is_unfinished(request.of.folder))
+      throw InputError({request.of.folder, 0, "", "the run in it is not finished", "", "",
+                        "`rubble resume " + request.of.folder + "` continues it"});
+    text_ = read_whole_file(path);
+    was_ = manifest_from_json(text_, path);
+  }
+
+  Verification run() {
+    check_manifest();
+    check_recorded_files();
+    for (const std::string& line : describe_differences(was_.program, build_info()))
+      result_.notes.push_back(line);
+    check_scenario();
+    run_anew();
+    return std::move(result_);
+  }
+
+ private:
+  void add(const char* part, bool equal, std::string detail) {
+    result_.findings.push_back(
+        {part, equal ? Verdict::equal : Verdict::differs, std::move(detail)});
+  }
+  void skip(const char* part, const char* why) {
+    result_.findings.push_back({part, Verdict::skipped, why});
+  }
+  std::string recorded(const std::string& name) const { return request_.of.folder + "/" + name; }
+
+  void check_manifest() {
+    const auto altered = find_altered_parts(text_, request_.of.folder + "/manifest.json");
+    std::string all;
+    for (const std::string& sentence : altered) all += (all.empty() ? "" : "; ") + sentence;
+    add("manifest", altered.empty(), altered.empty() ? "every seal holds" : all);
+  }
+
+  // The files beside the manifest, as they lie there.
+  void check_recorded_files() {
+    std::string wrong;
+    for (const auto& [name, hash] : was_.outputs) {
+      const bool there = fs::is_regular_file(recorded(name));
+      if (there && sha256_of_file(recorded(name)) == hash) continue;
+      wrong += (wrong.empty() ? "" : "; ") + name + (there ? " was altered" : " is missing");
+      if (!there) continue;
+      altered_.insert(name);
+      if (const auto fault = find_fault(recorded(name)))
+        wrong += " (at byte " + std::to_string(fault->byte) + ": " + fault->what + ")";
+    }
+    add("recorded files", wrong.empty(),
+        wrong.empty() ? std::to_string(was_.outputs.size()) + " as the manifest says" : wrong);
+  }
+
+  void check_scenario() {
+    try {
+      const Json is = Json::parse(scenario_to_json(load_mission(was_.recipe).scenario));
+      const std::string apart = describe_difference(Json::parse(was_.recipe.scenario), is);
+      add("scenario", apart.empty(),
+          apart.empty() ? "follows from the script" : "what the script gives now: " + apart);
+    } catch (const InputError& error) {
+      add("scenario", false, std::string("the script is not understood: ") + error.what());
+    }
+  }
+
+  void run_anew() {
+    std::vector<std::string> folders = request_.of.asset_packs;
+    folders.insert(folders.end(), was_.pack_folders.begin(), was_.pack_folders.end());
+    Run run = start_run(request_.of.options, was_.recipe, folders);
+    add("assets", true, std::to_string(run.assets.types.size()) + " found by content");
+    const WorkFolder work(request_.work);
+    RunFolder folder = RunFolder::create(work.path() + "/run", false);
+    folder.begin(describe_unfinished(run));
+    stop_on_signals();
+    settle(run, folder);
+    if (!check_pile(run)) return skip("frames", "the pile is another already");
+    write_pile_files(run, folder);
+    const bool frames = was_.recipe.kind != RunKind::settle && !request_.pile_only;
+    if (frames) check_frames(run, folder);
+    if (!frames && was_.recipe.kind != RunKind::settle) skip("frames", "--pile-only");
+    if (!request_.pile_only) check_metrics(run);
+    check_files(folder, folder.hash_files(run.threads()));
+  }
+
+  bool check_pile(const Run& run) {
+    const std::string is = hex64(run.pile.state_hash()), &was = was_.pile.state_hash;
+    if (is == was) {
+      add("pile", true, "state hash " + is);
+      return true;
+    }
+    std::string detail = "state hash " + is + " instead of " + was;
+    try {
+      const PileState pile = load_pile_state(recorded("pile.bin"));
+      const std::string apart = describe_difference(pile, run.pile);
+      detail += apart.empty() ? "; yet pile.bin is equal: the manifest was altered" : "; " + apart;
+    } catch (const InputError&) {  // the recorded files were looked at before
+    }
+    add("pile", false, detail);
+    return false;
+  }
+
+  void check_frames(Run& run, RunFolder& folder) {
+    render_frames(run, folder);
+    const FrameDifference apart = find_difference(was_.frames, run.frames.compact());
+    add("frames", apart.why.empty(),
+        apart.why.empty() ? std::to_string(was_.frames.frames.size()) + " frames"
+                          : apart.why + find_pixel(apart, folder));
+    for (const auto& [name, value] : run.environment) {
+      const auto before = was_.environment.find(name);
+      if (name != "threads" && before != was_.environment.end() && before->second != value)
+        result_.notes.push_back(name + " " + value + " instead of " + before->second);
+    }
+  }
+
+  // Where in the picture: the manifest holds hashes of frames alone, the recordings the frames.
+  std::string find_pixel(const FrameDifference& apart, const RunFolder& folder) const {
+    if (apart.channel.empty() || !is_picture(apart.channel)) return "";
+    const auto& channels = was_.frames.channels;
+    PictureWanted wanted{apart.channel, apart.frame, false};
+    wanted.measured_depth =
+        std::find(channels.begin(), channels.end(), "measured_depth") != channels.end();
+    const auto was = find_recorded_picture(request_.of.folder, wanted, altered_);
+    const auto is = find_recorded_picture(folder.path(), wanted, altered_);
+    if (!was || !is || was->file != is->file)
+      return "; no recording holds its pixels without losses, so which of them stays open";
+    const std::string pixel = describe_difference(*was, *is);
+    if (!pixel.empty()) return "; " + pixel + ", by " + was->file;
+    return was->step > 0
+               ? "; " + was->file + " rounds depth to " + format_number(was->step) +
+                     " m and shows no difference"
+               : "; yet " + was->file + " holds the same pixels: the manifest was altered";
+  }
+
+  void check_metrics(const Run& run) {
+    const std::string apart = describe_difference(Json(was_.metrics), Json(run.metrics));
+    add("metrics", apart.empty(), apart.empty() ? std::to_string(run.metrics.size()) : apart);
+  }
+
+  void check_files(const RunFolder& folder, const std::map<std::string, std::string>& hashes) {
+    std::string wrong;
+    for (const auto& [name, hash] : was_.outputs) {
+      const auto is = hashes.find(name);
+      if (is == hashes.end()) {
+        if (!request_.pile_only) wrong += name + " is not made any more; ";
+      } else if (is->second != hash) {
+        wrong += name + ": " + compare_file(name, folder) + "; ";
+      }
+    }
+    for (const auto& item : hashes)
+      if (!was_.outputs.count(item.first)) wrong += item.first + " is new; ";
+    if (!wrong.empty()) wrong.resize(wrong.size() - 2);
+    add("files", wrong.empty(), wrong.empty() ? "made anew, the same bytes" : wrong);
+    for (const std::string& name : altered_)
+      if (hashes.count(name))
+        result_.findings.back().detail +=
+            "; in the recorded " + name + ", " +
+            describe_difference_of_files(folder.file(name), recorded(name));
+  }
+
+  std::string compare_file(const std::string& name, const RunFolder& folder) const {
+    if (!fs::is_regular_file(recorded(name))) return "another hash; the recorded file is missing";
+    const std::string apart = describe_difference_of_files(recorded(name), folder.file(name));
+    return apart.empty() ? "the recorded file is the same: the manifest was altered" : apart;
+  }
+
+  const VerifyRequest& request_;
+  std::string text_;
+  Manifest was_;
+  std::set<std::string> altered_;  // recorded files that are not as the manifest says
+  Verification result_;
+};
+
+constexpr const char* kVerdictNames[] = {"equal", "differs", "skipped"};
+
+// Nothing differs.
+bool is_equal(const Verification& verification) {
+  for (const Finding& finding : verification.findings)
+    if (finding.verdict == Verdict::differs) return false;
+  return true;
+}
+
+// Throws InputError for a folder without a manifest, or with one that cannot be read, and for packs
+// that are nowhere to be found.
+Verification verify(const VerifyRequest& request) {
+  try {
+    return Verifier(request).run();
+  } catch (const Stopped&) {
+    throw Stopped("stopped by a signal; nothing was compared to the end");
+  }
+}
+
+// For a person, and for a program.
+std::string to_text(const Verification& verification) {
+  std::string text;
+  for (const Finding& finding : verification.findings) {
+    std::string row = finding.part;
+    row.resize(16, ' ');
+    row += kVerdictNames[int(finding.verdict)];
+    row.resize(25, ' ');
+    text += row + finding.detail + "\n";
+  }
+  for (const std::string& note : verification.notes) text += "here is         " + note + "\n";
+  return text + (is_equal(verification) ? "the same\n" : "not the same\n");
+}
+
+std::string to_json(const Verification& verification) {
+  Json json;
+  json["equal"] = is_equal(verification);
+  json["findings"] = Json::array();
+  for (const Finding& finding : verification.findings)
+    json["findings"].push_back({{"part", finding.part},
+                                {"verdict", kVerdictNames[int(finding.verdict)]},
+                                {"detail", finding.detail}});
+  json["notes"] = verification.notes;
+  return json.dump(2) + "\n";
+}
+
+ExitCode verify_run(const VerifyRequest& request) {
+  const Verification verification = verify(request);
+  std::fputs((request.json ? to_json(verification) : to_text(verification)).c_str(), stdout);
+  return is_equal(verification) ? ExitCode::done : ExitCode::differs;
+}
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<VerifyRequest>();
+  add_folder_options(line, request->of);
+  line.add("--work", request->work, "Where to make the run anew")
+      .shows_default_text("$TMPDIR")
+      .metavar("DIR");
+  line.add_flag("--pile-only", request->pile_only, "Settle again, but render nothing");
+  line.add_flag("--json", request->json, "The result as JSON");
+  return [request] { return verify_run(*request); };
+}
+
+}  // namespace
+
+Command verify_command() {
+  return {"", "verify", "Run again from the manifest alone, and compare every hash", declare};
+}
+
+}  // namespace rubble

@@ -1,0 +1,187 @@
+// `rubble voids`: from a settled pile to the map of its voids.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <set>
+
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/pipeline/finished_run.h"
+#include "app/support/progress.h"
+#include "app/support/stop.h"
+#include "io/base/atomic_file.h"
+#include "io/voids/octomap_file.h"
+#include "io/voids/vdb_file.h"
+#include "io/voids/void_json.h"
+#include "io/voids/void_picture.h"
+#include "io/voids/void_surface.h"
+#include "kernel/base/parallel.h"
+#include "kernel/voids/void_map.h"
+
+namespace rubble {
+namespace {
+
+struct VoidRequest {
+  SpaceRequest space;
+  int surfaces = 20;   // --surfaces: the largest voids of each radius, as PLY
+  std::string out;     // --out; empty: `voids` in the folder of the run
+  bool force = false;  // --force
+};
+
+constexpr double kShownAround = 0.2;  // of the outside, in pictures; unit: m
+
+std::string millimetres(double radius) { return std::to_string(int(std::lround(radius * 1000))); }
+
+std::string surface_name(double radius, std::size_t rank) {
+  return "void_r" + millimetres(radius) + "_" + std::to_string(rank) + ".ply";
+}
+
+// Every name that this command may write, so that an earlier map can be replaced and nothing else.
+std::vector<std::string> list_outputs(const VoidRequest& request) {
+  std::vector<std::string> names{"voids.json", "voids.vdb", "voids.bt"};
+  for (const double radius : request.space.radii) {
+    for (const char* kind : {"plan_r", "cut_x_r", "cut_y_r"})
+      names.push_back(kind + millimetres(radius) + ".png");
+    for (int i = 1; i <= request.surfaces; ++i)
+      names.push_back(surface_name(radius, std::size_t(i)));
+  }
+  return names;
+}
+
+void check_radii(const std::vector<double>& radii) {
+  std::set<std::string> names;
+  for (const double radius : radii) {
+    if (!names.insert(millimetres(radius)).second)
+      throw InputError({"", 0, "--radius", "is given twice", "radii that differ by a millimetre",
+                        std::to_string(radius), ""});
+  }
+}
+
+VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progress& progress) {
+  const SavedRun saved = open_saved_run(request.folder);
+  const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
+  const PileState pile = load_pile_of(saved);
+  const std::vector<const TriangleMesh*> meshes = assets.finest_meshes();
+  VoidSpaceOptions options;
+  options.voxel = voids.space.voxel;
+  double largest = 0;
+  for (const double radius : voids.space.radii) largest = std::max(largest, radius);
+  options.rolling_radius = outside_radius_for(voids.space.outside_radius, largest);
+  options.memory_limit = voids.space.memory_gib * (1 << 30);
+  options.threads = request.options.threads;
+  options.scenery = assets.terrain();
+  const auto report = [&](const char* what, double from, double share) {
+    return [&progress, what, from, share](double done) {
+      progress.update(from + share * done, what);
+      return !stop_requested();
+    };
+  };
+  VoidSpace space = calc_void_space(pile, meshes, options, report("clearance", 0, 0.6));
+  space = crop_to_pile(space, kShownAround);
+  return find_voids(std::move(space), voids.space.radii, report("voids", 0.6, 0.4));
+}
+
+// Through the deepest place of the largest void, both ways.
+void write_pictures(const VoidMap& map, const std::string& title, const std::string& folder) {
+  for (std::size_t r = 0; r < map.robots.size(); ++r) {
+    const RobotVoids& robot = map.robots[r];
+    VoidPictureOptions options;
+    options.title = title;
+    const std::string end = "_r" + millimetres(robot.radius) + ".png";
+    write_png(folder + "/plan" + end, draw_void_plan(map, r, options), 6);
+    if (robot.voids.empty()) continue;
+    const Vec3 through = robot.voids.front().deepest;
+    write_png(folder + "/cut_x" + end, draw_void_cut(map, r, 0, through, options), 6);
+    write_png(folder + "/cut_y" + end, draw_void_cut(map, r, 1, through, options), 6);
+  }
+}
+
+// Everything that is written, as jobs for several threads; what takes long comes first.
+std::vector<std::function<void()>> list_jobs(const VoidMap& map, int surfaces,
+                                             const std::string& title, const std::string& folder) {
+  std::vector<std::function<void()>> jobs{
+      [&map, folder] { write_vdb(folder + "/voids.vdb", map); },
+      [&map, folder] { write_octomap(folder + "/voids.bt", map.space); }};
+  for (const RobotVoids& robot : map.robots) {
+    const std::size_t shown = std::min(robot.voids.size(), std::size_t(surfaces));
+    for (std::size_t i = 0; i < shown; ++i)
+      jobs.push_back([&map, &robot, i, folder] {
+        write_ply(folder + "/" + surface_name(robot.radius, i + 1),
+                  make_void_surface(map.space, robot.voids[i]));
+      });
+  }
+  jobs.push_back([&map, folder] { write_text_file(folder + "/voids.json", make_void_json(map)); });
+  jobs.push_back([&map, title, folder] { write_pictures(map, title, folder); });
+  return jobs;
+}
+
+void print_summary(const VoidMap& map) {
+  std::printf("%-8s %6s %11s %11s %9s %9s %9s\n", "radius", "voids", "volume", "reachable",
+              "entrances", "longest", "deepest");
+  for (const RobotVoids& robot : map.robots) {
+    std::size_t entrances = 0;
+    double longest = 0, deepest = 0;
+    for (const Void& v : robot.voids) {
+      entrances += v.entrances.size();
+      longest = std::max(longest, v.path_length);
+      deepest = std::max(deepest, v.depth);
+    }
+    std::printf("%6.3f m %6zu %8.3f m3 %8.3f m3 %9zu %7.2f m %7.2f m\n", robot.radius,
+                robot.voids.size(), robot.volume, robot.reachable_volume, entrances, longest,
+                deepest);
+    if (robot.voids.empty())
+      std::fprintf(stderr, "no void has room for a robot of radius %g m\n", robot.radius);
+  }
+}
+
+ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids) {
+  stop_on_signals();
+  check_radii(voids.space.radii);
+  Progress progress(choose_progress_style(request.options.quiet));
+  const std::string folder = voids.out.empty() ? request.folder + "/voids" : voids.out;
+  progress.start("voids");
+  const VoidMap map = make_map(request, voids, progress);
+  char text[120];
+  std::snprintf(text, sizeof text, "%d x %d x %d voxels, %.2f m3 solid, %.2f m3 void",
+                map.space.grid.size[0], map.space.grid.size[1], map.space.grid.size[2],
+                map.solid_volume, map.void_volume);
+  progress.finish(text);
+
+  progress.start("files");
+  prepare_output_folder(folder, voids.force, list_outputs(voids));
+  const std::string title = std::filesystem::path(request.folder).filename().string();
+  const auto jobs = list_jobs(map, voids.surfaces, title, folder);
+  parallel_for(jobs.size(), ThreadPool(request.options.threads).threads(),
+               [&](std::size_t i) { jobs[i](); });
+  progress.finish(folder);
+  print_summary(map);
+  std::printf("%s\n", folder.c_str());
+  return ExitCode::done;
+}
+
+Action declare(CommandLine& line) {
+  const auto of = std::make_shared<FolderRequest>();
+  const auto request = std::make_shared<VoidRequest>();
+  add_folder_options(line, *of);
+  add_space_options(line, request->space);
+  line.add("--surfaces", request->surfaces,
+           "Write the surfaces of so many voids of each radius, largest first")
+      .shows_default()
+      .between(0, 100000);
+  line.add("--out", request->out, "Output folder")
+      .shows_default_text("FOLDER/voids")
+      .metavar("DIR");
+  line.add_flag("--force", request->force, "Replace the files of an earlier map");
+  return [of, request] { return map_voids(*of, *request); };
+}
+
+}  // namespace
+
+Command voids_command() {
+  return {"", "voids", "Map the voids of a run's pile: entrances, volumes, widest ways", declare};
+}
+
+}  // namespace rubble

@@ -1,0 +1,29 @@
+// The true surface of the pile of a finished run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/pipeline/finished_run.h"
+#include "app/planning/void_places.h"
+
+namespace rubble {
+
+// Everything that the queries refer to stays with them.
+struct SavedSurface {
+  // Throws InputError as open_saved_run and load_assets_of.
+  SavedSurface(const std::string& folder, const std::vector<std::string>& asset_packs)
+      : saved(open_saved_run(folder)),
+        assets(load_assets_of(saved, asset_packs)),
+        pile(load_pile_of(saved)),
+        geometry(assets, pile) {}
+  SavedSurface(const SavedSurface&) = delete;
+  SavedSurface& operator=(const SavedSurface&) = delete;
+
+  SavedRun saved;
+  AssetLibrary assets;
+  PileState pile;
+  PileGeometry geometry;
+};
+
+}  // namespace rubble

@@ -1,0 +1,107 @@
+#include "app/eval/scores/trajectory_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "app/eval/scores/alignment.h"
+#include "kernel/base/error.h"
+
+namespace rubble {
+namespace {
+
+// The pose nearest in time; of two equally near the earlier.
+std::size_t find_nearest(const std::vector<StampedPose>& poses, double stamp) {
+  const auto after = std::lower_bound(poses.begin(), poses.end(), stamp,
+                                      [](const StampedPose& p, double s) { return p.stamp < s; });
+  if (after == poses.begin()) return 0;
+  const std::size_t i = std::size_t(after - poses.begin());
+  if (after == poses.end()) return i - 1;
+  return stamp - poses[i - 1].stamp <= poses[i].stamp - stamp ? i - 1 : i;
+}
+
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v * v;
+  return std::sqrt(sum / double(values.size()));
+}
+
+double calc_ate(const std::vector<PosePair>& pairs, const Similarity& aligned) {
+  std::vector<double> errors;
+  for (const PosePair& pair : pairs)
+    errors.push_back(distance(aligned * pair.estimate.translation, pair.truth.translation));
+  return root_mean_square(errors);
+}
+
+double angle_deg(const Quat& q) {
+  const double sine = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
+  return 2 * std::atan2(sine, std::abs(q.w)) * 180 / 3.14159265358979323846;
+}
+
+Similarity align(const std::vector<PosePair>& pairs, bool with_scale) {
+  std::vector<Vec3> from, to;
+  for (const PosePair& pair : pairs) {
+    from.push_back(pair.estimate.translation);
+    to.push_back(pair.truth.translation);
+  }
+  const auto found = align_points(from, to, with_scale);
+  if (!found)
+    throw InputError({"", 0, "", "the positions are all at one place or on one line",
+                      "positions that determine a rotation",
+                      std::to_string(pairs.size()) + " pairs", ""});
+  return *found;
+}
+
+}  // namespace
+
+std::vector<PosePair> associate(const std::vector<StampedPose>& estimate,
+                                const std::vector<StampedPose>& truth, double max_difference) {
+  const bool truth_is_longer = truth.size() > estimate.size();
+  const auto& shorter = truth_is_longer ? estimate : truth;
+  const auto& longer = truth_is_longer ? truth : estimate;
+  std::vector<PosePair> pairs;
+  for (const StampedPose& pose : shorter) {
+    const StampedPose& other = longer[find_nearest(longer, pose.stamp)];
+    if (std::abs(other.stamp - pose.stamp) > max_difference) continue;
+    const Pose &a = pose.world_from_body, &b = other.world_from_body;
+    pairs.push_back(truth_is_longer ? PosePair{a, b} : PosePair{b, a});
+  }
+  return pairs;
+}
+
+RelativeError calc_relative_error(const std::vector<PosePair>& pairs, int delta) {
+  RelativeError error;
+  std::vector<double> lengths, angles;
+  for (std::size_t i = 0; i + std::size_t(delta) < pairs.size(); i += std::size_t(delta)) {
+    const PosePair &a = pairs[i], &b = pairs[i + std::size_t(delta)];
+    const Pose truth = a.truth.inverse() * b.truth, estimate = a.estimate.inverse() * b.estimate;
+    const Pose difference = truth.inverse() * estimate;
+    lengths.push_back(norm(difference.translation));
+    angles.push_back(angle_deg(difference.rotation));
+  }
+  error.trans_rmse = root_mean_square(lengths);
+  error.rot_rmse_deg = root_mean_square(angles);
+  error.steps = int(lengths.size());
+  return error;
+}
+
+TrajectoryError calc_trajectory_error(const std::vector<PosePair>& pairs, int delta) {
+  if (pairs.size() < 3)
+    throw InputError({"", 0, "", "too few poses have a partner in time", "at least 3",
+                      std::to_string(pairs.size()), ""});
+  if (delta < 1 || std::size_t(delta) >= pairs.size())
+    throw InputError({"", 0, "--delta", "out of range", "1 to " + std::to_string(pairs.size() - 1),
+                      std::to_string(delta), ""});
+  TrajectoryError error;
+  error.pairs = int(pairs.size());
+  error.ate_rmse_se3 = calc_ate(pairs, align(pairs, false));
+  const Similarity similarity = align(pairs, true);
+  error.sim3_scale = similarity.scale;
+  error.ate_rmse_sim3 = calc_ate(pairs, similarity);
+  const RelativeError relative = calc_relative_error(pairs, delta);
+  error.rpe_trans_rmse = relative.trans_rmse;
+  error.rpe_rot_rmse_deg = relative.rot_rmse_deg;
+  return error;
+}
+
+}  // namespace rubble

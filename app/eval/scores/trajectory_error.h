@@ -1,0 +1,45 @@
+// How far an estimated trajectory is from the true one, by the definitions of the program evo.
+#pragma once
+
+#include <vector>
+
+#include "app/eval/scores/trajectory_file.h"
+
+namespace rubble {
+
+struct PosePair {
+  Pose estimate, truth;
+};
+
+// Each pose of the shorter trajectory with the one of the longer that is nearest in time, if that
+// is within max_difference (unit: s); in order of time.
+std::vector<PosePair> associate(const std::vector<StampedPose>& estimate,
+                                const std::vector<StampedPose>& truth, double max_difference);
+
+struct TrajectoryError {
+  int pairs = 0;
+  // Absolute trajectory error: root mean square distance of positions after a least-squares
+  // alignment of the estimate, rigid (SE3) or with scale (Sim3); unit: m.
+  double ate_rmse_se3 = 0, ate_rmse_sim3 = 0;
+  double sim3_scale = 1;  // by which the estimate is multiplied
+  // Relative pose error, not aligned, between poses `delta` pairs apart (0 and delta, delta and 2
+  // delta, ...): root mean square of the norm of the translation and of the angle.
+  double rpe_trans_rmse = 0;    // unit: m
+  double rpe_rot_rmse_deg = 0;  // unit: degree
+};
+
+// The relative part of it alone: of the steps 0 to delta, delta to 2 delta, ...
+struct RelativeError {
+  int steps = 0;
+  double trans_rmse = 0;    // unit: m
+  double rot_rmse_deg = 0;  // unit: degree
+};
+
+// delta: >= 1, fewer than the pairs.
+RelativeError calc_relative_error(const std::vector<PosePair>& pairs, int delta);
+
+// delta: >= 1, fewer than the pairs. Throws InputError: fewer than 3 pairs, or positions all on one
+// line, which leave the alignment undetermined.
+TrajectoryError calc_trajectory_error(const std::vector<PosePair>& pairs, int delta = 1);
+
+}  // namespace rubble

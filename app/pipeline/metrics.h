@@ -1,0 +1,37 @@
+// Figures that describe a dataset at a glance: what suites set limits for and batches list.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/assets/asset_library.h"
+#include "kernel/model/pile_state.h"
+#include "render/scene/frame.h"
+
+namespace rubble {
+
+// Name to value; the unit is the last word of the name. The same bits for the same dataset.
+using Metrics = std::map<std::string, double>;
+
+// Every name there is, with a line that says what it means.
+const std::vector<std::pair<std::string, std::string>>& metric_names();
+
+// Those of the pile.
+void add_pile_metrics(const PileState& pile, const AssetLibrary& assets, Metrics& metrics);
+
+// Those of the flight and of the depth over all its frames.
+class DepthMetrics {
+ public:
+  void add(const Frame& frame);
+  void add_to(Metrics& metrics) const;
+
+ private:
+  std::int64_t frames_ = 0, pixels_ = 0, returns_ = 0;
+  double min_ = 0, max_ = 0, sum_ = 0, path_ = 0;
+  Vec3 last_position_;
+};
+
+}  // namespace rubble

@@ -1,0 +1,49 @@
+// What a person asked for on the command line.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rubble {
+
+// What goes over a network while frames are drawn; nothing unless asked (docs/live.md).
+struct LiveRequest {
+  bool ros1 = false;       // --ros1
+  std::string ros_master;  // --ros-master
+  std::string ros_ip;      // --ros-ip
+  bool ros2 = false;              // --ros2
+  std::optional<int> ros_domain;  // --ros-domain
+  std::string ros_interface;      // --ros-interface
+  double rate = 1;         // --rate, of simulation time to the wall's; 0: as fast as frames come
+  double wait = 0;         // --wait-for-subscribers; unit: s
+};
+
+// How to run, whatever is run: none of it changes a result.
+struct RunOptions {
+  int threads = 0;               // --threads; 0: all processors
+  bool quiet = false;            // --quiet: no progress
+  int gl_device = -1;            // --gl-device, see GlContextOptions
+  double checkpoint_every = 10;  // --checkpoint-every, while settling; unit: s
+  LiveRequest live;
+};
+
+struct RunRequest {
+  std::string mission;                   // path of the Lua script
+  std::optional<std::uint64_t> seed;     // --seed; overrides the script's
+  std::vector<std::string> overrides;    // --set key=value, in order
+  std::vector<std::string> asset_packs;  // --assets DIR, in order
+  std::string out;                       // --out; empty: out/<name of the script>
+  bool force = false;                    // --force: replace an earlier run's files
+  RunOptions options;
+};
+
+// For the commands that start from a folder of a run.
+struct FolderRequest {
+  std::string folder;
+  std::vector<std::string> asset_packs;  // --assets DIR: where its packs may be now
+  RunOptions options;
+};
+
+}  // namespace rubble

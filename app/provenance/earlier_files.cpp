@@ -1,0 +1,111 @@
+#include "app/provenance/earlier_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/base/atomic_file.h"
+#include "io/base/remove_files.h"
+#include "kernel/base/error.h"
+#include "kernel/base/text.h"
+
+namespace rubble {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// What is written as a folder: app/pipeline/recorders.cpp and, of the pile, io/mesh/sdf_writer.cpp.
+const std::vector<std::string> kRecordingFolders{"tum", "euroc", "colmap", "frames",
+                                                 "sdf"};
+
+template <typename List>
+bool contains(const List& list, const std::string& item) {
+  return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+bool is_plain_file(const std::string& path) {
+  std::error_code failed;
+  return fs::is_regular_file(fs::symlink_status(path, failed));
+}
+
+bool is_name_of_run(const std::string& name) {
+  const std::size_t slash = name.find('/');
+  if (slash == std::string::npos) return contains(usual_run_files(), name);
+  return contains(kRecordingFolders, name.substr(0, slash));
+}
+
+// Of unfinished/files.txt: files and, of a recording that is a folder, every plain file in it.
+void add_listed(const std::string& folder, std::vector<std::string>& files) {
+  const std::string path = folder + "/unfinished/files.txt";
+  if (!is_plain_file(folder + "/unfinished/run.json")) return;
+  // The list comes when the pile, with its exports, is there.
+  std::istringstream list("sdf\n" + (is_plain_file(path) ? read_whole_file(path) : ""));
+  for (std::string name; std::getline(list, name);) {
+    if (is_name_of_run(name)) files.push_back(name);
+    if (!contains(kRecordingFolders, name)) continue;
+    const std::vector<std::string> inside = list_plain_files(folder, name);
+    files.insert(files.end(), inside.begin(), inside.end());
+  }
+}
+
+// Of the manifest, if it can be read.
+void add_stated(const std::string& folder, std::vector<std::string>& files) {
+  const std::string path = folder + "/manifest.json";
+  if (!is_plain_file(path)) return;
+  const std::string text = read_whole_file(path);
+  if (calc_json_depth(text) > kDeepestJson) return;
+  const Json manifest = Json::parse(text, nullptr, false);
+  if (!manifest.is_object() || !manifest.contains("outputs")) return;
+  const Json& outputs = manifest["outputs"];
+  if (!outputs.is_object()) return;
+  for (const auto& item : outputs.items())
+    if (is_name_of_run(item.key())) files.push_back(item.key());
+}
+
+}  // namespace
+
+const std::vector<std::string>& usual_run_files() {
+  static const std::vector<std::string> files{
+      "manifest.json", "mission.rawlog",  "mission.bag", "mission.mcap",
+      "pile.stl",      "pile.bin",        "preview.png", "groundtruth.txt",
+      "labels.csv",    "flight.json",     "pile.ply",    "mission.simplemap",
+      "pile.obj",      "pile.mtl",        "pile.glb"};
+  return files;
+}
+
+std::vector<std::string> files_of_earlier_run(const std::string& folder) {
+  std::vector<std::string> files = usual_run_files();
+  add_listed(folder, files);
+  add_stated(folder, files);
+  return files;
+}
+
+void clear_unfinished(const std::string& folder) {
+  const std::vector<std::string> files{"unfinished/run.json", "unfinished/settle.checkpoint",
+                                       "unfinished/frames.txt", "unfinished/files.txt",
+                                       "unfinished/settled.txt"};
+  remove_plain_files(folder, files, ".part");
+  remove_plain_files(folder, files);
+}
+
+void remove_unfinished(const std::string& folder) {
+  clear_unfinished(folder);
+  const std::vector<std::string> lock{"unfinished/lock"};
+  remove_plain_files(folder, lock);
+  remove_empty_parents(folder, lock);
+}
+
+void refuse_foreign_recordings(const std::string& folder) {
+  for (const std::string& name : kRecordingFolders) {
+    std::error_code failed;
+    const fs::path path = fs::path(folder) / name;
+    if (!fs::exists(fs::symlink_status(path, failed))) continue;
+    const std::vector<std::string> files = list_plain_files(folder, name);
+    throw InputError({path.string(), 0, "", "holds what the earlier run did not write", "",
+                      files.empty() ? "" : files.front(), "move it elsewhere"});
+  }
+}
+
+}  // namespace rubble

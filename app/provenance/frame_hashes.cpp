@@ -1,0 +1,135 @@
+#include "app/provenance/frame_hashes.h"
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include "kernel/base/hash.h"
+
+namespace rubble {
+namespace {
+
+template <typename T>
+std::uint64_t hash_numbers(const std::vector<T>& numbers) {
+  if (numbers.empty()) return 0;
+  StateHash hash;
+  hash.add_bytes(numbers.data(), numbers.size() * sizeof(T));
+  return hash.digest();
+}
+
+void add(StateHash& hash, const Vec3& v) {
+  for (int i = 0; i < 3; ++i) hash.add(v[i]);
+}
+
+// Where, when and through what the frame was seen.
+std::uint64_t hash_pose(const Frame& frame) {
+  StateHash hash;
+  hash.add(frame.stamp_ns);
+  const Quat& q = frame.world_from_camera.rotation;
+  for (const double c : {q.w, q.x, q.y, q.z}) hash.add(c);
+  add(hash, frame.world_from_camera.translation);
+  const Intrinsics& k = frame.intrinsics;
+  hash.add(k.width), hash.add(k.height);
+  for (const double c : {k.fx, k.fy, k.cx, k.cy}) hash.add(c);
+  for (const double c : k.distortion) hash.add(c);
+  hash.add(std::int32_t(k.lens));
+  add(hash, frame.linear_velocity);
+  hash.add(frame.baseline);
+  hash.add(frame.exposure_s);
+  return hash.digest();
+}
+
+std::uint64_t hash_events(const std::vector<Event>& events) {
+  if (events.empty()) return 0;
+  StateHash hash;
+  for (const Event& e : events) {
+    hash.add(e.stamp_ns), hash.add(e.x), hash.add(e.y);
+    hash.add(std::uint8_t(e.brighter));
+  }
+  return hash.digest();
+}
+
+std::uint64_t hash_imu(const std::vector<ImuSample>& samples) {
+  if (samples.empty()) return 0;
+  StateHash hash;
+  for (const ImuSample& s : samples) {
+    hash.add(s.stamp_ns);
+    add(hash, s.angular_velocity);
+    add(hash, s.linear_acceleration);
+    add(hash, s.angular_bias);
+    add(hash, s.acceleration_bias);
+  }
+  return hash.digest();
+}
+
+const std::vector<std::string>& all_channels() {
+  static const std::vector<std::string> names{
+      "pose",     "rgb",   "depth", "rgb_right",      "measured_depth", "normals",
+      "instance", "label", "flow",  "sky_visibility", "events",         "imu"};
+  return names;
+}
+
+}  // namespace
+
+void FrameHashes::add(const Frame& f) {
+  channels = all_channels();
+  frames.push_back({hash_pose(f), hash_numbers(f.rgb), hash_numbers(f.depth),
+                    hash_numbers(f.rgb_right), hash_numbers(f.measured_depth),
+                    hash_numbers(f.normals), hash_numbers(f.instance), hash_numbers(f.label),
+                    hash_numbers(f.flow), hash_numbers(f.sky_visibility), hash_events(f.events),
+                    hash_imu(f.imu)});
+}
+
+FrameHashes FrameHashes::compact() const {
+  FrameHashes kept;
+  kept.frames.resize(frames.size());
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const bool filled = std::any_of(frames.begin(), frames.end(),
+                                    [c](const auto& hashes) { return hashes[c] != 0; });
+    if (!filled) continue;
+    kept.channels.push_back(channels[c]);
+    for (std::size_t i = 0; i < frames.size(); ++i) kept.frames[i].push_back(frames[i][c]);
+  }
+  return kept;
+}
+
+bool is_picture(const std::string& channel) {
+  return channel != "pose" && channel != "events" && channel != "imu";
+}
+
+FrameDifference find_difference(const FrameHashes& was, const FrameHashes& is) {
+  if (was.channels != is.channels) return {0, "", "the frames have other channels"};
+  const std::size_t both = std::min(was.frames.size(), is.frames.size());
+  for (std::size_t i = 0; i < both; ++i)
+    for (std::size_t c = 0; c < was.channels.size(); ++c)
+      if (was.frames[i][c] != is.frames[i][c])
+        return {int(i), was.channels[c],
+                "frame " + std::to_string(i) + " is the first that differs, in its " +
+                    was.channels[c] + ": " + hex64(is.frames[i][c]) + " instead of " +
+                    hex64(was.frames[i][c])};
+  if (was.frames.size() == is.frames.size()) return {};
+  return {
+      int(both), "",
+      std::to_string(is.frames.size()) + " frames instead of " + std::to_string(was.frames.size())};
+}
+
+std::string format_hashes(const std::vector<std::uint64_t>& hashes) {
+  std::string text;
+  for (const std::uint64_t hash : hashes) text += (text.empty() ? "" : " ") + hex64(hash);
+  return text;
+}
+
+bool parse_hashes(const std::string& text, std::vector<std::uint64_t>& hashes) {
+  hashes.clear();
+  std::istringstream in(text);
+  for (std::string word; in >> word;) {
+    std::uint64_t value = 0;
+    const char* const end = word.data() + word.size();
+    const auto read = std::from_chars(word.data(), end, value, 16);
+    if (read.ec != std::errc() || read.ptr != end) return false;
+    hashes.push_back(value);
+  }
+  return true;
+}
+
+}  // namespace rubble

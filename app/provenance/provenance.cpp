@@ -1,0 +1,144 @@
+#include "app/provenance/provenance.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/support/json_members.h"
+#include "kernel/base/hash.h"
+#include "kernel/base/text.h"
+
+namespace rubble {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr const char* kKindNames[] = {"run", "settle", "render"};
+constexpr const char* kSpreadNames[] = {"uniform", "normal", "lognormal"};
+
+std::string compact(const std::string& json) { return Json::parse(json).dump(); }
+
+Json json_of(const SourceFile& file) {
+  return {{"name", file.path}, {"sha256", file.sha256}, {"text", file.text}};
+}
+
+Json json_of(const AssetContent& asset) {
+  return {{"name", asset.name},
+          {"pack", asset.pack},
+          {"sha256", asset.sha256},
+          {"weight", asset.weight},
+          {"scale", asset.scale},
+          {"spread", kSpreadNames[int(asset.spread.kind)]},
+          {"typical", asset.spread.typical},
+          {"deviation", asset.spread.deviation}};
+}
+
+SourceFile read_source(const JsonMembers& json) {
+  return {json.text("name"), json.text("text"), json.text("sha256")};
+}
+
+SizeSpread read_spread(const JsonMembers& json) {
+  const std::string name = json.text("spread");
+  for (int i = 0; i < 3; ++i)
+    if (name == kSpreadNames[i]) return {Spread(i), json.number("typical"), json.number("deviation")};
+  json.fail("spread", "\"uniform\", \"normal\" or \"lognormal\"");
+}
+
+std::array<double, 2> read_scale(const JsonMembers& json) {
+  const std::vector<JsonMembers> scale = json.list("scale");
+  if (scale.size() != 2) json.fail("scale", "two numbers");
+  const std::array<double, 2> range{scale[0].as_number(), scale[1].as_number()};
+  if (!(range[0] > 0 && range[0] <= range[1])) json.fail("scale", "two numbers, 0 < least <= most");
+  return range;
+}
+
+AssetContent read_asset(const JsonMembers& json) {
+  const double weight = json.number("weight");
+  if (!(weight >= 0)) json.fail("weight", "a number of at least 0");
+  return {json.text("name"), json.text("pack"),  json.text("sha256"),
+          weight,            read_scale(json), read_spread(json)};
+}
+
+RunKind read_kind(const JsonMembers& json) {
+  const std::string name = json.text("kind");
+  for (int i = 0; i < 3; ++i)
+    if (name == kKindNames[i]) return RunKind(i);
+  json.fail("kind", "\"run\", \"settle\" or \"render\"");
+}
+
+Recipe read_recipe(const JsonMembers& json) {
+  Recipe recipe;
+  recipe.kind = read_kind(json);
+  recipe.script = read_source(json.object("script"));
+  for (const JsonMembers& file : json.list("included"))
+    recipe.included.push_back(read_source(file));
+  const JsonMembers request = json.object("request");
+  if (request.has("seed")) recipe.seed = request.unsigned_integer("seed");
+  for (const JsonMembers& text : request.list("set")) recipe.overrides.push_back(text.as_text());
+  recipe.scenario = json.object("scenario").dump();
+  for (const JsonMembers& asset : json.list("assets")) recipe.assets.push_back(read_asset(asset));
+  if (json.has("pile_from"))
+    recipe.pile_from = std::make_shared<const Recipe>(read_recipe(json.object("pile_from")));
+  return recipe;
+}
+
+}  // namespace
+
+Recipe make_recipe(RunKind kind, const Mission& mission, const MissionOptions& options) {
+  Recipe recipe;
+  recipe.kind = kind;
+  const fs::path folder = fs::path(mission.script.path).parent_path();
+  recipe.script = mission.script;
+  recipe.script.path = printable(fs::path(mission.script.path).filename().string());
+  for (SourceFile file : mission.included) {
+    file.path = fs::path(file.path).lexically_relative(folder).lexically_normal().string();
+    recipe.included.push_back(std::move(file));
+  }
+  recipe.seed = options.seed;
+  recipe.overrides = options.overrides;
+  recipe.scenario = compact(scenario_to_json(mission.scenario));
+  return recipe;
+}
+
+Mission load_mission(const Recipe& recipe) {
+  MissionOptions options;
+  options.seed = recipe.seed;
+  options.overrides = recipe.overrides;
+  options.included.emplace();
+  for (const SourceFile& file : recipe.included) (*options.included)[file.path] = file.text;
+  Mission mission = load_mission_text(recipe.script.text, recipe.script.path, options);
+  if (recipe.pile_from) adopt_pile(mission.scenario, stated_scenario(*recipe.pile_from));
+  return mission;
+}
+
+Scenario stated_scenario(const Recipe& recipe) {
+  return scenario_from_json(recipe.scenario, "the scenario of " + recipe.script.path);
+}
+
+void adopt_pile(Scenario& scenario, const Scenario& pile_source) {
+  scenario.packs = pile_source.packs;
+  scenario.pile = pile_source.pile;
+  scenario.settle = pile_source.settle;
+}
+
+void add_recipe(Json& json, const Recipe& recipe) {
+  json["kind"] = kKindNames[int(recipe.kind)];
+  json["script"] = json_of(recipe.script);
+  json["included"] = Json::array();
+  for (const SourceFile& file : recipe.included) json["included"].push_back(json_of(file));
+  json["request"] = Json::object();
+  if (recipe.seed) json["request"]["seed"] = *recipe.seed;
+  json["request"]["set"] = recipe.overrides;
+  json["scenario"] = Json::parse(recipe.scenario);
+  json["assets"] = Json::array();
+  for (const AssetContent& asset : recipe.assets) json["assets"].push_back(json_of(asset));
+  if (!recipe.pile_from) return;
+  json["pile_from"] = Json::object();
+  add_recipe(json["pile_from"], *recipe.pile_from);
+}
+
+Recipe recipe_from_json(const Json& json, const std::string& file) {
+  return read_recipe(JsonMembers(json, file));
+}
+
+}  // namespace rubble

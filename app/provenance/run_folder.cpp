@@ -1,0 +1,147 @@
+#include "app/provenance/run_folder.h"
+
+#include <filesystem>
+#include <fstream>
+#include <utility>
+#include <vector>
+
+#include "app/provenance/earlier_files.h"
+#include "app/provenance/folder_lock.h"
+#include "io/base/atomic_file.h"
+#include "io/base/remove_files.h"
+#include "kernel/base/error.h"
+#include "kernel/base/hash.h"
+#include "kernel/base/parallel.h"
+
+namespace rubble {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFileList = "/unfinished/files.txt";
+
+// null: the run that was waited for has ended, and its folder `unfinished` with it.
+std::shared_ptr<const FolderLock> lock_run(const std::string& folder) {
+  try {
+    return std::make_shared<const FolderLock>(folder + "/unfinished/lock",
+                                              FolderLock::Wait::briefly,
+                                              "another process is at work on this run");
+  } catch (const RunError&) {
+    std::error_code failed;
+    if (fs::is_directory(folder + "/unfinished", failed)) throw;
+    return nullptr;
+  }
+}
+
+void refuse_unfinished(const std::string& path, bool force) {
+  if (is_unfinished(path) && !force)
+    throw InputError({path, 0, "", "an unfinished run is in the output folder", "", "",
+                      "`rubble resume " + path + "` continues it; --force starts anew"});
+}
+
+// Only what a process that was killed before it could say what it is has left there.
+bool holds_nothing_but_unfinished(const std::string& path) {
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(path, failed))
+    if (entry.path().filename() != "unfinished") return false;
+  return !failed;
+}
+
+std::string pile_note(const RunFolder& folder, std::uint64_t work) {
+  return hex64(work) + " " + sha256_of_file(folder.file("pile.bin")) + "\n";
+}
+
+}  // namespace
+
+bool is_unfinished(const std::string& folder) {
+  std::error_code failed;
+  return fs::is_regular_file(folder + "/unfinished/run.json", failed);
+}
+
+// Whoever waited for the lock looks again: what was there may be finished, or begun, by now.
+RunFolder RunFolder::create(const std::string& path, bool force) {
+  refuse_unfinished(path, force);
+  std::error_code failed;
+  const bool left = fs::is_directory(path + "/unfinished", failed);
+  if (!left) prepare_output_folder(path, force, {});
+  RunFolder folder(path);
+  while (!folder.lock_) {
+    fs::create_directories(path + "/unfinished", failed);
+    if (failed) throw RunError("cannot create " + path + "/unfinished: " + failed.message());
+    folder.lock_ = lock_run(path);
+  }
+  refuse_unfinished(path, force);
+  const std::vector<std::string> files = force ? files_of_earlier_run(path) : usual_run_files();
+  if (!holds_nothing_but_unfinished(path)) prepare_output_folder(path, force, files);
+  clear_unfinished(path);
+  remove_empty_parents(path, files);
+  if (force) refuse_foreign_recordings(path);
+  return folder;
+}
+
+RunFolder RunFolder::open_unfinished(const std::string& path) {
+  if (is_unfinished(path)) {
+    RunFolder folder(path);
+    folder.lock_ = lock_run(path);
+    if (folder.lock_ && is_unfinished(path)) return folder;
+  }
+  std::error_code failed;
+  if (!fs::is_directory(path, failed))
+    throw InputError({path, 0, "", "no such folder", "the output folder of a run", "", ""});
+  if (fs::exists(path + "/manifest.json", failed))
+    throw InputError({path, 0, "", "the run in it is finished; nothing is left to do", "", "",
+                      "`rubble verify " + path + "` checks it"});
+  throw InputError({path, 0, "", "no unfinished run is in it", "", "",
+                    "a run that was killed before it had read its mission is begun anew"});
+}
+
+void RunFolder::note_pile(std::uint64_t work) const {
+  write_text_file(file("unfinished/settled.txt"), pile_note(*this, work));
+}
+
+bool RunFolder::has_pile_of(std::uint64_t work) const {
+  if (!has("pile.bin") || !has("unfinished/settled.txt")) return false;
+  return read_whole_file(file("unfinished/settled.txt")) == pile_note(*this, work);
+}
+
+bool RunFolder::has(const std::string& name) const {
+  std::error_code failed;
+  return fs::exists(file(name), failed);
+}
+
+void RunFolder::begin(const std::string& run_json) {
+  write_text_file(run_file(), run_json);
+}
+
+void RunFolder::expect(const std::vector<std::string>& names) const {
+  std::ofstream list(path_ + kFileList, std::ios::app);
+  for (const std::string& name : names) list << name << '\n';
+}
+
+// run.json goes first: without it nothing is unfinished.
+void RunFolder::finish() const {
+  std::error_code error;
+  fs::remove(run_file(), error);
+  if (error) throw RunError("cannot remove " + run_file() + ": " + error.message());
+  remove_unfinished(path_);
+}
+
+void RunFolder::add(const std::string& name) {
+  if (!fs::is_directory(file(name))) {
+    hashes_[name].clear();
+    return;
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(file(name)))
+    if (entry.is_regular_file()) hashes_[fs::relative(entry.path(), path_).string()].clear();
+}
+
+const std::map<std::string, std::string>& RunFolder::hash_files(int threads) {
+  std::vector<std::pair<const std::string, std::string>*> left;
+  for (auto& item : hashes_)
+    if (item.second.empty()) left.push_back(&item);
+  parallel_for(left.size(), threads,
+               [&](std::size_t i) { left[i]->second = sha256_of_file(file(left[i]->first)); });
+  return hashes_;
+}
+
+}  // namespace rubble

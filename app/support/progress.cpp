@@ -1,0 +1,74 @@
+#include "app/support/progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace rubble {
+namespace {
+
+constexpr int kBarWidth = 28;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string format_seconds(double seconds) {
+  char text[32];
+  if (seconds < 100)
+    std::snprintf(text, sizeof text, "%.1f s", seconds);
+  else
+    std::snprintf(text, sizeof text, "%d:%02d min", int(seconds) / 60, int(seconds) % 60);
+  return text;
+}
+
+}  // namespace
+
+ProgressStyle choose_progress_style(bool quiet) {
+  if (quiet) return ProgressStyle::quiet;
+  return isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::lines;
+}
+
+void Progress::start(const std::string& stage) {
+  stage_ = stage;
+  started_ = drawn_ = Clock::now();
+  if (style_ == ProgressStyle::lines) std::fprintf(stderr, "%s ...\n", stage.c_str());
+  if (style_ == ProgressStyle::bar) draw(0, "");
+}
+
+void Progress::update(double fraction, const std::string& detail) {
+  if (style_ == ProgressStyle::quiet) return;
+  const double interval = style_ == ProgressStyle::bar ? 0.1 : 10.0;
+  if (seconds_since(drawn_) < interval) return;
+  drawn_ = Clock::now();
+  draw(std::clamp(fraction, 0.0, 1.0), detail);
+}
+
+void Progress::draw(double fraction, const std::string& detail) {
+  const double elapsed = seconds_since(started_);
+  std::string left;
+  if (fraction > 0.02 && elapsed > 1.0)
+    left = ", about " + format_seconds(elapsed * (1 - fraction) / fraction) + " left";
+  if (style_ == ProgressStyle::lines) {
+    std::fprintf(stderr, "%s: %d %%  %s%s\n", stage_.c_str(), int(100 * fraction), detail.c_str(),
+                 left.c_str());
+    return;
+  }
+  const int filled = int(fraction * kBarWidth);
+  const std::string bar =
+      std::string(std::size_t(filled), '#') + std::string(std::size_t(kBarWidth - filled), '.');
+  std::fprintf(stderr, "\r\033[K%-8s [%s] %3d %%  %s%s", stage_.c_str(), bar.c_str(),
+               int(100 * fraction), detail.c_str(), left.c_str());
+  std::fflush(stderr);
+}
+
+void Progress::finish(const std::string& result) {
+  const double elapsed = seconds_since(started_);
+  wall_seconds_[stage_] = elapsed;
+  if (style_ == ProgressStyle::quiet) return;
+  std::fprintf(stderr, "%s%-8s %s (%s)\n", style_ == ProgressStyle::bar ? "\r\033[K" : "",
+               stage_.c_str(), result.c_str(), format_seconds(elapsed).c_str());
+}
+
+}  // namespace rubble

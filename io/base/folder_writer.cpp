@@ -1,0 +1,51 @@
+#include "io/base/folder_writer.h"
+
+#include <filesystem>
+#include <memory>
+
+#include "io/base/atomic_file.h"
+#include "kernel/base/error.h"
+
+namespace rubble {
+
+namespace fs = std::filesystem;
+
+FolderWriter::FolderWriter(std::string final_path, const std::vector<std::string>& folders,
+                           int threads)
+    : path_(std::move(final_path)), part_(path_ + ".part"), tasks_(threads) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(path_, error)))
+    throw RunError("cannot create " + path_ + ": something of that name is there");
+  fs::remove_all(part_, error);
+  fs::create_directory(part_, error);
+  for (const std::string& folder : folders)
+    if (!error) fs::create_directories(fs::path(part_) / folder, error);
+  if (!error) return;
+  std::error_code ignored;
+  fs::remove_all(part_, ignored);  // the destructor will not run
+  throw RunError("cannot create " + part_ + ": " + error.message());
+}
+
+FolderWriter::~FolderWriter() {
+  std::error_code ignored;
+  if (!finished_) fs::remove_all(part_, ignored);
+}
+
+void FolderWriter::write(const std::string& name, std::string_view bytes) {
+  write_part_file(part_ + "/" + name, bytes);
+}
+
+void FolderWriter::add(const std::string& name, std::function<std::string()> make) {
+  tasks_.add([this, name, make = std::move(make)]() -> OrderedTasks::Commit {
+    const auto bytes = std::make_shared<const std::string>(make());
+    return [this, name, bytes] { write(name, *bytes); };
+  });
+}
+
+void FolderWriter::finish() {
+  tasks_.finish();
+  commit_folder(part_, path_);
+  finished_ = true;
+}
+
+}  // namespace rubble

@@ -1,0 +1,176 @@
+#include "io/datasets/euroc_recorder.h"
+
+#include "io/base/folder_writer.h"
+#include "io/base/number_text.h"
+#include "io/image/image_file.h"
+#include "io/recording/frame_order.h"
+
+namespace rubble {
+namespace {
+
+// Luma of ITU-R BT.601, in integers.
+GrayImage to_gray(const Intrinsics& k, const std::vector<std::uint8_t>& rgb) {
+  GrayImage image{k.width, k.height, std::vector<std::uint8_t>(rgb.size() / 3)};
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    const unsigned sum = 299u * rgb[3 * i] + 587u * rgb[3 * i + 1] + 114u * rgb[3 * i + 2];
+    image.values[i] = static_cast<std::uint8_t>((sum + 500) / 1000);
+  }
+  return image;
+}
+
+std::string row(std::int64_t stamp_ns, const std::vector<double>& values) {
+  std::string line = std::to_string(stamp_ns);
+  for (const double value : values) line += "," + exact_text(value);
+  return line + "\n";
+}
+
+std::string list(const std::vector<double>& values) {
+  std::string text = "[";
+  for (const double value : values) text += (text.size() > 1 ? ", " : "") + exact_text(value);
+  return text + "]";
+}
+
+// Where a sensor sits in the body, as 4x4 row by row.
+std::string mounting(const Pose& body_from_sensor) {
+  const Mat3 r = body_from_sensor.rotation.matrix();
+  const Vec3& t = body_from_sensor.translation;
+  std::vector<double> values;
+  for (int i = 0; i < 3; ++i)
+    for (const double v : {r.rows[i].x, r.rows[i].y, r.rows[i].z, t[i]}) values.push_back(v);
+  for (const double v : {0.0, 0.0, 0.0, 1.0}) values.push_back(v);
+  return "T_BS:\n  cols: 4\n  rows: 4\n  data: " + list(values) + "\n";
+}
+
+std::string camera_yaml(const Intrinsics& k, const Pose& body_from_optical, double rate_hz) {
+  const bool fisheye = k.lens == LensModel::fisheye;
+  std::vector<double> distortion(k.distortion.begin(), k.distortion.begin() + 4);
+  if (!fisheye && k.distortion[4] != 0) distortion.push_back(k.distortion[4]);
+  return "sensor_type: camera\ncomment: simulated by Rubble\n" + mounting(body_from_optical) +
+         "rate_hz: " + exact_text(rate_hz) + "\nresolution: [" + std::to_string(k.width) + ", " +
+         std::to_string(k.height) +
+         "]\ncamera_model: pinhole\nintrinsics: " + list({k.fx, k.fy, k.cx, k.cy}) +
+         "\ndistortion_model: " + (fisheye ? "equidistant" : "radial-tangential") +
+         "\ndistortion_coefficients: " + list(distortion) + "\n";
+}
+
+std::string imu_yaml(const ImuModel& model) {
+  return "sensor_type: imu\ncomment: simulated by Rubble\n" + mounting({}) +
+         "rate_hz: " + exact_text(model.rate_hz) +
+         "\ngyroscope_noise_density: " + exact_text(model.gyroscope_noise) +
+         "\ngyroscope_random_walk: " + exact_text(model.gyroscope_walk) +
+         "\naccelerometer_noise_density: " + exact_text(model.accelerometer_noise) +
+         "\naccelerometer_random_walk: " + exact_text(model.accelerometer_walk) + "\n";
+}
+
+class EurocRecorder : public Recorder {
+ public:
+  EurocRecorder(const std::string& path, const Recording& recording, const Channels& channels,
+                int threads)
+      : recording_(recording),
+        channels_(channels),
+        order_(path, channels),
+        folder_(path, folders(channels), threads) {}
+
+  void write(const Frame& frame) override {
+    order_.check(frame);
+    if (frame.index == 0) first_ = header_of(frame);
+    if (frame.index == 1) period_ns_ = frame.stamp_ns - first_.stamp_ns;
+    const std::string name = std::to_string(frame.stamp_ns) + ".png";
+    add_picture("mav0/cam0/data/" + name, frame, frame.rgb);
+    if (channels_.right) add_picture("mav0/cam1/data/" + name, frame, frame.rgb_right);
+    pictures_ += std::to_string(frame.stamp_ns) + "," + name + "\n";
+    add_imu(frame);
+    add_state(frame);
+  }
+
+  void finish() override {
+    write_camera("cam0", camera_from_optical);
+    if (channels_.right) write_camera("cam1", right_camera());
+    if (channels_.imu) {
+      folder_.write("mav0/imu0/data.csv", imu_);
+      folder_.write("mav0/imu0/sensor.yaml", imu_yaml(recording_.imu));
+    }
+    folder_.write("mav0/state_groundtruth_estimate0/data.csv", states_);
+    folder_.write("mav0/state_groundtruth_estimate0/sensor.yaml",
+                  "sensor_type: visual-inertial\ncomment: the simulated truth\n" + mounting({}));
+    folder_.finish();
+  }
+
+ private:
+  static std::vector<std::string> folders(const Channels& channels) {
+    std::vector<std::string> names{"mav0/cam0/data", "mav0/state_groundtruth_estimate0"};
+    if (channels.right) names.push_back("mav0/cam1/data");
+    if (channels.imu) names.push_back("mav0/imu0");
+    return names;
+  }
+
+  // A frame without its pictures.
+  static Frame header_of(const Frame& frame) {
+    Frame header;
+    header.stamp_ns = frame.stamp_ns;
+    header.intrinsics = frame.intrinsics;
+    header.baseline = frame.baseline;
+    return header;
+  }
+
+  Pose right_camera() const { return {camera_from_optical.rotation, {0, -first_.baseline, 0}}; }
+
+  void add_picture(const std::string& name, const Frame& frame,
+                   const std::vector<std::uint8_t>& rgb) {
+    folder_.add(name, [k = frame.intrinsics, rgb] { return encode_png(to_gray(k, rgb)); });
+  }
+
+  void add_imu(const Frame& frame) {
+    if (!channels_.imu) return;
+    for (const ImuSample& s : frame.imu) {
+      const Vec3 &w = s.angular_velocity, &a = s.linear_acceleration;
+      imu_ += row(s.stamp_ns, {w.x, w.y, w.z, a.x, a.y, a.z});
+    }
+    if (!frame.imu.empty()) last_imu_ = frame.imu.back();
+  }
+
+  void add_state(const Frame& frame) {
+    const Vec3 &p = frame.world_from_camera.translation, &v = frame.linear_velocity;
+    const Quat& q = frame.world_from_camera.rotation;
+    const Vec3 &bw = last_imu_.angular_bias, &ba = last_imu_.acceleration_bias;
+    states_ += row(frame.stamp_ns, {p.x, p.y, p.z, q.w, q.x, q.y, q.z, v.x, v.y, v.z, bw.x, bw.y,
+                                    bw.z, ba.x, ba.y, ba.z});
+  }
+
+  void write_camera(const std::string& name, const Pose& body_from_optical) {
+    const double rate_hz = period_ns_ > 0 ? 1e9 / static_cast<double>(period_ns_) : 0;
+    folder_.write("mav0/" + name + "/data.csv", pictures_);
+    folder_.write("mav0/" + name + "/sensor.yaml",
+                  camera_yaml(first_.intrinsics, body_from_optical, rate_hz));
+  }
+
+  Recording recording_;
+  Channels channels_;
+  FrameOrder order_;
+  FolderWriter folder_;
+  Frame first_;  // without its pictures
+  std::int64_t period_ns_ = 0;
+  ImuSample last_imu_;
+  // The tables, so far.
+  std::string pictures_ = "#timestamp [ns],filename\n";
+  std::string imu_ =
+      "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
+      "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n";
+  std::string states_ =
+      "#timestamp,p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z [],"
+      "v_RS_R_x [m s^-1],v_RS_R_y [m s^-1],v_RS_R_z [m s^-1],b_w_RS_S_x [rad s^-1],"
+      "b_w_RS_S_y [rad s^-1],b_w_RS_S_z [rad s^-1],b_a_RS_S_x [m s^-2],b_a_RS_S_y [m s^-2],"
+      "b_a_RS_S_z [m s^-2]\n";
+};
+
+}  // namespace
+
+std::unique_ptr<Recorder> make_euroc_recorder(const std::string& path, const Recording& recording,
+                                              int threads) {
+  Channels channels;  // what the format has a place for
+  channels.right = recording.channels.right;
+  channels.imu = recording.channels.imu;
+  return std::make_unique<EurocRecorder>(path, recording, channels, threads);
+}
+
+}  // namespace rubble

@@ -1,0 +1,316 @@
+#include "io/mesh/mesh_file.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <unordered_map>
+
+#include "io/mesh/mesh_bytes.h"
+#include "kernel/base/error.h"
+#include "kernel/base/isolated_worker.h"
+#include "kernel/base/text.h"
+
+// assimp is called in child processes alone: kernel/base/isolated_worker.h says why.
+
+namespace rubble {
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const std::string& message,
+                         const std::string& hint = "") {
+  Diagnostic diagnostic;
+  diagnostic.file = path;
+  diagnostic.message = message;
+  diagnostic.hint = hint;
+  throw InputError(diagnostic);
+}
+
+void check_readable(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) refuse(path, "the mesh file does not exist");
+  if (!fs::is_regular_file(status)) refuse(path, "is not a file");
+  if (fs::file_size(path, error) == 0) refuse(path, "the mesh file is empty");
+}
+
+// The importer owns the scene: it must live as long as that is read.
+const aiScene& import(Assimp::Importer& importer, const std::string& path, unsigned steps) {
+  const aiScene* scene = importer.ReadFile(path, steps);
+  if (!scene) refuse(path, std::string("cannot be read as a mesh: ") + importer.GetErrorString());
+  if (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE || scene->mNumMeshes == 0 || !scene->mRootNode) {
+    refuse(path, "holds no triangles");
+  }
+  return *scene;
+}
+
+struct PlacedMesh {
+  const aiMesh* mesh;
+  aiMatrix4x4 file_from_mesh;
+  const aiNode* node;
+};
+
+// Every mesh where the file's tree of nodes puts it, in the order of the tree.
+void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& file_from_parent,
+             std::vector<PlacedMesh>& placed) {
+  const aiMatrix4x4 file_from_node = file_from_parent * node.mTransformation;
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    placed.push_back({scene.mMeshes[node.mMeshes[i]], file_from_node, &node});
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) {
+    collect(scene, *node.mChildren[i], file_from_node, placed);
+  }
+}
+
+std::vector<PlacedMesh> collect(const aiScene& scene) {
+  std::vector<PlacedMesh> placed;
+  collect(scene, *scene.mRootNode, aiMatrix4x4(), placed);
+  return placed;
+}
+
+Vec3 turn_up(const aiVector3D& v, UpAxis up) {
+  const Vec3 a(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+  return up == UpAxis::z ? a : Vec3(a.x, -a.z, a.y);
+}
+
+[[noreturn]] void refuse_points_and_lines(const std::string& path) {
+  refuse(path, "holds points or lines beside its faces", "export faces only");
+}
+
+// What makes two vertices one: equal bits of position and normal.
+struct VertexKey {
+  float values[6];
+  bool operator==(const VertexKey& other) const {
+    return std::memcmp(values, other.values, sizeof values) == 0;
+  }
+};
+struct VertexKeyHash {
+  std::size_t operator()(const VertexKey& key) const {
+    std::uint64_t hash = 14695981039346656037u;  // FNV-1a over words
+    for (const float value : key.values) {
+      std::uint32_t bits;
+      std::memcpy(&bits, &value, sizeof bits);
+      hash = (hash ^ bits) * 1099511628211u;
+    }
+    return hash ^ (hash >> 29);
+  }
+};
+
+// Joins meshes into one. The map is only asked, never walked: numbers follow first use.
+class MeshBuilder {
+ public:
+  MeshBuilder(const std::string& path, const MeshUnits& units, bool with_normals)
+      : path_(path), units_(units), with_normals_(with_normals) {}
+
+  void add(const PlacedMesh& placed, const std::string& surface) {
+    const aiMesh& mesh = *placed.mesh;
+    const std::uint8_t surface_index = find_surface(surface);
+    aiMatrix3x3 turn(placed.file_from_mesh);
+    const bool mirrored = turn.Determinant() < 0;
+    turn.Inverse().Transpose();  // normals go by the inverse transpose
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      check_face(mesh, face);
+      std::array<std::uint32_t, 3> triangle{};
+      for (unsigned k = 0; k < 3; ++k) {
+        const unsigned corner = face.mIndices[mirrored ? 2 - k : k];
+        triangle[k] = add_vertex(placed, turn, corner);
+      }
+      if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) {
+        continue;  // no area: two corners are one point
+      }
+      mesh_.triangles.push_back(triangle);
+      mesh_.surfaces.push_back(surface_index);
+    }
+  }
+
+  TriangleMesh take() {
+    if (mesh_.triangles.empty()) refuse(path_, "holds no triangles");
+    return std::move(mesh_);
+  }
+
+ private:
+  void check_face(const aiMesh& mesh, const aiFace& face) const {
+    if (face.mNumIndices != 3) refuse_points_and_lines(path_);
+    for (unsigned k = 0; k < 3; ++k)
+      if (face.mIndices[k] >= mesh.mNumVertices) refuse(path_, "has a face with a corner too many");
+  }
+
+  std::uint8_t find_surface(const std::string& name) {
+    for (std::size_t i = 0; i < mesh_.surface_names.size(); ++i) {
+      if (mesh_.surface_names[i] == printable(name)) return static_cast<std::uint8_t>(i);
+    }
+    if (mesh_.surface_names.size() == 256) refuse(path_, "has more than 256 materials");
+    mesh_.surface_names.push_back(printable(name));  // it comes to be text of JSON
+    return static_cast<std::uint8_t>(mesh_.surface_names.size() - 1);
+  }
+
+  std::uint32_t add_vertex(const PlacedMesh& placed, const aiMatrix3x3& turn, unsigned corner) {
+    const Vec3 position =
+        turn_up(placed.file_from_mesh * placed.mesh->mVertices[corner], units_.up);
+    const Vec3f p(position * units_.metres_per_unit);
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      refuse(path_, "has a vertex that is not a number");
+    }
+    Vec3f n;
+    if (with_normals_)
+      n = Vec3f(normalized(turn_up(turn * placed.mesh->mNormals[corner], units_.up)));
+    // + 0 turns -0 into 0, which is the same place.
+    const VertexKey key{{p.x + 0.0f, p.y + 0.0f, p.z + 0.0f, n.x + 0.0f, n.y + 0.0f, n.z + 0.0f}};
+    const auto next = static_cast<std::uint32_t>(mesh_.positions.size());
+    const auto [found, is_new] = numbers_.try_emplace(key, next);
+    if (is_new) {
+      mesh_.positions.push_back(p);
+      if (with_normals_) mesh_.normals.push_back(n);
+    }
+    return found->second;
+  }
+
+  const std::string& path_;
+  MeshUnits units_;
+  bool with_normals_;
+  TriangleMesh mesh_;
+  std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> numbers_;
+};
+
+void check_units(const MeshUnits& units, const std::string& path) {
+  if (units.metres_per_unit > 0 && std::isfinite(units.metres_per_unit)) return;
+  refuse(path, "the mesh needs a positive unit, not " + std::to_string(units.metres_per_unit));
+}
+
+std::string name_of_material(const aiScene& scene, const aiMesh& mesh) {
+  if (mesh.mMaterialIndex >= scene.mNumMaterials) return "";
+  return scene.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
+}
+
+bool has_texture(const aiMaterial& material) {
+  for (int type = aiTextureType_DIFFUSE; type <= AI_TEXTURE_TYPE_MAX; ++type)
+    if (material.GetTextureCount(aiTextureType(type)) > 0) return true;
+  return false;
+}
+
+// Grey is no loss: nearly every exporter writes some.
+bool has_colour(const aiMaterial& material) {
+  aiColor3D c;
+  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, c) != aiReturn_SUCCESS) return false;
+  return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b}) > 0.05f;
+}
+
+std::string find_left_out(const aiScene& scene) {
+  bool colours = false, textures = scene.mNumTextures > 0;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i)
+    colours = colours || scene.mMeshes[i]->HasVertexColors(0);
+  for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
+    colours = colours || has_colour(*scene.mMaterials[i]);
+    textures = textures || has_texture(*scene.mMaterials[i]);
+  }
+  if (colours && textures) return "colours and textures";
+  return colours ? "colours" : textures ? "textures" : "";
+}
+
+TriangleMesh import_mesh(const std::string& path, const MeshUnits& units, std::string& left_out) {
+  Assimp::Importer importer;
+  const aiScene& scene = import(importer, path, aiProcess_Triangulate);
+  const std::vector<PlacedMesh> placed = collect(scene);
+  bool with_normals = true;
+  for (const PlacedMesh& p : placed) {
+    with_normals = with_normals && p.mesh->HasNormals();
+    if (p.mesh->mPrimitiveTypes & (aiPrimitiveType_POINT | aiPrimitiveType_LINE))
+      refuse_points_and_lines(path);
+  }
+  left_out = find_left_out(scene);
+  MeshBuilder builder(path, units, with_normals);
+  for (const PlacedMesh& p : placed) builder.add(p, name_of_material(scene, *p.mesh));
+  return builder.take();
+}
+
+std::vector<std::vector<Vec3>> import_convex_parts(const std::string& path,
+                                                   const MeshUnits& units) {
+  Assimp::Importer importer;
+  const aiScene& scene = import(importer, path, 0);
+  std::vector<std::vector<Vec3>> parts;
+  const aiNode* node = nullptr;
+  std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> seen;
+  for (const PlacedMesh& placed : collect(scene)) {
+    if (placed.node != node) {  // an object of several materials is still one part
+      parts.emplace_back();
+      seen.clear();
+      node = placed.node;
+    }
+    for (unsigned i = 0; i < placed.mesh->mNumVertices; ++i) {
+      const aiVector3D v = placed.file_from_mesh * placed.mesh->mVertices[i];
+      if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+        refuse(path, "has a vertex that is not a number");
+      const VertexKey key{{v.x + 0.0f, v.y + 0.0f, v.z + 0.0f, 0, 0, 0}};
+      if (!seen.try_emplace(key, 0).second) continue;
+      parts.back().push_back(turn_up(v, units.up) * units.metres_per_unit);
+    }
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].size() >= 4) continue;
+    refuse(path, "object " + std::to_string(i + 1) + " has " + std::to_string(parts[i].size()) +
+                     " corner points; a convex part needs at least 4");
+  }
+  return parts;
+}
+
+constexpr char kMesh = 'm', kParts = 'p';  // what is asked for
+
+std::string pack_request(char kind, const std::string& path, const MeshUnits& units) {
+  CacheWriter writer;
+  writer.put(kind);
+  writer.put(units.metres_per_unit);
+  writer.put(units.up);
+  return writer.bytes() + path;
+}
+
+std::string answer_request(const std::string& request) {
+  char kind = 0;
+  MeshUnits units;
+  const std::size_t size = sizeof kind + sizeof units.metres_per_unit + sizeof units.up;
+  CacheReader reader(std::string_view(request).substr(0, size));
+  reader.get(kind);
+  reader.get(units.metres_per_unit);
+  reader.get(units.up);
+  const std::string path = request.substr(size);
+  if (kind == kParts) return parts_to_bytes(import_convex_parts(path, units));
+  std::string left_out;
+  const TriangleMesh mesh = import_mesh(path, units, left_out);
+  return mesh_to_bytes(mesh, left_out);
+}
+
+}  // namespace
+
+MeshImporter::MeshImporter() : worker_(std::make_unique<IsolatedWorker>("mesh", answer_request)) {}
+
+MeshImporter::~MeshImporter() = default;
+
+std::string MeshImporter::ask(char kind, const std::string& path, const MeshUnits& units) {
+  check_units(units, path);
+  check_readable(path);
+  return worker_->ask(path, pack_request(kind, path, units));
+}
+
+TriangleMesh MeshImporter::load_mesh(const std::string& path, const MeshUnits& units) {
+  return mesh_from_bytes(ask(kMesh, path, units), left_out_);
+}
+
+std::vector<std::vector<Vec3>> MeshImporter::load_convex_parts(const std::string& path,
+                                                               const MeshUnits& units) {
+  return parts_from_bytes(ask(kParts, path, units));
+}
+
+TriangleMesh load_mesh(const std::string& path, const MeshUnits& units) {
+  return MeshImporter().load_mesh(path, units);
+}
+
+std::vector<std::vector<Vec3>> load_convex_parts(const std::string& path, const MeshUnits& units) {
+  return MeshImporter().load_convex_parts(path, units);
+}
+
+}  // namespace rubble

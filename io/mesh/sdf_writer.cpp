@@ -1,0 +1,81 @@
+// An SDF 1.9 world for Gazebo Sim: http://sdformat.org/spec?ver=1.9
+#include "io/base/folder_writer.h"
+#include "io/base/number_text.h"
+#include "io/base/xml_text.h"
+#include "io/mesh/obj_writer.h"
+#include "io/mesh/pile_export.h"
+
+namespace rubble {
+namespace {
+
+constexpr char kBegin[] = R"(<?xml version="1.0"?>
+<sdf version="1.9">
+  <world name="rubble">
+    <gravity>0 0 -9.81</gravity>
+    <light name="sun" type="directional">
+      <pose>0 0 20 0 0 0</pose>
+      <diffuse>0.9 0.9 0.9 1</diffuse>
+      <direction>-0.5 0.3 -0.8</direction>
+      <cast_shadows>true</cast_shadows>
+    </light>
+    <model name="ground">
+      <static>true</static>
+      <link name="link">
+        <collision name="collision">
+          <geometry><plane><normal>0 0 1</normal><size>200 200</size></plane></geometry>
+        </collision>
+        <visual name="visual">
+          <geometry><plane><normal>0 0 1</normal><size>200 200</size></plane></geometry>
+        </visual>
+      </link>
+    </model>
+)";
+
+std::string numbers(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : " ") + exact_text(value);
+  return text;
+}
+
+std::string model_element(const PileModel::Piece& piece, const std::string& mesh) {
+  const Vec3& t = piece.world_from_body.translation;
+  const Quat& q = piece.world_from_body.rotation;
+  const std::string geometry =
+      "          <geometry><mesh><uri>meshes/" + xml_text(mesh) + ".obj</uri><scale>" +
+      numbers({piece.scale, piece.scale, piece.scale}) + "</scale></mesh></geometry>\n";
+  return "    <model name=\"" + xml_text(piece.name) +
+         "\">\n      <static>true</static>\n      <pose rotation_format=\"quat_xyzw\">" +
+         numbers({t.x, t.y, t.z, q.x, q.y, q.z, q.w}) +
+         "</pose>\n      <link name=\"link\">\n        <collision name=\"collision\">\n" +
+         geometry + "        </collision>\n        <visual name=\"visual\">\n" + geometry +
+         "        </visual>\n      </link>\n    </model>\n";
+}
+
+// The mesh of a type, in the frame of its body.
+std::string mesh_obj(const PileModel& model, std::uint32_t type) {
+  PileModel::Piece piece;
+  piece.type = type;
+  piece.name = model.types[type].name;
+  const TriangleMesh& mesh = *model.types[type].mesh;
+  std::string text = "# Rubble: metres, right-handed, Z up\nmtllib materials.mtl\n";
+  std::size_t vertices = 0, normals = 0;
+  put_obj_object(text, piece, mesh, weld(mesh), vertices, normals);
+  return text;
+}
+
+}  // namespace
+
+void write_sdf(const std::string& folder, const PileModel& model) {
+  FolderWriter files(folder, {"meshes"}, 1);
+  std::string world = kBegin;
+  for (const PileModel::Piece& piece : model.pieces)
+    world += model_element(piece, model.types[piece.type].name);
+  world += "  </world>\n</sdf>\n";
+  files.write("pile.sdf", world);
+  files.write("meshes/materials.mtl", make_mtl(model));
+  for (std::uint32_t type = 0; type < model.types.size(); ++type)
+    files.write("meshes/" + model.types[type].name + ".obj", mesh_obj(model, type));
+  files.finish();
+}
+
+}  // namespace rubble

@@ -1,0 +1,30 @@
+// An MRPT 2.5 rawlog of observations, with its pictures inside.
+//
+// Each frame is two observations with one stamp: a CObservationRobotPose labelled `ground_truth`
+// (the camera body in the world), then a CObservation3DRangeScan labelled `camera` that stands at
+// the robot's origin (sensor frame: X forward, Y left, Z up) with planar depth and colour. Where
+// the recording has them: before these CObservationIMU `imu`; after them a scan
+// `ground_truth_depth` (the exact depth, when `camera` has that of a sensor) and a
+// CObservationImage `camera_right`. MRPT's clock ticks every 100 ns: stamps are rounded down to
+// that.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "io/recording/recorder.h"
+#include "io/recording/recording.h"
+
+namespace rubble {
+
+struct RawlogOptions {
+  int gzip_level = 0;         // 0 to 9; 1 halves the file and takes 3.5 times the CPU time
+  double depth_unit = 0.001;  // of the stored integers, up to 65535 of them; unit: m; > 0
+  Recording recording;
+};
+
+// Throws RunError when `path` cannot be created.
+std::unique_ptr<Recorder> make_rawlog_recorder(const std::string& path,
+                                               const RawlogOptions& options = {});
+
+}  // namespace rubble

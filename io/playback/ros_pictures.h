@@ -1,0 +1,13 @@
+// Pictures out of ROS bags and MCAP files: for io/playback/recorded_picture.cpp.
+#pragma once
+
+#include "io/playback/recorded_picture.h"
+
+namespace rubble {
+
+// Raw pictures (sensor_msgs/Image) alone. name: "mission.bag" or "mission.mcap". Nothing: it has no
+// such topic, or not so many frames before the first fault. Throws InputError: no such file.
+std::optional<RecordedPicture> find_ros_picture(const std::string& folder, const std::string& name,
+                                                const PictureWanted& wanted);
+
+}  // namespace rubble

@@ -1,0 +1,25 @@
+// preview.png: some frames of a recording at a glance, colour beside depth.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "io/recording/recorder.h"
+
+namespace rubble {
+
+struct ContactSheetOptions {
+  int total_frames = 0;  // how many will come, so that the chosen ones spread evenly; > 0
+  int shown = 12;        // pairs on the sheet at most; range: 1 to 100
+  int columns = 3;       // pairs a row; range: 1 to 10
+  int tile = 320;        // width of one picture; unit: pixel; range: 64 to 2048
+  std::string title;     // printed at the top; ASCII
+};
+
+// The first and the last frame are always among the shown. All depth pictures share one logarithmic
+// scale, printed at the bottom: warm is near, cold is far, grey is no return.
+// Throws InputError for options out of range, RunError when `path` cannot be created.
+std::unique_ptr<Recorder> make_contact_sheet_recorder(const std::string& path,
+                                                      const ContactSheetOptions& options);
+
+}  // namespace rubble

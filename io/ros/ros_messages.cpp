@@ -1,0 +1,142 @@
+#include "io/ros/ros_messages.h"
+
+namespace rubble::ros {
+namespace {
+
+void put_header(Wire& out, const Header& header) {
+  if (out.version() == Version::ros1) out.number(header.sequence);
+  out.time(header.stamp_ns);
+  out.text(header.frame);
+}
+
+void put_vector(Wire& out, const Vec3& v) {
+  for (int i = 0; i < 3; ++i) out.number(v[i]);
+}
+
+void put_pose(Wire& out, const Pose& pose) {
+  put_vector(out, pose.translation);
+  const Quat& q = pose.rotation;
+  for (const double value : {q.x, q.y, q.z, q.w}) out.number(value);
+}
+
+void put_diagonal(Wire& out, double value) {
+  for (int i = 0; i < 9; ++i) out.number(i % 4 == 0 ? value : 0.0);
+}
+
+std::size_t pixels_of(const Intrinsics& k) {
+  return static_cast<std::size_t>(k.width) * static_cast<std::size_t>(k.height);
+}
+
+}  // namespace
+
+std::string type_name(const MessageType& type, Version version) {
+  return std::string(type.package) + (version == Version::ros1 ? "/" : "/msg/") + type.name;
+}
+
+std::string clock(Version version, std::int64_t stamp_ns) {
+  Wire out(version);
+  out.time(stamp_ns);
+  return out.take();
+}
+
+std::string string(Version version, std::string_view text) {
+  Wire out(version, text.size() + 16);
+  out.text(text);
+  return out.take();
+}
+
+std::string image(Version version, const Header& header, const Intrinsics& intrinsics,
+                  const std::string& encoding, int bytes_per_pixel, const void* data) {
+  const auto width = static_cast<std::uint32_t>(intrinsics.width);
+  const auto step = width * static_cast<std::uint32_t>(bytes_per_pixel);
+  const std::size_t size = pixels_of(intrinsics) * static_cast<std::size_t>(bytes_per_pixel);
+  Wire out(version, size + 128);
+  put_header(out, header);
+  out.number(static_cast<std::uint32_t>(intrinsics.height));
+  out.number(width);
+  out.text(encoding);
+  out.boolean(false);  // is_bigendian
+  out.number(step);
+  out.blob({static_cast<const char*>(data), size});
+  return out.take();
+}
+
+std::string compressed_image(Version version, const Header& header, const std::string& format,
+                             std::string_view bytes) {
+  Wire out(version, bytes.size() + 128);
+  put_header(out, header);
+  out.text(format);
+  out.blob(bytes);
+  return out.take();
+}
+
+std::string camera_info(Version version, const Header& header, const Intrinsics& intrinsics,
+                        double baseline) {
+  const Intrinsics& k = intrinsics;
+  Wire out(version, 512);
+  put_header(out, header);
+  out.number(static_cast<std::uint32_t>(k.height));
+  out.number(static_cast<std::uint32_t>(k.width));
+  const bool fisheye = k.lens == LensModel::fisheye;
+  out.text(fisheye ? "equidistant" : "plumb_bob");
+  const std::size_t coefficients = fisheye ? 4 : k.distortion.size();
+  out.count(coefficients);
+  for (std::size_t i = 0; i < coefficients; ++i) out.number(k.distortion[i]);
+  for (const double v : {k.fx, 0.0, k.cx, 0.0, k.fy, k.cy, 0.0, 0.0, 1.0}) out.number(v);
+  for (const double v : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) out.number(v);
+  const double shift = baseline == 0 ? 0.0 : -k.fx * baseline;
+  for (const double v : {k.fx, 0.0, k.cx, shift, 0.0, k.fy, k.cy, 0.0, 0.0, 0.0, 1.0, 0.0})
+    out.number(v);
+  for (int i = 0; i < 6; ++i) out.number(std::uint32_t{0});  // no binning, no region of interest
+  out.boolean(false);                                        // do_rectify
+  return out.take();
+}
+
+std::string pose_stamped(Version version, const Header& header, const Pose& pose) {
+  Wire out(version);
+  put_header(out, header);
+  put_pose(out, pose);
+  return out.take();
+}
+
+std::string transforms(Version version, const Header& header, const std::vector<Transform>& list) {
+  Wire out(version);
+  out.count(list.size());
+  for (const Transform& transform : list) {
+    put_header(out, header);
+    out.text(transform.child);
+    put_pose(out, transform.pose);
+  }
+  return out.take();
+}
+
+std::string imu(Version version, const Header& header, const ImuSample& sample,
+                double angular_variance, double acceleration_variance) {
+  Wire out(version, 384);
+  put_header(out, header);
+  for (const double value : {0.0, 0.0, 0.0, 1.0}) out.number(value);
+  for (int i = 0; i < 9; ++i) out.number(i == 0 ? -1.0 : 0.0);  // -1: no orientation
+  put_vector(out, sample.angular_velocity);
+  put_diagonal(out, angular_variance);
+  put_vector(out, sample.linear_acceleration);
+  put_diagonal(out, acceleration_variance);
+  return out.take();
+}
+
+std::string event_array(Version version, const Header& header, const Intrinsics& intrinsics,
+                        const std::vector<Event>& events) {
+  Wire out(version, 128 + 16 * events.size());
+  put_header(out, header);
+  out.number(static_cast<std::uint32_t>(intrinsics.height));
+  out.number(static_cast<std::uint32_t>(intrinsics.width));
+  out.count(events.size());
+  for (const Event& event : events) {
+    out.number(event.x);
+    out.number(event.y);
+    out.time(event.stamp_ns);
+    out.boolean(event.brighter);
+  }
+  return out.take();
+}
+
+}  // namespace rubble::ros

@@ -1,0 +1,65 @@
+// The messages of a recording in the wire formats of ROS 1 and ROS 2, with the names, definitions
+// and MD5 sums by which other programs know them. Quaternions go out in ROS's order, x y z w, here
+// alone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/ros/ros_wire.h"
+#include "kernel/base/math.h"
+#include "render/scene/frame.h"
+
+namespace rubble::ros {
+
+struct MessageType {
+  const char* package;
+  const char* name;         // ROS 1: "package/name"; ROS 2: "package/msg/name"
+  const char* md5;          // ROS 1
+  const char* definition1;  // of ROS 1, with all types in it
+  const char* definition2;  // of ROS 2, as ros2msg
+};
+extern const MessageType kImage, kCompressedImage, kCameraInfo, kPoseStamped, kTfMessage, kClock,
+    kImu, kEventArray, kString;
+
+std::string type_name(const MessageType& type, Version version);
+
+struct Header {
+  std::uint32_t sequence = 0;  // ROS 1 alone
+  std::int64_t stamp_ns = 0;
+  std::string frame;
+};
+
+std::string clock(Version version, std::int64_t stamp_ns);
+std::string string(Version version, std::string_view text);
+// encoding: one of ROS's, such as "rgb8" or "32FC1", whose pixels `data` holds row by row,
+// little-endian.
+std::string image(Version version, const Header& header, const Intrinsics& intrinsics,
+                  const std::string& encoding, int bytes_per_pixel, const void* data);
+// `format` as image_transport writes it, such as "rgb8; jpeg compressed bgr8".
+std::string compressed_image(Version version, const Header& header, const std::string& format,
+                             std::string_view bytes);
+// baseline: for the right camera of a pair, its distance from the left one (unit: m), which ROS
+// keeps as P[3] = -fx * baseline; 0 otherwise.
+std::string camera_info(Version version, const Header& header, const Intrinsics& intrinsics,
+                        double baseline = 0);
+std::string pose_stamped(Version version, const Header& header, const Pose& pose);
+// Each takes coordinates of `child` to the header's frame. What is latched must be one message: a
+// late subscriber gets only the last.
+struct Transform {
+  std::string child;
+  Pose pose;
+};
+std::string transforms(Version version, const Header& header, const std::vector<Transform>& list);
+// Without an orientation, as REP 145 wants it of a unit that measures none. Variances: of one
+// sample, the same for all axes; units: (rad/s)^2 and (m/s2)^2.
+std::string imu(Version version, const Header& header, const ImuSample& sample,
+                double angular_variance, double acceleration_variance);
+// dvs_msgs/EventArray, as drivers of event cameras publish.
+std::string event_array(Version version, const Header& header, const Intrinsics& intrinsics,
+                        const std::vector<Event>& events);
+
+}  // namespace rubble::ros

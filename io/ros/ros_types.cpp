@@ -1,0 +1,84 @@
+// Names, sums and definitions of the messages: what makes a recording readable without ROS. The
+// definitions are those of ROS's packages, less their comments; ROS 1 sums up fields, not comments.
+#include "io/ros/ros_messages.h"
+
+#define SECTION(type)                                                                            \
+  "================================================================================\nMSG: " type \
+  "\n"
+
+#define POINT "float64 x\nfloat64 y\nfloat64 z\n"
+#define QUATERNION \
+  SECTION("geometry_msgs/Quaternion") "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"
+#define REGION                            \
+  SECTION("sensor_msgs/RegionOfInterest") \
+  "uint32 x_offset\nuint32 y_offset\nuint32 height\nuint32 width\nbool do_rectify\n"
+#define POSE                    \
+  SECTION("geometry_msgs/Pose") \
+  "Point position\nQuaternion orientation\n" SECTION("geometry_msgs/Point") POINT QUATERNION
+#define TRANSFORM                    \
+  SECTION("geometry_msgs/Transform") \
+  "Vector3 translation\nQuaternion rotation\n" SECTION("geometry_msgs/Vector3") POINT QUATERNION
+
+#define HEADER1 SECTION("std_msgs/Header") "uint32 seq\ntime stamp\nstring frame_id\n"
+#define TIME2 SECTION("builtin_interfaces/Time") "int32 sec\nuint32 nanosec\n"
+#define HEADER2 SECTION("std_msgs/Header") "builtin_interfaces/Time stamp\nstring frame_id\n" TIME2
+
+// Fields that are the same in both.
+#define IMAGE                                                                 \
+  "uint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\nuint32 " \
+  "step\nuint8[] data\n"
+#define COMPRESSED "string format\nuint8[] data\n"
+#define CALIBRATION(d, k, r, p)                                                          \
+  "uint32 height\nuint32 width\nstring distortion_model\nfloat64[] " d "\nfloat64[9] " k \
+  "\nfloat64[9] " r "\nfloat64[12] " p                                                   \
+  "\nuint32 binning_x\nuint32 binning_y\nRegionOfInterest roi\n"
+#define INERTIAL                                                                     \
+  "geometry_msgs/Quaternion orientation\nfloat64[9] orientation_covariance\n"        \
+  "geometry_msgs/Vector3 angular_velocity\nfloat64[9] angular_velocity_covariance\n" \
+  "geometry_msgs/Vector3 linear_acceleration\nfloat64[9] linear_acceleration_covariance\n"
+#define EVENTS "uint32 height\nuint32 width\nEvent[] events\n"
+#define VECTOR SECTION("geometry_msgs/Vector3") POINT
+
+namespace rubble::ros {
+
+const MessageType kClock{"rosgraph_msgs", "Clock", "a9c97c1d230cfc112e270351a944ee47",
+                         "time clock\n", "builtin_interfaces/Time clock\n" TIME2};
+
+const MessageType kString{"std_msgs", "String", "992ce8a1687cec8c8bd883ec73ca41d1", "string data\n",
+                          "string data\n"};
+
+const MessageType kImage{"sensor_msgs", "Image", "060021388200f6f0f447d0fcd9c64743",
+                         "Header header\n" IMAGE HEADER1, "std_msgs/Header header\n" IMAGE HEADER2};
+
+const MessageType kCompressedImage{
+    "sensor_msgs", "CompressedImage", "8f7a12909da2c9d3332d540a0977563f",
+    "Header header\n" COMPRESSED HEADER1, "std_msgs/Header header\n" COMPRESSED HEADER2};
+
+const MessageType kCameraInfo{"sensor_msgs", "CameraInfo", "c9a58c1b0b154e0e6da7578cb991d214",
+                              "Header header\n" CALIBRATION("D", "K", "R", "P") HEADER1 REGION,
+                              "std_msgs/Header header\n" CALIBRATION("d", "k", "r", "p")
+                                  HEADER2 REGION};
+
+const MessageType kPoseStamped{"geometry_msgs", "PoseStamped", "d3812c3cbc69362b77dc0b19b345f8f5",
+                               "Header header\nPose pose\n" HEADER1 POSE,
+                               "std_msgs/Header header\nPose pose\n" HEADER2 POSE};
+
+const MessageType kTfMessage{
+    "tf2_msgs", "TFMessage", "94810edda583a504dfda3829e70d7eec",
+    "geometry_msgs/TransformStamped[] transforms\n" SECTION("geometry_msgs/TransformStamped")
+        "Header header\nstring child_frame_id\nTransform transform\n" HEADER1 TRANSFORM,
+    "geometry_msgs/TransformStamped[] transforms\n" SECTION("geometry_msgs/TransformStamped")
+        "std_msgs/Header header\nstring child_frame_id\nTransform transform\n" HEADER2 TRANSFORM};
+
+const MessageType kImu{"sensor_msgs", "Imu", "6a62c6daae103f4ff57a132d6f95cec2",
+                       "Header header\n" INERTIAL HEADER1 QUATERNION VECTOR,
+                       "std_msgs/Header header\n" INERTIAL HEADER2 QUATERNION VECTOR};
+
+const MessageType kEventArray{
+    "dvs_msgs", "EventArray", "5e8beee5a6c107e504c2e78903c224b8",
+    "Header header\n" EVENTS HEADER1 SECTION(
+        "dvs_msgs/Event") "uint16 x\nuint16 y\ntime ts\nbool polarity\n",
+    "std_msgs/Header header\n" EVENTS HEADER2 SECTION(
+        "dvs_msgs/Event") "uint16 x\nuint16 y\nbuiltin_interfaces/Time ts\nbool polarity\n"};
+
+}  // namespace rubble::ros

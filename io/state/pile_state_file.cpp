@@ -1,0 +1,178 @@
+#include "io/state/pile_state_file.h"
+
+#include <cmath>
+#include <initializer_list>
+
+#include "io/base/little_endian.h"
+#include "io/base/sealed_file.h"
+
+namespace rubble {
+namespace {
+
+constexpr SealedKind kKind{"RUBPILE\n", kPileStateVersion, "pile state",
+                           "a pile state is the pile.bin of a run",
+                           "settle the pile again, or use the program that wrote it"};
+constexpr double kFarthest = 1e6;  // of a piece from the origin; unit: m
+constexpr std::size_t kPieceSize = 2 * 4 + 14 * 8 + 1;   // unit: byte
+constexpr std::size_t kJointSize = 2 * 4 + 1 + 19 * 8;  // unit: byte
+
+void put_vector(std::string& bytes, const Vec3& v) {
+  for (int i = 0; i < 3; ++i) put(bytes, v[i]);
+}
+
+void put_piece(std::string& bytes, const PieceState& piece) {
+  put(bytes, piece.type);
+  put(bytes, piece.layer);
+  put(bytes, piece.scale);
+  const Quat& q = piece.world_from_body.rotation;
+  for (const double c : {q.w, q.x, q.y, q.z}) put(bytes, c);
+  put_vector(bytes, piece.world_from_body.translation);
+  put_vector(bytes, piece.linear_velocity);
+  put_vector(bytes, piece.angular_velocity);
+  put(bytes, static_cast<std::uint8_t>(piece.status));
+}
+
+void put_rotation(std::string& bytes, const Quat& q) {
+  for (const double c : {q.w, q.x, q.y, q.z}) put(bytes, c);
+}
+
+void put_joint(std::string& bytes, const JointState& joint) {
+  put(bytes, joint.parent);
+  put(bytes, joint.child);
+  put(bytes, static_cast<std::uint8_t>(joint.kind));
+  for (const Pose* pose : {&joint.parent_from_joint, &joint.child_from_joint}) {
+    put_rotation(bytes, pose->rotation);
+    put_vector(bytes, pose->translation);
+  }
+  put(bytes, joint.rest);
+  put_rotation(bytes, joint.rest_rotation);
+}
+
+std::string make_content(const PileState& state) {
+  std::string bytes;
+  put(bytes, static_cast<std::uint32_t>(state.types.size()));
+  for (const std::string& name : state.types) {
+    put(bytes, static_cast<std::uint32_t>(name.size()));
+    bytes += name;
+  }
+  put(bytes, state.steps);
+  put(bytes, state.simulated);
+  put(bytes, static_cast<std::uint8_t>(state.settled));
+  put(bytes, static_cast<std::int32_t>(state.layers_at_limit));
+  put(bytes, static_cast<std::int32_t>(state.lost));
+  put(bytes, static_cast<std::uint64_t>(state.pieces.size()));
+  for (const PieceState& piece : state.pieces) put_piece(bytes, piece);
+  put(bytes, static_cast<std::uint32_t>(state.joints.size()));
+  for (const JointState& joint : state.joints) put_joint(bytes, joint);
+  return bytes;
+}
+
+// A number that is none would end the program in a stage that has no words for it.
+void check_finite(const SealedReader& reader, std::initializer_list<double> numbers,
+                  const char* what) {
+  for (const double number : numbers)
+    if (!std::isfinite(number)) reader.fail(std::string(what) + " has a number that is not finite");
+}
+
+void check_pose(const SealedReader& reader, const Pose& pose, const char* what) {
+  const Quat& q = pose.rotation;
+  const Vec3& t = pose.translation;
+  check_finite(reader, {q.w, q.x, q.y, q.z, t.x, t.y, t.z}, what);
+  const double length = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  if (std::abs(length - 1) > 0.01) reader.fail(std::string(what) + " has no rotation of length 1");
+}
+
+PieceState read_piece(SealedReader& reader, std::size_t type_count) {
+  PieceState p;
+  p.type = reader.number<std::int32_t>();
+  p.layer = reader.number<std::int32_t>();
+  p.scale = reader.number<double>();
+  Quat& q = p.world_from_body.rotation;
+  for (double* c : {&q.w, &q.x, &q.y, &q.z}) *c = reader.number<double>();
+  p.world_from_body.translation = reader.vector();
+  p.linear_velocity = reader.vector();
+  p.angular_velocity = reader.vector();
+  const auto status = reader.number<std::uint8_t>();
+  if (status > static_cast<std::uint8_t>(PieceStatus::lost)) {
+    reader.fail("a piece has no known status");
+  }
+  p.status = static_cast<PieceStatus>(status);
+  check_pose(reader, p.world_from_body, "a piece");
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(p.world_from_body.translation[i]) > kFarthest) reader.fail("a piece is too far away");
+  const Vec3 &v = p.linear_velocity, &w = p.angular_velocity;
+  check_finite(reader, {p.scale, v.x, v.y, v.z, w.x, w.y, w.z}, "a piece");
+  if (!(p.scale > 0 && p.scale < kFarthest)) reader.fail("a piece has no sensible scale");
+  if (p.type < 0 || static_cast<std::size_t>(p.type) >= type_count) {
+    reader.fail("a piece is of a type that the pile does not have");
+  }
+  return p;
+}
+
+Quat read_rotation(SealedReader& reader) {
+  Quat q;
+  for (double* c : {&q.w, &q.x, &q.y, &q.z}) *c = reader.number<double>();
+  return q;
+}
+
+JointState read_joint(SealedReader& reader, std::uint64_t piece_count) {
+  JointState joint;
+  joint.parent = reader.number<std::int32_t>();
+  joint.child = reader.number<std::int32_t>();
+  const auto kind = reader.number<std::uint8_t>();
+  for (Pose* pose : {&joint.parent_from_joint, &joint.child_from_joint}) {
+    pose->rotation = read_rotation(reader);
+    pose->translation = reader.vector();
+  }
+  joint.rest = reader.number<double>();
+  joint.rest_rotation = read_rotation(reader);
+  check_pose(reader, joint.parent_from_joint, "a joint");
+  check_pose(reader, joint.child_from_joint, "a joint");
+  check_pose(reader, {joint.rest_rotation, {}}, "a joint");
+  check_finite(reader, {joint.rest}, "a joint");
+  if (kind >= kJointKinds) reader.fail("a joint has no known kind");
+  joint.kind = static_cast<JointKind>(kind);
+  for (const std::int32_t piece : {joint.parent, joint.child}) {
+    if (piece < 0 || std::uint64_t(piece) >= piece_count) {
+      reader.fail("a joint holds a piece that the pile does not have");
+    }
+  }
+  return joint;
+}
+
+PileState parse_content(std::string_view content, const std::string& path) {
+  SealedReader reader(kKind, content, path);
+  PileState state;
+  const auto types = reader.number<std::uint32_t>();
+  for (std::uint32_t i = 0; i < types; ++i) state.types.push_back(reader.text());
+  state.steps = reader.number<std::int64_t>();
+  state.simulated = reader.number<double>();
+  check_finite(reader, {state.simulated}, "the pile");
+  state.settled = reader.number<std::uint8_t>() != 0;
+  state.layers_at_limit = reader.number<std::int32_t>();
+  state.lost = reader.number<std::int32_t>();
+  const auto pieces = reader.number<std::uint64_t>();
+  if (pieces > reader.left() / kPieceSize) {
+    reader.fail("the pile state does not hold as many pieces as it says");
+  }
+  state.pieces.reserve(pieces);
+  for (std::uint64_t i = 0; i < pieces; ++i) state.pieces.push_back(read_piece(reader, types));
+  const auto joints = reader.number<std::uint32_t>();
+  if (joints != reader.left() / kJointSize || reader.left() % kJointSize != 0) {
+    reader.fail("the pile state does not hold as many joints as it says");
+  }
+  for (std::uint32_t i = 0; i < joints; ++i) state.joints.push_back(read_joint(reader, pieces));
+  return state;
+}
+
+}  // namespace
+
+void save_pile_state(const PileState& state, const std::string& path) {
+  save_sealed(kKind, make_content(state), path);
+}
+
+PileState load_pile_state(const std::string& path) {
+  return parse_content(load_sealed(kKind, path), path);
+}
+
+}  // namespace rubble

@@ -1,0 +1,29 @@
+// A settled pile as a file: pile.bin. What is loaded equals what was saved bit for bit.
+//
+// In the envelope of io/base/sealed_file.h, kind "RUBPILE\n":
+//   u32 count of types, each u32 length + UTF-8 name;
+//   i64 steps, f64 simulated s, u8 settled, i32 layers_at_limit, i32 lost;
+//   u64 count of pieces, each: i32 type, i32 layer, f64 scale, f64 rotation w x y z,
+//       f64 translation x y z, f64 linear velocity x y z, f64 angular velocity x y z, u8 status;
+//   u32 count of joints, each: i32 parent, i32 child, u8 kind, the poses of the joint in the frames
+//       of the two pieces, f64 rotation w x y z and translation x y z each, f64 rest, f64 rest
+//       rotation w x y z
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "kernel/model/pile_state.h"
+
+namespace rubble {
+
+inline constexpr std::uint32_t kPileStateVersion = 2;
+
+// Throws RunError when the file cannot be written.
+void save_pile_state(const PileState& state, const std::string& path);
+
+// Throws InputError for a missing, foreign, truncated or altered file, another version, and
+// numbers that are not finite.
+PileState load_pile_state(const std::string& path);
+
+}  // namespace rubble

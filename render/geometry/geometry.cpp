@@ -1,0 +1,192 @@
+#include "render/geometry/geometry.h"
+
+#include <cstring>
+
+#include "kernel/base/error.h"
+#include "kernel/base/parallel.h"
+#include "kernel/base/random.h"
+
+namespace rubble {
+
+namespace {
+
+std::uint32_t longest_axis(const PreparedMesh& mesh) {
+  Vec3f low = mesh.vertices.front().position, high = low;
+  for (const PreparedVertex& v : mesh.vertices)
+    low = min(low, v.position), high = max(high, v.position);
+  const Vec3f size = high - low;
+  if (size.x >= size.y && size.x >= size.z) return 0;
+  return size.y >= size.z ? 1 : 2;
+}
+
+void place(PreparedScene& out, PlacedMesh piece, std::uint32_t axis, RandomStream& random) {
+  const PreparedMesh& mesh = out.meshes[piece.mesh];
+  piece.centre = Vec3f(piece.world_from_mesh * (Vec3(mesh.centre) * piece.scale));
+  piece.radius = float(mesh.radius * piece.scale);
+  piece.first_flag = std::uint32_t(out.cluster_flags);
+  piece.first_light = std::uint32_t(out.light_vertices);
+  piece.look_seed = {std::uint32_t(random.next() >> 32),
+                     (std::uint32_t(random.next() >> 32) & ~3u) | axis};
+  out.cluster_flags += mesh.levels.front().cluster_count;
+  out.light_vertices += mesh.vertices.size();
+  if (piece.id != kGroundId) {
+    const Vec3 reach = Vec3(1, 1, 1) * double(piece.radius);
+    out.bounds.include(Vec3(piece.centre) - reach);
+    out.bounds.include(Vec3(piece.centre) + reach);
+  }
+  out.placed.push_back(piece);
+}
+
+std::uint32_t float_bits(float x) {
+  std::uint32_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+
+// Octahedral normal in two 16-bit signed parts (Cigolle et al. 2014).
+std::uint32_t pack_normal(const Vec3f& n) {
+  const float sum = std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z);
+  if (sum == 0) return 0x7fff;
+  float u = n.x / sum, v = n.y / sum;
+  if (n.z < 0) {
+    const float w = (1 - std::fabs(v)) * (u >= 0 ? 1.0f : -1.0f);
+    v = (1 - std::fabs(u)) * (v >= 0 ? 1.0f : -1.0f);
+    u = w;
+  }
+  const auto part = [](float x) { return std::uint32_t(std::lround(x * 32767.0f)) & 0xffffu; };
+  return part(u) | part(v) << 16;
+}
+
+using Texel = std::array<std::uint32_t, 4>;
+
+void append_placed(const PlacedMesh& piece, std::uint32_t first_vertex, std::vector<Texel>& out) {
+  // Rows of mesh_from_world.
+  const Pose inverse = piece.world_from_mesh.inverse();
+  const Mat3 r = inverse.rotation.matrix() * (1 / piece.scale);
+  const Vec3 t = inverse.translation * (1 / piece.scale);
+  for (int i = 0; i < 3; ++i)
+    out.push_back({float_bits(float(r.rows[i].x)), float_bits(float(r.rows[i].y)),
+                   float_bits(float(r.rows[i].z)), float_bits(float(t[i]))});
+  out.push_back({float_bits(float(piece.scale)), piece.first_light - first_vertex,
+                 piece.look_seed[0], piece.look_seed[1]});
+}
+
+}  // namespace
+
+PreparedScene prepare_scene(const Scene& scene, int threads) {
+  PreparedScene out;
+  out.meshes.resize(scene.meshes.size());
+  parallel_for(scene.meshes.size(), threads, [&](std::size_t i) {
+    if (!scene.meshes[i]) throw RunError("the scene has a mesh without data");
+    out.meshes[i] = prepare_mesh(*scene.meshes[i]);
+  });
+  std::vector<std::uint32_t> axes;
+  for (const PreparedMesh& mesh : out.meshes) axes.push_back(longest_axis(mesh));
+  RandomStream random(scene.seed, "render.looks");
+  for (const SceneInstance& instance : scene.instances) {
+    if (instance.mesh >= out.meshes.size())
+      throw RunError("an instance of the scene refers to mesh " + std::to_string(instance.mesh) +
+                     " of " + std::to_string(out.meshes.size()));
+    PlacedMesh piece;
+    piece.mesh = instance.mesh;
+    piece.scale = double(instance.scale);
+    piece.world_from_mesh = instance.world_from_body;
+    piece.id = instance.id;
+    piece.label = instance.label;
+    place(out, piece, axes[instance.mesh], random);
+  }
+  if (scene.ground) {
+    out.meshes.push_back(prepare_ground(out.bounds));
+    PlacedMesh ground;
+    ground.mesh = std::uint32_t(out.meshes.size() - 1);
+    ground.id = kGroundId;
+    ground.label = kGroundLabel;
+    place(out, ground, 0, random);
+  }
+  return out;
+}
+
+namespace {
+
+// Gives each triangle a last vertex of its own, by which a drawn pixel tells its triangle: cheaper
+// than gl_PrimitiveID, for which software drivers leave their fast path. A vertex that is taken is
+// copied to the end of the table. Entry v of the triangle table is the triangle whose last vertex
+// is v, by its vertices before copying.
+class TriangleNamer {
+ public:
+  TriangleNamer(std::vector<Texel>& vertices, std::vector<Texel>& triangles)
+      : vertices_(vertices), triangles_(triangles), taken_(vertices.size(), false) {
+    triangles_.assign(vertices.size(), Texel{});
+  }
+
+  std::array<std::uint32_t, 3> name(std::array<std::uint32_t, 3> t, std::uint32_t material) {
+    for (int turn = 0; turn < 3 && taken_[t[2]]; ++turn) t = {t[1], t[2], t[0]};
+    const Texel entry{t[0], t[1], t[2], material};
+    if (taken_[t[2]]) {
+      vertices_.push_back(vertices_[t[2]]);
+      triangles_.push_back(entry);
+      return {t[0], t[1], std::uint32_t(vertices_.size() - 1)};
+    }
+    taken_[t[2]] = true;
+    triangles_[t[2]] = entry;
+    return t;
+  }
+
+ private:
+  std::vector<Texel>& vertices_;
+  std::vector<Texel>& triangles_;
+  std::vector<bool> taken_;
+};
+
+}  // namespace
+
+GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
+                            const std::vector<BakedLight>& light) {
+  static_assert(sizeof(BakedLight) == 8, "shaders read it as two 32-bit words");
+  GpuGeometry out;
+  std::vector<Texel> vertices, triangles, placed;
+  std::vector<std::uint32_t> indices, first_vertex;
+  for (const PreparedMesh& mesh : scene.meshes) {
+    first_vertex.push_back(std::uint32_t(vertices.size()));
+    for (const PreparedVertex& v : mesh.vertices)
+      vertices.push_back({float_bits(v.position.x), float_bits(v.position.y),
+                          float_bits(v.position.z), pack_normal(v.normal)});
+  }
+  TriangleNamer namer(vertices, triangles);
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    out.first_index.push_back(std::uint32_t(indices.size()));
+    for (const PreparedTriangle& t : scene.meshes[m].triangles) {
+      const auto& i = t.vertices;
+      const std::uint32_t base = first_vertex[m];
+      const auto named = namer.name({base + i[0], base + i[1], base + i[2]}, t.material);
+      indices.insert(indices.end(), named.begin(), named.end());
+      out.name_of_triangle.push_back(named[2]);
+    }
+  }
+  out.triangle_of_name.resize(vertices.size());
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+    for (std::uint32_t t = 0; t < scene.meshes[m].triangles.size(); ++t)
+      out.triangle_of_name[out.name_of_triangle[out.first_index[m] / 3 + t]] = t;
+  for (const PlacedMesh& piece : scene.placed)
+    append_placed(piece, first_vertex[piece.mesh], placed);
+  out.vertices = make_buffer(gl, vertices);
+  out.indices = make_buffer(gl, indices);
+  out.triangles = make_buffer(gl, triangles);
+  out.placed = make_buffer(gl, placed);
+  out.light = make_buffer(gl, light);
+  out.vertices_view = make_buffer_texture(gl, out.vertices, GL_RGBA32UI);
+  out.triangles_view = make_buffer_texture(gl, out.triangles, GL_RGBA32UI);
+  out.placed_view = make_buffer_texture(gl, out.placed, GL_RGBA32UI);
+  out.light_view = make_buffer_texture(gl, out.light, GL_RG32UI);
+  check_gl(gl, "uploading the scene's geometry");
+  GLint most = 0;
+  gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+  const std::size_t need =
+      std::max(std::max(vertices.size(), triangles.size()), std::max(placed.size(), light.size()));
+  if (need > std::size_t(most))
+    throw RunError("the scene needs tables of " + std::to_string(need) +
+                   " entries; this graphics device holds " + std::to_string(most));
+  return out;
+}
+
+}  // namespace rubble

@@ -1,0 +1,62 @@
+// The scene's geometry on the graphics device, and the lists of what to draw of it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/geometry/prepared_mesh.h"
+#include "render/gl/gl_objects.h"
+#include "render/scene/frame.h"
+#include "render/scene/scene.h"
+
+namespace rubble {
+
+// A placed mesh. Number 0 is the ground where the scene has one.
+struct PlacedMesh {
+  std::uint32_t mesh = 0;  // index into the prepared meshes
+  double scale = 1;
+  Pose world_from_mesh;
+  Vec3f centre;  // of its bounding sphere, in the world
+  float radius = 0;
+  std::uint32_t id = 0;           // piece number
+  std::uint16_t label = 0;        // class, as in Frame::label
+  std::uint32_t first_flag = 0;   // of its finest level's clusters, in per-cluster tables
+  std::uint32_t first_light = 0;  // of its vertices, in the table of baked light
+  std::array<std::uint32_t, 2> look_seed{};  // varies the look
+};
+
+inline constexpr std::uint32_t kGroundId = kGroundInstance;
+
+// Plain data: all prepared meshes and where they stand.
+struct PreparedScene {
+  std::vector<PreparedMesh> meshes;
+  std::vector<PlacedMesh> placed;
+  std::size_t cluster_flags = 0;   // clusters of the finest level over all placed meshes
+  std::size_t light_vertices = 0;  // entries of the table of baked light
+  Aabb bounds;                     // of all pieces, without the ground
+};
+PreparedScene prepare_scene(const Scene& scene, int threads);
+
+// Light that reaches a vertex, without the direct part of the main light and the lamp.
+struct BakedLight {
+  // Illuminance on a surface of normal n: dot(n, vector), as three half floats; then the share of
+  // red and of blue, 0 to 255 for 0 to 1 times the sum of the three colours.
+  std::uint16_t x = 0, y = 0, z = 0;
+  std::uint8_t red = 85, blue = 85;
+};
+
+// What the shaders read. Binding points are in shaders/geometry.glsl.
+struct GpuGeometry {
+  GlBuffer vertices, indices, triangles, placed, light;
+  GlTexture vertices_view, triangles_view, placed_view, light_view;
+  std::vector<std::uint32_t> first_index;  // of each prepared mesh, in `indices`
+  // A drawn pixel names its triangle by that triangle's last vertex, which is its own. From the
+  // name to the triangle's number in its prepared mesh, and back: name of triangle t of mesh m is
+  // name_of_triangle[first_index[m] / 3 + t].
+  std::vector<std::uint32_t> triangle_of_name, name_of_triangle;
+};
+GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
+                            const std::vector<BakedLight>& light);
+
+}  // namespace rubble

@@ -1,0 +1,267 @@
+#include "render/geometry/prepared_mesh.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "kernel/base/error.h"
+#include "render/geometry/mesh_refine.h"
+#include "render/materials/surface_appearance.h"
+
+namespace rubble {
+
+namespace {
+
+// Longest edge, for light that varies along a face: but not more than some thousand triangles for
+// the sake of it.
+constexpr float kLongestEdge = 0.3f;  // unit: m
+constexpr float kEdgeShare = 0.08f;   // of a large mesh's radius
+constexpr std::size_t kClusterTriangles = 64;
+constexpr std::size_t kMaxBakePoints = 65535;
+
+std::vector<std::uint32_t> material_table(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> table;
+  for (const std::string& name : mesh.surface_names) table.push_back(find_look(name));
+  if (table.empty()) table.push_back(find_look("concrete_cast"));
+  return table;
+}
+
+// Interleaves the low 10 bits of three numbers.
+std::uint32_t morton(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  std::uint32_t code = 0;
+  for (int bit = 0; bit < 10; ++bit)
+    code |= ((x >> bit & 1u) << (3 * bit)) | ((y >> bit & 1u) << (3 * bit + 1)) |
+            ((z >> bit & 1u) << (3 * bit + 2));
+  return code;
+}
+
+int dominant_direction(const Vec3f& n) {
+  const float ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
+  if (ax >= ay && ax >= az) return n.x > 0 ? 0 : 1;
+  if (ay >= az) return n.y > 0 ? 2 : 3;
+  return n.z > 0 ? 4 : 5;
+}
+
+Vec3f face_normal(const PreparedMesh& mesh, const PreparedTriangle& t) {
+  const Vec3f& a = mesh.vertices[t.vertices[0]].position;
+  return normalized(
+      cross(mesh.vertices[t.vertices[1]].position - a, mesh.vertices[t.vertices[2]].position - a));
+}
+
+// A box around the points, and a sphere of the same centre; both a little larger, for rounding.
+void find_bounds(const std::vector<Vec3f>& points, Vec3f& centre, Vec3f& half, float& radius) {
+  Vec3f low = points.front(), high = points.front();
+  for (const Vec3f& p : points) low = min(low, p), high = max(high, p);
+  centre = (low + high) * 0.5f;
+  half = (high - low) * 0.50001f;
+  radius = 0;
+  for (const Vec3f& p : points) radius = std::max(radius, distance(p, centre));
+  radius *= 1.00001f;
+}
+
+Cluster make_cluster(const PreparedMesh& mesh, std::size_t first, std::size_t count) {
+  Cluster cluster;
+  cluster.first_triangle = std::uint32_t(first);
+  cluster.triangle_count = std::uint32_t(count);
+  std::vector<Vec3f> points, normals;
+  Vec3f sum;
+  for (std::size_t i = first; i < first + count; ++i) {
+    for (std::uint32_t v : mesh.triangles[i].vertices) points.push_back(mesh.vertices[v].position);
+    normals.push_back(face_normal(mesh, mesh.triangles[i]));
+    sum += normals.back();
+  }
+  find_bounds(points, cluster.centre, cluster.half, cluster.radius);
+  cluster.cone_axis = normalized(sum);
+  float cosine = 1;
+  for (const Vec3f& n : normals) cosine = std::min(cosine, dot(n, cluster.cone_axis));
+  cluster.cone_cosine = cosine > 0.05f ? cosine - 1e-4f : -1.0f;
+  return cluster;
+}
+
+// Sorts the triangles of a level by side and place, and cuts the list into clusters.
+void cluster_level(PreparedMesh& mesh, std::size_t first) {
+  PreparedLevel level;
+  level.first_cluster = std::uint32_t(mesh.clusters.size());
+  level.first_triangle = std::uint32_t(first);
+  level.triangle_count = std::uint32_t(mesh.triangles.size() - first);
+  struct Keyed {
+    std::uint64_t key;
+    PreparedTriangle triangle;
+  };
+  std::vector<Keyed> keyed;
+  const Vec3f low = mesh.centre - Vec3f(1, 1, 1) * mesh.radius;
+  const float scale = 1023.0f / (2 * std::max(mesh.radius, 1e-6f));
+  for (std::size_t i = first; i < mesh.triangles.size(); ++i) {
+    const PreparedTriangle& t = mesh.triangles[i];
+    Vec3f mid;
+    for (std::uint32_t v : t.vertices) mid += mesh.vertices[v].position * (1.0f / 3);
+    const Vec3f q = max((mid - low) * scale, Vec3f());
+    const std::uint64_t side = std::uint64_t(dominant_direction(face_normal(mesh, t)));
+    keyed.push_back(
+        {side << 32 | morton(std::uint32_t(q.x), std::uint32_t(q.y), std::uint32_t(q.z)), t});
+  }
+  std::stable_sort(keyed.begin(), keyed.end(),
+                   [](const Keyed& a, const Keyed& b) { return a.key < b.key; });
+  std::size_t start = 0;
+  for (std::size_t i = 0; i < keyed.size(); ++i) mesh.triangles[first + i] = keyed[i].triangle;
+  for (std::size_t i = 1; i <= keyed.size(); ++i) {
+    const bool full = i - start == kClusterTriangles;
+    const bool turned = i < keyed.size() && keyed[i].key >> 32 != keyed[start].key >> 32;
+    if (i < keyed.size() && !full && !(turned && i - start >= kClusterTriangles / 4)) continue;
+    mesh.clusters.push_back(make_cluster(mesh, first + start, i - start));
+    start = i;
+  }
+  level.cluster_count = std::uint32_t(mesh.clusters.size()) - level.first_cluster;
+  mesh.levels.push_back(level);
+}
+
+float longest_edge(const TriangleMesh& mesh) {
+  const Aabb box = mesh.bounds();
+  return box.empty() ? kLongestEdge
+                     : std::max(kLongestEdge, kEdgeShare * float(distance(box.min, box.max)) / 2);
+}
+
+void append_level(const TriangleMesh& source, PreparedMesh& out) {
+  const TriangleMesh mesh = refine_mesh(source, longest_edge(source));
+  const std::vector<std::uint32_t> materials = material_table(source);
+  const std::uint32_t base = std::uint32_t(out.vertices.size());
+  const std::size_t first = out.triangles.size();
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    out.vertices.push_back({mesh.positions[i], mesh.normals[i], {}, {}});
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t];
+    if (mesh.surfaces[t] >= materials.size())
+      throw RunError("a mesh has a triangle of surface " + std::to_string(mesh.surfaces[t]) +
+                     " but names only " + std::to_string(materials.size()));
+    out.triangles.push_back({{base + v[0], base + v[1], base + v[2]}, materials[mesh.surfaces[t]]});
+  }
+  if (out.levels.empty() && !out.vertices.empty()) {
+    std::vector<Vec3f> points;
+    for (const PreparedVertex& v : out.vertices) points.push_back(v.position);
+    find_bounds(points, out.centre, out.half, out.radius);
+  }
+  cluster_level(out, first);
+}
+
+// One point for each cell of space and side of the surface, at the vertex nearest to the middle.
+void choose_bake_points(PreparedMesh& mesh, std::size_t vertex_count) {
+  using Key = std::tuple<int, int, int, int>;
+  float cell = std::clamp(mesh.radius * 0.4f, 0.04f, 0.16f);
+  for (;; cell *= 1.5f) {
+    std::map<Key, std::vector<std::uint32_t>> cells;
+    for (std::size_t i = 0; i < vertex_count; ++i) {
+      const Vec3f q = (mesh.vertices[i].position - mesh.centre) * (1 / cell);
+      const auto at = [](float x) { return int(std::floor(x + 0.5f)); };
+      cells[{at(q.x), at(q.y), at(q.z), dominant_direction(mesh.vertices[i].normal)}].push_back(
+          std::uint32_t(i));
+    }
+    if (cells.size() > kMaxBakePoints) continue;
+    for (const auto& [key, members] : cells) {
+      Vec3f mid, normal;
+      for (std::uint32_t v : members)
+        mid += mesh.vertices[v].position, normal += mesh.vertices[v].normal;
+      mid *= 1.0f / float(members.size());
+      std::uint32_t best = members.front();
+      for (std::uint32_t v : members)
+        if (distance(mesh.vertices[v].position, mid) < distance(mesh.vertices[best].position, mid))
+          best = v;
+      mesh.bake_points.push_back({mesh.vertices[best].position, normalized(normal)});
+    }
+    return;
+  }
+}
+
+void weigh_bake_points(PreparedMesh& mesh) {
+  struct Near {
+    float cost;
+    std::uint16_t point;
+  };
+  for (PreparedVertex& v : mesh.vertices) {
+    std::array<Near, 4> best;
+    best.fill({1e30f, 0});
+    for (std::size_t i = 0; i < mesh.bake_points.size(); ++i) {
+      const Vec3f d = mesh.bake_points[i].position - v.position;
+      const float turn = 1 - dot(mesh.bake_points[i].normal, v.normal);
+      // Turning away by 60 degrees costs as much as lying one radius apart.
+      const float cost = dot(d, d) + 4 * turn * turn * mesh.radius * mesh.radius;
+      Near entry{cost, std::uint16_t(i)};
+      for (Near& b : best)
+        if (entry.cost < b.cost) std::swap(entry, b);
+    }
+    float sum = 0;
+    const float soft = 0.01f * mesh.radius * mesh.radius + 1e-8f;
+    for (std::size_t k = 0; k < 4; ++k) {
+      v.bake_points[k] = best[k].point;
+      v.bake_weights[k] = best[k].cost < 1e29f ? 1 / (best[k].cost + soft) : 0;
+      sum += v.bake_weights[k];
+    }
+    for (float& w : v.bake_weights) w /= sum;
+  }
+}
+
+}  // namespace
+
+PreparedMesh prepare_mesh(const SceneMesh& mesh) {
+  PreparedMesh out;
+  std::size_t finest_vertices = 0;
+  for (const TriangleMesh& level : mesh.levels) {
+    append_level(level, out);
+    if (!finest_vertices) finest_vertices = out.vertices.size();
+  }
+  if (out.vertices.empty()) throw RunError("a mesh of the scene has no triangles");
+  choose_bake_points(out, finest_vertices);
+  weigh_bake_points(out);
+  return out;
+}
+
+namespace {
+
+// Grid lines: even steps over [low, high], then steps that grow outwards to 4 km.
+std::vector<float> ground_lines(double low, double high) {
+  constexpr double kFar = 4000, kGrowth = 1.35;
+  // 190 inner lines and 2 x 28 outer ones each way stay below kMaxBakePoints.
+  const double inner = std::max(0.3, (high - low) / 190);
+  std::vector<float> lines;
+  for (double x = low, step = inner; x > low - kFar; step *= kGrowth)
+    x -= step, lines.insert(lines.begin(), float(x));
+  const int count = std::max(1, int(std::ceil((high - low) / inner)));
+  for (int i = 0; i <= count; ++i) lines.push_back(float(low + (high - low) * i / count));
+  for (double x = high, step = inner; x < high + kFar; step *= kGrowth)
+    x += step, lines.push_back(float(x));
+  return lines;
+}
+
+}  // namespace
+
+PreparedMesh prepare_ground(const Aabb& around) {
+  constexpr double kMargin = 3, kWidest = 60;  // unit: m
+  const auto low = [&](double x) { return std::max(x - kMargin, -kWidest); };
+  const auto high = [&](double x) { return std::min(x + kMargin, kWidest); };
+  Aabb area = around;
+  if (area.empty()) area.include({0, 0, 0});
+  const std::vector<float> xs = ground_lines(low(area.min.x), high(area.max.x));
+  const std::vector<float> ys = ground_lines(low(area.min.y), high(area.max.y));
+  PreparedMesh out;
+  for (float y : ys) {
+    for (float x : xs) {
+      const std::size_t point = std::min(out.bake_points.size(), kMaxBakePoints);
+      out.vertices.push_back({{x, y, 0}, {0, 0, 1}, {}, {1, 0, 0, 0}});
+      out.vertices.back().bake_points.fill(std::uint16_t(point));
+      if (point < kMaxBakePoints) out.bake_points.push_back({{x, y, 0}, {0, 0, 1}});
+    }
+  }
+  const std::uint32_t material = find_look("ground"), row = std::uint32_t(xs.size());
+  for (std::uint32_t j = 0; j + 1 < ys.size(); ++j) {
+    for (std::uint32_t i = 0; i + 1 < row; ++i) {
+      const std::uint32_t a = j * row + i, b = a + 1, c = a + row, d = c + 1;
+      out.triangles.push_back({{a, b, d}, material});
+      out.triangles.push_back({{a, d, c}, material});
+    }
+  }
+  out.half = Vec3f(4200, 4200, 1e-3f);
+  out.radius = 6000;
+  cluster_level(out, 0);
+  return out;
+}
+
+}  // namespace rubble

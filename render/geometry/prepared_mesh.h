@@ -1,0 +1,62 @@
+// A mesh as the passes want it: levels of detail cut into clusters that can be culled one by one,
+// and the points at which its light is baked.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/base/math.h"
+#include "render/scene/scene.h"
+
+namespace rubble {
+
+struct PreparedVertex {
+  Vec3f position;
+  Vec3f normal;
+  // The bake points that lend it their light, and their weights, which add up to 1.
+  std::array<std::uint16_t, 4> bake_points{};
+  std::array<float, 4> bake_weights{};
+};
+
+struct PreparedTriangle {
+  std::array<std::uint32_t, 3> vertices;  // into the vertices of the mesh
+  std::uint32_t material;                 // index into the table of looks
+};
+
+// Neighbouring triangles that face about the same way.
+struct Cluster {
+  std::uint32_t first_triangle = 0, triangle_count = 0;
+  Vec3f centre;  // of a box and of a sphere around it, mesh frame; unit: m
+  Vec3f half;    // of the box's sides
+  float radius = 0;
+  Vec3f cone_axis;         // mean normal
+  float cone_cosine = -1;  // smallest cosine between a normal and the axis; -1: never culled
+};
+
+struct BakePoint {
+  Vec3f position, normal;  // mesh frame
+};
+
+struct PreparedLevel {
+  std::uint32_t first_cluster = 0, cluster_count = 0;
+  std::uint32_t first_triangle = 0, triangle_count = 0;
+};
+
+struct PreparedMesh {
+  std::vector<PreparedVertex> vertices;  // of all levels
+  std::vector<PreparedTriangle> triangles;
+  std::vector<Cluster> clusters;
+  std::vector<PreparedLevel> levels;  // finest first
+  std::vector<BakePoint> bake_points;
+  Vec3f centre, half;  // of a box around it; unit: m
+  float radius = 0;    // of a sphere about the same centre
+};
+
+// Throws RunError for a surface name that is no known look, naming it and the known ones.
+PreparedMesh prepare_mesh(const SceneMesh& mesh);
+
+// The ground: z = 0, fine over the rectangle `around` (by its x and y) and ever coarser to 4 km.
+PreparedMesh prepare_ground(const Aabb& around);
+
+}  // namespace rubble

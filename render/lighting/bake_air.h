@@ -1,0 +1,22 @@
+// Light scattered in the air of a scene whose surfaces are baked.
+#pragma once
+
+#include <vector>
+
+#include "render/geometry/ray_scene.h"
+#include "render/lighting/bake.h"
+
+namespace rubble {
+
+struct AirBakeInput {
+  const PreparedScene& scene;
+  const LightSet& light;
+  const RayScene& rays;
+  const std::vector<Vec3f>& radiosity;  // one a triangle of `rays`, over pi; unit: kcd/m2
+  int threads = 1;                      // the result does not depend on it
+};
+
+// On a grid of at most 48 points an axis, 0.4 m apart where that suffices.
+AirLight bake_air(const AirBakeInput& input);
+
+}  // namespace rubble

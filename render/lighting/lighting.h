@@ -1,0 +1,51 @@
+// The light of a scene in physical units: its lights, and the sky that goes with the main one. The
+// same formulas stand in shaders/lighting.glsl.
+//
+// Luminance is in kcd/m2 and illuminance in klx: a white matt surface under E klx shows E / pi.
+#pragma once
+
+#include <vector>
+
+#include "kernel/base/math.h"
+#include "render/scene/scene.h"
+
+namespace rubble {
+
+// Radiance of the upper half of all directions, on a square map: the octahedron's upper half turned
+// by 45 degrees, so that the zenith is in the middle and the horizon along the border.
+struct Sky {
+  static constexpr int kSide = 96;  // of the map; unit: texel
+  std::vector<Vec3f> map;           // rows; unit: kcd/m2
+  Vec3f mean;                       // irradiance of level ground over pi
+  Vec3f horizon;                    // mean over the horizon
+  Vec3f sun_direction{0, 0, 1};     // also below the horizon
+  Vec3f sun_radiance;               // of its disc; black without one; unit: kcd/m2
+
+  // direction: unit length, pointing up or level; below the horizon it is black. Without the disc.
+  Vec3f radiance(const Vec3f& direction) const;
+};
+
+struct LightModel {
+  LightType type = LightType::directional;  // never sun: that is a directional one by now
+  Vec3f position;                           // of spot and point lights; unit: m
+  Vec3f axis;                               // the way the light travels
+  Vec3f colour;                             // klx for directional, kcd otherwise
+  float cos_outer = -1, cos_inner = -1;     // edge of a spot's cone; -1: none
+
+  struct Sample {
+    Vec3f to_light;     // unit length
+    Vec3f illuminance;  // on a facing surface, without shadow; unit: klx
+    float distance;     // to the light; unit: m; very large for directional
+  };
+  Sample at(const Vec3f& point) const;
+};
+LightModel make_light_model(const LightSpec& spec);
+
+struct LightSet {
+  std::vector<LightModel> lights;  // the main one first; 1 to kMostLights
+  Sky sky;
+};
+// Throws RunError for too many lights.
+LightSet make_lights(const Scene& scene);
+
+}  // namespace rubble

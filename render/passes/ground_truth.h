@@ -1,0 +1,52 @@
+// Ground truth of a drawn view, each pixel for itself: nothing is filtered or interpolated between
+// pixels. Internal to render/.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/camera/view_rays.h"
+#include "render/geometry/geometry.h"
+#include "render/geometry/ray_scene.h"
+#include "render/scene/camera_spec.h"
+
+namespace rubble {
+
+// What is needed of a view that was drawn.
+struct DrawnView {
+  const ViewRays& rays;
+  const std::vector<std::uint32_t>& ids;  // two a pixel, as VisibilityPass::ids()
+  const std::vector<float>& distances;    // along the ray; NaN: nothing there; unit: m
+  const ViewRays* next;                   // the next image's; null: there is none
+};
+
+class TruthMaker {
+ public:
+  TruthMaker(const PreparedScene& scene, const GpuGeometry& geometry, int threads)
+      : scene_(scene), geometry_(geometry), threads_(threads) {}
+
+  void fill(const ChannelSet& channels, const DrawnView& view, Frame& frame);
+  // 1 where a place in the camera body frame has a free line to the surface, 0 elsewhere.
+  std::vector<std::uint8_t> seen_from(const DrawnView& view, const Vec3& place_in_camera);
+  // Of each pixel's surface for light just beyond red; 0: nothing there.
+  std::vector<float> albedos(const DrawnView& view) const;
+
+ private:
+  struct Pixel;
+  struct Corners;
+
+  const RayScene& rays();
+  Corners corners_of(const Pixel& pixel) const;
+  Vec3 find_normal(const Pixel& pixel, const Pose& world_from_optical) const;
+  float find_sky_visibility(const Pixel& pixel, const Vec3& normal) const;
+  void fill_row(const ChannelSet& channels, const DrawnView& view, const Lens& lens, int v,
+                Frame& frame) const;
+
+  const PreparedScene& scene_;
+  const GpuGeometry& geometry_;
+  int threads_;
+  std::unique_ptr<RayScene> rays_;  // made when they are first asked for
+};
+
+}  // namespace rubble

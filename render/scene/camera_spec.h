@@ -1,0 +1,123 @@
+// What a camera measures, as plain data: the part of a mission that render/sensors carries out. With
+// the defaults every stage is off, and a frame is the renderer's exact pinhole image.
+#pragma once
+
+#include <cstdint>
+
+#include "render/scene/frame.h"
+
+namespace rubble {
+
+// Ground truth beside colour and depth; each costs nothing where it is not asked for.
+struct ChannelSet {
+  bool normals = false;
+  bool instance = false;
+  bool label = false;
+  bool flow = false;
+  bool sky_visibility = false;  // 64 rays a pixel: about 5 s for a million pixels on two cores
+
+  bool any() const { return normals || instance || label || flow || sky_visibility; }
+};
+
+// The stamp of a frame is the middle of the exposure of the middle row.
+struct ShutterSpec {
+  // From the first row's exposure to the last row's; 0: all rows at once. unit: s; range: 0 to 1
+  double readout = 0;
+  // Images over the exposure time, added in linear light, one for each pixel of motion; needs an
+  // exposure that is modelled.
+  bool motion_blur = false;
+  int most_samples = 33;  // images at most; range: 3 to 255
+};
+
+enum class ExposureMode {
+  ideal,  // a display image: automatic, tone-mapped, nothing else modelled
+  fixed,
+  automatic,
+};
+
+// From luminance to the share x of saturation, by the saturation-based speed of ISO 12232:2006:
+//   x = H S / 78 lx s,  H = 0.65 L t / N^2   (L in cd/m2, t in s, speed S, f-number N).
+struct ExposureSpec {
+  ExposureMode mode = ExposureMode::ideal;
+  double time = 0.01;   // unit: s; range: 1e-6 to 1; automatic: the first frame's guess is not used
+  double iso = 100;     // speed S; range: 1 to 1e6
+  double f_number = 2;  // range: 0.5 to 64
+  // Automatic: the mean of the image is brought to 0.18 of saturation times 2^compensation. Time is
+  // raised first, up to the longest, then speed. What a frame shows sets the exposure of the next
+  // but `delay` frames; its error shrinks by e within every time constant.
+  double compensation = 0;     // unit: stops; range: -8 to 8
+  double longest_time = 0.02;  // unit: s; range: 1e-6 to 1
+  double highest_iso = 1600;   // range: 1 to 1e6
+  double time_constant = 0.3;  // unit: s; range: 0 to 60; 0: at once
+  int delay = 1;               // unit: frames; range: 0 to 16
+};
+
+enum class Response { srgb, gamma, linear };
+
+// From exposed light to stored numbers, as EMVA 1288 models a linear camera. Only with a modelled
+// exposure.
+struct ImageSensorSpec {
+  bool noise = true;         // shot and read noise
+  double full_well = 10000;  // electrons at saturation at speed 100, S times fewer at 100 S
+  double read_noise = 4;     // standard deviation; unit: electrons; range: 0 to 1000
+  int bits = 12;             // of the converter; range: 1 to 16
+  double vignette = 0;       // 0: none; 1: the natural cos^4 fall-off; range: 0 to 4
+  Response response = Response::srgb;  // from converter counts to the 8 bits that are stored
+  double gamma = 2.2;                  // of Response::gamma; range: 0.2 to 5
+};
+
+enum class DepthSensorType { none, ideal, structured_light, time_of_flight };
+
+// Formulas and their sources: sensors/depth_sensor.h.
+struct DepthSensorSpec {
+  DepthSensorType type = DepthSensorType::none;
+  double min_range = 0.5;  // unit: m; range: 0 to 100
+  double max_range = 5;    // unit: m; range: above 0, to 1000
+  bool noise = true;
+  // Structured light.
+  double baseline = 0.075;         // projector to the camera's right; unit: m; above 0
+  double disparity_step = 0.125;   // unit: pixel of a 640-pixel image; above 0
+  double disparity_noise = 0.0625; // all noise, quantisation included; unit as the step's
+  // Time of flight.
+  double modulation_mhz = 20;      // range: 1 to 1000
+  // Electrons of a facing white surface at 1 m; above 0. Against the background below it gives a
+  // standard deviation of 17 mm at 3.5 m on a surface of 0.4, which Azure Kinect is stated and was
+  // measured to keep (Toelgyessy, Dekan, Chovanec and Hubinsky 2021, "Evaluation of the Azure Kinect
+  // and Its Comparison to Kinect V1 and Kinect V2", Sensors 21(2), 413).
+  double signal = 2.35e5;
+  double background = 2e3;         // electrons of other light; range: 0 and up
+  double emitter_offset = 0.03;    // of the emitter, to the lens's right; our choice; unit: m
+  double reflectance = 0;          // of all surfaces, in the infrared; 0: of each its own;
+                                   // range: 0 to 1
+  // Electrons; weaker returns are dropped: with the signal above a surface of 0.1 at 5.6 m, near the
+  // 5.46 m to which that sensor is stated to reach
+  double least_amplitude = 750;
+  double step = 0.001;             // unit: m; 0: not quantised
+};
+
+// An event camera of the frame's size, after ESIM; formulas: sensors/event_camera.h.
+struct EventCameraSpec {
+  bool on = false;
+  double threshold_up = 0.2;      // change of ln(luminance) that makes an event; above 0
+  double threshold_down = 0.2;    // likewise when it grows darker
+  double threshold_noise = 0.03;  // standard deviation from pixel to pixel; same unit
+  double refractory = 1e-4;       // after an event a pixel is blind so long; unit: s
+  double background_hz = 0.1;     // events of noise, each pixel; range: 0 to 1000
+  double most_motion = 1;         // between two images of the simulation; unit: pixel
+  double dark = 1e-3;             // luminance added before the logarithm; unit: cd/m2; above 0
+};
+
+struct CameraSpec {
+  Intrinsics intrinsics;
+  ChannelSet channels;
+  double baseline = 0;  // of a stereo pair: the right camera's distance; 0: none; unit: m
+  ShutterSpec shutter;
+  ExposureSpec exposure;
+  ImageSensorSpec sensor;
+  DepthSensorSpec depth_sensor;
+  EventCameraSpec event_camera;
+  std::uint64_t seed = 0;  // of all noise
+  int threads = 1;         // the result does not depend on it
+};
+
+}  // namespace rubble

@@ -1,0 +1,361 @@
+#include "scripting/sandbox/lua_host.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+#include <new>
+#include <type_traits>
+
+#include "kernel/base/portable_math.h"
+#include "kernel/base/random.h"
+#include "kernel/base/text.h"
+#include "scripting/sandbox/gray_image.h"
+#include "scripting/sandbox/lua_options.h"
+#include "scripting/sandbox/lua_value.h"
+
+// Lua's C++ build reports errors by an exception, so the destructors below run.
+
+namespace rubble {
+namespace {
+
+constexpr const char* kStreamType = "random stream";
+constexpr std::size_t kMostPrinted = 1 << 20;  // unit: byte
+constexpr std::uint64_t kInstructionsPerValue = 50;  // that cost as much as to read it
+constexpr std::size_t kMostMistakes = 1000;    // that rubble.options keeps
+
+RandomStream& stream_at(lua_State* lua, int index) {
+  host_of(lua).used_random = true;
+  return *static_cast<RandomStream*>(luaL_checkudata(lua, index, kStreamType));
+}
+
+double finite_at(lua_State* lua, int index) {
+  const double value = luaL_checknumber(lua, index);
+  luaL_argcheck(lua, std::isfinite(value), index, "a finite number expected");
+  return value;
+}
+
+// unit: whatever the caller's; portable functions are exact only within their stated ranges.
+double limited_at(lua_State* lua, int index, double limit) {
+  const double value = finite_at(lua, index);
+  luaL_argcheck(lua, std::abs(value) <= limit, index, "number too large");
+  return value;
+}
+
+int make_stream(lua_State* lua) {
+  static_assert(std::is_trivially_destructible_v<RandomStream>, "no __gc is needed");
+  const std::string name = luaL_checkstring(lua, 1);
+  void* const memory = lua_newuserdatauv(lua, sizeof(RandomStream), 0);
+  new (memory) RandomStream(host_of(lua).seed, "lua/" + name);
+  luaL_setmetatable(lua, kStreamType);
+  return 1;
+}
+
+int draw_uniform(lua_State* lua) {
+  RandomStream& random = stream_at(lua, 1);
+  const double low = lua_isnoneornil(lua, 2) ? 0.0 : finite_at(lua, 2);
+  const double high = lua_isnoneornil(lua, 3) ? 1.0 : finite_at(lua, 3);
+  luaL_argcheck(lua, low <= high, 3, "the upper limit is below the lower one");
+  lua_pushnumber(lua, random.uniform(low, high));
+  return 1;
+}
+
+int draw_integer(lua_State* lua) {
+  RandomStream& random = stream_at(lua, 1);
+  const lua_Integer low = luaL_checkinteger(lua, 2), high = luaL_checkinteger(lua, 3);
+  luaL_argcheck(lua, low <= high, 3, "the upper limit is below the lower one");
+  const std::uint64_t count = std::uint64_t(high) - std::uint64_t(low) + 1;  // 0: all of 2^64
+  const std::uint64_t offset = count == 0 ? random.next() : random.below(count);
+  lua_pushinteger(lua, static_cast<lua_Integer>(std::uint64_t(low) + offset));
+  return 1;
+}
+
+int draw_normal(lua_State* lua) {
+  RandomStream& random = stream_at(lua, 1);
+  const double mean = lua_isnoneornil(lua, 2) ? 0.0 : finite_at(lua, 2);
+  const double deviation = lua_isnoneornil(lua, 3) ? 1.0 : finite_at(lua, 3);
+  lua_pushnumber(lua, mean + deviation * random.normal());
+  return 1;
+}
+
+int draw_choice(lua_State* lua) {
+  RandomStream& random = stream_at(lua, 1);
+  luaL_checktype(lua, 2, LUA_TTABLE);
+  const lua_Unsigned count = lua_rawlen(lua, 2);
+  luaL_argcheck(lua, count > 0, 2, "an empty list");
+  lua_rawgeti(lua, 2, static_cast<lua_Integer>(random.below(count)) + 1);
+  return 1;
+}
+
+int draw_direction(lua_State* lua) {
+  const Vec3 v = stream_at(lua, 1).direction();
+  lua_createtable(lua, 3, 0);
+  for (int i = 0; i < 3; ++i) {
+    lua_pushnumber(lua, v[i]);
+    lua_rawseti(lua, -2, i + 1);
+  }
+  return 1;
+}
+
+int print_line(lua_State* lua) {
+  std::size_t size = 0;
+  const char* const text = luaL_checklstring(lua, 1, &size);
+  LuaHost& host = host_of(lua);
+  host.printed_bytes += size + 1;
+  if (host.printed_bytes > kMostPrinted)
+    return luaL_error(lua, "the script prints more than 1 MiB");
+  host.printed.push_back(printable({text, size}));
+  return 0;
+}
+
+int include_file(lua_State* lua) {
+  const std::string name = luaL_checkstring(lua, 1);
+  LuaHost& host = host_of(lua);
+  std::string error;
+  const int chunk = host.open_include(name, error);
+  if (chunk < 0) return luaL_error(lua, "rubble.include: %s", error.c_str());
+  const std::string_view text = lua_source(host.chunk(chunk).text);
+  if (luaL_loadbufferx(lua, text.data(), text.size(), chunk_name(chunk).c_str(), "t") != LUA_OK)
+    return lua_error(lua);
+  lua_call(lua, 0, 1);
+  return 1;
+}
+
+// The script's line from which the function that asked for its options was called.
+bool find_caller(lua_State* lua, int& chunk, int& line) {
+  lua_Debug where{};
+  for (int level = 2; lua_getstack(lua, level, &where) != 0; ++level) {
+    lua_getinfo(lua, "Sl", &where);
+    line = where.currentline;
+    if (line > 0 && std::sscanf(where.short_src, "chunk%d", &chunk) == 1) return true;
+  }
+  return false;
+}
+
+void note_mistakes(lua_State* lua, const std::string& function, std::vector<Diagnostic> mistakes) {
+  LuaHost& host = host_of(lua);
+  int chunk = 0, call_line = 0;
+  const bool found = find_caller(lua, chunk, call_line);
+  const SourceFile& source = host.chunk(found ? chunk : 0);
+  if (host.mistakes.size() + mistakes.size() > kMostMistakes)
+    luaL_error(lua, "%s: too many mistakes", function.c_str());
+  if (mistakes.empty()) return;
+  const auto known = host.tokens.find(found ? chunk : 0);
+  const std::vector<LuaToken>& tokens =
+      known != host.tokens.end() ? known->second
+                                 : host.tokens[found ? chunk : 0] = read_lua_tokens(source.text);
+  count_work(lua, tokens.size() * mistakes.size());
+  for (Diagnostic& d : mistakes) {
+    const std::string key = d.key.substr(std::min(d.key.size(), function.size() + 1));
+    d.file = source.path;
+    d.line = find_option_line(tokens, function, key, found ? call_line : 0);
+    host.mistakes.push_back(std::move(d));
+  }
+}
+
+// options(function, given, description) -> every parameter, given or default. Mistakes are noted,
+// not raised: all of them come in one run.
+int read_options(lua_State* lua) {
+  const std::string function = luaL_checkstring(lua, 1);
+  std::size_t values = 0;
+  const Value given = read_lua_value(lua, 2, &values), description = read_lua_value(lua, 3, &values);
+  count_work(lua, kInstructionsPerValue * values);
+  LuaHost& host = host_of(lua);
+  if (host.described) host.described->push_back({function, description});
+  std::string failure;
+  try {
+    OptionTable table(description);
+    note_mistakes(lua, function, table.read(function, given));
+    push_lua_value(lua, table.values());
+  } catch (const InputError& error) {
+    failure = error.diagnostics().front().text();
+  }
+  return failure.empty() ? 1 : luaL_error(lua, "%s", failure.c_str());
+}
+
+// reject(function, parameter, expected, found): a mistake that only the function itself can see.
+int reject_option(lua_State* lua) {
+  const std::string function = luaL_checkstring(lua, 1);
+  Diagnostic d;
+  d.key = function + "." + luaL_checkstring(lua, 2);
+  d.message = "out of range";
+  d.expected = luaL_checkstring(lua, 3);
+  d.found = describe(read_lua_value(lua, 4));
+  note_mistakes(lua, function, {d});
+  return 0;
+}
+
+// A word as a number where it is one.
+void push_word(lua_State* lua, const std::string& word) {
+  double number = 0;
+  const char* const end = word.data() + word.size();
+  const auto result = std::from_chars(word.data(), end, number);
+  if (result.ec == std::errc() && result.ptr == end && std::isfinite(number))
+    lua_pushnumber(lua, number);
+  else
+    lua_pushlstring(lua, word.data(), word.size());
+}
+
+std::vector<std::string> split_words(const std::string& line) {
+  std::vector<std::string> words;
+  const bool commas = line.find(',') != std::string::npos;
+  std::string word;
+  for (const char c : line + (commas ? "," : " ")) {
+    const bool space = c == ' ' || c == '\t' || c == '\r';
+    if (commas ? c == ',' : space) {
+      if (commas || !word.empty()) words.push_back(word);
+      word.clear();
+    } else if (!space) {
+      word += c;
+    }
+  }
+  return words;
+}
+
+void push_words(lua_State* lua, const std::vector<std::string>& words) {
+  lua_createtable(lua, int(words.size()), 0);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    push_word(lua, words[i]);
+    lua_rawseti(lua, -2, lua_Integer(i) + 1);
+  }
+}
+
+// read_table(file) -> { names = {...}, rows = {{...}, ...}, lines = {...} }: the words of each line,
+// between commas or blanks; `#` begins a comment. names: a first line that holds no number.
+int read_table_file(lua_State* lua) {
+  const std::string name = luaL_checkstring(lua, 1);
+  LuaHost& host = host_of(lua);
+  std::string error;
+  const int chunk = host.open_include(name, error);
+  if (chunk < 0) return luaL_error(lua, "rubble.read_table: %s", error.c_str());
+  std::istringstream text(host.chunk(chunk).text);
+  lua_createtable(lua, 0, 3);
+  for (const char* part : {"names", "rows", "lines"}) lua_newtable(lua), lua_setfield(lua, -2, part);
+  lua_getfield(lua, -1, "rows"), lua_getfield(lua, -2, "lines");
+  std::string line;
+  lua_Integer count = 0;
+  for (int number = 1; std::getline(text, line); ++number) {
+    const std::vector<std::string> words = split_words(line.substr(0, line.find('#')));
+    if (words.empty()) continue;
+    push_words(lua, words);
+    bool numbers = false;
+    for (std::size_t i = 1; i <= words.size(); ++i) {
+      numbers = lua_rawgeti(lua, -1, lua_Integer(i)) == LUA_TNUMBER || numbers;
+      lua_pop(lua, 1);
+    }
+    if (!numbers && count == 0) {
+      lua_setfield(lua, -4, "names");
+      continue;
+    }
+    lua_rawseti(lua, -3, ++count);
+    lua_pushinteger(lua, number);
+    lua_rawseti(lua, -2, count);
+  }
+  lua_pop(lua, 2);
+  return 1;
+}
+
+// read_image(file) -> { columns =, rows =, values = {...} }
+int read_image_file(lua_State* lua) {
+  const std::string name = luaL_checkstring(lua, 1);
+  LuaHost& host = host_of(lua);
+  std::string error;
+  const int chunk = host.open_include(name, error);
+  GrayImage image;
+  try {
+    if (chunk >= 0) image = parse_pgm(host.chunk(chunk).text);
+  } catch (const std::runtime_error& failure) {
+    error = "\"" + name + "\": " + failure.what();
+  }
+  if (image.values.empty()) return luaL_error(lua, "rubble.read_image: %s", error.c_str());
+  lua_createtable(lua, 0, 3);
+  lua_pushinteger(lua, image.columns), lua_setfield(lua, -2, "columns");
+  lua_pushinteger(lua, image.rows), lua_setfield(lua, -2, "rows");
+  lua_createtable(lua, int(image.values.size()), 0);
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    lua_pushnumber(lua, image.values[i]);
+    lua_rawseti(lua, -2, lua_Integer(i) + 1);
+  }
+  lua_setfield(lua, -2, "values");
+  return 1;
+}
+
+// rotate({roll, pitch, yaw} in degrees, {x, y, z}) -> {x, y, z}
+int rotate_vector(lua_State* lua) {
+  const auto numbers_at = [lua](int index) {
+    luaL_checktype(lua, index, LUA_TTABLE);
+    static const char* const kNames[] = {"x", "y", "z"};
+    Vec3 v;
+    for (int i = 0; i < 3; ++i) {
+      if (lua_getfield(lua, index, kNames[i]) == LUA_TNIL) lua_rawgeti(lua, index, i + 1);
+      luaL_argcheck(lua, lua_isnumber(lua, -1), index, "three numbers {x, y, z} expected");
+      v[i] = lua_tonumber(lua, -1);
+      luaL_argcheck(lua, std::abs(v[i]) <= 1e6, index, "number too large");
+    }
+    return v;
+  };
+  const Vec3 rpy = numbers_at(1) * (portable::kPi / 180), v = numbers_at(2);
+  const Vec3 turned = portable::quat_from_rpy(rpy.x, rpy.y, rpy.z).rotate(v);
+  for (int i = 0; i < 3; ++i) lua_pushnumber(lua, turned[i]);
+  return 3;
+}
+
+int math_sin(lua_State* lua) {
+  return lua_pushnumber(lua, portable::sin(limited_at(lua, 1, 1e6))), 1;
+}
+int math_cos(lua_State* lua) {
+  return lua_pushnumber(lua, portable::cos(limited_at(lua, 1, 1e6))), 1;
+}
+int math_tan(lua_State* lua) {
+  const portable::SinCos sc = portable::sincos(limited_at(lua, 1, 1e6));
+  return lua_pushnumber(lua, sc.sin / sc.cos), 1;
+}
+int math_asin(lua_State* lua) {
+  return lua_pushnumber(lua, portable::asin(limited_at(lua, 1, 1))), 1;
+}
+int math_acos(lua_State* lua) {
+  return lua_pushnumber(lua, portable::acos(limited_at(lua, 1, 1))), 1;
+}
+int math_atan(lua_State* lua) {
+  const double y = finite_at(lua, 1), x = lua_isnoneornil(lua, 2) ? 1.0 : finite_at(lua, 2);
+  return lua_pushnumber(lua, portable::atan2(y, x)), 1;
+}
+int math_exp(lua_State* lua) {
+  return lua_pushnumber(lua, portable::exp(limited_at(lua, 1, 700))), 1;
+}
+int math_log(lua_State* lua) {
+  const auto positive_at = [lua](int index) {
+    const double x = finite_at(lua, index);
+    luaL_argcheck(lua, std::isnormal(x) && x > 0, index, "a number above 0 expected");
+    return x;
+  };
+  const double value = portable::log(positive_at(1));
+  const double base = lua_isnoneornil(lua, 2) ? 1.0 : portable::log(positive_at(2));
+  return lua_pushnumber(lua, value / base), 1;
+}
+
+const luaL_Reg kFunctions[] = {
+    {"options", read_options}, {"read_image", read_image_file}, {"read_table", read_table_file}, {"reject", reject_option}, {"rotate", rotate_vector}, {"stream", make_stream}, {"print", print_line}, {"include", include_file}, {"sin", math_sin},
+    {"cos", math_cos},       {"tan", math_tan},     {"asin", math_asin},       {"acos", math_acos},
+    {"atan", math_atan},     {"exp", math_exp},     {"log", math_log},         {nullptr, nullptr}};
+
+const luaL_Reg kStreamMethods[] = {{"uniform", draw_uniform},     {"integer", draw_integer},
+                                   {"normal", draw_normal},       {"choice", draw_choice},
+                                   {"direction", draw_direction}, {nullptr, nullptr}};
+
+}  // namespace
+
+LuaHost& host_of(lua_State* lua) { return **static_cast<LuaHost**>(lua_getextraspace(lua)); }
+
+std::string chunk_name(int chunk) { return "=chunk" + std::to_string(chunk); }
+
+void push_host_functions(lua_State* lua) {
+  luaL_newmetatable(lua, kStreamType);
+  luaL_newlib(lua, kStreamMethods);
+  lua_setfield(lua, -2, "__index");
+  lua_pop(lua, 1);
+  luaL_newlib(lua, kFunctions);
+}
+
+}  // namespace rubble

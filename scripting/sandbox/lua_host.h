@@ -1,0 +1,59 @@
+// The C++ side of the sandbox: functions that the prelude gives to scripts. Private to scripting.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include <lua.hpp>
+
+#include "kernel/base/error.h"
+#include "scripting/sandbox/lua_sandbox.h"
+#include "scripting/sandbox/lua_tokens.h"
+
+namespace rubble {
+
+// What the functions need; a pointer to it lives in the Lua state's extra space.
+struct LuaHost {
+  lua_State* lua = nullptr;
+  std::uint64_t seed = 0;
+  bool used_random = false;
+  std::size_t printed_bytes = 0;
+  std::vector<std::string> printed;
+  // Reads a file for rubble.include and returns its index among the chunks; on failure it puts the
+  // reason into `error` and returns -1.
+  std::function<int(const std::string& name, std::string& error)> open_include;
+  std::function<const SourceFile&(int chunk)> chunk;
+
+  // What rubble.options found, and, while the reference is made, what it was asked for.
+  std::vector<Diagnostic> mistakes;
+  std::vector<DescribedFunction>* described = nullptr;
+  std::map<int, std::vector<LuaToken>> tokens;  // of chunks in which mistakes were found
+
+  // Limits, and what has been used of them.
+  SandboxLimits limits;
+  std::size_t memory = 0;
+  std::uint64_t instructions = 0;
+  std::string refused_at;  // "chunk0:12: " where memory was refused last
+  double started = 0;      // CPU seconds of this thread
+  bool limited = true;     // false once the script has ended and only its table is read
+};
+
+LuaHost& host_of(lua_State* lua);
+
+// Counts work that a function of ours does for a script as if it were so many instructions. An error
+// of Lua when a limit is reached.
+void count_work(lua_State* lua, std::uint64_t instructions);
+
+// What Lua shall read of a file: all but a byte order mark and a first line that begins with `#`.
+std::string_view lua_source(std::string_view text);
+
+// Lua names a chunk in its messages; ours are "chunk0", "chunk1", ... and stand for paths.
+std::string chunk_name(int chunk);
+
+// Leaves a table with every host function on the stack.
+void push_host_functions(lua_State* lua);
+
+}  // namespace rubble

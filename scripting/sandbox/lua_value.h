@@ -1,0 +1,18 @@
+// From a value on Lua's stack to plain data and back. Private to scripting.
+#pragma once
+
+#include <lua.hpp>
+
+#include "scripting/values/value.h"
+
+namespace rubble {
+
+// Reads without calling anything of the script's. Deeper than 16 tables (or in a circle), beyond a
+// million values or 16 MiB of strings (one string may stand in many places), and for a string that
+// is not UTF-8, "other" stands in. count: the values read are added to it; null: not asked for.
+Value read_lua_value(lua_State* lua, int index, std::size_t* count = nullptr);
+
+// Pushes it. A value that is no plain data is an error of Lua.
+void push_lua_value(lua_State* lua, const Value& value);
+
+}  // namespace rubble

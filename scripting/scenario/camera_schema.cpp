@@ -1,0 +1,181 @@
+#include "scripting/scenario/camera_schema.h"
+
+#include <string>
+
+namespace rubble {
+namespace {
+
+void add_camera(Schema& k, CameraScenario& c) {
+  k.group("camera", "Colour and depth have the same pixels. With the defaults, an exact pinhole.");
+  k.value("camera.width", c.width, "Of the image.").between(16, 8192).unit("pixel");
+  k.value("camera.height", c.height, "Of the image.").between(16, 8192).unit("pixel");
+  k.value("camera.fov_deg", c.fov_deg,
+          "Horizontal field of view, edge to edge: up to 170, of a fisheye up to 360. Distortion of "
+          "plumb_bob is left out of account.")
+      .between(1, 360)
+      .unit("degree");
+  k.value("camera.channels", c.channels,
+          "Ground truth beside colour and depth: \"normals\", \"instance\", \"label\", \"flow\", "
+          "\"sky_visibility\".");
+  k.value("camera.stereo_baseline", c.stereo_baseline,
+          "Distance of a second camera to the right, with the same lens and exposure; 0: none.")
+      .between(0, 10)
+      .unit("m");
+}
+
+void add_lens(Schema& k, LensScenario& l) {
+  k.group("camera.lens", "The lens. Depth and channels are exact for each pixel's own ray.");
+  k.choice("camera.lens.model", l.model, {"pinhole", "plumb_bob", "fisheye"},
+           "Brown-Conrady (ROS plumb_bob, OpenCV) or Kannala-Brandt (ROS equidistant, OpenCV fisheye).");
+  const auto coefficient = [&](const char* name, double& member, const char* doc) {
+    k.value(std::string("camera.lens.") + name, member, doc).between(-100, 100);
+  };
+  coefficient("k1", l.k1, "Radial, of the second power; of a fisheye, k1 to k4 in OpenCV's order.");
+  coefficient("k2", l.k2, "Radial, of the fourth power.");
+  coefficient("p1", l.p1, "Tangential, of plumb_bob.");
+  coefficient("p2", l.p2, "Tangential, of plumb_bob.");
+  coefficient("k3", l.k3, "Radial, of the sixth power.");
+  coefficient("k4", l.k4, "Of a fisheye only.");
+  const auto calibrated = [&](const char* name, std::optional<double>& member, const char* doc) {
+    return &k.value(std::string("camera.lens.") + name, member, doc).unit("pixel");
+  };
+  calibrated("fx", l.fx, "Focal length of a calibrated camera, instead of `fov_deg`.")->above(0, 1e6);
+  calibrated("fy", l.fy, "Not given: as fx.")->above(0, 1e6);
+  calibrated("cx", l.cx, "Principal point; not given: the middle.")->between(-1e5, 1e5);
+  calibrated("cy", l.cy, "Likewise.")->between(-1e5, 1e5);
+}
+
+void add_shutter(Schema& k, ShutterSpec& s) {
+  k.group("camera.shutter", "The stamp of a frame is the middle of its exposure.");
+  k.value("camera.shutter.readout", s.readout,
+          "Rolling shutter: time from the first row to the last; 0: all rows at once.")
+      .between(0, 1)
+      .unit("s");
+  k.value("camera.shutter.motion_blur", s.motion_blur,
+          "Images over the exposure, one for each pixel of motion, added in linear light.");
+  k.value("camera.shutter.most_samples", s.most_samples, "Of these images, at most.").between(3, 255);
+}
+
+void add_exposure(Schema& k, ExposureSpec& e) {
+  k.group("camera.exposure",
+          "How much light the image gets: the share of saturation is 0.65 L t S / (78 N^2), with the "
+          "luminance L in cd/m2 (ISO 12232:2006).");
+  k.choice("camera.exposure.mode", e.mode, {"ideal", "fixed", "automatic"},
+           "Ideal: a display image, metered on the frame itself, without noise; the rest of the keys "
+           "count otherwise.");
+  k.value("camera.exposure.time", e.time, "Exposure time t.").between(1e-6, 1).unit("s");
+  k.value("camera.exposure.iso", e.iso, "Speed S; automatic: the lowest.").between(1, 1e6);
+  k.value("camera.exposure.f_number", e.f_number, "Aperture N.").between(0.5, 64);
+  k.value("camera.exposure.compensation", e.compensation,
+          "Automatic: brighter or darker than a mean of 18 %.")
+      .between(-8, 8)
+      .unit("stop");
+  k.value("camera.exposure.longest_time", e.longest_time, "Automatic: raised up to this, then ...")
+      .between(1e-6, 1)
+      .unit("s");
+  k.value("camera.exposure.highest_iso", e.highest_iso, "... the speed up to this.").between(1, 1e6);
+  k.value("camera.exposure.time_constant", e.time_constant,
+          "Automatic: the error shrinks by e within this time; 0: at once.")
+      .between(0, 60)
+      .unit("s");
+  k.value("camera.exposure.delay", e.delay, "Automatic: frames until what is metered takes effect.")
+      .between(0, 16);
+}
+
+void add_sensor(Schema& k, ImageSensorSpec& s) {
+  k.group("camera.sensor", "From light to stored numbers (EMVA 1288); not of an ideal exposure.");
+  k.value("camera.sensor.noise", s.noise, "Shot and read noise.");
+  k.value("camera.sensor.full_well", s.full_well, "Electrons at saturation at ISO 100.")
+      .between(10, 1e7);
+  k.value("camera.sensor.read_noise", s.read_noise, "Standard deviation, in electrons.")
+      .between(0, 1000);
+  k.value("camera.sensor.bits", s.bits, "Of the converter.").between(1, 16);
+  k.value("camera.sensor.vignette", s.vignette, "0: none; 1: the natural cos^4 fall-off.")
+      .between(0, 4);
+  k.choice("camera.sensor.response", s.response, {"srgb", "gamma", "linear"},
+           "From the converter to the 8 bits that are stored.");
+  k.value("camera.sensor.gamma", s.gamma, "Exponent 1 / gamma, of the response `gamma`.")
+      .between(0.2, 5);
+}
+
+void add_depth_sensor(Schema& k, DepthSensorSpec& d) {
+  k.group("depth_sensor",
+          "What a depth sensor in the place of the camera reports, beside the exact depth. It looks "
+          "through the same smoke and dust.");
+  k.choice("depth_sensor.type", d.type, {"none", "ideal", "structured_light", "time_of_flight"},
+           "Models and sources: render/sensors/depth_sensor.h.");
+  k.value("depth_sensor.min_range", d.min_range, "Nearer is no return.").between(0, 100).unit("m");
+  k.value("depth_sensor.max_range", d.max_range, "Farther is none.").above(0, 1000).unit("m");
+  k.value("depth_sensor.noise", d.noise, "Whether the measurement has noise.");
+  k.value("depth_sensor.baseline", d.baseline, "Structured light: from camera to projector.")
+      .above(0, 10)
+      .unit("m");
+  k.value("depth_sensor.disparity_step", d.disparity_step,
+          "Structured light: resolution, in pixels of an image 640 wide.")
+      .above(0, 10)
+      .unit("pixel");
+  k.value("depth_sensor.disparity_noise", d.disparity_noise,
+          "Structured light: standard deviation, that of the resolution included.")
+      .between(0, 10)
+      .unit("pixel");
+  k.value("depth_sensor.modulation_mhz", d.modulation_mhz,
+          "Time of flight: ranges wrap at c / 2f, 7.5 m at 20 MHz.")
+      .between(1, 1000)
+      .unit("MHz");
+  k.value("depth_sensor.signal", d.signal,
+          "Time of flight: electrons from a white surface at 1 m, seen squarely.")
+      .above(0, 1e9);
+  k.value("depth_sensor.background", d.background, "Time of flight: electrons of other light.")
+      .between(0, 1e9);
+  k.value("depth_sensor.emitter_offset", d.emitter_offset,
+          "Time of flight: from the lens to the emitter on its right; near it the air is not lit.")
+      .between(0.001, 1)
+      .unit("m");
+  k.value("depth_sensor.reflectance", d.reflectance,
+          "Of all surfaces, in the infrared; 0: of each its own, by its look.")
+      .between(0, 1);
+  k.value("depth_sensor.least_amplitude", d.least_amplitude,
+          "Time of flight: weaker returns, in electrons, are none.")
+      .between(0, 1e9);
+  k.value("depth_sensor.step", d.step, "Time of flight: resolution; 0: none.").between(0, 1).unit("m");
+}
+
+void add_event_camera(Schema& k, EventCameraSpec& e) {
+  k.group("event_camera", "An event camera in the place of the camera, with its lens (ESIM).");
+  k.value("event_camera.on", e.on, "Whether there is one.");
+  k.value("event_camera.threshold_up", e.threshold_up,
+          "Change of ln(luminance) that makes an event ...")
+      .between(0.01, 10);
+  k.value("event_camera.threshold_down", e.threshold_down, "... and likewise when it grows darker.")
+      .between(0.01, 10);
+  k.value("event_camera.threshold_noise", e.threshold_noise,
+          "Standard deviation of the thresholds from pixel to pixel.")
+      .between(0, 1);
+  k.value("event_camera.refractory", e.refractory, "A pixel is silent so long after an event.")
+      .between(0, 1)
+      .unit("s");
+  k.value("event_camera.background_hz", e.background_hz, "Events of noise, each pixel.")
+      .between(0, 1000)
+      .unit("Hz");
+  k.value("event_camera.most_motion", e.most_motion,
+          "Between two images of the simulation; smaller: finer in time, slower.")
+      .between(0.05, 100)
+      .unit("pixel");
+  k.value("event_camera.dark", e.dark, "Luminance added before the logarithm.")
+      .above(0, 1e6)
+      .unit("cd/m2");
+}
+
+}  // namespace
+
+void add_camera_keys(Schema& keys, Scenario& s) {
+  add_camera(keys, s.camera);
+  add_lens(keys, s.camera.lens);
+  add_shutter(keys, s.camera.shutter);
+  add_exposure(keys, s.camera.exposure);
+  add_sensor(keys, s.camera.sensor);
+  add_depth_sensor(keys, s.depth_sensor);
+  add_event_camera(keys, s.event_camera);
+}
+
+}  // namespace rubble

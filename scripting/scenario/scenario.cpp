@@ -1,0 +1,280 @@
+#include "scripting/scenario/scenario.h"
+
+#include <algorithm>
+
+#include "kernel/base/portable_math.h"
+#include "kernel/base/random.h"
+#include "scripting/scenario/scenario_schema.h"
+#include "scripting/values/value.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kLeastSmoothing = 0.01;  // of a path with an inertial unit; unit: s
+
+// A mix of which nothing can be drawn.
+void check_mix(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
+  double sum = 0;
+  for (const MixItem& item : pile.mix) sum += item.weight;
+  if (!pile.mix.empty() && sum == 0)
+    mistakes.push_back(
+        {"", 0, "pile.mix", "nothing to draw", "a weight above 0", "only weights of 0", ""});
+  for (std::size_t i = 0; i < pile.mix.size(); ++i) {
+    double materials = 0;
+    for (const MixMaterial& m : pile.mix[i].materials) materials += m.weight;
+    if (!pile.mix[i].materials.empty() && materials == 0)
+      mistakes.push_back({"", 0, "pile.mix[" + std::to_string(i + 1) + "].materials",
+                          "nothing to draw", "a weight above 0", "only weights of 0", ""});
+  }
+}
+
+void check_density(const SpawnDensity& d, std::vector<Diagnostic>& mistakes) {
+  double sum = 0;
+  for (const double weight : d.weights) sum += weight;
+  const auto add = [&](std::string message, std::string expected, std::string found) {
+    mistakes.push_back({"", 0, "pile.spawn_density.weights", std::move(message),
+                        std::move(expected), std::move(found), "rubble.density makes such grids"});
+  };
+  if (d.weights.size() != std::size_t(d.columns) * std::size_t(d.rows))
+    add("not a whole grid", "columns * rows = " + std::to_string(d.columns * d.rows) + " numbers",
+        std::to_string(d.weights.size()));
+  else if (!d.weights.empty() && sum == 0)
+    add("nowhere to draw", "a weight above 0", "only weights of 0");
+}
+
+void check_terrain(const TerrainScenario& t, std::vector<Diagnostic>& mistakes) {
+  const auto add = [&](const char* key, std::string message, std::string expected,
+                       std::string found) {
+    mistakes.push_back({"", 0, std::string("pile.terrain.") + key, std::move(message),
+                        std::move(expected), std::move(found), "rubble.terrain makes such grids"});
+  };
+  if (!t.given()) return;
+  if (!t.file.empty() && !t.heights.empty())
+    return add("file", "contradicts heights", "one of file and heights", "both");
+  if (!t.file.empty()) return;
+  if (t.columns < 2 || t.rows < 2 ||
+      t.heights.size() != std::size_t(t.columns) * std::size_t(t.rows))
+    return add("heights", "not a whole grid",
+               "columns * rows numbers, 2 or more each way",
+               std::to_string(t.heights.size()) + " for " + std::to_string(t.columns) + " by " +
+                   std::to_string(t.rows));
+  const double lowest = *std::min_element(t.heights.begin(), t.heights.end()) + t.position.z;
+  if (lowest < 0)
+    add("heights", "below the ground", "z of 0 m or more", std::to_string(lowest) + " m");
+}
+
+std::string item_key(const char* list, std::size_t i, const char* name = "") {
+  return std::string(list) + "[" + std::to_string(i + 1) + "]" + name;
+}
+
+void check_box(const PlacedItem& item, std::size_t i, std::vector<Diagnostic>& mistakes) {
+  if (item.box && !item.asset.empty())
+    mistakes.push_back({"", 0, item_key("pile.placed", i, ".box"), "contradicts asset",
+                        "one of asset and box", "both", ""});
+  static const std::vector<std::string> kFaces{"+x", "-x", "+y", "-y", "+z", "-z"};
+  for (const std::string& face : item.broken)
+    if (std::find(kFaces.begin(), kFaces.end(), face) == kFaces.end())
+      mistakes.push_back({"", 0, item_key("pile.placed", i, ".broken"), "no such face",
+                          "some of \"+x\", \"-x\", \"+y\", \"-y\", \"+z\", \"-z\"",
+                          "\"" + face + "\"", ""});
+}
+
+void check_names(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
+  for (std::size_t i = 0; i < pile.mix.size(); ++i)
+    if (pile.mix[i].asset.empty())
+      mistakes.push_back({"", 0, item_key("pile.mix", i, ".asset"), "no name",
+                          "the name of an asset", "an empty string", ""});
+  for (std::size_t i = 0; i < pile.placed.size(); ++i) {
+    const PlacedItem& item = pile.placed[i];
+    if (item.asset.empty() && !item.box)
+      mistakes.push_back({"", 0, item_key("pile.placed", i), "no piece",
+                          "`asset = NAME` or `box = {x, y, z}`", "neither", ""});
+    check_box(item, i, mistakes);
+  }
+}
+
+struct ChannelName {
+  const char* name;
+  bool ChannelSet::*member;
+};
+constexpr ChannelName kChannels[] = {{"normals", &ChannelSet::normals},
+                                     {"instance", &ChannelSet::instance},
+                                     {"label", &ChannelSet::label},
+                                     {"flow", &ChannelSet::flow},
+                                     {"sky_visibility", &ChannelSet::sky_visibility}};
+
+void check_channels(const CameraScenario& camera, std::vector<Diagnostic>& mistakes) {
+  const std::vector<std::string> names = channel_names();
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "one of " : ", ") + name;
+  for (std::size_t i = 0; i < camera.channels.size(); ++i) {
+    const std::string& written = camera.channels[i];
+    if (std::find(names.begin(), names.end(), written) != names.end()) continue;
+    const std::string near = nearest_name(written, names);
+    mistakes.push_back({"", 0, "camera.channels[" + std::to_string(i + 1) + "]",
+                        "unknown channel `" + written + "`", near.empty() ? list : "", "",
+                        near.empty() ? "" : "did you mean `" + near + "`?"});
+  }
+}
+
+// Smallest value over [0, fov / 2] of the slope of a fisheye's curve: the image must grow with it.
+bool fisheye_grows(const CameraScenario& camera) {
+  const LensScenario& l = camera.lens;
+  const double edge = camera.fov_deg * (portable::kPi / 360.0);
+  for (int i = 0; i <= 200; ++i) {
+    const double a = edge * i / 200, a2 = a * a;
+    if (1 + a2 * (3 * l.k1 + a2 * (5 * l.k2 + a2 * (7 * l.k3 + a2 * 9 * l.k4))) <= 0) return false;
+  }
+  return true;
+}
+
+void check_camera(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  const CameraScenario& c = scenario.camera;
+  const auto add = [&](const char* key, const char* message, const char* expected,
+                       const char* hint) {
+    mistakes.push_back({"", 0, key, message, expected, "", hint});
+  };
+  const LensScenario& l = c.lens;
+  if (l.model != LensKind::fisheye && c.fov_deg > 170)
+    add("camera.fov_deg", "too wide for a flat image", "at most 170",
+        "or camera.lens.model = \"fisheye\"");
+  if (l.model == LensKind::fisheye && !fisheye_grows(c))
+    add("camera.lens", "the lens folds back within the field of view",
+        "a curve that grows up to camera.fov_deg / 2", "");
+  const bool bent = l.k1 != 0 || l.k2 != 0 || l.k3 != 0 || l.k4 != 0 || l.p1 != 0 || l.p2 != 0;
+  if (l.model == LensKind::pinhole && bent)
+    add("camera.lens.model", "a pinhole has no distortion", "\"plumb_bob\" or \"fisheye\"", "");
+  if (l.model == LensKind::plumb_bob && l.k4 != 0)
+    add("camera.lens.k4", "only a fisheye has it", "0", "");
+  if (l.model == LensKind::fisheye && (l.p1 != 0 || l.p2 != 0))
+    add("camera.lens.p1", "a fisheye has no tangential distortion", "p1 and p2 of 0", "");
+  if (c.shutter.motion_blur && c.exposure.mode == ExposureMode::ideal)
+    add("camera.shutter.motion_blur", "an ideal image takes no time",
+        "camera.exposure.mode of \"fixed\" or \"automatic\"", "");
+  if (scenario.depth_sensor.min_range >= scenario.depth_sensor.max_range)
+    add("depth_sensor.max_range", "nothing is within reach", "more than depth_sensor.min_range", "");
+}
+
+void check_meshes(const OutputScenario& outputs, std::vector<Diagnostic>& mistakes) {
+  const std::vector<std::string> names = export_names();
+  for (std::size_t i = 0; i < outputs.meshes.size(); ++i) {
+    const std::string& written = outputs.meshes[i];
+    if (std::find(names.begin(), names.end(), written) != names.end()) continue;
+    mistakes.push_back({"", 0, "outputs.meshes[" + std::to_string(i + 1) + "]",
+                        "unknown format `" + written + "`", "one of ply, obj, glb, sdf", "", ""});
+  }
+}
+
+// What can be told before there is a pile.
+void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  const TrajectorySpec spec = flown_trajectory(scenario);
+  if (scenario.imu.on && spec.smoothing && *spec.smoothing < kLeastSmoothing)
+    mistakes.push_back({"", 0, "trajectory.smoothing", "too little for an inertial unit",
+                        "at least " + format_number(kLeastSmoothing) + " s, or nothing",
+                        format_number(*spec.smoothing) + " s",
+                        "without it the velocity jumps, and the accelerometer does not feel it"});
+  if (!mistakes.empty() || !spec.smoothing || spec.needs_pile()) return;
+  try {
+    CameraPath{spec};
+  } catch (const InputError& error) {
+    for (const Diagnostic& d : error.diagnostics()) mistakes.push_back(d);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> export_names() { return {"ply", "obj", "glb", "sdf"}; }
+
+std::vector<std::string> channel_names() {
+  std::vector<std::string> names;
+  for (const ChannelName& channel : kChannels) names.push_back(channel.name);
+  return names;
+}
+
+ChannelSet CameraScenario::channel_set() const {
+  ChannelSet set;
+  for (const std::string& written : channels)
+    for (const ChannelName& channel : kChannels)
+      if (written == channel.name) set.*channel.member = true;
+  return set;
+}
+
+Intrinsics CameraScenario::intrinsics() const {
+  const double angle = fov_deg * (portable::kPi / 360.0);
+  Intrinsics in;
+  in.width = width;
+  in.height = height;
+  double half = 0;  // from the axis to the edge, at a focal length of 1
+  if (lens.model == LensKind::fisheye) {
+    in.lens = LensModel::fisheye;
+    in.distortion = {lens.k1, lens.k2, lens.k3, lens.k4, 0};
+    const double a2 = angle * angle;
+    half = angle * (1 + a2 * (lens.k1 + a2 * (lens.k2 + a2 * (lens.k3 + a2 * lens.k4))));
+    in.fx = in.fy = 0.5 * width / half;
+  } else {
+    const portable::SinCos edge = portable::sincos(angle);
+    in.fx = in.fy = 0.5 * width * edge.cos / edge.sin;
+    if (lens.model == LensKind::plumb_bob)
+      in.distortion = {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
+  }
+  in.fx = lens.fx.value_or(in.fx);
+  in.fy = lens.fy.value_or(lens.fx.value_or(in.fy));
+  in.cx = lens.cx.value_or(0.5 * (width - 1));
+  in.cy = lens.cy.value_or(0.5 * (height - 1));
+  return in;
+}
+
+std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
+  Scenario copy = scenario;  // a schema binds members that can be written
+  std::vector<Diagnostic> mistakes = check_ranges(make_scenario_schema(copy));
+  if (!mistakes.empty()) return mistakes;  // what follows relies on finite numbers
+  check_names(scenario.pile, mistakes);
+  check_mix(scenario.pile, mistakes);
+  check_density(scenario.pile.spawn_density, mistakes);
+  check_terrain(scenario.pile.terrain, mistakes);
+  check_channels(scenario.camera, mistakes);
+  check_camera(scenario, mistakes);
+  check_meshes(scenario.outputs, mistakes);
+  if (scenario.voids.radius < scenario.voids.voxel)
+    mistakes.push_back({"", 0, "voids.radius", "smaller than a voxel",
+                        "at least voids.voxel = " + format_number(scenario.voids.voxel),
+                        format_number(scenario.voids.radius), ""});
+  if (scenario.lights.size() + 1 > kMostLights)
+    mistakes.push_back({"", 0, "lights", "too many lights",
+                        "at most " + std::to_string(kMostLights - 1) + " besides the main one",
+                        std::to_string(scenario.lights.size()), ""});
+  for (Diagnostic& d : find_mistakes(scenario.trajectory)) mistakes.push_back(std::move(d));
+  if (mistakes.empty()) check_smoothness(scenario, mistakes);
+  return mistakes;
+}
+
+TrajectorySpec flown_trajectory(const Scenario& scenario) {
+  TrajectorySpec spec = scenario.trajectory;
+  const bool curved_way = spec.plan == Plan::avoid && spec.interpolation == Interpolation::spline;
+  if (!spec.smoothing && !spec.limits.max_jerk && (scenario.imu.on || curved_way))
+    spec.smoothing = kUsualSmoothing;
+  return spec;
+}
+
+void Scenario::validate() const {
+  std::vector<Diagnostic> mistakes = find_mistakes(*this);
+  if (!mistakes.empty()) throw InputError(std::move(mistakes));
+}
+
+LightSpec resolve_light(const Scenario& scenario) {
+  LightSpec light = scenario.light.spec;
+  if (scenario.light.random_position) {
+    RandomStream random(scenario.seed, "light/position");
+    for (int i = 0; i < 3; ++i)
+      light.position[i] += random.uniform(-0.5, 0.5) * scenario.light.position_bounds[i];
+  }
+  if (!scenario.light.random_rotation) return light;
+  RandomStream random(scenario.seed, "light/rotation");
+  const double pitch = random.uniform(20, 80);
+  light.rpy_deg = {0, pitch, random.uniform(-180, 180)};
+  light.elevation_deg = random.uniform(5, 70);
+  light.azimuth_deg = random.uniform(-180, 180);
+  return light;
+}
+
+}  // namespace rubble

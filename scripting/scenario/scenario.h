@@ -1,0 +1,204 @@
+// What a mission is, complete and in plain data: the product of a script, the input of a run.
+//
+//   mission.lua --load_mission--> Scenario --> Pile, Scene, frames, files
+//
+// Every member has a default, so an empty mission is a valid one. scenario_schema.cpp lists every
+// key that a script can set; the names there are the names here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/base/error.h"
+#include "kernel/base/math.h"
+#include "kernel/model/pile.h"
+#include "kernel/settling/settle.h"
+#include "render/scene/camera_spec.h"
+#include "render/scene/frame.h"
+#include "render/scene/scene.h"
+#include "scripting/trajectory/trajectory.h"
+
+namespace rubble {
+
+// What a piece of the mix may be made of instead of what its pack says.
+struct MixMaterial {
+  std::string material;  // a name in materials.lua
+  double weight = 1;     // relative; >= 0
+};
+
+// One kind of piece in the mix that is dropped.
+struct MixItem {
+  std::string asset;  // its name in a pack
+  double weight = 1;  // relative; >= 0
+  // From first to second; default: the asset's own range and spread. range: 0.01 to 100
+  std::optional<std::array<double, 2>> scale;
+  SizeSpread spread{};  // over `scale`
+  std::vector<MixMaterial> materials{};  // drawn for every piece; empty: as the pack says
+};
+
+// A piece that stands or lies there before the first layer falls: an asset of a pack, or a box made
+// to measure.
+struct PlacedItem {
+  std::string asset;  // empty: a box
+  Vec3 position;      // of the piece's origin, in the world; unit: m
+  Vec3 rpy_deg;       // roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll); unit: degree
+  double scale = 1;   // range: 0.01 to 100
+  bool fixed = true;  // immovable; false: it settles with the rest
+  std::optional<Vec3> box{};  // full edge lengths; unit: m; range: 0.02 to 100; the origin: its middle
+  std::string material = "reinforced_concrete";  // of a box
+  std::vector<std::string> broken{};  // of a box, the faces that broke off: "+x", "-x", "+y", ...
+};
+
+// What pieces lie on besides the ground z = 0: heights on a grid, or a mesh. Neither: the ground alone.
+struct TerrainScenario {
+  int columns = 0, rows = 0;     // corners of the grid along X and Y; range: 0 to 1024
+  double spacing = 0.5;          // of neighbouring corners; unit: m; range: 0.01 to 100
+  std::vector<double> heights{};  // row by row from the lowest y; above `position`; unit: m
+  std::string file{};            // instead: a mesh, relative to the script
+  double metres_per_unit = 1;    // of the file; range: > 0
+  UpAxis up = UpAxis::z;         // of the file
+  Vec3 position;                 // of the grid's middle, or of the mesh's origin; unit: m
+  double friction = 0.8;         // Coulomb, against concrete; range: 0 to 2
+  std::string look = "ground";   // of the grid, and of surfaces of the mesh that name none
+
+  bool given() const { return !heights.empty() || !file.empty(); }
+};
+
+struct PileScenario {
+  Vec3 spawn_position{0, 0, 4.5};  // centre of the box that layers are drawn in; unit: m
+  Vec3 spawn_bounds{10, 10, 7};    // its full edge lengths; unit: m; > 0
+  SpawnDensity spawn_density;      // where in the box; without weights: evenly
+  int layers = 4;                  // range: 0 to 1000
+  int pieces_per_layer = 300;      // range: 0 to 100000
+  std::vector<MixItem> mix;        // empty: every asset of the packs, by its own weight
+  std::vector<PlacedItem> placed;
+  TerrainScenario terrain;
+};
+
+struct LightScenario {
+  LightSpec spec;
+  // Draw the direction from the seed; then neither spec.rpy_deg nor the sun's place is used.
+  bool random_rotation = false;
+  // Draw the position from the box around spec.position of these full edge lengths.
+  bool random_position = false;
+  Vec3 position_bounds{8, 8, 4};  // unit: m; >= 0
+};
+
+enum class LensKind { pinhole, plumb_bob, fisheye };
+
+// Formulas: render/camera/lens.h.
+struct LensScenario {
+  LensKind model = LensKind::pinhole;
+  double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  // plumb_bob; k1 to k3 of a fisheye, too
+  double k4 = 0;                                  // of a fisheye
+  // Of a calibrated camera; not given: from the field of view, and the middle. unit: pixel
+  std::optional<double> fx{}, fy{}, cx{}, cy{};
+};
+
+struct CameraScenario {
+  int width = 1024, height = 1024;  // unit: pixel; range: 16 to 8192
+  // Horizontal, from edge to edge of the image; range: 1 to 170, of a fisheye to 360.
+  double fov_deg = 90;
+  // Ground truth beside colour and depth, of channel_names().
+  std::vector<std::string> channels{};
+  LensScenario lens{};
+  double stereo_baseline = 0;  // to the right camera of a pair; 0: none; unit: m; range: 0 to 10
+  ShutterSpec shutter{};
+  ExposureSpec exposure{};
+  ImageSensorSpec sensor{};
+
+  // fx = fy = (width / 2) / r(fov / 2), where r is tan for a pinhole and for plumb_bob, whose
+  // distortion is left out of account, and the lens's own curve for a fisheye; the principal point is
+  // the middle of the image, (width - 1) / 2 where pixel (0, 0) has its centre at (0, 0). What the
+  // lens states itself comes first.
+  Intrinsics intrinsics() const;
+  ChannelSet channel_set() const;  // unknown names are left out
+};
+
+// What CameraScenario::channels may name.
+std::vector<std::string> channel_names();
+
+// What OutputScenario::meshes may name.
+std::vector<std::string> export_names();
+
+enum class DepthEncoding {
+  millimetres,  // "16UC1": uint16, 0: no return
+  metres,       // "32FC1": float, NaN: no return
+};
+
+enum class PictureEncoding { raw, png, jpeg };
+
+struct OutputScenario {
+  bool rawlog = true;               // MRPT: mission.rawlog
+  int rawlog_gzip = 0;              // range: 0 to 9
+  bool simplemap = true;            // MRPT: mission.simplemap
+  bool bag = true;                  // ROS 1: mission.bag
+  bool mcap = false;                // ROS 2: mission.mcap
+  bool tum = false;                 // TUM RGB-D: a folder
+  bool euroc = false;               // EuRoC MAV: a folder
+  bool colmap = false;              // COLMAP: a folder
+  bool frames = false;              // plain PNG and EXR: a folder
+  bool stl = true;                  // pile.stl
+  std::vector<std::string> meshes;  // the pile in further formats, of export_names()
+  bool groundtruth = true;          // TUM: groundtruth.txt
+  bool preview = true;              // preview.png, a contact sheet
+  DepthEncoding depth = DepthEncoding::millimetres;  // in bag and MCAP file
+  PictureEncoding pictures = PictureEncoding::raw;   // likewise
+};
+
+// An inertial unit in the camera.
+struct ImuScenario {
+  bool on = false;
+  ImuModel model;
+};
+
+// The voids of the settled pile, measured for suites and batches; kernel/voids/void_map.h.
+struct VoidScenario {
+  bool on = false;
+  double voxel = 0.05;   // unit: m; range: 0.01 to 1
+  double radius = 0.15;  // of a robot, at least a voxel; unit: m; range: 0.02 to 5
+};
+
+struct Scenario {
+  std::uint64_t seed = 0;                 // range: 0 to 2^63 - 1
+  std::int64_t start_ns = 1'000'000'000;  // stamp of the first frame; ROS time 0 means invalid
+  std::vector<std::string> packs;         // folders; empty: the bundled pack `concrete`
+  PileScenario pile;
+  SettleOptions settle;  // its `threads` is not part of a scenario: results do not depend on it
+  LightScenario light;
+  std::vector<LightSpec> lights;  // besides the main one; at most kMostLights - 1
+  double wetness = 0;             // of all surfaces; range: 0 to 1
+  AirSpec air;
+  CameraScenario camera;
+  DepthSensorSpec depth_sensor;
+  EventCameraSpec event_camera;
+  LampSpec lamp;
+  TrajectorySpec trajectory;
+  ImuScenario imu;
+  OutputScenario outputs;
+  VoidScenario voids;
+
+  // Throws InputError with every mistake: out of range, not finite, contradicting each other.
+  void validate() const;
+};
+
+// What validate() would throw; empty: none. Keys are schema paths such as "pile.mix[1].scale".
+std::vector<Diagnostic> find_mistakes(const Scenario& scenario);
+
+// The trajectory with its smoothing chosen where the mission leaves that open: kUsualSmoothing where
+// an inertial unit is on, and for a curve around what lies there; none elsewhere.
+TrajectorySpec flown_trajectory(const Scenario& scenario);
+
+// The main light as it shines: with random_rotation, a pitch of 20 to 80 degrees down and any yaw (a
+// sun 5 to 70 degrees high, anywhere), drawn from the seed; with random_position, a place in its box.
+LightSpec resolve_light(const Scenario& scenario);
+
+// Complete, in the schema's order, numbers that read back to the same bits. null: not set.
+std::string scenario_to_json(const Scenario& scenario);
+// The inverse. `file` names the text in errors. Throws InputError with every mistake.
+Scenario scenario_from_json(const std::string& text, const std::string& file);
+
+}  // namespace rubble

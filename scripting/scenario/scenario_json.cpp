@@ -1,0 +1,112 @@
+// A resolved scenario as JSON and back, by the schema.
+#include <nlohmann/json.hpp>
+
+#include "kernel/base/text.h"
+#include "scripting/scenario/scenario_schema.h"
+#include "scripting/schema/schema_json.h"
+
+namespace rubble {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Value& value) {
+  switch (value.kind) {
+    case Value::Kind::boolean:
+      return value.boolean;
+    case Value::Kind::integer:
+      return value.integer;
+    case Value::Kind::number:
+      return value.number;
+    case Value::Kind::text:
+      return value.text;
+    case Value::Kind::table: {
+      Json json = value.fields.empty() ? Json::array() : Json::object();
+      for (const Value& item : value.items) json.push_back(json_of(item));
+      for (const auto& [name, member] : value.fields) json[name] = json_of(member);
+      return json;
+    }
+    default:
+      return nullptr;
+  }
+}
+
+Json json_of_group(const Schema& schema, const std::string& pattern, std::size_t index) {
+  Json object = Json::object();
+  for (const Key* key : schema.children(pattern)) {
+    if (key->kind == KeyKind::value) {
+      object[key->name()] = json_of(read_slot(key->bind(index)));
+    } else if (key->kind == KeyKind::group) {
+      object[key->name()] = json_of_group(schema, key->path, index);
+    } else {
+      Json list = Json::array();
+      for (std::size_t i = 0; i < key->size(); ++i)
+        list.push_back(json_of_group(schema, key->path + "[]", i));
+      object[key->name()] = std::move(list);
+    }
+  }
+  return object;
+}
+
+// null means "not set", so such members are left out.
+Value value_of(const Json& json) {
+  if (json.is_boolean()) return Value::make_boolean(json.get<bool>());
+  if (json.is_number_unsigned() && json.get<std::uint64_t>() > std::uint64_t(INT64_MAX))
+    return Value::make_number(json.get<double>());
+  if (json.is_number_integer()) return Value::make_integer(json.get<std::int64_t>());
+  if (json.is_number()) return Value::make_number(json.get<double>());
+  if (json.is_string()) return Value::make_text(json.get<std::string>());
+  if (json.is_null()) return {};
+  Value table = Value::make_table();
+  for (const auto& [name, member] : json.items()) {
+    if (json.is_array())
+      table.items.push_back(value_of(member));
+    else if (!member.is_null())
+      table.set(name, value_of(member));
+  }
+  return table;
+}
+
+int line_of_byte(const std::string& text, std::size_t byte) {
+  int line = 1;
+  for (std::size_t i = 0; i < byte && i < text.size(); ++i) line += text[i] == '\n';
+  return line;
+}
+
+}  // namespace
+
+std::string value_to_json(const Value& value) { return json_of(value).dump(); }
+
+std::string members_to_json(const Schema& schema) { return json_of_group(schema, "", 0).dump(2); }
+
+Value parse_json(const std::string& text, const std::string& file) {
+  if (calc_json_depth(text) > kDeepestJson)
+    throw InputError({file, 0, "", "nested too deep", "at most 200 levels of brackets", "", ""});
+  try {
+    return value_of(Json::parse(text));
+  } catch (const Json::out_of_range&) {
+    throw InputError({file, 0, "", "a number in it is too large", "", "", ""});
+  } catch (const Json::parse_error& error) {
+    throw InputError({file, line_of_byte(text, error.byte), "", "not valid JSON", "", "", ""});
+  }
+}
+
+std::string scenario_to_json(const Scenario& scenario) {
+  Scenario copy = scenario;
+  return members_to_json(make_scenario_schema(copy));
+}
+
+Scenario scenario_from_json(const std::string& text, const std::string& file) {
+  Scenario scenario;
+  std::vector<Diagnostic> mistakes;
+  const Value value = parse_json(text, file);
+  if (value.kind != Value::Kind::table)
+    throw InputError({file, 0, "", "not a scenario", "an object", describe(value), ""});
+  read_table(make_scenario_schema(scenario), value, mistakes);
+  if (mistakes.empty()) mistakes = find_mistakes(scenario);
+  for (Diagnostic& d : mistakes) d.file = file;
+  if (!mistakes.empty()) throw InputError(std::move(mistakes));
+  return scenario;
+}
+
+}  // namespace rubble

@@ -1,0 +1,44 @@
+// An inertial unit carried along a camera path: what it would measure, from the path's exact
+// derivatives.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernel/base/random.h"
+#include "render/scene/frame.h"
+#include "scripting/trajectory/trajectory.h"
+
+namespace rubble {
+
+// Sits in the camera, its axes those of the camera body (X forward, Y left, Z up).
+//
+// A sample at time t is
+//   angular velocity     w(t) + bias_w + n_w
+//   specific force       R(t)^T (a(t) + g z) + bias_a + n_a
+// with white noise n of standard deviation density * sqrt(rate), and biases that start at 0 and
+// take a step of walk / sqrt(rate) from sample to sample (the discrete form of a Wiener process;
+// e.g. Crassidis 2006, "Sigma-point Kalman filtering for integrated GPS and inertial navigation",
+// appendix). The streams of noise depend on the seed alone.
+class Imu {
+ public:
+  // gravity: unit: m/s2. `path` must outlive the unit.
+  Imu(const CameraPath& path, const ImuModel& model, double gravity, std::uint64_t seed,
+      std::int64_t epoch_ns);
+
+  // The samples not yet taken, up to and with this time. Sample k is at k / rate seconds and has
+  // the stamp epoch_ns + k * 1e9 / rate, rounded, as frames have.
+  std::vector<ImuSample> take_until(std::int64_t stamp_ns);
+
+ private:
+  ImuSample sample(std::int64_t index, std::int64_t stamp_ns);
+
+  const CameraPath& path_;
+  ImuModel model_;
+  double gravity_;
+  std::int64_t epoch_ns_, next_ = 0;
+  RandomStream noise_, walk_;
+  Vec3 angular_bias_, acceleration_bias_;
+};
+
+}  // namespace rubble

@@ -1,6 +1,7 @@
 // Who may touch whom: the pairs of a step and their contacts.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kernel/collision/surface_contact.h"
 #include "kernel/world/world_impl.h"
@@ -57,7 +58,7 @@ void World::Impl::push_contact(const Pair& pair) {
       pair.body_b == kGround ? mu_a : types[data.bodies[pair.body_b].type].friction;
   contact.friction = float(std::sqrt(mu_a * mu_b));
   data.pairs.push_back(pair);
-  data.contacts.push_back(contact);
+  data.contacts.push_back(std::move(contact));
 }
 
 // A part near a surface has all slots there, far from it none.
@@ -88,7 +89,7 @@ void World::Impl::remove_contact(std::size_t index) {
   data.contact_of_pair.erase(pair_key(pair.collider_a, pair.collider_b));
   if (index + 1 < data.pairs.size()) {
     const Pair& moved = data.pairs[index] = data.pairs.back();
-    data.contacts[index] = data.contacts.back();
+    data.contacts[index] = std::move(data.contacts.back());
     data.contact_of_pair[pair_key(moved.collider_a, moved.collider_b)] = std::int32_t(index);
   }
   data.pairs.pop_back();

@@ -1,7 +1,9 @@
 // Contacts as plain data: one per pair of convex parts (or part and ground), kept from step to step.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "kernel/base/math.h"
 #include "kernel/collision/gjk.h"
@@ -39,8 +41,45 @@ struct Pair {
   float order = 1e30F;    // height that decides its place in the solver's order; unit: m
 };
 
+// The points of a contact: in memory only where there are any, as four pairs in five of those that are
+// near each other do not touch.
+class ContactPoints {
+ public:
+  static constexpr int kMost = 6;
+
+  ContactPoints() = default;
+  ContactPoints(const ContactPoints& other) {
+    if (!other.made()) return;
+    make();
+    std::copy(other.begin(), other.end(), points_);
+  }
+  ContactPoints(ContactPoints&& other) noexcept : points_(std::exchange(other.points_, nullptr)) {}
+  ContactPoints& operator=(ContactPoints other) noexcept {
+    std::swap(points_, other.points_);
+    return *this;
+  }
+  ~ContactPoints() { delete[] points_; }
+
+  bool made() const { return points_ != nullptr; }
+  void make() {
+    if (!made()) points_ = new ContactPoint[kMost];
+  }
+  void drop() { delete[] std::exchange(points_, nullptr); }
+
+  // As an array of kMost; none when not made.
+  ContactPoint& operator[](int i) { return points_[i]; }
+  const ContactPoint& operator[](int i) const { return points_[i]; }
+  ContactPoint* begin() { return points_; }
+  ContactPoint* end() { return points_ + (made() ? kMost : 0); }
+  const ContactPoint* begin() const { return points_; }
+  const ContactPoint* end() const { return points_ + (made() ? kMost : 0); }
+
+ private:
+  ContactPoint* points_ = nullptr;
+};
+
 struct Contact {
-  static constexpr int kMaxPoints = 6;
+  static constexpr int kMaxPoints = ContactPoints::kMost;
 
   std::int32_t body_a = 0, body_b = 0;  // b may be kGround
   int count = 0;                   // points in use
@@ -51,7 +90,7 @@ struct Contact {
   float friction = 0;
   Vec3f friction_impulse;          // tangential, of the last substep; unit: N s
   float twist_impulse = 0;         // about the normal, of the last substep; unit: N m s
-  ContactPoint points[kMaxPoints];
+  ContactPoints points;
   float pressed = 0;               // total normal impulse of the last step; unit: N s
   float rest_pressed = 0;          // the same when one of the two fell asleep
   GjkCache cache;

@@ -147,7 +147,7 @@ void store(Contact& contact, const Manifold& m, const Vec3f& normal, const Posed
            const PosedBody* b, const Vec3f& offset) {
   const bool keep = contact.count > 0 && dot(normal, contact.normal) > kKeepCosine;
   ContactPoint before[Contact::kMaxPoints], old[Contact::kMaxPoints];
-  std::copy(contact.points, contact.points + contact.count, before);
+  std::copy(contact.points.begin(), contact.points.begin() + contact.count, before);
   int old_count = keep ? contact.count : 0;
   std::copy(before, before + old_count, old);
   if (!keep) {
@@ -158,6 +158,7 @@ void store(Contact& contact, const Manifold& m, const Vec3f& normal, const Posed
   contact.normal = normal;
   contact.has_normal = true;
   contact.count = m.count;
+  if (m.count > 0) contact.points.make();
   const Mat3f a_from_world = a.part.rotation->transposed();
   const Mat3f b_from_world = b != nullptr ? b->part.rotation->transposed() : Mat3f::identity();
   for (int i = 0; i < m.count; ++i) {
@@ -213,6 +214,7 @@ float motion_margin(const Vec3f& relative, float turning, const NarrowSettings& 
 
 void clear_points(Contact& contact) {
   contact.count = 0;
+  contact.points.drop();
   contact.friction_impulse = {};
   contact.twist_impulse = 0;
   contact.pressed = 0;
@@ -252,7 +254,7 @@ void search_along(Contact& contact, const PosedBody& a, const PosedBody& b, cons
   const Vec3f offset = Vec3f(b.centre - a.centre);
   Axis axis{normal, -calc_depth_along(a.part, b.part, offset, normal), {}};
   const ContactPoint* deepest = std::min_element(
-      contact.points, contact.points + contact.count,
+      contact.points.begin(), contact.points.begin() + contact.count,
       [](const ContactPoint& p, const ContactPoint& q) { return p.separation < q.separation; });
   if (contact.count > 0) {
     axis.point = deepest->from_a;

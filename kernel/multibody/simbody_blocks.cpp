@@ -31,7 +31,8 @@ struct SimbodyBlocks::Block {
   SimTK::MultibodySystem system;
   SimTK::SimbodyMatterSubsystem matter;
   std::vector<SimTK::MobilizedBody::Free> bodies;
-  SimTK::State state;
+  // The system's own: a copy of it would take as much again, three kilobytes a body.
+  SimTK::State& state() { return system.updDefaultState(); }
   const double *q = nullptr, *u = nullptr;  // where the State has them, to read
   int first = 0;                            // number of its first body
 };
@@ -62,10 +63,10 @@ int SimbodyBlocks::add(const std::vector<FreeBody>& bodies) {
       block_index_.push_back(std::int32_t(blocks_.size()));
       slot_.push_back(std::int32_t(i - begin));
     }
-    block->state = block->system.realizeTopology();
-    block->system.realizeModel(block->state);
-    block->q = block->state.getQ().getContiguousScalarData();
-    block->u = block->state.getU().getContiguousScalarData();
+    block->system.realizeTopology();
+    block->system.realizeModel(block->state());
+    block->q = block->state().getQ().getContiguousScalarData();
+    block->u = block->state().getU().getContiguousScalarData();
     blocks_.push_back(std::move(block));
     for (std::size_t i = begin; i < end; ++i, ++size_) {
       set_pose(size_, bodies[i].world_from_com);
@@ -76,7 +77,7 @@ int SimbodyBlocks::add(const std::vector<FreeBody>& bodies) {
 }
 
 void SimbodyBlocks::set_velocity(int body, const Vec3& linear, const Vec3& angular) {
-  SimTK::Vector& u = block_of(body).state.updU();
+  SimTK::Vector& u = block_of(body).state().updU();
   const int at = 6 * slot_[body];
   u[at] = angular.x, u[at + 1] = angular.y, u[at + 2] = angular.z;
   u[at + 3] = linear.x, u[at + 4] = linear.y, u[at + 5] = linear.z;
@@ -99,8 +100,8 @@ Vec3 SimbodyBlocks::linear_velocity(int body) const {
 void SimbodyBlocks::advance(int index, const std::vector<std::uint8_t>& moves,
                             const BodyRates* rates, double dt) {
   Block& block = *blocks_[index];
-  double* u = block.state.updU().updContiguousScalarData();
-  double* q = block.state.updQ().updContiguousScalarData();
+  double* u = block.state().updU().updContiguousScalarData();
+  double* q = block.state().updQ().updContiguousScalarData();
   const int count = int(block.bodies.size());
   for (int slot = 0; slot < count; ++slot) {
     const int body = block.first + slot;
@@ -128,7 +129,7 @@ Pose SimbodyBlocks::world_from_com(int body) const {
 }
 
 void SimbodyBlocks::set_pose(int body, const Pose& pose) {
-  SimTK::Vector& q = block_of(body).state.updQ();
+  SimTK::Vector& q = block_of(body).state().updQ();
   const int at = 7 * slot_[body];
   q[at] = pose.rotation.w, q[at + 1] = pose.rotation.x;
   q[at + 2] = pose.rotation.y, q[at + 3] = pose.rotation.z;

@@ -14,6 +14,11 @@ constexpr float kCarrySpeed = 0.5F;  // unit: m/s
 // Below these, speeds that pushes undo are dropped.
 constexpr float kSlowSpeed = 0.2F;  // unit: m/s
 constexpr float kSlowSpin = 2.0F;   // unit: rad/s
+// A thread takes part in the sweeps when there are this many contacts for it.
+constexpr int kLeastContacts = 150;
+constexpr int kMostDomains = 16;
+// Steps on one thread after others did not run.
+constexpr int kCrowdedSteps = 30;
 
 PaddedMotion padded(const Motion& m) {
   return {Quad{m.linear.x, m.linear.y, m.linear.z, 0},
@@ -60,11 +65,63 @@ void ContactSolver::number_bodies(const std::vector<Body>& bodies) {
   }
   moving_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (number_[i] < 0) continue;
-    number_[i] = std::int32_t(moving_.size());
-    moving_.push_back(std::int32_t(i));
+    if (number_[i] == 0) moving_.push_back(std::int32_t(i));
   }
-  for (std::int32_t& n : number_) n = n < 0 ? std::int32_t(moving_.size()) : n;
+  divide(bodies);
+  for (std::int32_t& n : number_) n = std::int32_t(moving_.size());
+  for (std::size_t i = 0; i < moving_.size(); ++i) number_[moving_[i]] = std::int32_t(i);
+}
+
+// Into one domain for each thread: strips of the ground across its longer side, with as many pieces
+// each. Pieces of a domain are numbered one after the other, so that threads seldom write to the same line
+// of a cache.
+void ContactSolver::divide(const std::vector<Body>& bodies) {
+  domains_.assign(moving_.size(), 0);
+  domain_starts_.assign(std::size_t(domain_count_) + 1, std::int32_t(moving_.size()));
+  domain_starts_[0] = 0;
+  if (domain_count_ < 2) return;
+  note_places(bodies);
+  sorted_places_ = places_;
+  std::vector<float> borders;
+  auto begin = sorted_places_.begin();
+  for (int domain = 1; domain < domain_count_; ++domain) {
+    const auto border = sorted_places_.begin() +
+                        std::ptrdiff_t(moving_.size() * std::size_t(domain) / std::size_t(domain_count_));
+    std::nth_element(begin, border, sorted_places_.end());
+    borders.push_back(*border);
+    begin = border;
+  }
+  const std::vector<std::int32_t> before = moving_;
+  std::vector<std::vector<std::int32_t>> members(static_cast<std::size_t>(domain_count_));
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const auto domain = std::upper_bound(borders.begin(), borders.end(), places_[i]) - borders.begin();
+    members[std::size_t(domain)].push_back(before[i]);
+  }
+  moving_.clear();
+  for (std::size_t domain = 0; domain < members.size(); ++domain) {
+    domain_starts_[domain] = std::int32_t(moving_.size());
+    std::fill_n(domains_.begin() + std::ptrdiff_t(moving_.size()), members[domain].size(),
+                std::uint8_t(domain));
+    moving_.insert(moving_.end(), members[domain].begin(), members[domain].end());
+  }
+}
+
+// Along the longer side of the ground that they lie on.
+void ContactSolver::note_places(const std::vector<Body>& bodies) {
+  float low[2] = {1e30F, 1e30F}, high[2] = {-1e30F, -1e30F};
+  places_.clear();
+  sorted_places_.clear();  // here those across
+  for (std::int32_t body : moving_) {
+    const Vec3 at = bodies[body].world_from_com.translation;
+    const float place[2] = {float(at.x), float(at.y)};
+    for (int axis = 0; axis < 2; ++axis) {
+      low[axis] = std::min(low[axis], place[axis]);
+      high[axis] = std::max(high[axis], place[axis]);
+    }
+    places_.push_back(place[0]);
+    sorted_places_.push_back(place[1]);
+  }
+  if (high[1] - low[1] > high[0] - low[0]) places_.swap(sorted_places_);
 }
 
 // A light piece under a heavy one carries a load of many times its weight, which the sweeps reach
@@ -94,54 +151,28 @@ void ContactSolver::share_inertia(const std::vector<Body>& bodies) {
   }
 }
 
-// The first batch later than `after` with room for a contact of so many rows.
-int ContactSolver::find_batch(int rows, int after) {
-  std::vector<std::int32_t>& open = open_[rows];
-  for (std::size_t i = 0; i < open.size(); ++i) {
-    const int batch = open[i];
-    if (batch <= after) continue;
-    if (++lanes_used_[batch] == kLanes) open.erase(open.begin() + std::ptrdiff_t(i));
-    return batch;
-  }
-  ContactBatch batch{};
-  batch.first_row = row_count_;
-  batch.rows = rows;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    batch.a[lane] = batch.b[lane] = std::int32_t(moving_.size());
-    batch.contact[lane] = -1;
-  }
-  row_count_ += rows;
-  open.push_back(std::int32_t(batches_.size()));
-  lanes_used_.push_back(1);
-  batches_.push_back(batch);
-  return int(batches_.size()) - 1;
-}
-
 void ContactSolver::pack() {
-  batches_.clear();
-  row_count_ = 0;
-  lanes_used_.clear();
-  for (auto& open : open_) open.clear();
-  last_batch_.assign(moving_.size() + 1, -1);
-  const int beyond = int(moving_.size());
+  plan_.begin(domain_count_, domains_);
   for (const Head& head : heads_) {
     if (head.tree) continue;
-    const int a = number_[head.body_a];
-    const int b = head.body_b == kGround ? beyond : number_[head.body_b];
-    last_batch_[beyond] = -1;
-    const int found = find_batch(head.count, std::max(last_batch_[a], last_batch_[b]));
-    last_batch_[a] = last_batch_[b] = found;
-    ContactBatch& batch = batches_[found];
-    const int lane = lanes_used_[found] - 1;
-    batch.a[lane] = a;
-    batch.b[lane] = b;
-    batch.contact[lane] = head.contact;
+    const std::int32_t beyond = std::int32_t(moving_.size());
+    plan_.add(head.contact, number_[head.body_a],
+              head.body_b == kGround ? beyond : number_[head.body_b], head.count);
   }
+  plan_.finish();
+  batches_.resize(std::size_t(plan_.batch_count()));
+  std::int32_t rows = 0;
+  for (int i = 0; i < plan_.batch_count(); ++i) {
+    batches_[i].first_row = rows;
+    rows += batches_[i].rows = plan_.batch(i).rows;
+  }
+  rows_.resize(std::size_t(rows));
+  pushes_.resize(std::size_t(rows));
 }
 
 // What the rows ask of the moving bodies.
 void ContactSolver::note_bodies(const std::vector<Body>& bodies) {
-  terms_.assign(moving_.size() + 1, {});
+  terms_.assign(slot_count(), {});
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     const Body& body = bodies[moving_[i]];
     BodyTerms& t = terms_[i];
@@ -156,30 +187,128 @@ void ContactSolver::note_bodies(const std::vector<Body>& bodies) {
   }
 }
 
-void ContactSolver::run_substeps(const SolverSettings& settings) {
-  const float h = settings.step / float(settings.substeps);
-  const Quad fall{0, 0, -settings.gravity * h, 0};
-  const Quad wide_h = make_quad(h);
-  const float per_substep = 1 / h, weight = settings.gravity * h;
-  const bool trees = !tree_contacts_.empty();
-  const BatchRange all = range(0, int(batches_.size()));
-  for (int substep = 0; substep < settings.substeps; ++substep) {
-    for (std::size_t i = 0; i < moving_.size(); ++i) {
-      speeds_[i].linear += fall * make_quad(share_[i]);
+// One substep after another, on the thread of a domain. Whoever shares a body with another thread waits
+// for it as the plan says; between two phases all wait for each other.
+class ContactSolver::Sweeper {
+ public:
+  Sweeper(ContactSolver& solver, const SolverSettings& settings)
+      : s_(solver),
+        substeps_(settings.substeps),
+        h_(settings.step / float(settings.substeps)),
+        weight_(settings.gravity * h_),
+        progress_(solver.domain_count_) {}
+
+  void run(int domain) {
+    const bool trees = !s_.tree_contacts_.empty();
+    for (int substep = 0; substep < substeps_; ++substep) {
+      const std::int64_t start = substep * 4 * length(), solve = start + length();
+      begin_substep(domain, substep > 0);
+      progress_.reach(domain, start);
+      sweep(domain, start, [this](const SweepSegment& segment) {
+        s_.kernels_.warm_start(s_.range(segment.begin, segment.end), s_.speeds_.data());
+      });
+      progress_.meet(domain, solve - 1);
+      if (trees) {
+        if (domain == 0) begin_trees(substep == 0);
+        progress_.meet(domain, solve);
+      }
+      progress_.reach(domain, solve);
+      sweep(domain, solve, [this](const SweepSegment& segment) {
+        s_.kernels_.solve_velocities(s_.range(segment.begin, segment.end), 1 / h_, weight_,
+                                     s_.moved_.data(), s_.speeds_.data());
+      });
+      progress_.meet(domain, solve + length() - 1);
+      if (trees) {
+        if (domain == 0) solve_trees();
+        progress_.meet(domain, solve + length());
+      }
     }
-    kernels_.warm_start(all, speeds_.data());
-    if (trees) tree_contacts_.begin_substep(speeds_.data(), substep == 0, double(weight));
-    kernels_.solve_velocities(all, per_substep, weight, moved_.data(), speeds_.data());
-    if (trees) {
-      tree_contacts_.solve_velocities(1 / double(h), moved_.data(), speeds_.data());
-      tree_contacts_.end_substep();
-    }
-    for (std::size_t i = 0; i < moving_.size(); ++i) {
-      moved_[i].linear += speeds_[i].linear * wide_h;
-      moved_[i].angular += speeds_[i].angular * wide_h;
+    move(domain);
+  }
+
+  void push(int domain, int iterations) {
+    const bool trees = !s_.tree_contacts_.empty();
+    for (int iteration = 0; iteration < iterations; ++iteration) {
+      const std::int64_t start = iteration * 2 * length();
+      progress_.reach(domain, start);
+      sweep(domain, start, [this](const SweepSegment& segment) {
+        for (int i = segment.begin; i < segment.end; ++i) s_.push(i);
+      });
+      progress_.meet(domain, start + length() - 1);
+      if (!trees) continue;
+      if (domain == 0) s_.tree_contacts_.solve_pushes(s_.moved_.data());
+      progress_.meet(domain, start + length());
     }
   }
-  if (trees) tree_contacts_.end_substeps(double(weight));
+
+  bool crowded() const { return progress_.crowded(); }
+
+ private:
+  std::int64_t length() const { return std::int64_t(s_.plan_.last_time()) + 2; }
+
+  void move(int domain) {
+    const Quad h = make_quad(h_);
+    for (int i = s_.domain_starts_[domain]; i < s_.domain_starts_[domain + 1]; ++i) {
+      s_.moved_[i].linear += s_.speeds_[i].linear * h;
+      s_.moved_[i].angular += s_.speeds_[i].angular * h;
+    }
+  }
+  void begin_substep(int domain, bool moves) {
+    if (moves) move(domain);
+    const Quad fall{0, 0, -weight_, 0};
+    for (int i = s_.domain_starts_[domain]; i < s_.domain_starts_[domain + 1]; ++i) {
+      s_.speeds_[i].linear += fall * make_quad(s_.share_[i]);
+    }
+  }
+  template <typename Action>
+  void sweep(int domain, std::int64_t start, const Action& action) {
+    for (const SweepSegment& segment : s_.plan_.segments(domain)) {
+      if (segment.needs >= 0) wait(segment, start);
+      action(segment);
+      progress_.reach(domain, start + segment.time);
+    }
+  }
+  void wait(const SweepSegment& segment, std::int64_t start) {
+    const std::int32_t* needs = s_.plan_.needs(segment);
+    for (int other = 0; other < s_.domain_count_; ++other) {
+      if (needs[other] >= 0) progress_.wait_for(other, start + needs[other]);
+    }
+  }
+  void begin_trees(bool first) {
+    s_.tree_contacts_.begin_substep(s_.speeds_.data(), first, double(weight_));
+  }
+  void solve_trees() {
+    s_.tree_contacts_.solve_velocities(1 / double(h_), s_.moved_.data(), s_.speeds_.data());
+    s_.tree_contacts_.end_substep();
+  }
+
+  ContactSolver& s_;
+  int substeps_;
+  float h_, weight_;  // unit: s, m/s
+  SweepProgress progress_;
+};
+
+void ContactSolver::run_substeps(const SolverSettings& settings, ThreadPool& pool) {
+  Sweeper sweeper(*this, settings);
+  pool.run(domain_count_, 1, [&](int begin, int end) {
+    for (int domain = begin; domain < end; ++domain) sweeper.run(domain);
+  });
+  if (sweeper.crowded()) crowded_steps_ = kCrowdedSteps;
+  const float h = settings.step / float(settings.substeps);
+  if (!tree_contacts_.empty()) tree_contacts_.end_substeps(double(settings.gravity * h));
+}
+
+// Threads take part where there is enough to do for each, unless other programs kept them from it lately:
+// waiting for a thread that does not run costs more than doing its work.
+int ContactSolver::choose_domain_count(const ThreadPool& pool) {
+  const int most = std::min({pool.threads(), int(heads_.size()) / kLeastContacts, kMostDomains});
+  if (most < 2) return 1;
+  if (crowded_steps_ > 0) return --crowded_steps_, 1;
+  return most;
+}
+
+std::size_t ContactSolver::slot_count() const {
+  return moving_.size() + std::size_t(kImmovableStride * domain_count_);
 }
 
 BatchRange ContactSolver::range(int begin, int end) {
@@ -207,27 +336,36 @@ void ContactSolver::push_apart(const SolverSettings& settings, ThreadPool& pool)
   const bool tree_pushes = trees && tree_contacts_.begin_pushes(settings, moved_.data());
   const bool any = std::find(wants_push_.begin(), wants_push_.end(), 1) != wants_push_.end();
   if (!any && !tree_pushes) return;
-  pushed_.assign(moving_.size() + 1, trees ? 1 : 0);
-  for (int iteration = 0; iteration < settings.position_iterations; ++iteration) {
-    for (std::size_t i = 0; i < batches_.size(); ++i) {
-      const ContactBatch& batch = batches_[i];
-      if (!wants_push_[i] && !is_pushed(batch)) continue;
-      wants_push_[i] = 1;
-      if (kernels_.solve_pushes(batch, &rows_[batch.first_row], &pushes_[batch.first_row],
-                                moved_.data())) {
-        for (int lane = 0; lane < kLanes; ++lane) {
-          pushed_[batch.a[lane]] = pushed_[batch.b[lane]] = 1;
-        }
-        pushed_[moving_.size()] = 0;  // stands for what does not move
-      }
+  pushed_.assign(slot_count(), trees ? 1 : 0);
+  Sweeper sweeper(*this, settings);
+  pool.run(domain_count_, 1, [&](int begin, int end) {
+    for (int domain = begin; domain < end; ++domain) {
+      sweeper.push(domain, settings.position_iterations);
     }
-    if (trees) tree_contacts_.solve_pushes(moved_.data());
+  });
+}
+
+// One batch of position correction, where that can change anything.
+void ContactSolver::push(int index) {
+  const ContactBatch& batch = batches_[index];
+  if (!wants_push_[index] && !is_pushed(batch)) return;
+  wants_push_[index] = 1;
+  if (!kernels_.solve_pushes(batch, &rows_[batch.first_row], &pushes_[batch.first_row],
+                             moved_.data())) {
+    return;
+  }
+  const std::int32_t beyond = std::int32_t(moving_.size());
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (batch.a[lane] < beyond) pushed_[batch.a[lane]] = 1;
+    if (batch.b[lane] < beyond) pushed_[batch.b[lane]] = 1;
   }
 }
 
 bool ContactSolver::is_pushed(const ContactBatch& batch) const {
+  const std::int32_t beyond = std::int32_t(moving_.size());
+  const auto pushed = [&](std::int32_t body) { return body < beyond && pushed_[body] != 0; };
   for (int lane = 0; lane < kLanes; ++lane) {
-    if (pushed_[batch.a[lane]] || pushed_[batch.b[lane]]) return true;
+    if (pushed(batch.a[lane]) || pushed(batch.b[lane])) return true;
   }
   return false;
 }
@@ -280,20 +418,25 @@ void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body
                           std::vector<Motion>& velocities, std::vector<Motion>& displacements,
                           const SolvedTrees& trees, ThreadPool& pool) {
   note_heads(bodies, order, contacts, trees, pool);
+  domain_count_ = choose_domain_count(pool);
   number_bodies(bodies);
   share_inertia(bodies);
   pack();
-  rows_.resize(std::size_t(row_count_));
-  pushes_.resize(std::size_t(row_count_));
   tree_contacts_.begin(settings, bodies, tree_order_, contacts, number_, share_, trees);
   note_bodies(bodies);
   each_batch(pool, [&](const BatchRange& part) {
+    for (ContactBatch* batch = part.begin; batch != part.end; ++batch) {
+      const PlannedBatch& planned = plan_.batch(int(batch - batches_.data()));
+      std::copy_n(planned.a, kLanes, batch->a);
+      std::copy_n(planned.b, kLanes, batch->b);
+      std::copy_n(planned.contact, kLanes, batch->contact);
+    }
     kernels_.prepare(part, contacts.data(), terms_.data(), settings.rest_gap);
   });
-  speeds_.assign(moving_.size() + 1, {});
-  moved_.assign(moving_.size() + 1, {});
+  speeds_.assign(slot_count(), {});
+  moved_.assign(slot_count(), {});
   for (std::size_t i = 0; i < moving_.size(); ++i) speeds_[i] = padded(velocities[moving_[i]]);
-  run_substeps(settings);
+  run_substeps(settings, pool);
   before_push_ = moved_;
   push_apart(settings, pool);
   drop_opposed_speeds(settings);

@@ -14,6 +14,8 @@
 #include "kernel/collision/body.h"
 #include "kernel/collision/contact.h"
 #include "kernel/solver/contact_rows.h"
+#include "kernel/solver/sweep_plan.h"
+#include "kernel/solver/sweep_progress.h"
 #include "kernel/solver/tree_contacts.h"
 
 namespace rubble {
@@ -54,6 +56,8 @@ class ContactSolver {
   bool has_intervened(std::int32_t body) const;
 
  private:
+  class Sweeper;
+
   // What planning asks of a contact, in the order of solving, close together in memory.
   struct Head {
     std::int32_t contact = 0, body_a = 0, body_b = 0, count = 0;
@@ -66,15 +70,19 @@ class ContactSolver {
                   ThreadPool& pool);
   void number_bodies(const std::vector<Body>& bodies);
   void share_inertia(const std::vector<Body>& bodies);
+  int choose_domain_count(const ThreadPool& pool);
+  void divide(const std::vector<Body>& bodies);
+  void note_places(const std::vector<Body>& bodies);
   void pack();
-  int find_batch(int rows, int after);
   void note_bodies(const std::vector<Body>& bodies);
+  std::size_t slot_count() const;  // moving bodies, and what does not move
   BatchRange range(int begin, int end);
   // Calls action(range) for ranges that cover all batches, on the threads of the pool.
   template <typename Action>
   void each_batch(ThreadPool& pool, Action&& action);
-  void run_substeps(const SolverSettings& settings);
+  void run_substeps(const SolverSettings& settings, ThreadPool& pool);
   void push_apart(const SolverSettings& settings, ThreadPool& pool);
+  void push(int batch);
   bool is_pushed(const ContactBatch& batch) const;
   void drop_opposed_speeds(const SolverSettings& settings);
   void store(const ContactBatch& batch, std::vector<Contact>& contacts) const;
@@ -82,7 +90,7 @@ class ContactSolver {
   std::vector<Head> heads_;
   std::vector<std::int32_t> tree_order_;  // contacts with a tree
   TreeContacts tree_contacts_;
-  std::vector<std::int32_t> moving_;   // awake free bodies with a contact, in order
+  std::vector<std::int32_t> moving_;   // awake free bodies with a contact, by domain
   std::vector<std::int32_t> number_;   // of each body in moving_; moving_.size(): does not move
   std::vector<std::uint8_t> held_;     // something is below it; by moving body
   std::vector<float> share_;           // of true inertia in what the solver uses, by moving body
@@ -94,10 +102,12 @@ class ContactSolver {
   std::vector<PushRow> pushes_;               // by row
   std::vector<std::uint8_t> wants_push_;      // by batch
   std::vector<std::uint8_t> pushed_;          // by moving body
-  std::int32_t row_count_ = 0;
-  std::vector<std::int32_t> last_batch_;  // of each moving body, while packing
-  std::vector<std::int32_t> lanes_used_;
-  std::vector<std::int32_t> open_[Contact::kMaxPoints + 1];  // batches with room, by row count
+  SweepPlan plan_;
+  int domain_count_ = 1;
+  std::vector<float> places_, sorted_places_;  // by moving body
+  std::vector<std::uint8_t> domains_;         // by moving body
+  std::vector<std::int32_t> domain_starts_;   // numbers of each domain's first moving body; the end
+  int crowded_steps_ = 0;
 };
 
 }  // namespace rubble

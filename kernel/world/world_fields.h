@@ -46,6 +46,16 @@ void each_field(Struct& p, Visit&& visit) {
   visit(p.apart_until), visit(p.searched_until), visit(p.order);
 }
 
+template <typename Struct, typename Visit, IfIs<Struct, ContactPoints> = 0>
+void each_field(Struct& p, Visit&& visit) {
+  bool made = p.made();
+  visit(made);
+  if constexpr (!std::is_const_v<Struct>) {
+    if (made) p.make();
+  }
+  for (auto& point : p) visit(point);
+}
+
 template <typename Struct, typename Visit, IfIs<Struct, Contact> = 0>
 void each_field(Struct& c, Visit&& visit) {
   visit(c.body_a), visit(c.body_b), visit(c.friction);

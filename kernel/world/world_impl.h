@@ -96,12 +96,13 @@ struct World::Impl {
   std::vector<Sweep> sweeps;                // by body
   std::vector<std::uint8_t> leaves_box;     // by collider
   std::vector<std::uint8_t> pair_states;    // by pair: a PairState
-  std::vector<OrderKey> order_keys;
+  std::vector<OrderKey> order_keys, key_scratch;
   std::vector<DeepPair> deep_pairs;
   std::vector<std::uint8_t> overlapping, slept, disturbed;  // by body
   std::vector<Vec3f> lost_support;               // by body: of sleepers, to awake neighbours
   std::vector<std::int32_t> unsettled;           // sleepers whose lost_support is not zero
   std::vector<std::uint8_t> is_deep;             // by pair: overlaps deeper than sleep allows
+  std::vector<std::uint8_t> may_be_stuck;        // by pair: is_stuck(), or was led out before
   std::vector<std::uint8_t> block_awake;
   std::vector<std::int32_t> body_of;  // by number in SimbodyBlocks
   std::vector<std::uint8_t> moves;  // by number in SimbodyBlocks
@@ -130,6 +131,7 @@ struct World::Impl {
   void select_pairs();
   void update_contacts();
   void update_pair(Pair& pair, Contact& contact);
+  void note_overlap(std::int32_t pair);
   void list_awake();
   void note_sweeps();
   Aabb calc_swept_box(int collider) const;

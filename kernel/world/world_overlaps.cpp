@@ -54,6 +54,7 @@ void World::Impl::lead_out_of(const std::vector<std::int32_t>& deep) {
     search_along(contact, posed(data.colliders[pair.collider_a]),
                  posed(data.colliders[pair.collider_b]), way, margin, narrow_settings);
     pair.live = contact.count > 0;
+    is_deep[i] = overlaps_deep(contact);
     pair.searched_until = pair.apart_until = 0;
   }
 }
@@ -63,7 +64,7 @@ void World::Impl::lead_out() {
   deep_pairs.clear();
   for (const std::int32_t i : active) {
     const Pair& pair = data.pairs[i];
-    if (pair.collider_b < 0 || !pair.live) continue;
+    if (!may_be_stuck[i] || pair.collider_b < 0 || !pair.live) continue;
     Contact& contact = data.contacts[i];
     if (!is_stuck(contact)) {
       contact.way_out = {};

@@ -1,6 +1,7 @@
 // Who may touch whom: the pairs of a step and their contacts.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kernel/collision/surface_contact.h"
 #include "kernel/world/world_impl.h"
@@ -57,7 +58,7 @@ void World::Impl::push_contact(const Pair& pair) {
       pair.body_b == kGround ? mu_a : types[data.bodies[pair.body_b].type].friction;
   contact.friction = float(std::sqrt(mu_a * mu_b));
   data.pairs.push_back(pair);
-  data.contacts.push_back(contact);
+  data.contacts.push_back(std::move(contact));
 }
 
 // A part near a surface has all slots there, far from it none.
@@ -88,7 +89,7 @@ void World::Impl::remove_contact(std::size_t index) {
   data.contact_of_pair.erase(pair_key(pair.collider_a, pair.collider_b));
   if (index + 1 < data.pairs.size()) {
     const Pair& moved = data.pairs[index] = data.pairs.back();
-    data.contacts[index] = data.contacts.back();
+    data.contacts[index] = std::move(data.contacts.back());
     data.contact_of_pair[pair_key(moved.collider_a, moved.collider_b)] = std::int32_t(index);
   }
   data.pairs.pop_back();
@@ -226,7 +227,7 @@ void World::Impl::update_surface_slots(const Pair& first) {
                           narrow_settings);
   for (const std::int32_t number : numbers) {
     data.pairs[number].live = data.contacts[number].count > 0;
-    is_deep[number] = overlaps_deep(data.contacts[number]);
+    note_overlap(number);
   }
 }
 
@@ -247,8 +248,16 @@ void World::Impl::update_pair(Pair& pair, Contact& contact) {
   pair.live = contact.count > 0;
 }
 
+// While the contact is at hand.
+void World::Impl::note_overlap(std::int32_t index) {
+  const Contact& contact = data.contacts[index];
+  is_deep[index] = overlaps_deep(contact);
+  may_be_stuck[index] = dot(contact.way_out, contact.way_out) > 0 || is_stuck(contact);
+}
+
 void World::Impl::update_contacts() {
   is_deep.resize(data.pairs.size());
+  may_be_stuck.resize(data.pairs.size());
   pool.run(int(active.size()), 64, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       Pair& pair = data.pairs[active[i]];
@@ -257,7 +266,7 @@ void World::Impl::update_contacts() {
         continue;
       }
       update_pair(pair, data.contacts[active[i]]);
-      is_deep[active[i]] = overlaps_deep(data.contacts[active[i]]);
+      note_overlap(active[i]);
     }
   });
 }

@@ -181,7 +181,8 @@ bool is_consistent(const World::Snapshot& s) {
   for (const Contact& c : d.contacts) {
     fine = fine && in_range(c.body_a, d.bodies.size()) &&
            (c.body_b == kGround || in_range(c.body_b, d.bodies.size())) && c.count >= 0 &&
-           c.count <= Contact::kMaxPoints && c.cache.size <= 3;
+           c.count <= Contact::kMaxPoints && (c.count == 0 || c.points.made()) &&
+           c.cache.size <= 3;
   }
   for (const auto& entry : d.contact_of_pair) {
     fine = fine && in_range(entry.second, d.contacts.size());

@@ -39,6 +39,7 @@ class Maker {
   Contact contact(int points) {
     Contact c;
     c.count = points;
+    c.points.make();
     c.normal = number(0, 1) < 0.2F ? Vec3f{0, 0, 1} : normalized(vector(1));
     c.friction = number(0, 1);
     c.friction_impulse = vector(0.3);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "io/live/complaints.h"
 #include "io/live/dds_bytes.h"
 #include "io/live/live_ros.h"
 #include "io/live/pace.h"
@@ -52,7 +53,7 @@ void check(dds_return_t code, const std::string& what) {
 
 class Ros2Stream : public DriveStream {
  public:
-  Ros2Stream(const Ros2Options& options, bool hears) : pace_(options), notice_(options.notice) {
+  Ros2Stream(const Ros2Options& options, bool hears) : pace_(options), complaints_(options.notice) {
     const auto number = dds_domainid_t(options.domain);
     domain_ = dds_create_domain(number, configuration(options.interface).c_str());
     check(domain_, "domain " + std::to_string(options.domain));
@@ -99,10 +100,10 @@ class Ros2Stream : public DriveStream {
 
   DriveCommands take() override {
     DriveCommands commands;
-    for (const std::string& bytes : take_bytes(twist_)) hear("/cmd_vel", [&] {
+    for (const std::string& bytes : take_bytes(twist_, kHeard)) hear("/cmd_vel", [&] {
         commands.twists.push_back(read_twist(version(), bytes));
       });
-    for (const std::string& bytes : take_bytes(joy_)) hear("/joy", [&] {
+    for (const std::string& bytes : take_bytes(joy_, kHeard)) hear("/joy", [&] {
         commands.joys.push_back(read_joy(version(), bytes));
       });
     dds_subscription_matched_status_t status;
@@ -137,7 +138,7 @@ class Ros2Stream : public DriveStream {
     try {
       read();
     } catch (const RunError& error) {
-      notice_(std::string(topic) + ": " + error.what());
+      complaints_.note(topic, error.what());
     }
   }
 
@@ -156,7 +157,7 @@ class Ros2Stream : public DriveStream {
   }
 
   Pace pace_;
-  std::function<void(const std::string&)> notice_;
+  Complaints complaints_;
   dds_entity_t domain_ = 0, participant_ = 0, twist_ = 0, joy_ = 0;
   std::vector<dds_entity_t> writers_;
   bool started_ = false;

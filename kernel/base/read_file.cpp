@@ -43,7 +43,7 @@ class Reader {
   std::string read_all(std::uint64_t limit) {
     std::string content;
     // One byte more than the file has: a file that grew meanwhile is noticed.
-    std::vector<char> block(pipe_ ? kBlock : std::min(kBlock, size_ + 1));
+    std::vector<char> block(pipe_ ? kBlock : std::clamp<std::size_t>(size_ + 1, 4096, kBlock));
     for (std::size_t count = 0; (count = read_block(block)) != 0;) {
       content.append(block.data(), count);
       if (content.size() > limit)

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "io/live/complaints.h"
@@ -51,9 +52,34 @@ void check(dds_return_t code, const std::string& what) {
   if (code < 0) throw RunError("DDS: " + what + ": " + dds_strretcode(code));
 }
 
+// What Cyclone has to say, each of its functions for itself: a peer can make it say something of every
+// packet. Called by threads of its own.
+class DdsLog {
+ public:
+  explicit DdsLog(const std::function<void(const std::string&)>& notice) : complaints_(notice) {
+    dds_set_log_sink(note, this);
+  }
+  ~DdsLog() { dds_set_log_sink(nullptr, nullptr); }
+  DdsLog(const DdsLog&) = delete;
+  DdsLog& operator=(const DdsLog&) = delete;
+
+ private:
+  static void note(void* log, const dds_log_data_t* data) {
+    auto& self = *static_cast<DdsLog*>(log);
+    const std::lock_guard<std::mutex> lock(self.mutex_);
+    std::string line(data->message, data->size);
+    while (!line.empty() && line.back() == '\n') line.pop_back();
+    self.complaints_.note(std::string("DDS: ") + data->function, line);
+  }
+
+  Complaints complaints_;
+  std::mutex mutex_;
+};
+
 class Ros2Stream : public DriveStream {
  public:
-  Ros2Stream(const Ros2Options& options, bool hears) : pace_(options), complaints_(options.notice) {
+  Ros2Stream(const Ros2Options& options, bool hears)
+      : pace_(options), log_(options.notice), complaints_(options.notice) {
     const auto number = dds_domainid_t(options.domain);
     domain_ = dds_create_domain(number, configuration(options.interface).c_str());
     check(domain_, "domain " + std::to_string(options.domain));
@@ -157,6 +183,7 @@ class Ros2Stream : public DriveStream {
   }
 
   Pace pace_;
+  DdsLog log_;
   Complaints complaints_;
   dds_entity_t domain_ = 0, participant_ = 0, twist_ = 0, joy_ = 0;
   std::vector<dds_entity_t> writers_;

@@ -14,7 +14,10 @@ constexpr double kLift = 1e-5;      // off the surface that is slid along; unit:
 constexpr int kMostSlides = 3;      // a corner has three faces
 
 // No longer than that, in the same direction.
-Vec3 bounded(const Vec3& v, double most) {
+Vec3 bounded(const Vec3& asked, double most) {
+  static constexpr double kSquarable = 1e150;
+  const auto clip = [](double x) { return std::clamp(x, -kSquarable, kSquarable); };
+  const Vec3 v{clip(asked.x), clip(asked.y), clip(asked.z)};
   const double length = norm(v);
   return length > most ? v * (most / length) : v;
 }

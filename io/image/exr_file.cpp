@@ -76,8 +76,6 @@ void read_channel(Imf::InputFile& file, const std::string& name, int width, int 
     values[first + i * step] = static_cast<double>(plane[i]);
 }
 
-constexpr std::int64_t kMostPixels = std::int64_t(1) << 28;
-
 ExrImage import_exr(const std::string& path, const std::vector<std::string>& channels) {
   try {
     Imf::InputFile file(path.c_str(), 0);

@@ -1,6 +1,7 @@
 // Pictures that strangers made, decoded in a child process (kernel/base/isolated_worker.h).
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "kernel/base/disk_cache.h"
@@ -8,6 +9,13 @@
 #include "kernel/base/isolated_worker.h"
 
 namespace rubble {
+
+// Of a picture that is read; more is refused.
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+inline constexpr std::int64_t kMostPixels = std::int64_t(1) << 20;  // or most of the time goes there
+#else
+inline constexpr std::int64_t kMostPixels = std::int64_t(1) << 28;
+#endif
 
 // What `decode` returns: an image with width, height and, as the member `values`, its pixels.
 template <typename Image, typename Values, typename Decode>

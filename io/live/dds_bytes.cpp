@@ -165,12 +165,12 @@ dds_entity_t create_bytes_topic(dds_entity_t participant, const std::string& top
   return entity;
 }
 
-std::vector<std::string> take_bytes(dds_entity_t reader) {
+std::vector<std::string> take_bytes(dds_entity_t reader, std::size_t most) {
   std::vector<std::string> all;
   std::string bytes;
   void* sample = &bytes;
   dds_sample_info_t info;
-  while (dds_take(reader, &sample, &info, 1, 1) > 0)
+  for (std::size_t i = 0; i < most && dds_take(reader, &sample, &info, 1, 1) > 0; ++i)
     if (info.valid_data) all.push_back(std::move(bytes));
   return all;
 }

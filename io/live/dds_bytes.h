@@ -18,7 +18,7 @@ using DdsBytes = std::string_view;
 dds_entity_t create_bytes_topic(dds_entity_t participant, const std::string& topic,
                                 const std::string& type);
 
-// What has come to a reader of such a topic, in order.
-std::vector<std::string> take_bytes(dds_entity_t reader);
+// What has come to a reader of such a topic, in order; no more than `most`, as a writer may be faster.
+std::vector<std::string> take_bytes(dds_entity_t reader, std::size_t most);
 
 }  // namespace rubble

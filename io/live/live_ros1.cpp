@@ -1,4 +1,5 @@
 #include <ros/ros.h>
+#include <xmlrpcpp/XmlRpcException.h>
 
 #include <cstdlib>
 #include <cstring>
@@ -99,14 +100,22 @@ void choose_address(const std::string& address) {
   }
 }
 
+// roscpp throws what is no std::exception over an answer of another type than it expects.
+template <typename Call>
+void ask_master(Call call) {
+  try {
+    call();
+  } catch (const XmlRpc::XmlRpcException& error) {
+    throw RunError("the ROS master at " + ::ros::master::getURI() +
+                   " gives answers of no ROS master: " + error.getMessage());
+  }
+}
+
 class Ros1Stream : public DriveStream {
  public:
   Ros1Stream(const Ros1Options& options, bool hears) : options_(options), pace_(options) {
     ::ros::master::setRetryTimeout(::ros::WallDuration(5));
-    node_ = std::make_unique<::ros::NodeHandle>();
-    if (!hears) return;
-    commands_ = std::make_unique<Ros1Commands>(*node_, options.notice);
-    topics_ = commands_->topics();
+    ask_master([&] { connect(hears); });
   }
   ~Ros1Stream() override { close(); }
 
@@ -118,7 +127,7 @@ class Ros1Stream : public DriveStream {
                                       ros::type_name(type, version()), type.definition1);
     advertise.latch = latched;
     advertise.has_header = false;  // or roscpp would write its own sequence numbers
-    publishers_.push_back(node_->advertise(advertise));
+    ask_master([&] { publishers_.push_back(node_->advertise(advertise)); });
     if (!publishers_.back())
       throw RunError("the ROS master at " + ::ros::master::getURI() + " did not take " + topic);
     topics_.push_back({publishers_.back().getTopic(), advertise.datatype});
@@ -139,6 +148,13 @@ class Ros1Stream : public DriveStream {
   }
 
  private:
+  void connect(bool hears) {
+    node_ = std::make_unique<::ros::NodeHandle>();
+    if (!hears) return;
+    commands_ = std::make_unique<Ros1Commands>(*node_, options_.notice);
+    topics_ = commands_->topics();
+  }
+
   void start() {
     watch_ = std::make_unique<MasterWatch>(topics_, options_.notice);
     pace_.wait_for([this] { return all_have_subscribers(); });
@@ -157,10 +173,13 @@ class Ros1Stream : public DriveStream {
 
   void close() {
     watch_.reset();
-    commands_.reset();
-    publishers_.clear();
-    node_.reset();
-    ::ros::shutdown();
+    try {
+      commands_.reset();
+      publishers_.clear();
+      node_.reset();
+      ::ros::shutdown();
+    } catch (const XmlRpc::XmlRpcException&) {  // nobody is left to be told
+    }
   }
 
   Ros1Options options_;
@@ -184,7 +203,9 @@ void check_ros1(const Ros1Options& options) {
   ::ros::init(::ros::M_string{{"__master", uri}, {"__log", "/dev/null"}}, "rubble",
               ::ros::init_options::NoSigintHandler | ::ros::init_options::AnonymousName |
                   ::ros::init_options::NoRosout);
-  if (!::ros::master::check())
+  bool answers = false;
+  ask_master([&] { answers = ::ros::master::check(); });
+  if (!answers)
     throw RunError("no ROS master answers at " + uri +
                    "\nstart one in another terminal: `roscore` (Debian: python3-roslaunch, "
                    "python3-rosmaster, rosout), or name another: --ros-master http://HOST:PORT");

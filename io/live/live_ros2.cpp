@@ -2,8 +2,10 @@
 
 #include <cstdlib>
 #include <memory>
+#include <mutex>
 #include <vector>
 
+#include "io/live/complaints.h"
 #include "io/live/dds_bytes.h"
 #include "io/live/live_ros.h"
 #include "io/live/pace.h"
@@ -50,9 +52,34 @@ void check(dds_return_t code, const std::string& what) {
   if (code < 0) throw RunError("DDS: " + what + ": " + dds_strretcode(code));
 }
 
+// What Cyclone has to say, each of its functions for itself: a peer can make it say something of every
+// packet. Called by threads of its own.
+class DdsLog {
+ public:
+  explicit DdsLog(const std::function<void(const std::string&)>& notice) : complaints_(notice) {
+    dds_set_log_sink(note, this);
+  }
+  ~DdsLog() { dds_set_log_sink(nullptr, nullptr); }
+  DdsLog(const DdsLog&) = delete;
+  DdsLog& operator=(const DdsLog&) = delete;
+
+ private:
+  static void note(void* log, const dds_log_data_t* data) {
+    auto& self = *static_cast<DdsLog*>(log);
+    const std::lock_guard<std::mutex> lock(self.mutex_);
+    std::string line(data->message, data->size);
+    while (!line.empty() && line.back() == '\n') line.pop_back();
+    self.complaints_.note(std::string("DDS: ") + data->function, line);
+  }
+
+  Complaints complaints_;
+  std::mutex mutex_;
+};
+
 class Ros2Stream : public DriveStream {
  public:
-  Ros2Stream(const Ros2Options& options, bool hears) : pace_(options), notice_(options.notice) {
+  Ros2Stream(const Ros2Options& options, bool hears)
+      : pace_(options), log_(options.notice), complaints_(options.notice) {
     const auto number = dds_domainid_t(options.domain);
     domain_ = dds_create_domain(number, configuration(options.interface).c_str());
     check(domain_, "domain " + std::to_string(options.domain));
@@ -99,10 +126,10 @@ class Ros2Stream : public DriveStream {
 
   DriveCommands take() override {
     DriveCommands commands;
-    for (const std::string& bytes : take_bytes(twist_)) hear("/cmd_vel", [&] {
+    for (const std::string& bytes : take_bytes(twist_, kHeard)) hear("/cmd_vel", [&] {
         commands.twists.push_back(read_twist(version(), bytes));
       });
-    for (const std::string& bytes : take_bytes(joy_)) hear("/joy", [&] {
+    for (const std::string& bytes : take_bytes(joy_, kHeard)) hear("/joy", [&] {
         commands.joys.push_back(read_joy(version(), bytes));
       });
     dds_subscription_matched_status_t status;
@@ -137,7 +164,7 @@ class Ros2Stream : public DriveStream {
     try {
       read();
     } catch (const RunError& error) {
-      notice_(std::string(topic) + ": " + error.what());
+      complaints_.note(topic, error.what());
     }
   }
 
@@ -156,7 +183,8 @@ class Ros2Stream : public DriveStream {
   }
 
   Pace pace_;
-  std::function<void(const std::string&)> notice_;
+  DdsLog log_;
+  Complaints complaints_;
   dds_entity_t domain_ = 0, participant_ = 0, twist_ = 0, joy_ = 0;
   std::vector<dds_entity_t> writers_;
   bool started_ = false;

@@ -4,6 +4,7 @@
 #include <ros/network.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
+#include <xmlrpcpp/XmlRpcException.h>
 
 #include <chrono>
 
@@ -17,7 +18,11 @@ bool ask(const char* method, const std::vector<std::string>& arguments,
          XmlRpc::XmlRpcValue& payload) {
   XmlRpc::XmlRpcValue list, response;
   for (std::size_t i = 0; i < arguments.size(); ++i) list[int(i)] = arguments[i];
-  return ::ros::master::execute(method, list, response, payload, false);
+  try {
+    return ::ros::master::execute(method, list, response, payload, false);
+  } catch (const XmlRpc::XmlRpcException&) {  // an answer of no master
+    return false;
+  }
 }
 
 // What a master does when publishers change. roscpp has no other door for it.

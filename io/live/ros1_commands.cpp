@@ -42,7 +42,7 @@ template <typename Read>
     try {
       read(message->bytes);
     } catch (const std::exception& error) {
-      notice_(std::string(topic) + ": " + error.what());
+      complaints_.note(topic, error.what());
     }
   };
   ::ros::SubscribeOptions options;
@@ -61,7 +61,7 @@ template <typename Read>
 }
 
 Ros1Commands::Ros1Commands(::ros::NodeHandle& node, std::function<void(const std::string&)> notice)
-    : notice_(std::move(notice)) {
+    : complaints_(std::move(notice)) {
   constexpr auto kRos1 = ros::Version::ros1;
   twist_ = subscribe(node, "/cmd_vel", "geometry_msgs/Twist", "9f195f881246fdfa2798d1d3eebca84a",
                      [this](const std::string& bytes) {

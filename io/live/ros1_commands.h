@@ -4,6 +4,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+#include "io/live/complaints.h"
 #include "io/live/live_ros.h"
 #include "io/live/master_watch.h"
 
@@ -23,7 +24,7 @@ class Ros1Commands {
   ::ros::Subscriber subscribe(::ros::NodeHandle& node, const char* topic, const char* type,
                               const char* md5, Read read);
 
-  std::function<void(const std::string&)> notice_;
+  Complaints complaints_;
   ::ros::CallbackQueue queue_;
   DriveCommands heard_;
   std::vector<KnownTopic> topics_;

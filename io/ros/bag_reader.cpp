@@ -7,6 +7,7 @@
 
 #include "io/base/little_endian.h"
 #include "io/ros/ros_message_reader.h"
+#include "io/ros/unpacked_bytes.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
@@ -75,22 +76,21 @@ std::string decompress_lz4(const Record& chunk, std::uint32_t size) {
   LZ4F_dctx* context = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)))
     throw RunError("LZ4 cannot start");
-  std::string out(size, '\0');
-  std::size_t read = 0, written = 0, hint = 1;
+  UnpackedBytes out(size);
+  std::size_t read = 0, hint = 1;
   while (hint != 0 && read < chunk.data.size()) {
-    std::size_t room = out.size() - written, there = chunk.data.size() - read;
-    hint = LZ4F_decompress(context, out.data() + written, &room, chunk.data.data() + read, &there,
-                           nullptr);
+    std::size_t room = out.room(), there = chunk.data.size() - read;
+    hint = LZ4F_decompress(context, out.end(), &room, chunk.data.data() + read, &there, nullptr);
     if (LZ4F_isError(hint) || (room == 0 && there == 0)) break;
-    read += there, written += room;
+    read += there, out.add(room);
   }
-  const bool whole = hint == 0 && written == out.size() && read == chunk.data.size();
+  const bool whole = hint == 0 && out.whole() && read == chunk.data.size();
   LZ4F_freeDecompressionContext(context);
   if (!whole)
     fail_at(chunk.byte, "the chunk there, of " + std::to_string(chunk.data.size()) +
                             " bytes, is damaged: it does not give the " + std::to_string(size) +
                             " bytes that its checksum is of");
-  return out;
+  return out.take();
 }
 
 std::string content_of(const Record& chunk, const std::string& path) {

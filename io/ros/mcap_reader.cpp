@@ -1,12 +1,15 @@
 #include <zstd.h>
 
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "io/base/little_endian.h"
 #include "io/ros/mcap_format.h"
 #include "io/ros/ros_message_reader.h"
+#include "io/ros/unpacked_bytes.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
@@ -36,6 +39,26 @@ bool take_chunk_head(std::string_view& bytes, Chunk& chunk) {
          take(bytes, chunk.crc) && take_text(bytes, chunk.compression) &&
          take(bytes, chunk.packed_size) && chunk.packed_size == bytes.size() &&
          chunk.size < kLargestRecord;
+}
+
+// Nothing: it does not give exactly so many bytes.
+std::optional<std::string> unpack_zstd(std::string_view packed, std::uint64_t size) {
+  const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(),
+                                                                             ZSTD_freeDStream);
+  if (!stream) throw RunError("zstd cannot start");
+  UnpackedBytes out(size);
+  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
+  std::size_t hint = packed.empty() ? 0 : 1;  // 0: at the end of a frame
+  while (hint != 0 || in.pos < in.size) {
+    const std::size_t room = out.room();
+    ZSTD_outBuffer part{out.end(), room, 0};
+    const std::size_t before = in.pos;
+    hint = ZSTD_decompressStream(stream.get(), &part, &in);
+    out.add(part.pos);
+    if (ZSTD_isError(hint) || (part.pos == 0 && in.pos == before)) return std::nullopt;
+  }
+  if (!out.whole()) return std::nullopt;
+  return out.take();
 }
 
 class McapReader {
@@ -129,10 +152,9 @@ class McapReader {
       throw InputError({path_, 0, "",
                         "its chunks are compressed by " + std::string(chunk.compression),
                         "zstd or none", "", "`mcap compress` makes one that can be looked into"});
-    std::string out(chunk.size, '\0');
-    const std::size_t size = ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size());
-    if (ZSTD_isError(size) || size != out.size()) fail_chunk(byte, packed.size());
-    return out;
+    std::optional<std::string> out = unpack_zstd(packed, chunk.size);
+    if (!out) fail_chunk(byte, packed.size());
+    return std::move(*out);
   }
 
   void read_message(std::uint64_t byte, std::string_view content) {

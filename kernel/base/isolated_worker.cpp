@@ -5,6 +5,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -28,6 +29,10 @@
 #endif
 #endif
 
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+#include <sanitizer/common_interface_defs.h>
+#endif
+
 namespace rubble {
 namespace {
 
@@ -37,6 +42,12 @@ using Clock = std::chrono::steady_clock;
 constexpr bool kSanitized = true;
 #else
 constexpr bool kSanitized = false;
+#endif
+
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+constexpr bool kFuzzing = true;
+#else
+constexpr bool kFuzzing = false;
 #endif
 
 enum class Answer : char { result = 'R', refused = 'D', no_memory = 'M', failed = 'E' };
@@ -71,11 +82,16 @@ void limit(__rlimit_resource resource, std::uint64_t soft, std::uint64_t hard) {
 void hold_limits(const ImportLimits& limits, std::uint64_t in_use) {
   limit(RLIMIT_CORE, 0, 0);
   limit(RLIMIT_FSIZE, 0, 0);  // it writes no file
-  if (!kSanitized) limit(RLIMIT_AS, in_use + limits.memory, in_use + limits.memory);
+  if (!kSanitized || kFuzzing) limit(RLIMIT_AS, in_use + limits.memory, in_use + limits.memory);
 }
 
 // From now on so many seconds more.
 void limit_cpu(int seconds) {
+  if (kFuzzing) {
+    const itimerval tenth{{}, {0, 100'000}};
+    setitimer(ITIMER_PROF, &tenth, nullptr);
+    return;
+  }
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
   rlimit now{};
@@ -87,13 +103,12 @@ void limit_cpu(int seconds) {
 
 // What an allocator says of a damaged heap would only confuse; a sanitizer's report would not.
 void hush() {
-#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
-  constexpr bool kReport = false;  // an importer's crash is what is expected there
-#else
-  constexpr bool kReport = kSanitized;
-#endif
+  constexpr bool kReport = kSanitized && !kFuzzing;  // an importer's crash is expected there
   const int nothing = kReport ? -1 : open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nothing >= 0) dup2(nothing, STDERR_FILENO);
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+  __sanitizer_set_death_callback([] { _exit(1); });  // libFuzzer's would write the input down
+#endif
 }
 
 // False: nobody is there to take it. (No signal then, as write() would send.)
@@ -120,7 +135,7 @@ enum class Received { all, closed, late };
 
 // Exactly `size` bytes, appended.
 Received receive(int socket, std::uint64_t size, Clock::time_point end, std::string& bytes) {
-  std::string block(1 << 18, '\0');
+  std::string block(std::min<std::uint64_t>(size, 1 << 18), '\0');
   while (size > 0) {
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
@@ -278,15 +293,17 @@ std::string IsolatedWorker::ask(const std::string& path, const std::string& requ
   if (folder_ != folder_of(path)) stop();
   folder_ = folder_of(path);
   if (child_ <= 0) start();
+  bool answered = false;
   try {
-    return answer_of(path, request);
+    return answer_of(path, request, answered);
   } catch (...) {
-    stop();
+    if (!kFuzzing || !answered) stop();
     throw;
   }
 }
 
-std::string IsolatedWorker::answer_of(const std::string& path, const std::string& request) {
+std::string IsolatedWorker::answer_of(const std::string& path, const std::string& request,
+                                      bool& answered) {
   const auto refuse = [&](const std::string& reason) {
     throw InputError({path, 0, "", "cannot be read as a " + what_ + ": " + reason, "", "",
                       "the file is damaged or hostile; export it anew"});
@@ -297,6 +314,7 @@ std::string IsolatedWorker::answer_of(const std::string& path, const std::string
   Received received = Received::closed;
   if (send_message(socket_, Answer::result, request))
     received = receive_message(socket_, end, kind, answer);
+  answered = received == Received::all;
   if (received == Received::late)
     refuse("reading it takes more than " + std::to_string(limits_.wall_seconds) + " s");
   if (received == Received::closed) refuse(death_words(wait(), limits_));
@@ -309,7 +327,14 @@ std::string IsolatedWorker::answer_of(const std::string& path, const std::string
 
 std::string run_isolated(const std::string& path, const std::string& what,
                          const std::function<std::string()>& work, const ImportLimits& limits) {
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+  static const std::function<std::string()>* now = nullptr;  // the child keeps what it was at its fork
+  static IsolatedWorker worker(what, [](const std::string&) { return (*now)(); }, limits);
+  now = &work;
+  return worker.ask(path, "");
+#else
   return IsolatedWorker(what, [&work](const std::string&) { return work(); }, limits).ask(path, "");
+#endif
 }
 
 }  // namespace rubble

@@ -22,12 +22,13 @@
 namespace rubble {
 
 struct ImportLimits {
-  // Beyond what this process has already. Not held under the sanitizers, whose shadow memory alone
-  // is larger. unit: byte
-  std::uint64_t memory = std::uint64_t(4) << 30;
+  // memory: beyond what this process has already. Not held under the sanitizers, whose shadow memory
+  // alone is larger. unit: byte
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
-  int cpu_seconds = 2;  // a fuzzer has a million files to try
+  std::uint64_t memory = std::uint64_t(256) << 20;  // a fuzzer has a million files to try
+  int cpu_seconds = 1;                              // a tenth, in truth
 #else
+  std::uint64_t memory = std::uint64_t(4) << 30;
   int cpu_seconds = 120;   // for one file
 #endif
   int wall_seconds = 300;  // for a file that never comes, such as a pipe behind a `mtllib`
@@ -54,7 +55,8 @@ class IsolatedWorker {
   void start();
   void stop();
   int wait();  // for the child's end; its status
-  std::string answer_of(const std::string& path, const std::string& request);
+  // answered: whether the child lives on to answer again.
+  std::string answer_of(const std::string& path, const std::string& request, bool& answered);
 
   std::string what_;
   Handler handler_;
@@ -64,7 +66,8 @@ class IsolatedWorker {
   int socket_ = -1;
 };
 
-// One file, in a child of its own.
+// One file, in a child of its own. (Under a fuzzer, which would fork a million times, one child serves
+// until it dies, here and above: what makes it die is what is looked for.)
 std::string run_isolated(const std::string& path, const std::string& what,
                          const std::function<std::string()>& work,
                          const ImportLimits& limits = {});

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <system_error>
@@ -31,6 +32,7 @@ class Reader {
     if (fstat(descriptor_, &status) != 0) close_and_refuse("cannot be read: " + reason(errno));
     if (S_ISDIR(status.st_mode)) close_and_refuse("is a folder");
     pipe_ = S_ISFIFO(status.st_mode);
+    size_ = std::size_t(status.st_size);
     if (!S_ISREG(status.st_mode) && !pipe_)
       close_and_refuse("is a device, which may never end", "a file");
   }
@@ -40,7 +42,8 @@ class Reader {
 
   std::string read_all(std::uint64_t limit) {
     std::string content;
-    std::vector<char> block(kBlock);
+    // One byte more than the file has: a file that grew meanwhile is noticed.
+    std::vector<char> block(pipe_ ? kBlock : std::clamp<std::size_t>(size_ + 1, 4096, kBlock));
     for (std::size_t count = 0; (count = read_block(block)) != 0;) {
       content.append(block.data(), count);
       if (content.size() > limit)
@@ -82,6 +85,7 @@ class Reader {
 
   const std::string& path_;
   int descriptor_ = -1;
+  std::size_t size_ = 0;  // when it was opened; 0 of a pipe
   bool pipe_ = false, met_ = false;  // met: the other end of the pipe was open
 };
 

@@ -11,6 +11,8 @@ namespace rubble {
 namespace {
 
 // The bottom of a layer's spawn volume is this far above the highest point of the pile; unit: m.
+// Rest is verified from then on at the latest, whatever still moves; unit: s after the last layer.
+constexpr double kVerifyAfter = 8;
 constexpr double kSpawnClearance = 1.0;
 
 class Settling {
@@ -104,7 +106,8 @@ class Settling {
         return world_.rest_verified(speed, angular_speed) &&
                world_.deepest_overlap().depth <= options_.rest_overlap;
       }
-      if (world_.at_rest(speed, angular_speed)) world_.begin_rest_verification();
+      const bool waited = double(layer_steps_) * options_.step > kVerifyAfter;
+      if (waited || world_.at_rest(speed, angular_speed)) world_.begin_rest_verification();
       return false;
     });
     overlap_ = world_.deepest_overlap();

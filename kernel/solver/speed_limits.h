@@ -9,13 +9,13 @@ namespace rubble {
 // three steps. Without it one piece in a thousand leaves the pile at more than 8 m/s.
 inline constexpr float kFreeKick = 1.0F;   // unit: m/s
 inline constexpr float kKickShare = 0.4F;  // unit: 1
-// What still trembles when a verification of rest has lasted this long, such as a slab that rocks between
-// two supports close together, loses its last speed by up to this share in each step. A slope must then be
-// steeper than friction holds by 1 % of gravity, or what slides on it counts as at rest. Nothing else is
-// damped, and nothing outside a verification.
-inline constexpr float kPatience = 3, kPatienceEnds = 5;               // unit: s
-inline constexpr float kLateDamping = 0.2F;                            // unit: 1
-inline constexpr float kTremblingSpin = 3.0F, kTremblingSpeed = 0.2F;  // below these; unit: rad/s, m/s
+// Rolling resistance, which Coulomb's law lacks: a bent bar on two supports swings for minutes, where a
+// real one is still after seconds. Once a verification of rest has lasted this long, what turns more slowly
+// than this loses up to this share of its spin in each step. Sliding is not damped: what creeps down a slope
+// does not count as at rest. Nothing is damped outside a verification.
+inline constexpr float kPatience = 3, kPatienceEnds = 5;  // unit: s
+inline constexpr float kLateDamping = 0.2F;               // unit: 1
+inline constexpr float kSwingingSpin = 10.0F;             // unit: rad/s
 // Contacts spin a piece no faster than this, unless it turned faster before: then they add this much
 // a step at most. Arms are those of the step's start: what turns by more than half a radian in a step
 // is pushed where it no longer is, gains spin by it, and passes it on. unit: rad/s

@@ -185,11 +185,10 @@ void World::Impl::set_rates(std::size_t index) {
   r = {};
   if (body.touching || solver.has_intervened(std::int32_t(index))) {
     Motion m = velocities[index];
-    const float spin = norm(m.angular), speed = norm(m.linear);
+    const float spin = norm(m.angular);
     const float most = std::max(kFreeSpin, norm(body.angular) + kSpinGain);
     if (spin > most) m.angular *= most / spin;
-    if (lateness > 0 && spin < kTremblingSpin) m.angular *= 1 - kLateDamping * lateness;
-    if (lateness > 0 && speed < kTremblingSpeed) m.linear *= 1 - kLateDamping * lateness;
+    if (lateness > 0 && spin < kSwingingSpin) m.angular *= 1 - kLateDamping * lateness;
     r.linear = Vec3(m.linear), r.angular = Vec3(m.angular);
     const double per_step = 1 / options.step;
     r.extra_linear = Vec3(displacements[index].linear) * per_step - r.linear;

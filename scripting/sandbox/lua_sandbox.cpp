@@ -15,6 +15,7 @@
 #include "scripting/sandbox/gray_image.h"
 #include "scripting/sandbox/lua_host.h"
 #include "scripting/sandbox/lua_library.h"
+#include "scripting/sandbox/lua_library_code.h"
 #include "scripting/sandbox/lua_prelude.h"
 #include "scripting/sandbox/lua_value.h"
 #include "scripting/schema/schema.h"
@@ -244,9 +245,8 @@ void LuaSandbox::State::load_library() {
   for (const LibraryFile& file : lua_library()) {
     lua_pushvalue(host.lua, -1);
     lua_pushlstring(host.lua, file.name.data(), file.name.size());
-    const std::string chunk = "=library " + file.name;
-    if (luaL_loadbufferx(host.lua, file.text.data(), file.text.size(), chunk.c_str(), "t") !=
-        LUA_OK)
+    const std::string& code = compiled_library().at(file.name);
+    if (luaL_loadbufferx(host.lua, code.data(), code.size(), "", "b") != LUA_OK)
       throw RunError(lua_tostring(host.lua, -1));
     call(0, 1);
     call(2, 0);

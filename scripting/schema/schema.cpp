@@ -68,6 +68,7 @@ std::string nearest_name(const std::string& written, const std::vector<std::stri
   std::string best;
   int best_distance = 1 + std::max(1, int(written.size()) / 3);
   for (const std::string& name : names) {
+    if (std::abs(int(name.size()) - int(written.size())) >= best_distance) continue;
     const int distance = edit_distance(written, name);
     if (distance < best_distance) best = name, best_distance = distance;
   }

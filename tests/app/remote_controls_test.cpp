@@ -88,6 +88,9 @@ TEST(RemoteControls, MoveTheCameraAsMuchAsTheySayAndNoMoreThanTheLimits) {
   EXPECT_NEAR(drive({30, 40, 0}, {}).position.y, 2 * 0.6, 1e-9);
   EXPECT_NEAR(drive({}, {0, 0, 0.5}).rpy_deg.z, 90 + 0.5 * 180 / portable::kPi, 1e-9);
   EXPECT_NEAR(drive({}, {0, 0, 1000}).rpy_deg.z, 135, 1e-9);
+  // Finite, but their squares are not.
+  EXPECT_NEAR(drive({1.5e308, 0, 0}, {}).position.y, 2, 1e-9);
+  EXPECT_NEAR(drive({}, {0, 0, -1.5e308}).rpy_deg.z, 45, 1e-9);
 }
 
 TEST(RemoteControls, WhatIsNoMessageIsRefused) {

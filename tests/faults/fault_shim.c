@@ -2,6 +2,7 @@
 //
 // FAULT_CALL: open, write, fsync, close, rename, mkdir or unlink; FAULT_AT: which call, from 1; 0: none;
 // FAULT_ERRNO: its errno; FAULT_FOLDER: absolute; FAULT_COUNT: a file that gets the number of calls.
+// FAULT_CALL=clock: from the call FAULT_AT on the wall's clock shows FAULT_JUMP seconds more.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -11,7 +12,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 #include <sys/types.h>
+#include <sys/uio.h>
+#include <time.h>
 #include <unistd.h>
 
 static int calls;  // several threads write; an approximate order is good enough
@@ -53,6 +57,22 @@ int open(const char* path, int flags, ...) {
 ssize_t write(int descriptor, const void* data, size_t size) {
   if (descriptor > 2 && descriptor_below(descriptor) && fails("write")) return -1;
   return REAL(ssize_t, write, int, const void*, size_t)(descriptor, data, size);
+}
+
+ssize_t writev(int descriptor, const struct iovec* parts, int count) {
+  if (descriptor > 2 && descriptor_below(descriptor) && fails("write")) return -1;
+  return REAL(ssize_t, writev, int, const struct iovec*, int)(descriptor, parts, count);
+}
+
+// Of the C++ library's streams.
+FILE* fopen(const char* path, const char* mode) {
+  if (strpbrk(mode, "wa+") && below(path) && fails("open")) return NULL;
+  return REAL(FILE*, fopen, const char*, const char*)(path, mode);
+}
+
+FILE* fopen64(const char* path, const char* mode) {
+  if (strpbrk(mode, "wa+") && below(path) && fails("open")) return NULL;
+  return REAL(FILE*, fopen64, const char*, const char*)(path, mode);
 }
 
 ssize_t pwrite(int descriptor, const void* data, size_t size, off_t offset) {
@@ -101,6 +121,32 @@ int remove(const char* path) {
 int unlinkat(int folder, const char* path, int flags) {
   if (descriptor_below(folder) && fails("unlink")) return -1;
   return REAL(int, unlinkat, int, const char*, int)(folder, path, flags);
+}
+
+// Seconds that the clock has jumped by now.
+static time_t jump(void) {
+  const char *call = getenv("FAULT_CALL"), *at = getenv("FAULT_AT"), *by = getenv("FAULT_JUMP");
+  if (!call || strcmp(call, "clock") != 0) return 0;
+  const int now = __atomic_add_fetch(&calls, 1, __ATOMIC_RELAXED), from = at ? atoi(at) : 0;
+  return from > 0 && now >= from && by ? atol(by) : 0;
+}
+
+int clock_gettime(clockid_t clock, struct timespec* now) {
+  const int result = REAL(int, clock_gettime, clockid_t, struct timespec*)(clock, now);
+  if (result == 0 && clock == CLOCK_REALTIME) now->tv_sec += jump();
+  return result;
+}
+
+int gettimeofday(struct timeval* restrict now, void* restrict zone) {
+  const int result = REAL(int, gettimeofday, struct timeval*, void*)(now, zone);
+  if (result == 0 && now) now->tv_sec += jump();
+  return result;
+}
+
+time_t time(time_t* to) {
+  const time_t now = REAL(time_t, time, time_t*)(NULL) + jump();
+  if (to) *to = now;
+  return now;
 }
 
 __attribute__((destructor)) static void note_calls(void) {

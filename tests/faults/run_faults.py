@@ -2,8 +2,9 @@
 """Breaks a small run at many places and continues it: run_faults.py PROGRAM WORK [KILLS [SIZES]]
 
 Each run is broken once: a call of one kind fails (the n-th, for every n up to 40 and then ever rarer),
-the process is killed after a share of its time, or files may not grow beyond a size. What is left is
-continued by `rubble resume` (by `run --force` where it was broken before anything could be resumed), and
+the process is killed after a share of its time, half of the kills while frames are drawn, files may not
+grow beyond a size, the process may not have more than so much memory, or the wall's clock jumps. What
+is left is continued by `rubble resume` (by `run --force` where it was broken before anything could be resumed), and
 must give the same files, byte for byte, as a run that nobody broke. Prints a table; exit code 1 when
 anything went otherwise.
 """
@@ -22,7 +23,7 @@ MISSION = """return rubble.mission {
   pile = { layers = 2, pieces_per_layer = 8, mix = { { asset = "brick" } },
            spawn_position = { 0, 0, 1.5 }, spawn_bounds = { 1, 1, 1 } },
   camera = { width = 64, height = 48 },
-  trajectory = { rate_hz = 50, waypoints = {
+  trajectory = { rate_hz = 100, waypoints = {
     { t = 0, position = { -1.5, 0, 0.8 }, look_at = { 0, 0, 0.1 } },
     { t = 0.2, position = { -1.4, 0.1, 0.8 }, look_at = { 0, 0, 0.1 } },
   } },
@@ -43,21 +44,34 @@ class Machine:
         source = Path(__file__).with_name("fault_shim.c")
         subprocess.run(["cc", "-O1", "-fPIC", "-shared", "-o", self.shim, source, "-ldl"], check=True)
         self.problems = []
+        self.in_frames = self.signals = 0  # kills while frames were drawn; ends by another signal
         start = time.monotonic()
         self.call(["run", self.script, "--out", self.work / "whole"])
         self.seconds = time.monotonic() - start
         self.expected = self.outputs(self.work / "whole")
 
-    def call(self, arguments, environment=None, limit=None, kill_after=None):
-        """The exit code; that of a signal is negative, as subprocess has it."""
+    def call(self, arguments, environment=None, limit=None, memory=None, kill_after=None,
+             kill_in_frames=None):
+        """The exit code; that of a signal is negative, as subprocess has it.
+
+        kill_in_frames: so many seconds after the first frame was noted.
+        """
         def before():
             import resource
             if limit is not None:
                 resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+            if memory is not None:
+                resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
         process = subprocess.Popen(
             [self.program, *map(str, arguments), "--quiet", "--checkpoint-every", "0"],
             env=dict(os.environ, **(environment or {})), preexec_fn=before,
             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
+        if kill_in_frames is not None:
+            while process.poll() is None and not self.frames_noted():
+                time.sleep(0.002)
+            time.sleep(kill_in_frames)
+            self.in_frames += process.poll() is None
+            process.kill()
         try:
             _, self.said = process.communicate(timeout=kill_after if kill_after else 600)
         except subprocess.TimeoutExpired:
@@ -66,6 +80,24 @@ class Machine:
             if not kill_after:
                 return "does not end"
         return process.returncode
+
+    def frames_noted(self):
+        try:
+            return (self.work / "broken/unfinished/frames.txt").stat().st_size > 0
+        except OSError:
+            return False
+
+    def measure_frames(self):
+        """Seconds from the first frame noted to the end, of a run that nobody breaks."""
+        out = self.work / "broken"
+        shutil.rmtree(out, ignore_errors=True)
+        process = subprocess.Popen([self.program, "run", self.script, "--out", out, "--quiet"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while process.poll() is None and not self.frames_noted():
+            time.sleep(0.002)
+        start = time.monotonic()
+        process.wait()
+        return time.monotonic() - start
 
     def outputs(self, folder):
         try:
@@ -78,9 +110,11 @@ class Machine:
         out = self.work / "broken"
         shutil.rmtree(out, ignore_errors=True)
         code = self.call(["run", self.script, "--out", out], **how)
+        if code < 0 and code != -signal.SIGKILL:
+            self.signals += 1
         if code not in allowed:
             return self.problem(name, f"exit code {code}: {self.said[-300:]}")
-        if list(out.glob("*.part")) and code != -signal.SIGKILL:
+        if list(out.glob("*.part")) and code >= 0:
             return self.problem(name, f"left {list(out.glob('*.part'))}")
         if self.outputs(out) is None or (out / "unfinished/run.json").exists():
             resumable = (out / "unfinished/run.json").exists()
@@ -130,6 +164,14 @@ def main():
         good = sum(tries)
         print(f"| {name} | {len(tries)} | {'yes' if good == len(tries) else good} |", flush=True)
 
+    row("killed, anywhere", [machine.broken(f"kill {i}", (0, -signal.SIGKILL),
+                                            kill_after=machine.seconds * (i + 0.5) / (kills - kills // 2))
+                             for i in range(kills - kills // 2)])
+    lasting = machine.measure_frames()
+    row("killed while frames are drawn",
+        [machine.broken(f"kill in frames {i}", (0, -signal.SIGKILL),
+                        kill_in_frames=lasting * 0.8 * i / (kills // 2)) for i in range(kills // 2)])
+    print(f"  of these {machine.in_frames} before the run was done")
     out = machine.work / "broken"
     for call in CALLS:
         count = machine.count_calls(call)
@@ -140,9 +182,17 @@ def main():
     sizes = [int(1024 * 1.5 ** i) for i in range(min(most, 20))]
     row(f"no file larger than 1 kB to {sizes[-1] // 1000} kB", [machine.broken(f"limit {s}", (0, 2), limit=s)
                                                for s in sizes])
-    row("killed", [machine.broken(f"kill {i}", (0, -signal.SIGKILL),
-                                  kill_after=machine.seconds * (i + 0.5) / kills)
-                   for i in range(kills)])
+    # Mesa may crash without memory; 127: the loader finds no room for a library.
+    crashes = (0, 2, 127, -signal.SIGABRT, -signal.SIGSEGV, -signal.SIGBUS)
+    row("at most 400 MB to 2.4 GB of memory",
+        [machine.broken(f"memory {m}", crashes, memory=m << 20)
+         for m in range(400, 2401, max(50, 2000 // most))])
+    print(f"  of these {machine.signals} ended by a signal")
+    count = machine.count_calls("clock")
+    row(f"the clock jumps by a year, back or on, of {count} looks at it",
+        [machine.broken(f"clock {n}", (0,), environment=dict(
+            machine.fault("clock", n, machine.work / "count", out),
+            FAULT_JUMP=str(31536000 * (-1) ** n))) for n in places(count, most)])
     print(f"{len(machine.problems)} problems")
     return 1 if machine.problems else 0
 

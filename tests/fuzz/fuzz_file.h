@@ -27,6 +27,7 @@ class Folder {
     path_ = name;
   }
   ~Folder() {
+    if (getpid() != owner_) return;  // of a child that an importer ends by exit()
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
   }
@@ -48,6 +49,7 @@ class Folder {
 
  private:
   std::string path_;
+  pid_t owner_ = getpid();
 };
 
 inline const Folder& folder() {

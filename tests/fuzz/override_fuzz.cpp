@@ -1,13 +1,15 @@
-#include "scripting/mission.h"
+#include "kernel/base/error.h"
+#include "scripting/scenario/scenario_schema.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;
 
+// As load_mission_text does with each --set, without a script before it.
 void fuzz_one(std::string_view bytes) {
-  MissionOptions options;
-  options.overrides.push_back(std::string(bytes));
-  options.included.emplace();
-  fuzz::knock([&] {
-    load_mission_text("return { pile = { mix = { { asset = 'a' } } } }", "m.lua", options);
-  });
+  Scenario scenario;
+  const Schema schema = make_scenario_schema(scenario);
+  std::vector<Diagnostic> mistakes;
+  apply_override(schema, std::string(bytes), mistakes);
+  if (mistakes.empty() && find_mistakes(scenario).empty())
+    fuzz::knock([&] { scenario_from_json(scenario_to_json(scenario), "again"); });
 }

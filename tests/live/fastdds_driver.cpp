@@ -1,5 +1,7 @@
 // fastdds_driver DOMAIN: drives a camera by /cmd_vel and /joy as drive_by_topics.py does, over ROS 2's
 // topics, with Fast DDS and messages that Fast CDR writes; then ends the drive.
+// fastdds_driver DOMAIN flood: as fast as it can for 3 s, commands that are not finite, huge, cut off or
+// no messages at all; then one of 0.125 m/s, again and again, for 20 s.
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
 
@@ -119,10 +121,31 @@ bool drive(Driver& driver) {
   return wait_for_readers(driver, 0) && well;
 }
 
+bool flood(Driver& driver) {
+  using Clock = std::chrono::steady_clock;
+  if (!wait_for_readers(driver, 2)) return false;
+  const std::string whole = joy({0.5f, -0.5f}, {1, 0, 1});
+  std::size_t said = 0;
+  for (const auto end = Clock::now() + std::chrono::seconds(3); Clock::now() < end; ++said) {
+    const double value = (said % 3 == 0) ? std::nan("") : (said % 3 == 1) ? 1.5e308 : HUGE_VAL;
+    driver.say_velocity(twist(value, 0, value));
+    driver.say_velocity(std::string(4 + said % 7, '\xff'));
+    driver.say_stick(said % 2 ? whole.substr(0, 4 + said % (whole.size() - 4)) : std::string(60000, '\x7f'));
+  }
+  std::printf("%zu times\n", said);
+  for (const auto end = Clock::now() + std::chrono::seconds(20);
+       Clock::now() < end && driver.readers() > 0;) {
+    driver.say_velocity(twist(0.125, 0, 0));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return said > 100;
+}
+
 }  // namespace
 }  // namespace rubble::testing
 
-int main(int, char** argv) {
+int main(int count, char** argv) {
   rubble::testing::Driver driver(unsigned(std::atoi(argv[1])));
+  if (count > 2) return rubble::testing::flood(driver) ? 0 : 1;
   return rubble::testing::drive(driver) ? 0 : 1;
 }

@@ -8,6 +8,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/multibody/joints/joint.h"
+#include "kernel/solver/wide.h"
 #include "kernel/world/world_impl.h"
 
 namespace rubble {
@@ -19,6 +20,8 @@ Mat3 inverse_symmetric(const Mat3& m) {
   const double scale = 1 / dot(m.rows[0], c0);
   return Mat3{{c0, c1, c2}}.transposed() * scale;
 }
+
+Quad quad_of(const Vec3f& v) { return Quad{v.x, v.y, v.z, 0}; }
 
 Mat3f to_float(const Mat3& m) { return {{Vec3f(m.rows[0]), Vec3f(m.rows[1]), Vec3f(m.rows[2])}}; }
 
@@ -132,18 +135,24 @@ void World::Impl::refresh(Body& body) {
   }
   const float scale = float(body.scale);
   const Mat3f scaled = body.rotation * scale;
+  const Quad columns[3] = {quad_of(scaled.column(0)), quad_of(scaled.column(1)),
+                           quad_of(scaled.column(2))};
   const Vec3& centre = body.world_from_com.translation;
   for (int i = 0; i < body.collider_count; ++i) {
     Collider& collider = data.colliders[body.first_collider + i];
     const auto& corners = body.shape->parts[collider.part].corners;
-    Vec3f low{1e30F, 1e30F, 1e30F}, high = -low;
+    Quad low = make_quad(1e30F), high = -low;
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      const Vec3f p = scaled * corners[k];
-      data.corners[collider.first_corner + k] = p;
-      low = min(low, p);
-      high = max(high, p);
+      // All three coordinates at once, each by the operations of scaled * corner.
+      const Vec3f& c = corners[k];
+      const Quad p = columns[0] * make_quad(c.x) + columns[1] * make_quad(c.y) +
+                     columns[2] * make_quad(c.z);
+      data.corners[collider.first_corner + k] = {p[0], p[1], p[2]};
+      low = low < p ? low : p;
+      high = high > p ? high : p;
     }
-    collider.box = {centre + Vec3(low), centre + Vec3(high)};
+    collider.box = {centre + Vec3(Vec3f{low[0], low[1], low[2]}),
+                    centre + Vec3(Vec3f{high[0], high[1], high[2]})};
   }
 }
 

@@ -136,6 +136,7 @@ struct World::Impl {
   void note_sweeps();
   Aabb calc_swept_box(int collider) const;
   std::uint8_t classify(const Pair& pair) const;
+  bool is_near(const Pair& pair) const;
   float calc_margin(int body_a, int body_b) const;  // body_b may be kGround
   bool may_touch(const Pair& pair) const;
   void add_contact(int collider_a, int collider_b);

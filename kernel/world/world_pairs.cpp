@@ -179,11 +179,17 @@ std::uint8_t World::Impl::classify(const Pair& pair) const {
   const bool ground = pair.body_b == kGround;
   if (!sweeps[pair.body_a].awake && (ground || !sweeps[pair.body_b].awake)) return kAsleep;
   if (is_surface_collider(pair.collider_b)) return kActive;  // dropped in find_pairs()
-  const Aabb& box = data.broad.box(pair.collider_a);
-  const bool near =
-      ground ? box.min.z < 0 : BroadPhase::overlap(box, data.broad.box(pair.collider_b));
-  if (!near) return kApart;
+  if (!is_near(pair)) return kApart;
   return may_touch(pair) ? kActive : kWaiting;
+}
+
+// Whether the enlarged boxes overlap. They did when the pair was made, and only one that has been
+// enlarged anew can have parted.
+bool World::Impl::is_near(const Pair& pair) const {
+  const bool ground = pair.body_b == kGround;
+  if (!leaves_box[pair.collider_a] && (ground || !leaves_box[pair.collider_b])) return true;
+  const Aabb& box = data.broad.box(pair.collider_a);
+  return ground ? box.min.z < 0 : BroadPhase::overlap(box, data.broad.box(pair.collider_b));
 }
 
 float World::Impl::calc_margin(int body_a, int body_b) const {

@@ -6,14 +6,15 @@
 // asks again: it succeeds only when all have stayed in place at the same time and awake.
 #include <algorithm>
 
+#include "kernel/solver/speed_limits.h"
 #include "kernel/world/world_impl.h"
 
 namespace rubble {
 namespace {
 
-// All are awake at least this long before some doze: a little longer than it takes to verify rest where
-// nothing moves; unit: s.
-constexpr double kAllAwakeTime = 0.6;
+// All are awake at least this long before some doze: as long as it takes to verify rest where nothing
+// moves, and a step; unit: s.
+constexpr double kAllAwakeTime = 0.52;
 constexpr double kDozeInterval = 0.25;  // how often pieces are looked at that may doze; unit: s
 // Who is this many contacts or fewer from a restless piece stays awake.
 constexpr int kDisturbedContacts = 3;
@@ -74,8 +75,14 @@ void World::Impl::update_verification() {
     return;
   }
   const auto steps = [this](double time) { return std::int64_t(time / options.step); };
-  if (!dozing && data.verification_steps - data.all_awake_since < steps(kAllAwakeTime)) return;
-  if (data.verification_steps % steps(kDozeInterval) == 0) doze();
+  // What has not come to rest by now may do so among neighbours that are awake.
+  if (data.verification_steps > steps(double(kPatienceEnds))) {
+    if (dozing) wake_dozing();
+    return;
+  }
+  const std::int64_t awake = data.verification_steps - data.all_awake_since - steps(kAllAwakeTime);
+  if (!dozing && awake < 0) return;
+  if ((dozing ? data.verification_steps : awake) % steps(kDozeInterval) == 0) doze();
 }
 
 }  // namespace rubble

@@ -57,7 +57,8 @@ class PileExport : public testing::Test {
         {0, piece_name("wedge", 0), 1.5, {portable::quat_from_rpy(0.3, -0.7, 1.9), {1, 2, 3}}},
         {1, piece_name("spike", 1), 0.5, {portable::quat_from_rpy(-2.0, 0.4, 0.1), {-4, 0, 0.2}}},
         {0, piece_name("wedge", 7), 2.0, {portable::quat_from_rpy(0, 0, -1), {0, -5, 0}}}};
-    model_.looks = {{"concrete_cast", {0.3f, 0.25f, 0.2f}}, {"brick", {0.4f, 0.1f, 0.1f}}};
+    model_.surface_appearance = {{"concrete_cast", {0.3f, 0.25f, 0.2f}},
+                                 {"brick", {0.4f, 0.1f, 0.1f}}};
   }
 
   double expected_volume() const {

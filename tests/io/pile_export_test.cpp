@@ -191,7 +191,8 @@ TEST_F(PileExport, GazebosParserLoadsTheWorld) {
 
 // Of every file of every format, the SDF world's folder included; another pile gives others.
 TEST_F(PileExport, GivesTheSameBytesTwiceAndOthersForAnotherPile) {
-  for (const std::string& format : export_formats()) {
+  for (const MeshFormat& mesh_format : mesh_formats()) {
+    const std::string& format = mesh_format.name;
     const ScratchFolder a, b, c;
     export_pile(model_, format, a.path());
     export_pile(model_, format, b.path());
@@ -205,7 +206,8 @@ TEST_F(PileExport, GivesTheSameBytesTwiceAndOthersForAnotherPile) {
 }
 
 TEST_F(PileExport, NamesAPathThatIsTakenOrCannotBeWritten) {
-  for (const std::string& format : export_formats()) {
+  for (const MeshFormat& mesh_format : mesh_formats()) {
+    const std::string& format = mesh_format.name;
     const std::string name = format == "sdf" ? "sdf" : "pile." + format;
     const ScratchFolder taken;
     std::filesystem::create_directories(taken / (name + "/inside"));

@@ -37,7 +37,7 @@ SourceFile read_source(const JsonMembers& json) {
   return {json.text("name"), json.text("text"), json.text("sha256")};
 }
 
-SizeSpread read_spread(const JsonMembers& json) {
+SizeDistribution read_spread(const JsonMembers& json) {
   const std::string name = json.text("spread");
   for (int i = 0; i < 3; ++i)
     if (name == kSpreadNames[i]) return {Spread(i), json.number("typical"), json.number("deviation")};

@@ -20,7 +20,7 @@ struct AssetContent {
   // The pack's own, for missions without a mix: see Asset.
   double weight = 1;
   std::array<double, 2> scale{1, 1};
-  SizeSpread spread{};
+  SizeDistribution spread{};
 };
 
 enum class RunKind {

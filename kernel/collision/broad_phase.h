@@ -60,7 +60,7 @@ class BroadPhase {
            a.min.z <= b.max.z && b.min.z <= a.max.z;
   }
 
-  // Calls visit for each member, to write and read them (world_fields.h).
+  // Calls visit for each member, to write and read them (world_serialization.h).
   template <typename Self, typename Visit>
   static void each_field(Self& self, Visit&& visit) {
     visit(self.cells_), visit(self.large_), visit(self.boxes_), visit(self.present_);

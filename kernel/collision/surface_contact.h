@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "kernel/collision/narrow_phase.h"
-#include "kernel/geometry/surface.h"
+#include "kernel/geometry/triangle_mesh_shape.h"
 
 namespace rubble {
 
 struct PosedSurface {
-  const Surface* surface = nullptr;
+  const TriangleMeshShape* surface = nullptr;
   Mat3 rotation;  // world from surface
   Vec3 position;  // unit: m
   double scale = 1;

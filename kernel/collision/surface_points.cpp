@@ -8,7 +8,7 @@
 namespace rubble {
 namespace {
 
-using Fold = Surface::Fold;
+using EdgeConvexity = TriangleMeshShape::EdgeConvexity;
 
 // Corners may lie this far outside a triangle: none falls between two. unit: m
 constexpr float kSeam = 1e-4F;
@@ -23,7 +23,7 @@ constexpr float kAxisAdvantage = 5e-4F;  // another axis must be better by this;
 
 // A triangle seen from the centre of a piece, turned to the world.
 struct PosedTriangle {
-  const Surface::Triangle* triangle;
+  const TriangleMeshShape::Triangle* triangle;
   Vec3f corners[3], normal;
   Vec3f outward[3];  // across each edge, in its plane; unit length
   float room[3];     // how far beyond each edge a corner still is over it; unit: m
@@ -58,7 +58,7 @@ class Search {
       : part_(part), centre_(centre), surface_(surface), margin_(margin), reach_(reach),
         points_(points) {}
 
-  void visit(const Surface::Triangle& triangle) {
+  void visit(const TriangleMeshShape::Triangle& triangle) {
     pose(triangle);
     float lowest = 1e30F, highest = -1e30F;
     for (int i = 0; i < part_.corners.count; ++i) {
@@ -88,7 +88,7 @@ class Search {
     if (lowest > least) add_face_points();
   }
 
-  void pose(const Surface::Triangle& triangle) {
+  void pose(const TriangleMeshShape::Triangle& triangle) {
     t_.triangle = &triangle;
     t_.normal = Vec3f(surface_.rotation * triangle.normal);
     for (int k = 0; k < 3; ++k) {
@@ -99,8 +99,8 @@ class Search {
     for (int k = 0; k < 3; ++k) {
       const Vec3f along = t_.corners[(k + 1) % 3] - t_.corners[k];
       t_.outward[k] = normalized(cross(along, t_.normal));
-      // Beyond a hollow the plane is inside what is solid: who comes fast meets it in good time.
-      t_.room[k] = triangle.folds[k] == Fold::hollow ? kSeam + reach_ : kSeam;
+      // Beyond a concave the plane is inside what is solid: who comes fast meets it in good time.
+      t_.room[k] = triangle.folds[k] == EdgeConvexity::concave ? kSeam + reach_ : kSeam;
     }
   }
 
@@ -109,16 +109,16 @@ class Search {
   }
 
   // Against the plane of the triangle: the part's corners over it, and where the face that lies on
-  // it goes over a ridge.
+  // it goes over a convex.
   void add_face_points() {
     for (int i = 0; i < part_.corners.count; ++i) {
       const Vec3f& p = part_.corners.points[i];
       const float h = t_.height(p);
       if (h < margin_ && t_.is_over(p)) add(p, t_.normal, h);
     }
-    const Surface::Triangle& triangle = *t_.triangle;
-    if (triangle.folds[0] != Fold::ridge && triangle.folds[1] != Fold::ridge &&
-        triangle.folds[2] != Fold::ridge) {
+    const TriangleMeshShape::Triangle& triangle = *t_.triangle;
+    if (triangle.folds[0] != EdgeConvexity::convex && triangle.folds[1] != EdgeConvexity::convex &&
+        triangle.folds[2] != EdgeConvexity::convex) {
       return;
     }
     const auto& face = part_.shape->faces[part_.find_face(-t_.normal)];
@@ -126,7 +126,7 @@ class Search {
     for (int i = 0; i < face.count; ++i) {
       const Vec3f q = corner(face, i);
       for (int k = 0; k < 3; ++k) {
-        if (triangle.folds[k] == Fold::ridge) add_crossing(k, p, q);
+        if (triangle.folds[k] == EdgeConvexity::convex) add_crossing(k, p, q);
       }
       p = q;
     }
@@ -144,7 +144,7 @@ class Search {
     return part_.corners.points[part_.shape->loops[face.first + i]];
   }
 
-  // Along an axis that a ridge or a peak has for itself.
+  // Along an axis that a convex or a peak has for itself.
   void add_edge_points(const Axis& axis) {
     const Vec3f side = normalized(t_.corners[1] - t_.corners[0]);
     const Mat3f rotation = Mat3f{{side, cross(t_.normal, side), t_.normal}}.transposed();

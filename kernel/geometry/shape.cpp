@@ -131,7 +131,7 @@ void check_material(const PieceType& type, const std::string& key) {
 Shape compile_surface(const TriangleMesh& mesh, const std::string& key) {
   Shape shape;
   try {
-    shape.surface = std::make_shared<const Surface>(mesh);
+    shape.surface = std::make_shared<const TriangleMeshShape>(mesh);
   } catch (const std::exception& error) {
     fail(key + ".surface", error.what(), "a mesh with triangles that have an area",
          std::to_string(mesh.triangles.size()) + " triangles");

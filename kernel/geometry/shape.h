@@ -9,7 +9,7 @@
 
 #include "kernel/base/math.h"
 #include "kernel/base/mesh.h"
-#include "kernel/geometry/surface.h"
+#include "kernel/geometry/triangle_mesh_shape.h"
 #include "kernel/model/pile.h"
 
 namespace rubble {
@@ -33,7 +33,7 @@ struct ConvexShape {
 
 struct Shape {
   std::vector<ConvexShape> parts;
-  std::shared_ptr<const Surface> surface;  // instead of parts
+  std::shared_ptr<const TriangleMeshShape> surface;  // instead of parts
   VolumeProperties volume;  // at scale 1 and density 1, centre in the frame of the type
   float radius = 0;         // of the sphere about the centre of mass; unit: m
   Vec3f reach;              // largest |x|, |y|, |z| of any corner from there; unit: m

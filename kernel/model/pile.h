@@ -14,7 +14,7 @@
 #include "kernel/base/math.h"
 #include "kernel/base/mesh.h"
 #include "kernel/model/assembly.h"
-#include "kernel/model/size_spread.h"
+#include "kernel/model/size_distribution.h"
 
 namespace rubble {
 
@@ -43,7 +43,7 @@ struct MixEntry {
   double weight = 1;     // relative; >= 0
   double scale_min = 1;  // from scale_min to scale_max; range: 0.01 to 100
   double scale_max = 1;
-  SizeSpread spread{};  // between them
+  SizeDistribution spread{};  // between them
 };
 
 struct Placement {

@@ -69,7 +69,7 @@ RUBBLE_INLINE T clamp_twist(T limit, T radius, T twist) {
 // `weight` (a speed) times its mass. Loads build up fast, but the impulse of an impact is not given
 // twice. carried: what the substep before started from.
 template <typename T>
-RUBBLE_INLINE T carry_over(T impulse, T carried, T mass, T weight) {
+RUBBLE_INLINE T clamp_accumulated_impulses(T impulse, T carried, T mass, T weight) {
   return smaller(impulse, carried + carried + mass * weight);
 }
 

@@ -322,7 +322,7 @@ void ContactSolver::each_batch(ThreadPool& pool, Action&& action) {
 
 // n . (d_b - d_a) >= target for every point, by pushing only. Where nothing is to be pushed, and no
 // neighbour has been, a batch would change nothing.
-void ContactSolver::push_apart(const SolverSettings& settings, ThreadPool& pool) {
+void ContactSolver::solve_position_constraints(const SolverSettings& settings, ThreadPool& pool) {
   wants_push_.assign(batches_.size(), 0);
   const PushTerms terms{settings.slop, settings.position_fraction, settings.maximum_push};
   each_batch(pool, [&](const BatchRange& part) {
@@ -373,7 +373,7 @@ bool ContactSolver::is_pushed(const ContactBatch& batch) const {
 // A piece whose speed turns it into its neighbours, step after step, while the pushes turn it back,
 // does not go anywhere: the part of its speed that was undone is lost. Only for slow pieces, whose
 // momentum is nothing beside that of the weights they carry.
-void ContactSolver::drop_opposed_speeds(const SolverSettings& settings) {
+void ContactSolver::cancel_correction_velocity(const SolverSettings& settings) {
   const auto drop = [&settings](Quad& speed, Quad push, float slow) {
     const Quad s2 = speed * speed, sp = speed * push;
     const float length2 = s2[0] + s2[1] + s2[2], along = sp[0] + sp[1] + sp[2];
@@ -438,8 +438,8 @@ void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body
   for (std::size_t i = 0; i < moving_.size(); ++i) speeds_[i] = padded(velocities[moving_[i]]);
   run_substeps(settings, pool);
   before_push_ = moved_;
-  push_apart(settings, pool);
-  drop_opposed_speeds(settings);
+  solve_position_constraints(settings, pool);
+  cancel_correction_velocity(settings);
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     velocities[moving_[i]] = unpadded(speeds_[i]);
     displacements[moving_[i]] = unpadded(moved_[i]);

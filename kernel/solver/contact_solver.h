@@ -81,10 +81,10 @@ class ContactSolver {
   template <typename Action>
   void each_batch(ThreadPool& pool, Action&& action);
   void run_substeps(const SolverSettings& settings, ThreadPool& pool);
-  void push_apart(const SolverSettings& settings, ThreadPool& pool);
+  void solve_position_constraints(const SolverSettings& settings, ThreadPool& pool);
   void push(int batch);
   bool is_pushed(const ContactBatch& batch) const;
-  void drop_opposed_speeds(const SolverSettings& settings);
+  void cancel_correction_velocity(const SolverSettings& settings);
   void store(const ContactBatch& batch, std::vector<Contact>& contacts) const;
 
   std::vector<Head> heads_;

@@ -141,14 +141,14 @@ RUBBLE_INLINE void keep_inside(typename P::Mask mask, const Impulses<P>& before,
 
 // What the batch starts the next substep with.
 template <typename P>
-RUBBLE_INLINE void carry_over(ContactBatch& batch, NormalRow* rows, const P& weight,
+RUBBLE_INLINE void clamp_accumulated_impulses(ContactBatch& batch, NormalRow* rows, const P& weight,
                               const Impulses<P>& at) {
   P carried{}, pressed(batch.pressed);
   for (int i = 0; i < batch.rows; ++i) {
     NormalRow& n = rows[i];
     pressed = pressed + at.normal[i];
     const P next =
-        contact_law::carry_over(at.normal[i], P(n.carried), P(n.row.mass), weight);
+        contact_law::clamp_accumulated_impulses(at.normal[i], P(n.carried), P(n.row.mass), weight);
     next.store(n.impulse);
     next.store(n.carried);
     carried = carried + next;
@@ -193,7 +193,7 @@ RUBBLE_INLINE void solve_batch(ContactBatch& batch, NormalRow* rows, const P& pe
     keep_inside(impact, first_b, sides.b);
   }
   sides.store(batch, v);
-  carry_over(batch, rows, weight, at);
+  clamp_accumulated_impulses(batch, rows, weight, at);
 }
 
 template <typename P>

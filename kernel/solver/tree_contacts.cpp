@@ -146,13 +146,13 @@ double TreeContacts::sum_impulses(const Item& item) const {
 }
 
 // The totals are kept for the loads of joints.
-void TreeContacts::carry_over(Item& item, double weight) {
+void TreeContacts::clamp_accumulated_impulses(Item& item, double weight) {
   double carried = 0;
   for (int i = 0; i < item.rows; ++i) {
     NormalRow& n = rows_[item.first_row + std::size_t(i)];
     n.row.total += n.row.impulse;
     if (item.kind == Kind::loop || item.kind == Kind::dry) continue;
-    n.row.impulse = contact_law::carry_over(n.row.impulse, n.carried, n.row.mass, weight);
+    n.row.impulse = contact_law::clamp_accumulated_impulses(n.row.impulse, n.carried, n.row.mass, weight);
     n.carried = n.row.impulse;
     carried += n.row.impulse;
   }
@@ -214,7 +214,7 @@ void TreeContacts::start(const Item& item, PaddedMotion* speeds) const {
 void TreeContacts::begin_substep(PaddedMotion* speeds, bool first, double weight) {
   for (std::int32_t index : sequence_) {
     Item& item = items_[std::size_t(index)];
-    if (!first) note_total(item), carry_over(item, weight);
+    if (!first) note_total(item), clamp_accumulated_impulses(item, weight);
     if (item.kind == Kind::contact) place_friction(item);
     start(item, speeds);
   }
@@ -248,7 +248,7 @@ void TreeContacts::end_substep() {
 }
 
 void TreeContacts::end_substeps(double weight) {
-  for (Item& item : items_) note_total(item), carry_over(item, weight);
+  for (Item& item : items_) note_total(item), clamp_accumulated_impulses(item, weight);
 }
 
 bool TreeContacts::begin_pushes(const SolverSettings& settings, const PaddedMotion* moved) {

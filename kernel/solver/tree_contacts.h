@@ -133,7 +133,7 @@ class TreeContacts {
   void solve_loop(Item& item, View& view);
   void solve_dry(Item& item, View& view);
   double sum_impulses(const Item& item) const;
-  void carry_over(Item& item, double weight);
+  void clamp_accumulated_impulses(Item& item, double weight);
   void note_total(Item& item);
   void store_loop(const Item& item);
   bool acts(const Item& item) const;

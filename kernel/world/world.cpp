@@ -122,9 +122,9 @@ void World::Impl::add_body(const NewPiece& piece, FreeBody* free) {
 }
 
 void World::Impl::mirror(Body& body) {
-  body.world_from_com = blocks.world_from_com(body.mobile);
-  body.linear = Vec3f(blocks.linear_velocity(body.mobile));
-  body.angular = Vec3f(blocks.angular_velocity(body.mobile));
+  body.world_from_com = blocks.world_from_com(body.simbody_index);
+  body.linear = Vec3f(blocks.linear_velocity(body.simbody_index));
+  body.angular = Vec3f(blocks.angular_velocity(body.simbody_index));
 }
 
 void World::Impl::refresh(Body& body) {
@@ -176,12 +176,12 @@ void World::Impl::list_surfaces() {
 
 Vec3 World::Impl::linear_velocity(const Body& body) const {
   if (body.tree >= 0) return data.trees[body.tree].links[body.link].linear;
-  return body.mobile >= 0 ? blocks.linear_velocity(body.mobile) : Vec3{};
+  return body.simbody_index >= 0 ? blocks.linear_velocity(body.simbody_index) : Vec3{};
 }
 
 Vec3 World::Impl::angular_velocity(const Body& body) const {
   if (body.tree >= 0) return data.trees[body.tree].links[body.link].angular;
-  return body.mobile >= 0 ? blocks.angular_velocity(body.mobile) : Vec3{};
+  return body.simbody_index >= 0 ? blocks.angular_velocity(body.simbody_index) : Vec3{};
 }
 
 PosedBody World::Impl::posed(const Collider& collider) const {
@@ -238,7 +238,7 @@ int World::add(const std::vector<NewPiece>& pieces) {
   std::vector<FreeBody> sorted;
   for (int body : order) sorted.push_back(free[body - first]);
   int mobile = w.blocks.add(sorted);
-  for (int body : order) w.data.bodies[body].mobile = mobile++;
+  for (int body : order) w.data.bodies[body].simbody_index = mobile++;
 
   for (int i = first; i < size(); ++i) {
     Body& body = w.data.bodies[i];
@@ -293,7 +293,7 @@ void World::set_velocity(int index, const Vec3& linear, const Vec3& angular) {
   if (!body.movable()) return;
   impl_->wake(index);
   if (body.tree >= 0) return impl_->set_tree_motion(index, linear, angular);
-  impl_->blocks.set_velocity(body.mobile, linear, angular);
+  impl_->blocks.set_velocity(body.simbody_index, linear, angular);
   impl_->mirror(body);
 }
 
@@ -311,7 +311,7 @@ void World::set_pose(int index, const Pose& world_from_body) {
   const Pose world_from_com{normalized(world_from_body.rotation),
                             world_from_body * body.com_in_type};
   if (body.tree >= 0) return impl_->set_tree_pose(index, world_from_com);
-  impl_->blocks.set_pose(body.mobile, world_from_com);
+  impl_->blocks.set_pose(body.simbody_index, world_from_com);
   impl_->mirror(body);
   impl_->refresh(body);
 }

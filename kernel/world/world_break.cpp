@@ -155,7 +155,7 @@ void World::Impl::release(const TreeLink& link) {
   Body& body = data.bodies[link.body];
   body.tree = body.link = -1;
   if (body.mass == 0) return;
-  body.mobile =
+  body.simbody_index =
       blocks.add({{body.mass, body.inertia, body.world_from_com, link.linear, link.angular}});
 }
 

@@ -180,8 +180,8 @@ struct World::Impl {
   void solve_contacts();
   void sort_by_height();
   void update_touching();
-  void give_back(std::size_t piece, const Vec3f& speed);
-  void limit_kicks();
+  void return_clamped_momentum(std::size_t piece, const Vec3f& speed);
+  void clamp_ejection_velocity();
   void advance();
   float calc_lateness() const;
   void set_rates(std::size_t body);
@@ -214,7 +214,7 @@ struct World::Impl {
   bool are_apart(const Body& a, const Body& b) const;
 };
 
-// Its members, like those of WorldData and what it holds, are listed in world_fields.h as well.
+// Its members, like those of WorldData and what it holds, are listed in world_serialization.h as well.
 struct World::Snapshot {
   std::uint64_t types = 0;  // hash_types() of the world's types
   WorldData data;

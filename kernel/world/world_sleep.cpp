@@ -90,7 +90,7 @@ void World::Impl::wake_one(Body& body) {
 void World::Impl::fall_asleep(int index) {
   Body& body = data.bodies[index];
   body.awake = false;
-  if (body.mobile >= 0) blocks.set_velocity(body.mobile, {}, {});
+  if (body.simbody_index >= 0) blocks.set_velocity(body.simbody_index, {}, {});
   if (body.tree >= 0) stop_tree(body.tree);
   body.linear = {};
   body.angular = {};

@@ -7,7 +7,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/model/pile_hash.h"
-#include "kernel/world/world_fields.h"
+#include "kernel/world/world_serialization.h"
 
 namespace rubble {
 namespace {
@@ -164,7 +164,7 @@ bool is_consistent(const World::Snapshot& s) {
   bool fine = d.wake_next.size() == d.bodies.size() && d.pairs.size() == d.contacts.size() &&
               d.contact_of_pair.size() == d.contacts.size();
   for (const Body& b : d.bodies) {
-    fine = fine && b.type >= 0 && (b.mobile == -1 || in_range(b.mobile, s.simbody.size())) &&
+    fine = fine && b.type >= 0 && (b.simbody_index == -1 || in_range(b.simbody_index, s.simbody.size())) &&
            b.collider_count >= 0 && b.first_collider >= 0 &&
            std::int64_t(b.first_collider) + b.collider_count <= std::int64_t(d.colliders.size());
   }
@@ -238,10 +238,10 @@ std::shared_ptr<const World::Snapshot> World::snapshot() const {
   snapshot->data = w.data;
   snapshot->simbody.resize(std::size_t(w.blocks.size()));
   for (const Body& body : w.data.bodies) {
-    if (body.mobile < 0) continue;
-    snapshot->simbody[body.mobile] = {body.mass, body.inertia, w.blocks.world_from_com(body.mobile),
-                                      w.blocks.linear_velocity(body.mobile),
-                                      w.blocks.angular_velocity(body.mobile)};
+    if (body.simbody_index < 0) continue;
+    snapshot->simbody[body.simbody_index] = {body.mass, body.inertia, w.blocks.world_from_com(body.simbody_index),
+                                      w.blocks.linear_velocity(body.simbody_index),
+                                      w.blocks.angular_velocity(body.simbody_index)};
   }
   for (int block = 0; block < w.blocks.block_count(); ++block) {
     snapshot->block_starts.push_back(w.blocks.first_of(block));

@@ -1,6 +1,6 @@
 // A world's snapshot as bytes, and back: what is decoded continues bit for bit as the original.
 //
-// Little-endian, no padding: u32 format version, then each member in the order of world_fields.h;
+// Little-endian, no padding: u32 format version, then each member in the order of world_serialization.h;
 // a list is a u64 count and its elements. There is no checksum: io/checkpoint_file adds one.
 #pragma once
 

@@ -12,7 +12,7 @@
 namespace rubble {
 namespace {
 
-// Who touches a piece, beside the number of the only one; see limit_kicks().
+// Who touches a piece, beside the number of the only one; see clamp_ejection_velocity().
 constexpr std::int32_t kNobody = -2, kSeveral = -3;
 constexpr float kOrderDistance = 0.1F;  // see sort_by_height(); unit: m
 
@@ -68,9 +68,9 @@ void World::Impl::apply_forces() {
     for (int k = begin; k < end; ++k) {
       const std::int32_t i = awake_bodies[k];
       const Body& body = data.bodies[i];
-      if (body.mobile < 0) continue;
+      if (body.simbody_index < 0) continue;
       const FreeRotation free = rotate_freely(body.world_from_com.rotation, body.inertia,
-                                              blocks.angular_velocity(body.mobile), options.step);
+                                              blocks.angular_velocity(body.simbody_index), options.step);
       velocities[i] = {body.linear, Vec3f(free.angular)};
     }
   });
@@ -109,11 +109,11 @@ void World::Impl::solve_contacts() {
 
 // What a piece loses goes back to the only one that touches it, if that is as heavy: where two meet,
 // momentum is kept. With several, the one that squeezes is not known.
-void World::Impl::give_back(std::size_t piece, const Vec3f& speed) {
+void World::Impl::return_clamped_momentum(std::size_t piece, const Vec3f& speed) {
   const std::int32_t other = neighbour[piece];
   if (other < 0) return;
   const Body &light = data.bodies[piece], &heavy = data.bodies[other];
-  if (!heavy.awake || heavy.mobile < 0 || heavy.mass < light.mass) return;
+  if (!heavy.awake || heavy.simbody_index < 0 || heavy.mass < light.mass) return;
   const Vec3f change = speed * float(light.mass / heavy.mass);
   velocities[other].linear += change;
   displacements[other].linear += change * float(options.step);
@@ -121,10 +121,10 @@ void World::Impl::give_back(std::size_t piece, const Vec3f& speed) {
 
 // A piece squeezed out from under a heavy one must not shoot away: sideways and upwards it may
 // become hardly faster in one step than the points which touch it were before.
-void World::Impl::limit_kicks() {
+void World::Impl::clamp_ejection_velocity() {
   const auto outwards = [](const Vec3f& v) { return Vec3f{v.x, v.y, std::max(v.z, 0.0F)}; };
   const auto may_kick = [&](const Body& body) {
-    return body.awake && body.touching && body.mobile >= 0;
+    return body.awake && body.touching && body.simbody_index >= 0;
   };
   const auto speed_before = [&](const Body& body) {
     return norm(outwards(body.linear)) + float(options.gravity * options.step);
@@ -164,7 +164,7 @@ void World::Impl::limit_kicks() {
     const float most = std::max(before, neighbour[i] == kSeveral ? std::min(squeezed, struck) : struck);
     if (after <= most) continue;
     const float keep = most / after;
-    give_back(i, outwards(velocities[i].linear) * (1 - keep));
+    return_clamped_momentum(i, outwards(velocities[i].linear) * (1 - keep));
     for (Vec3f* v : {&velocities[i].linear, &displacements[i].linear}) {
       v->x *= keep, v->y *= keep;
       if (v->z > 0) v->z *= keep;
@@ -181,7 +181,7 @@ float World::Impl::calc_lateness() const {
 // The speeds after the step, and the extra rates that make up its displacement.
 void World::Impl::set_rates(std::size_t index) {
   const Body& body = data.bodies[index];
-  BodyRates& r = rates[body.mobile];
+  BodyRates& r = rates[body.simbody_index];
   r = {};
   if (body.touching || solver.has_intervened(std::int32_t(index))) {
     Motion m = velocities[index];
@@ -196,8 +196,8 @@ void World::Impl::set_rates(std::size_t index) {
   } else {
     // Nothing touches it: the exact parabola and free rotation, in double precision.
     const FreeRotation free = rotate_freely(body.world_from_com.rotation, body.inertia,
-                                            blocks.angular_velocity(body.mobile), options.step);
-    r.linear = blocks.linear_velocity(body.mobile);
+                                            blocks.angular_velocity(body.simbody_index), options.step);
+    r.linear = blocks.linear_velocity(body.simbody_index);
     r.linear.z -= options.gravity * options.step;
     r.extra_linear = {0, 0, 0.5 * options.gravity * options.step};
     r.angular = free.angular;
@@ -208,7 +208,7 @@ void World::Impl::set_rates(std::size_t index) {
 
 // How far any point of a body can have gone in the step.
 double World::Impl::calc_travel(const Body& body) const {
-  const BodyRates& r = rates[body.mobile];
+  const BodyRates& r = rates[body.simbody_index];
   return options.step * (norm(r.linear + r.extra_linear) +
                          norm(r.angular + r.extra_angular) * double(body.radius));
 }
@@ -220,10 +220,10 @@ void World::Impl::advance() {
   body_of.resize(blocks.size());
   for (std::int32_t i : awake_bodies) {
     const Body& body = data.bodies[i];
-    if (body.mobile < 0) continue;
-    moves[body.mobile] = 1;
-    body_of[body.mobile] = i;
-    block_awake[blocks.block_of_body(body.mobile)] = 1;
+    if (body.simbody_index < 0) continue;
+    moves[body.simbody_index] = 1;
+    body_of[body.simbody_index] = i;
+    block_awake[blocks.block_of_body(body.simbody_index)] = 1;
   }
   pool.run(blocks.block_count(), 4, [&](int begin, int end) {
     for (int block = begin; block < end; ++block) {
@@ -264,7 +264,7 @@ void World::Impl::lose(int index) {
   body.awake = false;
   body.touching = false;
   ++data.lost;
-  if (body.mobile >= 0) blocks.set_velocity(body.mobile, {}, {});
+  if (body.simbody_index >= 0) blocks.set_velocity(body.simbody_index, {}, {});
   for (std::size_t i = 0; i < data.pairs.size();) {
     if (data.pairs[i].body_a == index || data.pairs[i].body_b == index) {
       remove_contact(i);
@@ -310,7 +310,7 @@ void World::step() {
   {
     const Stopwatch watch(w.times.rest);
     w.update_touching();
-    w.limit_kicks();
+    w.clamp_ejection_velocity();
   }
   {
     const Stopwatch watch(w.times.advance);

@@ -55,7 +55,7 @@ struct Asset {
   double density = 0;                 // the pack's, otherwise the material's; unit: kg/m3
   double friction = 0;                // likewise
   std::array<double, 2> scale{1, 1};  // from first to second
-  SizeSpread spread;                  // between them
+  SizeDistribution spread;                  // between them
   double weight = 1;                  // in a mission without a mix
   std::vector<std::string> tags;      // that a mix may choose by
   int line = 0;  // of its table in pack.lua, for error messages

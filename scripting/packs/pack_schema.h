@@ -42,7 +42,7 @@ struct AssetTable {
   std::string look;
   TextMap surface_appearance;
   NumberPair scale{1, 1};
-  SizeSpread spread;
+  SizeDistribution spread;
   double weight = 1;
   std::vector<std::string> tags;
 };

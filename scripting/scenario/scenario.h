@@ -35,7 +35,7 @@ struct MixItem {
   double weight = 1;  // relative; >= 0
   // From first to second; default: the asset's own range and spread. range: 0.01 to 100
   std::optional<std::array<double, 2>> scale;
-  SizeSpread spread{};  // over `scale`
+  SizeDistribution spread{};  // over `scale`
   std::vector<MixMaterial> materials{};  // drawn for every piece; empty: as the pack says
 };
 

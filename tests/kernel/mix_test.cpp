@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kernel/model/pile.h"
-#include "kernel/model/size_spread.h"
+#include "kernel/model/size_distribution.h"
 #include "kernel/settling/generator.h"
 
 namespace rubble {
@@ -73,7 +73,7 @@ std::vector<double> bins(double min, double max, Function distribution) {
   return shares;
 }
 
-std::vector<int> count_sizes(const SizeSpread& spread, double min, double max, std::uint64_t seed) {
+std::vector<int> count_sizes(const SizeDistribution& spread, double min, double max, std::uint64_t seed) {
   const Pile pile = generate_pile(spec_of({{0, 1, min, max, spread}}, seed));
   std::vector<int> counts(10, 0);
   for (const Layer& layer : pile.layers) {

@@ -8,7 +8,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
-#include "kernel/world/world_fields.h"
+#include "kernel/world/world_serialization.h"
 #include "scenes.h"
 
 namespace rubble {
@@ -68,7 +68,7 @@ struct Probe {
 
 TEST(WorldFields, EveryMemberIsListed) {
   ASSERT_EQ(member_count<Probe>(), 6);  // the count itself works
-  const char* help = "a new member must be listed in kernel/world/world_fields.h";
+  const char* help = "a new member must be listed in kernel/world/world_serialization.h";
   EXPECT_EQ(listed_count<Body>(), member_count<Body>()) << help;
   EXPECT_EQ(listed_count<Collider>(), member_count<Collider>()) << help;
   EXPECT_EQ(listed_count<ContactPoint>(), member_count<ContactPoint>()) << help;

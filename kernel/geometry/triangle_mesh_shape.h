@@ -13,24 +13,24 @@
 
 namespace rubble {
 
-class Surface {
+class TriangleMeshShape {
  public:
   // How a triangle goes on beyond an edge.
-  enum class Fold : std::uint8_t {
+  enum class EdgeConvexity : std::uint8_t {
     flat,   // level with it: the edge is none to what lies on both
-    hollow,  // upwards, towards the side that it faces
-    ridge,  // downwards; also where nothing follows
+    concave,  // upwards, towards the side that it faces
+    convex,  // downwards; also where nothing follows
   };
   struct Triangle {
     std::uint32_t corners[3] = {};   // counter-clockwise seen from the side that is free
     std::int32_t beyond[3] = {};     // the corner across the edge from k to k + 1; -1: none
-    Fold folds[3] = {};              // of the same edges
-    bool sharp = false;              // a ridge ends at one of its corners, or is its edge
+    EdgeConvexity folds[3] = {};              // of the same edges
+    bool sharp = false;              // a convex ends at one of its corners, or is its edge
     Vec3 normal;                     // unit length
   };
 
   // Throws std::invalid_argument for a triangle without its corners, or when none has an area.
-  explicit Surface(const TriangleMesh& mesh);
+  explicit TriangleMeshShape(const TriangleMesh& mesh);
 
   const std::vector<Vec3>& corners() const { return corners_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }

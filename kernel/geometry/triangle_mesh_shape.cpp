@@ -1,4 +1,4 @@
-#include "kernel/geometry/surface.h"
+#include "kernel/geometry/triangle_mesh_shape.h"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ bool overlap(const Aabb& a, const Aabb& b) {
 
 }  // namespace
 
-Surface::Surface(const TriangleMesh& mesh) {
+TriangleMeshShape::TriangleMeshShape(const TriangleMesh& mesh) {
   weld(mesh);
   if (triangles_.empty()) throw std::invalid_argument("a surface without any area");
   join();
@@ -34,7 +34,7 @@ Surface::Surface(const TriangleMesh& mesh) {
   build(0, int(order_.size()));
 }
 
-void Surface::weld(const TriangleMesh& mesh) {
+void TriangleMeshShape::weld(const TriangleMesh& mesh) {
   std::map<std::array<float, 3>, std::uint32_t> numbers;
   std::vector<std::uint32_t> number_of;
   for (const Vec3f& p : mesh.positions) {
@@ -62,7 +62,7 @@ void Surface::weld(const TriangleMesh& mesh) {
 }
 
 // Finds the neighbours. Where more than two meet at an edge, each goes its own way.
-void Surface::join() {
+void TriangleMeshShape::join() {
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   std::map<Edge, std::vector<std::pair<std::int32_t, int>>> users;  // by edge, in its direction
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
@@ -78,17 +78,17 @@ void Surface::join() {
     for (const auto& [index, k] : here) {
       Triangle& triangle = triangles_[index];
       triangle.beyond[k] = -1;
-      triangle.folds[k] = Fold::ridge;
+      triangle.folds[k] = EdgeConvexity::convex;
       if (!joined) continue;
       const auto [other, side] = there->second[0];
       const std::uint32_t far_corner = triangles_[other].corners[(side + 2) % 3];
       triangle.beyond[k] = std::int32_t(far_corner);
       const double rise = dot(triangle.normal, corners_[far_corner] - corners_[edge.first]);
-      triangle.folds[k] = rise > kLevel ? Fold::hollow : rise < -kLevel ? Fold::ridge : Fold::flat;
+      triangle.folds[k] = rise > kLevel ? EdgeConvexity::concave : rise < -kLevel ? EdgeConvexity::convex : EdgeConvexity::flat;
       // Folded back upon itself, a sheet: level by the far corner alone.
       if (dot(triangle.normal, triangles_[other].normal) < 0 &&
-          triangle.folds[k] == Fold::flat) {
-        triangle.folds[k] = Fold::ridge;
+          triangle.folds[k] == EdgeConvexity::flat) {
+        triangle.folds[k] = EdgeConvexity::convex;
       }
     }
   }
@@ -98,11 +98,11 @@ void Surface::join() {
   }
 }
 
-void Surface::mark_sharp() {
+void TriangleMeshShape::mark_sharp() {
   std::vector<std::uint8_t> on_ridge(corners_.size(), 0);
   for (const Triangle& triangle : triangles_) {
     for (int k = 0; k < 3; ++k) {
-      if (triangle.folds[k] != Fold::ridge) continue;
+      if (triangle.folds[k] != EdgeConvexity::convex) continue;
       on_ridge[triangle.corners[k]] = on_ridge[triangle.corners[(k + 1) % 3]] = 1;
     }
   }
@@ -113,14 +113,14 @@ void Surface::mark_sharp() {
   }
 }
 
-Aabb Surface::box_of(const Triangle& triangle) const {
+Aabb TriangleMeshShape::box_of(const Triangle& triangle) const {
   Aabb box;
   for (const std::uint32_t corner : triangle.corners) box.include(corners_[corner]);
   return box;
 }
 
 // Halves by the middles along the longest side.
-int Surface::build(int first, int count) {
+int TriangleMeshShape::build(int first, int count) {
   const int number = int(nodes_.size());
   nodes_.emplace_back();
   Node node;
@@ -147,7 +147,7 @@ int Surface::build(int first, int count) {
   return number;
 }
 
-void Surface::find(const Aabb& box, std::vector<std::int32_t>& found) const {
+void TriangleMeshShape::find(const Aabb& box, std::vector<std::int32_t>& found) const {
   found.clear();
   std::int32_t open[64];
   int depth = 0;
@@ -168,7 +168,7 @@ void Surface::find(const Aabb& box, std::vector<std::int32_t>& found) const {
   std::sort(found.begin(), found.end());
 }
 
-bool Surface::meets(const Aabb& box) const {
+bool TriangleMeshShape::meets(const Aabb& box) const {
   std::int32_t open[64];
   int depth = 0;
   open[depth++] = 0;
@@ -183,7 +183,7 @@ bool Surface::meets(const Aabb& box) const {
   return false;
 }
 
-bool Surface::is_exposed(const Triangle& triangle, const Vec3& normal) const {
+bool TriangleMeshShape::is_exposed(const Triangle& triangle, const Vec3& normal) const {
   double height[3], highest = -1e300, longest = 0;
   for (int k = 0; k < 3; ++k) {
     const Vec3& corner = corners_[triangle.corners[k]];

@@ -1,10 +1,10 @@
-#include "kernel/model/size_spread.h"
+#include "kernel/model/size_distribution.h"
 
 #include "kernel/base/portable_math.h"
 
 namespace rubble {
 
-double draw_size(const SizeSpread& spread, double min, double max, RandomStream& random) {
+double draw_size(const SizeDistribution& spread, double min, double max, RandomStream& random) {
   for (int tries = 0; spread.kind != Spread::uniform && tries < 1000; ++tries) {
     const double x = spread.deviation * random.normal();
     const double size = spread.kind == Spread::normal ? spread.typical + x

@@ -17,7 +17,7 @@ template <typename Struct, typename Visit, IfIs<Struct, Body> = 0>
 void each_field(Struct& b, Visit&& visit) {
   visit(b.type), visit(b.layer), visit(b.scale), visit(b.shape), visit(b.mass);
   visit(b.com_in_type), visit(b.inertia), visit(b.inverse_inertia_local), visit(b.inverse_mass);
-  visit(b.radius), visit(b.mobile), visit(b.tree), visit(b.link), visit(b.first_collider), visit(b.collider_count);
+  visit(b.radius), visit(b.simbody_index), visit(b.tree), visit(b.link), visit(b.first_collider), visit(b.collider_count);
   visit(b.world_from_com), visit(b.linear), visit(b.angular), visit(b.rotation);
   visit(b.inverse_inertia), visit(b.travel), visit(b.still_pose), visit(b.still_steps);
   visit(b.loose_pose), visit(b.loose_steps), visit(b.load), visit(b.lost_support);

@@ -7,7 +7,7 @@ namespace rubble {
 
 enum class Spread { uniform, normal, lognormal };
 
-struct SizeSpread {
+struct SizeDistribution {
   Spread kind = Spread::uniform;
   double typical = 1;      // mean of the normal, median of the lognormal; range: above 0, to 100
   double deviation = 0.2;  // standard deviation of the size, or of its natural logarithm;
@@ -17,6 +17,6 @@ struct SizeSpread {
 // A size in [min, max]: what falls outside is drawn again, so that the distribution is cut off there
 // and not heaped up. After 1000 draws outside (a range far off in a tail) it is uniform.
 // The normal is that of RandomStream, whose tails end at 6 deviations.
-double draw_size(const SizeSpread& spread, double min, double max, RandomStream& random);
+double draw_size(const SizeDistribution& spread, double min, double max, RandomStream& random);
 
 }  // namespace rubble

@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages build asset-maker live demo gallery pictures test test-nightly test-asan test-tsan fuzz faults determinism format clean
+.PHONY: help packages program-packages build all asset-maker live demo gallery pictures test test-nightly test-asan test-tsan fuzz faults determinism format clean
 
 PROGRAM := build/release/rubble
 CTEST   := ctest --output-on-failure --parallel 2
@@ -11,7 +11,8 @@ help:
 	@echo "make test       install what is missing, build, and run the test suite"
 	@echo "make gallery    draw docs/gallery.md and its pictures anew"
 	@echo "make pictures   draw the other pictures of the documents anew"
-	@echo "make build      build the release preset alone: $(PROGRAM)"
+	@echo "make build      build the program and its assets alone: $(PROGRAM)"
+	@echo "make all        build the tests and benches, too"
 	@echo "make live       the same with what publishes over ROS (docs/live.md)"
 	@echo "make test-nightly  the tests that take long, or need a cluster of one node"
 	@echo "make test-asan  the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
@@ -25,16 +26,27 @@ help:
 packages:
 	@tools/install_packages.sh packages.txt
 
+program-packages:
+	@tools/install_packages.sh --program packages.txt
+
 build/%/build.ninja: | packages
 	cmake --preset $*
 
-build: packages build/release/build.ninja
+build/release/build.ninja: | program-packages
+	cmake --preset release -DBUILD_TESTING=OFF
+
+# The program alone, half of what there is to compile.
+build: program-packages build/release/build.ninja
+	cmake --build --preset release --target program
+
+all: packages
+	cmake --preset release -DBUILD_TESTING=ON
 	cmake --build --preset release
 
 # With the optional parts that publish over ROS; CMake looks for them anew.
 live: packages
 	@tools/install_packages.sh tools/packages-live.txt
-	cmake --preset release
+	cmake --preset release -DBUILD_TESTING=ON
 	cmake --build --preset release
 
 demo: build
@@ -53,10 +65,10 @@ pictures: demo
 	tools/collapse_pictures.sh
 
 # Every picture of docs/gallery.md, from bundled missions.
-gallery: build
+gallery: all
 	build/release/gallery
 
-test: build
+test: all
 	$(CTEST) --preset release --label-exclude nightly
 
 test-nightly: live
@@ -65,7 +77,7 @@ test-nightly: live
 	$(MAKE) fuzz SECONDS=4  # of each target: a minute in all, two at once
 
 # See RUBBLE_ASSET_MAKER in assets/CMakeLists.txt.
-asset-maker: packages build/release/build.ninja
+asset-maker: program-packages build/release/build.ninja
 	cmake --build --preset release --target rubble_make_assets
 
 build/tsan/build.ninja: | asset-maker

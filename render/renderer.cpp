@@ -82,7 +82,7 @@ float most_gloss(const PreparedScene& scene) {
   float most = 0;
   for (const PreparedMesh& mesh : scene.meshes)
     for (const PreparedTriangle& t : mesh.triangles)
-      most = std::max(most, all_looks()[t.material].gloss);
+      most = std::max(most, all_surface_appearances()[t.material].gloss);
   return most;
 }
 
@@ -117,7 +117,7 @@ struct Renderer::State {
   float exposure = 0.1f;  // of the frame drawn last
   RenderTimes times;
   std::vector<std::uint8_t> rgba;
-  std::unique_ptr<TruthMaker> truth;
+  std::unique_ptr<GroundTruthMaker> ground_truth;
   std::unique_ptr<RayPass> rays;  // made when a view first needs it
   ViewRays drawn;                 // what was drawn last
 
@@ -174,7 +174,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
                         o.threads});
   resolve = std::make_unique<ResolvePass>(gl, geometry, frame_light, make_ground_map(scene),
                                           patterns);
-  truth = std::make_unique<TruthMaker>(scene, geometry, o.threads);
+  ground_truth = std::make_unique<GroundTruthMaker>(scene, geometry, o.threads);
   report(1);
 }
 
@@ -318,7 +318,7 @@ void Renderer::add_channels(const ChannelSet& channels, const ViewRays* next, Fr
   s.context.make_current();
   const std::vector<std::uint32_t> ids = s.read_ids();
   const std::vector<float> distances = s.distances();
-  s.truth->fill(channels, {s.drawn, ids, distances, next}, frame);
+  s.ground_truth->fill(channels, {s.drawn, ids, distances, next}, frame);
 }
 
 LinearFrame Renderer::render_linear(const Pose& world_from_camera, const Intrinsics& intrinsics) {
@@ -346,7 +346,7 @@ LinearFrame Renderer::render_linear(const ViewRays& view) {
   return out;
 }
 
-std::vector<std::uint8_t> Renderer::render_beside(const ViewRays& view) {
+std::vector<std::uint8_t> Renderer::render_stereo_right(const ViewRays& view) {
   State& s = *state_;
   check_view(view);
   s.context.make_current();
@@ -356,17 +356,17 @@ std::vector<std::uint8_t> Renderer::render_beside(const ViewRays& view) {
 
 std::vector<float> Renderer::distances() const { return state_->distances(); }
 
-std::vector<std::uint8_t> Renderer::seen_from(const Vec3& place_in_camera) {
+std::vector<std::uint8_t> Renderer::line_of_sight_mask(const Vec3& place_in_camera) {
   State& s = *state_;
   const std::vector<std::uint32_t> ids = s.read_ids();
   const std::vector<float> distances = s.distances();
-  return s.truth->seen_from({s.drawn, ids, distances, nullptr}, place_in_camera);
+  return s.ground_truth->line_of_sight_mask({s.drawn, ids, distances, nullptr}, place_in_camera);
 }
 
 std::vector<float> Renderer::albedos() const {
   const std::vector<std::uint32_t> ids = state_->read_ids();
   const std::vector<float> distances = state_->distances();
-  return state_->truth->albedos({state_->drawn, ids, distances, nullptr});
+  return state_->ground_truth->albedos({state_->drawn, ids, distances, nullptr});
 }
 
 const RenderTimes& Renderer::times() const { return state_->times; }

@@ -82,14 +82,14 @@ class Renderer {
   // The same through any lens and shutter: exact for each pixel's own ray, without resampling.
   Frame render(const ViewRays& view, int index);
   // Colour of another view at the same instant, at the exposure of the frame drawn last.
-  std::vector<std::uint8_t> render_beside(const ViewRays& view);
+  std::vector<std::uint8_t> render_stereo_right(const ViewRays& view);
   // Fills the channels of a frame of the view that was drawn last. next: the view of the frame that
   // follows, for the flow; null: none follows.
   void add_channels(const ChannelSet& channels, const ViewRays* next, Frame& frame);
   // Of the view that was drawn last: distances along the rays (NaN: none), and 1 where a place in the
   // camera body frame has a free line to the surface.
   std::vector<float> distances() const;
-  std::vector<std::uint8_t> seen_from(const Vec3& place_in_camera);
+  std::vector<std::uint8_t> line_of_sight_mask(const Vec3& place_in_camera);
   // Of the same view: each surface's share of light just beyond red that it throws back; 0: none.
   std::vector<float> albedos() const;
   LinearFrame render_linear(const Pose& world_from_camera, const Intrinsics& intrinsics);

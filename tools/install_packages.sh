@@ -1,11 +1,19 @@
 #!/bin/sh
 # Installs the Debian packages of the given lists that are missing; does nothing when none is.
-# usage: tools/install_packages.sh packages.txt ...
+# usage: tools/install_packages.sh [--program] packages.txt ...
+#   --program: no package below a line "# Only for tests and benches"
 set -eu
+
+program=""
+if [ "${1:-}" = --program ]; then
+  program=yes
+  shift
+fi
 
 missing=""
 for list in "$@"; do
   while read -r name condition command _; do
+    if [ -n "$program" ] && [ "$name $condition" = "# Only" ]; then break; fi
     case "$name" in "" | "#"*) continue ;; esac
     if [ "${condition:-}" = if-missing ] && command -v "$command" >/dev/null 2>&1; then continue; fi
     status=$(dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null || true)

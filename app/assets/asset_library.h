@@ -39,10 +39,10 @@ struct AssetLibrary {
 // cannot be read, two packs with an asset of the same name.
 AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>& extra_packs);
 
-// Loads the very assets that a recipe names, wherever their packs are now: looks in `folders`
-// (packs, or folders of packs), then among the bundled ones, and takes what has the same content.
-// Throws InputError naming each that is missing, and where it was looked for.
-AssetLibrary load_assets(const Recipe& recipe, const std::vector<std::string>& folders);
+// Loads the very assets that a run's provenance names, wherever their packs are now: looks in
+// `folders` (packs, or folders of packs), then among the bundled ones, and takes what has the same
+// content. Throws InputError naming each that is missing, and where it was looked for.
+AssetLibrary load_assets(const Provenance& provenance, const std::vector<std::string>& folders);
 // One asset with all that it refers to. Throws InputError for a file that cannot be read.
 struct LoadedAsset {
   PieceType type;

@@ -59,12 +59,12 @@ std::string hash_content(const Asset& asset, const PieceType& type) {
 }
 
 // The pack's word for it, else a name that is a look, else that of the asset or its material.
-std::string choose_look(const Asset& asset, const std::string& surface) {
-  for (const auto& [name, look] : asset.looks)
+std::string choose_surface_appearance(const Asset& asset, const std::string& surface) {
+  for (const auto& [name, look] : asset.surface_appearance)
     if (name == surface) return look;
-  const std::vector<std::string> known = known_looks();
-  const bool is_look = std::find(known.begin(), known.end(), surface) != known.end();
-  return is_look || asset.look.empty() ? surface : asset.look;
+  const std::vector<std::string> known = known_surface_appearances();
+  const bool is_surface_appearance = std::find(known.begin(), known.end(), surface) != known.end();
+  return is_surface_appearance || asset.look.empty() ? surface : asset.look;
 }
 
 constexpr double kSmallest = 1e-3, kLargest = 1e3;  // of a piece that was meant so; unit: m
@@ -80,18 +80,18 @@ void warn_of_size(const Asset& asset, const TriangleMesh& mesh, std::vector<std:
 
 // One that the pack says nothing of: there the file's own colour may have been what was meant.
 bool has_surface_of_its_own(const Asset& asset, const TriangleMesh& mesh) {
-  const std::vector<std::string> known = known_looks();
+  const std::vector<std::string> known = known_surface_appearances();
   return std::any_of(mesh.surface_names.begin(), mesh.surface_names.end(), [&](const auto& name) {
-    const bool given = std::any_of(asset.looks.begin(), asset.looks.end(),
+    const bool given = std::any_of(asset.surface_appearance.begin(), asset.surface_appearance.end(),
                                    [&name](const auto& look) { return look.first == name; });
     return !given && std::find(known.begin(), known.end(), name) == known.end();
   });
 }
 
 // A surface that `looks` names and no mesh of the asset has.
-void warn_of_looks(const Asset& asset, const std::vector<std::string>& surfaces,
-                   std::vector<std::string>& warnings) {
-  for (const auto& [name, look] : asset.looks) {
+void warn_of_surface_appearances(const Asset& asset, const std::vector<std::string>& surfaces,
+                                 std::vector<std::string>& warnings) {
+  for (const auto& [name, look] : asset.surface_appearance) {
     if (std::find(surfaces.begin(), surfaces.end(), name) != surfaces.end()) continue;
     const std::string near = nearest_name(name, surfaces);
     std::string there;
@@ -116,11 +116,11 @@ LoadedAsset load_asset(const Asset& asset, MeshImporter& importer) {
                                 " of the file are not drawn: surfaces look as `looks` says");
     for (std::string& surface : mesh->levels.back().surface_names) {
       surfaces.push_back(surface);
-      surface = choose_look(asset, surface);
+      surface = choose_surface_appearance(asset, surface);
     }
   }
   warn_of_size(asset, mesh->levels.front(), loaded.warnings);
-  warn_of_looks(asset, surfaces, loaded.warnings);
+  warn_of_surface_appearances(asset, surfaces, loaded.warnings);
   loaded.type = make_type(asset, mesh->levels.front(), units, importer, loaded.warnings);
   loaded.mesh = std::move(mesh);
   return loaded;

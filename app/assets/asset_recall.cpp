@@ -1,4 +1,4 @@
-// The assets of a recipe, found again by their content.
+// The assets of a provenance, found again by their content.
 #include <filesystem>
 #include <set>
 
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The terrain that a recipe names, made again.
+// The terrain that a provenance names, made again.
 void remake_terrain(const AssetContent& wanted, const TerrainScenario& spec,
                     const std::vector<std::string>& folders, const std::string& file,
                     AssetLibrary& library) {
@@ -25,7 +25,7 @@ void remake_terrain(const AssetContent& wanted, const TerrainScenario& spec,
                     "name the folder of its file with --assets"});
 }
 
-// A box that a recipe names, made again.
+// A box that a provenance names, made again.
 void remake_box(const AssetContent& wanted, const Scenario& scenario,
                 const std::vector<Material>& materials, const std::string& file,
                 AssetLibrary& library) {
@@ -60,7 +60,7 @@ void add_packs(const std::string& folder, std::set<std::string>& seen,
     if (seen.insert(pack).second) packs.push_back(pack);
 }
 
-// One asset with the content that was asked for, as the recipe weights it.
+// One asset with the content that was asked for, as the provenance weights it.
 struct Search {
   const std::vector<AssetPack>& packs;
   const std::vector<Material>& materials;
@@ -116,7 +116,7 @@ struct Search {
   }
 };
 
-// As make_mix, from what a recipe says of its assets.
+// As make_mix, from what a provenance says of its assets.
 std::vector<MixEntry> make_mix(const Scenario& scenario, const AssetLibrary& library) {
   AssetPack pack;
   for (const AssetContent& content : library.contents) {
@@ -134,7 +134,7 @@ std::vector<MixEntry> make_mix(const Scenario& scenario, const AssetLibrary& lib
 
 }  // namespace
 
-AssetLibrary load_assets(const Recipe& recipe, const std::vector<std::string>& folders) {
+AssetLibrary load_assets(const Provenance& provenance, const std::vector<std::string>& folders) {
   const std::string bundled = bundled_assets_folder();
   std::set<std::string> seen;
   AssetLibrary library;
@@ -145,15 +145,15 @@ AssetLibrary load_assets(const Recipe& recipe, const std::vector<std::string>& f
   for (const std::string& folder : library.folders)
     packs.push_back(load_asset_pack(folder, materials));
   Search search{packs, materials, {}, library.folders};
-  const Recipe& pile = recipe.pile_from ? *recipe.pile_from : recipe;
+  const Provenance& pile = provenance.pile_from ? *provenance.pile_from : provenance;
   const Scenario scenario = stated_scenario(pile);
   for (const AssetContent& wanted : pile.assets) {
     if (wanted.pack == kMadeToMeasure)
-      remake_box(wanted, scenario, materials, recipe.script.path, library);
+      remake_box(wanted, scenario, materials, provenance.script.path, library);
     else if (wanted.pack == kTerrainPack)
-      remake_terrain(wanted, scenario.pile.terrain, folders, recipe.script.path, library);
+      remake_terrain(wanted, scenario.pile.terrain, folders, provenance.script.path, library);
     else
-      search.find(wanted, recipe.script.path, library);
+      search.find(wanted, provenance.script.path, library);
   }
   if (!search.missing.empty()) throw InputError(std::move(search.missing));
   library.mix = make_mix(scenario, library);

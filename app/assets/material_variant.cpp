@@ -8,7 +8,7 @@ namespace rubble {
 namespace {
 
 bool is_known(const std::string& look) {
-  const std::vector<std::string> known = known_looks();
+  const std::vector<std::string> known = known_surface_appearances();
   return std::find(known.begin(), known.end(), look) != known.end();
 }
 
@@ -48,10 +48,10 @@ Asset make_variant(const Asset& asset, const Material& material) {
   const auto changed = [&](const std::string& look) {
     return is_break(look) ? break_of(material) : material.look;
   };
-  for (auto& [surface, look] : variant.looks)
+  for (auto& [surface, look] : variant.surface_appearance)
     if (is_own(look)) look = changed(look);
-  for (const std::string& look : known_looks())
-    if (is_own(look)) variant.looks.emplace_back(look, changed(look));
+  for (const std::string& look : known_surface_appearances())
+    if (is_own(look)) variant.surface_appearance.emplace_back(look, changed(look));
   return variant;
 }
 

@@ -12,7 +12,7 @@
 
 namespace rubble {
 
-// The pack that a recipe names for them.
+// The pack that a provenance names for them.
 inline constexpr const char* kMadeToMeasure = "made to measure";
 
 struct MadeBox {

@@ -14,20 +14,20 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kDepth = 0.5;  // of a height field's bottom under the ground; unit: m
-constexpr const char* kGroundLook = "ground";
+constexpr const char* kGroundAppearance = "ground";
 
-bool is_look(const std::string& name) {
-  const std::vector<std::string> known = known_looks();
-  return name == kGroundLook || std::find(known.begin(), known.end(), name) != known.end();
+bool is_surface_appearance(const std::string& name) {
+  const std::vector<std::string> known = known_surface_appearances();
+  return name == kGroundAppearance || std::find(known.begin(), known.end(), name) != known.end();
 }
 
-void check_look(const std::string& name) {
-  if (is_look(name)) return;
+void check_surface_appearance(const std::string& name) {
+  if (is_surface_appearance(name)) return;
   Diagnostic d;
   d.key = "pile.terrain.look";
   d.message = "no such look";
-  for (const std::string& known : known_looks()) d.expected += known + ", ";
-  d.expected += kGroundLook;
+  for (const std::string& known : known_surface_appearances()) d.expected += known + ", ";
+  d.expected += kGroundAppearance;
   d.found = "\"" + name + "\"";
   throw InputError(d);
 }
@@ -71,7 +71,7 @@ std::string hash_mesh(const TriangleMesh& mesh, double friction) {
 
 MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::string>& folders,
                          MeshImporter& importer) {
-  check_look(spec.look);
+  check_surface_appearance(spec.look);
   MadeTerrain terrain;
   auto scene = std::make_shared<SceneMesh>();
   if (spec.file.empty()) {
@@ -81,7 +81,7 @@ MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::str
     scene->levels.push_back(importer.load_mesh(path, {spec.metres_per_unit, spec.up}));
     TriangleMesh& mesh = scene->levels.back();
     for (std::string& surface : mesh.surface_names)
-      if (!is_look(surface)) surface = spec.look;
+      if (!is_surface_appearance(surface)) surface = spec.look;
     terrain.folder = fs::absolute(fs::path(path).parent_path()).lexically_normal().string();
     if (!is_closed(mesh))
       terrain.warning = path + ": the mesh is not closed: " + describe(find_open_edges(mesh)) +

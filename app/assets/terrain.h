@@ -12,7 +12,7 @@
 
 namespace rubble {
 
-// Its type's name, and the pack that a recipe names for it.
+// Its type's name, and the pack that a provenance names for it.
 inline constexpr const char* kTerrainName = "terrain";
 inline constexpr const char* kTerrainPack = "terrain of the mission";
 

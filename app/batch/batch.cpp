@@ -66,9 +66,10 @@ class Batch {
     const Mission mission = load_mission(request_.of.mission, options);
     const AssetLibrary assets = load_assets(mission, request_.of.asset_packs);
     estimate_ = estimate_bytes(mission.scenario, assets, request_.pile_only);
-    recipe_ = make_recipe(request_.pile_only ? RunKind::settle : RunKind::run, mission, options);
-    recipe_.assets = assets.contents;
-    recipe_.seed.reset();
+    provenance_ =
+        make_provenance(request_.pile_only ? RunKind::settle : RunKind::run, mission, options);
+    provenance_.assets = assets.contents;
+    provenance_.seed.reset();
   }
 
   std::string describe() const {
@@ -77,7 +78,7 @@ class Batch {
     json["format"] = "rubble batch 1";
     json["program"] = build.version + " " + build.commit;
     json["seeds"] = request_.seeds;
-    add_recipe(json, recipe_);
+    add_provenance(json, provenance_);
     return json.dump(2) + "\n";
   }
 
@@ -209,7 +210,7 @@ class Batch {
   JobShape shape_;
   BatchFolder folder_;
   Progress progress_;
-  Recipe recipe_;
+  Provenance provenance_;
   std::uint64_t estimate_ = 0;
   std::vector<std::uint64_t> seeds_;  // one per job
   std::vector<Job> jobs_;

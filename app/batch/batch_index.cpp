@@ -31,7 +31,7 @@ const char* name_of(const Row& row) {
 
 // Throws InputError when it cannot be read, is altered, or is not of what lies beside it.
 Manifest read_trusted_manifest(const std::string& folder, std::uint64_t seed) {
-  const SavedRun saved = open_saved_run(folder);
+  const FinishedRun saved = open_finished_run(folder);
   const std::string path = folder + "/manifest.json";
   if (saved.manifest.seed != seed)
     throw InputError({path, 0, "seed", "is of another seed", std::to_string(seed),

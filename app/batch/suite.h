@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/pipeline/run_request.h"
+#include "app/support/run_request.h"
 #include "kernel/base/error.h"
 
 namespace rubble {

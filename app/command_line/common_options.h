@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/command_line/command_line.h"
-#include "app/pipeline/run_request.h"
+#include "app/support/run_request.h"
 
 namespace rubble {
 

@@ -49,7 +49,7 @@ void check_levels(const SceneMesh& mesh, AssetReport& report) {
       report.warnings.push_back("level of detail " + std::to_string(i) + " is no coarser than the one before");
     for (const std::string& surface : level.surface_names) {
       try {
-        find_look(surface);
+        find_surface_appearance(surface);
       } catch (const RunError& error) {
         if (i == 0) report.errors.push_back(error.what());
       }

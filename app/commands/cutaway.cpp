@@ -6,9 +6,9 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
-#include "app/commands/pile_section.h"
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/finished_run.h"
+#include "app/pipeline/pile_section.h"
 #include "io/image/picture_sheet.h"
 #include "kernel/base/portable_math.h"
 #include "render/renderer.h"
@@ -162,7 +162,7 @@ void light_up(Scene& scene) {
 }
 
 ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutaway) {
-  const SavedRun saved = open_saved_run(request.folder);
+  const FinishedRun saved = open_finished_run(request.folder);
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
   const PileState pile = load_pile_of(saved);
   PileSection section = cut_pile(build_scene(Scenario{}, assets, pile), cutaway.y);

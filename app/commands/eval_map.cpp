@@ -32,8 +32,8 @@ constexpr double kMapSpacing = 0.02;  // of samples of a mesh; unit: m
 
 double sample_spacing(const MapRequest& request) { return std::min(kMapSpacing, request.space.voxel / 2); }
 
-RecordedViews load_views(const SavedRun& saved, const MapRequest& request) {
-  const Scenario scenario = stated_scenario(saved.manifest.recipe);
+RecordedViews load_views(const FinishedRun& saved, const MapRequest& request) {
+  const Scenario scenario = stated_scenario(saved.manifest.provenance);
   const DepthSensorSpec& sensor = scenario.depth_sensor;
   ViewRange range;
   if (sensor.type != DepthSensorType::none && sensor.type != DepthSensorType::ideal)
@@ -123,7 +123,7 @@ ExitCode eval_map(const MapRequest& request) {
   const SavedSurface surface(request.dataset, request.asset_packs);
   load_views(surface.saved, request);  // complains before anything takes long
   if (!request.align.empty())
-    align_to_world(request.align, load_sfm_truth(request.dataset), map.positions);
+    align_to_world(request.align, load_sfm_ground_truth(request.dataset), map.positions);
   check_area(map, sample_spacing(request), request.map);
   Progress progress(choose_progress_style(request.options.quiet));
   progress.start("voids");

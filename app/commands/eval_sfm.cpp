@@ -35,7 +35,7 @@ std::vector<ScoreCell> make_cells(const SfmScore& s) {
 }
 
 ScoreRow score_dataset(const std::string& dataset, const SfmRequest& request) {
-  const SfmTruth truth = load_sfm_truth(dataset);
+  const SfmGroundTruth truth = load_sfm_ground_truth(dataset);
   // An absolute path stays as it is: std::filesystem's operator /
   const std::string models = (std::filesystem::path(dataset) / request.model).string();
   const std::vector<SfmSegment> segments = load_segments(models, truth);

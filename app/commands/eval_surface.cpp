@@ -19,7 +19,7 @@ struct SurfaceRequest {
 ExitCode eval_surface(const SurfaceRequest& request) {
   constexpr double kSpacing = 0.02;  // unit: m
   for (const std::string& path : request.output.files) check_score_file(path);
-  const SfmTruth truth = load_sfm_truth(request.dataset);
+  const SfmGroundTruth truth = load_sfm_ground_truth(request.dataset);
   PlyMesh mesh = load_ply(request.mesh);
   if (!request.align.empty()) align_to_world(request.align, truth, mesh.positions);
   check_area(mesh, kSpacing, request.mesh);

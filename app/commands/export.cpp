@@ -17,44 +17,38 @@ namespace {
 
 // Into which formats a pile goes, and where to.
 struct ExportRequest {
-  std::vector<std::string> formats;  // --format, of export_formats(); empty: all
+  std::vector<std::string> formats;  // --format, of mesh_formats(); empty: all
   std::string out;                   // --out; empty: `export` in the folder of the run
   bool force = false;                // --force
 };
 
-// "stl, ply, obj, glb or sdf".
-std::string join_formats() {
-  std::string text;
-  const std::vector<std::string> known = export_formats();
-  for (std::size_t i = 0; i < known.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == known.size() ? " or " : ", ") + known[i];
-  return text;
-}
-
 // Every format asked for, once, or all of them. Throws InputError for an unknown one.
-std::vector<std::string> choose_formats(const std::vector<std::string>& asked) {
-  const std::vector<std::string> known = export_formats();
-  if (asked.empty()) return known;
-  std::vector<std::string> chosen;
-  for (const std::string& format : asked) {
-    if (std::find(known.begin(), known.end(), format) == known.end())
-      throw InputError({"", 0, "--format", "unknown export format",
-                        join_formats(), "`" + format + "`", ""});
-    if (std::find(chosen.begin(), chosen.end(), format) == chosen.end()) chosen.push_back(format);
+std::vector<MeshFormat> choose_formats(const std::vector<std::string>& asked) {
+  if (asked.empty()) return mesh_formats();
+  std::vector<MeshFormat> chosen;
+  for (const std::string& name : asked) {
+    const MeshFormat& format = find_mesh_format(name);
+    const auto is_it = [&](const MeshFormat& other) { return other.name == name; };
+    if (std::none_of(chosen.begin(), chosen.end(), is_it)) chosen.push_back(format);
   }
   return chosen;
 }
 
-// The folder of an earlier `sdf` is ours to replace.
+// What an earlier export left is ours to replace, its folders, too.
 void prepare(const std::string& out, bool force) {
-  prepare_output_folder(out, force, {"pile.stl", "pile.ply", "pile.obj", "pile.mtl", "pile.glb"});
+  std::vector<std::string> files, folders;
+  for (const MeshFormat& format : mesh_formats())
+    for (const std::string& name : format.leaves)
+      (format.is_folder ? folders : files).push_back(name);
+  prepare_output_folder(out, force, files);
   std::error_code error;
-  if (force) std::filesystem::remove_all(out + "/sdf", error);
+  if (!force) return;
+  for (const std::string& name : folders) std::filesystem::remove_all(out + "/" + name, error);
 }
 
 ExitCode export_finished_pile(const FolderRequest& request, const ExportRequest& to) {
-  const std::vector<std::string> formats = choose_formats(to.formats);
-  const SavedRun saved = open_saved_run(request.folder);
+  const std::vector<MeshFormat> formats = choose_formats(to.formats);
+  const FinishedRun saved = open_finished_run(request.folder);
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
   const PileState pile = load_pile_of(saved);
   const PileModel model = build_pile_model(assets, pile);
@@ -64,8 +58,8 @@ ExitCode export_finished_pile(const FolderRequest& request, const ExportRequest&
   progress.start("export");
   std::size_t files = 0;
   for (std::size_t i = 0; i < formats.size(); ++i) {
-    progress.update(double(i) / double(formats.size()), formats[i]);
-    files += export_pile(model, formats[i], out).size();
+    progress.update(double(i) / double(formats.size()), formats[i].name);
+    files += export_pile(model, formats[i].name, out).size();
   }
   progress.finish(std::to_string(model.pieces.size()) + " pieces, " + std::to_string(files) +
                   " files and folders");
@@ -77,7 +71,7 @@ Action declare(CommandLine& line) {
   const auto of = std::make_shared<FolderRequest>();
   const auto request = std::make_shared<ExportRequest>();
   add_folder_options(line, *of);
-  line.add("--format", request->formats, join_formats())
+  line.add("--format", request->formats, join_mesh_formats(" or "))
       .shows_default_text("all")
       .metavar("FORMAT")
       .separated_by(',');

@@ -59,7 +59,7 @@ std::optional<std::string> stated_hash(const std::string& path) {
 
 void print_summary(const Manifest& m) {
   std::printf("script                   %s, seed %llu, by rubble %s (%s)\n",
-              printable(m.recipe.script.path).c_str(), static_cast<unsigned long long>(m.seed),
+              printable(m.provenance.script.path).c_str(), static_cast<unsigned long long>(m.seed),
               printable(m.program.version).c_str(), printable(m.program.commit).c_str());
   std::printf("pile                     %lld pieces, %s, state hash %s\n",
               static_cast<long long>(m.pile.pieces), m.pile.settled ? "at rest" : "not at rest",

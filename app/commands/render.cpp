@@ -6,7 +6,7 @@
 #include "app/command_line/common_options.h"
 #include "app/pipeline/finished_run.h"
 #include "app/pipeline/live.h"
-#include "app/pipeline/run_to_folder.h"
+#include "app/pipeline/run.h"
 #include "app/support/stop.h"
 
 namespace rubble {
@@ -15,17 +15,18 @@ namespace {
 ExitCode render_finished_pile(const std::string& from, const RunRequest& request) {
   stop_on_signals();
   check_live(request.options);
-  const SavedRun saved = open_saved_run(from);
+  const FinishedRun saved = open_finished_run(from);
   const PileState pile = load_pile_of(saved);
-  Run run = start_render(request, saved);
+  RunContext context(request.options);
+  const ResolvedMission mission = resolve_render(request, saved, context);
   std::error_code failed;
   if (std::filesystem::equivalent(from, choose_output(request), failed))
     throw InputError({from, 0, "--out", "would replace the run that the pile comes from", "", "",
                       "choose another folder"});
   RunFolder folder = RunFolder::create(choose_output(request), request.force);
-  folder.begin(describe_unfinished(run));
-  keep_pile(run, pile, folder);
-  return complete(run, folder);
+  folder.begin(describe_unfinished(mission));
+  keep_pile(mission, pile, folder);
+  return complete(mission, folder, context);
 }
 
 Action declare(CommandLine& line) {

@@ -12,8 +12,9 @@ namespace {
 ExitCode resume_run(const FolderRequest& request) {
   stop_on_signals();
   RunFolder folder = RunFolder::open_unfinished(request.folder);
-  Run run = continue_run(request.options, folder, request.asset_packs);
-  return complete(run, folder);
+  RunContext context(request.options);
+  const ResolvedMission mission = resolve_unfinished(folder, request.asset_packs, context);
+  return complete(mission, folder, context);
 }
 
 Action declare(CommandLine& line) {

@@ -3,7 +3,7 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
-#include "app/pipeline/run_to_folder.h"
+#include "app/pipeline/run.h"
 
 namespace rubble {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
-#include "app/pipeline/run.h"
+#include "app/pipeline/stages.h"
 #include "app/provenance/compare.h"
 #include "app/provenance/manifest.h"
 #include "app/support/stop.h"
@@ -128,8 +128,8 @@ class Verifier {
 
   void check_scenario() {
     try {
-      const Json is = Json::parse(scenario_to_json(load_mission(was_.recipe).scenario));
-      const std::string apart = describe_difference(Json::parse(was_.recipe.scenario), is);
+      const Json is = Json::parse(scenario_to_json(load_mission(was_.provenance).scenario));
+      const std::string apart = describe_difference(Json::parse(was_.provenance.scenario), is);
       add("scenario", apart.empty(),
           apart.empty() ? "follows from the script" : "what the script gives now: " + apart);
     } catch (const InputError& error) {
@@ -140,24 +140,29 @@ class Verifier {
   void run_anew() {
     std::vector<std::string> folders = request_.of.asset_packs;
     folders.insert(folders.end(), was_.pack_folders.begin(), was_.pack_folders.end());
-    Run run = start_run(request_.of.options, was_.recipe, folders);
-    add("assets", true, std::to_string(run.assets.types.size()) + " found by content");
+    RunContext context(request_.of.options);
+    const ResolvedMission mission = resolve_mission(was_.provenance, folders, context);
+    add("assets", true, std::to_string(mission.assets.types.size()) + " found by content");
     const WorkFolder work(request_.work);
     RunFolder folder = RunFolder::create(work.path() + "/run", false);
-    folder.begin(describe_unfinished(run));
+    folder.begin(describe_unfinished(mission));
     stop_on_signals();
-    settle(run, folder);
-    if (!check_pile(run)) return skip("frames", "the pile is another already");
-    write_pile_files(run, folder);
-    const bool frames = was_.recipe.kind != RunKind::settle && !request_.pile_only;
-    if (frames) check_frames(run, folder);
-    if (!frames && was_.recipe.kind != RunKind::settle) skip("frames", "--pile-only");
-    if (!request_.pile_only) check_metrics(run);
-    check_files(folder, folder.hash_files(run.threads()));
+    const SettledPile pile = settle(mission, folder, context);
+    if (!check_pile(pile.state)) return skip("frames", "the pile is another already");
+    write_pile_files(mission, pile.state, folder, context);
+    const bool has_frames = was_.provenance.kind != RunKind::settle;
+    RecordedFrames frames;
+    if (has_frames && request_.pile_only) skip("frames", "--pile-only");
+    if (has_frames && !request_.pile_only) {
+      frames = record_frames(mission, pile.state, folder, context);
+      check_frames(frames, folder);
+    }
+    if (!request_.pile_only) check_metrics(join(pile.metrics, frames.metrics));
+    check_files(folder, folder.hash_files(context.threads()));
   }
 
-  bool check_pile(const Run& run) {
-    const std::string is = hex64(run.pile.state_hash()), &was = was_.pile.state_hash;
+  bool check_pile(const PileState& found) {
+    const std::string is = hex64(found.state_hash()), &was = was_.pile.state_hash;
     if (is == was) {
       add("pile", true, "state hash " + is);
       return true;
@@ -165,7 +170,7 @@ class Verifier {
     std::string detail = "state hash " + is + " instead of " + was;
     try {
       const PileState pile = load_pile_state(recorded("pile.bin"));
-      const std::string apart = describe_difference(pile, run.pile);
+      const std::string apart = describe_difference(pile, found);
       detail += apart.empty() ? "; yet pile.bin is equal: the manifest was altered" : "; " + apart;
     } catch (const InputError&) {  // the recorded files were looked at before
     }
@@ -173,13 +178,12 @@ class Verifier {
     return false;
   }
 
-  void check_frames(Run& run, RunFolder& folder) {
-    render_frames(run, folder);
-    const FrameDifference apart = find_difference(was_.frames, run.frames.compact());
+  void check_frames(const RecordedFrames& frames, const RunFolder& folder) {
+    const FrameDifference apart = find_difference(was_.frames, frames.hashes.compact());
     add("frames", apart.why.empty(),
         apart.why.empty() ? std::to_string(was_.frames.frames.size()) + " frames"
                           : apart.why + find_pixel(apart, folder));
-    for (const auto& [name, value] : run.environment) {
+    for (const auto& [name, value] : frames.environment) {
       const auto before = was_.environment.find(name);
       if (name != "threads" && before != was_.environment.end() && before->second != value)
         result_.notes.push_back(name + " " + value + " instead of " + before->second);
@@ -205,9 +209,9 @@ class Verifier {
                : "; yet " + was->file + " holds the same pixels: the manifest was altered";
   }
 
-  void check_metrics(const Run& run) {
-    const std::string apart = describe_difference(Json(was_.metrics), Json(run.metrics));
-    add("metrics", apart.empty(), apart.empty() ? std::to_string(run.metrics.size()) : apart);
+  void check_metrics(const Metrics& found) {
+    const std::string apart = describe_difference(Json(was_.metrics), Json(found));
+    add("metrics", apart.empty(), apart.empty() ? std::to_string(found.size()) : apart);
   }
 
   void check_files(const RunFolder& folder, const std::map<std::string, std::string>& hashes) {

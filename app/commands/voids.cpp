@@ -61,7 +61,7 @@ void check_radii(const std::vector<double>& radii) {
 }
 
 VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progress& progress) {
-  const SavedRun saved = open_saved_run(request.folder);
+  const FinishedRun saved = open_finished_run(request.folder);
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
   const PileState pile = load_pile_of(saved);
   const std::vector<const TriangleMesh*> meshes = assets.finest_meshes();

@@ -27,7 +27,7 @@ std::unique_ptr<RecordingQueue> start_recording(const DriveWorld& world,
   scenario.outputs.preview = false;
   fs::create_directories(folder);
   const Recording recording = describe_recording(scenario, world.assets, world.pile);
-  RecorderSet set = make_recorders(scenario, recording, 0, "", folder);
+  RecorderSet set = make_recorders({scenario, recording, 0, ""}, folder);
   return std::make_unique<RecordingQueue>(std::move(set.recorders));
 }
 

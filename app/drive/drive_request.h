@@ -1,7 +1,7 @@
 // What a person asked `rubble drive` for on the command line.
 #pragma once
 
-#include "app/pipeline/run_request.h"
+#include "app/support/run_request.h"
 #include "kernel/base/error.h"
 
 namespace rubble {

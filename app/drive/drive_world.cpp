@@ -4,10 +4,7 @@
 #include <cstdio>
 
 #include "app/drive/drive_log.h"
-#include "app/pipeline/build_scene.h"
 #include "app/planning/flight.h"
-#include "kernel/base/disk_cache.h"
-#include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"
 
 namespace rubble {
@@ -27,22 +24,21 @@ void resize_camera(CameraScenario& camera, int width, int height) {
   camera.height = height;
 }
 
-PileState settle_for_drive(Run& run, const GoOn& go_on) {
-  run.progress.start("settle");
-  SettleOptions options = run.scenario.settle;
-  options.threads = run.threads();
+PileState settle_for_drive(const ResolvedMission& mission, RunContext& context, const GoOn& go_on) {
+  context.progress.start("settle");
+  SettleOptions options = mission.pile_scenario.settle;
+  options.threads = context.threads();
   bool stopped = false;
-  const Pile pile = generate_pile(build_pile_spec(run.scenario, run.assets));
-  PileState state = settle_pile(pile, options, [&](const SettleProgress& p) {
-    run.progress.update(double(p.layer) / std::max(1, p.layers + 1),
-                        std::to_string(p.awake) + " of " + std::to_string(p.pieces) +
-                            " pieces moving");
+  PileState state = settle_pile(make_pile(mission), options, [&](const SettleProgress& p) {
+    context.progress.update(
+        double(p.layer) / std::max(1, p.layers + 1),
+        std::to_string(p.awake) + " of " + std::to_string(p.pieces) + " pieces moving");
     stopped = !go_on();
     return !stopped;
   });
   if (stopped) throw Stopped("stopped while the pile settled; nothing was driven");
-  run.progress.finish(std::to_string(state.pieces.size()) + " pieces" +
-                      (state.settled ? "" : ", some of them still moving"));
+  context.progress.finish(std::to_string(state.pieces.size()) + " pieces" +
+                          (state.settled ? "" : ", some of them still moving"));
   return state;
 }
 
@@ -98,29 +94,27 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
                                              const GoOn& go_on) {
   RunRequest of = request.of;
   if (seed) of.seed = seed;
-  Run run = start_run(of, RunKind::run);
+  RunContext run(of.options);
+  ResolvedMission mission = resolve_mission(of, RunKind::run, run);
   auto world = std::make_unique<DriveWorld>();
   world->threads = run.threads();
-  world->pile = settle_for_drive(run, go_on);
-  world->assets = std::move(run.assets);
-  world->scenario = run.scenario;
-  world->plan = run.scenario.trajectory.plan;
-  world->limits = limits_of(run.scenario.trajectory);
-  world->entry = find_entry(run.scenario, *world);
+  world->pile = settle_for_drive(mission, run, go_on);
+  world->assets = std::move(mission.assets);
+  world->scenario = mission.scenario;
+  world->plan = mission.scenario.trajectory.plan;
+  world->limits = limits_of(mission.scenario.trajectory);
+  world->entry = find_entry(mission.scenario, *world);
   adapt(world->scenario, request, world->assets);
   world->geometry = std::make_unique<PileGeometry>(world->assets, world->pile);
   check_entry(*world);
 
   run.progress.start("scene");
-  RenderOptions options;
-  options.threads = world->threads;
-  options.cache_folder = DiskCache::usual_folder();
-  world->renderer = std::make_unique<Renderer>(
-      context, build_scene(world->scenario, world->assets, world->pile), options,
-      [&](double fraction) {
+  // Built in place: a renderer cannot be moved.
+  world->renderer.reset(new Renderer(prepare_renderer(
+      world->scenario, world->assets, world->pile, context, world->threads, [&](double fraction) {
         run.progress.update(fraction, "light");
         go_on();
-      });
+      })));
   run.progress.finish("ready on " + context.info().renderer);
   return world;
 }

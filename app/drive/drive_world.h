@@ -6,7 +6,7 @@
 
 #include "app/drive/drive_request.h"
 #include "app/drive/driven_camera.h"
-#include "app/pipeline/run.h"
+#include "app/pipeline/stages.h"
 #include "app/planning/void_places.h"
 #include "render/renderer.h"
 
@@ -14,14 +14,14 @@ namespace rubble {
 
 struct DriveWorld {
   Scenario scenario;  // of the camera's size that was asked for, adapted to driving
-  Plan plan = Plan::ghost;
-  AssetLibrary assets;
-  PileState pile;
+  Plan plan = Plan::ghost;  // whether the camera collides
+  AssetLibrary assets;      // of the mission
+  PileState pile;           // settled
   DrivenPose entry;       // the first waypoint of the mission
   DriveLimits limits;     // the mission's speed limits, where it has any
-  std::unique_ptr<PileGeometry> geometry;
-  std::unique_ptr<Renderer> renderer;
-  int threads = 1;
+  std::unique_ptr<PileGeometry> geometry;  // for questions of clearance
+  std::unique_ptr<Renderer> renderer;      // of the scene, lit
+  int threads = 1;                         // at least 1
 };
 
 // Asked now and then while that takes long; false: the person wants to leave.

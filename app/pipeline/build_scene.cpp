@@ -94,8 +94,8 @@ PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile) {
                             piece_name(assets.types[std::size_t(piece.type)].name, i), piece.scale,
                             piece.world_from_body});
   }
-  for (const Look& look : all_looks())
-    model.looks.push_back({look.name, (look.dark + look.light) * 0.5f});
+  for (const SurfaceAppearance& look : all_surface_appearances())
+    model.surface_appearance.push_back({look.name, (look.dark + look.light) * 0.5f});
   return model;
 }
 

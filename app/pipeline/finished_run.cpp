@@ -9,7 +9,7 @@
 
 namespace rubble {
 
-SavedRun open_saved_run(const std::string& folder) {
+FinishedRun open_finished_run(const std::string& folder) {
   const std::string path = folder + "/manifest.json";
   std::error_code failed;
   if (!std::filesystem::is_directory(folder, failed))
@@ -18,7 +18,7 @@ SavedRun open_saved_run(const std::string& folder) {
     throw InputError({folder, 0, "", "the run in it is not finished", "", "",
                       "`rubble resume " + folder + "` continues it"});
   const std::string text = read_whole_file(path);
-  SavedRun saved{folder, manifest_from_json(text, path)};
+  FinishedRun saved{folder, manifest_from_json(text, path)};
   std::vector<Diagnostic> altered;
   for (const std::string& sentence : find_altered_parts(text, path))
     altered.push_back({path, 0, "", sentence, "", "", ""});
@@ -26,13 +26,13 @@ SavedRun open_saved_run(const std::string& folder) {
   return saved;
 }
 
-AssetLibrary load_assets_of(const SavedRun& saved, const std::vector<std::string>& folders) {
+AssetLibrary load_assets_of(const FinishedRun& saved, const std::vector<std::string>& folders) {
   std::vector<std::string> all = folders;
   all.insert(all.end(), saved.manifest.pack_folders.begin(), saved.manifest.pack_folders.end());
-  return load_assets(saved.manifest.recipe, all);
+  return load_assets(saved.manifest.provenance, all);
 }
 
-PileState load_pile_of(const SavedRun& saved) {
+PileState load_pile_of(const FinishedRun& saved) {
   const std::string path = saved.folder + "/pile.bin";
   PileState pile = load_pile_state(path);
   const std::string found = hex64(pile.state_hash());

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "app/pipeline/recorders.h"
-#include "app/pipeline/run_request.h"
+#include "app/support/run_request.h"
 
 namespace rubble {
 

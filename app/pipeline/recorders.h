@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "app/assets/asset_library.h"
+#include "app/formats/recording_formats.h"
 #include "io/recording/recorder.h"
 #include "io/recording/recording.h"
-#include "io/ros/ros_recorder.h"
 #include "kernel/model/pile_state.h"
 #include "scripting/scenario/scenario.h"
 
@@ -23,11 +23,7 @@ struct RecorderSet {
 Recording describe_recording(const Scenario& scenario, const AssetLibrary& assets,
                              const PileState& pile);
 
-// How messages of ROS hold the frames of that scenario, in files and live.
-RosOptions ros_options(const OutputScenario& outputs, const Recording& recording);
-
-// Those that the scenario asks for. frames: how many will come; title: of the contact sheet.
-RecorderSet make_recorders(const Scenario& scenario, const Recording& recording, int frames,
-                           const std::string& title, const std::string& folder);
+// Those of recording_formats() that the scenario asks for.
+RecorderSet make_recorders(const RecordingInputs& inputs, const std::string& folder);
 
 }  // namespace rubble

@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/formats/recording_formats.h"
 #include "io/base/atomic_file.h"
 #include "io/base/remove_files.h"
+#include "io/mesh/pile_export.h"
 #include "kernel/base/error.h"
 #include "kernel/base/text.h"
 
@@ -16,9 +18,18 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// What is written as a folder: app/pipeline/recorders.cpp and, of the pile, io/mesh/sdf_writer.cpp.
-const std::vector<std::string> kRecordingFolders{"tum", "euroc", "colmap", "frames",
-                                                 "sdf"};
+// What is written as a folder.
+const std::vector<std::string>& recording_folders() {
+  static const std::vector<std::string> folders = [] {
+    std::vector<std::string> names;
+    for (const RecordingFormat& format : recording_formats())
+      if (format.is_folder) names.push_back(format.leaves);
+    for (const MeshFormat& format : mesh_formats())
+      if (format.is_folder) names.push_back(format.leaves.back());
+    return names;
+  }();
+  return folders;
+}
 
 template <typename List>
 bool contains(const List& list, const std::string& item) {
@@ -33,7 +44,7 @@ bool is_plain_file(const std::string& path) {
 bool is_name_of_run(const std::string& name) {
   const std::size_t slash = name.find('/');
   if (slash == std::string::npos) return contains(usual_run_files(), name);
-  return contains(kRecordingFolders, name.substr(0, slash));
+  return contains(recording_folders(), name.substr(0, slash));
 }
 
 // Of unfinished/files.txt: files and, of a recording that is a folder, every plain file in it.
@@ -44,7 +55,7 @@ void add_listed(const std::string& folder, std::vector<std::string>& files) {
   std::istringstream list("sdf\n" + (is_plain_file(path) ? read_whole_file(path) : ""));
   for (std::string name; std::getline(list, name);) {
     if (is_name_of_run(name)) files.push_back(name);
-    if (!contains(kRecordingFolders, name)) continue;
+    if (!contains(recording_folders(), name)) continue;
     const std::vector<std::string> inside = list_plain_files(folder, name);
     files.insert(files.end(), inside.begin(), inside.end());
   }
@@ -67,11 +78,14 @@ void add_stated(const std::string& folder, std::vector<std::string>& files) {
 }  // namespace
 
 const std::vector<std::string>& usual_run_files() {
-  static const std::vector<std::string> files{
-      "manifest.json", "mission.rawlog",  "mission.bag", "mission.mcap",
-      "pile.stl",      "pile.bin",        "preview.png", "groundtruth.txt",
-      "labels.csv",    "flight.json",     "pile.ply",    "mission.simplemap",
-      "pile.obj",      "pile.mtl",        "pile.glb"};
+  static const std::vector<std::string> files = [] {
+    std::vector<std::string> names{"manifest.json", "pile.bin", "labels.csv", "flight.json"};
+    for (const RecordingFormat& format : recording_formats())
+      if (!format.is_folder) names.push_back(format.leaves);
+    for (const MeshFormat& format : mesh_formats())
+      if (!format.is_folder) names.insert(names.end(), format.leaves.begin(), format.leaves.end());
+    return names;
+  }();
   return files;
 }
 
@@ -98,7 +112,7 @@ void remove_unfinished(const std::string& folder) {
 }
 
 void refuse_foreign_recordings(const std::string& folder) {
-  for (const std::string& name : kRecordingFolders) {
+  for (const std::string& name : recording_folders()) {
     std::error_code failed;
     const fs::path path = fs::path(folder) / name;
     if (!fs::exists(fs::symlink_status(path, failed))) continue;

@@ -142,7 +142,7 @@ std::string manifest_to_json(const Manifest& m) {
   json["metrics"] = m.metrics;
   json["warnings"] = m.warnings;
   json["outputs"] = m.outputs;
-  add_recipe(json, m.recipe);
+  add_provenance(json, m.provenance);
   json["libraries"] = m.program.libraries;
   json["frame_hashes"] = describe_frames(m.frames);
   json["seals"] = Json::object();
@@ -159,7 +159,7 @@ Manifest manifest_from_json(const std::string& text, const std::string& file) {
   check_format(members, file);
   Manifest m;
   m.program = read_program(members);
-  m.recipe = recipe_from_json(json, file);
+  m.provenance = provenance_from_json(json, file);
   m.seed = members.unsigned_integer("seed");
   m.pile = read_pile(members);
   m.frames = read_frames(members);

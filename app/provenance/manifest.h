@@ -18,19 +18,19 @@
 namespace rubble {
 
 struct PileSummary {
-  std::string state_hash;
-  bool settled = false;
+  std::string state_hash;  // of the pile, 16 hexadecimal digits
+  bool settled = false;    // false: the time limit came first
   std::int64_t pieces = 0, lost = 0, steps = 0, layers_at_limit = 0;
   double simulated = 0;  // unit: s
 };
 PileSummary summarize(const PileState& pile);
 
 struct Manifest {
-  BuildInfo program;
-  Recipe recipe;
-  std::uint64_t seed = 0;
-  PileSummary pile;
-  FrameHashes frames;
+  BuildInfo program;                           // which made it
+  Provenance provenance;                       // from which all can be made again
+  std::uint64_t seed = 0;                      // of the scenario
+  PileSummary pile;                            // what settled
+  FrameHashes frames;                          // of every channel of every frame
   std::map<std::string, double> metrics;       // of the pile and the frames: app/pipeline/metrics.h
   std::map<std::string, std::string> outputs;  // file name to SHA-256
 

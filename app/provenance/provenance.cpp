@@ -66,53 +66,56 @@ RunKind read_kind(const JsonMembers& json) {
   json.fail("kind", "\"run\", \"settle\" or \"render\"");
 }
 
-Recipe read_recipe(const JsonMembers& json) {
-  Recipe recipe;
-  recipe.kind = read_kind(json);
-  recipe.script = read_source(json.object("script"));
+Provenance read_provenance(const JsonMembers& json) {
+  Provenance provenance;
+  provenance.kind = read_kind(json);
+  provenance.script = read_source(json.object("script"));
   for (const JsonMembers& file : json.list("included"))
-    recipe.included.push_back(read_source(file));
+    provenance.included.push_back(read_source(file));
   const JsonMembers request = json.object("request");
-  if (request.has("seed")) recipe.seed = request.unsigned_integer("seed");
-  for (const JsonMembers& text : request.list("set")) recipe.overrides.push_back(text.as_text());
-  recipe.scenario = json.object("scenario").dump();
-  for (const JsonMembers& asset : json.list("assets")) recipe.assets.push_back(read_asset(asset));
+  if (request.has("seed")) provenance.seed = request.unsigned_integer("seed");
+  for (const JsonMembers& text : request.list("set"))
+    provenance.overrides.push_back(text.as_text());
+  provenance.scenario = json.object("scenario").dump();
+  for (const JsonMembers& asset : json.list("assets"))
+    provenance.assets.push_back(read_asset(asset));
   if (json.has("pile_from"))
-    recipe.pile_from = std::make_shared<const Recipe>(read_recipe(json.object("pile_from")));
-  return recipe;
+    provenance.pile_from =
+        std::make_shared<const Provenance>(read_provenance(json.object("pile_from")));
+  return provenance;
 }
 
 }  // namespace
 
-Recipe make_recipe(RunKind kind, const Mission& mission, const MissionOptions& options) {
-  Recipe recipe;
-  recipe.kind = kind;
+Provenance make_provenance(RunKind kind, const Mission& mission, const MissionOptions& options) {
+  Provenance provenance;
+  provenance.kind = kind;
   const fs::path folder = fs::path(mission.script.path).parent_path();
-  recipe.script = mission.script;
-  recipe.script.path = printable(fs::path(mission.script.path).filename().string());
+  provenance.script = mission.script;
+  provenance.script.path = printable(fs::path(mission.script.path).filename().string());
   for (SourceFile file : mission.included) {
     file.path = fs::path(file.path).lexically_relative(folder).lexically_normal().string();
-    recipe.included.push_back(std::move(file));
+    provenance.included.push_back(std::move(file));
   }
-  recipe.seed = options.seed;
-  recipe.overrides = options.overrides;
-  recipe.scenario = compact(scenario_to_json(mission.scenario));
-  return recipe;
+  provenance.seed = options.seed;
+  provenance.overrides = options.overrides;
+  provenance.scenario = compact(scenario_to_json(mission.scenario));
+  return provenance;
 }
 
-Mission load_mission(const Recipe& recipe) {
+Mission load_mission(const Provenance& provenance) {
   MissionOptions options;
-  options.seed = recipe.seed;
-  options.overrides = recipe.overrides;
+  options.seed = provenance.seed;
+  options.overrides = provenance.overrides;
   options.included.emplace();
-  for (const SourceFile& file : recipe.included) (*options.included)[file.path] = file.text;
-  Mission mission = load_mission_text(recipe.script.text, recipe.script.path, options);
-  if (recipe.pile_from) adopt_pile(mission.scenario, stated_scenario(*recipe.pile_from));
+  for (const SourceFile& file : provenance.included) (*options.included)[file.path] = file.text;
+  Mission mission = load_mission_text(provenance.script.text, provenance.script.path, options);
+  if (provenance.pile_from) adopt_pile(mission.scenario, stated_scenario(*provenance.pile_from));
   return mission;
 }
 
-Scenario stated_scenario(const Recipe& recipe) {
-  return scenario_from_json(recipe.scenario, "the scenario of " + recipe.script.path);
+Scenario stated_scenario(const Provenance& provenance) {
+  return scenario_from_json(provenance.scenario, "the scenario of " + provenance.script.path);
 }
 
 void adopt_pile(Scenario& scenario, const Scenario& pile_source) {
@@ -121,24 +124,24 @@ void adopt_pile(Scenario& scenario, const Scenario& pile_source) {
   scenario.settle = pile_source.settle;
 }
 
-void add_recipe(Json& json, const Recipe& recipe) {
-  json["kind"] = kKindNames[int(recipe.kind)];
-  json["script"] = json_of(recipe.script);
+void add_provenance(Json& json, const Provenance& provenance) {
+  json["kind"] = kKindNames[int(provenance.kind)];
+  json["script"] = json_of(provenance.script);
   json["included"] = Json::array();
-  for (const SourceFile& file : recipe.included) json["included"].push_back(json_of(file));
+  for (const SourceFile& file : provenance.included) json["included"].push_back(json_of(file));
   json["request"] = Json::object();
-  if (recipe.seed) json["request"]["seed"] = *recipe.seed;
-  json["request"]["set"] = recipe.overrides;
-  json["scenario"] = Json::parse(recipe.scenario);
+  if (provenance.seed) json["request"]["seed"] = *provenance.seed;
+  json["request"]["set"] = provenance.overrides;
+  json["scenario"] = Json::parse(provenance.scenario);
   json["assets"] = Json::array();
-  for (const AssetContent& asset : recipe.assets) json["assets"].push_back(json_of(asset));
-  if (!recipe.pile_from) return;
+  for (const AssetContent& asset : provenance.assets) json["assets"].push_back(json_of(asset));
+  if (!provenance.pile_from) return;
   json["pile_from"] = Json::object();
-  add_recipe(json["pile_from"], *recipe.pile_from);
+  add_provenance(json["pile_from"], *provenance.pile_from);
 }
 
-Recipe recipe_from_json(const Json& json, const std::string& file) {
-  return read_recipe(JsonMembers(json, file));
+Provenance provenance_from_json(const Json& json, const std::string& file) {
+  return read_provenance(JsonMembers(json, file));
 }
 
 }  // namespace rubble

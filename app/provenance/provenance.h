@@ -1,5 +1,5 @@
-// What decides a dataset, complete: with a recipe and the packs' content, a run can be had again
-// when its script is gone. Every manifest holds one, and so does every unfinished run.
+// What decides a dataset, complete: with a provenance and the packs' content, a run can be had
+// again when its script is gone. Every manifest holds one, and so does every unfinished run.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ enum class RunKind {
   render,  // frames of a pile that another run settled
 };
 
-struct Recipe {
+struct Provenance {
   RunKind kind = RunKind::run;
   SourceFile script;                        // path: its name alone
   std::vector<SourceFile> included;         // path: relative to the script's folder
@@ -37,24 +37,24 @@ struct Recipe {
   std::vector<std::string> overrides;       // likewise: --set
   std::string scenario;                     // what followed from all this: JSON without spaces
   std::vector<AssetContent> assets;         // what is dropped, in the order of the pile's types
-  std::shared_ptr<const Recipe> pile_from;  // of a `render`: of the run that settled the pile
+  std::shared_ptr<const Provenance> pile_from;  // of a `render`: of the run that settled the pile
 };
 
 // options: those that the mission was loaded with.
-Recipe make_recipe(RunKind kind, const Mission& mission, const MissionOptions& options);
+Provenance make_provenance(RunKind kind, const Mission& mission, const MissionOptions& options);
 
 // Resolves the script again. Throws InputError when this program cannot.
-Mission load_mission(const Recipe& recipe);
+Mission load_mission(const Provenance& provenance);
 
-// The scenario that the recipe states, whatever the script would give today. Throws InputError.
-Scenario stated_scenario(const Recipe& recipe);
+// The scenario that the provenance states, whatever the script would give today. Throws InputError.
+Scenario stated_scenario(const Provenance& provenance);
 
 // A mission over somebody else's pile: takes over what settled it. The rest stays as it is.
 void adopt_pile(Scenario& scenario, const Scenario& pile_source);
 
 // As members "kind", "script", "included", "request", "scenario", "assets" and "pile_from".
-void add_recipe(nlohmann::ordered_json& json, const Recipe& recipe);
+void add_provenance(nlohmann::ordered_json& json, const Provenance& provenance);
 // Throws InputError naming `file` and the member that is missing or of another type.
-Recipe recipe_from_json(const nlohmann::ordered_json& json, const std::string& file);
+Provenance provenance_from_json(const nlohmann::ordered_json& json, const std::string& file);
 
 }  // namespace rubble

@@ -123,10 +123,11 @@ Work load_work(const std::string& name, std::uint64_t seed,
 }
 
 SavedPile load_saved_pile(const std::string& folder) {
-  const SavedRun run = open_saved_run(folder);
+  const FinishedRun run = open_finished_run(folder);
   const AssetLibrary assets = load_assets_of(run, {});
-  const Recipe& recipe = run.manifest.recipe;
-  const Scenario scenario = stated_scenario(recipe.pile_from ? *recipe.pile_from : recipe);
+  const Provenance& provenance = run.manifest.provenance;
+  const Scenario scenario =
+      stated_scenario(provenance.pile_from ? *provenance.pile_from : provenance);
   SavedPile saved;
   saved.work.name = folder;
   saved.work.seed = run.manifest.seed;

@@ -24,10 +24,10 @@ struct ColmapFeature {
 };
 
 struct ColmapImage {
-  std::uint32_t id = 0, camera = 0;
-  std::string name;
+  std::uint32_t id = 0, camera = 0;  // ids of the image and of its camera
+  std::string name;                  // of the picture file
   Pose camera_from_world;  // optical frame; the model's own world and unit of length
-  std::vector<ColmapFeature> features;
+  std::vector<ColmapFeature> features;  // in the order of the file
 };
 
 struct ColmapTrackElement {
@@ -36,14 +36,14 @@ struct ColmapTrackElement {
 
 struct ColmapPoint {
   std::uint64_t id = 0;
-  Vec3 position;
-  std::uint8_t rgb[3] = {0, 0, 0};
+  Vec3 position;                    // in the model's world; unit: the model's
+  std::uint8_t rgb[3] = {0, 0, 0};  // range: 0 to 255
   double error = 0;  // mean reprojection error; unit: pixel
-  std::vector<ColmapTrackElement> track;
+  std::vector<ColmapTrackElement> track;  // where images see it
 };
 
 struct ColmapModel {
-  std::string folder;
+  std::string folder;                 // that it was read from
   std::vector<ColmapCamera> cameras;  // each list in the order of the file
   std::vector<ColmapImage> images;
   std::vector<ColmapPoint> points;

@@ -58,7 +58,7 @@ class FramesRecorder : public Recorder {
     if (frame.index == 0) camera_ = camera_json(frame.intrinsics, frame.baseline);
     add_colours(frame);
     add_depths(frame);
-    add_truth(frame);
+    add_ground_truth(frame);
     add_rows(frame);
   }
 
@@ -117,7 +117,7 @@ class FramesRecorder : public Recorder {
     if (measured) add_exr("depth_true", frame, {"Y"}, frame.depth);
   }
 
-  void add_truth(const Frame& frame) {
+  void add_ground_truth(const Frame& frame) {
     const Channels& c = channels_;
     const int width = frame.intrinsics.width, height = frame.intrinsics.height;
     if (c.normals) add_exr("normals", frame, {"R", "G", "B"}, frame.normals);

@@ -1,5 +1,5 @@
-// What is said of bad messages: the first of a topic, then the tenth, the hundredth and so on, so that a
-// peer who sends thousands a second does not bury what else is said.
+// What is said of bad messages: the first of a topic, then the tenth, the hundredth and so on, so
+// that a peer who sends thousands a second does not bury what else is said.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@ namespace rubble {
 
 class Complaints {
  public:
-  explicit Complaints(std::function<void(const std::string&)> notice) : notice_(std::move(notice)) {}
+  explicit Complaints(std::function<void(const std::string&)> notice)
+      : notice_(std::move(notice)) {}
 
   void note(const std::string& topic, const std::string& what) {
     const std::uint64_t count = ++counts_[topic];

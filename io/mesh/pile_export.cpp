@@ -1,7 +1,5 @@
 #include "io/mesh/pile_export.h"
 
-#include <filesystem>
-
 #include "io/mesh/mesh_file.h"
 #include "kernel/base/error.h"
 
@@ -15,24 +13,70 @@ void write_stl_of(const std::string& path, const PileModel& model) {
   write_stl(path, instances);
 }
 
+// A welded mesh has about half as many vertices as triangles; a number as text takes up to 12
+// bytes.
+constexpr double kFileBytes = 1000, kObjTriangle = 190, kGlbTriangle = 84;
+
+const std::vector<MeshFormat> kFormats{
+    {"stl",
+     {"pile.stl"},
+     false,
+     write_stl_of,
+     [](const PileModelSize& s) { return kFileBytes + 50 * s.triangles; }},
+    {"ply",
+     {"pile.ply"},
+     false,
+     write_ply,
+     [](const PileModelSize& s) { return kFileBytes + (13 + 19) * s.triangles; }},
+    {"obj",
+     {"pile.mtl", "pile.obj"},
+     false,
+     write_obj,
+     [](const PileModelSize& s) {
+       return kFileBytes + kObjTriangle * s.triangles + 40 * s.pieces;
+     }},
+    {"glb",
+     {"pile.glb"},
+     false,
+     write_glb,
+     [](const PileModelSize& s) {
+       return kFileBytes + kGlbTriangle * s.type_triangles + 320 * s.pieces + 2000 * s.types;
+     }},
+    {"sdf",
+     {"sdf"},
+     true,
+     write_sdf,
+     [](const PileModelSize& s) {
+       return kFileBytes + kObjTriangle * s.type_triangles + 1100 * s.pieces + 4000;
+     }},
+};
+
 }  // namespace
 
-std::vector<std::string> export_formats() { return {"stl", "ply", "obj", "glb", "sdf"}; }
+const std::vector<MeshFormat>& mesh_formats() { return kFormats; }
 
-std::vector<std::string> export_pile(const PileModel& model, const std::string& format,
-                                     const std::string& folder) {
-  const std::string path = folder + "/pile." + format;
-  if (format == "stl") return write_stl_of(path, model), std::vector<std::string>{"pile.stl"};
-  if (format == "ply") return write_ply(path, model), std::vector<std::string>{"pile.ply"};
-  if (format == "glb") return write_glb(path, model), std::vector<std::string>{"pile.glb"};
-  if (format == "obj")
-    return write_obj(path, model), std::vector<std::string>{"pile.mtl", "pile.obj"};
-  if (format == "sdf") return write_sdf(folder + "/sdf", model), std::vector<std::string>{"sdf"};
+std::string join_mesh_formats(const std::string& last_word) {
+  std::string text;
+  for (std::size_t i = 0; i < kFormats.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == kFormats.size() ? last_word : ", ") + kFormats[i].name;
+  return text;
+}
+
+const MeshFormat& find_mesh_format(const std::string& name) {
+  for (const MeshFormat& format : kFormats)
+    if (format.name == name) return format;
   Diagnostic diagnostic;
   diagnostic.message = "unknown export format";
-  diagnostic.expected = "one of stl, ply, obj, glb, sdf";
-  diagnostic.found = "`" + format + "`";
+  diagnostic.expected = "one of " + join_mesh_formats(", ");
+  diagnostic.found = "`" + name + "`";
   throw InputError(diagnostic);
+}
+
+std::vector<std::string> export_pile(const PileModel& model, const std::string& name,
+                                     const std::string& folder) {
+  const MeshFormat& format = find_mesh_format(name);
+  format.write(folder + "/" + format.leaves.back(), model);
+  return format.leaves;
 }
 
 }  // namespace rubble

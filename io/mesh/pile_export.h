@@ -21,8 +21,30 @@ void write_obj(const std::string& path, const PileModel& model);  // and .mtl fo
 void write_glb(const std::string& path, const PileModel& model);
 void write_sdf(const std::string& folder, const PileModel& model);
 
-// What export_pile knows: "stl", "ply", "obj", "glb", "sdf".
-std::vector<std::string> export_formats();
+// What a format's size depends on. A mesh counts once for each piece that has it in `triangles`,
+// and once at all in `type_triangles`.
+struct PileModelSize {
+  double pieces = 0, triangles = 0;
+  double types = 0, type_triangles = 0;
+};
+
+// A format, complete: what writes it, what it leaves, and how large that gets at most.
+struct MeshFormat {
+  std::string name;                 // "obj": of --format and outputs.meshes
+  std::vector<std::string> leaves;  // files in the output folder, or one folder
+  bool is_folder = false;
+  void (*write)(const std::string& path, const PileModel& model);  // path: of the last of `leaves`
+  double (*estimate)(const PileModelSize& size);                   // unit: byte
+};
+
+// Every format. docs/contributing.md says how to add one.
+const std::vector<MeshFormat>& mesh_formats();
+
+// Their names joined by commas and a last word: "stl, ply, obj, glb or sdf".
+std::string join_mesh_formats(const std::string& last_word);
+
+// Throws InputError for a name that is no format's.
+const MeshFormat& find_mesh_format(const std::string& name);
 
 // Writes FOLDER/pile.stl, and so on. Returns the names of what was written, relative to the folder.
 // Throws InputError for an unknown format, RunError when it cannot be written.

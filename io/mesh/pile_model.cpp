@@ -26,7 +26,7 @@ std::array<std::uint32_t, 3> bits_of(const Vec3f& p) {
 }  // namespace
 
 Vec3f PileModel::colour_of(const std::string& surface) const {
-  for (const PlainLook& look : looks)
+  for (const PlainAppearance& look : surface_appearance)
     if (look.surface == surface) return look.colour;
   return {0.3f, 0.3f, 0.3f};
 }

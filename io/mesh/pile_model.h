@@ -12,7 +12,7 @@
 namespace rubble {
 
 // How a surface (TriangleMesh::surface_names) looks to programs that know one colour of it.
-struct PlainLook {
+struct PlainAppearance {
   std::string surface;
   Vec3f colour;  // linear-light albedo, 0 to 1
 };
@@ -30,7 +30,7 @@ struct PileModel {
   };
   std::vector<Type> types;
   std::vector<Piece> pieces;
-  std::vector<PlainLook> looks;  // a surface without one is grey
+  std::vector<PlainAppearance> surface_appearance;  // a surface without one is grey
 
   Vec3f colour_of(const std::string& surface) const;
 };

@@ -17,19 +17,19 @@ struct Channels {
   bool measured_depth = false;  // then the depth topics and files are what the sensor measures, and
                                 // the exact depth goes where each format has its ground truth
   bool normals = false;
-  bool instance = false;
-  bool label = false;
-  bool flow = false;
-  bool sky_visibility = false;
-  bool events = false;
-  bool imu = false;
+  bool instance = false;        // see render/scene/frame.h
+  bool label = false;           // likewise
+  bool flow = false;            // likewise
+  bool sky_visibility = false;  // likewise
+  bool events = false;          // of an event camera
+  bool imu = false;             // readings of an inertial unit
 };
 
 // What the numbers in Frame::label and Frame::instance stand for.
 struct Legend {
   struct Piece {
-    std::uint16_t label = 0;
-    std::string asset;
+    std::uint16_t label = 0;  // class, as in Frame::label
+    std::string asset;        // name of its type
   };
   std::vector<std::string> labels;  // by label: "sky", "ground", then the assets
   std::vector<Piece> pieces;        // by piece number
@@ -40,7 +40,7 @@ struct Legend {
 std::string legend_to_json(const Legend& legend);
 
 struct Recording {
-  Channels channels;
+  Channels channels;  // besides colour and depth
   Legend legend;  // with instance or label
   ImuModel imu;   // with imu
 };

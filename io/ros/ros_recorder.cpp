@@ -37,7 +37,7 @@ class RosRecorder : public Recorder {
     if (channels_.right)
       write_camera(frame, right_info_, right_, kRightOptical, frame.rgb_right, frame.baseline);
     write_depth(frame);
-    write_truth(frame);
+    write_ground_truth(frame);
     if (channels_.events) {
       send(events_, frame,
            ros::event_array(version_, header(frame, kOptical), frame.intrinsics, frame.events));
@@ -178,7 +178,7 @@ class RosRecorder : public Recorder {
                                std::string(kCompressedDepthHeader, '\0') + png));
   }
 
-  void write_truth(const Frame& frame) {
+  void write_ground_truth(const Frame& frame) {
     const Channels& c = channels_;
     if (c.measured_depth) {
       send(true_depth_info_, frame,

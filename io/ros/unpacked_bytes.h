@@ -1,5 +1,5 @@
-// What a decompressor writes into: it grows with what is there, up to the size that a file states. That
-// size is believed for nothing else, as a file of 100 bytes may state gigabytes.
+// What a decompressor writes into: it grows with what is there, up to the size that a file states.
+// That size is believed for nothing else, as a file of 100 bytes may state gigabytes.
 #pragma once
 
 #include <algorithm>

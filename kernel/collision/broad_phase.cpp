@@ -7,9 +7,9 @@ namespace rubble {
 namespace {
 
 constexpr double kCell = 0.6;          // unit: m; about the size of a piece
-constexpr double kEnlarge = 0.03;      // unit: m
+constexpr double kEnlarge = 0.03;      // boxes stay as they are while a piece moves by less; unit: m
 constexpr std::size_t kBuckets = 1u << 14;
-constexpr std::int64_t kLargeCells = 400;
+constexpr std::int64_t kLargeCells = 400;  // what covers more cells is kept in a list of its own; unit: cell
 
 }  // namespace
 

@@ -10,7 +10,7 @@
 
 namespace rubble {
 
-inline constexpr std::int32_t kGround = -1;
+inline constexpr std::int32_t kGround = -1;  // stands for a body or a collider
 
 // A part's contacts with a surface: the pair's second collider is none of the world's, but the number
 // of the surface's body and of the slot in one. What is kGround or a collider is never below -1.
@@ -45,7 +45,7 @@ struct Pair {
 // near each other do not touch.
 class ContactPoints {
  public:
-  static constexpr int kMost = 6;
+  static constexpr int kMost = 6;  // four corners of a face and two of an end
 
   ContactPoints() = default;
   ContactPoints(const ContactPoints& other) {

@@ -3,8 +3,8 @@
 namespace rubble {
 namespace {
 
-constexpr int kMaxIterations = 32;
-constexpr float kRelativeTolerance = 1e-4F;
+constexpr int kMaxIterations = 32;  // what has not converged by then keeps the best bound so far
+constexpr float kRelativeTolerance = 1e-4F;  // of the distance: 0.01 mm at 0.1 m
 // A distance counts as found when the proven bound below it is so near: the rest is rounding. Without
 // this test pieces at rest lost a contact now and then, and piles crept.
 constexpr float kAcceptedShare = 1e-2F;

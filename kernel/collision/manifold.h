@@ -15,7 +15,7 @@ struct ManifoldPoint {
 };
 
 struct Manifold {
-  static constexpr int kMaxClipped = 64;
+  static constexpr int kMaxClipped = 64;  // a face of 32 corners clipped by one of 32
   ManifoldPoint points[kMaxClipped];
   int count = 0;
 };

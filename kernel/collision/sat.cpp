@@ -37,7 +37,7 @@ class Candidates {
   }
 
  private:
-  static constexpr float kNone = -1e30F;
+  static constexpr float kNone = -1e30F;  // no axis yet
 
   bool leads_out(const SatResult& r) const {
     const Vec3f beyond = r.normal * (kBeyond - 0.5F * r.separation);

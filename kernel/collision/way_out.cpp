@@ -6,11 +6,11 @@ namespace rubble {
 namespace {
 
 // Directions closer than 6 degrees are the same one.
-constexpr float kSameCosine = 0.995F;
+constexpr float kSameWayCosine = 0.995F;
 // The direction of the step before counts as this much shorter.
-constexpr float kKeep = 0.7F;
+constexpr float kKeptShare = 0.7F;
 // Moved out, parts are this much farther apart than they need be; unit: m.
-constexpr float kClearance = 0.001F;
+constexpr float kWayClearance = 0.001F;
 // At most this many directions are tried out; the others are longer.
 constexpr int kTried = 6;
 
@@ -76,7 +76,7 @@ class Candidates {
 
   void offer(const Vec3f& direction, float preference) {
     for (const Candidate& c : all_) {
-      if (dot(c.direction, direction) > kSameCosine) return;
+      if (dot(c.direction, direction) > kSameWayCosine) return;
     }
     Candidate c{direction, 0, 0};
     for (const OverlappingParts& o : overlapping_) {
@@ -115,7 +115,7 @@ Vec3f find_way_out(const std::vector<OverlappingParts>& overlapping,
                    const std::vector<PosedPart>& parts_a, const std::vector<PosedPart>& parts_b,
                    const Vec3f& offset, const Vec3f& before) {
   Candidates candidates(overlapping, offset);
-  if (dot(before, before) > 0) candidates.offer(before, kKeep);
+  if (dot(before, before) > 0) candidates.offer(before, kKeptShare);
   for (const OverlappingParts& o : overlapping) candidates.offer(o.normal, 1);
   for (const OverlappingParts& o : overlapping) {
     candidates.offer_faces(o.a, 1);
@@ -125,7 +125,7 @@ Vec3f find_way_out(const std::vector<OverlappingParts>& overlapping,
   const Clearance clearance(parts_a, parts_b);
   for (int i = 0; i < std::min(kTried, int(sorted.size())); ++i) {
     const Candidate& c = sorted[std::size_t(i)];
-    if (clearance.is_clear(offset + c.direction * (c.depth + kClearance))) return c.direction;
+    if (clearance.is_clear(offset + c.direction * (c.depth + kWayClearance))) return c.direction;
   }
   return sorted.front().direction;
 }

@@ -33,7 +33,7 @@ struct BodyRates {
 
 class SimbodyBlocks {
  public:
-  static constexpr int kBlockSize = 16;
+  static constexpr int kBlockSize = 16;  // pieces that share one Simbody System: one alone is 20 times dearer
 
   SimbodyBlocks();
   ~SimbodyBlocks();

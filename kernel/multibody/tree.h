@@ -22,7 +22,7 @@
 namespace rubble {
 
 enum class Mobility : std::int32_t { free, fixed, weld, hinge, slider, ball };
-inline constexpr int kMobilities = 6;
+inline constexpr int kMobilities = 6;  // how many there are
 
 // No default: a kind that is missing does not compile.
 constexpr int coordinate_count(Mobility m) {

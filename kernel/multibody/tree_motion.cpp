@@ -8,7 +8,7 @@
 namespace rubble {
 namespace {
 
-constexpr double kStopMargin = 0.02;  // unit: rad, m
+constexpr double kStopMargin = 0.02;  // a stop has a row when the joint is so near it; unit: rad, m
 
 }  // namespace
 

@@ -7,12 +7,12 @@
 namespace rubble {
 namespace {
 
-constexpr float kClearance = 0.01f;  // unit: m
+constexpr float kSpawnGap = 0.01f;  // pieces of a layer start at least so far apart; unit: m
 
 }  // namespace
 
 LayerSpace::LayerSpace(const std::vector<Shape>& shapes, double largest_radius)
-    : shapes_(shapes), cell_size_(2 * largest_radius + kClearance) {}
+    : shapes_(shapes), cell_size_(2 * largest_radius + kSpawnGap) {}
 
 LayerSpace::Body LayerSpace::turn(const Placement& placement, bool with_parts) const {
   const Shape& shape = shapes_[std::size_t(placement.type)];
@@ -40,9 +40,9 @@ bool LayerSpace::are_apart(const Body& a, const Body& b) {
     for (const std::vector<Vec3f>& pb : b.parts) {
       GjkCache cache;
       const GjkResult result = calc_distance({pa.data(), int(pa.size())},
-                                             {pb.data(), int(pb.size())}, offset, kClearance, cache);
+                                             {pb.data(), int(pb.size())}, offset, kSpawnGap, cache);
       if (result.kind == GjkResult::Kind::overlapping) return false;
-      if (result.kind == GjkResult::Kind::separated && result.distance < kClearance) return false;
+      if (result.kind == GjkResult::Kind::separated && result.distance < kSpawnGap) return false;
     }
   }
   return true;
@@ -57,7 +57,7 @@ bool LayerSpace::is_free(const Placement& placement) const {
         const auto found = bodies_.find({x + dx, y + dy, z + dz});
         if (found == bodies_.end()) continue;
         for (const Body& other : found->second) {
-          if (distance(other.centre, body.centre) > other.radius + body.radius + kClearance)
+          if (distance(other.centre, body.centre) > other.radius + body.radius + kSpawnGap)
             continue;
           if (body.parts.empty()) body = turn(placement, true);
           if (!are_apart(body, other)) return false;

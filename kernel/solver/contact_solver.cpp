@@ -55,7 +55,7 @@ void ContactSolver::note_heads(const std::vector<Body>& bodies,
 }
 
 void ContactSolver::number_bodies(const std::vector<Body>& bodies) {
-  constexpr std::int32_t kUnseen = -1, kStays = -2;
+  constexpr std::int32_t kUnseen = -1, kStays = -2;  // no numbers yet; never one
   number_.assign(bodies.size(), kUnseen);
   for (const Head& head : heads_) {
     for (std::int32_t body : {head.body_a, head.body_b}) {

@@ -18,7 +18,7 @@ class SweepProgress {
   }
   // Returns when the other thread has reached the point.
   void wait_for(int thread, std::int64_t point) {
-    const int patience = crowded() ? kLittlePatience : kPatience;
+    const int patience = crowded() ? kFewSpins : kSpins;
     int tries = 0;
     while (at_[thread].value.load(std::memory_order_acquire) < point) {
       if (++tries < patience) {
@@ -41,8 +41,8 @@ class SweepProgress {
 
  private:
   // Tries for a few tenths of a millisecond: longer than it takes to wake a thread.
-  static constexpr int kPatience = 20000;
-  static constexpr int kLittlePatience = 100;
+  static constexpr int kSpins = 20000;
+  static constexpr int kFewSpins = 100;
   struct alignas(64) Counter {
     std::atomic<std::int64_t> value{-1};
   };

@@ -11,7 +11,7 @@
 
 namespace rubble {
 
-inline constexpr int kLanes = 8;
+inline constexpr int kLanes = 8;  // contacts that are solved at a time: one register of AVX2, or two
 
 // Four lanes, in a register of any machine.
 typedef float Quad __attribute__((vector_size(16)));

@@ -307,12 +307,6 @@ double VoidSpace::volume(CellKind wanted) const {
   return double(std::count(kind.begin(), kind.end(), wanted)) * cell_volume();
 }
 
-double estimate_memory(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
-                       const VoidSpaceOptions& options) {
-  options.validate();
-  return estimate(place_solids(pile, meshes), options);
-}
-
 VoidSpace calc_void_space(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
                           const VoidSpaceOptions& options, const VoidProgress& progress) {
   options.validate();

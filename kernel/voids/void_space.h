@@ -57,10 +57,6 @@ struct VoidSpace {
 // done: 0 to 1. Return false to stop; RunError is thrown then.
 using VoidProgress = std::function<bool(double done)>;
 
-// What calc_void_space will need at its largest; unit: byte.
-double estimate_memory(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
-                       const VoidSpaceOptions& options);
-
 // meshes: by type index, at scale 1. Throws InputError when the memory limit would not do, with the
 // voxel that would.
 VoidSpace calc_void_space(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,

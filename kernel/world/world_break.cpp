@@ -6,7 +6,7 @@
 namespace rubble {
 namespace {
 
-constexpr float kPartedDistance = 0.002F;  // unit: m
+constexpr float kPartedDistance = 0.002F;  // pieces whose joint broke may touch once they are so far apart; unit: m
 
 // Links of an old tree that stay together, the first of them as root.
 struct Fragment {

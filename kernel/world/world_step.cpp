@@ -38,7 +38,7 @@ std::uint32_t ordered_bits(float x) {
 
 // Sorts by height, eleven bits at a time, and then those of equal height.
 void sort_keys(std::vector<OrderKey>& keys, std::vector<OrderKey>& scratch) {
-  constexpr int kBits = 11;
+  constexpr int kBits = 11;  // three rounds for 32 bits
   constexpr std::uint32_t kMask = (1u << kBits) - 1;
   scratch.resize(keys.size());
   for (int shift = 0; shift < 32; shift += kBits) {

@@ -15,8 +15,8 @@ namespace rubble {
 // A placed mesh. Number 0 is the ground where the scene has one.
 struct PlacedMesh {
   std::uint32_t mesh = 0;  // index into the prepared meshes
-  double scale = 1;
-  Pose world_from_mesh;
+  double scale = 1;        // of the mesh; range: above 0
+  Pose world_from_mesh;    // unit: m
   Vec3f centre;  // of its bounding sphere, in the world
   float radius = 0;
   std::uint32_t id = 0;           // piece number
@@ -30,7 +30,7 @@ inline constexpr std::uint32_t kGroundId = kGroundInstance;
 
 // Plain data: all prepared meshes and where they stand.
 struct PreparedScene {
-  std::vector<PreparedMesh> meshes;
+  std::vector<PreparedMesh> meshes;  // each once
   std::vector<PlacedMesh> placed;
   std::size_t cluster_flags = 0;   // clusters of the finest level over all placed meshes
   std::size_t light_vertices = 0;  // entries of the table of baked light

@@ -32,11 +32,6 @@ float tone_at(float x, float y) {
 
 }  // namespace
 
-float GroundMap::debris_at(float world_x, float world_y) const {
-  const int i = to_texel((world_x - x) / reach), j = to_texel((world_y - y) / reach);
-  return float(texels[std::size_t(j * kSide + i) * 2]) / 255.0f;
-}
-
 GroundMap make_ground_map(const PreparedScene& scene) {
   GroundMap map;
   if (!scene.bounds.empty()) {

@@ -15,8 +15,6 @@ struct GroundMap {
   float x = 0, y = 0;                // its centre; unit: m
   float reach = 1;                   // unit: m
   std::vector<std::uint8_t> texels;  // debris (0: none, 255: all covered) and tone; rows
-
-  float debris_at(float world_x, float world_y) const;  // of the nearest texel; range: 0 to 1
 };
 
 // Fines lie under and around what lies low: out to about 0.7 m from a piece, more around many.

@@ -21,8 +21,8 @@ constexpr std::size_t kMaxBakePoints = 65535;
 
 std::vector<std::uint32_t> material_table(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> table;
-  for (const std::string& name : mesh.surface_names) table.push_back(find_look(name));
-  if (table.empty()) table.push_back(find_look("concrete_cast"));
+  for (const std::string& name : mesh.surface_names) table.push_back(find_surface_appearance(name));
+  if (table.empty()) table.push_back(find_surface_appearance("concrete_cast"));
   return table;
 }
 
@@ -250,7 +250,7 @@ PreparedMesh prepare_ground(const Aabb& around) {
       if (point < kMaxBakePoints) out.bake_points.push_back({{x, y, 0}, {0, 0, 1}});
     }
   }
-  const std::uint32_t material = find_look("ground"), row = std::uint32_t(xs.size());
+  const std::uint32_t material = find_surface_appearance("ground"), row = std::uint32_t(xs.size());
   for (std::uint32_t j = 0; j + 1 < ys.size(); ++j) {
     for (std::uint32_t i = 0; i + 1 < row; ++i) {
       const std::uint32_t a = j * row + i, b = a + 1, c = a + row, d = c + 1;

@@ -12,7 +12,7 @@
 namespace rubble {
 
 struct PreparedVertex {
-  Vec3f position;
+  Vec3f position;  // in the mesh; unit: m
   Vec3f normal;
   // The bake points that lend it their light, and their weights, which add up to 1.
   std::array<std::uint16_t, 4> bake_points{};
@@ -26,7 +26,7 @@ struct PreparedTriangle {
 
 // Neighbouring triangles that face about the same way.
 struct Cluster {
-  std::uint32_t first_triangle = 0, triangle_count = 0;
+  std::uint32_t first_triangle = 0, triangle_count = 0;  // of PreparedTriangle
   Vec3f centre;  // of a box and of a sphere around it, mesh frame; unit: m
   Vec3f half;    // of the box's sides
   float radius = 0;
@@ -39,8 +39,8 @@ struct BakePoint {
 };
 
 struct PreparedLevel {
-  std::uint32_t first_cluster = 0, cluster_count = 0;
-  std::uint32_t first_triangle = 0, triangle_count = 0;
+  std::uint32_t first_cluster = 0, cluster_count = 0;    // of Cluster
+  std::uint32_t first_triangle = 0, triangle_count = 0;  // of PreparedTriangle
 };
 
 struct PreparedMesh {
@@ -48,7 +48,7 @@ struct PreparedMesh {
   std::vector<PreparedTriangle> triangles;
   std::vector<Cluster> clusters;
   std::vector<PreparedLevel> levels;  // finest first
-  std::vector<BakePoint> bake_points;
+  std::vector<BakePoint> bake_points;  // where light is computed
   Vec3f centre, half;  // of a box around it; unit: m
   float radius = 0;    // of a sphere about the same centre
 };

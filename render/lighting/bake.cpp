@@ -57,7 +57,7 @@ void basis_about(const Vec3f& n, float turn, Vec3f& x, Vec3f& y) {
 // Skylight as a camera with automatic white balance shows it: half of its blue.
 Vec3f paler(const Vec3f& c) { return c * 0.5f + Vec3f(0.5f, 0.5f, 0.5f) * luminance(c); }
 
-Vec3f mean_albedo(const Look& look) {
+Vec3f mean_albedo(const SurfaceAppearance& look) {
   return Vec3f(look.dark * 0.45f + look.light * 0.45f + look.accent * 0.1f);
 }
 
@@ -139,7 +139,7 @@ void Baker::list_points() {
 }
 
 void Baker::list_triangles() {
-  const std::vector<Look>& looks = all_looks();
+  const std::vector<SurfaceAppearance>& looks = all_surface_appearances();
   for (const RayScene::Triangle& t : rays.triangles()) {
     const PreparedMesh& mesh = scene.meshes[scene.placed[t.placed].mesh];
     const PreparedTriangle& source = mesh.triangles[t.source];

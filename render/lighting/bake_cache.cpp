@@ -48,7 +48,7 @@ std::string key_of(const PreparedScene& scene, const LightSet& light,
   key.add(scene.placed.size());
   for (const PlacedMesh& piece : scene.placed) add_placed(key, piece);
   add_light(key, light);
-  for (const Look& look : all_looks())
+  for (const SurfaceAppearance& look : all_surface_appearances())
     add_vec(key, look.dark), add_vec(key, look.light), add_vec(key, look.accent);
   return key.hex();
 }

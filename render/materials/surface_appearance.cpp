@@ -8,8 +8,8 @@ namespace rubble {
 
 // Albedos after published tables: concrete 0.2-0.4, brick 0.2-0.3, dry soil 0.25-0.35, weathered
 // zinc 0.4, softwood 0.3-0.5, gypsum plaster 0.6-0.8, tyres 0.03-0.05. The colours within them are our choice.
-const std::vector<Look>& all_looks() {
-  static const std::vector<Look> looks = {
+const std::vector<SurfaceAppearance>& all_surface_appearances() {
+  static const std::vector<SurfaceAppearance> looks = {
       {"concrete_cast",
        Pattern::cast_concrete,
        {0.13f, 0.13f, 0.126f},
@@ -195,25 +195,25 @@ const std::vector<Look>& all_looks() {
 }
 
 // As shaders/surface.glsl mixes them, with its texture at its mean.
-float mean_red_albedo(const Look& look, float up) {
+float mean_red_albedo(const SurfaceAppearance& look, float up) {
   const float t = std::clamp((up - 0.26f) / 0.75f, 0.0f, 1.0f);
   const float dust = t * t * (3 - 2 * t) * look.dust;
   return 0.5f * (look.dark.x + look.light.x) * (1 - dust) + 0.34f * dust;
 }
 
-std::vector<std::string> known_looks() {
+std::vector<std::string> known_surface_appearances() {
   std::vector<std::string> names;
-  for (const Look& look : all_looks())
+  for (const SurfaceAppearance& look : all_surface_appearances())
     if (look.name != std::string("ground")) names.push_back(look.name);
   return names;
 }
 
-std::uint32_t find_look(const std::string& name) {
-  const std::vector<Look>& looks = all_looks();
+std::uint32_t find_surface_appearance(const std::string& name) {
+  const std::vector<SurfaceAppearance>& looks = all_surface_appearances();
   for (std::size_t i = 0; i < looks.size(); ++i)
     if (name == looks[i].name) return std::uint32_t(i);
   std::string known;
-  for (const std::string& n : known_looks()) known += (known.empty() ? "" : ", ") + n;
+  for (const std::string& n : known_surface_appearances()) known += (known.empty() ? "" : ", ") + n;
   throw RunError("unknown surface \"" + name + "\"; the known ones are " + known);
 }
 

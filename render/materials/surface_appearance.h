@@ -29,7 +29,7 @@ enum class Pattern {
 inline constexpr int kPatternCount = 14;
 
 // How a surface reflects. Colours are linear-light albedos (0 to 1).
-struct Look {
+struct SurfaceAppearance {
   const char* name;
   Pattern pattern;
   Vec3f dark, light;  // albedo where the texture is darkest and brightest
@@ -42,16 +42,16 @@ struct Look {
 };
 
 // All of them, in a fixed order; the last is the ground's.
-const std::vector<Look>& all_looks();
+const std::vector<SurfaceAppearance>& all_surface_appearances();
 
 // Mean red albedo of a surface, dust included, for light just beyond red. up: the Z part of its
 // unit normal in the world.
-float mean_red_albedo(const Look& look, float up);
+float mean_red_albedo(const SurfaceAppearance& look, float up);
 
 // The names that meshes may use.
-std::vector<std::string> known_looks();
+std::vector<std::string> known_surface_appearances();
 
-// Index into all_looks(). Throws RunError naming the unknown look and the known ones.
-std::uint32_t find_look(const std::string& name);
+// Index into all_surface_appearances(). Throws RunError naming the unknown look and the known ones.
+std::uint32_t find_surface_appearance(const std::string& name);
 
 }  // namespace rubble

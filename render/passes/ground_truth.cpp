@@ -68,18 +68,18 @@ void put(std::vector<float>& channel, std::size_t first, const Vec3& v) {
 
 }  // namespace
 
-struct TruthMaker::Pixel {
+struct GroundTruthMaker::Pixel {
   int u = 0, v = 0;
   const PlacedMesh* piece = nullptr;
   std::uint32_t triangle = 0;  // of its prepared mesh
   Vec3 world;                  // the point that is seen
 };
 
-struct TruthMaker::Corners {
+struct GroundTruthMaker::Corners {
   Vec3 points[3];
 };
 
-TruthMaker::Corners TruthMaker::corners_of(const Pixel& pixel) const {
+GroundTruthMaker::Corners GroundTruthMaker::corners_of(const Pixel& pixel) const {
   const PreparedMesh& mesh = scene_.meshes[pixel.piece->mesh];
   Corners corners;
   for (std::size_t i = 0; i < 3; ++i)
@@ -88,14 +88,14 @@ TruthMaker::Corners TruthMaker::corners_of(const Pixel& pixel) const {
 }
 
 // Of the triangle, towards the camera; unit, in the world.
-Vec3 TruthMaker::find_normal(const Pixel& pixel, const Pose& world_from_optical) const {
+Vec3 GroundTruthMaker::find_normal(const Pixel& pixel, const Pose& world_from_optical) const {
   const Corners c = corners_of(pixel);
   const Vec3 area = cross(c.points[1] - c.points[0], c.points[2] - c.points[0]);
   const Vec3 normal = normalized(pixel.piece->world_from_mesh.rotation.rotate(area));
   return dot(normal, pixel.world - world_from_optical.translation) > 0 ? -normal : normal;
 }
 
-float TruthMaker::find_sky_visibility(const Pixel& pixel, const Vec3& normal) const {
+float GroundTruthMaker::find_sky_visibility(const Pixel& pixel, const Vec3& normal) const {
   const Vec3 side = std::fabs(normal.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
   const Vec3 a = normalized(cross(side, normal)), b = cross(normal, a);
   const portable::SinCos t =
@@ -110,8 +110,8 @@ float TruthMaker::find_sky_visibility(const Pixel& pixel, const Vec3& normal) co
   return float(open) / kSkyRays;
 }
 
-void TruthMaker::fill_row(const ChannelSet& channels, const DrawnView& view, const Lens& lens,
-                          int v, Frame& frame) const {
+void GroundTruthMaker::fill_row(const ChannelSet& channels, const DrawnView& view, const Lens& lens,
+                                int v, Frame& frame) const {
   const Pose pose = view.rays.pose(v);
   const std::size_t width = std::size_t(view.rays.intrinsics.width);
   for (std::size_t u = 0; u < width; ++u) {
@@ -139,13 +139,13 @@ void TruthMaker::fill_row(const ChannelSet& channels, const DrawnView& view, con
   }
 }
 
-const RayScene& TruthMaker::rays() {
+const RayScene& GroundTruthMaker::rays() {
   if (!rays_) rays_ = std::make_unique<RayScene>(scene_, RayScene::Detail::finest);
   return *rays_;
 }
 
-std::vector<std::uint8_t> TruthMaker::seen_from(const DrawnView& view,
-                                                const Vec3& place_in_camera) {
+std::vector<std::uint8_t> GroundTruthMaker::line_of_sight_mask(const DrawnView& view,
+                                                               const Vec3& place_in_camera) {
   const RayScene& free = rays();
   const Vec3 place = camera_from_optical.inverse() * place_in_camera;
   const std::size_t width = std::size_t(view.rays.intrinsics.width);
@@ -165,7 +165,7 @@ std::vector<std::uint8_t> TruthMaker::seen_from(const DrawnView& view,
   return out;
 }
 
-std::vector<float> TruthMaker::albedos(const DrawnView& view) const {
+std::vector<float> GroundTruthMaker::albedos(const DrawnView& view) const {
   std::vector<float> out(view.distances.size(), 0);
   parallel_for(std::size_t(view.rays.intrinsics.height), threads_, [&](std::size_t v) {
     const std::size_t width = std::size_t(view.rays.intrinsics.width);
@@ -178,13 +178,14 @@ std::vector<float> TruthMaker::albedos(const DrawnView& view) const {
       const Vec3 area = cross(c.points[1] - c.points[0], c.points[2] - c.points[0]);
       const Vec3 up = normalized(pixel.piece->world_from_mesh.rotation.rotate(area));
       const PreparedMesh& mesh = scene_.meshes[pixel.piece->mesh];
-      out[i] = mean_red_albedo(all_looks()[mesh.triangles[pixel.triangle].material], float(up.z));
+      out[i] = mean_red_albedo(all_surface_appearances()[mesh.triangles[pixel.triangle].material],
+                               float(up.z));
     }
   });
   return out;
 }
 
-void TruthMaker::fill(const ChannelSet& channels, const DrawnView& view, Frame& frame) {
+void GroundTruthMaker::fill(const ChannelSet& channels, const DrawnView& view, Frame& frame) {
   if (!channels.any()) return;
   const std::size_t size = view.distances.size();
   if (channels.normals) frame.normals.assign(size * 3, kNone);

@@ -21,14 +21,14 @@ struct DrawnView {
   const ViewRays* next;                   // the next image's; null: there is none
 };
 
-class TruthMaker {
+class GroundTruthMaker {
  public:
-  TruthMaker(const PreparedScene& scene, const GpuGeometry& geometry, int threads)
+  GroundTruthMaker(const PreparedScene& scene, const GpuGeometry& geometry, int threads)
       : scene_(scene), geometry_(geometry), threads_(threads) {}
 
   void fill(const ChannelSet& channels, const DrawnView& view, Frame& frame);
   // 1 where a place in the camera body frame has a free line to the surface, 0 elsewhere.
-  std::vector<std::uint8_t> seen_from(const DrawnView& view, const Vec3& place_in_camera);
+  std::vector<std::uint8_t> line_of_sight_mask(const DrawnView& view, const Vec3& place_in_camera);
   // Of each pixel's surface for light just beyond red; 0: nothing there.
   std::vector<float> albedos(const DrawnView& view) const;
 

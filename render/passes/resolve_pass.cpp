@@ -15,7 +15,7 @@ namespace rubble {
 namespace {
 
 constexpr float kPi = float(portable::kPi);
-constexpr std::size_t kMaxLooks = 20;
+constexpr std::size_t kMaxSurfaceAppearances = 20;
 // Where the clean air begins to veil what is seen; unit: m.
 constexpr double kVeilFrom = 12;
 constexpr std::size_t kMostViews = 6 * kMostLights;
@@ -30,7 +30,7 @@ struct FrameBlock {
   float sun_direction[4], sun_radiance[4], skyline[4];
   float ground[4], balance[4];
   float shadow_rows[kMostViews * 4][4];
-  float looks[kMaxLooks * 4][4];
+  float looks[kMaxSurfaceAppearances * 4][4];
 };
 
 void set(float (&out)[4], const Vec3f& v, float w = 0) {
@@ -107,10 +107,10 @@ void fill_air_and_lamp(FrameBlock& block, const FrameLight& frame, const Pose& w
   set(block.balance, white_balance(*frame.lights));
 }
 
-void fill_looks(FrameBlock& block, int texture_size) {
-  const std::vector<Look>& looks = all_looks();
-  for (std::size_t i = 0; i < looks.size() && i < kMaxLooks; ++i) {
-    const Look& l = looks[i];
+void fill_surface_appearances(FrameBlock& block, int texture_size) {
+  const std::vector<SurfaceAppearance>& looks = all_surface_appearances();
+  for (std::size_t i = 0; i < looks.size() && i < kMaxSurfaceAppearances; ++i) {
+    const SurfaceAppearance& l = looks[i];
     set(block.looks[i * 4], Vec3f(l.dark), 1 / l.tile);
     set(block.looks[i * 4 + 1], Vec3f(l.light), l.bump);
     set(block.looks[i * 4 + 2], Vec3f(l.accent), l.gloss);
@@ -135,7 +135,7 @@ ShaderDefines variant_of(const FrameLight& frame) {
   return defines;
 }
 
-GlTexture upload_looks(const Gl& gl, const std::vector<PatternImage>& patterns) {
+GlTexture upload_surface_appearances(const Gl& gl, const std::vector<PatternImage>& patterns) {
   const int size = patterns.front().size;
   GlTexture texture(gl, GLenum(GL_TEXTURE_2D_ARRAY));
   const int levels = int(std::lround(std::log2(size))) + 1;
@@ -192,7 +192,7 @@ enum Unit {
   kTriangles,
   kPlaced,
   kLight,
-  kLooks,
+  kSurfaceAppearances,
   kShadow,
   kContact,
   kSky,
@@ -211,7 +211,7 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
                  {"triangle_table", kTriangles},
                  {"placed_table", kPlaced},
                  {"light_table", kLight},
-                 {"look_textures", kLooks},
+                 {"look_textures", kSurfaceAppearances},
                  {"shadow_map", kShadow},
                  {"openness", kContact},
                  {"sky_map", kSky},
@@ -239,7 +239,7 @@ ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameL
       frame_block_(gl),
       empty_array_(gl),
       contact_(gl),
-      looks_(upload_looks(gl, patterns)),
+      looks_(upload_surface_appearances(gl, patterns)),
       sky_map_(upload_sky(gl, light.lights->sky)),
       air_table_(make_air_table(gl)),
       ground_map_(upload_ground(gl, ground)),
@@ -292,7 +292,7 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
   fill_view(block, view, exposure);
   fill_lights(block, light);
   fill_air_and_lamp(block, light, world_from_camera);
-  fill_looks(block, texture_size_);
+  fill_surface_appearances(block, texture_size_);
   std::memcpy(block.ground, ground_, sizeof ground_);
   gl_.NamedBufferData(frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());

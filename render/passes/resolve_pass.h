@@ -23,7 +23,7 @@ struct FrameLight {
   LampSpec lamp;
   bool clear_air = true;               // at all times
   double wetness = 0;                  // of surfaces
-  float most_gloss = 1;                // of the looks in use, see Look::gloss
+  float most_gloss = 1;                // of the looks in use, see SurfaceAppearance::gloss
   const AirVolume* air_table = nullptr;  // of this frame, unless the air is clear
 };
 

@@ -10,10 +10,10 @@ namespace rubble {
 
 // Ground truth beside colour and depth; each costs nothing where it is not asked for.
 struct ChannelSet {
-  bool normals = false;
-  bool instance = false;
-  bool label = false;
-  bool flow = false;
+  bool normals = false;         // of the surface, world frame
+  bool instance = false;        // number of the piece
+  bool label = false;           // class of the piece
+  bool flow = false;            // to the next frame; unit: pixel
   bool sky_visibility = false;  // 64 rays a pixel: about 5 s for a million pixels on two cores
 
   bool any() const { return normals || instance || label || flow || sky_visibility; }
@@ -38,7 +38,7 @@ enum class ExposureMode {
 // From luminance to the share x of saturation, by the saturation-based speed of ISO 12232:2006:
 //   x = H S / 78 lx s,  H = 0.65 L t / N^2   (L in cd/m2, t in s, speed S, f-number N).
 struct ExposureSpec {
-  ExposureMode mode = ExposureMode::ideal;
+  ExposureMode mode = ExposureMode::ideal;  // who sets the exposure
   double time = 0.01;   // unit: s; range: 1e-6 to 1; automatic: the first frame's guess is not used
   double iso = 100;     // speed S; range: 1 to 1e6
   double f_number = 2;  // range: 0.5 to 64
@@ -70,10 +70,10 @@ enum class DepthSensorType { none, ideal, structured_light, time_of_flight };
 
 // Formulas and their sources: sensors/depth_sensor.h.
 struct DepthSensorSpec {
-  DepthSensorType type = DepthSensorType::none;
+  DepthSensorType type = DepthSensorType::none;  // none: no such channel
   double min_range = 0.5;  // unit: m; range: 0 to 100
   double max_range = 5;    // unit: m; range: above 0, to 1000
-  bool noise = true;
+  bool noise = true;       // false: range and quantization alone
   // Structured light.
   double baseline = 0.075;         // projector to the camera's right; unit: m; above 0
   double disparity_step = 0.125;   // unit: pixel of a 640-pixel image; above 0
@@ -97,7 +97,7 @@ struct DepthSensorSpec {
 
 // An event camera of the frame's size, after ESIM; formulas: sensors/event_camera.h.
 struct EventCameraSpec {
-  bool on = false;
+  bool on = false;                // false: no events
   double threshold_up = 0.2;      // change of ln(luminance) that makes an event; above 0
   double threshold_down = 0.2;    // likewise when it grows darker
   double threshold_noise = 0.03;  // standard deviation from pixel to pixel; same unit
@@ -108,14 +108,14 @@ struct EventCameraSpec {
 };
 
 struct CameraSpec {
-  Intrinsics intrinsics;
-  ChannelSet channels;
+  Intrinsics intrinsics;  // of the colour image
+  ChannelSet channels;    // which are drawn
   double baseline = 0;  // of a stereo pair: the right camera's distance; 0: none; unit: m
-  ShutterSpec shutter;
-  ExposureSpec exposure;
-  ImageSensorSpec sensor;
-  DepthSensorSpec depth_sensor;
-  EventCameraSpec event_camera;
+  ShutterSpec shutter;  // when each row is exposed
+  ExposureSpec exposure;         // how bright the image is
+  ImageSensorSpec sensor;        // noise, converter, response
+  DepthSensorSpec depth_sensor;  // in the place of the camera
+  EventCameraSpec event_camera;  // in the place of the camera
   std::uint64_t seed = 0;  // of all noise
   int threads = 1;         // the result does not depend on it
 };

@@ -20,14 +20,14 @@ struct Intrinsics {
   double fx = 0, fy = 0, cx = 0, cy = 0;  // unit: pixel
   // plumb_bob: k1 k2 p1 p2 k3, all 0 for a plain pinhole; fisheye: k1 k2 k3 k4 and 0.
   std::array<double, 5> distortion{};
-  LensModel lens = LensModel::plumb_bob;
+  LensModel lens = LensModel::plumb_bob;  // what the coefficients mean
 };
 
 // One change of brightness at one pixel of an event camera.
 struct Event {
   std::int64_t stamp_ns = 0;
-  std::uint16_t x = 0, y = 0;
-  bool brighter = false;
+  std::uint16_t x = 0, y = 0;  // column and row; unit: pixel
+  bool brighter = false;       // sign of the change
 };
 
 // What an inertial unit in the camera body measures.
@@ -43,7 +43,7 @@ struct ImuSample {
 // (continuous-time densities; Kalibr and EuRoC's sensor.yaml use the same). The defaults are those
 // that EuRoC states for its ADIS16448.
 struct ImuModel {
-  double rate_hz = 200;
+  double rate_hz = 200;                    // of readings; unit: Hz
   double gyroscope_noise = 1.6968e-4;      // unit: rad/s/sqrt(Hz)
   double gyroscope_walk = 1.9393e-5;       // unit: rad/s2/sqrt(Hz)
   double accelerometer_noise = 2.0000e-3;  // unit: m/s2/sqrt(Hz)

@@ -16,7 +16,7 @@ enum class LightType { directional, spot, point, sun };
 
 // A light of the place. A beam leaves along the X axis of its frame.
 struct LightSpec {
-  LightType type = LightType::directional;
+  LightType type = LightType::directional;  // decides which members below count
   // directional: illuminance on a facing surface, in klx (clear sun: 100); spot and point: luminous
   // intensity in kcd. range: 0 to 1000
   double intensity = 60;
@@ -32,7 +32,7 @@ enum class LampShape { point, ring, cluster };
 
 // A lamp carried by the camera, just beside the lens.
 struct LampSpec {
-  bool on = true;
+  bool on = true;                  // false: unlit
   double intensity_cd = 120;       // on the axis; range: 0 to 100000
   double cone_deg = 90;            // full angle where it has fallen to half; range: 5 to 170
   Vec3 position{0.02, 0.0, 0.05};  // of its middle, in the camera body frame; unit: m
@@ -78,21 +78,21 @@ struct SceneMesh {
 
 struct SceneInstance {
   std::uint32_t mesh = 0;  // index into meshes
-  float scale = 1;
-  Pose world_from_body;
+  float scale = 1;         // of the mesh; range: above 0
+  Pose world_from_body;    // unit: m
   std::uint32_t id = 0;     // piece number
   std::uint16_t label = 2;  // class, as in Frame::label; range: 2 and up
 };
 
 struct Scene {
-  std::vector<std::shared_ptr<const SceneMesh>> meshes;
-  std::vector<SceneInstance> instances;
+  std::vector<std::shared_ptr<const SceneMesh>> meshes;  // each once, by SceneInstance::mesh
+  std::vector<SceneInstance> instances;                  // every piece that is drawn
   bool ground = true;  // the plane z = 0
   LightSpec light;                     // the main one, which makes the sky
   std::vector<LightSpec> more_lights;  // at most kMostLights - 1
-  LampSpec lamp;
+  LampSpec lamp;                       // on the camera
   double wetness = 0;  // of all surfaces: darker, and glossy where they face up; range: 0 to 1
-  AirSpec air;
+  AirSpec air;         // fog, smoke, dust
   std::uint64_t seed = 0;     // varies looks from piece to piece, never geometry; and the air
   std::int64_t start_ns = 0;  // the stamp at which the air's time is zero
 };

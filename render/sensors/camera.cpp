@@ -61,7 +61,7 @@ struct Camera::State {
                     const ExposureSettings& settings) const;
   std::vector<float> gather_light(int index, const LinearFrame* middle, int samples, double time,
                                   bool right);
-  void add_truth(int index, const ViewRays& view, Frame& frame);
+  void add_ground_truth(int index, const ViewRays& view, Frame& frame);
   void measure_depth(int index, const ViewRays& view, Frame& frame);
   void watch(int index, Frame& frame);
 };
@@ -117,7 +117,7 @@ ViewRays Camera::State::right_of(ViewRays view) const {
   return view;
 }
 
-void Camera::State::add_truth(int index, const ViewRays& view, Frame& frame) {
+void Camera::State::add_ground_truth(int index, const ViewRays& view, Frame& frame) {
   if (spec.channels.any()) {
     ViewRays next;
     const bool more = index + 1 < int(flight.stamps_ns.size());
@@ -134,7 +134,7 @@ void Camera::State::measure_depth(int index, const ViewRays& view, Frame& frame)
   renderer.add_channels(channels, nullptr, truth);
   std::vector<std::uint8_t> projected;
   if (spec.depth_sensor.type == DepthSensorType::structured_light)
-    projected = renderer.seen_from(depth_sensor.projector());
+    projected = renderer.line_of_sight_mask(depth_sensor.projector());
   std::vector<float> albedos;
   if (spec.depth_sensor.reflectance <= 0) albedos = renderer.albedos();
   const double seconds = double(view.stamp_ns - flight.stamps_ns.front()) * 1e-9;
@@ -146,8 +146,8 @@ void Camera::State::measure_depth(int index, const ViewRays& view, Frame& frame)
 Frame Camera::State::take_ideal(int index) {
   const ViewRays view = view_at(index);
   Frame frame = renderer.render(view, index);
-  add_truth(index, view, frame);
-  if (spec.baseline > 0) frame.rgb_right = renderer.render_beside(right_of(view));
+  add_ground_truth(index, view, frame);
+  if (spec.baseline > 0) frame.rgb_right = renderer.render_stereo_right(right_of(view));
   return frame;
 }
 
@@ -192,7 +192,7 @@ Frame Camera::State::take_exposed(int index) {
   frame.intrinsics = spec.intrinsics;
   frame.world_from_camera = view.world_from_camera;
   frame.depth = middle.depth;
-  add_truth(index, view, frame);
+  add_ground_truth(index, view, frame);
   if (index > 0) {
     const std::int64_t elapsed = view.stamp_ns - flight.stamps_ns[std::size_t(index) - 1];
     exposure.follow(last_mean, double(elapsed) * 1e-9);

@@ -80,7 +80,7 @@ class PackBuilder {
     asset.weight = from.weight;
     asset.tags = from.tags;
     asset.decompose = from.parts.empty() && from.word == 1;
-    asset.looks = from.looks;
+    asset.surface_appearance = from.surface_appearance;
     asset.look = from.look;
     check_name(i, from.name);
     if (from.links.empty()) {

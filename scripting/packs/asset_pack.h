@@ -32,7 +32,7 @@ struct Material {
 struct AssetLink {
   std::string asset;          // with a mesh, of the same pack
   Pose whole_from_link;       // as designed; unit: m
-  double scale = 1;
+  double scale = 1;           // of the linked asset; range: above 0
   int on = -1;                // index of a link before it; -1: the first link
   JointType joint;            // parent and child are those of `on` and of this link
 };
@@ -42,30 +42,30 @@ struct Asset {
   std::vector<AssetLink> links;     // of an articulated asset, which has no mesh; otherwise empty
   std::vector<std::string> meshes;  // whole paths, finest level of detail first; at least one
   double metres_per_unit = 1;       // of the mesh and the parts
-  UpAxis up = UpAxis::z;
+  UpAxis up = UpAxis::z;            // of the files
   // A mesh each of whose objects is one convex part (whole path); empty: the hull of the finest mesh
   // is the only part or, with `decompose`, that mesh is cut into convex parts.
   std::string parts;
-  bool decompose = false;
+  bool decompose = false;  // cut into convex parts when it is loaded
   std::string material = "reinforced_concrete";
   // How surfaces look that the files call otherwise than the renderer: by their names (an OBJ's
   // usemtl, a glTF's materials), and `look` for the rest; default: the material's.
-  std::vector<std::pair<std::string, std::string>> looks;
-  std::string look;
+  std::vector<std::pair<std::string, std::string>> surface_appearance;
+  std::string look;                   // of surfaces without one of their own
   double density = 0;                 // the pack's, otherwise the material's; unit: kg/m3
   double friction = 0;                // likewise
   std::array<double, 2> scale{1, 1};  // from first to second
   SizeSpread spread;                  // between them
   double weight = 1;                  // in a mission without a mix
-  std::vector<std::string> tags;
+  std::vector<std::string> tags;      // that a mix may choose by
   int line = 0;  // of its table in pack.lua, for error messages
 };
 
 struct AssetPack {
   std::string name;
-  std::string folder;
+  std::string folder;  // with the pack.lua
   std::string script;  // path of its pack.lua
-  std::vector<Asset> assets;
+  std::vector<Asset> assets;  // in the order of the file
 };
 
 // Reads FOLDER/pack.lua. Throws InputError with every mistake, missing files and unknown materials

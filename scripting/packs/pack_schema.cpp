@@ -48,7 +48,8 @@ Schema make_pack_schema(PackTable& pack) {
         });
   item("material", &AssetTable::material, "A name in materials.lua.");
   item("look", &AssetTable::look, "Of surfaces without a known look; none: the material's.");
-  item("looks", &AssetTable::looks, "The looks of surfaces, by their names in the files.");
+  item("looks", &AssetTable::surface_appearance,
+       "The looks of surfaces, by their names in the files.");
   item("density", &AssetTable::density, "Instead of the material's.")
       .between(10, 25000)
       .unit("kg/m3");

@@ -40,7 +40,7 @@ struct AssetTable {
   std::string material = "reinforced_concrete";
   std::optional<double> density, friction;
   std::string look;
-  TextMap looks;
+  TextMap surface_appearance;
   NumberPair scale{1, 1};
   SizeSpread spread;
   double weight = 1;

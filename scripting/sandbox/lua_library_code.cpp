@@ -22,7 +22,8 @@ std::map<std::string, std::string> compile_library() {
   if (!lua) throw std::bad_alloc();
   for (const LibraryFile& file : lua_library()) {
     const std::string chunk = "=library " + file.name;
-    if (luaL_loadbufferx(lua.get(), file.text.data(), file.text.size(), chunk.c_str(), "t") != LUA_OK)
+    if (luaL_loadbufferx(lua.get(), file.text.data(), file.text.size(), chunk.c_str(), "t") !=
+        LUA_OK)
       throw RunError(lua_tostring(lua.get(), -1));
     lua_dump(lua.get(), append_code, &codes[file.name], 0);
     lua_settop(lua.get(), 0);

@@ -6,8 +6,8 @@
 
 namespace rubble {
 
-// Lua's code of each file, by its name, with the names and lines that errors need. Throws RunError for
-// a file that does not compile.
+// Lua's code of each file, by its name, with the names and lines that errors need. Throws RunError
+// for a file that does not compile.
 const std::map<std::string, std::string>& compiled_library();
 
 }  // namespace rubble

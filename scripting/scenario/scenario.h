@@ -74,8 +74,8 @@ struct PileScenario {
   int layers = 4;                  // range: 0 to 1000
   int pieces_per_layer = 300;      // range: 0 to 100000
   std::vector<MixItem> mix;        // empty: every asset of the packs, by its own weight
-  std::vector<PlacedItem> placed;
-  TerrainScenario terrain;
+  std::vector<PlacedItem> placed;  // put there before anything falls
+  TerrainScenario terrain;         // what the pile lies on
 };
 
 struct LightScenario {
@@ -91,7 +91,7 @@ enum class LensKind { pinhole, plumb_bob, fisheye };
 
 // Formulas: render/camera/lens.h.
 struct LensScenario {
-  LensKind model = LensKind::pinhole;
+  LensKind model = LensKind::pinhole;  // how pixels see; the coefficients that it uses are below
   double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  // plumb_bob; k1 to k3 of a fisheye, too
   double k4 = 0;                                  // of a fisheye
   // Of a calibrated camera; not given: from the field of view, and the middle. unit: pixel
@@ -104,11 +104,11 @@ struct CameraScenario {
   double fov_deg = 90;
   // Ground truth beside colour and depth, of channel_names().
   std::vector<std::string> channels{};
-  LensScenario lens{};
+  LensScenario lens{};         // calibration; without one a pinhole of fov_deg
   double stereo_baseline = 0;  // to the right camera of a pair; 0: none; unit: m; range: 0 to 10
-  ShutterSpec shutter{};
-  ExposureSpec exposure{};
-  ImageSensorSpec sensor{};
+  ShutterSpec shutter{};       // when each row is exposed
+  ExposureSpec exposure{};     // how bright the image is
+  ImageSensorSpec sensor{};    // noise, converter, response
 
   // fx = fy = (width / 2) / r(fov / 2), where r is tan for a pinhole and for plumb_bob, whose
   // distortion is left out of account, and the lens's own curve for a fisheye; the principal point is
@@ -151,13 +151,13 @@ struct OutputScenario {
 
 // An inertial unit in the camera.
 struct ImuScenario {
-  bool on = false;
-  ImuModel model;
+  bool on = false;  // false: not simulated
+  ImuModel model;   // rate, noise and biases
 };
 
 // The voids of the settled pile, measured for suites and batches; kernel/voids/void_map.h.
 struct VoidScenario {
-  bool on = false;
+  bool on = false;       // false: not simulated
   double voxel = 0.05;   // unit: m; range: 0.01 to 1
   double radius = 0.15;  // of a robot, at least a voxel; unit: m; range: 0.02 to 5
 };
@@ -166,20 +166,20 @@ struct Scenario {
   std::uint64_t seed = 0;                 // range: 0 to 2^63 - 1
   std::int64_t start_ns = 1'000'000'000;  // stamp of the first frame; ROS time 0 means invalid
   std::vector<std::string> packs;         // folders; empty: the bundled pack `concrete`
-  PileScenario pile;
+  PileScenario pile;                      // what is dropped, and where
   SettleOptions settle;  // its `threads` is not part of a scenario: results do not depend on it
-  LightScenario light;
+  LightScenario light;   // the main light
   std::vector<LightSpec> lights;  // besides the main one; at most kMostLights - 1
   double wetness = 0;             // of all surfaces; range: 0 to 1
-  AirSpec air;
-  CameraScenario camera;
-  DepthSensorSpec depth_sensor;
-  EventCameraSpec event_camera;
-  LampSpec lamp;
-  TrajectorySpec trajectory;
-  ImuScenario imu;
-  OutputScenario outputs;
-  VoidScenario voids;
+  AirSpec air;                    // fog, smoke, dust
+  CameraScenario camera;          // image, lens, channels
+  DepthSensorSpec depth_sensor;   // what a real depth sensor would report
+  EventCameraSpec event_camera;   // changes of brightness
+  LampSpec lamp;                  // on the camera
+  TrajectorySpec trajectory;      // where the camera flies
+  ImuScenario imu;                // in the camera
+  OutputScenario outputs;         // what is written
+  VoidScenario voids;             // whether voids are measured
 
   // Throws InputError with every mistake: out of range, not finite, contradicting each other.
   void validate() const;

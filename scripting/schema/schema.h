@@ -27,13 +27,13 @@ struct Choice {  // an enumeration
   std::function<void(int)> set;
 };
 struct Negated {  // the member is the opposite of what the user writes
-  bool* member;
+  bool* member;   // opposite of what is written
 };
 struct StringOrList {  // "a" or {"a", "b"}
-  std::vector<std::string>* member;
+  std::vector<std::string>* member;  // one or several words
 };
 struct WordOrFile {  // one of the words, or { key = "FILE" }; with a word, the file is empty
-  std::vector<std::string> words;
+  std::vector<std::string> words;  // what may be written
   int* word;  // index of the word
   std::string key;
   std::string* file;
@@ -41,9 +41,9 @@ struct WordOrFile {  // one of the words, or { key = "FILE" }; with a word, the 
 // A point, or a place in a void that { find_void = { ... } } names (see rubble.find_void). One of
 // `point` and `maybe` is given; when the place is set, they are not used.
 struct PlaceSlot {
-  Vec3* point;
-  std::optional<Vec3>* maybe;
-  std::optional<VoidPlace>* in_void;
+  Vec3* point;                        // unit: m
+  std::optional<Vec3>* maybe;         // unit: m
+  std::optional<VoidPlace>* in_void;  // set: the others are not used
 };
 using NumberPair = std::array<double, 2>;
 class Schema;
@@ -62,8 +62,8 @@ using Slot = std::variant<bool*, Negated, int*, std::int64_t*, std::uint64_t*, d
                            PlaceSlot, std::vector<double>*, TextMap*>;
 
 struct Range {
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
+  double min = -std::numeric_limits<double>::infinity();  // allowed, unless above_min
+  double max = std::numeric_limits<double>::infinity();   // allowed
   bool above_min = false;  // min itself is not allowed
 };
 
@@ -71,11 +71,11 @@ enum class KeyKind { value, group, list };
 
 struct Key {
   std::string path;  // "pile.layers"; of a list's items "pile.mix[].weight"
-  KeyKind kind = KeyKind::value;
+  KeyKind kind = KeyKind::value;  // how it is written
   std::string doc_text;   // one line, a whole sentence
   std::string unit_text;  // empty: none
-  Range range;
-  bool required = false;
+  Range range;            // of numbers; unit: unit_text
+  bool required = false;  // true: a mistake without it
   std::function<Slot(std::size_t)> bind;    // of a value; the index is that of the list's item
   std::function<std::size_t()> size;        // of a list
   std::function<void(std::size_t)> resize;  // of a list; new items have the defaults

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/commands/pile_section.h"
+#include "app/pipeline/pile_section.h"
 #include "app/provenance/provenance.h"
 #include "tests/app/settled_mission.h"
 
@@ -271,17 +271,17 @@ TEST(Collapse, DebrisCoversWhatHasSettled) {
   expect_close(calc_free_section(queries, 3 - 4.5, 3, -2), 2 * std::sqrt(21.0) / 2);
 }
 
-// A run is had again from its recipe alone: its boxes, too.
+// A run is had again from its provenance alone: its boxes, too.
 TEST(PlacedBoxes, AreMadeAgainFromARecipe) {
   const SettledMission m = settle_mode("lean_to", "");
-  Recipe recipe = make_recipe(RunKind::settle, m.mission, {});
-  recipe.assets = m.assets.contents;
-  const AssetLibrary again = load_assets(recipe, {});
+  Provenance provenance = make_provenance(RunKind::settle, m.mission, {});
+  provenance.assets = m.assets.contents;
+  const AssetLibrary again = load_assets(provenance, {});
   ASSERT_EQ(again.types.size(), m.assets.types.size());
   for (std::size_t i = 0; i < again.types.size(); ++i)
     EXPECT_EQ(again.contents[i].sha256, m.assets.contents[i].sha256) << again.types[i].name;
-  recipe.assets[0].sha256[0] ^= 1;
-  EXPECT_THROW(load_assets(recipe, {}), InputError);
+  provenance.assets[0].sha256[0] ^= 1;
+  EXPECT_THROW(load_assets(provenance, {}), InputError);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ class Rectangles {
   }
 
   // The true surface between x = low and x = high; of the faces across X those strictly inside.
-  void add_truth(double low, double high) {
+  void add_ground_truth(double low, double high) {
     const double x0 = std::max(-0.5, low), x1 = std::min(0.5, high);
     const double o0 = std::max(-0.7, low), o1 = std::min(0.7, high);
     for (const double x : {-0.7, -0.5, 0.5, 0.7})
@@ -86,7 +86,7 @@ class EvalMap : public ::testing::Test {
     const Outcome run = run_rubble("run " + (*scratch_ / "mission.lua") + " --out " + dataset());
     ASSERT_EQ(run.exit_code, 0) << run.err;
     Rectangles whole;
-    whole.add_truth(-5, 5);
+    whole.add_ground_truth(-5, 5);
     write_file(*scratch_ / "whole.ply", whole.text());
   }
   static void TearDownTestSuite() { delete scratch_; }
@@ -156,7 +156,7 @@ TEST_F(EvalMap, FindsNothingWrongWithTheTruth) {
 // pass, and none of 0.35 m.
 TEST_F(EvalMap, FindsHalfWithHalfOfTheTruth) {
   Rectangles half;
-  half.add_truth(-5, 0);
+  half.add_ground_truth(-5, 0);
   write_file(*scratch_ / "half.ply", half.text());
   const auto s = score("half.ply");
   EXPECT_GT(number(s, "within_1cm_percent"), 100 - kWorn);
@@ -191,7 +191,7 @@ TEST_F(EvalMap, MeasuresByHowMuchAMapIsOff) {
 // What the map has in the mouth that is not there stops the robot, and stops the rays.
 TEST_F(EvalMap, HoldsASurfaceThatIsNotThereAgainstTheMap) {
   Rectangles shut;
-  shut.add_truth(-5, 5);
+  shut.add_ground_truth(-5, 5);
   for (const double y : {-0.2, 0.0, 0.2, 0.4}) shut.add({-0.5, y, 0}, {1, 0, 0}, {0, 0, 1});
   write_file(*scratch_ / "shut.ply", shut.text());
   const auto s = score("shut.ply");

@@ -60,7 +60,7 @@ class EvalSfm : public ::testing::Test {
     const Outcome run =
         run_rubble("run " + (*scratch_ / "mission.lua") + " --out " + (*scratch_ / "data"));
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    truth_ = new SfmTruth(load_sfm_truth(dataset()));
+    truth_ = new SfmGroundTruth(load_sfm_ground_truth(dataset()));
     ASSERT_EQ(truth_->world_from_optical.size(), std::size_t(kFrames));
   }
   static void TearDownTestSuite() { delete truth_, delete scratch_; }
@@ -115,7 +115,7 @@ class EvalSfm : public ::testing::Test {
   }
 
   static inline ScratchFolder* scratch_ = nullptr;
-  static inline SfmTruth* truth_ = nullptr;
+  static inline SfmGroundTruth* truth_ = nullptr;
 };
 
 std::vector<int> range(int first, int last) {

@@ -85,9 +85,9 @@ TEST(MixMaterials, GiveWeightFrictionAndLook) {
 TEST(MixMaterials, AreFoundAgainFromARecipe) {
   const Mission mission = load(kMix);
   const AssetLibrary assets = load_assets(mission, {});
-  Recipe recipe = make_recipe(RunKind::settle, mission, {});
-  recipe.assets = assets.contents;
-  const AssetLibrary again = load_assets(recipe, {});
+  Provenance provenance = make_provenance(RunKind::settle, mission, {});
+  provenance.assets = assets.contents;
+  const AssetLibrary again = load_assets(provenance, {});
   ASSERT_EQ(again.types.size(), assets.types.size());
   for (std::size_t i = 0; i < again.types.size(); ++i) {
     EXPECT_EQ(again.types[i].name, assets.types[i].name);

@@ -114,14 +114,14 @@ TEST(Terrain, AMeshOfAFileIsTerrainToo) {
       EXPECT_GT(p.z, 0.995) << i;
     }
   }
-  // Again from a recipe: the file is looked for where it was, and must be the same.
-  Recipe recipe = make_recipe(RunKind::settle, mission, {});
-  recipe.assets = assets.contents;
-  EXPECT_EQ(load_assets(recipe, assets.folders).contents.back().sha256,
+  // Again from a provenance: the file is looked for where it was, and must be the same.
+  Provenance provenance = make_provenance(RunKind::settle, mission, {});
+  provenance.assets = assets.contents;
+  EXPECT_EQ(load_assets(provenance, assets.folders).contents.back().sha256,
             assets.contents.back().sha256);
-  EXPECT_THROW(load_assets(recipe, {}), InputError);
+  EXPECT_THROW(load_assets(provenance, {}), InputError);
   std::ofstream(folder / "site.obj", std::ios::app) << "v 0 0 0\nf 1 2 5\n";
-  EXPECT_THROW(load_assets(recipe, assets.folders), InputError);
+  EXPECT_THROW(load_assets(provenance, assets.folders), InputError);
   fs::remove_all(folder);
 }
 

@@ -7,7 +7,7 @@ using namespace rubble;
 void fuzz_one(std::string_view bytes) {
   fuzz::knock([&] {
     const auto json = parse_json_text(std::string(bytes), "run.json");
-    const Recipe recipe = recipe_from_json(json, "run.json");
-    stated_scenario(recipe);
+    const Provenance provenance = provenance_from_json(json, "run.json");
+    stated_scenario(provenance);
   });
 }

@@ -1,4 +1,5 @@
-// Recordings that state sizes which they do not hold: a reader takes memory for what is there alone.
+// Recordings that state sizes which they do not hold: a reader takes memory for what is there
+// alone.
 #include <gtest/gtest.h>
 
 #include <fstream>

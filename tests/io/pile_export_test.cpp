@@ -57,7 +57,8 @@ class PileExport : public testing::Test {
         {0, piece_name("wedge", 0), 1.5, {portable::quat_from_rpy(0.3, -0.7, 1.9), {1, 2, 3}}},
         {1, piece_name("spike", 1), 0.5, {portable::quat_from_rpy(-2.0, 0.4, 0.1), {-4, 0, 0.2}}},
         {0, piece_name("wedge", 7), 2.0, {portable::quat_from_rpy(0, 0, -1), {0, -5, 0}}}};
-    model_.looks = {{"concrete_cast", {0.3f, 0.25f, 0.2f}}, {"brick", {0.4f, 0.1f, 0.1f}}};
+    model_.surface_appearance = {{"concrete_cast", {0.3f, 0.25f, 0.2f}},
+                                 {"brick", {0.4f, 0.1f, 0.1f}}};
   }
 
   double expected_volume() const {
@@ -190,7 +191,8 @@ TEST_F(PileExport, GazebosParserLoadsTheWorld) {
 
 // Of every file of every format, the SDF world's folder included; another pile gives others.
 TEST_F(PileExport, GivesTheSameBytesTwiceAndOthersForAnotherPile) {
-  for (const std::string& format : export_formats()) {
+  for (const MeshFormat& mesh_format : mesh_formats()) {
+    const std::string& format = mesh_format.name;
     const ScratchFolder a, b, c;
     export_pile(model_, format, a.path());
     export_pile(model_, format, b.path());
@@ -204,7 +206,8 @@ TEST_F(PileExport, GivesTheSameBytesTwiceAndOthersForAnotherPile) {
 }
 
 TEST_F(PileExport, NamesAPathThatIsTakenOrCannotBeWritten) {
-  for (const std::string& format : export_formats()) {
+  for (const MeshFormat& mesh_format : mesh_formats()) {
+    const std::string& format = mesh_format.name;
     const std::string name = format == "sdf" ? "sdf" : "pile." + format;
     const ScratchFolder taken;
     std::filesystem::create_directories(taken / (name + "/inside"));

@@ -63,8 +63,8 @@ TEST(LiveRos2Flood, OfBadCommandsIsLeftOutAndTheNextGoodOneHeard) {
   });
   EXPECT_TRUE(good) << flood.output();
   EXPECT_GT(huge, 0u);
-  EXPECT_LE(most, 100u);     // however many come between two steps
-  EXPECT_LT(slowest, 2);     // a step waits for none of them
+  EXPECT_LE(most, 100u);  // however many come between two steps
+  EXPECT_LT(slowest, 2);  // a step waits for none of them
   EXPECT_LT(memory_in_use() - before, 300);
   drive->finish();
   EXPECT_GE(notices.size(), 2u);

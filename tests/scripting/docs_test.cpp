@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -14,6 +17,27 @@ namespace rubble {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// A file of the library that RUBBLE_LUA_NAMES does not name would silently be no part of it.
+TEST(Library, HasEveryFile) {
+  std::ostringstream text;
+  text << std::ifstream(RUBBLE_SOURCE_DIR "/scripting/CMakeLists.txt").rdbuf();
+  const std::string cmake = text.str();
+  const std::size_t begin = cmake.find("set(RUBBLE_LUA_NAMES"), end = cmake.find(')', begin);
+  ASSERT_NE(end, std::string::npos);
+  std::istringstream words(cmake.substr(begin, end - begin));
+  const std::set<std::string> listed{std::istream_iterator<std::string>(words), {}};
+  const std::filesystem::path folder = RUBBLE_SOURCE_DIR "/scripting/lua";
+  std::size_t files = 0;
+  for (const auto& file : std::filesystem::recursive_directory_iterator(folder)) {
+    if (file.path().extension() != ".lua") continue;
+    const std::string name =
+        std::filesystem::relative(file.path(), folder).replace_extension().generic_string();
+    EXPECT_EQ(listed.count(name), 1u) << name << " is not in RUBBLE_LUA_NAMES";
+    ++files;
+  }
+  EXPECT_EQ(files + 1, listed.size()) << "the word RUBBLE_LUA_NAMES is one of them";
+}
 
 TEST(LuaReference, DocumentIsUpToDate) {
   std::ostringstream text;

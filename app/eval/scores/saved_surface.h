@@ -11,16 +11,16 @@ namespace rubble {
 
 // Everything that the queries refer to stays with them.
 struct SavedSurface {
-  // Throws InputError as open_saved_run and load_assets_of.
+  // Throws InputError as open_finished_run and load_assets_of.
   SavedSurface(const std::string& folder, const std::vector<std::string>& asset_packs)
-      : saved(open_saved_run(folder)),
+      : saved(open_finished_run(folder)),
         assets(load_assets_of(saved, asset_packs)),
         pile(load_pile_of(saved)),
         geometry(assets, pile) {}
   SavedSurface(const SavedSurface&) = delete;
   SavedSurface& operator=(const SavedSurface&) = delete;
 
-  SavedRun saved;
+  FinishedRun saved;
   AssetLibrary assets;
   PileState pile;
   PileGeometry geometry;

@@ -35,7 +35,7 @@ std::string position_text(const Vec3& p) {
 }
 
 void write_track(const std::string& path, const std::vector<SfmSegment>& segments,
-                 const SfmTruth& truth) {
+                 const SfmGroundTruth& truth) {
   std::map<int, std::string> rows;  // by frame
   for (std::size_t s = 0; s < segments.size(); ++s) {
     const SfmSegment& segment = segments[s];
@@ -60,7 +60,7 @@ void write_track(const std::string& path, const std::vector<SfmSegment>& segment
 }  // namespace
 
 void write_sfm_details(const std::string& folder, const std::string& name,
-                       const std::vector<SfmSegment>& segments, const SfmTruth& truth) {
+                       const std::vector<SfmSegment>& segments, const SfmGroundTruth& truth) {
   write_points(folder + "/" + name + "_points.ply", segments);
   write_track(folder + "/" + name + "_track.csv", segments, truth);
 }

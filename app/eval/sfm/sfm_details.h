@@ -13,6 +13,6 @@ namespace rubble {
 // true position, distance (unit: m). Segments that could not be aligned are left out. Throws
 // RunError.
 void write_sfm_details(const std::string& folder, const std::string& name,
-                       const std::vector<SfmSegment>& segments, const SfmTruth& truth);
+                       const std::vector<SfmSegment>& segments, const SfmGroundTruth& truth);
 
 }  // namespace rubble

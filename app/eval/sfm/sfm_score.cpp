@@ -18,7 +18,7 @@ struct Squares {
 Vec3 centre_of(const ColmapImage& image) { return image.camera_from_world.inverse().translation; }
 
 // The poses of a segment in the order of time, aligned, with the true ones.
-std::vector<PosePair> make_pairs(const SfmSegment& segment, const SfmTruth& truth,
+std::vector<PosePair> make_pairs(const SfmSegment& segment, const SfmGroundTruth& truth,
                                  const Similarity& world_from_model) {
   std::vector<std::size_t> order(segment.frames.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -31,7 +31,7 @@ std::vector<PosePair> make_pairs(const SfmSegment& segment, const SfmTruth& trut
   return pairs;
 }
 
-void add_steps(const SfmSegment& segment, const SfmTruth& truth, Squares& sum) {
+void add_steps(const SfmSegment& segment, const SfmGroundTruth& truth, Squares& sum) {
   const auto& alignment = segment.for_positions();
   if (!alignment || segment.frames.size() < 2) return;
   const RelativeError error = calc_relative_error(make_pairs(segment, truth, *alignment), 1);
@@ -42,7 +42,7 @@ void add_steps(const SfmSegment& segment, const SfmTruth& truth, Squares& sum) {
 
 }  // namespace
 
-SfmScore calc_sfm_score(const std::vector<SfmSegment>& segments, const SfmTruth& truth,
+SfmScore calc_sfm_score(const std::vector<SfmSegment>& segments, const SfmGroundTruth& truth,
                         double bound) {
   SfmScore score;
   score.frames = int(truth.model.images.size());

@@ -11,13 +11,13 @@
 namespace rubble {
 
 // The true cameras of a dataset, in the order of time.
-struct SfmTruth {
+struct SfmGroundTruth {
   ColmapModel model;                     // colmap/sparse of the dataset
   std::vector<Pose> world_from_optical;  // one per image
 };
 
 // Throws InputError for a dataset without outputs.colmap.
-SfmTruth load_sfm_truth(const std::string& dataset);
+SfmGroundTruth load_sfm_ground_truth(const std::string& dataset);
 
 // One model of a reconstruction: a part of the track that hangs together. Models share neither
 // frame nor scale, so each is aligned by itself.
@@ -39,11 +39,12 @@ struct SfmSegment {
 // The model in `folder`, or those in its numbered subfolders, as COLMAP's mapper leaves them; by
 // the number of their images, most first. Throws InputError for: no model, a model without an
 // image, an image that the truth does not have or that a model has twice.
-std::vector<SfmSegment> load_segments(const std::string& folder, const SfmTruth& truth);
+std::vector<SfmSegment> load_segments(const std::string& folder, const SfmGroundTruth& truth);
 
 // Brings points from the frame of a model, the largest in `folder`, to the world. Throws InputError
 // when its cameras do not determine that.
-void align_to_world(const std::string& folder, const SfmTruth& truth, std::vector<Vec3>& points);
+void align_to_world(const std::string& folder, const SfmGroundTruth& truth,
+                    std::vector<Vec3>& points);
 
 // Least squares over the centres of the cameras and the ends of their three axes, each as long as
 // the centres are apart (root mean square of the true ones about their mean).
@@ -67,7 +68,7 @@ struct SfmScore {
 };
 
 // bound: > 0; unit: m
-SfmScore calc_sfm_score(const std::vector<SfmSegment>& segments, const SfmTruth& truth,
+SfmScore calc_sfm_score(const std::vector<SfmSegment>& segments, const SfmGroundTruth& truth,
                         double bound);
 
 // All points, in the world of the truth; those of models that could not be aligned are left out.

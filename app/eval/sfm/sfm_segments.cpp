@@ -39,7 +39,7 @@ std::vector<std::string> list_models(const std::string& folder) {
 
 Pose world_from_optical(const ColmapImage& image) { return image.camera_from_world.inverse(); }
 
-SfmSegment make_segment(ColmapModel model, const SfmTruth& truth,
+SfmSegment make_segment(ColmapModel model, const SfmGroundTruth& truth,
                         const std::map<std::string, int>& frame_of) {
   SfmSegment segment;
   if (model.images.empty())
@@ -88,7 +88,7 @@ void add_ends(const std::vector<Pose>& poses, double length, std::vector<Vec3>& 
 
 }  // namespace
 
-SfmTruth load_sfm_truth(const std::string& dataset) {
+SfmGroundTruth load_sfm_ground_truth(const std::string& dataset) {
   const std::string folder = dataset + "/colmap/sparse";
   if (!fs::exists(dataset))
     throw InputError(
@@ -96,7 +96,7 @@ SfmTruth load_sfm_truth(const std::string& dataset) {
   if (!is_colmap_model(folder))
     throw InputError({dataset, 0, "", "has no ground truth for COLMAP", folder, "nothing",
                       "run the mission with --set outputs.colmap=true"});
-  SfmTruth truth{load_colmap_model(folder), {}};
+  SfmGroundTruth truth{load_colmap_model(folder), {}};
   if (truth.model.images.empty())
     throw InputError(
         {folder + "/images.txt", 0, "", "holds no image", "the true poses", "none", ""});
@@ -115,7 +115,7 @@ std::optional<Similarity> align_poses(const std::vector<Pose>& from, const std::
   return rubble::align_points(a, b, true);
 }
 
-std::vector<SfmSegment> load_segments(const std::string& folder, const SfmTruth& truth) {
+std::vector<SfmSegment> load_segments(const std::string& folder, const SfmGroundTruth& truth) {
   std::map<std::string, int> frame_of;
   for (std::size_t i = 0; i < truth.model.images.size(); ++i)
     frame_of[truth.model.images[i].name] = int(i);
@@ -128,7 +128,8 @@ std::vector<SfmSegment> load_segments(const std::string& folder, const SfmTruth&
   return segments;
 }
 
-void align_to_world(const std::string& folder, const SfmTruth& truth, std::vector<Vec3>& points) {
+void align_to_world(const std::string& folder, const SfmGroundTruth& truth,
+                    std::vector<Vec3>& points) {
   const std::vector<SfmSegment> segments = load_segments(folder, truth);
   if (!segments.front().by_poses)
     throw InputError({folder, 0, "--align", "cannot be aligned", "cameras at two different places",

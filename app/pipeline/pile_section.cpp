@@ -1,4 +1,4 @@
-#include "app/commands/pile_section.h"
+#include "app/pipeline/pile_section.h"
 
 #include <algorithm>
 

@@ -1,0 +1,54 @@
+#include "app/formats/recorded_size.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/mrpt/simplemap_recorder.h"
+#include "scripting/trajectory/trajectory.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kUnknownFlight = 60;           // of a path into a void without `duration`; unit: s
+constexpr double kDegrees = 57.29577951308232;  // of a radian
+
+double angle_between(const Quat& a, const Quat& b) {
+  return 2 * std::acos(std::min(1.0, std::fabs((a.conjugate() * b).w)));
+}
+
+// A path into a void is known only when there is a pile.
+bool leads_into_voids(const TrajectorySpec& path) {
+  for (const Waypoint& w : path.waypoints)
+    if (w.position_in_void || w.look_at_in_void) return true;
+  return false;
+}
+
+}  // namespace
+
+FlightSize size_of_flight(const Scenario& s) {
+  FlightSize size;
+  const TrajectorySpec path = flown_trajectory(s);
+  if (leads_into_voids(path)) {
+    size.frames = std::floor(path.duration.value_or(kUnknownFlight) * path.rate_hz) + 1;
+    size.key_frames = size.frames;
+  } else {
+    const SimplemapOptions key;
+    const auto poses = sample_trajectory(path, s.start_ns);
+    size.frames = double(poses.size());
+    size.key_frames = 1;
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+      const Pose &a = poses[i - 1].world_from_camera, &b = poses[i].world_from_camera;
+      size.key_frames +=
+          std::min(1.0, distance(a.translation, b.translation) / key.distance +
+                            angle_between(a.rotation, b.rotation) * kDegrees / key.angle_deg);
+    }
+  }
+  if (s.imu.on) size.imu_samples = size.frames * s.imu.model.rate_hz / path.rate_hz;
+  return size;
+}
+
+RecordedSize size_of_recording(const Scenario& scenario, double pieces) {
+  return {scenario, size_of_flight(scenario), PictureSize(scenario), 100 * pieces + 2e4};
+}
+
+}  // namespace rubble

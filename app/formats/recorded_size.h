@@ -1,0 +1,72 @@
+// How large a flight's recordings get at most, from the scenario alone; nothing is counted as
+// compressed.
+#pragma once
+
+#include "scripting/scenario/scenario.h"
+
+namespace rubble {
+
+constexpr double kFrameOverhead = 4096;  // poses, headers and indices of a frame; unit: byte
+constexpr double kEventsPerPixel = 0.5;  // of an event camera, in a frame
+constexpr double kPictureOverhead = 2048;  // of a file and its line in a list; unit: byte
+
+// What is recorded of a flight: counts.
+struct FlightSize {
+  double frames = 0, key_frames = 0, imu_samples = 0;
+};
+FlightSize size_of_flight(const Scenario& scenario);
+
+// Bytes of a frame's pixels in each kind of recording, apart from what is kept once.
+class PictureSize {
+ public:
+  explicit PictureSize(const Scenario& s)
+      : pixels_(double(s.camera.width) * s.camera.height),
+        channels_(s.camera.channel_set()),
+        right_(s.camera.stereo_baseline > 0),
+        measured_(s.depth_sensor.type != DepthSensorType::none),
+        events_(s.event_camera.on ? kEventsPerPixel * pixels_ : 0),
+        ros_depth_(s.outputs.depth == DepthEncoding::metres ? 4 : 2) {}
+
+  double colours() const { return pixels_ * (right_ ? 6 : 3); }
+  double rawlog() const { return colours() + pixels_ * (measured_ ? 4 : 2); }
+  double ros() const {
+    const double depth = ros_depth_ + (measured_ ? 4 : 0);
+    return colours() + pixels_ * (depth + ground_truth()) + 13 * events_;
+  }
+  double tum() const { return pixels_ * (3 + (measured_ ? 4 : 2)); }
+  double euroc() const { return colours() / 3; }
+  double frames() const {
+    return colours() + pixels_ * ((measured_ ? 8 : 4) + ground_truth()) + 25 * events_;
+  }
+  // How many files a frame is in a folder with all channels.
+  static constexpr int kMostFiles = 9;
+
+ private:
+  double ground_truth() const {
+    return 12 * channels_.normals + 4 * channels_.instance + 2 * channels_.label +
+           8 * channels_.flow + 4 * channels_.sky_visibility;
+  }
+
+  double pixels_;
+  ChannelSet channels_;
+  bool right_, measured_;
+  double events_;
+  int ros_depth_;
+};
+
+// All that the size of a recording depends on.
+struct RecordedSize {
+  const Scenario& scenario;  // the mission
+  FlightSize flight;         // its counts
+  PictureSize picture;       // its pixels, in bytes
+  double legend = 0;         // of what piece and label numbers mean; unit: byte
+
+  // per_frame, per_imu_sample, once; unit: byte
+  double of(double per_frame, double per_imu_sample, double once = 0) const {
+    return flight.frames * per_frame + flight.imu_samples * per_imu_sample + once;
+  }
+};
+// pieces: of the pile.
+RecordedSize size_of_recording(const Scenario& scenario, double pieces);
+
+}  // namespace rubble

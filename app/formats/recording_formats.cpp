@@ -1,0 +1,105 @@
+#include "app/formats/recording_formats.h"
+
+#include <algorithm>
+
+#include "io/datasets/colmap_recorder.h"
+#include "io/datasets/euroc_recorder.h"
+#include "io/datasets/frames_recorder.h"
+#include "io/datasets/tum_recorder.h"
+#include "io/mrpt/rawlog_recorder.h"
+#include "io/mrpt/simplemap_recorder.h"
+#include "io/recording/contact_sheet.h"
+#include "io/ros/mcap_recorder.h"
+#include "io/ros/rosbag_recorder.h"
+#include "render/camera/lens.h"
+
+namespace rubble {
+namespace {
+
+using Path = const std::string&;
+using In = const RecordingInputs&;
+using Size = const RecordedSize&;
+using Made = std::unique_ptr<Recorder>;
+
+constexpr double kPreviewBytes = 6e6;  // of a full contact sheet
+
+SimplemapOptions simplemap_options(const Scenario& scenario, const Recording& recording) {
+  SimplemapOptions options;
+  options.recording = recording;
+  const auto lens = std::make_shared<const Lens>(scenario.camera.intrinsics());
+  options.ray = [lens](double u, double v) { return lens->direction(u, v); };
+  return options;
+}
+
+ContactSheetOptions sheet_options(int frames, const std::string& title) {
+  ContactSheetOptions sheet;
+  sheet.total_frames = frames;
+  sheet.title = title;
+  return sheet;
+}
+
+double size_of_simplemap_frame(const Scenario& s) {
+  const double across = std::min(s.camera.width, SimplemapOptions().points_across);
+  return 16 * across * (across * s.camera.height / s.camera.width + 1) + kFrameOverhead;
+}
+
+RosOptions ros_of(In in) { return ros_options(in.scenario.outputs, in.recording); }
+
+// Rows: key, what it leaves, whether that is a folder, the member that asks for it, the recorder,
+// the size.
+const std::vector<RecordingFormat> kFormats{
+    {"rawlog", "mission.rawlog", false, &OutputScenario::rawlog,
+     [](Path p, In in) -> Made {
+       return make_rawlog_recorder(p, {in.scenario.outputs.rawlog_gzip, 0.001, in.recording});
+     },
+     [](Size s) { return s.of(s.picture.rawlog() + kFrameOverhead, 420); }},
+    {"simplemap", "mission.simplemap", false, &OutputScenario::simplemap,
+     [](Path p, In in) -> Made {
+       return make_simplemap_recorder(p, simplemap_options(in.scenario, in.recording));
+     },
+     [](Size s) { return s.flight.key_frames * size_of_simplemap_frame(s.scenario) + 1000; }},
+    {"bag", "mission.bag", false, &OutputScenario::bag,
+     [](Path p, In in) -> Made { return make_rosbag_recorder(p, ros_of(in)); },
+     [](Size s) { return s.of(s.picture.ros() + kFrameOverhead, 420, s.legend); }},
+    {"mcap", "mission.mcap", false, &OutputScenario::mcap,
+     [](Path p, In in) -> Made { return make_mcap_recorder(p, ros_of(in)); },
+     [](Size s) { return s.of(s.picture.ros() + kFrameOverhead, 420, s.legend + 1e5); }},
+    {"groundtruth", "groundtruth.txt", false, &OutputScenario::groundtruth,
+     [](Path p, In) -> Made { return make_tum_trajectory_recorder(p); },
+     [](Size s) { return s.of(140, 0, 100); }},
+    {"tum", "tum", true, &OutputScenario::tum,
+     [](Path p, In in) -> Made { return make_tum_recorder(p, in.recording); },
+     [](Size s) { return s.of(s.picture.tum() + 3 * kPictureOverhead, 0, 2000); }},
+    {"euroc", "euroc", true, &OutputScenario::euroc,
+     [](Path p, In in) -> Made { return make_euroc_recorder(p, in.recording); },
+     [](Size s) { return s.of(s.picture.euroc() + 2 * kPictureOverhead, 500, 10000); }},
+    {"colmap", "colmap", true, &OutputScenario::colmap,
+     [](Path p, In in) -> Made { return make_colmap_recorder(p, in.recording); },
+     [](Size s) { return s.of(s.picture.colours() + 2 * kPictureOverhead, 0, 2000); }},
+    {"frames", "frames", true, &OutputScenario::frames,
+     [](Path p, In in) -> Made { return make_frames_recorder(p, in.recording); },
+     [](Size s) {
+       const double files = kPictureOverhead * PictureSize::kMostFiles;
+       return s.of(s.picture.frames() + files, 320, s.legend);
+     }},
+    {"preview", "preview.png", false, &OutputScenario::preview,
+     [](Path p, In in) -> Made {
+       return make_contact_sheet_recorder(p, sheet_options(in.frames, in.title));
+     },
+     [](Size) { return kPreviewBytes; }},
+};
+
+}  // namespace
+
+const std::vector<RecordingFormat>& recording_formats() { return kFormats; }
+
+RosOptions ros_options(const OutputScenario& outputs, const Recording& recording) {
+  RosOptions ros;
+  ros.recording = recording;
+  if (outputs.depth == DepthEncoding::metres) ros.depth = RosDepth::metres;
+  if (outputs.pictures == PictureEncoding::png) ros.pictures = RosPictures::png;
+  if (outputs.pictures == PictureEncoding::jpeg) ros.pictures = RosPictures::jpeg;
+  return ros;
+}
+
+}  // namespace rubble

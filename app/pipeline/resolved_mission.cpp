@@ -1,0 +1,129 @@
+#include "app/pipeline/resolved_mission.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/pipeline/build_scene.h"
+#include "app/pipeline/finished_run.h"
+#include "app/support/build_info.h"
+#include "app/support/json_members.h"
+#include "io/base/atomic_file.h"
+#include "kernel/base/text.h"
+#include "kernel/settling/generator.h"
+
+namespace rubble {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kRunFormat = "rubble unfinished run 1";
+
+MissionOptions mission_options(const RunRequest& request) {
+  MissionOptions options;
+  options.seed = request.seed;
+  options.overrides = request.overrides;
+  return options;
+}
+
+Mission load_and_print(const RunRequest& request) {
+  Mission mission = load_mission(request.mission, mission_options(request));
+  for (const std::string& line : mission.printed) std::fprintf(stderr, "%s\n", line.c_str());
+  return mission;
+}
+
+// Loads the assets by `load`, with what a person sees of it.
+template <typename Load>
+void load_with_progress(ResolvedMission& mission, RunContext& context, const Load& load) {
+  context.progress.start("assets");
+  mission.assets = load();
+  for (const std::string& warning : mission.assets.warnings)
+    std::fprintf(stderr, "warning: %s\n", printable(warning).c_str());
+  context.progress.finish(std::to_string(mission.assets.types.size()) + " loaded, seed " +
+                          std::to_string(mission.scenario.seed));
+}
+
+Json describe_program() {
+  const BuildInfo build = build_info();
+  return {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler},
+          {"flags", build.flags},     {"target", build.target}, {"libraries", build.libraries}};
+}
+
+// The same program, or the rest might not fit what is there.
+void check_program(const Json& json, const std::string& file) {
+  const Json now = describe_program();
+  const Json began = json.value("program", Json::object());
+  for (const auto& [name, value] : now.items())
+    if (!began.contains(name) || began[name] != value)
+      throw InputError({file, 0, name, "another program began this run",
+                        began.contains(name) ? began[name].dump() : "", value.dump(),
+                        "continue with that one, or begin anew: `rubble run ... --force`"});
+}
+
+}  // namespace
+
+ResolvedMission resolve_mission(const RunRequest& request, RunKind kind, RunContext& context) {
+  const Mission loaded = load_and_print(request);
+  ResolvedMission mission;
+  mission.provenance = make_provenance(kind, loaded, mission_options(request));
+  mission.scenario = mission.pile_scenario = loaded.scenario;
+  load_with_progress(mission, context, [&] { return load_assets(loaded, request.asset_packs); });
+  mission.provenance.assets = mission.assets.contents;
+  return mission;
+}
+
+ResolvedMission resolve_mission(const Provenance& provenance,
+                                const std::vector<std::string>& pack_folders, RunContext& context) {
+  ResolvedMission mission;
+  mission.provenance = provenance;
+  mission.scenario = stated_scenario(provenance);
+  mission.pile_scenario =
+      provenance.pile_from ? stated_scenario(*provenance.pile_from) : mission.scenario;
+  load_with_progress(mission, context, [&] { return load_assets(provenance, pack_folders); });
+  return mission;
+}
+
+ResolvedMission resolve_render(const RunRequest& request, const FinishedRun& saved,
+                               RunContext& context) {
+  const Provenance& source = saved.manifest.provenance;
+  Mission loaded = load_and_print(request);
+  const std::shared_ptr<const Provenance> pile_from =
+      source.pile_from ? source.pile_from : std::make_shared<const Provenance>(source);
+  ResolvedMission mission;
+  mission.pile_scenario = stated_scenario(*pile_from);
+  adopt_pile(loaded.scenario, mission.pile_scenario);
+  mission.scenario = loaded.scenario;
+  mission.provenance = make_provenance(RunKind::render, loaded, mission_options(request));
+  mission.provenance.assets = pile_from->assets;
+  mission.provenance.pile_from = pile_from;
+  load_with_progress(mission, context, [&] { return load_assets_of(saved, request.asset_packs); });
+  return mission;
+}
+
+std::string describe_unfinished(const ResolvedMission& mission) {
+  Json json;
+  json["format"] = kRunFormat;
+  json["program"] = describe_program();
+  add_provenance(json, mission.provenance);
+  json["pack_folders"] = mission.assets.folders;
+  // The name of a folder may be no UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+ResolvedMission resolve_unfinished(const RunFolder& folder,
+                                   const std::vector<std::string>& pack_folders,
+                                   RunContext& context) {
+  const std::string file = folder.run_file();
+  const Json json = parse_json_text(read_whole_file(file), file);
+  const JsonMembers members(json, file);
+  if (members.text("format") != kRunFormat) members.fail("format", kRunFormat);
+  check_program(json, file);
+  std::vector<std::string> folders = pack_folders;
+  for (const JsonMembers& pack : members.list("pack_folders")) folders.push_back(pack.as_text());
+  return resolve_mission(provenance_from_json(json, file), folders, context);
+}
+
+Pile make_pile(const ResolvedMission& mission) {
+  return generate_pile(build_pile_spec(mission.pile_scenario, mission.assets));
+}
+
+}  // namespace rubble

@@ -1,0 +1,44 @@
+// What a run computes, resolved before it begins and never changed by it: where it comes from,
+// every key, every asset.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/assets/asset_library.h"
+#include "app/provenance/provenance.h"
+#include "app/provenance/run_folder.h"
+#include "app/support/run_context.h"
+#include "kernel/model/pile.h"
+
+namespace rubble {
+
+struct ResolvedMission {
+  Provenance provenance;   // from which all the rest can be made again
+  Scenario scenario;       // of this run
+  Scenario pile_scenario;  // of the run that settled the pile: another one for a `render`
+  AssetLibrary assets;
+};
+
+// From a script on the disk. Prints what the script prints, and warnings of the assets.
+ResolvedMission resolve_mission(const RunRequest& request, RunKind kind, RunContext& context);
+// From a provenance; the packs are looked for in `pack_folders` and among the bundled ones.
+ResolvedMission resolve_mission(const Provenance& provenance,
+                                const std::vector<std::string>& pack_folders, RunContext& context);
+// A new camera and light over the pile of a finished run, in `saved`; its packs as above.
+struct FinishedRun;
+ResolvedMission resolve_render(const RunRequest& request, const FinishedRun& saved,
+                               RunContext& context);
+// What the unfinished run in that folder was computing. Throws InputError when another program
+// began it.
+ResolvedMission resolve_unfinished(const RunFolder& folder,
+                                   const std::vector<std::string>& pack_folders,
+                                   RunContext& context);
+
+// unfinished/run.json: what was being run, and by which program.
+std::string describe_unfinished(const ResolvedMission& mission);
+
+// What is dropped and what it is dropped on, before it settles.
+Pile make_pile(const ResolvedMission& mission);
+
+}  // namespace rubble

@@ -1,0 +1,59 @@
+// The stages of a run: typed inputs, typed outputs. What a stage has finished is a file with a
+// hash, from which a run that was killed goes on:
+//
+//   stage      from                  to                           kept as
+//   resolve    script or manifest    ResolvedMission              unfinished/run.json
+//   settle     ResolvedMission       SettledPile                  pile.bin
+//   files      PileState             meshes of the pile           pile.stl
+//   frames     PileState             RecordedFrames               every recorder's file
+//   manifest   all                   hashes of all                manifest.json
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "app/pipeline/metrics.h"
+#include "app/pipeline/resolved_mission.h"
+#include "app/provenance/frame_hashes.h"
+#include "kernel/model/pile_state.h"
+#include "render/renderer.h"
+
+namespace rubble {
+
+struct SettledPile {
+  PileState state;
+  Metrics metrics;  // of the pile and, where the mission asks for them, its voids
+};
+
+struct RecordedFrames {
+  FrameHashes hashes;
+  Metrics metrics;                                 // of the flight and the depth
+  std::map<std::string, std::string> environment;  // what drew them: driver, device, threads
+};
+
+// Takes pile.bin if it is there and was made from the same pile and options, and goes on from a
+// checkpoint if one is.
+SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext& context);
+
+// Keeps a pile that another run settled as the product of this run's first stage.
+void keep_pile(const ResolvedMission& mission, const PileState& state, const RunFolder& folder);
+
+void write_pile_files(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
+                      RunContext& context);
+
+// The scene of the pile, lit, on the device of `gl`. on_light: 0 to 1.
+Renderer prepare_renderer(const Scenario& scenario, const AssetLibrary& assets,
+                          const PileState& pile, GlContext& gl, int threads,
+                          const std::function<void(double)>& on_light);
+
+RecordedFrames record_frames(const ResolvedMission& mission, const PileState& pile,
+                             RunFolder& folder, RunContext& context);
+
+// Of both: no name is in both.
+Metrics join(const Metrics& of_pile, const Metrics& of_frames);
+
+void write_manifest(const ResolvedMission& mission, const SettledPile& pile,
+                    const RecordedFrames& frames, RunFolder& folder, const RunContext& context);
+
+}  // namespace rubble

@@ -1,0 +1,58 @@
+// The tables of formats against what a mission may ask for.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/formats/recording_formats.h"
+#include "app/provenance/earlier_files.h"
+#include "io/mesh/pile_export.h"
+#include "scripting/scenario/scenario_schema.h"
+
+namespace rubble::testing {
+namespace {
+
+// Each row names the key that sets its member, and no other row the same.
+TEST(Formats, HaveTheirKey) {
+  Scenario scenario;
+  const Schema schema = make_scenario_schema(scenario);
+  std::set<std::string> names, left;
+  for (const RecordingFormat& format : recording_formats()) {
+    const Key* const key = schema.find("outputs." + format.name);
+    ASSERT_NE(key, nullptr) << format.name;
+    for (const bool wanted : {true, false}) {
+      scenario.outputs.*format.wanted = wanted;
+      EXPECT_EQ(read_slot(key->bind(0)).boolean, wanted) << format.name;
+    }
+    EXPECT_TRUE(names.insert(format.name).second) << format.name;
+    EXPECT_TRUE(left.insert(format.leaves).second) << format.leaves;
+  }
+  EXPECT_GE(names.size(), 10u);
+}
+
+// `stl` has a key of its own.
+TEST(Formats, MeshesAreThoseOfTheMission) {
+  std::vector<std::string> names;
+  for (const MeshFormat& format : mesh_formats())
+    if (format.name != "stl") names.push_back(format.name);
+  EXPECT_EQ(names, export_names());
+}
+
+// What a run leaves is what --force may remove.
+TEST(Formats, LeaveNothingThatAnotherRunDoesNotKnow) {
+  const std::vector<std::string>& usual = usual_run_files();
+  EXPECT_EQ(usual.front(), "manifest.json");
+  const auto is_known = [&](const std::string& name) {
+    return std::find(usual.begin(), usual.end(), name) != usual.end();
+  };
+  for (const RecordingFormat& format : recording_formats())
+    EXPECT_NE(is_known(format.leaves), format.is_folder) << format.leaves;
+  for (const char* name : {"pile.bin", "pile.stl", "pile.obj", "pile.mtl", "mission.simplemap",
+                           "labels.csv", "flight.json", "preview.png", "groundtruth.txt"})
+    EXPECT_TRUE(is_known(name)) << name;
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""What a build costs: compiles every unit of a target again, alone and without a compiler cache, and
+prints processor seconds by folder, by file and by third-party header.
+
+usage: tools/build_times.py [--build build/release] [--target rubble] [--jobs N] [--rows N]
+
+Nothing in the build folder changes but precompiled headers, which must be there: build the target
+first. The processor time of a unit hardly depends on what else the machine does; the waiting does.
+"""
+import argparse
+import collections
+import concurrent.futures
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+
+def units_of(build, target):
+    """The objects that the target needs, by ninja, with their commands."""
+    inputs = subprocess.run(["ninja", "-C", build, "-t", "inputs", target], check=True,
+                            capture_output=True, text=True).stdout.split("\n")
+    needed = {os.path.normpath(line) for line in inputs if line.endswith(".o")}
+    with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
+        entries = json.load(file)
+    units = {}
+    for entry in entries:
+        words = shlex.split(entry["command"])
+        output = os.path.normpath(words[words.index("-o") + 1])
+        if output in needed:
+            units[output] = (entry["file"], words, entry["directory"])
+    return list(units.values())
+
+
+def compile_once(unit):
+    """Processor seconds of one unit, and the headers that it reads."""
+    file, words, folder = unit
+    with tempfile.TemporaryDirectory() as scratch:
+        words = list(words)
+        if os.path.basename(words[0]) == "ccache":
+            words = words[1:]
+        words[words.index("-o") + 1] = os.path.join(scratch, "unit.o")
+        words += ["-MD", "-MF", os.path.join(scratch, "unit.d")]
+        with open(os.path.join(scratch, "mistakes"), "w+", encoding="utf-8") as mistakes:
+            child = subprocess.Popen(words, cwd=folder, stdout=subprocess.DEVNULL, stderr=mistakes)
+            _, status, usage = os.wait4(child.pid, 0)  # with the compiler that g++ starts
+            child.returncode = os.waitstatus_to_exitcode(status)
+            if child.returncode:
+                mistakes.seek(0)
+                sys.exit(file + ": does not compile\n" + mistakes.read())
+        headers = ""
+        if os.path.exists(os.path.join(scratch, "unit.d")):
+            with open(os.path.join(scratch, "unit.d"), encoding="utf-8") as text:
+                headers = text.read()
+    return os.path.relpath(file), usage.ru_utime + usage.ru_stime, headers
+
+
+# A header that stands for its library.
+LIBRARIES = {"CLI11": "CLI/CLI.hpp", "nlohmann/json": "nlohmann/json.hpp", "OpenVDB": "openvdb/openvdb.h",
+             "OpenCV": "opencv2/core.hpp", "MRPT": "mrpt/", "ROS 1": "ros/ros.h", "Simbody": "Simbody.h",
+             "Eigen": "Eigen/", "assimp": "assimp/scene.h", "GoogleTest": "gtest/gtest.h",
+             "SDL": "SDL.h", "Lua": "lua.hpp", "OpenEXR": "ImfHeader.h", "Embree": "embree3/rtcore.h"}
+
+
+def print_table(title, rows, count):
+    print(f"\n{title}")
+    for name, units, seconds in sorted(rows, key=lambda row: -row[2])[:count]:
+        print(f"  {seconds:8.1f} s  {units:4d}  {name}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
+    parser.add_argument("--build", default="build/release")
+    parser.add_argument("--target", default="rubble")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--rows", type=int, default=25)
+    options = parser.parse_args()
+    units = units_of(options.build, options.target)
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        results = list(pool.map(compile_once, units))
+    total = sum(seconds for _, seconds, _ in results)
+    print(f"{options.target}: {len(results)} units, {total:.0f} s of processor time")
+    folders = collections.defaultdict(lambda: [0, 0.0])
+    for file, seconds, _ in results:
+        folder = os.path.dirname(file)
+        folders[folder][0] += 1
+        folders[folder][1] += seconds
+    print_table("by folder: seconds, units", [(f, n, s) for f, (n, s) in folders.items()], options.rows)
+    print_table("by file: seconds", [(f, 1, s) for f, s, _ in results], options.rows)
+    rows = []
+    for library, header in LIBRARIES.items():
+        users = [s for _, s, text in results if re.search(r"[ /]" + re.escape(header), text)]
+        if users:
+            rows.append((library, len(users), sum(users)))
+    print_table("by library: seconds of the units that include it, units", rows, options.rows)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""Lists the kernel's constants of physics on one page: value, unit, reason and where each stands.
+
+  tools/constants.py            writes docs/constants.md
+  tools/constants.py --check    fails when the page is not what the sources say, when a name has two
+                                values, or when a number has no reason
+"""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs" / "constants.md"
+ROOMS = {
+    "collision": "Who touches whom, and where",
+    "solver": "Contact forces",
+    "multibody": "Free rotation, joints and trees",
+    "world": "The step, sleep and rest",
+    "settling": "The schedule of a pile",
+}
+DECLARATION = re.compile(r"^\s*(?:inline |static )*constexpr (?:float|double|int|std::\w+) (k[A-Z]\w*(?:\[\d+\])? = .*)$")
+UNIT = re.compile(r"[;,]?\s*unit: ([^;.)]+)")
+HEAD = """# Constants of the kernel
+
+Every number that the kernel's physics rests on, with its unit, its reason and its consequence. What a
+script may set is in [lua.md](lua.md); how far clamps and limits depart from the laws of Newton and Coulomb
+is measured in [performance.md](performance.md), "Closed forms".
+
+This page is written by `tools/constants.py` from the comments beside the constants; a test compares the two.
+"""
+
+
+def read_comment(lines, row):
+    """The comment block above a line, or above the block of constants that the line stands in."""
+    while row > 0 and "constexpr" in lines[row - 1] and ";" in lines[row - 1]:
+        row -= 1
+    text = []
+    while row > 0 and lines[row - 1].strip().startswith("//"):
+        text.insert(0, lines[row - 1].strip().lstrip("/ "))
+        row -= 1
+    return " ".join(text)
+
+
+def read_constants(path):
+    lines = path.read_text().splitlines()
+    for row, line in enumerate(lines):
+        code, _, trailing = line.partition("//")
+        match = DECLARATION.match(code.rstrip())
+        if not match or ";" not in code:
+            continue
+        block, trailing = read_comment(lines, row), trailing.strip()
+        unit = UNIT.search(trailing) or UNIT.search(block)
+        reason = " ".join(t for t in (block, UNIT.sub("", trailing).strip(" ;.")) if t)
+        for name, value in re.findall(r"(k[A-Z]\w*)(?:\[\d+\])? = ([^,;{]+|\{.*\})(?=[,;])", match.group(1)):
+            given = unit.group(1).strip() if unit and not name.endswith(("Cosine", "Share")) else ""
+            yield name, value.strip(), given, UNIT.sub("", reason).strip(" ;")
+
+
+def is_number(value):
+    return re.fullmatch(r"-?[\d.]+(e-?\d+)?[fF]?", value) is not None
+
+
+def make_page(problems):
+    text, known = HEAD, {}
+    for room, title in ROOMS.items():
+        text += f"\n## {title} (`kernel/{room}`)\n\n| constant | value | unit | why, and what it does | in |\n|---|---|---|---|---|\n"
+        for path in sorted((ROOT / "kernel" / room).rglob("*")):
+            if path.suffix not in (".h", ".cpp"):
+                continue
+            for name, value, unit, reason in read_constants(path):
+                if not is_number(value):
+                    continue
+                where = path.relative_to(ROOT / "kernel" / room)
+                value = value.rstrip("fF")
+                if known.setdefault(name, value) != value:
+                    problems.append(f"kernel/{room}/{where}: {name} is {value} here and {known[name]} elsewhere: give it a name of its own")
+                if not reason:
+                    problems.append(f"kernel/{room}/{where}: {name} has no comment: say why it is {value}, and its unit")
+                text += f"| `{name}` | {value} | {unit or '1'} | {reason.replace('|', chr(92) + '|')} | `{where}` |\n"
+    return text
+
+
+def main():
+    problems = []
+    page = make_page(problems)
+    if "--check" in sys.argv:
+        if not PAGE.exists() or PAGE.read_text() != page:
+            problems.append("docs/constants.md is not what the sources say: run tools/constants.py")
+    else:
+        PAGE.write_text(page)
+    for problem in problems:
+        print(problem, file=sys.stderr)
+    sys.exit(1 if problems else 0)
+
+
+main()

@@ -1,5 +1,5 @@
 // OpenVDB's grids as its library has compiled them: without these declarations each unit that makes
-// a grid would compile the whole tree of its values again (100 s instead of 7).
+// a grid would compile the whole tree of its values again (vdb_file.cpp: 43 s instead of 9).
 #pragma once
 
 #include <openvdb/openvdb.h>

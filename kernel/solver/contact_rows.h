@@ -81,6 +81,7 @@ struct BatchRange {
 
 struct PushTerms {
   float slop = 0, fraction = 0, most = 0;  // as in SolverSettings
+  float deep = 0, most_deep = 0;           // what is deeper than this is pushed by up to this; unit: m
 };
 
 struct RowKernels {

@@ -324,7 +324,9 @@ void ContactSolver::each_batch(ThreadPool& pool, Action&& action) {
 // neighbour has been, a batch would change nothing.
 void ContactSolver::solve_position_constraints(const SolverSettings& settings, ThreadPool& pool) {
   wants_push_.assign(batches_.size(), 0);
-  const PushTerms terms{settings.slop, settings.position_fraction, settings.maximum_push};
+  const PushTerms terms{settings.slop, settings.position_fraction,
+                        settings.maximum_push * (1 - settings.fading), settings.deep,
+                        settings.maximum_push};
   each_batch(pool, [&](const BatchRange& part) {
     for (const ContactBatch* batch = part.begin; batch != part.end; ++batch) {
       wants_push_[std::size_t(batch - batches_.data())] =

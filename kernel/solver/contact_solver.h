@@ -32,6 +32,8 @@ struct SolverSettings {
   float slop = 0.0003F;
   float position_fraction = 0.2F;  // of an overlap removed per step
   float maximum_push = 0.02F;    // unit: m per step
+  float fading = 0;              // pushes are weaker by this share, but for overlaps deeper than `deep`
+  float deep = 0.004F;           // with such an overlap no pile counts as settled; unit: m
 };
 
 // Six numbers per body.

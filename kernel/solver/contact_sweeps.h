@@ -229,7 +229,8 @@ RUBBLE_INLINE bool begin_pushes(const ContactBatch& batch, const NormalRow* rows
   for (int i = 0; i < batch.rows; ++i) {
     const P done = relative(Packet3<P>(batch.normal), rows[i].row, a, b);
     const P gap = P(rows[i].gap) + done + P(terms.slop);
-    const P step = contact_law::smaller(-gap * P(terms.fraction), P(terms.most));
+    const P most_now = select(P(-terms.deep) > gap, P(terms.most_deep), P(terms.most));
+    const P step = contact_law::smaller(-gap * P(terms.fraction), most_now);
     const P wanted = select(P{} > gap, step, -gap);
     (done + wanted).store(pushes[i].target);
     P{}.store(pushes[i].push);

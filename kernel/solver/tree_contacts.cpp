@@ -254,7 +254,7 @@ void TreeContacts::end_substeps(double weight) {
 bool TreeContacts::begin_pushes(const SolverSettings& settings, const PaddedMotion* moved) {
   for (std::int32_t tree : trees_.trees) motion(tree).begin_pushes();
   bool any = false;
-  const double most = double(settings.maximum_push);
+  const double full = double(settings.maximum_push), faded = full * (1 - double(settings.fading));
   for (std::int32_t index : sequence_) {
     const Item& item = items_[std::size_t(index)];
     if (item.kind == Kind::dry) continue;
@@ -266,9 +266,10 @@ bool TreeContacts::begin_pushes(const SolverSettings& settings, const PaddedMoti
       const double gap = n.gap + done;
       double wanted = 0;
       if (item.kind == Kind::loop) {
-        wanted = std::clamp(-gap * kLoopFraction, -most, most);
+        wanted = std::clamp(-gap * kLoopFraction, -faded, faded);
       } else {
         const double left = gap + double(settings.slop);
+        const double most = left < -double(settings.deep) ? full : faded;
         wanted = left < 0 ? std::min(-left * double(settings.position_fraction), most) : -left;
       }
       n.push_target = done + wanted;

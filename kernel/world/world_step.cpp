@@ -102,7 +102,7 @@ void World::Impl::solve_contacts() {
   lateness = calc_lateness();
   // Pieces that are stuck in each other are pushed to and fro for ever, and others with them.
   SolverSettings settings = solver_settings;
-  settings.maximum_push *= 1 - lateness;
+  settings.fading = lateness;
   solver.solve(settings, data.bodies, active, data.contacts, velocities, displacements,
                solved_trees, pool);
 }

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <filesystem>
 #include <system_error>
 #include <thread>
 
@@ -36,8 +37,16 @@ FolderLock::FolderLock(const std::string& file, Wait wait, const std::string& me
   }
 }
 
+// Another process that ends may remove the folder between its creation and this: then it is made again.
 void FolderLock::open_file(const std::string& file) {
-  descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+  constexpr int kTries = 100;
+  for (int i = 0; i < kTries; ++i) {
+    descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (descriptor_ >= 0 || errno != ENOENT) break;
+    std::error_code ignored;  // the next try says what is wrong
+    std::filesystem::create_directories(std::filesystem::path(file).parent_path(), ignored);
+    errno = ENOENT;
+  }
   if (descriptor_ < 0)
     throw RunError("cannot create " + file + ": " + std::generic_category().message(errno));
 }

@@ -45,9 +45,6 @@ class TreeContacts::Builder {
     item.normal = Vec3(contact.normal);
     item.sides[0] = side_of(contact.body_a);
     item.sides[1] = side_of(contact.body_b);
-    const auto push = contact_law::find_push_shares(double(contact.normal.z));
-    item.sides[0].push_weight *= push.a;
-    item.sides[1].push_weight *= push.b;
     all_.couple_sides(item);
     item.first_row = all_.rows_.size();
     item.rows = contact.count;

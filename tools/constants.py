@@ -22,8 +22,10 @@ DECLARATION = re.compile(r"^\s*(?:inline |static )*constexpr (?:float|double|int
 UNIT = re.compile(r"[;,]?\s*unit: ([^;.)]+)")
 HEAD = """# Constants of the kernel
 
-Every number that the kernel's physics rests on, with its unit, its reason and its consequence. What a
-script may set is in [lua.md](lua.md); how far clamps and limits depart from the laws of Newton and Coulomb
+Every named number in the kernel's rooms of physics, with its unit, its reason and its consequence; numbers
+that follow from others are left out. Settings with a default stand in `SolverSettings`
+(`kernel/solver/contact_solver.h`) and `NarrowSettings` (`kernel/collision/narrow_phase.h`), the terms of
+sleep in `kernel/world/world_sleep.cpp`. What a script may set is in [lua.md](lua.md); how far clamps and limits depart from the laws of Newton and Coulomb
 is measured in [performance.md](performance.md), "Closed forms".
 
 This page is written by `tools/constants.py` from the comments beside the constants; a test compares the two.

@@ -43,8 +43,10 @@ void FolderLock::open_file(const std::string& file) {
   for (int i = 0; i < kTries; ++i) {
     descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (descriptor_ >= 0 || errno != ENOENT) break;
-    std::error_code ignored;  // the next try says what is wrong
-    std::filesystem::create_directories(std::filesystem::path(file).parent_path(), ignored);
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed) throw RunError("cannot create the folder " + folder.string() + ": " + failed.message());
     errno = ENOENT;
   }
   if (descriptor_ < 0)

@@ -252,17 +252,10 @@ float update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, f
 void search_along(Contact& contact, const PosedBody& a, const PosedBody& b, const Vec3f& normal,
                   float margin, const NarrowSettings& settings) {
   const Vec3f offset = Vec3f(b.centre - a.centre);
-  Axis axis{normal, -calc_depth_along(a.part, b.part, offset, normal), {}};
   const ContactPoint* deepest = std::min_element(
       contact.points.begin(), contact.points.begin() + contact.count,
       [](const ContactPoint& p, const ContactPoint& q) { return p.separation < q.separation; });
-  if (contact.count > 0) {
-    axis.point = deepest->from_a;
-  } else {
-    axis.point = (a.part.corners.points[find_support(a.part.corners, normal)] +
-                  b.part.corners.points[find_support(b.part.corners, -normal)] + offset) *
-                 0.5F;
-  }
+  const Axis axis{normal, -calc_depth_along(a.part, b.part, offset, normal), deepest->from_a};
   make_points(contact, a, b, offset, axis, margin, settings);
 }
 

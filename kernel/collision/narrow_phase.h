@@ -38,7 +38,8 @@ void store_points(Contact& contact, const Manifold& manifold, const Vec3f& norma
 // keep at least, else 0; unit: m.
 float update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, float margin,
                     const NarrowSettings& settings);
-// Finds the points along a given normal (unit length, from A to B) of two parts that overlap along it.
+// Finds the points along a given normal (unit length, from A to B) of two parts that overlap along it
+// and have points already.
 void search_along(Contact& contact, const PosedBody& a, const PosedBody& b, const Vec3f& normal,
                   float margin, const NarrowSettings& settings);
 // Moves the points along with two parts that have hardly moved since the last search.

@@ -99,7 +99,7 @@ class Search {
     for (int k = 0; k < 3; ++k) {
       const Vec3f along = t_.corners[(k + 1) % 3] - t_.corners[k];
       t_.outward[k] = normalized(cross(along, t_.normal));
-      // Beyond a concave the plane is inside what is solid: who comes fast meets it in good time.
+      // Beyond a concave edge the plane is inside what is solid: who comes fast meets it in good time.
       t_.room[k] = triangle.folds[k] == EdgeConvexity::concave ? kSeam + reach_ : kSeam;
     }
   }
@@ -109,7 +109,7 @@ class Search {
   }
 
   // Against the plane of the triangle: the part's corners over it, and where the face that lies on
-  // it goes over a convex.
+  // it goes over a convex edge.
   void add_face_points() {
     for (int i = 0; i < part_.corners.count; ++i) {
       const Vec3f& p = part_.corners.points[i];
@@ -144,7 +144,7 @@ class Search {
     return part_.corners.points[part_.shape->loops[face.first + i]];
   }
 
-  // Along an axis that a convex or a peak has for itself.
+  // Along an axis that a convex edge or a peak has for itself.
   void add_edge_points(const Axis& axis) {
     const Vec3f side = normalized(t_.corners[1] - t_.corners[0]);
     const Mat3f rotation = Mat3f{{side, cross(t_.normal, side), t_.normal}}.transposed();

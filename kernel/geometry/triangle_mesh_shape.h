@@ -17,15 +17,15 @@ class TriangleMeshShape {
  public:
   // How a triangle goes on beyond an edge.
   enum class EdgeConvexity : std::uint8_t {
-    flat,   // level with it: the edge is none to what lies on both
+    flat,     // level with it: the edge is none to what lies on both
     concave,  // upwards, towards the side that it faces
-    convex,  // downwards; also where nothing follows
+    convex,   // downwards; also where nothing follows
   };
   struct Triangle {
     std::uint32_t corners[3] = {};   // counter-clockwise seen from the side that is free
     std::int32_t beyond[3] = {};     // the corner across the edge from k to k + 1; -1: none
-    EdgeConvexity folds[3] = {};              // of the same edges
-    bool sharp = false;              // a convex ends at one of its corners, or is its edge
+    EdgeConvexity folds[3] = {};     // of the same edges
+    bool sharp = false;              // a convex edge ends at one of its corners, or is its own
     Vec3 normal;                     // unit length
   };
 

@@ -83,7 +83,8 @@ RUBBLE_INLINE T closing_speed(T gap, T per_substep) {
 // cleared from under a heavy slab as fast as any other pair, but the one below as up to ten times as heavy
 // as the one above. Otherwise a slab with hundreds of bricks on it is pressed into its support, as each of
 // them pushes it as much as the support does. A push moves a body by its share. `up`: the rise of the
-// normal, which points from A to B.
+// normal, which points from A to B. Only for free pieces: with it, articulated trees gained speed until they
+// left the pile.
 template <typename T>
 struct PushShares {
   T a, b;

@@ -1,22 +1,13 @@
 #include "kernel/solver/contact_solver.h"
 
 #include <algorithm>
-#include <cmath>
-
 
 namespace rubble {
 namespace {
 
-// Inertia of a carrying piece against what it carries, see share_inertia().
-constexpr double kMassRatio = 5;
-constexpr float kAbove = 0.2F;       // the normal's rise from which a piece counts as carrying
-constexpr float kCarrySpeed = 0.5F;  // unit: m/s
 // Below these, speeds that pushes undo are dropped.
 constexpr float kSlowSpeed = 0.2F;  // unit: m/s
 constexpr float kSlowSpin = 2.0F;   // unit: rad/s
-// A thread takes part in the sweeps when there are this many contacts for it.
-constexpr int kLeastContacts = 150;
-constexpr int kMostDomains = 16;
 // Steps on one thread after others did not run.
 constexpr int kCrowdedSteps = 30;
 
@@ -29,146 +20,6 @@ Motion unpadded(const PaddedMotion& m) {
 }
 
 }  // namespace
-
-// Contacts with an awake link of a tree are solved after the others in each sweep.
-void ContactSolver::note_heads(const std::vector<Body>& bodies,
-                               const std::vector<std::int32_t>& order,
-                               const std::vector<Contact>& contacts, const SolvedTrees& trees,
-                               ThreadPool& pool) {
-  const bool any_trees = !trees.trees.empty();
-  const auto is_link = [&bodies](std::int32_t body) {
-    return body != kGround && bodies[body].awake && bodies[body].tree >= 0;
-  };
-  heads_.resize(order.size());
-  pool.run(int(order.size()), 128, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      const Contact& contact = contacts[order[i]];
-      heads_[i] = {order[i], contact.body_a, contact.body_b, contact.count, contact.normal.z,
-                   any_trees && (is_link(contact.body_a) || is_link(contact.body_b))};
-    }
-  });
-  tree_order_.clear();
-  if (!any_trees) return;
-  for (const Head& head : heads_) {
-    if (head.tree) tree_order_.push_back(head.contact);
-  }
-}
-
-void ContactSolver::number_bodies(const std::vector<Body>& bodies) {
-  constexpr std::int32_t kUnseen = -1, kStays = -2;  // no numbers yet; never one
-  number_.assign(bodies.size(), kUnseen);
-  for (const Head& head : heads_) {
-    for (std::int32_t body : {head.body_a, head.body_b}) {
-      if (body == kGround || number_[body] != kUnseen) continue;
-      number_[body] = bodies[body].awake && bodies[body].tree < 0 ? 0 : kStays;
-    }
-  }
-  moving_.clear();
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (number_[i] == 0) moving_.push_back(std::int32_t(i));
-  }
-  divide(bodies);
-  for (std::int32_t& n : number_) n = std::int32_t(moving_.size());
-  for (std::size_t i = 0; i < moving_.size(); ++i) number_[moving_[i]] = std::int32_t(i);
-}
-
-// Into one domain for each thread: strips of the ground across its longer side, with as many pieces
-// each. Pieces of a domain are numbered one after the other, so that threads seldom write to the same line
-// of a cache.
-void ContactSolver::divide(const std::vector<Body>& bodies) {
-  domains_.assign(moving_.size(), 0);
-  domain_starts_.assign(std::size_t(domain_count_) + 1, std::int32_t(moving_.size()));
-  domain_starts_[0] = 0;
-  if (domain_count_ < 2) return;
-  note_places(bodies);
-  sorted_places_ = places_;
-  std::vector<float> borders;
-  auto begin = sorted_places_.begin();
-  for (int domain = 1; domain < domain_count_; ++domain) {
-    const auto border = sorted_places_.begin() +
-                        std::ptrdiff_t(moving_.size() * std::size_t(domain) / std::size_t(domain_count_));
-    std::nth_element(begin, border, sorted_places_.end());
-    borders.push_back(*border);
-    begin = border;
-  }
-  const std::vector<std::int32_t> before = moving_;
-  std::vector<std::vector<std::int32_t>> members(static_cast<std::size_t>(domain_count_));
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    const auto domain = std::upper_bound(borders.begin(), borders.end(), places_[i]) - borders.begin();
-    members[std::size_t(domain)].push_back(before[i]);
-  }
-  moving_.clear();
-  for (std::size_t domain = 0; domain < members.size(); ++domain) {
-    domain_starts_[domain] = std::int32_t(moving_.size());
-    std::fill_n(domains_.begin() + std::ptrdiff_t(moving_.size()), members[domain].size(),
-                std::uint8_t(domain));
-    moving_.insert(moving_.end(), members[domain].begin(), members[domain].end());
-  }
-}
-
-// Along the longer side of the ground that they lie on.
-void ContactSolver::note_places(const std::vector<Body>& bodies) {
-  float low[2] = {1e30F, 1e30F}, high[2] = {-1e30F, -1e30F};
-  places_.clear();
-  sorted_places_.clear();  // here those across
-  for (std::int32_t body : moving_) {
-    const Vec3 at = bodies[body].world_from_com.translation;
-    const float place[2] = {float(at.x), float(at.y)};
-    for (int axis = 0; axis < 2; ++axis) {
-      low[axis] = std::min(low[axis], place[axis]);
-      high[axis] = std::max(high[axis], place[axis]);
-    }
-    places_.push_back(place[0]);
-    sorted_places_.push_back(place[1]);
-  }
-  if (high[1] - low[1] > high[0] - low[0]) places_.swap(sorted_places_);
-}
-
-// A light piece under a heavy one carries a load of many times its weight, which the sweeps reach
-// only after as many rounds, and in the meantime the heavy one bounces on it. While it is slow, its
-// inertia (not its weight) counts as at least 1/kMassRatio of what lies on it: loads at rest stay
-// exact, and momentum that goes into the light piece is lost, never gained. What nothing holds up from
-// below carries nothing: where two meet in the air, momentum is kept.
-void ContactSolver::share_inertia(const std::vector<Body>& bodies) {
-  share_.assign(moving_.size() + 1, 1.0F);
-  held_.assign(moving_.size() + 1, 0);
-  for (const Head& head : heads_) {
-    if (head.up < -kAbove) held_[number_[head.body_a]] = 1;
-    if (head.body_b != kGround && head.up > kAbove) held_[number_[head.body_b]] = 1;
-  }
-  const auto carry = [&](std::int32_t light, std::int32_t heavy, float up) {
-    if (up < kAbove || number_[light] == std::int32_t(moving_.size())) return;
-    const Body &l = bodies[light], &h = bodies[heavy];
-    if (held_[number_[light]] == 0 || !h.awake) return;
-    if (dot(l.linear, l.linear) > kCarrySpeed * kCarrySpeed) return;
-    const float share = float(kMassRatio * l.mass / h.mass);
-    share_[number_[light]] = std::min(share_[number_[light]], share);
-  };
-  for (const Head& head : heads_) {
-    if (head.body_b == kGround) continue;
-    carry(head.body_a, head.body_b, head.up);
-    carry(head.body_b, head.body_a, -head.up);
-  }
-}
-
-void ContactSolver::pack() {
-  plan_.begin(domain_count_, domains_);
-  for (const Head& head : heads_) {
-    if (head.tree) continue;
-    const std::int32_t beyond = std::int32_t(moving_.size());
-    plan_.add(head.contact, number_[head.body_a],
-              head.body_b == kGround ? beyond : number_[head.body_b], head.count);
-  }
-  plan_.finish();
-  batches_.resize(std::size_t(plan_.batch_count()));
-  std::int32_t rows = 0;
-  for (int i = 0; i < plan_.batch_count(); ++i) {
-    batches_[i].first_row = rows;
-    rows += batches_[i].rows = plan_.batch(i).rows;
-  }
-  rows_.resize(std::size_t(rows));
-  pushes_.resize(std::size_t(rows));
-}
 
 // What the rows ask of the moving bodies.
 void ContactSolver::note_bodies(const std::vector<Body>& bodies) {
@@ -296,15 +147,6 @@ void ContactSolver::run_substeps(const SolverSettings& settings, ThreadPool& poo
   if (sweeper.crowded()) crowded_steps_ = kCrowdedSteps;
   const float h = settings.step / float(settings.substeps);
   if (!tree_contacts_.empty()) tree_contacts_.end_substeps(double(settings.gravity * h));
-}
-
-// Threads take part where there is enough to do for each, unless other programs kept them from it lately:
-// waiting for a thread that does not run costs more than doing its work.
-int ContactSolver::choose_domain_count(const ThreadPool& pool) {
-  const int most = std::min({pool.threads(), int(heads_.size()) / kLeastContacts, kMostDomains});
-  if (most < 2) return 1;
-  if (crowded_steps_ > 0) return --crowded_steps_, 1;
-  return most;
 }
 
 std::size_t ContactSolver::slot_count() const {

@@ -294,6 +294,10 @@ PieceState World::piece(int index) const {
   return state;
 }
 
+Vec3 World::centre_of_mass(int index) const {
+  return impl_->data.bodies[std::size_t(index)].com_in_type;
+}
+
 void World::set_velocity(int index, const Vec3& linear, const Vec3& angular) {
   Body& body = impl_->data.bodies[index];
   if (!body.movable()) return;

@@ -78,6 +78,7 @@ class World {
   double time() const;  // simulated; unit: s
 
   PieceState piece(int index) const;
+  Vec3 centre_of_mass(int index) const;  // in the frame of the piece's type, scaled; unit: m
   bool is_awake(int index) const;
   bool is_touching(int index) const;  // something, in the last step
   // Changes a piece's speeds and wakes it. Immovable pieces cannot be changed. A link takes its tree

@@ -112,7 +112,7 @@ const Allowed kRender = stack(
 const Allowed kIo = stack(
     {"io/base/", "io/image/", "io/mesh/", "io/state/", "io/recording/", "io/ros/", "io/mrpt/",
      "io/datasets/", "io/playback/", "io/live/"},
-    {"kernel/base/", "kernel/model/pile_state.h", "kernel/model/pile.h",
+    {"kernel/base/", "kernel/model/pile_state.h", "kernel/model/pile.h", "kernel/model/track.h",
      "kernel/settling/settle_checkpoint.h", "render/scene/frame.h"});
 
 const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/"},

@@ -127,7 +127,8 @@ const Allowed kApp = stack(
     {"app/support/", "app/formats/", "app/provenance/", "app/assets/", "app/planning/", "app/pipeline/",
      "app/batch/", "app/eval/scores/", "app/eval/sfm/", "app/eval/map/",
      "app/drive/", "app/command_line/",
-     "app/commands/", "app/main.cpp"},
+     "app/commands/eval/", "app/commands/assets/", "app/commands/publish/", "app/commands/",
+     "app/main.cpp"},
     {"kernel/", "render/", "io/", "scripting/", "assets/generator/"});
 
 const Allowed kTop{{"assets/generator/", {"assets/generator/", "kernel/base/"}},

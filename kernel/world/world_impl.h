@@ -18,11 +18,6 @@
 
 namespace rubble {
 
-// Two pieces whose joint broke: they do not touch each other until they have come apart.
-struct PartedPair {
-  std::int32_t body_a = 0, body_b = 0;
-};
-
 // What a snapshot holds: all that changes from step to step.
 struct WorldData {
   std::vector<Body> bodies;
@@ -34,7 +29,6 @@ struct WorldData {
   std::unordered_map<std::uint64_t, std::int32_t> contact_of_pair;  // looked up, never walked
   std::vector<std::uint8_t> wake_next;                              // by body
   std::vector<Tree> trees;          // those that came apart keep their place, without links
-  std::vector<PartedPair> parted;
   std::int64_t steps = 0;
   std::int64_t verification_steps = -1;  // since begin_rest_verification(); -1: no verification
   std::int64_t all_awake_since = -1;  // in verification_steps; -1: some pieces doze
@@ -114,6 +108,7 @@ struct World::Impl {
   std::vector<TreeMotion> tree_motions;       // by number of the tree
   std::vector<std::int32_t> awake_trees;
   std::vector<std::uint8_t> is_solved;        // by number of the tree
+  std::vector<std::int32_t> released;  // a body of each joint that broke in this step
   SolvedTrees solved_trees;
 
   // world.cpp
@@ -210,8 +205,6 @@ struct World::Impl {
   void open_loops(int tree);
   void split_tree(int tree, const std::vector<std::uint8_t>& broken);
   void release(const TreeLink& link);
-  void forget_parted();
-  bool are_apart(const Body& a, const Body& b) const;
 };
 
 // Its members, like those of WorldData and what it holds, are listed in world_serialization.h as well.

@@ -105,7 +105,6 @@ class TreeContacts::Builder {
       item.belt[t] = dot(item.tangents[t], belt);
     }
     item.twist = all_.make_row(item, {n * -1.0, {}}, {n, {}});
-    if (contact.count < 2) item.twist.mass = 0;
     item.twist.impulse = double(contact.twist_impulse);
   }
 
@@ -202,6 +201,7 @@ void TreeContacts::place_friction_of(Item& item) {
   }
   item.radius = 0;
   for (int i = 0; i < item.rows; ++i) item.radius += share[i] * norm(rows[i].from_a - centre_a);
+  item.radius = std::max(item.radius, double(contact_law::kPatchRadius));
   for (int t = 0; t < 2; ++t) {
     const Vec3& along = item.tangents[t];
     set_row(item, force_at(item.sides[0].arm + centre_a, along * -1.0),

@@ -19,11 +19,6 @@
 
 namespace rubble {
 
-// Two pieces whose joint broke: they do not touch each other until they have come apart.
-struct PartedPair {
-  std::int32_t body_a = 0, body_b = 0;
-};
-
 // Which bodies are a robot: those from `first_body` on, in the order of its links.
 struct RobotRecord {
   std::int32_t tree = 0, first_body = 0;
@@ -40,7 +35,6 @@ struct WorldData {
   std::unordered_map<std::uint64_t, std::int32_t> contact_of_pair;  // looked up, never walked
   std::vector<std::uint8_t> wake_next;                              // by body
   std::vector<Tree> trees;          // those that came apart keep their place, without links
-  std::vector<PartedPair> parted;
   std::vector<RobotRecord> robots;
   std::int64_t steps = 0;
   std::int64_t verification_steps = -1;  // since begin_rest_verification(); -1: no verification
@@ -123,6 +117,7 @@ struct World::Impl {
   std::vector<TreeMotion> tree_motions;       // by number of the tree
   std::vector<std::int32_t> awake_trees;
   std::vector<std::uint8_t> is_solved;        // by number of the tree
+  std::vector<std::int32_t> released;  // a body of each joint that broke in this step
   SolvedTrees solved_trees;
 
   // world.cpp
@@ -230,8 +225,6 @@ struct World::Impl {
   void open_loops(int tree);
   void split_tree(int tree, const std::vector<std::uint8_t>& broken);
   void release(const TreeLink& link);
-  void forget_parted();
-  bool are_apart(const Body& a, const Body& b) const;
 };
 
 // Its members, like those of WorldData and what it holds, are listed in world_serialization.h as well.

@@ -108,11 +108,6 @@ void each_field(Struct& s, Visit&& visit) {
   visit(s.q), visit(s.u);
 }
 
-template <typename Struct, typename Visit, IfIs<Struct, PartedPair> = 0>
-void each_field(Struct& p, Visit&& visit) {
-  visit(p.body_a), visit(p.body_b);
-}
-
 template <typename Struct, typename Visit, IfIs<Struct, RobotRecord> = 0>
 void each_field(Struct& r, Visit&& visit) {
   visit(r.tree), visit(r.first_body);
@@ -122,7 +117,7 @@ template <typename Struct, typename Visit, IfIs<Struct, WorldData> = 0>
 void each_field(Struct& d, Visit&& visit) {
   visit(d.bodies), visit(d.colliders), visit(d.corners), visit(d.broad), visit(d.pairs);
   visit(d.contacts);
-  visit(d.contact_of_pair), visit(d.wake_next), visit(d.trees), visit(d.parted), visit(d.steps);
+  visit(d.contact_of_pair), visit(d.wake_next), visit(d.trees), visit(d.steps);
   visit(d.verification_steps), visit(d.all_awake_since), visit(d.lost);
   visit(d.robots);
 }

@@ -195,9 +195,6 @@ bool is_consistent(const World::Snapshot& s) {
     fine = fine && (b.tree == -1 || (in_range(b.tree, d.trees.size()) &&
                                      in_range(b.link, d.trees[b.tree].links.size())));
   }
-  for (const PartedPair& p : d.parted) {
-    fine = fine && in_range(p.body_a, d.bodies.size()) && in_range(p.body_b, d.bodies.size());
-  }
   std::int32_t start = 0;
   for (const std::int32_t next : s.block_starts) {
     fine = fine && next >= start && next <= std::int32_t(s.simbody.size());

@@ -64,8 +64,10 @@ RUBBLE_INLINE T shrink_into_cone(T limit, T length2) {
 // The slip that an impulse x leaves is K (x - sticking); it is against x where (K + s) x = K sticking
 // for a number s > 0, found by Newton's method on the length of x (More and Sorensen 1983).
 inline void solve_slide(const double* matrix, double limit, const double* sticking, double* x) {
+  // Newton's method on 1 / length converges in two to four steps; what is left is scaled away; unit: 1
   constexpr int kMostSteps = 8;
-  constexpr double kClose = 1e-6;  // of the limit
+  // Lengths that differ from the limit by less than this share of it count as equal; unit: 1
+  constexpr double kClose = 1e-6;
   const double k00 = matrix[0], k01 = matrix[1], k11 = matrix[2];
   const double b0 = k00 * sticking[0] + k01 * sticking[1], b1 = k01 * sticking[0] + k11 * sticking[1];
   double s = 0, x0 = sticking[0], x1 = sticking[1], length = std::sqrt(x0 * x0 + x1 * x1);

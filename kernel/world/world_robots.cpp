@@ -13,7 +13,8 @@ namespace {
 constexpr float kRobotTouch = 0.001F;
 // So many contacts away from a robot nothing that is awake falls asleep.
 constexpr int kPushedContacts = 3;
-constexpr float kFar = 1e30F;  // unit: m
+// Farther apart than any two points of a contact; unit: m.
+constexpr float kFar = 1e30F;
 
 void check_number(double value, const std::string& key) {
   if (std::isfinite(value)) return;

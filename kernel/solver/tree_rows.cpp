@@ -104,6 +104,9 @@ class TreeContacts::Builder {
       item.slide[t].impulse = dot(item.tangents[t], Vec3(contact.friction_impulse));
       item.belt[t] = dot(item.tangents[t], belt);
     }
+    for (const Side& side : item.sides) {
+      item.driven = item.driven || (side.tree >= 0 && all_.motion(side.tree).tree().driven);
+    }
     item.twist = all_.make_row(item, {n * -1.0, {}}, {n, {}});
     item.twist.impulse = double(contact.twist_impulse);
   }
@@ -211,6 +214,7 @@ void TreeContacts::place_friction_of(Item& item) {
   const double k00 = r.couple<sides>(r), k01 = r.couple<sides>(s), k11 = s.couple<sides>(s);
   const double determinant = k00 * k11 - k01 * k01;
   const double inverse = determinant > 0 ? 1 / determinant : 0;
+  item.slide_matrix[0] = k00, item.slide_matrix[1] = k01, item.slide_matrix[2] = k11;
   item.slide_inverse[0] = k11 * inverse;
   item.slide_inverse[1] = -k01 * inverse;
   item.slide_inverse[2] = k00 * inverse;

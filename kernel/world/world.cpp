@@ -228,21 +228,26 @@ int World::add(const std::vector<NewPiece>& pieces) {
     }
   }
 
-  // Neighbours in height land and fall asleep together, so they share a block.
-  std::vector<std::int32_t> order;
-  for (int i = first; i < size(); ++i) {
-    if (w.data.bodies[i].mass > 0 && w.data.bodies[i].tree < 0) order.push_back(i);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return w.data.bodies[a].world_from_com.translation.z <
-           w.data.bodies[b].world_from_com.translation.z;
-  });
-  std::vector<FreeBody> sorted;
-  for (int body : order) sorted.push_back(free[body - first]);
-  int mobile = w.blocks.add(sorted);
-  for (int body : order) w.data.bodies[body].simbody_index = mobile++;
+  w.add_to_blocks(first, free);
   w.introduce(first);
   return first;
+}
+
+// free: by body, from `first` on.
+void World::Impl::add_to_blocks(int first, const std::vector<FreeBody>& free) {
+  // Neighbours in height land and fall asleep together, so they share a block.
+  std::vector<std::int32_t> order;
+  for (int i = first; i < int(data.bodies.size()); ++i) {
+    if (data.bodies[i].mass > 0 && data.bodies[i].tree < 0) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return data.bodies[a].world_from_com.translation.z <
+           data.bodies[b].world_from_com.translation.z;
+  });
+  std::vector<FreeBody> sorted;
+  for (int body : order) sorted.push_back(free[std::size_t(body - first)]);
+  int mobile = blocks.add(sorted);
+  for (int body : order) data.bodies[body].simbody_index = mobile++;
 }
 
 void World::Impl::introduce(int first) {
@@ -250,7 +255,7 @@ void World::Impl::introduce(int first) {
   for (int i = first; i < count; ++i) {
     Body& body = data.bodies[i];
     refresh(body);
-    for (int c = 0; c < body.collider_count; ++c) {
+    for (int c = 0; c < body.collider_count && !body.lost; ++c) {
       const int collider = body.first_collider + c;
       data.broad.update(collider, data.colliders[collider].box, {});
     }
@@ -258,7 +263,9 @@ void World::Impl::introduce(int first) {
   const std::size_t before = surfaces.size();
   list_surfaces();
   // What was there before may lie near a surface that is new.
-  for (int i = surfaces.size() > before ? 0 : first; i < count; ++i) find_first_pairs(i);
+  for (int i = surfaces.size() > before ? 0 : first; i < count; ++i) {
+    if (!data.bodies[i].lost) find_first_pairs(i);
+  }
 }
 
 int World::size() const { return int(impl_->data.bodies.size()); }

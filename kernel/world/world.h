@@ -49,6 +49,12 @@ class World {
   // range.
   int add(const std::vector<NewPiece>& pieces);
 
+  // Lays a pile that has settled into an empty world with the pile's types and assemblies, every piece
+  // where it was, asleep, with its joints; pieces keep their numbers. What each contact carries is found by
+  // letting all of them be awake for half a second. fixed: nothing of it ever moves. Throws InputError for
+  // a state of another pile.
+  void lay(const Pile& pile, const PileState& state, bool fixed = false);
+
   void step();
   // Changes the length of the steps to come, e.g. when robots are put into a pile that has settled. What
   // sleepers carry goes with it. substeps: of the contact solver, range 1 to 64. Throws InputError for a

@@ -124,6 +124,7 @@ struct World::Impl {
   void add_body(const NewPiece& piece, FreeBody* free);
   void mirror(Body& body);   // q and u from Simbody
   void refresh(Body& body);  // rotation, inertia, corners, boxes
+  void add_to_blocks(int first, const std::vector<FreeBody>& free);
   void introduce(int first);  // bodies from there on to all others
   void find_first_pairs(int body);
   void list_surfaces();
@@ -193,6 +194,10 @@ struct World::Impl {
   double calc_travel(const Body& body) const;
   void remove_lost();
   void lose(int body);
+
+  // world_resume.cpp
+  void join_settled(const Pile& pile, const PileState& state);
+  void lay_to_rest(const PileState& state, const std::vector<TreeState>& trees);
 
   // world_robots.cpp
   int add_robot(const RobotModel& model, const Pose& world_from_base);

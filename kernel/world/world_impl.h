@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <tuple>
 #include <unordered_map>
 #include <vector>
@@ -24,6 +25,12 @@ struct RobotRecord {
   std::int32_t tree = 0, first_body = 0;
 };
 
+// Pieces that hold together: one rigid body.
+struct RigidGroup {
+  std::vector<std::int32_t> members;  // ascending; the first one leads. Empty: there is no such group
+  Vec3f reach;                        // largest |x|, |y|, |z| of any corner; unit: m
+};
+
 // What a snapshot holds: all that changes from step to step.
 struct WorldData {
   std::vector<Body> bodies;
@@ -36,6 +43,7 @@ struct WorldData {
   std::vector<std::uint8_t> wake_next;                              // by body
   std::vector<Tree> trees;          // those that came apart keep their place, without links
   std::vector<RobotRecord> robots;
+  std::vector<RigidGroup> groups;   // those that came apart keep their place
   std::int64_t steps = 0;
   std::int64_t verification_steps = -1;  // since begin_rest_verification(); -1: no verification
   std::int64_t all_awake_since = -1;  // in verification_steps; -1: some pieces doze
@@ -91,6 +99,7 @@ struct World::Impl {
   SimbodyTrees simbody_trees;
   ContactSolver solver;
   StepTimes times;
+  std::function<bool()> on_solved;  // see World::set_on_solved()
 
   // Scratch of a step.
   std::vector<std::int32_t> awake_bodies;  // those that take part in the step, ascending
@@ -181,7 +190,25 @@ struct World::Impl {
   void doze();
   void wake_dozing();
 
+  // world_groups.cpp
+  template <typename Action>
+  void each_collider(const Body& body, Action&& action) const;
+  Body& acting(int piece);
+  const Body& acting(int piece) const;
+  const Vec3f& reach_of(const Body& body) const;
+  double collider_friction(std::int32_t collider) const;
+  void bind(int first, int count);
+  void split(int lead, const std::vector<SplitPart>& parts);
+  void form_group(const SplitPart& part, const Body& whole);
+  void set_free(const std::vector<SplitPart>& parts, const Body& whole, const Vec3& linear,
+                const Vec3& angular);
+  void weigh(Body& body, const RigidGroup& group);
+  void move_contacts(const Vec3& old_centre, int old_lead);
+  void refresh_group(Body& body);
+
   // world_step.cpp
+  void find_contacts();
+  void solve();
   void apply_forces();
   void solve_contacts();
   void sort_by_height();
@@ -231,6 +258,16 @@ struct World::Impl {
   void split_tree(int tree, const std::vector<std::uint8_t>& broken);
   void release(const TreeLink& link);
 };
+
+// Of a group those of all its members; by number.
+template <typename Action>
+void World::Impl::each_collider(const Body& body, Action&& action) const {
+  const auto of = [&action](const Body& piece) {
+    for (int i = 0; i < piece.collider_count; ++i) action(piece.first_collider + i);
+  };
+  if (body.group < 0) return of(body);
+  for (const std::int32_t member : data.groups[body.group].members) of(data.bodies[member]);
+}
 
 // Its members, like those of WorldData and what it holds, are listed in world_serialization.h as well.
 struct World::Snapshot {

@@ -312,13 +312,13 @@ Frame Renderer::render(const ViewRays& view, int index) {
   return frame;
 }
 
-void Renderer::add_channels(const ChannelSet& channels, const ViewRays* next, Frame& frame) {
-  if (!channels.any()) return;
+void Renderer::add_truth(const StreamSet& streams, const ViewRays* next, Frame& frame) {
+  if (streams.empty()) return;
   State& s = *state_;
   s.context.make_current();
   const std::vector<std::uint32_t> ids = s.read_ids();
   const std::vector<float> distances = s.distances();
-  s.ground_truth->fill(channels, {s.drawn, ids, distances, next}, frame);
+  s.ground_truth->fill(streams, {s.drawn, ids, distances, next}, frame);
 }
 
 LinearFrame Renderer::render_linear(const Pose& world_from_camera, const Intrinsics& intrinsics) {

@@ -41,6 +41,7 @@ std::optional<PixelPoint> project_rows(const Lens& lens, const ViewRays& view, c
 }  // namespace
 
 struct GroundTruthMaker::Pixel {
+  std::uint32_t placed = 0;    // number of the piece's placed mesh
   const PlacedMesh* piece = nullptr;
   std::uint32_t triangle = 0;  // of its prepared mesh
   Vec3 world;                  // the point that is seen
@@ -80,7 +81,9 @@ class GroundTruthMaker::Seen : public SeenSurface {
   }
   std::optional<std::array<double, 2>> in_next_frame() const override {
     if (!view_.next) return std::nullopt;
-    const auto next = project_rows(lens_, *view_.next, point, v);
+    const auto later = maker_.where_next(view_, pixel.placed, point);
+    if (!later) return std::nullopt;
+    const auto next = project_rows(lens_, *view_.next, *later, v);
     return next ? std::optional(std::array<double, 2>{next->u, next->v}) : std::nullopt;
   }
 
@@ -104,6 +107,7 @@ std::vector<GroundTruthMaker::Seen> GroundTruthMaker::see_row(const DrawnView& v
     seen.u = int(u), seen.v = v;
     seen.point = pose * (view.rays.direction(int(u), v) * double(view.distances[i]));
     seen.world_from_optical = pose;
+    seen.pixel.placed = placed - 1;
     seen.pixel.piece = &scene_.placed[placed - 1];
     seen.pixel.triangle = geometry_.triangle_of_name[view.ids[i * 2 + 1]];
     seen.pixel.world = seen.point;
@@ -126,8 +130,34 @@ void GroundTruthMaker::fill_row(const ImageStream& stream, const std::vector<See
       image);
 }
 
+// Where a point of a surface will be when the next image is taken.
+std::optional<Vec3> GroundTruthMaker::where_next(const DrawnView& view, std::uint32_t placed,
+                                                 const Vec3& world) const {
+  if (view.shift.moves.empty() || !view.shift.moves[placed]) return world;
+  const std::optional<Pose>& then = view.shift.then[placed];
+  if (!then) return std::nullopt;
+  return *then * (scene_.placed[placed].world_from_mesh.inverse() * world);
+}
+
+std::vector<Vec3f> GroundTruthMaker::shifts(const DrawnView& view) const {
+  std::vector<Vec3f> out(view.distances.size());
+  if (view.shift.moves.empty()) return out;
+  parallel_for(std::size_t(view.rays.intrinsics.height), threads_, [&](std::size_t v) {
+    const Pose pose = view.rays.pose(int(v));
+    const std::size_t width = std::size_t(view.rays.intrinsics.width);
+    for (std::size_t i = v * width; i < (v + 1) * width; ++i) {
+      if (!view.ids[i * 2] || std::isnan(view.distances[i])) continue;
+      const Vec3 world =
+          pose * (view.rays.direction(int(i - v * width), int(v)) * double(view.distances[i]));
+      if (const auto later = where_next(view, view.ids[i * 2] - 1, world)) out[i] = Vec3f(*later - world);
+    }
+  });
+  return out;
+}
+
 const RayScene& GroundTruthMaker::rays() {
   if (!rays_) rays_ = std::make_unique<RayScene>(scene_, RayScene::Detail::finest);
+  rays_->follow();
   return *rays_;
 }
 

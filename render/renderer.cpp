@@ -348,15 +348,17 @@ Frame Renderer::render(const ViewRays& view, int index) {
   return frame;
 }
 
-void Renderer::add_channels(const ChannelSet& channels, const ViewRays* next, Frame& frame) {
-  if (!channels.any()) return;
+void Renderer::add_truth(const StreamSet& streams, const ViewRays* next, Frame& frame) {
+  if (streams.empty()) return;
   State& s = *state_;
   s.context.make_current();
   const std::vector<std::uint32_t> ids = s.read_ids();
   const std::vector<float> distances = s.distances();
   DrawnView view{s.drawn, ids, distances, next};
-  if (next && channels.flow) view.shift = s.moving.shift_to(next->stamp_ns);
-  s.ground_truth->fill(channels, view, frame);
+  const bool follows = std::any_of(streams.begin(), streams.end(),
+                                   [](const ImageStream* stream) { return stream->needs_next; });
+  if (next && follows) view.shift = s.moving.shift_to(next->stamp_ns);
+  s.ground_truth->fill(streams, view, frame);
 }
 
 std::vector<Vec3f> Renderer::shifts(std::int64_t stamp_ns) const {

@@ -106,7 +106,7 @@ Allowed stack(const Prefixes& rooms, const Prefixes& others) {
 }
 
 const Allowed kRender = stack(
-    {"render/scene/", "render/gl/", "render/camera/", "render/materials/", "render/geometry/",
+    {"render/scene/", "render/streams/", "render/gl/", "render/camera/", "render/materials/", "render/geometry/",
      "render/lighting/", "render/media/", "render/raster/", "render/passes/", "render/renderer.",
      "render/sensors/"},
     {"kernel/base/"});
@@ -115,7 +115,7 @@ const Allowed kIo = stack(
     {"io/base/", "io/image/", "io/mesh/", "io/state/", "io/recording/", "io/ros/", "io/mrpt/",
      "io/datasets/", "io/playback/", "io/live/"},
     {"kernel/base/", "kernel/model/pile_state.h", "kernel/model/pile.h", "kernel/model/track.h",
-     "kernel/settling/settle_checkpoint.h", "render/scene/frame.h"});
+     "kernel/settling/settle_checkpoint.h", "render/scene/", "render/streams/image_streams.h"});
 
 const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/"},
                                  {"kernel/base/", "kernel/voids/"});
@@ -123,7 +123,8 @@ const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/"},
 const Allowed kScripting = stack(
     {"scripting/values/", "scripting/trajectory/", "scripting/schema/", "scripting/sandbox/",
      "scripting/packs/", "scripting/scenario/", "scripting/reference/", "scripting/"},
-    {"kernel/base/", "kernel/model/pile.h", "kernel/settling/settle.h", "render/scene/"});
+    {"kernel/base/", "kernel/model/pile.h", "kernel/settling/settle.h", "render/scene/",
+     "render/streams/image_streams.h"});
 
 const Allowed kApp = stack(
     {"app/support/", "app/formats/", "app/provenance/", "app/assets/", "app/planning/", "app/pipeline/",

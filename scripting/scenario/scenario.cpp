@@ -229,6 +229,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_channels(scenario.camera, mistakes);
   check_camera(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
+  check_robots(scenario, mistakes);
   if (scenario.voids.radius < scenario.voids.voxel)
     mistakes.push_back({"", 0, "voids.radius", "smaller than a voxel",
                         "at least voids.voxel = " + format_number(scenario.voids.voxel),

@@ -19,6 +19,7 @@
 #include "render/scene/camera_spec.h"
 #include "render/scene/frame.h"
 #include "render/scene/scene.h"
+#include "scripting/scenario/robot_scenario.h"
 #include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
@@ -182,6 +183,8 @@ struct Scenario {
   ImuScenario imu;                // in the camera
   OutputScenario outputs;         // what is written
   VoidScenario voids;             // whether voids are measured
+  std::vector<RobotItem> robots;  // driven through the settled pile
+  RobotRunScenario robot_run;     // how long
 
   // Throws InputError with every mistake: out of range, not finite, contradicting each other.
   void validate() const;

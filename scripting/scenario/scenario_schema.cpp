@@ -428,6 +428,7 @@ Schema make_scenario_schema(Scenario& s) {
   add_trajectory(keys, s.trajectory);
   add_imu(keys, s.imu);
   add_voids(keys, s.voids);
+  add_robot_keys(keys, s);
   add_outputs(keys, s.outputs);
   add_aliases(keys);
   return keys;

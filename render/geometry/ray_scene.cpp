@@ -1,20 +1,9 @@
 #include "render/geometry/ray_scene.h"
 
-#include <embree3/rtcore.h>
-
 #include "kernel/base/error.h"
+#include "render/geometry/ray_scene_embree.h"
 
 namespace rubble {
-
-struct RayScene::Embree {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-
-  ~Embree() {
-    if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
-  }
-};
 
 RayScene::RayScene(const PreparedScene& scene, Detail detail)
     : embree_(std::make_unique<Embree>()) {

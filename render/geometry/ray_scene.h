@@ -1,6 +1,7 @@
 // Ray casting against the pieces. Internal to render/.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -25,12 +26,30 @@ class RayScene {
 
   enum class Detail { coarsest, finest };  // which level of each piece
 
+  struct Ray {
+    Vec3f from;
+    float nearest = 0;  // unit: lengths of `direction`, as all distances here
+    Vec3f direction;
+    float farthest = 0;
+  };
+  struct PreciseHit {
+    std::uint32_t triangle = kNone;  // index into triangles()
+    float distance = 0;
+    float u = 0, v = 0;  // weights of the triangle's second and third corner
+    bool back = false;   // from inside
+  };
+  // Packets pay where neighbouring rays go the same way; elsewhere each ray goes alone.
+  enum class Order { coherent, scattered };
+
   explicit RayScene(const PreparedScene& scene, Detail detail = Detail::coarsest);
   ~RayScene();
 
   // May be called from several threads.
   Hit cast(const Vec3f& from, const Vec3f& direction, float nearest, float farthest) const;
   bool blocked(const Vec3f& from, const Vec3f& direction, float nearest, float farthest) const;
+  // The same for `count` rays at once: hits[i] is that of rays[i], hidden[i] is 1 where it is blocked.
+  void cast_many(const Ray* rays, std::size_t count, Order order, PreciseHit* hits) const;
+  void blocked_many(const Ray* rays, std::size_t count, Order order, std::uint8_t* hidden) const;
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
  private:

@@ -103,8 +103,8 @@ Allowed stack(const Prefixes& rooms, const Prefixes& others) {
 
 const Allowed kRender = stack(
     {"render/scene/", "render/gl/", "render/camera/", "render/materials/", "render/geometry/",
-     "render/lighting/", "render/media/", "render/raster/", "render/passes/", "render/renderer.",
-     "render/sensors/"},
+     "render/lighting/", "render/media/", "render/raster/", "render/passes/",
+     "render/reference/", "render/renderer.", "render/sensors/"},
     {"kernel/base/"});
 
 const Allowed kIo = stack(
@@ -197,7 +197,7 @@ const std::map<std::string, Prefixes> kDoors{
     {"SimTK", {"kernel/multibody/"}},
     {"xxhash.h", {"kernel/base/"}},
     {"openssl/", {"kernel/base/"}},
-    {"embree3/", {"kernel/queries/query_tree.cpp", "render/geometry/ray_scene.cpp"}},
+    {"embree3/", {"kernel/queries/query_tree.cpp", "render/geometry/ray_"}},
     {"EGL/", {"render/gl/"}},
     {"GL/", {"render/gl/"}},
     {"assimp/", {"io/mesh/mesh_file.cpp"}},

@@ -1,6 +1,7 @@
 // The inside of World: its data and the stages of a step. Not for use outside kernel/.
 #pragma once
 
+#include <deque>
 #include <tuple>
 #include <unordered_map>
 #include <vector>
@@ -23,6 +24,11 @@ struct PartedPair {
   std::int32_t body_a = 0, body_b = 0;
 };
 
+// Which bodies are a robot: those from `first_body` on, in the order of its links.
+struct RobotRecord {
+  std::int32_t tree = 0, first_body = 0;
+};
+
 // What a snapshot holds: all that changes from step to step.
 struct WorldData {
   std::vector<Body> bodies;
@@ -35,6 +41,7 @@ struct WorldData {
   std::vector<std::uint8_t> wake_next;                              // by body
   std::vector<Tree> trees;          // those that came apart keep their place, without links
   std::vector<PartedPair> parted;
+  std::vector<RobotRecord> robots;
   std::int64_t steps = 0;
   std::int64_t verification_steps = -1;  // since begin_rest_verification(); -1: no verification
   std::int64_t all_awake_since = -1;  // in verification_steps; -1: some pieces doze
@@ -76,9 +83,11 @@ struct World::Impl {
   Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options,
        std::vector<AssemblyType> assembly_types);
 
-  std::vector<PieceType> types;
+  std::vector<PieceType> types;  // those of the links of robots come last
+  int placeable_types = 0;       // the others
   std::vector<AssemblyType> assemblies;
-  std::vector<Shape> shapes;
+  std::deque<Shape> shapes;      // by type; bodies point at them
+  std::vector<RobotModel> robots;
   WorldOptions options;
   SolverSettings solver_settings;
   NarrowSettings narrow_settings;
@@ -120,6 +129,7 @@ struct World::Impl {
   void add_body(const NewPiece& piece, FreeBody* free);
   void mirror(Body& body);   // q and u from Simbody
   void refresh(Body& body);  // rotation, inertia, corners, boxes
+  void introduce(int first);  // bodies from there on to all others
   void find_first_pairs(int body);
   void list_surfaces();
   Vec3 linear_velocity(const Body& body) const;
@@ -189,8 +199,18 @@ struct World::Impl {
   void remove_lost();
   void lose(int body);
 
+  // world_robots.cpp
+  int add_robot(const RobotModel& model, const Pose& world_from_base);
+  void set_command(int robot, const RobotCommand& command);
+  bool touches_robot(const Contact& contact) const;
+  bool is_driven(std::int32_t body) const;
+  void stay_awake_near_robots();  // in `slept`
+  bool is_of_robot(const Contact& contact, const RobotRecord& robot) const;
+
   // world_trees.cpp
-  void add_tree(const NewPiece& piece);
+  void add_assembly(const NewPiece& piece);
+  Tree make_tree(const AssemblyType& assembly, const NewPiece& piece);
+  void start_tree(const Tree& tree, const NewPiece& piece, const std::vector<double>& joint_positions);
   bool are_joined(int body_a, int body_b) const;
   bool is_awake(const Tree& tree) const;
   void begin_trees();

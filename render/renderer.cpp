@@ -90,7 +90,7 @@ float most_gloss(const PreparedScene& scene) {
 
 ReferenceOptions reference_options(const RenderOptions& o, std::uint64_t seed) {
   ReferenceOptions out;
-  out.samples = o.samples, out.denoise = o.denoise, out.jitter = o.antialias;
+  out.samples = o.colour.samples, out.denoise = o.colour.denoise, out.jitter = o.antialias;
   out.threads = o.threads, out.seed = seed;
   out.cache_folder = o.cache_folder;
   out.progress = o.image_progress;
@@ -168,7 +168,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
   const std::vector<PatternImage> patterns = make_patterns_once(cache, o.texture_size, o.threads);
   report(0.15);
   BakedScene baked;
-  if (o.bake && o.quality == RenderQuality::fast) {
+  if (o.bake && o.colour.quality == RenderQuality::fast) {
     BakeOptions bake;
     bake.threads = o.threads;
     bake.rays = o.bake_rays;
@@ -188,7 +188,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
                         o.threads});
   resolve = std::make_unique<ResolvePass>(gl, geometry, frame_light, make_ground_map(scene),
                                           patterns);
-  if (o.quality == RenderQuality::reference)
+  if (o.colour.quality == RenderQuality::reference)
     reference = std::make_unique<ReferencePass>(
         ReferenceSurroundings{scene, light, patterns, s.wetness}, reference_options(o, s.seed));
   ground_truth = std::make_unique<GroundTruthMaker>(scene, geometry, o.threads);

@@ -20,10 +20,6 @@ namespace rubble {
 // is a software driver.
 enum class RasterChoice { automatic, device, processor };
 
-// How colours come about. fast: baked light, shadow maps and shading on the graphics device. reference:
-// path tracing, see reference/path_tracer.h; slow, exact but for noise. Depth and channels are the same.
-enum class RenderQuality { fast, reference };
-
 struct RenderOptions {
   // Where textures and baked light are kept from run to run, see DiskCache; "": nowhere.
   std::string cache_folder;
@@ -38,11 +34,8 @@ struct RenderOptions {
                               // 0: the finest always, so that depth is that of the true surface
   bool antialias = true;      // smooth silhouettes of the colour image
   double fixed_exposure = 0;  // factor on luminance in kcd/m2; 0: automatic
-  RenderQuality quality = RenderQuality::fast;
-  // Of the reference alone.
-  int samples = 64;      // a pixel; range: 1 to 65536
-  bool denoise = false;  // filtered, see reference/denoise.h
-  // Called on the calling thread with the done fraction of an image; may throw to stop.
+  ColourSpec colour;          // fast, or path traced
+  // Of a path-traced image: called on the calling thread with its done fraction; may throw to stop.
   std::function<void(double)> image_progress;
 };
 

@@ -204,7 +204,7 @@ const std::map<std::string, Prefixes> kDoors{
     {"EGL/", {"render/gl/"}},
     {"GL/", {"render/gl/"}},
     {"assimp/", {"io/mesh/mesh_file.cpp"}},
-    {"opencv2/", {"io/image/", "io/recording/contact_sheet.cpp", "io/voids/void_picture.cpp"}},
+    {"opencv2/", {"bench/images/picture_file.cpp", "io/image/", "io/recording/contact_sheet.cpp", "io/voids/void_picture.cpp"}},
     {"mrpt/", {"io/mrpt/", "io/playback/rawlog_pictures.cpp"}},
     {"rosbag/", {"io/ros/"}},
     {"sensor_msgs/", {"io/ros/"}},

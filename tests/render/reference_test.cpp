@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 RenderOptions reference(int samples, int threads = 1) {
   RenderOptions options;
-  options.quality = RenderQuality::reference;
-  options.samples = samples, options.threads = threads;
+  options.colour.quality = RenderQuality::reference;
+  options.colour.samples = samples, options.threads = threads;
   options.texture_size = 64;
   return options;
 }
@@ -42,7 +42,7 @@ TEST(Reference, LeavesDepthAndChannelsAsTheyAre) {
   channels.normals = channels.instance = channels.label = true;
   const auto draw = [&](RenderQuality quality) {
     RenderOptions options = reference(1);
-    options.quality = quality, options.bake_rays = 8;
+    options.colour.quality = quality, options.bake_rays = 8;
     Renderer renderer(context, make_heap(40, 7), options);
     Frame frame = renderer.render(look_at({4, 2, 1.5}, {0, 0, 0.5}), pinhole(80, 70, 60), 0, 1000000000);
     renderer.add_channels(channels, nullptr, frame);
@@ -80,7 +80,7 @@ TEST(Reference, KnowsTheSurfacesOfTheShader) {
     if (look.gloss > 0 || look.name == std::string("ground")) continue;
     const auto draw = [&](RenderQuality quality) {
       RenderOptions options = reference(1);
-      options.quality = quality, options.bake = false;
+      options.colour.quality = quality, options.bake = false;
       options.antialias = false;
       options.texture_size = 32;  // each texel wider than a pixel: both read the finest level
       return Renderer(context, block_of(look.name), options).render_linear({}, pinhole(96, 96, 1500));
@@ -163,7 +163,7 @@ TEST(Denoise, BringsAnImageOfFewSamplesNearerToOneOfMany) {
   GlContext context;
   const auto draw = [&](int samples, bool denoise) {
     RenderOptions options = reference(samples, 2);
-    options.denoise = denoise;
+    options.colour.denoise = denoise;
     Scene scene = make_heap(60, 7);
     const std::vector<float> rgb =
         Renderer(context, scene, options).render_linear(look_at({1.6, 0.3, 0.6}, {-1.5, 0, 0.5}), pinhole(64, 64, 40)).rgb;

@@ -115,34 +115,35 @@ double slope_of_spectrum(const Luma& image) {
   return points.size() > 1 ? slope_of_line(points) : 0;
 }
 
-// Blurred by a Gaussian of 1.5 pixels, 11 wide, where the whole of it lies in the image.
-Luma blur(const Luma& image) {
-  std::array<float, 11> kernel;
-  float sum = 0;
-  for (int i = 0; i < 11; ++i) sum += kernel[std::size_t(i)] = std::exp(-float((i - 5) * (i - 5)) / 4.5f);
-  for (float& k : kernel) k /= sum;
-  Luma rows{image.width - 10, image.height, {}};
-  for (int y = 0; y < rows.height; ++y) {
+// In double precision: variances are small differences of large squares.
+struct Plane {
+  int width, height;
+  std::vector<double> values;
+};
+
+// Of a product of two images: blurred by a Gaussian of 1.5 pixels, 11 wide, where the whole of it lies
+// in the image.
+Plane blurred_product(const std::vector<double>& a, const std::vector<double>& b, int width, int height) {
+  std::array<double, 11> kernel;
+  double sum = 0;
+  for (int i = 0; i < 11; ++i) sum += kernel[std::size_t(i)] = std::exp(-(i - 5) * (i - 5) / 4.5);
+  for (double& k : kernel) k /= sum;
+  Plane rows{width - 10, height, {}};
+  for (int y = 0; y < height; ++y) {
     for (int x = 0; x < rows.width; ++x) {
-      float v = 0;
-      for (int i = 0; i < 11; ++i) v += kernel[std::size_t(i)] * image.at(x + i, y);
+      const std::size_t at = std::size_t(y) * std::size_t(width) + std::size_t(x);
+      double v = 0;
+      for (std::size_t i = 0; i < 11; ++i) v += kernel[i] * a[at + i] * b[at + i];
       rows.values.push_back(v);
     }
   }
-  Luma out{rows.width, image.height - 10, {}};
-  for (int y = 0; y < out.height; ++y) {
-    for (int x = 0; x < out.width; ++x) {
-      float v = 0;
-      for (int i = 0; i < 11; ++i) v += kernel[std::size_t(i)] * rows.at(x, y + i);
-      out.values.push_back(v);
-    }
+  Plane out{rows.width, height - 10, {}};
+  const std::size_t stride = std::size_t(rows.width);
+  for (std::size_t at = 0; at < stride * std::size_t(out.height); ++at) {
+    double v = 0;
+    for (std::size_t i = 0; i < 11; ++i) v += kernel[i] * rows.values[at + i * stride];
+    out.values.push_back(v);
   }
-  return out;
-}
-
-Luma product(const Luma& a, const Luma& b) {
-  Luma out{a.width, a.height, {}};
-  for (std::size_t i = 0; i < a.values.size(); ++i) out.values.push_back(a.values[i] * b.values[i]);
   return out;
 }
 
@@ -183,13 +184,18 @@ double structural_similarity(const Luma& a, const Luma& b) {
   check_sizes(a.width, a.height, b.width, b.height);
   if (a.width < 11 || a.height < 11) throw RunError("structural similarity needs 11 x 11 pixels at least");
   constexpr double kC1 = 0.01 * 255 * 0.01 * 255, kC2 = 0.03 * 255 * 0.03 * 255;
-  const Luma ma = blur(a), mb = blur(b);
-  const Luma aa = blur(product(a, a)), bb = blur(product(b, b)), ab = blur(product(a, b));
+  const std::vector<double> one(a.values.size(), 1), va(a.values.begin(), a.values.end());
+  const std::vector<double> vb(b.values.begin(), b.values.end());
+  const auto blur = [&](const std::vector<double>& u, const std::vector<double>& v) {
+    return blurred_product(u, v, a.width, a.height);
+  };
+  const Plane ma = blur(va, one), mb = blur(vb, one);
+  const Plane aa = blur(va, va), bb = blur(vb, vb), ab = blur(va, vb);
   double sum = 0;
   for (std::size_t i = 0; i < ma.values.size(); ++i) {
-    const double x = double(ma.values[i]), y = double(mb.values[i]);
-    const double vx = double(aa.values[i]) - x * x, vy = double(bb.values[i]) - y * y;
-    const double cov = double(ab.values[i]) - x * y;
+    const double x = ma.values[i], y = mb.values[i];
+    const double vx = aa.values[i] - x * x, vy = bb.values[i] - y * y;
+    const double cov = ab.values[i] - x * y;
     sum += (2 * x * y + kC1) * (2 * cov + kC2) / ((x * x + y * y + kC1) * (vx + vy + kC2));
   }
   return sum / double(ma.values.size());

@@ -91,7 +91,7 @@ TEST(StructuralSimilarity, IsOneOfEqualsAndFallsWithNoise) {
   // Of two even pictures the formula leaves the means alone.
   const double x = 100, y = 110, c1 = 2.55 * 2.55;
   EXPECT_NEAR(structural_similarity(even(32, 100), even(32, 110)),
-              (2 * x * y + c1) / (x * x + y * y + c1), 1e-5);
+              (2 * x * y + c1) / (x * x + y * y + c1), 1e-9);
   EXPECT_THROW(structural_similarity(a, even(32, 0)), RunError);
 }
 
@@ -124,7 +124,7 @@ TEST(PictureFile, ReadsWhatWeWriteAndCountsSpots) {
   const Picture jpeg = read_picture((folder / "a.jpg").string());
   ASSERT_EQ(jpeg.rgb.size(), png.rgb.size());
   EXPECT_GE(count_keypoints(png), 9);
-  EXPECT_LE(count_keypoints(png), 40);
+  EXPECT_LE(count_keypoints(png), 100);  // also between the spots
   EXPECT_EQ(count_keypoints({64, 64, std::vector<std::uint8_t>(64 * 64 * 3, 7)}), 0);
   EXPECT_THROW(read_picture((folder / "none.png").string()), InputError);
   fs::remove_all(folder);

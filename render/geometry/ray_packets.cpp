@@ -48,12 +48,14 @@ void RayScene::cast_many(const Ray* rays, std::size_t count, Order order, Precis
       RTCRayHit query{};
       query.ray = one(rays[i]);
       query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
       rtcIntersect1(embree_->scene, &context, &query);
       hits[i] = PreciseHit();
       if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
-      const Vec3f normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
-      hits[i] = {query.hit.primID, query.ray.tfar, query.hit.u, query.hit.v,
-                 dot(normal, rays[i].direction) > 0};
+      const Met met = met_by(query.hit.primID, query.hit.instID[0],
+                             {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
+      hits[i] = {met.triangle, query.ray.tfar, query.hit.u, query.hit.v,
+                 dot(met.normal, rays[i].direction) > 0};
     }
     return;
   }
@@ -62,13 +64,15 @@ void RayScene::cast_many(const Ray* rays, std::size_t count, Order order, Precis
     RTCRayHit8 query;
     fill(rays + first, count - first, lanes, query.ray);
     for (unsigned& id : query.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
+    for (unsigned& id : query.hit.instID[0]) id = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect8(lanes.valid, embree_->scene, &context, &query);
     for (std::size_t i = 0; i < std::min(kWidth, count - first); ++i) {
       hits[first + i] = PreciseHit();
       if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-      const Vec3f normal(query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]);
-      hits[first + i] = {query.hit.primID[i], query.ray.tfar[i], query.hit.u[i], query.hit.v[i],
-                         dot(normal, rays[first + i].direction) > 0};
+      const Met met = met_by(query.hit.primID[i], query.hit.instID[0][i],
+                             {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]});
+      hits[first + i] = {met.triangle, query.ray.tfar[i], query.hit.u[i], query.hit.v[i],
+                         dot(met.normal, rays[first + i].direction) > 0};
     }
   }
 }

@@ -52,8 +52,10 @@ std::string surroundings_key(const ReferenceSurroundings& s) {
   for (const PreparedMesh& mesh : s.scene.meshes) add_mesh(key, mesh);
   for (const PlacedMesh& piece : s.scene.placed) {
     key.add(piece.mesh).add(piece.scale).add(piece.look_seed[0]).add(piece.look_seed[1]);
-    add_pose(key, piece.world_from_mesh);
+    key.add(piece.moves);
+    if (!piece.moves) add_pose(key, piece.world_from_mesh);  // or by image_key()
   }
+  key.add_bytes(s.ground.texels.data(), s.ground.texels.size());
   add_lights(key, s.lights);
   for (const PatternImage& p : s.patterns) key.add_bytes(p.texels.data(), p.texels.size());
   for (const SurfaceAppearance& look : all_surface_appearances()) add_look(key, look);
@@ -61,9 +63,15 @@ std::string surroundings_key(const ReferenceSurroundings& s) {
   return key.hex();
 }
 
-std::string image_key(const std::string& surroundings, const ReferenceOptions& options,
-                      const ViewRays& view, const LampSpec& lamp, const Air& air) {
+std::string image_key(const std::string& surroundings, const PreparedScene& scene,
+                      const ReferenceOptions& options, const ViewRays& view, const LampSpec& lamp,
+                      const Air& air) {
   CacheKey key("reference_image", kVersion);
+  for (const PlacedMesh& piece : scene.placed) {
+    if (!piece.moves) continue;
+    key.add(piece.there);
+    add_pose(key, piece.world_from_mesh);
+  }
   key.add_text(surroundings).add(options.samples).add(options.denoise).add(options.jitter);
   key.add(options.seed).add(view.stamp_ns);
   const Intrinsics& k = view.intrinsics;

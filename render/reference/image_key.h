@@ -9,8 +9,9 @@ namespace rubble {
 
 // Of what stands there, how it looks and what lights it.
 std::string surroundings_key(const ReferenceSurroundings& surroundings);
-// Of one image of it.
-std::string image_key(const std::string& surroundings, const ReferenceOptions& options,
-                      const ViewRays& view, const LampSpec& lamp, const Air& air);
+// Of one image of it; scene: where what moves is now.
+std::string image_key(const std::string& surroundings, const PreparedScene& scene,
+                      const ReferenceOptions& options, const ViewRays& view, const LampSpec& lamp,
+                      const Air& air);
 
 }  // namespace rubble

@@ -67,14 +67,16 @@ TracedImage average_samples(const std::vector<PixelSums>& sums, int width, int h
 struct ReferencePass::State {
   State(const ReferenceSurroundings& s, const ReferenceOptions& o)
       : options(o),
+        scene(s.scene),
         box(box_of_air(s.scene)),
         rays(s.scene, RayScene::Detail::finest),
-        surfaces(s.scene, s.patterns, s.wetness),
+        surfaces(s.scene, s.patterns, s.ground, s.wetness),
         lights(s.lights),
         cache(o.cache_folder),
         key(o.cache_folder.empty() ? "" : surroundings_key(s)) {}
 
   ReferenceOptions options;
+  const PreparedScene& scene;
   Aabb box;
   RayScene rays;
   LookSurfaces surfaces;
@@ -132,11 +134,13 @@ ReferencePass::ReferencePass(const ReferenceSurroundings& surroundings,
 ReferencePass::~ReferencePass() = default;
 
 std::vector<float> ReferencePass::draw(const ViewRays& view, const LampSpec& lamp, const Air& air) {
-  const State& s = *state_;
+  State& s = *state_;
+  s.rays.follow();
+  s.surfaces.follow();
   std::string key;
   const std::size_t size = std::size_t(view.intrinsics.width) * std::size_t(view.intrinsics.height) * 3;
   if (!s.key.empty()) {
-    key = image_key(s.key, s.options, view, lamp, air);
+    key = image_key(s.key, s.scene, s.options, view, lamp, air);
     if (const auto bytes = s.cache.find(kKind, key)) {
       std::vector<float> known;
       CacheReader reader(*bytes);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/geometry/geometry.h"
+#include "render/geometry/ground_map.h"
 #include "render/lighting/lighting.h"
 #include "render/materials/textures.h"
 #include "render/media/medium.h"
@@ -31,6 +31,7 @@ struct ReferenceSurroundings {
   const PreparedScene& scene;  // must outlive the pass
   const LightSet& lights;
   const std::vector<PatternImage>& patterns;
+  const GroundMap& ground;
   double wetness = 0;
 };
 
@@ -40,7 +41,7 @@ class ReferencePass {
   ~ReferencePass();
 
   // Radiance, 3 floats a pixel (kcd/m2); black where the lens sees nothing. The lamp and the air are
-  // those of the view's instant.
+  // those of the view's instant, and so must be the scene.
   std::vector<float> draw(const ViewRays& view, const LampSpec& lamp, const Air& air);
 
  private:

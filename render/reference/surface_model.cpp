@@ -48,25 +48,29 @@ struct LookSurfaces::Place {
 };
 
 LookSurfaces::LookSurfaces(const PreparedScene& scene, const std::vector<PatternImage>& patterns,
-                           double wetness)
-    : scene_(scene),
-      textures_(patterns),
-      ground_(make_ground_map(scene)),
-      wetness_(float(wetness)) {
-  for (const PlacedMesh& piece : scene.placed) {
-    const Mat3 r = piece.world_from_mesh.rotation.matrix();
-    const float variation = 2.0f / 255;
-    Placed out;
-    out.axis_x = Vec3f(r.column(0)), out.axis_y = Vec3f(r.column(1)), out.axis_z = Vec3f(r.column(2));
-    out.origin = Vec3f(piece.world_from_mesh.translation);
-    out.scale = float(piece.scale);
-    out.seed_u = float(piece.look_seed[0] & 0xffffu) / 65536;
-    out.seed_v = float(piece.look_seed[0] >> 16) / 65536;
-    out.turn = int(piece.look_seed[1] & 3u);
-    out.tint = float(piece.look_seed[1] >> 16 & 255u) * variation - 1;
-    out.warm = (float(piece.look_seed[1] >> 24) * variation - 1) * 0.25f;
-    placed_.push_back(out);
-  }
+                           const GroundMap& ground, double wetness)
+    : scene_(scene), textures_(patterns), ground_(ground), wetness_(float(wetness)) {
+  for (const PlacedMesh& piece : scene.placed) placed_.push_back(place(piece));
+}
+
+void LookSurfaces::follow() {
+  for (std::size_t i = 0; i < placed_.size(); ++i)
+    if (scene_.placed[i].moves) placed_[i] = place(scene_.placed[i]);
+}
+
+LookSurfaces::Placed LookSurfaces::place(const PlacedMesh& piece) const {
+  const Mat3 r = piece.world_from_mesh.rotation.matrix();
+  constexpr float kByte = 2.0f / 255;
+  Placed out;
+  out.axis_x = Vec3f(r.column(0)), out.axis_y = Vec3f(r.column(1)), out.axis_z = Vec3f(r.column(2));
+  out.origin = Vec3f(piece.world_from_mesh.translation);
+  out.scale = float(piece.scale);
+  out.seed_u = float(piece.look_seed[0] & 0xffffu) / 65536;
+  out.seed_v = float(piece.look_seed[0] >> 16) / 65536;
+  out.turn = int(piece.look_seed[1] & 3u);
+  out.tint = float(piece.look_seed[1] >> 16 & 255u) * kByte - 1;
+  out.warm = (float(piece.look_seed[1] >> 24) * kByte - 1) * 0.25f;
+  return out;
 }
 
 // Between texels, as GL_LINEAR does.

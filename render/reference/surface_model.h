@@ -40,7 +40,9 @@ class LookSurfaces : public SurfaceModel {
  public:
   // wetness: as in Scene. The scene must outlive it.
   LookSurfaces(const PreparedScene& scene, const std::vector<PatternImage>& patterns,
-               double wetness);
+               const GroundMap& ground, double wetness);
+  // Puts what moves where it is in the scene now.
+  void follow();
   void find(const SurfaceQuery& query, SurfacePoint& out) const override;
 
  private:
@@ -51,6 +53,7 @@ class LookSurfaces : public SurfaceModel {
     int turn = 0;  // which axis of the mesh is longest: grain runs along it
   };
   struct Place;
+  Placed place(const PlacedMesh& piece) const;
   void find_place(const SurfaceQuery& query, Place& place) const;
   void find_pattern(const SurfaceQuery& query, Place& place) const;
   void add_colour(const Place& place, SurfacePoint& out) const;

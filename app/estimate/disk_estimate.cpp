@@ -65,7 +65,7 @@ void add_meshes(const Scenario& s, const PileModelSize& pile, Estimate& sizes) {
 void add_recordings(const Scenario& s, const RecordedSize& size, Estimate& sizes) {
   for (const RecordingFormat& format : recording_formats())
     if (s.outputs.*format.wanted) sizes[format.leaves] = std::uint64_t(format.estimate(size));
-  if (s.camera.channel_set().label) sizes["labels.csv"] = 10000;
+  if (s.camera.has_channel("label")) sizes["labels.csv"] = 10000;
   if (s.trajectory.needs_pile())
     sizes["flight.json"] = std::uint64_t(400 * size.flight.frames + 1e5);
 }

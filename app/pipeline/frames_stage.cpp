@@ -29,7 +29,7 @@ namespace {
 
 // labels.csv: what the numbers of the label channel mean.
 void write_legend(const ResolvedMission& mission, RunFolder& folder) {
-  if (!mission.scenario.camera.channel_set().label) return;
+  if (!mission.scenario.camera.has_channel("label")) return;
   std::string text = "label,name\n";
   const std::vector<std::string> names = label_names(mission.assets);
   for (std::size_t i = 0; i < names.size(); ++i) text += std::to_string(i) + "," + names[i] + "\n";

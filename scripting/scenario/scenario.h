@@ -115,7 +115,9 @@ struct CameraScenario {
   // the middle of the image, (width - 1) / 2 where pixel (0, 0) has its centre at (0, 0). What the
   // lens states itself comes first.
   Intrinsics intrinsics() const;
-  ChannelSet channel_set() const;  // unknown names are left out
+  // The streams that `channels` names, in the order of the table; unknown names are left out.
+  StreamSet channel_set() const;
+  bool has_channel(const std::string& name) const;  // whether `channels` names it
 };
 
 // What CameraScenario::channels may name.

@@ -64,7 +64,8 @@ const Prefixes kFloors{"kernel/", "render/", "io/", "scripting/", "assets/", "ap
 Prefixes kernel_rooms(std::size_t count) {
   Prefixes rooms{"kernel/base/",      "kernel/model/",     "kernel/geometry/",
                  "kernel/structure/", "kernel/collision/", "kernel/multibody/",
-                 "kernel/solver/",    "kernel/world/",     "kernel/settling/"};
+                 "kernel/solver/",    "kernel/world/",     "kernel/settling/",
+                 "kernel/robot/"};
   rooms.resize(count + 1);
   return rooms;
 }
@@ -87,6 +88,7 @@ const Allowed kKernel{
     {"kernel/solver/", with(kernel_rooms(2), {"kernel/collision/", "kernel/multibody/", "kernel/solver/"})},
     {"kernel/world/", kernel_rooms(7)},
     {"kernel/settling/", kernel_rooms(8)},
+    {"kernel/robot/", kernel_rooms(9)},
     {"kernel/queries/", with(kernel_rooms(2), {"kernel/queries/"})},
     {"kernel/voids/", with(kernel_rooms(2), {"kernel/queries/", "kernel/voids/"})},
 };
@@ -104,7 +106,7 @@ Allowed stack(const Prefixes& rooms, const Prefixes& others) {
 }
 
 const Allowed kRender = stack(
-    {"render/scene/", "render/gl/", "render/camera/", "render/materials/", "render/geometry/",
+    {"render/scene/", "render/streams/", "render/gl/", "render/camera/", "render/materials/", "render/geometry/",
      "render/lighting/", "render/media/", "render/raster/", "render/passes/", "render/renderer.",
      "render/sensors/"},
     {"kernel/base/"});
@@ -113,7 +115,7 @@ const Allowed kIo = stack(
     {"io/base/", "io/image/", "io/mesh/", "io/state/", "io/recording/", "io/ros/", "io/mrpt/",
      "io/datasets/", "io/playback/", "io/live/"},
     {"kernel/base/", "kernel/model/pile_state.h", "kernel/model/pile.h", "kernel/model/track.h",
-     "kernel/settling/settle_checkpoint.h", "render/scene/frame.h"});
+     "kernel/settling/settle_checkpoint.h", "render/scene/", "render/streams/image_streams.h"});
 
 const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/"},
                                  {"kernel/base/", "kernel/voids/"});
@@ -121,7 +123,8 @@ const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/"},
 const Allowed kScripting = stack(
     {"scripting/values/", "scripting/trajectory/", "scripting/schema/", "scripting/sandbox/",
      "scripting/packs/", "scripting/scenario/", "scripting/reference/", "scripting/"},
-    {"kernel/base/", "kernel/model/pile.h", "kernel/settling/settle.h", "render/scene/"});
+    {"kernel/base/", "kernel/model/pile.h", "kernel/settling/settle.h", "render/scene/",
+     "render/streams/image_streams.h"});
 
 const Allowed kApp = stack(
     {"app/support/", "app/formats/", "app/provenance/", "app/assets/", "app/estimate/", "app/planning/", "app/pipeline/",

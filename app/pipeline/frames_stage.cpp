@@ -55,10 +55,23 @@ double seconds_since(const Scenario& scenario, std::int64_t stamp_ns) {
   return double(stamp_ns - scenario.start_ns) * 1e-9;
 }
 
+// Which frame is being taken, and of how many: an image that takes minutes reports on its way.
+struct Taking {
+  int frame = 0, frames = 1;
+
+  void report(double of_image, const RunFolder& folder, RunContext& context) const {
+    throw_if_stopped(folder.path());
+    context.progress.update((frame + of_image) / frames, "frame " + std::to_string(frame + 1) + " of " +
+                                                             std::to_string(frames));
+  }
+};
+
 // Takes every frame in order, notes its hashes, and hands it to the recorders. flown: the scenario
 // with the path that is flown.
 void take_frames(Camera& camera, const Scenario& flown, RecordingQueue& queue,
-                 const RunFolder& folder, RunContext& context, RecordedFrames& recorded) {
+                 const RunFolder& folder, RunContext& context, Taking& taking,
+                 RecordedFrames& recorded) {
+  taking.frames = camera.frames();
   FrameJournal journal(folder.frames_file());
   const CameraPath path(flown.trajectory);
   Imu imu(path, flown.imu.model, flown.settle.gravity, flown.seed, flown.start_ns);
@@ -66,6 +79,7 @@ void take_frames(Camera& camera, const Scenario& flown, RecordingQueue& queue,
   FrameWatch watch;
   for (int i = 0; i < camera.frames(); ++i) {
     throw_if_stopped(folder.path());
+    taking.frame = i;
     Frame frame = camera.take(i);
     frame.linear_velocity = path.motion_at(seconds_since(flown, frame.stamp_ns)).velocity;
     if (flown.imu.on) frame.imu = imu.take_until(frame.stamp_ns);
@@ -120,7 +134,7 @@ Scenario resolve_path(const ResolvedMission& mission, const PileState& pile, Run
 
 // Frames into files, until the last file is complete.
 void record(Camera& camera, const ResolvedMission& mission, const Scenario& flown,
-            const PileState& pile, RunFolder& folder, RunContext& context,
+            const PileState& pile, RunFolder& folder, RunContext& context, Taking& taking,
             RecordedFrames& recorded) {
   context.progress.start("render");
   const Recording recording = describe_recording(flown, mission.assets, pile);
@@ -129,7 +143,7 @@ void record(Camera& camera, const ResolvedMission& mission, const Scenario& flow
   folder.expect(set.names);
   add_live_recorders(set, context.options, ros_options(flown.outputs, recording));
   RecordingQueue queue(std::move(set.recorders));
-  take_frames(camera, flown, queue, folder, context, recorded);
+  take_frames(camera, flown, queue, folder, context, taking, recorded);
   context.progress.finish(std::to_string(camera.frames()) + " frames");
   for (const std::string& warning : context.warnings)
     std::fprintf(stderr, "rubble: warning: %s\n", printable(warning).c_str());
@@ -146,9 +160,12 @@ void record(Camera& camera, const ResolvedMission& mission, const Scenario& flow
 
 Renderer prepare_renderer(const Scenario& scenario, const AssetLibrary& assets,
                           const PileState& pile, GlContext& gl, int threads,
-                          const std::function<void(double)>& on_light) {
+                          const std::function<void(double)>& on_light,
+                          const std::function<void(double)>& on_image) {
   RenderOptions options;
   options.threads = threads;
+  options.colour = scenario.camera.colour;
+  options.image_progress = on_image;
   options.cache_folder = DiskCache::usual_folder();
   return Renderer(gl, build_scene(scenario, assets, pile), options, on_light);
 }
@@ -160,13 +177,15 @@ RecordedFrames record_frames(const ResolvedMission& mission, const PileState& pi
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
   recorded.environment = describe_environment(gl.info(), context.threads());
+  Taking taking;
   Renderer renderer =
       prepare_renderer(flown, mission.assets, pile, gl, context.threads(),
-                       [&](double fraction) { context.progress.update(fraction, "light"); });
+                       [&](double fraction) { context.progress.update(fraction, "light"); },
+                       [&](double fraction) { taking.report(fraction, folder, context); });
   Camera camera(renderer, build_camera(flown, context.threads()), build_flight(flown),
                 Medium(flown.air, flown.seed));
   context.progress.finish("ready on " + gl.info().renderer);
-  record(camera, mission, flown, pile, folder, context, recorded);
+  record(camera, mission, flown, pile, folder, context, taking, recorded);
   return recorded;
 }
 

@@ -36,6 +36,7 @@ struct RunRequest {
   std::vector<std::string> asset_packs;  // --assets DIR, in order
   std::string out;                       // --out; empty: out/<name of the script>
   bool force = false;                    // --force: replace an earlier run's files
+  bool preview = false;                  // --preview: say what it will take, and run nothing
   RunOptions options;
 };
 

@@ -20,6 +20,8 @@ struct LuaHost {
   lua_State* lua = nullptr;
   std::uint64_t seed = 0;
   bool used_random = false;
+  std::vector<std::pair<std::string, std::string>> drawn;  // see LuaSandbox::drawn
+  std::map<std::string, int> draws;                        // of each stream, as far as counted
   std::size_t printed_bytes = 0;
   std::vector<std::string> printed;
   // Reads a file for rubble.include and returns its index among the chunks; on failure it puts the

@@ -379,6 +379,9 @@ std::vector<DescribedFunction> LuaSandbox::describe_library() {
 }
 
 bool LuaSandbox::used_random() const { return state_->host.used_random; }
+const std::vector<std::pair<std::string, std::string>>& LuaSandbox::drawn() const {
+  return state_->host.drawn;
+}
 const std::vector<SourceFile>& LuaSandbox::included() const { return state_->included; }
 const std::vector<std::string>& LuaSandbox::printed() const { return state_->host.printed; }
 

@@ -3,9 +3,9 @@
 //
 //   stage      from                  to                           kept as
 //   resolve    script or manifest    ResolvedMission              unfinished/run.json
-//   settle     ResolvedMission       SettledPile                  pile.bin
-//   files      PileState             meshes of the pile           pile.stl
-//   frames     PileState             RecordedFrames               every recorder's file
+//   settle     ResolvedMission       SettledPile                  pile.bin, track.bin
+//   files      SettledPile           meshes of the pile           pile.stl, track.glb
+//   frames     SettledPile           RecordedFrames               every recorder's file
 //   manifest   all                   hashes of all                manifest.json
 #pragma once
 
@@ -17,12 +17,14 @@
 #include "app/pipeline/resolved_mission.h"
 #include "app/provenance/frame_hashes.h"
 #include "kernel/model/pile_state.h"
+#include "kernel/model/track.h"
 #include "render/renderer.h"
 
 namespace rubble {
 
 struct SettledPile {
   PileState state;
+  Track track;      // who moved when; empty where the mission does not ask for it
   Metrics metrics;  // of the pile and, where the mission asks for them, its voids
 };
 
@@ -39,7 +41,7 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
 // Keeps a pile that another run settled as the product of this run's first stage.
 void keep_pile(const ResolvedMission& mission, const PileState& state, const RunFolder& folder);
 
-void write_pile_files(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
+void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, RunFolder& folder,
                       RunContext& context);
 
 // The scene of the pile, lit, on the device of `gl`. on_light: 0 to 1.
@@ -47,7 +49,7 @@ Renderer prepare_renderer(const Scenario& scenario, const AssetLibrary& assets,
                           const PileState& pile, GlContext& gl, int threads,
                           const std::function<void(double)>& on_light);
 
-RecordedFrames record_frames(const ResolvedMission& mission, const PileState& pile,
+RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
                              RunFolder& folder, RunContext& context);
 
 // Of both: no name is in both.

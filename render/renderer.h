@@ -34,6 +34,9 @@ struct RenderOptions {
                               // 0: the finest always, so that depth is that of the true surface
   bool antialias = true;      // smooth silhouettes of the colour image
   double fixed_exposure = 0;  // factor on luminance in kcd/m2; 0: automatic
+  ColourSpec colour;          // fast, or path traced
+  // Of a path-traced image: called on the calling thread with its done fraction; may throw to stop.
+  std::function<void(double)> image_progress;
 };
 
 // The same view before exposure and tone mapping, for tests and sensors.
@@ -85,9 +88,9 @@ class Renderer {
   Frame render(const ViewRays& view, int index);
   // Colour of another view at the same instant, at the exposure of the frame drawn last.
   std::vector<std::uint8_t> render_stereo_right(const ViewRays& view);
-  // Fills the channels of a frame of the view that was drawn last. next: the view of the frame that
-  // follows, for the flow; null: none follows.
-  void add_channels(const ChannelSet& channels, const ViewRays* next, Frame& frame);
+  // Adds streams of ground truth to a frame of the view that was drawn last. next: the view of the
+  // frame that follows, for streams that need it; null: none follows.
+  void add_truth(const StreamSet& streams, const ViewRays* next, Frame& frame);
   // Of the view that was drawn last: distances along the rays (NaN: none), and 1 where a place in the
   // camera body frame has a free line to the surface.
   std::vector<float> distances() const;

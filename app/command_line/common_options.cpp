@@ -72,6 +72,11 @@ void add_output_options(CommandLine& line, RunRequest& request) {
   add_run_options(line, request.options);
 }
 
+void add_preview_option(CommandLine& line, RunRequest& request) {
+  line.add_flag("--preview", request.preview,
+                "Say how many pieces, frames, bytes and about how long, and run nothing");
+}
+
 void add_folder_options(CommandLine& line, FolderRequest& request) {
   line.add("folder", request.folder, "The output folder of a run").required();
   add_packs_option(line, request.asset_packs, "A folder where packs of the run may be now");

@@ -32,6 +32,9 @@ void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& te
 // For commands that draw frames: publish them meanwhile.
 void add_live_options(CommandLine& line, LiveRequest& live);
 
+// For commands that begin with a mission.
+void add_preview_option(CommandLine& line, RunRequest& request);
+
 void add_output_options(CommandLine& line, RunRequest& request);
 
 // For commands that begin with the folder of a run.

@@ -14,6 +14,7 @@ Action declare(CommandLine& line) {
   add_seed_option(line, *request);
   add_track_option(line, *request);
   add_output_options(line, *request);
+  add_preview_option(line, *request);
   return [request] { return run_to_folder(*request, RunKind::settle); };
 }
 

@@ -25,7 +25,7 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
 // The mission's camera and its sensors.
 CameraSpec build_camera(const Scenario& scenario, int threads);
 
-// The legend of Frame::label: the name of each class, by its number.
+// The legend of the stream `label`: the name of each class, by its number.
 std::vector<std::string> label_names(const AssetLibrary& assets);
 
 // The same pieces at full detail, with names and plain colours, for the exports. Refers to `assets`.

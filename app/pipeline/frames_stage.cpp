@@ -56,6 +56,17 @@ double seconds_since(const Scenario& scenario, std::int64_t stamp_ns) {
   return double(stamp_ns - scenario.start_ns) * 1e-9;
 }
 
+// Which frame of a leg is being taken, and of how many: an image that takes minutes reports on its way.
+struct Taking {
+  int frame = 0, frames = 1;
+
+  void report(double of_image, const RunFolder& folder, RunContext& context) const {
+    throw_if_stopped(folder.path());
+    context.progress.update((frame + of_image) / frames, "frame " + std::to_string(frame + 1) + " of " +
+                                                             std::to_string(frames));
+  }
+};
+
 // What goes on from leg to leg: where frames go, and what is noted of them.
 struct FrameSinks {
   RecordingQueue& queue;
@@ -66,13 +77,15 @@ struct FrameSinks {
 
 // Takes every frame of a leg in order, notes its hashes, and hands it to the recorders.
 void take_frames(Camera& camera, const Leg& leg, FrameSinks& sinks, const RunFolder& folder,
-                 RunContext& context, RecordedFrames& recorded) {
+                 RunContext& context, Taking& taking, RecordedFrames& recorded) {
   const Scenario& flown = leg.scenario;
+  taking.frames = camera.frames();
   const CameraPath path(flown.trajectory);
   Imu imu(path, flown.imu.model, flown.settle.gravity, leg.noise_seed, flown.start_ns);
   DepthMetrics depth;
   for (int i = 0; i < camera.frames(); ++i) {
     throw_if_stopped(folder.path());
+    taking.frame = i;
     Frame frame = camera.take(i);
     frame.index = sinks.frames++;
     frame.linear_velocity = path.motion_at(seconds_since(flown, frame.stamp_ns)).velocity;
@@ -134,9 +147,12 @@ Scenario resolve_path(const ResolvedMission& mission, const PileState& pile, Run
   return flown;
 }
 
-RenderOptions render_options(int threads) {
+RenderOptions render_options(const Scenario& scenario, int threads,
+                             const std::function<void(double)>& on_image) {
   RenderOptions options;
   options.threads = threads;
+  options.colour = scenario.camera.colour;
+  options.image_progress = on_image;
   options.cache_folder = DiskCache::usual_folder();
   return options;
 }
@@ -148,7 +164,7 @@ struct PreparedLeg {
 };
 
 PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const SettledPile& pile,
-                        GlContext& gl, RunContext& context) {
+                        GlContext& gl, const RunFolder& folder, RunContext& context, Taking& taking) {
   const std::string stage = leg.window ? "settling scene" : "scene";
   context.progress.start(stage);
   const Scene scene = leg.window ? build_moving_scene(leg.scenario, mission.assets, pile.state,
@@ -156,7 +172,9 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
                                  : build_scene(leg.scenario, mission.assets, pile.state);
   PreparedLeg prepared;
   prepared.renderer = std::make_unique<Renderer>(
-      gl, scene, render_options(context.threads()),
+      gl, scene,
+      render_options(leg.scenario, context.threads(),
+                     [&](double fraction) { taking.report(fraction, folder, context); }),
       [&](double fraction) { context.progress.update(fraction, "light"); });
   CameraSpec spec = build_camera(leg.scenario, context.threads());
   spec.seed = leg.noise_seed;
@@ -190,7 +208,8 @@ void finish_recording(const ResolvedMission& mission, const RecorderSet& set, Re
 void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const Scenario& flown,
             const SettledPile& pile, GlContext& gl, RunFolder& folder, RunContext& context,
             RecordedFrames& recorded) {
-  PreparedLeg prepared = prepare_leg(legs.front(), mission, pile, gl, context);
+  Taking taking;
+  PreparedLeg prepared = prepare_leg(legs.front(), mission, pile, gl, folder, context, taking);
   const Recording recording = describe_recording(flown, mission.assets, pile.state);
   RecorderSet set = make_recorders(
       {flown, recording, count_frames(legs), title_of(mission, pile.state)}, folder.path());
@@ -201,10 +220,10 @@ void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const 
   for (std::size_t i = 0; i < legs.size(); ++i) {
     if (i > 0) {
       prepared = {};  // what the leg before took on the device comes free first
-      prepared = prepare_leg(legs[i], mission, pile, gl, context);
+      prepared = prepare_leg(legs[i], mission, pile, gl, folder, context, taking);
     }
     context.progress.start(legs[i].window ? "settling frames" : "render");
-    take_frames(*prepared.camera, legs[i], sinks, folder, context, recorded);
+    take_frames(*prepared.camera, legs[i], sinks, folder, context, taking, recorded);
     context.progress.finish(std::to_string(prepared.camera->frames()) + " frames");
   }
   finish_recording(mission, set, queue, folder, context);
@@ -214,8 +233,10 @@ void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const 
 
 Renderer prepare_renderer(const Scenario& scenario, const AssetLibrary& assets,
                           const PileState& pile, GlContext& gl, int threads,
-                          const std::function<void(double)>& on_light) {
-  return Renderer(gl, build_scene(scenario, assets, pile), render_options(threads), on_light);
+                          const std::function<void(double)>& on_light,
+                          const std::function<void(double)>& on_image) {
+  return Renderer(gl, build_scene(scenario, assets, pile),
+                  render_options(scenario, threads, on_image), on_light);
 }
 
 RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,

@@ -44,10 +44,12 @@ void keep_pile(const ResolvedMission& mission, const PileState& state, const Run
 void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, RunFolder& folder,
                       RunContext& context);
 
-// The scene of the pile, lit, on the device of `gl`. on_light: 0 to 1.
+// The scene of the pile, lit, on the device of `gl`. on_light: 0 to 1; on_image: the same, while a
+// path-traced image is drawn; may throw to stop.
 Renderer prepare_renderer(const Scenario& scenario, const AssetLibrary& assets,
                           const PileState& pile, GlContext& gl, int threads,
-                          const std::function<void(double)>& on_light);
+                          const std::function<void(double)>& on_light,
+                          const std::function<void(double)>& on_image = {});
 
 RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
                              RunFolder& folder, RunContext& context);

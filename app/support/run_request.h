@@ -37,6 +37,7 @@ struct RunRequest {
   bool track = false;                    // --track: as --set outputs.track=true
   std::string out;                       // --out; empty: out/<name of the script>
   bool force = false;                    // --force: replace an earlier run's files
+  bool preview = false;                  // --preview: say what it will take, and run nothing
   RunOptions options;
 };
 

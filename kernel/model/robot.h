@@ -104,8 +104,8 @@ struct RobotState {
 struct RobotContact {
   int link = 0;
   int piece = -1;       // -1: the ground
-  Vec3 point, normal;   // of the deepest point; the normal points at the link; in the world; unit: m
-  double separation = 0;  // negative: overlap; unit: m
+  Vec3 point, normal;   // the centre of the pressure; the normal points at the link; in the world; unit: m
+  double separation = 0;  // of the deepest point; negative: overlap; unit: m
   double force = 0;       // normal, mean of the step; unit: N
 };
 

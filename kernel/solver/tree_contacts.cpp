@@ -76,16 +76,19 @@ void TreeContacts::solve_friction(Item& item, double limit, View& view) {
   const double* inverse = item.slide_inverse;
   const double wanted[2] = {first.impulse - inverse[0] * v0 - inverse[1] * v1,
                             second.impulse - inverse[1] * v0 - inverse[2] * v1};
-  const double shrink =
-      contact_law::shrink_into_cone(limit, wanted[0] * wanted[0] + wanted[1] * wanted[1]);
+  const double length2 = wanted[0] * wanted[0] + wanted[1] * wanted[1];
+  const double shrink = contact_law::shrink_into_cone(limit, length2);
+  double slide[2] = {wanted[0] * shrink, wanted[1] * shrink};
+  if (item.driven && shrink < 1) contact_law::solve_slide(item.slide_matrix, limit, wanted, slide);
   for (int t = 0; t < 2; ++t) {
-    const double next = wanted[t] * shrink;
+    const double next = slide[t];
     item.slide[t].apply<sides>(next - item.slide[t].impulse, view);
     item.slide[t].impulse = next;
   }
   Row& twist = item.twist;
   const double free = twist.impulse - twist.mass * twist.relative<sides>(view);
-  const double next = contact_law::clamp_twist(limit, item.radius, free);
+  const double left = item.driven ? contact_law::left_for_twist(limit, slide) : limit;
+  const double next = contact_law::clamp_twist(left, item.radius, free);
   twist.apply<sides>(next - twist.impulse, view);
   twist.impulse = next;
 }

@@ -100,7 +100,8 @@ class TreeContacts {
     Vec3 normal, tangents[2];
     double belt[2] = {};  // along the tangents, of the surface of B less that of A; unit: m/s
     Row slide[2], twist;
-    double slide_inverse[3] = {};  // of the symmetric matrix J M^-1 J^T of the two
+    double slide_matrix[3] = {}, slide_inverse[3] = {};  // J M^-1 J^T of the two, symmetric
+    bool driven = false;  // a robot takes part: see solve_slide()
     Spatial total[2];  // impulse of the step, where joints may break
   };
   class Builder;

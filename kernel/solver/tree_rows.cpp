@@ -104,8 +104,10 @@ class TreeContacts::Builder {
       item.slide[t].impulse = dot(item.tangents[t], Vec3(contact.friction_impulse));
       item.belt[t] = dot(item.tangents[t], belt);
     }
+    for (const Side& side : item.sides) {
+      item.driven = item.driven || (side.tree >= 0 && all_.motion(side.tree).tree().driven);
+    }
     item.twist = all_.make_row(item, {n * -1.0, {}}, {n, {}});
-    if (contact.count < 2) item.twist.mass = 0;
     item.twist.impulse = double(contact.twist_impulse);
   }
 
@@ -202,6 +204,7 @@ void TreeContacts::place_friction_of(Item& item) {
   }
   item.radius = 0;
   for (int i = 0; i < item.rows; ++i) item.radius += share[i] * norm(rows[i].from_a - centre_a);
+  item.radius = std::max(item.radius, double(contact_law::kPatchRadius));
   for (int t = 0; t < 2; ++t) {
     const Vec3& along = item.tangents[t];
     set_row(item, force_at(item.sides[0].arm + centre_a, along * -1.0),
@@ -211,6 +214,7 @@ void TreeContacts::place_friction_of(Item& item) {
   const double k00 = r.couple<sides>(r), k01 = r.couple<sides>(s), k11 = s.couple<sides>(s);
   const double determinant = k00 * k11 - k01 * k01;
   const double inverse = determinant > 0 ? 1 / determinant : 0;
+  item.slide_matrix[0] = k00, item.slide_matrix[1] = k01, item.slide_matrix[2] = k11;
   item.slide_inverse[0] = k11 * inverse;
   item.slide_inverse[1] = -k01 * inverse;
   item.slide_inverse[2] = k00 * inverse;

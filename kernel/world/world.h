@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -30,6 +31,20 @@ struct NewPiece {
   int layer = 0;
 };
 
+// Some of the pieces of a rigid group that comes apart; together they go on as one body.
+struct SplitPart {
+  std::vector<int> pieces;  // ascending, not empty
+  bool fixed = false;       // goes on immovable; only where the whole was
+};
+
+// What a piece got at one point of a contact in the last solution, mean over the step.
+struct ContactImpulse {
+  int piece = 0;
+  Vec3 point;           // unit: m
+  Vec3 impulse;         // on the piece; unit: N s
+  double approach = 0;  // speed of the two against each other before, along the normal; unit: m/s
+};
+
 // CPU-independent counters and, for the bench, wall seconds by stage (never part of a result).
 struct StepTimes {
   double broad = 0, narrow = 0, solve = 0, advance = 0, rest = 0;  // unit: s
@@ -48,6 +63,12 @@ class World {
   // it has links, in their order. Throws InputError when a type does not exist or a scale is out of
   // range.
   int add(const std::vector<NewPiece>& pieces);
+
+  // Lays a pile that has settled into an empty world with the pile's types and assemblies, every piece
+  // where it was, asleep, with its joints; pieces keep their numbers. What each contact carries is found by
+  // letting all of them be awake for half a second. fixed: nothing of it ever moves. Throws InputError for
+  // a state of another pile.
+  void lay(const Pile& pile, const PileState& state, bool fixed = false);
 
   void step();
   // Changes the length of the steps to come, e.g. when robots are put into a pile that has settled. What
@@ -70,6 +91,20 @@ class World {
   RobotState robot_state(int robot) const;
   // Of the last step, those that carry an impulse or overlap; by link.
   std::vector<RobotContact> robot_contacts(int robot) const;
+
+  // Pieces that hold together as one rigid body: a structure before it breaks. bind() makes one of fixed,
+  // neighbouring numbers, unscaled and turned alike; they stay fixed until split() frees some. A body
+  // that comes apart keeps mass, momentum, angular momentum and energy. All pieces of the body must be in
+  // `parts`.
+  void bind(int first, int count);
+  void split(const std::vector<SplitPart>& parts);
+  // The pieces that move as one with a piece, itself too; ascending.
+  std::vector<int> bound_with(int index) const;
+  // Called in a step when the impulses of its contacts are known and nothing has moved yet. Where it has
+  // split a body it returns true, and contacts are found and solved anew, four times at most.
+  void set_on_solved(std::function<bool()> on_solved);
+  // At the pieces of groups only: of contacts that press, sleeping ones too.
+  std::vector<ContactImpulse> contact_impulses() const;
 
   int size() const;
   int awake_count() const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <tuple>
 #include <unordered_map>
 #include <vector>
@@ -19,14 +20,15 @@
 
 namespace rubble {
 
-// Two pieces whose joint broke: they do not touch each other until they have come apart.
-struct PartedPair {
-  std::int32_t body_a = 0, body_b = 0;
-};
-
 // Which bodies are a robot: those from `first_body` on, in the order of its links.
 struct RobotRecord {
   std::int32_t tree = 0, first_body = 0;
+};
+
+// Pieces that hold together: one rigid body.
+struct RigidGroup {
+  std::vector<std::int32_t> members;  // ascending; the first one leads. Empty: there is no such group
+  Vec3f reach;                        // largest |x|, |y|, |z| of any corner; unit: m
 };
 
 // What a snapshot holds: all that changes from step to step.
@@ -40,8 +42,8 @@ struct WorldData {
   std::unordered_map<std::uint64_t, std::int32_t> contact_of_pair;  // looked up, never walked
   std::vector<std::uint8_t> wake_next;                              // by body
   std::vector<Tree> trees;          // those that came apart keep their place, without links
-  std::vector<PartedPair> parted;
   std::vector<RobotRecord> robots;
+  std::vector<RigidGroup> groups;   // those that came apart keep their place
   std::int64_t steps = 0;
   std::int64_t verification_steps = -1;  // since begin_rest_verification(); -1: no verification
   std::int64_t all_awake_since = -1;  // in verification_steps; -1: some pieces doze
@@ -97,6 +99,7 @@ struct World::Impl {
   SimbodyTrees simbody_trees;
   ContactSolver solver;
   StepTimes times;
+  std::function<bool()> on_solved;  // see World::set_on_solved()
 
   // Scratch of a step.
   std::vector<std::int32_t> awake_bodies;  // those that take part in the step, ascending
@@ -123,12 +126,14 @@ struct World::Impl {
   std::vector<TreeMotion> tree_motions;       // by number of the tree
   std::vector<std::int32_t> awake_trees;
   std::vector<std::uint8_t> is_solved;        // by number of the tree
+  std::vector<std::int32_t> released;  // a body of each joint that broke in this step
   SolvedTrees solved_trees;
 
   // world.cpp
   void add_body(const NewPiece& piece, FreeBody* free);
   void mirror(Body& body);   // q and u from Simbody
   void refresh(Body& body);  // rotation, inertia, corners, boxes
+  void add_to_blocks(int first, const std::vector<FreeBody>& free);
   void introduce(int first);  // bodies from there on to all others
   void find_first_pairs(int body);
   void list_surfaces();
@@ -185,7 +190,25 @@ struct World::Impl {
   void doze();
   void wake_dozing();
 
+  // world_groups.cpp
+  template <typename Action>
+  void each_collider(const Body& body, Action&& action) const;
+  Body& acting(int piece);
+  const Body& acting(int piece) const;
+  const Vec3f& reach_of(const Body& body) const;
+  double collider_friction(std::int32_t collider) const;
+  void bind(int first, int count);
+  void split(int lead, const std::vector<SplitPart>& parts);
+  void form_group(const SplitPart& part, const Body& whole);
+  void set_free(const std::vector<SplitPart>& parts, const Body& whole, const Vec3& linear,
+                const Vec3& angular);
+  void weigh(Body& body, const RigidGroup& group);
+  void move_contacts(const Vec3& old_centre, int old_lead);
+  void refresh_group(Body& body);
+
   // world_step.cpp
+  void find_contacts();
+  void solve();
   void apply_forces();
   void solve_contacts();
   void sort_by_height();
@@ -198,6 +221,10 @@ struct World::Impl {
   double calc_travel(const Body& body) const;
   void remove_lost();
   void lose(int body);
+
+  // world_resume.cpp
+  void join_settled(const Pile& pile, const PileState& state);
+  void lay_to_rest(const PileState& state, const std::vector<TreeState>& trees);
 
   // world_robots.cpp
   int add_robot(const RobotModel& model, const Pose& world_from_base);
@@ -230,9 +257,17 @@ struct World::Impl {
   void open_loops(int tree);
   void split_tree(int tree, const std::vector<std::uint8_t>& broken);
   void release(const TreeLink& link);
-  void forget_parted();
-  bool are_apart(const Body& a, const Body& b) const;
 };
+
+// Of a group those of all its members; by number.
+template <typename Action>
+void World::Impl::each_collider(const Body& body, Action&& action) const {
+  const auto of = [&action](const Body& piece) {
+    for (int i = 0; i < piece.collider_count; ++i) action(piece.first_collider + i);
+  };
+  if (body.group < 0) return of(body);
+  for (const std::int32_t member : data.groups[body.group].members) of(data.bodies[member]);
+}
 
 // Its members, like those of WorldData and what it holds, are listed in world_serialization.h as well.
 struct World::Snapshot {

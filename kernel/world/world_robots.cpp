@@ -13,6 +13,8 @@ namespace {
 constexpr float kRobotTouch = 0.001F;
 // So many contacts away from a robot nothing that is awake falls asleep.
 constexpr int kPushedContacts = 3;
+// Farther apart than any two points of a contact; unit: m.
+constexpr float kFar = 1e30F;
 
 void check_number(double value, const std::string& key) {
   if (std::isfinite(value)) return;
@@ -217,20 +219,25 @@ std::vector<RobotContact> World::robot_contacts(int number) const {
   for (std::size_t i = 0; i < w.data.pairs.size(); ++i) {
     const Contact& contact = w.data.contacts[i];
     if (!w.data.pairs[i].live || !w.is_of_robot(contact, robot)) continue;
-    int deepest = 0;
-    for (int k = 1; k < contact.count; ++k) {
-      if (contact.points[k].separation < contact.points[deepest].separation) deepest = k;
-    }
-    const ContactPoint& point = contact.points[deepest];
-    if (contact.pressed <= 0 && point.separation >= 0) continue;
     const bool first = w.data.bodies[contact.body_a].tree == robot.tree;
+    float pressed = 0, separation = kFar;
+    Vec3 point;
+    for (int k = 0; k < contact.count; ++k) {
+      const ContactPoint& p = contact.points[k];
+      point += Vec3(first ? p.from_a : p.from_b) * double(p.normal_impulse);
+      pressed += p.normal_impulse;
+      separation = std::min(separation, p.separation);
+    }
+    if (contact.pressed <= 0 && separation >= 0) continue;
+    const ContactPoint& one = contact.points[0];
+    point = pressed > 0 ? point * (1 / double(pressed)) : Vec3(first ? one.from_a : one.from_b);
     const Body& link = w.data.bodies[first ? contact.body_a : contact.body_b];
     RobotContact c;
     c.link = link.link;
     c.piece = first ? contact.body_b : contact.body_a;
-    c.point = link.world_from_com.translation + Vec3(first ? point.from_a : point.from_b);
+    c.point = link.world_from_com.translation + point;
     c.normal = Vec3(contact.normal) * (first ? -1.0 : 1.0);
-    c.separation = double(point.separation);
+    c.separation = double(separation);
     c.force = double(contact.pressed) / w.options.step;
     result.push_back(c);
   }

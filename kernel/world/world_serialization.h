@@ -18,6 +18,7 @@ void each_field(Struct& b, Visit&& visit) {
   visit(b.type), visit(b.layer), visit(b.scale), visit(b.shape), visit(b.mass);
   visit(b.com_in_type), visit(b.inertia), visit(b.inverse_inertia_local), visit(b.inverse_mass);
   visit(b.radius), visit(b.simbody_index), visit(b.tree), visit(b.link), visit(b.first_collider), visit(b.collider_count);
+  visit(b.lead), visit(b.group), visit(b.origin_in_group);
   visit(b.world_from_com), visit(b.linear), visit(b.angular), visit(b.rotation);
   visit(b.inverse_inertia), visit(b.travel), visit(b.still_pose), visit(b.still_steps);
   visit(b.loose_pose), visit(b.loose_steps), visit(b.load), visit(b.lost_support);
@@ -26,7 +27,7 @@ void each_field(Struct& b, Visit&& visit) {
 
 template <typename Struct, typename Visit, IfIs<Struct, Collider> = 0>
 void each_field(Struct& c, Visit&& visit) {
-  visit(c.body), visit(c.part), visit(c.first_corner), visit(c.box);
+  visit(c.body), visit(c.part), visit(c.piece), visit(c.first_corner), visit(c.box);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, GjkCache> = 0>
@@ -108,21 +109,21 @@ void each_field(Struct& s, Visit&& visit) {
   visit(s.q), visit(s.u);
 }
 
-template <typename Struct, typename Visit, IfIs<Struct, PartedPair> = 0>
-void each_field(Struct& p, Visit&& visit) {
-  visit(p.body_a), visit(p.body_b);
-}
-
 template <typename Struct, typename Visit, IfIs<Struct, RobotRecord> = 0>
 void each_field(Struct& r, Visit&& visit) {
   visit(r.tree), visit(r.first_body);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, RigidGroup> = 0>
+void each_field(Struct& g, Visit&& visit) {
+  visit(g.members), visit(g.reach);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, WorldData> = 0>
 void each_field(Struct& d, Visit&& visit) {
   visit(d.bodies), visit(d.colliders), visit(d.corners), visit(d.broad), visit(d.pairs);
   visit(d.contacts);
-  visit(d.contact_of_pair), visit(d.wake_next), visit(d.trees), visit(d.parted), visit(d.steps);
+  visit(d.contact_of_pair), visit(d.wake_next), visit(d.trees), visit(d.groups), visit(d.steps);
   visit(d.verification_steps), visit(d.all_awake_since), visit(d.lost);
   visit(d.robots);
 }

@@ -50,11 +50,11 @@ float hit_impulse(const Body& body, const SleepTerms& t) {
 }
 
 // Counts the steps that a body has stayed near `pose`; starts anew where it is when it has left.
-void count_still(const Body& body, double distance, Pose& pose, std::int32_t& steps) {
+void count_still(const Body& body, const Vec3f& reach, double distance, Pose& pose, std::int32_t& steps) {
   const Vec3 moved = body.world_from_com.translation - pose.translation;
   const Quat turn = pose.rotation.conjugate() * body.world_from_com.rotation;
   // How far a corner has gone at most: a bar may spin about its own axis without going anywhere.
-  const Vec3 r = Vec3(body.shape->reach) * (2 * body.scale);
+  const Vec3 r = Vec3(reach) * (2 * body.scale);
   const Vec3 t{std::abs(turn.x), std::abs(turn.y), std::abs(turn.z)};
   const double turned =
       norm(Vec3{t.y * r.z + t.z * r.y, t.z * r.x + t.x * r.z, t.x * r.y + t.y * r.x});
@@ -237,8 +237,8 @@ void World::Impl::update_sleep() {
       const std::int32_t i = awake_bodies[k];
       Body& body = data.bodies[i];
       if (!body.awake) continue;
-      count_still(body, t.still_distance, body.still_pose, body.still_steps);
-      count_still(body, t.loose_distance, body.loose_pose, body.loose_steps);
+      count_still(body, reach_of(body), t.still_distance, body.still_pose, body.still_steps);
+      count_still(body, reach_of(body), t.loose_distance, body.loose_pose, body.loose_steps);
       slept[i] = !verifying && (body.still_steps >= (overlapping[i] ? long_wait : wait) ||
                                 body.loose_steps >= (overlapping[i] ? long_wait : loose_wait));
     }

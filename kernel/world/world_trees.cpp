@@ -124,9 +124,6 @@ bool World::Impl::are_joined(int body_a, int body_b) const {
       if (these) return !loop.collide;
     }
   }
-  for (const PartedPair& p : data.parted) {
-    if (p.body_a == std::min(body_a, body_b) && p.body_b == std::max(body_a, body_b)) return true;
-  }
   return false;
 }
 

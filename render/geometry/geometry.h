@@ -20,7 +20,7 @@ struct PlacedMesh {
   Vec3f centre;  // of its bounding sphere, in the world
   float radius = 0;
   std::uint32_t id = 0;           // piece number
-  std::uint16_t label = 0;        // class, as in Frame::label
+  std::uint16_t label = 0;        // class, as in the stream `label`
   std::uint32_t first_flag = 0;   // of its finest level's clusters, in per-cluster tables
   std::uint32_t first_light = 0;  // of its vertices, in the table of baked light
   std::array<std::uint32_t, 2> look_seed{};  // varies the look

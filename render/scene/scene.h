@@ -83,7 +83,7 @@ struct SceneInstance {
   float scale = 1;         // of the mesh; range: above 0
   Pose world_from_body;    // unit: m
   std::uint32_t id = 0;     // piece number
-  std::uint16_t label = 2;  // class, as in Frame::label; range: 2 and up
+  std::uint16_t label = 2;  // class, as in the stream `label`; range: 2 and up
 };
 
 // What moves, and where it is when. The rest of a scene stays where its instances say, and its light

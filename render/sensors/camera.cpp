@@ -9,6 +9,7 @@
 #include "render/sensors/exposure_control.h"
 #include "render/sensors/image_sensor.h"
 #include "render/sensors/motion.h"
+#include "render/streams/image_streams.h"
 
 namespace rubble {
 
@@ -120,20 +121,20 @@ ViewRays Camera::State::right_of(ViewRays view) const {
 }
 
 void Camera::State::add_ground_truth(int index, const ViewRays& view, Frame& frame) {
-  if (spec.channels.any()) {
+  if (!spec.channels.empty()) {
     ViewRays next;
     const bool more = index + 1 < int(flight.stamps_ns.size());
-    if (more && spec.channels.flow) next = view_at(index + 1);
-    renderer.add_channels(spec.channels, more ? &next : nullptr, frame);
+    const bool needed = std::any_of(spec.channels.begin(), spec.channels.end(),
+                                    [](const ImageStream* s) { return s->needs_next; });
+    if (more && needed) next = view_at(index + 1);
+    renderer.add_truth(spec.channels, more ? &next : nullptr, frame);
   }
   if (spec.depth_sensor.type != DepthSensorType::none) measure_depth(index, view, frame);
 }
 
 void Camera::State::measure_depth(int index, const ViewRays& view, Frame& frame) {
   Frame truth;
-  ChannelSet channels;
-  channels.normals = true;
-  renderer.add_channels(channels, nullptr, truth);
+  renderer.add_truth({find_image_stream("normals")}, nullptr, truth);
   std::vector<std::uint8_t> projected;
   if (spec.depth_sensor.type == DepthSensorType::structured_light)
     projected = renderer.line_of_sight_mask(depth_sensor.projector());
@@ -142,7 +143,7 @@ void Camera::State::measure_depth(int index, const ViewRays& view, Frame& frame)
   const double seconds = double(view.stamp_ns - flight.stamps_ns.front()) * 1e-9;
   const Air air = medium.at(seconds);
   frame.measured_depth = depth_sensor.measure(
-      {view, renderer.distances(), truth.normals, projected, albedos, air, index});
+      {view, renderer.distances(), truth.get<float>("normals"), projected, albedos, air, index});
 }
 
 Frame Camera::State::take_ideal(int index) {

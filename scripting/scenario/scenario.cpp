@@ -4,6 +4,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
+#include "render/streams/image_streams.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/values/value.h"
 
@@ -92,16 +93,6 @@ void check_names(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
     check_box(item, i, mistakes);
   }
 }
-
-struct ChannelName {
-  const char* name;
-  bool ChannelSet::*member;
-};
-constexpr ChannelName kChannels[] = {{"normals", &ChannelSet::normals},
-                                     {"instance", &ChannelSet::instance},
-                                     {"label", &ChannelSet::label},
-                                     {"flow", &ChannelSet::flow},
-                                     {"sky_visibility", &ChannelSet::sky_visibility}};
 
 void check_channels(const CameraScenario& camera, std::vector<Diagnostic>& mistakes) {
   const std::vector<std::string> names = channel_names();
@@ -202,16 +193,19 @@ std::vector<std::string> export_names() { return {"ply", "obj", "glb", "sdf"}; }
 
 std::vector<std::string> channel_names() {
   std::vector<std::string> names;
-  for (const ChannelName& channel : kChannels) names.push_back(channel.name);
+  for (const ImageStream* stream : truth_streams()) names.push_back(stream->name);
   return names;
 }
 
-ChannelSet CameraScenario::channel_set() const {
-  ChannelSet set;
-  for (const std::string& written : channels)
-    for (const ChannelName& channel : kChannels)
-      if (written == channel.name) set.*channel.member = true;
+StreamSet CameraScenario::channel_set() const {
+  StreamSet set;
+  for (const ImageStream* stream : truth_streams())
+    if (has_channel(stream->name)) set.push_back(stream);
   return set;
+}
+
+bool CameraScenario::has_channel(const std::string& name) const {
+  return std::find(channels.begin(), channels.end(), name) != channels.end();
 }
 
 Intrinsics CameraScenario::intrinsics() const {
@@ -251,6 +245,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_camera(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
   check_record_settling(scenario.record_settling, mistakes);
+  check_robots(scenario, mistakes);
   if (scenario.voids.radius < scenario.voids.voxel)
     mistakes.push_back({"", 0, "voids.radius", "smaller than a voxel",
                         "at least voids.voxel = " + format_number(scenario.voids.voxel),

@@ -19,6 +19,7 @@
 #include "render/scene/camera_spec.h"
 #include "render/scene/frame.h"
 #include "render/scene/scene.h"
+#include "scripting/scenario/robot_scenario.h"
 #include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
@@ -104,6 +105,7 @@ struct CameraScenario {
   double fov_deg = 90;
   // Ground truth beside colour and depth, of channel_names().
   std::vector<std::string> channels{};
+  ColourSpec colour{};         // fast, or path traced
   LensScenario lens{};         // calibration; without one a pinhole of fov_deg
   double stereo_baseline = 0;  // to the right camera of a pair; 0: none; unit: m; range: 0 to 10
   ShutterSpec shutter{};       // when each row is exposed
@@ -115,7 +117,9 @@ struct CameraScenario {
   // the middle of the image, (width - 1) / 2 where pixel (0, 0) has its centre at (0, 0). What the
   // lens states itself comes first.
   Intrinsics intrinsics() const;
-  ChannelSet channel_set() const;  // unknown names are left out
+  // The streams that `channels` names, in the order of the table; unknown names are left out.
+  StreamSet channel_set() const;
+  bool has_channel(const std::string& name) const;  // whether `channels` names it
 };
 
 // What CameraScenario::channels may name.
@@ -193,6 +197,8 @@ struct Scenario {
   RecordSettlingScenario record_settling;  // what is recorded before the flight
   OutputScenario outputs;         // what is written
   VoidScenario voids;             // whether voids are measured
+  std::vector<RobotItem> robots;  // driven through the settled pile
+  RobotRunScenario robot_run;     // how long
 
   // Throws InputError with every mistake: out of range, not finite, contradicting each other.
   void validate() const;

@@ -457,6 +457,7 @@ Schema make_scenario_schema(Scenario& s) {
   add_imu(keys, s.imu);
   add_record_settling(keys, s.record_settling);
   add_voids(keys, s.voids);
+  add_robot_keys(keys, s);
   add_outputs(keys, s.outputs);
   add_aliases(keys);
   return keys;

@@ -1,5 +1,5 @@
 // What is said before a run against what lies there afterwards, for every output there is.
-#include "app/pipeline/disk_estimate.h"
+#include "app/estimate/disk_estimate.h"
 
 #include <gtest/gtest.h>
 

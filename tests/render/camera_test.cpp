@@ -319,7 +319,7 @@ TEST(RollingShutter, SkewsByTheReadoutTime) {
   Renderer renderer(context, lit_wall(), plain());
   CameraSpec spec = fixed_camera(160, 120, 400);
   spec.shutter.readout = 0.05;  // 20 pixels
-  spec.channels.instance = true;
+  spec.channels = {find_image_stream("instance")};
   Camera camera(renderer, spec, fly(2, sideways));
   camera.take(0);
   const Frame frame = camera.take(1);
@@ -327,7 +327,7 @@ TEST(RollingShutter, SkewsByTheReadoutTime) {
     const double eye = 2 * (0.1 + 0.05 * (v / 119.0 - 0.5));
     const double edge = spec.intrinsics.cx + 400 * eye / 4;
     int first = 0;
-    while (first < 160 && frame.instance[std::size_t(v * 160 + first)] == 5) ++first;
+    while (first < 160 && instances_of(frame)[std::size_t(v * 160 + first)] == 5) ++first;
     EXPECT_EQ(first, int(std::floor(edge)) + 1) << "row " << v;
   }
 }
@@ -339,15 +339,15 @@ TEST(RollingShutter, FlowKeepsToTheRowsOwnTimes) {
   CameraSpec spec;
   spec.intrinsics = pinhole(160, 120, 200);
   spec.shutter.readout = 0.05;
-  spec.channels.flow = true;
+  spec.channels = {find_image_stream("flow")};
   // Up at 1 m/s: a point of the wall sinks by f / 4 pixels a second.
   const auto climbing = [](double t) { return Pose{{}, {0, 0, t}}; };
   const Frame frame = Camera(renderer, spec, fly(2, climbing)).take(0);
   for (int v = 20; v < 100; v += 13) {
     // v' - v = 50 (0.1 + 0.05 (v' - v) / 119)
     const double expected = 50 * 0.1 / (1 - 50 * 0.05 / 119);
-    EXPECT_NEAR(double(frame.flow[std::size_t(v * 160 + 40) * 2 + 1]), expected, 2e-3);
-    EXPECT_NEAR(double(frame.flow[std::size_t(v * 160 + 40) * 2]), 0, 2e-3);
+    EXPECT_NEAR(double(flow_of(frame)[std::size_t(v * 160 + 40) * 2 + 1]), expected, 2e-3);
+    EXPECT_NEAR(double(flow_of(frame)[std::size_t(v * 160 + 40) * 2]), 0, 2e-3);
   }
 }
 

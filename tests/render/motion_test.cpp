@@ -79,9 +79,8 @@ TEST(Motion, FlowIsThePointsOwnMotion) {
   const Pose now{{}, {0, 0, 3}}, then{portable::quat_from_rpy(0, 0, 0.02), {0.1, 0.05, 3}};
   Frame frame = renderer.render(view_at(now, k, 0), 0);
   const ViewRays next = view_at(then, k, kSecond / 10);
-  ChannelSet channels;
-  channels.flow = channels.instance = true;
-  renderer.add_channels(channels, &next, frame);
+  const StreamSet channels{find_image_stream("flow"), find_image_stream("instance")};
+  renderer.add_truth(channels, &next, frame);
   int on_slab = 0, on_ground = 0;
   for (int v = 0; v < k.height; ++v) {
     for (int u = 0; u < k.width; ++u) {
@@ -90,11 +89,11 @@ TEST(Motion, FlowIsThePointsOwnMotion) {
       const double z = double(frame.depth[i]);
       const Vec3 optical{(u - k.cx) / k.fx * z, (v - k.cy) / k.fy * z, z};
       const Vec3 world = now * camera_from_optical * optical;
-      const bool slab = frame.instance[i] == 7;
+      const bool slab = instances_of(frame)[i] == 7;
       const Vec3 later = slab ? pose_at(0.1) * (pose_at(0).inverse() * world) : world;
       const Vec3 seen = (then * camera_from_optical).inverse() * later;
-      EXPECT_NEAR(double(frame.flow[i * 2]), k.fx * seen.x / seen.z + k.cx - u, 2e-4);
-      EXPECT_NEAR(double(frame.flow[i * 2 + 1]), k.fy * seen.y / seen.z + k.cy - v, 2e-4);
+      EXPECT_NEAR(double(flow_of(frame)[i * 2]), k.fx * seen.x / seen.z + k.cx - u, 2e-4);
+      EXPECT_NEAR(double(flow_of(frame)[i * 2 + 1]), k.fy * seen.y / seen.z + k.cy - v, 2e-4);
       (slab ? on_slab : on_ground) += 1;
     }
   }
@@ -116,14 +115,13 @@ TEST(Motion, WhatWillNotBeThereHasNoFlow) {
   const Pose pose{{}, {0, 0, 3}};
   Frame frame = renderer.render(view_at(pose, k, 0), 0);
   const ViewRays next = view_at(pose, k, kSecond / 10);
-  ChannelSet channels;
-  channels.flow = channels.instance = true;
-  renderer.add_channels(channels, &next, frame);
+  const StreamSet channels{find_image_stream("flow"), find_image_stream("instance")};
+  renderer.add_truth(channels, &next, frame);
   const std::size_t middle = 30 * 80 + 40, below = 55 * 80 + 40;
-  EXPECT_EQ(frame.instance[middle], 7u);
-  EXPECT_TRUE(std::isnan(frame.flow[middle * 2]));
-  EXPECT_EQ(frame.instance[below], kGroundInstance);
-  EXPECT_EQ(frame.flow[below * 2], 0);
+  EXPECT_EQ(instances_of(frame)[middle], 7u);
+  EXPECT_TRUE(std::isnan(flow_of(frame)[middle * 2]));
+  EXPECT_EQ(instances_of(frame)[below], kGroundInstance);
+  EXPECT_EQ(flow_of(frame)[below * 2], 0);
   EXPECT_TRUE(std::isnan(renderer.render(next, 1).depth[middle]) ||
               renderer.render(next, 1).depth[middle] > 20);
 }
@@ -153,9 +151,9 @@ Frame draw_heap(Renderer& renderer, double t, const Intrinsics& k) {
   ViewRays view = view_at(pose, k, std::llround(t * 1e9));
   if (k.distortion[0] != 0) view.directions = make_lens_directions(k, 1);
   Frame frame = renderer.render(view, 0);
-  ChannelSet channels;
-  channels.instance = channels.label = channels.normals = true;
-  renderer.add_channels(channels, nullptr, frame);
+  const StreamSet channels{find_image_stream("instance"), find_image_stream("label"),
+                           find_image_stream("normals")};
+  renderer.add_truth(channels, nullptr, frame);
   return frame;
 }
 
@@ -168,12 +166,12 @@ TEST(Motion, IsSeenAsIfItStoodThere) {
     for (const double t : {0.5, 0.0, 1.5}) {
       Renderer standing(context, heap_at(t, false), plain());
       const Frame a = draw_heap(moving, t, k), b = draw_heap(standing, t, k);
-      EXPECT_EQ(a.instance, b.instance) << t;
-      EXPECT_EQ(a.label, b.label);
+      EXPECT_EQ(instances_of(a), instances_of(b)) << t;
+      EXPECT_EQ(labels_of(a), labels_of(b));
       for (std::size_t i = 0; i < a.depth.size(); ++i) {
         if (std::isnan(a.depth[i]) && std::isnan(b.depth[i])) continue;
         ASSERT_NEAR(a.depth[i], b.depth[i], 1e-5f * b.depth[i]) << t << " at " << i;
-        ASSERT_NEAR(a.normals[i * 3], b.normals[i * 3], 1e-4);
+        ASSERT_NEAR(normals_of(a)[i * 3], normals_of(b)[i * 3], 1e-4);
       }
     }
   }
@@ -188,7 +186,7 @@ TEST(Motion, AFrameDoesNotDependOnThoseBefore) {
   for (const double t : {1.0, 0.5, 0.0}) second.insert(second.begin(), draw_heap(back, t, k));
   for (std::size_t i = 0; i < first.size(); ++i) {
     EXPECT_EQ(first[i].rgb, second[i].rgb) << i;
-    EXPECT_EQ(first[i].instance, second[i].instance) << i;
+    EXPECT_EQ(instances_of(first[i]), instances_of(second[i])) << i;
   }
   EXPECT_NE(first[0].rgb, first[2].rgb);  // the negative control
 }

@@ -121,7 +121,7 @@ TEST(MissionErrors, UnknownKeyFarFromAllNamesListsThem) {
 TEST(MissionErrors, UnknownChannel) {
   EXPECT_EQ(mission_error("return rubble.mission {\n  camera = { channels = { 'flow', 'norm' } },\n}"),
             "m.lua:2: camera.channels[2]: unknown channel `norm`: expected one of normals, instance, "
-            "label, flow, sky_visibility");
+            "label, flow, sky_visibility, position");
   EXPECT_EQ(mission_error("return rubble.mission {\n  camera = { channels = { 'normal' } },\n}"),
             "m.lua:2: camera.channels[1]: unknown channel `normal` (did you mean `normals`?)");
 }

@@ -72,6 +72,7 @@ TEST(Scripts, FeaturesAreShown) {
   EXPECT_GT(load("fog.lua").scenario.air.fog_density, 0);
   EXPECT_EQ(load("dusk.lua").scenario.light.spec.type, LightType::sun);
   EXPECT_EQ(load("dusk.lua").scenario.lights.size(), 2u);
+  EXPECT_EQ(load("reference.lua").scenario.camera.colour.quality, RenderQuality::reference);
   EXPECT_GT(load("dust.lua").scenario.air.dust.period, 0);
   EXPECT_TRUE(load("record_settling.lua").scenario.record_settling.on);
   EXPECT_EQ(load("rain.lua").scenario.settle.schedule, Schedule::planes);

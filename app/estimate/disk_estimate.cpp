@@ -1,8 +1,9 @@
-#include "app/pipeline/disk_estimate.h"
+#include "app/estimate/disk_estimate.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <vector>
 
 #include "app/formats/recording_formats.h"
@@ -76,7 +77,7 @@ void add_track(const Scenario& s, const PileModelSize& pile, Estimate& sizes) {
 void add_recordings(const Scenario& s, const RecordedSize& size, Estimate& sizes) {
   for (const RecordingFormat& format : recording_formats())
     if (s.outputs.*format.wanted) sizes[format.leaves] = std::uint64_t(format.estimate(size));
-  if (s.camera.channel_set().label) sizes["labels.csv"] = 10000;
+  if (s.camera.has_channel("label")) sizes["labels.csv"] = 10000;
   if (s.trajectory.needs_pile())
     sizes["flight.json"] = std::uint64_t(400 * size.flight.frames + 1e5);
 }
@@ -104,11 +105,16 @@ Estimate estimate_outputs(const Scenario& s, const AssetLibrary& assets) {
   return sizes;
 }
 
+Estimate estimate_files(const Scenario& s, const AssetLibrary& assets, bool pile_only) {
+  Estimate sizes = estimate_outputs(s, assets);
+  for (auto it = sizes.begin(); it != sizes.end();)
+    it = pile_only && !is_of_pile(it->first) ? sizes.erase(it) : std::next(it);
+  return sizes;
+}
+
 std::uint64_t estimate_bytes(const Scenario& s, const AssetLibrary& assets, bool pile_only) {
   std::uint64_t sum = 0;
-  for (const auto& [name, bytes] : estimate_outputs(s, assets)) {
-    if (is_of_pile(name) || !pile_only) sum += bytes;
-  }
+  for (const auto& item : estimate_files(s, assets, pile_only)) sum += item.second;
   return sum;
 }
 

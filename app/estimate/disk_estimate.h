@@ -18,7 +18,10 @@ namespace rubble {
 std::map<std::string, std::uint64_t> estimate_outputs(const Scenario& scenario,
                                                       const AssetLibrary& assets);
 
-// Of all of them, or of those that a run leaves which renders nothing (`pile_only`).
+// All of them, or those that a run leaves which renders nothing (`pile_only`).
+std::map<std::string, std::uint64_t> estimate_files(const Scenario& scenario,
+                                                    const AssetLibrary& assets, bool pile_only);
+// The sum of these.
 std::uint64_t estimate_bytes(const Scenario& scenario, const AssetLibrary& assets,
                              bool pile_only = false);
 

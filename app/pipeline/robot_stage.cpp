@@ -66,12 +66,12 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
   folder.expect(robot_file_names(names));
   std::unique_ptr<ScriptControl> script;
   std::vector<JointLog> logs(robots.size());
+  for (const RobotItem& robot : robots) driven.moved.models.push_back(make_robot_model(robot));
   RobotRunResult result;
   try {
     RobotRun run(make_pile(mission), pile, run_options(mission.scenario, context.threads()));
     for (std::size_t i = 0; i < robots.size(); ++i) {
-      driven.models.push_back(make_robot_model(robots[i]));
-      const RobotModel& model = driven.models.back();
+      const RobotModel& model = driven.moved.models[i];
       RobotController control;
       if (robots[i].control > 0) {
         if (!script) script = std::make_unique<ScriptControl>(mission);
@@ -95,11 +95,12 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
     throw InputError(std::move(mistakes));
   }
   throw_if_stopped(folder.path());
-  write_robot_files(folder.path(), names, driven.models, result, logs, mission.scenario.start_ns);
+  write_robot_files(folder.path(), names, driven.moved.models, result, logs,
+                    mission.scenario.start_ns);
   for (const std::string& name : robot_file_names(names)) folder.add(name);
   add_robot_metrics(result, driven.metrics);
-  driven.track = std::move(result.track);
-  driven.first_piece = std::move(result.first_piece);
+  driven.moved.track = std::move(result.track);
+  driven.moved.first_piece = std::move(result.first_piece);
   context.progress.finish(std::to_string(robots.size()) + " driven, " +
                           std::to_string(result.pieces_moved) + " pieces moved");
   return driven;

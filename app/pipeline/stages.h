@@ -3,10 +3,10 @@
 //
 //   stage      from                  to                           kept as
 //   resolve    script or manifest    ResolvedMission              unfinished/run.json
-//   settle     ResolvedMission       SettledPile                  pile.bin
-//   files      PileState             meshes of the pile           pile.stl
-//   robots     PileState             DrivenRobots                 robots/
-//   frames     PileState             RecordedFrames               every recorder's file
+//   settle     ResolvedMission       SettledPile                  pile.bin, track.bin
+//   files      SettledPile           meshes of the pile           pile.stl, track.glb
+//   robots     SettledPile           DrivenRobots                 robots/
+//   frames     both                  RecordedFrames               every recorder's file
 //   manifest   all                   hashes of all                manifest.json
 #pragma once
 
@@ -15,10 +15,10 @@
 #include <string>
 
 #include "app/pipeline/metrics.h"
+#include "app/pipeline/moving_scene.h"
 #include "app/pipeline/resolved_mission.h"
 #include "app/provenance/frame_hashes.h"
 #include "kernel/model/pile_state.h"
-#include "kernel/model/robot.h"
 #include "kernel/model/track.h"
 #include "render/renderer.h"
 
@@ -26,14 +26,13 @@ namespace rubble {
 
 struct SettledPile {
   PileState state;
+  Track track;      // who moved when; empty where the mission does not ask for it
   Metrics metrics;  // of the pile and, where the mission asks for them, its voids
 };
 
 // What the robots of a mission did; empty without robots.
 struct DrivenRobots {
-  Track track;                    // ids: pieces of the pile, then links, robot by robot
-  std::vector<RobotModel> models;
-  std::vector<int> first_piece;   // id of each robot's first link
+  RobotTrack moved;
   Metrics metrics;
 };
 
@@ -50,7 +49,7 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
 // Keeps a pile that another run settled as the product of this run's first stage.
 void keep_pile(const ResolvedMission& mission, const PileState& state, const RunFolder& folder);
 
-void write_pile_files(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
+void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, RunFolder& folder,
                       RunContext& context);
 
 // Drives the mission's robots through the pile and writes what they did. Throws InputError for a robot that
@@ -65,8 +64,8 @@ Renderer prepare_renderer(const Scenario& scenario, const AssetLibrary& assets,
                           const std::function<void(double)>& on_light,
                           const std::function<void(double)>& on_image = {});
 
-RecordedFrames record_frames(const ResolvedMission& mission, const PileState& pile,
-                             RunFolder& folder, RunContext& context);
+RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
+                             const DrivenRobots& robots, RunFolder& folder, RunContext& context);
 
 // Of both: no name is in both.
 Metrics join(const Metrics& of_pile, const Metrics& of_frames);

@@ -108,6 +108,9 @@ std::vector<std::string> robot_names(const std::vector<RobotItem>& robots) {
 
 void check_robots(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   const std::vector<std::string> names = robot_names(scenario.robots);
+  if (!names.empty() && scenario.record_settling.on)
+    mistakes.push_back({"", 0, "record_settling", "robots start with the first frame",
+                        "one of robots and record_settling", "both", ""});
   for (std::size_t i = 0; i < names.size(); ++i) {
     const bool plain = std::all_of(names[i].begin(), names[i].end(), [](char c) {
       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';

@@ -121,8 +121,11 @@ ExitCode complete(const ResolvedMission& mission, RunFolder& folder, RunContext&
     pile = settle(mission, folder, context);
     write_pile_files(mission, pile.state, folder, context);
     RecordedFrames frames;
-    if (mission.provenance.kind != RunKind::settle)
+    if (mission.provenance.kind != RunKind::settle) {
+      const DrivenRobots robots = drive_robots(mission, pile.state, folder, context);
+      pile.metrics = join(pile.metrics, robots.metrics);
       frames = record_frames(mission, pile.state, folder, context);
+    }
     write_manifest(mission, pile, frames, folder, context);
   } catch (const RunError& error) {
     throw RunError(error.what() + std::string("\nwhat is finished is kept: `rubble resume ") +

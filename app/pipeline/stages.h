@@ -5,6 +5,7 @@
 //   resolve    script or manifest    ResolvedMission              unfinished/run.json
 //   settle     ResolvedMission       SettledPile                  pile.bin
 //   files      PileState             meshes of the pile           pile.stl
+//   robots     PileState             DrivenRobots                 robots/
 //   frames     PileState             RecordedFrames               every recorder's file
 //   manifest   all                   hashes of all                manifest.json
 #pragma once
@@ -17,6 +18,8 @@
 #include "app/pipeline/resolved_mission.h"
 #include "app/provenance/frame_hashes.h"
 #include "kernel/model/pile_state.h"
+#include "kernel/model/robot.h"
+#include "kernel/model/track.h"
 #include "render/renderer.h"
 
 namespace rubble {
@@ -24,6 +27,14 @@ namespace rubble {
 struct SettledPile {
   PileState state;
   Metrics metrics;  // of the pile and, where the mission asks for them, its voids
+};
+
+// What the robots of a mission did; empty without robots.
+struct DrivenRobots {
+  Track track;                    // ids: pieces of the pile, then links, robot by robot
+  std::vector<RobotModel> models;
+  std::vector<int> first_piece;   // id of each robot's first link
+  Metrics metrics;
 };
 
 struct RecordedFrames {
@@ -41,6 +52,11 @@ void keep_pile(const ResolvedMission& mission, const PileState& state, const Run
 
 void write_pile_files(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
                       RunContext& context);
+
+// Drives the mission's robots through the pile and writes what they did. Throws InputError for a robot that
+// stands in something and for a function of the script that fails.
+DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
+                          RunContext& context);
 
 // The scene of the pile, lit, on the device of `gl`. on_light: 0 to 1; on_image: the same, while a
 // path-traced image is drawn; may throw to stop.

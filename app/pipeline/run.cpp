@@ -119,12 +119,12 @@ ExitCode complete(const ResolvedMission& mission, RunFolder& folder, RunContext&
   SettledPile pile;
   try {
     pile = settle(mission, folder, context);
-    write_pile_files(mission, pile.state, folder, context);
+    write_pile_files(mission, pile, folder, context);
     RecordedFrames frames;
     if (mission.provenance.kind != RunKind::settle) {
       const DrivenRobots robots = drive_robots(mission, pile.state, folder, context);
       pile.metrics = join(pile.metrics, robots.metrics);
-      frames = record_frames(mission, pile.state, folder, context);
+      frames = record_frames(mission, pile, folder, context);
     }
     write_manifest(mission, pile, frames, folder, context);
   } catch (const RunError& error) {

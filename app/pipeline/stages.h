@@ -3,10 +3,10 @@
 //
 //   stage      from                  to                           kept as
 //   resolve    script or manifest    ResolvedMission              unfinished/run.json
-//   settle     ResolvedMission       SettledPile                  pile.bin
-//   files      PileState             meshes of the pile           pile.stl
+//   settle     ResolvedMission       SettledPile                  pile.bin, track.bin
+//   files      SettledPile           meshes of the pile           pile.stl, track.glb
 //   robots     PileState             DrivenRobots                 robots/
-//   frames     PileState             RecordedFrames               every recorder's file
+//   frames     SettledPile           RecordedFrames               every recorder's file
 //   manifest   all                   hashes of all                manifest.json
 #pragma once
 
@@ -26,6 +26,7 @@ namespace rubble {
 
 struct SettledPile {
   PileState state;
+  Track track;      // who moved when; empty where the mission does not ask for it
   Metrics metrics;  // of the pile and, where the mission asks for them, its voids
 };
 
@@ -50,7 +51,7 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
 // Keeps a pile that another run settled as the product of this run's first stage.
 void keep_pile(const ResolvedMission& mission, const PileState& state, const RunFolder& folder);
 
-void write_pile_files(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
+void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, RunFolder& folder,
                       RunContext& context);
 
 // Drives the mission's robots through the pile and writes what they did. Throws InputError for a robot that
@@ -65,7 +66,7 @@ Renderer prepare_renderer(const Scenario& scenario, const AssetLibrary& assets,
                           const std::function<void(double)>& on_light,
                           const std::function<void(double)>& on_image = {});
 
-RecordedFrames record_frames(const ResolvedMission& mission, const PileState& pile,
+RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
                              RunFolder& folder, RunContext& context);
 
 // Of both: no name is in both.

@@ -171,7 +171,7 @@ TEST(Motion, IsSeenAsIfItStoodThere) {
       for (std::size_t i = 0; i < a.depth.size(); ++i) {
         if (std::isnan(a.depth[i]) && std::isnan(b.depth[i])) continue;
         ASSERT_NEAR(a.depth[i], b.depth[i], 1e-5f * b.depth[i]) << t << " at " << i;
-        ASSERT_NEAR(a.normals[i * 3], b.normals[i * 3], 1e-4);
+        ASSERT_NEAR(normals_of(a)[i * 3], normals_of(b)[i * 3], 1e-4);
       }
     }
   }

@@ -1,4 +1,5 @@
 // The stage from a settled pile, and its track, to recorded frames.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -30,7 +31,8 @@ namespace {
 
 // labels.csv: what the numbers of the label channel mean.
 void write_legend(const ResolvedMission& mission, RunFolder& folder) {
-  if (!mission.scenario.camera.channel_set().label) return;
+  const std::vector<std::string>& channels = mission.scenario.camera.channels;
+  if (std::find(channels.begin(), channels.end(), "label") == channels.end()) return;
   std::string text = "label,name\n";
   const std::vector<std::string> names = label_names(mission.scenario, mission.assets);
   for (std::size_t i = 0; i < names.size(); ++i) text += std::to_string(i) + "," + names[i] + "\n";

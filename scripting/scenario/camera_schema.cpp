@@ -27,8 +27,7 @@ void add_camera(Schema& k, CameraScenario& c) {
           "plumb_bob is left out of account.")
       .between(1, 360)
       .unit("degree");
-  k.value("camera.channels", c.channels,
-          describe_channels());
+  k.value("camera.channels", c.channels, describe_channels());
   k.choice("camera.quality", c.colour.quality, {"fast", "reference"},
            "How colours are found: baked light and shadow maps, or path tracing, which takes a minute or "
            "more an image ([reference_renderer.md](reference_renderer.md)). Depth and channels are the same.");

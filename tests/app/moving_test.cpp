@@ -160,6 +160,17 @@ TEST_F(Falling, SettleKeepsTheTrackWithAnOption) {
     EXPECT_EQ(read_outputs(pile).at(name), read_outputs(folder()).at(name)) << name;
 }
 
+TEST(RecordSettling, TheBundledMissionRuns) {
+  const ScratchFolder scratch;
+  const Outcome run = run_rubble(
+      "run scripts/record_settling.lua --set camera.width=64 --set camera.height=48 --set "
+      "record_settling.rate_hz=2 --out " + (scratch / "a"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read_poses(scratch / "a/groundtruth.txt").size(), 17u + 16u);
+  for (const char* name : {"track.bin", "track.glb", "mission.mcap", "preview.png"})
+    EXPECT_TRUE(read_outputs(scratch / "a").count(name)) << name;
+}
+
 TEST(RecordSettling, SaysWhatIsWrong) {
   const ScratchFolder scratch;
   const auto error_of = [&](const std::string& keys) {

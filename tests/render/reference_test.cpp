@@ -38,14 +38,14 @@ TEST(Reference, IsTheSameWhateverTheNumberOfThreads) {
 
 TEST(Reference, LeavesDepthAndChannelsAsTheyAre) {
   GlContext context;
-  ChannelSet channels;
-  channels.normals = channels.instance = channels.label = true;
+  const StreamSet channels{find_image_stream("normals"), find_image_stream("instance"),
+                           find_image_stream("label")};
   const auto draw = [&](RenderQuality quality) {
     RenderOptions options = reference(1);
     options.colour.quality = quality, options.bake_rays = 8;
     Renderer renderer(context, make_heap(40, 7), options);
     Frame frame = renderer.render(look_at({4, 2, 1.5}, {0, 0, 0.5}), pinhole(80, 70, 60), 0, 1000000000);
-    renderer.add_channels(channels, nullptr, frame);
+    renderer.add_truth(channels, nullptr, frame);
     return frame;
   };
   const Frame fast = draw(RenderQuality::fast), slow = draw(RenderQuality::reference);
@@ -53,9 +53,9 @@ TEST(Reference, LeavesDepthAndChannelsAsTheyAre) {
     return std::string(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(float));
   };
   EXPECT_TRUE(bytes(fast.depth) == bytes(slow.depth));
-  EXPECT_TRUE(bytes(fast.normals) == bytes(slow.normals));
-  EXPECT_TRUE(fast.instance == slow.instance);
-  EXPECT_TRUE(fast.label == slow.label);
+  EXPECT_TRUE(bytes(normals_of(fast)) == bytes(normals_of(slow)));
+  EXPECT_TRUE(instances_of(fast) == instances_of(slow));
+  EXPECT_TRUE(labels_of(fast) == labels_of(slow));
   EXPECT_FALSE(fast.rgb == slow.rgb);
 }
 

@@ -34,7 +34,7 @@ TEST(Robots, AControllerThatReturnsNoNumberIsAMistakeWithItsLine) {
              "    control = function() return { linear = 0 / 0 } end } } }\n");
   const Outcome run = run_rubble("run " + (scratch / "m.lua") + kQuick + (scratch / "out"));
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_NE(run.err.find("m.lua:3: robots[1].control: linear"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("m.lua:2: robots[1].control: linear"), std::string::npos) << run.err;
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "app/batch/golden_file.h"
 #include "app/batch/junit.h"
 #include "app/batch/seed_list.h"
-#include "app/pipeline/metrics.h"
+#include "app/measures/metrics.h"
 #include "app/provenance/manifest.h"
 #include "app/support/job_pool.h"
 #include "app/support/stop.h"

@@ -5,7 +5,7 @@
 
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/stages.h"
-#include "app/pipeline/void_metrics.h"
+#include "app/measures/void_metrics.h"
 #include "app/support/stop.h"
 #include "io/mesh/pile_export.h"
 #include "io/mesh/track_glb.h"

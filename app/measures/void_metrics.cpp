@@ -1,4 +1,4 @@
-#include "app/pipeline/void_metrics.h"
+#include "app/measures/void_metrics.h"
 
 #include <algorithm>
 

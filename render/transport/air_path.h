@@ -6,7 +6,7 @@
 #pragma once
 
 #include "render/media/medium.h"
-#include "render/reference/sample_sequence.h"
+#include "render/transport/sample_sequence.h"
 
 namespace rubble {
 

@@ -1,4 +1,4 @@
-#include "render/reference/sky_sampler.h"
+#include "render/transport/sky_sampler.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "render/reference/air_path.h"
+#include "render/transport/air_path.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "render/reference/scene_lights.h"
+#include "render/transport/scene_lights.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "render/reference/sample_sequence.h"
+#include "render/transport/sample_sequence.h"
 
 #include <array>
 

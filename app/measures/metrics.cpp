@@ -1,4 +1,4 @@
-#include "app/pipeline/metrics.h"
+#include "app/measures/metrics.h"
 
 #include <algorithm>
 #include <cmath>

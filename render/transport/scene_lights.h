@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "render/lighting/lighting.h"
-#include "render/reference/sample_sequence.h"
-#include "render/reference/sky_sampler.h"
+#include "render/transport/sample_sequence.h"
+#include "render/transport/sky_sampler.h"
 
 namespace rubble {
 

@@ -1,4 +1,4 @@
-#include "render/reference/reflection.h"
+#include "render/transport/reflection.h"
 
 #include <algorithm>
 #include <array>

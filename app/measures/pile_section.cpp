@@ -1,4 +1,4 @@
-#include "app/pipeline/pile_section.h"
+#include "app/measures/pile_section.h"
 
 #include <algorithm>
 

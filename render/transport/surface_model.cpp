@@ -1,4 +1,4 @@
-#include "render/reference/surface_model.h"
+#include "render/transport/surface_model.h"
 
 #include <algorithm>
 #include <cmath>

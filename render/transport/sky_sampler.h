@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "render/lighting/lighting.h"
-#include "render/reference/sample_sequence.h"
+#include "render/transport/sample_sequence.h"
 
 namespace rubble {
 

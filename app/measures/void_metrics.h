@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "app/assets/asset_library.h"
-#include "app/pipeline/metrics.h"
+#include "app/measures/metrics.h"
 #include "kernel/model/pile_state.h"
 #include "scripting/scenario/scenario.h"
 

@@ -11,7 +11,7 @@
 #pragma once
 
 #include "kernel/base/math.h"
-#include "render/reference/sample_sequence.h"
+#include "render/transport/sample_sequence.h"
 
 namespace rubble {
 

@@ -7,8 +7,8 @@
 #include "render/geometry/geometry.h"
 #include "render/geometry/ground_map.h"
 #include "render/geometry/ray_scene.h"
-#include "render/reference/reflection.h"
-#include "render/reference/texture_stack.h"
+#include "render/transport/reflection.h"
+#include "render/transport/texture_stack.h"
 
 namespace rubble {
 

@@ -1,4 +1,4 @@
-#include "render/reference/texture_stack.h"
+#include "render/transport/texture_stack.h"
 
 #include <algorithm>
 #include <cmath>

@@ -14,6 +14,7 @@ void add_mission_options(CommandLine& line, RunRequest& request,
                          const std::string& name = "mission");
 
 void add_seed_option(CommandLine& line, RunRequest& request);
+void add_track_option(CommandLine& line, RunRequest& request);
 
 void add_threads_option(CommandLine& line, int& threads);
 

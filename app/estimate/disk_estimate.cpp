@@ -19,6 +19,8 @@ using Estimate = std::map<std::string, std::uint64_t>;
 constexpr double kManifestBytes = 3e5;       // scripts, scenario, assets
 constexpr double kSamplingMargin = 4.0 / 3;  // what the draw may favour large meshes by
 constexpr double kPieceBytes = 137;          // in pile.bin
+constexpr double kKeyBytes = 84, kClipBytes = 32;  // in track.bin and track.glb
+constexpr double kMovingTime = 4;  // of a piece after its layer's time limit; unit: s
 
 // What lies there, as far as it can be known before it is drawn: means over the mix.
 double triangles_of(const AssetLibrary& assets, int type) {
@@ -62,6 +64,16 @@ void add_meshes(const Scenario& s, const PileModelSize& pile, Estimate& sizes) {
   }
 }
 
+// How long pieces move is known only afterwards.
+void add_track(const Scenario& s, const PileModelSize& pile, Estimate& sizes) {
+  if (!needs_track(s)) return;
+  const double keys = pile.pieces * (s.settle.layer_time_limit + kMovingTime) / s.settle.step;
+  sizes["track.bin"] = std::uint64_t(keys * kKeyBytes + 2e4);
+  if (!s.outputs.track) return;
+  const double clip = keys * kClipBytes + pile.pieces * 1500;
+  sizes["track.glb"] = std::uint64_t(find_mesh_format("glb").estimate(pile) + clip + 2e4);
+}
+
 void add_recordings(const Scenario& s, const RecordedSize& size, Estimate& sizes) {
   for (const RecordingFormat& format : recording_formats())
     if (s.outputs.*format.wanted) sizes[format.leaves] = std::uint64_t(format.estimate(size));
@@ -72,7 +84,8 @@ void add_recordings(const Scenario& s, const RecordedSize& size, Estimate& sizes
 
 // What `rubble settle` leaves, too.
 bool is_of_pile(const std::string& name) {
-  if (name == "pile.bin" || name == "manifest.json") return true;
+  for (const char* own : {"pile.bin", "manifest.json", "track.bin", "track.glb"})
+    if (name == own) return true;
   for (const MeshFormat& format : mesh_formats())
     if (std::count(format.leaves.begin(), format.leaves.end(), name)) return true;
   return false;
@@ -87,6 +100,7 @@ Estimate estimate_outputs(const Scenario& s, const AssetLibrary& assets) {
   sizes["pile.bin"] = std::uint64_t(pile.pieces * kPieceBytes + 2000);
   sizes["manifest.json"] = std::uint64_t(recorded.flight.frames * 250 + kManifestBytes);
   add_meshes(s, pile, sizes);
+  add_track(s, pile, sizes);
   add_recordings(s, recorded, sizes);
   return sizes;
 }

@@ -16,7 +16,7 @@ Recording describe_recording(const Scenario& scenario, const AssetLibrary& asset
   channels.events = scenario.event_camera.on;
   channels.imu = scenario.imu.on;
   recording.imu = scenario.imu.model;
-  recording.legend.labels = label_names(assets);
+  recording.legend.labels = label_names(scenario, assets);
   for (const PieceState& piece : pile.pieces) {
     const auto type = std::size_t(piece.type);
     recording.legend.pieces.push_back(

@@ -119,10 +119,13 @@ ExitCode complete(const ResolvedMission& mission, RunFolder& folder, RunContext&
   SettledPile pile;
   try {
     pile = settle(mission, folder, context);
-    write_pile_files(mission, pile.state, folder, context);
+    write_pile_files(mission, pile, folder, context);
     RecordedFrames frames;
-    if (mission.provenance.kind != RunKind::settle)
-      frames = record_frames(mission, pile.state, folder, context);
+    if (mission.provenance.kind != RunKind::settle) {
+      const DrivenRobots robots = drive_robots(mission, pile.state, folder, context);
+      pile.metrics = join(pile.metrics, robots.metrics);
+      frames = record_frames(mission, pile, robots, folder, context);
+    }
     write_manifest(mission, pile, frames, folder, context);
   } catch (const RunError& error) {
     throw RunError(error.what() + std::string("\nwhat is finished is kept: `rubble resume ") +

@@ -144,6 +144,23 @@ int print_line(lua_State* lua) {
   return 0;
 }
 
+// controller(function) -> its number. What drives robots is called long after the script has ended.
+int keep_controller(lua_State* lua) {
+  constexpr lua_Unsigned kMost = 1000;
+  luaL_checktype(lua, 1, LUA_TFUNCTION);
+  if (lua_getfield(lua, LUA_REGISTRYINDEX, kControllers) != LUA_TTABLE) {
+    lua_pop(lua, 1);
+    lua_newtable(lua);
+    lua_pushvalue(lua, -1);
+    lua_setfield(lua, LUA_REGISTRYINDEX, kControllers);
+  }
+  const lua_Unsigned number = lua_rawlen(lua, -1) + 1;
+  if (number > kMost) return luaL_error(lua, "rubble.controller: more than 1000 functions");
+  lua_pushvalue(lua, 1);
+  lua_rawseti(lua, -2, lua_Integer(number));
+  return lua_pushinteger(lua, lua_Integer(number)), 1;
+}
+
 int include_file(lua_State* lua) {
   const std::string name = luaL_checkstring(lua, 1);
   LuaHost& host = host_of(lua);
@@ -371,7 +388,7 @@ int math_log(lua_State* lua) {
 }
 
 const luaL_Reg kFunctions[] = {
-    {"options", read_options}, {"read_image", read_image_file}, {"read_table", read_table_file}, {"reject", reject_option}, {"rotate", rotate_vector}, {"stream", make_stream}, {"print", print_line}, {"include", include_file}, {"sin", math_sin},
+    {"options", read_options}, {"read_image", read_image_file}, {"read_table", read_table_file}, {"reject", reject_option}, {"rotate", rotate_vector}, {"stream", make_stream}, {"controller", keep_controller}, {"print", print_line}, {"include", include_file}, {"sin", math_sin},
     {"cos", math_cos},       {"tan", math_tan},     {"asin", math_asin},       {"acos", math_acos},
     {"atan", math_atan},     {"exp", math_exp},     {"log", math_log},         {nullptr, nullptr}};
 

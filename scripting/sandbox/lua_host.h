@@ -52,6 +52,9 @@ void count_work(lua_State* lua, std::uint64_t instructions);
 // What Lua shall read of a file: all but a byte order mark and a first line that begins with `#`.
 std::string_view lua_source(std::string_view text);
 
+// Where the registry keeps the functions that rubble.controller was given.
+inline constexpr const char* kControllers = "controllers";
+
 // Lua names a chunk in its messages; ours are "chunk0", "chunk1", ... and stand for paths.
 std::string chunk_name(int chunk);
 

@@ -57,6 +57,10 @@ class LuaSandbox {
   // includes are looked for beside it. Throws InputError with file and line.
   Value run(const std::string& text, const std::string& path);
 
+  // Calls a function that the script gave to rubble.controller, by its number, once the script has run.
+  // Limits hold for each call by itself: 2 million instructions. Throws InputError with file and line.
+  Value call_controller(int number, const Value& argument);
+
   // What rubble.options found wrong in that run, with file and line.
   const std::vector<Diagnostic>& mistakes() const;
 

@@ -107,8 +107,8 @@ Allowed stack(const Prefixes& rooms, const Prefixes& others) {
 
 const Allowed kRender = stack(
     {"render/scene/", "render/streams/", "render/gl/", "render/camera/", "render/materials/", "render/geometry/",
-     "render/lighting/", "render/media/", "render/raster/", "render/passes/", "render/renderer.",
-     "render/sensors/"},
+     "render/lighting/", "render/media/", "render/raster/", "render/passes/",
+     "render/reference/", "render/renderer.", "render/sensors/"},
     {"kernel/base/"});
 
 const Allowed kIo = stack(
@@ -203,11 +203,11 @@ const std::map<std::string, Prefixes> kDoors{
     {"SimTK", {"kernel/multibody/"}},
     {"xxhash.h", {"kernel/base/"}},
     {"openssl/", {"kernel/base/"}},
-    {"embree3/", {"kernel/queries/query_tree.cpp", "render/geometry/ray_scene.cpp"}},
+    {"embree3/", {"kernel/queries/query_tree.cpp", "render/geometry/ray_"}},
     {"EGL/", {"render/gl/"}},
     {"GL/", {"render/gl/"}},
     {"assimp/", {"io/mesh/mesh_file.cpp"}},
-    {"opencv2/", {"io/image/", "io/recording/contact_sheet.cpp", "io/voids/void_picture.cpp"}},
+    {"opencv2/", {"bench/images/picture_file.cpp", "io/image/", "io/recording/contact_sheet.cpp", "io/voids/void_picture.cpp"}},
     {"mrpt/", {"io/mrpt/", "io/playback/rawlog_pictures.cpp"}},
     {"rosbag/", {"io/ros/"}},
     {"sensor_msgs/", {"io/ros/"}},

@@ -90,6 +90,7 @@ void take_frames(Camera& camera, const Leg& leg, FrameSinks& sinks, const RunFol
     taking.frame = i;
     Frame frame = camera.take(i);
     frame.index = sinks.frames++;
+    frame.starts_sequence = i == 0;
     frame.linear_velocity = path.motion_at(seconds_since(flown, frame.stamp_ns)).velocity;
     if (flown.imu.on) frame.imu = imu.take_until(frame.stamp_ns);
     recorded.hashes.add(frame);

@@ -125,11 +125,22 @@ function rubble.trajectory_options(list) end
 ---@param interpolation? string
 ---@return rubble.mission.trajectory
 function rubble.fly(options, waypoints, interpolation) end
+---Keeps a function that drives a robot, for `control` (docs/robots.md).
+---@param f fun(sense: table): table
+---@return integer
+function rubble.controller(f) end
+---An entry of `robots` from a model's own parameters and those that every robot has.
+---@param model string
+---@param given table
+---@param list table[] as of `rubble.options`
+---@return table
+function rubble.robot_options(model, given, list) end
 
 rubble.collapse = {}
 rubble.density = {}
 rubble.terrain = {}
 rubble.trajectory = {}
+rubble.robot = {}
 
 ---A density from a PNG file of the script's folder: white where most falls, its upper edge at +Y.
 ---@param file string

@@ -20,54 +20,57 @@ Vec3f direction_of(float u, float v) {
   return normalized(Vec3f(x, y, std::max(0.0f, 1 - std::fabs(x) - std::fabs(y))));
 }
 
-// Turns values into their running sum from 0 to 1.
-void accumulate(float* first, int count) {
-  double sum = 0;
-  for (int i = 1; i <= count; ++i) sum += double(first[i]);
-  double running = 0;
-  for (int i = 1; i <= count; ++i) {
-    running += double(first[i]);
-    first[i] = sum > 0 ? float(running / sum) : float(i) / float(count);
+}  // namespace
+
+void SkySampler::Line::accumulate(const std::array<float, kSide>& weights) {
+  double sum = 0, running = 0;
+  for (const float w : weights) sum += double(w);
+  for (std::size_t i = 0; i < kSide; ++i) {
+    running += double(weights[i]);
+    sums[i + 1] = float(running / sum);
   }
-  first[0] = 0, first[count] = 1;
+  sums[kSide] = 1;
+  std::size_t at = 0;
+  for (std::size_t part = 0; part < kSide; ++part) {
+    while (at + 1 < kSide && sums[at + 1] <= float(part) / kSide) ++at;
+    start[part] = std::uint8_t(at);
+  }
 }
 
 // The interval that u falls into, and where in it.
-int find_interval(const float* sums, int count, float u, float& within) {
-  const int i = std::clamp(int(std::upper_bound(sums, sums + count, u) - sums) - 1, 0, count - 1);
+int SkySampler::Line::find(float u, float& within) const {
+  std::size_t i = start[std::size_t(std::min(int(u * kSide), kSide - 1))];
+  while (i + 1 < kSide && sums[i + 1] <= u) ++i;
   const float width = sums[i + 1] - sums[i];
   within = width > 0 ? std::clamp((u - sums[i]) / width, 0.0f, 0.999999f) : 0.5f;
-  return i;
+  return int(i);
 }
 
-}  // namespace
-
-SkySampler::SkySampler(const Sky& sky)
-    : rows_(kSide + 1), columns_(std::size_t(kSide) * (kSide + 1)) {
+SkySampler::SkySampler(const Sky& sky) : columns_(kSide) {
   float mean = 0;
   for (const Vec3f& value : sky.map) mean += luminance_of(value) / float(sky.map.size());
   if (mean <= 0) return;
-  for (int y = 0; y < kSide; ++y) {
-    float* row = &columns_[std::size_t(y) * (kSide + 1)];
-    for (int x = 0; x < kSide; ++x) {
+  black_ = false;
+  std::array<float, kSide> of_rows{};
+  for (std::size_t y = 0; y < kSide; ++y) {
+    std::array<float, kSide> weights{};
+    for (std::size_t x = 0; x < kSide; ++x) {
       const Vec3f d = direction_of((float(x) + 0.5f) / kSide, (float(y) + 0.5f) / kSide);
       const float flat = flat_of(d);
       // A little of the mean everywhere: values between texels must not be missed.
-      const float bright = luminance_of(sky.map[std::size_t(y * kSide + x)]) + 0.05f * mean;
-      row[x + 1] = bright * flat * flat * flat;
-      rows_[std::size_t(y) + 1] += row[x + 1];
+      const float bright = luminance_of(sky.map[y * kSide + x]) + 0.05f * mean;
+      weights[x] = bright * flat * flat * flat;
+      of_rows[y] += weights[x];
     }
-    accumulate(row, kSide);
+    columns_[y].accumulate(weights);
   }
-  accumulate(rows_.data(), kSide);
+  rows_.accumulate(of_rows);
 }
 
 SkySampler::Sample SkySampler::draw(SamplePair u) const {
-  if (rows_.back() <= 0) return {};
+  if (black_) return {};
   float in_row = 0, in_column = 0;
-  const int y = find_interval(rows_.data(), kSide, u.y, in_row);
-  const int x =
-      find_interval(&columns_[std::size_t(y) * (kSide + 1)], kSide, u.x, in_column);
+  const int y = rows_.find(u.y, in_row), x = columns_[std::size_t(y)].find(u.x, in_column);
   Sample sample;
   sample.direction =
       direction_of((float(x) + in_column) / kSide, (float(y) + in_row) / kSide);
@@ -76,12 +79,11 @@ SkySampler::Sample SkySampler::draw(SamplePair u) const {
 }
 
 float SkySampler::density(const Vec3f& d) const {
-  if (rows_.back() <= 0 || d.z < 0) return 0;
+  if (black_ || d.z < 0) return 0;
   const float flat = flat_of(d), px = d.x / flat, py = d.y / flat;
   const int x = std::clamp(int((px + py) * 0.5f * kSide + 0.5f * kSide), 0, kSide - 1);
   const int y = std::clamp(int((px - py) * 0.5f * kSide + 0.5f * kSide), 0, kSide - 1);
-  const float* row = &columns_[std::size_t(y) * (kSide + 1)];
-  const float share = (rows_[std::size_t(y) + 1] - rows_[std::size_t(y)]) * (row[x + 1] - row[x]);
+  const float share = rows_.share(y) * columns_[std::size_t(y)].share(x);
   // dOmega = 2 flat^3 du dv: a square of the map's area is 1 in u, v.
   return share * kSide * kSide / (2 * flat * flat * flat);
 }

@@ -7,6 +7,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
+#include "render/streams/image_streams.h"
 
 namespace rubble {
 namespace {
@@ -59,26 +60,29 @@ Colour colour_of_number(std::uint32_t number) {
 }
 
 RgbImage paint_instances(const Frame& frame) {
+  const auto& instance = frame.get<std::uint32_t>("instance");
   return paint(frame, [&](std::size_t i) -> Colour {
-    if (frame.instance[i] == kNoInstance) return {0, 0, 0};
-    if (frame.instance[i] == kGroundInstance) return {0.25, 0.25, 0.25};
-    return colour_of_number(frame.instance[i]);
+    if (instance[i] == kNoInstance) return {0, 0, 0};
+    if (instance[i] == kGroundInstance) return {0.25, 0.25, 0.25};
+    return colour_of_number(instance[i]);
   });
 }
 
 RgbImage paint_labels(const Frame& frame) {
+  const auto& label = frame.get<std::uint16_t>("label");
   return paint(frame, [&](std::size_t i) -> Colour {
-    if (frame.label[i] < 2) return Colour{0.25, 0.25, 0.25};
-    return colour_of_number(frame.label[i] * 7u);
+    if (label[i] < 2) return Colour{0.25, 0.25, 0.25};
+    return colour_of_number(label[i] * 7u);
   });
 }
 
 RgbImage paint_flow(const Frame& frame) {
+  const auto& flow = frame.get<float>("flow");
   double longest = 1e-6;
-  for (const float f : frame.flow)
+  for (const float f : flow)
     if (std::isfinite(f)) longest = std::max(longest, std::fabs(double(f)));
   return paint(frame, [&](std::size_t i) -> Colour {
-    const double u = double(frame.flow[2 * i]), v = double(frame.flow[2 * i + 1]);
+    const double u = double(flow[2 * i]), v = double(flow[2 * i + 1]);
     if (!std::isfinite(u)) return {0, 0, 0};
     const double hue = std::atan2(v, u) / 6.283185307179586 + 0.5;
     return from_hsv(hue, std::min(1.0, std::sqrt(std::hypot(u, v) / longest)), 1);
@@ -118,9 +122,9 @@ const std::map<std::string, Painter>& painters() {
       {"measured_depth", [](const Frame& f) { return paint_depth(f, f.measured_depth); }},
       {"normals",
        [](const Frame& f) {
-         return paint(f, [&f](std::size_t i) -> Colour {
-           if (std::isnan(f.normals[3 * i])) return {0, 0, 0};
-           const float* n = &f.normals[3 * i];
+         return paint(f, [&normals = f.get<float>("normals")](std::size_t i) -> Colour {
+           const float* n = &normals[3 * i];
+           if (std::isnan(n[0])) return {0, 0, 0};
            return {0.5 + 0.5 * double(n[0]), 0.5 - 0.5 * double(n[1]), 0.5 - 0.5 * double(n[2])};
          });
        }},
@@ -129,8 +133,8 @@ const std::map<std::string, Painter>& painters() {
       {"flow", paint_flow},
       {"sky_visibility",
        [](const Frame& f) {
-         return paint(f, [&f](std::size_t i) -> Colour {
-           const double v = double(f.sky_visibility[i]);
+         return paint(f, [&sky = f.get<float>("sky_visibility")](std::size_t i) -> Colour {
+           const double v = double(sky[i]);
            return std::isnan(v) ? Colour{0.2, 0.3, 0.5} : Colour{v, v, v};
          });
        }},
@@ -143,11 +147,8 @@ const std::map<std::string, Painter>& painters() {
 
 void ask_for_channel(const std::string& channel, CameraSpec& spec) {
   if (!painters().count(channel)) throw RunError("no channel is called \"" + channel + "\"");
-  spec.channels.normals |= channel == "normals";
-  spec.channels.instance |= channel == "instance";
-  spec.channels.label |= channel == "label";
-  spec.channels.flow |= channel == "flow";
-  spec.channels.sky_visibility |= channel == "sky_visibility";
+  const ImageStream* stream = find_image_stream(channel);
+  if (stream && stream->is_truth()) spec.channels.push_back(stream);
 }
 
 RgbImage channel_picture(const std::string& channel, const Frame& frame) {

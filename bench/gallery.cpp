@@ -64,6 +64,7 @@ Frame take(GlContext& context, const GalleryPicture& picture, Piles& piles, int 
   RenderOptions options;
   options.threads = threads;
   options.cache_folder = DiskCache::usual_folder();
+  options.colour = scenario.camera.colour;
   Renderer renderer(context, build_scene(scenario, assets, piles.of(picture, scenario, assets)),
                     options);
   CameraSpec spec = build_camera(scenario, threads);

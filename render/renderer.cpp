@@ -11,8 +11,10 @@
 #include "kernel/base/portable_math.h"
 #include "render/geometry/geometry.h"
 #include "render/geometry/ground_map.h"
+#include "render/geometry/moving_pieces.h"
 #include "render/lighting/bake.h"
 #include "render/lighting/exposure.h"
+#include "render/lighting/live_light.h"
 #include "render/media/air_volume.h"
 #include "render/media/medium.h"
 #include "render/passes/antialias.h"
@@ -21,6 +23,8 @@
 #include "render/passes/resolve_pass.h"
 #include "render/passes/shadow_pass.h"
 #include "render/passes/visibility_pass.h"
+#include "render/reference/display.h"
+#include "render/reference/reference_pass.h"
 
 namespace rubble {
 
@@ -86,6 +90,15 @@ float most_gloss(const PreparedScene& scene) {
   return most;
 }
 
+ReferenceOptions reference_options(const RenderOptions& o, std::uint64_t seed) {
+  ReferenceOptions out;
+  out.samples = o.colour.samples, out.denoise = o.colour.denoise, out.jitter = o.antialias;
+  out.threads = o.threads, out.seed = seed;
+  out.cache_folder = o.cache_folder;
+  out.progress = o.image_progress;
+  return out;
+}
+
 bool draws_on_processor(const RenderOptions& options, const GlInfo& info) {
   if (options.raster != RasterChoice::automatic) return options.raster == RasterChoice::processor;
   for (const char* software : {"llvmpipe", "softpipe", "swrast"})
@@ -102,6 +115,8 @@ struct Renderer::State {
   const Gl& gl;
   RenderOptions options;
   PreparedScene scene;
+  GroundMap ground_map;
+  MovingPieces moving;
   LightSet light;
   AirLight air_light;
   Medium medium;
@@ -110,10 +125,12 @@ struct Renderer::State {
   std::uint64_t seed;
   ThreadPool pool;
   GpuGeometry geometry;
-  ShadowMap shadow;
+  std::unique_ptr<ShadowPass> shadow;
+  std::unique_ptr<LiveLight> live_light;  // where something moves
   FrameLight frame_light;
   std::unique_ptr<VisibilityPass> visibility;
   std::unique_ptr<ResolvePass> resolve;
+  std::unique_ptr<ReferencePass> reference;  // none: colours are the resolve pass's
   float exposure = 0.1f;  // of the frame drawn last
   RenderTimes times;
   std::vector<std::uint8_t> rgba;
@@ -121,11 +138,15 @@ struct Renderer::State {
   std::unique_ptr<RayPass> rays;  // made when a view first needs it
   ViewRays drawn;                 // what was drawn last
 
+  BakedScene bake(const DiskCache& cache, const Progress& report);
+  void move_to(std::int64_t stamp_ns);
   void update_air(const ViewRays& view);
   // Which triangle each pixel shows: by rasterising where that will do, by casting rays otherwise.
   SurfaceImages draw_surfaces(const ViewRays& view);
   // metered: at the exposure that the view itself asks for; otherwise at that of the frame before.
   void draw_colour(const SurfaceImages& surfaces, bool metered);
+  void draw_reference_colour(bool metered);
+  std::vector<float> trace_light() const;  // of the view drawn last; 3 floats a pixel, kcd/m2
   ViewProjection projection() const { return {drawn.world_from_camera, drawn.intrinsics}; }
   // Of the view drawn last.
   const std::vector<float>& depth_values() const;
@@ -141,6 +162,8 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
       gl(c.gl()),
       options(o),
       scene(prepare_scene(s, o.threads)),
+      ground_map(make_ground_map(scene)),
+      moving(s, scene),
       light(make_lights(s)),
       medium(s.air, s.seed),
       start_ns(s.start_ns),
@@ -153,34 +176,65 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
   const DiskCache cache(o.cache_folder);
   const std::vector<PatternImage> patterns = make_patterns_once(cache, o.texture_size, o.threads);
   report(0.15);
-  BakedScene baked;
-  if (o.bake) {
-    BakeOptions bake;
-    bake.threads = o.threads;
-    bake.rays = o.bake_rays;
-    bake.seed = s.seed;
-    baked = bake_light_once(cache, scene, light, bake, [&](double f) { report(0.15 + 0.7 * f); });
-  } else {
-    baked = open_sky_light(scene, light);
-  }
+  BakedScene baked = bake(cache, [&](double f) { report(0.15 + 0.7 * f); });
   air_light = std::move(baked.air);
   geometry = upload_geometry(gl, scene, baked.vertices);
+  if (moving.any())
+    live_light = std::make_unique<LiveLight>(scene, light, std::move(baked.vertices), o.threads);
   report(0.9);
-  shadow = draw_shadow_map(gl, scene, geometry, light, o.shadow_size);
-  frame_light = {&light, &shadow, s.lamp, medium.clear(), s.wetness, most_gloss(scene), nullptr};
+  shadow = std::make_unique<ShadowPass>(gl, scene, geometry, light, o.shadow_size);
+  shadow->draw_moving();  // nothing yet
+  frame_light = {&light, &shadow->map(), s.lamp, medium.clear(), s.wetness, most_gloss(scene), nullptr};
   visibility = std::make_unique<VisibilityPass>(
       gl, scene, geometry,
       VisibilityOptions{o.occlusion_culling, o.coarse_below, draws_on_processor(o, c.info()),
                         o.threads});
-  resolve = std::make_unique<ResolvePass>(gl, geometry, frame_light, make_ground_map(scene),
-                                          patterns);
+  resolve = std::make_unique<ResolvePass>(gl, geometry, frame_light, ground_map, patterns);
+  if (o.colour.quality == RenderQuality::reference)
+    reference = std::make_unique<ReferencePass>(
+        ReferenceSurroundings{scene, light, patterns, ground_map, s.wetness},
+        reference_options(o, s.seed));
   ground_truth = std::make_unique<GroundTruthMaker>(scene, geometry, o.threads);
   report(1);
 }
 
+// What rests. Of a still scene that is all of it.
+BakedScene Renderer::State::bake(const DiskCache& cache, const Progress& report) {
+  std::vector<std::uint32_t> first_light;  // in the whole scene, of each piece that rests
+  const PreparedScene resting = moving.any() ? resting_part(scene, first_light) : PreparedScene();
+  const PreparedScene& part = moving.any() ? resting : scene;
+  BakedScene baked;
+  if (options.bake && options.colour.quality == RenderQuality::fast) {
+    BakeOptions bake;
+    bake.threads = options.threads;
+    bake.rays = options.bake_rays;
+    bake.seed = seed;
+    baked = bake_light_once(cache, part, light, bake, report);
+  } else {
+    baked = open_sky_light(part, light);
+  }
+  if (!moving.any()) return baked;
+  std::vector<BakedLight> vertices(scene.light_vertices);
+  for (std::size_t i = 0; i < part.placed.size(); ++i) {
+    const std::size_t count = part.meshes[part.placed[i].mesh].vertices.size();
+    std::copy_n(baked.vertices.begin() + part.placed[i].first_light, count,
+                vertices.begin() + first_light[i]);
+  }
+  baked.vertices = std::move(vertices);
+  return baked;
+}
+
+void Renderer::State::move_to(std::int64_t stamp_ns) {
+  if (!moving.move_to(stamp_ns)) return;
+  update_poses(gl, scene, geometry);
+  if (reference) return;  // it follows the scene itself
+  update_light(gl, geometry, live_light->update());
+  shadow->draw_moving();
+}
+
 void Renderer::State::update_air(const ViewRays& view) {
   const Pose& pose = view.world_from_camera;
-  if (medium.clear()) return;
+  if (medium.clear() || reference) return;
   const LampSpec& lamp = frame_light.lamp;
   AirLamp glow;
   glow.position = Vec3f(pose * lamp.position);
@@ -196,6 +250,7 @@ void Renderer::State::update_air(const ViewRays& view) {
 SurfaceImages Renderer::State::draw_surfaces(const ViewRays& view) {
   const Stopwatch start;
   drawn = view;
+  move_to(drawn.stamp_ns);
   update_air(drawn);
   if (view.plain()) {
     visibility->draw(projection());
@@ -209,7 +264,25 @@ SurfaceImages Renderer::State::draw_surfaces(const ViewRays& view) {
   return {rays->ids(), rays->depth(), rays->depth_values(), &rays->lens_rays(), &rays->row_poses()};
 }
 
+std::vector<float> Renderer::State::trace_light() const {
+  return reference->draw(drawn, frame_light.lamp,
+                         medium.at(double(drawn.stamp_ns - start_ns) * 1e-9));
+}
+
+void Renderer::State::draw_reference_colour(bool metered) {
+  const Stopwatch start;
+  const Intrinsics& k = drawn.intrinsics;
+  const std::vector<float> rgb = trace_light();
+  const Vec3f gains = white_balance(light);
+  if (metered)
+    exposure = find_exposure({0.21, options.fixed_exposure}, meter_image(rgb, k.width, k.height, gains));
+  rgba = develop_image(rgb, k.width, k.height, gains, exposure);
+  times.resolve = start.time();
+  times.read = PassTime();
+}
+
 void Renderer::State::draw_colour(const SurfaceImages& surfaces, bool metered) {
+  if (reference) return draw_reference_colour(metered);
   const Stopwatch start;
   const Pose& pose = drawn.world_from_camera;
   const bool automatic = metered && options.fixed_exposure <= 0;
@@ -249,7 +322,7 @@ std::vector<std::uint32_t> Renderer::State::read_ids() const {
 std::vector<std::uint8_t> Renderer::State::finish_colour() const {
   std::vector<std::uint8_t> rgb;
   const Intrinsics& k = drawn.intrinsics;
-  if (options.antialias) {
+  if (options.antialias && !reference) {
     smooth_edges(rgba, depth_values(), k.width, k.height, options.threads, rgb);
     return rgb;
   }
@@ -283,7 +356,7 @@ void Renderer::restart(const LampSpec& lamp, const AirSpec& air) {
   s.frame_light.air_table = nullptr;
   const DiskCache cache(s.options.cache_folder);
   s.resolve = std::make_unique<ResolvePass>(
-      s.gl, s.geometry, s.frame_light, make_ground_map(s.scene),
+      s.gl, s.geometry, s.frame_light, s.ground_map,
       make_patterns_once(cache, s.options.texture_size, s.options.threads));
 }
 
@@ -312,13 +385,25 @@ Frame Renderer::render(const ViewRays& view, int index) {
   return frame;
 }
 
-void Renderer::add_channels(const ChannelSet& channels, const ViewRays* next, Frame& frame) {
-  if (!channels.any()) return;
+void Renderer::add_truth(const StreamSet& streams, const ViewRays* next, Frame& frame) {
+  if (streams.empty()) return;
   State& s = *state_;
   s.context.make_current();
   const std::vector<std::uint32_t> ids = s.read_ids();
   const std::vector<float> distances = s.distances();
-  s.ground_truth->fill(channels, {s.drawn, ids, distances, next}, frame);
+  DrawnView view{s.drawn, ids, distances, next};
+  const bool follows = std::any_of(streams.begin(), streams.end(),
+                                   [](const ImageStream* stream) { return stream->needs_next; });
+  if (next && follows) view.shift = s.moving.shift_to(next->stamp_ns);
+  s.ground_truth->fill(streams, view, frame);
+}
+
+std::vector<Vec3f> Renderer::shifts(std::int64_t stamp_ns) const {
+  const State& s = *state_;
+  if (!s.moving.any()) return {};
+  const std::vector<std::uint32_t> ids = s.read_ids();
+  const std::vector<float> distances = s.distances();
+  return s.ground_truth->shifts({s.drawn, ids, distances, nullptr, s.moving.shift_to(stamp_ns)});
 }
 
 LinearFrame Renderer::render_linear(const Pose& world_from_camera, const Intrinsics& intrinsics) {
@@ -331,7 +416,9 @@ LinearFrame Renderer::render_linear(const ViewRays& view) {
   s.context.make_current();
   const SurfaceImages surfaces = s.draw_surfaces(view);
   const std::vector<float> rgba =
-      s.resolve->draw_linear(s.projection(), s.drawn.world_from_camera, surfaces, s.frame_light);
+      s.reference ? s.trace_light()
+                  : s.resolve->draw_linear(s.projection(), s.drawn.world_from_camera, surfaces, s.frame_light);
+  const std::size_t channels = s.reference ? 3 : 4;
   const std::vector<std::uint32_t> ids = s.read_ids();
   LinearFrame out;
   out.width = view.intrinsics.width, out.height = view.intrinsics.height;
@@ -340,7 +427,7 @@ LinearFrame Renderer::render_linear(const ViewRays& view) {
   out.rgb.resize(out.depth.size() * 3);
   out.instance.resize(out.depth.size());
   for (std::size_t i = 0; i < out.depth.size(); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) out.rgb[i * 3 + c] = rgba[i * 4 + c];
+    for (std::size_t c = 0; c < 3; ++c) out.rgb[i * 3 + c] = rgba[i * channels + c];
     out.instance[i] = ids[i * 2] ? s.scene.placed[ids[i * 2] - 1].id : kNoInstance;
   }
   return out;

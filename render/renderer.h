@@ -34,6 +34,9 @@ struct RenderOptions {
                               // 0: the finest always, so that depth is that of the true surface
   bool antialias = true;      // smooth silhouettes of the colour image
   double fixed_exposure = 0;  // factor on luminance in kcd/m2; 0: automatic
+  ColourSpec colour;          // fast, or path traced
+  // Of a path-traced image: called on the calling thread with its done fraction; may throw to stop.
+  std::function<void(double)> image_progress;
 };
 
 // The same view before exposure and tone mapping, for tests and sensors.
@@ -75,6 +78,8 @@ class Renderer {
   // light that was baked is not baked again.
   void restart(const LampSpec& lamp, const AirSpec& air);
 
+  // What moves in the scene is where it is at the stamp of the view; of a view whose rows have times of
+  // their own, all rows see it there.
   // Metered on the frame itself: a frame is the same whichever were drawn before it. Distortion in
   // `intrinsics` is not applied: it must be zero.
   Frame render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,
@@ -83,15 +88,18 @@ class Renderer {
   Frame render(const ViewRays& view, int index);
   // Colour of another view at the same instant, at the exposure of the frame drawn last.
   std::vector<std::uint8_t> render_stereo_right(const ViewRays& view);
-  // Fills the channels of a frame of the view that was drawn last. next: the view of the frame that
-  // follows, for the flow; null: none follows.
-  void add_channels(const ChannelSet& channels, const ViewRays* next, Frame& frame);
+  // Adds streams of ground truth to a frame of the view that was drawn last. next: the view of the
+  // frame that follows, for streams that need it; null: none follows.
+  void add_truth(const StreamSet& streams, const ViewRays* next, Frame& frame);
   // Of the view that was drawn last: distances along the rays (NaN: none), and 1 where a place in the
   // camera body frame has a free line to the surface.
   std::vector<float> distances() const;
   std::vector<std::uint8_t> line_of_sight_mask(const Vec3& place_in_camera);
   // Of the same view: each surface's share of light just beyond red that it throws back; 0: none.
   std::vector<float> albedos() const;
+  // Of the same view: how far each pixel's surface moves until another stamp, in the world; empty where
+  // nothing in the scene moves, zero where nothing is seen or it is not there then. unit: m
+  std::vector<Vec3f> shifts(std::int64_t stamp_ns) const;
   LinearFrame render_linear(const Pose& world_from_camera, const Intrinsics& intrinsics);
   LinearFrame render_linear(const ViewRays& view);
 

@@ -14,6 +14,7 @@ PAGE = ROOT / "docs" / "constants.md"
 ROOMS = {
     "collision": "Who touches whom, and where",
     "solver": "Contact forces",
+    "structure": "Members, bonds and what they break at",
     "multibody": "Free rotation, joints and trees",
     "world": "The step, sleep and rest",
     "settling": "The schedule of a pile",

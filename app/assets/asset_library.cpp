@@ -137,7 +137,18 @@ std::string find_pack(const std::string& pack) {
 
 std::string bundled_assets_folder() {
   if (const char* folder = std::getenv("RUBBLE_ASSETS")) return folder;
-  return (fs::read_symlink("/proc/self/exe").parent_path() / "assets").string();
+  std::error_code failed;
+  const fs::path beside = fs::read_symlink("/proc/self/exe", failed).parent_path();
+  if (failed)
+    throw InputError({"/proc/self/exe", 0, "RUBBLE_ASSETS", "cannot tell where the program lies", "",
+                      failed.message(), "mount /proc, or set RUBBLE_ASSETS to the folder of the "
+                                        "bundled packs"});
+  const fs::path places[] = {beside / "assets", beside / "../share/rubble/assets"};
+  for (const fs::path& place : places)
+    if (fs::exists(place / "materials.lua", failed)) return place.lexically_normal().string();
+  throw InputError({"", 0, "RUBBLE_ASSETS", "the bundled packs are not where they belong",
+                    places[0].string() + " or " + places[1].lexically_normal().string(), "neither",
+                    "install the program with `cmake --install`, or set RUBBLE_ASSETS to their folder"});
 }
 
 AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>& extra_packs) {

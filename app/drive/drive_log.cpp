@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "app/drive/scenario_lua.h"
+#include "render/streams/image_streams.h"
 
 namespace rubble {
 
 std::vector<std::string> adapt_to_driving(Scenario& scenario) {
   std::vector<std::string> off;
-  const auto turn_off = [&off](bool on, const char* what) {
+  const auto turn_off = [&off](bool on, const std::string& what) {
     if (on) off.push_back(what);
     return on;
   };
@@ -17,8 +18,10 @@ std::vector<std::string> adapt_to_driving(Scenario& scenario) {
   if (turn_off(camera.shutter.readout > 0, "rolling shutter")) camera.shutter.readout = 0;
   if (turn_off(camera.shutter.motion_blur, "motion blur")) camera.shutter.motion_blur = false;
   std::vector<std::string>& channels = camera.channels;
-  const auto flow = std::find(channels.begin(), channels.end(), "flow");
-  if (turn_off(flow != channels.end(), "optical flow")) channels.erase(flow);
+  for (const ImageStream* stream : truth_streams()) {
+    const auto at = std::find(channels.begin(), channels.end(), stream->name);
+    if (turn_off(at != channels.end() && stream->needs_next, stream->name)) channels.erase(at);
+  }
   if (turn_off(scenario.event_camera.on, "event camera")) scenario.event_camera.on = false;
   if (turn_off(scenario.imu.on, "inertial unit")) scenario.imu.on = false;
   TrajectorySpec& spec = scenario.trajectory;

@@ -2,6 +2,7 @@
 // compressed.
 #pragma once
 
+#include "render/streams/image_streams.h"
 #include "scripting/scenario/scenario.h"
 
 namespace rubble {
@@ -39,16 +40,17 @@ class PictureSize {
     return colours() + pixels_ * ((measured_ ? 8 : 4) + ground_truth()) + 25 * events_;
   }
   // How many files a frame is in a folder with all channels.
-  static constexpr int kMostFiles = 9;
+  static int most_files() { return int(image_streams().size()); }
 
  private:
   double ground_truth() const {
-    return 12 * channels_.normals + 4 * channels_.instance + 2 * channels_.label +
-           8 * channels_.flow + 4 * channels_.sky_visibility;
+    double bytes = 0;
+    for (const ImageStream* stream : channels_) bytes += double(stream->bytes_per_pixel());
+    return bytes;
   }
 
   double pixels_;
-  ChannelSet channels_;
+  StreamSet channels_;
   bool right_, measured_;
   double events_;
   int ros_depth_;

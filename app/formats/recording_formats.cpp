@@ -79,7 +79,7 @@ const std::vector<RecordingFormat> kFormats{
     {"frames", "frames", true, &OutputScenario::frames,
      [](Path p, In in) -> Made { return make_frames_recorder(p, in.recording); },
      [](Size s) {
-       const double files = kPictureOverhead * PictureSize::kMostFiles;
+       const double files = kPictureOverhead * PictureSize::most_files();
        return s.of(s.picture.frames() + files, 320, s.legend);
      }},
     {"preview", "preview.png", false, &OutputScenario::preview,

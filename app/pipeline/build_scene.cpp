@@ -42,14 +42,18 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets) {
   return spec;
 }
 
+SceneInstance make_instance(const PieceState& piece, std::size_t number) {
+  return {std::uint32_t(piece.type), float(piece.scale), piece.world_from_body,
+          std::uint32_t(number), std::uint16_t(kFirstAssetLabel + piece.type)};
+}
+
 Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile) {
   Scene scene;
   scene.meshes = assets.meshes;
   for (std::size_t i = 0; i < pile.pieces.size(); ++i) {
     const PieceState& piece = pile.pieces[i];
     if (piece.status == PieceStatus::lost) continue;
-    scene.instances.push_back({std::uint32_t(piece.type), float(piece.scale), piece.world_from_body,
-                               std::uint32_t(i), std::uint16_t(kFirstAssetLabel + piece.type)});
+    scene.instances.push_back(make_instance(piece, i));
   }
   scene.light = resolve_light(scenario);
   scene.more_lights = scenario.lights;
@@ -77,26 +81,39 @@ CameraSpec build_camera(const Scenario& scenario, int threads) {
   return spec;
 }
 
-std::vector<std::string> label_names(const AssetLibrary& assets) {
+std::vector<std::string> label_names(const Scenario& scenario, const AssetLibrary& assets) {
   std::vector<std::string> names{"sky", "ground"};
   for (const PieceType& type : assets.types) names.push_back(type.name);
+  if (!scenario.robots.empty()) names.push_back("robot");
   return names;
 }
 
-PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile) {
+namespace {
+
+PileModel build_model(const AssetLibrary& assets, const PileState& pile, bool lost_too) {
   PileModel model;
   for (std::size_t i = 0; i < assets.types.size(); ++i)
     model.types.push_back({assets.types[i].name, &assets.meshes[i]->levels.front()});
   for (std::size_t i = 0; i < pile.pieces.size(); ++i) {
     const PieceState& piece = pile.pieces[i];
-    if (piece.status == PieceStatus::lost) continue;
+    if (piece.status == PieceStatus::lost && !lost_too) continue;
     model.pieces.push_back({std::uint32_t(piece.type),
                             piece_name(assets.types[std::size_t(piece.type)].name, i), piece.scale,
-                            piece.world_from_body});
+                            piece.world_from_body, std::int32_t(i)});
   }
   for (const SurfaceAppearance& look : all_surface_appearances())
     model.surface_appearance.push_back({look.name, (look.dark + look.light) * 0.5f});
   return model;
+}
+
+}  // namespace
+
+PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile) {
+  return build_model(assets, pile, false);
+}
+
+PileModel build_track_model(const AssetLibrary& assets, const PileState& pile) {
+  return build_model(assets, pile, true);
 }
 
 Flight build_flight(const Scenario& scenario) {

@@ -1,10 +1,12 @@
-// The stage from a settled pile to recorded frames.
+// The stage from a settled pile, and its track, to recorded frames.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/frame_watch.h"
+#include "app/pipeline/legs.h"
 #include "app/pipeline/live.h"
 #include "app/pipeline/recorders.h"
 #include "app/pipeline/stages.h"
@@ -29,9 +31,10 @@ namespace {
 
 // labels.csv: what the numbers of the label channel mean.
 void write_legend(const ResolvedMission& mission, RunFolder& folder) {
-  if (!mission.scenario.camera.channel_set().label) return;
+  const std::vector<std::string>& channels = mission.scenario.camera.channels;
+  if (std::find(channels.begin(), channels.end(), "label") == channels.end()) return;
   std::string text = "label,name\n";
-  const std::vector<std::string> names = label_names(mission.assets);
+  const std::vector<std::string> names = label_names(mission.scenario, mission.assets);
   for (std::size_t i = 0; i < names.size(); ++i) text += std::to_string(i) + "," + names[i] + "\n";
   write_text_file(folder.file("labels.csv"), text);
   folder.add("labels.csv");
@@ -55,46 +58,74 @@ double seconds_since(const Scenario& scenario, std::int64_t stamp_ns) {
   return double(stamp_ns - scenario.start_ns) * 1e-9;
 }
 
-// Takes every frame in order, notes its hashes, and hands it to the recorders. flown: the scenario
-// with the path that is flown.
-void take_frames(Camera& camera, const Scenario& flown, RecordingQueue& queue,
-                 const RunFolder& folder, RunContext& context, RecordedFrames& recorded) {
-  FrameJournal journal(folder.frames_file());
-  const CameraPath path(flown.trajectory);
-  Imu imu(path, flown.imu.model, flown.settle.gravity, flown.seed, flown.start_ns);
-  DepthMetrics depth;
+// Which frame of a leg is being taken, and of how many: an image that takes minutes reports on its way.
+struct Taking {
+  int frame = 0, frames = 1;
+
+  void report(double of_image, const RunFolder& folder, RunContext& context) const {
+    throw_if_stopped(folder.path());
+    context.progress.update((frame + of_image) / frames, "frame " + std::to_string(frame + 1) + " of " +
+                                                             std::to_string(frames));
+  }
+};
+
+// What goes on from leg to leg: where frames go, and what is noted of them.
+struct FrameSinks {
+  RecordingQueue& queue;
+  FrameJournal journal;
   FrameWatch watch;
+  int frames = 0;  // so far
+};
+
+// Takes every frame of a leg in order, notes its hashes, and hands it to the recorders.
+void take_frames(Camera& camera, const Leg& leg, FrameSinks& sinks, const RunFolder& folder,
+                 RunContext& context, Taking& taking, RecordedFrames& recorded) {
+  const Scenario& flown = leg.scenario;
+  taking.frames = camera.frames();
+  const CameraPath path(flown.trajectory);
+  Imu imu(path, flown.imu.model, flown.settle.gravity, leg.noise_seed, flown.start_ns);
+  DepthMetrics depth;
   for (int i = 0; i < camera.frames(); ++i) {
     throw_if_stopped(folder.path());
+    taking.frame = i;
     Frame frame = camera.take(i);
+    frame.index = sinks.frames++;
     frame.linear_velocity = path.motion_at(seconds_since(flown, frame.stamp_ns)).velocity;
     if (flown.imu.on) frame.imu = imu.take_until(frame.stamp_ns);
     recorded.hashes.add(frame);
-    journal.note(std::size_t(i), recorded.hashes.frames.back());
+    sinks.journal.note(std::size_t(frame.index), recorded.hashes.frames.back());
     depth.add(frame);
-    if (watch.notice(frame)) context.warnings.push_back(watch.warning());
-    queue.push(std::move(frame));
+    if (sinks.watch.notice(frame)) context.warnings.push_back(sinks.watch.warning());
+    sinks.queue.push(std::move(frame));
     context.progress.update(
         double(i + 1) / camera.frames(),
         "frame " + std::to_string(i + 1) + " of " + std::to_string(camera.frames()));
   }
-  depth.add_to(recorded.metrics);
+  if (!leg.window) depth.add_to(recorded.metrics);
 }
 
-FlightPlan plan_flight(const ResolvedMission& mission, const PileState& pile,
-                       const RunFolder& folder, RunContext& context) {
+// A mistake that shows only when there is a pile, with the line of its key.
+template <typename Plan>
+auto with_lines_of_script(const ResolvedMission& mission, const Plan& plan) {
   try {
-    return resolve_flight(mission.scenario, mission.assets, pile, context.threads(),
-                          [&](double done, const std::string& what) {
-                            throw_if_stopped(folder.path());
-                            context.progress.update(done, what);
-                          });
+    return plan();
   } catch (const InputError& error) {
     const SourceFile& script = mission.provenance.script;
     std::vector<Diagnostic> mistakes = error.diagnostics();
     locate(mistakes, script.path, SourceMap(script.text, "mission"));
     throw InputError(std::move(mistakes));
   }
+}
+
+FlightPlan plan_flight(const ResolvedMission& mission, const PileState& pile,
+                       const RunFolder& folder, RunContext& context) {
+  return with_lines_of_script(mission, [&] {
+    return resolve_flight(mission.scenario, mission.assets, pile, context.threads(),
+                          [&](double done, const std::string& what) {
+                            throw_if_stopped(folder.path());
+                            context.progress.update(done, what);
+                          });
+  });
 }
 
 // The scenario with what its trajectory depends on besides the script: places in voids, ways around
@@ -118,22 +149,69 @@ Scenario resolve_path(const ResolvedMission& mission, const PileState& pile, Run
   return flown;
 }
 
-// Frames into files, until the last file is complete.
-void record(Camera& camera, const ResolvedMission& mission, const Scenario& flown,
-            const PileState& pile, RunFolder& folder, RunContext& context,
-            RecordedFrames& recorded) {
-  context.progress.start("render");
-  const Recording recording = describe_recording(flown, mission.assets, pile);
-  RecorderSet set =
-      make_recorders({flown, recording, camera.frames(), title_of(mission, pile)}, folder.path());
-  folder.expect(set.names);
-  add_live_recorders(set, context.options, ros_options(flown.outputs, recording));
-  RecordingQueue queue(std::move(set.recorders));
-  take_frames(camera, flown, queue, folder, context, recorded);
-  context.progress.finish(std::to_string(camera.frames()) + " frames");
+RenderOptions render_options(const Scenario& scenario, int threads,
+                             const std::function<void(double)>& on_image) {
+  RenderOptions options;
+  options.threads = threads;
+  options.colour = scenario.camera.colour;
+  options.image_progress = on_image;
+  options.cache_folder = DiskCache::usual_folder();
+  return options;
+}
+
+// A camera on one leg, with the scene that it sees.
+struct PreparedLeg {
+  std::unique_ptr<Renderer> renderer;
+  std::unique_ptr<Camera> camera;
+};
+
+// What there is to be seen: the settled pile, and robots, which start with the flight.
+struct Seen {
+  const SettledPile& pile;
+  const RobotTrack& robots;
+};
+
+Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen& seen) {
+  const PileState& pile = seen.pile.state;
+  if (leg.window) {
+    return build_moving_scene(leg.scenario, mission.assets, pile, seen.pile.track, *leg.window,
+                              leg.zero_ns);
+  }
+  if (seen.robots.empty()) return build_scene(leg.scenario, mission.assets, pile);
+  return build_robot_scene(leg.scenario, mission.assets, pile, seen.robots, leg.scenario.start_ns);
+}
+
+PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Seen& seen,
+                        GlContext& gl, const RunFolder& folder, RunContext& context, Taking& taking) {
+  const std::string stage = leg.window ? "settling scene" : "scene";
+  context.progress.start(stage);
+  const Scene scene = build_leg_scene(leg, mission, seen);
+  PreparedLeg prepared;
+  prepared.renderer = std::make_unique<Renderer>(
+      gl, scene,
+      render_options(leg.scenario, context.threads(),
+                     [&](double fraction) { taking.report(fraction, folder, context); }),
+      [&](double fraction) { context.progress.update(fraction, "light"); });
+  CameraSpec spec = build_camera(leg.scenario, context.threads());
+  spec.seed = leg.noise_seed;
+  prepared.camera =
+      std::make_unique<Camera>(*prepared.renderer, spec, build_flight(leg.scenario),
+                               Medium(leg.scenario.air, leg.scenario.seed));
+  context.progress.finish("ready on " + gl.info().renderer);
+  return prepared;
+}
+
+int count_frames(const std::vector<Leg>& legs) {
+  std::size_t frames = 0;
+  for (const Leg& leg : legs)
+    frames += sample_trajectory(leg.scenario.trajectory, leg.scenario.start_ns).size();
+  return int(frames);
+}
+
+void finish_recording(const ResolvedMission& mission, const RecorderSet& set, RecordingQueue& queue,
+                      RunFolder& folder, RunContext& context) {
   for (const std::string& warning : context.warnings)
     std::fprintf(stderr, "rubble: warning: %s\n", printable(warning).c_str());
-
   context.progress.start("record");
   queue.finish();
   for (const std::string& name : set.names) folder.add(name);
@@ -142,31 +220,59 @@ void record(Camera& camera, const ResolvedMission& mission, const Scenario& flow
   context.progress.finish(std::to_string(set.names.size()) + " files");
 }
 
+// Links follow the pieces, as their numbers do.
+void add_robots(const RobotTrack& robots, std::uint16_t label, Recording& recording) {
+  for (const RobotModel& model : robots.models)
+    for (const RobotLink& link : model.links)
+      recording.legend.pieces.push_back({label, model.name + "/" + link.name});
+}
+
+// Frames into files, until the last file is complete. flown: as the mission, with its path.
+void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const Scenario& flown,
+            const Seen& seen, GlContext& gl, RunFolder& folder, RunContext& context,
+            RecordedFrames& recorded) {
+  const PileState& pile = seen.pile.state;
+  Taking taking;
+  PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, gl, folder, context, taking);
+  Recording recording = describe_recording(flown, mission.assets, pile);
+  add_robots(seen.robots, std::uint16_t(kFirstAssetLabel + mission.assets.types.size()), recording);
+  RecorderSet set = make_recorders(
+      {flown, recording, count_frames(legs), title_of(mission, pile)}, folder.path());
+  folder.expect(set.names);
+  add_live_recorders(set, context.options, ros_options(flown.outputs, recording));
+  RecordingQueue queue(std::move(set.recorders));
+  FrameSinks sinks{queue, FrameJournal(folder.frames_file()), {}};
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    if (i > 0) {
+      prepared = {};  // what the leg before took on the device comes free first
+      prepared = prepare_leg(legs[i], mission, seen, gl, folder, context, taking);
+    }
+    context.progress.start(legs[i].window ? "settling frames" : "render");
+    take_frames(*prepared.camera, legs[i], sinks, folder, context, taking, recorded);
+    context.progress.finish(std::to_string(prepared.camera->frames()) + " frames");
+  }
+  finish_recording(mission, set, queue, folder, context);
+}
+
 }  // namespace
 
 Renderer prepare_renderer(const Scenario& scenario, const AssetLibrary& assets,
                           const PileState& pile, GlContext& gl, int threads,
-                          const std::function<void(double)>& on_light) {
-  RenderOptions options;
-  options.threads = threads;
-  options.cache_folder = DiskCache::usual_folder();
-  return Renderer(gl, build_scene(scenario, assets, pile), options, on_light);
+                          const std::function<void(double)>& on_light,
+                          const std::function<void(double)>& on_image) {
+  return Renderer(gl, build_scene(scenario, assets, pile),
+                  render_options(scenario, threads, on_image), on_light);
 }
 
-RecordedFrames record_frames(const ResolvedMission& mission, const PileState& pile,
-                             RunFolder& folder, RunContext& context) {
-  const Scenario flown = resolve_path(mission, pile, folder, context);
-  context.progress.start("scene");
+RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
+                             const DrivenRobots& robots, RunFolder& folder, RunContext& context) {
+  const Scenario flown = resolve_path(mission, pile.state, folder, context);
+  const std::vector<Leg> legs =
+      with_lines_of_script(mission, [&] { return plan_legs(flown, pile.track); });
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
   recorded.environment = describe_environment(gl.info(), context.threads());
-  Renderer renderer =
-      prepare_renderer(flown, mission.assets, pile, gl, context.threads(),
-                       [&](double fraction) { context.progress.update(fraction, "light"); });
-  Camera camera(renderer, build_camera(flown, context.threads()), build_flight(flown),
-                Medium(flown.air, flown.seed));
-  context.progress.finish("ready on " + gl.info().renderer);
-  record(camera, mission, flown, pile, folder, context, recorded);
+  record(legs, mission, flown, {pile, robots.moved}, gl, folder, context, recorded);
   return recorded;
 }
 

@@ -9,19 +9,14 @@ namespace rubble {
 Recording describe_recording(const Scenario& scenario, const AssetLibrary& assets,
                              const PileState& pile) {
   Recording recording;
-  const ChannelSet asked = scenario.camera.channel_set();
   Channels& channels = recording.channels;
-  channels.normals = asked.normals;
-  channels.instance = asked.instance;
-  channels.label = asked.label;
-  channels.flow = asked.flow;
-  channels.sky_visibility = asked.sky_visibility;
+  channels.truth = scenario.camera.channel_set();
   channels.right = scenario.camera.stereo_baseline > 0;
   channels.measured_depth = scenario.depth_sensor.type != DepthSensorType::none;
   channels.events = scenario.event_camera.on;
   channels.imu = scenario.imu.on;
   recording.imu = scenario.imu.model;
-  recording.legend.labels = label_names(assets);
+  recording.legend.labels = label_names(scenario, assets);
   for (const PieceState& piece : pile.pieces) {
     const auto type = std::size_t(piece.type);
     recording.legend.pieces.push_back(

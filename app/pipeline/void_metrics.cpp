@@ -34,6 +34,7 @@ void add_void_metrics(const VoidScenario& voids, const PileState& pile, const As
     way_in = std::max(way_in, v.path_length);
   }
   metrics["void_volume_m3"] = map.void_volume;
+  metrics["void_covered_m3"] = map.covered_volume;
   metrics["void_robot_m3"] = robot.volume;
   metrics["void_reachable_m3"] = robot.reachable_volume;
   metrics["void_count"] = double(robot.voids.size());

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "kernel/base/hash.h"
+#include "render/streams/image_streams.h"
 
 namespace rubble {
 namespace {
@@ -62,22 +63,26 @@ std::uint64_t hash_imu(const std::vector<ImuSample>& samples) {
   return hash.digest();
 }
 
-const std::vector<std::string>& all_channels() {
-  static const std::vector<std::string> names{
-      "pose",     "rgb",   "depth", "rgb_right",      "measured_depth", "normals",
-      "instance", "label", "flow",  "sky_visibility", "events",         "imu"};
+// The pose, every image stream in the order of the table, then what is no image.
+std::vector<std::string> all_channels() {
+  std::vector<std::string> names{"pose"};
+  for (const ImageStream& stream : image_streams()) names.push_back(stream.name);
+  names.insert(names.end(), {"events", "imu"});
   return names;
 }
 
 }  // namespace
 
 void FrameHashes::add(const Frame& f) {
-  channels = all_channels();
-  frames.push_back({hash_pose(f), hash_numbers(f.rgb), hash_numbers(f.depth),
-                    hash_numbers(f.rgb_right), hash_numbers(f.measured_depth),
-                    hash_numbers(f.normals), hash_numbers(f.instance), hash_numbers(f.label),
-                    hash_numbers(f.flow), hash_numbers(f.sky_visibility), hash_events(f.events),
-                    hash_imu(f.imu)});
+  if (channels.empty()) channels = all_channels();
+  std::vector<std::uint64_t>& row = frames.emplace_back();
+  row.push_back(hash_pose(f));
+  for (const ImageStream& stream : image_streams()) {
+    const auto image = find_image(f, stream);
+    row.push_back(
+        image ? std::visit([](const auto* values) { return hash_numbers(*values); }, *image) : 0);
+  }
+  row.insert(row.end(), {hash_events(f.events), hash_imu(f.imu)});
 }
 
 FrameHashes FrameHashes::compact() const {

@@ -8,6 +8,7 @@
 #include "io/image/flow_file.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"
+#include "render/streams/image_streams.h"
 
 namespace rubble {
 namespace {
@@ -45,6 +46,12 @@ std::vector<float> signed_numbers(const std::vector<std::uint32_t>& instance) {
   return out;
 }
 
+std::vector<std::string> exr_names(int components) {
+  if (components == 1) return {"Y"};
+  return components == 2 ? std::vector<std::string>{"R", "G"}
+                         : std::vector<std::string>{"R", "G", "B"};
+}
+
 class FramesRecorder : public Recorder {
  public:
   FramesRecorder(const std::string& path, const Recording& recording, int threads)
@@ -67,7 +74,7 @@ class FramesRecorder : public Recorder {
     folder_.write("poses.csv", poses_);
     if (channels_.imu) folder_.write("imu.csv", imu_);
     if (channels_.events) folder_.write("events.txt", events_);
-    if (channels_.instance || channels_.label)
+    if (channels_.has_legend())
       folder_.write("legend.json", legend_to_json(recording_.legend) + "\n");
     folder_.finish();
   }
@@ -80,15 +87,11 @@ class FramesRecorder : public Recorder {
     };
     add(c.right, "right");
     add(c.measured_depth, "depth_true");
-    add(c.normals, "normals");
-    add(c.flow, "flow");
-    add(c.instance, "instance");
-    add(c.label, "label");
-    add(c.sky_visibility, "sky_visibility");
+    for (const ImageStream* stream : c.truth) names.push_back(stream->name);
     return names;
   }
 
-  static std::string name(const char* channel, const Frame& frame, const char* suffix) {
+  static std::string name(const std::string& channel, const Frame& frame, const char* suffix) {
     return std::string(channel) + "/" + index_text(frame.index) + suffix;
   }
 
@@ -98,7 +101,7 @@ class FramesRecorder : public Recorder {
                 [image = RgbImage{k.width, k.height, rgb}] { return encode_png(image); });
   }
 
-  void add_exr(const char* channel, const Frame& frame, std::vector<std::string> names,
+  void add_exr(const std::string& channel, const Frame& frame, std::vector<std::string> names,
                const std::vector<float>& values) {
     const int width = frame.intrinsics.width, height = frame.intrinsics.height;
     folder_.add(name(channel, frame, ".exr"), [width, height, names = std::move(names), values] {
@@ -120,17 +123,33 @@ class FramesRecorder : public Recorder {
   void add_ground_truth(const Frame& frame) {
     const Channels& c = channels_;
     const int width = frame.intrinsics.width, height = frame.intrinsics.height;
-    if (c.normals) add_exr("normals", frame, {"R", "G", "B"}, frame.normals);
-    if (c.instance) add_exr("instance", frame, {"Y"}, signed_numbers(frame.instance));
-    if (c.sky_visibility) add_exr("sky_visibility", frame, {"Y"}, frame.sky_visibility);
-    if (c.label) {
-      folder_.add(name("label", frame, ".png"),
-                  [image = DepthImage{width, height, frame.label}] { return encode_png(image); });
-    }
-    if (c.flow) {
-      folder_.add(name("flow", frame, ".flo"),
-                  [width, height, flow = frame.flow] { return encode_flow(width, height, flow); });
-    }
+    for (const ImageStream* stream : c.truth)
+      std::visit([&](const auto* values) { add_image(*stream, frame, width, height, *values); },
+                 *find_image(frame, *stream));
+  }
+
+  void add_image(const ImageStream& stream, const Frame& frame, int, int,
+                 const std::vector<std::uint32_t>& values) {
+    add_exr(stream.name, frame, exr_names(stream.components), signed_numbers(values));
+  }
+  void add_image(const ImageStream& stream, const Frame& frame, int width, int height,
+                 const std::vector<float>& values) {
+    if (stream.file != ImageFile::flo)
+      return add_exr(stream.name, frame, exr_names(stream.components), values);
+    folder_.add(name(stream.name, frame, ".flo"),
+                [width, height, values] { return encode_flow(width, height, values); });
+  }
+  void add_image(const ImageStream& stream, const Frame& frame, int width, int height,
+                 const std::vector<std::uint16_t>& values) {
+    folder_.add(name(stream.name, frame, ".png"),
+                [image = DepthImage{width, height, values}] { return encode_png(image); });
+  }
+  void add_image(const ImageStream& stream, const Frame& frame, int width, int height,
+                 const std::vector<std::uint8_t>& values) {
+    folder_.add(name(stream.name, frame, ".png"), [width, height, values, stream] {
+      return stream.components == 3 ? encode_png(RgbImage{width, height, values})
+                                    : encode_png(GrayImage{width, height, values});
+    });
   }
 
   void add_rows(const Frame& frame) {

@@ -5,11 +5,10 @@
 //   depth/INDEX.exr          channel Z: planar depth, float, m; NaN: no return. With a depth
 //                            sensor, what that measures, and the exact one in depth_true/
 //   right/INDEX.png          the right camera
-//   normals/INDEX.exr        channels X Y Z in the optical frame; NaN: no surface
-//   flow/INDEX.flo           Middlebury: to the next frame, pixel; above 1e9: unknown
-//   instance/INDEX.exr       channel `instance`, 32-bit integers
-//   label/INDEX.png          16 bit
-//   sky_visibility/INDEX.exr channel Y
+//   NAME/INDEX.exr, .png, .flo  streams of ground truth, each as its file render/streams/NAME.cpp
+//                            says: floats and 32-bit integers (signed) as EXR, of one value a pixel in
+//                            channel Y, of three in R, G and B; 8 and 16 bit integers as PNG; optical
+//                            flow as Middlebury .flo, above 1e9: unknown
 //   events.txt               `seconds x y polarity`, a line each
 //   imu.csv, poses.csv       poses: of the camera body (X forward, Y left, Z up) in the world
 //   camera.json, legend.json

@@ -12,6 +12,7 @@
 #include "io/playback/rawlog_pictures.h"
 #include "io/playback/ros_pictures.h"
 #include "kernel/base/error.h"
+#include "render/streams/image_streams.h"
 
 namespace rubble {
 namespace {
@@ -48,16 +49,19 @@ Found read_exr_picture(const std::string& folder, const std::string& name,
                          std::move(image.values)};
 }
 
-// As frames_recorder.cpp writes them.
-Found read_exr_instances(const std::string& folder, const std::string& name) {
-  Found picture = read_exr_picture(folder, name, {"Y"});
-  for (double& value : picture->values) value = double(std::uint32_t(std::int32_t(value)));
+// As frames_recorder.cpp writes them. stem: of the file's name, relative to the folder.
+Found read_truth(const std::string& folder, const ImageStream& stream, const std::string& stem) {
+  if (stream.file == ImageFile::png && stream.components == 3) return read_colour(folder, stem + ".png");
+  if (stream.file == ImageFile::png) return read_integers(folder, stem + ".png", 0);
+  if (stream.file == ImageFile::flo) {
+    const FlowImage image = read_flow(folder + "/" + stem + ".flo");
+    return RecordedPicture{stem + ".flo", image.width, image.height, 2, numbers(image.flow)};
+  }
+  const std::vector<std::string> names[] = {{"Y"}, {"R", "G"}, {"R", "G", "B"}};
+  Found picture = read_exr_picture(folder, stem + ".exr", names[stream.components - 1]);
+  if (std::holds_alternative<PixelMaker<std::uint32_t>>(stream.make))
+    for (double& value : picture->values) value = double(std::uint32_t(std::int32_t(value)));
   return picture;
-}
-
-Found read_flow_picture(const std::string& folder, const std::string& name) {
-  const FlowImage image = read_flow(folder + "/" + name);
-  return RecordedPicture{name, image.width, image.height, 2, numbers(image.flow)};
 }
 
 // The plain folder, which has every channel bit for bit.
@@ -68,11 +72,8 @@ Found from_frames(const std::string& folder, Wanted wanted) {
   };
   if (c == "rgb") return read_colour(folder, name("rgb", ".png"));
   if (c == "rgb_right") return read_colour(folder, name("right", ".png"));
-  if (c == "label") return read_integers(folder, name("label", ".png"), 0);
-  if (c == "flow") return read_flow_picture(folder, name("flow", ".flo"));
-  if (c == "normals") return read_exr_picture(folder, name(c, ".exr"), {"R", "G", "B"});
-  if (c == "instance") return read_exr_instances(folder, name(c, ".exr"));
-  if (c == "sky_visibility") return read_exr_picture(folder, name(c, ".exr"), {"Y"});
+  const ImageStream* stream = find_image_stream(c);
+  if (stream && stream->is_truth()) return read_truth(folder, *stream, "frames/" + c + "/" + index_text(wanted.frame));
   const bool truth_aside = c == "depth" && wanted.measured_depth;
   return read_exr_picture(folder, name(truth_aside ? "depth_true" : "depth", ".exr"), {"Y"});
 }

@@ -9,8 +9,7 @@
 namespace rubble {
 
 struct PictureWanted {
-  std::string channel;  // "rgb", "depth", "rgb_right", "measured_depth", "normals",
-                        // "instance", "label", "flow", "sky_visibility"
+  std::string channel;  // the name of an image stream: render/streams/image_streams.h
   int frame = 0;        // from 0
   bool measured_depth =
       false;  // whether the frames have that channel: the exact depth is elsewhere

@@ -62,9 +62,12 @@ struct Encoding {
   std::vector<double> (*unpack)(std::string_view);
 };
 const Encoding kEncodings[] = {
-    {"rgb8", 3, unpack<std::uint8_t>}, {"16UC1", 1, unpack<std::uint16_t>},
-    {"32FC1", 1, unpack<float>},       {"32FC2", 2, unpack<float>},
-    {"32FC3", 3, unpack<float>},       {"32SC1", 1, unpack<std::uint32_t>}};
+    {"rgb8", 3, unpack<std::uint8_t>},   {"mono8", 1, unpack<std::uint8_t>},
+    {"8UC2", 2, unpack<std::uint8_t>},   {"16UC1", 1, unpack<std::uint16_t>},
+    {"16UC2", 2, unpack<std::uint16_t>}, {"16UC3", 3, unpack<std::uint16_t>},
+    {"32FC1", 1, unpack<float>},         {"32FC2", 2, unpack<float>},
+    {"32FC3", 3, unpack<float>},         {"32SC1", 1, unpack<std::uint32_t>},
+    {"32SC2", 2, unpack<std::uint32_t>}, {"32SC3", 3, unpack<std::uint32_t>}};
 
 std::optional<RecordedPicture> parse_image(const RosMessage& message, bool is_depth) {
   WireReader wire(message);

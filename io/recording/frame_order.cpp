@@ -1,6 +1,7 @@
 #include "io/recording/frame_order.h"
 
 #include "kernel/base/error.h"
+#include "render/streams/image_streams.h"
 
 namespace rubble {
 namespace {
@@ -21,12 +22,11 @@ void check_pictures(const Frame& frame, const Channels& channels, const std::str
   if (channels.right) check_size("right", frame.rgb_right.size(), 3 * pixels, where);
   if (channels.measured_depth)
     check_size("measured depth", frame.measured_depth.size(), pixels, where);
-  if (channels.normals) check_size("normal", frame.normals.size(), 3 * pixels, where);
-  if (channels.instance) check_size("instance", frame.instance.size(), pixels, where);
-  if (channels.label) check_size("label", frame.label.size(), pixels, where);
-  if (channels.sky_visibility)
-    check_size("sky visibility", frame.sky_visibility.size(), pixels, where);
-  if (channels.flow) check_size("flow", frame.flow.size(), 2 * pixels, where);
+  for (const ImageStream* stream : channels.truth) {
+    const auto image = find_image(frame, *stream);
+    check_size(stream->name.c_str(), image ? count_values(*image) : 0,
+               pixels * std::size_t(stream->components), where);
+  }
 }
 
 }  // namespace

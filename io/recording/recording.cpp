@@ -1,8 +1,13 @@
 #include "io/recording/recording.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace rubble {
+
+bool Channels::has_legend() const {
+  return std::any_of(truth.begin(), truth.end(), [](const auto* s) { return s->has_legend; });
+}
 
 std::string legend_to_json(const Legend& legend) {
   using Json = nlohmann::ordered_json;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "render/scene/camera_spec.h"
 #include "render/scene/frame.h"
 
 namespace rubble {
@@ -16,19 +17,18 @@ struct Channels {
   bool right = false;           // Frame::rgb_right
   bool measured_depth = false;  // then the depth topics and files are what the sensor measures, and
                                 // the exact depth goes where each format has its ground truth
-  bool normals = false;
-  bool instance = false;        // see render/scene/frame.h
-  bool label = false;           // likewise
-  bool flow = false;            // likewise
-  bool sky_visibility = false;  // likewise
   bool events = false;          // of an event camera
   bool imu = false;             // readings of an inertial unit
+  StreamSet truth;              // images of ground truth, in the order of image_streams()
+
+  // Whether one of them holds numbers of pieces or classes, which the legend explains.
+  bool has_legend() const;
 };
 
-// What the numbers in Frame::label and Frame::instance stand for.
+// What the numbers in the streams `label` and `instance` stand for.
 struct Legend {
   struct Piece {
-    std::uint16_t label = 0;  // class, as in Frame::label
+    std::uint16_t label = 0;  // class, as in the stream `label`
     std::string asset;        // name of its type
   };
   std::vector<std::string> labels;  // by label: "sky", "ground", then the assets
@@ -41,7 +41,7 @@ std::string legend_to_json(const Legend& legend);
 
 struct Recording {
   Channels channels;  // besides colour and depth
-  Legend legend;  // with instance or label
+  Legend legend;  // where a stream of ground truth has one
   ImuModel imu;   // with imu
 };
 

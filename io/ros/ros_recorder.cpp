@@ -1,9 +1,12 @@
 #include "io/ros/ros_recorder.h"
 
+#include <algorithm>
+
 #include "io/image/depth_encoding.h"
 #include "io/image/image_file.h"
 #include "io/image/jpeg_file.h"
 #include "io/recording/frame_order.h"
+#include "render/streams/image_streams.h"
 
 namespace rubble {
 namespace {
@@ -17,6 +20,14 @@ constexpr char kRightOptical[] = "camera_right_optical_frame";
 // both for depth in metres alone.
 constexpr std::size_t kCompressedDepthHeader = 12;  // unit: byte
 
+// In a file, images of numbers come after those of floats.
+StreamSet floats_first(StreamSet streams) {
+  std::stable_partition(streams.begin(), streams.end(), [](const ImageStream* stream) {
+    return std::holds_alternative<PixelMaker<float>>(stream->make);
+  });
+  return streams;
+}
+
 class RosRecorder : public Recorder {
  public:
   RosRecorder(const std::string& path, std::unique_ptr<RosFile> file, const RosOptions& options)
@@ -24,6 +35,7 @@ class RosRecorder : public Recorder {
         version_(file_->version()),
         options_(options),
         channels_(options.recording.channels),
+        truth_(floats_first(channels_.truth)),
         order_(path, channels_) {
     add_common_topics();
     add_channel_topics();
@@ -79,12 +91,10 @@ class RosRecorder : public Recorder {
     imu_ = add(c.imu, "/imu", ros::kImu);
     true_depth_info_ = add(c.measured_depth, "/ground_truth/depth/camera_info", ros::kCameraInfo);
     true_depth_ = add(c.measured_depth, "/ground_truth/depth/image", ros::kImage);
-    normals_ = add(c.normals, "/ground_truth/normals/image", ros::kImage);
-    flow_ = add(c.flow, "/ground_truth/flow/image", ros::kImage);
-    sky_ = add(c.sky_visibility, "/ground_truth/sky_visibility/image", ros::kImage);
-    instance_ = add(c.instance, "/ground_truth/instance/image", ros::kImage);
-    label_ = add(c.label, "/ground_truth/label/image", ros::kImage);
-    legend_ = add(c.instance || c.label, "/ground_truth/legend", ros::kString, true);
+    for (const ImageStream* stream : truth_)
+      truth_topics_.push_back(
+          file_->add("/ground_truth/" + stream->name + "/image", ros::kImage, false));
+    legend_ = add(c.has_legend(), "/ground_truth/legend", ros::kString, true);
   }
 
   std::uint32_t add_picture(const std::string& topic) {
@@ -135,7 +145,7 @@ class RosRecorder : public Recorder {
       fixed.push_back({kRightOptical, {camera_from_optical.rotation, to_the_right}});
     }
     send(tf_static_, frame, ros::transforms(version_, header(frame, kCamera), fixed));
-    if (channels_.instance || channels_.label)
+    if (channels_.has_legend())
       send(legend_, frame, ros::string(version_, legend_to_json(options_.recording.legend)));
   }
 
@@ -185,25 +195,29 @@ class RosRecorder : public Recorder {
            ros::camera_info(version_, header(frame, kOptical), frame.intrinsics));
       send_image(true_depth_, frame, "32FC1", 1, frame.depth);
     }
-    if (c.normals) send_image(normals_, frame, "32FC3", 3, frame.normals);
-    if (c.flow) send_image(flow_, frame, "32FC2", 2, frame.flow);
-    if (c.sky_visibility) send_image(sky_, frame, "32FC1", 1, frame.sky_visibility);
-    if (c.instance) send_image(instance_, frame, "32SC1", 1, frame.instance);
-    if (c.label) send_image(label_, frame, "16UC1", 1, frame.label);
+    for (std::size_t i = 0; i < truth_.size(); ++i) {
+      const ImageStream& stream = *truth_[i];
+      std::visit(
+          [&](const auto* values) {
+            send_image(truth_topics_[i], frame, stream.ros_encoding(), stream.components, *values);
+          },
+          *find_image(frame, stream));
+    }
   }
 
   std::unique_ptr<RosFile> file_;
   ros::Version version_;
   RosOptions options_;
   Channels channels_;
+  StreamSet truth_;
   FrameOrder order_;
   std::uint32_t imu_count_ = 0;
   // Numbers of the topics.
   std::uint32_t clock_ = 0, tf_static_ = 0, tf_ = 0, pose_ = 0, rgb_info_ = 0, rgb_ = 0,
                 depth_info_ = 0, depth_ = 0;
   std::uint32_t right_info_ = 0, right_ = 0, events_ = 0, imu_ = 0, true_depth_info_ = 0,
-                true_depth_ = 0, normals_ = 0, flow_ = 0, instance_ = 0, label_ = 0, legend_ = 0,
-                sky_ = 0;
+                true_depth_ = 0, legend_ = 0;
+  std::vector<std::uint32_t> truth_topics_;  // of truth_
 };
 
 }  // namespace

@@ -12,11 +12,8 @@
 //   /camera/events              dvs_msgs/EventArray, at the frame's stamp, those since the one
 //   before /imu                        sensor_msgs/Imu in camera_link, each at its own stamp
 //   /ground_truth/depth/image   32FC1, m: exact, where the depth above is that of a sensor
-//   /ground_truth/normals/image 32FC3, in the optical frame, NaN: no surface
-//   /ground_truth/flow/image    32FC2, pixel, to the next frame; NaN: none
-//   /ground_truth/sky_visibility/image  32FC1, 0 to 1
-//   /ground_truth/instance/image  32SC1: piece number; -1: ground; -2: nothing
-//   /ground_truth/label/image   16UC1: 0 sky, 1 ground, 2 and up: assets
+//   /ground_truth/NAME/image    streams of ground truth, by their names and in the encodings that their
+//                               types have; a piece number is 32SC1: -1: ground; -2: nothing
 //   /ground_truth/legend        std_msgs/String, JSON (legend_to_json), latched
 // With compressed pictures colour is in .../image_raw/compressed and 16UC1 depth in
 // .../image_raw/compressedDepth, as image_transport does it. Pictures are in camera_optical_frame.

@@ -88,8 +88,8 @@ void hold_limits(const ImportLimits& limits, std::uint64_t in_use) {
 // From now on so many seconds more.
 void limit_cpu(int seconds) {
   if (kFuzzing) {
-    const itimerval tenth{{}, {0, 100'000}};
-    setitimer(ITIMER_PROF, &tenth, nullptr);
+    const itimerval fiftieth{{}, {0, 20'000}};
+    setitimer(ITIMER_PROF, &fiftieth, nullptr);
     return;
   }
   rusage used{};

@@ -25,8 +25,8 @@ struct ImportLimits {
   // memory: beyond what this process has already. Not held under the sanitizers, whose shadow memory
   // alone is larger. unit: byte
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
-  std::uint64_t memory = std::uint64_t(256) << 20;  // a fuzzer has a million files to try
-  int cpu_seconds = 1;                              // a tenth, in truth
+  std::uint64_t memory = std::uint64_t(64) << 20;  // a fuzzer has a million files to try
+  int cpu_seconds = 1;                             // a fiftieth, in truth
 #else
   std::uint64_t memory = std::uint64_t(4) << 30;
   int cpu_seconds = 120;   // for one file

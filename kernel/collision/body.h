@@ -23,7 +23,11 @@ struct Body {
   std::int32_t simbody_index = -1;     // its number in SimbodyBlocks; -1: immovable, or a tree's link
   std::int32_t tree = -1;       // the articulated tree that it is a link of; -1: none
   std::int32_t link = -1;       // its number there
-  std::int32_t first_collider = 0, collider_count = 0;
+  std::int32_t first_collider = 0, collider_count = 0;  // of the piece itself
+  // Pieces that hold together move as the first of them, the lead; see kernel/world/world_groups.cpp.
+  std::int32_t lead = -1;       // the piece that this one moves with, itself where it leads; -1: none
+  std::int32_t group = -1;      // of a lead: its number among the groups
+  Vec3 origin_in_group;         // of the type's frame, from the group's centre of mass; unit: m
 
   // Where it is, mirrored after each step.
   Pose world_from_com;
@@ -53,7 +57,8 @@ struct Body {
 
 // One convex part of a body in the broad phase.
 struct Collider {
-  std::int32_t body = 0, part = 0;
+  std::int32_t body = 0, part = 0;  // the body that it moves with
+  std::int32_t piece = 0;           // the one whose part it is: another where pieces hold together
   std::int32_t first_corner = 0;  // into the world's array of turned corners
   Aabb box;                       // at the last step it moved
 };

@@ -18,8 +18,8 @@ constexpr double kSpawnClearance = 1.0;
 class Settling {
  public:
   Settling(World& world, const Pile& pile, const SettleOptions& options,
-           const SettleCallback& progress)
-      : pile_(pile), options_(options), progress_(progress), world_(world) {}
+           const SettleCallback& progress, const WorldObserver& observe)
+      : pile_(pile), options_(options), progress_(progress), observe_(observe), world_(world) {}
 
   PileState run() {
     lay_out();
@@ -41,6 +41,7 @@ class Settling {
       spawn(k);
       rested = finish_layer(k);
     }
+    if (observe_ && !stopped_) observe_(world_);
     return result(rested && !stopped_);
   }
 
@@ -122,6 +123,7 @@ class Settling {
     const std::int64_t most = std::int64_t(limit / options_.step + 0.5);
     if (layer_steps_ > 0 && done()) return true;
     while (layer_steps_ < most) {
+      if (observe_) observe_(world_);
       world_.step();
       ++layer_steps_;
       if (progress_ && !report()) {
@@ -182,6 +184,7 @@ class Settling {
   const Pile& pile_;
   const SettleOptions& options_;
   const SettleCallback& progress_;
+  const WorldObserver& observe_;
   World& world_;
   int layers_ = 0, layers_at_limit_ = 0;
   std::int64_t layer_steps_ = 0;  // since the last spawn
@@ -231,30 +234,32 @@ void SettleOptions::validate() const {
 }
 
 PileState settle_pile(const Pile& pile, const SettleOptions& options,
-                      const SettleCallback& progress) {
+                      const SettleCallback& progress, const WorldObserver& observe) {
   options.validate();
   World world(pile.types, calc_world_options(options), pile.assemblies);
-  return settle_pile(world, pile, options, progress);
+  return settle_pile(world, pile, options, progress, observe);
 }
 
 PileState settle_pile(World& world, const Pile& pile, const SettleOptions& options,
-                      const SettleCallback& progress) {
+                      const SettleCallback& progress, const WorldObserver& observe) {
   options.validate();
-  return Settling(world, pile, options, progress).run();
+  return Settling(world, pile, options, progress, observe).run();
 }
 
 PileState resume_settling(const SettleCheckpoint& checkpoint, const Pile& pile,
-                          const SettleOptions& options, const SettleCallback& progress) {
+                          const SettleOptions& options, const SettleCallback& progress,
+                          const WorldObserver& observe) {
   options.validate();
   World world(pile.types, calc_world_options(options), pile.assemblies);
-  return resume_settling(world, checkpoint, pile, options, progress);
+  return resume_settling(world, checkpoint, pile, options, progress, observe);
 }
 
 PileState resume_settling(World& world, const SettleCheckpoint& checkpoint, const Pile& pile,
-                          const SettleOptions& options, const SettleCallback& progress) {
+                          const SettleOptions& options, const SettleCallback& progress,
+                          const WorldObserver& observe) {
   options.validate();
   check_checkpoint(checkpoint, pile, options);
-  return Settling(world, pile, options, progress).resume(checkpoint);
+  return Settling(world, pile, options, progress, observe).resume(checkpoint);
 }
 
 WorldOptions calc_world_options(const SettleOptions& options) {

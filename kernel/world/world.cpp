@@ -25,9 +25,10 @@ Quad quad_of(const Vec3f& v) { return Quad{v.x, v.y, v.z, 0}; }
 
 Mat3f to_float(const Mat3& m) { return {{Vec3f(m.rows[0]), Vec3f(m.rows[1]), Vec3f(m.rows[2])}}; }
 
-void check_movable(const NewPiece& piece, const std::vector<PieceType>& types, int index) {
-  const std::size_t type = std::size_t(piece.placement.type);
-  if (piece.placement.fixed || type >= types.size() || !types[type].surface) return;
+void check_movable(const NewPiece& piece, const std::vector<PieceType>& types, int placeable,
+                   int index) {
+  const int type = piece.placement.type;
+  if (piece.placement.fixed || type >= placeable || !types[std::size_t(type)].surface) return;
   Diagnostic d;
   d.key = "pieces[" + std::to_string(index) + "].fixed";
   d.message = "a surface cannot move";
@@ -63,6 +64,7 @@ constexpr double kHangingTime = 0.15;
 World::Impl::Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options,
                   std::vector<AssemblyType> assembly_types)
     : types(std::move(piece_types)),
+      placeable_types(int(types.size())),
       assemblies(std::move(assembly_types)),
       options(world_options),
       pool(world_options.threads) {
@@ -110,7 +112,7 @@ void World::Impl::add_body(const NewPiece& piece, FreeBody* free) {
   body.collider_count = std::int32_t(body.shape->parts.size());
   for (int part = 0; part < body.collider_count; ++part) {
     Collider collider;
-    collider.body = std::int32_t(data.bodies.size());
+    collider.body = collider.piece = std::int32_t(data.bodies.size());
     collider.part = part;
     collider.first_corner = std::int32_t(data.corners.size());
     data.corners.resize(data.corners.size() + body.shape->parts[part].corners.size());
@@ -128,6 +130,7 @@ void World::Impl::mirror(Body& body) {
 }
 
 void World::Impl::refresh(Body& body) {
+  if (body.group >= 0) return refresh_group(body);
   body.rotation = to_float(body.world_from_com.rotation.matrix());
   if (body.mass > 0) {
     body.inverse_inertia =
@@ -159,12 +162,11 @@ void World::Impl::refresh(Body& body) {
 // Pairs of a piece with all others; immovable ones need no pair among themselves.
 void World::Impl::find_first_pairs(int index) {
   const Body& body = data.bodies[index];
-  for (int c = 0; c < body.collider_count; ++c) {
-    const int collider = body.first_collider + c;
+  each_collider(body, [&](int collider) {
     data.broad.query(collider, [&](int other) { add_contact(collider, other); });
     if (body.mass > 0) add_contact(collider, kGround);
     update_surface_pairs(collider);
-  }
+  });
 }
 
 void World::Impl::list_surfaces() {
@@ -186,7 +188,7 @@ Vec3 World::Impl::angular_velocity(const Body& body) const {
 
 PosedBody World::Impl::posed(const Collider& collider) const {
   const Body& body = data.bodies[collider.body];
-  const ConvexShape& shape = body.shape->parts[collider.part];
+  const ConvexShape& shape = data.bodies[collider.piece].shape->parts[collider.part];
   PosedBody result;
   result.part = {&shape,
                  {&data.corners[collider.first_corner], int(shape.corners.size())},
@@ -210,10 +212,10 @@ int World::add(const std::vector<NewPiece>& pieces) {
   Impl& w = *impl_;
   const int first = size();
   w.data.verification_steps = -1;
-  const int types = int(w.types.size()), kinds = types + int(w.assemblies.size());
+  const int types = w.placeable_types, kinds = types + int(w.assemblies.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     check(pieces[i], kinds, int(i));
-    check_movable(pieces[i], w.types, int(i));
+    check_movable(pieces[i], w.types, types, int(i));
   }
   std::vector<FreeBody> free;  // by body; those of links are not used
   for (const NewPiece& piece : pieces) {
@@ -221,38 +223,49 @@ int World::add(const std::vector<NewPiece>& pieces) {
       free.emplace_back();
       w.add_body(piece, &free.back());
     } else {
-      w.add_tree(piece);
+      w.add_assembly(piece);
       free.resize(std::size_t(size() - first));
     }
   }
 
+  w.add_to_blocks(first, free);
+  w.introduce(first);
+  return first;
+}
+
+// free: by body, from `first` on.
+void World::Impl::add_to_blocks(int first, const std::vector<FreeBody>& free) {
   // Neighbours in height land and fall asleep together, so they share a block.
   std::vector<std::int32_t> order;
-  for (int i = first; i < size(); ++i) {
-    if (w.data.bodies[i].mass > 0 && w.data.bodies[i].tree < 0) order.push_back(i);
+  for (int i = first; i < int(data.bodies.size()); ++i) {
+    if (data.bodies[i].mass > 0 && data.bodies[i].tree < 0) order.push_back(i);
   }
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return w.data.bodies[a].world_from_com.translation.z <
-           w.data.bodies[b].world_from_com.translation.z;
+    return data.bodies[a].world_from_com.translation.z <
+           data.bodies[b].world_from_com.translation.z;
   });
   std::vector<FreeBody> sorted;
-  for (int body : order) sorted.push_back(free[body - first]);
-  int mobile = w.blocks.add(sorted);
-  for (int body : order) w.data.bodies[body].simbody_index = mobile++;
+  for (int body : order) sorted.push_back(free[std::size_t(body - first)]);
+  int mobile = blocks.add(sorted);
+  for (int body : order) data.bodies[body].simbody_index = mobile++;
+}
 
-  for (int i = first; i < size(); ++i) {
-    Body& body = w.data.bodies[i];
-    w.refresh(body);
-    for (int c = 0; c < body.collider_count; ++c) {
+void World::Impl::introduce(int first) {
+  const int count = int(data.bodies.size());
+  for (int i = first; i < count; ++i) {
+    Body& body = data.bodies[i];
+    refresh(body);
+    for (int c = 0; c < body.collider_count && !body.lost; ++c) {
       const int collider = body.first_collider + c;
-      w.data.broad.update(collider, w.data.colliders[collider].box, {});
+      data.broad.update(collider, data.colliders[collider].box, {});
     }
   }
-  const std::size_t surfaces = w.surfaces.size();
-  w.list_surfaces();
+  const std::size_t before = surfaces.size();
+  list_surfaces();
   // What was there before may lie near a surface that is new.
-  for (int i = w.surfaces.size() > surfaces ? 0 : first; i < size(); ++i) w.find_first_pairs(i);
-  return first;
+  for (int i = surfaces.size() > before ? 0 : first; i < count; ++i) {
+    if (!data.bodies[i].lost) find_first_pairs(i);
+  }
 }
 
 int World::size() const { return int(impl_->data.bodies.size()); }
@@ -260,8 +273,8 @@ int World::lost_count() const { return impl_->data.lost; }
 std::int64_t World::steps() const { return impl_->data.steps; }
 double World::time() const { return double(impl_->data.steps) * impl_->options.step; }
 const StepTimes& World::times() const { return impl_->times; }
-bool World::is_awake(int index) const { return impl_->data.bodies[index].awake; }
-bool World::is_touching(int index) const { return impl_->data.bodies[index].touching; }
+bool World::is_awake(int index) const { return impl_->acting(index).awake; }
+bool World::is_touching(int index) const { return impl_->acting(index).touching; }
 double World::mass(int index) const { return impl_->data.bodies[index].mass; }
 
 bool World::verifying_rest() const { return impl_->data.verification_steps >= 0; }
@@ -273,13 +286,21 @@ int World::awake_count() const {
 }
 
 PieceState World::piece(int index) const {
-  const Body& body = impl_->data.bodies[index];
+  const Body& piece = impl_->data.bodies[index];
+  const Body& body = impl_->acting(index);
   PieceState state;
-  state.type = body.type;
-  state.layer = body.layer;
-  state.scale = body.scale;
+  state.type = piece.type;
+  state.layer = piece.layer;
+  state.scale = piece.scale;
   state.world_from_body = body.world_from_type();
   state.linear_velocity = impl_->linear_velocity(body);
+  if (piece.lead >= 0) {
+    const Vec3 origin = body.world_from_com.rotation.rotate(piece.origin_in_group);
+    const Vec3 centre = origin + body.world_from_com.rotation.rotate(
+                                     piece.shape->volume.centre_of_mass * piece.scale);
+    state.world_from_body.translation = body.world_from_com.translation + origin;
+    state.linear_velocity += cross(impl_->angular_velocity(body), centre);
+  }
   state.angular_velocity = impl_->angular_velocity(body);
   state.status = body.lost        ? PieceStatus::lost
                  : body.mass == 0 ? PieceStatus::fixed
@@ -288,10 +309,14 @@ PieceState World::piece(int index) const {
   return state;
 }
 
+Vec3 World::centre_of_mass(int index) const {
+  return impl_->data.bodies[std::size_t(index)].com_in_type;
+}
+
 void World::set_velocity(int index, const Vec3& linear, const Vec3& angular) {
-  Body& body = impl_->data.bodies[index];
+  Body& body = impl_->acting(index);
   if (!body.movable()) return;
-  impl_->wake(index);
+  impl_->wake(int(&body - impl_->data.bodies.data()));
   if (body.tree >= 0) return impl_->set_tree_motion(index, linear, angular);
   impl_->blocks.set_velocity(body.simbody_index, linear, angular);
   impl_->mirror(body);
@@ -351,7 +376,7 @@ bool World::rest_verified(double speed, double angular_speed) const {
 }
 
 bool World::within_rest_tolerance(int index) const {
-  const Body& body = impl_->data.bodies[index];
+  const Body& body = impl_->acting(index);
   return !body.awake || impl_->within_rest_tolerance(body);
 }
 
@@ -387,9 +412,7 @@ double World::highest_point(bool touched_only) const {
   double top = 0;
   for (const Body& body : impl_->data.bodies) {
     if (body.lost || (touched_only && body.mass > 0 && !body.has_touched)) continue;
-    for (int i = 0; i < body.collider_count; ++i) {
-      top = std::max(top, impl_->data.colliders[body.first_collider + i].box.max.z);
-    }
+    impl_->each_collider(body, [&](int i) { top = std::max(top, impl_->data.colliders[i].box.max.z); });
   }
   return top;
 }

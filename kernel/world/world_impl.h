@@ -1,6 +1,8 @@
 // The inside of World: its data and the stages of a step. Not for use outside kernel/.
 #pragma once
 
+#include <deque>
+#include <functional>
 #include <tuple>
 #include <unordered_map>
 #include <vector>
@@ -18,6 +20,17 @@
 
 namespace rubble {
 
+// Which bodies are a robot: those from `first_body` on, in the order of its links.
+struct RobotRecord {
+  std::int32_t tree = 0, first_body = 0;
+};
+
+// Pieces that hold together: one rigid body.
+struct RigidGroup {
+  std::vector<std::int32_t> members;  // ascending; the first one leads. Empty: there is no such group
+  Vec3f reach;                        // largest |x|, |y|, |z| of any corner; unit: m
+};
+
 // What a snapshot holds: all that changes from step to step.
 struct WorldData {
   std::vector<Body> bodies;
@@ -29,6 +42,8 @@ struct WorldData {
   std::unordered_map<std::uint64_t, std::int32_t> contact_of_pair;  // looked up, never walked
   std::vector<std::uint8_t> wake_next;                              // by body
   std::vector<Tree> trees;          // those that came apart keep their place, without links
+  std::vector<RobotRecord> robots;
+  std::vector<RigidGroup> groups;   // those that came apart keep their place
   std::int64_t steps = 0;
   std::int64_t verification_steps = -1;  // since begin_rest_verification(); -1: no verification
   std::int64_t all_awake_since = -1;  // in verification_steps; -1: some pieces doze
@@ -70,9 +85,11 @@ struct World::Impl {
   Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options,
        std::vector<AssemblyType> assembly_types);
 
-  std::vector<PieceType> types;
+  std::vector<PieceType> types;  // those of the links of robots come last
+  int placeable_types = 0;       // the others
   std::vector<AssemblyType> assemblies;
-  std::vector<Shape> shapes;
+  std::deque<Shape> shapes;      // by type; bodies point at them
+  std::vector<RobotModel> robots;
   WorldOptions options;
   SolverSettings solver_settings;
   NarrowSettings narrow_settings;
@@ -82,6 +99,7 @@ struct World::Impl {
   SimbodyTrees simbody_trees;
   ContactSolver solver;
   StepTimes times;
+  std::function<bool()> on_solved;  // see World::set_on_solved()
 
   // Scratch of a step.
   std::vector<std::int32_t> awake_bodies;  // those that take part in the step, ascending
@@ -115,6 +133,8 @@ struct World::Impl {
   void add_body(const NewPiece& piece, FreeBody* free);
   void mirror(Body& body);   // q and u from Simbody
   void refresh(Body& body);  // rotation, inertia, corners, boxes
+  void add_to_blocks(int first, const std::vector<FreeBody>& free);
+  void introduce(int first);  // bodies from there on to all others
   void find_first_pairs(int body);
   void list_surfaces();
   Vec3 linear_velocity(const Body& body) const;
@@ -170,7 +190,25 @@ struct World::Impl {
   void doze();
   void wake_dozing();
 
+  // world_groups.cpp
+  template <typename Action>
+  void each_collider(const Body& body, Action&& action) const;
+  Body& acting(int piece);
+  const Body& acting(int piece) const;
+  const Vec3f& reach_of(const Body& body) const;
+  double collider_friction(std::int32_t collider) const;
+  void bind(int first, int count);
+  void split(int lead, const std::vector<SplitPart>& parts);
+  void form_group(const SplitPart& part, const Body& whole);
+  void set_free(const std::vector<SplitPart>& parts, const Body& whole, const Vec3& linear,
+                const Vec3& angular);
+  void weigh(Body& body, const RigidGroup& group);
+  void move_contacts(const Vec3& old_centre, int old_lead);
+  void refresh_group(Body& body);
+
   // world_step.cpp
+  void find_contacts();
+  void solve();
   void apply_forces();
   void solve_contacts();
   void sort_by_height();
@@ -184,8 +222,22 @@ struct World::Impl {
   void remove_lost();
   void lose(int body);
 
+  // world_resume.cpp
+  void join_settled(const Pile& pile, const PileState& state);
+  void lay_to_rest(const PileState& state, const std::vector<TreeState>& trees);
+
+  // world_robots.cpp
+  int add_robot(const RobotModel& model, const Pose& world_from_base);
+  void set_command(int robot, const RobotCommand& command);
+  bool touches_robot(const Contact& contact) const;
+  bool is_driven(std::int32_t body) const;
+  void stay_awake_near_robots();  // in `slept`
+  bool is_of_robot(const Contact& contact, const RobotRecord& robot) const;
+
   // world_trees.cpp
-  void add_tree(const NewPiece& piece);
+  void add_assembly(const NewPiece& piece);
+  Tree make_tree(const AssemblyType& assembly, const NewPiece& piece);
+  void start_tree(const Tree& tree, const NewPiece& piece, const std::vector<double>& joint_positions);
   bool are_joined(int body_a, int body_b) const;
   bool is_awake(const Tree& tree) const;
   void begin_trees();
@@ -206,6 +258,16 @@ struct World::Impl {
   void split_tree(int tree, const std::vector<std::uint8_t>& broken);
   void release(const TreeLink& link);
 };
+
+// Of a group those of all its members; by number.
+template <typename Action>
+void World::Impl::each_collider(const Body& body, Action&& action) const {
+  const auto of = [&action](const Body& piece) {
+    for (int i = 0; i < piece.collider_count; ++i) action(piece.first_collider + i);
+  };
+  if (body.group < 0) return of(body);
+  for (const std::int32_t member : data.groups[body.group].members) of(data.bodies[member]);
+}
 
 // Its members, like those of WorldData and what it holds, are listed in world_serialization.h as well.
 struct World::Snapshot {

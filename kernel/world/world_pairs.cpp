@@ -53,9 +53,11 @@ void World::Impl::push_contact(const Pair& pair) {
   Contact contact;
   contact.body_a = pair.body_a;
   contact.body_b = pair.body_b;
-  const double mu_a = types[data.bodies[pair.body_a].type].friction;
-  const double mu_b =
-      pair.body_b == kGround ? mu_a : types[data.bodies[pair.body_b].type].friction;
+  const double mu_a = collider_friction(pair.collider_a);
+  const double mu_b = pair.body_b == kGround ? mu_a
+                      : is_surface_collider(pair.collider_b)
+                          ? types[data.bodies[pair.body_b].type].friction
+                          : collider_friction(pair.collider_b);
   contact.friction = float(std::sqrt(mu_a * mu_b));
   data.pairs.push_back(pair);
   data.contacts.push_back(std::move(contact));
@@ -136,9 +138,7 @@ void World::Impl::find_pairs() {
   pool.run(int(awake_bodies.size()), 64, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const Body& body = data.bodies[awake_bodies[k]];
-      for (int i = body.first_collider; i < body.first_collider + body.collider_count; ++i) {
-        leaves_box[i] = !data.broad.holds(i, calc_swept_box(i));
-      }
+      each_collider(body, [&](int i) { leaves_box[i] = !data.broad.holds(i, calc_swept_box(i)); });
     }
   });
   for (std::size_t i = 0; i < leaves_box.size(); ++i) {

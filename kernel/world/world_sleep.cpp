@@ -33,6 +33,9 @@ constexpr SleepTerms kVerifying{0.001, 0.5, 0.004, 1.0, 0.1F, 0.25F, 0.05F};
 constexpr float kUnbalancedSpeed = 0.01F;  // unit: m/s
 constexpr float kUnbalancedLoad = 0.05F;   // unit: 1
 
+// The speeds above are those of steps of 1/60 s: in a shorter step a force gives less speed.
+constexpr double kStepsPerSecond = 60;  // unit: 1/s
+
 // Overlaps deeper than this keep a piece awake for a while.
 constexpr float kSleepOverlap = 0.003F;    // unit: m
 constexpr double kSleepOverlapTime = 2.0;  // unit: s
@@ -47,11 +50,11 @@ float hit_impulse(const Body& body, const SleepTerms& t) {
 }
 
 // Counts the steps that a body has stayed near `pose`; starts anew where it is when it has left.
-void count_still(const Body& body, double distance, Pose& pose, std::int32_t& steps) {
+void count_still(const Body& body, const Vec3f& reach, double distance, Pose& pose, std::int32_t& steps) {
   const Vec3 moved = body.world_from_com.translation - pose.translation;
   const Quat turn = pose.rotation.conjugate() * body.world_from_com.rotation;
   // How far a corner has gone at most: a bar may spin about its own axis without going anywhere.
-  const Vec3 r = Vec3(body.shape->reach) * (2 * body.scale);
+  const Vec3 r = Vec3(reach) * (2 * body.scale);
   const Vec3 t{std::abs(turn.x), std::abs(turn.y), std::abs(turn.z)};
   const double turned =
       norm(Vec3{t.y * r.z + t.z * r.y, t.z * r.x + t.x * r.z, t.x * r.y + t.y * r.x});
@@ -66,7 +69,8 @@ void count_still(const Body& body, double distance, Pose& pose, std::int32_t& st
 
 // What carries a high load is clamped by it, and changes of a fraction of the load do not matter.
 float World::Impl::wake_impulse(const Body& body) const {
-  return terms(data).wake_speed * float(body.mass) + terms(data).wake_load * body.load;
+  const float steps = float(options.step * kStepsPerSecond);
+  return terms(data).wake_speed * steps * float(body.mass) + terms(data).wake_load * body.load;
 }
 
 void World::Impl::wake(int index) {
@@ -145,7 +149,8 @@ void World::Impl::wake_hit() {
 }
 
 bool World::Impl::is_unbalanced(const Body& body, const Vec3f& change) const {
-  const float most = kUnbalancedSpeed * float(body.mass) + kUnbalancedLoad * body.load;
+  const float steps = float(options.step * kStepsPerSecond);
+  const float most = kUnbalancedSpeed * steps * float(body.mass) + kUnbalancedLoad * body.load;
   return dot(change, change) > most * most;
 }
 
@@ -174,7 +179,7 @@ void World::Impl::wake_changed() {
       const Body& body = data.bodies[i];
       if (body.awake || !body.movable()) continue;
       const float change = contact.pressed - contact.rest_pressed;
-      if (std::abs(change) > wake_impulse(body)) data.wake_next[i] = 1;
+      if (std::abs(change) > wake_impulse(body) || touches_robot(contact)) data.wake_next[i] = 1;
       lost_support[i] += contact.normal * (i == contact.body_a ? change : -change);
       unsettled.push_back(i);
     }
@@ -232,13 +237,14 @@ void World::Impl::update_sleep() {
       const std::int32_t i = awake_bodies[k];
       Body& body = data.bodies[i];
       if (!body.awake) continue;
-      count_still(body, t.still_distance, body.still_pose, body.still_steps);
-      count_still(body, t.loose_distance, body.loose_pose, body.loose_steps);
+      count_still(body, reach_of(body), t.still_distance, body.still_pose, body.still_steps);
+      count_still(body, reach_of(body), t.loose_distance, body.loose_pose, body.loose_steps);
       slept[i] = !verifying && (body.still_steps >= (overlapping[i] ? long_wait : wait) ||
                                 body.loose_steps >= (overlapping[i] ? long_wait : loose_wait));
     }
   });
   if (verifying) return update_verification();
+  stay_awake_near_robots();
   keep_trees_whole();
   put_to_sleep();
 }

@@ -169,7 +169,7 @@ bool is_consistent(const World::Snapshot& s) {
            std::int64_t(b.first_collider) + b.collider_count <= std::int64_t(d.colliders.size());
   }
   for (const Collider& c : d.colliders) {
-    fine = fine && in_range(c.body, d.bodies.size()) && c.part >= 0 && c.first_corner >= 0;
+    fine = fine && in_range(c.body, d.bodies.size()) && in_range(c.piece, d.bodies.size()) && c.part >= 0 && c.first_corner >= 0;
   }
   for (const Pair& p : d.pairs) {
     const bool ground = p.collider_b == kGround && p.body_b == kGround;
@@ -194,6 +194,13 @@ bool is_consistent(const World::Snapshot& s) {
   for (const Body& b : d.bodies) {
     fine = fine && (b.tree == -1 || (in_range(b.tree, d.trees.size()) &&
                                      in_range(b.link, d.trees[b.tree].links.size())));
+  }
+  for (const Body& b : d.bodies) {
+    fine = fine && (b.lead == -1 || in_range(b.lead, d.bodies.size())) &&
+           (b.group == -1 || (in_range(b.group, d.groups.size()) && !d.groups[b.group].members.empty()));
+  }
+  for (const RigidGroup& g : d.groups) {
+    for (const std::int32_t member : g.members) fine = fine && in_range(member, d.bodies.size());
   }
   std::int32_t start = 0;
   for (const std::int32_t next : s.block_starts) {

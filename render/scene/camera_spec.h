@@ -3,20 +3,24 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "render/scene/frame.h"
+#include "render/scene/image_stream.h"
 
 namespace rubble {
 
-// Ground truth beside colour and depth; each costs nothing where it is not asked for.
-struct ChannelSet {
-  bool normals = false;         // of the surface, world frame
-  bool instance = false;        // number of the piece
-  bool label = false;           // class of the piece
-  bool flow = false;            // to the next frame; unit: pixel
-  bool sky_visibility = false;  // 64 rays a pixel: about 5 s for a million pixels on two cores
+// Streams of ground truth beside colour and depth; each costs nothing where it is not asked for.
+using StreamSet = std::vector<const ImageStream*>;
 
-  bool any() const { return normals || instance || label || flow || sky_visibility; }
+// How colours come about. fast: baked light, shadow maps and shading on the graphics device. reference:
+// path tracing, see reference/path_tracer.h; slow, exact but for noise. Depth and channels are the same.
+enum class RenderQuality { fast, reference };
+
+struct ColourSpec {
+  RenderQuality quality = RenderQuality::fast;  // the members below are of the reference alone
+  int samples = 64;      // a pixel; noise falls with the root; range: 1 to 65536
+  bool denoise = false;  // filtered, see reference/denoise.h
 };
 
 // The stamp of a frame is the middle of the exposure of the middle row.
@@ -109,7 +113,7 @@ struct EventCameraSpec {
 
 struct CameraSpec {
   Intrinsics intrinsics;  // of the colour image
-  ChannelSet channels;    // which are drawn
+  StreamSet channels;     // ground truth that is made
   double baseline = 0;  // of a stereo pair: the right camera's distance; 0: none; unit: m
   ShutterSpec shutter;  // when each row is exposed
   ExposureSpec exposure;         // how bright the image is

@@ -3,9 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel/base/math.h"
+#include "render/scene/image.h"
 
 namespace rubble {
 
@@ -64,24 +69,25 @@ struct Frame {
   double baseline = 0;                  // how far right of this one it is (-Y of the body); same
                                         // orientation and intrinsics; unit: m; 0: there is none
   std::vector<float> measured_depth;    // as depth, but what the depth sensor reports
-  std::vector<float> normals;           // 3 a pixel: unit, towards the camera, in the optical frame
-                                        // (X right, Y down, Z forward); NaN: no surface
-  std::vector<std::uint32_t> instance;  // piece number; kNoInstance, kGroundInstance
-  std::vector<std::uint16_t> label;     // class: 0 sky, 1 ground, 2 and up: one per asset
-  std::vector<float> flow;              // 2 a pixel: where the point seen here will be in the next
-                                        // frame, less where it is; unit: pixel; NaN: no surface,
-                                        // behind the camera then, or the last frame
-  std::vector<float> sky_visibility;    // sky view factor: the light of an even sky on the surface,
-                                        // as a share of that on open level ground; 1: no surface
+  // Images of ground truth by the names of their streams; what they hold: render/streams/.
+  std::map<std::string, ImageValues, std::less<>> truth;
   std::vector<Event> events;            // since the frame before, in order of stamp, row, column
   std::vector<ImuSample> imu;           // later than the frame before, up to and with this one
   double exposure_s = 0;                // exposure time; 0: not modelled
+
+  // The values of a stream of ground truth; empty where the frame has none.
+  template <typename T>
+  const std::vector<T>& get(std::string_view stream) const {
+    static const std::vector<T> none;
+    const auto at = truth.find(stream);
+    return at == truth.end() ? none : std::get<std::vector<T>>(at->second);
+  }
 };
 
-// In Frame::instance, where there is no piece.
+// In the stream `instance`, where there is no piece.
 inline constexpr std::uint32_t kNoInstance = 0xfffffffeu;
 inline constexpr std::uint32_t kGroundInstance = 0xffffffffu;
-// In Frame::label.
+// In the stream `label`.
 inline constexpr std::uint16_t kSkyLabel = 0, kGroundLabel = 1, kFirstAssetLabel = 2;
 
 }  // namespace rubble

@@ -9,6 +9,7 @@
 #include "render/sensors/exposure_control.h"
 #include "render/sensors/image_sensor.h"
 #include "render/sensors/motion.h"
+#include "render/streams/image_streams.h"
 
 namespace rubble {
 
@@ -49,12 +50,14 @@ struct Camera::State {
   struct Watched {  // the last image of the event camera
     ViewRays view;
     std::vector<float> distances;
+    MomentNearby now, goal;  // of the image, and the last one before the next
   } watched;
 
   Pose pose_at(std::int64_t stamp_ns, std::int64_t frame_ns, const Pose& at_frame) const;
   ViewRays view_at(int index, double seconds_off = 0) const;
   ViewRays right_of(ViewRays view) const;
 
+  MomentNearby moment_at(int index, double seconds_off) const;
   Frame take_ideal(int index);
   Frame take_exposed(int index);
   int count_samples(int index, const ViewRays& view, const LinearFrame& middle,
@@ -118,20 +121,20 @@ ViewRays Camera::State::right_of(ViewRays view) const {
 }
 
 void Camera::State::add_ground_truth(int index, const ViewRays& view, Frame& frame) {
-  if (spec.channels.any()) {
+  if (!spec.channels.empty()) {
     ViewRays next;
     const bool more = index + 1 < int(flight.stamps_ns.size());
-    if (more && spec.channels.flow) next = view_at(index + 1);
-    renderer.add_channels(spec.channels, more ? &next : nullptr, frame);
+    const bool needed = std::any_of(spec.channels.begin(), spec.channels.end(),
+                                    [](const ImageStream* s) { return s->needs_next; });
+    if (more && needed) next = view_at(index + 1);
+    renderer.add_truth(spec.channels, more ? &next : nullptr, frame);
   }
   if (spec.depth_sensor.type != DepthSensorType::none) measure_depth(index, view, frame);
 }
 
 void Camera::State::measure_depth(int index, const ViewRays& view, Frame& frame) {
   Frame truth;
-  ChannelSet channels;
-  channels.normals = true;
-  renderer.add_channels(channels, nullptr, truth);
+  renderer.add_truth({find_image_stream("normals")}, nullptr, truth);
   std::vector<std::uint8_t> projected;
   if (spec.depth_sensor.type == DepthSensorType::structured_light)
     projected = renderer.line_of_sight_mask(depth_sensor.projector());
@@ -140,7 +143,7 @@ void Camera::State::measure_depth(int index, const ViewRays& view, Frame& frame)
   const double seconds = double(view.stamp_ns - flight.stamps_ns.front()) * 1e-9;
   const Air air = medium.at(seconds);
   frame.measured_depth = depth_sensor.measure(
-      {view, renderer.distances(), truth.normals, projected, albedos, air, index});
+      {view, renderer.distances(), truth.get<float>("normals"), projected, albedos, air, index});
 }
 
 Frame Camera::State::take_ideal(int index) {
@@ -151,14 +154,19 @@ Frame Camera::State::take_ideal(int index) {
   return frame;
 }
 
+// Where camera and surfaces are then; the frame's own view was drawn last.
+MomentNearby Camera::State::moment_at(int index, double seconds_off) const {
+  const ViewRays view = view_at(index, seconds_off);
+  return {view.world_from_camera, renderer.shifts(view.stamp_ns)};
+}
+
 // One more than the pixels of motion, and odd, so that the middle one is the frame's own instant.
 int Camera::State::count_samples(int index, const ViewRays& view, const LinearFrame& middle,
                                  const ExposureSettings& settings) const {
   if (!spec.shutter.motion_blur) return 1;
   const double half = 0.5 * settings.time;
   const double motion =
-      longest_motion(view, middle.distance, view_at(index, -half).world_from_camera,
-                     view_at(index, half).world_from_camera);
+      longest_motion(view, middle.distance, moment_at(index, -half), moment_at(index, half));
   if (motion < kSharp) return 1;
   const int wanted = int(std::min(std::ceil(motion), 1000.0)) + 1;
   const int most = spec.shutter.most_samples - (spec.shutter.most_samples % 2 ? 0 : 1);
@@ -228,17 +236,20 @@ void Camera::State::watch(int index, Frame& frame) {
     view.world_from_camera = pose_at(stamp, end, flight.world_from_camera[std::size_t(index)]);
     const LinearFrame image = renderer.render_linear(view);
     events->see(stamp, luminance_of(image), frame.events);
-    return Watched{view, image.distance};
+    const std::size_t next = std::size_t(index) + (stamp == end ? 1 : 0);
+    const std::size_t goal = std::min(next, flight.stamps_ns.size() - 1);
+    return Watched{view, image.distance, {view.world_from_camera, {}},
+                   {flight.world_from_camera[goal], renderer.shifts(flight.stamps_ns[goal])}};
   };
   if (index == 0) {
     watched = look(end);
     return;
   }
   // From the depths of the last look: how many parts the rest of the way is to be cut into.
-  const Pose goal = flight.world_from_camera[std::size_t(index)];
   for (int left = kMostEventImages; now < end; --left) {
+    watched.goal.world_from_camera = flight.world_from_camera[std::size_t(index)];
     const double motion =
-        longest_motion(watched.view, watched.distances, watched.view.world_from_camera, goal);
+        longest_motion(watched.view, watched.distances, watched.now, watched.goal);
     const double parts =
         left > 0 ? std::max(1.0, std::ceil(motion / spec.event_camera.most_motion)) : 1;
     now = std::min(end, now + std::int64_t(std::ceil(double(end - now) / parts)));

@@ -44,7 +44,7 @@ namespace rubble {
 struct DepthView {
   const ViewRays& rays;
   const std::vector<float>& distances;  // along the ray; NaN: none
-  const std::vector<float>& normals;    // as Frame::normals
+  const std::vector<float>& normals;    // of the stream `normals`
   const std::vector<std::uint8_t>& projected;  // 1: the projector sees it; only structured light
   // Of the surfaces, 0 to 1, in the sensor's light: for a specification that states none.
   const std::vector<float>& albedos;

@@ -114,6 +114,8 @@ Json object_schema(const Schema& schema, const std::string& pattern) {
     if (key->kind == KeyKind::list) {
       key->resize(1);  // so that an item's defaults can be read
       json.update({{"type", "array"}, {"items", object_schema(schema, key->path + "[]")}});
+    } else if (const Key* on = schema.find(key->path + ".on"); on && on->parent() == key->path) {
+      json["anyOf"] = Json::array({object_schema(schema, key->path), {{"type", "boolean"}}});
     } else {
       json.update(object_schema(schema, key->path));
     }
@@ -140,6 +142,17 @@ Json alias_schema(const Schema& schema, const Alias& alias) {
 }
 
 }  // namespace
+
+std::vector<std::string> mission_keys() {
+  Scenario scenario;
+  const Schema schema = make_scenario_schema(scenario);
+  std::vector<std::string> keys;
+  for (const Key& key : schema.keys())
+    if (key.kind == KeyKind::value && key.path.find("[]") == std::string::npos)
+      keys.push_back(key.path);
+  for (const Alias& alias : schema.aliases()) keys.push_back(alias.name);
+  return keys;
+}
 
 std::string mission_json_schema() {
   Scenario scenario;

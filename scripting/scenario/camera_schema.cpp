@@ -2,8 +2,21 @@
 
 #include <string>
 
+#include "render/streams/image_streams.h"
+
 namespace rubble {
 namespace {
+
+// Every stream that `channels` may name, with what it is.
+std::string describe_channels() {
+  std::string text = "Ground truth beside colour and depth.";
+  for (const ImageStream* stream : truth_streams()) {
+    std::string meaning = stream->meaning;
+    if (!stream->unit.empty()) meaning.insert(meaning.size() - 1, "; unit: " + stream->unit);
+    text += " `\"" + stream->name + "\"`: " + meaning;
+  }
+  return text;
+}
 
 void add_camera(Schema& k, CameraScenario& c) {
   k.group("camera", "Colour and depth have the same pixels. With the defaults, an exact pinhole.");
@@ -14,9 +27,13 @@ void add_camera(Schema& k, CameraScenario& c) {
           "plumb_bob is left out of account.")
       .between(1, 360)
       .unit("degree");
-  k.value("camera.channels", c.channels,
-          "Ground truth beside colour and depth: \"normals\", \"instance\", \"label\", \"flow\", "
-          "\"sky_visibility\".");
+  k.value("camera.channels", c.channels, describe_channels());
+  k.choice("camera.quality", c.colour.quality, {"fast", "reference"},
+           "How colours are found: baked light and shadow maps, or path tracing, which takes a minute or "
+           "more an image ([reference_renderer.md](reference_renderer.md)). Depth and channels are the same.");
+  k.value("camera.samples", c.colour.samples, "Of the reference: paths a pixel.").between(1, 65536);
+  k.value("camera.denoise", c.colour.denoise,
+          "Of the reference: noise is filtered out by the exact normals, distances and albedos.");
   k.value("camera.stereo_baseline", c.stereo_baseline,
           "Distance of a second camera to the right, with the same lens and exposure; 0: none.")
       .between(0, 10)

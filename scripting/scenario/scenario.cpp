@@ -4,6 +4,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
+#include "render/streams/image_streams.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/values/value.h"
 
@@ -93,16 +94,6 @@ void check_names(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
   }
 }
 
-struct ChannelName {
-  const char* name;
-  bool ChannelSet::*member;
-};
-constexpr ChannelName kChannels[] = {{"normals", &ChannelSet::normals},
-                                     {"instance", &ChannelSet::instance},
-                                     {"label", &ChannelSet::label},
-                                     {"flow", &ChannelSet::flow},
-                                     {"sky_visibility", &ChannelSet::sky_visibility}};
-
 void check_channels(const CameraScenario& camera, std::vector<Diagnostic>& mistakes) {
   const std::vector<std::string> names = channel_names();
   std::string list;
@@ -165,6 +156,21 @@ void check_meshes(const OutputScenario& outputs, std::vector<Diagnostic>& mistak
   }
 }
 
+void check_record_settling(const RecordSettlingScenario& r, std::vector<Diagnostic>& mistakes) {
+  const auto add = [&](const char* key, const char* message, std::string expected, std::string found) {
+    mistakes.push_back({"", 0, std::string("record_settling.") + key, message, std::move(expected),
+                        std::move(found), ""});
+  };
+  if (r.to && *r.to <= r.from)
+    add("to", "nothing lies between", "more than record_settling.from = " + format_number(r.from),
+        format_number(*r.to));
+  if (r.position.has_value() != r.look_at.has_value())
+    add(r.position ? "look_at" : "position", "missing",
+        "both of position and look_at, or neither", "one of them");
+  if (r.position && r.look_at && distance(*r.position, *r.look_at) < 0.01)
+    add("look_at", "is where the camera is", "a point 0.01 m away or farther", "");
+}
+
 // What can be told before there is a pile.
 void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   const TrajectorySpec spec = flown_trajectory(scenario);
@@ -187,16 +193,19 @@ std::vector<std::string> export_names() { return {"ply", "obj", "glb", "sdf"}; }
 
 std::vector<std::string> channel_names() {
   std::vector<std::string> names;
-  for (const ChannelName& channel : kChannels) names.push_back(channel.name);
+  for (const ImageStream* stream : truth_streams()) names.push_back(stream->name);
   return names;
 }
 
-ChannelSet CameraScenario::channel_set() const {
-  ChannelSet set;
-  for (const std::string& written : channels)
-    for (const ChannelName& channel : kChannels)
-      if (written == channel.name) set.*channel.member = true;
+StreamSet CameraScenario::channel_set() const {
+  StreamSet set;
+  for (const ImageStream* stream : truth_streams())
+    if (has_channel(stream->name)) set.push_back(stream);
   return set;
+}
+
+bool CameraScenario::has_channel(const std::string& name) const {
+  return std::find(channels.begin(), channels.end(), name) != channels.end();
 }
 
 Intrinsics CameraScenario::intrinsics() const {
@@ -235,6 +244,8 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_channels(scenario.camera, mistakes);
   check_camera(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
+  check_record_settling(scenario.record_settling, mistakes);
+  check_robots(scenario, mistakes);
   if (scenario.voids.radius < scenario.voids.voxel)
     mistakes.push_back({"", 0, "voids.radius", "smaller than a voxel",
                         "at least voids.voxel = " + format_number(scenario.voids.voxel),
@@ -254,6 +265,10 @@ TrajectorySpec flown_trajectory(const Scenario& scenario) {
   if (!spec.smoothing && !spec.limits.max_jerk && (scenario.imu.on || curved_way))
     spec.smoothing = kUsualSmoothing;
   return spec;
+}
+
+bool needs_track(const Scenario& scenario) {
+  return scenario.record_settling.on || scenario.outputs.track;
 }
 
 void Scenario::validate() const {

@@ -19,6 +19,7 @@
 #include "render/scene/camera_spec.h"
 #include "render/scene/frame.h"
 #include "render/scene/scene.h"
+#include "scripting/scenario/robot_scenario.h"
 #include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
@@ -104,6 +105,7 @@ struct CameraScenario {
   double fov_deg = 90;
   // Ground truth beside colour and depth, of channel_names().
   std::vector<std::string> channels{};
+  ColourSpec colour{};         // fast, or path traced
   LensScenario lens{};         // calibration; without one a pinhole of fov_deg
   double stereo_baseline = 0;  // to the right camera of a pair; 0: none; unit: m; range: 0 to 10
   ShutterSpec shutter{};       // when each row is exposed
@@ -115,7 +117,9 @@ struct CameraScenario {
   // the middle of the image, (width - 1) / 2 where pixel (0, 0) has its centre at (0, 0). What the
   // lens states itself comes first.
   Intrinsics intrinsics() const;
-  ChannelSet channel_set() const;  // unknown names are left out
+  // The streams that `channels` names, in the order of the table; unknown names are left out.
+  StreamSet channel_set() const;
+  bool has_channel(const std::string& name) const;  // whether `channels` names it
 };
 
 // What CameraScenario::channels may name.
@@ -142,6 +146,7 @@ struct OutputScenario {
   bool colmap = false;              // COLMAP: a folder
   bool frames = false;              // plain PNG and EXR: a folder
   bool stl = true;                  // pile.stl
+  bool track = false;               // who moved when: track.bin and, as glTF animation, track.glb
   std::vector<std::string> meshes;  // the pile in further formats, of export_names()
   bool groundtruth = true;          // TUM: groundtruth.txt
   bool preview = true;              // preview.png, a contact sheet
@@ -153,6 +158,17 @@ struct OutputScenario {
 struct ImuScenario {
   bool on = false;  // false: not simulated
   ImuModel model;   // rate, noise and biases
+};
+
+// The pile seen settling: a standing camera watches the layers fall, before its flight.
+struct RecordSettlingScenario {
+  bool on = false;                 // false: the recording begins when the pile rests
+  double from = 0;                 // simulated, since the first step; unit: s; range: 0 to 86400
+  std::optional<double> to{};      // not given: until the pile rests; unit: s; range: from, to 86400
+  std::optional<double> rate_hz{};  // not given: that of the trajectory; unit: Hz
+  // Where the camera is and the point in the middle of its view, in the world; not given: as the
+  // flight begins. Both or neither. unit: m
+  std::optional<Vec3> position{}, look_at{};
 };
 
 // The voids of the settled pile, measured for suites and batches; kernel/voids/void_map.h.
@@ -178,8 +194,11 @@ struct Scenario {
   LampSpec lamp;                  // on the camera
   TrajectorySpec trajectory;      // where the camera flies
   ImuScenario imu;                // in the camera
+  RecordSettlingScenario record_settling;  // what is recorded before the flight
   OutputScenario outputs;         // what is written
   VoidScenario voids;             // whether voids are measured
+  std::vector<RobotItem> robots;  // driven through the settled pile
+  RobotRunScenario robot_run;     // how long
 
   // Throws InputError with every mistake: out of range, not finite, contradicting each other.
   void validate() const;
@@ -191,6 +210,9 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario);
 // The trajectory with its smoothing chosen where the mission leaves that open: kUsualSmoothing where
 // an inertial unit is on, and for a curve around what lies there; none elsewhere.
 TrajectorySpec flown_trajectory(const Scenario& scenario);
+
+// Whether settling keeps who moved when: track.bin.
+bool needs_track(const Scenario& scenario);
 
 // The main light as it shines: with random_rotation, a pitch of 20 to 80 degrees down and any yaw (a
 // sun 5 to 70 degrees high, anywhere), drawn from the seed; with random_position, a place in its box.

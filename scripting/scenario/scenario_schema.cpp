@@ -357,6 +357,32 @@ void add_imu(Schema& k, ImuScenario& s) {
       .unit("m/s3/sqrt(Hz)");
 }
 
+void add_record_settling(Schema& k, RecordSettlingScenario& r) {
+  k.group("record_settling",
+          "The pile seen settling: before its flight the camera stands and watches the layers fall "
+          "(docs/moving_worlds.md).")
+      .on_when_written();
+  k.value("record_settling.on", r.on,
+          "Whether it is recorded; a table that does not say so, even an empty one, means true.");
+  k.value("record_settling.from", r.from, "When it begins, in simulated time since the first step.")
+      .between(0, 86400)
+      .unit("s");
+  k.value("record_settling.to", r.to, "When it ends; not given: when the pile rests.")
+      .between(0, 86400)
+      .unit("s");
+  k.value("record_settling.rate_hz", r.rate_hz,
+          "Frames per second; not given: those of the trajectory.")
+      .between(0.001, 1000)
+      .unit("Hz");
+  k.value("record_settling.position", r.position,
+          "Where the camera stands; not given: where its flight begins.")
+      .between(-1000, 1000)
+      .unit("m");
+  k.value("record_settling.look_at", r.look_at, "The point in the middle of its view.")
+      .between(-10000, 10000)
+      .unit("m");
+}
+
 void add_outputs(Schema& k, OutputScenario& o) {
   k.group("outputs", "What is written; each format is described in docs/formats.md.");
   k.value("outputs.rawlog", o.rawlog, "MRPT rawlog: mission.rawlog.");
@@ -372,6 +398,8 @@ void add_outputs(Schema& k, OutputScenario& o) {
   k.value("outputs.colmap", o.colmap, "COLMAP model with the true poses: the folder colmap.");
   k.value("outputs.frames", o.frames, "Every channel as PNG, EXR or text: the folder frames.");
   k.value("outputs.stl", o.stl, "The settled pile as a mesh: pile.stl.");
+  k.value("outputs.track", o.track,
+          "Who moved when while the pile settled: track.bin, and track.glb, a glTF animation.");
   k.value("outputs.meshes", o.meshes,
           "The settled pile in further formats: any of `ply`, `obj`, `glb`, `sdf`.");
   k.value("outputs.groundtruth", o.groundtruth, "The camera's poses in TUM format.");
@@ -427,7 +455,9 @@ Schema make_scenario_schema(Scenario& s) {
   add_camera_keys(keys, s);
   add_trajectory(keys, s.trajectory);
   add_imu(keys, s.imu);
+  add_record_settling(keys, s.record_settling);
   add_voids(keys, s.voids);
+  add_robot_keys(keys, s);
   add_outputs(keys, s.outputs);
   add_aliases(keys);
   return keys;

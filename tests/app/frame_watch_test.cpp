@@ -12,7 +12,7 @@ Frame even_frame(int index, std::uint8_t value, float depth) {
   frame.index = index;
   frame.rgb.assign(64 * 3, value);
   frame.depth.assign(64, depth);
-  frame.normals.assign(64 * 3, 1);
+  frame.truth["normals"] = std::vector<float>(64 * 3, 1);
   return frame;
 }
 

@@ -1,6 +1,7 @@
 // Suites: golden hashes, limits of metrics, and reports that CI servers read.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -87,6 +88,20 @@ TEST_F(Suite, HoldsVoidsToTheirLimits) {
                                    " --pile-only --seeds 1 --out " + (scratch / "many"));
   EXPECT_EQ(batch.exit_code, 0) << batch.err;
   EXPECT_IN(",void_volume_m3,", read_file(scratch / "many/index.csv"));
+}
+
+// The triangle under the slab of a bare lean-to, open at both sides, where a ball gets in.
+TEST_F(Suite, CoversAllThatALeanToCovers) {
+  write_file(scratch / "tiny.lua",
+             "return rubble.mission { pile = rubble.collapse.lean_to { length = 4, height = 2, width = 4,\n"
+             "  debris = { layers = 0 } }, voids = { on = true, voxel = 0.03, radius = 0.2 } }\n");
+  // Half the height times what the slab's clear length of 3.92 m reaches along the floor, times the width.
+  const double triangle = 0.5 * 2 * std::sqrt(3.92 * 3.92 - 2 * 2) * 4;
+  const std::string limits = std::to_string(0.97 * triangle) + ", " + std::to_string(1.03 * triangle);
+  write_suite("golden = \"none\", expect = { void_covered_m3 = { " + limits + " } }");
+  EXPECT_EQ(run().exit_code, 0) << run().out;
+  write_suite("golden = \"none\", expect = { void_volume_m3 = { " + limits + " } }");
+  EXPECT_EQ(run().exit_code, 5) << "the ball takes some of it";
 }
 
 // What a suite measures is what `rubble voids` maps; a hill is solid in both, and no pile.

@@ -74,6 +74,14 @@ ASCII_PLY = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\npropert
              "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
 
 
+def small_track():
+    """One body that falls for two samples."""
+    content = struct.pack("<QddQ", 2, 0.0, 0.5, 1) + struct.pack("<idddIQ", 4, 0, 0, 0, 2**32 - 1, 2)
+    for sample, z in ((0, 3.0), (1, 2.0)):
+        content += struct.pack("<I7d6f", sample, 1, 0, 0, 0, 0, 0, z, 0, 0, -2, 0, 0, 0)
+    return content
+
+
 def run(program, folder):
     script = folder / "m.lua"
     script.write_text(MISSION)
@@ -102,6 +110,7 @@ def add_recordings(corpus, run_folder):
                          ("manifest", "manifest.json")):
         corpus.add(target, (run_folder / name).read_bytes())
     corpus.add("pile_state", unsealed(run_folder / "pile.bin"))
+    corpus.add("track", small_track())
     text = "-----".join((run_folder / "colmap" / f).read_text() for f in
                         ("cameras.txt", "images.txt", "points3D.txt")
                         if (run_folder / "colmap" / f).exists())

@@ -233,28 +233,28 @@ TEST(Frames, EveryChannelReadsBackBitForBit) {
   const std::string at = folder / "frames/";
   EXPECT_EQ(read_rgb_png(at + "rgb/000002.png").rgb, frame.rgb);
   EXPECT_EQ(read_rgb_png(at + "right/000002.png").rgb, frame.rgb_right);
-  EXPECT_EQ(read_depth_png(at + "label/000002.png").values, frame.label);
+  EXPECT_EQ(read_depth_png(at + "label/000002.png").values, frame.get<std::uint16_t>("label"));
   EXPECT_TRUE(same_bits(read_exr<float>(at + "depth/000002.exr", {"Y"}), frame.measured_depth));
   EXPECT_TRUE(same_bits(read_exr<float>(at + "depth_true/000002.exr", {"Y"}), frame.depth));
   EXPECT_TRUE(
-      same_bits(read_exr<float>(at + "normals/000002.exr", {"R", "G", "B"}), frame.normals));
+      same_bits(read_exr<float>(at + "normals/000002.exr", {"R", "G", "B"}), frame.get<float>("normals")));
   std::vector<float> signed_instance;  // the ground is -1, nothing -2
-  for (const std::uint32_t id : frame.instance) signed_instance.push_back(float(std::int32_t(id)));
+  for (const std::uint32_t id : frame.get<std::uint32_t>("instance")) signed_instance.push_back(float(std::int32_t(id)));
   EXPECT_TRUE(same_bits(read_exr<float>(at + "instance/000002.exr", {"Y"}), signed_instance));
   EXPECT_TRUE(
-      same_bits(read_exr<float>(at + "sky_visibility/000002.exr", {"Y"}), frame.sky_visibility));
+      same_bits(read_exr<float>(at + "sky_visibility/000002.exr", {"Y"}), frame.get<float>("sky_visibility")));
   EXPECT_FALSE(same_bits(read_exr<float>(at + "depth/000001.exr", {"Y"}), frame.measured_depth));
 
   const std::string flow = read_text(at + "flow/000002.flo");
   ASSERT_EQ(flow.size(), 12 + 96 * 64 * 8u);
   EXPECT_EQ(flow.substr(0, 4), "PIEH");
-  for (std::size_t i = 0; i < frame.flow.size(); ++i) {
+  for (std::size_t i = 0; i < frame.get<float>("flow").size(); ++i) {
     float value;
     std::memcpy(&value, flow.data() + 12 + 4 * i, 4);
-    if (std::isnan(frame.flow[i]))
+    if (std::isnan(frame.get<float>("flow")[i]))
       ASSERT_GT(value, 1e9f);
     else
-      ASSERT_EQ(value, frame.flow[i]);
+      ASSERT_EQ(value, frame.get<float>("flow")[i]);
   }
 }
 

@@ -44,12 +44,12 @@ TEST(OpenCv, ReadsTheNumbersOfEveryExr) {
   const std::string at = folder / "frames/";
   expect_same(read(at + "depth/000000.exr"), frame.measured_depth, 1);
   expect_same(read(at + "depth_true/000000.exr"), frame.depth, 1);
-  expect_same(read(at + "sky_visibility/000000.exr"), frame.sky_visibility, 1);
-  expect_same(read(at + "normals/000000.exr"), frame.normals, 3);
+  expect_same(read(at + "sky_visibility/000000.exr"), frame.get<float>("sky_visibility"), 1);
+  expect_same(read(at + "normals/000000.exr"), frame.get<float>("normals"), 3);
   std::vector<float> pieces;
-  for (const std::uint32_t id : frame.instance) pieces.push_back(float(std::int32_t(id)));
+  for (const std::uint32_t id : frame.get<std::uint32_t>("instance")) pieces.push_back(float(std::int32_t(id)));
   expect_same(read(at + "instance/000000.exr"), pieces, 1);
-  EXPECT_EQ(std::count(pieces.begin(), pieces.end(), -1.0f), std::count(frame.instance.begin(), frame.instance.end(), kGroundInstance));
+  EXPECT_EQ(std::count(pieces.begin(), pieces.end(), -1.0f), std::count(frame.get<std::uint32_t>("instance").begin(), frame.get<std::uint32_t>("instance").end(), kGroundInstance));
 }
 
 }  // namespace

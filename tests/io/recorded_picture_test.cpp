@@ -31,11 +31,11 @@ std::vector<double> channel_of(const Frame& f, const std::string& channel) {
   if (channel == "rgb_right") return numbers(f.rgb_right);
   if (channel == "depth") return numbers(f.depth);
   if (channel == "measured_depth") return numbers(f.measured_depth);
-  if (channel == "normals") return numbers(f.normals);
-  if (channel == "instance") return numbers(f.instance);
-  if (channel == "label") return numbers(f.label);
-  if (channel == "flow") return numbers(f.flow);
-  return numbers(f.sky_visibility);
+  if (channel == "normals") return numbers(f.get<float>("normals"));
+  if (channel == "instance") return numbers(f.get<std::uint32_t>("instance"));
+  if (channel == "label") return numbers(f.get<std::uint16_t>("label"));
+  if (channel == "flow") return numbers(f.get<float>("flow"));
+  return numbers(f.get<float>("sky_visibility"));
 }
 
 struct Kept {

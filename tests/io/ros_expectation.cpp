@@ -47,11 +47,11 @@ void write_pictures(const std::string& stem, const Frame& frame, const RosVarian
     write_values(stem + ".depth", depth);
   write_values(stem + ".true_depth", frame.depth);
   write_values(stem + ".right", frame.rgb_right);
-  write_values(stem + ".normals", frame.normals);
-  write_values(stem + ".flow", frame.flow);
-  write_values(stem + ".sky", frame.sky_visibility);
-  write_values(stem + ".instance", frame.instance);
-  write_values(stem + ".label", frame.label);
+  write_values(stem + ".normals", frame.get<float>("normals"));
+  write_values(stem + ".flow", frame.get<float>("flow"));
+  write_values(stem + ".sky", frame.get<float>("sky_visibility"));
+  write_values(stem + ".instance", frame.get<std::uint32_t>("instance"));
+  write_values(stem + ".label", frame.get<std::uint16_t>("label"));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
+#include "render/streams/image_streams.h"
 
 namespace rubble::test {
 namespace {
@@ -87,20 +88,28 @@ Frame make_full_frame(int index, int width, int height) {
   frame.baseline = 0.12;
   frame.rgb_right = frame.rgb;
   std::reverse(frame.rgb_right.begin(), frame.rgb_right.end());
+  std::vector<float> normals, flow, sky;
+  std::vector<std::uint32_t> instance;
+  std::vector<std::uint16_t> label;
   for (const float depth : frame.depth) {
     const bool hit = depth > 0;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     frame.measured_depth.push_back(hit ? depth + 0.01f * static_cast<float>(random.uniform())
                                        : nan);
     const Vec3f normal = hit ? Vec3f(random.direction()) : Vec3f(nan, nan, nan);
-    frame.normals.insert(frame.normals.end(), {normal.x, normal.y, normal.z});
-    frame.instance.push_back(hit ? static_cast<std::uint32_t>(random.below(2)) : kNoInstance);
-    if (hit && depth > 5) frame.instance.back() = kGroundInstance;
-    frame.label.push_back(static_cast<std::uint16_t>(hit ? 1 + random.below(3) : 0));
-    const auto flow = static_cast<float>(random.uniform(-5, 5));
-    frame.sky_visibility.push_back(static_cast<float>(random.uniform()));
-    frame.flow.insert(frame.flow.end(), {hit ? flow : nan, hit ? 0.25f * flow : nan});
+    normals.insert(normals.end(), {normal.x, normal.y, normal.z});
+    instance.push_back(hit ? static_cast<std::uint32_t>(random.below(2)) : kNoInstance);
+    if (hit && depth > 5) instance.back() = kGroundInstance;
+    label.push_back(static_cast<std::uint16_t>(hit ? 1 + random.below(3) : 0));
+    const auto moved = static_cast<float>(random.uniform(-5, 5));
+    sky.push_back(static_cast<float>(random.uniform()));
+    flow.insert(flow.end(), {hit ? moved : nan, hit ? 0.25f * moved : nan});
   }
+  frame.truth = {{"normals", normals},
+                 {"instance", instance},
+                 {"label", label},
+                 {"flow", flow},
+                 {"sky_visibility", sky}};
   const std::int64_t before = frame.stamp_ns - 33'333'333;
   frame.linear_velocity = {3, 0.25 * index, -0.5};
   for (int i = 0; index > 0 && i < 5 + index; ++i)
@@ -117,7 +126,10 @@ Frame make_full_frame(int index, int width, int height) {
 
 Recording full_recording() {
   Recording recording;
-  recording.channels = {true, true, true, true, true, true, true, true, true};
+  Channels& channels = recording.channels;
+  channels.right = channels.measured_depth = channels.events = channels.imu = true;
+  for (const char* name : {"normals", "instance", "label", "flow", "sky_visibility"})
+    channels.truth.push_back(find_image_stream(name));
   recording.legend.labels = {"sky", "ground", "brick", "slab \"7\""};
   recording.legend.pieces = {{2, "brick"}, {3, "slab \"7\""}};
   recording.imu.rate_hz = 150;

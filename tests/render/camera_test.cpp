@@ -313,13 +313,45 @@ TEST(MotionBlur, IsARampOfTheLengthOfTheMotion) {
   EXPECT_EQ(take(true, standing).rgb, take(false, standing).rgb);
 }
 
+// The same edge, but the wall goes to the right at 2 m/s and the camera stands.
+TEST(MotionBlur, OfWhatMovesIsARampAsWell) {
+  Scene scene = lit_wall();
+  scene.light.rpy_deg = {0, 70, 180};
+  scene.motion.moving = {0};
+  scene.motion.reach.include({4.5, 9, 0});
+  scene.motion.reach.include({4.5, 11, 0});
+  scene.motion.poses_at = [](std::int64_t stamp_ns) {
+    return std::vector<std::optional<Pose>>{Pose{{}, {4.5, 10 - 2e-9 * double(stamp_ns), 0}}};
+  };
+  GlContext context;
+  Renderer renderer(context, scene, plain());
+  CameraSpec spec = fixed_camera(160, 16, 400);
+  spec.exposure.time = 0.06;  // 12 pixels
+  spec.exposure.f_number = 36;
+  const auto take = [&](bool blur) {
+    spec.shutter.motion_blur = blur;
+    return profile(Camera(renderer, spec, fly(1, standing)).take(0), 8);
+  };
+  const auto sharp = take(false), blurred = take(true);
+  const double wall = sharp[40], sky = sharp[120];
+  ASSERT_GT(sky, wall + 20);
+  double area = 0, width = 0;
+  for (std::size_t u = 0; u < 160; ++u) {
+    area += (blurred[u] - sharp[u]) / (wall - sky);
+    const double share = (blurred[u] - sky) / (wall - sky);
+    width += share > 0.1 && share < 0.9;
+  }
+  EXPECT_NEAR(area, 0, 0.7);
+  EXPECT_NEAR(width, 0.8 * 12, 1.2);
+}
+
 // Row v is exposed readout * (v / (rows - 1) - 1/2) after the stamp.
 TEST(RollingShutter, SkewsByTheReadoutTime) {
   GlContext context;
   Renderer renderer(context, lit_wall(), plain());
   CameraSpec spec = fixed_camera(160, 120, 400);
   spec.shutter.readout = 0.05;  // 20 pixels
-  spec.channels.instance = true;
+  spec.channels = {find_image_stream("instance")};
   Camera camera(renderer, spec, fly(2, sideways));
   camera.take(0);
   const Frame frame = camera.take(1);
@@ -327,7 +359,7 @@ TEST(RollingShutter, SkewsByTheReadoutTime) {
     const double eye = 2 * (0.1 + 0.05 * (v / 119.0 - 0.5));
     const double edge = spec.intrinsics.cx + 400 * eye / 4;
     int first = 0;
-    while (first < 160 && frame.instance[std::size_t(v * 160 + first)] == 5) ++first;
+    while (first < 160 && instances_of(frame)[std::size_t(v * 160 + first)] == 5) ++first;
     EXPECT_EQ(first, int(std::floor(edge)) + 1) << "row " << v;
   }
 }
@@ -339,15 +371,15 @@ TEST(RollingShutter, FlowKeepsToTheRowsOwnTimes) {
   CameraSpec spec;
   spec.intrinsics = pinhole(160, 120, 200);
   spec.shutter.readout = 0.05;
-  spec.channels.flow = true;
+  spec.channels = {find_image_stream("flow")};
   // Up at 1 m/s: a point of the wall sinks by f / 4 pixels a second.
   const auto climbing = [](double t) { return Pose{{}, {0, 0, t}}; };
   const Frame frame = Camera(renderer, spec, fly(2, climbing)).take(0);
   for (int v = 20; v < 100; v += 13) {
     // v' - v = 50 (0.1 + 0.05 (v' - v) / 119)
     const double expected = 50 * 0.1 / (1 - 50 * 0.05 / 119);
-    EXPECT_NEAR(double(frame.flow[std::size_t(v * 160 + 40) * 2 + 1]), expected, 2e-3);
-    EXPECT_NEAR(double(frame.flow[std::size_t(v * 160 + 40) * 2]), 0, 2e-3);
+    EXPECT_NEAR(double(flow_of(frame)[std::size_t(v * 160 + 40) * 2 + 1]), expected, 2e-3);
+    EXPECT_NEAR(double(flow_of(frame)[std::size_t(v * 160 + 40) * 2]), 0, 2e-3);
   }
 }
 

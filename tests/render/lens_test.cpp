@@ -178,16 +178,15 @@ TEST(DistortedImage, HasObjectsWhereOpenCvProjectsThem) {
     }
   GlContext context;
   Renderer renderer(context, scene, plain());
-  ChannelSet channels;
-  channels.instance = true;
+  const StreamSet channels{find_image_stream("instance")};
   const std::vector<Intrinsics> all = lenses();
   for (Intrinsics k : {all[1], all[4], all[6]}) {
     k.width *= 3, k.height *= 3, k.fx *= 3, k.fy *= 3, k.cx *= 3, k.cy *= 3;
     Frame frame = renderer.render(view_through(k, {}), 0);
-    renderer.add_channels(channels, nullptr, frame);
+    renderer.add_truth(channels, nullptr, frame);
     std::vector<double> u(centres.size()), v(centres.size()), n(centres.size());
-    for (std::size_t i = 0; i < frame.instance.size(); ++i) {
-      const std::uint32_t id = frame.instance[i];
+    for (std::size_t i = 0; i < instances_of(frame).size(); ++i) {
+      const std::uint32_t id = instances_of(frame)[i];
       if (id >= centres.size()) continue;
       u[id] += double(i % std::size_t(k.width)), v[id] += double(i / std::size_t(k.width)), ++n[id];
     }

@@ -5,6 +5,7 @@
 
 #include "render/scene/frame.h"
 #include "render/scene/scene.h"
+#include "render/streams/image_streams.h"
 
 namespace rubble::testing {
 
@@ -20,6 +21,13 @@ std::shared_ptr<const SceneMesh> share(TriangleMesh mesh);
 // A heap of `pieces` slabs, chunks, bricks and bars on the ground with a void under a large slab
 // on two walls: x from -1.5 to 1.5, y from -1.2 to 1.2, open at +x. Deterministic.
 Scene make_heap(int pieces, std::uint64_t seed);
+
+// Streams of a frame.
+inline const auto& normals_of(const Frame& frame) { return frame.get<float>("normals"); }
+inline const auto& instances_of(const Frame& frame) { return frame.get<std::uint32_t>("instance"); }
+inline const auto& labels_of(const Frame& frame) { return frame.get<std::uint16_t>("label"); }
+inline const auto& flow_of(const Frame& frame) { return frame.get<float>("flow"); }
+inline const auto& sky_of(const Frame& frame) { return frame.get<float>("sky_visibility"); }
 
 // A camera at `eye` that looks at `target`, upright.
 Pose look_at(const Vec3& eye, const Vec3& target);

@@ -23,22 +23,22 @@ RenderOptions plain() {
   return options;
 }
 
-ChannelSet all_channels() { return {true, true, true, true, true}; }
+StreamSet all_channels() { return truth_streams(); }
 
-Frame draw(const Scene& scene, const Pose& pose, const Intrinsics& k, const ChannelSet& channels,
+Frame draw(const Scene& scene, const Pose& pose, const Intrinsics& k, const StreamSet& channels,
            const Pose* next = nullptr) {
   GlContext context;
   Renderer renderer(context, scene, plain());
   Frame frame = renderer.render(pose, k, 0, 0);
   ViewRays rays;
   if (next) rays.world_from_camera = *next;
-  renderer.add_channels(channels, next ? &rays : nullptr, frame);
+  renderer.add_truth(channels, next ? &rays : nullptr, frame);
   return frame;
 }
 
 Vec3 normal_at(const Frame& frame, std::size_t i) {
-  return {double(frame.normals[i * 3]), double(frame.normals[i * 3 + 1]),
-          double(frame.normals[i * 3 + 2])};
+  return {double(normals_of(frame)[i * 3]), double(normals_of(frame)[i * 3 + 1]),
+          double(normals_of(frame)[i * 3 + 2])};
 }
 
 // The scene as a list of triangles, and the first that a ray meets: tries them all, save of pieces
@@ -106,13 +106,13 @@ TEST(Instances, AreThoseThatRaysMeet) {
     for (int u = 0; u < k.width; ++u) {
       const Vec3 d((u - k.cx) / k.fx, (v - k.cy) / k.fy, 1);
       const std::size_t i = std::size_t(v * k.width + u);
-      differ += frame.instance[i] != rays.first_hit(world_from_optical.translation,
+      differ += instances_of(frame)[i] != rays.first_hit(world_from_optical.translation,
                                                     world_from_optical.rotation.rotate(d));
-      pieces += frame.instance[i] < kNoInstance;
+      pieces += instances_of(frame)[i] < kNoInstance;
       // One label for each mesh here, as a program gives one to each asset.
-      const std::uint16_t label = frame.label[i];
-      EXPECT_EQ(label == kSkyLabel, frame.instance[i] == kNoInstance);
-      EXPECT_EQ(label == kGroundLabel, frame.instance[i] == kGroundInstance);
+      const std::uint16_t label = labels_of(frame)[i];
+      EXPECT_EQ(label == kSkyLabel, instances_of(frame)[i] == kNoInstance);
+      EXPECT_EQ(label == kGroundLabel, instances_of(frame)[i] == kGroundInstance);
     }
   }
   EXPECT_GT(pieces, 1000);
@@ -126,12 +126,12 @@ TEST(Labels, AreThoseOfTheInstances) {
   scene.instances.push_back({0, 1, {{}, {3, -0.6, 0.5}}, 9, 300});
   const Frame frame = draw(scene, {{}, {0, 0, 0.5}}, pinhole(80, 60, 60), all_channels());
   const std::size_t row = 30 * 80;
-  EXPECT_EQ(frame.label[row + 28], 17);
-  EXPECT_EQ(frame.instance[row + 28], 4u);
-  EXPECT_EQ(frame.label[row + 51], 300);
-  EXPECT_EQ(frame.instance[row + 51], 9u);
-  EXPECT_EQ(frame.label[5 * 80 + 40], kSkyLabel);
-  EXPECT_EQ(frame.label[59 * 80 + 40], kGroundLabel);
+  EXPECT_EQ(labels_of(frame)[row + 28], 17);
+  EXPECT_EQ(instances_of(frame)[row + 28], 4u);
+  EXPECT_EQ(labels_of(frame)[row + 51], 300);
+  EXPECT_EQ(instances_of(frame)[row + 51], 9u);
+  EXPECT_EQ(labels_of(frame)[5 * 80 + 40], kSkyLabel);
+  EXPECT_EQ(labels_of(frame)[59 * 80 + 40], kGroundLabel);
 }
 
 TEST(Normals, OfATurnedPlane) {
@@ -180,13 +180,13 @@ TEST(Flow, IsWhereTheDepthReprojects) {
   const Pose b_from_a = (b * camera_from_optical).inverse() * (a * camera_from_optical);
   double longest = 0;
   for (std::size_t i = 0; i < frame.depth.size(); ++i) {
-    ASSERT_EQ(std::isnan(frame.depth[i]), std::isnan(frame.flow[i * 2]));
+    ASSERT_EQ(std::isnan(frame.depth[i]), std::isnan(flow_of(frame)[i * 2]));
     if (std::isnan(frame.depth[i])) continue;
     const double u = double(i % 96), v = double(i / 96), z = double(frame.depth[i]);
     const Vec3 p = b_from_a * Vec3((u - k.cx) / k.fx * z, (v - k.cy) / k.fy * z, z);
     const double fu = k.fx * p.x / p.z + k.cx - u, fv = k.fy * p.y / p.z + k.cy - v;
-    ASSERT_NEAR(double(frame.flow[i * 2]), fu, 2e-3);
-    ASSERT_NEAR(double(frame.flow[i * 2 + 1]), fv, 2e-3);
+    ASSERT_NEAR(double(flow_of(frame)[i * 2]), fu, 2e-3);
+    ASSERT_NEAR(double(flow_of(frame)[i * 2 + 1]), fv, 2e-3);
     longest = std::max(longest, std::hypot(fu, fv));
   }
   EXPECT_GT(longest, 3);
@@ -203,13 +203,13 @@ TEST(Flow, LeadsToTheSamePiece) {
   for (int v = 0; v < k.height; ++v) {
     for (int u = 0; u < k.width; ++u) {
       const std::size_t i = std::size_t(v * k.width + u);
-      if (first.instance[i] >= kNoInstance) continue;
-      const int x = int(std::lround(u + double(first.flow[i * 2])));
-      const int y = int(std::lround(v + double(first.flow[i * 2 + 1])));
+      if (instances_of(first)[i] >= kNoInstance) continue;
+      const int x = int(std::lround(u + double(flow_of(first)[i * 2])));
+      const int y = int(std::lround(v + double(flow_of(first)[i * 2 + 1])));
       if (x < 0 || y < 0 || x >= k.width || y >= k.height) continue;
       ++all;
-      same += second.instance[std::size_t(y * k.width + x)] == first.instance[i];
-      unmoved += second.instance[i] == first.instance[i];
+      same += instances_of(second)[std::size_t(y * k.width + x)] == instances_of(first)[i];
+      unmoved += instances_of(second)[i] == instances_of(first)[i];
     }
   }
   EXPECT_GT(all, 1000);
@@ -220,15 +220,18 @@ TEST(Flow, LeadsToTheSamePiece) {
 TEST(Flow, IsMissingInTheLastFrameAndBehindTheCamera) {
   const Intrinsics k = pinhole(32, 24, 20);
   const Pose ahead{{}, {0, 0, 1}}, back{portable::quat_from_rpy(0, 0, kPi), {0, 0, 1}};
-  for (const float f : draw(Scene{}, ahead, k, all_channels()).flow) ASSERT_TRUE(std::isnan(f));
-  for (const float f : draw(Scene{}, ahead, k, all_channels(), &back).flow)
-    ASSERT_TRUE(std::isnan(f));
+  const Frame last = draw(Scene{}, ahead, k, all_channels());
+  const Frame behind = draw(Scene{}, ahead, k, all_channels(), &back);
+  ASSERT_EQ(flow_of(last).size(), 2u * 32 * 24);
+  ASSERT_EQ(flow_of(behind).size(), 2u * 32 * 24);
+  for (const float f : flow_of(last)) ASSERT_TRUE(std::isnan(f));
+  for (const float f : flow_of(behind)) ASSERT_TRUE(std::isnan(f));
 }
 
 double mean_sky(const Frame& frame, int v) {
   double sum = 0;
   for (int u = 10; u < 54; ++u)
-    sum += double(frame.sky_visibility[std::size_t(v * frame.intrinsics.width + u)]);
+    sum += double(sky_of(frame)[std::size_t(v * frame.intrinsics.width + u)]);
   return sum / 44;
 }
 
@@ -247,7 +250,7 @@ TEST(SkyVisibility, IsTheSkyViewFactor) {
     const std::size_t i = std::size_t(v * k.width + 32);
     const Vec3 p = down * camera_from_optical *
                    (Vec3(0, (v - k.cy) / k.fy, 1) * double(frame.depth[i]));
-    const double expected = frame.instance[i] == kGroundInstance
+    const double expected = instances_of(frame)[i] == kGroundInstance
                                 ? 0.5 * (1 + std::cos(std::atan2(2, -p.x)))
                                 : 0.5;
     EXPECT_NEAR(mean_sky(frame, v), expected, 0.012) << "row " << v << ", x = " << p.x;
@@ -255,12 +258,11 @@ TEST(SkyVisibility, IsTheSkyViewFactor) {
 }
 
 TEST(Channels, AreLeftOutUnlessAskedFor) {
-  ChannelSet only;
-  only.label = true;
+  const StreamSet only{find_image_stream("label")};
   const Frame frame = draw(Scene{}, {{}, {0, 0, 1}}, pinhole(32, 24, 20), only);
-  EXPECT_EQ(frame.label.size(), 32u * 24);
-  EXPECT_TRUE(frame.normals.empty() && frame.instance.empty() && frame.flow.empty() &&
-              frame.sky_visibility.empty());
+  EXPECT_EQ(labels_of(frame).size(), 32u * 24);
+  EXPECT_EQ(frame.truth.size(), 1u);
+  EXPECT_TRUE(normals_of(frame).empty() && instances_of(frame).empty());
 }
 
 }  // namespace

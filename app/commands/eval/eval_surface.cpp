@@ -1,0 +1,56 @@
+// `rubble eval surface`: a mesh or point cloud against the true surface.
+#include <memory>
+
+#include "app/command_line/command.h"
+#include "app/commands/eval/score_output.h"
+#include "app/eval/scores/saved_surface.h"
+#include "app/eval/sfm/sfm_score.h"
+
+namespace rubble {
+namespace {
+
+struct SurfaceRequest {
+  std::string dataset, mesh;             // the folder of a run; a PLY file
+  std::string align;                     // --align: COLMAP model whose frame the mesh has
+  std::vector<std::string> asset_packs;  // --assets
+  ScoreOutput output;
+};
+
+ExitCode eval_surface(const SurfaceRequest& request) {
+  constexpr double kSpacing = 0.02;  // unit: m
+  for (const std::string& path : request.output.files) check_score_file(path);
+  const SfmGroundTruth truth = load_sfm_ground_truth(request.dataset);
+  PlyMesh mesh = load_ply(request.mesh);
+  if (!request.align.empty()) align_to_world(request.align, truth, mesh.positions);
+  check_area(mesh, kSpacing, request.mesh);
+  const SavedSurface surface(request.dataset, request.asset_packs);
+  const PileQueries& queries = surface.geometry.queries;
+  const auto score = calc_surface_score(sample_surface(mesh, kSpacing), queries,
+                                        find_visible_surface(queries, truth.model));
+  ScoreRow row{name_of(request.mesh), {}};
+  row.cells.push_back({"triangles", "triangles", double(mesh.triangles.size()), 0});
+  row.cells.push_back({"samples", "samples", score ? double(score->samples) : 0, 0});
+  add_surface_cells(score, row.cells);
+  print_score({row}, request.output);
+  return ExitCode::done;
+}
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<SurfaceRequest>();
+  line.add("dataset", request->dataset, "Output folder of a run with outputs.colmap").required();
+  line.add("mesh", request->mesh, "A mesh or point cloud, PLY").required();
+  line.add("--align", request->align, "The COLMAP model whose frame it has")
+      .shows_default_text("it is in the world of the dataset")
+      .metavar("DIR");
+  add_packs_option(line, request->asset_packs, "A folder where packs may be now");
+  add_score_options(line, request->output);
+  return [request] { return eval_surface(*request); };
+}
+
+}  // namespace
+
+Command eval_surface_command() {
+  return {"eval", "surface", "Distance of a mesh or cloud from the true surface", declare};
+}
+
+}  // namespace rubble

@@ -1,0 +1,46 @@
+// Direct solution of K x = b for a symmetric, positive definite K of 6 x 6 blocks: one block row a piece,
+// one block off the diagonal a bond.
+//
+// A sparse block Cholesky factor, its columns eliminated by least degree (Tinney and Walker 1967), ties
+// by number. Written out because the order of every operation is then the same on every machine.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace rubble {
+
+using Block6 = std::array<double, 36>;  // row by row
+using Six = std::array<double, 6>;
+
+struct BlockEntry {
+  std::int32_t row = 0, column = 0;  // row > column
+  Block6 values{};
+};
+
+struct BlockMatrix {
+  std::vector<Block6> diagonal;
+  std::vector<BlockEntry> below;  // each pair once, in any fixed order
+};
+
+class BlockCholesky {
+ public:
+  // False when the matrix is not positive definite; solve() must not be called then.
+  bool factorize(const BlockMatrix& matrix);
+  std::vector<Six> solve(const std::vector<Six>& right) const;
+  std::size_t blocks() const { return values_.size(); }  // of the factor, below its diagonal
+
+ private:
+  void order(const BlockMatrix& matrix);
+  void scatter(const BlockMatrix& matrix);
+  bool eliminate(std::int32_t column, std::vector<std::int32_t>& place);
+
+  std::vector<std::int32_t> position_;  // of a piece in the order of elimination
+  std::vector<std::int32_t> starts_;    // of each column in rows_ and values_
+  std::vector<std::int32_t> rows_;      // by column, ascending
+  std::vector<Block6> values_;
+  std::vector<Block6> diagonal_;        // lower triangles
+};
+
+}  // namespace rubble

@@ -1,0 +1,118 @@
+#include "kernel/structure/failure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rubble {
+namespace {
+
+// A hinge's moment about its axis is what its bars carry: the section is asked for the rest.
+Utilization use_of(const Bond& bond, const BondStatus& status, SectionForces forces) {
+  if (status.hinge_s) forces.moment_s = 0;
+  if (status.hinge_t) forces.moment_t = 0;
+  return calc_utilization(bond.section, forces);
+}
+
+double turned_beyond_yield(double rotation, double moment, double stiffness) {
+  return std::abs(rotation - moment / stiffness);
+}
+
+// 1 when the bars of a hinge tear.
+double use_of_rotation(const Bond& bond, const BondStatus& status, double rotation_s, double rotation_t) {
+  double most = 0;
+  if (status.hinge_s) {
+    most = turned_beyond_yield(rotation_s, status.moment_s, bond.bending_s_stiffness);
+  }
+  if (status.hinge_t) {
+    most = std::max(most, turned_beyond_yield(rotation_t, status.moment_t, bond.bending_t_stiffness));
+  }
+  return most > 0 ? most / bond.section.steel.rupture_rotation : 0;
+}
+
+std::vector<BondFailure> rate(const Structure& structure, const BondGroup& group,
+                              const StressResult& result, const std::vector<BondStatus>& status) {
+  std::vector<BondFailure> rated;
+  for (std::size_t i = 0; i < group.bonds.size(); ++i) {
+    const std::int32_t index = group.bonds[i];
+    const Bond& bond = structure.bonds[index];
+    const BondStatus& state = status[index];
+    if (state.broken) continue;
+    const Utilization use = use_of(bond, state, result.forces[i]);
+    const double torn = use_of_rotation(bond, state, result.rotation_s[i], result.rotation_t[i]);
+    if (torn > use.value) {
+      rated.push_back({index, FailureMode::bending, false, torn});
+    } else {
+      rated.push_back({index, use.mode, false, use.value});
+    }
+  }
+  return rated;
+}
+
+// Bars that yield on the tension side leave a hinge about the axis that is used up more.
+bool make_hinge(const Bond& bond, const SectionForces& forces, BondStatus& status) {
+  const double of_s = calc_yield_moment(bond.section, forces.axial, true);
+  const double of_t = calc_yield_moment(bond.section, forces.axial, false);
+  const double use_s = status.hinge_s || !(of_s > 0) ? 0 : std::abs(forces.moment_s) / of_s;
+  const double use_t = status.hinge_t || !(of_t > 0) ? 0 : std::abs(forces.moment_t) / of_t;
+  if (!(use_s > 0 || use_t > 0)) return false;
+  if (use_s >= use_t) {
+    status.hinge_s = true;
+    status.moment_s = std::copysign(std::min(of_s, std::abs(forces.moment_s)), forces.moment_s);
+  } else {
+    status.hinge_t = true;
+    status.moment_t = std::copysign(std::min(of_t, std::abs(forces.moment_t)), forces.moment_t);
+  }
+  return true;
+}
+
+}  // namespace
+
+BondFailure find_worst(const Structure& structure, const BondGroup& group, const StressResult& result,
+                       const std::vector<BondStatus>& status) {
+  BondFailure worst;
+  worst.bond = -1;
+  for (const BondFailure& rated : rate(structure, group, result, status)) {
+    if (worst.bond < 0 || rated.utilization > worst.utilization) worst = rated;
+  }
+  return worst;
+}
+
+std::vector<BondFailure> let_fail(const Structure& structure, GroupStress& stress,
+                                  const std::vector<PieceLoad>& loads, const FailureOptions& options,
+                                  std::vector<BondStatus>& status) {
+  std::vector<BondFailure> failures;
+  for (int round = 0; round < options.rounds; ++round) {
+    const StressResult result = stress.solve(status, loads);
+    if (!result.stable) break;
+    const std::vector<BondFailure> rated = rate(structure, stress.group(), result, status);
+    double most = 0;
+    for (const BondFailure& r : rated) most = std::max(most, r.utilization);
+    if (!(most > 1)) break;
+    const double limit = std::max(1.0, most * (1 - options.together));
+    bool broken = false;
+    for (BondFailure r : rated) {
+      if (!(r.utilization > 1 && r.utilization >= limit)) continue;
+      const Bond& bond = structure.bonds[r.bond];
+      const auto at = std::lower_bound(stress.group().bonds.begin(), stress.group().bonds.end(), r.bond);
+      const SectionForces& forces = result.forces[std::size_t(at - stress.group().bonds.begin())];
+      BondStatus& state = status[r.bond];
+      const bool both = state.hinge_s && state.hinge_t;
+      r.hinge = options.hinges && r.mode == FailureMode::bending && bond.section.steel.area > 0 &&
+                !both && use_of(bond, state, forces).value >= r.utilization &&
+                make_hinge(bond, forces, state);
+      state.broken = !r.hinge;
+      broken = broken || state.broken;
+      failures.push_back(r);
+    }
+    if (broken) {
+      // What has come apart is no longer one problem.
+      std::vector<std::uint8_t> others(structure.pieces.size(), 1);
+      for (const std::int32_t piece : stress.group().pieces) others[piece] = 0;
+      const std::vector<BondGroup> left = find_groups(structure, status, others);
+      if (left.size() > 1 || left[0].anchored != stress.group().anchored) break;
+    }
+  }
+  return failures;
+}
+
+}  // namespace rubble

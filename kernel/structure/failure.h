@@ -1,0 +1,35 @@
+// From stresses to what fails: bonds that break and hinges that form, until the rest carries the loads.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernel/structure/stress.h"
+
+namespace rubble {
+
+struct FailureOptions {
+  // In one round all bonds fail that are used up as much as the worst one, to this share; range: 0 to 1.
+  double together = 0.1;
+  int rounds = 1000;  // at most; >= 1
+  bool hinges = true;  // bars keep a bent section as a hinge until they tear; false: it breaks at once
+};
+
+struct BondFailure {
+  std::int32_t bond = 0;
+  FailureMode mode = FailureMode::none;
+  bool hinge = false;        // it goes on as one
+  double utilization = 0;    // when it failed; unit: 1
+};
+
+// Solves a group, lets fail what is used up most, and solves again, until all holds, the group has
+// come apart or the rounds are over. Writes `status`.
+std::vector<BondFailure> let_fail(const Structure& structure, GroupStress& stress,
+                                  const std::vector<PieceLoad>& loads, const FailureOptions& options,
+                                  std::vector<BondStatus>& status);
+
+// The bond of a group that is used up most. bond: -1 when there is none.
+BondFailure find_worst(const Structure& structure, const BondGroup& group, const StressResult& result,
+                       const std::vector<BondStatus>& status);
+
+}  // namespace rubble

@@ -1,0 +1,63 @@
+// What a cross-section carries: strengths of its material and its bars against the forces in it.
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/base/math.h"
+#include "kernel/structure/material.h"
+#include "kernel/structure/polygon.h"
+
+namespace rubble {
+
+// Bars that cross a section, the same on opposite sides.
+struct SectionSteel {
+  double area = 0;          // of all bars; unit: m2; 0: none
+  double area_s = 0;        // of those on one side, in tension when it bends about s; unit: m2
+  double area_t = 0;        // the same about t; unit: m2
+  double cover = 0.04;      // from the surface to the bars' axes; unit: m
+  double stirrups = 0;      // what stirrups add to the shear strength; unit: Pa
+  double yield = 0;         // unit: Pa
+  double rupture_rotation = 0;  // plastic, at which a hinge tears; unit: rad
+};
+
+struct Section {
+  Vec3 normal, axis_s, axis_t;  // unit length; from the bond's first piece to its second
+  Vec3 centroid;                // unit: m
+  double area = 0;              // unit: m2
+  double inertia_s = 0, inertia_t = 0;  // unit: m4
+  double half_s = 0, half_t = 0;        // unit: m
+  double compression = 0, tension = 0, shear = 0, shear_friction = 0;  // unit: Pa; the last 1
+  SectionSteel steel;
+};
+
+// In a section, by what the second piece does to the first: tension is positive.
+struct SectionForces {
+  double axial = 0;                   // unit: N
+  double shear_s = 0, shear_t = 0;    // unit: N
+  double torque = 0;                  // about the normal; unit: N m
+  double moment_s = 0, moment_t = 0;  // unit: N m
+};
+
+enum class FailureMode : std::uint8_t { none, tension, compression, shear, bending };
+const char* failure_name(FailureMode mode);
+
+// The largest share of a strength that is used up; above 1 the section fails, by `mode`.
+struct Utilization {
+  double value = 0;  // unit: 1
+  FailureMode mode = FailureMode::none;
+};
+
+Section make_section(const Polygon& polygon, const Vec3& normal, const StructuralMaterial& material,
+                     const SectionSteel& steel);
+
+// Without bars: the extreme fibres by N/A + M c/I against tension and compression. With bars: the larger
+// of that and of what the bars carry once the concrete is cracked, by a rectangular stress block of
+// 0.85 fc and bars that yield on the tension side, both axes added linearly. Shear with torsion as
+// v = V/A + T c/J against shear strength, stirrups and friction.
+Utilization calc_utilization(const Section& section, const SectionForces& forces);
+
+// The moment that bars carry about an axis under this axial force; 0 without bars. about_s: about s,
+// otherwise about t. unit: N m.
+double calc_yield_moment(const Section& section, double axial, bool about_s);
+
+}  // namespace rubble

@@ -1,0 +1,387 @@
+// Members that are cut and bonded again, and the loads at which they break, against beam theory.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kernel/base/error.h"
+#include "kernel/base/portable_math.h"
+#include "kernel/geometry/shape.h"
+#include "kernel/structure/failure.h"
+#include "kernel/structure/structure.h"
+
+namespace rubble {
+namespace {
+
+StructuralMaterial brittle() {
+  StructuralMaterial m = find_structural_material("concrete", "test");
+  m.shear = 1e9;  // bending alone decides
+  return m;
+}
+
+Member make_mast(double height, double width, int count, double roughness = 0) {
+  Member m;
+  m.name = "mast";
+  m.kind = MemberKind::column;
+  m.size = {width, width, height};
+  m.centre = {0, 0, height / 2};
+  m.material = brittle();
+  m.cut.counts[2] = count;
+  m.cut.roughness = roughness;
+  return m;
+}
+
+Member make_beam(double length, double width, double depth, int count) {
+  Member m;
+  m.name = "beam";
+  m.kind = MemberKind::beam;
+  m.size = {length, width, depth};
+  m.centre = {0, 0, 3};
+  m.material = brittle();
+  m.cut.counts[0] = count;
+  m.cut.roughness = 0;
+  return m;
+}
+
+Reinforcement bars(double ratio) {
+  Reinforcement r;
+  r.ratio = ratio;
+  r.side_ratio = ratio / 2;
+  r.cover = 0.05;
+  return r;
+}
+
+// Holds the beam's end by what does not move.
+void clamp_end(Structure& s, std::int32_t piece, double x, double outwards) {
+  const Member& m = s.members[0];
+  Bond bond;
+  bond.piece_a = piece;
+  bond.piece_b = kFoundation;
+  const HalfSpace plane{{outwards, 0, 0}, x * outwards};
+  const double y = m.size.y / 2, z0 = m.centre.z - m.size.z / 2, z1 = m.centre.z + m.size.z / 2;
+  const Polygon polygon = cut_plane(plane, {{{0, 1, 0}, y}, {{0, -1, 0}, y}, {{0, 0, 1}, z1}, {{0, 0, -1}, -z0}}, 50);
+  SectionSteel steel;
+  if (m.bars.ratio > 0) steel = s.bonds[0].section.steel;
+  bond.section = make_section(polygon, plane.normal, m.material, steel);
+  const double length = std::abs(x - s.pieces[piece].centre.x), e = m.material.youngs_modulus;
+  bond.axial_stiffness = e * bond.section.area / length;
+  bond.shear_stiffness = bond.axial_stiffness / 2.4;
+  bond.torsion_stiffness = e * bond.section.inertia_s / length;
+  bond.bending_s_stiffness = e * bond.section.inertia_s / length;
+  bond.bending_t_stiffness = e * bond.section.inertia_t / length;
+  s.bonds.push_back(bond);
+}
+
+struct Outcome {
+  std::vector<BondFailure> failures;
+  std::vector<BondStatus> status;
+};
+
+Outcome load(const Structure& s, const std::vector<PieceLoad>& loads, const StressOptions& options = {},
+             int rounds = 1000) {
+  Outcome outcome;
+  outcome.status.resize(s.bonds.size());
+  GroupStress stress(s, find_groups(s, outcome.status)[0], options);
+  FailureOptions failure;
+  failure.rounds = rounds;
+  outcome.failures = let_fail(s, stress, loads, failure, outcome.status);
+  return outcome;
+}
+
+// The load factor at which something breaks for good; loads(factor).
+template <typename Loads, typename Broken>
+double find_limit(double low, double high, Loads&& loads, Broken&& broken) {
+  for (int i = 0; i < 40; ++i) {
+    const double middle = (low + high) / 2;
+    (broken(loads(middle)) ? high : low) = middle;
+  }
+  return (low + high) / 2;
+}
+
+TEST(Fragments, FillTheirBoxButForTheGaps) {
+  CutOptions cut;
+  cut.counts[0] = 4, cut.counts[1] = 3, cut.counts[2] = 2;
+  cut.gap = 0;
+  RandomStream random(3, "test");
+  double volume = 0;
+  for (const Fragment& f : cut_box({2, 1.5, 0.4}, cut, random)) {
+    volume += calc_volume_properties({f.corners}).volume;
+  }
+  EXPECT_NEAR(volume, 2 * 1.5 * 0.4, 1e-9);
+}
+
+TEST(Fragments, DependOnTheSeedAlone) {
+  CutOptions cut;
+  cut.counts[0] = 5;
+  const auto corners = [&](std::uint64_t seed) {
+    RandomStream random(seed, "test");
+    return cut_box({5, 0.4, 0.5}, cut, random)[2].corners;
+  };
+  EXPECT_TRUE(corners(1) == corners(1));
+  EXPECT_FALSE(corners(1) == corners(2));
+}
+
+TEST(Section, OfARectangleHasItsSecondMoments) {
+  const Polygon p{{0, -0.1, 1}, {0, 0.1, 1}, {0, 0.1, 1.5}, {0, -0.1, 1.5}};
+  const Section s = make_section(p, {1, 0, 0}, brittle(), {});
+  EXPECT_NEAR(s.area, 0.1, 1e-12);
+  EXPECT_NEAR(s.inertia_s, 0.2 * 0.125 / 12, 1e-12);
+  EXPECT_NEAR(s.inertia_t, 0.5 * 0.008 / 12, 1e-12);
+  EXPECT_NEAR(s.centroid.z, 1.25, 1e-12);
+}
+
+TEST(Section, YieldMomentOfBarsIsForceTimesLever) {
+  SectionSteel steel;
+  steel.area = 2e-3, steel.area_s = steel.area_t = 1e-3, steel.cover = 0.05, steel.yield = 500e6;
+  const Polygon p{{0, -0.15, 0}, {0, 0.15, 0}, {0, 0.15, 0.5}, {0, -0.15, 0.5}};
+  const Section s = make_section(p, {1, 0, 0}, brittle(), steel);
+  EXPECT_NEAR(calc_yield_moment(s, 0, true), 1e-3 * 500e6 * 0.4, 1);
+  // A compressive force well below balance adds N (h - a) / 2.
+  const double n = 500e3, a = n / (0.85 * 33e6 * 0.3);
+  EXPECT_NEAR(calc_yield_moment(s, -n, true), 200e3 + n * (0.5 - a) / 2, 1);
+  EXPECT_EQ(calc_yield_moment(s, 2e-3 * 500e6, true), 0);
+}
+
+TEST(Structure, PiecesWeighWhatTheMemberWeighs) {
+  Member m = make_mast(3, 0.4, 6, 0.3);
+  m.cut.gap = 0;
+  const Structure s = build_structure({m}, 1);
+  double mass = 0;
+  for (const StructurePiece& p : s.pieces) mass += p.mass;
+  EXPECT_NEAR(mass, 3 * 0.16 * 2400, 1e-6);
+  EXPECT_EQ(s.bonds.size(), 6u);  // five within and the foot
+}
+
+TEST(Structure, MembersInTheSamePlaceAreNamed) {
+  Member other = make_mast(3, 0.4, 6);
+  other.name = "another";
+  try {
+    build_structure({make_mast(3, 0.4, 6), other}, 1);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("another"), std::string::npos) << error.what();
+  }
+}
+
+// A mast under a force across its top: breaks at its foot at f_t W / L.
+TEST(BeamTheory, CantileverBreaksAtItsFootAtTheLoadOfItsSection) {
+  for (const double roughness : {0.0, 0.3}) {
+    const Structure s = build_structure({make_mast(4, 0.3, 12, roughness)}, 5);
+    const double arm = s.pieces[11].centre.z;
+    const double expected = 2.6e6 * 0.3 * 0.09 / 6 / arm;
+    const auto loads = [&](double force) {
+      std::vector<PieceLoad> l(s.pieces.size());
+      l[11].force = {force, 0, 0};
+      return l;
+    };
+    const auto breaks = [&](const std::vector<PieceLoad>& l) { return !load(s, l).failures.empty(); };
+    const double limit = find_limit(0, 10 * expected, loads, breaks);
+    EXPECT_NEAR(limit / expected, 1, roughness > 0 ? 0.05 : 1e-6) << "roughness " << roughness;
+    const Outcome outcome = load(s, loads(1.01 * limit), {}, 1);
+    ASSERT_EQ(outcome.failures.size(), 1u);
+    EXPECT_EQ(s.bonds[outcome.failures[0].bond].piece_b, kFoundation);
+    EXPECT_EQ(outcome.failures[0].mode, FailureMode::bending);
+  }
+}
+
+// A force in the middle, half of it at each end: breaks in the middle at 4 f_t W / L.
+TEST(BeamTheory, SimplySupportedBeamBreaksInTheMiddle) {
+  const double length = 6;
+  const Structure s = build_structure({make_beam(length, 0.3, 0.5, 20)}, 1);
+  const double expected = 4 * 2.6e6 * 0.3 * 0.25 / 6 / length;
+  const auto loads = [&](double force) {
+    std::vector<PieceLoad> l(s.pieces.size());
+    const auto put = [&](int piece, double x, double f) {
+      l[piece].force.z += f;
+      l[piece].moment.y -= (x - s.pieces[piece].centre.x) * f;
+    };
+    put(0, -length / 2, force / 2), put(19, length / 2, force / 2);
+    put(9, 0, -force / 2), put(10, 0, -force / 2);
+    return l;
+  };
+  const auto breaks = [&](const std::vector<PieceLoad>& l) { return !load(s, l).failures.empty(); };
+  const double limit = find_limit(0, 10 * expected, loads, breaks);
+  EXPECT_NEAR(limit / expected, 1, 1e-6);
+  const Outcome outcome = load(s, loads(1.001 * limit), {}, 1);
+  ASSERT_EQ(outcome.failures.size(), 1u);
+  EXPECT_EQ(s.bonds[outcome.failures[0].bond].piece_a, 9);
+  EXPECT_EQ(s.bonds[outcome.failures[0].bond].piece_b, 10);
+}
+
+TEST(BeamTheory, DeflectionOfACantileverConverges) {
+  const Structure s = build_structure({make_mast(4, 0.3, 20)}, 5);
+  std::vector<PieceLoad> l(s.pieces.size());
+  l[19].force = {1000, 0, 0};
+  std::vector<BondStatus> status(s.bonds.size());
+  GroupStress stress(s, find_groups(s, status)[0]);
+  const StressResult result = stress.solve(status, l);
+  double turned = 0;  // the top's rotation is the sum of all: P L^2 / (2 E I), plus shear's, which is none
+  for (const double r : result.rotation_t) turned += std::abs(r);
+  for (const double r : result.rotation_s) turned += std::abs(r);
+  const double arm = s.pieces[19].centre.z, inertia = 0.3 * 0.027 / 12;
+  EXPECT_NEAR(turned / (1000 * arm * arm / (2 * 31e9 * inertia)), 1, 0.02);
+}
+
+TEST(BeamTheory, ColumnCrushesAtItsStrength) {
+  Member m = make_mast(2, 0.3, 8);
+  for (const bool barred : {false, true}) {
+    if (barred) m.bars = bars(0.02);
+    const Structure s = build_structure({m}, 1);
+    const double steel = barred ? 0.02 * 0.09 : 0;
+    // Plain: the strength. Barred: the larger of the uncracked section and the squash load.
+    const double expected = std::max(33e6 * 0.09, 0.85 * 33e6 * (0.09 - steel) + steel * 550e6);
+    const auto loads = [&](double force) {
+      std::vector<PieceLoad> l(s.pieces.size());
+      l[7].force = {0, 0, -force};
+      return l;
+    };
+    const auto breaks = [&](const std::vector<PieceLoad>& l) { return !load(s, l).failures.empty(); };
+    EXPECT_NEAR(find_limit(0, 3 * expected, loads, breaks) / expected, 1, 1e-6);
+    EXPECT_EQ(load(s, loads(1.01 * expected), {}, 1).failures[0].mode, FailureMode::compression);
+  }
+}
+
+// The secant formula, of a mast that stands free: P/A (1 + e c/r^2 sec(L sqrt(P / E I))) = fc.
+TEST(BeamTheory, SlenderColumnUnderAnEccentricLoad) {
+  Member m = make_mast(10, 0.3, 30);
+  m.material.tension = 1e9;  // pressure decides
+  const Structure s = build_structure({m}, 1);
+  const double e = 0.05, length = s.pieces[29].centre.z, area = 0.09, inertia = 0.3 * 0.027 / 12;
+  const auto stress_at = [&](double p) {
+    const double k = length * std::sqrt(p / (31e9 * inertia));
+    return p / area * (1 + e * 0.15 * area / inertia / portable::cos(k));
+  };
+  const double euler = portable::kPi * portable::kPi * 31e9 * inertia / (4 * length * length);
+  double low = 0, high = 0.999 * euler;
+  for (int i = 0; i < 60; ++i) (stress_at((low + high) / 2) > 33e6 ? high : low) = (low + high) / 2;
+  const auto loads = [&](double p) {
+    std::vector<PieceLoad> l(s.pieces.size());
+    l[29].force = {0, 0, -p};
+    l[29].moment = {0, p * e, 0};
+    return l;
+  };
+  const auto breaks = [&](const std::vector<PieceLoad>& l) {
+    std::vector<BondStatus> status(s.bonds.size());
+    const BondGroup group = find_groups(s, status)[0];
+    GroupStress stress(s, group, {true});
+    const StressResult result = stress.solve(status, l);
+    return !result.stable || find_worst(s, group, result, status).utilization > 1;
+  };
+  const double limit = find_limit(0, 2 * euler, loads, breaks);
+  EXPECT_NEAR(limit / low, 1, 0.05);
+  EXPECT_LT(limit, 0.5 * 33e6 * area);  // far below crushing: slenderness decides
+}
+
+TEST(BeamTheory, FreeColumnBucklesAtEulersLoad) {
+  Member m = make_mast(10, 0.3, 30);
+  m.material.compression = m.material.tension = 1e12;
+  const Structure s = build_structure({m}, 1);
+  const double length = s.pieces[29].centre.z, inertia = 0.3 * 0.027 / 12;
+  const double euler = portable::kPi * portable::kPi * 31e9 * inertia / (4 * length * length);
+  const auto loads = [&](double p) {
+    std::vector<PieceLoad> l(s.pieces.size());
+    l[29].force = {0, 0, -p};
+    return l;
+  };
+  const auto buckles = [&](const std::vector<PieceLoad>& l) {
+    std::vector<BondStatus> status(s.bonds.size());
+    GroupStress stress(s, find_groups(s, status)[0], {true});
+    return !stress.solve(status, l).stable;
+  };
+  EXPECT_NEAR(find_limit(0, 3 * euler, loads, buckles) / euler, 1, 0.02);
+}
+
+// Evenly loaded between two walls: the ends yield at 12 Mp / L^2, the middle at 16 Mp / L^2.
+TEST(BeamTheory, FixedBeamYieldsAtTheEndsAndFallsAfterThreeHinges) {
+  const double length = 6;
+  Member m = make_beam(length, 0.3, 0.5, 24);
+  m.bars = bars(0.02);
+  Structure s = build_structure({m}, 1);
+  clamp_end(s, 0, -length / 2, -1);
+  clamp_end(s, 23, length / 2, 1);
+  const double yield = calc_yield_moment(s.bonds[0].section, 0, true);
+  const auto loads = [&](double per_metre) {
+    std::vector<PieceLoad> l(s.pieces.size());
+    for (PieceLoad& p : l) p.force.z = -per_metre * length / 24;
+    return l;
+  };
+  const auto yields = [&](const std::vector<PieceLoad>& l) { return !load(s, l).failures.empty(); };
+  const auto falls = [&](const std::vector<PieceLoad>& l) {
+    const Outcome o = load(s, l);
+    return std::any_of(o.status.begin(), o.status.end(), [](const BondStatus& b) { return b.broken; });
+  };
+  const double unit = yield / (length * length);
+  EXPECT_NEAR(find_limit(0, 40 * unit, loads, yields) / unit, 12, 0.6);
+  EXPECT_NEAR(find_limit(0, 40 * unit, loads, falls) / unit, 16, 0.8);
+  // Two hinges stand, at the ends.
+  const Outcome two = load(s, loads(14 * unit));
+  ASSERT_EQ(two.failures.size(), 2u);
+  for (const BondFailure& f : two.failures) {
+    EXPECT_TRUE(f.hinge);
+    EXPECT_EQ(s.bonds[f.bond].piece_b, kFoundation);
+  }
+}
+
+TEST(Stress, ReactionsCarryTheWeightAndSymmetryIsKept) {
+  // A table on four legs.
+  std::vector<Member> members;
+  for (const double x : {-2.0, 2.0}) {
+    for (const double y : {-1.5, 1.5}) {
+      Member leg = make_mast(3, 0.3, 5);
+      leg.centre = {x, y, 1.5};
+      leg.name = "leg";
+      members.push_back(leg);
+    }
+  }
+  Member top;
+  top.name = "top", top.kind = MemberKind::slab;
+  top.size = {4.3, 3.3, 0.2}, top.centre = {0, 0, 3.1};
+  top.material = brittle();
+  top.cut.counts[0] = 8, top.cut.counts[1] = 6, top.cut.roughness = 0;
+  members.push_back(top);
+  const Structure s = build_structure(members, 1);
+  std::vector<BondStatus> status(s.bonds.size());
+  const auto groups = find_groups(s, status);
+  ASSERT_EQ(groups.size(), 1u);
+  GroupStress stress(s, groups[0]);
+  const StressResult result = stress.solve(status, calc_weights(s, 9.81));
+  double weight = 0, carried = 0;
+  for (const StructurePiece& p : s.pieces) weight += p.mass * 9.81;
+  for (std::size_t i = 0; i < groups[0].bonds.size(); ++i) {
+    if (s.bonds[groups[0].bonds[i]].piece_b != kFoundation) continue;
+    carried -= result.forces[i].axial;
+    EXPECT_NEAR(-result.forces[i].axial / (weight / 4), 1, 1e-6);
+  }
+  EXPECT_NEAR(carried / weight, 1, 1e-9);
+}
+
+TEST(Stress, OldFactorGivesWhatANewOneGives) {
+  Member m = make_beam(6, 0.3, 0.5, 12);
+  m.cut.counts[2] = 2, m.cut.roughness = 0.3;
+  Structure s = build_structure({m}, 4);
+  clamp_end(s, 0, -3, -1);
+  std::vector<BondStatus> status(s.bonds.size());
+  const BondGroup group = find_groups(s, status)[0];
+  const std::vector<PieceLoad> weights = calc_weights(s, 9.81);
+  GroupStress old(s, group);
+  old.solve(status, weights);
+  status[8].broken = true;
+  const StressResult updated = old.solve(status, weights);
+  GroupStress fresh(s, group);
+  const StressResult direct = fresh.solve(status, weights);
+  for (std::size_t i = 0; i < direct.forces.size(); ++i) {
+    EXPECT_NEAR(updated.forces[i].moment_s, direct.forces[i].moment_s, 1.0) << i;
+    EXPECT_NEAR(updated.forces[i].axial, direct.forces[i].axial, 1.0) << i;
+  }
+}
+
+TEST(Stress, BalancedLoadsOfAFreeGroupNeedNoSupport) {
+  const Structure s = build_structure({make_beam(6, 0.3, 0.5, 12)}, 1);
+  std::vector<BondStatus> status(s.bonds.size());
+  GroupStress stress(s, find_groups(s, status)[0]);
+  std::vector<PieceLoad> loads(s.pieces.size());
+  loads[0].force = {-5000, 0, 0}, loads[11].force = {5000, 0, 0};
+  for (const SectionForces& f : stress.solve(status, loads).forces) EXPECT_NEAR(f.axial, 5000, 1e-3);
+}
+
+}  // namespace
+}  // namespace rubble

@@ -6,6 +6,14 @@
 namespace rubble {
 namespace {
 
+constexpr double kFractureEnergy = 130;  // of concrete of 33 MPa: 73 fcm^0.18, fib Model Code 2010; unit: J/m2
+
+SectionForces overshoot(const SectionForces& f, const SectionForces& s, double share) {
+  const auto peak = [share](double now, double before) { return now + share * (now - before); };
+  return {peak(f.axial, s.axial),   peak(f.shear_s, s.shear_s),   peak(f.shear_t, s.shear_t),
+          peak(f.torque, s.torque), peak(f.moment_s, s.moment_s), peak(f.moment_t, s.moment_t)};
+}
+
 // A hinge's moment about its axis is what its bars carry: the section is asked for the rest.
 Utilization use_of(const Bond& bond, const BondStatus& status, SectionForces forces) {
   if (status.hinge_s) forces.moment_s = 0;
@@ -30,14 +38,17 @@ double use_of_rotation(const Bond& bond, const BondStatus& status, double rotati
 }
 
 std::vector<BondFailure> rate(const Structure& structure, const BondGroup& group,
-                              const StressResult& result, const std::vector<BondStatus>& status) {
+                              const StressResult& result, const FailureOptions& options,
+                              const std::vector<BondStatus>& status) {
   std::vector<BondFailure> rated;
   for (std::size_t i = 0; i < group.bonds.size(); ++i) {
     const std::int32_t index = group.bonds[i];
     const Bond& bond = structure.bonds[index];
     const BondStatus& state = status[index];
     if (state.broken) continue;
-    const Utilization use = use_of(bond, state, result.forces[i]);
+    SectionForces forces = result.forces[i];
+    if (options.settled) forces = overshoot(forces, (*options.settled)[index], options.overshoot);
+    const Utilization use = use_of(bond, state, forces);
     const double torn = use_of_rotation(bond, state, result.rotation_s[i], result.rotation_t[i]);
     if (torn > use.value) {
       rated.push_back({index, FailureMode::bending, false, torn});
@@ -71,10 +82,25 @@ BondFailure find_worst(const Structure& structure, const BondGroup& group, const
                        const std::vector<BondStatus>& status) {
   BondFailure worst;
   worst.bond = -1;
-  for (const BondFailure& rated : rate(structure, group, result, status)) {
+  for (const BondFailure& rated : rate(structure, group, result, {}, status)) {
     if (worst.bond < 0 || rated.utilization > worst.utilization) worst = rated;
   }
   return worst;
+}
+
+std::vector<BondFailure> find_failing(const Structure& structure, const BondGroup& group,
+                                      const StressResult& result, const FailureOptions& options,
+                                      const std::vector<BondStatus>& status) {
+  std::vector<BondFailure> failing = rate(structure, group, result, options, status);
+  failing.erase(std::remove_if(failing.begin(), failing.end(),
+                               [](const BondFailure& f) { return !(f.utilization > 1); }),
+                failing.end());
+  return failing;
+}
+
+double calc_breaking_energy(const Section& s) {
+  const double bars = std::max(calc_yield_moment(s, 0, true), calc_yield_moment(s, 0, false));
+  return kFractureEnergy * s.area + bars * s.steel.rupture_rotation;
 }
 
 std::vector<BondFailure> let_fail(const Structure& structure, GroupStress& stress,
@@ -84,7 +110,7 @@ std::vector<BondFailure> let_fail(const Structure& structure, GroupStress& stres
   for (int round = 0; round < options.rounds; ++round) {
     const StressResult result = stress.solve(status, loads);
     if (!result.stable) break;
-    const std::vector<BondFailure> rated = rate(structure, stress.group(), result, status);
+    const std::vector<BondFailure> rated = rate(structure, stress.group(), result, options, status);
     double most = 0;
     for (const BondFailure& r : rated) most = std::max(most, r.utilization);
     if (!(most > 1)) break;
@@ -98,8 +124,7 @@ std::vector<BondFailure> let_fail(const Structure& structure, GroupStress& stres
       BondStatus& state = status[r.bond];
       const bool both = state.hinge_s && state.hinge_t;
       r.hinge = options.hinges && r.mode == FailureMode::bending && bond.section.steel.area > 0 &&
-                !both && use_of(bond, state, forces).value >= r.utilization &&
-                make_hinge(bond, forces, state);
+                !both && !state.hinge_s && !state.hinge_t && make_hinge(bond, forces, state);
       state.broken = !r.hinge;
       broken = broken || state.broken;
       failures.push_back(r);

@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all asset-maker live demo gallery pictures test test-nightly test-asan test-tsan fuzz faults determinism format clean
+.PHONY: help packages program-packages build all package install asset-maker live demo gallery pictures test test-nightly test-asan test-tsan fuzz faults determinism format clean
 
 PROGRAM := build/release/rubble
 CTEST   := ctest --output-on-failure --parallel 2
@@ -13,6 +13,8 @@ help:
 	@echo "make pictures   draw the other pictures of the documents anew"
 	@echo "make build      build the program and its assets alone: $(PROGRAM)"
 	@echo "make all        build the tests and benches, too"
+	@echo "make install PREFIX=/usr/local  the program, its assets, manual pages, completion"
+	@echo "make package    a Debian package: build/package/rubble_*.deb"
 	@echo "make live       the same with what publishes over ROS (docs/live.md)"
 	@echo "make test-nightly  the tests that take long, or need a cluster of one node"
 	@echo "make test-asan  the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
@@ -42,6 +44,14 @@ build: program-packages build/release/build.ninja
 all: packages
 	cmake --preset release -DBUILD_TESTING=ON
 	cmake --build --preset release
+
+# Whatever the folder is called later: the program finds its assets from where it is.
+PREFIX := /usr/local
+install: build
+	cmake --install build/release --prefix $(PREFIX)
+
+package: build
+	cpack --config build/release/CPackConfig.cmake -B build/package
 
 # With the optional parts that publish over ROS; CMake looks for them anew.
 live: packages

@@ -12,7 +12,6 @@
 #include <system_error>
 
 #include "app/command_line/command.h"
-#include "app/support/build_info.h"
 #include "app/support/stop.h"
 #include "kernel/base/text.h"
 
@@ -36,16 +35,6 @@ ExitCode check_standard_output(ExitCode code) {
   return code == ExitCode::done ? ExitCode::failure : code;
 }
 
-ExitCode run(int argc, char** argv) {
-  return run_command_line(
-      argc, argv,
-      "Simulates collapsed structures: a seed and a Lua mission give a settled pile, a "
-      "camera flight, RGB-D frames, an MRPT rawlog, a ROS bag and the ground truth.",
-      "Exit codes: 0 done, 1 bad input, 2 failure, 3 finished but did not settle, 4 stopped by "
-      "a signal, 5 not the same.",
-      "rubble " + build_info().version, all_commands());
-}
-
 }  // namespace
 }  // namespace rubble
 
@@ -54,7 +43,8 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of write(), like a full disk
   rubble::reserve_standard_files();
   try {
-    return int(rubble::check_standard_output(rubble::run(argc, argv)));
+    return int(rubble::check_standard_output(
+        rubble::run_command_line(argc, argv, rubble::all_commands())));
   } catch (const rubble::InputError& error) {
     std::fprintf(stderr, "\n%s\n", error.what());
     return int(ExitCode::bad_input);

@@ -11,8 +11,10 @@
 #include "kernel/base/portable_math.h"
 #include "render/geometry/geometry.h"
 #include "render/geometry/ground_map.h"
+#include "render/geometry/moving_pieces.h"
 #include "render/lighting/bake.h"
 #include "render/lighting/exposure.h"
+#include "render/lighting/live_light.h"
 #include "render/media/air_volume.h"
 #include "render/media/medium.h"
 #include "render/passes/antialias.h"
@@ -102,6 +104,8 @@ struct Renderer::State {
   const Gl& gl;
   RenderOptions options;
   PreparedScene scene;
+  GroundMap ground_map;
+  MovingPieces moving;
   LightSet light;
   AirLight air_light;
   Medium medium;
@@ -110,7 +114,8 @@ struct Renderer::State {
   std::uint64_t seed;
   ThreadPool pool;
   GpuGeometry geometry;
-  ShadowMap shadow;
+  std::unique_ptr<ShadowPass> shadow;
+  std::unique_ptr<LiveLight> live_light;  // where something moves
   FrameLight frame_light;
   std::unique_ptr<VisibilityPass> visibility;
   std::unique_ptr<ResolvePass> resolve;
@@ -121,6 +126,8 @@ struct Renderer::State {
   std::unique_ptr<RayPass> rays;  // made when a view first needs it
   ViewRays drawn;                 // what was drawn last
 
+  BakedScene bake(const DiskCache& cache, const Progress& report);
+  void move_to(std::int64_t stamp_ns);
   void update_air(const ViewRays& view);
   // Which triangle each pixel shows: by rasterising where that will do, by casting rays otherwise.
   SurfaceImages draw_surfaces(const ViewRays& view);
@@ -141,6 +148,8 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
       gl(c.gl()),
       options(o),
       scene(prepare_scene(s, o.threads)),
+      ground_map(make_ground_map(scene)),
+      moving(s, scene),
       light(make_lights(s)),
       medium(s.air, s.seed),
       start_ns(s.start_ns),
@@ -153,29 +162,55 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
   const DiskCache cache(o.cache_folder);
   const std::vector<PatternImage> patterns = make_patterns_once(cache, o.texture_size, o.threads);
   report(0.15);
-  BakedScene baked;
-  if (o.bake) {
-    BakeOptions bake;
-    bake.threads = o.threads;
-    bake.rays = o.bake_rays;
-    bake.seed = s.seed;
-    baked = bake_light_once(cache, scene, light, bake, [&](double f) { report(0.15 + 0.7 * f); });
-  } else {
-    baked = open_sky_light(scene, light);
-  }
+  BakedScene baked = bake(cache, [&](double f) { report(0.15 + 0.7 * f); });
   air_light = std::move(baked.air);
   geometry = upload_geometry(gl, scene, baked.vertices);
+  if (moving.any())
+    live_light = std::make_unique<LiveLight>(scene, light, std::move(baked.vertices), o.threads);
   report(0.9);
-  shadow = draw_shadow_map(gl, scene, geometry, light, o.shadow_size);
-  frame_light = {&light, &shadow, s.lamp, medium.clear(), s.wetness, most_gloss(scene), nullptr};
+  shadow = std::make_unique<ShadowPass>(gl, scene, geometry, light, o.shadow_size);
+  shadow->draw_moving();  // nothing yet
+  frame_light = {&light, &shadow->map(), s.lamp, medium.clear(), s.wetness, most_gloss(scene), nullptr};
   visibility = std::make_unique<VisibilityPass>(
       gl, scene, geometry,
       VisibilityOptions{o.occlusion_culling, o.coarse_below, draws_on_processor(o, c.info()),
                         o.threads});
-  resolve = std::make_unique<ResolvePass>(gl, geometry, frame_light, make_ground_map(scene),
-                                          patterns);
+  resolve = std::make_unique<ResolvePass>(gl, geometry, frame_light, ground_map, patterns);
   ground_truth = std::make_unique<GroundTruthMaker>(scene, geometry, o.threads);
   report(1);
+}
+
+// What rests. Of a still scene that is all of it.
+BakedScene Renderer::State::bake(const DiskCache& cache, const Progress& report) {
+  std::vector<std::uint32_t> first_light;  // in the whole scene, of each piece that rests
+  const PreparedScene resting = moving.any() ? resting_part(scene, first_light) : PreparedScene();
+  const PreparedScene& part = moving.any() ? resting : scene;
+  BakedScene baked;
+  if (options.bake) {
+    BakeOptions bake;
+    bake.threads = options.threads;
+    bake.rays = options.bake_rays;
+    bake.seed = seed;
+    baked = bake_light_once(cache, part, light, bake, report);
+  } else {
+    baked = open_sky_light(part, light);
+  }
+  if (!moving.any()) return baked;
+  std::vector<BakedLight> vertices(scene.light_vertices);
+  for (std::size_t i = 0; i < part.placed.size(); ++i) {
+    const std::size_t count = part.meshes[part.placed[i].mesh].vertices.size();
+    std::copy_n(baked.vertices.begin() + part.placed[i].first_light, count,
+                vertices.begin() + first_light[i]);
+  }
+  baked.vertices = std::move(vertices);
+  return baked;
+}
+
+void Renderer::State::move_to(std::int64_t stamp_ns) {
+  if (!moving.move_to(stamp_ns)) return;
+  update_poses(gl, scene, geometry);
+  update_light(gl, geometry, live_light->update());
+  shadow->draw_moving();
 }
 
 void Renderer::State::update_air(const ViewRays& view) {
@@ -196,6 +231,7 @@ void Renderer::State::update_air(const ViewRays& view) {
 SurfaceImages Renderer::State::draw_surfaces(const ViewRays& view) {
   const Stopwatch start;
   drawn = view;
+  move_to(drawn.stamp_ns);
   update_air(drawn);
   if (view.plain()) {
     visibility->draw(projection());
@@ -283,7 +319,7 @@ void Renderer::restart(const LampSpec& lamp, const AirSpec& air) {
   s.frame_light.air_table = nullptr;
   const DiskCache cache(s.options.cache_folder);
   s.resolve = std::make_unique<ResolvePass>(
-      s.gl, s.geometry, s.frame_light, make_ground_map(s.scene),
+      s.gl, s.geometry, s.frame_light, s.ground_map,
       make_patterns_once(cache, s.options.texture_size, s.options.threads));
 }
 
@@ -318,7 +354,17 @@ void Renderer::add_channels(const ChannelSet& channels, const ViewRays* next, Fr
   s.context.make_current();
   const std::vector<std::uint32_t> ids = s.read_ids();
   const std::vector<float> distances = s.distances();
-  s.ground_truth->fill(channels, {s.drawn, ids, distances, next}, frame);
+  DrawnView view{s.drawn, ids, distances, next};
+  if (next && channels.flow) view.shift = s.moving.shift_to(next->stamp_ns);
+  s.ground_truth->fill(channels, view, frame);
+}
+
+std::vector<Vec3f> Renderer::shifts(std::int64_t stamp_ns) const {
+  const State& s = *state_;
+  if (!s.moving.any()) return {};
+  const std::vector<std::uint32_t> ids = s.read_ids();
+  const std::vector<float> distances = s.distances();
+  return s.ground_truth->shifts({s.drawn, ids, distances, nullptr, s.moving.shift_to(stamp_ns)});
 }
 
 LinearFrame Renderer::render_linear(const Pose& world_from_camera, const Intrinsics& intrinsics) {

@@ -75,6 +75,8 @@ class Renderer {
   // light that was baked is not baked again.
   void restart(const LampSpec& lamp, const AirSpec& air);
 
+  // What moves in the scene is where it is at the stamp of the view; of a view whose rows have times of
+  // their own, all rows see it there.
   // Metered on the frame itself: a frame is the same whichever were drawn before it. Distortion in
   // `intrinsics` is not applied: it must be zero.
   Frame render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,
@@ -92,6 +94,9 @@ class Renderer {
   std::vector<std::uint8_t> line_of_sight_mask(const Vec3& place_in_camera);
   // Of the same view: each surface's share of light just beyond red that it throws back; 0: none.
   std::vector<float> albedos() const;
+  // Of the same view: how far each pixel's surface moves until another stamp, in the world; empty where
+  // nothing in the scene moves, zero where nothing is seen or it is not there then. unit: m
+  std::vector<Vec3f> shifts(std::int64_t stamp_ns) const;
   LinearFrame render_linear(const Pose& world_from_camera, const Intrinsics& intrinsics);
   LinearFrame render_linear(const ViewRays& view);
 

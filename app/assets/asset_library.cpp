@@ -137,7 +137,14 @@ std::string find_pack(const std::string& pack) {
 
 std::string bundled_assets_folder() {
   if (const char* folder = std::getenv("RUBBLE_ASSETS")) return folder;
-  return (fs::read_symlink("/proc/self/exe").parent_path() / "assets").string();
+  const fs::path beside = fs::read_symlink("/proc/self/exe").parent_path();
+  const fs::path places[] = {beside / "assets", beside / "../share/rubble/assets"};
+  std::error_code failed;
+  for (const fs::path& place : places)
+    if (fs::exists(place / "materials.lua", failed)) return place.lexically_normal().string();
+  throw InputError({"", 0, "RUBBLE_ASSETS", "the bundled packs are not where they belong",
+                    places[0].string() + " or " + places[1].lexically_normal().string(), "neither",
+                    "install the program with `cmake --install`, or set RUBBLE_ASSETS to their folder"});
 }
 
 AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>& extra_packs) {

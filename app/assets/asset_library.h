@@ -55,7 +55,8 @@ LoadedAsset load_asset(const Asset& asset, MeshImporter& importer);
 // itself.
 std::string find_pack(const std::string& pack);
 
-// Where the bundled packs and materials.lua are: $RUBBLE_ASSETS, or `assets` beside the program.
+// Where the bundled packs and materials.lua are: $RUBBLE_ASSETS; `assets` beside the program, as in a
+// build; or ../share/rubble/assets from there, as installed. Throws InputError where there are none.
 std::string bundled_assets_folder();
 
 }  // namespace rubble

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "app/command_line/command.h"
+#include "app/command_line/command_description.h"
+#include "app/command_line/program_text.h"
 #include "kernel/base/text.h"
 #include "scripting/schema/schema.h"
 #include "scripting/values/value.h"
@@ -172,22 +174,63 @@ bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
   return true;
 }
 
-}  // namespace
+using Actions = std::vector<std::pair<CLI::App*, Action>>;
 
-ExitCode run_command_line(int argc, char** argv, const std::string& about,
-                          const std::string& footer, const std::string& version,
-                          const std::vector<Command>& commands) {
-  CLI::App app{about};
-  app.footer(footer);
-  app.set_version_flag("--version", version);
-  app.require_subcommand(1);
-  std::vector<std::pair<CLI::App*, Action>> actions;
+Actions declare_all(CLI::App& app, const std::vector<Command>& commands) {
+  Actions actions;
   for (const Command& command : commands) {
     CLI::App& group = find_group(app, command.group);
     CLI::App* const added = group.add_subcommand(command.name, command.summary);
     CommandLine line(*added);
     actions.emplace_back(added, command.declare(line));
   }
+  return actions;
+}
+
+OptionDescription describe(const CLI::Option& option) {
+  OptionDescription text;
+  text.by_place = option.get_positional();
+  if (text.by_place) text.names.push_back(option.get_single_name());
+  for (const std::string& name : option.get_snames()) text.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) text.names.push_back("--" + name);
+  text.help = option.get_description();
+  if (option.get_items_expected_max() > 0) {  // "INT:INT in [0 - 8]": what it is, then what it may be
+    const std::string type = option.get_type_name();
+    const std::size_t colon = type.find(':');
+    text.value = type.substr(0, colon);
+    if (colon != std::string::npos) text.help += "; " + type.substr(colon + 1);
+  }
+  text.required = option.get_required();
+  text.several = option.get_items_expected_max() > 1;
+  return text;
+}
+
+}  // namespace
+
+std::vector<CommandDescription> describe_commands(const std::vector<Command>& commands) {
+  CLI::App app;
+  const Actions actions = declare_all(app, commands);
+  std::vector<CommandDescription> described;
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    const std::string group = commands[i].group;
+    CommandDescription text{(group.empty() ? "" : group + " ") + commands[i].name,
+                            commands[i].summary, {}};
+    const CLI::App* const command = actions[i].first;
+    for (const bool by_place : {true, false})
+      for (const CLI::Option* const option : command->get_options())
+        if (option->get_positional() == by_place) text.options.push_back(describe(*option));
+    described.push_back(std::move(text));
+  }
+  return described;
+}
+
+ExitCode run_command_line(int argc, char** argv, const std::vector<Command>& commands) {
+  const ProgramText text = program_text();
+  CLI::App app{text.about};
+  app.footer(make_footer(text));
+  app.set_version_flag("--version", text.version);
+  app.require_subcommand(1);
+  const Actions actions = declare_all(app, commands);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -76,9 +76,6 @@ class CommandLine {
 struct Command;
 
 // Parses the line, runs the command that it names, and prints help and mistakes.
-// about: the program in a sentence; footer: what follows the list of commands.
-ExitCode run_command_line(int argc, char** argv, const std::string& about,
-                          const std::string& footer, const std::string& version,
-                          const std::vector<Command>& commands);
+ExitCode run_command_line(int argc, char** argv, const std::vector<Command>& commands);
 
 }  // namespace rubble

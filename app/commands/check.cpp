@@ -31,6 +31,8 @@ Action declare(CommandLine& line) {
   add_seed_option(line, *request);
   line.add_print("--schema", mission_json_schema,
                  "Print a JSON Schema of every key of a mission instead");
+  line.add_print("--annotations", lua_annotations,
+                 "Print LuaCATS annotations, by which editors check and complete missions, instead");
   return [request] { return check_mission(*request); };
 }
 

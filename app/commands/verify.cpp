@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "app/command_line/command.h"
@@ -29,7 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-enum class Verdict { equal, differs, skipped };
+// missing: what lies there is as it should be, but not all of it does.
+enum class Verdict { equal, differs, missing, skipped };
 
 // What became of one part of a dataset: "manifest", "recorded files", "scenario", "assets", "pile",
 // "frames", "metrics", "files".
@@ -47,6 +49,7 @@ struct Verification {
 struct VerifyRequest {
   FolderRequest of;
   std::string work;        // --work: where the run is made anew; empty: a temporary folder
+  std::string keep;        // --keep: a new folder for it, that stays
   bool pile_only = false;  // --pile-only: no frames
   bool json = false;       // --json
 };
@@ -113,9 +116,11 @@ class Verifier {
   // The files beside the manifest, as they lie there.
   void check_recorded_files() {
     std::string wrong;
+    std::size_t missing = 0;
     for (const auto& [name, hash] : was_.outputs) {
       const bool there = fs::is_regular_file(recorded(name));
       if (there && sha256_of_file(recorded(name)) == hash) continue;
+      if (!there) ++missing;
       wrong += (wrong.empty() ? "" : "; ") + name + (there ? " was altered" : " is missing");
       if (!there) continue;
       altered_.insert(name);
@@ -124,6 +129,9 @@ class Verifier {
     }
     add("recorded files", wrong.empty(),
         wrong.empty() ? std::to_string(was_.outputs.size()) + " as the manifest says" : wrong);
+    if (missing > 0 && altered_.empty()) result_.findings.back().verdict = Verdict::missing;
+    if (missing > 0 && missing == was_.outputs.size())
+      result_.findings.back().detail = "all " + std::to_string(missing) + " are missing";
   }
 
   void check_scenario() {
@@ -143,8 +151,9 @@ class Verifier {
     RunContext context(request_.of.options);
     const ResolvedMission mission = resolve_mission(was_.provenance, folders, context);
     add("assets", true, std::to_string(mission.assets.types.size()) + " found by content");
-    const WorkFolder work(request_.work);
-    RunFolder folder = RunFolder::create(work.path() + "/run", false);
+    std::optional<WorkFolder> work;
+    if (request_.keep.empty()) work.emplace(request_.work);
+    RunFolder folder = RunFolder::create(work ? work->path() + "/run" : request_.keep, false);
     folder.begin(describe_unfinished(mission));
     stop_on_signals();
     const SettledPile pile = settle(mission, folder, context);
@@ -159,6 +168,10 @@ class Verifier {
     }
     if (!request_.pile_only) check_metrics(join(pile.metrics, frames.metrics));
     check_files(folder, folder.hash_files(context.threads()));
+    if (work) return;
+    write_manifest(mission, pile, frames, folder, context);
+    folder.finish();
+    result_.notes.push_back("what was made anew is kept in " + request_.keep);
   }
 
   bool check_pile(const PileState& found) {
@@ -248,13 +261,23 @@ class Verifier {
   Verification result_;
 };
 
-constexpr const char* kVerdictNames[] = {"equal", "differs", "skipped"};
+constexpr const char* kVerdictNames[] = {"equal", "differs", "missing", "skipped"};
 
-// Nothing differs.
-bool is_equal(const Verification& verification) {
+bool has(const Verification& verification, Verdict verdict) {
   for (const Finding& finding : verification.findings)
-    if (finding.verdict == Verdict::differs) return false;
-  return true;
+    if (finding.verdict == verdict) return true;
+  return false;
+}
+
+// Nothing differs, and nothing is missing.
+bool is_equal(const Verification& verification) {
+  return !has(verification, Verdict::differs) && !has(verification, Verdict::missing);
+}
+
+std::string conclude(const Verification& verification) {
+  if (has(verification, Verdict::differs)) return "not the same";
+  if (!has(verification, Verdict::missing)) return "the same";
+  return "files are missing; `rubble remake` makes them again, the same";
 }
 
 // Throws InputError for a folder without a manifest, or with one that cannot be read, and for packs
@@ -278,12 +301,13 @@ std::string to_text(const Verification& verification) {
     text += row + finding.detail + "\n";
   }
   for (const std::string& note : verification.notes) text += "here is         " + note + "\n";
-  return text + (is_equal(verification) ? "the same\n" : "not the same\n");
+  return text + conclude(verification) + "\n";
 }
 
 std::string to_json(const Verification& verification) {
   Json json;
   json["equal"] = is_equal(verification);
+  json["missing"] = has(verification, Verdict::missing);
   json["findings"] = Json::array();
   for (const Finding& finding : verification.findings)
     json["findings"].push_back({{"part", finding.part},
@@ -305,7 +329,10 @@ Action declare(CommandLine& line) {
   line.add("--work", request->work, "Where to make the run anew")
       .shows_default_text("$TMPDIR")
       .metavar("DIR");
-  line.add_flag("--pile-only", request->pile_only, "Settle again, but render nothing");
+  const Option keep =
+      line.add("--keep", request->keep, "Keep what is made anew: a new folder, as `rubble run` leaves it")
+          .metavar("DIR");
+  line.add_flag("--pile-only", request->pile_only, "Settle again, but render nothing").excludes(keep);
   line.add_flag("--json", request->json, "The result as JSON");
   return [request] { return verify_run(*request); };
 }

@@ -9,6 +9,16 @@
 
 namespace rubble {
 
+Manifest load_manifest(const std::string& path) {
+  const std::string text = read_whole_file(path);
+  Manifest manifest = manifest_from_json(text, path);
+  std::vector<Diagnostic> altered;
+  for (const std::string& sentence : find_altered_parts(text, path))
+    altered.push_back({path, 0, "", sentence, "", "", ""});
+  if (!altered.empty()) throw InputError(std::move(altered));
+  return manifest;
+}
+
 FinishedRun open_finished_run(const std::string& folder) {
   const std::string path = folder + "/manifest.json";
   std::error_code failed;
@@ -17,13 +27,7 @@ FinishedRun open_finished_run(const std::string& folder) {
   if (!std::filesystem::exists(path, failed) && is_unfinished(folder))
     throw InputError({folder, 0, "", "the run in it is not finished", "", "",
                       "`rubble resume " + folder + "` continues it"});
-  const std::string text = read_whole_file(path);
-  FinishedRun saved{folder, manifest_from_json(text, path)};
-  std::vector<Diagnostic> altered;
-  for (const std::string& sentence : find_altered_parts(text, path))
-    altered.push_back({path, 0, "", sentence, "", "", ""});
-  if (!altered.empty()) throw InputError(std::move(altered));
-  return saved;
+  return {folder, load_manifest(path)};
 }
 
 AssetLibrary load_assets_of(const FinishedRun& saved, const std::vector<std::string>& folders) {

@@ -20,6 +20,9 @@ struct FinishedRun {
   Manifest manifest;
 };
 
+// manifest.json. Throws InputError: it cannot be read, or is not sealed, saying which part was altered.
+Manifest load_manifest(const std::string& path);
+
 // Throws InputError: no such folder, unfinished (saying how to go on), no manifest, or an altered
 // one.
 FinishedRun open_finished_run(const std::string& folder);

@@ -154,7 +154,6 @@ void store(Contact& contact, const Manifold& m, const Vec3f& normal, const Posed
     contact.friction_impulse = {};
     contact.twist_impulse = 0;
   }
-  if (m.count < 2) contact.twist_impulse = 0;
   contact.normal = normal;
   contact.has_normal = true;
   contact.count = m.count;

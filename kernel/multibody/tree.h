@@ -56,6 +56,23 @@ constexpr int speed_count(Mobility m) {
   return 0;
 }
 
+// What drives a joint of one speed: see RobotMotor.
+struct TreeMotor {
+  bool on = false;
+  double stiffness = 0, damping = 0;  // of the present mode
+  double position = 0, speed = 0, torque = 0;
+  double effort = 0, speed_limit = 0;
+  double impulse = 0;  // of the last substep; unit: N m s, slider N s
+  double mean = 0;     // of the last step; unit: N m, slider N
+  double work = 0;     // so far; unit: J
+};
+
+// What a link of a robot feels, mean of a step, in the world. Contacts: the moment about its centre of
+// mass; the joint: what it gives to the link, the moment about the joint. unit: N, N m
+struct LinkLoads {
+  Vec3 contact_force, contact_moment, joint_force, joint_moment;
+};
+
 struct TreeLink {
   std::int32_t body = 0;     // index of the piece
   std::int32_t parent = -1;  // index of a link before this one; -1: the root
@@ -74,6 +91,11 @@ struct TreeLink {
   Vec3 friction_impulse;
   // Motion of the centre of mass, mirrored after each step.
   Vec3 linear, angular;  // unit: m/s, rad/s
+  // Of robots.
+  TreeMotor motor;
+  Vec3 belt_axis;         // see RobotLink; zero: no belt
+  double belt_speed = 0;  // unit: m/s
+  LinkLoads loads;
 };
 
 // A joint between two links that hang together without it: it closes a loop, and is held by rows in
@@ -95,6 +117,7 @@ struct Tree {
   std::int32_t q_count = 0, u_count = 0;
   double mass = 0;  // of what moves; unit: kg
   Pose root;        // world_from_com of a fixed root
+  bool driven = false;  // a robot: never sleeps, and feels loads
 
   bool has_fixed_root() const { return !links.empty() && links[0].mobility == Mobility::fixed; }
 };

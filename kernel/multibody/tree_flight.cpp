@@ -113,13 +113,13 @@ void TreeMotion::take_free_step(double h, bool fast) {
   Sums wanted = calc_sums(end_, motions_);
   double energy = wanted.energy + tree_->mass * gravity_ * wanted.centre.z;
   if (has_springs_) energy += calc_spring_energy();
-  if (may_break_) add_weights(end_, 0.5 * h, external_);
+  if (feels_loads_) add_weights(end_, 0.5 * h, external_);
   if (fast) {
     take_runge_kutta_step(h);
   } else {
     take_verlet_step(h);
   }
-  if (may_break_) add_weights(end_, 0.5 * h, external_);
+  if (feels_loads_) add_weights(end_, 0.5 * h, external_);
   calc_motions(*tree_, end_, state_.u, motions_);
   wanted.linear.z -= tree_->mass * gravity_ * h;
   energy -= tree_->mass * gravity_ * calc_sums(end_, motions_).centre.z;

@@ -18,10 +18,11 @@ void TreeMotion::begin(Tree& tree, SimbodyTree& simbody, double gravity, double 
   state_ = simbody.state();
   gravity_ = gravity;
   step_ = step;
-  has_springs_ = may_break_ = false;
+  has_springs_ = false;
+  feels_loads_ = tree.driven;
   for (const TreeLink& link : tree.links) {
     has_springs_ = has_springs_ || link.stiffness > 0 || link.damping > 0;
-    may_break_ = may_break_ || link.break_force < kNever || link.break_torque < kNever;
+    feels_loads_ = feels_loads_ || link.break_force < kNever || link.break_torque < kNever;
   }
   start_ = simbody.pose();
   end_ = start_;
@@ -31,8 +32,9 @@ void TreeMotion::begin(Tree& tree, SimbodyTree& simbody, double gravity, double 
   if (has_springs_) start_links_ = tree.links;
   impelled = false;
   external_.assign(tree.links.size(), {});
+  contacts_.assign(tree.links.size(), {});
   start_momenta_.clear();
-  for (std::size_t i = 0; may_break_ && i < motions_.size(); ++i) {
+  for (std::size_t i = 0; feels_loads_ && i < motions_.size(); ++i) {
     start_momenta_.push_back(start_.links[i].momentum(motions_[i]));
   }
 }
@@ -58,7 +60,7 @@ bool TreeMotion::near_stop() const {
 bool TreeMotion::has_rows() const {
   if (!tree_->loops.empty()) return true;
   for (const TreeLink& link : tree_->links) {
-    if (link.friction > 0) return true;
+    if (link.friction > 0 || link.motor.on) return true;
   }
   return false;
 }
@@ -106,7 +108,7 @@ void TreeMotion::add_weights(const TreePose& pose, double time, std::vector<Spat
 
 void TreeMotion::add_forces() {
   add_weights(start_, substep_, impulses_);
-  if (may_break_) add_weights(start_, substep_, external_);
+  if (feels_loads_) add_weights(start_, substep_, external_);
   forces_.assign(state_.u.size(), 0);
   for (std::size_t i = 1; has_springs_ && i < tree_->links.size(); ++i) {
     const TreeLink& link = tree_->links[i];
@@ -188,17 +190,19 @@ void TreeMotion::begin_again() {
   if (has_springs_) tree_->links = start_links_;
   calc_motions(*tree_, start_, state_.u, motions_);
   external_.assign(motions_.size(), {});
+  contacts_.assign(motions_.size(), {});
 }
 
 void TreeMotion::end_step() {
   simbody_->set_speeds(state_.u);
   simbody_->calc_world_from_links(world_from_links_);
+  if (tree_->driven) note_work();
 }
 
 // The change of momentum of all that hangs on a joint, less what others did to it.
 void TreeMotion::note_loads() {
   loads_.clear();
-  if (!may_break_) return;
+  if (!feels_loads_) return;
   const Vec3 shift = end_.reference - start_.reference;
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const Spatial p = end_.links[i].momentum(motions_[i]);
@@ -215,6 +219,28 @@ void TreeMotion::note_loads() {
     const Vec3 joint = world_from_links_[i] * link.link_from_joint.translation - start_.reference;
     loads_[i] = {(loads_[i].angular() - cross(joint, loads_[i].linear())) * per_step,
                  loads_[i].linear() * per_step};
+  }
+  if (tree_->driven) note_link_loads();
+}
+
+void TreeMotion::note_link_loads() {
+  const double per_step = 1 / step_;
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    LinkLoads& to = tree_->links[i].loads;
+    const Spatial contact = contacts_[i] * per_step;
+    to.contact_force = contact.linear();
+    to.contact_moment = contact.angular() - cross(start_.links[i].centre, contact.linear());
+    to.joint_force = tree_->links[i].parent < 0 ? Vec3{} : loads_[i].linear();
+    to.joint_moment = tree_->links[i].parent < 0 ? Vec3{} : loads_[i].angular();
+  }
+}
+
+// Of the motors in a step: their mean torques times the turns of their joints.
+void TreeMotion::note_work() {
+  for (TreeLink& link : tree_->links) {
+    if (!link.motor.on) continue;
+    const std::size_t at = std::size_t(link.first_q);
+    link.motor.work += link.motor.mean * (state_.q[at] - start_state_.q[at]);
   }
 }
 

@@ -58,13 +58,15 @@ class TreeMotion {
   double step() const { return step_; }
 
   // What a contact did to a link in this step, about pose().reference; unit: N m s, N s.
-  void note_impulse(std::int32_t link, const Spatial& impulse) {
+  void note_impulse(std::int32_t link, const Spatial& impulse, bool by_contact) {
     external_[std::size_t(link)] += impulse;
+    if (by_contact) contacts_[std::size_t(link)] += impulse;
   }
-  bool may_break() const { return may_break_; }
-  // After the step: notes what each joint carried on average, where one may break.
+  bool feels_loads() const { return feels_loads_; }
+  // After the step: notes what each joint carried on average, of robots and where one may break; and what
+  // the links of robots feel.
   void note_loads();
-  // By link, moment about its joint; empty where none may break. unit: N m, N
+  // By link, moment about its joint; empty where nothing feels them. unit: N m, N
   const std::vector<Spatial>& loads() const { return loads_; }
 
   // By link, at the end.
@@ -100,19 +102,21 @@ class TreeMotion {
                             const Vec3& angular) const;
   void move_joints(const std::vector<double>& displacement);
   void end_step();
+  void note_link_loads();
+  void note_work();
 
   Tree* tree_ = nullptr;
   SimbodyTree* simbody_ = nullptr;
   TreeState state_, start_state_;
   std::vector<TreeLink> start_links_;  // of trees with springs: the rests creep
   double gravity_ = 0, step_ = 0, substep_ = 0;
-  bool has_springs_ = false, may_break_ = false;
+  bool has_springs_ = false, feels_loads_ = false;
   TreePose start_, end_;
   std::vector<Spatial> motions_;  // at the end, or where it is now
   ArticulatedInertia inertia_;
   std::vector<double> diagonal_;    // by link: of a time, C + s K where it is not yielding
   std::vector<double> resistance_;  // the same, without the time
-  std::vector<Spatial> start_momenta_, external_, loads_;
+  std::vector<Spatial> start_momenta_, external_, contacts_, loads_;
   std::vector<Spatial> impulses_, before_push_;
   std::vector<Pose> world_from_links_;
   // Scratch.

@@ -20,8 +20,8 @@ constexpr double kSpawnClearance = 1.0;
 class Settling {
  public:
   Settling(World& world, const Pile& pile, const SettleOptions& options,
-           const SettleCallback& progress)
-      : pile_(pile), options_(options), progress_(progress), world_(world) {}
+           const SettleCallback& progress, const WorldObserver& observe)
+      : pile_(pile), options_(options), progress_(progress), observe_(observe), world_(world) {}
 
   PileState run() {
     lay_out();
@@ -44,6 +44,7 @@ class Settling {
       spawn(k);
       rested = finish_layer(k);
     }
+    if (observe_ && !stopped_) observe_(world_);
     return result(rested && !stopped_);
   }
 
@@ -124,10 +125,12 @@ class Settling {
   // with the question.
   template <typename Done>
   bool run_until(double limit, Done&& done) {
-    const double shaking = collapse_ && layers_ == 0 ? pile_.building->cause.shake_seconds : 0;
+    const bool shakes = collapse_ && layers_ == 0 && pile_.building->cause.shake > 0;
+    const double shaking = shakes ? pile_.building->cause.shake_seconds : 0;
     const std::int64_t most = std::int64_t((limit + shaking) / options_.step + 0.5);
     if (layer_steps_ > 0 && done()) return true;
     while (layer_steps_ < most) {
+      if (observe_) observe_(world_);
       if (collapse_) collapse_->before_step();
       world_.step();
       if (collapse_) collapse_->after_step();
@@ -193,6 +196,7 @@ class Settling {
   const Pile& pile_;
   const SettleOptions& options_;
   const SettleCallback& progress_;
+  const WorldObserver& observe_;
   World& world_;
   std::optional<BuildingCollapse> collapse_;
   int layers_ = 0, layers_at_limit_ = 0;
@@ -243,30 +247,32 @@ void SettleOptions::validate() const {
 }
 
 PileState settle_pile(const Pile& pile, const SettleOptions& options,
-                      const SettleCallback& progress) {
+                      const SettleCallback& progress, const WorldObserver& observe) {
   options.validate();
   World world(pile.types, calc_world_options(options), pile.assemblies);
-  return settle_pile(world, pile, options, progress);
+  return settle_pile(world, pile, options, progress, observe);
 }
 
 PileState settle_pile(World& world, const Pile& pile, const SettleOptions& options,
-                      const SettleCallback& progress) {
+                      const SettleCallback& progress, const WorldObserver& observe) {
   options.validate();
-  return Settling(world, pile, options, progress).run();
+  return Settling(world, pile, options, progress, observe).run();
 }
 
 PileState resume_settling(const SettleCheckpoint& checkpoint, const Pile& pile,
-                          const SettleOptions& options, const SettleCallback& progress) {
+                          const SettleOptions& options, const SettleCallback& progress,
+                          const WorldObserver& observe) {
   options.validate();
   World world(pile.types, calc_world_options(options), pile.assemblies);
-  return resume_settling(world, checkpoint, pile, options, progress);
+  return resume_settling(world, checkpoint, pile, options, progress, observe);
 }
 
 PileState resume_settling(World& world, const SettleCheckpoint& checkpoint, const Pile& pile,
-                          const SettleOptions& options, const SettleCallback& progress) {
+                          const SettleOptions& options, const SettleCallback& progress,
+                          const WorldObserver& observe) {
   options.validate();
   check_checkpoint(checkpoint, pile, options);
-  return Settling(world, pile, options, progress).resume(checkpoint);
+  return Settling(world, pile, options, progress, observe).resume(checkpoint);
 }
 
 WorldOptions calc_world_options(const SettleOptions& options) {

@@ -48,19 +48,26 @@ struct SettleProgress {
 // Called after each step; return false to stop early (the state is then not settled).
 using SettleCallback = std::function<bool(const SettleProgress&)>;
 
+// Looks at the world without changing it: before each step, when the pieces of a new layer are there
+// already, and once at the end; not at the end of a settling that is stopped early. So the looks of one
+// that is stopped and resumed are together those of one that is not.
+using WorldObserver = std::function<void(const World&)>;
+
 // Runs until every piece rests or a time limit comes. Same input, same bits.
 PileState settle_pile(const Pile& pile, const SettleOptions& options = {},
-                      const SettleCallback& progress = {});
+                      const SettleCallback& progress = {}, const WorldObserver& observe = {});
 // The same in a world of the caller's, who may look at it in the callback and go on from its end.
 // world: empty, with the types and assemblies of the pile and calc_world_options(options).
 PileState settle_pile(World& world, const Pile& pile, const SettleOptions& options = {},
-                      const SettleCallback& progress = {});
+                      const SettleCallback& progress = {}, const WorldObserver& observe = {});
 // Continues from a checkpoint of the same pile and options; only the threads may differ. Equals
 // never having stopped, bit for bit. Throws InputError for a checkpoint of other work.
 PileState resume_settling(const SettleCheckpoint& checkpoint, const Pile& pile,
-                          const SettleOptions& options = {}, const SettleCallback& progress = {});
+                          const SettleOptions& options = {}, const SettleCallback& progress = {},
+                          const WorldObserver& observe = {});
 PileState resume_settling(World& world, const SettleCheckpoint& checkpoint, const Pile& pile,
-                          const SettleOptions& options = {}, const SettleCallback& progress = {});
+                          const SettleOptions& options = {}, const SettleCallback& progress = {},
+                          const WorldObserver& observe = {});
 WorldOptions calc_world_options(const SettleOptions& options);
 
 }  // namespace rubble

@@ -58,6 +58,43 @@ RUBBLE_INLINE T shrink_into_cone(T limit, T length2) {
   return choose(outside, limit / length, T(1));
 }
 
+// A contact at one point carries on a patch too: a corner of concrete is crushed, at 30 MPa, to a disc of
+// this radius by 100 N. Without it nothing stops a piece that turns about the line through the two points
+// that hold it. unit: m
+inline constexpr float kPatchRadius = 0.001F;
+
+// The friction impulse on the edge of the cone that opposes what slip is left. sticking: the impulse,
+// outside the cone, that would leave no slip; matrix: J M^-1 J^T of the two tangents (00, 01, 11). Where
+// that is far from a multiple of 1, as at the ends of a robot's tracks, sticking itself points elsewhere.
+// The slip that an impulse x leaves is K (x - sticking); it is against x where (K + s) x = K sticking
+// for a number s > 0, found by Newton's method on the length of x (More and Sorensen 1983).
+inline void solve_slide(const double* matrix, double limit, const double* sticking, double* x) {
+  // Newton's method on 1 / length converges in two to four steps; what is left is scaled away; unit: 1
+  constexpr int kMostSteps = 8;
+  // Lengths that differ from the limit by less than this share of it count as equal; unit: 1
+  constexpr double kClose = 1e-6;
+  const double k00 = matrix[0], k01 = matrix[1], k11 = matrix[2];
+  const double b0 = k00 * sticking[0] + k01 * sticking[1], b1 = k01 * sticking[0] + k11 * sticking[1];
+  double s = 0, x0 = sticking[0], x1 = sticking[1], length = std::sqrt(x0 * x0 + x1 * x1);
+  for (int i = 0; i < kMostSteps && length > limit * (1 + kClose) && limit > 0; ++i) {
+    const double d00 = k00 + s, d11 = k11 + s, inverse = 1 / (d00 * d11 - k01 * k01);
+    const double y = (d11 * x0 * x0 - 2 * k01 * x0 * x1 + d00 * x1 * x1) * inverse;
+    s += length * length / y * (length - limit) / limit;
+    const double e00 = k00 + s, e11 = k11 + s, next = 1 / (e00 * e11 - k01 * k01);
+    x0 = (e11 * b0 - k01 * b1) * next, x1 = (e00 * b1 - k01 * b0) * next;
+    length = std::sqrt(x0 * x0 + x1 * x1);
+  }
+  const double shrink = length > limit ? limit / length : 1;
+  x[0] = x0 * shrink, x[1] = x1 * shrink;
+}
+
+// What a patch that slides has left for friction about its normal: on the ellipsoid that bounds both
+// together (Howe and Cutkosky 1996), as the limit of a patch that only turns.
+inline double left_for_twist(double limit, const double* slide) {
+  const double left2 = limit * limit - slide[0] * slide[0] - slide[1] * slide[1];
+  return left2 > 0 ? std::sqrt(left2) : 0;
+}
+
 // Friction about the normal, of a patch with that mean radius.
 template <typename T>
 RUBBLE_INLINE T clamp_twist(T limit, T radius, T twist) {

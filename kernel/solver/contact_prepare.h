@@ -205,11 +205,11 @@ RUBBLE_INLINE void prepare_batch(ContactBatch& batch, const Contact* contacts,
   prepare_friction(a, b, middle_a, middle_b, friction_impulse, normal, used, batch);
   const Packet3<P> twist_a = a.turn(normal), twist_b = b.turn(normal);
   const P twist = dot(normal, twist_a + twist_b);
-  const P twist_mass = batch.rows > 1 ? select(twist > zero, one / twist, zero) : zero;
+  const P twist_mass = select(twist > zero, one / twist, zero);
   select(used, twist_mass, zero).store(batch.twist_mass);
   select(used, along.w, zero).store(batch.twist_impulse);
   select(used, across.w, zero).store(batch.friction);
-  radius.store(batch.radius);
+  max(radius, P(contact_law::kPatchRadius)).store(batch.radius);
   normal.store(batch.normal);
   twist_a.store(batch.twist_a);
   twist_b.store(batch.twist_b);

@@ -71,20 +71,24 @@ void TreeContacts::save(const Item& item, const View& view, bool displacements,
 template <int sides>
 void TreeContacts::solve_friction(Item& item, double limit, View& view) {
   Row &first = item.slide[0], &second = item.slide[1];
-  const double v0 = first.relative<sides>(view), v1 = second.relative<sides>(view);
+  const double v0 = first.relative<sides>(view) + item.belt[0],
+               v1 = second.relative<sides>(view) + item.belt[1];
   const double* inverse = item.slide_inverse;
   const double wanted[2] = {first.impulse - inverse[0] * v0 - inverse[1] * v1,
                             second.impulse - inverse[1] * v0 - inverse[2] * v1};
-  const double shrink =
-      contact_law::shrink_into_cone(limit, wanted[0] * wanted[0] + wanted[1] * wanted[1]);
+  const double length2 = wanted[0] * wanted[0] + wanted[1] * wanted[1];
+  const double shrink = contact_law::shrink_into_cone(limit, length2);
+  double slide[2] = {wanted[0] * shrink, wanted[1] * shrink};
+  if (item.driven && shrink < 1) contact_law::solve_slide(item.slide_matrix, limit, wanted, slide);
   for (int t = 0; t < 2; ++t) {
-    const double next = wanted[t] * shrink;
+    const double next = slide[t];
     item.slide[t].apply<sides>(next - item.slide[t].impulse, view);
     item.slide[t].impulse = next;
   }
   Row& twist = item.twist;
   const double free = twist.impulse - twist.mass * twist.relative<sides>(view);
-  const double next = contact_law::clamp_twist(limit, item.radius, free);
+  const double left = item.driven ? contact_law::left_for_twist(limit, slide) : limit;
+  const double next = contact_law::clamp_twist(left, item.radius, free);
   twist.apply<sides>(next - twist.impulse, view);
   twist.impulse = next;
 }
@@ -151,7 +155,7 @@ void TreeContacts::clamp_accumulated_impulses(Item& item, double weight) {
   for (int i = 0; i < item.rows; ++i) {
     NormalRow& n = rows_[item.first_row + std::size_t(i)];
     n.row.total += n.row.impulse;
-    if (item.kind == Kind::loop || item.kind == Kind::dry) continue;
+    if (item.kind != Kind::contact && item.kind != Kind::stop) continue;
     n.row.impulse = contact_law::clamp_accumulated_impulses(n.row.impulse, n.carried, n.row.mass, weight);
     n.carried = n.row.impulse;
     carried += n.row.impulse;
@@ -170,9 +174,9 @@ void TreeContacts::clamp_accumulated_impulses(Item& item, double weight) {
 void TreeContacts::note_total(Item& item) {
   bool any = false;
   for (const Side& side : item.sides) {
-    any = any || (side.tree >= 0 && motion(side.tree).may_break());
+    any = any || (side.tree >= 0 && motion(side.tree).feels_loads());
   }
-  if (!any || item.kind == Kind::stop || item.kind == Kind::dry) return;
+  if (!any || (item.kind != Kind::contact && item.kind != Kind::loop)) return;
   const auto add = [&](const Row& row) {
     for (int s = 0; s < 2; ++s) item.total[s].add_scaled(row.jacobian[s], row.impulse);
   };
@@ -231,6 +235,8 @@ void TreeContacts::solve_velocities(double per_substep, const PaddedMotion* move
       solve_loop(item, view);
     } else if (item.kind == Kind::dry) {
       solve_dry(item, view);
+    } else if (item.kind == Kind::motor) {
+      solve_motor(item, view);
     } else {
       load_moved(item, moved, displaced);
       if (item.moving == 1) {
@@ -257,7 +263,7 @@ bool TreeContacts::begin_pushes(const SolverSettings& settings, const PaddedMoti
   const double full = double(settings.maximum_push), faded = full * (1 - double(settings.fading));
   for (std::int32_t index : sequence_) {
     const Item& item = items_[std::size_t(index)];
-    if (item.kind == Kind::dry) continue;
+    if (item.kind == Kind::dry || item.kind == Kind::motor) continue;
     View view;
     load(item, moved, true, view);
     for (int i = 0; i < item.rows; ++i) {
@@ -282,7 +288,7 @@ bool TreeContacts::begin_pushes(const SolverSettings& settings, const PaddedMoti
 void TreeContacts::solve_pushes(PaddedMotion* moved) {
   for (std::int32_t index : sequence_) {
     Item& item = items_[std::size_t(index)];
-    if (item.kind == Kind::dry) continue;
+    if (item.kind == Kind::dry || item.kind == Kind::motor) continue;
     View view;
     load(item, moved, true, view);
     for (int i = 0; i < item.rows; ++i) {
@@ -323,7 +329,8 @@ void TreeContacts::store_loop(const Item& item) {
 bool TreeContacts::acts(const Item& item) const {
   for (int i = 0; i < item.rows; ++i) {
     const NormalRow& n = rows_[item.first_row + std::size_t(i)];
-    if (n.row.total != 0 || n.push != 0 || item.kind == Kind::loop) return true;
+    if (n.row.total != 0 || n.push != 0) return true;
+    if (item.kind == Kind::loop || item.kind == Kind::motor) return true;
   }
   return false;
 }
@@ -333,7 +340,7 @@ void TreeContacts::store(const std::vector<Body>&, std::vector<Contact>& contact
     for (int s = 0; s < 2; ++s) {
       if (item.sides[s].tree < 0) continue;
       TreeMotion& tree = motion(item.sides[s].tree);
-      tree.note_impulse(item.sides[s].link, item.total[s]);
+      tree.note_impulse(item.sides[s].link, item.total[s], item.kind == Kind::contact);
       tree.impelled = tree.impelled || acts(item);
     }
     if (item.kind == Kind::loop) store_loop(item);
@@ -343,6 +350,7 @@ void TreeContacts::store(const std::vector<Body>&, std::vector<Contact>& contact
         kept[i] = rows_[item.first_row + std::size_t(i)].row.impulse;
       }
     }
+    if (item.kind == Kind::motor) store_motor(item);
     if (item.kind != Kind::contact) continue;
     Contact& contact = contacts[std::size_t(item.source)];
     double pressed = 0;

@@ -87,7 +87,7 @@ class TreeContacts {
     double gap = 0, carried = 0, push_mass = 0, push_target = 0, push = 0;
     Vec3 from_a, from_b;  // of the point, from the centres of mass
   };
-  enum class Kind : std::uint8_t { contact, stop, loop, dry };  // dry friction in a joint
+  enum class Kind : std::uint8_t { contact, stop, loop, dry, motor };  // dry friction in a joint
   struct Item {
     Kind kind = Kind::contact;
     std::int32_t source = -1;  // index of the contact; of the loop or the link in its tree
@@ -98,14 +98,17 @@ class TreeContacts {
     int rows = 0;
     double friction = 0, radius = 0;  // a coefficient; of a joint: impulse of a substep at most
     Vec3 normal, tangents[2];
+    double belt[2] = {};  // along the tangents, of the surface of B less that of A; unit: m/s
     Row slide[2], twist;
-    double slide_inverse[3] = {};  // of the symmetric matrix J M^-1 J^T of the two
+    double slide_matrix[3] = {}, slide_inverse[3] = {};  // J M^-1 J^T of the two, symmetric
+    bool driven = false;  // a robot takes part: see solve_slide()
     Spatial total[2];  // impulse of the step, where joints may break
   };
   class Builder;
 
   void add_stops(std::int32_t tree);
   void add_dry_friction(std::int32_t tree);
+  void add_motors(std::int32_t tree);
   void add_loops(const std::vector<Body>& bodies, std::int32_t tree);
   // By tree, bottom up, and along each tree: the focus of LinkMotions then seldom goes far.
   void sort_items(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
@@ -132,10 +135,12 @@ class TreeContacts {
   void place_friction_of(Item& item);
   void solve_loop(Item& item, View& view);
   void solve_dry(Item& item, View& view);
+  void solve_motor(Item& item, View& view);
   double sum_impulses(const Item& item) const;
   void clamp_accumulated_impulses(Item& item, double weight);
   void note_total(Item& item);
   void store_loop(const Item& item);
+  void store_motor(const Item& item);
   bool acts(const Item& item) const;
 
   SolvedTrees trees_;

@@ -62,6 +62,60 @@ void TreeContacts::add_dry_friction(std::int32_t tree) {
   }
 }
 
+void TreeContacts::add_motors(std::int32_t tree) {
+  const TreeMotion& m = motion(tree);
+  for (std::size_t link = 1; link < m.tree().links.size(); ++link) {
+    const TreeLink& l = m.tree().links[link];
+    if (!l.motor.on || speed_count(l.mobility) != 1) continue;
+    Item item;
+    item.kind = Kind::motor;
+    item.source = std::int32_t(link);
+    item.sides[0] = link_side(tree, l.parent);
+    item.sides[1] = link_side(tree, std::int32_t(link));
+    couple_sides(item);
+    item.friction = l.motor.effort * substep_;
+    item.first_row = rows_.size();
+    item.rows = 1;
+    const Spatial& force = m.pose().duals[std::size_t(l.first_u)];
+    NormalRow n;
+    n.row = make_row(item, force * -1.0, force);
+    n.row.impulse = l.motor.impulse;
+    rows_.push_back(n);
+    items_.push_back(item);
+  }
+}
+
+// The motor's law at the substep's end, where it will have turned by h u more:
+//   impulse = h (k (position - q - h u) + c (speed - u) + torque) = wanted - resistance u
+void TreeContacts::solve_motor(Item& item, View& view) {
+  const TreeMotion& m = motion(item.sides[1].tree);
+  const TreeLink& link = m.tree().links[std::size_t(item.source)];
+  const TreeMotor& motor = link.motor;
+  Row& row = rows_[item.first_row].row;
+  if (row.mass == 0) return;
+  const double q = m.q()[std::size_t(link.first_q)], h = substep_;
+  const double resistance = h * (motor.damping + h * motor.stiffness);
+  double wanted = h * (motor.stiffness * (motor.position - q) + motor.damping * motor.speed);
+  if (motor.stiffness > 0 && motor.speed_limit > 0) {
+    const double most = resistance * motor.speed_limit;
+    wanted = std::clamp(wanted, -most, most);
+  }
+  wanted += h * motor.torque;
+  const double left = wanted - resistance * row.relative<2>(view) - row.impulse;
+  const double next = std::clamp(row.impulse + left / (1 + resistance / row.mass), -item.friction,
+                                 item.friction);
+  row.apply<2>(next - row.impulse, view);
+  row.impulse = next;
+}
+
+void TreeContacts::store_motor(const Item& item) {
+  TreeMotion& m = motion(item.sides[1].tree);
+  TreeLink& link = m.tree().links[std::size_t(item.source)];
+  const Row& row = rows_[item.first_row].row;
+  link.motor.impulse = row.impulse;
+  link.motor.mean = row.total / m.step();
+}
+
 // What a loop holds: the joint's frame in B along and about the axes of that in A.
 void TreeContacts::add_loops(const std::vector<Body>& bodies, std::int32_t tree) {
   const TreeMotion& m = motion(tree);

@@ -13,6 +13,10 @@ namespace {
 // counts as held by the tree's joints.
 constexpr double kRedundant = 1e-6;
 
+// Where the normal leans towards a belt's axis until its part across is less than this, the surface is the
+// belt's edge, which slows down to nothing at the end of the axis; unit: 1.
+constexpr double kBeltEdge = 0.5;
+
 // Places of the links in a walk along the tree, each branch after the other.
 std::vector<std::int32_t> calc_places(const Tree& tree) {
   const std::size_t count = tree.links.size();
@@ -79,16 +83,31 @@ class TreeContacts::Builder {
     return side;
   }
 
+  // Of the belt that runs round a link, against the link, where its surface faces `outwards`.
+  Vec3 belt_velocity(std::int32_t index, const Vec3& outwards) const {
+    if (index == kGround || bodies_[std::size_t(index)].tree < 0) return {};
+    const Body& body = bodies_[std::size_t(index)];
+    if (!body.awake) return {};
+    const TreeLink& link = all_.motion(body.tree).tree().links[std::size_t(body.link)];
+    if (link.belt_speed == 0) return {};
+    const Vec3 along = cross(body.world_from_com.rotation.rotate(link.belt_axis), outwards);
+    return along * (link.belt_speed / std::max(norm(along), kBeltEdge));
+  }
+
   void add_friction(Item& item, const Contact& contact) {
     const Vec3& n = item.normal;
     item.tangents[0] =
         normalized(cross(n, std::abs(n.x) < 0.57735 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
     item.tangents[1] = cross(n, item.tangents[0]);
+    const Vec3 belt = belt_velocity(contact.body_b, n * -1.0) - belt_velocity(contact.body_a, n);
     for (int t = 0; t < 2; ++t) {
       item.slide[t].impulse = dot(item.tangents[t], Vec3(contact.friction_impulse));
+      item.belt[t] = dot(item.tangents[t], belt);
+    }
+    for (const Side& side : item.sides) {
+      item.driven = item.driven || (side.tree >= 0 && all_.motion(side.tree).tree().driven);
     }
     item.twist = all_.make_row(item, {n * -1.0, {}}, {n, {}});
-    if (contact.count < 2) item.twist.mass = 0;
     item.twist.impulse = double(contact.twist_impulse);
   }
 
@@ -185,6 +204,7 @@ void TreeContacts::place_friction_of(Item& item) {
   }
   item.radius = 0;
   for (int i = 0; i < item.rows; ++i) item.radius += share[i] * norm(rows[i].from_a - centre_a);
+  item.radius = std::max(item.radius, double(contact_law::kPatchRadius));
   for (int t = 0; t < 2; ++t) {
     const Vec3& along = item.tangents[t];
     set_row(item, force_at(item.sides[0].arm + centre_a, along * -1.0),
@@ -194,6 +214,7 @@ void TreeContacts::place_friction_of(Item& item) {
   const double k00 = r.couple<sides>(r), k01 = r.couple<sides>(s), k11 = s.couple<sides>(s);
   const double determinant = k00 * k11 - k01 * k01;
   const double inverse = determinant > 0 ? 1 / determinant : 0;
+  item.slide_matrix[0] = k00, item.slide_matrix[1] = k01, item.slide_matrix[2] = k11;
   item.slide_inverse[0] = k11 * inverse;
   item.slide_inverse[1] = -k01 * inverse;
   item.slide_inverse[2] = k00 * inverse;
@@ -251,6 +272,7 @@ void TreeContacts::begin(const SolverSettings& settings, const std::vector<Body>
     motion(tree).begin_substeps(substep_);
     add_stops(tree);
     add_dry_friction(tree);
+    add_motors(tree);
     add_loops(bodies, tree);
   }
   Builder builder(*this, bodies, number, share);

@@ -25,9 +25,10 @@ Quad quad_of(const Vec3f& v) { return Quad{v.x, v.y, v.z, 0}; }
 
 Mat3f to_float(const Mat3& m) { return {{Vec3f(m.rows[0]), Vec3f(m.rows[1]), Vec3f(m.rows[2])}}; }
 
-void check_movable(const NewPiece& piece, const std::vector<PieceType>& types, int index) {
-  const std::size_t type = std::size_t(piece.placement.type);
-  if (piece.placement.fixed || type >= types.size() || !types[type].surface) return;
+void check_movable(const NewPiece& piece, const std::vector<PieceType>& types, int placeable,
+                   int index) {
+  const int type = piece.placement.type;
+  if (piece.placement.fixed || type >= placeable || !types[std::size_t(type)].surface) return;
   Diagnostic d;
   d.key = "pieces[" + std::to_string(index) + "].fixed";
   d.message = "a surface cannot move";
@@ -63,6 +64,7 @@ constexpr double kHangingTime = 0.15;
 World::Impl::Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options,
                   std::vector<AssemblyType> assembly_types)
     : types(std::move(piece_types)),
+      placeable_types(int(types.size())),
       assemblies(std::move(assembly_types)),
       options(world_options),
       pool(world_options.threads) {
@@ -210,10 +212,10 @@ int World::add(const std::vector<NewPiece>& pieces) {
   Impl& w = *impl_;
   const int first = size();
   w.data.verification_steps = -1;
-  const int types = int(w.types.size()), kinds = types + int(w.assemblies.size());
+  const int types = w.placeable_types, kinds = types + int(w.assemblies.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     check(pieces[i], kinds, int(i));
-    check_movable(pieces[i], w.types, int(i));
+    check_movable(pieces[i], w.types, types, int(i));
   }
   std::vector<FreeBody> free;  // by body; those of links are not used
   for (const NewPiece& piece : pieces) {
@@ -221,38 +223,49 @@ int World::add(const std::vector<NewPiece>& pieces) {
       free.emplace_back();
       w.add_body(piece, &free.back());
     } else {
-      w.add_tree(piece);
+      w.add_assembly(piece);
       free.resize(std::size_t(size() - first));
     }
   }
 
+  w.add_to_blocks(first, free);
+  w.introduce(first);
+  return first;
+}
+
+// free: by body, from `first` on.
+void World::Impl::add_to_blocks(int first, const std::vector<FreeBody>& free) {
   // Neighbours in height land and fall asleep together, so they share a block.
   std::vector<std::int32_t> order;
-  for (int i = first; i < size(); ++i) {
-    if (w.data.bodies[i].mass > 0 && w.data.bodies[i].tree < 0) order.push_back(i);
+  for (int i = first; i < int(data.bodies.size()); ++i) {
+    if (data.bodies[i].mass > 0 && data.bodies[i].tree < 0) order.push_back(i);
   }
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return w.data.bodies[a].world_from_com.translation.z <
-           w.data.bodies[b].world_from_com.translation.z;
+    return data.bodies[a].world_from_com.translation.z <
+           data.bodies[b].world_from_com.translation.z;
   });
   std::vector<FreeBody> sorted;
-  for (int body : order) sorted.push_back(free[body - first]);
-  int mobile = w.blocks.add(sorted);
-  for (int body : order) w.data.bodies[body].simbody_index = mobile++;
+  for (int body : order) sorted.push_back(free[std::size_t(body - first)]);
+  int mobile = blocks.add(sorted);
+  for (int body : order) data.bodies[body].simbody_index = mobile++;
+}
 
-  for (int i = first; i < size(); ++i) {
-    Body& body = w.data.bodies[i];
-    w.refresh(body);
-    for (int c = 0; c < body.collider_count; ++c) {
+void World::Impl::introduce(int first) {
+  const int count = int(data.bodies.size());
+  for (int i = first; i < count; ++i) {
+    Body& body = data.bodies[i];
+    refresh(body);
+    for (int c = 0; c < body.collider_count && !body.lost; ++c) {
       const int collider = body.first_collider + c;
-      w.data.broad.update(collider, w.data.colliders[collider].box, {});
+      data.broad.update(collider, data.colliders[collider].box, {});
     }
   }
-  const std::size_t surfaces = w.surfaces.size();
-  w.list_surfaces();
+  const std::size_t before = surfaces.size();
+  list_surfaces();
   // What was there before may lie near a surface that is new.
-  for (int i = w.surfaces.size() > surfaces ? 0 : first; i < size(); ++i) w.find_first_pairs(i);
-  return first;
+  for (int i = surfaces.size() > before ? 0 : first; i < count; ++i) {
+    if (!data.bodies[i].lost) find_first_pairs(i);
+  }
 }
 
 int World::size() const { return int(impl_->data.bodies.size()); }
@@ -294,6 +307,10 @@ PieceState World::piece(int index) const {
                  : body.awake     ? PieceStatus::moving
                                   : PieceStatus::resting;
   return state;
+}
+
+Vec3 World::centre_of_mass(int index) const {
+  return impl_->data.bodies[std::size_t(index)].com_in_type;
 }
 
 void World::set_velocity(int index, const Vec3& linear, const Vec3& angular) {

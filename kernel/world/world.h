@@ -11,6 +11,7 @@
 
 #include "kernel/model/pile.h"
 #include "kernel/model/pile_state.h"
+#include "kernel/model/robot.h"
 
 namespace rubble {
 
@@ -64,7 +65,33 @@ class World {
   // range.
   int add(const std::vector<NewPiece>& pieces);
 
+  // Lays a pile that has settled into an empty world with the pile's types and assemblies, every piece
+  // where it was, asleep, with its joints; pieces keep their numbers. What each contact carries is found by
+  // letting all of them be awake for half a second. fixed: nothing of it ever moves. Throws InputError for
+  // a state of another pile.
+  void lay(const Pile& pile, const PileState& state, bool fixed = false);
+
   void step();
+  // Changes the length of the steps to come, e.g. when robots are put into a pile that has settled. What
+  // sleepers carry goes with it. substeps: of the contact solver, range 1 to 64. Throws InputError for a
+  // step out of range.
+  void set_step(double step, int substeps);
+
+  // Robots: articulated pieces that are driven, and so never sleep. Their links are pieces, numbered on
+  // from the first, of types that no other piece can have. A piece that a robot touches wakes.
+  //
+  // Returns the robot's number. world_from_base: of the first link's frame. Throws InputError for a model
+  // that is not valid.
+  int add_robot(const RobotModel& model, const Pose& world_from_base);
+  int robot_count() const;
+  int robot_piece(int robot) const;  // the number of its first link
+  const RobotModel& robot_model(int robot) const;
+  // Holds until the next. Targets beyond the limits of joints and belts are taken to them. Throws
+  // InputError for one that is not a number.
+  void set_command(int robot, const RobotCommand& command);
+  RobotState robot_state(int robot) const;
+  // Of the last step, those that carry an impulse or overlap; by link.
+  std::vector<RobotContact> robot_contacts(int robot) const;
 
   // Pieces that hold together as one rigid body: a structure before it breaks. bind() makes one of fixed,
   // neighbouring numbers, unscaled and turned alike; they stay fixed until split() frees some. A body
@@ -89,6 +116,7 @@ class World {
   double time() const;  // simulated; unit: s
 
   PieceState piece(int index) const;
+  Vec3 centre_of_mass(int index) const;  // in the frame of the piece's type, scaled; unit: m
   bool is_awake(int index) const;
   bool is_touching(int index) const;  // something, in the last step
   // Changes a piece's speeds and wakes it. Immovable pieces cannot be changed. A link takes its tree

@@ -6,8 +6,6 @@
 namespace rubble {
 namespace {
 
-constexpr float kPartedDistance = 0.002F;  // pieces whose joint broke may touch once they are so far apart; unit: m
-
 // Links of an old tree that stay together, the first of them as root.
 struct Fragment {
   std::vector<std::int32_t> links;
@@ -84,8 +82,10 @@ Tree cut_out(const Tree& from, const TreeState& state, const Fragment& fragment,
 
 }  // namespace
 
+// The two pieces of a broken joint touch each other from the next step on. Where they overlap, as a bar
+// does that was cast into a slab, they are pushed apart as any others are.
 void World::Impl::break_joints() {
-  forget_parted();
+  released.clear();
   for (std::int32_t tree : awake_trees) {
     const std::vector<Spatial>& loads = tree_motions[tree].loads();
     const std::vector<TreeLink>& links = data.trees[tree].links;
@@ -100,6 +100,7 @@ void World::Impl::break_joints() {
     open_loops(tree);
     if (any) split_tree(tree, broken);
   }
+  for (const std::int32_t body : released) find_first_pairs(body);
 }
 
 // Joints that closed a loop and broke: the tree stays as it is.
@@ -111,9 +112,7 @@ void World::Impl::open_loops(int index) {
       ++i;
       continue;
     }
-    const std::int32_t a = tree.links[std::size_t(loop.link_a)].body,
-                       b = tree.links[std::size_t(loop.link_b)].body;
-    data.parted.push_back({std::min(a, b), std::max(a, b)});
+    released.push_back(tree.links[std::size_t(loop.link_a)].body);
     tree.loops.erase(tree.loops.begin() + std::ptrdiff_t(i));
   }
 }
@@ -122,9 +121,7 @@ void World::Impl::split_tree(int index, const std::vector<std::uint8_t>& broken)
   const Tree old = data.trees[index];
   const TreeState state = simbody_trees.state(index);
   for (std::size_t i = 0; i < old.links.size(); ++i) {
-    if (!broken[i]) continue;
-    const std::int32_t a = old.links[i].body, b = old.links[std::size_t(old.links[i].parent)].body;
-    data.parted.push_back({std::min(a, b), std::max(a, b)});
+    if (broken[i]) released.push_back(old.links[i].body);
   }
   data.trees[index] = {};
   simbody_trees.replace(index, {}, data.bodies, {});
@@ -157,38 +154,6 @@ void World::Impl::release(const TreeLink& link) {
   if (body.mass == 0) return;
   body.simbody_index =
       blocks.add({{body.mass, body.inertia, body.world_from_com, link.linear, link.angular}});
-}
-
-bool World::Impl::are_apart(const Body& a, const Body& b) const {
-  for (int i = 0; i < a.collider_count; ++i) {
-    const PosedBody one = posed(data.colliders[a.first_collider + i]);
-    for (int k = 0; k < b.collider_count; ++k) {
-      const PosedBody other = posed(data.colliders[b.first_collider + k]);
-      GjkCache cache;
-      const GjkResult result =
-          calc_distance(one.part.corners, other.part.corners, Vec3f(other.centre - one.centre),
-                        kPartedDistance, cache);
-      if (result.kind == GjkResult::Kind::overlapping) return false;
-      if (result.kind == GjkResult::Kind::separated && result.distance < kPartedDistance) {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
-void World::Impl::forget_parted() {
-  for (std::size_t i = 0; i < data.parted.size();) {
-    const PartedPair pair = data.parted[i];
-    const Body &a = data.bodies[pair.body_a], &b = data.bodies[pair.body_b];
-    const bool gone = a.lost || b.lost;
-    if (!gone && ((!a.awake && !b.awake) || !are_apart(a, b))) {
-      ++i;
-      continue;
-    }
-    data.parted.erase(data.parted.begin() + std::ptrdiff_t(i));
-    if (!gone) find_first_pairs(pair.body_a);
-  }
 }
 
 }  // namespace rubble

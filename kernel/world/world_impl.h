@@ -1,6 +1,7 @@
 // The inside of World: its data and the stages of a step. Not for use outside kernel/.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <tuple>
 #include <unordered_map>
@@ -19,9 +20,9 @@
 
 namespace rubble {
 
-// Two pieces whose joint broke: they do not touch each other until they have come apart.
-struct PartedPair {
-  std::int32_t body_a = 0, body_b = 0;
+// Which bodies are a robot: those from `first_body` on, in the order of its links.
+struct RobotRecord {
+  std::int32_t tree = 0, first_body = 0;
 };
 
 // Pieces that hold together: one rigid body.
@@ -41,7 +42,7 @@ struct WorldData {
   std::unordered_map<std::uint64_t, std::int32_t> contact_of_pair;  // looked up, never walked
   std::vector<std::uint8_t> wake_next;                              // by body
   std::vector<Tree> trees;          // those that came apart keep their place, without links
-  std::vector<PartedPair> parted;
+  std::vector<RobotRecord> robots;
   std::vector<RigidGroup> groups;   // those that came apart keep their place
   std::int64_t steps = 0;
   std::int64_t verification_steps = -1;  // since begin_rest_verification(); -1: no verification
@@ -84,9 +85,11 @@ struct World::Impl {
   Impl(std::vector<PieceType> piece_types, const WorldOptions& world_options,
        std::vector<AssemblyType> assembly_types);
 
-  std::vector<PieceType> types;
+  std::vector<PieceType> types;  // those of the links of robots come last
+  int placeable_types = 0;       // the others
   std::vector<AssemblyType> assemblies;
-  std::vector<Shape> shapes;
+  std::deque<Shape> shapes;      // by type; bodies point at them
+  std::vector<RobotModel> robots;
   WorldOptions options;
   SolverSettings solver_settings;
   NarrowSettings narrow_settings;
@@ -123,12 +126,15 @@ struct World::Impl {
   std::vector<TreeMotion> tree_motions;       // by number of the tree
   std::vector<std::int32_t> awake_trees;
   std::vector<std::uint8_t> is_solved;        // by number of the tree
+  std::vector<std::int32_t> released;  // a body of each joint that broke in this step
   SolvedTrees solved_trees;
 
   // world.cpp
   void add_body(const NewPiece& piece, FreeBody* free);
   void mirror(Body& body);   // q and u from Simbody
   void refresh(Body& body);  // rotation, inertia, corners, boxes
+  void add_to_blocks(int first, const std::vector<FreeBody>& free);
+  void introduce(int first);  // bodies from there on to all others
   void find_first_pairs(int body);
   void list_surfaces();
   Vec3 linear_velocity(const Body& body) const;
@@ -216,8 +222,22 @@ struct World::Impl {
   void remove_lost();
   void lose(int body);
 
+  // world_resume.cpp
+  void join_settled(const Pile& pile, const PileState& state);
+  void lay_to_rest(const PileState& state, const std::vector<TreeState>& trees);
+
+  // world_robots.cpp
+  int add_robot(const RobotModel& model, const Pose& world_from_base);
+  void set_command(int robot, const RobotCommand& command);
+  bool touches_robot(const Contact& contact) const;
+  bool is_driven(std::int32_t body) const;
+  void stay_awake_near_robots();  // in `slept`
+  bool is_of_robot(const Contact& contact, const RobotRecord& robot) const;
+
   // world_trees.cpp
-  void add_tree(const NewPiece& piece);
+  void add_assembly(const NewPiece& piece);
+  Tree make_tree(const AssemblyType& assembly, const NewPiece& piece);
+  void start_tree(const Tree& tree, const NewPiece& piece, const std::vector<double>& joint_positions);
   bool are_joined(int body_a, int body_b) const;
   bool is_awake(const Tree& tree) const;
   void begin_trees();
@@ -237,8 +257,6 @@ struct World::Impl {
   void open_loops(int tree);
   void split_tree(int tree, const std::vector<std::uint8_t>& broken);
   void release(const TreeLink& link);
-  void forget_parted();
-  bool are_apart(const Body& a, const Body& b) const;
 };
 
 // Of a group those of all its members; by number.

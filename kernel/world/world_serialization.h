@@ -70,12 +70,25 @@ void each_field(Struct& broad, Visit&& visit) {
   BroadPhase::each_field(broad, visit);
 }
 
+template <typename Struct, typename Visit, IfIs<Struct, TreeMotor> = 0>
+void each_field(Struct& m, Visit&& visit) {
+  visit(m.on), visit(m.stiffness), visit(m.damping), visit(m.position), visit(m.speed);
+  visit(m.torque), visit(m.effort), visit(m.speed_limit), visit(m.impulse), visit(m.mean);
+  visit(m.work);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, LinkLoads> = 0>
+void each_field(Struct& l, Visit&& visit) {
+  visit(l.contact_force), visit(l.contact_moment), visit(l.joint_force), visit(l.joint_moment);
+}
+
 template <typename Struct, typename Visit, IfIs<Struct, TreeLink> = 0>
 void each_field(Struct& l, Visit&& visit) {
   visit(l.body), visit(l.parent), visit(l.mobility), visit(l.first_q), visit(l.first_u);
   visit(l.parent_from_joint), visit(l.link_from_joint), visit(l.stiffness), visit(l.damping), visit(l.friction);
   visit(l.yield), visit(l.break_force), visit(l.break_torque), visit(l.lower), visit(l.upper);
   visit(l.collide), visit(l.rest), visit(l.rest_rotation), visit(l.friction_impulse), visit(l.linear), visit(l.angular);
+  visit(l.motor), visit(l.belt_axis), visit(l.belt_speed), visit(l.loads);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, TreeLoop> = 0>
@@ -88,6 +101,7 @@ void each_field(Struct& l, Visit&& visit) {
 template <typename Struct, typename Visit, IfIs<Struct, Tree> = 0>
 void each_field(Struct& t, Visit&& visit) {
   visit(t.links), visit(t.loops), visit(t.q_count), visit(t.u_count), visit(t.mass), visit(t.root);
+  visit(t.driven);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, TreeState> = 0>
@@ -95,9 +109,9 @@ void each_field(Struct& s, Visit&& visit) {
   visit(s.q), visit(s.u);
 }
 
-template <typename Struct, typename Visit, IfIs<Struct, PartedPair> = 0>
-void each_field(Struct& p, Visit&& visit) {
-  visit(p.body_a), visit(p.body_b);
+template <typename Struct, typename Visit, IfIs<Struct, RobotRecord> = 0>
+void each_field(Struct& r, Visit&& visit) {
+  visit(r.tree), visit(r.first_body);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, RigidGroup> = 0>
@@ -109,8 +123,9 @@ template <typename Struct, typename Visit, IfIs<Struct, WorldData> = 0>
 void each_field(Struct& d, Visit&& visit) {
   visit(d.bodies), visit(d.colliders), visit(d.corners), visit(d.broad), visit(d.pairs);
   visit(d.contacts);
-  visit(d.contact_of_pair), visit(d.wake_next), visit(d.trees), visit(d.parted), visit(d.groups), visit(d.steps);
+  visit(d.contact_of_pair), visit(d.wake_next), visit(d.trees), visit(d.groups), visit(d.steps);
   visit(d.verification_steps), visit(d.all_awake_since), visit(d.lost);
+  visit(d.robots);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, FreeBody> = 0>

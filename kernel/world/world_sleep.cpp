@@ -33,6 +33,9 @@ constexpr SleepTerms kVerifying{0.001, 0.5, 0.004, 1.0, 0.1F, 0.25F, 0.05F};
 constexpr float kUnbalancedSpeed = 0.01F;  // unit: m/s
 constexpr float kUnbalancedLoad = 0.05F;   // unit: 1
 
+// The speeds above are those of steps of 1/60 s: in a shorter step a force gives less speed.
+constexpr double kStepsPerSecond = 60;  // unit: 1/s
+
 // Overlaps deeper than this keep a piece awake for a while.
 constexpr float kSleepOverlap = 0.003F;    // unit: m
 constexpr double kSleepOverlapTime = 2.0;  // unit: s
@@ -66,7 +69,8 @@ void count_still(const Body& body, const Vec3f& reach, double distance, Pose& po
 
 // What carries a high load is clamped by it, and changes of a fraction of the load do not matter.
 float World::Impl::wake_impulse(const Body& body) const {
-  return terms(data).wake_speed * float(body.mass) + terms(data).wake_load * body.load;
+  const float steps = float(options.step * kStepsPerSecond);
+  return terms(data).wake_speed * steps * float(body.mass) + terms(data).wake_load * body.load;
 }
 
 void World::Impl::wake(int index) {
@@ -145,7 +149,8 @@ void World::Impl::wake_hit() {
 }
 
 bool World::Impl::is_unbalanced(const Body& body, const Vec3f& change) const {
-  const float most = kUnbalancedSpeed * float(body.mass) + kUnbalancedLoad * body.load;
+  const float steps = float(options.step * kStepsPerSecond);
+  const float most = kUnbalancedSpeed * steps * float(body.mass) + kUnbalancedLoad * body.load;
   return dot(change, change) > most * most;
 }
 
@@ -174,7 +179,7 @@ void World::Impl::wake_changed() {
       const Body& body = data.bodies[i];
       if (body.awake || !body.movable()) continue;
       const float change = contact.pressed - contact.rest_pressed;
-      if (std::abs(change) > wake_impulse(body)) data.wake_next[i] = 1;
+      if (std::abs(change) > wake_impulse(body) || touches_robot(contact)) data.wake_next[i] = 1;
       lost_support[i] += contact.normal * (i == contact.body_a ? change : -change);
       unsettled.push_back(i);
     }
@@ -239,6 +244,7 @@ void World::Impl::update_sleep() {
     }
   });
   if (verifying) return update_verification();
+  stay_awake_near_robots();
   keep_trees_whole();
   put_to_sleep();
 }

@@ -202,9 +202,6 @@ bool is_consistent(const World::Snapshot& s) {
   for (const RigidGroup& g : d.groups) {
     for (const std::int32_t member : g.members) fine = fine && in_range(member, d.bodies.size());
   }
-  for (const PartedPair& p : d.parted) {
-    fine = fine && in_range(p.body_a, d.bodies.size()) && in_range(p.body_b, d.bodies.size());
-  }
   std::int32_t start = 0;
   for (const std::int32_t next : s.block_starts) {
     fine = fine && next >= start && next <= std::int32_t(s.simbody.size());

@@ -30,12 +30,16 @@ void add_loop(const JointType& joint, double scale, const Pose& assembly_from_jo
 
 }  // namespace
 
-void World::Impl::add_tree(const NewPiece& piece) {
-  const AssemblyType& assembly = assemblies[piece.placement.type - int(types.size())];
+void World::Impl::add_assembly(const NewPiece& piece) {
+  start_tree(make_tree(assemblies[std::size_t(piece.placement.type - placeable_types)], piece), piece,
+             {});
+}
+
+// Adds the links' bodies and joins them.
+Tree World::Impl::make_tree(const AssemblyType& assembly, const NewPiece& piece) {
   const double scale = piece.placement.scale;
   const int first = int(data.bodies.size()), number = int(data.trees.size());
   Tree tree;
-  TreeState state;
   std::vector<Pose> assembly_from_com;
   for (std::size_t i = 0; i < assembly.links.size(); ++i) {
     const AssemblyLink& design = assembly.links[i];
@@ -72,10 +76,21 @@ void World::Impl::add_tree(const NewPiece& piece) {
   }
   number_coordinates(tree);
   tree.root = data.bodies[first].world_from_com;
+  return tree;
+}
+
+// joint_positions: of the links with a joint of one coordinate, in their order; empty: as designed.
+void World::Impl::start_tree(const Tree& tree, const NewPiece& piece,
+                             const std::vector<double>& joint_positions) {
+  TreeState state;
   state.q.assign(std::size_t(tree.q_count), 0);
   state.u.assign(std::size_t(tree.u_count), 0);
+  std::size_t next = 0;
   for (const TreeLink& link : tree.links) {
     if (coordinate_count(link.mobility) >= 4) state.q[std::size_t(link.first_q)] = 1;
+    if (coordinate_count(link.mobility) == 1 && next < joint_positions.size()) {
+      state.q[std::size_t(link.first_q)] = joint_positions[next++];
+    }
   }
   if (!tree.has_fixed_root()) {
     const Quat& r = tree.root.rotation;
@@ -85,6 +100,7 @@ void World::Impl::add_tree(const NewPiece& piece) {
     const double speeds[6] = {w.x, w.y, w.z, v.x, v.y, v.z};
     std::copy(speeds, speeds + 6, state.u.begin());
   }
+  const int number = int(data.trees.size());
   data.trees.push_back(tree);
   simbody_trees.add(tree, data.bodies, state);
   mirror_state(number);
@@ -107,9 +123,6 @@ bool World::Impl::are_joined(int body_a, int body_b) const {
                          (loop.link_a == b.link && loop.link_b == a.link);
       if (these) return !loop.collide;
     }
-  }
-  for (const PartedPair& p : data.parted) {
-    if (p.body_a == std::min(body_a, body_b) && p.body_b == std::max(body_a, body_b)) return true;
   }
   return false;
 }
@@ -232,7 +245,7 @@ void World::Impl::mirror_state(int tree) {
 // Nobody falls asleep before all links of its tree do.
 void World::Impl::keep_trees_whole() {
   for (std::int32_t tree : awake_trees) {
-    bool all = true;
+    bool all = !data.trees[tree].driven;
     for (const TreeLink& link : data.trees[tree].links) {
       all = all && (slept[link.body] || !data.bodies[link.body].movable());
     }

@@ -29,7 +29,7 @@ void place(PreparedScene& out, PlacedMesh piece, std::uint32_t axis, RandomStrea
                      (std::uint32_t(random.next() >> 32) & ~3u) | axis};
   out.cluster_flags += mesh.levels.front().cluster_count;
   out.light_vertices += mesh.vertices.size();
-  if (piece.id != kGroundId) {
+  if (piece.id != kGroundId && !piece.moves) {
     const Vec3 reach = Vec3(1, 1, 1) * double(piece.radius);
     out.bounds.include(Vec3(piece.centre) - reach);
     out.bounds.include(Vec3(piece.centre) + reach);
@@ -71,6 +71,30 @@ void append_placed(const PlacedMesh& piece, std::uint32_t first_vertex, std::vec
                  piece.look_seed[0], piece.look_seed[1]});
 }
 
+// What moves reaches as far as its origin does, and its mesh about that.
+void include_motion(const Scene& scene, PreparedScene& out) {
+  if (scene.motion.moving.empty() || scene.motion.reach.empty()) return;
+  double most = 0;  // of a mesh's point from its origin
+  for (const std::uint32_t i : scene.motion.moving) {
+    const PlacedMesh& piece = out.placed[i];
+    const PreparedMesh& mesh = out.meshes[piece.mesh];
+    most = std::max(most, (double(norm(mesh.centre)) + double(mesh.radius)) * piece.scale);
+  }
+  const Vec3 margin = Vec3(1, 1, 1) * most;
+  out.bounds.include(scene.motion.reach.min - margin);
+  out.bounds.include(scene.motion.reach.max + margin);
+}
+
+void mark_moving(const Scene& scene, std::vector<std::uint8_t>& moves) {
+  moves.assign(scene.instances.size(), 0);
+  for (const std::uint32_t i : scene.motion.moving) {
+    if (i >= moves.size())
+      throw RunError("the motion of the scene refers to instance " + std::to_string(i) + " of " +
+                     std::to_string(moves.size()));
+    moves[i] = 1;
+  }
+}
+
 }  // namespace
 
 PreparedScene prepare_scene(const Scene& scene, int threads) {
@@ -82,6 +106,8 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
   });
   std::vector<std::uint32_t> axes;
   for (const PreparedMesh& mesh : out.meshes) axes.push_back(longest_axis(mesh));
+  std::vector<std::uint8_t> moves;
+  mark_moving(scene, moves);
   RandomStream random(scene.seed, "render.looks");
   for (const SceneInstance& instance : scene.instances) {
     if (instance.mesh >= out.meshes.size())
@@ -93,8 +119,10 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
     piece.world_from_mesh = instance.world_from_body;
     piece.id = instance.id;
     piece.label = instance.label;
+    piece.moves = moves[out.placed.size()];
     place(out, piece, axes[instance.mesh], random);
   }
+  include_motion(scene, out);
   if (scene.ground) {
     out.meshes.push_back(prepare_ground(out.bounds));
     PlacedMesh ground;
@@ -102,6 +130,25 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
     ground.id = kGroundId;
     ground.label = kGroundLabel;
     place(out, ground, 0, random);
+  }
+  return out;
+}
+
+PreparedScene resting_part(const PreparedScene& scene, std::vector<std::uint32_t>& first_light) {
+  PreparedScene out;
+  out.meshes = scene.meshes;
+  for (const PlacedMesh& piece : scene.placed) {
+    if (piece.moves) continue;
+    first_light.push_back(piece.first_light);
+    out.placed.push_back(piece);
+    out.placed.back().first_flag = std::uint32_t(out.cluster_flags);
+    out.placed.back().first_light = std::uint32_t(out.light_vertices);
+    out.cluster_flags += scene.meshes[piece.mesh].levels.front().cluster_count;
+    out.light_vertices += scene.meshes[piece.mesh].vertices.size();
+    if (piece.id == kGroundId) continue;
+    const Vec3 reach = Vec3(1, 1, 1) * double(piece.radius);
+    out.bounds.include(Vec3(piece.centre) - reach);
+    out.bounds.include(Vec3(piece.centre) + reach);
   }
   return out;
 }
@@ -145,7 +192,8 @@ GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
   static_assert(sizeof(BakedLight) == 8, "shaders read it as two 32-bit words");
   GpuGeometry out;
   std::vector<Texel> vertices, triangles, placed;
-  std::vector<std::uint32_t> indices, first_vertex;
+  std::vector<std::uint32_t> indices;
+  std::vector<std::uint32_t>& first_vertex = out.first_vertex;
   for (const PreparedMesh& mesh : scene.meshes) {
     first_vertex.push_back(std::uint32_t(vertices.size()));
     for (const PreparedVertex& v : mesh.vertices)
@@ -187,6 +235,21 @@ GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
     throw RunError("the scene needs tables of " + std::to_string(need) +
                    " entries; this graphics device holds " + std::to_string(most));
   return out;
+}
+
+void update_poses(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry) {
+  std::vector<Texel> placed;
+  for (const PlacedMesh& piece : scene.placed)
+    append_placed(piece, geometry.first_vertex[piece.mesh], placed);
+  gl.NamedBufferData(geometry.placed.name(), GLsizeiptr(placed.size() * sizeof(Texel)),
+                     placed.data(), GL_STREAM_DRAW);
+  check_gl(gl, "moving the pieces");
+}
+
+void update_light(const Gl& gl, const GpuGeometry& geometry, const std::vector<BakedLight>& light) {
+  gl.NamedBufferData(geometry.light.name(), GLsizeiptr(light.size() * sizeof(BakedLight)),
+                     light.data(), GL_STREAM_DRAW);
+  check_gl(gl, "handing the light over");
 }
 
 }  // namespace rubble

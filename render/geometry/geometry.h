@@ -24,6 +24,8 @@ struct PlacedMesh {
   std::uint32_t first_flag = 0;   // of its finest level's clusters, in per-cluster tables
   std::uint32_t first_light = 0;  // of its vertices, in the table of baked light
   std::array<std::uint32_t, 2> look_seed{};  // varies the look
+  bool moves = false;  // its pose is that of the present moment, see MovingPieces
+  bool there = true;   // false: what moves is not there at the present moment
 };
 
 inline constexpr std::uint32_t kGroundId = kGroundInstance;
@@ -34,9 +36,12 @@ struct PreparedScene {
   std::vector<PlacedMesh> placed;
   std::size_t cluster_flags = 0;   // clusters of the finest level over all placed meshes
   std::size_t light_vertices = 0;  // entries of the table of baked light
-  Aabb bounds;                     // of all pieces, without the ground
+  Aabb bounds;                     // of all pieces, without the ground, wherever they move
+  std::uint64_t moment = 0;        // another number whenever anything has moved
 };
 PreparedScene prepare_scene(const Scene& scene, int threads);
+// What does not move, as a scene of its own. first_light: of its placed meshes in turn, in `scene`.
+PreparedScene resting_part(const PreparedScene& scene, std::vector<std::uint32_t>& first_light);
 
 // Light that reaches a vertex, without the direct part of the main light and the lamp.
 struct BakedLight {
@@ -50,7 +55,8 @@ struct BakedLight {
 struct GpuGeometry {
   GlBuffer vertices, indices, triangles, placed, light;
   GlTexture vertices_view, triangles_view, placed_view, light_view;
-  std::vector<std::uint32_t> first_index;  // of each prepared mesh, in `indices`
+  std::vector<std::uint32_t> first_index;   // of each prepared mesh, in `indices`
+  std::vector<std::uint32_t> first_vertex;  // likewise, in `vertices`
   // A drawn pixel names its triangle by that triangle's last vertex, which is its own. From the
   // name to the triangle's number in its prepared mesh, and back: name of triangle t of mesh m is
   // name_of_triangle[first_index[m] / 3 + t].
@@ -58,5 +64,8 @@ struct GpuGeometry {
 };
 GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
                             const std::vector<BakedLight>& light);
+// Where the pieces are now, and the light on them.
+void update_poses(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry);
+void update_light(const Gl& gl, const GpuGeometry& geometry, const std::vector<BakedLight>& light);
 
 }  // namespace rubble

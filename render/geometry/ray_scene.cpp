@@ -2,6 +2,8 @@
 
 #include <embree3/rtcore.h>
 
+#include <map>
+
 #include "kernel/base/error.h"
 
 namespace rubble {
@@ -9,26 +11,76 @@ namespace rubble {
 struct RayScene::Embree {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  std::map<std::uint32_t, RTCScene> meshes;  // of those that move, by prepared mesh
 
   ~Embree() {
     if (scene) rtcReleaseScene(scene);
+    for (const auto& [mesh, of_mesh] : meshes) rtcReleaseScene(of_mesh);
     if (device) rtcReleaseDevice(device);
   }
+
+  void attach(RTCScene to, const std::vector<Vec3f>& positions,
+              const std::vector<std::uint32_t>& indices) const;
 };
 
+// A placed mesh that moves: an instance in the tree.
+struct RayScene::Mover {
+  std::uint32_t placed = 0;
+  std::uint32_t first_triangle = 0;  // in triangles_
+  RTCGeometry geometry = nullptr;    // owned by the tree
+};
+
+namespace {
+
+constexpr unsigned kResting = 0;  // the geometry of all that rests
+
+}  // namespace
+
+void RayScene::Embree::attach(RTCScene to, const std::vector<Vec3f>& positions,
+                              const std::vector<std::uint32_t>& indices) const {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  void* vertex_memory = rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), positions.size() + 1);
+  void* index_memory = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                               3 * sizeof(std::uint32_t), indices.size() / 3);
+  if (!indices.empty() && (!vertex_memory || !index_memory))
+    throw RunError("cannot cast rays: out of memory for " + std::to_string(indices.size() / 3) +
+                   " triangles");
+  std::copy(positions.begin(), positions.end(), static_cast<Vec3f*>(vertex_memory));
+  std::copy(indices.begin(), indices.end(), static_cast<std::uint32_t*>(index_memory));
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(to, geometry);
+  rtcReleaseGeometry(geometry);
+}
+
 RayScene::RayScene(const PreparedScene& scene, Detail detail)
-    : embree_(std::make_unique<Embree>()) {
+    : scene_(scene), detail_(detail), embree_(std::make_unique<Embree>()) {
   // One thread builds: the tree, and with it the choice among equal hits, is then always the same.
   embree_->device = rtcNewDevice("threads=1,set_affinity=0");
   if (!embree_->device) throw RunError("cannot cast rays: Embree gives no device");
   embree_->scene = rtcNewScene(embree_->device);
   rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
+  add_resting();
+  add_moving();
+  commit();
+  moment_ = scene.moment;
+}
+
+RayScene::~RayScene() = default;
+
+const PreparedLevel& RayScene::level_of(const PlacedMesh& piece) const {
+  const PreparedMesh& mesh = scene_.meshes[piece.mesh];
+  return detail_ == Detail::finest ? mesh.levels.front() : mesh.levels.back();
+}
+
+void RayScene::add_resting() {
   std::vector<Vec3f> positions;
   std::vector<std::uint32_t> indices;
-  for (std::uint32_t i = 0; i < scene.placed.size(); ++i) {
-    const PlacedMesh& piece = scene.placed[i];
-    const PreparedMesh& mesh = scene.meshes[piece.mesh];
-    const PreparedLevel& level = detail == Detail::finest ? mesh.levels.front() : mesh.levels.back();
+  for (std::uint32_t i = 0; i < scene_.placed.size(); ++i) {
+    const PlacedMesh& piece = scene_.placed[i];
+    if (piece.moves) continue;
+    const PreparedMesh& mesh = scene_.meshes[piece.mesh];
+    const PreparedLevel& level = level_of(piece);
     const std::uint32_t base = std::uint32_t(positions.size());
     for (const PreparedVertex& v : mesh.vertices)
       positions.push_back(Vec3f(piece.world_from_mesh * (Vec3(v.position) * piece.scale)));
@@ -38,25 +90,75 @@ RayScene::RayScene(const PreparedScene& scene, Detail detail)
         indices.push_back(base + v);
     }
   }
-  RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  void* vertex_memory = rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), positions.size() + 1);
-  void* index_memory = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                               3 * sizeof(std::uint32_t), triangles_.size());
-  if (!triangles_.empty() && (!vertex_memory || !index_memory))
-    throw RunError("cannot cast rays: out of memory for " + std::to_string(triangles_.size()) +
-                   " triangles");
-  std::copy(positions.begin(), positions.end(), static_cast<Vec3f*>(vertex_memory));
-  std::copy(indices.begin(), indices.end(), static_cast<std::uint32_t*>(index_memory));
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(embree_->scene, geometry);
-  rtcReleaseGeometry(geometry);
+  embree_->attach(embree_->scene, positions, indices);
+}
+
+void* RayScene::mesh_scene(std::uint32_t mesh) {
+  RTCScene& of_mesh = embree_->meshes[mesh];
+  if (of_mesh) return of_mesh;
+  of_mesh = rtcNewScene(embree_->device);
+  rtcSetSceneFlags(of_mesh, RTC_SCENE_FLAG_ROBUST);
+  const PreparedMesh& prepared = scene_.meshes[mesh];
+  const PreparedLevel& level =
+      detail_ == Detail::finest ? prepared.levels.front() : prepared.levels.back();
+  std::vector<Vec3f> positions;
+  std::vector<std::uint32_t> indices;
+  for (const PreparedVertex& v : prepared.vertices) positions.push_back(v.position);
+  for (std::uint32_t t = 0; t < level.triangle_count; ++t)
+    for (std::uint32_t v : prepared.triangles[level.first_triangle + t].vertices)
+      indices.push_back(v);
+  embree_->attach(of_mesh, positions, indices);
+  rtcCommitScene(of_mesh);
+  return of_mesh;
+}
+
+void RayScene::add_moving() {
+  for (std::uint32_t i = 0; i < scene_.placed.size(); ++i) {
+    const PlacedMesh& piece = scene_.placed[i];
+    if (!piece.moves) continue;
+    Mover mover;
+    mover.placed = i;
+    mover.first_triangle = std::uint32_t(triangles_.size());
+    const PreparedLevel& level = level_of(piece);
+    for (std::uint32_t t = 0; t < level.triangle_count; ++t)
+      triangles_.push_back({i, level.first_triangle + t});
+    mover.geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(mover.geometry, static_cast<RTCScene>(mesh_scene(piece.mesh)));
+    place(mover);
+    // Its number there: one more than its index among the movers.
+    rtcAttachGeometryByID(embree_->scene, mover.geometry, kResting + 1 + unsigned(movers_.size()));
+    rtcReleaseGeometry(mover.geometry);  // the tree keeps it
+    movers_.push_back(mover);
+  }
+}
+
+void RayScene::place(const Mover& mover) {
+  const PlacedMesh& piece = scene_.placed[mover.placed];
+  const Mat3 turn = piece.world_from_mesh.rotation.matrix() * piece.scale;
+  float columns[12];
+  for (int c = 0; c < 3; ++c)
+    for (int r = 0; r < 3; ++r) columns[c * 3 + r] = float(turn.rows[std::size_t(r)][c]);
+  for (int r = 0; r < 3; ++r) columns[9 + r] = float(piece.world_from_mesh.translation[r]);
+  rtcSetGeometryTransform(mover.geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+  if (piece.there)
+    rtcEnableGeometry(mover.geometry);
+  else
+    rtcDisableGeometry(mover.geometry);
+  rtcCommitGeometry(mover.geometry);
+}
+
+void RayScene::commit() {
   rtcCommitScene(embree_->scene);
   if (rtcGetDeviceError(embree_->device) != RTC_ERROR_NONE)
     throw RunError("cannot cast rays: Embree reports an error while building its tree");
 }
 
-RayScene::~RayScene() = default;
+void RayScene::follow() {
+  if (moment_ == scene_.moment) return;
+  moment_ = scene_.moment;
+  for (const Mover& mover : movers_) place(mover);
+  commit();
+}
 
 RayScene::Hit RayScene::cast(const Vec3f& from, const Vec3f& d, float nearest,
                              float farthest) const {
@@ -65,10 +167,18 @@ RayScene::Hit RayScene::cast(const Vec3f& from, const Vec3f& d, float nearest,
   RTCRayHit query{};
   query.ray = {from.x, from.y, from.z, nearest, d.x, d.y, d.z, 0, farthest, 0xffffffffu, 0, 0};
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(embree_->scene, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  const Vec3f normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
-  return {query.hit.primID, query.ray.tfar, dot(normal, d) > 0};
+  Vec3f normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+  std::uint32_t triangle = query.hit.primID;
+  if (query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
+    const Mover& mover = movers_[query.hit.instID[0] - kResting - 1];
+    triangle += mover.first_triangle;
+    // Embree gives it in the frame of the mesh.
+    normal = Vec3f(scene_.placed[mover.placed].world_from_mesh.rotation.rotate(Vec3(normal)));
+  }
+  return {triangle, query.ray.tfar, dot(normal, d) > 0};
 }
 
 bool RayScene::blocked(const Vec3f& from, const Vec3f& d, float nearest, float farthest) const {

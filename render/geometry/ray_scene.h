@@ -1,4 +1,5 @@
-// Ray casting against the pieces. Internal to render/.
+// Ray casting against the pieces: what rests is one geometry, and each piece that moves is placed anew
+// when the scene has moved on. Internal to render/.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +26,14 @@ class RayScene {
 
   enum class Detail { coarsest, finest };  // which level of each piece
 
+  // The scene must outlive it.
   explicit RayScene(const PreparedScene& scene, Detail detail = Detail::coarsest);
   ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  // Puts what moves where it is in the scene now. Not while another thread casts.
+  void follow();
 
   // May be called from several threads.
   Hit cast(const Vec3f& from, const Vec3f& direction, float nearest, float farthest) const;
@@ -35,8 +42,20 @@ class RayScene {
 
  private:
   struct Embree;
+  struct Mover;
+  const PreparedLevel& level_of(const PlacedMesh& piece) const;
+  void add_resting();
+  void add_moving();
+  void* mesh_scene(std::uint32_t mesh);  // an Embree scene of that mesh alone
+  void place(const Mover& mover);
+  void commit();
+
+  const PreparedScene& scene_;
+  Detail detail_;
   std::unique_ptr<Embree> embree_;
   std::vector<Triangle> triangles_;
+  std::vector<Mover> movers_;
+  std::uint64_t moment_ = 0;  // of the scene when it was followed last
 };
 
 }  // namespace rubble

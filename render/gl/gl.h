@@ -17,6 +17,7 @@ namespace rubble {
   X(ClearNamedFramebufferuiv, CLEARNAMEDFRAMEBUFFERUIV)         \
   X(ClipControl, CLIPCONTROL)                                   \
   X(CompileShader, COMPILESHADER)                               \
+  X(CopyImageSubData, COPYIMAGESUBDATA)                         \
   X(CreateBuffers, CREATEBUFFERS)                               \
   X(CreateFramebuffers, CREATEFRAMEBUFFERS)                     \
   X(CreateProgram, CREATEPROGRAM)                               \

@@ -10,6 +10,7 @@
 #include "render/geometry/ray_scene.h"
 #include "render/lighting/bake_air.h"
 #include "render/lighting/light_packing.h"
+#include "render/lighting/reflected_light.h"
 #include "render/materials/surface_appearance.h"
 #include "render/materials/tile_noise.h"
 
@@ -53,15 +54,6 @@ void basis_about(const Vec3f& n, float turn, Vec3f& x, Vec3f& y) {
   x = a * float(t.cos) + b * float(t.sin);
   y = b * float(t.cos) - a * float(t.sin);
 }
-
-// Skylight as a camera with automatic white balance shows it: half of its blue.
-Vec3f paler(const Vec3f& c) { return c * 0.5f + Vec3f(0.5f, 0.5f, 0.5f) * luminance(c); }
-
-Vec3f mean_albedo(const SurfaceAppearance& look) {
-  return Vec3f(look.dark * 0.45f + look.light * 0.45f + look.accent * 0.1f);
-}
-
-Vec3f times(const Vec3f& a, const Vec3f& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 }  // namespace
 
@@ -207,7 +199,7 @@ void Baker::gather(std::size_t i) {
 void Baker::update_radiosity() {
   for (std::size_t t = 0; t < radiosity.size(); ++t) {
     const std::uint32_t p = triangle_point[t];
-    radiosity[t] = times(triangle_albedo[t], direct[p] + indirect[p]) * (1 / kPi);
+    radiosity[t] = multiply(triangle_albedo[t], direct[p] + indirect[p]) * (1 / kPi);
   }
 }
 

@@ -132,15 +132,43 @@ void GroundTruthMaker::fill_row(const ChannelSet& channels, const DrawnView& vie
       if (channels.sky_visibility) frame.sky_visibility[i] = find_sky_visibility(pixel, normal);
     }
     if (!channels.flow || !view.next) continue;
-    if (const auto next = project_rows(lens, *view.next, pixel.world, v)) {
+    const auto later = where_next(view, placed - 1, pixel.world);
+    if (!later) continue;
+    if (const auto next = project_rows(lens, *view.next, *later, v)) {
       frame.flow[i * 2] = float(next->u - double(u));
       frame.flow[i * 2 + 1] = float(next->v - v);
     }
   }
 }
 
+// Where a point of a surface will be when the next image is taken.
+std::optional<Vec3> GroundTruthMaker::where_next(const DrawnView& view, std::uint32_t placed,
+                                                 const Vec3& world) const {
+  if (view.shift.moves.empty() || !view.shift.moves[placed]) return world;
+  const std::optional<Pose>& then = view.shift.then[placed];
+  if (!then) return std::nullopt;
+  return *then * (scene_.placed[placed].world_from_mesh.inverse() * world);
+}
+
+std::vector<Vec3f> GroundTruthMaker::shifts(const DrawnView& view) const {
+  std::vector<Vec3f> out(view.distances.size());
+  if (view.shift.moves.empty()) return out;
+  parallel_for(std::size_t(view.rays.intrinsics.height), threads_, [&](std::size_t v) {
+    const Pose pose = view.rays.pose(int(v));
+    const std::size_t width = std::size_t(view.rays.intrinsics.width);
+    for (std::size_t i = v * width; i < (v + 1) * width; ++i) {
+      if (!view.ids[i * 2] || std::isnan(view.distances[i])) continue;
+      const Vec3 world =
+          pose * (view.rays.direction(int(i - v * width), int(v)) * double(view.distances[i]));
+      if (const auto later = where_next(view, view.ids[i * 2] - 1, world)) out[i] = Vec3f(*later - world);
+    }
+  });
+  return out;
+}
+
 const RayScene& GroundTruthMaker::rays() {
   if (!rays_) rays_ = std::make_unique<RayScene>(scene_, RayScene::Detail::finest);
+  rays_->follow();
   return *rays_;
 }
 

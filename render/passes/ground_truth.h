@@ -8,6 +8,7 @@
 
 #include "render/camera/view_rays.h"
 #include "render/geometry/geometry.h"
+#include "render/geometry/moving_pieces.h"
 #include "render/geometry/ray_scene.h"
 #include "render/scene/camera_spec.h"
 
@@ -19,6 +20,7 @@ struct DrawnView {
   const std::vector<std::uint32_t>& ids;  // two a pixel, as VisibilityPass::ids()
   const std::vector<float>& distances;    // along the ray; NaN: nothing there; unit: m
   const ViewRays* next;                   // the next image's; null: there is none
+  MovingPieces::Shift shift = {};         // of what moves, until the next image
 };
 
 class GroundTruthMaker {
@@ -27,6 +29,8 @@ class GroundTruthMaker {
       : scene_(scene), geometry_(geometry), threads_(threads) {}
 
   void fill(const ChannelSet& channels, const DrawnView& view, Frame& frame);
+  // How far each pixel's surface goes, one a pixel; 0 where nothing is there or it does not stay.
+  std::vector<Vec3f> shifts(const DrawnView& view) const;
   // 1 where a place in the camera body frame has a free line to the surface, 0 elsewhere.
   std::vector<std::uint8_t> line_of_sight_mask(const DrawnView& view, const Vec3& place_in_camera);
   // Of each pixel's surface for light just beyond red; 0: nothing there.
@@ -38,6 +42,7 @@ class GroundTruthMaker {
 
   const RayScene& rays();
   Corners corners_of(const Pixel& pixel) const;
+  std::optional<Vec3> where_next(const DrawnView& view, std::uint32_t placed, const Vec3& world) const;
   Vec3 find_normal(const Pixel& pixel, const Pose& world_from_optical) const;
   float find_sky_visibility(const Pixel& pixel, const Vec3& normal) const;
   void fill_row(const ChannelSet& channels, const DrawnView& view, const Lens& lens, int v,

@@ -125,6 +125,7 @@ void RayPass::draw(const ViewRays& view) {
   resize(view);
   upload_lens(view);
   upload_poses(view);
+  rays_.follow();
   parallel_for(std::size_t(height_), threads_, [&](std::size_t v) { cast_row(view, int(v)); });
   gl_.TextureSubImage2D(ids_.name(), 0, 0, 0, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT,
                         id_values_.data());

@@ -100,81 +100,100 @@ DrawRecord make_record(const Rows& rows, const PlacedMesh& piece) {
   return record;
 }
 
-void draw_view(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry,
-               const Rows& rows) {
-  DrawList list(gl, geometry);
-  for (const PlacedMesh& piece : scene.placed) {
+}  // namespace
+
+ShadowPass::ShadowPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry,
+                       const LightSet& lights, int size)
+    : gl_(gl), scene_(scene), geometry_(geometry), moves_(false) {
+  GLint most = 0;
+  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  size_ = std::min(size, int(most));
+  const auto list_views = [&] {
+    views_.clear();
+    map_.lights.clear();
+    for (const LightModel& light : lights.lights) {
+      ShadowMap::Light entry;
+      const std::vector<Rows> views = make_views(scene, light, size_, entry.texel);
+      entry.first_view = int(views_.size()), entry.views = int(views.size());
+      map_.lights.push_back(entry);
+      views_.insert(views_.end(), views.begin(), views.end());
+    }
+  };
+  list_views();
+  while (views_.size() * std::size_t(size_) * std::size_t(size_) > kMostTexels) {
+    size_ /= 2;
+    list_views();
+  }
+  for (const Rows& view : views_) {
+    std::array<std::array<float, 4>, 4> rows;
+    for (std::size_t r = 0; r < 4; ++r)
+      for (std::size_t c = 0; c < 4; ++c) rows[r][c] = float(view[r][c]);
+    map_.clip_from_world.push_back(rows);
+  }
+  for (const PlacedMesh& piece : scene.placed) moves_ = moves_ || piece.moves;
+  program_ = make_program(gl, "visibility.vert.glsl", "visibility.frag.glsl", {{"SHADOW", ""}});
+  map_.depth = make_layers();
+  draw_layers(map_.depth, false);
+  if (!moves_) return;
+  resting_ = std::move(map_.depth);
+  map_.depth = make_layers();
+}
+
+GlTexture ShadowPass::make_layers() const {
+  GlTexture layers(gl_, GLenum(GL_TEXTURE_2D_ARRAY));
+  const GLuint name = layers.name();
+  gl_.TextureStorage3D(name, 1, GL_DEPTH_COMPONENT32F, size_, size_, GLsizei(views_.size()));
+  gl_.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl_.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl_.TextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl_.TextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl_.TextureParameteri(name, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  gl_.TextureParameteri(name, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  check_gl(gl_, "making the shadow map");
+  return layers;
+}
+
+void ShadowPass::draw_moving() {
+  if (!moves_) return;
+  gl_.CopyImageSubData(resting_.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, map_.depth.name(),
+                       GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, size_, size_, GLsizei(views_.size()));
+  draw_layers(map_.depth, true);
+}
+
+void ShadowPass::draw_layers(const GlTexture& layers, bool moving) {
+  gl_.UseProgram(program_.name());
+  gl_.Viewport(0, 0, size_, size_);
+  gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.Enable(GL_DEPTH_CLAMP);
+  gl_.DepthFunc(GL_LESS);
+  gl_.DepthMask(GL_TRUE);
+  gl_.Disable(GL_CULL_FACE);
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    GlFramebuffer target(gl_);
+    gl_.NamedFramebufferTextureLayer(target.name(), GL_DEPTH_ATTACHMENT, layers.name(), 0, GLint(i));
+    gl_.NamedFramebufferDrawBuffers(target.name(), 0, nullptr);
+    const float far_value = 1;
+    if (!moving) gl_.ClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &far_value);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
+    draw_view(views_[i], moving);
+    gl_.Finish();
+  }
+  gl_.Disable(GL_DEPTH_CLAMP);
+  check_gl(gl_, "drawing the shadow map");
+}
+
+void ShadowPass::draw_view(const Rows& rows, bool moving) {
+  DrawList list(gl_, geometry_);
+  for (const PlacedMesh& piece : scene_.placed) {
     if (piece.id == kGroundId) continue;  // nothing lies under it
-    const PreparedLevel& level = scene.meshes[piece.mesh].levels.front();
+    if (piece.moves != moving || !piece.there) continue;
+    const PreparedLevel& level = scene_.meshes[piece.mesh].levels.front();
     list.add_record(make_record(rows, piece));
-    list.add_run(geometry.first_index[piece.mesh] + level.first_triangle * 3,
+    list.add_run(geometry_.first_index[piece.mesh] + level.first_triangle * 3,
                  level.triangle_count * 3);
   }
   list.draw();
-}
-
-}  // namespace
-
-ShadowMap draw_shadow_map(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry,
-                          const LightSet& lights, int size) {
-  GLint most = 0;
-  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-  size = std::min(size, int(most));
-  ShadowMap map;
-  const auto list_views = [&] {
-    std::vector<Rows> all;
-    map.lights.clear();
-    for (const LightModel& light : lights.lights) {
-      ShadowMap::Light entry;
-      const std::vector<Rows> views = make_views(scene, light, size, entry.texel);
-      entry.first_view = int(all.size()), entry.views = int(views.size());
-      map.lights.push_back(entry);
-      all.insert(all.end(), views.begin(), views.end());
-    }
-    return all;
-  };
-  std::vector<Rows> views = list_views();
-  while (views.size() * std::size_t(size) * std::size_t(size) > kMostTexels) {
-    size /= 2;
-    views = list_views();
-  }
-  map.depth = GlTexture(gl, GLenum(GL_TEXTURE_2D_ARRAY));
-  const GLuint name = map.depth.name();
-  gl.TextureStorage3D(name, 1, GL_DEPTH_COMPONENT32F, size, size, GLsizei(views.size()));
-  gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl.TextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  gl.TextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  gl.TextureParameteri(name, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  gl.TextureParameteri(name, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-  check_gl(gl, "making the shadow map");
-  const GlProgram program =
-      make_program(gl, "visibility.vert.glsl", "visibility.frag.glsl", {{"SHADOW", ""}});
-  gl.UseProgram(program.name());
-  gl.Viewport(0, 0, size, size);
-  gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  gl.Enable(GL_DEPTH_TEST);
-  gl.Enable(GL_DEPTH_CLAMP);
-  gl.DepthFunc(GL_LESS);
-  gl.DepthMask(GL_TRUE);
-  gl.Disable(GL_CULL_FACE);
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    GlFramebuffer target(gl);
-    gl.NamedFramebufferTextureLayer(target.name(), GL_DEPTH_ATTACHMENT, name, 0, GLint(i));
-    gl.NamedFramebufferDrawBuffers(target.name(), 0, nullptr);
-    const float far_value = 1;
-    gl.ClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &far_value);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target.name());
-    draw_view(gl, scene, geometry, views[i]);
-    gl.Finish();
-    std::array<std::array<float, 4>, 4> rows;
-    for (std::size_t r = 0; r < 4; ++r)
-      for (std::size_t c = 0; c < 4; ++c) rows[r][c] = float(views[i][r][c]);
-    map.clip_from_world.push_back(rows);
-  }
-  gl.Disable(GL_DEPTH_CLAMP);
-  check_gl(gl, "drawing the shadow map");
-  return map;
 }
 
 }  // namespace rubble

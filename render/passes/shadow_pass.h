@@ -1,5 +1,5 @@
-// The shadow maps of all lights, drawn once: neither lights nor pieces move. One view for the sun and
-// for narrow spots, six (a cube) for the others.
+// The shadow maps of all lights. What rests is drawn once, what moves whenever it has moved. One view
+// for the sun and for narrow spots, six (a cube) for the others.
 #pragma once
 
 #include <array>
@@ -20,8 +20,31 @@ struct ShadowMap {
   std::vector<Light> lights;
 };
 
-// size: side of one view at most, with less for many views; unit: texel.
-ShadowMap draw_shadow_map(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry,
-                          const LightSet& lights, int size);
+class ShadowPass {
+ public:
+  // Draws what rests. size: side of one view at most, with less for many views; unit: texel.
+  ShadowPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry,
+             const LightSet& lights, int size);
+
+  // Adds what moves, where it is in the scene now.
+  void draw_moving();
+  const ShadowMap& map() const { return map_; }
+
+ private:
+  using Rows = std::array<std::array<double, 4>, 4>;
+  GlTexture make_layers() const;
+  void draw_layers(const GlTexture& layers, bool moving);
+  void draw_view(const Rows& rows, bool moving);
+
+  const Gl& gl_;
+  const PreparedScene& scene_;
+  const GpuGeometry& geometry_;
+  std::vector<Rows> views_;  // one a layer
+  int size_;
+  bool moves_;
+  GlProgram program_;
+  GlTexture resting_;  // of what rests alone; only where something moves
+  ShadowMap map_;
+};
 
 }  // namespace rubble

@@ -45,6 +45,7 @@ void VisibilityPass::find_candidates(const ViewProjection& view) {
   const double focal = std::max(view.intrinsics.fx, view.intrinsics.fy);
   for (std::uint32_t i = 0; i < scene_.placed.size(); ++i) {
     const PlacedMesh& piece = scene_.placed[i];
+    if (!piece.there) continue;
     const Vec3f c = turn * piece.centre + shift;
     if (!volume.sphere_in_view(c, piece.radius)) continue;
     candidates_.push_back({i, choose_level(piece, c.z, focal), norm(c) - piece.radius * 0.5f});

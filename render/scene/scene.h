@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "kernel/base/math.h"
@@ -84,9 +86,21 @@ struct SceneInstance {
   std::uint16_t label = 2;  // class, as in Frame::label; range: 2 and up
 };
 
+// What moves, and where it is when. The rest of a scene stays where its instances say, and its light
+// is baked; what moves is lit anew for every view, throws shadows where it is, and takes light from
+// what rests.
+struct SceneMotion {
+  std::vector<std::uint32_t> moving;  // indices into Scene::instances, rising; empty: nothing moves
+  // world_from_body of each of `moving` in turn at a stamp as ViewRays::stamp_ns; nothing: it is not
+  // there. May be called in any order of stamps.
+  std::function<std::vector<std::optional<Pose>>(std::int64_t stamp_ns)> poses_at;
+  Aabb reach;  // of the origins of all that move, at all times; unit: m
+};
+
 struct Scene {
   std::vector<std::shared_ptr<const SceneMesh>> meshes;  // each once, by SceneInstance::mesh
   std::vector<SceneInstance> instances;                  // every piece that is drawn
+  SceneMotion motion;                                    // of some of them
   bool ground = true;  // the plane z = 0
   LightSpec light;                     // the main one, which makes the sky
   std::vector<LightSpec> more_lights;  // at most kMostLights - 1

@@ -49,12 +49,14 @@ struct Camera::State {
   struct Watched {  // the last image of the event camera
     ViewRays view;
     std::vector<float> distances;
+    MomentNearby now, goal;  // of the image, and the last one before the next
   } watched;
 
   Pose pose_at(std::int64_t stamp_ns, std::int64_t frame_ns, const Pose& at_frame) const;
   ViewRays view_at(int index, double seconds_off = 0) const;
   ViewRays right_of(ViewRays view) const;
 
+  MomentNearby moment_at(int index, double seconds_off) const;
   Frame take_ideal(int index);
   Frame take_exposed(int index);
   int count_samples(int index, const ViewRays& view, const LinearFrame& middle,
@@ -151,14 +153,19 @@ Frame Camera::State::take_ideal(int index) {
   return frame;
 }
 
+// Where camera and surfaces are then; the frame's own view was drawn last.
+MomentNearby Camera::State::moment_at(int index, double seconds_off) const {
+  const ViewRays view = view_at(index, seconds_off);
+  return {view.world_from_camera, renderer.shifts(view.stamp_ns)};
+}
+
 // One more than the pixels of motion, and odd, so that the middle one is the frame's own instant.
 int Camera::State::count_samples(int index, const ViewRays& view, const LinearFrame& middle,
                                  const ExposureSettings& settings) const {
   if (!spec.shutter.motion_blur) return 1;
   const double half = 0.5 * settings.time;
   const double motion =
-      longest_motion(view, middle.distance, view_at(index, -half).world_from_camera,
-                     view_at(index, half).world_from_camera);
+      longest_motion(view, middle.distance, moment_at(index, -half), moment_at(index, half));
   if (motion < kSharp) return 1;
   const int wanted = int(std::min(std::ceil(motion), 1000.0)) + 1;
   const int most = spec.shutter.most_samples - (spec.shutter.most_samples % 2 ? 0 : 1);
@@ -228,17 +235,20 @@ void Camera::State::watch(int index, Frame& frame) {
     view.world_from_camera = pose_at(stamp, end, flight.world_from_camera[std::size_t(index)]);
     const LinearFrame image = renderer.render_linear(view);
     events->see(stamp, luminance_of(image), frame.events);
-    return Watched{view, image.distance};
+    const std::size_t next = std::size_t(index) + (stamp == end ? 1 : 0);
+    const std::size_t goal = std::min(next, flight.stamps_ns.size() - 1);
+    return Watched{view, image.distance, {view.world_from_camera, {}},
+                   {flight.world_from_camera[goal], renderer.shifts(flight.stamps_ns[goal])}};
   };
   if (index == 0) {
     watched = look(end);
     return;
   }
   // From the depths of the last look: how many parts the rest of the way is to be cut into.
-  const Pose goal = flight.world_from_camera[std::size_t(index)];
   for (int left = kMostEventImages; now < end; --left) {
+    watched.goal.world_from_camera = flight.world_from_camera[std::size_t(index)];
     const double motion =
-        longest_motion(watched.view, watched.distances, watched.view.world_from_camera, goal);
+        longest_motion(watched.view, watched.distances, watched.now, watched.goal);
     const double parts =
         left > 0 ? std::max(1.0, std::ceil(motion / spec.event_camera.most_motion)) : 1;
     now = std::min(end, now + std::int64_t(std::ceil(double(end - now) / parts)));

@@ -1,4 +1,4 @@
-// How far surfaces move over the image while the camera moves.
+// How far surfaces move over the image while the camera, or they themselves, move.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,17 @@
 
 namespace rubble {
 
-// The longest way, in pixels, that a surface seen in `view` goes between two poses of the camera;
-// every fourth row and column is looked at, and what leaves the image is left out. distances: along
-// the rays; NaN: none, taken as infinitely far.
+// A moment near that of a view: where the camera is then, and how far each pixel's surface goes from
+// the view to then (Renderer::shifts; empty: all rests).
+struct MomentNearby {
+  Pose world_from_camera;
+  std::vector<Vec3f> shifts;
+};
+
+// The longest way, in pixels, that a surface seen in `view` goes between two moments; every fourth row
+// and column is looked at, and what leaves the image is left out. distances: along the rays; NaN: none,
+// taken as infinitely far.
 double longest_motion(const ViewRays& view, const std::vector<float>& distances,
-                      const Pose& world_from_camera_before, const Pose& world_from_camera_after);
+                      const MomentNearby& before, const MomentNearby& after);
 
 }  // namespace rubble

@@ -141,6 +141,17 @@ Json alias_schema(const Schema& schema, const Alias& alias) {
 
 }  // namespace
 
+std::vector<std::string> mission_keys() {
+  Scenario scenario;
+  const Schema schema = make_scenario_schema(scenario);
+  std::vector<std::string> keys;
+  for (const Key& key : schema.keys())
+    if (key.kind == KeyKind::value && key.path.find("[]") == std::string::npos)
+      keys.push_back(key.path);
+  for (const Alias& alias : schema.aliases()) keys.push_back(alias.name);
+  return keys;
+}
+
 std::string mission_json_schema() {
   Scenario scenario;
   const Schema schema = make_scenario_schema(scenario);

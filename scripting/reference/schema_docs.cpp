@@ -5,16 +5,13 @@
 #include <stdexcept>
 
 #include "scripting/packs/pack_schema.h"
+#include "scripting/reference/lua_text.h"
 #include "scripting/sandbox/lua_library.h"
 #include "scripting/sandbox/lua_options.h"
 #include "scripting/sandbox/lua_sandbox.h"
 #include "scripting/scenario/scenario_schema.h"
 
 namespace rubble {
-namespace {
-
-constexpr const char* kBegin = "<!-- reference: begin -->\n";
-constexpr const char* kEnd = "<!-- reference: end -->\n";
 
 std::string lua_text(const Value& value) {
   if (value.kind == Value::Kind::nil) return "";
@@ -24,6 +21,11 @@ std::string lua_text(const Value& value) {
   for (const Value& item : value.items) text += (text.size() > 1 ? ", " : "") + lua_text(item);
   return text + "}";
 }
+
+namespace {
+
+constexpr const char* kBegin = "<!-- reference: begin -->\n";
+constexpr const char* kEnd = "<!-- reference: end -->\n";
 
 std::string as_code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
 

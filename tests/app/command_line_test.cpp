@@ -119,12 +119,15 @@ TEST(CommandLine, HasEveryCommandThatIsWritten) {
   std::istringstream words(cmake.substr(begin, end - begin));
   const std::set<std::string> listed{std::istream_iterator<std::string>(words), {}};
   std::size_t written = 0;
-  for (const auto& file : std::filesystem::directory_iterator(RUBBLE_SOURCE_DIR "/app/commands")) {
+  const std::filesystem::path commands = RUBBLE_SOURCE_DIR "/app/commands";
+  for (const auto& file : std::filesystem::recursive_directory_iterator(commands)) {
+    if (!file.is_regular_file()) continue;
     const std::string name = file.path().stem().string();
+    const std::string path = std::filesystem::relative(file.path(), commands).replace_extension();
     const bool is_command = read_file(file.path().string()).find("Command " + name + "_command()") !=
                             std::string::npos;
     written += is_command;
-    EXPECT_EQ(listed.count(name), is_command) << name << " and RUBBLE_COMMANDS do not agree";
+    EXPECT_EQ(listed.count(path), is_command) << path << " and RUBBLE_COMMANDS do not agree";
   }
   EXPECT_EQ(written + 1, listed.size()) << "the word RUBBLE_COMMANDS is one of them";
   const Outcome help = run_rubble("eval map --help");

@@ -64,7 +64,8 @@ const Prefixes kFloors{"kernel/", "render/", "io/", "scripting/", "assets/", "ap
 Prefixes kernel_rooms(std::size_t count) {
   Prefixes rooms{"kernel/base/",      "kernel/model/",     "kernel/geometry/",
                  "kernel/structure/", "kernel/collision/", "kernel/multibody/",
-                 "kernel/solver/",    "kernel/world/",     "kernel/settling/"};
+                 "kernel/solver/",    "kernel/world/",     "kernel/settling/",
+                 "kernel/robot/"};
   rooms.resize(count + 1);
   return rooms;
 }
@@ -87,6 +88,7 @@ const Allowed kKernel{
     {"kernel/solver/", with(kernel_rooms(2), {"kernel/collision/", "kernel/multibody/", "kernel/solver/"})},
     {"kernel/world/", kernel_rooms(7)},
     {"kernel/settling/", kernel_rooms(8)},
+    {"kernel/robot/", kernel_rooms(9)},
     {"kernel/queries/", with(kernel_rooms(2), {"kernel/queries/"})},
     {"kernel/voids/", with(kernel_rooms(2), {"kernel/queries/", "kernel/voids/"})},
 };
@@ -127,7 +129,8 @@ const Allowed kApp = stack(
     {"app/support/", "app/formats/", "app/provenance/", "app/assets/", "app/planning/", "app/pipeline/",
      "app/batch/", "app/eval/scores/", "app/eval/sfm/", "app/eval/map/",
      "app/drive/", "app/command_line/",
-     "app/commands/", "app/main.cpp"},
+     "app/commands/eval/", "app/commands/assets/", "app/commands/publish/", "app/commands/",
+     "app/main.cpp"},
     {"kernel/", "render/", "io/", "scripting/", "assets/generator/"});
 
 const Allowed kTop{{"assets/generator/", {"assets/generator/", "kernel/base/"}},

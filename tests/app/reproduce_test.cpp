@@ -226,6 +226,84 @@ TEST(Verify, SaysWhatIsWrongWithAManifestThatCannotBeRead) {
   EXPECT_IN("program: missing", run_rubble("verify " + (scratch / "a")).err);
 }
 
+TEST(Verify, SaysMissingWhereFilesAreMissing) {
+  const ScratchFolder scratch;
+  run_tiny(scratch, "a");
+  fs::create_directories(scratch / "alone");
+  fs::copy_file(scratch / "a/manifest.json", scratch / "alone/manifest.json");
+  const Outcome alone = run_rubble("verify " + (scratch / "alone") + " --keep " + (scratch / "kept"));
+  EXPECT_EQ(alone.exit_code, 5);
+  EXPECT_IN("recorded files  missing  all ", alone.out);
+  EXPECT_IN("files are missing; `rubble remake` makes them again, the same", alone.out);
+  EXPECT_EQ(alone.out.find("not the same"), std::string::npos) << alone.out;
+  EXPECT_EQ(reproducible(scratch / "kept"), reproducible(scratch / "a"));
+  EXPECT_EQ(run_rubble("info " + (scratch / "kept")).exit_code, 0);
+  // One that is missing and one that was altered: not the same.
+  fs::remove(scratch / "a/pile.stl");
+  const Outcome one = run_rubble("verify " + (scratch / "a"));
+  EXPECT_EQ(one.exit_code, 5);
+  EXPECT_IN("recorded files  missing  pile.stl is missing", one.out);
+  write_file(scratch / "a/groundtruth.txt", "0");
+  EXPECT_IN("\nnot the same", run_rubble("verify " + (scratch / "a")).out);
+  const Outcome both = run_rubble("verify " + (scratch / "a") + " --pile-only --keep " + (scratch / "k"));
+  EXPECT_EQ(both.exit_code, 1);
+}
+
+TEST(Remake, GivesTheSameBytesFromTheManifestAlone) {
+  const ScratchFolder scratch;
+  fs::create_directories(scratch / "packs/blocks");
+  write_file(scratch / "packs/blocks/block.obj", kCube);
+  write_file(scratch / "packs/blocks/pack.lua",
+             "return pack { name = 'mine', assets = { { name = 'block', mesh = 'block.obj' } } }\n");
+  std::string text = kTinyMission;
+  text.replace(text.find("{ asset = \"brick\" }"), 19, "{ asset = \"block\" }");
+  text.replace(text.find("seed = 3"), 8, "seed = 3, packs = { 'packs/blocks' }");
+  write_file(scratch / "mission.lua", text);
+  const Outcome run = run_rubble("run " + (scratch / "mission.lua") + " --seed 9 --out " + (scratch / "a"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  write_file(scratch / "manifest.json", read_file(scratch / "a/manifest.json"));
+  fs::rename(scratch / "packs", scratch / "moved");
+  fs::remove(scratch / "mission.lua");
+  const std::string remake = "remake " + (scratch / "manifest.json") + " --out " + (scratch / "b");
+  const Outcome lost = run_rubble(remake);
+  EXPECT_EQ(lost.exit_code, 1);
+  EXPECT_IN("the asset `block` of pack `mine` is missing", lost.err);
+  const Outcome again = run_rubble(remake + " --assets " + (scratch / "moved"));
+  EXPECT_EQ(again.exit_code, 0) << again.err << again.out;
+  EXPECT_IN("the same: state hash ", again.out);
+  EXPECT_EQ(reproducible(scratch / "b"), reproducible(scratch / "a"));
+  for (const auto& [name, hash] : read_outputs(scratch / "a"))
+    EXPECT_TRUE(read_file(scratch / ("a/" + name)) == read_file(scratch / ("b/" + name))) << name;
+}
+
+TEST(Remake, SaysWhatIsNotTheSameAndWhatCannotBeMade) {
+  const ScratchFolder scratch;
+  run_tiny(scratch, "a");
+  const std::string a = scratch / "a";
+  const Outcome inside = run_rubble("remake " + a + " --out " + a + " --force");
+  EXPECT_EQ(inside.exit_code, 1);
+  EXPECT_IN("would replace the dataset", inside.err);
+  EXPECT_EQ(run_rubble("remake " + (scratch / "none.json") + " --out " + (scratch / "b")).exit_code, 1);
+  EXPECT_EQ(run_rubble("remake " + a).exit_code, 1) << "--out is required";
+  write_file(scratch / "cut.json", read_file(a + "/manifest.json").substr(0, 500));
+  EXPECT_EQ(run_rubble("remake " + (scratch / "cut.json") + " --out " + (scratch / "b")).exit_code, 1);
+  Json manifest = read_manifest(a);
+  manifest["state_hash"] = "0123456789abcdef";
+  write_file(scratch / "altered.json", manifest.dump(2));
+  const Outcome altered = run_rubble("remake " + (scratch / "altered.json") + " --out " + (scratch / "b"));
+  EXPECT_EQ(altered.exit_code, 1);
+  EXPECT_IN("state_hash", altered.err);
+  EXPECT_FALSE(fs::exists(scratch / "b"));
+  // Sealed again: as from a program with another result.
+  manifest["seals"]["pile"] =
+      sha256(Json({{"state_hash", manifest["state_hash"]}, {"pile", manifest["pile"]}}).dump());
+  write_file(scratch / "altered.json", manifest.dump(2));
+  const Outcome other = run_rubble("remake " + (scratch / "altered.json") + " --out " + (scratch / "b"));
+  EXPECT_EQ(other.exit_code, 5) << other.err;
+  EXPECT_IN("differs: the pile: state hash " + read_state_hash(scratch / "a"), other.out);
+  EXPECT_IN("not the same", other.out);
+}
+
 TEST(Render, FliesAnotherMissionOverTheSamePileAndCanBeVerified) {
   const ScratchFolder scratch;
   run_tiny(scratch, "a");

@@ -316,6 +316,47 @@ TEST(Articulated, ATreeSplitsWhereItBreaks) {
   EXPECT_EQ(world.lost_count(), 0);
 }
 
+// Two boxes that are welded 10 cm deep into each other spin until the weld breaks: they are led out of
+// each other by no more than 2 cm a step, and the way out gives them no speed.
+TEST(Articulated, PiecesOfABrokenJointComeApartAndGainNoEnergy) {
+  const double spin = 0.01;
+  WorldOptions options = awake_options();
+  options.gravity = 0;
+  AssemblyType pair;
+  pair.name = "pair";
+  pair.links = {{0, {{}, {-0.15, 0, 0}}, 1}, {0, {{}, {0.15, 0, 0}}, 1}};
+  pair.joints.emplace_back();
+  pair.joints[0].kind = JointKind::weld;
+  for (const double strength : {1.02, 0.98}) {
+    const double mass = 2400 * 0.4 * 0.2 * 0.2;
+    pair.joints[0].break_force = strength * mass * spin * spin * 0.15;
+    World world({box_type("box", 0.4, 0.2, 0.2)}, options, {pair});
+    NewPiece piece = at(1, {0, 0, 5});
+    piece.angular_velocity = {0, 0, spin};
+    piece.linear_velocity = {0, -0.15 * spin, 0};
+    world.add({piece});
+    const double energy = world.kinetic_energy();
+    double fastest = 0;
+    for (int i = 0; i < 60; ++i) {
+      const Vec3 before = world.piece(1).world_from_body.translation;
+      world.step();
+      fastest = std::max(fastest, distance(world.piece(1).world_from_body.translation, before));
+      ASSERT_LT(world.kinetic_energy(), 1.0001 * energy) << i;
+    }
+    const double apart = distance(world.piece(0).world_from_body.translation,
+                                  world.piece(1).world_from_body.translation);
+    EXPECT_EQ(world.joints().empty(), strength < 1);
+    EXPECT_LT(fastest, 0.0201);
+    EXPECT_LT(norm(world.linear_momentum()), 1e-5 * mass * spin);
+    if (strength < 1) {
+      EXPECT_LT(world.deepest_overlap().depth, 0.001);
+      EXPECT_GT(apart, 0.3 + 0.05);
+    } else {
+      EXPECT_NEAR(apart, 0.3, 1e-9);
+    }
+  }
+}
+
 // A free piece on a hinged door pushes it open; the door pushes the piece.
 TEST(Articulated, ImpulsesFlowBothWays) {
   WorldOptions options = awake_options();

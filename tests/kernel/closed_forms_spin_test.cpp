@@ -149,5 +149,34 @@ TEST(ClosedFormSpin, SlowMotionWithoutFrictionGoesOn) {
   }
 }
 
+// A cube that is balanced on a corner and spins about the vertical: the patch under the corner brakes it
+// by mu m g r / I, where I is m a^2 / 6 about every axis. As one piece, and as two halves that are welded.
+AssemblyType make_halves(double edge) {
+  AssemblyType cube;
+  cube.name = "cube";
+  cube.links = {{1, {{}, {0, 0, -edge / 4}}, 1}, {1, {{}, {0, 0, edge / 4}}, 1}};
+  cube.joints.emplace_back();
+  cube.joints[0].kind = JointKind::weld;
+  return cube;
+}
+
+TEST(ClosedFormSpin, ThePatchUnderACornerBrakesASpinAboutIt) {
+  const double edge = 0.2, friction = 0.6, patch = 0.001, start = 0.2;
+  const double braking = friction * kG * patch * 6 / (edge * edge);  // unit: rad/s2
+  const Vec3 axis = normalized(cross(Vec3{1, 1, 1}, Vec3{0, 0, 1}));
+  const Quat on_corner = turned(axis, std::acos(1 / std::sqrt(3.0)));
+  for (const int type : {0, 2}) {
+    World world({box_type("cube", edge, edge, edge), box_type("half", edge, edge, edge / 2)},
+                awake_options(), {make_halves(edge)});
+    NewPiece cube = at(type, {0, 0, edge * std::sqrt(0.75) + 0.001}, on_corner);
+    cube.angular_velocity = {0, 0, start};
+    world.add({cube});
+    run(world, 0.1);  // it is at rest but for the spin from the first step on
+    EXPECT_NEAR(world.piece(0).angular_velocity.z, start - 0.1 * braking, 0.03 * start) << type;
+    run(world, start / braking - 0.1 + 0.02);
+    EXPECT_NEAR(world.piece(0).angular_velocity.z, 0, 0.01 * start) << type;
+  }
+}
+
 }  // namespace
 }  // namespace rubble

@@ -10,6 +10,7 @@
 
 #include "scripting/mission.h"
 #include "scripting/reference/schema_docs.h"
+#include "scripting/sandbox/lua_sandbox.h"
 #include "scripting/scenario/scenario.h"
 #include "scripting/scenario/scenario_schema.h"
 
@@ -44,6 +45,42 @@ TEST(LuaReference, DocumentIsUpToDate) {
   text << std::ifstream(RUBBLE_SOURCE_DIR "/docs/lua.md").rdbuf();
   EXPECT_TRUE(with_reference(text.str()) == text.str())
       << "run: cmake --build build/release --target lua_reference";
+}
+
+// Names of the functions of a table `rubble`, one a line, as a script sees them after `before`.
+std::string function_names(const std::string& before) {
+  LuaSandbox sandbox(1, "rubble.mission");
+  const Value names = sandbox.run(before + R"(
+    local names = ""
+    local function list(at, prefix)
+      for name, value in pairs(at) do
+        if type(value) == "table" then list(value, prefix .. name .. ".") end
+        if type(value) == "function" then names = names .. prefix .. name .. "\n" end
+      end
+    end
+    list(rubble, "rubble.")
+    return { names })", "names.lua");
+  return names.items.at(0).text;
+}
+
+TEST(LuaAnnotations, HaveTheFunctionsThatAScriptHas) {
+  const std::string names = function_names("");
+  EXPECT_NE(names.find("rubble.collapse.lean_to\n"), std::string::npos) << names;
+  EXPECT_EQ(function_names(lua_annotations()), names);
+}
+
+TEST(LuaAnnotations, HaveEveryKeyWithItsType) {
+  Scenario scenario;
+  const Schema schema = make_scenario_schema(scenario);
+  const std::string text = lua_annotations();
+  for (const Key& key : schema.keys())
+    EXPECT_NE(text.find("---@field " + key.name() + (key.required ? " " : "? ")), std::string::npos)
+        << key.path;
+  for (const char* line :
+       {"---@field layers? integer Layers", "---@class rubble.mission.pile.mix\n",
+        "---@field mix? rubble.mission.pile.mix[] ", "---@field asset string ",
+        "---@param options? rubble.collapse.lean_to.Options\n---@return rubble.mission.pile\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line;
 }
 
 TEST(LuaReference, MarkersMustBeThere) {

@@ -1,4 +1,4 @@
-#include "app/commands/score_output.h"
+#include "app/commands/eval/score_output.h"
 
 #include <cstdio>
 #include <filesystem>

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "app/command_line/command.h"
-#include "app/commands/score_output.h"
+#include "app/commands/eval/score_output.h"
 #include "app/eval/scores/saved_surface.h"
 #include "app/eval/sfm/sfm_score.h"
 

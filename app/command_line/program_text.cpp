@@ -1,0 +1,34 @@
+#include "app/command_line/program_text.h"
+
+#include "app/support/build_info.h"
+
+namespace rubble {
+
+ProgramText program_text() {
+  ProgramText text;
+  text.about =
+      "Simulates collapsed structures: a seed and a Lua mission give a settled pile, a "
+      "camera flight, RGB-D frames, an MRPT rawlog, a ROS bag and the ground truth.";
+  text.version = "rubble " + build_info().version;
+  text.exit_codes = {{0, "done"},    {1, "bad input"},
+                     {2, "failure"}, {3, "finished but did not settle"},
+                     {4, "stopped by a signal"}, {5, "not the same"}};
+  text.environment = {
+      {"RUBBLE_ASSETS", "Folder of the bundled packs, instead of `assets` beside the program or "
+                        "`../share/rubble/assets`"},
+      {"RUBBLE_CACHE", "Folder of what is kept from run to run, instead of ~/.cache/rubble; `off`: "
+                       "nothing is kept"},
+      {"RUBBLE_EGL_DEVICE", "Number of the EGL device that draws, as --gl-device"}};
+  return text;
+}
+
+std::string make_footer(const ProgramText& text) {
+  std::string codes;
+  for (const auto& [code, meaning] : text.exit_codes)
+    codes += (codes.empty() ? "" : ", ") + std::to_string(code) + " " + meaning;
+  std::string footer = "Exit codes: " + codes + ".\n\nEnvironment:";
+  for (const auto& [name, meaning] : text.environment) footer += "\n  " + name + ": " + meaning;
+  return footer;
+}
+
+}  // namespace rubble

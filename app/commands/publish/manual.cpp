@@ -1,0 +1,60 @@
+// `rubble manual`: the manual pages of the program, for man(1).
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/command_line/command.h"
+#include "app/command_line/manual.h"
+#include "io/base/atomic_file.h"
+
+namespace rubble {
+namespace {
+
+struct ManualRequest {
+  std::vector<std::string> words;  // of the command: "eval", "map"; empty: the program's own page
+  std::string all;                 // --all DIR: every page, as files
+};
+
+ExitCode write_all(const std::string& folder) {
+  const ProgramText text = program_text();
+  const auto commands = describe_commands(all_commands());
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) throw RunError("cannot create the folder " + folder + ": " + failed.message());
+  write_text_file(folder + "/" + manual_file(""), make_manual(text, commands));
+  for (const CommandDescription& command : commands)
+    write_text_file(folder + "/" + manual_file(command.name), make_manual(text, command));
+  return ExitCode::done;
+}
+
+ExitCode print_page(const std::vector<std::string>& words) {
+  const ProgramText text = program_text();
+  const auto commands = describe_commands(all_commands());
+  std::string name;
+  for (const std::string& word : words) name += (name.empty() ? "" : " ") + word;
+  if (name.empty()) return std::fputs(make_manual(text, commands).c_str(), stdout), ExitCode::done;
+  for (const CommandDescription& command : commands)
+    if (command.name == name)
+      return std::fputs(make_manual(text, command).c_str(), stdout), ExitCode::done;
+  throw InputError({"", 0, "command", "no such command", "one of those that `rubble --help` lists",
+                    "`" + name + "`", ""});
+}
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<ManualRequest>();
+  line.add("command", request->words, "The command, as in: eval map; none: of the program itself")
+      .metavar("COMMAND");
+  line.add("--all", request->all, "Write the pages of all commands into this folder instead")
+      .metavar("DIR");
+  return [request] {
+    return request->all.empty() ? print_page(request->words) : write_all(request->all);
+  };
+}
+
+}  // namespace
+
+Command manual_command() {
+  return {"", "manual", "Print a manual page, as in: rubble manual run | man -l -", declare};
+}
+
+}  // namespace rubble

@@ -1,0 +1,57 @@
+# `cmake --install`, and the Debian package that CPack makes of what it installs.
+#
+#   bin/rubble                             finds its assets in ../share/rubble, wherever it lies
+#   share/rubble/assets, scripts, editor   bundled packs; missions; annotations for editors
+#   share/man, bash-completion, zsh        made by the program from its own declarations
+#   share/doc/rubble                       documents, without their pictures
+include(GNUInstallDirs)
+
+# Only what was asked for is built, not the tests.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+
+set(share ${CMAKE_BINARY_DIR}/share)
+add_custom_command(OUTPUT ${share}/rubble.lua
+  COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:rubble> -DOUTPUT=${share}
+    -P ${CMAKE_SOURCE_DIR}/cmake/WriteShare.cmake
+  DEPENDS rubble ${CMAKE_SOURCE_DIR}/cmake/WriteShare.cmake
+  COMMENT "Writing manual pages, completions and annotations" VERBATIM)
+add_custom_target(rubble_share ALL DEPENDS ${share}/rubble.lua)
+add_dependencies(program rubble_share)
+
+set(data ${CMAKE_INSTALL_DATADIR}/rubble)
+install(TARGETS rubble RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+foreach(pack concrete residential parking bridge)
+  install(DIRECTORY ${CMAKE_BINARY_DIR}/assets/${pack} DESTINATION ${data}/assets)
+endforeach()
+install(FILES assets/materials.lua DESTINATION ${data}/assets)
+install(DIRECTORY scripts DESTINATION ${data} PATTERN "*.golden.json" EXCLUDE)
+install(FILES ${share}/rubble.lua DESTINATION ${data}/editor)
+install(DIRECTORY ${share}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+install(FILES ${share}/bash/rubble DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${share}/zsh/_rubble DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md"
+  PATTERN "pictures" EXCLUDE)
+install(FILES ${share}/copyright ${share}/changelog.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME rubble)
+set(RUBBLE_MAINTAINER "The Rubble authors <rubble@example.org>" CACHE STRING
+  "Who answers for the Debian package: NAME <ADDRESS>")
+set(CPACK_PACKAGE_CONTACT "${RUBBLE_MAINTAINER}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# What dpkg-shlibdeps cannot see: libEGL is opened at run time, and something must draw without a GPU.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libegl-mesa0, libgl1-mesa-dri, libgl1")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "simulator of collapsed structures for mapping robots
+Rubble makes data sets for people who build mapping and autonomy for
+search-and-rescue robots. A seed and a one-page Lua mission give a
+physically settled pile of debris, a camera flight through its voids,
+exact RGB-D frames, an MRPT rawlog, a ROS bag and the ground truth: the
+same bits every time, on a machine without a graphics card.")
+include(CPack)

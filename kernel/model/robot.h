@@ -1,0 +1,122 @@
+// Robots as data: links with masses, convex collision parts and looks; joints with limits, friction
+// and motors; surfaces that move (the belts of tracks). Read by World::add_robot(); made by
+// kernel/robot for the bundled ones and from URDF files by io/robot.
+//
+// Frames: a link's frame is that of URDF: the frame of the joint it hangs on, at the joint's zero. The
+// first link's frame is the robot's (`base_link`: X forward, Z up). SI.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernel/base/mesh.h"
+#include "kernel/model/assembly.h"
+#include "kernel/model/pile.h"
+
+namespace rubble {
+
+struct RobotLink {
+  std::string name;
+  double mass = 0;       // unit: kg; > 0
+  Vec3 centre_of_mass;   // in the link's frame; unit: m
+  Mat3 inertia;          // about the centre of mass, along the link's axes; unit: kg m2; positive
+                         // definite, no principal moment above the sum of the other two
+  std::vector<ConvexPart> parts;  // what collides, in the link's frame; none: it touches nothing
+  double friction = 0.7;          // Coulomb, against concrete, as PieceType::friction; range: 0 to 2
+  // A belt runs round the link about this axis (link's frame, unit length; zero: none): where the
+  // outward normal of the surface is n, the surface moves along axis x n. With Y to the left, a positive
+  // speed drives forwards. At the ends of the axis, where there is no direction, it stands still.
+  Vec3 belt_axis;
+  double belt_speed_limit = 0;  // unit: m/s; >= 0
+  // What it looks like, in the link's frame; where empty the parts are drawn.
+  TriangleMesh looks;
+};
+
+// What drives a hinge or a slider. Its torque is
+//   stiffness (position - q) + damping (speed - u) + torque
+// in every mode of MotorMode, with the gains that the mode does not use set to 0; never beyond
+// +-effort. It is found with the contacts of a substep, so that no gain makes it unstable.
+struct RobotMotor {
+  double effort = 0;     // unit: N m, slider N; 0: no motor
+  double speed = 0;      // towards a position no faster than this; unit: rad/s, slider m/s; 0: no limit
+  double stiffness = 0;  // of position control; unit: N m/rad, slider N/m
+  double damping = 0;    // of position and of velocity control; unit: N m s/rad, slider N s/m
+};
+
+struct RobotJoint {
+  std::string name;
+  int parent = 0, child = 1;  // indices into the links
+  JointKind kind = JointKind::hinge;  // weld, hinge or slider
+  Pose parent_from_child;  // at the joint's zero; unit: m
+  Vec3 axis{0, 0, 1};      // in the child's frame, unit length: it turns about this or slides along it
+  double lower = -kNever, upper = kNever;  // unit: rad, slider m; lower <= 0 <= upper
+  double damping = 0;      // unit: N m s/rad, slider N s/m
+  double friction = 0;     // dry; unit: N m, slider N
+  RobotMotor motor;
+  double start = 0;        // where it stands when the robot is put down; unit: rad, slider m
+};
+
+// Joints in the order of their children, parents first: joints[i].child == i + 1. 1 to 256 links.
+struct RobotModel {
+  std::string name;
+  std::vector<RobotLink> links;
+  std::vector<RobotJoint> joints;
+
+  double mass() const;  // unit: kg
+};
+
+enum class MotorMode : std::int32_t { off, torque, velocity, position };
+
+struct MotorCommand {
+  MotorMode mode = MotorMode::off;
+  double target = 0;  // unit: N m, rad/s or rad; of a slider N, m/s or m
+};
+
+// What a controller asks of a robot until it asks again.
+struct RobotCommand {
+  std::vector<MotorCommand> joints;  // by joint; those without a motor are ignored
+  std::vector<double> belts;         // by link: the belt's speed; unit: m/s; ignored without a belt
+};
+
+// What a robot is and feels, after a step.
+struct RobotState {
+  struct Link {
+    Pose world_from_link;
+    Vec3 linear, angular;         // of the link's frame's origin, in the world; unit: m/s, rad/s
+    Vec3 contact_force, contact_moment;  // of all contacts, mean of the step, the moment about the
+                                         // centre of mass; in the world; unit: N, N m
+    double belt_speed = 0;        // unit: m/s
+  };
+  struct Joint {
+    double position = 0, speed = 0;  // unit: rad, rad/s; slider m, m/s
+    double torque = 0;               // of the motor, mean of the step; unit: N m, slider N
+    double work = 0;                 // of the motor since the robot was put down; unit: J
+    Vec3 load_force, load_moment;    // what the joint gives to the child, the moment about the joint,
+                                     // mean of the step; in the world; unit: N, N m
+  };
+  std::vector<Link> links;
+  std::vector<Joint> joints;
+  bool lost = false;  // it left the world; the rest is as it was then
+};
+
+// A link against a piece, the ground or another link of the same robot.
+struct RobotContact {
+  int link = 0;
+  int piece = -1;       // -1: the ground
+  Vec3 point, normal;   // the centre of the pressure; the normal points at the link; in the world; unit: m
+  double separation = 0;  // of the deepest point; negative: overlap; unit: m
+  double force = 0;       // normal, mean of the step; unit: N
+};
+
+// Throws InputError naming the member, with `key` as the path of the robot.
+void validate(const RobotModel& model, const std::string& key);
+
+// By link: base_from_link at the joints' positions (by joint; empty: their starts). unit: m, rad
+std::vector<Pose> calc_base_from_links(const RobotModel& model, const std::vector<double>& q = {});
+
+// The links as piece types, and as an assembly of them; types are numbered from `first_type`.
+std::vector<PieceType> make_link_types(const RobotModel& model);
+AssemblyType make_assembly(const RobotModel& model, int first_type);
+
+}  // namespace rubble

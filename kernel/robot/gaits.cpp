@@ -1,0 +1,100 @@
+#include "kernel/robot/gaits.h"
+
+#include <algorithm>
+
+#include "kernel/base/portable_math.h"
+#include "kernel/robot/bundled.h"
+
+namespace rubble {
+
+SnakeGait lateral_undulation() {
+  SnakeGait gait;
+  gait.lateral_amplitude = 0.6, gait.lateral_wave_number = 0.7;
+  gait.vertical_amplitude = 0.1, gait.vertical_wave_number = 1.4;
+  gait.rate = 4;
+  return gait;
+}
+
+SnakeGait sidewinding() {
+  SnakeGait gait;
+  gait.lateral_amplitude = 0.9, gait.lateral_wave_number = 0.5;
+  gait.vertical_amplitude = 1.1, gait.vertical_wave_number = 0.5;
+  gait.vertical_phase = 0.25 * portable::kPi;
+  gait.rate = 4;
+  return gait;
+}
+
+SnakeGait rolling() {
+  SnakeGait gait;
+  gait.lateral_amplitude = gait.vertical_amplitude = 0.3;
+  gait.vertical_phase = 0.5 * portable::kPi;
+  gait.rate = 4;
+  return gait;
+}
+
+SnakeGait serpenoid(double steering) {
+  SnakeGait gait;
+  gait.lateral_amplitude = 0.6, gait.lateral_wave_number = 0.7;
+  gait.rate = 4;
+  gait.steering = steering;
+  return gait;
+}
+
+SnakeGait helical_rolling() {
+  SnakeGait gait;
+  gait.lateral_amplitude = gait.vertical_amplitude = 0.6;
+  gait.lateral_wave_number = gait.vertical_wave_number = 0.3;
+  gait.vertical_phase = 0.5 * portable::kPi;
+  gait.rate = 4;
+  return gait;
+}
+
+RobotCommand calc_gait(const RobotModel& model, const SnakeGait& gait, double time) {
+  const double grown = std::clamp(time / gait.ramp, 0.0, 1.0);
+  RobotCommand command;
+  for (std::size_t k = 0; k < model.joints.size(); ++k) {
+    const double i = double(k) + 1;
+    const bool lateral = k % 2 == 0;
+    const double wave = lateral ? gait.lateral_wave_number * i + gait.lateral_phase
+                                : gait.vertical_wave_number * i + gait.vertical_phase;
+    const double amplitude = lateral ? gait.lateral_amplitude : gait.vertical_amplitude;
+    const double angle = amplitude * portable::sin(wave - gait.rate * time);
+    command.joints.push_back(
+        {MotorMode::position, grown * (angle + (lateral ? gait.steering : 0))});
+  }
+  return command;
+}
+
+RobotCommand drive_crawler(const RobotModel& model, const Twist& twist,
+                           const std::vector<double>& flippers) {
+  RobotCommand command;
+  const double apart = 0.5 * kCrawlerTrackDistance * twist.angular;
+  for (const RobotLink& link : model.links) {
+    const bool left = link.name.find("left") != std::string::npos;
+    const bool belt = norm(link.belt_axis) > 0;
+    command.belts.push_back(!belt ? 0 : left ? twist.linear - apart : twist.linear + apart);
+  }
+  std::size_t flipper = 0;
+  for (const RobotJoint& joint : model.joints) {
+    MotorCommand motor;
+    if (joint.motor.effort > 0) {
+      motor = {MotorMode::position, flipper < flippers.size() ? flippers[flipper] : joint.start};
+      ++flipper;
+    }
+    command.joints.push_back(motor);
+  }
+  return command;
+}
+
+RobotCommand drive_rover(const RobotModel& model, const Twist& twist) {
+  RobotCommand command;
+  const double apart = 0.5 * kRoverTrackDistance * twist.angular;
+  for (const RobotJoint& joint : model.joints) {
+    const bool left = joint.name.find("left") != std::string::npos;
+    command.joints.push_back({MotorMode::velocity, (left ? twist.linear - apart : twist.linear + apart) /
+                                                       kRoverWheelRadius});
+  }
+  return command;
+}
+
+}  // namespace rubble

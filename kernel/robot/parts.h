@@ -1,0 +1,24 @@
+// Solids that bundled robots are made of: convex parts, masses, looks. Lengths in m, masses in kg.
+#pragma once
+
+#include <string>
+
+#include "kernel/model/robot.h"
+
+namespace rubble {
+
+// A box of these full edge lengths.
+ConvexPart make_box(const Vec3& size, const Vec3& centre = {});
+// A prism over a regular polygon with a facet below, its axis along Y; `radius` to the facets' middles.
+ConvexPart make_wheel(double radius, double width, int facets, const Vec3& centre = {});
+// Two such prisms of different radii and the hull of both.
+ConvexPart make_paddle(double radius_a, double radius_b, double width, int facets, const Vec3& centre_a,
+                       const Vec3& centre_b);
+// A capsule-like prism along X from x = from to x = to: narrower at the ends, over `narrowing`.
+ConvexPart make_tube(double radius, double end_radius, double from, double to, double narrowing,
+                     int facets);
+
+// Centre of mass and inertia of the parts, of even density, for a link of that mass.
+void set_mass(double mass, RobotLink& link);
+
+}  // namespace rubble

@@ -1,0 +1,160 @@
+#include "kernel/robot/robot_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "kernel/base/error.h"
+#include "kernel/settling/track_recorder.h"
+
+namespace rubble {
+namespace {
+
+// A robot that reaches deeper into something than this cannot be put there; unit: m.
+constexpr double kMostDepth = 0.005;
+constexpr double kStuckDistance = 0.02;  // in a second; unit: m
+constexpr double kMovedDistance = 0.01;  // unit: m
+
+WorldOptions world_options(const RobotRunOptions& options) {
+  WorldOptions world;
+  world.gravity = options.gravity;
+  world.lost_below = options.lost_below;
+  world.lost_beyond = options.lost_beyond;
+  world.threads = options.threads;
+  return world;
+}
+
+void check(const RobotRunOptions& options) {
+  const auto expect = [](bool fine, const char* key, const char* expected, double found) {
+    if (!fine) throw InputError({"", 0, key, "out of range", expected, std::to_string(found), ""});
+  };
+  expect(options.duration > 0, "duration", "more than 0 s", options.duration);
+  expect(options.control_hz >= 1 && options.control_hz <= 1000, "control_hz", "1 to 1000 Hz",
+         options.control_hz);
+  expect(options.track_hz >= 1 && options.track_hz <= 1000, "track_hz", "1 to 1000 Hz",
+         options.track_hz);
+}
+
+std::int64_t period(double hz, double step) {
+  return std::max(std::int64_t(1), std::int64_t(1 / (hz * step) + 0.5));
+}
+
+std::string text_of(const char* format, double a, double b, double c) {
+  char text[96];
+  std::snprintf(text, sizeof text, format, a, b, c);
+  return text;
+}
+
+}  // namespace
+
+RobotRun::RobotRun(const Pile& pile, const PileState& state, const RobotRunOptions& options)
+    : options_(options), pile_(state), world_(pile.types, world_options(options), pile.assemblies) {
+  check(options);
+  world_.lay(pile, state, options.fixed_debris);
+  world_.set_step(options.step, options.substeps);
+}
+
+int RobotRun::add(const RobotModel& model, const Pose& world_from_base, RobotController controller) {
+  const int robot = world_.add_robot(model, world_from_base);
+  Driven driven;
+  driven.controller = std::move(controller);
+  driven.start = driven.last = driven.second_ago = world_from_base.translation;
+  driven.summary.lowest = driven.start.z;
+  driven.work.assign(model.joints.size(), 0);
+  robots_.push_back(driven);
+  return robot;
+}
+
+void RobotRun::control() {
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    const int robot = int(i);
+    RobotSense sense{world_.time(), world_.robot_state(robot), world_.robot_contacts(robot)};
+    if (!sense.state.lost) world_.set_command(robot, robots_[i].controller(sense));
+  }
+}
+
+// After the first step: its contacts were found where everything stood before it.
+void RobotRun::check_room() const {
+  std::vector<Diagnostic> mistakes;
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    const int first = world_.robot_piece(int(i));
+    const RobotModel& model = world_.robot_model(int(i));
+    RobotContact worst;
+    for (const RobotContact& c : world_.robot_contacts(int(i))) {
+      const bool own = c.piece >= first && c.piece < first + int(model.links.size());
+      if (!own && c.separation < worst.separation) worst = c;
+    }
+    if (worst.separation > -kMostDepth) continue;
+    std::string what = "the ground";
+    if (worst.piece >= int(pile_.pieces.size())) {
+      what = "another robot";
+    } else if (worst.piece >= 0) {
+      what = pile_.types[std::size_t(pile_.pieces[std::size_t(worst.piece)].type)] + " (piece " +
+             std::to_string(worst.piece) + ")";
+    }
+    const Vec3 out = worst.normal * -worst.separation;
+    Diagnostic d;
+    d.key = "robots[" + std::to_string(i + 1) + "].position";
+    d.message = model.links[std::size_t(worst.link)].name + " stands " +
+                text_of("%.3f m", -worst.separation, 0, 0) + " deep in " + what;
+    d.expected = "a place that is free";
+    d.hint = text_of("move it by {%.3f, %.3f, %.3f} at least", out.x, out.y, out.z);
+    mistakes.push_back(d);
+  }
+  if (!mistakes.empty()) throw InputError(mistakes);
+}
+
+void RobotRun::measure() {
+  const std::int64_t second = period(1, options_.step);
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    Driven& r = robots_[i];
+    const RobotState state = world_.robot_state(int(i));
+    r.summary.lost = state.lost;
+    if (state.lost) continue;
+    const Vec3 at = state.links[0].world_from_link.translation;
+    r.summary.path += distance(at, r.last);
+    r.summary.distance = distance(at, r.start);
+    r.summary.lowest = std::min(r.summary.lowest, at.z);
+    r.last = at;
+    for (std::size_t k = 0; k < state.joints.size(); ++k) {
+      r.summary.work += std::abs(state.joints[k].work - r.work[k]);
+      r.work[k] = state.joints[k].work;
+    }
+    if (world_.steps() % second != 0) continue;
+    if (distance(at, r.second_ago) < kStuckDistance) r.summary.stuck_time += 1;
+    r.second_ago = at;
+  }
+}
+
+RobotRunResult RobotRun::run(const std::function<bool(double)>& on_step) {
+  const std::int64_t steps = std::int64_t(options_.duration / options_.step + 0.5);
+  const std::int64_t controls = period(options_.control_hz, options_.step);
+  const std::int64_t samples = period(options_.track_hz, options_.step);
+  TrackRecorder recorder;
+  recorder.observe(world_);
+  for (std::int64_t i = 0; i < steps; ++i) {
+    if (i % controls == 0) control();
+    world_.step();
+    if (i == 0) check_room();
+    measure();
+    if ((i + 1) % samples == 0) recorder.observe(world_);
+    if (on_step && !on_step(double(i + 1) / double(steps))) break;
+  }
+  RobotRunResult result;
+  result.track = recorder.take();
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    result.first_piece.push_back(world_.robot_piece(int(i)));
+    result.robots.push_back(robots_[i].summary);
+  }
+  for (std::size_t i = 0; i < pile_.pieces.size(); ++i) {
+    if (pile_.pieces[i].status == PieceStatus::lost) continue;
+    const Vec3 now = world_.piece(int(i)).world_from_body.translation;
+    if (distance(now, pile_.pieces[i].world_from_body.translation) > kMovedDistance) {
+      ++result.pieces_moved;
+    }
+  }
+  return result;
+}
+
+}  // namespace rubble

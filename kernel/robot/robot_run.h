@@ -1,0 +1,87 @@
+// Robots in a pile that has settled: control at a rate of its own, what moves kept as a track.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "kernel/model/pile.h"
+#include "kernel/model/pile_state.h"
+#include "kernel/model/robot.h"
+#include "kernel/model/track.h"
+#include "kernel/world/world.h"
+
+namespace rubble {
+
+// What a controller is told.
+struct RobotSense {
+  double time = 0;  // since the start; unit: s
+  RobotState state;
+  std::vector<RobotContact> contacts;
+};
+using RobotController = std::function<RobotCommand(const RobotSense&)>;
+
+struct RobotRunOptions {
+  double duration = 10;         // unit: s; range: above 0
+  double step = 1.0 / 240;      // unit: s; range: 1/1000 to 1/30
+  int substeps = 4;             // of the contact solver in a step; range: 1 to 64
+  double control_hz = 60;       // rounded to whole steps; range: 1 to 1000
+  double track_hz = 60;         // likewise: samples of the track
+  bool fixed_debris = false;    // true: nothing of the pile ever moves
+  double gravity = 9.81;        // unit: m/s2, downwards
+  double lost_below = -0.5;     // unit: m
+  double lost_beyond = 100;     // from the Z axis; unit: m
+  int threads = 0;              // 0: all processors; the result does not depend on it
+};
+
+// What became of one robot.
+struct RobotSummary {
+  double distance = 0;      // of the first link, from start to end; unit: m
+  double path = 0;          // along its way; unit: m
+  double work = 0;          // of the motors, what they took and gave both counted; unit: J
+  double lowest = 0;        // of the first link's origin; unit: m
+  double stuck_time = 0;    // the first link moved less than 2 cm within a second; unit: s
+  bool lost = false;
+};
+
+struct RobotRunResult {
+  Track track;               // ids: pieces of the pile, then links, robot by robot
+  std::vector<int> first_piece;  // id of each robot's first link
+  std::vector<RobotSummary> robots;
+  int pieces_moved = 0;      // of the pile, by more than 1 cm
+  std::uint64_t hash() const { return track.hash(); }
+};
+
+class RobotRun {
+ public:
+  // Throws InputError for options out of range and for a state of another pile.
+  RobotRun(const Pile& pile, const PileState& state, const RobotRunOptions& options = {});
+
+  // world_from_base: of the first link's frame.
+  int add(const RobotModel& model, const Pose& world_from_base, RobotController controller);
+
+  // Throws InputError where a robot stands in a piece, in the ground or in another robot: which, how deep
+  // and where to. on_step: 0 to 1; return false to stop.
+  RobotRunResult run(const std::function<bool(double)>& on_step = {});
+
+  const World& world() const { return world_; }
+
+ private:
+  struct Driven {
+    RobotController controller;
+    RobotSummary summary;
+    Vec3 start, last, second_ago;
+    std::vector<double> work;  // by joint, at the last step
+  };
+  void control();
+  void check_room() const;
+  void measure();
+
+  RobotRunOptions options_;
+  PileState pile_;
+  World world_;
+  std::vector<Driven> robots_;
+};
+
+}  // namespace rubble

@@ -1,0 +1,31 @@
+// Keeps the track of a world: who moved when, at every step.
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/model/track.h"
+#include "kernel/model/track_builder.h"
+
+namespace rubble {
+
+class World;
+
+class TrackRecorder {
+ public:
+  TrackRecorder() = default;
+  // Goes on from what was recorded before a pause. steps: that the world has taken at the pause; what
+  // was recorded at that step or later is forgotten, and comes again. step: unit: s
+  TrackRecorder(Track so_far, std::int64_t steps, double step);
+
+  // Between two steps; a WorldObserver. A step that was seen already is not taken again.
+  void observe(const World& world);
+
+  const Track& track() const { return builder_.track(); }
+  Track take() { return builder_.take(); }
+
+ private:
+  std::int64_t last_step_ = -1;
+  TrackBuilder builder_;
+};
+
+}  // namespace rubble

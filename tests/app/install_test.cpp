@@ -1,0 +1,115 @@
+// What `cmake --install` leaves: found from where it lies, complete, and true to the program.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Installed once for all tests of the suite, then moved.
+class Install : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new ScratchFolder;
+    const std::string build = fs::path(RUBBLE_PROGRAM).parent_path().string();
+    const std::string command = "cmake --install '" + build + "' --prefix '" + *scratch_ / "here" +
+                                "' >'" + *scratch_ / "log" + "' 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0) << read_file(*scratch_ / "log");
+    fs::rename(*scratch_ / "here", *scratch_ / "there");
+  }
+  static void TearDownTestSuite() { delete scratch_; }
+
+  static fs::path at(const std::string& name) { return fs::path(*scratch_ / "there") / name; }
+
+  // What the shell prints, and its exit code on a last line.
+  static std::string run(const std::string& command) {
+    const std::string all = "cd '" + *scratch_ / "" + "' && unset RUBBLE_ASSETS && export PATH='" +
+                            at("bin").string() + "':$PATH && (" + command + ") >'" +
+                            *scratch_ / "out" + "' 2>&1; echo exit $? >>'" + *scratch_ / "out" + "'";
+    std::system(all.c_str());
+    return read_file(*scratch_ / "out");
+  }
+
+  static ScratchFolder* scratch_;
+};
+ScratchFolder* Install::scratch_ = nullptr;
+
+TEST_F(Install, TheProgramFindsItsAssetsWhereverItLies) {
+  write_file(*scratch_ / "tiny.lua", kTinyMission);
+  const std::string settled = run("rubble settle tiny.lua --out pile && rubble info pile");
+  EXPECT_NE(settled.find("exit 0"), std::string::npos) << settled;
+  // The control: it does not use those of the build.
+  fs::rename(at("share/rubble/assets"), at("share/rubble/elsewhere"));
+  const std::string lost = run("rubble settle tiny.lua --out none");
+  EXPECT_NE(lost.find("exit 1"), std::string::npos) << lost;
+  EXPECT_NE(lost.find("set RUBBLE_ASSETS to their folder"), std::string::npos) << lost;
+  const std::string told = run("RUBBLE_ASSETS='" + at("share/rubble/elsewhere").string() +
+                               "' rubble settle tiny.lua --out told && cmp pile/pile.bin told/pile.bin");
+  EXPECT_NE(told.find("exit 0"), std::string::npos) << told;
+  fs::rename(at("share/rubble/elsewhere"), at("share/rubble/assets"));
+}
+
+TEST_F(Install, EveryCommandHasAManualPageThatManReads) {
+  const std::string help = run_rubble("--help").out;
+  EXPECT_NE(help.find("RUBBLE_ASSETS"), std::string::npos);
+  for (const char* name : {"rubble", "rubble-run", "rubble-eval-map", "rubble-assets-show", "rubble-batch"}) {
+    const fs::path page = at("share/man/man1/" + std::string(name) + ".1.gz");
+    ASSERT_TRUE(fs::exists(page)) << page;
+    const std::string text = run("LC_ALL=C MANWIDTH=80 man --warnings -l '" + page.string() + "' | cat");
+    EXPECT_NE(text.find("SYNOPSIS"), std::string::npos) << text;
+    EXPECT_EQ(text.find("warning"), std::string::npos) << text;
+  }
+  const std::string batch = run("MANWIDTH=200 man -l '" + at("share/man/man1/rubble-batch.1.gz").string() + "' | cat");
+  for (const char* words : {"--shard I/N", "--set KEY=VALUE", "EXIT STATUS", "did not settle"})
+    EXPECT_NE(batch.find(words), std::string::npos) << words << " in\n" << batch;
+}
+
+// What bash offers for a line.
+std::string completions(const fs::path& script, const std::string& words, int at) {
+  return "bash --norc -c '. \"" + script.string() + "\"; compopt() { :; }; COMP_WORDS=(" + words +
+         "); COMP_CWORD=" + std::to_string(at) + "; _rubble; echo \"${COMPREPLY[@]}\"'";
+}
+
+TEST_F(Install, BashCompletesCommandsOptionsAndKeys) {
+  const fs::path script = at("share/bash-completion/completions/rubble");
+  EXPECT_EQ(run(completions(script, "rubble se", 1)).substr(0, 7), "settle\n");
+  EXPECT_EQ(run(completions(script, "rubble eval tr", 2)).substr(0, 11), "trajectory\n");
+  EXPECT_EQ(run(completions(script, "rubble eval map --vox", 3)).substr(0, 8), "--voxel\n");
+  EXPECT_EQ(run(completions(script, "rubble run m.lua --che", 3)).substr(0, 19), "--checkpoint-every\n");
+  EXPECT_EQ(run(completions(script, "rubble run m.lua --set pile.lay", 4)).substr(0, 13), "pile.layers=\n");
+  const std::string syntax = run("command -v zsh >/dev/null || exit 0; zsh -n '" +
+                                 at("share/zsh/vendor-completions/_rubble").string() + "'");
+  EXPECT_EQ(syntax, "exit 0\n");
+}
+
+TEST_F(Install, HasWhatAnEditorAndAReaderNeed) {
+  for (const char* name : {"share/rubble/editor/rubble.lua", "share/rubble/scripts/first_pile.lua",
+                           "share/rubble/assets/concrete/pack.lua", "share/doc/rubble/docs/lua.md",
+                           "share/doc/rubble/copyright"})
+    EXPECT_TRUE(fs::exists(at(name))) << name;
+  EXPECT_EQ(read_file(at("share/rubble/editor/rubble.lua")), run_rubble("check --annotations").out);
+  for (const auto& file : fs::recursive_directory_iterator(at(""))) {
+    if (!file.is_regular_file() || file.path().extension() == ".obj") continue;
+    EXPECT_EQ(read_file(file.path()).find(RUBBLE_SOURCE_DIR "/app"), std::string::npos)
+        << file.path() << " holds a path of the build";
+  }
+}
+
+TEST(Manual, SaysWhatIsNotThere) {
+  const Outcome unknown = run_rubble("manual nix");
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_NE(unknown.err.find("no such command"), std::string::npos) << unknown.err;
+  EXPECT_EQ(run_rubble("manual eval map").out.substr(0, 19), ".TH RUBBLE\\-EVAL\\-M");
+  EXPECT_EQ(run_rubble("manual --all /proc/none").exit_code, 2);
+  const Outcome shell = run_rubble("completion fish");
+  EXPECT_EQ(shell.exit_code, 1);
+  EXPECT_NE(shell.err.find("expected bash or zsh, found `fish`"), std::string::npos) << shell.err;
+}
+
+}  // namespace
+}  // namespace rubble::testing

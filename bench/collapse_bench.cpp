@@ -46,7 +46,7 @@ int run(const Request& request) {
   Pile pile;
   pile.building = make_building(request);
   auto start = Clock::now();
-  pile.types = make_building_types(*pile.building);
+  pile.types = make_building_types(pile.building);
   std::printf("%zu types, %.2f s\n", pile.types.size(), seconds(start));
   SettleOptions options;
   options.threads = request.threads;

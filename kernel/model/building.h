@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "kernel/base/math.h"
@@ -34,8 +33,10 @@ struct CollapseCause {
   Vec3 blast_at;                     // unit: m
 };
 
+enum class Infill : std::uint8_t { none, brick, block };
+
 struct BuildingSpec {
-  int storeys = 4;                // range: 1 to 12
+  int storeys = 0;                // range: 1 to 12; 0: there is no building
   int bays_x = 3, bays_y = 3;     // range: 1 to 8
   double span_x = 5, span_y = 5;  // between column axes; unit: m; range: 2 to 12
   double storey_height = 3;       // floor to floor; unit: m; range: 2.2 to 6
@@ -45,13 +46,15 @@ struct BuildingSpec {
   double column_bars = 0.015;     // share of the section; range: 0 to 0.06
   double beam_bars = 0.012;       // likewise
   double slab_bars = 0.006;       // likewise
-  std::string infill = "brick";   // brick, block or none: between the outer columns
+  Infill infill = Infill::brick;  // walls between the outer columns
   double infill_thickness = 0.2;  // unit: m; range: 0.08 to 0.5
   double openings = 0.35;         // of the length of each wall but the corners' are windows; range: 0 to 0.8
-  double piece = 0.8;             // pieces are about this long; unit: m; range: 0.3 to 3
+  double piece = 1.0;             // pieces are about this long; unit: m; range: 0.3 to 3
   double roughness = 0.35;        // of cuts; range: 0 to 0.45
   std::uint64_t seed = 0;         // of cuts and of the ground's motion
   CollapseCause cause;
+
+  bool given() const { return storeys > 0; }
 };
 
 }  // namespace rubble

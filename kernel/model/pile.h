@@ -73,7 +73,7 @@ struct PileSpec {
   Vec3 spawn_bounds{10, 10, 7};      // its full edge lengths; unit: m; > 0
   SpawnDensity spawn_density;
   // A building that collapses before the first layer falls; its pieces' types begin at this one.
-  std::optional<BuildingSpec> building;
+  BuildingSpec building;
   int building_first_type = 0;
   int layers = 4;                    // 0 to 1000
   int pieces_per_layer = 300;        // 0 to 100000; an assembly counts as one
@@ -88,7 +88,7 @@ struct Pile {
   std::vector<PieceType> types;
   std::vector<AssemblyType> assemblies;
   std::vector<Placement> placed;
-  std::optional<BuildingSpec> building;
+  BuildingSpec building;
   int building_first_type = 0;
   std::vector<Layer> layers;
   // Above the terrain under the spawn box. Layer k starts at the larger of this height and 1 m above the highest point of the pile.

@@ -86,8 +86,7 @@ void add(StateHash& hash, const BuildingSpec& b) {
     hash.add(number);
   }
   add(hash, c.blast_at);
-  add_count(hash, b.infill.size());
-  for (const char letter : b.infill) hash.add(std::uint8_t(letter));
+  hash.add(std::uint8_t(b.infill));
   hash.add(b.seed);
   add_count(hash, c.removed.size());
   for (const ColumnPlace& p : c.removed) {
@@ -113,7 +112,7 @@ std::uint64_t hash_pile(const Pile& pile) {
   for (const Layer& layer : pile.layers) add(hash, layer.pieces);
   hash.add(pile.spawn_bottom);
   if (!pile.assemblies.empty()) add(hash, pile.assemblies);
-  if (pile.building) add(hash, *pile.building), hash.add(std::int32_t(pile.building_first_type));
+  if (pile.building.given()) add(hash, pile.building), hash.add(std::int32_t(pile.building_first_type));
   return hash.digest();
 }
 

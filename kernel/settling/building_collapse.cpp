@@ -5,8 +5,8 @@
 namespace rubble {
 
 BuildingCollapse::BuildingCollapse(World& world, const Pile& pile, const SettleOptions& options)
-    : motion_(pile.building->cause, pile.building->seed, options.step) {
-  const BuildingSpec& building = *pile.building;
+    : motion_(pile.building.cause, pile.building.seed, options.step) {
+  const BuildingSpec& building = pile.building;
   validate(building);
   const Structure whole = build_building(building);
   std::vector<SectionForces> before = check_stands(whole, options.gravity);

@@ -17,7 +17,8 @@ class BuildingCollapse {
   BuildingCollapse(World& world, const Pile& pile, const SettleOptions& options);
   void before_step();
   void after_step();
-  bool is_shaking() const { return !motion_.over(step_); }
+  // The ground still moves, or bonds broke in the last step: what stands still is not at rest.
+  bool goes_on() const { return !motion_.over(step_) || collapse_->is_breaking(); }
   CollapseReport report() const { return collapse_->report(); }
 
  private:

@@ -13,6 +13,8 @@ namespace rubble {
 namespace {
 
 constexpr double kImpactSpeed = 0.5;   // who meets faster brings energy; slower contacts are loads; unit: m/s
+constexpr double kTogether = 0.3;      // bonds used up as much as the worst one, to this share, fail at once; unit: 1
+constexpr double kRedistribution = 0.05;  // forces take so long to find new ways before more fails of itself; unit: s
 constexpr double kSameLoad = 0.3;      // changes below this share of a mean piece's weight are no news; unit: 1
 constexpr double kCalmTime = 0.25;     // after which forces count as settled: a few periods of a floor; unit: s
 
@@ -36,6 +38,7 @@ struct Collapse::Impl {
     std::vector<PieceLoad> solved;   // loads of the last solution, by piece of the group; empty: none yet
     std::vector<SectionForces> forces;  // of it, by bond of the group
     int calm = 0;                    // steps without a failure
+    int waits = 0;                   // steps until what failed has passed its forces on
   };
   struct Touch {
     Vec3 force, point;      // in the structure's frame
@@ -56,6 +59,7 @@ struct Collapse::Impl {
   std::map<std::int32_t, Vec3> blasted;  // impulse by piece; unit: N s
   std::vector<std::pair<int, double>> drained;  // pieces of the world, and the energy that breaking took
   CollapseReport report;
+  bool breaking = true;  // in this step
 
   Impl(World& w, const Structure& s, int first_type, const CollapseOptions& o,
        std::vector<SectionForces> before)
@@ -187,7 +191,7 @@ struct Collapse::Impl {
 
   FailureOptions failure_options(const BondGroup& group) const {
     FailureOptions f;
-    f.rounds = 50;
+    f.together = kTogether;
     if (group.anchored && !settled.empty()) f.settled = &settled, f.overshoot = options.overshoot;
     return f;
   }
@@ -234,6 +238,9 @@ struct Collapse::Impl {
     const bool blasts = std::any_of(blasted.begin(), blasted.end(),
                                     [&](const auto& b) { return lead_of[b.first] == lead; });
     if (!group.anchored && !blasts && (touches.empty() || !world.is_awake(first + lead))) return false;
+    const bool impact = std::any_of(touches.begin(), touches.end(),
+                                    [](const auto& t) { return t.second.impact; });
+    if (part.waits > 0 && !impact && !blasts) return false;
     const std::vector<PieceLoad> loads = calc_loads(lead, part, touches, true);
     if (!is_news(part, loads)) return false;
     const StressResult result = solve(part, loads);
@@ -245,14 +252,14 @@ struct Collapse::Impl {
     if (failing.empty() || is_arrested(lead, part, touches, failing)) return false;
     part.calm = 0;
     part.solved.clear();
-    const auto start = std::chrono::steady_clock::now();
+    part.waits = int(kRedistribution / options.step);
+    const int waits = part.waits;
+    // One round: the next comes when contacts are solved again, or with the next step.
     bool broken = false;
-    for (const BondFailure& f : let_fail(structure, *part.stress, loads, failure, status)) {
+    for (const BondFailure& f : fail_worst(structure, group, result, failure, status)) {
       f.hinge ? ++report.hinges : ++report.broken;
       broken = broken || !f.hinge;
-      ++report.solutions;
     }
-    report.stress_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!broken) return false;
     std::vector<std::uint8_t> others(structure.pieces.size(), 1);
     for (const std::int32_t piece : group.pieces) others[piece] = 0;
@@ -260,6 +267,10 @@ struct Collapse::Impl {
     const std::vector<BondGroup> groups = find_groups(structure, status, others);
     const bool apart = groups.size() > 1 || groups[0].anchored != group.anchored;
     replace(lead, groups);
+    for (const BondGroup& left : groups) {
+      const auto at = parts.find(left.pieces[0]);
+      if (at != parts.end() && at->second.solved.empty()) at->second.waits = waits;
+    }
     return apart || parts.size() != before;
   }
 
@@ -277,7 +288,9 @@ struct Collapse::Impl {
 
   void settle_forces() {
     const int long_enough = int(kCalmTime / options.step);
+    breaking = false;
     for (auto& [lead, part] : parts) {
+      if (part.waits > 0) --part.waits, breaking = true;
       const BondGroup& group = part.stress->group();
       if (++part.calm != long_enough || settled.empty()) continue;
       if (part.forces.size() != group.bonds.size()) continue;
@@ -362,6 +375,7 @@ void Collapse::blast(const Vec3& at, double impulse_at_1m) {
   }
 }
 
+bool Collapse::is_breaking() const { return impl_->breaking; }
 int Collapse::first_piece() const { return impl_->first; }
 CollapseReport Collapse::report() const { return impl_->report; }
 

@@ -44,6 +44,7 @@ class Collapse {
   // what it breaks off is thrown. unit: N s/m2
   void blast(const Vec3& at, double impulse_at_1m);
 
+  bool is_breaking() const;  // something failed in the last step: the next one may have more
   int first_piece() const;
   CollapseReport report() const;
 

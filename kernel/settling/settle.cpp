@@ -25,7 +25,7 @@ class Settling {
 
   PileState run() {
     lay_out();
-    if (pile_.building) collapse_.emplace(world_, pile_, options_);
+    if (pile_.building.given()) collapse_.emplace(world_, pile_, options_);
     return run_layers(0, finish_placed());
   }
 
@@ -73,11 +73,11 @@ class Settling {
   }
 
   bool finish_placed() {
-    const bool movable = pile_.building || std::any_of(pile_.placed.begin(), pile_.placed.end(),
+    const bool movable = pile_.building.given() || std::any_of(pile_.placed.begin(), pile_.placed.end(),
                                      [](const Placement& placement) { return !placement.fixed; });
     if (!movable) return true;
     if (pile_.layers.empty()) return verify_rest();
-    return run_to_rest(pile_.building ? options_.final_time_limit : options_.layer_time_limit);
+    return run_to_rest(pile_.building.given() ? options_.final_time_limit : options_.layer_time_limit);
   }
 
   void spawn(std::size_t k) {
@@ -99,7 +99,7 @@ class Settling {
 
   bool run_to_rest(double limit) {
     return run_until(limit, [this] {
-      return !is_shaking() && world_.at_rest(options_.rest_speed, options_.rest_angular_speed);
+      return !is_collapsing() && world_.at_rest(options_.rest_speed, options_.rest_angular_speed);
     });
   }
 
@@ -111,7 +111,7 @@ class Settling {
         return world_.rest_verified(speed, angular_speed) &&
                world_.deepest_overlap().depth <= options_.rest_overlap;
       }
-      if (is_shaking()) return false;
+      if (is_collapsing()) return false;
       const bool waited = double(layer_steps_) * options_.step > kVerifyAfter;
       if (waited || world_.at_rest(speed, angular_speed)) world_.begin_rest_verification();
       return false;
@@ -125,8 +125,8 @@ class Settling {
   // with the question.
   template <typename Done>
   bool run_until(double limit, Done&& done) {
-    const bool shakes = collapse_ && layers_ == 0 && pile_.building->cause.shake > 0;
-    const double shaking = shakes ? pile_.building->cause.shake_seconds : 0;
+    const bool shakes = collapse_ && layers_ == 0 && pile_.building.cause.shake > 0;
+    const double shaking = shakes ? pile_.building.cause.shake_seconds : 0;
     const std::int64_t most = std::int64_t((limit + shaking) / options_.step + 0.5);
     if (layer_steps_ > 0 && done()) return true;
     while (layer_steps_ < most) {
@@ -157,7 +157,7 @@ class Settling {
     return progress_(p);
   }
 
-  bool is_shaking() const { return collapse_ && collapse_->is_shaking(); }
+  bool is_collapsing() const { return collapse_ && collapse_->goes_on(); }
 
   SettleCheckpoint make_checkpoint() const {
     SettleCheckpoint checkpoint;

@@ -25,6 +25,11 @@ struct BondFailure {
   double utilization = 0;    // when it failed; unit: 1
 };
 
+// One round: of those that are used up the worst, and all that are nearly as bad, fail. Writes `status`.
+std::vector<BondFailure> fail_worst(const Structure& structure, const BondGroup& group,
+                                    const StressResult& result, const FailureOptions& options,
+                                    std::vector<BondStatus>& status);
+
 // Solves a group, lets fail what is used up most, and solves again, until all holds, the group has
 // come apart or the rounds are over. Writes `status`.
 std::vector<BondFailure> let_fail(const Structure& structure, GroupStress& stress,

@@ -47,7 +47,7 @@ class FrameMaker {
       for (int j = 0; j < b_.bays_y; ++j) {
         for (int i = 0; i < b_.bays_x; ++i) add_slab(k, i, j);
       }
-      if (b_.infill != "none") add_walls(k);
+      if (b_.infill != Infill::none) add_walls(k);
     }
     return std::move(members_);
   }
@@ -152,7 +152,7 @@ class FrameMaker {
   }
 
   const StructuralMaterial& masonry() const {
-    return find_structural_material(b_.infill == "block" ? "block_masonry" : "brick_masonry",
+    return find_structural_material(b_.infill == Infill::block ? "block_masonry" : "brick_masonry",
                                     "building.infill");
   }
 

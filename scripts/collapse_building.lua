@@ -1,11 +1,13 @@
--- A building that comes down: the columns along one side of its ground storey are gone, as after a lorry
--- went through them. What follows is computed: bonds that break, floors that fall on floors, and a
--- flight around the ruin and towards its voids.
+-- A building that comes down: five of the nine columns of its ground storey are gone at once. What
+-- follows is computed: bonds that break, floors that turn down about the columns that are left, a ruin
+-- with voids under it, and a flight around it.
 return rubble.mission {
   seed = 11,
   pile = rubble.building {
-    storeys = 3, bays_x = 2, bays_y = 2, span_x = 5, span_y = 5, storey_height = 3,
-    column = 0.35, beam_depth = 0.4, slab = 0.16, infill = "brick", openings = 0.4,
+    storeys = 3, bays_x = 2, bays_y = 2, span_x = 4.5, span_y = 4.5, storey_height = 3,
+    column = 0.3, beam_depth = 0.4, slab = 0.15, piece = 1.2,
+    column_bars = 0.01, beam_bars = 0.008, slab_bars = 0.004,
+    infill = "brick", openings = 0.4,
     cause = {
       removed = {
         { storey = 0, i = 0, j = 0 }, { storey = 0, i = 0, j = 1 }, { storey = 0, i = 0, j = 2 },
@@ -13,9 +15,7 @@ return rubble.mission {
       },
     },
   },
+  voids = { on = true },
   camera = { width = 640, height = 480, fov_deg = 70 },
-  lamp = { intensity_cd = 60 },
-  trajectory = rubble.trajectory.orbit {
-    radius_m = 14, height = 5, turns = 0.3, speed = 6,
-  },
+  trajectory = rubble.trajectory.orbit { radius_m = 13, height = 5, turns = 0.3, speed = 6 },
 }

@@ -13,6 +13,7 @@ namespace rubble {
 namespace {
 
 constexpr double kImpactSpeed = 0.5;   // who meets faster brings energy; slower contacts are loads; unit: m/s
+constexpr double kImpactTime = 0.004;  // concrete that strikes concrete: a step's mean force is less than the peak; unit: s
 constexpr double kTogether = 0.3;      // bonds used up as much as the worst one, to this share, fail at once; unit: 1
 constexpr double kRedistribution = 0.05;  // forces take so long to find new ways before more fails of itself; unit: s
 constexpr double kSameLoad = 0.3;      // changes below this share of a mean piece's weight are no news; unit: 1
@@ -60,6 +61,7 @@ struct Collapse::Impl {
   std::vector<std::pair<int, double>> drained;  // pieces of the world, and the energy that breaking took
   CollapseReport report;
   bool breaking = true;  // in this step
+  int arrests = 0;
 
   Impl(World& w, const Structure& s, int first_type, const CollapseOptions& o,
        std::vector<SectionForces> before)
@@ -128,9 +130,9 @@ struct Collapse::Impl {
       const Pose pose = world.piece(c.piece).world_from_body;
       const Quat back = pose.rotation.conjugate();
       Touch touch;
-      touch.force = back.rotate(c.impulse) * (1 / options.step);
       touch.point = structure.pieces[piece].position + back.rotate(c.point - pose.translation);
       touch.impact = c.approach > kImpactSpeed;
+      touch.force = back.rotate(c.impulse) * (1 / (touch.impact ? kImpactTime : options.step));
       touch.energy = touch.impact ? 0.5 * norm(c.impulse) * c.approach : 0;
       touch.other = c.other;
       touches[lead_of[piece]].push_back({piece, touch});
@@ -220,7 +222,7 @@ struct Collapse::Impl {
     const StressResult at_rest = solve(part, calc_loads(lead, part, touches, false));
     if (!find_failing(structure, group, at_rest, failure_options(group), status).empty()) return false;
     const double taken = breaking_energy(failing);
-    if (energy < taken) return true;
+    if (energy < taken) return ++arrests, true;
     for (const auto& touch : touches) {
       const Touch& t = touch.second;
       const double share = taken * t.energy / energy;
@@ -376,6 +378,7 @@ void Collapse::blast(const Vec3& at, double impulse_at_1m) {
 }
 
 bool Collapse::is_breaking() const { return impl_->breaking; }
+int Collapse::arrests() const { return impl_->arrests; }
 int Collapse::first_piece() const { return impl_->first; }
 CollapseReport Collapse::report() const { return impl_->report; }
 

@@ -45,6 +45,8 @@ class Collapse {
   void blast(const Vec3& at, double impulse_at_1m);
 
   bool is_breaking() const;  // something failed in the last step: the next one may have more
+  // Impacts so far that overloaded bonds but brought too little energy to break them.
+  int arrests() const;
   int first_piece() const;
   CollapseReport report() const;
 

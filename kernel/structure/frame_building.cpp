@@ -15,6 +15,8 @@ constexpr double kStirrups = 0.8e6;  // of columns and beams: two legs of 8 mm e
 // Infill stands in its frame with gaps at the top and sides, and cracks away long before the frame bends:
 // it loads the frame and hardly stiffens it.
 constexpr double kInfillStiffness = 0.01;  // unit: 1
+// Bars of slabs act as dowels where loads are carried by few of the coarse pieces; our choice. unit: Pa
+constexpr double kDowels = 0.5e6;
 constexpr double kWindowSill = 0.35, kWindowHead = 0.8;  // of a wall's height; unit: 1
 
 struct Range {
@@ -113,7 +115,7 @@ class FrameMaker {
                        {x_of(i + 0.5), y_of(j + 0.5), top_of(k) - b_.slab / 2}, size, concrete_);
     slab.cut.counts[0] = count(size.x);
     slab.cut.counts[1] = count(size.y);
-    slab.bars = bars(b_.slab_bars, 0, 0.03);
+    slab.bars = bars(b_.slab_bars, kDowels, 0.03);
   }
 
   void add_walls(int k) {

@@ -39,6 +39,7 @@ TEST(Building, ColumnLoadsAreTributaryWeights) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     BuildingSpec b = small_building();
     b.seed = seed;
+    b.piece = 0.8, b.roughness = 0.15;
     const Structure s = build_building(b);
     const std::vector<SectionForces> forces = check_stands(s, 9.81);
     double weight = 0, sum = 0;
@@ -132,7 +133,8 @@ TEST(Collapse, AnImpactBreaksOnlyWhatItHasTheEnergyFor) {
   leg.material = find_structural_material("concrete", "test");
   leg.cut.counts[2] = 3;
   leg.cut.roughness = 0;
-  leg.bars.ratio = 0.02, leg.bars.side_ratio = 0.01;
+  leg.bars.ratio = 0.05, leg.bars.side_ratio = 0.025;
+  leg.bars.steel.rupture_rotation = 0.1;  // tough
   std::vector<Member> members;
   for (const double x : {-1.0, 1.0}) {
     for (const double y : {-1.0, 1.0}) {
@@ -149,14 +151,15 @@ TEST(Collapse, AnImpactBreaksOnlyWhatItHasTheEnergyFor) {
   const Structure s = build_structure(members, 1);
   PieceType plate;
   plate.name = "plate";
+  plate.density = 19000;  // slow and heavy: much force, little energy
   plate.parts.emplace_back();
   for (const double x : {-1.0, 1.0}) {
     for (const double y : {-1.0, 1.0}) {
       for (const double z : {-0.25, 0.25}) plate.parts[0].points.push_back({x, y, z});
     }
   }
-  double held = 0, broke = 0, taken = 0;
-  for (double height = 0.05; height < 40 && broke == 0; height *= 1.4) {
+  double arrested = 0, broke = 0, taken = 0;
+  for (double height = 0.05; height < 40 && broke == 0; height *= 1.3) {
     std::vector<PieceType> types = s.types;
     types.push_back(plate);
     World world(types);
@@ -172,13 +175,13 @@ TEST(Collapse, AnImpactBreaksOnlyWhatItHasTheEnergyFor) {
       collapse.end_step();
     }
     const double energy = world.mass(number) * 9.81 * height;
-    if (collapse.report().broken == 0) held = energy;
+    if (collapse.report().broken == 0 && collapse.arrests() > 0) arrested = energy;
     if (collapse.report().broken > 0) broke = energy, taken = collapse.report().energy_taken;
   }
-  EXPECT_GT(held, 0);
+  EXPECT_GT(arrested, 0) << "a force above the strength, an energy below what breaking takes";
   ASSERT_GT(broke, 0);
-  EXPECT_GT(taken, 0.5 * held);
-  EXPECT_LT(taken, 1.1 * broke);
+  EXPECT_LE(taken, broke);
+  EXPECT_GT(taken, arrested / 2);
 }
 
 TEST(GroundMotion, PeaksAtItsLargestAccelerationAndEnds) {

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "app/pipeline/build_scene.h"
-#include "app/pipeline/frame_watch.h"
+#include "app/measures/frame_watch.h"
 #include "app/pipeline/legs.h"
 #include "app/pipeline/live.h"
 #include "app/pipeline/recorders.h"

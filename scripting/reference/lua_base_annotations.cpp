@@ -115,6 +115,10 @@ function rubble.slab(box) end
 ---@param box table
 ---@return rubble.mission.pile.placed
 function rubble.wall(box) end
+---A pile that is a building and what becomes of it.
+---@param building rubble.mission.pile.building
+---@return rubble.mission.pile
+function rubble.building(building) end
 ---The parameters of a path, and those that every path has.
 ---@param list table[] as of `rubble.options`
 ---@return table[]

@@ -1,10 +1,10 @@
 -- A snake of 16 modules sidewinds over the ground beside a small pile.
 return rubble.mission {
   seed = 2,
-  pile = { layers = 1, pieces_per_layer = 40, spawn_bounds = { 2, 2, 1 } },
+  pile = { layers = 1, pieces_per_layer = 15, spawn_bounds = { 3, 3, 2 } },
   robots = {
     rubble.robot.snake {
-      position = { -2.4, 1, 0.03 },
+      position = { -3.2, 2, 0.03 },
       drive = {
         { t = 0, gait = "sidewinding" },
         { t = 5, gait = "rolling" },

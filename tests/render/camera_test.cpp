@@ -321,7 +321,8 @@ TEST(MotionBlur, OfWhatMovesIsARampAsWell) {
   scene.motion.reach.include({4.5, 9, 0});
   scene.motion.reach.include({4.5, 11, 0});
   scene.motion.poses_at = [](std::int64_t stamp_ns) {
-    return std::vector<std::optional<Pose>>{Pose{{}, {4.5, 10 - 2e-9 * double(stamp_ns), 0}}};
+    const double t = double(stamp_ns - 5'000'000'000) * 1e-9;  // since the flight's first frame
+    return std::vector<std::optional<Pose>>{Pose{{}, {4.5, 10 - 2 * t, 0}}};
   };
   GlContext context;
   Renderer renderer(context, scene, plain());

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/assets/asset_loading.h"
+#include "app/assets/building_assets.h"
 #include "app/assets/material_variant.h"
 #include "app/assets/placed_box.h"
 #include "scripting/packs/asset_pack.h"
@@ -186,6 +187,7 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   add_boxes(mission, materials, library);
   add_terrain(mission.scenario.pile.terrain, {fs::path(mission.script.path).parent_path().string()},
               library);
+  add_building(building_of(mission.scenario), library);
   load(true);  // made of types, so after all of them
   library.mix = make_mix(mission.scenario, all, library);
   for (std::string& warning : find_suspicious(mission)) library.warnings.push_back(std::move(warning));

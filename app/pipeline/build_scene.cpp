@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "app/assets/building_assets.h"
 #include "app/assets/terrain.h"
 #include "kernel/base/portable_math.h"
 #include "render/materials/surface_appearance.h"
@@ -34,6 +35,8 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets) {
   for (const PlacedItem& item : scenario.pile.placed) spec.placed.push_back(place(item, assets));
   for (const int type : assets.terrain())
     spec.placed.push_back(place_terrain(scenario.pile.terrain, type));
+  spec.building = building_of(scenario);
+  spec.building_first_type = assets.building_first_type;
   spec.spawn_position = scenario.pile.spawn_position;
   spec.spawn_bounds = scenario.pile.spawn_bounds;
   spec.spawn_density = scenario.pile.spawn_density;

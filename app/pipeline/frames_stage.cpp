@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "app/pipeline/build_scene.h"
-#include "app/pipeline/frame_watch.h"
+#include "app/measures/frame_watch.h"
 #include "app/pipeline/legs.h"
 #include "app/pipeline/live.h"
 #include "app/pipeline/recorders.h"
@@ -90,6 +90,7 @@ void take_frames(Camera& camera, const Leg& leg, FrameSinks& sinks, const RunFol
     taking.frame = i;
     Frame frame = camera.take(i);
     frame.index = sinks.frames++;
+    frame.starts_sequence = i == 0;
     frame.linear_velocity = path.motion_at(seconds_since(flown, frame.stamp_ns)).velocity;
     if (flown.imu.on) frame.imu = imu.take_until(frame.stamp_ns);
     recorded.hashes.add(frame);

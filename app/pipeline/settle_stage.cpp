@@ -5,7 +5,7 @@
 
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/stages.h"
-#include "app/pipeline/void_metrics.h"
+#include "app/measures/void_metrics.h"
 #include "app/support/stop.h"
 #include "io/mesh/pile_export.h"
 #include "io/mesh/track_glb.h"
@@ -33,7 +33,7 @@ class SettleWatch {
     show(p);
     const auto now = std::chrono::steady_clock::now();
     const double since = std::chrono::duration<double>(now - kept_).count();
-    if (stop_requested() || since >= context_.options.checkpoint_every) {
+    if (p.make_checkpoint && (stop_requested() || since >= context_.options.checkpoint_every)) {
       keep(p.make_checkpoint());
       kept_ = std::chrono::steady_clock::now();
     }

@@ -14,7 +14,7 @@
 #include <map>
 #include <string>
 
-#include "app/pipeline/metrics.h"
+#include "app/measures/metrics.h"
 #include "app/pipeline/moving_scene.h"
 #include "app/pipeline/resolved_mission.h"
 #include "app/provenance/frame_hashes.h"

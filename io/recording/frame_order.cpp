@@ -31,7 +31,7 @@ void check_pictures(const Frame& frame, const Channels& channels, const std::str
 
 }  // namespace
 
-// Frames come at a steady rate, rounded to nanoseconds: one interval that is half as long again as
+// Frames of a sequence come at a steady rate, rounded to nanoseconds: one interval that is half as long again as
 // another means that something is missing between.
 void FrameOrder::check_stamp(const Frame& frame, const std::string& where) {
   if (count_ == 0) return;
@@ -41,7 +41,11 @@ void FrameOrder::check_stamp(const Frame& frame, const std::string& where) {
                    " ns is not later than the one before, " + std::to_string(last_stamp_ns_) +
                    " ns");
   }
-  if (count_ == 1) period_ns_ = interval;
+  if (frame.starts_sequence) {
+    period_ns_ = 0;
+    return;
+  }
+  if (period_ns_ == 0) period_ns_ = interval;
   if (2 * interval > 3 * period_ns_ || 3 * interval < 2 * period_ns_) {
     throw RunError(where + "it comes " + std::to_string(interval) +
                    " ns after the one before, where " + std::to_string(period_ns_) +

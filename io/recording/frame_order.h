@@ -9,7 +9,7 @@
 namespace rubble {
 
 // Throws RunError for a frame that was dropped, came out of order, has a stamp that does not grow
-// or leaves a gap, lacks a channel of the recording, or whose pictures do not have the size that
+// or leaves a gap within a sequence, lacks a channel of the recording, or whose pictures do not have the size that
 // its intrinsics say.
 class FrameOrder {
  public:
@@ -24,7 +24,8 @@ class FrameOrder {
   std::string recorder_;  // for messages
   Channels channels_;
   int count_ = 0;
-  std::int64_t last_stamp_ns_ = 0, period_ns_ = 0;  // period: between the first two frames
+  std::int64_t last_stamp_ns_ = 0;
+  std::int64_t period_ns_ = 0;  // between the first two frames of the sequence; 0: not known yet
 };
 
 }  // namespace rubble

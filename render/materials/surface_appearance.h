@@ -39,7 +39,7 @@ struct SurfaceAppearance {
   float gloss;        // mirror-like part at normal incidence; 0: matt
   float dust;         // share of dust that rests on it facing up; range: 0 to 1
   float variation;    // how much brightness differs from piece to piece; range: 0 to 1
-  // Of the reference renderer, see reference/reflection.h: the share that its outermost face mirrors at
+  // Of the reference renderer, see transport/reflection.h: the share that its outermost face mirrors at
   // normal incidence (0: matt), and the roughness alpha of that mirror.
   float reflectance = 0, roughness = 1;
 };

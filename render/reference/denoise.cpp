@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "kernel/base/parallel.h"
 
@@ -16,6 +17,8 @@ constexpr float kNormal = 0.25f;         // length of the difference of two norm
 constexpr float kDistance = 1.5f;        // slopes of the distance, across the pixels between
 constexpr float kLeastDistance = 2e-3f;  // as a share of the distance
 constexpr float kMatt = 0.999f;          // cover from which on a pixel is all surface
+constexpr float kOutlier = 0.25f;        // error of a pixel, as a share of itself, that makes it suspect
+constexpr int kBrighter = 4;             // of 24 neighbours that a suspect may not outshine
 constexpr float kKernel[3] = {0.375f, 0.25f, 0.0625f};  // of the cubic B-spline
 
 float luminance_of(const Vec3f& c) { return dot(c, Vec3f(0.2126f, 0.7152f, 0.0722f)); }
@@ -40,6 +43,7 @@ class Denoiser {
   }
 
   std::vector<Vec3f> run() {
+    limit_outliers();
     for (int pass = 0; pass < kPasses; ++pass) {
       std::vector<Vec3f> light = light_;
       std::vector<float> variance = variance_;
@@ -62,6 +66,28 @@ class Denoiser {
   template <typename Work>
   void over_rows(const Work& work) {
     parallel_for(std::size_t(image_.height), threads_, [&](std::size_t y) { work(int(y)); });
+  }
+
+  // A path of small chance and great light leaves a speck that no average of its surroundings hides. A
+  // pixel of large error becomes at most as bright as the fifth brightest of the 24 around it.
+  void limit_outliers() {
+    const std::vector<Vec3f> before = light_;
+    over_rows([&](int y) {
+      for (int x = 0; x < image_.width; ++x) {
+        const std::size_t i = at(x, y);
+        const float grey = luminance_of(before[i]);
+        if (!filtered(i) || variance_[i] < kOutlier * kOutlier * grey * grey) continue;
+        std::vector<float> around;
+        for (int v = std::max(y - 2, 0); v <= std::min(y + 2, image_.height - 1); ++v)
+          for (int u = std::max(x - 2, 0); u <= std::min(x + 2, image_.width - 1); ++u)
+            if (at(u, v) != i && filtered(at(u, v))) around.push_back(luminance_of(before[at(u, v)]));
+        if (around.size() <= std::size_t(kBrighter)) continue;
+        std::nth_element(around.begin(), around.begin() + kBrighter, around.end(), std::greater<float>());
+        const float share = around[kBrighter] / grey;
+        if (!(share < 1)) continue;
+        light_[i] = before[i] * share, variance_[i] *= share * share;
+      }
+    });
   }
 
   // How much the distance changes from a pixel to the next: of both sides the smaller.

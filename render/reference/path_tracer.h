@@ -11,9 +11,9 @@
 
 #include "render/camera/view_rays.h"
 #include "render/geometry/ray_scene.h"
-#include "render/reference/air_path.h"
-#include "render/reference/scene_lights.h"
-#include "render/reference/surface_model.h"
+#include "render/transport/air_path.h"
+#include "render/transport/scene_lights.h"
+#include "render/transport/surface_model.h"
 
 namespace rubble {
 

@@ -77,6 +77,7 @@ struct PileScenario {
   std::vector<MixItem> mix;        // empty: every asset of the packs, by its own weight
   std::vector<PlacedItem> placed;  // put there before anything falls
   TerrainScenario terrain;         // what the pile lies on
+  BuildingSpec building;           // collapses before anything falls; seed: the mission's
 };
 
 struct LightScenario {

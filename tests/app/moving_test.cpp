@@ -78,7 +78,7 @@ class Falling : public ::testing::Test {
 
 TEST_F(Falling, IsOneRecordingWhoseStampsGoOn) {
   const std::vector<Row> rows = read_poses(folder() + "/groundtruth.txt");
-  const double settled = read_manifest(folder()).at("pile").at("simulated");
+  const double settled = read_manifest(folder()).at("pile").at("simulated_s");
   const auto watched = std::size_t(std::floor(settled * 10 + 1e-6)) + 1;
   ASSERT_EQ(rows.size(), watched + 4);
   for (std::size_t i = 0; i < watched; ++i) {

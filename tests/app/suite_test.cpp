@@ -54,6 +54,27 @@ TEST_F(Suite, HoldsRunsToTheirGoldenHashesAndTakesNewOnesOnRequest) {
   EXPECT_EQ(run().exit_code, 0);
 }
 
+// By what the golden file keeps: the piece, the frame and its channel. By an earlier run's datasets: the
+// number of the piece, and the pixel.
+TEST_F(Suite, NamesTheFirstPieceFrameAndPixelThatDiffer) {
+  write_suite("pile_only = false, golden = \"all\"");
+  ASSERT_EQ(run("--update").exit_code, 0);
+  EXPECT_EQ(run().exit_code, 0);
+  std::filesystem::rename(scratch / "out", scratch / "earlier");
+  write_suite("pile_only = false, golden = \"all\", set = { \"wetness=0.5\" }");
+  const Outcome wet = run("--against " + (scratch / "earlier"));
+  EXPECT_EQ(wet.exit_code, 5);
+  EXPECT_IN("frame 0 is the first that differs, in its rgb", wet.out);
+  EXPECT_IN("against " + (scratch / "earlier/one"), wet.out);
+  EXPECT_IN("is the first that differs: ", wet.out.substr(wet.out.find("; pixel (")));
+  EXPECT_EQ(wet.out.find("piece "), std::string::npos) << "the pile is the same\n" << wet.out;
+  write_suite("pile_only = false, golden = \"all\", set = { \"settle.gravity=9.8\" }");
+  const Outcome heavy = run("--against " + (scratch / "earlier"));
+  EXPECT_IN("     piece 0 (brick) is the first that differs\n", heavy.out);
+  EXPECT_IN("piece 0 (brick) is the first that differs, in its ", heavy.out);
+  EXPECT_IN("no earlier dataset in ", run("--against " + (scratch / "none")).out);
+}
+
 TEST_F(Suite, HoldsMetricsToTheirLimits) {
   write_suite("golden = \"none\", expect = { pieces = { 16, 16 }, pile_height_m = { 0.05, 1 } }");
   EXPECT_EQ(run().exit_code, 0);

@@ -15,6 +15,7 @@ return rubble.mission {
       },
     },
   },
+  settle = { final_time_limit = 60 },
   voids = { on = true },
   camera = { width = 640, height = 480, fov_deg = 70 },
   trajectory = rubble.trajectory.orbit { radius_m = 13, height = 5, turns = 0.3, speed = 6 },

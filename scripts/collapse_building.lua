@@ -1,6 +1,6 @@
 -- A building that comes down: five of the nine columns of its ground storey are gone at once. What
--- follows is computed: bonds that break, floors that turn down about the columns that are left, a ruin
--- with voids under it, and a flight around it.
+-- follows is computed: bonds that break, floors that fall on floors, a heap at rest, and a flight
+-- around it.
 return rubble.mission {
   seed = 11,
   pile = rubble.building {

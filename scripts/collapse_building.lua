@@ -1,6 +1,6 @@
 -- A building that comes down: five of the nine columns of its ground storey are gone at once. What
--- follows is computed: bonds that break, floors that turn down about the columns that are left, a ruin
--- with voids under it, and a flight around it.
+-- follows is computed: bonds that break, floors that fall on floors, a heap at rest, and a flight
+-- around it.
 return rubble.mission {
   seed = 11,
   pile = rubble.building {
@@ -15,6 +15,7 @@ return rubble.mission {
       },
     },
   },
+  settle = { final_time_limit = 60 },
   voids = { on = true },
   camera = { width = 640, height = 480, fov_deg = 70 },
   trajectory = rubble.trajectory.orbit { radius_m = 13, height = 5, turns = 0.3, speed = 6 },

@@ -26,7 +26,8 @@ CutKey key_of(const Member& m) {
 // The fragments of one kind of member, and the types that they became.
 struct CutMember {
   std::vector<Fragment> fragments;
-  std::vector<VolumeProperties> volumes;
+  std::vector<VolumeProperties> volumes;  // of the types
+  std::vector<Vec3> origins;              // of the types' frames, from the member's centre
   int first_type = 0;
 };
 
@@ -110,7 +111,12 @@ class Builder {
     for (const Fragment& fragment : made.fragments) {
       PieceType type;
       type.name = std::string(member_name(member.kind)) + "_" + std::to_string(structure_.types.size());
-      type.parts = {{fragment.corners}};
+      // About its centre of mass: where a piece is must not depend on the member that it broke from.
+      const Vec3 origin = calc_volume_properties({fragment.corners}).centre_of_mass;
+      ConvexPart part;
+      for (const Vec3& corner : fragment.corners) part.points.push_back(corner - origin);
+      type.parts = {part};
+      made.origins.push_back(origin);
       type.density = member.material.density;
       type.friction = member.material.friction;
       made.volumes.push_back(calc_volume_properties(type.parts[0]));
@@ -133,8 +139,8 @@ class Builder {
       StructurePiece piece;
       piece.type = made.first_type + int(i);
       piece.member = index;
-      piece.position = member.centre;
-      piece.centre = member.centre + volume.centre_of_mass;
+      piece.position = member.centre + made.origins[i];
+      piece.centre = piece.position + volume.centre_of_mass;
       piece.mass = volume.volume * member.material.density;
       piece.inertia = volume.inertia * member.material.density;
       structure_.pieces.push_back(piece);

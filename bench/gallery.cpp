@@ -66,9 +66,10 @@ Frame take(GlContext& context, const GalleryPicture& picture, Piles& piles, int 
   options.cache_folder = DiskCache::usual_folder();
   Renderer renderer(context, build_scene(scenario, assets, piles.of(picture, scenario, assets)),
                     options);
-  CameraSpec spec = build_camera(scenario, threads);
+  const MountedCamera mounted = all_cameras(scenario).front();
+  CameraSpec spec = build_camera(scenario, mounted, threads);
   ask_for_channel(picture.channel, spec);
-  Camera camera(renderer, spec, build_flight(scenario), Medium(scenario.air, scenario.seed));
+  Camera camera(renderer, spec, build_flight(scenario, mounted), Medium(scenario.air, scenario.seed));
   if (picture.frame >= camera.frames())
     throw RunError(picture.name + ": frame " + std::to_string(picture.frame) + " of " +
                    std::to_string(camera.frames()));

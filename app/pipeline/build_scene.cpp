@@ -4,6 +4,7 @@
 
 #include "app/assets/terrain.h"
 #include "kernel/base/portable_math.h"
+#include "kernel/base/random.h"
 #include "render/materials/surface_appearance.h"
 #include "scripting/trajectory/trajectory.h"
 
@@ -61,8 +62,8 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
   return scene;
 }
 
-CameraSpec build_camera(const Scenario& scenario, int threads) {
-  const CameraScenario& camera = scenario.camera;
+CameraSpec build_camera(const Scenario& scenario, const MountedCamera& mounted, int threads) {
+  const CameraScenario& camera = mounted.camera;
   CameraSpec spec;
   spec.intrinsics = camera.intrinsics();
   spec.channels = camera.channel_set();
@@ -70,9 +71,12 @@ CameraSpec build_camera(const Scenario& scenario, int threads) {
   spec.shutter = camera.shutter;
   spec.exposure = camera.exposure;
   spec.sensor = camera.sensor;
-  spec.depth_sensor = scenario.depth_sensor;
-  spec.event_camera = scenario.event_camera;
+  spec.depth_sensor = mounted.depth_sensor;
+  spec.event_camera = mounted.event_camera;
   spec.seed = scenario.seed;
+  if (!mounted.is_rig()) spec.rig_from_camera = mounted.rig_from_camera();
+  if (!scenario.cameras.empty())  // each has noise of its own
+    spec.seed = RandomStream(scenario.seed, "cameras/" + mounted.name).next();
   spec.threads = threads;
   return spec;
 }
@@ -99,15 +103,21 @@ PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile) {
   return model;
 }
 
-Flight build_flight(const Scenario& scenario) {
+Flight build_flight(const Scenario& scenario, const MountedCamera& camera) {
+  // The same bits where the camera is the rig.
+  const bool mounted = !camera.is_rig();
+  const Pose rig_from_camera = camera.rig_from_camera();
+  const auto on_mount = [=](const Pose& rig) { return mounted ? rig * rig_from_camera : rig; };
+  TrajectorySpec spec = scenario.trajectory;
+  spec.rate_hz = camera.rate_hz.value_or(spec.rate_hz);
   Flight flight;
-  for (const CameraPose& pose : sample_trajectory(scenario.trajectory, scenario.start_ns)) {
+  for (const CameraPose& pose : sample_trajectory(spec, scenario.start_ns)) {
     flight.stamps_ns.push_back(pose.stamp_ns);
-    flight.world_from_camera.push_back(pose.world_from_camera);
+    flight.world_from_camera.push_back(on_mount(pose.world_from_camera));
   }
   const auto path = std::make_shared<CameraPath>(scenario.trajectory);
-  flight.pose_at = [path, start = scenario.start_ns](std::int64_t stamp_ns) {
-    return path->at(double(stamp_ns - start) * 1e-9);
+  flight.pose_at = [path, on_mount, start = scenario.start_ns](std::int64_t stamp_ns) {
+    return on_mount(path->at(double(stamp_ns - start) * 1e-9));
   };
   return flight;
 }

@@ -19,8 +19,8 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets);
 // Every piece but the lost ones, with the scenario's light, lamp and air.
 Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile);
 
-// The mission's camera and its sensors.
-CameraSpec build_camera(const Scenario& scenario, int threads);
+// A camera of the mission (all_cameras), with what is in its place.
+CameraSpec build_camera(const Scenario& scenario, const MountedCamera& camera, int threads);
 
 // The legend of the stream `label`: the name of each class, by its number.
 std::vector<std::string> label_names(const AssetLibrary& assets);
@@ -28,7 +28,8 @@ std::vector<std::string> label_names(const AssetLibrary& assets);
 // The same pieces at full detail, with names and plain colours, for the exports. Refers to `assets`.
 PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile);
 
-// Where the camera is along the scenario's trajectory, whose places are resolved: app/planning/flight.h.
-Flight build_flight(const Scenario& scenario);
+// Where that camera is, at its own rate, along the scenario's trajectory, whose places are resolved:
+// app/planning/flight.h.
+Flight build_flight(const Scenario& scenario, const MountedCamera& camera);
 
 }  // namespace rubble

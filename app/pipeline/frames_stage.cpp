@@ -7,6 +7,7 @@
 #include "app/pipeline/frame_watch.h"
 #include "app/pipeline/live.h"
 #include "app/pipeline/recorders.h"
+#include "app/pipeline/sensors.h"
 #include "app/pipeline/stages.h"
 #include "app/planning/camera_inside.h"
 #include "app/planning/flight.h"
@@ -19,9 +20,7 @@
 #include "kernel/base/text.h"
 #include "render/gl/gl_context.h"
 #include "render/renderer.h"
-#include "render/sensors/camera.h"
 #include "scripting/sandbox/script_file.h"
-#include "scripting/trajectory/imu.h"
 #include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
@@ -29,7 +28,7 @@ namespace {
 
 // labels.csv: what the numbers of the label channel mean.
 void write_legend(const ResolvedMission& mission, RunFolder& folder) {
-  if (!mission.scenario.camera.has_channel("label")) return;
+  if (!has_channel(mission.scenario, "label")) return;
   std::string text = "label,name\n";
   const std::vector<std::string> names = label_names(mission.assets);
   for (std::size_t i = 0; i < names.size(); ++i) text += std::to_string(i) + "," + names[i] + "\n";
@@ -51,34 +50,47 @@ std::map<std::string, std::string> describe_environment(const GlInfo& info, int 
           {"threads", std::to_string(threads)}};
 }
 
-double seconds_since(const Scenario& scenario, std::int64_t stamp_ns) {
-  return double(stamp_ns - scenario.start_ns) * 1e-9;
+std::vector<std::string> names_of_cameras(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const MountedCamera& camera : scenario.cameras) names.push_back(camera.name);
+  return names;
 }
 
-// Takes every frame in order, notes its hashes, and hands it to the recorders. flown: the scenario
-// with the path that is flown.
-void take_frames(Camera& camera, const Scenario& flown, RecordingQueue& queue,
-                 const RunFolder& folder, RunContext& context, RecordedFrames& recorded) {
-  FrameJournal journal(folder.frames_file());
-  const CameraPath path(flown.trajectory);
-  Imu imu(path, flown.imu.model, flown.settle.gravity, flown.seed, flown.start_ns);
+// What is worked out from the frames while they pass.
+struct FrameFigures {
+  FrameJournal journal;
   DepthMetrics depth;
   FrameWatch watch;
-  for (int i = 0; i < camera.frames(); ++i) {
+};
+
+void look_at_frame(const Frame& frame, FrameFigures& figures, RecordedFrames& recorded,
+                   RunContext& context) {
+  recorded.hashes.add(frame);
+  figures.journal.note(recorded.hashes.frames.size() - 1, recorded.hashes.frames.back());
+  figures.depth.add(frame);
+  if (figures.watch.notice(frame)) context.warnings.push_back(figures.watch.warning());
+}
+
+// Takes every sample in order, notes the hashes of frames, and hands it to the recorders.
+void take_samples(SensorSuite& sensors, RecordingQueue& queue, const RunFolder& folder,
+                  RunContext& context, RecordedFrames& recorded) {
+  FrameFigures figures{FrameJournal(folder.frames_file()), {}, {}};
+  const int all = sensors.count_frames();
+  throw_if_stopped(folder.path());
+  while (std::optional<Sample> sample = sensors.take()) {
+    if (const auto* reading = std::get_if<ImuSample>(&*sample)) {
+      recorded.hashes.add_imu(*reading);
+      queue.push(*std::move(sample));
+      continue;
+    }
+    look_at_frame(std::get<Frame>(*sample), figures, recorded, context);
+    queue.push(*std::move(sample));
+    const auto done = recorded.hashes.frames.size();
+    context.progress.update(double(done) / all, "frame " + std::to_string(done) + " of " +
+                                                    std::to_string(all));
     throw_if_stopped(folder.path());
-    Frame frame = camera.take(i);
-    frame.linear_velocity = path.motion_at(seconds_since(flown, frame.stamp_ns)).velocity;
-    if (flown.imu.on) frame.imu = imu.take_until(frame.stamp_ns);
-    recorded.hashes.add(frame);
-    journal.note(std::size_t(i), recorded.hashes.frames.back());
-    depth.add(frame);
-    if (watch.notice(frame)) context.warnings.push_back(watch.warning());
-    queue.push(std::move(frame));
-    context.progress.update(
-        double(i + 1) / camera.frames(),
-        "frame " + std::to_string(i + 1) + " of " + std::to_string(camera.frames()));
   }
-  depth.add_to(recorded.metrics);
+  figures.depth.add_to(recorded.metrics);
 }
 
 FlightPlan plan_flight(const ResolvedMission& mission, const PileState& pile,
@@ -97,6 +109,19 @@ FlightPlan plan_flight(const ResolvedMission& mission, const PileState& pile,
   }
 }
 
+void warn_of_cameras_inside(const ResolvedMission& mission, const Scenario& flown,
+                            const PileState& pile, RunContext& context) {
+  for (const MountedCamera& camera : all_cameras(flown)) {
+    std::vector<Vec3> positions;
+    for (const Pose& pose : build_flight(flown, camera).world_from_camera)
+      positions.push_back(pose.translation);
+    const auto warning = find_camera_inside(mission.assets, pile, positions);
+    if (!warning) continue;
+    const std::string who = flown.cameras.empty() ? "" : "camera `" + camera.name + "`: ";
+    context.warnings.push_back(who + *warning);
+  }
+}
+
 // The scenario with what its trajectory depends on besides the script: places in voids, ways around
 // the pile. flight.json holds it.
 Scenario resolve_path(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
@@ -109,28 +134,25 @@ Scenario resolve_path(const ResolvedMission& mission, const PileState& pile, Run
     write_text_file(folder.file("flight.json"), plan.json);
     folder.add("flight.json");
   }
-  std::vector<Vec3> positions;
-  for (const CameraPose& pose : plan.poses) positions.push_back(pose.world_from_camera.translation);
-  if (const auto warning = find_camera_inside(mission.assets, pile, positions))
-    context.warnings.push_back(*warning);
   Scenario flown = mission.scenario;
   flown.trajectory = plan.trajectory;
+  warn_of_cameras_inside(mission, flown, pile, context);
   return flown;
 }
 
 // Frames into files, until the last file is complete.
-void record(Camera& camera, const ResolvedMission& mission, const Scenario& flown,
+void record(SensorSuite& sensors, const ResolvedMission& mission, const Scenario& flown,
             const PileState& pile, RunFolder& folder, RunContext& context,
             RecordedFrames& recorded) {
   context.progress.start("render");
   const Recording recording = describe_recording(flown, mission.assets, pile);
   RecorderSet set =
-      make_recorders({flown, recording, camera.frames(), title_of(mission, pile)}, folder.path());
+      make_recorders({flown, recording, sensors.frames(), title_of(mission, pile)}, folder.path());
   folder.expect(set.names);
   add_live_recorders(set, context.options, ros_options(flown.outputs, recording));
   RecordingQueue queue(std::move(set.recorders));
-  take_frames(camera, flown, queue, folder, context, recorded);
-  context.progress.finish(std::to_string(camera.frames()) + " frames");
+  take_samples(sensors, queue, folder, context, recorded);
+  context.progress.finish(std::to_string(sensors.count_frames()) + " frames");
   for (const std::string& warning : context.warnings)
     std::fprintf(stderr, "rubble: warning: %s\n", printable(warning).c_str());
 
@@ -159,14 +181,14 @@ RecordedFrames record_frames(const ResolvedMission& mission, const PileState& pi
   context.progress.start("scene");
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
+  recorded.hashes = FrameHashes(names_of_cameras(flown));
   recorded.environment = describe_environment(gl.info(), context.threads());
   Renderer renderer =
       prepare_renderer(flown, mission.assets, pile, gl, context.threads(),
                        [&](double fraction) { context.progress.update(fraction, "light"); });
-  Camera camera(renderer, build_camera(flown, context.threads()), build_flight(flown),
-                Medium(flown.air, flown.seed));
+  SensorSuite sensors(flown, renderer, context.threads());
   context.progress.finish("ready on " + gl.info().renderer);
-  record(camera, mission, flown, pile, folder, context, recorded);
+  record(sensors, mission, flown, pile, folder, context, recorded);
   return recorded;
 }
 

@@ -1,4 +1,4 @@
-#include "app/pipeline/pile_section.h"
+#include "app/commands/pile_section.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all package install asset-maker live demo gallery pictures test test-nightly test-asan test-tsan fuzz faults determinism format clean
+.PHONY: help packages program-packages build all package install site asset-maker live demo gallery pictures test test-nightly test-asan test-tsan fuzz faults determinism format clean
 
 PROGRAM := build/release/rubble
 CTEST   := ctest --output-on-failure --parallel 2
@@ -15,6 +15,7 @@ help:
 	@echo "make all        build the tests and benches, too"
 	@echo "make install PREFIX=/usr/local  the program, its assets, manual pages, completion"
 	@echo "make package    a Debian package: build/package/rubble_*.deb"
+	@echo "make site       the documents as a site: build/site/index.html"
 	@echo "make live       the same with what publishes over ROS (docs/live.md)"
 	@echo "make test-nightly  the tests that take long, or need a cluster of one node"
 	@echo "make test-asan  the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
@@ -53,6 +54,11 @@ install: build
 package: build
 	cpack --config build/release/CPackConfig.cmake -B build/package
 
+site:
+	@tools/install_packages.sh tools/packages-site.txt
+	tools/make_site.py build/site_source
+	mkdocs build --strict --quiet
+
 # With the optional parts that publish over ROS; CMake looks for them anew.
 live: packages
 	@tools/install_packages.sh tools/packages-live.txt
@@ -82,7 +88,7 @@ test: all
 	$(CTEST) --preset release --label-exclude nightly
 
 test-nightly: live
-	@tools/install_packages.sh tools/packages-nightly.txt tools/packages-sfm.txt
+	@tools/install_packages.sh tools/packages-nightly.txt tools/packages-sfm.txt tools/packages-site.txt
 	$(CTEST) --preset release --label-regex nightly
 	$(MAKE) fuzz SECONDS=4  # of each target: a minute in all, two at once
 

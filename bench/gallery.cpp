@@ -10,6 +10,7 @@
 
 #include "app/assets/asset_library.h"
 #include "app/pipeline/build_scene.h"
+#include "app/sensors/build_camera.h"
 #include "bench/channel_picture.h"
 #include "bench/gallery_list.h"
 #include "bench/program.h"
@@ -64,6 +65,7 @@ Frame take(GlContext& context, const GalleryPicture& picture, Piles& piles, int 
   RenderOptions options;
   options.threads = threads;
   options.cache_folder = DiskCache::usual_folder();
+  options.colour = scenario.camera.colour;
   Renderer renderer(context, build_scene(scenario, assets, piles.of(picture, scenario, assets)),
                     options);
   const MountedCamera mounted = all_cameras(scenario).front();

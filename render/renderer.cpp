@@ -23,6 +23,8 @@
 #include "render/passes/resolve_pass.h"
 #include "render/passes/shadow_pass.h"
 #include "render/passes/visibility_pass.h"
+#include "render/reference/display.h"
+#include "render/reference/reference_pass.h"
 
 namespace rubble {
 
@@ -88,6 +90,15 @@ float most_gloss(const PreparedScene& scene) {
   return most;
 }
 
+ReferenceOptions reference_options(const RenderOptions& o, std::uint64_t seed) {
+  ReferenceOptions out;
+  out.samples = o.colour.samples, out.denoise = o.colour.denoise, out.jitter = o.antialias;
+  out.threads = o.threads, out.seed = seed;
+  out.cache_folder = o.cache_folder;
+  out.progress = o.image_progress;
+  return out;
+}
+
 bool draws_on_processor(const RenderOptions& options, const GlInfo& info) {
   if (options.raster != RasterChoice::automatic) return options.raster == RasterChoice::processor;
   for (const char* software : {"llvmpipe", "softpipe", "swrast"})
@@ -119,6 +130,7 @@ struct Renderer::State {
   FrameLight frame_light;
   std::unique_ptr<VisibilityPass> visibility;
   std::unique_ptr<ResolvePass> resolve;
+  std::unique_ptr<ReferencePass> reference;  // none: colours are the resolve pass's
   float exposure = 0.1f;  // of the frame drawn last
   RenderTimes times;
   std::vector<std::uint8_t> rgba;
@@ -133,6 +145,8 @@ struct Renderer::State {
   SurfaceImages draw_surfaces(const ViewRays& view);
   // metered: at the exposure that the view itself asks for; otherwise at that of the frame before.
   void draw_colour(const SurfaceImages& surfaces, bool metered);
+  void draw_reference_colour(bool metered);
+  std::vector<float> trace_light() const;  // of the view drawn last; 3 floats a pixel, kcd/m2
   ViewProjection projection() const { return {drawn.world_from_camera, drawn.intrinsics}; }
   // Of the view drawn last.
   const std::vector<float>& depth_values() const;
@@ -176,6 +190,10 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
       VisibilityOptions{o.occlusion_culling, o.coarse_below, draws_on_processor(o, c.info()),
                         o.threads});
   resolve = std::make_unique<ResolvePass>(gl, geometry, frame_light, ground_map, patterns);
+  if (o.colour.quality == RenderQuality::reference)
+    reference = std::make_unique<ReferencePass>(
+        ReferenceSurroundings{scene, light, patterns, ground_map, s.wetness},
+        reference_options(o, s.seed));
   ground_truth = std::make_unique<GroundTruthMaker>(scene, geometry, o.threads);
   report(1);
 }
@@ -186,7 +204,7 @@ BakedScene Renderer::State::bake(const DiskCache& cache, const Progress& report)
   const PreparedScene resting = moving.any() ? resting_part(scene, first_light) : PreparedScene();
   const PreparedScene& part = moving.any() ? resting : scene;
   BakedScene baked;
-  if (options.bake) {
+  if (options.bake && options.colour.quality == RenderQuality::fast) {
     BakeOptions bake;
     bake.threads = options.threads;
     bake.rays = options.bake_rays;
@@ -209,13 +227,14 @@ BakedScene Renderer::State::bake(const DiskCache& cache, const Progress& report)
 void Renderer::State::move_to(std::int64_t stamp_ns) {
   if (!moving.move_to(stamp_ns)) return;
   update_poses(gl, scene, geometry);
+  if (reference) return;  // it follows the scene itself
   update_light(gl, geometry, live_light->update());
   shadow->draw_moving();
 }
 
 void Renderer::State::update_air(const ViewRays& view) {
   const Pose& pose = view.lamp_bearer();
-  if (medium.clear()) return;
+  if (medium.clear() || reference) return;
   const LampSpec& lamp = frame_light.lamp;
   AirLamp glow;
   glow.position = Vec3f(pose * lamp.position);
@@ -246,7 +265,25 @@ SurfaceImages Renderer::State::draw_surfaces(const ViewRays& view) {
   return {rays->ids(), rays->depth(), rays->depth_values(), &rays->lens_rays(), &rays->row_poses()};
 }
 
+std::vector<float> Renderer::State::trace_light() const {
+  return reference->draw(drawn, frame_light.lamp,
+                         medium.at(double(drawn.stamp_ns - start_ns) * 1e-9));
+}
+
+void Renderer::State::draw_reference_colour(bool metered) {
+  const Stopwatch start;
+  const Intrinsics& k = drawn.intrinsics;
+  const std::vector<float> rgb = trace_light();
+  const Vec3f gains = white_balance(light);
+  if (metered)
+    exposure = find_exposure({0.21, options.fixed_exposure}, meter_image(rgb, k.width, k.height, gains));
+  rgba = develop_image(rgb, k.width, k.height, gains, exposure);
+  times.resolve = start.time();
+  times.read = PassTime();
+}
+
 void Renderer::State::draw_colour(const SurfaceImages& surfaces, bool metered) {
+  if (reference) return draw_reference_colour(metered);
   const Stopwatch start;
   const Pose& pose = drawn.world_from_camera;
   const bool automatic = metered && options.fixed_exposure <= 0;
@@ -286,7 +323,7 @@ std::vector<std::uint32_t> Renderer::State::read_ids() const {
 std::vector<std::uint8_t> Renderer::State::finish_colour() const {
   std::vector<std::uint8_t> rgb;
   const Intrinsics& k = drawn.intrinsics;
-  if (options.antialias) {
+  if (options.antialias && !reference) {
     smooth_edges(rgba, depth_values(), k.width, k.height, options.threads, rgb);
     return rgb;
   }
@@ -380,7 +417,9 @@ LinearFrame Renderer::render_linear(const ViewRays& view) {
   s.context.make_current();
   const SurfaceImages surfaces = s.draw_surfaces(view);
   const std::vector<float> rgba =
-      s.resolve->draw_linear(s.projection(), s.drawn.world_from_camera, surfaces, s.frame_light);
+      s.reference ? s.trace_light()
+                  : s.resolve->draw_linear(s.projection(), s.drawn.world_from_camera, surfaces, s.frame_light);
+  const std::size_t channels = s.reference ? 3 : 4;
   const std::vector<std::uint32_t> ids = s.read_ids();
   LinearFrame out;
   out.width = view.intrinsics.width, out.height = view.intrinsics.height;
@@ -389,7 +428,7 @@ LinearFrame Renderer::render_linear(const ViewRays& view) {
   out.rgb.resize(out.depth.size() * 3);
   out.instance.resize(out.depth.size());
   for (std::size_t i = 0; i < out.depth.size(); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) out.rgb[i * 3 + c] = rgba[i * 4 + c];
+    for (std::size_t c = 0; c < 3; ++c) out.rgb[i * 3 + c] = rgba[i * channels + c];
     out.instance[i] = ids[i * 2] ? s.scene.placed[ids[i * 2] - 1].id : kNoInstance;
   }
   return out;

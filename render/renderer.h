@@ -34,6 +34,9 @@ struct RenderOptions {
                               // 0: the finest always, so that depth is that of the true surface
   bool antialias = true;      // smooth silhouettes of the colour image
   double fixed_exposure = 0;  // factor on luminance in kcd/m2; 0: automatic
+  ColourSpec colour;          // fast, or path traced
+  // Of a path-traced image: called on the calling thread with its done fraction; may throw to stop.
+  std::function<void(double)> image_progress;
 };
 
 // The same view before exposure and tone mapping, for tests and sensors.

@@ -59,13 +59,14 @@ Mission load_mission(const std::string& path, const MissionOptions& options) {
 Mission load_mission_text(const std::string& text, const std::string& path,
                           const MissionOptions& options) {
   const SourceMap lines(text, "mission");
-  Mission mission{{}, {path, text, sha256(text)}, {}, {}, lines};
+  Mission mission{{}, {path, text, sha256(text)}, {}, {}, lines, {}};
   const std::uint64_t seed = seed_for_script(lines, options);
   LuaSandbox sandbox(seed, "rubble.mission", options.limits);
   if (options.included) sandbox.serve_includes(*options.included);
   const Value table = run_script(sandbox, mission.script, lines);
   mission.included = sandbox.included();
   mission.printed = sandbox.printed();
+  mission.drawn = sandbox.drawn();
   require_table(table, mission.script, lines);
 
   Scenario& scenario = mission.scenario;

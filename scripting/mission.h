@@ -32,6 +32,7 @@ struct Mission {
   std::vector<SourceFile> included;  // files that the script took in by rubble.include
   std::vector<std::string> printed;  // lines that the script printed
   SourceMap lines;                   // where each key was written
+  std::vector<std::pair<std::string, std::string>> drawn;  // by rubble.random: LuaSandbox::drawn
 };
 
 // What is allowed and hardly meant, each with file and line: an angle that looks like radians.

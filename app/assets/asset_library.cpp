@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/assets/asset_loading.h"
+#include "app/assets/building_assets.h"
 #include "app/assets/material_variant.h"
 #include "app/assets/placed_box.h"
 #include "scripting/packs/asset_pack.h"
@@ -137,9 +138,13 @@ std::string find_pack(const std::string& pack) {
 
 std::string bundled_assets_folder() {
   if (const char* folder = std::getenv("RUBBLE_ASSETS")) return folder;
-  const fs::path beside = fs::read_symlink("/proc/self/exe").parent_path();
-  const fs::path places[] = {beside / "assets", beside / "../share/rubble/assets"};
   std::error_code failed;
+  const fs::path beside = fs::read_symlink("/proc/self/exe", failed).parent_path();
+  if (failed)
+    throw InputError({"/proc/self/exe", 0, "RUBBLE_ASSETS", "cannot tell where the program lies", "",
+                      failed.message(), "mount /proc, or set RUBBLE_ASSETS to the folder of the "
+                                        "bundled packs"});
+  const fs::path places[] = {beside / "assets", beside / "../share/rubble/assets"};
   for (const fs::path& place : places)
     if (fs::exists(place / "materials.lua", failed)) return place.lexically_normal().string();
   throw InputError({"", 0, "RUBBLE_ASSETS", "the bundled packs are not where they belong",
@@ -182,6 +187,7 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   add_boxes(mission, materials, library);
   add_terrain(mission.scenario.pile.terrain, {fs::path(mission.script.path).parent_path().string()},
               library);
+  add_building(building_of(mission.scenario), library);
   load(true);  // made of types, so after all of them
   library.mix = make_mix(mission.scenario, all, library);
   for (std::string& warning : find_suspicious(mission)) library.warnings.push_back(std::move(warning));

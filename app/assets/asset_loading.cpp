@@ -6,6 +6,7 @@
 
 #include "app/assets/assemblies.h"
 #include "app/assets/decompose_cache.h"
+#include "app/assets/hull_error.h"
 #include "app/assets/material_variant.h"
 #include "app/assets/placed_box.h"
 #include "app/assets/terrain.h"
@@ -44,6 +45,9 @@ PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnit
   return type;
 }
 
+// Of what decompose() gives: another one is another content. 2: meshes of boxes are cut without error.
+constexpr double kDecomposeVersion = 2;
+
 std::string hash_content(const Asset& asset, const PieceType& type) {
   Sha256 hash;
   std::vector<std::string> files = asset.meshes;
@@ -52,7 +56,7 @@ std::string hash_content(const Asset& asset, const PieceType& type) {
     const std::string content = sha256_of_file(file);
     hash.add(content.data(), content.size());
   }
-  const double up = asset.up == UpAxis::y ? 1 : 0, cut = asset.decompose ? 1 : 0;
+  const double up = asset.up == UpAxis::y ? 1 : 0, cut = asset.decompose ? kDecomposeVersion : 0;
   for (const double number : {type.density, type.friction, asset.metres_per_unit, up, cut})
     hash.add(&number, sizeof number);
   return hash.hex();
@@ -65,6 +69,26 @@ std::string choose_surface_appearance(const Asset& asset, const std::string& sur
   const std::vector<std::string> known = known_surface_appearances();
   const bool is_surface_appearance = std::find(known.begin(), known.end(), surface) != known.end();
   return is_surface_appearance || asset.look.empty() ? surface : asset.look;
+}
+
+// Of what a mesh is cut into, the share beyond the mesh that is worth a word.
+constexpr double kNotedExcess = 0.1;
+
+// The sum of the parts' volumes is quick to tell; it counts twice where parts overlap.
+void warn_of_excess(const Asset& asset, const TriangleMesh& mesh, const PieceType& type,
+                    std::vector<std::string>& warnings) {
+  if (!asset.decompose || !type.volume) return;
+  double sum = 0;
+  for (const ConvexPart& part : type.parts) sum += calc_volume_properties(part).volume;
+  if (sum <= (1 + kNotedExcess) * type.volume->volume) return;
+  const HullError error = calc_hull_error(mesh, compile_shape(type, type.name));
+  if (error.outside <= kNotedExcess * error.mesh) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                ": its %zu convex parts hold %.0f %% more than the mesh: pieces will keep apart that would "
+                "touch; name parts of your own by collision = { parts = FILE }",
+                type.parts.size(), 100 * error.outside / error.mesh);
+  warnings.push_back(asset.meshes.front() + text);
 }
 
 constexpr double kSmallest = 1e-3, kLargest = 1e3;  // of a piece that was meant so; unit: m
@@ -122,6 +146,7 @@ LoadedAsset load_asset(const Asset& asset, MeshImporter& importer) {
   warn_of_size(asset, mesh->levels.front(), loaded.warnings);
   warn_of_surface_appearances(asset, surfaces, loaded.warnings);
   loaded.type = make_type(asset, mesh->levels.front(), units, importer, loaded.warnings);
+  warn_of_excess(asset, mesh->levels.front(), loaded.type, loaded.warnings);
   loaded.mesh = std::move(mesh);
   return loaded;
 }

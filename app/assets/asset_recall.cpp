@@ -4,6 +4,7 @@
 
 #include "app/assets/assemblies.h"
 #include "app/assets/asset_loading.h"
+#include "app/assets/building_assets.h"
 #include "app/assets/material_variant.h"
 #include "app/assets/placed_box.h"
 #include "app/assets/terrain.h"
@@ -41,6 +42,17 @@ void remake_box(const AssetContent& wanted, const Scenario& scenario,
   }
   lost.hint = "use the program that the run was made with";
   throw InputError(lost);
+}
+
+// The pieces of the building that a provenance names: all of them with the first.
+void remake_building(const AssetContent& wanted, const Scenario& scenario, const std::string& file,
+                     AssetLibrary& library) {
+  if (!library.has(wanted.name)) add_building(building_of(scenario), library);
+  for (const AssetContent& made : library.contents) {
+    if (made.name == wanted.name && made.sha256 == wanted.sha256) return;
+  }
+  throw InputError({file, 0, "assets", "the building's piece `" + wanted.name + "` cannot be made again",
+                    "the content " + wanted.sha256, "another", "use the program that the run was made with"});
 }
 
 // A folder of packs stands for all of them.
@@ -150,6 +162,8 @@ AssetLibrary load_assets(const Provenance& provenance, const std::vector<std::st
   for (const AssetContent& wanted : pile.assets) {
     if (wanted.pack == kMadeToMeasure)
       remake_box(wanted, scenario, materials, provenance.script.path, library);
+    else if (wanted.pack == kBuildingPack)
+      remake_building(wanted, scenario, provenance.script.path, library);
     else if (wanted.pack == kTerrainPack)
       remake_terrain(wanted, scenario.pile.terrain, folders, provenance.script.path, library);
     else

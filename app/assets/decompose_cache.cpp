@@ -3,7 +3,7 @@
 namespace rubble {
 namespace {
 
-constexpr int kVersion = 1;  // raise it whenever decompose() changes
+constexpr int kVersion = 2;  // raise it whenever decompose() changes
 
 std::string key_of(const TriangleMesh& mesh, const DecomposeOptions& o) {
   CacheKey key("decompose", kVersion);

@@ -4,11 +4,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/assets/asset_library.h"
 #include "app/batch/batch_folder.h"
 #include "app/batch/seed_list.h"
-#include "app/pipeline/disk_estimate.h"
+#include "app/estimate/disk_estimate.h"
 #include "app/provenance/folder_lock.h"
 #include "app/provenance/provenance.h"
 #include "app/support/build_info.h"
@@ -29,19 +30,29 @@ struct Tally {
   std::uint64_t bytes = 0;  // of the seeds that ended well in this process
 };
 
+struct BatchRun {
+  std::uint64_t seed = 0;
+  std::size_t variant = 0;
+  std::string name;  // of its folder
+};
+
 class Batch {
  public:
   explicit Batch(const BatchRequest& request)
       : request_(request),
         all_(parse_seeds(request.seeds, "--seeds")),
+        sweep_(make_sweep(request.vary, request.samples)),
         shape_(choose_job_shape(request.jobs, request.of.options.threads)),
         folder_(request.of.out.empty()
                     ? "out/" + fs::path(request.of.mission).stem().string() + "_batch"
                     : request.of.out),
         progress_(choose_progress_style(request.of.options.quiet)) {
     const Shard shard = request.shard.empty() ? Shard{} : parse_shard(request.shard);
-    for (const std::uint64_t seed : all_)
-      if (shard.has(seed)) mine_.push_back(seed);
+    const std::uint64_t variants = sweep_.variants.size();
+    for (std::size_t variant = 0; variant < variants; ++variant)
+      for (const std::uint64_t seed : all_)
+        if (shard.has(seed * variants + variant))
+          mine_.push_back({seed, variant, sweep_.run_name(variant, std::to_string(seed))});
   }
 
   ExitCode run() {
@@ -58,14 +69,29 @@ class Batch {
   }
 
  private:
-  // What every seed has in common is read once, so that a mistake is not found a thousand times.
+  // What every seed has in common is read once, so that a mistake is not found a thousand times; of
+  // what varies, every value once.
   void check_mission() {
     MissionOptions options;
     options.seed = all_.front();
     options.overrides = request_.of.overrides;
-    const Mission mission = load_mission(request_.of.mission, options);
-    const AssetLibrary assets = load_assets(mission, request_.of.asset_packs);
-    estimate_ = estimate_bytes(mission.scenario, assets, request_.pile_only);
+    std::set<std::string> seen;
+    for (std::size_t variant = 0; variant < sweep_.variants.size(); ++variant) {
+      const std::vector<std::string> values = sweep_.overrides(variant);
+      bool is_new = variant == 0;
+      for (const std::string& value : values) is_new = seen.insert(value).second || is_new;
+      if (!is_new) continue;
+      MissionOptions varied = options;
+      varied.overrides.insert(varied.overrides.end(), values.begin(), values.end());
+      const Mission mission = load_mission(request_.of.mission, varied);
+      const AssetLibrary assets = load_assets(mission, request_.of.asset_packs);
+      estimate_ = std::max(estimate_, estimate_bytes(mission.scenario, assets, request_.pile_only));
+      if (variant == 0) describe_mission(mission, assets, options);
+    }
+  }
+
+  void describe_mission(const Mission& mission, const AssetLibrary& assets,
+                        const MissionOptions& options) {
     provenance_ =
         make_provenance(request_.pile_only ? RunKind::settle : RunKind::run, mission, options);
     provenance_.assets = assets.contents;
@@ -78,23 +104,27 @@ class Batch {
     json["format"] = "rubble batch 1";
     json["program"] = build.version + " " + build.commit;
     json["seeds"] = request_.seeds;
+    if (sweep_.varies()) json["vary"] = request_.vary;
+    if (request_.samples > 0) json["samples"] = request_.samples;
     add_provenance(json, provenance_);
     return json.dump(2) + "\n";
   }
 
-  std::vector<std::string> arguments_for(std::uint64_t seed) const {
-    const bool resume = is_begun(seed);
+  std::vector<std::string> arguments_for(const BatchRun& run) const {
+    const bool resume = is_begun(run);
     std::vector<std::string> list;
     if (resume) {
-      list = {"resume", folder_.of_seed(seed)};
+      list = {"resume", folder_.of(run.name)};
     } else {
       list = {request_.pile_only ? "settle" : "run",
               request_.of.mission,
               "--seed",
-              std::to_string(seed),
+              std::to_string(run.seed),
               "--out",
-              folder_.of_seed(seed)};
+              folder_.of(run.name)};
       for (const std::string& text : request_.of.overrides)
+        list.insert(list.end(), {"--set", text});
+      for (const std::string& text : sweep_.overrides(run.variant))
         list.insert(list.end(), {"--set", text});
     }
     for (const std::string& pack : request_.of.asset_packs)
@@ -103,19 +133,19 @@ class Batch {
     return list;
   }
 
-  bool is_begun(std::uint64_t seed) const {
+  bool is_begun(const BatchRun& run) const {
     std::error_code failed;
-    return fs::exists(folder_.of_seed(seed) + "/unfinished/run.json", failed);
+    return fs::exists(folder_.of(run.name) + "/unfinished/run.json", failed);
   }
 
   void make_jobs() {
-    for (const std::uint64_t seed : mine_) {
-      if (folder_.state_of(seed) == SeedState::done) {
+    for (const BatchRun& run : mine_) {
+      if (folder_.state_of(run.name) == RunState::done) {
         ++tally_.done_before;
         continue;
       }
-      seeds_.push_back(seed);
-      jobs_.push_back({arguments_for(seed), folder_.running_log(seed)});
+      runs_.push_back(run.name);
+      jobs_.push_back({arguments_for(run), folder_.running_log(run.name)});
     }
   }
 
@@ -137,25 +167,25 @@ class Batch {
 
   // Returns whether to go on.
   bool note(std::size_t i, const JobResult& result) {
-    const std::uint64_t seed = seeds_[i];
+    const std::string& run = runs_[i];
     const bool well = result.exit_code == int(ExitCode::done) ||
                       result.exit_code == int(ExitCode::did_not_settle);
     if (result.exit_code == int(ExitCode::stopped)) {
-      folder_.file_log(seed, false);
+      folder_.file_log(run, false);
       return false;
     }
     // The same batch, begun twice, must not call what the other process does a failure.
-    if (!well && (folder_.state_of(seed) == SeedState::done || folder_.is_at_work(seed))) {
-      folder_.file_log(seed, false);
+    if (!well && (folder_.state_of(run) == RunState::done || folder_.is_at_work(run))) {
+      folder_.file_log(run, false);
       ++tally_.elsewhere;
       return true;
     }
-    folder_.file_log(seed, !well);
+    folder_.file_log(run, !well);
     ++tally_.ended;
     tally_.failed += !well;
     tally_.not_settled += result.exit_code == int(ExitCode::did_not_settle);
-    if (well) tally_.bytes += count_bytes(folder_.of_seed(seed));
-    if (!well) failures_.push_back(seed);
+    if (well) tally_.bytes += count_bytes(folder_.of(run));
+    if (!well) failures_.push_back(run);
     progress_.update(double(tally_.ended) / double(jobs_.size()), words());
     return well ? disk_is_enough() : true;
   }
@@ -177,23 +207,23 @@ class Batch {
             ? ""
             : ", " + std::to_string(tally_.elsewhere) + " in the hands of another process";
     return std::to_string(tally_.ended + tally_.done_before) + " of " +
-           std::to_string(mine_.size()) + " seeds, " + std::to_string(tally_.failed) + " failed" +
+           std::to_string(mine_.size()) + (sweep_.varies() ? " runs, " : " seeds, ") + std::to_string(tally_.failed) + " failed" +
            others;
   }
 
   void write_index() {
     const FolderLock lock(folder_.path() + "/batch.lock", FolderLock::Wait::yes);
-    const BatchIndex index = make_batch_index(folder_.path(), all_);
+    const BatchIndex index = make_batch_index(folder_.path(), sweep_, all_);
     altered_ = index.altered;
     write_text_file(folder_.path() + "/index.csv", index.text);
   }
 
   ExitCode report() {
     std::sort(failures_.begin(), failures_.end());
-    for (const std::uint64_t seed : failures_) {
-      const std::string log = folder_.failure_log(seed);
-      std::fprintf(stderr, "seed %llu failed (%s):\n%s\n", static_cast<unsigned long long>(seed),
-                   log.c_str(), tail_of_log(log, 3).c_str());
+    for (const std::string& run : failures_) {
+      const std::string log = folder_.failure_log(run);
+      std::fprintf(stderr, "%s failed (%s):\n%s\n", words_for(run).c_str(), log.c_str(),
+                   tail_of_log(log, 3).c_str());
     }
     if (stop_requested())
       throw Stopped("stopped by a signal, with " + words() + "; the same command continues");
@@ -205,16 +235,23 @@ class Batch {
     return tally_.not_settled > 0 ? ExitCode::did_not_settle : ExitCode::done;
   }
 
+  // "seed 7"; of a variant the name of its folder.
+  std::string words_for(const std::string& run) const {
+    return sweep_.varies() ? run : "seed " + run.substr(run.find('_') + 1);
+  }
+
   const BatchRequest& request_;
-  std::vector<std::uint64_t> all_, mine_;  // of the whole batch, of this shard
+  std::vector<std::uint64_t> all_;  // seeds of the whole batch
+  Sweep sweep_;
+  std::vector<BatchRun> mine_;      // of this shard
   JobShape shape_;
   BatchFolder folder_;
   Progress progress_;
   Provenance provenance_;
   std::uint64_t estimate_ = 0;
-  std::vector<std::uint64_t> seeds_;  // one per job
+  std::vector<std::string> runs_;  // names, one per job
   std::vector<Job> jobs_;
-  std::vector<std::uint64_t> failures_;
+  std::vector<std::string> failures_;
   std::string too_small_;
   std::vector<std::string> altered_;  // sentences, see BatchIndex
   Tally tally_;

@@ -25,24 +25,24 @@ void create_folder(const std::string& path) {
 
 }  // namespace
 
-std::string BatchFolder::failure_log(std::uint64_t seed) const {
-  return path_ + "/failed/seed_" + std::to_string(seed) + ".log";
+std::string BatchFolder::failure_log(const std::string& run) const {
+  return path_ + "/failed/" + run + ".log";
 }
 
-std::string BatchFolder::running_log(std::uint64_t seed) const {
-  return path_ + "/running/seed_" + std::to_string(seed) + ".log";
+std::string BatchFolder::running_log(const std::string& run) const {
+  return path_ + "/running/" + run + ".log";
 }
 
-SeedState BatchFolder::state_of(std::uint64_t seed) const {
+RunState BatchFolder::state_of(const std::string& run) const {
   std::error_code error;
-  const bool unfinished = is_unfinished(of_seed(seed));
-  if (!unfinished && fs::exists(of_seed(seed) + "/manifest.json", error)) return SeedState::done;
-  if (fs::exists(failure_log(seed), error)) return SeedState::failed;
-  return unfinished ? SeedState::unfinished : SeedState::missing;
+  const bool unfinished = is_unfinished(of(run));
+  if (!unfinished && fs::exists(of(run) + "/manifest.json", error)) return RunState::done;
+  if (fs::exists(failure_log(run), error)) return RunState::failed;
+  return unfinished ? RunState::unfinished : RunState::missing;
 }
 
-bool BatchFolder::is_at_work(std::uint64_t seed) const {
-  return FolderLock::is_held(of_seed(seed) + "/unfinished/lock");
+bool BatchFolder::is_at_work(const std::string& run) const {
+  return FolderLock::is_held(of(run) + "/unfinished/lock");
 }
 
 void BatchFolder::open(const std::string& description) const {
@@ -66,13 +66,13 @@ void BatchFolder::open(const std::string& description) const {
   write_text_file(file, description);
 }
 
-void BatchFolder::file_log(std::uint64_t seed, bool failed) const {
+void BatchFolder::file_log(const std::string& run, bool failed) const {
   std::error_code ignored;
   if (failed) {
-    fs::rename(running_log(seed), failure_log(seed), ignored);
+    fs::rename(running_log(run), failure_log(run), ignored);
   } else {
-    fs::remove(running_log(seed), ignored);
-    fs::remove(failure_log(seed), ignored);
+    fs::remove(running_log(run), ignored);
+    fs::remove(failure_log(run), ignored);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/provenance/compare.h"
 #include "app/support/json_members.h"
 #include "io/base/atomic_file.h"
 #include "kernel/base/hash.h"
@@ -22,7 +23,39 @@ std::string hash_of_frames(const FrameHashes& frames) {
   return sha256(text);
 }
 
+Json json_of(const GoldenDetails& details) {
+  Json json{{"pieces", details.pieces}};
+  if (details.frames.frames.empty()) return json;
+  json["channels"] = details.frames.channels;
+  json["frames"] = Json::array();
+  for (const auto& hashes : details.frames.frames) json["frames"].push_back(format_hashes(hashes));
+  return json;
+}
+
+GoldenDetails read_details(const JsonMembers& json) {
+  GoldenDetails details;
+  for (const auto& [name, value] : json.members()) {
+    if (name == "pieces") details.pieces = value.as_text();
+    if (name == "channels")
+      for (const JsonMembers& channel : json.list(name)) details.frames.channels.push_back(channel.as_text());
+    if (name != "frames") continue;
+    for (const JsonMembers& row : json.list(name)) {
+      details.frames.frames.emplace_back();
+      if (!parse_hashes(row.as_text(), details.frames.frames.back())) json.fail(name, "hashes of frames");
+    }
+  }
+  return details;
+}
+
 }  // namespace
+
+GoldenDetails golden_details(const Manifest& manifest, const PileState& pile, GoldenParts parts) {
+  GoldenDetails details;
+  if (parts == GoldenParts::none) return details;
+  details.pieces = digest_pieces(pile);
+  if (parts == GoldenParts::all) details.frames = manifest.frames;
+  return details;
+}
 
 GoldenHashes golden_hashes(const Manifest& manifest, GoldenParts parts) {
   GoldenHashes hashes;
@@ -42,6 +75,9 @@ GoldenFile::GoldenFile(const std::string& path) : path_(path) {
   if (members.text("format") != kFormat) members.fail("format", kFormat);
   for (const auto& [run, hashes] : members.object("runs").members())
     for (const auto& [name, hash] : hashes.members()) runs_[run][name] = hash.as_text();
+  if (!json.contains("details")) return;
+  for (const auto& [run, details] : members.object("details").members())
+    details_[run] = read_details(details);
 }
 
 std::vector<std::string> GoldenFile::compare(const std::string& run,
@@ -62,7 +98,21 @@ std::vector<std::string> GoldenFile::compare(const std::string& run,
   return sentences;
 }
 
-std::vector<std::string> GoldenFile::update(const std::string& run, const GoldenHashes& found) {
+std::vector<std::string> GoldenFile::find_first(const std::string& run, const PileState& pile,
+                                                const FrameHashes& frames) const {
+  std::vector<std::string> sentences;
+  const auto known = details_.find(run);
+  if (known == details_.end()) return sentences;
+  const std::string piece = known->second.pieces.empty() ? "" : describe_first_piece(known->second.pieces, pile);
+  if (!piece.empty()) sentences.push_back(piece);
+  if (known->second.frames.frames.empty()) return sentences;
+  const FrameDifference apart = find_difference(known->second.frames, frames);
+  if (!apart.why.empty()) sentences.push_back(apart.why);
+  return sentences;
+}
+
+std::vector<std::string> GoldenFile::update(const std::string& run, const GoldenHashes& found,
+                                            const GoldenDetails& details) {
   std::vector<std::string> diff;
   GoldenHashes& known = runs_[run];
   for (const auto& [name, hash] : known)
@@ -72,7 +122,8 @@ std::vector<std::string> GoldenFile::update(const std::string& run, const Golden
     if (!known.count(name) || known.at(name) != hash)
       diff.push_back("+ " + run + " " + name + " " + hash);
   known = found;
-  if (known.empty()) runs_.erase(run);
+  details_[run] = details;
+  if (known.empty()) runs_.erase(run), details_.erase(run);
   return diff;
 }
 
@@ -85,6 +136,7 @@ std::vector<std::string> GoldenFile::keep_only(const std::vector<std::string>& r
     }
     for (const auto& [name, hash] : it->second)
       diff.push_back("- " + it->first + " " + name + " " + hash);
+    details_.erase(it->first);
     it = runs_.erase(it);
   }
   return diff;
@@ -94,6 +146,7 @@ void GoldenFile::save() const {
   Json json;
   json["format"] = kFormat;
   json["runs"] = runs_;
+  for (const auto& [run, details] : details_) json["details"][run] = json_of(details);
   write_text_file(path_, json.dump(2) + "\n");
 }
 

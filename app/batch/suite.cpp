@@ -7,11 +7,14 @@
 #include "app/batch/golden_file.h"
 #include "app/batch/junit.h"
 #include "app/batch/seed_list.h"
-#include "app/pipeline/metrics.h"
+#include "app/measures/metrics.h"
+#include "app/provenance/compare.h"
 #include "app/provenance/manifest.h"
 #include "app/support/job_pool.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
+#include "io/playback/recorded_picture.h"
+#include "io/state/pile_state_file.h"
 #include "scripting/suite_script.h"
 #include "scripting/values/value.h"
 
@@ -26,6 +29,13 @@ struct Case {
   std::string name;    // "heap" or "heap/seed_3"
   std::string folder;  // of its dataset
   CaseResult result;
+};
+
+// What a run is held to from now on.
+struct Found {
+  std::string name;  // of the case
+  GoldenHashes hashes;
+  GoldenDetails details;
 };
 
 class Suite {
@@ -138,11 +148,41 @@ class Suite {
     if (!settled_limited && !manifest.pile.settled)
       c.result.failures.push_back("the pile did not settle (`settled = { 0, 1 }` allows it)");
     const GoldenHashes found = golden_hashes(manifest, c.run->golden);
-    if (request_.update)
-      found_.emplace_back(c.name, found);
-    else
-      for (std::string& sentence : golden_.compare(c.name, found))
-        c.result.failures.push_back(std::move(sentence));
+    const PileState pile = load_pile_state(c.folder + "/pile.bin");
+    if (request_.update) {
+      found_.push_back({c.name, found, golden_details(manifest, pile, c.run->golden)});
+      return;
+    }
+    const std::vector<std::string> apart = golden_.compare(c.name, found);
+    c.result.failures.insert(c.result.failures.end(), apart.begin(), apart.end());
+    if (apart.empty()) return;
+    for (std::string& sentence : golden_.find_first(c.name, pile, manifest.frames))
+      c.result.failures.push_back(std::move(sentence));
+    if (!request_.against.empty()) compare_with_earlier(c, manifest, pile);
+  }
+
+  // By the dataset that an earlier run of the suite left: the number of the piece, the pixel of the frame.
+  void compare_with_earlier(Case& c, const Manifest& manifest, const PileState& pile) const {
+    const std::string earlier = request_.against + "/" + fs::relative(c.folder, out_).string();
+    std::error_code failed;
+    if (!fs::exists(earlier + "/manifest.json", failed)) {
+      c.result.failures.push_back("no earlier dataset in " + earlier);
+      return;
+    }
+    const Manifest was = manifest_from_json(read_whole_file(earlier + "/manifest.json"), earlier);
+    const std::string piece = describe_difference(load_pile_state(earlier + "/pile.bin"), pile);
+    if (!piece.empty()) c.result.failures.push_back("against " + earlier + ": " + piece);
+    const FrameDifference apart = find_difference(was.frames, manifest.frames);
+    if (apart.why.empty()) return;
+    std::string text = "against " + earlier + ": " + apart.why;
+    if (!apart.channel.empty() && is_picture(apart.channel)) {
+      const PictureWanted wanted{apart.channel, apart.frame, false};
+      const auto before = find_recorded_picture(earlier, wanted);
+      const auto now = find_recorded_picture(c.folder, wanted);
+      if (before && now && before->file == now->file)
+        text += "; " + describe_difference(*before, *now) + ", by " + now->file;
+    }
+    c.result.failures.push_back(text);
   }
 
   static void judge_metric(const std::string& name, const NumberPair& limits,
@@ -169,9 +209,10 @@ class Suite {
   // In the order of the suite, whichever ended first. Runs that failed keep what they had.
   void update_golden() {
     std::vector<std::string> diff, names;
-    std::sort(found_.begin(), found_.end());
-    for (const auto& [name, hashes] : found_)
-      for (const std::string& line : golden_.update(name, hashes)) diff.push_back(line);
+    std::sort(found_.begin(), found_.end(),
+              [](const Found& a, const Found& b) { return a.name < b.name; });
+    for (const Found& f : found_)
+      for (const std::string& line : golden_.update(f.name, f.hashes, f.details)) diff.push_back(line);
     for (const Case& c : cases_) names.push_back(c.name);
     if (request_.only.empty())
       for (const std::string& line : golden_.keep_only(names)) diff.push_back(line);
@@ -201,7 +242,7 @@ class Suite {
   JobShape shape_;
   std::vector<Case> cases_;
   std::vector<std::string> seeds_;  // one per case; empty: the mission's own
-  std::vector<std::pair<std::string, GoldenHashes>> found_;
+  std::vector<Found> found_;
 };
 
 }  // namespace

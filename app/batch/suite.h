@@ -13,6 +13,7 @@ struct SuiteRequest {
   std::string suite;              // path of the Lua script
   std::string out;                // --out; empty: out/<name of the script>
   std::string junit;              // --junit FILE
+  std::string against;            // --against DIR: the --out of an earlier run, to name pixels by
   bool update = false;            // --update: rewrite the golden file, showing what changes
   std::vector<std::string> only;  // --only NAME; empty: all
   int jobs = 0;                   // --jobs; 0: one a processor

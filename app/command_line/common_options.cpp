@@ -25,6 +25,11 @@ void add_seed_option(CommandLine& line, RunRequest& request) {
   line.add_read("--seed", read, "Seed of all randomness; overrides the script's").metavar("UINT");
 }
 
+void add_track_option(CommandLine& line, RunRequest& request) {
+  line.add_flag("--track", request.track,
+                "Keep who moved when while the pile settles: track.bin and, as glTF animation, track.glb");
+}
+
 void add_threads_option(CommandLine& line, int& threads) {
   line.add("--threads", threads,
            "Threads to use; 0: all processors. Results do not depend on it")
@@ -65,6 +70,11 @@ void add_output_options(CommandLine& line, RunRequest& request) {
       .metavar("DIR");
   line.add_flag("--force", request.force, "Replace the files of an earlier run");
   add_run_options(line, request.options);
+}
+
+void add_preview_option(CommandLine& line, RunRequest& request) {
+  line.add_flag("--preview", request.preview,
+                "Say how many pieces, frames, bytes and about how long, and run nothing");
 }
 
 void add_folder_options(CommandLine& line, FolderRequest& request) {

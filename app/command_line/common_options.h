@@ -14,6 +14,7 @@ void add_mission_options(CommandLine& line, RunRequest& request,
                          const std::string& name = "mission");
 
 void add_seed_option(CommandLine& line, RunRequest& request);
+void add_track_option(CommandLine& line, RunRequest& request);
 
 void add_threads_option(CommandLine& line, int& threads);
 
@@ -30,6 +31,9 @@ void add_run_options(CommandLine& line, RunOptions& options);
 void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& text, bool one = false);
 // For commands that draw frames: publish them meanwhile.
 void add_live_options(CommandLine& line, LiveRequest& live);
+
+// For commands that begin with a mission.
+void add_preview_option(CommandLine& line, RunRequest& request);
 
 void add_output_options(CommandLine& line, RunRequest& request);
 

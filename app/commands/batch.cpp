@@ -1,4 +1,4 @@
-// `rubble batch`: one mission with many seeds (docs/batch.md).
+// `rubble batch`: one mission with many seeds and values of keys (docs/batch.md).
 #include "app/batch/batch.h"
 
 #include <memory>
@@ -13,6 +13,13 @@ Action declare(CommandLine& line) {
   const auto request = std::make_shared<BatchRequest>();
   add_mission_options(line, request->of);
   line.add("--seeds", request->seeds, "The seeds, as in 1..1000 or 3,5,9").required();
+  line.add("--vary", request->vary,
+           "Vary a key besides the seed: all of KEY=1,2,3, or KEY=LOW..HIGH with --samples")
+      .metavar("KEY=VALUES");
+  line.add("--samples", request->samples,
+           "Points of the ranges of --vary, by a Latin hypercube")
+      .between(1, 100000)
+      .metavar("N");
   line.add("--shard", request->shard, "Only part I of N, for one of N machines").metavar("I/N");
   line.add_flag("--pile-only", request->pile_only, "Settle the piles, render nothing");
   line.add("--out", request->of.out, "Output folder")
@@ -26,7 +33,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command batch_command() {
-  return {"", "batch", "One mission with many seeds, and a table of them", declare};
+  return {"", "batch", "One mission with many seeds and values, and a table of them", declare};
 }
 
 }  // namespace rubble

@@ -8,7 +8,7 @@
 #include "app/command_line/common_options.h"
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/finished_run.h"
-#include "app/commands/pile_section.h"
+#include "app/measures/pile_section.h"
 #include "io/image/picture_sheet.h"
 #include "kernel/base/portable_math.h"
 #include "render/renderer.h"

@@ -6,7 +6,8 @@
 
 #include "app/batch/batch_folder.h"
 #include "app/batch/seed_list.h"
-#include "app/pipeline/disk_estimate.h"
+#include "app/batch/sweep.h"
+#include "app/estimate/disk_estimate.h"
 #include "app/provenance/manifest.h"
 #include "app/provenance/run_folder.h"
 #include "app/support/json_members.h"
@@ -103,25 +104,33 @@ bool print_batch(const std::string& folder) {
   const JsonMembers members(json, file);
   const std::string seeds = members.text("seeds");
   const BatchFolder batch(folder);
-  std::map<SeedState, std::vector<std::uint64_t>> by_state;
-  for (const std::uint64_t seed : parse_seeds(seeds, "seeds"))
-    by_state[batch.state_of(seed)].push_back(seed);
+  std::vector<std::string> varied;
+  if (json.contains("vary"))
+    for (const JsonMembers& text : members.list("vary")) varied.push_back(text.as_text());
+  const Sweep sweep =
+      make_sweep(varied, json.contains("samples") ? int(members.integer("samples")) : 0);
+  std::map<RunState, std::vector<std::string>> by_state;
+  for (std::size_t variant = 0; variant < sweep.variants.size(); ++variant)
+    for (const std::uint64_t seed : parse_seeds(seeds, "seeds")) {
+      const std::string number = std::to_string(seed), name = sweep.run_name(variant, number);
+      by_state[batch.state_of(name)].push_back(sweep.varies() ? name : "seed " + number);
+    }
   std::printf("batch                    %s, seeds %s\n",
               printable(members.object("script").text("name")).c_str(), printable(seeds).c_str());
   for (const auto& [state, name] :
-       {std::pair(SeedState::done, "done"), std::pair(SeedState::failed, "failed"),
-        std::pair(SeedState::unfinished, "unfinished"), std::pair(SeedState::missing, "not begun")}) {
-    const std::vector<std::uint64_t>& of = by_state[state];
+       {std::pair(RunState::done, "done"), std::pair(RunState::failed, "failed"),
+        std::pair(RunState::unfinished, "unfinished"), std::pair(RunState::missing, "not begun")}) {
+    const std::vector<std::string>& of = by_state[state];
     std::string first;
-    for (std::size_t i = 0; i < of.size() && i < 5 && state != SeedState::done; ++i)
-      first += (i ? ", " : ": seed ") + std::to_string(of[i]);
+    for (std::size_t i = 0; i < of.size() && i < 5 && state != RunState::done; ++i)
+      first += (i ? ", " : ": ") + of[i];
     if (!first.empty() && of.size() > 5) first += ", ...";
     if (!of.empty()) std::printf("%-24s %zu%s\n", name, of.size(), first.c_str());
   }
   std::error_code failed;
   if (fs::exists(folder + "/index.csv", failed))
     std::printf("%-24s %s/index.csv\n", "table", folder.c_str());
-  return by_state[SeedState::failed].empty();
+  return by_state[RunState::failed].empty();
 }
 
 bool print_folder(const std::string& folder) {

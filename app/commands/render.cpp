@@ -8,9 +8,21 @@
 #include "app/pipeline/live.h"
 #include "app/pipeline/run.h"
 #include "app/support/stop.h"
+#include "io/state/track_file.h"
 
 namespace rubble {
 namespace {
+
+// Of the run that settled the pile. Throws InputError when it kept none.
+Track load_track_of(const std::string& from) {
+  const std::string path = from + "/track.bin";
+  std::error_code failed;
+  if (!std::filesystem::exists(path, failed))
+    throw InputError({from, 0, "", "the run kept no track of who moved when its pile settled",
+                      "a track.bin", "none",
+                      "run its mission again with --track, or without record_settling and outputs.track"});
+  return load_track(path);
+}
 
 ExitCode render_finished_pile(const std::string& from, const RunRequest& request) {
   stop_on_signals();
@@ -23,8 +35,11 @@ ExitCode render_finished_pile(const std::string& from, const RunRequest& request
   if (std::filesystem::equivalent(from, choose_output(request), failed))
     throw InputError({from, 0, "--out", "would replace the run that the pile comes from", "", "",
                       "choose another folder"});
+  const bool moves = needs_track(mission.scenario);
+  const Track track = moves ? load_track_of(from) : Track();
   RunFolder folder = RunFolder::create(choose_output(request), request.force);
   folder.begin(describe_unfinished(mission));
+  if (moves) save_track(track, folder.file("track.bin"));
   keep_pile(mission, pile, folder);
   return complete(mission, folder, context);
 }

@@ -12,7 +12,9 @@ Action declare(CommandLine& line) {
   const auto request = std::make_shared<RunRequest>();
   add_mission_options(line, *request);
   add_seed_option(line, *request);
+  add_track_option(line, *request);
   add_output_options(line, *request);
+  add_preview_option(line, *request);
   add_live_options(line, request->options.live);
   return [request] { return run_to_folder(*request, RunKind::run); };
 }

@@ -1,4 +1,4 @@
-// `rubble settle`: the pile only: pile.bin, pile.stl, manifest.json.
+// `rubble settle`: the pile only: pile.bin, pile.stl, manifest.json, and its track where it is asked for.
 #include <memory>
 
 #include "app/command_line/command.h"
@@ -12,7 +12,9 @@ Action declare(CommandLine& line) {
   const auto request = std::make_shared<RunRequest>();
   add_mission_options(line, *request);
   add_seed_option(line, *request);
+  add_track_option(line, *request);
   add_output_options(line, *request);
+  add_preview_option(line, *request);
   return [request] { return run_to_folder(*request, RunKind::settle); };
 }
 

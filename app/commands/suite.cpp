@@ -16,6 +16,9 @@ Action declare(CommandLine& line) {
       .shows_default_text("out/<name of the suite>")
       .metavar("DIR");
   line.add("--junit", request->junit, "Write the results as JUnit XML").metavar("FILE");
+  line.add("--against", request->against,
+           "The --out of an earlier run: names the pixel where frames part")
+      .metavar("DIR");
   line.add_flag("--update", request->update, "Take the hashes of this run as the golden ones");
   line.add("--only", request->only, "Only the runs of that name").metavar("NAME");
   add_jobs_options(line, request->jobs, request->options);

@@ -156,14 +156,16 @@ class Verifier {
     RunFolder folder = RunFolder::create(work ? work->path() + "/run" : request_.keep, false);
     folder.begin(describe_unfinished(mission));
     stop_on_signals();
-    const SettledPile pile = settle(mission, folder, context);
+    SettledPile pile = settle(mission, folder, context);
     if (!check_pile(pile.state)) return skip("frames", "the pile is another already");
-    write_pile_files(mission, pile.state, folder, context);
+    write_pile_files(mission, pile, folder, context);
     const bool has_frames = was_.provenance.kind != RunKind::settle;
     RecordedFrames frames;
     if (has_frames && request_.pile_only) skip("frames", "--pile-only");
     if (has_frames && !request_.pile_only) {
-      frames = record_frames(mission, pile.state, folder, context);
+      const DrivenRobots robots = drive_robots(mission, pile.state, folder, context);
+      pile.metrics = join(pile.metrics, robots.metrics);
+      frames = record_frames(mission, pile, robots, folder, context);
       check_frames(frames, folder);
     }
     if (!request_.pile_only) check_metrics(join(pile.metrics, frames.metrics));

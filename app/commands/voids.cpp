@@ -144,10 +144,11 @@ ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids) {
   const std::string folder = voids.out.empty() ? request.folder + "/voids" : voids.out;
   progress.start("voids");
   const VoidMap map = make_map(request, voids, progress);
-  char text[120];
-  std::snprintf(text, sizeof text, "%d x %d x %d voxels, %.2f m3 solid, %.2f m3 void",
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%d x %d x %d voxels, %.2f m3 solid, %.2f m3 void, %.2f m3 under a roof",
                 map.space.grid.size[0], map.space.grid.size[1], map.space.grid.size[2],
-                map.solid_volume, map.void_volume);
+                map.solid_volume, map.void_volume, map.covered_volume);
   progress.finish(text);
 
   progress.start("files");

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "app/pipeline/build_scene.h"
 #include "app/pipeline/recorders.h"
+#include "app/sensors/build_camera.h"
 #include "io/base/atomic_file.h"
 
 namespace rubble {

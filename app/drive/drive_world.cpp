@@ -121,9 +121,12 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
   check_entry(*world);
 
   run.progress.start("scene");
+  // By hand there is no time for the reference; the saved mission keeps what was asked for.
+  Scenario drawn = world->scenario;
+  drawn.camera.colour = ColourSpec();
   // Built in place: a renderer cannot be moved.
   world->renderer.reset(new Renderer(prepare_renderer(
-      world->scenario, world->assets, world->pile, context, world->threads, [&](double fraction) {
+      drawn, world->assets, world->pile, context, world->threads, [&](double fraction) {
         run.progress.update(fraction, "light");
         go_on();
       })));

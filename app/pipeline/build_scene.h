@@ -8,7 +8,6 @@
 #include "io/mesh/pile_model.h"
 #include "kernel/model/pile_state.h"
 #include "render/scene/scene.h"
-#include "render/sensors/flight.h"
 #include "scripting/scenario/scenario.h"
 
 namespace rubble {
@@ -16,20 +15,18 @@ namespace rubble {
 // What the scenario asks to be dropped, in the library's terms.
 PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets);
 
+// number: of the piece in its pile.
+SceneInstance make_instance(const PieceState& piece, std::size_t number);
+
 // Every piece but the lost ones, with the scenario's light, lamp and air.
 Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile);
 
-// A camera of the mission (all_cameras), with what is in its place.
-CameraSpec build_camera(const Scenario& scenario, const MountedCamera& camera, int threads);
-
 // The legend of the stream `label`: the name of each class, by its number.
-std::vector<std::string> label_names(const AssetLibrary& assets);
+std::vector<std::string> label_names(const Scenario& scenario, const AssetLibrary& assets);
 
 // The same pieces at full detail, with names and plain colours, for the exports. Refers to `assets`.
 PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile);
-
-// Where that camera is, at its own rate, along the scenario's trajectory, whose places are resolved:
-// app/planning/flight.h.
-Flight build_flight(const Scenario& scenario, const MountedCamera& camera);
+// With the pieces that were lost, which a track has.
+PileModel build_track_model(const AssetLibrary& assets, const PileState& pile);
 
 }  // namespace rubble

@@ -1,17 +1,19 @@
-// The stage from a settled pile to recorded frames.
+// The stage from a settled pile, and its track, to recorded frames.
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "app/pipeline/build_scene.h"
-#include "app/pipeline/frame_watch.h"
+#include "app/measures/frame_watch.h"
+#include "app/pipeline/legs.h"
 #include "app/pipeline/live.h"
 #include "app/pipeline/recorders.h"
-#include "app/pipeline/sensors.h"
 #include "app/pipeline/stages.h"
 #include "app/planning/camera_inside.h"
 #include "app/planning/flight.h"
 #include "app/provenance/frame_journal.h"
+#include "app/sensors/build_camera.h"
+#include "app/sensors/sensor_suite.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "io/recording/recording_queue.h"
@@ -30,7 +32,7 @@ namespace {
 void write_legend(const ResolvedMission& mission, RunFolder& folder) {
   if (!has_channel(mission.scenario, "label")) return;
   std::string text = "label,name\n";
-  const std::vector<std::string> names = label_names(mission.assets);
+  const std::vector<std::string> names = label_names(mission.scenario, mission.assets);
   for (std::size_t i = 0; i < names.size(); ++i) text += std::to_string(i) + "," + names[i] + "\n";
   write_text_file(folder.file("labels.csv"), text);
   folder.add("labels.csv");
@@ -56,57 +58,74 @@ std::vector<std::string> names_of_cameras(const Scenario& scenario) {
   return names;
 }
 
-// What is worked out from the frames while they pass.
-struct FrameFigures {
-  FrameJournal journal;
-  DepthMetrics depth;
-  FrameWatch watch;
+// Which frame of a leg is being taken, and of how many: an image that takes minutes reports on its way.
+struct Taking {
+  int frame = 0, frames = 1;
+
+  void report(double of_image, const RunFolder& folder, RunContext& context) const {
+    throw_if_stopped(folder.path());
+    context.progress.update((frame + of_image) / frames, "frame " + std::to_string(frame + 1) + " of " +
+                                                             std::to_string(frames));
+  }
 };
 
-void look_at_frame(const Frame& frame, FrameFigures& figures, RecordedFrames& recorded,
-                   RunContext& context) {
-  recorded.hashes.add(frame);
-  figures.journal.note(recorded.hashes.frames.size() - 1, recorded.hashes.frames.back());
-  figures.depth.add(frame);
-  if (figures.watch.notice(frame)) context.warnings.push_back(figures.watch.warning());
-}
+// What goes on from leg to leg: where frames go, and what is noted of them.
+struct FrameSinks {
+  RecordingQueue& queue;
+  FrameJournal journal;
+  FrameWatch watch;
+  int frames = 0;  // so far
+};
 
-// Takes every sample in order, notes the hashes of frames, and hands it to the recorders.
-void take_samples(SensorSuite& sensors, RecordingQueue& queue, const RunFolder& folder,
-                  RunContext& context, RecordedFrames& recorded) {
-  FrameFigures figures{FrameJournal(folder.frames_file()), {}, {}};
-  const int all = sensors.count_frames();
+// Takes every sample of a leg in order, notes the hashes of frames, and hands it to the recorders.
+void take_samples(SensorSuite& sensors, const Leg& leg, FrameSinks& sinks, const RunFolder& folder,
+                  RunContext& context, Taking& taking, RecordedFrames& recorded) {
+  taking.frame = 0;
+  taking.frames = sensors.count_frames();
+  DepthMetrics depth;
   throw_if_stopped(folder.path());
   while (std::optional<Sample> sample = sensors.take()) {
     if (const auto* reading = std::get_if<ImuSample>(&*sample)) {
       recorded.hashes.add_imu(*reading);
-      queue.push(*std::move(sample));
-      continue;
+    } else {
+      const Frame& frame = std::get<Frame>(*sample);
+      recorded.hashes.add(frame);
+      sinks.journal.note(std::size_t(sinks.frames++), recorded.hashes.frames.back());
+      depth.add(frame);
+      if (sinks.watch.notice(frame)) context.warnings.push_back(sinks.watch.warning());
+      ++taking.frame;
+      context.progress.update(double(taking.frame) / taking.frames,
+                              "frame " + std::to_string(taking.frame) + " of " +
+                                  std::to_string(taking.frames));
+      throw_if_stopped(folder.path());
     }
-    look_at_frame(std::get<Frame>(*sample), figures, recorded, context);
-    queue.push(*std::move(sample));
-    const auto done = recorded.hashes.frames.size();
-    context.progress.update(double(done) / all, "frame " + std::to_string(done) + " of " +
-                                                    std::to_string(all));
-    throw_if_stopped(folder.path());
+    sinks.queue.push(*std::move(sample));
   }
-  figures.depth.add_to(recorded.metrics);
+  if (!leg.window) depth.add_to(recorded.metrics);
 }
 
-FlightPlan plan_flight(const ResolvedMission& mission, const PileState& pile,
-                       const RunFolder& folder, RunContext& context) {
+// A mistake that shows only when there is a pile, with the line of its key.
+template <typename Plan>
+auto with_lines_of_script(const ResolvedMission& mission, const Plan& plan) {
   try {
-    return resolve_flight(mission.scenario, mission.assets, pile, context.threads(),
-                          [&](double done, const std::string& what) {
-                            throw_if_stopped(folder.path());
-                            context.progress.update(done, what);
-                          });
+    return plan();
   } catch (const InputError& error) {
     const SourceFile& script = mission.provenance.script;
     std::vector<Diagnostic> mistakes = error.diagnostics();
     locate(mistakes, script.path, SourceMap(script.text, "mission"));
     throw InputError(std::move(mistakes));
   }
+}
+
+FlightPlan plan_flight(const ResolvedMission& mission, const PileState& pile,
+                       const RunFolder& folder, RunContext& context) {
+  return with_lines_of_script(mission, [&] {
+    return resolve_flight(mission.scenario, mission.assets, pile, context.threads(),
+                          [&](double done, const std::string& what) {
+                            throw_if_stopped(folder.path());
+                            context.progress.update(done, what);
+                          });
+  });
 }
 
 void warn_of_cameras_inside(const ResolvedMission& mission, const Scenario& flown,
@@ -140,22 +159,73 @@ Scenario resolve_path(const ResolvedMission& mission, const PileState& pile, Run
   return flown;
 }
 
-// Frames into files, until the last file is complete.
-void record(SensorSuite& sensors, const ResolvedMission& mission, const Scenario& flown,
-            const PileState& pile, RunFolder& folder, RunContext& context,
-            RecordedFrames& recorded) {
-  context.progress.start("render");
-  const Recording recording = describe_recording(flown, mission.assets, pile);
-  RecorderSet set =
-      make_recorders({flown, recording, sensors.frames(), title_of(mission, pile)}, folder.path());
-  folder.expect(set.names);
-  add_live_recorders(set, context.options, ros_options(flown.outputs, recording));
-  RecordingQueue queue(std::move(set.recorders));
-  take_samples(sensors, queue, folder, context, recorded);
-  context.progress.finish(std::to_string(sensors.count_frames()) + " frames");
+RenderOptions render_options(const Scenario& scenario, int threads,
+                             const std::function<void(double)>& on_image) {
+  RenderOptions options;
+  options.threads = threads;
+  options.colour = all_cameras(scenario).front().camera.colour;
+  options.image_progress = on_image;
+  options.cache_folder = DiskCache::usual_folder();
+  return options;
+}
+
+// The sensors on one leg, with the scene that they see.
+struct PreparedLeg {
+  std::unique_ptr<Renderer> renderer;
+  std::unique_ptr<SensorSuite> sensors;
+};
+
+// What there is to be seen: the settled pile, and robots, which start with the flight.
+struct Seen {
+  const SettledPile& pile;
+  const RobotTrack& robots;
+};
+
+Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen& seen) {
+  const PileState& pile = seen.pile.state;
+  if (leg.window) {
+    return build_moving_scene(leg.scenario, mission.assets, pile, seen.pile.track, *leg.window,
+                              leg.zero_ns);
+  }
+  if (seen.robots.empty()) return build_scene(leg.scenario, mission.assets, pile);
+  return build_robot_scene(leg.scenario, mission.assets, pile, seen.robots, leg.scenario.start_ns);
+}
+
+PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Seen& seen,
+                        int frames_before, GlContext& gl, const RunFolder& folder,
+                        RunContext& context, Taking& taking) {
+  const std::string stage = leg.window ? "settling scene" : "scene";
+  context.progress.start(stage);
+  const Scene scene = build_leg_scene(leg, mission, seen);
+  PreparedLeg prepared;
+  prepared.renderer = std::make_unique<Renderer>(
+      gl, scene,
+      render_options(leg.scenario, context.threads(),
+                     [&](double fraction) { taking.report(fraction, folder, context); }),
+      [&](double fraction) { context.progress.update(fraction, "light"); });
+  prepared.sensors = std::make_unique<SensorSuite>(
+      leg.scenario, SensorBegin{leg.noise_seed, frames_before}, *prepared.renderer,
+      context.threads());
+  context.progress.finish("ready on " + gl.info().renderer);
+  return prepared;
+}
+
+// Of each camera, over all legs.
+std::vector<int> count_frames(const std::vector<Leg>& legs) {
+  std::vector<int> frames;
+  for (const Leg& leg : legs) {
+    const std::vector<MountedCamera> cameras = all_cameras(leg.scenario);
+    frames.resize(cameras.size());
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+      frames[i] += int(build_flight(leg.scenario, cameras[i]).stamps_ns.size());
+  }
+  return frames;
+}
+
+void finish_recording(const ResolvedMission& mission, const RecorderSet& set, RecordingQueue& queue,
+                      RunFolder& folder, RunContext& context) {
   for (const std::string& warning : context.warnings)
     std::fprintf(stderr, "rubble: warning: %s\n", printable(warning).c_str());
-
   context.progress.start("record");
   queue.finish();
   for (const std::string& name : set.names) folder.add(name);
@@ -164,31 +234,60 @@ void record(SensorSuite& sensors, const ResolvedMission& mission, const Scenario
   context.progress.finish(std::to_string(set.names.size()) + " files");
 }
 
+// Links follow the pieces, as their numbers do.
+void add_robots(const RobotTrack& robots, std::uint16_t label, Recording& recording) {
+  for (const RobotModel& model : robots.models)
+    for (const RobotLink& link : model.links)
+      recording.legend.pieces.push_back({label, model.name + "/" + link.name});
+}
+
+// Frames into files, until the last file is complete. flown: as the mission, with its path.
+void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const Scenario& flown,
+            const Seen& seen, GlContext& gl, RunFolder& folder, RunContext& context,
+            RecordedFrames& recorded) {
+  const PileState& pile = seen.pile.state;
+  Taking taking;
+  PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, 0, gl, folder, context, taking);
+  Recording recording = describe_recording(flown, mission.assets, pile);
+  add_robots(seen.robots, std::uint16_t(kFirstAssetLabel + mission.assets.types.size()), recording);
+  RecorderSet set = make_recorders(
+      {flown, recording, count_frames(legs), title_of(mission, pile)}, folder.path());
+  folder.expect(set.names);
+  add_live_recorders(set, context.options, ros_options(flown.outputs, recording));
+  RecordingQueue queue(std::move(set.recorders));
+  FrameSinks sinks{queue, FrameJournal(folder.frames_file()), {}};
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    if (i > 0) {
+      prepared = {};  // what the leg before took on the device comes free first
+      prepared = prepare_leg(legs[i], mission, seen, sinks.frames, gl, folder, context, taking);
+    }
+    context.progress.start(legs[i].window ? "settling frames" : "render");
+    take_samples(*prepared.sensors, legs[i], sinks, folder, context, taking, recorded);
+    context.progress.finish(std::to_string(prepared.sensors->count_frames()) + " frames");
+  }
+  finish_recording(mission, set, queue, folder, context);
+}
+
 }  // namespace
 
 Renderer prepare_renderer(const Scenario& scenario, const AssetLibrary& assets,
                           const PileState& pile, GlContext& gl, int threads,
-                          const std::function<void(double)>& on_light) {
-  RenderOptions options;
-  options.threads = threads;
-  options.cache_folder = DiskCache::usual_folder();
-  return Renderer(gl, build_scene(scenario, assets, pile), options, on_light);
+                          const std::function<void(double)>& on_light,
+                          const std::function<void(double)>& on_image) {
+  return Renderer(gl, build_scene(scenario, assets, pile),
+                  render_options(scenario, threads, on_image), on_light);
 }
 
-RecordedFrames record_frames(const ResolvedMission& mission, const PileState& pile,
-                             RunFolder& folder, RunContext& context) {
-  const Scenario flown = resolve_path(mission, pile, folder, context);
-  context.progress.start("scene");
+RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
+                             const DrivenRobots& robots, RunFolder& folder, RunContext& context) {
+  const Scenario flown = resolve_path(mission, pile.state, folder, context);
+  const std::vector<Leg> legs =
+      with_lines_of_script(mission, [&] { return plan_legs(flown, pile.track); });
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
   recorded.hashes = FrameHashes(names_of_cameras(flown));
   recorded.environment = describe_environment(gl.info(), context.threads());
-  Renderer renderer =
-      prepare_renderer(flown, mission.assets, pile, gl, context.threads(),
-                       [&](double fraction) { context.progress.update(fraction, "light"); });
-  SensorSuite sensors(flown, renderer, context.threads());
-  context.progress.finish("ready on " + gl.info().renderer);
-  record(sensors, mission, flown, pile, folder, context, recorded);
+  record(legs, mission, flown, {pile, robots.moved}, gl, folder, context, recorded);
   return recorded;
 }
 

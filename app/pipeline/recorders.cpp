@@ -81,7 +81,7 @@ Recording describe_recording(const Scenario& scenario, const AssetLibrary& asset
   for (const MountedCamera& camera : all_cameras(scenario))
     recording.cameras.push_back(record_of(camera, several));
   if (scenario.imu.on) recording.imus.push_back(record_of(scenario.imu, recording.rig));
-  recording.legend.labels = label_names(assets);
+  recording.legend.labels = label_names(scenario, assets);
   for (const PieceState& piece : pile.pieces) {
     const auto type = std::size_t(piece.type);
     recording.legend.pieces.push_back(

@@ -22,6 +22,7 @@ MissionOptions mission_options(const RunRequest& request) {
   MissionOptions options;
   options.seed = request.seed;
   options.overrides = request.overrides;
+  if (request.track) options.overrides.push_back("outputs.track=true");
   return options;
 }
 

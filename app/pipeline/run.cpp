@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/pipeline/live.h"
+#include "app/estimate/preview.h"
 #include "app/provenance/manifest.h"
 #include "app/support/build_info.h"
 #include "app/support/stop.h"
@@ -75,8 +76,19 @@ ExitCode run_to_folder(const RunRequest& request, RunKind kind) {
   check_live(request.options);
   RunContext context(request.options);
   const ResolvedMission mission = resolve_mission(request, kind, context);
+  const RunPreview preview = preview_run(kind, mission.scenario, mission.pile_scenario,
+                                         mission.assets, choose_output(request));
+  if (request.preview) {
+    std::printf("%s%s\n", describe_files(kind, mission.scenario, mission.assets).c_str(), describe(preview).c_str());
+    return ExitCode::done;
+  }
+  if (!request.options.quiet) std::fprintf(stderr, "%s\n", describe(preview).c_str());
+  if (preview.bytes > preview.free)
+    std::fprintf(stderr, "warning: the disk may be too small for this run\n");
   RunFolder folder = RunFolder::create(choose_output(request), request.force);
-  return complete(mission, folder, context);
+  const ExitCode code = complete(mission, folder, context);
+  note_speed(preview, context.progress);
+  return code;
 }
 
 Metrics join(const Metrics& of_pile, const Metrics& of_frames) {
@@ -107,10 +119,13 @@ ExitCode complete(const ResolvedMission& mission, RunFolder& folder, RunContext&
   SettledPile pile;
   try {
     pile = settle(mission, folder, context);
-    write_pile_files(mission, pile.state, folder, context);
+    write_pile_files(mission, pile, folder, context);
     RecordedFrames frames;
-    if (mission.provenance.kind != RunKind::settle)
-      frames = record_frames(mission, pile.state, folder, context);
+    if (mission.provenance.kind != RunKind::settle) {
+      const DrivenRobots robots = drive_robots(mission, pile.state, folder, context);
+      pile.metrics = join(pile.metrics, robots.metrics);
+      frames = record_frames(mission, pile, robots, folder, context);
+    }
     write_manifest(mission, pile, frames, folder, context);
   } catch (const RunError& error) {
     throw RunError(error.what() + std::string("\nwhat is finished is kept: `rubble resume ") +

@@ -5,13 +5,16 @@
 
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/stages.h"
-#include "app/pipeline/void_metrics.h"
+#include "app/measures/void_metrics.h"
 #include "app/support/stop.h"
 #include "io/mesh/pile_export.h"
+#include "io/mesh/track_glb.h"
 #include "io/state/checkpoint_file.h"
 #include "io/state/pile_state_file.h"
+#include "io/state/track_file.h"
 #include "kernel/settling/settle.h"
 #include "kernel/settling/settle_checkpoint.h"
+#include "kernel/settling/track_recorder.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -21,14 +24,16 @@ namespace {
 // is made does not change what follows.
 class SettleWatch {
  public:
-  SettleWatch(RunContext& context, const RunFolder& folder, const SettleOptions& options)
-      : context_(context), folder_(folder), options_(options) {}
+  // track: goes with every checkpoint; null: none is recorded.
+  SettleWatch(RunContext& context, const RunFolder& folder, const SettleOptions& options,
+              const TrackRecorder* track)
+      : context_(context), folder_(folder), options_(options), track_(track) {}
 
   bool step(const SettleProgress& p) {
     show(p);
     const auto now = std::chrono::steady_clock::now();
     const double since = std::chrono::duration<double>(now - kept_).count();
-    if (stop_requested() || since >= context_.options.checkpoint_every) {
+    if (p.make_checkpoint && (stop_requested() || since >= context_.options.checkpoint_every)) {
       keep(p.make_checkpoint());
       kept_ = std::chrono::steady_clock::now();
     }
@@ -47,7 +52,10 @@ class SettleWatch {
 
   // It is only an aid: the run goes on without one.
   void keep(const SettleCheckpoint& checkpoint) {
+    // A kill between the two files leaves a track that knows more than the checkpoint, which does no
+    // harm: what comes after the checkpoint is recorded again.
     try {
+      if (track_) save_track(track_->track(), folder_.track_so_far_file());
       save_checkpoint(checkpoint, folder_.checkpoint_file());
     } catch (const RunError& error) {
       if (!warned_) std::fprintf(stderr, "warning: no checkpoint: %s\n", error.what());
@@ -58,18 +66,49 @@ class SettleWatch {
   RunContext& context_;
   const RunFolder& folder_;
   const SettleOptions& options_;
+  const TrackRecorder* track_;
   std::chrono::steady_clock::time_point kept_ = std::chrono::steady_clock::now();
   bool warned_ = false;
 };
 
-PileState settle_from_checkpoint_or_start(const ResolvedMission& mission, const Pile& pile,
-                                          const RunFolder& folder, RunContext& context) {
+// Whether there is all that settling goes on from.
+bool has_checkpoint(const RunFolder& folder, bool recorded) {
+  return folder.has("unfinished/settle.checkpoint") &&
+         (!recorded || folder.has("unfinished/settle.track"));
+}
+
+SettledPile settle_from_checkpoint_or_start(const ResolvedMission& mission, const Pile& pile,
+                                            const RunFolder& folder, RunContext& context) {
   SettleOptions options = mission.pile_scenario.settle;
   options.threads = context.threads();
-  SettleWatch watch(context, folder, options);
+  const bool recorded = needs_track(mission.scenario);
+  const bool goes_on = has_checkpoint(folder, recorded);
+  TrackRecorder track;
+  if (goes_on && recorded) track = TrackRecorder(load_track(folder.track_so_far_file()));
+  SettleWatch watch(context, folder, options, recorded ? &track : nullptr);
   const auto step = [&watch](const SettleProgress& p) { return watch.step(p); };
-  if (!folder.has("unfinished/settle.checkpoint")) return settle_pile(pile, options, step);
-  return resume_settling(load_checkpoint(folder.checkpoint_file()), pile, options, step);
+  WorldObserver observe;
+  if (recorded) observe = [&track](const World& world) { track.observe(world); };
+  SettledPile settled;
+  settled.state = goes_on ? resume_settling(load_checkpoint(folder.checkpoint_file()), pile,
+                                            options, step, observe)
+                          : settle_pile(pile, options, step, observe);
+  settled.track = track.take();
+  return settled;
+}
+
+// The pile is written last: where it is, its track is there and complete.
+void save(const SettledPile& settled, std::uint64_t work, bool recorded, const RunFolder& folder) {
+  if (recorded) save_track(settled.track, folder.file("track.bin"));
+  save_pile_state(settled.state, folder.file("pile.bin"));
+  folder.note_pile(work);
+}
+
+SettledPile load(bool recorded, const RunFolder& folder) {
+  SettledPile settled;
+  settled.state = load_pile_state(folder.file("pile.bin"));
+  if (recorded) settled.track = load_track(folder.file("track.bin"));
+  return settled;
 }
 
 void measure_voids(const ResolvedMission& mission, const RunFolder& folder, RunContext& context,
@@ -104,33 +143,36 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
   context.progress.start("settle");
   const Pile pile = make_pile(mission);
   const std::uint64_t work = hash_work(pile, mission.pile_scenario.settle);
-  const bool loaded = folder.has_pile_of(work);
-  SettledPile settled;
-  settled.state = loaded ? load_pile_state(folder.file("pile.bin"))
-                         : settle_from_checkpoint_or_start(mission, pile, folder, context);
+  const bool recorded = needs_track(mission.scenario);
+  const bool loaded = folder.has_pile_of(work) && (!recorded || folder.has("track.bin"));
+  SettledPile settled = loaded ? load(recorded, folder)
+                               : settle_from_checkpoint_or_start(mission, pile, folder, context);
   throw_if_stopped(folder.path());
-  if (!loaded) {
-    save_pile_state(settled.state, folder.file("pile.bin"));
-    folder.note_pile(work);
-  }
+  if (!loaded) save(settled, work, recorded, folder);
   folder.add("pile.bin");
+  if (recorded) folder.add("track.bin");
   add_pile_metrics(settled.state, mission.assets, settled.metrics);
   context.progress.finish(summarize_settling(settled.state, loaded));
   if (mission.scenario.voids.on) measure_voids(mission, folder, context, settled);
   return settled;
 }
 
-void write_pile_files(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
+void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, RunFolder& folder,
                       RunContext& context) {
-  std::vector<std::string> formats = mission.scenario.outputs.meshes;
-  if (mission.scenario.outputs.stl) formats.push_back("stl");
-  if (formats.empty()) return;
+  const OutputScenario& outputs = mission.scenario.outputs;
+  std::vector<std::string> formats = outputs.meshes;
+  if (outputs.stl) formats.push_back("stl");
+  if (formats.empty() && !outputs.track) return;
   context.progress.start("export");
-  const PileModel model = build_pile_model(mission.assets, pile);
+  const PileModel model = build_pile_model(mission.assets, pile.state);
   for (const std::string& format : formats)
     for (const std::string& name : export_pile(model, format, folder.path())) folder.add(name);
-  context.progress.finish(std::to_string(formats.size()) +
-                          (formats.size() == 1 ? " mesh" : " meshes"));
+  if (outputs.track) {
+    write_track_glb(folder.file("track.glb"), build_track_model(mission.assets, pile.state), pile.track);
+    folder.add("track.glb");
+  }
+  const std::size_t files = formats.size() + (outputs.track ? 1 : 0);
+  context.progress.finish(std::to_string(files) + (files == 1 ? " mesh" : " meshes"));
 }
 
 }  // namespace rubble

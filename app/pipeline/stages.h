@@ -3,9 +3,10 @@
 //
 //   stage      from                  to                           kept as
 //   resolve    script or manifest    ResolvedMission              unfinished/run.json
-//   settle     ResolvedMission       SettledPile                  pile.bin
-//   files      PileState             meshes of the pile           pile.stl
-//   frames     PileState             RecordedFrames               every recorder's file
+//   settle     ResolvedMission       SettledPile                  pile.bin, track.bin
+//   files      SettledPile           meshes of the pile           pile.stl, track.glb
+//   robots     SettledPile           DrivenRobots                 robots/
+//   frames     both                  RecordedFrames               every recorder's file
 //   manifest   all                   hashes of all                manifest.json
 #pragma once
 
@@ -13,17 +14,26 @@
 #include <map>
 #include <string>
 
-#include "app/pipeline/metrics.h"
+#include "app/measures/metrics.h"
+#include "app/pipeline/moving_scene.h"
 #include "app/pipeline/resolved_mission.h"
 #include "app/provenance/frame_hashes.h"
 #include "kernel/model/pile_state.h"
+#include "kernel/model/track.h"
 #include "render/renderer.h"
 
 namespace rubble {
 
 struct SettledPile {
   PileState state;
+  Track track;      // who moved when; empty where the mission does not ask for it
   Metrics metrics;  // of the pile and, where the mission asks for them, its voids
+};
+
+// What the robots of a mission did; empty without robots.
+struct DrivenRobots {
+  RobotTrack moved;
+  Metrics metrics;
 };
 
 struct RecordedFrames {
@@ -39,16 +49,23 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
 // Keeps a pile that another run settled as the product of this run's first stage.
 void keep_pile(const ResolvedMission& mission, const PileState& state, const RunFolder& folder);
 
-void write_pile_files(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
+void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, RunFolder& folder,
                       RunContext& context);
 
-// The scene of the pile, lit, on the device of `gl`. on_light: 0 to 1.
+// Drives the mission's robots through the pile and writes what they did. Throws InputError for a robot that
+// stands in something and for a function of the script that fails.
+DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
+                          RunContext& context);
+
+// The scene of the pile, lit, on the device of `gl`. on_light: 0 to 1; on_image: the same, while a
+// path-traced image is drawn; may throw to stop.
 Renderer prepare_renderer(const Scenario& scenario, const AssetLibrary& assets,
                           const PileState& pile, GlContext& gl, int threads,
-                          const std::function<void(double)>& on_light);
+                          const std::function<void(double)>& on_light,
+                          const std::function<void(double)>& on_image = {});
 
-RecordedFrames record_frames(const ResolvedMission& mission, const PileState& pile,
-                             RunFolder& folder, RunContext& context);
+RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
+                             const DrivenRobots& robots, RunFolder& folder, RunContext& context);
 
 // Of both: no name is in both.
 Metrics join(const Metrics& of_pile, const Metrics& of_frames);

@@ -46,6 +46,8 @@ std::string first_difference(const std::string& path, const Json& was, const Jso
   return instead(path, &was, &is);
 }
 
+constexpr std::size_t kDigestDigits = 8;
+
 struct Field {
   const char* name;
   double was, is;
@@ -107,6 +109,29 @@ std::string describe_difference(const PileState& was, const PileState& is) {
   if (was.steps != is.steps)
     return std::to_string(is.steps) + " steps instead of " + std::to_string(was.steps);
   return "";
+}
+
+std::string digest_pieces(const PileState& pile) {
+  std::string digests;
+  for (const PieceState& piece : pile.pieces) {
+    std::string bytes;
+    for (const Field& field : fields_of(piece, piece))
+      bytes.append(reinterpret_cast<const char*>(&field.is), sizeof field.is);
+    digests += hex64(hash64(bytes)).substr(0, kDigestDigits);
+  }
+  return digests;
+}
+
+std::string describe_first_piece(const std::string& was, const PileState& is) {
+  const std::string found = digest_pieces(is);
+  if (found == was) return "";
+  for (std::size_t i = 0; i < is.pieces.size(); ++i) {
+    const std::size_t at = i * kDigestDigits;
+    if (was.compare(std::min(at, was.size()), kDigestDigits, found, at, kDigestDigits) != 0)
+      return describe_piece(is, i) + " is the first that differs";
+  }
+  return "there are " + std::to_string(is.pieces.size()) + " pieces instead of " +
+         std::to_string(was.size() / kDigestDigits);
 }
 
 std::string describe_difference_of_files(const std::string& was, const std::string& is) {

@@ -17,6 +17,11 @@ std::string describe_difference(const nlohmann::ordered_json& was,
 // "piece 17 (brick) is the first that differs, in its position x: ..."
 std::string describe_difference(const PileState& was, const PileState& is);
 
+// Eight hexadecimal digits over the state of each piece, one after another; and the first piece of `is`
+// whose digits are not among `was` at its place, in words. Empty: they are equal.
+std::string digest_pieces(const PileState& pile);
+std::string describe_first_piece(const std::string& was, const PileState& is);
+
 // "byte 4711 is the first that differs: 0x1f instead of 0x20", or by their sizes. Throws RunError
 // when one cannot be read.
 std::string describe_difference_of_files(const std::string& was, const std::string& is);

@@ -80,7 +80,8 @@ void add_stated(const std::string& folder, std::vector<std::string>& files) {
 
 const std::vector<std::string>& usual_run_files() {
   static const std::vector<std::string> files = [] {
-    std::vector<std::string> names{"manifest.json", "pile.bin", "labels.csv", "flight.json"};
+    std::vector<std::string> names{"manifest.json", "pile.bin", "track.bin", "track.glb", "labels.csv",
+                                   "flight.json"};
     for (const RecordingFormat& format : recording_formats())
       if (!format.is_folder) names.push_back(format.leaves);
     for (const MeshFormat& format : mesh_formats())
@@ -99,6 +100,7 @@ std::vector<std::string> files_of_earlier_run(const std::string& folder) {
 
 void clear_unfinished(const std::string& folder) {
   const std::vector<std::string> files{"unfinished/run.json", "unfinished/settle.checkpoint",
+                                       "unfinished/settle.track",
                                        "unfinished/frames.txt", "unfinished/files.txt",
                                        "unfinished/settled.txt"};
   remove_plain_files(folder, files, ".part");

@@ -31,7 +31,7 @@ struct Manifest {
   std::uint64_t seed = 0;                      // of the scenario
   PileSummary pile;                            // what settled
   FrameHashes frames;                          // of every channel of every frame
-  std::map<std::string, double> metrics;       // of the pile and the frames: app/pipeline/metrics.h
+  std::map<std::string, double> metrics;       // of the pile and the frames: app/measures/metrics.h
   std::map<std::string, std::string> outputs;  // file name to SHA-256
 
   std::vector<std::string> warnings;           // what is likely not as it was meant

@@ -3,6 +3,7 @@
 //   DIR/unfinished/lock               held by the process at work, from the first to the last
 //   DIR/unfinished/run.json           what is being run: written first, removed last
 //   DIR/unfinished/settle.checkpoint  where settling was a few seconds ago
+//   DIR/unfinished/settle.track       who moved until then, where the run records it
 //   DIR/unfinished/settled.txt        what pile.bin was made from, and its SHA-256
 //   DIR/unfinished/frames.txt         hashes of the frames that were rendered
 //   DIR/unfinished/files.txt          names of the files that it writes
@@ -35,6 +36,7 @@ class RunFolder {
   bool has(const std::string& name) const;
   std::string run_file() const { return file("unfinished/run.json"); }
   std::string checkpoint_file() const { return file("unfinished/settle.checkpoint"); }
+  std::string track_so_far_file() const { return file("unfinished/settle.track"); }
   std::string frames_file() const { return file("unfinished/frames.txt"); }
 
   // Marks the folder as that of an unfinished run, until finish(). run_json: what is being run.

@@ -34,8 +34,10 @@ struct RunRequest {
   std::optional<std::uint64_t> seed;     // --seed; overrides the script's
   std::vector<std::string> overrides;    // --set key=value, in order
   std::vector<std::string> asset_packs;  // --assets DIR, in order
+  bool track = false;                    // --track: as --set outputs.track=true
   std::string out;                       // --out; empty: out/<name of the script>
   bool force = false;                    // --force: replace an earlier run's files
+  bool preview = false;                  // --preview: say what it will take, and run nothing
   RunOptions options;
 };
 

@@ -6,6 +6,7 @@
 #include "io/base/atomic_file.h"
 #include "io/base/little_endian.h"
 #include "io/mesh/pile_export.h"
+#include "io/mesh/track_glb.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
@@ -62,6 +63,18 @@ class GlbBuilder {
     if (!children.empty()) json_["scenes"][0]["nodes"] = children;
   }
 
+  // A clip of the whole track; after add_nodes().
+  void add_animation(const Track& track) {
+    Json clip{{"name", "settling"}, {"samplers", Json::array()}, {"channels", Json::array()}};
+    for (std::size_t node = 0; node < model_.pieces.size(); ++node) {
+      const TrackBody* body = track.find(model_.pieces[node].number);
+      if (!body) continue;
+      if (body->keys.size() > 1) add_motion(track, *body, node, clip);
+      add_life(track, *body, node, clip);
+    }
+    if (!clip["channels"].empty()) json_["animations"] = Json::array({clip});
+  }
+
   // The text is padded by blanks, the numbers by zeros, as the format wants it.
   std::string take(const std::string& path) {
     if (!bytes_.empty()) json_["buffers"] = Json::array({Json{{"byteLength", bytes_.size()}}});
@@ -85,11 +98,69 @@ class GlbBuilder {
     out += content;
   }
 
-  // What was appended to bytes_ since `start`, as a view and an accessor of it.
+  void add_motion(const Track& track, const TrackBody& body, std::size_t node, Json& clip) {
+    std::vector<float> times, places, turns;
+    Quat last = body.keys.front().world_from_body.rotation;
+    for (const TrackKey& key : body.keys) {
+      times.push_back(float(track.times[key.sample]));
+      const Vec3 t = to_y_up(key.world_from_body.translation);
+      Quat q = key.world_from_body.rotation;
+      // Of the two signs of a rotation the one that a reader blends the short way to.
+      const double along = q.w * last.w + q.x * last.x + q.y * last.y + q.z * last.z;
+      if (along < 0) q = {-q.w, -q.x, -q.y, -q.z};
+      last = q;
+      const Vec3 axis = to_y_up(Vec3{q.x, q.y, q.z});
+      for (int i = 0; i < 3; ++i) places.push_back(float(t[i]));
+      for (const double part : {axis.x, axis.y, axis.z, q.w}) turns.push_back(float(part));
+    }
+    const int input = add_times(times);
+    add_channel(node, "translation", "LINEAR", input, add_floats(places, "VEC3"), clip);
+    add_channel(node, "rotation", "LINEAR", input, add_floats(turns, "VEC4"), clip);
+  }
+
+  // Nothing to see before it appears, and from when it is gone.
+  void add_life(const Track& track, const TrackBody& body, std::size_t node, Json& clip) {
+    const auto size = float(model_.pieces[node].scale);
+    const double appears = track.times[body.keys.front().sample];
+    std::vector<float> times, sizes;
+    const auto add = [&](double time, float scale) {
+      times.push_back(float(time));
+      sizes.insert(sizes.end(), 3, scale);
+    };
+    if (appears > track.begin()) add(track.begin(), 0);
+    add(appears, size);
+    if (body.gone != TrackBody::kStays) add(track.times[body.gone], 0);
+    if (times.size() == 1) return;
+    add_channel(node, "scale", "STEP", add_times(times), add_floats(sizes, "VEC3"), clip);
+  }
+
+  static void add_channel(std::size_t node, const char* path, const char* interpolation, int input,
+                          int output, Json& clip) {
+    clip["channels"].push_back(
+        {{"sampler", clip["samplers"].size()}, {"target", {{"node", node}, {"path", path}}}});
+    clip["samplers"].push_back(
+        {{"input", input}, {"output", output}, {"interpolation", interpolation}});
+  }
+
+  int add_floats(const std::vector<float>& numbers, const char* type) {
+    const std::size_t start = bytes_.size();
+    for (const float number : numbers) put(bytes_, number);
+    const std::size_t parts = std::string_view(type) == "VEC4" ? 4 : type[0] == 'V' ? 3 : 1;
+    return add_accessor(start, 0, kFloat, type, numbers.size() / parts);
+  }
+
+  int add_times(const std::vector<float>& times) {
+    const int accessor = add_floats(times, "SCALAR");
+    json_["accessors"].back()["min"] = {times.front()};
+    json_["accessors"].back()["max"] = {times.back()};
+    return accessor;
+  }
+
+  // What was appended to bytes_ since `start`, as a view and an accessor of it. target: 0: none.
   int add_accessor(std::size_t start, int target, int component, const char* type,
                    std::size_t count) {
     Json view{{"buffer", 0}, {"byteOffset", start}, {"byteLength", bytes_.size() - start}};
-    view["target"] = target;
+    if (target != 0) view["target"] = target;
     json_["bufferViews"].push_back(view);
     json_["accessors"].push_back({{"bufferView", json_["bufferViews"].size() - 1},
                                   {"componentType", component},
@@ -150,6 +221,14 @@ void write_glb(const std::string& path, const PileModel& model) {
   GlbBuilder builder(model);
   builder.add_meshes();
   builder.add_nodes();
+  write_text_file(path, builder.take(path));
+}
+
+void write_track_glb(const std::string& path, const PileModel& model, const Track& track) {
+  GlbBuilder builder(model);
+  builder.add_meshes();
+  builder.add_nodes();
+  builder.add_animation(track);
   write_text_file(path, builder.take(path));
 }
 

@@ -27,6 +27,7 @@ struct PileModel {
     std::string name;  // unlike all others, e.g. "slab_000012"
     double scale = 1;
     Pose world_from_body;
+    std::int32_t number = -1;  // its index in the pile; -1: not known
   };
   std::vector<Type> types;
   std::vector<Piece> pieces;

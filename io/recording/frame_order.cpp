@@ -36,7 +36,7 @@ FrameOrder::FrameOrder(std::string recorder, const std::vector<Channels>& channe
   for (const Channels& c : channels) cameras_.push_back({c});
 }
 
-// Frames come at a steady rate, rounded to nanoseconds: one interval that is half as long again as
+// Frames of a sequence come at a steady rate, rounded to nanoseconds: one interval that is half as long again as
 // another means that something is missing between.
 void FrameOrder::check_stamp(const Frame& frame, Camera& camera, const std::string& where) {
   if (camera.count == 0) return;
@@ -46,7 +46,11 @@ void FrameOrder::check_stamp(const Frame& frame, Camera& camera, const std::stri
                    " ns is not later than the one before, " + std::to_string(camera.last_stamp_ns) +
                    " ns");
   }
-  if (camera.count == 1) camera.period_ns = interval;
+  if (frame.starts_sequence) {
+    camera.period_ns = 0;
+    return;
+  }
+  if (camera.period_ns == 0) camera.period_ns = interval;
   if (2 * interval > 3 * camera.period_ns || 3 * interval < 2 * camera.period_ns) {
     throw RunError(where + "it comes " + std::to_string(interval) +
                    " ns after the one before, where " + std::to_string(camera.period_ns) +

@@ -10,8 +10,8 @@
 namespace rubble {
 
 // Throws RunError for a frame that was dropped, came out of order, has a stamp that does not grow
-// or leaves a gap, lacks a channel of the recording, or whose pictures do not have the size that
-// its intrinsics say. Each camera has frames and a rate of its own; stamps of all never go back.
+// or leaves a gap within a sequence, lacks a channel of the recording, or whose pictures do not have the
+// size that its intrinsics say. Each camera has frames and a rate of its own; stamps of all never go back.
 class FrameOrder {
  public:
   // Of one camera.
@@ -26,7 +26,8 @@ class FrameOrder {
   struct Camera {
     Channels channels;
     int count = 0;
-    std::int64_t last_stamp_ns = 0, period_ns = 0;  // period: between the first two frames
+    std::int64_t last_stamp_ns = 0;
+    std::int64_t period_ns = 0;  // between the first two frames of the sequence; 0: not known yet
   };
   static void check_stamp(const Frame& frame, Camera& camera, const std::string& where);
 

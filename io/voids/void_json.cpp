@@ -79,6 +79,7 @@ std::string make_void_json(const VoidMap& map) {
                   {"grid", {{"corner", point(grid.corner)}, {"size", grid.size}}},
                   {"solid_volume", volume(map.solid_volume)},
                   {"void_volume", volume(map.void_volume)},
+                  {"covered_volume", volume(map.covered_volume)},
                   {"robots", robots},
                   {"graph", describe(map.graph)}};
   return json.dump(1) + "\n";

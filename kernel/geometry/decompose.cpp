@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "kernel/base/error.h"
+#include "kernel/geometry/decompose_exact.h"
 #include "kernel/geometry/decompose_voxels.h"
 #include "kernel/geometry/hull.h"
 
@@ -257,6 +258,10 @@ void join_parts(std::vector<Points>& parts, const DecomposeOptions& options) {
 }  // namespace
 
 std::vector<ConvexPart> decompose(const TriangleMesh& mesh, const DecomposeOptions& options) {
+  std::vector<ConvexPart> exact;
+  for (Points& part : decomposing::find_exact_parts(mesh, options.max_parts, options.max_corners))
+    exact.push_back({widened(std::move(part), options.thinnest)});
+  if (!exact.empty()) return exact;
   const Voxels voxels(mesh, options.resolution);
   std::vector<Points> parts;
   for (const Leaf& leaf : cut_up(voxels, options)) {

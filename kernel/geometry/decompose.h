@@ -1,6 +1,9 @@
 // A mesh as few convex parts, for meshes that come without any.
 //
-// The box around the mesh is cut again and again by planes across its axes where that saves most
+// Where the mesh is a union of closed convex bodies, or of closed bodies with right angles alone (boxes
+// put together, whether as one surface or as several), the parts are exactly these: decompose_exact.h.
+//
+// Of any other, the box around the mesh is cut again and again by planes across its axes where that saves most
 // hull volume (approximate convex decomposition; compare Mamou and Ghorbel 2009 and later work, which
 // cut the voxels as we do). Voxels only choose the planes: each part is the convex hull of the exact
 // surface within its box, so parts touch the mesh, not its voxels. Neighbours whose common hull is

@@ -14,6 +14,7 @@
 #include "kernel/base/math.h"
 #include "kernel/base/mesh.h"
 #include "kernel/model/assembly.h"
+#include "kernel/model/building.h"
 #include "kernel/model/size_distribution.h"
 
 namespace rubble {
@@ -71,6 +72,9 @@ struct PileSpec {
   Vec3 spawn_position{0, 0, 4.5};    // centre of the spawn box; unit: m
   Vec3 spawn_bounds{10, 10, 7};      // its full edge lengths; unit: m; > 0
   SpawnDensity spawn_density;
+  // A building that collapses before the first layer falls; its pieces' types begin at this one.
+  BuildingSpec building;
+  int building_first_type = 0;
   int layers = 4;                    // 0 to 1000
   int pieces_per_layer = 300;        // 0 to 100000; an assembly counts as one
 };
@@ -84,6 +88,8 @@ struct Pile {
   std::vector<PieceType> types;
   std::vector<AssemblyType> assemblies;
   std::vector<Placement> placed;
+  BuildingSpec building;
+  int building_first_type = 0;
   std::vector<Layer> layers;
   // Above the terrain under the spawn box. Layer k starts at the larger of this height and 1 m above the highest point of the pile.
   double spawn_bottom = 1.0;  // unit: m

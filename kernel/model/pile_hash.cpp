@@ -74,6 +74,26 @@ void add(StateHash& hash, const std::vector<AssemblyType>& assemblies) {
   }
 }
 
+void add(StateHash& hash, const BuildingSpec& b) {
+  const CollapseCause& c = b.cause;
+  for (const int number : {b.storeys, b.bays_x, b.bays_y, c.weak_storey, c.overloaded_floor}) {
+    hash.add(std::int32_t(number));
+  }
+  for (const double number :
+       {b.span_x, b.span_y, b.storey_height, b.column, b.beam_depth, b.slab, b.column_bars, b.beam_bars,
+        b.slab_bars, b.infill_thickness, b.openings, b.piece, b.roughness, c.weakness, c.overload, c.shake,
+        c.shake_hz, c.shake_seconds, c.shake_direction_deg, c.blast}) {
+    hash.add(number);
+  }
+  add(hash, c.blast_at);
+  hash.add(std::uint8_t(b.infill));
+  hash.add(b.seed);
+  add_count(hash, c.removed.size());
+  for (const ColumnPlace& p : c.removed) {
+    for (const int number : {p.storey, p.i, p.j}) hash.add(std::int32_t(number));
+  }
+}
+
 }  // namespace
 
 std::uint64_t hash_types(const std::vector<PieceType>& types,
@@ -92,6 +112,7 @@ std::uint64_t hash_pile(const Pile& pile) {
   for (const Layer& layer : pile.layers) add(hash, layer.pieces);
   hash.add(pile.spawn_bottom);
   if (!pile.assemblies.empty()) add(hash, pile.assemblies);
+  if (pile.building.given()) add(hash, pile.building), hash.add(std::int32_t(pile.building_first_type));
   return hash.digest();
 }
 

@@ -166,6 +166,17 @@ std::vector<std::optional<BodyMotion>> Track::poses_at(double time) const {
   return out;
 }
 
+bool Track::rests_throughout(const TrackBody& body, double from, double to) const {
+  if (times[body.keys.front().sample] > from) return false;
+  if (body.gone != TrackBody::kStays && times[body.gone] <= to) return false;
+  for (std::size_t i = 1; i < body.keys.size(); ++i) {
+    const TrackKey &a = body.keys[i - 1], &b = body.keys[i];
+    if (times[a.sample] >= to) break;
+    if (times[b.sample] > from && !same_pose(a.world_from_body, b.world_from_body)) return false;
+  }
+  return true;
+}
+
 std::uint64_t Track::hash() const {
   StateHash hash;
   hash.add(std::uint64_t(times.size()));

@@ -64,6 +64,9 @@ struct Track {
   // Of each body in turn.
   std::vector<std::optional<BodyMotion>> poses_at(double time) const;
 
+  // Whether the body is there, and in one pose, from the first time to the second; unit: s
+  bool rests_throughout(const TrackBody& body, double from, double to) const;
+
   // XXH64 over the bit patterns of every member in turn, each list after its length.
   std::uint64_t hash() const;
   // What contradicts the comments of the members above, numbers that are not finite and rotations

@@ -205,6 +205,8 @@ Pile generate_pile(const PileSpec& spec) {
   pile.types = spec.types;
   pile.assemblies = spec.assemblies;
   pile.placed = spec.placed;
+  pile.building = spec.building;
+  pile.building_first_type = spec.building_first_type;
   pile.spawn_bottom = std::max(spec.spawn_position.z - spec.spawn_bounds.z / 2,
                                lowest_spawn(spec, shapes));
   LayerMaker maker(spec, shapes);

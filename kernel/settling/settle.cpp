@@ -1,9 +1,11 @@
 #include "kernel/settling/settle.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "kernel/base/error.h"
+#include "kernel/settling/building_collapse.h"
 #include "kernel/world/world.h"
 #include "kernel/world/world_snapshot.h"
 
@@ -23,6 +25,7 @@ class Settling {
 
   PileState run() {
     lay_out();
+    if (pile_.building.given()) collapse_.emplace(world_, pile_, options_);
     return run_layers(0, finish_placed());
   }
 
@@ -51,7 +54,7 @@ class Settling {
     if (!last && options_.schedule == Schedule::planes) {
       rested = run_until(options_.layer_time_limit, [this] { return world_.all_have_touched(); });
     } else {
-      rested = last ? verify_rest() : run_to_rest();
+      rested = last ? verify_rest() : run_to_rest(options_.layer_time_limit);
     }
     if (!rested && !stopped_) ++layers_at_limit_;
     return rested;
@@ -70,10 +73,11 @@ class Settling {
   }
 
   bool finish_placed() {
-    const bool movable = std::any_of(pile_.placed.begin(), pile_.placed.end(),
+    const bool movable = pile_.building.given() || std::any_of(pile_.placed.begin(), pile_.placed.end(),
                                      [](const Placement& placement) { return !placement.fixed; });
     if (!movable) return true;
-    return pile_.layers.empty() ? verify_rest() : run_to_rest();
+    if (pile_.layers.empty()) return verify_rest();
+    return run_to_rest(pile_.building.given() ? options_.final_time_limit : options_.layer_time_limit);
   }
 
   void spawn(std::size_t k) {
@@ -93,9 +97,9 @@ class Settling {
     layer_steps_ = 0;
   }
 
-  bool run_to_rest() {
-    return run_until(options_.layer_time_limit, [this] {
-      return world_.at_rest(options_.rest_speed, options_.rest_angular_speed);
+  bool run_to_rest(double limit) {
+    return run_until(limit, [this] {
+      return !is_collapsing() && world_.at_rest(options_.rest_speed, options_.rest_angular_speed);
     });
   }
 
@@ -107,6 +111,7 @@ class Settling {
         return world_.rest_verified(speed, angular_speed) &&
                world_.deepest_overlap().depth <= options_.rest_overlap;
       }
+      if (is_collapsing()) return false;
       const bool waited = double(layer_steps_) * options_.step > kVerifyAfter;
       if (waited || world_.at_rest(speed, angular_speed)) world_.begin_rest_verification();
       return false;
@@ -120,11 +125,15 @@ class Settling {
   // with the question.
   template <typename Done>
   bool run_until(double limit, Done&& done) {
-    const std::int64_t most = std::int64_t(limit / options_.step + 0.5);
+    const bool shakes = collapse_ && layers_ == 0 && pile_.building.cause.shake > 0;
+    const double shaking = shakes ? pile_.building.cause.shake_seconds : 0;
+    const std::int64_t most = std::int64_t((limit + shaking) / options_.step + 0.5);
     if (layer_steps_ > 0 && done()) return true;
     while (layer_steps_ < most) {
       if (observe_) observe_(world_);
+      if (collapse_) collapse_->before_step();
       world_.step();
+      if (collapse_) collapse_->after_step();
       ++layer_steps_;
       if (progress_ && !report()) {
         stopped_ = true;
@@ -143,9 +152,12 @@ class Settling {
     p.simulated = world_.time();
     p.pieces = world_.size();
     p.awake = world_.awake_count();
-    p.make_checkpoint = [this] { return make_checkpoint(); };
+    if (!collapse_) p.make_checkpoint = [this] { return make_checkpoint(); };
+    if (collapse_) p.collapse = collapse_->report();
     return progress_(p);
   }
+
+  bool is_collapsing() const { return collapse_ && collapse_->goes_on(); }
 
   SettleCheckpoint make_checkpoint() const {
     SettleCheckpoint checkpoint;
@@ -186,6 +198,7 @@ class Settling {
   const SettleCallback& progress_;
   const WorldObserver& observe_;
   World& world_;
+  std::optional<BuildingCollapse> collapse_;
   int layers_ = 0, layers_at_limit_ = 0;
   std::int64_t layer_steps_ = 0;  // since the last spawn
   bool stopped_ = false;

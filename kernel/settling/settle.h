@@ -5,6 +5,7 @@
 
 #include "kernel/model/pile.h"
 #include "kernel/model/pile_state.h"
+#include "kernel/settling/collapse_report.h"
 #include "kernel/settling/settle_checkpoint.h"
 
 namespace rubble {
@@ -39,7 +40,9 @@ struct SettleProgress {
   double layer_time = 0;      // simulated since the last spawn; unit: s
   double simulated = 0;       // unit: s
   int pieces = 0, awake = 0;
-  // Makes a checkpoint of this moment; may be called in the callback only.
+  CollapseReport collapse;    // of a building, so far
+  // Makes a checkpoint of this moment; may be called in the callback only. Empty where there is a
+  // building: what was computed of its stresses is not kept, and settling starts anew.
   std::function<SettleCheckpoint()> make_checkpoint;
 };
 // Called after each step; return false to stop early (the state is then not settled).

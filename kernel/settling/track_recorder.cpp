@@ -4,13 +4,9 @@
 
 namespace rubble {
 
-TrackRecorder::TrackRecorder(Track so_far, std::int64_t steps, double step)
-    : builder_(std::move(so_far)) {
-  builder_.forget_from((double(steps) - 0.5) * step);
-}
-
 void TrackRecorder::observe(const World& world) {
   if (world.steps() == last_step_) return;
+  if (last_step_ < 0) builder_.forget_from(world.time());
   last_step_ = world.steps();
   builder_.begin_sample(world.time());
   for (int i = 0; i < world.size(); ++i) {

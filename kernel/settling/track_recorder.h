@@ -13,9 +13,9 @@ class World;
 class TrackRecorder {
  public:
   TrackRecorder() = default;
-  // Goes on from what was recorded before a pause. steps: that the world has taken at the pause; what
-  // was recorded at that step or later is forgotten, and comes again. step: unit: s
-  TrackRecorder(Track so_far, std::int64_t steps, double step);
+  // Goes on from what was recorded before a pause: what it holds of the first step that is observed, or
+  // of later ones, is forgotten and comes again.
+  explicit TrackRecorder(Track so_far) : builder_(std::move(so_far)) {}
 
   // Between two steps; a WorldObserver. A step that was seen already is not taken again.
   void observe(const World& world);

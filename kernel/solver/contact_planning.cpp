@@ -8,7 +8,7 @@ namespace rubble {
 namespace {
 
 // Inertia of a carrying piece against what it carries, see share_inertia().
-constexpr double kMassRatio = 5;
+constexpr double kMassRatio = 2;
 constexpr float kAbove = 0.2F;       // the normal's rise from which a piece counts as carrying
 constexpr float kCarrySpeed = 0.5F;  // unit: m/s
 // A thread takes part in the sweeps when there are this many contacts for it.

@@ -93,6 +93,7 @@ class TreeContacts {
     std::int32_t source = -1;  // index of the contact; of the loop or the link in its tree
     Side sides[2];
     int moving = 2;            // 1: the second side does not move
+    bool loaded = false;       // of a tree that carries what is heavier than the link under it
     std::int32_t cross = -1;   // both sides in one tree: index of what each feels of the other
     std::size_t first_row = 0;
     int rows = 0;
@@ -113,6 +114,8 @@ class TreeContacts {
   // By tree, bottom up, and along each tree: the focus of LinkMotions then seldom goes far.
   void sort_items(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
                   const std::vector<Contact>& contacts);
+  void mark_loaded(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
+                   const std::vector<Contact>& contacts);
   Side link_side(std::int32_t tree, std::int32_t link) const;
   void couple_sides(Item& item);
   Row make_row(const Item& item, const Spatial& a, const Spatial& b) const;
@@ -133,6 +136,7 @@ class TreeContacts {
   void solve_item(Item& item, double per_substep, const View& moved, View& view);
   template <int sides>
   void place_friction_of(Item& item);
+  void solve_one(Item& item, double per_substep, const PaddedMotion* moved, PaddedMotion* speeds);
   void solve_loop(Item& item, View& view);
   void solve_dry(Item& item, View& view);
   void solve_motor(Item& item, View& view);

@@ -257,6 +257,24 @@ void TreeContacts::sort_items(const std::vector<Body>& bodies,
   });
 }
 
+void TreeContacts::mark_loaded(const std::vector<Body>& bodies,
+                               const std::vector<std::int32_t>& order,
+                               const std::vector<Contact>& contacts) {
+  std::vector<std::uint8_t> loaded(trees_.motions->size(), 0);
+  for (std::int32_t index : order) {
+    const Contact& contact = contacts[std::size_t(index)];
+    if (contact.body_b == kGround) continue;
+    const Body &a = bodies[std::size_t(contact.body_a)], &b = bodies[std::size_t(contact.body_b)];
+    if (a.tree >= 0 && b.awake && b.mass > a.mass) loaded[std::size_t(a.tree)] = 1;
+    if (b.tree >= 0 && a.awake && a.mass > b.mass) loaded[std::size_t(b.tree)] = 1;
+  }
+  for (Item& item : items_) {
+    for (const Side& side : item.sides) {
+      item.loaded = item.loaded || (side.tree >= 0 && loaded[std::size_t(side.tree)] != 0);
+    }
+  }
+}
+
 void TreeContacts::begin(const SolverSettings& settings, const std::vector<Body>& bodies,
                          const std::vector<std::int32_t>& order,
                          const std::vector<Contact>& contacts,
@@ -278,6 +296,7 @@ void TreeContacts::begin(const SolverSettings& settings, const std::vector<Body>
   Builder builder(*this, bodies, number, share);
   for (std::int32_t index : order) builder.add(settings, contacts[std::size_t(index)], index);
   sort_items(bodies, order, contacts);
+  mark_loaded(bodies, order, contacts);
 }
 
 }  // namespace rubble

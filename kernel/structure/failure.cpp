@@ -6,6 +6,14 @@
 namespace rubble {
 namespace {
 
+constexpr double kFractureEnergy = 130;  // of concrete of 33 MPa: 73 fcm^0.18, fib Model Code 2010; unit: J/m2
+
+SectionForces overshoot(const SectionForces& f, const SectionForces& s, double share) {
+  const auto peak = [share](double now, double before) { return now + share * (now - before); };
+  return {peak(f.axial, s.axial),   peak(f.shear_s, s.shear_s),   peak(f.shear_t, s.shear_t),
+          peak(f.torque, s.torque), peak(f.moment_s, s.moment_s), peak(f.moment_t, s.moment_t)};
+}
+
 // A hinge's moment about its axis is what its bars carry: the section is asked for the rest.
 Utilization use_of(const Bond& bond, const BondStatus& status, SectionForces forces) {
   if (status.hinge_s) forces.moment_s = 0;
@@ -30,14 +38,17 @@ double use_of_rotation(const Bond& bond, const BondStatus& status, double rotati
 }
 
 std::vector<BondFailure> rate(const Structure& structure, const BondGroup& group,
-                              const StressResult& result, const std::vector<BondStatus>& status) {
+                              const StressResult& result, const FailureOptions& options,
+                              const std::vector<BondStatus>& status) {
   std::vector<BondFailure> rated;
   for (std::size_t i = 0; i < group.bonds.size(); ++i) {
     const std::int32_t index = group.bonds[i];
     const Bond& bond = structure.bonds[index];
     const BondStatus& state = status[index];
     if (state.broken) continue;
-    const Utilization use = use_of(bond, state, result.forces[i]);
+    SectionForces forces = result.forces[i];
+    if (options.settled) forces = overshoot(forces, (*options.settled)[index], options.overshoot);
+    const Utilization use = use_of(bond, state, forces);
     const double torn = use_of_rotation(bond, state, result.rotation_s[i], result.rotation_t[i]);
     if (torn > use.value) {
       rated.push_back({index, FailureMode::bending, false, torn});
@@ -71,48 +82,67 @@ BondFailure find_worst(const Structure& structure, const BondGroup& group, const
                        const std::vector<BondStatus>& status) {
   BondFailure worst;
   worst.bond = -1;
-  for (const BondFailure& rated : rate(structure, group, result, status)) {
+  for (const BondFailure& rated : rate(structure, group, result, {}, status)) {
     if (worst.bond < 0 || rated.utilization > worst.utilization) worst = rated;
   }
   return worst;
 }
 
+std::vector<BondFailure> find_failing(const Structure& structure, const BondGroup& group,
+                                      const StressResult& result, const FailureOptions& options,
+                                      const std::vector<BondStatus>& status) {
+  std::vector<BondFailure> failing = rate(structure, group, result, options, status);
+  failing.erase(std::remove_if(failing.begin(), failing.end(),
+                               [](const BondFailure& f) { return !(f.utilization > 1); }),
+                failing.end());
+  return failing;
+}
+
+double calc_breaking_energy(const Section& s) {
+  const double bars = std::max(calc_yield_moment(s, 0, true), calc_yield_moment(s, 0, false));
+  return kFractureEnergy * s.area + bars * s.steel.rupture_rotation;
+}
+
+std::vector<BondFailure> fail_worst(const Structure& structure, const BondGroup& group,
+                                    const StressResult& result, const FailureOptions& options,
+                                    std::vector<BondStatus>& status) {
+  std::vector<BondFailure> failures = find_failing(structure, group, result, options, status);
+  double most = 0;
+  for (const BondFailure& f : failures) most = std::max(most, f.utilization);
+  const double limit = most * (1 - options.together);
+  failures.erase(std::remove_if(failures.begin(), failures.end(),
+                                [limit](const BondFailure& f) { return f.utilization < limit; }),
+                 failures.end());
+  for (BondFailure& f : failures) {
+    const Bond& bond = structure.bonds[f.bond];
+    BondStatus& state = status[f.bond];
+    const auto at = std::lower_bound(group.bonds.begin(), group.bonds.end(), f.bond);
+    f.hinge = options.hinges && f.mode == FailureMode::bending && bond.section.steel.area > 0 &&
+              !state.hinge_s && !state.hinge_t &&
+              make_hinge(bond, result.forces[std::size_t(at - group.bonds.begin())], state);
+    state.broken = !f.hinge;
+  }
+  return failures;
+}
+
 std::vector<BondFailure> let_fail(const Structure& structure, GroupStress& stress,
                                   const std::vector<PieceLoad>& loads, const FailureOptions& options,
                                   std::vector<BondStatus>& status) {
-  std::vector<BondFailure> failures;
+  std::vector<BondFailure> all;
+  const BondGroup& group = stress.group();
+  std::vector<std::uint8_t> others(structure.pieces.size(), 1);
+  for (const std::int32_t piece : group.pieces) others[piece] = 0;
   for (int round = 0; round < options.rounds; ++round) {
     const StressResult result = stress.solve(status, loads);
     if (!result.stable) break;
-    const std::vector<BondFailure> rated = rate(structure, stress.group(), result, status);
-    double most = 0;
-    for (const BondFailure& r : rated) most = std::max(most, r.utilization);
-    if (!(most > 1)) break;
-    const double limit = std::max(1.0, most * (1 - options.together));
-    bool broken = false;
-    for (BondFailure r : rated) {
-      if (!(r.utilization > 1 && r.utilization >= limit)) continue;
-      const Bond& bond = structure.bonds[r.bond];
-      const auto at = std::lower_bound(stress.group().bonds.begin(), stress.group().bonds.end(), r.bond);
-      const SectionForces& forces = result.forces[std::size_t(at - stress.group().bonds.begin())];
-      BondStatus& state = status[r.bond];
-      const bool both = state.hinge_s && state.hinge_t;
-      r.hinge = options.hinges && r.mode == FailureMode::bending && bond.section.steel.area > 0 &&
-                !both && use_of(bond, state, forces).value >= r.utilization &&
-                make_hinge(bond, forces, state);
-      state.broken = !r.hinge;
-      broken = broken || state.broken;
-      failures.push_back(r);
-    }
-    if (broken) {
-      // What has come apart is no longer one problem.
-      std::vector<std::uint8_t> others(structure.pieces.size(), 1);
-      for (const std::int32_t piece : stress.group().pieces) others[piece] = 0;
-      const std::vector<BondGroup> left = find_groups(structure, status, others);
-      if (left.size() > 1 || left[0].anchored != stress.group().anchored) break;
-    }
+    const std::vector<BondFailure> failures = fail_worst(structure, group, result, options, status);
+    if (failures.empty()) break;
+    all.insert(all.end(), failures.begin(), failures.end());
+    // What has come apart is no longer one problem.
+    const std::vector<BondGroup> left = find_groups(structure, status, others);
+    if (left.size() > 1 || left[0].anchored != group.anchored) break;
   }
-  return failures;
+  return all;
 }
 
 }  // namespace rubble

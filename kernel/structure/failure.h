@@ -12,6 +12,9 @@ struct FailureOptions {
   // In one round all bonds fail that are used up as much as the worst one, to this share; range: 0 to 1.
   double together = 0.1;
   int rounds = 1000;  // at most; >= 1
+  // A sudden change overshoots by this share of it: bonds must carry f + overshoot (f - settled).
+  double overshoot = 0;                        // unit: 1; range: 0 to 1
+  const std::vector<SectionForces>* settled = nullptr;  // before the change, by bond; null: none
   bool hinges = true;  // bars keep a bent section as a hinge until they tear; false: it breaks at once
 };
 
@@ -22,6 +25,11 @@ struct BondFailure {
   double utilization = 0;    // when it failed; unit: 1
 };
 
+// One round: of those that are used up the worst, and all that are nearly as bad, fail. Writes `status`.
+std::vector<BondFailure> fail_worst(const Structure& structure, const BondGroup& group,
+                                    const StressResult& result, const FailureOptions& options,
+                                    std::vector<BondStatus>& status);
+
 // Solves a group, lets fail what is used up most, and solves again, until all holds, the group has
 // come apart or the rounds are over. Writes `status`.
 std::vector<BondFailure> let_fail(const Structure& structure, GroupStress& stress,
@@ -31,5 +39,13 @@ std::vector<BondFailure> let_fail(const Structure& structure, GroupStress& stres
 // The bond of a group that is used up most. bond: -1 when there is none.
 BondFailure find_worst(const Structure& structure, const BondGroup& group, const StressResult& result,
                        const std::vector<BondStatus>& status);
+
+// All that are used up, in the order of the group's bonds.
+std::vector<BondFailure> find_failing(const Structure& structure, const BondGroup& group,
+                                      const StressResult& result, const FailureOptions& options,
+                                      const std::vector<BondStatus>& status);
+
+// What breaking a bond takes: the concrete's fracture energy and the bars' plastic work. unit: J
+double calc_breaking_energy(const Section& section);
 
 }  // namespace rubble

@@ -9,8 +9,9 @@ namespace rubble {
 namespace {
 
 constexpr double kHinge = 1e-4;     // a hinge's share of the elastic stiffness: keeps the factor regular; unit: 1
-constexpr int kUpdateIterations = 40;  // on an old factor, before a new one is made
-constexpr double kResidual = 1e-9;   // of the loads, at which the iteration ends; unit: 1
+constexpr int kUpdatedBonds = 4;       // that changed are solved on the old factor; more make a new one; unit: 1
+constexpr int kUpdateIterations = 24;  // on an old factor, before a new one is made
+constexpr double kResidual = 1e-6;   // of the loads, at which the iteration ends; unit: 1
 
 // Displacement and rotation of a piece to those at the section, in the section's axes.
 Block6 at_section(const Section& s, const Vec3& arm) {
@@ -354,10 +355,11 @@ struct GroupStress::Impl {
     now.clear();
     for (const std::int32_t i : group.bonds) now.push_back(status[i]);
     const std::vector<Six> right = right_side(loads);
-    bool changed = !made || !regular;
-    for (std::size_t i = 0; i < now.size() && !changed; ++i) changed = !is_same(now[i], made_for[i]);
+    int changes = made && regular ? 0 : kUpdatedBonds + 1;
+    for (std::size_t i = 0; made && i < now.size(); ++i) changes += !is_same(now[i], made_for[i]);
+    const bool changed = changes > 0;
     std::vector<Six> u;
-    const bool quick = changed && made && regular && iterate(right, u);
+    const bool quick = changed && changes <= kUpdatedBonds && iterate(right, u);
     if (!quick) {
       if (changed && !refactor()) return unstable(read(std::vector<Six>(right.size(), Six{})));
       u = factor.solve(right);

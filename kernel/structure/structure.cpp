@@ -196,7 +196,9 @@ class Builder {
   void set_stiffness(Bond& bond) const {
     const Section& s = bond.section;
     const StructuralMaterial& material = weaker(bond.piece_a, bond.piece_b);
-    const double e = material.youngs_modulus, g = e / (2 * (1 + material.poisson_ratio));
+    double share = member_of(bond.piece_a).stiffness;
+    if (bond.piece_b != kFoundation) share = std::min(share, member_of(bond.piece_b).stiffness);
+    const double e = material.youngs_modulus * share, g = e / (2 * (1 + material.poisson_ratio));
     double length = std::abs(dot(s.centroid - structure_.pieces[bond.piece_a].centre, s.normal));
     if (bond.piece_b != kFoundation) {
       length += std::abs(dot(structure_.pieces[bond.piece_b].centre - s.centroid, s.normal));

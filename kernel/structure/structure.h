@@ -37,6 +37,8 @@ struct Member {
   StructuralMaterial material;
   Reinforcement bars;
   CutOptions cut;
+  // Below 1: gaps and soft joints let it carry that share only of what it would as one with the frame.
+  double stiffness = 1;  // unit: 1; range: above 0 to 1
   int variant = 0;  // members of one kind, size, material and cut with the same one share their pieces
 };
 
@@ -63,6 +65,7 @@ struct Structure {
   std::vector<Member> members;
   std::vector<StructurePiece> pieces;
   std::vector<Bond> bonds;  // by piece_a, then piece_b
+  std::vector<std::int32_t> from_bond;  // by bond: which it was before damage; empty: never damaged
 };
 
 // Cuts the members and bonds whatever shares a face: within a member by its material and bars, between

@@ -48,6 +48,7 @@ VoidMap find_voids(VoidSpace space, const std::vector<double>& radii,
     report(0.3 + 0.7 * double(i + 1) / double(radii.size()));
   }
   map.void_volume = space.volume(CellKind::free_void);
+  map.covered_volume = space.covered_volume();
   map.solid_volume = space.volume(CellKind::solid);
   map.space = std::move(space);
   report(1);

@@ -67,6 +67,7 @@ struct VoidMap {
   VoidSpace space;
   WidestPaths widest;
   double void_volume = 0, solid_volume = 0;  // unit: m3
+  double covered_volume = 0;                 // VoidSpace::covered_volume; unit: m3
   std::vector<RobotVoids> robots;            // in the order of the radii asked for
   VoidGraph graph;
 };

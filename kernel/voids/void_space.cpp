@@ -307,6 +307,19 @@ double VoidSpace::volume(CellKind wanted) const {
   return double(std::count(kind.begin(), kind.end(), wanted)) * cell_volume();
 }
 
+double VoidSpace::covered_volume() const {
+  const std::size_t layer = std::size_t(grid.size[0]) * std::size_t(grid.size[1]);
+  std::vector<bool> roofed(layer, false);
+  std::size_t covered = 0;
+  for (std::size_t i = kind.size(); i-- > 0;) {  // from the top down
+    if (kind[i] == CellKind::solid)
+      roofed[i % layer] = true;
+    else
+      covered += roofed[i % layer];
+  }
+  return double(covered) * cell_volume();
+}
+
 VoidSpace calc_void_space(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
                           const VoidSpaceOptions& options, const VoidProgress& progress) {
   options.validate();

@@ -52,6 +52,9 @@ struct VoidSpace {
 
   double cell_volume() const { return grid.voxel * grid.voxel * grid.voxel; }  // unit: m3
   double volume(CellKind wanted) const;                                        // unit: m3
+  // Free space that has something solid straight above it, whether the ball reaches it or not: what lies
+  // under a roof. unit: m3
+  double covered_volume() const;
 };
 
 // done: 0 to 1. Return false to stop; RunError is thrown then.

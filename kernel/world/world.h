@@ -40,6 +40,7 @@ struct SplitPart {
 // What a piece got at one point of a contact in the last solution, mean over the step.
 struct ContactImpulse {
   int piece = 0;
+  int other = -1;           // the piece that gave it; -1: the ground
   Vec3 point;           // unit: m
   Vec3 impulse;         // on the piece; unit: N s
   double approach = 0;  // speed of the two against each other before, along the normal; unit: m/s
@@ -98,6 +99,8 @@ class World {
   // `parts`.
   void bind(int first, int count);
   void split(const std::vector<SplitPart>& parts);
+  // Of the centre of mass of all that moves as one with a piece; unit: m/s.
+  Vec3 centre_velocity(int index) const;
   // The pieces that move as one with a piece, itself too; ascending.
   std::vector<int> bound_with(int index) const;
   // Called in a step when the impulses of its contacts are known and nothing has moved yet. Where it has

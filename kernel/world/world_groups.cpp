@@ -244,6 +244,10 @@ std::vector<int> World::bound_with(int index) const {
   return {members.begin(), members.end()};
 }
 
+Vec3 World::centre_velocity(int index) const {
+  return impl_->linear_velocity(impl_->acting(index));
+}
+
 void World::set_on_solved(std::function<bool()> on_solved) { impl_->on_solved = std::move(on_solved); }
 
 std::vector<ContactImpulse> World::contact_impulses() const {
@@ -274,8 +278,10 @@ std::vector<ContactImpulse> World::contact_impulses() const {
       c.approach = std::max(0.0, -double(dot(contact.normal, speed)));
       const Vec3 on_b = (Vec3(contact.normal) * double(contact.pressed) +
                          Vec3(contact.friction_impulse) * kSubsteps) * share;
-      if (of_a) c.piece = data.colliders[pair.collider_a].piece, c.impulse = -on_b, result.push_back(c);
-      if (of_b) c.piece = data.colliders[pair.collider_b].piece, c.impulse = on_b, result.push_back(c);
+      const int a_piece = data.colliders[pair.collider_a].piece;
+      const int b_piece = pair.collider_b >= 0 ? data.colliders[pair.collider_b].piece : pair.body_b;
+      if (of_a) c.piece = a_piece, c.other = b_piece, c.impulse = -on_b, result.push_back(c);
+      if (of_b) c.piece = b_piece, c.other = a_piece, c.impulse = on_b, result.push_back(c);
     }
   }
   return result;

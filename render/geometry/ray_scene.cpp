@@ -1,40 +1,9 @@
 #include "render/geometry/ray_scene.h"
 
-#include <embree3/rtcore.h>
-
-#include <map>
-
 #include "kernel/base/error.h"
+#include "render/geometry/ray_scene_embree.h"
 
 namespace rubble {
-
-struct RayScene::Embree {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-  std::map<std::uint32_t, RTCScene> meshes;  // of those that move, by prepared mesh
-
-  ~Embree() {
-    if (scene) rtcReleaseScene(scene);
-    for (const auto& [mesh, of_mesh] : meshes) rtcReleaseScene(of_mesh);
-    if (device) rtcReleaseDevice(device);
-  }
-
-  void attach(RTCScene to, const std::vector<Vec3f>& positions,
-              const std::vector<std::uint32_t>& indices) const;
-};
-
-// A placed mesh that moves: an instance in the tree.
-struct RayScene::Mover {
-  std::uint32_t placed = 0;
-  std::uint32_t first_triangle = 0;  // in triangles_
-  RTCGeometry geometry = nullptr;    // owned by the tree
-};
-
-namespace {
-
-constexpr unsigned kResting = 0;  // the geometry of all that rests
-
-}  // namespace
 
 void RayScene::Embree::attach(RTCScene to, const std::vector<Vec3f>& positions,
                               const std::vector<std::uint32_t>& indices) const {
@@ -160,6 +129,15 @@ void RayScene::follow() {
   commit();
 }
 
+RayScene::Met RayScene::met_by(std::uint32_t primitive, std::uint32_t instance,
+                               const Vec3f& normal) const {
+  if (instance == RTC_INVALID_GEOMETRY_ID) return {primitive, normal};
+  const Mover& mover = movers_[instance - kResting - 1];
+  // Embree gives the normal in the frame of the mesh.
+  return {primitive + mover.first_triangle,
+          Vec3f(scene_.placed[mover.placed].world_from_mesh.rotation.rotate(Vec3(normal)))};
+}
+
 RayScene::Hit RayScene::cast(const Vec3f& from, const Vec3f& d, float nearest,
                              float farthest) const {
   RTCIntersectContext context;
@@ -170,15 +148,9 @@ RayScene::Hit RayScene::cast(const Vec3f& from, const Vec3f& d, float nearest,
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(embree_->scene, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  Vec3f normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
-  std::uint32_t triangle = query.hit.primID;
-  if (query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
-    const Mover& mover = movers_[query.hit.instID[0] - kResting - 1];
-    triangle += mover.first_triangle;
-    // Embree gives it in the frame of the mesh.
-    normal = Vec3f(scene_.placed[mover.placed].world_from_mesh.rotation.rotate(Vec3(normal)));
-  }
-  return {triangle, query.ray.tfar, dot(normal, d) > 0};
+  const Met met = met_by(query.hit.primID, query.hit.instID[0],
+                         {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
+  return {met.triangle, query.ray.tfar, dot(met.normal, d) > 0};
 }
 
 bool RayScene::blocked(const Vec3f& from, const Vec3f& d, float nearest, float farthest) const {

@@ -2,6 +2,7 @@
 // when the scene has moved on. Internal to render/.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -26,6 +27,21 @@ class RayScene {
 
   enum class Detail { coarsest, finest };  // which level of each piece
 
+  struct Ray {
+    Vec3f from;
+    float nearest = 0;  // unit: lengths of `direction`, as all distances here
+    Vec3f direction;
+    float farthest = 0;
+  };
+  struct PreciseHit {
+    std::uint32_t triangle = kNone;  // index into triangles()
+    float distance = 0;
+    float u = 0, v = 0;  // weights of the triangle's second and third corner
+    bool back = false;   // from inside
+  };
+  // Packets pay where neighbouring rays go the same way; elsewhere each ray goes alone.
+  enum class Order { coherent, scattered };
+
   // The scene must outlive it.
   explicit RayScene(const PreparedScene& scene, Detail detail = Detail::coarsest);
   ~RayScene();
@@ -38,11 +54,20 @@ class RayScene {
   // May be called from several threads.
   Hit cast(const Vec3f& from, const Vec3f& direction, float nearest, float farthest) const;
   bool blocked(const Vec3f& from, const Vec3f& direction, float nearest, float farthest) const;
+  // The same for `count` rays at once: hits[i] is that of rays[i], hidden[i] is 1 where it is blocked.
+  void cast_many(const Ray* rays, std::size_t count, Order order, PreciseHit* hits) const;
+  void blocked_many(const Ray* rays, std::size_t count, Order order, std::uint8_t* hidden) const;
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
  private:
   struct Embree;
   struct Mover;
+  // Of a hit: which triangle, and its normal in the world, of any length.
+  struct Met {
+    std::uint32_t triangle;
+    Vec3f normal;
+  };
+  Met met_by(std::uint32_t primitive, std::uint32_t instance, const Vec3f& normal) const;
   const PreparedLevel& level_of(const PlacedMesh& piece) const;
   void add_resting();
   void add_moving();

@@ -8,6 +8,9 @@ namespace rubble {
 
 // Albedos after published tables: concrete 0.2-0.4, brick 0.2-0.3, dry soil 0.25-0.35, weathered
 // zinc 0.4, softwood 0.3-0.5, gypsum plaster 0.6-0.8, tyres 0.03-0.05. The colours within them are our choice.
+// Reflectances at normal incidence by Fresnel's equations: lacquer and rubber of index 1.5 give 0.04, a
+// pane's two faces 0.08; iron oxide of 2.2 gives 0.14, much of it rough; weathered zinc 0.4. The
+// roughnesses are our choice.
 const std::vector<SurfaceAppearance>& all_surface_appearances() {
   static const std::vector<SurfaceAppearance> looks = {
       {"concrete_cast",
@@ -69,7 +72,9 @@ const std::vector<SurfaceAppearance>& all_surface_appearances() {
        0.6f,
        0.03f,
        0.3f,
-       0.30f},
+       0.30f,
+       0.08f,
+       0.4f},
       {"steel_galvanised",
        Pattern::galvanised,
        {0.26f, 0.27f, 0.28f},
@@ -79,7 +84,9 @@ const std::vector<SurfaceAppearance>& all_surface_appearances() {
        0.15f,
        0.25f,
        0.6f,
-       0.15f},
+       0.15f,
+       0.4f,
+       0.3f},
       {"timber",
        Pattern::wood,
        {0.15f, 0.105f, 0.068f},
@@ -109,7 +116,9 @@ const std::vector<SurfaceAppearance>& all_surface_appearances() {
        0.5f,
        0.04f,
        0.4f,
-       0.25f},
+       0.25f,
+       0.08f,
+       0.4f},
       {"timber_fracture",
        Pattern::splinters,
        {0.26f, 0.165f, 0.085f},
@@ -149,7 +158,9 @@ const std::vector<SurfaceAppearance>& all_surface_appearances() {
        0.2f,
        0.2f,
        0.6f,
-       0.75f},
+       0.75f,
+       0.045f,
+       0.08f},
       {"glass",
        Pattern::smooth,
        {0.02f, 0.03f, 0.028f},
@@ -159,7 +170,9 @@ const std::vector<SurfaceAppearance>& all_surface_appearances() {
        0.1f,
        0.5f,
        0.5f,
-       0.1f},
+       0.1f,
+       0.08f,
+       0.03f},
       {"fabric",
        Pattern::weave,
        {0.085f, 0.085f, 0.1f},
@@ -179,7 +192,9 @@ const std::vector<SurfaceAppearance>& all_surface_appearances() {
        0.6f,
        0.03f,
        0.7f,
-       0.2f},
+       0.2f,
+       0.04f,
+       0.45f},
       {"ground",
        Pattern::soil,
        {0.095f, 0.079f, 0.061f},

@@ -39,6 +39,9 @@ struct SurfaceAppearance {
   float gloss;        // mirror-like part at normal incidence; 0: matt
   float dust;         // share of dust that rests on it facing up; range: 0 to 1
   float variation;    // how much brightness differs from piece to piece; range: 0 to 1
+  // Of the reference renderer, see transport/reflection.h: the share that its outermost face mirrors at
+  // normal incidence (0: matt), and the roughness alpha of that mirror.
+  float reflectance = 0, roughness = 1;
 };
 
 // All of them, in a fixed order; the last is the ground's.

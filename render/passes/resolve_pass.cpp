@@ -74,21 +74,6 @@ float lamp_spread(const LampSpec& lamp) {
 
 float grey_of(const Vec3f& c) { return dot(c, Vec3f(0.2126f, 0.7152f, 0.0722f)); }
 
-// Cameras take most of the light's own colour away: gains for a level grey surface under the open
-// sky, of luminance 1.
-Vec3f white_balance(const LightSet& set) {
-  const LightModel& main = set.lights.front();
-  Vec3f light = set.sky.mean * kPi;
-  if (main.type == LightType::directional) light += main.colour * std::max(-main.axis.z, 0.0f);
-  const float bright = grey_of(light);
-  if (bright <= 0) return {1, 1, 1};
-  // Less at dusk, which is to look blue: 0.75 in daylight, 0.35 at 10 lx.
-  const float adapted = std::clamp(0.35f + 0.1f * std::log10(bright * 100), 0.35f, 0.75f);
-  const auto gain = [&](float c) { return 1 / (1 + adapted * (c / bright - 1)); };
-  const Vec3f gains(gain(light.x), gain(light.y), gain(light.z));
-  return gains * (1 / grey_of(gains));
-}
-
 void fill_air_and_lamp(FrameBlock& block, const FrameLight& frame, const Pose& world_from_rig) {
   const double half = 0.5 * frame.lamp.cone_deg * portable::kPi / 180;
   set(block.lamp_position, Vec3f(world_from_rig * frame.lamp.position),
@@ -230,6 +215,19 @@ Vec3f lamp_colour(const LampSpec& lamp) {
   const Vec3f tint(0.96f, 1.0f, 1.12f);
   return tint * float(lamp.intensity_cd * 1e-3 /
                       double(dot(tint, Vec3f(0.2126f, 0.7152f, 0.0722f))));
+}
+
+Vec3f white_balance(const LightSet& set) {
+  const LightModel& main = set.lights.front();
+  Vec3f light = set.sky.mean * kPi;
+  if (main.type == LightType::directional) light += main.colour * std::max(-main.axis.z, 0.0f);
+  const float bright = grey_of(light);
+  if (bright <= 0) return {1, 1, 1};
+  // Less at dusk, which is to look blue: 0.75 in daylight, 0.35 at 10 lx.
+  const float adapted = std::clamp(0.35f + 0.1f * std::log10(bright * 100), 0.35f, 0.75f);
+  const auto gain = [&](float c) { return 1 / (1 + adapted * (c / bright - 1)); };
+  const Vec3f gains(gain(light.x), gain(light.y), gain(light.z));
+  return gains * (1 / grey_of(gains));
 }
 
 ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,

@@ -31,6 +31,10 @@ struct FrameLight {
 // Colours of the lamp's light; kcd.
 Vec3f lamp_colour(const LampSpec& lamp);
 
+// Cameras take most of the light's own colour away: gains for a level grey surface under the open
+// sky, of luminance 1.
+Vec3f white_balance(const LightSet& lights);
+
 // Which triangle each pixel shows, and how far it is.
 struct SurfaceImages {
   const GlTexture& ids;    // as VisibilityPass::ids()

@@ -14,6 +14,16 @@ namespace rubble {
 // Streams of ground truth beside colour and depth; each costs nothing where it is not asked for.
 using StreamSet = std::vector<const ImageStream*>;
 
+// How colours come about. fast: baked light, shadow maps and shading on the graphics device. reference:
+// path tracing, see reference/path_tracer.h; slow, exact but for noise. Depth and channels are the same.
+enum class RenderQuality { fast, reference };
+
+struct ColourSpec {
+  RenderQuality quality = RenderQuality::fast;  // the members below are of the reference alone
+  int samples = 64;      // a pixel; noise falls with the root; range: 1 to 65536
+  bool denoise = false;  // filtered, see reference/denoise.h
+};
+
 // The stamp of a frame is the middle of the exposure of the middle row.
 struct ShutterSpec {
   // From the first row's exposure to the last row's; 0: all rows at once. unit: s; range: 0 to 1

@@ -59,6 +59,7 @@ struct ImuModel {
 struct Frame {
   int sensor = 0;                 // number among the recording's cameras
   int index = 0;                  // of this camera, 0-based
+  bool starts_sequence = false;   // a pause of any length, or another rate, may come before it
   std::int64_t stamp_ns = 0;      // simulation time; one stamp for all that is in the frame
   Intrinsics intrinsics;          // of colour and depth alike: they are registered
   Pose world_from_camera;         // camera body frame: X forward, Y left, Z up

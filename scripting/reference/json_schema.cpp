@@ -120,6 +120,8 @@ Json object_schema(const Schema& schema, const std::string& pattern) {
     if (key->kind == KeyKind::list) {
       key->resize(1);  // so that an item's defaults can be read
       json.update({{"type", "array"}, {"items", object_schema(schema, key->path + "[]")}});
+    } else if (const Key* on = schema.find(key->path + ".on"); on && on->parent() == key->path) {
+      json["anyOf"] = Json::array({object_schema(schema, key->path), {{"type", "boolean"}}});
     } else {
       json.update(object_schema(schema, key->path));
     }

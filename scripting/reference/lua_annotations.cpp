@@ -89,6 +89,7 @@ std::string class_of(const Schema& schema, const std::string& pattern, const std
       if (is_list) key->resize(1);
       inner += class_of(schema, is_list ? key->path + "[]" : key->path, root, own, key->doc_text);
       type = is_list ? own + "[]" : own;
+      if (!is_list && schema.find(key->path + ".on")) type += "|boolean";  // the switch alone
     }
     fields += "---@field " + key->name() + (key->required ? "" : "?") + " " + type + " " +
               words_about(*key) + "\n";

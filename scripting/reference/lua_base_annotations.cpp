@@ -115,6 +115,10 @@ function rubble.slab(box) end
 ---@param box table
 ---@return rubble.mission.pile.placed
 function rubble.wall(box) end
+---A pile that is a building and what becomes of it.
+---@param building rubble.mission.pile.building
+---@return rubble.mission.pile
+function rubble.building(building) end
 ---The parameters of a path, and those that every path has.
 ---@param list table[] as of `rubble.options`
 ---@return table[]
@@ -125,11 +129,22 @@ function rubble.trajectory_options(list) end
 ---@param interpolation? string
 ---@return rubble.mission.trajectory
 function rubble.fly(options, waypoints, interpolation) end
+---Keeps a function that drives a robot, for `control` (docs/robots.md).
+---@param f fun(sense: table): table
+---@return integer
+function rubble.controller(f) end
+---An entry of `robots` from a model's own parameters and those that every robot has.
+---@param model string
+---@param given table
+---@param list table[] as of `rubble.options`
+---@return table
+function rubble.robot_options(model, given, list) end
 
 rubble.collapse = {}
 rubble.density = {}
 rubble.terrain = {}
 rubble.trajectory = {}
+rubble.robot = {}
 
 ---A density from a PNG file of the script's folder: white where most falls, its upper edge at +Y.
 ---@param file string

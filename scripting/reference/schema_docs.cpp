@@ -178,6 +178,8 @@ std::string library_reference() {
       "A mesh is named as `pile.terrain = { file = \"site.obj\" }`.\n\n" +
       folder_sections("terrain", "", "") + "## Paths\n\n" +
       folder_sections("trajectory", "rate_hz", "What every path has");
+  text += "## Robots\n\nAn entry of `robots`: docs/robots.md. `control` takes a function, too.\n\n" +
+          folder_sections("robot", "name", "What every robot has");
   for (const DescribedFunction& function : LuaSandbox::describe_library())
     if (function.name == "rubble.find_void")
       text += "## Places in voids\n\n" + function_section(function, {});

@@ -14,6 +14,7 @@
 #include "scripting/sandbox/gray_image.h"
 #include "scripting/sandbox/lua_options.h"
 #include "scripting/sandbox/lua_value.h"
+#include "scripting/values/value.h"
 
 // Lua's C++ build reports errors by an exception, so the destructors below run.
 
@@ -24,6 +25,8 @@ constexpr const char* kStreamType = "random stream";
 constexpr std::size_t kMostPrinted = 1 << 20;  // unit: byte
 constexpr std::uint64_t kInstructionsPerValue = 50;  // that cost as much as to read it
 constexpr std::size_t kMostMistakes = 1000;    // that rubble.options keeps
+constexpr int kMostDrawsOfStream = 8;          // that are noted by name
+constexpr std::size_t kMostDraws = 64;
 
 RandomStream& stream_at(lua_State* lua, int index) {
   host_of(lua).used_random = true;
@@ -46,10 +49,28 @@ double limited_at(lua_State* lua, int index, double limit) {
 int make_stream(lua_State* lua) {
   static_assert(std::is_trivially_destructible_v<RandomStream>, "no __gc is needed");
   const std::string name = luaL_checkstring(lua, 1);
-  void* const memory = lua_newuserdatauv(lua, sizeof(RandomStream), 0);
+  void* const memory = lua_newuserdatauv(lua, sizeof(RandomStream), 1);
   new (memory) RandomStream(host_of(lua).seed, "lua/" + name);
   luaL_setmetatable(lua, kStreamType);
+  lua_pushvalue(lua, 1);  // its name, for note_draw
+  lua_setiuservalue(lua, -2, 1);
   return 1;
+}
+
+// The name under which the next value of the stream at index 1 is noted; empty: it is not.
+std::string next_draw_name(lua_State* lua) {
+  LuaHost& host = host_of(lua);
+  if (host.drawn.size() >= kMostDraws) return "";
+  lua_getiuservalue(lua, 1, 1);
+  std::string name = lua_tostring(lua, -1);
+  lua_pop(lua, 1);
+  int& count = host.draws[name];
+  if (count >= kMostDrawsOfStream) return "";
+  return ++count == 1 ? name : name + "." + std::to_string(count);
+}
+
+void note_draw(lua_State* lua, const std::string& name, std::string value) {
+  if (!name.empty()) host_of(lua).drawn.emplace_back(name, std::move(value));
 }
 
 int draw_uniform(lua_State* lua) {
@@ -57,7 +78,9 @@ int draw_uniform(lua_State* lua) {
   const double low = lua_isnoneornil(lua, 2) ? 0.0 : finite_at(lua, 2);
   const double high = lua_isnoneornil(lua, 3) ? 1.0 : finite_at(lua, 3);
   luaL_argcheck(lua, low <= high, 3, "the upper limit is below the lower one");
-  lua_pushnumber(lua, random.uniform(low, high));
+  const double value = random.uniform(low, high);
+  note_draw(lua, next_draw_name(lua), format_number(value));
+  lua_pushnumber(lua, value);
   return 1;
 }
 
@@ -67,7 +90,9 @@ int draw_integer(lua_State* lua) {
   luaL_argcheck(lua, low <= high, 3, "the upper limit is below the lower one");
   const std::uint64_t count = std::uint64_t(high) - std::uint64_t(low) + 1;  // 0: all of 2^64
   const std::uint64_t offset = count == 0 ? random.next() : random.below(count);
-  lua_pushinteger(lua, static_cast<lua_Integer>(std::uint64_t(low) + offset));
+  const auto value = static_cast<lua_Integer>(std::uint64_t(low) + offset);
+  note_draw(lua, next_draw_name(lua), std::to_string(value));
+  lua_pushinteger(lua, value);
   return 1;
 }
 
@@ -75,7 +100,9 @@ int draw_normal(lua_State* lua) {
   RandomStream& random = stream_at(lua, 1);
   const double mean = lua_isnoneornil(lua, 2) ? 0.0 : finite_at(lua, 2);
   const double deviation = lua_isnoneornil(lua, 3) ? 1.0 : finite_at(lua, 3);
-  lua_pushnumber(lua, mean + deviation * random.normal());
+  const double value = mean + deviation * random.normal();
+  note_draw(lua, next_draw_name(lua), format_number(value));
+  lua_pushnumber(lua, value);
   return 1;
 }
 
@@ -84,12 +111,20 @@ int draw_choice(lua_State* lua) {
   luaL_checktype(lua, 2, LUA_TTABLE);
   const lua_Unsigned count = lua_rawlen(lua, 2);
   luaL_argcheck(lua, count > 0, 2, "an empty list");
-  lua_rawgeti(lua, 2, static_cast<lua_Integer>(random.below(count)) + 1);
+  const auto chosen = static_cast<lua_Integer>(random.below(count)) + 1;
+  const int type = lua_rawgeti(lua, 2, chosen);
+  std::string text = std::to_string(chosen);
+  if (type == LUA_TSTRING) text = lua_tostring(lua, -1);
+  if (type == LUA_TNUMBER) text = format_number(lua_tonumber(lua, -1));
+  note_draw(lua, next_draw_name(lua), printable(text));
   return 1;
 }
 
 int draw_direction(lua_State* lua) {
   const Vec3 v = stream_at(lua, 1).direction();
+  const std::string name = next_draw_name(lua);
+  for (int i = 0; i < 3 && !name.empty(); ++i)
+    note_draw(lua, name + "." + "xyz"[i], format_number(v[i]));
   lua_createtable(lua, 3, 0);
   for (int i = 0; i < 3; ++i) {
     lua_pushnumber(lua, v[i]);
@@ -107,6 +142,23 @@ int print_line(lua_State* lua) {
     return luaL_error(lua, "the script prints more than 1 MiB");
   host.printed.push_back(printable({text, size}));
   return 0;
+}
+
+// controller(function) -> its number. What drives robots is called long after the script has ended.
+int keep_controller(lua_State* lua) {
+  constexpr lua_Unsigned kMost = 1000;
+  luaL_checktype(lua, 1, LUA_TFUNCTION);
+  if (lua_getfield(lua, LUA_REGISTRYINDEX, kControllers) != LUA_TTABLE) {
+    lua_pop(lua, 1);
+    lua_newtable(lua);
+    lua_pushvalue(lua, -1);
+    lua_setfield(lua, LUA_REGISTRYINDEX, kControllers);
+  }
+  const lua_Unsigned number = lua_rawlen(lua, -1) + 1;
+  if (number > kMost) return luaL_error(lua, "rubble.controller: more than 1000 functions");
+  lua_pushvalue(lua, 1);
+  lua_rawseti(lua, -2, lua_Integer(number));
+  return lua_pushinteger(lua, lua_Integer(number)), 1;
 }
 
 int include_file(lua_State* lua) {
@@ -336,7 +388,7 @@ int math_log(lua_State* lua) {
 }
 
 const luaL_Reg kFunctions[] = {
-    {"options", read_options}, {"read_image", read_image_file}, {"read_table", read_table_file}, {"reject", reject_option}, {"rotate", rotate_vector}, {"stream", make_stream}, {"print", print_line}, {"include", include_file}, {"sin", math_sin},
+    {"options", read_options}, {"read_image", read_image_file}, {"read_table", read_table_file}, {"reject", reject_option}, {"rotate", rotate_vector}, {"stream", make_stream}, {"controller", keep_controller}, {"print", print_line}, {"include", include_file}, {"sin", math_sin},
     {"cos", math_cos},       {"tan", math_tan},     {"asin", math_asin},       {"acos", math_acos},
     {"atan", math_atan},     {"exp", math_exp},     {"log", math_log},         {nullptr, nullptr}};
 

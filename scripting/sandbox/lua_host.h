@@ -20,6 +20,8 @@ struct LuaHost {
   lua_State* lua = nullptr;
   std::uint64_t seed = 0;
   bool used_random = false;
+  std::vector<std::pair<std::string, std::string>> drawn;  // see LuaSandbox::drawn
+  std::map<std::string, int> draws;                        // of each stream, as far as counted
   std::size_t printed_bytes = 0;
   std::vector<std::string> printed;
   // Reads a file for rubble.include and returns its index among the chunks; on failure it puts the
@@ -49,6 +51,9 @@ void count_work(lua_State* lua, std::uint64_t instructions);
 
 // What Lua shall read of a file: all but a byte order mark and a first line that begins with `#`.
 std::string_view lua_source(std::string_view text);
+
+// Where the registry keeps the functions that rubble.controller was given.
+inline constexpr const char* kControllers = "controllers";
 
 // Lua names a chunk in its messages; ours are "chunk0", "chunk1", ... and stand for paths.
 std::string chunk_name(int chunk);

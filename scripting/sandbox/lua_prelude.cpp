@@ -175,6 +175,7 @@ end
 rubble = {
   random = stream,
   include = host.include,
+  controller = host.controller,
   vec = make_vec,
   options = host.options,
   reject = host.reject,

@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr int kHookEvery = 1000;  // instructions
 constexpr std::size_t kMostIncludes = 64;
+constexpr std::uint64_t kInstructionsPerCall = 2'000'000;  // of a controller
 constexpr std::uintmax_t kLargestInclude = 4 << 20;  // unit: byte
 
 double thread_cpu_seconds() {
@@ -84,7 +85,7 @@ int complete_message(lua_State* lua) {
 
 // Everything that a mission script may call below `rubble`, by its whole name.
 std::vector<std::string> library_names() {
-  std::vector<std::string> names{"include",    "mission",    "options", "random", "read_image",
+  std::vector<std::string> names{"controller", "include", "mission",    "options", "random", "read_image",
                                  "read_table", "reject",     "rotate",  "vec"};
   for (const LibraryFile& file : lua_library()) names.push_back(file.name);
   for (std::string& name : names) {
@@ -326,6 +327,26 @@ Value LuaSandbox::run(const std::string& text, const std::string& path) {
   return value;
 }
 
+Value LuaSandbox::call_controller(int number, const Value& argument) {
+  State& s = *state_;
+  lua_State* const lua = s.host.lua;
+  lua_getfield(lua, LUA_REGISTRYINDEX, kControllers);
+  lua_rawgeti(lua, -1, number);
+  lua_remove(lua, -2);
+  push_lua_value(lua, argument);
+  s.host.instructions = 0;
+  s.host.limits.instructions = kInstructionsPerCall;
+  s.host.started = thread_cpu_seconds();
+  s.host.limited = true;
+  lua_sethook(lua, count_instructions, LUA_MASKCOUNT, kHookEvery);
+  s.call(1, 1);
+  s.host.limited = false;
+  lua_sethook(lua, nullptr, 0, 0);
+  Value value = read_lua_value(lua, -1);
+  lua_settop(lua, 0);
+  return value;
+}
+
 const std::vector<Diagnostic>& LuaSandbox::mistakes() const { return state_->host.mistakes; }
 
 std::vector<DescribedFunction> LuaSandbox::describe_library() {
@@ -358,6 +379,9 @@ std::vector<DescribedFunction> LuaSandbox::describe_library() {
 }
 
 bool LuaSandbox::used_random() const { return state_->host.used_random; }
+const std::vector<std::pair<std::string, std::string>>& LuaSandbox::drawn() const {
+  return state_->host.drawn;
+}
 const std::vector<SourceFile>& LuaSandbox::included() const { return state_->included; }
 const std::vector<std::string>& LuaSandbox::printed() const { return state_->host.printed; }
 

@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/base/error.h"
@@ -56,10 +57,18 @@ class LuaSandbox {
   // includes are looked for beside it. Throws InputError with file and line.
   Value run(const std::string& text, const std::string& path);
 
+  // Calls a function that the script gave to rubble.controller, by its number, once the script has run.
+  // Limits hold for each call by itself: 2 million instructions. Throws InputError with file and line.
+  Value call_controller(int number, const Value& argument);
+
   // What rubble.options found wrong in that run, with file and line.
   const std::vector<Diagnostic>& mistakes() const;
 
   bool used_random() const;                         // whether the seed mattered to the script
+  // The first values that it drew, as text, at most eight of each of its streams and 64 in all. Names:
+  // that of the stream, and for its second value on NAME.2, ...; of a direction NAME.x, .y, .z. Of a
+  // choice among tables, the number of the one.
+  const std::vector<std::pair<std::string, std::string>>& drawn() const;
   const std::vector<SourceFile>& included() const;  // by rubble.include, in order of first use
   const std::vector<std::string>& printed() const;  // lines given to print, made printable
 

@@ -71,6 +71,17 @@ void check_camera(const MountedCamera& camera, const std::string& at, const std:
         "more than " + beside + "depth_sensor.min_range", "");
 }
 
+// One renderer draws for all cameras.
+void check_colour(const ColourSpec& colour, const MountedCamera& first, const std::string& at,
+                  std::vector<Diagnostic>& mistakes) {
+  const ColourSpec& other = first.camera.colour;
+  if (colour.quality == other.quality && colour.samples == other.samples &&
+      colour.denoise == other.denoise)
+    return;
+  mistakes.push_back({"", 0, at + ".quality", "another way to find colours than that of another camera",
+                      "quality, samples and denoise as `cameras." + first.name + "` has them", "", ""});
+}
+
 // The first of the short form's keys that does not have its default; empty: none.
 std::string find_key_of_one_camera(const Scenario& scenario) {
   Scenario given = scenario, usual;
@@ -141,7 +152,11 @@ void check_cameras(const Scenario& scenario, std::vector<Diagnostic>& mistakes) 
                           "a lower-case letter, then such letters, digits and underscores, 32 at most",
                           "\"" + camera.name + "\"", ""});
     check_camera(camera, at + ".", at + ".", mistakes);
+    check_colour(camera.camera.colour, scenario.cameras.front(), at, mistakes);
   }
+  if (scenario.record_settling.on)
+    mistakes.push_back({"", 0, "record_settling.on", "contradicts cameras", "a mission with `camera`",
+                        "several cameras", ""});
 }
 
 void check_sensor_names(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {

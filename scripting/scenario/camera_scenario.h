@@ -29,6 +29,7 @@ struct CameraScenario {
   double fov_deg = 90;
   // Ground truth beside colour and depth, of channel_names().
   std::vector<std::string> channels{};
+  ColourSpec colour{};         // fast, or path traced; the same for all cameras of a mission
   LensScenario lens{};         // calibration; without one a pinhole of fov_deg
   double stereo_baseline = 0;  // to the right camera of a pair; 0: none; unit: m; range: 0 to 10
   ShutterSpec shutter{};       // when each row is exposed

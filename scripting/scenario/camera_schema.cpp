@@ -27,8 +27,13 @@ void add_camera(Schema& k, const std::string& at, CameraScenario& c) {
           "plumb_bob is left out of account.")
       .between(1, 360)
       .unit("degree");
-  k.value(at + "channels", c.channels,
-          describe_channels());
+  k.value(at + "channels", c.channels, describe_channels());
+  k.choice(at + "quality", c.colour.quality, {"fast", "reference"},
+           "How colours are found: baked light and shadow maps, or path tracing, which takes a minute or "
+           "more an image ([reference_renderer.md](reference_renderer.md)). Depth and channels are the same.");
+  k.value(at + "samples", c.colour.samples, "Of the reference: paths a pixel.").between(1, 65536);
+  k.value(at + "denoise", c.colour.denoise,
+          "Of the reference: noise is filtered out by the exact normals, distances and albedos.");
   k.value(at + "stereo_baseline", c.stereo_baseline,
           "Distance of a second camera to the right, with the same lens and exposure; 0: none.")
       .between(0, 10)

@@ -104,6 +104,21 @@ void check_meshes(const OutputScenario& outputs, std::vector<Diagnostic>& mistak
   }
 }
 
+void check_record_settling(const RecordSettlingScenario& r, std::vector<Diagnostic>& mistakes) {
+  const auto add = [&](const char* key, const char* message, std::string expected, std::string found) {
+    mistakes.push_back({"", 0, std::string("record_settling.") + key, message, std::move(expected),
+                        std::move(found), ""});
+  };
+  if (r.to && *r.to <= r.from)
+    add("to", "nothing lies between", "more than record_settling.from = " + format_number(r.from),
+        format_number(*r.to));
+  if (r.position.has_value() != r.look_at.has_value())
+    add(r.position ? "look_at" : "position", "missing",
+        "both of position and look_at, or neither", "one of them");
+  if (r.position && r.look_at && distance(*r.position, *r.look_at) < 0.01)
+    add("look_at", "is where the camera is", "a point 0.01 m away or farther", "");
+}
+
 // What can be told before there is a pile.
 void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   const TrajectorySpec spec = flown_trajectory(scenario);
@@ -135,6 +150,8 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_cameras(scenario, mistakes);
   check_sensor_names(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
+  check_record_settling(scenario.record_settling, mistakes);
+  check_robots(scenario, mistakes);
   if (scenario.voids.radius < scenario.voids.voxel)
     mistakes.push_back({"", 0, "voids.radius", "smaller than a voxel",
                         "at least voids.voxel = " + format_number(scenario.voids.voxel),
@@ -154,6 +171,10 @@ TrajectorySpec flown_trajectory(const Scenario& scenario) {
   if (!spec.smoothing && !spec.limits.max_jerk && (scenario.imu.on || curved_way))
     spec.smoothing = kUsualSmoothing;
   return spec;
+}
+
+bool needs_track(const Scenario& scenario) {
+  return scenario.record_settling.on || scenario.outputs.track;
 }
 
 void Scenario::validate() const {

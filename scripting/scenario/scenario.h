@@ -18,6 +18,7 @@
 #include "kernel/settling/settle.h"
 #include "render/scene/scene.h"
 #include "scripting/scenario/camera_scenario.h"
+#include "scripting/scenario/robot_scenario.h"
 #include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
@@ -75,6 +76,7 @@ struct PileScenario {
   std::vector<MixItem> mix;        // empty: every asset of the packs, by its own weight
   std::vector<PlacedItem> placed;  // put there before anything falls
   TerrainScenario terrain;         // what the pile lies on
+  BuildingSpec building;           // collapses before anything falls; seed: the mission's
 };
 
 struct LightScenario {
@@ -107,11 +109,23 @@ struct OutputScenario {
   bool colmap = false;              // COLMAP: a folder
   bool frames = false;              // plain PNG and EXR: a folder
   bool stl = true;                  // pile.stl
+  bool track = false;               // who moved when: track.bin and, as glTF animation, track.glb
   std::vector<std::string> meshes;  // the pile in further formats, of export_names()
   bool groundtruth = true;          // TUM: groundtruth.txt
   bool preview = true;              // preview.png, a contact sheet
   DepthEncoding depth = DepthEncoding::millimetres;  // in bag and MCAP file
   PictureEncoding pictures = PictureEncoding::raw;   // likewise
+};
+
+// The pile seen settling: a standing camera watches the layers fall, before its flight.
+struct RecordSettlingScenario {
+  bool on = false;                 // false: the recording begins when the pile rests
+  double from = 0;                 // simulated, since the first step; unit: s; range: 0 to 86400
+  std::optional<double> to{};      // not given: until the pile rests; unit: s; range: from, to 86400
+  std::optional<double> rate_hz{};  // not given: that of the trajectory; unit: Hz
+  // Where the camera is and the point in the middle of its view, in the world; not given: as the
+  // flight begins. Both or neither. unit: m
+  std::optional<Vec3> position{}, look_at{};
 };
 
 // The voids of the settled pile, measured for suites and batches; kernel/voids/void_map.h.
@@ -138,8 +152,11 @@ struct Scenario {
   LampSpec lamp;                  // on the camera
   TrajectorySpec trajectory;      // where the camera flies
   ImuScenario imu;                // in the camera
+  RecordSettlingScenario record_settling;  // what is recorded before the flight
   OutputScenario outputs;         // what is written
   VoidScenario voids;             // whether voids are measured
+  std::vector<RobotItem> robots;  // driven through the settled pile
+  RobotRunScenario robot_run;     // how long
 
   // Throws InputError with every mistake: out of range, not finite, contradicting each other.
   void validate() const;
@@ -156,6 +173,9 @@ bool has_channel(const Scenario& scenario, const std::string& name);
 // The trajectory with its smoothing chosen where the mission leaves that open: kUsualSmoothing where
 // an inertial unit is on, and for a curve around what lies there; none elsewhere.
 TrajectorySpec flown_trajectory(const Scenario& scenario);
+
+// Whether settling keeps who moved when: track.bin.
+bool needs_track(const Scenario& scenario);
 
 // The main light as it shines: with random_rotation, a pitch of 20 to 80 degrees down and any yaw (a
 // sun 5 to 70 degrees high, anywhere), drawn from the seed; with random_position, a place in its box.

@@ -116,6 +116,60 @@ void add_terrain(Schema& k, TerrainScenario& t) {
           "Of the grid, and of surfaces of the mesh that are no look themselves.");
 }
 
+void add_building(Schema& k, BuildingSpec& b) {
+  k.group("pile.building",
+          "A frame of reinforced concrete that collapses before the first layer falls: about the origin, "
+          "on the ground z = 0. rubble.building makes a pile of it.");
+  k.value("pile.building.storeys", b.storeys, "0: there is no building.").between(0, 12);
+  k.value("pile.building.bays_x", b.bays_x, "Bays along X.").between(1, 8);
+  k.value("pile.building.bays_y", b.bays_y, "Bays along Y.").between(1, 8);
+  k.value("pile.building.span_x", b.span_x, "Between column axes along X.").between(2, 12).unit("m");
+  k.value("pile.building.span_y", b.span_y, "Between column axes along Y.").between(2, 12).unit("m");
+  k.value("pile.building.storey_height", b.storey_height, "Floor to floor.").between(2.2, 6).unit("m");
+  k.value("pile.building.column", b.column, "Edge of the columns; beams are as wide.").between(0.15, 1.2).unit("m");
+  k.value("pile.building.beam_depth", b.beam_depth, "With the slab.").between(0.15, 1.5).unit("m");
+  k.value("pile.building.slab", b.slab, "Thickness.").between(0.1, 0.5).unit("m");
+  k.value("pile.building.column_bars", b.column_bars, "Steel, as a share of the section.").between(0, 0.06);
+  k.value("pile.building.beam_bars", b.beam_bars, "Steel, as a share of the section.").between(0, 0.06);
+  k.value("pile.building.slab_bars", b.slab_bars, "Steel, as a share of the section.").between(0, 0.06);
+  k.choice("pile.building.infill", b.infill, {"none", "brick", "block"},
+           "Walls between the outer columns.");
+  k.value("pile.building.infill_thickness", b.infill_thickness, "Of these walls.").between(0.08, 0.5).unit("m");
+  k.value("pile.building.openings", b.openings, "Of each wall's length, what is a window.").between(0, 0.8);
+  k.value("pile.building.piece", b.piece, "Pieces that members break into are about this long.")
+      .between(0.3, 3)
+      .unit("m");
+  k.value("pile.building.roughness", b.roughness, "How far cuts leave a regular grid.").between(0, 0.45);
+}
+
+void add_cause(Schema& k, CollapseCause& c) {
+  k.group("pile.building.cause", "Why it collapses; none: it stands.");
+  k.list("pile.building.cause.removed", c.removed, "Columns that are gone at once.");
+  k.item("pile.building.cause.removed[].storey", c.removed, &ColumnPlace::storey, "From 0 at the ground.")
+      .between(0, 11);
+  k.item("pile.building.cause.removed[].i", c.removed, &ColumnPlace::i, "Along X, from 0 at the lowest x.")
+      .between(0, 8);
+  k.item("pile.building.cause.removed[].j", c.removed, &ColumnPlace::j, "Along Y, from 0 at the lowest y.")
+      .between(0, 8);
+  k.value("pile.building.cause.weak_storey", c.weak_storey, "Whose columns are weak; -1: none.").between(-1, 11);
+  k.value("pile.building.cause.weakness", c.weakness, "Share of their strength that these columns keep.")
+      .between(0, 1);
+  k.value("pile.building.cause.overloaded_floor", c.overloaded_floor,
+          "Floor 0 is the slab above the ground storey; -1: none.")
+      .between(-1, 11);
+  k.value("pile.building.cause.overload", c.overload, "What this floor carries more.").between(0, 3000).unit("kg/m2");
+  k.value("pile.building.cause.shake", c.shake, "Largest acceleration of the ground.").between(0, 20).unit("m/s2");
+  k.value("pile.building.cause.shake_hz", c.shake_hz, "About which its frequencies lie.").between(0.2, 20).unit("Hz");
+  k.value("pile.building.cause.shake_seconds", c.shake_seconds, "How long it shakes.").between(1, 60).unit("s");
+  k.value("pile.building.cause.shake_direction_deg", c.shake_direction_deg, "From X towards Y.")
+      .between(-360, 360)
+      .unit("degree");
+  k.value("pile.building.cause.blast", c.blast, "Impulse per area at 1 m, less with the square of the distance.")
+      .between(0, 1e6)
+      .unit("N s/m2");
+  k.value("pile.building.cause.blast_at", c.blast_at, "Where.").between(-1000, 1000).unit("m");
+}
+
 void add_settle(Schema& k, SettleOptions& o) {
   k.group("settle", "How the pile comes to rest.");
   k.choice("settle.schedule", o.schedule, {"layers", "planes"},
@@ -367,6 +421,32 @@ void add_imu(Schema& k, ImuScenario& s) {
           "TF: its frame; not given: that of the rig where it sits there, else `imu_link`.");
 }
 
+void add_record_settling(Schema& k, RecordSettlingScenario& r) {
+  k.group("record_settling",
+          "The pile seen settling: before its flight the camera stands and watches the layers fall "
+          "(docs/moving_worlds.md).")
+      .on_when_written();
+  k.value("record_settling.on", r.on,
+          "Whether it is recorded; a table that does not say so, even an empty one, means true.");
+  k.value("record_settling.from", r.from, "When it begins, in simulated time since the first step.")
+      .between(0, 86400)
+      .unit("s");
+  k.value("record_settling.to", r.to, "When it ends; not given: when the pile rests.")
+      .between(0, 86400)
+      .unit("s");
+  k.value("record_settling.rate_hz", r.rate_hz,
+          "Frames per second; not given: those of the trajectory.")
+      .between(0.001, 1000)
+      .unit("Hz");
+  k.value("record_settling.position", r.position,
+          "Where the camera stands; not given: where its flight begins.")
+      .between(-1000, 1000)
+      .unit("m");
+  k.value("record_settling.look_at", r.look_at, "The point in the middle of its view.")
+      .between(-10000, 10000)
+      .unit("m");
+}
+
 void add_outputs(Schema& k, OutputScenario& o) {
   k.group("outputs", "What is written; each format is described in docs/formats.md.");
   k.value("outputs.rawlog", o.rawlog, "MRPT rawlog: mission.rawlog.");
@@ -382,6 +462,8 @@ void add_outputs(Schema& k, OutputScenario& o) {
   k.value("outputs.colmap", o.colmap, "COLMAP model with the true poses: the folder colmap.");
   k.value("outputs.frames", o.frames, "Every channel as PNG, EXR or text: the folder frames.");
   k.value("outputs.stl", o.stl, "The settled pile as a mesh: pile.stl.");
+  k.value("outputs.track", o.track,
+          "Who moved when while the pile settled: track.bin, and track.glb, a glTF animation.");
   k.value("outputs.meshes", o.meshes,
           "The settled pile in further formats: any of `ply`, `obj`, `glb`, `sdf`.");
   k.value("outputs.groundtruth", o.groundtruth, "The camera's poses in TUM format.");
@@ -430,6 +512,8 @@ Schema make_scenario_schema(Scenario& s) {
   add_top(keys, s);
   add_pile(keys, s.pile);
   add_terrain(keys, s.pile.terrain);
+  add_building(keys, s.pile.building);
+  add_cause(keys, s.pile.building.cause);
   add_settle(keys, s.settle);
   add_light(keys, s.light);
   add_more_lights(keys, s.lights);
@@ -437,7 +521,9 @@ Schema make_scenario_schema(Scenario& s) {
   add_camera_keys(keys, s);
   add_trajectory(keys, s.trajectory);
   add_imu(keys, s.imu);
+  add_record_settling(keys, s.record_settling);
   add_voids(keys, s.voids);
+  add_robot_keys(keys, s);
   add_outputs(keys, s.outputs);
   add_aliases(keys);
   return keys;

@@ -82,6 +82,7 @@ struct Key {
   std::string unit_text;  // empty: none
   Range range;            // of numbers; unit: unit_text
   bool required = false;  // true: a mistake without it
+  bool implies_on = false;  // of a group with a switch `on`: a table that does not name it means true
   std::function<Slot(std::size_t)> bind;    // of a value; the index is that of the list's item
   std::function<std::size_t()> size;        // of a list
   std::function<void(std::size_t)> resize;  // of a list; new items have the defaults
@@ -92,6 +93,7 @@ struct Key {
     return range = {min, max, true}, *this;
   }
   Key& must() { return required = true, *this; }
+  Key& on_when_written() { return implies_on = true, *this; }
 
   std::string name() const;    // its last word: "layers"
   std::string parent() const;  // "pile", "pile.mix[]", "" at the top

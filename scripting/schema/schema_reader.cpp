@@ -56,6 +56,11 @@ struct Target {
   Slot slot;
 };
 
+// The key by which a group is switched on, where it has one: `imu = true` is `imu = { on = true }`.
+const Key* find_switch(const Schema& schema, const Key& group) {
+  return group.kind == KeyKind::group ? schema.find(group.path + ".on") : nullptr;
+}
+
 std::optional<Target> component_of(const Target& whole, const std::string& name) {
   if (name.size() != 1 || name[0] < 'x' || name[0] > 'z') return std::nullopt;
   Vec3* vector = nullptr;
@@ -113,9 +118,12 @@ std::optional<Target> find_target(const Schema& schema, const std::string& path)
     const Key* list = schema.find(pattern.substr(0, item));
     if (!list || list->kind != KeyKind::list || index >= list->size()) return std::nullopt;
   }
-  if (const Key* key = schema.find(pattern))
+  const Key* key = schema.find(pattern);
+  if (key && key->kind == KeyKind::group) key = find_switch(schema, *key);
+  if (key)
     return key->kind == KeyKind::value ? std::optional(Target{*key, key->bind(index)})
                                        : std::nullopt;
+  if (schema.find(pattern)) return std::nullopt;
   const std::size_t dot = pattern.rfind('.');
   if (dot == std::string::npos) return std::nullopt;
   const Key* whole = schema.find(pattern.substr(0, dot));
@@ -186,10 +194,14 @@ class TableReader {
       written_.push_back(shown);
       if (auto mistake = write_slot(key, key.bind(index), value, shown))
         mistakes_.push_back(*mistake);
+    } else if (const Key* on = find_switch(schema_, key); on && value.kind == Value::Kind::boolean) {
+      read_key(*on, joined(shown, "on"), index, value);
     } else if (value.kind != Value::Kind::table) {
       mistakes_.push_back(
           {"", 0, shown, "wrong type", describe_expected(key), describe(value), ""});
     } else if (key.kind == KeyKind::group) {
+      if (key.implies_on && !value.find("on"))
+        read_key(*find_switch(schema_, key), joined(shown, "on"), index, Value::make_boolean(true));
       read_group(key.path, shown, index, value);
     } else {
       read_list(key, shown, value);

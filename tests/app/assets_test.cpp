@@ -348,6 +348,69 @@ TEST(AssetsShow, DrawsEveryAssetOnASheet) {
   EXPECT_EQ(png.substr(1, 3), "PNG");
 }
 
+// Two boxes at a corner: one hull fills the corner, and the sheet of what collides shows it.
+TEST(AssetsShow, DrawsThePartsThatCollide) {
+  const ScratchFolder scratch;
+  std::string l = "v 0 0 0\nv 1 0 0\nv 1 0 0.2\nv 0.2 0 0.2\nv 0.2 0 1\nv 0 0 1\n"
+                  "v 0 0.3 0\nv 1 0.3 0\nv 1 0.3 0.2\nv 0.2 0.3 0.2\nv 0.2 0.3 1\nv 0 0.3 1\n"
+                  "f 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 6\nf 7 9 8\nf 7 10 9\nf 7 11 10\nf 7 12 11\n";
+  for (int i = 1; i <= 6; ++i) {
+    const std::string a = std::to_string(i), b = std::to_string(i % 6 + 1);
+    const std::string c = std::to_string(i + 6), d = std::to_string(i % 6 + 7);
+    l += "f " + a + " " + c + " " + d + "\nf " + a + " " + d + " " + b + "\n";
+  }
+  write_file(scratch / "cube.obj", l);
+  const auto show = [&](const std::string& collision, const std::string& option) {
+    write_file(scratch / "pack.lua", one_asset("collision = \"" + collision + "\""));
+    const std::string out = scratch / (collision + option + ".png");
+    const Outcome shown = run_rubble("assets show " + scratch.path().string() + " --out " + out + " " + option);
+    EXPECT_EQ(shown.exit_code, 0) << shown.err;
+    return read_file(out);
+  };
+  const std::string mesh = show("hull", ""), hull = show("hull", "--collision");
+  const std::string cut = show("decompose", "--collision");
+  EXPECT_EQ(show("decompose", ""), mesh) << "without --collision the mesh is drawn";
+  EXPECT_NE(hull, mesh);
+  EXPECT_NE(cut, hull);
+  const Outcome checked = run_rubble("assets check --json " + scratch.path().string());
+  const Json asset = Json::parse(checked.out).at("assets")[0];
+  EXPECT_EQ(asset.at("parts"), 2);
+  EXPECT_NEAR(asset.at("parts_outside_mesh_m3"), 0, 1e-6);
+}
+
+// A thin half shell of many facets: no few convex parts follow it.
+TEST(AssetsCheck, WarnsWherePartsHoldMuchMoreThanTheMesh) {
+  const ScratchFolder scratch;
+  std::string obj;
+  const int n = 48;
+  for (const double radius : {0.5, 0.48})
+    for (const double y : {0.0, 1.0})
+      for (int i = 0; i <= n; ++i) {
+        const double angle = 3.14159265358979 * 1.9 * i / n;
+        obj += "v " + std::to_string(radius * std::cos(angle)) + " " + std::to_string(y) + " " +
+               std::to_string(radius * std::sin(angle)) + "\n";
+      }
+  const auto at = [&](int shell, int end, int i) { return std::to_string((shell * 2 + end) * (n + 1) + i + 1); };
+  const auto quad = [&](const std::string& a, const std::string& b, const std::string& c, const std::string& d) {
+    obj += "f " + a + " " + b + " " + c + "\nf " + a + " " + c + " " + d + "\n";
+  };
+  for (int i = 0; i < n; ++i) {
+    quad(at(0, 0, i), at(0, 1, i), at(0, 1, i + 1), at(0, 0, i + 1));
+    quad(at(1, 0, i), at(1, 0, i + 1), at(1, 1, i + 1), at(1, 1, i));
+    quad(at(0, 0, i), at(0, 0, i + 1), at(1, 0, i + 1), at(1, 0, i));
+    quad(at(0, 1, i), at(1, 1, i), at(1, 1, i + 1), at(0, 1, i + 1));
+  }
+  for (const int i : {0, n}) {
+    if (i == 0) quad(at(0, 0, i), at(1, 0, i), at(1, 1, i), at(0, 1, i));
+    if (i == n) quad(at(0, 0, i), at(0, 1, i), at(1, 1, i), at(1, 0, i));
+  }
+  write_file(scratch / "cube.obj", obj);
+  write_file(scratch / "pack.lua", one_asset("collision = \"decompose\""));
+  const Outcome outcome = run_rubble("assets check " + scratch.path().string());
+  EXPECT_NE((outcome.out + outcome.err).find("% more than the mesh"), std::string::npos)
+      << outcome.out << outcome.err;
+}
+
 TEST(Assets, AreFoundByTheNameOfABundledPack) {
   const ScratchFolder scratch;
   write_file(scratch / "m.lua",

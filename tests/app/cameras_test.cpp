@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -216,6 +217,22 @@ TEST(CamerasShortForm, GivesThePixelsOfACameraThatIsTheRig) {
   }
 }
 
+// The mission that shows it, with a fisheye beside a pinhole, and what is in its bag by rosbag.
+TEST(CamerasScript, RunsAsDocumented) {
+  const ScratchFolder folder;
+  const Outcome run = run_rubble("run scripts/two_cameras.lua --quiet --out " + (folder / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string command = "/usr/bin/python3 /usr/bin/rosbag info -y " +
+                              (folder / "out/mission.bag") + " >" + (folder / "info") + " 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0) << read_file(folder / "info");
+  const std::string info = read_file(folder / "info");
+  for (const char* topic : {"/front/rgb/image_raw", "/side/left/rgb/image_raw",
+                            "/side/left/ground_truth/instance/image", "/ground_truth/legend", "/imu"})
+    EXPECT_NE(info.find(std::string(topic) + "\n"), std::string::npos) << topic << "\n" << info;
+  for (const char* name : {"cameras/front/preview.png", "cameras/left/preview.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder / (std::string("out/") + name))) << name;
+}
+
 TEST(CamerasInput, MistakesAreNamed) {
   const ScratchFolder folder;
   const auto errors_of = [&](const std::string& keys) {
@@ -236,6 +253,10 @@ TEST(CamerasInput, MistakesAreNamed) {
   expect("cameras = { a = { channels = { \"flows\" } } }",
          "cameras.a.channels[1]: unknown channel `flows` (did you mean `flow`?)");
   expect("cameras = { a = { lens = { k1 = 0.1 } } }", "cameras.a.lens.model: a pinhole has no distortion");
+  expect("cameras = { a = {} },\nrecord_settling = { on = true }",
+         "record_settling.on: contradicts cameras");
+  expect("cameras = { a = {}, b = { quality = \"reference\" } }",
+         "cameras.b.quality: another way to find colours than that of another camera");
 }
 
 TEST(CamerasInput, OverridesReachATableByName) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/commands/pile_section.h"
+#include "app/measures/pile_section.h"
 #include "app/provenance/provenance.h"
 #include "tests/app/settled_mission.h"
 

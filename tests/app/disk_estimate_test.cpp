@@ -1,5 +1,5 @@
 // What is said before a run against what lies there afterwards, for every output there is.
-#include "app/pipeline/disk_estimate.h"
+#include "app/estimate/disk_estimate.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,8 @@ const char* const kEverything = R"(return rubble.mission {
     { t = 0, position = { -4, 0, 1.2 }, look_at = { 0, 0, 0.2 } },
     { t = 0.5, position = { -3.4, 0.6, 1.4 }, look_at = { 0, 0, 0.2 } } } },
   outputs = { mcap = true, tum = true, euroc = true, colmap = true, frames = true, depth = "32FC1",
-              meshes = { "ply", "obj", "glb", "sdf" } },
+              meshes = { "ply", "obj", "glb", "sdf" }, track = true },
+  record_settling = { rate_hz = 2 },
 }
 )";
 

@@ -1,4 +1,4 @@
-#include "app/pipeline/frame_watch.h"
+#include "app/measures/frame_watch.h"
 
 #include <gtest/gtest.h>
 

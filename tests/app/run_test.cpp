@@ -104,6 +104,7 @@ void run_scripts_of(const std::string& folder) {
 }
 
 TEST(NightlyRun, RunsEveryBundledScript) { run_scripts_of("scripts"); }
+TEST(NightlyRun, RunsEveryRobotScript) { run_scripts_of("scripts/robots"); }
 TEST(NightlyRun, RunsEveryCollapseMode) { run_scripts_of("scripts/collapse"); }
 TEST(NightlyRun, SettlesThePublishedDemonstrationOfOtherSeeds) {
   for (const char* seed : {"2", "3", "4", "5"}) {

@@ -1,6 +1,7 @@
 // Suites: golden hashes, limits of metrics, and reports that CI servers read.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,27 @@ TEST_F(Suite, HoldsRunsToTheirGoldenHashesAndTakesNewOnesOnRequest) {
   EXPECT_EQ(run().exit_code, 0);
 }
 
+// By what the golden file keeps: the piece, the frame and its channel. By an earlier run's datasets: the
+// number of the piece, and the pixel.
+TEST_F(Suite, NamesTheFirstPieceFrameAndPixelThatDiffer) {
+  write_suite("pile_only = false, golden = \"all\"");
+  ASSERT_EQ(run("--update").exit_code, 0);
+  EXPECT_EQ(run().exit_code, 0);
+  std::filesystem::rename(scratch / "out", scratch / "earlier");
+  write_suite("pile_only = false, golden = \"all\", set = { \"wetness=0.5\" }");
+  const Outcome wet = run("--against " + (scratch / "earlier"));
+  EXPECT_EQ(wet.exit_code, 5);
+  EXPECT_IN("frame 0 is the first that differs, in its rgb", wet.out);
+  EXPECT_IN("against " + (scratch / "earlier/one"), wet.out);
+  EXPECT_IN("is the first that differs: ", wet.out.substr(wet.out.find("; pixel (")));
+  EXPECT_EQ(wet.out.find("piece "), std::string::npos) << "the pile is the same\n" << wet.out;
+  write_suite("pile_only = false, golden = \"all\", set = { \"settle.gravity=9.8\" }");
+  const Outcome heavy = run("--against " + (scratch / "earlier"));
+  EXPECT_IN("     piece 0 (brick) is the first that differs\n", heavy.out);
+  EXPECT_IN("piece 0 (brick) is the first that differs, in its ", heavy.out);
+  EXPECT_IN("no earlier dataset in ", run("--against " + (scratch / "none")).out);
+}
+
 TEST_F(Suite, HoldsMetricsToTheirLimits) {
   write_suite("golden = \"none\", expect = { pieces = { 16, 16 }, pile_height_m = { 0.05, 1 } }");
   EXPECT_EQ(run().exit_code, 0);
@@ -87,6 +109,20 @@ TEST_F(Suite, HoldsVoidsToTheirLimits) {
                                    " --pile-only --seeds 1 --out " + (scratch / "many"));
   EXPECT_EQ(batch.exit_code, 0) << batch.err;
   EXPECT_IN(",void_volume_m3,", read_file(scratch / "many/index.csv"));
+}
+
+// The triangle under the slab of a bare lean-to, open at both sides, where a ball gets in.
+TEST_F(Suite, CoversAllThatALeanToCovers) {
+  write_file(scratch / "tiny.lua",
+             "return rubble.mission { pile = rubble.collapse.lean_to { length = 4, height = 2, width = 4,\n"
+             "  debris = { layers = 0 } }, voids = { on = true, voxel = 0.03, radius = 0.2 } }\n");
+  // Half the height times what the slab's clear length of 3.92 m reaches along the floor, times the width.
+  const double triangle = 0.5 * 2 * std::sqrt(3.92 * 3.92 - 2 * 2) * 4;
+  const std::string limits = std::to_string(0.97 * triangle) + ", " + std::to_string(1.03 * triangle);
+  write_suite("golden = \"none\", expect = { void_covered_m3 = { " + limits + " } }");
+  EXPECT_EQ(run().exit_code, 0) << run().out;
+  write_suite("golden = \"none\", expect = { void_volume_m3 = { " + limits + " } }");
+  EXPECT_EQ(run().exit_code, 5) << "the ball takes some of it";
 }
 
 // What a suite measures is what `rubble voids` maps; a hill is solid in both, and no pile.

@@ -12,8 +12,10 @@
 #include <sdf/sdf.hh>
 
 #include "io/mesh/mesh_file.h"
+#include "io/mesh/track_glb.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
+#include "kernel/model/track_builder.h"
 #include "tests/io/all_recorders.h"
 #include "tests/io/support.h"
 
@@ -117,6 +119,82 @@ TEST_F(PileExport, GlbKeepsNamesMaterialsAndOneMeshPerAsset) {
 
 TEST_F(PileExport, KhronosValidatorFindsNothingInTheGlb) {
   const auto result = test::run_node("validate_gltf.mjs", write("glb"));
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("errors 0 warnings 0"), std::string::npos) << result.output;
+}
+
+// The first wedge falls and turns, the spike appears late and is lost, the last wedge stands.
+Track make_track() {
+  TrackBuilder builder;
+  for (int i = 0; i <= 60; ++i) {
+    const double t = i / 60.0;
+    builder.begin_sample(t);
+    builder.set({0, {}, {portable::quat_from_rpy(0.3, -0.7, 1.9 + 4 * t), {1, 2, 3 - 4.905 * t * t}},
+                 {0, 0, -9.81 * t}, {0, 0, 4}});
+    if (i >= 12 && i < 48)
+      builder.set({1, {}, {portable::quat_from_rpy(-2.0, 0.4, 0.1), {-4 + t, 0, 0.2}}, {1, 0, 0}, {}});
+    if (i == 48) builder.remove(1);
+  }
+  return builder.take();
+}
+
+class TrackGlb : public PileExport {
+ protected:
+  TrackGlb() {
+    const std::int32_t numbers[] = {0, 1, 7};
+    for (std::size_t i = 0; i < 3; ++i) model_.pieces[i].number = numbers[i];
+    write_track_glb(folder_ / "track.glb", model_, track_);
+  }
+  Track track_ = make_track();
+};
+
+const aiNodeAnim* find_channel(const aiAnimation& clip, const std::string& node) {
+  for (unsigned i = 0; i < clip.mNumChannels; ++i)
+    if (node == clip.mChannels[i]->mNodeName.C_Str()) return clip.mChannels[i];
+  return nullptr;
+}
+
+// As assimp understands it: where the pieces are at each key, in a world whose Y is up.
+TEST_F(TrackGlb, AssimpReadsTheMotion) {
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(folder_ / "track.glb", 0);
+  ASSERT_TRUE(scene) << importer.GetErrorString();
+  ASSERT_EQ(scene->mNumAnimations, 1u);
+  const aiAnimation& clip = *scene->mAnimations[0];
+  EXPECT_FALSE(find_channel(clip, "wedge_000007"));
+  const aiNodeAnim* wedge = find_channel(clip, "wedge_000000");
+  ASSERT_TRUE(wedge);
+  const double ticks = clip.mTicksPerSecond;
+  ASSERT_EQ(wedge->mNumPositionKeys, 61u);
+  for (unsigned i = 0; i < wedge->mNumPositionKeys; ++i) {
+    const auto motion = track_.motion_at(*track_.find(0), wedge->mPositionKeys[i].mTime / ticks);
+    const Vec3 t = motion->world_from_body.translation;
+    const aiVector3D& p = wedge->mPositionKeys[i].mValue;
+    EXPECT_LT(distance(Vec3(double(p.x), double(p.y), double(p.z)), Vec3(t.x, t.z, -t.y)), 2e-5) << i;
+    const aiQuaternion& q = wedge->mRotationKeys[i].mValue;
+    const Quat turn{double(q.w), double(q.x), double(q.y), double(q.z)};
+    const Vec3 x = motion->world_from_body.rotation.rotate({1, 0, 0});
+    EXPECT_LT(distance(turn.rotate({1, 0, 0}), Vec3(x.x, x.z, -x.y)), 1e-4) << i;
+  }
+}
+
+TEST_F(TrackGlb, HidesWhatIsNotThere) {
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(folder_ / "track.glb", 0);
+  ASSERT_TRUE(scene) << importer.GetErrorString();
+  const aiNodeAnim* spike = find_channel(*scene->mAnimations[0], "spike_000001");
+  ASSERT_TRUE(spike);
+  const double ticks = scene->mAnimations[0]->mTicksPerSecond;
+  const double times[] = {0, 0.2, 0.8}, sizes[] = {0, 0.5, 0};
+  ASSERT_EQ(spike->mNumScalingKeys, 3u);
+  for (unsigned i = 0; i < 3; ++i) {
+    EXPECT_NEAR(spike->mScalingKeys[i].mTime / ticks, times[i], 1e-4);
+    EXPECT_NEAR(double(spike->mScalingKeys[i].mValue.x), sizes[i], 1e-6);
+  }
+}
+
+TEST_F(TrackGlb, KhronosValidatorFindsNothing) {
+  const auto result = test::run_node("validate_gltf.mjs", folder_ / "track.glb");
   EXPECT_EQ(result.exit_code, 0) << result.output;
   EXPECT_NE(result.output.find("errors 0 warnings 0"), std::string::npos) << result.output;
 }

@@ -104,6 +104,24 @@ TEST_P(AnyRecorder, NoticesAGapInTheStamps) {
   expect_refusal(*recorder, frame, "there is a gap in the stamps");
 }
 
+// A flight follows the settling that was watched before it, after a pause and at a rate of its own.
+TEST_P(AnyRecorder, TakesAPauseBetweenSequences) {
+  ScratchFolder folder;
+  const auto recorder = GetParam().make(folder / "a");
+  recorder->write(make_full_frame(0));
+  recorder->write(make_full_frame(1));
+  Frame next = make_full_frame(4);
+  next.index = 2;
+  next.starts_sequence = true;
+  recorder->write(next);
+  next = make_full_frame(6);
+  next.index = 3;
+  recorder->write(next);
+  Frame late = make_full_frame(10);
+  late.index = 4;
+  expect_refusal(*recorder, late, "there is a gap in the stamps");
+}
+
 TEST_P(AnyRecorder, NoticesAPictureOfTheWrongSize) {
   ScratchFolder folder;
   const auto recorder = GetParam().make(folder / "a");

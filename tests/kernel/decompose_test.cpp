@@ -1,9 +1,11 @@
 // Meshes cut into convex parts, against shapes whose parts and volumes are known.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "kernel/base/error.h"
+#include "kernel/base/portable_math.h"
 #include "kernel/geometry/decompose.h"
 #include "kernel/geometry/decompose_voxels.h"
 #include "kernel/geometry/shape.h"
@@ -51,6 +53,70 @@ TEST(Decompose, FindsTheBoxesOfAnL) {
   EXPECT_GE(parts.size(), 2u);
   EXPECT_LE(parts.size(), 4u);
   EXPECT_NEAR(volume_of(parts), 0.06 + 0.048, 0.008) << "one hull: 0.2";
+}
+
+double share_beyond(const TriangleMesh& mesh, const std::vector<ConvexPart>& parts) {
+  return volume_of(parts) / calc_volume_properties(mesh).volume - 1;
+}
+
+TEST(Decompose, CutsUnionsOfBoxesWithoutError) {
+  TriangleMesh beam;  // two boxes that touch
+  add_box(beam, {0, 0, 0}, {1, 0.3f, 0.2f});
+  add_box(beam, {0, 0, 0.2f}, {0.2f, 0.3f, 1});
+  const auto parts = decompose(beam);
+  EXPECT_EQ(parts.size(), 2u);
+  EXPECT_NEAR(share_beyond(beam, parts), 0, 1e-6);
+}
+
+// A prism over an outline in the plane of X and Z, counter-clockwise seen from -Y, as one surface.
+// faces: of its front, triangles of corners of the outline.
+TriangleMesh make_prism(const std::vector<std::array<float, 2>>& outline,
+                        const std::vector<std::array<std::uint32_t, 3>>& faces, float depth) {
+  TriangleMesh mesh;
+  const auto n = std::uint32_t(outline.size());
+  for (const float y : {0.0f, depth})
+    for (const auto& p : outline) mesh.positions.push_back({p[0], y, p[1]});
+  for (const auto& f : faces) {
+    mesh.triangles.push_back({f[0], f[1], f[2]});
+    mesh.triangles.push_back({f[0] + n, f[2] + n, f[1] + n});
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t next = (i + 1) % n;
+    mesh.triangles.push_back({i, i + n, next + n});
+    mesh.triangles.push_back({i, next + n, next});
+  }
+  return mesh;
+}
+
+TriangleMesh make_l_prism(float slant = 0) {
+  return make_prism({{0, 0}, {1, 0}, {1 - slant, 0.2f}, {0.2f, 0.2f}, {0.2f, 1}, {0, 1}},
+                    {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}, 0.3f);
+}
+
+// As one surface, however it is turned: the faces of the parts are its own.
+TEST(Decompose, CutsATurnedLBeamOfOneSurfaceIntoTwoBoxes) {
+  TriangleMesh beam = make_l_prism();
+  ASSERT_NEAR(calc_volume_properties(beam).volume, (0.2 + 0.16) * 0.3, 1e-6);
+  for (const Vec3& rpy : {Vec3{0, 0, 0}, Vec3{0.4, 0.9, 1.3}}) {
+    const Quat turn = portable::quat_from_rpy(rpy.x, rpy.y, rpy.z);
+    TriangleMesh turned = beam;
+    for (Vec3f& p : turned.positions) p = Vec3f(turn.rotate(Vec3(p)) + Vec3{3, -2, 1});
+    const auto parts = decompose(turned);
+    EXPECT_EQ(parts.size(), 2u);
+    EXPECT_NEAR(share_beyond(turned, parts), 0, 1e-5);
+  }
+  // The control: with a slanted end it is no union of boxes, and the parts only come near it.
+  const TriangleMesh slanted = make_l_prism(0.1f);
+  EXPECT_GT(std::fabs(share_beyond(slanted, decompose(slanted))), 1e-5);
+}
+
+TEST(Decompose, CutsStairsOfOneSurfaceIntoTheirSteps) {
+  const TriangleMesh stairs = make_prism(
+      {{0, 0}, {0.9f, 0}, {0.9f, 0.2f}, {0.6f, 0.2f}, {0.6f, 0.4f}, {0.3f, 0.4f}, {0.3f, 0.6f}, {0, 0.6f}},
+      {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}, {0, 6, 7}}, 1.0f);
+  const auto steps = decompose(stairs);
+  EXPECT_EQ(steps.size(), 3u);
+  EXPECT_NEAR(share_beyond(stairs, steps), 0, 1e-6);
 }
 
 TEST(Decompose, LeavesTheSpaceUnderATableFree) {

@@ -109,6 +109,46 @@ TEST(Rest, AHeavySlabRestsOnALightBar) {
   EXPECT_GT(bar_at.z, 0.02 * 0.8660254 - 0.003);
 }
 
+// A block on a plate many times lighter, on three pegs. The plate is a piece, or a link of a tree whose
+// other link is a small weight under it.
+World make_loaded_plate(double ratio, double x, bool tree) {
+  PieceType plate = box_type("plate", 0.9, 0.6, 0.018), block = box_type("block", 0.14, 0.14, 0.35);
+  plate.density = 500;
+  block.density = ratio * 500 * (0.9 * 0.6 * 0.018) / (0.14 * 0.14 * 0.35);
+  AssemblyType pair;
+  pair.name = "pair";
+  pair.links = {{1, {}, 1}, {3, {{}, {-0.1, 0, -0.03}}, 1}};
+  pair.joints.emplace_back();
+  pair.joints[0].kind = JointKind::weld;
+  WorldOptions options;
+  options.sleeping = false;
+  World world({box_type("peg", 0.04, 0.04, 0.2), plate, block, box_type("weight", 0.04, 0.04, 0.02)},
+              options, {pair});
+  world.add({at(0, {-0.3, 0.2, 0.1}, {}, true), at(0, {-0.3, -0.2, 0.1}, {}, true),
+             at(0, {0.35, 0, 0.1}, {}, true), at(tree ? 4 : 1, {0, 0, 0.21}),
+             at(2, {x, 0, 0.396}, turned({0, 0, 1}, 0.4))});
+  return world;
+}
+
+TEST(Rest, AHeavyBlockOnALightPlateDoesNotTremble) {
+  for (const bool tree : {false, true}) {
+    for (const double ratio : {4.0, 6.6}) {
+      for (const double x : {0.05, 0.15}) {
+        World world = make_loaded_plate(ratio, x, tree);
+        run(world, 5);
+        double fastest = 0;
+        const int block = world.size() - 1;
+        for (int i = 0; i < 300; ++i) {
+          world.step();
+          fastest = std::max(fastest, norm(world.piece(block).linear_velocity));
+        }
+        EXPECT_LT(fastest, 0.001) << ratio << " at " << x << (tree ? " on a tree" : "");
+        EXPECT_NEAR(world.piece(block).world_from_body.translation.z, 0.395, 0.002);
+      }
+    }
+  }
+}
+
 TEST(Rest, CompoundsInterlock) {
   // A cinder block lowered over a fixed post that fits its hole stays there, upright.
   World world({testing::cinder_block_type(), box_type("post", 0.08, 0.06, 0.6)});

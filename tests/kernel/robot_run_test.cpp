@@ -135,7 +135,7 @@ TEST(RobotRun, TheBitsDoNotDependOnThreads) {
   const int threads[3] = {1, 2, 4};
   for (int k = 0; k < 3; ++k) {
     RobotRun run(s.pile, s.state, run_options(3, threads[k]));
-    run.add(crawler, {{}, {-1.4, 0, 0.002}}, push(crawler, 0.4));
+    run.add(crawler, {{}, {-1.8, 0, 0.002}}, push(crawler, 0.4));
     run.add(snake, {{}, {0, 0, 0.6}}, undulate(snake));
     run.add(rover, {{}, {0, 1.6, 0.002}}, [&rover](const RobotSense&) {
       return drive_rover(rover, {-0.5, 0.3});
@@ -146,7 +146,7 @@ TEST(RobotRun, TheBitsDoNotDependOnThreads) {
   EXPECT_EQ(hashes[0], hashes[2]);
   // The hash sees a push.
   RobotRun run(s.pile, s.state, run_options(3, 1));
-  run.add(crawler, {{}, {-1.4, 1e-9, 0.002}}, push(crawler, 0.4));
+  run.add(crawler, {{}, {-1.8, 1e-9, 0.002}}, push(crawler, 0.4));
   run.add(snake, {{}, {0, 0, 0.6}}, undulate(snake));
   run.add(rover, {{}, {0, 1.6, 0.002}}, [&rover](const RobotSense&) {
     return drive_rover(rover, {-0.5, 0.3});

@@ -104,7 +104,7 @@ TEST(SettlingTrack, IsTheSameAfterAStop) {
           return false;
         },
         [&](const World& world) { first.observe(world); });
-    TrackRecorder second(first.take(), stop, options.step);
+    TrackRecorder second(first.take());
     const PileState state = resume_settling(*checkpoint, pile, options, {},
                                             [&](const World& world) { second.observe(world); });
     EXPECT_EQ(state.state_hash(), whole.state.state_hash()) << stop;
@@ -123,7 +123,7 @@ TEST(SettlingTrack, IsTheSameWhenMoreWasWrittenThanTheCheckpointKnows) {
     if (++calls == 80) checkpoint = progress.make_checkpoint();
     return calls < 80;
   });
-  TrackRecorder second(whole.track, 80, options.step);
+  TrackRecorder second(whole.track);
   resume_settling(*checkpoint, pile, options, {}, [&](const World& w) { second.observe(w); });
   EXPECT_EQ(hex64(second.track().hash()), hex64(whole.track.hash()));
 }

@@ -125,6 +125,11 @@ TEST(Track, WhatRestsTakesNoRoomAndStays) {
   EXPECT_EQ(z_at(500 * kStep), 2);
   EXPECT_EQ(z_at(1e6), 2);
   EXPECT_EQ(norm(track.motion_at(track.bodies[0], 100 * kStep)->linear_velocity), 0);
+  EXPECT_TRUE(track.rests_throughout(track.bodies[0], 0, 499 * kStep));
+  EXPECT_FALSE(track.rests_throughout(track.bodies[0], 0, 499.01 * kStep));
+  EXPECT_FALSE(track.rests_throughout(track.bodies[0], 499.9 * kStep, 1e6));
+  EXPECT_TRUE(track.rests_throughout(track.bodies[0], 500 * kStep, 1e6));
+  EXPECT_FALSE(track.rests_throughout(track.bodies[0], -1, 1));
 }
 
 TEST(Track, BodiesComeAndGo) {

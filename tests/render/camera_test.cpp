@@ -313,6 +313,38 @@ TEST(MotionBlur, IsARampOfTheLengthOfTheMotion) {
   EXPECT_EQ(take(true, standing).rgb, take(false, standing).rgb);
 }
 
+// The same edge, but the wall goes to the right at 2 m/s and the camera stands.
+TEST(MotionBlur, OfWhatMovesIsARampAsWell) {
+  Scene scene = lit_wall();
+  scene.light.rpy_deg = {0, 70, 180};
+  scene.motion.moving = {0};
+  scene.motion.reach.include({4.5, 9, 0});
+  scene.motion.reach.include({4.5, 11, 0});
+  scene.motion.poses_at = [](std::int64_t stamp_ns) {
+    return std::vector<std::optional<Pose>>{Pose{{}, {4.5, 10 - 2e-9 * double(stamp_ns), 0}}};
+  };
+  GlContext context;
+  Renderer renderer(context, scene, plain());
+  CameraSpec spec = fixed_camera(160, 16, 400);
+  spec.exposure.time = 0.06;  // 12 pixels
+  spec.exposure.f_number = 36;
+  const auto take = [&](bool blur) {
+    spec.shutter.motion_blur = blur;
+    return profile(Camera(renderer, spec, fly(1, standing)).take(0), 8);
+  };
+  const auto sharp = take(false), blurred = take(true);
+  const double wall = sharp[40], sky = sharp[120];
+  ASSERT_GT(sky, wall + 20);
+  double area = 0, width = 0;
+  for (std::size_t u = 0; u < 160; ++u) {
+    area += (blurred[u] - sharp[u]) / (wall - sky);
+    const double share = (blurred[u] - sky) / (wall - sky);
+    width += share > 0.1 && share < 0.9;
+  }
+  EXPECT_NEAR(area, 0, 0.7);
+  EXPECT_NEAR(width, 0.8 * 12, 1.2);
+}
+
 // Row v is exposed readout * (v / (rows - 1) - 1/2) after the stamp.
 TEST(RollingShutter, SkewsByTheReadoutTime) {
   GlContext context;

@@ -161,5 +161,46 @@ TEST(EventCamera, ReportsAMovingEdge) {
   EXPECT_NEAR(edge, 5 * 16, 16);
 }
 
+// The camera stands and the wall goes by: the edge is at each column at its time, which takes images
+// between the two frames.
+TEST(EventCamera, ReportsTheEdgeOfWhatMoves) {
+  Scene scene;
+  scene.ground = false;
+  scene.lamp.on = false;
+  scene.light.intensity = 0.5;
+  scene.light.rpy_deg = {0, 30, 180};
+  scene.meshes.push_back(share(make_box({1, 20, 40}, "plaster")));
+  scene.instances.push_back({0, 1, {{}, {4.5, 10, 0}}, 5});
+  scene.motion.moving = {0};
+  scene.motion.reach.include({4.5, 10, 0});
+  scene.motion.poses_at = [](std::int64_t ns) {
+    return std::vector<std::optional<Pose>>{Pose{{}, {4.5, 10.1 - 2e-9 * double(ns), 0}}};
+  };
+  GlContext context;
+  RenderOptions options;
+  options.bake = false, options.shadow_size = 64, options.texture_size = 16;
+  Renderer renderer(context, scene, options);
+  CameraSpec spec;
+  spec.intrinsics = pinhole(64, 16, 100);
+  spec.event_camera = quiet();
+  spec.event_camera.most_motion = 0.5;
+  Flight flight;
+  flight.pose_at = [](std::int64_t) { return Pose{}; };
+  flight.stamps_ns = {0, 100'000'000};
+  flight.world_from_camera.resize(2);
+  Camera camera(renderer, spec, flight);
+  EXPECT_TRUE(camera.take(0).events.empty());
+  std::vector<bool> seen(64 * 16, false);
+  int edge = 0;
+  for (const Event& e : camera.take(1).events) {
+    if (e.x < 30 || e.x > 33 || seen[std::size_t(e.y) * 64 + e.x]) continue;
+    seen[std::size_t(e.y) * 64 + e.x] = true;
+    const double passed = (double(e.x) - 31.5 + 2.5) / 50;  // when the edge is at this column
+    EXPECT_NEAR(double(e.stamp_ns) * 1e-9, passed, 0.6 / 50) << e.x;
+    ++edge;
+  }
+  EXPECT_EQ(edge, 4 * 16);
+}
+
 }  // namespace
 }  // namespace rubble::testing

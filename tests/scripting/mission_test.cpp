@@ -47,6 +47,27 @@ TEST(Mission, SetsWhatItSaysAndNothingElse) {
   EXPECT_EQ(s.trajectory.waypoints[0].look_at, Vec3(0, 0, 0));
 }
 
+// A group with a switch takes it alone; others do not.
+TEST(Mission, AGroupIsSwitchedOnByItsName) {
+  const Scenario s = load_text("return rubble.mission { imu = true, lamp = false }").scenario;
+  EXPECT_TRUE(s.imu.on);
+  EXPECT_FALSE(s.lamp.on);
+  EXPECT_FALSE(load_text("return rubble.mission { imu = { rate_hz = 100 } }").scenario.imu.on);
+  const auto watches = [](const std::string& words) {
+    return load_text("return rubble.mission { record_settling = " + words + " }")
+        .scenario.record_settling.on;
+  };
+  EXPECT_TRUE(watches("{ rate_hz = 5 }"));
+  EXPECT_TRUE(watches("{}"));
+  EXPECT_FALSE(watches("{ on = false, rate_hz = 5 }"));
+  EXPECT_TRUE(load_text("return rubble.mission {}", with_overrides({"record_settling=true"}))
+                  .scenario.record_settling.on);
+  EXPECT_EQ(mission_error("return rubble.mission {\n pile = true }"),
+            "m.lua:2: pile: wrong type: expected a table, found true");
+  EXPECT_EQ(mission_error("return rubble.mission {\n imu = 3 }"),
+            "m.lua:2: imu: wrong type: expected a table, found 3");
+}
+
 // Every kind of mistake, all of them in one run, sorted by line.
 TEST(MissionErrors, AllAtOnceWithLines) {
   EXPECT_EQ(mission_error(R"(local pile = { layers = 2, pieces_per_layre = 5 }

@@ -72,7 +72,9 @@ TEST(Scripts, FeaturesAreShown) {
   EXPECT_GT(load("fog.lua").scenario.air.fog_density, 0);
   EXPECT_EQ(load("dusk.lua").scenario.light.spec.type, LightType::sun);
   EXPECT_EQ(load("dusk.lua").scenario.lights.size(), 2u);
+  EXPECT_EQ(load("reference.lua").scenario.camera.colour.quality, RenderQuality::reference);
   EXPECT_GT(load("dust.lua").scenario.air.dust.period, 0);
+  EXPECT_TRUE(load("record_settling.lua").scenario.record_settling.on);
   EXPECT_EQ(load("rain.lua").scenario.settle.schedule, Schedule::planes);
   EXPECT_EQ(load("straight_legs.lua").scenario.trajectory.interpolation, Interpolation::linear);
   EXPECT_EQ(load("outputs.lua").scenario.outputs.depth, DepthEncoding::metres);

@@ -100,6 +100,23 @@ TEST(VoidSpace, AClosedRoomIsVoidAndItsWallsAreSolid) {
   EXPECT_NEAR(space.volume(CellKind::solid), 2.16 * 1.68 * 1.08 - 3.04, 1e-9);
 }
 
+// Open at the front: what the ball reaches there is not void, but it is under the roof.
+TEST(VoidSpace, UnderAnOpenRoofAllIsCoveredWhateverTheBallReaches) {
+  VoidScene scene;
+  scene.add(testing::make_box({0, 0, 1}, {2, 1.52, 1.08}));
+  scene.add(testing::make_box({0, 0, 0}, {0.08, 1.52, 1}));
+  const VoidSpace space = calc_void_space(scene.pile, scene.pointers(), options_with(0.04, 0.4));
+  EXPECT_NEAR(space.covered_volume(), 1.92 * 1.52 * 1, 1e-9);
+  EXPECT_LT(space.volume(CellKind::free_void), 0.7 * 1.92 * 1.52);
+  EXPECT_NEAR(crop_to_pile(space, 0.1).covered_volume(), space.covered_volume(), 1e-9);
+}
+
+TEST(VoidSpace, NothingIsCoveredBesideABlockOnTheGround) {
+  VoidScene scene;
+  scene.add(testing::make_box({0, 0, 0}, {1, 1, 1}));
+  EXPECT_EQ(calc_void_space(scene.pile, scene.pointers(), options_with(0.05, 0.5)).covered_volume(), 0);
+}
+
 TEST(VoidSpace, AboutASingleBlockThereIsNoVoid) {
   VoidScene scene;
   scene.add(testing::make_box({0, 0, 0}, {1, 1, 1}));

@@ -24,6 +24,8 @@ in_root chroot "$root" apt-get -q -y --no-install-recommends install /tmp/rubble
 rm -rf "$root/tmp/out"
 start=$(date +%s)
 # Network off, as nobody: the package needs neither.
-in_root unshare --net chroot --userspec=65534:65534 "$root" /bin/sh -c "cd /tmp && rubble --version &&
+make="cd /tmp && rubble --version &&
   rubble run /usr/share/rubble/scripts/$mission --out /tmp/out --quiet && rubble info /tmp/out"
+in_root unshare --net --mount --pid --fork /bin/sh -c \
+  'mount -t proc proc "$1/proc" && exec chroot --userspec=65534:65534 "$1" /bin/sh -c "$2"' sh "$root" "$make"
 echo "the dataset took $(($(date +%s) - start)) s; the root has $(du -sm "$root" | cut -f1) MB"

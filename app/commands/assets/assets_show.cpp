@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <numeric>
 
@@ -12,6 +13,7 @@
 #include "app/support/progress.h"
 #include "io/image/picture_sheet.h"
 #include "kernel/base/portable_math.h"
+#include "kernel/geometry/hull.h"
 #include "kernel/geometry/shape.h"
 #include "render/renderer.h"
 
@@ -46,9 +48,35 @@ Exhibit make_exhibit(const std::string& name, std::shared_ptr<const SceneMesh> m
   return e;
 }
 
-Exhibit load_exhibit(const Asset& asset, AssetLibrary& library) {
+// Looks that are easily told apart, one after another for the parts of a piece.
+constexpr const char* kPartLooks[] = {"brick", "plaster", "timber", "car_paint", "concrete_fracture"};
+
+// The convex parts that a piece collides with, as a mesh: each in a look of its own.
+std::shared_ptr<const SceneMesh> draw_parts(const PieceType& type) {
+  TriangleMesh mesh;
+  for (const char* look : kPartLooks) mesh.surface_names.emplace_back(look);
+  for (std::size_t i = 0; i < type.parts.size(); ++i) {
+    const Hull hull = calc_hull(type.parts[i].points);
+    const auto look = std::uint8_t(i % std::size(kPartLooks));
+    for (const std::vector<int>& face : hull.faces) {
+      const auto first = std::uint32_t(mesh.positions.size());
+      for (const int corner : face) mesh.positions.emplace_back(hull.points[std::size_t(corner)]);
+      for (std::uint32_t k = 2; k < face.size(); ++k) {
+        mesh.triangles.push_back({first, first + k - 1, first + k});
+        mesh.surfaces.push_back(look);
+      }
+    }
+  }
+  auto scene = std::make_shared<SceneMesh>();
+  scene->levels.push_back(std::move(mesh));
+  return scene;
+}
+
+// collision: what it collides with instead of what it looks like.
+Exhibit load_exhibit(const Asset& asset, AssetLibrary& library, bool collision) {
   if (asset.links.empty()) {
-    const LoadedAsset loaded = load_asset(asset, *library.importer);
+    LoadedAsset loaded = load_asset(asset, *library.importer);
+    if (collision) loaded.mesh = draw_parts(loaded.type);
     library.types.push_back(loaded.type);
     library.meshes.push_back(loaded.mesh);
     const double volume = compile_shape(loaded.type, asset.name).volume.volume;
@@ -145,7 +173,7 @@ void draw_row(GlContext& context, std::vector<Exhibit*> row, std::vector<SheetTi
   }
 }
 
-ExitCode show_pack(const std::string& pack_name, const std::string& out, int tile) {
+ExitCode show_pack(const std::string& pack_name, const std::string& out, int tile, bool collision) {
   const std::vector<Material> materials = load_materials(bundled_assets_folder() + "/materials.lua");
   const AssetPack pack = load_asset_pack(find_pack(pack_name), materials);
   Progress progress(choose_progress_style(false));
@@ -154,7 +182,7 @@ ExitCode show_pack(const std::string& pack_name, const std::string& out, int til
   AssetLibrary library;
   for (const bool articulated : {false, true}) {  // these are made of the others
     for (const Asset& asset : pack.assets) {
-      if (asset.links.empty() != articulated) exhibits.push_back(load_exhibit(asset, library));
+      if (asset.links.empty() != articulated) exhibits.push_back(load_exhibit(asset, library, collision));
     }
   }
   progress.finish(std::to_string(exhibits.size()) + " loaded");
@@ -180,7 +208,8 @@ ExitCode show_pack(const std::string& pack_name, const std::string& out, int til
   }
   progress.finish(std::to_string(tiles.size()) + " pictures");
   const std::string path = out.empty() ? pack.name + ".png" : out;
-  write_picture_sheet(path, "pack " + pack.name + ", " + std::to_string(tiles.size()) + " assets",
+  write_picture_sheet(path, "pack " + pack.name + ", " + std::to_string(tiles.size()) +
+                                (collision ? " assets: the parts that collide" : " assets"),
                       tiles, kColumns);
   std::printf("%s\n", path.c_str());
   return ExitCode::done;
@@ -189,6 +218,7 @@ ExitCode show_pack(const std::string& pack_name, const std::string& out, int til
 struct Request {
   std::string pack, out;  // as of `assets check`; --out; empty: NAME.png
   int tile = 288;         // --tile; unit: pixel
+  bool collision = false;  // --collision
 };
 
 Action declare(CommandLine& line) {
@@ -200,7 +230,9 @@ Action declare(CommandLine& line) {
   line.add("--tile", request->tile, "Width of one asset's picture, in pixels")
       .shows_default()
       .between(64, 1024);
-  return [request] { return show_pack(request->pack, request->out, request->tile); };
+  line.add_flag("--collision", request->collision,
+                "Draw the convex parts that collide, each in a look of its own");
+  return [request] { return show_pack(request->pack, request->out, request->tile, request->collision); };
 }
 
 }  // namespace

@@ -1,0 +1,105 @@
+#include "app/assets/building_assets.h"
+
+#include <cmath>
+
+#include "assets/generator/solid.h"
+#include "kernel/base/hash.h"
+#include "kernel/geometry/hull.h"
+#include "kernel/settling/building_collapse.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kLongestEdge = 0.35;  // of triangles: light is baked at their corners; unit: m
+// Sides of a member lie along its axes; what is broken is tilted.
+constexpr double kAlongAxis = 0.99999;
+
+struct Looks {
+  generator::Surface face, fracture;
+};
+
+Looks looks_of(const std::string& material) {
+  using generator::Surface;
+  if (material == "brick_masonry") return {Surface::brick, Surface::brick_fracture};
+  if (material == "block_masonry") return {Surface::cinder_block, Surface::cinder_block};
+  if (material == "timber") return {Surface::timber, Surface::timber_fracture};
+  return {Surface::concrete_cast, Surface::concrete_fracture};
+}
+
+class PieceMesh {
+ public:
+  PieceMesh(const PieceType& type, const Looks& looks) {
+    mesh_.surface_names = {generator::surface_name(looks.face), generator::surface_name(looks.fracture)};
+    const Hull hull = calc_hull(type.parts[0].points);
+    for (const auto& face : hull.faces) {
+      Vec3 area;
+      for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+        area += cross(hull.points[face[i]] - hull.points[face[0]], hull.points[face[i + 1]] - hull.points[face[0]]);
+      }
+      const Vec3 n = normalized(area);
+      surface_ = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}) > kAlongAxis ? 0 : 1;
+      for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+        add(hull.points[face[0]], hull.points[face[i]], hull.points[face[i + 1]]);
+      }
+    }
+  }
+
+  TriangleMesh take() { return std::move(mesh_); }
+
+ private:
+  // Halves the longest edge until all are short: both sides of an edge are cut at the same point.
+  void add(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double ab = distance(a, b), bc = distance(b, c), ca = distance(c, a);
+    if (std::max({ab, bc, ca}) <= kLongestEdge) {
+      const std::uint32_t first = std::uint32_t(mesh_.positions.size());
+      for (const Vec3& p : {a, b, c}) mesh_.positions.push_back(Vec3f(p));
+      mesh_.triangles.push_back({first, first + 1, first + 2});
+      mesh_.surfaces.push_back(surface_);
+      return;
+    }
+    if (ab >= bc && ab >= ca) return halve(a, b, c);
+    if (bc >= ca) return halve(b, c, a);
+    halve(c, a, b);
+  }
+
+  void halve(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 middle = (a + b) * 0.5;
+    add(a, middle, c);
+    add(middle, b, c);
+  }
+
+  TriangleMesh mesh_;
+  std::uint8_t surface_ = 0;
+};
+
+std::string hash_piece(const PieceType& type, const TriangleMesh& mesh) {
+  Sha256 hash;
+  for (const double number : {type.density, type.friction}) hash.add(&number, sizeof number);
+  for (const Vec3& p : type.parts[0].points) hash.add(&p, sizeof p);
+  hash.add(mesh.positions.data(), mesh.positions.size() * sizeof mesh.positions[0]);
+  return hash.hex();
+}
+
+}  // namespace
+
+BuildingSpec building_of(const Scenario& scenario) {
+  BuildingSpec building = scenario.pile.building;
+  building.seed = scenario.seed;
+  return building;
+}
+
+void add_building(const BuildingSpec& building, AssetLibrary& library) {
+  if (!building.given()) return;
+  library.building_first_type = int(library.types.size());
+  std::vector<std::string> materials;
+  const std::vector<PieceType> types = make_building_types(building, &materials);
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    auto mesh = std::make_shared<SceneMesh>();
+    mesh->levels = {PieceMesh(types[i], looks_of(materials[i])).take()};
+    library.contents.push_back({types[i].name, kBuildingPack, hash_piece(types[i], mesh->levels[0]), 0, {1, 1}, {}});
+    library.types.push_back(types[i]);
+    library.meshes.push_back(std::move(mesh));
+  }
+}
+
+}  // namespace rubble

@@ -1,0 +1,19 @@
+// The pieces of a mission's building as assets: what they collide with, and how they look.
+#pragma once
+
+#include "app/assets/asset_library.h"
+#include "scripting/scenario/scenario.h"
+
+namespace rubble {
+
+// The pack that a provenance names for them.
+inline constexpr const char* kBuildingPack = "building of the mission";
+
+// The scenario's building, cut by the scenario's seed.
+BuildingSpec building_of(const Scenario& scenario);
+
+// Adds every type of its pieces in their order, and notes the first; nothing where there is no building.
+// Throws InputError naming keys that contradict each other.
+void add_building(const BuildingSpec& building, AssetLibrary& library);
+
+}  // namespace rubble

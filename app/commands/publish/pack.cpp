@@ -1,0 +1,75 @@
+// `rubble pack`: what a dataset needs to be handed on.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/card/dataset_card.h"
+#include "app/card/slam_settings.h"
+#include "app/command_line/command.h"
+#include "io/base/atomic_file.h"
+
+namespace rubble {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PackRequest {
+  std::string folder;      // of the run
+  bool card = false;       // --card
+  bool settings = false;   // --settings
+  bool force = false;      // --force
+  CardText text;           // --title, --licence
+};
+
+// A file that somebody else wrote stays.
+void refuse_foreign(const PackRequest& request, const std::map<std::string, std::string>& files) {
+  for (const auto& item : files) {
+    const std::string path = request.folder + "/" + item.first;
+    std::error_code failed;
+    if (!request.force && fs::exists(path, failed))
+      throw InputError({path, 0, "", "is there already", "", "", "--force replaces it"});
+  }
+}
+
+ExitCode pack(const PackRequest& request) {
+  const FinishedRun saved = open_finished_run(request.folder);
+  std::map<std::string, std::string> files;
+  if (request.settings)
+    for (auto& [name, text] : make_slam_settings(stated_scenario(saved.manifest.provenance)))
+      files["settings/" + name] = text;
+  if (request.card) files["README.md"] = make_dataset_card(saved, request.text);
+  files["SHA256SUMS"] = make_checksums(saved, files);
+  refuse_foreign(request, files);
+  for (const auto& [name, text] : files) {
+    const std::string path = request.folder + "/" + name;
+    std::error_code failed;
+    fs::create_directories(fs::path(path).parent_path(), failed);
+    if (failed) throw RunError("cannot create the folder of " + path + ": " + failed.message());
+    write_text_file(path, text);
+    std::printf("%s\n", path.c_str());
+  }
+  return ExitCode::done;
+}
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<PackRequest>();
+  line.add("folder", request->folder, "The output folder of a run").required();
+  const Option card = line.add_flag("--card", request->card, "README.md: what the dataset is, and how to remake it");
+  line.add_flag("--settings", request->settings,
+                "settings/: for ORB-SLAM3, OpenVINS, Kalibr, RTAB-Map and evo");
+  line.add("--title", request->text.title, "Of the card")
+      .shows_default_text("the script's name and the seed")
+      .needs(card);
+  line.add("--licence", request->text.licence, "That the dataset is handed on under, as in CC-BY-4.0")
+      .needs(card);
+  line.add_flag("--force", request->force, "Replace the files of an earlier call");
+  return [request] { return pack(*request); };
+}
+
+}  // namespace
+
+Command pack_command() {
+  return {"", "pack", "What a dataset needs to be handed on: checksums, card, settings", declare};
+}
+
+}  // namespace rubble

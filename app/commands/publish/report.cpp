@@ -1,0 +1,49 @@
+// `rubble report`: a web page about a batch.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/command_line/command.h"
+#include "app/report/batch_report.h"
+#include "io/base/atomic_file.h"
+
+namespace rubble {
+namespace {
+
+struct ReportRequest {
+  std::string folder;  // of the batch
+  std::string out;     // --out; empty: FOLDER/report.html
+  ReportOptions options;
+};
+
+ExitCode write_report(const ReportRequest& request) {
+  namespace fs = std::filesystem;
+  const std::string path = request.out.empty() ? request.folder + "/report.html" : request.out;
+  ReportOptions options = request.options;
+  const std::string way = fs::proximate(request.folder, fs::absolute(path).parent_path()).string();
+  options.way = way == "." ? "" : way + "/";
+  write_text_file(path, make_batch_report(request.folder, options));
+  std::printf("%s\n", path.c_str());
+  return ExitCode::done;
+}
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<ReportRequest>();
+  line.add("folder", request->folder, "The output folder of a batch").required();
+  line.add("--out", request->out, "The page").shows_default_text("FOLDER/report.html").metavar("FILE");
+  line.add("--pictures", request->options.pictures, "Runs that are shown, at most")
+      .shows_default()
+      .between(0, 100000);
+  line.add("--width", request->options.width, "Of a picture, in pixels")
+      .shows_default()
+      .between(32, 2000);
+  return [request] { return write_report(*request); };
+}
+
+}  // namespace
+
+Command report_command() {
+  return {"", "report", "A web page about a batch: table, plots, pictures", declare};
+}
+
+}  // namespace rubble

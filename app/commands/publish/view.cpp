@@ -1,0 +1,56 @@
+// `rubble view`: a web page that shows a dataset in three dimensions.
+#include <cstdio>
+#include <memory>
+
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/pipeline/finished_run.h"
+#include "app/view/dataset_page.h"
+#include "app/view/viewer_code.h"
+#include "io/base/atomic_file.h"
+
+namespace rubble {
+namespace {
+
+struct ViewRequest {
+  std::string folder;                    // of the run
+  std::string out;                       // --out; empty: FOLDER/view.html
+  std::vector<std::string> asset_packs;  // --assets: where packs may be now
+  ViewOptions options;
+};
+
+ExitCode write_page(const ViewRequest& request) {
+  if (three_code().empty())
+    throw RunError("this program was built without three.js: install libjs-three and build it again");
+  const FinishedRun saved = open_finished_run(request.folder);
+  const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
+  const std::string path = request.out.empty() ? request.folder + "/view.html" : request.out;
+  write_text_file(path, make_dataset_page(saved, assets, request.options));
+  std::printf("%s\n", path.c_str());
+  return ExitCode::done;
+}
+
+Action declare(CommandLine& line) {
+  const auto request = std::make_shared<ViewRequest>();
+  line.add("folder", request->folder, "The output folder of a run").required();
+  line.add("--out", request->out, "The page").shows_default_text("FOLDER/view.html").metavar("FILE");
+  line.add("--frames", request->options.frames, "Pictures of frames, evenly over the flight, at most")
+      .shows_default()
+      .between(0, 10000);
+  line.add("--width", request->options.width, "Of a picture, in pixels")
+      .shows_default()
+      .between(32, 4000);
+  line.add("--triangles", request->options.triangles, "Of all pieces together, about, at most")
+      .shows_default()
+      .between(1000, 100'000'000);
+  add_packs_option(line, request->asset_packs, "A folder where packs of the run may be now");
+  return [request] { return write_page(*request); };
+}
+
+}  // namespace
+
+Command view_command() {
+  return {"", "view", "A web page that shows a dataset in 3-D: pile, voids, flight", declare};
+}
+
+}  // namespace rubble

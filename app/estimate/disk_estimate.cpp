@@ -1,0 +1,156 @@
+#include "app/estimate/disk_estimate.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <vector>
+
+#include "app/formats/recording_formats.h"
+#include "io/mesh/pile_export.h"
+
+namespace rubble {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Estimate = std::map<std::string, std::uint64_t>;
+
+constexpr double kManifestBytes = 3e5;       // scripts, scenario, assets
+constexpr double kSamplingMargin = 4.0 / 3;  // what the draw may favour large meshes by
+constexpr double kPieceBytes = 137;          // in pile.bin
+constexpr double kKeyBytes = 84, kClipBytes = 32;  // in track.bin and track.glb
+constexpr double kMovingTime = 4;  // of a piece after its layer's time limit; unit: s
+
+// What lies there, as far as it can be known before it is drawn: means over the mix.
+double triangles_of(const AssetLibrary& assets, int type) {
+  return double(assets.meshes[std::size_t(type)]->levels.front().triangles.size());
+}
+
+// Of a type or an assembly, as placements and mixes have it.
+void add(const AssetLibrary& assets, int index, double times, PileModelSize& size) {
+  const auto types = int(assets.types.size());
+  if (index < types) {
+    size.pieces += times;
+    size.triangles += times * triangles_of(assets, index);
+    return;
+  }
+  for (const AssemblyLink& link : assets.assemblies[std::size_t(index - types)].links)
+    add(assets, link.type, times, size);
+}
+
+PileModelSize size_of_pile(const Scenario& s, const AssetLibrary& assets) {
+  PileModelSize size;
+  double weights = 0;
+  for (const MixEntry& entry : assets.mix) weights += entry.weight;
+  const double dropped = double(s.pile.layers) * s.pile.pieces_per_layer;
+  for (const MixEntry& entry : assets.mix)
+    if (weights > 0) add(assets, entry.type, dropped * entry.weight / weights, size);
+  size.triangles *= kSamplingMargin;
+  for (const PlacedItem& item : s.pile.placed) add(assets, assets.find(item), 1, size);
+  size.types = double(assets.types.size());
+  for (std::size_t i = 0; i < assets.types.size(); ++i)
+    size.type_triangles += triangles_of(assets, int(i));
+  return size;
+}
+
+void add_meshes(const Scenario& s, const PileModelSize& pile, Estimate& sizes) {
+  std::vector<std::string> names = s.outputs.meshes;
+  if (s.outputs.stl) names.push_back("stl");
+  for (const std::string& name : names) {
+    const MeshFormat& format = find_mesh_format(name);
+    for (const std::string& beside : format.leaves) sizes[beside] = 10000;
+    sizes[format.leaves.back()] = std::uint64_t(format.estimate(pile));
+  }
+}
+
+// How long pieces move is known only afterwards.
+void add_track(const Scenario& s, const PileModelSize& pile, Estimate& sizes) {
+  if (!needs_track(s)) return;
+  const double keys = pile.pieces * (s.settle.layer_time_limit + kMovingTime) / s.settle.step;
+  sizes["track.bin"] = std::uint64_t(keys * kKeyBytes + 2e4);
+  if (!s.outputs.track) return;
+  const double clip = keys * kClipBytes + pile.pieces * 1500;
+  sizes["track.glb"] = std::uint64_t(find_mesh_format("glb").estimate(pile) + clip + 2e4);
+}
+
+double count_frames(const std::vector<RecordedSize>& cameras) {
+  double frames = 0;
+  for (const RecordedSize& size : cameras) frames += size.flight.frames;
+  return frames;
+}
+
+void add_recordings(const Scenario& s, const std::vector<RecordedSize>& cameras, Estimate& sizes) {
+  for (const RecordingFormat& format : recording_formats()) {
+    if (!(s.outputs.*format.wanted)) continue;
+    const bool apart = format.one_camera && !s.cameras.empty();
+    std::uint64_t& sum = sizes[apart ? kCamerasFolder : format.leaves];
+    for (const RecordedSize& size : cameras) sum += std::uint64_t(format.estimate(size));
+  }
+  if (has_channel(s, "label")) sizes["labels.csv"] = 10000;
+  if (s.trajectory.needs_pile())
+    sizes["flight.json"] = std::uint64_t(400 * count_frames(cameras) + 1e5);
+}
+
+// What `rubble settle` leaves, too.
+bool is_of_pile(const std::string& name) {
+  for (const char* own : {"pile.bin", "manifest.json", "track.bin", "track.glb"})
+    if (name == own) return true;
+  for (const MeshFormat& format : mesh_formats())
+    if (std::count(format.leaves.begin(), format.leaves.end(), name)) return true;
+  return false;
+}
+
+}  // namespace
+
+Estimate estimate_outputs(const Scenario& s, const AssetLibrary& assets) {
+  Estimate sizes;
+  const PileModelSize pile = size_of_pile(s, assets);
+  const std::vector<RecordedSize> recorded = sizes_of_recording(s, pile.pieces);
+  sizes["pile.bin"] = std::uint64_t(pile.pieces * kPieceBytes + 2000);
+  sizes["manifest.json"] = std::uint64_t(count_frames(recorded) * 250 + kManifestBytes);
+  add_meshes(s, pile, sizes);
+  add_track(s, pile, sizes);
+  add_recordings(s, recorded, sizes);
+  return sizes;
+}
+
+Estimate estimate_files(const Scenario& s, const AssetLibrary& assets, bool pile_only) {
+  Estimate sizes = estimate_outputs(s, assets);
+  for (auto it = sizes.begin(); it != sizes.end();)
+    it = pile_only && !is_of_pile(it->first) ? sizes.erase(it) : std::next(it);
+  return sizes;
+}
+
+std::uint64_t estimate_bytes(const Scenario& s, const AssetLibrary& assets, bool pile_only) {
+  std::uint64_t sum = 0;
+  for (const auto& item : estimate_files(s, assets, pile_only)) sum += item.second;
+  return sum;
+}
+
+std::uint64_t count_bytes(const std::string& folder) {
+  std::uint64_t sum = 0;
+  std::error_code failed;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, failed))
+    if (entry.is_regular_file(failed)) sum += entry.file_size(failed);
+  return sum;
+}
+
+std::uint64_t free_bytes(const std::string& folder) {
+  std::error_code failed;
+  const fs::space_info space = fs::space(folder, failed);
+  return failed ? UINT64_MAX : space.available;
+}
+
+std::string format_bytes(std::uint64_t bytes) {
+  static const char* const kUnits[] = {"B", "kB", "MB", "GB", "TB", "PB"};
+  double value = double(bytes);
+  int unit = 0;
+  while (value >= 999.5 && unit < 5) value /= 1000, ++unit;
+  char text[32];
+  std::snprintf(text, sizeof text, unit == 0 || value >= 99.95 ? "%.0f %s" : "%.1f %s", value,
+                kUnits[unit]);
+  return text;
+}
+
+}  // namespace rubble

@@ -1,0 +1,34 @@
+// What a run will take, said before it begins: room from the mission, time from earlier runs here.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/assets/asset_library.h"
+#include "app/provenance/provenance.h"
+#include "app/support/progress.h"
+
+namespace rubble {
+
+struct RunPreview {
+  double pieces = 0, frames = 0;   // frames: 0 for a pile alone
+  double megapixels = 0;           // of all frames together, a stereo pair twice
+  std::uint64_t bytes = 0;         // at most
+  std::uint64_t free = 0;          // on the disk of the output
+  std::optional<double> seconds;   // about; none: nothing like it was run on this machine yet
+};
+// pile: the mission whose pile is settled; of a `render` another one than `mission`.
+RunPreview preview_run(RunKind kind, const Scenario& mission, const Scenario& pile,
+                       const AssetLibrary& assets, const std::string& out);
+
+// "1217 pieces, 121 frames; at most 1.2 GB (67 GB free), about 30 s by earlier runs"
+std::string describe(const RunPreview& preview);
+// A line a file, largest first, and the sum.
+std::string describe_files(RunKind kind, const Scenario& mission, const AssetLibrary& assets);
+
+// Keeps how long a finished run took, a piece and a megapixel, for later previews: in the cache folder,
+// as a mean in which the latest run has half of the weight. Changes no result.
+void note_speed(const RunPreview& preview, const Progress& progress);
+
+}  // namespace rubble

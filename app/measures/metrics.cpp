@@ -1,0 +1,118 @@
+#include "app/measures/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "kernel/geometry/shape.h"
+
+namespace rubble {
+namespace {
+
+double highest_point(const PieceType& type, const PieceState& piece) {
+  double top = -1e300;
+  for (const ConvexPart& part : type.parts)
+    for (const Vec3& point : part.points)
+      top = std::max(top, (piece.world_from_body * (point * piece.scale)).z);
+  return top;
+}
+
+// That of the shape the kernel moves: of the mesh where the type states it, else of the parts.
+double volume_of(const PieceType& type) { return compile_shape(type, type.name).volume.volume; }
+
+// The radius that 95 % of the distances do not exceed.
+double most_of(std::vector<double> squared_distances) {
+  if (squared_distances.empty()) return 0;
+  std::sort(squared_distances.begin(), squared_distances.end());
+  return std::sqrt(squared_distances[(squared_distances.size() - 1) * 95 / 100]);
+}
+
+}  // namespace
+
+const std::vector<std::pair<std::string, std::string>>& metric_names() {
+  static const std::vector<std::pair<std::string, std::string>> names{
+      {"pieces", "Pieces that were dropped or placed."},
+      {"pieces_lost", "Of them, those that left the world."},
+      {"pieces_moving", "Of them, those that still moved at the end."},
+      {"settled", "1: the pile came to rest; 0: the time limit came first."},
+      {"simulated_s", "How long it took to settle, in simulation time."},
+      {"pile_height_m", "Highest point of all pieces but the lost ones."},
+      {"pile_radius_m", "Of the circle about the Z axis with the origins of 95 % of what fell."},
+      {"piece_volume_m3", "Volume of all pieces together."},
+      {"void_volume_m3", "With `voids.on`: free space that a ball of 2 m cannot reach from above."},
+      {"void_covered_m3", "Likewise: free space under a roof: with something solid straight above it."},
+      {"void_robot_m3",
+       "Likewise: what a robot of `voids.radius` covers of it, all voids together."},
+      {"void_reachable_m3", "Likewise: in voids that it can enter from outside."},
+      {"void_count", "Likewise: voids that have room for it."},
+      {"void_depth_m", "Likewise: how deep below the pile's surface the deepest of them reaches."},
+      {"void_way_in_m", "Likewise: the longest way from an entrance."},
+      {"robot_distance_m", "With robots: from their starts to their ends, straight, all together."},
+      {"robot_path_m", "Likewise: along their ways."},
+      {"robot_work_j", "Likewise: what their motors gave and took, both counted."},
+      {"robot_stuck_s", "Likewise: time in which one moved less than 2 cm a second."},
+      {"robot_lowest_m", "Likewise: the lowest height of a base."},
+      {"robots_lost", "Likewise: those that left the world."},
+      {"robot_pieces_moved", "Likewise: pieces of the pile that moved more than 1 cm."},
+      {"frames", "Frames of the flight, of all cameras."},
+      {"path_m", "Length of the flight."},
+      {"depth_min_m", "Least depth of all pixels of all frames."},
+      {"depth_mean_m", "Mean depth of all pixels that have one."},
+      {"depth_max_m", "Largest depth."},
+      {"depth_none_share", "Share of pixels without a return, 0 to 1."}};
+  return names;
+}
+
+void add_pile_metrics(const PileState& pile, const AssetLibrary& assets, Metrics& metrics) {
+  double height = 0, volume = 0, moving = 0;
+  std::vector<double> squared, volumes;
+  for (const PieceType& type : assets.types) volumes.push_back(volume_of(type));
+  for (const PieceState& piece : pile.pieces) {
+    if (piece.status == PieceStatus::lost) continue;
+    const PieceType& type = assets.types.at(std::size_t(piece.type));
+    height = std::max(height, highest_point(type, piece));
+    volume += volumes[std::size_t(piece.type)] * piece.scale * piece.scale * piece.scale;
+    moving += piece.status == PieceStatus::moving;
+    const Vec3& at = piece.world_from_body.translation;
+    if (piece.status != PieceStatus::fixed) squared.push_back(at.x * at.x + at.y * at.y);
+  }
+  metrics["pieces"] = double(pile.pieces.size());
+  metrics["pieces_lost"] = pile.lost;
+  metrics["pieces_moving"] = moving;
+  metrics["settled"] = pile.settled;
+  metrics["simulated_s"] = pile.simulated;
+  metrics["pile_height_m"] = height;
+  metrics["pile_radius_m"] = most_of(std::move(squared));
+  metrics["piece_volume_m3"] = volume;
+}
+
+void DepthMetrics::add(const Frame& frame) {
+  double sum = 0;
+  for (const float depth : frame.depth) {
+    if (!(depth > 0)) continue;
+    const double d = double(depth);
+    min_ = returns_ == 0 ? d : std::min(min_, d);
+    max_ = std::max(max_, d);
+    sum += d;
+    ++returns_;
+  }
+  sum_ += sum;
+  pixels_ += std::int64_t(frame.depth.size());
+  const Vec3& position = frame.world_from_rig.translation;
+  const Vec3 leg = position - last_position_;
+  if (frames_ > 0) path_ += std::sqrt(dot(leg, leg));
+  last_position_ = position;
+  ++frames_;
+}
+
+void DepthMetrics::add_to(Metrics& metrics) const {
+  metrics["frames"] = double(frames_);
+  metrics["path_m"] = path_;
+  if (pixels_ == 0) return;
+  metrics["depth_min_m"] = min_;
+  metrics["depth_max_m"] = max_;
+  metrics["depth_mean_m"] = returns_ == 0 ? 0 : sum_ / double(returns_);
+  metrics["depth_none_share"] = double(pixels_ - returns_) / double(pixels_);
+}
+
+}  // namespace rubble

@@ -1,0 +1,73 @@
+#include "app/pipeline/legs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/base/hash.h"
+#include "scripting/values/value.h"
+
+namespace rubble {
+namespace {
+
+std::int64_t to_ns(double seconds) { return std::llround(seconds * 1e9); }
+
+// Where the camera stands: as the mission says, or as its flight begins.
+Waypoint standing_place(const Scenario& flown) {
+  Waypoint place;
+  const RecordSettlingScenario& asked = flown.record_settling;
+  if (asked.position) {
+    place.position = *asked.position;
+    place.look_at = *asked.look_at;
+    return place;
+  }
+  const Waypoint& first = flown.trajectory.waypoints.front();
+  place.position = first.position;
+  place.look_at = first.look_at;
+  place.rpy_deg = first.rpy_deg;
+  return place;
+}
+
+Leg plan_watching(const Scenario& flown, const Track& track) {
+  const RecordSettlingScenario& asked = flown.record_settling;
+  const double to = std::min(asked.to.value_or(track.end()), track.end());
+  if (to <= asked.from) {
+    throw InputError({"", 0, "record_settling.from", "the pile rests by then",
+                      "less than " + format_number(track.end()) + " s", format_number(asked.from),
+                      ""});
+  }
+  Leg leg;
+  leg.scenario = flown;
+  leg.scenario.start_ns = flown.start_ns + to_ns(asked.from);
+  TrajectorySpec path;
+  path.rate_hz = asked.rate_hz.value_or(flown.trajectory.rate_hz);
+  path.waypoints.assign(2, standing_place(flown));
+  path.waypoints[0].t = 0;
+  path.waypoints[1].t = to - asked.from;
+  leg.scenario.trajectory = path;
+  leg.window = TrackWindow{asked.from, to};
+  leg.zero_ns = flown.start_ns;
+  leg.noise_seed = hash64("settling") ^ flown.seed;
+  return leg;
+}
+
+// The first stamp after the watching at which a frame of either rate may come.
+std::int64_t end_of(const Leg& watching, const Track& track) {
+  const TrajectorySpec& path = watching.scenario.trajectory;
+  const std::int64_t next = sample_trajectory(path, watching.scenario.start_ns).back().stamp_ns +
+                            to_ns(1 / path.rate_hz);
+  return std::max(next, watching.zero_ns + to_ns(track.end()));
+}
+
+}  // namespace
+
+std::vector<Leg> plan_legs(const Scenario& flown, const Track& track) {
+  Leg flight;
+  flight.scenario = flown;
+  flight.noise_seed = flown.seed;
+  if (!flown.record_settling.on) return {flight};
+  const Leg watching = plan_watching(flown, track);
+  flight.scenario.start_ns = end_of(watching, track);
+  return {watching, flight};
+}
+
+}  // namespace rubble

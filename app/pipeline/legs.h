@@ -1,0 +1,28 @@
+// The legs of a recording: what the camera sees one after the other, in one sequence of frames.
+//
+// A mission has one leg, its flight over the settled pile. With `record_settling` another comes before
+// it: the camera stands and watches the pile settle. Stamps run on from the one to the other.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "app/pipeline/moving_scene.h"
+#include "kernel/model/track.h"
+#include "scripting/scenario/scenario.h"
+
+namespace rubble {
+
+struct Leg {
+  Scenario scenario;  // with the path of this leg, and the stamp of its first frame
+  std::optional<TrackWindow> window;  // of the track that is shown; none: the settled pile
+  std::int64_t zero_ns = 0;           // the stamp of the track's time 0
+  std::uint64_t noise_seed = 0;       // of the sensors
+};
+
+// flown: the mission with the path that is flown. Throws InputError, keyed "record_settling.from",
+// when the pile came to rest before.
+std::vector<Leg> plan_legs(const Scenario& flown, const Track& track);
+
+}  // namespace rubble

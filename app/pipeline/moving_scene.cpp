@@ -1,0 +1,91 @@
+#include "app/pipeline/moving_scene.h"
+
+#include "app/pipeline/build_scene.h"
+#include "kernel/robot/looks.h"
+
+namespace rubble {
+namespace {
+
+// What lies outside the window and may still be seen: exposures, and rows of a shutter; unit: s
+constexpr double kAround = 1;
+
+double seconds_between(std::int64_t zero_ns, std::int64_t stamp_ns) {
+  return double(stamp_ns - zero_ns) * 1e-9;
+}
+
+void include_keys(const TrackBody& body, Aabb& reach) {
+  for (const TrackKey& key : body.keys) reach.include(key.world_from_body.translation);
+}
+
+// Pieces that were lost in the end were there before: they come last, so that the others keep their
+// looks.
+void add_lost(const PileState& pile, Scene& scene) {
+  for (std::size_t i = 0; i < pile.pieces.size(); ++i) {
+    const PieceState& piece = pile.pieces[i];
+    if (piece.status == PieceStatus::lost) scene.instances.push_back(make_instance(piece, i));
+  }
+}
+
+// Sets what of the scene is in the track in motion.
+void set_in_motion(const Track& track, const TrackWindow& window, std::int64_t zero_ns, Scene& scene) {
+  std::vector<const TrackBody*> bodies;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    SceneInstance& instance = scene.instances[i];
+    const TrackBody* const body = track.find(std::int32_t(instance.id));
+    if (!body) continue;
+    if (track.rests_throughout(*body, window.from, window.to + kAround)) {
+      instance.world_from_body = track.motion_at(*body, window.from)->world_from_body;
+      continue;
+    }
+    scene.motion.moving.push_back(std::uint32_t(i));
+    include_keys(*body, scene.motion.reach);
+    bodies.push_back(body);
+  }
+  scene.motion.poses_at = [bodies, &track, zero_ns](std::int64_t stamp_ns) {
+    std::vector<std::optional<Pose>> poses;
+    poses.reserve(bodies.size());
+    for (const TrackBody* body : bodies) {
+      const auto motion = track.motion_at(*body, seconds_between(zero_ns, stamp_ns));
+      poses.push_back(motion ? std::optional<Pose>(motion->world_from_body) : std::nullopt);
+    }
+    return poses;
+  };
+}
+
+void add_robot(const RobotModel& model, int first_piece, std::uint16_t label, Scene& scene) {
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    const RobotLink& link = model.links[i];
+    if (link.parts.empty() && link.looks.triangles.empty()) continue;
+    SceneMesh mesh;
+    mesh.levels = {make_link_mesh(link, choose_link_surface(model, i))};
+    scene.meshes.push_back(std::make_shared<SceneMesh>(std::move(mesh)));
+    SceneInstance instance;
+    instance.mesh = std::uint32_t(scene.meshes.size()) - 1;
+    instance.id = std::uint32_t(first_piece) + std::uint32_t(i);
+    instance.label = label;
+    scene.instances.push_back(instance);
+  }
+}
+
+}  // namespace
+
+Scene build_moving_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
+                         const Track& track, const TrackWindow& window, std::int64_t zero_ns) {
+  Scene scene = build_scene(scenario, assets, pile);
+  add_lost(pile, scene);
+  set_in_motion(track, window, zero_ns, scene);
+  return scene;
+}
+
+Scene build_robot_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
+                        const RobotTrack& robots, std::int64_t zero_ns) {
+  Scene scene = build_scene(scenario, assets, pile);
+  const std::uint16_t label = std::uint16_t(kFirstAssetLabel + assets.types.size());
+  for (std::size_t i = 0; i < robots.models.size(); ++i) {
+    add_robot(robots.models[i], robots.first_piece[i], label, scene);
+  }
+  set_in_motion(robots.track, {robots.track.begin(), robots.track.end()}, zero_ns, scene);
+  return scene;
+}
+
+}  // namespace rubble

@@ -1,0 +1,235 @@
+#include "app/pipeline/robot_control.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "kernel/base/portable_math.h"
+#include "kernel/robot/bundled.h"
+#include "kernel/robot/gaits.h"
+#include "scripting/sandbox/lua_sandbox.h"
+#include "scripting/sandbox/script_file.h"
+#include "scripting/sandbox/source_map.h"
+#include "scripting/schema/schema.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kDegree = portable::kPi / 180;
+constexpr double kMostTarget = 1e6;  // of what a function may ask of a joint; unit: rad, rad/s, N m
+
+SnakeGait gait_of(const RobotLeg& leg) {
+  const double steering = leg.steering_deg * kDegree;
+  SnakeGait gait;
+  switch (leg.gait) {
+    case GaitKind::lateral_undulation:
+      gait = lateral_undulation();
+      break;
+    case GaitKind::sidewinding:
+      gait = sidewinding();
+      break;
+    case GaitKind::rolling:
+      gait = rolling();
+      break;
+    case GaitKind::serpenoid:
+      gait = serpenoid(0);
+      break;
+    case GaitKind::helical_rolling:
+      gait = helical_rolling();
+      break;
+  }
+  gait.rate = leg.rate;
+  gait.lateral_amplitude *= leg.amplitude;
+  gait.vertical_amplitude *= leg.amplitude;
+  gait.steering = steering;
+  return gait;
+}
+
+std::vector<double> in_radians(const std::vector<double>& degrees) {
+  std::vector<double> angles;
+  for (double angle : degrees) angles.push_back(angle * kDegree);
+  return angles;
+}
+
+Value vector_value(const Vec3& v) {
+  Value list = Value::make_table();
+  for (int i = 0; i < 3; ++i) list.items.push_back(Value::make_number(v[i]));
+  return list;
+}
+
+// What a function returns.
+struct Wish {
+  double linear = 0, angular = 0;
+  std::vector<double> flippers, joints, speeds, torques;
+};
+
+Schema wish_schema(Wish& wish) {
+  Schema k;
+  k.value("linear", wish.linear, "Forwards.").between(-5, 5).unit("m/s");
+  k.value("angular", wish.angular, "Counter-clockwise.").between(-10, 10).unit("rad/s");
+  k.value("flippers", wish.flippers, "Angles of a crawler's.").between(-4, 4).unit("rad");
+  k.value("joints", wish.joints, "Positions.").between(-kMostTarget, kMostTarget);
+  k.value("speeds", wish.speeds, "Instead of positions.").between(-kMostTarget, kMostTarget);
+  k.value("torques", wish.torques, "Instead of positions.").between(-kMostTarget, kMostTarget);
+  return k;
+}
+
+RobotCommand command_of(const Wish& wish, RobotKind kind, const RobotModel& model) {
+  RobotCommand command;
+  if (kind == RobotKind::crawler) {
+    command = drive_crawler(model, {wish.linear, wish.angular}, wish.flippers);
+  } else if (kind == RobotKind::rover) {
+    command = drive_rover(model, {wish.linear, wish.angular});
+  }
+  command.joints.resize(model.joints.size());
+  const auto ask = [&](const std::vector<double>& targets, MotorMode mode) {
+    std::size_t next = 0;  // motors are numbered among themselves
+    for (std::size_t i = 0; i < model.joints.size() && next < targets.size(); ++i) {
+      if (model.joints[i].motor.effort > 0) command.joints[i] = {mode, targets[next++]};
+    }
+  };
+  ask(wish.joints, MotorMode::position);
+  ask(wish.speeds, MotorMode::velocity);
+  ask(wish.torques, MotorMode::torque);
+  return command;
+}
+
+// What a robot senses, as a function is told. last: the base's velocity at the call before.
+Value describe_sense(const RobotSense& sense, const RobotModel& model, double gravity, Vec3& last,
+                     double& last_time) {
+  Value table = Value::make_table();
+  table.set("t", Value::make_number(sense.time));
+  Value joints = Value::make_table();
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (model.joints[i].motor.effort <= 0) continue;
+    const RobotState::Joint& from = sense.state.joints[i];
+    Value joint = Value::make_table();
+    joint.set("name", Value::make_text(model.joints[i].name));
+    joint.set("position", Value::make_number(from.position));
+    joint.set("speed", Value::make_number(from.speed));
+    joint.set("torque", Value::make_number(from.torque));
+    joints.items.push_back(joint);
+  }
+  table.set("joints", joints);
+  const RobotState::Link& base = sense.state.links[0];
+  const Quat to_base = base.world_from_link.rotation.conjugate();
+  const double dt = sense.time - last_time;
+  const Vec3 acceleration = dt > 0 ? (base.linear - last) * (1 / dt) : Vec3{};
+  Value imu = Value::make_table();
+  imu.set("gyroscope", vector_value(to_base.rotate(base.angular)));
+  imu.set("accelerometer", vector_value(to_base.rotate(acceleration + Vec3{0, 0, gravity})));
+  table.set("imu", imu);
+  last = base.linear;
+  last_time = sense.time;
+  Value contacts = Value::make_table();
+  for (const RobotContact& c : sense.contacts) {
+    Value contact = Value::make_table();
+    contact.set("link", Value::make_text(model.links[std::size_t(c.link)].name));
+    contact.set("force", Value::make_number(c.force));
+    contact.set("normal", vector_value(to_base.rotate(c.normal)));
+    contacts.items.push_back(contact);
+  }
+  table.set("contacts", contacts);
+  Value truth = Value::make_table();
+  const Vec3 x = base.world_from_link.rotation.rotate({1, 0, 0});
+  truth.set("position", vector_value(base.world_from_link.translation));
+  truth.set("yaw", Value::make_number(portable::atan2(x.y, x.x)));
+  table.set("truth", truth);
+  return table;
+}
+
+}  // namespace
+
+RobotModel make_robot_model(const RobotItem& robot) {
+  RobotModel model;
+  switch (robot.model) {
+    case RobotKind::snake: {
+      SnakeOptions options;
+      options.modules = robot.modules;
+      options.friction = robot.friction.value_or(options.friction);
+      model = make_snake(options);
+      break;
+    }
+    case RobotKind::crawler: {
+      CrawlerOptions options;
+      options.flippers = robot.flippers;
+      options.friction = robot.friction.value_or(options.friction);
+      model = make_crawler(options);
+      break;
+    }
+    case RobotKind::rover: {
+      RoverOptions options;
+      options.friction = robot.friction.value_or(options.friction);
+      model = make_rover(options);
+      break;
+    }
+  }
+  return model;
+}
+
+Pose calc_base_pose(const RobotItem& robot) {
+  return {portable::quat_from_rpy(robot.rpy_deg.x * kDegree, robot.rpy_deg.y * kDegree,
+                                  robot.rpy_deg.z * kDegree),
+          robot.position};
+}
+
+RobotController make_leg_controller(const RobotItem& robot, const RobotModel& model) {
+  return [robot, model](const RobotSense& sense) {
+    RobotLeg now;
+    now.amplitude = robot.model == RobotKind::snake ? 0 : 1;  // without legs it stands straight
+    for (const RobotLeg& leg : robot.drive) {
+      if (leg.t <= sense.time) now = leg;
+    }
+    if (robot.model == RobotKind::snake) return calc_gait(model, gait_of(now), sense.time);
+    const Twist twist{now.linear, now.angular};
+    if (robot.model == RobotKind::rover) return drive_rover(model, twist);
+    return drive_crawler(model, twist, in_radians(now.flippers_deg));
+  };
+}
+
+struct ScriptControl::State {
+  State(const ResolvedMission& m, const SourceFile& script)
+      : mission(m), lines(script.text, "mission"), sandbox(m.scenario.seed, "rubble.mission") {
+    std::map<std::string, std::string> included;
+    for (const SourceFile& file : m.provenance.included) included[file.path] = file.text;
+    sandbox.serve_includes(included);
+    run_script(sandbox, script, lines);
+  }
+  const ResolvedMission& mission;
+  SourceMap lines;
+  LuaSandbox sandbox;
+};
+
+ScriptControl::ScriptControl(const ResolvedMission& mission)
+    : state_(std::make_unique<State>(mission, mission.provenance.script)) {}
+ScriptControl::~ScriptControl() = default;
+
+RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel& model) {
+  State& state = *state_;
+  const RobotItem& item = state.mission.scenario.robots[robot];
+  const std::string key = "robots[" + std::to_string(robot + 1) + "].control";
+  const double gravity = state.mission.scenario.settle.gravity;
+  return [&state, item, model, key, gravity, last = Vec3{}, last_time = 0.0](
+             const RobotSense& sense) mutable {
+    const Value told = describe_sense(sense, model, gravity, last, last_time);
+    const Value answer = state.sandbox.call_controller(item.control, told);
+    Wish wish;
+    std::vector<Diagnostic> mistakes;
+    if (answer.kind != Value::Kind::table) {
+      mistakes.push_back({"", 0, "", "what the function returns cannot be followed",
+                          "a table such as { linear = 0.3, angular = 0 }", describe(answer), ""});
+    } else {
+      read_table(wish_schema(wish), answer, mistakes);
+    }
+    for (Diagnostic& d : mistakes) {
+      d.message += ", at t = " + format_number(sense.time) + " s";
+      d.key = d.key.empty() ? key : key + ": " + d.key;
+      d.file = state.mission.provenance.script.path;
+      d.line = state.lines.line_of(key);
+    }
+    throw_if_any(std::move(mistakes));
+    return command_of(wish, item.model, model);
+  };
+}
+
+}  // namespace rubble

@@ -1,0 +1,37 @@
+// From the robots of a mission to models and controllers.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/pipeline/resolved_mission.h"
+#include "kernel/model/robot.h"
+#include "kernel/robot/robot_run.h"
+
+namespace rubble {
+
+RobotModel make_robot_model(const RobotItem& robot);
+Pose calc_base_pose(const RobotItem& robot);
+
+// Drives by the legs of `drive`.
+RobotController make_leg_controller(const RobotItem& robot, const RobotModel& model);
+
+// Drives by functions of the script, which is run again: in the sandbox, by what its provenance keeps.
+class ScriptControl {
+ public:
+  explicit ScriptControl(const ResolvedMission& mission);
+  ~ScriptControl();
+  ScriptControl(const ScriptControl&) = delete;
+  ScriptControl& operator=(const ScriptControl&) = delete;
+
+  // robot: its index in the mission. The controller throws InputError, with the line of `control`, for
+  // what the function raises and for what it returns and no motor can follow. It must not outlive this.
+  RobotController controller_of(std::size_t robot, const RobotModel& model);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace rubble

@@ -1,0 +1,23 @@
+// Small plots as inline SVG.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rubble {
+
+struct PlotPoint {
+  double x = 0, y = 0;
+  std::string name;  // shown where the pointer rests
+  bool bad = false;  // drawn in another colour
+};
+
+// How often values fall into each of `bins` equal parts of their range; of one value all are one bar.
+std::string make_histogram(const std::string& title, const std::vector<double>& values, int bins = 12);
+
+// categories: names of x = 0, 1, ... where x is no number; empty: it is one.
+std::string make_scatter(const std::string& x_title, const std::string& y_title,
+                         const std::vector<PlotPoint>& points,
+                         const std::vector<std::string>& categories = {});
+
+}  // namespace rubble

@@ -1,0 +1,225 @@
+#include "app/view/dataset_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/eval/scores/trajectory_file.h"
+#include "app/pipeline/build_scene.h"
+#include "app/report/html_text.h"
+#include "app/view/viewer_code.h"
+#include "io/image/image_file.h"
+#include "io/image/jpeg_file.h"
+#include "io/mesh/ply_reader.h"
+#include "io/playback/recorded_picture.h"
+#include "kernel/base/error.h"
+
+namespace rubble {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostVoids = 40;
+
+template <typename T>
+std::string pack(const std::vector<T>& values) {
+  return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+}
+
+void add(std::vector<float>& values, const Vec3& p) {
+  for (int i = 0; i < 3; ++i) values.push_back(float(p[i]));
+}
+
+// Distinct positions of the triangles alone, and their corners.
+struct PackedMesh {
+  std::vector<float> positions;
+  std::vector<std::uint32_t> indices;
+  Json json() const { return {{"positions", pack(positions)}, {"indices", pack(indices)}}; }
+};
+
+PackedMesh pick_surface(const TriangleMesh& mesh, std::size_t surface) {
+  PackedMesh picked;
+  std::map<std::uint32_t, std::uint32_t> moved;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!mesh.surfaces.empty() && mesh.surfaces[t] != surface) continue;
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      const auto [at, is_new] = moved.try_emplace(v, std::uint32_t(moved.size()));
+      if (is_new) add(picked.positions, Vec3(mesh.positions[v]));
+      picked.indices.push_back(at->second);
+    }
+  }
+  return picked;
+}
+
+// As the eye sees an albedo on a screen.
+double to_screen(float linear) { return std::pow(std::max(0.0, double(linear)), 1 / 2.2); }
+
+// Columns one after another, as three.js has a matrix.
+void add_matrix(std::vector<float>& values, const PileModel::Piece& piece) {
+  for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+    add(values, piece.world_from_body.rotation.rotate(axis) * piece.scale);
+    values.push_back(0);
+  }
+  add(values, piece.world_from_body.translation);
+  values.push_back(1);
+}
+
+// The finest mesh that keeps the sum of all types within its share.
+const TriangleMesh& choose_level(const SceneMesh& mesh, std::size_t pieces, std::size_t allowed) {
+  for (const TriangleMesh& level : mesh.levels)
+    if (level.triangles.size() * pieces <= allowed) return level;
+  return mesh.levels.back();
+}
+
+Json describe_types(const PileModel& model, const AssetLibrary& assets, int triangles) {
+  std::vector<std::vector<float>> instances(model.types.size());
+  for (const PileModel::Piece& piece : model.pieces) add_matrix(instances[piece.type], piece);
+  const auto used = std::count_if(instances.begin(), instances.end(), [](const auto& i) { return !i.empty(); });
+  Json types = Json::array();
+  for (std::size_t t = 0; t < model.types.size(); ++t) {
+    if (instances[t].empty()) continue;
+    const TriangleMesh& mesh = choose_level(*assets.meshes[t], instances[t].size() / 16,
+                                            std::size_t(triangles) / std::size_t(used));
+    Json groups = Json::array();
+    const std::size_t surfaces = std::max<std::size_t>(1, mesh.surface_names.size());
+    for (std::size_t s = 0; s < surfaces; ++s) {
+      const PackedMesh picked = pick_surface(mesh, s);
+      if (picked.indices.empty()) continue;
+      Json group = picked.json();
+      const Vec3f c = model.colour_of(s < mesh.surface_names.size() ? mesh.surface_names[s] : "");
+      group["colour"] = {to_screen(c.x), to_screen(c.y), to_screen(c.z)};
+      groups.push_back(std::move(group));
+    }
+    types.push_back({{"name", model.types[t].name}, {"groups", groups}, {"instances", pack(instances[t])}});
+  }
+  return types;
+}
+
+// Of the smallest robot that was asked for: its voids hold those of the larger ones.
+Json describe_voids(const std::string& folder) {
+  std::vector<fs::path> files;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder + "/voids", failed))
+    if (entry.path().extension() == ".ply") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  Json voids = Json::array();
+  std::string robot;
+  for (const fs::path& file : files) {
+    const std::string name = file.stem().string(), of = name.substr(0, name.rfind('_'));
+    if (robot.empty()) robot = of;
+    if (of != robot || voids.size() >= kMostVoids) continue;
+    const PlyMesh mesh = load_ply(file.string());
+    PackedMesh packed;
+    for (const Vec3& p : mesh.positions) add(packed.positions, p);
+    for (const auto& t : mesh.triangles) packed.indices.insert(packed.indices.end(), t.begin(), t.end());
+    Json one = packed.json();
+    one["name"] = name;
+    voids.push_back(std::move(one));
+  }
+  return voids;
+}
+
+Json describe_track(const std::string& folder, const Scenario& scenario, std::size_t& frames) {
+  std::vector<float> positions, rotations;
+  std::vector<double> stamps;
+  std::error_code failed;
+  if (fs::is_regular_file(folder + "/groundtruth.txt", failed))
+    for (const StampedPose& pose : load_trajectory(folder + "/groundtruth.txt")) {
+      add(positions, pose.world_from_body.translation);
+      const Quat& q = pose.world_from_body.rotation;
+      for (const double v : {q.x, q.y, q.z, q.w}) rotations.push_back(float(v));
+      stamps.push_back(pose.stamp);
+    }
+  frames = stamps.size();
+  const double aspect = double(scenario.camera.height) / scenario.camera.width;
+  return {{"positions", pack(positions)}, {"rotations", pack(rotations)}, {"stamps", stamps},
+          {"view", {0.6, 0.6 * aspect}},  {"length", 0.25}};
+}
+
+RgbImage to_image(const RecordedPicture& picture, int width) {
+  const int across = std::min(width, picture.width);
+  RgbImage image{across, std::max(1, picture.height * across / picture.width), {}};
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < across; ++x)
+      for (int c = 0; c < 3; ++c) {
+        const std::size_t from = std::size_t(y * picture.height / image.height) * std::size_t(picture.width) +
+                                 std::size_t(x * picture.width / across);
+        image.rgb.push_back(std::uint8_t(picture.values[from * 3 + std::size_t(c)]));
+      }
+  return image;
+}
+
+Json describe_frames(const std::string& folder, std::size_t frames, const ViewOptions& options) {
+  Json list = Json::array();
+  const std::size_t count = std::min(frames, std::size_t(options.frames));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t frame = count == 1 ? 0 : i * (frames - 1) / (count - 1);
+    PictureWanted wanted;
+    wanted.channel = "rgb";
+    wanted.frame = int(frame);
+    const auto picture = find_recorded_picture(folder, wanted);
+    if (!picture || picture->components != 3) break;
+    const RgbImage image = to_image(*picture, options.width);
+    list.push_back({{"frame", frame},
+                    {"jpeg", base64(encode_jpeg(image.width, image.height, image.rgb.data(), 80))}});
+  }
+  return list;
+}
+
+constexpr const char* kLooks = R"(<style>
+html, body { margin: 0; height: 100%; font: 14px/1.4 system-ui, sans-serif; }
+#view { width: 100%; height: 100%; display: block; touch-action: none; cursor: grab; }
+#panel { position: absolute; top: .6rem; left: .6rem; width: 17rem; padding: .6rem .8rem; color: #222;
+  background: #fffd; border-radius: .4rem; }
+#panel h1 { font-size: 1rem; margin: 0 0 .3rem; } #panel label { display: block; }
+#panel input[type=range] { width: 100%; } #picture { max-width: 100%; } #status, #frame { font-size: .8rem; }
+</style>
+)";
+
+std::string panel(const std::string& title, bool has_voids, std::size_t frames) {
+  const auto box = [](const char* id, const char* text) {
+    return "<label><input type=\"checkbox\" id=\"" + std::string(id) + "\" checked> " + text + "</label>\n";
+  };
+  return "<canvas id=\"view\"></canvas>\n<div id=\"panel\">\n<h1>" + html_escape(title) + "</h1>\n" +
+         box("pieces", "pieces") + "<label>opacity <input type=\"range\" id=\"opacity\" min=\"0.05\" max=\"1\" "
+         "step=\"0.05\" value=\"1\"></label>\n<label>cut away <input type=\"range\" id=\"cut\" min=\"0\" "
+         "max=\"1\" step=\"0.01\" value=\"1\"></label>\n" +
+         box("voids", has_voids ? "voids" : "voids (none here: `rubble voids` maps them)") +
+         box("track", "the camera's way") +
+         "<input type=\"range\" id=\"time\" min=\"0\" max=\"0\" value=\"0\"" +
+         std::string(frames ? "" : " hidden") + ">\n<div id=\"frame\"></div>\n<img id=\"picture\" alt=\"\">\n"
+         "<p id=\"status\">loading</p>\n</div>\n";
+}
+
+}  // namespace
+
+std::string make_dataset_page(const FinishedRun& saved, const AssetLibrary& assets, const ViewOptions& options) {
+  const PileState pile = load_pile_of(saved);
+  const PileModel model = build_pile_model(assets, pile);
+  Aabb bounds;
+  for (const PileModel::Piece& piece : model.pieces) bounds.include(piece.world_from_body.translation);
+  const Vec3 centre = model.pieces.empty() ? Vec3{} : (bounds.min + bounds.max) * 0.5;
+  const double radius = model.pieces.empty() ? 1 : std::max(1.0, 0.5 * norm(bounds.max - bounds.min));
+  std::size_t frames = 0;
+  const std::string title = saved.manifest.provenance.script.path + ", seed " + std::to_string(saved.manifest.seed);
+  Json data = {{"title", title},
+               {"pieces", model.pieces.size()},
+               {"centre", {centre.x, centre.y, centre.z}},
+               {"radius", radius},
+               {"types", describe_types(model, assets, options.triangles)},
+               {"voids", describe_voids(saved.folder)},
+               {"track", describe_track(saved.folder, stated_scenario(saved.manifest.provenance), frames)}};
+  data["frames"] = describe_frames(saved.folder, frames, options);
+  std::string json = data.dump(-1, ' ', true, Json::error_handler_t::replace);
+  for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) json.replace(at, 1, "\\u003c");
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + html_escape(title) +
+         "</title>\n" + kLooks + "</head>\n<body>\n" + panel(title, !data["voids"].empty(), frames) +
+         "<script type=\"application/json\" id=\"data\">" + json + "</script>\n<script>\n" + three_code() +
+         "\n</script>\n<script>\n" + viewer_code() + "</script>\n</body>\n</html>\n";
+}
+
+}  // namespace rubble

@@ -1,0 +1,21 @@
+# cmake -DOUTPUT=file.cpp -DVIEWER=viewer.js -DTHREE=three.min.js -P viewer_code.cmake
+# writes a C++ source with both scripts. A string literal holds at most 64 kB in every compiler, so a
+# long text is many that follow each other.
+function(add_function name file)
+  set(body "")
+  if(file)
+    file(READ "${file}" text)
+    string(LENGTH "${text}" size)
+    set(at 0)
+    while(at LESS size)
+      string(SUBSTRING "${text}" ${at} 15000 part)
+      string(APPEND body "  text += R\"JSCODE(${part})JSCODE\";\n")
+      math(EXPR at "${at} + 15000")
+    endwhile()
+  endif()
+  set(code "${code}std::string ${name}() {\n  std::string text;\n${body}  return text;\n}\n\n" PARENT_SCOPE)
+endfunction()
+set(code "#include \"app/view/viewer_code.h\"\n\nnamespace rubble {\n\n")
+add_function(viewer_code "${VIEWER}")
+add_function(three_code "${THREE}")
+file(WRITE "${OUTPUT}" "${code}}  // namespace rubble\n")

@@ -1,0 +1,196 @@
+// reference_bench: the fast renderer beside the reference, on a list of views.
+//
+// Light is compared before exposure, by region; then both are developed at the exposure that the
+// reference's light asks for, and compared as pictures.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/assets/asset_library.h"
+#include "app/pipeline/build_scene.h"
+#include "bench/gallery_list.h"
+#include "bench/images/image_measures.h"
+#include "bench/images/picture_file.h"
+#include "bench/program.h"
+#include "io/image/image_file.h"
+#include "kernel/base/disk_cache.h"
+#include "kernel/settling/generator.h"
+#include "kernel/settling/settle.h"
+#include "render/gl/gl_context.h"
+#include "render/passes/resolve_pass.h"
+#include "render/reference/display.h"
+#include "render/renderer.h"
+#include "scripting/mission.h"
+#include "scripting/trajectory/trajectory.h"
+
+namespace rubble {
+namespace {
+
+struct Request {
+  std::string list = "bench/images/reference_views.json", only, pictures;
+  std::vector<std::string> set;
+  int size = 512, samples = 64, threads = 0, regions = 16;
+  bool denoise = false, reference_only = false;
+};
+
+struct Drawn {
+  LinearFrame frame;
+  double seconds = 0, processor = 0;  // of the image alone
+};
+
+Drawn draw(GlContext& context, const Scene& scene, const ViewRays& view, const RenderOptions& options) {
+  Renderer renderer(context, scene, options);
+  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t processor = std::clock();
+  Drawn out{renderer.render_linear(view), 0, 0};
+  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  out.processor = double(std::clock() - processor) / CLOCKS_PER_SEC;
+  return out;
+}
+
+std::vector<float> luminance_of(const LinearFrame& frame) {
+  std::vector<float> out;
+  for (std::size_t i = 0; i < frame.rgb.size(); i += 3)
+    out.push_back(0.2126f * frame.rgb[i] + 0.7152f * frame.rgb[i + 1] + 0.0722f * frame.rgb[i + 2]);
+  return out;
+}
+
+Picture develop(const LinearFrame& frame, const Vec3f& gains, float exposure) {
+  const std::vector<std::uint8_t> rgba =
+      develop_image(frame.rgb, frame.width, frame.height, gains, exposure);
+  Picture out{frame.width, frame.height, {}};
+  for (std::size_t i = 0; i < rgba.size(); i += 4)
+    out.rgb.insert(out.rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
+  return out;
+}
+
+void save(const Request& request, const std::string& name, const Picture& picture) {
+  if (!request.pictures.empty())
+    write_png(request.pictures + name + ".png", {picture.width, picture.height, picture.rgb}, 6);
+}
+
+void print_statistics(const char* name, const char* quality, const Picture& picture, const Drawn& drawn) {
+  const ImageStatistics s = measure_image(luma_of(picture.rgb.data(), picture.width, picture.height));
+  const double megapixels = 1e-6 * picture.width * picture.height;
+  std::printf("| %s | %s | %.1f | %.2f | %.0f | %.2f | %.1f | %.1f |", name, quality, s.gradient_kurtosis,
+              s.flat_share, count_keypoints(picture) / megapixels, s.spectral_slope, drawn.seconds,
+              drawn.processor);
+}
+
+// Piles that were settled already, by all that a pile follows from.
+class Piles {
+ public:
+  const PileState& of(const GalleryPicture& picture, const Scenario& scenario,
+                      const AssetLibrary& assets, int threads) {
+    std::string key = picture.mission;
+    for (const std::string& change : picture.set)
+      if (change.rfind("pile.", 0) == 0 || change.rfind("seed", 0) == 0) key += "\n" + change;
+    const auto found = piles_.find(key);
+    if (found != piles_.end()) return found->second;
+    SettleOptions options = scenario.settle;
+    options.threads = threads;
+    return piles_[key] = settle_pile(generate_pile(build_pile_spec(scenario, assets)), options);
+  }
+
+ private:
+  std::map<std::string, PileState> piles_;
+};
+
+ViewRays view_of(const Scenario& scenario, int size) {
+  const CameraPose pose = sample_trajectory(scenario.trajectory, scenario.start_ns).front();
+  Scenario sized = scenario;
+  sized.camera.width = sized.camera.height = size;
+  return {pose.stamp_ns, sized.camera.intrinsics(), pose.world_from_camera, {}, nullptr};
+}
+
+void compare(GlContext& context, const GalleryPicture& picture, Piles& piles, const Request& request,
+             int threads) {
+  MissionOptions changes;
+  changes.overrides = picture.set;
+  changes.overrides.insert(changes.overrides.end(), request.set.begin(), request.set.end());
+  const Mission mission = load_mission(picture.mission, changes);
+  const Scenario& scenario = mission.scenario;
+  const AssetLibrary assets = load_assets(mission, {});
+  const Scene scene = build_scene(scenario, assets, piles.of(picture, scenario, assets, threads));
+  const ViewRays view = view_of(scenario, request.size);
+  RenderOptions options;
+  options.threads = threads;
+  const Vec3f gains = white_balance(make_lights(scene));
+  options.colour = {RenderQuality::reference, request.samples, request.denoise};
+  const Drawn slow = draw(context, scene, view, options);  // without a cache, for its time
+  const int width = slow.frame.width, height = slow.frame.height;
+  const float exposure = find_exposure({0.21, 0}, meter_image(slow.frame.rgb, width, height, gains));
+  const Picture expected = develop(slow.frame, gains, exposure);
+  save(request, picture.name + "_reference", expected);
+  print_statistics(picture.name.c_str(), "reference", expected, slow);
+  std::printf(" | | |\n");
+  std::fflush(stdout);
+  if (request.reference_only) return;
+  options.colour = {};
+  options.cache_folder = DiskCache::usual_folder();
+  const Drawn fast = draw(context, scene, view, options);
+  const Picture found = develop(fast.frame, gains, exposure);
+  save(request, picture.name + "_fast", found);
+  print_statistics(picture.name.c_str(), "fast", found, fast);
+  const RegionDifference d = compare_regions(luminance_of(slow.frame), luminance_of(fast.frame), width,
+                                             height, request.regions, request.regions);
+  std::printf(" %.1f | %.1f | %.3f |\n", 100 * d.mean_error, 100 * d.bias,
+              structural_similarity(luma_of(expected.rgb.data(), width, height),
+                                    luma_of(found.rgb.data(), width, height)));
+  std::fflush(stdout);
+}
+
+ExitCode bench(const Request& request) {
+  const int threads =
+      request.threads > 0 ? request.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+  const Gallery list = load_gallery(request.list);
+  GlContext context({-1, threads});
+  Piles piles;
+  std::printf("| view | renderer | gradient kurtosis | flat share | SIFT/MP | slope | s | CPU s | "
+              "mean error %% | bias %% | SSIM |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const GallerySection& section : list.sections)
+    for (const GalleryPicture& picture : section.pictures)
+      if (picture.name.find(request.only) != std::string::npos)
+        compare(context, picture, piles, request, threads);
+  return ExitCode::done;
+}
+
+ExitCode run(int argc, char** argv) {
+  CLI::App app{
+      "Draws each view of a list with the fast renderer and by path tracing, and prints a table: figures "
+      "of both pictures, the time of each image, and how far they are apart."};
+  Request request;
+  app.add_option("--list", request.list, "The views, as docs/gallery.json lists pictures")
+      ->capture_default_str();
+  app.add_option("--only", request.only, "Only views whose name has this in it");
+  app.add_option("--size", request.size, "Side of the square images")->check(CLI::Range(32, 8192))
+      ->capture_default_str();
+  app.add_option("--samples", request.samples, "Paths a pixel")->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  app.add_flag("--denoise", request.denoise, "Filter the noise of the reference");
+  app.add_option("--regions", request.regions, "Regions across and down")->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  app.add_option("--set", request.set, "Another key for every view, as `rubble run --set`");
+  app.add_flag("--reference-only", request.reference_only, "Without the fast renderer");
+  app.add_option("--pictures", request.pictures, "Also write PREFIXview_reference.png and _fast.png");
+  app.add_option("--threads", request.threads, "0: all processors")->check(CLI::Range(0, 1024));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
+  }
+  return bench(request);
+}
+
+}  // namespace
+}  // namespace rubble
+
+int main(int argc, char** argv) {
+  return rubble::run_program("reference_bench", [=] { return rubble::run(argc, argv); });
+}

@@ -1,0 +1,62 @@
+// A structure that breaks while its world goes on: loads of every step to stresses, stresses to what
+// fails, and bodies that come apart.
+//
+//   Structure --Collapse--> pieces in a World, bound --step--> bonds fail --split--> a ruin
+//
+// What is anchored stands immovable until it breaks; what came loose is rigid between its breaks. A
+// sudden change of load overshoots: a bond must carry what it will carry at rest and a share of the
+// change on top. An impact breaks bonds only if it brings the energy that they take.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "kernel/model/building.h"
+#include "kernel/settling/collapse_report.h"
+#include "kernel/structure/failure.h"
+#include "kernel/structure/stress.h"
+#include "kernel/world/world.h"
+
+namespace rubble {
+
+struct CollapseOptions {
+  double gravity = 9.81;       // unit: m/s2
+  double step = 1.0 / 60;      // of the world; unit: s
+  double overshoot = 0.5;      // of a sudden change of load; 1: undamped; unit: 1; range: 0 to 1
+};
+
+class Collapse {
+ public:
+  // Adds the structure's pieces to the world: fixed, bound, as types first_type and on. settled: forces
+  // in its bonds before the cause, by bond; empty: none, and nothing overshoots.
+  Collapse(World& world, const Structure& structure, int first_type, const CollapseOptions& options,
+           std::vector<SectionForces> settled = {});
+  ~Collapse();
+  Collapse(const Collapse&) = delete;
+  Collapse& operator=(const Collapse&) = delete;
+
+  // Around each step of the world. The ground is the frame: what moves feels its acceleration backwards.
+  void begin_step(const Vec3& ground_acceleration = {});  // unit: m/s2
+  void end_step();
+  // In the next step every piece gets this impulse per area at 1 m, less with the square of the distance;
+  // what it breaks off is thrown. unit: N s/m2
+  void blast(const Vec3& at, double impulse_at_1m);
+
+  bool is_breaking() const;  // something failed in the last step: the next one may have more
+  // Impacts so far that overloaded bonds but brought too little energy to break them.
+  int arrests() const;
+  int first_piece() const;
+  CollapseReport report() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// The forces in a structure's bonds under its own weight, by bond. Throws InputError naming the worst
+// bond, its failure and by how much, where one is used up: the building does not stand by itself.
+std::vector<SectionForces> check_stands(const Structure& structure, double gravity);
+
+}  // namespace rubble

@@ -1,0 +1,51 @@
+#include "kernel/settling/ground_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/base/portable_math.h"
+#include "kernel/base/random.h"
+
+namespace rubble {
+namespace {
+
+constexpr int kSines = 20;            // enough that no beat stands out; unit: 1
+constexpr double kRise = 0.15, kFade = 0.6;  // of the duration, where the strong part begins and ends; unit: 1
+constexpr double kFadeRate = 4;       // exponents until the end; unit: 1
+
+double envelope(double share) {
+  if (share < kRise) return share * share / (kRise * kRise);
+  if (share < kFade) return 1;
+  return portable::exp(-kFadeRate * (share - kFade) / (1 - kFade));
+}
+
+}  // namespace
+
+GroundMotion::GroundMotion(const CollapseCause& cause, std::uint64_t seed, double step) {
+  const portable::SinCos direction = portable::sincos(cause.shake_direction_deg * portable::kPi / 180);
+  direction_ = {direction.cos, direction.sin, 0};
+  if (!(cause.shake > 0)) return;
+  RandomStream random(seed, "ground motion");
+  double frequencies[kSines], phases[kSines];
+  for (int i = 0; i < kSines; ++i) {
+    frequencies[i] = cause.shake_hz * portable::exp(0.4 * random.normal());
+    phases[i] = random.uniform(0, 2 * portable::kPi);
+  }
+  const int count = int(cause.shake_seconds / step);
+  double most = 0;
+  for (int n = 0; n < count; ++n) {
+    double sum = 0;
+    for (int i = 0; i < kSines; ++i) {
+      sum += portable::sin(2 * portable::kPi * frequencies[i] * n * step + phases[i]);
+    }
+    samples_.push_back(sum * envelope(double(n) / count));
+    most = std::max(most, std::abs(samples_.back()));
+  }
+  for (double& sample : samples_) sample *= cause.shake / most;
+}
+
+Vec3 GroundMotion::at(std::int64_t step) const {
+  return over(step) ? Vec3{} : direction_ * samples_[std::size_t(step)];
+}
+
+}  // namespace rubble

@@ -1,0 +1,36 @@
+// What RayScene holds of Embree. Internal to its sources.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <map>
+
+#include "render/geometry/ray_scene.h"
+
+namespace rubble {
+
+inline constexpr unsigned kResting = 0;  // the geometry of all that rests
+
+struct RayScene::Embree {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::map<std::uint32_t, RTCScene> meshes;  // of those that move, by prepared mesh
+
+  ~Embree() {
+    if (scene) rtcReleaseScene(scene);
+    for (const auto& [mesh, of_mesh] : meshes) rtcReleaseScene(of_mesh);
+    if (device) rtcReleaseDevice(device);
+  }
+
+  void attach(RTCScene to, const std::vector<Vec3f>& positions,
+              const std::vector<std::uint32_t>& indices) const;
+};
+
+// A placed mesh that moves: an instance in the tree.
+struct RayScene::Mover {
+  std::uint32_t placed = 0;
+  std::uint32_t first_triangle = 0;  // in triangles_
+  RTCGeometry geometry = nullptr;    // owned by the tree
+};
+
+}  // namespace rubble

@@ -1,0 +1,79 @@
+// Paths that are followed together, segment by segment, so that their rays are cast in packets.
+// Internal to PathTracer.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/reference/path_tracer.h"
+
+namespace rubble {
+
+struct Path {
+  std::uint32_t pixel = 0;   // in the box
+  std::uint32_t sample = 0;  // of its pixel
+  SampleSequence numbers;
+  const PlacedLamp* lamp = nullptr;
+  Vec3f from, direction;
+  float nearest = 0;
+  float spread = 0;   // width of what the ray stands for, a metre on; unit: m/m
+  float density = 0;  // with which the direction was drawn; 0: the camera's own; unit: 1/sr
+  Vec3f throughput{1, 1, 1};
+  Vec3f light;        // so far; unit: kcd/m2
+  int bounces = 0;
+  bool met_surface = false;
+  Vec3f albedo, normal;  // where a surface was first met
+  float first_distance = 0;
+};
+
+class Wave {
+ public:
+  Wave(const TracedScene& scene, const TracedView& view, const TraceOptions& options);
+
+  // Samples [first, last) of every pixel of the box.
+  void begin(const PixelBox& box, int first, int last);
+  // One segment of every path that still goes on; false: none does.
+  bool step();
+  const std::vector<Path>& paths() const { return paths_; }
+
+ private:
+  enum Use { kLens, kLight, kSky, kReflect, kChoices, kAir, kAlong, kUses };
+  struct Shadow {
+    std::uint32_t path;
+    Vec3f light;  // added where nothing is in the way
+  };
+  struct ShadowList {
+    std::vector<RayScene::Ray> rays;
+    std::vector<Shadow> shadows;
+  };
+
+  SamplePair draw(const Path& path, Use use) const;
+  bool aim(Path& path, int u, int v);
+  void cast(RayScene::Order order);
+  void pass_backs(std::size_t active);
+  // Each returns whether the path goes on.
+  bool follow(std::uint32_t index, const RayScene::PreciseHit& hit);
+  bool leave(Path& path);
+  bool scatter_in_air(std::uint32_t index, float at);
+  bool reflect(std::uint32_t index, const RayScene::PreciseHit& hit);
+  bool survive(Path& path, float random);
+
+  void light_air_along(std::uint32_t index, float near, float far);
+  void light_air(std::uint32_t index, const Vec3f& p);
+  void light_surface(std::uint32_t index, const SurfacePoint& surface, const Vec3f& out);
+  void ask(std::uint32_t index, std::size_t list, const Vec3f& from, const Vec3f& to_light,
+           float distance, const Vec3f& light);
+  void answer(ShadowList& list, RayScene::Order order);
+
+  const TracedScene& scene_;
+  const TracedView& view_;
+  const TraceOptions& options_;
+  std::vector<Path> paths_;
+  std::vector<std::uint32_t> active_, next_;
+  std::vector<RayScene::Ray> rays_;
+  std::vector<RayScene::PreciseHit> hits_;
+  std::vector<ShadowList> towards_;  // the camera's surfaces, by light; the last: all else
+  std::vector<std::uint8_t> hidden_;
+};
+
+}  // namespace rubble

@@ -1,0 +1,102 @@
+#include "render/transport/air_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/base/portable_math.h"
+
+namespace rubble {
+
+namespace {
+
+constexpr int kMostSteps = 40;
+
+// Cosine by which Henyey and Greenstein's law turns light (Witt 1977, equation 18).
+float draw_cosine(double g, double random) {
+  if (std::fabs(g) < 1e-3) return float(1 - 2 * random);
+  const double s = (1 - g * g) / (1 - g + 2 * g * random);
+  return float(std::clamp((1 + g * g - s * s) / (2 * g), -1.0, 1.0));
+}
+
+}  // namespace
+
+bool AirPath::clip(const Vec3f& from, const Vec3f& direction, float& near, float& far) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    const float low = float(box_.min[axis]), high = float(box_.max[axis]), d = direction[axis];
+    if (std::fabs(d) < 1e-9f) {
+      if (from[axis] < low || from[axis] > high) return false;
+      continue;
+    }
+    const float a = (low - from[axis]) / d, b = (high - from[axis]) / d;
+    near = std::max(near, std::min(a, b)), far = std::min(far, std::max(a, b));
+  }
+  return near < far;
+}
+
+float AirPath::passes(const Vec3f& from, const Vec3f& direction, float near, float far) const {
+  if (clear_ || near >= far) return 1;
+  return float(std::exp(-air_.optical_depth(Vec3(from + direction * near), Vec3(direction),
+                                            double(far - near))));
+}
+
+float AirPath::passes_in_box(const Vec3f& from, const Vec3f& direction, float far) const {
+  float near = 0;
+  if (clear_ || !clip(from, direction, near, far)) return 1;
+  return passes(from, direction, near, far);
+}
+
+bool AirPath::find_event(const Vec3f& from, const Vec3f& direction, float near, float far,
+                         float random, float& at) const {
+  if (clear_ || near >= far) return false;
+  const Vec3 start(from + direction * near), way(direction);
+  const double wanted = -std::log1p(-double(random)), length = double(far - near);
+  if (air_.homogeneous()) {
+    const double t = wanted / std::max(air_.extinction({}), 1e-12);
+    at = near + float(t);
+    return t < length;
+  }
+  double low = 0, high = length, below = 0, above = air_.optical_depth(start, way, length);
+  if (above <= wanted) return false;
+  // Between a place before it and one behind: a secant step, then a halving, in turn.
+  for (int i = 0; i < kMostSteps && high - low > 1e-4 * (1 + high); ++i) {
+    const double share = i % 2 ? 0.5 : std::clamp((wanted - below) / (above - below), 0.02, 0.98);
+    const double middle = low + share * (high - low);
+    const double depth = below + air_.optical_depth(start + way * low, way, middle - low);
+    if (depth < wanted)
+      low = middle, below = depth;
+    else
+      high = middle, above = depth;
+  }
+  at = near + float(0.5 * (low + high));
+  return true;
+}
+
+float AirPath::fog_share(const Vec3f& p) const {
+  const Vec3 q(p);
+  double dust = 0;
+  for (const DustPuff& puff : air_.puffs()) dust += puff.at(q);
+  const double fog = air_.fog(q);
+  return fog + dust > 0 ? float(fog / (fog + dust)) : 1;
+}
+
+float AirPath::phase(const Vec3f& p, float cosine) const {
+  const float share = fog_share(p);
+  const double c = double(cosine);
+  float sum = 0;
+  if (share > 0) sum += share * float(phase_function(air_.fog_asymmetry(), c));
+  if (share < 1) sum += (1 - share) * float(phase_function(air_.dust_asymmetry(), c));
+  return sum;
+}
+
+Vec3f AirPath::sample_phase(const Vec3f& p, const Vec3f& direction, SamplePair u,
+                            float choice) const {
+  const double g = choice < fog_share(p) ? air_.fog_asymmetry() : air_.dust_asymmetry();
+  const float cosine = draw_cosine(g, double(u.x));
+  const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+  const float turn = 2 * float(portable::kPi) * u.y;
+  const Vec3f side = std::fabs(direction.z) < 0.9f ? Vec3f(0, 0, 1) : Vec3f(1, 0, 0);
+  const Vec3f x = normalized(cross(side, direction)), y = cross(direction, x);
+  return normalized(direction * cosine + x * (sine * std::cos(turn)) + y * (sine * std::sin(turn)));
+}
+
+}  // namespace rubble

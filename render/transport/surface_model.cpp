@@ -1,0 +1,190 @@
+#include "render/transport/surface_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/materials/surface_appearance.h"
+
+namespace rubble {
+
+namespace {
+
+constexpr float kWaterReflectance = 0.02f;  // of refractive index 1.33
+constexpr float kFilmRoughness = 0.12f;     // of water on grit, our choice
+
+Vec3f times(const Vec3f& a, const Vec3f& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+Vec3f mix(const Vec3f& a, const Vec3f& b, float t) { return a + (b - a) * t; }
+float fract(float x) { return x - std::floor(x); }
+float smoothstep(float low, float high, float x) {
+  const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+// From and to axes in which the longest comes first.
+Vec3f turned(const Vec3f& v, int turn) {
+  return turn == 1 ? Vec3f(v.y, v.z, v.x) : turn == 2 ? Vec3f(v.z, v.x, v.y) : v;
+}
+Vec3f turned_back(const Vec3f& v, int turn) {
+  return turn == 1 ? Vec3f(v.z, v.x, v.y) : turn == 2 ? Vec3f(v.y, v.z, v.x) : v;
+}
+float ragged(float x) {  // noise without a pattern, of a coordinate
+  const float hash = fract(x);
+  return (fract(hash * (hash + 3.33f) * 97.0f) - 0.5f) * 0.12f;
+}
+
+}  // namespace
+
+struct LookSurfaces::Place {
+  const Placed* piece;
+  const SurfaceAppearance* look;
+  bool soil;
+  Vec3f point, face, smooth;  // in the mesh; the normals are unit
+  Vec3f world;
+  Vec3f bent;                  // normal with relief, in the mesh
+  float debris, slow;          // of the ground's map: cover, and tone from -2 to 2
+  float bright, mask, up;      // of the texture, and Z of the smooth normal in the world
+  Vec3f to_world(const Vec3f& v) const {
+    return piece->axis_x * v.x + piece->axis_y * v.y + piece->axis_z * v.z;
+  }
+};
+
+LookSurfaces::LookSurfaces(const PreparedScene& scene, const std::vector<PatternImage>& patterns,
+                           const GroundMap& ground, double wetness)
+    : scene_(scene), textures_(patterns), ground_(ground), wetness_(float(wetness)) {
+  for (const PlacedMesh& piece : scene.placed) placed_.push_back(place(piece));
+}
+
+void LookSurfaces::follow() {
+  for (std::size_t i = 0; i < placed_.size(); ++i)
+    if (scene_.placed[i].moves) placed_[i] = place(scene_.placed[i]);
+}
+
+LookSurfaces::Placed LookSurfaces::place(const PlacedMesh& piece) const {
+  const Mat3 r = piece.world_from_mesh.rotation.matrix();
+  constexpr float kByte = 2.0f / 255;
+  Placed out;
+  out.axis_x = Vec3f(r.column(0)), out.axis_y = Vec3f(r.column(1)), out.axis_z = Vec3f(r.column(2));
+  out.origin = Vec3f(piece.world_from_mesh.translation);
+  out.scale = float(piece.scale);
+  out.seed_u = float(piece.look_seed[0] & 0xffffu) / 65536;
+  out.seed_v = float(piece.look_seed[0] >> 16) / 65536;
+  out.turn = int(piece.look_seed[1] & 3u);
+  out.tint = float(piece.look_seed[1] >> 16 & 255u) * kByte - 1;
+  out.warm = (float(piece.look_seed[1] >> 24) * kByte - 1) * 0.25f;
+  return out;
+}
+
+// Between texels, as GL_LINEAR does.
+void LookSurfaces::read_ground(const Vec3f& world, float& debris, float& tone) const {
+  constexpr int kSide = GroundMap::kSide;
+  const float ax = (world.x + 0.6f * world.z - ground_.x) / ground_.reach;
+  const float ay = (world.y + 0.6f * world.z - ground_.y) / ground_.reach;
+  const auto at = [](float a) {
+    return std::clamp((0.5f + 0.5f * a / (1 + std::fabs(a))) * kSide - 0.5f, 0.0f, kSide - 1.001f);
+  };
+  const float x = at(ax), y = at(ay), a = x - std::floor(x), b = y - std::floor(y);
+  const std::uint8_t* p = &ground_.texels[(std::size_t(int(y)) * kSide + std::size_t(int(x))) * 2];
+  const auto value = [&](int channel) {
+    const float top = float(p[channel]) * (1 - a) + float(p[2 + channel]) * a;
+    const float bottom =
+        float(p[2 * kSide + channel]) * (1 - a) + float(p[2 * kSide + 2 + channel]) * a;
+    return (top * (1 - b) + bottom * b) * (1.0f / 255);
+  };
+  debris = value(0), tone = value(1);
+}
+
+void LookSurfaces::find_place(const SurfaceQuery& query, Place& place) const {
+  const PlacedMesh& piece = scene_.placed[query.triangle.placed];
+  const PreparedMesh& mesh = scene_.meshes[piece.mesh];
+  const PreparedTriangle& triangle = mesh.triangles[query.triangle.source];
+  const PreparedVertex& a = mesh.vertices[triangle.vertices[0]];
+  const PreparedVertex& b = mesh.vertices[triangle.vertices[1]];
+  const PreparedVertex& c = mesh.vertices[triangle.vertices[2]];
+  const float w = 1 - query.u - query.v;
+  place.piece = &placed_[query.triangle.placed];
+  place.look = &all_surface_appearances()[triangle.material];
+  place.soil = place.look->pattern == Pattern::soil;
+  place.face = normalized(cross(b.position - a.position, c.position - a.position));
+  place.point = a.position * w + b.position * query.u + c.position * query.v;
+  place.smooth = normalized(a.normal * w + b.normal * query.u + c.normal * query.v +
+                            place.face * 0.001f);
+  place.world = place.piece->origin + place.to_world(place.point) * place.piece->scale;
+  float tone = 0;
+  read_ground(place.world, place.debris, tone);
+  place.slow = 4 * tone - 2;
+}
+
+// The look on the one of 26 planes that the surface is nearest to, with its relief.
+void LookSurfaces::find_pattern(const SurfaceQuery& query, Place& place) const {
+  const Placed& piece = *place.piece;
+  const SurfaceAppearance& look = *place.look;
+  const Vec3f q = turned(place.point, piece.turn) * piece.scale;
+  const Vec3f noise = q * 91.7f + Vec3f(q.y, q.z, q.x) * 57.3f;
+  const Vec3f f = turned(place.smooth, piece.turn) +
+                  Vec3f(ragged(noise.x), ragged(noise.y), ragged(noise.z));
+  const auto nearest = [](float x) { return std::floor(x * 1.2f + 0.5f); };
+  const Vec3f plane = normalized(Vec3f(nearest(f.x), nearest(f.y), nearest(f.z)));
+  const Vec3f along = std::fabs(plane.z) > 0.9f ? Vec3f(1, 0, 0)
+                                                : normalized(Vec3f(-plane.y, plane.x, 0));
+  const Vec3f across = cross(plane, along);
+  float u = dot(q, along) / look.tile + piece.seed_u, v = dot(q, across) / look.tile + piece.seed_v;
+  if (look.dust < 0.2f && place.slow + 0.3f * query.random > 0.15f) {
+    const float old = u;
+    u = v * 0.83f + 0.37f, v = old * 0.83f + 0.37f;
+  }
+  if (look.pattern == Pattern::cast_concrete)
+    u += 0.37f * std::floor(v) + 0.21f * std::floor(v * 0.5f);
+  const float grazing = std::max(-dot(place.to_world(place.face), query.direction), 0.05f);
+  const float texels = float(textures_.size()) / look.tile * query.footprint / std::sqrt(grazing);
+  const float level = texels > 1 ? std::log2(texels) : 0;
+  const auto texel = textures_.read(int(look.pattern), u, v, level);
+  const Vec3f tu = turned_back(along, piece.turn), tv = turned_back(across, piece.turn);
+  place.bent = place.smooth - tu * ((texel[0] * 4 - 2) * look.bump) -
+               tv * ((texel[1] * 4 - 2) * look.bump);
+  place.bright = texel[2], place.mask = texel[3];
+  place.up = place.to_world(place.smooth).z;
+}
+
+void LookSurfaces::add_colour(const Place& place, SurfacePoint& out) const {
+  const SurfaceAppearance& look = *place.look;
+  const float bright = place.bright;
+  // On the ground the mask ranks crumbs: the more debris, the more of them lie there, and dust.
+  const float crumbs = smoothstep(0, 0.12f, place.mask - 1 + 0.05f + 0.75f * place.debris);
+  Vec3f albedo = mix(mix(look.dark, look.light, bright),
+                     look.accent * (place.soil ? 0.55f + 0.7f * bright : 1.0f),
+                     place.soil ? crumbs : place.mask);
+  albedo *= 1 + (place.soil ? 0.3f : 0.16f) * place.slow;
+  const float tint = place.piece->tint * look.variation, warm = place.piece->warm * look.variation;
+  albedo = times(albedo, Vec3f(1 + warm, 1, 1 - warm)) * (1 + tint);
+  const float dust = smoothstep(0.30f, 1.05f, place.up + (bright - 0.45f) * 0.8f) *
+                     (place.soil ? 0.85f * place.debris : look.dust);
+  albedo = mix(albedo, Vec3f(0.375f, 0.36f, 0.335f) * (0.55f + 0.75f * bright), dust);
+  const Vec3f white(1, 1, 1);
+  out.reflection.base = min(max(albedo, Vec3f()), white);
+  out.reflection.gloss = {look.reflectance > 0 ? 1 - dust : 0, look.reflectance, look.roughness};
+  out.reflection.film = MirrorLayer();
+}
+
+// Water darkens what it soaks into, and stands as a film on what faces up.
+void LookSurfaces::add_water(const Place& place, SurfacePoint& out) const {
+  const float wet = wetness_ * smoothstep(-0.6f, 0.5f, place.up + 0.5f * place.slow);
+  out.reflection.base *= 1 - 0.5f * wet;
+  const float even = smoothstep(0.75f, 0.25f, place.bright);
+  const float film = wet * (0.35f + 0.65f * smoothstep(0.2f, 0.9f, place.up)) * even;
+  out.reflection.film = {film, kWaterReflectance, kFilmRoughness};
+  out.reflection.gloss.cover *= 1 - film;
+  out.normal = normalized(mix(out.normal, place.to_world(place.smooth), 0.6f * wet * even));
+}
+
+void LookSurfaces::find(const SurfaceQuery& query, SurfacePoint& out) const {
+  Place place;
+  find_place(query, place);
+  find_pattern(query, place);
+  out.position = place.world;
+  out.face_normal = place.to_world(place.face);
+  out.normal = normalized(place.to_world(place.bent));
+  out.emission = Vec3f();
+  add_colour(place, out);
+  if (wetness_ > 0) add_water(place, out);
+}
+
+}  // namespace rubble

@@ -1,0 +1,70 @@
+// What a point of a surface is: its normals, how it reflects, what it emits.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/geometry/geometry.h"
+#include "render/geometry/ground_map.h"
+#include "render/geometry/ray_scene.h"
+#include "render/transport/reflection.h"
+#include "render/transport/texture_stack.h"
+
+namespace rubble {
+
+struct SurfacePoint {
+  Vec3f position;     // unit: m
+  Vec3f face_normal;  // of the triangle, unit
+  Vec3f normal;       // with rounding and relief, unit
+  Reflection reflection;
+  Vec3f emission;  // radiance, the same in all directions; unit: kcd/m2
+};
+
+struct SurfaceQuery {
+  RayScene::Triangle triangle;
+  float u = 0, v = 0;     // weights of its second and third corner
+  Vec3f direction;        // of the ray that met it, unit
+  float footprint = 0;    // width of what the ray stands for there; unit: m
+  float random = 0;       // in [0, 1), for choices that have no edge
+};
+
+class SurfaceModel {
+ public:
+  virtual ~SurfaceModel() = default;
+  virtual void find(const SurfaceQuery& query, SurfacePoint& out) const = 0;
+};
+
+// The looks of SurfaceAppearance: the same normals and albedos as shaders/surface.glsl, whose
+// formulas stand here again. Gloss mirrors as Reflection says, not as the shader's lobe.
+class LookSurfaces : public SurfaceModel {
+ public:
+  // wetness: as in Scene. The scene must outlive it.
+  LookSurfaces(const PreparedScene& scene, const std::vector<PatternImage>& patterns,
+               const GroundMap& ground, double wetness);
+  // Puts what moves where it is in the scene now.
+  void follow();
+  void find(const SurfaceQuery& query, SurfacePoint& out) const override;
+
+ private:
+  struct Placed {
+    Vec3f axis_x, axis_y, axis_z;  // of the mesh, in the world, unit
+    Vec3f origin;                  // unit: m
+    float scale = 1, seed_u = 0, seed_v = 0, tint = 0, warm = 0;
+    int turn = 0;  // which axis of the mesh is longest: grain runs along it
+  };
+  struct Place;
+  Placed place(const PlacedMesh& piece) const;
+  void find_place(const SurfaceQuery& query, Place& place) const;
+  void find_pattern(const SurfaceQuery& query, Place& place) const;
+  void add_colour(const Place& place, SurfacePoint& out) const;
+  void add_water(const Place& place, SurfacePoint& out) const;
+  void read_ground(const Vec3f& world, float& debris, float& tone) const;
+
+  const PreparedScene& scene_;
+  TextureStack textures_;
+  GroundMap ground_;
+  float wetness_;
+  std::vector<Placed> placed_;
+};
+
+}  // namespace rubble

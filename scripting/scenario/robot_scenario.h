@@ -1,0 +1,59 @@
+// The robots of a mission: which, where, and how they are driven.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/base/error.h"
+#include "kernel/base/math.h"
+
+namespace rubble {
+
+enum class RobotKind { snake, crawler, rover };
+enum class GaitKind { lateral_undulation, sidewinding, rolling, serpenoid, helical_rolling };
+
+// How a robot is driven from a time on.
+struct RobotLeg {
+  double t = 0;       // since the start; unit: s; range: 0 to 86400
+  double linear = 0;  // of crawler and rover, forwards; unit: m/s; range: -5 to 5
+  double angular = 0; // counter-clockwise; unit: rad/s; range: -10 to 10
+  // Of a crawler: front left, front right, rear left, rear right; empty: as they stood.
+  std::vector<double> flippers_deg{};
+  GaitKind gait = GaitKind::sidewinding;  // of a snake
+  double rate = 4;          // of its waves; negative: backwards; unit: rad/s; range: -20 to 20
+  double amplitude = 1;     // of the gait's own; unit: 1; range: 0 to 2
+  double steering_deg = 0;  // added to the sideways joints; range: -45 to 45
+};
+
+struct RobotItem {
+  RobotKind model = RobotKind::snake;
+  std::string name{};  // empty: the model's, numbered
+  Vec3 position;       // of its base frame, in the world; unit: m
+  Vec3 rpy_deg;        // R = Rz(yaw) Ry(pitch) Rx(roll)
+  int modules = 16;    // of a snake; range: 2 to 64
+  bool flippers = true;  // of a crawler
+  std::optional<double> friction{};  // against concrete; not given: the model's; range: 0 to 2
+  std::vector<RobotLeg> drive{};     // in rising order of t; empty: it stands still
+  int control = 0;  // number of a function of the script that drives it instead; 0: none
+};
+
+enum class DebrisMotion { free, fixed };
+
+// When and how the robots of a mission run.
+struct RobotRunScenario {
+  double duration = 10;     // unit: s; range: above 0, to 86400
+  double control_hz = 60;   // range: 1 to 240
+  DebrisMotion debris = DebrisMotion::free;
+};
+
+class Schema;
+struct Scenario;
+
+// The scenario must outlive the schema.
+void add_robot_keys(Schema& keys, Scenario& scenario);
+// The names that robots go by, in their order.
+std::vector<std::string> robot_names(const std::vector<RobotItem>& robots);
+void check_robots(const Scenario& scenario, std::vector<Diagnostic>& mistakes);
+
+}  // namespace rubble

@@ -1,0 +1,129 @@
+#include <algorithm>
+
+#include "scripting/scenario/robot_scenario.h"
+#include "scripting/scenario/scenario.h"
+#include "scripting/schema/schema.h"
+#include "scripting/values/value.h"
+
+namespace rubble {
+namespace {
+
+constexpr const char* kModelNames[] = {"snake", "crawler", "rover"};
+
+Schema leg_schema(RobotLeg& leg) {
+  Schema k;
+  k.value("t", leg.t, "From when on, since the start.").between(0, 86400).unit("s");
+  k.value("linear", leg.linear, "Of crawler and rover: forwards.").between(-5, 5).unit("m/s");
+  k.value("angular", leg.angular, "Of crawler and rover: counter-clockwise.")
+      .between(-10, 10)
+      .unit("rad/s");
+  k.value("flippers_deg", leg.flippers_deg,
+          "Of a crawler: front left, front right, rear left, rear right; 0 level, positive raised.")
+      .between(-180, 180)
+      .unit("degree");
+  k.choice("gait", leg.gait,
+           {"lateral_undulation", "sidewinding", "rolling", "serpenoid", "helical_rolling"},
+           "Of a snake.");
+  k.value("rate", leg.rate, "Of a snake's waves; negative: backwards.")
+      .between(-20, 20)
+      .unit("rad/s");
+  k.value("amplitude", leg.amplitude, "Of a snake: a share of the gait's own amplitudes.")
+      .between(0, 2);
+  k.value("steering_deg", leg.steering_deg, "Of a snake: added to the sideways joints.")
+      .between(-45, 45)
+      .unit("degree");
+  return k;
+}
+
+std::string key_of(std::size_t robot, const std::string& member) {
+  return "robots[" + std::to_string(robot + 1) + "]." + member;
+}
+
+void check_legs(const RobotItem& robot, std::size_t i, std::vector<Diagnostic>& mistakes) {
+  for (std::size_t k = 0; k < robot.drive.size(); ++k) {
+    const std::string leg = key_of(i, "drive[" + std::to_string(k + 1) + "]");
+    if (k > 0 && robot.drive[k].t <= robot.drive[k - 1].t)
+      mistakes.push_back({"", 0, leg + ".t", "not in order",
+                          "more than " + format_number(robot.drive[k - 1].t) + " s",
+                          format_number(robot.drive[k].t) + " s", ""});
+    const std::size_t flippers = robot.drive[k].flippers_deg.size();
+    if (flippers != 0 && flippers != 4)
+      mistakes.push_back({"", 0, leg + ".flippers_deg", "wrong number of angles",
+                          "front left, front right, rear left, rear right",
+                          std::to_string(flippers), ""});
+  }
+  if (robot.control > 0 && !robot.drive.empty())
+    mistakes.push_back({"", 0, key_of(i, "drive"), "contradicts control", "one of both", "both", ""});
+}
+
+}  // namespace
+
+void add_robot_keys(Schema& k, Scenario& s) {
+  std::vector<RobotItem>& list = s.robots;
+  k.list("robots", list, "Robots that are driven through the settled pile: docs/robots.md.");
+  k.add("robots[].model", "Which of the bundled ones.", [&list](std::size_t i) {
+    return Schema::choice_slot(list[i].model, {kModelNames[0], kModelNames[1], kModelNames[2]});
+  });
+  k.item("robots[].name", list, &RobotItem::name,
+         "Names its files and topics; not given: the model's name, numbered.");
+  k.item("robots[].position", list, &RobotItem::position,
+         "Of its base frame: on the ground between tracks or wheels, the middle of a snake's head.")
+      .between(-1000, 1000)
+      .unit("m");
+  k.item("robots[].rpy_deg", list, &RobotItem::rpy_deg,
+         "Roll, pitch and yaw: Rz(yaw) Ry(pitch) Rx(roll).")
+      .between(-360, 360)
+      .unit("degree");
+  k.item("robots[].modules", list, &RobotItem::modules, "Of a snake.").between(2, 64);
+  k.item("robots[].flippers", list, &RobotItem::flippers, "Whether a crawler has its flippers.");
+  k.item("robots[].friction", list, &RobotItem::friction,
+         "Coulomb, of tracks, wheels or skin against concrete; not given: the model's own.")
+      .between(0, 2);
+  k.add("robots[].drive", "How it is driven, from when on; none: it stands still.",
+        [&list](std::size_t i) { return Schema::table_list(list[i].drive, leg_schema); });
+  k.item("robots[].control", list, &RobotItem::control,
+         "Instead: a function of time and of what it senses, as rubble.controller keeps it.")
+      .between(0, 1000);
+  k.group("robot_run", "When and how robots run.");
+  k.value("robot_run.duration", s.robot_run.duration, "How long they are driven.")
+      .above(0, 86400)
+      .unit("s");
+  k.value("robot_run.control_hz", s.robot_run.control_hz, "How often they are told what to do.")
+      .between(1, 240)
+      .unit("Hz");
+  k.choice("robot_run.debris", s.robot_run.debris, {"free", "fixed"},
+           "Whether pieces give way, or the pile stands like rock.");
+}
+
+std::vector<std::string> robot_names(const std::vector<RobotItem>& robots) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const RobotItem& robot = robots[i];
+    names.push_back(!robot.name.empty() ? robot.name
+                                        : std::string(kModelNames[int(robot.model)]) + "_" +
+                                              std::to_string(i + 1));
+  }
+  return names;
+}
+
+void check_robots(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  const std::vector<std::string> names = robot_names(scenario.robots);
+  if (!names.empty() && scenario.record_settling.on)
+    mistakes.push_back({"", 0, "record_settling", "robots start with the first frame",
+                        "one of robots and record_settling", "both", ""});
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool plain = std::all_of(names[i].begin(), names[i].end(), [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    });
+    if (!plain)
+      mistakes.push_back({"", 0, key_of(i, "name"), "cannot name a file",
+                          "letters, digits and _", "\"" + names[i] + "\"", ""});
+    if (std::find(names.begin(), names.begin() + std::ptrdiff_t(i), names[i]) !=
+        names.begin() + std::ptrdiff_t(i))
+      mistakes.push_back({"", 0, key_of(i, "name"), "another robot has this name",
+                          "a name of its own", "\"" + names[i] + "\"", ""});
+    check_legs(scenario.robots[i], i, mistakes);
+  }
+}
+
+}  // namespace rubble

@@ -1,0 +1,21 @@
+-- A building that comes down: five of the nine columns of its ground storey are gone at once. What
+-- follows is computed: bonds that break, floors that turn down about the columns that are left, a ruin
+-- with voids under it, and a flight around it.
+return rubble.mission {
+  seed = 11,
+  pile = rubble.building {
+    storeys = 3, bays_x = 2, bays_y = 2, span_x = 4.5, span_y = 4.5, storey_height = 3,
+    column = 0.3, beam_depth = 0.4, slab = 0.15, piece = 1.2,
+    column_bars = 0.01, beam_bars = 0.008, slab_bars = 0.004,
+    infill = "brick", openings = 0.4,
+    cause = {
+      removed = {
+        { storey = 0, i = 0, j = 0 }, { storey = 0, i = 0, j = 1 }, { storey = 0, i = 0, j = 2 },
+        { storey = 0, i = 1, j = 0 }, { storey = 0, i = 1, j = 1 },
+      },
+    },
+  },
+  voids = { on = true },
+  camera = { width = 640, height = 480, fov_deg = 70 },
+  trajectory = rubble.trajectory.orbit { radius_m = 13, height = 5, turns = 0.3, speed = 6 },
+}

@@ -1,0 +1,80 @@
+// What is handed on with a dataset: checksums that sha256sum takes, a card, settings of other programs.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+#define EXPECT_IN(part, text) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+class Pack : public ::testing::Test {
+ protected:
+  void run_tiny(const std::string& more) {
+    write_file(scratch / "tiny.lua", kTinyMission);
+    const Outcome run = run_rubble("run " + (scratch / "tiny.lua") + " --quiet --out " + folder + " " + more);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  ScratchFolder scratch;
+  const std::string folder = scratch / "a";
+};
+
+TEST_F(Pack, CardAndChecksumsSayWhatIsThere) {
+  run_tiny("");
+  const Outcome packed = run_rubble("pack " + folder + " --card --licence CC-BY-4.0 --title 'Bricks: \"a\" heap'");
+  ASSERT_EQ(packed.exit_code, 0) << packed.err;
+  EXPECT_EQ(packed.out, folder + "/README.md\n" + folder + "/SHA256SUMS\n");
+  const std::string check = "cd " + folder + " && sha256sum --quiet -c SHA256SUMS 2>&1 >sums";
+  EXPECT_EQ(std::system(check.c_str()), 0) << read_file(folder + "/sums");
+  const std::string card = read_file(folder + "/README.md");
+  for (const std::string& part :
+       {std::string("pretty_name: \"Bricks: \\\"a\\\" heap\""), std::string("license: \"CC-BY-4.0\""),
+        std::string("16 pieces of a collapsed structure, at rest"), std::string("64 x 48 at 10 Hz, 3 frames"),
+        std::string("| `mission.bag` | "), "state hash `" + read_state_hash(folder) + "`",
+        std::string("- `concrete`"), std::string("from seed 3")})
+    EXPECT_IN(part, card);
+  EXPECT_FALSE(fs::exists(folder + "/settings"));
+  // The dataset is as it was, and a change is found.
+  EXPECT_EQ(run_rubble("info " + folder).exit_code, 0);
+  write_file(folder + "/groundtruth.txt", "0");
+  EXPECT_NE(std::system(check.c_str()), 0);
+}
+
+TEST_F(Pack, SettingsAreThoseOfTheMission) {
+  const std::string mission = "--set imu.on=true --set camera.stereo_baseline=0.12 --set settle.gravity=9.8";
+  run_tiny(mission);
+  ASSERT_EQ(run_rubble("pack " + folder + " --settings").exit_code, 0);
+  write_file(scratch / "s.json", run_rubble("check " + (scratch / "tiny.lua") + " " + mission).out);
+  const std::string read = std::string("'" RUBBLE_SOURCE_DIR "/tests/app/settings_reader.py' ") + folder +
+                           "/settings " + (scratch / "s.json") + " >" + (scratch / "read") + " 2>&1";
+  EXPECT_EQ(std::system(read.c_str()), 0) << read_file(scratch / "read");
+  // The control: another scenario is noticed.
+  write_file(scratch / "s.json", run_rubble("check " + (scratch / "tiny.lua") + " " + mission +
+                                            " --set camera.stereo_baseline=0.13").out);
+  EXPECT_NE(std::system(read.c_str()), 0);
+  EXPECT_IN("0.12 instead of 0.13", read_file(scratch / "read"));
+}
+
+TEST_F(Pack, LeavesOutWhatTheMissionHasNotAndKeepsWhatIsThere) {
+  run_tiny("");
+  write_file(folder + "/README.md", "mine");
+  const Outcome kept = run_rubble("pack " + folder + " --card");
+  EXPECT_EQ(kept.exit_code, 1);
+  EXPECT_IN("--force replaces it", kept.err);
+  EXPECT_EQ(read_file(folder + "/README.md"), "mine");
+  EXPECT_FALSE(fs::exists(folder + "/SHA256SUMS")) << "all or nothing";
+  EXPECT_EQ(run_rubble("pack " + folder + " --card --settings --force").exit_code, 0);
+  EXPECT_IN("license: \"not stated\"", read_file(folder + "/README.md"));
+  EXPECT_TRUE(fs::exists(folder + "/settings/orbslam3.yaml"));
+  EXPECT_FALSE(fs::exists(folder + "/settings/openvins")) << "there is no inertial unit";
+  EXPECT_EQ(run_rubble("pack " + (scratch / "none")).exit_code, 1);
+  EXPECT_EQ(run_rubble("pack " + folder + " --licence MIT").exit_code, 1) << "--card is needed";
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -1,0 +1,113 @@
+// The page that shows a dataset, and what is said before a run begins.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "io/image/image_file.h"
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+#define EXPECT_IN(part, text) EXPECT_NE((text).find(part), std::string::npos) << (text).substr(0, 3000)
+
+class View : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_file(scratch / "tiny.lua", kTinyMission);
+    const Outcome run = run_rubble("run " + (scratch / "tiny.lua") + " --quiet --out " + (scratch / "a"));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  static nlohmann::json data_of(const std::string& page) {
+    const std::string begin = "id=\"data\">";
+    const std::size_t at = page.find(begin) + begin.size();
+    return nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
+  }
+  ScratchFolder scratch;
+};
+class NightlyView : public View {};
+
+TEST_F(View, HoldsThePiecesTheWayAndPictures) {
+  const Outcome made = run_rubble("view " + (scratch / "a") + " --frames 2 --width 48");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(made.out, (scratch / "a/view.html") + "\n");
+  const std::string page = read_file(scratch / "a/view.html");
+  const nlohmann::json data = data_of(page);
+  EXPECT_EQ(data.at("pieces"), 16);
+  ASSERT_EQ(data.at("types").size(), 1u);
+  // 16 matrices of 16 floats, three characters of four for each byte.
+  EXPECT_EQ(data.at("types")[0].at("instances").get<std::string>().size(), (16u * 64 + 2) / 3 * 4);
+  EXPECT_EQ(data.at("track").at("stamps").size(), 3u);
+  ASSERT_EQ(data.at("frames").size(), 2u);
+  EXPECT_EQ(data.at("frames")[1].at("frame"), 2);
+  EXPECT_EQ(data.at("frames")[0].at("jpeg").get<std::string>().substr(0, 4), "/9j/");
+  EXPECT_TRUE(data.at("voids").empty());
+  EXPECT_IN("InstancedMesh", page);
+  for (const char* outside : {"src=\"http", "src=\"/", "href=\"http", "@import", "importScripts("})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside << " leads out of the page";
+}
+
+TEST_F(View, SaysWhatIsWrong) {
+  EXPECT_EQ(run_rubble("view " + (scratch / "none")).exit_code, 1);
+  EXPECT_EQ(run_rubble("view " + (scratch / "a") + " --frames -1").exit_code, 1);
+  EXPECT_EQ(run_rubble("view " + (scratch / "a") + " --out /proc/none/page.html").exit_code, 2);
+  write_file(scratch / "a/pile.bin", "no pile");
+  const Outcome damaged = run_rubble("view " + (scratch / "a"));
+  EXPECT_EQ(damaged.exit_code, 1);
+  EXPECT_IN("pile.bin", damaged.err);
+}
+
+// Chromium draws it without a window and a graphics card.
+TEST_F(NightlyView, IsDrawnByABrowser) {
+  if (std::system("command -v chromium >/dev/null") != 0) GTEST_SKIP() << "chromium is not installed";
+  ASSERT_EQ(run_rubble("voids " + (scratch / "a") + " --voxel 0.05 --radius 0.05 --quiet").exit_code, 0);
+  ASSERT_EQ(run_rubble("view " + (scratch / "a")).exit_code, 0);
+  const std::string browser = "chromium --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader "
+                              "--virtual-time-budget=20000 --user-data-dir=" + (scratch / "profile") + " ";
+  const std::string page = "'file://" + (scratch / "a/view.html") + "' ";
+  ASSERT_EQ(std::system((browser + "--dump-dom " + page + ">" + (scratch / "dom") + " 2>" + (scratch / "err")).c_str()), 0)
+      << read_file(scratch / "err");
+  const std::string dom = read_file(scratch / "dom");
+  EXPECT_NE(dom.find("data-state=\"drawn\""), std::string::npos) << dom.substr(0, 1000) << read_file(scratch / "err");
+  EXPECT_NE(dom.find("16 pieces, "), std::string::npos);
+  ASSERT_EQ(std::system((browser + "--window-size=640,480 --screenshot=" + (scratch / "shot.png") + " " + page +
+                         ">/dev/null 2>" + (scratch / "err")).c_str()), 0);
+  // The bricks: not the background's colour in the middle of the picture.
+  const RgbImage shot = read_rgb_png(scratch / "shot.png");
+  int other = 0;
+  for (int y = shot.height / 4; y < 3 * shot.height / 4; ++y)
+    for (int x = shot.width / 2; x < 3 * shot.width / 4; ++x) {
+      const std::uint8_t* p = &shot.rgb[std::size_t((y * shot.width + x) * 3)];
+      other += std::abs(p[0] - 0xe9) + std::abs(p[1] - 0xec) + std::abs(p[2] - 0xef) > 120;
+    }
+  EXPECT_GT(other, 500);
+}
+
+TEST(Preview, SaysSizeBeforeAndTimeAfterAFirstRun) {
+  const ScratchFolder scratch;
+  write_file(scratch / "tiny.lua", kTinyMission);
+  const std::string cache = "RUBBLE_CACHE=" + (scratch / "cache");
+  const std::string run = "run " + (scratch / "tiny.lua") + " --out " + (scratch / "a");
+  const Outcome before = run_rubble(run + " --preview", cache);
+  EXPECT_EQ(before.exit_code, 0) << before.err;
+  EXPECT_IN("16 pieces, 3 frames; at most ", before.out);
+  EXPECT_IN("time not known before a first run here", before.out);
+  EXPECT_IN("mission.bag ", before.out);
+  EXPECT_FALSE(fs::exists(scratch / "a")) << "nothing is run";
+  const Outcome first = run_rubble(run, cache);
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_IN("16 pieces, 3 frames; at most ", first.err);
+  const Outcome after = run_rubble(run + " --preview", cache);
+  EXPECT_IN(" s by earlier runs here", after.out);
+  const Outcome pile = run_rubble("settle " + (scratch / "tiny.lua") + " --preview --out " + (scratch / "b"), cache);
+  EXPECT_EQ(pile.exit_code, 0);
+  EXPECT_EQ(pile.out.find("frames"), std::string::npos) << pile.out;
+  EXPECT_EQ(pile.out.find("mission.bag"), std::string::npos) << pile.out;
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -71,24 +71,27 @@ std::vector<std::string> channels_of_camera() {
   return names;
 }
 
+std::vector<std::string> channels_of_cameras(const std::vector<std::string>& cameras) {
+  const std::vector<std::string> each = channels_of_camera();
+  std::vector<std::string> all;
+  if (cameras.empty()) all = each;
+  for (const std::string& camera : cameras)
+    for (const std::string& channel : each) all.push_back(camera + "/" + channel);
+  all.push_back("imu");
+  return all;
+}
+
 std::string without_camera(const std::string& channel) {
   return channel.substr(channel.find('/') + 1);
 }
 
 }  // namespace
 
-FrameHashes::FrameHashes(std::vector<std::string> cameras)
-    : cameras_(std::max<std::size_t>(1, cameras.size())) {
-  const std::vector<std::string> each = channels_of_camera();
-  if (cameras.empty()) channels = each;
-  for (const std::string& camera : cameras)
-    for (const std::string& channel : each) channels.push_back(camera + "/" + channel);
-  channels.push_back("imu");
-}
-
 void FrameHashes::add(const Frame& f) {
+  if (channels.empty()) channels = channels_of_cameras(cameras_);
+  const std::size_t each = (channels.size() - 1) / std::max<std::size_t>(1, cameras_.size());
   std::vector<std::uint64_t>& row = frames.emplace_back(channels.size(), 0);
-  auto at = row.begin() + std::ptrdiff_t(std::size_t(f.sensor) * ((channels.size() - 1) / cameras_));
+  auto at = row.begin() + std::ptrdiff_t(std::size_t(f.sensor) * each);
   *at++ = hash_pose(f);
   for (const ImageStream& stream : image_streams()) {
     const auto image = find_image(f, stream);
@@ -103,7 +106,6 @@ void FrameHashes::add_imu(const ImuSample& sample) { readings_.push_back(sample)
 
 FrameHashes FrameHashes::compact() const {
   FrameHashes kept;
-  kept.channels.clear();
   kept.frames.resize(frames.size());
   for (std::size_t c = 0; c < channels.size(); ++c) {
     const bool filled = std::any_of(frames.begin(), frames.end(),

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/scene/frame.h"
@@ -13,9 +14,9 @@ namespace rubble {
 // called "front/rgb", and a row is a frame of one of them, in the order of stamps.
 struct FrameHashes {
   // cameras: their names, of several; empty: a single camera.
-  explicit FrameHashes(std::vector<std::string> cameras = {});
+  explicit FrameHashes(std::vector<std::string> cameras = {}) : cameras_(std::move(cameras)) {}
 
-  std::vector<std::string> channels;               // "pose", "rgb", "depth", ..., "events", "imu"
+  std::vector<std::string> channels;               // "pose", "rgb", "depth", ..., "events", "imu"; from the first frame on
   std::vector<std::vector<std::uint64_t>> frames;  // one hash per channel
 
   // Samples come in order, and all channels are listed, filled or not. Readings of an inertial unit
@@ -26,7 +27,7 @@ struct FrameHashes {
   FrameHashes compact() const;
 
  private:
-  std::size_t cameras_ = 1;
+  std::vector<std::string> cameras_;
   std::vector<ImuSample> readings_;  // since the last frame
 };
 

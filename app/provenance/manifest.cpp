@@ -88,7 +88,6 @@ PileSummary read_pile(const JsonMembers& json) {
 FrameHashes read_frames(const JsonMembers& json) {
   const JsonMembers table = json.object("frame_hashes");
   FrameHashes frames;
-  frames.channels.clear();
   for (const JsonMembers& channel : table.list("channels"))
     frames.channels.push_back(channel.as_text());
   for (const JsonMembers& row : table.list("xxh64")) {

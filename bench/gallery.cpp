@@ -10,6 +10,7 @@
 
 #include "app/assets/asset_library.h"
 #include "app/pipeline/build_scene.h"
+#include "app/sensors/build_camera.h"
 #include "bench/channel_picture.h"
 #include "bench/gallery_list.h"
 #include "bench/program.h"
@@ -67,9 +68,10 @@ Frame take(GlContext& context, const GalleryPicture& picture, Piles& piles, int 
   options.colour = scenario.camera.colour;
   Renderer renderer(context, build_scene(scenario, assets, piles.of(picture, scenario, assets)),
                     options);
-  CameraSpec spec = build_camera(scenario, threads);
+  const MountedCamera mounted = all_cameras(scenario).front();
+  CameraSpec spec = build_camera(scenario, mounted, threads);
   ask_for_channel(picture.channel, spec);
-  Camera camera(renderer, spec, build_flight(scenario), Medium(scenario.air, scenario.seed));
+  Camera camera(renderer, spec, build_flight(scenario, mounted), Medium(scenario.air, scenario.seed));
   if (picture.frame >= camera.frames())
     throw RunError(picture.name + ": frame " + std::to_string(picture.frame) + " of " +
                    std::to_string(camera.frames()));

@@ -62,7 +62,7 @@ void check_view(const ViewRays& view) {
 }
 
 ViewRays pinhole_view(const Pose& world_from_camera, const Intrinsics& k, std::int64_t stamp_ns) {
-  return {stamp_ns, k, world_from_camera, {}, nullptr};
+  return {stamp_ns, k, world_from_camera};
 }
 
 void to_metric_depth(const std::vector<float>& values, std::vector<float>& out) {
@@ -184,7 +184,7 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
   report(0.9);
   shadow = std::make_unique<ShadowPass>(gl, scene, geometry, light, o.shadow_size);
   shadow->draw_moving();  // nothing yet
-  frame_light = {&light, &shadow->map(), s.lamp, medium.clear(), s.wetness, most_gloss(scene), nullptr};
+  frame_light = {&light, &shadow->map(), s.lamp, medium.clear(), s.wetness, most_gloss(scene)};
   visibility = std::make_unique<VisibilityPass>(
       gl, scene, geometry,
       VisibilityOptions{o.occlusion_culling, o.coarse_below, draws_on_processor(o, c.info()),
@@ -233,7 +233,7 @@ void Renderer::State::move_to(std::int64_t stamp_ns) {
 }
 
 void Renderer::State::update_air(const ViewRays& view) {
-  const Pose& pose = view.world_from_camera;
+  const Pose& pose = view.lamp_bearer();
   if (medium.clear() || reference) return;
   const LampSpec& lamp = frame_light.lamp;
   AirLamp glow;
@@ -250,6 +250,7 @@ void Renderer::State::update_air(const ViewRays& view) {
 SurfaceImages Renderer::State::draw_surfaces(const ViewRays& view) {
   const Stopwatch start;
   drawn = view;
+  frame_light.world_from_rig = drawn.world_from_rig ? &*drawn.world_from_rig : nullptr;
   move_to(drawn.stamp_ns);
   update_air(drawn);
   if (view.plain()) {

@@ -205,13 +205,31 @@ class Verifier {
     }
   }
 
+  // Which of the camera's own frames the row is.
+  int number_of_camera(const std::string& camera, int row) const {
+    const auto& channels = was_.frames.channels;
+    const auto at = std::find(channels.begin(), channels.end(), camera + "/pose");
+    const auto pose = std::size_t(at - channels.begin());
+    int number = 0;
+    for (int i = 0; i < row && pose < channels.size(); ++i)
+      number += was_.frames.frames[std::size_t(i)][pose] != 0;
+    return number;
+  }
+
   // Where in the picture: the manifest holds hashes of frames alone, the recordings the frames.
   std::string find_pixel(const FrameDifference& apart, const RunFolder& folder) const {
     if (apart.channel.empty() || !is_picture(apart.channel)) return "";
     const auto& channels = was_.frames.channels;
-    PictureWanted wanted{apart.channel, apart.frame, false};
+    PictureWanted wanted{apart.channel, apart.frame, false, ""};
+    const std::size_t slash = apart.channel.find('/');
+    if (slash != std::string::npos) {  // of several cameras
+      wanted.camera = apart.channel.substr(0, slash);
+      wanted.channel = apart.channel.substr(slash + 1);
+      wanted.frame = number_of_camera(wanted.camera, apart.frame);
+    }
+    const std::string measured = apart.channel.substr(0, slash + 1) + "measured_depth";
     wanted.measured_depth =
-        std::find(channels.begin(), channels.end(), "measured_depth") != channels.end();
+        std::find(channels.begin(), channels.end(), measured) != channels.end();
     const auto was = find_recorded_picture(request_.of.folder, wanted, altered_);
     const auto is = find_recorded_picture(folder.path(), wanted, altered_);
     if (!was || !is || was->file != is->file)

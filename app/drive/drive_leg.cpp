@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "app/pipeline/build_scene.h"
 #include "app/pipeline/recorders.h"
+#include "app/sensors/build_camera.h"
 #include "io/base/atomic_file.h"
 
 namespace rubble {
@@ -27,7 +27,7 @@ std::unique_ptr<RecordingQueue> start_recording(const DriveWorld& world,
   scenario.outputs.preview = false;
   fs::create_directories(folder);
   const Recording recording = describe_recording(scenario, world.assets, world.pile);
-  RecorderSet set = make_recorders({scenario, recording, 0, ""}, folder);
+  RecorderSet set = make_recorders({scenario, recording, {}, ""}, folder);
   return std::make_unique<RecordingQueue>(std::move(set.recorders));
 }
 
@@ -38,8 +38,9 @@ DriveLeg::DriveLeg(DriveWorld& world, const std::string& folder, int number, boo
     : folder_(folder),
       name_(number_name(number)),
       log_(world.scenario),
-      camera_(*world.renderer, build_camera(world.scenario, world.threads), Flight{},
-              Medium(world.scenario.air, world.scenario.seed)),
+      camera_(*world.renderer,
+              build_camera(world.scenario, all_cameras(world.scenario).front(), world.threads),
+              Flight{}, Medium(world.scenario.air, world.scenario.seed)),
       listener_(std::move(listener)) {
   if (record) queue_ = start_recording(world, folder_ + "/" + name_);
 }
@@ -55,7 +56,7 @@ const Frame& DriveLeg::step(const DrivenPose& pose) {
 }
 
 void DriveLeg::pass_on() {
-  frame_.linear_velocity = log_.velocity(frame_.index);
+  frame_.rig_velocity = frame_.linear_velocity = log_.velocity(frame_.index);
   hashes_.add(frame_);
   if (queue_) queue_->push(frame_);
   if (listener_) listener_(frame_);

@@ -6,6 +6,7 @@
 #include "app/drive/drive_log.h"
 #include "app/planning/flight.h"
 #include "kernel/settling/settle.h"
+#include "scripting/sandbox/script_file.h"
 
 namespace rubble {
 namespace {
@@ -77,6 +78,16 @@ DriveLimits limits_of(const TrajectorySpec& spec) {
   return limits;
 }
 
+void refuse_several_cameras(const ResolvedMission& mission) {
+  if (mission.scenario.cameras.empty()) return;
+  const SourceFile& script = mission.provenance.script;
+  std::vector<Diagnostic> mistakes{{"", 0, "cameras", "several cameras cannot be driven",
+                                    "a mission with `camera`", "`cameras`",
+                                    "fly it with `rubble run`, or drive a mission with one of them"}};
+  locate(mistakes, script.path, SourceMap(script.text, "mission"));
+  throw InputError(std::move(mistakes));
+}
+
 void adapt(Scenario& scenario, const DriveRequest& request, const AssetLibrary& assets) {
   resize_camera(scenario.camera, request.width, request.height);
   // The mission that is saved lies elsewhere.
@@ -96,6 +107,7 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
   if (seed) of.seed = seed;
   RunContext run(of.options);
   ResolvedMission mission = resolve_mission(of, RunKind::run, run);
+  refuse_several_cameras(mission);
   auto world = std::make_unique<DriveWorld>();
   world->threads = run.threads();
   world->pile = settle_for_drive(mission, run, go_on);

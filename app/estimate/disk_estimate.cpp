@@ -74,12 +74,22 @@ void add_track(const Scenario& s, const PileModelSize& pile, Estimate& sizes) {
   sizes["track.glb"] = std::uint64_t(find_mesh_format("glb").estimate(pile) + clip + 2e4);
 }
 
-void add_recordings(const Scenario& s, const RecordedSize& size, Estimate& sizes) {
-  for (const RecordingFormat& format : recording_formats())
-    if (s.outputs.*format.wanted) sizes[format.leaves] = std::uint64_t(format.estimate(size));
-  if (s.camera.has_channel("label")) sizes["labels.csv"] = 10000;
+double count_frames(const std::vector<RecordedSize>& cameras) {
+  double frames = 0;
+  for (const RecordedSize& size : cameras) frames += size.flight.frames;
+  return frames;
+}
+
+void add_recordings(const Scenario& s, const std::vector<RecordedSize>& cameras, Estimate& sizes) {
+  for (const RecordingFormat& format : recording_formats()) {
+    if (!(s.outputs.*format.wanted)) continue;
+    const bool apart = format.one_camera && !s.cameras.empty();
+    std::uint64_t& sum = sizes[apart ? kCamerasFolder : format.leaves];
+    for (const RecordedSize& size : cameras) sum += std::uint64_t(format.estimate(size));
+  }
+  if (has_channel(s, "label")) sizes["labels.csv"] = 10000;
   if (s.trajectory.needs_pile())
-    sizes["flight.json"] = std::uint64_t(400 * size.flight.frames + 1e5);
+    sizes["flight.json"] = std::uint64_t(400 * count_frames(cameras) + 1e5);
 }
 
 // What `rubble settle` leaves, too.
@@ -96,9 +106,9 @@ bool is_of_pile(const std::string& name) {
 Estimate estimate_outputs(const Scenario& s, const AssetLibrary& assets) {
   Estimate sizes;
   const PileModelSize pile = size_of_pile(s, assets);
-  const RecordedSize recorded = size_of_recording(s, pile.pieces);
+  const std::vector<RecordedSize> recorded = sizes_of_recording(s, pile.pieces);
   sizes["pile.bin"] = std::uint64_t(pile.pieces * kPieceBytes + 2000);
-  sizes["manifest.json"] = std::uint64_t(recorded.flight.frames * 250 + kManifestBytes);
+  sizes["manifest.json"] = std::uint64_t(count_frames(recorded) * 250 + kManifestBytes);
   add_meshes(s, pile, sizes);
   add_track(s, pile, sizes);
   add_recordings(s, recorded, sizes);

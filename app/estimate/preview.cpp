@@ -42,9 +42,14 @@ RunPreview preview_run(RunKind kind, const Scenario& s, const Scenario& pile_mis
   const PileScenario& pile = pile_mission.pile;
   preview.pieces = double(pile.layers) * pile.pieces_per_layer + double(pile.placed.size());
   if (kind != RunKind::settle) {
-    preview.frames = size_of_flight(s).frames;
-    preview.megapixels = preview.frames * s.camera.width * s.camera.height / 1e6 *
-                         (s.camera.stereo_baseline > 0 ? 2 : 1);
+    const std::vector<MountedCamera> cameras = all_cameras(s);
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      const CameraScenario& camera = cameras[i].camera;
+      const double frames = size_of_flight(s, i).frames;
+      preview.frames += frames;
+      preview.megapixels += frames * camera.width * camera.height / 1e6 *
+                            (camera.stereo_baseline > 0 ? 2 : 1);
+    }
   }
   preview.bytes = estimate_bytes(s, assets, kind == RunKind::settle);
   std::filesystem::path place = std::filesystem::absolute(out);

@@ -36,9 +36,10 @@ double frames_of_settling(const Scenario& s) {
 
 }  // namespace
 
-FlightSize size_of_flight(const Scenario& s) {
+FlightSize size_of_flight(const Scenario& s, std::size_t camera) {
   FlightSize size;
-  const TrajectorySpec path = flown_trajectory(s);
+  TrajectorySpec path = flown_trajectory(s);
+  path.rate_hz = all_cameras(s)[camera].rate_hz.value_or(path.rate_hz);
   if (leads_into_voids(path)) {
     size.frames = std::floor(path.duration.value_or(kUnknownFlight) * path.rate_hz) + 1;
     size.key_frames = size.frames;
@@ -55,12 +56,16 @@ FlightSize size_of_flight(const Scenario& s) {
     }
   }
   size.frames += frames_of_settling(s);
-  if (s.imu.on) size.imu_samples = size.frames * s.imu.model.rate_hz / path.rate_hz;
+  if (s.imu.on && camera == 0) size.imu_samples = size.frames * s.imu.model.rate_hz / path.rate_hz;
   return size;
 }
 
-RecordedSize size_of_recording(const Scenario& scenario, double pieces) {
-  return {scenario, size_of_flight(scenario), PictureSize(scenario), 100 * pieces + 2e4};
+std::vector<RecordedSize> sizes_of_recording(const Scenario& scenario, double pieces) {
+  std::vector<RecordedSize> sizes;
+  for (const MountedCamera& camera : all_cameras(scenario))
+    sizes.push_back({camera, size_of_flight(scenario, sizes.size()),
+                     PictureSize(camera, scenario.outputs.depth), 100 * pieces + 2e4});
+  return sizes;
 }
 
 }  // namespace rubble

@@ -15,18 +15,19 @@ constexpr double kPictureOverhead = 2048;  // of a file and its line in a list; 
 struct FlightSize {
   double frames = 0, key_frames = 0, imu_samples = 0;
 };
-FlightSize size_of_flight(const Scenario& scenario);
+// Of one of its cameras; the inertial unit is counted with the first.
+FlightSize size_of_flight(const Scenario& scenario, std::size_t camera);
 
 // Bytes of a frame's pixels in each kind of recording, apart from what is kept once.
 class PictureSize {
  public:
-  explicit PictureSize(const Scenario& s)
-      : pixels_(double(s.camera.width) * s.camera.height),
-        channels_(s.camera.channel_set()),
-        right_(s.camera.stereo_baseline > 0),
-        measured_(s.depth_sensor.type != DepthSensorType::none),
-        events_(s.event_camera.on ? kEventsPerPixel * pixels_ : 0),
-        ros_depth_(s.outputs.depth == DepthEncoding::metres ? 4 : 2) {}
+  PictureSize(const MountedCamera& c, DepthEncoding ros_depth)
+      : pixels_(double(c.camera.width) * c.camera.height),
+        channels_(c.camera.channel_set()),
+        right_(c.camera.stereo_baseline > 0),
+        measured_(c.depth_sensor.type != DepthSensorType::none),
+        events_(c.event_camera.on ? kEventsPerPixel * pixels_ : 0),
+        ros_depth_(ros_depth == DepthEncoding::metres ? 4 : 2) {}
 
   double colours() const { return pixels_ * (right_ ? 6 : 3); }
   double rawlog() const { return colours() + pixels_ * (measured_ ? 4 : 2); }
@@ -56,9 +57,9 @@ class PictureSize {
   int ros_depth_;
 };
 
-// All that the size of a recording depends on.
+// All that the size of a recording of one camera depends on.
 struct RecordedSize {
-  const Scenario& scenario;  // the mission
+  MountedCamera camera;      // of the mission
   FlightSize flight;         // its counts
   PictureSize picture;       // its pixels, in bytes
   double legend = 0;         // of what piece and label numbers mean; unit: byte
@@ -68,7 +69,7 @@ struct RecordedSize {
     return flight.frames * per_frame + flight.imu_samples * per_imu_sample + once;
   }
 };
-// pieces: of the pile.
-RecordedSize size_of_recording(const Scenario& scenario, double pieces);
+// Of each camera. pieces: of the pile.
+std::vector<RecordedSize> sizes_of_recording(const Scenario& scenario, double pieces);
 
 }  // namespace rubble

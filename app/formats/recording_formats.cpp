@@ -23,10 +23,11 @@ using Made = std::unique_ptr<Recorder>;
 
 constexpr double kPreviewBytes = 6e6;  // of a full contact sheet
 
-SimplemapOptions simplemap_options(const Scenario& scenario, const Recording& recording) {
+SimplemapOptions simplemap_options(In in) {
   SimplemapOptions options;
-  options.recording = recording;
-  const auto lens = std::make_shared<const Lens>(scenario.camera.intrinsics());
+  options.recording = in.recording;
+  const auto lens =
+      std::make_shared<const Lens>(all_cameras(in.scenario)[in.camera].camera.intrinsics());
   options.ray = [lens](double u, double v) { return lens->direction(u, v); };
   return options;
 }
@@ -38,15 +39,15 @@ ContactSheetOptions sheet_options(int frames, const std::string& title) {
   return sheet;
 }
 
-double size_of_simplemap_frame(const Scenario& s) {
-  const double across = std::min(s.camera.width, SimplemapOptions().points_across);
-  return 16 * across * (across * s.camera.height / s.camera.width + 1) + kFrameOverhead;
+double size_of_simplemap_frame(const CameraScenario& camera) {
+  const double across = std::min(camera.width, SimplemapOptions().points_across);
+  return 16 * across * (across * camera.height / camera.width + 1) + kFrameOverhead;
 }
 
 RosOptions ros_of(In in) { return ros_options(in.scenario.outputs, in.recording); }
 
 // Rows: key, what it leaves, whether that is a folder, the member that asks for it, the recorder,
-// the size.
+// the size, whether it holds one camera.
 const std::vector<RecordingFormat> kFormats{
     {"rawlog", "mission.rawlog", false, &OutputScenario::rawlog,
      [](Path p, In in) -> Made {
@@ -55,9 +56,10 @@ const std::vector<RecordingFormat> kFormats{
      [](Size s) { return s.of(s.picture.rawlog() + kFrameOverhead, 420); }},
     {"simplemap", "mission.simplemap", false, &OutputScenario::simplemap,
      [](Path p, In in) -> Made {
-       return make_simplemap_recorder(p, simplemap_options(in.scenario, in.recording));
+       return make_simplemap_recorder(p, simplemap_options(in));
      },
-     [](Size s) { return s.flight.key_frames * size_of_simplemap_frame(s.scenario) + 1000; }},
+     [](Size s) { return s.flight.key_frames * size_of_simplemap_frame(s.camera.camera) + 1000; },
+     true},
     {"bag", "mission.bag", false, &OutputScenario::bag,
      [](Path p, In in) -> Made { return make_rosbag_recorder(p, ros_of(in)); },
      [](Size s) { return s.of(s.picture.ros() + kFrameOverhead, 420, s.legend); }},
@@ -66,27 +68,28 @@ const std::vector<RecordingFormat> kFormats{
      [](Size s) { return s.of(s.picture.ros() + kFrameOverhead, 420, s.legend + 1e5); }},
     {"groundtruth", "groundtruth.txt", false, &OutputScenario::groundtruth,
      [](Path p, In) -> Made { return make_tum_trajectory_recorder(p); },
-     [](Size s) { return s.of(140, 0, 100); }},
+     [](Size s) { return s.of(140, 0, 100); }, true},
     {"tum", "tum", true, &OutputScenario::tum,
      [](Path p, In in) -> Made { return make_tum_recorder(p, in.recording); },
-     [](Size s) { return s.of(s.picture.tum() + 3 * kPictureOverhead, 0, 2000); }},
+     [](Size s) { return s.of(s.picture.tum() + 3 * kPictureOverhead, 0, 2000); }, true},
     {"euroc", "euroc", true, &OutputScenario::euroc,
      [](Path p, In in) -> Made { return make_euroc_recorder(p, in.recording); },
      [](Size s) { return s.of(s.picture.euroc() + 2 * kPictureOverhead, 500, 10000); }},
     {"colmap", "colmap", true, &OutputScenario::colmap,
      [](Path p, In in) -> Made { return make_colmap_recorder(p, in.recording); },
-     [](Size s) { return s.of(s.picture.colours() + 2 * kPictureOverhead, 0, 2000); }},
+     [](Size s) { return s.of(s.picture.colours() + 2 * kPictureOverhead, 0, 2000); }, true},
     {"frames", "frames", true, &OutputScenario::frames,
      [](Path p, In in) -> Made { return make_frames_recorder(p, in.recording); },
      [](Size s) {
        const double files = kPictureOverhead * PictureSize::most_files();
        return s.of(s.picture.frames() + files, 320, s.legend);
-     }},
+     },
+     true},
     {"preview", "preview.png", false, &OutputScenario::preview,
      [](Path p, In in) -> Made {
-       return make_contact_sheet_recorder(p, sheet_options(in.frames, in.title));
+       return make_contact_sheet_recorder(p, sheet_options(in.frames.at(0), in.title));
      },
-     [](Size) { return kPreviewBytes; }},
+     [](Size) { return kPreviewBytes; }, true},
 };
 
 }  // namespace

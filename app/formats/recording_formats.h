@@ -13,12 +13,17 @@
 
 namespace rubble {
 
-// What recorders are made from. frames: how many will come; title: of the contact sheet.
+// Of several cameras, what formats that hold one camera leave is in this folder of the run, a folder
+// for each: cameras/front/groundtruth.txt.
+inline constexpr char kCamerasFolder[] = "cameras";
+
+// What recorders are made from.
 struct RecordingInputs {
   const Scenario& scenario;    // with the path that is flown
-  const Recording& recording;  // what every frame holds
-  int frames = 0;              // 0: not known
+  const Recording& recording;  // of a format that holds one camera: with that one alone
+  std::vector<int> frames;     // that will come of each camera; empty: not known
   std::string title;           // of the contact sheet
+  std::size_t camera = 0;      // of a format that holds one: its number among all_cameras()
 };
 
 struct RecordingFormat {
@@ -27,7 +32,8 @@ struct RecordingFormat {
   bool is_folder = false;  // what it leaves
   bool OutputScenario::*wanted;
   std::unique_ptr<Recorder> (*make)(const std::string& path, const RecordingInputs& inputs);
-  double (*estimate)(const RecordedSize& size);  // of what it leaves, at most; unit: byte
+  double (*estimate)(const RecordedSize& size);  // of one camera, at most; unit: byte
+  bool one_camera = false;                       // whether it holds a single camera
 };
 
 // In the order in which they take a frame. docs/contributing.md says how to add one.

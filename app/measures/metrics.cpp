@@ -54,7 +54,7 @@ const std::vector<std::pair<std::string, std::string>>& metric_names() {
       {"robot_lowest_m", "Likewise: the lowest height of a base."},
       {"robots_lost", "Likewise: those that left the world."},
       {"robot_pieces_moved", "Likewise: pieces of the pile that moved more than 1 cm."},
-      {"frames", "Frames of the flight."},
+      {"frames", "Frames of the flight, of all cameras."},
       {"path_m", "Length of the flight."},
       {"depth_min_m", "Least depth of all pixels of all frames."},
       {"depth_mean_m", "Mean depth of all pixels that have one."},
@@ -98,7 +98,7 @@ void DepthMetrics::add(const Frame& frame) {
   }
   sum_ += sum;
   pixels_ += std::int64_t(frame.depth.size());
-  const Vec3& position = frame.world_from_camera.translation;
+  const Vec3& position = frame.world_from_rig.translation;
   const Vec3 leg = position - last_position_;
   if (frames_ > 0) path_ += std::sqrt(dot(leg, leg));
   last_position_ = position;

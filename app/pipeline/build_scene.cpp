@@ -6,7 +6,6 @@
 #include "app/assets/terrain.h"
 #include "kernel/base/portable_math.h"
 #include "render/materials/surface_appearance.h"
-#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 namespace {
@@ -68,22 +67,6 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
   return scene;
 }
 
-CameraSpec build_camera(const Scenario& scenario, int threads) {
-  const CameraScenario& camera = scenario.camera;
-  CameraSpec spec;
-  spec.intrinsics = camera.intrinsics();
-  spec.channels = camera.channel_set();
-  spec.baseline = camera.stereo_baseline;
-  spec.shutter = camera.shutter;
-  spec.exposure = camera.exposure;
-  spec.sensor = camera.sensor;
-  spec.depth_sensor = scenario.depth_sensor;
-  spec.event_camera = scenario.event_camera;
-  spec.seed = scenario.seed;
-  spec.threads = threads;
-  return spec;
-}
-
 std::vector<std::string> label_names(const Scenario& scenario, const AssetLibrary& assets) {
   std::vector<std::string> names{"sky", "ground"};
   for (const PieceType& type : assets.types) names.push_back(type.name);
@@ -117,19 +100,6 @@ PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile) {
 
 PileModel build_track_model(const AssetLibrary& assets, const PileState& pile) {
   return build_model(assets, pile, true);
-}
-
-Flight build_flight(const Scenario& scenario) {
-  Flight flight;
-  for (const CameraPose& pose : sample_trajectory(scenario.trajectory, scenario.start_ns)) {
-    flight.stamps_ns.push_back(pose.stamp_ns);
-    flight.world_from_camera.push_back(pose.world_from_camera);
-  }
-  const auto path = std::make_shared<CameraPath>(scenario.trajectory);
-  flight.pose_at = [path, start = scenario.start_ns](std::int64_t stamp_ns) {
-    return path->at(double(stamp_ns - start) * 1e-9);
-  };
-  return flight;
 }
 
 }  // namespace rubble

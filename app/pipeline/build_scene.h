@@ -8,7 +8,6 @@
 #include "io/mesh/pile_model.h"
 #include "kernel/model/pile_state.h"
 #include "render/scene/scene.h"
-#include "render/sensors/flight.h"
 #include "scripting/scenario/scenario.h"
 
 namespace rubble {
@@ -22,9 +21,6 @@ SceneInstance make_instance(const PieceState& piece, std::size_t number);
 // Every piece but the lost ones, with the scenario's light, lamp and air.
 Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile);
 
-// The mission's camera and its sensors.
-CameraSpec build_camera(const Scenario& scenario, int threads);
-
 // The legend of the stream `label`: the name of each class, by its number.
 std::vector<std::string> label_names(const Scenario& scenario, const AssetLibrary& assets);
 
@@ -32,8 +28,5 @@ std::vector<std::string> label_names(const Scenario& scenario, const AssetLibrar
 PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile);
 // With the pieces that were lost, which a track has.
 PileModel build_track_model(const AssetLibrary& assets, const PileState& pile);
-
-// Where the camera is along the scenario's trajectory, whose places are resolved: app/planning/flight.h.
-Flight build_flight(const Scenario& scenario);
 
 }  // namespace rubble

@@ -1,5 +1,4 @@
 // The stage from a settled pile, and its track, to recorded frames.
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -13,6 +12,8 @@
 #include "app/planning/camera_inside.h"
 #include "app/planning/flight.h"
 #include "app/provenance/frame_journal.h"
+#include "app/sensors/build_camera.h"
+#include "app/sensors/sensor_suite.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "io/recording/recording_queue.h"
@@ -21,9 +22,7 @@
 #include "kernel/base/text.h"
 #include "render/gl/gl_context.h"
 #include "render/renderer.h"
-#include "render/sensors/camera.h"
 #include "scripting/sandbox/script_file.h"
-#include "scripting/trajectory/imu.h"
 #include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
@@ -31,8 +30,7 @@ namespace {
 
 // labels.csv: what the numbers of the label channel mean.
 void write_legend(const ResolvedMission& mission, RunFolder& folder) {
-  const std::vector<std::string>& channels = mission.scenario.camera.channels;
-  if (std::find(channels.begin(), channels.end(), "label") == channels.end()) return;
+  if (!has_channel(mission.scenario, "label")) return;
   std::string text = "label,name\n";
   const std::vector<std::string> names = label_names(mission.scenario, mission.assets);
   for (std::size_t i = 0; i < names.size(); ++i) text += std::to_string(i) + "," + names[i] + "\n";
@@ -54,8 +52,10 @@ std::map<std::string, std::string> describe_environment(const GlInfo& info, int 
           {"threads", std::to_string(threads)}};
 }
 
-double seconds_since(const Scenario& scenario, std::int64_t stamp_ns) {
-  return double(stamp_ns - scenario.start_ns) * 1e-9;
+std::vector<std::string> names_of_cameras(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const MountedCamera& camera : scenario.cameras) names.push_back(camera.name);
+  return names;
 }
 
 // Which frame of a leg is being taken, and of how many: an image that takes minutes reports on its way.
@@ -77,30 +77,29 @@ struct FrameSinks {
   int frames = 0;  // so far
 };
 
-// Takes every frame of a leg in order, notes its hashes, and hands it to the recorders.
-void take_frames(Camera& camera, const Leg& leg, FrameSinks& sinks, const RunFolder& folder,
-                 RunContext& context, Taking& taking, RecordedFrames& recorded) {
-  const Scenario& flown = leg.scenario;
-  taking.frames = camera.frames();
-  const CameraPath path(flown.trajectory);
-  Imu imu(path, flown.imu.model, flown.settle.gravity, leg.noise_seed, flown.start_ns);
+// Takes every sample of a leg in order, notes the hashes of frames, and hands it to the recorders.
+void take_samples(SensorSuite& sensors, const Leg& leg, FrameSinks& sinks, const RunFolder& folder,
+                  RunContext& context, Taking& taking, RecordedFrames& recorded) {
+  taking.frame = 0;
+  taking.frames = sensors.count_frames();
   DepthMetrics depth;
-  for (int i = 0; i < camera.frames(); ++i) {
-    throw_if_stopped(folder.path());
-    taking.frame = i;
-    Frame frame = camera.take(i);
-    frame.index = sinks.frames++;
-    frame.starts_sequence = i == 0;
-    frame.linear_velocity = path.motion_at(seconds_since(flown, frame.stamp_ns)).velocity;
-    if (flown.imu.on) frame.imu = imu.take_until(frame.stamp_ns);
-    recorded.hashes.add(frame);
-    sinks.journal.note(std::size_t(frame.index), recorded.hashes.frames.back());
-    depth.add(frame);
-    if (sinks.watch.notice(frame)) context.warnings.push_back(sinks.watch.warning());
-    sinks.queue.push(std::move(frame));
-    context.progress.update(
-        double(i + 1) / camera.frames(),
-        "frame " + std::to_string(i + 1) + " of " + std::to_string(camera.frames()));
+  throw_if_stopped(folder.path());
+  while (std::optional<Sample> sample = sensors.take()) {
+    if (const auto* reading = std::get_if<ImuSample>(&*sample)) {
+      recorded.hashes.add_imu(*reading);
+    } else {
+      const Frame& frame = std::get<Frame>(*sample);
+      recorded.hashes.add(frame);
+      sinks.journal.note(std::size_t(sinks.frames++), recorded.hashes.frames.back());
+      depth.add(frame);
+      if (sinks.watch.notice(frame)) context.warnings.push_back(sinks.watch.warning());
+      ++taking.frame;
+      context.progress.update(double(taking.frame) / taking.frames,
+                              "frame " + std::to_string(taking.frame) + " of " +
+                                  std::to_string(taking.frames));
+      throw_if_stopped(folder.path());
+    }
+    sinks.queue.push(*std::move(sample));
   }
   if (!leg.window) depth.add_to(recorded.metrics);
 }
@@ -129,6 +128,19 @@ FlightPlan plan_flight(const ResolvedMission& mission, const PileState& pile,
   });
 }
 
+void warn_of_cameras_inside(const ResolvedMission& mission, const Scenario& flown,
+                            const PileState& pile, RunContext& context) {
+  for (const MountedCamera& camera : all_cameras(flown)) {
+    std::vector<Vec3> positions;
+    for (const Pose& pose : build_flight(flown, camera).world_from_camera)
+      positions.push_back(pose.translation);
+    const auto warning = find_camera_inside(mission.assets, pile, positions);
+    if (!warning) continue;
+    const std::string who = flown.cameras.empty() ? "" : "camera `" + camera.name + "`: ";
+    context.warnings.push_back(who + *warning);
+  }
+}
+
 // The scenario with what its trajectory depends on besides the script: places in voids, ways around
 // the pile. flight.json holds it.
 Scenario resolve_path(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
@@ -141,12 +153,9 @@ Scenario resolve_path(const ResolvedMission& mission, const PileState& pile, Run
     write_text_file(folder.file("flight.json"), plan.json);
     folder.add("flight.json");
   }
-  std::vector<Vec3> positions;
-  for (const CameraPose& pose : plan.poses) positions.push_back(pose.world_from_camera.translation);
-  if (const auto warning = find_camera_inside(mission.assets, pile, positions))
-    context.warnings.push_back(*warning);
   Scenario flown = mission.scenario;
   flown.trajectory = plan.trajectory;
+  warn_of_cameras_inside(mission, flown, pile, context);
   return flown;
 }
 
@@ -154,16 +163,16 @@ RenderOptions render_options(const Scenario& scenario, int threads,
                              const std::function<void(double)>& on_image) {
   RenderOptions options;
   options.threads = threads;
-  options.colour = scenario.camera.colour;
+  options.colour = all_cameras(scenario).front().camera.colour;
   options.image_progress = on_image;
   options.cache_folder = DiskCache::usual_folder();
   return options;
 }
 
-// A camera on one leg, with the scene that it sees.
+// The sensors on one leg, with the scene that they see.
 struct PreparedLeg {
   std::unique_ptr<Renderer> renderer;
-  std::unique_ptr<Camera> camera;
+  std::unique_ptr<SensorSuite> sensors;
 };
 
 // What there is to be seen: the settled pile, and robots, which start with the flight.
@@ -183,7 +192,8 @@ Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen
 }
 
 PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Seen& seen,
-                        GlContext& gl, const RunFolder& folder, RunContext& context, Taking& taking) {
+                        int frames_before, GlContext& gl, const RunFolder& folder,
+                        RunContext& context, Taking& taking) {
   const std::string stage = leg.window ? "settling scene" : "scene";
   context.progress.start(stage);
   const Scene scene = build_leg_scene(leg, mission, seen);
@@ -193,20 +203,23 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
       render_options(leg.scenario, context.threads(),
                      [&](double fraction) { taking.report(fraction, folder, context); }),
       [&](double fraction) { context.progress.update(fraction, "light"); });
-  CameraSpec spec = build_camera(leg.scenario, context.threads());
-  spec.seed = leg.noise_seed;
-  prepared.camera =
-      std::make_unique<Camera>(*prepared.renderer, spec, build_flight(leg.scenario),
-                               Medium(leg.scenario.air, leg.scenario.seed));
+  prepared.sensors = std::make_unique<SensorSuite>(
+      leg.scenario, SensorBegin{leg.noise_seed, frames_before}, *prepared.renderer,
+      context.threads());
   context.progress.finish("ready on " + gl.info().renderer);
   return prepared;
 }
 
-int count_frames(const std::vector<Leg>& legs) {
-  std::size_t frames = 0;
-  for (const Leg& leg : legs)
-    frames += sample_trajectory(leg.scenario.trajectory, leg.scenario.start_ns).size();
-  return int(frames);
+// Of each camera, over all legs.
+std::vector<int> count_frames(const std::vector<Leg>& legs) {
+  std::vector<int> frames;
+  for (const Leg& leg : legs) {
+    const std::vector<MountedCamera> cameras = all_cameras(leg.scenario);
+    frames.resize(cameras.size());
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+      frames[i] += int(build_flight(leg.scenario, cameras[i]).stamps_ns.size());
+  }
+  return frames;
 }
 
 void finish_recording(const ResolvedMission& mission, const RecorderSet& set, RecordingQueue& queue,
@@ -234,7 +247,7 @@ void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const 
             RecordedFrames& recorded) {
   const PileState& pile = seen.pile.state;
   Taking taking;
-  PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, gl, folder, context, taking);
+  PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, 0, gl, folder, context, taking);
   Recording recording = describe_recording(flown, mission.assets, pile);
   add_robots(seen.robots, std::uint16_t(kFirstAssetLabel + mission.assets.types.size()), recording);
   RecorderSet set = make_recorders(
@@ -246,11 +259,11 @@ void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const 
   for (std::size_t i = 0; i < legs.size(); ++i) {
     if (i > 0) {
       prepared = {};  // what the leg before took on the device comes free first
-      prepared = prepare_leg(legs[i], mission, seen, gl, folder, context, taking);
+      prepared = prepare_leg(legs[i], mission, seen, sinks.frames, gl, folder, context, taking);
     }
     context.progress.start(legs[i].window ? "settling frames" : "render");
-    take_frames(*prepared.camera, legs[i], sinks, folder, context, taking, recorded);
-    context.progress.finish(std::to_string(prepared.camera->frames()) + " frames");
+    take_samples(*prepared.sensors, legs[i], sinks, folder, context, taking, recorded);
+    context.progress.finish(std::to_string(prepared.sensors->count_frames()) + " frames");
   }
   finish_recording(mission, set, queue, folder, context);
 }
@@ -272,6 +285,7 @@ RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& 
       with_lines_of_script(mission, [&] { return plan_legs(flown, pile.track); });
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
+  recorded.hashes = FrameHashes(names_of_cameras(flown));
   recorded.environment = describe_environment(gl.info(), context.threads());
   record(legs, mission, flown, {pile, robots.moved}, gl, folder, context, recorded);
   return recorded;

@@ -3,19 +3,84 @@
 #include <filesystem>
 
 #include "app/pipeline/build_scene.h"
+#include "io/recording/one_camera.h"
 
 namespace rubble {
+
+namespace {
+
+Channels channels_of(const MountedCamera& mounted) {
+  Channels channels;
+  channels.truth = mounted.camera.channel_set();
+  channels.right = mounted.camera.stereo_baseline > 0;
+  channels.measured_depth = mounted.depth_sensor.type != DepthSensorType::none;
+  channels.events = mounted.event_camera.on;
+  return channels;
+}
+
+// several: it is one of `cameras`, and not the rig itself.
+CameraRecord record_of(const MountedCamera& mounted, bool several) {
+  CameraRecord record;
+  const CameraScenario& camera = mounted.camera;
+  record.name = mounted.name;
+  record.topic = camera.topic.value_or("/" + mounted.name);
+  if (several) record.truth_topic = record.topic + "/ground_truth";
+  record.link = mounted.name + "_link";
+  record.optical = camera.frame_id.value_or(mounted.name + "_optical_frame");
+  record.right_optical = mounted.name + "_right_optical_frame";
+  record.baseline = camera.stereo_baseline;
+  if (!mounted.is_rig()) record.rig_from_camera = mounted.rig_from_camera();
+  record.channels = channels_of(mounted);
+  return record;
+}
+
+ImuRecord record_of(const ImuScenario& imu, const std::string& rig) {
+  ImuRecord record;
+  record.topic = imu.topic.value_or(record.topic);
+  record.frame_id = imu.frame_id.value_or(imu.is_rig() ? rig : "imu_link");
+  if (!imu.is_rig()) record.rig_from_imu = imu.rig_from_imu();
+  record.model = imu.model;
+  return record;
+}
+
+// What a run that was killed had finished is made anew: files are replaced, folders must go.
+void remove_folder(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) std::filesystem::remove_all(path, ignored);
+}
+
+// Of the formats that hold one camera: into cameras/NAME/.
+void add_recorders_of_cameras(const RecordingInputs& inputs, const std::string& folder,
+                              RecorderSet& set) {
+  remove_folder(folder + "/" + kCamerasFolder);
+  for (std::size_t i = 0; i < inputs.recording.cameras.size(); ++i) {
+    const Recording alone = inputs.recording.of_camera(i);
+    const std::string own = folder + "/" + kCamerasFolder + "/" + alone.cameras.front().name;
+    RecordingInputs of_camera{inputs.scenario, alone, {}, inputs.title};
+    if (!inputs.frames.empty()) of_camera.frames = {inputs.frames[i]};
+    of_camera.camera = i;
+    for (const RecordingFormat& format : recording_formats()) {
+      if (!format.one_camera || !(inputs.scenario.outputs.*format.wanted)) continue;
+      std::filesystem::create_directories(own);
+      set.recorders.push_back(
+          make_one_camera_recorder(int(i), format.make(own + "/" + format.leaves, of_camera)));
+      if (set.names.empty() || set.names.back() != kCamerasFolder)
+        set.names.push_back(kCamerasFolder);
+    }
+  }
+}
+
+}  // namespace
 
 Recording describe_recording(const Scenario& scenario, const AssetLibrary& assets,
                              const PileState& pile) {
   Recording recording;
-  Channels& channels = recording.channels;
-  channels.truth = scenario.camera.channel_set();
-  channels.right = scenario.camera.stereo_baseline > 0;
-  channels.measured_depth = scenario.depth_sensor.type != DepthSensorType::none;
-  channels.events = scenario.event_camera.on;
-  channels.imu = scenario.imu.on;
-  recording.imu = scenario.imu.model;
+  const bool several = !scenario.cameras.empty();
+  if (several) recording.rig = "base_link";
+  recording.cameras.clear();
+  for (const MountedCamera& camera : all_cameras(scenario))
+    recording.cameras.push_back(record_of(camera, several));
+  if (scenario.imu.on) recording.imus.push_back(record_of(scenario.imu, recording.rig));
   recording.legend.labels = label_names(scenario, assets);
   for (const PieceState& piece : pile.pieces) {
     const auto type = std::size_t(piece.type);
@@ -27,15 +92,15 @@ Recording describe_recording(const Scenario& scenario, const AssetLibrary& asset
 
 RecorderSet make_recorders(const RecordingInputs& inputs, const std::string& folder) {
   RecorderSet set;
+  const bool several = !inputs.scenario.cameras.empty();
   for (const RecordingFormat& format : recording_formats()) {
-    if (!(inputs.scenario.outputs.*format.wanted)) continue;
-    // What a run that was killed had finished is made anew: files are replaced, folders must go.
+    if (!(inputs.scenario.outputs.*format.wanted) || (several && format.one_camera)) continue;
     const std::string path = folder + "/" + format.leaves;
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) std::filesystem::remove_all(path, ignored);
+    remove_folder(path);
     set.names.push_back(format.leaves);
     set.recorders.push_back(format.make(path, inputs));
   }
+  if (several) add_recorders_of_cameras(inputs, folder, set);
   return set;
 }
 

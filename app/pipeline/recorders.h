@@ -19,11 +19,12 @@ struct RecorderSet {
   std::vector<std::string> names;  // of their files or folders, relative to the run's folder
 };
 
-// What every frame of the run holds besides colour and depth, and what its numbers mean.
+// Every sensor of the run, what it gives and under which names, and what numbers mean.
 Recording describe_recording(const Scenario& scenario, const AssetLibrary& assets,
                              const PileState& pile);
 
-// Those of recording_formats() that the scenario asks for.
+// Those of recording_formats() that the scenario asks for. Of several cameras, formats that hold one
+// have a recorder for each, in cameras/NAME/.
 RecorderSet make_recorders(const RecordingInputs& inputs, const std::string& folder);
 
 }  // namespace rubble

@@ -24,6 +24,7 @@ const std::vector<std::string>& recording_folders() {
     std::vector<std::string> names;
     for (const RecordingFormat& format : recording_formats())
       if (format.is_folder) names.push_back(format.leaves);
+    names.push_back(kCamerasFolder);
     for (const MeshFormat& format : mesh_formats())
       if (format.is_folder) names.push_back(format.leaves.back());
     return names;

@@ -63,27 +63,46 @@ std::uint64_t hash_imu(const std::vector<ImuSample>& samples) {
   return hash.digest();
 }
 
-// The pose, every image stream in the order of the table, then what is no image.
-std::vector<std::string> all_channels() {
+// Of one camera: the pose, every image stream in the order of the table, then what is no image.
+std::vector<std::string> channels_of_camera() {
   std::vector<std::string> names{"pose"};
   for (const ImageStream& stream : image_streams()) names.push_back(stream.name);
-  names.insert(names.end(), {"events", "imu"});
+  names.push_back("events");
   return names;
+}
+
+std::vector<std::string> channels_of_cameras(const std::vector<std::string>& cameras) {
+  const std::vector<std::string> each = channels_of_camera();
+  std::vector<std::string> all;
+  if (cameras.empty()) all = each;
+  for (const std::string& camera : cameras)
+    for (const std::string& channel : each) all.push_back(camera + "/" + channel);
+  all.push_back("imu");
+  return all;
+}
+
+std::string without_camera(const std::string& channel) {
+  return channel.substr(channel.find('/') + 1);
 }
 
 }  // namespace
 
 void FrameHashes::add(const Frame& f) {
-  if (channels.empty()) channels = all_channels();
-  std::vector<std::uint64_t>& row = frames.emplace_back();
-  row.push_back(hash_pose(f));
+  if (channels.empty()) channels = channels_of_cameras(cameras_);
+  const std::size_t each = (channels.size() - 1) / std::max<std::size_t>(1, cameras_.size());
+  std::vector<std::uint64_t>& row = frames.emplace_back(channels.size(), 0);
+  auto at = row.begin() + std::ptrdiff_t(std::size_t(f.sensor) * each);
+  *at++ = hash_pose(f);
   for (const ImageStream& stream : image_streams()) {
     const auto image = find_image(f, stream);
-    row.push_back(
-        image ? std::visit([](const auto* values) { return hash_numbers(*values); }, *image) : 0);
+    *at++ = image ? std::visit([](const auto* values) { return hash_numbers(*values); }, *image) : 0;
   }
-  row.insert(row.end(), {hash_events(f.events), hash_imu(f.imu)});
+  *at = hash_events(f.events);
+  row.back() = hash_imu(readings_);
+  readings_.clear();
 }
+
+void FrameHashes::add_imu(const ImuSample& sample) { readings_.push_back(sample); }
 
 FrameHashes FrameHashes::compact() const {
   FrameHashes kept;
@@ -99,7 +118,8 @@ FrameHashes FrameHashes::compact() const {
 }
 
 bool is_picture(const std::string& channel) {
-  return channel != "pose" && channel != "events" && channel != "imu";
+  const std::string name = without_camera(channel);
+  return name != "pose" && name != "events" && name != "imu";
 }
 
 FrameDifference find_difference(const FrameHashes& was, const FrameHashes& is) {

@@ -3,21 +3,32 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/scene/frame.h"
 
 namespace rubble {
 
-// XXH64 of a channel's bytes; 0: the frame has no such channel.
+// XXH64 of a channel's bytes; 0: the frame has no such channel. Of several cameras the channels are
+// called "front/rgb", and a row is a frame of one of them, in the order of stamps.
 struct FrameHashes {
-  std::vector<std::string> channels;               // "pose", "rgb", "depth", ...
+  // cameras: their names, of several; empty: a single camera.
+  explicit FrameHashes(std::vector<std::string> cameras = {}) : cameras_(std::move(cameras)) {}
+
+  std::vector<std::string> channels;               // "pose", "rgb", "depth", ..., "events", "imu"; from the first frame on
   std::vector<std::vector<std::uint64_t>> frames;  // one hash per channel
 
-  // Frames come in order, and all their channels are listed, filled or not.
+  // Samples come in order, and all channels are listed, filled or not. Readings of an inertial unit
+  // belong to the next frame.
   void add(const Frame& frame);
+  void add_imu(const ImuSample& sample);
   // Without the channels that no frame has.
   FrameHashes compact() const;
+
+ private:
+  std::vector<std::string> cameras_;
+  std::vector<ImuSample> readings_;  // since the last frame
 };
 
 // Where two runs part: the first frame that differs, and its first channel that does. `why` is a

@@ -88,7 +88,7 @@ class ColmapRecorder : public Recorder {
 std::unique_ptr<Recorder> make_colmap_recorder(const std::string& path, const Recording& recording,
                                                int threads) {
   Channels channels;  // what the format has a place for
-  channels.right = recording.channels.right;
+  channels.right = recording.cameras.front().channels.right;
   return std::make_unique<ColmapRecorder>(path, channels, threads);
 }
 

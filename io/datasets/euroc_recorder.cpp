@@ -53,8 +53,9 @@ std::string camera_yaml(const Intrinsics& k, const Pose& body_from_optical, doub
          "\ndistortion_coefficients: " + list(distortion) + "\n";
 }
 
-std::string imu_yaml(const ImuModel& model) {
-  return "sensor_type: imu\ncomment: simulated by Rubble\n" + mounting({}) +
+std::string imu_yaml(const ImuRecord& imu) {
+  const ImuModel& model = imu.model;
+  return "sensor_type: imu\ncomment: simulated by Rubble\n" + mounting(imu.rig_from_imu) +
          "rate_hz: " + exact_text(model.rate_hz) +
          "\ngyroscope_noise_density: " + exact_text(model.gyroscope_noise) +
          "\ngyroscope_random_walk: " + exact_text(model.gyroscope_walk) +
@@ -62,33 +63,60 @@ std::string imu_yaml(const ImuModel& model) {
          "\naccelerometer_random_walk: " + exact_text(model.accelerometer_walk) + "\n";
 }
 
+// A picture folder: a camera, or the right one of its pair.
+struct EurocCamera {
+  std::string name;  // "cam0"
+  int camera = 0;    // number among those of the recording
+  bool right = false;
+};
+
+// In the order of the cameras, each followed by its right one.
+std::vector<EurocCamera> number_cameras(const Recording& recording) {
+  std::vector<EurocCamera> cameras;
+  const auto add = [&](int camera, bool right) {
+    cameras.push_back({"cam" + std::to_string(cameras.size()), camera, right});
+  };
+  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
+    add(int(i), false);
+    if (recording.cameras[i].channels.right) add(int(i), true);
+  }
+  return cameras;
+}
+
 class EurocRecorder : public Recorder {
  public:
-  EurocRecorder(const std::string& path, const Recording& recording, const Channels& channels,
-                int threads)
+  EurocRecorder(const std::string& path, const Recording& recording, int threads)
       : recording_(recording),
-        channels_(channels),
-        order_(path, channels),
-        folder_(path, folders(channels), threads) {}
+        cameras_(number_cameras(recording)),
+        seen_(recording.cameras.size()),
+        order_(path, channels_of(recording)),
+        folder_(path, folders(), threads) {}
 
   void write(const Frame& frame) override {
     order_.check(frame);
-    if (frame.index == 0) first_ = header_of(frame);
-    if (frame.index == 1) period_ns_ = frame.stamp_ns - first_.stamp_ns;
+    Seen& seen = seen_[std::size_t(frame.sensor)];
+    if (frame.index == 0) seen.first = header_of(frame);
+    if (frame.index == 1) seen.period_ns = frame.stamp_ns - seen.first.stamp_ns;
     const std::string name = std::to_string(frame.stamp_ns) + ".png";
-    add_picture("mav0/cam0/data/" + name, frame, frame.rgb);
-    if (channels_.right) add_picture("mav0/cam1/data/" + name, frame, frame.rgb_right);
-    pictures_ += std::to_string(frame.stamp_ns) + "," + name + "\n";
-    add_imu(frame);
-    add_state(frame);
+    for (const EurocCamera& c : cameras_)
+      if (c.camera == frame.sensor)
+        add_picture("mav0/" + c.name + "/data/" + name, frame,
+                    c.right ? frame.rgb_right : frame.rgb);
+    seen.pictures += std::to_string(frame.stamp_ns) + "," + name + "\n";
+    if (frame.stamp_ns != last_state_ns_) add_state(frame);
+  }
+
+  void write_imu(const ImuSample& s) override {
+    const Vec3 &w = s.angular_velocity, &a = s.linear_acceleration;
+    imu_ += row(s.stamp_ns, {w.x, w.y, w.z, a.x, a.y, a.z});
+    last_imu_ = s;
   }
 
   void finish() override {
-    write_camera("cam0", camera_from_optical);
-    if (channels_.right) write_camera("cam1", right_camera());
-    if (channels_.imu) {
+    for (const EurocCamera& camera : cameras_) write_camera(camera);
+    if (has_imu()) {
       folder_.write("mav0/imu0/data.csv", imu_);
-      folder_.write("mav0/imu0/sensor.yaml", imu_yaml(recording_.imu));
+      folder_.write("mav0/imu0/sensor.yaml", imu_yaml(recording_.imus.front()));
     }
     folder_.write("mav0/state_groundtruth_estimate0/data.csv", states_);
     folder_.write("mav0/state_groundtruth_estimate0/sensor.yaml",
@@ -97,10 +125,19 @@ class EurocRecorder : public Recorder {
   }
 
  private:
-  static std::vector<std::string> folders(const Channels& channels) {
-    std::vector<std::string> names{"mav0/cam0/data", "mav0/state_groundtruth_estimate0"};
-    if (channels.right) names.push_back("mav0/cam1/data");
-    if (channels.imu) names.push_back("mav0/imu0");
+  // What is known of a camera of the recording.
+  struct Seen {
+    Frame first;  // without its pictures
+    std::int64_t period_ns = 0;
+    std::string pictures = "#timestamp [ns],filename\n";
+  };
+
+  bool has_imu() const { return !recording_.imus.empty(); }
+
+  std::vector<std::string> folders() const {
+    std::vector<std::string> names{"mav0/state_groundtruth_estimate0"};
+    for (const EurocCamera& camera : cameras_) names.push_back("mav0/" + camera.name + "/data");
+    if (has_imu()) names.push_back("mav0/imu0");
     return names;
   }
 
@@ -113,46 +150,41 @@ class EurocRecorder : public Recorder {
     return header;
   }
 
-  Pose right_camera() const { return {camera_from_optical.rotation, {0, -first_.baseline, 0}}; }
-
   void add_picture(const std::string& name, const Frame& frame,
                    const std::vector<std::uint8_t>& rgb) {
     folder_.add(name, [k = frame.intrinsics, rgb] { return encode_png(to_gray(k, rgb)); });
   }
 
-  void add_imu(const Frame& frame) {
-    if (!channels_.imu) return;
-    for (const ImuSample& s : frame.imu) {
-      const Vec3 &w = s.angular_velocity, &a = s.linear_acceleration;
-      imu_ += row(s.stamp_ns, {w.x, w.y, w.z, a.x, a.y, a.z});
-    }
-    if (!frame.imu.empty()) last_imu_ = frame.imu.back();
-  }
-
+  // Of the rig, once for all frames of one instant.
   void add_state(const Frame& frame) {
-    const Vec3 &p = frame.world_from_camera.translation, &v = frame.linear_velocity;
-    const Quat& q = frame.world_from_camera.rotation;
+    last_state_ns_ = frame.stamp_ns;
+    const Vec3 &p = frame.world_from_rig.translation, &v = frame.rig_velocity;
+    const Quat& q = frame.world_from_rig.rotation;
     const Vec3 &bw = last_imu_.angular_bias, &ba = last_imu_.acceleration_bias;
     states_ += row(frame.stamp_ns, {p.x, p.y, p.z, q.w, q.x, q.y, q.z, v.x, v.y, v.z, bw.x, bw.y,
                                     bw.z, ba.x, ba.y, ba.z});
   }
 
-  void write_camera(const std::string& name, const Pose& body_from_optical) {
-    const double rate_hz = period_ns_ > 0 ? 1e9 / static_cast<double>(period_ns_) : 0;
-    folder_.write("mav0/" + name + "/data.csv", pictures_);
-    folder_.write("mav0/" + name + "/sensor.yaml",
-                  camera_yaml(first_.intrinsics, body_from_optical, rate_hz));
+  void write_camera(const EurocCamera& camera) {
+    const Seen& seen = seen_[std::size_t(camera.camera)];
+    const double rate_hz = seen.period_ns > 0 ? 1e9 / static_cast<double>(seen.period_ns) : 0;
+    Pose camera_from_eye = camera_from_optical;
+    if (camera.right) camera_from_eye.translation = {0, -seen.first.baseline, 0};
+    const Pose body_from_eye =
+        recording_.cameras[std::size_t(camera.camera)].in_rig(camera_from_eye);
+    folder_.write("mav0/" + camera.name + "/data.csv", seen.pictures);
+    folder_.write("mav0/" + camera.name + "/sensor.yaml",
+                  camera_yaml(seen.first.intrinsics, body_from_eye, rate_hz));
   }
 
   Recording recording_;
-  Channels channels_;
+  std::vector<EurocCamera> cameras_;
+  std::vector<Seen> seen_;  // of each camera of the recording
   FrameOrder order_;
   FolderWriter folder_;
-  Frame first_;  // without its pictures
-  std::int64_t period_ns_ = 0;
+  std::int64_t last_state_ns_ = -1;
   ImuSample last_imu_;
   // The tables, so far.
-  std::string pictures_ = "#timestamp [ns],filename\n";
   std::string imu_ =
       "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
       "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n";
@@ -167,10 +199,13 @@ class EurocRecorder : public Recorder {
 
 std::unique_ptr<Recorder> make_euroc_recorder(const std::string& path, const Recording& recording,
                                               int threads) {
-  Channels channels;  // what the format has a place for
-  channels.right = recording.channels.right;
-  channels.imu = recording.channels.imu;
-  return std::make_unique<EurocRecorder>(path, recording, channels, threads);
+  Recording kept = recording;  // what the format has a place for
+  for (CameraRecord& camera : kept.cameras) {
+    const bool right = camera.channels.right;
+    camera.channels = {};
+    camera.channels.right = right;
+  }
+  return std::make_unique<EurocRecorder>(path, kept, threads);
 }
 
 }  // namespace rubble

@@ -56,7 +56,7 @@ class FramesRecorder : public Recorder {
  public:
   FramesRecorder(const std::string& path, const Recording& recording, int threads)
       : recording_(recording),
-        channels_(recording.channels),
+        channels_(recording.cameras.front().channels),
         order_(path, channels_),
         folder_(path, folders(channels_), threads) {}
 
@@ -69,10 +69,16 @@ class FramesRecorder : public Recorder {
     add_rows(frame);
   }
 
+  void write_imu(const ImuSample& s) override {
+    imu_ += std::to_string(s.stamp_ns) + vector_columns(s.angular_velocity) +
+            vector_columns(s.linear_acceleration) + vector_columns(s.angular_bias) +
+            vector_columns(s.acceleration_bias) + "\n";
+  }
+
   void finish() override {
     folder_.write("camera.json", camera_);
     folder_.write("poses.csv", poses_);
-    if (channels_.imu) folder_.write("imu.csv", imu_);
+    if (!recording_.imus.empty()) folder_.write("imu.csv", imu_);
     if (channels_.events) folder_.write("events.txt", events_);
     if (channels_.has_legend())
       folder_.write("legend.json", legend_to_json(recording_.legend) + "\n");
@@ -157,13 +163,6 @@ class FramesRecorder : public Recorder {
     poses_ += std::to_string(frame.index) + "," + std::to_string(frame.stamp_ns) +
               vector_columns(frame.world_from_camera.translation) + "," + exact_text(q.w) +
               vector_columns({q.x, q.y, q.z}) + vector_columns(frame.linear_velocity) + "\n";
-    if (channels_.imu) {
-      for (const ImuSample& s : frame.imu) {
-        imu_ += std::to_string(s.stamp_ns) + vector_columns(s.angular_velocity) +
-                vector_columns(s.linear_acceleration) + vector_columns(s.angular_bias) +
-                vector_columns(s.acceleration_bias) + "\n";
-      }
-    }
     if (!channels_.events) return;
     for (const Event& e : frame.events) {
       events_ += seconds_text(e.stamp_ns) + " " + std::to_string(e.x) + " " + std::to_string(e.y) +

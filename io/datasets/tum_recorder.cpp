@@ -113,7 +113,7 @@ std::unique_ptr<Recorder> make_tum_trajectory_recorder(const std::string& path) 
 std::unique_ptr<Recorder> make_tum_recorder(const std::string& path, const Recording& recording,
                                             int threads) {
   Channels channels;  // what the format has a place for
-  channels.measured_depth = recording.channels.measured_depth;
+  channels.measured_depth = recording.cameras.front().channels.measured_depth;
   return std::make_unique<TumRecorder>(path, channels, threads);
 }
 

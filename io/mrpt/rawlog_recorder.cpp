@@ -19,8 +19,8 @@ class RawlogRecorder : public Recorder {
  public:
   RawlogRecorder(const std::string& path, const RawlogOptions& options)
       : file_(path),
-        order_(path, format_channels(options.recording.channels)),
-        channels_(format_channels(options.recording.channels)),
+        recording_(format_recording(options.recording)),
+        order_(path, channels_of(recording_)),
         options_(options) {
     // A setting of the whole process; colour must be what was rendered, not a JPEG of it.
     mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true);
@@ -28,8 +28,40 @@ class RawlogRecorder : public Recorder {
 
   void write(const Frame& frame) override {
     order_.check(frame);
+    observe([&](auto& archive) { write_observations(frame, archive); });
+    file_.write(make_gzip_member(stream_.bytes(), options_.gzip_level));
+    stream_.clear();
+  }
+
+  // Into the gzip member of the next frame.
+  void write_imu(const ImuSample& sample) override {
+    observe([&](auto& archive) { archive << make_imu(sample); });
+  }
+
+  void finish() override {
+    if (!stream_.bytes().empty())
+      file_.write(make_gzip_member(stream_.bytes(), options_.gzip_level));
+    file_.commit();
+  }
+
+ private:
+  // What MRPT has observations for.
+  static Recording format_recording(Recording recording) {
+    for (CameraRecord& camera : recording.cameras) {
+      const Channels asked = camera.channels;
+      camera.channels = {};
+      camera.channels.right = asked.right;
+      camera.channels.measured_depth = asked.measured_depth;
+    }
+    return recording;
+  }
+
+  // write: with an archive.
+  template <typename Write>
+  void observe(const Write& write) {
     try {
-      write_observations(frame);
+      auto archive = mrpt::serialization::archiveFrom(static_cast<mrpt::io::CStream&>(stream_));
+      write(archive);
     } catch (const RunError&) {
       throw;
     } catch (const std::exception& error) {
@@ -37,50 +69,44 @@ class RawlogRecorder : public Recorder {
     }
   }
 
-  void finish() override { file_.commit(); }
-
- private:
-  // What MRPT has observations for.
-  static Channels format_channels(const Channels& asked) {
-    Channels channels;
-    channels.right = asked.right;
-    channels.measured_depth = asked.measured_depth;
-    channels.imu = asked.imu;
-    return channels;
-  }
-
-  void write_observations(const Frame& frame) {
-    stream_.clear();
-    auto archive = mrpt::serialization::archiveFrom(static_cast<mrpt::io::CStream&>(stream_));
-    if (channels_.imu)
-      for (const ImuSample& sample : frame.imu) archive << make_imu(sample);
-    archive << make_pose(frame);
-    const bool measured = channels_.measured_depth;
-    fill_scan(frame, "camera", measured ? frame.measured_depth : frame.depth);
+  // The pose of the rig once for the frames of one instant.
+  template <typename Archive>
+  void write_observations(const Frame& frame, Archive& archive) {
+    const CameraRecord& camera = recording_.cameras[std::size_t(frame.sensor)];
+    if (frame.stamp_ns != last_ns_) archive << make_pose(frame);
+    last_ns_ = frame.stamp_ns;
+    const bool measured = camera.channels.measured_depth;
+    fill_scan(frame, camera, camera.name, measured ? frame.measured_depth : frame.depth);
     fill_colour(frame);
     archive << scan_;
     if (measured) {
-      fill_scan(frame, "ground_truth_depth", frame.depth);
+      fill_scan(frame, camera, truth_label(camera), frame.depth);
       scan_.hasIntensityImage = false;
       archive << scan_;
     }
-    if (channels_.right) archive << make_right(frame);
-    file_.write(make_gzip_member(stream_.bytes(), options_.gzip_level));
+    if (camera.channels.right) archive << make_right(frame, camera);
+  }
+
+  std::string truth_label(const CameraRecord& camera) const {
+    return recording_.cameras.size() > 1 ? camera.name + "_ground_truth_depth"
+                                         : "ground_truth_depth";
   }
 
   static mrpt::obs::CObservationRobotPose make_pose(const Frame& frame) {
     mrpt::obs::CObservationRobotPose observation;
     observation.timestamp = mrpt_time(frame.stamp_ns);
     observation.sensorLabel = "ground_truth";
-    observation.pose.mean = mrpt_pose(frame.world_from_camera);
+    observation.pose.mean = mrpt_pose(frame.world_from_rig);
     observation.pose.cov.setZero();  // it is the truth
     return observation;
   }
 
-  static mrpt::obs::CObservationIMU make_imu(const ImuSample& sample) {
+  mrpt::obs::CObservationIMU make_imu(const ImuSample& sample) const {
+    const ImuRecord& imu = recording_.imus.at(std::size_t(sample.sensor));
     mrpt::obs::CObservationIMU observation;
     observation.timestamp = mrpt_time(sample.stamp_ns);
-    observation.sensorLabel = "imu";
+    observation.sensorLabel = imu.name;
+    if (imu.frame_id != recording_.rig) observation.sensorPose = mrpt_pose(imu.rig_from_imu);
     const Vec3 &w = sample.angular_velocity, &a = sample.linear_acceleration;
     observation.set(mrpt::obs::IMU_X_ACC, a.x);
     observation.set(mrpt::obs::IMU_Y_ACC, a.y);
@@ -92,12 +118,13 @@ class RawlogRecorder : public Recorder {
   }
 
   // MRPT's cameras stand in the optical frame.
-  static mrpt::obs::CObservationImage make_right(const Frame& frame) {
+  static mrpt::obs::CObservationImage make_right(const Frame& frame, const CameraRecord& camera) {
     mrpt::obs::CObservationImage observation;
     observation.timestamp = mrpt_time(frame.stamp_ns);
-    observation.sensorLabel = "camera_right";
+    observation.sensorLabel = camera.name + "_right";
     observation.cameraParams = mrpt_camera(frame.intrinsics);
-    observation.cameraPose = mrpt_pose({camera_from_optical.rotation, {0, -frame.baseline, 0}});
+    observation.cameraPose =
+        mrpt_pose(camera.in_rig({camera_from_optical.rotation, {0, -frame.baseline, 0}}));
     fill_image(observation.image, frame.intrinsics, frame.rgb_right);
     return observation;
   }
@@ -109,10 +136,13 @@ class RawlogRecorder : public Recorder {
                                true, const_cast<unsigned char*>(rgb.data()), true);
   }
 
-  void fill_scan(const Frame& frame, const char* label, const std::vector<float>& depth) {
+  void fill_scan(const Frame& frame, const CameraRecord& camera, const std::string& label,
+                 const std::vector<float>& depth) {
     const Intrinsics& k = frame.intrinsics;
     scan_.timestamp = mrpt_time(frame.stamp_ns);
     scan_.sensorLabel = label;
+    scan_.sensorPose =
+        camera.is_rig() ? mrpt::poses::CPose3D() : mrpt_pose(camera.rig_from_camera);
     scan_.cameraParams = scan_.cameraParamsIntensity = mrpt_camera(k);
     scan_.range_is_depth = true;
     scan_.rangeUnits = static_cast<float>(options_.depth_unit);
@@ -132,8 +162,9 @@ class RawlogRecorder : public Recorder {
   }
 
   AtomicFile file_;
+  Recording recording_;
   FrameOrder order_;
-  Channels channels_;
+  std::int64_t last_ns_ = -1;  // of the last pose
   RawlogOptions options_;
   MemoryStream stream_;
   mrpt::obs::CObservation3DRangeScan scan_;  // reused: its buffers are large

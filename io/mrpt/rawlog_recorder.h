@@ -1,12 +1,13 @@
 // An MRPT 2.5 rawlog of observations, with its pictures inside.
 //
 // Each frame is two observations with one stamp: a CObservationRobotPose labelled `ground_truth`
-// (the camera body in the world), then a CObservation3DRangeScan labelled `camera` that stands at
-// the robot's origin (sensor frame: X forward, Y left, Z up) with planar depth and colour. Where
-// the recording has them: before these CObservationIMU `imu`; after them a scan
+// (the rig in the world: the body of the only camera), then a CObservation3DRangeScan labelled `camera`
+// with planar depth and colour (sensor frame: X forward, Y left, Z up), which stands at the robot's
+// origin. Where the recording has them: before these CObservationIMU `imu`; after them a scan
 // `ground_truth_depth` (the exact depth, when `camera` has that of a sensor) and a
-// CObservationImage `camera_right`. MRPT's clock ticks every 100 ns: stamps are rounded down to
-// that.
+// CObservationImage `camera_right`. Several cameras: labels NAME, NAME_ground_truth_depth and
+// NAME_right, each where it is mounted, and one pose an instant. MRPT's clock ticks every 100 ns:
+// stamps are rounded down to that.
 #pragma once
 
 #include <memory>

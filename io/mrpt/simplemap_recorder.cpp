@@ -64,7 +64,7 @@ class SimplemapRecorder : public Recorder {
  private:
   static Channels channels(const SimplemapOptions& options) {
     Channels channels;
-    channels.measured_depth = options.recording.channels.measured_depth;
+    channels.measured_depth = options.recording.cameras.front().channels.measured_depth;
     return channels;
   }
 
@@ -112,7 +112,7 @@ class SimplemapRecorder : public Recorder {
   void fill_points(const Frame& frame, mrpt::obs::CObservation3DRangeScan& scan) const {
     const Intrinsics& k = frame.intrinsics;
     const auto& depth =
-        options_.recording.channels.measured_depth ? frame.measured_depth : frame.depth;
+        options_.recording.cameras.front().channels.measured_depth ? frame.measured_depth : frame.depth;
     const int step = std::max(1, k.width / options_.points_across);
     for (int v = step / 2; v < k.height; v += step) {
       for (int u = step / 2; u < k.width; u += step) {

@@ -114,6 +114,20 @@ Found from_rawlog(const std::string& folder, Wanted wanted) {
   return find_rawlog_picture(folder, wanted);
 }
 
+// Formats that hold one camera leave the same files for each of several.
+Found find_in_folder_of_camera(const std::string& folder, Wanted wanted,
+                               const std::set<std::string>& left_out) {
+  const std::string own = "cameras/" + wanted.camera + "/";
+  PictureWanted alone = wanted;
+  alone.camera.clear();
+  std::set<std::string> left_out_here;
+  for (const std::string& file : left_out)
+    if (file.compare(0, own.size(), own) == 0) left_out_here.insert(file.substr(own.size()));
+  Found found = find_recorded_picture(folder + "/" + own, alone, left_out_here);
+  if (found) found->file.insert(0, own);
+  return found;
+}
+
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 std::string pixel_text(const RecordedPicture& picture, std::size_t pixel) {
@@ -132,6 +146,7 @@ std::string pixel_text(const RecordedPicture& picture, std::size_t pixel) {
 std::optional<RecordedPicture> find_recorded_picture(const std::string& folder,
                                                      const PictureWanted& wanted,
                                                      const std::set<std::string>& left_out) {
+  if (!wanted.camera.empty()) return find_in_folder_of_camera(folder, wanted, left_out);
   Found rounded;
   for (const auto& read : {from_frames, from_bag, from_mcap, from_rawlog, from_tum, from_colmap}) {
     try {

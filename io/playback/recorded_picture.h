@@ -13,6 +13,7 @@ struct PictureWanted {
   int frame = 0;        // from 0
   bool measured_depth =
       false;  // whether the frames have that channel: the exact depth is elsewhere
+  std::string camera{};  // of several: its name; then only what is in cameras/NAME is looked at
 };
 
 struct RecordedPicture {

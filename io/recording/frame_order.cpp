@@ -31,36 +31,56 @@ void check_pictures(const Frame& frame, const Channels& channels, const std::str
 
 }  // namespace
 
+FrameOrder::FrameOrder(std::string recorder, const std::vector<Channels>& channels)
+    : recorder_(std::move(recorder)) {
+  for (const Channels& c : channels) cameras_.push_back({c});
+}
+
 // Frames of a sequence come at a steady rate, rounded to nanoseconds: one interval that is half as long again as
 // another means that something is missing between.
-void FrameOrder::check_stamp(const Frame& frame, const std::string& where) {
-  if (count_ == 0) return;
-  const std::int64_t interval = frame.stamp_ns - last_stamp_ns_;
+void FrameOrder::check_stamp(const Frame& frame, Camera& camera, const std::string& where) {
+  if (camera.count == 0) return;
+  const std::int64_t interval = frame.stamp_ns - camera.last_stamp_ns;
   if (interval <= 0) {
     throw RunError(where + "its stamp of " + std::to_string(frame.stamp_ns) +
-                   " ns is not later than the one before, " + std::to_string(last_stamp_ns_) +
+                   " ns is not later than the one before, " + std::to_string(camera.last_stamp_ns) +
                    " ns");
   }
   if (frame.starts_sequence) {
-    period_ns_ = 0;
+    camera.period_ns = 0;
     return;
   }
-  if (period_ns_ == 0) period_ns_ = interval;
-  if (2 * interval > 3 * period_ns_ || 3 * interval < 2 * period_ns_) {
+  if (camera.period_ns == 0) camera.period_ns = interval;
+  if (2 * interval > 3 * camera.period_ns || 3 * interval < 2 * camera.period_ns) {
     throw RunError(where + "it comes " + std::to_string(interval) +
-                   " ns after the one before, where " + std::to_string(period_ns_) +
+                   " ns after the one before, where " + std::to_string(camera.period_ns) +
                    " ns are usual: there is a gap in the stamps");
   }
 }
 
 void FrameOrder::check(const Frame& frame) {
-  const std::string where = recorder_ + ": frame " + std::to_string(frame.index) + ": ";
-  if (frame.index != count_)
-    throw RunError(where + "frame " + std::to_string(count_) + " was expected");
-  check_stamp(frame, where);
-  check_pictures(frame, channels_, where);
-  last_stamp_ns_ = frame.stamp_ns;
+  std::string where = recorder_ + ": frame " + std::to_string(frame.index) + ": ";
+  if (frame.sensor < 0 || std::size_t(frame.sensor) >= cameras_.size())
+    throw RunError(where + "camera " + std::to_string(frame.sensor) + " is not of this recording");
+  if (cameras_.size() > 1)
+    where = recorder_ + ": camera " + std::to_string(frame.sensor) + ", frame " +
+            std::to_string(frame.index) + ": ";
+  Camera& camera = cameras_[std::size_t(frame.sensor)];
+  if (frame.index != camera.count)
+    throw RunError(where + "frame " + std::to_string(camera.count) + " was expected");
+  check_stamp(frame, camera, where);
+  if (count_ > 0 && frame.stamp_ns < latest_ns_)
+    throw RunError(where + "it is earlier than a frame of another camera that came before");
+  check_pictures(frame, camera.channels, where);
+  latest_ns_ = camera.last_stamp_ns = frame.stamp_ns;
+  ++camera.count;
   ++count_;
+}
+
+std::vector<Channels> channels_of(const Recording& recording) {
+  std::vector<Channels> channels;
+  for (const CameraRecord& camera : recording.cameras) channels.push_back(camera.channels);
+  return channels;
 }
 
 }  // namespace rubble

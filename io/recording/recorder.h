@@ -3,17 +3,27 @@
 
 #include <string>
 
-#include "render/scene/frame.h"
+#include "render/scene/sample.h"
 
 namespace rubble {
 
 class Recorder {
  public:
   virtual ~Recorder() = default;  // without finish(): removes what it wrote
-  // Frames come in order of their stamps; one dropped or out of order throws RunError.
+  // Samples come in the order of their stamps; of one stamp, readings of inertial units before frames.
+  // A frame that is missing or out of order throws RunError.
   virtual void write(const Frame& frame) = 0;
+  // Unless a format has a place for it, left out.
+  virtual void write_imu(const ImuSample&) {}
   // Completes the files and gives them their final names.
   virtual void finish() = 0;
 };
+
+inline void write_sample(Recorder& recorder, const Sample& sample) {
+  if (const auto* frame = std::get_if<Frame>(&sample))
+    recorder.write(*frame);
+  else
+    recorder.write_imu(std::get<ImuSample>(sample));
+}
 
 }  // namespace rubble

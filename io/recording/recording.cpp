@@ -9,6 +9,26 @@ bool Channels::has_legend() const {
   return std::any_of(truth.begin(), truth.end(), [](const auto* s) { return s->has_legend; });
 }
 
+bool CameraRecord::is_rig() const {
+  return rig_from_camera.rotation == Quat() && rig_from_camera.translation == Vec3();
+}
+
+// The same bits where the camera is the rig.
+Pose CameraRecord::in_rig(const Pose& camera_from_it) const {
+  return is_rig() ? camera_from_it : rig_from_camera * camera_from_it;
+}
+
+bool Recording::has_legend() const {
+  return std::any_of(cameras.begin(), cameras.end(),
+                     [](const CameraRecord& c) { return c.channels.has_legend(); });
+}
+
+Recording Recording::of_camera(std::size_t camera) const {
+  Recording one = *this;
+  one.cameras = {cameras.at(camera)};
+  return one;
+}
+
 std::string legend_to_json(const Legend& legend) {
   using Json = nlohmann::ordered_json;
   Json json;

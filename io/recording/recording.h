@@ -1,5 +1,5 @@
-// What is the same for every frame of a recording: which channels there are, and what their numbers
-// mean.
+// What is the same for all samples of a recording: which sensors there are, where they are on the rig
+// that carries them, what each gives, under which names, and what numbers mean.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,13 @@
 
 namespace rubble {
 
-// The optional channels of Frame that a recording holds. A recorder demands those that are set, of
-// every frame, and leaves out the others.
+// The optional streams of a camera that a recording holds, besides colour and depth. A recorder demands
+// those that are set, of every frame, and leaves out the others.
 struct Channels {
   bool right = false;           // Frame::rgb_right
   bool measured_depth = false;  // then the depth topics and files are what the sensor measures, and
                                 // the exact depth goes where each format has its ground truth
   bool events = false;          // of an event camera
-  bool imu = false;             // readings of an inertial unit
   StreamSet truth;              // images of ground truth, in the order of image_streams()
 
   // Whether one of them holds numbers of pieces or classes, which the legend explains.
@@ -39,10 +38,42 @@ struct Legend {
 // "ground_instance", "no_instance"}.
 std::string legend_to_json(const Legend& legend);
 
+// A camera. Frame::sensor is its number. The defaults are those of a mission's only camera, which is
+// the rig itself.
+struct CameraRecord {
+  std::string name = "camera";                // of labels and folders
+  std::string topic = "/camera";              // ROS: what its topics begin with
+  std::string truth_topic = "/ground_truth";  // ROS: likewise, of its ground truth
+  std::string link = "camera_link";           // TF: its body (X forward, Y left, Z up)
+  std::string optical = "camera_optical_frame";              // TF: its pictures (Z forward)
+  std::string right_optical = "camera_right_optical_frame";  // TF: those of the right camera
+  Pose rig_from_camera;                       // of its body
+  double baseline = 0;                        // as Frame::baseline; unit: m
+  Channels channels;                          // besides colour and depth
+
+  bool is_rig() const;  // whether it is where the rig is, unturned
+  // What is placed in its body, in the frame of the rig.
+  Pose in_rig(const Pose& camera_from_it) const;
+};
+
+// An inertial unit. ImuSample::sensor is its number.
+struct ImuRecord {
+  std::string name = "imu";               // of labels
+  std::string topic = "/imu";             // ROS
+  std::string frame_id = "camera_link";   // TF
+  Pose rig_from_imu;                      // axes: X forward, Y left, Z up
+  ImuModel model;                         // rate and noise
+};
+
 struct Recording {
-  Channels channels;  // besides colour and depth
+  std::string rig = "camera_link";       // TF: what flies the trajectory
+  std::vector<CameraRecord> cameras{1};  // at least one
+  std::vector<ImuRecord> imus;
   Legend legend;  // where a stream of ground truth has one
-  ImuModel imu;   // with imu
+
+  bool has_legend() const;  // whether any camera gives such a stream
+  // The same with one of the cameras alone, as the first.
+  Recording of_camera(std::size_t camera) const;
 };
 
 }  // namespace rubble

@@ -26,29 +26,35 @@ struct RecordingQueue::Shared {
   std::mutex mutex;
   std::condition_variable wake_workers, wake_producer;
   Phase phase = Phase::recording;
-  std::deque<std::shared_ptr<const Frame>> frames;  // the first one is number `first`
+  std::deque<std::shared_ptr<const Sample>> samples;  // the first one is number `first`
   std::size_t first = 0;
-  std::vector<std::size_t> next;           // per recorder: the number of the frame it takes next
+  std::vector<std::size_t> next;           // per recorder: the number of the sample it takes next
   std::vector<std::exception_ptr> errors;  // per recorder
 
   bool failed() const {
     return std::any_of(errors.begin(), errors.end(), [](const auto& e) { return e != nullptr; });
   }
-  std::size_t end() const { return first + frames.size(); }
+  std::size_t end() const { return first + samples.size(); }
+  // Frames are what takes memory.
+  std::size_t count_frames() const {
+    return std::size_t(std::count_if(samples.begin(), samples.end(), [](const auto& sample) {
+      return std::holds_alternative<Frame>(*sample);
+    }));
+  }
   bool drained() const {
     return std::all_of(next.begin(), next.end(), [this](std::size_t n) { return n == end(); });
   }
 
   void drop_what_all_have() {
     const std::size_t slowest = next.empty() ? end() : *std::min_element(next.begin(), next.end());
-    while (first < slowest) frames.pop_front(), ++first;
+    while (first < slowest) samples.pop_front(), ++first;
   }
 
-  // Waits for frame next[i]; none once there is nothing more to write.
-  std::shared_ptr<const Frame> wait_for_frame(std::size_t i) {
+  // Waits for sample next[i]; none once there is nothing more to write.
+  std::shared_ptr<const Sample> wait_for_sample(std::size_t i) {
     std::unique_lock lock(mutex);
     wake_workers.wait(lock, [&] { return phase >= Phase::finishing || next[i] < end(); });
-    return phase >= Phase::finishing ? nullptr : frames[next[i] - first];
+    return phase >= Phase::finishing ? nullptr : samples[next[i] - first];
   }
 
   void mark_written(std::size_t i) {
@@ -60,8 +66,8 @@ struct RecordingQueue::Shared {
 
   void work(std::size_t i) {
     try {
-      while (const auto frame = wait_for_frame(i)) {
-        recorders[i]->write(*frame);
+      while (const auto sample = wait_for_sample(i)) {
+        write_sample(*recorders[i], *sample);
         mark_written(i);
       }
       if (!stopped()) recorders[i]->finish();
@@ -138,31 +144,48 @@ const char* find_not_finite(const Frame& frame) {
     if (!std::isfinite(c)) return "distortion";
   if (!std::isfinite(frame.exposure_s)) return "exposure time";
   if (!std::isfinite(frame.baseline)) return "stereo baseline";
-  for (const ImuSample& s : frame.imu)
-    if (!is_finite(s.angular_velocity) || !is_finite(s.linear_acceleration) ||
-        !is_finite(s.angular_bias) || !is_finite(s.acceleration_bias))
-      return "inertial measurement";
+  if (!is_finite(frame.world_from_rig.translation) || !is_finite(frame.rig_velocity))
+    return "carrier's motion";
   return nullptr;
+}
+
+const char* find_not_finite(const ImuSample& s) {
+  const bool finite = is_finite(s.angular_velocity) && is_finite(s.linear_acceleration) &&
+                      is_finite(s.angular_bias) && is_finite(s.acceleration_bias);
+  return finite ? nullptr : "inertial measurement";
+}
+
+std::string describe(const Frame& frame) { return "frame " + std::to_string(frame.index); }
+std::string describe(const ImuSample& sample) {
+  return "the reading at " + std::to_string(sample.stamp_ns) + " ns";
+}
+
+void refuse_not_finite(const Sample& sample) {
+  std::visit(
+      [](const auto& s) {
+        if (const char* what = find_not_finite(s))
+          throw RunError(describe(s) + " is not recorded: its " + what +
+                         " is not a finite number; this is a fault of the program or of the "
+                         "numbers in the mission's trajectory");
+      },
+      sample);
 }
 
 }  // namespace
 
-void RecordingQueue::push(Frame frame) {
-  if (const char* what = find_not_finite(frame))
-    throw RunError("frame " + std::to_string(frame.index) + " is not recorded: its " + what +
-                   " is not a finite number; this is a fault of the program or of the numbers in "
-                   "the mission's trajectory");
-  auto shared_frame = std::make_shared<const Frame>(std::move(frame));
+void RecordingQueue::push(Sample sample) {
+  refuse_not_finite(sample);
+  auto shared_sample = std::make_shared<const Sample>(std::move(sample));
   Shared& s = *shared_;
   std::unique_lock lock(s.mutex);
-  s.wake_producer.wait(lock, [&] { return s.failed() || s.frames.size() < s.capacity; });
+  s.wake_producer.wait(lock, [&] { return s.failed() || s.count_frames() < s.capacity; });
   if (s.failed()) {
     lock.unlock();
     s.join();  // so that the errors of all are there, and the first of them is always the same
     s.rethrow_error();
   }
-  if (s.phase != Shared::Phase::recording) throw RunError("a frame came after the last one");
-  s.frames.push_back(std::move(shared_frame));
+  if (s.phase != Shared::Phase::recording) throw RunError("a sample came after the last one");
+  s.samples.push_back(std::move(shared_sample));
   s.drop_what_all_have();
   s.wake_workers.notify_all();
 }

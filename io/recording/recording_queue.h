@@ -9,7 +9,7 @@
 
 namespace rubble {
 
-// Feeds every frame, in order, to every recorder, each on a thread of its own. What a recorder
+// Feeds every sample, in order, to every recorder, each on a thread of its own. What a recorder
 // writes does not depend on the timing of the others.
 //
 // A recorder that throws stops the recording: no recorder is finished, and the next push() or
@@ -23,10 +23,10 @@ class RecordingQueue {
   RecordingQueue(const RecordingQueue&) = delete;
   RecordingQueue& operator=(const RecordingQueue&) = delete;
 
-  // Waits while the slowest recorder is `capacity` frames behind. Throws RunError, and gives the frame
+  // Waits while the slowest recorder is `capacity` frames behind. Throws RunError, and gives the sample
   // to no recorder, when a number in it that must be finite is not: pose, velocity, intrinsics,
   // exposure, and what the inertial unit measures. (NaN in a depth image says that nothing is there.)
-  void push(Frame frame);
+  void push(Sample sample);
   // Waits until every recorder has every frame, then finishes them all. No push() afterwards.
   void finish();
 

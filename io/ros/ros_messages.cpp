@@ -103,7 +103,9 @@ std::string transforms(Version version, const Header& header, const std::vector<
   Wire out(version);
   out.count(list.size());
   for (const Transform& transform : list) {
-    put_header(out, header);
+    Header from = header;
+    if (!transform.parent.empty()) from.frame = transform.parent;
+    put_header(out, from);
     out.text(transform.child);
     put_pose(out, transform.pose);
   }

@@ -47,11 +47,12 @@ std::string compressed_image(Version version, const Header& header, const std::s
 std::string camera_info(Version version, const Header& header, const Intrinsics& intrinsics,
                         double baseline = 0);
 std::string pose_stamped(Version version, const Header& header, const Pose& pose);
-// Each takes coordinates of `child` to the header's frame. What is latched must be one message: a
-// late subscriber gets only the last.
+// Each takes coordinates of `child` to `parent`. What is latched must be one message: a late subscriber
+// gets only the last.
 struct Transform {
   std::string child;
   Pose pose;
+  std::string parent{};  // empty: the header's frame
 };
 std::string transforms(Version version, const Header& header, const std::vector<Transform>& list);
 // Without an orientation, as REP 145 wants it of a unit that measures none. Variances: of one

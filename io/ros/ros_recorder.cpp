@@ -12,9 +12,6 @@ namespace rubble {
 namespace {
 
 constexpr char kWorld[] = "world";
-constexpr char kCamera[] = "camera_link";
-constexpr char kOptical[] = "camera_optical_frame";
-constexpr char kRightOptical[] = "camera_right_optical_frame";
 
 // In front of a picture of 16UC1 in compressedDepth: a number of the method and two parameters,
 // both for depth in metres alone.
@@ -28,32 +25,55 @@ StreamSet floats_first(StreamSet streams) {
   return streams;
 }
 
+// Numbers of a camera's topics.
+struct CameraTopics {
+  std::uint32_t rgb_info = 0, rgb = 0, depth_info = 0, depth = 0, right_info = 0, right = 0,
+                events = 0, true_depth_info = 0, true_depth = 0;
+  std::vector<std::uint32_t> truth;  // of the streams
+};
+
 class RosRecorder : public Recorder {
  public:
   RosRecorder(const std::string& path, std::unique_ptr<RosFile> file, const RosOptions& options)
       : file_(std::move(file)),
         version_(file_->version()),
         options_(options),
-        channels_(options.recording.channels),
-        truth_(floats_first(channels_.truth)),
-        order_(path, channels_) {
-    add_common_topics();
-    add_channel_topics();
+        recording_(options.recording),
+        order_(path, channels_of(options.recording)),
+        imu_counts_(options.recording.imus.size()) {
+    for (CameraRecord& camera : recording_.cameras)
+      camera.channels.truth = floats_first(camera.channels.truth);
+    add_topics();
   }
 
   void write(const Frame& frame) override {
     order_.check(frame);
-    write_imu(frame);
-    write_clock_and_poses(frame);
-    write_camera(frame, rgb_info_, rgb_, kOptical, frame.rgb, 0);
-    if (channels_.right)
-      write_camera(frame, right_info_, right_, kRightOptical, frame.rgb_right, frame.baseline);
-    write_depth(frame);
-    write_ground_truth(frame);
-    if (channels_.events) {
-      send(events_, frame,
-           ros::event_array(version_, header(frame, kOptical), frame.intrinsics, frame.events));
+    if (frame.stamp_ns != last_ns_) write_instant(frame);
+    const CameraRecord& camera = recording_.cameras[std::size_t(frame.sensor)];
+    const CameraTopics& topics = cameras_[std::size_t(frame.sensor)];
+    const Channels& c = camera.channels;
+    write_camera(frame, topics.rgb_info, topics.rgb, camera.optical, frame.rgb, 0);
+    if (c.right)
+      write_camera(frame, topics.right_info, topics.right, camera.right_optical, frame.rgb_right,
+                   frame.baseline);
+    write_depth(frame, camera, topics);
+    write_ground_truth(frame, camera, topics);
+    if (c.events) {
+      send(topics.events, frame,
+           ros::event_array(version_, header(frame, camera.optical), frame.intrinsics,
+                            frame.events));
     }
+  }
+
+  void write_imu(const ImuSample& sample) override {
+    const auto i = std::size_t(sample.sensor);
+    const ImuRecord& imu = recording_.imus.at(i);
+    const ImuModel& model = imu.model;
+    const auto variance = [&](double density) { return density * density * model.rate_hz; };
+    const ros::Header stamped{imu_counts_[i]++, sample.stamp_ns, imu.frame_id};
+    file_->write(imus_[i], sample.stamp_ns,
+                 ros::imu(version_, stamped, sample, variance(model.gyroscope_noise),
+                          variance(model.accelerometer_noise)));
   }
 
   void finish() override { file_->finish(); }
@@ -62,39 +82,51 @@ class RosRecorder : public Recorder {
   bool compressed() const { return options_.pictures != RosPictures::raw; }
   bool packed_depth() const { return compressed() && options_.depth == RosDepth::millimetres; }
 
-  void add_common_topics() {
-    const std::string depth = "/camera/depth_registered/";
+  // The inertial units stand among the topics of the first camera, before its ground truth.
+  void add_topics() {
     clock_ = file_->add("/clock", ros::kClock, false);
     tf_static_ = file_->add("/tf_static", ros::kTfMessage, true);
     tf_ = file_->add("/tf", ros::kTfMessage, false);
     pose_ = file_->add("/ground_truth/pose", ros::kPoseStamped, false);
-    rgb_info_ = file_->add("/camera/rgb/camera_info", ros::kCameraInfo, false);
-    rgb_ = add_picture("/camera/rgb/image_raw");
-    depth_info_ = file_->add(depth + "camera_info", ros::kCameraInfo, false);
-    if (packed_depth()) {
-      depth_ = file_->add(depth + "image_raw/compressedDepth", ros::kCompressedImage, false);
-    } else {
-      depth_ = file_->add(depth + (options_.depth == RosDepth::millimetres ? "image_raw" : "image"),
-                          ros::kImage, false);
+    for (const CameraRecord& camera : recording_.cameras) {
+      CameraTopics& topics = cameras_.emplace_back();
+      add_pictures(camera, topics);
+      if (cameras_.size() == 1)
+        for (const ImuRecord& imu : recording_.imus)
+          imus_.push_back(file_->add(imu.topic, ros::kImu, false));
+      add_ground_truth(camera, topics);
     }
+    if (recording_.has_legend())
+      legend_ = file_->add("/ground_truth/legend", ros::kString, true);
   }
 
-  void add_channel_topics() {
-    const auto add = [&](bool wanted, const char* topic, const ros::MessageType& type,
-                         bool latched = false) {
-      return wanted ? file_->add(topic, type, latched) : 0;
-    };
-    const Channels& c = channels_;
-    right_info_ = add(c.right, "/camera/right/camera_info", ros::kCameraInfo);
-    if (c.right) right_ = add_picture("/camera/right/image_raw");
-    events_ = add(c.events, "/camera/events", ros::kEventArray);
-    imu_ = add(c.imu, "/imu", ros::kImu);
-    true_depth_info_ = add(c.measured_depth, "/ground_truth/depth/camera_info", ros::kCameraInfo);
-    true_depth_ = add(c.measured_depth, "/ground_truth/depth/image", ros::kImage);
-    for (const ImageStream* stream : truth_)
-      truth_topics_.push_back(
-          file_->add("/ground_truth/" + stream->name + "/image", ros::kImage, false));
-    legend_ = add(c.has_legend(), "/ground_truth/legend", ros::kString, true);
+  void add_pictures(const CameraRecord& camera, CameraTopics& topics) {
+    const std::string depth = camera.topic + "/depth_registered/";
+    topics.rgb_info = file_->add(camera.topic + "/rgb/camera_info", ros::kCameraInfo, false);
+    topics.rgb = add_picture(camera.topic + "/rgb/image_raw");
+    topics.depth_info = file_->add(depth + "camera_info", ros::kCameraInfo, false);
+    if (packed_depth())
+      topics.depth = file_->add(depth + "image_raw/compressedDepth", ros::kCompressedImage, false);
+    else
+      topics.depth = file_->add(
+          depth + (options_.depth == RosDepth::millimetres ? "image_raw" : "image"), ros::kImage,
+          false);
+    const Channels& c = camera.channels;
+    if (c.right) {
+      topics.right_info = file_->add(camera.topic + "/right/camera_info", ros::kCameraInfo, false);
+      topics.right = add_picture(camera.topic + "/right/image_raw");
+    }
+    if (c.events) topics.events = file_->add(camera.topic + "/events", ros::kEventArray, false);
+  }
+
+  void add_ground_truth(const CameraRecord& camera, CameraTopics& topics) {
+    const std::string truth = camera.truth_topic + "/";
+    if (camera.channels.measured_depth) {
+      topics.true_depth_info = file_->add(truth + "depth/camera_info", ros::kCameraInfo, false);
+      topics.true_depth = file_->add(truth + "depth/image", ros::kImage, false);
+    }
+    for (const ImageStream* stream : camera.channels.truth)
+      topics.truth.push_back(file_->add(truth + stream->name + "/image", ros::kImage, false));
   }
 
   std::uint32_t add_picture(const std::string& topic) {
@@ -102,7 +134,7 @@ class RosRecorder : public Recorder {
                         : file_->add(topic, ros::kImage, false);
   }
 
-  static ros::Header header(const Frame& frame, const char* frame_id) {
+  static ros::Header header(const Frame& frame, const std::string& frame_id) {
     return {static_cast<std::uint32_t>(frame.index), frame.stamp_ns, frame_id};
   }
 
@@ -111,46 +143,49 @@ class RosRecorder : public Recorder {
   }
 
   template <typename T>
-  void send_image(std::uint32_t topic, const Frame& frame, const char* encoding, int channels,
-                  const std::vector<T>& values) {
+  void send_image(std::uint32_t topic, const Frame& frame, const std::string& frame_id,
+                  const char* encoding, int channels, const std::vector<T>& values) {
     send(topic, frame,
-         ros::image(version_, header(frame, kOptical), frame.intrinsics, encoding,
+         ros::image(version_, header(frame, frame_id), frame.intrinsics, encoding,
                     channels * static_cast<int>(sizeof(T)), values.data()));
   }
 
-  void write_imu(const Frame& frame) {
-    if (!channels_.imu) return;
-    const ImuModel& model = options_.recording.imu;
-    const auto variance = [&](double density) { return density * density * model.rate_hz; };
-    for (const ImuSample& sample : frame.imu) {
-      const ros::Header stamped{imu_count_++, sample.stamp_ns, kCamera};
-      file_->write(imu_, sample.stamp_ns,
-                   ros::imu(version_, stamped, sample, variance(model.gyroscope_noise),
-                            variance(model.accelerometer_noise)));
-    }
-  }
-
-  void write_clock_and_poses(const Frame& frame) {
+  // Once for the frames of all cameras at one instant.
+  void write_instant(const Frame& frame) {
     send(clock_, frame, ros::clock(version_, frame.stamp_ns));
-    if (frame.index == 0) write_constants(frame);
-    const ros::Header world = header(frame, kWorld);
-    send(tf_, frame, ros::transforms(version_, world, {{kCamera, frame.world_from_camera}}));
-    send(pose_, frame, ros::pose_stamped(version_, world, frame.world_from_camera));
+    if (instants_ == 0) write_constants(frame);
+    const ros::Header world{instants_++, frame.stamp_ns, kWorld};
+    send(tf_, frame, ros::transforms(version_, world, {{recording_.rig, frame.world_from_rig}}));
+    send(pose_, frame, ros::pose_stamped(version_, world, frame.world_from_rig));
+    last_ns_ = frame.stamp_ns;
   }
 
   void write_constants(const Frame& frame) {
-    std::vector<ros::Transform> fixed{{kOptical, camera_from_optical}};
-    if (channels_.right) {
-      const Vec3 to_the_right{0, -frame.baseline, 0};
-      fixed.push_back({kRightOptical, {camera_from_optical.rotation, to_the_right}});
-    }
-    send(tf_static_, frame, ros::transforms(version_, header(frame, kCamera), fixed));
-    if (channels_.has_legend())
-      send(legend_, frame, ros::string(version_, legend_to_json(options_.recording.legend)));
+    std::vector<ros::Transform> fixed;
+    for (const CameraRecord& camera : recording_.cameras) add_transforms(camera, fixed);
+    for (const ImuRecord& imu : recording_.imus)
+      if (imu.frame_id != recording_.rig)
+        fixed.push_back({imu.frame_id, imu.rig_from_imu, recording_.rig});
+    send(tf_static_, frame,
+         ros::transforms(version_, header(frame, recording_.rig), fixed));
+    if (recording_.has_legend())
+      send(legend_, frame, ros::string(version_, legend_to_json(recording_.legend)));
+  }
+
+  // From the rig to the camera's body, unless that is the rig, and on to its pictures.
+  void add_transforms(const CameraRecord& camera, std::vector<ros::Transform>& fixed) const {
+    if (camera.link != recording_.rig)
+      fixed.push_back({camera.link, camera.rig_from_camera, recording_.rig});
+    fixed.push_back({camera.optical, camera_from_optical, camera.link});
+    if (!camera.channels.right) return;
+    const Vec3 to_the_right{0, -camera.baseline, 0};
+    fixed.push_back(
+        {camera.right_optical, {camera_from_optical.rotation, to_the_right}, camera.link});
   }
 
   void write_camera(const Frame& frame, std::uint32_t info, std::uint32_t picture,
-                    const char* frame_id, const std::vector<std::uint8_t>& rgb, double baseline) {
+                    const std::string& frame_id, const std::vector<std::uint8_t>& rgb,
+                    double baseline) {
     const ros::Header optical = header(frame, frame_id);
     const Intrinsics& k = frame.intrinsics;
     send(info, frame, ros::camera_info(version_, optical, k, baseline));
@@ -159,8 +194,8 @@ class RosRecorder : public Recorder {
       return;
     }
     const bool jpeg = options_.pictures == RosPictures::jpeg;
-    const std::string bytes =
-        jpeg ? encode_jpeg(k.width, k.height, rgb.data()) : encode_png(RgbImage{k.width, k.height, rgb});
+    const std::string bytes = jpeg ? encode_jpeg(k.width, k.height, rgb.data())
+                                   : encode_png(RgbImage{k.width, k.height, rgb});
     // "bgr8": what readers get from OpenCV's decoder, whose order is not the file's.
     send(picture, frame,
          ros::compressed_image(version_, optical,
@@ -168,38 +203,41 @@ class RosRecorder : public Recorder {
                                bytes));
   }
 
-  void write_depth(const Frame& frame) {
-    const ros::Header optical = header(frame, kOptical);
+  void write_depth(const Frame& frame, const CameraRecord& camera, const CameraTopics& topics) {
+    const ros::Header optical = header(frame, camera.optical);
     const Intrinsics& k = frame.intrinsics;
-    const std::vector<float>& depth = channels_.measured_depth ? frame.measured_depth : frame.depth;
-    send(depth_info_, frame, ros::camera_info(version_, optical, k));
+    const std::vector<float>& depth =
+        camera.channels.measured_depth ? frame.measured_depth : frame.depth;
+    send(topics.depth_info, frame, ros::camera_info(version_, optical, k));
     if (options_.depth == RosDepth::metres) {
-      send_image(depth_, frame, "32FC1", 1, depth);
+      send_image(topics.depth, frame, camera.optical, "32FC1", 1, depth);
       return;
     }
     auto millimetres = encode_depth(depth, 0.001);
     if (!packed_depth()) {
-      send_image(depth_, frame, "16UC1", 1, millimetres);
+      send_image(topics.depth, frame, camera.optical, "16UC1", 1, millimetres);
       return;
     }
     const std::string png = encode_png(DepthImage{k.width, k.height, std::move(millimetres)});
-    send(depth_, frame,
+    send(topics.depth, frame,
          ros::compressed_image(version_, optical, "16UC1; compressedDepth png",
                                std::string(kCompressedDepthHeader, '\0') + png));
   }
 
-  void write_ground_truth(const Frame& frame) {
-    const Channels& c = channels_;
-    if (c.measured_depth) {
-      send(true_depth_info_, frame,
-           ros::camera_info(version_, header(frame, kOptical), frame.intrinsics));
-      send_image(true_depth_, frame, "32FC1", 1, frame.depth);
+  void write_ground_truth(const Frame& frame, const CameraRecord& camera,
+                          const CameraTopics& topics) {
+    if (camera.channels.measured_depth) {
+      send(topics.true_depth_info, frame,
+           ros::camera_info(version_, header(frame, camera.optical), frame.intrinsics));
+      send_image(topics.true_depth, frame, camera.optical, "32FC1", 1, frame.depth);
     }
-    for (std::size_t i = 0; i < truth_.size(); ++i) {
-      const ImageStream& stream = *truth_[i];
+    const StreamSet& streams = camera.channels.truth;
+    for (std::size_t i = 0; i < streams.size(); ++i) {
+      const ImageStream& stream = *streams[i];
       std::visit(
           [&](const auto* values) {
-            send_image(truth_topics_[i], frame, stream.ros_encoding(), stream.components, *values);
+            send_image(topics.truth[i], frame, camera.optical, stream.ros_encoding(),
+                       stream.components, *values);
           },
           *find_image(frame, stream));
     }
@@ -208,16 +246,15 @@ class RosRecorder : public Recorder {
   std::unique_ptr<RosFile> file_;
   ros::Version version_;
   RosOptions options_;
-  Channels channels_;
-  StreamSet truth_;
+  Recording recording_;
   FrameOrder order_;
-  std::uint32_t imu_count_ = 0;
+  std::uint32_t instants_ = 0;
+  std::int64_t last_ns_ = -1;              // of the last instant
+  std::vector<std::uint32_t> imu_counts_;  // readings of each unit
   // Numbers of the topics.
-  std::uint32_t clock_ = 0, tf_static_ = 0, tf_ = 0, pose_ = 0, rgb_info_ = 0, rgb_ = 0,
-                depth_info_ = 0, depth_ = 0;
-  std::uint32_t right_info_ = 0, right_ = 0, events_ = 0, imu_ = 0, true_depth_info_ = 0,
-                true_depth_ = 0, legend_ = 0;
-  std::vector<std::uint32_t> truth_topics_;  // of truth_
+  std::uint32_t clock_ = 0, tf_static_ = 0, tf_ = 0, pose_ = 0, legend_ = 0;
+  std::vector<CameraTopics> cameras_;
+  std::vector<std::uint32_t> imus_;
 };
 
 }  // namespace

@@ -3,18 +3,21 @@
 //   /camera/rgb/image_raw (rgb8), /camera/rgb/camera_info
 //   /camera/depth_registered/image_raw (16UC1, mm, 0: no return)
 //     or /camera/depth_registered/image (32FC1, m, NaN: no return), and .../camera_info
-//   /ground_truth/pose    the camera body in `world`
+//   /ground_truth/pose    the rig that carries the sensors in `world`: of a single camera its body
 //   /tf                   world -> camera_link
 //   /tf_static            camera_link -> camera_optical_frame, latched
 //   /clock
 // Where the recording has them:
 //   /camera/right/image_raw, .../camera_info   in camera_right_optical_frame; P[3] = -fx baseline
-//   /camera/events              dvs_msgs/EventArray, at the frame's stamp, those since the one
-//   before /imu                        sensor_msgs/Imu in camera_link, each at its own stamp
+//   /camera/events              dvs_msgs/EventArray, at the frame's stamp, those since the one before
+//   /imu                        sensor_msgs/Imu, each at its own stamp
 //   /ground_truth/depth/image   32FC1, m: exact, where the depth above is that of a sensor
 //   /ground_truth/NAME/image    streams of ground truth, by their names and in the encodings that their
 //                               types have; a piece number is 32SC1: -1: ground; -2: nothing
 //   /ground_truth/legend        std_msgs/String, JSON (legend_to_json), latched
+// Several cameras: /NAME in the place of /camera, /NAME/ground_truth in that of /ground_truth but for
+// the pose and the legend; world -> base_link in /tf, base_link -> NAME_link -> NAME_optical_frame in
+// /tf_static. Other names: CameraRecord and ImuRecord. /clock, /tf and the pose come once an instant.
 // With compressed pictures colour is in .../image_raw/compressed and 16UC1 depth in
 // .../image_raw/compressedDepth, as image_transport does it. Pictures are in camera_optical_frame.
 // All that belongs to a frame bears its one stamp.

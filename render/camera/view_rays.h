@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "render/camera/lens.h"
@@ -17,11 +18,14 @@ struct ViewRays {
   std::int64_t stamp_ns = 0;
   Intrinsics intrinsics;
   Pose world_from_camera;                // in the middle of the exposure
-  std::vector<Pose> row_poses;           // world_from_optical of each row; empty: all as above
-  std::shared_ptr<const LensDirections> directions;  // none: a pinhole
+  // Of what bears the lamp; not given: the camera bears it.
+  std::optional<Pose> world_from_rig{};
+  std::vector<Pose> row_poses{};         // world_from_optical of each row; empty: all as above
+  std::shared_ptr<const LensDirections> directions{};  // none: a pinhole
 
   // A pinhole with one pose for all rows can be drawn the fast way.
   bool plain() const { return !directions && row_poses.empty(); }
+  const Pose& lamp_bearer() const { return world_from_rig ? *world_from_rig : world_from_camera; }
   Pose pose(int row) const {  // world_from_optical
     return row_poses.empty() ? world_from_camera * camera_from_optical
                              : row_poses[std::size_t(row)];

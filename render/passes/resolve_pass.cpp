@@ -74,11 +74,11 @@ float lamp_spread(const LampSpec& lamp) {
 
 float grey_of(const Vec3f& c) { return dot(c, Vec3f(0.2126f, 0.7152f, 0.0722f)); }
 
-void fill_air_and_lamp(FrameBlock& block, const FrameLight& frame, const Pose& world_from_camera) {
+void fill_air_and_lamp(FrameBlock& block, const FrameLight& frame, const Pose& world_from_rig) {
   const double half = 0.5 * frame.lamp.cone_deg * portable::kPi / 180;
-  set(block.lamp_position, Vec3f(world_from_camera * frame.lamp.position),
+  set(block.lamp_position, Vec3f(world_from_rig * frame.lamp.position),
       lamp_spread(frame.lamp));
-  set(block.lamp_axis, Vec3f(world_from_camera.rotation.rotate({1, 0, 0})),
+  set(block.lamp_axis, Vec3f(world_from_rig.rotation.rotate({1, 0, 0})),
       float(1 / (1 - portable::cos(half))));
   set(block.lamp_colour, lamp_colour(frame.lamp));
   set(block.wetness, {float(frame.wetness), 0, 0});
@@ -276,11 +276,17 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
                             float exposure, bool with_contact) {
   const ImageTiles tiles = tiles_of(view, surfaces);
   const bool all_light = variant & (kLinear | kMeter);
-  const bool lamp = has_lamp(light) && (all_light || lamp_shows(light, tiles, exposure));
+  const Pose& bearer = light.world_from_rig ? *light.world_from_rig : world_from_camera;
+  const Vec3 lamp_place = light.world_from_rig
+                              ? view.optical_from_world * (bearer * light.lamp.position)
+                              : camera_from_optical.inverse() * light.lamp.position;
+  const double lamp_offset = norm(light.world_from_rig ? lamp_place : light.lamp.position);
+  const bool lamp =
+      has_lamp(light) && (all_light || lamp_shows(light, lamp_offset, tiles, exposure));
   if (lamp) variant |= kLamp;
   if (with_contact)
     contact_.draw(view, surfaces.depth,
-                  {lamp, Vec3f(camera_from_optical.inverse() * light.lamp.position),
+                  {lamp, Vec3f(lamp_place),
                    light.lamp.shape == LampShape::point ? 0.004f : float(light.lamp.size / 2)},
                   tiles.first_row, tiles.last_row);
   if (light.air_table)
@@ -289,7 +295,7 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
   FrameBlock block{};
   fill_view(block, view, exposure);
   fill_lights(block, light);
-  fill_air_and_lamp(block, light, world_from_camera);
+  fill_air_and_lamp(block, light, bearer);
   fill_surface_appearances(block, texture_size_);
   std::memcpy(block.ground, ground_, sizeof ground_);
   gl_.NamedBufferData(frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
@@ -335,8 +341,8 @@ ImageTiles ResolvePass::tiles_of(const ViewProjection& view, const SurfaceImages
 }
 
 // In daylight the lamp adds less than the image's steps can show.
-bool ResolvePass::lamp_shows(const FrameLight& light, const ImageTiles& tiles,
-                             float exposure) const {
+bool ResolvePass::lamp_shows(const FrameLight& light, double lamp_offset,
+                             const ImageTiles& tiles, float exposure) const {
   // Exposed radiance that moves the darkest of 8-bit values by a quarter, see shaders/tone.glsl.
   constexpr float kUnseen = 4e-4f;
   const Vec3f colour = lamp_colour(light.lamp);
@@ -345,7 +351,7 @@ bool ResolvePass::lamp_shows(const FrameLight& light, const ImageTiles& tiles,
   // Of albedo 1, and the peak of the mirrored part, see gloss_lobe() in shaders/surface.glsl.
   const float film = light.wetness > 0 ? 16.0f : 0.0f;
   const float reflected = (1 + 12 * light.most_gloss + film) / float(portable::kPi);
-  const float offset = float(norm(light.lamp.position));
+  const float offset = float(lamp_offset);
   const float distance = std::max(kNearPlane / tiles.nearest_value - offset, 0.01f);
   return intensity * reflected / (distance * distance) > kUnseen;
 }

@@ -25,6 +25,7 @@ struct FrameLight {
   double wetness = 0;                  // of surfaces
   float most_gloss = 1;                // of the looks in use, see SurfaceAppearance::gloss
   const AirVolume* air_table = nullptr;  // of this frame, unless the air is clear
+  const Pose* world_from_rig = nullptr;  // of what bears the lamp; null: the camera does
 };
 
 // Colours of the lamp's light; kcd.
@@ -73,7 +74,9 @@ class ResolvePass {
   enum Variant { kLinear = 1, kRays = 2, kLamp = 4, kMeter = 8 };
   const GlProgram& program(int variant, TileContent content);  // made when it is first needed
   ImageTiles tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const;
-  bool lamp_shows(const FrameLight& light, const ImageTiles& tiles, float exposure) const;
+  // lamp_offset: from the eye to the lamp; unit: m.
+  bool lamp_shows(const FrameLight& light, double lamp_offset, const ImageTiles& tiles,
+                  float exposure) const;
   void draw_tiles(int variant, const ImageTiles& tiles, int every);  // n-th pixel
 
   ShaderDefines defines_;

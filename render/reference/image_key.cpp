@@ -77,6 +77,7 @@ std::string image_key(const std::string& surroundings, const PreparedScene& scen
   const Intrinsics& k = view.intrinsics;
   key.add(k.width).add(k.height).add(k.fx).add(k.fy).add(k.cx).add(k.cy);
   add_pose(key, view.world_from_camera);
+  if (view.world_from_rig) add_pose(key, *view.world_from_rig);
   for (const Pose& pose : view.row_poses) add_pose(key, pose);
   if (view.directions)
     key.add_bytes(view.directions->data(), view.directions->size() * sizeof(Vec3f));

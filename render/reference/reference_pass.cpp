@@ -152,7 +152,10 @@ std::vector<float> ReferencePass::draw(const ViewRays& view, const LampSpec& lam
   const Pose camera_from = camera_from_optical.inverse();
   for (int row = 0; row < (view.row_poses.empty() ? 1 : view.intrinsics.height); ++row) {
     const Pose camera = view.row_poses.empty() ? view.world_from_camera : view.pose(row) * camera_from;
-    traced.lamps.push_back(place_lamp(lamp, lamp_colour(lamp), camera));
+    const Pose bearer = view.world_from_rig
+                            ? camera * (view.world_from_camera.inverse() * *view.world_from_rig)
+                            : camera;
+    traced.lamps.push_back(place_lamp(lamp, lamp_colour(lamp), bearer));
   }
   TileJournal journal(key.empty() ? "" : s.options.cache_folder + "/reference_tiles", key);
   const std::vector<float> out = s.trace(traced, air, journal);

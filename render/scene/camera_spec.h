@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "render/scene/frame.h"
@@ -120,6 +121,8 @@ struct CameraSpec {
   ImageSensorSpec sensor;        // noise, converter, response
   DepthSensorSpec depth_sensor;  // in the place of the camera
   EventCameraSpec event_camera;  // in the place of the camera
+  // Where it is on its carrier, which bears the lamp; not given: the camera bears the lamp itself.
+  std::optional<Pose> rig_from_camera;
   std::uint64_t seed = 0;  // of all noise
   int threads = 1;         // the result does not depend on it
 };

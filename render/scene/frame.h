@@ -1,4 +1,4 @@
-// One neutral camera sample: what the renderer hands over and every recorder reads.
+// What sensors measure, as plain data: a frame of a camera, a reading of an inertial unit.
 #pragma once
 
 #include <array>
@@ -35,10 +35,11 @@ struct Event {
   bool brighter = false;       // sign of the change
 };
 
-// What an inertial unit in the camera body measures.
+// What an inertial unit measures.
 struct ImuSample {
   std::int64_t stamp_ns = 0;
-  Vec3 angular_velocity;     // in the camera body frame; unit: rad/s
+  int sensor = 0;            // number among the recording's inertial units
+  Vec3 angular_velocity;     // in the frame of the unit; unit: rad/s
   Vec3 linear_acceleration;  // specific force: at rest and level (0, 0, 9.81); unit: m/s2
   Vec3 angular_bias;         // the true offsets that are in the two above; same units
   Vec3 acceleration_bias;
@@ -56,12 +57,16 @@ struct ImuModel {
 };
 
 struct Frame {
-  int index = 0;                  // 0-based
+  int sensor = 0;                 // number among the recording's cameras
+  int index = 0;                  // of this camera, 0-based
   bool starts_sequence = false;   // a pause of any length, or another rate, may come before it
   std::int64_t stamp_ns = 0;      // simulation time; one stamp for all that is in the frame
   Intrinsics intrinsics;          // of colour and depth alike: they are registered
   Pose world_from_camera;         // camera body frame: X forward, Y left, Z up
   Vec3 linear_velocity;           // of the camera, in the world; unit: m/s
+  Pose world_from_rig;            // of the carrier that flies the trajectory (X forward, Y left, Z up);
+  Vec3 rig_velocity;              // its velocity, in the world; unit: m/s. Of the camera of a mission
+                                  // that has one camera, both are those of the camera
   std::vector<std::uint8_t> rgb;  // 3 bytes a pixel, rows from the top
   std::vector<float> depth;       // planar, along the optical axis; unit: m; NaN: no return
 
@@ -73,7 +78,6 @@ struct Frame {
   // Images of ground truth by the names of their streams; what they hold: render/streams/.
   std::map<std::string, ImageValues, std::less<>> truth;
   std::vector<Event> events;            // since the frame before, in order of stamp, row, column
-  std::vector<ImuSample> imu;           // later than the frame before, up to and with this one
   double exposure_s = 0;                // exposure time; 0: not modelled
 
   // The values of a stream of ground truth; empty where the frame has none.

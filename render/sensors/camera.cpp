@@ -54,6 +54,8 @@ struct Camera::State {
   } watched;
 
   Pose pose_at(std::int64_t stamp_ns, std::int64_t frame_ns, const Pose& at_frame) const;
+  // Of what bears the lamp; nothing: the camera itself.
+  std::optional<Pose> rig_of(const Pose& world_from_camera) const;
   ViewRays view_at(int index, double seconds_off = 0) const;
   ViewRays right_of(ViewRays view) const;
 
@@ -94,6 +96,11 @@ Pose Camera::State::pose_at(std::int64_t stamp_ns, std::int64_t frame_ns,
   return stamp_ns == frame_ns ? at_frame : flight.pose_at(stamp_ns);
 }
 
+std::optional<Pose> Camera::State::rig_of(const Pose& world_from_camera) const {
+  if (!spec.rig_from_camera) return std::nullopt;
+  return world_from_camera * spec.rig_from_camera->inverse();
+}
+
 ViewRays Camera::State::view_at(int index, double seconds_off) const {
   const std::int64_t frame_ns = flight.stamps_ns[std::size_t(index)];
   const Pose& at_frame = flight.world_from_camera[std::size_t(index)];
@@ -102,6 +109,7 @@ ViewRays Camera::State::view_at(int index, double seconds_off) const {
   view.intrinsics = spec.intrinsics;
   view.world_from_camera = pose_at(view.stamp_ns, frame_ns, at_frame);
   view.directions = directions;
+  view.world_from_rig = rig_of(view.world_from_camera);
   if (spec.shutter.readout <= 0) return view;
   const int rows = spec.intrinsics.height;
   for (int v = 0; v < rows; ++v) {
@@ -234,6 +242,7 @@ void Camera::State::watch(int index, Frame& frame) {
     view.intrinsics = spec.intrinsics;
     view.directions = directions;
     view.world_from_camera = pose_at(stamp, end, flight.world_from_camera[std::size_t(index)]);
+    view.world_from_rig = rig_of(view.world_from_camera);
     const LinearFrame image = renderer.render_linear(view);
     events->see(stamp, luminance_of(image), frame.events);
     const std::size_t next = std::size_t(index) + (stamp == end ? 1 : 0);
@@ -273,6 +282,7 @@ Frame Camera::take(int index) {
   State& s = *state_;
   Frame frame = s.sensor ? s.take_exposed(index) : s.take_ideal(index);
   frame.baseline = s.spec.baseline;
+  frame.world_from_rig = s.rig_of(frame.world_from_camera).value_or(frame.world_from_camera);
   if (s.events) s.watch(index, frame);
   return frame;
 }

@@ -75,6 +75,7 @@ struct TypeOf {
   Json operator()(const TableList&) const {
     return {{"type", "array"}, {"items", {{"type", "object"}}}};
   }
+  Json operator()(const NamedTables&) const { return Json::object(); }
   Json operator()(TextMap*) const {
     return {{"type", "object"}, {"additionalProperties", {{"type", "string"}}}};
   }
@@ -98,6 +99,11 @@ Json value_schema(const Key& key) {
   if (const auto* tables = std::get_if<TableList>(&slot)) {
     tables->resize(1);  // so that an item's defaults can be read
     json["items"] = object_schema(tables->make_item(0), "");
+  }
+  if (const auto* tables = std::get_if<NamedTables>(&slot)) {
+    tables->reset({tables->example});
+    json.update(or_null({{"type", "object"},
+                         {"additionalProperties", object_schema(tables->make_item(0), "")}}));
   }
   return json;
 }

@@ -40,6 +40,7 @@ struct LuaTypeOf {
   }
   std::string operator()(Value*) const { return "table"; }
   std::string operator()(const TableList&) const { return "table[]"; }
+  std::string operator()(const NamedTables&) const { return "table<string, table>"; }
   std::string operator()(const PlaceSlot&) const { return "rubble.Vector|table"; }
   std::string operator()(TextMap*) const { return "table<string, string>"; }
 };
@@ -76,6 +77,12 @@ std::string class_of(const Schema& schema, const std::string& pattern, const std
         tables->resize(1);  // so that an item's defaults can be read
         inner += class_of(tables->make_item(0), "", own, own, key->doc_text);
         type = own + "[]";
+      }
+      if (const auto* tables = std::get_if<NamedTables>(&slot)) {
+        tables->reset({tables->example});
+        inner += class_of(tables->make_item(0), "", own, own, key->doc_text);
+        tables->reset({});
+        type = "table<string, " + own + ">";
       }
     } else {
       const bool is_list = key->kind == KeyKind::list;

@@ -46,6 +46,15 @@ std::string row(const Key& key, const std::string& name) {
 constexpr const char* kHead =
     "| key | takes | unit | default | meaning |\n| --- | --- | --- | --- | --- |\n";
 
+// The keys of a named table that are not those of a group or a key of the mission itself.
+std::string named_section(const Schema& mission, const Schema& item, const Key& of) {
+  std::string rows;
+  for (const Key* key : item.children(""))
+    if (key->kind == KeyKind::value && !mission.find("camera." + key->path))
+      rows += row(*key, key->name());
+  return "### `" + of.path + "`, tables by name\n\n" + of.doc_text + "\n\n" + kHead + rows + "\n";
+}
+
 // One heading and table for a group, then one for each group or list in it.
 std::string section(const Schema& schema, const std::string& pattern, const std::string& heading,
                     const std::string& doc) {
@@ -58,6 +67,10 @@ std::string section(const Schema& schema, const std::string& pattern, const std:
         tables->resize(1);
         below += section(tables->make_item(0), "", "`" + key->path + "`, a list of tables",
                          key->doc_text);
+      }
+      if (const auto* tables = std::get_if<NamedTables>(&slot)) {
+        tables->reset({tables->example});
+        below += named_section(schema, tables->make_item(0), *key);
       }
       continue;
     }

@@ -18,34 +18,38 @@ std::string describe_channels() {
   return text;
 }
 
-void add_camera(Schema& k, CameraScenario& c) {
-  k.group("camera", "Colour and depth have the same pixels. With the defaults, an exact pinhole.");
-  k.value("camera.width", c.width, "Of the image.").between(16, 8192).unit("pixel");
-  k.value("camera.height", c.height, "Of the image.").between(16, 8192).unit("pixel");
-  k.value("camera.fov_deg", c.fov_deg,
+// at: what the keys begin with: "camera.", or nothing.
+void add_camera(Schema& k, const std::string& at, CameraScenario& c) {
+  k.value(at + "width", c.width, "Of the image.").between(16, 8192).unit("pixel");
+  k.value(at + "height", c.height, "Of the image.").between(16, 8192).unit("pixel");
+  k.value(at + "fov_deg", c.fov_deg,
           "Horizontal field of view, edge to edge: up to 170, of a fisheye up to 360. Distortion of "
           "plumb_bob is left out of account.")
       .between(1, 360)
       .unit("degree");
-  k.value("camera.channels", c.channels, describe_channels());
-  k.choice("camera.quality", c.colour.quality, {"fast", "reference"},
+  k.value(at + "channels", c.channels, describe_channels());
+  k.choice(at + "quality", c.colour.quality, {"fast", "reference"},
            "How colours are found: baked light and shadow maps, or path tracing, which takes a minute or "
            "more an image ([reference_renderer.md](reference_renderer.md)). Depth and channels are the same.");
-  k.value("camera.samples", c.colour.samples, "Of the reference: paths a pixel.").between(1, 65536);
-  k.value("camera.denoise", c.colour.denoise,
+  k.value(at + "samples", c.colour.samples, "Of the reference: paths a pixel.").between(1, 65536);
+  k.value(at + "denoise", c.colour.denoise,
           "Of the reference: noise is filtered out by the exact normals, distances and albedos.");
-  k.value("camera.stereo_baseline", c.stereo_baseline,
+  k.value(at + "stereo_baseline", c.stereo_baseline,
           "Distance of a second camera to the right, with the same lens and exposure; 0: none.")
       .between(0, 10)
       .unit("m");
+  k.value(at + "topic", c.topic,
+          "ROS: what its topics begin with; not given: `/camera`, of one of `cameras` `/NAME`.");
+  k.value(at + "frame_id", c.frame_id,
+          "TF: the frame of its pictures (Z forward); not given: `camera_optical_frame`, of one of "
+          "`cameras` `NAME_optical_frame`.");
 }
 
-void add_lens(Schema& k, LensScenario& l) {
-  k.group("camera.lens", "The lens. Depth and channels are exact for each pixel's own ray.");
-  k.choice("camera.lens.model", l.model, {"pinhole", "plumb_bob", "fisheye"},
+void add_lens(Schema& k, const std::string& at, LensScenario& l) {
+  k.choice(at + "lens.model", l.model, {"pinhole", "plumb_bob", "fisheye"},
            "Brown-Conrady (ROS plumb_bob, OpenCV) or Kannala-Brandt (ROS equidistant, OpenCV fisheye).");
   const auto coefficient = [&](const char* name, double& member, const char* doc) {
-    k.value(std::string("camera.lens.") + name, member, doc).between(-100, 100);
+    k.value(at + "lens." + name, member, doc).between(-100, 100);
   };
   coefficient("k1", l.k1, "Radial, of the second power; of a fisheye, k1 to k4 in OpenCV's order.");
   coefficient("k2", l.k2, "Radial, of the fourth power.");
@@ -54,7 +58,7 @@ void add_lens(Schema& k, LensScenario& l) {
   coefficient("k3", l.k3, "Radial, of the sixth power.");
   coefficient("k4", l.k4, "Of a fisheye only.");
   const auto calibrated = [&](const char* name, std::optional<double>& member, const char* doc) {
-    return &k.value(std::string("camera.lens.") + name, member, doc).unit("pixel");
+    return &k.value(at + "lens." + name, member, doc).unit("pixel");
   };
   calibrated("fx", l.fx, "Focal length of a calibrated camera, instead of `fov_deg`.")->above(0, 1e6);
   calibrated("fy", l.fy, "Not given: as fx.")->above(0, 1e6);
@@ -62,56 +66,51 @@ void add_lens(Schema& k, LensScenario& l) {
   calibrated("cy", l.cy, "Likewise.")->between(-1e5, 1e5);
 }
 
-void add_shutter(Schema& k, ShutterSpec& s) {
-  k.group("camera.shutter", "The stamp of a frame is the middle of its exposure.");
-  k.value("camera.shutter.readout", s.readout,
+void add_shutter(Schema& k, const std::string& at, ShutterSpec& s) {
+  k.value(at + "shutter.readout", s.readout,
           "Rolling shutter: time from the first row to the last; 0: all rows at once.")
       .between(0, 1)
       .unit("s");
-  k.value("camera.shutter.motion_blur", s.motion_blur,
+  k.value(at + "shutter.motion_blur", s.motion_blur,
           "Images over the exposure, one for each pixel of motion, added in linear light.");
-  k.value("camera.shutter.most_samples", s.most_samples, "Of these images, at most.").between(3, 255);
+  k.value(at + "shutter.most_samples", s.most_samples, "Of these images, at most.").between(3, 255);
 }
 
-void add_exposure(Schema& k, ExposureSpec& e) {
-  k.group("camera.exposure",
-          "How much light the image gets: the share of saturation is 0.65 L t S / (78 N^2), with the "
-          "luminance L in cd/m2 (ISO 12232:2006).");
-  k.choice("camera.exposure.mode", e.mode, {"ideal", "fixed", "automatic"},
+void add_exposure(Schema& k, const std::string& at, ExposureSpec& e) {
+  k.choice(at + "exposure.mode", e.mode, {"ideal", "fixed", "automatic"},
            "Ideal: a display image, metered on the frame itself, without noise; the rest of the keys "
            "count otherwise.");
-  k.value("camera.exposure.time", e.time, "Exposure time t.").between(1e-6, 1).unit("s");
-  k.value("camera.exposure.iso", e.iso, "Speed S; automatic: the lowest.").between(1, 1e6);
-  k.value("camera.exposure.f_number", e.f_number, "Aperture N.").between(0.5, 64);
-  k.value("camera.exposure.compensation", e.compensation,
+  k.value(at + "exposure.time", e.time, "Exposure time t.").between(1e-6, 1).unit("s");
+  k.value(at + "exposure.iso", e.iso, "Speed S; automatic: the lowest.").between(1, 1e6);
+  k.value(at + "exposure.f_number", e.f_number, "Aperture N.").between(0.5, 64);
+  k.value(at + "exposure.compensation", e.compensation,
           "Automatic: brighter or darker than a mean of 18 %.")
       .between(-8, 8)
       .unit("stop");
-  k.value("camera.exposure.longest_time", e.longest_time, "Automatic: raised up to this, then ...")
+  k.value(at + "exposure.longest_time", e.longest_time, "Automatic: raised up to this, then ...")
       .between(1e-6, 1)
       .unit("s");
-  k.value("camera.exposure.highest_iso", e.highest_iso, "... the speed up to this.").between(1, 1e6);
-  k.value("camera.exposure.time_constant", e.time_constant,
+  k.value(at + "exposure.highest_iso", e.highest_iso, "... the speed up to this.").between(1, 1e6);
+  k.value(at + "exposure.time_constant", e.time_constant,
           "Automatic: the error shrinks by e within this time; 0: at once.")
       .between(0, 60)
       .unit("s");
-  k.value("camera.exposure.delay", e.delay, "Automatic: frames until what is metered takes effect.")
+  k.value(at + "exposure.delay", e.delay, "Automatic: frames until what is metered takes effect.")
       .between(0, 16);
 }
 
-void add_sensor(Schema& k, ImageSensorSpec& s) {
-  k.group("camera.sensor", "From light to stored numbers (EMVA 1288); not of an ideal exposure.");
-  k.value("camera.sensor.noise", s.noise, "Shot and read noise.");
-  k.value("camera.sensor.full_well", s.full_well, "Electrons at saturation at ISO 100.")
+void add_sensor(Schema& k, const std::string& at, ImageSensorSpec& s) {
+  k.value(at + "sensor.noise", s.noise, "Shot and read noise.");
+  k.value(at + "sensor.full_well", s.full_well, "Electrons at saturation at ISO 100.")
       .between(10, 1e7);
-  k.value("camera.sensor.read_noise", s.read_noise, "Standard deviation, in electrons.")
+  k.value(at + "sensor.read_noise", s.read_noise, "Standard deviation, in electrons.")
       .between(0, 1000);
-  k.value("camera.sensor.bits", s.bits, "Of the converter.").between(1, 16);
-  k.value("camera.sensor.vignette", s.vignette, "0: none; 1: the natural cos^4 fall-off.")
+  k.value(at + "sensor.bits", s.bits, "Of the converter.").between(1, 16);
+  k.value(at + "sensor.vignette", s.vignette, "0: none; 1: the natural cos^4 fall-off.")
       .between(0, 4);
-  k.choice("camera.sensor.response", s.response, {"srgb", "gamma", "linear"},
+  k.choice(at + "sensor.response", s.response, {"srgb", "gamma", "linear"},
            "From the converter to the 8 bits that are stored.");
-  k.value("camera.sensor.gamma", s.gamma, "Exponent 1 / gamma, of the response `gamma`.")
+  k.value(at + "sensor.gamma", s.gamma, "Exponent 1 / gamma, of the response `gamma`.")
       .between(0.2, 5);
 }
 
@@ -187,14 +186,52 @@ void add_event_camera(Schema& k, EventCameraSpec& e) {
       .unit("cd/m2");
 }
 
+void add_camera_with(Schema& k, const std::string& at, CameraScenario& c) {
+  add_camera(k, at, c);
+  const auto group = [&](const char* name, const char* doc) { k.group(at + name, doc); };
+  group("lens", "The lens. Depth and channels are exact for each pixel's own ray.");
+  add_lens(k, at, c.lens);
+  group("shutter", "The stamp of a frame is the middle of its exposure.");
+  add_shutter(k, at, c.shutter);
+  group("exposure",
+        "How much light the image gets: the share of saturation is 0.65 L t S / (78 N^2), with the "
+        "luminance L in cd/m2 (ISO 12232:2006).");
+  add_exposure(k, at, c.exposure);
+  group("sensor", "From light to stored numbers (EMVA 1288); not of an ideal exposure.");
+  add_sensor(k, at, c.sensor);
+}
+
+Schema mounted_camera_schema(MountedCamera& m) {
+  Schema k;
+  k.value("position", m.position, "Of its body in the rig: X forward, Y left, Z up.")
+      .between(-10, 10)
+      .unit("m");
+  k.value("rpy_deg", m.rpy_deg, "Roll, pitch (positive: down) and yaw (positive: to the left) in the rig.")
+      .between(-360, 360)
+      .unit("degree");
+  k.value("rate_hz", m.rate_hz, "Frames per second; not given: `trajectory.rate_hz`.")
+      .between(0.001, 1000)
+      .unit("Hz");
+  add_camera_with(k, "", m.camera);
+  add_depth_sensor(k, m.depth_sensor);
+  add_event_camera(k, m.event_camera);
+  return k;
+}
+
 }  // namespace
 
 void add_camera_keys(Schema& keys, Scenario& s) {
-  add_camera(keys, s.camera);
-  add_lens(keys, s.camera.lens);
-  add_shutter(keys, s.camera.shutter);
-  add_exposure(keys, s.camera.exposure);
-  add_sensor(keys, s.camera.sensor);
+  keys.group("camera", "Colour and depth have the same pixels. With the defaults, an exact pinhole.");
+  add_camera_with(keys, "camera.", s.camera);
+  keys.add("cameras",
+           "Several cameras instead of `camera`, by names of lower-case letters, digits and "
+           "underscores: `cameras = { front = { ... }, left = { ... } }`. Each is fixed to the rig that "
+           "flies the trajectory and bears the lamp, and has, besides the keys below, every key of "
+           "`camera`, and `depth_sensor` and `event_camera` as tables of its own.",
+           [&s](std::size_t) {
+             return Schema::named_tables(s.cameras, &MountedCamera::name, "front",
+                                         mounted_camera_schema);
+           });
   add_depth_sensor(keys, s.depth_sensor);
   add_event_camera(keys, s.event_camera);
 }

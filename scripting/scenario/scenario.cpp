@@ -4,7 +4,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
-#include "render/streams/image_streams.h"
+#include "scripting/scenario/camera_mistakes.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/values/value.h"
 
@@ -94,58 +94,6 @@ void check_names(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
   }
 }
 
-void check_channels(const CameraScenario& camera, std::vector<Diagnostic>& mistakes) {
-  const std::vector<std::string> names = channel_names();
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "one of " : ", ") + name;
-  for (std::size_t i = 0; i < camera.channels.size(); ++i) {
-    const std::string& written = camera.channels[i];
-    if (std::find(names.begin(), names.end(), written) != names.end()) continue;
-    const std::string near = nearest_name(written, names);
-    mistakes.push_back({"", 0, "camera.channels[" + std::to_string(i + 1) + "]",
-                        "unknown channel `" + written + "`", near.empty() ? list : "", "",
-                        near.empty() ? "" : "did you mean `" + near + "`?"});
-  }
-}
-
-// Smallest value over [0, fov / 2] of the slope of a fisheye's curve: the image must grow with it.
-bool fisheye_grows(const CameraScenario& camera) {
-  const LensScenario& l = camera.lens;
-  const double edge = camera.fov_deg * (portable::kPi / 360.0);
-  for (int i = 0; i <= 200; ++i) {
-    const double a = edge * i / 200, a2 = a * a;
-    if (1 + a2 * (3 * l.k1 + a2 * (5 * l.k2 + a2 * (7 * l.k3 + a2 * 9 * l.k4))) <= 0) return false;
-  }
-  return true;
-}
-
-void check_camera(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
-  const CameraScenario& c = scenario.camera;
-  const auto add = [&](const char* key, const char* message, const char* expected,
-                       const char* hint) {
-    mistakes.push_back({"", 0, key, message, expected, "", hint});
-  };
-  const LensScenario& l = c.lens;
-  if (l.model != LensKind::fisheye && c.fov_deg > 170)
-    add("camera.fov_deg", "too wide for a flat image", "at most 170",
-        "or camera.lens.model = \"fisheye\"");
-  if (l.model == LensKind::fisheye && !fisheye_grows(c))
-    add("camera.lens", "the lens folds back within the field of view",
-        "a curve that grows up to camera.fov_deg / 2", "");
-  const bool bent = l.k1 != 0 || l.k2 != 0 || l.k3 != 0 || l.k4 != 0 || l.p1 != 0 || l.p2 != 0;
-  if (l.model == LensKind::pinhole && bent)
-    add("camera.lens.model", "a pinhole has no distortion", "\"plumb_bob\" or \"fisheye\"", "");
-  if (l.model == LensKind::plumb_bob && l.k4 != 0)
-    add("camera.lens.k4", "only a fisheye has it", "0", "");
-  if (l.model == LensKind::fisheye && (l.p1 != 0 || l.p2 != 0))
-    add("camera.lens.p1", "a fisheye has no tangential distortion", "p1 and p2 of 0", "");
-  if (c.shutter.motion_blur && c.exposure.mode == ExposureMode::ideal)
-    add("camera.shutter.motion_blur", "an ideal image takes no time",
-        "camera.exposure.mode of \"fixed\" or \"automatic\"", "");
-  if (scenario.depth_sensor.min_range >= scenario.depth_sensor.max_range)
-    add("depth_sensor.max_range", "nothing is within reach", "more than depth_sensor.min_range", "");
-}
-
 void check_meshes(const OutputScenario& outputs, std::vector<Diagnostic>& mistakes) {
   const std::vector<std::string> names = export_names();
   for (std::size_t i = 0; i < outputs.meshes.size(); ++i) {
@@ -191,48 +139,6 @@ void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistake
 
 std::vector<std::string> export_names() { return {"ply", "obj", "glb", "sdf"}; }
 
-std::vector<std::string> channel_names() {
-  std::vector<std::string> names;
-  for (const ImageStream* stream : truth_streams()) names.push_back(stream->name);
-  return names;
-}
-
-StreamSet CameraScenario::channel_set() const {
-  StreamSet set;
-  for (const ImageStream* stream : truth_streams())
-    if (has_channel(stream->name)) set.push_back(stream);
-  return set;
-}
-
-bool CameraScenario::has_channel(const std::string& name) const {
-  return std::find(channels.begin(), channels.end(), name) != channels.end();
-}
-
-Intrinsics CameraScenario::intrinsics() const {
-  const double angle = fov_deg * (portable::kPi / 360.0);
-  Intrinsics in;
-  in.width = width;
-  in.height = height;
-  double half = 0;  // from the axis to the edge, at a focal length of 1
-  if (lens.model == LensKind::fisheye) {
-    in.lens = LensModel::fisheye;
-    in.distortion = {lens.k1, lens.k2, lens.k3, lens.k4, 0};
-    const double a2 = angle * angle;
-    half = angle * (1 + a2 * (lens.k1 + a2 * (lens.k2 + a2 * (lens.k3 + a2 * lens.k4))));
-    in.fx = in.fy = 0.5 * width / half;
-  } else {
-    const portable::SinCos edge = portable::sincos(angle);
-    in.fx = in.fy = 0.5 * width * edge.cos / edge.sin;
-    if (lens.model == LensKind::plumb_bob)
-      in.distortion = {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
-  }
-  in.fx = lens.fx.value_or(in.fx);
-  in.fy = lens.fy.value_or(lens.fx.value_or(in.fy));
-  in.cx = lens.cx.value_or(0.5 * (width - 1));
-  in.cy = lens.cy.value_or(0.5 * (height - 1));
-  return in;
-}
-
 std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   Scenario copy = scenario;  // a schema binds members that can be written
   std::vector<Diagnostic> mistakes = check_ranges(make_scenario_schema(copy));
@@ -241,8 +147,8 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_mix(scenario.pile, mistakes);
   check_density(scenario.pile.spawn_density, mistakes);
   check_terrain(scenario.pile.terrain, mistakes);
-  check_channels(scenario.camera, mistakes);
-  check_camera(scenario, mistakes);
+  check_cameras(scenario, mistakes);
+  check_sensor_names(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
   check_record_settling(scenario.record_settling, mistakes);
   check_robots(scenario, mistakes);

@@ -16,9 +16,8 @@
 #include "kernel/base/math.h"
 #include "kernel/model/pile.h"
 #include "kernel/settling/settle.h"
-#include "render/scene/camera_spec.h"
-#include "render/scene/frame.h"
 #include "render/scene/scene.h"
+#include "scripting/scenario/camera_scenario.h"
 #include "scripting/scenario/robot_scenario.h"
 #include "scripting/trajectory/trajectory.h"
 
@@ -89,43 +88,6 @@ struct LightScenario {
   Vec3 position_bounds{8, 8, 4};  // unit: m; >= 0
 };
 
-enum class LensKind { pinhole, plumb_bob, fisheye };
-
-// Formulas: render/camera/lens.h.
-struct LensScenario {
-  LensKind model = LensKind::pinhole;  // how pixels see; the coefficients that it uses are below
-  double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  // plumb_bob; k1 to k3 of a fisheye, too
-  double k4 = 0;                                  // of a fisheye
-  // Of a calibrated camera; not given: from the field of view, and the middle. unit: pixel
-  std::optional<double> fx{}, fy{}, cx{}, cy{};
-};
-
-struct CameraScenario {
-  int width = 1024, height = 1024;  // unit: pixel; range: 16 to 8192
-  // Horizontal, from edge to edge of the image; range: 1 to 170, of a fisheye to 360.
-  double fov_deg = 90;
-  // Ground truth beside colour and depth, of channel_names().
-  std::vector<std::string> channels{};
-  ColourSpec colour{};         // fast, or path traced
-  LensScenario lens{};         // calibration; without one a pinhole of fov_deg
-  double stereo_baseline = 0;  // to the right camera of a pair; 0: none; unit: m; range: 0 to 10
-  ShutterSpec shutter{};       // when each row is exposed
-  ExposureSpec exposure{};     // how bright the image is
-  ImageSensorSpec sensor{};    // noise, converter, response
-
-  // fx = fy = (width / 2) / r(fov / 2), where r is tan for a pinhole and for plumb_bob, whose
-  // distortion is left out of account, and the lens's own curve for a fisheye; the principal point is
-  // the middle of the image, (width - 1) / 2 where pixel (0, 0) has its centre at (0, 0). What the
-  // lens states itself comes first.
-  Intrinsics intrinsics() const;
-  // The streams that `channels` names, in the order of the table; unknown names are left out.
-  StreamSet channel_set() const;
-  bool has_channel(const std::string& name) const;  // whether `channels` names it
-};
-
-// What CameraScenario::channels may name.
-std::vector<std::string> channel_names();
-
 // What OutputScenario::meshes may name.
 std::vector<std::string> export_names();
 
@@ -153,12 +115,6 @@ struct OutputScenario {
   bool preview = true;              // preview.png, a contact sheet
   DepthEncoding depth = DepthEncoding::millimetres;  // in bag and MCAP file
   PictureEncoding pictures = PictureEncoding::raw;   // likewise
-};
-
-// An inertial unit in the camera.
-struct ImuScenario {
-  bool on = false;  // false: not simulated
-  ImuModel model;   // rate, noise and biases
 };
 
 // The pile seen settling: a standing camera watches the layers fall, before its flight.
@@ -190,6 +146,7 @@ struct Scenario {
   double wetness = 0;             // of all surfaces; range: 0 to 1
   AirSpec air;                    // fog, smoke, dust
   CameraScenario camera;          // image, lens, channels
+  std::vector<MountedCamera> cameras;  // instead of `camera`: several, by name
   DepthSensorSpec depth_sensor;   // what a real depth sensor would report
   EventCameraSpec event_camera;   // changes of brightness
   LampSpec lamp;                  // on the camera
@@ -207,6 +164,11 @@ struct Scenario {
 
 // What validate() would throw; empty: none. Keys are schema paths such as "pile.mix[1].scale".
 std::vector<Diagnostic> find_mistakes(const Scenario& scenario);
+
+// The cameras of a mission: those of `cameras`, or `camera` as the rig itself.
+std::vector<MountedCamera> all_cameras(const Scenario& scenario);
+// Whether a camera gives that stream of ground truth.
+bool has_channel(const Scenario& scenario, const std::string& name);
 
 // The trajectory with its smoothing chosen where the mission leaves that open: kUsualSmoothing where
 // an inertial unit is on, and for a curve around what lies there; none elsewhere.

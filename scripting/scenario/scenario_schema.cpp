@@ -394,7 +394,8 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
 
 void add_imu(Schema& k, ImuScenario& s) {
   ImuModel& m = s.model;
-  k.group("imu", "An inertial unit in the camera, with white noise and wandering biases.");
+  k.group("imu", "An inertial unit on the rig, of a single camera in its body, with white noise and wandering "
+          "biases.");
   k.value("imu.on", s.on, "Whether it is recorded.");
   k.value("imu.rate_hz", m.rate_hz, "Samples per second.").between(1, 10000).unit("Hz");
   k.value("imu.gyroscope_noise", m.gyroscope_noise, "Density of the white noise.")
@@ -409,6 +410,15 @@ void add_imu(Schema& k, ImuScenario& s) {
   k.value("imu.accelerometer_walk", m.accelerometer_walk, "Density of the bias's steps.")
       .between(0, 100)
       .unit("m/s3/sqrt(Hz)");
+  k.value("imu.position", s.position, "Where it sits on the rig: X forward, Y left, Z up.")
+      .between(-10, 10)
+      .unit("m");
+  k.value("imu.rpy_deg", s.rpy_deg, "Of its axes in the rig: roll, pitch (positive: down), yaw.")
+      .between(-360, 360)
+      .unit("degree");
+  k.value("imu.topic", s.topic, "ROS: its topic; not given: `/imu`.");
+  k.value("imu.frame_id", s.frame_id,
+          "TF: its frame; not given: that of the rig where it sits there, else `imu_link`.");
 }
 
 void add_record_settling(Schema& k, RecordSettlingScenario& r) {

@@ -52,13 +52,19 @@ struct TableList {  // a list within an item of a list: each table of it has a s
   std::function<void(std::size_t)> resize;      // new items have the defaults
   std::function<Schema(std::size_t)> make_item;  // its keys start at the item
 };
+struct NamedTables {  // { name = { ... }, ... }: each table has a schema of its own
+  std::function<std::vector<std::string>()> names;  // in order
+  std::function<void(const std::vector<std::string>&)> reset;  // to items of these names, with defaults
+  std::function<Schema(std::size_t)> make_item;  // its keys start at the item
+  std::string example;  // of a name, for documents
+};
 using TextMap = std::vector<std::pair<std::string, std::string>>;  // { name = "text", ... }
 
 // Where a key's value lives, and with that its type. Value*: any table, taken as it is.
 using Slot = std::variant<bool*, Negated, int*, std::int64_t*, std::uint64_t*, double*,
                           std::optional<double>*, std::string*, std::optional<std::string>*, Choice,
                           Vec3*, std::optional<Vec3>*, NumberPair*, std::optional<NumberPair>*,
-                          std::vector<std::string>*, StringOrList, WordOrFile, Value*, TableList,
+                          std::vector<std::string>*, StringOrList, WordOrFile, Value*, TableList, NamedTables,
                            PlaceSlot, std::vector<double>*, TextMap*>;
 
 struct Range {
@@ -138,6 +144,22 @@ class Schema {
     return TableList{[&member] { return member.size(); },
                      [&member](std::size_t n) { member.clear(), member.resize(n); },
                      [&member, make](std::size_t i) { return make(member[i]); }};
+  }
+  // name: the member of an item that keeps its name.
+  template <typename T>
+  static Slot named_tables(std::vector<T>& member, std::string T::*name, std::string example,
+                           Schema (*make)(T&)) {
+    return NamedTables{[&member, name] {
+                         std::vector<std::string> names;
+                         for (const T& item : member) names.push_back(item.*name);
+                         return names;
+                       },
+                       [&member, name](const std::vector<std::string>& names) {
+                         member.clear(), member.resize(names.size());
+                         for (std::size_t i = 0; i < names.size(); ++i) member[i].*name = names[i];
+                       },
+                       [&member, make](std::size_t i) { return make(member[i]); },
+                       std::move(example)};
   }
   Key& add(std::string path, std::string doc, std::function<Slot(std::size_t)> bind);
   void alias(std::string name, std::string path, bool negated = false);

@@ -90,7 +90,26 @@ bool split_index(const std::string& path, std::string& pattern, std::size_t& ind
   return true;
 }
 
+std::optional<Target> find_target(const Schema& schema, const std::string& path);
+
+// "cameras.front.width": a key of a named table, in that table's own schema.
+std::optional<Target> find_in_named_table(const Schema& schema, const std::string& path) {
+  const std::size_t dot = path.find('.');
+  const std::size_t end = dot == std::string::npos ? dot : path.find('.', dot + 1);
+  if (end == std::string::npos) return std::nullopt;
+  const Key* key = schema.find(path.substr(0, dot));
+  if (!key || key->kind != KeyKind::value) return std::nullopt;
+  const Slot slot = key->bind(0);
+  const auto* tables = std::get_if<NamedTables>(&slot);
+  if (!tables) return std::nullopt;
+  const std::vector<std::string> names = tables->names();
+  const auto at = std::find(names.begin(), names.end(), path.substr(dot + 1, end - dot - 1));
+  if (at == names.end()) return std::nullopt;
+  return find_target(tables->make_item(std::size_t(at - names.begin())), path.substr(end + 1));
+}
+
 std::optional<Target> find_target(const Schema& schema, const std::string& path) {
+  if (auto found = find_in_named_table(schema, path)) return found;
   std::string pattern;
   std::size_t index = 0;
   if (!split_index(path, pattern, index)) return std::nullopt;
@@ -169,6 +188,9 @@ class TableReader {
       if (const auto* tables = std::get_if<TableList>(&slot)) {
         return read_tables(key, *tables, shown, value);
       }
+      if (const auto* tables = std::get_if<NamedTables>(&slot)) {
+        return read_named_tables(key, *tables, shown, value);
+      }
       written_.push_back(shown);
       if (auto mistake = write_slot(key, key.bind(index), value, shown))
         mistakes_.push_back(*mistake);
@@ -201,6 +223,28 @@ class TableReader {
         TableReader(schema, mistakes_).read_group("", item, 0, value.items[i]);
       else
         mistakes_.push_back({"", 0, item, "wrong type", "a table", describe(value.items[i]), ""});
+    }
+  }
+
+  void read_named_tables(const Key& key, const NamedTables& tables, const std::string& shown,
+                         const Value& value) {
+    if (value.kind != Value::Kind::table || !value.items.empty() || !value.strange_keys.empty()) {
+      mistakes_.push_back({"", 0, shown, "wrong type", describe_expected(key), describe(value),
+                           "write { " + tables.example + " = { ... } }"});
+      return;
+    }
+    std::vector<std::string> names;
+    for (const auto& field : value.fields) names.push_back(field.first);
+    std::sort(names.begin(), names.end());
+    tables.reset(names);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const Value& table = *value.find(names[i]);
+      const std::string item = joined(shown, names[i]);
+      const Schema schema = tables.make_item(i);
+      if (table.kind == Value::Kind::table)
+        TableReader(schema, mistakes_).read_group("", item, 0, table);
+      else
+        mistakes_.push_back({"", 0, item, "wrong type", "a table", describe(table), ""});
     }
   }
 
@@ -365,6 +409,15 @@ std::vector<Diagnostic> check_ranges(const Schema& schema) {
         for (std::size_t k = 0; k < tables->size(); ++k)
           for (Diagnostic& d : check_ranges(tables->make_item(k))) {
             d.key = shown + "[" + std::to_string(k + 1) + "]." + d.key;
+            mistakes.push_back(std::move(d));
+          }
+        continue;
+      }
+      if (const auto* tables = std::get_if<NamedTables>(&slot)) {
+        const std::vector<std::string> names = tables->names();
+        for (std::size_t k = 0; k < names.size(); ++k)
+          for (Diagnostic& d : check_ranges(tables->make_item(k))) {
+            d.key = shown + "." + names[k] + "." + d.key;
             mistakes.push_back(std::move(d));
           }
         continue;

@@ -249,7 +249,7 @@ Outcome store_as(const Range& range, const T& to, const Value& value) {
     if (value.kind != Value::Kind::table || !value.strange_keys.empty()) return Outcome::wrong_type;
     *to = value;
     return Outcome::stored;
-  } else if constexpr (std::is_same_v<T, TableList>) {
+  } else if constexpr (is_any<T, TableList, NamedTables>) {
     return Outcome::wrong_type;  // read table by table, by whoever knows its items
   } else if constexpr (std::is_same_v<T, TextMap*>) {
     return store_map(value, *to);
@@ -266,6 +266,24 @@ Value list_of(const std::vector<std::string>& strings) {
   Value list = Value::make_table();
   for (const std::string& s : strings) list.items.push_back(Value::make_text(s));
   return list;
+}
+
+// The keys below `pattern` as a table, its groups as tables in it.
+Value table_of(const Schema& schema, const std::string& pattern) {
+  Value table = Value::make_table();
+  for (const Key* key : schema.children(pattern))
+    table.set(key->name(), key->kind == KeyKind::value ? read_slot(key->bind(0))
+                                                       : table_of(schema, key->path));
+  return table;
+}
+
+// Nothing, where there are none.
+Value table_of(const NamedTables& tables) {
+  const std::vector<std::string> names = tables.names();
+  Value all = names.empty() ? Value() : Value::make_table();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    all.set(names[i], table_of(tables.make_item(i), ""));
+  return all;
 }
 
 template <typename T>
@@ -324,6 +342,8 @@ Value read_as(const T& from) {
         if (key.kind == KeyKind::value) list.items.back().set(key.name(), read_slot(key.bind(0)));
     }
     return list;
+  } else if constexpr (std::is_same_v<T, NamedTables>) {
+    return table_of(from);
   } else if constexpr (std::is_same_v<T, TextMap*>) {
     Value table = Value::make_table();
     for (const auto& [name, text] : *from) table.set(name, Value::make_text(text));
@@ -358,6 +378,8 @@ std::string expected_as(const Key& key, const T& slot) {
   if constexpr (std::is_same_v<T, Value*>) return "a table";
   if constexpr (std::is_same_v<T, StringOrList>) return "a string or a list of strings";
   if constexpr (std::is_same_v<T, TableList>) return "a list of tables";
+  if constexpr (std::is_same_v<T, NamedTables>)
+    return "tables by name { " + slot.example + " = { ... } }";
   if constexpr (std::is_same_v<T, TextMap*>) return "a table { name = \"text\" }";
   return "a list of strings";
 }

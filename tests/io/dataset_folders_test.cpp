@@ -30,6 +30,7 @@ void record(std::unique_ptr<Recorder> recorder, const Intrinsics* intrinsics = n
   for (int i = 0; i < kFrames; ++i) {
     Frame frame = make_full_frame(i);
     if (intrinsics) frame.intrinsics = *intrinsics;
+    for (const ImuSample& sample : test::make_full_imu(i)) recorder->write_imu(sample);
     recorder->write(frame);
   }
   recorder->finish();
@@ -133,8 +134,9 @@ TEST(Euroc, TablesAndCalibrationsAreThoseOfTheFrames) {
     EXPECT_EQ(state[0], frame.world_from_camera.translation.x);
     EXPECT_EQ((std::vector<double>(state.begin() + 3, state.begin() + 10)),
               (std::vector<double>{q.w, q.x, q.y, q.z, 3, 0.25 * i, -0.5}));
-    EXPECT_EQ(state[15], frame.imu.back().acceleration_bias.z);
-    for (const ImuSample& s : frame.imu) {
+    const std::vector<ImuSample> readings = test::make_full_imu(i);
+    EXPECT_EQ(state[15], readings.back().acceleration_bias.z);
+    for (const ImuSample& s : readings) {
       ASSERT_LT(sample, imu.size());
       EXPECT_EQ(imu[sample][0], std::to_string(s.stamp_ns));
       const auto row = numbers_of(imu[sample++], 1, 6);

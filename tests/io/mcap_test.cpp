@@ -157,7 +157,7 @@ TEST_P(Cdr, PosesAndTransformsEqualFastCdr) {
 }
 
 TEST_P(Cdr, ImuAndEventsEqualFastCdr) {
-  const ImuSample& s = frame_.imu[1];
+  const ImuSample s = test::make_full_imu(2)[1];
   const auto diagonal = [](double v) { return std::array<double, 9>{v, 0, 0, 0, v, 0, 0, 0, v}; };
   FastCdr imu;
   imu.header(header_) << std::array<double, 4>{0, 0, 0, 1}

@@ -145,7 +145,7 @@ TEST(Rawlog, FurtherChannelsAreObservationsOfTheirOwn) {
   RawlogOptions options;
   options.recording = test::full_recording();
   const auto recorder = make_rawlog_recorder(folder / "mission.rawlog", options);
-  for (int i = 0; i < 2; ++i) recorder->write(test::make_full_frame(i));
+  for (int i = 0; i < 2; ++i) test::write_full(*recorder, i);
   recorder->finish();
   std::map<std::string, std::vector<CObservation::Ptr>> by_label;
   for (const auto& o : read_rawlog(folder / "mission.rawlog"))
@@ -155,8 +155,8 @@ TEST(Rawlog, FurtherChannelsAreObservationsOfTheirOwn) {
   ASSERT_EQ(by_label["ground_truth_depth"].size(), 2u);
   const Frame frame = test::make_full_frame(1);
   const auto& imu = dynamic_cast<mrpt::obs::CObservationIMU&>(*by_label["imu"].back());
-  EXPECT_EQ(imu.get(mrpt::obs::IMU_WY), frame.imu.back().angular_velocity.y);
-  EXPECT_EQ(imu.get(mrpt::obs::IMU_Z_ACC), frame.imu.back().linear_acceleration.z);
+  EXPECT_EQ(imu.get(mrpt::obs::IMU_WY), test::make_full_imu(1).back().angular_velocity.y);
+  EXPECT_EQ(imu.get(mrpt::obs::IMU_Z_ACC), test::make_full_imu(1).back().linear_acceleration.z);
   const auto& right = dynamic_cast<mrpt::obs::CObservationImage&>(*by_label["camera_right"][1]);
   EXPECT_NEAR(right.cameraPose.y(), -0.12, 1e-12);
   EXPECT_EQ(right.image.ptr<std::uint8_t>(0, 0, 0)[2], frame.rgb_right[0]);

@@ -59,7 +59,7 @@ TEST(RecordingQueue, LetsNothingThroughThatIsNotFinite) {
       {"velocity", [&](Frame& f) { f.linear_velocity.x = inf; }},
       {"camera matrix", [&](Frame& f) { f.intrinsics.cy = nan; }},
       {"exposure time", [&](Frame& f) { f.exposure_s = inf; }},
-      {"inertial measurement", [&](Frame& f) { f.imu.resize(2), f.imu[1].linear_acceleration.z = nan; }}};
+      {"carrier's motion", [&](Frame& f) { f.rig_velocity.y = nan; }}};
   for (const auto& [what, spoil] : faults) {
     Log log;
     std::vector<std::unique_ptr<Recorder>> recorders;
@@ -74,6 +74,23 @@ TEST(RecordingQueue, LetsNothingThroughThatIsNotFinite) {
     } catch (const RunError& error) {
       EXPECT_NE(std::string(error.what()).find(std::string("its ") + what), std::string::npos) << error.what();
     }
+  }
+}
+
+TEST(RecordingQueue, LetsNoReadingThroughThatIsNotFinite) {
+  Log log;
+  std::vector<std::unique_ptr<Recorder>> recorders;
+  add(recorders, log);
+  RecordingQueue queue(std::move(recorders));
+  ImuSample reading;
+  queue.push(reading);
+  reading.linear_acceleration.z = std::nan("");
+  try {
+    queue.push(reading);
+    ADD_FAILURE();
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("its inertial measurement"), std::string::npos)
+        << error.what();
   }
 }
 

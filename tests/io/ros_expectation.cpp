@@ -16,7 +16,7 @@ Json stamp_json(std::int64_t stamp_ns) {
 
 Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-Json frame_json(const Frame& frame) {
+Json frame_json(const Frame& frame, const std::vector<ImuSample>& imu) {
   const Quat& q = frame.world_from_camera.rotation;
   Json json{{"stamp", stamp_json(frame.stamp_ns)},
             {"translation", vector_json(frame.world_from_camera.translation)},
@@ -25,7 +25,7 @@ Json frame_json(const Frame& frame) {
             {"imu", Json::array()}};
   for (const Event& e : frame.events)
     json["events"].push_back({e.x, e.y, stamp_json(e.stamp_ns), e.brighter});
-  for (const ImuSample& s : frame.imu) {
+  for (const ImuSample& s : imu) {
     json["imu"].push_back({{"stamp", stamp_json(s.stamp_ns)},
                            {"angular_velocity", vector_json(s.angular_velocity)},
                            {"linear_acceleration", vector_json(s.linear_acceleration)}});
@@ -65,7 +65,7 @@ RosOptions options_of(const RosVariant& variant) {
 
 void record_and_expect(Recorder& recorder, const ScratchFolder& folder, const RosVariant& variant) {
   const Intrinsics k = make_frame(0).intrinsics;
-  const Recording recording = full_recording();
+  const ImuModel model = full_recording().imus.front().model;
   Json json{{"ros2", variant.version == ros::Version::ros2},
             {"width", k.width},
             {"height", k.height},
@@ -74,12 +74,15 @@ void record_and_expect(Recorder& recorder, const ScratchFolder& folder, const Ro
             {"D", k.distortion},
             {"channels", variant.channels},
             {"baseline", make_full_frame(0).baseline},
-            {"gyroscope_variance", recording.imu.gyroscope_noise * recording.imu.gyroscope_noise *
-                                       recording.imu.rate_hz}};
+            {"gyroscope_variance", model.gyroscope_noise * model.gyroscope_noise *
+                                       model.rate_hz}};
   for (int i = 0; i < kRosFrames; ++i) {
     const Frame frame = variant.channels ? make_full_frame(i) : make_frame(i);
+    const std::vector<ImuSample> imu =
+        variant.channels ? make_full_imu(i) : std::vector<ImuSample>();
+    for (const ImuSample& sample : imu) recorder.write_imu(sample);
     recorder.write(frame);
-    json["frames"].push_back(frame_json(frame));
+    json["frames"].push_back(frame_json(frame, imu));
     write_pictures(folder / std::to_string(i), frame, variant);
   }
   recorder.finish();

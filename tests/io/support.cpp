@@ -67,6 +67,7 @@ Frame make_frame(int index, int width, int height) {
       width, height, 0.8 * width, 0.81 * width, 0.5 * width - 0.3, 0.5 * height + 0.2, {}};
   frame.world_from_camera = {portable::quat_from_rpy(0.05, 0.2 + 0.01 * index, -0.1),
                              {0.1 * index, 0.5, 1.6}};
+  frame.world_from_rig = frame.world_from_camera;
   const Pose world_from_optical = frame.world_from_camera * camera_from_optical;
   const Intrinsics& k = frame.intrinsics;
   for (int v = 0; v < height; ++v) {
@@ -111,28 +112,42 @@ Frame make_full_frame(int index, int width, int height) {
                  {"flow", flow},
                  {"sky_visibility", sky}};
   const std::int64_t before = frame.stamp_ns - 33'333'333;
-  frame.linear_velocity = {3, 0.25 * index, -0.5};
+  frame.rig_velocity = frame.linear_velocity = {3, 0.25 * index, -0.5};
   for (int i = 0; index > 0 && i < 5 + index; ++i)
     frame.events.push_back({before + 1000 * (i + 1), static_cast<std::uint16_t>(i * 7),
                             static_cast<std::uint16_t>(i), i % 2 == 0});
-  for (int i = index ? 1 : 5; i <= 5; ++i)
-    frame.imu.push_back({before + i * 6'666'666 + (i == 5 ? 3 : 0),
-                         random.direction(),
-                         9.81 * random.direction(),
-                         {0.01, 0.02, 0.03},
-                         {-0.1, 0, 0.1 * i}});
   return frame;
+}
+
+std::vector<ImuSample> make_full_imu(int index) {
+  RandomStream random(static_cast<std::uint64_t>(index), "full imu");
+  const std::int64_t before = make_frame(index, 1, 1).stamp_ns - 33'333'333;
+  std::vector<ImuSample> samples;
+  for (int i = index ? 1 : 5; i <= 5; ++i)
+    samples.push_back({before + i * 6'666'666 + (i == 5 ? 3 : 0),
+                       0,
+                       random.direction(),
+                       9.81 * random.direction(),
+                       {0.01, 0.02, 0.03},
+                       {-0.1, 0, 0.1 * i}});
+  return samples;
+}
+
+void write_full(Recorder& recorder, int index) {
+  for (const ImuSample& sample : make_full_imu(index)) recorder.write_imu(sample);
+  recorder.write(make_full_frame(index));
 }
 
 Recording full_recording() {
   Recording recording;
-  Channels& channels = recording.channels;
-  channels.right = channels.measured_depth = channels.events = channels.imu = true;
+  recording.cameras.front().baseline = make_full_frame(0, 1, 1).baseline;
+  Channels& channels = recording.cameras.front().channels;
+  channels.right = channels.measured_depth = channels.events = true;
   for (const char* name : {"normals", "instance", "label", "flow", "sky_visibility"})
     channels.truth.push_back(find_image_stream(name));
   recording.legend.labels = {"sky", "ground", "brick", "slab \"7\""};
   recording.legend.pieces = {{2, "brick"}, {3, "slab \"7\""}};
-  recording.imu.rate_hz = 150;
+  recording.imus.emplace_back().model.rate_hz = 150;
   return recording;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/recording/recorder.h"
 #include "io/recording/recording.h"
 
 namespace rubble::test {
@@ -37,6 +38,9 @@ Frame make_frame(int index, int width = 96, int height = 64);
 // make_frame with every optional channel filled, and the recording that asks for them.
 Frame make_full_frame(int index, int width = 96, int height = 64);
 Recording full_recording();
+// The readings of an inertial unit that come with it, up to and with its stamp, and both in order.
+std::vector<ImuSample> make_full_imu(int index);
+void write_full(Recorder& recorder, int index);
 
 // make_frame with as much fine detail in colour and depth as a rendered one, for timing.
 Frame make_busy_frame(int index, int size);

@@ -262,7 +262,7 @@ TEST(RollingShutter, SlantsAnEdgeByTheMotionDuringReadout) {
   scene.meshes.push_back(share(make_box({1, 20, 40})));
   scene.instances.push_back({0, 1, {{}, {4.5, 10, 0}}, 5});  // its right edge is at y = 0, 4 m away
   const Intrinsics k = pinhole(160, 120, 120);
-  ViewRays view{0, k, {}, {}, nullptr};
+  ViewRays view{0, k, {}};
   // To the left, where the box's end is not seen.
   const auto eye_at = [&](int v) { return 0.3 + 0.4 * (v - k.cy) / k.height; };
   for (int v = 0; v < k.height; ++v)

@@ -65,6 +65,22 @@ TEST(Lamp, FallsWithTheSquareOfTheDistance) {
   EXPECT_GT(at2, 10 * dark);
 }
 
+// A camera that stands back sees the wall as bright as the one beside the lamp; with a lamp of its own,
+// twice as far, a quarter of it.
+TEST(Lamp, StaysOnTheRigThatBearsIt) {
+  GlContext context;
+  Renderer renderer(context, with_lamp(0), plain());
+  ViewRays view{0, pinhole(128, 128, 400), {}};
+  const double dark = without_light();
+  const double beside = middle(renderer.render_linear(view)) - dark;
+  view.world_from_camera = {{}, {-2, 0, 0}};
+  const double alone = middle(renderer.render_linear(view)) - dark;
+  view.world_from_rig = Pose{};
+  const double back = middle(renderer.render_linear(view)) - dark;
+  EXPECT_NEAR(back / beside, 1, 0.05);
+  EXPECT_NEAR(alone / beside, 0.25, 0.03);
+}
+
 TEST(Lamp, HasHalfItsIntensityAtTheHalfPowerAngle) {
   const double dark = without_light();
   // The same spot of the wall under a narrow and a wide lamp, on the axis and 30 degrees off it.

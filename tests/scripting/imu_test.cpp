@@ -51,6 +51,58 @@ TEST(Imu, AtRestMeasuresGravityAlone) {
               {-kGravity, 0, 0}, 1e-12, "force", 0);
 }
 
+std::vector<ImuSample> record_at(const Pose& rig_from_imu, const TrajectorySpec& spec) {
+  const CameraPath path(spec);
+  Imu imu(path, without_noise(100), kGravity, 1, 0, rig_from_imu);
+  return imu.take_until(std::llround(path.duration() * 1e9));
+}
+
+// A rig that stands and turns at a constant rate w: a unit at the radius r feels w^2 r inwards.
+TEST(ImuOnALeverArm, FeelsTheCentripetalAcceleration) {
+  std::vector<Waypoint> waypoints;
+  for (int i = 0; i <= 10; ++i) {
+    waypoints.push_back(at(0.5 * i, {1, 2, 3}));
+    waypoints.back().rpy_deg = {0, 0, 20.0 * i};
+  }
+  const double w = 40 * portable::kPi / 180, r = 0.5;
+  const auto samples = record_at({{}, {0, r, 0.2}}, path_of(waypoints));
+  for (std::size_t i = 150; i < 350; ++i) {
+    expect_near(samples[i].angular_velocity, {0, 0, w}, 1e-9, "rate", 0.01 * double(i));
+    expect_near(samples[i].linear_acceleration, {0, -w * w * r, kGravity}, 1e-6, "force",
+                0.01 * double(i));
+  }
+}
+
+// On any smooth path: the force is that of the second difference of where the unit itself is, seen in
+// its own axes, and the rate that of the rig, likewise.
+TEST(ImuOnALeverArm, FeelsTheMotionOfItsOwnPlace) {
+  std::vector<Waypoint> waypoints;
+  const Vec3 turns[] = {{0, 0, 0}, {10, 20, 60}, {-15, 5, 100}, {0, -20, 170}, {5, 0, 200}};
+  for (int i = 0; i < 5; ++i) {
+    waypoints.push_back(at(0.8 * i, {0.3 * i, 0.1 * i * i, 1 - 0.05 * i}));
+    waypoints.back().rpy_deg = turns[i];
+  }
+  TrajectorySpec spec = path_of(waypoints);
+  spec.smoothing = 0.2;
+  const Pose rig_from_imu{portable::quat_from_rpy(0.3, -0.2, 1.1), {0.2, -0.4, 0.1}};
+  const CameraPath path(spec);
+  const auto place = [&](double t) { return (path.at(t) * rig_from_imu).translation; };
+  const auto samples = record_at(rig_from_imu, spec);
+  double lever = 0;
+  for (std::size_t i = 30; i + 30 < samples.size(); i += 7) {
+    const double t = 0.01 * double(i), h = 2e-3;
+    const Vec3 a = (place(t + h) - place(t) * 2 + place(t - h)) * (1 / (h * h));
+    const Quat imu_from_world = (path.at(t) * rig_from_imu).rotation.conjugate();
+    expect_near(samples[i].linear_acceleration, imu_from_world.rotate(a + Vec3{0, 0, kGravity}), 0.02,
+                "force", t);
+    const CameraMotion rig = path.motion_at(t);
+    expect_near(rig_from_imu.rotation.rotate(samples[i].angular_velocity), rig.angular_velocity, 1e-9,
+                "rate", t);
+    lever = std::max(lever, norm(a - rig.acceleration));
+  }
+  EXPECT_GT(lever, 0.5) << "without the lever arm the forces would be much the same";
+}
+
 // The curve through knots of a parabola is that parabola, but for the first and the last leg.
 TEST(Imu, ConstantAccelerationIsMeasuredExactly) {
   const Vec3 velocity{0.3, -0.2, 0.1}, acceleration{0.5, 1.5, -0.25};

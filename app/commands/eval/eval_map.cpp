@@ -34,6 +34,9 @@ double sample_spacing(const MapRequest& request) { return std::min(kMapSpacing, 
 
 RecordedViews load_views(const FinishedRun& saved, const MapRequest& request) {
   const Scenario scenario = stated_scenario(saved.manifest.provenance);
+  if (!scenario.cameras.empty())
+    throw InputError({saved.folder, 0, "cameras", "a map is scored by what one camera saw",
+                      "the run of a mission with `camera`", "several cameras", ""});
   const DepthSensorSpec& sensor = scenario.depth_sensor;
   ViewRange range;
   if (sensor.type != DepthSensorType::none && sensor.type != DepthSensorType::ideal)

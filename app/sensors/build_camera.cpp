@@ -1,0 +1,45 @@
+#include "app/sensors/build_camera.h"
+
+#include <memory>
+
+#include "scripting/trajectory/trajectory.h"
+
+namespace rubble {
+
+CameraSpec build_camera(const Scenario& scenario, const MountedCamera& mounted, int threads) {
+  const CameraScenario& camera = mounted.camera;
+  CameraSpec spec;
+  spec.intrinsics = camera.intrinsics();
+  spec.channels = camera.channel_set();
+  spec.baseline = camera.stereo_baseline;
+  spec.shutter = camera.shutter;
+  spec.exposure = camera.exposure;
+  spec.sensor = camera.sensor;
+  spec.depth_sensor = mounted.depth_sensor;
+  spec.event_camera = mounted.event_camera;
+  spec.seed = scenario.seed;
+  if (!mounted.is_rig()) spec.rig_from_camera = mounted.rig_from_camera();
+  spec.threads = threads;
+  return spec;
+}
+
+Flight build_flight(const Scenario& scenario, const MountedCamera& camera) {
+  // The same bits where the camera is the rig.
+  const bool mounted = !camera.is_rig();
+  const Pose rig_from_camera = camera.rig_from_camera();
+  const auto on_mount = [=](const Pose& rig) { return mounted ? rig * rig_from_camera : rig; };
+  TrajectorySpec spec = scenario.trajectory;
+  spec.rate_hz = camera.rate_hz.value_or(spec.rate_hz);
+  Flight flight;
+  for (const CameraPose& pose : sample_trajectory(spec, scenario.start_ns)) {
+    flight.stamps_ns.push_back(pose.stamp_ns);
+    flight.world_from_camera.push_back(on_mount(pose.world_from_camera));
+  }
+  const auto path = std::make_shared<CameraPath>(scenario.trajectory);
+  flight.pose_at = [path, on_mount, start = scenario.start_ns](std::int64_t stamp_ns) {
+    return on_mount(path->at(double(stamp_ns - start) * 1e-9));
+  };
+  return flight;
+}
+
+}  // namespace rubble

@@ -1,0 +1,123 @@
+#include "app/sensors/sensor_suite.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "app/sensors/build_camera.h"
+#include "kernel/base/random.h"
+#include "render/sensors/camera.h"
+#include "scripting/trajectory/imu.h"
+#include "scripting/trajectory/trajectory.h"
+
+namespace rubble {
+namespace {
+
+// Of several cameras each has noise of its own.
+CameraSpec spec_of(const Scenario& flown, const MountedCamera& mounted, const SensorBegin& begin,
+                   int threads) {
+  CameraSpec spec = build_camera(flown, mounted, threads);
+  spec.seed = flown.cameras.empty()
+                  ? begin.noise_seed
+                  : RandomStream(begin.noise_seed, "cameras/" + mounted.name).next();
+  return spec;
+}
+
+// A camera on its mount.
+class CameraSensor : public Sensor {
+ public:
+  CameraSensor(const Scenario& flown, const MountedCamera& mounted, int number,
+               const SensorBegin& begin, Renderer& renderer,
+               std::shared_ptr<const CameraPath> path, int threads)
+      : flight_(build_flight(flown, mounted)),
+        mounted_(mounted),
+        number_(number),
+        first_frame_(begin.frame),
+        start_ns_(flown.start_ns),
+        path_(std::move(path)),
+        camera_(renderer, spec_of(flown, mounted, begin, threads), flight_,
+                Medium(flown.air, flown.seed)) {}
+
+  int frames() const { return camera_.frames(); }
+  std::int64_t last_stamp() const { return flight_.stamps_ns.back(); }
+
+  std::optional<std::int64_t> next_stamp() const override {
+    if (next_ >= camera_.frames()) return std::nullopt;
+    return flight_.stamps_ns[std::size_t(next_)];
+  }
+
+  Sample take() override {
+    Frame frame = camera_.take(next_++);
+    frame.sensor = number_;
+    frame.starts_sequence = frame.index == 0;
+    frame.index += first_frame_;
+    const CameraMotion motion = path_->motion_at(double(frame.stamp_ns - start_ns_) * 1e-9);
+    frame.rig_velocity = frame.linear_velocity = motion.velocity;
+    if (mounted_.is_rig()) return frame;
+    frame.world_from_rig = motion.world_from_camera;
+    const Vec3 turning = cross(motion.angular_velocity, mounted_.position);
+    frame.linear_velocity += motion.world_from_camera.rotation.rotate(turning);
+    return frame;
+  }
+
+ private:
+  Flight flight_;
+  MountedCamera mounted_;
+  int number_, first_frame_, next_ = 0;
+  std::int64_t start_ns_;
+  std::shared_ptr<const CameraPath> path_;
+  Camera camera_;
+};
+
+// As long as any camera has frames.
+class ImuSensor : public Sensor {
+ public:
+  ImuSensor(const Scenario& flown, std::uint64_t noise_seed, std::int64_t last_ns,
+            std::shared_ptr<const CameraPath> path)
+      : last_ns_(last_ns),
+        path_(std::move(path)),
+        imu_(*path_, flown.imu.model, flown.settle.gravity, noise_seed, flown.start_ns,
+             flown.imu.is_rig() ? std::nullopt : std::optional(flown.imu.rig_from_imu())) {}
+
+  std::optional<std::int64_t> next_stamp() const override {
+    const std::int64_t stamp = imu_.next_stamp();
+    return stamp <= last_ns_ ? std::optional(stamp) : std::nullopt;
+  }
+  Sample take() override { return imu_.take(); }
+
+ private:
+  std::int64_t last_ns_;
+  std::shared_ptr<const CameraPath> path_;
+  Imu imu_;
+};
+
+}  // namespace
+
+SensorSuite::SensorSuite(const Scenario& flown, const SensorBegin& begin, Renderer& renderer,
+                         int threads) {
+  const auto path = std::make_shared<const CameraPath>(flown.trajectory);
+  std::vector<std::unique_ptr<Sensor>> cameras;
+  std::int64_t last_ns = 0;
+  for (const MountedCamera& mounted : all_cameras(flown)) {
+    auto camera = std::make_unique<CameraSensor>(flown, mounted, int(cameras.size()), begin, renderer,
+                                                 path, threads);
+    frames_.push_back(camera->frames());
+    last_ns = std::max(last_ns, camera->last_stamp());
+    cameras.push_back(std::move(camera));
+  }
+  if (flown.imu.on) sensors_.push_back(std::make_unique<ImuSensor>(flown, begin.noise_seed, last_ns, path));
+  for (auto& camera : cameras) sensors_.push_back(std::move(camera));
+}
+
+int SensorSuite::count_frames() const { return std::accumulate(frames_.begin(), frames_.end(), 0); }
+
+std::optional<Sample> SensorSuite::take() {
+  Sensor* first = nullptr;
+  for (const auto& sensor : sensors_) {
+    const auto stamp = sensor->next_stamp();
+    if (stamp && (!first || *stamp < *first->next_stamp())) first = sensor.get();
+  }
+  if (!first) return std::nullopt;
+  return first->take();
+}
+
+}  // namespace rubble

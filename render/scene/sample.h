@@ -1,0 +1,27 @@
+// One sample of one sensor, and what gives samples: cameras and inertial units are peers, each with a
+// rate of its own. A further type of sensor (a scan, joint states) is one more alternative here.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+#include "render/scene/frame.h"
+
+namespace rubble {
+
+using Sample = std::variant<Frame, ImuSample>;
+
+inline std::int64_t stamp_of(const Sample& sample) {
+  return std::visit([](const auto& s) { return s.stamp_ns; }, sample);
+}
+
+class Sensor {
+ public:
+  virtual ~Sensor() = default;
+  // Of the sample that comes next; later than all before it. Nothing: no more come.
+  virtual std::optional<std::int64_t> next_stamp() const = 0;
+  virtual Sample take() = 0;
+};
+
+}  // namespace rubble

@@ -1,0 +1,179 @@
+// What is wrong with the cameras of a mission, and with the names of its sensors, beyond ranges.
+#include "scripting/scenario/camera_mistakes.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "kernel/base/portable_math.h"
+#include "render/streams/image_streams.h"
+#include "scripting/scenario/scenario_schema.h"
+#include "scripting/schema/schema_json.h"
+
+namespace rubble {
+namespace {
+
+// at: what the keys of the camera begin with: "camera.", "cameras.front."
+void check_channels(const CameraScenario& camera, const std::string& at,
+                    std::vector<Diagnostic>& mistakes) {
+  const std::vector<std::string> names = channel_names();
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "one of " : ", ") + name;
+  for (std::size_t i = 0; i < camera.channels.size(); ++i) {
+    const std::string& written = camera.channels[i];
+    if (std::find(names.begin(), names.end(), written) != names.end()) continue;
+    const std::string near = nearest_name(written, names);
+    mistakes.push_back({"", 0, at + "channels[" + std::to_string(i + 1) + "]",
+                        "unknown channel `" + written + "`", near.empty() ? list : "", "",
+                        near.empty() ? "" : "did you mean `" + near + "`?"});
+  }
+}
+
+// Smallest value over [0, fov / 2] of the slope of a fisheye's curve: the image must grow with it.
+bool fisheye_grows(const CameraScenario& camera) {
+  const LensScenario& l = camera.lens;
+  const double edge = camera.fov_deg * (portable::kPi / 360.0);
+  for (int i = 0; i <= 200; ++i) {
+    const double a = edge * i / 200, a2 = a * a;
+    if (1 + a2 * (3 * l.k1 + a2 * (5 * l.k2 + a2 * (7 * l.k3 + a2 * 9 * l.k4))) <= 0) return false;
+  }
+  return true;
+}
+
+// at: what its keys begin with; beside: those of what is in its place, "" or "cameras.front."
+void check_camera(const MountedCamera& camera, const std::string& at, const std::string& beside,
+                  std::vector<Diagnostic>& mistakes) {
+  const CameraScenario& c = camera.camera;
+  check_channels(c, at, mistakes);
+  const auto add = [&](const std::string& key, const std::string& message,
+                       const std::string& expected, const std::string& hint) {
+    mistakes.push_back({"", 0, key, message, expected, "", hint});
+  };
+  const LensScenario& l = c.lens;
+  if (l.model != LensKind::fisheye && c.fov_deg > 170)
+    add(at + "fov_deg", "too wide for a flat image", "at most 170",
+        "or " + at + "lens.model = \"fisheye\"");
+  if (l.model == LensKind::fisheye && !fisheye_grows(c))
+    add(at + "lens", "the lens folds back within the field of view",
+        "a curve that grows up to " + at + "fov_deg / 2", "");
+  const bool bent = l.k1 != 0 || l.k2 != 0 || l.k3 != 0 || l.k4 != 0 || l.p1 != 0 || l.p2 != 0;
+  if (l.model == LensKind::pinhole && bent)
+    add(at + "lens.model", "a pinhole has no distortion", "\"plumb_bob\" or \"fisheye\"", "");
+  if (l.model == LensKind::plumb_bob && l.k4 != 0)
+    add(at + "lens.k4", "only a fisheye has it", "0", "");
+  if (l.model == LensKind::fisheye && (l.p1 != 0 || l.p2 != 0))
+    add(at + "lens.p1", "a fisheye has no tangential distortion", "p1 and p2 of 0", "");
+  if (c.shutter.motion_blur && c.exposure.mode == ExposureMode::ideal)
+    add(at + "shutter.motion_blur", "an ideal image takes no time",
+        at + "exposure.mode of \"fixed\" or \"automatic\"", "");
+  if (camera.depth_sensor.min_range >= camera.depth_sensor.max_range)
+    add(beside + "depth_sensor.max_range", "nothing is within reach",
+        "more than " + beside + "depth_sensor.min_range", "");
+}
+
+// One renderer draws for all cameras.
+void check_colour(const ColourSpec& colour, const MountedCamera& first, const std::string& at,
+                  std::vector<Diagnostic>& mistakes) {
+  const ColourSpec& other = first.camera.colour;
+  if (colour.quality == other.quality && colour.samples == other.samples &&
+      colour.denoise == other.denoise)
+    return;
+  mistakes.push_back({"", 0, at + ".quality", "another way to find colours than that of another camera",
+                      "quality, samples and denoise as `cameras." + first.name + "` has them", "", ""});
+}
+
+// The first of the short form's keys that does not have its default; empty: none.
+std::string find_key_of_one_camera(const Scenario& scenario) {
+  Scenario given = scenario, usual;
+  const Schema is = make_scenario_schema(given), was = make_scenario_schema(usual);
+  for (const Key& key : is.keys()) {
+    const std::string group = key.path.substr(0, key.path.find('.'));
+    if (group != "camera" && group != "depth_sensor" && group != "event_camera") continue;
+    if (key.kind != KeyKind::value) continue;
+    if (value_to_json(read_slot(key.bind(0))) != value_to_json(read_slot(was.find(key.path)->bind(0))))
+      return key.path;
+  }
+  return "";
+}
+
+bool is_name(const std::string& text) {
+  const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
+  return !text.empty() && text.size() <= 32 && text[0] >= 'a' && text[0] <= 'z' &&
+         std::all_of(text.begin(), text.end(), plain);
+}
+
+// A name of ROS 1 and ROS 2 with a slash before each word; without any of TF.
+bool is_ros_name(const std::string& text, bool topic) {
+  if (text.empty() || text.back() == '/' || text.size() > 200 || (text[0] == '/') != topic) return false;
+  char before = topic ? 0 : '/';
+  for (const char c : text) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    const bool inside = letter || (c >= '0' && c <= '9') || c == '_';
+    if (before == '/' ? !letter : before != 0 && !inside && c != '/') return false;
+    before = c;
+  }
+  return true;
+}
+
+// Of topics and frames: what a mission sets, and that nothing has the name of another.
+class SensorNames {
+ public:
+  explicit SensorNames(std::vector<Diagnostic>& mistakes) : mistakes_(mistakes) {}
+
+  void check(const std::string& key, const std::optional<std::string>& given, bool topic) {
+    if (!given) return;
+    if (!is_ros_name(*given, topic))
+      mistakes_.push_back({"", 0, key, topic ? "not a name of a topic" : "not a name of a frame",
+                           topic ? "words of letters, digits and underscores, such as \"/front\""
+                                 : "words of letters, digits and underscores, such as \"front_optical\"",
+                           "\"" + *given + "\"", ""});
+    else if (!taken_.emplace(*given, key).second)
+      mistakes_.push_back({"", 0, key, "the name is taken", "a name of its own", "\"" + *given + "\"",
+                           taken_[*given] + " has it"});
+  }
+
+ private:
+  std::vector<Diagnostic>& mistakes_;
+  std::map<std::string, std::string> taken_;  // name to key
+};
+
+}  // namespace
+
+void check_cameras(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  if (scenario.cameras.empty())
+    return check_camera(all_cameras(scenario).front(), "camera.", "", mistakes);
+  if (const std::string key = find_key_of_one_camera(scenario); !key.empty())
+    mistakes.push_back({"", 0, key, "contradicts cameras", "the key in a table of `cameras`", "both",
+                        "each of `cameras` has keys of its own"});
+  for (const MountedCamera& camera : scenario.cameras) {
+    const std::string at = "cameras." + camera.name;
+    if (!is_name(camera.name))
+      mistakes.push_back({"", 0, at, "not a name of a camera",
+                          "a lower-case letter, then such letters, digits and underscores, 32 at most",
+                          "\"" + camera.name + "\"", ""});
+    check_camera(camera, at + ".", at + ".", mistakes);
+    check_colour(camera.camera.colour, scenario.cameras.front(), at, mistakes);
+  }
+  if (scenario.record_settling.on)
+    mistakes.push_back({"", 0, "record_settling.on", "contradicts cameras", "a mission with `camera`",
+                        "several cameras", ""});
+}
+
+void check_sensor_names(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  SensorNames names(mistakes);
+  for (const char* taken : {"/clock", "/tf", "/tf_static", "/ground_truth"}) names.check(taken, taken, true);
+  for (const char* taken : {"world", "base_link"}) names.check(taken, taken, false);
+  for (const MountedCamera& camera : all_cameras(scenario)) {
+    const std::string at = scenario.cameras.empty() ? "camera" : "cameras." + camera.name;
+    const std::string& name = camera.name;
+    if (!is_name(name)) continue;
+    names.check(camera.camera.topic ? at + ".topic" : at, camera.camera.topic.value_or("/" + name), true);
+    names.check(camera.camera.frame_id ? at + ".frame_id" : at,
+                camera.camera.frame_id.value_or(name + "_optical_frame"), false);
+    names.check(at, name + "_link", false);
+  }
+  names.check("imu.topic", scenario.imu.topic.value_or("/imu"), true);
+  names.check("imu.frame_id", scenario.imu.frame_id, false);
+}
+
+}  // namespace rubble

@@ -1,0 +1,84 @@
+// The sensors of a mission as plain data: cameras and an inertial unit. camera_schema.cpp lists their
+// keys.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/base/math.h"
+#include "render/scene/camera_spec.h"
+#include "render/scene/frame.h"
+
+namespace rubble {
+
+enum class LensKind { pinhole, plumb_bob, fisheye };
+
+// Formulas: render/camera/lens.h.
+struct LensScenario {
+  LensKind model = LensKind::pinhole;  // how pixels see; the coefficients that it uses are below
+  double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  // plumb_bob; k1 to k3 of a fisheye, too
+  double k4 = 0;                                  // of a fisheye
+  // Of a calibrated camera; not given: from the field of view, and the middle. unit: pixel
+  std::optional<double> fx{}, fy{}, cx{}, cy{};
+};
+
+struct CameraScenario {
+  int width = 1024, height = 1024;  // unit: pixel; range: 16 to 8192
+  // Horizontal, from edge to edge of the image; range: 1 to 170, of a fisheye to 360.
+  double fov_deg = 90;
+  // Ground truth beside colour and depth, of channel_names().
+  std::vector<std::string> channels{};
+  ColourSpec colour{};         // fast, or path traced; the same for all cameras of a mission
+  LensScenario lens{};         // calibration; without one a pinhole of fov_deg
+  double stereo_baseline = 0;  // to the right camera of a pair; 0: none; unit: m; range: 0 to 10
+  ShutterSpec shutter{};       // when each row is exposed
+  ExposureSpec exposure{};     // how bright the image is
+  ImageSensorSpec sensor{};    // noise, converter, response
+  // ROS: what its topics begin with; not given: "/camera", of one of `cameras` "/NAME".
+  std::optional<std::string> topic{};
+  // TF: the frame of its pictures (Z forward, X right, Y down); not given: "camera_optical_frame", of
+  // one of `cameras` "NAME_optical_frame".
+  std::optional<std::string> frame_id{};
+
+  // fx = fy = (width / 2) / r(fov / 2), where r is tan for a pinhole and for plumb_bob, whose
+  // distortion is left out of account, and the lens's own curve for a fisheye; the principal point is
+  // the middle of the image, (width - 1) / 2 where pixel (0, 0) has its centre at (0, 0). What the
+  // lens states itself comes first.
+  Intrinsics intrinsics() const;
+  // The streams that `channels` names, in the order of the table; unknown names are left out.
+  StreamSet channel_set() const;
+  bool has_channel(const std::string& name) const;  // whether `channels` names it
+};
+
+// One of several cameras on the rig that flies the trajectory.
+struct MountedCamera {
+  std::string name = "camera";  // lower-case letters, digits and underscores
+  Vec3 position;                // of its body in the rig (X forward, Y left, Z up); unit: m
+  Vec3 rpy_deg;                 // of its body, likewise; unit: degree
+  std::optional<double> rate_hz{};    // frames per second; not given: trajectory.rate_hz
+  CameraScenario camera{};            // image, lens, channels
+  DepthSensorSpec depth_sensor{};     // in its place
+  EventCameraSpec event_camera{};     // in its place
+
+  bool is_rig() const { return position == Vec3() && rpy_deg == Vec3(); }
+  Pose rig_from_camera() const;
+};
+
+// What CameraScenario::channels may name.
+std::vector<std::string> channel_names();
+
+// An inertial unit on the rig: of a single camera, in its body.
+struct ImuScenario {
+  bool on = false;  // false: not simulated
+  ImuModel model;   // rate, noise and biases
+  Vec3 position;    // in the rig (X forward, Y left, Z up); unit: m; range: -10 to 10
+  Vec3 rpy_deg;     // of its axes, likewise; unit: degree
+  std::optional<std::string> topic{};     // ROS; not given: "/imu"
+  std::optional<std::string> frame_id{};  // TF; not given: the rig's where it is there, else "imu_link"
+
+  bool is_rig() const { return position == Vec3() && rpy_deg == Vec3(); }
+  Pose rig_from_imu() const;
+};
+
+}  // namespace rubble

@@ -1,0 +1,278 @@
+// Missions with several cameras, by readers that are not ours: rosbag, MRPT's tools, the npm reader of
+// MCAP files; and by closed forms: over the bare ground every depth must unproject to z = 0.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "tests/app/program.h"
+#include "tests/io/support.h"
+
+namespace rubble::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+// A rig over the bare ground that moves and turns; cameras of 12 and 8 Hz, mounted apart.
+const char* const kGround = R"(
+return rubble.mission {
+  seed = 5,
+  pile = { layers = 0 },
+  cameras = {
+    front = { width = 64, height = 48, fov_deg = 70, rate_hz = 12, position = { 0.2, 0, 0 },
+              rpy_deg = { 0, 30, 0 } },
+    left = { width = 48, height = 48, rate_hz = 8, position = { 0, 0.3, -0.1 },
+             rpy_deg = { 0, 50, 90 }, channels = { "position" }, frame_id = "left_eye",
+             topic = "/side/left" },
+  },
+  imu = { on = true, rate_hz = 100, position = { 0.1, 0, 0 } },
+  trajectory = { waypoints = {
+    { t = 0, position = { 0, 0, 2 }, rpy_deg = { 0, 0, 0 } },
+    { t = 1, position = { 1, 0, 2 }, rpy_deg = { 0, 0, 40 } } } },
+  outputs = { mcap = true, euroc = true, tum = true, frames = true, depth = "32FC1" },
+})";
+
+class Cameras : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new ScratchFolder;
+    write_file(*folder_ / "m.lua", kGround);
+    outcome_ = run_rubble("run " + (*folder_ / "m.lua") + " --quiet --out " + (*folder_ / "out"));
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    folder_ = nullptr;
+  }
+  void SetUp() override { ASSERT_EQ(outcome_.exit_code, 0) << outcome_.err; }
+
+  static std::string file(const std::string& name) { return *folder_ / ("out/" + name); }
+
+  // What a command prints.
+  static std::string read_with(const std::string& command) {
+    const std::string to = *folder_ / "printed";
+    const int status = std::system((command + " >" + to + " 2>&1").c_str());
+    EXPECT_EQ(status, 0) << command << "\n" << read_file(to);
+    return read_file(to);
+  }
+  static Json read_bag() {
+    const std::string text =
+        read_with("/usr/bin/python3 '" RUBBLE_SOURCE_DIR "/tests/app/read_cameras.py' " +
+                  file("mission.bag") +
+                  " /front/depth_registered/image /side/left/depth_registered/image");
+    return Json::parse(text, nullptr, false);
+  }
+
+  static ScratchFolder* folder_;
+  static Outcome outcome_;
+};
+
+ScratchFolder* Cameras::folder_ = nullptr;
+Outcome Cameras::outcome_;
+
+std::vector<std::int64_t> stamps_of_rate(double rate_hz, int count) {
+  std::vector<std::int64_t> stamps;
+  for (int k = 0; k < count; ++k)
+    stamps.push_back(1'000'000'000 + std::llround(k * 1e9 / rate_hz));
+  return stamps;
+}
+
+TEST_F(Cameras, EachHasItsOwnRateTopicsAndFrames) {
+  const Json bag = read_bag();
+  ASSERT_TRUE(bag.is_object());
+  const Json& headers = bag["headers"];
+  const auto stamps = [&](const char* topic) {
+    return headers.at(topic)["stamps"].get<std::vector<std::int64_t>>();
+  };
+  EXPECT_EQ(stamps("/front/rgb/image_raw"), stamps_of_rate(12, 13));
+  EXPECT_EQ(stamps("/front/depth_registered/image"), stamps_of_rate(12, 13));
+  EXPECT_EQ(stamps("/side/left/rgb/image_raw"), stamps_of_rate(8, 9));
+  EXPECT_EQ(stamps("/side/left/ground_truth/position/image"), stamps_of_rate(8, 9));
+  EXPECT_EQ(stamps("/imu"), stamps_of_rate(100, 101));
+  EXPECT_EQ(headers["/front/rgb/image_raw"]["frame"], "front_optical_frame");
+  EXPECT_EQ(headers["/side/left/rgb/camera_info"]["frame"], "left_eye");
+  EXPECT_EQ(headers["/imu"]["frame"], "imu_link");
+  // The pose of the rig once an instant, though both cameras have a frame at every quarter of a second.
+  std::vector<std::int64_t> all = stamps_of_rate(12, 13);
+  for (const std::int64_t stamp : stamps_of_rate(8, 9)) all.push_back(stamp);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  EXPECT_EQ(all.size(), 13u + 9 - 5);
+  EXPECT_EQ(stamps("/ground_truth/pose"), all);
+  EXPECT_EQ(headers.count("/camera/rgb/image_raw"), 0u);
+}
+
+TEST_F(Cameras, TransformsLeadFromEachCameraToTheRig) {
+  const Json fixed = read_bag()["fixed"];
+  EXPECT_EQ(fixed, (Json{{"front_link", "base_link"},
+                         {"front_optical_frame", "front_link"},
+                         {"left_link", "base_link"},
+                         {"left_eye", "left_link"},
+                         {"imu_link", "base_link"}}));
+}
+
+// By the transforms and intrinsics of the bag, and by where the mission says that the cameras are: at
+// the end the rig is at (1, 0, 2), turned by 40 degrees.
+TEST_F(Cameras, DepthOfEachLiesOnTheGround) {
+  const Json planes = read_bag()["planes"];
+  for (const char* topic : {"/front/depth_registered/image", "/side/left/depth_registered/image"}) {
+    EXPECT_GT(planes[topic]["points"].get<int>(), 5000) << topic;
+    EXPECT_LT(planes[topic]["worst"].get<double>(), 1e-4) << topic;
+  }
+  const auto expect = [](const Json& eye, const std::vector<double>& wanted) {
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      EXPECT_NEAR(eye[i].get<double>(), wanted[i], 1e-6) << i;
+  };
+  const Json& front = planes["/front/depth_registered/image"]["eyes"];
+  const Json& left = planes["/side/left/depth_registered/image"]["eyes"];
+  const double deg = std::acos(-1.0) / 180;
+  const auto axis = [&](double yaw, double down) {  // what a camera looks along
+    return std::vector<double>{std::cos(yaw * deg) * std::cos(down * deg),
+                               std::sin(yaw * deg) * std::cos(down * deg), -std::sin(down * deg)};
+  };
+  const auto with_axis = [](std::vector<double> at, const std::vector<double>& looks) {
+    at.insert(at.end(), looks.begin(), looks.end());
+    return at;
+  };
+  expect(front.front(), with_axis({0.2, 0, 2}, axis(0, 30)));
+  expect(left.front(), with_axis({0, 0.3, 1.9}, axis(90, 50)));
+  const double c = std::cos(40 * deg), s = std::sin(40 * deg);
+  expect(front.back(), with_axis({1 + 0.2 * c, 0.2 * s, 2}, axis(40, 30)));
+  expect(left.back(), with_axis({1 - 0.3 * s, 0.3 * c, 1.9}, axis(130, 50)));
+}
+
+TEST_F(Cameras, RawlogHasALabelForEach) {
+  const std::string info = read_with("rawlog-edit --info -i " + file("mission.rawlog"));
+  for (const char* label : {"front", "left", "ground_truth", "imu"})
+    EXPECT_NE(info.find(label), std::string::npos) << label << " is not in\n" << info;
+  // 13 and 9 scans, 17 poses, 101 readings.
+  EXPECT_NE(info.find("number of objects         : 140"), std::string::npos) << info;
+}
+
+// The npm reader of MCAP files finds what rosbag finds in the bag.
+TEST_F(Cameras, McapHoldsTheSame) {
+  const auto listed = test::run_node("list_topics.mjs", file("mission.mcap"));
+  ASSERT_EQ(listed.exit_code, 0) << listed.output;
+  const Json mcap = Json::parse(listed.output, nullptr, false), bag = read_bag();
+  ASSERT_TRUE(mcap.is_object()) << listed.output;
+  EXPECT_EQ(mcap["fixed"], bag["fixed"]);
+  EXPECT_EQ(mcap["headers"], bag["headers"]);
+  EXPECT_GE(mcap["headers"].size(), 11u);
+}
+
+TEST_F(Cameras, FoldersHoldOneEach) {
+  for (const char* camera : {"front", "left"})
+    for (const char* name : {"groundtruth.txt", "preview.png", "mission.simplemap", "tum/rgb.txt",
+                             "frames/poses.csv", "frames/imu.csv"})
+      EXPECT_TRUE(std::filesystem::exists(file(std::string("cameras/") + camera + "/" + name)))
+          << camera << " " << name;
+  EXPECT_FALSE(std::filesystem::exists(file("groundtruth.txt")));
+  EXPECT_TRUE(std::filesystem::exists(file("cameras/left/frames/position/000008.exr")));
+  EXPECT_FALSE(std::filesystem::exists(file("cameras/front/frames/position")));
+  // EuRoC: both in one folder; T_BS of the second is its optical frame in the rig.
+  const std::string yaml = read_file(file("euroc/mav0/cam1/sensor.yaml"));
+  EXPECT_NE(yaml.find("rate_hz: 8\n"), std::string::npos) << yaml;
+  const std::size_t data = yaml.find("data: [");
+  std::vector<double> t;
+  std::istringstream numbers(yaml.substr(data + 7));
+  for (std::string word; std::getline(numbers, word, ',') && t.size() < 12;)
+    t.push_back(std::stod(word));
+  ASSERT_EQ(t.size(), 12u) << yaml;
+  // Looking to the left and 50 degrees down, from (0, 0.3, -0.1); the picture's X axis is forward.
+  const double down = 50 * std::acos(-1.0) / 180;
+  const double wanted[] = {1, 0, 0, 0, 0, -std::sin(down), std::cos(down), 0.3,
+                           0, -std::cos(down), -std::sin(down), -0.1};
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_NEAR(t[i], wanted[i], 1e-12) << i;
+}
+
+TEST_F(Cameras, VerifyFindsTheSame) {
+  const Outcome verify = run_rubble("verify " + (*folder_ / "out"));
+  EXPECT_EQ(verify.exit_code, 0) << verify.out << verify.err;
+}
+
+// The short form is not touched: a single camera of `cameras` that is the rig sees the same pixels.
+TEST(CamerasShortForm, GivesThePixelsOfACameraThatIsTheRig) {
+  const ScratchFolder folder;
+  const std::string rest =
+      "pile = { layers = 0 }, trajectory = { waypoints = { { t = 0, position = { 0, 0, 2 }, "
+      "rpy_deg = { 0, 30, 0 } } } }, outputs = { frames = true } }";
+  write_file(folder / "one.lua",
+             "return rubble.mission { camera = { width = 64, height = 48 }, " + rest);
+  write_file(folder / "named.lua",
+             "return rubble.mission { cameras = { eye = { width = 64, height = 48 } }, " + rest);
+  for (const char* name : {"one", "named"}) {
+    const Outcome run = run_rubble("run " + (folder / (std::string(name) + ".lua")) +
+                                   " --quiet --out " + (folder / name));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  for (const char* picture : {"rgb/000000.png", "depth/000000.exr", "poses.csv"}) {
+    const std::string one = read_file(folder / (std::string("one/frames/") + picture));
+    EXPECT_FALSE(one.empty());
+    EXPECT_TRUE(one == read_file(folder / (std::string("named/cameras/eye/frames/") + picture)))
+        << picture;
+  }
+}
+
+// The mission that shows it, with a fisheye beside a pinhole, and what is in its bag by rosbag.
+TEST(CamerasScript, RunsAsDocumented) {
+  const ScratchFolder folder;
+  const Outcome run = run_rubble("run scripts/two_cameras.lua --quiet --out " + (folder / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string command = "/usr/bin/python3 /usr/bin/rosbag info -y " +
+                              (folder / "out/mission.bag") + " >" + (folder / "info") + " 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0) << read_file(folder / "info");
+  const std::string info = read_file(folder / "info");
+  for (const char* topic : {"/front/rgb/image_raw", "/side/left/rgb/image_raw",
+                            "/side/left/ground_truth/instance/image", "/ground_truth/legend", "/imu"})
+    EXPECT_NE(info.find(std::string(topic) + "\n"), std::string::npos) << topic << "\n" << info;
+  for (const char* name : {"cameras/front/preview.png", "cameras/left/preview.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder / (std::string("out/") + name))) << name;
+}
+
+TEST(CamerasInput, MistakesAreNamed) {
+  const ScratchFolder folder;
+  const auto errors_of = [&](const std::string& keys) {
+    write_file(folder / "m.lua", "return rubble.mission {\n" + keys + "\n}");
+    return run_rubble("check " + (folder / "m.lua")).err;
+  };
+  const auto expect = [&](const std::string& keys, const std::string& part) {
+    const std::string errors = errors_of(keys);
+    EXPECT_NE(errors.find(part), std::string::npos) << part << " is not in\n" << errors;
+  };
+  expect("cameras = { front = { widht = 64 } }", "cameras.front.widht: unknown key `widht` (did you mean `width`?)");
+  expect("cameras = { Front = {} }", "cameras.Front: not a name of a camera");
+  expect("cameras = { front = { width = 5 } }", "cameras.front.width: out of range");
+  expect("cameras = { front = {} },\ncamera = { width = 64 }", "camera.width: contradicts cameras");
+  expect("cameras = { {} }", "cameras: wrong type: expected tables by name { front = { ... } }");
+  expect("cameras = { a = { topic = \"/x\" }, b = { topic = \"/x\" } }", "cameras.b.topic: the name is taken");
+  expect("cameras = { a = { frame_id = \"/x\" } }", "cameras.a.frame_id: not a name of a frame");
+  expect("cameras = { a = { channels = { \"flows\" } } }",
+         "cameras.a.channels[1]: unknown channel `flows` (did you mean `flow`?)");
+  expect("cameras = { a = { lens = { k1 = 0.1 } } }", "cameras.a.lens.model: a pinhole has no distortion");
+  expect("cameras = { a = {} },\nrecord_settling = { on = true }",
+         "record_settling.on: contradicts cameras");
+  expect("cameras = { a = {}, b = { quality = \"reference\" } }",
+         "cameras.b.quality: another way to find colours than that of another camera");
+}
+
+TEST(CamerasInput, OverridesReachATableByName) {
+  const ScratchFolder folder;
+  write_file(folder / "m.lua", "return rubble.mission { cameras = { front = {}, left = {} } }");
+  const Outcome set = run_rubble("check " + (folder / "m.lua") +
+                                 " --set cameras.left.width=320 --set cameras.left.position.y=0.5");
+  ASSERT_EQ(set.exit_code, 0) << set.err;
+  const Json json = Json::parse(set.out, nullptr, false);
+  ASSERT_TRUE(json.is_object()) << set.out;
+  EXPECT_EQ(json["cameras"]["left"]["width"], 320);
+  EXPECT_EQ(json["cameras"]["front"]["width"], 1024);
+  EXPECT_EQ(json["cameras"]["left"]["position"][1], 0.5);
+  const Outcome wrong = run_rubble("check " + (folder / "m.lua") + " --set cameras.right.width=320");
+  EXPECT_EQ(wrong.exit_code, 1);
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -45,7 +45,7 @@ Scene slab_scene(const Vec3& size) {
 }
 
 ViewRays view_at(const Pose& pose, const Intrinsics& k, std::int64_t stamp_ns) {
-  return {stamp_ns, k, pose, {}, nullptr};
+  return {stamp_ns, k, pose};
 }
 
 // Seen from straight below, a box that falls has the depth of its lower face.

@@ -45,7 +45,7 @@ TracedImage TracedWorld::trace(const Pose& world_from_camera, const Intrinsics& 
                                const TraceOptions& options, int tile) const {
   const SceneLights scene_lights(lights);
   const PathTracer tracer({*rays_, *surfaces_, scene_lights, air}, options);
-  const TracedView view{{0, k, world_from_camera, {}, nullptr}, {lamp}};
+  const TracedView view{{0, k, world_from_camera}, {lamp}};
   std::vector<PixelSums> sums(std::size_t(k.width) * std::size_t(k.height)), part;
   for (int y = 0; y < k.height; y += tile) {
     for (int x = 0; x < k.width; x += tile) {

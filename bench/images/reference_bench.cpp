@@ -106,7 +106,7 @@ ViewRays view_of(const Scenario& scenario, int size) {
   const CameraPose pose = sample_trajectory(scenario.trajectory, scenario.start_ns).front();
   Scenario sized = scenario;
   sized.camera.width = sized.camera.height = size;
-  return {pose.stamp_ns, sized.camera.intrinsics(), pose.world_from_camera, {}, nullptr};
+  return {pose.stamp_ns, sized.camera.intrinsics(), pose.world_from_camera};
 }
 
 void compare(GlContext& context, const GalleryPicture& picture, Piles& piles, const Request& request,

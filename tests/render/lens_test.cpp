@@ -120,7 +120,9 @@ RenderOptions plain() {
 }
 
 ViewRays view_through(const Intrinsics& k, const Pose& pose) {
-  return {0, k, pose, {}, make_lens_directions(k, 1)};
+  ViewRays view{0, k, pose};
+  view.directions = make_lens_directions(k, 1);
+  return view;
 }
 
 // A tilted wall: each pixel's depth, put onto OpenCV's ray, must lie on it as exactly as a twentieth

@@ -91,7 +91,7 @@ TEST(ImuOnALeverArm, FeelsTheMotionOfItsOwnPlace) {
   double lever = 0;
   for (std::size_t i = 30; i + 30 < samples.size(); i += 7) {
     const double t = 0.01 * double(i), h = 2e-3;
-    const Vec3 a = (place(t + h) - place(t) * 2 + place(t - h)) * (1 / (h * h));
+    const Vec3 a = (place(t + h) - place(t) * 2.0 + place(t - h)) * (1 / (h * h));
     const Quat imu_from_world = (path.at(t) * rig_from_imu).rotation.conjugate();
     expect_near(samples[i].linear_acceleration, imu_from_world.rotate(a + Vec3{0, 0, kGravity}), 0.02,
                 "force", t);

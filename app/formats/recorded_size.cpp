@@ -26,12 +26,15 @@ bool leads_into_voids(const TrajectorySpec& path) {
 // How long a pile takes to settle is known only afterwards.
 constexpr double kUsualRest = 12;  // after the last layer; unit: s
 
-double frames_of_settling(const Scenario& s) {
+// How long the camera watches the pile settle; unit: s.
+double duration_of_settling(const Scenario& s) {
   const RecordSettlingScenario& asked = s.record_settling;
-  if (!asked.on) return 0;
   const double last = s.pile.layers * s.settle.layer_time_limit + kUsualRest;
-  const double seconds = std::max(0.0, std::min(asked.to.value_or(last), last) - asked.from);
-  return std::floor(seconds * asked.rate_hz.value_or(s.trajectory.rate_hz)) + 1;
+  return std::max(0.0, std::min(asked.to.value_or(last), last) - asked.from);
+}
+
+double frames_of_settling(const Scenario& s) {
+  return std::floor(duration_of_settling(s) * s.record_settling.rate_hz.value_or(s.trajectory.rate_hz)) + 1;
 }
 
 }  // namespace
@@ -55,8 +58,10 @@ FlightSize size_of_flight(const Scenario& s, std::size_t camera) {
                             angle_between(a.rotation, b.rotation) * kDegrees / key.angle_deg);
     }
   }
-  size.frames += frames_of_settling(s);
   if (s.imu.on && camera == 0) size.imu_samples = size.frames * s.imu.model.rate_hz / path.rate_hz;
+  if (!s.record_settling.on) return size;
+  size.frames += frames_of_settling(s);
+  if (s.imu.on) size.imu_samples += duration_of_settling(s) * s.imu.model.rate_hz + 1;
   return size;
 }
 

@@ -25,7 +25,7 @@ const char* const kEverything = R"(return rubble.mission {
     { t = 0.5, position = { -3.4, 0.6, 1.4 }, look_at = { 0, 0, 0.2 } } } },
   outputs = { mcap = true, tum = true, euroc = true, colmap = true, frames = true, depth = "32FC1",
               meshes = { "ply", "obj", "glb", "sdf" }, track = true },
-  record_settling = { rate_hz = 2 },
+  record_settling = { rate_hz = 2, to = 3 },
 }
 )";
 

@@ -100,8 +100,8 @@ double measure_tilt(const World& world) {
   return 2 * std::atan2(std::abs(q.y), std::abs(q.w));
 }
 
-// Coulomb's law lets it rock for long. In a verification it comes to rest, but only after 3 s, and at the
-// lowest place.
+// Coulomb's law lets it rock for long. In a verification it comes to rest at the lowest place: not before
+// 3 s, when the damping begins, and after 5 s with it, where it takes 11 s without.
 TEST(ProofOfRest, WhatRocksIsBroughtToRestInTheEnd) {
   for (const bool verified : {false, true}) {
     World world({rocker_type()});
@@ -110,7 +110,7 @@ TEST(ProofOfRest, WhatRocksIsBroughtToRestInTheEnd) {
     if (verified) {
       const double seconds = prove(world, 20);
       EXPECT_GT(seconds, 3);
-      EXPECT_LT(seconds, 12);
+      EXPECT_LT(seconds, 8);
       EXPECT_LT(measure_tilt(world), 0.05);
     } else {
       double most = 0;

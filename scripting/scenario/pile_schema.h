@@ -1,0 +1,12 @@
+// The keys of the pile: what falls, the terrain below it, and a building that collapses.
+#pragma once
+
+#include "scripting/scenario/scenario.h"
+#include "scripting/schema/schema.h"
+
+namespace rubble {
+
+// The pile must outlive the schema.
+void add_pile_keys(Schema& keys, PileScenario& pile);
+
+}  // namespace rubble

@@ -35,7 +35,7 @@ void add_camera(Schema& k, const std::string& at, CameraScenario& c) {
   k.value(at + "denoise", c.colour.denoise,
           "Of the reference: noise is filtered out by the exact normals, distances and albedos.");
   k.value(at + "stereo_baseline", c.stereo_baseline,
-          "Distance of a second camera to the right, with the same lens and exposure; 0: none.")
+          "Distance of a second camera to the right, with the same lens and exposure, lit by the same lamp; 0: none.")
       .between(0, 10)
       .unit("m");
   k.value(at + "topic", c.topic,

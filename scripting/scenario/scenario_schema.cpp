@@ -285,11 +285,11 @@ void add_record_settling(Schema& k, RecordSettlingScenario& r) {
       .between(0, 86400)
       .unit("s");
   k.value("record_settling.rate_hz", r.rate_hz,
-          "Frames per second; not given: those of the trajectory.")
+          "Frames per second of cameras without a rate of their own; not given: those of the trajectory.")
       .between(0.001, 1000)
       .unit("Hz");
   k.value("record_settling.position", r.position,
-          "Where the camera stands; not given: where its flight begins.")
+          "Where the camera stands, or the rig of several; not given: where its flight begins.")
       .between(-1000, 1000)
       .unit("m");
   k.value("record_settling.look_at", r.look_at, "The point in the middle of its view.")

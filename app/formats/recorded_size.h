@@ -13,7 +13,7 @@ constexpr double kPictureOverhead = 2048;  // of a file and its line in a list; 
 
 // What is recorded of a flight: counts.
 struct FlightSize {
-  double frames = 0, key_frames = 0, imu_samples = 0;
+  double frames = 0, key_frames = 0, imu_samples = 0;  // at most; a mean where the pile decides
 };
 // Of one of its cameras; the inertial unit is counted with the first.
 FlightSize size_of_flight(const Scenario& scenario, std::size_t camera);

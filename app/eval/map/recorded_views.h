@@ -15,9 +15,9 @@ struct ViewRange {
 };
 
 struct RecordedViews {
-  Intrinsics intrinsics;
-  Lens lens;
-  ViewRange range;
+  Intrinsics intrinsics;                 // of all frames
+  Lens lens;                             // of these intrinsics
+  ViewRange range;                       // what the depth image holds
   std::vector<Pose> world_from_optical;  // one per frame
 
   // Whether a point of the world is inside the picture and the range; what hides it does not count.

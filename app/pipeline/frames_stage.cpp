@@ -58,6 +58,12 @@ std::vector<std::string> names_of_cameras(const Scenario& scenario) {
   return names;
 }
 
+std::vector<std::string> names_of_lidars(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const LidarScenario& lidar : scenario.lidars) names.push_back(lidar.name);
+  return names;
+}
+
 // Which frame of a leg is being taken, and of how many: an image that takes minutes reports on its way.
 struct Taking {
   int frame = 0, frames = 1;
@@ -87,6 +93,9 @@ void take_samples(SensorSuite& sensors, const Leg& leg, FrameSinks& sinks, const
   while (std::optional<Sample> sample = sensors.take()) {
     if (const auto* reading = std::get_if<ImuSample>(&*sample)) {
       recorded.hashes.add_imu(*reading);
+    } else if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
+      recorded.hashes.add_lidar(*scan);
+      throw_if_stopped(folder.path());
     } else {
       const Frame& frame = std::get<Frame>(*sample);
       recorded.hashes.add(frame);
@@ -204,7 +213,7 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
                      [&](double fraction) { taking.report(fraction, folder, context); }),
       [&](double fraction) { context.progress.update(fraction, "light"); });
   prepared.sensors = std::make_unique<SensorSuite>(
-      leg.scenario, SensorBegin{leg.noise_seed, frames_before}, *prepared.renderer,
+      leg.scenario, SensorBegin{leg.noise_seed, frames_before}, scene, *prepared.renderer,
       context.threads());
   context.progress.finish("ready on " + gl.info().renderer);
   return prepared;
@@ -285,7 +294,7 @@ RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& 
       with_lines_of_script(mission, [&] { return plan_legs(flown, pile.track); });
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
-  recorded.hashes = FrameHashes(names_of_cameras(flown));
+  recorded.hashes = FrameHashes(names_of_cameras(flown), names_of_lidars(flown));
   recorded.environment = describe_environment(gl.info(), context.threads());
   record(legs, mission, flown, {pile, robots.moved}, gl, folder, context, recorded);
   return recorded;

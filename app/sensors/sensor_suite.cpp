@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "app/sensors/build_camera.h"
+#include "app/sensors/lidar_sensor.h"
 #include "kernel/base/random.h"
 #include "render/sensors/camera.h"
 #include "scripting/trajectory/imu.h"
@@ -92,8 +93,8 @@ class ImuSensor : public Sensor {
 
 }  // namespace
 
-SensorSuite::SensorSuite(const Scenario& flown, const SensorBegin& begin, Renderer& renderer,
-                         int threads) {
+SensorSuite::SensorSuite(const Scenario& flown, const SensorBegin& begin, const Scene& scene,
+                         Renderer& renderer, int threads) {
   const auto path = std::make_shared<const CameraPath>(flown.trajectory);
   std::vector<std::unique_ptr<Sensor>> cameras;
   std::int64_t last_ns = 0;
@@ -105,6 +106,8 @@ SensorSuite::SensorSuite(const Scenario& flown, const SensorBegin& begin, Render
     cameras.push_back(std::move(camera));
   }
   if (flown.imu.on) sensors_.push_back(std::make_unique<ImuSensor>(flown, begin.noise_seed, last_ns, path));
+  for (auto& lidar : make_lidar_sensors(flown, scene, begin.noise_seed, last_ns, path, threads))
+    sensors_.push_back(std::move(lidar));
   for (auto& camera : cameras) sensors_.push_back(std::move(camera));
 }
 

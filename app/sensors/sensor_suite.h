@@ -18,12 +18,13 @@ struct SensorBegin {
   int frame = 0;                 // number of each camera's first frame
 };
 
-// All sensors that ride on one rig, merged by stamp. At equal stamps inertial units come before
-// cameras, and cameras in the order of all_cameras(). The renderer must outlive them.
+// All sensors that ride on one rig, merged by stamp. At equal stamps inertial units come before LiDARs,
+// and these before cameras, in the order of all_cameras(). The renderer must outlive them.
 class SensorSuite {
  public:
-  // flown: the scenario with the path that is flown.
-  SensorSuite(const Scenario& flown, const SensorBegin& begin, Renderer& renderer, int threads);
+  // flown: the scenario with the path that is flown. scene: what the renderer draws.
+  SensorSuite(const Scenario& flown, const SensorBegin& begin, const Scene& scene, Renderer& renderer,
+              int threads);
 
   // Frames of each camera over the whole flight.
   const std::vector<int>& frames() const { return frames_; }

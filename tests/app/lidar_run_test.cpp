@@ -75,7 +75,7 @@ TEST_F(LidarRun, RosbagPclAndMcapReadTheSameClouds) {
   EXPECT_NEAR(in_bag["/scan"][0]["angles"][1].get<double>(), 0.75 * std::acos(-1.0), 1e-6);
   EXPECT_EQ(in_bag["/top/points"][0]["fields"],
             Json::parse(R"([["x",0,7,1],["y",4,7,1],["z",8,7,1],["intensity",12,7,1],["ring",16,4,1],["time",18,7,1]])"));
-  EXPECT_GT(in_bag["/top/points"][0]["size"][1].get<int>(), 15000);
+  EXPECT_GT(in_bag["/top/points"][0]["size"][1].get<int>(), 10000);
 }
 
 TEST_F(LidarRun, MrptListsTheirObservations) {
@@ -145,7 +145,7 @@ TEST_F(LidarRun, AScanStraightenedByTheTrueMotionLiesOnThePile) {
       float f[4], time;
       std::memcpy(f, bytes.data() + at, sizeof f);
       std::memcpy(&time, bytes.data() + at + 18, sizeof time);
-      const Vec3 seen(double(f[0]), double(f[1]), double(f[2]));
+      const Vec3 seen{double(f[0]), double(f[1]), double(f[2])};
       const Vec3 world = straighten(motion, stamp + double(time), seen);
       const auto closest = queries.find_closest(world, 1e9);
       worst = std::max(worst, closest->distance);

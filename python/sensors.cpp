@@ -36,13 +36,12 @@ class FrameRenderer {
   FrameRenderer(SharedPile settled, int threads)
       : settled_(std::move(settled)),
         gl_({-1, threads}),
-        renderer_(prepare_renderer(settled_->mission.scenario, settled_->mission.assets, settled_->state, gl_,
-                                   threads, {})) {}
+        renderer_(prepare_renderer(scene_of(*settled_), settled_->mission.scenario, gl_, threads, {})) {}
 
   py::dict render(const DoubleArray& world_from_camera, int width, int height, double fov_deg) {
     const Pose pose = to_pose(world_from_camera, "pose");
     const Intrinsics k = pinhole(width, height, fov_deg);
-    Frame frame = renderer_.render(pose, k, 0, settled_->mission.scenario.start_ns);
+    Frame frame = renderer_->render(pose, k, 0, settled_->mission.scenario.start_ns);
     py::dict out;
     out["rgb"] = take_vector(std::move(frame.rgb), {height, width, 3});
     out["depth"] = take_vector(std::move(frame.depth), {height, width});
@@ -57,7 +56,7 @@ class FrameRenderer {
  private:
   SharedPile settled_;
   GlContext gl_;
-  Renderer renderer_;
+  std::unique_ptr<Renderer> renderer_;
 };
 
 // Planar depth by exact rays, for loops that need no colour: nothing is baked, no device is opened.

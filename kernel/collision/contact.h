@@ -80,6 +80,7 @@ class ContactPoints {
 
 struct Contact {
   static constexpr int kMaxPoints = ContactPoints::kMost;
+  static constexpr float kUnlimited = 1e30F;  // of a contact, which presses as hard as it must; unit: N s
 
   std::int32_t body_a = 0, body_b = 0;  // b may be kGround
   int count = 0;                   // points in use
@@ -93,6 +94,8 @@ struct Contact {
   ContactPoints points;
   float pressed = 0;               // total normal impulse of the last step; unit: N s
   float rest_pressed = 0;          // the same when one of the two fell asleep
+  // Of a tie, which is a contact that pulls: what it gives in a substep at most, and what it gave. unit: N s
+  float most = kUnlimited, highest = 0;
   GjkCache cache;
 };
 

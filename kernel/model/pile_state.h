@@ -36,6 +36,18 @@ struct JointState {
   Quat rest_rotation;  // of a ball's; on the parent's side
 };
 
+// A tie between two pieces, or a piece and the ground: bars that hold after the concrete around them has
+// failed. It only pulls, and when it is longer than `length`: with `strength` at most. Then it yields, which
+// makes it longer, and tears when that has taken all of `stretch`.
+struct TieState {
+  std::int32_t piece_a = 0, piece_b = -1;  // b: -1 is the ground
+  Vec3 anchor_a, anchor_b;  // in the frames of the pieces' types, scaled; of the ground in the world; unit: m
+  double length = 0;        // unit: m; > 0
+  double strength = 0;      // unit: N; > 0
+  double stretch = 0;       // that is left; unit: m; >= 0
+  double bending = 0;       // moment by which bent bars brake their pieces' turning; unit: N m; >= 0
+};
+
 // Two pieces, or one and the ground, that reach into each other.
 struct DeepestOverlap {
   double depth = 0;                        // 0: none; unit: m

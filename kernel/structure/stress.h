@@ -19,6 +19,7 @@ struct BondStatus {
   bool broken = false;
   bool hinge_s = false, hinge_t = false;
   double moment_s = 0, moment_t = 0;  // of a hinge, with its sign; unit: N m
+  Vec3 sunk;  // how far the foundation under it went; only of bonds to it; unit: m
 };
 
 struct PieceLoad {

@@ -62,6 +62,7 @@ struct Bond {
 struct Structure {
   std::vector<PieceType> types;  // one convex part each, density and friction of their material
   std::vector<std::string> type_materials;  // by type: name of the material
+  std::vector<Reinforcement> type_bars;     // by type: of its member
   std::vector<Member> members;
   std::vector<StructurePiece> pieces;
   std::vector<Bond> bonds;  // by piece_a, then piece_b

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/sensors/build_camera.h"
 #include "render/renderer.h"
 #include "render/scene/sample.h"
 #include "scripting/scenario/scenario.h"
@@ -22,8 +23,9 @@ struct SensorBegin {
 // cameras, and cameras in the order of all_cameras(). The renderer must outlive them.
 class SensorSuite {
  public:
-  // flown: the scenario with the path that is flown.
-  SensorSuite(const Scenario& flown, const SensorBegin& begin, Renderer& renderer, int threads);
+  // flown: the scenario with the path that is flown, which `flight` was made from.
+  SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin,
+              Renderer& renderer, int threads);
 
   // Frames of each camera over the whole flight.
   const std::vector<int>& frames() const { return frames_; }

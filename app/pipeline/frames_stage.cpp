@@ -53,6 +53,12 @@ std::vector<std::string> names_of_cameras(const Scenario& scenario) {
   return names;
 }
 
+std::vector<std::string> names_of_lidars(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const LidarScenario& lidar : scenario.lidars) names.push_back(lidar.name);
+  return names;
+}
+
 // Which frame of a leg is being taken, and of how many: an image that takes minutes reports on its way.
 struct Taking {
   int frame = 0, frames = 1;
@@ -82,6 +88,9 @@ void take_samples(SensorSuite& sensors, const Leg& leg, FrameSinks& sinks, const
   while (std::optional<Sample> sample = sensors.take()) {
     if (const auto* reading = std::get_if<ImuSample>(&*sample)) {
       recorded.hashes.add_imu(*reading);
+    } else if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
+      recorded.hashes.add_lidar(*scan);
+      throw_if_stopped(folder.path());
     } else {
       const Frame& frame = std::get<Frame>(*sample);
       recorded.hashes.add(frame);
@@ -136,12 +145,13 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
                         RunContext& context, Taking& taking) {
   context.progress.start(leg.window ? "settling scene" : "scene");
   PreparedLeg prepared;
+  const Scene scene = build_leg_scene(leg, mission, seen);
   prepared.renderer = prepare_renderer(
-      build_leg_scene(leg, mission, seen), leg.scenario, gl, context.threads(),
+      scene, leg.scenario, gl, context.threads(),
       [&](double fraction) { context.progress.update(fraction, "light"); },
       [&](double fraction) { taking.report(fraction, folder, context); });
   prepared.sensors = std::make_unique<SensorSuite>(
-      leg.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, *prepared.renderer,
+      leg.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, scene, *prepared.renderer,
       context.threads());
   context.progress.finish("ready on " + gl.info().renderer);
   return prepared;
@@ -216,7 +226,7 @@ RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& 
                              RunFolder& folder, RunContext& context) {
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
-  recorded.hashes = FrameHashes(names_of_cameras(flight.flown));
+  recorded.hashes = FrameHashes(names_of_cameras(flight.flown), names_of_lidars(flight.flown));
   recorded.environment = describe_environment(gl.info(), context.threads());
   record(flight, mission, {pile, robots.moved}, gl, folder, context, recorded);
   return recorded;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "app/sensors/lidar_sensor.h"
 #include "kernel/base/random.h"
 #include "render/sensors/camera.h"
 #include "scripting/trajectory/imu.h"
@@ -90,7 +91,7 @@ class ImuSensor : public Sensor {
 }  // namespace
 
 SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin,
-                         Renderer& renderer, int threads) {
+                         const Scene& scene, Renderer& renderer, int threads) {
   std::vector<std::unique_ptr<Sensor>> cameras;
   std::int64_t last_ns = 0;
   for (const MountedCamera& mounted : all_cameras(flown)) {
@@ -101,6 +102,8 @@ SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const S
     cameras.push_back(std::move(camera));
   }
   if (flown.imu.on) sensors_.push_back(std::make_unique<ImuSensor>(flown, begin.noise_seed, last_ns, flight.path));
+  for (auto& lidar : make_lidar_sensors(flown, scene, begin.noise_seed, last_ns, flight.path, threads))
+    sensors_.push_back(std::move(lidar));
   for (auto& camera : cameras) sensors_.push_back(std::move(camera));
 }
 

@@ -19,12 +19,13 @@ struct SensorBegin {
   std::vector<int> frames;       // number of each camera's first frame; empty: 0
 };
 
-// All sensors that ride on one rig, merged by stamp. At equal stamps inertial units come before
-// cameras, and cameras in the order of all_cameras(). The renderer must outlive them.
+// All sensors that ride on one rig, merged by stamp. At equal stamps inertial units come before LiDARs,
+// and these before cameras, in the order of all_cameras(). The renderer must outlive them.
 class SensorSuite {
  public:
-  // flown: the scenario with the path that is flown, which `flight` was made from.
-  SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin,
+  // flown: the scenario with the path that is flown, which `flight` was made from. scene: what the renderer
+  // draws.
+  SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin, const Scene& scene,
               Renderer& renderer, int threads);
 
   // Frames of each camera over the whole flight.

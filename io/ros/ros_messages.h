@@ -12,6 +12,8 @@
 #include "io/ros/ros_wire.h"
 #include "kernel/base/math.h"
 #include "render/scene/frame.h"
+#include "render/scene/lidar_scan.h"
+#include "render/scene/lidar_spec.h"
 
 namespace rubble::ros {
 
@@ -23,7 +25,8 @@ struct MessageType {
   const char* definition2;  // of ROS 2, as ros2msg
 };
 extern const MessageType kImage, kCompressedImage, kCameraInfo, kPoseStamped, kTfMessage, kClock,
-    kImu, kEventArray, kString;
+    kImu, kEventArray, kString,
+    kPointCloud, kLaserScan;
 
 std::string type_name(const MessageType& type, Version version);
 
@@ -62,5 +65,12 @@ std::string imu(Version version, const Header& header, const ImuSample& sample,
 // dvs_msgs/EventArray, as drivers of event cameras publish.
 std::string event_array(Version version, const Header& header, const Intrinsics& intrinsics,
                         const std::vector<Event>& events);
+
+// Unordered, dense: x, y, z, intensity (float32), ring (uint16), time (float32, s since the stamp).
+std::string point_cloud(Version version, const Header& header, const std::vector<LidarPoint>& points);
+// Of a planar pattern: a range for every column, inf where there is no echo (REP 117); of two echoes of a
+// ray the first of the scan.
+std::string laser_scan(Version version, const Header& header, const LidarSpec& spec,
+                       const std::vector<LidarPoint>& points);
 
 }  // namespace rubble::ros

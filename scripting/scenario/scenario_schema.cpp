@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "scripting/scenario/camera_schema.h"
+#include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/pile_schema.h"
 
 namespace rubble {
@@ -312,6 +313,9 @@ void add_outputs(Schema& k, OutputScenario& o) {
   k.value("outputs.euroc", o.euroc, "EuRoC MAV sequence, grey pictures: the folder euroc.");
   k.value("outputs.colmap", o.colmap, "COLMAP model with the true poses: the folder colmap.");
   k.value("outputs.frames", o.frames, "Every channel as PNG, EXR or text: the folder frames.");
+  k.value("outputs.pcd", o.pcd, "Each scan of each LiDAR as a PCD file, and its true motion: the folder pcd.");
+  k.value("outputs.kitti", o.kitti,
+          "Each scan of each LiDAR as KITTI's binary, with times and poses: the folder kitti.");
   k.value("outputs.stl", o.stl, "The settled pile as a mesh: pile.stl.");
   k.value("outputs.track", o.track,
           "Who moved when while the pile settled: track.bin, and track.glb, a glTF animation.");
@@ -369,6 +373,7 @@ Schema make_scenario_schema(Scenario& s) {
   add_camera_keys(keys, s);
   add_trajectory(keys, s.trajectory);
   add_imu(keys, s.imu);
+  add_lidar_keys(keys, s);
   add_record_settling(keys, s.record_settling);
   add_voids(keys, s.voids);
   add_robot_keys(keys, s);

@@ -51,6 +51,22 @@ void fill_view(FrameBlock& block, const ViewProjection& view, float exposure) {
   set(block.view, {kNearPlane, exposure, float(k.width)}, float(k.height));
 }
 
+// A shift of the noise that hides the steps of 8 bits, by the bits of the pose: noise that stayed where
+// it is while the camera moves would be a landmark. Range: 0 to 1023 pixels either way.
+Vec3f grain_shift(const ViewProjection& view) {
+  std::uint64_t hash = 0;
+  const auto add = [&hash](double x) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &x, sizeof bits);
+    hash = (hash ^ bits ^ bits >> 32) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 29;
+  };
+  const Pose& pose = view.world_from_optical;
+  for (int i = 0; i < 3; ++i) add(pose.translation[i]);
+  for (const double x : {pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z}) add(x);
+  return {0, float(hash >> 40 & 1023u), float(hash >> 50 & 1023u)};
+}
+
 void fill_lights(FrameBlock& block, const FrameLight& frame) {
   const auto& lights = frame.lights->lights;
   for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -81,7 +97,6 @@ void fill_air_and_lamp(FrameBlock& block, const FrameLight& frame, const Pose& w
   set(block.lamp_axis, Vec3f(world_from_rig.rotation.rotate({1, 0, 0})),
       float(1 / (1 - portable::cos(half))));
   set(block.lamp_colour, lamp_colour(frame.lamp));
-  set(block.wetness, {float(frame.wetness), 0, 0});
   const Sky& sky = frame.lights->sky;
   set(block.sun_direction, sky.sun_direction);
   set(block.sun_radiance, sky.sun_radiance);
@@ -129,7 +144,7 @@ GlTexture upload_surface_appearances(const Gl& gl, const std::vector<PatternImag
     gl.TextureSubImage3D(texture.name(), 0, 0, 0, GLint(i), size, size, 1, GL_RGBA,
                          GL_UNSIGNED_BYTE, patterns[i].texels.data());
   gl.GenerateTextureMipmap(texture.name());
-  gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   check_gl(gl, "uploading the textures");
   return texture;
@@ -297,6 +312,7 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
   fill_lights(block, light);
   fill_air_and_lamp(block, light, bearer);
   fill_surface_appearances(block, texture_size_);
+  set(block.wetness, grain_shift(view) + Vec3f(float(light.wetness), 0, 0));
   std::memcpy(block.ground, ground_, sizeof ground_);
   gl_.NamedBufferData(frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());

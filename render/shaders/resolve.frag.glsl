@@ -115,7 +115,7 @@ void main() {
     radiance = backdrop(direction);
   } else {
     vec3 world = eye + ray * z;
-    Surface s = find_surface(seen.x - 1u, seen.y, world, direction, z, vec2(pixel));
+    Surface s = find_surface(seen.x - 1u, seen.y, world, direction, z);
     vec2 open = texture(openness, (vec2(pixel) + 0.5) / view.zw).xy;
     radiance = shade(s, world, -direction, open, passed);
 #if CONTENT != 1
@@ -133,6 +133,6 @@ void main() {
 #elif defined LINEAR
   colour = vec4(radiance, 1.0);
 #else
-  colour = vec4(develop(radiance * (view.y * balance.rgb), dither(vec2(pixel))), 1.0);
+  colour = vec4(develop(radiance * (view.y * balance.rgb), grain(vec2(pixel) + wetness.yz)), 1.0);
 #endif
 }

@@ -10,9 +10,10 @@ struct Surface {
 uniform sampler2DArray look_textures;
 uniform sampler2D ground_map;  // from above: debris on the ground, tone; see ground_map.h
 
-// Noise without visible order, from 0 to 1 (Jimenez 2014).
-float dither(vec2 pixel) {
-  return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+// Noise of a cell's number, from 0 to 1. It lies on the surface and moves with it: what stays on the
+// pixel grid while the camera moves is a false landmark.
+float cell_noise(vec2 cell) {
+  return fract(52.9829189 * fract(dot(cell, vec2(0.06711056, 0.00583715))));
 }
 
 float gloss_lobe(Surface s, vec3 to_light, vec3 to_eye) {
@@ -31,7 +32,7 @@ float gloss_lobe(Surface s, vec3 to_light, vec3 to_eye) {
 #endif
 }
 
-Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, float z, vec2 pixel) {
+Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, float z) {
   Surface s;
   // The point in the mesh frame.
   int at = int(placed) * 4;
@@ -80,7 +81,8 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   uint turn = mw.w & 3u;  // which axis of the mesh is longest: grain runs along it
   vec3 q = (turn == 1u ? p.yzx : turn == 2u ? p.zxy : p) * scale;
   vec3 f = turn == 1u ? smooth_normal.yzx : turn == 2u ? smooth_normal.zxy : smooth_normal;
-  vec3 hash = fract(q * 91.7 + q.yzx * 57.3);
+  vec3 grain = floor(q * 300.0);
+  vec3 hash = fract(grain * 0.3057 + grain.yzx * 0.191);
   f += (fract(hash * (hash + 3.33) * 97.0) - 0.5) * 0.12;
   vec3 plane = normalize(round(f * 1.2));
   vec3 along = abs(plane.z) > 0.9 ? vec3(1.0, 0.0, 0.0)
@@ -93,14 +95,14 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   vec2 above = (world.xy + 0.6 * world.z - ground.xy) * ground.z;
   vec2 map = texture(ground_map, 0.5 + 0.5 * above / (1.0 + abs(above))).xy;
   float slow = 4.0 * map.y - 2.0;
-  if (more.y < 0.2 && slow + 0.3 * dither(pixel) > 0.15) uv = uv.yx * 0.83 + 0.37;
+  if (more.y < 0.2 && slow + 0.3 * cell_noise(floor(world.xy * 60.0)) > 0.15) uv = uv.yx * 0.83 + 0.37;
   // A wall shows another part of its texture every 1.7 m or so, at the boards' joints.
   if (more.x < 0.5) uv.x += 0.37 * floor(uv.y) + 0.21 * floor(uv.y * 0.5);
   vec3 rx = mx.xyz * scale, ry = my.xyz * scale, rz = mz.xyz * scale;  // rotation rows
   s.face_normal = rx * face.x + ry * face.y + rz * face.z;
   float grazing = max(-dot(s.face_normal, direction), 0.05);
   float level = more.w + log2(z * lens.x) - 0.5 * log2(grazing) - 0.25;
-  vec4 texel = textureLod(look_textures, vec3(uv, more.x), max(level + dither(pixel) - 0.5, 0.0));
+  vec4 texel = textureLod(look_textures, vec3(uv, more.x), max(level, 0.0));
 
   // Relief.
   vec2 slope = (texel.xy * 4.0 - 2.0) * bright.w;

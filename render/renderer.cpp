@@ -24,7 +24,10 @@
 #include "render/passes/shadow_pass.h"
 #include "render/passes/visibility_pass.h"
 #include "render/reference/display.h"
+#include "render/reference/image_key.h"
 #include "render/reference/reference_pass.h"
+#include "render/transport/lamp_bounce.h"
+#include "render/transport/surface_model.h"
 
 namespace rubble {
 
@@ -127,6 +130,10 @@ struct Renderer::State {
   GpuGeometry geometry;
   std::unique_ptr<ShadowPass> shadow;
   std::unique_ptr<LiveLight> live_light;  // where something moves
+  std::vector<BakedLight> baked_nodes;    // of what rests; empty where something moves
+  BakeLinks links;                        // of the same, until the lamp first needs them
+  std::unique_ptr<LampBounce> lamp_bounce;  // made when a lamp is first lit
+  bool bounced = false;                   // the device holds light of the lamp too
   FrameLight frame_light;
   std::unique_ptr<VisibilityPass> visibility;
   std::unique_ptr<ResolvePass> resolve;
@@ -138,9 +145,11 @@ struct Renderer::State {
   std::unique_ptr<RayPass> rays;  // made when a view first needs it
   ViewRays drawn;                 // what was drawn last
 
-  BakedScene bake(const DiskCache& cache, const Progress& report);
+  BakedScene bake(const DiskCache& cache, const std::vector<PatternImage>& patterns, const Scene& s,
+                  const Progress& report);
   void move_to(std::int64_t stamp_ns);
   void update_air(const ViewRays& view);
+  void light_by_lamp(const ViewRays& view);
   // Which triangle each pixel shows: by rasterising where that will do, by casting rays otherwise.
   SurfaceImages draw_surfaces(const ViewRays& view);
   // metered: at the exposure that the view itself asks for; otherwise at that of the frame before.
@@ -176,11 +185,14 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
   const DiskCache cache(o.cache_folder);
   const std::vector<PatternImage> patterns = make_patterns_once(cache, o.texture_size, o.threads);
   report(0.15);
-  BakedScene baked = bake(cache, [&](double f) { report(0.15 + 0.7 * f); });
+  BakedScene baked = bake(cache, patterns, s, [&](double f) { report(0.15 + 0.7 * f); });
   air_light = std::move(baked.air);
-  geometry = upload_geometry(gl, scene, baked.vertices);
+  links = std::move(baked.links);
+  geometry = upload_geometry(gl, scene, baked.nodes);
   if (moving.any())
-    live_light = std::make_unique<LiveLight>(scene, light, std::move(baked.vertices), o.threads);
+    live_light = std::make_unique<LiveLight>(scene, light, std::move(baked.nodes), o.threads);
+  else
+    baked_nodes = std::move(baked.nodes);
   report(0.9);
   shadow = std::make_unique<ShadowPass>(gl, scene, geometry, light, o.shadow_size);
   shadow->draw_moving();  // nothing yet
@@ -199,7 +211,8 @@ Renderer::State::State(GlContext& c, const Scene& s, const RenderOptions& o,
 }
 
 // What rests. Of a still scene that is all of it.
-BakedScene Renderer::State::bake(const DiskCache& cache, const Progress& report) {
+BakedScene Renderer::State::bake(const DiskCache& cache, const std::vector<PatternImage>& patterns,
+                                 const Scene& s, const Progress& report) {
   std::vector<std::uint32_t> first_light;  // in the whole scene, of each piece that rests
   const PreparedScene resting = moving.any() ? resting_part(scene, first_light) : PreparedScene();
   const PreparedScene& part = moving.any() ? resting : scene;
@@ -209,18 +222,25 @@ BakedScene Renderer::State::bake(const DiskCache& cache, const Progress& report)
     bake.threads = options.threads;
     bake.rays = options.bake_rays;
     bake.seed = seed;
-    baked = bake_light_once(cache, part, light, bake, report);
+    const LookSurfaces surfaces(part, patterns, ground_map, s.wetness);
+    const auto albedo = [&](const RayScene::Triangle& triangle, float u, float v) {
+      constexpr float kMeanOver = 0.1f;  // unit: m
+      SurfacePoint point;
+      surfaces.find({triangle, u, v, {0, 0, -1}, kMeanOver}, point);
+      return mean_albedo(point.reflection);
+    };
+    baked = bake_light_once(cache, part, light, albedo,
+                            surroundings_key({part, light, patterns, ground_map, s.wetness}), bake, report);
   } else {
     baked = open_sky_light(part, light);
   }
   if (!moving.any()) return baked;
-  std::vector<BakedLight> vertices(scene.light_vertices);
+  std::vector<BakedLight> nodes(scene.light_nodes);
   for (std::size_t i = 0; i < part.placed.size(); ++i) {
-    const std::size_t count = part.meshes[part.placed[i].mesh].vertices.size();
-    std::copy_n(baked.vertices.begin() + part.placed[i].first_light, count,
-                vertices.begin() + first_light[i]);
+    const std::size_t count = part.meshes[part.placed[i].mesh].light_nodes.size();
+    std::copy_n(baked.nodes.begin() + part.placed[i].first_light, count, nodes.begin() + first_light[i]);
   }
-  baked.vertices = std::move(vertices);
+  baked.nodes = std::move(nodes);
   return baked;
 }
 
@@ -247,12 +267,37 @@ void Renderer::State::update_air(const ViewRays& view) {
   frame_light.air_table = &air_volume;
 }
 
+// The light that the lamp sends by way of surfaces comes to the baked one.
+void Renderer::State::light_by_lamp(const ViewRays& view) {
+  const LampSpec& lamp = frame_light.lamp;
+  const bool lit = lamp.on && lamp.intensity_cd > 0 && !reference && (lamp_bounce || !links.albedos.empty());
+  const std::vector<BakedLight>& base = live_light ? live_light->light() : baked_nodes;
+  if (!lit && !bounced) return;
+  bounced = lit;
+  if (!lit) return update_light(gl, geometry, base);
+  if (!lamp_bounce) {
+    std::vector<std::uint32_t> first_point;
+    std::uint32_t next = 0;
+    for (const PlacedMesh& piece : scene.placed) {
+      first_point.push_back(piece.moves ? LampBounce::kNoPoints : next);
+      if (!piece.moves) next += std::uint32_t(scene.meshes[piece.mesh].bake_points.size());
+    }
+    lamp_bounce = std::make_unique<LampBounce>(scene, std::move(links), std::move(first_point), options.threads);
+    links = BakeLinks();
+  }
+  const PlacedLamp placed = place_lamp(lamp, lamp_colour(lamp), view.lamp_bearer());
+  const Air air = medium.at(double(view.stamp_ns - start_ns) * 1e-9);
+  const float extinction = air.clear() ? 0 : float(air.extinction(Vec3(placed.position)));
+  update_light(gl, geometry, lamp_bounce->add_to(base, placed, extinction));
+}
+
 SurfaceImages Renderer::State::draw_surfaces(const ViewRays& view) {
   const Stopwatch start;
   drawn = view;
   frame_light.world_from_rig = drawn.world_from_rig ? &*drawn.world_from_rig : nullptr;
   move_to(drawn.stamp_ns);
   update_air(drawn);
+  light_by_lamp(drawn);
   if (view.plain()) {
     visibility->draw(projection());
     times.triangles = visibility->counts().triangles;

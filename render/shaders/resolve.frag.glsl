@@ -57,7 +57,7 @@ vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
   vec3 lamp = lamp_at(world, to_lamp, lamp_distance);
   lamp *= passed;
   lamp *= max(dot(s.normal, to_lamp), 0.0) * clamp(dot(s.face_normal, to_lamp) * 8.0, 0.0, 1.0) *
-          (0.55 + 0.45 * open.x) * open.y;
+          open.y;
   sum.glare += lamp * gloss_lobe(s, to_lamp, to_eye);
   sum.e += lamp;
 #endif

@@ -67,15 +67,17 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   // Baked light.
   vec2 rb0, rb1, rb2;
   int first_light = int(mw.y);
-  vec3 l0 = unpack_light(texelFetch(light_table, int(tri.x) + first_light).xy, rb0);
-  vec3 l1 = unpack_light(texelFetch(light_table, int(tri.y) + first_light).xy, rb1);
-  vec3 l2 = unpack_light(texelFetch(light_table, int(tri.z) + first_light).xy, rb2);
-  vec3 light = w0 * l0 + w1 * l1 + w2 * l2;
-  vec2 red_blue = w0 * rb0 + w1 * rb1 + w2 * rb2;
+  vec3 lw;
+  ivec3 node = find_light_nodes(tri, vec3(w0, w1, w2), lw) + first_light;
+  vec3 l0 = unpack_light(texelFetch(light_table, node.x).xy, rb0);
+  vec3 l1 = unpack_light(texelFetch(light_table, node.y).xy, rb1);
+  vec3 l2 = unpack_light(texelFetch(light_table, node.z).xy, rb2);
+  vec3 light = lw.x * l0 + lw.y * l1 + lw.z * l2;
+  vec2 red_blue = lw.x * rb0 + lw.y * rb1 + lw.z * rb2;
 
   // The look, on the one of 26 planes that the surface is nearest to: little stretching, one
   // fetch. Noise breaks the line where the plane changes.
-  int look = int(tri.w) * 4;
+  int look = int(tri.w & 31u) * 4;
   vec4 dark = looks[look], bright = looks[look + 1], accent = looks[look + 2];
   vec4 more = looks[look + 3];
   uint turn = mw.w & 3u;  // which axis of the mesh is longest: grain runs along it

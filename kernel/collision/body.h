@@ -40,6 +40,9 @@ struct Body {
   // another pose for longer.
   Pose still_pose, loose_pose;
   std::int32_t still_steps = 0, loose_steps = 0;
+  // A later place of it, for when it leaves the second pose; while rest is verified only.
+  Pose later_pose;
+  std::int32_t later_steps = 0;
   float load = 0;  // sum of the contacts' impulses in the step when it fell asleep; unit: N s
   Vec3f lost_support;  // impulses of a step that contacts gave it then and that are gone; unit: N s
 

@@ -217,6 +217,7 @@ struct World::Impl {
   void clamp_ejection_velocity();
   void advance();
   float calc_lateness() const;
+  float keep_of_late_spin(const Body& body, const Vec3f& angular, float spin) const;
   void set_rates(std::size_t body);
   double calc_travel(const Body& body) const;
   void remove_lost();

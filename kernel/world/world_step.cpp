@@ -179,6 +179,15 @@ float World::Impl::calc_lateness() const {
   return std::clamp((seconds - kPatience) / (kPatienceEnds - kPatience), 0.0F, 1.0F);
 }
 
+// The share of its spin that a piece keeps in a step of a verification that lasts. spin: its length.
+float World::Impl::keep_of_late_spin(const Body& body, const Vec3f& angular, float spin) const {
+  if (spin <= 0) return 1;
+  const Vec3f axis = angular * (1 / spin);
+  const float torque = kRollingLever * float(body.mass * options.gravity);
+  const float stopped = torque * dot(axis, body.inverse_inertia * axis) * float(options.step);
+  return std::max(0.0F, 1 - lateness * (kLateDamping + stopped / spin));
+}
+
 // The speeds after the step, and the extra rates that make up its displacement.
 void World::Impl::set_rates(std::size_t index) {
   const Body& body = data.bodies[index];
@@ -189,7 +198,7 @@ void World::Impl::set_rates(std::size_t index) {
     const float spin = norm(m.angular);
     const float most = std::max(kFreeSpin, norm(body.angular) + kSpinGain);
     if (spin > most) m.angular *= most / spin;
-    if (lateness > 0 && spin < kSwingingSpin) m.angular *= 1 - kLateDamping * lateness;
+    if (lateness > 0 && spin < kSwingingSpin) m.angular *= keep_of_late_spin(body, m.angular, spin);
     r.linear = Vec3(m.linear), r.angular = Vec3(m.angular);
     const double per_step = 1 / options.step;
     r.extra_linear = Vec3(displacements[index].linear) * per_step - r.linear;

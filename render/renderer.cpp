@@ -89,7 +89,7 @@ float most_gloss(const PreparedScene& scene) {
   float most = 0;
   for (const PreparedMesh& mesh : scene.meshes)
     for (const PreparedTriangle& t : mesh.triangles)
-      most = std::max(most, all_surface_appearances()[t.material].gloss);
+      most = std::max(most, mirrored_peak(all_surface_appearances()[t.material]));
   return most;
 }
 

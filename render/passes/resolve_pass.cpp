@@ -88,6 +88,11 @@ float lamp_spread(const LampSpec& lamp) {
   return lamp.shape == LampShape::ring ? r2 : 0.5f * r2;
 }
 
+// gloss_lobe() of shaders/surface.glsl at its highest that counts: seen and lit head-on.
+float lobe_peak(float reflectance, float roughness) {
+  return reflectance / (4 * roughness * roughness * (std::sqrt(roughness) + 0.5f));
+}
+
 float grey_of(const Vec3f& c) { return dot(c, Vec3f(0.2126f, 0.7152f, 0.0722f)); }
 
 void fill_air_and_lamp(FrameBlock& block, const FrameLight& frame, const Pose& world_from_rig) {
@@ -113,7 +118,7 @@ void fill_surface_appearances(FrameBlock& block, int texture_size) {
     const SurfaceAppearance& l = looks[i];
     set(block.looks[i * 4], Vec3f(l.dark), 1 / l.tile);
     set(block.looks[i * 4 + 1], Vec3f(l.light), l.bump);
-    set(block.looks[i * 4 + 2], Vec3f(l.accent), l.gloss);
+    set(block.looks[i * 4 + 2], Vec3f(l.accent), std::floor(255 * l.reflectance + 0.5f) + 0.99f * l.roughness);
     set(block.looks[i * 4 + 3], {float(l.pattern), l.dust, l.variation},
         std::log2(float(texture_size) / l.tile));
   }
@@ -224,6 +229,10 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
 }
 
 }  // namespace
+
+float mirrored_peak(const SurfaceAppearance& look) {
+  return look.reflectance > 0 ? lobe_peak(look.reflectance, look.roughness) : 0;
+}
 
 Vec3f lamp_colour(const LampSpec& lamp) {
   // White light-emitting diodes, a little cold; luminance 1 by Rec. 709 weights.
@@ -364,9 +373,9 @@ bool ResolvePass::lamp_shows(const FrameLight& light, double lamp_offset,
   const Vec3f colour = lamp_colour(light.lamp);
   const float intensity = std::max(colour.x, std::max(colour.y, colour.z)) * exposure;
   if (tiles.nearest_value <= 0) return false;
-  // Of albedo 1, and the peak of the mirrored part, see gloss_lobe() in shaders/surface.glsl.
-  const float film = light.wetness > 0 ? 16.0f : 0.0f;
-  const float reflected = (1 + 12 * light.most_gloss + film) / float(portable::kPi);
+  // Of albedo 1, and the peak of the mirrored part; of water, see surface.glsl.
+  const float film = light.wetness > 0 ? lobe_peak(0.02f, 0.12f) : 0.0f;
+  const float reflected = (1 + light.most_gloss + film) / float(portable::kPi);
   const float offset = float(lamp_offset);
   const float distance = std::max(kNearPlane / tiles.nearest_value - offset, 0.01f);
   return intensity * reflected / (distance * distance) > kUnseen;

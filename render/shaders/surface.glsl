@@ -3,8 +3,11 @@ struct Surface {
   vec3 normal, face_normal;  // world; with and without relief
   vec3 albedo;
   vec3 ambient;  // klx
-  float gloss;
-  float film;  // of water, as gloss
+  // Mirrors on top, as transport/reflection.h has them: share covered, reflectance, roughness.
+  vec3 gloss;
+#ifdef WET
+  float film;  // share covered by water
+#endif
 };
 
 uniform sampler2DArray look_textures;
@@ -16,20 +19,49 @@ float cell_noise(vec2 cell) {
   return fract(52.9829189 * fract(dot(cell, vec2(0.06711056, 0.00583715))));
 }
 
+// Schlick's approximation of Fresnel's law.
+float fresnel(float reflectance, float cosine) {
+  float c = 1.0 - cosine, c2 = c * c;
+  return reflectance + (1.0 - reflectance) * c2 * c2 * c;
+}
+
+// pi times the BRDF of a rough mirror: the distribution of Trowbridge and Reitz, with shadowing as
+// Karis (2013) approximates it.
+float mirror_lobe(float reflectance, float alpha, float facing, float half_way) {
+  float a2 = alpha * alpha;
+  float d = facing * facing * (a2 - 1.0) + 1.0;
+  return fresnel(reflectance, half_way) * a2 /
+         (d * d * 4.0 * max(half_way * half_way, 0.05) * (sqrt(alpha) + 0.5));
+}
+
+const float kWaterReflectance = 0.02, kFilmRoughness = 0.12;
+
 float gloss_lobe(Surface s, vec3 to_light, vec3 to_eye) {
-  float d = max(dot(normalize(to_light + to_eye), s.normal), 0.0);
-  d *= d;
-  d *= d;
-  d *= d;
-  d *= d;
-  d *= d;
+  vec3 h = normalize(to_light + to_eye);
+  float facing = clamp(dot(h, s.normal), 0.0, 1.0), half_way = clamp(dot(h, to_eye), 0.0, 1.0);
+  float lobe = s.gloss.x * mirror_lobe(s.gloss.y, s.gloss.z, facing, half_way);
 #ifdef WET
-  float film = d * d;
-  film *= film;
-  return s.gloss * d * 12.0 + s.film * film * 40.0;
-#else
-  return s.gloss * d * 12.0;
+  lobe += s.film * mirror_lobe(kWaterReflectance, kFilmRoughness, facing, half_way);
 #endif
+  return lobe;
+}
+
+// Share of even light from all around that the mirrors throw back at an angle of this cosine: rough ones rise less
+// towards grazing angles (Lagarde 2011).
+float mirrored_share(Surface s, float cosine) {
+  float c = 1.0 - clamp(cosine, 0.0, 1.0), c2 = c * c, steep = c2 * c2 * c;
+  float share = s.gloss.x * (s.gloss.y + max(1.0 - sqrt(s.gloss.z) - s.gloss.y, 0.0) * steep);
+#ifdef WET
+  share += s.film * (kWaterReflectance + (1.0 - sqrt(kFilmRoughness)) * steep);
+#endif
+  return share;
+}
+
+// What mirrors let through to the base from a light, as a multiple of what they let through of even light
+// (Kelemen and Szirmay-Kalos 2001); a twenty-first is the mean of Schlick's slope.
+float base_share(Surface s, vec3 to_light) {
+  float mean = s.gloss.x * (s.gloss.y + max(1.0 - sqrt(s.gloss.z) - s.gloss.y, 0.0) * (1.0 / 21.0));
+  return (1.0 - mirrored_share(s, dot(s.normal, to_light))) / (1.0 - mean);
 }
 
 Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, float z) {
@@ -128,15 +160,13 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   float dust = smoothstep(0.30, 1.05, up + (texel.z - 0.45) * 0.8) *
                (soil ? 0.85 * map.x : more.y);
   s.albedo = mix(s.albedo, vec3(0.375, 0.36, 0.335) * (0.55 + 0.75 * texel.z), dust);
-  s.gloss = accent.w * (1.0 - dust);
-
-  s.film = 0.0;
+  s.gloss = vec3(1.0 - dust, floor(accent.w) * (1.0 / 255.0), max(fract(accent.w) * (1.0 / 0.99), 0.02));
 #ifdef WET
   // Water darkens what it soaks into, and stands as a film on what faces up.
   float wet = wetness.x * smoothstep(-0.6, 0.5, up + 0.5 * slow);
   s.albedo *= 1.0 - 0.5 * wet;
-  s.gloss = max(s.gloss, 0.05 * wet);
-  s.film = 0.4 * wet * (0.35 + 0.65 * smoothstep(0.2, 0.9, up)) * smoothstep(0.75, 0.25, texel.z);
+  s.film = wet * (0.35 + 0.65 * smoothstep(0.2, 0.9, up)) * smoothstep(0.75, 0.25, texel.z);
+  s.gloss.x *= 1.0 - s.film;
   s.normal = normalize(mix(s.normal, rx * smooth_normal.x + ry * smooth_normal.y + rz * smooth_normal.z,
                            0.6 * wet * smoothstep(0.75, 0.25, texel.z)));
 #endif

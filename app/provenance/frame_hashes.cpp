@@ -63,6 +63,17 @@ std::uint64_t hash_imu(const std::vector<ImuSample>& samples) {
   return hash.digest();
 }
 
+std::uint64_t hash_scan(const LidarScan& scan) {
+  StateHash hash;
+  hash.add(scan.stamp_ns);
+  for (const Pose& pose : scan.world_from_lidar) {
+    for (const double c : {pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z}) hash.add(c);
+    add(hash, pose.translation);
+  }
+  hash.add_bytes(scan.points.data(), scan.points.size() * sizeof(LidarPoint));
+  return hash.digest();
+}
+
 // Of one camera: the pose, every image stream in the order of the table, then what is no image.
 std::vector<std::string> channels_of_camera() {
   std::vector<std::string> names{"pose"};
@@ -71,12 +82,14 @@ std::vector<std::string> channels_of_camera() {
   return names;
 }
 
-std::vector<std::string> channels_of_cameras(const std::vector<std::string>& cameras) {
+std::vector<std::string> channels_of_sensors(const std::vector<std::string>& cameras,
+                                             const std::vector<std::string>& lidars) {
   const std::vector<std::string> each = channels_of_camera();
   std::vector<std::string> all;
   if (cameras.empty()) all = each;
   for (const std::string& camera : cameras)
     for (const std::string& channel : each) all.push_back(camera + "/" + channel);
+  for (const std::string& lidar : lidars) all.push_back(lidar + "/points");
   all.push_back("imu");
   return all;
 }
@@ -88,8 +101,8 @@ std::string without_camera(const std::string& channel) {
 }  // namespace
 
 void FrameHashes::add(const Frame& f) {
-  if (channels.empty()) channels = channels_of_cameras(cameras_);
-  const std::size_t each = (channels.size() - 1) / std::max<std::size_t>(1, cameras_.size());
+  if (channels.empty()) channels = channels_of_sensors(cameras_, lidars_);
+  const std::size_t each = (channels.size() - 1 - lidars_.size()) / std::max<std::size_t>(1, cameras_.size());
   std::vector<std::uint64_t>& row = frames.emplace_back(channels.size(), 0);
   auto at = row.begin() + std::ptrdiff_t(std::size_t(f.sensor) * each);
   *at++ = hash_pose(f);
@@ -98,11 +111,19 @@ void FrameHashes::add(const Frame& f) {
     *at++ = image ? std::visit([](const auto* values) { return hash_numbers(*values); }, *image) : 0;
   }
   *at = hash_events(f.events);
+  for (std::size_t i = 0; i < lidars_.size(); ++i) {
+    row[row.size() - 1 - lidars_.size() + i] = hash_numbers(scans_[i]);
+    scans_[i].clear();
+  }
   row.back() = hash_imu(readings_);
   readings_.clear();
 }
 
 void FrameHashes::add_imu(const ImuSample& sample) { readings_.push_back(sample); }
+
+void FrameHashes::add_lidar(const LidarScan& scan) {
+  scans_.at(std::size_t(scan.sensor)).push_back(hash_scan(scan));
+}
 
 FrameHashes FrameHashes::compact() const {
   FrameHashes kept;
@@ -119,7 +140,7 @@ FrameHashes FrameHashes::compact() const {
 
 bool is_picture(const std::string& channel) {
   const std::string name = without_camera(channel);
-  return name != "pose" && name != "events" && name != "imu";
+  return name != "pose" && name != "events" && name != "points" && name != "imu";
 }
 
 FrameDifference find_difference(const FrameHashes& was, const FrameHashes& is) {

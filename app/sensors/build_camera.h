@@ -1,17 +1,29 @@
 // From a camera of a mission to what renders it, and where it flies.
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "render/scene/camera_spec.h"
 #include "render/sensors/flight.h"
 #include "scripting/scenario/scenario.h"
+#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 
 // A camera of the mission (all_cameras), with what is in its place.
 CameraSpec build_camera(const Scenario& scenario, const MountedCamera& camera, int threads);
 
-// Where that camera is, at its own rate, along the scenario's trajectory, whose places are resolved:
-// app/planning/flight.h.
-Flight build_flight(const Scenario& scenario, const MountedCamera& camera);
+// Where that camera is, at its own rate, along the path of the scenario's trajectory, whose places are
+// resolved: app/planning/flight.h.
+Flight build_flight(const Scenario& scenario, const MountedCamera& camera,
+                    std::shared_ptr<const CameraPath> path);
+
+// The path of the rig, and where each camera of all_cameras() is on it.
+struct RigFlight {
+  std::shared_ptr<const CameraPath> path;  // of the rig; never null
+  std::vector<Flight> cameras;             // each with the stamps of its own rate
+};
+RigFlight build_rig_flight(const Scenario& scenario, std::shared_ptr<const CameraPath> path);
 
 }  // namespace rubble

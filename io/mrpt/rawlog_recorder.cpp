@@ -8,6 +8,7 @@
 #include "io/base/atomic_file.h"
 #include "io/base/gzip.h"
 #include "io/image/depth_encoding.h"
+#include "io/mrpt/lidar_observations.h"
 #include "io/mrpt/mrpt_types.h"
 #include "io/recording/frame_order.h"
 #include "kernel/base/error.h"
@@ -36,6 +37,11 @@ class RawlogRecorder : public Recorder {
   // Into the gzip member of the next frame.
   void write_imu(const ImuSample& sample) override {
     observe([&](auto& archive) { archive << make_imu(sample); });
+  }
+
+  void write_lidar(const LidarScan& scan) override {
+    const LidarRecord& lidar = recording_.lidars.at(std::size_t(scan.sensor));
+    observe([&](auto& archive) { write_lidar_observation(scan, lidar, archive); });
   }
 
   void finish() override {

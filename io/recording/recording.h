@@ -8,6 +8,7 @@
 
 #include "render/scene/camera_spec.h"
 #include "render/scene/frame.h"
+#include "render/scene/lidar_spec.h"
 
 namespace rubble {
 
@@ -65,11 +66,21 @@ struct ImuRecord {
   ImuModel model;                         // rate and noise
 };
 
+// A LiDAR. LidarScan::sensor is its number.
+struct LidarRecord {
+  std::string name = "lidar";      // of labels and folders
+  std::string topic = "/points";   // ROS: PointCloud2, of a planar pattern LaserScan
+  std::string frame_id = "lidar_link";  // TF
+  Pose rig_from_lidar;             // axes: X forward, Y left, Z up
+  LidarSpec spec;                  // pattern and limits
+};
+
 struct Recording {
   std::string rig = "camera_link";       // TF: what flies the trajectory
   std::vector<CameraRecord> cameras{1};  // at least one
-  std::vector<ImuRecord> imus;
-  Legend legend;  // where a stream of ground truth has one
+  std::vector<ImuRecord> imus;           // none where the mission has no inertial unit
+  std::vector<LidarRecord> lidars;
+  Legend legend;                         // where a stream of ground truth has one
 
   bool has_legend() const;  // whether any camera gives such a stream
   // The same with one of the cameras alone, as the first.

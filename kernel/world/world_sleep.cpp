@@ -192,10 +192,8 @@ void World::Impl::note_lost_contact(const Contact& contact) {
 void World::Impl::wake_changed() {
   lost_support.resize(data.bodies.size());
   unsettled.clear();
-  for (std::int32_t index : active) {
-    const Pair& pair = data.pairs[index];
-    if (sweeps[pair.body_a].awake && (pair.body_b == kGround || sweeps[pair.body_b].awake)) continue;
-    const Contact& contact = data.contacts[index];
+  each_solved([this](const Contact& contact) {
+    if (sweeps[contact.body_a].awake && (contact.body_b == kGround || sweeps[contact.body_b].awake)) return;
     for (std::int32_t i : {contact.body_a, contact.body_b}) {
       if (i == kGround) continue;
       const Body& body = data.bodies[i];
@@ -205,7 +203,7 @@ void World::Impl::wake_changed() {
       lost_support[i] += contact.normal * (i == contact.body_a ? change : -change);
       unsettled.push_back(i);
     }
-  }
+  });
   for (std::int32_t i : unsettled) {
     const Body& body = data.bodies[i];
     if (is_unbalanced(body, body.lost_support + lost_support[i])) data.wake_next[i] = 1;
@@ -235,14 +233,13 @@ void World::Impl::note_loads() {
   for (std::size_t i = 0; i < slept.size(); ++i) {
     if (slept[i]) data.bodies[i].load = 0;
   }
-  for (std::int32_t index : active) {
-    Contact& contact = data.contacts[index];
+  each_solved([this](Contact& contact) {
     for (std::int32_t i : {contact.body_a, contact.body_b}) {
       if (i == kGround || !slept[i]) continue;
       data.bodies[i].load += contact.pressed;
       contact.rest_pressed = contact.pressed;
     }
-  }
+  });
 }
 
 void World::Impl::update_sleep() {

@@ -13,8 +13,8 @@ namespace rubble {
 namespace {
 
 constexpr std::uint32_t kMostNodes = 1u << 21;  // whose numbers fit beside the rest, see geometry.cpp
-constexpr float kLeastCell = 0.03f, kMostCell = 0.1f;  // of space, one point each; unit: m
-constexpr float kCellShare = 0.25f;             // of the mesh's radius
+constexpr float kLeastCell = 0.04f, kMostCell = 0.1f;  // of space, one point each; unit: m
+constexpr float kCellShare = 0.4f;              // of the mesh's radius
 constexpr std::size_t kMostOrigins = 8;         // of a point
 constexpr float kAside = 0.3f;                  // of origins from their node; unit: a step
 

@@ -14,10 +14,10 @@
 namespace rubble {
 
 struct BakeOptions {
-  int threads = 1;  // the result does not depend on it
-  int rays = 256;   // a bake point at most; where light is even it takes fewer; range: 8 to 1024
-  int bounces = 5;  // between surfaces
-  std::uint64_t seed = 0;
+  int threads = 1;         // the result does not depend on it
+  int rays = 256;          // a bake point at most, fewer where light is even; range: 8 to 1024
+  int bounces = 5;         // between surfaces
+  std::uint64_t seed = 0;  // of the directions of rays
 };
 
 // Light scattered in the air, on a grid over the pieces and a little around them.
@@ -54,8 +54,8 @@ struct BakeLinks {
 
 struct BakedScene {
   std::vector<BakedLight> nodes;  // one a node of each placed mesh, in the order of first_light
-  AirLight air;
-  BakeLinks links;  // empty under an open sky
+  AirLight air;                   // of the same light
+  BakeLinks links;                // empty under an open sky
 };
 
 // Every node and all air as if nothing stood around: the sky alone.

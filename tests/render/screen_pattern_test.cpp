@@ -44,8 +44,7 @@ std::vector<Shot> fly(GlContext& context) {
   const ViewRays first = view(0);
   std::vector<Shot> shots;
   for (int i = 0; i < kFrames; ++i) {
-    Frame frame = renderer.render(view(i), i);
-    renderer.add_truth({find_image_stream("flow")}, &first, frame);
+    const Frame frame = renderer.view(view(i), &first).into_frame(i, {find_image_stream("flow")});
     Shot shot;
     for (std::size_t p = 0; p < frame.rgb.size(); p += 3)
       shot.luma.push_back(0.299f * frame.rgb[p] + 0.587f * frame.rgb[p + 1] + 0.114f * frame.rgb[p + 2]);

@@ -87,6 +87,8 @@ void take_samples(SensorSuite& sensors, const Leg& leg, FrameSinks& sinks, const
   while (std::optional<Sample> sample = sensors.take()) {
     if (const auto* reading = std::get_if<ImuSample>(&*sample)) {
       recorded.hashes.add_imu(*reading);
+    } else if (const auto* robot = std::get_if<RobotSample>(&*sample)) {
+      recorded.hashes.add_robot(*robot);
     } else {
       const Frame& frame = std::get<Frame>(*sample);
       recorded.hashes.add(frame);
@@ -129,10 +131,11 @@ FlightPlan plan_flight(const ResolvedMission& mission, const PileState& pile,
 }
 
 void warn_of_cameras_inside(const ResolvedMission& mission, const Scenario& flown,
-                            const PileState& pile, RunContext& context) {
+                            const PileState& pile, const std::shared_ptr<const MotionPath>& ride,
+                            RunContext& context) {
   for (const MountedCamera& camera : all_cameras(flown)) {
     std::vector<Vec3> positions;
-    for (const Pose& pose : build_flight(flown, camera).world_from_camera)
+    for (const Pose& pose : build_flight(flown, camera, ride).world_from_camera)
       positions.push_back(pose.translation);
     const auto warning = find_camera_inside(mission.assets, pile, positions);
     if (!warning) continue;
@@ -143,7 +146,8 @@ void warn_of_cameras_inside(const ResolvedMission& mission, const Scenario& flow
 
 // The scenario with what its trajectory depends on besides the script: places in voids, ways around
 // the pile. flight.json holds it.
-Scenario resolve_path(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
+Scenario resolve_path(const ResolvedMission& mission, const PileState& pile,
+                      const std::shared_ptr<const MotionPath>& ride, RunFolder& folder,
                       RunContext& context) {
   const bool quick = !mission.scenario.trajectory.needs_pile();
   if (!quick) context.progress.start("flight");
@@ -155,7 +159,7 @@ Scenario resolve_path(const ResolvedMission& mission, const PileState& pile, Run
   }
   Scenario flown = mission.scenario;
   flown.trajectory = plan.trajectory;
-  warn_of_cameras_inside(mission, flown, pile, context);
+  warn_of_cameras_inside(mission, flown, pile, ride, context);
   return flown;
 }
 
@@ -178,7 +182,7 @@ struct PreparedLeg {
 // What there is to be seen: the settled pile, and robots, which start with the flight.
 struct Seen {
   const SettledPile& pile;
-  const RobotTrack& robots;
+  const DrivenRobots& robots;
 };
 
 Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen& seen) {
@@ -187,8 +191,9 @@ Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen
     return build_moving_scene(leg.scenario, mission.assets, pile, seen.pile.track, *leg.window,
                               leg.zero_ns);
   }
-  if (seen.robots.empty()) return build_scene(leg.scenario, mission.assets, pile);
-  return build_robot_scene(leg.scenario, mission.assets, pile, seen.robots, leg.scenario.start_ns);
+  if (seen.robots.moved.empty()) return build_scene(leg.scenario, mission.assets, pile);
+  return build_robot_scene(leg.scenario, mission.assets, pile, seen.robots.moved,
+                           leg.scenario.start_ns);
 }
 
 PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Seen& seen,
@@ -205,19 +210,20 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
       [&](double fraction) { context.progress.update(fraction, "light"); });
   prepared.sensors = std::make_unique<SensorSuite>(
       leg.scenario, SensorBegin{leg.noise_seed, frames_before}, *prepared.renderer,
-      context.threads());
+      context.threads(), seen.robots.readings);
   context.progress.finish("ready on " + gl.info().renderer);
   return prepared;
 }
 
 // Of each camera, over all legs.
-std::vector<int> count_frames(const std::vector<Leg>& legs) {
+std::vector<int> count_frames(const std::vector<Leg>& legs,
+                              const std::shared_ptr<const MotionPath>& ride) {
   std::vector<int> frames;
   for (const Leg& leg : legs) {
     const std::vector<MountedCamera> cameras = all_cameras(leg.scenario);
     frames.resize(cameras.size());
     for (std::size_t i = 0; i < cameras.size(); ++i)
-      frames[i] += int(build_flight(leg.scenario, cameras[i]).stamps_ns.size());
+      frames[i] += int(build_flight(leg.scenario, cameras[i], ride).stamps_ns.size());
   }
   return frames;
 }
@@ -235,8 +241,10 @@ void finish_recording(const ResolvedMission& mission, const RecorderSet& set, Re
 }
 
 // Links follow the pieces, as their numbers do.
-void add_robots(const RobotTrack& robots, std::uint16_t label, Recording& recording) {
-  for (const RobotModel& model : robots.models)
+void add_robots(const DrivenRobots& robots, std::uint16_t label, Recording& recording) {
+  recording.robots = robots.records;
+  recording.mount = robots.mount;
+  for (const RobotModel& model : robots.moved.models)
     for (const RobotLink& link : model.links)
       recording.legend.pieces.push_back({label, model.name + "/" + link.name});
 }
@@ -251,7 +259,7 @@ void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const 
   Recording recording = describe_recording(flown, mission.assets, pile);
   add_robots(seen.robots, std::uint16_t(kFirstAssetLabel + mission.assets.types.size()), recording);
   RecorderSet set = make_recorders(
-      {flown, recording, count_frames(legs), title_of(mission, pile)}, folder.path());
+      {flown, recording, count_frames(legs, seen.robots.readings.ride), title_of(mission, pile)}, folder.path());
   folder.expect(set.names);
   add_live_recorders(set, context.options, ros_options(flown.outputs, recording));
   RecordingQueue queue(std::move(set.recorders));
@@ -280,14 +288,14 @@ Renderer prepare_renderer(const Scenario& scenario, const AssetLibrary& assets,
 
 RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
                              const DrivenRobots& robots, RunFolder& folder, RunContext& context) {
-  const Scenario flown = resolve_path(mission, pile.state, folder, context);
+  const Scenario flown = resolve_path(mission, pile.state, robots.readings.ride, folder, context);
   const std::vector<Leg> legs =
       with_lines_of_script(mission, [&] { return plan_legs(flown, pile.track); });
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
   recorded.hashes = FrameHashes(names_of_cameras(flown));
   recorded.environment = describe_environment(gl.info(), context.threads());
-  record(legs, mission, flown, {pile, robots.moved}, gl, folder, context, recorded);
+  record(legs, mission, flown, {pile, robots}, gl, folder, context, recorded);
   return recorded;
 }
 

@@ -12,12 +12,16 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "app/measures/metrics.h"
 #include "app/pipeline/moving_scene.h"
 #include "app/pipeline/resolved_mission.h"
 #include "app/provenance/frame_hashes.h"
+#include "app/sensors/robot_readings.h"
+#include "io/recording/recording.h"
 #include "kernel/model/pile_state.h"
 #include "kernel/model/track.h"
 #include "render/renderer.h"
@@ -33,6 +37,9 @@ struct SettledPile {
 // What the robots of a mission did; empty without robots.
 struct DrivenRobots {
   RobotTrack moved;
+  RobotReadings readings;            // what they sensed, and the way of the rig that one carries
+  std::vector<RobotRecord> records;  // for recorders
+  std::optional<RigMount> mount;     // likewise
   Metrics metrics;
 };
 

@@ -1,6 +1,6 @@
 #include "app/sensors/build_camera.h"
 
-#include <memory>
+#include <utility>
 
 #include "scripting/trajectory/trajectory.h"
 
@@ -23,19 +23,19 @@ CameraSpec build_camera(const Scenario& scenario, const MountedCamera& mounted, 
   return spec;
 }
 
-Flight build_flight(const Scenario& scenario, const MountedCamera& camera) {
+Flight build_flight(const Scenario& scenario, const MountedCamera& camera,
+                    std::shared_ptr<const MotionPath> path) {
   // The same bits where the camera is the rig.
   const bool mounted = !camera.is_rig();
   const Pose rig_from_camera = camera.rig_from_camera();
   const auto on_mount = [=](const Pose& rig) { return mounted ? rig * rig_from_camera : rig; };
-  TrajectorySpec spec = scenario.trajectory;
-  spec.rate_hz = camera.rate_hz.value_or(spec.rate_hz);
+  const double rate_hz = camera.rate_hz.value_or(scenario.trajectory.rate_hz);
+  if (!path) path = std::make_shared<CameraPath>(scenario.trajectory);
   Flight flight;
-  for (const CameraPose& pose : sample_trajectory(spec, scenario.start_ns)) {
+  for (const CameraPose& pose : sample_path(*path, rate_hz, scenario.start_ns)) {
     flight.stamps_ns.push_back(pose.stamp_ns);
     flight.world_from_camera.push_back(on_mount(pose.world_from_camera));
   }
-  const auto path = std::make_shared<CameraPath>(scenario.trajectory);
   flight.pose_at = [path, on_mount, start = scenario.start_ns](std::int64_t stamp_ns) {
     return on_mount(path->at(double(stamp_ns - start) * 1e-9));
   };

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/sensors/robot_readings.h"
 #include "render/renderer.h"
 #include "render/scene/sample.h"
 #include "scripting/scenario/scenario.h"
@@ -18,12 +19,14 @@ struct SensorBegin {
   int frame = 0;                 // number of each camera's first frame
 };
 
-// All sensors that ride on one rig, merged by stamp. At equal stamps inertial units come before
-// cameras, and cameras in the order of all_cameras(). The renderer must outlive them.
+// All sensors that ride on one rig, and those of robots, merged by stamp. At equal stamps robots come
+// before inertial units, these before cameras, and cameras in the order of all_cameras(). The renderer
+// and the readings must outlive them.
 class SensorSuite {
  public:
   // flown: the scenario with the path that is flown.
-  SensorSuite(const Scenario& flown, const SensorBegin& begin, Renderer& renderer, int threads);
+  SensorSuite(const Scenario& flown, const SensorBegin& begin, Renderer& renderer, int threads,
+              const RobotReadings& robots);
 
   // Frames of each camera over the whole flight.
   const std::vector<int>& frames() const { return frames_; }

@@ -155,9 +155,24 @@ const char* find_not_finite(const ImuSample& s) {
   return finite ? nullptr : "inertial measurement";
 }
 
+const char* find_not_finite(const RobotSample& s) {
+  for (const auto* list : {&s.positions, &s.speeds, &s.efforts})
+    for (const double value : *list)
+      if (!std::isfinite(value)) return "joint state";
+  for (const RobotSample::Wrench& w : s.contacts)
+    if (!is_finite(w.force) || !is_finite(w.moment)) return "contact force";
+  const bool finite = is_finite(s.world_from_base.translation) && is_finite(s.linear_velocity) &&
+                      is_finite(s.angular_velocity);
+  return finite ? nullptr : "motion";
+}
+
 std::string describe(const Frame& frame) { return "frame " + std::to_string(frame.index); }
 std::string describe(const ImuSample& sample) {
   return "the reading at " + std::to_string(sample.stamp_ns) + " ns";
+}
+
+std::string describe(const RobotSample& sample) {
+  return "what a robot senses at " + std::to_string(sample.stamp_ns) + " ns";
 }
 
 void refuse_not_finite(const Sample& sample) {

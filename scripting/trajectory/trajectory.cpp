@@ -203,6 +203,8 @@ Waypoint default_view() {
   return w;
 }
 
+Pose Ride::link_from_rig() const { return {rotation_of(rpy_deg), position}; }
+
 std::vector<Diagnostic> find_mistakes(const TrajectorySpec& spec) { return Checker(spec).run(); }
 
 class CameraPath::Curves {
@@ -373,15 +375,18 @@ CameraMotion CameraPath::sharp_motion_at(double t) const {
 }
 
 std::vector<CameraPose> sample_trajectory(const TrajectorySpec& spec, std::int64_t epoch_ns) {
-  const CameraPath path(spec);
+  return sample_path(CameraPath(spec), spec.rate_hz, epoch_ns);
+}
+
+std::vector<CameraPose> sample_path(const MotionPath& path, double rate_hz, std::int64_t epoch_ns) {
   // A waypoint at 3.0 s gets its frame although 3.0 * 30 may round to just under 90.
   constexpr double kSlack = 1e-6;
-  const auto last = static_cast<std::int64_t>(std::floor(path.duration() * spec.rate_hz + kSlack));
+  const auto last = static_cast<std::int64_t>(std::floor(path.duration() * rate_hz + kSlack));
   std::vector<CameraPose> poses;
   poses.reserve(std::size_t(last) + 1);
   for (std::int64_t k = 0; k <= last; ++k) {
-    const double t = std::min(double(k) / spec.rate_hz, path.duration());
-    const auto offset = static_cast<std::int64_t>(std::floor(double(k) * 1e9 / spec.rate_hz + 0.5));
+    const double t = std::min(double(k) / rate_hz, path.duration());
+    const auto offset = static_cast<std::int64_t>(std::floor(double(k) * 1e9 / rate_hz + 0.5));
     poses.push_back({epoch_ns + offset, path.at(t)});
   }
   return poses;

@@ -13,7 +13,8 @@ namespace {
 struct Request {
   std::string cause = "corner";
   int threads = 2, storeys = 4, bays = 3;
-  double piece = 0.8, limit = 20, overload = 1500, weakness = 0.2, shake = 4, column = 0.4, blast = 2000;
+  double piece = 0.8, limit = 20, overload = 1500, weakness = 0.2, shake = 4, column = 0.4, blast = 2000, continuity = 0.5,
+         sinks = 0.1, vehicle = 20000;
   std::uint64_t seed = 1;
 };
 
@@ -24,6 +25,7 @@ BuildingSpec make_building(const Request& request) {
   b.piece = request.piece;
   b.column = request.column;
   b.seed = request.seed;
+  b.continuity = request.continuity;
   CollapseCause& c = b.cause;
   if (request.cause == "corner") c.removed = {{0, 0, 0}};
   if (request.cause == "edge") c.removed = {{0, 1, 0}};
@@ -35,6 +37,10 @@ BuildingSpec make_building(const Request& request) {
   if (request.cause == "overload") c.overloaded_floor = b.storeys - 1, c.overload = request.overload;
   if (request.cause == "shake") c.shake = request.shake, c.weak_storey = 0, c.weakness = request.weakness;
   if (request.cause == "blast") c.blast = request.blast, c.blast_at = {0, -b.bays_y * b.span_y / 2 - 1.5, 1};
+  if (request.cause == "sinking") {
+    for (int j = 0; j <= b.bays_y; ++j) c.sinking.push_back({0, j, request.sinks});
+  }
+  if (request.cause == "vehicle") c.vehicle.mass = request.vehicle;
   return b;
 }
 
@@ -57,8 +63,9 @@ int run(const Request& request) {
   const PileState state = settle_pile(pile, options, [&](const SettleProgress& p) {
     report = p.collapse;
     if (++steps % 60 == 0) {
-      std::printf("  %5.2f s simulated, %6.2f s: %d awake, %d broken, %d hinges, %d solutions %.2f s\n", p.simulated,
-                  seconds(start), p.awake, report.broken, report.hinges, report.solutions, report.stress_seconds);
+      std::printf("  %5.2f s simulated, %6.2f s: %d awake, %d broken, %d hinges, %d ties of which %d tore, %d solutions %.2f s\n",
+                  p.simulated, seconds(start), p.awake, report.broken, report.hinges, report.ties, report.torn,
+                  report.solutions, report.stress_seconds);
       std::fflush(stdout);
     }
     return true;
@@ -72,10 +79,12 @@ int run(const Request& request) {
     fixed += piece.status == PieceStatus::fixed;
   }
   std::printf("%s: %zu pieces, %d bonds, %d broken, %d hinges; %s after %.1f s simulated; %d stand; "
-              "top %.1f m, extent %.1f m; deepest overlap %.1f mm; %.0f kJ taken\n",
+              "top %.1f m, extent %.1f m; deepest overlap %.1f mm; %.0f kJ taken by impacts, %.0f kJ by bars; "
+              "%d ties, %d tore\n",
               request.cause.c_str(), state.pieces.size(), report.bonds, report.broken, report.hinges,
               state.settled ? "at rest" : "not at rest", state.simulated, fixed, top, far,
-              1e3 * state.deepest_overlap.depth, report.energy_taken / 1e3);
+              1e3 * state.deepest_overlap.depth, report.energy_taken / 1e3, report.tie_energy / 1e3, report.ties,
+              report.torn);
   std::printf("wall %.1f s, stresses %.2f s in %d solutions, hash %016llx\n", seconds(start),
               report.stress_seconds, report.solutions, (unsigned long long)state.state_hash());
   return 0;
@@ -87,7 +96,7 @@ int run(const Request& request) {
 int main(int argc, char** argv) {
   rubble::Request request;
   CLI::App app("A building from its cause to checked rest");
-  app.add_option("--cause", request.cause, "none corner edge interior side storey overload shake blast");
+  app.add_option("--cause", request.cause, "none corner edge interior side storey overload shake blast sinking vehicle");
   app.add_option("--threads", request.threads, "threads");
   app.add_option("--storeys", request.storeys, "storeys");
   app.add_option("--bays", request.bays, "bays along X and Y");
@@ -99,6 +108,9 @@ int main(int argc, char** argv) {
   app.add_option("--weakness", request.weakness, "share of strength");
   app.add_option("--shake", request.shake, "m/s2");
   app.add_option("--blast", request.blast, "N s/m2 at 1 m");
+  app.add_option("--continuity", request.continuity, "share of bars that hold on");
+  app.add_option("--sinks", request.sinks, "depth of sinking footings; m");
+  app.add_option("--vehicle", request.vehicle, "kg");
   CLI11_PARSE(app, argc, argv);
   try {
     return rubble::run(request);

@@ -71,7 +71,7 @@ Frame take(GlContext& context, const GalleryPicture& picture, Piles& piles, int 
   const MountedCamera mounted = all_cameras(scenario).front();
   CameraSpec spec = build_camera(scenario, mounted, threads);
   ask_for_channel(picture.channel, spec);
-  Camera camera(renderer, spec, build_flight(scenario, mounted), Medium(scenario.air, scenario.seed));
+  Camera camera(renderer, spec, build_flight(scenario, mounted, std::make_shared<const CameraPath>(scenario.trajectory)));
   if (picture.frame >= camera.frames())
     throw RunError(picture.name + ": frame " + std::to_string(picture.frame) + " of " +
                    std::to_string(camera.frames()));

@@ -114,10 +114,13 @@ Series fly(Renderer& renderer, const BenchView& view, int size, const Request& r
     const double processor_start = processor_ms();
     // Seconds pass before the first that counts, so that the exposure is that of this view.
     session.now_ns += i < kWarm ? 2000000000 : 33333333;
-    const Frame frame = renderer.render(poses[i], camera, int(i), session.now_ns);
+    RenderedView seen = renderer.view({session.now_ns, camera, poses[i]});
+    seen.rgb(), seen.depth();
+    const RenderTimes times = seen.times();
+    const Frame frame = std::move(seen).into_frame(int(i));
     if (session.first_frame_s == 0) session.first_frame_s = since(session.start) / 1000;
     const PassTime all{since(start), processor_ms() - processor_start};
-    if (i >= kWarm) series.add(all, renderer.times());
+    if (i >= kWarm) series.add(all, times);
     if (i + 1 == poses.size() && !request.pictures.empty())
       write_ppm(request.pictures + view.name + "_" + std::to_string(size) + ".ppm", frame);
   }

@@ -96,7 +96,9 @@ def members_of(path):
         is_member = in_type and not private and re.match(
             r"^[A-Za-z_:][\w:<>,*&\s\[\]]*\s[\w\[\], ]+(\s*=[^;]*|\{[^;]*\})?(\s*,[^;()]*)?;$", statement)
         head = re.split(r"[={]", statement)[0]
-        if is_member and "(" not in head and not re.match(
+        # The end of a parameter list and `operator=(...) = delete` are no members.
+        whole = statement.count("(") == statement.count(")") and "operator" not in statement
+        if is_member and whole and "(" not in head and not re.match(
                 r"(using|typedef|friend|return|static|struct|class|enum|template|public|private)\b", statement):
             above = raw[number - 2].strip() if number > 1 else ""
             members.append((number, statement, "//" in line or above.startswith("//")))

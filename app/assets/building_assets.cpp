@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/assets/rebar_stubs.h"
 #include "assets/generator/solid.h"
 #include "kernel/base/hash.h"
 #include "kernel/geometry/hull.h"
@@ -13,6 +14,7 @@ namespace {
 constexpr double kLongestEdge = 0.35;  // of triangles: light is baked at their corners; unit: m
 // Sides of a member lie along its axes; what is broken is tilted.
 constexpr double kAlongAxis = 0.99999;
+constexpr std::uint8_t kRebarSurface = 2;  // after the member's own face and its fracture
 
 struct Looks {
   generator::Surface face, fracture;
@@ -29,7 +31,8 @@ Looks looks_of(const std::string& material) {
 class PieceMesh {
  public:
   PieceMesh(const PieceType& type, const Looks& looks) {
-    mesh_.surface_names = {generator::surface_name(looks.face), generator::surface_name(looks.fracture)};
+    mesh_.surface_names = {generator::surface_name(looks.face), generator::surface_name(looks.fracture),
+                           generator::surface_name(generator::Surface::rebar)};
     const Hull hull = calc_hull(type.parts[0].points);
     for (const auto& face : hull.faces) {
       Vec3 area;
@@ -91,11 +94,12 @@ BuildingSpec building_of(const Scenario& scenario) {
 void add_building(const BuildingSpec& building, AssetLibrary& library) {
   if (!building.given()) return;
   library.building_first_type = int(library.types.size());
-  std::vector<std::string> materials;
-  const std::vector<PieceType> types = make_building_types(building, &materials);
+  const BuildingTypes made = describe_building_types(building);
+  const std::vector<PieceType>& types = made.types;
   for (std::size_t i = 0; i < types.size(); ++i) {
     auto mesh = std::make_shared<SceneMesh>();
-    mesh->levels = {PieceMesh(types[i], looks_of(materials[i])).take()};
+    mesh->levels = {PieceMesh(types[i], looks_of(made.materials[i])).take()};
+    add_rebar_stubs(types[i], made.bars[i], types[i].name, kRebarSurface, mesh->levels[0]);
     library.contents.push_back({types[i].name, kBuildingPack, hash_piece(types[i], mesh->levels[0]), 0, {1, 1}, {}});
     library.types.push_back(types[i]);
     library.meshes.push_back(std::move(mesh));

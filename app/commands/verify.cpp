@@ -13,7 +13,7 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
-#include "app/pipeline/stages.h"
+#include "app/pipeline/run.h"
 #include "app/provenance/compare.h"
 #include "app/provenance/manifest.h"
 #include "app/support/stop.h"
@@ -156,22 +156,18 @@ class Verifier {
     RunFolder folder = RunFolder::create(work ? work->path() + "/run" : request_.keep, false);
     folder.begin(describe_unfinished(mission));
     stop_on_signals();
-    SettledPile pile = settle(mission, folder, context);
-    if (!check_pile(pile.state)) return skip("frames", "the pile is another already");
-    write_pile_files(mission, pile, folder, context);
     const bool has_frames = was_.provenance.kind != RunKind::settle;
-    RecordedFrames frames;
+    bool same_pile = false;
+    const StageResults made =
+        run_stages(mission, folder, context, has_frames && !request_.pile_only,
+                   [&](const SettledPile& pile) { return same_pile = check_pile(pile.state); });
+    if (!same_pile) return skip("frames", "the pile is another already");
     if (has_frames && request_.pile_only) skip("frames", "--pile-only");
-    if (has_frames && !request_.pile_only) {
-      const DrivenRobots robots = drive_robots(mission, pile.state, folder, context);
-      pile.metrics = join(pile.metrics, robots.metrics);
-      frames = record_frames(mission, pile, robots, folder, context);
-      check_frames(frames, folder);
-    }
-    if (!request_.pile_only) check_metrics(join(pile.metrics, frames.metrics));
+    if (has_frames && !request_.pile_only) check_frames(made.frames, folder);
+    if (!request_.pile_only) check_metrics(made.metrics);
     check_files(folder, folder.hash_files(context.threads()));
     if (work) return;
-    write_manifest(mission, pile, frames, folder, context);
+    write_manifest(mission, made.pile, made.metrics, made.frames, folder, context);
     folder.finish();
     result_.notes.push_back("what was made anew is kept in " + request_.keep);
   }

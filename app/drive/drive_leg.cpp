@@ -40,7 +40,7 @@ DriveLeg::DriveLeg(DriveWorld& world, const std::string& folder, int number, boo
       log_(world.scenario),
       camera_(*world.renderer,
               build_camera(world.scenario, all_cameras(world.scenario).front(), world.threads),
-              Flight{}, Medium(world.scenario.air, world.scenario.seed)),
+              Flight{}),
       listener_(std::move(listener)) {
   if (record) queue_ = start_recording(world, folder_ + "/" + name_);
 }

@@ -71,9 +71,9 @@ void DriveSession::enter(std::optional<std::uint64_t> seed) {
   if (!world_->pile.settled) say("some pieces still moved when the time limit came");
   camera_ = std::make_unique<DrivenCamera>(world_->entry, world_->plan,
                                            world_->scenario.trajectory.radius,
-                                           world_->geometry->queries, world_->limits);
+                                           world_->queries(), world_->limits);
   map_frame_ = frame_map(world_->pile, world_->entry.position, request_.height);
-  map_ = draw_height_map(world_->geometry->queries, map_frame_, world_->threads);
+  map_ = draw_height_map(world_->queries(), map_frame_, world_->threads);
   if (link_) link_->enter(*world_);
   picture_.track.clear();
   window_.set_title("rubble drive: " + request_.of.mission + ", seed " +

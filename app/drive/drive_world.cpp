@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "app/drive/drive_log.h"
+#include "app/pipeline/build_scene.h"
 #include "app/planning/flight.h"
-#include "kernel/settling/settle.h"
 #include "scripting/sandbox/script_file.h"
 
 namespace rubble {
@@ -25,41 +25,23 @@ void resize_camera(CameraScenario& camera, int width, int height) {
   camera.height = height;
 }
 
-PileState settle_for_drive(const ResolvedMission& mission, RunContext& context, const GoOn& go_on) {
-  context.progress.start("settle");
-  SettleOptions options = mission.pile_scenario.settle;
-  options.threads = context.threads();
-  bool stopped = false;
-  PileState state = settle_pile(make_pile(mission), options, [&](const SettleProgress& p) {
-    context.progress.update(
-        double(p.layer) / std::max(1, p.layers + 1),
-        std::to_string(p.awake) + " of " + std::to_string(p.pieces) + " pieces moving");
-    stopped = !go_on();
-    return !stopped;
-  });
-  if (stopped) throw Stopped("stopped while the pile settled; nothing was driven");
-  context.progress.finish(std::to_string(state.pieces.size()) + " pieces" +
-                          (state.settled ? "" : ", some of them still moving"));
-  return state;
-}
-
 // Where the mission's own flight begins, places in voids included.
-DrivenPose find_entry(const Scenario& scenario, const DriveWorld& world) {
+DrivenPose find_entry(const Scenario& scenario, PileSurvey& survey) {
   Scenario first = scenario;
   first.trajectory.waypoints.resize(1);
   first.trajectory.plan = Plan::ghost;
   first.trajectory.duration.reset();
-  const FlightPlan plan = resolve_flight(first, world.assets, world.pile, world.threads);
+  const FlightPlan plan = resolve_flight(first, survey);
   return make_driven_pose(plan.poses.front().world_from_camera);
 }
 
 void check_entry(const DriveWorld& world) {
   const double radius = world.scenario.trajectory.radius;
-  const DrivenCamera camera(world.entry, world.plan, radius, world.geometry->queries);
+  const DrivenCamera camera(world.entry, world.plan, radius, world.queries());
   if (camera.has_room()) return;
   char found[64];
   std::snprintf(found, sizeof found, "%.3f m",
-                world.geometry->queries.clearance(world.entry.position));
+                world.queries().clearance(world.entry.position));
   throw InputError({"", 0, "trajectory.waypoints[1].position",
                     "no room for the camera's body at the entry",
                     "trajectory.radius = " + std::to_string(radius) + " m of clearance", found,
@@ -110,26 +92,26 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
   refuse_several_cameras(mission);
   auto world = std::make_unique<DriveWorld>();
   world->threads = run.threads();
-  world->pile = settle_for_drive(mission, run, go_on);
+  world->pile = settle_in_memory(mission, run, go_on).state;
   world->assets = std::move(mission.assets);
   world->scenario = mission.scenario;
   world->plan = mission.scenario.trajectory.plan;
   world->limits = limits_of(mission.scenario.trajectory);
-  world->entry = find_entry(mission.scenario, *world);
+  world->survey = std::make_unique<PileSurvey>(world->assets, world->pile, world->threads);
+  world->entry = find_entry(mission.scenario, *world->survey);
+  world->survey->forget_voids();
   adapt(world->scenario, request, world->assets);
-  world->geometry = std::make_unique<PileGeometry>(world->assets, world->pile);
   check_entry(*world);
 
   run.progress.start("scene");
   // By hand there is no time for the reference; the saved mission keeps what was asked for.
   Scenario drawn = world->scenario;
   drawn.camera.colour = ColourSpec();
-  // Built in place: a renderer cannot be moved.
-  world->renderer.reset(new Renderer(prepare_renderer(
-      drawn, world->assets, world->pile, context, world->threads, [&](double fraction) {
-        run.progress.update(fraction, "light");
-        go_on();
-      })));
+  world->renderer = prepare_renderer(build_scene(drawn, world->assets, world->pile), drawn, context,
+                                     world->threads, [&](double fraction) {
+                                       run.progress.update(fraction, "light");
+                                       go_on();
+                                     });
   run.progress.finish("ready on " + context.info().renderer);
   return world;
 }

@@ -7,21 +7,23 @@
 #include "app/drive/drive_request.h"
 #include "app/drive/driven_camera.h"
 #include "app/pipeline/stages.h"
-#include "app/planning/void_places.h"
+#include "app/planning/pile_survey.h"
 #include "render/renderer.h"
 
 namespace rubble {
 
 struct DriveWorld {
-  Scenario scenario;  // of the camera's size that was asked for, adapted to driving
-  Plan plan = Plan::ghost;  // whether the camera collides
-  AssetLibrary assets;      // of the mission
-  PileState pile;           // settled
-  DrivenPose entry;       // the first waypoint of the mission
-  DriveLimits limits;     // the mission's speed limits, where it has any
-  std::unique_ptr<PileGeometry> geometry;  // for questions of clearance
-  std::unique_ptr<Renderer> renderer;      // of the scene, lit
-  int threads = 1;                         // at least 1
+  Scenario scenario;                   // of the camera's size that was asked for, adapted to driving
+  Plan plan = Plan::ghost;             // whether the camera collides
+  AssetLibrary assets;                 // of the mission
+  PileState pile;                      // settled
+  DrivenPose entry;                    // the first waypoint of the mission
+  DriveLimits limits;                  // the mission's speed limits, where it has any
+  std::unique_ptr<PileSurvey> survey;  // of that pile
+  std::unique_ptr<Renderer> renderer;  // of the scene, lit
+  int threads = 1;                     // at least 1
+
+  const PileQueries& queries() const { return survey->geometry().queries; }  // of clearance
 };
 
 // Asked now and then while that takes long; false: the person wants to leave.

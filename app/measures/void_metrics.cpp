@@ -2,32 +2,19 @@
 
 #include <algorithm>
 
-#include "kernel/voids/void_map.h"
-
 namespace rubble {
-namespace {
 
-VoidMap make_map(const VoidScenario& voids, const PileState& pile, const AssetLibrary& assets,
-                 int threads, const std::function<bool(double done)>& progress) {
-  const std::vector<const TriangleMesh*> meshes = assets.finest_meshes();
+VoidSpaceOptions make_void_options(const VoidScenario& voids) {
   VoidSpaceOptions options;
   options.voxel = voids.voxel;
-  options.rolling_radius = std::max(options.rolling_radius, 2 * voids.radius);
-  options.scenery = assets.terrain();
-  options.threads = threads;
-  VoidSpace space =
-      calc_void_space(pile, meshes, options, [&](double done) { return progress(0.7 * done); });
-  return find_voids(std::move(space), {voids.radius},
-                    [&](double done) { return progress(0.7 + 0.3 * done); });
+  options.rolling_radius = outside_radius_for(options.rolling_radius, voids.radius);
+  return options;
 }
 
-}  // namespace
-
-void add_void_metrics(const VoidScenario& voids, const PileState& pile, const AssetLibrary& assets,
-                      int threads, const std::function<bool(double done)>& progress,
-                      Metrics& metrics) {
-  const VoidMap map = make_map(voids, pile, assets, threads, progress);
-  const RobotVoids& robot = map.robots.front();
+void add_void_metrics(const VoidMap& map, double radius, Metrics& metrics) {
+  const RobotVoids& robot =
+      *std::find_if(map.robots.begin(), map.robots.end(),
+                    [&](const RobotVoids& found) { return found.radius == radius; });
   double deepest = 0, way_in = 0;
   for (const Void& v : robot.voids) {
     deepest = std::max(deepest, v.depth);

@@ -1,4 +1,4 @@
-// The stage from a settled pile, and its track, to recorded frames.
+// The stage from a planned flight over a settled pile to recorded frames.
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -9,10 +9,7 @@
 #include "app/pipeline/live.h"
 #include "app/pipeline/recorders.h"
 #include "app/pipeline/stages.h"
-#include "app/planning/camera_inside.h"
-#include "app/planning/flight.h"
 #include "app/provenance/frame_journal.h"
-#include "app/sensors/build_camera.h"
 #include "app/sensors/sensor_suite.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
@@ -22,8 +19,6 @@
 #include "kernel/base/text.h"
 #include "render/gl/gl_context.h"
 #include "render/renderer.h"
-#include "scripting/sandbox/script_file.h"
-#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 namespace {
@@ -58,6 +53,12 @@ std::vector<std::string> names_of_cameras(const Scenario& scenario) {
   return names;
 }
 
+std::vector<std::string> names_of_lidars(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const LidarScenario& lidar : scenario.lidars) names.push_back(lidar.name);
+  return names;
+}
+
 // Which frame of a leg is being taken, and of how many: an image that takes minutes reports on its way.
 struct Taking {
   int frame = 0, frames = 1;
@@ -89,6 +90,9 @@ void take_samples(SensorSuite& sensors, const Leg& leg, FrameSinks& sinks, const
       recorded.hashes.add_imu(*reading);
     } else if (const auto* robot = std::get_if<RobotSample>(&*sample)) {
       recorded.hashes.add_robot(*robot);
+    } else if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
+      recorded.hashes.add_lidar(*scan);
+      throw_if_stopped(folder.path());
     } else {
       const Frame& frame = std::get<Frame>(*sample);
       recorded.hashes.add(frame);
@@ -106,63 +110,6 @@ void take_samples(SensorSuite& sensors, const Leg& leg, FrameSinks& sinks, const
   if (!leg.window) depth.add_to(recorded.metrics);
 }
 
-// A mistake that shows only when there is a pile, with the line of its key.
-template <typename Plan>
-auto with_lines_of_script(const ResolvedMission& mission, const Plan& plan) {
-  try {
-    return plan();
-  } catch (const InputError& error) {
-    const SourceFile& script = mission.provenance.script;
-    std::vector<Diagnostic> mistakes = error.diagnostics();
-    locate(mistakes, script.path, SourceMap(script.text, "mission"));
-    throw InputError(std::move(mistakes));
-  }
-}
-
-FlightPlan plan_flight(const ResolvedMission& mission, const PileState& pile,
-                       const RunFolder& folder, RunContext& context) {
-  return with_lines_of_script(mission, [&] {
-    return resolve_flight(mission.scenario, mission.assets, pile, context.threads(),
-                          [&](double done, const std::string& what) {
-                            throw_if_stopped(folder.path());
-                            context.progress.update(done, what);
-                          });
-  });
-}
-
-void warn_of_cameras_inside(const ResolvedMission& mission, const Scenario& flown,
-                            const PileState& pile, const std::shared_ptr<const MotionPath>& ride,
-                            RunContext& context) {
-  for (const MountedCamera& camera : all_cameras(flown)) {
-    std::vector<Vec3> positions;
-    for (const Pose& pose : build_flight(flown, camera, ride).world_from_camera)
-      positions.push_back(pose.translation);
-    const auto warning = find_camera_inside(mission.assets, pile, positions);
-    if (!warning) continue;
-    const std::string who = flown.cameras.empty() ? "" : "camera `" + camera.name + "`: ";
-    context.warnings.push_back(who + *warning);
-  }
-}
-
-// The scenario with what its trajectory depends on besides the script: places in voids, ways around
-// the pile. flight.json holds it.
-Scenario resolve_path(const ResolvedMission& mission, const PileState& pile,
-                      const std::shared_ptr<const MotionPath>& ride, RunFolder& folder,
-                      RunContext& context) {
-  const bool quick = !mission.scenario.trajectory.needs_pile();
-  if (!quick) context.progress.start("flight");
-  const FlightPlan plan = plan_flight(mission, pile, folder, context);
-  if (!quick) context.progress.finish(plan.summary.empty() ? "planned" : plan.summary);
-  if (!plan.json.empty()) {
-    write_text_file(folder.file("flight.json"), plan.json);
-    folder.add("flight.json");
-  }
-  Scenario flown = mission.scenario;
-  flown.trajectory = plan.trajectory;
-  warn_of_cameras_inside(mission, flown, pile, ride, context);
-  return flown;
-}
-
 RenderOptions render_options(const Scenario& scenario, int threads,
                              const std::function<void(double)>& on_image) {
   RenderOptions options;
@@ -173,16 +120,16 @@ RenderOptions render_options(const Scenario& scenario, int threads,
   return options;
 }
 
-// The sensors on one leg, with the scene that they see.
-struct PreparedLeg {
-  std::unique_ptr<Renderer> renderer;
-  std::unique_ptr<SensorSuite> sensors;
-};
-
 // What there is to be seen: the settled pile, and robots, which start with the flight.
 struct Seen {
   const SettledPile& pile;
   const DrivenRobots& robots;
+};
+
+// The sensors on one leg, with the scene that they see.
+struct PreparedLeg {
+  std::unique_ptr<Renderer> renderer;
+  std::unique_ptr<SensorSuite> sensors;
 };
 
 Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen& seen) {
@@ -197,34 +144,28 @@ Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen
 }
 
 PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Seen& seen,
-                        int frames_before, GlContext& gl, const RunFolder& folder,
+                        const std::vector<int>& frames_before, GlContext& gl, const RunFolder& folder,
                         RunContext& context, Taking& taking) {
-  const std::string stage = leg.window ? "settling scene" : "scene";
-  context.progress.start(stage);
-  const Scene scene = build_leg_scene(leg, mission, seen);
+  context.progress.start(leg.window ? "settling scene" : "scene");
   PreparedLeg prepared;
-  prepared.renderer = std::make_unique<Renderer>(
-      gl, scene,
-      render_options(leg.scenario, context.threads(),
-                     [&](double fraction) { taking.report(fraction, folder, context); }),
-      [&](double fraction) { context.progress.update(fraction, "light"); });
+  const Scene scene = build_leg_scene(leg, mission, seen);
+  prepared.renderer = prepare_renderer(
+      scene, leg.scenario, gl, context.threads(),
+      [&](double fraction) { context.progress.update(fraction, "light"); },
+      [&](double fraction) { taking.report(fraction, folder, context); });
   prepared.sensors = std::make_unique<SensorSuite>(
-      leg.scenario, SensorBegin{leg.noise_seed, frames_before}, *prepared.renderer,
+      leg.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, scene, *prepared.renderer,
       context.threads(), seen.robots.readings);
   context.progress.finish("ready on " + gl.info().renderer);
   return prepared;
 }
 
-// Of each camera, over all legs.
-std::vector<int> count_frames(const std::vector<Leg>& legs,
-                              const std::shared_ptr<const MotionPath>& ride) {
-  std::vector<int> frames;
-  for (const Leg& leg : legs) {
-    const std::vector<MountedCamera> cameras = all_cameras(leg.scenario);
-    frames.resize(cameras.size());
-    for (std::size_t i = 0; i < cameras.size(); ++i)
-      frames[i] += int(build_flight(leg.scenario, cameras[i], ride).stamps_ns.size());
-  }
+// Of each camera, over the first so many legs.
+std::vector<int> count_frames(const std::vector<Leg>& legs, std::size_t count) {
+  std::vector<int> frames(legs.front().flight.cameras.size());
+  for (std::size_t leg = 0; leg < count; ++leg)
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      frames[i] += int(legs[leg].flight.cameras[i].stamps_ns.size());
   return frames;
 }
 
@@ -249,25 +190,25 @@ void add_robots(const DrivenRobots& robots, std::uint16_t label, Recording& reco
       recording.legend.pieces.push_back({label, model.name + "/" + link.name});
 }
 
-// Frames into files, until the last file is complete. flown: as the mission, with its path.
-void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const Scenario& flown,
-            const Seen& seen, GlContext& gl, RunFolder& folder, RunContext& context,
-            RecordedFrames& recorded) {
+// Frames into files, until the last file is complete.
+void record(const PlannedFlight& flight, const ResolvedMission& mission, const Seen& seen,
+            GlContext& gl, RunFolder& folder, RunContext& context, RecordedFrames& recorded) {
   const PileState& pile = seen.pile.state;
+  const std::vector<Leg>& legs = flight.legs;
   Taking taking;
-  PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, 0, gl, folder, context, taking);
-  Recording recording = describe_recording(flown, mission.assets, pile);
+  PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, {}, gl, folder, context, taking);
+  Recording recording = describe_recording(flight.flown, mission.assets, pile);
   add_robots(seen.robots, std::uint16_t(kFirstAssetLabel + mission.assets.types.size()), recording);
   RecorderSet set = make_recorders(
-      {flown, recording, count_frames(legs, seen.robots.readings.ride), title_of(mission, pile)}, folder.path());
+      {flight.flown, recording, count_frames(legs, legs.size()), title_of(mission, pile)}, folder.path());
   folder.expect(set.names);
-  add_live_recorders(set, context.options, ros_options(flown.outputs, recording));
+  add_live_recorders(set, context.options, ros_options(flight.flown.outputs, recording));
   RecordingQueue queue(std::move(set.recorders));
   FrameSinks sinks{queue, FrameJournal(folder.frames_file()), {}};
   for (std::size_t i = 0; i < legs.size(); ++i) {
     if (i > 0) {
       prepared = {};  // what the leg before took on the device comes free first
-      prepared = prepare_leg(legs[i], mission, seen, sinks.frames, gl, folder, context, taking);
+      prepared = prepare_leg(legs[i], mission, seen, count_frames(legs, i), gl, folder, context, taking);
     }
     context.progress.start(legs[i].window ? "settling frames" : "render");
     take_samples(*prepared.sensors, legs[i], sinks, folder, context, taking, recorded);
@@ -278,24 +219,21 @@ void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const 
 
 }  // namespace
 
-Renderer prepare_renderer(const Scenario& scenario, const AssetLibrary& assets,
-                          const PileState& pile, GlContext& gl, int threads,
-                          const std::function<void(double)>& on_light,
-                          const std::function<void(double)>& on_image) {
-  return Renderer(gl, build_scene(scenario, assets, pile),
-                  render_options(scenario, threads, on_image), on_light);
+std::unique_ptr<Renderer> prepare_renderer(const Scene& scene, const Scenario& scenario,
+                                           GlContext& gl, int threads,
+                                           const std::function<void(double)>& on_light,
+                                           const std::function<void(double)>& on_image) {
+  return std::make_unique<Renderer>(gl, scene, render_options(scenario, threads, on_image), on_light);
 }
 
 RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
-                             const DrivenRobots& robots, RunFolder& folder, RunContext& context) {
-  const Scenario flown = resolve_path(mission, pile.state, robots.readings.ride, folder, context);
-  const std::vector<Leg> legs =
-      with_lines_of_script(mission, [&] { return plan_legs(flown, pile.track); });
+                             const DrivenRobots& robots, const PlannedFlight& flight,
+                             RunFolder& folder, RunContext& context) {
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
-  recorded.hashes = FrameHashes(names_of_cameras(flown));
+  recorded.hashes = FrameHashes(names_of_cameras(flight.flown), names_of_lidars(flight.flown));
   recorded.environment = describe_environment(gl.info(), context.threads());
-  record(legs, mission, flown, {pile, robots}, gl, folder, context, recorded);
+  record(flight, mission, {pile, robots}, gl, folder, context, recorded);
   return recorded;
 }
 

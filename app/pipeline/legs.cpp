@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/hash.h"
+#include "scripting/trajectory/sample_path.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -44,6 +45,7 @@ Leg plan_watching(const Scenario& flown, const Track& track) {
   path.waypoints[0].t = 0;
   path.waypoints[1].t = to - asked.from;
   leg.scenario.trajectory = path;
+  leg.flight = build_rig_flight(leg.scenario, std::make_shared<const CameraPath>(path));
   leg.window = TrackWindow{asked.from, to};
   leg.zero_ns = flown.start_ns;
   leg.noise_seed = hash64("settling") ^ flown.seed;
@@ -52,22 +54,28 @@ Leg plan_watching(const Scenario& flown, const Track& track) {
 
 // The first stamp after the watching at which a frame of either rate may come.
 std::int64_t end_of(const Leg& watching, const Track& track) {
-  const TrajectorySpec& path = watching.scenario.trajectory;
-  const std::int64_t next = sample_trajectory(path, watching.scenario.start_ns).back().stamp_ns +
-                            to_ns(1 / path.rate_hz);
+  const double rate_hz = watching.scenario.trajectory.rate_hz;
+  const std::int64_t next =
+      sample_path(*watching.flight.path, rate_hz, watching.scenario.start_ns).back().stamp_ns +
+      to_ns(1 / rate_hz);
   return std::max(next, watching.zero_ns + to_ns(track.end()));
 }
 
 }  // namespace
 
-std::vector<Leg> plan_legs(const Scenario& flown, const Track& track) {
+std::vector<Leg> plan_legs(const Scenario& flown, std::shared_ptr<const MotionPath> path,
+                           const Track& track) {
+  std::vector<Leg> legs;
   Leg flight;
   flight.scenario = flown;
   flight.noise_seed = flown.seed;
-  if (!flown.record_settling.on) return {flight};
-  const Leg watching = plan_watching(flown, track);
-  flight.scenario.start_ns = end_of(watching, track);
-  return {watching, flight};
+  if (flown.record_settling.on) {
+    legs.push_back(plan_watching(flown, track));
+    flight.scenario.start_ns = end_of(legs.front(), track);
+  }
+  flight.flight = build_rig_flight(flight.scenario, std::move(path));
+  legs.push_back(std::move(flight));
+  return legs;
 }
 
 }  // namespace rubble

@@ -4,6 +4,7 @@
 
 #include "app/pipeline/build_scene.h"
 #include "io/recording/one_camera.h"
+#include "scripting/scenario/lidar_schema.h"
 
 namespace rubble {
 
@@ -40,6 +41,17 @@ ImuRecord record_of(const ImuScenario& imu, const std::string& rig) {
   record.frame_id = imu.frame_id.value_or(imu.is_rig() ? rig : "imu_link");
   if (!imu.is_rig()) record.rig_from_imu = imu.rig_from_imu();
   record.model = imu.model;
+  return record;
+}
+
+LidarRecord record_of(const Scenario& scenario, std::size_t number) {
+  const LidarScenario& lidar = scenario.lidars[number];
+  LidarRecord record;
+  record.name = lidar.name;
+  record.topic = lidar_topic(scenario, number);
+  record.frame_id = lidar.frame_id.value_or(lidar.name + "_link");
+  record.rig_from_lidar = lidar.rig_from_lidar();
+  record.spec = lidar.spec();
   return record;
 }
 
@@ -82,6 +94,8 @@ Recording describe_recording(const Scenario& scenario, const AssetLibrary& asset
   for (const MountedCamera& camera : all_cameras(scenario))
     recording.cameras.push_back(record_of(camera, several));
   if (scenario.imu.on) recording.imus.push_back(record_of(scenario.imu, recording.rig));
+  for (std::size_t i = 0; i < scenario.lidars.size(); ++i)
+    recording.lidars.push_back(record_of(scenario, i));
   recording.legend.labels = label_names(scenario, assets);
   for (const PieceState& piece : pile.pieces) {
     const auto type = std::size_t(piece.type);

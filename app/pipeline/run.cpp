@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "app/pipeline/live.h"
 #include "app/estimate/preview.h"
@@ -91,21 +92,21 @@ ExitCode run_to_folder(const RunRequest& request, RunKind kind) {
   return code;
 }
 
-Metrics join(const Metrics& of_pile, const Metrics& of_frames) {
-  Metrics all = of_pile;
-  all.insert(of_frames.begin(), of_frames.end());
+Metrics join(const Metrics& a, const Metrics& b) {
+  Metrics all = a;
+  all.insert(b.begin(), b.end());
   return all;
 }
 
-void write_manifest(const ResolvedMission& mission, const SettledPile& pile,
+void write_manifest(const ResolvedMission& mission, const PileState& pile, const Metrics& metrics,
                     const RecordedFrames& frames, RunFolder& folder, const RunContext& context) {
   Manifest manifest;
   manifest.program = build_info();
   manifest.provenance = mission.provenance;
   manifest.seed = mission.scenario.seed;
-  manifest.pile = summarize(pile.state);
+  manifest.pile = summarize(pile);
   manifest.frames = frames.hashes.compact();
-  manifest.metrics = join(pile.metrics, frames.metrics);
+  manifest.metrics = metrics;
   manifest.warnings = context.warnings;
   manifest.outputs = folder.hash_files(context.threads());
   manifest.wall_seconds = context.progress.wall_seconds();
@@ -114,25 +115,38 @@ void write_manifest(const ResolvedMission& mission, const SettledPile& pile,
   write_text_file(folder.file("manifest.json"), manifest_to_json(manifest));
 }
 
+StageResults run_stages(const ResolvedMission& mission, RunFolder& folder, RunContext& context,
+                        bool with_frames, const PileCheck& check) {
+  StageResults results;
+  SettledPile pile = settle(mission, folder, context);
+  const bool goes_on = !check || check(pile);
+  if (goes_on) {
+    PileSurvey survey(mission.assets, pile.state, context.threads());
+    results.metrics = join(pile.metrics, measure_voids(mission, survey, folder, context));
+    write_pile_files(mission, pile, folder, context);
+    if (with_frames) {
+      const DrivenRobots robots = drive_robots(mission, pile.state, folder, context);
+      const PlannedFlight flight = plan_flight(mission, pile, robots, survey, folder, context);
+      results.frames = record_frames(mission, pile, robots, flight, folder, context);
+      results.metrics = join(join(results.metrics, robots.metrics), results.frames.metrics);
+    }
+  }
+  results.pile = std::move(pile.state);
+  return results;
+}
+
 ExitCode complete(const ResolvedMission& mission, RunFolder& folder, RunContext& context) {
   folder.begin(describe_unfinished(mission));
-  SettledPile pile;
+  StageResults results;
   try {
-    pile = settle(mission, folder, context);
-    write_pile_files(mission, pile, folder, context);
-    RecordedFrames frames;
-    if (mission.provenance.kind != RunKind::settle) {
-      const DrivenRobots robots = drive_robots(mission, pile.state, folder, context);
-      pile.metrics = join(pile.metrics, robots.metrics);
-      frames = record_frames(mission, pile, robots, folder, context);
-    }
-    write_manifest(mission, pile, frames, folder, context);
+    results = run_stages(mission, folder, context, mission.provenance.kind != RunKind::settle);
+    write_manifest(mission, results.pile, results.metrics, results.frames, folder, context);
   } catch (const RunError& error) {
     throw RunError(error.what() + std::string("\nwhat is finished is kept: `rubble resume ") +
                    folder.path() + "` continues");
   }
   folder.finish();
-  return report(mission, pile.state, folder);
+  return report(mission, results.pile, folder);
 }
 
 }  // namespace rubble

@@ -5,7 +5,6 @@
 
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/stages.h"
-#include "app/measures/void_metrics.h"
 #include "app/support/stop.h"
 #include "io/mesh/pile_export.h"
 #include "io/mesh/track_glb.h"
@@ -15,10 +14,17 @@
 #include "kernel/settling/settle.h"
 #include "kernel/settling/settle_checkpoint.h"
 #include "kernel/settling/track_recorder.h"
-#include "scripting/values/value.h"
 
 namespace rubble {
 namespace {
+
+void show_settling(const SettleProgress& p, const SettleOptions& options, Progress& progress) {
+  const double limit = p.layer < p.layers ? options.layer_time_limit : options.final_time_limit;
+  const double layer = std::min(1.0, p.layer_time / limit);
+  progress.update((std::max(0, p.layer - 1) + layer) / std::max(1, p.layers),
+                  "layer " + std::to_string(p.layer) + " of " + std::to_string(p.layers) + ", " +
+                      std::to_string(p.awake) + " of " + std::to_string(p.pieces) + " pieces moving");
+}
 
 // Shows how far it is, and keeps a checkpoint every few seconds of the clock on the wall: when one
 // is made does not change what follows.
@@ -30,7 +36,7 @@ class SettleWatch {
       : context_(context), folder_(folder), options_(options), track_(track) {}
 
   bool step(const SettleProgress& p) {
-    show(p);
+    show_settling(p, options_, context_.progress);
     const auto now = std::chrono::steady_clock::now();
     const double since = std::chrono::duration<double>(now - kept_).count();
     if (p.make_checkpoint && (stop_requested() || since >= context_.options.checkpoint_every)) {
@@ -41,15 +47,6 @@ class SettleWatch {
   }
 
  private:
-  void show(const SettleProgress& p) {
-    const double limit = p.layer < p.layers ? options_.layer_time_limit : options_.final_time_limit;
-    const double layer = std::min(1.0, p.layer_time / limit);
-    context_.progress.update((std::max(0, p.layer - 1) + layer) / std::max(1, p.layers),
-                             "layer " + std::to_string(p.layer) + " of " +
-                                 std::to_string(p.layers) + ", " + std::to_string(p.awake) +
-                                 " of " + std::to_string(p.pieces) + " pieces moving");
-  }
-
   // It is only an aid: the run goes on without one.
   void keep(const SettleCheckpoint& checkpoint) {
     // A kill between the two files leaves a track that knows more than the checkpoint, which does no
@@ -111,19 +108,6 @@ SettledPile load(bool recorded, const RunFolder& folder) {
   return settled;
 }
 
-void measure_voids(const ResolvedMission& mission, const RunFolder& folder, RunContext& context,
-                   SettledPile& pile) {
-  context.progress.start("voids");
-  const auto report = [&](double done) {
-    context.progress.update(done, "free space");
-    throw_if_stopped(folder.path());
-    return true;
-  };
-  add_void_metrics(mission.scenario.voids, pile.state, mission.assets, context.threads(), report,
-                   pile.metrics);
-  context.progress.finish(format_number(pile.metrics["void_volume_m3"]) + " m3");
-}
-
 std::string summarize_settling(const PileState& pile, bool loaded) {
   char text[160];
   std::snprintf(text, sizeof text, "%zu pieces %s after %.1f simulated s, %d lost",
@@ -153,7 +137,24 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
   if (recorded) folder.add("track.bin");
   add_pile_metrics(settled.state, mission.assets, settled.metrics);
   context.progress.finish(summarize_settling(settled.state, loaded));
-  if (mission.scenario.voids.on) measure_voids(mission, folder, context, settled);
+  return settled;
+}
+
+SettledPile settle_in_memory(const ResolvedMission& mission, RunContext& context,
+                             const std::function<bool()>& go_on) {
+  context.progress.start("settle");
+  SettleOptions options = mission.pile_scenario.settle;
+  options.threads = context.threads();
+  bool stopped = false;
+  SettledPile settled;
+  settled.state = settle_pile(make_pile(mission), options, [&](const SettleProgress& p) {
+    show_settling(p, options, context.progress);
+    stopped = !go_on();
+    return !stopped;
+  });
+  if (stopped) throw Stopped("stopped while the pile settled; nothing is kept");
+  add_pile_metrics(settled.state, mission.assets, settled.metrics);
+  context.progress.finish(summarize_settling(settled.state, false));
   return settled;
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/planning/flight_path.h"
 #include "app/planning/void_places.h"
+#include "scripting/trajectory/sample_path.h"
 
 namespace rubble {
 namespace {
@@ -51,15 +52,15 @@ std::string seconds(double value) {
 
 }  // namespace
 
-FlightPlan resolve_flight(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
-                   int threads, const FlightProgress& progress) {
+FlightPlan resolve_flight(const Scenario& scenario, PileSurvey& survey,
+                          const FlightProgress& progress) {
   FlightPlan flight;
   flight.trajectory = flown_trajectory(scenario);
   TrajectorySpec& spec = flight.trajectory;
   Json report = Json::object();
   if (spec.needs_pile()) {
-    const PileGeometry geometry(assets, pile);
-    const PileSpace space(geometry, spec, threads, progress);
+    const PileGeometry& geometry = survey.geometry();
+    const PileSpace space(survey, spec, progress);
     for (const ResolvedVoid& found : resolve_places(space, spec))
       report["voids"].push_back({{"waypoint", found.waypoint},
                                  {"radius_m", found.radius},
@@ -74,15 +75,16 @@ FlightPlan resolve_flight(const Scenario& scenario, const AssetLibrary& assets, 
       flight.summary = text;
     }
     if (spec.plan != Plan::ghost) {
-      smooth_within_room(scenario, geometry, pile, spec);
-      const NearestApproach nearest = check_contact(geometry, spec, pile);
+      smooth_within_room(scenario, geometry, geometry.pile, spec);
+      const NearestApproach nearest = check_contact(geometry, spec, geometry.pile);
       report["least_clearance_m"] = nearest.clearance;
       report["least_clearance_at"] = json_of(nearest.position);
     }
   }
   spec.plan = Plan::ghost;  // it has been dealt with
-  flight.poses = sample_trajectory(spec, scenario.start_ns);
-  const CameraPath trajectory(spec);
+  flight.path = std::make_shared<const CameraPath>(spec);
+  const CameraPath& trajectory = *flight.path;
+  flight.poses = sample_path(trajectory, spec.rate_hz, scenario.start_ns);
   const bool changed = spec.limits.any() || trajectory.smoothing() > 0;
   if (!scenario.trajectory.needs_pile() && !changed) return flight;
 

@@ -7,21 +7,22 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "app/assets/asset_library.h"
-#include "kernel/model/pile_state.h"
+#include "app/planning/pile_survey.h"
 #include "scripting/scenario/scenario.h"
 #include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 
 struct FlightPlan {
-  TrajectorySpec trajectory;  // without places in voids, every leg straight or curved as flown
-  std::vector<CameraPose> poses;
-  std::string summary;  // a few words for the person who waits
-  std::string json;     // flight.json; empty when nothing had to be resolved
+  TrajectorySpec trajectory;               // without places in voids, every leg straight or curved as flown
+  std::shared_ptr<const CameraPath> path;  // of that trajectory, at any time
+  std::vector<CameraPose> poses;           // of the frames at the trajectory's own rate
+  std::string summary;                     // a few words for the person who waits
+  std::string json;                        // flight.json; empty when nothing had to be resolved
 };
 
 // done: 0 to 1, of what takes long.
@@ -29,7 +30,7 @@ using FlightProgress = std::function<void(double done, const std::string& what)>
 
 // Throws InputError, keyed by the waypoint or "trajectory.plan": no such void, no way (and where it
 // is narrowest), or the time and place of the first contact.
-FlightPlan resolve_flight(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
-                   int threads, const FlightProgress& progress = {});
+FlightPlan resolve_flight(const Scenario& scenario, PileSurvey& survey,
+                          const FlightProgress& progress = {});
 
 }  // namespace rubble

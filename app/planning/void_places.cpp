@@ -85,40 +85,21 @@ class Resolver {
 
 }  // namespace
 
-PileGeometry::PileGeometry(const AssetLibrary& assets, const PileState& state)
-    : pile(state), meshes(assets.finest_meshes()), terrain(assets.terrain()),
-      queries(state, meshes) {}
-
-PileSpace::PileSpace(const PileGeometry& geometry, const TrajectorySpec& spec, int threads,
-                     FlightProgress progress)
-    : geometry_(geometry), progress_(std::move(progress)) {
+PileSpace::PileSpace(PileSurvey& survey, const TrajectorySpec& spec, FlightProgress progress)
+    : survey_(survey), progress_(std::move(progress)) {
   std::set<double> radii = void_radii(spec);
   robots_.assign(radii.begin(), radii.end());
   if (spec.plan == Plan::avoid || radii.empty()) radii.insert(spec.radius);
   options_.voxel = std::clamp(*radii.begin() / kVoxelsPerRadius, kFinestVoxel, kCoarsestVoxel);
   options_.voxel = std::min(options_.voxel, *radii.begin());
   options_.rolling_radius = outside_radius_for(outside_radius(spec), *radii.rbegin());
-  options_.threads = threads;
-  options_.scenery = geometry.terrain;
 }
 
 const VoidMap& PileSpace::map() const {
-  if (!map_) map_ = make();
-  return *map_;
-}
-
-VoidMap PileSpace::make() const {
-  const auto report = [this](double from, double to) {
-    return [this, from, to](double done) {
-      if (progress_) progress_(from + (to - from) * done, "free space");
-      return true;
-    };
-  };
-  VoidSpace space = calc_void_space(geometry_.pile, geometry_.meshes, options_, report(0, 0.7));
-  if (!robots_.empty()) return find_voids(std::move(space), robots_, report(0.7, 1));
-  VoidMap map;
-  map.space = std::move(space);
-  return map;
+  return survey_.find_voids(options_, robots_, [this](double done) {
+    if (progress_) progress_(done, "free space");
+    return true;
+  });
 }
 
 std::vector<ResolvedVoid> resolve_places(const PileSpace& space, TrajectorySpec& spec) {

@@ -84,6 +84,17 @@ std::uint64_t hash_robots(const std::vector<RobotSample>& samples) {
   return hash.digest();
 }
 
+std::uint64_t hash_scan(const LidarScan& scan) {
+  StateHash hash;
+  hash.add(scan.stamp_ns);
+  for (const Pose& pose : scan.world_from_lidar) {
+    for (const double c : {pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z}) hash.add(c);
+    add(hash, pose.translation);
+  }
+  hash.add_bytes(scan.points.data(), scan.points.size() * sizeof(LidarPoint));
+  return hash.digest();
+}
+
 // Of one camera: the pose, every image stream in the order of the table, then what is no image.
 std::vector<std::string> channels_of_camera() {
   std::vector<std::string> names{"pose"};
@@ -92,12 +103,14 @@ std::vector<std::string> channels_of_camera() {
   return names;
 }
 
-std::vector<std::string> channels_of_cameras(const std::vector<std::string>& cameras) {
+std::vector<std::string> channels_of_sensors(const std::vector<std::string>& cameras,
+                                             const std::vector<std::string>& lidars) {
   const std::vector<std::string> each = channels_of_camera();
   std::vector<std::string> all;
   if (cameras.empty()) all = each;
   for (const std::string& camera : cameras)
     for (const std::string& channel : each) all.push_back(camera + "/" + channel);
+  for (const std::string& lidar : lidars) all.push_back(lidar + "/points");
   for (const char* rig : kOfAllCameras) all.push_back(rig);
   return all;
 }
@@ -109,8 +122,9 @@ std::string without_camera(const std::string& channel) {
 }  // namespace
 
 void FrameHashes::add(const Frame& f) {
-  if (channels.empty()) channels = channels_of_cameras(cameras_);
-  const std::size_t each = (channels.size() - std::size(kOfAllCameras)) / std::max<std::size_t>(1, cameras_.size());
+  if (channels.empty()) channels = channels_of_sensors(cameras_, lidars_);
+  const std::size_t others = lidars_.size() + std::size(kOfAllCameras);
+  const std::size_t each = (channels.size() - others) / std::max<std::size_t>(1, cameras_.size());
   std::vector<std::uint64_t>& row = frames.emplace_back(channels.size(), 0);
   auto at = row.begin() + std::ptrdiff_t(std::size_t(f.sensor) * each);
   *at++ = hash_pose(f);
@@ -119,6 +133,10 @@ void FrameHashes::add(const Frame& f) {
     *at++ = image ? std::visit([](const auto* values) { return hash_numbers(*values); }, *image) : 0;
   }
   *at = hash_events(f.events);
+  for (std::size_t i = 0; i < lidars_.size(); ++i) {
+    row[row.size() - others + i] = hash_numbers(scans_[i]);
+    scans_[i].clear();
+  }
   row[row.size() - 2] = hash_imu(readings_);
   row.back() = hash_robots(robots_);
   readings_.clear();
@@ -127,6 +145,10 @@ void FrameHashes::add(const Frame& f) {
 
 void FrameHashes::add_imu(const ImuSample& sample) { readings_.push_back(sample); }
 void FrameHashes::add_robot(const RobotSample& sample) { robots_.push_back(sample); }
+
+void FrameHashes::add_lidar(const LidarScan& scan) {
+  scans_.at(std::size_t(scan.sensor)).push_back(hash_scan(scan));
+}
 
 FrameHashes FrameHashes::compact() const {
   FrameHashes kept;
@@ -143,7 +165,7 @@ FrameHashes FrameHashes::compact() const {
 
 bool is_picture(const std::string& channel) {
   const std::string name = without_camera(channel);
-  return name != "pose" && name != "events" &&
+  return name != "pose" && name != "events" && name != "points" &&
          std::find(std::begin(kOfAllCameras), std::end(kOfAllCameras), name) == std::end(kOfAllCameras);
 }
 

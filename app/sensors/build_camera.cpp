@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "scripting/trajectory/trajectory.h"
+#include "scripting/trajectory/sample_path.h"
 
 namespace rubble {
 
@@ -30,15 +30,22 @@ Flight build_flight(const Scenario& scenario, const MountedCamera& camera,
   const Pose rig_from_camera = camera.rig_from_camera();
   const auto on_mount = [=](const Pose& rig) { return mounted ? rig * rig_from_camera : rig; };
   const double rate_hz = camera.rate_hz.value_or(scenario.trajectory.rate_hz);
-  if (!path) path = std::make_shared<CameraPath>(scenario.trajectory);
   Flight flight;
   for (const CameraPose& pose : sample_path(*path, rate_hz, scenario.start_ns)) {
     flight.stamps_ns.push_back(pose.stamp_ns);
     flight.world_from_camera.push_back(on_mount(pose.world_from_camera));
   }
-  flight.pose_at = [path, on_mount, start = scenario.start_ns](std::int64_t stamp_ns) {
+  flight.pose_at = [path = std::move(path), on_mount, start = scenario.start_ns](std::int64_t stamp_ns) {
     return on_mount(path->at(double(stamp_ns - start) * 1e-9));
   };
+  return flight;
+}
+
+RigFlight build_rig_flight(const Scenario& scenario, std::shared_ptr<const MotionPath> path) {
+  RigFlight flight;
+  for (const MountedCamera& camera : all_cameras(scenario))
+    flight.cameras.push_back(build_flight(scenario, camera, path));
+  flight.path = std::move(path);
   return flight;
 }
 

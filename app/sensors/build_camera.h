@@ -2,19 +2,28 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "render/scene/camera_spec.h"
 #include "render/sensors/flight.h"
 #include "scripting/scenario/scenario.h"
+#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 
 // A camera of the mission (all_cameras), with what is in its place.
 CameraSpec build_camera(const Scenario& scenario, const MountedCamera& camera, int threads);
 
-// Where that camera is, at its own rate, along the scenario's trajectory, whose places are resolved:
-// app/planning/flight.h. ride: instead of the trajectory, the way of the rig on a robot.
+// Where that camera is, at its own rate, along the path of the scenario's trajectory, whose places are
+// resolved (app/planning/flight.h), or along the way of the robot that carries the rig.
 Flight build_flight(const Scenario& scenario, const MountedCamera& camera,
-                    std::shared_ptr<const MotionPath> ride = nullptr);
+                    std::shared_ptr<const MotionPath> path);
+
+// The path of the rig, and where each camera of all_cameras() is on it.
+struct RigFlight {
+  std::shared_ptr<const MotionPath> path;  // of the rig; never null
+  std::vector<Flight> cameras;             // each with the stamps of its own rate
+};
+RigFlight build_rig_flight(const Scenario& scenario, std::shared_ptr<const MotionPath> path);
 
 }  // namespace rubble

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "app/sensors/build_camera.h"
+#include "app/sensors/lidar_sensor.h"
 #include "kernel/base/random.h"
 #include "render/sensors/camera.h"
 #include "scripting/trajectory/imu.h"
@@ -26,16 +26,14 @@ CameraSpec spec_of(const Scenario& flown, const MountedCamera& mounted, const Se
 class CameraSensor : public Sensor {
  public:
   CameraSensor(const Scenario& flown, const MountedCamera& mounted, int number,
-               const SensorBegin& begin, Renderer& renderer,
-               std::shared_ptr<const MotionPath> path, int threads)
-      : flight_(build_flight(flown, mounted, path)),
+               const RigFlight& flight, const SensorBegin& begin, Renderer& renderer, int threads)
+      : flight_(flight.cameras[std::size_t(number)]),
         mounted_(mounted),
         number_(number),
-        first_frame_(begin.frame),
+        first_frame_(begin.frames.empty() ? 0 : begin.frames[std::size_t(number)]),
         start_ns_(flown.start_ns),
-        path_(std::move(path)),
-        camera_(renderer, spec_of(flown, mounted, begin, threads), flight_,
-                Medium(flown.air, flown.seed)) {}
+        path_(flight.path),
+        camera_(renderer, spec_of(flown, mounted, begin, threads), flight_) {}
 
   int frames() const { return camera_.frames(); }
   std::int64_t last_stamp() const { return flight_.stamps_ns.back(); }
@@ -110,22 +108,23 @@ class RobotSensor : public Sensor {
 
 }  // namespace
 
-SensorSuite::SensorSuite(const Scenario& flown, const SensorBegin& begin, Renderer& renderer,
-                         int threads, const RobotReadings& robots) {
-  const std::shared_ptr<const MotionPath> path =
-      robots.ride ? robots.ride : std::make_shared<const CameraPath>(flown.trajectory);
+SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin,
+                         const Scene& scene, Renderer& renderer, int threads,
+                         const RobotReadings& robots) {
   std::vector<std::unique_ptr<Sensor>> cameras;
   std::int64_t last_ns = 0;
   for (const MountedCamera& mounted : all_cameras(flown)) {
-    auto camera = std::make_unique<CameraSensor>(flown, mounted, int(cameras.size()), begin, renderer,
-                                                 path, threads);
+    auto camera = std::make_unique<CameraSensor>(flown, mounted, int(cameras.size()), flight, begin,
+                                                 renderer, threads);
     frames_.push_back(camera->frames());
     last_ns = std::max(last_ns, camera->last_stamp());
     cameras.push_back(std::move(camera));
   }
   for (const std::vector<RobotSample>& samples : robots.samples)
     sensors_.push_back(std::make_unique<RobotSensor>(samples, last_ns));
-  if (flown.imu.on) sensors_.push_back(std::make_unique<ImuSensor>(flown, begin.noise_seed, last_ns, path));
+  if (flown.imu.on) sensors_.push_back(std::make_unique<ImuSensor>(flown, begin.noise_seed, last_ns, flight.path));
+  for (auto& lidar : make_lidar_sensors(flown, scene, begin.noise_seed, last_ns, flight.path, threads))
+    sensors_.push_back(std::move(lidar));
   for (auto& camera : cameras) sensors_.push_back(std::move(camera));
 }
 

@@ -9,6 +9,7 @@
 #include "io/base/atomic_file.h"
 #include "io/base/gzip.h"
 #include "io/image/depth_encoding.h"
+#include "io/mrpt/lidar_observations.h"
 #include "io/mrpt/mrpt_types.h"
 #include "io/recording/frame_order.h"
 #include "kernel/base/error.h"
@@ -45,6 +46,11 @@ class RawlogRecorder : public Recorder {
       if (sample.odometry) archive << make_odometry(sample, name + "_odometry");
       archive << make_truth(sample.stamp_ns, name + "_ground_truth", sample.world_from_base);
     });
+  }
+
+  void write_lidar(const LidarScan& scan) override {
+    const LidarRecord& lidar = recording_.lidars.at(std::size_t(scan.sensor));
+    observe([&](auto& archive) { write_lidar_observation(scan, lidar, archive); });
   }
 
   void finish() override {

@@ -9,6 +9,7 @@
 
 #include "render/scene/camera_spec.h"
 #include "render/scene/frame.h"
+#include "render/scene/lidar_spec.h"
 
 namespace rubble {
 
@@ -66,6 +67,15 @@ struct ImuRecord {
   ImuModel model;                         // rate and noise
 };
 
+// A LiDAR. LidarScan::sensor is its number.
+struct LidarRecord {
+  std::string name = "lidar";      // of labels and folders
+  std::string topic = "/points";   // ROS: PointCloud2, of a planar pattern LaserScan
+  std::string frame_id = "lidar_link";  // TF
+  Pose rig_from_lidar;             // axes: X forward, Y left, Z up
+  LidarSpec spec;                  // pattern and limits
+};
+
 // A robot. RobotSample::sensor is its number.
 struct RobotRecord {
   struct Joint {
@@ -96,10 +106,11 @@ struct RigMount {
 struct Recording {
   std::string rig = "camera_link";       // TF: what flies the trajectory
   std::vector<CameraRecord> cameras{1};  // at least one
-  std::vector<ImuRecord> imus;
+  std::vector<ImuRecord> imus;           // none where the mission has no inertial unit
+  std::vector<LidarRecord> lidars;
   std::vector<RobotRecord> robots;
-  std::optional<RigMount> mount;  // of the rig, on a robot
-  Legend legend;  // where a stream of ground truth has one
+  std::optional<RigMount> mount;         // of the rig, on a robot
+  Legend legend;                         // where a stream of ground truth has one
 
   bool has_legend() const;  // whether any camera gives such a stream
   // The same with one of the cameras alone, as the first.

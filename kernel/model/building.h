@@ -15,7 +15,24 @@ namespace rubble {
 
 // One column of one storey.
 struct ColumnPlace {
-  int storey = 0, i = 0, j = 0;
+  int storey = 0, i = 0, j = 0;  // counted as above; all from 0
+};
+
+// The footing of one ground column.
+struct SinkingFooting {
+  int i = 0, j = 0;
+  double depth = 0;  // by which it sinks; unit: m; range: 0 to 2
+};
+
+// Drives into a column of the ground storey. Its force is that of a hard impact, EN 1991-1-7, C.2.1:
+// speed * sqrt(stiffness * mass), for sqrt(mass / stiffness).
+struct StrikingVehicle {
+  double mass = 0;           // unit: kg; range: 0 to 100000; 0: there is none
+  double speed = 14;         // unit: m/s; range: 0 to 60
+  double direction_deg = 0;  // in which it drives, from X to Y; unit: degrees
+  double stiffness = 300e3;  // unit: N/m; range: 1e4 to 1e7
+  double height = 1;         // of its bumper; unit: m; range: 0.2 to 3
+  int i = 0, j = 0;          // the column
 };
 
 // What makes the building collapse, and when it is over.
@@ -29,8 +46,19 @@ struct CollapseCause {
   double shake_hz = 2;               // about which its frequencies lie; range: 0.2 to 20
   double shake_seconds = 8;          // range: 1 to 60
   double shake_direction_deg = 0;    // from X to Y; unit: degrees
+  // Instead of a synthetic motion: accelerations, scaled so that the largest is `shake`; range: 0 to 200000.
+  std::vector<double> accelerogram;
+  double accelerogram_step = 0.01;   // between them; unit: s; range: 0.001 to 1
   double blast = 0;                  // impulse per area at 1 m from `blast_at`; unit: N s/m2; >= 0
   Vec3 blast_at;                     // unit: m
+  StrikingVehicle vehicle;
+  std::vector<SinkingFooting> sinking;  // evenly, within 2 s
+
+  // How long the ground of the cause moves; unit: s.
+  double shaking_time() const {
+    if (!(shake > 0)) return 0;
+    return accelerogram.empty() ? shake_seconds : double(accelerogram.size()) * accelerogram_step;
+  }
 };
 
 enum class Infill : std::uint8_t { none, brick, block };
@@ -46,13 +74,16 @@ struct BuildingSpec {
   double column_bars = 0.015;     // share of the section; range: 0 to 0.06
   double beam_bars = 0.012;       // likewise
   double slab_bars = 0.006;       // likewise
+  // Share of the bars that hold two pieces together when the concrete between them has failed, until they
+  // tear; the others are pulled out of their laps and anchorages. 0: what breaks falls. range: 0 to 1
+  double continuity = 0.5;
   Infill infill = Infill::brick;  // walls between the outer columns
   double infill_thickness = 0.2;  // unit: m; range: 0.08 to 0.5
   double openings = 0.35;         // of the length of each wall but the corners' are windows; range: 0 to 0.8
   double piece = 1.0;             // pieces are about this long; unit: m; range: 0.3 to 3
   double roughness = 0.35;        // of cuts; range: 0 to 0.45
   std::uint64_t seed = 0;         // of cuts and of the ground's motion
-  CollapseCause cause;
+  CollapseCause cause;            // without one the building stands
 
   bool given() const { return storeys > 0; }
 };

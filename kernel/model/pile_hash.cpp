@@ -82,7 +82,8 @@ void add(StateHash& hash, const BuildingSpec& b) {
   for (const double number :
        {b.span_x, b.span_y, b.storey_height, b.column, b.beam_depth, b.slab, b.column_bars, b.beam_bars,
         b.slab_bars, b.infill_thickness, b.openings, b.piece, b.roughness, c.weakness, c.overload, c.shake,
-        c.shake_hz, c.shake_seconds, c.shake_direction_deg, c.blast}) {
+        c.shake_hz, c.shake_seconds, c.shake_direction_deg, c.blast, b.continuity, c.accelerogram_step,
+        c.vehicle.mass, c.vehicle.speed, c.vehicle.direction_deg, c.vehicle.stiffness, c.vehicle.height}) {
     hash.add(number);
   }
   add(hash, c.blast_at);
@@ -91,6 +92,13 @@ void add(StateHash& hash, const BuildingSpec& b) {
   add_count(hash, c.removed.size());
   for (const ColumnPlace& p : c.removed) {
     for (const int number : {p.storey, p.i, p.j}) hash.add(std::int32_t(number));
+  }
+  for (const int number : {c.vehicle.i, c.vehicle.j}) hash.add(std::int32_t(number));
+  add_count(hash, c.accelerogram.size());
+  for (const double acceleration : c.accelerogram) hash.add(acceleration);
+  add_count(hash, c.sinking.size());
+  for (const SinkingFooting& f : c.sinking) {
+    hash.add(std::int32_t(f.i)), hash.add(std::int32_t(f.j)), hash.add(f.depth);
   }
 }
 

@@ -1,12 +1,25 @@
 #include "kernel/settling/building_collapse.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/base/portable_math.h"
 #include "kernel/structure/frame_building.h"
 
 namespace rubble {
+namespace {
+
+constexpr double kSinkingTime = 2;     // of a footing; unit: s
+constexpr double kSinkingStep = 0.05;  // each step is found by a solution of all stresses; unit: s
+
+}  // namespace
+
 
 BuildingCollapse::BuildingCollapse(World& world, const Pile& pile, const SettleOptions& options)
-    : motion_(pile.building.cause, pile.building.seed, options.step) {
-  const BuildingSpec& building = pile.building;
+    : building_(pile.building),
+      motion_(pile.building.cause, pile.building.seed, options.step),
+      step_length_(options.step) {
+  const BuildingSpec& building = building_;
   validate(building);
   const Structure whole = build_building(building);
   std::vector<SectionForces> before = check_stands(whole, options.gravity);
@@ -16,23 +29,69 @@ BuildingCollapse::BuildingCollapse(World& world, const Pile& pile, const SettleO
   CollapseOptions collapse;
   collapse.gravity = options.gravity;
   collapse.step = options.step;
+  collapse.continuity = building.continuity;
   collapse_ = std::make_unique<Collapse>(world, damaged, pile.building_first_type, collapse, settled);
   if (building.cause.blast > 0) collapse_->blast(building.cause.blast_at, building.cause.blast);
+  find_footings(damaged);
+  if (building.cause.vehicle.mass > 0) drive_into(damaged);
 }
 
-void BuildingCollapse::before_step() { collapse_->begin_step(motion_.at(step_)); }
+int BuildingCollapse::find_column(const Structure& structure, int i, int j) const {
+  for (std::size_t m = 0; m < structure.members.size(); ++m) {
+    if (is_ground_column(structure.members[m], i, j)) return int(m);
+  }
+  return -1;
+}
+
+void BuildingCollapse::find_footings(const Structure& structure) {
+  for (const SinkingFooting& f : building_.cause.sinking) {
+    footings_.push_back({find_column(structure, f.i, f.j), f.depth});
+  }
+}
+
+void BuildingCollapse::drive_into(const Structure& structure) {
+  const StrikingVehicle& v = building_.cause.vehicle;
+  const int column = find_column(structure, v.i, v.j);
+  if (column < 0) return;
+  const portable::SinCos direction = portable::sincos(v.direction_deg * portable::kPi / 180);
+  Vec3 at = structure.members[column].centre;
+  at.z = v.height;
+  const double force = v.speed * std::sqrt(v.stiffness * v.mass);
+  collapse_->push(column, at, Vec3{direction.cos, direction.sin, 0} * force, std::sqrt(v.mass / v.stiffness));
+}
+
+// By even steps, so that the loads that move away from a footing find their new ways.
+void BuildingCollapse::sink_footings() {
+  const double time = double(step_) * step_length_;
+  const std::int64_t every = std::max<std::int64_t>(1, std::llround(kSinkingStep / step_length_));
+  if (footings_.empty() || time > kSinkingTime + kSinkingStep || step_ % every != 0) return;
+  const double share = std::min(1.0, time / kSinkingTime);
+  for (const auto& [column, depth] : footings_) collapse_->sink(column, {0, 0, -depth * share});
+}
+
+bool BuildingCollapse::goes_on() const {
+  const bool sinks = !footings_.empty() && double(step_) * step_length_ < kSinkingTime + kSinkingStep;
+  return !motion_.over(step_) || sinks || collapse_->is_breaking();
+}
+
+void BuildingCollapse::before_step() {
+  sink_footings();
+  collapse_->begin_step(motion_.at(step_));
+}
 
 void BuildingCollapse::after_step() {
   collapse_->end_step();
   ++step_;
 }
 
-std::vector<PieceType> make_building_types(const BuildingSpec& building,
-                                           std::vector<std::string>* materials) {
+std::vector<PieceType> make_building_types(const BuildingSpec& building) {
+  return describe_building_types(building).types;
+}
+
+BuildingTypes describe_building_types(const BuildingSpec& building) {
   validate(building);
   const Structure structure = build_damaged(building, build_building(building));
-  if (materials) *materials = structure.type_materials;
-  return structure.types;
+  return {structure.types, structure.type_materials, structure.type_bars};
 }
 
 }  // namespace rubble

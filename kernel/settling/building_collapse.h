@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "kernel/model/pile.h"
 #include "kernel/settling/collapse.h"
 #include "kernel/settling/ground_motion.h"
 #include "kernel/settling/settle.h"
+#include "kernel/structure/structure.h"
 
 namespace rubble {
 
@@ -18,18 +21,32 @@ class BuildingCollapse {
   void before_step();
   void after_step();
   // The ground still moves, or bonds broke in the last step: what stands still is not at rest.
-  bool goes_on() const { return !motion_.over(step_) || collapse_->is_breaking(); }
+  bool goes_on() const;
   CollapseReport report() const { return collapse_->report(); }
 
  private:
+  int find_column(const Structure& structure, int i, int j) const;  // its member; -1: none
+  void find_footings(const Structure& structure);
+  void drive_into(const Structure& structure);
+  void sink_footings();
+
+  BuildingSpec building_;
   GroundMotion motion_;
+  std::vector<std::pair<int, double>> footings_;  // members of columns, and how far each sinks; unit: m
+  double step_length_;  // unit: s
   std::unique_ptr<Collapse> collapse_;
   std::int64_t step_ = 0;
 };
 
 // The types of a building's pieces, in their order: Pile::types must have them from its
-// building_first_type on. materials: by type, the name of each one's structural material; may be null.
-std::vector<PieceType> make_building_types(const BuildingSpec& building,
-                                           std::vector<std::string>* materials = nullptr);
+// building_first_type on.
+std::vector<PieceType> make_building_types(const BuildingSpec& building);
+// Also what they are made of.
+struct BuildingTypes {
+  std::vector<PieceType> types;
+  std::vector<std::string> materials;  // by type: name of the structural material
+  std::vector<Reinforcement> bars;     // by type
+};
+BuildingTypes describe_building_types(const BuildingSpec& building);
 
 }  // namespace rubble

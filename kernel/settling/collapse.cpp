@@ -8,6 +8,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
+#include "kernel/structure/remaining_bars.h"
 
 namespace rubble {
 namespace {
@@ -57,6 +58,10 @@ struct Collapse::Impl {
   std::map<std::int32_t, Part> parts;  // by lead; those with bonds
   std::vector<SectionForces> settled;
   Vec3 ground_acceleration;
+  std::int32_t pushed = -1;  // the piece that a vehicle pushes
+  Vec3 push_force, push_at;  // in the world; unit: N, m
+  int push_steps = 0;        // to come
+  bool sinks = false;        // a footing went down since the last solution
   std::map<std::int32_t, Vec3> blasted;  // impulse by piece; unit: N s
   std::vector<std::pair<int, double>> drained;  // pieces of the world, and the energy that breaking took
   CollapseReport report;
@@ -140,6 +145,20 @@ struct Collapse::Impl {
     return touches;
   }
 
+  // The bars of what broke hold on.
+  void tie(const std::vector<BondFailure>& failures) {
+    for (const BondFailure& f : failures) {
+      if (f.hinge || f.mode == FailureMode::compression) continue;  // crushed: its bars have buckled
+      for (TieState t : find_remaining_bars(structure, structure.bonds[f.bond], options.continuity)) {
+        t.piece_a += first;
+        if (t.piece_b != kFoundation) t.piece_b += first;
+        if (f.mode == FailureMode::shear) t.bending = 0;  // what slides is not held sideways
+        world.add_tie(t);
+        ++report.ties;
+      }
+    }
+  }
+
   using Touches = std::vector<std::pair<std::int32_t, Touch>>;
 
   // Loads by piece of the structure; only those of the body are set.
@@ -164,6 +183,11 @@ struct Collapse::Impl {
       if (lead_of[piece] != lead || !with_impacts) continue;
       push(piece, back.rotate(impulse) * (1 / options.step), structure.pieces[piece].centre);
     }
+    if (push_steps > 0 && lead_of[pushed] == lead) {
+      const Pose pose = world.piece(first + pushed).world_from_body;
+      push(pushed, back.rotate(push_force),
+           structure.pieces[pushed].position + back.rotate(push_at - pose.translation));
+    }
     if (group.anchored) {
       for (const std::int32_t i : group.pieces) loads[i].force += pull * structure.pieces[i].mass;
       return loads;
@@ -183,7 +207,7 @@ struct Collapse::Impl {
 
   bool is_news(const Part& part, const std::vector<PieceLoad>& loads) const {
     const BondGroup& group = part.stress->group();
-    if (part.solved.empty()) return true;
+    if (part.solved.empty() || (sinks && group.anchored)) return true;
     const double most = kSameLoad * part.mass * options.gravity / double(group.pieces.size());
     for (std::size_t i = 0; i < group.pieces.size(); ++i) {
       if (norm(loads[group.pieces[i]].force - part.solved[i].force) > most) return true;
@@ -258,11 +282,13 @@ struct Collapse::Impl {
     const int waits = part.waits;
     // One round: the next comes when contacts are solved again, or with the next step.
     bool broken = false;
-    for (const BondFailure& f : fail_worst(structure, group, result, failure, status)) {
+    const std::vector<BondFailure> failed = fail_worst(structure, group, result, failure, status);
+    for (const BondFailure& f : failed) {
       f.hinge ? ++report.hinges : ++report.broken;
       broken = broken || !f.hinge;
     }
     if (!broken) return false;
+    tie(failed);
     std::vector<std::uint8_t> others(structure.pieces.size(), 1);
     for (const std::int32_t piece : group.pieces) others[piece] = 0;
     const std::size_t before = parts.size();
@@ -274,6 +300,15 @@ struct Collapse::Impl {
       if (at != parts.end() && at->second.solved.empty()) at->second.waits = waits;
     }
     return apart || parts.size() != before;
+  }
+
+  // What a vehicle drives into, until it has come to a stop.
+  void push_free() {
+    if (push_steps <= 0) return;
+    --push_steps;
+    const int lead = first + lead_of[pushed];
+    if (!is_free(lead)) return;
+    set_motion(lead, push_force * (options.step / world.mass(lead)), world.piece(lead).angular_velocity);
   }
 
   bool on_solved() {
@@ -362,6 +397,8 @@ void Collapse::begin_step(const Vec3& ground_acceleration) {
 
 void Collapse::end_step() {
   impl_->drain();
+  impl_->push_free();
+  impl_->sinks = false;
   impl_->throw_blasted();
   impl_->settle_forces();
 }
@@ -377,10 +414,38 @@ void Collapse::blast(const Vec3& at, double impulse_at_1m) {
   }
 }
 
-bool Collapse::is_breaking() const { return impl_->breaking; }
+void Collapse::push(int member, const Vec3& at, const Vec3& force, double seconds) {
+  Impl& c = *impl_;
+  double nearest = 1e30;
+  for (std::size_t i = 0; i < c.structure.pieces.size(); ++i) {
+    const double away = distance(c.structure.pieces[i].centre, at);
+    if (c.structure.pieces[i].member != member || away >= nearest) continue;
+    c.pushed = std::int32_t(i);
+    nearest = away;
+  }
+  c.push_at = at, c.push_force = force;
+  c.push_steps = c.pushed < 0 ? 0 : std::max(1, int(seconds / c.options.step + 0.5));
+}
+
+void Collapse::sink(int member, const Vec3& by) {
+  for (std::size_t i = 0; i < impl_->structure.bonds.size(); ++i) {
+    const Bond& bond = impl_->structure.bonds[i];
+    if (bond.piece_b != kFoundation || impl_->structure.pieces[bond.piece_a].member != member) continue;
+    impl_->status[i].sunk = by;
+    impl_->sinks = true;
+  }
+}
+
+bool Collapse::is_breaking() const { return impl_->breaking || impl_->push_steps > 0; }
 int Collapse::arrests() const { return impl_->arrests; }
 int Collapse::first_piece() const { return impl_->first; }
-CollapseReport Collapse::report() const { return impl_->report; }
+
+CollapseReport Collapse::report() const {
+  CollapseReport report = impl_->report;
+  report.torn = report.ties - impl_->world.tie_count();
+  report.tie_energy = impl_->world.tie_energy();
+  return report;
+}
 
 std::vector<SectionForces> check_stands(const Structure& structure, double gravity) {
   std::vector<SectionForces> forces(structure.bonds.size());

@@ -25,6 +25,7 @@ struct CollapseOptions {
   double gravity = 9.81;       // unit: m/s2
   double step = 1.0 / 60;      // of the world; unit: s
   double overshoot = 0.5;      // of a sudden change of load; 1: undamped; unit: 1; range: 0 to 1
+  double continuity = 0;       // see BuildingSpec::continuity; unit: 1; range: 0 to 1
 };
 
 class Collapse {
@@ -43,6 +44,12 @@ class Collapse {
   // In the next step every piece gets this impulse per area at 1 m, less with the square of the distance;
   // what it breaks off is thrown. unit: N s/m2
   void blast(const Vec3& at, double impulse_at_1m);
+
+  // In the steps of `seconds` from now on the piece of a member that is nearest to a place is pushed there.
+  // force: in the world; unit: N
+  void push(int member, const Vec3& at, const Vec3& force, double seconds);
+  // Where the foundation under the pieces of a member now is, against where it was; unit: m.
+  void sink(int member, const Vec3& by);
 
   bool is_breaking() const;  // something failed in the last step: the next one may have more
   // Impacts so far that overloaded bonds but brought too little energy to break them.

@@ -8,8 +8,9 @@
 
 namespace rubble {
 
-// Twenty sines about the cause's frequency under the envelope of Jennings, Housner and Tsai (1968): it
-// rises with the square of time, stays, and fades; scaled so that its largest value is the cause's.
+// The cause's accelerogram, read between its samples by straight lines. Without one: twenty sines about
+// the cause's frequency under the envelope of Jennings, Housner and Tsai (1968), which rises with the
+// square of time, stays, and fades. Scaled so that its largest value is the cause's.
 class GroundMotion {
  public:
   // step: of the samples; unit: s.
@@ -19,6 +20,9 @@ class GroundMotion {
   bool over(std::int64_t step) const { return step >= std::int64_t(samples_.size()); }
 
  private:
+  void draw(const CollapseCause& cause, std::uint64_t seed, double step);
+  void read(const CollapseCause& cause, double step);
+
   std::vector<double> samples_;
   Vec3 direction_;
 };

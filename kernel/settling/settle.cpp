@@ -125,8 +125,7 @@ class Settling {
   // with the question.
   template <typename Done>
   bool run_until(double limit, Done&& done) {
-    const bool shakes = collapse_ && layers_ == 0 && pile_.building.cause.shake > 0;
-    const double shaking = shakes ? pile_.building.cause.shake_seconds : 0;
+    const double shaking = collapse_ && layers_ == 0 ? pile_.building.cause.shaking_time() : 0;
     const std::int64_t most = std::int64_t((limit + shaking) / options_.step + 0.5);
     if (layer_steps_ > 0 && done()) return true;
     while (layer_steps_ < most) {

@@ -220,6 +220,10 @@ RUBBLE_INLINE void prepare_batch(ContactBatch& batch, const Contact* contacts,
   mass_a.store(batch.push_mass_a);
   mass_b.store(batch.push_mass_b);
   zero.store(batch.pressed);
+  zero.store(batch.highest);
+  Lanes most;
+  for (int i = 0; i < kLanes; ++i) most[i] = contact[i]->most;
+  P(most).store(batch.most);
 }
 
 template <typename P>

@@ -16,6 +16,7 @@ namespace rubble {
 // a light wedge out at many times its own speed, though friction would hold it.
 inline constexpr float kImpactRise = 1.0F;
 inline constexpr int kMostRounds = 2;
+inline constexpr float kNoPush = 1e3F;  // so far apart nothing is pushed; unit: m
 
 // Speeds, or the displacement of a step, of one body.
 struct alignas(32) PaddedMotion {
@@ -69,6 +70,7 @@ struct ContactBatch {
   Lanes3 twist_a, twist_b;                  // inverse inertia times the normal
   Lanes twist_mass, twist_impulse;
   Lanes pressed;                            // sum of normal impulses over the step
+  Lanes most, highest;                      // of a row in a substep: allowed, and reached
 };
 
 // Batches that follow each other in the order of solving.

@@ -254,6 +254,7 @@ void ContactSolver::store(const ContactBatch& batch, std::vector<Contact>& conta
                                t.direction.get(lane) * t.impulse[lane];
     contact.twist_impulse = batch.twist_impulse[lane];
     contact.pressed = batch.pressed[lane];
+    contact.highest = batch.highest[lane];
   }
 }
 

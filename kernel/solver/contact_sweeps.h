@@ -114,10 +114,12 @@ template <typename P>
 RUBBLE_INLINE void solve_normals(const ContactBatch& batch, const NormalRow* rows, const P* closing,
                                  Impulses<P>& at, Sides<P>& sides) {
   const Packet3<P> normal(batch.normal);
+  const P most(batch.most);
   for (int i = 0; i < batch.rows; ++i) {
     const ContactRow& row = rows[i].row;
     const P speed = relative(normal, row, sides.a, sides.b);
-    const P next = contact_law::solve_normal(at.normal[i], P(row.mass), speed, closing[i]);
+    const P next = contact_law::smaller(
+        most, contact_law::solve_normal(at.normal[i], P(row.mass), speed, closing[i]));
     sides.apply(row, normal, next - at.normal[i]);
     at.normal[i] = next;
   }
@@ -143,10 +145,11 @@ RUBBLE_INLINE void keep_inside(typename P::Mask mask, const Impulses<P>& before,
 template <typename P>
 RUBBLE_INLINE void clamp_accumulated_impulses(ContactBatch& batch, NormalRow* rows, const P& weight,
                               const Impulses<P>& at) {
-  P carried{}, pressed(batch.pressed);
+  P carried{}, pressed(batch.pressed), highest(batch.highest);
   for (int i = 0; i < batch.rows; ++i) {
     NormalRow& n = rows[i];
     pressed = pressed + at.normal[i];
+    highest = max(highest, at.normal[i]);
     const P next =
         contact_law::clamp_accumulated_impulses(at.normal[i], P(n.carried), P(n.row.mass), weight);
     next.store(n.impulse);
@@ -154,6 +157,7 @@ RUBBLE_INLINE void clamp_accumulated_impulses(ContactBatch& batch, NormalRow* ro
     carried = carried + next;
   }
   pressed.store(batch.pressed);
+  highest.store(batch.highest);
   const P limit = P(batch.friction) * carried;
   const P shrink = contact_law::shrink_into_cone(
       limit, at.slide[0] * at.slide[0] + at.slide[1] * at.slide[1]);
@@ -226,12 +230,14 @@ RUBBLE_INLINE bool begin_pushes(const ContactBatch& batch, const NormalRow* rows
                                 const PushTerms& terms, const PaddedMotion* moved) {
   const Motions<P> a = load<P>(moved, batch.a), b = load<P>(moved, batch.b);
   P most{};
+  // A tie that yields is left as long as it has become.
+  const auto holds = P(batch.most) > P(batch.highest);
   for (int i = 0; i < batch.rows; ++i) {
     const P done = relative(Packet3<P>(batch.normal), rows[i].row, a, b);
     const P gap = P(rows[i].gap) + done + P(terms.slop);
     const P most_now = select(P(-terms.deep) > gap, P(terms.most_deep), P(terms.most));
     const P step = contact_law::smaller(-gap * P(terms.fraction), most_now);
-    const P wanted = select(P{} > gap, step, -gap);
+    const P wanted = select(holds, select(P{} > gap, step, -gap), P(-kNoPush));
     (done + wanted).store(pushes[i].target);
     P{}.store(pushes[i].push);
     most = max(most, wanted);

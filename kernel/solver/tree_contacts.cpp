@@ -13,7 +13,7 @@ namespace {
 constexpr double kLoopFraction = 0.5;
 // Items of a tree that carries what is heavier than the link under it are solved this often in a substep:
 // one sweep lets a slab of 600 kg on the frame of a door tremble for ever.
-constexpr int kLoadedSweeps = 4;
+constexpr int kLoadedSweeps = 8;
 
 void write(const Spatial& motion, PaddedMotion& to) {
   const Vec3f v(motion.linear()), w(motion.angular());

@@ -194,6 +194,7 @@ void add_overload(const BuildingSpec& b, Structure& s) {
       type.density += denser;
       s.types.push_back(type);
       s.type_materials.push_back(s.type_materials[piece.type]);
+      s.type_bars.push_back(s.type_bars[piece.type]);
     }
     const double ratio = s.types[at->second].density / s.types[piece.type].density;
     piece.type = at->second;
@@ -215,6 +216,12 @@ void validate(const BuildingSpec& b) {
       {"beam_bars", b.beam_bars, 0, 0.06},         {"slab_bars", b.slab_bars, 0, 0.06},
       {"infill_thickness", b.infill_thickness, 0.08, 0.5}, {"openings", b.openings, 0, 0.8},
       {"piece", b.piece, 0.3, 3},                  {"roughness", b.roughness, 0, 0.45},
+      {"continuity", b.continuity, 0, 1},          {"vehicle.mass", c.vehicle.mass, 0, 1e5},
+      {"vehicle.speed", c.vehicle.speed, 0, 60},   {"vehicle.stiffness", c.vehicle.stiffness, 1e4, 1e7},
+      {"vehicle.height", c.vehicle.height, 0.2, 3}, {"vehicle.i", double(c.vehicle.i), 0, double(b.bays_x)},
+      {"vehicle.j", double(c.vehicle.j), 0, double(b.bays_y)},
+      {"accelerogram_step", c.accelerogram_step, 0.001, 1},
+      {"accelerogram", double(c.accelerogram.size()), 0, 200000},
       {"weakness", c.weakness, 0, 1},              {"overload", c.overload, 0, 3000},
       {"shake", c.shake, 0, 20},                   {"shake_hz", c.shake_hz, 0.2, 20},
       {"shake_seconds", c.shake_seconds, 1, 60},   {"blast", c.blast, 0, 1e6},
@@ -236,8 +243,14 @@ void validate(const BuildingSpec& b) {
                       p.j >= 0 && p.j <= b.bays_y;
     if (!fine) fail("removed", "a column of the building", name_of("column", p.storey, p.i, p.j));
   }
+  for (const SinkingFooting& f : c.sinking) {
+    const bool fine = f.i >= 0 && f.i <= b.bays_x && f.j >= 0 && f.j <= b.bays_y && f.depth >= 0 && f.depth <= 2;
+    if (!fine) fail("sinking", "a ground column of the building, 0 to 2 m", name_of("column", 0, f.i, f.j));
+  }
   if (!problems.empty()) throw InputError(problems);
 }
+
+bool is_ground_column(const Member& member, int i, int j) { return member.name == name_of("column", 0, i, j); }
 
 Structure build_building(const BuildingSpec& building) {
   return build_structure(FrameMaker(building).make(), building.seed);

@@ -67,9 +67,13 @@ Six stiffness_of(const Bond& bond, const BondStatus& status) {
           bond.bending_t_stiffness * (status.hinge_t ? kHinge : 1.0)};
 }
 
-Six offset_of(const BondStatus& status) {
+Six offset_of(const Bond& bond, const BondStatus& status) {
   Six offset{};
   if (status.broken) return offset;
+  const Section& s = bond.section;
+  offset[0] = bond.axial_stiffness * dot(s.normal, status.sunk);
+  offset[1] = bond.shear_stiffness * dot(s.axis_s, status.sunk);
+  offset[2] = bond.shear_stiffness * dot(s.axis_t, status.sunk);
   if (status.hinge_s) offset[4] = status.moment_s;
   if (status.hinge_t) offset[5] = status.moment_t;
   return offset;
@@ -269,8 +273,8 @@ struct GroupStress::Impl {
       right[i] = {load.force.x, load.force.y, load.force.z, load.moment.x, load.moment.y, load.moment.z};
     }
     for (std::size_t i = 0; i < links.size(); ++i) {
-      const Six offset = offset_of(now[i]);
-      if (offset[4] == 0 && offset[5] == 0) continue;
+      const Six offset = offset_of(bond(i), now[i]);
+      if (std::all_of(offset.begin(), offset.end(), [](double x) { return x == 0; })) continue;
       add_transposed_product(right[links[i].a], links[i].at_a, offset, 1);
       if (links[i].b >= 0) add_transposed_product(right[links[i].b], links[i].at_b, offset, -1);
     }
@@ -280,7 +284,7 @@ struct GroupStress::Impl {
   StressResult read(const std::vector<Six>& u) const {
     StressResult result;
     for (std::size_t i = 0; i < links.size(); ++i) {
-      const Six k = stiffness_of(bond(i), now[i]), offset = offset_of(now[i]);
+      const Six k = stiffness_of(bond(i), now[i]), offset = offset_of(bond(i), now[i]);
       const Six open = opening(links[i], u);
       Six q;
       for (int r = 0; r < 6; ++r) q[r] = k[r] * open[r] + offset[r];

@@ -122,6 +122,7 @@ class Builder {
       made.volumes.push_back(calc_volume_properties(type.parts[0]));
       structure_.types.push_back(type);
       structure_.type_materials.push_back(member.material.name);
+      structure_.type_bars.push_back(member.bars);
     }
     return made;
   }

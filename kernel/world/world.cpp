@@ -347,6 +347,10 @@ void World::wake_all() {
 
 void World::begin_rest_verification() {
   wake_all();
+  for (Body& body : impl_->data.bodies) {
+    body.later_pose = body.world_from_com;
+    body.later_steps = 0;
+  }
   impl_->data.verification_steps = impl_->data.all_awake_since = 0;
 }
 

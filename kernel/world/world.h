@@ -99,6 +99,14 @@ class World {
   // `parts`.
   void bind(int first, int count);
   void split(const std::vector<SplitPart>& parts);
+  // Ties two pieces that are not links of articulated ones; while both move as one it carries nothing.
+  // Throws InputError for a tie out of range.
+  void add_tie(const TieState& tie);
+  std::vector<TieState> ties() const;  // that hold, in the order in which they were added
+  int tie_count() const;
+  double tie_energy() const;           // what ties that yielded took so far; unit: J
+  // What a tie carried in the last step, by its place in ties(); unit: N.
+  double tie_force(int index) const;
   // Of the centre of mass of all that moves as one with a piece; unit: m/s.
   Vec3 centre_velocity(int index) const;
   // The pieces that move as one with a piece, itself too; ascending.
@@ -106,7 +114,7 @@ class World {
   // Called in a step when the impulses of its contacts are known and nothing has moved yet. Where it has
   // split a body it returns true, and contacts are found and solved anew, four times at most.
   void set_on_solved(std::function<bool()> on_solved);
-  // At the pieces of groups only: of contacts that press, sleeping ones too.
+  // At the pieces of groups only: of contacts that press and ties that pull, sleeping ones too.
   std::vector<ContactImpulse> contact_impulses() const;
 
   int size() const;

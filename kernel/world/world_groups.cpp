@@ -284,6 +284,21 @@ std::vector<ContactImpulse> World::contact_impulses() const {
       if (of_b) c.piece = b_piece, c.other = a_piece, c.impulse = on_b, result.push_back(c);
     }
   }
+  for (const Tie& tie : data.ties) {
+    const Contact& contact = tie.contact;
+    if (!(contact.pressed > 0)) continue;
+    const Vec3 on_b = Vec3(contact.normal) * double(contact.pressed) +
+                      Vec3(contact.friction_impulse) * kSubsteps;
+    const auto note = [&](std::int32_t piece, std::int32_t other, const Vec3f& arm, const Vec3& impulse) {
+      if (piece == kGround || impl_->acting(piece).group < 0) return;
+      ContactImpulse c;
+      c.piece = piece, c.other = other, c.impulse = impulse;
+      c.point = impl_->acting(piece).world_from_com.translation + Vec3(arm);
+      result.push_back(c);
+    };
+    note(tie.state.piece_a, tie.state.piece_b, contact.points[0].from_a, -on_b);
+    note(tie.state.piece_b, tie.state.piece_a, contact.points[0].from_b, on_b);
+  }
   return result;
 }
 

@@ -31,6 +31,14 @@ struct RigidGroup {
   Vec3f reach;                        // largest |x|, |y|, |z| of any corner; unit: m
 };
 
+// A tie as the solver sees it: a contact between its anchors that pulls.
+struct Tie {
+  TieState state;
+  Contact contact;    // of the bodies that its pieces move with
+  float order = 1e30F;  // height that decides its place in the solver's order; unit: m
+  bool solved = false;  // took part in the last step
+};
+
 // What a snapshot holds: all that changes from step to step.
 struct WorldData {
   std::vector<Body> bodies;
@@ -44,6 +52,8 @@ struct WorldData {
   std::vector<Tree> trees;          // those that came apart keep their place, without links
   std::vector<WorldRobot> robots;
   std::vector<RigidGroup> groups;   // those that came apart keep their place
+  std::vector<Tie> ties;            // that hold
+  double tie_energy = 0;            // see World::tie_energy(); unit: J
   std::int64_t steps = 0;
   std::int64_t verification_steps = -1;  // since begin_rest_verification(); -1: no verification
   std::int64_t all_awake_since = -1;  // in verification_steps; -1: some pieces doze
@@ -128,6 +138,7 @@ struct World::Impl {
   std::vector<std::uint8_t> is_solved;        // by number of the tree
   std::vector<std::int32_t> released;  // a body of each joint that broke in this step
   SolvedTrees solved_trees;
+  std::vector<std::int32_t> tie_order;  // ties in the solution, in their order
 
   // world.cpp
   void add_body(const NewPiece& piece, FreeBody* free);
@@ -206,6 +217,18 @@ struct World::Impl {
   void move_contacts(const Vec3& old_centre, int old_lead);
   void refresh_group(Body& body);
 
+  // world_ties.cpp
+  void add_tie(const TieState& tie);
+  Vec3f find_anchor(std::int32_t piece, const Vec3& anchor) const;
+  double pose_tie(Tie& tie) const;
+  template <typename Action>
+  void each_solved(Action&& action);
+  void begin_ties();
+  void end_ties();
+  void bend_ties();
+  void stretch_ties();
+  void lose_ties();
+
   // world_step.cpp
   void find_contacts();
   void solve();
@@ -217,6 +240,7 @@ struct World::Impl {
   void clamp_ejection_velocity();
   void advance();
   float calc_lateness() const;
+  float keep_of_late_spin(const Body& body, const Vec3f& angular, float spin) const;
   void set_rates(std::size_t body);
   double calc_travel(const Body& body) const;
   void remove_lost();
@@ -258,6 +282,15 @@ struct World::Impl {
   void split_tree(int tree, const std::vector<std::uint8_t>& broken);
   void release(const TreeLink& link);
 };
+
+// The contacts of the last solution, and the ties in it.
+template <typename Action>
+void World::Impl::each_solved(Action&& action) {
+  for (const std::int32_t index : active) action(data.contacts[index]);
+  for (Tie& tie : data.ties) {
+    if (tie.solved) action(tie.contact);
+  }
+}
 
 // Of a group those of all its members; by number.
 template <typename Action>

@@ -151,6 +151,7 @@ void World::set_step(double step, int substeps) {
     body.lost_support *= longer;
   }
   for (Contact& contact : w.data.contacts) contact.rest_pressed *= longer;
+  for (Tie& tie : w.data.ties) tie.contact.rest_pressed *= longer;
   w.options.step = step;
   w.solver_settings.step = w.narrow_settings.step = float(step);
   w.solver_settings.substeps = substeps;

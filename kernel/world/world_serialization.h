@@ -21,7 +21,8 @@ void each_field(Struct& b, Visit&& visit) {
   visit(b.lead), visit(b.group), visit(b.origin_in_group);
   visit(b.world_from_com), visit(b.linear), visit(b.angular), visit(b.rotation);
   visit(b.inverse_inertia), visit(b.travel), visit(b.still_pose), visit(b.still_steps);
-  visit(b.loose_pose), visit(b.loose_steps), visit(b.load), visit(b.lost_support);
+  visit(b.loose_pose), visit(b.loose_steps);
+  visit(b.later_pose), visit(b.later_steps), visit(b.load), visit(b.lost_support);
   visit(b.awake), visit(b.lost), visit(b.touching), visit(b.has_touched);
 }
 
@@ -62,6 +63,7 @@ void each_field(Struct& c, Visit&& visit) {
   visit(c.body_a), visit(c.body_b), visit(c.friction);
   visit(c.count), visit(c.points), visit(c.normal), visit(c.has_normal), visit(c.way_out);
   visit(c.friction_impulse), visit(c.twist_impulse), visit(c.pressed), visit(c.rest_pressed);
+  visit(c.most), visit(c.highest);
   visit(c.cache);
 }
 
@@ -119,13 +121,24 @@ void each_field(Struct& g, Visit&& visit) {
   visit(g.members), visit(g.reach);
 }
 
+template <typename Struct, typename Visit, IfIs<Struct, TieState> = 0>
+void each_field(Struct& t, Visit&& visit) {
+  visit(t.piece_a), visit(t.piece_b), visit(t.anchor_a), visit(t.anchor_b), visit(t.length);
+  visit(t.strength), visit(t.stretch), visit(t.bending);
+}
+
+template <typename Struct, typename Visit, IfIs<Struct, Tie> = 0>
+void each_field(Struct& t, Visit&& visit) {
+  visit(t.state), visit(t.contact), visit(t.order), visit(t.solved);
+}
+
 template <typename Struct, typename Visit, IfIs<Struct, WorldData> = 0>
 void each_field(Struct& d, Visit&& visit) {
   visit(d.bodies), visit(d.colliders), visit(d.corners), visit(d.broad), visit(d.pairs);
   visit(d.contacts);
   visit(d.contact_of_pair), visit(d.wake_next), visit(d.trees), visit(d.groups), visit(d.steps);
   visit(d.verification_steps), visit(d.all_awake_since), visit(d.lost);
-  visit(d.robots);
+  visit(d.robots), visit(d.ties), visit(d.tie_energy);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, FreeBody> = 0>

@@ -49,19 +49,40 @@ float hit_impulse(const Body& body, const SleepTerms& t) {
   return t.hit_speed * float(body.mass) + kHitLoad * body.load;
 }
 
-// Counts the steps that a body has stayed near `pose`; starts anew where it is when it has left.
-void count_still(const Body& body, const Vec3f& reach, double distance, Pose& pose, std::int32_t& steps) {
+// How far any point of a body may have gone from `pose`; unit: m.
+double calc_departure(const Body& body, const Vec3f& reach, const Pose& pose) {
   const Vec3 moved = body.world_from_com.translation - pose.translation;
   const Quat turn = pose.rotation.conjugate() * body.world_from_com.rotation;
   // How far a corner has gone at most: a bar may spin about its own axis without going anywhere.
   const Vec3 r = Vec3(reach) * (2 * body.scale);
   const Vec3 t{std::abs(turn.x), std::abs(turn.y), std::abs(turn.z)};
-  const double turned =
-      norm(Vec3{t.y * r.z + t.z * r.y, t.z * r.x + t.x * r.z, t.x * r.y + t.y * r.x});
+  return norm(moved) +
+         norm(Vec3{t.y * r.z + t.z * r.y, t.z * r.x + t.x * r.z, t.x * r.y + t.y * r.x});
+}
+
+// Counts the steps that a body has stayed near `pose`; starts anew where it is when it has left.
+void count_still(const Body& body, const Vec3f& reach, double distance, Pose& pose, std::int32_t& steps) {
   ++steps;
-  if (norm(moved) + turned > distance) {
-    pose = body.world_from_com;
-    steps = 0;
+  if (calc_departure(body, reach, pose) <= distance) return;
+  pose = body.world_from_com;
+  steps = 0;
+}
+
+// The same of the looser terms while rest is verified. Who goes slowly leaves one pose after another, each
+// piece at its own time, so that seldom all have stayed at once: it goes on with a later pose that it is
+// still near to, and takes the next such pose after each `wait` steps.
+void count_loose(Body& body, const Vec3f& reach, double distance, int wait) {
+  ++body.loose_steps, ++body.later_steps;
+  const auto go_on = [&body] {
+    body.loose_pose = body.later_pose, body.loose_steps = body.later_steps;
+    body.later_pose = body.world_from_com, body.later_steps = 0;
+  };
+  const bool left = calc_departure(body, reach, body.loose_pose) > distance;
+  if (left && calc_departure(body, reach, body.later_pose) > distance) {
+    body.later_pose = body.world_from_com, body.later_steps = 0;
+    go_on();
+  } else if (left || body.later_steps >= wait) {
+    go_on();
   }
 }
 
@@ -88,7 +109,8 @@ void World::Impl::wake_one(Body& body) {
   body.awake = true;
   body.lost_support = {};
   body.still_steps = body.loose_steps = 0;
-  body.still_pose = body.loose_pose = body.world_from_com;
+  body.still_pose = body.loose_pose = body.later_pose = body.world_from_com;
+  body.later_steps = 0;
 }
 
 void World::Impl::fall_asleep(int index) {
@@ -170,10 +192,8 @@ void World::Impl::note_lost_contact(const Contact& contact) {
 void World::Impl::wake_changed() {
   lost_support.resize(data.bodies.size());
   unsettled.clear();
-  for (std::int32_t index : active) {
-    const Pair& pair = data.pairs[index];
-    if (sweeps[pair.body_a].awake && (pair.body_b == kGround || sweeps[pair.body_b].awake)) continue;
-    const Contact& contact = data.contacts[index];
+  each_solved([this](const Contact& contact) {
+    if (sweeps[contact.body_a].awake && (contact.body_b == kGround || sweeps[contact.body_b].awake)) return;
     for (std::int32_t i : {contact.body_a, contact.body_b}) {
       if (i == kGround) continue;
       const Body& body = data.bodies[i];
@@ -183,7 +203,7 @@ void World::Impl::wake_changed() {
       lost_support[i] += contact.normal * (i == contact.body_a ? change : -change);
       unsettled.push_back(i);
     }
-  }
+  });
   for (std::int32_t i : unsettled) {
     const Body& body = data.bodies[i];
     if (is_unbalanced(body, body.lost_support + lost_support[i])) data.wake_next[i] = 1;
@@ -213,14 +233,13 @@ void World::Impl::note_loads() {
   for (std::size_t i = 0; i < slept.size(); ++i) {
     if (slept[i]) data.bodies[i].load = 0;
   }
-  for (std::int32_t index : active) {
-    Contact& contact = data.contacts[index];
+  each_solved([this](Contact& contact) {
     for (std::int32_t i : {contact.body_a, contact.body_b}) {
       if (i == kGround || !slept[i]) continue;
       data.bodies[i].load += contact.pressed;
       contact.rest_pressed = contact.pressed;
     }
-  }
+  });
 }
 
 void World::Impl::update_sleep() {
@@ -238,7 +257,11 @@ void World::Impl::update_sleep() {
       Body& body = data.bodies[i];
       if (!body.awake) continue;
       count_still(body, reach_of(body), t.still_distance, body.still_pose, body.still_steps);
-      count_still(body, reach_of(body), t.loose_distance, body.loose_pose, body.loose_steps);
+      if (verifying) {
+        count_loose(body, reach_of(body), t.loose_distance, loose_wait);
+      } else {
+        count_still(body, reach_of(body), t.loose_distance, body.loose_pose, body.loose_steps);
+      }
       slept[i] = !verifying && (body.still_steps >= (overlapping[i] ? long_wait : wait) ||
                                 body.loose_steps >= (overlapping[i] ? long_wait : loose_wait));
     }

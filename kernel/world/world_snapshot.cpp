@@ -202,6 +202,12 @@ bool is_consistent(const World::Snapshot& s) {
   for (const RigidGroup& g : d.groups) {
     for (const std::int32_t member : g.members) fine = fine && in_range(member, d.bodies.size());
   }
+  for (const Tie& tie : d.ties) {
+    const auto is_body = [&](std::int32_t body) { return body == kGround || in_range(body, d.bodies.size()); };
+    fine = fine && in_range(tie.state.piece_a, d.bodies.size()) && is_body(tie.state.piece_b) &&
+           is_body(tie.contact.body_a) && is_body(tie.contact.body_b) && tie.contact.count <= 1 &&
+           (tie.contact.count == 0 || tie.contact.points.made());
+  }
   std::int32_t start = 0;
   for (const std::int32_t next : s.block_starts) {
     fine = fine && next >= start && next <= std::int32_t(s.simbody.size());

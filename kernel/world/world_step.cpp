@@ -104,8 +104,10 @@ void World::Impl::solve_contacts() {
   // Pieces that are stuck in each other are pushed to and fro for ever, and others with them.
   SolverSettings settings = solver_settings;
   settings.fading = lateness;
+  begin_ties();
   solver.solve(settings, data.bodies, active, data.contacts, velocities, displacements,
                solved_trees, pool);
+  end_ties();
 }
 
 // What a piece loses goes back to the only one that touches it, if that is as heavy: where two meet,
@@ -142,12 +144,11 @@ void World::Impl::clamp_ejection_velocity() {
     if (body == kGround) return;
     neighbour[body] = neighbour[body] == kNobody || neighbour[body] == other ? other : kSeveral;
   };
-  for (std::int32_t index : active) {
-    const Contact& contact = data.contacts[index];
-    if (contact.pressed <= 0) continue;
+  each_solved([&](const Contact& contact) {
+    if (contact.pressed <= 0) return;
     note(contact.body_a, contact.body_b);
     note(contact.body_b, contact.body_a);
-    if (contact.body_b == kGround) continue;
+    if (contact.body_b == kGround) return;
     const Body &a = data.bodies[contact.body_a], &b = data.bodies[contact.body_b];
     float &of_a = fastest[contact.body_a], &of_b = fastest[contact.body_b];
     for (int i = 0; i < contact.count; ++i) {
@@ -155,7 +156,7 @@ void World::Impl::clamp_ejection_velocity() {
       of_a = std::max(of_a, norm(b.linear + cross(b.angular, p.from_b)));
       of_b = std::max(of_b, norm(a.linear + cross(a.angular, p.from_a)));
     }
-  }
+  });
   for (std::int32_t i : awake_bodies) {
     if (!may_kick(data.bodies[i])) continue;
     const float after = norm(outwards(velocities[i].linear));
@@ -179,6 +180,15 @@ float World::Impl::calc_lateness() const {
   return std::clamp((seconds - kPatience) / (kPatienceEnds - kPatience), 0.0F, 1.0F);
 }
 
+// The share of its spin that a piece keeps in a step of a verification that lasts. spin: its length.
+float World::Impl::keep_of_late_spin(const Body& body, const Vec3f& angular, float spin) const {
+  if (spin <= 0) return 1;
+  const Vec3f axis = angular * (1 / spin);
+  const float torque = kRollingLever * float(body.mass * options.gravity);
+  const float stopped = torque * dot(axis, body.inverse_inertia * axis) * float(options.step);
+  return std::max(0.0F, 1 - lateness * (kLateDamping + stopped / spin));
+}
+
 // The speeds after the step, and the extra rates that make up its displacement.
 void World::Impl::set_rates(std::size_t index) {
   const Body& body = data.bodies[index];
@@ -189,7 +199,7 @@ void World::Impl::set_rates(std::size_t index) {
     const float spin = norm(m.angular);
     const float most = std::max(kFreeSpin, norm(body.angular) + kSpinGain);
     if (spin > most) m.angular *= most / spin;
-    if (lateness > 0 && spin < kSwingingSpin) m.angular *= 1 - kLateDamping * lateness;
+    if (lateness > 0 && spin < kSwingingSpin) m.angular *= keep_of_late_spin(body, m.angular, spin);
     r.linear = Vec3(m.linear), r.angular = Vec3(m.angular);
     const double per_step = 1 / options.step;
     r.extra_linear = Vec3(displacements[index].linear) * per_step - r.linear;
@@ -247,14 +257,13 @@ void World::Impl::advance() {
 // A contact counts as touching when it carries an impulse.
 void World::Impl::update_touching() {
   for (std::int32_t i : awake_bodies) data.bodies[i].touching = false;
-  for (std::int32_t index : active) {
-    const Contact& contact = data.contacts[index];
-    if (contact.pressed <= 0) continue;
+  each_solved([this](const Contact& contact) {
+    if (contact.pressed <= 0) return;
     for (std::int32_t i : {contact.body_a, contact.body_b}) {
       if (i == kGround) continue;
       data.bodies[i].touching = data.bodies[i].has_touched = true;
     }
-  }
+  });
   touch_trees();
 }
 
@@ -287,6 +296,7 @@ void World::Impl::remove_lost() {
                         p.x * p.x + p.y * p.y <= options.lost_beyond * options.lost_beyond;
     if (!inside) lose(i);
   }
+  lose_ties();
 }
 
 void World::Impl::find_contacts() {
@@ -327,6 +337,7 @@ void World::step() {
     const Stopwatch watch(w.times.advance);
     w.advance();
     w.advance_trees();
+    w.stretch_ties();
   }
   {
     const Stopwatch watch(w.times.rest);

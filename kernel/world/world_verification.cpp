@@ -38,13 +38,12 @@ int World::Impl::mark_restless() {
 
 void World::Impl::spread_disturbance() {
   for (int ring = 1; ring <= kDisturbedContacts; ++ring) {
-    for (std::int32_t index : active) {
-      const Contact& contact = data.contacts[index];
-      if (contact.body_b == kGround || contact.pressed <= 0) continue;
+    each_solved([&](const Contact& contact) {
+      if (contact.body_b == kGround || contact.pressed <= 0) return;
       std::uint8_t &a = disturbed[contact.body_a], &b = disturbed[contact.body_b];
       if (a == ring && b == 0 && data.bodies[contact.body_b].mass > 0) b = std::uint8_t(ring + 1);
       if (b == ring && a == 0 && data.bodies[contact.body_a].mass > 0) a = std::uint8_t(ring + 1);
-    }
+    });
   }
 }
 

@@ -202,10 +202,10 @@ std::vector<float> GroundTruthMaker::albedos(const DrawnView& view) const {
   return out;
 }
 
-void GroundTruthMaker::fill(const StreamSet& streams, const DrawnView& view, Frame& frame) {
+void GroundTruthMaker::fill(const StreamSet& streams, const DrawnView& view, TruthImages& truth) {
   std::vector<std::pair<const ImageStream*, ImageValues*>> images;
   for (const ImageStream* stream : streams) {
-    ImageValues& image = frame.truth[stream->name];
+    ImageValues& image = truth[stream->name];
     image = stream->blank(view.distances.size());
     images.emplace_back(stream, &image);
     if (stream->casts_rays) rays();

@@ -11,12 +11,15 @@
 #include "render/geometry/moving_pieces.h"
 #include "render/geometry/ray_scene.h"
 #include "render/scene/camera_spec.h"
+#include "render/scene/frame.h"
 
 namespace rubble {
 
+using TruthImages = decltype(Frame::truth);
+
 // What is needed of a view that was drawn.
 struct DrawnView {
-  const ViewRays& rays;
+  const ViewRays& rays;                   // as they were drawn
   const std::vector<std::uint32_t>& ids;  // two a pixel, as VisibilityPass::ids()
   const std::vector<float>& distances;    // along the ray; NaN: nothing there; unit: m
   const ViewRays* next;                   // the next image's; null: there is none
@@ -29,7 +32,7 @@ class GroundTruthMaker {
       : scene_(scene), geometry_(geometry), threads_(threads) {}
 
   // Makes these streams of ground truth.
-  void fill(const StreamSet& streams, const DrawnView& view, Frame& frame);
+  void fill(const StreamSet& streams, const DrawnView& view, TruthImages& truth);
   // How far each pixel's surface goes, one a pixel; 0 where nothing is there or it does not stay.
   std::vector<Vec3f> shifts(const DrawnView& view) const;
   // 1 where a place in the camera body frame has a free line to the surface, 0 elsewhere.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <variant>
 
 #include "kernel/base/error.h"
 #include "render/sensors/depth_sensor.h"
@@ -34,12 +36,11 @@ std::vector<float> luminance_of(const LinearFrame& image) {  // unit: cd/m2
 }  // namespace
 
 struct Camera::State {
-  State(Renderer& r, const CameraSpec& s, Flight f, const Medium& m);
+  State(Renderer& r, const CameraSpec& s, Flight f);
 
   Renderer& renderer;
   CameraSpec spec;
   Flight flight;
-  Medium medium;
   std::shared_ptr<const LensDirections> directions;  // none: a pinhole that needs none
   ExposureControl exposure;
   std::unique_ptr<ImageSensor> sensor;  // none: an ideal image
@@ -59,25 +60,20 @@ struct Camera::State {
   ViewRays view_at(int index, double seconds_off = 0) const;
   ViewRays right_of(ViewRays view) const;
 
-  MomentNearby moment_at(int index, double seconds_off) const;
+  RenderedView open_view(int index);
+  MomentNearby moment_at(int index, double seconds_off, RenderedView& view) const;
   Frame take_ideal(int index);
   Frame take_exposed(int index);
-  int count_samples(int index, const ViewRays& view, const LinearFrame& middle,
-                    const ExposureSettings& settings) const;
+  ExposureSettings expose(int index, RenderedView& view);
+  int count_samples(int index, RenderedView& view, const ExposureSettings& settings) const;
   std::vector<float> gather_light(int index, const LinearFrame* middle, int samples, double time,
                                   bool right);
-  void add_ground_truth(int index, const ViewRays& view, Frame& frame);
-  void measure_depth(int index, const ViewRays& view, Frame& frame);
+  std::vector<float> measure_depth(int index, RenderedView& view);
   void watch(int index, Frame& frame);
 };
 
-Camera::State::State(Renderer& r, const CameraSpec& s, Flight f, const Medium& m)
-    : renderer(r),
-      spec(s),
-      flight(std::move(f)),
-      medium(m),
-      exposure(s.exposure),
-      depth_sensor(s) {
+Camera::State::State(Renderer& r, const CameraSpec& s, Flight f)
+    : renderer(r), spec(s), flight(std::move(f)), exposure(s.exposure), depth_sensor(s) {
   const Intrinsics& k = spec.intrinsics;
   const bool modelled = spec.exposure.mode != ExposureMode::ideal;
   if (spec.shutter.motion_blur && !modelled)
@@ -121,6 +117,7 @@ ViewRays Camera::State::view_at(int index, double seconds_off) const {
 }
 
 ViewRays Camera::State::right_of(ViewRays view) const {
+  view.world_from_rig = view.lamp_bearer();  // the one lamp of the pair stays where it is
   const Pose right{{}, {0, -spec.baseline, 0}};
   view.world_from_camera = view.world_from_camera * right;
   const Pose in_optical = camera_from_optical.inverse() * right * camera_from_optical;
@@ -128,53 +125,52 @@ ViewRays Camera::State::right_of(ViewRays view) const {
   return view;
 }
 
-void Camera::State::add_ground_truth(int index, const ViewRays& view, Frame& frame) {
-  if (!spec.channels.empty()) {
-    ViewRays next;
-    const bool more = index + 1 < int(flight.stamps_ns.size());
-    const bool needed = std::any_of(spec.channels.begin(), spec.channels.end(),
-                                    [](const ImageStream* s) { return s->needs_next; });
-    if (more && needed) next = view_at(index + 1);
-    renderer.add_truth(spec.channels, more ? &next : nullptr, frame);
-  }
-  if (spec.depth_sensor.type != DepthSensorType::none) measure_depth(index, view, frame);
+// With the view of the frame that follows, where a stream needs it.
+RenderedView Camera::State::open_view(int index) {
+  const bool more = index + 1 < int(flight.stamps_ns.size());
+  const bool needed = std::any_of(spec.channels.begin(), spec.channels.end(),
+                                  [](const ImageStream* s) { return s->needs_next; });
+  if (!more || !needed) return renderer.view(view_at(index));
+  const ViewRays next = view_at(index + 1);
+  return renderer.view(view_at(index), &next);
 }
 
-void Camera::State::measure_depth(int index, const ViewRays& view, Frame& frame) {
-  Frame truth;
-  renderer.add_truth({find_image_stream("normals")}, nullptr, truth);
+std::vector<float> Camera::State::measure_depth(int index, RenderedView& view) {
+  if (spec.depth_sensor.type == DepthSensorType::none) return {};
+  const auto& normals =
+      std::get<std::vector<float>>(view.truth(*find_image_stream("normals")));
   std::vector<std::uint8_t> projected;
   if (spec.depth_sensor.type == DepthSensorType::structured_light)
-    projected = renderer.line_of_sight_mask(depth_sensor.projector());
+    projected = view.line_of_sight_mask(depth_sensor.projector());
   std::vector<float> albedos;
-  if (spec.depth_sensor.reflectance <= 0) albedos = renderer.albedos();
-  const double seconds = double(view.stamp_ns - flight.stamps_ns.front()) * 1e-9;
-  const Air air = medium.at(seconds);
-  frame.measured_depth = depth_sensor.measure(
-      {view, renderer.distances(), truth.get<float>("normals"), projected, albedos, air, index});
+  if (spec.depth_sensor.reflectance <= 0) albedos = view.albedos();
+  return depth_sensor.measure(
+      {view.rays(), view.distances(), normals, projected, albedos, view.air(), index});
 }
 
 Frame Camera::State::take_ideal(int index) {
-  const ViewRays view = view_at(index);
-  Frame frame = renderer.render(view, index);
-  add_ground_truth(index, view, frame);
-  if (spec.baseline > 0) frame.rgb_right = renderer.render_stereo_right(right_of(view));
+  RenderedView view = open_view(index);
+  std::vector<float> measured = measure_depth(index, view);
+  const ViewRays right = right_of(view.rays());
+  const float exposed = view.exposure();
+  Frame frame = std::move(view).into_frame(index, spec.channels);
+  frame.measured_depth = std::move(measured);
+  if (spec.baseline > 0) frame.rgb_right = renderer.view(right).rgb_at(exposed);
   return frame;
 }
 
-// Where camera and surfaces are then; the frame's own view was drawn last.
-MomentNearby Camera::State::moment_at(int index, double seconds_off) const {
-  const ViewRays view = view_at(index, seconds_off);
-  return {view.world_from_camera, renderer.shifts(view.stamp_ns)};
+// Where camera and surfaces of the frame's own view are then.
+MomentNearby Camera::State::moment_at(int index, double seconds_off, RenderedView& view) const {
+  const ViewRays then = view_at(index, seconds_off);
+  return {then.world_from_camera, view.shifts(then.stamp_ns)};
 }
 
 // One more than the pixels of motion, and odd, so that the middle one is the frame's own instant.
-int Camera::State::count_samples(int index, const ViewRays& view, const LinearFrame& middle,
-                                 const ExposureSettings& settings) const {
+int Camera::State::count_samples(int index, RenderedView& view, const ExposureSettings& settings) const {
   if (!spec.shutter.motion_blur) return 1;
   const double half = 0.5 * settings.time;
-  const double motion =
-      longest_motion(view, middle.distance, moment_at(index, -half), moment_at(index, half));
+  const double motion = longest_motion(view.rays(), view.distances(), moment_at(index, -half, view),
+                                       moment_at(index, half, view));
   if (motion < kSharp) return 1;
   const int wanted = int(std::min(std::ceil(motion), 1000.0)) + 1;
   const int most = spec.shutter.most_samples - (spec.shutter.most_samples % 2 ? 0 : 1);
@@ -199,30 +195,37 @@ std::vector<float> Camera::State::gather_light(int index, const LinearFrame* mid
   return sum;
 }
 
-Frame Camera::State::take_exposed(int index) {
-  const ViewRays view = view_at(index);
-  const LinearFrame middle = renderer.render_linear(view);
-  Frame frame;
-  frame.index = index;
-  frame.stamp_ns = view.stamp_ns;
-  frame.intrinsics = spec.intrinsics;
-  frame.world_from_camera = view.world_from_camera;
-  frame.depth = middle.depth;
-  add_ground_truth(index, view, frame);
+// The settings of this frame, from what the one before measured.
+ExposureSettings Camera::State::expose(int index, RenderedView& view) {
   if (index > 0) {
-    const std::int64_t elapsed = view.stamp_ns - flight.stamps_ns[std::size_t(index) - 1];
+    const std::int64_t elapsed = view.rays().stamp_ns - flight.stamps_ns[std::size_t(index) - 1];
     exposure.follow(last_mean, double(elapsed) * 1e-9);
   }
   if (!settled) {
     const double share = saturation_share(exposure.settings(), spec.exposure.f_number);
-    exposure.settle([&](double factor) { return sensor->mean_of(middle.rgb, share * factor); });
+    exposure.settle([&](double factor) { return sensor->mean_of(view.radiance(), share * factor); });
     settled = true;
   }
-  const ExposureSettings settings = exposure.settings();
+  return exposure.settings();
+}
+
+Frame Camera::State::take_exposed(int index) {
+  RenderedView view = open_view(index);
+  const ExposureSettings settings = expose(index, view);
+  const int samples = count_samples(index, view, settings);
+  Frame frame;
+  frame.index = index;
+  frame.stamp_ns = view.rays().stamp_ns;
+  frame.intrinsics = spec.intrinsics;
+  frame.world_from_camera = view.rays().world_from_camera;
   frame.exposure_s = settings.time;
-  const int samples = count_samples(index, view, middle, settings);
+  view.make_truth(spec.channels);
+  for (const ImageStream* stream : spec.channels) frame.truth[stream->name] = view.truth(*stream);
+  frame.measured_depth = measure_depth(index, view);
+  LinearFrame middle = std::move(view).into_linear_frame();
   const auto counts =
       sensor->count(gather_light(index, &middle, samples, settings.time, false), settings, index, 0);
+  frame.depth = std::move(middle.depth);
   frame.rgb = sensor->develop(counts);
   if (spec.baseline > 0)
     frame.rgb_right = sensor->develop(sensor->count(
@@ -243,12 +246,14 @@ void Camera::State::watch(int index, Frame& frame) {
     view.directions = directions;
     view.world_from_camera = pose_at(stamp, end, flight.world_from_camera[std::size_t(index)]);
     view.world_from_rig = rig_of(view.world_from_camera);
-    const LinearFrame image = renderer.render_linear(view);
-    events->see(stamp, luminance_of(image), frame.events);
     const std::size_t next = std::size_t(index) + (stamp == end ? 1 : 0);
     const std::size_t goal = std::min(next, flight.stamps_ns.size() - 1);
-    return Watched{view, image.distance, {view.world_from_camera, {}},
-                   {flight.world_from_camera[goal], renderer.shifts(flight.stamps_ns[goal])}};
+    RenderedView seen = renderer.view(view);
+    std::vector<Vec3f> shifts = seen.shifts(flight.stamps_ns[goal]);
+    LinearFrame image = std::move(seen).into_linear_frame();
+    events->see(stamp, luminance_of(image), frame.events);
+    return Watched{view, std::move(image.distance), {view.world_from_camera, {}},
+                   {flight.world_from_camera[goal], std::move(shifts)}};
   };
   if (index == 0) {
     watched = look(end);
@@ -266,8 +271,8 @@ void Camera::State::watch(int index, Frame& frame) {
   }
 }
 
-Camera::Camera(Renderer& renderer, const CameraSpec& spec, Flight flight, const Medium& medium)
-    : state_(std::make_unique<State>(renderer, spec, std::move(flight), medium)) {}
+Camera::Camera(Renderer& renderer, const CameraSpec& spec, Flight flight)
+    : state_(std::make_unique<State>(renderer, spec, std::move(flight))) {}
 
 Camera::~Camera() = default;
 

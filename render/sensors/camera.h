@@ -10,7 +10,6 @@
 
 #include <memory>
 
-#include "render/media/medium.h"
 #include "render/renderer.h"
 #include "render/scene/camera_spec.h"
 #include "render/sensors/flight.h"
@@ -19,9 +18,8 @@ namespace rubble {
 
 class Camera {
  public:
-  // The renderer must outlive the camera. medium: what the scene's air is. Throws RunError for a
-  // specification that contradicts itself.
-  Camera(Renderer& renderer, const CameraSpec& spec, Flight flight, const Medium& medium = {});
+  // The renderer must outlive the camera. Throws RunError for a specification that contradicts itself.
+  Camera(Renderer& renderer, const CameraSpec& spec, Flight flight);
   ~Camera();
 
   int frames() const;

@@ -116,6 +116,10 @@ void add_building(Schema& k, BuildingSpec& b) {
   k.value("pile.building.column_bars", b.column_bars, "Steel, as a share of the section.").between(0, 0.06);
   k.value("pile.building.beam_bars", b.beam_bars, "Steel, as a share of the section.").between(0, 0.06);
   k.value("pile.building.slab_bars", b.slab_bars, "Steel, as a share of the section.").between(0, 0.06);
+  k.value("pile.building.continuity", b.continuity,
+          "Share of the bars that hold pieces together when the concrete between them has failed, until "
+          "they tear; 0: what breaks falls.")
+      .between(0, 1);
   k.choice("pile.building.infill", b.infill, {"none", "brick", "block"},
            "Walls between the outer columns.");
   k.value("pile.building.infill_thickness", b.infill_thickness, "Of these walls.").between(0.08, 0.5).unit("m");
@@ -124,6 +128,19 @@ void add_building(Schema& k, BuildingSpec& b) {
       .between(0.3, 3)
       .unit("m");
   k.value("pile.building.roughness", b.roughness, "How far cuts leave a regular grid.").between(0, 0.45);
+}
+
+void add_vehicle(Schema& k, StrikingVehicle& v) {
+  k.group("pile.building.cause.vehicle", "Drives into a column of the ground storey; mass 0: there is none.");
+  k.value("pile.building.cause.vehicle.mass", v.mass, "Of the vehicle.").between(0, 100000).unit("kg");
+  k.value("pile.building.cause.vehicle.speed", v.speed, "At the impact.").between(0, 60).unit("m/s");
+  k.value("pile.building.cause.vehicle.direction_deg", v.direction_deg, "In which it drives, from X towards Y.")
+      .between(-360, 360)
+      .unit("degree");
+  k.value("pile.building.cause.vehicle.stiffness", v.stiffness, "Of its front.").between(1e4, 1e7).unit("N/m");
+  k.value("pile.building.cause.vehicle.height", v.height, "Of its bumper.").between(0.2, 3).unit("m");
+  k.value("pile.building.cause.vehicle.i", v.i, "The column, along X, from 0 at the lowest x.").between(0, 8);
+  k.value("pile.building.cause.vehicle.j", v.j, "The column, along Y, from 0 at the lowest y.").between(0, 8);
 }
 
 void add_cause(Schema& k, CollapseCause& c) {
@@ -148,10 +165,25 @@ void add_cause(Schema& k, CollapseCause& c) {
   k.value("pile.building.cause.shake_direction_deg", c.shake_direction_deg, "From X towards Y.")
       .between(-360, 360)
       .unit("degree");
+  k.value("pile.building.cause.accelerogram", c.accelerogram,
+          "Instead of a synthetic motion: accelerations at even steps, scaled so that the largest is `shake`.")
+      .between(-1e6, 1e6);
+  k.value("pile.building.cause.accelerogram_step", c.accelerogram_step, "Between accelerations.")
+      .between(0.001, 1)
+      .unit("s");
   k.value("pile.building.cause.blast", c.blast, "Impulse per area at 1 m, less with the square of the distance.")
       .between(0, 1e6)
       .unit("N s/m2");
   k.value("pile.building.cause.blast_at", c.blast_at, "Where.").between(-1000, 1000).unit("m");
+  add_vehicle(k, c.vehicle);
+  k.list("pile.building.cause.sinking", c.sinking, "Footings of ground columns that sink, within 2 s.");
+  k.item("pile.building.cause.sinking[].i", c.sinking, &SinkingFooting::i, "Along X, from 0 at the lowest x.")
+      .between(0, 8);
+  k.item("pile.building.cause.sinking[].j", c.sinking, &SinkingFooting::j, "Along Y, from 0 at the lowest y.")
+      .between(0, 8);
+  k.item("pile.building.cause.sinking[].depth", c.sinking, &SinkingFooting::depth, "How far it sinks.")
+      .between(0, 2)
+      .unit("m");
 }
 
 }  // namespace

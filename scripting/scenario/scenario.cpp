@@ -5,6 +5,7 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "scripting/scenario/camera_mistakes.h"
+#include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/values/value.h"
 
@@ -148,6 +149,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_density(scenario.pile.spawn_density, mistakes);
   check_terrain(scenario.pile.terrain, mistakes);
   check_cameras(scenario, mistakes);
+  check_lidars(scenario, mistakes);
   check_sensor_names(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
   check_record_settling(scenario.record_settling, mistakes);

@@ -14,7 +14,8 @@ namespace rubble::testing {
 namespace {
 
 FlightPlan plan(const SettledMission& m) {
-  return resolve_flight(m.mission.scenario, m.assets, m.state, 1);
+  PileSurvey survey(m.assets, m.state, 1);
+  return resolve_flight(m.mission.scenario, survey);
 }
 
 std::string plan_error(const SettledMission& m) {
@@ -91,7 +92,8 @@ int count_reports(const std::string& goal) {
       scene("{ box = { 1, 1, 2 }, position = { 0, 0, 1 } }",
             "plan = 'avoid', radius = 0.3, waypoints = { { position = { -3, 0, 1 } }, { position = " + goal + " } }");
   int reports = 0;
-  resolve_flight(m.mission.scenario, m.assets, m.state, 1, [&](double, const std::string&) { ++reports; });
+  PileSurvey survey(m.assets, m.state, 1);
+  resolve_flight(m.mission.scenario, survey, [&](double, const std::string&) { ++reports; });
   return reports;
 }
 
@@ -225,6 +227,27 @@ TEST(SmoothFlight, EveryBundledPlanLeadsToItsPoses) {
     const DeadReckoning found = reckon(CameraPath(plan(m).trajectory));
     EXPECT_LT(found.worst, 0.01) << name << " at " << found.at << " s of " << found.seconds;
   }
+}
+
+// Measures and a flight that ask the same of the pile share one map of its free space; another voxel is
+// another question, and who asked before changes no answer.
+TEST(PileSurvey, MakesAFreeSpaceOnceForTheSameQuestion) {
+  const SettledMission m = scene(tunnel(0.9, 0.9), "waypoints = { { position = { 0, -9, 1 } } }");
+  VoidSpaceOptions options;
+  options.voxel = 0.1;
+  PileSurvey shared(m.assets, m.state, 1), alone(m.assets, m.state, 1);
+  const double large = shared.find_voids(options, {0.3}).robots.front().volume;
+  const VoidMap& both = shared.find_voids(options, {0.2});
+  EXPECT_EQ(shared.spaces_made(), 1);
+  ASSERT_EQ(both.robots.size(), 2u);
+  EXPECT_EQ(both.robots.front().volume, large);
+  EXPECT_EQ(both.robots.back().volume, alone.find_voids(options, {0.2}).robots.front().volume);
+  EXPECT_GT(both.robots.back().volume, large);
+  options.voxel = 0.08;
+  shared.find_voids(options, {});
+  EXPECT_EQ(shared.spaces_made(), 2);
+  shared.find_voids(options, {0.2});
+  EXPECT_EQ(shared.spaces_made(), 2) << "a space that was made without robots serves them later";
 }
 
 // Two dead-end tunnels: a wide short one (larger) and a narrow long one (deeper).

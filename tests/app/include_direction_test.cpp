@@ -108,7 +108,8 @@ Allowed stack(const Prefixes& rooms, const Prefixes& others) {
 const Allowed kRender = stack(
     {"render/scene/", "render/streams/", "render/gl/", "render/camera/", "render/materials/", "render/geometry/",
      "render/lighting/", "render/media/", "render/raster/", "render/passes/",
-     "render/transport/", "render/reference/", "render/renderer.", "render/sensors/"},
+     "render/transport/", "render/reference/", "render/view/", "render/renderer.", "render/sensors/",
+     "render/lidar/"},
     {"kernel/base/"});
 
 const Allowed kIo = stack(
@@ -203,7 +204,7 @@ const std::map<std::string, Prefixes> kDoors{
     {"SimTK", {"kernel/multibody/"}},
     {"xxhash.h", {"kernel/base/"}},
     {"openssl/", {"kernel/base/"}},
-    {"embree3/", {"kernel/queries/query_tree.cpp", "render/geometry/ray_"}},
+    {"embree3/", {"kernel/queries/query_tree.cpp", "render/geometry/ray_", "render/lidar/lidar_world.cpp"}},
     {"EGL/", {"render/gl/"}},
     {"GL/", {"render/gl/"}},
     {"assimp/", {"io/mesh/mesh_file.cpp"}},

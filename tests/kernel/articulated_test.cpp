@@ -1,62 +1,23 @@
-// Articulated debris in the world: closed forms, conservation, yielding, breaking.
+// How articulated debris moves: closed forms, conservation, friction.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "kernel/base/error.h"
-#include "kernel/world/world.h"
-#include "scenes.h"
+#include "articulated_scene.h"
 
 namespace rubble {
 namespace {
 
 using testing::at;
+using testing::awake_options;
 using testing::box_type;
+using testing::hung;
+using testing::joint_of;
+using testing::kG;
+using testing::make_chain;
+using testing::make_world;
 using testing::run;
 using testing::turned;
-
-constexpr double kG = 9.81;
-const Quat kAboutY{std::sqrt(0.5), -std::sqrt(0.5), 0, 0};  // takes Z to Y
-
-WorldOptions awake_options() {
-  WorldOptions options;
-  options.sleeping = false;
-  return options;
-}
-
-// `count` boxes of size x, y, z along -Z or X, joined end to end; link 0 is a small block.
-AssemblyType make_chain(int count, double length, bool along_x, const JointType& joint) {
-  AssemblyType chain;
-  chain.name = "chain";
-  chain.links.push_back({0, {}, 1});
-  const Vec3 step = along_x ? Vec3{length, 0, 0} : Vec3{0, 0, -length};
-  const Quat turn = along_x ? Quat{} : turned({0, 1, 0}, 1.5707963267948966);
-  for (int i = 0; i < count; ++i) {
-    chain.links.push_back({1, {turn, step * (i + 0.5)}, 1});
-    JointType j = joint;
-    j.parent = i;
-    j.child = i + 1;
-    j.assembly_from_joint = {kAboutY, step * double(i)};
-    chain.joints.push_back(j);
-  }
-  return chain;
-}
-
-JointType joint_of(JointKind kind) {
-  JointType joint;
-  joint.kind = kind;
-  return joint;
-}
-
-World make_world(const AssemblyType& assembly, double length, const WorldOptions& options,
-                 double thickness = 0.02) {
-  return World({box_type("block", 0.1, 0.1, 0.1), box_type("bar", length, thickness, thickness)},
-               options, {assembly});
-}
-
-NewPiece hung(const Vec3& position, const Quat& rotation = {}) {
-  return at(2, position, rotation, true);
-}
 
 // Mean time between two crossings of x = 0 in the same direction.
 double measure_period(World& world, int piece, double seconds) {
@@ -243,120 +204,6 @@ TEST(Articulated, AHingeSpringSwingsAtItsFrequency) {
   EXPECT_NEAR(measure_period(world, 1, 6 * expected + 0.2), expected, 0.01 * expected);
 }
 
-// A cantilever that its spring holds, or does not: the moment of its weight is m g L / 2.
-TEST(Articulated, ASpringYieldsAtItsTorque) {
-  const double length = 1, mass = 2400 * length * 0.1 * 0.1;
-  const double moment = mass * kG * length / 2;
-  for (JointKind kind : {JointKind::hinge, JointKind::ball}) {
-    for (double share : {1.05, 0.95}) {
-      JointType joint = joint_of(kind);
-      joint.stiffness = 100 * moment;
-      joint.damping = (share > 1 ? 6 : 0.5) * moment;  // it must not swing over the yield
-      joint.yield = share * moment;
-      joint.upper = 1.2;
-      World world = make_world(make_chain(1, length, true, joint), length, awake_options(), 0.1);
-      world.add({hung({0, 0, 5})});
-      run(world, 4);
-      const double drop = 5 - world.piece(1).world_from_body.translation.z;
-      const JointState state = world.joints().at(0);
-      const double rest = kind == JointKind::hinge
-                              ? std::abs(state.rest)
-                              : 2 * std::sqrt(1 - state.rest_rotation.w * state.rest_rotation.w);
-      if (share > 1) {
-        EXPECT_NEAR(drop, 0.01 * length / 2, 1e-4) << int(kind);  // moment / stiffness
-        EXPECT_LT(rest, 1e-6);
-      } else {
-        // It droops until the arm of its weight is short enough.
-        const double angle = std::acos(0.95);
-        EXPECT_NEAR(drop, std::sin(angle) * length / 2, 0.02) << int(kind);
-        EXPECT_GT(rest, 0.25) << int(kind);
-      }
-    }
-  }
-}
-
-TEST(Articulated, AWeldBreaksAtItsLoad) {
-  const double length = 1, mass = 2400 * length * 0.1 * 0.1;
-  const double weight = mass * kG, moment = weight * length / 2;
-  const auto falls = [&](double force, double torque) {
-    JointType joint = joint_of(JointKind::weld);
-    joint.break_force = force;
-    joint.break_torque = torque;
-    World world = make_world(make_chain(1, length, true, joint), length, awake_options(), 0.1);
-    world.add({hung({0, 0, 5})});
-    run(world, 0.5);
-    const bool broke = world.joints().empty();
-    EXPECT_EQ(broke, world.piece(1).world_from_body.translation.z < 4.5);
-    return broke;
-  };
-  EXPECT_FALSE(falls(kNever, 1.001 * moment));
-  EXPECT_TRUE(falls(kNever, 0.999 * moment));
-  EXPECT_FALSE(falls(1.001 * weight, kNever));
-  EXPECT_TRUE(falls(0.999 * weight, kNever));
-}
-
-// Two beams in a row: the joint at the wall carries 2 m g L, that in the middle m g L / 2. What
-// hangs beyond the joint that breaks falls as a tree of its own.
-TEST(Articulated, ATreeSplitsWhereItBreaks) {
-  const double length = 1, moment = 2400 * 0.01 * kG * length / 2;
-  JointType weld = joint_of(JointKind::weld);
-  weld.break_torque = 2 * moment;
-  AssemblyType beam = make_chain(2, length, true, weld);
-  World world = make_world(beam, length, awake_options(), 0.1);
-  world.add({hung({0, 0, 5})});
-  run(world, 0.5);
-  ASSERT_EQ(world.joints().size(), 1u);
-  EXPECT_EQ(world.joints()[0].parent, 1);
-  EXPECT_EQ(world.joints()[0].child, 2);
-  EXPECT_EQ(world.piece(0).status, PieceStatus::fixed);
-  const Vec3 fall =
-      world.piece(1).world_from_body.translation - world.piece(2).world_from_body.translation;
-  EXPECT_NEAR(norm(fall), length, 1e-9);  // still together
-  EXPECT_NEAR(world.piece(1).linear_velocity.z, -kG * 0.5, 0.2);
-  EXPECT_EQ(world.lost_count(), 0);
-}
-
-// Two boxes that are welded 10 cm deep into each other spin until the weld breaks: they are led out of
-// each other by no more than 2 cm a step, and the way out gives them no speed.
-TEST(Articulated, PiecesOfABrokenJointComeApartAndGainNoEnergy) {
-  const double spin = 0.01;
-  WorldOptions options = awake_options();
-  options.gravity = 0;
-  AssemblyType pair;
-  pair.name = "pair";
-  pair.links = {{0, {{}, {-0.15, 0, 0}}, 1}, {0, {{}, {0.15, 0, 0}}, 1}};
-  pair.joints.emplace_back();
-  pair.joints[0].kind = JointKind::weld;
-  for (const double strength : {1.02, 0.98}) {
-    const double mass = 2400 * 0.4 * 0.2 * 0.2;
-    pair.joints[0].break_force = strength * mass * spin * spin * 0.15;
-    World world({box_type("box", 0.4, 0.2, 0.2)}, options, {pair});
-    NewPiece piece = at(1, {0, 0, 5});
-    piece.angular_velocity = {0, 0, spin};
-    piece.linear_velocity = {0, -0.15 * spin, 0};
-    world.add({piece});
-    const double energy = world.kinetic_energy();
-    double fastest = 0;
-    for (int i = 0; i < 60; ++i) {
-      const Vec3 before = world.piece(1).world_from_body.translation;
-      world.step();
-      fastest = std::max(fastest, distance(world.piece(1).world_from_body.translation, before));
-      ASSERT_LT(world.kinetic_energy(), 1.0001 * energy) << i;
-    }
-    const double apart = distance(world.piece(0).world_from_body.translation,
-                                  world.piece(1).world_from_body.translation);
-    EXPECT_EQ(world.joints().empty(), strength < 1);
-    EXPECT_LT(fastest, 0.0201);
-    EXPECT_LT(norm(world.linear_momentum()), 1e-5 * mass * spin);
-    if (strength < 1) {
-      EXPECT_LT(world.deepest_overlap().depth, 0.001);
-      EXPECT_GT(apart, 0.3 + 0.05);
-    } else {
-      EXPECT_NEAR(apart, 0.3, 1e-9);
-    }
-  }
-}
-
 // A free piece on a hinged door pushes it open; the door pushes the piece.
 TEST(Articulated, ImpulsesFlowBothWays) {
   WorldOptions options = awake_options();
@@ -374,86 +221,6 @@ TEST(Articulated, ImpulsesFlowBothWays) {
   const double turn = mass * 4 * arm / (mass * arm * arm + inertia);
   EXPECT_NEAR(std::abs(world.piece(1).angular_velocity.y), turn, 0.05 * turn);
   EXPECT_NEAR(world.piece(2).linear_velocity.z, turn * arm, 0.1 * turn * arm);
-}
-
-std::string error_of(const AssemblyType& assembly) {
-  try {
-    World({box_type("block", 0.1, 0.1, 0.1), box_type("bar", 1, 0.1, 0.1)}, {}, {assembly});
-  } catch (const InputError& error) {
-    return error.diagnostics().front().text();
-  }
-  return "";
-}
-
-// Two rods of length 1 hang from a fixed block and carry a third between them; the last joint closes
-// the loop. The rods lean by `angle`.
-AssemblyType make_parallelogram(double angle, double break_force = kNever) {
-  AssemblyType frame;
-  const Quat lean = turned({0, 1, 0}, angle), upright = turned({0, 1, 0}, 1.5707963267948966);
-  const Vec3 down = lean.rotate({0, 0, -1}), across{1, 0, 0};
-  frame.links = {{0, {}, 1},
-                 {1, {lean * upright, down * 0.5}, 1},
-                 {1, {{}, down + across * 0.5}, 1},
-                 {1, {lean * upright, across + down * 0.5}, 1}};
-  const Vec3 places[4] = {{}, down, down + across, across};
-  for (int i = 0; i < 4; ++i) {
-    JointType joint = joint_of(JointKind::hinge);
-    joint.parent = i < 3 ? i : 0;
-    joint.child = i < 3 ? i + 1 : 3;
-    joint.assembly_from_joint = {kAboutY, places[i]};
-    if (i == 3) joint.break_force = break_force;
-    frame.joints.push_back(joint);
-  }
-  return frame;
-}
-
-// w^2 = 2 g m l / (2 m l^2 / 3 + m l^2) = 1.2 g / l: the rod in the middle does not turn.
-TEST(Articulated, ALoopOfHingesSwingsAsAParallelogram) {
-  World world = make_world(make_parallelogram(0.05), 1, awake_options());
-  world.add({hung({0, 0, 5})});
-  const double expected = 2 * 3.14159265358979 / std::sqrt(1.2 * kG);
-  EXPECT_NEAR(measure_period(world, 1, 20), expected, 2e-3 * expected);
-  const auto place = [&](int piece, double along) {
-    return world.piece(piece).world_from_body * Vec3{along, 0, 0};
-  };
-  EXPECT_LT(distance(place(3, -0.5), Vec3{1, 0, 5}), 1e-4);  // the joint of the loop
-  const Vec3 level = place(2, 0.5) - place(2, -0.5);
-  EXPECT_NEAR(level.z, 0, 1e-4);
-  EXPECT_EQ(world.joints().size(), 4u);
-}
-
-// It may swing wide, and must not gain energy by that.
-TEST(Articulated, ALoopNeverGainsEnergy) {
-  World world = make_world(make_parallelogram(1.2), 1, awake_options());
-  world.add({hung({0, 0, 5})});
-  const double start = world.potential_energy(), lowest = start - 2 * world.mass(1) * kG *
-                                                                      (1 - std::cos(1.2));
-  double last = start;
-  for (int i = 0; i < 600; ++i) {
-    world.step();
-    last = world.kinetic_energy() + world.potential_energy();
-    EXPECT_LT(last, start + 0.01 * (start - lowest)) << "step " << i;
-  }
-  // Each step leaves the circle by its tangent; closing the loop again costs 3 % a second.
-  EXPECT_GT(last - lowest, 0.6 * (start - lowest));
-}
-
-// At rest the joint of the loop carries its rod and half of the one in the middle.
-TEST(Articulated, ALoopBreaksAtItsLoad) {
-  const double weight = 1.5 * 2400 * 0.02 * 0.02 * kG;
-  for (double share : {1.02, 0.98}) {
-    World world = make_world(make_parallelogram(0, share * weight), 1, awake_options());
-    world.add({hung({0, 0, 5})});
-    run(world, 1);
-    EXPECT_EQ(world.joints().size(), share > 1 ? 4u : 3u);
-    EXPECT_EQ(world.piece(3).world_from_body.translation.z < 4.4, share < 1);
-  }
-}
-
-TEST(Articulated, ALoopHasNoSpring) {
-  AssemblyType frame = make_parallelogram(0);
-  frame.joints[3].stiffness = 3;
-  EXPECT_NE(error_of(frame).find("joints[3].stiffness"), std::string::npos) << error_of(frame);
 }
 
 // An arm that dry friction holds, or lets down at (moment - friction) / inertia.
@@ -507,31 +274,6 @@ TEST(Articulated, ATreeOf200LinksFallsAndRests) {
   }
   EXPECT_LT(farthest, length);
   EXPECT_EQ(world.lost_count(), 0);
-}
-
-TEST(Articulated, RefusesWhatIsNoTree) {
-  const AssemblyType good = make_chain(2, 1, true, joint_of(JointKind::ball));
-  EXPECT_EQ(error_of(good), "");
-  AssemblyType bad = good;
-  bad.joints.pop_back();
-  EXPECT_NE(error_of(bad).find("assemblies[0].links[2]"), std::string::npos) << error_of(bad);
-  bad = good;
-  bad.joints[1].parent = 2;
-  EXPECT_NE(error_of(bad).find("listed before"), std::string::npos) << error_of(bad);
-  bad = good;
-  bad.joints[1].child = 1;
-  bad.joints[1].parent = 0;
-  EXPECT_NE(error_of(bad).find("child of one joint"), std::string::npos) << error_of(bad);
-  bad = good;
-  bad.joints.push_back(bad.joints[1]);
-  bad.joints.back().parent = bad.joints.back().child;
-  EXPECT_NE(error_of(bad).find("two links"), std::string::npos) << error_of(bad);
-  bad = good;
-  bad.links[1].type = 7;
-  EXPECT_NE(error_of(bad).find("no such type"), std::string::npos) << error_of(bad);
-  bad = good;
-  bad.joints[0].stiffness = -1;
-  EXPECT_NE(error_of(bad).find("joints[0].stiffness"), std::string::npos) << error_of(bad);
 }
 
 }  // namespace

@@ -86,11 +86,31 @@ TEST(ProofOfRest, WhoSlidesWithoutFrictionNeverPasses) {
   }
 }
 
+// What goes more slowly than the tolerance of rest may pass, whatever else goes as slowly: twenty boxes that
+// creep need not all happen to have stayed for a second at once.
+TEST(ProofOfRest, ManyThatCreepWithinTheTolerancePassTogether) {
+  PieceType box = box_type("b", 0.4, 0.4, 0.2);
+  box.friction = 0;
+  World world({box});
+  std::vector<NewPiece> pieces;
+  for (int i = 0; i < 20; ++i) pieces.push_back(at(0, {double(i), 0, 0.1}));
+  world.add(pieces);
+  run(world, 1);
+  world.begin_rest_verification();
+  for (int i = 0; i < 20; ++i) world.set_velocity(i, {0, 0.0015 + 0.00002 * double(i), 0}, {});
+  int passed = 0;
+  for (int i = 0; i < 600; ++i) {
+    world.step();
+    passed += world.rest_verified(kSpeed, kAngularSpeed) ? 1 : 0;
+  }
+  EXPECT_GT(passed, 480);
+}
+
 // A drum with weights on both sides that hang below its axis: it rocks to and fro.
-PieceType rocker_type() {
+PieceType rocker_type(double hangs = 0.12) {
   PieceType type = testing::drum_type(0.2, 0.2, 256);
   for (const double y : {-0.2, 0.2}) {
-    type.parts.push_back(testing::box_part(0.14, 0.2, 0.1, {0, y, -0.12}));
+    type.parts.push_back(testing::box_part(0.14, 0.2, 0.1, {0, y, -hangs}));
   }
   return type;
 }
@@ -121,6 +141,15 @@ TEST(ProofOfRest, WhatRocksIsBroughtToRestInTheEnd) {
       EXPECT_GT(most, 0.05);  // what a polygon loses at its corners
     }
   }
+}
+
+// The more slowly it swings of itself, the less damping makes it creep back instead.
+TEST(ProofOfRest, WhatRocksSlowlyIsNotMadeToCreep) {
+  World world({rocker_type(0.1)});
+  NewPiece rocker = at(0, {0, 0, 0.8}, turned({0, 1, 0}, 0.5));
+  rocker.placement.scale = 4;
+  world.add({rocker});
+  EXPECT_LT(prove(world, 20), 11);
 }
 
 // While one piece slides for seconds the others need not be computed; but rest is verified of all at once.

@@ -207,6 +207,60 @@ TEST(BeamTheory, SimplySupportedBeamBreaksInTheMiddle) {
   EXPECT_EQ(s.bonds[outcome.failures[0].bond].piece_b, 10);
 }
 
+// Of a force P at a L from one end the largest moment, P a (1 - a) L, is below it; of two at L/4 and at
+// 3L/4, half each, it is P L / 8 anywhere between them; of an even load W L / 8 in the middle.
+TEST(BeamTheory, SimplySupportedBeamBreaksWhereItsMomentIsLargest) {
+  const double length = 6;
+  constexpr int kPieces = 24;
+  const Structure s = build_structure({make_beam(length, 0.3, 0.5, kPieces)}, 1);
+  const double moment = 2.6e6 * 0.3 * 0.25 / 6;
+  struct Scene {
+    const char* name;
+    std::vector<std::pair<double, double>> forces;  // place and share
+    double expected, from, to;                      // load at failure; where it breaks, along x
+  };
+  std::vector<std::pair<double, double>> even;
+  for (int i = 0; i < 2 * kPieces; ++i) {
+    even.push_back({-length / 2 + (i + 0.5) * length / (2 * kPieces), 0.5 / kPieces});
+  }
+  const Scene scenes[] = {
+      {"quarter", {{-1.5, 1}}, moment / (0.25 * 0.75 * length), -1.5, -1.5},
+      {"sixth", {{-2, 1}}, moment / (1.0 / 6 * 5 / 6 * length), -2, -2},
+      {"third, other side", {{1, 1}}, moment / (1.0 / 3 * 2 / 3 * length), 1, 1},
+      {"two", {{-1.5, 0.5}, {1.5, 0.5}}, 8 * moment / length, -1.5, 1.5},
+      {"even", even, 8 * moment / length, 0, 0},
+  };
+  for (const Scene& scene : scenes) {
+    SCOPED_TRACE(scene.name);
+    const auto loads = [&](double force) {
+      std::vector<PieceLoad> l(s.pieces.size());
+      const auto put = [&](double x, double f) {
+        // A force above a joint goes to both sides of it.
+        for (const double side : {-1e-9, 1e-9}) {
+          const int piece = std::min(kPieces - 1, std::max(0, int((x + side + length / 2) / length * kPieces)));
+          l[piece].force.z += f / 2;
+          l[piece].moment.y -= (x - s.pieces[piece].centre.x) * f / 2;
+        }
+      };
+      double left = 0;
+      for (const auto& [x, share] : scene.forces) {
+        put(x, -force * share);
+        left += force * share * (length / 2 - x) / length;
+      }
+      put(-length / 2, left), put(length / 2, force - left);
+      return l;
+    };
+    const auto breaks = [&](const std::vector<PieceLoad>& l) { return !load(s, l).failures.empty(); };
+    const double limit = find_limit(0, 10 * scene.expected, loads, breaks);
+    EXPECT_NEAR(limit / scene.expected, 1, 0.05);
+    const Outcome outcome = load(s, loads(1.001 * limit), {}, 1);
+    ASSERT_FALSE(outcome.failures.empty());
+    const double place = s.bonds[outcome.failures[0].bond].section.centroid.x;
+    EXPECT_GE(place, scene.from - 1e-6);
+    EXPECT_LE(place, scene.to + 1e-6);
+  }
+}
+
 TEST(BeamTheory, DeflectionOfACantileverConverges) {
   const Structure s = build_structure({make_mast(4, 0.3, 20)}, 5);
   std::vector<PieceLoad> l(s.pieces.size());

@@ -184,8 +184,7 @@ TEST(DistortedImage, HasObjectsWhereOpenCvProjectsThem) {
   const std::vector<Intrinsics> all = lenses();
   for (Intrinsics k : {all[1], all[4], all[6]}) {
     k.width *= 3, k.height *= 3, k.fx *= 3, k.fy *= 3, k.cx *= 3, k.cy *= 3;
-    Frame frame = renderer.render(view_through(k, {}), 0);
-    renderer.add_truth(channels, nullptr, frame);
+    const Frame frame = renderer.view(view_through(k, {})).into_frame(0, channels);
     std::vector<double> u(centres.size()), v(centres.size()), n(centres.size());
     for (std::size_t i = 0; i < instances_of(frame).size(); ++i) {
       const std::uint32_t id = instances_of(frame)[i];

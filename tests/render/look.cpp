@@ -51,10 +51,12 @@ int main(int argc, char** argv) {
     Frame frame;
     for (int i = 0; i < frames; ++i) {
       const Vec3 step = (view.target - view.eye) * (0.002 * i);
-      frame = renderer.render(testing::look_at(view.eye + step, view.target),
-                              testing::pinhole(size, size, 0.6 * size), i,
-                              1000000000LL + i * 33000000LL);
-      const RenderTimes& t = renderer.times();
+      RenderedView seen = renderer.view({1000000000LL + i * 33000000LL,
+                                         testing::pinhole(size, size, 0.6 * size),
+                                         testing::look_at(view.eye + step, view.target)});
+      seen.rgb();
+      const RenderTimes t = seen.times();
+      frame = std::move(seen).into_frame(i);
       std::printf("%s %d: visibility %.1f ms (%zu triangles), resolve %.1f ms, read %.1f ms\n",
                   view.name, i, t.visibility.elapsed, t.triangles, t.resolve.elapsed,
                   t.read.elapsed);

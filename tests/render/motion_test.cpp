@@ -77,10 +77,9 @@ TEST(Motion, FlowIsThePointsOwnMotion) {
   Renderer renderer(context, scene, plain());
   const Intrinsics k = pinhole(80, 60, 70);
   const Pose now{{}, {0, 0, 3}}, then{portable::quat_from_rpy(0, 0, 0.02), {0.1, 0.05, 3}};
-  Frame frame = renderer.render(view_at(now, k, 0), 0);
   const ViewRays next = view_at(then, k, kSecond / 10);
   const StreamSet channels{find_image_stream("flow"), find_image_stream("instance")};
-  renderer.add_truth(channels, &next, frame);
+  const Frame frame = renderer.view(view_at(now, k, 0), &next).into_frame(0, channels);
   int on_slab = 0, on_ground = 0;
   for (int v = 0; v < k.height; ++v) {
     for (int u = 0; u < k.width; ++u) {
@@ -113,10 +112,9 @@ TEST(Motion, WhatWillNotBeThereHasNoFlow) {
   Renderer renderer(context, scene, plain());
   const Intrinsics k = pinhole(80, 60, 70);
   const Pose pose{{}, {0, 0, 3}};
-  Frame frame = renderer.render(view_at(pose, k, 0), 0);
   const ViewRays next = view_at(pose, k, kSecond / 10);
   const StreamSet channels{find_image_stream("flow"), find_image_stream("instance")};
-  renderer.add_truth(channels, &next, frame);
+  const Frame frame = renderer.view(view_at(pose, k, 0), &next).into_frame(0, channels);
   const std::size_t middle = 30 * 80 + 40, below = 55 * 80 + 40;
   EXPECT_EQ(instances_of(frame)[middle], 7u);
   EXPECT_TRUE(std::isnan(flow_of(frame)[middle * 2]));
@@ -150,11 +148,9 @@ Frame draw_heap(Renderer& renderer, double t, const Intrinsics& k) {
   const Pose pose = look_at({3.5, 1, 2}, {0, 0, 0.5});
   ViewRays view = view_at(pose, k, std::llround(t * 1e9));
   if (k.distortion[0] != 0) view.directions = make_lens_directions(k, 1);
-  Frame frame = renderer.render(view, 0);
   const StreamSet channels{find_image_stream("instance"), find_image_stream("label"),
                            find_image_stream("normals")};
-  renderer.add_truth(channels, nullptr, frame);
-  return frame;
+  return renderer.view(view).into_frame(0, channels);
 }
 
 TEST(Motion, IsSeenAsIfItStoodThere) {
@@ -259,13 +255,11 @@ TEST(Motion, ShiftsAreThoseOfThePoints) {
   GlContext context;
   Renderer renderer(context, scene, plain());
   const ViewRays view = view_at({{}, {0, 0, 3}}, pinhole(80, 60, 70), 0);
-  renderer.render(view, 0);
-  const std::vector<Vec3f> shifts = renderer.shifts(kSecond / 2);
+  const std::vector<Vec3f> shifts = renderer.view(view).shifts(kSecond / 2);
   EXPECT_NEAR(shifts[30 * 80 + 40].y, 0.25, 1e-6);
   EXPECT_EQ(norm(shifts[55 * 80 + 40]), 0);
   Renderer still(context, slab_scene({1, 1, 1}), plain());
-  still.render(view, 0);
-  EXPECT_TRUE(still.shifts(kSecond).empty());
+  EXPECT_TRUE(still.view(view).shifts(kSecond).empty());
 }
 
 }  // namespace

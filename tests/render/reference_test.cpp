@@ -44,9 +44,8 @@ TEST(Reference, LeavesDepthAndChannelsAsTheyAre) {
     RenderOptions options = reference(1);
     options.colour.quality = quality, options.bake_rays = 8;
     Renderer renderer(context, make_heap(40, 7), options);
-    Frame frame = renderer.render(look_at({4, 2, 1.5}, {0, 0, 0.5}), pinhole(80, 70, 60), 0, 1000000000);
-    renderer.add_truth(channels, nullptr, frame);
-    return frame;
+    return renderer.view({1000000000, pinhole(80, 70, 60), look_at({4, 2, 1.5}, {0, 0, 0.5})})
+        .into_frame(0, channels);
   };
   const Frame fast = draw(RenderQuality::fast), slow = draw(RenderQuality::reference);
   const auto bytes = [](const std::vector<float>& v) {

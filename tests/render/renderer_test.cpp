@@ -7,6 +7,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "render/materials/surface_appearance.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {

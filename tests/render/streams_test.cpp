@@ -104,8 +104,8 @@ TEST(PositionStream, LiesOnThePlanesThatAreSeen) {
   Renderer renderer(context, scene, options);
   const Intrinsics k = pinhole(64, 48, 40);
   const Pose camera{portable::quat_from_rpy(0, 0.5, 0.1), {-1, 0.3, 1.5}};
-  Frame frame = renderer.render(camera, k, 0, 0);
-  renderer.add_truth({find_image_stream("position"), find_image_stream("instance")}, nullptr, frame);
+  const Frame frame = renderer.view({0, k, camera})
+                          .into_frame(0, {find_image_stream("position"), find_image_stream("instance")});
   const auto& points = frame.get<float>("position");
   ASSERT_EQ(points.size(), frame.depth.size() * 3);
   const Vec3 normal = turn.rotate({-1, 0, 0});

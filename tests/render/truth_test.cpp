@@ -29,11 +29,9 @@ Frame draw(const Scene& scene, const Pose& pose, const Intrinsics& k, const Stre
            const Pose* next = nullptr) {
   GlContext context;
   Renderer renderer(context, scene, plain());
-  Frame frame = renderer.render(pose, k, 0, 0);
   ViewRays rays;
   if (next) rays.world_from_camera = *next;
-  renderer.add_truth(channels, next ? &rays : nullptr, frame);
-  return frame;
+  return renderer.view({0, k, pose}, next ? &rays : nullptr).into_frame(0, channels);
 }
 
 Vec3 normal_at(const Frame& frame, std::size_t i) {

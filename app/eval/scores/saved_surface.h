@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/pipeline/finished_run.h"
-#include "app/planning/void_places.h"
+#include "app/planning/pile_survey.h"
 
 namespace rubble {
 
@@ -20,10 +20,10 @@ struct SavedSurface {
   SavedSurface(const SavedSurface&) = delete;
   SavedSurface& operator=(const SavedSurface&) = delete;
 
-  FinishedRun saved;
-  AssetLibrary assets;
-  PileState pile;
-  PileGeometry geometry;
+  FinishedRun saved;      // its folder and manifest
+  AssetLibrary assets;    // that its pile is made of
+  PileState pile;         // settled
+  PileGeometry geometry;  // exact, of that pile
 };
 
 }  // namespace rubble

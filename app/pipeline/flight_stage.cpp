@@ -1,0 +1,95 @@
+// The stages that ask where a settled pile has room: the measures of its voids, and the flight.
+#include "app/measures/void_metrics.h"
+#include "app/pipeline/stages.h"
+#include "app/planning/camera_inside.h"
+#include "app/planning/flight.h"
+#include "app/support/stop.h"
+#include "io/base/atomic_file.h"
+#include "scripting/sandbox/script_file.h"
+#include "scripting/values/value.h"
+
+namespace rubble {
+namespace {
+
+// A mistake that shows only when there is a pile, with the line of its key.
+template <typename Plan>
+auto with_lines_of_script(const ResolvedMission& mission, const Plan& plan) {
+  try {
+    return plan();
+  } catch (const InputError& error) {
+    const SourceFile& script = mission.provenance.script;
+    std::vector<Diagnostic> mistakes = error.diagnostics();
+    locate(mistakes, script.path, SourceMap(script.text, "mission"));
+    throw InputError(std::move(mistakes));
+  }
+}
+
+// With what the trajectory depends on besides the script: places in voids, ways around the pile.
+// flight.json holds it.
+FlightPlan resolve(const ResolvedMission& mission, PileSurvey& survey, RunFolder& folder,
+                   RunContext& context) {
+  const bool quick = !mission.scenario.trajectory.needs_pile();
+  if (!quick) context.progress.start("flight");
+  const FlightPlan plan = with_lines_of_script(mission, [&] {
+    return resolve_flight(mission.scenario, survey, [&](double done, const std::string& what) {
+      throw_if_stopped(folder.path());
+      context.progress.update(done, what);
+    });
+  });
+  if (!quick) context.progress.finish(plan.summary.empty() ? "planned" : plan.summary);
+  if (!plan.json.empty()) {
+    write_text_file(folder.file("flight.json"), plan.json);
+    folder.add("flight.json");
+  }
+  return plan;
+}
+
+// flight: of the cameras of `flown`.
+void warn_of_cameras_inside(const ResolvedMission& mission, const Scenario& flown,
+                            const RigFlight& flight, const PileState& pile, RunContext& context) {
+  const std::vector<MountedCamera> cameras = all_cameras(flown);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    std::vector<Vec3> positions;
+    for (const Pose& pose : flight.cameras[i].world_from_camera) positions.push_back(pose.translation);
+    const auto warning = find_camera_inside(mission.assets, pile, positions);
+    if (!warning) continue;
+    const std::string who = flown.cameras.empty() ? "" : "camera `" + cameras[i].name + "`: ";
+    context.warnings.push_back(who + *warning);
+  }
+}
+
+}  // namespace
+
+Metrics measure_voids(const ResolvedMission& mission, PileSurvey& survey, const RunFolder& folder,
+                      RunContext& context) {
+  Metrics metrics;
+  const VoidScenario& asked = mission.scenario.voids;
+  if (!asked.on) return metrics;
+  context.progress.start("voids");
+  const auto report = [&](double done) {
+    context.progress.update(done, "free space");
+    throw_if_stopped(folder.path());
+    return true;
+  };
+  add_void_metrics(survey.find_voids(make_void_options(asked), {asked.radius}, report), asked.radius,
+                   metrics);
+  if (!mission.scenario.trajectory.needs_pile()) survey.forget_voids();
+  context.progress.finish(format_number(metrics["void_volume_m3"]) + " m3");
+  return metrics;
+}
+
+PlannedFlight plan_flight(const ResolvedMission& mission, const SettledPile& pile,
+                          const DrivenRobots& robots, PileSurvey& survey, RunFolder& folder, RunContext& context) {
+  const FlightPlan plan = resolve(mission, survey, folder, context);
+  survey.forget_voids();
+  PlannedFlight flight;
+  flight.flown = mission.scenario;
+  flight.flown.trajectory = plan.trajectory;
+  const std::shared_ptr<const MotionPath> ride = robots.readings.ride;
+  flight.legs = with_lines_of_script(
+      mission, [&] { return plan_legs(flight.flown, ride ? ride : plan.path, pile.track); });
+  warn_of_cameras_inside(mission, flight.flown, flight.legs.back().flight, pile.state, context);
+  return flight;
+}
+
+}  // namespace rubble

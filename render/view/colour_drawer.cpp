@@ -1,0 +1,148 @@
+#include "render/view/colour_drawer.h"
+
+#include <algorithm>
+
+#include "kernel/base/disk_cache.h"
+#include "kernel/base/portable_math.h"
+#include "render/lighting/exposure.h"
+#include "render/passes/antialias.h"
+#include "render/reference/display.h"
+#include "render/view/stopwatch.h"
+
+namespace rubble {
+
+namespace {
+
+ReferenceOptions reference_options(const RenderOptions& o, std::uint64_t seed) {
+  ReferenceOptions out;
+  out.samples = o.colour.samples, out.denoise = o.colour.denoise, out.jitter = o.antialias;
+  out.threads = o.threads, out.seed = seed;
+  out.cache_folder = o.cache_folder;
+  out.progress = o.image_progress;
+  return out;
+}
+
+std::vector<PatternImage> patterns_of(const RenderOptions& options) {
+  return make_patterns_once(DiskCache(options.cache_folder), options.texture_size, options.threads);
+}
+
+AirLamp glow_of(const LampSpec& lamp, const Pose& bearer) {
+  AirLamp glow;
+  glow.position = Vec3f(bearer * lamp.position);
+  glow.axis = Vec3f(bearer.rotation.rotate({1, 0, 0}));
+  glow.colour = lamp.on ? lamp_colour(lamp) : Vec3f();
+  glow.cone = float(1 / (1 - portable::cos(0.5 * lamp.cone_deg * portable::kPi / 180)));
+  glow.size2 = float(std::max(lamp.shape == LampShape::point ? 0.0 : 0.25 * lamp.size * lamp.size, 1e-4));
+  return glow;
+}
+
+// The first three of every `channels` values.
+template <typename T>
+std::vector<T> three_of(const std::vector<T>& values, std::size_t channels) {
+  std::vector<T> out(values.size() / channels * 3);
+  for (std::size_t i = 0; i < values.size() / channels; ++i)
+    for (std::size_t c = 0; c < 3; ++c) out[i * 3 + c] = values[i * channels + c];
+  return out;
+}
+
+ViewProjection projection_of(const ViewRays& view) {
+  return {view.world_from_camera, view.intrinsics};
+}
+
+}  // namespace
+
+ColourDrawer::ColourDrawer(LitScene& scene)
+    : scene_(scene), pool_(std::max(1, scene.options.threads)) {
+  const std::vector<PatternImage> patterns = patterns_of(scene.options);
+  resolve_ = std::make_unique<ResolvePass>(scene.gl, scene.geometry, scene.frame_light,
+                                           scene.ground_map, patterns);
+  if (scene.is_traced())
+    reference_ = std::make_unique<ReferencePass>(
+        ReferenceSurroundings{scene.scene, scene.light, patterns, scene.ground_map,
+                              scene.frame_light.wetness},
+        reference_options(scene.options, scene.seed));
+}
+
+void ColourDrawer::restart() {
+  resolve_ = std::make_unique<ResolvePass>(scene_.gl, scene_.geometry, scene_.frame_light,
+                                           scene_.ground_map, patterns_of(scene_.options));
+}
+
+FrameLight ColourDrawer::light_view(const ViewRays& view) {
+  FrameLight light = scene_.frame_light;
+  light.world_from_rig = view.world_from_rig ? &*view.world_from_rig : nullptr;
+  if (scene_.medium.clear()) return light;
+  const AirLamp glow = glow_of(light.lamp, view.lamp_bearer());
+  air_volume_.build(view, scene_.air_at(view.stamp_ns), scene_.air_light, scene_.light, &glow, pool_);
+  light.air_table = &air_volume_;
+  return light;
+}
+
+std::vector<float> ColourDrawer::trace(const ViewRays& view) const {
+  return reference_->draw(view, scene_.frame_light.lamp, scene_.air_at(view.stamp_ns));
+}
+
+float ColourDrawer::expose(const MeteredImage& metered) const {
+  return find_exposure({0.21, scene_.options.fixed_exposure}, metered);
+}
+
+void ColourDrawer::draw_traced(const ViewRays& view, std::optional<float> exposure,
+                               std::vector<std::uint8_t>& rgba, ColourImage& image) const {
+  const Intrinsics& k = view.intrinsics;
+  const std::vector<float> radiance = trace(view);
+  const Vec3f gains = white_balance(scene_.light);
+  image.exposure =
+      exposure ? *exposure : expose(meter_image(radiance, k.width, k.height, gains));
+  rgba = develop_image(radiance, k.width, k.height, gains, image.exposure);
+}
+
+void ColourDrawer::draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
+                               std::optional<float> exposure, std::vector<std::uint8_t>& rgba,
+                               ColourImage& image) {
+  const Stopwatch start;
+  const FrameLight light = light_view(view);
+  const ViewProjection projection = projection_of(view);
+  const SurfaceImages images = surfaces.images();
+  const bool metered = !exposure && scene_.options.fixed_exposure <= 0;
+  image.exposure = exposure ? *exposure
+                   : expose(metered ? resolve_->meter(projection, view.world_from_camera, images, light)
+                                    : MeteredImage());
+  resolve_->draw(projection, view.world_from_camera, images, light, image.exposure, metered);
+  scene_.gl.Finish();
+  image.resolve = start.time();
+  const Stopwatch read;
+  resolve_->read(rgba);
+  image.read = read.time();
+}
+
+ColourImage ColourDrawer::draw(const ViewRays& view, DrawnSurfaces& surfaces,
+                               std::optional<float> exposure) {
+  scene_.move_to(view.stamp_ns);
+  ColourImage image;
+  std::vector<std::uint8_t> rgba;
+  if (reference_) {
+    const Stopwatch start;
+    draw_traced(view, exposure, rgba, image);
+    image.resolve = start.time();
+  } else {
+    draw_shaded(view, surfaces, exposure, rgba, image);
+  }
+  const Stopwatch finish;
+  const Intrinsics& k = view.intrinsics;
+  if (scene_.options.antialias && !reference_)
+    smooth_edges(rgba, surfaces.depth_values(), k.width, k.height, scene_.options.threads, image.rgb);
+  else
+    image.rgb = three_of(rgba, 4);
+  image.finish = finish.time();
+  return image;
+}
+
+std::vector<float> ColourDrawer::draw_radiance(const ViewRays& view, DrawnSurfaces& surfaces) {
+  scene_.move_to(view.stamp_ns);
+  if (reference_) return trace(view);
+  return three_of(resolve_->draw_linear(projection_of(view), view.world_from_camera,
+                                        surfaces.images(), light_view(view)),
+                  4);
+}
+
+}  // namespace rubble

@@ -1,0 +1,55 @@
+// Colours of a view whose surfaces are drawn: shaded by the resolve pass, or path traced. Internal to
+// render/.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "kernel/base/parallel.h"
+#include "render/media/air_volume.h"
+#include "render/passes/resolve_pass.h"
+#include "render/reference/reference_pass.h"
+#include "render/view/lit_scene.h"
+#include "render/view/surface_drawer.h"
+
+namespace rubble {
+
+struct ColourImage {
+  std::vector<std::uint8_t> rgb;   // 3 bytes a pixel, rows from the top
+  float exposure = 0;              // what luminance in kcd/m2 was multiplied by
+  PassTime resolve, read, finish;  // as RenderTimes
+};
+
+class ColourDrawer {
+ public:
+  // The scene must outlive it.
+  explicit ColourDrawer(LitScene& scene);
+
+  // After LitScene::change().
+  void restart();
+
+  // exposure: as ColourImage's; none: metered on the view itself.
+  ColourImage draw(const ViewRays& view, DrawnSurfaces& surfaces, std::optional<float> exposure);
+  // Before exposure and tone mapping: 3 floats a pixel; unit: kcd/m2.
+  std::vector<float> draw_radiance(const ViewRays& view, DrawnSurfaces& surfaces);
+
+ private:
+  // What depends on the view: where its lamp is, and the air before it.
+  FrameLight light_view(const ViewRays& view);
+  std::vector<float> trace(const ViewRays& view) const;
+  void draw_traced(const ViewRays& view, std::optional<float> exposure,
+                   std::vector<std::uint8_t>& rgba, ColourImage& image) const;
+  void draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces, std::optional<float> exposure,
+                   std::vector<std::uint8_t>& rgba, ColourImage& image);
+  float expose(const MeteredImage& metered) const;
+
+  LitScene& scene_;
+  ThreadPool pool_;
+  AirVolume air_volume_;
+  std::unique_ptr<ResolvePass> resolve_;
+  std::unique_ptr<ReferencePass> reference_;  // none: colours are the resolve pass's
+};
+
+}  // namespace rubble

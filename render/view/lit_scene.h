@@ -1,0 +1,57 @@
+// A scene on the device, lit: all that does not depend on the camera. Internal to render/.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "render/geometry/geometry.h"
+#include "render/geometry/ground_map.h"
+#include "render/geometry/moving_pieces.h"
+#include "render/gl/gl_context.h"
+#include "render/lighting/bake.h"
+#include "render/lighting/live_light.h"
+#include "render/media/medium.h"
+#include "render/passes/resolve_pass.h"
+#include "render/passes/shadow_pass.h"
+#include "render/scene/scene.h"
+#include "render/view/render_options.h"
+
+namespace rubble {
+
+struct LitScene {
+  // progress: called with the done fraction, 0 to 1. The context must outlive the scene.
+  LitScene(GlContext& context, const Scene& scene, const RenderOptions& options,
+           const std::function<void(double)>& progress);
+  LitScene(const LitScene&) = delete;  // its parts refer to each other
+  LitScene& operator=(const LitScene&) = delete;
+
+  GlContext& context;                     // must be current in every call
+  const Gl& gl;                           // of that context
+  RenderOptions options;                  // as given
+  PreparedScene scene;                    // as it stands at the moment of the last move_to()
+  GroundMap ground_map;                   // of debris on the ground
+  MovingPieces moving;                    // what move_to() moves
+  LightSet light;                         // of the place
+  AirLight air_light;                     // baked light in the air
+  Medium medium;                          // fog, smoke and dust
+  std::int64_t start_ns;                  // the stamp at which the time of the medium is zero
+  std::uint64_t seed;                     // as Scene::seed
+  GpuGeometry geometry;                   // the scene on the device
+  std::unique_ptr<ShadowPass> shadow;     // never null
+  std::unique_ptr<LiveLight> live_light;  // where something moves
+  FrameLight frame_light;                 // without what depends on the view
+
+  // Colours are path traced: nothing of the light is baked or lit live.
+  bool is_traced() const { return options.colour.quality == RenderQuality::reference; }
+  // Puts what moves where it is at that stamp, and lights it there.
+  void move_to(std::int64_t stamp_ns);
+  // The medium at that stamp.
+  Air air_at(std::int64_t stamp_ns) const;
+  void change(const LampSpec& lamp, const AirSpec& air);
+
+ private:
+  BakedScene bake(const std::function<void(double)>& progress);
+};
+
+}  // namespace rubble

@@ -1,0 +1,143 @@
+#include "render/view/surface_drawer.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace rubble {
+
+namespace {
+
+bool draws_on_processor(const RenderOptions& options, const GlInfo& info) {
+  if (options.raster != RasterChoice::automatic) return options.raster == RasterChoice::processor;
+  for (const char* software : {"llvmpipe", "softpipe", "swrast"})
+    if (info.renderer.find(software) != std::string::npos) return true;
+  return false;
+}
+
+std::vector<float> metric_depth(const std::vector<float>& values) {
+  std::vector<float> out(values.size());
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 0; i < values.size(); ++i)
+    out[i] = values[i] > 0 ? kNearPlane / values[i] : none;
+  return out;
+}
+
+// Along the rays of a pinhole, from planar depth.
+std::vector<float> distances_of(const std::vector<float>& depth, const Intrinsics& k) {
+  std::vector<float> out(depth.size());
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const double u = double(i % std::size_t(k.width)), v = double(i / std::size_t(k.width));
+    out[i] = float(double(depth[i]) * norm(Vec3((u - k.cx) / k.fx, (v - k.cy) / k.fy, 1)));
+  }
+  return out;
+}
+
+}  // namespace
+
+SurfaceDrawer::SurfaceDrawer(LitScene& scene)
+    : scene_(scene),
+      visibility_(scene.gl, scene.scene, scene.geometry,
+                  VisibilityOptions{scene.options.occlusion_culling, scene.options.coarse_below,
+                                    draws_on_processor(scene.options, scene.context.info()),
+                                    scene.options.threads}) {}
+
+DrawnSurfaces::DrawnSurfaces(SurfaceDrawer& drawer, const ViewRays& view)
+    : drawer_(drawer), view_(view) {
+  draw();
+}
+
+DrawnSurfaces::~DrawnSurfaces() {
+  if (drawer_.in_visibility_ == this) drawer_.in_visibility_ = nullptr;
+  if (drawer_.in_rays_ == this) drawer_.in_rays_ = nullptr;
+}
+
+void DrawnSurfaces::draw() {
+  DrawnSurfaces*& drawn = view_.plain() ? drawer_.in_visibility_ : drawer_.in_rays_;
+  if (drawn) drawn->save();
+  drawn = nullptr;
+  LitScene& lit = drawer_.scene_;
+  lit.move_to(view_.stamp_ns);
+  if (view_.plain()) {
+    drawer_.visibility_.draw({view_.world_from_camera, view_.intrinsics});
+    triangles_ = drawer_.visibility_.counts().triangles;
+  } else {
+    if (!drawer_.rays_)
+      drawer_.rays_ =
+          std::make_unique<RayPass>(lit.gl, lit.scene, lit.geometry, lit.options.threads);
+    drawer_.rays_->draw(view_);
+  }
+  drawn = this;
+}
+
+bool DrawnSurfaces::in_pass() const {
+  return drawer_.in_visibility_ == this || drawer_.in_rays_ == this;
+}
+
+// Another drawing might name another triangle where two lie at the very same depth, so the images
+// are kept. Rays have no history: casting them again gives the same.
+void DrawnSurfaces::save() {
+  ids(), planar_depth(), distances();
+  saved_depth_values_ = depth_values();
+}
+
+void DrawnSurfaces::upload() {
+  const Gl& gl = drawer_.scene_.gl;
+  const int width = view_.intrinsics.width, height = view_.intrinsics.height;
+  saved_ids_ = make_target(gl, GL_RG32UI, width, height);
+  saved_depth_ = make_target(gl, GL_R32F, width, height);
+  gl.TextureSubImage2D(saved_ids_.name(), 0, 0, 0, width, height, GL_RG_INTEGER, GL_UNSIGNED_INT,
+                       ids_.data());
+  gl.TextureSubImage2D(saved_depth_.name(), 0, 0, 0, width, height, GL_RED, GL_FLOAT,
+                       saved_depth_values_.data());
+  check_gl(gl, "bringing back the surfaces of a view");
+}
+
+SurfaceImages DrawnSurfaces::images() {
+  if (!view_.plain()) {
+    if (!in_pass()) draw();
+    const RayPass& rays = *drawer_.rays_;
+    return {rays.ids(), rays.depth(), rays.depth_values(), &rays.lens_rays(), &rays.row_poses()};
+  }
+  if (in_pass())
+    return {drawer_.visibility_.ids(), drawer_.visibility_.depth(),
+            drawer_.visibility_.depth_values()};
+  if (!saved_ids_) upload();
+  return {saved_ids_, saved_depth_, saved_depth_values_};
+}
+
+const std::vector<std::uint32_t>& DrawnSurfaces::ids() {
+  if (ids_.empty())
+    ids_ = view_.plain() ? drawer_.visibility_.read_ids() : drawer_.rays_->id_values();
+  return ids_;
+}
+
+const std::vector<float>& DrawnSurfaces::depth_values() {
+  if (!in_pass()) return saved_depth_values_;
+  return view_.plain() ? drawer_.visibility_.depth_values() : drawer_.rays_->depth_values();
+}
+
+const std::vector<float>& DrawnSurfaces::planar_depth() {
+  if (planar_depth_.empty())
+    planar_depth_ = view_.plain() ? metric_depth(depth_values()) : drawer_.rays_->planar_depth();
+  return planar_depth_;
+}
+
+std::vector<float> DrawnSurfaces::take_planar_depth() {
+  planar_depth();
+  return std::move(planar_depth_);
+}
+
+std::vector<float> DrawnSurfaces::take_distances() {
+  distances();
+  return std::move(distances_);
+}
+
+const std::vector<float>& DrawnSurfaces::distances() {
+  if (distances_.empty())
+    distances_ =
+        view_.plain() ? distances_of(planar_depth(), view_.intrinsics) : drawer_.rays_->distances();
+  return distances_;
+}
+
+}  // namespace rubble

@@ -1,0 +1,70 @@
+// Which triangle each pixel of a view shows: by rasterising where that will do, by casting rays
+// otherwise. Internal to render/.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/camera/view_rays.h"
+#include "render/passes/ray_pass.h"
+#include "render/passes/resolve_pass.h"
+#include "render/passes/visibility_pass.h"
+#include "render/view/lit_scene.h"
+
+namespace rubble {
+
+class DrawnSurfaces;
+
+class SurfaceDrawer {
+ public:
+  explicit SurfaceDrawer(LitScene& scene);
+
+ private:
+  friend class DrawnSurfaces;
+
+  LitScene& scene_;
+  VisibilityPass visibility_;
+  std::unique_ptr<RayPass> rays_;  // made when a view first needs it
+  // Whose the images of the two passes are now.
+  DrawnSurfaces* in_visibility_ = nullptr;
+  DrawnSurfaces* in_rays_ = nullptr;
+};
+
+// The surfaces of one view. They lie in the images of a pass until that pass draws another view, which
+// saves them first.
+class DrawnSurfaces {
+ public:
+  // Draws. The drawer must outlive the surfaces.
+  DrawnSurfaces(SurfaceDrawer& drawer, const ViewRays& view);
+  ~DrawnSurfaces();
+  DrawnSurfaces(const DrawnSurfaces&) = delete;
+  DrawnSurfaces& operator=(const DrawnSurfaces&) = delete;
+
+  // On the device; until another view is drawn.
+  SurfaceImages images();
+  const std::vector<std::uint32_t>& ids();            // two a pixel, as VisibilityPass::ids()
+  const std::vector<float>& depth_values();           // near / Z; as RayPass has them for rays
+  const std::vector<float>& planar_depth();           // NaN: nothing; unit: m
+  const std::vector<float>& distances();              // along the rays; NaN: nothing; unit: m
+  // The same, given away.
+  std::vector<float> take_planar_depth();
+  std::vector<float> take_distances();
+  std::size_t triangles() const { return triangles_; }  // drawn; 0: rays were cast
+
+ private:
+  void draw();
+  void save();
+  bool in_pass() const;
+  void upload();
+
+  SurfaceDrawer& drawer_;
+  ViewRays view_;
+  std::size_t triangles_ = 0;
+  std::vector<std::uint32_t> ids_;  // each empty until first asked for
+  std::vector<float> planar_depth_, distances_;
+  std::vector<float> saved_depth_values_;
+  GlTexture saved_ids_, saved_depth_;
+};
+
+}  // namespace rubble

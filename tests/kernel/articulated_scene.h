@@ -1,0 +1,24 @@
+// Chains and frames of jointed boxes, for the tests of articulated debris.
+#pragma once
+
+#include <cmath>
+
+#include "kernel/world/world.h"
+#include "scenes.h"
+
+namespace rubble::testing {
+
+inline constexpr double kG = 9.81;
+inline const Quat kAboutY{std::sqrt(0.5), -std::sqrt(0.5), 0, 0};  // takes Z to Y
+
+WorldOptions awake_options();
+// `count` boxes of size x, y, z along -Z or X, joined end to end; link 0 is a small block.
+AssemblyType make_chain(int count, double length, bool along_x, const JointType& joint);
+JointType joint_of(JointKind kind);
+// A world of one assembly of blocks (type 0) and bars (type 1) of that length and thickness; unit: m.
+World make_world(const AssemblyType& assembly, double length, const WorldOptions& options,
+                 double thickness = 0.02);
+// The assembly, its root fixed.
+NewPiece hung(const Vec3& position, const Quat& rotation = {});
+
+}  // namespace rubble::testing

@@ -200,7 +200,7 @@ TEST(Robots, ARobotInASlabIsAMistakeThatSaysWhereToPutIt) {
              "    position = { 0, 0, 0.12 } } } }\n");
   const Outcome run = run_rubble("run " + (scratch / "m.lua") + kQuick + (scratch / "out"));
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_NE(run.err.find("m.lua:4: robots[1].position: "), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("m.lua:3: robots[1].position: "), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("stands 0.08"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("(piece 0)"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("move it by {0.000, 0.000, 0.08"), std::string::npos) << run.err;

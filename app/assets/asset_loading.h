@@ -9,8 +9,8 @@
 namespace rubble {
 
 struct FoundAsset {
-  const AssetPack* pack;
-  const Asset* asset;
+  const AssetPack* pack;  // that it is of; never null
+  const Asset* asset;     // in that pack; never null
 };
 
 // An articulated asset needs its pieces in the library. Throws InputError for a file that cannot be

@@ -42,8 +42,9 @@ void count_scans(const Scenario& s, double duration, FlightSize& size) {
   }
 }
 
-double frames_of_settling(const Scenario& s) {
-  return std::floor(duration_of_settling(s) * s.record_settling.rate_hz.value_or(s.trajectory.rate_hz)) + 1;
+double frames_of_settling(const Scenario& s, const MountedCamera& camera) {
+  const double usual = s.record_settling.rate_hz.value_or(s.trajectory.rate_hz);
+  return std::floor(duration_of_settling(s) * camera.rate_hz.value_or(usual)) + 1;
 }
 
 }  // namespace
@@ -70,9 +71,9 @@ FlightSize size_of_flight(const Scenario& s, std::size_t camera) {
   if (s.imu.on && camera == 0) size.imu_samples = size.frames * s.imu.model.rate_hz / path.rate_hz;
   if (camera == 0) count_scans(s, size.frames / path.rate_hz, size);
   if (!s.record_settling.on) return size;
-  size.frames += frames_of_settling(s);
+  size.frames += frames_of_settling(s, all_cameras(s)[camera]);
   if (camera == 0) count_scans(s, duration_of_settling(s), size);
-  if (s.imu.on) size.imu_samples += duration_of_settling(s) * s.imu.model.rate_hz + 1;
+  if (s.imu.on && camera == 0) size.imu_samples += duration_of_settling(s) * s.imu.model.rate_hz + 1;
   return size;
 }
 

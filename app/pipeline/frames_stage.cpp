@@ -141,7 +141,7 @@ Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen
 }
 
 PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Seen& seen,
-                        int frames_before, GlContext& gl, const RunFolder& folder,
+                        const std::vector<int>& frames_before, GlContext& gl, const RunFolder& folder,
                         RunContext& context, Taking& taking) {
   context.progress.start(leg.window ? "settling scene" : "scene");
   PreparedLeg prepared;
@@ -157,12 +157,12 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
   return prepared;
 }
 
-// Of each camera, over all legs.
-std::vector<int> count_frames(const std::vector<Leg>& legs) {
+// Of each camera, over the first so many legs.
+std::vector<int> count_frames(const std::vector<Leg>& legs, std::size_t count) {
   std::vector<int> frames(legs.front().flight.cameras.size());
-  for (const Leg& leg : legs)
+  for (std::size_t leg = 0; leg < count; ++leg)
     for (std::size_t i = 0; i < frames.size(); ++i)
-      frames[i] += int(leg.flight.cameras[i].stamps_ns.size());
+      frames[i] += int(legs[leg].flight.cameras[i].stamps_ns.size());
   return frames;
 }
 
@@ -191,11 +191,11 @@ void record(const PlannedFlight& flight, const ResolvedMission& mission, const S
   const PileState& pile = seen.pile.state;
   const std::vector<Leg>& legs = flight.legs;
   Taking taking;
-  PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, 0, gl, folder, context, taking);
+  PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, {}, gl, folder, context, taking);
   Recording recording = describe_recording(flight.flown, mission.assets, pile);
   add_robots(seen.robots, std::uint16_t(kFirstAssetLabel + mission.assets.types.size()), recording);
   RecorderSet set = make_recorders(
-      {flight.flown, recording, count_frames(legs), title_of(mission, pile)}, folder.path());
+      {flight.flown, recording, count_frames(legs, legs.size()), title_of(mission, pile)}, folder.path());
   folder.expect(set.names);
   add_live_recorders(set, context.options, ros_options(flight.flown.outputs, recording));
   RecordingQueue queue(std::move(set.recorders));
@@ -203,7 +203,7 @@ void record(const PlannedFlight& flight, const ResolvedMission& mission, const S
   for (std::size_t i = 0; i < legs.size(); ++i) {
     if (i > 0) {
       prepared = {};  // what the leg before took on the device comes free first
-      prepared = prepare_leg(legs[i], mission, seen, sinks.frames, gl, folder, context, taking);
+      prepared = prepare_leg(legs[i], mission, seen, count_frames(legs, i), gl, folder, context, taking);
     }
     context.progress.start(legs[i].window ? "settling frames" : "render");
     take_samples(*prepared.sensors, legs[i], sinks, folder, context, taking, recorded);

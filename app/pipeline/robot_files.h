@@ -11,7 +11,7 @@ namespace rubble {
 
 // Joints of one robot at the samples of the track.
 struct JointLog {
-  std::vector<double> times;
+  std::vector<double> times;                           // of the track, rising; unit: s
   std::vector<std::vector<RobotState::Joint>> joints;  // by time, by joint
 };
 

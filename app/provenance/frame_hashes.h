@@ -39,8 +39,8 @@ struct FrameHashes {
 // Where two runs part: the first frame that differs, and its first channel that does. `why` is a
 // sentence; empty: they are equal.
 struct FrameDifference {
-  int frame = -1;
-  std::string channel, why;
+  int frame = -1;            // row of the first that differs; -1: none
+  std::string channel, why;  // of that frame; a few words; empty: no difference
 };
 // Whether a channel is one value or more a pixel.
 bool is_picture(const std::string& channel);

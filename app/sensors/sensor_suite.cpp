@@ -30,7 +30,7 @@ class CameraSensor : public Sensor {
       : flight_(flight.cameras[std::size_t(number)]),
         mounted_(mounted),
         number_(number),
-        first_frame_(begin.frame),
+        first_frame_(begin.frames.empty() ? 0 : begin.frames[std::size_t(number)]),
         start_ns_(flown.start_ns),
         path_(flight.path),
         camera_(renderer, spec_of(flown, mounted, begin, threads), flight_) {}

@@ -16,7 +16,7 @@ namespace rubble {
 // How a leg of a recording goes on from the one before.
 struct SensorBegin {
   std::uint64_t noise_seed = 0;  // of all sensors
-  int frame = 0;                 // number of each camera's first frame
+  std::vector<int> frames;       // number of each camera's first frame; empty: 0
 };
 
 // All sensors that ride on one rig, merged by stamp. At equal stamps inertial units come before LiDARs,

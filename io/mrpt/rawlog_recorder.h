@@ -22,7 +22,7 @@ namespace rubble {
 struct RawlogOptions {
   int gzip_level = 0;         // 0 to 9; 1 halves the file and takes 3.5 times the CPU time
   double depth_unit = 0.001;  // of the stored integers, up to 65535 of them; unit: m; > 0
-  Recording recording;
+  Recording recording;        // what is recorded, and under which names
 };
 
 // Throws RunError when `path` cannot be created.

@@ -78,9 +78,9 @@ struct LidarRecord {
 struct Recording {
   std::string rig = "camera_link";       // TF: what flies the trajectory
   std::vector<CameraRecord> cameras{1};  // at least one
-  std::vector<ImuRecord> imus;
+  std::vector<ImuRecord> imus;           // none where the mission has no inertial unit
   std::vector<LidarRecord> lidars;
-  Legend legend;  // where a stream of ground truth has one
+  Legend legend;                         // where a stream of ground truth has one
 
   bool has_legend() const;  // whether any camera gives such a stream
   // The same with one of the cameras alone, as the first.

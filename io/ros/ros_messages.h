@@ -18,7 +18,7 @@
 namespace rubble::ros {
 
 struct MessageType {
-  const char* package;
+  const char* package;      // "sensor_msgs"
   const char* name;         // ROS 1: "package/name"; ROS 2: "package/msg/name"
   const char* md5;          // ROS 1
   const char* definition1;  // of ROS 1, with all types in it
@@ -32,8 +32,8 @@ std::string type_name(const MessageType& type, Version version);
 
 struct Header {
   std::uint32_t sequence = 0;  // ROS 1 alone
-  std::int64_t stamp_ns = 0;
-  std::string frame;
+  std::int64_t stamp_ns = 0;   // simulation time; unit: ns
+  std::string frame;           // frame_id
 };
 
 std::string clock(Version version, std::int64_t stamp_ns);
@@ -53,8 +53,8 @@ std::string pose_stamped(Version version, const Header& header, const Pose& pose
 // Each takes coordinates of `child` to `parent`. What is latched must be one message: a late subscriber
 // gets only the last.
 struct Transform {
-  std::string child;
-  Pose pose;
+  std::string child;     // child_frame_id
+  Pose pose;             // parent_from_child; unit: m
   std::string parent{};  // empty: the header's frame
 };
 std::string transforms(Version version, const Header& header, const std::vector<Transform>& list);

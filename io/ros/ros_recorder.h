@@ -46,9 +46,9 @@ enum class RosPictures {
 };
 
 struct RosOptions {
-  RosDepth depth = RosDepth::millimetres;
-  RosPictures pictures = RosPictures::raw;
-  Recording recording;
+  RosDepth depth = RosDepth::millimetres;   // encoding of depth images
+  RosPictures pictures = RosPictures::raw;  // compression of pictures
+  Recording recording;                      // what is recorded, and under which names
 };
 
 // A file that holds ROS messages.

@@ -148,10 +148,11 @@ struct Collapse::Impl {
   // The bars of what broke hold on.
   void tie(const std::vector<BondFailure>& failures) {
     for (const BondFailure& f : failures) {
-      if (f.hinge) continue;
+      if (f.hinge || f.mode == FailureMode::compression) continue;  // crushed: its bars have buckled
       for (TieState t : find_remaining_bars(structure, structure.bonds[f.bond], options.continuity)) {
         t.piece_a += first;
         if (t.piece_b != kFoundation) t.piece_b += first;
+        if (f.mode == FailureMode::shear) t.bending = 0;  // what slides is not held sideways
         world.add_tie(t);
         ++report.ties;
       }

@@ -287,7 +287,8 @@ std::vector<ContactImpulse> World::contact_impulses() const {
   for (const Tie& tie : data.ties) {
     const Contact& contact = tie.contact;
     if (!(contact.pressed > 0)) continue;
-    const Vec3 on_b = Vec3(contact.normal) * double(contact.pressed);
+    const Vec3 on_b = Vec3(contact.normal) * double(contact.pressed) +
+                      Vec3(contact.friction_impulse) * kSubsteps;
     const auto note = [&](std::int32_t piece, std::int32_t other, const Vec3f& arm, const Vec3& impulse) {
       if (piece == kGround || impl_->acting(piece).group < 0) return;
       ContactImpulse c;

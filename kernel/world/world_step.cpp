@@ -332,7 +332,6 @@ void World::step() {
     const Stopwatch watch(w.times.rest);
     w.update_touching();
     w.clamp_ejection_velocity();
-    w.bend_ties();
   }
   {
     const Stopwatch watch(w.times.advance);

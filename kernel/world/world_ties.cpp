@@ -17,6 +17,9 @@ constexpr double kSteps = 2;  // of such parting, as contacts may speed them up;
 constexpr double kShortest = 1e-6;  // between anchors, for a direction; unit: m
 // The order of ties stays the same unless one moves by more than this; see sort_by_height(). unit: m
 constexpr float kOrderDistance = 0.1F;
+// Sideways a bent bar bears this share of its pull: 1 kN m of bars over 0.3 m bear most of what hangs on
+// them. Without it what hangs swings for ever. unit: 1
+constexpr float kSideways = 0.2F;
 constexpr float kYields = 0.999F;  // of what it may give in a substep; unit: 1
 
 // The share of the step for which a tie pulls that is torn within it: what parts fast is gone after less
@@ -45,17 +48,45 @@ Vec3f World::Impl::find_anchor(std::int32_t piece, const Vec3& anchor) const {
 double World::Impl::pose_tie(Tie& tie) const {
   Contact& c = tie.contact;
   ContactPoint& p = c.points[0];
-  p.from_a = find_anchor(tie.state.piece_a, tie.state.anchor_a);
-  p.from_b = find_anchor(tie.state.piece_b, tie.state.anchor_b);
-  const Vec3 a = data.bodies[c.body_a].world_from_com.translation + Vec3(p.from_a);
-  const Vec3 b = c.body_b == kGround ? tie.state.anchor_b
-                                     : data.bodies[c.body_b].world_from_com.translation + Vec3(p.from_b);
+  const Vec3 centre_a = data.bodies[c.body_a].world_from_com.translation;
+  const Vec3 centre_b = c.body_b == kGround ? Vec3{} : data.bodies[c.body_b].world_from_com.translation;
+  const Vec3 a = centre_a + Vec3(find_anchor(tie.state.piece_a, tie.state.anchor_a));
+  const Vec3 b = centre_b + Vec3(find_anchor(tie.state.piece_b, tie.state.anchor_b));
   const double length = distance(a, b);
+  // Both act in the middle of the bar: what holds it sideways gives no momentum to the pair.
+  const Vec3 middle = (a + b) * 0.5;
+  p.from_a = Vec3f(middle - centre_a), p.from_b = Vec3f(middle - centre_b);
   if (length > kShortest) c.normal = Vec3f((a - b) * (1 / length));
   p.separation = float(tie.state.length - length) + solver_settings.rest_gap;
   const float z = float(std::max(a.z, b.z));
   if (std::abs(z - tie.order) > kOrderDistance) tie.order = z;
   return length;
+}
+
+// Bars that are taut bend as the pieces turn against each other, and yield as they do: a moment brakes that
+// turning. It is given before the solution, which then keeps the bars' lengths.
+void World::Impl::bend_ties() {
+  const float step = float(options.step);
+  for (const Tie& tie : data.ties) {
+    const Contact& c = tie.contact;
+    if (!tie.solved || !(c.points[0].normal_impulse > 0) || !(tie.state.bending > 0)) continue;
+    const Body& a = data.bodies[c.body_a];
+    const bool a_moves = a.awake && a.simbody_index >= 0;
+    const bool b_moves = c.body_b != kGround && data.bodies[c.body_b].awake &&
+                         data.bodies[c.body_b].simbody_index >= 0;
+    Vec3f turning, of_a, of_b;
+    if (a_moves) turning += velocities[c.body_a].angular;
+    if (b_moves) turning -= velocities[c.body_b].angular;
+    const float speed = norm(turning);
+    if (!(speed > 0)) continue;
+    const Vec3f axis = turning * (1 / speed);
+    if (a_moves) of_a = a.inverse_inertia * axis;
+    if (b_moves) of_b = data.bodies[c.body_b].inverse_inertia * axis;
+    const float gives = dot(axis, of_a + of_b);
+    const float impulse = std::min(float(tie.state.bending) * step, speed / gives);
+    if (a_moves) velocities[c.body_a].angular -= of_a * impulse;
+    if (b_moves) velocities[c.body_b].angular += of_b * impulse;
+  }
 }
 
 // Those that are taut, or may become so, go behind the contacts: what hangs is solved from above.
@@ -98,6 +129,7 @@ void World::Impl::begin_ties() {
     c.most = float(tie.state.strength * step / solver_settings.substeps * lasts);
     order.push_back({-tie.order, std::int32_t(i)});
   }
+  bend_ties();
   std::sort(order.begin(), order.end());
   for (const auto& [height, i] : order) {
     active.push_back(std::int32_t(data.contacts.size()));
@@ -117,43 +149,15 @@ void World::Impl::end_ties() {
   tie_order.clear();
 }
 
-// Bars that are taut bend as the pieces turn against each other, and yield as they do: a moment brakes that
-// turning, as friction does.
-void World::Impl::bend_ties() {
-  const float step = float(options.step);
-  for (const Tie& tie : data.ties) {
-    const Contact& c = tie.contact;
-    if (!tie.solved || !(c.pressed > 0) || !(tie.state.bending > 0)) continue;
-    const Body& a = data.bodies[c.body_a];
-    const bool a_moves = a.awake && a.simbody_index >= 0;
-    const bool b_moves = c.body_b != kGround && data.bodies[c.body_b].awake &&
-                         data.bodies[c.body_b].simbody_index >= 0;
-    Vec3f turning, of_a, of_b;
-    if (a_moves) turning += velocities[c.body_a].angular;
-    if (b_moves) turning -= velocities[c.body_b].angular;
-    const float speed = norm(turning);
-    if (!(speed > 0)) continue;
-    const Vec3f axis = turning * (1 / speed);
-    if (a_moves) of_a = a.inverse_inertia * axis;
-    if (b_moves) of_b = data.bodies[c.body_b].inverse_inertia * axis;
-    const float gives = dot(axis, of_a + of_b);
-    const float impulse = std::min(float(tie.state.bending) * step, speed / gives);
-    const auto brake = [&](std::int32_t body, const Vec3f& change) {
-      velocities[body].angular += change;
-      displacements[body].angular += change * step;
-    };
-    if (a_moves) brake(c.body_a, of_a * -impulse);
-    if (b_moves) brake(c.body_b, of_b * impulse);
-  }
-}
-
 // What yielded is longer by as much as its anchors are now too far apart, and tears when nothing is left.
 void World::Impl::stretch_ties() {
   if (data.ties.empty()) return;
   for (Tie& tie : data.ties) {
-    if (!tie.solved || tie.contact.highest < kYields * tie.contact.most) continue;
+    if (!tie.solved || !(tie.contact.pressed > 0)) continue;
     const double longer = pose_tie(tie) - tie.state.length;
     if (!(longer > 0)) continue;
+    const bool yields = tie.contact.highest >= kYields * tie.contact.most;
+    if (!yields) continue;
     tie.state.length += longer;
     data.tie_energy += tie.state.strength * std::min(longer, tie.state.stretch);
     tie.state.stretch -= longer;
@@ -187,6 +191,7 @@ void World::Impl::add_tie(const TieState& state) {
   tie.state = state;
   tie.contact.count = 1;
   tie.contact.has_normal = true;
+  tie.contact.friction = state.bending > 0 ? kSideways : 0.0F;
   tie.contact.points.make();
   data.ties.push_back(std::move(tie));
 }

@@ -13,10 +13,10 @@ namespace rubble {
 
 struct PreparedVertex {
   Vec3f position;  // in the mesh; unit: m
-  Vec3f normal;
+  Vec3f normal;    // unit length, mesh frame
   // The bake points that lend it their light, and their weights, which add up to 1.
   std::array<std::uint16_t, 4> bake_points{};
-  std::array<float, 4> bake_weights{};
+  std::array<float, 4> bake_weights{};  // range: 0 to 1
 };
 
 struct PreparedTriangle {
@@ -29,7 +29,7 @@ struct Cluster {
   std::uint32_t first_triangle = 0, triangle_count = 0;  // of PreparedTriangle
   Vec3f centre;  // of a box and of a sphere around it, mesh frame; unit: m
   Vec3f half;    // of the box's sides
-  float radius = 0;
+  float radius = 0;  // of that sphere; unit: m
   Vec3f cone_axis;         // mean normal
   float cone_cosine = -1;  // smallest cosine between a normal and the axis; -1: never culled
 };
@@ -44,13 +44,13 @@ struct PreparedLevel {
 };
 
 struct PreparedMesh {
-  std::vector<PreparedVertex> vertices;  // of all levels
-  std::vector<PreparedTriangle> triangles;
-  std::vector<Cluster> clusters;
-  std::vector<PreparedLevel> levels;  // finest first
-  std::vector<BakePoint> bake_points;  // where light is computed
-  Vec3f centre, half;  // of a box around it; unit: m
-  float radius = 0;    // of a sphere about the same centre
+  std::vector<PreparedVertex> vertices;     // of all levels
+  std::vector<PreparedTriangle> triangles;  // of all levels, by cluster
+  std::vector<Cluster> clusters;            // of all levels, by level
+  std::vector<PreparedLevel> levels;        // finest first
+  std::vector<BakePoint> bake_points;       // where light is computed
+  Vec3f centre, half;                       // of a box around it; unit: m
+  float radius = 0;                         // of a sphere about the same centre
 };
 
 // Throws RunError for a surface name that is no known look, naming it and the known ones.

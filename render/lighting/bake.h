@@ -13,10 +13,10 @@
 namespace rubble {
 
 struct BakeOptions {
-  int threads = 1;  // the result does not depend on it
-  int rays = 64;    // a bake point; range: 8 to 1024
-  int bounces = 3;  // between surfaces
-  std::uint64_t seed = 0;
+  int threads = 1;         // the result does not depend on it
+  int rays = 64;           // a bake point; range: 8 to 1024
+  int bounces = 3;         // between surfaces
+  std::uint64_t seed = 0;  // of the directions of rays
 };
 
 // Light scattered in the air, on a grid over the pieces and a little around them.
@@ -41,7 +41,7 @@ struct AirLight {
 
 struct BakedScene {
   std::vector<BakedLight> vertices;  // one a vertex of each placed mesh, in the order of first_light
-  AirLight air;
+  AirLight air;                      // of the same light
 };
 
 // Every vertex and all air as if nothing stood around: the sky alone.

@@ -30,8 +30,8 @@ inline constexpr int kPatternCount = 14;
 
 // How a surface reflects. Colours are linear-light albedos (0 to 1).
 struct SurfaceAppearance {
-  const char* name;
-  Pattern pattern;
+  const char* name;   // as meshes name it: "concrete_cast"
+  Pattern pattern;    // of its texture
   Vec3f dark, light;  // albedo where the texture is darkest and brightest
   Vec3f accent;       // albedo of what the texture's mask picks out: stains, grains, mortar
   float tile;         // side of one repetition; unit: m

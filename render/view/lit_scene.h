@@ -26,19 +26,19 @@ struct LitScene {
   LitScene(const LitScene&) = delete;  // its parts refer to each other
   LitScene& operator=(const LitScene&) = delete;
 
-  GlContext& context;
-  const Gl& gl;
-  RenderOptions options;
-  PreparedScene scene;  // as it stands at the moment of the last move_to()
-  GroundMap ground_map;
-  MovingPieces moving;
-  LightSet light;
-  AirLight air_light;
-  Medium medium;
-  std::int64_t start_ns;  // the stamp at which the time of the medium is zero
-  std::uint64_t seed;
-  GpuGeometry geometry;
-  std::unique_ptr<ShadowPass> shadow;
+  GlContext& context;                     // must be current in every call
+  const Gl& gl;                           // of that context
+  RenderOptions options;                  // as given
+  PreparedScene scene;                    // as it stands at the moment of the last move_to()
+  GroundMap ground_map;                   // of debris on the ground
+  MovingPieces moving;                    // what move_to() moves
+  LightSet light;                         // of the place
+  AirLight air_light;                     // baked light in the air
+  Medium medium;                          // fog, smoke and dust
+  std::int64_t start_ns;                  // the stamp at which the time of the medium is zero
+  std::uint64_t seed;                     // as Scene::seed
+  GpuGeometry geometry;                   // the scene on the device
+  std::unique_ptr<ShadowPass> shadow;     // never null
   std::unique_ptr<LiveLight> live_light;  // where something moves
   FrameLight frame_light;                 // without what depends on the view
 

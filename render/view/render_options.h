@@ -21,7 +21,7 @@ struct RenderOptions {
   int bake_rays = 64;      // a bake point; range: 8 to 1024
   int shadow_size = 4096;  // side of the main light's shadow map; unit: texel
   int texture_size = 512;  // side of the procedural textures; a power of two
-  RasterChoice raster = RasterChoice::automatic;
+  RasterChoice raster = RasterChoice::automatic;  // the image is the same but for ties of depth
   bool occlusion_culling = true;  // false: draws all that is in the view; the image is the same
   double coarse_below = 0;    // allow coarser levels for triangles about this small; unit: pixel;
                               // 0: the finest always, so that depth is that of the true surface

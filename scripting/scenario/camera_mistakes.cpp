@@ -155,9 +155,6 @@ void check_cameras(const Scenario& scenario, std::vector<Diagnostic>& mistakes) 
     check_camera(camera, at + ".", at + ".", mistakes);
     check_colour(camera.camera.colour, scenario.cameras.front(), at, mistakes);
   }
-  if (scenario.record_settling.on)
-    mistakes.push_back({"", 0, "record_settling.on", "contradicts cameras", "a mission with `camera`",
-                        "several cameras", ""});
 }
 
 void check_sensor_names(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {

@@ -81,7 +81,7 @@ struct PileScenario {
 };
 
 struct LightScenario {
-  LightSpec spec;
+  LightSpec spec;  // as the mission states it
   // Draw the direction from the seed; then neither spec.rpy_deg nor the sun's place is used.
   bool random_rotation = false;
   // Draw the position from the box around spec.position of these full edge lengths.

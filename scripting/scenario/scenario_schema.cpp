@@ -46,7 +46,7 @@ void add_settle(Schema& k, SettleOptions& o) {
   k.value("settle.lost_below", o.lost_below, "A piece lower than this has left the world.")
       .between(-1000, -0.01)
       .unit("m");
-  k.value("settle.lost_beyond", o.lost_beyond, "Likewise farther than this from the Z axis.")
+  k.value("settle.lost_beyond", o.lost_beyond, "A piece farther than this from the Z axis has left the world.")
       .above(0, 10000)
       .unit("m");
 }
@@ -193,11 +193,12 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
       .above(0, 1000)
       .unit("m/s");
   k.value("trajectory.max_acceleration", t.limits.max_acceleration,
-          "Likewise, also in bends; straight legs then nearly stop at their corners.")
+          "Slows the path down where it accelerates more, also in bends; straight legs then nearly stop at their "
+          "corners.")
       .above(0, 10000)
       .unit("m/s2");
   k.value("trajectory.max_turn_rate_deg", t.limits.max_turn_rate_deg,
-          "Likewise where the view turns faster.")
+          "Slows the path down where the view turns faster.")
       .above(0, 36000)
       .unit("degree/s");
   k.value("trajectory.max_jerk", t.limits.max_jerk,
@@ -286,11 +287,11 @@ void add_record_settling(Schema& k, RecordSettlingScenario& r) {
       .between(0, 86400)
       .unit("s");
   k.value("record_settling.rate_hz", r.rate_hz,
-          "Frames per second; not given: those of the trajectory.")
+          "Frames per second of cameras without a rate of their own; not given: those of the trajectory.")
       .between(0.001, 1000)
       .unit("Hz");
   k.value("record_settling.position", r.position,
-          "Where the camera stands; not given: where its flight begins.")
+          "Where the camera stands, or the rig of several; not given: where its flight begins.")
       .between(-1000, 1000)
       .unit("m");
   k.value("record_settling.look_at", r.look_at, "The point in the middle of its view.")

@@ -32,11 +32,11 @@ struct VoidPlace {
     deepest,   // the farthest that the sphere gets from the entrances
     widest,    // where the largest sphere fits
   };
-  double radius = 0.2;  // of the sphere that must enter; unit: m; range: 0.02 to 10
-  int rank = 1;         // 1: the first of the voids in this order that it can enter
-  Order order = Order::volume;
-  Point point = Point::entrance;
-  double distance = 1;  // unit: m; range: 0 to 100
+  double radius = 0.2;            // of the sphere that must enter; unit: m; range: 0.02 to 10
+  int rank = 1;                   // 1: the first of the voids in this order that it can enter
+  Order order = Order::volume;    // by which voids are ranked, largest first
+  Point point = Point::entrance;  // which place of the void
+  double distance = 1;            // unit: m; range: 0 to 100
   // Outside is what a sphere of this radius reaches from the sky; unit: m; range: 0.2 to 10
   double outside_radius = 2;
 };
@@ -66,15 +66,15 @@ Waypoint default_view();
 
 struct TrajectorySpec {
   double rate_hz = 30;  // frames per second of simulation time; range: 0.001 to 1000
-  Interpolation interpolation = Interpolation::automatic;
+  Interpolation interpolation = Interpolation::automatic;  // between waypoints
   double speed = 0.5;  // where a waypoint has neither t nor speed; unit: m/s; range: > 0
   // At least one; a single one gives a single frame.
   std::vector<Waypoint> waypoints{default_view()};
-  Plan plan = Plan::ghost;
-  double radius = 0.1;  // of the sphere that is the camera's body; unit: m; range: 0.005 to 10
+  Plan plan = Plan::ghost;  // what happens where the path meets the pile
+  double radius = 0.1;      // of the sphere that is the camera's body; unit: m; range: 0.005 to 10
   // The whole path takes this long instead of what its times and speeds add up to; unit: s; > 0
   std::optional<double> duration;
-  SpeedLimits limits;
+  SpeedLimits limits;  // kept by slowing down; none by default
   // The path is averaged over about this long, in place and in view, until it is smooth enough for an
   // inertial unit: the knots of SmoothPath. 0: not at all. Not given: see flown_trajectory(),
   // max_jerk and rest_at_ends. unit: s; range: 0 to 2
@@ -86,8 +86,8 @@ struct TrajectorySpec {
 };
 
 struct CameraPose {
-  std::int64_t stamp_ns = 0;
-  Pose world_from_camera;  // camera body: X forward, Y left, Z up
+  std::int64_t stamp_ns = 0;  // simulation time; unit: ns
+  Pose world_from_camera;     // camera body: X forward, Y left, Z up
 };
 
 // The camera's pose at any time, not only at the frames'.

@@ -60,6 +60,7 @@ struct Catenary {
       tie.length = 0.2 + kSlack;
       tie.strength = strength;
       tie.stretch = kStretch;
+      tie.bending = 100;
       world.add_tie(tie);
     }
   }
@@ -82,9 +83,13 @@ TEST(Catenary, BridgesWhereItsBarsAreStrongEnoughAndFallsWhereNot) {
   const double sagged = 5 - strong.middle();
   EXPECT_GT(sagged, 0.8 * Catenary::sag(Catenary::kSlack));
   EXPECT_LT(sagged, 1.1 * Catenary::sag(Catenary::kSlack + Catenary::kStretch));
-  // H = W L / (8 d) in the middle.
-  const double pull = strong.world.tie_force(Catenary::kJoints / 2);
-  EXPECT_NEAR(pull / (strong.weight * Catenary::kSpan / (8 * sagged)), 1, 0.15);
+  // H = W L / (8 d) in the middle, in the mean: long chains tremble.
+  double pull = 0;
+  for (int i = 0; i < 120; ++i) {
+    strong.world.step();
+    pull += strong.world.tie_force(Catenary::kJoints / 2) / 120;
+  }
+  EXPECT_NEAR(pull / (strong.weight * Catenary::kSpan / (8 * (5 - strong.middle()))), 1, 0.15);
   Catenary weak(0.8 * Catenary(1).stopping_strength(Catenary::kJoints));
   weak.run(4);
   EXPECT_LT(int(weak.world.ties().size()), Catenary::kJoints);
@@ -128,6 +133,7 @@ struct Tower {
     leg.bars.steel.rupture_rotation = toughness;
     Member plate = leg;
     plate.kind = MemberKind::slab, plate.size = {2.2, 2.2, kPlate};
+    plate.bars = {};
     for (int k = 0; k < kFloors; ++k) {
       const double bottom = k * (kLeg + kPlate);
       leg.name = "leg of storey " + std::to_string(k);
@@ -147,8 +153,7 @@ struct Tower {
       if (bond.piece_b == kFoundation) taken += calc_breaking_energy(bond.section);
     }
   }
-  // How far the lowest floor came down; unit: m.
-  double fall(CollapseReport& report) const {
+  void run(CollapseReport& report) const {
     World world(structure.types);
     Collapse collapse(world, structure, 0, {});
     for (int i = 0; i < 240; ++i) {
@@ -157,12 +162,6 @@ struct Tower {
       collapse.end_step();
     }
     report = collapse.report();
-    double lowest = 1e9;
-    for (std::size_t i = 0; i < structure.pieces.size(); ++i) {
-      if (structure.members[structure.pieces[i].member].kind != MemberKind::slab) continue;
-      lowest = std::min(lowest, world.piece(int(i)).world_from_body.translation.z);
-    }
-    return kLeg + kPlate / 2 - lowest;
   }
 };
 
@@ -173,8 +172,10 @@ TEST(Pancake, GoesOnOrIsArrestedAsTheEnergySays) {
   const Tower breaks(0.01 * ratio / 3), holds(0.01 * ratio * 3);
   EXPECT_GT(breaks.brought, 2 * breaks.taken);
   EXPECT_LT(holds.brought, 0.5 * holds.taken);
-  EXPECT_GT(breaks.fall(weak), 1) << weak.broken << " broken";
-  EXPECT_LT(holds.fall(tough), 0.05) << tough.broken << " broken";
+  breaks.run(weak);
+  holds.run(tough);
+  EXPECT_EQ(weak.broken, weak.bonds) << "the legs of both storeys, at both ends";
+  EXPECT_EQ(tough.broken, 0);
   EXPECT_GT(weak.energy_taken, 0);
 }
 

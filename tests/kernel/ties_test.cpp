@@ -183,8 +183,8 @@ TEST(Ties, BrakeTheTurningOfWhatHangsOnThem) {
   NewPiece spinning = at(0, {0, 0, 4});
   spinning.angular_velocity = {0, 0, 6};
   world.add({at(1, {0, 0, 5.15}, true), spinning});
-  world.add_tie({0, 1, {0, 0, -0.15}, {0, 0, 0.2}, 0.8, 1e6, 0.05, 2});
-  const double inertia = world.mass(1) * 0.16 / 6, expected = 6 * inertia / 2;
+  world.add_tie({0, 1, {0, 0, -0.15}, {0, 0, 0.2}, 0.8, 1e6, 0.05, 20});
+  const double inertia = world.mass(1) * 0.16 / 6, expected = 6 * inertia / 20;
   double time = 0;
   while (std::abs(world.piece(1).angular_velocity.z) > 0.01 && time < 60) world.step(), time += kStep;
   EXPECT_NEAR(time / expected, 1, 0.05);

@@ -24,10 +24,11 @@ std::uint16_t to_half(float x) {
 }
 
 float from_half(std::uint16_t half) {
-  const int exponent = half >> 10 & 31;
-  const float mantissa = float(half & 1023);
-  const float size = exponent ? std::ldexp(1024 + mantissa, exponent - 25)
-                              : std::ldexp(mantissa, -24);
+  const std::uint32_t exponent = half >> 10 & 31u, mantissa = half & 1023u;
+  const std::uint32_t bits = (exponent + 112) << 23 | mantissa << 13;
+  float size;
+  std::memcpy(&size, &bits, sizeof size);
+  if (exponent == 0) size = float(mantissa) * 5.9604644775390625e-8f;  // 2^-24
   return half & 0x8000u ? -size : size;
 }
 

@@ -13,11 +13,15 @@ namespace rubble {
 namespace {
 
 constexpr float kPi = float(portable::kPi);
-constexpr int kSide = 112;           // of the map of distances; a direction is about 1.3 degrees wide
-constexpr float kReach = 14;         // of the lamp; unit: m
+constexpr int kSide = 80;            // of the map of distances; a direction is about 1.9 degrees wide
+constexpr float kReach = 10;         // of the lamp's light, and of what comes of it; unit: m
+constexpr float kFade = 2;           // over which it ends; unit: m
 constexpr float kNear = 0.03f;       // what lies so little behind what the map says is lit; unit: m
 constexpr float kSlack = 0.03f;      // the same, as a share of the distance
 constexpr float kMostAgain = 0.6f;   // share of light that comes back from a bounce, at most
+
+// Of light so far from the lamp.
+float kept_at(float away) { return std::clamp((kReach - away) / kFade, 0.0f, 1.0f); }
 
 // The octahedral map of all directions.
 Vec3f direction_of(int x, int y) {
@@ -100,24 +104,25 @@ void LampBounce::light_points(const PlacedLamp& lamp) {
       if (facing <= 0 || away2 > kReach * kReach || away2 < 1e-6f) continue;
       const float away = std::sqrt(away2);
       if (away > distance_towards(way) * (1 + kSlack) + kNear) continue;
-      const float kept = std::exp(-extinction_ * away) * facing / (away * kPi);
+      const float kept = kept_at(away) * std::exp(-extinction_ * away) * facing / (away * kPi);
       radiance_[i] = multiply(links_.albedos[i], lamp.illuminance(lamp.position, points_[i].position)) * kept;
     }
   });
 }
 
-LampBounce::Arrived LampBounce::gather(std::size_t point, bool vector) const {
+// last: with the direction; before, every other ray will do.
+LampBounce::Arrived LampBounce::gather(std::size_t point, bool last) const {
   const std::uint32_t* links = links_.seen.data() + point * BakeLinks::kPerPoint;
   Arrived out;
   int rays = 0;
-  for (std::size_t k = 0; k < BakeLinks::kPerPoint; ++k) {
+  for (std::size_t k = 0; k < BakeLinks::kPerPoint; k += last ? 1 : 2) {
     if (links[k] == BakeLinks::kNoRay) continue;
     ++rays;
     if (links[k] == BakeLinks::kDark) continue;
     const Vec3f& light = radiance_[links[k]];
     if (light.y <= 0) continue;
     out.colour += light;
-    if (!vector) continue;
+    if (!last) continue;
     const Vec3f way = points_[links[k]].position - points_[point].position;
     const Vec3f w = way * (1 / std::max(norm(way), 1e-4f));
     out.vector += w * (luminance(light) / std::max(dot(w, points_[point].normal), 0.35f));
@@ -128,7 +133,7 @@ LampBounce::Arrived LampBounce::gather(std::size_t point, bool vector) const {
   return out;
 }
 
-void LampBounce::pass_on() {
+void LampBounce::pass_on(const Vec3f& lamp) {
   const auto over_seen = [&](const auto& work) {
     parallel_for(seen_.size(), threads_, [&](std::size_t k) {
       const std::size_t first = first_point_[seen_[k]];
@@ -136,7 +141,8 @@ void LampBounce::pass_on() {
       for (std::size_t i = first; i < first + count; ++i) work(i);
     });
   };
-  over_seen([&](std::size_t i) { arrived_[i] = gather(i, false); });
+  const auto kept = [&](std::size_t i) { return kept_at(distance(points_[i].position, lamp)); };
+  over_seen([&](std::size_t i) { arrived_[i] = kept(i) > 0 ? gather(i, false) : Arrived(); });
   // What comes back of light that was thrown back once: the mean over all light, in order, so that the
   // number of threads does not matter.
   double before = 0, after = 0;
@@ -152,7 +158,11 @@ void LampBounce::pass_on() {
   over_seen([&](std::size_t i) {
     radiance_[i] += multiply(links_.albedos[i], arrived_[i].colour) * (1 / (kPi * (1 - again)));
   });
-  over_seen([&](std::size_t i) { arrived_[i] = gather(i, true); });
+  over_seen([&](std::size_t i) {
+    if (kept(i) <= 0) return;  // dark already
+    arrived_[i] = gather(i, true);
+    arrived_[i].colour *= kept(i), arrived_[i].vector *= kept(i);
+  });
 }
 
 void LampBounce::add_to_nodes(std::size_t piece, const std::vector<BakedLight>& base) {
@@ -177,7 +187,7 @@ const std::vector<BakedLight>& LampBounce::add_to(const std::vector<BakedLight>&
   extinction_ = extinction;
   cast_map(lamp.position);
   light_points(lamp);
-  pass_on();
+  pass_on(lamp.position);
   out_ = base;
   parallel_for(seen_.size(), threads_, [&](std::size_t k) { add_to_nodes(seen_[k], base); });
   return out_;

@@ -39,8 +39,8 @@ class LampBounce {
   float distance_towards(const Vec3f& direction) const;
   bool may_see(const PlacedMesh& piece, const PlacedLamp& lamp) const;
   void light_points(const PlacedLamp& lamp);
-  Arrived gather(std::size_t point, bool vector) const;
-  void pass_on();
+  Arrived gather(std::size_t point, bool last) const;
+  void pass_on(const Vec3f& lamp);
   void add_to_nodes(std::size_t piece, const std::vector<BakedLight>& base);
 
   const PreparedScene& scene_;

@@ -15,6 +15,6 @@ namespace rubble {
 // the scene's triangles. Empty where the mission has no LiDAR.
 std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const Scene& scene,
                                                         std::uint64_t noise_seed, std::int64_t last_ns,
-                                                        std::shared_ptr<const CameraPath> path, int threads);
+                                                        std::shared_ptr<const MotionPath> path, int threads);
 
 }  // namespace rubble

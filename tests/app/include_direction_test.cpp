@@ -113,9 +113,9 @@ const Allowed kRender = stack(
     {"kernel/base/"});
 
 const Allowed kIo = stack(
-    {"io/base/", "io/image/", "io/mesh/", "io/state/", "io/recording/", "io/ros/", "io/mrpt/",
+    {"io/base/", "io/image/", "io/mesh/", "io/state/", "io/robot/", "io/recording/", "io/ros/", "io/mrpt/",
      "io/datasets/", "io/playback/", "io/live/"},
-    {"kernel/base/", "kernel/model/pile_state.h", "kernel/model/pile.h", "kernel/model/track.h",
+    {"kernel/base/", "kernel/model/pile_state.h", "kernel/model/pile.h", "kernel/model/track.h", "kernel/model/robot.h",
      "kernel/settling/settle_checkpoint.h", "render/scene/", "render/streams/image_streams.h"});
 
 const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/"},
@@ -129,7 +129,7 @@ const Allowed kScripting = stack(
 
 const Allowed kApp = stack(
     {"app/support/", "app/formats/", "app/provenance/", "app/assets/", "app/measures/",
-     "app/estimate/", "app/planning/", "app/sensors/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
+     "app/estimate/", "app/planning/", "app/sensors/", "app/robots/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
      "app/eval/scores/", "app/eval/sfm/", "app/eval/map/", "app/view/", "app/drive/", "app/command_line/",
      "app/commands/eval/", "app/commands/assets/", "app/commands/publish/", "app/commands/",
      "app/main.cpp"},
@@ -209,6 +209,8 @@ const std::map<std::string, Prefixes> kDoors{
     {"EGL/", {"render/gl/"}},
     {"GL/", {"render/gl/"}},
     {"assimp/", {"io/mesh/mesh_file.cpp"}},
+    {"urdf_parser/", {"io/robot/urdf_reader.cpp"}},
+    {"console_bridge/", {"io/robot/urdf_reader.cpp"}},
     {"pybind11/", {"python/"}},
     {"opencv2/", {"bench/images/picture_file.cpp", "io/image/", "io/recording/contact_sheet.cpp", "io/voids/void_picture.cpp"}},
     {"mrpt/", {"io/mrpt/", "io/playback/rawlog_pictures.cpp"}},
@@ -235,7 +237,7 @@ const std::map<std::string, Prefixes> kDoors{
     // The whole of it costs ten seconds in each unit: headers include json_fwd.hpp.
     {"nlohmann/json.hpp",
      {"app/batch/", "app/commands/", "app/drive/", "app/eval/", "app/pipeline/resolved_mission.cpp",
-      "app/pipeline/robot_files.cpp", "app/planning/flight.cpp", "app/provenance/", "app/report/",
+      "app/robots/robot_files.cpp", "app/planning/flight.cpp", "app/provenance/", "app/report/",
       "app/support/", "app/view/", "bench/",
       "io/datasets/frames_recorder.cpp", "io/mesh/glb_writer.cpp", "io/recording/recording.cpp",
       "io/voids/void_json.cpp", "scripting/reference/json_schema.cpp",

@@ -16,11 +16,15 @@ from rubble.envs import CrawlerNav, VoidExplore
 def measure(env, steps):
     env.reset(seed=1)
     actions = np.random.default_rng(1).uniform(-1, 1, (steps, 4))
-    start = time.perf_counter()
+    start = time.perf_counter(), time.process_time()
     for action in actions:
         if any(env.step(action)[2:4]):
             env.reset()
-    return steps / (time.perf_counter() - start)
+    return steps / (time.perf_counter() - start[0]), steps / (time.process_time() - start[1])
+
+
+def show(rates):
+    return f"{rates[0]:7.0f} steps/s, {rates[1]:7.0f} a second of processor"
 
 
 def main():
@@ -31,9 +35,9 @@ def main():
     for threads in map(int, args.threads.split(",")):
         for size in (16, 32, 64, 128):
             env = VoidExplore(size=size, threads=threads, max_steps=100, pile_seeds=[1])
-            print(f"VoidExplore, {threads} threads, {size:3d} x {size:3d}: {measure(env, args.steps):7.0f} steps/s")
+            print(f"VoidExplore, {threads} threads, {size:3d} x {size:3d}: {show(measure(env, args.steps))}")
         crawler = CrawlerNav(threads=threads, max_steps=10000, pile_seeds=[1])
-        print(f"CrawlerNav, {threads} threads, steps of 0.1 s: {measure(crawler, args.steps):7.0f} steps/s")
+        print(f"CrawlerNav, {threads} threads, steps of 0.1 s: {show(measure(crawler, args.steps))}")
     print(f"memory: {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MiB at most")
 
 

@@ -55,7 +55,7 @@ class RobotWorld {
            wanted ? std::to_string(wanted) + " or none" : "none");
     for (const double angle : flippers) expect(std::isfinite(angle), "flippers", "not a finite number", "radians");
     const Twist twist{linear, angular};
-    command_ = kind_ == Kind::rover ? drive_rover(model_, twist) : drive_crawler(model_, twist, flippers);
+    command_ = kind_ == Kind::rover ? drive_wheels(model_, twist) : drive_crawler(model_, twist, flippers);
   }
 
   // Targets of the joints; unit: rad.

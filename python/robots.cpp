@@ -52,7 +52,7 @@ class RobotWorld {
            std::to_string(model_.joints.size()) + " or none");
     const Twist twist{linear, angular};
     if (kind_ == Kind::rover) {
-      command_ = drive_rover(model_, twist);
+      command_ = drive_wheels(model_, twist);
       return;
     }
     std::vector<double> angles = flippers;

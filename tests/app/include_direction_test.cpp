@@ -57,7 +57,7 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
 
 using Prefixes = std::vector<std::string>;
 
-const Prefixes kFloors{"kernel/", "render/", "io/", "scripting/", "assets/", "app/", "bench/"};
+const Prefixes kFloors{"kernel/", "render/", "io/", "scripting/", "assets/", "app/", "bench/", "python/"};
 
 // The first so many rooms of the kernel, from the ground up, and its base: each includes only what
 // is below it.
@@ -136,7 +136,8 @@ const Allowed kApp = stack(
     {"kernel/", "render/", "io/", "scripting/", "assets/generator/"});
 
 const Allowed kTop{{"assets/generator/", {"assets/generator/", "kernel/base/"}},
-                   {"bench/", {"bench/", "kernel/", "render/", "io/", "scripting/", "app/"}}};
+                   {"bench/", {"bench/", "kernel/", "render/", "io/", "scripting/", "app/"}},
+                   {"python/", {"python/", "kernel/", "render/", "io/", "scripting/", "app/"}}};
 
 const Allowed& allowed_of(const std::string& file) {
   if (starts_with(file, "kernel/")) return kKernel;
@@ -210,6 +211,7 @@ const std::map<std::string, Prefixes> kDoors{
     {"assimp/", {"io/mesh/mesh_file.cpp"}},
     {"urdf_parser/", {"io/robot/urdf_reader.cpp"}},
     {"console_bridge/", {"io/robot/urdf_reader.cpp"}},
+    {"pybind11/", {"python/"}},
     {"opencv2/", {"bench/images/picture_file.cpp", "io/image/", "io/recording/contact_sheet.cpp", "io/voids/void_picture.cpp"}},
     {"mrpt/", {"io/mrpt/", "io/playback/rawlog_pictures.cpp"}},
     {"rosbag/", {"io/ros/"}},

@@ -23,15 +23,15 @@ struct MissionOptions {
   std::vector<std::string> overrides;  // "key=value", in order; see apply_override in schema.h
   // What rubble.include reads, by path relative to the script, instead of files.
   std::optional<std::map<std::string, std::string>> included;
-  SandboxLimits limits;
+  SandboxLimits limits;  // of memory, instructions and time
 };
 
 struct Mission {
-  Scenario scenario;
-  SourceFile script;                 // path as given, text, SHA-256
-  std::vector<SourceFile> included;  // files that the script took in by rubble.include
-  std::vector<std::string> printed;  // lines that the script printed
-  SourceMap lines;                   // where each key was written
+  Scenario scenario;                                       // complete: with every default
+  SourceFile script;                                       // path as given, text, SHA-256
+  std::vector<SourceFile> included;                        // files that the script took in by rubble.include
+  std::vector<std::string> printed;                        // lines that the script printed
+  SourceMap lines;                                         // where each key was written
   std::vector<std::pair<std::string, std::string>> drawn;  // by rubble.random: LuaSandbox::drawn
 };
 

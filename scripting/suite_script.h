@@ -25,19 +25,19 @@ enum class GoldenParts {
 };
 
 struct SuiteRun {
-  std::string name;
-  std::string mission;           // path relative to the suite's
-  std::string seeds;             // "1..5"; empty: the mission's own
-  std::vector<std::string> set;  // "key=value", as --set
-  bool pile_only = false;
-  GoldenParts golden = GoldenParts::pile;
+  std::string name;                        // unique in the suite
+  std::string mission;                     // path relative to the suite's
+  std::string seeds;                       // "1..5"; empty: the mission's own
+  std::vector<std::string> set;            // "key=value", as --set
+  bool pile_only = false;                  // true: settles, and draws no frames
+  GoldenParts golden = GoldenParts::pile;  // which hashes are compared
   // Limits of metrics, both included; by the index of the metric's name.
   std::vector<std::optional<NumberPair>> expect;
 };
 
 struct SuiteScript {
-  std::string path;
-  std::vector<SuiteRun> runs;
+  std::string path;            // of the script
+  std::vector<SuiteRun> runs;  // in the order of the script
 };
 
 // metrics: the names that `expect` may hold, with a line of explanation each. Throws InputError

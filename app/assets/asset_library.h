@@ -15,7 +15,7 @@
 namespace rubble {
 
 struct AssetLibrary {
-  std::vector<PieceType> types;
+  std::vector<PieceType> types;                          // numbered as the pile's pieces have it
   std::vector<std::shared_ptr<const SceneMesh>> meshes;  // one per type
   std::vector<AssemblyType> assemblies;                  // articulated assets, made of the types
   std::vector<AssetContent> contents;                    // one per type, then one per assembly

@@ -9,8 +9,8 @@
 namespace rubble {
 
 struct FoundAsset {
-  const AssetPack* pack;
-  const Asset* asset;
+  const AssetPack* pack;  // that it is of; never null
+  const Asset* asset;     // in that pack; never null
 };
 
 // An articulated asset needs its pieces in the library. Throws InputError for a file that cannot be
@@ -18,6 +18,10 @@ struct FoundAsset {
 void add_asset(const FoundAsset& found, AssetLibrary& library);
 
 void add_box(const PlacedItem& item, const std::vector<Material>& materials, AssetLibrary& library);
+
+// Folders that hold URDF files of the mission's robots go into library.folders, so that a manifest names them.
+void add_robot_folders(const Scenario& scenario, const std::vector<std::string>& folders,
+                       AssetLibrary& library);
 
 // Nothing where the specification gives none. folders: where its file is looked for.
 void add_terrain(const TerrainScenario& spec, const std::vector<std::string>& folders,

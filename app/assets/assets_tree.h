@@ -11,11 +11,11 @@
 namespace rubble {
 
 struct TreeReport {
-  std::string name;
-  std::size_t links = 0, joints = 0, parts = 0;
-  double mass = 0;  // of all links; unit: kg
-  Vec3 size;        // of the box around the whole; unit: m
-  std::vector<std::string> errors, warnings;
+  std::string name;                              // of the asset
+  std::size_t links = 0, joints = 0, parts = 0;  // counts; parts: convex, of all links
+  double mass = 0;                               // of all links; unit: kg
+  Vec3 size;                                     // of the box around the whole; unit: m
+  std::vector<std::string> errors, warnings;     // a sentence each, for people
 };
 
 // Links that are not joined must be apart as designed (an error), and a joint should be where both of

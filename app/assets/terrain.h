@@ -17,11 +17,11 @@ inline constexpr const char* kTerrainName = "terrain";
 inline constexpr const char* kTerrainPack = "terrain of the mission";
 
 struct MadeTerrain {
-  PieceType type;  // its surface is the very mesh that is drawn
-  std::shared_ptr<const SceneMesh> mesh;
-  std::string sha256;   // over the mesh, its looks and the friction
-  std::string folder;   // absolute, where its file was found; empty: it has none
-  std::string warning;  // e.g. that the mesh is not closed; empty: none
+  PieceType type;                         // its surface is the very mesh that is drawn
+  std::shared_ptr<const SceneMesh> mesh;  // at full detail, for the renderer
+  std::string sha256;                     // over the mesh, its looks and the friction
+  std::string folder;                     // absolute, where its file was found; empty: it has none
+  std::string warning;                    // e.g. that the mesh is not closed; empty: none
 };
 
 // `folders`: where a file may be, in order. Throws InputError for a file that is not there or cannot

@@ -7,8 +7,8 @@
 namespace rubble {
 
 struct CaseResult {
-  std::string name;  // "heap/seed_3"
-  double seconds = 0;
+  std::string name;                   // "heap/seed_3"
+  double seconds = 0;                 // wall-clock time; unit: s
   std::vector<std::string> failures;  // expectations that are not met, a sentence each
   std::string error;                  // why there is nothing to look at; empty: there is
   std::string log;                    // the end of what the run printed

@@ -13,7 +13,7 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text, const std::strin
 
 // One of several equal parts of the work: I of N, 1-based.
 struct Shard {
-  int index = 1, count = 1;
+  int index = 1, count = 1;  // this part of that many; range: 1 to count
   // By the seed itself, so that it does not matter how the list was written.
   bool has(std::uint64_t seed) const { return int(seed % std::uint64_t(count)) + 1 == index; }
 };

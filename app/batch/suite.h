@@ -17,7 +17,7 @@ struct SuiteRequest {
   bool update = false;            // --update: rewrite the golden file, showing what changes
   std::vector<std::string> only;  // --only NAME; empty: all
   int jobs = 0;                   // --jobs; 0: one a processor
-  RunOptions options;
+  RunOptions options;             // of every run of the suite
 };
 
 // Prints a line for each run and a summary on standard output. `differs` when an expectation is not

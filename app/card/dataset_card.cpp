@@ -58,6 +58,8 @@ std::string sensors(const Scenario& s, std::size_t frames) {
                                      format_number(m.gyroscope_noise) + " rad/s/sqrt(Hz), accelerometer " +
                                      format_number(m.accelerometer_noise) + " m/s2/sqrt(Hz)");
   }
+  for (const LidarScenario& lidar : s.lidars)
+    text += row("LiDAR `" + lidar.name + "`", lidar.spec().model + ", " + format_number(lidar.spec().rate_hz) + " scans/s");
   if (s.event_camera.on) text += row("event camera", "the pixels of the colour camera");
   return text + "\n";
 }

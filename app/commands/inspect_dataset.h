@@ -19,9 +19,9 @@ enum class FileVerdict {
 };
 
 struct FileReport {
-  FileVerdict verdict = FileVerdict::sound;
-  std::string detail;       // kind and content, or where it is damaged
-  std::uint64_t bytes = 0;  // size of one that is there
+  FileVerdict verdict = FileVerdict::sound;  // what became of the file
+  std::string detail;                        // kind and content, or where it is damaged
+  std::uint64_t bytes = 0;                   // size of one that is there
 };
 
 // hash: the SHA-256 that a manifest states for it. Throws InputError when it cannot be read.

@@ -16,9 +16,9 @@ namespace rubble {
 
 // One line of the help overlay and of docs/drive.md.
 struct KeyHelp {
-  const char* what;
-  const char* keys;
-  const char* gamepad;
+  const char* what;     // what it does, in a few words
+  const char* keys;     // on the keyboard; empty: none
+  const char* gamepad;  // on a gamepad; empty: none
 };
 const std::vector<KeyHelp>& all_key_help();
 

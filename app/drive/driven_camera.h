@@ -21,11 +21,11 @@ struct DrivenPose {
 DrivenPose make_driven_pose(const Pose& world_from_camera);
 
 struct DriveLimits {
-  double speed = 0.5;        // at the start; unit: m/s
-  double least_speed = 0.02, most_speed = 5;
-  double turn_rate_deg = 60;  // of each held axis; unit: degree/s
-  double most_turn_rate_deg = 180;  // of what is asked for in figures; unit: degree/s
-  double reach = 1000;        // farthest from the origin along each axis; unit: m
+  double speed = 0.5;                         // at the start; unit: m/s
+  double least_speed = 0.02, most_speed = 5;  // that a person can choose; unit: m/s
+  double turn_rate_deg = 60;                  // of each held axis; unit: degree/s
+  double most_turn_rate_deg = 180;            // of what is asked for in figures; unit: degree/s
+  double reach = 1000;                        // farthest from the origin along each axis; unit: m
 };
 
 class DrivenCamera {

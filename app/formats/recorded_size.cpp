@@ -33,8 +33,18 @@ double duration_of_settling(const Scenario& s) {
   return std::max(0.0, std::min(asked.to.value_or(last), last) - asked.from);
 }
 
-double frames_of_settling(const Scenario& s) {
-  return std::floor(duration_of_settling(s) * s.record_settling.rate_hz.value_or(s.trajectory.rate_hz)) + 1;
+void count_scans(const Scenario& s, double duration, FlightSize& size) {
+  for (const LidarScenario& lidar : s.lidars) {
+    const LidarSpec spec = lidar.spec();
+    const double scans = std::floor(duration * spec.rate_hz) + 1;
+    size.scans += scans;
+    size.points += scans * spec.rays() * (spec.returns == LidarReturns::dual ? 2 : 1);
+  }
+}
+
+double frames_of_settling(const Scenario& s, const MountedCamera& camera) {
+  const double usual = s.record_settling.rate_hz.value_or(s.trajectory.rate_hz);
+  return std::floor(duration_of_settling(s) * camera.rate_hz.value_or(usual)) + 1;
 }
 
 }  // namespace
@@ -59,9 +69,11 @@ FlightSize size_of_flight(const Scenario& s, std::size_t camera) {
     }
   }
   if (s.imu.on && camera == 0) size.imu_samples = size.frames * s.imu.model.rate_hz / path.rate_hz;
+  if (camera == 0) count_scans(s, size.frames / path.rate_hz, size);
   if (!s.record_settling.on) return size;
-  size.frames += frames_of_settling(s);
-  if (s.imu.on) size.imu_samples += duration_of_settling(s) * s.imu.model.rate_hz + 1;
+  size.frames += frames_of_settling(s, all_cameras(s)[camera]);
+  if (camera == 0) count_scans(s, duration_of_settling(s), size);
+  if (s.imu.on && camera == 0) size.imu_samples += duration_of_settling(s) * s.imu.model.rate_hz + 1;
   return size;
 }
 

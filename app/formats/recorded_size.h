@@ -13,9 +13,10 @@ constexpr double kPictureOverhead = 2048;  // of a file and its line in a list; 
 
 // What is recorded of a flight: counts.
 struct FlightSize {
-  double frames = 0, key_frames = 0, imu_samples = 0;
+  // At most; a mean where the pile decides. points: of LiDARs, with all their returns.
+  double frames = 0, key_frames = 0, imu_samples = 0, scans = 0, points = 0;
 };
-// Of one of its cameras; the inertial unit is counted with the first.
+// Of one of its cameras; inertial unit and LiDARs are counted with the first.
 FlightSize size_of_flight(const Scenario& scenario, std::size_t camera);
 
 // Bytes of a frame's pixels in each kind of recording, apart from what is kept once.
@@ -69,6 +70,11 @@ struct RecordedSize {
     return flight.frames * per_frame + flight.imu_samples * per_imu_sample + once;
   }
 };
+// At most, of LiDARs; unit: byte.
+inline double size_of_scans(const FlightSize& flight, double per_scan, double per_point) {
+  return flight.scans * per_scan + flight.points * per_point;
+}
+
 // Of each camera. pieces: of the pile.
 std::vector<RecordedSize> sizes_of_recording(const Scenario& scenario, double pieces);
 

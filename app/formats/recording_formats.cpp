@@ -5,6 +5,7 @@
 #include "io/datasets/colmap_recorder.h"
 #include "io/datasets/euroc_recorder.h"
 #include "io/datasets/frames_recorder.h"
+#include "io/datasets/lidar_recorder.h"
 #include "io/datasets/tum_recorder.h"
 #include "io/mrpt/rawlog_recorder.h"
 #include "io/mrpt/simplemap_recorder.h"
@@ -53,7 +54,9 @@ const std::vector<RecordingFormat> kFormats{
      [](Path p, In in) -> Made {
        return make_rawlog_recorder(p, {in.scenario.outputs.rawlog_gzip, 0.001, in.recording});
      },
-     [](Size s) { return s.of(s.picture.rawlog() + kFrameOverhead, 420); }},
+     [](Size s) {
+       return s.of(s.picture.rawlog() + kFrameOverhead, 420) + size_of_scans(s.flight, 2000, 16);
+     }},
     {"simplemap", "mission.simplemap", false, &OutputScenario::simplemap,
      [](Path p, In in) -> Made {
        return make_simplemap_recorder(p, simplemap_options(in));
@@ -62,10 +65,14 @@ const std::vector<RecordingFormat> kFormats{
      true},
     {"bag", "mission.bag", false, &OutputScenario::bag,
      [](Path p, In in) -> Made { return make_rosbag_recorder(p, ros_of(in)); },
-     [](Size s) { return s.of(s.picture.ros() + kFrameOverhead, 420, s.legend); }},
+     [](Size s) {
+       return s.of(s.picture.ros() + kFrameOverhead, 420, s.legend) + size_of_scans(s.flight, 500, 22);
+     }},
     {"mcap", "mission.mcap", false, &OutputScenario::mcap,
      [](Path p, In in) -> Made { return make_mcap_recorder(p, ros_of(in)); },
-     [](Size s) { return s.of(s.picture.ros() + kFrameOverhead, 420, s.legend + 1e5); }},
+     [](Size s) {
+       return s.of(s.picture.ros() + kFrameOverhead, 420, s.legend + 1e5) + size_of_scans(s.flight, 500, 22);
+     }},
     {"groundtruth", "groundtruth.txt", false, &OutputScenario::groundtruth,
      [](Path p, In) -> Made { return make_tum_trajectory_recorder(p); },
      [](Size s) { return s.of(140, 0, 100); }, true},
@@ -85,6 +92,12 @@ const std::vector<RecordingFormat> kFormats{
        return s.of(s.picture.frames() + files, 320, s.legend);
      },
      true},
+    {"pcd", "pcd", true, &OutputScenario::pcd,
+     [](Path p, In in) -> Made { return make_pcd_recorder(p, in.recording); },
+     [](Size s) { return size_of_scans(s.flight, kPictureOverhead + 1.1e5, 22); }},
+    {"kitti", "kitti", true, &OutputScenario::kitti,
+     [](Path p, In in) -> Made { return make_kitti_recorder(p, in.recording); },
+     [](Size s) { return size_of_scans(s.flight, kPictureOverhead, 16); }},
     {"preview", "preview.png", false, &OutputScenario::preview,
      [](Path p, In in) -> Made {
        return make_contact_sheet_recorder(p, sheet_options(in.frames.at(0), in.title));

@@ -9,16 +9,16 @@ namespace rubble {
 
 // Where the plane cuts a piece: segments in X and Z, each with the piece on one side; unit: m
 struct CutSegment {
-  double x0 = 0, z0 = 0, x1 = 0, z1 = 0;
+  double x0 = 0, z0 = 0, x1 = 0, z1 = 0;  // its ends; unit: m
 };
 struct CutFace {
-  std::uint32_t instance = 0;  // SceneInstance::id
-  std::vector<CutSegment> segments;
+  std::uint32_t instance = 0;        // SceneInstance::id
+  std::vector<CutSegment> segments;  // in no order
 };
 
 struct PileSection {
-  Scene scene;  // the pieces, and parts of pieces, with y > the plane's
-  std::vector<CutFace> faces;
+  Scene scene;                     // the pieces, and parts of pieces, with y > the plane's
+  std::vector<CutFace> faces;      // one for every piece that is cut
   double x0 = 0, x1 = 0, top = 0;  // of what is behind the plane; unit: m
 };
 

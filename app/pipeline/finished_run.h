@@ -16,8 +16,8 @@
 namespace rubble {
 
 struct FinishedRun {
-  std::string folder;
-  Manifest manifest;
+  std::string folder;  // as it was given
+  Manifest manifest;   // read and found sealed
 };
 
 // manifest.json. Throws InputError: it cannot be read, or is not sealed, saying which part was altered.

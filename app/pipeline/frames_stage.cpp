@@ -53,6 +53,12 @@ std::vector<std::string> names_of_cameras(const Scenario& scenario) {
   return names;
 }
 
+std::vector<std::string> names_of_lidars(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const LidarScenario& lidar : scenario.lidars) names.push_back(lidar.name);
+  return names;
+}
+
 // Which frame of a leg is being taken, and of how many: an image that takes minutes reports on its way.
 struct Taking {
   int frame = 0, frames = 1;
@@ -82,6 +88,11 @@ void take_samples(SensorSuite& sensors, const Leg& leg, FrameSinks& sinks, const
   while (std::optional<Sample> sample = sensors.take()) {
     if (const auto* reading = std::get_if<ImuSample>(&*sample)) {
       recorded.hashes.add_imu(*reading);
+    } else if (const auto* robot = std::get_if<RobotSample>(&*sample)) {
+      recorded.hashes.add_robot(*robot);
+    } else if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
+      recorded.hashes.add_lidar(*scan);
+      throw_if_stopped(folder.path());
     } else {
       const Frame& frame = std::get<Frame>(*sample);
       recorded.hashes.add(frame);
@@ -112,7 +123,7 @@ RenderOptions render_options(const Scenario& scenario, int threads,
 // What there is to be seen: the settled pile, and robots, which start with the flight.
 struct Seen {
   const SettledPile& pile;
-  const RobotTrack& robots;
+  const DrivenRobots& robots;
 };
 
 // The sensors on one leg, with the scene that they see.
@@ -127,32 +138,34 @@ Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen
     return build_moving_scene(leg.scenario, mission.assets, pile, seen.pile.track, *leg.window,
                               leg.zero_ns);
   }
-  if (seen.robots.empty()) return build_scene(leg.scenario, mission.assets, pile);
-  return build_robot_scene(leg.scenario, mission.assets, pile, seen.robots, leg.scenario.start_ns);
+  if (seen.robots.moved.empty()) return build_scene(leg.scenario, mission.assets, pile);
+  return build_robot_scene(leg.scenario, mission.assets, pile, seen.robots.moved,
+                           leg.scenario.start_ns);
 }
 
 PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Seen& seen,
-                        int frames_before, GlContext& gl, const RunFolder& folder,
+                        const std::vector<int>& frames_before, GlContext& gl, const RunFolder& folder,
                         RunContext& context, Taking& taking) {
   context.progress.start(leg.window ? "settling scene" : "scene");
   PreparedLeg prepared;
+  const Scene scene = build_leg_scene(leg, mission, seen);
   prepared.renderer = prepare_renderer(
-      build_leg_scene(leg, mission, seen), leg.scenario, gl, context.threads(),
+      scene, leg.scenario, gl, context.threads(),
       [&](double fraction) { context.progress.update(fraction, "light"); },
       [&](double fraction) { taking.report(fraction, folder, context); });
   prepared.sensors = std::make_unique<SensorSuite>(
-      leg.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, *prepared.renderer,
-      context.threads());
+      leg.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, scene, *prepared.renderer,
+      context.threads(), seen.robots.readings);
   context.progress.finish("ready on " + gl.info().renderer);
   return prepared;
 }
 
-// Of each camera, over all legs.
-std::vector<int> count_frames(const std::vector<Leg>& legs) {
+// Of each camera, over the first so many legs.
+std::vector<int> count_frames(const std::vector<Leg>& legs, std::size_t count) {
   std::vector<int> frames(legs.front().flight.cameras.size());
-  for (const Leg& leg : legs)
+  for (std::size_t leg = 0; leg < count; ++leg)
     for (std::size_t i = 0; i < frames.size(); ++i)
-      frames[i] += int(leg.flight.cameras[i].stamps_ns.size());
+      frames[i] += int(legs[leg].flight.cameras[i].stamps_ns.size());
   return frames;
 }
 
@@ -169,8 +182,10 @@ void finish_recording(const ResolvedMission& mission, const RecorderSet& set, Re
 }
 
 // Links follow the pieces, as their numbers do.
-void add_robots(const RobotTrack& robots, std::uint16_t label, Recording& recording) {
-  for (const RobotModel& model : robots.models)
+void add_robots(const DrivenRobots& robots, std::uint16_t label, Recording& recording) {
+  recording.robots = robots.records;
+  recording.mount = robots.mount;
+  for (const RobotModel& model : robots.moved.models)
     for (const RobotLink& link : model.links)
       recording.legend.pieces.push_back({label, model.name + "/" + link.name});
 }
@@ -181,11 +196,11 @@ void record(const PlannedFlight& flight, const ResolvedMission& mission, const S
   const PileState& pile = seen.pile.state;
   const std::vector<Leg>& legs = flight.legs;
   Taking taking;
-  PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, 0, gl, folder, context, taking);
+  PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, {}, gl, folder, context, taking);
   Recording recording = describe_recording(flight.flown, mission.assets, pile);
   add_robots(seen.robots, std::uint16_t(kFirstAssetLabel + mission.assets.types.size()), recording);
   RecorderSet set = make_recorders(
-      {flight.flown, recording, count_frames(legs), title_of(mission, pile)}, folder.path());
+      {flight.flown, recording, count_frames(legs, legs.size()), title_of(mission, pile)}, folder.path());
   folder.expect(set.names);
   add_live_recorders(set, context.options, ros_options(flight.flown.outputs, recording));
   RecordingQueue queue(std::move(set.recorders));
@@ -193,7 +208,7 @@ void record(const PlannedFlight& flight, const ResolvedMission& mission, const S
   for (std::size_t i = 0; i < legs.size(); ++i) {
     if (i > 0) {
       prepared = {};  // what the leg before took on the device comes free first
-      prepared = prepare_leg(legs[i], mission, seen, sinks.frames, gl, folder, context, taking);
+      prepared = prepare_leg(legs[i], mission, seen, count_frames(legs, i), gl, folder, context, taking);
     }
     context.progress.start(legs[i].window ? "settling frames" : "render");
     take_samples(*prepared.sensors, legs[i], sinks, folder, context, taking, recorded);
@@ -216,9 +231,9 @@ RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& 
                              RunFolder& folder, RunContext& context) {
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
-  recorded.hashes = FrameHashes(names_of_cameras(flight.flown));
+  recorded.hashes = FrameHashes(names_of_cameras(flight.flown), names_of_lidars(flight.flown));
   recorded.environment = describe_environment(gl.info(), context.threads());
-  record(flight, mission, {pile, robots.moved}, gl, folder, context, recorded);
+  record(flight, mission, {pile, robots}, gl, folder, context, recorded);
   return recorded;
 }
 

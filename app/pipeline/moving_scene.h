@@ -15,7 +15,7 @@ namespace rubble {
 
 // From when to when a track is shown; unit: s of the track.
 struct TrackWindow {
-  double from = 0, to = 0;
+  double from = 0, to = 0;  // from <= to
 };
 
 // The scene of the settled pile, in which every piece is where the track has it: those that move at any
@@ -26,9 +26,9 @@ Scene build_moving_scene(const Scenario& scenario, const AssetLibrary& assets, c
 
 // Robots that were driven through a pile, and what they moved.
 struct RobotTrack {
-  Track track;                    // ids: pieces of the pile, then links, robot by robot
-  std::vector<RobotModel> models;
-  std::vector<int> first_piece;   // id of each robot's first link
+  Track track;                     // ids: pieces of the pile, then links, robot by robot
+  std::vector<RobotModel> models;  // in the order of the mission's robots
+  std::vector<int> first_piece;    // id of each robot's first link
 
   bool empty() const { return models.empty(); }
 };

@@ -4,6 +4,7 @@
 
 #include "app/pipeline/build_scene.h"
 #include "io/recording/one_camera.h"
+#include "scripting/scenario/lidar_schema.h"
 
 namespace rubble {
 
@@ -43,6 +44,17 @@ ImuRecord record_of(const ImuScenario& imu, const std::string& rig) {
   return record;
 }
 
+LidarRecord record_of(const Scenario& scenario, std::size_t number) {
+  const LidarScenario& lidar = scenario.lidars[number];
+  LidarRecord record;
+  record.name = lidar.name;
+  record.topic = lidar_topic(scenario, number);
+  record.frame_id = lidar.frame_id.value_or(lidar.name + "_link");
+  record.rig_from_lidar = lidar.rig_from_lidar();
+  record.spec = lidar.spec();
+  return record;
+}
+
 // What a run that was killed had finished is made anew: files are replaced, folders must go.
 void remove_folder(const std::string& path) {
   std::error_code ignored;
@@ -76,11 +88,14 @@ Recording describe_recording(const Scenario& scenario, const AssetLibrary& asset
                              const PileState& pile) {
   Recording recording;
   const bool several = !scenario.cameras.empty();
-  if (several) recording.rig = "base_link";
+  // A robot's own base is called base_link.
+  if (several) recording.rig = scenario.robots.empty() ? "base_link" : "rig_link";
   recording.cameras.clear();
   for (const MountedCamera& camera : all_cameras(scenario))
     recording.cameras.push_back(record_of(camera, several));
   if (scenario.imu.on) recording.imus.push_back(record_of(scenario.imu, recording.rig));
+  for (std::size_t i = 0; i < scenario.lidars.size(); ++i)
+    recording.lidars.push_back(record_of(scenario, i));
   recording.legend.labels = label_names(scenario, assets);
   for (const PieceState& piece : pile.pieces) {
     const auto type = std::size_t(piece.type);

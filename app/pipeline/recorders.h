@@ -15,8 +15,8 @@
 namespace rubble {
 
 struct RecorderSet {
-  std::vector<std::unique_ptr<Recorder>> recorders;
-  std::vector<std::string> names;  // of their files or folders, relative to the run's folder
+  std::vector<std::unique_ptr<Recorder>> recorders;  // each is given every sample
+  std::vector<std::string> names;                    // of their files or folders, relative to the run's folder
 };
 
 // Every sensor of the run, what it gives and under which names, and what numbers mean.

@@ -17,7 +17,7 @@ struct ResolvedMission {
   Provenance provenance;   // from which all the rest can be made again
   Scenario scenario;       // of this run
   Scenario pile_scenario;  // of the run that settled the pile: another one for a `render`
-  AssetLibrary assets;
+  AssetLibrary assets;     // of the pile
 };
 
 // From a script on the disk. Prints what the script prints, and warnings of the assets.

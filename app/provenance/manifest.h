@@ -18,10 +18,10 @@
 namespace rubble {
 
 struct PileSummary {
-  std::string state_hash;  // of the pile, 16 hexadecimal digits
-  bool settled = false;    // false: the time limit came first
-  std::int64_t pieces = 0, lost = 0, steps = 0, layers_at_limit = 0;
-  double simulated = 0;  // unit: s
+  std::string state_hash;                                             // of the pile, 16 hexadecimal digits
+  bool settled = false;                                               // false: the time limit came first
+  std::int64_t pieces = 0, lost = 0, steps = 0, layers_at_limit = 0;  // as in PileState
+  double simulated = 0;                                               // unit: s
 };
 PileSummary summarize(const PileState& pile);
 

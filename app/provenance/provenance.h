@@ -15,12 +15,12 @@
 namespace rubble {
 
 struct AssetContent {
-  std::string name, pack;
-  std::string sha256;  // over the mesh and collision files and the physical properties
+  std::string name, pack;  // of the asset, and of its pack
+  std::string sha256;      // over the mesh and collision files and the physical properties
   // The pack's own, for missions without a mix: see Asset.
   double weight = 1;
-  std::array<double, 2> scale{1, 1};
-  SizeDistribution spread{};
+  std::array<double, 2> scale{1, 1};  // least and most
+  SizeDistribution spread{};          // between these two
 };
 
 enum class RunKind {
@@ -30,13 +30,13 @@ enum class RunKind {
 };
 
 struct Provenance {
-  RunKind kind = RunKind::run;
-  SourceFile script;                        // path: its name alone
-  std::vector<SourceFile> included;         // path: relative to the script's folder
-  std::optional<std::uint64_t> seed;        // what was asked for besides the script
-  std::vector<std::string> overrides;       // likewise: --set
-  std::string scenario;                     // what followed from all this: JSON without spaces
-  std::vector<AssetContent> assets;         // what is dropped, in the order of the pile's types
+  RunKind kind = RunKind::run;                  // which stages the run has
+  SourceFile script;                            // path: its name alone
+  std::vector<SourceFile> included;             // path: relative to the script's folder
+  std::optional<std::uint64_t> seed;            // what was asked for besides the script
+  std::vector<std::string> overrides;           // likewise: --set
+  std::string scenario;                         // what followed from all this: JSON without spaces
+  std::vector<AssetContent> assets;             // what is dropped, in the order of the pile's types
   std::shared_ptr<const Provenance> pile_from;  // of a `render`: of the run that settled the pile
 };
 

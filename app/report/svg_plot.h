@@ -7,9 +7,9 @@
 namespace rubble {
 
 struct PlotPoint {
-  double x = 0, y = 0;
-  std::string name;  // shown where the pointer rests
-  bool bad = false;  // drawn in another colour
+  double x = 0, y = 0;  // in the units of the axes
+  std::string name;     // shown where the pointer rests
+  bool bad = false;     // drawn in another colour
 };
 
 // How often values fall into each of `bins` equal parts of their range; of one value all are one bar.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "app/sensors/lidar_sensor.h"
 #include "kernel/base/random.h"
 #include "render/sensors/camera.h"
 #include "scripting/trajectory/imu.h"
@@ -29,7 +30,7 @@ class CameraSensor : public Sensor {
       : flight_(flight.cameras[std::size_t(number)]),
         mounted_(mounted),
         number_(number),
-        first_frame_(begin.frame),
+        first_frame_(begin.frames.empty() ? 0 : begin.frames[std::size_t(number)]),
         start_ns_(flown.start_ns),
         path_(flight.path),
         camera_(renderer, spec_of(flown, mounted, begin, threads), flight_) {}
@@ -61,7 +62,7 @@ class CameraSensor : public Sensor {
   MountedCamera mounted_;
   int number_, first_frame_, next_ = 0;
   std::int64_t start_ns_;
-  std::shared_ptr<const CameraPath> path_;
+  std::shared_ptr<const MotionPath> path_;
   Camera camera_;
 };
 
@@ -69,7 +70,7 @@ class CameraSensor : public Sensor {
 class ImuSensor : public Sensor {
  public:
   ImuSensor(const Scenario& flown, std::uint64_t noise_seed, std::int64_t last_ns,
-            std::shared_ptr<const CameraPath> path)
+            std::shared_ptr<const MotionPath> path)
       : last_ns_(last_ns),
         path_(std::move(path)),
         imu_(*path_, flown.imu.model, flown.settle.gravity, noise_seed, flown.start_ns,
@@ -83,14 +84,33 @@ class ImuSensor : public Sensor {
 
  private:
   std::int64_t last_ns_;
-  std::shared_ptr<const CameraPath> path_;
+  std::shared_ptr<const MotionPath> path_;
   Imu imu_;
+};
+
+// What a robot sensed when it was driven, as long as any camera has frames.
+class RobotSensor : public Sensor {
+ public:
+  RobotSensor(const std::vector<RobotSample>& samples, std::int64_t last_ns)
+      : samples_(samples), last_ns_(last_ns) {}
+
+  std::optional<std::int64_t> next_stamp() const override {
+    if (next_ >= samples_.size() || samples_[next_].stamp_ns > last_ns_) return std::nullopt;
+    return samples_[next_].stamp_ns;
+  }
+  Sample take() override { return samples_[next_++]; }
+
+ private:
+  const std::vector<RobotSample>& samples_;
+  std::int64_t last_ns_;
+  std::size_t next_ = 0;
 };
 
 }  // namespace
 
 SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin,
-                         Renderer& renderer, int threads) {
+                         const Scene& scene, Renderer& renderer, int threads,
+                         const RobotReadings& robots) {
   std::vector<std::unique_ptr<Sensor>> cameras;
   std::int64_t last_ns = 0;
   for (const MountedCamera& mounted : all_cameras(flown)) {
@@ -100,7 +120,11 @@ SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const S
     last_ns = std::max(last_ns, camera->last_stamp());
     cameras.push_back(std::move(camera));
   }
+  for (const std::vector<RobotSample>& samples : robots.samples)
+    sensors_.push_back(std::make_unique<RobotSensor>(samples, last_ns));
   if (flown.imu.on) sensors_.push_back(std::make_unique<ImuSensor>(flown, begin.noise_seed, last_ns, flight.path));
+  for (auto& lidar : make_lidar_sensors(flown, scene, begin.noise_seed, last_ns, flight.path, threads))
+    sensors_.push_back(std::move(lidar));
   for (auto& camera : cameras) sensors_.push_back(std::move(camera));
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/sensors/build_camera.h"
+#include "app/sensors/robot_readings.h"
 #include "render/renderer.h"
 #include "render/scene/sample.h"
 #include "scripting/scenario/scenario.h"
@@ -16,16 +17,18 @@ namespace rubble {
 // How a leg of a recording goes on from the one before.
 struct SensorBegin {
   std::uint64_t noise_seed = 0;  // of all sensors
-  int frame = 0;                 // number of each camera's first frame
+  std::vector<int> frames;       // number of each camera's first frame; empty: 0
 };
 
-// All sensors that ride on one rig, merged by stamp. At equal stamps inertial units come before
-// cameras, and cameras in the order of all_cameras(). The renderer must outlive them.
+// All sensors that ride on one rig, and those of robots, merged by stamp. At equal stamps robots come
+// before inertial units, these before LiDARs, and these before cameras, in the order of all_cameras(). The
+// renderer and the readings must outlive them.
 class SensorSuite {
  public:
-  // flown: the scenario with the path that is flown, which `flight` was made from.
-  SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin,
-              Renderer& renderer, int threads);
+  // flown: the scenario with the path that is flown, which `flight` was made from. scene: what the renderer
+  // draws.
+  SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin, const Scene& scene,
+              Renderer& renderer, int threads, const RobotReadings& robots);
 
   // Frames of each camera over the whole flight.
   const std::vector<int>& frames() const { return frames_; }

@@ -13,8 +13,8 @@ struct Job {
 };
 
 struct JobResult {
-  int exit_code = 0;  // of one that a signal killed: 128 and the signal
-  double seconds = 0;
+  int exit_code = 0;   // of one that a signal killed: 128 and the signal
+  double seconds = 0;  // wall-clock time; unit: s
 };
 
 // Runs them in order, `at_once` of them at a time, and calls `ended` as each one ends; when that
@@ -27,7 +27,7 @@ void run_jobs(const std::vector<Job>& jobs, int at_once,
 
 // How many at once, and with how many threads each, when nothing was asked for (0).
 struct JobShape {
-  int at_once = 1, threads = 1;
+  int at_once = 1, threads = 1;  // processes, and threads of each; both at least 1
 };
 JobShape choose_job_shape(int at_once, int threads);
 

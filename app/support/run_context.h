@@ -12,8 +12,8 @@ namespace rubble {
 struct RunContext {
   explicit RunContext(const RunOptions& asked);
 
-  const RunOptions options;
-  Progress progress;
+  const RunOptions options;           // as they were asked for
+  Progress progress;                  // what a person sees meanwhile
   std::vector<std::string> warnings;  // what is likely not as it was meant, for a person
 
   int threads() const;  // as asked, or all processors; at least 1

@@ -26,7 +26,7 @@ struct RunOptions {
   bool quiet = false;            // --quiet: no progress
   int gl_device = -1;            // --gl-device, see GlContextOptions
   double checkpoint_every = 10;  // --checkpoint-every, while settling; unit: s
-  LiveRequest live;
+  LiveRequest live;              // publishing while it runs; off by default
 };
 
 struct RunRequest {
@@ -38,14 +38,14 @@ struct RunRequest {
   std::string out;                       // --out; empty: out/<name of the script>
   bool force = false;                    // --force: replace an earlier run's files
   bool preview = false;                  // --preview: say what it will take, and run nothing
-  RunOptions options;
+  RunOptions options;                    // of this run
 };
 
 // For the commands that start from a folder of a run.
 struct FolderRequest {
-  std::string folder;
+  std::string folder;                    // of a finished or unfinished run
   std::vector<std::string> asset_packs;  // --assets DIR: where its packs may be now
-  RunOptions options;
+  RunOptions options;                    // of what is done with it
 };
 
 }  // namespace rubble

@@ -17,7 +17,7 @@ struct FileFault {
 
 // Thrown within a reader, and returned by it.
 struct FaultFound {
-  FileFault fault;
+  FileFault fault;  // where and what
 };
 
 class FileCursor {

@@ -18,8 +18,8 @@
 namespace rubble {
 
 struct SealedKind {
-  std::string_view magic;  // 8 bytes
-  std::uint32_t version = 1;
+  std::string_view magic;             // 8 bytes
+  std::uint32_t version = 1;          // of the format
   std::string_view name;              // in messages, e.g. "pile state"
   std::string_view where;             // for someone who gave another file: where one is found
   std::string_view if_other_version;  // what to do about a file of another version

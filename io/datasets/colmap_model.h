@@ -10,7 +10,7 @@
 namespace rubble {
 
 struct ColmapCamera {
-  std::uint32_t id = 0;
+  std::uint32_t id = 0;                 // unique among the cameras
   std::string model;                    // e.g. "PINHOLE"
   std::uint64_t width = 0, height = 0;  // unit: pixel
   std::vector<double> params;           // as many as the model has; pixel centres at 0.5
@@ -35,18 +35,18 @@ struct ColmapTrackElement {
 };
 
 struct ColmapPoint {
-  std::uint64_t id = 0;
-  Vec3 position;                    // in the model's world; unit: the model's
-  std::uint8_t rgb[3] = {0, 0, 0};  // range: 0 to 255
-  double error = 0;  // mean reprojection error; unit: pixel
+  std::uint64_t id = 0;                   // unique among the points
+  Vec3 position;                          // in the model's world; unit: the model's
+  std::uint8_t rgb[3] = {0, 0, 0};        // range: 0 to 255
+  double error = 0;                       // mean reprojection error; unit: pixel
   std::vector<ColmapTrackElement> track;  // where images see it
 };
 
 struct ColmapModel {
   std::string folder;                 // that it was read from
   std::vector<ColmapCamera> cameras;  // each list in the order of the file
-  std::vector<ColmapImage> images;
-  std::vector<ColmapPoint> points;
+  std::vector<ColmapImage> images;    // that were registered
+  std::vector<ColmapPoint> points;    // that were triangulated
 };
 
 // Numbers that a camera model of COLMAP has; 0 for one that COLMAP 3.8 does not know.

@@ -10,12 +10,12 @@ namespace rubble {
 // Where each image and point was found, for errors that only the whole model shows: line numbers of
 // a text, bytes of a binary file.
 struct ColmapPlaces {
-  std::vector<std::size_t> images, points;
+  std::vector<std::size_t> images, points;  // in the order of the model's
 };
 
 struct ColmapParts {
-  ColmapModel model;
-  ColmapPlaces places;
+  ColmapModel model;    // not checked across files
+  ColmapPlaces places;  // of its images and points
 };
 
 // Throw InputError as load_colmap_model; they do not compare the files with each other.

@@ -11,13 +11,13 @@
 namespace rubble {
 
 struct DrivePicture {
-  const Frame* frame = nullptr;
-  const RgbImage* map = nullptr;              // square, as high as the frame
-  std::vector<std::array<double, 2>> track;   // where the camera was, in the map; unit: pixel
-  std::array<double, 2> heading{1, 0};        // of the camera, in the map: right and down; length 1
-  std::vector<std::string> status;            // two lines below the panes; ASCII
+  const Frame* frame = nullptr;                  // with colour and depth; never null
+  const RgbImage* map = nullptr;                 // square, as high as the frame
+  std::vector<std::array<double, 2>> track;      // where the camera was, in the map; unit: pixel
+  std::array<double, 2> heading{1, 0};           // of the camera, in the map: right and down; length 1
+  std::vector<std::string> status;               // two lines below the panes; ASCII
   std::vector<std::array<std::string, 3>> help;  // rows over the colour pane; empty: none
-  std::string notice;                         // over the colour pane; empty: none
+  std::string notice;                            // over the colour pane; empty: none
 };
 
 // Size of the picture for frames of that size; unit: pixel

@@ -16,8 +16,8 @@ std::string encode_exr(int width, int height, const std::vector<std::string>& ch
 // The same values again, as numbers that hold each of them exactly. Throws InputError for a file
 // that is missing, damaged, or without these channels.
 struct ExrImage {
-  int width = 0, height = 0;  // unit: pixel
-  std::vector<double> values;
+  int width = 0, height = 0;   // unit: pixel
+  std::vector<double> values;  // interleaved, rows from the top
 };
 ExrImage read_exr(const std::string& path, const std::vector<std::string>& channels);
 

@@ -13,8 +13,8 @@ struct RgbImage {
   std::vector<std::uint8_t> rgb;  // 3 bytes a pixel
 };
 struct GrayImage {
-  int width = 0, height = 0;  // unit: pixel
-  std::vector<std::uint8_t> values;
+  int width = 0, height = 0;         // unit: pixel
+  std::vector<std::uint8_t> values;  // one a pixel
 };
 struct DepthImage {
   int width = 0, height = 0;          // unit: pixel

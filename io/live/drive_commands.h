@@ -22,9 +22,9 @@ struct JoyCommand {
 
 // All that has come since the last look, in the order in which it came.
 struct DriveCommands {
-  std::vector<TwistCommand> twists;
-  std::vector<JoyCommand> joys;
-  bool joy_connected = false;  // whether anybody publishes /joy now
+  std::vector<TwistCommand> twists;  // of /cmd_vel
+  std::vector<JoyCommand> joys;      // of /joy
+  bool joy_connected = false;        // whether anybody publishes /joy now
 };
 
 // Both throw RunError when the bytes are no such message, or hold what is not a finite number.

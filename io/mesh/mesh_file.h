@@ -15,7 +15,7 @@ class IsolatedWorker;
 // How the numbers of a file become metres with Z up.
 struct MeshUnits {
   double metres_per_unit = 1;  // range: > 0; 0.001 for millimetres
-  UpAxis up = UpAxis::z;
+  UpAxis up = UpAxis::z;       // of the file
 };
 
 // Reads many files by one child process: a child for each would cost 13 ms more a file.
@@ -53,9 +53,9 @@ std::vector<std::vector<Vec3>> load_convex_parts(const std::string& path,
 
 // One mesh placed in the world.
 struct MeshInstance {
-  const TriangleMesh* mesh = nullptr;
-  double scale = 1;
-  Pose world_from_body;
+  const TriangleMesh* mesh = nullptr;  // never null; at scale 1
+  double scale = 1;                    // of the mesh's lengths; above 0
+  Pose world_from_body;                // frame of the mesh in the world; unit: m
 };
 
 // Writes binary STL: metres, right-handed, Z up, triangles in the order of the instances. Throws

@@ -24,15 +24,15 @@ void write_sdf(const std::string& folder, const PileModel& model);
 // What a format's size depends on. A mesh counts once for each piece that has it in `triangles`,
 // and once at all in `type_triangles`.
 struct PileModelSize {
-  double pieces = 0, triangles = 0;
-  double types = 0, type_triangles = 0;
+  double pieces = 0, triangles = 0;      // counts
+  double types = 0, type_triangles = 0;  // counts
 };
 
 // A format, complete: what writes it, what it leaves, and how large that gets at most.
 struct MeshFormat {
-  std::string name;                 // "obj": of --format and outputs.meshes
-  std::vector<std::string> leaves;  // files in the output folder, or one folder
-  bool is_folder = false;
+  std::string name;                                                // "obj": of --format and outputs.meshes
+  std::vector<std::string> leaves;                                 // files in the output folder, or one folder
+  bool is_folder = false;                                          // true: `leaves` is one folder
   void (*write)(const std::string& path, const PileModel& model);  // path: of the last of `leaves`
   double (*estimate)(const PileModelSize& size);                   // unit: byte
 };

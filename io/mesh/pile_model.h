@@ -13,8 +13,8 @@ namespace rubble {
 
 // How a surface (TriangleMesh::surface_names) looks to programs that know one colour of it.
 struct PlainAppearance {
-  std::string surface;
-  Vec3f colour;  // linear-light albedo, 0 to 1
+  std::string surface;  // its name in the mesh
+  Vec3f colour;         // linear-light albedo, 0 to 1
 };
 
 struct PileModel {
@@ -23,14 +23,14 @@ struct PileModel {
     const TriangleMesh* mesh = nullptr;  // in the frame of the body, at scale 1
   };
   struct Piece {
-    std::uint32_t type = 0;
-    std::string name;  // unlike all others, e.g. "slab_000012"
-    double scale = 1;
-    Pose world_from_body;
+    std::uint32_t type = 0;    // index into `types`
+    std::string name;          // unlike all others, e.g. "slab_000012"
+    double scale = 1;          // of the type's mesh; above 0
+    Pose world_from_body;      // unit: m
     std::int32_t number = -1;  // its index in the pile; -1: not known
   };
-  std::vector<Type> types;
-  std::vector<Piece> pieces;
+  std::vector<Type> types;                          // each with its mesh once
+  std::vector<Piece> pieces;                        // in the order of the pile
   std::vector<PlainAppearance> surface_appearance;  // a surface without one is grey
 
   Vec3f colour_of(const std::string& surface) const;

@@ -11,7 +11,7 @@
 namespace rubble {
 
 struct PlyMesh {
-  std::vector<Vec3> positions;
+  std::vector<Vec3> positions;                          // in the file's own unit and frame
   std::vector<std::array<std::uint32_t, 3>> triangles;  // polygons as fans; empty: a point cloud
 };
 

@@ -5,8 +5,11 @@
 // with planar depth and colour (sensor frame: X forward, Y left, Z up), which stands at the robot's
 // origin. Where the recording has them: before these CObservationIMU `imu`; after them a scan
 // `ground_truth_depth` (the exact depth, when `camera` has that of a sensor) and a
-// CObservationImage `camera_right`. Several cameras: labels NAME, NAME_ground_truth_depth and
-// NAME_right, each where it is mounted, and one pose an instant. MRPT's clock ticks every 100 ns:
+// CObservationImage `camera_right`. Of LiDARs, by their names: CObservationRotatingScan, of a
+// non-repeating one CObservationPointCloud, of a 2-D scanner CObservation2DRangeScan. Several cameras:
+// labels NAME, NAME_ground_truth_depth and NAME_right, each where it is mounted, and one pose an instant.
+// Robots: CObservationOdometry NAME_odometry and CObservationRobotPose NAME_ground_truth, both of the
+// robot's own base frame. MRPT's clock ticks every 100 ns:
 // stamps are rounded down to that.
 #pragma once
 
@@ -21,7 +24,7 @@ namespace rubble {
 struct RawlogOptions {
   int gzip_level = 0;         // 0 to 9; 1 halves the file and takes 3.5 times the CPU time
   double depth_unit = 0.001;  // of the stored integers, up to 65535 of them; unit: m; > 0
-  Recording recording;
+  Recording recording;        // what is recorded, and under which names
 };
 
 // Throws RunError when `path` cannot be created.

@@ -20,7 +20,7 @@ struct SimplemapOptions {
   double distance = 0.25;   // from key frame to key frame; unit: m; >= 0
   double angle_deg = 15;    // likewise; unit: degree; >= 0
   int points_across = 160;  // of a picture's width, the others are left out; range: > 0
-  Recording recording;
+  Recording recording;      // what is recorded, and under which names
   // The direction that a pixel looks in, in the optical frame, of any length with Z > 0; nothing
   // where the lens sees nothing. Not set: a pinhole without distortion.
   std::function<std::optional<Vec3>(double u, double v)> ray;

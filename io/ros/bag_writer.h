@@ -21,7 +21,7 @@ struct BagTopic {
   std::string type;        // e.g. "rosgraph_msgs/Clock"
   std::string md5;         // of the type, as rosmsg computes it
   std::string definition;  // of the type and of all types in it
-  bool latching = false;
+  bool latching = false;   // a late subscriber gets the last message
 };
 
 class BagWriter {

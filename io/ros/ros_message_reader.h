@@ -15,9 +15,9 @@
 namespace rubble {
 
 struct RosMessage {
-  ros::Version version = ros::Version::ros1;
-  std::string_view topic;
-  std::string_view bytes;  // on the wire
+  ros::Version version = ros::Version::ros1;  // of the wire format
+  std::string_view topic;                     // with its leading slash
+  std::string_view bytes;                     // on the wire
 };
 // A message is valid during the call only. Returns whether to go on.
 using TakeRosMessage = std::function<bool(const RosMessage&)>;

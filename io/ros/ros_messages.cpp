@@ -1,7 +1,24 @@
 #include "io/ros/ros_messages.h"
 
+#include <cstring>
+#include <limits>
+
+#include "kernel/base/portable_math.h"
+
 namespace rubble::ros {
 namespace {
+
+// sensor_msgs/PointField: its type numbers, and what a point holds, one after the other.
+constexpr std::uint8_t kUint16 = 4, kFloat32 = 7;
+constexpr std::uint32_t kPointStep = 22;  // unit: byte
+struct PointField {
+  const char* name;
+  std::uint32_t offset;  // unit: byte
+  std::uint8_t type;
+};
+constexpr PointField kPointFields[] = {{"x", 0, kFloat32},          {"y", 4, kFloat32},
+                                       {"z", 8, kFloat32},          {"intensity", 12, kFloat32},
+                                       {"ring", 16, kUint16},       {"time", 18, kFloat32}};
 
 void put_header(Wire& out, const Header& header) {
   if (out.version() == Version::ros1) out.number(header.sequence);
@@ -122,6 +139,95 @@ std::string imu(Version version, const Header& header, const ImuSample& sample,
   put_diagonal(out, angular_variance);
   put_vector(out, sample.linear_acceleration);
   put_diagonal(out, acceleration_variance);
+  return out.take();
+}
+
+std::string point_cloud(Version version, const Header& header, const std::vector<LidarPoint>& points) {
+  const auto count = static_cast<std::uint32_t>(points.size());
+  std::string data(points.size() * kPointStep, '\0');
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    char* const at = data.data() + i * kPointStep;
+    const LidarPoint& p = points[i];
+    const float place[] = {p.x, p.y, p.z, p.intensity};
+    std::memcpy(at, place, sizeof place);
+    std::memcpy(at + kPointFields[4].offset, &p.ring, sizeof p.ring);
+    std::memcpy(at + kPointFields[5].offset, &p.time, sizeof p.time);
+  }
+  Wire out(version, data.size() + 256);
+  put_header(out, header);
+  out.number(std::uint32_t{1});
+  out.number(count);
+  out.count(std::size(kPointFields));
+  for (const PointField& field : kPointFields) {
+    out.text(field.name);
+    out.number(field.offset);
+    out.number(field.type);
+    out.number(std::uint32_t{1});
+  }
+  out.boolean(false);  // is_bigendian
+  out.number(kPointStep);
+  out.number(count * kPointStep);
+  out.blob(data);
+  out.boolean(true);  // is_dense
+  return out.take();
+}
+
+std::string laser_scan(Version version, const Header& header, const LidarSpec& spec,
+                       const std::vector<LidarPoint>& points) {
+  const auto columns = static_cast<std::size_t>(spec.columns);
+  std::vector<float> ranges(columns, std::numeric_limits<float>::infinity()), intensities(columns, 0);
+  for (auto p = points.rbegin(); p != points.rend(); ++p) {
+    ranges.at(p->column) = std::sqrt(p->x * p->x + p->y * p->y + p->z * p->z);
+    intensities[p->column] = p->intensity;
+  }
+  constexpr double kRadian = portable::kPi / 180;
+  const double first = spec.first_azimuth_deg * kRadian, step = spec.span_deg * kRadian / spec.columns;
+  Wire out(version, 8 * columns + 256);
+  put_header(out, header);
+  for (const double value : {first, first + step * (spec.columns - 1), step, double(spec.column_ns) * 1e-9,
+                             1 / spec.rate_hz, spec.min_range, spec.max_range})
+    out.number(static_cast<float>(value));
+  for (const auto* values : {&ranges, &intensities}) {
+    out.count(columns);
+    for (const float value : *values) out.number(value);
+  }
+  return out.take();
+}
+
+std::string joint_state(Version version, const Header& header, const std::vector<std::string>& names,
+                        const std::vector<double>& positions, const std::vector<double>& speeds,
+                        const std::vector<double>& efforts) {
+  Wire out(version, 64 + 56 * names.size());
+  put_header(out, header);
+  out.count(names.size());
+  for (const std::string& name : names) out.text(name);
+  for (const auto* list : {&positions, &speeds, &efforts}) {
+    out.count(list->size());
+    for (const double value : *list) out.number(value);
+  }
+  return out.take();
+}
+
+std::string odometry(Version version, const Header& header, const std::string& child, const Pose& pose,
+                     const Vec3& linear, const Vec3& angular) {
+  constexpr int kCovariances = 36;
+  Wire out(version, 800);
+  put_header(out, header);
+  out.text(child);
+  put_pose(out, pose);
+  for (int i = 0; i < kCovariances; ++i) out.number(0.0);
+  put_vector(out, linear);
+  put_vector(out, angular);
+  for (int i = 0; i < kCovariances; ++i) out.number(0.0);
+  return out.take();
+}
+
+std::string wrench_stamped(Version version, const Header& header, const Vec3& force,
+                           const Vec3& moment) {
+  Wire out(version, 128);
+  put_header(out, header);
+  put_vector(out, force);
+  put_vector(out, moment);
   return out.take();
 }
 

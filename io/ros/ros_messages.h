@@ -12,25 +12,27 @@
 #include "io/ros/ros_wire.h"
 #include "kernel/base/math.h"
 #include "render/scene/frame.h"
+#include "render/scene/lidar_scan.h"
+#include "render/scene/lidar_spec.h"
 
 namespace rubble::ros {
 
 struct MessageType {
-  const char* package;
+  const char* package;      // "sensor_msgs"
   const char* name;         // ROS 1: "package/name"; ROS 2: "package/msg/name"
   const char* md5;          // ROS 1
   const char* definition1;  // of ROS 1, with all types in it
   const char* definition2;  // of ROS 2, as ros2msg
 };
 extern const MessageType kImage, kCompressedImage, kCameraInfo, kPoseStamped, kTfMessage, kClock,
-    kImu, kEventArray, kString;
+    kImu, kEventArray, kString, kPointCloud, kLaserScan, kJointState, kOdometry, kWrenchStamped;
 
 std::string type_name(const MessageType& type, Version version);
 
 struct Header {
   std::uint32_t sequence = 0;  // ROS 1 alone
-  std::int64_t stamp_ns = 0;
-  std::string frame;
+  std::int64_t stamp_ns = 0;   // simulation time; unit: ns
+  std::string frame;           // frame_id
 };
 
 std::string clock(Version version, std::int64_t stamp_ns);
@@ -50,8 +52,8 @@ std::string pose_stamped(Version version, const Header& header, const Pose& pose
 // Each takes coordinates of `child` to `parent`. What is latched must be one message: a late subscriber
 // gets only the last.
 struct Transform {
-  std::string child;
-  Pose pose;
+  std::string child;     // child_frame_id
+  Pose pose;             // parent_from_child; unit: m
   std::string parent{};  // empty: the header's frame
 };
 std::string transforms(Version version, const Header& header, const std::vector<Transform>& list);
@@ -59,8 +61,24 @@ std::string transforms(Version version, const Header& header, const std::vector<
 // sample, the same for all axes; units: (rad/s)^2 and (m/s2)^2.
 std::string imu(Version version, const Header& header, const ImuSample& sample,
                 double angular_variance, double acceleration_variance);
+// By joint; lists of one length.
+std::string joint_state(Version version, const Header& header, const std::vector<std::string>& names,
+                        const std::vector<double>& positions, const std::vector<double>& speeds,
+                        const std::vector<double>& efforts);
+// header.frame: the one that `pose` is in; velocities in the child's own. Without covariances (all 0: unknown).
+std::string odometry(Version version, const Header& header, const std::string& child, const Pose& pose,
+                     const Vec3& linear, const Vec3& angular);
+std::string wrench_stamped(Version version, const Header& header, const Vec3& force,
+                           const Vec3& moment);
 // dvs_msgs/EventArray, as drivers of event cameras publish.
 std::string event_array(Version version, const Header& header, const Intrinsics& intrinsics,
                         const std::vector<Event>& events);
+
+// Unordered, dense: x, y, z, intensity (float32), ring (uint16), time (float32, s since the stamp).
+std::string point_cloud(Version version, const Header& header, const std::vector<LidarPoint>& points);
+// Of a planar pattern: a range for every column, inf where there is no echo (REP 117); of two echoes of a
+// ray the first of the scan.
+std::string laser_scan(Version version, const Header& header, const LidarSpec& spec,
+                       const std::vector<LidarPoint>& points);
 
 }  // namespace rubble::ros

@@ -6,6 +6,7 @@
 #include "io/image/image_file.h"
 #include "io/image/jpeg_file.h"
 #include "io/recording/frame_order.h"
+#include "io/ros/robot_topics.h"
 #include "render/streams/image_streams.h"
 
 namespace rubble {
@@ -40,7 +41,8 @@ class RosRecorder : public Recorder {
         options_(options),
         recording_(options.recording),
         order_(path, channels_of(options.recording)),
-        imu_counts_(options.recording.imus.size()) {
+        imu_counts_(options.recording.imus.size()),
+        scan_counts_(options.recording.lidars.size()) {
     for (CameraRecord& camera : recording_.cameras)
       camera.channels.truth = floats_first(camera.channels.truth);
     add_topics();
@@ -76,13 +78,31 @@ class RosRecorder : public Recorder {
                           variance(model.accelerometer_noise)));
   }
 
+  // After the descriptions and fixed transforms, which come with the first frame.
+  void write_robot(const RobotSample& sample) override {
+    if (instants_ > 0)
+      robots_->write(sample, tf_);
+    else
+      early_.push_back(sample);
+  }
+
+  void write_lidar(const LidarScan& scan) override {
+    const auto i = std::size_t(scan.sensor);
+    const LidarRecord& lidar = recording_.lidars.at(i);
+    const ros::Header stamped{scan_counts_[i]++, scan.stamp_ns, lidar.frame_id};
+    file_->write(lidars_[i], scan.stamp_ns,
+                 lidar.spec.pattern == LidarPattern::planar
+                     ? ros::laser_scan(version_, stamped, lidar.spec, scan.points)
+                     : ros::point_cloud(version_, stamped, scan.points));
+  }
+
   void finish() override { file_->finish(); }
 
  private:
   bool compressed() const { return options_.pictures != RosPictures::raw; }
   bool packed_depth() const { return compressed() && options_.depth == RosDepth::millimetres; }
 
-  // The inertial units stand among the topics of the first camera, before its ground truth.
+  // Inertial units and LiDARs stand among the topics of the first camera, before its ground truth.
   void add_topics() {
     clock_ = file_->add("/clock", ros::kClock, false);
     tf_static_ = file_->add("/tf_static", ros::kTfMessage, true);
@@ -91,13 +111,21 @@ class RosRecorder : public Recorder {
     for (const CameraRecord& camera : recording_.cameras) {
       CameraTopics& topics = cameras_.emplace_back();
       add_pictures(camera, topics);
-      if (cameras_.size() == 1)
-        for (const ImuRecord& imu : recording_.imus)
-          imus_.push_back(file_->add(imu.topic, ros::kImu, false));
+      if (cameras_.size() == 1) add_range_and_inertial();
       add_ground_truth(camera, topics);
     }
+    robots_ = std::make_unique<RobotTopics>(recording_.robots, *file_);
     if (recording_.has_legend())
       legend_ = file_->add("/ground_truth/legend", ros::kString, true);
+  }
+
+  void add_range_and_inertial() {
+    for (const ImuRecord& imu : recording_.imus)
+      imus_.push_back(file_->add(imu.topic, ros::kImu, false));
+    for (const LidarRecord& lidar : recording_.lidars) {
+      const bool planar = lidar.spec.pattern == LidarPattern::planar;
+      lidars_.push_back(file_->add(lidar.topic, planar ? ros::kLaserScan : ros::kPointCloud, false));
+    }
   }
 
   void add_pictures(const CameraRecord& camera, CameraTopics& topics) {
@@ -155,9 +183,12 @@ class RosRecorder : public Recorder {
     send(clock_, frame, ros::clock(version_, frame.stamp_ns));
     if (instants_ == 0) write_constants(frame);
     const ros::Header world{instants_++, frame.stamp_ns, kWorld};
-    send(tf_, frame, ros::transforms(version_, world, {{recording_.rig, frame.world_from_rig}}));
+    if (!recording_.mount)
+      send(tf_, frame, ros::transforms(version_, world, {{recording_.rig, frame.world_from_rig}}));
     send(pose_, frame, ros::pose_stamped(version_, world, frame.world_from_rig));
     last_ns_ = frame.stamp_ns;
+    for (const RobotSample& sample : early_) robots_->write(sample, tf_);
+    early_.clear();
   }
 
   void write_constants(const Frame& frame) {
@@ -166,8 +197,14 @@ class RosRecorder : public Recorder {
     for (const ImuRecord& imu : recording_.imus)
       if (imu.frame_id != recording_.rig)
         fixed.push_back({imu.frame_id, imu.rig_from_imu, recording_.rig});
+    if (recording_.mount)
+      fixed.push_back({recording_.rig, recording_.mount->parent_from_rig, recording_.mount->parent});
+    robots_->add_transforms(fixed);
+    for (const LidarRecord& lidar : recording_.lidars)
+      fixed.push_back({lidar.frame_id, lidar.rig_from_lidar, recording_.rig});
     send(tf_static_, frame,
          ros::transforms(version_, header(frame, recording_.rig), fixed));
+    robots_->write_descriptions(frame.stamp_ns);
     if (recording_.has_legend())
       send(legend_, frame, ros::string(version_, legend_to_json(recording_.legend)));
   }
@@ -250,11 +287,14 @@ class RosRecorder : public Recorder {
   FrameOrder order_;
   std::uint32_t instants_ = 0;
   std::int64_t last_ns_ = -1;              // of the last instant
-  std::vector<std::uint32_t> imu_counts_;  // readings of each unit
+  std::vector<std::uint32_t> imu_counts_;   // readings of each unit
+  std::vector<std::uint32_t> scan_counts_;  // scans of each LiDAR
   // Numbers of the topics.
   std::uint32_t clock_ = 0, tf_static_ = 0, tf_ = 0, pose_ = 0, legend_ = 0;
   std::vector<CameraTopics> cameras_;
-  std::vector<std::uint32_t> imus_;
+  std::vector<std::uint32_t> imus_, lidars_;
+  std::unique_ptr<RobotTopics> robots_;
+  std::vector<RobotSample> early_;  // that came before the first frame
 };
 
 }  // namespace

@@ -11,10 +11,14 @@
 //   /camera/right/image_raw, .../camera_info   in camera_right_optical_frame; P[3] = -fx baseline
 //   /camera/events              dvs_msgs/EventArray, at the frame's stamp, those since the one before
 //   /imu                        sensor_msgs/Imu, each at its own stamp
+//   /points                     sensor_msgs/PointCloud2, a scan of a LiDAR at the stamp of its first ray
+//   /scan                       sensor_msgs/LaserScan, of a 2-D scanner
 //   /ground_truth/depth/image   32FC1, m: exact, where the depth above is that of a sensor
 //   /ground_truth/NAME/image    streams of ground truth, by their names and in the encodings that their
 //                               types have; a piece number is 32SC1: -1: ground; -2: nothing
 //   /ground_truth/legend        std_msgs/String, JSON (legend_to_json), latched
+//   robots                      io/ros/robot_topics.h; where one carries the rig, that hangs on its link in
+//                               /tf_static instead of on the world in /tf
 // Several cameras: /NAME in the place of /camera, /NAME/ground_truth in that of /ground_truth but for
 // the pose and the legend; world -> base_link in /tf, base_link -> NAME_link -> NAME_optical_frame in
 // /tf_static. Other names: CameraRecord and ImuRecord. /clock, /tf and the pose come once an instant.
@@ -44,9 +48,9 @@ enum class RosPictures {
 };
 
 struct RosOptions {
-  RosDepth depth = RosDepth::millimetres;
-  RosPictures pictures = RosPictures::raw;
-  Recording recording;
+  RosDepth depth = RosDepth::millimetres;   // encoding of depth images
+  RosPictures pictures = RosPictures::raw;  // compression of pictures
+  Recording recording;                      // what is recorded, and under which names
 };
 
 // A file that holds ROS messages.

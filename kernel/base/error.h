@@ -20,7 +20,7 @@ enum class ExitCode {
 
 // One mistake in something a user wrote. Fields that do not apply stay empty (line: 0).
 struct Diagnostic {
-  std::string file;
+  std::string file;      // as the user named it; empty: no file
   int line = 0;          // 1-based
   std::string key;       // whole path, e.g. "camera.width"
   std::string message;   // what is wrong, in a few words

@@ -28,8 +28,8 @@ struct ImportLimits {
   std::uint64_t memory = std::uint64_t(64) << 20;  // a fuzzer has a million files to try
   int cpu_seconds = 1;                             // a fiftieth, in truth
 #else
-  std::uint64_t memory = std::uint64_t(4) << 30;
-  int cpu_seconds = 120;   // for one file
+  std::uint64_t memory = std::uint64_t(4) << 30;  // as above
+  int cpu_seconds = 120;                          // for one file
 #endif
   int wall_seconds = 300;  // for a file that never comes, such as a pipe behind a `mtllib`
 };

@@ -13,7 +13,7 @@ namespace rubble {
 
 template <typename T>
 struct Vec3T {
-  T x{}, y{}, z{};
+  T x{}, y{}, z{};  // components; the unit is that of what the vector means
 
   constexpr Vec3T() = default;
   constexpr Vec3T(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
@@ -82,7 +82,7 @@ constexpr Vec3T<T> max(const Vec3T<T>& a, const Vec3T<T>& b) {
 // Row-major 3x3 matrix.
 template <typename T>
 struct Mat3T {
-  Vec3T<T> rows[3];
+  Vec3T<T> rows[3];  // from the top
 
   static constexpr Mat3T identity() { return diagonal({T(1), T(1), T(1)}); }
   static constexpr Mat3T diagonal(const Vec3T<T>& d) {
@@ -105,7 +105,7 @@ struct Mat3T {
 
 template <typename T>
 struct QuatT {
-  T w{1}, x{}, y{}, z{};
+  T w{1}, x{}, y{}, z{};  // the identity by default
 
   constexpr QuatT() = default;
   constexpr QuatT(T w_, T x_, T y_, T z_) : w(w_), x(x_), y(y_), z(z_) {}
@@ -148,7 +148,7 @@ using Quatf = QuatT<float>;
 
 // A rigid transform; named for both frames: `world_from_body` takes body coordinates to the world.
 struct Pose {
-  Quat rotation;
+  Quat rotation;     // unit length
   Vec3 translation;  // unit: m
 
   constexpr Vec3 operator*(const Vec3& p) const { return rotation.rotate(p) + translation; }
@@ -166,8 +166,8 @@ inline constexpr Pose camera_from_optical{{0.5, -0.5, 0.5, -0.5}, {0, 0, 0}};
 
 // Axis-aligned box; empty while min > max.
 struct Aabb {
-  Vec3 min{1e300, 1e300, 1e300};
-  Vec3 max{-1e300, -1e300, -1e300};
+  Vec3 min{1e300, 1e300, 1e300};     // lowest corner; unit: m
+  Vec3 max{-1e300, -1e300, -1e300};  // highest corner; unit: m
 
   constexpr void include(const Vec3& p) { min = rubble::min(min, p), max = rubble::max(max, p); }
   constexpr bool empty() const { return min.x > max.x; }

@@ -16,11 +16,11 @@ enum class UpAxis { y, z };
 
 // Triangles are counter-clockwise seen from outside. Lengths in metres, frame Z up.
 struct TriangleMesh {
-  std::vector<Vec3f> positions;
-  std::vector<Vec3f> normals;  // one per position, unit length; empty: flat shading
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint8_t> surfaces;      // one per triangle, an index into surface_names
-  std::vector<std::string> surface_names;  // looks, e.g. "concrete_cast", "concrete_fracture"
+  std::vector<Vec3f> positions;                         // of the vertices; unit: m
+  std::vector<Vec3f> normals;                           // one per position, unit length; empty: flat shading
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into the positions
+  std::vector<std::uint8_t> surfaces;                   // one per triangle, an index into surface_names
+  std::vector<std::string> surface_names;               // looks, e.g. "concrete_cast", "concrete_fracture"
 
   Aabb bounds() const;
 };

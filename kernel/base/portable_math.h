@@ -13,7 +13,7 @@ namespace rubble::portable {
 inline constexpr double kPi = 3.14159265358979323846;
 
 struct SinCos {
-  double sin, cos;
+  double sin, cos;  // of the same angle; range: -1 to 1
 };
 
 // unit: rad; range: |x| <= 1e6.

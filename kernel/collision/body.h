@@ -12,8 +12,8 @@ namespace rubble {
 struct Body {
   // What it is.
   std::int32_t type = 0, layer = 0;
-  double scale = 1;
-  const Shape* shape = nullptr;
+  double scale = 1;  // of the shape's lengths; above 0
+  const Shape* shape = nullptr;  // at scale 1; must outlive the body
   double mass = 0;              // unit: kg; 0: immovable
   Vec3 com_in_type;             // centre of mass in the scaled frame of the type; unit: m
   Mat3 inertia;                 // about the centre of mass, in the body; unit: kg m2
@@ -39,7 +39,7 @@ struct Body {
   // Sleeping: it must stay within a small distance of a pose for a while, or within a larger one of
   // another pose for longer.
   Pose still_pose, loose_pose;
-  std::int32_t still_steps = 0, loose_steps = 0;
+  std::int32_t still_steps = 0, loose_steps = 0;  // in a row near still_pose, near loose_pose
   // A later place of it, for when it leaves the second pose; while rest is verified only.
   Pose later_pose;
   std::int32_t later_steps = 0;
@@ -47,7 +47,7 @@ struct Body {
   Vec3f lost_support;  // impulses of a step that contacts gave it then and that are gone; unit: N s
 
   bool awake = false;    // moves; never true for immovable pieces
-  bool lost = false;
+  bool lost = false;  // it left the world and takes no part any more
   bool touching = false;      // in contact now
   bool has_touched = false;   // ever
 

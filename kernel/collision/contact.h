@@ -34,7 +34,7 @@ struct ContactPoint {
 // Who meets whom: read for every pair in every step, so kept small and apart from the contact.
 struct Pair {
   std::int32_t collider_a = 0, collider_b = 0;  // b may be kGround or a surface
-  std::int32_t body_a = 0, body_b = 0;
+  std::int32_t body_a = 0, body_b = 0;  // of the colliders; b may be kGround
   std::int32_t live = 0;  // 1: the contact had points in the last step
   double apart_until = 0;   // no points while the sum of the two travels is less; unit: m
   double searched_until = 0;  // its points are only moved along while that sum is less; unit: m
@@ -88,15 +88,15 @@ struct Contact {
   Vec3f way_out;                   // what the parts of two overlapping pieces agreed on; zero: none
   // Each vector and its number in a row, as the solver reads them.
   Vec3f normal;                    // unit length, from A to B; of the last search
-  float friction = 0;
+  float friction = 0;  // Coulomb coefficient of the pair; unit: 1
   Vec3f friction_impulse;          // tangential, of the last substep; unit: N s
   float twist_impulse = 0;         // about the normal, of the last substep; unit: N m s
-  ContactPoints points;
+  ContactPoints points;  // the first `count` are in use
   float pressed = 0;               // total normal impulse of the last step; unit: N s
   float rest_pressed = 0;          // the same when one of the two fell asleep
   // Of a tie, which is a contact that pulls: what it gives in a substep at most, and what it gave. unit: N s
   float most = kUnlimited, highest = 0;
-  GjkCache cache;
+  GjkCache cache;  // where the next search for the distance starts
 };
 
 }  // namespace rubble

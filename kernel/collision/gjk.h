@@ -10,22 +10,22 @@ namespace rubble {
 
 // Corners turned to the world, relative to some origin.
 struct PointSet {
-  const Vec3f* points = nullptr;
-  int count = 0;
+  const Vec3f* points = nullptr;  // `count` corners; unit: m
+  int count = 0;                  // at least 1
 };
 
 // The simplex where the last search ended: the next one starts there.
 struct GjkCache {
   std::uint16_t a[3] = {}, b[3] = {};  // corners of A and B
-  std::uint8_t size = 0;
+  std::uint8_t size = 0;               // corners in use; 0: start anew; range: 0 to 3
 };
 
 struct GjkResult {
   enum class Kind { separated, beyond_margin, overlapping };
-  Kind kind = Kind::separated;
-  Vec3f normal;            // unit length, from A to B
-  float distance = 0;      // beyond the margin: at least this; unit: m
-  Vec3f point_a, point_b;  // closest points, in the frame of A's corners
+  Kind kind = Kind::separated;  // what of the rest is valid
+  Vec3f normal;                 // unit length, from A to B
+  float distance = 0;           // beyond the margin: at least this; unit: m
+  Vec3f point_a, point_b;       // closest points, in the frame of A's corners
 };
 
 // `offset` is added to B's corners. Beyond `margin` the search ends early, with a normal that

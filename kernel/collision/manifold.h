@@ -16,8 +16,8 @@ struct ManifoldPoint {
 
 struct Manifold {
   static constexpr int kMaxClipped = 64;  // a face of 32 corners clipped by one of 32
-  ManifoldPoint points[kMaxClipped];
-  int count = 0;
+  ManifoldPoint points[kMaxClipped];      // the first `count` are in use
+  int count = 0;                          // range: 0 to kMaxClipped
 };
 
 // Clips the incident face against the reference face; keeps points closer than `margin`. Leaves

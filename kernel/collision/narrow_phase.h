@@ -9,8 +9,8 @@ namespace rubble {
 
 // One side of a contact for the narrow phase.
 struct PosedBody {
-  PosedPart part;
-  Vec3 centre;          // centre of mass in the world; unit: m
+  PosedPart part;         // corners relative to `centre`
+  Vec3 centre;            // centre of mass in the world; unit: m
   Vec3f linear, angular;  // velocities; unit: m/s, rad/s
 };
 

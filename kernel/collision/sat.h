@@ -9,11 +9,11 @@ namespace rubble {
 
 // A part in world orientation; corners relative to the centre of mass of its piece.
 struct PosedPart {
-  const ConvexShape* shape = nullptr;
-  PointSet corners;
-  const Mat3f* rotation = nullptr;  // world from body
-  const Shape* piece = nullptr;     // all parts of the piece; none: this part is alone
-  float scale = 1;                  // of the piece
+  const ConvexShape* shape = nullptr;  // at scale 1, in the frame of the piece's body
+  PointSet corners;                    // of the shape, scaled and turned to the world; unit: m
+  const Mat3f* rotation = nullptr;     // world from body
+  const Shape* piece = nullptr;        // all parts of the piece; none: this part is alone
+  float scale = 1;                     // of the piece
 
   Vec3f face_normal(int face) const { return *rotation * shape->faces[face].normal; }
   // The face whose normal is nearest to a direction given in the world.

@@ -11,10 +11,10 @@
 namespace rubble {
 
 struct PosedSurface {
-  const TriangleMeshShape* surface = nullptr;
-  Mat3 rotation;  // world from surface
-  Vec3 position;  // unit: m
-  double scale = 1;
+  const TriangleMeshShape* surface = nullptr;  // at scale 1; must outlive this
+  Mat3 rotation;                               // world from surface
+  Vec3 position;                               // unit: m
+  double scale = 1;                            // of the surface's lengths; above 0
 
   PosedSurface(const Body& body);
   // The box around a box of the world, in the frame of the surface at scale 1.

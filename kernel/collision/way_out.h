@@ -11,8 +11,8 @@ namespace rubble {
 
 // Two parts that overlap, and the normal (from A to B, unit length) that their own search found.
 struct OverlappingParts {
-  PosedPart a, b;
-  Vec3f normal;
+  PosedPart a, b;  // one of each piece
+  Vec3f normal;    // from A to B, unit length
 };
 
 // How far two parts must be moved along a direction (unit length, from A to B) until they no longer

@@ -14,7 +14,7 @@ using Cell3 = std::array<int, 3>;
 
 // Half-open ranges of voxels.
 struct Box {
-  Cell3 low{}, high{};
+  Cell3 low{}, high{};  // the first inside, the first beyond
 };
 
 class Voxels {

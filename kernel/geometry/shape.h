@@ -24,7 +24,7 @@ struct ConvexShape {
     std::uint16_t a = 0, b = 0;                   // corners
     std::uint16_t left_face = 0, right_face = 0;  // the faces that it joins
   };
-  std::vector<Vec3f> corners;
+  std::vector<Vec3f> corners;  // of the hull, from the piece's centre of mass; unit: m
   std::vector<Face> faces;
   std::vector<std::uint16_t> loops;  // counter-clockwise seen from outside
   std::vector<Edge> edges;

@@ -45,7 +45,7 @@ struct AssemblyLink {
 // `yield`, the spring's rest creeps after the joint: the bend stays.
 struct JointType {
   int parent = 0, child = 1;  // indices into the links
-  JointKind kind = JointKind::ball;
+  JointKind kind = JointKind::ball;  // what the joint leaves free
   Pose assembly_from_joint;                // unit: m
   double stiffness = 0;                    // unit: N m/rad, slider N/m; range: 0 to 1e9
   double damping = 0;                      // unit: N m s/rad, slider N s/m; range: 0 to 1e9
@@ -63,9 +63,9 @@ struct JointType {
 // the first joint of each child makes the tree. Further joints of a child close loops: they hold it to
 // another link, without spring, friction and stops of their own. 2 to 256 links.
 struct AssemblyType {
-  std::string name;
-  std::vector<AssemblyLink> links;
-  std::vector<JointType> joints;
+  std::string name;                 // unique among the assemblies of a pile
+  std::vector<AssemblyLink> links;  // the root first
+  std::vector<JointType> joints;    // at least one fewer than the links
 };
 
 inline constexpr int kMaxLinks = 256;

@@ -15,7 +15,7 @@ namespace rubble {
 
 // One column of one storey.
 struct ColumnPlace {
-  int storey = 0, i = 0, j = 0;
+  int storey = 0, i = 0, j = 0;  // counted as above; all from 0
 };
 
 // The footing of one ground column.
@@ -83,7 +83,7 @@ struct BuildingSpec {
   double piece = 1.0;             // pieces are about this long; unit: m; range: 0.3 to 3
   double roughness = 0.35;        // of cuts; range: 0 to 0.45
   std::uint64_t seed = 0;         // of cuts and of the ground's motion
-  CollapseCause cause;
+  CollapseCause cause;            // without one the building stands
 
   bool given() const { return storeys > 0; }
 };

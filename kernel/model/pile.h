@@ -26,7 +26,7 @@ struct ConvexPart {
 
 // One kind of piece. All lengths at scale 1.
 struct PieceType {
-  std::string name;
+  std::string name;               // unique among the types of a pile
   std::vector<ConvexPart> parts;  // collision geometry; at least one, or a surface
   // Terrain: collides by its own triangles, from the side that they face, and can only be fixed. It
   // need not be closed, but only what is closed has an inside for queries and void maps. Bars a few
@@ -40,16 +40,16 @@ struct PieceType {
 
 // How often a type is drawn and how large.
 struct MixEntry {
-  int type = 0;          // index into the types, or their number plus that of an assembly
-  double weight = 1;     // relative; >= 0
-  double scale_min = 1;  // from scale_min to scale_max; range: 0.01 to 100
-  double scale_max = 1;
+  int type = 0;               // index into the types, or their number plus that of an assembly
+  double weight = 1;          // relative; >= 0
+  double scale_min = 1;       // from scale_min to scale_max; range: 0.01 to 100
+  double scale_max = 1;       // range: scale_min and up, to 100
   SizeDistribution spread{};  // between them
 };
 
 struct Placement {
   int type = 0;          // as in MixEntry
-  double scale = 1;
+  double scale = 1;  // of the type's or the assembly's lengths; range: 0.01 to 100
   Pose world_from_body;  // body: the frame of the type's parts, not the centre of mass; or the
                          // assembly's
   bool fixed = false;    // immovable: walls, pipes, terrain; of an assembly its root alone
@@ -64,33 +64,33 @@ struct SpawnDensity {
 
 // Where and how much to drop.
 struct PileSpec {
-  std::uint64_t seed = 0;
-  std::vector<PieceType> types;
-  std::vector<AssemblyType> assemblies;
-  std::vector<MixEntry> mix;
-  std::vector<Placement> placed;     // stands or is laid down before the first layer
-  Vec3 spawn_position{0, 0, 4.5};    // centre of the spawn box; unit: m
-  Vec3 spawn_bounds{10, 10, 7};      // its full edge lengths; unit: m; > 0
-  SpawnDensity spawn_density;
+  std::uint64_t seed = 0;                // of all that is drawn at random
+  std::vector<PieceType> types;          // what MixEntry::type and Placement::type count
+  std::vector<AssemblyType> assemblies;  // counted on after the types
+  std::vector<MixEntry> mix;             // what layers are drawn from; not empty where there are layers
+  std::vector<Placement> placed;         // stands or is laid down before the first layer
+  Vec3 spawn_position{0, 0, 4.5};        // centre of the spawn box; unit: m
+  Vec3 spawn_bounds{10, 10, 7};          // its full edge lengths; unit: m; > 0
+  SpawnDensity spawn_density;            // over the footprint of the spawn box
   // A building that collapses before the first layer falls; its pieces' types begin at this one.
   BuildingSpec building;
-  int building_first_type = 0;
-  int layers = 4;                    // 0 to 1000
-  int pieces_per_layer = 300;        // 0 to 100000; an assembly counts as one
+  int building_first_type = 0;  // index into the types; 0 without a building
+  int layers = 4;               // 0 to 1000
+  int pieces_per_layer = 300;   // 0 to 100000; an assembly counts as one
 };
 
 // A layer's poses are relative to the bottom of the spawn volume (z) and to the world (x, y).
 struct Layer {
-  std::vector<Placement> pieces;
+  std::vector<Placement> pieces;  // in the order in which they are added to the world
 };
 
 struct Pile {
-  std::vector<PieceType> types;
-  std::vector<AssemblyType> assemblies;
-  std::vector<Placement> placed;
-  BuildingSpec building;
-  int building_first_type = 0;
-  std::vector<Layer> layers;
+  std::vector<PieceType> types;          // as in the PileSpec
+  std::vector<AssemblyType> assemblies;  // as in the PileSpec
+  std::vector<Placement> placed;         // before the first layer
+  BuildingSpec building;                 // collapses before the first layer falls
+  int building_first_type = 0;           // as in the PileSpec
+  std::vector<Layer> layers;             // in the order in which they fall
   // Above the terrain under the spawn box. Layer k starts at the larger of this height and 1 m above the highest point of the pile.
   double spawn_bottom = 1.0;  // unit: m
 };

@@ -12,28 +12,28 @@ namespace rubble {
 
 enum class PieceStatus : std::uint8_t {
   resting,  // below the speed limits, or asleep
-  moving,
+  moving,  // faster than the speed limits
   fixed,
   lost,  // left the world and was removed; its pose is the last one seen
 };
 
 struct PieceState {
-  std::int32_t type = 0;   // index into the pile's types
-  std::int32_t layer = 0;  // -1: placed before the first layer
-  double scale = 1;
-  Pose world_from_body;  // body: the frame of the type's parts
-  Vec3 linear_velocity;  // of the centre of mass, in the world; unit: m/s
-  Vec3 angular_velocity; // in the world; unit: rad/s
-  PieceStatus status = PieceStatus::moving;
+  std::int32_t type = 0;                     // index into the pile's types
+  std::int32_t layer = 0;                    // -1: placed before the first layer
+  double scale = 1;                          // of the type's lengths; above 0
+  Pose world_from_body;                      // body: the frame of the type's parts
+  Vec3 linear_velocity;                      // of the centre of mass, in the world; unit: m/s
+  Vec3 angular_velocity;                     // in the world; unit: rad/s
+  PieceStatus status = PieceStatus::moving;  // when settling ended
 };
 
 // A joint that holds. Joints that broke are not there any more.
 struct JointState {
-  std::int32_t parent = 0, child = 0;  // indices of the pieces
-  JointKind kind = JointKind::ball;
+  std::int32_t parent = 0, child = 0;        // indices of the pieces
+  JointKind kind = JointKind::ball;          // of the joint that the pack states
   Pose parent_from_joint, child_from_joint;  // in the frames of the pieces' types, scaled; unit: m
-  double rest = 0;     // of the spring of a hinge or slider, crept; unit: rad, m
-  Quat rest_rotation;  // of a ball's; on the parent's side
+  double rest = 0;                           // of the spring of a hinge or slider, crept; unit: rad, m
+  Quat rest_rotation;                        // of a ball's; on the parent's side
 };
 
 // A tie between two pieces, or a piece and the ground: bars that hold after the concrete around them has
@@ -63,9 +63,9 @@ struct PileState {
   // Every piece rests, no layer ran into its limit at the end, and no overlap is deeper than the
   // options allow.
   bool settled = false;
-  DeepestOverlap deepest_overlap;          // when settling ended; not kept in files
-  int layers_at_limit = 0;          // layers whose time limit came before rest
-  int lost = 0;
+  DeepestOverlap deepest_overlap;  // when settling ended; not kept in files
+  int layers_at_limit = 0;         // layers whose time limit came before rest
+  int lost = 0;                    // pieces that left the world
 
   // XXH64 over the bit patterns of every field of the pieces in their order, then of the joints in
   // theirs, each list after its length, then the step count. The names of types are not in it.

@@ -17,7 +17,7 @@
 namespace rubble {
 
 struct RobotLink {
-  std::string name;
+  std::string name;  // unique among the links: base_link, as URDF has it
   double mass = 0;       // unit: kg; > 0
   Vec3 centre_of_mass;   // in the link's frame; unit: m
   Mat3 inertia;          // about the centre of mass, along the link's axes; unit: kg m2; positive
@@ -45,7 +45,7 @@ struct RobotMotor {
 };
 
 struct RobotJoint {
-  std::string name;
+  std::string name;  // unique among the joints
   int parent = 0, child = 1;  // indices into the links
   JointKind kind = JointKind::hinge;  // weld, hinge or slider
   Pose parent_from_child;  // at the joint's zero; unit: m
@@ -53,15 +53,26 @@ struct RobotJoint {
   double lower = -kNever, upper = kNever;  // unit: rad, slider m; lower <= 0 <= upper
   double damping = 0;      // unit: N m s/rad, slider N s/m
   double friction = 0;     // dry; unit: N m, slider N
-  RobotMotor motor;
+  RobotMotor motor;  // effort 0: the joint is passive
   double start = 0;        // where it stands when the robot is put down; unit: rad, slider m
+};
+
+// What drives a robot on two sides: belts, or wheels that skid or turn in place.
+struct SideDrive {
+  std::vector<int> left, right;  // indices of joints of wheels; of belts, of links that have one
+  bool belts = false;
+  double radius = 0;    // of the wheels; unit: m
+  double distance = 0;  // between the sides; unit: m
+
+  bool any() const { return !left.empty() && !right.empty(); }
 };
 
 // Joints in the order of their children, parents first: joints[i].child == i + 1. 1 to 256 links.
 struct RobotModel {
-  std::string name;
-  std::vector<RobotLink> links;
-  std::vector<RobotJoint> joints;
+  std::string name;                // of the robot, prefix of its topics and files
+  std::vector<RobotLink> links;    // the first is the base
+  std::vector<RobotJoint> joints;  // one fewer than the links
+  SideDrive sides;  // what twists drive and odometry counts; none: neither is there
 
   double mass() const;  // unit: kg
 };
@@ -69,8 +80,8 @@ struct RobotModel {
 enum class MotorMode : std::int32_t { off, torque, velocity, position };
 
 struct MotorCommand {
-  MotorMode mode = MotorMode::off;
-  double target = 0;  // unit: N m, rad/s or rad; of a slider N, m/s or m
+  MotorMode mode = MotorMode::off;  // what `target` is a target of
+  double target = 0;                // unit: N m, rad/s or rad; of a slider N, m/s or m
 };
 
 // What a controller asks of a robot until it asks again.
@@ -82,7 +93,7 @@ struct RobotCommand {
 // What a robot is and feels, after a step.
 struct RobotState {
   struct Link {
-    Pose world_from_link;
+    Pose world_from_link;  // of the link's frame; unit: m
     Vec3 linear, angular;         // of the link's frame's origin, in the world; unit: m/s, rad/s
     Vec3 contact_force, contact_moment;  // of all contacts, mean of the step, the moment about the
                                          // centre of mass; in the world; unit: N, N m
@@ -95,16 +106,16 @@ struct RobotState {
     Vec3 load_force, load_moment;    // what the joint gives to the child, the moment about the joint,
                                      // mean of the step; in the world; unit: N, N m
   };
-  std::vector<Link> links;
-  std::vector<Joint> joints;
-  bool lost = false;  // it left the world; the rest is as it was then
+  std::vector<Link> links;    // in the order of RobotModel::links
+  std::vector<Joint> joints;  // in the order of RobotModel::joints
+  bool lost = false;          // it left the world; the rest is as it was then
 };
 
 // A link against a piece, the ground or another link of the same robot.
 struct RobotContact {
-  int link = 0;
-  int piece = -1;       // -1: the ground
-  Vec3 point, normal;   // the centre of the pressure; the normal points at the link; in the world; unit: m
+  int link = 0;           // index into RobotModel::links
+  int piece = -1;         // -1: the ground
+  Vec3 point, normal;     // the centre of the pressure; the normal points at the link; in the world; unit: m
   double separation = 0;  // of the deepest point; negative: overlap; unit: m
   double force = 0;       // normal, mean of the step; unit: N
 };

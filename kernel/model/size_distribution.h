@@ -8,7 +8,7 @@ namespace rubble {
 enum class Spread { uniform, normal, lognormal };
 
 struct SizeDistribution {
-  Spread kind = Spread::uniform;
+  Spread kind = Spread::uniform;  // which of the members below count
   double typical = 1;      // mean of the normal, median of the lognormal; range: above 0, to 100
   double deviation = 0.2;  // standard deviation of the size, or of its natural logarithm;
                            // range: above 0, to 10

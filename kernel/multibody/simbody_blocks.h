@@ -16,9 +16,9 @@
 namespace rubble {
 
 struct FreeBody {
-  double mass = 1;  // unit: kg
-  Mat3 inertia;     // about the centre of mass, in the body; unit: kg m2
-  Pose world_from_com;
+  double mass = 1;        // unit: kg
+  Mat3 inertia;           // about the centre of mass, in the body; unit: kg m2
+  Pose world_from_com;    // frame of the body's axes, in its centre of mass; unit: m
   Vec3 linear_velocity;   // of the centre of mass, in the world; unit: m/s
   Vec3 angular_velocity;  // in the world; unit: rad/s
 };
@@ -28,7 +28,7 @@ struct BodyRates {
   Vec3 linear, angular;              // speeds after the step; unit: m/s, rad/s
   Vec3 extra_linear, extra_angular;  // on top of them in the displacement only
   bool turns_freely = false;         // then this is where it has turned to, whatever the rates
-  Quat rotation;
+  Quat rotation;                     // world from body, where turns_freely
 };
 
 class SimbodyBlocks {

@@ -58,7 +58,7 @@ inline Spatial force_at(const Vec3& point, const Vec3& force) {
 
 // Six columns.
 struct SpatialMatrix {
-  Spatial columns[6];
+  Spatial columns[6];  // from the left
 
   Spatial operator*(const Spatial& x) const {
     Spatial result = columns[0] * x[0];

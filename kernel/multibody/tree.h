@@ -58,32 +58,32 @@ constexpr int speed_count(Mobility m) {
 
 // What drives a joint of one speed: see RobotMotor.
 struct TreeMotor {
-  bool on = false;
-  double stiffness = 0, damping = 0;  // of the present mode
-  double position = 0, speed = 0, torque = 0;
-  double effort = 0, speed_limit = 0;
-  double impulse = 0;  // of the last substep; unit: N m s, slider N s
-  double mean = 0;     // of the last step; unit: N m, slider N
-  double work = 0;     // so far; unit: J
+  bool on = false;                             // false: nothing drives the joint
+  double stiffness = 0, damping = 0;           // of the present mode
+  double position = 0, speed = 0, torque = 0;  // targets; unit: rad, rad/s, N m; slider m, m/s, N
+  double effort = 0, speed_limit = 0;          // bounds: of the torque, and of the speed towards a position
+  double impulse = 0;                          // of the last substep; unit: N m s, slider N s
+  double mean = 0;                             // of the last step; unit: N m, slider N
+  double work = 0;                             // so far; unit: J
 };
 
 // What a link of a robot feels, mean of a step, in the world. Contacts: the moment about its centre of
 // mass; the joint: what it gives to the link, the moment about the joint. unit: N, N m
 struct LinkLoads {
-  Vec3 contact_force, contact_moment, joint_force, joint_moment;
+  Vec3 contact_force, contact_moment, joint_force, joint_moment;  // as above
 };
 
 struct TreeLink {
-  std::int32_t body = 0;     // index of the piece
-  std::int32_t parent = -1;  // index of a link before this one; -1: the root
-  Mobility mobility = Mobility::free;
-  std::int32_t first_q = 0, first_u = 0;
+  std::int32_t body = 0;                    // index of the piece
+  std::int32_t parent = -1;                 // index of a link before this one; -1: the root
+  Mobility mobility = Mobility::free;       // of the joint to the parent; of a root: free or fixed
+  std::int32_t first_q = 0, first_u = 0;    // where the tree's q and u hold its own
   Pose parent_from_joint, link_from_joint;  // unit: m
   // The joint to the parent: see JointType.
   double stiffness = 0, damping = 0, friction = 0, yield = kNever;
-  double break_force = kNever, break_torque = kNever;
-  double lower = -kNever, upper = kNever;
-  bool collide = false;
+  double break_force = kNever, break_torque = kNever;  // unit: N, N m
+  double lower = -kNever, upper = kNever;              // of the coordinate; unit: rad, slider m
+  bool collide = false;                                // true: it touches its parent as other pieces do
   // Where the spring is at rest: it creeps.
   double rest = 0;     // hinge, slider; unit: rad, m
   Quat rest_rotation;  // ball
@@ -95,36 +95,36 @@ struct TreeLink {
   TreeMotor motor;
   Vec3 belt_axis;         // see RobotLink; zero: no belt
   double belt_speed = 0;  // unit: m/s
-  LinkLoads loads;
+  LinkLoads loads;        // of the last step
 };
 
 // A joint between two links that hang together without it: it closes a loop, and is held by rows in
 // the contact solver's sweeps.
 struct TreeLoop {
-  std::int32_t link_a = 0, link_b = 0;
-  Mobility mobility = Mobility::ball;
-  Pose a_from_joint, b_from_joint;  // unit: m
-  double break_force = kNever, break_torque = kNever;
-  bool collide = false;
+  std::int32_t link_a = 0, link_b = 0;                 // indices into Tree::links
+  Mobility mobility = Mobility::ball;                  // what the joint leaves free
+  Pose a_from_joint, b_from_joint;                     // unit: m
+  double break_force = kNever, break_torque = kNever;  // unit: N, N m
+  bool collide = false;                                // as TreeLink::collide
   // Along and about the axes of the joint in A, of the last substep; unit: N s, N m s.
   Vec3 force_impulse, torque_impulse;
   bool broken = false;  // in this step
 };
 
 struct Tree {
-  std::vector<TreeLink> links;  // parents before children; empty: the tree has come apart
-  std::vector<TreeLoop> loops;
-  std::int32_t q_count = 0, u_count = 0;
-  double mass = 0;  // of what moves; unit: kg
-  Pose root;        // world_from_com of a fixed root
-  bool driven = false;  // a robot: never sleeps, and feels loads
+  std::vector<TreeLink> links;            // parents before children; empty: the tree has come apart
+  std::vector<TreeLoop> loops;            // none in a tree without loops
+  std::int32_t q_count = 0, u_count = 0;  // of all links
+  double mass = 0;                        // of what moves; unit: kg
+  Pose root;                              // world_from_com of a fixed root
+  bool driven = false;                    // a robot: never sleeps, and feels loads
 
   bool has_fixed_root() const { return !links.empty() && links[0].mobility == Mobility::fixed; }
 };
 
 // Coordinates and speeds of one tree.
 struct TreeState {
-  std::vector<double> q, u;
+  std::vector<double> q, u;  // as long as the tree's q_count and u_count
 };
 
 // Numbers the coordinates of the links.

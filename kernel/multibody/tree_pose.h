@@ -28,7 +28,7 @@ struct LinkPose {
 
 struct TreePose {
   Vec3 reference;               // of a free tree: the root's centre of mass; unit: m
-  std::vector<LinkPose> links;
+  std::vector<LinkPose> links;  // in the order of Tree::links
   // By speed, of links with a parent: the motion that a unit of the speed gives to the link (a
   // column of Simbody's hinge matrix H), and what a motion of the link against its parent is
   // multiplied by to give the speed.

@@ -26,16 +26,16 @@ inline constexpr int kGroundPiece = -1;
 inline constexpr double kQueryTie = 1e-9;
 
 struct RayHit {
-  double distance = 0;  // from the origin; unit: m
-  Vec3 point;
-  Vec3 normal;          // unit length, out of the surface, also when it is met from inside
+  double distance = 0;       // from the origin; unit: m
+  Vec3 point;                // in the world; unit: m
+  Vec3 normal;               // unit length, out of the surface, also when it is met from inside
   int piece = kGroundPiece;  // index into PileState::pieces, or kGroundPiece
 };
 
 struct ClosestPoint {
-  double distance = 0;  // to the surface, from either side; unit: m
-  Vec3 point;           // on the surface
-  int piece = kGroundPiece;
+  double distance = 0;       // to the surface, from either side; unit: m
+  Vec3 point;                // on the surface
+  int piece = kGroundPiece;  // index into PileState::pieces
 };
 
 class PileQueries {

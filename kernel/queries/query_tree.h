@@ -20,10 +20,10 @@ struct QueryMesh {
 };
 
 struct QueryPiece {
-  int index = 0;  // in the pile
-  int mesh = 0;
-  double scale = 1;
-  Mat3 rotation;  // world from piece
+  int index = 0;     // in the pile
+  int mesh = 0;      // index into the meshes of the tree
+  double scale = 1;  // of the mesh's lengths; above 0
+  Mat3 rotation;     // world from piece
   Vec3 position;
   Aabb box;  // in the world
 

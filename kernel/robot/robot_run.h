@@ -16,9 +16,9 @@ namespace rubble {
 
 // What a controller is told.
 struct RobotSense {
-  double time = 0;  // since the start; unit: s
-  RobotState state;
-  std::vector<RobotContact> contacts;
+  double time = 0;                     // since the start; unit: s
+  RobotState state;                    // after the step
+  std::vector<RobotContact> contacts;  // of its links, in the step
 };
 using RobotController = std::function<RobotCommand(const RobotSense&)>;
 
@@ -37,19 +37,19 @@ struct RobotRunOptions {
 
 // What became of one robot.
 struct RobotSummary {
-  double distance = 0;      // of the first link, from start to end; unit: m
-  double path = 0;          // along its way; unit: m
-  double work = 0;          // of the motors, what they took and gave both counted; unit: J
-  double lowest = 0;        // of the first link's origin; unit: m
-  double stuck_time = 0;    // the first link moved less than 2 cm within a second; unit: s
-  bool lost = false;
+  double distance = 0;    // of the first link, from start to end; unit: m
+  double path = 0;        // along its way; unit: m
+  double work = 0;        // of the motors, what they took and gave both counted; unit: J
+  double lowest = 0;      // of the first link's origin; unit: m
+  double stuck_time = 0;  // the first link moved less than 2 cm within a second; unit: s
+  bool lost = false;      // it left the world
 };
 
 struct RobotRunResult {
-  Track track;               // ids: pieces of the pile, then links, robot by robot
-  std::vector<int> first_piece;  // id of each robot's first link
-  std::vector<RobotSummary> robots;
-  int pieces_moved = 0;      // of the pile, by more than 1 cm
+  Track track;                       // ids: pieces of the pile, then links, robot by robot
+  std::vector<int> first_piece;      // id of each robot's first link
+  std::vector<RobotSummary> robots;  // in the order of add()
+  int pieces_moved = 0;              // of the pile, by more than 1 cm
   std::uint64_t hash() const { return track.hash(); }
 };
 

@@ -16,11 +16,11 @@ using Six = std::array<double, 6>;
 
 struct BlockEntry {
   std::int32_t row = 0, column = 0;  // row > column
-  Block6 values{};
+  Block6 values{};                   // of the block, row by row
 };
 
 struct BlockMatrix {
-  std::vector<Block6> diagonal;
+  std::vector<Block6> diagonal;   // one a block row
   std::vector<BlockEntry> below;  // each pair once, in any fixed order
 };
 

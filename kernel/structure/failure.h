@@ -19,10 +19,10 @@ struct FailureOptions {
 };
 
 struct BondFailure {
-  std::int32_t bond = 0;
-  FailureMode mode = FailureMode::none;
-  bool hinge = false;        // it goes on as one
-  double utilization = 0;    // when it failed; unit: 1
+  std::int32_t bond = 0;                 // index into Structure::bonds; -1: none
+  FailureMode mode = FailureMode::none;  // which strength was used up
+  bool hinge = false;                    // it goes on as one
+  double utilization = 0;                // when it failed; unit: 1
 };
 
 // One round: of those that are used up the worst, and all that are nearly as bad, fail. Writes `status`.

@@ -20,14 +20,14 @@ struct CutOptions {
 
 // One flat side of a fragment. As it was cut, without the gap: sections are measured on it.
 struct FragmentFace {
-  HalfSpace plane;
-  Polygon polygon;
+  HalfSpace plane;     // the fragment is inside of it
+  Polygon polygon;     // corners of the side, seen from outside counter-clockwise; unit: m
   int neighbour = -1;  // the fragment of the same box on its other side; -1: the box ends here
 };
 
 struct Fragment {
-  std::vector<Vec3> corners;  // of what collides, half a gap inside; unit: m, from the box's centre
-  std::vector<FragmentFace> faces;
+  std::vector<Vec3> corners;        // of what collides, half a gap inside; unit: m, from the box's centre
+  std::vector<FragmentFace> faces;  // in no order of meaning
 };
 
 // size: edge lengths; unit: m; > 0. The box is centred at the origin. Neighbours share a plane exactly.

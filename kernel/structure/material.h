@@ -10,7 +10,7 @@
 namespace rubble {
 
 struct StructuralMaterial {
-  std::string name;
+  std::string name;           // as scripts write it: "concrete"
   double density = 2400;      // unit: kg/m3; range: 10 to 20000
   double friction = 0.8;      // Coulomb, of loose pieces against concrete; range: 0 to 2
   double youngs_modulus = 0;  // unit: Pa; > 0

@@ -24,7 +24,7 @@ Polygon cut_plane(const HalfSpace& plane, const std::vector<HalfSpace>& others, 
 // Two unit axes that span a plane with its normal: s, t, normal is right-handed. t is the world's
 // upward direction laid into the plane, or its Y where the normal is vertical.
 struct PlaneAxes {
-  Vec3 s, t;
+  Vec3 s, t;  // unit length, in the world
 };
 PlaneAxes make_axes(const Vec3& normal);
 

@@ -27,7 +27,7 @@ struct Section {
   double inertia_s = 0, inertia_t = 0;  // unit: m4
   double half_s = 0, half_t = 0;        // unit: m
   double compression = 0, tension = 0, shear = 0, shear_friction = 0;  // unit: Pa; the last 1
-  SectionSteel steel;
+  SectionSteel steel;  // bars through the section; none in masonry
 };
 
 // In a section, by what the second piece does to the first: tension is positive.
@@ -43,8 +43,8 @@ const char* failure_name(FailureMode mode);
 
 // The largest share of a strength that is used up; above 1 the section fails, by `mode`.
 struct Utilization {
-  double value = 0;  // unit: 1
-  FailureMode mode = FailureMode::none;
+  double value = 0;                      // unit: 1
+  FailureMode mode = FailureMode::none;  // of that strength
 };
 
 Section make_section(const Polygon& polygon, const Vec3& normal, const StructuralMaterial& material,

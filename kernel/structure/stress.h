@@ -16,8 +16,8 @@ namespace rubble {
 
 // What became of a bond. A hinge carries its yield moment about its axis, whatever it turns by.
 struct BondStatus {
-  bool broken = false;
-  bool hinge_s = false, hinge_t = false;
+  bool broken = false;  // it carries nothing any more
+  bool hinge_s = false, hinge_t = false;  // bars yield in bending about that axis
   double moment_s = 0, moment_t = 0;  // of a hinge, with its sign; unit: N m
   Vec3 sunk;  // how far the foundation under it went; only of bonds to it; unit: m
 };
@@ -47,7 +47,7 @@ struct StressOptions {
 // What the bonds of a group carry, in the order of its bonds.
 struct StressResult {
   bool stable = true;  // false: the structure buckles, or is held by nothing
-  std::vector<SectionForces> forces;
+  std::vector<SectionForces> forces;  // one a bond; unit: N, N m
   std::vector<double> rotation_s, rotation_t;  // of a bond's two sides against each other; unit: rad
 };
 

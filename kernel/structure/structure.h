@@ -26,17 +26,17 @@ struct Reinforcement {
   double side_ratio = 0;  // of those near one side, in tension when it bends; unit: 1; range: 0 to ratio
   double cover = 0.04;    // from the surface to the bars' axes; unit: m
   double stirrups = 0;    // what stirrups add to the shear strength; unit: Pa
-  Steel steel;
+  Steel steel;            // yield and rupture of the bars
 };
 
 // A box with its material.
 struct Member {
-  std::string name;  // as errors name it
-  MemberKind kind = MemberKind::beam;
-  Vec3 centre, size;  // unit: m
-  StructuralMaterial material;
-  Reinforcement bars;
-  CutOptions cut;
+  std::string name;                    // as errors name it
+  MemberKind kind = MemberKind::beam;  // decides how the member is cut and supported
+  Vec3 centre, size;                   // unit: m
+  StructuralMaterial material;         // of the whole member
+  Reinforcement bars;                  // as shares of its sections
+  CutOptions cut;                      // into pieces
   // Below 1: gaps and soft joints let it carry that share only of what it would as one with the frame.
   double stiffness = 1;  // unit: 1; range: above 0 to 1
   int variant = 0;  // members of one kind, size, material and cut with the same one share their pieces
@@ -44,7 +44,7 @@ struct Member {
 
 struct StructurePiece {
   std::int32_t type = 0;    // index into the structure's types
-  std::int32_t member = 0;
+  std::int32_t member = 0;  // index into Structure::members
   Vec3 position;            // of the type's frame; unit: m
   Vec3 centre;              // of mass; unit: m
   double mass = 0;          // unit: kg
@@ -53,20 +53,20 @@ struct StructurePiece {
 
 struct Bond {
   std::int32_t piece_a = 0, piece_b = 0;  // b may be kFoundation; the section's normal goes from a to b
-  Section section;
+  Section section;                        // that the bond goes through
   // Force per relative displacement, moment per relative rotation of the two pieces at the section.
   double axial_stiffness = 0, shear_stiffness = 0;                         // unit: N/m
   double torsion_stiffness = 0, bending_s_stiffness = 0, bending_t_stiffness = 0;  // unit: N m/rad
 };
 
 struct Structure {
-  std::vector<PieceType> types;  // one convex part each, density and friction of their material
+  std::vector<PieceType> types;             // one convex part each, density and friction of their material
   std::vector<std::string> type_materials;  // by type: name of the material
   std::vector<Reinforcement> type_bars;     // by type: of its member
-  std::vector<Member> members;
-  std::vector<StructurePiece> pieces;
-  std::vector<Bond> bonds;  // by piece_a, then piece_b
-  std::vector<std::int32_t> from_bond;  // by bond: which it was before damage; empty: never damaged
+  std::vector<Member> members;              // as designed
+  std::vector<StructurePiece> pieces;       // of all members
+  std::vector<Bond> bonds;                  // by piece_a, then piece_b
+  std::vector<std::int32_t> from_bond;      // by bond: which it was before damage; empty: never damaged
 };
 
 // Cuts the members and bonds whatever shares a face: within a member by its material and bars, between

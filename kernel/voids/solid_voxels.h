@@ -15,14 +15,14 @@ namespace rubble {
 // A piece's part of all triangles.
 struct SolidPiece {
   std::size_t first = 0, last = 0;  // [first, last)
-  Aabb box;
-  int type = 0;
+  Aabb box;                         // of its triangles, in the world; unit: m
+  int type = 0;                     // index into the pile's types
 };
 
 // The pieces of a pile in the world, but for the lost ones.
 struct Solids {
-  std::vector<QueryTriangle> triangles;
-  std::vector<SolidPiece> pieces;
+  std::vector<QueryTriangle> triangles;  // of all pieces, in the world
+  std::vector<SolidPiece> pieces;        // that count as solid
 };
 
 // Throws std::invalid_argument for a piece without a mesh.

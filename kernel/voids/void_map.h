@@ -49,13 +49,13 @@ struct RobotVoids {
 
 // A place where the void is wider than all around, and the narrow places between two of them.
 struct Chamber {
-  Vec3 position;
+  Vec3 position;      // where it is widest; unit: m
   double radius = 0;  // unit: m
   double volume = 0;  // of the cells that belong to it; unit: m3
 };
 struct Throat {
-  int a = 0, b = 0;  // chambers; b = -1: the outside
-  Vec3 position;
+  int a = 0, b = 0;   // chambers; b = -1: the outside
+  Vec3 position;      // where it is narrowest; unit: m
   double radius = 0;  // unit: m
 };
 struct VoidGraph {
@@ -64,12 +64,12 @@ struct VoidGraph {
 };
 
 struct VoidMap {
-  VoidSpace space;
-  WidestPaths widest;
+  VoidSpace space;                           // the cells that all indices below count
+  WidestPaths widest;                        // from the outside to every cell
   double void_volume = 0, solid_volume = 0;  // unit: m3
   double covered_volume = 0;                 // VoidSpace::covered_volume; unit: m3
   std::vector<RobotVoids> robots;            // in the order of the radii asked for
-  VoidGraph graph;
+  VoidGraph graph;                           // for the smallest robot that was asked for
 };
 
 // radii: of robots, each at least a voxel (InputError otherwise); unit: m.

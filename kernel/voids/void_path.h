@@ -8,14 +8,14 @@
 namespace rubble {
 
 struct FoundPath {
-  bool found = false;
+  bool found = false;  // false: there is no way, and the rest means nothing
   // From start to goal, corners of straight legs along which the clearance is kept; unit: m.
   std::vector<Vec3> points;
   double length = 0;  // unit: m
   // Of the way that was found or, where the ball does not pass, of the widest way that there is:
   // where it is narrowest, and how wide.
   double narrowest_radius = 0;  // unit: m; 0: no way for anything
-  Vec3 narrowest;
+  Vec3 narrowest;               // place on the way with the least clearance; unit: m
 };
 
 // The shortest way, outside and through voids, on which the ball's centre keeps `radius` from all

@@ -42,8 +42,8 @@ struct VoidSpaceOptions {
 enum class CellKind : std::uint8_t { outside, free_void, solid };
 
 struct VoidSpace {
-  VoxelGrid grid;
-  std::vector<CellKind> kind;
+  VoxelGrid grid;              // numbers the cells of the two lists below
+  std::vector<CellKind> kind;  // one a cell
   // From the centre of a cell to the surface, 0 in solids: the exact distance to a triangle that
   // is the nearest one, or in rare places one beside it that is less than half a voxel farther.
   // Never too small; unit: m.

@@ -19,8 +19,8 @@ inline constexpr float kNearPlane = 0.01f;  // unit: m; nothing nearer is drawn
 
 // Rows x, y and w of clip_from_optical, times optical_from_world.
 struct ViewProjection {
-  Pose world_from_optical, optical_from_world;
-  Intrinsics intrinsics;
+  Pose world_from_optical, optical_from_world;  // inverse of each other; unit: m
+  Intrinsics intrinsics;                        // a pinhole: distortion does not count
 
   ViewProjection(const Pose& world_from_camera, const Intrinsics& k);
   // Rows x, y and w of clip_from_mesh, as shaders/visibility.vert wants them.

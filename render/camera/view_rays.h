@@ -15,9 +15,9 @@ namespace rubble {
 using LensDirections = std::vector<Vec3f>;
 
 struct ViewRays {
-  std::int64_t stamp_ns = 0;
-  Intrinsics intrinsics;
-  Pose world_from_camera;                // in the middle of the exposure
+  std::int64_t stamp_ns = 0;  // simulation time, in the middle of the exposure; unit: ns
+  Intrinsics intrinsics;      // width and height in pixels; a pinhole's where `directions` is not given
+  Pose world_from_camera;     // in the middle of the exposure
   // Of what bears the lamp; not given: the camera bears it.
   std::optional<Pose> world_from_rig{};
   std::vector<Pose> row_poses{};         // world_from_optical of each row; empty: all as above

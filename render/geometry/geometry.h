@@ -14,18 +14,18 @@ namespace rubble {
 
 // A placed mesh. Number 0 is the ground where the scene has one.
 struct PlacedMesh {
-  std::uint32_t mesh = 0;  // index into the prepared meshes
-  double scale = 1;        // of the mesh; range: above 0
-  Pose world_from_mesh;    // unit: m
-  Vec3f centre;  // of its bounding sphere, in the world
-  float radius = 0;
-  std::uint32_t id = 0;           // piece number
-  std::uint16_t label = 0;        // class, as in the stream `label`
-  std::uint32_t first_flag = 0;   // of its finest level's clusters, in per-cluster tables
-  std::uint32_t first_light = 0;  // of its vertices, in the table of baked light
+  std::uint32_t mesh = 0;                    // index into the prepared meshes
+  double scale = 1;                          // of the mesh; range: above 0
+  Pose world_from_mesh;                      // unit: m
+  Vec3f centre;                              // of its bounding sphere, in the world
+  float radius = 0;                          // of that sphere; unit: m
+  std::uint32_t id = 0;                      // piece number
+  std::uint16_t label = 0;                   // class, as in the stream `label`
+  std::uint32_t first_flag = 0;              // of its finest level's clusters, in per-cluster tables
+  std::uint32_t first_light = 0;             // of its nodes, in the table of baked light
   std::array<std::uint32_t, 2> look_seed{};  // varies the look
-  bool moves = false;  // its pose is that of the present moment, see MovingPieces
-  bool there = true;   // false: what moves is not there at the present moment
+  bool moves = false;                        // its pose is that of the present moment, see MovingPieces
+  bool there = true;                         // false: what moves is not there at the present moment
 };
 
 inline constexpr std::uint32_t kGroundId = kGroundInstance;
@@ -33,22 +33,22 @@ inline constexpr std::uint32_t kGroundId = kGroundInstance;
 // Plain data: all prepared meshes and where they stand.
 struct PreparedScene {
   std::vector<PreparedMesh> meshes;  // each once
-  std::vector<PlacedMesh> placed;
-  std::size_t cluster_flags = 0;   // clusters of the finest level over all placed meshes
-  std::size_t light_vertices = 0;  // entries of the table of baked light
-  Aabb bounds;                     // of all pieces, without the ground, wherever they move
-  std::uint64_t moment = 0;        // another number whenever anything has moved
+  std::vector<PlacedMesh> placed;    // pieces, and the ground where there is one
+  std::size_t cluster_flags = 0;     // clusters of the finest level over all placed meshes
+  std::size_t light_nodes = 0;       // entries of the table of baked light
+  Aabb bounds;                       // of all pieces, without the ground, wherever they move
+  std::uint64_t moment = 0;          // another number whenever anything has moved
 };
 PreparedScene prepare_scene(const Scene& scene, int threads);
 // What does not move, as a scene of its own. first_light: of its placed meshes in turn, in `scene`.
 PreparedScene resting_part(const PreparedScene& scene, std::vector<std::uint32_t>& first_light);
 
-// Light that reaches a vertex, without the direct part of the main light and the lamp.
+// Light that reaches a node, without the direct part of the main light and the lamp.
 struct BakedLight {
   // Illuminance on a surface of normal n: dot(n, vector), as three half floats; then the share of
   // red and of blue, 0 to 255 for 0 to 1 times the sum of the three colours.
   std::uint16_t x = 0, y = 0, z = 0;
-  std::uint8_t red = 85, blue = 85;
+  std::uint8_t red = 85, blue = 85;  // see above; 85: a third, grey
 };
 
 // What the shaders read. Binding points are in shaders/geometry.glsl.

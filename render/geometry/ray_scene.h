@@ -21,23 +21,23 @@ class RayScene {
   };
   struct Hit {
     std::uint32_t triangle = kNone;  // index into triangles()
-    float distance = 0;
-    bool back = false;  // from inside
+    float distance = 0;              // unit: lengths of the ray's direction
+    bool back = false;               // from inside
   };
 
   enum class Detail { coarsest, finest };  // which level of each piece
 
   struct Ray {
-    Vec3f from;
-    float nearest = 0;  // unit: lengths of `direction`, as all distances here
-    Vec3f direction;
-    float farthest = 0;
+    Vec3f from;          // in the world; unit: m
+    float nearest = 0;   // unit: lengths of `direction`, as all distances here
+    Vec3f direction;     // in the world; of any length
+    float farthest = 0;  // unit: lengths of `direction`
   };
   struct PreciseHit {
     std::uint32_t triangle = kNone;  // index into triangles()
-    float distance = 0;
-    float u = 0, v = 0;  // weights of the triangle's second and third corner
-    bool back = false;   // from inside
+    float distance = 0;              // unit: lengths of the ray's direction
+    float u = 0, v = 0;              // weights of the triangle's second and third corner
+    bool back = false;               // from inside
   };
   // Packets pay where neighbouring rays go the same way; elsewhere each ray goes alone.
   enum class Order { coherent, scattered };

@@ -12,8 +12,8 @@ namespace rubble {
 inline constexpr unsigned kResting = 0;  // the geometry of all that rests
 
 struct RayScene::Embree {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
+  RTCDevice device = nullptr;                // owned
+  RTCScene scene = nullptr;                  // of all pieces; owned
   std::map<std::uint32_t, RTCScene> meshes;  // of those that move, by prepared mesh
 
   ~Embree() {
@@ -28,7 +28,7 @@ struct RayScene::Embree {
 
 // A placed mesh that moves: an instance in the tree.
 struct RayScene::Mover {
-  std::uint32_t placed = 0;
+  std::uint32_t placed = 0;          // which placed mesh
   std::uint32_t first_triangle = 0;  // in triangles_
   RTCGeometry geometry = nullptr;    // owned by the tree
 };

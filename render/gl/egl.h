@@ -36,11 +36,11 @@ bool has_word(const char* list, const char* word);
 
 // One way to a display.
 struct EglCandidate {
-  std::string name;
-  EGLenum platform = 0;  // 0: eglGetDisplay
-  void* native = nullptr;
-  int device = -1;        // number as EGL counts devices; -1: none
-  bool software = false;  // draws on the processor
+  std::string name;        // as the driver calls it
+  EGLenum platform = 0;    // 0: eglGetDisplay
+  void* native = nullptr;  // EGLDeviceEXT; null: the default display
+  int device = -1;         // number as EGL counts devices; -1: none
+  bool software = false;   // draws on the processor
 };
 
 // Every way there is, in the order in which they are tried: devices that are hardware, devices that

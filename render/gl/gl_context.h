@@ -12,10 +12,10 @@ struct Gl;
 
 // What the context turned out to be, for `rubble info` and the manifest.
 struct GlInfo {
-  std::string vendor, renderer, version;  // as GL reports them
-  std::string egl_device;                 // e.g. "device 0 (/dev/dri/card0)" or "surfaceless"
-  std::string egl_version;
-  std::string why;  // this device and no other was chosen
+  std::string vendor, renderer, version;            // as GL reports them
+  std::string egl_device;                           // e.g. "device 0 (/dev/dri/card0)" or "surfaceless"
+  std::string egl_version;                          // as EGL states it
+  std::string why;                                  // this device and no other was chosen
   std::vector<std::pair<std::string, int>> limits;  // names and values of those that matter here
 };
 

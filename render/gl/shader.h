@@ -12,7 +12,7 @@ namespace rubble {
 
 struct ShaderFile {
   const char* name;  // path below render/shaders/
-  const char* text;
+  const char* text;  // the whole file; never null but in the last
 };
 // Made by the build from render/shaders/*.glsl; ends with a null name.
 extern const ShaderFile kShaderFiles[];
@@ -23,8 +23,8 @@ using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 // The text of `file` with #include "other.glsl" lines expanded and the version and defines in
 // front, and the list of files that #line numbers refer to. Throws RunError for an unknown file.
 struct ExpandedShader {
-  std::string text;
-  std::vector<std::string> files;
+  std::string text;                // what the driver compiles
+  std::vector<std::string> files;  // names by the number in #line
 };
 ExpandedShader expand_shader(const std::string& file, const ShaderDefines& defines);
 

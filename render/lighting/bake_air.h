@@ -9,9 +9,9 @@
 namespace rubble {
 
 struct AirBakeInput {
-  const PreparedScene& scene;
-  const LightSet& light;
-  const RayScene& rays;
+  const PreparedScene& scene;           // whose surfaces are baked
+  const LightSet& light;                // that was baked
+  const RayScene& rays;                 // of that scene
   const std::vector<Vec3f>& radiosity;  // one a triangle of `rays`, over pi; unit: kcd/m2
   int threads = 1;                      // the result does not depend on it
 };

@@ -43,7 +43,7 @@ LightModel make_light_model(const LightSpec& spec);
 
 struct LightSet {
   std::vector<LightModel> lights;  // the main one first; 1 to kMostLights
-  Sky sky;
+  Sky sky;                         // that goes with the main light
 };
 // Throws RunError for too many lights.
 LightSet make_lights(const Scene& scene);

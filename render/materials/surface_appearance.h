@@ -30,17 +30,16 @@ inline constexpr int kPatternCount = 14;
 
 // How a surface reflects. Colours are linear-light albedos (0 to 1).
 struct SurfaceAppearance {
-  const char* name;
-  Pattern pattern;
+  const char* name;   // as meshes name it: "concrete_cast"
+  Pattern pattern;    // of its texture
   Vec3f dark, light;  // albedo where the texture is darkest and brightest
   Vec3f accent;       // albedo of what the texture's mask picks out: stains, grains, mortar
   float tile;         // side of one repetition; unit: m
   float bump;         // strength of the relief; 0: flat
-  float gloss;        // mirror-like part at normal incidence; 0: matt
   float dust;         // share of dust that rests on it facing up; range: 0 to 1
   float variation;    // how much brightness differs from piece to piece; range: 0 to 1
-  // Of the reference renderer, see transport/reflection.h: the share that its outermost face mirrors at
-  // normal incidence (0: matt), and the roughness alpha of that mirror.
+  // See transport/reflection.h: the share that its outermost face mirrors at normal incidence (0: matt), and
+  // the roughness alpha of that mirror.
   float reflectance = 0, roughness = 1;
 };
 

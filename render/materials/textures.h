@@ -12,8 +12,8 @@ namespace rubble {
 // One tileable square, 4 bytes a texel: slope of the relief along x and along y (128: none),
 // brightness between a look's dark and light, and the mask of its accent.
 struct PatternImage {
-  int size = 0;
-  std::vector<std::uint8_t> texels;
+  int size = 0;                      // of a side; a power of two; unit: texel
+  std::vector<std::uint8_t> texels;  // rows, size * size * 4 bytes
 };
 
 // size: a power of two.

@@ -32,7 +32,7 @@ inline double phase_function(double g, double cosine) {
 }
 
 struct DustPuff {
-  Vec3 centre;
+  Vec3 centre;            // in the world; unit: m
   double deviation = 1;   // s above; unit: m
   double extinction = 0;  // in its middle; unit: 1/m
 

@@ -11,7 +11,7 @@ class ContactPass {
   explicit ContactPass(const Gl& gl);
 
   struct Lamp {
-    bool on = false;
+    bool on = false;   // false: no shadows of the lamp are looked for
     Vec3f place;       // in the optical frame; unit: m
     float radius = 0;  // unit: m
   };

@@ -10,12 +10,12 @@
 namespace rubble {
 
 struct DrawCommand {  // as glMultiDrawElementsIndirect wants it
-  std::uint32_t count, instances, first_index, base_vertex, base_instance;
+  std::uint32_t count, instances, first_index, base_vertex, base_instance;  // in GL's order
 };
 
 struct DrawRecord {  // attributes of one command, see shaders/visibility.vert.glsl
-  float clip_x[4], clip_y[4], clip_w[4];
-  std::uint32_t placed, unused;
+  float clip_x[4], clip_y[4], clip_w[4];  // rows of clip_from_mesh
+  std::uint32_t placed, unused;           // number of the placed mesh; padding
   float clip_z[4];
 };
 

@@ -19,7 +19,7 @@ using TruthImages = decltype(Frame::truth);
 
 // What is needed of a view that was drawn.
 struct DrawnView {
-  const ViewRays& rays;
+  const ViewRays& rays;                   // as they were drawn
   const std::vector<std::uint32_t>& ids;  // two a pixel, as VisibilityPass::ids()
   const std::vector<float>& distances;    // along the ray; NaN: nothing there; unit: m
   const ViewRays* next;                   // the next image's; null: there is none

@@ -10,8 +10,8 @@ enum class TileContent { sky, near_surfaces, surfaces, mixed };  // as CONTENT i
 
 // A rectangle of pixels, all of one content.
 struct TileRun {
-  TileContent content;
-  int x, y, width, height;
+  TileContent content;      // of every pixel of the run
+  int x, y, width, height;  // rectangle of the image; unit: pixel
 };
 
 struct ImageTiles {

@@ -14,10 +14,10 @@ struct ShadowMap {
   GlTexture depth;  // array of GL_DEPTH_COMPONENT32F, compared by GL_LEQUAL
   std::vector<std::array<std::array<float, 4>, 4>> clip_from_world;  // rows, one a layer
   struct Light {
-    int first_view = 0, views = 1;
-    float texel = 0;  // width across the beam (directional; m) or per metre of distance
+    int first_view = 0, views = 1;  // layers of the light; 1 or 6
+    float texel = 0;                // width across the beam (directional; m) or per metre of distance
   };
-  std::vector<Light> lights;
+  std::vector<Light> lights;  // in the order of LightSet::lights
 };
 
 class ShadowPass {

@@ -15,7 +15,7 @@
 namespace rubble {
 
 struct VisibilityOptions {
-  bool occlusion_culling = true;
+  bool occlusion_culling = true;  // false: draws all clusters in the view
   // Use coarser levels where a level-0 triangle would be about this small on the image; 0: always
   // the finest. unit: pixel
   double coarse_below = 0;

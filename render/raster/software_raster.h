@@ -19,7 +19,7 @@ namespace rubble {
 
 // Neighbouring clusters of a placed mesh.
 struct ClusterRun {
-  std::uint32_t placed, first_cluster, cluster_count;
+  std::uint32_t placed, first_cluster, cluster_count;  // number of the mesh, and its clusters
 };
 
 class SoftwareRaster {

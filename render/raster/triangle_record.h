@@ -19,9 +19,9 @@ static_assert(sizeof(TriangleRecord) == 64, "one cache line");
 
 // Rows [first_row, last_row) of an image of `width` columns; memory of row 0 is at the pointers.
 struct RasterTarget {
-  float* depth;
-  std::uint64_t* ids;
-  int width, first_row, last_row;
+  float* depth;                    // near / Z; 0: nothing
+  std::uint64_t* ids;              // TriangleRecord::id
+  int width, first_row, last_row;  // unit: pixel
 };
 
 // Draws the part of the triangle that covers pixel centres of those rows and is nearer than what is

@@ -13,7 +13,7 @@ namespace rubble {
 // The clusters of a mesh, each with a list of its own vertices, so that one is moved once a cluster.
 struct ClusterShapes {
   struct Range {
-    std::uint32_t first_vertex, vertex_count, first_triangle, triangle_count;
+    std::uint32_t first_vertex, vertex_count, first_triangle, triangle_count;  // in the lists below
   };
   std::vector<Range> clusters;          // as PreparedMesh::clusters
   std::vector<float> x, y, z;           // mesh frame; unit: m
@@ -25,11 +25,11 @@ ClusterShapes make_cluster_shapes(const PreparedMesh& mesh);
 struct MeshView {
   MeshView(const ViewProjection& view, const Pose& world_from_mesh, double scale);
 
-  float rows[3][4];       // optical_from_mesh; unit: m
-  double fx, fy, cx, cy;  // unit: pixel
-  double inverse_fx, inverse_fy;
-  int width, height;
-  int guard;  // pixels from the middle beyond which a triangle is clipped
+  float rows[3][4];               // optical_from_mesh; unit: m
+  double fx, fy, cx, cy;          // unit: pixel
+  double inverse_fx, inverse_fy;  // 1 / fx and 1 / fy
+  int width, height;              // of the image; unit: pixel
+  int guard;                      // pixels from the middle beyond which a triangle is clipped
 };
 
 // Appends those triangles of a cluster that face the camera and may cover a pixel's centre.

@@ -25,15 +25,15 @@ struct TraceOptions {
 };
 
 struct TracedScene {
-  const RayScene& rays;  // of the finest level
-  const SurfaceModel& surfaces;
-  const SceneLights& lights;
-  const AirPath& air;  // at the instant of the image
+  const RayScene& rays;          // of the finest level
+  const SurfaceModel& surfaces;  // of that scene
+  const SceneLights& lights;     // of the place, without the lamp
+  const AirPath& air;            // at the instant of the image
 };
 
 // What is seen, and from where it is lit.
 struct TracedView {
-  ViewRays rays;
+  ViewRays rays;                  // one a pixel
   std::vector<PlacedLamp> lamps;  // one, or one a row
 
   const PlacedLamp& lamp(int row) const {

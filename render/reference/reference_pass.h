@@ -15,11 +15,11 @@
 namespace rubble {
 
 struct ReferenceOptions {
-  int samples = 64;      // a pixel; range: 1 to 65536
-  bool denoise = false;  // filtered, see denoise.h
-  bool jitter = true;    // smooth edges; false: each pixel's middle alone
-  int threads = 1;       // the result does not depend on it
-  std::uint64_t seed = 0;
+  int samples = 64;        // a pixel; range: 1 to 65536
+  bool denoise = false;    // filtered, see denoise.h
+  bool jitter = true;      // smooth edges; false: each pixel's middle alone
+  int threads = 1;         // the result does not depend on it
+  std::uint64_t seed = 0;  // of all random numbers of the paths
   // Where finished images are kept, and the tiles of unfinished ones: a frame that was interrupted
   // goes on where it was. As DiskCache; "": nowhere.
   std::string cache_folder;
@@ -28,11 +28,11 @@ struct ReferenceOptions {
 };
 
 struct ReferenceSurroundings {
-  const PreparedScene& scene;  // must outlive the pass
-  const LightSet& lights;
-  const std::vector<PatternImage>& patterns;
-  const GroundMap& ground;
-  double wetness = 0;
+  const PreparedScene& scene;                 // must outlive the pass
+  const LightSet& lights;                     // of the place
+  const std::vector<PatternImage>& patterns;  // by Pattern
+  const GroundMap& ground;                    // of debris on the ground
+  double wetness = 0;                         // as Scene::wetness
 };
 
 class ReferencePass {

@@ -10,20 +10,20 @@
 namespace rubble {
 
 struct Path {
-  std::uint32_t pixel = 0;   // in the box
-  std::uint32_t sample = 0;  // of its pixel
-  SampleSequence numbers;
-  const PlacedLamp* lamp = nullptr;
-  Vec3f from, direction;
-  float nearest = 0;
-  float spread = 0;   // width of what the ray stands for, a metre on; unit: m/m
-  float density = 0;  // with which the direction was drawn; 0: the camera's own; unit: 1/sr
-  Vec3f throughput{1, 1, 1};
-  Vec3f light;        // so far; unit: kcd/m2
-  int bounces = 0;
-  bool met_surface = false;
-  Vec3f albedo, normal;  // where a surface was first met
-  float first_distance = 0;
+  std::uint32_t pixel = 0;           // in the box
+  std::uint32_t sample = 0;          // of its pixel
+  SampleSequence numbers;            // its random numbers
+  const PlacedLamp* lamp = nullptr;  // of its row; null: none
+  Vec3f from, direction;             // of its next segment, in the world; unit: m; unit length
+  float nearest = 0;                 // where the segment begins, so that it leaves its own surface; unit: m
+  float spread = 0;                  // width of what the ray stands for, a metre on; unit: m/m
+  float density = 0;                 // with which the direction was drawn; 0: the camera's own; unit: 1/sr
+  Vec3f throughput{1, 1, 1};         // share of the light at its end that reaches the camera
+  Vec3f light;                       // so far; unit: kcd/m2
+  int bounces = 0;                   // so far
+  bool met_surface = false;          // or only air and sky
+  Vec3f albedo, normal;              // where a surface was first met
+  float first_distance = 0;          // from the camera to that surface; unit: m
 };
 
 class Wave {

@@ -30,19 +30,19 @@ struct Intrinsics {
 
 // One change of brightness at one pixel of an event camera.
 struct Event {
-  std::int64_t stamp_ns = 0;
+  std::int64_t stamp_ns = 0;   // simulation time; unit: ns
   std::uint16_t x = 0, y = 0;  // column and row; unit: pixel
   bool brighter = false;       // sign of the change
 };
 
 // What an inertial unit measures.
 struct ImuSample {
-  std::int64_t stamp_ns = 0;
-  int sensor = 0;            // number among the recording's inertial units
-  Vec3 angular_velocity;     // in the frame of the unit; unit: rad/s
-  Vec3 linear_acceleration;  // specific force: at rest and level (0, 0, 9.81); unit: m/s2
-  Vec3 angular_bias;         // the true offsets that are in the two above; same units
-  Vec3 acceleration_bias;
+  std::int64_t stamp_ns = 0;  // simulation time; unit: ns
+  int sensor = 0;             // number among the recording's inertial units
+  Vec3 angular_velocity;      // in the frame of the unit; unit: rad/s
+  Vec3 linear_acceleration;   // specific force: at rest and level (0, 0, 9.81); unit: m/s2
+  Vec3 angular_bias;          // the true offsets that are in the two above; same units
+  Vec3 acceleration_bias;     // unit: m/s2
 };
 
 // White noise and random walk of the biases, as an inertial unit's calibration states them

@@ -1,5 +1,5 @@
-// One sample of one sensor, and what gives samples: cameras and inertial units are peers, each with a
-// rate of its own. A further type of sensor (a scan, joint states) is one more alternative here.
+// One sample of one sensor, and what gives samples: cameras, inertial units, LiDARs and robots are peers,
+// each with a rate of its own. A further type of sensor is one more alternative here.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,12 @@
 #include <variant>
 
 #include "render/scene/frame.h"
+#include "render/scene/lidar_scan.h"
+#include "render/scene/robot_sample.h"
 
 namespace rubble {
 
-using Sample = std::variant<Frame, ImuSample>;
+using Sample = std::variant<Frame, ImuSample, LidarScan, RobotSample>;
 
 inline std::int64_t stamp_of(const Sample& sample) {
   return std::visit([](const auto& s) { return s.stamp_ns; }, sample);

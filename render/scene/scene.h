@@ -67,11 +67,11 @@ struct AirSpec {
   // Mean cosine g of the angle by which light is turned when it is scattered: 0 evenly, near 1 almost
   // straight on. Smoke about 0.75, droplets of fog 0.85; range: -0.99 to 0.99
   double fog_asymmetry = 0.75;
-  double fog_height = 0;     // scale height: density falls by e every so many metres; 0: it does not
-  double fog_noise = 0;      // 0: even; 1: from nothing to double within fog_noise_size
+  double fog_height = 0;      // scale height: density falls by e every so many metres; 0: it does not
+  double fog_noise = 0;       // 0: even; 1: from nothing to double within fog_noise_size
   double fog_noise_size = 2;  // of the largest billows; unit: m; range: 0.05 to 100
   Vec3 wind;                  // carries billows and plumes; unit: m/s
-  DustSpec dust;
+  DustSpec dust;              // bursts; none by default
 };
 
 struct SceneMesh {

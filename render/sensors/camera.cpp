@@ -117,6 +117,7 @@ ViewRays Camera::State::view_at(int index, double seconds_off) const {
 }
 
 ViewRays Camera::State::right_of(ViewRays view) const {
+  view.world_from_rig = view.lamp_bearer();  // the one lamp of the pair stays where it is
   const Pose right{{}, {0, -spec.baseline, 0}};
   view.world_from_camera = view.world_from_camera * right;
   const Pose in_optical = camera_from_optical.inverse() * right * camera_from_optical;

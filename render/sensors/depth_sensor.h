@@ -42,14 +42,14 @@ namespace rubble {
 
 // The exact view that is measured. Rows from the top.
 struct DepthView {
-  const ViewRays& rays;
-  const std::vector<float>& distances;  // along the ray; NaN: none
-  const std::vector<float>& normals;    // of the stream `normals`
+  const ViewRays& rays;                        // through which it was drawn
+  const std::vector<float>& distances;         // along the ray; NaN: none
+  const std::vector<float>& normals;           // of the stream `normals`
   const std::vector<std::uint8_t>& projected;  // 1: the projector sees it; only structured light
   // Of the surfaces, 0 to 1, in the sensor's light: for a specification that states none.
   const std::vector<float>& albedos;
-  const Air& air;
-  int frame = 0;
+  const Air& air;  // at its stamp
+  int frame = 0;   // number of the frame, for the noise
 };
 
 class DepthSensor {

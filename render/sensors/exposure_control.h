@@ -11,7 +11,7 @@ namespace rubble {
 
 struct ExposureSettings {
   double time = 0.01;  // unit: s
-  double iso = 100;
+  double iso = 100;    // speed by ISO 12232
 };
 
 // Share of saturation per kcd/m2: ExposureSpec's formula.

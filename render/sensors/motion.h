@@ -10,8 +10,8 @@ namespace rubble {
 // A moment near that of a view: where the camera is then, and how far each pixel's surface goes from
 // the view to then (Renderer::shifts; empty: all rests).
 struct MomentNearby {
-  Pose world_from_camera;
-  std::vector<Vec3f> shifts;
+  Pose world_from_camera;     // then; unit: m
+  std::vector<Vec3f> shifts;  // one a pixel; unit: m
 };
 
 // The longest way, in pixels, that a surface seen in `view` goes between two moments; every fourth row

@@ -22,8 +22,8 @@ struct MirrorLayer {
 };
 
 struct Reflection {
-  Vec3f base;  // albedo of the matt part; range: 0 to 1
-  MirrorLayer gloss, film;
+  Vec3f base;               // albedo of the matt part; range: 0 to 1
+  MirrorLayer gloss, film;  // below, and of water above
 
   bool matt() const { return gloss.cover <= 0 && film.cover <= 0; }
 };
@@ -34,7 +34,7 @@ Vec3f reflect_share(const Reflection& r, const Vec3f& out, const Vec3f& in);  //
 float reflection_density(const Reflection& r, const Vec3f& out, const Vec3f& in);
 
 struct ReflectedSample {
-  Vec3f in;
+  Vec3f in;           // where the light comes from, unit length, as above
   Vec3f weight;       // reflect_share / density
   float density = 0;  // 0: nothing was found
 };

@@ -13,19 +13,18 @@
 namespace rubble {
 
 struct SurfacePoint {
-  Vec3f position;     // unit: m
-  Vec3f face_normal;  // of the triangle, unit
-  Vec3f normal;       // with rounding and relief, unit
-  Reflection reflection;
-  Vec3f emission;  // radiance, the same in all directions; unit: kcd/m2
+  Vec3f position;         // unit: m
+  Vec3f face_normal;      // of the triangle, unit
+  Vec3f normal;           // with rounding and relief, unit
+  Reflection reflection;  // in the frame of `normal`
+  Vec3f emission;         // radiance, the same in all directions; unit: kcd/m2
 };
 
 struct SurfaceQuery {
-  RayScene::Triangle triangle;
-  float u = 0, v = 0;     // weights of its second and third corner
-  Vec3f direction;        // of the ray that met it, unit
-  float footprint = 0;    // width of what the ray stands for there; unit: m
-  float random = 0;       // in [0, 1), for choices that have no edge
+  RayScene::Triangle triangle;  // that the ray met
+  float u = 0, v = 0;           // weights of its second and third corner
+  Vec3f direction;              // of the ray that met it, unit
+  float footprint = 0;          // width of what the ray stands for there; unit: m
 };
 
 class SurfaceModel {

@@ -17,9 +17,9 @@
 namespace rubble {
 
 struct ColourImage {
-  std::vector<std::uint8_t> rgb;  // 3 bytes a pixel, rows from the top
-  float exposure = 0;             // what luminance in kcd/m2 was multiplied by
-  PassTime resolve, read, finish;
+  std::vector<std::uint8_t> rgb;   // 3 bytes a pixel, rows from the top
+  float exposure = 0;              // what luminance in kcd/m2 was multiplied by
+  PassTime resolve, read, finish;  // as RenderTimes
 };
 
 class ColourDrawer {

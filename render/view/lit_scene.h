@@ -15,6 +15,7 @@
 #include "render/passes/resolve_pass.h"
 #include "render/passes/shadow_pass.h"
 #include "render/scene/scene.h"
+#include "render/transport/lamp_bounce.h"
 #include "render/view/render_options.h"
 
 namespace rubble {
@@ -26,19 +27,20 @@ struct LitScene {
   LitScene(const LitScene&) = delete;  // its parts refer to each other
   LitScene& operator=(const LitScene&) = delete;
 
-  GlContext& context;
-  const Gl& gl;
-  RenderOptions options;
-  PreparedScene scene;  // as it stands at the moment of the last move_to()
-  GroundMap ground_map;
-  MovingPieces moving;
-  LightSet light;
-  AirLight air_light;
-  Medium medium;
-  std::int64_t start_ns;  // the stamp at which the time of the medium is zero
-  std::uint64_t seed;
-  GpuGeometry geometry;
-  std::unique_ptr<ShadowPass> shadow;
+  GlContext& context;                     // must be current in every call
+  const Gl& gl;                           // of that context
+  RenderOptions options;                  // as given
+  PreparedScene scene;                    // as it stands at the moment of the last move_to()
+  GroundMap ground_map;                   // of debris on the ground
+  std::vector<PatternImage> patterns;     // of the looks
+  MovingPieces moving;                    // what move_to() moves
+  LightSet light;                         // of the place
+  AirLight air_light;                     // baked light in the air
+  Medium medium;                          // fog, smoke and dust
+  std::int64_t start_ns;                  // the stamp at which the time of the medium is zero
+  std::uint64_t seed;                     // as Scene::seed
+  GpuGeometry geometry;                   // the scene on the device
+  std::unique_ptr<ShadowPass> shadow;     // never null
   std::unique_ptr<LiveLight> live_light;  // where something moves
   FrameLight frame_light;                 // without what depends on the view
 
@@ -46,12 +48,21 @@ struct LitScene {
   bool is_traced() const { return options.colour.quality == RenderQuality::reference; }
   // Puts what moves where it is at that stamp, and lights it there.
   void move_to(std::int64_t stamp_ns);
+  // Adds the light that the lamp sends by way of surfaces to the baked one. bearer: of the lamp, in the
+  // world.
+  void light_by_lamp(const Pose& bearer, std::int64_t stamp_ns);
   // The medium at that stamp.
   Air air_at(std::int64_t stamp_ns) const;
   void change(const LampSpec& lamp, const AirSpec& air);
 
  private:
-  BakedScene bake(const std::function<void(double)>& progress);
+  BakedScene bake(double wetness, const std::function<void(double)>& progress);
+  LampBounce& lamp_bounce();
+
+  std::vector<BakedLight> baked_nodes_;      // the baked light; empty where something moves
+  BakeLinks links_;                          // of the same, until lamp_bounce() takes them
+  std::unique_ptr<LampBounce> lamp_bounce_;  // made when a lamp is first lit
+  bool lit_by_lamp_ = false;                 // the light on the device is the lamp's too
 };
 
 }  // namespace rubble

@@ -16,10 +16,10 @@ struct ViewSource {
         colours(scene),
         truth(scene.scene, scene.geometry, options.threads) {}
 
-  LitScene scene;
-  SurfaceDrawer surfaces;
-  ColourDrawer colours;
-  GroundTruthMaker truth;
+  LitScene scene;          // as prepared by the renderer
+  SurfaceDrawer surfaces;  // of that scene
+  ColourDrawer colours;    // of that scene
+  GroundTruthMaker truth;  // of that scene
 };
 
 }  // namespace rubble

@@ -20,7 +20,7 @@
 namespace rubble {
 
 struct Material {
-  std::string name;
+  std::string name;     // as packs name it: "brick"
   double density = 0;   // unit: kg/m3; range: 10 to 25000
   double friction = 0;  // Coulomb, against concrete; range: 0 to 2
   std::string source;   // where the figures come from
@@ -38,7 +38,7 @@ struct AssetLink {
 };
 
 struct Asset {
-  std::string name;
+  std::string name;                 // unique in its pack
   std::vector<AssetLink> links;     // of an articulated asset, which has no mesh; otherwise empty
   std::vector<std::string> meshes;  // whole paths, finest level of detail first; at least one
   double metres_per_unit = 1;       // of the mesh and the parts
@@ -47,7 +47,7 @@ struct Asset {
   // is the only part or, with `decompose`, that mesh is cut into convex parts.
   std::string parts;
   bool decompose = false;  // cut into convex parts when it is loaded
-  std::string material = "reinforced_concrete";
+  std::string material = "reinforced_concrete";  // gives density and friction where those are 0
   // How surfaces look that the files call otherwise than the renderer: by their names (an OBJ's
   // usemtl, a glTF's materials), and `look` for the rest; default: the material's.
   std::vector<std::pair<std::string, std::string>> surface_appearance;
@@ -62,9 +62,9 @@ struct Asset {
 };
 
 struct AssetPack {
-  std::string name;
-  std::string folder;  // with the pack.lua
-  std::string script;  // path of its pack.lua
+  std::string name;           // of the pack
+  std::string folder;         // with the pack.lua
+  std::string script;         // path of its pack.lua
   std::vector<Asset> assets;  // in the order of the file
 };
 

@@ -8,7 +8,7 @@
 namespace rubble {
 
 struct GrayImage {
-  int columns = 0, rows = 0;
+  int columns = 0, rows = 0;   // unit: pixel; range: 1 to 256
   std::vector<double> values;  // row by row from the top; 0: black, 1: white
 };
 

@@ -17,13 +17,13 @@ namespace rubble {
 
 // What the functions need; a pointer to it lives in the Lua state's extra space.
 struct LuaHost {
-  lua_State* lua = nullptr;
-  std::uint64_t seed = 0;
-  bool used_random = false;
+  lua_State* lua = nullptr;                                // owned by LuaSandbox
+  std::uint64_t seed = 0;                                  // of rubble.random
+  bool used_random = false;                                // whether the script has drawn a number
   std::vector<std::pair<std::string, std::string>> drawn;  // see LuaSandbox::drawn
   std::map<std::string, int> draws;                        // of each stream, as far as counted
-  std::size_t printed_bytes = 0;
-  std::vector<std::string> printed;
+  std::size_t printed_bytes = 0;                           // of all of `printed`
+  std::vector<std::string> printed;                        // lines, made printable
   // Reads a file for rubble.include and returns its index among the chunks; on failure it puts the
   // reason into `error` and returns -1.
   std::function<int(const std::string& name, std::string& error)> open_include;
@@ -31,16 +31,16 @@ struct LuaHost {
 
   // What rubble.options found, and, while the reference is made, what it was asked for.
   std::vector<Diagnostic> mistakes;
-  std::vector<DescribedFunction>* described = nullptr;
-  std::map<int, std::vector<LuaToken>> tokens;  // of chunks in which mistakes were found
+  std::vector<DescribedFunction>* described = nullptr;  // null: no reference is made
+  std::map<int, std::vector<LuaToken>> tokens;          // of chunks in which mistakes were found
 
   // Limits, and what has been used of them.
   SandboxLimits limits;
-  std::size_t memory = 0;
-  std::uint64_t instructions = 0;
-  std::string refused_at;  // "chunk0:12: " where memory was refused last
-  double started = 0;      // CPU seconds of this thread
-  bool limited = true;     // false once the script has ended and only its table is read
+  std::size_t memory = 0;          // that the script holds now; unit: byte
+  std::uint64_t instructions = 0;  // that it has run so far
+  std::string refused_at;          // "chunk0:12: " where memory was refused last
+  double started = 0;              // CPU seconds of this thread
+  bool limited = true;             // false once the script has ended and only its table is read
 };
 
 LuaHost& host_of(lua_State* lua);

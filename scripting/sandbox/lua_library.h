@@ -9,7 +9,7 @@ namespace rubble {
 
 struct LibraryFile {
   std::string name;  // "collapse/lean_to": what its chunk returns becomes rubble.collapse.lean_to
-  std::string text;
+  std::string text;  // of the Lua file
 };
 
 const std::vector<LibraryFile>& lua_library();  // in the order to be run

@@ -29,15 +29,15 @@ struct SandboxLimits {
 };
 
 struct SourceFile {
-  std::string path;
-  std::string text;
-  std::string sha256;
+  std::string path;    // as errors name it
+  std::string text;    // the whole file
+  std::string sha256;  // of the text; 64 hexadecimal digits
 };
 
 // A function of the library and the parameters that it asked rubble.options for.
 struct DescribedFunction {
-  std::string name;
-  Value description;
+  std::string name;   // "rubble.wall"
+  Value description;  // the table that it gave to rubble.options
 };
 
 class LuaSandbox {

@@ -9,9 +9,9 @@ namespace rubble {
 
 struct LuaToken {
   enum class Kind { name, keyword, number, string, symbol, end };
-  Kind kind = Kind::end;
-  std::string text;  // of a short string without escapes: its content; of others the source
-  int line = 1;
+  Kind kind = Kind::end;  // what `text` is
+  std::string text;       // of a short string without escapes: its content; of others the source
+  int line = 1;           // of its first character; 1-based
 
   bool is(const char* symbol_or_keyword) const {
     return (kind == Kind::symbol || kind == Kind::keyword) && text == symbol_or_keyword;

@@ -22,8 +22,8 @@ class SourceMap {
   int line_of(const std::string& key) const;
 
   struct Duplicate {
-    std::string key;
-    int line, first_line;
+    std::string key;       // whole path of the key
+    int line, first_line;  // of the second and of the first; 1-based
   };
   // Keys written twice in one table constructor of the returned table; Lua keeps the last silently.
   const std::vector<Duplicate>& duplicates() const { return duplicates_; }

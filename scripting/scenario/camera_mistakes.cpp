@@ -7,6 +7,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/streams/image_streams.h"
+#include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/schema/schema_json.h"
 
@@ -154,9 +155,6 @@ void check_cameras(const Scenario& scenario, std::vector<Diagnostic>& mistakes) 
     check_camera(camera, at + ".", at + ".", mistakes);
     check_colour(camera.camera.colour, scenario.cameras.front(), at, mistakes);
   }
-  if (scenario.record_settling.on)
-    mistakes.push_back({"", 0, "record_settling.on", "contradicts cameras", "a mission with `camera`",
-                        "several cameras", ""});
 }
 
 void check_sensor_names(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
@@ -174,6 +172,18 @@ void check_sensor_names(const Scenario& scenario, std::vector<Diagnostic>& mista
   }
   names.check("imu.topic", scenario.imu.topic.value_or("/imu"), true);
   names.check("imu.frame_id", scenario.imu.frame_id, false);
+  for (std::size_t i = 0; i < scenario.lidars.size(); ++i) {
+    const LidarScenario& lidar = scenario.lidars[i];
+    const std::string at = "lidars." + lidar.name;
+    if (!is_name(lidar.name)) {
+      mistakes.push_back({"", 0, at, "not a name of a LiDAR",
+                          "a lower-case letter, then such letters, digits and underscores, 32 at most",
+                          "\"" + lidar.name + "\"", ""});
+      continue;
+    }
+    names.check(lidar.topic ? at + ".topic" : at, lidar_topic(scenario, i), true);
+    names.check(lidar.frame_id ? at + ".frame_id" : at, lidar.frame_id.value_or(lidar.name + "_link"), false);
+  }
 }
 
 }  // namespace rubble

@@ -35,7 +35,7 @@ void add_camera(Schema& k, const std::string& at, CameraScenario& c) {
   k.value(at + "denoise", c.colour.denoise,
           "Of the reference: noise is filtered out by the exact normals, distances and albedos.");
   k.value(at + "stereo_baseline", c.stereo_baseline,
-          "Distance of a second camera to the right, with the same lens and exposure; 0: none.")
+          "Distance of a second camera to the right, with the same lens and exposure, lit by the same lamp; 0: none.")
       .between(0, 10)
       .unit("m");
   k.value(at + "topic", c.topic,
@@ -62,8 +62,8 @@ void add_lens(Schema& k, const std::string& at, LensScenario& l) {
   };
   calibrated("fx", l.fx, "Focal length of a calibrated camera, instead of `fov_deg`.")->above(0, 1e6);
   calibrated("fy", l.fy, "Not given: as fx.")->above(0, 1e6);
-  calibrated("cx", l.cx, "Principal point; not given: the middle.")->between(-1e5, 1e5);
-  calibrated("cy", l.cy, "Likewise.")->between(-1e5, 1e5);
+  calibrated("cx", l.cx, "Column of the principal point; not given: the middle.")->between(-1e5, 1e5);
+  calibrated("cy", l.cy, "Row of the principal point; not given: the middle.")->between(-1e5, 1e5);
 }
 
 void add_shutter(Schema& k, const std::string& at, ShutterSpec& s) {
@@ -164,9 +164,9 @@ void add_event_camera(Schema& k, EventCameraSpec& e) {
   k.group("event_camera", "An event camera in the place of the camera, with its lens (ESIM).");
   k.value("event_camera.on", e.on, "Whether there is one.");
   k.value("event_camera.threshold_up", e.threshold_up,
-          "Change of ln(luminance) that makes an event ...")
+          "Change of ln(luminance) that makes an event where it grows brighter.")
       .between(0.01, 10);
-  k.value("event_camera.threshold_down", e.threshold_down, "... and likewise when it grows darker.")
+  k.value("event_camera.threshold_down", e.threshold_down, "The same where it grows darker.")
       .between(0.01, 10);
   k.value("event_camera.threshold_noise", e.threshold_noise,
           "Standard deviation of the thresholds from pixel to pixel.")

@@ -5,6 +5,7 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "scripting/scenario/camera_mistakes.h"
+#include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/values/value.h"
 
@@ -148,6 +149,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_density(scenario.pile.spawn_density, mistakes);
   check_terrain(scenario.pile.terrain, mistakes);
   check_cameras(scenario, mistakes);
+  check_lidars(scenario, mistakes);
   check_sensor_names(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
   check_record_settling(scenario.record_settling, mistakes);
@@ -165,8 +167,20 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   return mistakes;
 }
 
+// As long as the ride, and as many frames.
+static TrajectorySpec stand_in_for_ride(const Scenario& scenario) {
+  TrajectorySpec spec;
+  spec.rate_hz = scenario.trajectory.rate_hz;
+  spec.ride = scenario.trajectory.ride;
+  spec.waypoints.assign(2, default_view());
+  spec.waypoints[0].t = 0;
+  spec.waypoints[1].t = scenario.robot_run.duration;
+  return spec;
+}
+
 TrajectorySpec flown_trajectory(const Scenario& scenario) {
   TrajectorySpec spec = scenario.trajectory;
+  if (spec.ride.on()) return stand_in_for_ride(scenario);
   const bool curved_way = spec.plan == Plan::avoid && spec.interpolation == Interpolation::spline;
   if (!spec.smoothing && !spec.limits.max_jerk && (scenario.imu.on || curved_way))
     spec.smoothing = kUsualSmoothing;

@@ -18,6 +18,7 @@
 #include "kernel/settling/settle.h"
 #include "render/scene/scene.h"
 #include "scripting/scenario/camera_scenario.h"
+#include "scripting/scenario/lidar_scenario.h"
 #include "scripting/scenario/robot_scenario.h"
 #include "scripting/trajectory/trajectory.h"
 
@@ -80,7 +81,7 @@ struct PileScenario {
 };
 
 struct LightScenario {
-  LightSpec spec;
+  LightSpec spec;  // as the mission states it
   // Draw the direction from the seed; then neither spec.rpy_deg nor the sun's place is used.
   bool random_rotation = false;
   // Draw the position from the box around spec.position of these full edge lengths.
@@ -108,6 +109,8 @@ struct OutputScenario {
   bool euroc = false;               // EuRoC MAV: a folder
   bool colmap = false;              // COLMAP: a folder
   bool frames = false;              // plain PNG and EXR: a folder
+  bool pcd = false;                 // PCL: a folder of a file a scan
+  bool kitti = false;               // KITTI: a folder of a file a scan
   bool stl = true;                  // pile.stl
   bool track = false;               // who moved when: track.bin and, as glTF animation, track.glb
   std::vector<std::string> meshes;  // the pile in further formats, of export_names()
@@ -152,6 +155,7 @@ struct Scenario {
   LampSpec lamp;                  // on the camera
   TrajectorySpec trajectory;      // where the camera flies
   ImuScenario imu;                // in the camera
+  std::vector<LidarScenario> lidars;  // on the rig, by name
   RecordSettlingScenario record_settling;  // what is recorded before the flight
   OutputScenario outputs;         // what is written
   VoidScenario voids;             // whether voids are measured
@@ -171,7 +175,8 @@ std::vector<MountedCamera> all_cameras(const Scenario& scenario);
 bool has_channel(const Scenario& scenario, const std::string& name);
 
 // The trajectory with its smoothing chosen where the mission leaves that open: kUsualSmoothing where
-// an inertial unit is on, and for a curve around what lies there; none elsewhere.
+// an inertial unit is on, and for a curve around what lies there; none elsewhere. Of a ride, which is known
+// only when the robot has been driven, a stand-in of the same times.
 TrajectorySpec flown_trajectory(const Scenario& scenario);
 
 // Whether settling keeps who moved when: track.bin.

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "scripting/scenario/camera_schema.h"
+#include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/pile_schema.h"
 
 namespace rubble {
@@ -45,7 +46,7 @@ void add_settle(Schema& k, SettleOptions& o) {
   k.value("settle.lost_below", o.lost_below, "A piece lower than this has left the world.")
       .between(-1000, -0.01)
       .unit("m");
-  k.value("settle.lost_beyond", o.lost_beyond, "Likewise farther than this from the Z axis.")
+  k.value("settle.lost_beyond", o.lost_beyond, "A piece farther than this from the Z axis has left the world.")
       .above(0, 10000)
       .unit("m");
 }
@@ -192,11 +193,12 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
       .above(0, 1000)
       .unit("m/s");
   k.value("trajectory.max_acceleration", t.limits.max_acceleration,
-          "Likewise, also in bends; straight legs then nearly stop at their corners.")
+          "Slows the path down where it accelerates more, also in bends; straight legs then nearly stop at their "
+          "corners.")
       .above(0, 10000)
       .unit("m/s2");
   k.value("trajectory.max_turn_rate_deg", t.limits.max_turn_rate_deg,
-          "Likewise where the view turns faster.")
+          "Slows the path down where the view turns faster.")
       .above(0, 36000)
       .unit("degree/s");
   k.value("trajectory.max_jerk", t.limits.max_jerk,
@@ -212,6 +214,17 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
       .unit("s");
   k.value("trajectory.rest_at_ends", t.rest_at_ends,
           "It begins and ends standing still, and takes four times `smoothing` longer.");
+  k.group("trajectory.ride", "A robot carries the camera, and all that rides with it, instead of waypoints.");
+  k.value("trajectory.ride.robot", t.ride.robot,
+          "Its name; frames are taken as long as it is driven.");
+  k.value("trajectory.ride.link", t.ride.link, "Of the robot; not given: its first.");
+  k.value("trajectory.ride.position", t.ride.position,
+          "Of the rig in the link's frame: X forward, Y left, Z up.")
+      .between(-10, 10)
+      .unit("m");
+  k.value("trajectory.ride.rpy_deg", t.ride.rpy_deg, "Of the rig in the link's frame.")
+      .between(-360, 360)
+      .unit("degree");
   k.list("trajectory.waypoints", t.waypoints,
          "Where the camera passes, in order; one gives a single frame.");
   auto& list = t.waypoints;
@@ -285,11 +298,11 @@ void add_record_settling(Schema& k, RecordSettlingScenario& r) {
       .between(0, 86400)
       .unit("s");
   k.value("record_settling.rate_hz", r.rate_hz,
-          "Frames per second; not given: those of the trajectory.")
+          "Frames per second of cameras without a rate of their own; not given: those of the trajectory.")
       .between(0.001, 1000)
       .unit("Hz");
   k.value("record_settling.position", r.position,
-          "Where the camera stands; not given: where its flight begins.")
+          "Where the camera stands, or the rig of several; not given: where its flight begins.")
       .between(-1000, 1000)
       .unit("m");
   k.value("record_settling.look_at", r.look_at, "The point in the middle of its view.")
@@ -311,6 +324,9 @@ void add_outputs(Schema& k, OutputScenario& o) {
   k.value("outputs.euroc", o.euroc, "EuRoC MAV sequence, grey pictures: the folder euroc.");
   k.value("outputs.colmap", o.colmap, "COLMAP model with the true poses: the folder colmap.");
   k.value("outputs.frames", o.frames, "Every channel as PNG, EXR or text: the folder frames.");
+  k.value("outputs.pcd", o.pcd, "Each scan of each LiDAR as a PCD file, and its true motion: the folder pcd.");
+  k.value("outputs.kitti", o.kitti,
+          "Each scan of each LiDAR as KITTI's binary, with times and poses: the folder kitti.");
   k.value("outputs.stl", o.stl, "The settled pile as a mesh: pile.stl.");
   k.value("outputs.track", o.track,
           "Who moved when while the pile settled: track.bin, and track.glb, a glTF animation.");
@@ -368,6 +384,7 @@ Schema make_scenario_schema(Scenario& s) {
   add_camera_keys(keys, s);
   add_trajectory(keys, s.trajectory);
   add_imu(keys, s.imu);
+  add_lidar_keys(keys, s);
   add_record_settling(keys, s.record_settling);
   add_voids(keys, s.voids);
   add_robot_keys(keys, s);

@@ -22,8 +22,8 @@
 namespace rubble {
 
 struct Choice {  // an enumeration
-  std::vector<std::string> names;
-  std::function<int()> get;  // index of a name
+  std::vector<std::string> names;  // what may be written, by index
+  std::function<int()> get;        // index of a name
   std::function<void(int)> set;
 };
 struct Negated {  // the member is the opposite of what the user writes
@@ -34,9 +34,9 @@ struct StringOrList {  // "a" or {"a", "b"}
 };
 struct WordOrFile {  // one of the words, or { key = "FILE" }; with a word, the file is empty
   std::vector<std::string> words;  // what may be written
-  int* word;  // index of the word
-  std::string key;
-  std::string* file;
+  int* word;                       // index of the word
+  std::string key;                 // of the table with the file
+  std::string* file;               // path as written
 };
 // A point, or a place in a void that { find_void = { ... } } names (see rubble.find_void). One of
 // `point` and `maybe` is given; when the place is set, they are not used.
@@ -101,7 +101,7 @@ struct Key {
 
 // Another name for a key, at the top level only.
 struct Alias {
-  std::string name;
+  std::string name;      // as users write it
   std::string path;      // a key, or one component of a vector such as "light.position.x"
   bool negated = false;  // the alias says the opposite
 };

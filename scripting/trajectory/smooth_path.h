@@ -20,10 +20,10 @@ namespace rubble {
 
 // How the camera moves at one instant: exact derivatives of the path.
 struct CameraMotion {
-  Pose world_from_camera;
-  Vec3 velocity;          // in the world; unit: m/s
-  Vec3 acceleration;      // in the world; unit: m/s2
-  Vec3 angular_velocity;  // in the camera body frame; unit: rad/s
+  Pose world_from_camera;  // camera body; unit: m
+  Vec3 velocity;           // in the world; unit: m/s
+  Vec3 acceleration;       // in the world; unit: m/s2
+  Vec3 angular_velocity;   // in the camera body frame; unit: rad/s
 };
 
 enum class PathEnds {

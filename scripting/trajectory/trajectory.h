@@ -13,11 +13,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
 #include "scripting/trajectory/curves.h"
+#include "scripting/trajectory/motion_path.h"
 #include "scripting/trajectory/smooth_path.h"
 #include "scripting/trajectory/time_scale.h"
 
@@ -32,13 +34,24 @@ struct VoidPlace {
     deepest,   // the farthest that the sphere gets from the entrances
     widest,    // where the largest sphere fits
   };
-  double radius = 0.2;  // of the sphere that must enter; unit: m; range: 0.02 to 10
-  int rank = 1;         // 1: the first of the voids in this order that it can enter
-  Order order = Order::volume;
-  Point point = Point::entrance;
-  double distance = 1;  // unit: m; range: 0 to 100
+  double radius = 0.2;            // of the sphere that must enter; unit: m; range: 0.02 to 10
+  int rank = 1;                   // 1: the first of the voids in this order that it can enter
+  Order order = Order::volume;    // by which voids are ranked, largest first
+  Point point = Point::entrance;  // which place of the void
+  double distance = 1;            // unit: m; range: 0 to 100
   // Outside is what a sphere of this radius reaches from the sky; unit: m; range: 0.2 to 10
   double outside_radius = 2;
+};
+
+// A link of a robot that carries the cameras and all that rides with them.
+struct Ride {
+  std::string robot{};  // its name; empty: nothing is ridden, the camera flies
+  std::string link{};   // empty: the first, whose frame is the robot's
+  Vec3 position;        // of the rig, in the link's frame; unit: m; range: -10 to 10
+  Vec3 rpy_deg;         // of the rig, likewise; unit: degree
+
+  bool on() const { return !robot.empty(); }
+  Pose link_from_rig() const;
 };
 
 enum class Plan {
@@ -66,43 +79,43 @@ Waypoint default_view();
 
 struct TrajectorySpec {
   double rate_hz = 30;  // frames per second of simulation time; range: 0.001 to 1000
-  Interpolation interpolation = Interpolation::automatic;
+  Interpolation interpolation = Interpolation::automatic;  // between waypoints
   double speed = 0.5;  // where a waypoint has neither t nor speed; unit: m/s; range: > 0
   // At least one; a single one gives a single frame.
   std::vector<Waypoint> waypoints{default_view()};
-  Plan plan = Plan::ghost;
-  double radius = 0.1;  // of the sphere that is the camera's body; unit: m; range: 0.005 to 10
+  Plan plan = Plan::ghost;  // what happens where the path meets the pile
+  double radius = 0.1;      // of the sphere that is the camera's body; unit: m; range: 0.005 to 10
   // The whole path takes this long instead of what its times and speeds add up to; unit: s; > 0
   std::optional<double> duration;
-  SpeedLimits limits;
+  SpeedLimits limits;  // kept by slowing down; none by default
   // The path is averaged over about this long, in place and in view, until it is smooth enough for an
   // inertial unit: the knots of SmoothPath. 0: not at all. Not given: see flown_trajectory(),
   // max_jerk and rest_at_ends. unit: s; range: 0 to 2
   std::optional<double> smoothing;
   bool rest_at_ends = false;  // of a smoothed path, see PathEnds
+  Ride ride;  // instead of all but rate_hz: the way is that of a robot
 
   // Whether it can be flown only over a settled pile: see app/planning/flight.h.
   bool needs_pile() const;
 };
 
 struct CameraPose {
-  std::int64_t stamp_ns = 0;
-  Pose world_from_camera;  // camera body: X forward, Y left, Z up
+  std::int64_t stamp_ns = 0;  // simulation time; unit: ns
+  Pose world_from_camera;     // camera body: X forward, Y left, Z up
 };
 
 // The camera's pose at any time, not only at the frames'.
-class CameraPath {
+class CameraPath : public MotionPath {
  public:
   // Throws InputError (find_mistakes), also for places in voids. The plan is not looked at.
   explicit CameraPath(const TrajectorySpec& spec);
-  ~CameraPath();
-  double duration() const;  // unit: s
+  ~CameraPath() override;
+  double duration() const override;  // unit: s
   double asked_duration() const;  // what it was before the limits slowed it down; unit: s
-  // t: s after the start; before it and after the end the camera stands still.
-  Pose at(double t) const;
-  // t: from 0 to the duration. Without smoothing the path is C1 at best, and the acceleration jumps
+  Pose at(double t) const override;
+  // Without smoothing the path is C1 at best, and the acceleration jumps
   // at waypoints.
-  CameraMotion motion_at(double t) const;
+  CameraMotion motion_at(double t) const override;
   // When each waypoint is passed, or where the path is smoothed, passed by; unit: s
   std::vector<double> waypoint_times() const;
   double smoothing() const { return smooth_ ? knot_ : 0; }  // as it was chosen; unit: s

@@ -11,9 +11,9 @@ namespace rubble {
 struct Value {
   enum class Kind { nil, boolean, integer, number, text, table, other };
 
-  Kind kind = Kind::nil;
-  bool boolean = false;
-  std::int64_t integer = 0;
+  Kind kind = Kind::nil;                              // which of the members below count
+  bool boolean = false;                               // of a boolean
+  std::int64_t integer = 0;                           // of an integer
   double number = 0;                                  // of integers, too
   std::string text;                                   // of `other`: what it is, e.g. "a function"
   std::vector<Value> items;                           // keys 1 .. n of a table

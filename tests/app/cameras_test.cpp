@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -233,6 +234,50 @@ TEST(CamerasScript, RunsAsDocumented) {
     EXPECT_TRUE(std::filesystem::exists(folder / (std::string("out/") + name))) << name;
 }
 
+// Of TUM's lines the stamps, and the rest of each.
+std::vector<std::pair<double, std::string>> read_poses(const std::string& path) {
+  std::vector<std::pair<double, std::string>> poses;
+  std::istringstream text(read_file(path));
+  for (std::string line; std::getline(text, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    const std::size_t end = line.find(' ');
+    poses.emplace_back(std::stod(line.substr(0, end)), line.substr(end));
+  }
+  return poses;
+}
+
+// Each camera stands on its mount while the pile settles, at its own rate, and then flies; its frames
+// are numbered without a gap.
+TEST(CamerasSettling, AllCamerasOfTheRigWatch) {
+  const ScratchFolder folder;
+  write_file(folder / "m.lua", R"(return rubble.mission { seed = 2,
+    pile = { layers = 1, pieces_per_layer = 6 },
+    cameras = { front = { width = 48, height = 32, rate_hz = 10 },
+                left = { width = 32, height = 32, position = { 0, 0.5, 0 }, rpy_deg = { 0, 0, 90 } } },
+    record_settling = { to = 1, rate_hz = 5, position = { -6, 0, 2 }, look_at = { 0, 0, 1 } },
+    trajectory = { rate_hz = 2, waypoints = { { t = 0, position = { -5, -4, 3 }, look_at = { 0, 0, 1 } },
+                                              { t = 1, position = { 5, -4, 3 }, look_at = { 0, 0, 1 } } } },
+    outputs = { frames = true, depth = "32FC1" } })");
+  const Outcome run = run_rubble("run " + (folder / "m.lua") + " --quiet --out " + (folder / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto expect = [&](const std::string& name, std::size_t watching, std::size_t flying) {
+    const auto poses = read_poses(folder / ("out/cameras/" + name + "/groundtruth.txt"));
+    ASSERT_EQ(poses.size(), watching + flying) << name;
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+      EXPECT_GT(poses[i].first, poses[i - 1].first) << name << " " << i;
+      EXPECT_EQ(poses[i].second == poses[i - 1].second, i < watching) << name << " " << i;
+    }
+    std::set<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / ("out/cameras/" + name + "/frames/rgb")))
+      files.insert(entry.path().stem().string());
+    ASSERT_EQ(files.size(), watching + flying) << name;
+    EXPECT_EQ(std::stoul(*files.begin()), 0u) << name;
+    EXPECT_EQ(std::stoul(*files.rbegin()), watching + flying - 1) << name;
+  };
+  expect("front", 11, 11);
+  expect("left", 6, 3);
+}
+
 TEST(CamerasInput, MistakesAreNamed) {
   const ScratchFolder folder;
   const auto errors_of = [&](const std::string& keys) {
@@ -253,8 +298,6 @@ TEST(CamerasInput, MistakesAreNamed) {
   expect("cameras = { a = { channels = { \"flows\" } } }",
          "cameras.a.channels[1]: unknown channel `flows` (did you mean `flow`?)");
   expect("cameras = { a = { lens = { k1 = 0.1 } } }", "cameras.a.lens.model: a pinhole has no distortion");
-  expect("cameras = { a = {} },\nrecord_settling = { on = true }",
-         "record_settling.on: contradicts cameras");
   expect("cameras = { a = {}, b = { quality = \"reference\" } }",
          "cameras.b.quality: another way to find colours than that of another camera");
 }

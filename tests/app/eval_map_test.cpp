@@ -129,6 +129,31 @@ void write_small_model(const std::string& truth, const std::string& folder, cons
   write_file(folder + "/points3D.txt", "# none\n");
 }
 
+// One camera in the table of `cameras` scores as `camera` does; another that looks back sees more.
+TEST_F(EvalMap, CountsWhatAnyOfSeveralCamerasSaw) {
+  const auto score_of = [&](const std::string& cameras) {
+    std::string mission = kMission;
+    const std::string one = "camera = { width = 64, height = 64, fov_deg = 90 },";
+    const std::size_t at = mission.find(one);
+    EXPECT_NE(at, std::string::npos);
+    mission.replace(at, one.size(), "cameras = { " + cameras + " },");
+    write_file(*scratch_ / "several.lua", mission);
+    const Outcome run = run_rubble("run " + (*scratch_ / "several.lua") + " --force --out " + (*scratch_ / "several"));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const Outcome scored = run_rubble("eval map " + (*scratch_ / "whole.ply") + " " + (*scratch_ / "several") +
+                                      " --json --quiet --radius 0.2 --radius 0.35 --range 3.5");
+    EXPECT_EQ(scored.exit_code, 0) << scored.err;
+    return nlohmann::json::parse(scored.out)["datasets"][0];
+  };
+  const std::string front = "front = { width = 64, height = 64, fov_deg = 90 }";
+  const nlohmann::json single = score("whole.ply"), alone = score_of(front);
+  for (const auto& [key, value] : single.items())
+    if (key != "name") EXPECT_EQ(alone.at(key), value) << key;
+  const nlohmann::json both =
+      score_of(front + ", back = { width = 32, height = 32, fov_deg = 90, rpy_deg = { 0, 0, 180 } }");
+  EXPECT_GT(number(both, "visible_m2"), number(single, "visible_m2") + 1);
+}
+
 TEST_F(EvalMap, FindsNothingWrongWithTheTruth) {
   const auto s = score("whole.ply");
   EXPECT_GT(number(s, "within_1cm_percent"), 100 - kWorn);

@@ -17,6 +17,7 @@ using testing::kAboutY;
 using testing::kG;
 using testing::make_chain;
 using testing::make_world;
+using testing::measure_period;
 using testing::run;
 using testing::turned;
 

@@ -41,4 +41,19 @@ NewPiece hung(const Vec3& position, const Quat& rotation) {
   return at(2, position, rotation, true);
 }
 
+double measure_period(World& world, int piece, double seconds) {
+  double last = world.piece(piece).world_from_body.translation.x, first_time = 0, time = 0;
+  int crossings = 0;
+  while (world.time() < seconds) {
+    world.step();
+    const double x = world.piece(piece).world_from_body.translation.x;
+    if (last < 0 && x >= 0) {
+      time = world.time() - x / (x - last) / 60;
+      if (crossings++ == 0) first_time = time;
+    }
+    last = x;
+  }
+  return (time - first_time) / (crossings - 1);
+}
+
 }  // namespace rubble::testing

@@ -20,5 +20,7 @@ World make_world(const AssemblyType& assembly, double length, const WorldOptions
                  double thickness = 0.02);
 // The assembly, its root fixed.
 NewPiece hung(const Vec3& position, const Quat& rotation = {});
+// Mean time between two crossings of x = 0 in the same direction; unit: s.
+double measure_period(World& world, int piece, double seconds);
 
 }  // namespace rubble::testing

@@ -16,24 +16,9 @@ using testing::joint_of;
 using testing::kG;
 using testing::make_chain;
 using testing::make_world;
+using testing::measure_period;
 using testing::run;
 using testing::turned;
-
-// Mean time between two crossings of x = 0 in the same direction.
-double measure_period(World& world, int piece, double seconds) {
-  double last = world.piece(piece).world_from_body.translation.x, first_time = 0, time = 0;
-  int crossings = 0;
-  while (world.time() < seconds) {
-    world.step();
-    const double x = world.piece(piece).world_from_body.translation.x;
-    if (last < 0 && x >= 0) {
-      time = world.time() - x / (x - last) / 60;
-      if (crossings++ == 0) first_time = time;
-    }
-    last = x;
-  }
-  return (time - first_time) / (crossings - 1);
-}
 
 TEST(Articulated, ACompoundPendulumKeepsItsPeriod) {
   for (JointKind kind : {JointKind::hinge, JointKind::ball}) {

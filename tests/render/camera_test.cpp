@@ -409,6 +409,40 @@ TEST(Stereo, DisparityIsFocalLengthTimesBaselineOverDepth) {
   }
 }
 
+// The mean column of the light in a row.
+double middle_of_light(const std::vector<std::uint8_t>& rgb, int width, int row) {
+  double sum = 0, weighted = 0;
+  for (int u = 0; u < width; ++u) {
+    const double light = double(rgb[std::size_t(row * width + u) * 3 + 1]);
+    sum += light, weighted += u * light;
+  }
+  EXPECT_GT(sum, 0);
+  return weighted / sum;
+}
+
+// The one lamp of the pair lights one spot of the wall, and each picture has it where that spot is: the
+// right one f b / Z further left.
+TEST(Stereo, BothPicturesSeeTheSameLamp) {
+  Scene scene = lit_wall();
+  scene.instances[0].world_from_body.translation.y = 0;
+  scene.light.intensity = 0;
+  scene.lamp.on = true;
+  scene.lamp.position = {0, 0, 0};
+  scene.lamp.cone_deg = 12;
+  scene.lamp.intensity_cd = 4000;
+  GlContext context;
+  for (const ExposureMode mode : {ExposureMode::ideal, ExposureMode::fixed}) {
+    Renderer renderer(context, scene, plain());
+    CameraSpec spec = fixed_camera(161, 17, 200);
+    spec.exposure.mode = mode;
+    spec.baseline = 0.4;  // 20 pixels at 4 m
+    const Frame frame = Camera(renderer, spec, fly(1, standing)).take(0);
+    const double left = middle_of_light(frame.rgb, 161, 8), right = middle_of_light(frame.rgb_right, 161, 8);
+    EXPECT_NEAR(left, 80, 1);
+    EXPECT_NEAR(left - right, 20, 1);
+  }
+}
+
 // A step of light by 8: with the time constant tau the error in stops shrinks by exp(-dt / tau).
 TEST(AutoExposure, LagsBehindTheLight) {
   ExposureSpec spec;

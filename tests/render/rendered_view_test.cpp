@@ -106,17 +106,15 @@ TEST(RenderedView, GivesItsChannelsInAnyOrder) {
   GlContext context;
   Renderer renderer(context, restless_heap(), small());
   const ViewRays next = views().back();
-  for (const int stride : {1, 7}) {  // each visits all pairs of view and channel once
-    std::vector<RenderedView> open;
-    for (const ViewRays& rays : views()) open.push_back(renderer.view(rays, &next));
-    const int pairs = int(open.size()) * kChannels;
-    for (int i = 0; i < pairs; ++i) {
-      const int pair = i * stride % pairs;
-      const std::size_t view = std::size_t(pair) % open.size();
-      const int channel = pair / int(open.size());
-      ASSERT_EQ(ask(open[view], channel), alone[view][std::size_t(channel)])
-          << "view " << view << ", channel " << channel << ", stride " << stride;
-    }
+  std::vector<RenderedView> open;
+  for (const ViewRays& rays : views()) open.push_back(renderer.view(rays, &next));
+  const int pairs = int(open.size()) * kChannels;
+  for (int i = 0; i < pairs; ++i) {
+    const int pair = i * 7 % pairs;  // visits all pairs of view and channel once
+    const std::size_t view = std::size_t(pair) % open.size();
+    const int channel = pair / int(open.size());
+    ASSERT_EQ(ask(open[view], channel), alone[view][std::size_t(channel)])
+        << "view " << view << ", channel " << channel;
   }
 }
 

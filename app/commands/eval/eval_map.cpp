@@ -34,16 +34,19 @@ double sample_spacing(const MapRequest& request) { return std::min(kMapSpacing, 
 
 RecordedViews load_views(const FinishedRun& saved, const MapRequest& request) {
   const Scenario scenario = stated_scenario(saved.manifest.provenance);
-  if (!scenario.cameras.empty())
-    throw InputError({saved.folder, 0, "cameras", "a map is scored by what one camera saw",
-                      "the run of a mission with `camera`", "several cameras", ""});
-  const DepthSensorSpec& sensor = scenario.depth_sensor;
-  ViewRange range;
-  if (sensor.type != DepthSensorType::none && sensor.type != DepthSensorType::ideal)
-    range = {sensor.min_range, sensor.max_range};
-  if (request.range) range.farthest = *request.range;
-  const Intrinsics intrinsics = scenario.camera.intrinsics();
-  return {intrinsics, Lens(intrinsics), range, load_true_poses(saved.folder)};
+  RecordedViews views;
+  for (const MountedCamera& camera : all_cameras(scenario)) {
+    const DepthSensorSpec& sensor = camera.depth_sensor;
+    ViewRange range;
+    if (sensor.type != DepthSensorType::none && sensor.type != DepthSensorType::ideal)
+      range = {sensor.min_range, sensor.max_range};
+    if (request.range) range.farthest = *request.range;
+    const Intrinsics intrinsics = camera.camera.intrinsics();
+    const std::string folder =
+        scenario.cameras.empty() ? saved.folder : saved.folder + "/cameras/" + camera.name;
+    views.add({intrinsics, Lens(intrinsics), range}, load_true_poses(folder));
+  }
+  return views;
 }
 
 VoidMap make_void_map(const SavedSurface& surface, const MapRequest& request, Progress& progress) {

@@ -13,17 +13,17 @@ namespace rubble {
 
 // Everything that was found out about a map.
 struct MapFindings {
-  PlyMesh map;                // in the world
-  std::vector<Vec3> samples;  // of it
-  SeenSurface seen;
-  MapAccuracy accuracy;
-  MapCompleteness completeness;
+  PlyMesh map;                   // in the world
+  std::vector<Vec3> samples;     // of it
+  SeenSurface seen;              // what the camera could have mapped
+  MapAccuracy accuracy;          // how far the map's points are from the true surface
+  MapCompleteness completeness;  // how much of the seen surface the map has
   // By the map, and by the seen surface itself in its place: what the best map could have found.
   struct Voids {
     double volume = 0;               // of all voids that is known; unit: m3
     std::vector<FoundVoids> robots;  // as VoidMap::robots
   };
-  Voids found, best;
+  Voids found, best;  // by the map; by the seen surface
 };
 
 // The row of the table; per radius some cells whose keys end in its millimetres, as in _r100.

@@ -7,7 +7,14 @@
 
 namespace rubble {
 
+void RecordedViews::add(const RecordedCamera& added, const std::vector<Pose>& poses) {
+  camera.insert(camera.end(), poses.size(), cameras.size());
+  cameras.push_back(added);
+  world_from_optical.insert(world_from_optical.end(), poses.begin(), poses.end());
+}
+
 bool RecordedViews::has_in_picture(std::size_t frame, const Vec3& point) const {
+  const auto& [intrinsics, lens, range] = camera_of(frame);
   const Vec3 p = world_from_optical[frame].rotation.conjugate().rotate(
       point - world_from_optical[frame].translation);
   if (p.z < range.nearest || p.z > range.farthest) return false;
@@ -18,7 +25,7 @@ bool RecordedViews::has_in_picture(std::size_t frame, const Vec3& point) const {
 }
 
 std::optional<Vec3> RecordedViews::direction(std::size_t frame, double u, double v) const {
-  const std::optional<Vec3> optical = lens.direction(u, v);
+  const std::optional<Vec3> optical = camera_of(frame).lens.direction(u, v);
   if (!optical) return std::nullopt;
   return world_from_optical[frame].rotation.rotate(*optical);
 }

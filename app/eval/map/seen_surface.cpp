@@ -64,13 +64,15 @@ class FramesOfCells {
                                                const RecordedViews& views, std::size_t frame) {
     std::vector<std::int64_t> hits, cells;
     const Vec3& eye = views.world_from_optical[frame].translation;
-    const double step = double(views.intrinsics.width) / kRaysPerRow;
-    for (double v = -0.5; v <= views.intrinsics.height - 0.5; v += step)
-      for (double u = -0.5; u <= views.intrinsics.width - 0.5; u += step) {
+    const Intrinsics& k = views.camera_of(frame).intrinsics;
+    const double farthest = views.camera_of(frame).range.farthest;
+    const double step = double(k.width) / kRaysPerRow;
+    for (double v = -0.5; v <= k.height - 0.5; v += step)
+      for (double u = -0.5; u <= k.width - 0.5; u += step) {
         const auto direction = views.direction(frame, u, v);
         if (!direction) continue;
         // Twice the range: planar depth is less than the length of the ray.
-        const auto hit = queries.cast_ray(eye, *direction, 2 * views.range.farthest);
+        const auto hit = queries.cast_ray(eye, *direction, 2 * farthest);
         if (hit && has_space_key(hit->point)) hits.push_back(space_key_of(hit->point, kCell));
       }
     sort_unique(hits);

@@ -10,9 +10,9 @@ namespace rubble {
 
 // y = scale * rotation(x) + translation
 struct Similarity {
-  double scale = 1;
-  Quat rotation;
-  Vec3 translation;
+  double scale = 1;  // unit: 1; above 0
+  Quat rotation;     // unit length
+  Vec3 translation;  // in the frame of y; unit: m
 
   Vec3 operator*(const Vec3& x) const { return scale * rotation.rotate(x) + translation; }
   Pose operator*(const Pose& pose) const {

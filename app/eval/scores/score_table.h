@@ -16,8 +16,8 @@ struct ScoreCell {
 
 // One row; every row of a table has the same keys in the same order.
 struct ScoreRow {
-  std::string name;
-  std::vector<ScoreCell> cells;
+  std::string name;              // of the dataset
+  std::vector<ScoreCell> cells;  // in the order of the columns
 };
 
 std::string score_text(const std::vector<ScoreRow>& rows);

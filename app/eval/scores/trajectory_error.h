@@ -8,7 +8,7 @@
 namespace rubble {
 
 struct PosePair {
-  Pose estimate, truth;
+  Pose estimate, truth;  // world_from_body of the same instant; unit: m
 };
 
 // Each pose of the shorter trajectory with the one of the longer that is nearest in time, if that
@@ -17,7 +17,7 @@ std::vector<PosePair> associate(const std::vector<StampedPose>& estimate,
                                 const std::vector<StampedPose>& truth, double max_difference);
 
 struct TrajectoryError {
-  int pairs = 0;
+  int pairs = 0;  // poses that were compared
   // Absolute trajectory error: root mean square distance of positions after a least-squares
   // alignment of the estimate, rigid (SE3) or with scale (Sim3); unit: m.
   double ate_rmse_se3 = 0, ate_rmse_sim3 = 0;
@@ -30,7 +30,7 @@ struct TrajectoryError {
 
 // The relative part of it alone: of the steps 0 to delta, delta to 2 delta, ...
 struct RelativeError {
-  int steps = 0;
+  int steps = 0;            // of `delta` pairs each
   double trans_rmse = 0;    // unit: m
   double rot_rmse_deg = 0;  // unit: degree
 };

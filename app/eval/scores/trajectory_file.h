@@ -9,9 +9,9 @@
 namespace rubble {
 
 struct StampedPose {
-  double stamp = 0;  // unit: s
-  Pose world_from_body;
-  int line = 0;  // of the file; 1-based
+  double stamp = 0;      // unit: s
+  Pose world_from_body;  // unit: m
+  int line = 0;          // of the file; 1-based
 };
 
 // Reads

@@ -22,7 +22,7 @@ SfmGroundTruth load_sfm_ground_truth(const std::string& dataset);
 // One model of a reconstruction: a part of the track that hangs together. Models share neither
 // frame nor scale, so each is aligned by itself.
 struct SfmSegment {
-  ColmapModel model;
+  ColmapModel model;        // as it was read, in its own frame and scale
   std::vector<int> frames;  // index into the truth, one per image of the model
   // Umeyama's, from the positions: for errors of the trajectory. Nothing where they are on one
   // line.

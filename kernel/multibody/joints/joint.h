@@ -12,8 +12,8 @@ struct MobilizerPlace;  // mobilizer.h: it knows Simbody
 
 // A stop that the joint is near: pushes only along `direction` (of the link's speeds).
 struct JointStop {
-  double gap = 0;  // how far away; unit: rad, m
-  double direction[3] = {};
+  double gap = 0;            // how far away; unit: rad, m
+  double direction[3] = {};  // unit length, in the joint's frame
 };
 
 class Joint {

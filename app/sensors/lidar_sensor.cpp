@@ -1,0 +1,58 @@
+#include "app/sensors/lidar_sensor.h"
+
+#include "kernel/base/random.h"
+#include "render/lidar/lidar.h"
+
+namespace rubble {
+namespace {
+
+class LidarSensor : public Sensor {
+ public:
+  LidarSensor(std::unique_ptr<Lidar> lidar, int number, std::int64_t last_ns)
+      : lidar_(std::move(lidar)), number_(number), last_ns_(last_ns) {}
+
+  std::optional<std::int64_t> next_stamp() const override {
+    const std::int64_t stamp = lidar_->stamp_ns(next_);
+    return stamp <= last_ns_ ? std::optional(stamp) : std::nullopt;
+  }
+  Sample take() override {
+    LidarScan scan = lidar_->take(next_++);
+    scan.sensor = number_;
+    return scan;
+  }
+
+ private:
+  std::unique_ptr<Lidar> lidar_;
+  int number_, next_ = 0;
+  std::int64_t last_ns_;
+};
+
+LidarPlace place_of(const LidarScenario& lidar, const Scenario& flown,
+                    std::shared_ptr<const MotionPath> path) {
+  const Pose rig_from_lidar = lidar.rig_from_lidar();
+  const std::int64_t start = flown.start_ns;
+  return {[path = std::move(path), rig_from_lidar, start](std::int64_t stamp_ns) {
+            return path->at(double(stamp_ns - start) * 1e-9) * rig_from_lidar;
+          },
+          start};
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const Scene& scene,
+                                                        std::uint64_t noise_seed, std::int64_t last_ns,
+                                                        std::shared_ptr<const MotionPath> path, int threads) {
+  std::vector<std::unique_ptr<Sensor>> sensors;
+  if (flown.lidars.empty()) return sensors;
+  const auto world = std::make_shared<LidarWorld>(scene);
+  const Medium medium(flown.air, flown.seed);
+  for (const LidarScenario& lidar : flown.lidars) {
+    const std::uint64_t seed = RandomStream(noise_seed, "lidars/" + lidar.name).next();
+    sensors.push_back(std::make_unique<LidarSensor>(
+        std::make_unique<Lidar>(lidar.spec(), world, place_of(lidar, flown, path), medium, seed, threads),
+        int(sensors.size()), last_ns));
+  }
+  return sensors;
+}
+
+}  // namespace rubble

@@ -1,0 +1,20 @@
+// The LiDARs of a mission, ready to scan.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/scene/sample.h"
+#include "render/scene/scene.h"
+#include "scripting/scenario/scenario.h"
+
+namespace rubble {
+
+// flown: the scenario with the path that is flown. last_ns: no scan begins later. All share one tree of
+// the scene's triangles. Empty where the mission has no LiDAR.
+std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const Scene& scene,
+                                                        std::uint64_t noise_seed, std::int64_t last_ns,
+                                                        std::shared_ptr<const MotionPath> path, int threads);
+
+}  // namespace rubble

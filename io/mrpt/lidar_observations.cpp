@@ -1,0 +1,109 @@
+#include "io/mrpt/lidar_observations.h"
+
+#include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationRotatingScan.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/mrpt/mrpt_types.h"
+#include "kernel/base/portable_math.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kRadian = portable::kPi / 180;
+constexpr double kMostSteps = 65535;
+constexpr double kStep = 0.002;  // of ranges; unit: m
+
+double range_of(const LidarPoint& p) {
+  return std::sqrt(double(p.x) * double(p.x) + double(p.y) * double(p.y) + double(p.z) * double(p.z));
+}
+
+// The finest multiple of kStep by which its reach fits into 16 bits.
+double range_step(const LidarSpec& spec) { return kStep * std::ceil(spec.max_range / (kStep * kMostSteps)); }
+
+void describe(const LidarScan& scan, const LidarRecord& lidar, mrpt::obs::CObservation& out) {
+  out.timestamp = mrpt_time(scan.stamp_ns);
+  out.sensorLabel = lidar.name;
+  out.setSensorPose(mrpt_pose(lidar.rig_from_lidar));
+}
+
+mrpt::obs::CObservationRotatingScan rotating_scan(const LidarScan& scan, const LidarRecord& lidar) {
+  const LidarSpec& spec = lidar.spec;
+  mrpt::obs::CObservationRotatingScan out;
+  describe(scan, lidar, out);
+  out.originalReceivedTimestamp = out.timestamp;
+  out.lidarModel = spec.model;
+  out.rowCount = std::uint16_t(spec.rings()), out.columnCount = std::uint16_t(spec.columns);
+  out.minRange = spec.min_range, out.maxRange = spec.max_range;
+  out.rangeResolution = range_step(spec);
+  out.startAzimuth = spec.first_azimuth_deg * kRadian;
+  out.azimuthSpan = spec.span_deg * (spec.columns - 1) / spec.columns * kRadian;
+  out.sweepDuration = double(spec.column_ns) * 1e-9 * (spec.columns - 1);
+  out.rangeImage.setZero(spec.rings(), spec.columns);
+  out.intensityImage.setZero(spec.rings(), spec.columns);
+  if (spec.returns == LidarReturns::dual) out.rangeOtherLayers["SECOND"].setZero(spec.rings(), spec.columns);
+  for (const LidarPoint& p : scan.points) {
+    const auto steps = std::uint16_t(std::min(kMostSteps, range_of(p) / out.rangeResolution + 0.5));
+    if (out.rangeImage(p.ring, p.column) != 0) {
+      out.rangeOtherLayers.at("SECOND")(p.ring, p.column) = steps;
+      continue;
+    }
+    out.rangeImage(p.ring, p.column) = steps;
+    out.intensityImage(p.ring, p.column) = std::uint8_t(std::min(255.0f, p.intensity + 0.5f));
+  }
+  return out;
+}
+
+mrpt::obs::CObservationPointCloud point_cloud(const LidarScan& scan, const LidarRecord& lidar) {
+  mrpt::obs::CObservationPointCloud out;
+  describe(scan, lidar, out);
+  auto points = mrpt::maps::CPointsMapXYZI::Create();
+  points->reserve(scan.points.size());
+  for (const LidarPoint& p : scan.points) {
+    points->insertPointFast(p.x, p.y, p.z);
+    points->setPointIntensity(points->size() - 1, p.intensity / 100);
+  }
+  out.pointcloud = points;
+  return out;
+}
+
+mrpt::obs::CObservation2DRangeScan planar_scan(const LidarScan& scan, const LidarRecord& lidar) {
+  const LidarSpec& spec = lidar.spec;
+  mrpt::obs::CObservation2DRangeScan out;
+  describe(scan, lidar, out);
+  out.aperture = float(std::fabs(spec.span_deg) * (spec.columns - 1) / spec.columns * kRadian);
+  out.rightToLeft = spec.span_deg > 0;
+  out.maxRange = float(spec.max_range);
+  out.stdError = float(spec.range_noise);
+  out.beamAperture = float(spec.divergence_mrad * 1e-3);
+  out.resizeScanAndAssign(std::size_t(spec.columns), 0, false);
+  out.setScanHasIntensity(true);
+  for (auto p = scan.points.rbegin(); p != scan.points.rend(); ++p) {
+    out.setScanRange(p->column, float(range_of(*p)));
+    out.setScanRangeValidity(p->column, true);
+    out.setScanIntensity(p->column, int(p->intensity + 0.5f));
+  }
+  return out;
+}
+
+}  // namespace
+
+void write_lidar_observation(const LidarScan& scan, const LidarRecord& lidar,
+                             mrpt::serialization::CArchive& archive) {
+  switch (lidar.spec.pattern) {
+    case LidarPattern::spinning:
+      archive << rotating_scan(scan, lidar);
+      return;
+    case LidarPattern::rosette:
+      archive << point_cloud(scan, lidar);
+      return;
+    case LidarPattern::planar:
+      archive << planar_scan(scan, lidar);
+  }
+}
+
+}  // namespace rubble

@@ -1,0 +1,18 @@
+// Scans of LiDARs as MRPT's observations. Internal to io/mrpt.
+#pragma once
+
+#include <mrpt/serialization/CArchive.h>
+
+#include "io/recording/recording.h"
+#include "render/scene/lidar_scan.h"
+
+namespace rubble {
+
+// spinning: CObservationRotatingScan. Rows are rings, the lowest first, columns go the way the sensor
+//   turns; ranges are multiples of 2 mm, beyond a reach of 131 m of 4 mm and so on, 0 without an echo. The second echo of a ray is in the layer "SECOND".
+// rosette: CObservationPointCloud with a CPointsMapXYZI. planar: CObservation2DRangeScan, whose
+//   rays MRPT takes to lie evenly about X.
+void write_lidar_observation(const LidarScan& scan, const LidarRecord& lidar,
+                             mrpt::serialization::CArchive& archive);
+
+}  // namespace rubble

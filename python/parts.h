@@ -1,0 +1,27 @@
+// The parts of the module, one source each. Internal to python/.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+
+#include "app/pipeline/resolved_mission.h"
+#include "kernel/model/pile_state.h"
+
+namespace rubble::python {
+
+// A settled pile with what it was made of.
+struct SettledMission {
+  ResolvedMission mission;
+  PileState state;
+};
+// Never changed once it is made; not const, as pybind11 keeps it.
+using SharedPile = std::shared_ptr<SettledMission>;
+
+void add_errors(pybind11::module_& module);
+void add_pile(pybind11::module_& module);
+void add_sensors(pybind11::module_& module);
+void add_robots(pybind11::module_& module);
+void add_recordings(pybind11::module_& module);
+
+}  // namespace rubble::python

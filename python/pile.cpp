@@ -1,0 +1,210 @@
+// settle(), open_pile() and the Pile: what lies where, rays, distances, voids.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "app/pipeline/build_scene.h"
+#include "app/pipeline/finished_run.h"
+#include "kernel/base/parallel.h"
+#include "kernel/queries/queries.h"
+#include "kernel/settling/settle.h"
+#include "kernel/voids/void_map.h"
+#include "python/arrays.h"
+#include "python/parts.h"
+
+namespace rubble::python {
+namespace {
+
+constexpr int kGrain = 64;  // rays or points that a thread takes at once
+
+// A pile and its queries, which are made when they are first asked for.
+struct Pile {
+  SharedPile settled;
+  int threads = 1;
+  std::shared_ptr<PileQueries> made{};
+
+  const PileQueries& queries() {
+    if (!made)
+      made = std::make_shared<PileQueries>(settled->state, settled->mission.assets.finest_meshes());
+    return *made;
+  }
+};
+
+RunOptions quiet(int threads) {
+  RunOptions options;
+  options.quiet = true;
+  options.threads = threads;
+  return options;
+}
+
+Pile settle(const std::string& mission, std::optional<std::uint64_t> seed,
+            const std::vector<std::string>& overrides, int threads) {
+  RunRequest request;
+  request.mission = mission, request.seed = seed, request.overrides = overrides;
+  RunContext context(quiet(threads));
+  auto settled = std::make_shared<SettledMission>();
+  settled->mission = resolve_mission(request, RunKind::settle, context);
+  SettleOptions options = settled->mission.scenario.settle;
+  options.threads = context.threads();
+  settled->state = settle_pile(make_pile(settled->mission), options);
+  return {settled, context.threads()};
+}
+
+Pile open_pile(const std::string& folder, int threads) {
+  RunContext context(quiet(threads));
+  const FinishedRun saved = open_finished_run(folder);
+  auto settled = std::make_shared<SettledMission>();
+  settled->mission = resolve_mission(saved.manifest.provenance, {}, context);
+  settled->state = load_pile_of(saved);
+  return {settled, context.threads()};
+}
+
+py::array_t<double> poses_of(const Pile& pile) {
+  const auto& pieces = pile.settled->state.pieces;
+  py::array_t<double> out({py::ssize_t(pieces.size()), py::ssize_t(7)});
+  for (std::size_t i = 0; i < pieces.size(); ++i) put_pose(pieces[i].world_from_body, out.mutable_data() + 7 * i);
+  return out;
+}
+
+std::vector<std::string> assets_of(const Pile& pile) {
+  std::vector<std::string> names;
+  for (const PieceState& piece : pile.settled->state.pieces)
+    names.push_back(pile.settled->state.types[std::size_t(piece.type)]);
+  return names;
+}
+
+template <typename Ask>
+void ask_each(const Pile& pile, std::size_t count, const Ask& ask) {
+  ThreadPool pool(pile.threads);
+  const py::gil_scoped_release free;
+  pool.run(int(count), kGrain, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) ask(std::size_t(i));
+  });
+}
+
+void expect_positive(double value, const char* name) {
+  if (!(value > 0)) throw InputError({"", 0, name, "out of range", "more than 0", std::to_string(value), ""});
+}
+
+py::dict cast_rays(Pile& pile, const DoubleArray& origins, const DoubleArray& directions, double max_distance) {
+  const std::vector<Vec3> from = to_points(origins, "origins"), along = to_points(directions, "directions");
+  expect_positive(max_distance, "max_distance");
+  if (from.size() != along.size() && from.size() != 1)
+    throw InputError({"", 0, "origins", "not as many as directions", std::to_string(along.size()) + " or 1",
+                      std::to_string(from.size()), ""});
+  for (const Vec3& d : along)
+    if (!(norm(d) > 0)) throw InputError({"", 0, "directions", "no direction", "not zero", "0 0 0", ""});
+  const PileQueries& queries = pile.queries();
+  const auto count = along.size();
+  std::vector<double> distance(count, std::numeric_limits<double>::infinity()), normals(3 * count, 0);
+  std::vector<std::int32_t> pieces(count, -2);
+  ask_each(pile, count, [&](std::size_t i) {
+    const auto hit = queries.cast_ray(from[from.size() == 1 ? 0 : i], along[i], max_distance);
+    if (!hit) return;
+    distance[i] = hit->distance, pieces[i] = hit->piece;
+    for (int k = 0; k < 3; ++k) normals[3 * i + std::size_t(k)] = hit->normal[k];
+  });
+  py::dict out;
+  out["distance"] = take_vector(std::move(distance), {py::ssize_t(count)});
+  out["normal"] = take_vector(std::move(normals), {py::ssize_t(count), 3});
+  out["piece"] = take_vector(std::move(pieces), {py::ssize_t(count)});
+  return out;
+}
+
+py::array_t<double> clearance(Pile& pile, const DoubleArray& at, double max_distance) {
+  const std::vector<Vec3> points = to_points(at, "points");
+  expect_positive(max_distance, "max_distance");
+  const PileQueries& queries = pile.queries();
+  std::vector<double> out(points.size());
+  ask_each(pile, points.size(), [&](std::size_t i) { out[i] = queries.clearance(points[i], max_distance); });
+  return take_vector(std::move(out), {py::ssize_t(points.size())});
+}
+
+py::dict describe(const Void& v, const VoidSpace& space) {
+  py::dict out;
+  out["volume"] = v.volume, out["depth"] = v.depth, out["path_length"] = v.path_length;
+  out["widest"] = from_vector(v.widest), out["widest_radius"] = v.widest_radius;
+  out["deepest"] = from_vector(v.deepest), out["bottleneck_radius"] = v.bottleneck_radius;
+  py::list entrances;
+  for (const Entrance& e : v.entrances) {
+    py::dict one;
+    one["position"] = from_vector(e.position), one["inward"] = from_vector(e.inward);
+    one["radius"] = e.radius, one["area"] = e.area;
+    entrances.append(one);
+  }
+  out["entrances"] = entrances;
+  std::vector<double> cells;
+  for (const std::uint32_t cell : v.cells)
+    for (int k = 0; k < 3; ++k) cells.push_back(space.grid.centre(cell)[k]);
+  out["cells"] = take_vector(std::move(cells), {py::ssize_t(v.cells.size()), 3});
+  return out;
+}
+
+py::list voids(const Pile& pile, double radius, double voxel) {
+  VoidSpaceOptions options;
+  options.voxel = voxel;
+  options.rolling_radius = outside_radius_for(options.rolling_radius, radius);
+  options.scenery = pile.settled->mission.assets.terrain();
+  options.threads = pile.threads;
+  VoidMap map;
+  {
+    const py::gil_scoped_release free;
+    map = find_voids(calc_void_space(pile.settled->state, pile.settled->mission.assets.finest_meshes(), options),
+                     {radius});
+  }
+  py::list out;
+  for (const Void& v : map.robots.front().voids) out.append(describe(v, map.space));
+  return out;
+}
+
+// All pieces as one mesh, at their finest.
+py::tuple mesh_of(const Pile& pile) {
+  const auto meshes = pile.settled->mission.assets.finest_meshes();
+  std::vector<float> positions;
+  std::vector<std::int32_t> triangles;
+  for (const PieceState& piece : pile.settled->state.pieces) {
+    if (piece.status == PieceStatus::lost) continue;
+    const TriangleMesh& mesh = *meshes[std::size_t(piece.type)];
+    const auto base = std::int32_t(positions.size() / 3);
+    for (const Vec3f& p : mesh.positions) {
+      const Vec3 at = piece.world_from_body * (Vec3(p) * piece.scale);
+      for (int k = 0; k < 3; ++k) positions.push_back(float(at[k]));
+    }
+    for (const auto& t : mesh.triangles)
+      for (const std::uint32_t v : t) triangles.push_back(base + std::int32_t(v));
+  }
+  const auto vertices = py::ssize_t(positions.size() / 3), faces = py::ssize_t(triangles.size() / 3);
+  return py::make_tuple(take_vector(std::move(positions), {vertices, 3}), take_vector(std::move(triangles), {faces, 3}));
+}
+
+}  // namespace
+
+void add_pile(py::module_& module) {
+  py::class_<Pile>(module, "Pile", "A settled pile: what lies where, and questions about it. Metres, world frame.")
+      .def_property_readonly("state_hash", [](const Pile& p) { return p.settled->state.state_hash(); },
+                             "64 bits over every piece's state: equal piles have equal hashes.")
+      .def_property_readonly("settled", [](const Pile& p) { return p.settled->state.settled; },
+                             "Whether every piece came to a checked rest.")
+      .def_property_readonly("poses", &poses_of, "(n, 7): x y z qw qx qy qz of every piece, world from body.")
+      .def_property_readonly("assets", &assets_of, "The name of every piece's asset.")
+      .def_property_readonly("seed", [](const Pile& p) { return p.settled->mission.scenario.seed; })
+      .def("__len__", [](const Pile& p) { return p.settled->state.pieces.size(); })
+      .def("cast_rays", &cast_rays, py::arg("origins"), py::arg("directions"), py::arg("max_distance") = 100.0,
+           "What rays meet: dict of distance (inf: nothing), normal, piece (-1: ground, -2: nothing).")
+      .def("clearance", &clearance, py::arg("points"), py::arg("max_distance") = 10.0,
+           "How far each point is from everything solid; 0 inside a piece and below the ground.")
+      .def("voids", &voids, py::arg("radius"), py::arg("voxel") = 0.05,
+           "The voids that a ball of that radius has room in, the largest first.")
+      .def("mesh", &mesh_of, "(vertices (n, 3) float32, triangles (m, 3) int32) of all pieces.")
+      .def_property_readonly("_shared", [](const Pile& p) { return p.settled; })
+      .def_property_readonly("threads", [](const Pile& p) { return p.threads; });
+  py::class_<SettledMission, SharedPile>(module, "_Settled");
+  module.def("settle", &settle, py::arg("mission"), py::arg("seed") = py::none(),
+             py::arg("overrides") = std::vector<std::string>(), py::arg("threads") = 0,
+             "Settles the pile of a mission script. overrides: \"key=value\", as rubble run --set.");
+  module.def("open_pile", &open_pile, py::arg("folder"), py::arg("threads") = 0,
+             "The settled pile of a finished run.");
+}
+
+}  // namespace rubble::python

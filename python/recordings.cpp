@@ -1,0 +1,50 @@
+// Messages of recordings, as they are on the wire; rubble/dataset.py knows what they mean.
+#include <pybind11/stl.h>
+
+#include <map>
+#include <set>
+
+#include "io/ros/ros_message_reader.h"
+#include "kernel/base/error.h"
+#include "python/arrays.h"
+#include "python/parts.h"
+
+namespace rubble::python {
+namespace {
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+// Each message's bytes as an array of their own, by topic; topics: empty: of all.
+std::map<std::string, std::vector<py::bytes>> read_messages(const std::string& path,
+                                                            const std::set<std::string>& topics) {
+  std::map<std::string, std::vector<py::bytes>> messages;
+  const auto take = [&](const RosMessage& m) {
+    const std::string topic(m.topic);
+    if (topics.empty() || topics.count(topic)) messages[topic].emplace_back(m.bytes.data(), m.bytes.size());
+    return true;
+  };
+  const auto fault = ends_with(path, ".mcap") ? read_mcap(path, take) : read_bag(path, take);
+  if (fault) throw InputError({path, 0, "", "the file is damaged", "a whole recording", fault->what, "rubble info says more"});
+  return messages;
+}
+
+std::map<std::string, std::int64_t> count_messages(const std::string& path) {
+  std::map<std::string, std::int64_t> counts;
+  const auto take = [&](const RosMessage& m) {
+    ++counts[std::string(m.topic)];
+    return true;
+  };
+  ends_with(path, ".mcap") ? read_mcap(path, take) : read_bag(path, take);
+  return counts;
+}
+
+}  // namespace
+
+void add_recordings(py::module_& module) {
+  module.def("read_messages", &read_messages, py::arg("path"), py::arg("topics"));
+  module.def("count_messages", &count_messages, py::arg("path"));
+}
+
+}  // namespace rubble::python

@@ -1,0 +1,78 @@
+"""Env, Box and Dict: gymnasium's where it is installed, else as much of them as an environment needs."""
+import numpy as np
+
+try:
+    from gymnasium import Env
+    from gymnasium.spaces import Box, Dict
+    from gymnasium.utils import seeding
+
+    def make_random(seed):
+        return seeding.np_random(seed)
+except ImportError:
+
+    def make_random(seed):
+        sequence = np.random.SeedSequence(seed)
+        return np.random.Generator(np.random.PCG64(sequence)), sequence.entropy
+
+    class Env:
+        metadata = {"render_modes": []}
+        render_mode = None
+        spec = None
+
+        def reset(self, *, seed=None, options=None):
+            if seed is not None or not hasattr(self, "_random"):
+                self._random, self._seed = make_random(seed)
+
+        @property
+        def np_random(self):
+            if not hasattr(self, "_random"):
+                self._random, self._seed = make_random(None)
+            return self._random
+
+        @property
+        def unwrapped(self):
+            return self
+
+        def render(self):
+            raise NotImplementedError
+
+        def close(self):
+            pass
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            self.close()
+
+    class Box:
+        """An array within limits."""
+
+        def __init__(self, low, high, shape, dtype=np.float32):
+            self.low = np.broadcast_to(np.asarray(low, dtype), shape).copy()
+            self.high = np.broadcast_to(np.asarray(high, dtype), shape).copy()
+            self.shape, self.dtype = tuple(shape), np.dtype(dtype)
+            self.seed(None)
+
+        def seed(self, seed=None):
+            self._random, _ = make_random(seed)
+
+        def sample(self):
+            return self._random.uniform(self.low, self.high).astype(self.dtype)
+
+        def contains(self, value):
+            value = np.asarray(value)
+            return (value.shape == self.shape and np.can_cast(value.dtype, self.dtype)
+                    and bool(np.all(value >= self.low) and np.all(value <= self.high)))
+
+    class Dict:
+        """Spaces by name."""
+
+        def __init__(self, spaces):
+            self.spaces = dict(sorted(spaces.items()))
+
+        def __getitem__(self, name):
+            return self.spaces[name]
+
+        def contains(self, value):
+            return value.keys() == self.spaces.keys() and all(s.contains(value[k]) for k, s in self.spaces.items())

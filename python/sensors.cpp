@@ -1,0 +1,180 @@
+// Sensors over a pile that rests: frames of the renderer, depth by exact rays, scans of LiDARs.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+#include "app/pipeline/stages.h"
+#include "app/pipeline/build_scene.h"
+#include "kernel/base/parallel.h"
+#include "render/gl/gl_context.h"
+#include "render/lidar/lidar.h"
+#include "render/renderer.h"
+#include "python/arrays.h"
+#include "python/parts.h"
+
+namespace rubble::python {
+namespace {
+
+Intrinsics pinhole(int width, int height, double fov_deg) {
+  if (width < 16 || height < 16 || width > 8192 || height > 8192)
+    throw InputError({"", 0, "width", "out of range", "an image of 16 to 8192 pixels a side",
+                      std::to_string(width) + " x " + std::to_string(height), ""});
+  if (!(fov_deg >= 1 && fov_deg <= 170))
+    throw InputError({"", 0, "fov_deg", "out of range", "1 to 170", std::to_string(fov_deg), ""});
+  CameraScenario camera;
+  camera.width = width, camera.height = height, camera.fov_deg = fov_deg;
+  return camera.intrinsics();
+}
+
+Scene scene_of(const SettledMission& settled) {
+  return build_scene(settled.mission.scenario, settled.mission.assets, settled.state);
+}
+
+// Colour and depth, as `rubble run` draws them.
+class FrameRenderer {
+ public:
+  FrameRenderer(SharedPile settled, int threads)
+      : settled_(std::move(settled)),
+        gl_({-1, threads}),
+        renderer_(prepare_renderer(scene_of(*settled_), settled_->mission.scenario, gl_, threads, {})) {}
+
+  py::dict render(const DoubleArray& world_from_camera, int width, int height, double fov_deg) {
+    const Pose pose = to_pose(world_from_camera, "pose");
+    const Intrinsics k = pinhole(width, height, fov_deg);
+    Frame frame = renderer_->render(pose, k, 0, settled_->mission.scenario.start_ns);
+    py::dict out;
+    out["rgb"] = take_vector(std::move(frame.rgb), {height, width, 3});
+    out["depth"] = take_vector(std::move(frame.depth), {height, width});
+    out["K"] = camera_matrix(k);
+    return out;
+  }
+
+  static py::array_t<double> camera_matrix(const Intrinsics& k) {
+    return take_vector<double>({k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1}, {3, 3});
+  }
+
+ private:
+  SharedPile settled_;
+  GlContext gl_;
+  std::unique_ptr<Renderer> renderer_;
+};
+
+// Planar depth by exact rays, for loops that need no colour: nothing is baked, no device is opened.
+class DepthCamera {
+ public:
+  DepthCamera(SharedPile settled, int width, int height, double fov_deg, double max_range, int threads)
+      : world_(scene_of(*settled)), k_(pinhole(width, height, fov_deg)), max_range_(max_range), pool_(threads) {
+    for (int v = 0; v < height; ++v)
+      for (int u = 0; u < width; ++u) {
+        const Vec3 optical((u - k_.cx) / k_.fx, (v - k_.cy) / k_.fy, 1);
+        cosines_.push_back(1 / norm(optical));
+        directions_.push_back(normalized(camera_from_optical * optical));
+      }
+  }
+
+  py::array_t<float> depth(const DoubleArray& world_from_camera) {
+    const Pose pose = to_pose(world_from_camera, "pose");
+    std::vector<float> out(directions_.size());
+    {
+      const py::gil_scoped_release free;
+      pool_.run(int(directions_.size()), kGrain, [&](int begin, int end) { cast(pose, begin, end, out); });
+    }
+    return take_vector(std::move(out), {k_.height, k_.width});
+  }
+  py::array_t<double> matrix() const { return FrameRenderer::camera_matrix(k_); }
+
+ private:
+  static constexpr int kGrain = 256;
+  static constexpr int kPacket = int(LidarWorld::kPacket);
+
+  void cast(const Pose& pose, int begin, int end, std::vector<float>& out) const {
+    LidarWorld::Ray rays[kPacket];
+    LidarWorld::Hit hits[kPacket];
+    for (int first = begin; first < end; first += kPacket) {
+      const int count = std::min(kPacket, end - first);
+      for (int i = 0; i < count; ++i)
+        rays[i] = {pose.translation, pose.rotation.rotate(directions_[std::size_t(first + i)]), 0};
+      world_.cast(rays, std::size_t(count), max_range_, hits);
+      for (int i = 0; i < count; ++i) {
+        const double cosine = cosines_[std::size_t(first + i)];
+        out[std::size_t(first + i)] =
+            hits[i].distance < 0 ? std::numeric_limits<float>::infinity() : float(hits[i].distance * cosine);
+      }
+    }
+  }
+
+  LidarWorld world_;
+  Intrinsics k_;
+  double max_range_;
+  ThreadPool pool_;
+  std::vector<Vec3> directions_;  // in the body of the camera
+  std::vector<double> cosines_;   // planar depth over distance
+};
+
+LidarModel model_named(const std::string& name) {
+  const char* const names[] = {"vlp16", "os0", "os1", "os2", "mid360", "utm30lx"};
+  for (int i = 0; i < 6; ++i)
+    if (name == names[i]) return LidarModel(i);
+  throw InputError({"", 0, "model", "unknown LiDAR", "vlp16, os0, os1, os2, mid360 or utm30lx",
+                    "\"" + name + "\"", ""});
+}
+
+class PyLidar {
+ public:
+  PyLidar(SharedPile settled, const std::string& model, bool noise, std::uint64_t seed, int threads)
+      : settled_(std::move(settled)), world_(std::make_shared<LidarWorld>(scene_of(*settled_))), seed_(seed),
+        threads_(threads) {
+    LidarScenario lidar;
+    lidar.model = model_named(model), lidar.noise = noise;
+    spec_ = lidar.spec();
+  }
+
+  // The sensor stands still.
+  py::array scan(const DoubleArray& world_from_lidar, int number) const {
+    const Pose pose = to_pose(world_from_lidar, "pose");
+    const Scenario& s = settled_->mission.scenario;
+    LidarScan scan;
+    {
+      const py::gil_scoped_release free;
+      Lidar lidar(spec_, world_, {[pose](std::int64_t) { return pose; }, s.start_ns}, Medium(s.air, s.seed), seed_,
+                  threads_);
+      scan = lidar.take(number);
+    }
+    const auto count = py::ssize_t(scan.points.size());
+    return take_vector(std::move(scan.points), {count});
+  }
+
+ private:
+  SharedPile settled_;
+  std::shared_ptr<LidarWorld> world_;
+  LidarSpec spec_;
+  std::uint64_t seed_;
+  int threads_;
+};
+
+}  // namespace
+
+void add_sensors(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(LidarPoint, x, y, z, intensity, time, ring, column);
+  py::class_<FrameRenderer>(module, "_Renderer")
+      .def(py::init([](const SharedPile& s, int threads) {
+        return std::make_unique<FrameRenderer>(s, threads);
+      }))
+      .def("render", &FrameRenderer::render, py::arg("pose"), py::arg("width") = 640, py::arg("height") = 480,
+           py::arg("fov_deg") = 90.0);
+  py::class_<DepthCamera>(module, "_DepthCamera")
+      .def(py::init([](const SharedPile& s, int width, int height, double fov_deg,
+                       double max_range, int threads) {
+        return std::make_unique<DepthCamera>(s, width, height, fov_deg, max_range, threads);
+      }))
+      .def("depth", &DepthCamera::depth, py::arg("pose"))
+      .def_property_readonly("K", &DepthCamera::matrix);
+  py::class_<PyLidar>(module, "_Lidar")
+      .def(py::init([](const SharedPile& s, const std::string& model, bool noise,
+                       std::uint64_t seed, int threads) {
+        return std::make_unique<PyLidar>(s, model, noise, seed, threads);
+      }))
+      .def("scan", &PyLidar::scan, py::arg("pose"), py::arg("number") = 0);
+}
+
+}  // namespace rubble::python

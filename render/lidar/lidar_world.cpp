@@ -1,0 +1,235 @@
+#include "render/lidar/lidar_world.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/base/error.h"
+#include "render/materials/surface_appearance.h"
+
+namespace rubble {
+namespace {
+
+constexpr unsigned kResting = 0;  // geometry number of all that rests; movers follow
+
+// The look of each triangle of a mesh, as an index into all_surface_appearances().
+std::vector<std::uint8_t> looks_of(const TriangleMesh& mesh) {
+  std::vector<std::uint8_t> known;
+  for (const std::string& name : mesh.surface_names)
+    known.push_back(std::uint8_t(find_surface_appearance(name)));
+  if (known.empty()) known.push_back(std::uint8_t(find_surface_appearance("concrete_cast")));
+  std::vector<std::uint8_t> looks(mesh.triangles.size(), known.front());
+  for (std::size_t t = 0; t < mesh.surfaces.size(); ++t) looks[t] = known.at(mesh.surfaces[t]);
+  return looks;
+}
+
+RTCQuaternionDecomposition decompose(const Pose& pose, float scale) {
+  RTCQuaternionDecomposition d;
+  rtcInitQuaternionDecomposition(&d);
+  rtcQuaternionDecompositionSetScale(&d, scale, scale, scale);
+  const Quat& q = pose.rotation;
+  rtcQuaternionDecompositionSetQuaternion(&d, float(q.w), float(q.x), float(q.y), float(q.z));
+  const Vec3& t = pose.translation;
+  rtcQuaternionDecompositionSetTranslation(&d, float(t.x), float(t.y), float(t.z));
+  return d;
+}
+
+}  // namespace
+
+struct LidarWorld::Tree {
+  struct Mover {
+    RTCGeometry geometry = nullptr;  // owned by the tree
+    std::uint32_t mesh = 0;
+    float scale = 1;
+    Quat rotation;  // at the first time of the span
+  };
+
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::map<std::uint32_t, RTCScene> mesh_scenes;              // of those that move
+  std::map<std::uint32_t, std::vector<std::uint8_t>> mesh_looks;  // likewise
+  std::vector<std::uint8_t> resting_looks;
+  std::vector<Mover> movers;
+  SceneMotion motion;
+  bool ground = true;
+
+  ~Tree() {
+    if (scene) rtcReleaseScene(scene);
+    for (const auto& [mesh, of_mesh] : mesh_scenes) rtcReleaseScene(of_mesh);
+    if (device) rtcReleaseDevice(device);
+  }
+
+  RTCScene new_scene() const {
+    const RTCScene made = rtcNewScene(device);
+    rtcSetSceneFlags(made, RTC_SCENE_FLAG_ROBUST);
+    return made;
+  }
+  void attach(RTCScene to, const std::vector<Vec3f>& positions,
+              const std::vector<std::array<std::uint32_t, 3>>& triangles) const;
+  void add_resting(const Scene& from);
+  void add_movers(const Scene& from);
+  void commit();
+  Hit read(unsigned primitive, unsigned instance, const Vec3f& normal, const Ray& ray, double t) const;
+  void meet_ground(const Ray& ray, double max_distance, Hit& hit) const;
+};
+
+void LidarWorld::Tree::attach(RTCScene to, const std::vector<Vec3f>& positions,
+                              const std::vector<std::array<std::uint32_t, 3>>& triangles) const {
+  if (triangles.empty()) return;
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  // One vertex more: Embree reads 16 bytes of the last.
+  void* const vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                 sizeof(Vec3f), positions.size() + 1);
+  void* const indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                3 * sizeof(std::uint32_t), triangles.size());
+  if (!vertices || !indices)
+    throw RunError("cannot cast rays: out of memory for " + std::to_string(triangles.size()) + " triangles");
+  std::copy(positions.begin(), positions.end(), static_cast<Vec3f*>(vertices));
+  std::copy(triangles.begin(), triangles.end(), static_cast<std::array<std::uint32_t, 3>*>(indices));
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(to, geometry, kResting);
+  rtcReleaseGeometry(geometry);
+}
+
+void LidarWorld::Tree::add_resting(const Scene& from) {
+  std::vector<std::uint8_t> moves(from.instances.size(), 0);
+  for (const std::uint32_t i : from.motion.moving) moves.at(i) = 1;
+  std::vector<Vec3f> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::size_t i = 0; i < from.instances.size(); ++i) {
+    if (moves[i]) continue;
+    const SceneInstance& piece = from.instances[i];
+    const TriangleMesh& mesh = from.meshes.at(piece.mesh)->levels.front();
+    const auto base = std::uint32_t(positions.size());
+    for (const Vec3f& p : mesh.positions)
+      positions.push_back(Vec3f(piece.world_from_body * (Vec3(p) * double(piece.scale))));
+    for (const auto& t : mesh.triangles) triangles.push_back({base + t[0], base + t[1], base + t[2]});
+    const std::vector<std::uint8_t> looks = looks_of(mesh);
+    resting_looks.insert(resting_looks.end(), looks.begin(), looks.end());
+  }
+  attach(scene, positions, triangles);
+}
+
+void LidarWorld::Tree::add_movers(const Scene& from) {
+  for (const std::uint32_t i : from.motion.moving) {
+    const SceneInstance& piece = from.instances[i];
+    RTCScene& of_mesh = mesh_scenes[piece.mesh];
+    if (!of_mesh) {
+      const TriangleMesh& mesh = from.meshes.at(piece.mesh)->levels.front();
+      of_mesh = new_scene();
+      attach(of_mesh, mesh.positions, mesh.triangles);
+      rtcCommitScene(of_mesh);
+      mesh_looks[piece.mesh] = looks_of(mesh);
+    }
+    Mover mover{rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE), piece.mesh, piece.scale, {}};
+    rtcSetGeometryInstancedScene(mover.geometry, of_mesh);
+    rtcSetGeometryTimeStepCount(mover.geometry, 2);
+    rtcAttachGeometryByID(scene, mover.geometry, kResting + 1 + unsigned(movers.size()));
+    rtcReleaseGeometry(mover.geometry);  // the tree keeps it
+    movers.push_back(mover);
+  }
+}
+
+void LidarWorld::Tree::commit() {
+  rtcCommitScene(scene);
+  if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
+    throw RunError("cannot cast rays: Embree reports an error while building its tree");
+}
+
+// normal: as Embree gives it, in the frame of the mesh.
+LidarWorld::Hit LidarWorld::Tree::read(unsigned primitive, unsigned instance, const Vec3f& normal,
+                                       const Ray& ray, double t) const {
+  Vec3 out(normal);
+  std::uint8_t look = 0;
+  if (instance == RTC_INVALID_GEOMETRY_ID) {
+    look = resting_looks[primitive];
+  } else {
+    const Mover& mover = movers[instance - kResting - 1];
+    out = mover.rotation.rotate(out);
+    look = mesh_looks.at(mover.mesh)[primitive];
+  }
+  out = normalized(out);
+  const double cosine = dot(out, ray.direction);
+  const float up = float(cosine > 0 ? -out.z : out.z);
+  return {t, float(std::fabs(cosine)), mean_red_albedo(all_surface_appearances()[look], up)};
+}
+
+void LidarWorld::Tree::meet_ground(const Ray& ray, double max_distance, Hit& hit) const {
+  if (!ground || ray.direction.z >= 0 || ray.from.z <= 0) return;
+  const double t = -ray.from.z / ray.direction.z;
+  if (t > max_distance || (hit.distance >= 0 && hit.distance <= t)) return;
+  hit = {t, float(-ray.direction.z), mean_red_albedo(all_surface_appearances().back(), 1)};
+}
+
+LidarWorld::LidarWorld(const Scene& from) : tree_(std::make_unique<Tree>()) {
+  Tree& t = *tree_;
+  // One thread builds: the tree, and with it the choice among equal hits, is then always the same.
+  t.device = rtcNewDevice("threads=1,set_affinity=0");
+  if (!t.device) throw RunError("cannot cast rays: Embree gives no device");
+  t.scene = t.new_scene();
+  t.motion = from.motion, t.ground = from.ground;
+  t.add_resting(from);
+  t.add_movers(from);
+  if (!moves()) t.commit();
+}
+
+LidarWorld::~LidarWorld() = default;
+
+bool LidarWorld::moves() const { return !tree_->movers.empty(); }
+
+void LidarWorld::span(std::int64_t from_ns, std::int64_t to_ns) {
+  if (!moves()) return;
+  const std::vector<std::optional<Pose>> begin = tree_->motion.poses_at(from_ns),
+                                         end = tree_->motion.poses_at(to_ns);
+  for (std::size_t i = 0; i < tree_->movers.size(); ++i) {
+    Tree::Mover& mover = tree_->movers[i];
+    if (!begin[i] || !end[i]) {
+      rtcDisableGeometry(mover.geometry);
+      continue;
+    }
+    Pose last = *end[i];  // the shorter way round
+    const Quat &a = begin[i]->rotation, &b = last.rotation;
+    if (a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z < 0) last.rotation = {-b.w, -b.x, -b.y, -b.z};
+    const RTCQuaternionDecomposition first = decompose(*begin[i], mover.scale),
+                                     second = decompose(last, mover.scale);
+    rtcSetGeometryTransformQuaternion(mover.geometry, 0, &first);
+    rtcSetGeometryTransformQuaternion(mover.geometry, 1, &second);
+    mover.rotation = begin[i]->rotation;
+    rtcEnableGeometry(mover.geometry);
+    rtcCommitGeometry(mover.geometry);
+  }
+  tree_->commit();
+}
+
+void LidarWorld::cast(const Ray* rays, std::size_t count, double max_distance, Hit* hits) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(32) int valid[kPacket];
+  RTCRayHit8 query;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    valid[i] = i < count ? -1 : 0;
+    const Ray& ray = rays[std::min(i, count - 1)];
+    query.ray.org_x[i] = float(ray.from.x), query.ray.org_y[i] = float(ray.from.y);
+    query.ray.org_z[i] = float(ray.from.z), query.ray.dir_x[i] = float(ray.direction.x);
+    query.ray.dir_y[i] = float(ray.direction.y), query.ray.dir_z[i] = float(ray.direction.z);
+    query.ray.tnear[i] = 0, query.ray.tfar[i] = float(max_distance), query.ray.time[i] = ray.time;
+    query.ray.mask[i] = 0xffffffffu, query.ray.id[i] = 0, query.ray.flags[i] = 0;
+    query.hit.geomID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  rtcIntersect8(valid, tree_->scene, &context, &query);
+  for (std::size_t i = 0; i < count; ++i) {
+    hits[i] = {};
+    if (query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
+      hits[i] = tree_->read(query.hit.primID[i], query.hit.instID[0][i],
+                            {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]}, rays[i],
+                            double(query.ray.tfar[i]));
+    tree_->meet_ground(rays[i], max_distance, hits[i]);
+  }
+}
+
+}  // namespace rubble

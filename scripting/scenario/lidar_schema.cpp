@@ -1,0 +1,106 @@
+#include "scripting/scenario/lidar_schema.h"
+
+#include <algorithm>
+
+#include "scripting/values/value.h"
+
+namespace rubble {
+namespace {
+
+void add_figures(Schema& k, LidarScenario& l) {
+  k.value("rate_hz", l.rate_hz, "Scans per second; not given, as of all keys down to `divergence_mrad`: the model's own.")
+      .between(1, 100)
+      .unit("Hz");
+  k.value("min_range", l.min_range, "Nearer is no echo.").between(0.01, 100).unit("m");
+  k.value("max_range", l.max_range, "Farther is none.").between(0.1, 1000).unit("m");
+  k.value("range_at_10_percent", l.range_at_10_percent,
+          "How far it sees a facing surface that throws back 10 % of its light, in clear air.")
+      .between(0.1, 1000)
+      .unit("m");
+  k.value("range_noise", l.range_noise, "Standard deviation of the range.").between(0, 1).unit("m");
+  k.value("range_step", l.range_step, "Resolution of the range; 0: not rounded.").between(0, 1).unit("m");
+  k.value("divergence_mrad", l.divergence_mrad,
+          "Full angle of the beam at 1/e^2 of its middle; 0: a line, without echoes of two surfaces.")
+      .between(0, 100)
+      .unit("mrad");
+}
+
+Schema lidar_schema(LidarScenario& l) {
+  Schema k;
+  k.choice("model", l.model, {"vlp16", "os0", "os1", "os2", "mid360", "utm30lx"},
+           "Whose figures it has: [lidar.md](lidar.md).");
+  k.value("position", l.position, "In the rig: X forward, Y left, Z up.").between(-10, 10).unit("m");
+  k.value("rpy_deg", l.rpy_deg, "Roll, pitch (positive: down) and yaw in the rig.")
+      .between(-360, 360)
+      .unit("degree");
+  k.value("channels", l.channels, "Rings of an `os0`, `os1` or `os2`: 32, 64 or 128; 0: 64.").between(0, 128);
+  k.value("columns", l.columns, "Firings of such a ring in a scan: 512, 1024 or 2048; 0: 1024.")
+      .between(0, 2048);
+  add_figures(k, l);
+  k.choice("returns", l.returns, {"strongest", "last", "dual"},
+           "Which echoes of a ray are reported; `\"dual\"`: the strongest and the last, or where these are "
+           "one, the next strongest.");
+  k.value("noise", l.noise, "`false`: exact ranges (but for `range_step`), and no chance in what is seen.");
+  k.value("topic", l.topic,
+          "ROS: its topic; not given: `/points`, of a 2-D scanner `/scan`; of several of a kind "
+          "`/NAME/points` and `/NAME/scan`.");
+  k.value("frame_id", l.frame_id, "TF: its frame; not given: `NAME_link`.");
+  return k;
+}
+
+bool one_of(int value, const std::vector<int>& allowed) {
+  return std::find(allowed.begin(), allowed.end(), value) != allowed.end();
+}
+
+void check_lidar(const LidarScenario& lidar, std::vector<Diagnostic>& mistakes) {
+  const std::string at = "lidars." + lidar.name + ".";
+  const auto add = [&](const std::string& key, const std::string& message, const std::string& expected,
+                       const std::string& found) {
+    mistakes.push_back({"", 0, at + key, message, expected, found, ""});
+  };
+  const auto check_count = [&](const char* key, int value, const std::vector<int>& allowed) {
+    std::string list;
+    for (const int v : allowed) list += (list.empty() ? "" : ", ") + std::to_string(v);
+    if (!lidar.has_channels() && value != 0)
+      add(key, "this model has no choice of them", "no such key", std::to_string(value));
+    else if (value != 0 && !one_of(value, allowed))
+      add(key, "no such sensor is made", list, std::to_string(value));
+  };
+  check_count("channels", lidar.channels, {32, 64, 128});
+  check_count("columns", lidar.columns, {512, 1024, 2048});
+  const LidarSpec spec = lidar.spec();
+  if (spec.min_range >= spec.max_range)
+    add("max_range", "nothing is within reach", "more than min_range, " + format_number(spec.min_range) + " m",
+        format_number(spec.max_range) + " m");
+}
+
+}  // namespace
+
+void add_lidar_keys(Schema& keys, Scenario& s) {
+  keys.add("lidars",
+           "LiDARs, by names of lower-case letters, digits and underscores: `lidars = { top = { model = "
+           "\"vlp16\" } }`. Each is fixed to the rig that flies the trajectory, scans from the start until "
+           "the last frame of a camera, and looks through the same smoke and dust.",
+           [&s](std::size_t) {
+             return Schema::named_tables(s.lidars, &LidarScenario::name, "top", lidar_schema);
+           });
+}
+
+void check_lidars(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  for (const LidarScenario& lidar : scenario.lidars) check_lidar(lidar, mistakes);
+  const OutputScenario& outputs = scenario.outputs;
+  for (const auto& [key, wanted] : {std::pair{"outputs.pcd", outputs.pcd}, {"outputs.kitti", outputs.kitti}})
+    if (wanted && scenario.lidars.empty())
+      mistakes.push_back({"", 0, key, "there is nothing to write", "a mission with `lidars`", "none", ""});
+}
+
+std::string lidar_topic(const Scenario& scenario, std::size_t lidar) {
+  const LidarScenario& its = scenario.lidars[lidar];
+  if (its.topic) return *its.topic;
+  const auto kin = std::count_if(scenario.lidars.begin(), scenario.lidars.end(), [&](const LidarScenario& other) {
+    return other.planar() == its.planar() && !other.topic;
+  });
+  return (kin == 1 ? "" : "/" + its.name) + (its.planar() ? "/scan" : "/points");
+}
+
+}  // namespace rubble

@@ -1,0 +1,95 @@
+"""Recordings as arrays, against what the mission says and against rosbag."""
+import os
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+import rosbag
+
+import rubble
+
+MISSION = """return rubble.mission {
+  pile = { layers = 0 },
+  camera = { width = 64, height = 48, fov_deg = 70 },
+  imu = { on = true, rate_hz = 50 },
+  lidars = { top = { model = "vlp16" }, low = { model = "utm30lx", noise = false, range_step = 0 } },
+  trajectory = { rate_hz = 5, waypoints = {
+    { t = 0, position = { 0, 0, 2 }, rpy_deg = { 0, 30, 0 } },
+    { t = 1, position = { 1, 0, 2 }, rpy_deg = { 0, 30, 0 } } } },
+}"""
+
+
+class Recording(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        path = os.path.join(cls.folder.name, "m.lua")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(MISSION)
+        cls.out = os.path.join(cls.folder.name, "out")
+        subprocess.run([os.environ["RUBBLE_PROGRAM"], "run", path, "--quiet", "--out", cls.out], check=True,
+                       stdout=subprocess.DEVNULL)
+        cls.data = rubble.open_dataset(cls.out)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_every_pixel_and_point_is_that_of_rosbag(self):
+        stamps, images = self.data.images("/camera/rgb/image_raw")
+        _, clouds = self.data.clouds("/points")
+        found, points = [], []
+        with rosbag.Bag(os.path.join(self.out, "mission.bag")) as bag:
+            for topic, message, _ in bag.read_messages():
+                if topic == "/camera/rgb/image_raw":
+                    found.append((message.header.stamp.to_nsec(), bytes(message.data)))
+                elif topic == "/points":
+                    points.append(bytes(message.data))
+            counts = {t: i.message_count for t, i in bag.get_type_and_topic_info().topics.items()}
+        self.assertEqual(self.data.topics, counts)
+        self.assertEqual([(s, i.tobytes()) for s, i in zip(stamps.tolist(), images)], found)
+        self.assertEqual([c.tobytes() for c in clouds], points)
+        self.assertFalse(images[0].flags.owndata)  # a view of the message
+
+    def test_depth_unprojects_onto_the_ground(self):
+        _, depth = self.data.images("/camera/depth_registered/image_raw")
+        stamps, poses = self.data.poses()
+        k = self.data.intrinsics()["K"]
+        np.testing.assert_allclose(poses[:, :3], [[t / 5, 0, 2] for t in range(6)], atol=1e-6)
+        np.testing.assert_allclose(np.diff(stamps), 200_000_000)
+        v, u = np.nonzero(depth[3])
+        z = depth[3][v, u] / 1000
+        body = np.stack([z, -(u - k[0, 2]) / k[0, 0] * z, -(v - k[1, 2]) / k[1, 1] * z], axis=1)
+        world = body @ rubble.matrix(poses[3])[:3, :3].T + poses[3, :3]
+        self.assertLess(np.abs(world[:, 2]).max(), 0.002)
+
+    def test_scans_and_inertial_readings(self):
+        stamps, scans = self.data.scans("/scan")
+        self.assertEqual(len(stamps), 41)
+        # The scanner looks 30 degrees down from 2 m: the ground ahead is 4 m away.
+        ahead = int(np.argmin(np.abs(scans[0]["angles"])))
+        self.assertAlmostEqual(float(scans[0]["ranges"][ahead]), 4, places=4)
+        stamps, readings = self.data.imu()
+        self.assertEqual(readings.shape, (51, 6))
+        self.assertAlmostEqual(float(np.linalg.norm(readings[:, 3:], axis=1).mean()), 9.81, delta=0.6)
+
+    def test_mistakes(self):
+        with self.assertRaises(rubble.InputError) as raised:
+            self.data.images("/nothing")
+        self.assertEqual(raised.exception.key, "/nothing")
+        with self.assertRaises(rubble.InputError):
+            rubble.open_dataset(self.folder.name)
+        path = os.path.join(self.out, "mission.bag")
+        with open(path, "rb") as file:
+            whole = file.read()
+        broken = os.path.join(self.folder.name, "mission.bag")
+        with open(broken, "wb") as file:
+            file.write(whole[: len(whole) // 2])
+        with self.assertRaises(rubble.InputError) as raised:
+            rubble._core.read_messages(broken, {"/imu"})
+        self.assertEqual(raised.exception.file, broken)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,158 @@
+"""Environments: equal episodes whatever came before, spaces kept, mistakes named."""
+import hashlib
+import multiprocessing
+import random
+import unittest
+
+import numpy as np
+
+import rubble
+from rubble.envs import CrawlerNav, VoidExplore
+
+SMALL = {"size": 16, "max_steps": 12, "pile_seeds": range(1, 4)}
+
+
+def play(env, seed):
+    """The hash of everything that an episode gives."""
+    digest = hashlib.sha256()
+    chance = np.random.default_rng(seed)
+
+    def add(observation, *rest):
+        for name in sorted(observation):
+            digest.update(np.ascontiguousarray(observation[name]).tobytes())
+        digest.update(repr(rest).encode())
+
+    observation, info = env.reset(seed=seed)
+    add(observation, sorted(info.items()))
+    done = False
+    while not done:
+        observation, reward, terminated, truncated, info = env.step(chance.uniform(-1, 1, 4).astype(np.float32))
+        add(observation, reward, terminated, truncated, sorted(info.items()))
+        done = terminated or truncated
+    return digest.hexdigest()
+
+
+def play_alone(seed):
+    return play(VoidExplore(**SMALL), seed)
+
+
+class Episodes(unittest.TestCase):
+    def test_are_equal_in_any_order(self):
+        """1,000 episodes of 40 seeds, shuffled, in one environment."""
+        env = VoidExplore(**SMALL)
+        first = {seed: play(env, seed) for seed in range(40)}
+        self.assertGreater(len(set(first.values())), 38)  # other seeds are other episodes
+        order = [seed for seed in range(40) for _ in range(24)]
+        random.Random(1).shuffle(order)
+        for seed in order:
+            self.assertEqual(play(env, seed), first[seed])
+
+    def test_are_equal_in_other_processes_and_threads(self):
+        env = VoidExplore(threads=2, **SMALL)
+        here = [play(env, seed) for seed in (3, 1, 4)]
+        with multiprocessing.get_context("spawn").Pool(2) as pool:
+            self.assertEqual(pool.map(play_alone, (3, 1, 4)), here)
+
+    def test_half_an_episode_leaves_nothing_behind(self):
+        env = VoidExplore(**SMALL)
+        wanted = play(env, 7)
+        env.reset(seed=8)
+        for _ in range(5):
+            env.step(np.ones(4))
+        self.assertEqual(play(env, 7), wanted)
+
+
+class Crawler(unittest.TestCase):
+    OPTIONS = {"max_steps": 10, "pile_seeds": [1, 2], "rays": 16}
+
+    def test_episodes_are_equal_whatever_came_before(self):
+        env = CrawlerNav(**self.OPTIONS)
+        first = {seed: play(env, seed) for seed in range(4)}
+        self.assertEqual(len(set(first.values())), 4)
+        for seed in (2, 0, 0, 3, 1):
+            self.assertEqual(play(env, seed), first[seed])
+        self.assertEqual(play(CrawlerNav(threads=2, **self.OPTIONS), 2), first[2])
+
+    def test_driving_ahead_comes_nearer_and_observations_are_in_their_space(self):
+        env = CrawlerNav(**self.OPTIONS)
+        observation, _ = env.reset(seed=1)
+        self.assertGreater(observation["scan"][0], 0.5)  # the pile is ahead
+        self.assertAlmostEqual(float(observation["tilt"][2]), 1, places=5)
+        start, total = float(observation["goal"][0]), 0.0
+        for _ in range(10):
+            self.assertTrue(env.observation_space.contains(observation))
+            observation, reward, terminated, truncated, info = env.step([1, 0, 0.5, 0])
+            total += reward
+        self.assertTrue(truncated and not terminated and not info["goal_reached"])
+        self.assertLess(float(observation["goal"][0]), start - 0.2)
+        self.assertAlmostEqual(total, start - float(observation["goal"][0]) - 0.1, places=4)
+
+    def test_a_goal_is_reached(self):
+        env = CrawlerNav(mission="return rubble.mission { pile = { layers = 0 } }", pile_seeds=[1], max_steps=400)
+        observation, _ = env.reset(seed=3)
+        for _ in range(400):
+            bearing = np.arctan2(observation["goal"][2], observation["goal"][1])
+            observation, reward, terminated, truncated, info = env.step([0.8, np.clip(2 * bearing, -1, 1), 0.5, 0.5])
+            if terminated or truncated:
+                break
+        self.assertTrue(info["goal_reached"])
+        self.assertGreater(reward, 9)
+
+
+class Rules(unittest.TestCase):
+    def test_observations_are_in_their_space_and_the_body_keeps_its_distance(self):
+        env = VoidExplore(**SMALL)
+        observation, _ = env.reset(seed=2)
+        chance = np.random.default_rng(1)
+        seen = 0.0
+        for _ in range(40):
+            self.assertTrue(env.observation_space.contains(observation))
+            self.assertGreaterEqual(float(observation["clearance"][0]), 0.15 - 1e-6)
+            action = chance.uniform(-1, 1, 4).astype(np.float32)
+            self.assertTrue(env.action_space.contains(action))
+            observation, reward, _, _, info = env.step(action)
+            self.assertGreaterEqual(info["coverage"], seen)
+            seen = info["coverage"]
+        self.assertGreater(seen, 0)
+
+    def test_depth_is_that_of_the_pile(self):
+        env = VoidExplore(**SMALL)
+        observation, _ = env.reset(seed=2)
+        body = env._body()
+        k = env._world.camera.K
+        v, u = np.mgrid[0:16, 0:16]
+        optical = np.stack([np.ones(u.shape), -(u - k[0, 2]) / k[0, 0], -(v - k[1, 2]) / k[1, 1]], axis=-1)
+        directions = optical.reshape(-1, 3) @ rubble.matrix(body)[:3, :3].T
+        hits = env._world.pile.cast_rays(body[:3], directions)
+        planar = np.minimum(hits["distance"] / np.linalg.norm(directions, axis=1), 5).reshape(16, 16)
+        self.assertLess(np.quantile(np.abs(planar - observation["depth"]), 0.97), 1e-4)
+
+    def test_mistakes_are_named(self):
+        env = VoidExplore(**SMALL)
+        with self.assertRaises(RuntimeError):
+            env.step(np.zeros(4))
+        env.reset(seed=1)
+        for action in (np.zeros(3), [0, 0, np.nan, 0], np.zeros((4, 1))):
+            with self.assertRaises(rubble.InputError) as raised:
+                env.step(action)
+            self.assertEqual(raised.exception.key, "action")
+        with self.assertRaises(rubble.InputError) as raised:
+            VoidExplore(radius=3.0, voxel=0.5, pile_seeds=[1]).reset(seed=1)
+        self.assertEqual(raised.exception.key, "radius")
+        env.close()
+        env.close()
+
+    def test_gymnasiums_checker_where_it_is_installed(self):
+        try:
+            from gymnasium.utils.env_checker import check_env
+        except ImportError:
+            self.skipTest("gymnasium is not installed")
+        import warnings
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            check_env(VoidExplore(**SMALL), skip_render_check=True)
+            check_env(CrawlerNav(**Crawler.OPTIONS), skip_render_check=True)
+
+
+if __name__ == "__main__":
+    unittest.main()

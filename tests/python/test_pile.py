@@ -1,0 +1,123 @@
+"""Piles against closed forms and against the program."""
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+
+import rubble
+
+BOX = """return rubble.mission {
+  pile = { layers = 0, placed = { { box = { 2, 4, 1 }, position = { 1, 0, 0.5 } } } },
+}"""
+
+
+def script(text):
+    file = tempfile.NamedTemporaryFile("w", suffix=".lua", delete=False)
+    with file:
+        file.write(text)
+    return file.name
+
+
+class PileOfABox(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.path = script(BOX)
+        cls.pile = rubble.settle(cls.path, threads=2)
+
+    @classmethod
+    def tearDownClass(cls):
+        os.remove(cls.path)
+
+    def test_rays_meet_its_faces_and_the_ground(self):
+        hits = self.pile.cast_rays([[-3, 0.5, 0.5], [1, 0, 5], [-3, 0, 2], [-3, 0, 2]],
+                                   [[1, 0, 0], [0, 0, -2], [-1, 0, -1], [0, 0, 1]])
+        # Cast faces of concrete are rough by a millimetre; the ground is even.
+        np.testing.assert_allclose(hits["distance"][:2], [3, 4], atol=2e-3)
+        np.testing.assert_allclose(hits["distance"][2], 2 * np.sqrt(2), atol=1e-9)
+        self.assertEqual(hits["distance"][3], np.inf)
+        self.assertEqual(hits["piece"].tolist(), [0, 0, -1, -2])
+        np.testing.assert_allclose(hits["normal"][:2], [[-1, 0, 0], [0, 0, 1]], atol=0.1)
+
+    def test_rays_meet_the_triangles_of_the_mesh(self):
+        vertices, triangles = self.pile.mesh()
+        a, b, c = (vertices[triangles[:, k]].astype(float) for k in range(3))
+        chance = np.random.default_rng(1)
+        origins = chance.uniform(-1, 1, (200, 3)) + [-3, 0, 2.5]
+        directions = chance.uniform(-0.8, 0.8, (200, 3)) + [1, 0, 0.5] - origins
+        hits = self.pile.cast_rays(origins, directions)
+        met = 0
+        for origin, direction, distance, piece in zip(origins, directions, hits["distance"], hits["piece"]):
+            direction = direction / np.linalg.norm(direction)
+            p = np.cross(direction, c - a)
+            det = np.einsum("ij,ij->i", b - a, p)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                u = np.einsum("ij,ij->i", origin - a, p) / det
+                q = np.cross(origin - a, b - a)
+                v, t = q @ direction / det, np.einsum("ij,ij->i", c - a, q) / det
+            inside = (u >= 0) & (v >= 0) & (u + v <= 1) & (t > 0)
+            if piece == 0:
+                met += 1
+                self.assertAlmostEqual(t[inside].min(), distance, places=5)
+        self.assertGreater(met, 150)
+
+    def test_clearance_is_the_distance(self):
+        points = [[-1, 0, 3], [1, 0, 2.5], [1, 0, 0.5], [-1, 3, 2]]
+        np.testing.assert_allclose(self.pile.clearance(points), [np.sqrt(5), 1.5, 0, np.sqrt(3)], atol=8e-3)  # corners are rounded
+
+    def test_mesh_and_poses(self):
+        vertices, triangles = self.pile.mesh()
+        np.testing.assert_allclose(vertices.min(axis=0), [0, -2, 0], atol=2e-3)
+        np.testing.assert_allclose(vertices.max(axis=0), [2, 2, 1], atol=2e-3)
+        self.assertLess(triangles.max(), len(vertices))
+        self.assertEqual(self.pile.poses.shape, (len(self.pile), 7))
+
+    def test_mistakes_name_file_line_and_key(self):
+        path = script("return rubble.mission {\n  pile = { layer = 3 },\n}")
+        with self.assertRaises(rubble.InputError) as raised:
+            rubble.settle(path)
+        self.assertEqual((raised.exception.file, raised.exception.line, raised.exception.key), (path, 2, "pile.layer"))
+        self.assertIn("layers", raised.exception.diagnostics[0]["hint"])
+        os.remove(path)
+
+    def test_wrong_arrays_are_named(self):
+        for call, key in ((lambda: self.pile.clearance([[1, 2]]), "points"),
+                          (lambda: self.pile.clearance([[np.nan, 0, 0]]), "points"),
+                          (lambda: self.pile.cast_rays([[0, 0, 0]], [[0, 0, 0]]), "directions"),
+                          (lambda: self.pile.cast_rays(np.zeros((3, 3)), np.ones((2, 3))), "origins"),
+                          (lambda: self.pile.cast_rays([[0, 0, 1]], [[0, 0, 1]], -1), "max_distance")):
+            with self.assertRaises(rubble.InputError) as raised:
+                call()
+            self.assertEqual(raised.exception.key, key)
+
+
+class SettledPile(unittest.TestCase):
+    def test_is_that_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, "out")
+            subprocess.run([os.environ["RUBBLE_PROGRAM"], "settle", "scripts/small.lua", "--quiet", "--out", out],
+                           check=True, stdout=subprocess.DEVNULL)
+            with open(os.path.join(out, "manifest.json"), encoding="utf-8") as file:
+                wanted = re.search(r'"state_hash": *"([0-9a-f]{16})"', file.read()).group(1)
+            for pile in (rubble.settle("scripts/small.lua", threads=1), rubble.open_pile(out)):
+                self.assertEqual(f"{pile.state_hash:016x}", wanted)
+        other = rubble.settle("scripts/small.lua", seed=99)
+        self.assertNotEqual(f"{other.state_hash:016x}", wanted)
+
+    def test_voids_of_a_pipe(self):
+        path = script("""return rubble.mission { pile = { layers = 0, placed = {
+          { box = { 4, 0.2, 1 }, position = { 0, -0.6, 0.5 } }, { box = { 4, 0.2, 1 }, position = { 0, 0.6, 0.5 } },
+          { box = { 4, 1.4, 0.2 }, position = { 0, 0, 1.1 } } } } }""")
+        voids = rubble.settle(path).voids(radius=0.3, voxel=0.05)
+        os.remove(path)
+        self.assertEqual(len(voids), 1)
+        self.assertEqual(len(voids[0]["entrances"]), 2)
+        self.assertLess(abs(voids[0]["widest_radius"] - 0.5), 0.06)
+        self.assertGreater(voids[0]["volume"], 2)
+        self.assertEqual(voids[0]["cells"].shape[1], 3)
+
+
+if __name__ == "__main__":
+    unittest.main()

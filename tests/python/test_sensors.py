@@ -1,0 +1,107 @@
+"""Cameras, LiDARs and robots: against closed forms, and each against the other."""
+import os
+import tempfile
+import unittest
+
+import numpy as np
+
+import rubble
+
+ROOM = """return rubble.mission { pile = { layers = 0, placed = {
+  { box = { 0.2, 6, 3 }, position = { 3.1, 0, 1.5 } } } } }"""
+
+
+class Sensors(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        file = tempfile.NamedTemporaryFile("w", suffix=".lua", delete=False)
+        with file:
+            file.write(ROOM)
+        cls.pile = rubble.settle(file.name, threads=2)
+        os.remove(file.name)
+
+    def test_depth_of_a_facing_wall_is_planar(self):
+        camera = rubble.DepthCamera(self.pile, 64, 48, fov_deg=60, max_range=20)
+        depth = camera.depth(rubble.pose([0, 0, 1.5]))
+        self.assertEqual(depth.shape, (48, 64))
+        np.testing.assert_allclose(depth, 3, atol=2e-3)  # cast concrete is rough by a millimetre
+        v, u = np.mgrid[0:48, 0:64]
+        k = camera.K
+        directions = np.stack([np.ones(u.shape), -(u - k[0, 2]) / k[0, 0], -(v - k[1, 2]) / k[1, 1]], -1).reshape(-1, 3)
+        exact = self.pile.cast_rays([[0, 0, 1.5]], directions)["distance"] / np.linalg.norm(directions, axis=1)
+        np.testing.assert_allclose(depth.ravel(), exact, atol=3e-6)
+        sky = camera.depth(rubble.pose([0, 0, 1.5], (0, -1.2, np.pi)))
+        self.assertTrue(np.isinf(sky).all())
+
+    def test_the_renderer_sees_the_same(self):
+        eye = rubble.look_at([-1, 0.5, 2], [3, 0, 1])
+        frame = rubble.Renderer(self.pile).render(eye, 96, 64, fov_deg=70)
+        depth = rubble.DepthCamera(self.pile, 96, 64, fov_deg=70, max_range=100).depth(eye)
+        both = np.isfinite(frame["depth"]) & np.isfinite(depth)
+        self.assertGreater(both.mean(), 0.5)
+        off = np.abs(frame["depth"][both] - depth[both])
+        self.assertLess(np.quantile(off, 0.98), 1e-4)
+        self.assertEqual(frame["rgb"].shape, (64, 96, 3))
+        self.assertGreater(frame["rgb"].std(), 1)
+        np.testing.assert_allclose(frame["K"][0, 0], 48 / np.tan(np.radians(35)))
+
+    def test_a_lidar_meets_wall_and_ground(self):
+        lidar = rubble.Lidar(self.pile, "vlp16", noise=False)
+        points = lidar.scan(rubble.pose([0, 0, 1.5]))
+        ahead = points[(points["ring"] == 7) & (np.abs(points["y"]) < 1)]
+        ahead = ahead[ahead["x"] > 0]
+        self.assertGreater(len(ahead), 50)
+        np.testing.assert_allclose(ahead["x"], 3, atol=4e-3)  # its step, 2 mm, and the wall's roughness
+        noisy = [rubble.Lidar(self.pile, "vlp16", seed=s).scan(rubble.pose([0, 0, 1.5])) for s in (1, 1, 2)]
+        self.assertEqual(noisy[0].tobytes(), noisy[1].tobytes())
+        self.assertNotEqual(noisy[0].tobytes(), noisy[2].tobytes())
+
+    def test_mistakes(self):
+        for call, key in ((lambda: rubble.Lidar(self.pile, "vlp61"), "model"),
+                          (lambda: rubble.DepthCamera(self.pile, 4, 4), "width"),
+                          (lambda: rubble.DepthCamera(self.pile).depth([0, 0, 1]), "pose"),
+                          (lambda: rubble.DepthCamera(self.pile).depth([0, 0, 1, 0, 0, 0, 0]), "pose"),
+                          (lambda: rubble.RobotWorld(self.pile, "cat", rubble.pose([0, 0, 1])), "model")):
+            with self.assertRaises(rubble.InputError) as raised:
+                call()
+            self.assertEqual(raised.exception.key, key)
+
+
+class Robots(unittest.TestCase):
+    setUpClass = Sensors.__dict__["setUpClass"]
+
+    def test_a_crawler_drives_to_the_wall_and_no_farther(self):
+        states = []
+        for _ in range(2):
+            robot = rubble.RobotWorld(self.pile, "crawler", rubble.pose([0, 0, 0.005]))
+            robot.drive(0.5)
+            first = robot.step(2.0)
+            self.assertAlmostEqual(first["links"][0, 0], 1.0, delta=0.15)
+            states.append(robot.step(8.0))
+        self.assertLess(states[0]["links"][0, 0], 3.0)
+        self.assertGreater(states[0]["links"][0, 0], 2.0)
+        self.assertEqual(states[0]["links"].tobytes(), states[1]["links"].tobytes())
+
+    def test_commands_that_do_not_fit(self):
+        crawler = rubble.RobotWorld(self.pile, "crawler", rubble.pose([-2, 0, 0.005]))
+        for flippers in ([0, 0], [0, 0, 0, np.nan]):
+            with self.assertRaises(rubble.InputError) as raised:
+                crawler.drive(0.1, 0, flippers)
+            self.assertEqual(raised.exception.key, "flippers")
+        robot = rubble.RobotWorld(self.pile, "snake", rubble.pose([-1, 0, 0.05]))
+        for call, key in ((lambda: robot.drive(1), "drive"), (lambda: robot.set_joints([0]), "targets"),
+                          (lambda: robot.set_joints([np.nan] * robot.joint_count), "targets"),
+                          (lambda: robot.step(-1), "seconds")):
+            with self.assertRaises(rubble.InputError) as raised:
+                call()
+            self.assertEqual(raised.exception.key, key)
+
+    def test_a_robot_in_a_wall_is_refused(self):
+        robot = rubble.RobotWorld(self.pile, "crawler", rubble.pose([3, 0, 0.3]))
+        with self.assertRaises(rubble.InputError) as raised:
+            robot.step()
+        self.assertEqual(raised.exception.key, "pose")
+
+
+if __name__ == "__main__":
+    unittest.main()

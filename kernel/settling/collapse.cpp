@@ -17,6 +17,7 @@ constexpr double kImpactSpeed = 0.5;   // who meets faster brings energy; slower
 constexpr double kImpactTime = 0.004;  // concrete that strikes concrete: a step's mean force is less than the peak; unit: s
 constexpr double kTogether = 0.3;      // bonds used up as much as the worst one, to this share, fail at once; unit: 1
 constexpr double kRedistribution = 0.05;  // forces take so long to find new ways before more fails of itself; unit: s
+constexpr int kBlastRounds = 40;       // of stresses that a blast's step may take; unit: 1
 constexpr double kSameLoad = 0.3;      // changes below this share of a mean piece's weight are no news; unit: 1
 constexpr double kCalmTime = 0.25;     // after which forces count as settled: a few periods of a floor; unit: s
 
@@ -311,7 +312,18 @@ struct Collapse::Impl {
     set_motion(lead, push_force * (options.step / world.mass(lead)), world.piece(lead).angular_velocity);
   }
 
+  // A blast is over within the step: all that it breaks breaks now, round by round.
   bool on_solved() {
+    bool apart = update_all();
+    for (int round = 0; round < kBlastRounds && !blasted.empty(); ++round) {
+      const int before = report.broken + report.hinges;
+      apart = update_all() || apart;
+      if (report.broken + report.hinges == before) break;
+    }
+    return apart;
+  }
+
+  bool update_all() {
     const auto touches = find_touches();
     std::vector<std::int32_t> leads;
     for (const auto& part : parts) leads.push_back(part.first);

@@ -20,6 +20,7 @@ constexpr float kOrderDistance = 0.1F;
 // Sideways a bent bar bears this share of its pull: 1 kN m of bars over 0.3 m bear most of what hangs on
 // them. Without it what hangs swings for ever. unit: 1
 constexpr float kSideways = 0.2F;
+constexpr double kMostError = 0.005;  // by which a tie may be too long without having yielded; unit: m
 constexpr float kYields = 0.999F;  // of what it may give in a substep; unit: 1
 
 // The share of the step for which a tie pulls that is torn within it: what parts fast is gone after less
@@ -149,17 +150,17 @@ void World::Impl::end_ties() {
   tie_order.clear();
 }
 
-// What yielded is longer by as much as its anchors are now too far apart, and tears when nothing is left.
+// What yielded is longer by as much as its anchors are now too far apart, and tears when nothing is left. So
+// does what contacts hold apart: it must not press pieces into each other.
 void World::Impl::stretch_ties() {
   if (data.ties.empty()) return;
   for (Tie& tie : data.ties) {
     if (!tie.solved || !(tie.contact.pressed > 0)) continue;
-    const double longer = pose_tie(tie) - tie.state.length;
-    if (!(longer > 0)) continue;
     const bool yields = tie.contact.highest >= kYields * tie.contact.most;
-    if (!yields) continue;
+    const double longer = pose_tie(tie) - tie.state.length - (yields ? 0 : kMostError);
+    if (!(longer > 0)) continue;
     tie.state.length += longer;
-    data.tie_energy += tie.state.strength * std::min(longer, tie.state.stretch);
+    if (yields) data.tie_energy += tie.state.strength * std::min(longer, tie.state.stretch);
     tie.state.stretch -= longer;
     if (tie.state.stretch < 0) note_lost_contact(tie.contact);
   }

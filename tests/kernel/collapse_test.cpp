@@ -184,6 +184,70 @@ TEST(Collapse, AnImpactBreaksOnlyWhatItHasTheEnergyFor) {
   EXPECT_GT(taken, arrested / 2);
 }
 
+// In front of a wall: panels are blown in, away from the charge, and the frame stands.
+TEST(Collapse, ABlastBreaksAllThatItBreaksInItsStep) {
+  BuildingSpec b = small_building();
+  b.infill = Infill::brick;
+  b.cause.blast = 8000;
+  b.cause.blast_at = {0, -4, 1.5};
+  const Pile pile = pile_of(b);
+  World world(pile.types, calc_world_options({}));
+  BuildingCollapse collapse(world, pile, {});
+  collapse.before_step();
+  world.step();
+  collapse.after_step();
+  EXPECT_GT(collapse.report().broken, 10);
+  int free = 0;
+  double away = 0, fastest = 0;
+  for (int i = 0; i < world.size(); ++i) {
+    if (world.piece(i).status != PieceStatus::moving) continue;
+    ++free;
+    away += world.piece(i).linear_velocity.y;
+    fastest = std::max(fastest, world.piece(i).linear_velocity.y);
+  }
+  EXPECT_GT(free, 2);
+  EXPECT_GT(away / free, 0.1) << "m/s";
+  EXPECT_GT(fastest, 1) << "m/s";
+}
+
+TEST(GroundMotion, ReadsAnAccelerogramBetweenItsSamples) {
+  CollapseCause cause;
+  cause.shake = 4;
+  cause.accelerogram = {0, 2, -8, 1};
+  cause.accelerogram_step = 0.1;
+  const GroundMotion motion(cause, 5, 0.05);
+  const double expected[] = {0, 0.5, 1, -1.5, -4, -1.75, 0.5, 0.25};
+  for (int i = 0; i < 8; ++i) EXPECT_NEAR(motion.at(i).x, expected[i], 1e-12) << i;
+  EXPECT_TRUE(motion.over(8));
+}
+
+// What a column carried goes to its neighbours when its footing sinks, before anything breaks.
+TEST(Stress, ASinkingFootingUnloadsItsColumn) {
+  BuildingSpec b = small_building();
+  const Structure s = build_building(b);
+  std::vector<BondStatus> status(s.bonds.size());
+  GroupStress stress(s, find_groups(s, status)[0]);
+  const std::vector<PieceLoad> weights = calc_weights(s, 9.81);
+  const auto at_foundation = [&](const StressResult& r, double& sum) {
+    std::vector<double> loads;
+    for (std::size_t i = 0; i < s.bonds.size(); ++i) {
+      if (s.bonds[i].piece_b == kFoundation) loads.push_back(-r.forces[i].axial), sum += loads.back();
+    }
+    return loads;
+  };
+  double before_sum = 0, after_sum = 0;
+  const auto before = at_foundation(stress.solve(status, weights), before_sum);
+  for (std::size_t i = 0; i < s.bonds.size(); ++i) {
+    if (s.bonds[i].piece_b != kFoundation) continue;
+    status[i].sunk = {0, 0, -0.0005};
+    break;
+  }
+  const auto after = at_foundation(stress.solve(status, weights), after_sum);
+  EXPECT_LT(after[0], 0.98 * before[0]);
+  EXPECT_GT(after[1], before[1]);
+  EXPECT_NEAR(after_sum / before_sum, 1, 1e-9);
+}
+
 TEST(GroundMotion, PeaksAtItsLargestAccelerationAndEnds) {
   CollapseCause cause;
   cause.shake = 3, cause.shake_seconds = 6, cause.shake_direction_deg = 90;

@@ -75,6 +75,8 @@ TEST(WorldFields, EveryMemberIsListed) {
   EXPECT_EQ(listed_count<Contact>(), member_count<Contact>()) << help;
   EXPECT_EQ(listed_count<GjkCache>(), member_count<GjkCache>()) << help;
   EXPECT_EQ(listed_count<FreeBody>(), member_count<FreeBody>()) << help;
+  EXPECT_EQ(listed_count<TieState>(), member_count<TieState>()) << help;
+  EXPECT_EQ(listed_count<Tie>(), member_count<Tie>()) << help;
   EXPECT_EQ(listed_count<WorldData>(), member_count<WorldData>()) << help;
   EXPECT_EQ(listed_count<World::Snapshot>(), member_count<World::Snapshot>()) << help;
 }

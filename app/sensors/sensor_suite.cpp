@@ -102,7 +102,8 @@ SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const S
     cameras.push_back(std::move(camera));
   }
   if (flown.imu.on) sensors_.push_back(std::make_unique<ImuSensor>(flown, begin.noise_seed, last_ns, flight.path));
-  for (auto& lidar : make_lidar_sensors(flown, scene, begin.noise_seed, last_ns, flight.path, threads))
+  for (auto& lidar : make_lidar_sensors(flown, scene, renderer.medium(), begin.noise_seed, last_ns,
+                                        flight.path, threads))
     sensors_.push_back(std::move(lidar));
   for (auto& camera : cameras) sensors_.push_back(std::move(camera));
 }

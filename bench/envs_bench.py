@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Steps a second of rubble/VoidExplore-v0, by the side of its depth picture, and memory at the end.
+"""Steps a second of rubble/VoidExplore-v0, by the side of its depth picture, and of rubble/CrawlerNav-v0, and memory
+at the end.
 
 usage: PYTHONPATH=build/release/python /usr/bin/python3 bench/envs_bench.py [--steps 500] [--threads 1,2]
 """
@@ -9,11 +10,10 @@ import time
 
 import numpy as np
 
-from rubble.envs import VoidExplore
+from rubble.envs import CrawlerNav, VoidExplore
 
 
-def measure(size, threads, steps):
-    env = VoidExplore(size=size, threads=threads, max_steps=100, pile_seeds=[1])
+def measure(env, steps):
     env.reset(seed=1)
     actions = np.random.default_rng(1).uniform(-1, 1, (steps, 4))
     start = time.perf_counter()
@@ -30,7 +30,10 @@ def main():
     args = parser.parse_args()
     for threads in map(int, args.threads.split(",")):
         for size in (16, 32, 64, 128):
-            print(f"{threads} threads, {size:3d} x {size:3d}: {measure(size, threads, args.steps):7.0f} steps/s")
+            env = VoidExplore(size=size, threads=threads, max_steps=100, pile_seeds=[1])
+            print(f"VoidExplore, {threads} threads, {size:3d} x {size:3d}: {measure(env, args.steps):7.0f} steps/s")
+        crawler = CrawlerNav(threads=threads, max_steps=10000, pile_seeds=[1])
+        print(f"CrawlerNav, {threads} threads, steps of 0.1 s: {measure(crawler, args.steps):7.0f} steps/s")
     print(f"memory: {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MiB at most")
 
 

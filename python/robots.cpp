@@ -16,6 +16,8 @@ constexpr double kStep = 1.0 / 240;  // unit: s; as RobotRunOptions
 constexpr int kSubsteps = 4;
 constexpr double kMostDepth = 0.005;  // unit: m; as RobotRun: deeper, and it cannot be put there
 
+constexpr std::size_t kFlippers = 4;  // of a crawler
+
 enum class Kind { snake, crawler, rover };
 
 Kind kind_named(const std::string& name) {
@@ -48,17 +50,12 @@ class RobotWorld {
   void drive(double linear, double angular, const std::vector<double>& flippers) {
     expect(kind_ != Kind::snake, "drive", "a snake has neither tracks nor wheels", "crawler or rover");
     expect(std::isfinite(linear) && std::isfinite(angular), "drive", "not a finite number", "m/s and rad/s");
-    expect(flippers.empty() || flippers.size() == model_.joints.size(), "flippers", "wrong number of angles",
-           std::to_string(model_.joints.size()) + " or none");
+    const std::size_t wanted = kind_ == Kind::crawler ? kFlippers : 0;
+    expect(flippers.empty() || flippers.size() == wanted, "flippers", "wrong number of angles",
+           wanted ? std::to_string(wanted) + " or none" : "none");
+    for (const double angle : flippers) expect(std::isfinite(angle), "flippers", "not a finite number", "radians");
     const Twist twist{linear, angular};
-    if (kind_ == Kind::rover) {
-      command_ = drive_rover(model_, twist);
-      return;
-    }
-    std::vector<double> angles = flippers;
-    if (angles.empty())
-      for (const RobotJoint& joint : model_.joints) angles.push_back(joint.start);
-    command_ = drive_crawler(model_, twist, angles);
+    command_ = kind_ == Kind::rover ? drive_rover(model_, twist) : drive_crawler(model_, twist, flippers);
   }
 
   // Targets of the joints; unit: rad.

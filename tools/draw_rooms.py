@@ -11,7 +11,7 @@ import re
 import subprocess
 import sys
 
-FLOORS = ["kernel", "render", "io", "scripting", "assets", "app", "bench"]
+FLOORS = ["kernel", "render", "io", "scripting", "assets", "app", "bench", "python"]
 PAGE = "docs/contributing.md"
 BEGIN, END = "<!-- rooms: made by tools/draw_rooms.py -->", "<!-- end of rooms -->"
 
@@ -20,7 +20,7 @@ def room_of(path):
     folder = os.path.dirname(path)
     if path.startswith("kernel/"):  # folders inside its rooms are theirs
         return "/".join(folder.split("/")[:2])
-    return folder if folder not in FLOORS or path.startswith("bench") else path.rsplit(".", 1)[0]
+    return folder if folder not in FLOORS or path.startswith(("bench", "python")) else path.rsplit(".", 1)[0]
 
 
 def read_includes():

@@ -187,6 +187,7 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   add_boxes(mission, materials, library);
   add_terrain(mission.scenario.pile.terrain, {fs::path(mission.script.path).parent_path().string()},
               library);
+  add_robot_folders(mission.scenario, {fs::path(mission.script.path).parent_path().string()}, library);
   add_building(building_of(mission.scenario), library);
   load(true);  // made of types, so after all of them
   library.mix = make_mix(mission.scenario, all, library);

@@ -1,6 +1,7 @@
 #include "app/assets/asset_loading.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <cstdio>
 #include <map>
 
@@ -185,6 +186,20 @@ void add_terrain(const TerrainScenario& spec, const std::vector<std::string>& fo
   library.contents.push_back({kTerrainName, kTerrainPack, terrain.sha256, 0, {1, 1}, {}});
   library.types.push_back(std::move(terrain.type));
   library.meshes.push_back(std::move(terrain.mesh));
+}
+
+void add_robot_folders(const Scenario& scenario, const std::vector<std::string>& folders,
+                       AssetLibrary& library) {
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  for (const RobotItem& robot : scenario.robots) {
+    if (robot.urdf.empty()) continue;
+    for (const std::string& folder : folders)
+      for (const fs::path& tried :
+           {fs::path(folder) / robot.urdf, fs::path(folder) / fs::path(robot.urdf).filename()})
+        if (fs::is_regular_file(tried, failed))
+          library.folders.push_back(fs::absolute(tried.parent_path()).lexically_normal().string());
+  }
 }
 
 std::vector<MixEntry> make_mix(const Scenario& scenario, const std::vector<FoundAsset>& all,

@@ -170,6 +170,7 @@ AssetLibrary load_assets(const Provenance& provenance, const std::vector<std::st
       search.find(wanted, provenance.script.path, library);
   }
   if (!search.missing.empty()) throw InputError(std::move(search.missing));
+  add_robot_folders(stated_scenario(provenance), folders, library);
   library.mix = make_mix(scenario, library);
   library.importer.reset();
   return library;

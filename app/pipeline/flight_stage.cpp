@@ -79,14 +79,15 @@ Metrics measure_voids(const ResolvedMission& mission, PileSurvey& survey, const 
 }
 
 PlannedFlight plan_flight(const ResolvedMission& mission, const SettledPile& pile,
-                          PileSurvey& survey, RunFolder& folder, RunContext& context) {
+                          const DrivenRobots& robots, PileSurvey& survey, RunFolder& folder, RunContext& context) {
   const FlightPlan plan = resolve(mission, survey, folder, context);
   survey.forget_voids();
   PlannedFlight flight;
   flight.flown = mission.scenario;
   flight.flown.trajectory = plan.trajectory;
+  const std::shared_ptr<const MotionPath> ride = robots.readings.ride;
   flight.legs = with_lines_of_script(
-      mission, [&] { return plan_legs(flight.flown, plan.path, pile.track); });
+      mission, [&] { return plan_legs(flight.flown, ride ? ride : plan.path, pile.track); });
   warn_of_cameras_inside(mission, flight.flown, flight.legs.back().flight, pile.state, context);
   return flight;
 }

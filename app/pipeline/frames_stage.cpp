@@ -88,6 +88,8 @@ void take_samples(SensorSuite& sensors, const Leg& leg, FrameSinks& sinks, const
   while (std::optional<Sample> sample = sensors.take()) {
     if (const auto* reading = std::get_if<ImuSample>(&*sample)) {
       recorded.hashes.add_imu(*reading);
+    } else if (const auto* robot = std::get_if<RobotSample>(&*sample)) {
+      recorded.hashes.add_robot(*robot);
     } else if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
       recorded.hashes.add_lidar(*scan);
       throw_if_stopped(folder.path());
@@ -121,7 +123,7 @@ RenderOptions render_options(const Scenario& scenario, int threads,
 // What there is to be seen: the settled pile, and robots, which start with the flight.
 struct Seen {
   const SettledPile& pile;
-  const RobotTrack& robots;
+  const DrivenRobots& robots;
 };
 
 // The sensors on one leg, with the scene that they see.
@@ -136,8 +138,9 @@ Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen
     return build_moving_scene(leg.scenario, mission.assets, pile, seen.pile.track, *leg.window,
                               leg.zero_ns);
   }
-  if (seen.robots.empty()) return build_scene(leg.scenario, mission.assets, pile);
-  return build_robot_scene(leg.scenario, mission.assets, pile, seen.robots, leg.scenario.start_ns);
+  if (seen.robots.moved.empty()) return build_scene(leg.scenario, mission.assets, pile);
+  return build_robot_scene(leg.scenario, mission.assets, pile, seen.robots.moved,
+                           leg.scenario.start_ns);
 }
 
 PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Seen& seen,
@@ -152,7 +155,7 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
       [&](double fraction) { taking.report(fraction, folder, context); });
   prepared.sensors = std::make_unique<SensorSuite>(
       leg.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, scene, *prepared.renderer,
-      context.threads());
+      context.threads(), seen.robots.readings);
   context.progress.finish("ready on " + gl.info().renderer);
   return prepared;
 }
@@ -179,8 +182,10 @@ void finish_recording(const ResolvedMission& mission, const RecorderSet& set, Re
 }
 
 // Links follow the pieces, as their numbers do.
-void add_robots(const RobotTrack& robots, std::uint16_t label, Recording& recording) {
-  for (const RobotModel& model : robots.models)
+void add_robots(const DrivenRobots& robots, std::uint16_t label, Recording& recording) {
+  recording.robots = robots.records;
+  recording.mount = robots.mount;
+  for (const RobotModel& model : robots.moved.models)
     for (const RobotLink& link : model.links)
       recording.legend.pieces.push_back({label, model.name + "/" + link.name});
 }
@@ -228,7 +233,7 @@ RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& 
   RecordedFrames recorded;
   recorded.hashes = FrameHashes(names_of_cameras(flight.flown), names_of_lidars(flight.flown));
   recorded.environment = describe_environment(gl.info(), context.threads());
-  record(flight, mission, {pile, robots.moved}, gl, folder, context, recorded);
+  record(flight, mission, {pile, robots}, gl, folder, context, recorded);
   return recorded;
 }
 

@@ -63,7 +63,7 @@ std::int64_t end_of(const Leg& watching, const Track& track) {
 
 }  // namespace
 
-std::vector<Leg> plan_legs(const Scenario& flown, std::shared_ptr<const CameraPath> path,
+std::vector<Leg> plan_legs(const Scenario& flown, std::shared_ptr<const MotionPath> path,
                            const Track& track) {
   std::vector<Leg> legs;
   Leg flight;

@@ -26,7 +26,7 @@ struct Leg {
 
 // flown: the mission with the path that is flown, which `path` was made from. Throws InputError, keyed
 // "record_settling.from", when the pile came to rest before.
-std::vector<Leg> plan_legs(const Scenario& flown, std::shared_ptr<const CameraPath> path,
+std::vector<Leg> plan_legs(const Scenario& flown, std::shared_ptr<const MotionPath> path,
                            const Track& track);
 
 }  // namespace rubble

@@ -88,7 +88,8 @@ Recording describe_recording(const Scenario& scenario, const AssetLibrary& asset
                              const PileState& pile) {
   Recording recording;
   const bool several = !scenario.cameras.empty();
-  if (several) recording.rig = "base_link";
+  // A robot's own base is called base_link.
+  if (several) recording.rig = scenario.robots.empty() ? "base_link" : "rig_link";
   recording.cameras.clear();
   for (const MountedCamera& camera : all_cameras(scenario))
     recording.cameras.push_back(record_of(camera, several));

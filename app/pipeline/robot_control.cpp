@@ -7,6 +7,7 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/robot/bundled.h"
 #include "kernel/robot/gaits.h"
+#include "kernel/robot/odometry.h"
 #include "scripting/sandbox/lua_sandbox.h"
 #include "scripting/sandbox/script_file.h"
 #include "scripting/sandbox/source_map.h"
@@ -74,13 +75,14 @@ Schema wish_schema(Wish& wish) {
   return k;
 }
 
-RobotCommand command_of(const Wish& wish, RobotKind kind, const RobotModel& model) {
+// A twist for what tracks or wheels drive.
+RobotCommand drive_sides(const RobotModel& model, const Twist& twist, const std::vector<double>& flippers) {
+  return model.sides.belts ? drive_crawler(model, twist, flippers) : drive_wheels(model, twist);
+}
+
+RobotCommand command_of(const Wish& wish, const RobotModel& model) {
   RobotCommand command;
-  if (kind == RobotKind::crawler) {
-    command = drive_crawler(model, {wish.linear, wish.angular}, wish.flippers);
-  } else if (kind == RobotKind::rover) {
-    command = drive_rover(model, {wish.linear, wish.angular});
-  }
+  if (model.sides.any()) command = drive_sides(model, {wish.linear, wish.angular}, wish.flippers);
   command.joints.resize(model.joints.size());
   const auto ask = [&](const std::vector<double>& targets, MotorMode mode) {
     std::size_t next = 0;  // motors are numbered among themselves
@@ -92,6 +94,16 @@ RobotCommand command_of(const Wish& wish, RobotKind kind, const RobotModel& mode
   ask(wish.speeds, MotorMode::velocity);
   ask(wish.torques, MotorMode::torque);
   return command;
+}
+
+Value describe_odometry(const OdometryReading& reading) {
+  Value odometry = Value::make_table();
+  odometry.set("x", Value::make_number(reading.x));
+  odometry.set("y", Value::make_number(reading.y));
+  odometry.set("yaw", Value::make_number(reading.yaw));
+  odometry.set("linear", Value::make_number(reading.linear));
+  odometry.set("angular", Value::make_number(reading.angular));
+  return odometry;
 }
 
 // What a robot senses, as a function is told. last: the base's velocity at the call before.
@@ -140,50 +152,32 @@ Value describe_sense(const RobotSense& sense, const RobotModel& model, double gr
 
 }  // namespace
 
-RobotModel make_robot_model(const RobotItem& robot) {
-  RobotModel model;
-  switch (robot.model) {
-    case RobotKind::snake: {
-      SnakeOptions options;
-      options.modules = robot.modules;
-      options.friction = robot.friction.value_or(options.friction);
-      model = make_snake(options);
-      break;
-    }
-    case RobotKind::crawler: {
-      CrawlerOptions options;
-      options.flippers = robot.flippers;
-      options.friction = robot.friction.value_or(options.friction);
-      model = make_crawler(options);
-      break;
-    }
-    case RobotKind::rover: {
-      RoverOptions options;
-      options.friction = robot.friction.value_or(options.friction);
-      model = make_rover(options);
-      break;
-    }
-  }
-  return model;
-}
-
-Pose calc_base_pose(const RobotItem& robot) {
-  return {portable::quat_from_rpy(robot.rpy_deg.x * kDegree, robot.rpy_deg.y * kDegree,
-                                  robot.rpy_deg.z * kDegree),
-          robot.position};
-}
-
 RobotController make_leg_controller(const RobotItem& robot, const RobotModel& model) {
-  return [robot, model](const RobotSense& sense) {
+  const bool snake = robot.urdf.empty() && robot.model == RobotKind::snake;
+  return [robot, model, snake](const RobotSense& sense) {
     RobotLeg now;
-    now.amplitude = robot.model == RobotKind::snake ? 0 : 1;  // without legs it stands straight
+    now.amplitude = snake ? 0 : 1;  // without legs it stands straight
     for (const RobotLeg& leg : robot.drive) {
       if (leg.t <= sense.time) now = leg;
     }
-    if (robot.model == RobotKind::snake) return calc_gait(model, gait_of(now), sense.time);
-    const Twist twist{now.linear, now.angular};
-    if (robot.model == RobotKind::rover) return drive_rover(model, twist);
-    return drive_crawler(model, twist, in_radians(now.flippers_deg));
+    if (snake) return calc_gait(model, gait_of(now), sense.time);
+    return drive_sides(model, {now.linear, now.angular}, in_radians(now.flippers_deg));
+  };
+}
+
+RobotController with_mimics(RobotController control, const std::vector<MimicJoint>& mimics) {
+  if (mimics.empty()) return control;
+  return [control = std::move(control), mimics](const RobotSense& sense) {
+    RobotCommand command = control(sense);
+    command.joints.resize(sense.state.joints.size());
+    for (const MimicJoint& mimic : mimics) {
+      const MotorCommand& led = command.joints[std::size_t(mimic.of)];
+      const double at = led.mode == MotorMode::position ? led.target
+                                                        : sense.state.joints[std::size_t(mimic.of)].position;
+      command.joints[std::size_t(mimic.joint)] = {MotorMode::position,
+                                                  mimic.multiplier * at + mimic.offset};
+    }
+    return command;
   };
 }
 
@@ -209,9 +203,11 @@ RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel
   const RobotItem& item = state.mission.scenario.robots[robot];
   const std::string key = "robots[" + std::to_string(robot + 1) + "].control";
   const double gravity = state.mission.scenario.settle.gravity;
-  return [&state, item, model, key, gravity, last = Vec3{}, last_time = 0.0](
+  const auto wheels = model.sides.any() ? std::make_shared<WheelOdometry>(model) : nullptr;
+  return [&state, item, model, key, gravity, wheels, last = Vec3{}, last_time = 0.0](
              const RobotSense& sense) mutable {
-    const Value told = describe_sense(sense, model, gravity, last, last_time);
+    Value told = describe_sense(sense, model, gravity, last, last_time);
+    if (wheels) told.set("odometry", describe_odometry(wheels->update(sense.state, sense.time)));
     const Value answer = state.sandbox.call_controller(item.control, told);
     Wish wish;
     std::vector<Diagnostic> mistakes;
@@ -228,7 +224,7 @@ RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel
       d.line = state.lines.line_of(key);
     }
     throw_if_any(std::move(mistakes));
-    return command_of(wish, item.model, model);
+    return command_of(wish, model);
   };
 }
 

@@ -7,15 +7,16 @@
 
 #include "app/pipeline/resolved_mission.h"
 #include "kernel/model/robot.h"
+#include "app/robots/mission_robot.h"
 #include "kernel/robot/robot_run.h"
 
 namespace rubble {
 
-RobotModel make_robot_model(const RobotItem& robot);
-Pose calc_base_pose(const RobotItem& robot);
-
 // Drives by the legs of `drive`.
 RobotController make_leg_controller(const RobotItem& robot, const RobotModel& model);
+
+// Joints that mimic others follow them: what those are asked for, or where they stand.
+RobotController with_mimics(RobotController control, const std::vector<MimicJoint>& mimics);
 
 // Drives by functions of the script, which is run again: in the sandbox, by what its provenance keeps.
 class ScriptControl {

@@ -1,13 +1,16 @@
 // The stage from a settled pile to robots that were driven through it.
 #include <algorithm>
+#include <filesystem>
 
 #include "app/pipeline/robot_control.h"
-#include "app/pipeline/robot_files.h"
+#include "app/robots/mission_robot.h"
+#include "app/robots/robot_files.h"
 #include "app/pipeline/stages.h"
 #include "app/support/stop.h"
 #include "kernel/robot/robot_run.h"
 #include "scripting/sandbox/script_file.h"
 #include "scripting/sandbox/source_map.h"
+#include "scripting/trajectory/simulated_path.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -25,7 +28,10 @@ RobotRunOptions run_options(const Scenario& scenario, int threads) {
   return options;
 }
 
-void add_robot_metrics(const RobotRunResult& result, Metrics& metrics) {
+void add_robot_metrics(const RobotRunResult& result, const std::vector<RobotLog>& logs,
+                       Metrics& metrics) {
+  double slip = 0;
+  for (const RobotLog& log : logs) slip = std::max(slip, log.mean_slip());
   double distance = 0, path = 0, work = 0, stuck = 0, lost = 0;
   double lowest = result.robots.front().lowest;
   for (const RobotSummary& robot : result.robots) {
@@ -41,17 +47,106 @@ void add_robot_metrics(const RobotRunResult& result, Metrics& metrics) {
   metrics["robot_work_j"] = work;
   metrics["robot_stuck_s"] = stuck;
   metrics["robot_lowest_m"] = lowest;
+  metrics["robot_slip"] = slip;
   metrics["robots_lost"] = lost;
   metrics["robot_pieces_moved"] = result.pieces_moved;
 }
 
-// A mistake that shows only in the pile, with the line of its key.
-void add_lines(const ResolvedMission& mission, std::vector<Diagnostic>& mistakes) {
-  const SourceFile& script = mission.provenance.script;
-  if (std::any_of(mistakes.begin(), mistakes.end(), [](const Diagnostic& d) { return d.line > 0; })) {
-    return;
+// Mistakes that show only in the pile, or in a file that the script names, with the line of their key.
+template <typename Work>
+auto with_lines(const ResolvedMission& mission, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    std::vector<Diagnostic> mistakes = error.diagnostics();
+    const SourceFile& script = mission.provenance.script;
+    if (std::none_of(mistakes.begin(), mistakes.end(), [](const Diagnostic& d) { return d.line > 0; }))
+      locate(mistakes, script.path, SourceMap(script.text, "mission"));
+    throw InputError(std::move(mistakes));
   }
-  locate(mistakes, script.path, SourceMap(script.text, "mission"));
+}
+
+// The way of the rig on a link, a pose a step.
+class RideRecorder {
+ public:
+  // Throws InputError for a link that the robot has not.
+  RideRecorder(const Scenario& scenario, const std::vector<MissionRobot>& robots) {
+    const Ride& ride = scenario.trajectory.ride;
+    if (!ride.on()) return;
+    const std::vector<std::string> names = robot_names(scenario.robots);
+    robot_ = std::size_t(std::find(names.begin(), names.end(), ride.robot) - names.begin());
+    find_link(ride, robots[robot_]);
+    on_ = true;
+  }
+
+  void note(const World& world) {
+    if (!on_) return;
+    const RobotState state = world.robot_state(int(robot_));
+    poses_.push_back(state.links[link_].world_from_link * link_from_rig_);
+  }
+
+  void finish(double step, const std::vector<RobotRecord>& records, DrivenRobots& driven) {
+    if (!on_) return;
+    driven.readings.ride = std::make_shared<SimulatedPath>(std::move(poses_), step);
+    driven.mount = RigMount{records[robot_].frame_of(int(link_)), link_from_rig_};
+  }
+
+ private:
+  // A link, or a frame on one.
+  void find_link(const Ride& ride, const MissionRobot& robot) {
+    link_from_rig_ = ride.link_from_rig();
+    std::string all;
+    const std::vector<RobotLink>& links = robot.model.links;
+    for (link_ = 0; link_ < links.size(); ++link_) {
+      if (ride.link.empty() || links[link_].name == ride.link) return;
+      all += (all.empty() ? "one of " : ", ") + links[link_].name;
+    }
+    for (const RobotFrame& frame : robot.frames) {
+      if (frame.name != ride.link) {
+        all += ", " + frame.name;
+        continue;
+      }
+      link_ = std::size_t(frame.link);
+      link_from_rig_ = frame.link_from_frame * link_from_rig_;
+      return;
+    }
+    throw InputError(
+        {"", 0, "trajectory.ride.link", "the robot has no such link", all, "\"" + ride.link + "\"", ""});
+  }
+
+  bool on_ = false;
+  std::size_t robot_ = 0, link_ = 0;
+  Pose link_from_rig_;
+  std::vector<Pose> poses_;
+};
+
+// The controller of each robot: legs, or a function of the script.
+RobotController make_controller(const ResolvedMission& mission, std::size_t robot,
+                                const MissionRobot& made, std::unique_ptr<ScriptControl>& script) {
+  const RobotItem& item = mission.scenario.robots[robot];
+  if (item.control == 0) return with_mimics(make_leg_controller(item, made.model), made.mimics);
+  if (!script) script = std::make_unique<ScriptControl>(mission);
+  return with_mimics(script->controller_of(robot, made.model), made.mimics);
+}
+
+// Where URDF files are looked for: beside the script, and in the folders of the run's packs.
+std::vector<std::string> folders_of(const ResolvedMission& mission) {
+  std::vector<std::string> folders{
+      std::filesystem::path(mission.provenance.script.path).parent_path().string()};
+  folders.insert(folders.end(), mission.assets.folders.begin(), mission.assets.folders.end());
+  return folders;
+}
+
+std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext& context) {
+  std::vector<MissionRobot> made;
+  MeshImporter importer;
+  const std::vector<std::string> folders = folders_of(mission);
+  for (std::size_t i = 0; i < mission.scenario.robots.size(); ++i) {
+    made.push_back(make_mission_robot(mission.scenario.robots[i], folders,
+                                      "robots[" + std::to_string(i + 1) + "]", importer));
+    for (const std::string& warning : made.back().warnings) context.warnings.push_back(warning);
+  }
+  return made;
 }
 
 }  // namespace
@@ -63,42 +158,43 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
   if (robots.empty()) return driven;
   context.progress.start("robots");
   const std::vector<std::string> names = robot_names(robots);
-  folder.expect(robot_file_names(names));
+  std::vector<RobotModel>& models = driven.moved.models;
+  const std::vector<MissionRobot> made = with_lines(mission, [&] { return make_robots(mission, context); });
+  for (const MissionRobot& robot : made) models.push_back(robot.model);
+  folder.expect(robot_file_names(names, models));
   std::unique_ptr<ScriptControl> script;
-  std::vector<JointLog> logs(robots.size());
-  for (const RobotItem& robot : robots) driven.moved.models.push_back(make_robot_model(robot));
+  std::vector<RobotLog> logs;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    logs.emplace_back(models[i], int(i), mission.scenario.start_ns);
+    driven.records.push_back(
+        describe_robot(made[i], names[i], calc_base_pose(robots[i]), robots.size() > 1));
+  }
   RobotRunResult result;
-  try {
-    RobotRun run(make_pile(mission), pile, run_options(mission.scenario, context.threads()));
+  with_lines(mission, [&] {
+    RideRecorder ride(mission.scenario, made);
+    const RobotRunOptions options = run_options(mission.scenario, context.threads());
+    RobotRun run(make_pile(mission), pile, options);
     for (std::size_t i = 0; i < robots.size(); ++i) {
-      const RobotModel& model = driven.moved.models[i];
-      RobotController control;
-      if (robots[i].control > 0) {
-        if (!script) script = std::make_unique<ScriptControl>(mission);
-        control = script->controller_of(i, model);
-      } else {
-        control = make_leg_controller(robots[i], model);
-      }
-      run.add(model, calc_base_pose(robots[i]), [control, &log = logs[i]](const RobotSense& sense) mutable {
-        log.times.push_back(sense.time);
-        log.joints.push_back(sense.state.joints);
+      const RobotController control = make_controller(mission, i, made[i], script);
+      run.add(models[i], calc_base_pose(robots[i]), [control, &log = logs[i]](const RobotSense& sense) {
+        log.note(sense);
         return control(sense);
       });
     }
+    ride.note(run.world());
     result = run.run([&](double done) {
+      ride.note(run.world());
       context.progress.update(done, format_number(done * mission.scenario.robot_run.duration) + " s");
       return !stop_requested();
     });
-  } catch (const InputError& error) {
-    std::vector<Diagnostic> mistakes = error.diagnostics();
-    add_lines(mission, mistakes);
-    throw InputError(std::move(mistakes));
-  }
-  throw_if_stopped(folder.path());
-  write_robot_files(folder.path(), names, driven.moved.models, result, logs,
-                    mission.scenario.start_ns);
-  for (const std::string& name : robot_file_names(names)) folder.add(name);
-  add_robot_metrics(result, driven.metrics);
+    throw_if_stopped(folder.path());
+    ride.finish(options.step, driven.records, driven);
+    return true;
+  });
+  write_robot_files(folder.path(), names, models, result, logs, mission.scenario.start_ns);
+  for (const std::string& name : robot_file_names(names, models)) folder.add(name);
+  add_robot_metrics(result, logs, driven.metrics);
+  for (const RobotLog& log : logs) driven.readings.samples.push_back(log.samples());
   driven.moved.track = std::move(result.track);
   driven.moved.first_piece = std::move(result.first_piece);
   context.progress.finish(std::to_string(robots.size()) + " driven, " +

@@ -126,7 +126,7 @@ StageResults run_stages(const ResolvedMission& mission, RunFolder& folder, RunCo
     write_pile_files(mission, pile, folder, context);
     if (with_frames) {
       const DrivenRobots robots = drive_robots(mission, pile.state, folder, context);
-      const PlannedFlight flight = plan_flight(mission, pile, survey, folder, context);
+      const PlannedFlight flight = plan_flight(mission, pile, robots, survey, folder, context);
       results.frames = record_frames(mission, pile, robots, flight, folder, context);
       results.metrics = join(join(results.metrics, robots.metrics), results.frames.metrics);
     }

@@ -16,6 +16,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@
 #include "app/pipeline/resolved_mission.h"
 #include "app/planning/pile_survey.h"
 #include "app/provenance/frame_hashes.h"
+#include "app/sensors/robot_readings.h"
+#include "io/recording/recording.h"
 #include "kernel/model/pile_state.h"
 #include "kernel/model/track.h"
 #include "render/renderer.h"
@@ -40,8 +43,11 @@ struct SettledPile {
 
 // What the robots of a mission did; empty without robots.
 struct DrivenRobots {
-  RobotTrack moved;  // the robots and the pieces that they moved
-  Metrics metrics;   // robot_distance_m and so on
+  RobotTrack moved;                  // the robots and the pieces that they moved
+  RobotReadings readings;            // what they sensed, and the way of the rig that one carries
+  std::vector<RobotRecord> records;  // for recorders
+  std::optional<RigMount> mount;     // likewise
+  Metrics metrics;                   // robot_distance_m and so on
 };
 
 // The mission with the path that is flown, and its legs, each with the stamps and poses of all cameras.
@@ -82,7 +88,7 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
 // Finds the way where it depends on the pile. Warns of cameras inside of pieces. Throws InputError, with
 // the line of the script, as resolve_flight() and plan_legs() do.
 PlannedFlight plan_flight(const ResolvedMission& mission, const SettledPile& pile,
-                          PileSurvey& survey, RunFolder& folder, RunContext& context);
+                          const DrivenRobots& robots, PileSurvey& survey, RunFolder& folder, RunContext& context);
 
 // The scene, lit, on the device of `gl`, for the scenario's cameras. on_light: 0 to 1; on_image: the same,
 // while a path-traced image is drawn; may throw to stop.

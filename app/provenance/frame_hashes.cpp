@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <sstream>
 
 #include "kernel/base/hash.h"
@@ -9,6 +10,9 @@
 
 namespace rubble {
 namespace {
+
+// After the columns of the cameras, in this order.
+constexpr const char* kOfAllCameras[] = {"imu", "robots"};
 
 template <typename T>
 std::uint64_t hash_numbers(const std::vector<T>& numbers) {
@@ -63,6 +67,23 @@ std::uint64_t hash_imu(const std::vector<ImuSample>& samples) {
   return hash.digest();
 }
 
+std::uint64_t hash_robots(const std::vector<RobotSample>& samples) {
+  if (samples.empty()) return 0;
+  StateHash hash;
+  for (const RobotSample& s : samples) {
+    hash.add(s.stamp_ns), hash.add(std::int32_t(s.sensor));
+    for (const auto* list : {&s.positions, &s.speeds, &s.efforts})
+      for (const double value : *list) hash.add(value);
+    for (const RobotSample::Wrench& w : s.contacts) add(hash, w.force), add(hash, w.moment);
+    add(hash, s.world_from_base.translation);
+    add(hash, s.linear_velocity), add(hash, s.angular_velocity);
+    if (!s.odometry) continue;
+    add(hash, s.odometry->odom_from_base.translation);
+    hash.add(s.odometry->linear), hash.add(s.odometry->angular);
+  }
+  return hash.digest();
+}
+
 std::uint64_t hash_scan(const LidarScan& scan) {
   StateHash hash;
   hash.add(scan.stamp_ns);
@@ -90,7 +111,7 @@ std::vector<std::string> channels_of_sensors(const std::vector<std::string>& cam
   for (const std::string& camera : cameras)
     for (const std::string& channel : each) all.push_back(camera + "/" + channel);
   for (const std::string& lidar : lidars) all.push_back(lidar + "/points");
-  all.push_back("imu");
+  for (const char* rig : kOfAllCameras) all.push_back(rig);
   return all;
 }
 
@@ -102,7 +123,8 @@ std::string without_camera(const std::string& channel) {
 
 void FrameHashes::add(const Frame& f) {
   if (channels.empty()) channels = channels_of_sensors(cameras_, lidars_);
-  const std::size_t each = (channels.size() - 1 - lidars_.size()) / std::max<std::size_t>(1, cameras_.size());
+  const std::size_t others = lidars_.size() + std::size(kOfAllCameras);
+  const std::size_t each = (channels.size() - others) / std::max<std::size_t>(1, cameras_.size());
   std::vector<std::uint64_t>& row = frames.emplace_back(channels.size(), 0);
   auto at = row.begin() + std::ptrdiff_t(std::size_t(f.sensor) * each);
   *at++ = hash_pose(f);
@@ -112,14 +134,17 @@ void FrameHashes::add(const Frame& f) {
   }
   *at = hash_events(f.events);
   for (std::size_t i = 0; i < lidars_.size(); ++i) {
-    row[row.size() - 1 - lidars_.size() + i] = hash_numbers(scans_[i]);
+    row[row.size() - others + i] = hash_numbers(scans_[i]);
     scans_[i].clear();
   }
-  row.back() = hash_imu(readings_);
+  row[row.size() - 2] = hash_imu(readings_);
+  row.back() = hash_robots(robots_);
   readings_.clear();
+  robots_.clear();
 }
 
 void FrameHashes::add_imu(const ImuSample& sample) { readings_.push_back(sample); }
+void FrameHashes::add_robot(const RobotSample& sample) { robots_.push_back(sample); }
 
 void FrameHashes::add_lidar(const LidarScan& scan) {
   scans_.at(std::size_t(scan.sensor)).push_back(hash_scan(scan));
@@ -140,7 +165,8 @@ FrameHashes FrameHashes::compact() const {
 
 bool is_picture(const std::string& channel) {
   const std::string name = without_camera(channel);
-  return name != "pose" && name != "events" && name != "points" && name != "imu";
+  return name != "pose" && name != "events" && name != "points" &&
+         std::find(std::begin(kOfAllCameras), std::end(kOfAllCameras), name) == std::end(kOfAllCameras);
 }
 
 FrameDifference find_difference(const FrameHashes& was, const FrameHashes& is) {

@@ -8,6 +8,7 @@
 
 #include "render/scene/frame.h"
 #include "render/scene/lidar_scan.h"
+#include "render/scene/robot_sample.h"
 
 namespace rubble {
 
@@ -19,21 +20,23 @@ struct FrameHashes {
   explicit FrameHashes(std::vector<std::string> cameras = {}, std::vector<std::string> lidars = {})
       : cameras_(std::move(cameras)), lidars_(std::move(lidars)), scans_(lidars_.size()) {}
 
-  std::vector<std::string> channels;               // "pose", "rgb", "depth", ..., "events", "imu"; from the first frame on
+  std::vector<std::string> channels;               // "pose", "rgb", "depth", ..., "events", "imu", "robots"; from the first frame on
   std::vector<std::vector<std::uint64_t>> frames;  // one hash per channel
 
-  // Samples come in order, and all channels are listed, filled or not. Readings of an inertial unit
-  // belong to the next frame.
+  // Samples come in order, and all channels are listed, filled or not. Readings of inertial units and
+  // of robots belong to the next frame.
   void add(const Frame& frame);
   void add_imu(const ImuSample& sample);
+  void add_robot(const RobotSample& sample);
   void add_lidar(const LidarScan& scan);
   // Without the channels that no frame has.
   FrameHashes compact() const;
 
  private:
   std::vector<std::string> cameras_, lidars_;
-  std::vector<ImuSample> readings_;  // since the last frame
+  std::vector<ImuSample> readings_;                // since the last frame
   std::vector<std::vector<std::uint64_t>> scans_;  // likewise: of each LiDAR a hash of each scan
+  std::vector<RobotSample> robots_;                // likewise
 };
 
 // Where two runs part: the first frame that differs, and its first channel that does. `why` is a

@@ -24,7 +24,7 @@ CameraSpec build_camera(const Scenario& scenario, const MountedCamera& mounted, 
 }
 
 Flight build_flight(const Scenario& scenario, const MountedCamera& camera,
-                    std::shared_ptr<const CameraPath> path) {
+                    std::shared_ptr<const MotionPath> path) {
   // The same bits where the camera is the rig.
   const bool mounted = !camera.is_rig();
   const Pose rig_from_camera = camera.rig_from_camera();
@@ -41,7 +41,7 @@ Flight build_flight(const Scenario& scenario, const MountedCamera& camera,
   return flight;
 }
 
-RigFlight build_rig_flight(const Scenario& scenario, std::shared_ptr<const CameraPath> path) {
+RigFlight build_rig_flight(const Scenario& scenario, std::shared_ptr<const MotionPath> path) {
   RigFlight flight;
   for (const MountedCamera& camera : all_cameras(scenario))
     flight.cameras.push_back(build_flight(scenario, camera, path));

@@ -15,15 +15,15 @@ namespace rubble {
 CameraSpec build_camera(const Scenario& scenario, const MountedCamera& camera, int threads);
 
 // Where that camera is, at its own rate, along the path of the scenario's trajectory, whose places are
-// resolved: app/planning/flight.h.
+// resolved (app/planning/flight.h), or along the way of the robot that carries the rig.
 Flight build_flight(const Scenario& scenario, const MountedCamera& camera,
-                    std::shared_ptr<const CameraPath> path);
+                    std::shared_ptr<const MotionPath> path);
 
 // The path of the rig, and where each camera of all_cameras() is on it.
 struct RigFlight {
-  std::shared_ptr<const CameraPath> path;  // of the rig; never null
+  std::shared_ptr<const MotionPath> path;  // of the rig; never null
   std::vector<Flight> cameras;             // each with the stamps of its own rate
 };
-RigFlight build_rig_flight(const Scenario& scenario, std::shared_ptr<const CameraPath> path);
+RigFlight build_rig_flight(const Scenario& scenario, std::shared_ptr<const MotionPath> path);
 
 }  // namespace rubble

@@ -28,7 +28,7 @@ class LidarSensor : public Sensor {
 };
 
 LidarPlace place_of(const LidarScenario& lidar, const Scenario& flown,
-                    std::shared_ptr<const CameraPath> path) {
+                    std::shared_ptr<const MotionPath> path) {
   const Pose rig_from_lidar = lidar.rig_from_lidar();
   const std::int64_t start = flown.start_ns;
   return {[path = std::move(path), rig_from_lidar, start](std::int64_t stamp_ns) {
@@ -42,7 +42,7 @@ LidarPlace place_of(const LidarScenario& lidar, const Scenario& flown,
 std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const Scene& scene,
                                                         const Medium& medium, std::uint64_t noise_seed,
                                                         std::int64_t last_ns,
-                                                        std::shared_ptr<const CameraPath> path, int threads) {
+                                                        std::shared_ptr<const MotionPath> path, int threads) {
   std::vector<std::unique_ptr<Sensor>> sensors;
   if (flown.lidars.empty()) return sensors;
   const auto world = std::make_shared<LidarWorld>(scene);

@@ -17,6 +17,6 @@ namespace rubble {
 std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const Scene& scene,
                                                         const Medium& medium, std::uint64_t noise_seed,
                                                         std::int64_t last_ns,
-                                                        std::shared_ptr<const CameraPath> path, int threads);
+                                                        std::shared_ptr<const MotionPath> path, int threads);
 
 }  // namespace rubble

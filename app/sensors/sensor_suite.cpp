@@ -62,7 +62,7 @@ class CameraSensor : public Sensor {
   MountedCamera mounted_;
   int number_, first_frame_, next_ = 0;
   std::int64_t start_ns_;
-  std::shared_ptr<const CameraPath> path_;
+  std::shared_ptr<const MotionPath> path_;
   Camera camera_;
 };
 
@@ -70,7 +70,7 @@ class CameraSensor : public Sensor {
 class ImuSensor : public Sensor {
  public:
   ImuSensor(const Scenario& flown, std::uint64_t noise_seed, std::int64_t last_ns,
-            std::shared_ptr<const CameraPath> path)
+            std::shared_ptr<const MotionPath> path)
       : last_ns_(last_ns),
         path_(std::move(path)),
         imu_(*path_, flown.imu.model, flown.settle.gravity, noise_seed, flown.start_ns,
@@ -84,14 +84,33 @@ class ImuSensor : public Sensor {
 
  private:
   std::int64_t last_ns_;
-  std::shared_ptr<const CameraPath> path_;
+  std::shared_ptr<const MotionPath> path_;
   Imu imu_;
+};
+
+// What a robot sensed when it was driven, as long as any camera has frames.
+class RobotSensor : public Sensor {
+ public:
+  RobotSensor(const std::vector<RobotSample>& samples, std::int64_t last_ns)
+      : samples_(samples), last_ns_(last_ns) {}
+
+  std::optional<std::int64_t> next_stamp() const override {
+    if (next_ >= samples_.size() || samples_[next_].stamp_ns > last_ns_) return std::nullopt;
+    return samples_[next_].stamp_ns;
+  }
+  Sample take() override { return samples_[next_++]; }
+
+ private:
+  const std::vector<RobotSample>& samples_;
+  std::int64_t last_ns_;
+  std::size_t next_ = 0;
 };
 
 }  // namespace
 
 SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin,
-                         const Scene& scene, Renderer& renderer, int threads) {
+                         const Scene& scene, Renderer& renderer, int threads,
+                         const RobotReadings& robots) {
   std::vector<std::unique_ptr<Sensor>> cameras;
   std::int64_t last_ns = 0;
   for (const MountedCamera& mounted : all_cameras(flown)) {
@@ -101,6 +120,8 @@ SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const S
     last_ns = std::max(last_ns, camera->last_stamp());
     cameras.push_back(std::move(camera));
   }
+  for (const std::vector<RobotSample>& samples : robots.samples)
+    sensors_.push_back(std::make_unique<RobotSensor>(samples, last_ns));
   if (flown.imu.on) sensors_.push_back(std::make_unique<ImuSensor>(flown, begin.noise_seed, last_ns, flight.path));
   for (auto& lidar : make_lidar_sensors(flown, scene, renderer.medium(), begin.noise_seed, last_ns,
                                         flight.path, threads))

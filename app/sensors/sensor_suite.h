@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/sensors/build_camera.h"
+#include "app/sensors/robot_readings.h"
 #include "render/renderer.h"
 #include "render/scene/sample.h"
 #include "scripting/scenario/scenario.h"
@@ -19,14 +20,15 @@ struct SensorBegin {
   std::vector<int> frames;       // number of each camera's first frame; empty: 0
 };
 
-// All sensors that ride on one rig, merged by stamp. At equal stamps inertial units come before LiDARs,
-// and these before cameras, in the order of all_cameras(). The renderer must outlive them.
+// All sensors that ride on one rig, and those of robots, merged by stamp. At equal stamps robots come
+// before inertial units, these before LiDARs, and these before cameras, in the order of all_cameras(). The
+// renderer and the readings must outlive them.
 class SensorSuite {
  public:
   // flown: the scenario with the path that is flown, which `flight` was made from. scene: what the renderer
   // draws.
   SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin, const Scene& scene,
-              Renderer& renderer, int threads);
+              Renderer& renderer, int threads, const RobotReadings& robots);
 
   // Frames of each camera over the whole flight.
   const std::vector<int>& frames() const { return frames_; }

@@ -36,7 +36,7 @@ struct Request {
   std::string list = "bench/images/reference_views.json", only, pictures;
   std::vector<std::string> set;
   int size = 512, samples = 64, threads = 0, regions = 16;
-  bool denoise = false, reference_only = false;
+  bool denoise = false, reference_only = false, reuse = false;
 };
 
 struct Drawn {
@@ -123,7 +123,9 @@ void compare(GlContext& context, const GalleryPicture& picture, Piles& piles, co
   options.threads = threads;
   const Vec3f gains = white_balance(make_lights(scene));
   options.colour = {RenderQuality::reference, request.samples, request.denoise};
-  const Drawn slow = draw(context, scene, view, options);  // without a cache, for its time
+  // Without a cache unless asked, for its time.
+  options.cache_folder = request.reuse ? DiskCache::usual_folder() : "";
+  const Drawn slow = draw(context, scene, view, options);
   const int width = slow.frame.width, height = slow.frame.height;
   const float exposure = find_exposure({0.21, 0}, meter_image(slow.frame.rgb, width, height, gains));
   const Picture expected = develop(slow.frame, gains, exposure);
@@ -178,6 +180,8 @@ ExitCode run(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--set", request.set, "Another key for every view, as `rubble run --set`");
   app.add_flag("--reference-only", request.reference_only, "Without the fast renderer");
+  app.add_flag("--reuse", request.reuse,
+               "Take references that the cache holds, and keep new ones: their times then say nothing");
   app.add_option("--pictures", request.pictures, "Also write PREFIXview_reference.png and _fast.png");
   app.add_option("--threads", request.threads, "0: all processors")->check(CLI::Range(0, 1024));
   try {

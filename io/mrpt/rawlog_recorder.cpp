@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include "io/base/atomic_file.h"
@@ -37,6 +38,14 @@ class RawlogRecorder : public Recorder {
   // Into the gzip member of the next frame.
   void write_imu(const ImuSample& sample) override {
     observe([&](auto& archive) { archive << make_imu(sample); });
+  }
+
+  void write_robot(const RobotSample& sample) override {
+    const std::string& name = recording_.robots.at(std::size_t(sample.sensor)).name;
+    observe([&](auto& archive) {
+      if (sample.odometry) archive << make_odometry(sample, name + "_odometry");
+      archive << make_truth(sample.stamp_ns, name + "_ground_truth", sample.world_from_base);
+    });
   }
 
   void write_lidar(const LidarScan& scan) override {
@@ -79,7 +88,7 @@ class RawlogRecorder : public Recorder {
   template <typename Archive>
   void write_observations(const Frame& frame, Archive& archive) {
     const CameraRecord& camera = recording_.cameras[std::size_t(frame.sensor)];
-    if (frame.stamp_ns != last_ns_) archive << make_pose(frame);
+    if (frame.stamp_ns != last_ns_) archive << make_truth(frame.stamp_ns, "ground_truth", frame.world_from_rig);
     last_ns_ = frame.stamp_ns;
     const bool measured = camera.channels.measured_depth;
     fill_scan(frame, camera, camera.name, measured ? frame.measured_depth : frame.depth);
@@ -98,12 +107,26 @@ class RawlogRecorder : public Recorder {
                                          : "ground_truth_depth";
   }
 
-  static mrpt::obs::CObservationRobotPose make_pose(const Frame& frame) {
+  static mrpt::obs::CObservationRobotPose make_truth(std::int64_t stamp_ns, const std::string& label,
+                                                     const Pose& pose) {
     mrpt::obs::CObservationRobotPose observation;
-    observation.timestamp = mrpt_time(frame.stamp_ns);
-    observation.sensorLabel = "ground_truth";
-    observation.pose.mean = mrpt_pose(frame.world_from_rig);
+    observation.timestamp = mrpt_time(stamp_ns);
+    observation.sensorLabel = label;
+    observation.pose.mean = mrpt_pose(pose);
     observation.pose.cov.setZero();  // it is the truth
+    return observation;
+  }
+
+  static mrpt::obs::CObservationOdometry make_odometry(const RobotSample& sample,
+                                                       const std::string& label) {
+    const RobotSample::Odometry& from = *sample.odometry;
+    const mrpt::poses::CPose3D pose = mrpt_pose(from.odom_from_base);
+    mrpt::obs::CObservationOdometry observation;
+    observation.timestamp = mrpt_time(sample.stamp_ns);
+    observation.sensorLabel = label;
+    observation.odometry = mrpt::poses::CPose2D(pose.x(), pose.y(), pose.yaw());
+    observation.hasVelocities = true;
+    observation.velocityLocal = {from.linear, 0, from.angular};
     return observation;
   }
 

@@ -6,8 +6,10 @@
 // origin. Where the recording has them: before these CObservationIMU `imu`; after them a scan
 // `ground_truth_depth` (the exact depth, when `camera` has that of a sensor) and a
 // CObservationImage `camera_right`. Of LiDARs, by their names: CObservationRotatingScan, of a
-// non-repeating one CObservationPointCloud, of a 2-D scanner CObservation2DRangeScan. Several cameras: labels NAME, NAME_ground_truth_depth and
-// NAME_right, each where it is mounted, and one pose an instant. MRPT's clock ticks every 100 ns:
+// non-repeating one CObservationPointCloud, of a 2-D scanner CObservation2DRangeScan. Several cameras:
+// labels NAME, NAME_ground_truth_depth and NAME_right, each where it is mounted, and one pose an instant.
+// Robots: CObservationOdometry NAME_odometry and CObservationRobotPose NAME_ground_truth, both of the
+// robot's own base frame. MRPT's clock ticks every 100 ns:
 // stamps are rounded down to that.
 #pragma once
 

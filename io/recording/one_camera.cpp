@@ -15,6 +15,7 @@ class OneCamera : public Recorder {
     recorder_->write(alone);
   }
   void write_imu(const ImuSample& sample) override { recorder_->write_imu(sample); }
+  void write_robot(const RobotSample& sample) override { recorder_->write_robot(sample); }
   void write_lidar(const LidarScan& scan) override { recorder_->write_lidar(scan); }
   void finish() override { recorder_->finish(); }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,11 +76,40 @@ struct LidarRecord {
   LidarSpec spec;                  // pattern and limits
 };
 
+// A robot. RobotSample::sensor is its number.
+struct RobotRecord {
+  struct Joint {
+    std::string name;
+    int parent = 0, child = 1;  // numbers of links
+    bool fixed = false;         // a weld
+  };
+
+  std::string name = "robot";  // of labels
+  std::string topic;           // ROS: what its topics begin with, "/NAME"; of the only robot nothing
+  std::string frame;           // TF: what its frames begin with, "NAME/"; of the only robot nothing
+  std::vector<std::string> links;
+  std::vector<Joint> joints;
+  std::vector<Pose> parent_from_child;  // by joint, at the start
+  Pose world_from_base;                 // of its first link at the start; there odometry has its origin
+  bool has_odometry = false;
+  std::string description;  // URDF
+
+  std::string frame_of(int link) const { return frame + links[std::size_t(link)]; }
+};
+
+// What carries the rig, where it does not fly by itself.
+struct RigMount {
+  std::string parent;  // TF
+  Pose parent_from_rig;
+};
+
 struct Recording {
   std::string rig = "camera_link";       // TF: what flies the trajectory
   std::vector<CameraRecord> cameras{1};  // at least one
   std::vector<ImuRecord> imus;           // none where the mission has no inertial unit
   std::vector<LidarRecord> lidars;
+  std::vector<RobotRecord> robots;
+  std::optional<RigMount> mount;         // of the rig, on a robot
   Legend legend;                         // where a stream of ground truth has one
 
   bool has_legend() const;  // whether any camera gives such a stream

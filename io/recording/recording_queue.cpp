@@ -38,7 +38,7 @@ struct RecordingQueue::Shared {
   // Frames and scans are what takes memory.
   std::size_t count_frames() const {
     return std::size_t(std::count_if(samples.begin(), samples.end(), [](const auto& sample) {
-      return !std::holds_alternative<ImuSample>(*sample);
+      return std::holds_alternative<Frame>(*sample) || std::holds_alternative<LidarScan>(*sample);
     }));
   }
   bool drained() const {
@@ -155,6 +155,17 @@ const char* find_not_finite(const ImuSample& s) {
   return finite ? nullptr : "inertial measurement";
 }
 
+const char* find_not_finite(const RobotSample& s) {
+  for (const auto* list : {&s.positions, &s.speeds, &s.efforts})
+    for (const double value : *list)
+      if (!std::isfinite(value)) return "joint state";
+  for (const RobotSample::Wrench& w : s.contacts)
+    if (!is_finite(w.force) || !is_finite(w.moment)) return "contact force";
+  const bool finite = is_finite(s.world_from_base.translation) && is_finite(s.linear_velocity) &&
+                      is_finite(s.angular_velocity);
+  return finite ? nullptr : "motion";
+}
+
 const char* find_not_finite(const LidarScan& scan) {
   for (const LidarPoint& p : scan.points)
     if (!std::isfinite(p.x + p.y + p.z) || !std::isfinite(p.intensity)) return "echo";
@@ -166,6 +177,10 @@ std::string describe(const ImuSample& sample) {
   return "the reading at " + std::to_string(sample.stamp_ns) + " ns";
 }
 std::string describe(const LidarScan& scan) { return "scan " + std::to_string(scan.index); }
+
+std::string describe(const RobotSample& sample) {
+  return "what a robot senses at " + std::to_string(sample.stamp_ns) + " ns";
+}
 
 void refuse_not_finite(const Sample& sample) {
   std::visit(

@@ -194,6 +194,43 @@ std::string laser_scan(Version version, const Header& header, const LidarSpec& s
   return out.take();
 }
 
+std::string joint_state(Version version, const Header& header, const std::vector<std::string>& names,
+                        const std::vector<double>& positions, const std::vector<double>& speeds,
+                        const std::vector<double>& efforts) {
+  Wire out(version, 64 + 56 * names.size());
+  put_header(out, header);
+  out.count(names.size());
+  for (const std::string& name : names) out.text(name);
+  for (const auto* list : {&positions, &speeds, &efforts}) {
+    out.count(list->size());
+    for (const double value : *list) out.number(value);
+  }
+  return out.take();
+}
+
+std::string odometry(Version version, const Header& header, const std::string& child, const Pose& pose,
+                     const Vec3& linear, const Vec3& angular) {
+  constexpr int kCovariances = 36;
+  Wire out(version, 800);
+  put_header(out, header);
+  out.text(child);
+  put_pose(out, pose);
+  for (int i = 0; i < kCovariances; ++i) out.number(0.0);
+  put_vector(out, linear);
+  put_vector(out, angular);
+  for (int i = 0; i < kCovariances; ++i) out.number(0.0);
+  return out.take();
+}
+
+std::string wrench_stamped(Version version, const Header& header, const Vec3& force,
+                           const Vec3& moment) {
+  Wire out(version, 128);
+  put_header(out, header);
+  put_vector(out, force);
+  put_vector(out, moment);
+  return out.take();
+}
+
 std::string event_array(Version version, const Header& header, const Intrinsics& intrinsics,
                         const std::vector<Event>& events) {
   Wire out(version, 128 + 16 * events.size());

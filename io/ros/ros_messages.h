@@ -25,8 +25,7 @@ struct MessageType {
   const char* definition2;  // of ROS 2, as ros2msg
 };
 extern const MessageType kImage, kCompressedImage, kCameraInfo, kPoseStamped, kTfMessage, kClock,
-    kImu, kEventArray, kString,
-    kPointCloud, kLaserScan;
+    kImu, kEventArray, kString, kPointCloud, kLaserScan, kJointState, kOdometry, kWrenchStamped;
 
 std::string type_name(const MessageType& type, Version version);
 
@@ -62,6 +61,15 @@ std::string transforms(Version version, const Header& header, const std::vector<
 // sample, the same for all axes; units: (rad/s)^2 and (m/s2)^2.
 std::string imu(Version version, const Header& header, const ImuSample& sample,
                 double angular_variance, double acceleration_variance);
+// By joint; lists of one length.
+std::string joint_state(Version version, const Header& header, const std::vector<std::string>& names,
+                        const std::vector<double>& positions, const std::vector<double>& speeds,
+                        const std::vector<double>& efforts);
+// header.frame: the one that `pose` is in; velocities in the child's own. Without covariances (all 0: unknown).
+std::string odometry(Version version, const Header& header, const std::string& child, const Pose& pose,
+                     const Vec3& linear, const Vec3& angular);
+std::string wrench_stamped(Version version, const Header& header, const Vec3& force,
+                           const Vec3& moment);
 // dvs_msgs/EventArray, as drivers of event cameras publish.
 std::string event_array(Version version, const Header& header, const Intrinsics& intrinsics,
                         const std::vector<Event>& events);

@@ -6,6 +6,7 @@
 #include "io/image/image_file.h"
 #include "io/image/jpeg_file.h"
 #include "io/recording/frame_order.h"
+#include "io/ros/robot_topics.h"
 #include "render/streams/image_streams.h"
 
 namespace rubble {
@@ -77,6 +78,14 @@ class RosRecorder : public Recorder {
                           variance(model.accelerometer_noise)));
   }
 
+  // After the descriptions and fixed transforms, which come with the first frame.
+  void write_robot(const RobotSample& sample) override {
+    if (instants_ > 0)
+      robots_->write(sample, tf_);
+    else
+      early_.push_back(sample);
+  }
+
   void write_lidar(const LidarScan& scan) override {
     const auto i = std::size_t(scan.sensor);
     const LidarRecord& lidar = recording_.lidars.at(i);
@@ -105,6 +114,7 @@ class RosRecorder : public Recorder {
       if (cameras_.size() == 1) add_range_and_inertial();
       add_ground_truth(camera, topics);
     }
+    robots_ = std::make_unique<RobotTopics>(recording_.robots, *file_);
     if (recording_.has_legend())
       legend_ = file_->add("/ground_truth/legend", ros::kString, true);
   }
@@ -173,9 +183,12 @@ class RosRecorder : public Recorder {
     send(clock_, frame, ros::clock(version_, frame.stamp_ns));
     if (instants_ == 0) write_constants(frame);
     const ros::Header world{instants_++, frame.stamp_ns, kWorld};
-    send(tf_, frame, ros::transforms(version_, world, {{recording_.rig, frame.world_from_rig}}));
+    if (!recording_.mount)
+      send(tf_, frame, ros::transforms(version_, world, {{recording_.rig, frame.world_from_rig}}));
     send(pose_, frame, ros::pose_stamped(version_, world, frame.world_from_rig));
     last_ns_ = frame.stamp_ns;
+    for (const RobotSample& sample : early_) robots_->write(sample, tf_);
+    early_.clear();
   }
 
   void write_constants(const Frame& frame) {
@@ -184,10 +197,14 @@ class RosRecorder : public Recorder {
     for (const ImuRecord& imu : recording_.imus)
       if (imu.frame_id != recording_.rig)
         fixed.push_back({imu.frame_id, imu.rig_from_imu, recording_.rig});
+    if (recording_.mount)
+      fixed.push_back({recording_.rig, recording_.mount->parent_from_rig, recording_.mount->parent});
+    robots_->add_transforms(fixed);
     for (const LidarRecord& lidar : recording_.lidars)
       fixed.push_back({lidar.frame_id, lidar.rig_from_lidar, recording_.rig});
     send(tf_static_, frame,
          ros::transforms(version_, header(frame, recording_.rig), fixed));
+    robots_->write_descriptions(frame.stamp_ns);
     if (recording_.has_legend())
       send(legend_, frame, ros::string(version_, legend_to_json(recording_.legend)));
   }
@@ -276,6 +293,8 @@ class RosRecorder : public Recorder {
   std::uint32_t clock_ = 0, tf_static_ = 0, tf_ = 0, pose_ = 0, legend_ = 0;
   std::vector<CameraTopics> cameras_;
   std::vector<std::uint32_t> imus_, lidars_;
+  std::unique_ptr<RobotTopics> robots_;
+  std::vector<RobotSample> early_;  // that came before the first frame
 };
 
 }  // namespace

@@ -17,6 +17,8 @@
 //   /ground_truth/NAME/image    streams of ground truth, by their names and in the encodings that their
 //                               types have; a piece number is 32SC1: -1: ground; -2: nothing
 //   /ground_truth/legend        std_msgs/String, JSON (legend_to_json), latched
+//   robots                      io/ros/robot_topics.h; where one carries the rig, that hangs on its link in
+//                               /tf_static instead of on the world in /tf
 // Several cameras: /NAME in the place of /camera, /NAME/ground_truth in that of /ground_truth but for
 // the pose and the legend; world -> base_link in /tf, base_link -> NAME_link -> NAME_optical_frame in
 // /tf_static. Other names: CameraRecord and ImuRecord. /clock, /tf and the pose come once an instant.

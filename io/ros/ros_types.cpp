@@ -37,6 +37,16 @@
   "geometry_msgs/Vector3 angular_velocity\nfloat64[9] angular_velocity_covariance\n" \
   "geometry_msgs/Vector3 linear_acceleration\nfloat64[9] linear_acceleration_covariance\n"
 #define EVENTS "uint32 height\nuint32 width\nEvent[] events\n"
+#define JOINTS "string[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n"
+#define ODOMETRY                                                               \
+  "string child_frame_id\ngeometry_msgs/PoseWithCovariance pose\ngeometry_msgs/" \
+  "TwistWithCovariance twist\n"
+#define POSE_COVARIANCE                                                                      \
+  SECTION("geometry_msgs/PoseWithCovariance")                                                \
+  "Pose pose\nfloat64[36] covariance\n" POSE SECTION("geometry_msgs/TwistWithCovariance")    \
+  "Twist twist\nfloat64[36] covariance\n" SECTION("geometry_msgs/Twist")                     \
+  "Vector3 linear\nVector3 angular\n" VECTOR
+#define WRENCH SECTION("geometry_msgs/Wrench") "Vector3 force\nVector3 torque\n" VECTOR
 #define CLOUD                                                                                  \
   "uint32 height\nuint32 width\nPointField[] fields\nbool is_bigendian\nuint32 point_step\n" \
   "uint32 row_step\nuint8[] data\nbool is_dense\n"
@@ -83,6 +93,18 @@ const MessageType kTfMessage{
 const MessageType kImu{"sensor_msgs", "Imu", "6a62c6daae103f4ff57a132d6f95cec2",
                        "Header header\n" INERTIAL HEADER1 QUATERNION VECTOR,
                        "std_msgs/Header header\n" INERTIAL HEADER2 QUATERNION VECTOR};
+
+const MessageType kJointState{"sensor_msgs", "JointState", "3066dcd76a6cfaef579bd0f34173e9fd",
+                              "Header header\n" JOINTS HEADER1,
+                              "std_msgs/Header header\n" JOINTS HEADER2};
+
+const MessageType kOdometry{"nav_msgs", "Odometry", "cd5e73d190d741a2f92e81eda573aca7",
+                            "Header header\n" ODOMETRY HEADER1 POSE_COVARIANCE,
+                            "std_msgs/Header header\n" ODOMETRY HEADER2 POSE_COVARIANCE};
+
+const MessageType kWrenchStamped{"geometry_msgs", "WrenchStamped", "d78d3cb249ce23087ade7e7d0c40cfa7",
+                                 "Header header\nWrench wrench\n" HEADER1 WRENCH,
+                                 "std_msgs/Header header\nWrench wrench\n" HEADER2 WRENCH};
 
 const MessageType kPointCloud{"sensor_msgs", "PointCloud2", "1158d486dd51d683ce2f1be655c3c181",
                               "Header header\n" CLOUD HEADER1 POINT_FIELD,

@@ -57,11 +57,22 @@ struct RobotJoint {
   double start = 0;        // where it stands when the robot is put down; unit: rad, slider m
 };
 
+// What drives a robot on two sides: belts, or wheels that skid or turn in place.
+struct SideDrive {
+  std::vector<int> left, right;  // indices of joints of wheels; of belts, of links that have one
+  bool belts = false;
+  double radius = 0;    // of the wheels; unit: m
+  double distance = 0;  // between the sides; unit: m
+
+  bool any() const { return !left.empty() && !right.empty(); }
+};
+
 // Joints in the order of their children, parents first: joints[i].child == i + 1. 1 to 256 links.
 struct RobotModel {
   std::string name;                // of the robot, prefix of its topics and files
   std::vector<RobotLink> links;    // the first is the base
   std::vector<RobotJoint> joints;  // one fewer than the links
+  SideDrive sides;  // what twists drive and odometry counts; none: neither is there
 
   double mass() const;  // unit: kg
 };

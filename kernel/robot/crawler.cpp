@@ -77,6 +77,7 @@ RobotModel make_crawler(const CrawlerOptions& options) {
   const double y = 0.5 * kCrawlerTrackDistance;
   hang(model, make_track("left_track", y, options), weld);
   hang(model, make_track("right_track", -y, options), weld);
+  model.sides = {{1}, {2}, true, 0, kCrawlerTrackDistance};
   if (!options.flippers) return model;
   const double out = y + 0.5 * kTrackWidth + kFlipperGap + 0.5 * kFlipperWidth;
   const struct {

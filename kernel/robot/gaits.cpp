@@ -86,14 +86,16 @@ RobotCommand drive_crawler(const RobotModel& model, const Twist& twist,
   return command;
 }
 
-RobotCommand drive_rover(const RobotModel& model, const Twist& twist) {
+RobotCommand drive_wheels(const RobotModel& model, const Twist& twist) {
   RobotCommand command;
-  const double apart = 0.5 * kRoverTrackDistance * twist.angular;
-  for (const RobotJoint& joint : model.joints) {
-    const bool left = joint.name.find("left") != std::string::npos;
-    command.joints.push_back({MotorMode::velocity, (left ? twist.linear - apart : twist.linear + apart) /
-                                                       kRoverWheelRadius});
-  }
+  for (const RobotJoint& joint : model.joints)
+    command.joints.push_back({MotorMode::position, joint.start});
+  const SideDrive& sides = model.sides;
+  const double apart = 0.5 * sides.distance * twist.angular;
+  for (int i : sides.left)
+    command.joints[std::size_t(i)] = {MotorMode::velocity, (twist.linear - apart) / sides.radius};
+  for (int i : sides.right)
+    command.joints[std::size_t(i)] = {MotorMode::velocity, (twist.linear + apart) / sides.radius};
   return command;
 }
 

@@ -35,6 +35,7 @@ struct Twist {
 // Speeds of tracks or wheels that would give the twist without slip. flippers: by joint; unit: rad.
 RobotCommand drive_crawler(const RobotModel& model, const Twist& twist,
                            const std::vector<double>& flippers);
-RobotCommand drive_rover(const RobotModel& model, const Twist& twist);
+// By the wheels of model.sides; other motors stay where their joints started.
+RobotCommand drive_wheels(const RobotModel& model, const Twist& twist);
 
 }  // namespace rubble

@@ -41,9 +41,12 @@ RobotModel make_rover(const RoverOptions& options) {
                                            kRoverWheelRadius};
     joint.axis = {0, 1, 0};
     joint.motor = {kEffort, options.speed / kRoverWheelRadius, 0, kServoDamping};
+    (w.y > 0 ? model.sides.left : model.sides.right).push_back(int(model.joints.size()));
     model.links.push_back(wheel);
     model.joints.push_back(joint);
   }
+  model.sides.radius = kRoverWheelRadius;
+  model.sides.distance = kRoverTrackDistance;
   return model;
 }
 

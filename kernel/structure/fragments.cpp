@@ -8,6 +8,7 @@ namespace {
 constexpr double kLeastArea = 1e-6;  // smaller faces join nothing; unit: m2
 // Corners of a fragment that are closer than this are one; unit: m.
 constexpr double kSameCorner = 1e-6;
+constexpr double kMostOfSteepest = 0.95;  // of the slope at which cuts would meet; unit: 1
 
 std::vector<Vec3> draw_points(const Vec3& size, const CutOptions& options, RandomStream& random) {
   std::vector<Vec3> points;
@@ -28,6 +29,43 @@ std::vector<Vec3> draw_points(const Vec3& size, const CutOptions& options, Rando
     }
   }
   return points;
+}
+
+// The steepest slope at which cuts through these places of an axis meet neither each other nor the ends
+// within the box. reach: of the box across the axis, to where they slope; unit: m
+double find_steepest(const std::vector<Vec3>& points, int along, double length, double reach) {
+  double least = 1e30, before = -length;  // the ends count as two cuts that do not slope
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const double cut = (points[i][along] + points[i + 1][along]) / 2;
+    least = std::min(least, i == 0 ? 2 * (cut + length / 2) : cut - before);
+    before = cut;
+  }
+  return std::min(least, 2 * (length / 2 - before)) / (2 * reach);
+}
+
+// Neighbours leave the axis to opposite sides, as far as gives the cut between them the slope.
+void tilt_cuts(const Vec3& size, const CutOptions& options, RandomStream& random, std::vector<Vec3>& points) {
+  int along = -1, axes = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (options.counts[axis] > 1) along = axis, ++axes;
+  }
+  if (axes != 1 || !(options.slope > 0)) return;
+  Vec3 aside = random.direction();
+  aside[along] = 0;
+  aside = normalized(aside);
+  double reach = 0;
+  for (int axis = 0; axis < 3; ++axis) reach += std::abs(aside[axis]) * size[axis] / 2;
+  const double slope = std::min(options.slope, kMostOfSteepest * find_steepest(points, along, size[along], reach));
+  double spacing = 1e30;  // the widest slope is that of the closest points
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    spacing = std::min(spacing, points[i + 1][along] - points[i][along]);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 off = aside * (slope * spacing / 2 * (i % 2 == 0 ? 1 : -1));
+    const double place = points[i][along];
+    points[i] = off;
+    points[i][along] = place;
+  }
 }
 
 std::vector<HalfSpace> sides_of(const Vec3& size) {
@@ -91,7 +129,8 @@ std::vector<Vec3> find_corners(const std::vector<FragmentFace>& faces, double ga
 }  // namespace
 
 std::vector<Fragment> cut_box(const Vec3& size, const CutOptions& options, RandomStream& random) {
-  const std::vector<Vec3> points = draw_points(size, options, random);
+  std::vector<Vec3> points = draw_points(size, options, random);
+  tilt_cuts(size, options, random, points);
   const double extent = norm(size);
   std::vector<Fragment> fragments;
   for (int i = 0; i < int(points.size()); ++i) {

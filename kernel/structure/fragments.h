@@ -13,6 +13,9 @@ struct CutOptions {
   int counts[3] = {1, 1, 1};  // cells along X, Y and Z; range: 1 to 40
   double roughness = 0.3;     // how far points leave the grid, of its spacing; range: 0 to 0.45
   double gap = 0.001;         // between neighbours as they collide; unit: m; range: 0 to 0.01
+  // Slope of the cuts of what is cut along one axis, against the plane across it, all through that axis: 1 is
+  // 45 degrees. Each box has a direction of its own. 0: as roughness leaves them. range: 0 to 3
+  double slope = 0;
 };
 
 // One flat side of a fragment. As it was cut, without the gap: sections are measured on it.

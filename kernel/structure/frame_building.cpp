@@ -17,6 +17,9 @@ constexpr double kStirrups = 0.8e6;  // of columns and beams: two legs of 8 mm e
 constexpr double kInfillStiffness = 0.01;  // unit: 1
 // Bars of slabs act as dowels where loads are carried by few of the coarse pieces; our choice. unit: Pa
 constexpr double kDowels = 0.5e6;
+// Pressed concrete fails along planes of 45 degrees and half its angle of friction, 33 degrees (Mohr and
+// Coulomb): what is left of a column slides off instead of standing as a stack. unit: 1
+constexpr double kColumnSlope = 1.85;
 constexpr double kWindowSill = 0.35, kWindowHead = 0.8;  // of a wall's height; unit: 1
 
 struct Range {
@@ -91,6 +94,7 @@ class FrameMaker {
     Member& column = add(name_of("column", k, i, j), MemberKind::column,
                          {x_of(i), y_of(j), bottom + clear / 2}, {b_.column, b_.column, clear}, concrete_);
     column.cut.counts[2] = count(clear);
+    column.cut.slope = kColumnSlope;
     column.bars = bars(b_.column_bars, kStirrups, 0.05);
     Member& head = add(name_of("column head", k, i, j), MemberKind::column,
                        {x_of(i), y_of(j), top_of(k) - b_.beam_depth / 2},

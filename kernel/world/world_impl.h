@@ -21,7 +21,7 @@
 namespace rubble {
 
 // Which bodies are a robot: those from `first_body` on, in the order of its links.
-struct RobotRecord {
+struct WorldRobot {
   std::int32_t tree = 0, first_body = 0;
 };
 
@@ -50,7 +50,7 @@ struct WorldData {
   std::unordered_map<std::uint64_t, std::int32_t> contact_of_pair;  // looked up, never walked
   std::vector<std::uint8_t> wake_next;                              // by body
   std::vector<Tree> trees;          // those that came apart keep their place, without links
-  std::vector<RobotRecord> robots;
+  std::vector<WorldRobot> robots;
   std::vector<RigidGroup> groups;   // those that came apart keep their place
   std::vector<Tie> ties;            // that hold
   double tie_energy = 0;            // see World::tie_energy(); unit: J
@@ -256,7 +256,7 @@ struct World::Impl {
   bool touches_robot(const Contact& contact) const;
   bool is_driven(std::int32_t body) const;
   void stay_awake_near_robots();  // in `slept`
-  bool is_of_robot(const Contact& contact, const RobotRecord& robot) const;
+  bool is_of_robot(const Contact& contact, const WorldRobot& robot) const;
 
   // world_trees.cpp
   void add_assembly(const NewPiece& piece);

@@ -131,7 +131,7 @@ void World::Impl::stay_awake_near_robots() {
   }
 }
 
-bool World::Impl::is_of_robot(const Contact& contact, const RobotRecord& robot) const {
+bool World::Impl::is_of_robot(const Contact& contact, const WorldRobot& robot) const {
   if (data.bodies[contact.body_a].tree == robot.tree) return true;
   return contact.body_b != kGround && data.bodies[contact.body_b].tree == robot.tree;
 }
@@ -173,7 +173,7 @@ void World::set_command(int robot, const RobotCommand& command) {
 
 RobotState World::robot_state(int number) const {
   const Impl& w = *impl_;
-  const RobotRecord& robot = w.data.robots[std::size_t(number)];
+  const WorldRobot& robot = w.data.robots[std::size_t(number)];
   const RobotModel& model = w.robots[std::size_t(number)];
   const Tree& tree = w.data.trees[robot.tree];
   const TreeState state = w.simbody_trees.state(robot.tree);
@@ -215,7 +215,7 @@ RobotState World::robot_state(int number) const {
 
 std::vector<RobotContact> World::robot_contacts(int number) const {
   const Impl& w = *impl_;
-  const RobotRecord& robot = w.data.robots[std::size_t(number)];
+  const WorldRobot& robot = w.data.robots[std::size_t(number)];
   std::vector<RobotContact> result;
   for (std::size_t i = 0; i < w.data.pairs.size(); ++i) {
     const Contact& contact = w.data.contacts[i];

@@ -111,7 +111,7 @@ void each_field(Struct& s, Visit&& visit) {
   visit(s.q), visit(s.u);
 }
 
-template <typename Struct, typename Visit, IfIs<Struct, RobotRecord> = 0>
+template <typename Struct, typename Visit, IfIs<Struct, WorldRobot> = 0>
 void each_field(Struct& r, Visit&& visit) {
   visit(r.tree), visit(r.first_body);
 }

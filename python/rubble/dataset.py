@@ -8,11 +8,15 @@
 
 Messages are read from mission.bag. Pixels and points are views of the messages' own bytes: nothing is copied.
 """
+from __future__ import annotations
+
 import json
 import os
 import struct
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _core
 
@@ -119,7 +123,7 @@ def _mistake(file, key, message, expected):
 class Dataset:
     """The folder of a finished run that has a bag."""
 
-    def __init__(self, folder):
+    def __init__(self, folder: str) -> None:
         self.folder = folder
         self.bag = os.path.join(folder, "mission.bag")
         if not os.path.exists(self.bag):
@@ -134,36 +138,36 @@ class Dataset:
         found = [parse(m) for m in _core.read_messages(self.bag, {topic})[topic]]
         return np.array([stamp for stamp, _ in found], np.int64), [value for _, value in found]
 
-    def images(self, topic="/camera/rgb/image_raw"):
+    def images(self, topic: str = "/camera/rgb/image_raw") -> tuple[NDArray[np.int64], list[NDArray[Any]]]:
         """(stamps in ns, list of (h, w) or (h, w, c) arrays); 16UC1 depth is in millimetres, 0: none."""
         return self._messages(topic, _image)
 
-    def clouds(self, topic="/points"):
+    def clouds(self, topic: str = "/points") -> tuple[NDArray[np.int64], list[NDArray[Any]]]:
         """(stamps, list of structured arrays: x y z intensity ring time)."""
         return self._messages(topic, _cloud)
 
-    def scans(self, topic="/scan"):
+    def scans(self, topic: str = "/scan") -> tuple[NDArray[np.int64], list[dict[str, NDArray[Any]]]]:
         """(stamps, list of dict of ranges (inf: none), angles and times)."""
         return self._messages(topic, _laser_scan)
 
-    def imu(self, topic="/imu"):
+    def imu(self, topic: str = "/imu") -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """(stamps, (n, 6) array: angular velocity, then specific force)."""
         stamps, rows = self._messages(topic, _imu)
         return stamps, np.array(rows)
 
-    def poses(self, topic="/ground_truth/pose"):
+    def poses(self, topic: str = "/ground_truth/pose") -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """(stamps, (n, 7) array): where the rig truly was."""
         stamps, rows = self._messages(topic, _pose)
         return stamps, np.array(rows)
 
-    def intrinsics(self, topic="/camera/rgb/camera_info"):
+    def intrinsics(self, topic: str = "/camera/rgb/camera_info") -> dict[str, Any]:
         """dict of K (3, 3), width, height, model and D of the first frame."""
         return self._messages(topic, _camera_info)[1][0]
 
-    def pile(self, threads=0):
+    def pile(self, threads: int = 0) -> _core.Pile:
         """The settled pile."""
         return _core.open_pile(self.folder, threads)
 
 
-def open_dataset(folder):
+def open_dataset(folder: str) -> Dataset:
     return Dataset(folder)

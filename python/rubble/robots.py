@@ -1,4 +1,10 @@
 """Robots that are driven through a settled pile, step by step."""
+from __future__ import annotations
+
+from typing import Any, Iterable
+
+from numpy.typing import ArrayLike
+
 from . import _core
 
 
@@ -6,25 +12,27 @@ class RobotWorld:
     """A pile and one robot in it: snake, crawler or rover (docs/robots.md). What it touches moves, unless
     fixed_debris. pose: of its first link. The same commands give the same bits."""
 
-    def __init__(self, pile, model, pose, fixed_debris=False, threads=0):
+    def __init__(self, pile: _core.Pile, model: str, pose: ArrayLike, fixed_debris: bool = False,
+                 threads: int = 0) -> None:
         self._made = _core._RobotWorld(pile._shared, model, pose, fixed_debris, threads or pile.threads)
         self.joint_count = self._made.joint_count
         self.link_names = self._made.link_names
 
-    def drive(self, linear, angular=0.0, flippers=()):
-        """Of crawler and rover: forwards (m/s), counter-clockwise (rad/s), and a crawler's flippers (rad)."""
+    def drive(self, linear: float, angular: float = 0.0, flippers: Iterable[float] = ()) -> None:
+        """Of crawler and rover: forwards (m/s), counter-clockwise (rad/s), and a crawler's
+        flippers (rad): front left, front right, rear left, rear right; none: as they stood at first."""
         self._made.drive(linear, angular, list(flippers))
 
-    def set_joints(self, targets):
+    def set_joints(self, targets: Iterable[float]) -> None:
         """Targets of all joints; rad."""
         self._made.set_joints([float(t) for t in targets])
 
-    def step(self, seconds=1 / 60):
+    def step(self, seconds: float = 1 / 60) -> dict[str, Any]:
         """Goes on under the last command, by whole steps of 1/240 s; returns state()."""
         self._made.step(seconds)
         return self.state()
 
-    def state(self):
+    def state(self) -> dict[str, Any]:
         """dict: time; links (n, 7) poses in the world; joint_positions, joint_speeds, joint_torques;
         contact_forces (n, 3) in the world; linear_velocity, angular_velocity of the first link; lost."""
         return self._made.state()

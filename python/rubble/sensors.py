@@ -1,4 +1,11 @@
 """Sensors over a settled pile. Poses: see geometry.py."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from . import _core
 
 
@@ -6,10 +13,11 @@ class Renderer:
     """Draws frames as `rubble run` does: colour and exact depth. Preparing one bakes the light of the pile
     (seconds; kept in the cache). Needs EGL; use it on the thread that made it."""
 
-    def __init__(self, pile, threads=0):
+    def __init__(self, pile: _core.Pile, threads: int = 0) -> None:
         self._made = _core._Renderer(pile._shared, threads or pile.threads)
 
-    def render(self, pose, width=640, height=480, fov_deg=90.0):
+    def render(self, pose: ArrayLike, width: int = 640, height: int = 480,
+               fov_deg: float = 90.0) -> dict[str, NDArray[Any]]:
         """dict of rgb (h, w, 3) uint8, depth (h, w) float32 along the optical axis (nan: nothing), K (3, 3)."""
         return self._made.render(pose, width, height, fov_deg)
 
@@ -17,11 +25,12 @@ class Renderer:
 class DepthCamera:
     """Planar depth by exact rays, without colour: for loops that need many small pictures."""
 
-    def __init__(self, pile, width=64, height=64, fov_deg=90.0, max_range=20.0, threads=0):
+    def __init__(self, pile: _core.Pile, width: int = 64, height: int = 64, fov_deg: float = 90.0,
+                 max_range: float = 20.0, threads: int = 0) -> None:
         self._made = _core._DepthCamera(pile._shared, width, height, fov_deg, max_range, threads or pile.threads)
         self.K = self._made.K
 
-    def depth(self, pose):
+    def depth(self, pose: ArrayLike) -> NDArray[np.float32]:
         """(h, w) float32; inf: nothing within max_range along the ray."""
         return self._made.depth(pose)
 
@@ -29,10 +38,11 @@ class DepthCamera:
 class Lidar:
     """A LiDAR that stands still: vlp16, os0, os1, os2, mid360 or utm30lx (docs/lidar.md)."""
 
-    def __init__(self, pile, model="vlp16", noise=True, seed=0, threads=0):
+    def __init__(self, pile: _core.Pile, model: str = "vlp16", noise: bool = True, seed: int = 0,
+                 threads: int = 0) -> None:
         self._made = _core._Lidar(pile._shared, model, noise, seed, threads or pile.threads)
 
-    def scan(self, pose, number=0):
+    def scan(self, pose: ArrayLike, number: int = 0) -> NDArray[Any]:
         """A structured array of x, y, z (m, in the sensor's frame), intensity, time (s), ring and column. Scans
         of other numbers have other noise."""
         return self._made.scan(pose, number)

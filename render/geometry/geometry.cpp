@@ -24,11 +24,11 @@ void place(PreparedScene& out, PlacedMesh piece, std::uint32_t axis, RandomStrea
   piece.centre = Vec3f(piece.world_from_mesh * (Vec3(mesh.centre) * piece.scale));
   piece.radius = float(mesh.radius * piece.scale);
   piece.first_flag = std::uint32_t(out.cluster_flags);
-  piece.first_light = std::uint32_t(out.light_vertices);
+  piece.first_light = std::uint32_t(out.light_nodes);
   piece.look_seed = {std::uint32_t(random.next() >> 32),
                      (std::uint32_t(random.next() >> 32) & ~3u) | axis};
   out.cluster_flags += mesh.levels.front().cluster_count;
-  out.light_vertices += mesh.vertices.size();
+  out.light_nodes += mesh.light_nodes.size();
   if (piece.id != kGroundId && !piece.moves) {
     const Vec3 reach = Vec3(1, 1, 1) * double(piece.radius);
     out.bounds.include(Vec3(piece.centre) - reach);
@@ -142,9 +142,9 @@ PreparedScene resting_part(const PreparedScene& scene, std::vector<std::uint32_t
     first_light.push_back(piece.first_light);
     out.placed.push_back(piece);
     out.placed.back().first_flag = std::uint32_t(out.cluster_flags);
-    out.placed.back().first_light = std::uint32_t(out.light_vertices);
+    out.placed.back().first_light = std::uint32_t(out.light_nodes);
     out.cluster_flags += scene.meshes[piece.mesh].levels.front().cluster_count;
-    out.light_vertices += scene.meshes[piece.mesh].vertices.size();
+    out.light_nodes += scene.meshes[piece.mesh].light_nodes.size();
     if (piece.id == kGroundId) continue;
     const Vec3 reach = Vec3(1, 1, 1) * double(piece.radius);
     out.bounds.include(Vec3(piece.centre) - reach);
@@ -154,6 +154,8 @@ PreparedScene resting_part(const PreparedScene& scene, std::vector<std::uint32_t
 }
 
 namespace {
+
+constexpr int kTurnBit = 9;  // of a triangle's look word, see shaders/geometry.glsl
 
 // Gives each triangle a last vertex of its own, by which a drawn pixel tells its triangle: cheaper
 // than gl_PrimitiveID, for which software drivers leave their fast path. A vertex that is taken is
@@ -166,9 +168,12 @@ class TriangleNamer {
     triangles_.assign(vertices.size(), Texel{});
   }
 
-  std::array<std::uint32_t, 3> name(std::array<std::uint32_t, 3> t, std::uint32_t material) {
-    for (int turn = 0; turn < 3 && taken_[t[2]]; ++turn) t = {t[1], t[2], t[0]};
-    const Texel entry{t[0], t[1], t[2], material};
+  // look: with how often the corners were turned still to be added, for its grid of light goes by their
+  // order in the mesh.
+  std::array<std::uint32_t, 3> name(std::array<std::uint32_t, 3> t, std::uint32_t look) {
+    std::uint32_t turns = 0;
+    for (; turns < 3 && taken_[t[2]]; ++turns) t = {t[1], t[2], t[0]};
+    const Texel entry{t[0], t[1], t[2], look | (turns % 3) << kTurnBit};
     if (taken_[t[2]]) {
       vertices_.push_back(vertices_[t[2]]);
       triangles_.push_back(entry);
@@ -184,6 +189,14 @@ class TriangleNamer {
   std::vector<Texel>& triangles_;
   std::vector<bool> taken_;
 };
+
+// Its look, and where its light is kept: see shaders/geometry.glsl. Where there is no room for the number
+// of its first node it takes the light of its corners.
+std::uint32_t look_word(const PreparedTriangle& t, std::uint32_t first_vertex) {
+  const std::uint64_t first_node = std::uint64_t(first_vertex) + t.first_node;
+  if (t.light_steps < 2 || first_node >> 21) return t.material | 1u << 5;
+  return t.material | t.light_steps << 5 | std::uint32_t(first_node) << 11;
+}
 
 }  // namespace
 
@@ -206,7 +219,7 @@ GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
     for (const PreparedTriangle& t : scene.meshes[m].triangles) {
       const auto& i = t.vertices;
       const std::uint32_t base = first_vertex[m];
-      const auto named = namer.name({base + i[0], base + i[1], base + i[2]}, t.material);
+      const auto named = namer.name({base + i[0], base + i[1], base + i[2]}, look_word(t, base));
       indices.insert(indices.end(), named.begin(), named.end());
       out.name_of_triangle.push_back(named[2]);
     }

@@ -22,7 +22,7 @@ struct PlacedMesh {
   std::uint32_t id = 0;                      // piece number
   std::uint16_t label = 0;                   // class, as in the stream `label`
   std::uint32_t first_flag = 0;              // of its finest level's clusters, in per-cluster tables
-  std::uint32_t first_light = 0;             // of its vertices, in the table of baked light
+  std::uint32_t first_light = 0;             // of its nodes, in the table of baked light
   std::array<std::uint32_t, 2> look_seed{};  // varies the look
   bool moves = false;                        // its pose is that of the present moment, see MovingPieces
   bool there = true;                         // false: what moves is not there at the present moment
@@ -35,7 +35,7 @@ struct PreparedScene {
   std::vector<PreparedMesh> meshes;  // each once
   std::vector<PlacedMesh> placed;    // pieces, and the ground where there is one
   std::size_t cluster_flags = 0;     // clusters of the finest level over all placed meshes
-  std::size_t light_vertices = 0;    // entries of the table of baked light
+  std::size_t light_nodes = 0;       // entries of the table of baked light
   Aabb bounds;                       // of all pieces, without the ground, wherever they move
   std::uint64_t moment = 0;          // another number whenever anything has moved
 };
@@ -43,7 +43,7 @@ PreparedScene prepare_scene(const Scene& scene, int threads);
 // What does not move, as a scene of its own. first_light: of its placed meshes in turn, in `scene`.
 PreparedScene resting_part(const PreparedScene& scene, std::vector<std::uint32_t>& first_light);
 
-// Light that reaches a vertex, without the direct part of the main light and the lamp.
+// Light that reaches a node, without the direct part of the main light and the lamp.
 struct BakedLight {
   // Illuminance on a surface of normal n: dot(n, vector), as three half floats; then the share of
   // red and of blue, 0 to 255 for 0 to 1 times the sum of the three colours.

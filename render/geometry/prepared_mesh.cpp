@@ -17,7 +17,7 @@ namespace {
 constexpr float kLongestEdge = 0.3f;  // unit: m
 constexpr float kEdgeShare = 0.08f;   // of a large mesh's radius
 constexpr std::size_t kClusterTriangles = 64;
-constexpr std::size_t kMaxBakePoints = 65535;
+constexpr float kLightSpacing = 0.1f;  // of nodes of light along long edges; unit: m
 
 std::vector<std::uint32_t> material_table(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> table;
@@ -127,7 +127,7 @@ void append_level(const TriangleMesh& source, PreparedMesh& out) {
   const std::uint32_t base = std::uint32_t(out.vertices.size());
   const std::size_t first = out.triangles.size();
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    out.vertices.push_back({mesh.positions[i], mesh.normals[i], {}, {}});
+    out.vertices.push_back({mesh.positions[i], mesh.normals[i]});
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& v = mesh.triangles[t];
     if (mesh.surfaces[t] >= materials.size())
@@ -143,74 +143,13 @@ void append_level(const TriangleMesh& source, PreparedMesh& out) {
   cluster_level(out, first);
 }
 
-// One point for each cell of space and side of the surface, at the vertex nearest to the middle.
-void choose_bake_points(PreparedMesh& mesh, std::size_t vertex_count) {
-  using Key = std::tuple<int, int, int, int>;
-  float cell = std::clamp(mesh.radius * 0.4f, 0.04f, 0.16f);
-  for (;; cell *= 1.5f) {
-    std::map<Key, std::vector<std::uint32_t>> cells;
-    for (std::size_t i = 0; i < vertex_count; ++i) {
-      const Vec3f q = (mesh.vertices[i].position - mesh.centre) * (1 / cell);
-      const auto at = [](float x) { return int(std::floor(x + 0.5f)); };
-      cells[{at(q.x), at(q.y), at(q.z), dominant_direction(mesh.vertices[i].normal)}].push_back(
-          std::uint32_t(i));
-    }
-    if (cells.size() > kMaxBakePoints) continue;
-    for (const auto& [key, members] : cells) {
-      Vec3f mid, normal;
-      for (std::uint32_t v : members)
-        mid += mesh.vertices[v].position, normal += mesh.vertices[v].normal;
-      mid *= 1.0f / float(members.size());
-      std::uint32_t best = members.front();
-      for (std::uint32_t v : members)
-        if (distance(mesh.vertices[v].position, mid) < distance(mesh.vertices[best].position, mid))
-          best = v;
-      mesh.bake_points.push_back({mesh.vertices[best].position, normalized(normal)});
-    }
-    return;
-  }
-}
-
-void weigh_bake_points(PreparedMesh& mesh) {
-  struct Near {
-    float cost;
-    std::uint16_t point;
-  };
-  for (PreparedVertex& v : mesh.vertices) {
-    std::array<Near, 4> best;
-    best.fill({1e30f, 0});
-    for (std::size_t i = 0; i < mesh.bake_points.size(); ++i) {
-      const Vec3f d = mesh.bake_points[i].position - v.position;
-      const float turn = 1 - dot(mesh.bake_points[i].normal, v.normal);
-      // Turning away by 60 degrees costs as much as lying one radius apart.
-      const float cost = dot(d, d) + 4 * turn * turn * mesh.radius * mesh.radius;
-      Near entry{cost, std::uint16_t(i)};
-      for (Near& b : best)
-        if (entry.cost < b.cost) std::swap(entry, b);
-    }
-    float sum = 0;
-    const float soft = 0.01f * mesh.radius * mesh.radius + 1e-8f;
-    for (std::size_t k = 0; k < 4; ++k) {
-      v.bake_points[k] = best[k].point;
-      v.bake_weights[k] = best[k].cost < 1e29f ? 1 / (best[k].cost + soft) : 0;
-      sum += v.bake_weights[k];
-    }
-    for (float& w : v.bake_weights) w /= sum;
-  }
-}
-
 }  // namespace
 
 PreparedMesh prepare_mesh(const SceneMesh& mesh) {
   PreparedMesh out;
-  std::size_t finest_vertices = 0;
-  for (const TriangleMesh& level : mesh.levels) {
-    append_level(level, out);
-    if (!finest_vertices) finest_vertices = out.vertices.size();
-  }
+  for (const TriangleMesh& level : mesh.levels) append_level(level, out);
   if (out.vertices.empty()) throw RunError("a mesh of the scene has no triangles");
-  choose_bake_points(out, finest_vertices);
-  weigh_bake_points(out);
+  make_light_nodes(out, out.levels.front().triangle_count, kLightSpacing);
   return out;
 }
 
@@ -219,7 +158,6 @@ namespace {
 // Grid lines: even steps over [low, high], then steps that grow outwards to 4 km.
 std::vector<float> ground_lines(double low, double high) {
   constexpr double kFar = 4000, kGrowth = 1.35;
-  // 190 inner lines and 2 x 28 outer ones each way stay below kMaxBakePoints.
   const double inner = std::max(0.3, (high - low) / 190);
   std::vector<float> lines;
   for (double x = low, step = inner; x > low - kFar; step *= kGrowth)
@@ -242,14 +180,8 @@ PreparedMesh prepare_ground(const Aabb& around) {
   const std::vector<float> xs = ground_lines(low(area.min.x), high(area.max.x));
   const std::vector<float> ys = ground_lines(low(area.min.y), high(area.max.y));
   PreparedMesh out;
-  for (float y : ys) {
-    for (float x : xs) {
-      const std::size_t point = std::min(out.bake_points.size(), kMaxBakePoints);
-      out.vertices.push_back({{x, y, 0}, {0, 0, 1}, {}, {1, 0, 0, 0}});
-      out.vertices.back().bake_points.fill(std::uint16_t(point));
-      if (point < kMaxBakePoints) out.bake_points.push_back({{x, y, 0}, {0, 0, 1}});
-    }
-  }
+  for (float y : ys)
+    for (float x : xs) out.vertices.push_back({{x, y, 0}, {0, 0, 1}});
   const std::uint32_t material = find_surface_appearance("ground"), row = std::uint32_t(xs.size());
   for (std::uint32_t j = 0; j + 1 < ys.size(); ++j) {
     for (std::uint32_t i = 0; i + 1 < row; ++i) {
@@ -261,6 +193,10 @@ PreparedMesh prepare_ground(const Aabb& around) {
   out.half = Vec3f(4200, 4200, 1e-3f);
   out.radius = 6000;
   cluster_level(out, 0);
+  // Light every 0.1 m; of large places every 0.15 m, of very large ones at the vertices alone.
+  constexpr float kFine = 0.15f, kCoarse = 0.22f, kNone = 1, kLongest = 0.45f;  // unit: m
+  const double square = (high(area.max.x) - low(area.min.x)) * (high(area.max.y) - low(area.min.y));
+  make_ground_nodes(out, square < 300 ? kFine : square < 1200 ? kCoarse : kNone, kLongest);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/base/math.h"
+#include "render/geometry/light_nodes.h"
 #include "render/scene/scene.h"
 
 namespace rubble {
@@ -14,14 +15,14 @@ namespace rubble {
 struct PreparedVertex {
   Vec3f position;  // in the mesh; unit: m
   Vec3f normal;    // unit length, mesh frame
-  // The bake points that lend it their light, and their weights, which add up to 1.
-  std::array<std::uint16_t, 4> bake_points{};
-  std::array<float, 4> bake_weights{};  // range: 0 to 1
 };
 
 struct PreparedTriangle {
   std::array<std::uint32_t, 3> vertices;  // into the vertices of the mesh
   std::uint32_t material;                 // index into the table of looks
+  // Steps along its edges between nodes of light; 1: its vertices alone are nodes; range: 1 to 15.
+  std::uint32_t light_steps = 1;
+  std::uint32_t first_node = 0;  // of its grid, where it has one
 };
 
 // Neighbouring triangles that face about the same way.
@@ -34,10 +35,6 @@ struct Cluster {
   float cone_cosine = -1;  // smallest cosine between a normal and the axis; -1: never culled
 };
 
-struct BakePoint {
-  Vec3f position, normal;  // mesh frame
-};
-
 struct PreparedLevel {
   std::uint32_t first_cluster = 0, cluster_count = 0;    // of Cluster
   std::uint32_t first_triangle = 0, triangle_count = 0;  // of PreparedTriangle
@@ -48,7 +45,9 @@ struct PreparedMesh {
   std::vector<PreparedTriangle> triangles;  // of all levels, by cluster
   std::vector<Cluster> clusters;            // of all levels, by level
   std::vector<PreparedLevel> levels;        // finest first
-  std::vector<BakePoint> bake_points;       // where light is computed
+  std::vector<LightNode> light_nodes;       // where light is kept: the vertices, then grids of triangles
+  std::vector<BakePoint> bake_points;       // where light is found
+  std::vector<BakeOrigin> bake_origins;     // of all points
   Vec3f centre, half;                       // of a box around it; unit: m
   float radius = 0;                         // of a sphere about the same centre
 };

@@ -4,18 +4,19 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "kernel/base/disk_cache.h"
-#include "render/geometry/geometry.h"
+#include "render/geometry/ray_scene.h"
 #include "render/lighting/lighting.h"
 
 namespace rubble {
 
 struct BakeOptions {
   int threads = 1;         // the result does not depend on it
-  int rays = 64;           // a bake point; range: 8 to 1024
-  int bounces = 3;         // between surfaces
+  int rays = 256;          // a bake point at most, fewer where light is even; range: 8 to 1024
+  int bounces = 5;         // between surfaces
   std::uint64_t seed = 0;  // of the directions of rays
 };
 
@@ -39,21 +40,39 @@ struct AirLight {
   Vec3f at(const Vec3f* grid, const Vec3f& point) const;
 };
 
-struct BakedScene {
-  std::vector<BakedLight> vertices;  // one a vertex of each placed mesh, in the order of first_light
-  AirLight air;                      // of the same light
+// What the bake points see of each other, for light that is found later.
+struct BakeLinks {
+  static constexpr std::size_t kPerPoint = 24;  // directions, cosine-weighted
+  static constexpr std::uint32_t kDark = 0xffffffffu;   // no surface there, or the inside of one
+  static constexpr std::uint32_t kNoRay = 0xfffffffeu;  // nothing was looked for: it does not count
+
+  // kPerPoint of each point in turn: another point, kDark or kNoRay. Points are those of the placed meshes
+  // in turn.
+  std::vector<std::uint32_t> seen;
+  std::vector<Vec3f> albedos;  // of each point
 };
 
-// Every vertex and all air as if nothing stood around: the sky alone.
+struct BakedScene {
+  std::vector<BakedLight> nodes;  // one a node of each placed mesh, in the order of first_light
+  AirLight air;                   // of the same light
+  BakeLinks links;                // empty under an open sky
+};
+
+// Every node and all air as if nothing stood around: the sky alone.
 BakedScene open_sky_light(const PreparedScene& scene, const LightSet& light);
 
+// Albedo for light from all around of a place on a triangle (weights of its second and third corner), the
+// mean over some centimetres. Called from several threads.
+using AlbedoAt = std::function<Vec3f(const RayScene::Triangle& triangle, float u, float v)>;
+
 // progress: called with the done fraction, on the calling thread.
-BakedScene bake_light(const PreparedScene& scene, const LightSet& light,
+BakedScene bake_light(const PreparedScene& scene, const LightSet& light, const AlbedoAt& albedo,
                       const BakeOptions& options, const std::function<void(double)>& progress);
 
-// The same by way of the disk cache: made only if it is not there.
-BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene,
-                           const LightSet& light, const BakeOptions& options,
+// The same by way of the disk cache: made only if it is not there. surfaces: what the albedos follow from
+// besides the scene, as a hash.
+BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene, const LightSet& light,
+                           const AlbedoAt& albedo, const std::string& surfaces, const BakeOptions& options,
                            const std::function<void(double)>& progress);
 
 }  // namespace rubble

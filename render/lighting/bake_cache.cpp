@@ -1,12 +1,11 @@
 // Baked light by way of the disk cache.
 #include "render/lighting/bake.h"
-#include "render/materials/surface_appearance.h"
 
 namespace rubble {
 
 namespace {
 
-constexpr int kVersion = 4;  // raise it when the same scene bakes to other light
+constexpr int kVersion = 7;  // raise it when the same scene bakes to other light
 
 template <typename T>
 void add_vec(CacheKey& key, const Vec3T<T>& v) {
@@ -15,19 +14,22 @@ void add_vec(CacheKey& key, const Vec3T<T>& v) {
 
 void add_mesh(CacheKey& key, const PreparedMesh& mesh) {
   key.add(mesh.vertices.size()).add(mesh.triangles.size()).add(mesh.bake_points.size());
-  for (const PreparedVertex& v : mesh.vertices) {
-    add_vec(key, v.position);
-    key.add_bytes(v.bake_points.data(), sizeof v.bake_points);
-    key.add_bytes(v.bake_weights.data(), sizeof v.bake_weights);
-  }
+  for (const PreparedVertex& v : mesh.vertices) add_vec(key, v.position), add_vec(key, v.normal);
   for (const PreparedTriangle& t : mesh.triangles)
-    key.add_bytes(t.vertices.data(), sizeof t.vertices).add(t.material);
-  for (const BakePoint& p : mesh.bake_points) add_vec(key, p.position), add_vec(key, p.normal);
+    key.add_bytes(t.vertices.data(), sizeof t.vertices).add(t.material).add(t.light_steps).add(t.first_node);
+  for (const LightNode& node : mesh.light_nodes) {
+    key.add_bytes(node.points.data(), sizeof node.points);
+    key.add_bytes(node.weights.data(), sizeof node.weights);
+  }
+  for (const BakePoint& p : mesh.bake_points)
+    add_vec(key, p.position), add_vec(key, p.normal), key.add(p.first_origin).add(p.origin_count);
+  for (const BakeOrigin& o : mesh.bake_origins) add_vec(key, o.position), add_vec(key, o.normal);
 }
 
 void add_placed(CacheKey& key, const PlacedMesh& piece) {
   const Quat& q = piece.world_from_mesh.rotation;
   key.add(piece.mesh).add(piece.scale).add(q.w).add(q.x).add(q.y).add(q.z).add(piece.id);
+  key.add(piece.look_seed[0]).add(piece.look_seed[1]);
   add_vec(key, piece.world_from_mesh.translation);
 }
 
@@ -40,37 +42,38 @@ void add_light(CacheKey& key, const LightSet& light) {
   for (const Vec3f& v : light.sky.map) add_vec(key, v);
 }
 
-std::string key_of(const PreparedScene& scene, const LightSet& light,
+std::string key_of(const PreparedScene& scene, const LightSet& light, const std::string& surfaces,
                    const BakeOptions& options) {
   CacheKey key("bake_light", kVersion);
+  key.add_text(surfaces);
   key.add(options.rays).add(options.bounces).add(options.seed);
   for (const PreparedMesh& mesh : scene.meshes) add_mesh(key, mesh);
   key.add(scene.placed.size());
   for (const PlacedMesh& piece : scene.placed) add_placed(key, piece);
   add_light(key, light);
-  for (const SurfaceAppearance& look : all_surface_appearances())
-    add_vec(key, look.dark), add_vec(key, look.light), add_vec(key, look.accent);
   return key.hex();
 }
 
 }  // namespace
 
-BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene,
-                           const LightSet& light, const BakeOptions& options,
+BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene, const LightSet& light,
+                           const AlbedoAt& albedo, const std::string& surfaces, const BakeOptions& options,
                            const std::function<void(double)>& progress) {
-  if (cache.folder().empty()) return bake_light(scene, light, options, progress);
-  const std::string key = key_of(scene, light, options);
+  if (cache.folder().empty()) return bake_light(scene, light, albedo, options, progress);
+  const std::string key = key_of(scene, light, surfaces, options);
   if (const auto bytes = cache.find("baked_light", key)) {
     BakedScene out;
     CacheReader reader(*bytes);
-    reader.get(out.vertices), reader.get(out.air.origin), reader.get(out.air.cell);
+    reader.get(out.nodes), reader.get(out.air.origin), reader.get(out.air.cell);
     reader.get(out.air.size), reader.get(out.air.radiance), reader.get(out.air.direct);
-    if (reader.whole() && out.vertices.size() == scene.light_vertices) return out;
+    reader.get(out.links.seen), reader.get(out.links.albedos);
+    if (reader.whole() && out.nodes.size() == scene.light_nodes) return out;
   }
-  const BakedScene out = bake_light(scene, light, options, progress);
+  const BakedScene out = bake_light(scene, light, albedo, options, progress);
   CacheWriter writer;
-  writer.put(out.vertices), writer.put(out.air.origin), writer.put(out.air.cell);
+  writer.put(out.nodes), writer.put(out.air.origin), writer.put(out.air.cell);
   writer.put(out.air.size), writer.put(out.air.radiance), writer.put(out.air.direct);
+  writer.put(out.links.seen), writer.put(out.links.albedos);
   cache.store("baked_light", key, writer.bytes());
   return out;
 }

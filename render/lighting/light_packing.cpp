@@ -23,6 +23,20 @@ std::uint16_t to_half(float x) {
                        ((std::uint32_t(exponent) << 10 | mantissa >> 13) + (mantissa >> 12 & 1u)));
 }
 
+float from_half(std::uint16_t half) {
+  const int exponent = half >> 10 & 31;
+  const float mantissa = float(half & 1023);
+  const float size = exponent ? std::ldexp(1024 + mantissa, exponent - 25)
+                              : std::ldexp(mantissa, -24);
+  return half & 0x8000u ? -size : size;
+}
+
+UnpackedLight unpack_light(const BakedLight& light, const Vec3f& normal) {
+  const Vec3f vector(from_half(light.x), from_half(light.y), from_half(light.z));
+  const float red = float(light.red) / 255, blue = float(light.blue) / 255;
+  return {vector, Vec3f(red, 1 - red - blue, blue) * (3 * std::max(dot(vector, normal), 0.0f))};
+}
+
 BakedLight pack_light(const Vec3f& vector, const Vec3f& colour) {
   BakedLight out;
   out.x = to_half(vector.x), out.y = to_half(vector.y), out.z = to_half(vector.z);

@@ -34,14 +34,6 @@ std::vector<Vec3f> sphere_directions() {
   return out;
 }
 
-float from_half(std::uint16_t half) {
-  const int exponent = half >> 10 & 31;
-  const float mantissa = float(half & 1023);
-  const float size = exponent ? std::ldexp(1024 + mantissa, exponent - 25)
-                              : std::ldexp(mantissa, -24);
-  return half & 0x8000u ? -size : size;
-}
-
 }  // namespace
 
 // Radiance from direction w: mean + (slope[0] w.x + slope[1] w.y + slope[2] w.z); unit: kcd/m2
@@ -177,7 +169,7 @@ LiveLight::Probe LiveLight::gather(const std::vector<Hit>& hits, std::size_t fir
     const Vec3f& w = directions_[r];
     Vec3f radiance;
     if (hit.kind == Hit::sky) {
-      radiance = paler(light_.sky.radiance(w));
+      radiance = light_.sky.radiance(w);
     } else if (hit.kind == Hit::surface) {
       Vec3f e = hit.direct;
       if (lit) e += sample(*lit, hit.point + multiply(cell_, hit.normal) * kOff).illuminance(hit.normal);
@@ -270,11 +262,11 @@ void LiveLight::light_moving(const PlacedMesh& piece) {
     const Probe probe = sample(now_, at + multiply(cell_, n) * kOff);
     points.push_back({probe.vector(n), probe.illuminance(n)});
   }
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+  for (std::size_t v = 0; v < mesh.light_nodes.size(); ++v) {
     Vec3f vector, colour;
     for (std::size_t k = 0; k < 4; ++k) {
-      const float weight = mesh.vertices[v].bake_weights[k];
-      const Point& p = points[mesh.vertices[v].bake_points[k]];
+      const float weight = mesh.light_nodes[v].weights[k];
+      const Point& p = points[mesh.light_nodes[v].points[k]];
       vector += p.vector * weight, colour += p.colour * weight;
     }
     out_[piece.first_light + v] = pack_light(vector, colour);
@@ -283,10 +275,10 @@ void LiveLight::light_moving(const PlacedMesh& piece) {
 
 void LiveLight::light_resting(const PlacedMesh& piece) {
   const PreparedMesh& mesh = scene_.meshes[piece.mesh];
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const Vec3f at(piece.world_from_mesh * (Vec3(mesh.vertices[v].position) * piece.scale));
+  for (std::size_t v = 0; v < mesh.light_nodes.size(); ++v) {
+    const Vec3f at(piece.world_from_mesh * (Vec3(mesh.light_nodes[v].position) * piece.scale));
     if (!covers(at)) continue;
-    const Vec3f n(piece.world_from_mesh.rotation.rotate(Vec3(mesh.vertices[v].normal)));
+    const Vec3f n(piece.world_from_mesh.rotation.rotate(Vec3(mesh.light_nodes[v].normal)));
     const Vec3f near = at + multiply(cell_, n) * kOff;
     const float before = luminance(sample(without_, near).illuminance(n));
     const float now = luminance(sample(now_, near).illuminance(n));

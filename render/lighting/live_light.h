@@ -25,9 +25,10 @@ class LiveLight {
             int threads);
   ~LiveLight();
 
-  // Of every vertex of the scene as it stands now. A function of the scene alone: what was asked
+  // Of every node of the scene as it stands now. A function of the scene alone: what was asked
   // before does not count.
   const std::vector<BakedLight>& update();
+  const std::vector<BakedLight>& light() const { return out_; }  // of the update before
 
  private:
   struct Probe;

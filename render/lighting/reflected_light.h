@@ -8,9 +8,6 @@ namespace rubble {
 
 inline Vec3f multiply(const Vec3f& a, const Vec3f& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
-// Skylight as a camera with automatic white balance shows it: half of its blue.
-inline Vec3f paler(const Vec3f& c) { return c * 0.5f + Vec3f(0.5f, 0.5f, 0.5f) * luminance(c); }
-
 inline Vec3f mean_albedo(const SurfaceAppearance& look) {
   return Vec3f(look.dark * 0.45f + look.light * 0.45f + look.accent * 0.1f);
 }

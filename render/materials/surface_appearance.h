@@ -36,11 +36,10 @@ struct SurfaceAppearance {
   Vec3f accent;       // albedo of what the texture's mask picks out: stains, grains, mortar
   float tile;         // side of one repetition; unit: m
   float bump;         // strength of the relief; 0: flat
-  float gloss;        // mirror-like part at normal incidence; 0: matt
   float dust;         // share of dust that rests on it facing up; range: 0 to 1
   float variation;    // how much brightness differs from piece to piece; range: 0 to 1
-  // Of the reference renderer, see transport/reflection.h: the share that its outermost face mirrors at
-  // normal incidence (0: matt), and the roughness alpha of that mirror.
+  // See transport/reflection.h: the share that its outermost face mirrors at normal incidence (0: matt), and
+  // the roughness alpha of that mirror.
   float reflectance = 0, roughness = 1;
 };
 

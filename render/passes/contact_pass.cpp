@@ -8,7 +8,7 @@ namespace rubble {
 
 namespace {
 
-constexpr float kReach = 0.08f;  // how far a hollow darkens; unit: m
+constexpr float kReach = 0.04f;  // how far a hollow darkens: less than baked light resolves; unit: m
 
 ShaderDefines defines_for(bool lamp) {
   if (!lamp) return {};

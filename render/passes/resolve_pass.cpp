@@ -51,6 +51,22 @@ void fill_view(FrameBlock& block, const ViewProjection& view, float exposure) {
   set(block.view, {kNearPlane, exposure, float(k.width)}, float(k.height));
 }
 
+// A shift of the noise that hides the steps of 8 bits, by the bits of the pose: noise that stayed where
+// it is while the camera moves would be a landmark. Range: 0 to 1023 pixels either way.
+Vec3f grain_shift(const ViewProjection& view) {
+  std::uint64_t hash = 0;
+  const auto add = [&hash](double x) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &x, sizeof bits);
+    hash = (hash ^ bits ^ bits >> 32) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 29;
+  };
+  const Pose& pose = view.world_from_optical;
+  for (int i = 0; i < 3; ++i) add(pose.translation[i]);
+  for (const double x : {pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z}) add(x);
+  return {0, float(hash >> 40 & 1023u), float(hash >> 50 & 1023u)};
+}
+
 void fill_lights(FrameBlock& block, const FrameLight& frame) {
   const auto& lights = frame.lights->lights;
   for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -72,6 +88,11 @@ float lamp_spread(const LampSpec& lamp) {
   return lamp.shape == LampShape::ring ? r2 : 0.5f * r2;
 }
 
+// gloss_lobe() of shaders/surface.glsl at its highest that counts: seen and lit head-on.
+float lobe_peak(float reflectance, float roughness) {
+  return reflectance / (4 * roughness * roughness * (std::sqrt(roughness) + 0.5f));
+}
+
 float grey_of(const Vec3f& c) { return dot(c, Vec3f(0.2126f, 0.7152f, 0.0722f)); }
 
 void fill_air_and_lamp(FrameBlock& block, const FrameLight& frame, const Pose& world_from_rig) {
@@ -81,7 +102,6 @@ void fill_air_and_lamp(FrameBlock& block, const FrameLight& frame, const Pose& w
   set(block.lamp_axis, Vec3f(world_from_rig.rotation.rotate({1, 0, 0})),
       float(1 / (1 - portable::cos(half))));
   set(block.lamp_colour, lamp_colour(frame.lamp));
-  set(block.wetness, {float(frame.wetness), 0, 0});
   const Sky& sky = frame.lights->sky;
   set(block.sun_direction, sky.sun_direction);
   set(block.sun_radiance, sky.sun_radiance);
@@ -98,7 +118,7 @@ void fill_surface_appearances(FrameBlock& block, int texture_size) {
     const SurfaceAppearance& l = looks[i];
     set(block.looks[i * 4], Vec3f(l.dark), 1 / l.tile);
     set(block.looks[i * 4 + 1], Vec3f(l.light), l.bump);
-    set(block.looks[i * 4 + 2], Vec3f(l.accent), l.gloss);
+    set(block.looks[i * 4 + 2], Vec3f(l.accent), std::floor(255 * l.reflectance + 0.5f) + 0.99f * l.roughness);
     set(block.looks[i * 4 + 3], {float(l.pattern), l.dust, l.variation},
         std::log2(float(texture_size) / l.tile));
   }
@@ -129,7 +149,7 @@ GlTexture upload_surface_appearances(const Gl& gl, const std::vector<PatternImag
     gl.TextureSubImage3D(texture.name(), 0, 0, 0, GLint(i), size, size, 1, GL_RGBA,
                          GL_UNSIGNED_BYTE, patterns[i].texels.data());
   gl.GenerateTextureMipmap(texture.name());
-  gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   check_gl(gl, "uploading the textures");
   return texture;
@@ -209,6 +229,10 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
 }
 
 }  // namespace
+
+float mirrored_peak(const SurfaceAppearance& look) {
+  return look.reflectance > 0 ? lobe_peak(look.reflectance, look.roughness) : 0;
+}
 
 Vec3f lamp_colour(const LampSpec& lamp) {
   // White light-emitting diodes, a little cold; luminance 1 by Rec. 709 weights.
@@ -297,6 +321,7 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
   fill_lights(block, light);
   fill_air_and_lamp(block, light, bearer);
   fill_surface_appearances(block, texture_size_);
+  set(block.wetness, grain_shift(view) + Vec3f(float(light.wetness), 0, 0));
   std::memcpy(block.ground, ground_, sizeof ground_);
   gl_.NamedBufferData(frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
@@ -348,9 +373,9 @@ bool ResolvePass::lamp_shows(const FrameLight& light, double lamp_offset,
   const Vec3f colour = lamp_colour(light.lamp);
   const float intensity = std::max(colour.x, std::max(colour.y, colour.z)) * exposure;
   if (tiles.nearest_value <= 0) return false;
-  // Of albedo 1, and the peak of the mirrored part, see gloss_lobe() in shaders/surface.glsl.
-  const float film = light.wetness > 0 ? 16.0f : 0.0f;
-  const float reflected = (1 + 12 * light.most_gloss + film) / float(portable::kPi);
+  // Of albedo 1, and the peak of the mirrored part; of water, see surface.glsl.
+  const float film = light.wetness > 0 ? lobe_peak(0.02f, 0.12f) : 0.0f;
+  const float reflected = (1 + light.most_gloss + film) / float(portable::kPi);
   const float offset = float(lamp_offset);
   const float distance = std::max(kNearPlane / tiles.nearest_value - offset, 0.01f);
   return intensity * reflected / (distance * distance) > kUnseen;

@@ -23,13 +23,17 @@ struct FrameLight {
   LampSpec lamp;                         // on the carrier below
   bool clear_air = true;                 // at all times
   double wetness = 0;                    // of surfaces
-  float most_gloss = 1;                  // of the looks in use, see SurfaceAppearance::gloss
+  float most_gloss = 1;                  // the largest mirrored_peak() of the looks in use
   const AirVolume* air_table = nullptr;  // of this frame, unless the air is clear
   const Pose* world_from_rig = nullptr;  // of what bears the lamp; null: the camera does
 };
 
 // Colours of the lamp's light; kcd.
 Vec3f lamp_colour(const LampSpec& lamp);
+
+// The most that a look mirrors of a light in any direction, as a multiple of what white matt plaster throws
+// back; see gloss_lobe() in shaders/surface.glsl.
+float mirrored_peak(const SurfaceAppearance& look);
 
 // Cameras take most of the light's own colour away: gains for a level grey surface under the open
 // sky, of luminance 1.

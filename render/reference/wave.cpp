@@ -199,7 +199,7 @@ bool Wave::reflect(std::uint32_t index, const RayScene::PreciseHit& hit) {
   const SamplePair choices = draw(path, kChoices);
   SurfacePoint surface;
   scene_.surfaces.find({scene_.rays.triangles()[hit.triangle], hit.u, hit.v, path.direction,
-                        path.spread * hit.distance, choices.x},
+                        path.spread * hit.distance},
                        surface);
   if (!path.met_surface && path.bounces == 0) {
     path.met_surface = true, path.first_distance = hit.distance;

@@ -1,5 +1,5 @@
-// One sample of one sensor, and what gives samples: cameras, inertial units and LiDARs are peers, each
-// with a rate of its own. A further type of sensor (joint states) is one more alternative here.
+// One sample of one sensor, and what gives samples: cameras, inertial units, LiDARs and robots are peers,
+// each with a rate of its own. A further type of sensor is one more alternative here.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,11 @@
 
 #include "render/scene/frame.h"
 #include "render/scene/lidar_scan.h"
+#include "render/scene/robot_sample.h"
 
 namespace rubble {
 
-using Sample = std::variant<Frame, ImuSample, LidarScan>;
+using Sample = std::variant<Frame, ImuSample, LidarScan, RobotSample>;
 
 inline std::int64_t stamp_of(const Sample& sample) {
   return std::visit([](const auto& s) { return s.stamp_ns; }, sample);

@@ -1,8 +1,11 @@
 // The scene's tables, see geometry.h.
 uniform usamplerBuffer vertex_table;    // position, packed normal
-uniform usamplerBuffer triangle_table;  // by its last vertex: three vertices, look
+// By its last vertex: three vertices; look (5 bits), steps between nodes of light along an edge (4), how
+// often the vertices were turned from their order in the mesh (2) and, where there are more steps than
+// one, the first of the nodes (21).
+uniform usamplerBuffer triangle_table;
 uniform usamplerBuffer placed_table;    // four a placed mesh
-uniform usamplerBuffer light_table;     // baked light, one a vertex of each placed mesh
+uniform usamplerBuffer light_table;     // baked light, one a node of each placed mesh
 
 vec3 unpack_normal(uint code) {
   vec2 p = vec2(ivec2(int(code << 16), int(code)) >> 16) * (1.0 / 32767.0);
@@ -18,4 +21,20 @@ vec3 unpack_normal(uint code) {
 vec3 unpack_light(uvec2 code, out vec2 red_blue) {
   red_blue = vec2(float((code.y >> 16) & 255u), float(code.y >> 24)) * (1.0 / 255.0);
   return vec3(unpackHalf2x16(code.x), unpackHalf2x16(code.y).x);
+}
+
+// The three nodes of light about a place of these weights on a triangle, and their weights; as
+// find_light_nodes() in geometry/light_nodes.h.
+ivec3 find_light_nodes(uvec4 triangle, vec3 w, out vec3 weight) {
+  int n = int(triangle.w >> 5 & 15u), first = int(triangle.w >> 11);
+  uint turns = triangle.w >> 9 & 3u;
+  vec2 at = (turns == 1u ? w.xy : turns == 2u ? w.zx : w.yz) * float(n);
+  int i = min(int(at.x), n - 1), j = min(int(at.y), n - 1 - i);
+  float fx = at.x - float(i), fy = at.y - float(j);
+  bool upper = fx + fy > 1.0 && i + j + 2 <= n;
+  int row = first + j * (2 * n + 3 - j) / 2 + i, above = row + n + 1 - j;
+  weight = upper ? vec3(fx + fy - 1.0, 1.0 - fx, 1.0 - fy) : vec3(1.0 - fx - fy, fx, fy);
+  if (n < 2) weight = w;
+  ivec3 grid = upper ? ivec3(above + 1, above, row + 1) : ivec3(row, row + 1, above);
+  return n > 1 ? grid : ivec3(triangle.xyz);
 }

@@ -36,7 +36,7 @@ void add_light(inout Shading sum, const int i, const int type, const int first_v
   facing *= clamp(dot(s.face_normal, to_light) * 8.0, 0.0, 1.0);
   e *= facing * light_visible(i, type, first_view, views, world, s.face_normal);
   sum.glare += e * gloss_lobe(s, to_light, to_eye);
-  sum.e += e;
+  sum.e += e * base_share(s, to_light);
 }
 
 vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
@@ -57,11 +57,13 @@ vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
   vec3 lamp = lamp_at(world, to_lamp, lamp_distance);
   lamp *= passed;
   lamp *= max(dot(s.normal, to_lamp), 0.0) * clamp(dot(s.face_normal, to_lamp) * 8.0, 0.0, 1.0) *
-          (0.55 + 0.45 * open.x) * open.y;
+          open.y;
   sum.glare += lamp * gloss_lobe(s, to_lamp, to_eye);
-  sum.e += lamp;
+  sum.e += lamp * base_share(s, to_lamp);
 #endif
-  return (sum.e * s.albedo + sum.glare) * 0.318310;
+  // What the mirrors on top throw back of the light all around, the base below does not get.
+  float mirrored = mirrored_share(s, dot(s.normal, to_eye));
+  return (sum.e * s.albedo * (1.0 - mirrored) + s.ambient * (open.x * mirrored) + sum.glare) * 0.318310;
 }
 
 void main() {
@@ -115,7 +117,7 @@ void main() {
     radiance = backdrop(direction);
   } else {
     vec3 world = eye + ray * z;
-    Surface s = find_surface(seen.x - 1u, seen.y, world, direction, z, vec2(pixel));
+    Surface s = find_surface(seen.x - 1u, seen.y, world, direction, z);
     vec2 open = texture(openness, (vec2(pixel) + 0.5) / view.zw).xy;
     radiance = shade(s, world, -direction, open, passed);
 #if CONTENT != 1
@@ -133,6 +135,6 @@ void main() {
 #elif defined LINEAR
   colour = vec4(radiance, 1.0);
 #else
-  colour = vec4(develop(radiance * (view.y * balance.rgb), dither(vec2(pixel))), 1.0);
+  colour = vec4(develop(radiance * (view.y * balance.rgb), grain(vec2(pixel) + wetness.yz)), 1.0);
 #endif
 }

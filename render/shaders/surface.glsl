@@ -3,35 +3,68 @@ struct Surface {
   vec3 normal, face_normal;  // world; with and without relief
   vec3 albedo;
   vec3 ambient;  // klx
-  float gloss;
-  float film;  // of water, as gloss
+  // Mirrors on top, as transport/reflection.h has them: share covered, reflectance, roughness.
+  vec3 gloss;
+#ifdef WET
+  float film;  // share covered by water
+#endif
 };
 
 uniform sampler2DArray look_textures;
 uniform sampler2D ground_map;  // from above: debris on the ground, tone; see ground_map.h
 
-// Noise without visible order, from 0 to 1 (Jimenez 2014).
-float dither(vec2 pixel) {
-  return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+// Noise of a cell's number, from 0 to 1. It lies on the surface and moves with it: what stays on the
+// pixel grid while the camera moves is a false landmark.
+float cell_noise(vec2 cell) {
+  return fract(52.9829189 * fract(dot(cell, vec2(0.06711056, 0.00583715))));
 }
+
+// Schlick's approximation of Fresnel's law.
+float fresnel(float reflectance, float cosine) {
+  float c = 1.0 - cosine, c2 = c * c;
+  return reflectance + (1.0 - reflectance) * c2 * c2 * c;
+}
+
+// pi times the BRDF of a rough mirror: the distribution of Trowbridge and Reitz, with shadowing as
+// Karis (2013) approximates it.
+float mirror_lobe(float reflectance, float alpha, float facing, float half_way) {
+  float a2 = alpha * alpha;
+  float d = facing * facing * (a2 - 1.0) + 1.0;
+  return fresnel(reflectance, half_way) * a2 /
+         (d * d * 4.0 * max(half_way * half_way, 0.05) * (sqrt(alpha) + 0.5));
+}
+
+const float kWaterReflectance = 0.02, kFilmRoughness = 0.12;
 
 float gloss_lobe(Surface s, vec3 to_light, vec3 to_eye) {
-  float d = max(dot(normalize(to_light + to_eye), s.normal), 0.0);
-  d *= d;
-  d *= d;
-  d *= d;
-  d *= d;
-  d *= d;
+  vec3 h = normalize(to_light + to_eye);
+  float facing = clamp(dot(h, s.normal), 0.0, 1.0), half_way = clamp(dot(h, to_eye), 0.0, 1.0);
+  float lobe = s.gloss.x * mirror_lobe(s.gloss.y, s.gloss.z, facing, half_way);
 #ifdef WET
-  float film = d * d;
-  film *= film;
-  return s.gloss * d * 12.0 + s.film * film * 40.0;
-#else
-  return s.gloss * d * 12.0;
+  lobe += s.film * mirror_lobe(kWaterReflectance, kFilmRoughness, facing, half_way);
 #endif
+  return lobe;
 }
 
-Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, float z, vec2 pixel) {
+// Share of even light from all around that the mirrors throw back at an angle of this cosine: rough ones rise less
+// towards grazing angles (Lagarde 2011).
+float mirrored_share(Surface s, float cosine) {
+  float c = 1.0 - clamp(cosine, 0.0, 1.0), c2 = c * c, steep = c2 * c2 * c;
+  float share = s.gloss.x * (s.gloss.y + max(1.0 - sqrt(s.gloss.z) - s.gloss.y, 0.0) * steep);
+#ifdef WET
+  share += s.film * (kWaterReflectance + (1.0 - sqrt(kFilmRoughness)) * steep);
+#endif
+  return share;
+}
+
+// What mirrors let through to the base from a light, as a multiple of what they let through of even light
+// (Kelemen and Szirmay-Kalos 2001); a twenty-first is the mean of Schlick's slope.
+float base_share(Surface s, vec3 to_light) {
+  float mean = s.gloss.x * (s.gloss.y + max(1.0 - sqrt(s.gloss.z) - s.gloss.y, 0.0) * (1.0 / 21.0));
+  return (1.0 - mirrored_share(s, dot(s.normal, to_light))) / (1.0 - mean);
+}
+
+Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, float z) {
   Surface s;
   // The point in the mesh frame.
   int at = int(placed) * 4;
@@ -66,21 +99,24 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   // Baked light.
   vec2 rb0, rb1, rb2;
   int first_light = int(mw.y);
-  vec3 l0 = unpack_light(texelFetch(light_table, int(tri.x) + first_light).xy, rb0);
-  vec3 l1 = unpack_light(texelFetch(light_table, int(tri.y) + first_light).xy, rb1);
-  vec3 l2 = unpack_light(texelFetch(light_table, int(tri.z) + first_light).xy, rb2);
-  vec3 light = w0 * l0 + w1 * l1 + w2 * l2;
-  vec2 red_blue = w0 * rb0 + w1 * rb1 + w2 * rb2;
+  vec3 lw;
+  ivec3 node = find_light_nodes(tri, vec3(w0, w1, w2), lw) + first_light;
+  vec3 l0 = unpack_light(texelFetch(light_table, node.x).xy, rb0);
+  vec3 l1 = unpack_light(texelFetch(light_table, node.y).xy, rb1);
+  vec3 l2 = unpack_light(texelFetch(light_table, node.z).xy, rb2);
+  vec3 light = lw.x * l0 + lw.y * l1 + lw.z * l2;
+  vec2 red_blue = lw.x * rb0 + lw.y * rb1 + lw.z * rb2;
 
   // The look, on the one of 26 planes that the surface is nearest to: little stretching, one
   // fetch. Noise breaks the line where the plane changes.
-  int look = int(tri.w) * 4;
+  int look = int(tri.w & 31u) * 4;
   vec4 dark = looks[look], bright = looks[look + 1], accent = looks[look + 2];
   vec4 more = looks[look + 3];
   uint turn = mw.w & 3u;  // which axis of the mesh is longest: grain runs along it
   vec3 q = (turn == 1u ? p.yzx : turn == 2u ? p.zxy : p) * scale;
   vec3 f = turn == 1u ? smooth_normal.yzx : turn == 2u ? smooth_normal.zxy : smooth_normal;
-  vec3 hash = fract(q * 91.7 + q.yzx * 57.3);
+  vec3 grain = floor(q * 300.0);
+  vec3 hash = fract(grain * 0.3057 + grain.yzx * 0.191);
   f += (fract(hash * (hash + 3.33) * 97.0) - 0.5) * 0.12;
   vec3 plane = normalize(round(f * 1.2));
   vec3 along = abs(plane.z) > 0.9 ? vec3(1.0, 0.0, 0.0)
@@ -93,14 +129,14 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   vec2 above = (world.xy + 0.6 * world.z - ground.xy) * ground.z;
   vec2 map = texture(ground_map, 0.5 + 0.5 * above / (1.0 + abs(above))).xy;
   float slow = 4.0 * map.y - 2.0;
-  if (more.y < 0.2 && slow + 0.3 * dither(pixel) > 0.15) uv = uv.yx * 0.83 + 0.37;
+  if (more.y < 0.2 && slow + 0.3 * cell_noise(floor(world.xy * 60.0)) > 0.15) uv = uv.yx * 0.83 + 0.37;
   // A wall shows another part of its texture every 1.7 m or so, at the boards' joints.
   if (more.x < 0.5) uv.x += 0.37 * floor(uv.y) + 0.21 * floor(uv.y * 0.5);
   vec3 rx = mx.xyz * scale, ry = my.xyz * scale, rz = mz.xyz * scale;  // rotation rows
   s.face_normal = rx * face.x + ry * face.y + rz * face.z;
   float grazing = max(-dot(s.face_normal, direction), 0.05);
   float level = more.w + log2(z * lens.x) - 0.5 * log2(grazing) - 0.25;
-  vec4 texel = textureLod(look_textures, vec3(uv, more.x), max(level + dither(pixel) - 0.5, 0.0));
+  vec4 texel = textureLod(look_textures, vec3(uv, more.x), max(level, 0.0));
 
   // Relief.
   vec2 slope = (texel.xy * 4.0 - 2.0) * bright.w;
@@ -124,15 +160,13 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   float dust = smoothstep(0.30, 1.05, up + (texel.z - 0.45) * 0.8) *
                (soil ? 0.85 * map.x : more.y);
   s.albedo = mix(s.albedo, vec3(0.375, 0.36, 0.335) * (0.55 + 0.75 * texel.z), dust);
-  s.gloss = accent.w * (1.0 - dust);
-
-  s.film = 0.0;
+  s.gloss = vec3(1.0 - dust, floor(accent.w) * (1.0 / 255.0), max(fract(accent.w) * (1.0 / 0.99), 0.02));
 #ifdef WET
   // Water darkens what it soaks into, and stands as a film on what faces up.
   float wet = wetness.x * smoothstep(-0.6, 0.5, up + 0.5 * slow);
   s.albedo *= 1.0 - 0.5 * wet;
-  s.gloss = max(s.gloss, 0.05 * wet);
-  s.film = 0.4 * wet * (0.35 + 0.65 * smoothstep(0.2, 0.9, up)) * smoothstep(0.75, 0.25, texel.z);
+  s.film = wet * (0.35 + 0.65 * smoothstep(0.2, 0.9, up)) * smoothstep(0.75, 0.25, texel.z);
+  s.gloss.x *= 1.0 - s.film;
   s.normal = normalize(mix(s.normal, rx * smooth_normal.x + ry * smooth_normal.y + rz * smooth_normal.z,
                            0.6 * wet * smoothstep(0.75, 0.25, texel.z)));
 #endif

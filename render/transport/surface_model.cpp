@@ -26,7 +26,11 @@ Vec3f turned(const Vec3f& v, int turn) {
 Vec3f turned_back(const Vec3f& v, int turn) {
   return turn == 1 ? Vec3f(v.z, v.x, v.y) : turn == 2 ? Vec3f(v.y, v.z, v.x) : v;
 }
-float ragged(float x) {  // noise without a pattern, of a coordinate
+// Noise of a cell's number, from 0 to 1, as in shaders/surface.glsl.
+float cell_noise(float x, float y) {
+  return fract(52.9829189f * fract(x * 0.06711056f + y * 0.00583715f));
+}
+float ragged(float x) {  // noise without a pattern
   const float hash = fract(x);
   return (fract(hash * (hash + 3.33f) * 97.0f) - 0.5f) * 0.12f;
 }
@@ -118,7 +122,8 @@ void LookSurfaces::find_pattern(const SurfaceQuery& query, Place& place) const {
   const Placed& piece = *place.piece;
   const SurfaceAppearance& look = *place.look;
   const Vec3f q = turned(place.point, piece.turn) * piece.scale;
-  const Vec3f noise = q * 91.7f + Vec3f(q.y, q.z, q.x) * 57.3f;
+  const Vec3f grain(std::floor(q.x * 300), std::floor(q.y * 300), std::floor(q.z * 300));
+  const Vec3f noise = grain * 0.3057f + Vec3f(grain.y, grain.z, grain.x) * 0.191f;
   const Vec3f f = turned(place.smooth, piece.turn) +
                   Vec3f(ragged(noise.x), ragged(noise.y), ragged(noise.z));
   const auto nearest = [](float x) { return std::floor(x * 1.2f + 0.5f); };
@@ -127,7 +132,8 @@ void LookSurfaces::find_pattern(const SurfaceQuery& query, Place& place) const {
                                                 : normalized(Vec3f(-plane.y, plane.x, 0));
   const Vec3f across = cross(plane, along);
   float u = dot(q, along) / look.tile + piece.seed_u, v = dot(q, across) / look.tile + piece.seed_v;
-  if (look.dust < 0.2f && place.slow + 0.3f * query.random > 0.15f) {
+  const float edge = cell_noise(std::floor(place.world.x * 60), std::floor(place.world.y * 60));
+  if (look.dust < 0.2f && place.slow + 0.3f * edge > 0.15f) {
     const float old = u;
     u = v * 0.83f + 0.37f, v = old * 0.83f + 0.37f;
   }

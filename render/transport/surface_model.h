@@ -25,7 +25,6 @@ struct SurfaceQuery {
   float u = 0, v = 0;           // weights of its second and third corner
   Vec3f direction;              // of the ray that met it, unit
   float footprint = 0;          // width of what the ray stands for there; unit: m
-  float random = 0;             // in [0, 1), for choices that have no edge
 };
 
 class SurfaceModel {

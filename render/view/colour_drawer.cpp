@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "kernel/base/disk_cache.h"
 #include "kernel/base/portable_math.h"
 #include "render/lighting/exposure.h"
 #include "render/passes/antialias.h"
@@ -20,10 +19,6 @@ ReferenceOptions reference_options(const RenderOptions& o, std::uint64_t seed) {
   out.cache_folder = o.cache_folder;
   out.progress = o.image_progress;
   return out;
-}
-
-std::vector<PatternImage> patterns_of(const RenderOptions& options) {
-  return make_patterns_once(DiskCache(options.cache_folder), options.texture_size, options.threads);
 }
 
 AirLamp glow_of(const LampSpec& lamp, const Pose& bearer) {
@@ -53,22 +48,22 @@ ViewProjection projection_of(const ViewRays& view) {
 
 ColourDrawer::ColourDrawer(LitScene& scene)
     : scene_(scene), pool_(std::max(1, scene.options.threads)) {
-  const std::vector<PatternImage> patterns = patterns_of(scene.options);
   resolve_ = std::make_unique<ResolvePass>(scene.gl, scene.geometry, scene.frame_light,
-                                           scene.ground_map, patterns);
+                                           scene.ground_map, scene.patterns);
   if (scene.is_traced())
     reference_ = std::make_unique<ReferencePass>(
-        ReferenceSurroundings{scene.scene, scene.light, patterns, scene.ground_map,
+        ReferenceSurroundings{scene.scene, scene.light, scene.patterns, scene.ground_map,
                               scene.frame_light.wetness},
         reference_options(scene.options, scene.seed));
 }
 
 void ColourDrawer::restart() {
   resolve_ = std::make_unique<ResolvePass>(scene_.gl, scene_.geometry, scene_.frame_light,
-                                           scene_.ground_map, patterns_of(scene_.options));
+                                           scene_.ground_map, scene_.patterns);
 }
 
 FrameLight ColourDrawer::light_view(const ViewRays& view) {
+  scene_.light_by_lamp(view.lamp_bearer(), view.stamp_ns);
   FrameLight light = scene_.frame_light;
   light.world_from_rig = view.world_from_rig ? &*view.world_from_rig : nullptr;
   if (scene_.medium.clear()) return light;

@@ -4,6 +4,8 @@
 
 #include "kernel/base/disk_cache.h"
 #include "render/materials/surface_appearance.h"
+#include "render/reference/image_key.h"
+#include "render/transport/surface_model.h"
 
 namespace rubble {
 
@@ -13,7 +15,7 @@ float most_gloss(const PreparedScene& scene) {
   float most = 0;
   for (const PreparedMesh& mesh : scene.meshes)
     for (const PreparedTriangle& t : mesh.triangles)
-      most = std::max(most, all_surface_appearances()[t.material].gloss);
+      most = std::max(most, mirrored_peak(all_surface_appearances()[t.material]));
   return most;
 }
 
@@ -26,17 +28,21 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
       options(o),
       scene(prepare_scene(s, o.threads)),
       ground_map(make_ground_map(scene)),
+      patterns(make_patterns_once(DiskCache(o.cache_folder), o.texture_size, o.threads)),
       moving(s, scene),
       light(make_lights(s)),
       medium(s.air, s.seed),
       start_ns(s.start_ns),
       seed(s.seed) {
   progress(0.05);
-  BakedScene baked = bake([&](double f) { progress(0.05 + 0.9 * f); });
+  BakedScene baked = bake(s.wetness, [&](double f) { progress(0.05 + 0.9 * f); });
   air_light = std::move(baked.air);
-  geometry = upload_geometry(gl, scene, baked.vertices);
+  links_ = std::move(baked.links);
+  geometry = upload_geometry(gl, scene, baked.nodes);
   if (moving.any())
-    live_light = std::make_unique<LiveLight>(scene, light, std::move(baked.vertices), o.threads);
+    live_light = std::make_unique<LiveLight>(scene, light, std::move(baked.nodes), o.threads);
+  else
+    baked_nodes_ = std::move(baked.nodes);
   shadow = std::make_unique<ShadowPass>(gl, scene, geometry, light, o.shadow_size);
   shadow->draw_moving();  // nothing yet
   frame_light = {&light, &shadow->map(), s.lamp, medium.clear(), s.wetness, most_gloss(scene)};
@@ -44,7 +50,7 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
 }
 
 // What rests. Of a still scene that is all of it.
-BakedScene LitScene::bake(const std::function<void(double)>& progress) {
+BakedScene LitScene::bake(double wetness, const std::function<void(double)>& progress) {
   std::vector<std::uint32_t> first_light;  // in the whole scene, of each piece that rests
   const PreparedScene resting = moving.any() ? resting_part(scene, first_light) : PreparedScene();
   const PreparedScene& part = moving.any() ? resting : scene;
@@ -54,18 +60,27 @@ BakedScene LitScene::bake(const std::function<void(double)>& progress) {
     bake.threads = options.threads;
     bake.rays = options.bake_rays;
     bake.seed = seed;
-    baked = bake_light_once(DiskCache(options.cache_folder), part, light, bake, progress);
+    const LookSurfaces surfaces(part, patterns, ground_map, wetness);
+    const auto albedo = [&](const RayScene::Triangle& triangle, float u, float v) {
+      constexpr float kMeanOver = 0.1f;  // unit: m
+      SurfacePoint point;
+      surfaces.find({triangle, u, v, {0, 0, -1}, kMeanOver}, point);
+      return mean_albedo(point.reflection);
+    };
+    baked = bake_light_once(DiskCache(options.cache_folder), part, light, albedo,
+                            surroundings_key({part, light, patterns, ground_map, wetness}), bake,
+                            progress);
   } else {
     baked = open_sky_light(part, light);
   }
   if (!moving.any()) return baked;
-  std::vector<BakedLight> vertices(scene.light_vertices);
+  std::vector<BakedLight> nodes(scene.light_nodes);
   for (std::size_t i = 0; i < part.placed.size(); ++i) {
-    const std::size_t count = part.meshes[part.placed[i].mesh].vertices.size();
-    std::copy_n(baked.vertices.begin() + part.placed[i].first_light, count,
-                vertices.begin() + first_light[i]);
+    const std::size_t count = part.meshes[part.placed[i].mesh].light_nodes.size();
+    std::copy_n(baked.nodes.begin() + part.placed[i].first_light, count,
+                nodes.begin() + first_light[i]);
   }
-  baked.vertices = std::move(vertices);
+  baked.nodes = std::move(nodes);
   return baked;
 }
 
@@ -75,6 +90,33 @@ void LitScene::move_to(std::int64_t stamp_ns) {
   if (is_traced()) return;  // the path tracer follows the scene itself
   update_light(gl, geometry, live_light->update());
   shadow->draw_moving();
+}
+
+LampBounce& LitScene::lamp_bounce() {
+  if (lamp_bounce_) return *lamp_bounce_;
+  std::vector<std::uint32_t> first_point;
+  std::uint32_t next = 0;
+  for (const PlacedMesh& piece : scene.placed) {
+    first_point.push_back(piece.moves ? LampBounce::kNoPoints : next);
+    if (!piece.moves) next += std::uint32_t(scene.meshes[piece.mesh].bake_points.size());
+  }
+  lamp_bounce_ = std::make_unique<LampBounce>(scene, std::move(links_), std::move(first_point),
+                                              options.threads);
+  return *lamp_bounce_;
+}
+
+void LitScene::light_by_lamp(const Pose& bearer, std::int64_t stamp_ns) {
+  const LampSpec& lamp = frame_light.lamp;
+  const bool bounces = lamp_bounce_ || !links_.albedos.empty();
+  const bool lit = lamp.on && lamp.intensity_cd > 0 && bounces;
+  const std::vector<BakedLight>& base = live_light ? live_light->light() : baked_nodes_;
+  if (!lit && !lit_by_lamp_) return;
+  lit_by_lamp_ = lit;
+  if (!lit) return update_light(gl, geometry, base);
+  const PlacedLamp placed = place_lamp(lamp, lamp_colour(lamp), bearer);
+  const Air air = air_at(stamp_ns);
+  const float extinction = air.clear() ? 0 : float(air.extinction(Vec3(placed.position)));
+  update_light(gl, geometry, lamp_bounce().add_to(base, placed, extinction));
 }
 
 Air LitScene::air_at(std::int64_t stamp_ns) const {

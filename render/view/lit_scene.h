@@ -15,6 +15,7 @@
 #include "render/passes/resolve_pass.h"
 #include "render/passes/shadow_pass.h"
 #include "render/scene/scene.h"
+#include "render/transport/lamp_bounce.h"
 #include "render/view/render_options.h"
 
 namespace rubble {
@@ -31,6 +32,7 @@ struct LitScene {
   RenderOptions options;                  // as given
   PreparedScene scene;                    // as it stands at the moment of the last move_to()
   GroundMap ground_map;                   // of debris on the ground
+  std::vector<PatternImage> patterns;     // of the looks
   MovingPieces moving;                    // what move_to() moves
   LightSet light;                         // of the place
   AirLight air_light;                     // baked light in the air
@@ -46,12 +48,21 @@ struct LitScene {
   bool is_traced() const { return options.colour.quality == RenderQuality::reference; }
   // Puts what moves where it is at that stamp, and lights it there.
   void move_to(std::int64_t stamp_ns);
+  // Adds the light that the lamp sends by way of surfaces to the baked one. bearer: of the lamp, in the
+  // world.
+  void light_by_lamp(const Pose& bearer, std::int64_t stamp_ns);
   // The medium at that stamp.
   Air air_at(std::int64_t stamp_ns) const;
   void change(const LampSpec& lamp, const AirSpec& air);
 
  private:
-  BakedScene bake(const std::function<void(double)>& progress);
+  BakedScene bake(double wetness, const std::function<void(double)>& progress);
+  LampBounce& lamp_bounce();
+
+  std::vector<BakedLight> baked_nodes_;      // the baked light; empty where something moves
+  BakeLinks links_;                          // of the same, until lamp_bounce() takes them
+  std::unique_ptr<LampBounce> lamp_bounce_;  // made when a lamp is first lit
+  bool lit_by_lamp_ = false;                 // the light on the device is the lamp's too
 };
 
 }  // namespace rubble

@@ -28,6 +28,11 @@ struct RobotLeg {
 
 struct RobotItem {
   RobotKind model = RobotKind::snake;
+  std::string urdf{};  // a file, instead of a bundled model: relative to the script
+  // Of a robot from a file: the joints of its driven wheels, whose axes point left. Neither: twists do not
+  // drive it and it has no odometry.
+  std::vector<std::string> left_wheels{}, right_wheels{};
+  double wheel_radius = 0.1;  // unit: m; range: 0.001 to 10
   std::string name{};  // empty: the model's, numbered
   Vec3 position;       // of its base frame, in the world; unit: m
   Vec3 rpy_deg;        // R = Rz(yaw) Ry(pitch) Rx(roll)

@@ -52,8 +52,36 @@ void check_legs(const RobotItem& robot, std::size_t i, std::vector<Diagnostic>& 
                           "front left, front right, rear left, rear right",
                           std::to_string(flippers), ""});
   }
+  if (robot.urdf.empty() && (!robot.left_wheels.empty() || !robot.right_wheels.empty()))
+    mistakes.push_back({"", 0, key_of(i, robot.left_wheels.empty() ? "right_wheels" : "left_wheels"),
+                        "only a robot from a URDF file has these", "nothing", "a list", ""});
+  if (robot.left_wheels.empty() != robot.right_wheels.empty())
+    mistakes.push_back({"", 0, key_of(i, robot.left_wheels.empty() ? "left_wheels" : "right_wheels"),
+                        "missing", "both of left_wheels and right_wheels, or neither", "one of them", ""});
   if (robot.control > 0 && !robot.drive.empty())
     mistakes.push_back({"", 0, key_of(i, "drive"), "contradicts control", "one of both", "both", ""});
+}
+
+void check_ride(const Scenario& scenario, const std::vector<std::string>& names,
+                std::vector<Diagnostic>& mistakes) {
+  const TrajectorySpec& path = scenario.trajectory;
+  if (!path.ride.on()) return;
+  const auto add = [&](const char* key, const char* message, const char* expected,
+                       const std::string& found) {
+    mistakes.push_back({"", 0, key, message, expected, found, ""});
+  };
+  if (std::find(names.begin(), names.end(), path.ride.robot) == names.end()) {
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
+    add("trajectory.ride.robot", "no robot has this name", all.empty() ? "a robot in `robots`" : all.c_str(),
+        "\"" + path.ride.robot + "\"");
+  }
+  if (path.waypoints.size() > 1)
+    add("trajectory.waypoints", "contradicts ride", "one of both", "both");
+  if (path.limits.any() || path.smoothing || path.duration || path.rest_at_ends ||
+      path.plan != Plan::ghost)
+    add("trajectory.ride", "a robot's way cannot be changed", "rate_hz alone besides it",
+        "limits, smoothing, a duration or a plan");
 }
 
 }  // namespace
@@ -64,6 +92,14 @@ void add_robot_keys(Schema& k, Scenario& s) {
   k.add("robots[].model", "Which of the bundled ones.", [&list](std::size_t i) {
     return Schema::choice_slot(list[i].model, {kModelNames[0], kModelNames[1], kModelNames[2]});
   });
+  k.item("robots[].urdf", list, &RobotItem::urdf,
+         "Instead: a URDF file, relative to the script: docs/robots.md.");
+  k.item("robots[].left_wheels", list, &RobotItem::left_wheels,
+         "Of a URDF robot: joints of driven wheels on its left, for `linear`, `angular` and odometry.");
+  k.item("robots[].right_wheels", list, &RobotItem::right_wheels, "Likewise, on its right.");
+  k.item("robots[].wheel_radius", list, &RobotItem::wheel_radius, "Of these wheels.")
+      .between(0.001, 10)
+      .unit("m");
   k.item("robots[].name", list, &RobotItem::name,
          "Names its files and topics; not given: the model's name, numbered.");
   k.item("robots[].position", list, &RobotItem::position,
@@ -100,7 +136,9 @@ std::vector<std::string> robot_names(const std::vector<RobotItem>& robots) {
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const RobotItem& robot = robots[i];
     names.push_back(!robot.name.empty() ? robot.name
-                                        : std::string(kModelNames[int(robot.model)]) + "_" +
+                                        : std::string(robot.urdf.empty() ? kModelNames[int(robot.model)]
+                                                                       : "robot") +
+                                              "_" +
                                               std::to_string(i + 1));
   }
   return names;
@@ -111,6 +149,7 @@ void check_robots(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   if (!names.empty() && scenario.record_settling.on)
     mistakes.push_back({"", 0, "record_settling", "robots start with the first frame",
                         "one of robots and record_settling", "both", ""});
+  check_ride(scenario, names, mistakes);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const bool plain = std::all_of(names[i].begin(), names[i].end(), [](char c) {
       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';

@@ -167,8 +167,20 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   return mistakes;
 }
 
+// As long as the ride, and as many frames.
+static TrajectorySpec stand_in_for_ride(const Scenario& scenario) {
+  TrajectorySpec spec;
+  spec.rate_hz = scenario.trajectory.rate_hz;
+  spec.ride = scenario.trajectory.ride;
+  spec.waypoints.assign(2, default_view());
+  spec.waypoints[0].t = 0;
+  spec.waypoints[1].t = scenario.robot_run.duration;
+  return spec;
+}
+
 TrajectorySpec flown_trajectory(const Scenario& scenario) {
   TrajectorySpec spec = scenario.trajectory;
+  if (spec.ride.on()) return stand_in_for_ride(scenario);
   const bool curved_way = spec.plan == Plan::avoid && spec.interpolation == Interpolation::spline;
   if (!spec.smoothing && !spec.limits.max_jerk && (scenario.imu.on || curved_way))
     spec.smoothing = kUsualSmoothing;

@@ -175,7 +175,8 @@ std::vector<MountedCamera> all_cameras(const Scenario& scenario);
 bool has_channel(const Scenario& scenario, const std::string& name);
 
 // The trajectory with its smoothing chosen where the mission leaves that open: kUsualSmoothing where
-// an inertial unit is on, and for a curve around what lies there; none elsewhere.
+// an inertial unit is on, and for a curve around what lies there; none elsewhere. Of a ride, which is known
+// only when the robot has been driven, a stand-in of the same times.
 TrajectorySpec flown_trajectory(const Scenario& scenario);
 
 // Whether settling keeps who moved when: track.bin.

@@ -214,6 +214,17 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
       .unit("s");
   k.value("trajectory.rest_at_ends", t.rest_at_ends,
           "It begins and ends standing still, and takes four times `smoothing` longer.");
+  k.group("trajectory.ride", "A robot carries the camera, and all that rides with it, instead of waypoints.");
+  k.value("trajectory.ride.robot", t.ride.robot,
+          "Its name; frames are taken as long as it is driven.");
+  k.value("trajectory.ride.link", t.ride.link, "Of the robot; not given: its first.");
+  k.value("trajectory.ride.position", t.ride.position,
+          "Of the rig in the link's frame: X forward, Y left, Z up.")
+      .between(-10, 10)
+      .unit("m");
+  k.value("trajectory.ride.rpy_deg", t.ride.rpy_deg, "Of the rig in the link's frame.")
+      .between(-360, 360)
+      .unit("degree");
   k.list("trajectory.waypoints", t.waypoints,
          "Where the camera passes, in order; one gives a single frame.");
   auto& list = t.waypoints;

@@ -3,10 +3,8 @@
 #include "kernel/base/portable_math.h"
 
 namespace rubble {
-namespace {
 
-// Rotation vectors: the logarithm of a unit quaternion with w >= 0, and back.
-Vec3 log_of(const Quat& q) {
+Vec3 rotation_vector(const Quat& q) {
   const double sign = q.w < 0 ? -1.0 : 1.0;
   const Vec3 v{sign * q.x, sign * q.y, sign * q.z};
   const double s = norm(v);
@@ -14,7 +12,7 @@ Vec3 log_of(const Quat& q) {
   return v * (2.0 * portable::atan2(s, sign * q.w) / s);
 }
 
-Quat exp_of(const Vec3& rotation) {
+Quat rotation_by(const Vec3& rotation) {
   const double angle = norm(rotation);
   if (angle < 1e-12)
     return normalized(Quat{1, 0.5 * rotation.x, 0.5 * rotation.y, 0.5 * rotation.z});
@@ -22,6 +20,8 @@ Quat exp_of(const Vec3& rotation) {
   const Vec3 v = rotation * (half.sin / angle);
   return {half.cos, v.x, v.y, v.z};
 }
+
+namespace {
 
 // Derivatives at the knots from the mean rate of each leg (Bessel's weights); zero at both ends of
 // a leg at rest, so that a pause is one.
@@ -82,7 +82,7 @@ RotationCurve::RotationCurve(std::vector<Quat> rotations, const std::vector<doub
     : rotations_(std::move(rotations)), times_(times), linear_(how == Interpolation::linear) {
   std::vector<Vec3> rates;
   for (std::size_t i = 0; i + 1 < rotations_.size(); ++i)
-    rates.push_back(log_of(rotations_[i].conjugate() * rotations_[i + 1]) *
+    rates.push_back(rotation_vector(rotations_[i].conjugate() * rotations_[i + 1]) *
                     (1.0 / (times[i + 1] - times[i])));
   rates_ = knot_rates(rates, times);
 }
@@ -91,24 +91,24 @@ RotationCurve::Bezier RotationCurve::bezier(std::size_t leg) const {
   const double h = times_[leg + 1] - times_[leg];
   const Vec3 first = rates_[leg] * (h / 3.0), last = rates_[leg + 1] * (h / 3.0);
   const Quat &a = rotations_[leg], &b = rotations_[leg + 1];
-  return {first, log_of((a * exp_of(first)).conjugate() * (b * exp_of(-last))), last};
+  return {first, rotation_vector((a * rotation_by(first)).conjugate() * (b * rotation_by(-last))), last};
 }
 
 Quat RotationCurve::at(std::size_t leg, double t) const {
   const double h = times_[leg + 1] - times_[leg], s = (t - times_[leg]) / h, r = 1.0 - s;
   if (linear_) return s == 0 ? rotations_[leg] : portable::slerp(rotations_[leg], rotations_[leg + 1], s);
   const Bezier z = bezier(leg);
-  return normalized(rotations_[leg] * exp_of(z.first * (1.0 - r * r * r)) *
-                    exp_of(z.middle * (s * s * (3.0 - 2.0 * s))) * exp_of(z.last * (s * s * s)));
+  return normalized(rotations_[leg] * rotation_by(z.first * (1.0 - r * r * r)) *
+                    rotation_by(z.middle * (s * s * (3.0 - 2.0 * s))) * rotation_by(z.last * (s * s * s)));
 }
 
 // Each factor turns about a fixed axis; what it adds is seen through the factors after it.
 Vec3 RotationCurve::angular_velocity(std::size_t leg, double t) const {
   const double h = times_[leg + 1] - times_[leg], s = (t - times_[leg]) / h, r = 1.0 - s;
-  if (linear_) return log_of(rotations_[leg].conjugate() * rotations_[leg + 1]) * (1.0 / h);
+  if (linear_) return rotation_vector(rotations_[leg].conjugate() * rotations_[leg + 1]) * (1.0 / h);
   const Bezier z = bezier(leg);
-  const Quat after_middle = exp_of(z.last * (s * s * s)).conjugate();
-  const Quat after_first = after_middle * exp_of(z.middle * -(s * s * (3.0 - 2.0 * s)));
+  const Quat after_middle = rotation_by(z.last * (s * s * s)).conjugate();
+  const Quat after_first = after_middle * rotation_by(z.middle * -(s * s * (3.0 - 2.0 * s)));
   return after_first.rotate(z.first * (3.0 * r * r / h)) +
          after_middle.rotate(z.middle * (6.0 * s * r / h)) + z.last * (3.0 * s * s / h);
 }

@@ -17,6 +17,10 @@ enum class Interpolation {
   linear,
 };
 
+// The logarithm of a unit quaternion, of the turn below half a round: axis times angle; and back. unit: rad
+Vec3 rotation_vector(const Quat& q);
+Quat rotation_by(const Vec3& rotation);
+
 // leg: between the times [leg] and [leg + 1]; t: within it; unit: s. The times must increase and
 // outlive the curve.
 class VectorCurve {

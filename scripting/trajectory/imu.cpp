@@ -15,7 +15,7 @@ Vec3 normal_vector(RandomStream& random) {
 
 }  // namespace
 
-Imu::Imu(const CameraPath& path, const ImuModel& model, double gravity, std::uint64_t seed,
+Imu::Imu(const MotionPath& path, const ImuModel& model, double gravity, std::uint64_t seed,
          std::int64_t epoch_ns, const std::optional<Pose>& rig_from_imu)
     : path_(path),
       model_(model),
@@ -32,6 +32,19 @@ ImuSample Imu::sample(std::int64_t index, std::int64_t stamp_ns) {
     acceleration_bias_ += normal_vector(walk_) * (model_.accelerometer_walk * step);
   }
   const double t = double(index) / model_.rate_hz;
+  const Reading exact = path_.is_simulated() ? read_mean(t) : read_at(t);
+  ImuSample s;
+  s.stamp_ns = stamp_ns;
+  s.angular_bias = angular_bias_;
+  s.acceleration_bias = acceleration_bias_;
+  s.angular_velocity =
+      exact.turn + angular_bias_ + normal_vector(noise_) * (model_.gyroscope_noise * density);
+  s.linear_acceleration = exact.felt + acceleration_bias_ +
+                          normal_vector(noise_) * (model_.accelerometer_noise * density);
+  return s;
+}
+
+Imu::Reading Imu::read_at(double t) const {
   const CameraMotion motion = path_.motion_at(t);
   Vec3 acceleration = motion.acceleration;
   if (rig_from_imu_) acceleration += lever_acceleration(t, motion);
@@ -42,15 +55,33 @@ ImuSample Imu::sample(std::int64_t index, std::int64_t stamp_ns) {
     const Quat imu_from_rig = rig_from_imu_->rotation.conjugate();
     turn = imu_from_rig.rotate(turn), felt = imu_from_rig.rotate(felt);
   }
-  ImuSample s;
-  s.stamp_ns = stamp_ns;
-  s.angular_bias = angular_bias_;
-  s.acceleration_bias = acceleration_bias_;
-  s.angular_velocity =
-      turn + angular_bias_ + normal_vector(noise_) * (model_.gyroscope_noise * density);
-  s.linear_acceleration =
-      felt + acceleration_bias_ + normal_vector(noise_) * (model_.accelerometer_noise * density);
-  return s;
+  return {turn, felt};
+}
+
+// As units report that integrate within themselves (angle and velocity increments over the period):
+//   w = log(R(t0)^T R(t1)) / (t1 - t0),  f = R(half way)^T ((v(t1) - v(t0)) / (t1 - t0) + g z)
+Imu::Reading Imu::read_mean(double t) const {
+  const double half = 0.5 / model_.rate_hz;
+  const double t0 = std::clamp(t - half, 0.0, path_.duration());
+  const double t1 = std::clamp(t + half, 0.0, path_.duration());
+  const Pose rig_from_imu = rig_from_imu_.value_or(Pose{});
+  const CameraMotion from = path_.motion_at(t0), to = path_.motion_at(t1);
+  const Quat start = from.world_from_camera.rotation * rig_from_imu.rotation;
+  const Quat end = to.world_from_camera.rotation * rig_from_imu.rotation;
+  Reading reading;
+  Vec3 acceleration;
+  const Vec3 turned = rotation_vector(start.conjugate() * end);
+  if (t1 > t0) {
+    const auto velocity = [&](const CameraMotion& m) {
+      return m.velocity +
+             m.world_from_camera.rotation.rotate(cross(m.angular_velocity, rig_from_imu.translation));
+    };
+    reading.turn = turned * (1 / (t1 - t0));
+    acceleration = (velocity(to) - velocity(from)) * (1 / (t1 - t0));
+  }
+  const Quat half_way = start * rotation_by(turned * 0.5);
+  reading.felt = half_way.conjugate().rotate(acceleration + Vec3{0, 0, gravity_});
+  return reading;
 }
 
 // In the world; unit: m/s2. Before its beginning and after its end the path stands still: there the

@@ -19,7 +19,8 @@ namespace rubble {
 //   angular velocity     w(t) + bias_w + n_w
 //   specific force       R(t)^T (a(t) + g z) + bias_a + n_a
 // turned into its axes; at a lever arm r on the rig a(t) has R (dw/dt x r + w x (w x r)) besides, with
-// dw/dt by a central difference over 0.2 ms. With white noise n of standard deviation density * sqrt(rate), and biases that start at 0 and
+// dw/dt by a central difference over 0.2 ms. Along a simulated path both are means over the period of a
+// reading, half before and half after t: what is integrated from them is the path, impacts included. With white noise n of standard deviation density * sqrt(rate), and biases that start at 0 and
 // take a step of walk / sqrt(rate) from sample to sample (the discrete form of a Wiener process;
 // e.g. Crassidis 2006, "Sigma-point Kalman filtering for integrated GPS and inertial navigation",
 // appendix). The streams of noise depend on the seed alone.
@@ -27,7 +28,7 @@ class Imu {
  public:
   // gravity: unit: m/s2. rig_from_imu: where it sits; nothing: where the rig is. `path` must outlive
   // the unit.
-  Imu(const CameraPath& path, const ImuModel& model, double gravity, std::uint64_t seed,
+  Imu(const MotionPath& path, const ImuModel& model, double gravity, std::uint64_t seed,
       std::int64_t epoch_ns, const std::optional<Pose>& rig_from_imu = {});
 
   // Of the sample that comes next.
@@ -39,10 +40,16 @@ class Imu {
   std::vector<ImuSample> take_until(std::int64_t stamp_ns);
 
  private:
+  // Without noise, in the unit's axes.
+  struct Reading {
+    Vec3 turn, felt;  // unit: rad/s, m/s2
+  };
   ImuSample sample(std::int64_t index, std::int64_t stamp_ns);
+  Reading read_at(double t) const;
+  Reading read_mean(double t) const;
   Vec3 lever_acceleration(double t, const CameraMotion& motion) const;
 
-  const CameraPath& path_;
+  const MotionPath& path_;
   ImuModel model_;
   double gravity_;
   std::optional<Pose> rig_from_imu_;

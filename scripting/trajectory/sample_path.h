@@ -8,7 +8,8 @@
 
 namespace rubble {
 
-// As sample_trajectory(), of the path of that trajectory. rate_hz: of the frames; unit: Hz; above 0.
-std::vector<CameraPose> sample_path(const CameraPath& path, double rate_hz, std::int64_t epoch_ns);
+// As sample_trajectory(), of the path of that trajectory, or of a ride. rate_hz: of the frames; unit: Hz;
+// above 0.
+std::vector<CameraPose> sample_path(const MotionPath& path, double rate_hz, std::int64_t epoch_ns);
 
 }  // namespace rubble

@@ -204,6 +204,8 @@ Waypoint default_view() {
   return w;
 }
 
+Pose Ride::link_from_rig() const { return {rotation_of(rpy_deg), position}; }
+
 std::vector<Diagnostic> find_mistakes(const TrajectorySpec& spec) { return Checker(spec).run(); }
 
 class CameraPath::Curves {
@@ -377,7 +379,7 @@ std::vector<CameraPose> sample_trajectory(const TrajectorySpec& spec, std::int64
   return sample_path(CameraPath(spec), spec.rate_hz, epoch_ns);
 }
 
-std::vector<CameraPose> sample_path(const CameraPath& path, double rate_hz, std::int64_t epoch_ns) {
+std::vector<CameraPose> sample_path(const MotionPath& path, double rate_hz, std::int64_t epoch_ns) {
   // A waypoint at 3.0 s gets its frame although 3.0 * 30 may round to just under 90.
   constexpr double kSlack = 1e-6;
   const auto last = static_cast<std::int64_t>(std::floor(path.duration() * rate_hz + kSlack));

@@ -13,11 +13,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
 #include "scripting/trajectory/curves.h"
+#include "scripting/trajectory/motion_path.h"
 #include "scripting/trajectory/smooth_path.h"
 #include "scripting/trajectory/time_scale.h"
 
@@ -39,6 +41,17 @@ struct VoidPlace {
   double distance = 1;            // unit: m; range: 0 to 100
   // Outside is what a sphere of this radius reaches from the sky; unit: m; range: 0.2 to 10
   double outside_radius = 2;
+};
+
+// A link of a robot that carries the cameras and all that rides with them.
+struct Ride {
+  std::string robot{};  // its name; empty: nothing is ridden, the camera flies
+  std::string link{};   // empty: the first, whose frame is the robot's
+  Vec3 position;        // of the rig, in the link's frame; unit: m; range: -10 to 10
+  Vec3 rpy_deg;         // of the rig, likewise; unit: degree
+
+  bool on() const { return !robot.empty(); }
+  Pose link_from_rig() const;
 };
 
 enum class Plan {
@@ -80,6 +93,7 @@ struct TrajectorySpec {
   // max_jerk and rest_at_ends. unit: s; range: 0 to 2
   std::optional<double> smoothing;
   bool rest_at_ends = false;  // of a smoothed path, see PathEnds
+  Ride ride;  // instead of all but rate_hz: the way is that of a robot
 
   // Whether it can be flown only over a settled pile: see app/planning/flight.h.
   bool needs_pile() const;
@@ -91,18 +105,17 @@ struct CameraPose {
 };
 
 // The camera's pose at any time, not only at the frames'.
-class CameraPath {
+class CameraPath : public MotionPath {
  public:
   // Throws InputError (find_mistakes), also for places in voids. The plan is not looked at.
   explicit CameraPath(const TrajectorySpec& spec);
-  ~CameraPath();
-  double duration() const;  // unit: s
+  ~CameraPath() override;
+  double duration() const override;  // unit: s
   double asked_duration() const;  // what it was before the limits slowed it down; unit: s
-  // t: s after the start; before it and after the end the camera stands still.
-  Pose at(double t) const;
-  // t: from 0 to the duration. Without smoothing the path is C1 at best, and the acceleration jumps
+  Pose at(double t) const override;
+  // Without smoothing the path is C1 at best, and the acceleration jumps
   // at waypoints.
-  CameraMotion motion_at(double t) const;
+  CameraMotion motion_at(double t) const override;
   // When each waypoint is passed, or where the path is smoothed, passed by; unit: s
   std::vector<double> waypoint_times() const;
   double smoothing() const { return smooth_ ? knot_ : 0; }  // as it was chosen; unit: s

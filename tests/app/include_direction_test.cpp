@@ -57,7 +57,7 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
 
 using Prefixes = std::vector<std::string>;
 
-const Prefixes kFloors{"kernel/", "render/", "io/", "scripting/", "assets/", "app/", "bench/"};
+const Prefixes kFloors{"kernel/", "render/", "io/", "scripting/", "assets/", "app/", "bench/", "python/"};
 
 // The first so many rooms of the kernel, from the ground up, and its base: each includes only what
 // is below it.
@@ -113,9 +113,9 @@ const Allowed kRender = stack(
     {"kernel/base/"});
 
 const Allowed kIo = stack(
-    {"io/base/", "io/image/", "io/mesh/", "io/state/", "io/recording/", "io/ros/", "io/mrpt/",
+    {"io/base/", "io/image/", "io/mesh/", "io/state/", "io/robot/", "io/recording/", "io/ros/", "io/mrpt/",
      "io/datasets/", "io/playback/", "io/live/"},
-    {"kernel/base/", "kernel/model/pile_state.h", "kernel/model/pile.h", "kernel/model/track.h",
+    {"kernel/base/", "kernel/model/pile_state.h", "kernel/model/pile.h", "kernel/model/track.h", "kernel/model/robot.h",
      "kernel/settling/settle_checkpoint.h", "render/scene/", "render/streams/image_streams.h"});
 
 const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/"},
@@ -129,14 +129,15 @@ const Allowed kScripting = stack(
 
 const Allowed kApp = stack(
     {"app/support/", "app/formats/", "app/provenance/", "app/assets/", "app/measures/",
-     "app/estimate/", "app/planning/", "app/sensors/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
+     "app/estimate/", "app/planning/", "app/sensors/", "app/robots/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
      "app/eval/scores/", "app/eval/sfm/", "app/eval/map/", "app/view/", "app/drive/", "app/command_line/",
      "app/commands/eval/", "app/commands/assets/", "app/commands/publish/", "app/commands/",
      "app/main.cpp"},
     {"kernel/", "render/", "io/", "scripting/", "assets/generator/"});
 
 const Allowed kTop{{"assets/generator/", {"assets/generator/", "kernel/base/"}},
-                   {"bench/", {"bench/", "kernel/", "render/", "io/", "scripting/", "app/"}}};
+                   {"bench/", {"bench/", "kernel/", "render/", "io/", "scripting/", "app/"}},
+                   {"python/", {"python/", "kernel/", "render/", "io/", "scripting/", "app/"}}};
 
 const Allowed& allowed_of(const std::string& file) {
   if (starts_with(file, "kernel/")) return kKernel;
@@ -208,6 +209,9 @@ const std::map<std::string, Prefixes> kDoors{
     {"EGL/", {"render/gl/"}},
     {"GL/", {"render/gl/"}},
     {"assimp/", {"io/mesh/mesh_file.cpp"}},
+    {"urdf_parser/", {"io/robot/urdf_reader.cpp"}},
+    {"console_bridge/", {"io/robot/urdf_reader.cpp"}},
+    {"pybind11/", {"python/"}},
     {"opencv2/", {"bench/images/picture_file.cpp", "io/image/", "io/recording/contact_sheet.cpp", "io/voids/void_picture.cpp"}},
     {"mrpt/", {"io/mrpt/", "io/playback/rawlog_pictures.cpp"}},
     {"rosbag/", {"io/ros/"}},
@@ -233,7 +237,7 @@ const std::map<std::string, Prefixes> kDoors{
     // The whole of it costs ten seconds in each unit: headers include json_fwd.hpp.
     {"nlohmann/json.hpp",
      {"app/batch/", "app/commands/", "app/drive/", "app/eval/", "app/pipeline/resolved_mission.cpp",
-      "app/pipeline/robot_files.cpp", "app/planning/flight.cpp", "app/provenance/", "app/report/",
+      "app/robots/robot_files.cpp", "app/planning/flight.cpp", "app/provenance/", "app/report/",
       "app/support/", "app/view/", "bench/",
       "io/datasets/frames_recorder.cpp", "io/mesh/glb_writer.cpp", "io/recording/recording.cpp",
       "io/voids/void_json.cpp", "scripting/reference/json_schema.cpp",

@@ -2,6 +2,8 @@
 // MCAP files; a scan that the true motion straightens lies on pile.stl.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -103,6 +105,23 @@ TriangleMesh read_stl(const std::string& path) {
   return mesh;
 }
 
+struct PcdPoint {
+  Vec3 place;
+  double time = 0;
+};
+
+std::vector<PcdPoint> read_pcd(const std::string& path) {
+  const std::string bytes = read_file(path);
+  std::vector<PcdPoint> points;
+  for (std::size_t at = bytes.find("DATA binary\n") + 12; at + 22 <= bytes.size(); at += 22) {
+    float f[3], time;
+    std::memcpy(f, bytes.data() + at, sizeof f);
+    std::memcpy(&time, bytes.data() + at + 18, sizeof time);
+    points.push_back({{double(f[0]), double(f[1]), double(f[2])}, double(time)});
+  }
+  return points;
+}
+
 struct MotionLine {
   double stamp;
   Pose world_from_lidar;
@@ -140,13 +159,10 @@ TEST_F(LidarRun, AScanStraightenedByTheTrueMotionLiesOnThePile) {
   int on_pile = 0;
   std::string name;
   for (double stamp; stamps >> stamp >> name;) {
-    const std::string bytes = read_file(file("pcd/top/" + name));
-    for (std::size_t at = bytes.find("DATA binary\n") + 12; at + 22 <= bytes.size(); at += 22 * 7) {
-      float f[4], time;
-      std::memcpy(f, bytes.data() + at, sizeof f);
-      std::memcpy(&time, bytes.data() + at + 18, sizeof time);
-      const Vec3 seen{double(f[0]), double(f[1]), double(f[2])};
-      const Vec3 world = straighten(motion, stamp + double(time), seen);
+    const std::vector<PcdPoint> points = read_pcd(file("pcd/top/" + name));
+    for (std::size_t i = 0; i < points.size(); i += 7) {
+      const Vec3& seen = points[i].place;
+      const Vec3 world = straighten(motion, stamp + points[i].time, seen);
       const auto closest = queries.find_closest(world, 1e9);
       worst = std::max(worst, closest->distance);
       on_pile += closest->piece == 0;
@@ -168,6 +184,51 @@ TEST_F(LidarRun, VerifyFindsTheSameAndScansAreAmongTheHashes) {
 TEST_F(LidarRun, InfoReadsEveryFile) {
   const Outcome info = run_rubble("info " + (*folder_ / "out"));
   EXPECT_EQ(info.exit_code, 0) << info.out << info.err;
+}
+
+// A rover drives away from a sensor that stands; the pose of its base at each time is in robots/rover.txt.
+TEST(LidarRobots, AreSeenWhereTheyAreAtTheTimeOfTheRay) {
+  const ScratchFolder folder;
+  write_file(folder / "m.lua", R"(
+return rubble.mission {
+  pile = { layers = 0 },
+  camera = { width = 64, height = 48 },
+  lidars = { top = { model = "os0", columns = 1024, noise = false, divergence_mrad = 0, range_step = 0 } },
+  robots = { rubble.robot.rover { name = "rover", position = { 1, 0, 0.001 }, drive = { { t = 0, linear = 1 } } } },
+  robot_run = { duration = 1.5 },
+  trajectory = { rate_hz = 5, waypoints = { { t = 0, position = { 0, 0, 0.4 } }, { t = 1, position = { 0, 0, 0.4 } } } },
+  outputs = { pcd = true },
+})");
+  const Outcome run = run_rubble("run " + (folder / "m.lua") + " --quiet --out " + (folder / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::istringstream lines(read_file(folder / "out/robots/rover.txt"));
+  std::vector<std::pair<double, double>> base;  // stamp, x
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream in(line);
+    double stamp, x;
+    if (in >> stamp >> x) base.emplace_back(stamp, x);
+  }
+  ASSERT_GT(base.size(), 20u);
+  const auto base_at = [&](double stamp) {
+    std::size_t i = 1;
+    while (i + 1 < base.size() && base[i].first < stamp) ++i;
+    const auto &a = base[i - 1], &b = base[i];
+    return a.second + (b.second - a.second) * (stamp - a.first) / (b.first - a.first);
+  };
+  // Its rear in the frame of its base, by the middle of what is seen straight ahead in each scan.
+  std::vector<double> rear;
+  for (int scan = 1; scan < 10; ++scan) {
+    double nearest = 1e9, time = 0;
+    for (const PcdPoint& p : read_pcd(folder / ("out/pcd/top/00000" + std::to_string(scan) + ".pcd")))
+      if (p.place.z > -0.35 && p.place.x > 0 && std::fabs(p.place.y) < 0.3 && p.place.x < nearest)
+        nearest = p.place.x, time = p.time;
+    ASSERT_LT(nearest, 3) << scan;
+    rear.push_back(nearest - base_at(1 + 0.1 * scan + time));
+  }
+  const auto [least, most] = std::minmax_element(rear.begin(), rear.end());
+  EXPECT_LT(*most - *least, 0.02) << "unit: m";  // wheels turn, and rays fall elsewhere on them
+  EXPECT_LT(*most, -0.1);
+  EXPECT_GT(base_at(1.9) - base_at(1.1), 0.3) << "it hardly moved";
 }
 
 TEST(LidarInput, MistakesAreNamed) {

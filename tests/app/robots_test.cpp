@@ -1,6 +1,12 @@
 // Robots of a mission, through the program.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "kernel/base/math.h"
 #include "tests/app/program.h"
 
 namespace rubble::testing {
@@ -35,6 +41,169 @@ TEST(Robots, AControllerThatReturnsNoNumberIsAMistakeWithItsLine) {
   const Outcome run = run_rubble("run " + (scratch / "m.lua") + kQuick + (scratch / "out"));
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_NE(run.err.find("m.lua:2: robots[1].control: linear"), std::string::npos) << run.err;
+}
+
+using Rows = std::vector<std::vector<double>>;
+
+// Numbers of a file, line by line; stamps as seconds. Lines that begin with anything else are left out.
+Rows read_rows(const std::string& path) {
+  Rows rows;
+  std::istringstream in(read_file(path));
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] < '0' || line[0] > '9') continue;
+    for (char& c : line) c = c == ',' ? ' ' : c;
+    std::istringstream numbers(line);
+    std::vector<double>& row = rows.emplace_back();
+    for (double value = 0; numbers >> value;) row.push_back(value);
+  }
+  return rows;
+}
+
+Vec3 vector_in(const std::vector<double>& row, std::size_t at) { return {row[at], row[at + 1], row[at + 2]}; }
+
+// scripts/robots/sensors.lua, with an inertial unit without noise.
+class CarriedSensors : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new ScratchFolder;
+    outcome_ = run_rubble(
+        "run scripts/robots/sensors.lua --quiet --set camera.width=48 --set camera.height=48"
+        " --set imu.gyroscope_noise=0 --set imu.gyroscope_walk=0 --set imu.accelerometer_noise=0"
+        " --set imu.accelerometer_walk=0 --set outputs.tum=true --out " + file(""));
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    folder_ = nullptr;
+  }
+  void SetUp() override { ASSERT_EQ(outcome_.exit_code, 0) << outcome_.err; }
+  static std::string file(const std::string& name) { return *folder_ / ("out/" + name); }
+
+  static ScratchFolder* folder_;
+  static Outcome outcome_;
+};
+ScratchFolder* CarriedSensors::folder_ = nullptr;
+Outcome CarriedSensors::outcome_;
+
+// The body of the camera is where the mount on the link is: 15 degrees nose down.
+TEST_F(CarriedSensors, TheCameraIsOnItsLink) {
+  std::map<long, Pose> base;
+  for (const auto& row : read_rows(file("robots/tank.txt")))
+    base[std::lround(row[0] * 1000)] = {{row[7], row[4], row[5], row[6]}, vector_in(row, 1)};
+  const double half = 7.5 * std::acos(-1) / 180;
+  const Pose mount{{std::cos(half), 0, std::sin(half), 0}, {0.3, 0, 0.3}};
+  int compared = 0;
+  double way = 0;
+  for (const auto& row : read_rows(file("euroc/mav0/state_groundtruth_estimate0/data.csv"))) {
+    const auto at = base.find(std::lround(row[0] * 1e-6));
+    if (at == base.end()) continue;
+    const Pose expected = at->second * mount;
+    EXPECT_LT(distance(expected.translation, vector_in(row, 1)), 1e-6) << row[0];
+    EXPECT_NEAR(std::abs(expected.rotation.w * row[4] + expected.rotation.x * row[5] +
+                         expected.rotation.y * row[6] + expected.rotation.z * row[7]), 1, 1e-9);
+    way = distance(expected.translation, {-1.5, 0, 0.3});
+    ++compared;
+  }
+  EXPECT_GT(compared, 50);
+  EXPECT_GT(way, 0.8) << "it was to drive";
+}
+
+// What an inertial unit without noise felt, integrated from the true start, is the way that the simulated
+// link went, over bricks and with their impacts.
+TEST_F(CarriedSensors, TheInertialUnitIntegratedFollowsTheTruePose) {
+  const Rows state = read_rows(file("euroc/mav0/state_groundtruth_estimate0/data.csv"));
+  const Rows imu = read_rows(file("euroc/mav0/imu0/data.csv"));
+  ASSERT_GT(state.size(), 50u);
+  Pose at{{state[0][4], state[0][5], state[0][6], state[0][7]}, vector_in(state[0], 1)};
+  Vec3 velocity = vector_in(state[0], 8);
+  std::size_t next = 0, compared = 0;
+  double worst = 0, turned = 0;
+  for (std::size_t i = 0; i + 1 < imu.size(); ++i) {
+    while (next < state.size() && state[next][0] < imu[i][0] - 1000) ++next;
+    if (next < state.size() && std::abs(state[next][0] - imu[i][0]) < 1000) {
+      worst = std::max(worst, distance(at.translation, vector_in(state[next], 1)));
+      ++compared;
+    }
+    const double h = (imu[i + 1][0] - imu[i][0]) * 1e-9;
+    const Vec3 rate = (vector_in(imu[i], 1) + vector_in(imu[i + 1], 1)) * (0.5 * h);
+    const double angle = norm(rate), scale = angle > 1e-12 ? std::sin(0.5 * angle) / angle : 0.5;
+    const Quat turn{std::cos(0.5 * angle), rate.x * scale, rate.y * scale, rate.z * scale};
+    const Quat after = normalized(at.rotation * turn);
+    const Vec3 force =
+        (at.rotation.rotate(vector_in(imu[i], 4)) + after.rotate(vector_in(imu[i + 1], 4))) * 0.5;
+    const Vec3 a = force - Vec3{0, 0, 9.81};
+    at.translation += velocity * h + a * (0.5 * h * h);
+    velocity += a * h;
+    at.rotation = after;
+    turned += angle;
+  }
+  EXPECT_GT(compared, 50u);
+  EXPECT_GT(turned, 1) << "the ride was to be rough";
+  EXPECT_LT(worst, 0.05) << "unit: m, after 6 s";
+}
+
+TEST_F(CarriedSensors, OdometryIsKeptBesideTheTruth) {
+  const Rows rows = read_rows(file("robots/tank_odometry.csv"));
+  ASSERT_EQ(rows.size(), 360u);  // 6 s at 60 Hz
+  EXPECT_NEAR(rows[60][4], 0.4, 1e-9) << "by the belts";
+  EXPECT_LT(rows[60][6], 0.41) << "the truth";
+  EXPECT_GT(rows[60][6], 0.3);
+  EXPECT_TRUE(std::filesystem::is_regular_file(file("robots/tank.urdf")));
+  EXPECT_TRUE(std::filesystem::is_regular_file(file("robots/tank_meshes/left_track_part_0.stl")));
+}
+
+TEST_F(CarriedSensors, TheRunIsVerified) {
+  const Outcome verified = run_rubble("verify " + file(""));
+  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+}
+
+TEST(Robots, ALinkThatIsNotThereIsAMistakeWithItsLine) {
+  const ScratchFolder scratch;
+  write_file(scratch / "m.lua",
+             "return rubble.mission { pile = { layers = 0 },\n"
+             "  robots = { rubble.robot.rover { name = \"r\", position = { 0, 0, 0.001 } } },\n"
+             "  trajectory = { ride = { robot = \"r\", link = \"mast\" } } }\n");
+  const Outcome run = run_rubble("run " + (scratch / "m.lua") + kQuick + (scratch / "out"));
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("m.lua:3: trajectory.ride.link: the robot has no such link: expected one of "
+                         "base_link, front_left_wheel"),
+            std::string::npos)
+      << run.err;
+}
+
+// A function that never returns is stopped by the sandbox; what is too much for a motor is a mistake.
+TEST(Robots, ControllersThatNeverReturnOrAskTooMuchAreMistakesWithTheirLine) {
+  const ScratchFolder scratch;
+  const struct {
+    const char *body, *expected;
+  } cases[] = {{"while true do end", "m.lua:3"},
+               {"return { torques = { 1e9 } }", "robots[1].control: torques"},
+               {"return { linear = 80 }", "robots[1].control: linear"},
+               {"return 5", "robots[1].control: what the function returns cannot be followed"},
+               {"error(\"no idea\")", "no idea"}};
+  for (const auto& c : cases) {
+    write_file(scratch / "m.lua",
+               std::string("return rubble.mission { pile = { layers = 0 },\n"
+                           "  robots = { rubble.robot.rover { position = { 0, 0, 0.001 }, control = "
+                           "function()\n") + c.body + "\nend } } }\n");
+    const Outcome run = run_rubble("run " + (scratch / "m.lua") + kQuick + (scratch / "out") + " --force");
+    EXPECT_EQ(run.exit_code, 1) << c.body;
+    EXPECT_NE(run.err.find(c.expected), std::string::npos) << c.body << "\n" << run.err;
+  }
+}
+
+TEST(Robots, ARobotInASlabIsAMistakeThatSaysWhereToPutIt) {
+  const ScratchFolder scratch;
+  write_file(scratch / "m.lua",
+             "return rubble.mission {\n"
+             "  pile = { layers = 0, placed = { { box = { 2, 2, 0.2 }, position = { 0, 0, 0.1 } } } },\n"
+             "  robots = { rubble.robot.rover {\n"
+             "    position = { 0, 0, 0.12 } } } }\n");
+  const Outcome run = run_rubble("run " + (scratch / "m.lua") + kQuick + (scratch / "out"));
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("m.lua:3: robots[1].position: "), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("stands 0.08"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("(piece 0)"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("move it by {0.000, 0.000, 0.08"), std::string::npos) << run.err;
 }
 
 }  // namespace

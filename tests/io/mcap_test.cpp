@@ -1,17 +1,17 @@
 // MCAP files through Foxglove's readers, and the CDR of every message against Fast-CDR's.
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
 #include <gtest/gtest.h>
 
 #include "io/base/atomic_file.h"
 #include "io/ros/mcap_recorder.h"
 #include "kernel/base/error.h"
+#include "tests/io/fast_cdr.h"
 #include "tests/io/ros_expectation.h"
 
 namespace rubble {
 namespace {
 
 using test::CommandResult;
+using test::FastCdr;
 using test::RosVariant;
 using test::ScratchFolder;
 
@@ -72,39 +72,6 @@ TEST(McapWriter, RefusesNegativeStamps) {
   EXPECT_THROW(mcap.write(channel, -1, ""), RunError);
   EXPECT_NO_THROW(mcap.write(channel, 0, ""));
 }
-
-// Messages as another library's code encodes them. Fast-CDR serializes std::array and std::vector
-// by itself; the fields are those of ROS 2's message files, in their order.
-class FastCdr {
- public:
-  FastCdr()
-      : buffer_(memory_.data(), memory_.size()),
-        cdr_(buffer_, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS, eprosima::fastcdr::Cdr::DDS_CDR) {
-    cdr_.serialize_encapsulation();
-  }
-
-  template <typename T>
-  FastCdr& operator<<(const T& value) {
-    cdr_ << value;
-    return *this;
-  }
-  FastCdr& stamp(std::int64_t ns) {
-    return *this << static_cast<std::int32_t>(ns / 1000000000)
-                 << static_cast<std::uint32_t>(ns % 1000000000);
-  }
-  FastCdr& header(const ros::Header& h) { return stamp(h.stamp_ns) << h.frame; }
-  FastCdr& vector(const Vec3& v) { return *this << v.x << v.y << v.z; }
-  FastCdr& pose(const Pose& p) {
-    const Quat& q = p.rotation;
-    return vector(p.translation) << q.x << q.y << q.z << q.w;
-  }
-  std::string bytes() const { return {buffer_.getBuffer(), cdr_.getSerializedDataLength()}; }
-
- private:
-  std::vector<char> memory_ = std::vector<char>(4096);  // zeros: Fast-CDR leaves padding as it is
-  eprosima::fastcdr::FastBuffer buffer_;
-  eprosima::fastcdr::Cdr cdr_;
-};
 
 constexpr ros::Version kRos2 = ros::Version::ros2;
 

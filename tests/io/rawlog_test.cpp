@@ -5,6 +5,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -179,6 +180,37 @@ double worst_distance(const std::string& points_file, std::size_t& count) {
 }
 
 // MRPT's own program builds a map of it.
+TEST(Rawlog, RobotsHaveOdometryAndTheirTruePose) {
+  const ScratchFolder folder;
+  RawlogOptions options;
+  options.recording.robots.resize(1);
+  options.recording.robots[0].name = "cart";
+  const auto recorder = make_rawlog_recorder(folder / "a.rawlog", options);
+  RobotSample sample;
+  sample.stamp_ns = make_frame(0).stamp_ns;
+  sample.world_from_base = {{0.8, 0, 0, 0.6}, {1, 2, 0.5}};
+  sample.odometry = RobotSample::Odometry{{{0.8, 0, 0, 0.6}, {0.5, -0.25, 0}}, 0.4, -0.2};
+  recorder->write_robot(sample);
+  recorder->write(make_frame(0));
+  recorder->finish();
+  const auto observations = read_rawlog(folder / "a.rawlog");
+  ASSERT_EQ(observations.size(), 4u);
+  const auto odometry =
+      std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observations[0]);
+  ASSERT_TRUE(odometry);
+  EXPECT_EQ(odometry->sensorLabel, "cart_odometry");
+  EXPECT_EQ(odometry->odometry.x(), 0.5);
+  EXPECT_EQ(odometry->odometry.y(), -0.25);
+  EXPECT_NEAR(odometry->odometry.phi(), 2 * std::atan2(0.6, 0.8), 1e-12);
+  EXPECT_TRUE(odometry->hasVelocities);
+  EXPECT_EQ(odometry->velocityLocal.vx, 0.4);
+  EXPECT_EQ(odometry->velocityLocal.omega, -0.2);
+  const auto truth = std::dynamic_pointer_cast<CObservationRobotPose>(observations[1]);
+  ASSERT_TRUE(truth);
+  EXPECT_EQ(truth->sensorLabel, "cart_ground_truth");
+  expect_pose(truth->pose.mean, sample.world_from_base);
+}
+
 TEST(Simplemap, Observations2mapPutsEveryPointOnTheScene) {
   ScratchFolder folder;
   const auto recorder = make_simplemap_recorder(folder / "mission.simplemap");

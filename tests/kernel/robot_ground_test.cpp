@@ -217,7 +217,7 @@ TEST(Rover, RollsAsItsWheelsTurn) {
   World world = make_robot_world();
   const RobotModel model = make_rover();
   const int robot = world.add_robot(model, {{}, {0, 0, 0.001}});
-  const auto forward = [&](double) { return drive_rover(model, {0.5, 0}); };
+  const auto forward = [&](double) { return drive_wheels(model, {0.5, 0}); };
   drive(world, robot, 1, forward);
   const double start = position_of(world, robot).x;
   const double turned = world.robot_state(robot).joints[0].position;

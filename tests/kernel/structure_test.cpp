@@ -109,6 +109,31 @@ TEST(Fragments, FillTheirBoxButForTheGaps) {
   EXPECT_NEAR(volume, 2 * 1.5 * 0.4, 1e-9);
 }
 
+TEST(Fragments, OfAColumnMeetOnSlopesThroughItsAxis) {
+  CutOptions options;
+  options.counts[2] = 3;
+  options.slope = 1.5;
+  RandomStream random(3, "test");
+  const Vec3 size{0.3, 0.3, 2.6};
+  int cuts = 0;
+  double volume = 0, steepest = 0;
+  for (const Fragment& fragment : cut_box(size, options, random)) {
+    volume += calc_volume_properties(ConvexPart{fragment.corners}).volume;
+    for (const FragmentFace& face : fragment.faces) {
+      if (face.neighbour < 0) continue;
+      ++cuts;
+      const Vec3& n = face.plane.normal;
+      const double slope = std::sqrt(n.x * n.x + n.y * n.y) / std::abs(n.z);
+      EXPECT_GT(slope, 0.5);
+      EXPECT_LT(std::abs(face.plane.offset / n.z), 1.3) << "it meets the axis inside of the box";
+      steepest = std::max(steepest, slope);
+    }
+  }
+  EXPECT_EQ(cuts, 4);
+  EXPECT_NEAR(steepest, 1.5, 1e-9);
+  EXPECT_NEAR(volume / (0.09 * 2.6), 1, 0.01);
+}
+
 TEST(Fragments, DependOnTheSeedAlone) {
   CutOptions cut;
   cut.counts[0] = 5;

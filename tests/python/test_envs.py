@@ -7,7 +7,7 @@ import unittest
 import numpy as np
 
 import rubble
-from rubble.envs import VoidExplore
+from rubble.envs import CrawlerNav, VoidExplore
 
 SMALL = {"size": 16, "max_steps": 12, "pile_seeds": range(1, 4)}
 
@@ -62,6 +62,43 @@ class Episodes(unittest.TestCase):
         self.assertEqual(play(env, 7), wanted)
 
 
+class Crawler(unittest.TestCase):
+    OPTIONS = {"max_steps": 10, "pile_seeds": [1, 2], "rays": 16}
+
+    def test_episodes_are_equal_whatever_came_before(self):
+        env = CrawlerNav(**self.OPTIONS)
+        first = {seed: play(env, seed) for seed in range(4)}
+        self.assertEqual(len(set(first.values())), 4)
+        for seed in (2, 0, 0, 3, 1):
+            self.assertEqual(play(env, seed), first[seed])
+        self.assertEqual(play(CrawlerNav(threads=2, **self.OPTIONS), 2), first[2])
+
+    def test_driving_ahead_comes_nearer_and_observations_are_in_their_space(self):
+        env = CrawlerNav(**self.OPTIONS)
+        observation, _ = env.reset(seed=1)
+        self.assertGreater(observation["scan"][0], 0.5)  # the pile is ahead
+        self.assertAlmostEqual(float(observation["tilt"][2]), 1, places=5)
+        start, total = float(observation["goal"][0]), 0.0
+        for _ in range(10):
+            self.assertTrue(env.observation_space.contains(observation))
+            observation, reward, terminated, truncated, info = env.step([1, 0, 0.5, 0])
+            total += reward
+        self.assertTrue(truncated and not terminated and not info["goal_reached"])
+        self.assertLess(float(observation["goal"][0]), start - 0.2)
+        self.assertAlmostEqual(total, start - float(observation["goal"][0]) - 0.1, places=4)
+
+    def test_a_goal_is_reached(self):
+        env = CrawlerNav(mission="return rubble.mission { pile = { layers = 0 } }", pile_seeds=[1], max_steps=400)
+        observation, _ = env.reset(seed=3)
+        for _ in range(400):
+            bearing = np.arctan2(observation["goal"][2], observation["goal"][1])
+            observation, reward, terminated, truncated, info = env.step([0.8, np.clip(2 * bearing, -1, 1), 0.5, 0.5])
+            if terminated or truncated:
+                break
+        self.assertTrue(info["goal_reached"])
+        self.assertGreater(reward, 9)
+
+
 class Rules(unittest.TestCase):
     def test_observations_are_in_their_space_and_the_body_keeps_its_distance(self):
         env = VoidExplore(**SMALL)
@@ -114,6 +151,7 @@ class Rules(unittest.TestCase):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             check_env(VoidExplore(**SMALL), skip_render_check=True)
+            check_env(CrawlerNav(**Crawler.OPTIONS), skip_render_check=True)
 
 
 if __name__ == "__main__":

@@ -83,6 +83,11 @@ class Robots(unittest.TestCase):
         self.assertEqual(states[0]["links"].tobytes(), states[1]["links"].tobytes())
 
     def test_commands_that_do_not_fit(self):
+        crawler = rubble.RobotWorld(self.pile, "crawler", rubble.pose([-2, 0, 0.005]))
+        for flippers in ([0, 0], [0, 0, 0, np.nan]):
+            with self.assertRaises(rubble.InputError) as raised:
+                crawler.drive(0.1, 0, flippers)
+            self.assertEqual(raised.exception.key, "flippers")
         robot = rubble.RobotWorld(self.pile, "snake", rubble.pose([-1, 0, 0.05]))
         for call, key in ((lambda: robot.drive(1), "drive"), (lambda: robot.set_joints([0]), "targets"),
                           (lambda: robot.set_joints([np.nan] * robot.joint_count), "targets"),

@@ -80,7 +80,7 @@ RgbImage draw(GlContext& context, const View& view, const std::function<void(Sce
   if (more) more(scene);
   RenderOptions options;
   options.threads = 2;
-  options.texture_size = 256;
+  options.texture_size = 256, options.bake_rays = 64;
   const char* cache = std::getenv("RUBBLE_CACHE");
   options.cache_folder = cache ? cache : "";
   Renderer renderer(context, scene, options);

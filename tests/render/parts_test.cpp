@@ -58,11 +58,53 @@ TEST(PrepareMesh, ClustersCoverEveryTriangleOnce) {
     }
   }
   EXPECT_EQ(next, prepared.triangles.size());
-  for (const PreparedVertex& v : prepared.vertices) {
+  ASSERT_GE(prepared.light_nodes.size(), prepared.vertices.size());
+  for (const LightNode& node : prepared.light_nodes) {
     float sum = 0;
-    for (float w : v.bake_weights) sum += w;
+    for (float w : node.weights) sum += w;
     EXPECT_NEAR(sum, 1, 1e-4);
   }
+}
+
+// What is linear over a face comes back from the nodes about any place of it, to rounding.
+TEST(LightNodes, AreInterpolatedExactlyOverAFace) {
+  SceneMesh mesh;
+  mesh.levels = {make_box({2, 1, 0.5})};
+  const PreparedMesh prepared = prepare_mesh(mesh);
+  ASSERT_GT(prepared.triangles[0].light_steps, 1u);
+  for (std::uint32_t t = 0; t < prepared.triangles.size(); ++t) {
+    for (int k = 0; k < 200; ++k) {
+      const float u = float(k % 20) / 19, v = (1 - u) * float(k / 20) / 9;
+      const auto& corners = prepared.triangles[t].vertices;
+      const Vec3f expected = prepared.vertices[corners[0]].position * (1 - u - v) +
+                             prepared.vertices[corners[1]].position * u + prepared.vertices[corners[2]].position * v;
+      const LightNodes nodes = find_light_nodes(prepared, t, u, v);
+      Vec3f found;
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_GE(nodes.weight[i], -1e-5f);
+        found += prepared.light_nodes[nodes.node[i]].position * nodes.weight[i];
+      }
+      EXPECT_LT(distance(found, expected), 1e-5f);
+    }
+  }
+}
+
+// Along a face light may have no steps: neighbouring nodes take it from nearly the same points.
+TEST(LightNodes, GoOverSmoothlyFromPointToPoint) {
+  SceneMesh mesh;
+  mesh.levels = {make_sphere(24)};
+  const PreparedMesh prepared = prepare_mesh(mesh);
+  const auto height = [&](const LightNode& node) {
+    float sum = 0;
+    for (std::size_t k = 0; k < 4; ++k) sum += node.weights[k] * prepared.bake_points[node.points[k]].position.z;
+    return sum;
+  };
+  for (const PreparedTriangle& t : prepared.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const LightNode& a = prepared.light_nodes[t.vertices[k]];
+      const LightNode& b = prepared.light_nodes[t.vertices[(k + 1) % 3]];
+      EXPECT_LT(std::fabs(height(a) - height(b)), 1.6f * distance(a.position, b.position));
+    }
 }
 
 TEST(Shader, ExpandsIncludesWithLineNumbers) {

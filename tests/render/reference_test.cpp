@@ -76,7 +76,7 @@ Scene block_of(const std::string& look) {
 TEST(Reference, KnowsTheSurfacesOfTheShader) {
   GlContext context;
   for (const SurfaceAppearance& look : all_surface_appearances()) {
-    if (look.gloss > 0 || look.name == std::string("ground")) continue;
+    if (look.name == std::string("ground")) continue;
     const auto draw = [&](RenderQuality quality) {
       RenderOptions options = reference(1);
       options.colour.quality = quality, options.bake = false;
@@ -91,7 +91,9 @@ TEST(Reference, KnowsTheSurfacesOfTheShader) {
       sum += double(fast.rgb[i]), off += std::fabs(double(fast.rgb[i]) - double(slow.rgb[i]));
     }
     EXPECT_GT(sum, 100) << look.name;
-    EXPECT_LT(off / sum, 0.02) << look.name;
+    // Rough mirrors by a fit here, by tables and exact shadowing there; most is mirrored by zinc.
+    const double limit = look.reflectance > 0.2f ? 0.13 : look.reflectance > 0 ? 0.08 : 0.02;
+    EXPECT_LT(off / sum, limit) << look.name;
   }
 }
 

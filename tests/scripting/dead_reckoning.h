@@ -16,7 +16,7 @@ struct DeadReckoning {
 };
 
 // Noise-free, at `rate_hz`, for at most `most_seconds`.
-inline DeadReckoning reckon(const CameraPath& path, double rate_hz = 200, double most_seconds = 10) {
+inline DeadReckoning reckon(const MotionPath& path, double rate_hz = 200, double most_seconds = 10) {
   constexpr double kGravity = 9.81;
   ImuModel model;
   model.rate_hz = rate_hz;

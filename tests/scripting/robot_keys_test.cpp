@@ -1,6 +1,9 @@
 // Robots of a mission: keys, constructors, functions as controllers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "kernel/base/error.h"
 #include "scripting/mission.h"
 
@@ -54,6 +57,23 @@ TEST(RobotKeys, MistakesAreNamedWithTheirLine) {
             std::string::npos);
 }
 
+TEST(RobotKeys, ARideTakesAsLongAsTheRobotIsDriven) {
+  const std::string robot = "robots = { rubble.robot.rover { name = \"r\" } }, robot_run = { duration = 3 }";
+  const Scenario s = scenario_of("return rubble.mission { " + robot + R"(,
+    trajectory = { rate_hz = 4, ride = { robot = "r", link = "base_link", position = { 0.2, 0, 0.3 },
+                                         rpy_deg = { 0, 0, 90 } } } })");
+  EXPECT_EQ(s.trajectory.ride.link, "base_link");
+  EXPECT_LT(norm(s.trajectory.ride.link_from_rig().rotation.rotate({1, 0, 0}) - Vec3{0, 1, 0}), 1e-12);
+  EXPECT_EQ(sample_trajectory(flown_trajectory(s), 0).size(), 13u);
+  EXPECT_EQ(scenario_to_json(scenario_from_json(scenario_to_json(s), "j")), scenario_to_json(s));
+  EXPECT_EQ(error_of("return rubble.mission { " + robot + ",\n  trajectory = { ride = { robot = \"x\" } } }"),
+            "m.lua:2: trajectory.ride.robot: no robot has this name: expected one of r, found \"x\"");
+  EXPECT_NE(error_of("return rubble.mission { " + robot +
+                     ", trajectory = { ride = { robot = \"r\" }, plan = \"avoid\" } }")
+                .find("trajectory.ride: a robot's way cannot be changed"),
+            std::string::npos);
+}
+
 TEST(RobotControl, AFunctionIsCalledAfterTheScriptHasEnded) {
   LuaSandbox sandbox(1, "rubble.mission");
   const Value table = sandbox.run(R"(local calls = 0
@@ -68,6 +88,73 @@ TEST(RobotControl, AFunctionIsCalledAfterTheScriptHasEnded) {
   const Value answer = sandbox.call_controller(1, sense);
   EXPECT_EQ(answer.find("linear")->number, 0.5);
   EXPECT_EQ(answer.find("angular")->number, 2);
+}
+
+// A vehicle that does what it is told, at 30 Hz: where it has been when it stops.
+struct Follower {
+  double x = 0, y = 0, yaw = 0;
+  double worst = 0;       // distance from the path; unit: m
+  bool stopped = false;
+  double corner = 1e9;    // nearest to (2, 1), the corner before the last leg; unit: m
+};
+
+double distance_to_leg(double x, double y, const Vec3& a, const Vec3& b) {
+  const Vec3 p{x, y, 0}, u = b - a;
+  const double s = std::clamp(dot(p - a, u) / dot(u, u), 0.0, 1.0);
+  return distance(p, a + u * s);
+}
+
+Follower follow(const std::string& options, const char* sensed) {
+  LuaSandbox sandbox(1, "rubble.mission");
+  sandbox.run("rubble.controller(rubble.robot.follow { path = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 0, 1 } }, " +
+                  options + " })\nreturn {}", "m.lua");
+  const Vec3 path[] = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};
+  Follower f;
+  const bool truth = std::string(sensed) == "truth";
+  for (int i = 0; i < 30 * 60 && !f.stopped; ++i) {
+    Value sense = Value::make_table(), place = Value::make_table(), position = Value::make_table();
+    for (const double value : {f.x, f.y, 0.0}) position.items.push_back(Value::make_number(value));
+    place.set("position", position);
+    place.set("x", Value::make_number(truth ? 7 : f.x));
+    place.set("y", Value::make_number(f.y));
+    place.set("yaw", Value::make_number(f.yaw));
+    sense.set(sensed, place);
+    const Value answer = sandbox.call_controller(1, sense);
+    const double linear = answer.find("linear")->number, angular = answer.find("angular")->number;
+    EXPECT_LE(std::abs(angular), 1 + 1e-12);
+    EXPECT_LE(linear, 0.3 + 1e-12);
+    f.stopped = linear == 0 && angular == 0;
+    f.yaw += angular / 30;
+    f.x += linear * std::cos(f.yaw) / 30, f.y += linear * std::sin(f.yaw) / 30;
+    double nearest = 1e9;
+    for (int k = 0; k < 3; ++k) nearest = std::min(nearest, distance_to_leg(f.x, f.y, path[k], path[k + 1]));
+    f.worst = std::max(f.worst, nearest);
+    f.corner = std::min(f.corner, std::hypot(f.x - 2, f.y - 1));
+  }
+  return f;
+}
+
+TEST(RobotFollow, StaysNearItsPathAndStopsAtTheEnd) {
+  for (const char* by : {"truth", "odometry"}) {
+    const Follower close = follow(std::string("lookahead = 0.2, by = \"") + by + "\"", by);
+    EXPECT_TRUE(close.stopped) << by;
+    EXPECT_NEAR(close.x, 0, 0.05) << by;
+    EXPECT_NEAR(close.y, 1, 0.05) << by;
+    EXPECT_LT(close.worst, 0.06) << by;
+    EXPECT_LT(close.corner, 0.08) << by << ": no corner is left out";
+  }
+  const Follower far = follow("lookahead = 0.5", "truth");
+  EXPECT_TRUE(far.stopped);
+  EXPECT_GT(far.corner, follow("lookahead = 0.2", "truth").corner) << "it cuts corners more";
+}
+
+TEST(RobotFollow, ARobotWithoutOdometryIsAMistake) {
+  LuaSandbox sandbox(1, "rubble.mission");
+  sandbox.run("rubble.controller(rubble.robot.follow { path = { { 0, 0 }, { 1, 0 } }, by = \"odometry\" })\n"
+              "return {}", "m.lua");
+  EXPECT_THROW(sandbox.call_controller(1, Value::make_table()), InputError);
+  EXPECT_NE(error_of("rubble.robot.follow { path = { { 0, 0 }, { 0, 0 } } }").find("path[2]"),
+            std::string::npos);
 }
 
 TEST(RobotControl, AFunctionThatDoesNotEndIsStopped) {

@@ -16,12 +16,11 @@ cut off (truncated) after max_steps.
 The pile of an episode is drawn from pile_seeds by the episode's own seed, which alone decides the episode:
 not those before it, nor the process, nor the threads. Piles are settled once and kept in memory.
 """
-import tempfile
-
 import numpy as np
 
 from .. import _core, geometry
 from ..sensors import DepthCamera
+from .settled import settle_text
 from .spaces import Box, Dict, Env
 
 MISSION = """
@@ -35,10 +34,7 @@ class _World:
     """A pile with the void that is explored, the way in and the cells to be seen."""
 
     def __init__(self, mission, seed, radius, voxel, threads):
-        with tempfile.NamedTemporaryFile("w", suffix=".lua") as script:
-            script.write(mission)
-            script.flush()
-            self.pile = _core.settle(script.name, seed, [], threads)
+        self.pile = settle_text(mission, seed, threads)
         voids = [v for v in self.pile.voids(radius, voxel) if v["entrances"]]
         self.void = voids[0] if voids else None
         if not self.void:

@@ -1,11 +1,14 @@
-#include "app/pipeline/robot_files.h"
+#include "app/robots/robot_files.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "io/base/atomic_file.h"
+#include "io/base/number_text.h"
+#include "io/mesh/mesh_file.h"
+#include "io/robot/urdf_writer.h"
 #include "io/state/track_file.h"
+#include "kernel/robot/looks.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -40,15 +43,6 @@ Json describe_robot(const std::string& name, const RobotModel& model, int first_
           {"lost", summary.lost}};
 }
 
-// The stamp in s with nine digits after the point, from integers.
-std::string stamp_text(std::int64_t start_ns, double time) {
-  const std::int64_t ns = start_ns + std::int64_t(time * 1e9 + 0.5);
-  char text[48];
-  std::snprintf(text, sizeof text, "%lld.%09lld", static_cast<long long>(ns / 1'000'000'000),
-                static_cast<long long>(ns % 1'000'000'000));
-  return text;
-}
-
 // Every sample, whether or not the base moved.
 std::string trajectory_text(const Track& track, int base, std::int64_t start_ns) {
   std::string text = "# stamp tx ty tz qx qy qz qw: the base frame in the world\n";
@@ -58,26 +52,25 @@ std::string trajectory_text(const Track& track, int base, std::int64_t start_ns)
     if (!motion) break;
     const Vec3& p = motion->world_from_body.translation;
     const Quat& q = motion->world_from_body.rotation;
-    text += stamp_text(start_ns, track.times[i]);
+    text += seconds_text(start_ns + std::int64_t(track.times[i] * 1e9 + 0.5));
     for (double number : {p.x, p.y, p.z, q.x, q.y, q.z, q.w}) text += " " + format_number(number);
     text += "\n";
   }
   return text;
 }
 
-std::string joints_text(const RobotModel& model, const JointLog& log, std::int64_t start_ns) {
+std::string joints_text(const RobotModel& model, const RobotLog& log) {
   std::string text = "stamp";
   for (const RobotJoint& joint : model.joints) {
     if (joint.motor.effort <= 0) continue;
     for (const char* what : {"position", "speed", "torque"}) text += "," + joint.name + "_" + what;
   }
   text += "\n";
-  for (std::size_t i = 0; i < log.times.size(); ++i) {
-    text += stamp_text(start_ns, log.times[i]);
+  for (const RobotSample& sample : log.samples()) {
+    text += seconds_text(sample.stamp_ns);
     for (std::size_t k = 0; k < model.joints.size(); ++k) {
       if (model.joints[k].motor.effort <= 0) continue;
-      const RobotState::Joint& joint = log.joints[i][k];
-      for (double number : {joint.position, joint.speed, joint.torque}) {
+      for (double number : {sample.positions[k], sample.speeds[k], sample.efforts[k]}) {
         text += "," + format_number(number);
       }
     }
@@ -86,20 +79,58 @@ std::string joints_text(const RobotModel& model, const JointLog& log, std::int64
   return text;
 }
 
+std::string odometry_text(const RobotLog& log) {
+  std::string text =
+      "stamp,x,y,yaw,linear,angular,true_linear,true_angular,left,right,slip_left,slip_right\n";
+  for (std::size_t i = 0; i < log.odometry().size(); ++i) {
+    const OdometryReading& o = log.odometry()[i];
+    text += seconds_text(log.samples()[i].stamp_ns);
+    for (double number : {o.x, o.y, o.yaw, o.linear, o.angular, o.true_linear, o.true_angular, o.left,
+                          o.right, o.slip_left(), o.slip_right()}) {
+      text += "," + format_number(number);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+void write_mesh(const std::string& path, const RobotLink& link) {
+  const TriangleMesh mesh = make_link_mesh(link, "");
+  write_stl(path, {{&mesh, 1, {}}});
+}
+
 }  // namespace
 
-std::vector<std::string> robot_file_names(const std::vector<std::string>& robots) {
+void write_robot_description(const std::string& folder, const std::string& name, const RobotModel& model) {
+  const std::string meshes = name + "_meshes";
+  std::error_code failed;  // what follows says so
+  std::filesystem::create_directories(folder + "/" + meshes, failed);
+  for (const RobotLink& link : model.links) {
+    if (link.parts.empty() && link.looks.triangles.empty()) continue;
+    write_mesh(folder + "/" + link_mesh_file(meshes, link.name), link);
+    for (std::size_t k = 0; k < link.parts.size(); ++k) {
+      RobotLink part;
+      part.parts = {link.parts[k]};
+      write_mesh(folder + "/" + part_mesh_file(meshes, link.name, k), part);
+    }
+  }
+  write_text_file(folder + "/" + name + ".urdf", robot_to_urdf(model, name, meshes));
+}
+
+std::vector<std::string> robot_file_names(const std::vector<std::string>& robots,
+                                          const std::vector<RobotModel>& models) {
   std::vector<std::string> names{"robots/track.bin", "robots/robots.json"};
-  for (const std::string& robot : robots) {
-    names.push_back("robots/" + robot + ".txt");
-    names.push_back("robots/" + robot + "_joints.csv");
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const std::string own = "robots/" + robots[i];
+    names.insert(names.end(), {own + ".txt", own + "_joints.csv", own + ".urdf", own + "_meshes"});
+    if (models[i].sides.any()) names.push_back(own + "_odometry.csv");
   }
   return names;
 }
 
 void write_robot_files(const std::string& folder, const std::vector<std::string>& names,
                        const std::vector<RobotModel>& models, const RobotRunResult& result,
-                       const std::vector<JointLog>& joints, std::int64_t start_ns) {
+                       const std::vector<RobotLog>& logs, std::int64_t start_ns) {
   std::error_code failed;  // what follows says so
   std::filesystem::create_directories(folder + "/robots", failed);
   save_track(result.track, folder + "/robots/track.bin");
@@ -108,7 +139,9 @@ void write_robot_files(const std::string& folder, const std::vector<std::string>
     const std::string path = folder + "/robots/" + names[i];
     list.push_back(describe_robot(names[i], models[i], result.first_piece[i], result.robots[i]));
     write_text_file(path + ".txt", trajectory_text(result.track, result.first_piece[i], start_ns));
-    write_text_file(path + "_joints.csv", joints_text(models[i], joints[i], start_ns));
+    write_text_file(path + "_joints.csv", joints_text(models[i], logs[i]));
+    if (models[i].sides.any()) write_text_file(path + "_odometry.csv", odometry_text(logs[i]));
+    write_robot_description(folder + "/robots", names[i], models[i]);
   }
   const Json all = {{"format", "rubble robots 1"},
                     {"pieces_moved", result.pieces_moved},

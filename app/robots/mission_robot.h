@@ -1,0 +1,40 @@
+// From a robot of a mission to its model: a bundled one, or one from a URDF file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/mesh/mesh_file.h"
+#include "kernel/model/robot.h"
+#include "scripting/scenario/robot_scenario.h"
+
+namespace rubble {
+
+// A frame on a link, such as a camera's: a link of a URDF file that is fixed to another.
+struct RobotFrame {
+  std::string name;
+  int link = 0;
+  Pose link_from_frame;
+};
+
+// A joint that a servo keeps at multiplier * q + offset of another.
+struct MimicJoint {
+  int joint = 0, of = 0;
+  double multiplier = 1, offset = 0;
+};
+
+struct MissionRobot {
+  RobotModel model;
+  std::vector<RobotFrame> frames;
+  std::vector<MimicJoint> mimics;
+  std::vector<std::string> warnings;  // of the file
+};
+
+// folders: where a URDF file is looked for. key: of the robot, "robots[1]". Throws InputError: no such file,
+// and what read_urdf and the making of the model find.
+MissionRobot make_mission_robot(const RobotItem& robot, const std::vector<std::string>& folders,
+                                const std::string& key, MeshImporter& importer);
+
+Pose calc_base_pose(const RobotItem& robot);
+
+}  // namespace rubble

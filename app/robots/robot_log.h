@@ -1,0 +1,41 @@
+// What one robot senses while it is driven, kept at the rate of its control.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/robots/mission_robot.h"
+#include "io/recording/recording.h"
+#include "kernel/robot/odometry.h"
+#include "kernel/robot/robot_run.h"
+#include "render/scene/robot_sample.h"
+
+namespace rubble {
+
+class RobotLog {
+ public:
+  // number: of the robot; start_ns: the stamp of its time 0. The model must outlive the log.
+  RobotLog(const RobotModel& model, int number, std::int64_t start_ns);
+
+  void note(const RobotSense& sense);
+
+  const std::vector<RobotSample>& samples() const { return samples_; }
+  const std::vector<OdometryReading>& odometry() const { return odometry_; }  // none, or one a sample
+  double mean_slip() const { return wheels_ ? wheels_->mean_slip() : 0; }
+
+ private:
+  const RobotModel* model_;
+  int number_;
+  std::int64_t start_ns_;
+  std::optional<WheelOdometry> wheels_;
+  std::vector<RobotSample> samples_;
+  std::vector<OdometryReading> odometry_;
+};
+
+// The robot for recorders. several: whether the mission has others.
+RobotRecord describe_robot(const MissionRobot& robot, const std::string& name,
+                           const Pose& world_from_base, bool several);
+
+}  // namespace rubble

@@ -1,0 +1,73 @@
+#include "kernel/robot/odometry.h"
+
+#include <cmath>
+
+#include "kernel/base/portable_math.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kStanding = 1e-3;  // slower, slip is no number; unit: m/s
+
+double slip_of(double surface, double ground) {
+  return std::abs(surface) < kStanding ? 0 : 1 - ground / surface;
+}
+
+double wrapped(double angle) {
+  if (angle > portable::kPi) return angle - 2 * portable::kPi;
+  return angle < -portable::kPi ? angle + 2 * portable::kPi : angle;
+}
+
+double yaw_of(const Quat& rotation) {
+  const Vec3 x = rotation.rotate({1, 0, 0});
+  return portable::atan2(x.y, x.x);
+}
+
+}  // namespace
+
+double OdometryReading::slip_left() const { return slip_of(left, true_left); }
+double OdometryReading::slip_right() const { return slip_of(right, true_right); }
+
+double WheelOdometry::way_of(const std::vector<int>& side, const RobotState& state, double dt) const {
+  double way = 0;
+  for (int i : side) {
+    const auto at = std::size_t(i);
+    way += model_->sides.belts
+               ? state.links[at].belt_speed * dt
+               : (state.joints[at].position - last_.joints[at].position) * model_->sides.radius;
+  }
+  return way / double(side.size());
+}
+
+OdometryReading WheelOdometry::update(const RobotState& state, double time) {
+  const Pose& base = state.links[0].world_from_link;
+  const double yaw = yaw_of(base.rotation), dt = time - time_;
+  if (started_ && dt > 0) {
+    OdometryReading& r = reading_;
+    const double half = 0.5 * model_->sides.distance;
+    const double left = way_of(model_->sides.left, state, dt);
+    const double right = way_of(model_->sides.right, state, dt);
+    const double way = 0.5 * (left + right), turn = 0.5 * (right - left) / half;
+    const auto [s, c] = portable::sincos(r.yaw + 0.5 * turn);
+    r.x += way * c, r.y += way * s;
+    r.yaw = wrapped(r.yaw + turn);
+    const double true_turn = wrapped(yaw - true_yaw_);
+    const auto [ts, tc] = portable::sincos(true_yaw_ + 0.5 * true_turn);
+    const double true_way =
+        (base.translation.x - place_.x) * tc + (base.translation.y - place_.y) * ts;
+    const double true_left = true_way - true_turn * half, true_right = true_way + true_turn * half;
+    slipped_ += std::abs(left - true_left) + std::abs(right - true_right);
+    ran_ += std::abs(left) + std::abs(right);
+    const double rate = 1 / dt;
+    r.linear = way * rate, r.angular = turn * rate;
+    r.left = left * rate, r.right = right * rate;
+    r.true_left = true_left * rate, r.true_right = true_right * rate;
+    r.true_linear = true_way * rate, r.true_angular = true_turn * rate;
+  }
+  started_ = true;
+  time_ = time, place_ = base.translation, true_yaw_ = yaw;
+  last_ = state;
+  return reading_;
+}
+
+}  // namespace rubble

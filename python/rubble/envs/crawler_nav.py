@@ -1,0 +1,120 @@
+"""rubble/CrawlerNav-v0: a tracked crawler in contact with a settled pile drives to a goal on the ground.
+
+Action: Box(-1, 1, (4,)): forwards (of `speed`), turning to the left (of `turn_rate`), and the front and the rear
+flippers (of 1.2 rad, positive raised), for `period` seconds.
+
+Observation: dict of
+  scan    (rays,) float32: distances to pile and ground all round, from 0.25 m above the base in its own plane,
+          counter-clockwise from straight ahead, max_range where nothing is nearer; m
+  goal    (3,) float32: distance (m), and cosine and sine of the bearing in the plane of the base
+  tilt    (3,) float32: what of the world's vertical lies along the base's X, Y, Z axis
+  joints  (4,) float32: angles of the flippers; rad
+  motion  (6,) float32: velocity of the base and its turning, in its own axes; m/s, rad/s
+
+Reward of a step: the metres that it came nearer to the goal, less 0.01, and 10 at the goal. The episode ends
+(terminated) within `reach` of the goal, when the base lies on its back or side, and when it left the world; it is
+cut off (truncated) after max_steps. info["goal_reached"] says which.
+
+The pile stands like rock, so that scans stay true. As in VoidExplore, the episode's seed alone decides it.
+"""
+import numpy as np
+
+from .. import _core, geometry
+from ..robots import RobotWorld
+from .settled import settle_text
+from .spaces import Box, Dict, Env
+
+MISSION = """
+return rubble.mission {
+  pile = { layers = 1, pieces_per_layer = 40, spawn_position = { 0, 0, 2 }, spawn_bounds = { 3, 3, 2 } },
+}
+"""
+_EYE = np.array([0.0, 0.0, 0.25])  # of the scan, in the base; m
+_MOST = 50.0                       # of a component of the observation that has no limit of its own
+
+
+class CrawlerNav(Env):
+    metadata = {"render_modes": []}
+
+    def __init__(self, mission=MISSION, pile_seeds=range(1, 4), speed=0.6, turn_rate=1.5, period=0.1, max_steps=600,
+                 reach=0.3, around=1.5, rays=64, max_range=8.0, threads=1, render_mode=None):
+        self.render_mode = render_mode
+        self._mission, self._seeds, self._threads = mission, [int(s) for s in pile_seeds], threads
+        self._speed, self._turn_rate, self._period = speed, turn_rate, period
+        self._max_steps, self._reach, self._around = max_steps, reach, around
+        self._max_range, self._robot, self._piles = max_range, None, {}
+        turns = 2 * np.pi * np.arange(rays) / rays
+        self._rays = np.stack([np.cos(turns), np.sin(turns), np.zeros(rays)], axis=1)
+        self.action_space = Box(-1.0, 1.0, (4,), np.float32)
+        self.observation_space = Dict({
+            "goal": Box(np.array([0, -1, -1]), np.array([2 * _MOST, 1, 1]), (3,), np.float32),
+            "joints": Box(-_MOST, _MOST, (4,), np.float32),
+            "motion": Box(-_MOST, _MOST, (6,), np.float32),
+            "scan": Box(0.0, max_range, (rays,), np.float32),
+            "tilt": Box(-1.0, 1.0, (3,), np.float32)})
+
+    def _find_pile(self, seed):
+        """The pile of that seed, and the radius of a circle about the origin that holds it."""
+        if seed not in self._piles:
+            pile = settle_text(self._mission, seed, self._threads)
+            vertices, _ = pile.mesh()
+            radius = float(np.linalg.norm(vertices[:, :2], axis=1).max()) if len(vertices) else 1.0
+            self._piles[seed] = pile, radius
+        return self._piles[seed]
+
+    def reset(self, *, seed=None, options=None):
+        super().reset(seed=seed)
+        pile_seed = int(self.np_random.choice(self._seeds))
+        self._pile, radius = self._find_pile(pile_seed)
+        # On one side of the pile, facing it; the goal on the other.
+        start, goal = self.np_random.uniform(-np.pi, np.pi), self.np_random.uniform(-1, 1)
+        ring = radius + self._around
+        self._goal = ring * np.array([-np.cos(start + goal), -np.sin(start + goal), 0])
+        base = geometry.pose([ring * np.cos(start), ring * np.sin(start), 0.005], (0, 0, start + np.pi))
+        self._robot = RobotWorld(self._pile, "crawler", base, fixed_debris=True, threads=self._threads)
+        self._state, self._steps = self._robot.state(), 0
+        self._distance = self._to_goal()[0]
+        return self._observe(), {"pile_seed": pile_seed, "goal_reached": False}
+
+    def step(self, action):
+        if self._robot is None:
+            raise RuntimeError("reset() comes before step()")
+        action = np.asarray(action, float)
+        if action.shape != (4,) or not np.all(np.isfinite(action)):
+            error = _core.InputError(f"action: expected 4 finite numbers: found {action!r}")
+            error.key = "action"
+            raise error
+        forwards, turning, front, rear = np.clip(action, -1, 1)
+        self._robot.drive(forwards * self._speed, turning * self._turn_rate, 1.2 * np.array([front, front, rear, rear]))
+        self._state = self._robot.step(self._period)
+        self._steps += 1
+        before, self._distance = self._distance, self._to_goal()[0]
+        reached = bool(self._distance < self._reach)
+        fallen = bool(self._tilt()[2] < 0.1 or self._state["lost"])
+        reward = before - self._distance - 0.01 + 10.0 * reached
+        truncated = self._steps >= self._max_steps
+        return self._observe(), float(reward), reached or fallen, truncated, {"goal_reached": reached}
+
+    def _base(self):
+        return geometry.matrix(self._state["links"][0])
+
+    def _tilt(self):
+        return self._base()[2, :3]
+
+    def _to_goal(self):
+        base = self._base()
+        away = base[:3, :3].T @ (self._goal - base[:3, 3])
+        flat = max(float(np.hypot(away[0], away[1])), 1e-9)
+        return float(np.linalg.norm(away)), away[0] / flat, away[1] / flat
+
+    def _observe(self):
+        base = self._base()
+        turned = base[:3, :3]
+        hits = self._pile.cast_rays((base[:3, 3] + turned @ _EYE)[None], self._rays @ turned.T, self._max_range)
+        state = self._state
+        motion = np.concatenate([turned.T @ state["linear_velocity"], turned.T @ state["angular_velocity"]])
+        return {"goal": np.array(self._to_goal(), np.float32).clip([0, -1, -1], [2 * _MOST, 1, 1]).astype(np.float32),
+                "joints": np.clip(state["joint_positions"][-4:], -_MOST, _MOST).astype(np.float32),
+                "motion": np.clip(motion, -_MOST, _MOST).astype(np.float32),
+                "scan": np.minimum(hits["distance"], self._max_range).astype(np.float32),
+                "tilt": np.clip(self._tilt(), -1, 1).astype(np.float32)}

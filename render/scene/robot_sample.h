@@ -1,0 +1,34 @@
+// What the sensors of a robot report: joint encoders, motor torques, contact switches, odometry.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "kernel/base/math.h"
+
+namespace rubble {
+
+struct RobotSample {
+  struct Wrench {
+    Vec3 force, moment;  // unit: N, N m
+  };
+  // Dead reckoning from belts or wheels.
+  struct Odometry {
+    Pose odom_from_base;             // level; unit: m
+    double linear = 0, angular = 0;  // forwards, counter-clockwise; unit: m/s, rad/s
+  };
+
+  std::int64_t stamp_ns = 0;
+  int sensor = 0;  // number among the recording's robots
+  // By joint of RobotRecord: of hinges rad, rad/s and N m, of sliders m, m/s and N. Efforts: of the motors.
+  std::vector<double> positions, speeds, efforts;
+  std::vector<Pose> parent_from_child;  // by joint: the child's frame at these positions; unit: m
+  std::vector<Wrench> contacts;  // by link: of all that touches it, in its frame, about its origin
+  std::optional<Odometry> odometry;
+  // The truth of its first link: in the world; unit: m; and its velocities in its own frame; unit: m/s, rad/s
+  Pose world_from_base;
+  Vec3 linear_velocity, angular_velocity;
+};
+
+}  // namespace rubble

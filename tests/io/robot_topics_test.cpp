@@ -1,0 +1,137 @@
+// What recordings say of robots, by readers that are not ours: ROS's rosbag, the npm reader of MCAP files,
+// Fast-CDR.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "io/base/atomic_file.h"
+#include "io/ros/mcap_recorder.h"
+#include "io/ros/rosbag_recorder.h"
+#include "kernel/base/portable_math.h"
+#include "tests/io/fast_cdr.h"
+#include "tests/io/support.h"
+
+namespace rubble {
+namespace {
+
+using test::FastCdr;
+using test::ScratchFolder;
+using Json = nlohmann::json;
+
+const Pose kStart{{0.8, 0, 0, 0.6}, {1, 2, 0.5}};
+
+// A body with a wheel and a welded mast; the camera rides on the mast.
+Recording robot_recording() {
+  Recording recording;
+  RobotRecord robot;
+  robot.name = "cart";
+  robot.links = {"base_link", "wheel", "mast"};
+  robot.joints = {{"wheel_joint", 0, 1, false}, {"mast_joint", 0, 2, true}};
+  robot.parent_from_child = {Pose{{}, {0.1, 0.2, 0}}, Pose{{}, {0, 0, 0.7}}};
+  robot.world_from_base = kStart;
+  robot.has_odometry = true;
+  robot.description = "<robot name=\"cart\"/>";
+  recording.robots = {robot};
+  recording.mount = RigMount{"mast", {{}, {0.05, 0, 0}}};
+  return recording;
+}
+
+RobotSample make_sample(int index) {
+  RobotSample s;
+  s.stamp_ns = test::make_frame(0).stamp_ns + index * 10'000'000;
+  s.positions = {0.25 * index, 0}, s.speeds = {1.5, 0}, s.efforts = {-0.75, 0};
+  s.parent_from_child = {Pose{portable::quat_from_rpy(0, 0.25 * index, 0), {0.1, 0.2, 0}},
+                         Pose{{}, {0, 0, 0.7}}};
+  s.contacts = {{}, {{1, 2, 30.5}, {-0.1, 0.2, 0.3}}, {}};
+  s.odometry = RobotSample::Odometry{{portable::quat_from_rpy(0, 0, 0.1), {0.5 * index, 0.25, 0}}, 0.5, 0.125};
+  s.world_from_base = kStart;
+  s.linear_velocity = {0.4, 0.01, 0}, s.angular_velocity = {0, 0, 0.1};
+  return s;
+}
+
+// Samples before, with and after frames.
+void record(Recorder& recorder) {
+  for (int i = 0; i < 3; ++i) recorder.write_robot(make_sample(i));
+  recorder.write(test::make_frame(0));
+  recorder.write_robot(make_sample(3));
+  recorder.write(test::make_frame(1));
+  recorder.finish();
+}
+
+RosOptions options() {
+  RosOptions options;
+  options.recording = robot_recording();
+  return options;
+}
+
+// What both readers print.
+void expect_robot(const Json& read) {
+  const RobotSample last = make_sample(3);
+  ASSERT_EQ(read["joints"].size(), 4U);
+  EXPECT_EQ(read["joints"][3]["name"], Json({"wheel_joint"})) << "welds have no state";
+  EXPECT_EQ(read["joints"][3]["position"], Json({last.positions[0]}));
+  EXPECT_EQ(read["joints"][3]["velocity"], Json({1.5}));
+  EXPECT_EQ(read["joints"][3]["effort"], Json({-0.75}));
+  ASSERT_EQ(read["odom"].size(), 4U);
+  EXPECT_EQ(read["odom"][3]["frame"], "odom");
+  EXPECT_EQ(read["odom"][3]["child"], "base_link");
+  EXPECT_EQ(read["odom"][3]["position"], Json({1.5, 0.25, 0.0}));
+  EXPECT_EQ(read["odom"][3]["linear"], Json({0.5, 0.0, 0.0}));
+  EXPECT_EQ(read["odom"][3]["angular"], Json({0.0, 0.0, 0.125}));
+  EXPECT_EQ(read["truth"][3]["frame"], "world");
+  EXPECT_EQ(read["truth"][3]["position"], Json({1.0, 2.0, 0.5}));
+  EXPECT_EQ(read["contacts"].size(), 12U) << "one a link and sample";
+  EXPECT_EQ(read["contacts"][10]["frame"], "wheel");
+  EXPECT_EQ(read["contacts"][10]["force"], Json({1.0, 2.0, 30.5}));
+  EXPECT_EQ(read["contacts"][10]["torque"], Json({-0.1, 0.2, 0.3}));
+  EXPECT_EQ(read["description"], Json({"<robot name=\"cart\"/>"}));
+  // Every frame has one parent, and every way leads to the world.
+  const Json parents = {{"base_link", "odom"},      {"wheel", "base_link"},
+                        {"mast", "base_link"},      {"odom", "world"},
+                        {"camera_link", "mast"},    {"camera_optical_frame", "camera_link"}};
+  EXPECT_EQ(read["parents"], parents);
+}
+
+TEST(RobotTopics, RosbagReadsThemWithTheSumsOfTheirDefinitions) {
+  const ScratchFolder folder;
+  record(*make_rosbag_recorder(folder / "a.bag", options()));
+  const test::CommandResult read = test::run_command(
+      std::string(RUBBLE_PYTHON) + " " + RUBBLE_SOURCE_DIR + "/tests/io/read_robots.py " + (folder / "a.bag"));
+  ASSERT_EQ(read.exit_code, 0) << read.output;
+  expect_robot(Json::parse(read.output));
+}
+
+TEST(RobotTopics, TheReaderOfMcapFilesReadsThemByTheirSchemas) {
+  const ScratchFolder folder;
+  record(*make_mcap_recorder(folder / "a.mcap", options()));
+  const test::CommandResult read = test::run_node("read_robots.mjs", folder / "a.mcap");
+  ASSERT_EQ(read.exit_code, 0) << read.output;
+  expect_robot(Json::parse(read.output));
+}
+
+class RobotCdr : public testing::TestWithParam<std::string> {
+ protected:
+  static constexpr ros::Version kRos2 = ros::Version::ros2;
+  ros::Header header_{7, 1'700'000'000'123'456'789, GetParam()};
+};
+
+TEST_P(RobotCdr, MessagesEqualFastCdr) {
+  const std::vector<std::string> names{"a", "wheel"};
+  const std::vector<double> q{0.5, -1}, u{2, 3}, effort{1e-3, 7};
+  FastCdr joints;
+  joints.header(header_) << names << q << u << effort;
+  EXPECT_EQ(ros::joint_state(kRos2, header_, names, q, u, effort), joints.bytes());
+  FastCdr odometry;
+  odometry.header(header_) << std::string("base_link");
+  odometry.pose(kStart) << std::array<double, 36>{};
+  odometry.vector({1, 2, 3}).vector({4, 5, 6}) << std::array<double, 36>{};
+  EXPECT_EQ(ros::odometry(kRos2, header_, "base_link", kStart, {1, 2, 3}, {4, 5, 6}), odometry.bytes());
+  EXPECT_EQ(ros::wrench_stamped(kRos2, header_, {1, 2, 3}, {4, 5, 6}),
+            FastCdr().header(header_).vector({1, 2, 3}).vector({4, 5, 6}).bytes());
+}
+
+INSTANTIATE_TEST_SUITE_P(Frames, RobotCdr,
+                         testing::Values("", "a", "ab", "abc", "abcd", "abcde", "abcdef", "abcdefg"));
+
+}  // namespace
+}  // namespace rubble

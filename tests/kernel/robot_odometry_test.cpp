@@ -1,0 +1,101 @@
+// Odometry of belts and wheels against the truth.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kernel/base/portable_math.h"
+#include "kernel/robot/odometry.h"
+#include "robot_scenes.h"
+
+namespace rubble {
+namespace {
+
+struct Ride {
+  OdometryReading last;
+  double mean_slip = 0, turned = 0;  // unit: 1, rad
+  Vec3 way;                          // of the base; unit: m
+};
+
+// On the level, or against a wall at x = 0.6.
+Ride ride(const RobotModel& model, const Twist& twist, double seconds, bool wall = false) {
+  World world = testing::make_robot_world({testing::box_type("wall", 0.2, 4, 1)});
+  if (wall) {
+    NewPiece piece;
+    piece.placement = {0, 1, {{}, {0.7, 0, 0.5}}, true};
+    world.add({piece});
+  }
+  const int robot = world.add_robot(model, {{}, {0, 0, 0.001}});
+  const bool crawler = model.sides.belts;
+  WheelOdometry odometry(model);
+  Ride result;
+  const Vec3 start = testing::position_of(world, robot);
+  double yaw = testing::yaw_of(world, robot);
+  testing::drive(world, robot, seconds, [&](double time) {
+    result.last = odometry.update(world.robot_state(robot), time);
+    const double now = testing::yaw_of(world, robot);
+    result.turned += std::remainder(now - yaw, 2 * portable::kPi);
+    yaw = now;
+    return crawler ? drive_crawler(model, twist, {}) : drive_wheels(model, twist);
+  });
+  result.mean_slip = odometry.mean_slip();
+  result.way = testing::position_of(world, robot) - start;
+  return result;
+}
+
+// Encoders alone: along an arc of 90 degrees, by steps of any length.
+TEST(Odometry, AnArcEndsWhereItDoes) {
+  const RobotModel model = make_rover();
+  for (const int steps : {3, 50}) {
+    WheelOdometry odometry(model);
+    RobotState state;
+    state.links.resize(model.links.size());
+    state.joints.resize(model.joints.size());
+    OdometryReading reading;
+    const double radius = 2, quarter = 0.5 * portable::kPi, half = 0.5 * model.sides.distance;
+    for (int i = 0; i <= steps; ++i) {
+      const double angle = quarter * i / steps;
+      for (int k : model.sides.left)
+        state.joints[std::size_t(k)].position = angle * (radius - half) / model.sides.radius;
+      for (int k : model.sides.right)
+        state.joints[std::size_t(k)].position = angle * (radius + half) / model.sides.radius;
+      reading = odometry.update(state, 0.1 * i);
+    }
+    // Each step goes along its chord's direction by the length of its arc.
+    const double tolerance = radius * quarter * quarter / (12.0 * steps * steps);
+    EXPECT_NEAR(reading.x, radius, tolerance);
+    EXPECT_NEAR(reading.y, radius, tolerance);
+    EXPECT_NEAR(reading.yaw, quarter, 1e-12);
+    EXPECT_NEAR(reading.linear, radius * quarter / (0.1 * steps), 1e-9);
+  }
+}
+
+TEST(Odometry, ARoverThatRollsStraightKnowsItsWay) {
+  const Ride straight = ride(make_rover(), {0.5, 0}, 4);
+  EXPECT_NEAR(straight.last.x, straight.way.x, 0.01 * straight.way.x);
+  EXPECT_NEAR(straight.last.yaw, 0, 0.02) << "its wheels slip a little while it lands";
+  EXPECT_LT(straight.mean_slip, 0.02);
+}
+
+// What skids sideways turns less than its tracks say: users report 60 %.
+TEST(Odometry, OnTheSpotTracksTurnFartherThanTheRobot) {
+  const Ride spot = ride(make_crawler(), {0, 0.5}, 6);
+  EXPECT_NEAR(spot.last.angular, 0.5, 1e-9) << "by the belts";
+  EXPECT_GT(spot.turned, 0.3);
+  EXPECT_LT(spot.turned, 0.7 * 0.5 * 6);
+  EXPECT_NEAR(spot.last.true_angular, spot.turned / 6, 0.05);
+  EXPECT_NEAR(spot.mean_slip, 1 - spot.turned / (0.5 * 6), 0.03);
+}
+
+TEST(Odometry, AgainstAWallAllIsSlip) {
+  CrawlerOptions options;
+  options.flippers = false;
+  options.friction = 0.3;  // too little to climb the wall
+  const Ride stuck = ride(make_crawler(options), {0.3, 0}, 6, true);
+  EXPECT_GT(stuck.last.x, 1.5) << "the belts went on";
+  EXPECT_LT(stuck.way.x, 0.4);
+  EXPECT_GT(stuck.last.slip_left(), 0.95);
+  EXPECT_LT(stuck.last.slip_left(), 1.05);
+}
+
+}  // namespace
+}  // namespace rubble

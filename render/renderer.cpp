@@ -44,6 +44,8 @@ RenderedView Renderer::view(const ViewRays& rays, const ViewRays* next) {
   return RenderedView(*source_, rays, next);
 }
 
+const Medium& Renderer::medium() const { return source_->scene.medium; }
+
 Frame Renderer::render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,
                        std::int64_t stamp_ns) {
   return render(pinhole_view(world_from_camera, intrinsics, stamp_ns), index);

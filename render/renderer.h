@@ -7,6 +7,7 @@
 
 #include "render/camera/view_rays.h"
 #include "render/gl/gl_context.h"
+#include "render/media/medium.h"
 #include "render/scene/frame.h"
 #include "render/scene/scene.h"
 #include "render/view/render_options.h"
@@ -35,6 +36,8 @@ class Renderer {
   // next: the view of the frame that follows, for streams that need it; null: none follows.
   // The renderer must outlive the view. Throws RunError: sizes or focal lengths out of range.
   RenderedView view(const ViewRays& rays, const ViewRays* next = nullptr);
+  // What hangs in the air of the scene, for sensors that are not cameras. Until the next restart().
+  const Medium& medium() const;
 
   // Colour and depth of a view, metered on the frame itself: a frame is the same whichever were drawn
   // before it. Distortion in `intrinsics` is not applied: it must be zero.

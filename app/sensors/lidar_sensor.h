@@ -5,16 +5,18 @@
 #include <memory>
 #include <vector>
 
+#include "render/media/medium.h"
 #include "render/scene/sample.h"
 #include "render/scene/scene.h"
 #include "scripting/scenario/scenario.h"
 
 namespace rubble {
 
-// flown: the scenario with the path that is flown. last_ns: no scan begins later. All share one tree of
-// the scene's triangles. Empty where the mission has no LiDAR.
+// flown: the scenario with the path that is flown. medium: what hangs in the air of the scene. last_ns: no
+// scan begins later. All share one tree of the scene's triangles. Empty where the mission has no LiDAR.
 std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const Scene& scene,
-                                                        std::uint64_t noise_seed, std::int64_t last_ns,
+                                                        const Medium& medium, std::uint64_t noise_seed,
+                                                        std::int64_t last_ns,
                                                         std::shared_ptr<const MotionPath> path, int threads);
 
 }  // namespace rubble

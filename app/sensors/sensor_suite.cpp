@@ -123,7 +123,8 @@ SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const S
   for (const std::vector<RobotSample>& samples : robots.samples)
     sensors_.push_back(std::make_unique<RobotSensor>(samples, last_ns));
   if (flown.imu.on) sensors_.push_back(std::make_unique<ImuSensor>(flown, begin.noise_seed, last_ns, flight.path));
-  for (auto& lidar : make_lidar_sensors(flown, scene, begin.noise_seed, last_ns, flight.path, threads))
+  for (auto& lidar : make_lidar_sensors(flown, scene, renderer.medium(), begin.noise_seed, last_ns,
+                                        flight.path, threads))
     sensors_.push_back(std::move(lidar));
   for (auto& camera : cameras) sensors_.push_back(std::move(camera));
 }

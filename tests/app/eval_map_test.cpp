@@ -147,8 +147,10 @@ TEST_F(EvalMap, CountsWhatAnyOfSeveralCamerasSaw) {
   };
   const std::string front = "front = { width = 64, height = 64, fov_deg = 90 }";
   const nlohmann::json single = score("whole.ply"), alone = score_of(front);
-  for (const auto& [key, value] : single.items())
-    if (key != "name") EXPECT_EQ(alone.at(key), value) << key;
+  for (const auto& [key, value] : single.items()) {
+    if (key == "name") continue;
+    EXPECT_EQ(alone.at(key), value) << key;
+  }
   const nlohmann::json both =
       score_of(front + ", back = { width = 32, height = 32, fov_deg = 90, rpy_deg = { 0, 0, 180 } }");
   EXPECT_GT(number(both, "visible_m2"), number(single, "visible_m2") + 1);

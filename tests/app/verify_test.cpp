@@ -29,6 +29,7 @@ f 1 2 6 5
 f 2 3 7 6
 f 3 4 8 7
 f 4 1 5 8
+)";
 
 // The script, a file that it includes and its pack are gone or elsewhere.
 TEST(Verify, NeedsOnlyTheManifestAndThePacksContent) {

@@ -2,12 +2,6 @@
 
 namespace rubble::testing {
 
-WorldOptions awake_options() {
-  WorldOptions options;
-  options.sleeping = false;
-  return options;
-}
-
 AssemblyType make_chain(int count, double length, bool along_x, const JointType& joint) {
   AssemblyType chain;
   chain.name = "chain";

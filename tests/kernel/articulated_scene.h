@@ -3,15 +3,14 @@
 
 #include <cmath>
 
+#include "closed_forms.h"
 #include "kernel/world/world.h"
 #include "scenes.h"
 
 namespace rubble::testing {
 
-inline constexpr double kG = 9.81;
 inline const Quat kAboutY{std::sqrt(0.5), -std::sqrt(0.5), 0, 0};  // takes Z to Y
 
-WorldOptions awake_options();
 // `count` boxes of size x, y, z along -Z or X, joined end to end; link 0 is a small block.
 AssemblyType make_chain(int count, double length, bool along_x, const JointType& joint);
 JointType joint_of(JointKind kind);

@@ -13,6 +13,7 @@ namespace {
 constexpr float kPi = float(portable::kPi);
 constexpr int kDirections = 32;       // rays a probe
 constexpr double kMostProbes = 4000;  // about
+constexpr std::size_t kAlbedoTriangles = 200;  // about; of a mesh, that its albedo is looked up at
 constexpr double kLeastCell = 0.4;    // unit: m
 constexpr double kMargin = 0.8;       // around what moves; unit: m
 constexpr float kLowest = 0.05f;      // of a probe above the ground; unit: m
@@ -67,7 +68,7 @@ struct LiveLight::Hit {
 };
 
 LiveLight::LiveLight(const PreparedScene& scene, const LightSet& light,
-                     std::vector<BakedLight> resting, int threads)
+                     std::vector<BakedLight> resting, const AlbedoAt& albedo, int threads)
     : scene_(scene),
       light_(light),
       threads_(threads),
@@ -75,8 +76,30 @@ LiveLight::LiveLight(const PreparedScene& scene, const LightSet& light,
       directions_(sphere_directions()),
       resting_(std::move(resting)),
       out_(resting_) {
+  find_albedos(albedo);
   lay_out_grid();
   without_ = solve();
+}
+
+// As drawn, at a few places of each triangle; of meshes with many triangles of every second or so.
+void LiveLight::find_albedos(const AlbedoAt& albedo) {
+  std::vector<double> areas(all_surface_appearances().size(), 0);
+  albedos_.assign(areas.size(), {});
+  for (std::uint32_t piece = 0; piece < scene_.placed.size(); ++piece) {
+    const PreparedMesh& mesh = scene_.meshes[scene_.placed[piece].mesh];
+    const std::size_t stride = 1 + mesh.triangles.size() / kAlbedoTriangles;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); t += std::uint32_t(stride)) {
+      const PreparedTriangle& triangle = mesh.triangles[t];
+      const Vec3f& p0 = mesh.vertices[triangle.vertices[0]].position;
+      const float area = norm(cross(mesh.vertices[triangle.vertices[1]].position - p0,
+                                    mesh.vertices[triangle.vertices[2]].position - p0));
+      for (const auto& [u, v] : {std::pair(0.2f, 0.2f), {0.6f, 0.2f}, {0.2f, 0.6f}, {0.33f, 0.33f}})
+        albedos_[triangle.material] += albedo({piece, t}, u, v) * (area / 4);
+      areas[triangle.material] += double(area);
+    }
+  }
+  for (std::size_t i = 0; i < areas.size(); ++i)
+    if (areas[i] > 0) albedos_[i] *= float(1 / areas[i]);
 }
 
 LiveLight::~LiveLight() = default;
@@ -125,7 +148,6 @@ LiveLight::Grid LiveLight::solve() {
 }
 
 void LiveLight::trace(std::size_t probe, std::vector<Hit>& hits) const {
-  const std::vector<SurfaceAppearance>& looks = all_surface_appearances();
   const Vec3f from = point_of(probe);
   for (std::size_t r = 0; r < directions_.size(); ++r) {
     const RayScene::Hit met = rays_.cast(from, directions_[r], 0, kFarthest);
@@ -141,7 +163,7 @@ void LiveLight::trace(std::size_t probe, std::vector<Hit>& hits) const {
                              mesh.vertices[source.vertices[2]].position - p0);
     hit.normal = normalized(Vec3f(piece.world_from_mesh.rotation.rotate(Vec3(area))));
     hit.point = from + directions_[r] * met.distance + hit.normal * 0.01f;
-    hit.albedo = mean_albedo(looks[source.material]);
+    hit.albedo = albedos_[source.material];
     hit.direct = light_of(hit);
   }
 }

@@ -20,9 +20,9 @@ namespace rubble {
 class LiveLight {
  public:
   // scene: without anything that moves there. resting: the light of what rests, by first_light; what
-  // it holds for the rest does not count. Both scene and light must outlive it.
+  // it holds for the rest does not count. albedo: as the bake's. Both scene and light must outlive it.
   LiveLight(const PreparedScene& scene, const LightSet& light, std::vector<BakedLight> resting,
-            int threads);
+            const AlbedoAt& albedo, int threads);
   ~LiveLight();
 
   // Of every node of the scene as it stands now. A function of the scene alone: what was asked
@@ -35,6 +35,7 @@ class LiveLight {
   struct Hit;
   using Grid = std::vector<Probe>;
 
+  void find_albedos(const AlbedoAt& albedo);
   void lay_out_grid();
   Vec3f point_of(std::size_t probe) const;
   Grid solve();
@@ -52,6 +53,7 @@ class LiveLight {
   int threads_;
   RayScene rays_;
   std::vector<Vec3f> directions_;
+  std::vector<Vec3f> albedos_;  // mean over all that has a material, by material; unit: 1
   Vec3f origin_, cell_;      // of probe (0, 0, 0), and from probe to probe; unit: m
   int size_[3] = {2, 2, 2};  // probes along each axis
   std::vector<BakedLight> resting_, out_;

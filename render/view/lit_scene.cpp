@@ -19,6 +19,16 @@ float most_gloss(const PreparedScene& scene) {
   return most;
 }
 
+// The surfaces must outlive it.
+AlbedoAt drawn_albedo(const LookSurfaces& surfaces) {
+  return [&surfaces](const RayScene::Triangle& triangle, float u, float v) {
+    constexpr float kMeanOver = 0.1f;  // unit: m
+    SurfacePoint point;
+    surfaces.find({triangle, u, v, {0, 0, -1}, kMeanOver}, point);
+    return mean_albedo(point.reflection);
+  };
+}
+
 }  // namespace
 
 LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
@@ -39,10 +49,13 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
   air_light = std::move(baked.air);
   links_ = std::move(baked.links);
   geometry = upload_geometry(gl, scene, baked.nodes);
-  if (moving.any())
-    live_light = std::make_unique<LiveLight>(scene, light, std::move(baked.nodes), o.threads);
-  else
+  if (moving.any()) {
+    const LookSurfaces surfaces(scene, patterns, ground_map, s.wetness);
+    live_light = std::make_unique<LiveLight>(scene, light, std::move(baked.nodes),
+                                             drawn_albedo(surfaces), o.threads);
+  } else {
     baked_nodes_ = std::move(baked.nodes);
+  }
   shadow = std::make_unique<ShadowPass>(gl, scene, geometry, light, o.shadow_size);
   shadow->draw_moving();  // nothing yet
   frame_light = {&light, &shadow->map(), s.lamp, medium.clear(), s.wetness, most_gloss(scene)};
@@ -61,13 +74,7 @@ BakedScene LitScene::bake(double wetness, const std::function<void(double)>& pro
     bake.rays = options.bake_rays;
     bake.seed = seed;
     const LookSurfaces surfaces(part, patterns, ground_map, wetness);
-    const auto albedo = [&](const RayScene::Triangle& triangle, float u, float v) {
-      constexpr float kMeanOver = 0.1f;  // unit: m
-      SurfacePoint point;
-      surfaces.find({triangle, u, v, {0, 0, -1}, kMeanOver}, point);
-      return mean_albedo(point.reflection);
-    };
-    baked = bake_light_once(DiskCache(options.cache_folder), part, light, albedo,
+    baked = bake_light_once(DiskCache(options.cache_folder), part, light, drawn_albedo(surfaces),
                             surroundings_key({part, light, patterns, ground_map, wetness}), bake,
                             progress);
   } else {

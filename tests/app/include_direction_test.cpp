@@ -116,6 +116,7 @@ const Allowed kIo = stack(
     {"io/base/", "io/image/", "io/mesh/", "io/state/", "io/robot/", "io/recording/", "io/ros/", "io/mrpt/",
      "io/datasets/", "io/playback/", "io/live/"},
     {"kernel/base/", "kernel/model/pile_state.h", "kernel/model/pile.h", "kernel/model/track.h", "kernel/model/robot.h",
+     "kernel/model/assembly.h",
      "kernel/settling/settle_checkpoint.h", "render/scene/", "render/streams/image_streams.h"});
 
 const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/"},

@@ -34,6 +34,7 @@ void expect_tests(const std::string& file) {
 TEST(Python, PilesAnswer) { expect_tests("test_pile.py"); }
 TEST(Python, SensorsAndRobotsAnswer) { expect_tests("test_sensors.py"); }
 TEST(Python, DatasetsAreRead) { expect_tests("test_dataset.py"); }
+TEST(PythonDocument, RunsAsItIsWritten) { expect_tests("test_document.py"); }
 TEST(PythonEnvironments, RepeatTheirEpisodes) { expect_tests("test_envs.py"); }
 
 TEST(PythonTutorials, Run) {

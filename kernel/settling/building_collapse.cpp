@@ -14,7 +14,6 @@ constexpr double kSinkingStep = 0.05;  // each step is found by a solution of al
 
 }  // namespace
 
-
 BuildingCollapse::BuildingCollapse(World& world, const Pile& pile, const SettleOptions& options)
     : building_(pile.building),
       motion_(pile.building.cause, pile.building.seed, options.step),

@@ -104,7 +104,7 @@ void World::Impl::add_body(const NewPiece& piece, FreeBody* free) {
     body.awake = true;
     body.linear = Vec3f(piece.linear_velocity);
     body.angular = Vec3f(piece.angular_velocity);
-    body.still_pose = body.loose_pose = body.world_from_com;
+    body.still_pose = body.loose_pose = body.later_pose = body.world_from_com;
     *free = {body.mass, body.inertia, body.world_from_com, piece.linear_velocity,
              piece.angular_velocity};
   }

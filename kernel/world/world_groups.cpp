@@ -163,8 +163,8 @@ void World::Impl::form_group(const SplitPart& part, const Body& whole) {
   body.inverse_mass = float(1 / body.mass);
   body.inverse_inertia_local = to_float(inverse_of(body.inertia));
   body.awake = true;
-  body.still_pose = body.loose_pose = body.world_from_com;
-  body.still_steps = body.loose_steps = 0;
+  body.still_pose = body.loose_pose = body.later_pose = body.world_from_com;
+  body.still_steps = body.loose_steps = body.later_steps = 0;
 }
 
 // Gives the free ones of the new bodies coordinates and speeds: neighbours share a block.

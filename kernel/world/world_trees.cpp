@@ -106,7 +106,7 @@ void World::Impl::start_tree(const Tree& tree, const NewPiece& piece,
   mirror_state(number);
   for (const TreeLink& link : tree.links) {  // starts from where its joints put it, to the last bit
     Body& body = data.bodies[link.body];
-    body.still_pose = body.loose_pose = body.world_from_com;
+    body.still_pose = body.loose_pose = body.later_pose = body.world_from_com;
     body.touching = body.has_touched = tree.has_fixed_root() && body.mass > 0;
   }
 }

@@ -7,6 +7,7 @@
 #include "kernel/settling/collapse.h"
 #include "kernel/structure/frame_building.h"
 #include "kernel/structure/remaining_bars.h"
+#include "scenes.h"
 
 namespace rubble {
 namespace {
@@ -14,26 +15,12 @@ namespace {
 constexpr double kGravity = 9.81;
 
 PieceType make_box(const Vec3& size, double density) {
-  PieceType type;
-  type.name = "box";
+  PieceType type = testing::box_type("box", size.x, size.y, size.z);
   type.density = density;
-  ConvexPart part;
-  for (const double sx : {-0.5, 0.5}) {
-    for (const double sy : {-0.5, 0.5}) {
-      for (const double sz : {-0.5, 0.5}) part.points.push_back({sx * size.x, sy * size.y, sz * size.z});
-    }
-  }
-  type.parts = {part};
   return type;
 }
 
-NewPiece at(int type, const Vec3& place, bool fixed = false) {
-  NewPiece p;
-  p.placement.type = type;
-  p.placement.fixed = fixed;
-  p.placement.world_from_body.translation = place;
-  return p;
-}
+NewPiece at(int type, const Vec3& place, bool fixed = false) { return testing::at(type, place, {}, fixed); }
 
 // A row of plates between two walls hangs by its bars alone. The sag d opens the joints by 8 d^2 / (3 L) in
 // all; the weight gives W 2 d / 3 on its way, and the bars that yield take their force times their stretch.

@@ -6,6 +6,7 @@
 #include "kernel/base/error.h"
 #include "kernel/world/world.h"
 #include "kernel/world/world_snapshot.h"
+#include "scenes.h"
 
 namespace rubble {
 namespace {
@@ -13,26 +14,12 @@ namespace {
 constexpr double kGravity = 9.81, kStep = 1.0 / 60;
 
 PieceType make_box(const Vec3& size, double density) {
-  PieceType type;
-  type.name = "box";
-  ConvexPart part;
-  for (const double sx : {-0.5, 0.5}) {
-    for (const double sy : {-0.5, 0.5}) {
-      for (const double sz : {-0.5, 0.5}) part.points.push_back({sx * size.x, sy * size.y, sz * size.z});
-    }
-  }
-  type.parts = {part};
+  PieceType type = testing::box_type("box", size.x, size.y, size.z);
   type.density = density;
   return type;
 }
 
-NewPiece at(int type, const Vec3& place, bool fixed = false) {
-  NewPiece p;
-  p.placement.type = type;
-  p.placement.fixed = fixed;
-  p.placement.world_from_body.translation = place;
-  return p;
-}
+NewPiece at(int type, const Vec3& place, bool fixed = false) { return testing::at(type, place, {}, fixed); }
 
 // A box of 100 kg below a beam that does not move, on a bar of a metre.
 struct Hanging {

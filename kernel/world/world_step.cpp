@@ -15,7 +15,6 @@ namespace {
 // Who touches a piece, beside the number of the only one; see clamp_ejection_velocity().
 constexpr std::int32_t kNobody = -2, kSeveral = -3;
 constexpr int kMostSplits = 4;  // times in a step that contacts are solved anew as something broke; unit: 1
-constexpr float kOrderDistance = 0.1F;  // see sort_by_height(); unit: m
 
 class Stopwatch {
  public:

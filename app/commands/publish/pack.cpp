@@ -51,7 +51,7 @@ ExitCode pack(const PackRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_pack(CommandLine& line) {
   const auto request = std::make_shared<PackRequest>();
   line.add("folder", request->folder, "The output folder of a run").required();
   const Option card = line.add_flag("--card", request->card, "README.md: what the dataset is, and how to remake it");
@@ -69,7 +69,8 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command pack_command() {
-  return {"", "pack", "What a dataset needs to be handed on: checksums, card, settings", declare};
+  return {"", "pack", "What a dataset needs to be handed on: checksums, card, settings",
+          declare_pack};
 }
 
 }  // namespace rubble

@@ -85,6 +85,7 @@ struct Contact {
   std::int32_t body_a = 0, body_b = 0;  // b may be kGround
   int count = 0;                   // points in use
   bool has_normal = false;         // a search has found one before
+  bool rolls_a = false, rolls_b = false;  // A, B is round and turns fast; of this step, see rolling.h
   Vec3f way_out;                   // what the parts of two overlapping pieces agreed on; zero: none
   // Each vector and its number in a row, as the solver reads them.
   Vec3f normal;                    // unit length, from A to B; of the last search

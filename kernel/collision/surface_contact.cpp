@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernel/collision/manifold.h"
+#include "kernel/collision/rolling.h"
 #include "kernel/collision/surface_points.h"
 
 namespace rubble {
@@ -49,9 +50,11 @@ int make_clusters(const std::vector<SurfacePoint>& points, const PosedBody& a, f
                   Cluster (&clusters)[kSurfaceSlots]) {
   thread_local std::vector<Predicted> order;
   order.clear();
+  const bool round = !points.empty() && rolls(a, points[0].normal, step);
+  const Vec3f angular = round ? Vec3f{} : a.angular;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SurfacePoint& p = points[i];
-    const float speed = dot(p.normal, a.linear + cross(a.angular, p.position));
+    const float speed = dot(p.normal, a.linear + cross(angular, p.position));
     const float when = p.separation + step * speed;
     if (std::min(when, p.separation) < kPointMargin) order.push_back({when, std::int32_t(i)});
   }
@@ -128,8 +131,11 @@ void update_surface_contacts(Contact* const (&slots)[kSurfaceSlots], const Posed
   }
   for (int i = 0; i < count; ++i) {
     const Vec3f normal = -clusters[i].normal();
+    Contact& contact = *slots[slot_of[i]];
+    contact.rolls_a = rolls(a, normal, settings.step);
+    if (contact.rolls_a) carry_below_axis(clusters[i].manifold, normal, a.angular, {});
     reduce(clusters[i].manifold, normal, Contact::kMaxPoints);
-    store_points(*slots[slot_of[i]], clusters[i].manifold, normal, a);
+    store_points(contact, clusters[i].manifold, normal, a);
   }
 }
 

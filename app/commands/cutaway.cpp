@@ -195,11 +195,11 @@ Action declare(CommandLine& line) {
   const auto of = std::make_shared<FolderRequest>();
   const auto request = std::make_shared<CutawayRequest>();
   add_folder_options(line, *of);
-  line.add("--y", request->y, "Where the plane is that cuts across Y")
+  line.add("--y", request->y, "Position of the section plane on the Y axis")
       .shows_default()
       .metavar("METRES")
       .within(-1000.0, 1000.0);
-  line.add("--width", request->width, "Of the picture, in pixels").shows_default().between(200, 4000);
+  line.add("--width", request->width, "Width of the picture, in pixels").shows_default().between(200, 4000);
   line.add("--title", request->title, "Printed above the picture");
   line.add("--out", request->out, "The picture, .png or .jpg")
       .shows_default_text("FOLDER/cutaway.png")
@@ -210,7 +210,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command cutaway_command() {
-  return {"", "cutaway", "Draw a run's pile cut open, to scale", declare};
+  return {"", "cutaway", "Draw a section of a run's pile, to scale", declare};
 }
 
 }  // namespace rubble

@@ -85,7 +85,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command export_command() {
-  return {"", "export", "The pile of a finished run as STL, PLY, OBJ, glTF or SDF", declare};
+  return {"", "export", "Export the pile of a finished run as STL, PLY, OBJ, glTF or SDF", declare};
 }
 
 }  // namespace rubble

@@ -58,7 +58,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command render_command() {
-  return {"", "render", "Another mission's flight over the pile of a finished run", declare};
+  return {"", "render", "Render the flight of another mission over the pile of a finished run", declare};
 }
 
 }  // namespace rubble

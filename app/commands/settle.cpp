@@ -20,6 +20,6 @@ Action declare(CommandLine& line) {
 
 }  // namespace
 
-Command settle_command() { return {"", "settle", "Settle the pile of a mission, nothing more", declare}; }
+Command settle_command() { return {"", "settle", "Settle the pile of a mission only", declare}; }
 
 }  // namespace rubble

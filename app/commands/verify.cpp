@@ -342,21 +342,21 @@ ExitCode verify_run(const VerifyRequest& request) {
 Action declare(CommandLine& line) {
   const auto request = std::make_shared<VerifyRequest>();
   add_folder_options(line, request->of);
-  line.add("--work", request->work, "Where to make the run anew")
+  line.add("--work", request->work, "Folder for the new run")
       .shows_default_text("$TMPDIR")
       .metavar("DIR");
   const Option keep =
-      line.add("--keep", request->keep, "Keep what is made anew: a new folder, as `rubble run` leaves it")
+      line.add("--keep", request->keep, "Keep the new run, in this new folder")
           .metavar("DIR");
-  line.add_flag("--pile-only", request->pile_only, "Settle again, but render nothing").excludes(keep);
-  line.add_flag("--json", request->json, "The result as JSON");
+  line.add_flag("--pile-only", request->pile_only, "Settle again, render nothing").excludes(keep);
+  line.add_flag("--json", request->json, "Print the result as JSON");
   return [request] { return verify_run(*request); };
 }
 
 }  // namespace
 
 Command verify_command() {
-  return {"", "verify", "Run again from the manifest alone, and compare every hash", declare};
+  return {"", "verify", "Run again from the manifest, and compare every hash", declare};
 }
 
 }  // namespace rubble

@@ -225,14 +225,14 @@ struct Request {
 Action declare(CommandLine& line) {
   const auto request = std::make_shared<Request>();
   line.add("pack", request->pack, "A folder with a pack.lua, or a bundled pack").required();
-  line.add_flag("--json", request->json, "JSON instead of a table");
+  line.add_flag("--json", request->json, "Print JSON instead of a table");
   return [request] { return check_pack(request->pack, request->json); };
 }
 
 }  // namespace
 
 Command assets_check_command() {
-  return {"assets", "check", "Say what is sound in a pack: closed meshes, masses, how well the parts fit", declare};
+  return {"assets", "check", "Check a pack: closed meshes, masses, fit of the collision parts", declare};
 }
 
 }  // namespace rubble

@@ -148,10 +148,10 @@ Action declare(CommandLine& line) {
   line.add("map", request->map, "The map: a mesh or point cloud, PLY").required();
   line.add("dataset", request->dataset, "Output folder of the run it was made from").required();
   line.add("--align", request->align,
-           "The COLMAP model whose frame the map has, brought to the world by a similarity")
+           "The COLMAP model whose frame the map has; the map is transformed by a similarity")
       .shows_default_text("the map is in the world of the dataset")
       .metavar("DIR");
-  line.add("--range", request->range, "Farther than this no frame sees")
+  line.add("--range", request->range, "Largest distance at which frames see a surface")
       .shows_default_text("the depth sensor's range, or 10")
       .metavar("METRES")
       .within(0.01, 1000.0);
@@ -160,7 +160,7 @@ Action declare(CommandLine& line) {
            "Write there the map by its errors and the seen surface by what the map has of it "
            "(PLY), and the entrances (CSV)")
       .metavar("DIR");
-  add_packs_option(line, request->asset_packs, "A folder where packs may be now");
+  add_packs_option(line, request->asset_packs, "A folder with packs, if they were moved");
   add_score_options(line, request->output);
   add_threads_option(line, request->options.threads);
   add_quiet_option(line, request->options.quiet);
@@ -170,7 +170,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command eval_map_command() {
-  return {"eval", "map", "A map against the surface that its run saw, and the voids it found", declare};
+  return {"eval", "map", "Score a map: visible surface, voids, entrances", declare};
 }
 
 }  // namespace rubble

@@ -30,7 +30,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command completion_command() {
-  return {"", "completion", "Print what a shell needs to complete commands, options and keys", declare};
+  return {"", "completion", "Print a script with which a shell completes commands, options and keys", declare};
 }
 
 }  // namespace rubble

@@ -54,13 +54,13 @@ ExitCode pack(const PackRequest& request) {
 Action declare(CommandLine& line) {
   const auto request = std::make_shared<PackRequest>();
   line.add("folder", request->folder, "The output folder of a run").required();
-  const Option card = line.add_flag("--card", request->card, "README.md: what the dataset is, and how to remake it");
+  const Option card = line.add_flag("--card", request->card, "Write README.md, a card that describes the dataset and how to make it again");
   line.add_flag("--settings", request->settings,
-                "settings/: for ORB-SLAM3, OpenVINS, Kalibr, RTAB-Map and evo");
-  line.add("--title", request->text.title, "Of the card")
+                "Write settings/ for ORB-SLAM3, OpenVINS, Kalibr, RTAB-Map and evo");
+  line.add("--title", request->text.title, "Title of the card")
       .shows_default_text("the script's name and the seed")
       .needs(card);
-  line.add("--licence", request->text.licence, "That the dataset is handed on under, as in CC-BY-4.0")
+  line.add("--licence", request->text.licence, "Licence of the dataset, as in CC-BY-4.0")
       .needs(card);
   line.add_flag("--force", request->force, "Replace the files of an earlier call");
   return [request] { return pack(*request); };
@@ -69,7 +69,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command pack_command() {
-  return {"", "pack", "What a dataset needs to be handed on: checksums, card, settings", declare};
+  return {"", "pack", "Prepare a dataset for publication: checksums, card, settings", declare};
 }
 
 }  // namespace rubble

@@ -12,14 +12,15 @@ constexpr float kRollingTurn = 0.1F;
 constexpr float kRoundness = 0.005F;
 // An axis nearer to the normal than this spins on the spot. The sine of 17 degrees; unit: 1
 constexpr float kLeastSine = 0.3F;
-// Directions that are looked at, a golden angle apart: no number of facets meets them all alike. unit: 1
+// Directions that are looked at, a golden angle apart: no number of facets meets them all alike.
+// unit: 1
 constexpr int kDirections = 24;
 constexpr float kGoldenCosine = -0.73736888F, kGoldenSine = 0.67549029F;  // unit: 1
 // Points of a wheel narrower than this are one. unit: m
 constexpr float kNarrow = 0.005F;
 
-// How far the corners reach, the mean of those on either side of the centre of mass along the axis: a body
-// that wobbles about its spin reaches as much farther at one end as less at the other.
+// How far the corners reach, the mean of those on either side of the centre of mass along the axis:
+// a body that wobbles about its spin reaches as much farther at one end as less at the other.
 float calc_reach(const PointSet& corners, const Vec3f& axis, const Vec3f& direction) {
   float ahead = -1e30F, behind = -1e30F;
   for (int i = 0; i < corners.count; ++i) {

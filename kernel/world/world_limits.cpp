@@ -11,13 +11,14 @@ namespace {
 
 // Who touches a piece, beside the number of the only one; see clamp_ejection_velocity().
 constexpr std::int32_t kNobody = -2, kSeveral = -3;
-// What find_rolling() knows of a piece: nothing; it rolls where it is touched; is also pressed where it does not.
+// What find_rolling() knows of a piece: nothing; it rolls where it is touched; is also pressed
+// where it does not.
 constexpr std::uint8_t kTouches = 0, kRolls = 1, kPushed = 2;
 
 }  // namespace
 
-// What a piece loses goes back to the only one that touches it, if that is as heavy: where two meet,
-// momentum is kept. With several, the one that squeezes is not known.
+// What a piece loses goes back to the only one that touches it, if that is as heavy: where two
+// meet, momentum is kept. With several, the one that squeezes is not known.
 void World::Impl::return_clamped_momentum(std::size_t piece, const Vec3f& speed) {
   const std::int32_t other = neighbour[piece];
   if (other < 0) return;
@@ -69,7 +70,8 @@ void World::Impl::clamp_ejection_velocity() {
     const float before = speed_before(data.bodies[i]);
     const float squeezed = std::max(before, kKickShare * fastest[i]) + kFreeKick;
     const float struck = fastest[i] + kFreeKick;  // one neighbour alone cannot squeeze
-    const float most = std::max(before, neighbour[i] == kSeveral ? std::min(squeezed, struck) : struck);
+    const float most =
+        std::max(before, neighbour[i] == kSeveral ? std::min(squeezed, struck) : struck);
     if (after <= most) continue;
     const float keep = most / after;
     return_clamped_momentum(i, outwards(velocities[i].linear) * (1 - keep));
@@ -86,7 +88,8 @@ float World::Impl::calc_lateness() const {
   return std::clamp((seconds - kPatience) / (kPatienceEnds - kPatience), 0.0F, 1.0F);
 }
 
-// The share of its spin that a piece keeps in a step of a verification that lasts. spin: its length.
+// The share of its spin that a piece keeps in a step of a verification that lasts. spin: its
+// length.
 float World::Impl::keep_of_late_spin(const Body& body, const Vec3f& angular, float spin) const {
   if (spin <= 0) return 1;
   const Vec3f axis = angular * (1 / spin);

@@ -11,17 +11,20 @@
 namespace rubble {
 namespace {
 
-// A tie that hangs through by more than this, and by what its ends may part in a step, is left out; unit: m.
+// A tie is left out of a step if it is slack by more than this and its ends cannot tighten it in the step;
+// unit: m.
 constexpr double kSlack = 0.02;
-constexpr double kSteps = 2;  // of such parting, as contacts may speed them up; unit: 1
-constexpr double kShortest = 1e-6;  // between anchors, for a direction; unit: m
+// The distance that the ends may move apart in a step is multiplied by this, because contacts may accelerate
+// them. unit: 1
+constexpr double kSteps = 2;
+constexpr double kShortest = 1e-6;  // shortest distance of the anchors that defines a direction; unit: m
 // The order of ties stays the same unless one moves by more than this; see sort_by_height(). unit: m
 constexpr float kOrderDistance = 0.1F;
-// Sideways a bent bar bears this share of its pull: 1 kN m of bars over 0.3 m bear most of what hangs on
-// them. Without it what hangs swings for ever. unit: 1
+// Share of its strength that a tie carries across its direction: bars with a moment of 1 kN m carry most of a
+// hanging piece over 0.3 m. Without it, hanging pieces swing without end. unit: 1
 constexpr float kSideways = 0.2F;
-constexpr double kMostError = 0.005;  // by which a tie may be too long without having yielded; unit: m
-constexpr float kYields = 0.999F;  // of what it may give in a substep; unit: 1
+constexpr double kMostError = 0.005;  // largest excess length of a tie that has not yielded; unit: m
+constexpr float kYields = 0.999F;  // a tie yields from this share of its largest impulse in a substep; unit: 1
 
 // The share of the step for which a tie pulls that is torn within it: what parts fast is gone after less
 // than a step, and must not give more than the energy of tearing. parting: speed; unit: m/s.

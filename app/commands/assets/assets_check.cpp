@@ -224,13 +224,13 @@ ExitCode check_pack(const std::string& pack_name, bool json) {
   return sound ? ExitCode::done : ExitCode::bad_input;
 }
 
-struct Request {
+struct AssetsCheckRequest {
   std::string pack;   // a folder with a pack.lua, or the name of a bundled one
   bool json = false;  // --json
 };
 
 Action declare_assets_check(CommandLine& line) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<AssetsCheckRequest>();
   line.add("pack", request->pack, "A folder with a pack.lua, or a bundled pack").required();
   line.add_flag("--json", request->json, "Print JSON instead of a table");
   return [request] { return check_pack(request->pack, request->json); };

@@ -231,7 +231,7 @@ Action declare_assets_show(CommandLine& line) {
       .shows_default()
       .between(64, 1024);
   line.add_flag("--collision", request->collision,
-                "Draw the convex parts that collide, each in a look of its own");
+                "Draw the convex collision parts, each with a look of its own");
   return [request] { return show_pack(request->pack, request->out, request->tile, request->collision); };
 }
 

@@ -21,13 +21,13 @@ std::string read_size(const std::string& text, DriveRequest& request) {
   return "";
 }
 
-Action declare(CommandLine& line) {
+Action declare_drive(CommandLine& line) {
   const auto request = std::make_shared<DriveRequest>();
   add_mission_options(line, request->of);
   add_seed_option(line, request->of);
-  line.add_read("--size",
-                [request](const std::string& text) { return read_size(text, *request); },
-                "Size of the colour image")
+  line.add_read(
+          "--size", [request](const std::string& text) { return read_size(text, *request); },
+          "Size of the colour image")
       .shows_default_text(std::to_string(request->width) + "x" + std::to_string(request->height))
       .metavar("WxH");
   line.add("--steps", request->steps, "Number of steps after which the drive ends")
@@ -50,7 +50,7 @@ Action declare(CommandLine& line) {
 
 Command drive_command() {
   return {"", "drive", "Fly the camera by hand in a window, and save the flight as a mission",
-          declare};
+          declare_drive};
 }
 
 }  // namespace rubble

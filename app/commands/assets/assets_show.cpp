@@ -215,14 +215,14 @@ ExitCode show_pack(const std::string& pack_name, const std::string& out, int til
   return ExitCode::done;
 }
 
-struct Request {
+struct AssetsShowRequest {
   std::string pack, out;  // as of `assets check`; --out; empty: NAME.png
   int tile = 288;         // --tile; unit: pixel
   bool collision = false;  // --collision
 };
 
-Action declare(CommandLine& line) {
-  const auto request = std::make_shared<Request>();
+Action declare_assets_show(CommandLine& line) {
+  const auto request = std::make_shared<AssetsShowRequest>();
   line.add("pack", request->pack, "A folder with a pack.lua, or a bundled pack").required();
   line.add("--out", request->out, "The picture, .png or .jpg")
       .shows_default_text("NAME.png")
@@ -238,7 +238,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command assets_show_command() {
-  return {"assets", "show", "Draw every asset of a pack on one sheet", declare};
+  return {"assets", "show", "Draw every asset of a pack on one sheet", declare_assets_show};
 }
 
 }  // namespace rubble

@@ -67,13 +67,13 @@ ExitCode eval_trajectory(const TrajectoryRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_eval_trajectory(CommandLine& line) {
   const auto request = std::make_shared<TrajectoryRequest>();
   line.add("estimate", request->estimate, "The estimate: a TUM or EuRoC file").required();
   line.add("truth", request->truth, "The truth: a TUM or EuRoC file").required();
-  line.add("--delta", request->delta, "Number of poses over which relative errors are computed").shows_default();
-  line.add("--max-difference", request->max_difference,
-           "Largest time difference of matched poses")
+  line.add("--delta", request->delta, "Number of poses over which relative errors are computed")
+      .shows_default();
+  line.add("--max-difference", request->max_difference, "Largest time difference of matched poses")
       .shows_default()
       .metavar("SECONDS")
       .non_negative();
@@ -84,7 +84,8 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command eval_trajectory_command() {
-  return {"eval", "trajectory", "Absolute and relative errors of a trajectory, as computed by evo", declare};
+  return {"eval", "trajectory", "Absolute and relative errors of a trajectory, as computed by evo",
+          declare_eval_trajectory};
 }
 
 }  // namespace rubble

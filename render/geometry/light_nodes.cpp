@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "render/geometry/dominant_direction.h"
 #include "render/geometry/point_grid.h"
 #include "render/geometry/prepared_mesh.h"
 
@@ -17,13 +18,6 @@ constexpr float kLeastCell = 0.04f, kMostCell = 0.1f;  // of space, one point ea
 constexpr float kCellShare = 0.4f;              // of the mesh's radius
 constexpr std::size_t kMostOrigins = 8;         // of a point
 constexpr float kAside = 0.3f;                  // of origins from their node; unit: a step
-
-int dominant_direction(const Vec3f& n) {
-  const float ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
-  if (ax >= ay && ax >= az) return n.x > 0 ? 0 : 1;
-  if (ay >= az) return n.y > 0 ? 2 : 3;
-  return n.z > 0 ? 4 : 5;
-}
 
 struct Corners {
   Corners(const PreparedMesh& mesh, const PreparedTriangle& t)

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "kernel/base/error.h"
+#include "render/geometry/dominant_direction.h"
 #include "render/geometry/mesh_refine.h"
 #include "render/materials/surface_appearance.h"
 
@@ -33,13 +34,6 @@ std::uint32_t morton(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     code |= ((x >> bit & 1u) << (3 * bit)) | ((y >> bit & 1u) << (3 * bit + 1)) |
             ((z >> bit & 1u) << (3 * bit + 2));
   return code;
-}
-
-int dominant_direction(const Vec3f& n) {
-  const float ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
-  if (ax >= ay && ax >= az) return n.x > 0 ? 0 : 1;
-  if (ay >= az) return n.y > 0 ? 2 : 3;
-  return n.z > 0 ? 4 : 5;
 }
 
 Vec3f face_normal(const PreparedMesh& mesh, const PreparedTriangle& t) {

@@ -9,7 +9,7 @@
 namespace rubble {
 namespace {
 
-Action declare(CommandLine& line) {
+Action declare_batch(CommandLine& line) {
   const auto request = std::make_shared<BatchRequest>();
   add_mission_options(line, request->of);
   line.add("--seeds", request->seeds, "The seeds, as in 1..1000 or 3,5,9").required();
@@ -33,7 +33,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command batch_command() {
-  return {"", "batch", "One mission with many seeds and values, and a table of them", declare};
+  return {"", "batch", "One mission with many seeds and values, and a table of them", declare_batch};
 }
 
 }  // namespace rubble

@@ -25,7 +25,7 @@ ExitCode check_mission(const RunRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_check(CommandLine& line) {
   const auto request = std::make_shared<RunRequest>();
   add_mission_options(line, *request);
   add_seed_option(line, *request);
@@ -39,7 +39,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command check_command() {
-  return {"", "check", "Print the complete scenario as JSON; run nothing", declare};
+  return {"", "check", "Print the complete scenario as JSON; run nothing", declare_check};
 }
 
 }  // namespace rubble

@@ -191,7 +191,7 @@ ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutawa
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_cutaway(CommandLine& line) {
   const auto of = std::make_shared<FolderRequest>();
   const auto request = std::make_shared<CutawayRequest>();
   add_folder_options(line, *of);
@@ -210,7 +210,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command cutaway_command() {
-  return {"", "cutaway", "Draw a run's pile cut open, to scale", declare};
+  return {"", "cutaway", "Draw a run's pile cut open, to scale", declare_cutaway};
 }
 
 }  // namespace rubble

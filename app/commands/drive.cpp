@@ -21,7 +21,7 @@ std::string read_size(const std::string& text, DriveRequest& request) {
   return "";
 }
 
-Action declare(CommandLine& line) {
+Action declare_drive(CommandLine& line) {
   const auto request = std::make_shared<DriveRequest>();
   add_mission_options(line, request->of);
   add_seed_option(line, request->of);
@@ -50,7 +50,7 @@ Action declare(CommandLine& line) {
 
 Command drive_command() {
   return {"", "drive", "Fly the camera by hand in a window; what is driven becomes a mission",
-          declare};
+          declare_drive};
 }
 
 }  // namespace rubble

@@ -63,7 +63,7 @@ ExitCode print_info(const InfoRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_info(CommandLine& line) {
   const auto request = std::make_shared<InfoRequest>();
   line.add_flag("--gl", request->gl, "Every EGL device, what it gives, which is chosen and why");
   add_device_option(line, request->gl_device);
@@ -78,7 +78,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command info_command() {
-  return {"", "info", "Print versions, the GL renderer and threads; or look over a dataset", declare};
+  return {"", "info", "Print versions, the GL renderer and threads; or look over a dataset", declare_info};
 }
 
 }  // namespace rubble

@@ -81,7 +81,7 @@ ExitCode remake(const RemakeRequest& request) {
   return same == ExitCode::done ? code : same;
 }
 
-Action declare(CommandLine& line) {
+Action declare_remake(CommandLine& line) {
   const auto request = std::make_shared<RemakeRequest>();
   line.add("manifest", request->manifest, "manifest.json of a run, or the folder that it is in")
       .required();
@@ -95,7 +95,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command remake_command() {
-  return {"", "remake", "Make a dataset again from its manifest alone", declare};
+  return {"", "remake", "Make a dataset again from its manifest alone", declare_remake};
 }
 
 }  // namespace rubble

@@ -44,7 +44,7 @@ ExitCode render_finished_pile(const std::string& from, const RunRequest& request
   return complete(mission, folder, context);
 }
 
-Action declare(CommandLine& line) {
+Action declare_render(CommandLine& line) {
   const auto request = std::make_shared<RunRequest>();
   const auto from = std::make_shared<std::string>();
   line.add("folder", *from, "The output folder of the run with the pile").required();
@@ -58,7 +58,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command render_command() {
-  return {"", "render", "Another mission's flight over the pile of a finished run", declare};
+  return {"", "render", "Another mission's flight over the pile of a finished run", declare_render};
 }
 
 }  // namespace rubble

@@ -8,7 +8,7 @@
 namespace rubble {
 namespace {
 
-Action declare(CommandLine& line) {
+Action declare_settle(CommandLine& line) {
   const auto request = std::make_shared<RunRequest>();
   add_mission_options(line, *request);
   add_seed_option(line, *request);
@@ -20,6 +20,6 @@ Action declare(CommandLine& line) {
 
 }  // namespace
 
-Command settle_command() { return {"", "settle", "Settle the pile of a mission, nothing more", declare}; }
+Command settle_command() { return {"", "settle", "Settle the pile of a mission, nothing more", declare_settle}; }
 
 }  // namespace rubble

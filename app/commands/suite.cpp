@@ -9,7 +9,7 @@
 namespace rubble {
 namespace {
 
-Action declare(CommandLine& line) {
+Action declare_suite(CommandLine& line) {
   const auto request = std::make_shared<SuiteRequest>();
   line.add("suite", request->suite, "The suite, a Lua script").required();
   line.add("--out", request->out, "Output folder")
@@ -28,7 +28,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command suite_command() {
-  return {"", "suite", "Many missions with what is expected of them, for CI", declare};
+  return {"", "suite", "Many missions with what is expected of them, for CI", declare_suite};
 }
 
 }  // namespace rubble

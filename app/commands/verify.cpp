@@ -339,7 +339,7 @@ ExitCode verify_run(const VerifyRequest& request) {
   return is_equal(verification) ? ExitCode::done : ExitCode::differs;
 }
 
-Action declare(CommandLine& line) {
+Action declare_verify(CommandLine& line) {
   const auto request = std::make_shared<VerifyRequest>();
   add_folder_options(line, request->of);
   line.add("--work", request->work, "Where to make the run anew")
@@ -356,7 +356,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command verify_command() {
-  return {"", "verify", "Run again from the manifest alone, and compare every hash", declare};
+  return {"", "verify", "Run again from the manifest alone, and compare every hash", declare_verify};
 }
 
 }  // namespace rubble

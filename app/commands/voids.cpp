@@ -163,7 +163,7 @@ ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_voids(CommandLine& line) {
   const auto of = std::make_shared<FolderRequest>();
   const auto request = std::make_shared<VoidRequest>();
   add_folder_options(line, *of);
@@ -182,7 +182,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command voids_command() {
-  return {"", "voids", "Map the voids of a run's pile: entrances, volumes, widest ways", declare};
+  return {"", "voids", "Map the voids of a run's pile: entrances, volumes, widest ways", declare_voids};
 }
 
 }  // namespace rubble

@@ -96,7 +96,7 @@ bool solve(Simplex& s) {
   return s.size == 4 && solve_tetrahedron(s, false);
 }
 
-struct Search {
+struct SimplexSearch {
   const PointSet& a;
   const PointSet& b;
   Vec3f offset;
@@ -121,7 +121,7 @@ void store(const Simplex& s, GjkCache& cache) {
   }
 }
 
-GjkResult finish(const Search& search, const Simplex& s, const Vec3f& v, float v2) {
+GjkResult finish(const SimplexSearch& search, const Simplex& s, const Vec3f& v, float v2) {
   GjkResult result;
   result.distance = std::sqrt(v2);
   result.normal = v * (-1 / result.distance);
@@ -133,7 +133,7 @@ GjkResult finish(const Search& search, const Simplex& s, const Vec3f& v, float v
 }
 
 // False when the descent ended short of the closest points: the simplex was too flat for it.
-bool descend(const Search& search, float margin, GjkCache& cache, GjkResult& result) {
+bool descend(const SimplexSearch& search, float margin, GjkCache& cache, GjkResult& result) {
   Simplex s = search.start(cache), whole;
   result = {};
   Vec3f v;
@@ -189,7 +189,7 @@ int find_support(const PointSet& set, const Vec3f& direction) {
 
 GjkResult calc_distance(const PointSet& a, const PointSet& b, const Vec3f& offset, float margin,
                         GjkCache& cache) {
-  const Search search{a, b, offset};
+  const SimplexSearch search{a, b, offset};
   GjkResult result;
   if (descend(search, margin, cache, result)) return result;
   cache.size = 0;

@@ -21,7 +21,8 @@ inline constexpr float kSwingingSpin = 10.0F;             // unit: rad/s
 inline constexpr float kRollingLever = 0.001F;
 // Contacts spin a piece no faster than this, unless it turned faster before: then they add this much
 // a step at most. Arms are those of the step's start: what turns by more than half a radian in a step
-// is pushed where it no longer is, gains spin by it, and passes it on. unit: rad/s
+// is pushed where it no longer is, gains spin by it, and passes it on. Not for what rolls, see
+// kernel/collision/rolling.h. unit: rad/s
 inline constexpr float kFreeSpin = 30.0F, kSpinGain = 3.0F;
 
 }  // namespace rubble

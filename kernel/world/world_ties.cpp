@@ -15,8 +15,6 @@ namespace {
 constexpr double kSlack = 0.02;
 constexpr double kSteps = 2;  // of such parting, as contacts may speed them up; unit: 1
 constexpr double kShortest = 1e-6;  // between anchors, for a direction; unit: m
-// The order of ties stays the same unless one moves by more than this; see sort_by_height(). unit: m
-constexpr float kOrderDistance = 0.1F;
 // Sideways a bent bar bears this share of its pull: 1 kN m of bars over 0.3 m bear most of what hangs on
 // them. Without it what hangs swings for ever. unit: 1
 constexpr float kSideways = 0.2F;

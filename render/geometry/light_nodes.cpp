@@ -5,7 +5,6 @@
 #include <map>
 #include <tuple>
 
-#include "render/geometry/dominant_direction.h"
 #include "render/geometry/point_grid.h"
 #include "render/geometry/prepared_mesh.h"
 

@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "kernel/base/error.h"
-#include "render/geometry/dominant_direction.h"
 #include "render/geometry/mesh_refine.h"
 #include "render/materials/surface_appearance.h"
 
@@ -138,6 +137,13 @@ void append_level(const TriangleMesh& source, PreparedMesh& out) {
 }
 
 }  // namespace
+
+int dominant_direction(const Vec3f& n) {
+  const float ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
+  if (ax >= ay && ax >= az) return n.x > 0 ? 0 : 1;
+  if (ay >= az) return n.y > 0 ? 2 : 3;
+  return n.z > 0 ? 4 : 5;
+}
 
 PreparedMesh prepare_mesh(const SceneMesh& mesh) {
   PreparedMesh out;

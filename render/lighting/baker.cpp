@@ -12,7 +12,6 @@ namespace rubble {
 
 namespace {
 
-constexpr float kPi = float(portable::kPi);
 constexpr std::size_t kAlbedos = 4;  // nodes whose mean albedo is that of a point, at most
 constexpr std::size_t kChunk = 256;  // points a job
 using NodesOfPoint = std::vector<std::uint32_t>;
@@ -113,7 +112,7 @@ void Baker::find_albedos(const AlbedoAt& albedo) {
 
 void Baker::update_radiance() {
   for (std::size_t i = 0; i < points_.size(); ++i)
-    radiance_[i] = multiply(albedos_[i], points_[i].direct + points_[i].indirect) * (1 / kPi);
+    radiance_[i] = multiply(albedos_[i], points_[i].direct + points_[i].indirect) * (1 / portable::kPiF);
 }
 
 template <typename Work>

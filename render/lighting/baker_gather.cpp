@@ -4,7 +4,6 @@
 #include <map>
 
 #include "kernel/base/portable_math.h"
-#include "render/geometry/dominant_direction.h"
 #include "render/lighting/baker.h"
 #include "render/lighting/light_packing.h"
 #include "render/materials/tile_noise.h"
@@ -13,7 +12,6 @@ namespace rubble {
 
 namespace {
 
-constexpr float kPi = float(portable::kPi);
 constexpr float kNoise = 0.02f;        // standard error that is left where a point has enough rays ...
 constexpr float kWide = 0.3f;          // ... and is as free as that; in cracks, of which little is seen, ...
 constexpr float kCrack = 0.25f;        // ... more is left, and rays are fewer by this at most; unit of kWide: m
@@ -21,7 +19,6 @@ constexpr float kFaint = 0.01f;        // of the sky's mean light: noise fainter
 constexpr float kHidden = 0.03f;       // clearance of what no camera comes near enough to see; unit: m
 constexpr float kAbout = 0.4f;         // cell of space whose rays tell how much light varies; unit: m
 constexpr float kLift = 0.002f;        // rays start this far off the surface; unit: m
-constexpr float kFarthest = 1000.0f;   // unit: m
 constexpr float kMostInside = 0.3f;    // share of rays that may meet a piece from inside
 constexpr float kSunSine = 0.00465f;   // radius of the sun's disc; unit: rad
 
@@ -45,7 +42,7 @@ void Baker::Sum::add(const Vec3f& radiance, const Vec3f& w, float cosine) {
 // Illuminance E = pi / N sum L, and the vector V with E(n') = dot(n', V) for normals near n: V = pi / N
 // sum L w / (n.w), its length kept in check where w grazes the surface.
 void Baker::Sum::finish(Point& p) const {
-  const float scale = kPi / float(std::max(rays, 1));
+  const float scale = portable::kPiF / float(std::max(rays, 1));
   p.indirect = light * scale;
   p.vector = direction * scale + p.normal * (luminance(p.indirect) - dot(direction, p.normal) * scale);
 }
@@ -89,7 +86,7 @@ void Baker::trace(std::size_t i) {
   const Basis basis = basis_of(i, 0);
   std::array<RayScene::Ray, kFirstRays> rays;
   std::array<RayScene::PreciseHit, kFirstRays> hits;
-  for (std::size_t r = 0; r < count; ++r) rays[r] = {from[r % origins], 0, basis * first_directions_[r], kFarthest};
+  for (std::size_t r = 0; r < count; ++r) rays[r] = {from[r % origins], 0, basis * first_directions_[r], kLightReach};
   rays_.cast_many(rays.data(), count, RayScene::Order::scattered, hits.data());
   std::array<int, kMostOrigins> cast{}, inside{};
   for (std::size_t r = 0; r < count; ++r)
@@ -108,7 +105,7 @@ void Baker::trace(std::size_t i) {
     if (open) p.sky += light_.sky.radiance(rays[r].direction);
   }
   p.sky = seen > 0 ? p.sky * (1 / seen) : Vec3f();
-  p.clearance = near > 0 ? seen / near : kFarthest;
+  p.clearance = near > 0 ? seen / near : kLightReach;
   find_direct(p);
 }
 
@@ -132,7 +129,7 @@ void Baker::find_direct(Point& p) const {
       }
       const float facing = dot(to_light, from.normal);
       if (facing <= 0 || luminance(sample.illuminance) <= 0) continue;
-      rays[count] = {from.position, 0, to_light, std::min(sample.distance * 0.999f, kFarthest)};
+      rays[count] = {from.position, 0, to_light, std::min(sample.distance * 0.999f, kLightReach)};
       light[count++] = sample.illuminance * (facing / float(open));
     }
     std::array<std::uint8_t, kMostOrigins> hidden;
@@ -151,7 +148,7 @@ void Baker::gather_first(std::size_t i) {
     rays += codes[r] != kNone;
     if (codes[r] < kNone) sum += radiance_[codes[r]];
   }
-  points_[i].indirect = rays ? (sum * (1 / float(rays)) + points_[i].sky) * kPi : Vec3f();
+  points_[i].indirect = rays ? (sum * (1 / float(rays)) + points_[i].sky) * portable::kPiF : Vec3f();
 }
 
 Baker::Sum Baker::first_sum(std::size_t i) const {
@@ -179,7 +176,7 @@ void Baker::add_round(std::size_t i, std::uint32_t round, Sum& sum) const {
   std::array<RayScene::PreciseHit, kRound> hits;
   const std::size_t count = directions_.size();
   for (std::size_t r = 0; r < count; ++r)
-    rays[r] = {from[(r + round) % origins], 0, basis * directions_[r], kFarthest};
+    rays[r] = {from[(r + round) % origins], 0, basis * directions_[r], kLightReach};
   rays_.cast_many(rays.data(), count, RayScene::Order::scattered, hits.data());
   const std::uint32_t draws = std::uint32_t(options_.seed) + round * 0x9e3779b9u;
   for (std::size_t r = 0; r < count; ++r) {
@@ -200,7 +197,7 @@ int Baker::rounds_for(const Point& p, const Sum& about) const {
   const float mean = luminance(about.light) / float(about.rays);
   const float variance = std::max(about.squares / float(about.rays) - mean * mean, 0.0f);
   // Of direct light half is counted, for a place beside the point may lie in shadow.
-  const float light = mean + 0.5f * luminance(p.direct) / kPi + kFaint * luminance(light_.sky.mean);
+  const float light = mean + 0.5f * luminance(p.direct) / portable::kPiF + kFaint * luminance(light_.sky.mean);
   const float error = kNoise / freedom * light;
   if (error <= 0) return 0;
   // Directions that are spread evenly have about half the noise of chance.

@@ -222,7 +222,7 @@ struct Request {
   bool json = false;  // --json
 };
 
-Action declare(CommandLine& line) {
+Action declare_assets_check(CommandLine& line) {
   const auto request = std::make_shared<Request>();
   line.add("pack", request->pack, "A folder with a pack.lua, or a bundled pack").required();
   line.add_flag("--json", request->json, "JSON instead of a table");
@@ -232,7 +232,8 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command assets_check_command() {
-  return {"assets", "check", "Say what is sound in a pack: closed meshes, masses, how well the parts fit", declare};
+  return {"assets", "check", "Say what is sound in a pack: closed meshes, masses, how well the parts fit",
+          declare_assets_check};
 }
 
 }  // namespace rubble

@@ -221,7 +221,7 @@ struct Request {
   bool collision = false;  // --collision
 };
 
-Action declare(CommandLine& line) {
+Action declare_assets_show(CommandLine& line) {
   const auto request = std::make_shared<Request>();
   line.add("pack", request->pack, "A folder with a pack.lua, or a bundled pack").required();
   line.add("--out", request->out, "The picture, .png or .jpg")
@@ -238,7 +238,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command assets_show_command() {
-  return {"assets", "show", "Draw every asset of a pack on one sheet", declare};
+  return {"assets", "show", "Draw every asset of a pack on one sheet", declare_assets_show};
 }
 
 }  // namespace rubble

@@ -142,7 +142,7 @@ ExitCode eval_map(const MapRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_eval_map(CommandLine& line) {
   const auto request = std::make_shared<MapRequest>();
   request->space.voxel = 0.05;
   line.add("map", request->map, "The map: a mesh or point cloud, PLY").required();
@@ -170,7 +170,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command eval_map_command() {
-  return {"eval", "map", "A map against the surface that its run saw, and the voids it found", declare};
+  return {"eval", "map", "A map against the surface that its run saw, and the voids it found", declare_eval_map};
 }
 
 }  // namespace rubble

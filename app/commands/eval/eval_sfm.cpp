@@ -62,7 +62,7 @@ ExitCode eval_sfm(const SfmRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_eval_sfm(CommandLine& line) {
   const auto request = std::make_shared<SfmRequest>();
   line.add("datasets", request->datasets, "Output folders of runs with outputs.colmap").required();
   line.add("--model", request->model,
@@ -85,7 +85,8 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command eval_sfm_command() {
-  return {"eval", "sfm", "What COLMAP made of datasets: track, points, distance to the true surface", declare};
+  return {"eval", "sfm", "What COLMAP made of datasets: track, points, distance to the true surface",
+          declare_eval_sfm};
 }
 
 }  // namespace rubble

@@ -35,7 +35,7 @@ ExitCode eval_surface(const SurfaceRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_eval_surface(CommandLine& line) {
   const auto request = std::make_shared<SurfaceRequest>();
   line.add("dataset", request->dataset, "Output folder of a run with outputs.colmap").required();
   line.add("mesh", request->mesh, "A mesh or point cloud, PLY").required();
@@ -50,7 +50,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command eval_surface_command() {
-  return {"eval", "surface", "Distance of a mesh or cloud from the true surface", declare};
+  return {"eval", "surface", "Distance of a mesh or cloud from the true surface", declare_eval_surface};
 }
 
 }  // namespace rubble

@@ -67,7 +67,7 @@ ExitCode eval_trajectory(const TrajectoryRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_eval_trajectory(CommandLine& line) {
   const auto request = std::make_shared<TrajectoryRequest>();
   line.add("estimate", request->estimate, "The estimate: a TUM or EuRoC file").required();
   line.add("truth", request->truth, "The truth: a TUM or EuRoC file").required();
@@ -84,7 +84,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command eval_trajectory_command() {
-  return {"eval", "trajectory", "Absolute and relative errors of a trajectory, as evo's", declare};
+  return {"eval", "trajectory", "Absolute and relative errors of a trajectory, as evo's", declare_eval_trajectory};
 }
 
 }  // namespace rubble

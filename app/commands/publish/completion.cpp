@@ -21,7 +21,7 @@ ExitCode print_completion(const std::string& shell) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_completion(CommandLine& line) {
   const auto shell = std::make_shared<std::string>();
   line.add("shell", *shell, "bash or zsh").required().metavar("SHELL");
   return [shell] { return print_completion(*shell); };
@@ -30,7 +30,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command completion_command() {
-  return {"", "completion", "Print what a shell needs to complete commands, options and keys", declare};
+  return {"", "completion", "Print what a shell needs to complete commands, options and keys", declare_completion};
 }
 
 }  // namespace rubble

@@ -5,6 +5,7 @@
 
 #include "app/card/dataset_card.h"
 #include "app/card/slam_settings.h"
+#include "app/card/viewer_settings.h"
 #include "app/command_line/command.h"
 #include "io/base/atomic_file.h"
 
@@ -34,9 +35,11 @@ void refuse_foreign(const PackRequest& request, const std::map<std::string, std:
 ExitCode pack(const PackRequest& request) {
   const FinishedRun saved = open_finished_run(request.folder);
   std::map<std::string, std::string> files;
-  if (request.settings)
-    for (auto& [name, text] : make_slam_settings(stated_scenario(saved.manifest.provenance)))
-      files["settings/" + name] = text;
+  if (request.settings) {
+    const Scenario scenario = stated_scenario(saved.manifest.provenance);
+    for (const auto& settings : {make_slam_settings(scenario), make_viewer_settings(scenario)})
+      for (const auto& [name, text] : settings) files["settings/" + name] = text;
+  }
   if (request.card) files["README.md"] = make_dataset_card(saved, request.text);
   files["SHA256SUMS"] = make_checksums(saved, files);
   refuse_foreign(request, files);
@@ -51,12 +54,12 @@ ExitCode pack(const PackRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_pack(CommandLine& line) {
   const auto request = std::make_shared<PackRequest>();
   line.add("folder", request->folder, "The output folder of a run").required();
   const Option card = line.add_flag("--card", request->card, "README.md: what the dataset is, and how to remake it");
   line.add_flag("--settings", request->settings,
-                "settings/: for ORB-SLAM3, OpenVINS, Kalibr, RTAB-Map and evo");
+                "settings/: for ORB-SLAM3, OpenVINS, Kalibr, RTAB-Map, evo, RViz and Foxglove");
   line.add("--title", request->text.title, "Of the card")
       .shows_default_text("the script's name and the seed")
       .needs(card);
@@ -69,7 +72,8 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command pack_command() {
-  return {"", "pack", "What a dataset needs to be handed on: checksums, card, settings", declare};
+  return {"", "pack", "What a dataset needs to be handed on: checksums, card, settings",
+          declare_pack};
 }
 
 }  // namespace rubble

@@ -27,7 +27,7 @@ ExitCode write_report(const ReportRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_report(CommandLine& line) {
   const auto request = std::make_shared<ReportRequest>();
   line.add("folder", request->folder, "The output folder of a batch").required();
   line.add("--out", request->out, "The page").shows_default_text("FOLDER/report.html").metavar("FILE");
@@ -43,7 +43,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command report_command() {
-  return {"", "report", "A web page about a batch: table, plots, pictures", declare};
+  return {"", "report", "A web page about a batch: table, plots, pictures", declare_report};
 }
 
 }  // namespace rubble

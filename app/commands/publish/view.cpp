@@ -30,7 +30,7 @@ ExitCode write_page(const ViewRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_view(CommandLine& line) {
   const auto request = std::make_shared<ViewRequest>();
   line.add("folder", request->folder, "The output folder of a run").required();
   line.add("--out", request->out, "The page").shows_default_text("FOLDER/view.html").metavar("FILE");
@@ -50,7 +50,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command view_command() {
-  return {"", "view", "A web page that shows a dataset in 3-D: pile, voids, flight", declare};
+  return {"", "view", "A web page that shows a dataset in 3-D: pile, voids, flight", declare_view};
 }
 
 }  // namespace rubble

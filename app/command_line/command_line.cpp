@@ -134,6 +134,7 @@ namespace {
 constexpr std::pair<std::string_view, const char*> kGroups[] = {
     {"eval", "Score what others made of a dataset"},
     {"assets", "Look into a pack of assets"},
+    {"bench", "Tasks with a score"},
 };
 
 CLI::App* find_subcommand(CLI::App& app, const std::string& name) {

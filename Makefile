@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all package install site asset-maker live demo gallery pictures test test-nightly test-asan test-tsan fuzz faults determinism format clean
+.PHONY: help packages program-packages build all package image archive install site asset-maker live demo gallery pictures test test-nightly test-asan test-tsan fuzz faults determinism platforms format clean
 
 PROGRAM := build/release/rubble
 CTEST   := ctest --output-on-failure --parallel 2
@@ -14,7 +14,9 @@ help:
 	@echo "make build      build the program and its assets alone: $(PROGRAM)"
 	@echo "make all        build the tests and benches, too"
 	@echo "make install PREFIX=/usr/local  the program, its assets, manual pages, completion"
-	@echo "make package    a Debian package: build/package/rubble_*.deb"
+	@echo "make package    Debian packages: build/package/rubble_*.deb, librubble-dev_*.deb"
+	@echo "make image      an image for containers: build/package/rubble_*_oci.tar (needs root)"
+	@echo "make archive    a self-extracting archive for other distributions: build/package/rubble-*.run"
 	@echo "make site       the documents as a site: build/site/index.html"
 	@echo "make live       the same with what publishes over ROS (docs/live.md)"
 	@echo "make test-nightly  the tests that take long, or need a cluster of one node"
@@ -23,6 +25,7 @@ help:
 	@echo "make fuzz SECONDS=60  every fuzz target for so long, two at once (docs/reliability.md)"
 	@echo "make faults     break a small run at many places, continue it, compare the bytes (an hour)"
 	@echo "make determinism  the same hashes from other compilers, levels and processors (half an hour)"
+	@echo "make platforms  the kernel for Windows, riscv64 and arm64, under emulators (docs/platforms.md)"
 	@echo "make format     clang-format over the tree"
 	@echo "make clean      remove build/ and out/"
 
@@ -53,6 +56,15 @@ install: build
 
 package: build
 	cpack --config build/release/CPackConfig.cmake -B build/package
+
+image: package
+	@tools/install_packages.sh tools/packages-nightly.txt
+	tools/package/make_image.sh build/package/rubble_*_$$(dpkg --print-architecture).deb build/package/image \
+	  build/package/rubble_$$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' build/release/CMakeCache.txt)_$$(dpkg --print-architecture)_oci.tar
+
+archive: build
+	@tools/install_packages.sh tools/packages-nightly.txt
+	tools/package/make_archive.sh build/release build/package
 
 site:
 	@tools/install_packages.sh tools/packages-site.txt
@@ -120,6 +132,11 @@ faults: build
 determinism: packages
 	@tools/install_packages.sh tools/packages-determinism.txt
 	tools/determinism_matrix.sh $(DETERMINISM_OPTIONS)
+
+# Not part of any suite: it installs compilers and emulators and builds the kernel four times.
+platforms: packages
+	@tools/install_packages.sh tools/packages-platforms.txt
+	tools/platforms.sh
 
 format:
 	git ls-files '*.h' '*.cpp' | xargs clang-format -i

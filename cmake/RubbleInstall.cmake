@@ -1,4 +1,5 @@
-# `cmake --install`, and the Debian package that CPack makes of what it installs.
+# `cmake --install`, and the Debian packages that CPack makes of what it installs: `rubble`, and
+# `librubble-dev` of the component "development" (RubblePackage.cmake).
 #
 #   bin/rubble                             finds its assets in ../share/rubble, wherever it lies
 #   share/rubble/assets, scripts, editor   bundled packs; missions; annotations for editors
@@ -6,6 +7,7 @@
 #   share/doc/rubble                       documents, without their pictures
 include(GNUInstallDirs)
 
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 # Only what was asked for is built, not the tests.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 
@@ -34,7 +36,14 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTER
   PATTERN "pictures" EXCLUDE)
 install(FILES ${share}/copyright ${share}/changelog.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
+include(RubblePackage)
+install(FILES ${share}/copyright ${share}/changelog.gz
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/librubble-dev COMPONENT development)
+
 set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME rubble)
 set(CPACK_PACKAGE_NAME rubble)
 set(RUBBLE_MAINTAINER "The Rubble authors <rubble@example.org>" CACHE STRING
   "Who answers for the Debian package: NAME <ADDRESS>")
@@ -45,13 +54,22 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # What dpkg-shlibdeps cannot see: libEGL is opened at run time, and something must draw without a GPU.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libegl-mesa0, libgl1-mesa-dri, libgl1")
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "simulator of collapsed structures for mapping robots
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
+  "libegl1, libegl-mesa0, libgl1-mesa-dri, libgl1")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "simulator of collapsed structures for mapping robots
 Rubble makes data sets for people who build mapping and autonomy for
 search-and-rescue robots. A seed and a one-page Lua mission give a
 physically settled pile of debris, a camera flight through its voids,
 exact RGB-D frames, an MRPT rawlog, a ROS bag and the ground truth: the
 same bits every time, on a machine without a graphics card.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME librubble-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libsimbody-dev, libxxhash-dev, libssl-dev, libembree-dev")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "simulator of collapsed structures - libraries and headers
+Rubble makes data sets for people who build mapping and autonomy for
+search-and-rescue robots. These are its kernel as static libraries with
+their headers and a CMake package: piles of debris and how they settle,
+rays and nearest points, maps of voids, and the files of the program.")
 include(CPack)

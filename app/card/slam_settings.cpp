@@ -12,7 +12,7 @@ std::string real(double value) {
   std::snprintf(text, sizeof text, "%.10f", value);
   std::string number = text;
   while (number.back() == '0' && number[number.size() - 2] != '.') number.pop_back();
-  return number;
+  return number == "-0.0" ? "0.0" : number;
 }
 
 std::string list(const std::vector<double>& values) {
@@ -26,23 +26,60 @@ std::string row(const std::string& key, int value) { return key + ": " + std::to
 
 struct Camera {
   const Scenario& scenario;
+  MountedCamera mounted;
   Intrinsics k;
   bool fisheye, stereo, imu;
 
   explicit Camera(const Scenario& s)
-      : scenario(s), k(s.camera.intrinsics()), fisheye(k.lens == LensModel::fisheye),
-        stereo(s.camera.stereo_baseline > 0), imu(s.imu.on) {}
+      : scenario(s), mounted(all_cameras(s).front()), k(mounted.camera.intrinsics()),
+        fisheye(k.lens == LensModel::fisheye), stereo(mounted.camera.stereo_baseline > 0),
+        imu(s.imu.on) {}
   // radtan has no k3; what has one is said in the card.
   std::vector<double> four() const {
     return {k.distortion[0], k.distortion[1], k.distortion[2], k.distortion[3]};
   }
-  double baseline() const { return scenario.camera.stereo_baseline; }
-  double rate() const { return scenario.trajectory.rate_hz; }
+  double baseline() const { return mounted.camera.stereo_baseline; }
+  double rate() const { return mounted.rate_hz.value_or(scenario.trajectory.rate_hz); }
+  std::string topic() const { return mounted.camera.topic.value_or("/" + mounted.name); }
 };
 
-// From the camera body, where the inertial unit is (X forward, Y left, Z up), to the optical frame.
-constexpr const char* kOpticalFromBody =
-    "- [0.0, -1.0, 0.0, 0.0]\n- [0.0, 0.0, -1.0, 0.0]\n- [1.0, 0.0, 0.0, 0.0]\n- [0.0, 0.0, 0.0, 1.0]\n";
+// The rows of a 4 x 4 matrix that ends in 0 0 0 1.
+using Rows = std::vector<std::vector<double>>;
+
+// Points of the inertial unit in the optical frame (Z forward, X right) of the camera, or of the right one.
+Rows optical_from_imu(const Camera& c, bool right) {
+  const Pose rig_from_camera = c.mounted.is_rig() ? Pose{} : c.mounted.rig_from_camera();
+  const Pose rig_from_imu = c.scenario.imu.is_rig() ? Pose{} : c.scenario.imu.rig_from_imu();
+  const Pose body_from_imu = rig_from_camera.inverse() * rig_from_imu;
+  const Mat3 turn = body_from_imu.rotation.matrix();
+  const Vec3& shift = body_from_imu.translation;
+  const auto row = [](const Vec3& v, double last, double sign) {
+    return std::vector<double>{sign * v.x, sign * v.y, sign * v.z, last};
+  };
+  return {row(turn.rows[1], -shift.y - (right ? c.baseline() : 0), -1), row(turn.rows[2], -shift.z, -1),
+          row(turn.rows[0], shift.x, 1), {0, 0, 0, 1}};
+}
+
+std::vector<double> inverse_of(const Rows& m) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double shift = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      values.push_back(m[k][i]);
+      shift -= m[k][i] * m[k][3];
+    }
+    values.push_back(shift);
+  }
+  values.insert(values.end(), {0, 0, 0, 1});
+  return values;
+}
+
+std::string matrix(const Rows& rows, const std::string& indent) {
+  std::string text;
+  for (const std::vector<double>& row : rows) text += indent + "- " + list(row) + "\n";
+  return text;
+}
+
 constexpr const char* kIdentity =
     "- [1.0, 0.0, 0.0, 0.0]\n- [0.0, 1.0, 0.0, 0.0]\n- [0.0, 0.0, 1.0, 0.0]\n- [0.0, 0.0, 0.0, 1.0]\n";
 constexpr const char* kIdentity3 = "- [1.0, 0.0, 0.0]\n- [0.0, 1.0, 0.0]\n- [0.0, 0.0, 1.0]\n";
@@ -85,7 +122,7 @@ std::string orbslam3(const Camera& c) {
           row("Stereo.b", c.stereo ? c.baseline() : 0.075) + row("RGBD.DepthMapFactor", 5000.0);
   if (c.imu) {
     const ImuModel& m = c.scenario.imu.model;
-    text += opencv_matrix("IMU.T_b_c1", {0, 0, 1, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, 1}) +
+    text += opencv_matrix("IMU.T_b_c1", inverse_of(optical_from_imu(c, false))) +
             row("IMU.InsertKFsWhenLost", 0) + row("IMU.NoiseGyro", m.gyroscope_noise) +
             row("IMU.NoiseAcc", m.accelerometer_noise) + row("IMU.GyroWalk", m.gyroscope_walk) +
             row("IMU.AccWalk", m.accelerometer_walk) + row("IMU.Frequency", m.rate_hz);
@@ -101,19 +138,15 @@ std::string orbslam3(const Camera& c) {
 std::string chain_camera(const Camera& c, int index) {
   const std::string name = "cam" + std::to_string(index);
   std::string text = name + ":\n";
-  if (c.imu && index == 0) text += "  T_cam_imu:\n" + indented(kOpticalFromBody, "  ");
   if (index == 1)
-    text += "  T_cn_cnm1:\n  - [1.0, 0.0, 0.0, " + real(-c.baseline()) +
-            "]\n  - [0.0, 1.0, 0.0, 0.0]\n  - [0.0, 0.0, 1.0, 0.0]\n  - [0.0, 0.0, 0.0, 1.0]\n";
-  if (c.imu && index == 1)
-    text += "  T_cam_imu:\n  - [0.0, -1.0, 0.0, " + real(-c.baseline()) +
-            "]\n  - [0.0, 0.0, -1.0, 0.0]\n  - [1.0, 0.0, 0.0, 0.0]\n  - [0.0, 0.0, 0.0, 1.0]\n";
+    text += "  T_cn_cnm1:\n" + matrix({{1, 0, 0, -c.baseline()}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}, "  ");
+  if (c.imu) text += "  T_cam_imu:\n" + matrix(optical_from_imu(c, index == 1), "  ");
   text += "  cam_overlaps: " + std::string(c.stereo ? (index == 0 ? "[1]" : "[0]") : "[]") + "\n";
   text += "  camera_model: pinhole\n  distortion_model: " + std::string(c.fisheye ? "equidistant" : "radtan") +
           "\n  distortion_coeffs: " + list(c.four()) + "\n  intrinsics: " +
           list({c.k.fx, c.k.fy, c.k.cx, c.k.cy}) + "\n  resolution: [" + std::to_string(c.k.width) +
           ", " + std::to_string(c.k.height) + "]\n  rostopic: " +
-          (index == 0 ? "/camera/rgb/image_raw" : "/camera/right/image_raw") + "\n";
+          c.topic() + (index == 0 ? "/rgb/image_raw" : "/right/image_raw") + "\n";
   return c.imu ? text + "  timeshift_cam_imu: 0.0\n" : text;
 }
 
@@ -121,16 +154,17 @@ std::string camera_chain(const Camera& c) {
   return chain_camera(c, 0) + (c.stereo ? chain_camera(c, 1) : "");
 }
 
-std::string kalibr_imu(const ImuModel& m) {
+std::string kalibr_imu(const ImuScenario& imu) {
+  const ImuModel& m = imu.model;
   return row("accelerometer_noise_density", m.accelerometer_noise) +
          row("accelerometer_random_walk", m.accelerometer_walk) +
          row("gyroscope_noise_density", m.gyroscope_noise) +
-         row("gyroscope_random_walk", m.gyroscope_walk) + "rostopic: /imu\n" +
+         row("gyroscope_random_walk", m.gyroscope_walk) + "rostopic: " + imu.topic.value_or("/imu") + "\n" +
          row("update_rate", m.rate_hz);
 }
 
-std::string openvins_imu(const ImuModel& m) {
-  std::string text = "%YAML:1.0\nimu0:\n  T_i_b:\n" + indented(kIdentity, "  ") + indented(kalibr_imu(m), "  ");
+std::string openvins_imu(const ImuScenario& imu) {
+  std::string text = "%YAML:1.0\nimu0:\n  T_i_b:\n" + indented(kIdentity, "  ") + indented(kalibr_imu(imu), "  ");
   text += "  model: kalibr\n  time_offset: 0.0\n";
   for (const char* key : {"Tw", "R_IMUtoGYRO", "Ta", "R_IMUtoACC"})
     text += "  " + std::string(key) + ":\n" + indented(kIdentity3, "  ");
@@ -190,9 +224,9 @@ std::map<std::string, std::string> make_slam_settings(const Scenario& scenario) 
       "{\n  \"align\": true,\n  \"correct_scale\": false,\n  \"pose_relation\": \"trans_part\",\n"
       "  \"t_max_diff\": 0.001\n}\n";
   if (!camera.imu) return files;
-  files["kalibr/imu.yaml"] = kalibr_imu(scenario.imu.model);
+  files["kalibr/imu.yaml"] = kalibr_imu(scenario.imu);
   files["openvins/estimator_config.yaml"] = openvins_estimator(camera);
-  files["openvins/kalibr_imu_chain.yaml"] = openvins_imu(scenario.imu.model);
+  files["openvins/kalibr_imu_chain.yaml"] = openvins_imu(scenario.imu);
   files["openvins/kalibr_imucam_chain.yaml"] = "%YAML:1.0\n" + camera_chain(camera);
   return files;
 }

@@ -132,9 +132,9 @@ namespace {
 
 // The groups, each with what --help says of it.
 constexpr std::pair<std::string_view, const char*> kGroups[] = {
-    {"eval", "Score what others made of a dataset"},
-    {"assets", "Look into a pack of assets"},
-    {"bench", "Tasks with a score"},
+    {"eval", "Score trajectories, reconstructions and maps of a dataset"},
+    {"assets", "Check or draw a pack of assets"},
+    {"bench", "Run a benchmark of robots"},
 };
 
 CLI::App* find_subcommand(CLI::App& app, const std::string& name) {

@@ -5,7 +5,7 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/number_text.h"
-#include "io/mesh/mesh_file.h"
+#include "io/mesh/stl_writer.h"
 #include "io/robot/urdf_writer.h"
 #include "io/state/track_file.h"
 #include "kernel/robot/looks.h"

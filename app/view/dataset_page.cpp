@@ -189,7 +189,7 @@ std::string panel(const std::string& title, bool has_voids, std::size_t frames) 
          "step=\"0.05\" value=\"1\"></label>\n<label>cut away <input type=\"range\" id=\"cut\" min=\"0\" "
          "max=\"1\" step=\"0.01\" value=\"1\"></label>\n" +
          box("voids", has_voids ? "voids" : "voids (none here: `rubble voids` maps them)") +
-         box("track", "the camera's way") +
+         box("track", "the camera's path") +
          "<input type=\"range\" id=\"time\" min=\"0\" max=\"0\" value=\"0\"" +
          std::string(frames ? "" : " hidden") + ">\n<div id=\"frame\"></div>\n<img id=\"picture\" alt=\"\">\n"
          "<p id=\"status\">loading</p>\n</div>\n";

@@ -7,6 +7,11 @@
 
 namespace rubble::generator {
 
+// What many pieces have.
+inline constexpr Surface kCast = Surface::concrete_cast;
+inline constexpr Surface kBroken = Surface::concrete_fracture;
+inline constexpr Surface kWood = Surface::timber;
+
 std::vector<Recipe> masonry_pieces();  // bricks and blocks
 std::vector<Recipe> chunk_pieces();    // broken lumps of concrete
 std::vector<Recipe> slab_pieces();     // broken floor slabs with bars

@@ -51,15 +51,4 @@ TriangleMesh load_mesh(const std::string& path, const MeshUnits& units = {});
 std::vector<std::vector<Vec3>> load_convex_parts(const std::string& path,
                                                  const MeshUnits& units = {});
 
-// One mesh placed in the world.
-struct MeshInstance {
-  const TriangleMesh* mesh = nullptr;  // never null; at scale 1
-  double scale = 1;                    // of the mesh's lengths; above 0
-  Pose world_from_body;                // frame of the mesh in the world; unit: m
-};
-
-// Writes binary STL: metres, right-handed, Z up, triangles in the order of the instances. Throws
-// RunError when it cannot be written.
-void write_stl(const std::string& path, const std::vector<MeshInstance>& instances);
-
 }  // namespace rubble

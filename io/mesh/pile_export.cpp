@@ -1,6 +1,6 @@
 #include "io/mesh/pile_export.h"
 
-#include "io/mesh/mesh_file.h"
+#include "io/mesh/stl_writer.h"
 #include "kernel/base/error.h"
 
 namespace rubble {

@@ -1,10 +1,11 @@
 // A writer of our own rather than assimp's: that one wants the whole scene in memory once more, and
 // here hundreds of thousands of triangles pass through a small buffer in a fixed order.
+#include "io/mesh/stl_writer.h"
+
 #include <limits>
 
 #include "io/base/atomic_file.h"
 #include "io/base/little_endian.h"
-#include "io/mesh/mesh_file.h"
 #include "kernel/base/error.h"
 
 namespace rubble {

@@ -1,6 +1,5 @@
 #include "kernel/base/hash.h"
 
-#include <openssl/evp.h>
 #include <xxhash.h>
 
 #include <cerrno>
@@ -29,31 +28,6 @@ std::uint64_t hash64(std::string_view bytes) { return XXH64(bytes.data(), bytes.
 std::string hex64(std::uint64_t value) {
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
-  return text;
-}
-
-struct Sha256::State {
-  EVP_MD_CTX* context = EVP_MD_CTX_new();
-  ~State() { EVP_MD_CTX_free(context); }
-};
-
-Sha256::Sha256() : state_(std::make_unique<State>()) {
-  EVP_DigestInit_ex(state_->context, EVP_sha256(), nullptr);
-}
-Sha256::~Sha256() = default;
-void Sha256::add(const void* data, std::size_t size) {
-  EVP_DigestUpdate(state_->context, data, size);
-}
-std::string Sha256::hex() {
-  unsigned char bytes[EVP_MAX_MD_SIZE];
-  unsigned size = 0;
-  EVP_DigestFinal_ex(state_->context, bytes, &size);
-  std::string text;
-  for (unsigned i = 0; i < size; ++i) {
-    constexpr char kDigits[] = "0123456789abcdef";
-    text += kDigits[bytes[i] >> 4];
-    text += kDigits[bytes[i] & 15];
-  }
   return text;
 }
 

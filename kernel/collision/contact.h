@@ -31,6 +31,10 @@ struct ContactPoint {
   float found_separation = 0;  // when a search last found the point, at local_a and local_b; unit: m
 };
 
+// A contact or a tie keeps its place in the solver's order while its height changes by no more than this,
+// so that the order, and with it what the solver makes of it, is the same from step to step; unit: m.
+inline constexpr float kOrderDistance = 0.1F;
+
 // Who meets whom: read for every pair in every step, so kept small and apart from the contact.
 struct Pair {
   std::int32_t collider_a = 0, collider_b = 0;  // b may be kGround or a surface
@@ -85,6 +89,7 @@ struct Contact {
   std::int32_t body_a = 0, body_b = 0;  // b may be kGround
   int count = 0;                   // points in use
   bool has_normal = false;         // a search has found one before
+  bool rolls_a = false, rolls_b = false;  // A, B is round and turns fast; of this step, see rolling.h
   Vec3f way_out;                   // what the parts of two overlapping pieces agreed on; zero: none
   // Each vector and its number in a row, as the solver reads them.
   Vec3f normal;                    // unit length, from A to B; of the last search

@@ -5,23 +5,26 @@
 #include <vector>
 
 #include "kernel/collision/manifold.h"
+#include "kernel/collision/rolling.h"
 #include "kernel/collision/way_out.h"
 
 namespace rubble {
 namespace {
 
-// Points of two steps are the same when closer than this; unit: m.
+// Points of two steps count as the same point if they are closer than this; unit: m.
 constexpr float kMatchDistance = 0.01F;
-// Impulses are not carried over when the normal turned by more than 25 degrees.
+// Impulses are kept for the next step only if the normal has turned by less than 25 degrees.
 constexpr float kKeepCosine = 0.906F;
-// Overlapping parts are shifted apart along the last normal by this and more; unit: m.
+// To find their axis, overlapping parts are shifted apart along the last normal by this, and by 4 times this;
+// unit: m.
 constexpr float kShift = 0.005F;
-// Clipped points may lie this much farther apart than the axis says; unit: m.
+// Clipped points may be this much farther apart than the distance along the axis; unit: m.
 constexpr float kAxisTolerance = 0.0005F;
+// An axis that is found for shifted parts counts only if it is within 26 degrees of the last normal.
 constexpr float kNearestShiftCosine = 0.9F;
-// A point of the step before is retained while its two ends have come apart by no more than this,
-// and while the normal has turned by no more than 8 degrees since the last search; unit: m.
+// A point of the previous step is retained while its two ends are not farther apart than this; unit: m.
 constexpr float kRetainDistance = 0.004F;
+// A point is retained only while the normal has turned by at most 8 degrees since the last search.
 constexpr float kRetainCosine = 0.99F;
 
 struct Axis {
@@ -194,6 +197,10 @@ void make_points(Contact& contact, const PosedBody& a, const PosedBody& b, const
   clip_faces(a.part, b.part, offset, axis.normal, margin, m);
   add_axis_point(m, axis);
   retain_points(contact, a, b, offset, axis.normal, m);
+  contact.rolls_a = rolls(a, axis.normal, settings.step);
+  contact.rolls_b = rolls(b, axis.normal, settings.step);
+  if (contact.rolls_a) carry_below_axis(m, axis.normal, a.angular, {});
+  if (contact.rolls_b) carry_below_axis(m, axis.normal, b.angular, offset);
   predict(m, a, &b, offset, axis.normal, settings.step);
   drop_far_points(m);
   if (m.count == 0) {
@@ -226,6 +233,7 @@ void store_points(Contact& contact, const Manifold& manifold, const Vec3f& norma
 
 void follow_contact(Contact& contact, const PosedBody& a, const PosedBody& b) {
   const Vec3f offset = Vec3f(b.centre - a.centre);
+  contact.rolls_a = contact.rolls_b = false;
   for (int i = 0; i < contact.count; ++i) {
     ContactPoint& p = contact.points[i];
     const Vec3f end_a = *a.part.rotation * p.local_a;
@@ -262,20 +270,23 @@ void update_ground_contact(Contact& contact, const PosedBody& a, float margin,
                            const NarrowSettings& settings) {
   const float height = float(a.centre.z);
   const Vec3f normal{0, 0, -1};
+  contact.rolls_a = rolls(a, normal, settings.step);
+  const Vec3f angular = contact.rolls_a ? Vec3f{} : a.angular;
   thread_local std::vector<ManifoldPoint> found;
   found.clear();
   for (int i = 0; i < a.part.corners.count; ++i) {
     const Vec3f& p = a.part.corners.points[i];
     const float s = height + p.z;
     if (s >= margin) continue;
-    const float apart = s > 0 ? s + calc_arc_gain(p, a.angular, settings.step) : s;
-    const float predicted = apart + settings.step * (a.linear + cross(a.angular, p)).z;
+    const float apart = s > 0 ? s + calc_arc_gain(p, angular, settings.step) : s;
+    const float predicted = apart + settings.step * (a.linear + cross(angular, p)).z;
     if (std::min(predicted, apart) >= kPointMargin) continue;
     found.push_back({{p.x, p.y, p.z - 0.5F * s}, apart, predicted, -1});
   }
   if (found.empty()) return clear_points(contact);
   Manifold m;
   keep_some(found, m);
+  if (contact.rolls_a) carry_below_axis(m, normal, a.angular, {});
   reduce(m, normal, Contact::kMaxPoints);
   store_points(contact, m, normal, a);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernel/collision/manifold.h"
+#include "kernel/collision/rolling.h"
 #include "kernel/collision/surface_points.h"
 
 namespace rubble {
@@ -15,7 +16,7 @@ constexpr float kWeighted = 0.005F;
 // Points of one contact nearer to each other than this are one; unit: m.
 constexpr float kSamePoint = 1e-3F;
 // A slot is kept for a contact whose normal turned by less than 25 degrees.
-constexpr float kKeepCosine = 0.906F;
+constexpr float kKeepSlotCosine = 0.906F;
 
 struct Cluster {
   Vec3f first, sum;  // normals
@@ -49,9 +50,11 @@ int make_clusters(const std::vector<SurfacePoint>& points, const PosedBody& a, f
                   Cluster (&clusters)[kSurfaceSlots]) {
   thread_local std::vector<Predicted> order;
   order.clear();
+  const bool round = !points.empty() && rolls(a, points[0].normal, step);
+  const Vec3f angular = round ? Vec3f{} : a.angular;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SurfacePoint& p = points[i];
-    const float speed = dot(p.normal, a.linear + cross(a.angular, p.position));
+    const float speed = dot(p.normal, a.linear + cross(angular, p.position));
     const float when = p.separation + step * speed;
     if (std::min(when, p.separation) < kPointMargin) order.push_back({when, std::int32_t(i)});
   }
@@ -74,7 +77,7 @@ int make_clusters(const std::vector<SurfacePoint>& points, const PosedBody& a, f
 int find_slot(Contact* const (&slots)[kSurfaceSlots], const bool (&taken)[kSurfaceSlots],
               const Vec3f& normal, bool matching_only) {
   int best = -1;
-  float best_cosine = kKeepCosine;
+  float best_cosine = kKeepSlotCosine;
   for (int i = 0; i < kSurfaceSlots; ++i) {
     const float cosine = dot(slots[i]->normal, normal);
     if (taken[i] || slots[i]->count == 0 || cosine <= best_cosine) continue;
@@ -128,8 +131,11 @@ void update_surface_contacts(Contact* const (&slots)[kSurfaceSlots], const Posed
   }
   for (int i = 0; i < count; ++i) {
     const Vec3f normal = -clusters[i].normal();
+    Contact& contact = *slots[slot_of[i]];
+    contact.rolls_a = rolls(a, normal, settings.step);
+    if (contact.rolls_a) carry_below_axis(clusters[i].manifold, normal, a.angular, {});
     reduce(clusters[i].manifold, normal, Contact::kMaxPoints);
-    store_points(*slots[slot_of[i]], clusters[i].manifold, normal, a);
+    store_points(contact, clusters[i].manifold, normal, a);
   }
 }
 

@@ -1,6 +1,8 @@
 #include "kernel/multibody/simbody_blocks.h"
 
+#ifndef RUBBLE_WITHOUT_SIMBODY
 #include <Simbody.h>
+#endif
 
 #include <algorithm>
 #include <utility>
@@ -8,11 +10,13 @@
 namespace rubble {
 namespace {
 
+#ifndef RUBBLE_WITHOUT_SIMBODY
 SimTK::MassProperties mass_properties(const FreeBody& body) {
   const auto& r = body.inertia.rows;
   return {body.mass, SimTK::Vec3(0),
           SimTK::Inertia(SimTK::Vec3(r[0].x, r[1].y, r[2].z), SimTK::Vec3(r[0].y, r[0].z, r[1].z))};
 }
+#endif
 
 Quat turn(const Quat& r, const Vec3& w, double dt) {
   const Quat spin = Quat{0, w.x, w.y, w.z} * r;
@@ -25,17 +29,42 @@ Quat turn(const Quat& r, const Vec3& w, double dt) {
 
 // q of a Free mobilizer: quaternion w x y z, then the position; u: angular, then linear velocity,
 // both in the ground frame. A body's frame sits in its centre of mass.
+#ifndef RUBBLE_WITHOUT_SIMBODY
 struct SimbodyBlocks::Block {
-  Block() : matter(system) {}
+  Block(const FreeBody* bodies, int number) : matter(system), count(number) {
+    for (int i = 0; i < number; ++i)
+      SimTK::MobilizedBody::Free(matter.Ground(), SimTK::Transform(),
+                                 SimTK::Body::Rigid(mass_properties(bodies[i])), SimTK::Transform());
+    system.realizeTopology();
+    system.realizeModel(state());
+    q = state().getQ().getContiguousScalarData();
+    u = state().getU().getContiguousScalarData();
+  }
+
+  // The system's own: a copy of it would take as much again, three kilobytes a body.
+  SimTK::State& state() { return system.updDefaultState(); }
+  double* upd_q() { return state().updQ().updContiguousScalarData(); }
+  double* upd_u() { return state().updU().updContiguousScalarData(); }
 
   SimTK::MultibodySystem system;
   SimTK::SimbodyMatterSubsystem matter;
-  std::vector<SimTK::MobilizedBody::Free> bodies;
-  // The system's own: a copy of it would take as much again, three kilobytes a body.
-  SimTK::State& state() { return system.updDefaultState(); }
   const double *q = nullptr, *u = nullptr;  // where the State has them, to read
   int first = 0;                            // number of its first body
+  int count = 0;
 };
+#else
+// The same numbers, kept here: nothing of free bodies is computed by Simbody.
+struct SimbodyBlocks::Block {
+  Block(const FreeBody*, int number) : q(7 * std::size_t(number)), u(6 * std::size_t(number)), count(number) {}
+
+  double* upd_q() { return q.data(); }
+  double* upd_u() { return u.data(); }
+
+  std::vector<double> q, u;
+  int first = 0;
+  int count = 0;
+};
+#endif
 
 SimbodyBlocks::SimbodyBlocks() = default;
 SimbodyBlocks::~SimbodyBlocks() = default;
@@ -54,19 +83,12 @@ int SimbodyBlocks::add(const std::vector<FreeBody>& bodies) {
   const int first = size_;
   for (std::size_t begin = 0; begin < bodies.size(); begin += kBlockSize) {
     const std::size_t end = std::min(bodies.size(), begin + kBlockSize);
-    auto block = std::make_unique<Block>();
+    auto block = std::make_unique<Block>(&bodies[begin], int(end - begin));
     block->first = size_;
     for (std::size_t i = begin; i < end; ++i) {
-      block->bodies.emplace_back(block->matter.Ground(), SimTK::Transform(),
-                                 SimTK::Body::Rigid(mass_properties(bodies[i])),
-                                 SimTK::Transform());
       block_index_.push_back(std::int32_t(blocks_.size()));
       slot_.push_back(std::int32_t(i - begin));
     }
-    block->system.realizeTopology();
-    block->system.realizeModel(block->state());
-    block->q = block->state().getQ().getContiguousScalarData();
-    block->u = block->state().getU().getContiguousScalarData();
     blocks_.push_back(std::move(block));
     for (std::size_t i = begin; i < end; ++i, ++size_) {
       set_pose(size_, bodies[i].world_from_com);
@@ -77,20 +99,20 @@ int SimbodyBlocks::add(const std::vector<FreeBody>& bodies) {
 }
 
 void SimbodyBlocks::set_velocity(int body, const Vec3& linear, const Vec3& angular) {
-  SimTK::Vector& u = block_of(body).state().updU();
+  double* u = block_of(body).upd_u();
   const int at = 6 * slot_[body];
   u[at] = angular.x, u[at + 1] = angular.y, u[at + 2] = angular.z;
   u[at + 3] = linear.x, u[at + 4] = linear.y, u[at + 5] = linear.z;
 }
 
 Vec3 SimbodyBlocks::angular_velocity(int body) const {
-  const double* u = block_of(body).u;
+  const double* u = &block_of(body).u[0];
   const int at = 6 * slot_[body];
   return {u[at], u[at + 1], u[at + 2]};
 }
 
 Vec3 SimbodyBlocks::linear_velocity(int body) const {
-  const double* u = block_of(body).u;
+  const double* u = &block_of(body).u[0];
   const int at = 6 * slot_[body] + 3;
   return {u[at], u[at + 1], u[at + 2]};
 }
@@ -100,9 +122,9 @@ Vec3 SimbodyBlocks::linear_velocity(int body) const {
 void SimbodyBlocks::advance(int index, const std::vector<std::uint8_t>& moves,
                             const BodyRates* rates, double dt) {
   Block& block = *blocks_[index];
-  double* u = block.state().updU().updContiguousScalarData();
-  double* q = block.state().updQ().updContiguousScalarData();
-  const int count = int(block.bodies.size());
+  double* u = block.upd_u();
+  double* q = block.upd_q();
+  const int count = block.count;
   for (int slot = 0; slot < count; ++slot) {
     const int body = block.first + slot;
     if (!moves[body]) continue;
@@ -123,13 +145,13 @@ void SimbodyBlocks::advance(int index, const std::vector<std::uint8_t>& moves,
 }
 
 Pose SimbodyBlocks::world_from_com(int body) const {
-  const double* q = block_of(body).q;
+  const double* q = &block_of(body).q[0];
   const int at = 7 * slot_[body];
   return {{q[at], q[at + 1], q[at + 2], q[at + 3]}, {q[at + 4], q[at + 5], q[at + 6]}};
 }
 
 void SimbodyBlocks::set_pose(int body, const Pose& pose) {
-  SimTK::Vector& q = block_of(body).state().updQ();
+  double* q = block_of(body).upd_q();
   const int at = 7 * slot_[body];
   q[at] = pose.rotation.w, q[at + 1] = pose.rotation.x;
   q[at + 2] = pose.rotation.y, q[at + 3] = pose.rotation.z;

@@ -5,6 +5,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "kernel/structure/frame_building.h"
+#include "kernel/structure/standing.h"
 
 namespace rubble {
 namespace {

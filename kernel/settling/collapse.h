@@ -8,8 +8,6 @@
 // change on top. An impact breaks bonds only if it brings the energy that they take.
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -61,9 +59,5 @@ class Collapse {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-// The forces in a structure's bonds under its own weight, by bond. Throws InputError naming the worst
-// bond, its failure and by how much, where one is used up: the building does not stand by itself.
-std::vector<SectionForces> check_stands(const Structure& structure, double gravity);
 
 }  // namespace rubble

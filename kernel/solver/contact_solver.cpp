@@ -5,10 +5,11 @@
 namespace rubble {
 namespace {
 
-// Below these, speeds that pushes undo are dropped.
+// A speed that a position correction opposes is removed if it is below this; see cancel_correction_velocity().
 constexpr float kSlowSpeed = 0.2F;  // unit: m/s
-constexpr float kSlowSpin = 2.0F;   // unit: rad/s
-// Steps on one thread after others did not run.
+// The same for angular speeds. unit: rad/s
+constexpr float kSlowSpin = 2.0F;
+// Number of steps on one thread after other threads did not run.
 constexpr int kCrowdedSteps = 30;
 
 PaddedMotion padded(const Motion& m) {

@@ -132,6 +132,7 @@ struct World::Impl {
   std::vector<BodyRates> rates;  // by number in SimbodyBlocks
   float lateness = 0;  // see calc_lateness()
   std::vector<float> fastest;
+  std::vector<std::uint8_t> rolling;  // by body, see find_rolling()
   std::vector<std::int32_t> neighbour;
   std::vector<TreeMotion> tree_motions;       // by number of the tree
   std::vector<std::int32_t> awake_trees;
@@ -236,15 +237,20 @@ struct World::Impl {
   void solve_contacts();
   void sort_by_height();
   void update_touching();
-  void return_clamped_momentum(std::size_t piece, const Vec3f& speed);
-  void clamp_ejection_velocity();
   void advance();
-  float calc_lateness() const;
-  float keep_of_late_spin(const Body& body, const Vec3f& angular, float spin) const;
   void set_rates(std::size_t body);
   double calc_travel(const Body& body) const;
   void remove_lost();
   void lose(int body);
+
+  // world_limits.cpp
+  void return_clamped_momentum(std::size_t piece, const Vec3f& speed);
+  void clamp_ejection_velocity();
+  float calc_lateness() const;
+  float keep_of_late_spin(const Body& body, const Vec3f& angular, float spin) const;
+  static float calc_most_spin(const Body& body);
+  void find_rolling();
+  bool does_roll(std::size_t body) const;
 
   // world_resume.cpp
   void join_settled(const Pile& pile, const PileState& state);

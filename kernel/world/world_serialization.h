@@ -63,7 +63,7 @@ void each_field(Struct& c, Visit&& visit) {
   visit(c.body_a), visit(c.body_b), visit(c.friction);
   visit(c.count), visit(c.points), visit(c.normal), visit(c.has_normal), visit(c.way_out);
   visit(c.friction_impulse), visit(c.twist_impulse), visit(c.pressed), visit(c.rest_pressed);
-  visit(c.most), visit(c.highest);
+  visit(c.most), visit(c.highest), visit(c.rolls_a), visit(c.rolls_b);
   visit(c.cache);
 }
 

@@ -12,10 +12,7 @@
 namespace rubble {
 namespace {
 
-// Who touches a piece, beside the number of the only one; see clamp_ejection_velocity().
-constexpr std::int32_t kNobody = -2, kSeveral = -3;
 constexpr int kMostSplits = 4;  // times in a step that contacts are solved anew as something broke; unit: 1
-constexpr float kOrderDistance = 0.1F;  // see sort_by_height(); unit: m
 
 class Stopwatch {
  public:
@@ -110,85 +107,6 @@ void World::Impl::solve_contacts() {
   end_ties();
 }
 
-// What a piece loses goes back to the only one that touches it, if that is as heavy: where two meet,
-// momentum is kept. With several, the one that squeezes is not known.
-void World::Impl::return_clamped_momentum(std::size_t piece, const Vec3f& speed) {
-  const std::int32_t other = neighbour[piece];
-  if (other < 0) return;
-  const Body &light = data.bodies[piece], &heavy = data.bodies[other];
-  if (!heavy.awake || heavy.simbody_index < 0 || heavy.mass < light.mass) return;
-  const Vec3f change = speed * float(light.mass / heavy.mass);
-  velocities[other].linear += change;
-  displacements[other].linear += change * float(options.step);
-}
-
-// A piece squeezed out from under a heavy one must not shoot away: sideways and upwards it may
-// become hardly faster in one step than the points which touch it were before.
-void World::Impl::clamp_ejection_velocity() {
-  const auto outwards = [](const Vec3f& v) { return Vec3f{v.x, v.y, std::max(v.z, 0.0F)}; };
-  const auto may_kick = [&](const Body& body) {
-    return body.awake && body.touching && body.simbody_index >= 0;
-  };
-  const auto speed_before = [&](const Body& body) {
-    return norm(outwards(body.linear)) + float(options.gravity * options.step);
-  };
-  const bool any = std::any_of(awake_bodies.begin(), awake_bodies.end(), [&](std::int32_t i) {
-    const Body& body = data.bodies[i];
-    return may_kick(body) &&
-           norm(outwards(velocities[i].linear)) > std::max(speed_before(body), kFreeKick);
-  });
-  if (!any) return;
-  fastest.assign(data.bodies.size(), 0);
-  neighbour.assign(data.bodies.size(), kNobody);
-  const auto note = [this](std::int32_t body, std::int32_t other) {
-    if (body == kGround) return;
-    neighbour[body] = neighbour[body] == kNobody || neighbour[body] == other ? other : kSeveral;
-  };
-  each_solved([&](const Contact& contact) {
-    if (contact.pressed <= 0) return;
-    note(contact.body_a, contact.body_b);
-    note(contact.body_b, contact.body_a);
-    if (contact.body_b == kGround) return;
-    const Body &a = data.bodies[contact.body_a], &b = data.bodies[contact.body_b];
-    float &of_a = fastest[contact.body_a], &of_b = fastest[contact.body_b];
-    for (int i = 0; i < contact.count; ++i) {
-      const ContactPoint& p = contact.points[i];
-      of_a = std::max(of_a, norm(b.linear + cross(b.angular, p.from_b)));
-      of_b = std::max(of_b, norm(a.linear + cross(a.angular, p.from_a)));
-    }
-  });
-  for (std::int32_t i : awake_bodies) {
-    if (!may_kick(data.bodies[i])) continue;
-    const float after = norm(outwards(velocities[i].linear));
-    const float before = speed_before(data.bodies[i]);
-    const float squeezed = std::max(before, kKickShare * fastest[i]) + kFreeKick;
-    const float struck = fastest[i] + kFreeKick;  // one neighbour alone cannot squeeze
-    const float most = std::max(before, neighbour[i] == kSeveral ? std::min(squeezed, struck) : struck);
-    if (after <= most) continue;
-    const float keep = most / after;
-    return_clamped_momentum(i, outwards(velocities[i].linear) * (1 - keep));
-    for (Vec3f* v : {&velocities[i].linear, &displacements[i].linear}) {
-      v->x *= keep, v->y *= keep;
-      if (v->z > 0) v->z *= keep;
-    }
-  }
-}
-
-// 0 while a verification of rest may yet succeed by itself, 1 when it has lasted too long.
-float World::Impl::calc_lateness() const {
-  const float seconds = float(data.verification_steps) * float(options.step);
-  return std::clamp((seconds - kPatience) / (kPatienceEnds - kPatience), 0.0F, 1.0F);
-}
-
-// The share of its spin that a piece keeps in a step of a verification that lasts. spin: its length.
-float World::Impl::keep_of_late_spin(const Body& body, const Vec3f& angular, float spin) const {
-  if (spin <= 0) return 1;
-  const Vec3f axis = angular * (1 / spin);
-  const float torque = kRollingLever * float(body.mass * options.gravity);
-  const float stopped = torque * dot(axis, body.inverse_inertia * axis) * float(options.step);
-  return std::max(0.0F, 1 - lateness * (kLateDamping + stopped / spin));
-}
-
 // The speeds after the step, and the extra rates that make up its displacement.
 void World::Impl::set_rates(std::size_t index) {
   const Body& body = data.bodies[index];
@@ -197,8 +115,8 @@ void World::Impl::set_rates(std::size_t index) {
   if (body.touching || solver.has_intervened(std::int32_t(index))) {
     Motion m = velocities[index];
     const float spin = norm(m.angular);
-    const float most = std::max(kFreeSpin, norm(body.angular) + kSpinGain);
-    if (spin > most) m.angular *= most / spin;
+    const float most = calc_most_spin(body);
+    if (spin > most && !does_roll(index)) m.angular *= most / spin;
     if (lateness > 0 && spin < kSwingingSpin) m.angular *= keep_of_late_spin(body, m.angular, spin);
     r.linear = Vec3(m.linear), r.angular = Vec3(m.angular);
     const double per_step = 1 / options.step;
@@ -332,6 +250,7 @@ void World::step() {
     const Stopwatch watch(w.times.rest);
     w.update_touching();
     w.clamp_ejection_velocity();
+    w.find_rolling();
   }
   {
     const Stopwatch watch(w.times.advance);

@@ -13,12 +13,10 @@ namespace rubble {
 
 namespace {
 
-constexpr float kPi = float(portable::kPi);
 constexpr std::size_t kFirstRays = 48;        // a point, that are kept
 constexpr int kRound = 64;                    // rays between two looks at the noise
 constexpr float kNoise = 0.04f;               // standard error at which a point has enough rays
 constexpr float kLift = 0.002f;               // rays start this far off the surface; unit: m
-constexpr float kFarthest = 1000.0f;          // unit: m
 constexpr float kMostInside = 0.3f;           // share of rays that may meet a piece from inside
 constexpr std::size_t kChunk = 256;           // points a job
 constexpr float kSunSine = 0.00465f;          // radius of the sun's disc; unit: rad
@@ -57,7 +55,7 @@ struct Baker::Sum {
     const float bright = luminance(radiance);
     light += radiance, bright2 += bright * bright;
     direction += w * (bright / std::max(cosine, 0.35f));
-    near += distance < kFarthest ? 1 / std::max(distance, 0.01f) : 0;
+    near += distance < kLightReach ? 1 / std::max(distance, 0.01f) : 0;
     ++rays;
   }
   bool quiet() const {
@@ -68,10 +66,10 @@ struct Baker::Sum {
   // Illuminance E = pi / N sum L, and the vector V with E(n') = dot(n', V) for normals near n: V = pi / N
   // sum L w / (n.w), its length kept in check where w grazes the surface.
   void finish(Point& p) const {
-    const float scale = kPi / float(std::max(rays, 1));
+    const float scale = portable::kPiF / float(std::max(rays, 1));
     p.indirect = light * scale;
     p.vector = direction * scale + p.normal * (luminance(p.indirect) - dot(direction, p.normal) * scale);
-    p.clearance = near > 0 ? float(rays) / near : kFarthest;
+    p.clearance = near > 0 ? float(rays) / near : kLightReach;
   }
 };
 
@@ -159,7 +157,7 @@ void Baker::trace(std::size_t i) {
   std::array<int, 8> rays{}, inside{};
   for (std::size_t r = 0; r < count; ++r) {
     const std::size_t o = r % origins;
-    const RayScene::Ray ray{origin(p, o).position, 0, basis * first_directions_[r], kFarthest};
+    const RayScene::Ray ray{origin(p, o).position, 0, basis * first_directions_[r], kLightReach};
     RayScene::PreciseHit hit;
     rays_.cast_many(&ray, 1, RayScene::Order::scattered, &hit);
     const bool open = hit.triangle == RayScene::kNone;
@@ -188,7 +186,7 @@ void Baker::find_direct(Point& p) const {
       }
       const float facing = dot(to_light, from.normal);
       if (facing <= 0 || luminance(sample.illuminance) <= 0) continue;
-      if (!rays_.blocked(from.position, to_light, 0, std::min(sample.distance * 0.999f, kFarthest)))
+      if (!rays_.blocked(from.position, to_light, 0, std::min(sample.distance * 0.999f, kLightReach)))
         sum += sample.illuminance * facing;
     }
   }
@@ -205,7 +203,7 @@ void Baker::gather_first(std::size_t i) {
     if (!(p.open >> (r % origins) & 1u)) continue;
     const Vec3f w = basis * first_directions_[r];
     const Vec3f l = code == kSky ? light_.sky.radiance(w) : code == kInside ? Vec3f() : radiance_[code];
-    sum.add(l, w, first_directions_[r].z, kFarthest);
+    sum.add(l, w, first_directions_[r].z, kLightReach);
   }
   sum.finish(p);
 }
@@ -219,12 +217,12 @@ void Baker::add_round(std::size_t i, std::uint32_t round, Sum& sum) const {
   const Basis basis = basis_of(i, round);
   for (std::size_t r = 0; r < directions_.size(); ++r) {
     const Vec3f w = basis * directions_[r];
-    const RayScene::Ray ray{from[(r + round) % origins], 0, w, kFarthest};
+    const RayScene::Ray ray{from[(r + round) % origins], 0, w, kLightReach};
     RayScene::PreciseHit hit;
     rays_.cast_many(&ray, 1, RayScene::Order::scattered, &hit);
     const bool open = hit.triangle == RayScene::kNone;
     const Vec3f l = open ? light_.sky.radiance(w) : hit.back ? Vec3f() : light_met(hit);
-    sum.add(l, w, directions_[r].z, open ? kFarthest : hit.distance);
+    sum.add(l, w, directions_[r].z, open ? kLightReach : hit.distance);
   }
 }
 
@@ -250,7 +248,7 @@ void Baker::update_radiance() {
     const std::vector<LightNode>& nodes = scene_.meshes[placed.mesh].light_nodes;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const Vec3f light = mixed(piece, nodes[i], &Point::direct) + mixed(piece, nodes[i], &Point::indirect);
-      radiance_[placed.first_light + i] = multiply(albedos_[placed.first_light + i], light) * (1 / kPi);
+      radiance_[placed.first_light + i] = multiply(albedos_[placed.first_light + i], light) * (1 / portable::kPiF);
     }
   });
 }

@@ -60,6 +60,51 @@ TEST_F(Pack, SettingsAreThoseOfTheMission) {
   EXPECT_IN("0.12 instead of 0.13", read_file(scratch / "read"));
 }
 
+// Every topic of the bag that can be shown, and none that it has not.
+TEST_F(Pack, RvizAndFoxgloveHaveTheTopicsOfTheRecording) {
+  const auto compare = [&](const std::string& at) {
+    return std::system(("/usr/bin/python3 '" RUBBLE_SOURCE_DIR "/tests/app/viewer_settings_reader.py' " + at + " >" +
+                        (scratch / "read") + " 2>&1").c_str());
+  };
+  run_tiny("--set camera.topic=/eye --set camera.stereo_baseline=0.1 --set imu.on=true --set imu.topic=/unit "
+           "--set outputs.pictures=png");
+  ASSERT_EQ(run_rubble("pack " + folder + " --settings").exit_code, 0);
+  EXPECT_EQ(compare(folder), 0) << read_file(scratch / "read");
+  // The control: settings of another mission are noticed.
+  std::filesystem::copy(folder, scratch / "b", fs::copy_options::recursive);
+  std::string rviz = read_file(scratch / "b/settings/ros1.rviz");
+  rviz.replace(rviz.find("/eye/rgb"), 4, "/ear");
+  write_file(scratch / "b/settings/ros1.rviz", rviz);
+  EXPECT_NE(compare(scratch / "b"), 0);
+  EXPECT_IN("/ear/rgb/image_raw/compressed is not in the bag", read_file(scratch / "read"));
+  EXPECT_IN("leaves out /eye/rgb", read_file(scratch / "read"));
+}
+
+TEST_F(Pack, RvizShowsEveryCameraAndLidarOfARig) {
+  const std::string mission = "run scripts/lidar.lua --quiet --set pile.pieces_per_layer=10 --set pile.layers=1 "
+                              "--set trajectory.rate_hz=2 --out " + folder;
+  ASSERT_EQ(run_rubble(mission).exit_code, 0);
+  ASSERT_EQ(run_rubble("pack " + folder + " --settings").exit_code, 0);
+  const std::string read = "/usr/bin/python3 '" RUBBLE_SOURCE_DIR "/tests/app/viewer_settings_reader.py' " + folder +
+                           " >" + (scratch / "read") + " 2>&1";
+  EXPECT_EQ(std::system(read.c_str()), 0) << read_file(scratch / "read");
+  EXPECT_IN("PointCloud2", read_file(folder + "/settings/ros2.rviz"));
+}
+
+// The unit and the camera at places and turns of their own, and topics that the mission names.
+TEST_F(Pack, CalibrationFollowsThePlacesAndNamesOfTheMission) {
+  run_tiny("--set camera.topic=/eye --set imu.on=true --set imu.topic=/unit --set imu.position.x=0.2 "
+           "--set imu.position.z=-0.1 --set imu.rpy_deg.z=90");
+  ASSERT_EQ(run_rubble("pack " + folder + " --settings").exit_code, 0);
+  const std::string chain = read_file(folder + "/settings/kalibr/camchain.yaml");
+  EXPECT_IN("rostopic: /eye/rgb/image_raw", chain);
+  EXPECT_IN("rostopic: /unit", read_file(folder + "/settings/kalibr/imu.yaml"));
+  // The unit's X is the body's left, so minus the picture's right; its Y is backwards; it is 0.2 m ahead of
+  // the camera and 0.1 m below.
+  EXPECT_IN("T_cam_imu:\n  - [-1.0, 0.0, 0.0, 0.0]\n  - [0.0, 0.0, -1.0, 0.1]\n  - [0.0, -1.0, 0.0, 0.2]\n"
+            "  - [0.0, 0.0, 0.0, 1.0]", chain);
+}
+
 TEST_F(Pack, LeavesOutWhatTheMissionHasNotAndKeepsWhatIsThere) {
   run_tiny("");
   write_file(folder + "/README.md", "mine");

@@ -1,4 +1,6 @@
-// The Debian package: free of complaints, and enough for a bare machine. Takes minutes.
+// What is handed out, tried as on the machine of somebody else: Debian packages, an image for containers, a
+// self-extracting archive. Takes minutes each. RUBBLE_ROOTS names a folder where the roots of bare systems
+// are kept for the next time; without it they are made anew.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -12,30 +14,126 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::string kTools = std::string(RUBBLE_SOURCE_DIR) + "/tools/package/";
+
 bool has_program(const std::string& name) {
   return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-TEST(NightlyPackage, IsCleanAndMakesADatasetOnABareMachine) {
-  const ScratchFolder scratch;
-  const std::string build = fs::path(RUBBLE_PROGRAM).parent_path().string();
-  const std::string log = scratch / "log";
-  ASSERT_EQ(std::system(("cpack --config '" + build + "/CPackConfig.cmake' -B '" + scratch / "made" +
-                         "' >'" + log + "' 2>&1").c_str()), 0) << read_file(log);
-  std::string package;
-  for (const auto& file : fs::directory_iterator(scratch / "made"))
-    if (file.path().extension() == ".deb") package = file.path().string();
-  ASSERT_FALSE(package.empty()) << read_file(log);
-  if (!has_program("lintian")) GTEST_SKIP() << "lintian is not installed";
-  std::system(("lintian --allow-root --fail-on error,warning '" + package + "' >'" + log + "' 2>&1; "
-               "echo exit $? >>'" + log + "'").c_str());
-  EXPECT_EQ(read_file(log), "exit 0\n");
-  if (geteuid() != 0 || !has_program("debootstrap")) GTEST_SKIP() << "needs root and debootstrap";
-  const int status = std::system(("'" RUBBLE_SOURCE_DIR "/tools/package/test_package.sh' '" + package + "' '" +
-                                  scratch / "bare" + "' small.lua >'" + log + "' 2>&1").c_str());
-  EXPECT_EQ(status, 0) << read_file(log);
-  EXPECT_NE(read_file(log).find("the dataset took"), std::string::npos) << read_file(log);
+// A folder for what is tried, and what was printed there last.
+class Handed {
+ public:
+  // What the shell prints; `ok` says whether it ended well.
+  std::string run(const std::string& command) {
+    ok = std::system(("(" + command + ") >'" + scratch / "log" + "' 2>&1").c_str()) == 0;
+    return read_file(scratch / "log");
+  }
+  std::string build() const { return fs::path(RUBBLE_PROGRAM).parent_path().string(); }
+  // The package of that name, made by CPack.
+  std::string make_package(const std::string& name) {
+    const std::string printed =
+        run("cpack --config '" + build() + "/CPackConfig.cmake' -B '" + scratch / "made" + "'");
+    EXPECT_TRUE(ok) << printed;
+    for (const auto& file : fs::directory_iterator(scratch / "made"))
+      if (file.path().filename().string().rfind(name + "_", 0) == 0) return file.path().string();
+    ADD_FAILURE() << "no package " << name << "\n" << printed;
+    return "";
+  }
+  // A folder for the root of a system.
+  std::string root_of(const std::string& suite) const {
+    const char* kept = std::getenv("RUBBLE_ROOTS");
+    return kept ? kept + ("/" + suite) : scratch / suite;
+  }
+
+  ScratchFolder scratch;
+  bool ok = false;
+};
+
+// The same dataset as here: the pile's hash in both manifests.
+const char* const kMission = "small.lua";
+
+std::string state_hash_here(Handed& here) {
+  const std::string folder = here.scratch / "here";
+  const Outcome run = run_rubble("run scripts/" + std::string(kMission) + " --quiet --out " + folder);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  return "state hash " + read_state_hash(folder);
 }
+
+TEST(NightlyPackage, IsCleanAndMakesADatasetOnABareMachine) {
+  Handed here;
+  const std::string package = here.make_package("rubble");
+  ASSERT_FALSE(package.empty());
+  const std::string libraries = here.make_package("librubble-dev");
+  ASSERT_FALSE(libraries.empty());
+  if (!has_program("lintian")) GTEST_SKIP() << "lintian is not installed";
+  EXPECT_EQ(here.run("lintian --allow-root --fail-on error,warning '" + package + "' '" + libraries + "'"), "");
+  EXPECT_TRUE(here.ok);
+  if (geteuid() != 0 || !has_program("debootstrap")) GTEST_SKIP() << "needs root and debootstrap";
+  const std::string printed = here.run("'" + kTools + "test_package.sh' '" + package + "' '" + here.root_of("bookworm") + "' " + kMission);
+  EXPECT_TRUE(here.ok) << printed;
+  EXPECT_NE(printed.find("the dataset took"), std::string::npos) << printed;
+  EXPECT_NE(printed.find(state_hash_here(here)), std::string::npos) << printed;
+}
+
+TEST(NightlyImage, RunsInAContainerWithoutRootAndNetwork) {
+  if (geteuid() != 0 || !has_program("debootstrap")) GTEST_SKIP() << "needs root and debootstrap";
+  Handed here;
+  const std::string package = here.make_package("rubble"), image = here.scratch / "image.tar";
+  ASSERT_FALSE(package.empty());
+  const std::string made = here.run("'" + kTools + "make_image.sh' '" + package + "' '" + here.root_of("image") + "' '" + image + "'");
+  ASSERT_TRUE(here.ok) << made;
+  const fs::path folder = here.scratch / "work";
+  fs::create_directories(folder);
+  fs::permissions(folder, fs::perms::all);
+  if (!has_program("podman")) GTEST_SKIP() << "podman is not installed";
+  // Its images in the folder of the test; what a cgroup manager would want is not needed.
+  const std::string podman = "podman --root '" + here.scratch / "store" + "' --runroot '" + here.scratch / "run" +
+                             "' --storage-driver vfs --cgroup-manager cgroupfs --events-backend file ";
+  const std::string loaded = here.run(podman + "load -i '" + image + "'");
+  ASSERT_TRUE(here.ok) << loaded;
+  EXPECT_NE(loaded.find("rubble:0.1.0"), std::string::npos) << loaded;
+  const std::string printed = here.run(
+      podman + "run --rm --network none --cgroups disabled -v '" + folder.string() + ":/work' rubble:0.1.0 sh -c 'id -u && "
+      "rubble run /usr/share/rubble/scripts/" + kMission + " --quiet --out out && rubble info out'");
+  EXPECT_TRUE(here.ok) << printed;
+  EXPECT_EQ(printed.substr(0, 5), "1000\n") << "not as root";
+  EXPECT_NE(printed.find(state_hash_here(here)), std::string::npos) << printed;
+  EXPECT_TRUE(fs::exists(folder / "out/manifest.json"));
+}
+
+// One row a system: its suite, and the archive that it is made from.
+class NightlyArchive : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(NightlyArchive, RunsOnAnotherDistribution) {
+  if (geteuid() != 0 || !has_program("debootstrap") || !has_program("makeself"))
+    GTEST_SKIP() << "needs root, debootstrap and makeself";
+  const auto [suite, mirror] = GetParam();
+  Handed here;
+  const std::string made = here.run("'" + kTools + "make_archive.sh' '" + here.build() + "' '" + here.scratch / "made" + "'");
+  ASSERT_TRUE(here.ok) << made;
+  const std::string root = here.root_of(suite);
+  const std::string bare = here.run("MIRROR=" + std::string(mirror) + " '" + kTools + "make_root.sh' '" + root + "' '' " + suite);
+  ASSERT_TRUE(here.ok) << bare;
+  fs::remove_all(root + "/tmp/try");
+  fs::create_directories(root + "/tmp/try");
+  fs::permissions(root + "/tmp/try", fs::perms::all);
+  here.run("cp '" + here.scratch / "made" + "'/rubble-*.run '" + root + "/tmp/try/rubble.run'");
+  const std::string printed = here.run(
+      "'" + kTools + "run_in_root.sh' '" + root + "' 'cd /tmp/try && sh rubble.run -- /tmp/try/rubble && "
+      "rubble/bin/rubble run rubble/share/rubble/scripts/" + kMission + " --quiet --out out && rubble/bin/rubble info out'");
+  EXPECT_TRUE(here.ok) << printed;
+  EXPECT_NE(printed.find("rubble 0.1.0 is in /tmp/try/rubble"), std::string::npos) << printed;
+  EXPECT_NE(printed.find(state_hash_here(here)), std::string::npos) << printed;
+  // The control: a second installation in the same place is refused.
+  here.run("'" + kTools + "run_in_root.sh' '" + root + "' 'sh /tmp/try/rubble.run -- /tmp/try/rubble'");
+  EXPECT_FALSE(here.ok);
+  fs::remove_all(root + "/tmp/try");
+}
+
+INSTANTIATE_TEST_SUITE_P(Systems, NightlyArchive,
+                         ::testing::Values(std::pair("trixie", "http://deb.debian.org/debian"),
+                                           std::pair("noble", "http://archive.ubuntu.com/ubuntu")),
+                         [](const auto& row) { return std::string(row.param.first); });
 
 }  // namespace
 }  // namespace rubble::testing

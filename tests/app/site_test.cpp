@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 #include "tests/app/program.h"
 
@@ -44,6 +45,40 @@ TEST(Site, NamesLinksThatLeadNowhere) {
   EXPECT_EQ(run((scratch / "tools/make_site.py") + " " + (scratch / "site") + " 2>" + (scratch / "err")), 1);
   EXPECT_EQ(read_file(scratch / "err"), "README.md: docs/none.md leads nowhere\n"
                                         "docs/lua.md: #no-such-heading: no such heading in docs/lua.md\n");
+}
+
+// Without the quotation marks between which a literal goes on in the next line.
+void add_joined(const std::string& source, std::string& text) {
+  for (std::size_t at = 0; at < source.size(); ++at) {
+    const std::size_t next = source[at] == '"' ? source.find_first_not_of(" \t\n", at + 1) : std::string::npos;
+    const bool goes_on = next != std::string::npos && next > at + 1 && source[next] == '"';
+    if (goes_on) at = next;
+    else text += source[at];
+  }
+}
+
+// The sources of the program.
+std::string program_text() {
+  std::string text;
+  for (const char* folder : {"app", "io", "kernel", "render", "scripting"})
+    for (const auto& file : fs::recursive_directory_iterator(kRoot + "/" + folder))
+      if (file.path().extension() == ".cpp") add_joined(read_file(file.path()), text);
+  return text;
+}
+
+TEST(Faq, QuotesMessagesThatTheProgramHas) {
+  const std::string program = program_text();
+  EXPECT_EQ(program.find("a message that nobody wrote, " "ever"), std::string::npos) << "the control";
+  std::istringstream page(read_file(kRoot + "/docs/faq.md"));
+  int quoted = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (line.rfind("### `", 0) != 0) continue;
+    std::string message = line.substr(5);
+    if (message.back() == '`') message.pop_back();
+    ++quoted;
+    EXPECT_NE(program.find(message), std::string::npos) << "docs/faq.md quotes what the program does not say: " << message;
+  }
+  EXPECT_GE(quoted, 15);
 }
 
 TEST(NightlySite, MkdocsMakesIt) {

@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "io/datasets/tum_recorder.h"
-#include "io/mesh/mesh_file.h"
+#include "io/mesh/stl_writer.h"
 #include "io/mesh/pile_export.h"
 #include "io/recording/recording_queue.h"
 #include "io/state/pile_state_file.h"

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "io/base/atomic_file.h"
+#include "io/mesh/stl_writer.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "tests/io/support.h"

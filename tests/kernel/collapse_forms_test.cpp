@@ -7,6 +7,7 @@
 #include "kernel/settling/collapse.h"
 #include "kernel/structure/frame_building.h"
 #include "kernel/structure/remaining_bars.h"
+#include "kernel/structure/standing.h"
 #include "scenes.h"
 
 namespace rubble {

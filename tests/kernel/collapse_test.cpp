@@ -9,6 +9,7 @@
 #include "kernel/settling/collapse.h"
 #include "kernel/settling/settle.h"
 #include "kernel/structure/frame_building.h"
+#include "kernel/structure/standing.h"
 
 namespace rubble {
 namespace {

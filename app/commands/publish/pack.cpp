@@ -5,6 +5,7 @@
 
 #include "app/card/dataset_card.h"
 #include "app/card/slam_settings.h"
+#include "app/card/viewer_settings.h"
 #include "app/command_line/command.h"
 #include "io/base/atomic_file.h"
 
@@ -14,11 +15,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PackRequest {
-  std::string folder;      // of the run
-  bool card = false;       // --card
-  bool settings = false;   // --settings
-  bool force = false;      // --force
-  CardText text;           // --title, --licence
+  std::string folder;     // of the run
+  bool card = false;      // --card
+  bool settings = false;  // --settings
+  bool force = false;     // --force
+  CardText text;          // --title, --licence
 };
 
 // A file that somebody else wrote stays.
@@ -34,9 +35,11 @@ void refuse_foreign(const PackRequest& request, const std::map<std::string, std:
 ExitCode pack(const PackRequest& request) {
   const FinishedRun saved = open_finished_run(request.folder);
   std::map<std::string, std::string> files;
-  if (request.settings)
-    for (auto& [name, text] : make_slam_settings(stated_scenario(saved.manifest.provenance)))
-      files["settings/" + name] = text;
+  if (request.settings) {
+    const Scenario scenario = stated_scenario(saved.manifest.provenance);
+    for (const auto& settings : {make_slam_settings(scenario), make_viewer_settings(scenario)})
+      for (const auto& [name, text] : settings) files["settings/" + name] = text;
+  }
   if (request.card) files["README.md"] = make_dataset_card(saved, request.text);
   files["SHA256SUMS"] = make_checksums(saved, files);
   refuse_foreign(request, files);
@@ -51,16 +54,19 @@ ExitCode pack(const PackRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_pack(CommandLine& line) {
   const auto request = std::make_shared<PackRequest>();
   line.add("folder", request->folder, "The output folder of a run").required();
-  const Option card = line.add_flag("--card", request->card, "README.md: what the dataset is, and how to remake it");
-  line.add_flag("--settings", request->settings,
-                "settings/: for ORB-SLAM3, OpenVINS, Kalibr, RTAB-Map and evo");
-  line.add("--title", request->text.title, "Of the card")
+  const Option card =
+      line.add_flag("--card", request->card,
+                    "Write README.md, a card that describes the dataset and how to make it again");
+  line.add_flag(
+      "--settings", request->settings,
+      "Write settings/ for ORB-SLAM3, OpenVINS, Kalibr, RTAB-Map, evo, RViz and Foxglove");
+  line.add("--title", request->text.title, "Title of the card")
       .shows_default_text("the script's name and the seed")
       .needs(card);
-  line.add("--licence", request->text.licence, "That the dataset is handed on under, as in CC-BY-4.0")
+  line.add("--licence", request->text.licence, "Licence of the dataset, as in CC-BY-4.0")
       .needs(card);
   line.add_flag("--force", request->force, "Replace the files of an earlier call");
   return [request] { return pack(*request); };
@@ -69,7 +75,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command pack_command() {
-  return {"", "pack", "What a dataset needs to be handed on: checksums, card, settings", declare};
+  return {"", "pack", "Prepare a dataset for publication: checksums, card, settings", declare_pack};
 }
 
 }  // namespace rubble

@@ -20,9 +20,11 @@ Quat calc_bend(const TreeLink& link, const double* q) {
 
 class Ball : public Joint {
  public:
+#ifndef RUBBLE_WITHOUT_SIMBODY
   void mobilize(MobilizerPlace& p) const override {
     p.made = SimTK::MobilizedBody::Ball(p.parent, p.in_parent, p.body, p.in_link);
   }
+#endif
   bool holds_travel(int) const override { return true; }
   bool holds_turn(int) const override { return false; }
   void move(const double* displacement, double* q) const override { turn(displacement, q); }

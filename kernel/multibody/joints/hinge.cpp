@@ -6,6 +6,7 @@
 namespace rubble {
 namespace {
 
+#ifndef RUBBLE_WITHOUT_SIMBODY
 // Simbody's Pin takes sine and cosine from libm, whose last bits depend on the processor.
 class PortablePin : public SimTK::MobilizedBody::Custom::Implementation {
  public:
@@ -33,13 +34,16 @@ class PortablePin : public SimTK::MobilizedBody::Custom::Implementation {
     f[0] = 0;
   }
 };
+#endif
 
 class Hinge : public SingleJoint {
  public:
+#ifndef RUBBLE_WITHOUT_SIMBODY
   void mobilize(MobilizerPlace& p) const override {
     p.made = SimTK::MobilizedBody::Custom(
         p.parent, new PortablePin(p.parent.updMatterSubsystem()), p.in_parent, p.body, p.in_link);
   }
+#endif
   bool holds_travel(int) const override { return true; }
   bool holds_turn(int axis) const override { return axis != 2; }
 };

@@ -20,8 +20,10 @@ class Joint {
  public:
   virtual ~Joint() = default;
 
+#ifndef RUBBLE_WITHOUT_SIMBODY
   // Adds it to a Simbody system.
   virtual void mobilize(MobilizerPlace& place) const = 0;
+#endif
 
   // Moves the joint's own coordinates, by a displacement in the units of its speeds times time.
   virtual void move(const double* displacement, double* q) const;

@@ -1,6 +1,7 @@
 // Where a joint goes in a Simbody system. Only for kernel/multibody.
 #pragma once
 
+#ifndef RUBBLE_WITHOUT_SIMBODY
 #include <Simbody.h>
 
 namespace rubble {
@@ -13,3 +14,4 @@ struct MobilizerPlace {
 };
 
 }  // namespace rubble
+#endif

@@ -13,6 +13,7 @@ namespace {
 // library and the processor.
 class FreeRoot : public Joint {
  public:
+#ifndef RUBBLE_WITHOUT_SIMBODY
   void mobilize(MobilizerPlace& p) const override {
     const SimTK::Body::Rigid nothing(
         SimTK::MassProperties(0, SimTK::Vec3(0), SimTK::Inertia(0)));
@@ -20,6 +21,7 @@ class FreeRoot : public Joint {
                                               SimTK::Transform());
     p.made = SimTK::MobilizedBody::Ball(carrier, SimTK::Transform(), p.body, SimTK::Transform());
   }
+#endif
   bool holds_travel(int) const override { return false; }
   bool holds_turn(int) const override { return false; }
   void move(const double* displacement, double* q) const override {
@@ -34,7 +36,9 @@ class FreeRoot : public Joint {
 
 class FixedRoot : public Joint {
  public:
+#ifndef RUBBLE_WITHOUT_SIMBODY
   void mobilize(MobilizerPlace& p) const override { p.made = p.parent; }
+#endif
   bool holds_travel(int) const override { return true; }
   bool holds_turn(int) const override { return true; }
 };

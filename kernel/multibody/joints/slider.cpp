@@ -7,9 +7,11 @@ namespace {
 
 class Slider : public SingleJoint {
  public:
+#ifndef RUBBLE_WITHOUT_SIMBODY
   void mobilize(MobilizerPlace& p) const override {
     p.made = SimTK::MobilizedBody::Slider(p.parent, p.in_parent, p.body, p.in_link);
   }
+#endif
   bool holds_travel(int axis) const override { return axis != 0; }
   bool holds_turn(int) const override { return true; }
   void set_figures(const JointType& type, double s, TreeLink& link) const override {

@@ -1,0 +1,123 @@
+// Pieces of a structure as bodies of the world: what holds together, what comes apart, what touches
+// it.
+#include "kernel/settling/collapse_impl.h"
+#include "kernel/structure/remaining_bars.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kImpactSpeed =
+    0.5;  // who meets faster brings energy; slower contacts are loads; unit: m/s
+constexpr double kImpactTime =
+    0.004;  // concrete that strikes concrete: a step's mean force is less than the peak; unit: s
+
+}  // namespace
+
+Collapse::Impl::Impl(World& w, const Structure& s, int first_type, const CollapseOptions& o,
+                     std::vector<SectionForces> before)
+    : world(w), structure(s), options(o), status(s.bonds.size()), settled(std::move(before)) {
+  std::vector<NewPiece> pieces;
+  for (const StructurePiece& piece : s.pieces) {
+    NewPiece p;
+    p.placement.type = first_type + piece.type;
+    p.placement.world_from_body.translation = piece.position;
+    p.placement.fixed = true;
+    p.layer = -1;
+    pieces.push_back(p);
+  }
+  first = world.add(pieces);
+  lead_of.assign(pieces.size(), 0);
+  world.bind(first, int(pieces.size()));
+  report.bonds = int(s.bonds.size());
+  // What nothing anchors from the start falls at once.
+  replace(0, find_groups(structure, status), true);
+}
+
+void Collapse::Impl::keep(const BondGroup& group) {
+  for (const std::int32_t piece : group.pieces) lead_of[piece] = group.pieces[0];
+  if (group.pieces.size() < 2 && !(group.anchored && !group.bonds.empty())) return;
+  Part part;
+  for (const std::int32_t i : group.pieces) {
+    part.mass += structure.pieces[i].mass;
+    part.centre += structure.pieces[i].centre * structure.pieces[i].mass;
+  }
+  part.centre *= 1 / part.mass;
+  for (const std::int32_t i : group.pieces) {
+    const StructurePiece& piece = structure.pieces[i];
+    const Vec3 d = piece.centre - part.centre;
+    part.inertia = part.inertia + piece.inertia;
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) {
+        part.inertia.rows[r][c] += piece.mass * ((r == c ? dot(d, d) : 0.0) - d[r] * d[c]);
+      }
+    }
+  }
+  part.stress = std::make_unique<GroupStress>(structure, group);
+  parts[group.pieces[0]] = std::move(part);
+}
+
+void Collapse::Impl::replace(std::int32_t lead, const std::vector<BondGroup>& groups, bool always) {
+  if (!always && groups.size() == 1 &&
+      groups[0].anchored == parts.at(lead).stress->group().anchored)
+    return;
+  parts.erase(lead);
+  std::vector<SplitPart> split;
+  for (const BondGroup& group : groups) {
+    keep(group);
+    SplitPart part;
+    for (const std::int32_t piece : group.pieces) part.pieces.push_back(first + piece);
+    part.fixed = group.anchored;
+    split.push_back(std::move(part));
+  }
+  if (split.size() > 1 || !split[0].fixed) world.split(split);
+}
+
+// What touches the pieces of each body, by its lead.
+std::map<std::int32_t, Collapse::Impl::Touches> Collapse::Impl::find_touches() const {
+  std::map<std::int32_t, Touches> touches;
+  const int count = int(structure.pieces.size());
+  for (const ContactImpulse& c : world.contact_impulses()) {
+    const std::int32_t piece = c.piece - first;
+    if (piece < 0 || piece >= count || !parts.count(lead_of[piece])) continue;
+    const Pose pose = world.piece(c.piece).world_from_body;
+    const Quat back = pose.rotation.conjugate();
+    Touch touch;
+    touch.point = structure.pieces[piece].position + back.rotate(c.point - pose.translation);
+    touch.impact = c.approach > kImpactSpeed;
+    touch.force = back.rotate(c.impulse) * (1 / (touch.impact ? kImpactTime : options.step));
+    touch.energy = touch.impact ? 0.5 * norm(c.impulse) * c.approach : 0;
+    touch.other = c.other;
+    touches[lead_of[piece]].push_back({piece, touch});
+  }
+  return touches;
+}
+
+// The bars of what broke hold on.
+void Collapse::Impl::tie(const std::vector<BondFailure>& failures) {
+  for (const BondFailure& f : failures) {
+    if (f.hinge || f.mode == FailureMode::compression) continue;  // crushed: its bars have buckled
+    for (TieState t : find_remaining_bars(structure, structure.bonds[f.bond], options.continuity)) {
+      t.piece_a += first;
+      if (t.piece_b != kFoundation) t.piece_b += first;
+      if (f.mode == FailureMode::shear) t.bending = 0;  // what slides is not held sideways
+      world.add_tie(t);
+      ++report.ties;
+    }
+  }
+}
+
+bool Collapse::Impl::is_free(int piece) const {
+  return world.piece(piece).status == PieceStatus::moving;
+}
+
+int Collapse::Impl::lead_in_world(int piece) const {
+  const int local = piece - first;
+  return local >= 0 && local < int(lead_of.size()) ? first + lead_of[local] : piece;
+}
+
+// Adds to the speed of the whole body of a piece.
+void Collapse::Impl::set_motion(int piece, const Vec3& gained, const Vec3& angular) {
+  world.set_velocity(piece, world.centre_velocity(piece) + gained, angular);
+}
+
+}  // namespace rubble

@@ -1,0 +1,87 @@
+// The parts of a collapse, see collapse.h. Not for use outside kernel/settling.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "kernel/settling/collapse.h"
+
+namespace rubble {
+
+struct Collapse::Impl {
+  // A body of several pieces.
+  struct Part {
+    std::unique_ptr<GroupStress> stress;
+    double mass = 0;
+    Vec3 centre;            // in the structure's frame
+    Mat3 inertia;           // about it
+    std::vector<PieceLoad> solved;   // loads of the last solution, by piece of the group; empty: none yet
+    std::vector<SectionForces> forces;  // of it, by bond of the group
+    int calm = 0;                    // steps without a failure
+    int waits = 0;                   // steps until what failed has passed its forces on
+  };
+  struct Touch {
+    Vec3 force, point;      // in the structure's frame
+    double energy = 0;      // that an impact brings; unit: J
+    int other = -1;
+    bool impact = false;
+  };
+  using Touches = std::vector<std::pair<std::int32_t, Touch>>;  // with the piece that is touched
+
+  World& world;
+  Structure structure;
+  CollapseOptions options;
+  int first = 0;
+  std::vector<BondStatus> status;
+  std::vector<std::int32_t> lead_of;  // by piece
+  std::map<std::int32_t, Part> parts;  // by lead; those with bonds
+  std::vector<SectionForces> settled;
+  Vec3 ground_acceleration;
+  std::int32_t pushed = -1;  // the piece that a vehicle pushes
+  Vec3 push_force, push_at;  // in the world; unit: N, m
+  int push_steps = 0;        // to come
+  bool sinks = false;        // a footing went down since the last solution
+  std::map<std::int32_t, Vec3> blasted;  // impulse by piece; unit: N s
+  std::vector<std::pair<int, double>> drained;  // pieces of the world, and the energy that breaking took
+  CollapseReport report;
+  bool breaking = true;  // in this step
+  int arrests = 0;
+
+  // collapse_bodies.cpp: pieces, and the bodies that they make up
+  Impl(World& w, const Structure& s, int first_type, const CollapseOptions& o,
+       std::vector<SectionForces> before);
+  void keep(const BondGroup& group);
+  void replace(std::int32_t lead, const std::vector<BondGroup>& groups, bool always = false);
+  std::map<std::int32_t, Touches> find_touches() const;
+  void tie(const std::vector<BondFailure>& failures);
+  bool is_free(int piece) const;
+  int lead_in_world(int piece) const;
+  void set_motion(int piece, const Vec3& gained, const Vec3& angular);
+
+  // collapse_loads.cpp
+  std::vector<PieceLoad> calc_loads(std::int32_t lead, const Part& part, const Touches& touches,
+                                    bool with_impacts) const;
+  bool is_news(const Part& part, const std::vector<PieceLoad>& loads) const;
+
+  // collapse_breaking.cpp: stresses, and what fails under them
+  FailureOptions failure_options(const BondGroup& group) const;
+  StressResult solve(Part& part, const std::vector<PieceLoad>& loads);
+  double breaking_energy(const std::vector<BondFailure>& failing) const;
+  bool is_arrested(std::int32_t lead, Part& part, const Touches& touches,
+                   const std::vector<BondFailure>& failing);
+  bool update(std::int32_t lead, const Touches& touches);
+  bool on_solved();
+  bool update_all();
+  void settle_forces();
+
+  // collapse_causes.cpp: what moves bodies beside contacts
+  void push_free();
+  void drain();
+  void throw_blasted();
+  void accelerate();
+};
+
+}  // namespace rubble

@@ -1,0 +1,72 @@
+// The loads on the pieces of a body: weight, inertia, contacts and causes.
+#include "kernel/settling/collapse_impl.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kSameLoad =
+    0.3;  // changes below this share of a mean piece's weight are no news; unit: 1
+
+Mat3 inverse_of(const Mat3& m) {
+  const Vec3 c0 = cross(m.rows[1], m.rows[2]), c1 = cross(m.rows[2], m.rows[0]),
+             c2 = cross(m.rows[0], m.rows[1]);
+  return Mat3{{c0, c1, c2}}.transposed() * (1 / dot(m.rows[0], c0));
+}
+
+}  // namespace
+
+// Loads by piece of the structure; only those of the body are set.
+std::vector<PieceLoad> Collapse::Impl::calc_loads(std::int32_t lead, const Part& part,
+                                                  const Touches& touches, bool with_impacts) const {
+  const BondGroup& group = part.stress->group();
+  std::vector<PieceLoad> loads(structure.pieces.size());
+  const PieceState state = world.piece(first + lead);
+  const Quat back = state.world_from_body.rotation.conjugate();
+  const Vec3 pull = back.rotate(Vec3{0, 0, -options.gravity} - ground_acceleration);
+  Vec3 force = pull * part.mass, torque;
+  const auto push = [&](std::int32_t piece, const Vec3& f, const Vec3& point) {
+    loads[piece].force += f;
+    loads[piece].moment += cross(point - structure.pieces[piece].centre, f);
+    force += f;
+    torque += cross(point - part.centre, f);
+  };
+  for (const auto& [piece, touch] : touches) {
+    if (with_impacts || !touch.impact) push(piece, touch.force, touch.point);
+  }
+  for (const auto& [piece, impulse] : blasted) {
+    if (lead_of[piece] != lead || !with_impacts) continue;
+    push(piece, back.rotate(impulse) * (1 / options.step), structure.pieces[piece].centre);
+  }
+  if (push_steps > 0 && lead_of[pushed] == lead) {
+    const Pose pose = world.piece(first + pushed).world_from_body;
+    push(pushed, back.rotate(push_force),
+         structure.pieces[pushed].position + back.rotate(push_at - pose.translation));
+  }
+  if (group.anchored) {
+    for (const std::int32_t i : group.pieces) loads[i].force += pull * structure.pieces[i].mass;
+    return loads;
+  }
+  const Vec3 spin = back.rotate(state.angular_velocity);
+  const Vec3 linear = force * (1 / part.mass);
+  const Vec3 angular = inverse_of(part.inertia) * (torque - cross(spin, part.inertia * spin));
+  for (const std::int32_t i : group.pieces) {
+    const StructurePiece& piece = structure.pieces[i];
+    const Vec3 r = piece.centre - part.centre;
+    const Vec3 a = linear + cross(angular, r) + cross(spin, cross(spin, r));
+    loads[i].force += (pull - a) * piece.mass;
+    loads[i].moment -= piece.inertia * angular + cross(spin, piece.inertia * spin);
+  }
+  return loads;
+}
+
+bool Collapse::Impl::is_news(const Part& part, const std::vector<PieceLoad>& loads) const {
+  const BondGroup& group = part.stress->group();
+  if (part.solved.empty() || (sinks && group.anchored)) return true;
+  const double most = kSameLoad * part.mass * options.gravity / double(group.pieces.size());
+  for (std::size_t i = 0; i < group.pieces.size(); ++i) {
+    if (norm(loads[group.pieces[i]].force - part.solved[i].force) > most) return true;
+  }
+  return false;
+}
+
+}  // namespace rubble

@@ -1,0 +1,11 @@
+-- Rubble-50, mission 49: docs/rubble50.md. Made by tools/rubble50.py.
+local keys = rubble.include("fifty.lua")("curtain", "dust", "crawler")
+return rubble.mission {
+  seed = 49,
+  pile = keys.pile,
+  light = keys.light, lamp = keys.lamp, air = keys.air, wetness = keys.wetness,
+  robots = keys.robots, robot_run = keys.robot_run, trajectory = keys.trajectory,
+  camera = keys.camera, depth_sensor = keys.depth_sensor, imu = { on = true },
+  settle = { final_time_limit = 60 },
+  outputs = keys.outputs,
+}

@@ -1,0 +1,91 @@
+// The installed libraries, as a program of somebody else finds them: headers that are complete in
+// themselves, and examples/cpp with the same results as in this tree.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "io/state/pile_state_file.h"
+#include "kernel/base/hash.h"
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the shell prints, and its exit code on a last line.
+std::string shell(const ScratchFolder& scratch, const std::string& command) {
+  std::system(("cd '" + scratch.path().string() + "' && (" + command + ") >out.txt 2>&1; echo exit $? >>out.txt").c_str());
+  return read_file(scratch / "out.txt");
+}
+
+// Only what is meant for programs of others, in a folder that was moved since.
+std::string install(const ScratchFolder& scratch) {
+  const std::string build = fs::path(RUBBLE_PROGRAM).parent_path().string();
+  const std::string printed = shell(scratch, "cmake --install '" + build + "' --component development --prefix here");
+  fs::rename(scratch / "here", scratch / "there");
+  return printed;
+}
+
+TEST(Library, PublicHeadersIncludeOnlyPublicOnes) {
+  const ScratchFolder scratch;
+  install(scratch);
+  const fs::path root = scratch / "there/include/rubble";
+  int count = 0;
+  std::string all;
+  for (const auto& file : fs::recursive_directory_iterator(root)) {
+    if (!file.is_regular_file()) continue;
+    all += "#include \"" + fs::relative(file.path(), root).string() + "\"\n";
+    ++count;
+  }
+  EXPECT_GT(count, 30);
+  const std::string compile = "g++ -std=c++17 -Wall -Wextra -fsyntax-only -I there/include/rubble all.cpp";
+  write_file(scratch / "all.cpp", all);
+  EXPECT_EQ(shell(scratch, compile), "exit 0\n");
+  // The control: one that is missing is noticed.
+  fs::remove(root / "kernel/model/track_builder.h");
+  EXPECT_NE(shell(scratch, compile).find("kernel/model/track_builder.h"), std::string::npos);
+}
+
+TEST(Library, AConsumersProgramHasTheResultsOfThisTree) {
+  const ScratchFolder scratch;
+  ASSERT_NE(install(scratch).find("exit 0\n"), std::string::npos);
+  const std::string built = shell(
+      scratch, "cmake -S '" RUBBLE_SOURCE_DIR "/examples/cpp' -B build -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=\"$PWD/there\""
+               " && cmake --build build && mkdir theirs ours");
+  ASSERT_NE(built.find("exit 0\n"), std::string::npos) << built;
+  // settle_pile and find_voids of a build, in a folder.
+  const auto run = [&](const std::string& settle, const std::string& find, const std::string& folder) {
+    return shell(scratch, settle + " settle 7 " + folder + " && " + settle + " export " + folder + " && " + find + " " +
+                              folder + "/pile.bin");
+  };
+  const std::string theirs = run("build/settle_pile", "build/find_voids", "theirs");
+  ASSERT_NE(theirs.find("exit 0\n"), std::string::npos) << theirs;
+  EXPECT_NE(theirs.find(", settled\n"), std::string::npos) << theirs;
+  EXPECT_EQ(theirs, run("'" RUBBLE_EXAMPLES "/settle_pile'", "'" RUBBLE_EXAMPLES "/find_voids'", "ours"));
+  for (const char* file : {"/pile.bin", "/pile.stl"})
+    EXPECT_EQ(read_file(scratch / "theirs" + file), read_file(scratch / "ours" + file)) << file;
+  const PileState pile = load_pile_state(scratch / "theirs/pile.bin");
+  EXPECT_EQ(pile.pieces.size(), 80u);
+  EXPECT_NE(theirs.find(hex64(pile.state_hash())), std::string::npos) << theirs;
+  EXPECT_NE(shell(scratch, "build/settle_pile verify 7 ours").find("the same\nexit 0"), std::string::npos);
+  // The control: another seed, another pile.
+  EXPECT_NE(shell(scratch, "build/settle_pile verify 8 ours").find("not the same\nexit 5"), std::string::npos);
+}
+
+TEST(Library, SaysWhatItCannotGive) {
+  const ScratchFolder scratch;
+  install(scratch);
+  write_file(scratch / "CMakeLists.txt",
+             "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES C CXX)\nfind_package(Rubble ${WANTED})\n");
+  const auto configure = [&](const std::string& wanted) {
+    return shell(scratch, "cmake -S . -B out -DCMAKE_PREFIX_PATH=\"$PWD/there\" -DWANTED='" + wanted + "'");
+  };
+  EXPECT_NE(configure("0.1;REQUIRED;COMPONENTS;kernel").find("exit 0\n"), std::string::npos);
+  EXPECT_NE(configure("0.1;REQUIRED;COMPONENTS;renderer").find("no component renderer; expected kernel, files or voids"), std::string::npos);
+  EXPECT_NE(configure("0.2;REQUIRED").find("with requested version \"0.2\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rubble::testing

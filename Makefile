@@ -85,7 +85,7 @@ demo: build
 pictures: demo
 	mkdir -p docs/pictures
 	tools/frames_of_bag.py out/first_pile/mission.bag docs/pictures/first_pile.png 341 0 55 118
-	for pack in concrete residential parking bridge; do \
+	for pack in concrete residential parking bridge victims; do \
 	  $(PROGRAM) assets show $$pack --tile 168 --out docs/pictures/pack_$$pack.jpg || exit 1; done
 	$(PROGRAM) voids out/first_pile --radius 0.2 --force
 	cp out/first_pile/voids/plan_r200.png docs/pictures/void_plan.png

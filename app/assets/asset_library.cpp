@@ -19,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kVictimPack = "victims";
+
 // Every asset of the packs, in their order, but articulated ones last.
 std::vector<FoundAsset> list_assets(const std::vector<AssetPack>& packs) {
   std::vector<FoundAsset> all;
@@ -45,6 +47,8 @@ std::set<std::string> names_used(const Scenario& scenario, const std::vector<Fou
   for (const PlacedItem& item : scenario.pile.placed)
     if (!item.box) used.insert(item.asset);
   for (const MixItem& item : scenario.pile.mix) used.insert(item.asset);
+  for (const FoundAsset& found : all)
+    if (scenario.victims.count > 0 && found.pack->name == kVictimPack) used.insert(found.asset->name);
   if (scenario.pile.mix.empty() && scenario.pile.layers > 0)
     for (const FoundAsset& found : all)
       if (found.asset->weight > 0) used.insert(found.asset->name);
@@ -52,6 +56,13 @@ std::set<std::string> names_used(const Scenario& scenario, const std::vector<Fou
     if (used.count(found.asset->name))
       for (const AssetLink& link : found.asset->links) used.insert(link.asset);
   return used;
+}
+
+// Where people are to lie in the voids, their pack is there without being asked for.
+void add_victim_pack(const Scenario& scenario, const std::string& bundled, std::vector<std::string>& folders) {
+  const std::string folder = bundled + "/" + kVictimPack;
+  if (scenario.victims.count > 0 && std::find(folders.begin(), folders.end(), folder) == folders.end())
+    folders.push_back(folder);
 }
 
 std::vector<std::string> material_names(const std::vector<Material>& materials) {
@@ -194,6 +205,7 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   std::vector<std::string> folders = find_mission_packs(mission);
   for (const std::string& pack : extra_packs) folders.push_back(find_pack(pack));
   if (folders.empty()) folders.push_back(bundled + "/concrete");
+  add_victim_pack(mission.scenario, bundled, folders);
 
   const std::vector<Material> materials = load_materials(bundled + "/materials.lua");
   std::vector<AssetPack> packs;

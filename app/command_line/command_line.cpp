@@ -134,6 +134,7 @@ namespace {
 constexpr std::pair<std::string_view, const char*> kGroups[] = {
     {"eval", "Score trajectories, reconstructions and maps of a dataset"},
     {"assets", "Check or draw a pack of assets"},
+    {"bench", "Run a benchmark of robots"},
 };
 
 CLI::App* find_subcommand(CLI::App& app, const std::string& name) {

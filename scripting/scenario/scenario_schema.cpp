@@ -389,6 +389,7 @@ Schema make_scenario_schema(Scenario& s) {
   Schema keys;
   add_top(keys, s);
   add_pile_keys(keys, s.pile);
+  add_victim_keys(keys, s.victims);
   add_settle(keys, s.settle);
   add_light(keys, s.light);
   add_more_lights(keys, s.lights);

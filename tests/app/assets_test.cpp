@@ -41,7 +41,7 @@ TEST_P(BundledPack, PassesItsCheck) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Assets, BundledPack,
-                         ::testing::Values("concrete", "residential", "parking", "bridge"),
+                         ::testing::Values("concrete", "residential", "parking", "bridge", "victims"),
                          [](const auto& test) { return test.param; });
 
 // A cube of side `size` as an OBJ file; open: without its top.

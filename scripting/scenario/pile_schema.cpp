@@ -203,6 +203,18 @@ void add_cause(Schema& k, CollapseCause& c) {
 
 }  // namespace
 
+void add_victim_keys(Schema& k, VictimScenario& v) {
+  k.group("victims",
+          "People in the voids of the settled pile, as rigid figures: for missions that search for them "
+          "(docs/search.md).");
+  k.value("victims.count", v.count, "How many.").between(0, 50);
+  k.choice("victims.difficulty", v.difficulty, {"easy", "medium", "hard"},
+           "How far from the entrances: the nearest, the middle or the farthest third of the places.");
+  k.value("victims.radius", v.radius, "Of the robot that gets near each of them and sees it.")
+      .between(0.05, 1)
+      .unit("m");
+}
+
 void add_pile_keys(Schema& keys, PileScenario& pile) {
   add_pile(keys, pile);
   add_terrain(keys, pile.terrain);

@@ -16,7 +16,7 @@ void add_top(Schema& k, Scenario& s) {
       .between(1, 4294967295e9)
       .unit("ns");
   k.value("packs", s.packs,
-          "Folders of asset packs, relative to the script; empty: the bundled pack `concrete`.");
+          "Asset packs: names of bundled packs, or folders relative to the script; empty: `concrete`.");
   k.value("wetness", s.wetness,
           "How wet all surfaces are: wet surfaces are darker, and glossy where they face up.")
       .between(0, 1);
@@ -389,6 +389,7 @@ Schema make_scenario_schema(Scenario& s) {
   Schema keys;
   add_top(keys, s);
   add_pile_keys(keys, s.pile);
+  add_victim_keys(keys, s.victims);
   add_settle(keys, s.settle);
   add_light(keys, s.light);
   add_more_lights(keys, s.lights);

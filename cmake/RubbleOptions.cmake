@@ -77,12 +77,12 @@ function(rubble_precompile group)
   endforeach()
 endfunction()
 
-# rubble_rooms(targets...) compiles the sources of each folder as one unit, so that what a header
-# declares is read once a room and not once a file: a clean build takes half the time. It only saves
-# time; what it asks for is that two files of a room give no two helpers the same name. A source with
-# flags of its own, or that reads a library whose headers are many, stays apart
-# (SKIP_UNITY_BUILD_INCLUSION). Sanitizer builds and fuzz targets compile each file alone, so that a
-# missing include is found.
+# rubble_rooms(targets...) compiles the sources of each folder as one unit, so that a header is read
+# once a room and not once a file. It only saves time; what it asks for is that no two files of a folder
+# have helpers of the same name. Sources that CMake makes, or with flags of their own, stay apart, as do
+# those that are marked SKIP_UNITY_BUILD_INCLUSION. A source with a UNITY_GROUP of its own keeps it: so a
+# room of slow sources becomes two units. Sanitizer builds and fuzz targets compile each file alone, so
+# that a missing include is found.
 option(RUBBLE_ROOMS "Compile the sources of a folder as one unit" ON)
 function(rubble_rooms)
   if(NOT RUBBLE_ROOMS OR RUBBLE_SANITIZE OR RUBBLE_FUZZ)
@@ -95,6 +95,10 @@ function(rubble_rooms)
       cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} OUTPUT_VARIABLE path)
       cmake_path(IS_PREFIX CMAKE_BINARY_DIR ${path} generated)
       if(generated)
+        continue()
+      endif()
+      get_source_file_property(group ${path} TARGET_DIRECTORY ${target} UNITY_GROUP)
+      if(group)
         continue()
       endif()
       cmake_path(GET path PARENT_PATH room)

@@ -32,7 +32,7 @@ Action declare_check(CommandLine& line) {
   line.add_print("--schema", mission_json_schema,
                  "Print a JSON Schema of every key of a mission instead");
   line.add_print("--annotations", lua_annotations,
-                 "Print LuaCATS annotations, by which editors check and complete missions, instead");
+                 "Print LuaCATS annotations instead, with which editors check and complete missions");
   return [request] { return check_mission(*request); };
 }
 

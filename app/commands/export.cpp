@@ -85,7 +85,8 @@ Action declare_export(CommandLine& line) {
 }  // namespace
 
 Command export_command() {
-  return {"", "export", "The pile of a finished run as STL, PLY, OBJ, glTF or SDF", declare_export};
+  return {"", "export", "Export the pile of a finished run as STL, PLY, OBJ, glTF or SDF",
+          declare_export};
 }
 
 }  // namespace rubble

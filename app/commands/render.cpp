@@ -18,9 +18,10 @@ Track load_track_of(const std::string& from) {
   const std::string path = from + "/track.bin";
   std::error_code failed;
   if (!std::filesystem::exists(path, failed))
-    throw InputError({from, 0, "", "the run kept no track of who moved when its pile settled",
-                      "a track.bin", "none",
-                      "run its mission again with --track, or without record_settling and outputs.track"});
+    throw InputError(
+        {from, 0, "", "the run kept no track of who moved when its pile settled", "a track.bin",
+         "none",
+         "run its mission again with --track, or without record_settling and outputs.track"});
   return load_track(path);
 }
 
@@ -58,7 +59,8 @@ Action declare_render(CommandLine& line) {
 }  // namespace
 
 Command render_command() {
-  return {"", "render", "Another mission's flight over the pile of a finished run", declare_render};
+  return {"", "render", "Render the flight of another mission over the pile of a finished run",
+          declare_render};
 }
 
 }  // namespace rubble

@@ -1,4 +1,5 @@
-// `rubble settle`: the pile only: pile.bin, pile.stl, manifest.json, and its track where it is asked for.
+// `rubble settle`: the pile only: pile.bin, pile.stl, manifest.json, and its track where it is
+// asked for.
 #include <memory>
 
 #include "app/command_line/command.h"
@@ -20,6 +21,8 @@ Action declare_settle(CommandLine& line) {
 
 }  // namespace
 
-Command settle_command() { return {"", "settle", "Settle the pile of a mission, nothing more", declare_settle}; }
+Command settle_command() {
+  return {"", "settle", "Settle the pile of a mission only", declare_settle};
+}
 
 }  // namespace rubble

@@ -36,7 +36,7 @@ struct Button {
   DriveAction action;
 };
 
-const Button kButtons[] = {
+const Button kJoyButtons[] = {
     {0, DriveAction::lamp},    {1, DriveAction::fog},     {2, DriveAction::help},
     {3, DriveAction::reset},   {4, DriveAction::slower},  {5, DriveAction::faster},
     {6, DriveAction::quit},    {7, DriveAction::pause},   {9, DriveAction::picture},
@@ -70,7 +70,7 @@ void RemoteControls::hear(const JoyCommand& joy) {
     if (is >= kPressed && was < kPressed) actions_.push_back(pad.positive);
     if (is <= -kPressed && was > -kPressed) actions_.push_back(pad.negative);
   }
-  for (const Button& button : kButtons)
+  for (const Button& button : kJoyButtons)
     if (pressed(joy, button.number) && !pressed(joy_, button.number))
       actions_.push_back(button.action);
   joy_ = joy;

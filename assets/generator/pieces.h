@@ -39,4 +39,6 @@ std::vector<Recipe> furniture_pieces();  // chairs, tables, sofa, mattress, refr
 std::vector<Recipe> guard_pieces();  // guard rails and a post
 std::vector<Recipe> bridge_steel();  // girders, rails, clusters of bars
 
+std::vector<Recipe> victim_pieces();  // posed figures of people
+
 }  // namespace rubble::generator

@@ -5,11 +5,12 @@ namespace {
 
 constexpr int kMaxIterations = 32;  // what has not converged by then keeps the best bound so far
 constexpr float kRelativeTolerance = 1e-4F;  // of the distance: 0.01 mm at 0.1 m
-// A distance counts as found when the proven bound below it is so near: the rest is rounding. Without
-// this test pieces at rest lost a contact now and then, and piles crept.
+// A distance is accepted if its proven lower bound differs by less than this share: the rest is rounding.
+// Without this test, pieces at rest lost contacts at times, and piles crept. unit: 1
 constexpr float kAcceptedShare = 1e-2F;
-constexpr float kAcceptedGap = 5e-4F;  // unit: m
-constexpr float kTouching2 = 1e-10F;  // (10 micrometres)^2
+// A distance is also accepted if its proven lower bound differs by less than this. unit: m
+constexpr float kAcceptedGap = 5e-4F;
+constexpr float kTouching2 = 1e-10F;  // below this squared distance, (10 micrometres)^2, parts touch; unit: m2
 
 struct Vertex {
   Vec3f w;  // a - b

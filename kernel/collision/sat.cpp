@@ -7,9 +7,10 @@ namespace {
 
 // Edge pairs are worth it only when clearly better than the best face: faces make larger contacts.
 constexpr float kEdgeAdvantage = 1e-4F;
-// From this overlap an axis must lead out of the whole piece, and so far beyond the surface it must be
-// outside; unit: m.
-constexpr float kDeep = 0.003F, kBeyond = 0.005F;
+// For deeper overlaps, an axis must lead out of the whole piece; unit: m.
+constexpr float kDeep = 0.003F;
+// An axis leads out of a piece if a point this far beyond the surface is outside; unit: m.
+constexpr float kBeyond = 0.005F;
 // Two edges separate the parts only if no corner reaches farther over their axis than this; unit: m.
 constexpr float kEdgeTolerance = 1e-4F;
 

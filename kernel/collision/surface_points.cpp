@@ -18,8 +18,8 @@ constexpr float kDeepest = 0.3F;
 constexpr float kFallback = 0.05F;
 // Axes nearer to the triangle's normal than this are that normal.
 constexpr float kSameCosine = 0.9999F;
-constexpr float kLeastCosine = 0.05F;  // axes out of a triangle lean to its free side by this
-constexpr float kAxisAdvantage = 5e-4F;  // another axis must be better by this; unit: m
+constexpr float kLeastCosine = 0.05F;  // least cosine between an axis and the triangle's normal on its free side
+constexpr float kAxisAdvantage = 5e-4F;  // another axis is used only if its overlap is smaller by this; unit: m
 
 // A triangle seen from the centre of a piece, turned to the world.
 struct PosedTriangle {

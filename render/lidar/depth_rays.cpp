@@ -8,7 +8,7 @@
 namespace rubble {
 namespace {
 
-constexpr int kGrain = 512;  // rays that a thread takes at once
+constexpr int kDepthGrain = 512;  // rays that a thread takes at once
 constexpr int kPacket = int(LidarWorld::kPacket);
 
 }  // namespace
@@ -25,7 +25,7 @@ DepthRays::DepthRays(const Intrinsics& k, double max_range) : k_(k), max_range_(
 void DepthRays::cast(const LidarWorld& world, const Pose& world_from_camera, ThreadPool& pool, float* depth,
                      std::int32_t* pieces) const {
   const Mat3 turn = world_from_camera.rotation.matrix();
-  pool.run(int(directions_.size()), kGrain, [&](int begin, int end) {
+  pool.run(int(directions_.size()), kDepthGrain, [&](int begin, int end) {
     LidarWorld::Ray rays[kPacket];
     LidarWorld::Hit hits[kPacket];
     for (int first = begin; first < end; first += kPacket) {

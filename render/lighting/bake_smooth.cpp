@@ -24,44 +24,46 @@ constexpr float kContact = 0.7f;     // light left where pieces touch
 }  // namespace
 
 // Light varies over a distance that grows with that of what sends it (Ward et al. 1988): so far, and no
-// farther than a free line of sight, a neighbour's light is as good as the point's own. Each line is cast once
-// for both of its ends.
-void Baker::find_neighbours(std::size_t piece) {
-  const std::size_t first = first_point_[piece];
-  const std::size_t end = first + scene_.meshes[scene_.placed[piece].mesh].bake_points.size();
-  const auto reach_of = [&](std::size_t i) { return std::min(kReach * points_[i].clearance, kWidest); };
-  PointGrid grid(kCell);
-  for (std::size_t i = first; i < end; ++i)
-    if (points_[i].open) grid.add(points_[i].position, std::uint32_t(i));
-  std::vector<RayScene::Ray> lines;
+// farther than a free line of sight, a neighbour's light is as good as the point's own.
+float Baker::reach_of(const Point& p) const {
+  const float reach = std::min(kReach * p.clearance, kWidest);
+  return p.open && reach >= kLeastReach ? reach : 0;
+}
+
+// Looks at those after it alone: each line of sight is cast once, for both of its ends.
+void Baker::join_neighbours(std::uint32_t i, const PointGrid& grid, std::vector<RayScene::Ray>& lines) {
+  const Point& p = points_[i];
   std::vector<std::uint32_t> ends;
-  std::vector<std::uint8_t> hidden;
-  const auto take = [&](std::size_t i, std::uint32_t k, float away) {
-    const float reach = reach_of(i), near = 1 - away * away / (reach * reach);
-    if (reach >= kLeastReach && near > 0) neighbours_[i].push_back({k, near});
+  lines.clear();
+  grid.near(p.position, int(std::ceil(kWidest / kCell)), [&](std::uint32_t k) {
+    const Point& q = points_[k];
+    const Vec3f d = q.position - p.position;
+    const float reach = std::max(reach_of(p), reach_of(q)), away2 = dot(d, d);
+    if (k <= i || away2 >= reach * reach || dot(p.normal, q.normal) < kFacing) return;
+    const float away = std::sqrt(std::max(away2, 1e-12f));
+    lines.push_back({p.position + p.normal * kLift, 0, (d + (q.normal - p.normal) * kLift) * (1 / away), away});
+    ends.push_back(k);
+  });
+  std::vector<std::uint8_t> hidden(lines.size());
+  rays_.blocked_many(lines.data(), lines.size(), RayScene::Order::coherent, hidden.data());
+  const auto take = [&](std::uint32_t of, std::uint32_t from, float away) {
+    const float reach = reach_of(points_[of]);
+    if (away < reach) neighbours_[of].push_back({from, 1 - away * away / (reach * reach)});
   };
-  for (std::size_t i = first; i < end; ++i) {
-    const Point& p = points_[i];
-    if (!p.open) continue;
-    lines.clear(), ends.clear();
-    grid.near(p.position, int(std::ceil(kWidest / kCell)), [&](std::uint32_t k) {
-      const Point& q = points_[k];
-      const Vec3f d = q.position - p.position;
-      const float reach = std::max(reach_of(i), reach_of(k)), away2 = dot(d, d);
-      if (k <= i || reach < kLeastReach || away2 >= reach * reach || dot(p.normal, q.normal) < kFacing) return;
-      const float away = std::sqrt(std::max(away2, 1e-12f));
-      lines.push_back({p.position + p.normal * kLift, 0, (d + (q.normal - p.normal) * kLift) * (1 / away), away});
-      ends.push_back(k);
-    });
-    if (lines.empty()) continue;
-    hidden.resize(lines.size());
-    rays_.blocked_many(lines.data(), lines.size(), RayScene::Order::coherent, hidden.data());
-    for (std::size_t n = 0; n < lines.size(); ++n) {
-      if (hidden[n]) continue;
-      take(i, ends[n], lines[n].farthest), take(ends[n], std::uint32_t(i), lines[n].farthest);
-    }
-  }
-  for (std::size_t i = first; i < end; ++i) {
+  for (std::size_t n = 0; n < lines.size(); ++n)
+    if (!hidden[n]) take(i, ends[n], lines[n].farthest), take(ends[n], i, lines[n].farthest);
+}
+
+void Baker::find_neighbours(std::size_t piece) {
+  const std::uint32_t first = first_point_[piece];
+  const std::uint32_t end = first + std::uint32_t(scene_.meshes[scene_.placed[piece].mesh].bake_points.size());
+  PointGrid grid(kCell);
+  std::vector<RayScene::Ray> lines;
+  for (std::uint32_t i = first; i < end; ++i)
+    if (points_[i].open) grid.add(points_[i].position, i);
+  for (std::uint32_t i = first; i < end; ++i)
+    if (points_[i].open) join_neighbours(i, grid, lines);
+  for (std::uint32_t i = first; i < end; ++i) {
     float sum = 1, squares = 1;
     for (const Neighbour& n : neighbours_[i]) sum += n.weight, squares += n.weight * n.weight;
     points_[i].noise_left = squares / (sum * sum);

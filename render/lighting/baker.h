@@ -10,6 +10,7 @@
 #include <functional>
 #include <vector>
 
+#include "render/geometry/point_grid.h"
 #include "render/geometry/ray_scene.h"
 #include "render/lighting/bake.h"
 
@@ -82,6 +83,8 @@ class Baker {
   std::uint32_t drawn_point(const RayScene::PreciseHit& hit, float draw) const;
 
   // bake_smooth.cpp
+  float reach_of(const Point& p) const;  // of neighbours; 0: none; unit: m
+  void join_neighbours(std::uint32_t point, const PointGrid& grid, std::vector<RayScene::Ray>& lines);
   void find_neighbours(std::size_t piece);
   void smooth(std::size_t point, Point& out) const;
   void find_substitutes();

@@ -9,23 +9,23 @@ CTEST   := ctest --output-on-failure --parallel 2
 help:
 	@echo "make demo       install what is missing, build, and run scripts/first_pile.lua"
 	@echo "make test       install what is missing, build, and run the test suite"
-	@echo "make gallery    draw docs/gallery.md and its pictures anew"
-	@echo "make pictures   draw the other pictures of the documents anew"
-	@echo "make build      build the program and its assets alone: $(PROGRAM)"
-	@echo "make all        build the tests and benches, too"
-	@echo "make install PREFIX=/usr/local  the program, its assets, manual pages, completion"
-	@echo "make package    Debian packages: build/package/rubble_*.deb, librubble-dev_*.deb"
-	@echo "make image      an image for containers: build/package/rubble_*_oci.tar (needs root)"
-	@echo "make archive    a self-extracting archive for other distributions: build/package/rubble-*.run"
-	@echo "make site       the documents as a site: build/site/index.html"
-	@echo "make live       the same with what publishes over ROS (docs/live.md)"
-	@echo "make test-nightly  the tests that take long, or need a cluster of one node"
-	@echo "make test-asan  the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
-	@echo "make test-tsan  the suite under ThreadSanitizer"
-	@echo "make fuzz SECONDS=60  every fuzz target for so long, two at once (docs/reliability.md)"
-	@echo "make faults     break a small run at many places, continue it, compare the bytes (an hour)"
-	@echo "make determinism  the same hashes from other compilers, levels and processors (half an hour)"
-	@echo "make platforms  the kernel for Windows, riscv64 and arm64, under emulators (docs/platforms.md)"
+	@echo "make gallery    write docs/gallery.md and its pictures"
+	@echo "make pictures   draw the other pictures of the documents"
+	@echo "make build      build the program and its assets only: $(PROGRAM)"
+	@echo "make all        build everything, with the tests and benches"
+	@echo "make install PREFIX=/usr/local  install the program, its assets, manual pages and completions"
+	@echo "make package    make Debian packages: build/package/rubble_*.deb, librubble-dev_*.deb"
+	@echo "make image      make a container image: build/package/rubble_*_oci.tar (needs root)"
+	@echo "make archive    make a self-extracting archive for other distributions: build/package/rubble-*.run"
+	@echo "make site       make a site of the documents: build/site/index.html"
+	@echo "make live       build everything, with publishing over ROS 1 and ROS 2 (docs/live.md)"
+	@echo "make test-nightly  run the tests that take long, or need a cluster of one node"
+	@echo "make test-asan  run the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
+	@echo "make test-tsan  run the suite under ThreadSanitizer"
+	@echo "make fuzz SECONDS=60  run every fuzz target for this time, two at once (docs/reliability.md)"
+	@echo "make faults     interrupt a small run at many places, continue it, compare the bytes (an hour)"
+	@echo "make determinism  compare hashes of other compilers, levels and processors (half an hour)"
+	@echo "make platforms  test the kernel for Windows, riscv64 and arm64, under emulators (docs/platforms.md)"
 	@echo "make format     clang-format over the tree"
 	@echo "make clean      remove build/ and out/"
 
@@ -85,7 +85,7 @@ demo: build
 pictures: demo
 	mkdir -p docs/pictures
 	tools/frames_of_bag.py out/first_pile/mission.bag docs/pictures/first_pile.png 341 0 55 118
-	for pack in concrete residential parking bridge; do \
+	for pack in concrete residential parking bridge victims; do \
 	  $(PROGRAM) assets show $$pack --tile 168 --out docs/pictures/pack_$$pack.jpg || exit 1; done
 	$(PROGRAM) voids out/first_pile --radius 0.2 --force
 	cp out/first_pile/voids/plan_r200.png docs/pictures/void_plan.png

@@ -22,7 +22,7 @@ add_dependencies(program rubble_share)
 
 set(data ${CMAKE_INSTALL_DATADIR}/rubble)
 install(TARGETS rubble RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-foreach(pack concrete residential parking bridge)
+foreach(pack concrete residential parking bridge victims)
   install(DIRECTORY ${CMAKE_BINARY_DIR}/assets/${pack} DESTINATION ${data}/assets)
 endforeach()
 install(FILES assets/materials.lua DESTINATION ${data}/assets)

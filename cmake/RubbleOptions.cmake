@@ -76,3 +76,41 @@ function(rubble_precompile group)
     endif()
   endforeach()
 endfunction()
+
+# rubble_rooms(targets...) compiles the sources of each folder as one unit, so that a header is read
+# once a room and not once a file. It only saves time; what it asks for is that no two files of a folder
+# have helpers of the same name. Sources that CMake makes, or with flags of their own, stay apart, as do
+# those that are marked SKIP_UNITY_BUILD_INCLUSION. A source with a UNITY_GROUP of its own keeps it: so a
+# room of slow sources becomes two units. Sanitizer builds and fuzz targets compile each file alone, so
+# that a missing include is found.
+option(RUBBLE_ROOMS "Compile the sources of a folder as one unit" ON)
+function(rubble_rooms)
+  if(NOT RUBBLE_ROOMS OR RUBBLE_SANITIZE OR RUBBLE_FUZZ)
+    return()
+  endif()
+  foreach(target IN LISTS ARGN)
+    get_target_property(sources ${target} SOURCES)
+    get_target_property(folder ${target} SOURCE_DIR)
+    foreach(source IN LISTS sources)
+      cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} OUTPUT_VARIABLE path)
+      cmake_path(IS_PREFIX CMAKE_BINARY_DIR ${path} generated)
+      if(generated)
+        continue()
+      endif()
+      get_source_file_property(group ${path} TARGET_DIRECTORY ${target} UNITY_GROUP)
+      if(group)
+        continue()
+      endif()
+      cmake_path(GET path PARENT_PATH room)
+      cmake_path(RELATIVE_PATH room BASE_DIRECTORY ${CMAKE_SOURCE_DIR} OUTPUT_VARIABLE room)
+      string(REPLACE "/" "_" room "${room}")
+      set_source_files_properties(${path} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${room})
+    endforeach()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    # GCC takes a source that is included for a header, whose types others could see.
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      set_target_properties(${target} PROPERTIES UNITY_BUILD_CODE_BEFORE_INCLUDE
+        "#pragma GCC diagnostic ignored \"-Wsubobject-linkage\"")
+    endif()
+  endforeach()
+endfunction()

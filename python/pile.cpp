@@ -6,6 +6,7 @@
 
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/finished_run.h"
+#include "app/pipeline/stages.h"
 #include "kernel/base/parallel.h"
 #include "kernel/queries/queries.h"
 #include "kernel/settling/settle.h"
@@ -48,6 +49,7 @@ Pile settle(const std::string& mission, std::optional<std::uint64_t> seed,
   SettleOptions options = settled->mission.scenario.settle;
   options.threads = context.threads();
   settled->state = settle_pile(make_pile(settled->mission), options);
+  add_victims(settled->mission, context.threads(), settled->state);
   return {settled, context.threads()};
 }
 

@@ -116,7 +116,7 @@ class RobotWorld {
 
  private:
   World make_world(const SettledMission& settled, bool fixed, int threads) {
-    const Pile pile = make_pile(settled.mission);
+    const Pile pile = make_laid_pile(settled.mission, settled.state);
     World world(pile.types, world_options(settled.mission.scenario, threads), pile.assemblies);
     world.lay(pile, settled.state, fixed);
     world.set_step(kStep, kSubsteps);

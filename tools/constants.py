@@ -12,9 +12,9 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "constants.md"
 ROOMS = {
-    "collision": "Who touches whom, and where",
+    "collision": "Collision: pairs and contact points",
     "solver": "Contact forces",
-    "structure": "Members, bonds and what they break at",
+    "structure": "Structures: members, bonds and their strength",
     "multibody": "Free rotation, joints and trees",
     "world": "The step, sleep and rest",
     "settling": "The schedule of a pile",
@@ -23,20 +23,19 @@ DECLARATION = re.compile(r"^\s*(?:inline |static )*constexpr (?:float|double|int
 UNIT = re.compile(r"[;,]?\s*unit: ([^;.)]+)")
 HEAD = """# Constants of the kernel
 
-Every named number in the kernel's rooms of physics, with its unit, its reason and its consequence; numbers
-that follow from others are left out. Settings with a default stand in `SolverSettings`
-(`kernel/solver/contact_solver.h`) and `NarrowSettings` (`kernel/collision/narrow_phase.h`), the terms of
-sleep in `kernel/world/world_sleep.cpp`. What a script may set is in [lua.md](lua.md); how far clamps and limits depart from the laws of Newton and Coulomb
-is measured in [performance.md](performance.md), "Closed forms".
+This page lists every named number in the kernel's folders of physics, with its unit and its reason. Numbers
+that follow from others are left out. Settings with a default are in `SolverSettings`
+(`kernel/solver/contact_solver.h`) and `NarrowSettings` (`kernel/collision/narrow_phase.h`); the conditions of
+sleep are in `kernel/world/world_sleep.cpp`. [lua.md](lua.md) has the keys that a script may set.
+[performance.md](performance.md#closed-forms) measures how far clamps and limits deviate from the laws of Newton
+and Coulomb.
 
 This page is written by `tools/constants.py` from the comments beside the constants; a test compares the two.
 """
 
 
 def read_comment(lines, row):
-    """The comment block above a line, or above the block of constants that the line stands in."""
-    while row > 0 and "constexpr" in lines[row - 1] and ";" in lines[row - 1]:
-        row -= 1
+    """The comment block right above a line: it belongs to this constant, not to those that follow it."""
     text = []
     while row > 0 and lines[row - 1].strip().startswith("//"):
         text.insert(0, lines[row - 1].strip().lstrip("/ "))
@@ -48,6 +47,8 @@ def read_constants(path):
     lines = path.read_text().splitlines()
     for row, line in enumerate(lines):
         code, _, trailing = line.partition("//")
+        if re.search(r"constexpr \S+ k[A-Z]\w* =$", code.rstrip()) and is_number(lines[row + 1].split(";")[0].strip()):
+            yield code.split()[-2], lines[row + 1].split(";")[0].strip(), "", ""  # without a reason: a problem
         match = DECLARATION.match(code.rstrip())
         if not match or ";" not in code:
             continue
@@ -66,7 +67,7 @@ def is_number(value):
 def make_page(problems):
     text, known = HEAD, {}
     for room, title in ROOMS.items():
-        text += f"\n## {title} (`kernel/{room}`)\n\n| constant | value | unit | why, and what it does | in |\n|---|---|---|---|---|\n"
+        text += f"\n## {title} (`kernel/{room}`)\n\n| constant | value | unit | meaning and reason | in |\n|---|---|---|---|---|\n"
         for path in sorted((ROOT / "kernel" / room).rglob("*")):
             if path.suffix not in (".h", ".cpp"):
                 continue

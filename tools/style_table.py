@@ -140,18 +140,18 @@ def main():
     largest_source = max(sources, key=lines.get)
     longest = max(functions)
     rows = [
-        ("headers; lines, median and most", f"{len(headers)}; {statistics.median(lines[f] for f in headers):.0f}"
+        ("headers; lines, median and largest", f"{len(headers)}; {statistics.median(lines[f] for f in headers):.0f}"
          f" and {lines[largest_header]} ({largest_header})"),
-        ("sources; lines, median and most", f"{len(sources)}; {statistics.median(lines[f] for f in sources):.0f}"
+        ("sources; lines, median and largest", f"{len(sources)}; {statistics.median(lines[f] for f in sources):.0f}"
          f" and {lines[largest_source]} ({largest_source})"),
-        ("functions; lines, median and most", f"{len(functions)}; "
+        ("functions; lines, median and largest", f"{len(functions)}; "
          f"{statistics.median(n for n, _ in functions):.0f} and {longest[0]} ({longest[1]})"),
         ("functions longer than 20 lines", f"{100 * sum(n > 20 for n, _ in functions) / len(functions):.0f} %"),
-        ("largest room, files", f"{rooms[largest_room]} ({largest_room})"),
+        ("largest folder, files", f"{rooms[largest_room]} ({largest_room})"),
         ("include cycles", str(count_cycles(files))),
         ("lines with a comment", f"{100 * comments / filled:.0f} %"),
         ("members of headers with a comment", f"{100 * said / len(members):.0f} % of {len(members)}"),
-        ("tests beside the code, lines", f"{100 * tests / sum(lines.values()):.0f} %"),
+        ("lines of tests, relative to the code", f"{100 * tests / sum(lines.values()):.0f} %"),
     ]
     print("| of `" + "`, `".join(folders) + "` | |\n|---|---|")
     for name, value in rows:

@@ -11,11 +11,15 @@
 #include "app/assets/material_variant.h"
 #include "app/assets/placed_box.h"
 #include "scripting/packs/asset_pack.h"
+#include "scripting/sandbox/script_file.h"
+#include "scripting/schema/schema.h"
 
 namespace rubble {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kVictimPack = "victims";
 
 // Every asset of the packs, in their order, but articulated ones last.
 std::vector<FoundAsset> list_assets(const std::vector<AssetPack>& packs) {
@@ -43,6 +47,8 @@ std::set<std::string> names_used(const Scenario& scenario, const std::vector<Fou
   for (const PlacedItem& item : scenario.pile.placed)
     if (!item.box) used.insert(item.asset);
   for (const MixItem& item : scenario.pile.mix) used.insert(item.asset);
+  for (const FoundAsset& found : all)
+    if (scenario.victims.count > 0 && found.pack->name == kVictimPack) used.insert(found.asset->name);
   if (scenario.pile.mix.empty() && scenario.pile.layers > 0)
     for (const FoundAsset& found : all)
       if (found.asset->weight > 0) used.insert(found.asset->name);
@@ -50,6 +56,13 @@ std::set<std::string> names_used(const Scenario& scenario, const std::vector<Fou
     if (used.count(found.asset->name))
       for (const AssetLink& link : found.asset->links) used.insert(link.asset);
   return used;
+}
+
+// Where people are to lie in the voids, their pack is there without being asked for.
+void add_victim_pack(const Scenario& scenario, const std::string& bundled, std::vector<std::string>& folders) {
+  const std::string folder = bundled + "/" + kVictimPack;
+  if (scenario.victims.count > 0 && std::find(folders.begin(), folders.end(), folder) == folders.end())
+    folders.push_back(folder);
 }
 
 std::vector<std::string> material_names(const std::vector<Material>& materials) {
@@ -85,6 +98,41 @@ void add_variants(const Mission& mission, const std::vector<FoundAsset>& all,
             const Asset variant = make_variant(*found.asset, material);
             add_asset({found.pack, &variant}, library);
           }
+}
+
+std::vector<std::string> bundled_pack_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(bundled_assets_folder()))
+    if (fs::exists(entry.path() / "pack.lua")) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Diagnostic unknown_pack(const std::string& key, const std::string& name) {
+  const std::vector<std::string> bundled = bundled_pack_names();
+  std::string all;
+  for (const std::string& pack : bundled) all += (all.empty() ? "" : ", ") + pack;
+  const std::string near = nearest_name(name, bundled);
+  return {"", 0, key, "unknown pack `" + name + "`", "a bundled pack (" + all + ") or a folder with a pack.lua",
+          "", near.empty() ? "" : "did you mean `" + near + "`?"};
+}
+
+// The folders of the mission's packs. Beside the script first: a pack of the user's own may have the name
+// of a bundled one.
+std::vector<std::string> find_mission_packs(const Mission& mission) {
+  std::vector<std::string> folders = pack_folders(mission);
+  std::vector<Diagnostic> mistakes;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const std::string& name = mission.scenario.packs[i];
+    if (fs::exists(fs::path(folders[i]) / "pack.lua")) continue;
+    if (find_pack(name) != name)
+      folders[i] = find_pack(name);
+    else if (!fs::is_directory(folders[i]))
+      mistakes.push_back(unknown_pack("packs[" + std::to_string(i + 1) + "]", name));
+  }
+  locate(mistakes, mission.script.path, mission.lines);
+  if (!mistakes.empty()) throw InputError(std::move(mistakes));
+  return folders;
 }
 
 // Every make of box that the mission places.
@@ -154,15 +202,10 @@ std::string bundled_assets_folder() {
 
 AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>& extra_packs) {
   const std::string bundled = bundled_assets_folder();
-  // Beside the script first: a pack of the user's own may have the name of a bundled one.
-  std::vector<std::string> folders = pack_folders(mission);
-  for (std::size_t i = 0; i < folders.size(); ++i) {
-    const std::string& name = mission.scenario.packs[i];
-    if (!fs::exists(fs::path(folders[i]) / "pack.lua") && find_pack(name) != name)
-      folders[i] = find_pack(name);
-  }
+  std::vector<std::string> folders = find_mission_packs(mission);
   for (const std::string& pack : extra_packs) folders.push_back(find_pack(pack));
   if (folders.empty()) folders.push_back(bundled + "/concrete");
+  add_victim_pack(mission.scenario, bundled, folders);
 
   const std::vector<Material> materials = load_materials(bundled + "/materials.lua");
   std::vector<AssetPack> packs;

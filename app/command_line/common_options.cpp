@@ -6,10 +6,10 @@
 namespace rubble {
 
 void add_mission_options(CommandLine& line, RunRequest& request, const std::string& name) {
-  line.add(name, request.mission, "The mission, a Lua script").required();
-  line.add("--set", request.overrides, "Override a key of the mission: key=value")
+  line.add(name, request.mission, "The mission: a Lua script").required();
+  line.add("--set", request.overrides, "Override a key of the mission, as in pile.layers=3")
       .metavar("KEY=VALUE");
-  add_packs_option(line, request.asset_packs, "A further folder with a pack.lua");
+  add_packs_option(line, request.asset_packs, "An additional folder with a pack.lua");
 }
 
 void add_seed_option(CommandLine& line, RunRequest& request) {
@@ -22,30 +22,30 @@ void add_seed_option(CommandLine& line, RunRequest& request) {
     request.seed = std::uint64_t(seed);
     return "";
   };
-  line.add_read("--seed", read, "Seed of all randomness; overrides the script's").metavar("UINT");
+  line.add_read("--seed", read, "Seed of all random numbers; overrides that of the script").metavar("UINT");
 }
 
 void add_track_option(CommandLine& line, RunRequest& request) {
   line.add_flag("--track", request.track,
-                "Keep who moved when while the pile settles: track.bin and, as glTF animation, track.glb");
+                "Record the motion of the settling pile: track.bin, and track.glb, a glTF animation");
 }
 
 void add_threads_option(CommandLine& line, int& threads) {
   line.add("--threads", threads,
-           "Threads to use; 0: all processors. Results do not depend on it")
+           "Number of threads; 0: one per processor. Results do not depend on it")
       .between(0, 256);
 }
 
 void add_device_option(CommandLine& line, int& device) {
   line.add("--gl-device", device, "Number of the EGL device that draws")
       .shows_default_text(
-          "$RUBBLE_EGL_DEVICE, or the first that works, hardware before software")
+          "$RUBBLE_EGL_DEVICE, or the first device that works, hardware before software")
       .metavar("N")
       .between(0, 1000);
 }
 
 void add_quiet_option(CommandLine& line, bool& quiet) {
-  line.add_flag("--quiet", quiet, "No progress, only errors");
+  line.add_flag("--quiet", quiet, "Print errors only, no progress");
 }
 
 void add_packs_option(CommandLine& line, std::vector<std::string>& folders,
@@ -58,7 +58,7 @@ void add_run_options(CommandLine& line, RunOptions& options) {
   add_threads_option(line, options.threads);
   add_quiet_option(line, options.quiet);
   line.add("--checkpoint-every", options.checkpoint_every,
-           "Keep a checkpoint of settling that often")
+           "Interval of checkpoints while settling")
       .shows_default("s")
       .metavar("SECONDS")
       .within(0.0, 1e6);
@@ -74,19 +74,19 @@ void add_output_options(CommandLine& line, RunRequest& request) {
 
 void add_preview_option(CommandLine& line, RunRequest& request) {
   line.add_flag("--preview", request.preview,
-                "Say how many pieces, frames, bytes and about how long, and run nothing");
+                "Print the number of pieces and frames, disk space and approximate time; run nothing");
 }
 
 void add_folder_options(CommandLine& line, FolderRequest& request) {
   line.add("folder", request.folder, "The output folder of a run").required();
-  add_packs_option(line, request.asset_packs, "A folder where packs of the run may be now");
+  add_packs_option(line, request.asset_packs, "A folder with packs of the run, if they were moved");
   add_run_options(line, request.options);
 }
 
 void add_jobs_options(CommandLine& line, int& jobs, RunOptions& options) {
-  line.add("--jobs", jobs, "Runs at once").shows_default_text("one a processor").between(0, 1024);
+  line.add("--jobs", jobs, "Number of simultaneous runs").shows_default_text("one per processor").between(0, 1024);
   line.add("--threads", options.threads, "Threads of each run")
-      .shows_default_text("the processors, divided by --jobs")
+      .shows_default_text("the number of processors, divided by --jobs")
       .between(0, 256);
   add_quiet_option(line, options.quiet);
 }
@@ -95,15 +95,15 @@ void add_space_options(CommandLine& line, SpaceRequest& request) {
   line.add("--radius", request.radii, "Radius of a robot").shows_default().metavar("METRES");
   line.add("--voxel", request.voxel, "Edge of a voxel").shows_default().metavar("METRES");
   line.add("--outside-radius", request.outside_radius,
-           "Outside is what a ball of this radius reaches from the sky")
+           "Outside is the space that a ball of this radius reaches from the sky")
       .shows_default()
       .metavar("METRES");
-  line.add("--memory", request.memory_gib, "Refuse to need more").shows_default().metavar("GIB");
+  line.add("--memory", request.memory_gib, "Largest memory; refuse to start if more is needed").shows_default().metavar("GIB");
 }
 
 void add_score_options(CommandLine& line, ScoreOutput& output) {
-  line.add_flag("--json", output.json, "The result as JSON");
-  line.add("--out", output.files, "Write the table: .csv, .json or .tex (LaTeX)").metavar("FILE");
+  line.add_flag("--json", output.json, "Print the result as JSON");
+  line.add("--out", output.files, "Write the table to a file: .csv, .json or .tex (LaTeX)").metavar("FILE");
 }
 
 }  // namespace rubble

@@ -26,11 +26,11 @@ void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& te
       .shows_default_text("$ROS_MASTER_URI")
       .metavar("URI")
       .needs(ros1);
-  line.add("--ros-ip", live.ros_ip, "Let programs of other machines connect, to this address")
+  line.add("--ros-ip", live.ros_ip, "Address of this machine for programs on other machines")
       .shows_default_text("$ROS_IP, or only this machine")
       .metavar("ADDRESS")
       .needs(ros1);
-  Option ros2 = line.add_flag("--ros2", live.ros2, "The same to ROS 2, over DDS");
+  Option ros2 = line.add_flag("--ros2", live.ros2, "As --ros1, for ROS 2 over DDS");
   if (one) ros2.excludes(ros1);
   line.add("--ros-domain", live.ros_domain, "The DDS domain")
       .shows_default_text("$ROS_DOMAIN_ID, or 0")
@@ -49,7 +49,7 @@ void add_live_options(CommandLine& line, LiveRequest& live) {
                 "How fast to publish: realtime (default), fast, or a factor")
       .metavar("RATE");
   line.add("--wait-for-subscribers", live.wait,
-           "Hold the first frame until every topic has one, at most that long")
+           "Delay the first frame until every topic has a subscriber, at most this long")
       .shows_default()
       .metavar("SECONDS")
       .within(0.0, 1e6);

@@ -25,21 +25,21 @@ ExitCode check_mission(const RunRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_check(CommandLine& line) {
   const auto request = std::make_shared<RunRequest>();
   add_mission_options(line, *request);
   add_seed_option(line, *request);
   line.add_print("--schema", mission_json_schema,
                  "Print a JSON Schema of every key of a mission instead");
   line.add_print("--annotations", lua_annotations,
-                 "Print LuaCATS annotations, by which editors check and complete missions, instead");
+                 "Print LuaCATS annotations instead, with which editors check and complete missions");
   return [request] { return check_mission(*request); };
 }
 
 }  // namespace
 
 Command check_command() {
-  return {"", "check", "Print the complete scenario as JSON; run nothing", declare};
+  return {"", "check", "Print the complete scenario as JSON; run nothing", declare_check};
 }
 
 }  // namespace rubble

@@ -6,9 +6,9 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/measures/pile_section.h"
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/finished_run.h"
-#include "app/measures/pile_section.h"
 #include "io/image/picture_sheet.h"
 #include "kernel/base/portable_math.h"
 #include "render/renderer.h"
@@ -35,8 +35,8 @@ constexpr Colour kCut{186, 92, 66}, kOutline{74, 30, 20}, kGround{92, 80, 66}, k
 
 // Looks along +Y at the plane, whose points keep their proportions; a little from above.
 struct View {
-  int width, height;          // unit: pixel
-  double x0, z0, per_metre;   // of the lower left corner; pixels per metre on the plane
+  int width, height;         // unit: pixel
+  double x0, z0, per_metre;  // of the lower left corner; pixels per metre on the plane
   Pose world_from_camera;
   Intrinsics intrinsics;
 
@@ -88,7 +88,8 @@ class Picture {
       for (int c = 0; c < view_.width; ++c) {
         const double dx = view_.x_of(c) - x, z = view_.z_of(row);
         const bool scale = std::fabs(dx) <= 0.5 && z < -0.12 && z > -0.20;
-        if (is_person(dx, z) || scale) paint(c, row, scale && dx > 0 ? Colour{240, 240, 240} : kMark);
+        if (is_person(dx, z) || scale)
+          paint(c, row, scale && dx > 0 ? Colour{240, 240, 240} : kMark);
       }
     }
   }
@@ -124,11 +125,13 @@ class Picture {
 
   void draw_line(const CutSegment& s) {
     const double length = std::hypot(s.x1 - s.x0, s.z1 - s.z0);
-    const int steps = 1 + int(length * view_.per_metre), half = std::max(1, int(kLine * view_.per_metre));
+    const int steps = 1 + int(length * view_.per_metre),
+              half = std::max(1, int(kLine * view_.per_metre));
     for (int i = 0; i <= steps; ++i) {
       const double t = double(i) / steps;
       const int column = int((s.x0 + (s.x1 - s.x0) * t - view_.x0) * view_.per_metre);
-      const int row = view_.height - 1 - int((s.z0 + (s.z1 - s.z0) * t - view_.z0) * view_.per_metre);
+      const int row =
+          view_.height - 1 - int((s.z0 + (s.z1 - s.z0) * t - view_.z0) * view_.per_metre);
       for (int v = -half / 2; v <= half / 2; ++v)
         for (int u = -half / 2; u <= half / 2; ++u) paint(column + u, row + v, kOutline);
     }
@@ -182,24 +185,27 @@ ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutawa
   picture.fill_cut(section);
   picture.draw_person(section.x1 + kMargin / 2 + kRoomForPerson / 2);
   char note[120];
-  std::snprintf(note, sizeof note,
-                "cut at y = %.2f m; red: what the cut went through; the person is %.2f m tall, the bar 1 m",
-                cutaway.y, kPerson);
+  std::snprintf(
+      note, sizeof note,
+      "cut at y = %.2f m; red: what the cut went through; the person is %.2f m tall, the bar 1 m",
+      cutaway.y, kPerson);
   const std::string path = cutaway.out.empty() ? request.folder + "/cutaway.png" : cutaway.out;
   write_picture_sheet(path, cutaway.title, {{picture.shrunk(), "", note}}, 1);
   std::printf("%s\n", path.c_str());
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_cutaway(CommandLine& line) {
   const auto of = std::make_shared<FolderRequest>();
   const auto request = std::make_shared<CutawayRequest>();
   add_folder_options(line, *of);
-  line.add("--y", request->y, "Where the plane is that cuts across Y")
+  line.add("--y", request->y, "Position of the section plane on the Y axis")
       .shows_default()
       .metavar("METRES")
       .within(-1000.0, 1000.0);
-  line.add("--width", request->width, "Of the picture, in pixels").shows_default().between(200, 4000);
+  line.add("--width", request->width, "Width of the picture, in pixels")
+      .shows_default()
+      .between(200, 4000);
   line.add("--title", request->title, "Printed above the picture");
   line.add("--out", request->out, "The picture, .png or .jpg")
       .shows_default_text("FOLDER/cutaway.png")
@@ -210,7 +216,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command cutaway_command() {
-  return {"", "cutaway", "Draw a run's pile cut open, to scale", declare};
+  return {"", "cutaway", "Draw a section of a run's pile, to scale", declare_cutaway};
 }
 
 }  // namespace rubble

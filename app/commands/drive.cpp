@@ -21,21 +21,21 @@ std::string read_size(const std::string& text, DriveRequest& request) {
   return "";
 }
 
-Action declare(CommandLine& line) {
+Action declare_drive(CommandLine& line) {
   const auto request = std::make_shared<DriveRequest>();
   add_mission_options(line, request->of);
   add_seed_option(line, request->of);
-  line.add_read("--size",
-                [request](const std::string& text) { return read_size(text, *request); },
-                "Size of the colour image")
+  line.add_read(
+          "--size", [request](const std::string& text) { return read_size(text, *request); },
+          "Size of the colour image")
       .shows_default_text(std::to_string(request->width) + "x" + std::to_string(request->height))
       .metavar("WxH");
-  line.add("--steps", request->steps, "End after so many steps")
+  line.add("--steps", request->steps, "Number of steps after which the drive ends")
       .shows_default_text("none")
       .between(0, 1000000000);
   line.add_flag("--record", request->record, "Write the mission's recordings while driving");
   add_ros_options(line, request->of.options.live,
-                  "Publish to ROS 1 what is seen, and let /cmd_vel and /joy drive, too", true);
+                  "Publish the frames to ROS 1, and drive by /cmd_vel and /joy", true);
   line.add("--out", request->of.out, "Output folder")
       .shows_default_text("out/<script>_drive")
       .metavar("DIR");
@@ -49,8 +49,8 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command drive_command() {
-  return {"", "drive", "Fly the camera by hand in a window; what is driven becomes a mission",
-          declare};
+  return {"", "drive", "Fly the camera by hand in a window, and save the flight as a mission",
+          declare_drive};
 }
 
 }  // namespace rubble

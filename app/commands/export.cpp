@@ -67,7 +67,7 @@ ExitCode export_finished_pile(const FolderRequest& request, const ExportRequest&
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_export(CommandLine& line) {
   const auto of = std::make_shared<FolderRequest>();
   const auto request = std::make_shared<ExportRequest>();
   add_folder_options(line, *of);
@@ -85,7 +85,8 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command export_command() {
-  return {"", "export", "The pile of a finished run as STL, PLY, OBJ, glTF or SDF", declare};
+  return {"", "export", "Export the pile of a finished run as STL, PLY, OBJ, glTF or SDF",
+          declare_export};
 }
 
 }  // namespace rubble

@@ -63,12 +63,13 @@ ExitCode print_info(const InfoRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_info(CommandLine& line) {
   const auto request = std::make_shared<InfoRequest>();
-  line.add_flag("--gl", request->gl, "Every EGL device, what it gives, which is chosen and why");
+  line.add_flag("--gl", request->gl,
+                "List every EGL device with its driver or error, and which is chosen");
   add_device_option(line, request->gl_device);
   line.add("path", request->paths,
-           "Recordings, or folders of runs: what they hold, and whether they are whole")
+           "Recordings, or folders of runs: list their contents and check their integrity")
       .metavar("PATH");
   return [request] {
     return request->paths.empty() ? print_info(*request) : inspect_datasets(request->paths);
@@ -78,7 +79,8 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command info_command() {
-  return {"", "info", "Print versions, the GL renderer and threads; or look over a dataset", declare};
+  return {"", "info", "Print versions, the OpenGL renderer and threads; or check a dataset",
+          declare_info};
 }
 
 }  // namespace rubble

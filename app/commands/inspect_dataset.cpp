@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kVerdictNames[] = {"sound", "altered", "missing", "not checked"};
+constexpr const char* kFileVerdictNames[] = {"sound", "altered", "missing", "not checked"};
 
 std::string describe_content(const RecordingCheck& check) {
   std::int64_t messages = 0;
@@ -39,7 +39,7 @@ std::uint64_t size_of(const std::string& path) {
 }
 
 void print_row(const std::string& name, const FileReport& report) {
-  std::printf("%-24s %-12s %s\n", printable(name).c_str(), kVerdictNames[int(report.verdict)],
+  std::printf("%-24s %-12s %s\n", printable(name).c_str(), kFileVerdictNames[int(report.verdict)],
               printable(report.detail).c_str());
 }
 

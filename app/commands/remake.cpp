@@ -81,13 +81,13 @@ ExitCode remake(const RemakeRequest& request) {
   return same == ExitCode::done ? code : same;
 }
 
-Action declare(CommandLine& line) {
+Action declare_remake(CommandLine& line) {
   const auto request = std::make_shared<RemakeRequest>();
-  line.add("manifest", request->manifest, "manifest.json of a run, or the folder that it is in")
-      .required();
+  line.add("manifest", request->manifest, "manifest.json of a run, or its folder").required();
   line.add("--out", request->out, "Output folder").required().metavar("DIR");
   line.add_flag("--force", request->force, "Replace the files of an earlier run");
-  add_packs_option(line, request->asset_packs, "A folder where packs of the run may be now");
+  add_packs_option(line, request->asset_packs,
+                   "A folder with packs of the run, if they were moved");
   add_run_options(line, request->options);
   return [request] { return remake(*request); };
 }
@@ -95,7 +95,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command remake_command() {
-  return {"", "remake", "Make a dataset again from its manifest alone", declare};
+  return {"", "remake", "Make a dataset again from its manifest", declare_remake};
 }
 
 }  // namespace rubble

@@ -18,9 +18,10 @@ Track load_track_of(const std::string& from) {
   const std::string path = from + "/track.bin";
   std::error_code failed;
   if (!std::filesystem::exists(path, failed))
-    throw InputError({from, 0, "", "the run kept no track of who moved when its pile settled",
-                      "a track.bin", "none",
-                      "run its mission again with --track, or without record_settling and outputs.track"});
+    throw InputError(
+        {from, 0, "", "the run kept no track of who moved when its pile settled", "a track.bin",
+         "none",
+         "run its mission again with --track, or without record_settling and outputs.track"});
   return load_track(path);
 }
 
@@ -44,7 +45,7 @@ ExitCode render_finished_pile(const std::string& from, const RunRequest& request
   return complete(mission, folder, context);
 }
 
-Action declare(CommandLine& line) {
+Action declare_render(CommandLine& line) {
   const auto request = std::make_shared<RunRequest>();
   const auto from = std::make_shared<std::string>();
   line.add("folder", *from, "The output folder of the run with the pile").required();
@@ -58,7 +59,8 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command render_command() {
-  return {"", "render", "Another mission's flight over the pile of a finished run", declare};
+  return {"", "render", "Render the flight of another mission over the pile of a finished run",
+          declare_render};
 }
 
 }  // namespace rubble

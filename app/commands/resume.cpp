@@ -17,7 +17,7 @@ ExitCode resume_run(const FolderRequest& request) {
   return complete(mission, folder, context);
 }
 
-Action declare(CommandLine& line) {
+Action declare_resume(CommandLine& line) {
   const auto request = std::make_shared<FolderRequest>();
   add_folder_options(line, *request);
   return [request] { return resume_run(*request); };
@@ -26,7 +26,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command resume_command() {
-  return {"", "resume", "Continue a run that was stopped or killed", declare};
+  return {"", "resume", "Continue a run that was stopped or killed", declare_resume};
 }
 
 }  // namespace rubble

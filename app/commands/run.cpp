@@ -8,7 +8,7 @@
 namespace rubble {
 namespace {
 
-Action declare(CommandLine& line) {
+Action declare_run(CommandLine& line) {
   const auto request = std::make_shared<RunRequest>();
   add_mission_options(line, *request);
   add_seed_option(line, *request);
@@ -21,6 +21,6 @@ Action declare(CommandLine& line) {
 
 }  // namespace
 
-Command run_command() { return {"", "run", "Run a mission to a finished dataset", declare}; }
+Command run_command() { return {"", "run", "Run a mission to a finished dataset", declare_run}; }
 
 }  // namespace rubble

@@ -1,4 +1,5 @@
-// `rubble settle`: the pile only: pile.bin, pile.stl, manifest.json, and its track where it is asked for.
+// `rubble settle`: the pile only: pile.bin, pile.stl, manifest.json, and its track where it is
+// asked for.
 #include <memory>
 
 #include "app/command_line/command.h"
@@ -8,7 +9,7 @@
 namespace rubble {
 namespace {
 
-Action declare(CommandLine& line) {
+Action declare_settle(CommandLine& line) {
   const auto request = std::make_shared<RunRequest>();
   add_mission_options(line, *request);
   add_seed_option(line, *request);
@@ -20,6 +21,8 @@ Action declare(CommandLine& line) {
 
 }  // namespace
 
-Command settle_command() { return {"", "settle", "Settle the pile of a mission, nothing more", declare}; }
+Command settle_command() {
+  return {"", "settle", "Settle the pile of a mission only", declare_settle};
+}
 
 }  // namespace rubble

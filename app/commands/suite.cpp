@@ -9,7 +9,7 @@
 namespace rubble {
 namespace {
 
-Action declare(CommandLine& line) {
+Action declare_suite(CommandLine& line) {
   const auto request = std::make_shared<SuiteRequest>();
   line.add("suite", request->suite, "The suite, a Lua script").required();
   line.add("--out", request->out, "Output folder")
@@ -17,10 +17,10 @@ Action declare(CommandLine& line) {
       .metavar("DIR");
   line.add("--junit", request->junit, "Write the results as JUnit XML").metavar("FILE");
   line.add("--against", request->against,
-           "The --out of an earlier run: names the pixel where frames part")
+           "The --out folder of an earlier run: also report the first pixel that differs")
       .metavar("DIR");
-  line.add_flag("--update", request->update, "Take the hashes of this run as the golden ones");
-  line.add("--only", request->only, "Only the runs of that name").metavar("NAME");
+  line.add_flag("--update", request->update, "Store the hashes of this run as golden hashes");
+  line.add("--only", request->only, "Run only the entries of this name").metavar("NAME");
   add_jobs_options(line, request->jobs, request->options);
   return [request] { return run_suite(*request); };
 }
@@ -28,7 +28,8 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command suite_command() {
-  return {"", "suite", "Many missions with what is expected of them, for CI", declare};
+  return {"", "suite", "Run many missions and compare the results with expected ones, for CI",
+          declare_suite};
 }
 
 }  // namespace rubble

@@ -1,7 +1,7 @@
-// `rubble verify`: whether a dataset can be had again. Everything is run anew from its manifest alone,
-// and compared.
-#include <memory>
+// `rubble verify`: whether a dataset can be had again. Everything is run anew from its manifest
+// alone, and compared.
 #include <unistd.h>
+#include <memory>
 
 #include <algorithm>
 #include <cstdlib>
@@ -82,6 +82,8 @@ class Verifier {
     if (!fs::exists(path) && is_unfinished(request.of.folder))
       throw InputError({request.of.folder, 0, "", "the run in it is not finished", "", "",
                         "`rubble resume " + request.of.folder + "` continues it"});
+    if (!fs::is_directory(request.of.folder))
+      throw InputError({request.of.folder, 0, "", "no such folder", "the output folder of a run", "", ""});
     text_ = read_whole_file(path);
     was_ = manifest_from_json(text_, path);
   }
@@ -224,8 +226,7 @@ class Verifier {
       wanted.frame = number_of_camera(wanted.camera, apart.frame);
     }
     const std::string measured = apart.channel.substr(0, slash + 1) + "measured_depth";
-    wanted.measured_depth =
-        std::find(channels.begin(), channels.end(), measured) != channels.end();
+    wanted.measured_depth = std::find(channels.begin(), channels.end(), measured) != channels.end();
     const auto was = find_recorded_picture(request_.of.folder, wanted, altered_);
     const auto is = find_recorded_picture(folder.path(), wanted, altered_);
     if (!was || !is || was->file != is->file)
@@ -339,24 +340,23 @@ ExitCode verify_run(const VerifyRequest& request) {
   return is_equal(verification) ? ExitCode::done : ExitCode::differs;
 }
 
-Action declare(CommandLine& line) {
+Action declare_verify(CommandLine& line) {
   const auto request = std::make_shared<VerifyRequest>();
   add_folder_options(line, request->of);
-  line.add("--work", request->work, "Where to make the run anew")
+  line.add("--work", request->work, "Folder for the new run")
       .shows_default_text("$TMPDIR")
       .metavar("DIR");
   const Option keep =
-      line.add("--keep", request->keep, "Keep what is made anew: a new folder, as `rubble run` leaves it")
-          .metavar("DIR");
-  line.add_flag("--pile-only", request->pile_only, "Settle again, but render nothing").excludes(keep);
-  line.add_flag("--json", request->json, "The result as JSON");
+      line.add("--keep", request->keep, "Keep the new run, in this new folder").metavar("DIR");
+  line.add_flag("--pile-only", request->pile_only, "Settle again, render nothing").excludes(keep);
+  line.add_flag("--json", request->json, "Print the result as JSON");
   return [request] { return verify_run(*request); };
 }
 
 }  // namespace
 
 Command verify_command() {
-  return {"", "verify", "Run again from the manifest alone, and compare every hash", declare};
+  return {"", "verify", "Run again from the manifest, and compare every hash", declare_verify};
 }
 
 }  // namespace rubble

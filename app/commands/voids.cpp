@@ -163,13 +163,13 @@ ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_voids(CommandLine& line) {
   const auto of = std::make_shared<FolderRequest>();
   const auto request = std::make_shared<VoidRequest>();
   add_folder_options(line, *of);
   add_space_options(line, request->space);
   line.add("--surfaces", request->surfaces,
-           "Write the surfaces of so many voids of each radius, largest first")
+           "Number of voids of each radius whose surfaces are written, largest first")
       .shows_default()
       .between(0, 100000);
   line.add("--out", request->out, "Output folder")
@@ -182,7 +182,8 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command voids_command() {
-  return {"", "voids", "Map the voids of a run's pile: entrances, volumes, widest ways", declare};
+  return {"", "voids", "Map the voids of a run's pile: entrances, volumes, widest paths",
+          declare_voids};
 }
 
 }  // namespace rubble

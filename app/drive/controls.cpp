@@ -53,7 +53,7 @@ const AxisStick kAxisSticks[] = {
     {SDL_CONTROLLER_AXIS_RIGHTX, &DriveInput::yaw, -1},
 };
 
-const std::map<int, DriveAction> kButtons{
+const std::map<int, DriveAction> kPadButtons{
     {SDL_CONTROLLER_BUTTON_A, DriveAction::lamp},
     {SDL_CONTROLLER_BUTTON_DPAD_UP, DriveAction::lamp_up},
     {SDL_CONTROLLER_BUTTON_DPAD_DOWN, DriveAction::lamp_down},
@@ -168,7 +168,7 @@ std::string Controls::handle(const SDL_Event& event) {
     case SDL_CONTROLLERDEVICEREMOVED:
       return s.unplug(event.cdevice.which);
     case SDL_CONTROLLERBUTTONDOWN:
-      if (const auto action = kButtons.find(event.cbutton.button); action != kButtons.end())
+      if (const auto action = kPadButtons.find(event.cbutton.button); action != kPadButtons.end())
         s.actions.push_back(action->second);
       break;
     default:

@@ -8,25 +8,25 @@ namespace {
 constexpr double kTwistHolds = 0.5;   // unit: s
 constexpr float kPressed = 0.5f;      // of an axis that counts as two buttons
 
-struct AxisStick {
+struct JoyStick {
   std::size_t axis;
   double DriveInput::*input;
   double sign;  // Joy's sticks are positive to the left and up
 };
 
-const AxisStick kSticks[] = {
+const JoyStick kSticks[] = {
     {1, &DriveInput::forward, 1},  // left stick
     {0, &DriveInput::roll, -1},
     {4, &DriveInput::pitch, -1},  // right stick
     {3, &DriveInput::yaw, 1},
 };
 
-struct AxisPad {
+struct JoyPad {
   std::size_t axis;
   DriveAction negative, positive;
 };
 
-const AxisPad kPads[] = {
+const JoyPad kPads[] = {
     {6, DriveAction::fog_up, DriveAction::fog_down},
     {7, DriveAction::lamp_down, DriveAction::lamp_up},
 };
@@ -36,7 +36,7 @@ struct Button {
   DriveAction action;
 };
 
-const Button kButtons[] = {
+const Button kJoyButtons[] = {
     {0, DriveAction::lamp},    {1, DriveAction::fog},     {2, DriveAction::help},
     {3, DriveAction::reset},   {4, DriveAction::slower},  {5, DriveAction::faster},
     {6, DriveAction::quit},    {7, DriveAction::pause},   {9, DriveAction::picture},
@@ -65,12 +65,12 @@ void RemoteControls::hear(const DriveCommands& commands, double seconds) {
 }
 
 void RemoteControls::hear(const JoyCommand& joy) {
-  for (const AxisPad& pad : kPads) {
+  for (const JoyPad& pad : kPads) {
     const float was = axis_of(joy_, pad.axis), is = axis_of(joy, pad.axis);
     if (is >= kPressed && was < kPressed) actions_.push_back(pad.positive);
     if (is <= -kPressed && was > -kPressed) actions_.push_back(pad.negative);
   }
-  for (const Button& button : kButtons)
+  for (const Button& button : kJoyButtons)
     if (pressed(joy, button.number) && !pressed(joy_, button.number))
       actions_.push_back(button.action);
   joy_ = joy;
@@ -79,7 +79,7 @@ void RemoteControls::hear(const JoyCommand& joy) {
 void RemoteControls::add_to(DriveInput& input) {
   input.linear += twist_.linear;
   input.angular += twist_.angular;
-  for (const AxisStick& stick : kSticks) {
+  for (const JoyStick& stick : kSticks) {
     double& value = input.*stick.input;
     value = std::clamp(value + stick.sign * double(axis_of(joy_, stick.axis)), -1.0, 1.0);
   }

@@ -94,7 +94,7 @@ void add_recordings(const Scenario& s, const std::vector<RecordedSize>& cameras,
 
 // What `rubble settle` leaves, too.
 bool is_of_pile(const std::string& name) {
-  for (const char* own : {"pile.bin", "manifest.json", "track.bin", "track.glb"})
+  for (const char* own : {"pile.bin", "victims.json", "manifest.json", "track.bin", "track.glb"})
     if (name == own) return true;
   for (const MeshFormat& format : mesh_formats())
     if (std::count(format.leaves.begin(), format.leaves.end(), name)) return true;
@@ -108,6 +108,7 @@ Estimate estimate_outputs(const Scenario& s, const AssetLibrary& assets) {
   const PileModelSize pile = size_of_pile(s, assets);
   const std::vector<RecordedSize> recorded = sizes_of_recording(s, pile.pieces);
   sizes["pile.bin"] = std::uint64_t(pile.pieces * kPieceBytes + 2000);
+  if (s.victims.count > 0) sizes["victims.json"] = std::uint64_t(s.victims.count) * 400;
   sizes["manifest.json"] = std::uint64_t(count_frames(recorded) * 250 + kManifestBytes);
   add_meshes(s, pile, sizes);
   add_track(s, pile, sizes);

@@ -11,19 +11,6 @@
 namespace rubble {
 namespace {
 
-// A mistake that shows only when there is a pile, with the line of its key.
-template <typename Plan>
-auto with_lines_of_script(const ResolvedMission& mission, const Plan& plan) {
-  try {
-    return plan();
-  } catch (const InputError& error) {
-    const SourceFile& script = mission.provenance.script;
-    std::vector<Diagnostic> mistakes = error.diagnostics();
-    locate(mistakes, script.path, SourceMap(script.text, "mission"));
-    throw InputError(std::move(mistakes));
-  }
-}
-
 // With what the trajectory depends on besides the script: places in voids, ways around the pile.
 // flight.json holds it.
 FlightPlan resolve(const ResolvedMission& mission, PileSurvey& survey, RunFolder& folder,

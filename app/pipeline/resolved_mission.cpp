@@ -1,5 +1,6 @@
 #include "app/pipeline/resolved_mission.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -7,9 +8,12 @@
 #include "app/pipeline/finished_run.h"
 #include "app/support/build_info.h"
 #include "app/support/json_members.h"
+#include "app/victims/place_victims.h"
 #include "io/base/atomic_file.h"
 #include "kernel/base/text.h"
 #include "kernel/settling/generator.h"
+#include "scripting/sandbox/script_file.h"
+#include "scripting/sandbox/source_map.h"
 
 namespace rubble {
 namespace {
@@ -125,6 +129,20 @@ ResolvedMission resolve_unfinished(const RunFolder& folder,
 
 Pile make_pile(const ResolvedMission& mission) {
   return generate_pile(build_pile_spec(mission.pile_scenario, mission.assets));
+}
+
+Pile make_laid_pile(const ResolvedMission& mission, const PileState& state) {
+  Pile pile = make_pile(mission);
+  list_victims(state, mission.pile_scenario.victims.count, pile);
+  return pile;
+}
+
+InputError with_lines(const ResolvedMission& mission, const InputError& error) {
+  std::vector<Diagnostic> mistakes = error.diagnostics();
+  const SourceFile& script = mission.provenance.script;
+  if (std::none_of(mistakes.begin(), mistakes.end(), [](const Diagnostic& d) { return d.line > 0; }))
+    locate(mistakes, script.path, SourceMap(script.text, "mission"));
+  return InputError(std::move(mistakes));
 }
 
 }  // namespace rubble

@@ -9,7 +9,9 @@
 #include "app/provenance/provenance.h"
 #include "app/provenance/run_folder.h"
 #include "app/support/run_context.h"
+#include "kernel/base/error.h"
 #include "kernel/model/pile.h"
+#include "kernel/model/pile_state.h"
 
 namespace rubble {
 
@@ -40,5 +42,19 @@ std::string describe_unfinished(const ResolvedMission& mission);
 
 // What is dropped and what it is dropped on, before it settles.
 Pile make_pile(const ResolvedMission& mission);
+// The same with the victims that were put into it since, for World::lay().
+Pile make_laid_pile(const ResolvedMission& mission, const PileState& state);
+
+// Throws what work() throws; of an InputError, mistakes that show only when there is a pile, with the lines of
+// their keys in the script.
+InputError with_lines(const ResolvedMission& mission, const InputError& error);
+template <typename Work>
+auto with_lines_of_script(const ResolvedMission& mission, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw with_lines(mission, error);
+  }
+}
 
 }  // namespace rubble

@@ -52,20 +52,6 @@ void add_robot_metrics(const RobotRunResult& result, const std::vector<RobotLog>
   metrics["robot_pieces_moved"] = result.pieces_moved;
 }
 
-// Mistakes that show only in the pile, or in a file that the script names, with the line of their key.
-template <typename Work>
-auto with_lines(const ResolvedMission& mission, const Work& work) {
-  try {
-    return work();
-  } catch (const InputError& error) {
-    std::vector<Diagnostic> mistakes = error.diagnostics();
-    const SourceFile& script = mission.provenance.script;
-    if (std::none_of(mistakes.begin(), mistakes.end(), [](const Diagnostic& d) { return d.line > 0; }))
-      locate(mistakes, script.path, SourceMap(script.text, "mission"));
-    throw InputError(std::move(mistakes));
-  }
-}
-
 // The way of the rig on a link, a pose a step.
 class RideRecorder {
  public:
@@ -159,7 +145,7 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
   context.progress.start("robots");
   const std::vector<std::string> names = robot_names(robots);
   std::vector<RobotModel>& models = driven.moved.models;
-  const std::vector<MissionRobot> made = with_lines(mission, [&] { return make_robots(mission, context); });
+  const std::vector<MissionRobot> made = with_lines_of_script(mission, [&] { return make_robots(mission, context); });
   for (const MissionRobot& robot : made) models.push_back(robot.model);
   folder.expect(robot_file_names(names, models));
   std::unique_ptr<ScriptControl> script;
@@ -170,10 +156,10 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
         describe_robot(made[i], names[i], calc_base_pose(robots[i]), robots.size() > 1));
   }
   RobotRunResult result;
-  with_lines(mission, [&] {
+  with_lines_of_script(mission, [&] {
     RideRecorder ride(mission.scenario, made);
     const RobotRunOptions options = run_options(mission.scenario, context.threads());
-    RobotRun run(make_pile(mission), pile, options);
+    RobotRun run(make_laid_pile(mission, pile), pile, options);
     for (std::size_t i = 0; i < robots.size(); ++i) {
       const RobotController control = make_controller(mission, i, made[i], script);
       run.add(models[i], calc_base_pose(robots[i]), [control, &log = logs[i]](const RobotSense& sense) {

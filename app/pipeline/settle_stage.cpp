@@ -6,11 +6,14 @@
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/stages.h"
 #include "app/support/stop.h"
+#include "app/victims/place_victims.h"
+#include "io/base/atomic_file.h"
 #include "io/mesh/pile_export.h"
 #include "io/mesh/track_glb.h"
 #include "io/state/checkpoint_file.h"
 #include "io/state/pile_state_file.h"
 #include "io/state/track_file.h"
+#include "kernel/base/hash.h"
 #include "kernel/settling/settle.h"
 #include "kernel/settling/settle_checkpoint.h"
 #include "kernel/settling/track_recorder.h"
@@ -101,6 +104,22 @@ void save(const SettledPile& settled, std::uint64_t work, bool recorded, const R
   folder.note_pile(work);
 }
 
+// What pile.bin is made from.
+std::uint64_t hash_work_of(const ResolvedMission& mission, const Pile& pile) {
+  const std::uint64_t settling = hash_work(pile, mission.pile_scenario.settle);
+  const VictimScenario& victims = mission.pile_scenario.victims;
+  if (victims.count == 0) return settling;
+  StateHash hash;
+  hash.add(settling), hash.add(mission.pile_scenario.seed);
+  hash.add(victims.count), hash.add(int(victims.difficulty)), hash.add(victims.radius);
+  return hash.digest();
+}
+
+// Of a pile with victims; before pile.bin, so that it is there where that is.
+void save_victims(const VictimScenario& victims, const PileState& pile, const RunFolder& folder) {
+  if (victims.count > 0) write_text_file(folder.file("victims.json"), describe_victims(find_victims(pile)));
+}
+
 SettledPile load(bool recorded, const RunFolder& folder) {
   SettledPile settled;
   settled.state = load_pile_state(folder.file("pile.bin"));
@@ -118,22 +137,36 @@ std::string summarize_settling(const PileState& pile, bool loaded) {
 
 }  // namespace
 
+void add_victims(const ResolvedMission& mission, int threads, PileState& pile) {
+  const Scenario& s = mission.pile_scenario;
+  with_lines_of_script(mission, [&] {
+    place_victims(s.victims, s.seed, s.settle.gravity, mission.assets, threads, pile);
+    return 0;
+  });
+}
+
 void keep_pile(const ResolvedMission& mission, const PileState& state, const RunFolder& folder) {
+  save_victims(mission.pile_scenario.victims, state, folder);
   save_pile_state(state, folder.file("pile.bin"));
-  folder.note_pile(hash_work(make_pile(mission), mission.pile_scenario.settle));
+  folder.note_pile(hash_work_of(mission, make_pile(mission)));
 }
 
 SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext& context) {
   context.progress.start("settle");
   const Pile pile = make_pile(mission);
-  const std::uint64_t work = hash_work(pile, mission.pile_scenario.settle);
+  const std::uint64_t work = hash_work_of(mission, pile);
   const bool recorded = needs_track(mission.scenario);
   const bool loaded = folder.has_pile_of(work) && (!recorded || folder.has("track.bin"));
   SettledPile settled = loaded ? load(recorded, folder)
                                : settle_from_checkpoint_or_start(mission, pile, folder, context);
   throw_if_stopped(folder.path());
-  if (!loaded) save(settled, work, recorded, folder);
+  if (!loaded) {
+    add_victims(mission, context.threads(), settled.state);
+    save_victims(mission.pile_scenario.victims, settled.state, folder);
+    save(settled, work, recorded, folder);
+  }
   folder.add("pile.bin");
+  if (mission.pile_scenario.victims.count > 0) folder.add("victims.json");
   if (recorded) folder.add("track.bin");
   add_pile_metrics(settled.state, mission.assets, settled.metrics);
   context.progress.finish(summarize_settling(settled.state, loaded));
@@ -153,6 +186,7 @@ SettledPile settle_in_memory(const ResolvedMission& mission, RunContext& context
     return !stopped;
   });
   if (stopped) throw Stopped("stopped while the pile settled; nothing is kept");
+  add_victims(mission, context.threads(), settled.state);
   add_pile_metrics(settled.state, mission.assets, settled.metrics);
   context.progress.finish(summarize_settling(settled.state, false));
   return settled;

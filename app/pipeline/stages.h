@@ -70,6 +70,10 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
 SettledPile settle_in_memory(const ResolvedMission& mission, RunContext& context,
                              const std::function<bool()>& go_on);
 
+// Puts the mission's victims into a pile that has settled. Throws InputError, with the line of the script, when
+// its voids have no room for them.
+void add_victims(const ResolvedMission& mission, int threads, PileState& pile);
+
 // Keeps a pile that another run settled as the product of this run's first stage.
 void keep_pile(const ResolvedMission& mission, const PileState& state, const RunFolder& folder);
 

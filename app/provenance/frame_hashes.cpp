@@ -5,7 +5,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "kernel/base/hash.h"
+#include "kernel/base/hash_pose.h"
 #include "render/streams/image_streams.h"
 
 namespace rubble {
@@ -22,17 +22,11 @@ std::uint64_t hash_numbers(const std::vector<T>& numbers) {
   return hash.digest();
 }
 
-void add(StateHash& hash, const Vec3& v) {
-  for (int i = 0; i < 3; ++i) hash.add(v[i]);
-}
-
 // Where, when and through what the frame was seen.
 std::uint64_t hash_pose(const Frame& frame) {
   StateHash hash;
   hash.add(frame.stamp_ns);
-  const Quat& q = frame.world_from_camera.rotation;
-  for (const double c : {q.w, q.x, q.y, q.z}) hash.add(c);
-  add(hash, frame.world_from_camera.translation);
+  add(hash, frame.world_from_camera);
   const Intrinsics& k = frame.intrinsics;
   hash.add(k.width), hash.add(k.height);
   for (const double c : {k.fx, k.fy, k.cx, k.cy}) hash.add(c);

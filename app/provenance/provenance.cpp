@@ -121,6 +121,7 @@ Scenario stated_scenario(const Provenance& provenance) {
 void adopt_pile(Scenario& scenario, const Scenario& pile_source) {
   scenario.packs = pile_source.packs;
   scenario.pile = pile_source.pile;
+  scenario.victims = pile_source.victims;
   scenario.settle = pile_source.settle;
 }
 

@@ -5,8 +5,6 @@
 namespace rubble::generator {
 namespace {
 
-constexpr double kCreaseDeg = 42;
-
 // Bars of a level: sides and ring spacing.
 void append_bars(SurfaceMesh& mesh, const std::vector<Bar>& bars, int level) {
   static const int kSides[3] = {10, 6, 4};

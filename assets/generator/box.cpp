@@ -10,11 +10,10 @@
 namespace rubble::generator {
 namespace {
 
-constexpr double kCreaseDeg = 42;
 constexpr double kBevel = 0.02;       // of an edge where it is chipped most; unit: m
 constexpr double kBreakDepth = 0.03;  // of the deepest dent of a broken face; unit: m
 constexpr double kCastDepth = 0.0015;
-constexpr double kThinnest = 0.12;    // wear takes at most this share of the shortest edge
+constexpr double kMostWear = 0.12;    // wear takes at most this share of the shortest edge
 
 // Lattice coordinates along one axis: the two ends, a bevel inside each, the rest evenly.
 std::vector<double> lattice(double size, double bevel, double spacing) {
@@ -35,8 +34,8 @@ class BoxMesher {
  public:
   BoxMesher(const BoxRecipe& recipe, double spacing)
       : recipe_(recipe),
-        bevel_(std::min(kBevel, kThinnest * shortest())),
-        depth_(std::min(kBreakDepth, kThinnest * shortest())) {
+        bevel_(std::min(kBevel, kMostWear * shortest())),
+        depth_(std::min(kBreakDepth, kMostWear * shortest())) {
     for (int axis = 0; axis < 3; ++axis)
       grid_[axis] = lattice(recipe.size[axis], bevel_, spacing);
   }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <queue>
 
 #include "assets/generator/surface_mesh.h"
@@ -63,6 +64,8 @@ class Decimator {
       : mesh_(mesh), options_(options), live_(static_cast<int>(mesh.triangles.size())) {
     around_.resize(mesh.positions.size());
     ages_.assign(mesh.positions.size(), 0);
+    stays_.assign(mesh.positions.size(), 0);
+    marks_.assign(mesh.positions.size(), 0);
     dead_.assign(mesh.triangles.size(), false);
     for (int t = 0; t < live_; ++t) {
       for (const int v : mesh_.triangles[t]) around_[v].push_back(t);
@@ -118,17 +121,20 @@ class Decimator {
     }
   }
 
-  // Ascending, into `result`: lists that are kept spare an allocation for each of millions of calls.
-  void find_neighbours(int v, std::vector<int>& result) const {
+  // In any order, into `result`: lists that are kept spare an allocation for each of millions of calls.
+  // Until the next call, is_neighbour() tells them from others.
+  void find_neighbours(int v, std::vector<int>& result) {
     result.clear();
+    ++mark_;
     for (const int t : around_[v]) {
       for (const int w : mesh_.triangles[t]) {
-        if (w != v) result.push_back(w);
+        if (w == v || marks_[w] == mark_) continue;
+        marks_[w] = mark_;
+        result.push_back(w);
       }
     }
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
   }
+  bool is_neighbour(int w) const { return marks_[w] == mark_; }
 
   void push_edges(int v, bool upward_only) {
     find_neighbours(v, around_v_);
@@ -138,11 +144,12 @@ class Decimator {
   }
 
   // Collapses, in order of the vertices, what changes the surface by next to nothing. Most of a
-  // freshly sampled mesh goes this way at a fraction of the queue's cost.
+  // freshly sampled mesh goes this way at a fraction of the queue's cost. A vertex that stayed is asked
+  // again only after something near it has changed.
   void sweep() {
     for (int v = 0; v < static_cast<int>(around_.size()); ++v) {
       if (live_ <= 2 * options_.triangles) return;
-      if (ages_[v] < 0) continue;
+      if (ages_[v] < 0 || stays_[v]) continue;
       Candidate best{kSweepError * kSweepError, -1, v, 0};
       Vec3 best_target;
       find_neighbours(v, around_v_);
@@ -150,9 +157,24 @@ class Decimator {
         const Quadric sum = quadrics_[v] + quadrics_[w];
         const Vec3 target = calc_target(w, v, sum);
         const double error = sum.error(target) / sum.weight();
-        if (error < best.cost) best.cost = error, best.u = w, best_target = target;
+        if (error < best.cost || (error == best.cost && w < best.u)) {
+          best.cost = error, best.u = w, best_target = target;
+        }
       }
-      if (best.u >= 0 && allowed(best, best_target)) collapse(best, best_target);
+      stays_[v] = best.u < 0 || !allowed(best, best_target);
+      if (stays_[v]) continue;
+      collapse(best, best_target);
+      ask_again_around(best.u);
+    }
+  }
+
+  // Whether a vertex stays depends on what is two edges away at most.
+  void ask_again_around(int u) {
+    find_neighbours(u, ring_u_);
+    for (const int w : ring_u_) {
+      for (const int t : around_[w]) {
+        for (const int x : mesh_.triangles[t]) stays_[x] = 0;
+      }
     }
   }
 
@@ -172,12 +194,10 @@ class Decimator {
   }
 
   bool allowed(const Candidate& c, const Vec3& target) {
-    find_neighbours(c.u, ring_u_);
     find_neighbours(c.v, ring_v_);
-    shared_.clear();
-    std::set_intersection(ring_u_.begin(), ring_u_.end(), ring_v_.begin(), ring_v_.end(),
-                          std::back_inserter(shared_));
-    if (shared_.size() != 2 || ring_u_.size() + ring_v_.size() < 9) return false;  // stays manifold
+    find_neighbours(c.u, ring_u_);
+    const auto shared = std::count_if(ring_v_.begin(), ring_v_.end(), [&](int w) { return is_neighbour(w); });
+    if (shared != 2 || ring_u_.size() + ring_v_.size() < 9) return false;  // stays manifold
     for (const auto* ring : {&ring_u_, &ring_v_}) {
       for (const int w : *ring) {
         if (w != c.u && w != c.v && distance(at(w), target) > options_.max_edge) return false;
@@ -205,10 +225,14 @@ class Decimator {
   void collapse(const Candidate& c, const Vec3& target) {
     mesh_.positions[c.u] = target;
     quadrics_[c.u] = quadrics_[c.u] + quadrics_[c.v];
+    ring_u_.clear();  // of vertices that lose a triangle
     for (const int t : around_[c.v]) {
       auto& corners = mesh_.triangles[t];
       if (std::find(corners.begin(), corners.end(), c.u) != corners.end()) {
         remove(t);
+        for (const int w : corners) {
+          if (w != c.u && w != c.v) ring_u_.push_back(w);
+        }
       } else {
         std::replace(corners.begin(), corners.end(), c.v, c.u);
         around_[c.u].push_back(t);
@@ -218,7 +242,6 @@ class Decimator {
     ages_[c.v] = -1;
     ages_[c.u] += 1;
     forget_dead(c.u);
-    find_neighbours(c.u, ring_u_);
     for (const int w : ring_u_) forget_dead(w);
   }
 
@@ -257,10 +280,13 @@ class Decimator {
   int live_;
   std::vector<std::vector<int>> around_;  // triangles at each vertex
   std::vector<int> ages_;                 // -1: gone
+  std::vector<std::uint8_t> stays_;       // 1: a sweep finds nothing to do
   std::vector<bool> dead_;
   std::vector<Quadric> quadrics_;
   std::priority_queue<Candidate> queue_;
-  std::vector<int> around_v_, ring_u_, ring_v_, shared_;  // of the call at hand
+  std::vector<int> around_v_, ring_u_, ring_v_;  // of the call at hand
+  std::vector<int> marks_;  // mark_: found by the last find_neighbours()
+  int mark_ = 0;
 };
 
 }  // namespace

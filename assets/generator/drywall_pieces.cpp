@@ -5,7 +5,7 @@
 namespace rubble::generator {
 namespace {
 
-constexpr double kHalf = 0.00625;  // half of 12.5 mm; unit: m
+constexpr double kHalfSheet = 0.00625;  // half of 12.5 mm; unit: m
 constexpr Surface kPaper = Surface::drywall;
 constexpr Surface kGypsum = Surface::drywall_core;
 
@@ -22,7 +22,7 @@ Sheet paper_strip(const Vec3& from, const Vec3& to, const Vec3& outward, double 
       const double out = length * teeth[std::size_t(c)] * r / (rows - 1) - 0.03;
       const double up = out < 0 ? 0 : curl * out * out / length;
       strip.points.push_back(from + (to - from) * (double(c) / (columns - 1)) + outward * out +
-                             Vec3{0, 0, side * (kHalf - 0.0016) + up});
+                             Vec3{0, 0, side * (kHalfSheet - 0.0016) + up});
     }
   }
   return strip;
@@ -62,7 +62,7 @@ struct Board {
 Recipe board(const Board& shape) {
   RandomStream random = piece_stream(shape.name);
   Recipe r = plain_recipe(shape.name, random, "drywall", drywall_wear(), 0.005);
-  Cell cell = box_cell({-shape.half_x, -shape.half_y, -kHalf}, {shape.half_x, shape.half_y, kHalf},
+  Cell cell = box_cell({-shape.half_x, -shape.half_y, -kHalfSheet}, {shape.half_x, shape.half_y, kHalfSheet},
                        kPaper);
   for (const Vec3& b : shape.breaks) {
     cell.push_back({normalized(Vec3{b.x, b.y, random.uniform(-0.2, 0.2)}), b.z, kGypsum});

@@ -14,7 +14,7 @@ constexpr double kMaxShrink = 0.02;  // of a face of a cell; unit: m
 constexpr double kAnyShrink = 10;    // of a face of a region; unit: m
 constexpr double kSink = 0.8;  // of the mean dent, by which a face goes below the highest bumps
 constexpr double kMaxSink = 0.02;    // where holes count among the dents; unit: m
-constexpr double kThinnest = 0.011;  // of a part; unit: m
+constexpr double kThinnestPart = 0.011;  // of a part; unit: m
 constexpr double kWorthwhile = 0.001;  // a cut takes off more; unit: m
 constexpr double kApart = 0.004;       // corners of a finished part are farther apart; unit: m
 
@@ -177,11 +177,11 @@ std::vector<Vec3> widened(std::vector<Vec3> part) {
     const double top = support(part, face.normal), depth = top + support(part, -face.normal);
     if (depth < least) least = depth, across = face.normal;
   }
-  if (least >= kThinnest) return part;
+  if (least >= kThinnestPart) return part;
   const double middle = support(part, across) - 0.5 * least;
   for (Vec3& p : part) {
     const double height = dot(across, p) - middle;
-    p += across * ((height > 0 ? 0.5 : -0.5) * (kThinnest - least));
+    p += across * ((height > 0 ? 0.5 : -0.5) * (kThinnestPart - least));
   }
   return part;
 }

@@ -4,9 +4,6 @@
 namespace rubble::generator {
 namespace {
 
-constexpr Surface kCast = Surface::concrete_cast;
-constexpr Surface kBroken = Surface::concrete_fracture;
-
 // Long cast edges are knocked off here and there, more coarsely than those of small pieces.
 constexpr double kEdgeChip = 0.037, kChipSize = 0.11;  // unit: m
 

@@ -6,7 +6,6 @@
 namespace rubble::generator {
 namespace {
 
-constexpr Surface kWood = Surface::timber;
 constexpr Surface kCloth = Surface::fabric;
 
 Recipe wooden(const char* name, double cell) {

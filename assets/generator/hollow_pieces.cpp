@@ -5,8 +5,6 @@
 namespace rubble::generator {
 namespace {
 
-constexpr Surface kCast = Surface::concrete_cast;
-constexpr Surface kBroken = Surface::concrete_fracture;
 constexpr double kBore = 0.30, kOuter = 0.36;  // radii of the pipe; unit: m
 
 // A flat face across an arc of `step` radians stands off it by at most half the sagitta when its

@@ -5,8 +5,6 @@
 namespace rubble::generator {
 namespace {
 
-constexpr Surface kWood = Surface::timber;
-
 // The shards that a pane leaves in its frame, along the rim of the opening (x and z, y = 0); none
 // hang from above where the head is gone.
 void add_shards(Recipe& r, double min_x, double max_x, double min_z, double max_z,

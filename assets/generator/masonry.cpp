@@ -26,7 +26,7 @@ Recipe brick(const char* name, double length, double wear, bool broken, std::uin
 }
 
 // US size 390 x 190 x 190 mm, cores along Z: shells 32 mm, webs 28 mm.
-constexpr double kHalf = 0.095, kShell = 0.032, kWeb = 0.028, kCore = 0.153;
+constexpr double kHalfBlock = 0.095, kShell = 0.032, kWeb = 0.028, kCore = 0.153;
 
 Recipe block_recipe(const char* name, std::uint32_t seed) {
   Recipe r;
@@ -43,21 +43,21 @@ Recipe block_recipe(const char* name, std::uint32_t seed) {
 
 void add_web(Recipe& r, double min_x) {
   r.parts.push_back(
-      box_corners({min_x, -kHalf + kShell, -kHalf}, {min_x + kWeb, kHalf - kShell, kHalf}));
+      box_corners({min_x, -kHalfBlock + kShell, -kHalfBlock}, {min_x + kWeb, kHalfBlock - kShell, kHalfBlock}));
 }
 
 void add_core(Recipe& r, double min_x) {
-  r.solid.hollows.push_back(box_cell({min_x, -kHalf + kShell, -kHalf - 0.1},
-                                     {min_x + kCore, kHalf - kShell, kHalf + 0.1},
+  r.solid.hollows.push_back(box_cell({min_x, -kHalfBlock + kShell, -kHalfBlock - 0.1},
+                                     {min_x + kCore, kHalfBlock - kShell, kHalfBlock + 0.1},
                                      Surface::cinder_block));
 }
 
 // Shells from the end at `min_x` to the other, which may cut through a core; their collision parts
 // end at `part_max_x`, the middle of a rough break.
 void add_body(Recipe& r, double min_x, double max_x, double part_max_x) {
-  r.solid.cells = {box_cell({min_x, -kHalf, -kHalf}, {max_x, kHalf, kHalf}, Surface::cinder_block)};
-  for (const double y : {-kHalf, kHalf - kShell}) {
-    r.parts.push_back(box_corners({min_x, y, -kHalf}, {part_max_x, y + kShell, kHalf}));
+  r.solid.cells = {box_cell({min_x, -kHalfBlock, -kHalfBlock}, {max_x, kHalfBlock, kHalfBlock}, Surface::cinder_block)};
+  for (const double y : {-kHalfBlock, kHalfBlock - kShell}) {
+    r.parts.push_back(box_corners({min_x, y, -kHalfBlock}, {part_max_x, y + kShell, kHalfBlock}));
   }
 }
 
@@ -71,10 +71,10 @@ Recipe cinder_block() {
 
 Recipe half_block() {
   Recipe r = block_recipe("half_cinder_block", 202);
-  add_body(r, -kHalf, kHalf, kHalf);
-  for (const double x : {-kHalf, kHalf - kWeb}) add_web(r, x);
-  r.solid.hollows = {box_cell({-kHalf + kWeb, -kHalf + kShell, -kHalf - 0.1},
-                              {kHalf - kWeb, kHalf - kShell, kHalf + 0.1}, Surface::cinder_block)};
+  add_body(r, -kHalfBlock, kHalfBlock, kHalfBlock);
+  for (const double x : {-kHalfBlock, kHalfBlock - kWeb}) add_web(r, x);
+  r.solid.hollows = {box_cell({-kHalfBlock + kWeb, -kHalfBlock + kShell, -kHalfBlock - 0.1},
+                              {kHalfBlock - kWeb, kHalfBlock - kShell, kHalfBlock + 0.1}, Surface::cinder_block)};
   r.triangles = {1400, 350, 60};
   r.weight = 0.7;
   return r;

@@ -16,9 +16,6 @@ std::uint32_t end_hash(std::uint32_t h) {
   return h ^ (h >> 16);
 }
 
-double larger(double a, double b) { return a > b ? a : b; }  // unlike fmax, inline
-double smaller(double a, double b) { return a < b ? a : b; }
-
 // Ten bits of the hash as a number in [0, 1).
 double part(std::uint32_t hash, int which) { return ((hash >> (10 * which)) & 1023u) / 1024.0; }
 

@@ -8,6 +8,10 @@
 
 namespace rubble::generator {
 
+// Unlike fmax and fmin, inline.
+inline double larger(double a, double b) { return a > b ? a : b; }
+inline double smaller(double a, double b) { return a < b ? a : b; }
+
 // Smooth gradient noise (after Perlin 2002); about [-1, 1], mean 0.
 double gradient_noise(const Vec3& p, std::uint32_t seed);
 

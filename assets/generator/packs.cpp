@@ -27,7 +27,9 @@ std::vector<Recipe> cars() {
 
 }  // namespace
 
-std::vector<std::string> pack_names() { return {"concrete", "residential", "parking", "bridge"}; }
+std::vector<std::string> pack_names() {
+  return {"concrete", "residential", "parking", "bridge", "victims"};
+}
 
 Pack make_pack(const std::string& name) {
   if (name == "concrete") {
@@ -48,6 +50,7 @@ Pack make_pack(const std::string& name) {
     return pack;
   }
   if (name == "bridge") return gather(name, {bridge_concrete, bridge_steel});
+  if (name == "victims") return gather(name, {victim_pieces});
   throw RunError("there is no bundled pack " + name);
 }
 

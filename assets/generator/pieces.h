@@ -7,6 +7,11 @@
 
 namespace rubble::generator {
 
+// What many pieces have.
+inline constexpr Surface kCast = Surface::concrete_cast;
+inline constexpr Surface kBroken = Surface::concrete_fracture;
+inline constexpr Surface kWood = Surface::timber;
+
 std::vector<Recipe> masonry_pieces();  // bricks and blocks
 std::vector<Recipe> chunk_pieces();    // broken lumps of concrete
 std::vector<Recipe> slab_pieces();     // broken floor slabs with bars
@@ -33,5 +38,7 @@ std::vector<Recipe> furniture_pieces();  // chairs, tables, sofa, mattress, refr
 
 std::vector<Recipe> guard_pieces();  // guard rails and a post
 std::vector<Recipe> bridge_steel();  // girders, rails, clusters of bars
+
+std::vector<Recipe> victim_pieces();  // posed figures of people
 
 }  // namespace rubble::generator

@@ -5,9 +5,6 @@
 namespace rubble::generator {
 namespace {
 
-constexpr Surface kCast = Surface::concrete_cast;
-constexpr Surface kBroken = Surface::concrete_fracture;
-
 Recipe precast(const char* name, double cell, std::array<int, 3> triangles, double weight,
                std::vector<std::string> tags) {
   RandomStream random = piece_stream(name);

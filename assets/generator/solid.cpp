@@ -11,9 +11,6 @@ namespace {
 constexpr double kScar = 0.0026;        // an edge that receded farther was chipped; unit: m
 constexpr double kHollowRound = 0.009;  // of the inner edges of hollows; unit: m
 
-double larger(double a, double b) { return a > b ? a : b; }  // unlike fmax, inline
-double smaller(double a, double b) { return a < b ? a : b; }
-
 bool is_fracture(Surface s) {
   return s == Surface::concrete_fracture || s == Surface::brick_fracture ||
          s == Surface::timber_fracture || s == Surface::drywall_core;

@@ -39,5 +39,6 @@ Vec3 rounded_for_file(const Vec3& p);
 // Rounds the positions as written to files, and gives every corner a normal: smooth
 // across edges flatter than `crease_deg` within one surface, split at others.
 TriangleMesh finish(const SurfaceMesh& mesh, double crease_deg);
+inline constexpr double kCreaseDeg = 42;  // of solids
 
 }  // namespace rubble::generator

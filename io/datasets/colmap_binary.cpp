@@ -66,7 +66,7 @@ class Bytes {
   std::string_view rest_;
 };
 
-std::vector<ColmapCamera> read_cameras(const std::string& path) {
+std::vector<ColmapCamera> read_binary_cameras(const std::string& path) {
   Bytes bytes(path);
   std::vector<ColmapCamera> cameras(bytes.count("cameras", 24));
   for (ColmapCamera& camera : cameras) {
@@ -97,7 +97,7 @@ Pose read_pose(Bytes& bytes) {
   return pose;
 }
 
-void read_images(const std::string& path, ColmapParts& parts) {
+void read_binary_images(const std::string& path, ColmapParts& parts) {
   Bytes bytes(path);
   parts.model.images.resize(bytes.count("images", 73));
   for (ColmapImage& image : parts.model.images) {
@@ -115,7 +115,7 @@ void read_images(const std::string& path, ColmapParts& parts) {
   bytes.end();
 }
 
-void read_points(const std::string& path, ColmapParts& parts) {
+void read_binary_points(const std::string& path, ColmapParts& parts) {
   Bytes bytes(path);
   parts.model.points.resize(bytes.count("points", 51));
   for (ColmapPoint& point : parts.model.points) {
@@ -138,9 +138,9 @@ void read_points(const std::string& path, ColmapParts& parts) {
 ColmapParts read_colmap_binary(const std::string& folder) {
   ColmapParts parts;
   parts.model.folder = folder;
-  parts.model.cameras = read_cameras(folder + "/cameras.bin");
-  read_images(folder + "/images.bin", parts);
-  read_points(folder + "/points3D.bin", parts);
+  parts.model.cameras = read_binary_cameras(folder + "/cameras.bin");
+  read_binary_images(folder + "/images.bin", parts);
+  read_binary_points(folder + "/points3D.bin", parts);
   return parts;
 }
 

@@ -84,7 +84,7 @@ class Lines {
   std::istringstream words_;
 };
 
-std::vector<ColmapCamera> read_cameras(const std::string& path) {
+std::vector<ColmapCamera> read_text_cameras(const std::string& path) {
   std::vector<ColmapCamera> cameras;
   Lines lines(path);
   while (lines.next()) {
@@ -124,7 +124,7 @@ void read_features(Lines& lines, ColmapImage& image) {
   }
 }
 
-void read_images(const std::string& path, ColmapParts& parts) {
+void read_text_images(const std::string& path, ColmapParts& parts) {
   Lines lines(path);
   while (lines.next()) {
     ColmapImage image;
@@ -140,7 +140,7 @@ void read_images(const std::string& path, ColmapParts& parts) {
   }
 }
 
-void read_points(const std::string& path, ColmapParts& parts) {
+void read_text_points(const std::string& path, ColmapParts& parts) {
   Lines lines(path);
   while (lines.next()) {
     ColmapPoint point;
@@ -170,9 +170,9 @@ bool parse_colmap_number(const std::string& word, double& value) {
 ColmapParts read_colmap_text(const std::string& folder) {
   ColmapParts parts;
   parts.model.folder = folder;
-  parts.model.cameras = read_cameras(folder + "/cameras.txt");
-  read_images(folder + "/images.txt", parts);
-  read_points(folder + "/points3D.txt", parts);
+  parts.model.cameras = read_text_cameras(folder + "/cameras.txt");
+  read_text_images(folder + "/images.txt", parts);
+  read_text_points(folder + "/points3D.txt", parts);
   return parts;
 }
 

@@ -6,13 +6,13 @@
 namespace rubble {
 namespace {
 
-constexpr std::chrono::milliseconds kNap{20};  // how soon a stop is noticed
+constexpr std::chrono::milliseconds kPaceNap{20};  // how soon a stop is noticed
 
 }  // namespace
 
 void Pace::wait_for(const std::function<bool()>& ready) const {
   const auto end = Clock::now() + std::chrono::duration<double>(options_.wait);
-  while (Clock::now() < end && !options_.stopped() && !ready()) std::this_thread::sleep_for(kNap);
+  while (Clock::now() < end && !options_.stopped() && !ready()) std::this_thread::sleep_for(kPaceNap);
 }
 
 void Pace::wait_until(std::int64_t stamp_ns) {
@@ -30,7 +30,7 @@ void Pace::wait_until(std::int64_t stamp_ns) {
 
 void Pace::sleep_until(Clock::time_point due) const {
   while (Clock::now() < due && !options_.stopped())
-    std::this_thread::sleep_until(std::min(due, Clock::now() + kNap));
+    std::this_thread::sleep_until(std::min(due, Clock::now() + kPaceNap));
 }
 
 }  // namespace rubble

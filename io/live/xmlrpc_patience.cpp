@@ -14,7 +14,7 @@
 
 namespace {
 
-constexpr double kPatience = 5,
+constexpr double kXmlRpcPatience = 5,
                  kLittlePatience = 0.25;  // of a master that once let us wait; unit: s
 constexpr int kDeepest = 32;              // the Master API needs five levels
 
@@ -33,7 +33,7 @@ thread_local int Level::depth = 0;
 bool XmlRpc::XmlRpcClient::execute(const char* method, const XmlRpcValue& params,
                                    XmlRpcValue& result) {
   if (!executeNonBlock(method, params)) return false;
-  _disp.work(let_us_wait ? kLittlePatience : kPatience);
+  _disp.work(let_us_wait ? kLittlePatience : kXmlRpcPatience);
   const bool answered = _connectionState == IDLE;
   let_us_wait = !answered && _connectionState != NO_CONNECTION;
   if (answered) return executeCheckDone(result) && result.valid();

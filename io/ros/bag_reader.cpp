@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/base/little_endian.h"
+#include "io/ros/bag_format.h"
 #include "io/ros/ros_message_reader.h"
 #include "io/ros/unpacked_bytes.h"
 #include "kernel/base/error.h"
@@ -13,12 +14,7 @@
 namespace rubble {
 namespace {
 
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 constexpr std::uint32_t kLargestHeader = 1 << 20;  // unit: byte
-
-// The kinds of records.
-constexpr std::uint8_t kMessageData = 2, kFileHeader = 3, kIndexData = 4, kChunk = 5,
-                       kChunkInfo = 6, kConnection = 7;
 
 // The fields of a record's header, and its data.
 struct Record {
@@ -111,10 +107,10 @@ class BagReader {
       : path_(path), file_(path), take_(take) {}
 
   void read() {
-    if (file_.take(std::min<std::uint64_t>(kMagic.size(), file_.left()), "") != kMagic)
+    if (file_.take(std::min<std::uint64_t>(bag::kMagic.size(), file_.left()), "") != bag::kMagic)
       fail_at(0, "it is no ROS bag of format 2.0");
     const Record header = read_record(file_);
-    if (field<std::uint8_t>(header, "op") != kFileHeader)
+    if (field<std::uint8_t>(header, "op") != bag::kFileHeader)
       fail_at(header.byte, "the header of the file is missing");
     const auto index_position = field<std::uint64_t>(header, "index_pos");
     if (index_position == 0)
@@ -138,9 +134,9 @@ class BagReader {
   void read_chunk_or_index() {
     const Record record = read_record(file_);
     const auto op = field<std::uint8_t>(record, "op");
-    if (op == kChunk)
+    if (op == bag::kChunk)
       read_chunk(record);
-    else if (op == kIndexData)
+    else if (op == bag::kIndexData)
       check_index(record);
     else
       fail_at(record.byte, "a chunk or its index should be there");
@@ -171,12 +167,12 @@ class BagReader {
     left.remove_prefix(size);
     const auto op = field<std::uint8_t>(record, "op");
     const auto connection = field<std::uint32_t>(record, "conn");
-    if (op == kConnection) {
+    if (op == bag::kConnection) {
       topics_[connection] = text_field(record, "topic");
       announced_[connection] = std::string(data);
       return;
     }
-    sound(op == kMessageData && topics_.count(connection));
+    sound(op == bag::kMessageData && topics_.count(connection));
     entries_[std::uint32_t(offset)] = {connection, field<std::uint64_t>(record, "time")};
     enough_ = !take_({ros::Version::ros1, topics_[connection], data});
   }
@@ -210,14 +206,14 @@ class BagReader {
     check_all_indexed(file_.at());
     const Record record = read_record(file_);
     const auto op = field<std::uint8_t>(record, "op");
-    if (op == kConnection) {
+    if (op == bag::kConnection) {
       const auto connection = field<std::uint32_t>(record, "conn");
       const auto known = announced_.find(connection);
       if (known != announced_.end() &&
           (known->second != record.data || topics_[connection] != text_field(record, "topic")))
         fail_at(record.byte, "the connection there is another than in its chunk");
       ++listed_;
-    } else if (op == kChunkInfo) {
+    } else if (op == bag::kChunkInfo) {
       if (!chunks_.count(field<std::uint64_t>(record, "chunk_pos")))
         fail_at(record.byte, "the index there names a chunk that is not there");
       ++listed_chunks_;

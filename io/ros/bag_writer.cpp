@@ -6,18 +6,14 @@
 #include <limits>
 
 #include "io/base/little_endian.h"
+#include "io/ros/bag_format.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
 namespace {
 
-constexpr std::size_t kChunkThreshold = 768 * 1024;  // unit: byte; that of rosbag
+constexpr std::size_t kBagChunkSize = 768 * 1024;  // unit: byte; that of rosbag
 constexpr std::size_t kFileHeaderSize = 4096;        // unit: byte; so that it can be rewritten
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-
-// The kinds of records.
-constexpr std::uint8_t kMessageData = 2, kFileHeader = 3, kIndexData = 4, kChunk = 5,
-                       kChunkInfo = 6, kConnection = 7;
 
 void put_field(std::string& header, std::string_view name, std::string_view value) {
   put(header, static_cast<std::uint32_t>(name.size() + 1 + value.size()));
@@ -69,7 +65,7 @@ std::string compress_lz4(std::string_view bytes) {
 
 BagWriter::BagWriter(const std::string& path, BagCompression compression)
     : file_(path), compression_(compression) {
-  file_.write(kMagic);
+  file_.write(bag::kMagic);
   file_.write(file_header(0));
 }
 
@@ -78,7 +74,7 @@ std::string BagWriter::file_header(std::uint64_t index_position) const {
   put_number_field(fields, "chunk_count", static_cast<std::uint32_t>(chunks_.size()));
   put_number_field(fields, "conn_count", static_cast<std::uint32_t>(topics_.size()));
   put_number_field(fields, "index_pos", index_position);
-  put_number_field(fields, "op", kFileHeader);
+  put_number_field(fields, "op", bag::kFileHeader);
   std::string record;
   put_block(record, fields);
   put_block(record, std::string(kFileHeaderSize - fields.size(), ' '));
@@ -96,7 +92,7 @@ std::string BagWriter::connection_record(std::uint32_t connection) const {
   const BagTopic& topic = topics_[connection];
   std::string header, data, record;
   put_number_field(header, "conn", connection);
-  put_number_field(header, "op", kConnection);
+  put_number_field(header, "op", bag::kConnection);
   put_field(header, "topic", topic.topic);
   put_field(data, "callerid", "/rubble");
   if (topic.latching) put_field(data, "latching", "1");
@@ -118,11 +114,11 @@ void BagWriter::write(std::uint32_t connection, std::int64_t stamp_ns, std::stri
   index_[connection].push_back({time, static_cast<std::uint32_t>(chunk_.size())});
   std::string header;
   put_number_field(header, "conn", connection);
-  put_number_field(header, "op", kMessageData);
+  put_number_field(header, "op", bag::kMessageData);
   put_number_field(header, "time", time);
   put_block(chunk_, header);
   put_block(chunk_, message);
-  if (chunk_.size() >= kChunkThreshold) close_chunk();
+  if (chunk_.size() >= kBagChunkSize) close_chunk();
 }
 
 void BagWriter::close_chunk() {
@@ -148,7 +144,7 @@ void BagWriter::write_chunk() {
   const std::string& data = lz4 ? compressed : chunk_;
   std::string fields, header;
   put_field(fields, "compression", lz4 ? "lz4" : "none");
-  put_number_field(fields, "op", kChunk);
+  put_number_field(fields, "op", bag::kChunk);
   put_number_field(fields, "size", static_cast<std::uint32_t>(chunk_.size()));
   put_block(header, fields);
   put(header, static_cast<std::uint32_t>(data.size()));
@@ -163,7 +159,7 @@ void BagWriter::write_chunk_index() {
     std::string fields, data, record;
     put_number_field(fields, "conn", connection);
     put_number_field(fields, "count", static_cast<std::uint32_t>(entries.size()));
-    put_number_field(fields, "op", kIndexData);
+    put_number_field(fields, "op", bag::kIndexData);
     put_number_field(fields, "ver", std::uint32_t{1});
     for (const IndexEntry& entry : entries) {
       put(data, entry.time);
@@ -190,14 +186,14 @@ void BagWriter::finish() {
     put_number_field(fields, "chunk_pos", info.position);
     put_number_field(fields, "count", static_cast<std::uint32_t>(data.size() / 8));
     put_number_field(fields, "end_time", info.last_time);
-    put_number_field(fields, "op", kChunkInfo);
+    put_number_field(fields, "op", bag::kChunkInfo);
     put_number_field(fields, "start_time", info.first_time);
     put_number_field(fields, "ver", std::uint32_t{1});
     put_block(record, fields);
     put_block(record, data);
     file_.write(record);
   }
-  file_.overwrite(kMagic.size(), file_header(index_position));
+  file_.overwrite(bag::kMagic.size(), file_header(index_position));
   file_.commit();
 }
 

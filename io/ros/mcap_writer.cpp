@@ -17,7 +17,7 @@ using namespace mcap;
 
 // Large enough to compress well, small enough that one picture of 1024x1024 is a chunk of its own
 // and the threads share the work evenly. unit: byte
-constexpr std::size_t kChunkThreshold = 1 << 20;
+constexpr std::size_t kMcapChunkSize = 1 << 20;
 constexpr int kZstdLevel = 1;
 
 void put_text(std::string& out, std::string_view text) {
@@ -118,7 +118,7 @@ void McapWriter::write(std::uint16_t channel, std::int64_t stamp_ns, std::string
   put(out, time);  // logged ...
   put(out, time);  // ... and published: simulation has no delay
   out.append(message);
-  if (out.size() >= kChunkThreshold) close_chunk();
+  if (out.size() >= kMcapChunkSize) close_chunk();
 }
 
 void McapWriter::close_chunk() {

@@ -5,7 +5,7 @@
 namespace rubble {
 namespace {
 
-constexpr char kWorld[] = "world", kOdom[] = "odom";
+constexpr char kOdom[] = "odom";
 
 }  // namespace
 
@@ -23,7 +23,7 @@ RobotTopics::RobotTopics(const std::vector<RobotRecord>& robots, RosFile& file)
 
 void RobotTopics::add_transforms(std::vector<ros::Transform>& fixed) const {
   for (const RobotRecord& robot : robots_) {
-    if (robot.has_odometry) fixed.push_back({robot.frame + kOdom, robot.world_from_base, kWorld});
+    if (robot.has_odometry) fixed.push_back({robot.frame + kOdom, robot.world_from_base, ros::kWorld});
     for (std::size_t i = 0; i < robot.joints.size(); ++i) {
       const RobotRecord::Joint& joint = robot.joints[i];
       if (!joint.fixed) continue;
@@ -56,7 +56,7 @@ void RobotTopics::write(const RobotSample& sample, std::uint32_t tf_topic) {
                               {o.linear, 0, 0}, {0, 0, o.angular}));
   }
   file_.write(topics.truth, sample.stamp_ns,
-              ros::odometry(version, header(kWorld), base, sample.world_from_base,
+              ros::odometry(version, header(ros::kWorld), base, sample.world_from_base,
                             sample.linear_velocity, sample.angular_velocity));
   for (std::size_t k = 0; k < sample.contacts.size(); ++k)
     file_.write(topics.contacts, sample.stamp_ns,
@@ -88,7 +88,7 @@ void RobotTopics::write_transforms(const RobotRecord& robot, std::uint32_t count
   if (sample.odometry)
     list.push_back({base, sample.odometry->odom_from_base, robot.frame + kOdom});
   else
-    list.push_back({base, sample.world_from_base, kWorld});
+    list.push_back({base, sample.world_from_base, ros::kWorld});
   for (std::size_t k = 0; k < robot.joints.size(); ++k) {
     const RobotRecord::Joint& joint = robot.joints[k];
     if (joint.fixed) continue;
@@ -96,7 +96,7 @@ void RobotTopics::write_transforms(const RobotRecord& robot, std::uint32_t count
         {robot.frame_of(joint.child), sample.parent_from_child[k], robot.frame_of(joint.parent)});
   }
   file_.write(tf_topic, sample.stamp_ns,
-              ros::transforms(file_.version(), {count, sample.stamp_ns, kWorld}, list));
+              ros::transforms(file_.version(), {count, sample.stamp_ns, ros::kWorld}, list));
 }
 
 }  // namespace rubble

@@ -17,6 +17,8 @@
 
 namespace rubble::ros {
 
+inline constexpr char kWorld[] = "world";  // the fixed frame of every recording
+
 struct MessageType {
   const char* package;      // "sensor_msgs"
   const char* name;         // ROS 1: "package/name"; ROS 2: "package/msg/name"

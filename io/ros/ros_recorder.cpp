@@ -12,8 +12,6 @@
 namespace rubble {
 namespace {
 
-constexpr char kWorld[] = "world";
-
 // In front of a picture of 16UC1 in compressedDepth: a number of the method and two parameters,
 // both for depth in metres alone.
 constexpr std::size_t kCompressedDepthHeader = 12;  // unit: byte
@@ -182,7 +180,7 @@ class RosRecorder : public Recorder {
   void write_instant(const Frame& frame) {
     send(clock_, frame, ros::clock(version_, frame.stamp_ns));
     if (instants_ == 0) write_constants(frame);
-    const ros::Header world{instants_++, frame.stamp_ns, kWorld};
+    const ros::Header world{instants_++, frame.stamp_ns, ros::kWorld};
     if (!recording_.mount)
       send(tf_, frame, ros::transforms(version_, world, {{recording_.rig, frame.world_from_rig}}));
     send(pose_, frame, ros::pose_stamped(version_, world, frame.world_from_rig));

@@ -6,7 +6,7 @@
 namespace rubble {
 namespace {
 
-constexpr SealedKind kKind{"RUBCHKP\n", kCheckpointVersion, "checkpoint of settling",
+constexpr SealedKind kCheckpointKind{"RUBCHKP\n", kCheckpointVersion, "checkpoint of settling",
                            "it is written while a pile settles",
                            "settle the pile again, or use the program that wrote it"};
 
@@ -20,12 +20,12 @@ void save_checkpoint(const SettleCheckpoint& checkpoint, const std::string& path
   put(content, checkpoint.layer_steps);
   put(content, static_cast<std::uint64_t>(checkpoint.world.size()));
   content.append(checkpoint.world.begin(), checkpoint.world.end());
-  save_sealed(kKind, content, path);
+  save_sealed(kCheckpointKind, content, path);
 }
 
 SettleCheckpoint load_checkpoint(const std::string& path) {
-  const std::string content = load_sealed(kKind, path);
-  SealedReader reader(kKind, content, path);
+  const std::string content = load_sealed(kCheckpointKind, path);
+  SealedReader reader(kCheckpointKind, content, path);
   SettleCheckpoint checkpoint;
   checkpoint.work = reader.number<std::uint64_t>();
   checkpoint.layers = reader.number<std::int32_t>();

@@ -9,7 +9,7 @@
 namespace rubble {
 namespace {
 
-constexpr SealedKind kKind{"RUBPILE\n", kPileStateVersion, "pile state",
+constexpr SealedKind kPileStateKind{"RUBPILE\n", kPileStateVersion, "pile state",
                            "a pile state is the pile.bin of a run",
                            "settle the pile again, or use the program that wrote it"};
 constexpr double kFarthest = 1e6;  // of a piece from the origin; unit: m
@@ -141,7 +141,7 @@ JointState read_joint(SealedReader& reader, std::uint64_t piece_count) {
 }
 
 PileState parse_content(std::string_view content, const std::string& path) {
-  SealedReader reader(kKind, content, path);
+  SealedReader reader(kPileStateKind, content, path);
   PileState state;
   const auto types = reader.number<std::uint32_t>();
   for (std::uint32_t i = 0; i < types; ++i) state.types.push_back(reader.text());
@@ -168,11 +168,11 @@ PileState parse_content(std::string_view content, const std::string& path) {
 }  // namespace
 
 void save_pile_state(const PileState& state, const std::string& path) {
-  save_sealed(kKind, make_content(state), path);
+  save_sealed(kPileStateKind, make_content(state), path);
 }
 
 PileState load_pile_state(const std::string& path) {
-  return parse_content(load_sealed(kKind, path), path);
+  return parse_content(load_sealed(kPileStateKind, path), path);
 }
 
 }  // namespace rubble

@@ -6,7 +6,7 @@
 namespace rubble {
 namespace {
 
-constexpr SealedKind kKind{"RUBTRCK\n", kTrackVersion, "track",
+constexpr SealedKind kTrackKind{"RUBTRCK\n", kTrackVersion, "track",
                            "a track is the track.bin of a run that records what moves",
                            "run the mission again, or use the program that wrote it"};
 constexpr std::size_t kBodySize = 4 + 3 * 8 + 4 + 8;         // without its keys; unit: byte
@@ -80,12 +80,12 @@ TrackBody read_body(SealedReader& reader) {
 }  // namespace
 
 void save_track(const Track& track, const std::string& path) {
-  save_sealed(kKind, make_content(track), path);
+  save_sealed(kTrackKind, make_content(track), path);
 }
 
 Track load_track(const std::string& path) {
-  const std::string content = load_sealed(kKind, path);
-  SealedReader reader(kKind, content, path);
+  const std::string content = load_sealed(kTrackKind, path);
+  SealedReader reader(kTrackKind, content, path);
   Track track;
   const std::uint64_t samples = read_count(reader, sizeof(double), "samples");
   track.times.reserve(samples);

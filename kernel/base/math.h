@@ -146,6 +146,10 @@ using Mat3f = Mat3T<float>;
 using Quat = QuatT<double>;
 using Quatf = QuatT<float>;
 
+inline Mat3f to_float(const Mat3& m) {
+  return {{Vec3f(m.rows[0]), Vec3f(m.rows[1]), Vec3f(m.rows[2])}};
+}
+
 // A rigid transform; named for both frames: `world_from_body` takes body coordinates to the world.
 struct Pose {
   Quat rotation;     // unit length
@@ -160,6 +164,10 @@ struct Pose {
     return {r, r.rotate(-translation)};
   }
 };
+
+constexpr bool operator==(const Pose& a, const Pose& b) {
+  return a.translation == b.translation && a.rotation == b.rotation;
+}
 
 // The camera frames of REP 103: body X forward, Y left, Z up; optical Z forward, X right, Y down.
 inline constexpr Pose camera_from_optical{{0.5, -0.5, 0.5, -0.5}, {0, 0, 0}};

@@ -11,6 +11,7 @@
 namespace rubble::portable {
 
 inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr float kPiF = float(kPi);
 
 struct SinCos {
   double sin, cos;  // of the same angle; range: -1 to 1

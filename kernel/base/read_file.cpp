@@ -18,7 +18,7 @@ namespace rubble {
 namespace {
 
 constexpr std::size_t kBlock = 1 << 18;  // unit: byte
-constexpr auto kPatience = std::chrono::seconds(2);  // for somebody to open the other end of a pipe
+constexpr auto kWriterPatience = std::chrono::seconds(2);  // for somebody to open the other end of a pipe
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
@@ -65,7 +65,7 @@ class Reader {
 
   // 0: the end.
   std::size_t read_block(std::vector<char>& block) {
-    const auto end = std::chrono::steady_clock::now() + kPatience;
+    const auto end = std::chrono::steady_clock::now() + kWriterPatience;
     for (;;) {
       const ssize_t count = read(descriptor_, block.data(), block.size());
       if (count > 0) met_ = true;

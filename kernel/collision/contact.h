@@ -31,6 +31,10 @@ struct ContactPoint {
   float found_separation = 0;  // when a search last found the point, at local_a and local_b; unit: m
 };
 
+// A contact or a tie keeps its place in the solver's order while its height changes by no more than this,
+// so that the order, and with it what the solver makes of it, is the same from step to step; unit: m.
+inline constexpr float kOrderDistance = 0.1F;
+
 // Who meets whom: read for every pair in every step, so kept small and apart from the contact.
 struct Pair {
   std::int32_t collider_a = 0, collider_b = 0;  // b may be kGround or a surface

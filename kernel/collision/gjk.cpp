@@ -5,11 +5,12 @@ namespace {
 
 constexpr int kMaxIterations = 32;  // what has not converged by then keeps the best bound so far
 constexpr float kRelativeTolerance = 1e-4F;  // of the distance: 0.01 mm at 0.1 m
-// A distance counts as found when the proven bound below it is so near: the rest is rounding. Without
-// this test pieces at rest lost a contact now and then, and piles crept.
+// A distance is accepted if its proven lower bound differs by less than this share: the rest is rounding.
+// Without this test, pieces at rest lost contacts at times, and piles crept. unit: 1
 constexpr float kAcceptedShare = 1e-2F;
-constexpr float kAcceptedGap = 5e-4F;  // unit: m
-constexpr float kTouching2 = 1e-10F;  // (10 micrometres)^2
+// A distance is also accepted if its proven lower bound differs by less than this. unit: m
+constexpr float kAcceptedGap = 5e-4F;
+constexpr float kTouching2 = 1e-10F;  // below this squared distance, (10 micrometres)^2, parts touch; unit: m2
 
 struct Vertex {
   Vec3f w;  // a - b
@@ -96,7 +97,7 @@ bool solve(Simplex& s) {
   return s.size == 4 && solve_tetrahedron(s, false);
 }
 
-struct Search {
+struct SimplexSearch {
   const PointSet& a;
   const PointSet& b;
   Vec3f offset;
@@ -121,7 +122,7 @@ void store(const Simplex& s, GjkCache& cache) {
   }
 }
 
-GjkResult finish(const Search& search, const Simplex& s, const Vec3f& v, float v2) {
+GjkResult finish(const SimplexSearch& search, const Simplex& s, const Vec3f& v, float v2) {
   GjkResult result;
   result.distance = std::sqrt(v2);
   result.normal = v * (-1 / result.distance);
@@ -133,7 +134,7 @@ GjkResult finish(const Search& search, const Simplex& s, const Vec3f& v, float v
 }
 
 // False when the descent ended short of the closest points: the simplex was too flat for it.
-bool descend(const Search& search, float margin, GjkCache& cache, GjkResult& result) {
+bool descend(const SimplexSearch& search, float margin, GjkCache& cache, GjkResult& result) {
   Simplex s = search.start(cache), whole;
   result = {};
   Vec3f v;
@@ -189,7 +190,7 @@ int find_support(const PointSet& set, const Vec3f& direction) {
 
 GjkResult calc_distance(const PointSet& a, const PointSet& b, const Vec3f& offset, float margin,
                         GjkCache& cache) {
-  const Search search{a, b, offset};
+  const SimplexSearch search{a, b, offset};
   GjkResult result;
   if (descend(search, margin, cache, result)) return result;
   cache.size = 0;

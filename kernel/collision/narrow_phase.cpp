@@ -11,18 +11,20 @@
 namespace rubble {
 namespace {
 
-// Points of two steps are the same when closer than this; unit: m.
+// Points of two steps count as the same point if they are closer than this; unit: m.
 constexpr float kMatchDistance = 0.01F;
-// Impulses are not carried over when the normal turned by more than 25 degrees.
+// Impulses are kept for the next step only if the normal has turned by less than 25 degrees.
 constexpr float kKeepCosine = 0.906F;
-// Overlapping parts are shifted apart along the last normal by this and more; unit: m.
+// To find their axis, overlapping parts are shifted apart along the last normal by this, and by 4 times this;
+// unit: m.
 constexpr float kShift = 0.005F;
-// Clipped points may lie this much farther apart than the axis says; unit: m.
+// Clipped points may be this much farther apart than the distance along the axis; unit: m.
 constexpr float kAxisTolerance = 0.0005F;
+// An axis that is found for shifted parts counts only if it is within 26 degrees of the last normal.
 constexpr float kNearestShiftCosine = 0.9F;
-// A point of the step before is retained while its two ends have come apart by no more than this,
-// and while the normal has turned by no more than 8 degrees since the last search; unit: m.
+// A point of the previous step is retained while its two ends are not farther apart than this; unit: m.
 constexpr float kRetainDistance = 0.004F;
+// A point is retained only while the normal has turned by at most 8 degrees since the last search.
 constexpr float kRetainCosine = 0.99F;
 
 struct Axis {

@@ -15,7 +15,8 @@ constexpr float kLeastSine = 0.3F;
 // Directions that are looked at, a golden angle apart: no number of facets meets them all alike.
 // unit: 1
 constexpr int kDirections = 24;
-constexpr float kGoldenCosine = -0.73736888F, kGoldenSine = 0.67549029F;  // unit: 1
+constexpr float kGoldenCosine = -0.73736888F;  // of the golden angle, 137.5 degrees; unit: 1
+constexpr float kGoldenSine = 0.67549029F;     // of the golden angle; unit: 1
 // Points of a wheel narrower than this are one. unit: m
 constexpr float kNarrow = 0.005F;
 

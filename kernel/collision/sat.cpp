@@ -7,9 +7,10 @@ namespace {
 
 // Edge pairs are worth it only when clearly better than the best face: faces make larger contacts.
 constexpr float kEdgeAdvantage = 1e-4F;
-// From this overlap an axis must lead out of the whole piece, and so far beyond the surface it must be
-// outside; unit: m.
-constexpr float kDeep = 0.003F, kBeyond = 0.005F;
+// For deeper overlaps, an axis must lead out of the whole piece; unit: m.
+constexpr float kDeep = 0.003F;
+// An axis leads out of a piece if a point this far beyond the surface is outside; unit: m.
+constexpr float kBeyond = 0.005F;
 // Two edges separate the parts only if no corner reaches farther over their axis than this; unit: m.
 constexpr float kEdgeTolerance = 1e-4F;
 
@@ -20,9 +21,9 @@ float separation_along(const Vec3f& n, const PointSet& a, const PointSet& b, con
 }
 
 // The best axis of all, and the best of those that lead out of both pieces.
-class Candidates {
+class AxisCandidates {
  public:
-  Candidates(const PosedPart& a, const PosedPart& b, const Vec3f& offset)
+  AxisCandidates(const PosedPart& a, const PosedPart& b, const Vec3f& offset)
       : a_(a), b_(b), offset_(offset) {}
 
   // Nothing is to be gained from an axis with less than this.
@@ -51,7 +52,7 @@ class Candidates {
 };
 
 void try_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, float sign,
-               Candidates& best) {
+               AxisCandidates& best) {
   const PosedPart& owner = sign > 0 ? a : b;
   for (int f = 0; f < int(owner.shape->faces.size()); ++f) {
     const Vec3f n = owner.face_normal(f) * sign;
@@ -81,7 +82,7 @@ Vec3f crossing(const Vec3f& p, const Vec3f& d, const Vec3f& q, const Vec3f& e) {
   return (p + d * t + q + e * u) * 0.5F;
 }
 
-void try_edges(const PosedPart& a, const PosedPart& b, const Vec3f& offset, Candidates& best) {
+void try_edges(const PosedPart& a, const PosedPart& b, const Vec3f& offset, AxisCandidates& best) {
   for (const auto& ea : a.shape->edges) {
     const Vec3f na = a.face_normal(ea.left_face), ma = a.face_normal(ea.right_face);
     const Vec3f da = a.corners.points[ea.b] - a.corners.points[ea.a];
@@ -132,7 +133,7 @@ bool PosedPart::is_inside_sibling(const Vec3f& point) const {
 }
 
 SatResult find_separating_axis(const PosedPart& a, const PosedPart& b, const Vec3f& offset) {
-  Candidates best(a, b, offset);
+  AxisCandidates best(a, b, offset);
   try_faces(a, b, offset, 1, best);
   try_faces(a, b, offset, -1, best);
   try_edges(a, b, offset, best);

@@ -16,7 +16,7 @@ constexpr float kWeighted = 0.005F;
 // Points of one contact nearer to each other than this are one; unit: m.
 constexpr float kSamePoint = 1e-3F;
 // A slot is kept for a contact whose normal turned by less than 25 degrees.
-constexpr float kKeepCosine = 0.906F;
+constexpr float kKeepSlotCosine = 0.906F;
 
 struct Cluster {
   Vec3f first, sum;  // normals
@@ -77,7 +77,7 @@ int make_clusters(const std::vector<SurfacePoint>& points, const PosedBody& a, f
 int find_slot(Contact* const (&slots)[kSurfaceSlots], const bool (&taken)[kSurfaceSlots],
               const Vec3f& normal, bool matching_only) {
   int best = -1;
-  float best_cosine = kKeepCosine;
+  float best_cosine = kKeepSlotCosine;
   for (int i = 0; i < kSurfaceSlots; ++i) {
     const float cosine = dot(slots[i]->normal, normal);
     if (taken[i] || slots[i]->count == 0 || cosine <= best_cosine) continue;

@@ -18,8 +18,8 @@ constexpr float kDeepest = 0.3F;
 constexpr float kFallback = 0.05F;
 // Axes nearer to the triangle's normal than this are that normal.
 constexpr float kSameCosine = 0.9999F;
-constexpr float kLeastCosine = 0.05F;  // axes out of a triangle lean to its free side by this
-constexpr float kAxisAdvantage = 5e-4F;  // another axis must be better by this; unit: m
+constexpr float kLeastCosine = 0.05F;  // least cosine between an axis and the triangle's normal on its free side
+constexpr float kAxisAdvantage = 5e-4F;  // another axis is used only if its overlap is smaller by this; unit: m
 
 // A triangle seen from the centre of a piece, turned to the world.
 struct PosedTriangle {
@@ -35,7 +35,7 @@ struct PosedTriangle {
   }
 };
 
-struct Axis {
+struct SurfaceAxis {
   Vec3f normal;  // out of the surface
   float separation = 0;
 };
@@ -51,9 +51,9 @@ const ConvexShape& front_face() {
   return shape;
 }
 
-class Search {
+class SurfaceSearch {
  public:
-  Search(const PosedPart& part, const Vec3& centre, const PosedSurface& surface, float margin,
+  SurfaceSearch(const PosedPart& part, const Vec3& centre, const PosedSurface& surface, float margin,
          float reach, std::vector<SurfacePoint>& points)
       : part_(part), centre_(centre), surface_(surface), margin_(margin), reach_(reach),
         points_(points) {}
@@ -74,7 +74,7 @@ class Search {
   // How deep a part is counts along the axis: the planes of a spike's sides go on far below the
   // corners of what lies on its tip.
   void visit_sharp(float lowest) {
-    Axis axis;
+    SurfaceAxis axis;
     if (!find_axis(lowest, axis) || axis.separation < -kDeepest - margin_) return;
     if (dot(axis.normal, t_.normal) > kSameCosine) return add_face_points();
     if (is_exposed(axis.normal)) return add_edge_points(axis);
@@ -145,7 +145,7 @@ class Search {
   }
 
   // Along an axis that a convex edge or a peak has for itself.
-  void add_edge_points(const Axis& axis) {
+  void add_edge_points(const SurfaceAxis& axis) {
     const Vec3f side = normalized(t_.corners[1] - t_.corners[0]);
     const Mat3f rotation = Mat3f{{side, cross(t_.normal, side), t_.normal}}.transposed();
     const PosedPart face{&front_face(), {t_.corners, 3}, &rotation};
@@ -164,7 +164,7 @@ class Search {
   }
 
   // The axis of least overlap or of the distance. False: out of reach, or from behind.
-  bool find_axis(float lowest, Axis& axis) {
+  bool find_axis(float lowest, SurfaceAxis& axis) {
     GjkCache cache;
     const PointSet corners{t_.corners, 3};
     const GjkResult gjk = calc_distance(part_.corners, corners, {}, margin_, cache);
@@ -187,7 +187,7 @@ class Search {
 
   // Those of the part's faces, and of its edges with the triangle's. `exposed`: only those that no
   // neighbour is in the way of.
-  void try_axes(Axis& best, bool exposed) {
+  void try_axes(SurfaceAxis& best, bool exposed) {
     for (int f = 0; f < int(part_.shape->faces.size()); ++f) {
       try_axis(-part_.face_normal(f), best, exposed);
     }
@@ -199,7 +199,7 @@ class Search {
     }
   }
 
-  void try_edges(const Vec3f& a, const Vec3f& b, Axis& best, bool exposed) {
+  void try_edges(const Vec3f& a, const Vec3f& b, SurfaceAxis& best, bool exposed) {
     const Vec3f n = cross(a, b);
     const float length2 = dot(n, n);
     if (length2 < 1e-6F * dot(a, a) * dot(b, b)) return;  // parallel
@@ -207,7 +207,7 @@ class Search {
     try_axis(dot(unit, t_.normal) < 0 ? -unit : unit, best, exposed);
   }
 
-  void try_axis(const Vec3f& normal, Axis& best, bool exposed) {
+  void try_axis(const Vec3f& normal, SurfaceAxis& best, bool exposed) {
     if (dot(normal, t_.normal) < kLeastCosine) return;
     const float top = std::max({dot(normal, t_.corners[0]), dot(normal, t_.corners[1]),
                                 dot(normal, t_.corners[2])});
@@ -235,7 +235,7 @@ void find_surface_points(const PosedPart& part, const Vec3& centre, const Aabb& 
   thread_local std::vector<std::int32_t> near;
   surface.surface->find(surface.to_local({box.min - grow, box.max + grow}), near);
   points.clear();
-  Search search(part, centre, surface, margin, reach, points);
+  SurfaceSearch search(part, centre, surface, margin, reach, points);
   for (const std::int32_t index : near) search.visit(surface.surface->triangles()[index]);
 }
 

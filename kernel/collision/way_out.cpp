@@ -69,9 +69,9 @@ class Clearance {
   std::vector<Box> boxes_a_, boxes_b_;
 };
 
-class Candidates {
+class WayCandidates {
  public:
-  Candidates(const std::vector<OverlappingParts>& overlapping, const Vec3f& offset)
+  WayCandidates(const std::vector<OverlappingParts>& overlapping, const Vec3f& offset)
       : overlapping_(overlapping), offset_(offset) {}
 
   void offer(const Vec3f& direction, float preference) {
@@ -114,7 +114,7 @@ float calc_depth_along(const PosedPart& a, const PosedPart& b, const Vec3f& offs
 Vec3f find_way_out(const std::vector<OverlappingParts>& overlapping,
                    const std::vector<PosedPart>& parts_a, const std::vector<PosedPart>& parts_b,
                    const Vec3f& offset, const Vec3f& before) {
-  Candidates candidates(overlapping, offset);
+  WayCandidates candidates(overlapping, offset);
   if (dot(before, before) > 0) candidates.offer(before, kKeptShare);
   for (const OverlappingParts& o : overlapping) candidates.offer(o.normal, 1);
   for (const OverlappingParts& o : overlapping) {

@@ -2,38 +2,13 @@
 
 #include <cmath>
 
-#include "kernel/base/error.h"
 #include "kernel/model/pile.h"
+#include "kernel/model/range_check.h"
 
 namespace rubble {
 namespace {
 
-class Check {
- public:
-  explicit Check(const std::string& key) : key_(key) {}
-  void expect(bool fine, const std::string& member, const std::string& message,
-              const std::string& expected, const std::string& found) {
-    if (fine) return;
-    Diagnostic d;
-    d.key = key_ + member;
-    d.message = message;
-    d.expected = expected;
-    d.found = found;
-    problems_.push_back(d);
-  }
-  void expect(bool fine, const std::string& member, const std::string& expected, double found) {
-    expect(fine, member, "out of range", expected, std::to_string(found));
-  }
-  void finish() const {
-    if (!problems_.empty()) throw InputError(problems_);
-  }
-
- private:
-  std::string key_;
-  std::vector<Diagnostic> problems_;
-};
-
-void check_joint(const JointType& j, const std::string& at, Check& check) {
+void check_joint(const JointType& j, const std::string& at, RangeCheck& check) {
   check.expect(j.stiffness >= 0 && j.stiffness <= 1e9, at + ".stiffness", "0 to 1e9", j.stiffness);
   check.expect(j.damping >= 0 && j.damping <= 1e9, at + ".damping", "0 to 1e9", j.damping);
   check.expect(j.friction >= 0 && j.friction <= 1e9, at + ".friction", "0 to 1e9", j.friction);
@@ -49,7 +24,7 @@ void check_joint(const JointType& j, const std::string& at, Check& check) {
 }
 
 // A loop is held by the contact solver, which knows no springs and stops of loops.
-void check_loop(const JointType& j, const std::string& at, Check& check) {
+void check_loop(const JointType& j, const std::string& at, RangeCheck& check) {
   const auto none = [&](bool fine, const char* member, double found) {
     check.expect(fine, at + member, "a joint that closes a loop has no spring, friction or stops",
                  "not given", std::to_string(found));
@@ -64,7 +39,7 @@ void check_loop(const JointType& j, const std::string& at, Check& check) {
 }  // namespace
 
 void validate(const AssemblyType& assembly, int types, const std::string& key) {
-  Check check(key);
+  RangeCheck check(key);
   const int count = int(assembly.links.size());
   check.expect(count >= 2 && count <= kMaxLinks, ".links", "wrong number of links",
                "2 to " + std::to_string(kMaxLinks), std::to_string(count));

@@ -1,11 +1,10 @@
 #include "kernel/model/pile_hash.h"
 
-#include "kernel/base/hash.h"
+#include "kernel/base/hash_pose.h"
 
 namespace rubble {
 namespace {
 
-void add(StateHash& hash, const Vec3& v) { hash.add(v.x), hash.add(v.y), hash.add(v.z); }
 void add_count(StateHash& hash, std::size_t count) { hash.add(std::uint64_t(count)); }
 
 void add(StateHash& hash, const PieceType& type) {
@@ -32,11 +31,9 @@ void add(StateHash& hash, const PieceType& type) {
 void add(StateHash& hash, const std::vector<Placement>& placements) {
   add_count(hash, placements.size());
   for (const Placement& placement : placements) {
-    const Quat& q = placement.world_from_body.rotation;
     hash.add(std::int32_t(placement.type));
     hash.add(placement.scale);
-    hash.add(q.w), hash.add(q.x), hash.add(q.y), hash.add(q.z);
-    add(hash, placement.world_from_body.translation);
+    add(hash, placement.world_from_body);
     hash.add(std::uint8_t(placement.fixed));
   }
 }
@@ -44,12 +41,6 @@ void add(StateHash& hash, const std::vector<Placement>& placements) {
 void add(StateHash& hash, const std::vector<PieceType>& types) {
   add_count(hash, types.size());
   for (const PieceType& type : types) add(hash, type);
-}
-
-void add(StateHash& hash, const Pose& pose) {
-  const Quat& q = pose.rotation;
-  hash.add(q.w), hash.add(q.x), hash.add(q.y), hash.add(q.z);
-  add(hash, pose.translation);
 }
 
 void add(StateHash& hash, const std::vector<AssemblyType>& assemblies) {

@@ -1,13 +1,9 @@
 #include "kernel/model/pile_state.h"
 
-#include "kernel/base/hash.h"
+#include "kernel/base/hash_pose.h"
 
 namespace rubble {
 namespace {
-
-void add(StateHash& hash, const Vec3& v) { hash.add(v.x), hash.add(v.y), hash.add(v.z); }
-void add(StateHash& hash, const Quat& q) { hash.add(q.w), hash.add(q.x), hash.add(q.y), hash.add(q.z); }
-void add(StateHash& hash, const Pose& pose) { add(hash, pose.rotation), add(hash, pose.translation); }
 
 void add(StateHash& hash, const PieceState& piece) {
   hash.add(piece.type), hash.add(piece.layer), hash.add(piece.scale);

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
+#include "kernel/model/range_check.h"
 
 namespace rubble {
 namespace {
@@ -11,25 +11,6 @@ namespace {
 // Links have masses of their own; the density only carries them to the piece types.
 constexpr double kNominalDensity = 1000;  // unit: kg/m3
 constexpr double kUnitLength = 1e-6;      // tolerance of a unit vector
-
-class Check {
- public:
-  explicit Check(const std::string& key) : key_(key) {}
-  void expect(bool fine, const std::string& member, const std::string& message,
-              const std::string& expected, const std::string& found) {
-    if (!fine) problems_.push_back({"", 0, key_ + member, message, expected, found, ""});
-  }
-  void expect(bool fine, const std::string& member, const std::string& expected, double found) {
-    expect(fine, member, "out of range", expected, std::to_string(found));
-  }
-  void finish() const {
-    if (!problems_.empty()) throw InputError(problems_);
-  }
-
- private:
-  std::string key_;
-  std::vector<Diagnostic> problems_;
-};
 
 bool is_unit(const Vec3& v) { return std::abs(norm(v) - 1) <= kUnitLength; }
 
@@ -39,7 +20,7 @@ bool is_positive_definite(const Mat3& m) {
   return a > 0 && b > 0 && dot(m.rows[0], cross(m.rows[1], m.rows[2])) > 0;
 }
 
-void check_link(const RobotLink& link, const std::string& at, Check& check) {
+void check_link(const RobotLink& link, const std::string& at, RangeCheck& check) {
   check.expect(link.mass > 0 && std::isfinite(link.mass), at + ".mass", "more than 0 kg", link.mass);
   // trace(I) 1 - 2 I is the second moment of the mass: no mass makes one that is not positive.
   const Mat3& i = link.inertia;
@@ -57,7 +38,7 @@ void check_link(const RobotLink& link, const std::string& at, Check& check) {
                link.belt_speed_limit);
 }
 
-void check_joint(const RobotJoint& joint, int number, const std::string& at, Check& check) {
+void check_joint(const RobotJoint& joint, int number, const std::string& at, RangeCheck& check) {
   check.expect(joint.child == number + 1, at + ".child", "joints come in the order of their children",
                std::to_string(number + 1), std::to_string(joint.child));
   check.expect(joint.parent >= 0 && joint.parent <= number, at + ".parent",
@@ -111,7 +92,7 @@ double RobotModel::mass() const {
 }
 
 void validate(const RobotModel& model, const std::string& key) {
-  Check check(key);
+  RangeCheck check(key);
   const std::size_t count = model.links.size();
   check.expect(count >= 1 && count <= std::size_t(kMaxLinks), ".links", "wrong number of links",
                "1 to " + std::to_string(kMaxLinks), std::to_string(count));

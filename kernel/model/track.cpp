@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/base/hash.h"
+#include "kernel/base/hash_pose.h"
 #include "kernel/base/portable_math.h"
 
 namespace rubble {
@@ -67,10 +67,6 @@ CentreMotion centre_between(const TrackBody& body, const TrackKey& a, const Trac
           v0 + gain * share + rest * (1 / seconds)};
 }
 
-bool same_pose(const Pose& a, const Pose& b) {
-  return a.translation == b.translation && a.rotation == b.rotation;
-}
-
 bool finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -106,9 +102,6 @@ std::string find_fault_of(const TrackBody& body, std::size_t samples) {
   return {};
 }
 
-void add(StateHash& hash, const Vec3& v) { hash.add(v.x), hash.add(v.y), hash.add(v.z); }
-void add(StateHash& hash, const Vec3f& v) { hash.add(v.x), hash.add(v.y), hash.add(v.z); }
-
 void add(StateHash& hash, const TrackBody& body) {
   hash.add(body.id);
   add(hash, body.centre);
@@ -116,9 +109,7 @@ void add(StateHash& hash, const TrackBody& body) {
   hash.add(std::uint64_t(body.keys.size()));
   for (const TrackKey& key : body.keys) {
     hash.add(key.sample);
-    const Quat& q = key.world_from_body.rotation;
-    hash.add(q.w), hash.add(q.x), hash.add(q.y), hash.add(q.z);
-    add(hash, key.world_from_body.translation);
+    add(hash, key.world_from_body);
     add(hash, key.linear_velocity);
     add(hash, key.angular_velocity);
   }
@@ -139,7 +130,7 @@ std::optional<BodyMotion> Track::motion_at(const TrackBody& body, double time) c
   if (after == body.keys.begin()) return {};
   if (body.gone != TrackBody::kStays && time >= times[body.gone]) return {};
   const TrackKey& a = *(after - 1);
-  if (after == body.keys.end() || same_pose(a.world_from_body, after->world_from_body)) {
+  if (after == body.keys.end() || a.world_from_body == after->world_from_body) {
     return BodyMotion{a.world_from_body, {}, {}};
   }
   const double start = times[a.sample], seconds = times[after->sample] - start;
@@ -172,7 +163,7 @@ bool Track::rests_throughout(const TrackBody& body, double from, double to) cons
   for (std::size_t i = 1; i < body.keys.size(); ++i) {
     const TrackKey &a = body.keys[i - 1], &b = body.keys[i];
     if (times[a.sample] >= to) break;
-    if (times[b.sample] > from && !same_pose(a.world_from_body, b.world_from_body)) return false;
+    if (times[b.sample] > from && !(a.world_from_body == b.world_from_body)) return false;
   }
   return true;
 }

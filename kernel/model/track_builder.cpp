@@ -4,13 +4,6 @@
 #include <cassert>
 
 namespace rubble {
-namespace {
-
-bool same_pose(const Pose& a, const Pose& b) {
-  return a.translation == b.translation && a.rotation == b.rotation;
-}
-
-}  // namespace
 
 void TrackBuilder::begin_sample(double time) {
   assert(track_.times.empty() || time > track_.times.back());
@@ -35,7 +28,7 @@ void TrackBuilder::set(const BodySample& sample) {
   if (!body.keys.empty()) {
     const TrackKey last = body.keys.back();
     assert(last.sample < now && body.gone == TrackBody::kStays);
-    if (same_pose(last.world_from_body, sample.world_from_body)) return;
+    if (last.world_from_body == sample.world_from_body) return;
     // It rested until the sample before this one.
     if (last.sample + 1 < now) body.keys.push_back({now - 1, last.world_from_body, {}, {}});
   }

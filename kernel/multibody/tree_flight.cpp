@@ -8,10 +8,12 @@
 namespace rubble {
 namespace {
 
-// A tree that touches nothing takes shorter steps, or those of Runge and Kutta, when a link would
-// turn by more than this in one; unit: rad.
-constexpr double kTurnPerSubstep = 0.05, kFastTurn = 0.02, kTurnPerRungeKutta = 0.25;
-constexpr int kMaxSubsteps = 32;
+// Largest rotation of a link in a substep of a tree that touches nothing; unit: rad.
+constexpr double kTurnPerSubstep = 0.05;
+// Above this rotation in a step, trees without springs use Runge-Kutta steps; unit: rad.
+constexpr double kFastTurn = 0.02;
+constexpr double kTurnPerRungeKutta = 0.25;  // largest rotation of a link in a Runge-Kutta step; unit: rad
+constexpr int kMaxSubsteps = 32;  // largest number of substeps in a step
 // Springs look ahead by this share of the time: 0.5 would be neutral, 1 damps the most.
 constexpr double kSpringSpan = 0.6;
 

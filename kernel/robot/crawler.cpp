@@ -8,10 +8,10 @@ constexpr double kTrackLength = 0.5;  // between the axles; unit: m
 constexpr double kTrackWidth = 0.097, kWheelRadius = 0.089;
 constexpr double kFlipperLength = 0.33, kFlipperWidth = 0.05, kHubRadius = 0.08, kTipRadius = 0.045;
 constexpr double kFlipperGap = 0.015;  // between flipper and track; unit: m
-constexpr double kBodyMass = 22.88, kTrackMass = 6.06, kFlipperMass = 0.75;  // unit: kg
+constexpr double kCrawlerBodyMass = 22.88, kTrackMass = 6.06, kFlipperMass = 0.75;  // unit: kg
 constexpr double kFlipperEffort = 17, kFlipperSpeed = 0.8;  // unit: N m, rad/s
 constexpr double kFlipperStiffness = 500, kFlipperDamping = 25;
-constexpr int kFacets = 24, kTrackPads = 5;
+constexpr int kCrawlerFacets = 24, kTrackPads = 5;
 
 // Short pads, each with friction of its own: a track that turns on the spot slides sideways at its ends
 // and not in its middle.
@@ -24,13 +24,13 @@ RobotLink make_track(const char* name, double y, const CrawlerOptions& options) 
                                   {-0.5 * kTrackLength + (i + 0.5) * pad, y, kWheelRadius}));
   }
   for (double x : {-0.5 * kTrackLength, 0.5 * kTrackLength}) {
-    link.parts.push_back(make_wheel(kWheelRadius, kTrackWidth, kFacets, {x, y, kWheelRadius}));
+    link.parts.push_back(make_wheel(kWheelRadius, kTrackWidth, kCrawlerFacets, {x, y, kWheelRadius}));
   }
   link.friction = options.friction;
   link.belt_axis = {0, 1, 0};
   link.belt_speed_limit = options.speed;
   RobotLink solid = link;  // the parts overlap: mass as of one prism
-  solid.parts = {make_paddle(kWheelRadius, kWheelRadius, kTrackWidth, kFacets,
+  solid.parts = {make_paddle(kWheelRadius, kWheelRadius, kTrackWidth, kCrawlerFacets,
                              {-0.5 * kTrackLength, y, kWheelRadius},
                              {0.5 * kTrackLength, y, kWheelRadius})};
   set_mass(kTrackMass, solid);
@@ -43,7 +43,7 @@ RobotLink make_track(const char* name, double y, const CrawlerOptions& options) 
 RobotLink make_flipper(const char* name, double direction, const CrawlerOptions& options) {
   RobotLink link;
   link.name = name;
-  link.parts = {make_paddle(kHubRadius, kTipRadius, kFlipperWidth, kFacets, {},
+  link.parts = {make_paddle(kHubRadius, kTipRadius, kFlipperWidth, kCrawlerFacets, {},
                             {direction * kFlipperLength, 0, 0})};
   link.friction = options.friction;
   link.belt_axis = {0, 1, 0};
@@ -70,7 +70,7 @@ RobotModel make_crawler(const CrawlerOptions& options) {
   body.name = "base_link";
   body.parts = {make_box({0.56, 0.28, 0.14}, {0, 0, 0.12})};
   body.friction = 0.5;
-  set_mass(kBodyMass, body);
+  set_mass(kCrawlerBodyMass, body);
   model.links.push_back(body);
   RobotJoint weld;
   weld.kind = JointKind::weld;

@@ -5,9 +5,9 @@ namespace rubble {
 namespace {
 
 constexpr double kWheelBase = 0.262, kWheelWidth = 0.08;     // unit: m
-constexpr double kBodyMass = 14.6, kWheelMass = 0.6;         // unit: kg
+constexpr double kRoverBodyMass = 14.6, kWheelMass = 0.6;         // unit: kg
 constexpr double kEffort = 6, kServoDamping = 50;            // unit: N m, N m s/rad
-constexpr int kFacets = 32;
+constexpr int kRoverFacets = 32;
 
 }  // namespace
 
@@ -18,7 +18,7 @@ RobotModel make_rover(const RoverOptions& options) {
   body.name = "base_link";
   body.parts = {make_box({0.42, 0.27, 0.12}, {0, 0, 0.125})};
   body.friction = 0.4;
-  set_mass(kBodyMass, body);
+  set_mass(kRoverBodyMass, body);
   model.links.push_back(body);
   const struct {
     const char* name;
@@ -30,7 +30,7 @@ RobotModel make_rover(const RoverOptions& options) {
   for (const auto& w : wheels) {
     RobotLink wheel;
     wheel.name = w.name;
-    wheel.parts = {make_wheel(kRoverWheelRadius, kWheelWidth, kFacets)};
+    wheel.parts = {make_wheel(kRoverWheelRadius, kWheelWidth, kRoverFacets)};
     wheel.friction = options.friction;
     set_mass(kWheelMass, wheel);
     RobotJoint joint;

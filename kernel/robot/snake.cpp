@@ -6,7 +6,7 @@
 namespace rubble {
 namespace {
 
-constexpr int kFacets = 12;
+constexpr int kSnakeFacets = 12;
 // A module is narrower at its ends, so that only neighbours, which pass each other, meet in a bend; unit: 1.
 constexpr double kEndRadius = 0.75, kNarrowing = 0.2;
 // The servo's gains; unit: N m/rad, N m s/rad. Stiff: 7 N m are reached at 4 degrees.
@@ -24,7 +24,7 @@ RobotModel make_snake(const SnakeOptions& options) {
     link.name = i == 0 ? "head" : "module_" + std::to_string(i);
     const double front = i == 0 ? 0.5 * length : 0;
     link.parts = {make_tube(radius, kEndRadius * radius, front - length, front, kNarrowing * length,
-                            kFacets)};
+                            kSnakeFacets)};
     link.friction = options.friction;
     set_mass(options.module_mass, link);
     model.links.push_back(link);

@@ -16,8 +16,10 @@ namespace {
 
 // A place is drawn anew this often before a layer counts as full.
 constexpr int kMaxTries = 2000;
-// What is dropped starts so far above the terrain under its box and beside it; unit: m.
-constexpr double kTerrainClearance = 0.5, kTerrainMargin = 1.0;
+// Pieces start this far above the highest terrain below their box; unit: m.
+constexpr double kTerrainClearance = 0.5;
+// Terrain counts as below the box up to this distance beside it; unit: m.
+constexpr double kTerrainMargin = 1.0;
 
 class SpecCheck {
  public:

@@ -9,9 +9,10 @@
 namespace rubble {
 namespace {
 
-constexpr int kSines = 20;            // enough that no beat stands out; unit: 1
-constexpr double kRise = 0.15, kFade = 0.6;  // of the duration, where the strong part begins and ends; unit: 1
-constexpr double kFadeRate = 4;       // exponents until the end; unit: 1
+constexpr int kSines = 20;        // enough sine waves that no beat is noticeable; unit: 1
+constexpr double kRise = 0.15;    // begin of the strong part, as a share of the duration; unit: 1
+constexpr double kFade = 0.6;     // end of the strong part, as a share of the duration; unit: 1
+constexpr double kFadeRate = 4;   // exponential decay rate after the strong part; unit: 1
 
 double envelope(double share) {
   if (share < kRise) return share * share / (kRise * kRise);

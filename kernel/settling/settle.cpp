@@ -12,9 +12,9 @@
 namespace rubble {
 namespace {
 
-// The bottom of a layer's spawn volume is this far above the highest point of the pile; unit: m.
-// Rest is verified from then on at the latest, whatever still moves; unit: s after the last layer.
+// Rest is verified from this time after the last layer on, even if pieces still move; unit: s.
 constexpr double kVerifyAfter = 8;
+// The bottom of a layer's spawn volume is this far above the highest point of the pile; unit: m.
 constexpr double kSpawnClearance = 1.0;
 
 class Settling {

@@ -7,13 +7,13 @@
 namespace rubble {
 namespace {
 
-// Inertia of a carrying piece against what it carries, see share_inertia().
+// Largest ratio of the mass of a carried piece to that of the piece below it, see share_inertia().
 constexpr double kMassRatio = 2;
-constexpr float kAbove = 0.2F;       // the normal's rise from which a piece counts as carrying
-constexpr float kCarrySpeed = 0.5F;  // unit: m/s
-// A thread takes part in the sweeps when there are this many contacts for it.
+constexpr float kAbove = 0.2F;       // a piece carries another if the vertical part of the normal is larger
+constexpr float kCarrySpeed = 0.5F;  // only slower pieces count as carrying; unit: m/s
+// A thread takes part in the sweeps if there are this many contacts for it.
 constexpr int kLeastContacts = 150;
-constexpr int kMostDomains = 16;
+constexpr int kMostDomains = 16;  // largest number of threads that share the sweeps
 
 }  // namespace
 
@@ -42,7 +42,8 @@ void ContactSolver::note_heads(const std::vector<Body>& bodies,
 }
 
 void ContactSolver::number_bodies(const std::vector<Body>& bodies) {
-  constexpr std::int32_t kUnseen = -1, kStays = -2;  // no numbers yet; never one
+  constexpr std::int32_t kUnseen = -1;  // the body has no number yet
+  constexpr std::int32_t kStays = -2;   // the body never gets a number, because it does not move
   number_.assign(bodies.size(), kUnseen);
   for (const Head& head : heads_) {
     for (std::int32_t body : {head.body_a, head.body_b}) {

@@ -11,12 +11,12 @@
 
 namespace rubble {
 
-// An impact has no friction from the substep before to start with. Where the normal impulses rise by
-// more than this share, friction and normals take turns once more: without it a heavy slab squeezes
-// a light wedge out at many times its own speed, though friction would hold it.
+// An impact begins without friction from the previous substep. If the normal impulses rise by more than
+// this share, friction and normals are solved once more. Without it, a heavy slab squeezes a light wedge
+// out at many times its own speed, although friction would hold it.
 inline constexpr float kImpactRise = 1.0F;
-inline constexpr int kMostRounds = 2;
-inline constexpr float kNoPush = 1e3F;  // so far apart nothing is pushed; unit: m
+inline constexpr int kMostRounds = 2;   // largest number of such rounds in a sweep
+inline constexpr float kNoPush = 1e3F;  // a separation without position correction; unit: m
 
 // Speeds, or the displacement of a step, of one body.
 struct alignas(32) PaddedMotion {
@@ -95,8 +95,8 @@ struct RowKernels {
   // One sweep over friction, twist and normals. `moved`: displacements since the step's start. Each
   // batch then ends its substep: an impulse may double from one substep to the next and grow by
   // `weight` (a speed) times its mass. Loads build up fast, but the impulse of an impact is not given
-  // twice.
-  void (*solve_velocities)(const BatchRange& range, float per_substep, float weight,
+  // twice. backwards: the points of a contact from the last to the first.
+  void (*solve_velocities)(const BatchRange& range, bool backwards, float per_substep, float weight,
                            const PaddedMotion* moved, PaddedMotion* v);
   // What the points of a batch are to be pushed by; returns whether any is.
   bool (*begin_pushes)(const ContactBatch& batch, const NormalRow* rows, PushRow* pushes,

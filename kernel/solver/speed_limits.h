@@ -3,26 +3,32 @@
 
 namespace rubble {
 
-// A piece squeezed out from under a heavy one becomes faster sideways or upwards by this much in a step
-// at most, or by as much as brings it to this share of the speed of the fastest point that touches it; and
-// never faster than that point by more than the former. A plastic impact that needs more takes two or
-// three steps. Without it one piece in a thousand leaves the pile at more than 8 m/s.
-inline constexpr float kFreeKick = 1.0F;   // unit: m/s
-inline constexpr float kKickShare = 0.4F;  // unit: 1
-// Rolling resistance, which Coulomb's law lacks: a bent bar on two supports swings for minutes, where a
-// real one is still after seconds. Once a verification of rest has lasted this long, what turns more slowly
-// than this loses up to this share of its spin in each step: less than would make a slow swing creep. Sliding
-// is not damped: what creeps down a slope does not count as at rest. Nothing is damped outside a verification.
-inline constexpr float kPatience = 3, kPatienceEnds = 5;  // unit: s
-inline constexpr float kLateDamping = 0.05F;              // unit: 1
-inline constexpr float kSwingingSpin = 10.0F;             // unit: rad/s
-// And its weight gives a torque with this lever against its spin: the patch of a contact, whose pressure
-// moves to the side that a piece rolls to. What is out of balance by less stays; by more, it rolls. unit: m
+// Ejection limit: the largest gain of speed sideways or upwards in a step of a piece that is squeezed out
+// from under a heavy one. It is also the largest difference to the speed of the fastest point that touches
+// the piece. A plastic impact that needs more takes two or three steps. Without this limit, one piece in a
+// thousand leaves the pile at more than 8 m/s. unit: m/s
+inline constexpr float kFreeKick = 1.0F;
+// A larger gain is allowed up to this share of the speed of the fastest point that touches the piece. unit: 1
+inline constexpr float kKickShare = 0.4F;
+// Rolling resistance begins when a verification of rest has lasted this long. It is not part of Coulomb's law:
+// without it, a bent bar on two supports swings for minutes, where a real one rests after seconds. Sliding is
+// not damped, so a piece that creeps down a slope does not count as at rest. unit: s
+inline constexpr float kPatience = 3;
+// From this time of a verification on, rolling resistance has its full strength, and no piece sleeps. unit: s
+inline constexpr float kPatienceEnds = 5;
+// Largest share of its angular speed that rolling resistance takes from a piece in a step. A larger share
+// makes a slow swing creep instead of swinging out. unit: 1
+inline constexpr float kLateDamping = 0.05F;
+// Only pieces that turn more slowly than this have rolling resistance. unit: rad/s
+inline constexpr float kSwingingSpin = 10.0F;
+// Lever with which the weight of a piece resists its rotation: the pressure in a contact patch moves to the
+// side to which the piece rolls. A piece that is out of balance by less stays; by more, it rolls. unit: m
 inline constexpr float kRollingLever = 0.001F;
-// Contacts spin a piece no faster than this, unless it turned faster before: then they add this much
-// a step at most. Arms are those of the step's start: what turns by more than half a radian in a step
-// is pushed where it no longer is, gains spin by it, and passes it on. Not for what rolls, see
-// kernel/collision/rolling.h. unit: rad/s
-inline constexpr float kFreeSpin = 30.0F, kSpinGain = 3.0F;
+// Largest angular speed that contacts give a piece. Lever arms are those of the beginning of the step: if a
+// piece turns by more than half a radian in a step, the contact acts at a wrong place and adds spin. Not for
+// pieces that roll, see kernel/collision/rolling.h. unit: rad/s
+inline constexpr float kFreeSpin = 30.0F;
+// Largest gain of angular speed by contacts in a step, for a piece that turns faster than this limit. unit: rad/s
+inline constexpr float kSpinGain = 3.0F;
 
 }  // namespace rubble

@@ -40,8 +40,9 @@ class SweepProgress {
   bool crowded() const { return crowded_.load(std::memory_order_relaxed); }
 
  private:
-  // Tries for a few tenths of a millisecond: longer than it takes to wake a thread.
+  // Tries before a thread yields: a few tenths of a millisecond, longer than it takes to wake a thread.
   static constexpr int kSpins = 20000;
+  // The same after another program was found to use the processor.
   static constexpr int kFewSpins = 100;
   struct alignas(64) Counter {
     std::atomic<std::int64_t> value{-1};

@@ -5,10 +5,10 @@
 namespace rubble {
 namespace {
 
-constexpr double kLeastArea = 1e-6;  // smaller faces join nothing; unit: m2
+constexpr double kLeastArea = 1e-6;  // smaller faces give no bond; unit: m2
 // Corners of a fragment that are closer than this are one; unit: m.
 constexpr double kSameCorner = 1e-6;
-constexpr double kMostOfSteepest = 0.95;  // of the slope at which cuts would meet; unit: 1
+constexpr double kMostOfSteepest = 0.95;  // steepest cut, as a share of the slope at which cuts would meet; unit: 1
 
 std::vector<Vec3> draw_points(const Vec3& size, const CutOptions& options, RandomStream& random) {
   std::vector<Vec3> points;

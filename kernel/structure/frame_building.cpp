@@ -9,9 +9,11 @@
 namespace rubble {
 namespace {
 
-// Members alike share one of so many cuts: pictures show no repetition, and types stay few.
+// Equal members share one of this many cuts: few enough types, and no visible repetition. unit: 1
 constexpr int kVariants = 3;
-constexpr double kStirrups = 0.8e6;  // of columns and beams: two legs of 8 mm every 0.2 m in 0.4 m give 0.7; unit: Pa
+// Shear strength by the stirrups of columns and beams; two legs of 8 mm every 0.2 m in 0.4 m give 0.7 MPa.
+// unit: Pa
+constexpr double kStirrups = 0.8e6;
 // Infill stands in its frame with gaps at the top and sides, and cracks away long before the frame bends:
 // it loads the frame and hardly stiffens it.
 constexpr double kInfillStiffness = 0.01;  // unit: 1
@@ -20,7 +22,8 @@ constexpr double kDowels = 0.5e6;
 // Pressed concrete fails along planes of 45 degrees and half its angle of friction, 33 degrees (Mohr and
 // Coulomb): what is left of a column slides off instead of standing as a stack. unit: 1
 constexpr double kColumnSlope = 1.85;
-constexpr double kWindowSill = 0.35, kWindowHead = 0.8;  // of a wall's height; unit: 1
+constexpr double kWindowSill = 0.35;  // height of a window's lower edge, as a share of the wall's height; unit: 1
+constexpr double kWindowHead = 0.8;   // height of a window's upper edge, as a share of the wall's height; unit: 1
 
 struct Range {
   const char* key;

@@ -1,30 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <queue>
 #include <utility>
 
 #include "kernel/voids/distance_transform.h"
 #include "kernel/voids/void_map.h"
+#include "kernel/voids/ways_from.h"
 
 namespace rubble {
 namespace {
 
-constexpr std::uint32_t kUnlabelled = 0xffffffffu;
-
-// Calls visit(index, length of the step in cells) for the up to 26 cells around one.
-template <typename Visit>
-void for_each_around(const VoxelGrid& grid, std::size_t index, Visit&& visit) {
-  static const double kLength[4] = {0, 1, std::sqrt(2.0), std::sqrt(3.0)};
-  const Cell c = grid.cell(index);
-  for (int dz = -1; dz <= 1; ++dz)
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) {
-        const Cell n{c[0] + dx, c[1] + dy, c[2] + dz};
-        const int steps = std::abs(dx) + std::abs(dy) + std::abs(dz);
-        if (steps > 0 && grid.contains(n)) visit(grid.index(n), kLength[steps]);
-      }
-}
+constexpr std::uint32_t kUnlabelled = kNoPlace;
 
 class Finder {
  public:
@@ -218,26 +203,11 @@ class Finder {
 
   // Dijkstra from all openings at once over the void's places.
   void find_deepest(Void& v, const std::vector<std::uint32_t>& openings, std::uint32_t number) {
-    std::vector<double> length(v.places.size(), std::numeric_limits<double>::infinity());
     for (std::size_t k = 0; k < v.places.size(); ++k) slot_[v.places[k]] = std::uint32_t(k);
-    using Item = std::pair<double, std::uint32_t>;
-    std::priority_queue<Item, std::vector<Item>, std::greater<Item>> front;
-    for (const std::uint32_t i : openings) {
-      length[slot_[i]] = 0;
-      front.push({0, i});
-    }
-    while (!front.empty()) {
-      const auto [done, i] = front.top();
-      front.pop();
-      if (done > length[slot_[i]]) continue;
-      for_each_around(space_.grid, i, [&, far = done](std::size_t k, double step) {
-        if (label_[k] != number) return;
-        double& best = length[slot_[k]];
-        if (far + step >= best) return;
-        best = far + step;
-        front.push({best, std::uint32_t(k)});
-      });
-    }
+    const std::vector<double> length =
+        calc_ways_from(space_.grid, openings, v.places.size(), [&](std::size_t k) {
+          return label_[k] == number ? slot_[k] : kUnlabelled;
+        });
     const auto farthest = std::max_element(length.begin(), length.end());
     v.path_length = *farthest * space_.grid.voxel;
     v.deepest = space_.grid.centre(v.places[std::size_t(farthest - length.begin())]);
@@ -254,6 +224,16 @@ class Finder {
 };
 
 }  // namespace
+
+std::vector<double> calc_ways_in(const VoidSpace& space, const Void& v) {
+  std::vector<std::uint32_t> openings, slot(space.grid.count(), kNoPlace);
+  for (const Entrance& e : v.entrances) openings.insert(openings.end(), e.openings.begin(), e.openings.end());
+  for (std::size_t k = 0; k < v.places.size(); ++k) slot[v.places[k]] = std::uint32_t(k);
+  std::vector<double> ways =
+      calc_ways_from(space.grid, openings, v.places.size(), [&slot](std::size_t k) { return slot[k]; });
+  for (double& way : ways) way *= space.grid.voxel;
+  return ways;
+}
 
 RobotVoids find_robot_voids(const VoidSpace& space, const WidestPaths& widest, double radius,
                             int threads) {

@@ -76,6 +76,10 @@ struct VoidMap {
 VoidMap find_voids(VoidSpace space, const std::vector<double>& radii,
                    const VoidProgress& progress = {});
 
+// The length of the shortest way of the robot's centre from an entrance to each of the void's places, in
+// their order; unit: m. Infinite for all of a sealed void.
+std::vector<double> calc_ways_in(const VoidSpace& space, const Void& v);
+
 // The parts of find_voids(). A cell belongs to the void when its clearance is >= radius.
 RobotVoids find_robot_voids(const VoidSpace& space, const WidestPaths& widest, double radius,
                             int threads);

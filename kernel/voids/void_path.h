@@ -23,6 +23,11 @@ struct FoundPath {
 // cells they lie in, and must be inside the grid (std::invalid_argument otherwise).
 FoundPath find_path(const VoidSpace& space, const Vec3& start, const Vec3& goal, double radius);
 
+// The length of the shortest way of a ball's centre from a point to every cell, by steps to the 26 neighbours
+// between cells with clearance >= radius; infinite where none leads, and everywhere when the cell of the point
+// has less. from: inside the grid (std::invalid_argument otherwise). unit: m
+std::vector<float> calc_ways_through(const VoidSpace& space, const Vec3& from, double radius);
+
 // The free cell with clearance >= radius that is nearest to a point, not farther than `reach`; its
 // centre, or the point itself when there is none (`found` tells).
 struct NearestPlace {

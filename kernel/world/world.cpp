@@ -23,8 +23,6 @@ Mat3 inverse_symmetric(const Mat3& m) {
 
 Quad quad_of(const Vec3f& v) { return Quad{v.x, v.y, v.z, 0}; }
 
-Mat3f to_float(const Mat3& m) { return {{Vec3f(m.rows[0]), Vec3f(m.rows[1]), Vec3f(m.rows[2])}}; }
-
 void check_movable(const NewPiece& piece, const std::vector<PieceType>& types, int placeable,
                    int index) {
   const int type = piece.placement.type;

@@ -26,8 +26,6 @@ Mat3 inverse_of(const Mat3& m) {
   return Mat3{{c0, c1, c2}}.transposed() * (1 / dot(m.rows[0], c0));
 }
 
-Mat3f to_float(const Mat3& m) { return {{Vec3f(m.rows[0]), Vec3f(m.rows[1]), Vec3f(m.rows[2])}}; }
-
 }  // namespace
 
 Body& World::Impl::acting(int piece) {

@@ -9,11 +9,11 @@
 namespace rubble {
 namespace {
 
-// Who touches a piece, beside the number of the only one; see clamp_ejection_velocity().
-constexpr std::int32_t kNobody = -2, kSeveral = -3;
-// What find_rolling() knows of a piece: nothing; it rolls where it is touched; is also pressed
-// where it does not.
-constexpr std::uint8_t kTouches = 0, kRolls = 1, kPushed = 2;
+constexpr std::int32_t kNobody = -2;   // nothing touches the piece; see clamp_ejection_velocity()
+constexpr std::int32_t kSeveral = -3;  // several pieces touch the piece
+constexpr std::uint8_t kTouches = 0;   // find_rolling(): nothing is known of the piece yet
+constexpr std::uint8_t kRolls = 1;     // find_rolling(): the piece rolls at its contacts
+constexpr std::uint8_t kPushed = 2;    // find_rolling(): the piece also has a contact where it does not roll
 
 }  // namespace
 

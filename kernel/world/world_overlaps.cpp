@@ -7,9 +7,10 @@
 namespace rubble {
 namespace {
 
-// Parts that overlap by more than this agree on a way out, and go it until less than the other is
-// left; unit: m.
-constexpr float kDeep = 0.003F, kNearlyOut = 0.001F;
+// Parts that overlap by more than this are separated along one common direction; unit: m.
+constexpr float kDeep = 0.003F;
+// The common direction is kept until the overlap is less than this; unit: m.
+constexpr float kNearlyOut = 0.001F;
 
 float calc_least_separation(const Contact& contact) {
   float least = 0;

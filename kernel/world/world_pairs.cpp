@@ -15,7 +15,7 @@ constexpr float kSparedMargin = NarrowSettings{}.margin - kPointMargin - 1e-4F;
 // Where two parts have moved by less than this in all since the last search, their points only move
 // along: normals and lengths change by the square of it over their size; unit: m.
 constexpr double kFollowedTravel = 1e-4;
-constexpr double kLookAhead = 4;  // steps that an enlarged box reaches ahead
+constexpr double kLookAhead = 4;  // number of steps that an enlarged box reaches ahead
 
 // What becomes of a pair in a step.
 enum PairState : std::uint8_t {

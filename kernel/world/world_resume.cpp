@@ -71,7 +71,7 @@ void set_coordinates(const Pose& moved, Mobility mobility, double* q) {
   }
 }
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuse_state(const std::string& what) {
   Diagnostic d;
   d.message = "the settled pile is not of this mission: " + what;
   d.hint = "settle it again";
@@ -84,7 +84,7 @@ void set_coordinates(const Pose& moved, Mobility mobility, double* q) {
 void World::Impl::join_settled(const Pile& pile, const PileState& state) {
   int pieces = 0;
   const std::vector<Instance> instances = list_instances(pile, pieces);
-  if (pieces != int(state.pieces.size())) refuse("another number of pieces");
+  if (pieces != int(state.pieces.size())) refuse_state("another number of pieces");
   std::vector<const JointState*> hangs_by(state.pieces.size(), nullptr);
   std::vector<std::uint8_t> joined(state.pieces.size(), 0);
   std::vector<const JointState*> loops;
@@ -118,7 +118,7 @@ void World::Impl::join_settled(const Pile& pile, const PileState& state) {
       const Body& parent = data.bodies[joint->parent];
       double scale = 1;
       const JointType* type = find_type(instances, *joint, scale);
-      if (!type || parent.tree < 0) refuse("other joints");
+      if (!type || parent.tree < 0) refuse_state("other joints");
       body.tree = parent.tree;
       link.parent = parent.link;
       link.mobility = mobility_of(joint->kind);
@@ -153,7 +153,7 @@ void World::Impl::join_settled(const Pile& pile, const PileState& state) {
     double scale = 1;
     const JointType* type = find_type(instances, *joint, scale);
     const Body &a = data.bodies[joint->parent], &b = data.bodies[joint->child];
-    if (!type || a.tree < 0 || a.tree != b.tree) refuse("other joints");
+    if (!type || a.tree < 0 || a.tree != b.tree) refuse_state("other joints");
     TreeLoop loop;
     loop.link_a = a.link;
     loop.link_b = b.link;
@@ -197,7 +197,7 @@ void World::lay(const Pile& pile, const PileState& state, bool fixed) {
   std::vector<FreeBody> free(state.pieces.size());
   for (std::size_t i = 0; i < state.pieces.size(); ++i) {
     const PieceState& from = state.pieces[i];
-    if (from.type < 0 || from.type >= w.placeable_types) refuse("other types of pieces");
+    if (from.type < 0 || from.type >= w.placeable_types) refuse_state("other types of pieces");
     NewPiece piece;
     piece.layer = from.layer;
     piece.placement = {from.type, from.scale, from.world_from_body,

@@ -27,20 +27,22 @@ constexpr SleepTerms kGrowing{0.0015, 0.2, 0.006, 0.6, 0.1F, 0.25F, 0.05F};
 // Whether it rests is decided on these: who creeps slowly must not pass for one that stays.
 constexpr SleepTerms kVerifying{0.001, 0.5, 0.004, 1.0, 0.1F, 0.25F, 0.05F};
 
-// A sleeper wakes when the sum over its contacts has changed, since it fell asleep, by what would give
-// it this speed in a step and by this share of its load: one brick in six that carried it may go.
-// The sum is of vectors: what one neighbour takes over from another changes nothing.
-constexpr float kUnbalancedSpeed = 0.01F;  // unit: m/s
-constexpr float kUnbalancedLoad = 0.05F;   // unit: 1
+// A sleeping piece wakes if the vector sum of its contact impulses has changed, since it fell asleep, by more
+// than this speed times its mass ... unit: m/s
+constexpr float kUnbalancedSpeed = 0.01F;
+// ... plus this share of its load. A load that one neighbour takes over from another changes nothing. unit: 1
+constexpr float kUnbalancedLoad = 0.05F;
 
 // The speeds above are those of steps of 1/60 s: in a shorter step a force gives less speed.
 constexpr double kStepsPerSecond = 60;  // unit: 1/s
 
-// Overlaps deeper than this keep a piece awake for a while.
+// Overlaps deeper than this keep a piece awake for kSleepOverlapTime.
 constexpr float kSleepOverlap = 0.003F;    // unit: m
-constexpr double kSleepOverlapTime = 2.0;  // unit: s
+constexpr double kSleepOverlapTime = 2.0;  // time for which a deep overlap keeps a piece awake; unit: s
 
-constexpr float kHitLoad = 0.2F;  // and by this share of the impulse that it carries in a step; unit: 1
+// A sleeping piece wakes at once if the impulse of a hit exceeds its mass times `hit_speed`, plus this share of
+// the impulse that it carries in a step. unit: 1
+constexpr float kHitLoad = 0.2F;
 
 const SleepTerms& terms(const WorldData& data) {
   return data.verification_steps < 0 ? kGrowing : kVerifying;

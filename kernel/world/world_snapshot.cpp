@@ -16,7 +16,7 @@ namespace {
 #error "numbers are copied as they lie in memory: this needs a little-endian machine"
 #endif
 
-[[noreturn]] void refuse(const std::string& message, const std::string& hint = "") {
+[[noreturn]] void refuse_snapshot(const std::string& message, const std::string& hint = "") {
   Diagnostic diagnostic;
   diagnostic.message = "the state of the world " + message;
   diagnostic.hint = hint;
@@ -79,10 +79,10 @@ class Decoder {
     } else if constexpr (std::is_same_v<T, bool>) {
       std::uint8_t byte = 0;
       (*this)(byte);
-      if (byte > 1) refuse("holds a truth value that is neither 0 nor 1");
+      if (byte > 1) refuse_snapshot("holds a truth value that is neither 0 nor 1");
       value = byte != 0;
     } else if constexpr (kIsPlain<T>) {
-      if (left_ < sizeof value) refuse("ends too early");
+      if (left_ < sizeof value) refuse_snapshot("ends too early");
       std::memcpy(static_cast<void*>(&value), next_, sizeof value);
       next_ += sizeof value;
       left_ -= sizeof value;
@@ -119,7 +119,7 @@ class Decoder {
   std::uint64_t count() {
     std::uint64_t size = 0;
     (*this)(size);
-    if (size > left_) refuse("ends too early");
+    if (size > left_) refuse_snapshot("ends too early");
     return size;
   }
 
@@ -230,14 +230,14 @@ std::shared_ptr<const World::Snapshot> decode_snapshot(const std::vector<std::ui
   std::uint32_t version = 0;
   decoder(version);
   if (version != kWorldSnapshotVersion) {
-    refuse("has format version " + std::to_string(version) + "; this program reads version " +
+    refuse_snapshot("has format version " + std::to_string(version) + "; this program reads version " +
                std::to_string(kWorldSnapshotVersion),
            "settle the pile again, or use the program that wrote it");
   }
   auto snapshot = std::make_shared<World::Snapshot>();
   decoder(*snapshot);
-  if (decoder.left() != 0) refuse("is longer than it says");
-  if (!is_consistent(*snapshot)) refuse("refers to pieces or contacts that it does not hold");
+  if (decoder.left() != 0) refuse_snapshot("is longer than it says");
+  if (!is_consistent(*snapshot)) refuse_snapshot("refers to pieces or contacts that it does not hold");
   return snapshot;
 }
 

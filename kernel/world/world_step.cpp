@@ -13,7 +13,6 @@ namespace rubble {
 namespace {
 
 constexpr int kMostSplits = 4;  // times in a step that contacts are solved anew as something broke; unit: 1
-constexpr float kOrderDistance = 0.1F;  // see sort_by_height(); unit: m
 
 class Stopwatch {
  public:

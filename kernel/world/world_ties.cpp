@@ -1,6 +1,6 @@
-// Ties: bars that hold two pieces after the concrete around them has failed. Each is solved as a contact
-// between its anchors that pulls instead of pushing: its normal points from the second anchor to the first,
-// and its gap is what it hangs through.
+// Ties: bars that hold two pieces after the concrete around them has failed. Each is solved as a
+// contact between its anchors that pulls instead of pushing: its normal points from the second
+// anchor to the first, and its gap is what it hangs through.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,21 +11,26 @@
 namespace rubble {
 namespace {
 
-// A tie that hangs through by more than this, and by what its ends may part in a step, is left out; unit: m.
+// A tie is left out of a step if it is slack by more than this and its ends cannot tighten it in
+// the step; unit: m.
 constexpr double kSlack = 0.02;
-constexpr double kSteps = 2;  // of such parting, as contacts may speed them up; unit: 1
-constexpr double kShortest = 1e-6;  // between anchors, for a direction; unit: m
-// The order of ties stays the same unless one moves by more than this; see sort_by_height(). unit: m
-constexpr float kOrderDistance = 0.1F;
-// Sideways a bent bar bears this share of its pull: 1 kN m of bars over 0.3 m bear most of what hangs on
-// them. Without it what hangs swings for ever. unit: 1
+// The distance that the ends may move apart in a step is multiplied by this, because contacts may
+// accelerate them. unit: 1
+constexpr double kSteps = 2;
+// Shortest distance of the anchors that defines a direction. unit: m
+constexpr double kShortest = 1e-6;
+// Share of its strength that a tie carries across its direction: bars with a moment of 1 kN m carry
+// most of a hanging piece over 0.3 m. Without it, hanging pieces swing without end. unit: 1
 constexpr float kSideways = 0.2F;
-constexpr double kMostError = 0.005;  // by which a tie may be too long without having yielded; unit: m
-constexpr float kYields = 0.999F;  // of what it may give in a substep; unit: 1
+// Largest excess length of a tie that has not yielded. unit: m
+constexpr double kMostError = 0.005;
+// A tie yields from this share of its largest impulse in a substep on. unit: 1
+constexpr float kYields = 0.999F;
 
-// The share of the step for which a tie pulls that is torn within it: what parts fast is gone after less
-// than a step, and must not give more than the energy of tearing. parting: speed; unit: m/s.
-double calc_lasting(const TieState& tie, double length, double parting, double inverse_mass, double step) {
+// The share of the step for which a tie pulls that is torn within it: what parts fast is gone after
+// less than a step, and must not give more than the energy of tearing. parting: speed; unit: m/s.
+double calc_lasting(const TieState& tie, double length, double parting, double inverse_mass,
+                    double step) {
   const double slack = std::max(0.0, tie.length - length);
   if (!(parting > 0) || slack >= parting * step) return 1;
   const double time = step - slack / parting;
@@ -50,7 +55,8 @@ double World::Impl::pose_tie(Tie& tie) const {
   Contact& c = tie.contact;
   ContactPoint& p = c.points[0];
   const Vec3 centre_a = data.bodies[c.body_a].world_from_com.translation;
-  const Vec3 centre_b = c.body_b == kGround ? Vec3{} : data.bodies[c.body_b].world_from_com.translation;
+  const Vec3 centre_b =
+      c.body_b == kGround ? Vec3{} : data.bodies[c.body_b].world_from_com.translation;
   const Vec3 a = centre_a + Vec3(find_anchor(tie.state.piece_a, tie.state.anchor_a));
   const Vec3 b = centre_b + Vec3(find_anchor(tie.state.piece_b, tie.state.anchor_b));
   const double length = distance(a, b);
@@ -64,8 +70,8 @@ double World::Impl::pose_tie(Tie& tie) const {
   return length;
 }
 
-// Bars that are taut bend as the pieces turn against each other, and yield as they do: a moment brakes that
-// turning. It is given before the solution, which then keeps the bars' lengths.
+// Bars that are taut bend as the pieces turn against each other, and yield as they do: a moment
+// brakes that turning. It is given before the solution, which then keeps the bars' lengths.
 void World::Impl::bend_ties() {
   const float step = float(options.step);
   for (const Tie& tie : data.ties) {
@@ -95,9 +101,13 @@ void World::Impl::begin_ties() {
   if (data.ties.empty()) return;
   const double step = options.step;
   std::vector<std::pair<float, std::int32_t>> order;
-  const auto is_awake = [this](std::int32_t body) { return body != kGround && data.bodies[body].awake; };
+  const auto is_awake = [this](std::int32_t body) {
+    return body != kGround && data.bodies[body].awake;
+  };
   const auto lead_of = [this](std::int32_t piece) {
-    return piece == kGround ? kGround : data.bodies[piece].lead >= 0 ? data.bodies[piece].lead : piece;
+    return piece == kGround               ? kGround
+           : data.bodies[piece].lead >= 0 ? data.bodies[piece].lead
+                                          : piece;
   };
   for (std::size_t i = 0; i < data.ties.size(); ++i) {
     Tie& tie = data.ties[i];
@@ -150,8 +160,8 @@ void World::Impl::end_ties() {
   tie_order.clear();
 }
 
-// What yielded is longer by as much as its anchors are now too far apart, and tears when nothing is left. So
-// does what contacts hold apart: it must not press pieces into each other.
+// What yielded is longer by as much as its anchors are now too far apart, and tears when nothing is
+// left. So does what contacts hold apart: it must not press pieces into each other.
 void World::Impl::stretch_ties() {
   if (data.ties.empty()) return;
   for (Tie& tie : data.ties) {
@@ -169,17 +179,24 @@ void World::Impl::stretch_ties() {
 }
 
 void World::Impl::lose_ties() {
-  const auto is_lost = [this](std::int32_t piece) { return piece != kGround && acting(piece).lost; };
-  const auto gone = [&](const Tie& tie) { return is_lost(tie.state.piece_a) || is_lost(tie.state.piece_b); };
+  const auto is_lost = [this](std::int32_t piece) {
+    return piece != kGround && acting(piece).lost;
+  };
+  const auto gone = [&](const Tie& tie) {
+    return is_lost(tie.state.piece_a) || is_lost(tie.state.piece_b);
+  };
   data.ties.erase(std::remove_if(data.ties.begin(), data.ties.end(), gone), data.ties.end());
 }
 
 void World::Impl::add_tie(const TieState& state) {
   const int count = int(data.bodies.size());
   const auto refuse = [](const char* key, const std::string& expected, double found) {
-    throw InputError({"", 0, std::string("tie.") + key, "out of range", expected, std::to_string(found), ""});
+    throw InputError(
+        {"", 0, std::string("tie.") + key, "out of range", expected, std::to_string(found), ""});
   };
-  const auto is_piece = [&](std::int32_t i) { return i >= 0 && i < count && data.bodies[i].tree < 0; };
+  const auto is_piece = [&](std::int32_t i) {
+    return i >= 0 && i < count && data.bodies[i].tree < 0;
+  };
   if (!is_piece(state.piece_a)) refuse("piece_a", "a piece that is no link", state.piece_a);
   if (state.piece_b != kGround && (!is_piece(state.piece_b) || state.piece_b == state.piece_a)) {
     refuse("piece_b", "another piece that is no link, or -1", state.piece_b);

@@ -12,13 +12,13 @@
 namespace rubble {
 namespace {
 
-// All are awake at least this long before some doze: as long as it takes to verify rest where nothing
-// moves, and a step; unit: s.
+// A verification of rest keeps all pieces awake at least this long before some may sleep: the 0.5 s of a
+// verification in which nothing moves, and one step; unit: s.
 constexpr double kAllAwakeTime = 0.52;
-constexpr double kDozeInterval = 0.25;  // how often pieces are looked at that may doze; unit: s
-// Who is this many contacts or fewer from a restless piece stays awake.
+constexpr double kDozeInterval = 0.25;  // interval in which pieces that may sleep are searched; unit: s
+// Pieces at most this many contacts away from a moving piece stay awake.
 constexpr int kDisturbedContacts = 3;
-// No one dozes while more than this share of the pieces would have to stay awake; unit: 1.
+// No piece sleeps while more than this share of the pieces would have to stay awake; unit: 1.
 constexpr double kMostDisturbed = 0.5;
 
 }  // namespace

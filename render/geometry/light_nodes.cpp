@@ -18,13 +18,6 @@ constexpr float kCellShare = 0.4f;              // of the mesh's radius
 constexpr std::size_t kMostOrigins = 8;         // of a point
 constexpr float kAside = 0.3f;                  // of origins from their node; unit: a step
 
-int dominant_direction(const Vec3f& n) {
-  const float ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
-  if (ax >= ay && ax >= az) return n.x > 0 ? 0 : 1;
-  if (ay >= az) return n.y > 0 ? 2 : 3;
-  return n.z > 0 ? 4 : 5;
-}
-
 struct Corners {
   Corners(const PreparedMesh& mesh, const PreparedTriangle& t)
       : a(mesh.vertices[t.vertices[0]]), b(mesh.vertices[t.vertices[1]]), c(mesh.vertices[t.vertices[2]]) {}

@@ -35,13 +35,6 @@ std::uint32_t morton(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   return code;
 }
 
-int dominant_direction(const Vec3f& n) {
-  const float ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
-  if (ax >= ay && ax >= az) return n.x > 0 ? 0 : 1;
-  if (ay >= az) return n.y > 0 ? 2 : 3;
-  return n.z > 0 ? 4 : 5;
-}
-
 Vec3f face_normal(const PreparedMesh& mesh, const PreparedTriangle& t) {
   const Vec3f& a = mesh.vertices[t.vertices[0]].position;
   return normalized(
@@ -144,6 +137,13 @@ void append_level(const TriangleMesh& source, PreparedMesh& out) {
 }
 
 }  // namespace
+
+int dominant_direction(const Vec3f& n) {
+  const float ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
+  if (ax >= ay && ax >= az) return n.x > 0 ? 0 : 1;
+  if (ay >= az) return n.y > 0 ? 2 : 3;
+  return n.z > 0 ? 4 : 5;
+}
 
 PreparedMesh prepare_mesh(const SceneMesh& mesh) {
   PreparedMesh out;

@@ -52,6 +52,9 @@ struct PreparedMesh {
   float radius = 0;                         // of a sphere about the same centre
 };
 
+// The side that a normal looks to: 0 and 1 are +x and -x, 2 and 3 y, 4 and 5 z.
+int dominant_direction(const Vec3f& n);
+
 // Throws RunError for a surface name that is no known look, naming it and the known ones.
 PreparedMesh prepare_mesh(const SceneMesh& mesh);
 

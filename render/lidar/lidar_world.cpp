@@ -46,6 +46,7 @@ struct LidarWorld::Tree {
     std::uint32_t mesh = 0;
     float scale = 1;
     Quat rotation;  // at the first time of the span
+    std::int32_t piece = -1;
   };
 
   RTCDevice device = nullptr;
@@ -53,6 +54,8 @@ struct LidarWorld::Tree {
   std::map<std::uint32_t, RTCScene> mesh_scenes;              // of those that move
   std::map<std::uint32_t, std::vector<std::uint8_t>> mesh_looks;  // likewise
   std::vector<std::uint8_t> resting_looks;
+  std::vector<std::uint32_t> resting_ends;   // of each instance that rests, one past its last triangle
+  std::vector<std::int32_t> resting_pieces;  // its id
   std::vector<Mover> movers;
   SceneMotion motion;
   bool ground = true;
@@ -110,6 +113,8 @@ void LidarWorld::Tree::add_resting(const Scene& from) {
     for (const auto& t : mesh.triangles) triangles.push_back({base + t[0], base + t[1], base + t[2]});
     const std::vector<std::uint8_t> looks = looks_of(mesh);
     resting_looks.insert(resting_looks.end(), looks.begin(), looks.end());
+    resting_ends.push_back(std::uint32_t(triangles.size()));
+    resting_pieces.push_back(std::int32_t(piece.id));
   }
   attach(scene, positions, triangles);
 }
@@ -125,7 +130,7 @@ void LidarWorld::Tree::add_movers(const Scene& from) {
       rtcCommitScene(of_mesh);
       mesh_looks[piece.mesh] = looks_of(mesh);
     }
-    Mover mover{rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE), piece.mesh, piece.scale, {}};
+    Mover mover{rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE), piece.mesh, piece.scale, {}, std::int32_t(piece.id)};
     rtcSetGeometryInstancedScene(mover.geometry, of_mesh);
     rtcSetGeometryTimeStepCount(mover.geometry, 2);
     rtcAttachGeometryByID(scene, mover.geometry, kResting + 1 + unsigned(movers.size()));
@@ -145,24 +150,28 @@ LidarWorld::Hit LidarWorld::Tree::read(unsigned primitive, unsigned instance, co
                                        const Ray& ray, double t) const {
   Vec3 out(normal);
   std::uint8_t look = 0;
+  std::int32_t piece = -1;
   if (instance == RTC_INVALID_GEOMETRY_ID) {
     look = resting_looks[primitive];
+    const auto end = std::upper_bound(resting_ends.begin(), resting_ends.end(), primitive);
+    piece = resting_pieces[std::size_t(end - resting_ends.begin())];
   } else {
     const Mover& mover = movers[instance - kResting - 1];
     out = mover.rotation.rotate(out);
     look = mesh_looks.at(mover.mesh)[primitive];
+    piece = mover.piece;
   }
   out = normalized(out);
   const double cosine = dot(out, ray.direction);
   const float up = float(cosine > 0 ? -out.z : out.z);
-  return {t, float(std::fabs(cosine)), mean_red_albedo(all_surface_appearances()[look], up)};
+  return {t, float(std::fabs(cosine)), mean_red_albedo(all_surface_appearances()[look], up), piece};
 }
 
 void LidarWorld::Tree::meet_ground(const Ray& ray, double max_distance, Hit& hit) const {
   if (!ground || ray.direction.z >= 0 || ray.from.z <= 0) return;
   const double t = -ray.from.z / ray.direction.z;
   if (t > max_distance || (hit.distance >= 0 && hit.distance <= t)) return;
-  hit = {t, float(-ray.direction.z), mean_red_albedo(all_surface_appearances().back(), 1)};
+  hit = {t, float(-ray.direction.z), mean_red_albedo(all_surface_appearances().back(), 1), -1};
 }
 
 LidarWorld::LidarWorld(const Scene& from) : tree_(std::make_unique<Tree>()) {

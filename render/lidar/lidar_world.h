@@ -24,6 +24,7 @@ class LidarWorld {
     double distance = -1;    // unit: m; negative: none
     float cosine = 0;        // of the angle at which the surface is met
     float reflectance = 0;   // share of light just beyond red that it throws back; range: 0 to 1
+    std::int32_t piece = -1;  // SceneInstance::id; -1: the ground, or nothing
   };
 
   // Casts eight rays at most at once.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/base/portable_math.h"
+
 namespace rubble {
 
 namespace {
@@ -18,11 +20,10 @@ const Vec3 kOzone(2.5e-6, 1.881e-6, 0.25e-6);
 constexpr double kHazeForward = 0.76;   // asymmetry of its phase function
 constexpr double kOuterKlx = 133;       // sunlight outside the atmosphere
 const Vec3 kSunColour(1.00, 1.00, 0.98);
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kGroundAlbedo = 0.25;
 constexpr double kTwiceAndMore = 0.25;  // of light scattered evenly, the share scattered once more
 constexpr double kNightSky = 1.5e-6;    // airglow and stars; unit: kcd/m2
-constexpr double kSunRadius = 0.267 * kPi / 180;
+constexpr double kSunRadius = 0.267 * portable::kPi / 180;
 
 struct Densities {
   double air, haze, ozone;
@@ -77,7 +78,7 @@ Vec3 times(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b
 }  // namespace
 
 Vec3f sun_illuminance(double elevation_deg) {
-  const double e = elevation_deg * kPi / 180;
+  const double e = elevation_deg * portable::kPi / 180;
   const Vec3 p(0, 0, kGround + 2), d(std::cos(e), 0, std::sin(e));
   // The share of the disc above the horizon, as if the disc were a square.
   const double above = std::clamp(0.5 + 0.5 * e / kSunRadius, 0.0, 1.0);
@@ -103,13 +104,13 @@ ClearSky::ClearSky(const Vec3f& to_sun) : sun_(to_sun) {
   for (int i = 0; i < kRings; ++i) {
     const double z = (i + 0.5) / kRings, flat = std::sqrt(1 - z * z);
     for (int j = 0; j < kSides; ++j) {  // one half: the other is its mirror image
-      const double a = azimuth + kPi * (j + 0.5) / kSides;
+      const double a = azimuth + portable::kPi * (j + 0.5) / kSides;
       const Scattered s = scatter({flat * std::cos(a), flat * std::sin(a), z});
       sky += s.sun * (1.0 / (kRings * kSides));
       level += s.sun * (2 * z / (kRings * kSides));
     }
   }
-  const Vec3 direct = sunlight_at({0, 0, kGround + 2}) * (kOuterKlx * std::max(0.0, sun_.z) / kPi);
+  const Vec3 direct = sunlight_at({0, 0, kGround + 2}) * (kOuterKlx * std::max(0.0, sun_.z) / portable::kPi);
   const Vec3 ground = (level + direct) * kGroundAlbedo;
   around_ = (sky + ground) * (0.5 / (1 - kTwiceAndMore));
 }
@@ -132,8 +133,8 @@ ClearSky::Scattered ClearSky::scatter(const Vec3& d) const {
   constexpr int kSteps = 40;
   const Vec3 eye(0, 0, kGround + 2);
   const double length = leave(eye, d, kTop), c = dot(d, sun_), g = kHazeForward;
-  const double air_phase = 3 / (16 * kPi) * (1 + c * c);
-  const double haze_phase = 3 / (8 * kPi) * (1 - g * g) * (1 + c * c) /
+  const double air_phase = 3 / (16 * portable::kPi) * (1 + c * c);
+  const double haze_phase = 3 / (8 * portable::kPi) * (1 - g * g) * (1 + c * c) /
                             ((2 + g * g) * std::pow(1 + g * g - 2 * g * c, 1.5));
   Densities depth{0, 0, 0};
   Scattered sum;

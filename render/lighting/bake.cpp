@@ -9,7 +9,6 @@
 namespace rubble {
 
 BakedScene open_sky_light(const PreparedScene& scene, const LightSet& light) {
-  constexpr float kPi = float(portable::kPi);
   // An even dome gives pi L to a level face, half that to a wall.
   const Vec3f radiance = light.sky.mean;
   BakedScene out;
@@ -19,7 +18,7 @@ BakedScene open_sky_light(const PreparedScene& scene, const LightSet& light) {
   for (const PlacedMesh& piece : scene.placed) {
     for (const LightNode& node : scene.meshes[piece.mesh].light_nodes) {
       const Vec3f n(piece.world_from_mesh.rotation.rotate(Vec3(node.normal)));
-      const float e = kPi * luminance(radiance) * (0.55f + 0.45f * n.z);
+      const float e = portable::kPiF * luminance(radiance) * (0.55f + 0.45f * n.z);
       out.nodes.push_back(pack_light(n * e, radiance));
     }
   }

@@ -12,8 +12,6 @@ namespace rubble {
 
 namespace {
 
-constexpr float kPi = float(portable::kPi);
-constexpr float kFarthest = 1000.0f;  // unit: m
 
 Vec3f times(const Vec3f& a, const Vec3f& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
@@ -34,7 +32,7 @@ bool AirBaker::air_radiance(const Vec3f& point, Vec3f& mean) const {
     const portable::SinCos a = portable::sincos(2 * portable::kPi * (turn - std::floor(turn)));
     const double r = std::sqrt(1 - z * z);
     const Vec3f w(float(r * a.cos), float(r * a.sin), float(z));
-    const RayScene::Hit hit = rays.cast(point, w, 0, kFarthest);
+    const RayScene::Hit hit = rays.cast(point, w, 0, kLightReach);
     if (hit.triangle == RayScene::kNone)
       sum += light.sky.radiance(w);
     else if (hit.back)
@@ -51,7 +49,7 @@ bool AirBaker::air_radiance(const Vec3f& point, Vec3f& mean) const {
 void AirBaker::add_lights(const Vec3f& point, AirLight& air, std::size_t at) const {
   for (std::size_t i = 0; i < light.lights.size(); ++i) {
     const LightModel::Sample sample = light.lights[i].at(point);
-    if (!rays.blocked(point, sample.to_light, 0, std::min(sample.distance * 0.999f, kFarthest)))
+    if (!rays.blocked(point, sample.to_light, 0, std::min(sample.distance * 0.999f, kLightReach)))
       air.direct[i * air.radiance.size() + at] = sample.illuminance;
   }
 }
@@ -68,7 +66,7 @@ struct AirCopy {
   float brightness(std::size_t i) const {
     float sum = luminance(radiance[i]);
     for (std::size_t first = 0; first < direct.size(); first += radiance.size())
-      sum += luminance(direct[first + i]) / (4 * kPi);
+      sum += luminance(direct[first + i]) / (4 * portable::kPiF);
     return sum;
   }
   std::vector<Vec3f> radiance, direct;

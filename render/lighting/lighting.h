@@ -25,6 +25,8 @@ struct Sky {
   Vec3f radiance(const Vec3f& direction) const;
 };
 
+inline constexpr float kLightReach = 1000.0f;  // of rays that look for light or for what hides it; unit: m
+
 struct LightModel {
   LightType type = LightType::directional;  // never sun: that is a directional one by now
   Vec3f position;                           // of spot and point lights; unit: m

@@ -10,14 +10,12 @@ namespace rubble {
 
 namespace {
 
-constexpr float kPi = float(portable::kPi);
 constexpr int kDirections = 32;       // rays a probe
 constexpr double kMostProbes = 4000;  // about
 constexpr std::size_t kAlbedoTriangles = 200;  // about; of a mesh, that its albedo is looked up at
 constexpr double kLeastCell = 0.4;    // unit: m
 constexpr double kMargin = 0.8;       // around what moves; unit: m
 constexpr float kLowest = 0.05f;      // of a probe above the ground; unit: m
-constexpr float kFarthest = 1000.0f;  // unit: m
 constexpr float kBuried = 0.35f;      // share of rays that start inside a piece
 constexpr float kDimmer = 0.6f;       // a probe inside a piece, against its neighbours outside
 constexpr float kTrust = 0.02f;       // weight of such a probe against one outside
@@ -50,12 +48,12 @@ struct LiveLight::Probe {
   // Illuminance of a surface of normal n: pi mean + 2/3 pi slope n (Ramamoorthi and Hanrahan 2001).
   Vec3f illuminance(const Vec3f& n) const {
     const Vec3f along = slope[0] * n.x + slope[1] * n.y + slope[2] * n.z;
-    return max(mean * kPi + along * (2 * kPi / 3), Vec3f());
+    return max(mean * portable::kPiF + along * (2 * portable::kPiF / 3), Vec3f());
   }
   // dot(n, result) is the strength of that light, for normals near n.
   Vec3f vector(const Vec3f& n) const {
     const Vec3f rise = Vec3f(luminance(slope[0]), luminance(slope[1]), luminance(slope[2])) *
-                       (2 * kPi / 3);
+                       (2 * portable::kPiF / 3);
     return n * (luminance(illuminance(n)) - dot(rise, n)) + rise;
   }
 };
@@ -150,7 +148,7 @@ LiveLight::Grid LiveLight::solve() {
 void LiveLight::trace(std::size_t probe, std::vector<Hit>& hits) const {
   const Vec3f from = point_of(probe);
   for (std::size_t r = 0; r < directions_.size(); ++r) {
-    const RayScene::Hit met = rays_.cast(from, directions_[r], 0, kFarthest);
+    const RayScene::Hit met = rays_.cast(from, directions_[r], 0, kLightReach);
     Hit& hit = hits[probe * kDirections + r];
     hit.kind = met.triangle == RayScene::kNone ? Hit::sky : met.back ? Hit::inside : Hit::surface;
     if (hit.kind != Hit::surface) continue;
@@ -174,7 +172,7 @@ Vec3f LiveLight::light_of(const Hit& hit) const {
     const LightModel::Sample sample = light.at(hit.point);
     const float facing = dot(sample.to_light, hit.normal);
     if (facing <= 0 || luminance(sample.illuminance) <= 0) continue;
-    const float reach = std::min(sample.distance * 0.999f, kFarthest);
+    const float reach = std::min(sample.distance * 0.999f, kLightReach);
     if (!rays_.blocked(hit.point, sample.to_light, 0.001f, reach)) sum += sample.illuminance * facing;
   }
   return sum;
@@ -195,7 +193,7 @@ LiveLight::Probe LiveLight::gather(const std::vector<Hit>& hits, std::size_t fir
     } else if (hit.kind == Hit::surface) {
       Vec3f e = hit.direct;
       if (lit) e += sample(*lit, hit.point + multiply(cell_, hit.normal) * kOff).illuminance(hit.normal);
-      radiance = multiply(hit.albedo, e) * (1 / kPi);
+      radiance = multiply(hit.albedo, e) * (1 / portable::kPiF);
     } else {
       ++inside;
     }

@@ -14,7 +14,6 @@ namespace rubble {
 
 namespace {
 
-constexpr float kPi = float(portable::kPi);
 constexpr std::size_t kMaxSurfaceAppearances = 20;
 // Where the clean air begins to veil what is seen; unit: m.
 constexpr double kVeilFrom = 12;
@@ -243,7 +242,7 @@ Vec3f lamp_colour(const LampSpec& lamp) {
 
 Vec3f white_balance(const LightSet& set) {
   const LightModel& main = set.lights.front();
-  Vec3f light = set.sky.mean * kPi;
+  Vec3f light = set.sky.mean * portable::kPiF;
   if (main.type == LightType::directional) light += main.colour * std::max(-main.axis.z, 0.0f);
   const float bright = grey_of(light);
   if (bright <= 0) return {1, 1, 1};

@@ -14,7 +14,7 @@ namespace {
 using Rows = std::array<std::array<double, 4>, 4>;
 
 constexpr double kNearest = 0.05;  // unit: m; nothing nearer to a lamp throws a shadow
-constexpr double kFarthest = 500;  // unit: m
+constexpr double kShadowReach = 500;  // unit: m
 constexpr std::size_t kMostTexels = std::size_t(6) * 2048 * 2048;  // of all views
 
 struct Basis {
@@ -54,7 +54,7 @@ Rows directional_view(const Aabb& bounds, const LightModel& light, int size, flo
 }
 
 Rows perspective_view(const Vec3& eye, const Basis& b, double tangent) {
-  const double a = kFarthest / (kFarthest - kNearest), c = -kNearest * a;
+  const double a = kShadowReach / (kShadowReach - kNearest), c = -kNearest * a;
   Rows rows{row(b.right, eye, 1 / tangent), row(b.up, eye, 1 / tangent), row(b.forward, eye, a),
             row(b.forward, eye, 1)};
   rows[2][3] += c;

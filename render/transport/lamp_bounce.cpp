@@ -12,7 +12,6 @@ namespace rubble {
 
 namespace {
 
-constexpr float kPi = float(portable::kPi);
 constexpr int kSide = 80;            // of the map of distances; a direction is about 1.9 degrees wide
 constexpr float kReach = 10;         // of the lamp's light, and of what comes of it; unit: m
 constexpr float kFade = 2;           // over which it ends; unit: m
@@ -104,7 +103,7 @@ void LampBounce::light_points(const PlacedLamp& lamp) {
       if (facing <= 0 || away2 > kReach * kReach || away2 < 1e-6f) continue;
       const float away = std::sqrt(away2);
       if (away > distance_towards(way) * (1 + kSlack) + kNear) continue;
-      const float kept = kept_at(away) * std::exp(-extinction_ * away) * facing / (away * kPi);
+      const float kept = kept_at(away) * std::exp(-extinction_ * away) * facing / (away * portable::kPiF);
       radiance_[i] = multiply(links_.albedos[i], lamp.illuminance(lamp.position, points_[i].position)) * kept;
     }
   });
@@ -127,7 +126,7 @@ LampBounce::Arrived LampBounce::gather(std::size_t point, bool last) const {
     const Vec3f w = way * (1 / std::max(norm(way), 1e-4f));
     out.vector += w * (luminance(light) / std::max(dot(w, points_[point].normal), 0.35f));
   }
-  const float scale = rays > 0 ? kPi / float(rays) : 0;
+  const float scale = rays > 0 ? portable::kPiF / float(rays) : 0;
   out.colour *= scale;
   out.vector = out.vector * scale + points_[point].normal * (luminance(out.colour) - dot(out.vector, points_[point].normal) * scale);
   return out;
@@ -156,7 +155,7 @@ void LampBounce::pass_on(const Vec3f& lamp) {
   }
   const float again = before > 0 ? std::min(float(after / before), kMostAgain) : 0;
   over_seen([&](std::size_t i) {
-    radiance_[i] += multiply(links_.albedos[i], arrived_[i].colour) * (1 / (kPi * (1 - again)));
+    radiance_[i] += multiply(links_.albedos[i], arrived_[i].colour) * (1 / (portable::kPiF * (1 - again)));
   });
   over_seen([&](std::size_t i) {
     if (kept(i) <= 0) return;  // dark already

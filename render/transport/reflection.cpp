@@ -10,7 +10,6 @@ namespace rubble {
 
 namespace {
 
-constexpr float kPi = float(portable::kPi);
 constexpr float kLeastCosine = 1e-4f;
 constexpr float kLeastRoughness = 0.02f;
 
@@ -22,7 +21,7 @@ float power5(float x) {
 // Density of half vectors, per solid angle.
 float distribution(float cos_h, float alpha) {
   const float a2 = alpha * alpha, t = cos_h * cos_h * (a2 - 1) + 1;
-  return a2 / (kPi * t * t);
+  return a2 / (portable::kPiF * t * t);
 }
 
 // Smith's lambda.
@@ -38,7 +37,7 @@ Vec3f sample_visible_normal(const Vec3f& out, float alpha, SamplePair u) {
   const Vec3f t1 =
       flat2 > 1e-12f ? Vec3f(-v.y, v.x, 0) * (1 / std::sqrt(flat2)) : Vec3f(1, 0, 0);
   const Vec3f t2 = cross(v, t1);
-  const float r = std::sqrt(u.x), turn = 2 * kPi * u.y;
+  const float r = std::sqrt(u.x), turn = 2 * portable::kPiF * u.y;
   const float p1 = r * std::cos(turn), s = 0.5f * (1 + v.z);
   const float p2 = (1 - s) * std::sqrt(std::max(0.0f, 1 - p1 * p1)) + s * r * std::sin(turn);
   const Vec3f n = t1 * p1 + t2 * p2 + v * std::sqrt(std::max(0.0f, 1 - p1 * p1 - p2 * p2));
@@ -192,22 +191,22 @@ Vec3f mean_albedo(const Reflection& r) {
 
 Vec3f reflect_share(const Reflection& r, const Vec3f& out, const Vec3f& in) {
   if (in.z <= 0) return {};
-  if (r.matt()) return r.base * (in.z / kPi);
+  if (r.matt()) return r.base * (in.z / portable::kPiF);
   if (out.z <= 0) return {};
   const float left = 1 - mean_mirrored(r.gloss) - mean_mirrored(r.film);
   const float base =
-      left > 1e-6f ? passes(r, out.z) * passes(r, in.z) / left * (in.z / kPi) : 0;
+      left > 1e-6f ? passes(r, out.z) * passes(r, in.z) / left * (in.z / portable::kPiF) : 0;
   const float mirrored = mirror(r.gloss, out, in) + mirror(r.film, out, in);
   return r.base * base + Vec3f(1, 1, 1) * mirrored;
 }
 
 float reflection_density(const Reflection& r, const Vec3f& out, const Vec3f& in) {
   if (in.z <= 0) return 0;
-  if (r.matt()) return in.z / kPi;
+  if (r.matt()) return in.z / portable::kPiF;
   if (out.z <= 0) return 0;
   const Chances c = chances(r, out.z);
   return c.gloss * mirror_density(r.gloss, out, in) + c.film * mirror_density(r.film, out, in) +
-         (1 - c.gloss - c.film) * in.z / kPi;
+         (1 - c.gloss - c.film) * in.z / portable::kPiF;
 }
 
 ReflectedSample sample_reflection(const Reflection& r, const Vec3f& out, SamplePair u, float choice) {
@@ -218,11 +217,11 @@ ReflectedSample sample_reflection(const Reflection& r, const Vec3f& out, SampleP
   } else if (choice < c.gloss + c.film) {
     sample.in = mirrored_about(out, sample_visible_normal(out, r.film.roughness, u));
   } else {
-    const float radius = std::sqrt(u.x), turn = 2 * kPi * u.y;
+    const float radius = std::sqrt(u.x), turn = 2 * portable::kPiF * u.y;
     sample.in = {radius * std::cos(turn), radius * std::sin(turn), std::sqrt(1 - u.x)};
   }
   if (r.matt()) {
-    sample.weight = r.base, sample.density = sample.in.z / kPi;
+    sample.weight = r.base, sample.density = sample.in.z / portable::kPiF;
     return sample;
   }
   sample.density = reflection_density(r, out, sample.in);

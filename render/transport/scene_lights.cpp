@@ -9,8 +9,7 @@ namespace rubble {
 
 namespace {
 
-constexpr float kPi = float(portable::kPi);
-constexpr float kSunCosine = 1 - 6.8e-5f / (2 * kPi);  // of the disc's radius: a solid angle of 6.8e-5
+constexpr float kSunCosine = 1 - 6.8e-5f / (2 * portable::kPiF);  // of the disc's radius: a solid angle of 6.8e-5
 
 float smoothstep(float low, float high, float x) {
   const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
@@ -29,7 +28,7 @@ Vec3f within_cone(const Vec3f& axis, float cosine, SamplePair u) {
   Vec3f x, y;
   make_basis(axis, x, y);
   const float off = u.x * (1 - cosine);  // one minus the cosine
-  const float sine = std::sqrt(std::max(0.0f, off * (2 - off))), turn = 2 * kPi * u.y;
+  const float sine = std::sqrt(std::max(0.0f, off * (2 - off))), turn = 2 * portable::kPiF * u.y;
   return normalized(axis * (1 - off) + x * (sine * std::cos(turn)) + y * (sine * std::sin(turn)));
 }
 
@@ -50,7 +49,7 @@ PlacedLamp place_lamp(const LampSpec& lamp, const Vec3f& colour, const Pose& wor
 
 Vec3f PlacedLamp::diode(SamplePair u) const {
   if (radius <= 0) return position;
-  const float r = radius * (disc ? std::sqrt(u.x) : 1), turn = 2 * kPi * u.y;
+  const float r = radius * (disc ? std::sqrt(u.x) : 1), turn = 2 * portable::kPiF * u.y;
   return position + side * (r * std::cos(turn)) + up * (r * std::sin(turn));
 }
 

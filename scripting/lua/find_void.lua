@@ -1,16 +1,16 @@
--- rubble.find_void(options): the places of a void of the settled pile that a sphere of some radius
--- can enter. What it gives stands for points that are known once the pile has settled, in
--- `position` and `look_at` of a waypoint: `entrance`, `approach` (outside, before the entrance),
--- `deepest` (as far as the sphere gets from the entrances), `widest`.
+-- rubble.find_void(options): places in a void of the settled pile that a sphere can enter. It returns
+-- values for `position` and `look_at` of waypoints, which are known after the pile has settled:
+-- `entrance`, `approach` (outside, in front of the entrance), `deepest` (farthest from the entrances
+-- along the path of the sphere), `widest`.
 return function(given)
   local o = rubble.options("rubble.find_void", given, {
-    { "radius", 0.2, min = 0.02, max = 10, unit = "m", doc = "Of the sphere." },
-    { "rank", 1, type = "integer", min = 1, max = 1000000, doc = "1: the first in the order of `by`." },
+    { "radius", 0.2, min = 0.02, max = 10, unit = "m", doc = "Radius of the sphere." },
+    { "rank", 1, type = "integer", min = 1, max = 1000000, doc = "Rank in the order of `by`; 1: the first." },
     { "by", "volume", choices = { "volume", "depth" },
-      doc = "Largest first, or the one that it gets deepest into." },
+      doc = "Order of the voids: the largest first, or the one that the sphere enters deepest first." },
     { "outside_radius", 2, min = 0.2, max = 10, unit = "m",
-      doc = "Outside is what a sphere of this radius reaches from the sky, and all other free space is void: as `rubble voids` has it (docs/voids.md)." },
-    { "approach", 1, min = 0, max = 100, unit = "m", doc = "How far outside `approach` is." },
+      doc = "Outside is the space that a sphere of this radius reaches from the sky; all other free space is void, as for `rubble voids` (docs/voids.md)." },
+    { "approach", 1, min = 0, max = 100, unit = "m", doc = "Distance of the place `approach` from the entrance." },
   })
   local void = {}
   for _, place in ipairs { "entrance", "approach", "deepest", "widest" } do

@@ -11,7 +11,7 @@ return function(model, given, list)
     { "friction", nil, type = "number", min = 0, max = 2, doc = "As `robots[].friction`." },
     { "drive", {}, type = "table", doc = "As `robots[].drive`." },
     { "control", 0, type = "integer", min = 0, max = 1000,
-      doc = "A function of what it senses that says what it does: docs/robots.md." },
+      doc = "A function of what the robot senses, which returns commands (docs/robots.md)." },
   }
   local all = {}
   for i, entry in ipairs(list) do all[i] = entry end

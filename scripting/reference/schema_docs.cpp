@@ -167,19 +167,19 @@ std::string library_reference() {
   std::string text =
       "## Collapse modes\n\n" +
       folder_sections("collapse", "debris.layers",
-                      "Place and debris, which every mode but `heap` has") +
-      "## Densities\n\nWhere layers fall, as `pile.spawn_density`. "
-      "`rubble.density.image(file)` takes a PNG file of the script's folder: white where most "
-      "falls, its upper edge at +Y.\n\n" +
+                      "Common parameters of all modes except `heap`") +
+      "## Densities\n\nHorizontal distributions of pieces, for `pile.spawn_density`. "
+      "`rubble.density.image(file)` takes a PNG file of the script's folder: white pixels get the "
+      "most pieces, and the upper edge is at +Y.\n\n" +
       folder_sections("density", "", "") +
-      "## Terrain\n\nWhat pieces lie on, as `pile.terrain`. `rubble.terrain.image(file, { length = 40, "
+      "## Terrain\n\nTerrain on the ground, for `pile.terrain`. `rubble.terrain.image(file, { length = 40, "
       "amplitude = 2, smooth = 1 })` takes a PNG file of the script's folder: black is 0, white is "
-      "`amplitude`, its upper edge is at +Y; the other options are those of `rubble.terrain.from`. "
-      "A mesh is named as `pile.terrain = { file = \"site.obj\" }`.\n\n" +
+      "`amplitude`, and the upper edge is at +Y. The other options are those of `rubble.terrain.from`. "
+      "A mesh is given as `pile.terrain = { file = \"site.obj\" }`.\n\n" +
       folder_sections("terrain", "", "") + "## Paths\n\n" +
-      folder_sections("trajectory", "rate_hz", "What every path has");
-  text += "## Robots\n\nAn entry of `robots`: docs/robots.md. `control` takes a function, too.\n\n" +
-          folder_sections("robot", "name", "What every robot has");
+      folder_sections("trajectory", "rate_hz", "Common parameters of all paths");
+  text += "## Robots\n\nEach gives an entry of `robots` ([robots.md](robots.md)). `control` may be a function.\n\n" +
+          folder_sections("robot", "name", "Common parameters of all robots");
   for (const DescribedFunction& function : LuaSandbox::describe_library())
     if (function.name == "rubble.find_void")
       text += "## Places in voids\n\n" + function_section(function, {});
@@ -189,8 +189,8 @@ std::string library_reference() {
 std::string alias_table(const Schema& schema) {
   std::string text =
       "### Names of the published simulator\n\nThe parameters of the published Unity simulator "
-      "under its names, at the top level of a mission and in `--set`. Axes are ours: Z is up.\n\n"
-      "| name | is |\n| --- | --- |\n";
+      "under its names, at the top level of a mission and in `--set`. The axes are those of Rubble: Z is up.\n\n"
+      "| name | stands for |\n| --- | --- |\n";
   for (const Alias& alias : schema.aliases())
     text +=
         "| `" + alias.name + "` | " + (alias.negated ? "not " : "") + "`" + alias.path + "` |\n";

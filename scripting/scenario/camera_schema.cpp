@@ -20,29 +20,31 @@ std::string describe_channels() {
 
 // at: what the keys begin with: "camera.", or nothing.
 void add_camera(Schema& k, const std::string& at, CameraScenario& c) {
-  k.value(at + "width", c.width, "Of the image.").between(16, 8192).unit("pixel");
-  k.value(at + "height", c.height, "Of the image.").between(16, 8192).unit("pixel");
+  k.value(at + "width", c.width, "Width of the image.").between(16, 8192).unit("pixel");
+  k.value(at + "height", c.height, "Height of the image.").between(16, 8192).unit("pixel");
   k.value(at + "fov_deg", c.fov_deg,
-          "Horizontal field of view, edge to edge: up to 170, of a fisheye up to 360. Distortion of "
-          "plumb_bob is left out of account.")
+          "Horizontal field of view, from edge to edge: up to 170, for a fisheye lens up to 360. The "
+          "distortion of plumb_bob is not taken into account.")
       .between(1, 360)
       .unit("degree");
   k.value(at + "channels", c.channels, describe_channels());
   k.choice(at + "quality", c.colour.quality, {"fast", "reference"},
-           "How colours are found: baked light and shadow maps, or path tracing, which takes a minute or "
-           "more an image ([reference_renderer.md](reference_renderer.md)). Depth and channels are the same.");
-  k.value(at + "samples", c.colour.samples, "Of the reference: paths a pixel.").between(1, 65536);
+           "How colours are computed: `fast`: baked light and shadow maps; `reference`: path tracing, which "
+           "takes a minute or more per image ([reference_renderer.md](reference_renderer.md)). Depth and "
+           "channels are the same.");
+  k.value(at + "samples", c.colour.samples, "Paths per pixel, with the quality `reference`.").between(1, 65536);
   k.value(at + "denoise", c.colour.denoise,
-          "Of the reference: noise is filtered out by the exact normals, distances and albedos.");
+          "Filters the noise by the exact normals, distances and albedos, with the quality `reference`.");
   k.value(at + "stereo_baseline", c.stereo_baseline,
-          "Distance of a second camera to the right, with the same lens and exposure, lit by the same lamp; 0: none.")
+          "Distance to a second camera on the right, with the same lens and exposure, lit by the same lamp; "
+          "0: none.")
       .between(0, 10)
       .unit("m");
   k.value(at + "topic", c.topic,
-          "ROS: what its topics begin with; not given: `/camera`, of one of `cameras` `/NAME`.");
+          "Prefix of the ROS topics; not given: `/camera`, or `/NAME` for one of `cameras`.");
   k.value(at + "frame_id", c.frame_id,
-          "TF: the frame of its pictures (Z forward); not given: `camera_optical_frame`, of one of "
-          "`cameras` `NAME_optical_frame`.");
+          "TF frame of the pictures (Z forward); not given: `camera_optical_frame`, or `NAME_optical_frame` "
+          "for one of `cameras`.");
 }
 
 void add_lens(Schema& k, const std::string& at, LensScenario& l) {
@@ -51,51 +53,53 @@ void add_lens(Schema& k, const std::string& at, LensScenario& l) {
   const auto coefficient = [&](const char* name, double& member, const char* doc) {
     k.value(at + "lens." + name, member, doc).between(-100, 100);
   };
-  coefficient("k1", l.k1, "Radial, of the second power; of a fisheye, k1 to k4 in OpenCV's order.");
-  coefficient("k2", l.k2, "Radial, of the fourth power.");
-  coefficient("p1", l.p1, "Tangential, of plumb_bob.");
-  coefficient("p2", l.p2, "Tangential, of plumb_bob.");
-  coefficient("k3", l.k3, "Radial, of the sixth power.");
-  coefficient("k4", l.k4, "Of a fisheye only.");
+  coefficient("k1", l.k1,
+              "Radial coefficient of second order; for a fisheye lens, k1 to k4 have OpenCV's order.");
+  coefficient("k2", l.k2, "Radial coefficient of fourth order.");
+  coefficient("p1", l.p1, "Tangential coefficient, of plumb_bob.");
+  coefficient("p2", l.p2, "Tangential coefficient, of plumb_bob.");
+  coefficient("k3", l.k3, "Radial coefficient of sixth order.");
+  coefficient("k4", l.k4, "Fourth coefficient, of a fisheye lens only.");
   const auto calibrated = [&](const char* name, std::optional<double>& member, const char* doc) {
     return &k.value(at + "lens." + name, member, doc).unit("pixel");
   };
   calibrated("fx", l.fx, "Focal length of a calibrated camera, instead of `fov_deg`.")->above(0, 1e6);
-  calibrated("fy", l.fy, "Not given: as fx.")->above(0, 1e6);
-  calibrated("cx", l.cx, "Column of the principal point; not given: the middle.")->between(-1e5, 1e5);
-  calibrated("cy", l.cy, "Row of the principal point; not given: the middle.")->between(-1e5, 1e5);
+  calibrated("fy", l.fy, "Vertical focal length; not given: as fx.")->above(0, 1e6);
+  calibrated("cx", l.cx, "Column of the principal point; not given: the centre.")->between(-1e5, 1e5);
+  calibrated("cy", l.cy, "Row of the principal point; not given: the centre.")->between(-1e5, 1e5);
 }
 
 void add_shutter(Schema& k, const std::string& at, ShutterSpec& s) {
   k.value(at + "shutter.readout", s.readout,
-          "Rolling shutter: time from the first row to the last; 0: all rows at once.")
+          "Rolling shutter: time from the first row to the last; 0: a global shutter.")
       .between(0, 1)
       .unit("s");
   k.value(at + "shutter.motion_blur", s.motion_blur,
-          "Images over the exposure, one for each pixel of motion, added in linear light.");
-  k.value(at + "shutter.most_samples", s.most_samples, "Of these images, at most.").between(3, 255);
+          "Averages several images over the exposure, in linear light, one for each pixel of motion.");
+  k.value(at + "shutter.most_samples", s.most_samples, "Largest number of these images.").between(3, 255);
 }
 
 void add_exposure(Schema& k, const std::string& at, ExposureSpec& e) {
   k.choice(at + "exposure.mode", e.mode, {"ideal", "fixed", "automatic"},
-           "Ideal: a display image, metered on the frame itself, without noise; the rest of the keys "
-           "count otherwise.");
+           "`ideal`: a display image, metered on the frame itself, without noise; the other keys have no "
+           "effect. `fixed` and `automatic` use them.");
   k.value(at + "exposure.time", e.time, "Exposure time t.").between(1e-6, 1).unit("s");
-  k.value(at + "exposure.iso", e.iso, "Speed S; automatic: the lowest.").between(1, 1e6);
-  k.value(at + "exposure.f_number", e.f_number, "Aperture N.").between(0.5, 64);
+  k.value(at + "exposure.iso", e.iso, "ISO speed S; with automatic exposure, the lowest one.").between(1, 1e6);
+  k.value(at + "exposure.f_number", e.f_number, "F-number N of the aperture.").between(0.5, 64);
   k.value(at + "exposure.compensation", e.compensation,
-          "Automatic: brighter or darker than a mean of 18 %.")
+          "Automatic: exposure compensation, relative to a mean of 18 %.")
       .between(-8, 8)
       .unit("stop");
-  k.value(at + "exposure.longest_time", e.longest_time, "Automatic: raised up to this, then ...")
+  k.value(at + "exposure.longest_time", e.longest_time,
+          "Automatic: the exposure time is raised up to this, then ...")
       .between(1e-6, 1)
       .unit("s");
-  k.value(at + "exposure.highest_iso", e.highest_iso, "... the speed up to this.").between(1, 1e6);
+  k.value(at + "exposure.highest_iso", e.highest_iso, "... the ISO speed up to this.").between(1, 1e6);
   k.value(at + "exposure.time_constant", e.time_constant,
-          "Automatic: the error shrinks by e within this time; 0: at once.")
+          "Automatic: time in which the error falls by a factor of e; 0: at once.")
       .between(0, 60)
       .unit("s");
-  k.value(at + "exposure.delay", e.delay, "Automatic: frames until what is metered takes effect.")
+  k.value(at + "exposure.delay", e.delay, "Automatic: number of frames until a metered value takes effect.")
       .between(0, 16);
 }
 
@@ -103,82 +107,86 @@ void add_sensor(Schema& k, const std::string& at, ImageSensorSpec& s) {
   k.value(at + "sensor.noise", s.noise, "Shot and read noise.");
   k.value(at + "sensor.full_well", s.full_well, "Electrons at saturation at ISO 100.")
       .between(10, 1e7);
-  k.value(at + "sensor.read_noise", s.read_noise, "Standard deviation, in electrons.")
+  k.value(at + "sensor.read_noise", s.read_noise, "Standard deviation of the read noise, in electrons.")
       .between(0, 1000);
-  k.value(at + "sensor.bits", s.bits, "Of the converter.").between(1, 16);
-  k.value(at + "sensor.vignette", s.vignette, "0: none; 1: the natural cos^4 fall-off.")
+  k.value(at + "sensor.bits", s.bits, "Resolution of the analogue-digital converter.").between(1, 16);
+  k.value(at + "sensor.vignette", s.vignette,
+          "Strength of vignetting; 0: none; 1: the natural cos^4 fall-off.")
       .between(0, 4);
   k.choice(at + "sensor.response", s.response, {"srgb", "gamma", "linear"},
-           "From the converter to the 8 bits that are stored.");
-  k.value(at + "sensor.gamma", s.gamma, "Exponent 1 / gamma, of the response `gamma`.")
+           "Response curve from the converter to the stored 8 bits.");
+  k.value(at + "sensor.gamma", s.gamma, "Exponent 1 / gamma of the response `gamma`.")
       .between(0.2, 5);
 }
 
 void add_depth_sensor(Schema& k, DepthSensorSpec& d) {
   k.group("depth_sensor",
-          "What a depth sensor in the place of the camera reports, beside the exact depth. It looks "
-          "through the same smoke and dust. A time-of-flight sensor is blinded by thin air already, "
-          "because what hangs right before the lens is lit by the emitter beside it: of a wall 3 m "
-          "away, by a lens of 60 degrees, 62 % of the pixels are within 10 cm in fog of 0.01 /m, "
-          "19 % at 0.03 and 5 % at 0.1; with an emitter_offset of 0.3 m it is 100 %, 100 % and "
-          "48 %. The others report the air, or nothing where that is nearer than min_range.");
+          "A depth sensor in the place of the camera; its measurement is recorded beside the exact depth. It "
+          "sees the same smoke and dust. Thin fog already disturbs a time-of-flight sensor, because its "
+          "emitter lights the fog right before the lens. Example: a wall 3 m away, a lens of 60 degrees. In "
+          "fog of 0.01, 0.03 and 0.1 /m, 62, 19 and 5 % of the pixels are within 10 cm; with an "
+          "emitter_offset of 0.3 m it is 100, 100 and 48 %. Other types report the fog, or nothing if the "
+          "fog is nearer than min_range.");
   k.choice("depth_sensor.type", d.type, {"none", "ideal", "structured_light", "time_of_flight"},
-           "Models and sources: render/sensors/depth_sensor.h.");
-  k.value("depth_sensor.min_range", d.min_range, "Nearer is no return.").between(0, 100).unit("m");
-  k.value("depth_sensor.max_range", d.max_range, "Farther is none.").above(0, 1000).unit("m");
+           "Type of sensor; models and sources: render/sensors/depth_sensor.h.");
+  k.value("depth_sensor.min_range", d.min_range, "Shorter distances give no return.").between(0, 100).unit("m");
+  k.value("depth_sensor.max_range", d.max_range, "Longer distances give no return.").above(0, 1000).unit("m");
   k.value("depth_sensor.noise", d.noise, "Whether the measurement has noise.");
-  k.value("depth_sensor.baseline", d.baseline, "Structured light: from camera to projector.")
+  k.value("depth_sensor.baseline", d.baseline, "Structured light: distance from camera to projector.")
       .above(0, 10)
       .unit("m");
   k.value("depth_sensor.disparity_step", d.disparity_step,
-          "Structured light: resolution, in pixels of an image 640 wide.")
+          "Structured light: resolution of the disparity, in pixels of an image with a width of 640.")
       .above(0, 10)
       .unit("pixel");
   k.value("depth_sensor.disparity_noise", d.disparity_noise,
-          "Structured light: standard deviation, that of the resolution included.")
+          "Structured light: standard deviation of the disparity, including its resolution.")
       .between(0, 10)
       .unit("pixel");
   k.value("depth_sensor.modulation_mhz", d.modulation_mhz,
-          "Time of flight: ranges wrap at c / 2f, 7.5 m at 20 MHz.")
+          "Time of flight: modulation frequency f; ranges wrap at c / 2f, 7.5 m at 20 MHz.")
       .between(1, 1000)
       .unit("MHz");
   k.value("depth_sensor.signal", d.signal,
-          "Time of flight: electrons from a white surface at 1 m, seen squarely.")
+          "Time of flight: electrons from a white surface at 1 m, at normal incidence.")
       .above(0, 1e9);
-  k.value("depth_sensor.background", d.background, "Time of flight: electrons of other light.")
+  k.value("depth_sensor.background", d.background, "Time of flight: electrons from ambient light.")
       .between(0, 1e9);
   k.value("depth_sensor.emitter_offset", d.emitter_offset,
-          "Time of flight: from the lens to the emitter on its right; near it the air is not lit.")
+          "Time of flight: distance from the lens to the emitter on its right; close to the lens the air is "
+          "not lit.")
       .between(0.001, 1)
       .unit("m");
   k.value("depth_sensor.reflectance", d.reflectance,
-          "Of all surfaces, in the infrared; 0: of each its own, by its look.")
+          "Infrared reflectance of all surfaces; 0: that of the look of each surface.")
       .between(0, 1);
   k.value("depth_sensor.least_amplitude", d.least_amplitude,
-          "Time of flight: weaker returns, in electrons, are none.")
+          "Time of flight: returns with fewer electrons are no return.")
       .between(0, 1e9);
-  k.value("depth_sensor.step", d.step, "Time of flight: resolution; 0: none.").between(0, 1).unit("m");
+  k.value("depth_sensor.step", d.step, "Time of flight: resolution of the range; 0: not rounded.")
+      .between(0, 1)
+      .unit("m");
 }
 
 void add_event_camera(Schema& k, EventCameraSpec& e) {
-  k.group("event_camera", "An event camera in the place of the camera, with its lens (ESIM).");
-  k.value("event_camera.on", e.on, "Whether there is one.");
+  k.group("event_camera", "An event camera in the place of the camera, with the same lens (ESIM).");
+  k.value("event_camera.on", e.on, "Switches the event camera on.");
   k.value("event_camera.threshold_up", e.threshold_up,
-          "Change of ln(luminance) that makes an event where it grows brighter.")
+          "Rise of ln(luminance) that triggers an event.")
       .between(0.01, 10);
-  k.value("event_camera.threshold_down", e.threshold_down, "The same where it grows darker.")
+  k.value("event_camera.threshold_down", e.threshold_down, "Fall of ln(luminance) that triggers an event.")
       .between(0.01, 10);
   k.value("event_camera.threshold_noise", e.threshold_noise,
-          "Standard deviation of the thresholds from pixel to pixel.")
+          "Standard deviation of the thresholds between pixels.")
       .between(0, 1);
-  k.value("event_camera.refractory", e.refractory, "A pixel is silent so long after an event.")
+  k.value("event_camera.refractory", e.refractory, "A pixel triggers no event for this time after an event.")
       .between(0, 1)
       .unit("s");
-  k.value("event_camera.background_hz", e.background_hz, "Events of noise, each pixel.")
+  k.value("event_camera.background_hz", e.background_hz, "Rate of noise events of each pixel.")
       .between(0, 1000)
       .unit("Hz");
   k.value("event_camera.most_motion", e.most_motion,
-          "Between two images of the simulation; smaller: finer in time, slower.")
+          "Largest motion between two rendered images; smaller values are more exact in time, and slower.")
       .between(0.05, 100)
       .unit("pixel");
   k.value("event_camera.dark", e.dark, "Luminance added before the logarithm.")
@@ -189,21 +197,21 @@ void add_event_camera(Schema& k, EventCameraSpec& e) {
 void add_camera_with(Schema& k, const std::string& at, CameraScenario& c) {
   add_camera(k, at, c);
   const auto group = [&](const char* name, const char* doc) { k.group(at + name, doc); };
-  group("lens", "The lens. Depth and channels are exact for each pixel's own ray.");
+  group("lens", "The lens. Depth and channels are exact for the ray of each pixel.");
   add_lens(k, at, c.lens);
   group("shutter", "The stamp of a frame is the middle of its exposure.");
   add_shutter(k, at, c.shutter);
   group("exposure",
-        "How much light the image gets: the share of saturation is 0.65 L t S / (78 N^2), with the "
-        "luminance L in cd/m2 (ISO 12232:2006).");
+        "Exposure of the image: the share of saturation is 0.65 L t S / (78 N^2), with the luminance L in "
+        "cd/m2 (ISO 12232:2006).");
   add_exposure(k, at, c.exposure);
-  group("sensor", "From light to stored numbers (EMVA 1288); not of an ideal exposure.");
+  group("sensor", "From light to stored numbers (EMVA 1288); without effect for an ideal exposure.");
   add_sensor(k, at, c.sensor);
 }
 
 Schema mounted_camera_schema(MountedCamera& m) {
   Schema k;
-  k.value("position", m.position, "Of its body in the rig: X forward, Y left, Z up.")
+  k.value("position", m.position, "Position of the camera body in the rig: X forward, Y left, Z up.")
       .between(-10, 10)
       .unit("m");
   k.value("rpy_deg", m.rpy_deg, "Roll, pitch (positive: down) and yaw (positive: to the left) in the rig.")
@@ -221,13 +229,14 @@ Schema mounted_camera_schema(MountedCamera& m) {
 }  // namespace
 
 void add_camera_keys(Schema& keys, Scenario& s) {
-  keys.group("camera", "Colour and depth have the same pixels. With the defaults, an exact pinhole.");
+  keys.group("camera",
+          "The camera. Colour and depth have the same pixels. The default is an exact pinhole camera.");
   add_camera_with(keys, "camera.", s.camera);
   keys.add("cameras",
-           "Several cameras instead of `camera`, by names of lower-case letters, digits and "
-           "underscores: `cameras = { front = { ... }, left = { ... } }`. Each is fixed to the rig that "
-           "flies the trajectory and bears the lamp, and has, besides the keys below, every key of "
-           "`camera`, and `depth_sensor` and `event_camera` as tables of its own.",
+           "Several cameras instead of `camera`. Names have lower-case letters, digits and underscores: "
+           "`cameras = { front = { ... }, left = { ... } }`. Each camera is fixed to the rig, which flies "
+           "the trajectory and has the lamp. Besides the keys below, it has every key of `camera`, and its "
+           "own `depth_sensor` and `event_camera`.",
            [&s](std::size_t) {
              return Schema::named_tables(s.cameras, &MountedCamera::name, "front",
                                          mounted_camera_schema);

@@ -8,19 +8,21 @@ namespace rubble {
 namespace {
 
 void add_figures(Schema& k, LidarScenario& l) {
-  k.value("rate_hz", l.rate_hz, "Scans per second; not given, as of all keys down to `divergence_mrad`: the model's own.")
+  k.value("rate_hz", l.rate_hz,
+          "Scans per second; not given, as for all keys down to `divergence_mrad`: that of the model.")
       .between(1, 100)
       .unit("Hz");
-  k.value("min_range", l.min_range, "Nearer is no echo.").between(0.01, 100).unit("m");
-  k.value("max_range", l.max_range, "Farther is none.").between(0.1, 1000).unit("m");
+  k.value("min_range", l.min_range, "Shorter distances give no echo.").between(0.01, 100).unit("m");
+  k.value("max_range", l.max_range, "Longer distances give no echo.").between(0.1, 1000).unit("m");
   k.value("range_at_10_percent", l.range_at_10_percent,
-          "How far it sees a facing surface that throws back 10 % of its light, in clear air.")
+          "Range in clear air for a surface of 10 % reflectance at normal incidence.")
       .between(0.1, 1000)
       .unit("m");
   k.value("range_noise", l.range_noise, "Standard deviation of the range.").between(0, 1).unit("m");
   k.value("range_step", l.range_step, "Resolution of the range; 0: not rounded.").between(0, 1).unit("m");
   k.value("divergence_mrad", l.divergence_mrad,
-          "Full angle of the beam at 1/e^2 of its middle; 0: a line, without echoes of two surfaces.")
+          "Full angle of the beam at 1/e^2 of its central intensity; 0: a line, which never gives echoes of "
+          "two surfaces.")
       .between(0, 100)
       .unit("mrad");
 }
@@ -28,23 +30,24 @@ void add_figures(Schema& k, LidarScenario& l) {
 Schema lidar_schema(LidarScenario& l) {
   Schema k;
   k.choice("model", l.model, {"vlp16", "os0", "os1", "os2", "mid360", "utm30lx"},
-           "Whose figures it has: [lidar.md](lidar.md).");
-  k.value("position", l.position, "In the rig: X forward, Y left, Z up.").between(-10, 10).unit("m");
-  k.value("rpy_deg", l.rpy_deg, "Roll, pitch (positive: down) and yaw in the rig.")
+           "The model, which sets the defaults of the other keys: [lidar.md](lidar.md).");
+  k.value("position", l.position, "Position in the rig: X forward, Y left, Z up.").between(-10, 10).unit("m");
+  k.value("rpy_deg", l.rpy_deg, "Orientation in the rig: roll, pitch (positive: down) and yaw.")
       .between(-360, 360)
       .unit("degree");
-  k.value("channels", l.channels, "Rings of an `os0`, `os1` or `os2`: 32, 64 or 128; 0: 64.").between(0, 128);
-  k.value("columns", l.columns, "Firings of such a ring in a scan: 512, 1024 or 2048; 0: 1024.")
+  k.value("channels", l.channels, "Number of rings of an `os0`, `os1` or `os2`: 32, 64 or 128; 0: 64.").between(0, 128);
+  k.value("columns", l.columns,
+          "Number of firings of each ring in a scan, of an `os0`, `os1` or `os2`: 512, 1024 or 2048; 0: 1024.")
       .between(0, 2048);
   add_figures(k, l);
   k.choice("returns", l.returns, {"strongest", "last", "dual"},
-           "Which echoes of a ray are reported; `\"dual\"`: the strongest and the last, or where these are "
-           "one, the next strongest.");
-  k.value("noise", l.noise, "`false`: exact ranges (but for `range_step`), and no chance in what is seen.");
+           "Reported echoes of a ray: `strongest`, `last`, or `dual`, the strongest and the last. If these "
+           "are the same, `dual` reports the next strongest instead of the last.");
+  k.value("noise", l.noise, "false: exact ranges, except for `range_step`, and detection without randomness.");
   k.value("topic", l.topic,
-          "ROS: its topic; not given: `/points`, of a 2-D scanner `/scan`; of several of a kind "
+          "ROS topic; not given: `/points`, or `/scan` for a 2-D scanner. If there are several of a kind: "
           "`/NAME/points` and `/NAME/scan`.");
-  k.value("frame_id", l.frame_id, "TF: its frame; not given: `NAME_link`.");
+  k.value("frame_id", l.frame_id, "TF frame; not given: `NAME_link`.");
   return k;
 }
 
@@ -78,9 +81,9 @@ void check_lidar(const LidarScenario& lidar, std::vector<Diagnostic>& mistakes) 
 
 void add_lidar_keys(Schema& keys, Scenario& s) {
   keys.add("lidars",
-           "LiDARs, by names of lower-case letters, digits and underscores: `lidars = { top = { model = "
-           "\"vlp16\" } }`. Each is fixed to the rig that flies the trajectory, scans from the start until "
-           "the last frame of a camera, and looks through the same smoke and dust.",
+           "LiDARs. Names have lower-case letters, digits and underscores: `lidars = { top = { model = "
+           "\"vlp16\" } }`. Each LiDAR is fixed to the rig, which flies the trajectory. It scans from the "
+           "start until the last frame of a camera, and sees the same smoke and dust.",
            [&s](std::size_t) {
              return Schema::named_tables(s.lidars, &LidarScenario::name, "top", lidar_schema);
            });

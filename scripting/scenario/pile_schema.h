@@ -8,5 +8,6 @@ namespace rubble {
 
 // The pile must outlive the schema.
 void add_pile_keys(Schema& keys, PileScenario& pile);
+void add_victim_keys(Schema& keys, VictimScenario& victims);
 
 }  // namespace rubble

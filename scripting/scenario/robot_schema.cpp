@@ -12,24 +12,25 @@ constexpr const char* kModelNames[] = {"snake", "crawler", "rover"};
 
 Schema leg_schema(RobotLeg& leg) {
   Schema k;
-  k.value("t", leg.t, "From when on, since the start.").between(0, 86400).unit("s");
-  k.value("linear", leg.linear, "Of crawler and rover: forwards.").between(-5, 5).unit("m/s");
-  k.value("angular", leg.angular, "Of crawler and rover: counter-clockwise.")
+  k.value("t", leg.t, "Start of this command, since the start of the run.").between(0, 86400).unit("s");
+  k.value("linear", leg.linear, "Crawler and rover: forward velocity.").between(-5, 5).unit("m/s");
+  k.value("angular", leg.angular, "Crawler and rover: angular velocity, counter-clockwise.")
       .between(-10, 10)
       .unit("rad/s");
   k.value("flippers_deg", leg.flippers_deg,
-          "Of a crawler: front left, front right, rear left, rear right; 0 level, positive raised.")
+          "Crawler: angles of the flippers front left, front right, rear left, rear right; 0: level, "
+          "positive: raised.")
       .between(-180, 180)
       .unit("degree");
   k.choice("gait", leg.gait,
            {"lateral_undulation", "sidewinding", "rolling", "serpenoid", "helical_rolling"},
-           "Of a snake.");
-  k.value("rate", leg.rate, "Of a snake's waves; negative: backwards.")
+           "Snake: the gait.");
+  k.value("rate", leg.rate, "Snake: angular frequency of its waves; negative: backwards.")
       .between(-20, 20)
       .unit("rad/s");
-  k.value("amplitude", leg.amplitude, "Of a snake: a share of the gait's own amplitudes.")
+  k.value("amplitude", leg.amplitude, "Snake: amplitude, relative to that of the gait.")
       .between(0, 2);
-  k.value("steering_deg", leg.steering_deg, "Of a snake: added to the sideways joints.")
+  k.value("steering_deg", leg.steering_deg, "Snake: angle that is added to the sideways joints.")
       .between(-45, 45)
       .unit("degree");
   return k;
@@ -88,47 +89,50 @@ void check_ride(const Scenario& scenario, const std::vector<std::string>& names,
 
 void add_robot_keys(Schema& k, Scenario& s) {
   std::vector<RobotItem>& list = s.robots;
-  k.list("robots", list, "Robots that are driven through the settled pile: docs/robots.md.");
-  k.add("robots[].model", "Which of the bundled ones.", [&list](std::size_t i) {
+  k.list("robots", list, "Robots that are driven through the settled pile (docs/robots.md).");
+  k.add("robots[].model", "One of the bundled robots.", [&list](std::size_t i) {
     return Schema::choice_slot(list[i].model, {kModelNames[0], kModelNames[1], kModelNames[2]});
   });
   k.item("robots[].urdf", list, &RobotItem::urdf,
-         "Instead: a URDF file, relative to the script: docs/robots.md.");
+         "Instead of a bundled robot: a URDF file, relative to the script (docs/robots.md).");
   k.item("robots[].left_wheels", list, &RobotItem::left_wheels,
-         "Of a URDF robot: joints of driven wheels on its left, for `linear`, `angular` and odometry.");
-  k.item("robots[].right_wheels", list, &RobotItem::right_wheels, "Likewise, on its right.");
-  k.item("robots[].wheel_radius", list, &RobotItem::wheel_radius, "Of these wheels.")
+         "URDF robot: joints of the driven wheels on its left, for `linear`, `angular` and odometry.");
+  k.item("robots[].right_wheels", list, &RobotItem::right_wheels,
+          "URDF robot: joints of the driven wheels on its right.");
+  k.item("robots[].wheel_radius", list, &RobotItem::wheel_radius, "URDF robot: radius of these wheels.")
       .between(0.001, 10)
       .unit("m");
   k.item("robots[].name", list, &RobotItem::name,
-         "Names its files and topics; not given: the model's name, numbered.");
+         "Name of its files and topics; not given: the name of the model and a number.");
   k.item("robots[].position", list, &RobotItem::position,
-         "Of its base frame: on the ground between tracks or wheels, the middle of a snake's head.")
+         "Position of its base frame: on the ground between tracks or wheels, or the centre of the head of a "
+         "snake.")
       .between(-1000, 1000)
       .unit("m");
   k.item("robots[].rpy_deg", list, &RobotItem::rpy_deg,
          "Roll, pitch and yaw: Rz(yaw) Ry(pitch) Rx(roll).")
       .between(-360, 360)
       .unit("degree");
-  k.item("robots[].modules", list, &RobotItem::modules, "Of a snake.").between(2, 64);
-  k.item("robots[].flippers", list, &RobotItem::flippers, "Whether a crawler has its flippers.");
+  k.item("robots[].modules", list, &RobotItem::modules, "Snake: number of modules.").between(2, 64);
+  k.item("robots[].flippers", list, &RobotItem::flippers, "Whether a crawler has flippers.");
   k.item("robots[].friction", list, &RobotItem::friction,
-         "Coulomb, of tracks, wheels or skin against concrete; not given: the model's own.")
+         "Coulomb coefficient of tracks, wheels or skin against concrete; not given: that of the model.")
       .between(0, 2);
-  k.add("robots[].drive", "How it is driven, from when on; none: it stands still.",
+  k.add("robots[].drive", "Commands, each from its time `t` on; empty: it stands still.",
         [&list](std::size_t i) { return Schema::table_list(list[i].drive, leg_schema); });
   k.item("robots[].control", list, &RobotItem::control,
-         "Instead: a function of time and of what it senses, as rubble.controller keeps it.")
+         "Instead of `drive`: a function of time and of what the robot senses, registered by "
+         "rubble.controller.")
       .between(0, 1000);
-  k.group("robot_run", "When and how robots run.");
-  k.value("robot_run.duration", s.robot_run.duration, "How long they are driven.")
+  k.group("robot_run", "Time and rate of the robots.");
+  k.value("robot_run.duration", s.robot_run.duration, "Time for which they are driven.")
       .above(0, 86400)
       .unit("s");
-  k.value("robot_run.control_hz", s.robot_run.control_hz, "How often they are told what to do.")
+  k.value("robot_run.control_hz", s.robot_run.control_hz, "Rate of the commands.")
       .between(1, 240)
       .unit("Hz");
   k.choice("robot_run.debris", s.robot_run.debris, {"free", "fixed"},
-           "Whether pieces give way, or the pile stands like rock.");
+           "`free`: pieces move when robots push them; `fixed`: pieces do not move.");
 }
 
 std::vector<std::string> robot_names(const std::vector<RobotItem>& robots) {

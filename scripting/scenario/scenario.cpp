@@ -124,10 +124,10 @@ void check_record_settling(const RecordSettlingScenario& r, std::vector<Diagnost
 void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   const TrajectorySpec spec = flown_trajectory(scenario);
   if (scenario.imu.on && spec.smoothing && *spec.smoothing < kLeastSmoothing)
-    mistakes.push_back({"", 0, "trajectory.smoothing", "too little for an inertial unit",
-                        "at least " + format_number(kLeastSmoothing) + " s, or nothing",
+    mistakes.push_back({"", 0, "trajectory.smoothing", "too small for an inertial measurement unit",
+                        "at least " + format_number(kLeastSmoothing) + " s, or no such key",
                         format_number(*spec.smoothing) + " s",
-                        "without it the velocity jumps, and the accelerometer does not feel it"});
+                        "at corners without smoothing the velocity jumps, which an accelerometer cannot measure"});
   if (!mistakes.empty() || !spec.smoothing || spec.needs_pile()) return;
   try {
     CameraPath{spec};
@@ -154,6 +154,9 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_meshes(scenario.outputs, mistakes);
   check_record_settling(scenario.record_settling, mistakes);
   check_robots(scenario, mistakes);
+  if (scenario.victims.count > 0 && needs_track(scenario))
+    mistakes.push_back({"", 0, "victims.count", "victims lie in the pile only when it has settled",
+                        "no record_settling and no outputs.track, or 0", std::to_string(scenario.victims.count), ""});
   if (scenario.voids.radius < scenario.voids.voxel)
     mistakes.push_back({"", 0, "voids.radius", "smaller than a voxel",
                         "at least voids.voxel = " + format_number(scenario.voids.voxel),

@@ -138,11 +138,21 @@ struct VoidScenario {
   double radius = 0.15;  // of a robot, at least a voxel; unit: m; range: 0.02 to 5
 };
 
+// People who lie in the voids of the settled pile: figures of the bundled pack `victims`.
+enum class VictimDifficulty { easy, medium, hard };
+struct VictimScenario {
+  int count = 0;  // range: 0 to 50
+  // How far from the entrances of the voids: the nearest, the middle, the farthest third of the places.
+  VictimDifficulty difficulty = VictimDifficulty::medium;
+  double radius = 0.15;  // of the robot that gets near each of them and sees it; unit: m; range: 0.05 to 1
+};
+
 struct Scenario {
   std::uint64_t seed = 0;                 // range: 0 to 2^63 - 1
   std::int64_t start_ns = 1'000'000'000;  // stamp of the first frame; ROS time 0 means invalid
   std::vector<std::string> packs;         // folders; empty: the bundled pack `concrete`
   PileScenario pile;                      // what is dropped, and where
+  VictimScenario victims;                 // who lies in it
   SettleOptions settle;  // its `threads` is not part of a scenario: results do not depend on it
   LightScenario light;   // the main light
   std::vector<LightSpec> lights;  // besides the main one; at most kMostLights - 1

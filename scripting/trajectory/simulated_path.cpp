@@ -27,21 +27,21 @@ std::vector<T> central_differences(const std::vector<T>& values) {
   return differences;
 }
 
-// Weights of the two values and the two tangents of a cubic Hermite curve.
-struct Weights {
+// HermiteWeights of the two values and the two tangents of a cubic Hermite curve.
+struct HermiteWeights {
   double from, to, leave, arrive;
 };
-Weights value_weights(double s) {
+HermiteWeights value_weights(double s) {
   const double s2 = s * s, s3 = s2 * s;
   return {2 * s3 - 3 * s2 + 1, -2 * s3 + 3 * s2, s3 - 2 * s2 + s, s3 - s2};
 }
-Weights rate_weights(double s) {
+HermiteWeights rate_weights(double s) {
   return {6 * s * s - 6 * s, -6 * s * s + 6 * s, 3 * s * s - 4 * s + 1, 3 * s * s - 2 * s};
 }
-Weights second_weights(double s) { return {12 * s - 6, -12 * s + 6, 6 * s - 4, 6 * s - 2}; }
+HermiteWeights second_weights(double s) { return {12 * s - 6, -12 * s + 6, 6 * s - 4, 6 * s - 2}; }
 
 template <typename T>
-T blend(const Weights& w, const T& from, const T& to, const T& leave, const T& arrive) {
+T blend(const HermiteWeights& w, const T& from, const T& to, const T& leave, const T& arrive) {
   return sum(sum(scaled(from, w.from), scaled(to, w.to)),
              sum(scaled(leave, w.leave), scaled(arrive, w.arrive)));
 }
@@ -78,7 +78,7 @@ Pose SimulatedPath::at(double t) const {
   const std::size_t i = place.step;
   if (place.share == 0) return poses_[i];
   if (place.share == 1) return poses_[i + 1];
-  const Weights w = value_weights(place.share);
+  const HermiteWeights w = value_weights(place.share);
   return {normalized(blend(w, poses_[i].rotation, poses_[i + 1].rotation, turnings_[i],
                            turnings_[i + 1])),
           blend(w, poses_[i].translation, poses_[i + 1].translation, velocities_[i],
@@ -89,11 +89,11 @@ Pose SimulatedPath::at(double t) const {
 CameraMotion SimulatedPath::motion_at(double t) const {
   const Place place = find(t);
   const std::size_t i = place.step;
-  const auto position = [&](const Weights& w) {
+  const auto position = [&](const HermiteWeights& w) {
     return blend(w, poses_[i].translation, poses_[i + 1].translation, velocities_[i],
                  velocities_[i + 1]);
   };
-  const auto rotation = [&](const Weights& w) {
+  const auto rotation = [&](const HermiteWeights& w) {
     return blend(w, poses_[i].rotation, poses_[i + 1].rotation, turnings_[i], turnings_[i + 1]);
   };
   CameraMotion motion;

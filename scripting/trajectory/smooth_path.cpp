@@ -12,10 +12,10 @@ namespace {
 constexpr long kReach = 2;  // control points before an interval that shape it
 constexpr double kWildestTurn = 90;  // within a knot; unit: degree
 
-using Weights = std::array<double, 6>;
+using SplineWeights = std::array<double, 6>;
 
 // Of the control points of an interval, u: from 0 to 1 within it. Uniform quintic B-spline.
-Weights weights_at(double u) {
+SplineWeights weights_at(double u) {
   const double r = 1 - u, u2 = u * u, u3 = u2 * u, u4 = u3 * u, u5 = u4 * u;
   return {r * r * r * r * r / 120,
           (26 - 50 * u + 20 * u2 + 20 * u3 - 20 * u4 + 5 * u5) / 120,
@@ -26,7 +26,7 @@ Weights weights_at(double u) {
 }
 
 // Derived by u.
-Weights rates_at(double u) {
+SplineWeights rates_at(double u) {
   const double r = 1 - u, u2 = u * u, u3 = u2 * u, u4 = u3 * u;
   return {-r * r * r * r / 24,
           (-10 + 8 * u + 12 * u2 - 16 * u3 + 5 * u4) / 24,
@@ -37,7 +37,7 @@ Weights rates_at(double u) {
 }
 
 // Derived by u twice.
-Weights changes_at(double u) {
+SplineWeights changes_at(double u) {
   const double r = 1 - u, u2 = u * u, u3 = u2 * u;
   return {r * r * r / 6,
           (2 + 6 * u - 12 * u2 + 5 * u3) / 6,
@@ -48,19 +48,19 @@ Weights changes_at(double u) {
 }
 
 // Derived by u three times.
-Weights jerks_at(double u) {
+SplineWeights jerks_at(double u) {
   const double r = 1 - u, u2 = u * u;
   return {-r * r / 2,           (2 - 8 * u + 5 * u2) / 2,  6 * u - 5 * u2,
           -1 - 4 * u + 5 * u2, (1 + 2 * u - 5 * u2) / 2, u2 / 2};
 }
 
-Vec3 sum(const Weights& weights, const Vec3* points) {
+Vec3 sum(const SplineWeights& weights, const Vec3* points) {
   Vec3 out;
   for (std::size_t i = 0; i < weights.size(); ++i) out += points[i] * weights[i];
   return out;
 }
 
-Quat sum(const Weights& weights, const Quat* points) {
+Quat sum(const SplineWeights& weights, const Quat* points) {
   Quat out{0, 0, 0, 0};
   for (std::size_t i = 0; i < weights.size(); ++i) {
     out.w += points[i].w * weights[i];
@@ -119,7 +119,7 @@ CameraMotion SmoothPath::motion_at(double t) const {
   const double s = std::min(std::max(t / knot_, 0.0), double(intervals_));
   const std::size_t i = std::min(std::size_t(s), intervals_ - 1);
   const double u = s - double(i);
-  const Weights weights = weights_at(u), rates = rates_at(u);
+  const SplineWeights weights = weights_at(u), rates = rates_at(u);
   const Vec3* points = positions_.data() + i;
   const Quat q = sum(weights, rotations_.data() + i), rate = sum(rates, rotations_.data() + i);
   const Quat turn = q.conjugate() * rate;

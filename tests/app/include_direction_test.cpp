@@ -130,8 +130,8 @@ const Allowed kScripting = stack(
 
 const Allowed kApp = stack(
     {"app/support/", "app/formats/", "app/provenance/", "app/assets/", "app/measures/",
-     "app/estimate/", "app/planning/", "app/sensors/", "app/robots/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
-     "app/eval/scores/", "app/eval/sfm/", "app/eval/map/", "app/view/", "app/drive/", "app/command_line/",
+     "app/estimate/", "app/planning/", "app/victims/", "app/sensors/", "app/robots/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
+     "app/eval/scores/", "app/eval/sfm/", "app/eval/map/", "app/search/", "app/view/", "app/drive/", "app/command_line/",
      "app/commands/eval/", "app/commands/assets/", "app/commands/publish/", "app/commands/",
      "app/main.cpp"},
     {"kernel/", "render/", "io/", "scripting/", "assets/generator/"});
@@ -239,7 +239,7 @@ const std::map<std::string, Prefixes> kDoors{
     {"nlohmann/json.hpp",
      {"app/batch/", "app/commands/", "app/drive/", "app/eval/", "app/pipeline/resolved_mission.cpp",
       "app/robots/robot_files.cpp", "app/planning/flight.cpp", "app/provenance/", "app/report/",
-      "app/support/", "app/view/", "bench/",
+      "app/search/program_agent.cpp", "app/support/", "app/victims/place_victims.cpp", "app/view/", "bench/",
       "io/datasets/frames_recorder.cpp", "io/mesh/glb_writer.cpp", "io/recording/recording.cpp",
       "io/voids/void_json.cpp", "scripting/reference/json_schema.cpp",
       "scripting/scenario/scenario_json.cpp"}}};

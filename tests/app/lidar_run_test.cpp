@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "kernel/queries/queries.h"
 #include "tests/app/program.h"
+#include "tests/app/tiny_run.h"
 #include "tests/io/support.h"
 
 namespace rubble::testing {
@@ -53,6 +55,11 @@ class LidarRun : public ::testing::Test {
   static ScratchFolder* folder_;
   static Outcome outcome_;
 };
+
+// Empty where there is no such file.
+std::string read_file_if_there(const std::string& path) {
+  return std::filesystem::exists(path) ? read_file(path) : "";
+}
 
 ScratchFolder* LidarRun::folder_ = nullptr;
 Outcome LidarRun::outcome_;
@@ -179,6 +186,41 @@ TEST_F(LidarRun, VerifyFindsTheSameAndScansAreAmongTheHashes) {
   EXPECT_NE(manifest.dump().find("top/points"), std::string::npos);
   const Outcome verify = run_rubble("verify --threads 1 " + (*folder_ / "out"));
   EXPECT_EQ(verify.exit_code, 0) << verify.out << verify.err;
+}
+
+TEST_F(LidarRun, TheManifestAloneMakesTheSameScans) {
+  const Outcome remake = run_rubble("remake --quiet --threads 1 " + file("manifest.json") + " --out " + (*folder_ / "again"));
+  ASSERT_EQ(remake.exit_code, 0) << remake.out << remake.err;
+  EXPECT_EQ(reproducible(*folder_ / "again"), reproducible(*folder_ / "out"));
+  for (const char* name : {"mission.bag", "mission.mcap", "mission.rawlog", "pcd/top/000010.pcd", "kitti/front/poses.txt"})
+    EXPECT_EQ(read_file(*folder_ / "again/" + name), read_file(file(name))) << name;
+}
+
+// Killed as soon as some frames are recorded, and scans between them: at three moments one after the other.
+TEST_F(LidarRun, AfterKillsAmongItsFramesItGoesOnToTheSameBytes) {
+  const std::string killed = *folder_ / "killed";
+  int kills = 0;
+  for (const int frames : {1, 2, 4}) {
+    const auto recorded = [&] {
+      std::istringstream lines(read_file_if_there(killed + "/unfinished/frames.txt"));
+      int count = 0;
+      for (std::string line; std::getline(lines, line);) ++count;
+      return count > frames;
+    };
+    const bool begun = std::filesystem::exists(killed + "/unfinished/run.json");
+    if (begun || kills == 0) {
+      const std::string command = begun ? "resume " + killed : "run " + (*folder_ / "m.lua") + " --out " + killed;
+      kills += run_rubble_and_signal(command + " --quiet --threads 2", recorded, SIGKILL).exit_code == 128 + SIGKILL;
+    }
+  }
+  EXPECT_GT(kills, 0) << "it was always quicker";
+  if (std::filesystem::exists(killed + "/unfinished")) {
+    const Outcome last = run_rubble("resume --quiet " + killed);
+    ASSERT_EQ(last.exit_code, 0) << last.err;
+  }
+  EXPECT_EQ(reproducible(killed), reproducible(*folder_ / "out"));
+  for (const auto& [name, hash] : read_outputs(file("")))
+    EXPECT_EQ(read_file(killed + "/" + name), read_file(file(name))) << name;
 }
 
 TEST_F(LidarRun, InfoReadsEveryFile) {

@@ -3,9 +3,12 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 #include <vector>
 
+#include "app/measures/metrics.h"
+#include "app/provenance/manifest.h"
 #include "kernel/base/math.h"
 #include "tests/app/program.h"
 
@@ -83,6 +86,15 @@ class CarriedSensors : public ::testing::Test {
 };
 ScratchFolder* CarriedSensors::folder_ = nullptr;
 Outcome CarriedSensors::outcome_;
+
+// A metric that suites do not know cannot have limits: robot_slip was one.
+TEST_F(CarriedSensors, SuitesKnowEveryMetric) {
+  const Manifest manifest = manifest_from_json(read_file(file("manifest.json")), "manifest.json");
+  EXPECT_EQ(manifest.metrics.count("robot_slip"), 1u);
+  std::set<std::string> known;
+  for (const auto& [name, meaning] : metric_names()) known.insert(name);
+  for (const auto& [name, value] : manifest.metrics) EXPECT_EQ(known.count(name), 1u) << name;
+}
 
 // The body of the camera is where the mount on the link is: 15 degrees nose down.
 TEST_F(CarriedSensors, TheCameraIsOnItsLink) {

@@ -18,7 +18,7 @@ const std::string kFolder = std::string(RUBBLE_ASSETS_DIR) + "/concrete/";
 const std::set<std::string> kSurfaces = {
     "concrete_cast",    "concrete_fracture", "brick",  "brick_fracture",  "cinder_block", "rebar",
     "steel_galvanised", "steel_rusty",       "timber", "timber_fracture", "drywall",      "drywall_core",
-    "car_paint",        "glass",             "fabric", "rubber"};
+    "car_paint",        "glass",             "fabric", "rubber",          "plaster"};
 
 TriangleMesh level(const std::string& name, int number) {
   return read_mesh(kFolder + name + ".lod" + std::to_string(number) + ".obj");
@@ -132,7 +132,7 @@ TEST_P(FilesTest, PartsAreConvexAndSolid) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Packs, FilesTest,
-                         testing::Values("concrete", "residential", "parking", "bridge"),
+                         testing::Values("concrete", "residential", "parking", "bridge", "victims"),
                          [](const auto& test) { return test.param; });
 
 TEST_P(PackTest, PartsContainTheSurface) {
@@ -194,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(Concrete, PackTest, testing::ValuesIn(followed_closely(
 TEST(Pack, NamesAreUniqueAndEnough) {
   std::size_t count = 0;
   std::set<std::string> all;
-  for (const char* pack : {"concrete", "residential", "parking", "bridge"}) {
+  for (const char* pack : {"concrete", "residential", "parking", "bridge", "victims"}) {
     for (const std::string& name :
          read_asset_names(std::string(RUBBLE_ASSETS_DIR) + "/" + pack + "/pack.lua")) {
       all.insert(name);
@@ -206,7 +206,7 @@ TEST(Pack, NamesAreUniqueAndEnough) {
 }
 
 TEST(Pack, IsSmall) {
-  for (const char* pack : {"concrete", "residential", "parking", "bridge"}) {
+  for (const char* pack : {"concrete", "residential", "parking", "bridge", "victims"}) {
     std::uintmax_t bytes = 0;
     for (const auto& entry :
          std::filesystem::directory_iterator(std::string(RUBBLE_ASSETS_DIR) + "/" + pack))

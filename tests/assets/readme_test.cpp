@@ -49,7 +49,7 @@ std::string calc_row(const std::string& folder, const std::string& name) {
 
 TEST(Readme, ListsThePiecesAsTheyAre) {
   const std::string readme = read_text(std::string(RUBBLE_SOURCE_DIR) + "/assets/README.md");
-  for (const char* pack : {"concrete", "residential", "parking", "bridge"}) {
+  for (const char* pack : {"concrete", "residential", "parking", "bridge", "victims"}) {
     for (const std::string& name : read_asset_names(folder_of(pack) + "pack.lua")) {
       const std::string row = calc_row(folder_of(pack), name);
       EXPECT_NE(readme.find(row + "\n"), std::string::npos) << "assets/README.md lacks\n" << row;

@@ -23,11 +23,11 @@ constexpr double kLooseHull = 0.016;
 struct AssetReport {
   std::string name;
   bool closed = false;
-  Vec3 size;                    // of the box around the mesh; unit: m
-  double volume = 0, mass = 0;  // unit: m3, kg
+  Vec3 size;                           // of the box around the mesh; unit: m
+  double volume = 0, mass = 0;         // unit: m3, kg
   std::size_t parts = 0, corners = 0;  // corners: of the part that has most
-  double thinnest = 0;          // unit: m
-  HullError error;              // of closed meshes
+  double thinnest = 0;                 // unit: m
+  HullError error;                     // of closed meshes
   std::vector<std::size_t> triangles;
   std::vector<std::string> errors, warnings;
 };
@@ -43,10 +43,12 @@ void check_levels(const SceneMesh& mesh, AssetReport& report) {
     const TriangleMesh& level = mesh.levels[i];
     report.triangles.push_back(level.triangles.size());
     if (i && is_closed(level) != report.closed)
-      report.warnings.push_back("level of detail " + std::to_string(i) +
-                                (report.closed ? " is not closed" : " is closed, the finest is not"));
+      report.warnings.push_back(
+          "level of detail " + std::to_string(i) +
+          (report.closed ? " is not closed" : " is closed, the finest is not"));
     if (i && level.triangles.size() >= mesh.levels[i - 1].triangles.size())
-      report.warnings.push_back("level of detail " + std::to_string(i) + " is no coarser than the one before");
+      report.warnings.push_back("level of detail " + std::to_string(i) +
+                                " is no coarser than the one before");
     for (const std::string& surface : level.surface_names) {
       try {
         find_surface_appearance(surface);
@@ -84,8 +86,9 @@ void check_hull(const TriangleMesh& mesh, const Shape& shape, AssetReport& repor
   }
   const double out = report.error.outside / area, in = report.error.inside / area;
   if (out > kLooseHull)
-    report.warnings.push_back("the parts stand out of the mesh by " + millimetres(out) +
-                              " in the mean: pieces will seem to float; try collision = \"decompose\"");
+    report.warnings.push_back(
+        "the parts stand out of the mesh by " + millimetres(out) +
+        " in the mean: pieces will seem to float; try collision = \"decompose\"");
   if (in > kLooseHull)
     report.warnings.push_back("the parts stay behind the mesh by " + millimetres(in) +
                               " in the mean: pieces will sink into it");
@@ -126,7 +129,8 @@ bool add_tree(const Asset& asset, const AssetLibrary& library, std::vector<TreeR
 template <typename Report>
 void print_remarks(const std::vector<Report>& reports) {
   for (const Report& r : reports) {
-    for (const std::string& text : r.errors) std::printf("error: %s: %s\n", r.name.c_str(), text.c_str());
+    for (const std::string& text : r.errors)
+      std::printf("error: %s: %s\n", r.name.c_str(), text.c_str());
     for (const std::string& text : r.warnings)
       std::printf("warning: %s: %s\n", r.name.c_str(), text.c_str());
   }
@@ -166,21 +170,25 @@ void print_table(const AssetPack& pack, const std::vector<AssetReport>& reports,
 }
 
 nlohmann::ordered_json json_of(const TreeReport& t) {
-  return {{"name", t.name},      {"links", t.links},
-          {"joints", t.joints},  {"size_m", {t.size.x, t.size.y, t.size.z}},
-          {"mass_kg", t.mass},   {"parts", t.parts},
-          {"errors", t.errors},  {"warnings", t.warnings}};
+  return {{"name", t.name},     {"links", t.links},
+          {"joints", t.joints}, {"size_m", {t.size.x, t.size.y, t.size.z}},
+          {"mass_kg", t.mass},  {"parts", t.parts},
+          {"errors", t.errors}, {"warnings", t.warnings}};
 }
 
 void print_json(const AssetPack& pack, const std::vector<AssetReport>& reports,
                 const std::vector<TreeReport>& trees) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const AssetReport& r : reports) {
-    nlohmann::ordered_json entry{{"name", r.name},          {"closed", r.closed},
+    nlohmann::ordered_json entry{{"name", r.name},
+                                 {"closed", r.closed},
                                  {"size_m", {r.size.x, r.size.y, r.size.z}},
-                                 {"volume_m3", r.volume},   {"mass_kg", r.mass},
-                                 {"parts", r.parts},        {"most_corners", r.corners},
-                                 {"thinnest_m", r.thinnest}, {"triangles", r.triangles}};
+                                 {"volume_m3", r.volume},
+                                 {"mass_kg", r.mass},
+                                 {"parts", r.parts},
+                                 {"most_corners", r.corners},
+                                 {"thinnest_m", r.thinnest},
+                                 {"triangles", r.triangles}};
     if (r.closed) {
       entry["parts_outside_mesh_m3"] = r.error.outside;
       entry["mesh_outside_parts_m3"] = r.error.inside;
@@ -191,16 +199,15 @@ void print_json(const AssetPack& pack, const std::vector<AssetReport>& reports,
   }
   nlohmann::ordered_json articulated = nlohmann::ordered_json::array();
   for (const TreeReport& tree : trees) articulated.push_back(json_of(tree));
-  const nlohmann::ordered_json whole{{"pack", pack.name},
-                                     {"folder", pack.folder},
-                                     {"assets", list},
-                                     {"articulated", articulated}};
+  const nlohmann::ordered_json whole{
+      {"pack", pack.name}, {"folder", pack.folder}, {"assets", list}, {"articulated", articulated}};
   std::printf("%s\n", whole.dump(2).c_str());
 }
 
 // `bad_input` when something is not sound.
 ExitCode check_pack(const std::string& pack_name, bool json) {
-  const std::vector<Material> materials = load_materials(bundled_assets_folder() + "/materials.lua");
+  const std::vector<Material> materials =
+      load_materials(bundled_assets_folder() + "/materials.lua");
   const AssetPack pack = load_asset_pack(find_pack(pack_name), materials);
   std::vector<AssetReport> reports;
   std::vector<TreeReport> trees;
@@ -217,22 +224,23 @@ ExitCode check_pack(const std::string& pack_name, bool json) {
   return sound ? ExitCode::done : ExitCode::bad_input;
 }
 
-struct Request {
+struct AssetsCheckRequest {
   std::string pack;   // a folder with a pack.lua, or the name of a bundled one
   bool json = false;  // --json
 };
 
-Action declare(CommandLine& line) {
-  const auto request = std::make_shared<Request>();
+Action declare_assets_check(CommandLine& line) {
+  const auto request = std::make_shared<AssetsCheckRequest>();
   line.add("pack", request->pack, "A folder with a pack.lua, or a bundled pack").required();
-  line.add_flag("--json", request->json, "JSON instead of a table");
+  line.add_flag("--json", request->json, "Print JSON instead of a table");
   return [request] { return check_pack(request->pack, request->json); };
 }
 
 }  // namespace
 
 Command assets_check_command() {
-  return {"assets", "check", "Say what is sound in a pack: closed meshes, masses, how well the parts fit", declare};
+  return {"assets", "check", "Check a pack: closed meshes, masses, fit of the collision parts",
+          declare_assets_check};
 }
 
 }  // namespace rubble

@@ -215,14 +215,14 @@ ExitCode show_pack(const std::string& pack_name, const std::string& out, int til
   return ExitCode::done;
 }
 
-struct Request {
+struct AssetsShowRequest {
   std::string pack, out;  // as of `assets check`; --out; empty: NAME.png
   int tile = 288;         // --tile; unit: pixel
   bool collision = false;  // --collision
 };
 
-Action declare(CommandLine& line) {
-  const auto request = std::make_shared<Request>();
+Action declare_assets_show(CommandLine& line) {
+  const auto request = std::make_shared<AssetsShowRequest>();
   line.add("pack", request->pack, "A folder with a pack.lua, or a bundled pack").required();
   line.add("--out", request->out, "The picture, .png or .jpg")
       .shows_default_text("NAME.png")
@@ -231,14 +231,14 @@ Action declare(CommandLine& line) {
       .shows_default()
       .between(64, 1024);
   line.add_flag("--collision", request->collision,
-                "Draw the convex parts that collide, each in a look of its own");
+                "Draw the convex collision parts, each with a look of its own");
   return [request] { return show_pack(request->pack, request->out, request->tile, request->collision); };
 }
 
 }  // namespace
 
 Command assets_show_command() {
-  return {"assets", "show", "Draw every asset of a pack on one sheet", declare};
+  return {"assets", "show", "Draw every asset of a pack on one sheet", declare_assets_show};
 }
 
 }  // namespace rubble

@@ -18,19 +18,21 @@ namespace rubble {
 namespace {
 
 struct MapRequest {
-  std::string map, dataset;               // a PLY file; the folder of a run
-  std::string align;                      // --align: COLMAP model whose frame the map has
-  SpaceRequest space;                     // voxel: of the map's free space
-  std::optional<double> range;            // --range: of the camera's depth; unit: m
-  std::string details;                    // --details: folder for clouds and the entrances
-  std::vector<std::string> asset_packs;   // --assets
+  std::string map, dataset;              // a PLY file; the folder of a run
+  std::string align;                     // --align: COLMAP model whose frame the map has
+  SpaceRequest space;                    // voxel: of the map's free space
+  std::optional<double> range;           // --range: of the camera's depth; unit: m
+  std::string details;                   // --details: folder for clouds and the entrances
+  std::vector<std::string> asset_packs;  // --assets
   ScoreOutput output;
   RunOptions options;
 };
 
 constexpr double kMapSpacing = 0.02;  // of samples of a mesh; unit: m
 
-double sample_spacing(const MapRequest& request) { return std::min(kMapSpacing, request.space.voxel / 2); }
+double sample_spacing(const MapRequest& request) {
+  return std::min(kMapSpacing, request.space.voxel / 2);
+}
 
 RecordedViews load_views(const FinishedRun& saved, const MapRequest& request) {
   const Scenario scenario = stated_scenario(saved.manifest.provenance);
@@ -63,8 +65,7 @@ VoidMap make_void_map(const SavedSurface& surface, const MapRequest& request, Pr
       return !stop_requested();
     };
   };
-  VoidSpace space =
-      calc_void_space(surface.pile, surface.geometry.meshes, options, report(0, 0.6));
+  VoidSpace space = calc_void_space(surface.pile, surface.geometry.meshes, options, report(0, 0.6));
   return find_voids(std::move(space), request.space.radii, report(0.6, 0.4));
 }
 
@@ -142,16 +143,16 @@ ExitCode eval_map(const MapRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_eval_map(CommandLine& line) {
   const auto request = std::make_shared<MapRequest>();
   request->space.voxel = 0.05;
   line.add("map", request->map, "The map: a mesh or point cloud, PLY").required();
   line.add("dataset", request->dataset, "Output folder of the run it was made from").required();
   line.add("--align", request->align,
-           "The COLMAP model whose frame the map has, brought to the world by a similarity")
+           "The COLMAP model whose frame the map has; the map is transformed by a similarity")
       .shows_default_text("the map is in the world of the dataset")
       .metavar("DIR");
-  line.add("--range", request->range, "Farther than this no frame sees")
+  line.add("--range", request->range, "Largest distance at which frames see a surface")
       .shows_default_text("the depth sensor's range, or 10")
       .metavar("METRES")
       .within(0.01, 1000.0);
@@ -160,7 +161,7 @@ Action declare(CommandLine& line) {
            "Write there the map by its errors and the seen surface by what the map has of it "
            "(PLY), and the entrances (CSV)")
       .metavar("DIR");
-  add_packs_option(line, request->asset_packs, "A folder where packs may be now");
+  add_packs_option(line, request->asset_packs, "A folder with packs, if they were moved");
   add_score_options(line, request->output);
   add_threads_option(line, request->options.threads);
   add_quiet_option(line, request->options.quiet);
@@ -170,7 +171,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command eval_map_command() {
-  return {"eval", "map", "A map against the surface that its run saw, and the voids it found", declare};
+  return {"eval", "map", "Score a map: visible surface, voids, entrances", declare_eval_map};
 }
 
 }  // namespace rubble

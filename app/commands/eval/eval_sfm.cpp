@@ -62,22 +62,22 @@ ExitCode eval_sfm(const SfmRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_eval_sfm(CommandLine& line) {
   const auto request = std::make_shared<SfmRequest>();
   line.add("datasets", request->datasets, "Output folders of runs with outputs.colmap").required();
   line.add("--model", request->model,
-           "In each dataset, COLMAP's model or the folder of its numbered models")
+           "COLMAP's model in each dataset, or the folder of its numbered models")
       .shows_default()
       .metavar("DIR");
-  line.add("--bound", request->bound,
-           "A frame is on track when it is no farther from the truth")
+  line.add("--bound", request->bound, "A frame is on track if its position error is at most this")
       .shows_default()
       .metavar("METRES")
       .positive();
   line.add("--details", request->details,
-           "Write there, for each dataset, the points in its world (PLY) and the track (CSV)")
+           "Write into this folder the points in the world frame (PLY) and the track (CSV) of each "
+           "dataset")
       .metavar("DIR");
-  add_packs_option(line, request->asset_packs, "A folder where packs may be now");
+  add_packs_option(line, request->asset_packs, "A folder with packs, if they were moved");
   add_score_options(line, request->output);
   return [request] { return eval_sfm(*request); };
 }
@@ -85,7 +85,9 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command eval_sfm_command() {
-  return {"eval", "sfm", "What COLMAP made of datasets: track, points, distance to the true surface", declare};
+  return {"eval", "sfm",
+          "Score COLMAP reconstructions: track, points, distance to the true surface",
+          declare_eval_sfm};
 }
 
 }  // namespace rubble

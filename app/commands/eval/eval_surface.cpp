@@ -35,14 +35,14 @@ ExitCode eval_surface(const SurfaceRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_eval_surface(CommandLine& line) {
   const auto request = std::make_shared<SurfaceRequest>();
   line.add("dataset", request->dataset, "Output folder of a run with outputs.colmap").required();
   line.add("mesh", request->mesh, "A mesh or point cloud, PLY").required();
-  line.add("--align", request->align, "The COLMAP model whose frame it has")
+  line.add("--align", request->align, "The COLMAP model whose frame the mesh has")
       .shows_default_text("it is in the world of the dataset")
       .metavar("DIR");
-  add_packs_option(line, request->asset_packs, "A folder where packs may be now");
+  add_packs_option(line, request->asset_packs, "A folder with packs, if they were moved");
   add_score_options(line, request->output);
   return [request] { return eval_surface(*request); };
 }
@@ -50,7 +50,8 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command eval_surface_command() {
-  return {"eval", "surface", "Distance of a mesh or cloud from the true surface", declare};
+  return {"eval", "surface", "Distances of a mesh or point cloud from the true surface",
+          declare_eval_surface};
 }
 
 }  // namespace rubble

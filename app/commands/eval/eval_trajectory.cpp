@@ -67,24 +67,25 @@ ExitCode eval_trajectory(const TrajectoryRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_eval_trajectory(CommandLine& line) {
   const auto request = std::make_shared<TrajectoryRequest>();
   line.add("estimate", request->estimate, "The estimate: a TUM or EuRoC file").required();
   line.add("truth", request->truth, "The truth: a TUM or EuRoC file").required();
-  line.add("--delta", request->delta, "Relative errors over so many poses").shows_default();
-  line.add("--max-difference", request->max_difference,
-           "Largest difference of the stamps of a pair")
+  line.add("--delta", request->delta, "Number of poses over which relative errors are computed")
+      .shows_default();
+  line.add("--max-difference", request->max_difference, "Largest time difference of matched poses")
       .shows_default()
       .metavar("SECONDS")
       .non_negative();
-  line.add_flag("--json", request->json, "The result as JSON");
+  line.add_flag("--json", request->json, "Print the result as JSON");
   return [request] { return eval_trajectory(*request); };
 }
 
 }  // namespace
 
 Command eval_trajectory_command() {
-  return {"eval", "trajectory", "Absolute and relative errors of a trajectory, as evo's", declare};
+  return {"eval", "trajectory", "Absolute and relative errors of a trajectory, as computed by evo",
+          declare_eval_trajectory};
 }
 
 }  // namespace rubble

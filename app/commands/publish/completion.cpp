@@ -13,15 +13,15 @@ namespace {
 ExitCode print_completion(const std::string& shell) {
   const auto commands = describe_commands(all_commands());
   if (shell != "bash" && shell != "zsh")
-    throw InputError({"", 0, "shell", "no completion for this shell", "bash or zsh",
-                      "`" + shell + "`", ""});
+    throw InputError(
+        {"", 0, "shell", "no completion for this shell", "bash or zsh", "`" + shell + "`", ""});
   const std::string text = shell == "bash" ? make_bash_completion(commands, mission_keys())
                                            : make_zsh_completion(commands, mission_keys());
   std::fputs(text.c_str(), stdout);
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_completion(CommandLine& line) {
   const auto shell = std::make_shared<std::string>();
   line.add("shell", *shell, "bash or zsh").required().metavar("SHELL");
   return [shell] { return print_completion(*shell); };
@@ -30,7 +30,9 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command completion_command() {
-  return {"", "completion", "Print what a shell needs to complete commands, options and keys", declare};
+  return {"", "completion",
+          "Print a script with which a shell completes commands, options and keys",
+          declare_completion};
 }
 
 }  // namespace rubble

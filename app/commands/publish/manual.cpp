@@ -40,7 +40,7 @@ ExitCode print_page(const std::vector<std::string>& words) {
                     "`" + name + "`", ""});
 }
 
-Action declare(CommandLine& line) {
+Action declare_manual(CommandLine& line) {
   const auto request = std::make_shared<ManualRequest>();
   line.add("command", request->words, "The command, as in: eval map; none: of the program itself")
       .metavar("COMMAND");
@@ -54,7 +54,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command manual_command() {
-  return {"", "manual", "Print a manual page, as in: rubble manual run | man -l -", declare};
+  return {"", "manual", "Print a manual page, as in: rubble manual run | man -l -", declare_manual};
 }
 
 }  // namespace rubble

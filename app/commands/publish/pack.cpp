@@ -15,11 +15,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PackRequest {
-  std::string folder;      // of the run
-  bool card = false;       // --card
-  bool settings = false;   // --settings
-  bool force = false;      // --force
-  CardText text;           // --title, --licence
+  std::string folder;     // of the run
+  bool card = false;      // --card
+  bool settings = false;  // --settings
+  bool force = false;     // --force
+  CardText text;          // --title, --licence
 };
 
 // A file that somebody else wrote stays.
@@ -54,16 +54,19 @@ ExitCode pack(const PackRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_pack(CommandLine& line) {
   const auto request = std::make_shared<PackRequest>();
   line.add("folder", request->folder, "The output folder of a run").required();
-  const Option card = line.add_flag("--card", request->card, "README.md: what the dataset is, and how to remake it");
-  line.add_flag("--settings", request->settings,
-                "settings/: for ORB-SLAM3, OpenVINS, Kalibr, RTAB-Map, evo, RViz and Foxglove");
-  line.add("--title", request->text.title, "Of the card")
+  const Option card =
+      line.add_flag("--card", request->card,
+                    "Write README.md, a card that describes the dataset and how to make it again");
+  line.add_flag(
+      "--settings", request->settings,
+      "Write settings/ for ORB-SLAM3, OpenVINS, Kalibr, RTAB-Map, evo, RViz and Foxglove");
+  line.add("--title", request->text.title, "Title of the card")
       .shows_default_text("the script's name and the seed")
       .needs(card);
-  line.add("--licence", request->text.licence, "That the dataset is handed on under, as in CC-BY-4.0")
+  line.add("--licence", request->text.licence, "Licence of the dataset, as in CC-BY-4.0")
       .needs(card);
   line.add_flag("--force", request->force, "Replace the files of an earlier call");
   return [request] { return pack(*request); };
@@ -72,7 +75,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command pack_command() {
-  return {"", "pack", "What a dataset needs to be handed on: checksums, card, settings", declare};
+  return {"", "pack", "Prepare a dataset for publication: checksums, card, settings", declare_pack};
 }
 
 }  // namespace rubble

@@ -27,14 +27,16 @@ ExitCode write_report(const ReportRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_report(CommandLine& line) {
   const auto request = std::make_shared<ReportRequest>();
   line.add("folder", request->folder, "The output folder of a batch").required();
-  line.add("--out", request->out, "The page").shows_default_text("FOLDER/report.html").metavar("FILE");
-  line.add("--pictures", request->options.pictures, "Runs that are shown, at most")
+  line.add("--out", request->out, "The page")
+      .shows_default_text("FOLDER/report.html")
+      .metavar("FILE");
+  line.add("--pictures", request->options.pictures, "Largest number of runs with pictures")
       .shows_default()
       .between(0, 100000);
-  line.add("--width", request->options.width, "Of a picture, in pixels")
+  line.add("--width", request->options.width, "Width of a picture, in pixels")
       .shows_default()
       .between(32, 2000);
   return [request] { return write_report(*request); };
@@ -43,7 +45,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command report_command() {
-  return {"", "report", "A web page about a batch: table, plots, pictures", declare};
+  return {"", "report", "Write a web page about a batch: table, plots, pictures", declare_report};
 }
 
 }  // namespace rubble

@@ -21,7 +21,8 @@ struct ViewRequest {
 
 ExitCode write_page(const ViewRequest& request) {
   if (three_code().empty())
-    throw RunError("this program was built without three.js: install libjs-three and build it again");
+    throw RunError(
+        "this program was built without three.js: install libjs-three and build it again");
   const FinishedRun saved = open_finished_run(request.folder);
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
   const std::string path = request.out.empty() ? request.folder + "/view.html" : request.out;
@@ -30,27 +31,33 @@ ExitCode write_page(const ViewRequest& request) {
   return ExitCode::done;
 }
 
-Action declare(CommandLine& line) {
+Action declare_view(CommandLine& line) {
   const auto request = std::make_shared<ViewRequest>();
   line.add("folder", request->folder, "The output folder of a run").required();
-  line.add("--out", request->out, "The page").shows_default_text("FOLDER/view.html").metavar("FILE");
-  line.add("--frames", request->options.frames, "Pictures of frames, evenly over the flight, at most")
+  line.add("--out", request->out, "The page")
+      .shows_default_text("FOLDER/view.html")
+      .metavar("FILE");
+  line.add("--frames", request->options.frames,
+           "Largest number of pictures, evenly spaced over the flight")
       .shows_default()
       .between(0, 10000);
-  line.add("--width", request->options.width, "Of a picture, in pixels")
+  line.add("--width", request->options.width, "Width of a picture, in pixels")
       .shows_default()
       .between(32, 4000);
-  line.add("--triangles", request->options.triangles, "Of all pieces together, about, at most")
+  line.add("--triangles", request->options.triangles,
+           "Approximate largest number of triangles of all pieces together")
       .shows_default()
       .between(1000, 100'000'000);
-  add_packs_option(line, request->asset_packs, "A folder where packs of the run may be now");
+  add_packs_option(line, request->asset_packs,
+                   "A folder with packs of the run, if they were moved");
   return [request] { return write_page(*request); };
 }
 
 }  // namespace
 
 Command view_command() {
-  return {"", "view", "A web page that shows a dataset in 3-D: pile, voids, flight", declare};
+  return {"", "view", "Write a web page that shows a dataset in 3-D: pile, voids, flight",
+          declare_view};
 }
 
 }  // namespace rubble

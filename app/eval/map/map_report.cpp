@@ -10,8 +10,6 @@
 namespace rubble {
 namespace {
 
-constexpr double kNear = 0.05;  // unit: m
-
 std::optional<double> percent_of(double part, double whole) {
   if (!(whole > 0)) return std::nullopt;
   return 100 * part / whole;
@@ -67,7 +65,7 @@ void write_cloud(const std::string& path, const std::vector<Vec3>& points,
   std::string bytes;
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (int k = 0; k < 3; ++k) put(bytes, float(points[i][k]));
-    const Colour& c = distances[i] <= kNear ? near : far;
+    const Colour& c = distances[i] <= kNearSurface ? near : far;
     put(bytes, c.r), put(bytes, c.g), put(bytes, c.b);
     put(bytes, float(distances[i]));
   }

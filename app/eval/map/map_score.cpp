@@ -9,7 +9,6 @@
 namespace rubble {
 namespace {
 
-constexpr double kNear = 0.05;  // unit: m
 constexpr int kGrain = 1024;
 
 double share_within(const std::vector<double>& distances, double limit) {
@@ -30,7 +29,7 @@ template <typename Score>
 void set_shares(Score& score) {
   score.within_1cm = share_within(score.distances, 0.01);
   score.within_2cm = share_within(score.distances, 0.02);
-  score.within_5cm = share_within(score.distances, kNear);
+  score.within_5cm = share_within(score.distances, kNearSurface);
 }
 
 // A mesh as the only piece of a pile, to be asked exactly.
@@ -48,8 +47,8 @@ class MapSurface {
   }
 
   double find_distance(const Vec3& place) const {
-    const auto closest = queries_->find_closest(place, kNear);
-    return closest ? closest->distance : 2 * kNear;
+    const auto closest = queries_->find_closest(place, kNearSurface);
+    return closest ? closest->distance : 2 * kNearSurface;
   }
 
  private:
@@ -63,12 +62,12 @@ MapAccuracy calc_map_accuracy(const std::vector<Vec3>& points, const PileQueries
   MapAccuracy score;
   score.distances.resize(points.size());
   std::vector<char> unseen(points.size(), 0);
-  const PointGrid grid(seen.points, kNear);
+  const PointGrid grid(seen.points, kNearSurface);
   pool.run(int(points.size()), kGrain, [&](int begin, int end) {
     for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i) {
       const auto closest = truth.find_closest(points[i], kFarthest);
       score.distances[i] = closest ? closest->distance : kFarthest;
-      unseen[i] = !closest || grid.find_distance(closest->point) >= kNear;
+      unseen[i] = !closest || grid.find_distance(closest->point) >= kNearSurface;
     }
   });
   set_shares(score);
@@ -90,7 +89,7 @@ MapCompleteness calc_map_completeness(const PlyMesh& map, const SeenSurface& see
   };
   if (map.triangles.empty())
     // A little wider, so that a point at 5 cm sharp counts.
-    measure(PointGrid(map.positions, 1.000001 * kNear));
+    measure(PointGrid(map.positions, 1.000001 * kNearSurface));
   else
     measure(MapSurface(map));
   set_shares(score);

@@ -10,6 +10,8 @@
 
 namespace rubble {
 
+inline constexpr double kNearSurface = 0.05;  // what counts as met; unit: m
+
 // Of the points of a map, or of samples of a mesh.
 struct MapAccuracy {
   // Distances to the true surface, seen or not, one each, at most kFarthest (surface_score.h); m

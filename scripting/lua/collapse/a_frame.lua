@@ -1,5 +1,5 @@
--- rubble.collapse.a_frame: the floors on both sides of an interior wall still rest on it, their outer
--- edges lie on the floor. Two voids of triangular section beside the wall, each
+-- rubble.collapse.a_frame: the floors on both sides of an interior wall still rest on it, and their
+-- outer edges lie on the ground floor. There are two voids of triangular section beside the wall, each
 -- height * sqrt((length / 2)^2 - height^2) / 2.
 --
 -- The origin is at the foot of the middle of the wall; the slabs go down along -X and +X.
@@ -7,14 +7,14 @@ local name = "rubble.collapse.a_frame"
 
 return function(given)
   local o = rubble.options(name, given, rubble.structure_options {
-    { "length", 9, min = 1, max = 100, unit = "m", doc = "Of both slabs together." },
-    { "width", 6, min = 0.3, max = 50, unit = "m", doc = "Of the slabs and the wall." },
-    { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Of the slabs." },
+    { "length", 9, min = 1, max = 100, unit = "m", doc = "Length of both slabs together." },
+    { "width", 6, min = 0.3, max = 50, unit = "m", doc = "Width of the slabs and the wall." },
+    { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Thickness of the slabs." },
     { "height", 2, min = 0.2, max = 40, unit = "m",
-      doc = "Of the edges on the wall; less than 0.45 times the length." },
-    { "bearing", 0.08, min = 0.02, max = 2, unit = "m", doc = "Of a slab's length, what lies on the wall." },
-    { "wall_thickness", 0.3, min = 0.1, max = 5, unit = "m", doc = "Of the wall; more than twice the bearing." },
-    { "storeys", 1, type = "integer", min = 1, max = 30, doc = "Slabs that came down on one another, each side." },
+      doc = "Height of the slab edges on the wall; less than 0.45 times the length." },
+    { "bearing", 0.08, min = 0.02, max = 2, unit = "m", doc = "Length of each slab that lies on the wall." },
+    { "wall_thickness", 0.3, min = 0.1, max = 5, unit = "m", doc = "Thickness of the wall; more than twice the bearing." },
+    { "storeys", 1, type = "integer", min = 1, max = 30, doc = "Number of slabs on each side, one on another." },
   })
   if o.height >= 0.45 * o.length then
     rubble.reject(name, "height", "less than 0.45 times the length", o.height)

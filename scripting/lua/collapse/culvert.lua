@@ -1,7 +1,7 @@
--- rubble.collapse.culvert: the training ground of rescue services: concrete pipes or box culverts
--- laid out in rows and covered by debris. The voids are their bores.
+-- rubble.collapse.culvert: a training ground as rescue services build it: concrete pipes or box
+-- culverts in rows, covered by debris. The voids are the bores.
 --
--- The origin is on the ground in the middle; the bores run along X.
+-- The origin is on the ground in the centre; the bores run along X.
 local kinds = {
   pipe = { asset = "pipe", bore = 0.60, outer = 0.72, length = 1.20 },
   box = { asset = "box_culvert", bore = 1.20, outer = 1.50, length = 2.00 },
@@ -10,12 +10,12 @@ local kinds = {
 return function(given)
   local o = rubble.options("rubble.collapse.culvert", given, rubble.structure_options {
     { "kind", "pipe", choices = { "pipe", "box" }, doc = "Round pipes, or box culverts." },
-    { "bore", 0.8, min = 0.2, max = 5, unit = "m", doc = "Inner diameter, or inner edge of a box." },
-    { "segments", 4, type = "integer", min = 1, max = 100, doc = "Pieces end to end in a row." },
-    { "rows", 2, type = "integer", min = 1, max = 50, doc = "Rows side by side." },
-    { "spacing", 0.5, min = 0, max = 20, unit = "m", doc = "Between two rows." },
-    { "joint", 0.01, min = 0.005, max = 1, unit = "m", doc = "Between two pieces of a row." },
-    { "fixed", true, doc = "false: they can be pushed apart by what falls on them." },
+    { "bore", 0.8, min = 0.2, max = 5, unit = "m", doc = "Inner diameter of a pipe, or inner edge length of a box." },
+    { "segments", 4, type = "integer", min = 1, max = 100, doc = "Number of pieces in a row, end to end." },
+    { "rows", 2, type = "integer", min = 1, max = 50, doc = "Number of rows, side by side." },
+    { "spacing", 0.5, min = 0, max = 20, unit = "m", doc = "Gap between two rows." },
+    { "joint", 0.01, min = 0.005, max = 1, unit = "m", doc = "Gap between two pieces of a row." },
+    { "fixed", true, doc = "false: falling debris can push the pieces apart." },
   })
   local kind = kinds[o.kind]
   local scale = o.bore / kind.bore

@@ -1,17 +1,17 @@
--- rubble.collapse.curtain: a wall panel that came apart where it stood and dropped straight down: a
--- heap at the foot of the frame it hung on.
+-- rubble.collapse.curtain: a wall panel that broke in place and fell straight down. It forms a heap at
+-- the foot of the frame that it hung on.
 --
 -- The origin is at the foot of the frame's outer face; the panel hangs in front of it, at +X.
 return function(given)
   local o = rubble.options("rubble.collapse.curtain", given, rubble.structure_options {
-    { "length", 5, min = 0.5, max = 50, unit = "m", doc = "Of the panel, along Y." },
-    { "storey_height", 2.6, min = 0.3, max = 20, unit = "m", doc = "Of the panel in one storey." },
-    { "storeys", 1, type = "integer", min = 1, max = 20, doc = "Storeys that it hung on." },
-    { "block", "cinder_block", doc = "The asset that the panel was built of, lying along X." },
-    { "block_size", { 0.39, 0.19, 0.19 }, above = 0, max = 5, unit = "m", doc = "Of that asset." },
-    { "missing", 0.1, min = 0, max = 0.9, doc = "Share of the blocks that went elsewhere." },
-    { "wall_thickness", 0.3, min = 0.1, max = 5, unit = "m", doc = "Of the frame that still stands." },
-    { "stream", "curtain", doc = "Name of the random stream that draws the blocks' attitudes." },
+    { "length", 5, min = 0.5, max = 50, unit = "m", doc = "Length of the panel, along Y." },
+    { "storey_height", 2.6, min = 0.3, max = 20, unit = "m", doc = "Height of the panel in one storey." },
+    { "storeys", 1, type = "integer", min = 1, max = 20, doc = "Number of storeys that it hung on." },
+    { "block", "cinder_block", doc = "The asset that the panel was built of, with its length along X." },
+    { "block_size", { 0.39, 0.19, 0.19 }, above = 0, max = 5, unit = "m", doc = "Size of this asset." },
+    { "missing", 0.1, min = 0, max = 0.9, doc = "Share of the blocks that are missing in the heap." },
+    { "wall_thickness", 0.3, min = 0.1, max = 5, unit = "m", doc = "Thickness of the frame that still stands." },
+    { "stream", "curtain", doc = "Name of the random stream for the orientations of the blocks." },
   })
   local random = rubble.random(o.stream)
   local height = o.storeys * o.storey_height

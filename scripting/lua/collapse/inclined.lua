@@ -1,21 +1,21 @@
--- rubble.collapse.inclined: a stack of floors that share a dip, fanned out a little: their lower
--- edges lie on one another against what is left of a wall, their upper edges on the stubs of the
--- beams that carried them. Stacked wedges: the lowest of height length * sin(dip), each further one
--- of length^2 / 2 * sin(spread / (storeys - 1)).
+-- rubble.collapse.inclined: a stack of floors with a common dip and slightly different slopes. Their
+-- lower edges lie on one another against the remains of a wall; their upper edges lie on stubs of the
+-- beams that carried them. The voids are stacked wedges: the lowest has the height length * sin(dip),
+-- each further one the section length^2 / 2 * sin(spread / (storeys - 1)).
 --
 -- The origin is below the edge that the lowest floor rests on; the floors go down along X.
 local name = "rubble.collapse.inclined"
 
 return function(given)
   local o = rubble.options(name, given, rubble.structure_options {
-    { "length", 5, min = 1, max = 50, unit = "m", doc = "Of a floor, from the upper wall down." },
-    { "width", 6, min = 0.3, max = 50, unit = "m", doc = "Of the floors and walls." },
-    { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Of a floor." },
-    { "dip_deg", 20, min = 10, max = 45, unit = "degree", doc = "Of the lowest floor." },
-    { "spread_deg", 6, min = 0.5, max = 20, unit = "degree", doc = "From the lowest to the highest floor." },
-    { "storeys", 3, type = "integer", min = 1, max = 10, doc = "Floors." },
-    { "bearing", 0.1, min = 0.02, max = 2, unit = "m", doc = "Of a floor's length, what lies on its stub." },
-    { "wall_thickness", 0.3, min = 0.1, max = 5, unit = "m", doc = "Of the walls." },
+    { "length", 5, min = 1, max = 50, unit = "m", doc = "Length of a floor, from the upper wall down." },
+    { "width", 6, min = 0.3, max = 50, unit = "m", doc = "Width of the floors and walls." },
+    { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Thickness of a floor." },
+    { "dip_deg", 20, min = 10, max = 45, unit = "degree", doc = "Dip of the lowest floor." },
+    { "spread_deg", 6, min = 0.5, max = 20, unit = "degree", doc = "Difference of dip between the lowest and the highest floor." },
+    { "storeys", 3, type = "integer", min = 1, max = 10, doc = "Number of floors." },
+    { "bearing", 0.1, min = 0.02, max = 2, unit = "m", doc = "Length of each floor that lies on its stub." },
+    { "wall_thickness", 0.3, min = 0.1, max = 5, unit = "m", doc = "Thickness of the walls." },
   })
   local step = o.storeys > 1 and o.spread_deg / (o.storeys - 1) or 0
   local clear, placed = o.length - o.bearing, {}

@@ -1,17 +1,17 @@
 -- rubble.collapse.lean_over: whole storeys that turned about an edge of their base without breaking
--- apart. The rooms survive, turned: each of section length * storey_height.
+-- apart. The rooms remain, tilted; each has the section length * storey_height.
 --
 -- The origin is on the edge that the frame turned about, at +X; the rooms run along Y.
 local name = "rubble.collapse.lean_over"
 
 return function(given)
   local o = rubble.options(name, given, rubble.structure_options {
-    { "length", 4, min = 0.5, max = 50, unit = "m", doc = "Of a room, from wall to wall." },
-    { "width", 6, min = 0.3, max = 50, unit = "m", doc = "Of the rooms, along Y." },
-    { "storey_height", 2.6, min = 0.3, max = 20, unit = "m", doc = "Of a room, from floor to ceiling." },
-    { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Of floors and walls." },
-    { "lean_deg", 30, min = 10, max = 90, unit = "degree", doc = "How far the frame turned." },
-    { "storeys", 1, type = "integer", min = 1, max = 30, doc = "Rooms, one above another." },
+    { "length", 4, min = 0.5, max = 50, unit = "m", doc = "Length of a room, from wall to wall." },
+    { "width", 6, min = 0.3, max = 50, unit = "m", doc = "Width of the rooms, along Y." },
+    { "storey_height", 2.6, min = 0.3, max = 20, unit = "m", doc = "Height of a room, from floor to ceiling." },
+    { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Thickness of floors and walls." },
+    { "lean_deg", 30, min = 10, max = 90, unit = "degree", doc = "Angle by which the frame has turned." },
+    { "storeys", 1, type = "integer", min = 1, max = 30, doc = "Number of rooms, one above another." },
     { "neighbour", true, doc = "Whether the frame leans on the wall of a building beside it." },
   })
   local placed, t = {}, o.thickness

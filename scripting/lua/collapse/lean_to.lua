@@ -1,19 +1,19 @@
--- rubble.collapse.lean_to: one edge of a floor slab still rests on a wall, the other lies on the
--- floor. Under it is a void of triangular section, height * sqrt(length^2 - height^2) / 2.
+-- rubble.collapse.lean_to: one edge of a floor slab still rests on a wall, the other lies on the floor.
+-- Under it is a void of triangular section, height * sqrt(length^2 - height^2) / 2.
 --
 -- The origin is at the foot of the wall's inner face; the slab goes down along X, the wall along Y.
 local name = "rubble.collapse.lean_to"
 
 return function(given)
   local o = rubble.options(name, given, rubble.structure_options {
-    { "length", 5, min = 0.5, max = 50, unit = "m", doc = "Of the slab, from the wall to the floor." },
-    { "width", 6, min = 0.3, max = 50, unit = "m", doc = "Of the slab and the wall." },
-    { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Of the slab." },
+    { "length", 5, min = 0.5, max = 50, unit = "m", doc = "Length of the slab, from the wall to the floor." },
+    { "width", 6, min = 0.3, max = 50, unit = "m", doc = "Width of the slab and the wall." },
+    { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Thickness of the slab." },
     { "height", 2, min = 0.2, max = 40, unit = "m",
-      doc = "Of the edge on the wall; less than 0.9 times the length." },
-    { "bearing", 0.08, min = 0.02, max = 2, unit = "m", doc = "Of the slab's length, what lies on the wall." },
-    { "wall_thickness", 0.3, min = 0.1, max = 5, unit = "m", doc = "Of the wall." },
-    { "storeys", 1, type = "integer", min = 1, max = 30, doc = "Slabs that came down on one another." },
+      doc = "Height of the edge on the wall; less than 0.9 times the length." },
+    { "bearing", 0.08, min = 0.02, max = 2, unit = "m", doc = "Length of the slab that lies on the wall." },
+    { "wall_thickness", 0.3, min = 0.1, max = 5, unit = "m", doc = "Thickness of the wall." },
+    { "storeys", 1, type = "integer", min = 1, max = 30, doc = "Number of slabs, one on another." },
   })
   if o.height >= 0.9 * o.length then
     rubble.reject(name, "height", "less than 0.9 times the length", o.height)

@@ -1,21 +1,21 @@
--- rubble.collapse.pancake: floors stacked on one another, the gaps held open by what stood between
--- them. Flat voids; the stack is storeys * (thickness + gap) high.
+-- rubble.collapse.pancake: floors stacked on one another, with gaps held open by contents between them.
+-- The voids are flat; the height of the stack is storeys * (thickness + gap).
 --
--- The origin is on the ground below the middle of the stack.
+-- The origin is on the ground below the centre of the stack.
 local name = "rubble.collapse.pancake"
 
 return function(given)
   local o = rubble.options(name, given, rubble.structure_options {
-    { "length", 8, min = 1, max = 100, unit = "m", doc = "Of a floor, along X." },
-    { "width", 6, min = 1, max = 100, unit = "m", doc = "Of a floor, along Y." },
-    { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Of a floor." },
-    { "gap", 0.6, min = 0.05, max = 5, unit = "m", doc = "From floor to floor: how high the contents are." },
+    { "length", 8, min = 1, max = 100, unit = "m", doc = "Length of a floor, along X." },
+    { "width", 6, min = 1, max = 100, unit = "m", doc = "Width of a floor, along Y." },
+    { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Thickness of a floor." },
+    { "gap", 0.6, min = 0.05, max = 5, unit = "m", doc = "Gap between two floors: the height of the contents." },
     { "tilt_deg", 2, min = 0, max = 5, unit = "degree",
-      doc = "Floors slope by this, in turn to either side, as their contents are of unequal height." },
-    { "shift", 0.05, min = 0, max = 0.1, doc = "How far floors moved over one another; a share of the length." },
-    { "supports", 2, type = "integer", min = 2, max = 20, doc = "Rows of contents along X, and along Y." },
-    { "storeys", 3, type = "integer", min = 1, max = 30, doc = "Floors." },
-    { "stream", "pancake", doc = "Name of the random stream that draws shifts and contents." },
+      doc = "Slope of the floors, alternating in direction, because the contents have different heights." },
+    { "shift", 0.05, min = 0, max = 0.1, doc = "Horizontal shift between floors, as a share of the length." },
+    { "supports", 2, type = "integer", min = 2, max = 20, doc = "Number of rows of contents along X, and along Y." },
+    { "storeys", 3, type = "integer", min = 1, max = 30, doc = "Number of floors." },
+    { "stream", "pancake", doc = "Name of the random stream for shifts and contents." },
   })
   local random, placed = rubble.random(o.stream), {}
   local slope = math.tan(math.rad(o.tilt_deg))

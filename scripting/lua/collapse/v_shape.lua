@@ -1,20 +1,20 @@
--- rubble.collapse.v_shape: a floor broken at mid-span, its outer edges held by the walls, its middle
--- on the floor. Two voids of triangular section at the walls, each
--- height * sqrt((length / 2)^2 - height^2) / 2.
+-- rubble.collapse.v_shape: a floor broken at mid-span. Its outer edges are held by the walls, and its
+-- middle lies on the floor below. There are two voids of triangular section at the walls, each height *
+-- sqrt((length / 2)^2 - height^2) / 2.
 --
 -- The origin is on the floor below the break; the walls stand at -X and +X.
 local name = "rubble.collapse.v_shape"
 
 return function(given)
   local o = rubble.options(name, given, rubble.structure_options {
-    { "length", 8, min = 1, max = 100, unit = "m", doc = "Of the whole floor, both halves." },
-    { "width", 6, min = 0.3, max = 50, unit = "m", doc = "Of the floor and the walls." },
-    { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Of the floor." },
+    { "length", 8, min = 1, max = 100, unit = "m", doc = "Length of the whole floor, both halves together." },
+    { "width", 6, min = 0.3, max = 50, unit = "m", doc = "Width of the floor and the walls." },
+    { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Thickness of the floor." },
     { "height", 1.8, min = 0.2, max = 40, unit = "m",
-      doc = "Of the edges on the walls; less than 0.45 times the length." },
-    { "bearing", 0.08, min = 0.02, max = 2, unit = "m", doc = "Of a half's length, what lies on its wall." },
-    { "wall_thickness", 0.3, min = 0.1, max = 5, unit = "m", doc = "Of the walls." },
-    { "storeys", 1, type = "integer", min = 1, max = 30, doc = "Floors that broke over one another." },
+      doc = "Height of the edges on the walls; less than 0.45 times the length." },
+    { "bearing", 0.08, min = 0.02, max = 2, unit = "m", doc = "Length of each half that lies on its wall." },
+    { "wall_thickness", 0.3, min = 0.1, max = 5, unit = "m", doc = "Thickness of the walls." },
+    { "storeys", 1, type = "integer", min = 1, max = 30, doc = "Number of broken floors, one on another." },
   })
   if o.height >= 0.45 * o.length then
     rubble.reject(name, "height", "less than 0.45 times the length", o.height)

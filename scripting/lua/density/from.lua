@@ -1,9 +1,9 @@
--- rubble.density.from(f, options): a density of your own. f(x, y) is how often pieces are drawn at a
--- place of the spawn box, relative to elsewhere; x and y go from -1 to 1, its edges.
+-- rubble.density.from(f, options): a density from a function. f(x, y) is the relative frequency of
+-- pieces at a place of the spawn box; x and y are from -1 to 1, the edges of the box.
 return function(f, given)
   local o = rubble.options("rubble.density.from", given, {
-    { "columns", 48, type = "integer", min = 1, max = 256, doc = "Of the grid that f is sampled on." },
-    { "rows", 48, type = "integer", min = 1, max = 256, doc = "Of the grid." },
+    { "columns", 48, type = "integer", min = 1, max = 256, doc = "Number of columns of the grid on which f is sampled." },
+    { "rows", 48, type = "integer", min = 1, max = 256, doc = "Number of rows of this grid." },
   })
   if type(f) ~= "function" then
     error("rubble.density.from takes a function of x and y first, not a " .. type(f), 2)

@@ -1,5 +1,5 @@
--- rubble.density.image(file): a PNG file of the script's folder: white where most falls, black where
--- nothing does; its upper edge is at +Y.
+-- rubble.density.image(file): a density from a PNG file of the script's folder. White pixels get the
+-- most pieces, black pixels none. The upper edge of the picture is at +Y.
 return function(file)
   if type(file) ~= "string" then error("rubble.density.image takes the name of a PNG file", 2) end
   local image = rubble.read_image(file)

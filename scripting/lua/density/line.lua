@@ -1,10 +1,10 @@
--- rubble.density.line: along a line, densest on it.
+-- rubble.density.line: densest on a line.
 return function(given)
   local name = "rubble.density.line"
   local o = rubble.options(name, given, {
-    { "from", { -0.8, 0, 0 }, min = -1, max = 1, doc = "{x, y, 0}: -1 and 1 are the edges of the box." },
-    { "to", { 0.8, 0, 0 }, min = -1, max = 1, doc = "{x, y, 0} of its end." },
-    { "deviation", 0.08, above = 0, max = 2, doc = "To either side; 1 is from the middle of the box to its edge." },
+    { "from", { -0.8, 0, 0 }, min = -1, max = 1, doc = "Start {x, y, 0}; -1 and 1 are the edges of the box." },
+    { "to", { 0.8, 0, 0 }, min = -1, max = 1, doc = "End {x, y, 0}." },
+    { "deviation", 0.08, above = 0, max = 2, doc = "Standard deviation across the line; 1 is the distance from the centre of the box to its edge." },
   })
   local a, way = rubble.vec(o.from[1], o.from[2]), rubble.vec(o.to[1] - o.from[1], o.to[2] - o.from[2])
   local square = math.max(way:dot(way), 1e-12)

@@ -1,9 +1,9 @@
--- rubble.density.ring: even between two radii, nothing elsewhere; in a box that is longer than wide
--- the ring is an ellipse.
+-- rubble.density.ring: uniform between two radii, zero elsewhere. If the box is longer than wide, the
+-- ring is an ellipse.
 return function(given)
   local name = "rubble.density.ring"
   local o = rubble.options(name, given, {
-    { "inner", 0.5, min = 0, max = 1.4, doc = "Inner radius; 1 is from the middle of the box to its edge." },
+    { "inner", 0.5, min = 0, max = 1.4, doc = "Inner radius; 1 is the distance from the centre of the box to its edge." },
     { "outer", 0.95, above = 0, max = 1.5, doc = "Outer radius." },
   })
   if o.outer < o.inner + 0.05 then

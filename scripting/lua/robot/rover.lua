@@ -1,2 +1,2 @@
--- rubble.robot.rover: four driven wheels, steered by skidding.
+-- rubble.robot.rover: four driven wheels, with skid steering.
 return function(given) return rubble.robot_options("rover", given, {}) end

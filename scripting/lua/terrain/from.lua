@@ -1,15 +1,15 @@
--- rubble.terrain.from(f, options): hills, hollows and steps of your own. f(x, y) is the height in metres
--- at a place of the world, sampled on a grid; below 0 it cannot be, for that is where the ground is.
+-- rubble.terrain.from(f, options): terrain from a function. f(x, y) is the height in metres at a
+-- position of the world, sampled on a grid. It must be at least 0, the height of the ground.
 return function(f, given)
   local name = "rubble.terrain.from"
   local o = rubble.options(name, given, {
-    { "length", 40, min = 1, max = 1000, unit = "m", doc = "Along X." },
-    { "width", 40, min = 1, max = 1000, unit = "m", doc = "Along Y." },
-    { "spacing", 0.5, min = 0.05, max = 50, unit = "m", doc = "Of the grid: edges of its square cells." },
-    { "x", 0, min = -1000, max = 1000, unit = "m", doc = "Of its middle." },
-    { "y", 0, min = -1000, max = 1000, unit = "m", doc = "Of its middle." },
-    { "friction", 0.8, min = 0, max = 2, doc = "Coulomb, against concrete." },
-    { "look", "ground", doc = "Of its surface: a look, such as ground or concrete_cast." },
+    { "length", 40, min = 1, max = 1000, unit = "m", doc = "Length along X." },
+    { "width", 40, min = 1, max = 1000, unit = "m", doc = "Width along Y." },
+    { "spacing", 0.5, min = 0.05, max = 50, unit = "m", doc = "Edge length of the square cells of the grid." },
+    { "x", 0, min = -1000, max = 1000, unit = "m", doc = "Position of the centre along X." },
+    { "y", 0, min = -1000, max = 1000, unit = "m", doc = "Position of the centre along Y." },
+    { "friction", 0.8, min = 0, max = 2, doc = "Coulomb coefficient against concrete." },
+    { "look", "ground", doc = "Look of the surface, such as ground or concrete_cast." },
   })
   if type(f) ~= "function" then
     error(name .. " takes a function of x and y first, not a " .. type(f), 2)

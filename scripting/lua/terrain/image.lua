@@ -3,13 +3,13 @@
 return function(file, given)
   local name = "rubble.terrain.image"
   local o = rubble.options(name, given, {
-    { "length", 40, min = 1, max = 1000, unit = "m", doc = "Along X; the picture's shape gives the width." },
-    { "amplitude", 2, above = 0, max = 500, unit = "m", doc = "Height of white." },
-    { "smooth", 1, type = "integer", min = 0, max = 20, doc = "How often each height is averaged with its neighbours: 256 greys are steps." },
-    { "x", 0, min = -1000, max = 1000, unit = "m", doc = "Of its middle." },
-    { "y", 0, min = -1000, max = 1000, unit = "m", doc = "Of its middle." },
-    { "friction", 0.8, min = 0, max = 2, doc = "Coulomb, against concrete." },
-    { "look", "ground", doc = "Of its surface: a look, such as ground or concrete_cast." },
+    { "length", 40, min = 1, max = 1000, unit = "m", doc = "Length along X; the width follows from the shape of the picture." },
+    { "amplitude", 2, above = 0, max = 500, unit = "m", doc = "Height of white pixels." },
+    { "smooth", 1, type = "integer", min = 0, max = 20, doc = "How often each height is averaged with its neighbours; without it, 256 grey levels give steps." },
+    { "x", 0, min = -1000, max = 1000, unit = "m", doc = "Position of the centre along X." },
+    { "y", 0, min = -1000, max = 1000, unit = "m", doc = "Position of the centre along Y." },
+    { "friction", 0.8, min = 0, max = 2, doc = "Coulomb coefficient against concrete." },
+    { "look", "ground", doc = "Look of the surface, such as ground or concrete_cast." },
   })
   if type(file) ~= "string" then error(name .. " takes the name of a PNG file first", 2) end
   local image = rubble.read_image(file)

@@ -1,11 +1,11 @@
--- rubble.trajectory.along(f, options): a function of time of your own. f(t) gives the position and
--- what is looked at: `return {x, y, z}, {x, y, z}`; or a whole waypoint, `return { position = ...,
--- rpy_deg = ... }`. It is asked once for every frame, while the mission loads.
+-- rubble.trajectory.along(f, options): a path from a function of time. f(t) returns the position and
+-- the point that is looked at: `return {x, y, z}, {x, y, z}`; or a whole waypoint: `return { position =
+-- ..., rpy_deg = ... }`. It is called once for every frame, while the mission loads.
 local name = "rubble.trajectory.along"
 
 return function(f, given)
   local o = rubble.options(name, given, rubble.trajectory_options {
-    { "duration", 4, min = 0, max = 86400, unit = "s", doc = "From the first frame to the last." },
+    { "duration", 4, min = 0, max = 86400, unit = "s", doc = "Time from the first frame to the last." },
   })
   if type(f) ~= "function" then error(name .. " takes a function of time first, not a " .. type(f), 2) end
   local waypoints, frames = {}, math.floor(o.duration * o.rate_hz + 1e-6)

@@ -1,6 +1,6 @@
--- rubble.trajectory.file: a path that was recorded: a TUM file (`t x y z qx qy qz qw` in each line,
--- the optical frame in the world), or a CSV file whose first line names its columns: t, x, y, z and
--- either qx, qy, qz, qw or roll_deg, pitch_deg, yaw_deg of the camera body.
+-- rubble.trajectory.file: a recorded path: a TUM file (`t x y z qx qy qz qw` in each line, the optical
+-- frame in the world), or a CSV file whose first line names its columns: t, x, y, z and either qx, qy,
+-- qz, qw or roll_deg, pitch_deg, yaw_deg of the camera body.
 local name = "rubble.trajectory.file"
 
 local function clamped(v) return math.max(-1, math.min(1, v)) end
@@ -19,11 +19,11 @@ end
 
 return function(given)
   local o = rubble.options(name, given, rubble.trajectory_options {
-    { "path", "", doc = "The file, in the script's folder." },
+    { "path", "", doc = "The file, in the folder of the script." },
     { "frame", nil, type = "choice", choices = { "as the format says", "optical", "body" },
-      doc = "Of the orientations: TUM files have the optical frame's, CSV files the body's." },
+      doc = "Frame of the orientations; TUM files have the optical frame, CSV files the body frame." },
     { "every", 1, type = "integer", min = 1, max = 100000, doc = "Takes every n-th pose." },
-    { "slower", 1, above = 0, max = 1000, doc = "Times are stretched by this." },
+    { "slower", 1, above = 0, max = 1000, doc = "Factor by which times are stretched." },
   })
   if o.path == "" then
     rubble.reject(name, "path", "the name of a file", o.path)

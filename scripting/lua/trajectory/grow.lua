@@ -1,5 +1,5 @@
--- rubble.trajectory.grow: a growing robot: it only ever goes forward along its optical axis, and
--- turns towards one target after another, by no more than `turn_deg_per_m` on each metre.
+-- rubble.trajectory.grow: a growing robot. It moves only forward along its optical axis, and turns
+-- towards one target after another, by at most `turn_deg_per_m` per metre.
 local name = "rubble.trajectory.grow"
 
 local function unit(v) return v * (1 / v:norm()) end
@@ -17,15 +17,15 @@ end
 
 return function(given)
   local o = rubble.options(name, given, rubble.trajectory_options {
-    { "from", { -6, 0, 0.5 }, min = -1000, max = 1000, unit = "m", doc = "Where it begins." },
-    { "towards", { { 0, 0, 0.5 } }, type = "table", doc = "Points that it heads for in turn, {{x, y, z}, ...}." },
+    { "from", { -6, 0, 0.5 }, min = -1000, max = 1000, unit = "m", doc = "Start of the path." },
+    { "towards", { { 0, 0, 0.5 } }, type = "table", doc = "Points that it heads for, one after another: {{x, y, z}, ...}." },
     { "pitch_deg", nil, type = "number", min = -90, max = 90, unit = "degree",
-      doc = "At the start, positive down; neither given: towards the first point." },
-    { "yaw_deg", nil, type = "number", min = -360, max = 360, unit = "degree", doc = "At the start." },
-    { "turn_deg_per_m", 40, above = 0, max = 3600, unit = "degree/m", doc = "How sharply it can bend." },
-    { "reach", 0.15, above = 0, max = 10, unit = "m", doc = "How near to a point counts as having reached it." },
-    { "speed", 0.2, above = 0, max = 1000, unit = "m/s", doc = "Of growth." },
-    { "length", 50, above = 0, max = 500, unit = "m", doc = "It grows no longer than this." },
+      doc = "Pitch at the start, positive: down; without pitch and yaw: towards the first point." },
+    { "yaw_deg", nil, type = "number", min = -360, max = 360, unit = "degree", doc = "Yaw at the start." },
+    { "turn_deg_per_m", 40, above = 0, max = 3600, unit = "degree/m", doc = "Largest change of direction per metre." },
+    { "reach", 0.15, above = 0, max = 10, unit = "m", doc = "A point counts as reached within this distance." },
+    { "speed", 0.2, above = 0, max = 1000, unit = "m/s", doc = "Speed of growth." },
+    { "length", 50, above = 0, max = 500, unit = "m", doc = "Largest length." },
   })
   local p, targets = rubble.vec(o.from[1], o.from[2], o.from[3]), {}
   for i, target in ipairs(o.towards) do

@@ -1,12 +1,12 @@
--- rubble.trajectory.push: straight ahead along the optical axis, as a pole camera is pushed in.
+-- rubble.trajectory.push: straight ahead along the optical axis, like a pole camera.
 local name = "rubble.trajectory.push"
 
 return function(given)
   local o = rubble.options(name, given, rubble.trajectory_options {
-    { "from", { -6, 0, 0.5 }, min = -1000, max = 1000, unit = "m", doc = "Where it begins." },
-    { "to", { 0, 0, 0.5 }, min = -1000, max = 1000, unit = "m", doc = "Where it ends." },
-    { "roll_deg", 0, min = -360, max = 360, unit = "degree", doc = "Of the camera at the end: it turns evenly." },
-    { "speed", 0.3, above = 0, max = 1000, unit = "m/s", doc = "Along the line." },
+    { "from", { -6, 0, 0.5 }, min = -1000, max = 1000, unit = "m", doc = "Start of the path." },
+    { "to", { 0, 0, 0.5 }, min = -1000, max = 1000, unit = "m", doc = "End of the path." },
+    { "roll_deg", 0, min = -360, max = 360, unit = "degree", doc = "Roll of the camera at the end; it rolls uniformly." },
+    { "speed", 0.3, above = 0, max = 1000, unit = "m/s", doc = "Speed along the line." },
   })
   local from, to = rubble.vec(o.from[1], o.from[2], o.from[3]), rubble.vec(o.to[1], o.to[2], o.to[3])
   local way = to - from

@@ -1,12 +1,13 @@
--- rubble.trajectory.spiral: circles about a vertical axis that narrow and sink, looking at its foot.
+-- rubble.trajectory.spiral: a spiral about a vertical axis whose radius and height change, looking at
+-- its centre.
 return function(given)
   local o = rubble.options("rubble.trajectory.spiral", given, rubble.trajectory_options {
-    { "centre", { 0, 0, 0.5 }, min = -500, max = 500, unit = "m", doc = "What is circled and looked at." },
-    { "radii", { 10, 4 }, type = "table", doc = "Of the circles, first and last; unit: m." },
-    { "heights", { 5, 1.5 }, type = "table", doc = "Above the centre, first and last; unit: m." },
-    { "turns", 2, above = 0, max = 100, doc = "From first to last." },
-    { "start_deg", 180, min = -3600, max = 3600, unit = "degree", doc = "Where it begins: 0 is at +X, 90 at +Y." },
-    { "speed", 1, above = 0, max = 1000, unit = "m/s", doc = "Along the curve." },
+    { "centre", { 0, 0, 0.5 }, min = -500, max = 500, unit = "m", doc = "The point that is looked at, on the axis." },
+    { "radii", { 10, 4 }, type = "table", doc = "Radius of the first and the last circle; unit: m." },
+    { "heights", { 5, 1.5 }, type = "table", doc = "Height above the centre of the first and the last circle; unit: m." },
+    { "turns", 2, above = 0, max = 100, doc = "Number of turns." },
+    { "start_deg", 180, min = -3600, max = 3600, unit = "degree", doc = "Angle of the start; 0 is at +X, 90 at +Y." },
+    { "speed", 1, above = 0, max = 1000, unit = "m/s", doc = "Speed along the curve." },
   })
   for _, name in ipairs { "radii", "heights" } do
     local pair = o[name]

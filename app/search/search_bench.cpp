@@ -1,0 +1,143 @@
+#include "app/search/search_bench.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "app/batch/seed_list.h"
+#include "app/pipeline/stages.h"
+#include "app/search/confidence.h"
+#include "app/search/program_agent.h"
+#include "app/support/stop.h"
+
+namespace rubble {
+namespace {
+
+constexpr const char* kAgent = "agent";  // the row of the user's program
+
+std::vector<std::string> names_of(const SearchBenchRequest& request) {
+  std::vector<std::string> names;
+  if (!request.agent.empty()) names.push_back(kAgent);
+  const std::vector<std::string> known = baseline_names();
+  for (const std::string& name : request.baselines) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError({"", 0, "--baseline", "no such baseline", "random, wall, frontier or oracle", "\"" + name + "\"", ""});
+    names.push_back(name);
+  }
+  if (names.empty())
+    throw InputError({"", 0, "--agent", "nobody searches", "--agent COMMAND or --baseline NAME", "neither", ""});
+  return names;
+}
+
+std::string text_of(std::uint64_t seed, const std::string& name, const SearchScore& score) {
+  char text[200];
+  std::snprintf(text, sizeof text, "seed %llu, %s: %d of %d found in %.0f s, %d false reports, %.0f %% of the voids seen",
+                static_cast<unsigned long long>(seed), name.c_str(), score.found, score.victims, score.time,
+                score.false_reports, 100 * score.coverage);
+  return text + (score.failure.empty() ? "" : "; " + score.failure);
+}
+
+std::unique_ptr<SearchAgent> make_agent(const SearchBenchRequest& request, const std::string& name,
+                                        const SearchWorld& world, std::uint64_t seed) {
+  const SearchBriefing briefing = make_briefing(world, seed);
+  if (name != kAgent) return make_baseline(name, briefing, world);
+  return start_program_agent(
+      {request.agent, request.of.out + "/agent_" + std::to_string(seed) + ".log", request.deadline}, briefing);
+}
+
+bool lacks_room(const InputError& error) {
+  const std::string& key = error.diagnostics().front().key;
+  return key == "victims.count" || key == "pile";
+}
+
+}  // namespace
+
+std::vector<SearchResult> run_search_bench(const SearchBenchRequest& request,
+                                           const std::function<void(const std::string&)>& note) {
+  const std::vector<std::string> names = names_of(request);
+  const std::vector<std::uint64_t> seeds = parse_seeds(request.seeds, "--seeds");
+  std::filesystem::create_directories(request.of.out);
+  std::vector<SearchResult> results;
+  for (const std::uint64_t seed : seeds) {
+    RunRequest of = request.of;
+    of.seed = seed, of.options.quiet = true;
+    RunContext context(of.options);
+    const ResolvedMission mission = resolve_mission(of, RunKind::settle, context);
+    if (mission.scenario.victims.count == 0)
+      throw InputError({of.mission, 0, "victims.count", "nobody to search for", "1 or more", "0",
+                        "victims = { count = 4 } in the mission, or --set victims.count=4"});
+    try {
+      const SettledPile pile = settle_in_memory(mission, context, [] { return !stop_requested(); });
+      SearchRules rules;
+      rules.radius = mission.scenario.victims.radius;
+      const SearchWorld world(mission, pile.state, rules, context.threads());
+      for (const std::string& name : names) {
+        const SearchScore score = play_search(world, seed, *make_agent(request, name, world, seed));
+        note(text_of(seed, name, score));
+        results.push_back({seed, name, score});
+      }
+    } catch (const InputError& error) {
+      if (!lacks_room(error)) throw;
+      note("seed " + std::to_string(seed) + " is left out: " + error.what());
+    }
+  }
+  return results;
+}
+
+std::vector<ScoreRow> list_searches(const std::vector<SearchResult>& results) {
+  std::vector<ScoreRow> rows;
+  for (const SearchResult& r : results) {
+    const SearchScore& s = r.score;
+    rows.push_back({r.agent,
+                    {{"seed", "seed", double(r.seed), 0},
+                     {"victims", "victims", double(s.victims), 0},
+                     {"found", "found", double(s.found), 0},
+                     {"false_reports", "false reports", double(s.false_reports), 0},
+                     {"coverage", "coverage", s.coverage, 3},
+                     {"spl", "SPL", s.spl, 3},
+                     {"collisions", "collisions", double(s.collisions), 0},
+                     {"path_m", "path, m", s.path, 2},
+                     {"time_s", "time, s", s.time, 1},
+                     {"failed", "failed", s.failure.empty() ? 0.0 : 1.0, 0}}});
+  }
+  return rows;
+}
+
+std::vector<ScoreRow> make_search_table(const std::vector<SearchResult>& results) {
+  std::vector<std::string> names;
+  for (const SearchResult& r : results)
+    if (std::find(names.begin(), names.end(), r.agent) == names.end()) names.push_back(r.agent);
+  std::vector<ScoreRow> rows;
+  for (const std::string& name : names) {
+    const auto mean = [&](auto&& value) {
+      std::vector<double> values;
+      for (const SearchResult& r : results)
+        if (r.agent == name) values.push_back(double(value(r.score)));
+      return calc_mean(values);
+    };
+    ScoreRow row{name, {}};
+    const auto add = [&](const std::string& key, const std::string& heading, const MeanInterval& m, int digits) {
+      row.cells.push_back({key, heading, m.mean, digits});
+    };
+    const auto add_interval = [&](const std::string& key, const std::string& heading, const MeanInterval& m) {
+      add(key, heading, m, 3);
+      row.cells.push_back({key + "_low", "from", m.low, 3});
+      row.cells.push_back({key + "_high", "to", m.high, 3});
+    };
+    const auto count = std::count_if(results.begin(), results.end(), [&](const auto& r) { return r.agent == name; });
+    row.cells.push_back({"searches", "searches", double(count), 0});
+    add_interval("found_share", "found", mean([](const SearchScore& s) { return double(s.found) / s.victims; }));
+    add_interval("spl", "SPL", mean([](const SearchScore& s) { return s.spl; }));
+    add_interval("coverage", "coverage", mean([](const SearchScore& s) { return s.coverage; }));
+    add("false_reports", "false reports", mean([](const SearchScore& s) { return s.false_reports; }), 2);
+    add("collisions", "collisions", mean([](const SearchScore& s) { return s.collisions; }), 1);
+    add("path_m", "path, m", mean([](const SearchScore& s) { return s.path; }), 1);
+    add("time_s", "time, s", mean([](const SearchScore& s) { return s.time; }), 0);
+    const MeanInterval failed = mean([](const SearchScore& s) { return s.failure.empty() ? 0 : 1; });
+    row.cells.push_back({"failed_share", "failed", failed.mean, 2});
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace rubble

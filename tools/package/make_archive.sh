@@ -18,21 +18,25 @@ mv "$stage/bin/rubble" "$stage/libexec/rubble"  # finds ../share/rubble as it di
 
 # What is opened at run time and no linker knows of.
 libraries=/usr/lib/$(uname -m)-linux-gnu
-cp -L "$libraries/libEGL.so.1" "$libraries/libEGL_mesa.so.0" "$stage/lib"
-cp -L "$libraries/dri/swrast_dri.so" "$stage/lib/dri"
+list=$output/$name.libraries
+printf '%s\n' "$libraries/libEGL.so.1" "$libraries/libEGL_mesa.so.0" "$libraries/dri/swrast_dri.so" >"$list.opened"
 cp /usr/share/glvnd/egl_vendor.d/50_mesa.json "$stage/share/glvnd"
 
 # ldd lists what these want, and what that wants in turn.
-ldd "$stage/libexec/rubble" "$stage"/lib/*.so* "$stage"/lib/dri/*.so | sed -n 's/.* => \(\/[^ ]*\) .*/\1/p' | sort -u |
-  grep -v -E '/(ld-linux.*|lib(c|m|pthread|dl|rt|resolv|util)\.so\.[0-9]+)$' |
-  while read -r library; do cp -L -n "$library" "$stage/lib"; done
+# shellcheck disable=SC2046  # a word each
+ldd "$stage/libexec/rubble" $(cat "$list.opened") | sed -n 's/.* => \(\/[^ ]*\) .*/\1/p' |
+  grep -v -E '/(ld-linux.*|lib(c|m|pthread|dl|rt|resolv|util)\.so\.[0-9]+)$' | sort -u - "$list.opened" >"$list"
+while read -r library; do
+  case $library in */dri/*) cp -L "$library" "$stage/lib/dri" ;; *) cp -L -n "$library" "$stage/lib" ;; esac
+done <"$list"
 chmod 644 "$stage"/lib/*.so* "$stage"/lib/dri/*.so
-# Their licences: each library's package has them.
+# Their licences, from the packages that they are of; the list names /lib where dpkg may say /usr/lib.
 mkdir -p "$stage/share/doc/licences"
-for library in "$stage"/lib/*.so*; do
-  package=$(dpkg -S "*/$(basename "$library")" 2>/dev/null | sed -n '1s/:.*//p')
-  [ -z "$package" ] || cp -L -n "/usr/share/doc/$package/copyright" "$stage/share/doc/licences/$package" 2>/dev/null || true
-done
+sed 's#^/usr##; p; s#^#/usr#' "$list" | xargs dpkg -S 2>/dev/null | sed 's/[:,].*//' | sort -u |
+  while read -r package; do
+    [ ! -e "/usr/share/doc/$package/copyright" ] || cp -L "/usr/share/doc/$package/copyright" "$stage/share/doc/licences/$package"
+  done
+rm "$list" "$list.opened"
 
 cp "$here/archive_start.sh" "$stage/bin/rubble"
 cp "$here/archive_install.sh" "$stage/install.sh"

@@ -7,7 +7,7 @@
 namespace rubble {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNoBorder = std::numeric_limits<double>::infinity();
 
 // The part of a ray within the grid, as distances from its origin; empty when last < first.
 struct Span {
@@ -53,8 +53,8 @@ void SeenCells::mark(const Vec3& from, const Vec3& direction, double range) {
     const double d = direction[int(k)];
     step[k] = d > 0 ? 1 : -1;
     const double border = grid_.corner[int(k)] + (cell[k] + (d > 0 ? 1 : 0)) * grid_.voxel;
-    next[k] = d != 0 ? (border - from[int(k)]) / d : kNever;
-    between[k] = d != 0 ? grid_.voxel / std::fabs(d) : kNever;
+    next[k] = d != 0 ? (border - from[int(k)]) / d : kNoBorder;
+    between[k] = d != 0 ? grid_.voxel / std::fabs(d) : kNoBorder;
   }
   while (grid_.contains(cell)) {
     State& state = state_[grid_.index(cell)];

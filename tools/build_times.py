@@ -40,6 +40,16 @@ def units_of(build, target):
     return list(units.values())
 
 
+def name_of(file):
+    """A source by its path; a unit of a room (RUBBLE_ROOMS) by its folder and how many sources it has."""
+    if os.path.basename(os.path.dirname(file)) != "Unity":
+        return os.path.relpath(file)
+    with open(file, encoding="utf-8") as text:
+        sources = re.findall(r'^#include "(.*)"', text.read(), re.MULTILINE)
+    folder = os.path.commonpath([os.path.dirname(source) for source in sources])
+    return os.path.join(os.path.relpath(folder), f"* ({len(sources)} sources)")
+
+
 def compile_once(unit):
     """Processor seconds of one unit, and the headers that it reads."""
     file, words, folder = unit
@@ -60,7 +70,7 @@ def compile_once(unit):
         if os.path.exists(os.path.join(scratch, "unit.d")):
             with open(os.path.join(scratch, "unit.d"), encoding="utf-8") as text:
                 headers = text.read()
-    return os.path.relpath(file), usage.ru_utime + usage.ru_stime, headers
+    return name_of(file), usage.ru_utime + usage.ru_stime, headers
 
 
 def compile_header(header, unit):

@@ -47,6 +47,8 @@ def read_constants(path):
     lines = path.read_text().splitlines()
     for row, line in enumerate(lines):
         code, _, trailing = line.partition("//")
+        if re.search(r"constexpr \S+ k[A-Z]\w* =$", code.rstrip()) and is_number(lines[row + 1].split(";")[0].strip()):
+            yield code.split()[-2], lines[row + 1].split(";")[0].strip(), "", ""  # without a reason: a problem
         match = DECLARATION.match(code.rstrip())
         if not match or ";" not in code:
             continue

@@ -11,6 +11,8 @@
 #include "app/assets/material_variant.h"
 #include "app/assets/placed_box.h"
 #include "scripting/packs/asset_pack.h"
+#include "scripting/sandbox/script_file.h"
+#include "scripting/schema/schema.h"
 
 namespace rubble {
 namespace {
@@ -98,6 +100,41 @@ void add_variants(const Mission& mission, const std::vector<FoundAsset>& all,
           }
 }
 
+std::vector<std::string> bundled_pack_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(bundled_assets_folder()))
+    if (fs::exists(entry.path() / "pack.lua")) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Diagnostic unknown_pack(const std::string& key, const std::string& name) {
+  const std::vector<std::string> bundled = bundled_pack_names();
+  std::string all;
+  for (const std::string& pack : bundled) all += (all.empty() ? "" : ", ") + pack;
+  const std::string near = nearest_name(name, bundled);
+  return {"", 0, key, "unknown pack `" + name + "`", "a bundled pack (" + all + ") or a folder with a pack.lua",
+          "", near.empty() ? "" : "did you mean `" + near + "`?"};
+}
+
+// The folders of the mission's packs. Beside the script first: a pack of the user's own may have the name
+// of a bundled one.
+std::vector<std::string> find_mission_packs(const Mission& mission) {
+  std::vector<std::string> folders = pack_folders(mission);
+  std::vector<Diagnostic> mistakes;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const std::string& name = mission.scenario.packs[i];
+    if (fs::exists(fs::path(folders[i]) / "pack.lua")) continue;
+    if (find_pack(name) != name)
+      folders[i] = find_pack(name);
+    else if (!fs::is_directory(folders[i]))
+      mistakes.push_back(unknown_pack("packs[" + std::to_string(i + 1) + "]", name));
+  }
+  locate(mistakes, mission.script.path, mission.lines);
+  if (!mistakes.empty()) throw InputError(std::move(mistakes));
+  return folders;
+}
+
 // Every make of box that the mission places.
 void add_boxes(const Mission& mission, const std::vector<Material>& materials,
                AssetLibrary& library) {
@@ -165,13 +202,7 @@ std::string bundled_assets_folder() {
 
 AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>& extra_packs) {
   const std::string bundled = bundled_assets_folder();
-  // Beside the script first: a pack of the user's own may have the name of a bundled one.
-  std::vector<std::string> folders = pack_folders(mission);
-  for (std::size_t i = 0; i < folders.size(); ++i) {
-    const std::string& name = mission.scenario.packs[i];
-    if (!fs::exists(fs::path(folders[i]) / "pack.lua") && find_pack(name) != name)
-      folders[i] = find_pack(name);
-  }
+  std::vector<std::string> folders = find_mission_packs(mission);
   for (const std::string& pack : extra_packs) folders.push_back(find_pack(pack));
   if (folders.empty()) folders.push_back(bundled + "/concrete");
   add_victim_pack(mission.scenario, bundled, folders);

@@ -169,7 +169,7 @@ bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
   const bool known = std::find(names.begin(), names.end(), word) != names.end();
   if (word.empty() || word[0] == '-' || known) return false;
   const std::string near = nearest_name(word, names);
-  std::fprintf(stderr, "no such command: `%s`%s\n`rubble --help` lists all\n",
+  std::fprintf(stderr, "no such command: `%s`%s\n`rubble --help` lists all commands\n",
                printable(word).c_str(),
                near.empty() ? "" : (" (did you mean `" + near + "`?)").c_str());
   return true;
@@ -232,10 +232,16 @@ ExitCode run_command_line(int argc, char** argv, const std::vector<Command>& com
   app.set_version_flag("--version", text.version);
   app.require_subcommand(1);
   const Actions actions = declare_all(app, commands);
+  std::vector<char*> words(argv, argv + argc);
+  char help[] = "--help";
+  if (argc > 1 && std::string(argv[1]) == "help") {  // `rubble help eval map` is `rubble eval map --help`
+    words.erase(words.begin() + 1);
+    words.push_back(help);
+  }
   try {
-    app.parse(argc, argv);
+    app.parse(int(words.size()), words.data());
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0 && is_unknown_command(app, argc, argv))
+    if (error.get_exit_code() != 0 && is_unknown_command(app, int(words.size()), words.data()))
       return ExitCode::bad_input;
     return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
   }

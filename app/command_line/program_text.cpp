@@ -12,12 +12,11 @@ ProgramText program_text() {
   text.version = "rubble " + build_info().version;
   text.exit_codes = {{0, "done"},    {1, "bad input"},
                      {2, "failure"}, {3, "finished but did not settle"},
-                     {4, "stopped by a signal"}, {5, "not the same"}};
+                     {4, "stopped by a signal"}, {5, "results or files differ, or are missing"}};
   text.environment = {
       {"RUBBLE_ASSETS", "Folder of the bundled packs, instead of `assets` beside the program or "
                         "`../share/rubble/assets`"},
-      {"RUBBLE_CACHE", "Folder of what is kept from run to run, instead of ~/.cache/rubble; `off`: "
-                       "nothing is kept"},
+      {"RUBBLE_CACHE", "Folder of the cache, instead of ~/.cache/rubble; `off`: no cache"},
       {"RUBBLE_EGL_DEVICE", "Number of the EGL device that draws, as --gl-device"}};
   return text;
 }

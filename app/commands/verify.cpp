@@ -82,6 +82,8 @@ class Verifier {
     if (!fs::exists(path) && is_unfinished(request.of.folder))
       throw InputError({request.of.folder, 0, "", "the run in it is not finished", "", "",
                         "`rubble resume " + request.of.folder + "` continues it"});
+    if (!fs::is_directory(request.of.folder))
+      throw InputError({request.of.folder, 0, "", "no such folder", "the output folder of a run", "", ""});
     text_ = read_whole_file(path);
     was_ = manifest_from_json(text_, path);
   }

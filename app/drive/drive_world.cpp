@@ -43,7 +43,7 @@ void check_entry(const DriveWorld& world) {
   std::snprintf(found, sizeof found, "%.3f m",
                 world.queries().clearance(world.entry.position));
   throw InputError({"", 0, "trajectory.waypoints[1].position",
-                    "no room for the camera's body at the entry",
+                    "the camera's body does not fit at the start of the flight",
                     "trajectory.radius = " + std::to_string(radius) + " m of clearance", found,
                     "move it, make trajectory.radius smaller, or use plan = \"ghost\""});
 }

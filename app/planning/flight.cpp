@@ -25,10 +25,10 @@ Json json_of(const Waypoint& w, double t) {
 [[noreturn]] void refuse_smoothing(const Scenario& scenario) {
   const bool inertial = scenario.imu.on && !scenario.trajectory.smoothing;
   throw InputError({"", 0, inertial ? "imu.on" : "trajectory.smoothing",
-                    "the path cannot be made smooth within the room that is there",
-                    "room to round its corners", "none",
-                    inertial ? "an inertial unit needs a path without corners: fly slower, make "
-                               "trajectory.radius smaller, use plan = \"avoid\" or turn it off"
+                    "the path cannot be smoothed within the available clearance",
+                    "clearance to round its corners", "none",
+                    inertial ? "an inertial measurement unit needs a path without corners: fly slower, make "
+                               "trajectory.radius smaller, use plan = \"avoid\", or switch the unit off"
                              : "fly slower, or smooth less"});
 }
 

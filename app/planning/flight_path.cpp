@@ -68,7 +68,7 @@ class LegPlanner {
     if (geometry_.queries.clearance(p, radius_ + 0.01) >= radius_ || !inside(p)) return p;
     const NearestPlace near = find_nearest_place(space(), p, radius_ + 0.5 * space().grid.voxel, 0.5);
     if (near.found) return near.position;
-    throw InputError({"", 0, key_of(waypoint) + ".position", "no room for the camera's body there",
+    throw InputError({"", 0, key_of(waypoint) + ".position", "the camera's body does not fit there",
                       centimetres(radius_) + " to the nearest surface",
                       centimetres(geometry_.queries.clearance(p)) + " at " + words(p),
                       "move it, or make trajectory.radius smaller"});
@@ -113,11 +113,11 @@ class LegPlanner {
                          std::size_t goal) const {
     const std::string way = "from " + words(from) + " to " + words(to);
     throw InputError(
-        {"", 0, key_of(goal) + ".position", "no way " + way, "a way for a radius of " + centimetres(radius_),
-         found.narrowest_radius > 0 ? "one for " + centimetres(found.narrowest_radius) +
+        {"", 0, key_of(goal) + ".position", "no path " + way, "a path for a radius of " + centimetres(radius_),
+         found.narrowest_radius > 0 ? "a path for " + centimetres(found.narrowest_radius) +
                                           " at most, narrowest at " + words(found.narrowest)
-                                    : "none for anything",
-         "make trajectory.radius smaller, or go elsewhere"});
+                                    : "no path for any radius",
+         "make trajectory.radius smaller, or move the waypoint"});
   }
 
   // Cuts each corner a quarter of the way along its legs (Chaikin 1974), where there is room.
@@ -229,7 +229,7 @@ NearestApproach check_contact(const PileGeometry& geometry, const TrajectorySpec
       what = pile.types[std::size_t(pile.pieces[std::size_t(nearest->piece)].type)] + ", piece " +
              std::to_string(nearest->piece);
     throw InputError({"", 0, "trajectory.plan", "the camera's body touches something",
-                      centimetres(spec.radius) + " of room all the way",
+                      "a clearance of " + centimetres(spec.radius) + " on the whole path",
                       centimetres(room) + " at " + when + ", at " + words(p) + ": " + what,
                       "move the waypoints, or use plan = \"avoid\" or \"ghost\""});
   });

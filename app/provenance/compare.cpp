@@ -80,7 +80,7 @@ std::string describe_piece(const PileState& pile, std::size_t i) {
          (type < pile.types.size() ? " (" + pile.types[type] + ")" : "");
 }
 
-std::ifstream open(const std::string& path) {
+std::ifstream open_to_compare(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw RunError("cannot read " + path);
   return in;
@@ -135,7 +135,7 @@ std::string describe_first_piece(const std::string& was, const PileState& is) {
 }
 
 std::string describe_difference_of_files(const std::string& was, const std::string& is) {
-  std::ifstream a = open(was), b = open(is);
+  std::ifstream a = open_to_compare(was), b = open_to_compare(is);
   std::vector<char> of_a(1 << 20), of_b(1 << 20);
   for (std::uint64_t at = 0;;) {
     a.read(of_a.data(), std::streamsize(of_a.size()));

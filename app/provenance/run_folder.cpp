@@ -91,8 +91,8 @@ RunFolder RunFolder::open_unfinished(const std::string& path) {
   if (fs::exists(path + "/manifest.json", failed))
     throw InputError({path, 0, "", "the run in it is finished; nothing is left to do", "", "",
                       "`rubble verify " + path + "` checks it"});
-  throw InputError({path, 0, "", "no unfinished run is in it", "", "",
-                    "a run that was killed before it had read its mission is begun anew"});
+  throw InputError({path, 0, "", "there is no unfinished run in this folder", "", "",
+                    "if the run was killed before it had read its mission, start it again with `rubble run`"});
 }
 
 void RunFolder::note_pile(std::uint64_t work) const {

@@ -6,10 +6,11 @@
 namespace rubble {
 namespace {
 
-constexpr double kImpactSpeed =
-    0.5;  // who meets faster brings energy; slower contacts are loads; unit: m/s
-constexpr double kImpactTime =
-    0.004;  // concrete that strikes concrete: a step's mean force is less than the peak; unit: s
+// Contacts above this speed are impacts, which bring energy; slower contacts are loads. unit: m/s
+constexpr double kImpactSpeed = 0.5;
+// Duration of an impact of concrete on concrete: the mean force of a step is smaller than the
+// peak. unit: s
+constexpr double kImpactTime = 0.004;
 
 }  // namespace
 

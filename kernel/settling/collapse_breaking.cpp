@@ -7,13 +7,14 @@
 namespace rubble {
 namespace {
 
-constexpr double kTogether =
-    0.3;  // bonds used up as much as the worst one, to this share, fail at once; unit: 1
-constexpr double kRedistribution =
-    0.05;  // forces take so long to find new ways before more fails of itself; unit: s
+// Bonds whose utilization is less than this share below that of the worst bond fail together with
+// it. unit: 1
+constexpr double kTogether = 0.3;
+// Time in which forces redistribute before further bonds fail. unit: s
+constexpr double kRedistribution = 0.05;
 constexpr int kBlastRounds = 40;  // of stresses that a blast's step may take; unit: 1
-constexpr double kCalmTime =
-    0.25;  // after which forces count as settled: a few periods of a floor; unit: s
+// Time after which forces count as settled: a few periods of a floor. unit: s
+constexpr double kCalmTime = 0.25;
 
 }  // namespace
 

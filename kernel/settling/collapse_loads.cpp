@@ -4,8 +4,8 @@
 namespace rubble {
 namespace {
 
-constexpr double kSameLoad =
-    0.3;  // changes below this share of a mean piece's weight are no news; unit: 1
+// Changes of a load below this share of a mean piece's weight do not count as changes. unit: 1
+constexpr double kSameLoad = 0.3;
 
 Mat3 inverse_of(const Mat3& m) {
   const Vec3 c0 = cross(m.rows[1], m.rows[2]), c1 = cross(m.rows[2], m.rows[0]),

@@ -22,10 +22,11 @@ namespace {
     target static void warm_start(const BatchRange& range, PaddedMotion* v) {                 \
       contact_sweeps::warm_start<Packet>(range, v);                                           \
     }                                                                                         \
-    target static void solve_velocities(const BatchRange& range, float per_substep,           \
-                                        float weight, const PaddedMotion* moved,              \
-                                        PaddedMotion* v) {                                    \
-      contact_sweeps::solve_velocities<Packet>(range, per_substep, weight, moved, v);         \
+    target static void solve_velocities(const BatchRange& range, bool backwards,              \
+                                        float per_substep, float weight,                      \
+                                        const PaddedMotion* moved, PaddedMotion* v) {         \
+      contact_sweeps::solve_velocities<Packet>(range, backwards, per_substep, weight, moved,  \
+                                               v);                                            \
     }                                                                                         \
     target static bool begin_pushes(const ContactBatch& batch, const NormalRow* rows,         \
                                     PushRow* pushes, const PushTerms& terms,                  \

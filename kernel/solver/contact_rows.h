@@ -95,8 +95,8 @@ struct RowKernels {
   // One sweep over friction, twist and normals. `moved`: displacements since the step's start. Each
   // batch then ends its substep: an impulse may double from one substep to the next and grow by
   // `weight` (a speed) times its mass. Loads build up fast, but the impulse of an impact is not given
-  // twice.
-  void (*solve_velocities)(const BatchRange& range, float per_substep, float weight,
+  // twice. backwards: the points of a contact from the last to the first.
+  void (*solve_velocities)(const BatchRange& range, bool backwards, float per_substep, float weight,
                            const PaddedMotion* moved, PaddedMotion* v);
   // What the points of a batch are to be pushed by; returns whether any is.
   bool (*begin_pushes)(const ContactBatch& batch, const NormalRow* rows, PushRow* pushes,

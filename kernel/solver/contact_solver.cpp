@@ -65,8 +65,9 @@ class ContactSolver::Sweeper {
         progress_.meet(domain, solve);
       }
       progress_.reach(domain, solve);
-      sweep(domain, solve, [this](const SweepSegment& segment) {
-        s_.kernels_.solve_velocities(s_.range(segment.begin, segment.end), 1 / h_, weight_,
+      sweep(domain, solve, [this, substep](const SweepSegment& segment) {
+        s_.kernels_.solve_velocities(s_.range(segment.begin, segment.end), is_backwards(substep),
+                                     1 / h_, weight_,
                                      s_.moved_.data(), s_.speeds_.data());
       });
       progress_.meet(domain, solve + length() - 1);
@@ -96,6 +97,9 @@ class ContactSolver::Sweeper {
   bool crowded() const { return progress_.crowded(); }
 
  private:
+  // A sweep favours the point that it comes to last; always the same one would push a tower over. There, back,
+  // back and there again, the four errors cancel.
+  static bool is_backwards(int substep) { return substep % 4 == 1 || substep % 4 == 2; }
   std::int64_t length() const { return std::int64_t(s_.plan_.last_time()) + 2; }
 
   void move(int domain) {

@@ -109,13 +109,14 @@ RUBBLE_INLINE void solve_friction(const ContactBatch& batch, const P& limit, Imp
   at.twist = next;
 }
 
-// gaps: at the start of the substep.
+// closing: the speed at which each point may close its gap; backwards: from the last point to the first.
 template <typename P>
 RUBBLE_INLINE void solve_normals(const ContactBatch& batch, const NormalRow* rows, const P* closing,
-                                 Impulses<P>& at, Sides<P>& sides) {
+                                 bool backwards, Impulses<P>& at, Sides<P>& sides) {
   const Packet3<P> normal(batch.normal);
   const P most(batch.most);
-  for (int i = 0; i < batch.rows; ++i) {
+  for (int k = 0; k < batch.rows; ++k) {
+    const int i = backwards ? batch.rows - 1 - k : k;
     const ContactRow& row = rows[i].row;
     const P speed = relative(normal, row, sides.a, sides.b);
     const P next = contact_law::smaller(
@@ -166,7 +167,7 @@ RUBBLE_INLINE void clamp_accumulated_impulses(ContactBatch& batch, NormalRow* ro
 }
 
 template <typename P>
-RUBBLE_INLINE void solve_batch(ContactBatch& batch, NormalRow* rows, const P& per_substep,
+RUBBLE_INLINE void solve_batch(ContactBatch& batch, NormalRow* rows, bool backwards, const P& per_substep,
                                const P& weight, const PaddedMotion* moved, PaddedMotion* v) {
   P closing[Contact::kMaxPoints];
   {
@@ -183,7 +184,7 @@ RUBBLE_INLINE void solve_batch(ContactBatch& batch, NormalRow* rows, const P& pe
   const P friction(batch.friction), before = at.sum(batch.rows);
   // Friction first, against the normal impulses so far; the normals have the last word.
   solve_friction(batch, friction * before, at, sides);
-  solve_normals(batch, rows, closing, at, sides);
+  solve_normals(batch, rows, closing, backwards, at, sides);
   const P pressed = at.sum(batch.rows);
   const auto impact = pressed > before + before * P(kImpactRise);
   if (any(impact)) {
@@ -191,7 +192,7 @@ RUBBLE_INLINE void solve_batch(ContactBatch& batch, NormalRow* rows, const P& pe
     const Impulses<P> first = at;
     const Motions<P> first_a = sides.a, first_b = sides.b;
     solve_friction(batch, friction * pressed, at, sides);
-    solve_normals(batch, rows, closing, at, sides);
+    solve_normals(batch, rows, closing, backwards, at, sides);
     keep_inside(impact, first, batch.rows, at);
     keep_inside(impact, first_a, sides.a);
     keep_inside(impact, first_b, sides.b);
@@ -201,11 +202,11 @@ RUBBLE_INLINE void solve_batch(ContactBatch& batch, NormalRow* rows, const P& pe
 }
 
 template <typename P>
-RUBBLE_INLINE void solve_velocities(const BatchRange& range, float per_substep, float weight,
-                                    const PaddedMotion* moved, PaddedMotion* v) {
+RUBBLE_INLINE void solve_velocities(const BatchRange& range, bool backwards, float per_substep,
+                                    float weight, const PaddedMotion* moved, PaddedMotion* v) {
   const P wide_per_substep(per_substep), wide_weight(weight);
   for (ContactBatch* batch = range.begin; batch != range.end; ++batch) {
-    solve_batch(*batch, range.rows + batch->first_row, wide_per_substep, wide_weight, moved, v);
+    solve_batch(*batch, range.rows + batch->first_row, backwards, wide_per_substep, wide_weight, moved, v);
   }
 }
 

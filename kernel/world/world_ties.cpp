@@ -17,15 +17,15 @@ constexpr double kSlack = 0.02;
 // The distance that the ends may move apart in a step is multiplied by this, because contacts may
 // accelerate them. unit: 1
 constexpr double kSteps = 2;
-constexpr double kShortest =
-    1e-6;  // shortest distance of the anchors that defines a direction; unit: m
+// Shortest distance of the anchors that defines a direction. unit: m
+constexpr double kShortest = 1e-6;
 // Share of its strength that a tie carries across its direction: bars with a moment of 1 kN m carry
 // most of a hanging piece over 0.3 m. Without it, hanging pieces swing without end. unit: 1
 constexpr float kSideways = 0.2F;
-constexpr double kMostError =
-    0.005;  // largest excess length of a tie that has not yielded; unit: m
-constexpr float kYields =
-    0.999F;  // a tie yields from this share of its largest impulse in a substep; unit: 1
+// Largest excess length of a tie that has not yielded. unit: m
+constexpr double kMostError = 0.005;
+// A tie yields from this share of its largest impulse in a substep on. unit: 1
+constexpr float kYields = 0.999F;
 
 // The share of the step for which a tie pulls that is torn within it: what parts fast is gone after
 // less than a step, and must not give more than the energy of tearing. parting: speed; unit: m/s.

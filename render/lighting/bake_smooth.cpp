@@ -14,6 +14,7 @@ namespace {
 
 constexpr float kReach = 0.5f;       // of smoothing, as a share of the point's clearance
 constexpr float kWidest = 0.3f;      // unit: m
+constexpr float kLeastReach = 0.02f; // below, a point keeps what it found; unit: m
 constexpr float kFacing = 0.85f;     // least cosine between the normals of neighbours
 constexpr float kLift = 0.01f;       // of lines of sight between them; unit: m
 constexpr float kCell = 0.15f;       // of space; unit: m
@@ -23,30 +24,58 @@ constexpr float kContact = 0.7f;     // light left where pieces touch
 }  // namespace
 
 // Light varies over a distance that grows with that of what sends it (Ward et al. 1988): so far, and no
-// farther than a free line of sight, a neighbour's light is as good as the point's own.
-void Baker::smooth(std::size_t piece, std::vector<Point>& out) const {
+// farther than a free line of sight, a neighbour's light is as good as the point's own. Each line is cast once
+// for both of its ends.
+void Baker::find_neighbours(std::size_t piece) {
   const std::size_t first = first_point_[piece];
-  const std::size_t count = scene_.meshes[scene_.placed[piece].mesh].bake_points.size();
+  const std::size_t end = first + scene_.meshes[scene_.placed[piece].mesh].bake_points.size();
+  const auto reach_of = [&](std::size_t i) { return std::min(kReach * points_[i].clearance, kWidest); };
   PointGrid grid(kCell);
-  for (std::size_t i = first; i < first + count; ++i) grid.add(points_[i].position, std::uint32_t(i));
-  for (std::size_t i = first; i < first + count; ++i) {
+  for (std::size_t i = first; i < end; ++i)
+    if (points_[i].open) grid.add(points_[i].position, std::uint32_t(i));
+  std::vector<RayScene::Ray> lines;
+  std::vector<std::uint32_t> ends;
+  std::vector<std::uint8_t> hidden;
+  const auto take = [&](std::size_t i, std::uint32_t k, float away) {
+    const float reach = reach_of(i), near = 1 - away * away / (reach * reach);
+    if (reach >= kLeastReach && near > 0) neighbours_[i].push_back({k, near});
+  };
+  for (std::size_t i = first; i < end; ++i) {
     const Point& p = points_[i];
-    const float reach = std::min(kReach * p.clearance, kWidest);
-    if (!p.open || reach < 0.02f) continue;
-    Vec3f indirect = p.indirect, vector = p.vector;
-    float sum = 1;
-    grid.near(p.position, int(std::ceil(reach / kCell)), [&](std::uint32_t k) {
+    if (!p.open) continue;
+    lines.clear(), ends.clear();
+    grid.near(p.position, int(std::ceil(kWidest / kCell)), [&](std::uint32_t k) {
       const Point& q = points_[k];
       const Vec3f d = q.position - p.position;
-      const float away2 = dot(d, d), near = 1 - away2 / (reach * reach);
-      if (k == i || !q.open || near <= 0 || dot(p.normal, q.normal) < kFacing) return;
+      const float reach = std::max(reach_of(i), reach_of(k)), away2 = dot(d, d);
+      if (k <= i || reach < kLeastReach || away2 >= reach * reach || dot(p.normal, q.normal) < kFacing) return;
       const float away = std::sqrt(std::max(away2, 1e-12f));
-      const Vec3f from = p.position + p.normal * kLift;
-      if (rays_.blocked(from, (d + (q.normal - p.normal) * kLift) * (1 / away), 0, away)) return;
-      indirect += q.indirect * near, vector += q.vector * near, sum += near;
+      lines.push_back({p.position + p.normal * kLift, 0, (d + (q.normal - p.normal) * kLift) * (1 / away), away});
+      ends.push_back(k);
     });
-    out[i].indirect = indirect * (1 / sum), out[i].vector = vector * (1 / sum);
+    if (lines.empty()) continue;
+    hidden.resize(lines.size());
+    rays_.blocked_many(lines.data(), lines.size(), RayScene::Order::coherent, hidden.data());
+    for (std::size_t n = 0; n < lines.size(); ++n) {
+      if (hidden[n]) continue;
+      take(i, ends[n], lines[n].farthest), take(ends[n], std::uint32_t(i), lines[n].farthest);
+    }
   }
+  for (std::size_t i = first; i < end; ++i) {
+    float sum = 1, squares = 1;
+    for (const Neighbour& n : neighbours_[i]) sum += n.weight, squares += n.weight * n.weight;
+    points_[i].noise_left = squares / (sum * sum);
+  }
+}
+
+void Baker::smooth(std::size_t i, Point& out) const {
+  Vec3f indirect = points_[i].indirect, vector = points_[i].vector;
+  float sum = 1;
+  for (const Neighbour& n : neighbours_[i]) {
+    indirect += points_[n.point].indirect * n.weight, vector += points_[n.point].vector * n.weight;
+    sum += n.weight;
+  }
+  out.indirect = indirect * (1 / sum), out.vector = vector * (1 / sum);
 }
 
 // A point inside a neighbour takes a part of what an open point of its own piece and side has nearby: the
@@ -81,41 +110,21 @@ void Baker::fill_closed() {
   }
 }
 
-// A node's nearest point stands for it, or what stands in for that where it is inside a piece; a point's
-// albedo is the mean of the nodes it stands for.
+// By a part of the first rays; where one meets a point inside a piece, what stands in for that is seen.
 BakeLinks Baker::links() const {
-  std::vector<std::uint32_t> point_of(scene_.light_nodes);
-  std::vector<int> count(points_.size(), 0);
   BakeLinks out;
-  out.albedos.resize(points_.size());
-  for (std::size_t piece = 0; piece < scene_.placed.size(); ++piece) {
-    const PlacedMesh& placed = scene_.placed[piece];
-    const std::vector<LightNode>& nodes = scene_.meshes[placed.mesh].light_nodes;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const auto& w = nodes[i].weights;
-      const auto best = std::size_t(std::max_element(w.begin(), w.end()) - w.begin());
-      const std::uint32_t p = first_point_[piece] + nodes[i].points[best];
-      point_of[placed.first_light + i] = p;
-      out.albedos[p] += albedos_[placed.first_light + i], ++count[p];
-    }
-  }
-  for (std::size_t i = 0; i < count.size(); ++i)
-    if (count[i]) out.albedos[i] *= 1 / float(count[i]);
+  out.albedos = albedos_;
   const auto open_point = [&](std::uint32_t p) {
     return points_[p].open ? p : substitutes_[p] != kNone ? substitutes_[p] : BakeLinks::kDark;
   };
-  const std::size_t rays = first_directions_.size();
+  const std::size_t rays = first_directions_.size(), kept = std::min(BakeLinks::kPerPoint, rays);
   out.seen.assign(points_.size() * BakeLinks::kPerPoint, BakeLinks::kNoRay);
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const std::size_t origins = origin_count(points_[i]);
-    for (std::size_t k = 0; k < std::min(BakeLinks::kPerPoint, rays); ++k) {
-      const std::size_t r = k * rays / std::min(BakeLinks::kPerPoint, rays);
-      const std::uint32_t code = first_hits_[i * rays + r];
-      if (!(points_[i].open >> (r % origins) & 1u)) continue;
-      out.seen[i * BakeLinks::kPerPoint + k] =
-          code == kSky || code == kInside ? BakeLinks::kDark : open_point(point_of[code]);
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    for (std::size_t k = 0; k < kept; ++k) {
+      const std::uint32_t code = first_hits_[i * rays + k * rays / kept];
+      if (code == kNone) continue;
+      out.seen[i * BakeLinks::kPerPoint + k] = code == kSky || code == kInside ? BakeLinks::kDark : open_point(code);
     }
-  }
   for (std::size_t i = 0; i < points_.size(); ++i)
     if (!points_[i].open && substitutes_[i] != kNone)
       std::copy_n(out.seen.begin() + std::ptrdiff_t(substitutes_[i] * BakeLinks::kPerPoint), BakeLinks::kPerPoint,

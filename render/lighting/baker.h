@@ -1,11 +1,12 @@
 // The parts of a bake, see bake.h. Internal to render/lighting.
 //
-// First a few rays of each point are traced and kept, by the node of light nearest to what they meet; over
-// them light goes from surface to surface some times. Then each point gathers once more with many rays, the
-// light between nodes, until its noise is small. Last, points take in what neighbours say as far as light
-// may be the same there.
+// First some rays of each point are traced and kept, by the bake point at what they meet, drawn by its weight
+// there; over them light goes from surface to surface some times. Each point has neighbours from which it may
+// take light, as far as that may be the same there. From what the first rays of the points about it say follows
+// how many more a point needs for the mean over its neighbours to be quiet. Last, the means are taken.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -26,56 +27,82 @@ class Baker {
   const RayScene& rays() const { return rays_; }
 
  private:
-  static constexpr std::uint32_t kSky = 0xffffffffu, kInside = 0xfffffffeu, kNone = 0xffffffffu;
+  // Instead of a point; kNone: a ray that does not count.
+  static constexpr std::uint32_t kSky = 0xffffffffu, kInside = 0xfffffffeu, kNone = 0xfffffffdu;
+  static constexpr std::size_t kFirstRays = BakeLinks::kPerPoint;  // of a point, that are kept
+  static constexpr std::size_t kRound = 32;      // rays between two looks at the noise
+  static constexpr std::size_t kMostOrigins = 8;
 
   struct Point {
     Vec3f position, normal;  // in the world
     Vec3f direct;            // of the lights; unit: klx
+    Vec3f sky;               // mean radiance that its first rays meet, of the sky alone; unit: kcd/m2
     Vec3f indirect;          // of sky and surfaces; unit: klx
     Vec3f vector;            // dot(n, vector) is the strength of `indirect` on a normal n near its own
     float clearance = 0;     // harmonic mean of the distances of what it sees; unit: m
+    float noise_left = 1;    // variance of the mean over its neighbours, as a share of its own
     std::uint32_t piece = 0, source = 0;  // placed mesh, and its bake point
     std::uint8_t open = 0;   // origins outside all pieces, one bit each
+  };
+  struct Neighbour {
+    std::uint32_t point;
+    float weight;  // beside 1 for the point itself
   };
   struct Basis {
     Vec3f x, y, z;
     Vec3f operator*(const Vec3f& d) const { return x * d.x + y * d.y + z * d.z; }
   };
-  struct Sum;
+  struct Sum {  // of what rays say
+    Vec3f light, direction;  // of radiance; and of directions by its strength
+    float squares = 0;       // of strengths
+    int rays = 0;
+
+    void add(const Vec3f& radiance, const Vec3f& w, float cosine);  // cosine: of the ray with the normal
+    void finish(Point& p) const;
+  };
 
   void list_points();
+  void find_nearest_points();
   void find_albedos(const AlbedoAt& albedo);
   template <typename Work>
   void over_points(double from, double to, const std::function<void(double)>& progress, const Work& work);
 
+  // baker_gather.cpp
   Basis basis_of(std::size_t point, std::uint32_t round) const;
   BakeOrigin origin(const Point& p, std::size_t i) const;  // in the world, off the surface
   std::size_t origin_count(const Point& p) const;
-  void trace(std::size_t point);          // its first rays
+  void trace(std::size_t point);         // its first rays
   void find_direct(Point& p) const;
-  void gather_first(std::size_t point);   // by them
-  void gather(std::size_t point);         // by many
+  void gather_first(std::size_t point);  // by them
+  void gather(std::size_t point);        // by them and as many more as were planned
+  Sum first_sum(std::size_t point) const;
+  void plan_rounds(std::size_t piece);
+  int rounds_for(const Point& p, const Sum& about) const;
   void add_round(std::size_t point, std::uint32_t round, Sum& sum) const;
-  Vec3f light_met(const RayScene::PreciseHit& hit) const;
-  std::uint32_t nearest_node(const RayScene::PreciseHit& hit) const;
+  std::uint32_t drawn_point(const RayScene::PreciseHit& hit, float draw) const;
 
-  Vec3f mixed(std::size_t piece, const LightNode& node, Vec3f Point::*what) const;
-  void update_radiance();
+  // bake_smooth.cpp
+  void find_neighbours(std::size_t piece);
+  void smooth(std::size_t point, Point& out) const;
   void find_substitutes();
   void fill_closed();
-  void smooth(std::size_t piece, std::vector<Point>& out) const;
+
+  void update_radiance();
 
   const PreparedScene& scene_;
   const LightSet& light_;
   BakeOptions options_;
   RayScene rays_;
   std::vector<Vec3f> first_directions_, directions_;  // about +Z
-  std::vector<Point> points_;                  // of all placed meshes
-  std::vector<std::uint32_t> first_point_;     // of each placed mesh
-  std::vector<std::uint32_t> first_hits_;      // of each point in turn: node, kSky or kInside
-  std::vector<std::uint32_t> substitutes_;     // for a point that is inside a piece: whose light it takes
-  std::vector<Vec3f> albedos_;                 // one a node of each placed mesh
-  std::vector<Vec3f> radiance_;                // of the same nodes, matt; unit: kcd/m2
+  std::vector<Point> points_;                       // of all placed meshes
+  std::vector<std::uint32_t> first_point_;          // of each placed mesh
+  std::vector<std::uint32_t> first_hits_;           // of each point in turn: a point, kSky, kInside or kNone
+  std::vector<std::vector<std::uint32_t>> nearest_points_;  // of each mesh: to each node, in the mesh
+  std::vector<Sum> sums_;                           // of the rays of each point
+  std::vector<int> rounds_;                         // that each point gathers by, besides its first rays
+  std::vector<std::vector<Neighbour>> neighbours_;  // of each point
+  std::vector<std::uint32_t> substitutes_;          // for a point that is inside a piece: whose light it takes
+  std::vector<Vec3f> albedos_, radiance_;           // of each point, matt; unit of the latter: kcd/m2
 };
 
 }  // namespace rubble

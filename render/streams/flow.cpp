@@ -19,8 +19,8 @@ ImageStream flow_stream() {
   ImageStream stream;
   stream.name = "flow";
   stream.meaning =
-      "Optical flow: where the point seen here is in the next frame, less where it is; NaN: no "
-      "surface, behind the camera then, or the last frame.";
+      "Optical flow: position of the visible point in the next frame, minus its position in this frame; NaN: no "
+      "surface, behind the camera in the next frame, or the last frame.";
   stream.unit = "pixel";
   stream.components = 2;
   stream.make = make_flow;

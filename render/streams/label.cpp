@@ -11,7 +11,7 @@ void make_label(const SeenSurface& seen, std::uint16_t* pixel) { *pixel = seen.l
 ImageStream label_stream() {
   ImageStream stream;
   stream.name = "label";
-  stream.meaning = "Class of the piece: 0 sky, 1 ground, 2 and up one for each asset.";
+  stream.meaning = "Class of the piece: 0: sky, 1: ground, from 2 on: one class for each asset.";
   stream.make = make_label;
   stream.nothing = kSkyLabel;
   stream.has_legend = true;

@@ -16,8 +16,8 @@ ImageStream position_stream() {
   ImageStream stream;
   stream.name = "position";
   stream.meaning =
-      "Scene coordinates: where the point that is seen lies in the world (X, Y, Z up), as relocalisation "
-      "and map scores want it; NaN: no surface.";
+      "Scene coordinates: position of the visible point in the world (X, Y, Z up), for relocalisation and "
+      "scores of maps; NaN: no surface.";
   stream.unit = "m";
   stream.components = 3;
   stream.make = make_position;

@@ -53,8 +53,8 @@ ImageStream sky_visibility_stream() {
   ImageStream stream;
   stream.name = "sky_visibility";
   stream.meaning =
-      "Sky view factor: the light of an even sky on the surface, as a share of that on open level "
-      "ground; 1: no surface. 64 rays a pixel: about 5 s for a million pixels on two cores.";
+      "Sky view factor: light of a uniform sky on the surface, relative to that on open level ground; 1: no "
+      "surface. It takes 64 rays per pixel, about 5 s for 1 million pixels on two cores.";
   stream.make = make_sky_visibility;
   stream.nothing = 1;
   stream.casts_rays = true;

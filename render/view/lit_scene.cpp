@@ -5,7 +5,7 @@
 #include "kernel/base/disk_cache.h"
 #include "render/materials/surface_appearance.h"
 #include "render/reference/image_key.h"
-#include "render/transport/surface_model.h"
+#include "render/transport/drawn_albedo.h"
 
 namespace rubble {
 
@@ -17,16 +17,6 @@ float most_gloss(const PreparedScene& scene) {
     for (const PreparedTriangle& t : mesh.triangles)
       most = std::max(most, mirrored_peak(all_surface_appearances()[t.material]));
   return most;
-}
-
-// The surfaces must outlive it.
-AlbedoAt drawn_albedo(const LookSurfaces& surfaces) {
-  return [&surfaces](const RayScene::Triangle& triangle, float u, float v) {
-    constexpr float kMeanOver = 0.1f;  // unit: m
-    SurfacePoint point;
-    surfaces.find({triangle, u, v, {0, 0, -1}, kMeanOver}, point);
-    return mean_albedo(point.reflection);
-  };
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 // of its parameters, with the same reader, and so the same words, as a mission's own keys.
 //
 //   rubble.options("my_mode", given, {
-//     { "length", 5, min = 0.5, max = 50, unit = "m", doc = "Of the slab." },
-//     { "debris.layers", 2, type = "integer", min = 0, max = 100, doc = "Dropped on top." },
+//     { "length", 5, min = 0.5, max = 50, unit = "m", doc = "Length of the slab." },
+//     { "debris.layers", 2, type = "integer", min = 0, max = 100, doc = "Layers of debris." },
 //   })
 //
 // A parameter's type follows from its default: a number, true or false, a string (`choices` names

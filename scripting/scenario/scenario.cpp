@@ -124,10 +124,10 @@ void check_record_settling(const RecordSettlingScenario& r, std::vector<Diagnost
 void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   const TrajectorySpec spec = flown_trajectory(scenario);
   if (scenario.imu.on && spec.smoothing && *spec.smoothing < kLeastSmoothing)
-    mistakes.push_back({"", 0, "trajectory.smoothing", "too little for an inertial unit",
-                        "at least " + format_number(kLeastSmoothing) + " s, or nothing",
+    mistakes.push_back({"", 0, "trajectory.smoothing", "too small for an inertial measurement unit",
+                        "at least " + format_number(kLeastSmoothing) + " s, or no such key",
                         format_number(*spec.smoothing) + " s",
-                        "without it the velocity jumps, and the accelerometer does not feel it"});
+                        "at corners without smoothing the velocity jumps, which an accelerometer cannot measure"});
   if (!mistakes.empty() || !spec.smoothing || spec.needs_pile()) return;
   try {
     CameraPath{spec};

@@ -16,7 +16,7 @@ void add_top(Schema& k, Scenario& s) {
       .between(1, 4294967295e9)
       .unit("ns");
   k.value("packs", s.packs,
-          "Folders of asset packs, relative to the script; empty: the bundled pack `concrete`.");
+          "Asset packs: names of bundled packs, or folders relative to the script; empty: `concrete`.");
   k.value("wetness", s.wetness,
           "How wet all surfaces are: wet surfaces are darker, and glossy where they face up.")
       .between(0, 1);

@@ -112,6 +112,15 @@ TEST(CommandLine, KnowsWhatWasMeant) {
 
 // A command is a file with a function NAME_command(), and its name in RUBBLE_COMMANDS. A name without
 // the file does not build; a file without the name is found here.
+TEST(CommandLine, TakesHelpAsAWord) {
+  const Outcome all = run_rubble("help"), one = run_rubble("help eval map");
+  EXPECT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_EQ(all.out, run_rubble("--help").out);
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_EQ(one.out, run_rubble("eval map --help").out);
+  EXPECT_NE(one.out, all.out);
+}
+
 TEST(CommandLine, HasEveryCommandThatIsWritten) {
   const std::string cmake = read_file(RUBBLE_SOURCE_DIR "/app/CMakeLists.txt");
   const std::size_t begin = cmake.find("set(RUBBLE_COMMANDS"), end = cmake.find(')', begin);

@@ -130,8 +130,8 @@ TEST(Avoid, ReportsTheWidestGapWhereThereIsNoWay) {
                                  "plan = 'avoid', radius = 0.35, waypoints = { "
                                  "{ position = { -3, 0, 1.2 } }, { position = { 3.2, 1, 1.2 } } }");
   const std::string error = plan_error(m);
-  EXPECT_NE(error.find("trajectory.waypoints[2].position: no way from"), std::string::npos) << error;
-  EXPECT_NE(error.find("a way for a radius of 0.350 m"), std::string::npos) << error;
+  EXPECT_NE(error.find("trajectory.waypoints[2].position: no path from"), std::string::npos) << error;
+  EXPECT_NE(error.find("a path for a radius of 0.350 m"), std::string::npos) << error;
   const std::size_t at = error.find("one for ");
   ASSERT_NE(at, std::string::npos) << error;
   EXPECT_NEAR(std::stod(error.substr(at + 8)), 0.25, 0.05) << error;
@@ -151,7 +151,7 @@ TEST(Avoid, AWaypointInsideAPieceHasNoRoom) {
   const SettledMission m = scene("{ box = { 3, 3, 3 }, position = { 0, 0, 1.5 } }",
                                  "plan = 'avoid', radius = 0.2, waypoints = { "
                                  "{ position = { -8, 0, 2 } }, { position = { 0, 0, 1.5 } } }");
-  EXPECT_NE(plan_error(m).find("waypoints[2].position: no room for the camera's body there"), std::string::npos)
+  EXPECT_NE(plan_error(m).find("waypoints[2].position: the camera's body does not fit there"), std::string::npos)
       << plan_error(m);
 }
 
@@ -212,7 +212,7 @@ TEST(SmoothFlight, IsRefusedWhereThereIsNoRoomToRoundACorner) {
   };
   EXPECT_EQ(error(0.5, true), "");  // smoothed less, as times are the user's
   EXPECT_EQ(error(0.302, false), "");
-  EXPECT_NE(error(0.302, true).find("imu.on: the path cannot be made smooth within the room that is there"),
+  EXPECT_NE(error(0.302, true).find("imu.on: the path cannot be smoothed within the available clearance"),
             std::string::npos) << error(0.302, true);
 }
 

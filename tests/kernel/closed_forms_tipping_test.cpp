@@ -135,8 +135,7 @@ TEST(ClosedFormTipping, AColumnStands) {
   }
 }
 
-// Not yet: see docs/performance.md, "Closed forms".
-TEST(ClosedFormTipping, DISABLED_AColumnStruckTooLightlyRocksBack) {
+TEST(ClosedFormTipping, AColumnStruckTooLightlyRocksBack) {
   double spin = 0;
   World world = make_struck_column(0.8, spin);
   run(world, 15);

@@ -64,8 +64,7 @@ TEST(ClosedFormTower, DISABLED_TwentyBricksStandAwakeForTenSeconds) {
 // Not yet: see docs/performance.md, "Closed forms".
 TEST(ClosedFormTower, DISABLED_ThirtyBricksStandAwakeForAMinute) { expect_to_stand(30, 60, false, 0.004); }
 
-// Not yet: see docs/performance.md, "Closed forms".
-TEST(ClosedFormTower, DISABLED_ThirtyBricksStandForAMinuteAndSleep) {
+TEST(ClosedFormTower, ThirtyBricksStandForAMinuteAndSleep) {
   expect_to_stand(30, 60, true, 0.004);
   for (const bool mess : {false, true}) {
     World world = make_tower(30, true, mess);

@@ -95,7 +95,7 @@ void run(const RowKernels& kernels, Scene& s) {
   kernels.prepare(s.range(), s.contacts.data(), s.terms.data(), 0.001F);
   for (int substep = 0; substep < 4; ++substep) {
     kernels.warm_start(s.range(), s.speeds.data());
-    kernels.solve_velocities(s.range(), 960, 0.01F, s.moved.data(), s.speeds.data());
+    kernels.solve_velocities(s.range(), substep % 2 != 0, 960, 0.01F, s.moved.data(), s.speeds.data());
   }
   for (ContactBatch& batch : s.batches) {
     NormalRow* rows = &s.rows[std::size_t(batch.first_row)];

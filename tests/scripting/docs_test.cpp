@@ -77,7 +77,7 @@ TEST(LuaAnnotations, HaveEveryKeyWithItsType) {
     EXPECT_NE(text.find("---@field " + key.name() + (key.required ? " " : "? ")), std::string::npos)
         << key.path;
   for (const char* line :
-       {"---@field layers? integer Layers", "---@class rubble.mission.pile.mix\n",
+       {"---@field layers? integer Number of layers", "---@class rubble.mission.pile.mix\n",
         "---@field mix? rubble.mission.pile.mix[] ", "---@field asset string ",
         "---@param options? rubble.collapse.lean_to.Options\n---@return rubble.mission.pile\n"})
     EXPECT_NE(text.find(line), std::string::npos) << line;

@@ -1,0 +1,230 @@
+// What a point of a bake finds by its rays.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "kernel/base/portable_math.h"
+#include "render/lighting/baker.h"
+#include "render/lighting/light_packing.h"
+#include "render/materials/tile_noise.h"
+
+namespace rubble {
+
+namespace {
+
+constexpr float kNoise = 0.02f;        // standard error that is left where a point has enough rays ...
+constexpr float kWide = 0.3f;          // ... and is as free as that; in cracks, of which little is seen, ...
+constexpr float kCrack = 0.25f;        // ... more is left, and rays are fewer by this at most; unit of kWide: m
+constexpr float kFaint = 0.01f;        // of the sky's mean light: noise fainter than that of so much does not count
+constexpr float kHidden = 0.03f;       // clearance of what no camera comes near enough to see; unit: m
+constexpr float kAbout = 0.4f;         // cell of space whose rays tell how much light varies; unit: m
+constexpr float kLift = 0.002f;        // rays start this far off the surface; unit: m
+constexpr float kMostInside = 0.3f;    // share of rays that may meet a piece from inside
+constexpr float kSunSine = 0.00465f;   // radius of the sun's disc; unit: rad
+
+void basis_about(const Vec3f& n, float turn, Vec3f& x, Vec3f& y) {
+  const Vec3f side = std::fabs(n.z) < 0.9f ? Vec3f(0, 0, 1) : Vec3f(1, 0, 0);
+  const Vec3f a = normalized(cross(side, n)), b = cross(n, a);
+  const portable::SinCos t = portable::sincos(2 * portable::kPi * double(turn));
+  x = a * float(t.cos) + b * float(t.sin);
+  y = b * float(t.cos) - a * float(t.sin);
+}
+
+}  // namespace
+
+void Baker::Sum::add(const Vec3f& radiance, const Vec3f& w, float cosine) {
+  const float bright = luminance(radiance);
+  light += radiance, squares += bright * bright;
+  direction += w * (bright / std::max(cosine, 0.35f));
+  ++rays;
+}
+
+// Illuminance E = pi / N sum L, and the vector V with E(n') = dot(n', V) for normals near n: V = pi / N
+// sum L w / (n.w), its length kept in check where w grazes the surface.
+void Baker::Sum::finish(Point& p) const {
+  const float scale = portable::kPiF / float(std::max(rays, 1));
+  p.indirect = light * scale;
+  p.vector = direction * scale + p.normal * (luminance(p.indirect) - dot(direction, p.normal) * scale);
+}
+
+Baker::Basis Baker::basis_of(std::size_t point, std::uint32_t round) const {
+  Basis basis;
+  basis.z = points_[point].normal;
+  const float turn = lattice_value(int(point), int(round), std::uint32_t(options_.seed));
+  basis_about(basis.z, turn, basis.x, basis.y);
+  return basis;
+}
+
+std::size_t Baker::origin_count(const Point& p) const {
+  return scene_.meshes[scene_.placed[p.piece].mesh].bake_points[p.source].origin_count;
+}
+
+BakeOrigin Baker::origin(const Point& p, std::size_t i) const {
+  const PlacedMesh& placed = scene_.placed[p.piece];
+  const PreparedMesh& mesh = scene_.meshes[placed.mesh];
+  const BakeOrigin& source = mesh.bake_origins[mesh.bake_points[p.source].first_origin + i];
+  const Vec3f normal(placed.world_from_mesh.rotation.rotate(Vec3(source.normal)));
+  return {Vec3f(placed.world_from_mesh * (Vec3(source.position) * placed.scale)) + normal * kLift, normal};
+}
+
+// The point nearest to one of the nodes about a place, drawn by its weight there, so that the mean over many rays
+// is that of the light between nodes. draw: in [0, 1).
+std::uint32_t Baker::drawn_point(const RayScene::PreciseHit& hit, float draw) const {
+  const RayScene::Triangle& t = rays_.triangles()[hit.triangle];
+  const std::uint32_t mesh = scene_.placed[t.placed].mesh;
+  const LightNodes nodes = find_light_nodes(scene_.meshes[mesh], t.source, hit.u, hit.v);
+  const std::size_t k = draw < nodes.weight[0] ? 0 : draw < nodes.weight[0] + nodes.weight[1] ? 1 : 2;
+  return first_point_[t.placed] + nearest_points_[mesh][nodes.node[k]];
+}
+
+// Which of its origins are inside a piece shows in what their rays meet.
+void Baker::trace(std::size_t i) {
+  Point& p = points_[i];
+  const std::size_t count = first_directions_.size(), origins = origin_count(p);
+  std::array<Vec3f, kMostOrigins> from;
+  for (std::size_t o = 0; o < origins; ++o) from[o] = origin(p, o).position;
+  const Basis basis = basis_of(i, 0);
+  std::array<RayScene::Ray, kFirstRays> rays;
+  std::array<RayScene::PreciseHit, kFirstRays> hits;
+  for (std::size_t r = 0; r < count; ++r) rays[r] = {from[r % origins], 0, basis * first_directions_[r], kLightReach};
+  rays_.cast_many(rays.data(), count, RayScene::Order::scattered, hits.data());
+  std::array<int, kMostOrigins> cast{}, inside{};
+  for (std::size_t r = 0; r < count; ++r)
+    ++cast[r % origins], inside[r % origins] += hits[r].triangle != RayScene::kNone && hits[r].back;
+  for (std::size_t o = 0; o < origins; ++o)
+    if (float(inside[o]) <= kMostInside * float(cast[o])) p.open = std::uint8_t(p.open | 1u << o);
+  const std::uint32_t draws = std::uint32_t(options_.seed) + 0x51ed270bu;
+  float near = 0, seen = 0;
+  for (std::size_t r = 0; r < count; ++r) {
+    std::uint32_t& code = first_hits_[i * count + r];
+    code = kNone;
+    if (!(p.open >> (r % origins) & 1u)) continue;
+    const bool open = hits[r].triangle == RayScene::kNone;
+    seen += 1, near += open ? 0 : 1 / std::max(hits[r].distance, 0.01f);
+    code = open ? kSky : hits[r].back ? kInside : drawn_point(hits[r], lattice_value(int(i), int(r), draws));
+    if (open) p.sky += light_.sky.radiance(rays[r].direction);
+  }
+  p.sky = seen > 0 ? p.sky * (1 / seen) : Vec3f();
+  p.clearance = near > 0 ? seen / near : kLightReach;
+  find_direct(p);
+}
+
+// The mean over the origins outside all pieces, each from another spot of the sun's disc.
+void Baker::find_direct(Point& p) const {
+  int open = 0;
+  for (std::size_t o = 0; o < origin_count(p); ++o) open += p.open >> o & 1;
+  p.direct = Vec3f();
+  for (const LightModel& l : light_.lights) {
+    std::array<RayScene::Ray, kMostOrigins> rays;
+    std::array<Vec3f, kMostOrigins> light;
+    std::size_t count = 0;
+    for (std::size_t o = 0; o < origin_count(p); ++o) {
+      if (!(p.open >> o & 1u)) continue;
+      const BakeOrigin from = origin(p, o);
+      const LightModel::Sample sample = l.at(from.position);
+      Vec3f to_light = sample.to_light, x, y;
+      if (l.type == LightType::directional) {
+        basis_about(to_light, float(o) * 0.618034f, x, y);
+        to_light = normalized(to_light + x * (kSunSine * std::sqrt((float(o) + 0.5f) / float(kMostOrigins))));
+      }
+      const float facing = dot(to_light, from.normal);
+      if (facing <= 0 || luminance(sample.illuminance) <= 0) continue;
+      rays[count] = {from.position, 0, to_light, std::min(sample.distance * 0.999f, kLightReach)};
+      light[count++] = sample.illuminance * (facing / float(open));
+    }
+    std::array<std::uint8_t, kMostOrigins> hidden;
+    if (count) rays_.blocked_many(rays.data(), count, RayScene::Order::coherent, hidden.data());
+    for (std::size_t k = 0; k < count; ++k)
+      if (!hidden[k]) p.direct += light[k];
+  }
+}
+
+void Baker::gather_first(std::size_t i) {
+  const std::size_t count = first_directions_.size();
+  const std::uint32_t* codes = first_hits_.data() + i * count;
+  Vec3f sum;
+  int rays = 0;
+  for (std::size_t r = 0; r < count; ++r) {
+    rays += codes[r] != kNone;
+    if (codes[r] < kNone) sum += radiance_[codes[r]];
+  }
+  points_[i].indirect = rays ? (sum * (1 / float(rays)) + points_[i].sky) * portable::kPiF : Vec3f();
+}
+
+Baker::Sum Baker::first_sum(std::size_t i) const {
+  Sum sum;
+  const std::size_t count = first_directions_.size();
+  const Basis basis = basis_of(i, 0);
+  for (std::size_t r = 0; r < count; ++r) {
+    const std::uint32_t code = first_hits_[i * count + r];
+    if (code == kNone) continue;
+    const Vec3f w = basis * first_directions_[r];
+    sum.add(code == kSky ? light_.sky.radiance(w) : code == kInside ? Vec3f() : radiance_[code], w,
+            first_directions_[r].z);
+  }
+  return sum;
+}
+
+void Baker::add_round(std::size_t i, std::uint32_t round, Sum& sum) const {
+  const Point& p = points_[i];
+  std::array<Vec3f, kMostOrigins> from;
+  std::size_t origins = 0;
+  for (std::size_t o = 0; o < origin_count(p); ++o)
+    if (p.open >> o & 1u) from[origins++] = origin(p, o).position;
+  const Basis basis = basis_of(i, round);
+  std::array<RayScene::Ray, kRound> rays;
+  std::array<RayScene::PreciseHit, kRound> hits;
+  const std::size_t count = directions_.size();
+  for (std::size_t r = 0; r < count; ++r)
+    rays[r] = {from[(r + round) % origins], 0, basis * directions_[r], kLightReach};
+  rays_.cast_many(rays.data(), count, RayScene::Order::scattered, hits.data());
+  const std::uint32_t draws = std::uint32_t(options_.seed) + round * 0x9e3779b9u;
+  for (std::size_t r = 0; r < count; ++r) {
+    const Vec3f& w = rays[r].direction;
+    const bool open = hits[r].triangle == RayScene::kNone;
+    const Vec3f light = open ? light_.sky.radiance(w)
+                        : hits[r].back ? Vec3f()
+                                       : radiance_[drawn_point(hits[r], lattice_value(int(i), int(r), draws))];
+    sum.add(light, w, directions_[r].z);
+  }
+}
+
+// about: what rays near the point say, its own among them. A point that went by its own alone would stop too
+// early just where they missed what is bright, and be too dark.
+int Baker::rounds_for(const Point& p, const Sum& about) const {
+  if (!p.open || p.clearance < kHidden || about.rays == 0) return 0;
+  const float freedom = std::clamp(p.clearance / kWide, kCrack, 1.0f);
+  const float mean = luminance(about.light) / float(about.rays);
+  const float variance = std::max(about.squares / float(about.rays) - mean * mean, 0.0f);
+  // Of direct light half is counted, for a place beside the point may lie in shadow.
+  const float light = mean + 0.5f * luminance(p.direct) / portable::kPiF + kFaint * luminance(light_.sky.mean);
+  const float error = kNoise / freedom * light;
+  if (error <= 0) return 0;
+  // Directions that are spread evenly have about half the noise of chance.
+  const float needed = std::min(0.25f * variance * p.noise_left / (error * error), float(options_.rays) * freedom);
+  return int(std::ceil(std::max(needed - float(first_directions_.size()), 0.0f) / float(directions_.size())));
+}
+
+void Baker::plan_rounds(std::size_t piece) {
+  const std::size_t first = first_point_[piece];
+  const std::size_t end = first + scene_.meshes[scene_.placed[piece].mesh].bake_points.size();
+  using Cell = std::array<int, 4>;  // of space, and the side of the surface
+  const auto cell_of = [](const Point& p) -> Cell {
+    const auto at = [](float x) { return int(std::floor(x / kAbout)); };
+    return {at(p.position.x), at(p.position.y), at(p.position.z), dominant_direction(p.normal)};
+  };
+  std::map<Cell, Sum> about;
+  for (std::size_t i = first; i < end; ++i) {
+    sums_[i] = first_sum(i);
+    Sum& sum = about[cell_of(points_[i])];
+    sum.light += sums_[i].light, sum.squares += sums_[i].squares, sum.rays += sums_[i].rays;
+  }
+  for (std::size_t i = first; i < end; ++i) rounds_[i] = rounds_for(points_[i], about[cell_of(points_[i])]);
+}
+
+void Baker::gather(std::size_t i) {
+  for (int round = 1; round <= rounds_[i]; ++round) add_round(i, std::uint32_t(round), sums_[i]);
+  sums_[i].finish(points_[i]);
+}
+
+}  // namespace rubble

@@ -24,14 +24,14 @@ struct Posture {
   std::array<Limbs, 2> sides;
 };
 
-Vec3 across_limb(const Vec3& d) {
+Vec3 across_of(const Vec3& d) {
   const Vec3 axis = std::fabs(d.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   return normalized(cross(d, axis));
 }
 
 // A rod from a to b with a square of planes around it; its ends reach `over` beyond.
 Cell rod(const Vec3& a, const Vec3& b, double radius, double over, Surface surface) {
-  const Vec3 d = normalized(b - a), u = across_limb(d), v = cross(d, u);
+  const Vec3 d = normalized(b - a), u = across_of(d), v = cross(d, u);
   const double clear = 1.25 * radius + 0.05;
   Cell cell{{d, dot(d, b) + over, surface}, {-d, -dot(d, a) + over, surface}};
   for (const Vec3& side : {u, -u, v, -v}) cell.push_back({side, dot(side, a) + clear, surface});
@@ -58,7 +58,7 @@ Cell slab(const Vec3& a, const Vec3& b, const Vec3& across, double width, double
 
 // What collides of a rod: a prism of six sides with the rod's section, to within a twentieth.
 std::vector<Vec3> prism(const Vec3& a, const Vec3& b, double radius, double over) {
-  const Vec3 d = normalized(b - a), u = across_limb(d), v = cross(d, u);
+  const Vec3 d = normalized(b - a), u = across_of(d), v = cross(d, u);
   const double half = 0.8660254037844386;  // sin 60 degrees
   const double turn[6][2] = {{1, 0}, {0.5, half}, {-0.5, half}, {-1, 0}, {-0.5, -half}, {0.5, -half}};
   std::vector<Vec3> points;

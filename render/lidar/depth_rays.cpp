@@ -8,8 +8,8 @@
 namespace rubble {
 namespace {
 
-constexpr int kDepthGrain = 512;  // rays that a thread takes at once
-constexpr int kPacket = int(LidarWorld::kPacket);
+constexpr int kPixelsAtOnce = 512;  // rays that a thread takes at once
+constexpr int kPacketSize = int(LidarWorld::kPacket);
 
 }  // namespace
 
@@ -25,11 +25,11 @@ DepthRays::DepthRays(const Intrinsics& k, double max_range) : k_(k), max_range_(
 void DepthRays::cast(const LidarWorld& world, const Pose& world_from_camera, ThreadPool& pool, float* depth,
                      std::int32_t* pieces) const {
   const Mat3 turn = world_from_camera.rotation.matrix();
-  pool.run(int(directions_.size()), kDepthGrain, [&](int begin, int end) {
-    LidarWorld::Ray rays[kPacket];
-    LidarWorld::Hit hits[kPacket];
-    for (int first = begin; first < end; first += kPacket) {
-      const int count = std::min(kPacket, end - first);
+  pool.run(int(directions_.size()), kPixelsAtOnce, [&](int begin, int end) {
+    LidarWorld::Ray rays[kPacketSize];
+    LidarWorld::Hit hits[kPacketSize];
+    for (int first = begin; first < end; first += kPacketSize) {
+      const int count = std::min(kPacketSize, end - first);
       for (int i = 0; i < count; ++i)
         rays[i] = {world_from_camera.translation, turn * directions_[std::size_t(first + i)], 0};
       world.cast(rays, std::size_t(count), max_range_, hits);

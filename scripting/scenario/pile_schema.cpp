@@ -207,10 +207,10 @@ void add_victim_keys(Schema& k, VictimScenario& v) {
   k.group("victims",
           "People in the voids of the settled pile, as rigid figures: for missions that search for them "
           "(docs/search.md).");
-  k.value("victims.count", v.count, "How many.").between(0, 50);
+  k.value("victims.count", v.count, "Number of victims.").between(0, 50);
   k.choice("victims.difficulty", v.difficulty, {"easy", "medium", "hard"},
-           "How far from the entrances: the nearest, the middle or the farthest third of the places.");
-  k.value("victims.radius", v.radius, "Of the robot that gets near each of them and sees it.")
+           "Distance from the entrances: the nearest, the middle or the farthest third of the possible places.");
+  k.value("victims.radius", v.radius, "Radius of the robot that can get near each victim and see it.")
       .between(0.05, 1)
       .unit("m");
 }

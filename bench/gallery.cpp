@@ -16,7 +16,7 @@
 #include "bench/program.h"
 #include "io/base/atomic_file.h"
 #include "io/image/jpeg_file.h"
-#include "kernel/base/disk_cache.h"
+#include "kernel/base/system/disk_cache.h"
 #include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"
 #include "render/gl/gl_context.h"

@@ -6,7 +6,7 @@
 #include "app/assets/asset_library.h"
 #include "app/pipeline/build_scene.h"
 #include "io/state/pile_state_file.h"
-#include "kernel/base/disk_cache.h"
+#include "kernel/base/system/disk_cache.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/settling/generator.h"

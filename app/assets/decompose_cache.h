@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kernel/base/disk_cache.h"
+#include "kernel/base/system/disk_cache.h"
 #include "kernel/geometry/decompose.h"
 
 namespace rubble {

@@ -8,7 +8,7 @@
 
 #include "app/formats/recorded_size.h"
 #include "app/estimate/disk_estimate.h"
-#include "kernel/base/disk_cache.h"
+#include "kernel/base/system/disk_cache.h"
 
 namespace rubble {
 namespace {

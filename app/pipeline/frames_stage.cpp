@@ -14,7 +14,7 @@
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "io/recording/recording_queue.h"
-#include "kernel/base/disk_cache.h"
+#include "kernel/base/system/disk_cache.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/text.h"
 #include "render/gl/gl_context.h"

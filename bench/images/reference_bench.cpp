@@ -19,7 +19,7 @@
 #include "bench/images/picture_file.h"
 #include "bench/program.h"
 #include "io/image/image_file.h"
-#include "kernel/base/disk_cache.h"
+#include "kernel/base/system/disk_cache.h"
 #include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"
 #include "render/gl/gl_context.h"

@@ -1,12 +1,12 @@
-// Pictures that strangers made, decoded in a child process (kernel/base/isolated_worker.h).
+// Pictures that strangers made, decoded in a child process (kernel/base/system/isolated_worker.h).
 #pragma once
 
 #include <cstdint>
 #include <string>
 
-#include "kernel/base/disk_cache.h"
+#include "kernel/base/system/disk_cache.h"
 #include "kernel/base/error.h"
-#include "kernel/base/isolated_worker.h"
+#include "kernel/base/system/isolated_worker.h"
 
 namespace rubble {
 

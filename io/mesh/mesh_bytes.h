@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/base/disk_cache.h"
+#include "kernel/base/system/disk_cache.h"
 #include "kernel/base/error.h"
 #include "kernel/base/mesh.h"
 

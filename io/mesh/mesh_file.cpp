@@ -13,10 +13,10 @@
 
 #include "io/mesh/mesh_bytes.h"
 #include "kernel/base/error.h"
-#include "kernel/base/isolated_worker.h"
+#include "kernel/base/system/isolated_worker.h"
 #include "kernel/base/text.h"
 
-// assimp is called in child processes alone: kernel/base/isolated_worker.h says why.
+// assimp is called in child processes alone: kernel/base/system/isolated_worker.h says why.
 
 namespace rubble {
 namespace {

@@ -43,7 +43,7 @@ class MeshImporter {
 // materials' names, in order of first use. Vertices of equal position and normal are welded.
 // Throws InputError, naming the file and the reason, for one that is missing, unreadable, without
 // triangles, or that holds points or lines; that crashes assimp, or makes it take too much time or
-// memory (kernel/base/isolated_worker.h).
+// memory (kernel/base/system/isolated_worker.h).
 TriangleMesh load_mesh(const std::string& path, const MeshUnits& units = {});
 
 // The convex parts of a shape: each object of the file is one, given by its corner points, in order

@@ -7,9 +7,9 @@
 
 #include <exception>
 
-#include "kernel/base/disk_cache.h"
+#include "kernel/base/system/disk_cache.h"
 #include "kernel/base/error.h"
-#include "kernel/base/isolated_worker.h"
+#include "kernel/base/system/isolated_worker.h"
 
 namespace rubble {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "io/robot/urdf_lines.h"
 #include "kernel/base/error.h"
-#include "kernel/base/isolated_worker.h"
+#include "kernel/base/system/isolated_worker.h"
 #include "kernel/base/read_file.h"
 
 namespace rubble {

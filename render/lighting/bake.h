@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/base/disk_cache.h"
+#include "kernel/base/system/disk_cache.h"
 #include "render/geometry/ray_scene.h"
 #include "render/lighting/lighting.h"
 

@@ -1,6 +1,6 @@
 #include "render/reference/image_key.h"
 
-#include "kernel/base/disk_cache.h"
+#include "kernel/base/system/disk_cache.h"
 #include "render/materials/surface_appearance.h"
 
 namespace rubble {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <thread>
 
-#include "kernel/base/disk_cache.h"
+#include "kernel/base/system/disk_cache.h"
 #include "kernel/base/parallel.h"
 #include "render/passes/resolve_pass.h"
 #include "render/reference/denoise.h"

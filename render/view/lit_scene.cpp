@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kernel/base/disk_cache.h"
+#include "kernel/base/system/disk_cache.h"
 #include "render/materials/surface_appearance.h"
 #include "render/reference/image_key.h"
 #include "render/transport/drawn_albedo.h"

@@ -117,15 +117,13 @@ TEST(Victims, AreInEveryProductOfARunAndTheSameWhenItIsMadeAgain) {
   EXPECT_EQ(read_file(folder / "other/victims.json"), read_file(out + "/victims.json"));
 }
 
-TEST(Victims, ArePushedByRobots) {
+TEST(Victims, LieInAPileThatARobotDrivesBeside) {
   const ScratchFolder folder;
-  write_file(folder / "m.lua", kMission);
-  const std::string robot = R"(--set 'trajectory.waypoints[1].t=0' --set outputs.bag=false)";
   std::string text = kMission;
   text.insert(text.find("camera ="), "robots = { rubble.robot.rover { position = { -3, 0, 0.001 }, drive = { { t = 0, "
                                      "linear = 0.5 } } } }, robot_run = { duration = 1 },\n  ");
   write_file(folder / "r.lua", text);
-  const Outcome run = run_rubble("run " + (folder / "r.lua") + " --quiet " + robot + " --out " + (folder / "out"));
+  const Outcome run = run_rubble("run " + (folder / "r.lua") + " --quiet --set outputs.bag=false --out " + (folder / "out"));
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 

@@ -1,4 +1,4 @@
-#include "kernel/base/disk_cache.h"
+#include "kernel/base/system/disk_cache.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
 // What a third-party importer does to a child process must be an error message here.
-#include "kernel/base/isolated_worker.h"
+#include "kernel/base/system/isolated_worker.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

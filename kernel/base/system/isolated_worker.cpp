@@ -1,4 +1,4 @@
-#include "kernel/base/isolated_worker.h"
+#include "kernel/base/system/isolated_worker.h"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -421,7 +421,7 @@ TEST(Assets, AreFoundByTheNameOfABundledPack) {
   const Outcome wrong = run_rubble("check " + (scratch / "m.lua"));
   EXPECT_EQ(wrong.exit_code, 1);
   EXPECT_NE(wrong.err.find("m.lua:1: packs[1]: unknown pack `parking_`: expected a bundled pack (bridge, concrete, "
-                           "parking, residential) or a folder with a pack.lua (did you mean `parking`?)"),
+                           "parking, residential, victims) or a folder with a pack.lua (did you mean `parking`?)"),
             std::string::npos)
       << wrong.err;
 }

@@ -1,24 +1,17 @@
 // Every bundled script loads, and says what it is there to show.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <set>
 
 #include "scripting/mission.h"
+#include "tests/scripting/bundled_missions.h"
 
 namespace rubble {
 namespace {
 
 const std::string kScripts = RUBBLE_SOURCE_DIR "/scripts";
 
-std::set<std::string> bundled_scripts() {
-  std::set<std::string> names;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(kScripts))
-    if (entry.path().extension() == ".lua" && entry.path().stem() != "demonstration_pile" &&
-        entry.path().parent_path().filename() != "ci")  // suites, not missions
-      names.insert(entry.path().lexically_relative(kScripts).string());
-  return names;
-}
+std::set<std::string> bundled_scripts() { return testing::find_bundled_missions(kScripts); }
 
 Mission load(const std::string& name) { return load_mission(kScripts + "/" + name); }
 

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "kernel/base/portable_math.h"
+#include "tests/scripting/bundled_missions.h"
 #include "tests/scripting/dead_reckoning.h"
 #include "tests/scripting/test_support.h"
 
@@ -29,13 +29,10 @@ void expect_reckoned(const Scenario& scenario, const std::string& name) {
 
 TEST(SmoothPath, EveryBundledScriptsUnitLeadsToItsPoses) {
   int flown = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(kScripts)) {
-    if (entry.path().extension() != ".lua" || entry.path().stem() == "demonstration_pile" ||
-        entry.path().parent_path().filename() == "ci")
-      continue;
-    const Scenario scenario = load_mission(entry.path().string()).scenario;
+  for (const std::string& name : testing::find_bundled_missions(kScripts)) {
+    const Scenario scenario = load_mission(kScripts + "/" + name).scenario;
     if (scenario.trajectory.needs_pile()) continue;  // tests/app/flight_test.cpp has those
-    expect_reckoned(scenario, entry.path().string());
+    expect_reckoned(scenario, name);
     ++flown;
   }
   EXPECT_GE(flown, 34);

@@ -132,9 +132,10 @@ TEST(Avoid, ReportsTheWidestGapWhereThereIsNoWay) {
   const std::string error = plan_error(m);
   EXPECT_NE(error.find("trajectory.waypoints[2].position: no path from"), std::string::npos) << error;
   EXPECT_NE(error.find("a path for a radius of 0.350 m"), std::string::npos) << error;
-  const std::size_t at = error.find("one for ");
+  const std::string found = "found a path for ";
+  const std::size_t at = error.find(found);
   ASSERT_NE(at, std::string::npos) << error;
-  EXPECT_NEAR(std::stod(error.substr(at + 8)), 0.25, 0.05) << error;
+  EXPECT_NEAR(std::stod(error.substr(at + found.size())), 0.25, 0.05) << error;
   EXPECT_NE(error.find("narrowest at {2."), std::string::npos) << error;
 }
 

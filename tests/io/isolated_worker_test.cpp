@@ -149,6 +149,9 @@ TEST(IsolatedWorker, HoldsNoFileOfTheParent) {
 }
 
 TEST(IsolatedWorker, ThreadsMayDoItAtOnce) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "GCC 12's AddressSanitizer holds locks of its allocator over a fork: a child may wait for ever";
+#endif
   std::vector<std::thread> threads;
   std::vector<std::string> results(4);
   for (std::size_t i = 0; i < results.size(); ++i)

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -132,9 +132,14 @@ TEST(Sandbox, LongChainsOfDots) {
   for (int i = 0; i < 200000; ++i) chain += ".a";
   std::string text = "if false then\n";
   for (int i = 0; i < 4; ++i) text += "local x" + std::to_string(i) + " = " + chain + "\n";
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();  // of this process: others may keep the machine busy
   mission_error(text + "end\nreturn rubble.mission {}");
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  const double most = 20;  // s
+#else
+  const double most = 5;  // s
+#endif
+  EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, most);
 }
 
 TEST(Sandbox, StringsThatAreNotUtf8) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/base/inertia.h"
 #include "kernel/multibody/tree_motion.h"
 
 namespace rubble {
@@ -9,12 +10,6 @@ namespace {
 
 // What is given back of the motion within a tree is at most this share of its energy in a step.
 constexpr double kMostGain = 0.1;
-
-Mat3 inverse_of(const Mat3& m) {
-  const Vec3 a = cross(m.rows[1], m.rows[2]), b = cross(m.rows[2], m.rows[0]),
-             c = cross(m.rows[0], m.rows[1]);
-  return Mat3{{a, b, c}}.transposed() * (1 / dot(m.rows[0], a));
-}
 
 Mat3 calc_inertia_about(const TreePose& pose, const Vec3& centre) {
   Mat3 inertia;

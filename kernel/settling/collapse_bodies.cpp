@@ -1,5 +1,6 @@
 // Pieces of a structure as bodies of the world: what holds together, what comes apart, what touches
 // it.
+#include "kernel/base/inertia.h"
 #include "kernel/settling/collapse_impl.h"
 #include "kernel/structure/remaining_bars.h"
 
@@ -47,11 +48,7 @@ void Collapse::Impl::keep(const BondGroup& group) {
     const StructurePiece& piece = structure.pieces[i];
     const Vec3 d = piece.centre - part.centre;
     part.inertia = part.inertia + piece.inertia;
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) {
-        part.inertia.rows[r][c] += piece.mass * ((r == c ? dot(d, d) : 0.0) - d[r] * d[c]);
-      }
-    }
+    add_offset(part.inertia, piece.mass, d);
   }
   part.stress = std::make_unique<GroupStress>(structure, group);
   parts[group.pieces[0]] = std::move(part);

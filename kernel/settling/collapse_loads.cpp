@@ -1,4 +1,5 @@
 // The loads on the pieces of a body: weight, inertia, contacts and causes.
+#include "kernel/base/inertia.h"
 #include "kernel/settling/collapse_impl.h"
 
 namespace rubble {
@@ -6,12 +7,6 @@ namespace {
 
 // Changes of a load below this share of a mean piece's weight do not count as changes. unit: 1
 constexpr double kSameLoad = 0.3;
-
-Mat3 inverse_of(const Mat3& m) {
-  const Vec3 c0 = cross(m.rows[1], m.rows[2]), c1 = cross(m.rows[2], m.rows[0]),
-             c2 = cross(m.rows[0], m.rows[1]);
-  return Mat3{{c0, c1, c2}}.transposed() * (1 / dot(m.rows[0], c0));
-}
 
 }  // namespace
 

@@ -7,19 +7,13 @@
 #include <utility>
 
 #include "kernel/base/error.h"
+#include "kernel/base/inertia.h"
 #include "kernel/multibody/joints/joint.h"
 #include "kernel/solver/wide.h"
 #include "kernel/world/world_impl.h"
 
 namespace rubble {
 namespace {
-
-Mat3 inverse_symmetric(const Mat3& m) {
-  const Vec3 c0 = cross(m.rows[1], m.rows[2]), c1 = cross(m.rows[2], m.rows[0]),
-             c2 = cross(m.rows[0], m.rows[1]);
-  const double scale = 1 / dot(m.rows[0], c0);
-  return Mat3{{c0, c1, c2}}.transposed() * scale;
-}
 
 Quad quad_of(const Vec3f& v) { return Quad{v.x, v.y, v.z, 0}; }
 
@@ -98,7 +92,7 @@ void World::Impl::add_body(const NewPiece& piece, FreeBody* free) {
     body.inertia =
         body.shape->volume.inertia * (types[at.type].density * s3 * at.scale * at.scale);
     body.inverse_mass = float(1 / body.mass);
-    body.inverse_inertia_local = to_float(inverse_symmetric(body.inertia));
+    body.inverse_inertia_local = to_float(inverse_of(body.inertia));
     body.awake = true;
     body.linear = Vec3f(piece.linear_velocity);
     body.angular = Vec3f(piece.angular_velocity);

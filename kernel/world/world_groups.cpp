@@ -6,25 +6,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "kernel/base/inertia.h"
 #include "kernel/world/world_impl.h"
 
 namespace rubble {
 namespace {
 
 constexpr double kSubsteps = SolverSettings{}.substeps;
-
-void add_offset(Mat3& inertia, double mass, const Vec3& d) {
-  const double d2 = dot(d, d);
-  for (int r = 0; r < 3; ++r) {
-    for (int s = 0; s < 3; ++s) inertia.rows[r][s] += mass * ((r == s ? d2 : 0.0) - d[r] * d[s]);
-  }
-}
-
-Mat3 inverse_of(const Mat3& m) {
-  const Vec3 c0 = cross(m.rows[1], m.rows[2]), c1 = cross(m.rows[2], m.rows[0]),
-             c2 = cross(m.rows[0], m.rows[1]);
-  return Mat3{{c0, c1, c2}}.transposed() * (1 / dot(m.rows[0], c0));
-}
 
 }  // namespace
 

@@ -9,18 +9,33 @@
 namespace rubble {
 namespace {
 
+constexpr double kStopped = 1e-6;  // unit: m/s
+
 double quiet_sqrt(double x) { return x > 0 ? std::sqrt(x) : 0; }
 
 }  // namespace
 
-// What a vehicle drives into, until it has come to a stop.
-void Collapse::Impl::push_free() {
-  if (push_steps <= 0) return;
-  --push_steps;
-  const int lead = first + lead_of[pushed];
-  if (!is_free(lead)) return;
-  set_motion(lead, push_force * (options.step / world.mass(lead)),
-             world.piece(lead).angular_velocity);
+// What is free takes no more than what makes both bodies equally fast.
+Vec3 Collapse::Impl::strike_force() const {
+  if (struck < 0) return {};
+  const int lead = first + lead_of[struck];
+  double force = std::min(striker.force, striker.mass * striker.speed / options.step);
+  if (is_free(lead)) {
+    const double faster = striker.speed - dot(world.centre_velocity(lead), striker.direction);
+    const double mass = 1 / (1 / striker.mass + 1 / world.mass(lead));
+    force = std::min(force, std::max(0.0, faster) * mass / options.step);
+  }
+  return striker.direction * force;
+}
+
+void Collapse::Impl::strike() {
+  if (struck < 0) return;
+  const Vec3 force = strike_force();
+  const int lead = first + lead_of[struck];
+  const bool free = is_free(lead);
+  if (free) set_motion(lead, force * (options.step / world.mass(lead)), world.piece(lead).angular_velocity);
+  striker.speed -= norm(force) * options.step / striker.mass;
+  if (striker.speed <= kStopped || (free && norm(force) == 0)) struck = -1;
 }
 
 void Collapse::Impl::drain() {
@@ -69,17 +84,16 @@ void Collapse::blast(const Vec3& at, double impulse_at_1m) {
   }
 }
 
-void Collapse::push(int member, const Vec3& at, const Vec3& force, double seconds) {
+void Collapse::strike(int member, const Vec3& at, const Striker& striker) {
   Impl& c = *impl_;
   double nearest = 1e30;
   for (std::size_t i = 0; i < c.structure.pieces.size(); ++i) {
     const double away = distance(c.structure.pieces[i].centre, at);
     if (c.structure.pieces[i].member != member || away >= nearest) continue;
-    c.pushed = std::int32_t(i);
+    c.struck = std::int32_t(i);
     nearest = away;
   }
-  c.push_at = at, c.push_force = force;
-  c.push_steps = c.pushed < 0 ? 0 : std::max(1, int(seconds / c.options.step + 0.5));
+  c.strike_at = at, c.striker = striker;
 }
 
 void Collapse::sink(int member, const Vec3& by) {

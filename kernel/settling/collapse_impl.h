@@ -40,9 +40,9 @@ struct Collapse::Impl {
   std::map<std::int32_t, Part> parts;  // by lead; those with bonds
   std::vector<SectionForces> settled;
   Vec3 ground_acceleration;
-  std::int32_t pushed = -1;  // the piece that a vehicle pushes
-  Vec3 push_force, push_at;  // in the world; unit: N, m
-  int push_steps = 0;        // to come
+  std::int32_t struck = -1;  // the piece that a vehicle drives into; -1: none
+  Vec3 strike_at;            // in the world; unit: m
+  Striker striker;           // its speed becomes less
   bool sinks = false;        // a footing went down since the last solution
   std::map<std::int32_t, Vec3> blasted;  // impulse by piece; unit: N s
   std::vector<std::pair<int, double>> drained;  // pieces of the world, and the energy that breaking took
@@ -78,7 +78,8 @@ struct Collapse::Impl {
   void settle_forces();
 
   // collapse_causes.cpp: what moves bodies beside contacts
-  void push_free();
+  Vec3 strike_force() const;
+  void strike();
   void drain();
   void throw_blasted();
   void accelerate();

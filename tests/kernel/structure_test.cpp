@@ -65,7 +65,7 @@ void clamp_end(Structure& s, std::int32_t piece, double x, double outwards) {
   const double length = std::abs(x - s.pieces[piece].centre.x), e = m.material.youngs_modulus;
   bond.axial_stiffness = e * bond.section.area / length;
   bond.shear_stiffness = bond.axial_stiffness / 2.4;
-  bond.torsion_stiffness = e * bond.section.inertia_s / length;
+  bond.torsion_stiffness = e / 2.4 * bond.section.torsion_constant / length;
   bond.bending_s_stiffness = e * bond.section.inertia_s / length;
   bond.bending_t_stiffness = e * bond.section.inertia_t / length;
   s.bonds.push_back(bond);
@@ -152,6 +152,32 @@ TEST(Section, OfARectangleHasItsSecondMoments) {
   EXPECT_NEAR(s.inertia_s, 0.2 * 0.125 / 12, 1e-12);
   EXPECT_NEAR(s.inertia_t, 0.5 * 0.008 / 12, 1e-12);
   EXPECT_NEAR(s.centroid.z, 1.25, 1e-12);
+}
+
+// The table of Timoshenko and Goodier, art. 109.
+TEST(Section, OfARectangleTwistsAsTheTableSays) {
+  struct Row {
+    double sides, modulus, constant;  // b/a; W / (b a^2), J / (b a^3)
+  };
+  for (const Row& row : {Row{1, 0.208, 0.1406}, Row{1.5, 0.231, 0.196}, Row{2, 0.246, 0.229}, Row{4, 0.282, 0.281},
+                         Row{10, 0.312, 0.312}}) {
+    const double a = 0.2, b = a * row.sides;
+    const Polygon p{{0, -a / 2, 0}, {0, a / 2, 0}, {0, a / 2, b}, {0, -a / 2, b}};
+    const Section s = make_section(p, {1, 0, 0}, brittle(), {});
+    EXPECT_NEAR(s.torsion_modulus / (b * a * a), row.modulus, 0.02 * row.modulus) << row.sides;
+    EXPECT_NEAR(s.torsion_constant / (b * a * a * a), row.constant, 0.02 * row.constant) << row.sides;
+  }
+}
+
+TEST(Section, YieldTorqueOfBarsIsThatOfAThinTube) {
+  SectionSteel steel;
+  steel.area = 2e-3, steel.cover = 0.05, steel.yield = 500e6, steel.stirrups = 0.8e6;
+  const Polygon p{{0, -0.15, 0}, {0, 0.15, 0}, {0, 0.15, 0.5}, {0, -0.15, 0.5}};
+  const Section s = make_section(p, {1, 0, 0}, brittle(), steel);
+  // Bars of 1 MN around 1.2 m, and one of two legs that carry 0.8 MPa on a width of 0.3 m.
+  EXPECT_NEAR(calc_yield_torque(s), 2 * 0.2 * 0.4 * std::sqrt(1e6 / 1.2 * 0.8e6 * 0.15), 1);
+  steel.stirrups = 0;
+  EXPECT_EQ(calc_yield_torque(make_section(p, {1, 0, 0}, brittle(), steel)), 0);
 }
 
 TEST(Section, YieldMomentOfBarsIsForceTimesLever) {
@@ -398,6 +424,62 @@ TEST(BeamTheory, FixedBeamYieldsAtTheEndsAndFallsAfterThreeHinges) {
     EXPECT_TRUE(f.hinge);
     EXPECT_EQ(s.bonds[f.bond].piece_b, kFoundation);
   }
+}
+
+// A slab's strip, twisted: with the polar moment of its section it would be fourteen times as stiff.
+TEST(BeamTheory, TwistOfACantileverIsThatOfSaintVenant) {
+  const double length = 6, width = 1.2, depth = 0.18;
+  Member m = make_beam(length, width, depth, 24);
+  Structure s = build_structure({m}, 1);
+  clamp_end(s, 0, -length / 2, -1);
+  std::vector<PieceLoad> loads(s.pieces.size());
+  loads[23].moment.x = 1000;
+  const std::vector<BondStatus> status(s.bonds.size());
+  GroupStress stress(s, find_groups(s, status)[0]);
+  const StressResult result = stress.solve(status, loads);
+  double turned = 0;
+  for (const double rotation : result.rotation_n) turned += std::abs(rotation);
+  const double slim = depth / width, g = m.material.youngs_modulus / 2.4;
+  const double constant = width * depth * depth * depth / 3 * (1 - 0.63 * slim);
+  // From the clamp to the middle of the last piece.
+  EXPECT_NEAR(turned, 1000 * (length - length / 48) / (g * constant), 0.02 * turned);
+}
+
+// What twists a section with bars and stirrups cracks it and turns it on, but does not break it.
+TEST(BeamTheory, BarsAndStirrupsYieldInTorsionAndHold) {
+  Member m = make_beam(6, 0.3, 0.5, 24);
+  m.material = find_structural_material("concrete", "test");
+  m.bars = bars(0.02);
+  m.bars.stirrups = 0.8e6;
+  Structure s = build_structure({m}, 1);
+  clamp_end(s, 0, -3, -1);
+  clamp_end(s, 23, 3, 1);
+  const Section& section = s.bonds[0].section;
+  const auto loads = [&](double torque) {
+    std::vector<PieceLoad> l(s.pieces.size());
+    l[11].moment.x = l[12].moment.x = torque;
+    return l;
+  };
+  const auto fails = [](const Outcome& o, bool broken) {
+    return std::any_of(o.failures.begin(), o.failures.end(), [&](const BondFailure& f) { return f.hinge != broken; });
+  };
+  const auto yields = [&](const std::vector<PieceLoad>& l) { return fails(load(s, l), false); };
+  // Each half of the beam carries one of the two torques to its end.
+  const double cracks = (section.shear + section.steel.stirrups) * section.torsion_modulus;
+  const double first = std::max(cracks, calc_yield_torque(section));
+  EXPECT_NEAR(find_limit(0, 4 * first, loads, yields) / first, 1, 0.02);
+  const Outcome o = load(s, loads(1.02 * first), {}, 1);
+  ASSERT_FALSE(o.failures.empty());
+  EXPECT_EQ(o.failures[0].mode, FailureMode::torsion);
+  EXPECT_NEAR(std::abs(o.status[o.failures[0].bond].torque), calc_yield_torque(section), 1);
+  // A plain one breaks where the bars' one cracks, at the strength of its concrete alone.
+  m.bars = {};
+  Structure plain = build_structure({m}, 1);
+  clamp_end(plain, 0, -3, -1);
+  clamp_end(plain, 23, 3, 1);
+  const auto breaks = [&](const std::vector<PieceLoad>& l) { return fails(load(plain, l), true); };
+  const double limit = section.shear * section.torsion_modulus;
+  EXPECT_NEAR(find_limit(0, 4 * limit, loads, breaks) / limit, 1, 0.02);
 }
 
 TEST(Stress, ReactionsCarryTheWeightAndSymmetryIsKept) {

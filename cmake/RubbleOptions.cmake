@@ -28,7 +28,7 @@ endif()
 set(RUBBLE_SANITIZE "" CACHE STRING "address,undefined or thread; empty: none")
 if(RUBBLE_SANITIZE)
   target_compile_options(rubble_options INTERFACE
-    -fsanitize=${RUBBLE_SANITIZE} -fno-omit-frame-pointer -g)
+    -fsanitize=${RUBBLE_SANITIZE} -fno-omit-frame-pointer -g1)
   target_link_options(rubble_options INTERFACE -fsanitize=${RUBBLE_SANITIZE})
   if(RUBBLE_SANITIZE MATCHES "undefined")
     target_compile_options(rubble_options INTERFACE -fno-sanitize-recover=undefined)

@@ -51,8 +51,8 @@ class Collapse {
   // what it breaks off is thrown. unit: N s/m2
   void blast(const Vec3& at, double impulse_at_1m);
 
-  // From now on a body drives into the piece of a member that is nearest to a place, until it has come to a
-  // stop or the piece goes as fast as it does.
+  // From now on a body drives into the piece of a member that is nearest to a place, and on behind it, until
+  // it has come to a stop or lost it.
   void strike(int member, const Vec3& at, const Striker& striker);
   // Where the foundation under the pieces of a member now is, against where it was; unit: m.
   void sink(int member, const Vec3& by);

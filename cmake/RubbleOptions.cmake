@@ -28,7 +28,7 @@ endif()
 set(RUBBLE_SANITIZE "" CACHE STRING "address,undefined or thread; empty: none")
 if(RUBBLE_SANITIZE)
   target_compile_options(rubble_options INTERFACE
-    -fsanitize=${RUBBLE_SANITIZE} -fno-omit-frame-pointer -g)
+    -fsanitize=${RUBBLE_SANITIZE} -fno-omit-frame-pointer -g1)
   target_link_options(rubble_options INTERFACE -fsanitize=${RUBBLE_SANITIZE})
   if(RUBBLE_SANITIZE MATCHES "undefined")
     target_compile_options(rubble_options INTERFACE -fno-sanitize-recover=undefined)
@@ -81,11 +81,11 @@ endfunction()
 # once a room and not once a file. It only saves time; what it asks for is that no two files of a folder
 # have helpers of the same name. Sources that CMake makes, or with flags of their own, stay apart, as do
 # those that are marked SKIP_UNITY_BUILD_INCLUSION. A source with a UNITY_GROUP of its own keeps it: so a
-# room of slow sources becomes two units. Sanitizer builds and fuzz targets compile each file alone, so
-# that a missing include is found.
+# room of slow sources becomes two units. The preset dev and fuzz targets compile each file alone, so that
+# a missing include is found.
 option(RUBBLE_ROOMS "Compile the sources of a folder as one unit" ON)
 function(rubble_rooms)
-  if(NOT RUBBLE_ROOMS OR RUBBLE_SANITIZE OR RUBBLE_FUZZ)
+  if(NOT RUBBLE_ROOMS OR RUBBLE_FUZZ)
     return()
   endif()
   foreach(target IN LISTS ARGN)

@@ -38,7 +38,7 @@ struct StrikingVehicle {
 // What makes the building collapse, and when it is over.
 struct CollapseCause {
   std::vector<ColumnPlace> removed;  // columns that are gone at once
-  int weak_storey = -1;              // whose columns have `weakness` of their strength; -1: none
+  int weak_storey = -1;              // without walls, whose columns have `weakness` of their strength; -1: none
   double weakness = 1;               // unit: 1; range: 0 to 1
   int overloaded_floor = -1;         // that carries `overload` more; -1: none
   double overload = 0;               // unit: kg/m2; >= 0

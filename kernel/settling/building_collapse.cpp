@@ -56,8 +56,11 @@ void BuildingCollapse::drive_into(const Structure& structure) {
   const portable::SinCos direction = portable::sincos(v.direction_deg * portable::kPi / 180);
   Vec3 at = structure.members[column].centre;
   at.z = v.height;
-  const double force = v.speed * std::sqrt(v.stiffness * v.mass);
-  collapse_->push(column, at, Vec3{direction.cos, direction.sin, 0} * force, std::sqrt(v.mass / v.stiffness));
+  Striker striker;
+  striker.direction = {direction.cos, direction.sin, 0};
+  striker.mass = v.mass, striker.speed = v.speed;
+  striker.force = v.speed * std::sqrt(v.stiffness * v.mass);
+  collapse_->strike(column, at, striker);
 }
 
 // By even steps, so that the loads that move away from a footing find their new ways.

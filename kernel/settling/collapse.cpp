@@ -21,13 +21,13 @@ void Collapse::begin_step(const Vec3& ground_acceleration) {
 
 void Collapse::end_step() {
   impl_->drain();
-  impl_->push_free();
+  impl_->strike();
   impl_->sinks = false;
   impl_->throw_blasted();
   impl_->settle_forces();
 }
 
-bool Collapse::is_breaking() const { return impl_->breaking || impl_->push_steps > 0; }
+bool Collapse::is_breaking() const { return impl_->breaking || impl_->struck >= 0; }
 int Collapse::arrests() const { return impl_->arrests; }
 int Collapse::first_piece() const { return impl_->first; }
 

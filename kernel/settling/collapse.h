@@ -26,6 +26,14 @@ struct CollapseOptions {
   double continuity = 0;       // see BuildingSpec::continuity; unit: 1; range: 0 to 1
 };
 
+// A body that is a spring before a mass: it pushes with a force that does not change while it lasts.
+struct Striker {
+  Vec3 direction;    // of its velocity; length 1
+  double mass = 0;   // unit: kg
+  double speed = 0;  // unit: m/s
+  double force = 0;  // on what does not give way; unit: N
+};
+
 class Collapse {
  public:
   // Adds the structure's pieces to the world: fixed, bound, as types first_type and on. settled: forces
@@ -43,9 +51,9 @@ class Collapse {
   // what it breaks off is thrown. unit: N s/m2
   void blast(const Vec3& at, double impulse_at_1m);
 
-  // In the steps of `seconds` from now on the piece of a member that is nearest to a place is pushed there.
-  // force: in the world; unit: N
-  void push(int member, const Vec3& at, const Vec3& force, double seconds);
+  // From now on a body drives into the piece of a member that is nearest to a place, and on behind it, until
+  // it has come to a stop or lost it.
+  void strike(int member, const Vec3& at, const Striker& striker);
   // Where the foundation under the pieces of a member now is, against where it was; unit: m.
   void sink(int member, const Vec3& by);
 

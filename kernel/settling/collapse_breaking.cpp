@@ -95,10 +95,8 @@ bool Collapse::Impl::update(std::int32_t lead, const Touches& touches) {
   }
   if (!broken) return false;
   tie(failed);
-  std::vector<std::uint8_t> others(structure.pieces.size(), 1);
-  for (const std::int32_t piece : group.pieces) others[piece] = 0;
   const std::size_t before = parts.size();
-  const std::vector<BondGroup> groups = find_groups(structure, status, others);
+  const std::vector<BondGroup> groups = groups_left_of(lead);
   const bool apart = groups.size() > 1 || groups[0].anchored != group.anchored;
   replace(lead, groups);
   for (const BondGroup& left : groups) {

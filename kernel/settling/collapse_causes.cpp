@@ -9,18 +9,61 @@
 namespace rubble {
 namespace {
 
+constexpr double kStopped = 0.1;    // a vehicle this slow breaks nothing more; unit: m/s
+constexpr double kStrikeTime = 3;   // after which it has stopped or passed; unit: s
+
 double quiet_sqrt(double x) { return x > 0 ? std::sqrt(x) : 0; }
 
 }  // namespace
 
-// What a vehicle drives into, until it has come to a stop.
-void Collapse::Impl::push_free() {
-  if (push_steps <= 0) return;
-  --push_steps;
-  const int lead = first + lead_of[pushed];
-  if (!is_free(lead)) return;
-  set_motion(lead, push_force * (options.step / world.mass(lead)),
-             world.piece(lead).angular_velocity);
+// What is free is pushed where the vehicle has caught up with it, and takes no more than what makes both
+// equally fast.
+Vec3 Collapse::Impl::strike_force() const {
+  if (struck < 0) return {};
+  const int lead = first + lead_of[struck];
+  double force = std::min(striker.force, striker.mass * striker.speed / options.step);
+  if (is_free(lead)) {
+    const Vec3 moved = world.piece(first + struck).world_from_body.translation - struck_from;
+    if (dot(moved, striker.direction) > driven) return {};
+    const double faster = striker.speed - dot(world.centre_velocity(lead), striker.direction);
+    const double mass = 1 / (1 / striker.mass + 1 / world.mass(lead));
+    force = std::min(force, std::max(0.0, faster) * mass / options.step);
+  }
+  return striker.direction * force;
+}
+
+// A blow is over before the rest of the building can answer: where it is stronger than the sections around a
+// piece are in shear, those fail and nothing else.
+void Collapse::Impl::knock_out() {
+  double strength = 0;
+  std::vector<BondFailure> failures;
+  for (std::size_t i = 0; i < structure.bonds.size(); ++i) {
+    const Bond& bond = structure.bonds[i];
+    if (status[i].broken || (bond.piece_a != struck && bond.piece_b != struck)) continue;
+    strength += (bond.section.shear + bond.section.steel.stirrups) * bond.section.area;
+    failures.push_back({std::int32_t(i), FailureMode::shear, false, 0, false});
+  }
+  if (failures.empty() || striker.force < strength) return;
+  for (BondFailure& failure : failures) {
+    failure.utilization = striker.force / strength;
+    status[failure.bond].broken = true;
+    ++report.broken;
+  }
+  tie(failures);
+  const std::int32_t lead = lead_of[struck];
+  if (parts.count(lead)) replace(lead, groups_left_of(lead));
+}
+
+void Collapse::Impl::strike() {
+  if (struck < 0) return;
+  const Vec3 force = strike_force();
+  const int lead = first + lead_of[struck];
+  if (is_free(lead)) {
+    set_motion(lead, force * (options.step / world.mass(lead)), world.piece(lead).angular_velocity);
+    driven += striker.speed * options.step;
+  }
+  striker.speed -= norm(force) * options.step / striker.mass;
+  if (striker.speed <= kStopped || --strike_steps <= 0) struck = -1;
 }
 
 void Collapse::Impl::drain() {
@@ -69,17 +112,20 @@ void Collapse::blast(const Vec3& at, double impulse_at_1m) {
   }
 }
 
-void Collapse::push(int member, const Vec3& at, const Vec3& force, double seconds) {
+void Collapse::strike(int member, const Vec3& at, const Striker& striker) {
   Impl& c = *impl_;
   double nearest = 1e30;
   for (std::size_t i = 0; i < c.structure.pieces.size(); ++i) {
     const double away = distance(c.structure.pieces[i].centre, at);
     if (c.structure.pieces[i].member != member || away >= nearest) continue;
-    c.pushed = std::int32_t(i);
+    c.struck = std::int32_t(i);
     nearest = away;
   }
-  c.push_at = at, c.push_force = force;
-  c.push_steps = c.pushed < 0 ? 0 : std::max(1, int(seconds / c.options.step + 0.5));
+  if (c.struck < 0) return;
+  c.strike_at = at, c.striker = striker;
+  c.struck_from = c.world.piece(c.first + c.struck).world_from_body.translation;
+  c.strike_steps = int(kStrikeTime / c.options.step);
+  c.knock_out();
 }
 
 void Collapse::sink(int member, const Vec3& by) {

@@ -40,9 +40,12 @@ struct Collapse::Impl {
   std::map<std::int32_t, Part> parts;  // by lead; those with bonds
   std::vector<SectionForces> settled;
   Vec3 ground_acceleration;
-  std::int32_t pushed = -1;  // the piece that a vehicle pushes
-  Vec3 push_force, push_at;  // in the world; unit: N, m
-  int push_steps = 0;        // to come
+  std::int32_t struck = -1;  // the piece that a vehicle drives into; -1: none
+  Vec3 strike_at;            // in the world; unit: m
+  Vec3 struck_from;          // where that piece was before
+  Striker striker;           // its speed becomes less
+  double driven = 0;         // since it struck; unit: m
+  int strike_steps = 0;      // the most that are to come
   bool sinks = false;        // a footing went down since the last solution
   std::map<std::int32_t, Vec3> blasted;  // impulse by piece; unit: N s
   std::vector<std::pair<int, double>> drained;  // pieces of the world, and the energy that breaking took
@@ -54,6 +57,7 @@ struct Collapse::Impl {
   Impl(World& w, const Structure& s, int first_type, const CollapseOptions& o,
        std::vector<SectionForces> before);
   void keep(const BondGroup& group);
+  std::vector<BondGroup> groups_left_of(std::int32_t lead) const;
   void replace(std::int32_t lead, const std::vector<BondGroup>& groups, bool always = false);
   std::map<std::int32_t, Touches> find_touches() const;
   void tie(const std::vector<BondFailure>& failures);
@@ -78,7 +82,9 @@ struct Collapse::Impl {
   void settle_forces();
 
   // collapse_causes.cpp: what moves bodies beside contacts
-  void push_free();
+  Vec3 strike_force() const;
+  void knock_out();
+  void strike();
   void drain();
   void throw_blasted();
   void accelerate();

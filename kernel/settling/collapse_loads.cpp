@@ -32,10 +32,10 @@ std::vector<PieceLoad> Collapse::Impl::calc_loads(std::int32_t lead, const Part&
     if (lead_of[piece] != lead || !with_impacts) continue;
     push(piece, back.rotate(impulse) * (1 / options.step), structure.pieces[piece].centre);
   }
-  if (push_steps > 0 && lead_of[pushed] == lead) {
-    const Pose pose = world.piece(first + pushed).world_from_body;
-    push(pushed, back.rotate(push_force),
-         structure.pieces[pushed].position + back.rotate(push_at - pose.translation));
+  if (struck >= 0 && lead_of[struck] == lead) {
+    const Pose pose = world.piece(first + struck).world_from_body;
+    push(struck, back.rotate(strike_force()),
+         structure.pieces[struck].position + back.rotate(strike_at - pose.translation));
   }
   if (group.anchored) {
     for (const std::int32_t i : group.pieces) loads[i].force += pull * structure.pieces[i].mass;

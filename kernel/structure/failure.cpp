@@ -18,6 +18,7 @@ SectionForces overshoot(const SectionForces& f, const SectionForces& s, double s
 Utilization use_of(const Bond& bond, const BondStatus& status, SectionForces forces) {
   if (status.hinge_s) forces.moment_s = 0;
   if (status.hinge_t) forces.moment_t = 0;
+  if (status.hinge_n) forces.torque = 0;
   return calc_utilization(bond.section, forces);
 }
 
@@ -26,14 +27,14 @@ double turned_beyond_yield(double rotation, double moment, double stiffness) {
 }
 
 // 1 when the bars of a hinge tear.
-double use_of_rotation(const Bond& bond, const BondStatus& status, double rotation_s, double rotation_t) {
+double use_of_rotation(const Bond& bond, const BondStatus& status, const StressResult& result, std::size_t i) {
   double most = 0;
-  if (status.hinge_s) {
-    most = turned_beyond_yield(rotation_s, status.moment_s, bond.bending_s_stiffness);
-  }
-  if (status.hinge_t) {
-    most = std::max(most, turned_beyond_yield(rotation_t, status.moment_t, bond.bending_t_stiffness));
-  }
+  const auto turn = [&most](bool hinge, double rotation, double moment, double stiffness) {
+    if (hinge) most = std::max(most, turned_beyond_yield(rotation, moment, stiffness));
+  };
+  turn(status.hinge_s, result.rotation_s[i], status.moment_s, bond.bending_s_stiffness);
+  turn(status.hinge_t, result.rotation_t[i], status.moment_t, bond.bending_t_stiffness);
+  turn(status.hinge_n, result.rotation_n[i], status.torque, bond.torsion_stiffness);
   return most > 0 ? most / bond.section.steel.rupture_rotation : 0;
 }
 
@@ -49,22 +50,29 @@ std::vector<BondFailure> rate(const Structure& structure, const BondGroup& group
     SectionForces forces = result.forces[i];
     if (options.settled) forces = overshoot(forces, (*options.settled)[index], options.overshoot);
     const Utilization use = use_of(bond, state, forces);
-    const double torn = use_of_rotation(bond, state, result.rotation_s[i], result.rotation_t[i]);
+    const double torn = use_of_rotation(bond, state, result, i);
     if (torn > use.value) {
-      rated.push_back({index, FailureMode::bending, false, torn});
+      rated.push_back({index, FailureMode::bending, false, torn, true});
     } else {
-      rated.push_back({index, use.mode, false, use.value});
+      rated.push_back({index, use.mode, false, use.value, false});
     }
   }
   return rated;
 }
 
-// Bars that yield on the tension side leave a hinge about the axis that is used up more.
-bool make_hinge(const Bond& bond, const SectionForces& forces, BondStatus& status) {
+// Bars that yield leave a hinge about the axis that is used up more: one in bending, one in torsion.
+bool make_hinge(const Bond& bond, FailureMode mode, const SectionForces& forces, BondStatus& status) {
+  if (mode == FailureMode::torsion) {
+    if (status.hinge_n) return false;
+    status.hinge_n = true;
+    status.torque = std::copysign(std::min(calc_yield_torque(bond.section), std::abs(forces.torque)), forces.torque);
+    return true;
+  }
+  if (mode != FailureMode::bending || status.hinge_s || status.hinge_t) return false;
   const double of_s = calc_yield_moment(bond.section, forces.axial, true);
   const double of_t = calc_yield_moment(bond.section, forces.axial, false);
-  const double use_s = status.hinge_s || !(of_s > 0) ? 0 : std::abs(forces.moment_s) / of_s;
-  const double use_t = status.hinge_t || !(of_t > 0) ? 0 : std::abs(forces.moment_t) / of_t;
+  const double use_s = of_s > 0 ? std::abs(forces.moment_s) / of_s : 0;
+  const double use_t = of_t > 0 ? std::abs(forces.moment_t) / of_t : 0;
   if (!(use_s > 0 || use_t > 0)) return false;
   if (use_s >= use_t) {
     status.hinge_s = true;
@@ -117,9 +125,8 @@ std::vector<BondFailure> fail_worst(const Structure& structure, const BondGroup&
     const Bond& bond = structure.bonds[f.bond];
     BondStatus& state = status[f.bond];
     const auto at = std::lower_bound(group.bonds.begin(), group.bonds.end(), f.bond);
-    f.hinge = options.hinges && f.mode == FailureMode::bending && bond.section.steel.area > 0 &&
-              !state.hinge_s && !state.hinge_t &&
-              make_hinge(bond, result.forces[std::size_t(at - group.bonds.begin())], state);
+    f.hinge = options.hinges && !f.torn && bond.section.steel.area > 0 &&
+              make_hinge(bond, f.mode, result.forces[std::size_t(at - group.bonds.begin())], state);
     state.broken = !f.hinge;
   }
   return failures;

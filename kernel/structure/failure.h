@@ -23,6 +23,7 @@ struct BondFailure {
   FailureMode mode = FailureMode::none;  // which strength was used up
   bool hinge = false;                    // it goes on as one
   double utilization = 0;                // when it failed; unit: 1
+  bool torn = false;                     // bars of its hinge
 };
 
 // One round: of those that are used up the worst, and all that are nearly as bad, fail. Writes `status`.

@@ -171,15 +171,17 @@ class FrameMaker {
   std::vector<Member> members_;
 };
 
-bool is_removed(const BuildingSpec& b, const Member& member) {
-  return std::any_of(b.cause.removed.begin(), b.cause.removed.end(), [&](const ColumnPlace& c) {
-    return member.name == name_of("column", c.storey, c.i, c.j);
-  });
-}
-
 bool ends_with_storey(const std::string& name, int storey) {
   const std::string end = " of storey " + std::to_string(storey);
   return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+}
+
+// A soft storey is open: walls would carry what its columns do not.
+bool is_removed(const BuildingSpec& b, const Member& member) {
+  if (member.kind == MemberKind::wall && ends_with_storey(member.name, b.cause.weak_storey)) return true;
+  return std::any_of(b.cause.removed.begin(), b.cause.removed.end(), [&](const ColumnPlace& c) {
+    return member.name == name_of("column", c.storey, c.i, c.j);
+  });
 }
 
 void weaken(Section& s, double share) {

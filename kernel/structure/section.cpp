@@ -40,11 +40,13 @@ double share(double used, double capacity) {
   return capacity > 0 ? used / capacity : (used > 0 ? 1e9 : 0.0);
 }
 
+// Concrete that is cracked, and bars that yield: in bending, in torsion, by the axial force.
 Utilization use_of_bars(const Section& s, const SectionForces& f) {
   Utilization most;
-  raise(most, share(std::abs(f.moment_s), calc_yield_moment(s, f.axial, true)) +
-                  share(std::abs(f.moment_t), calc_yield_moment(s, f.axial, false)),
-        FailureMode::bending);
+  const double bent = share(std::abs(f.moment_s), calc_yield_moment(s, f.axial, true)) +
+                      share(std::abs(f.moment_t), calc_yield_moment(s, f.axial, false));
+  const double torque = calc_yield_torque(s), twisted = torque > 0 ? std::abs(f.torque) / torque : 0;
+  raise(most, bent + twisted, twisted > bent ? FailureMode::torsion : FailureMode::bending);
   if (f.axial > 0) {
     raise(most, f.axial / (s.steel.area * s.steel.yield), FailureMode::tension);
   } else {
@@ -53,13 +55,23 @@ Utilization use_of_bars(const Section& s, const SectionForces& f) {
   return most;
 }
 
-double use_of_shear(const Section& s, const SectionForces& f) {
+// torque: what uncracked concrete carries of it.
+double use_of_shear(const Section& s, const SectionForces& f, double torque) {
   const double strength = s.shear + s.steel.stirrups +
                           s.shear_friction * std::max(0.0, -f.axial / s.area);
   const double shear = std::sqrt(f.shear_s * f.shear_s + f.shear_t * f.shear_t) / s.area;
-  const double twisted = bending_stress(f.torque, std::max(s.half_s, s.half_t),
-                                        s.inertia_s + s.inertia_t);
-  return strength > 0 ? (shear + twisted) / strength : (shear + twisted > 0 ? 2.0 : 0.0);
+  const double stress = shear + std::abs(torque) / s.torsion_modulus;
+  return strength > 0 ? stress / strength : (stress > 0 ? 2.0 : 0.0);
+}
+
+// Of a rectangle with the same area and longer side: Roark's Formulas for Stress and Strain, table 10.1.
+void set_torsion(Section& s) {
+  const double extent = 2 * std::max(s.half_s, s.half_t);
+  const double one = s.area / extent, a = std::max(one, extent), b = std::min(one, extent);
+  const double slim = b / a, second = slim * slim, fourth = second * second;
+  s.torsion_constant = a * b * b * b * (1.0 / 3 - 0.21 * slim * (1 - fourth / 12));
+  s.torsion_modulus =
+      a * b * b / (3 * (1 + 0.6095 * slim + 0.8865 * second - 1.8023 * second * slim + 0.91 * fourth));
 }
 
 }  // namespace
@@ -71,6 +83,7 @@ const char* failure_name(FailureMode mode) {
     case FailureMode::compression: return "compression";
     case FailureMode::shear: return "shear";
     case FailureMode::bending: return "bending";
+    case FailureMode::torsion: return "torsion";
   }
   return "none";
 }
@@ -89,6 +102,7 @@ Section make_section(const Polygon& polygon, const Vec3& normal, const Structura
   section.compression = material.compression, section.tension = material.tension;
   section.shear = material.shear, section.shear_friction = material.shear_friction;
   section.steel = steel;
+  set_torsion(section);
   return section;
 }
 
@@ -107,14 +121,23 @@ double calc_yield_moment(const Section& s, double axial, bool about_s) {
   return left * bars - axial * height * (1 - block) / 2;
 }
 
+double calc_yield_torque(const Section& s) {
+  const double width = 2 * std::max(s.half_s, s.half_t) - 2 * s.steel.cover;
+  const double depth = 2 * std::min(s.half_s, s.half_t), wall = depth - 2 * s.steel.cover;
+  if (!(width > 0 && wall > 0)) return 0;
+  const double along = s.steel.area * s.steel.yield / (2 * (width + wall));
+  const double around = s.steel.stirrups * depth / 2;  // of one of two legs
+  return 2 * width * wall * std::sqrt(along * around);
+}
+
 Utilization calc_utilization(const Section& s, const SectionForces& f) {
-  Utilization most = use_of_fibres(s, f);
-  if (s.steel.area > 0) {
-    const Utilization barred = use_of_bars(s, f);
-    if (barred.value < most.value) most = barred;
-  }
-  raise(most, use_of_shear(s, f), FailureMode::shear);
-  return most;
+  Utilization plain = use_of_fibres(s, f);
+  raise(plain, use_of_shear(s, f, f.torque), FailureMode::shear);
+  if (!(s.steel.area > 0)) return plain;
+  Utilization barred = use_of_bars(s, f);
+  // Without stirrups only the concrete carries torsion.
+  raise(barred, use_of_shear(s, f, calc_yield_torque(s) > 0 ? 0 : f.torque), FailureMode::shear);
+  return barred.value < plain.value ? barred : plain;
 }
 
 }  // namespace rubble

@@ -26,6 +26,8 @@ struct Section {
   double area = 0;              // unit: m2
   double inertia_s = 0, inertia_t = 0;  // unit: m4
   double half_s = 0, half_t = 0;        // unit: m
+  double torsion_constant = 0;          // of St. Venant; unit: m4
+  double torsion_modulus = 0;           // torque over the largest shear stress; unit: m3
   double compression = 0, tension = 0, shear = 0, shear_friction = 0;  // unit: Pa; the last 1
   SectionSteel steel;  // bars through the section; none in masonry
 };
@@ -38,7 +40,7 @@ struct SectionForces {
   double moment_s = 0, moment_t = 0;  // unit: N m
 };
 
-enum class FailureMode : std::uint8_t { none, tension, compression, shear, bending };
+enum class FailureMode : std::uint8_t { none, tension, compression, shear, bending, torsion };
 const char* failure_name(FailureMode mode);
 
 // The largest share of a strength that is used up; above 1 the section fails, by `mode`.
@@ -52,12 +54,17 @@ Section make_section(const Polygon& polygon, const Vec3& normal, const Structura
 
 // Without bars: the extreme fibres by N/A + M c/I against tension and compression. With bars: the larger
 // of that and of what the bars carry once the concrete is cracked, by a rectangular stress block of
-// 0.85 fc and bars that yield on the tension side, both axes added linearly. Shear with torsion as
-// v = V/A + T c/J against shear strength, stirrups and friction.
+// 0.85 fc and bars that yield on the tension side, both axes and torsion added linearly. Shear as V/A, and
+// in uncracked concrete torsion as T/W on top, against shear strength, stirrups and friction.
 Utilization calc_utilization(const Section& section, const SectionForces& forces);
 
 // The moment that bars carry about an axis under this axial force; 0 without bars. about_s: about s,
 // otherwise about t. unit: N m.
 double calc_yield_moment(const Section& section, double axial, bool about_s);
+
+// The torque that bars and stirrups carry as a thin-walled tube; 0 without either. EN 1992-1-1, 6.3.2, with
+// the angle at which both yield: T = 2 Ak sqrt(ql qt), where ql and qt are the forces of bars and stirrups
+// per length of the tube's wall. unit: N m
+double calc_yield_torque(const Section& section);
 
 }  // namespace rubble

@@ -62,7 +62,7 @@ void add(Block6& target, const Block6& m, double sign = 1) {
 Six stiffness_of(const Bond& bond, const BondStatus& status) {
   if (status.broken) return {};
   return {bond.axial_stiffness,   bond.shear_stiffness,
-          bond.shear_stiffness,   bond.torsion_stiffness,
+          bond.shear_stiffness,   bond.torsion_stiffness * (status.hinge_n ? kHinge : 1.0),
           bond.bending_s_stiffness * (status.hinge_s ? kHinge : 1.0),
           bond.bending_t_stiffness * (status.hinge_t ? kHinge : 1.0)};
 }
@@ -74,6 +74,7 @@ Six offset_of(const Bond& bond, const BondStatus& status) {
   offset[0] = bond.axial_stiffness * dot(s.normal, status.sunk);
   offset[1] = bond.shear_stiffness * dot(s.axis_s, status.sunk);
   offset[2] = bond.shear_stiffness * dot(s.axis_t, status.sunk);
+  if (status.hinge_n) offset[3] = status.torque;
   if (status.hinge_s) offset[4] = status.moment_s;
   if (status.hinge_t) offset[5] = status.moment_t;
   return offset;
@@ -291,12 +292,14 @@ struct GroupStress::Impl {
       result.forces.push_back({q[0], q[1], q[2], q[3], q[4], q[5]});
       result.rotation_s.push_back(open[4]);
       result.rotation_t.push_back(open[5]);
+      result.rotation_n.push_back(open[3]);
     }
     return result;
   }
 
   bool is_same(const BondStatus& a, const BondStatus& b) const {
-    return a.broken == b.broken && a.hinge_s == b.hinge_s && a.hinge_t == b.hinge_t;
+    return a.broken == b.broken && a.hinge_s == b.hinge_s && a.hinge_t == b.hinge_t &&
+           a.hinge_n == b.hinge_n;
   }
 
   // Conjugate gradients on the old factor: as many steps as stiffnesses changed, about six a bond.

@@ -18,7 +18,8 @@ namespace rubble {
 struct BondStatus {
   bool broken = false;  // it carries nothing any more
   bool hinge_s = false, hinge_t = false;  // bars yield in bending about that axis
-  double moment_s = 0, moment_t = 0;  // of a hinge, with its sign; unit: N m
+  bool hinge_n = false;                   // bars and stirrups yield in torsion
+  double moment_s = 0, moment_t = 0, torque = 0;  // of a hinge, with its sign; unit: N m
   Vec3 sunk;  // how far the foundation under it went; only of bonds to it; unit: m
 };
 
@@ -48,7 +49,7 @@ struct StressOptions {
 struct StressResult {
   bool stable = true;  // false: the structure buckles, or is held by nothing
   std::vector<SectionForces> forces;  // one a bond; unit: N, N m
-  std::vector<double> rotation_s, rotation_t;  // of a bond's two sides against each other; unit: rad
+  std::vector<double> rotation_s, rotation_t, rotation_n;  // of a bond's two sides against each other; unit: rad
 };
 
 // Keeps the factor of a group: new loads alone cost little.

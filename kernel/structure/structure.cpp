@@ -212,7 +212,7 @@ class Builder {
     }
     bond.axial_stiffness = e * s.area / length;
     bond.shear_stiffness = g * s.area * 5 / 6 / length;
-    bond.torsion_stiffness = g * (s.inertia_s + s.inertia_t) / length;
+    bond.torsion_stiffness = g * s.torsion_constant / length;
     bond.bending_s_stiffness = e * s.inertia_s / length;
     bond.bending_t_stiffness = e * s.inertia_t / length;
   }

@@ -161,7 +161,7 @@ void add_cause(Schema& k, CollapseCause& c) {
   k.item("pile.building.cause.removed[].j", c.removed, &ColumnPlace::j,
           "Number of the column along Y, from 0 at the lowest y.")
       .between(0, 8);
-  k.value("pile.building.cause.weak_storey", c.weak_storey, "Storey whose columns are weak; -1: none.").between(-1, 11);
+  k.value("pile.building.cause.weak_storey", c.weak_storey, "Soft storey: its walls are missing, its columns are weak; -1: none.").between(-1, 11);
   k.value("pile.building.cause.weakness", c.weakness, "Share of their strength that these columns keep.")
       .between(0, 1);
   k.value("pile.building.cause.overloaded_floor", c.overloaded_floor,

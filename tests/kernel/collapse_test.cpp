@@ -211,6 +211,31 @@ TEST(Collapse, ABlastBreaksAllThatItBreaksInItsStep) {
   EXPECT_GT(fastest, 1) << "m/s";
 }
 
+// The vehicle's force by EN 1991-1-7, C.2.1, against what two sections of a column carry in shear.
+TEST(Collapse, AVehicleKnocksOutWhatItIsStrongerThanAndDrivesItNoFasterThanItself) {
+  BuildingSpec b = small_building();
+  b.cause.vehicle.speed = 10;
+  const double sections = 2 * 0.09 * (0.98e6 + 0.8e6);
+  for (const double share : {0.9, 1.1}) {
+    const double force = share * sections;
+    b.cause.vehicle.mass = force * force / (b.cause.vehicle.stiffness * 100);
+    const Pile pile = pile_of(b);
+    World world(pile.types, calc_world_options({}));
+    BuildingCollapse collapse(world, pile, {});
+    EXPECT_EQ(collapse.report().broken, share > 1 ? 2 : 0) << share;
+    double fastest = 0;
+    for (int step = 0; step < 20; ++step) {
+      collapse.before_step();
+      world.step();
+      collapse.after_step();
+      for (int i = 0; i < world.size(); ++i) fastest = std::max(fastest, norm(world.piece(i).linear_velocity));
+    }
+    if (share < 1) continue;
+    EXPECT_GT(fastest, 5) << "m/s";
+    EXPECT_LE(fastest, 10.5) << "m/s";
+  }
+}
+
 TEST(GroundMotion, ReadsAnAccelerogramBetweenItsSamples) {
   CollapseCause cause;
   cause.shake = 4;

@@ -74,8 +74,9 @@ void try_ci_example(Handed& here, const std::string& example, const std::string&
   fs::copy_file(package, fs::path(folder) / "package" / fs::path(package).filename());
   const std::string printed = here.run(
       "/usr/bin/python3 '" RUBBLE_SOURCE_DIR "/tests/app/ci_example.py' '" RUBBLE_SOURCE_DIR "/examples/ci/" + example +
-      "' --script >'" + folder + "/script' && env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/tmp CACHED=1 chroot '" + root +
-      "' sh -c 'cd /tmp/ci && sh -eu script'");
+      "' --script >'" + folder + "/script' && env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/tmp CACHED=1 "
+      "unshare --mount --pid --fork sh -c 'mount -t proc proc \"$0/proc\" && exec chroot \"$0\" sh -c "
+      "\"cd /tmp/ci && sh -eu script\"' '" + root + "'");
   EXPECT_TRUE(here.ok) << example << "\n" << printed;
   EXPECT_NE(read_file(folder + "/report.xml").find("tests=\"1\" failures=\"0\""), std::string::npos)
       << example << "\n" << read_file(folder + "/report.xml");

@@ -61,6 +61,7 @@ Value vector_value(const Vec3& v) {
 // What a function returns.
 struct Wish {
   double linear = 0, angular = 0;
+  Growth growth;
   std::vector<double> flippers, joints, speeds, torques;
 };
 
@@ -68,6 +69,9 @@ Schema wish_schema(Wish& wish) {
   Schema k;
   k.value("linear", wish.linear, "Forwards.").between(-5, 5).unit("m/s");
   k.value("angular", wish.angular, "Counter-clockwise.").between(-10, 10).unit("rad/s");
+  k.value("growth", wish.growth.speed, "Speed of a vine's tip.").between(0, 1).unit("m/s");
+  k.value("curvature", wish.growth.curve_left, "Of what grows, to the left.").between(-5, 5).unit("1/m");
+  k.value("curvature_up", wish.growth.curve_up, "Of what grows, upwards.").between(-5, 5).unit("1/m");
   k.value("flippers", wish.flippers, "Angles of a crawler's.").between(-4, 4).unit("rad");
   k.value("joints", wish.joints, "Positions.").between(-kMostTarget, kMostTarget);
   k.value("speeds", wish.speeds, "Instead of positions.").between(-kMostTarget, kMostTarget);
@@ -83,6 +87,7 @@ RobotCommand drive_sides(const RobotModel& model, const Twist& twist, const std:
 RobotCommand command_of(const Wish& wish, const RobotModel& model) {
   RobotCommand command;
   if (model.sides.any()) command = drive_sides(model, {wish.linear, wish.angular}, wish.flippers);
+  if (model.tube) command = drive_vine(model, wish.growth);
   command.joints.resize(model.joints.size());
   const auto ask = [&](const std::vector<double>& targets, MotorMode mode) {
     std::size_t next = 0;  // motors are numbered among themselves
@@ -104,6 +109,27 @@ Value describe_odometry(const OdometryReading& reading) {
   odometry.set("linear", Value::make_number(reading.linear));
   odometry.set("angular", Value::make_number(reading.angular));
   return odometry;
+}
+
+// Of a robot that grows: how long it is, and what its tip meets.
+Value describe_vine(const RobotState& state) {
+  const RobotState::Link& tip = state.links.back();
+  Value vine = Value::make_table();
+  vine.set("length", Value::make_number(state.length));
+  vine.set("speed", Value::make_number(state.joints.back().speed));
+  const Vec3 forwards = tip.world_from_link.rotation.rotate({1, 0, 0});
+  vine.set("force", Value::make_number(-dot(tip.contact_force, forwards)));
+  vine.set("most_force", Value::make_number(state.tip_force));
+  return vine;
+}
+
+Value describe_tip(const Pose& world_from_tip) {
+  Value tip = Value::make_table();
+  tip.set("position", vector_value(world_from_tip.translation));
+  tip.set("forwards", vector_value(world_from_tip.rotation.rotate({1, 0, 0})));
+  tip.set("left", vector_value(world_from_tip.rotation.rotate({0, 1, 0})));
+  tip.set("up", vector_value(world_from_tip.rotation.rotate({0, 0, 1})));
+  return tip;
 }
 
 // What a robot senses, as a function is told. last: the base's velocity at the call before.
@@ -146,6 +172,10 @@ Value describe_sense(const RobotSense& sense, const RobotModel& model, double gr
   const Vec3 x = base.world_from_link.rotation.rotate({1, 0, 0});
   truth.set("position", vector_value(base.world_from_link.translation));
   truth.set("yaw", Value::make_number(portable::atan2(x.y, x.x)));
+  if (model.tube) {
+    truth.set("tip", describe_tip(sense.state.links.back().world_from_link));
+    table.set("vine", describe_vine(sense.state));
+  }
   table.set("truth", truth);
   return table;
 }
@@ -160,6 +190,7 @@ RobotController make_leg_controller(const RobotItem& robot, const RobotModel& mo
     for (const RobotLeg& leg : robot.drive) {
       if (leg.t <= sense.time) now = leg;
     }
+    if (model.tube) return drive_vine(model, {now.growth, now.curvature, now.curvature_up});
     if (snake) return calc_gait(model, gait_of(now), sense.time);
     return drive_sides(model, {now.linear, now.angular}, in_radians(now.flippers_deg));
   };

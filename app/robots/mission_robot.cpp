@@ -1,5 +1,6 @@
 #include "app/robots/mission_robot.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "app/robots/urdf_robot.h"
@@ -11,6 +12,17 @@ namespace rubble {
 namespace {
 
 namespace fs = std::filesystem;
+
+VineOptions vine_options(const RobotItem& robot) {
+  VineOptions options;
+  options.tube.pressure = robot.pressure;
+  options.tube.radius = robot.radius;
+  options.tube.link_length = robot.link_length;
+  options.tube.links = count_vine_links(robot.length, robot.link_length);
+  options.tube.start_links = std::min(options.tube.start_links, options.tube.links);
+  options.friction = robot.friction.value_or(options.friction);
+  return options;
+}
 
 RobotModel make_bundled(const RobotItem& robot) {
   if (robot.model == RobotKind::snake) {
@@ -25,6 +37,7 @@ RobotModel make_bundled(const RobotItem& robot) {
     options.friction = robot.friction.value_or(options.friction);
     return make_crawler(options);
   }
+  if (robot.model == RobotKind::vine) return make_vine(vine_options(robot));
   RoverOptions options;
   options.friction = robot.friction.value_or(options.friction);
   return make_rover(options);

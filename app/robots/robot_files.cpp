@@ -44,8 +44,8 @@ Json describe_robot(const std::string& name, const RobotModel& model, int first_
 }
 
 // Every sample, whether or not the base moved.
-std::string trajectory_text(const Track& track, int base, std::int64_t start_ns) {
-  std::string text = "# stamp tx ty tz qx qy qz qw: the base frame in the world\n";
+std::string trajectory_text(const Track& track, const std::string& frame, int base, std::int64_t start_ns) {
+  std::string text = "# stamp tx ty tz qx qy qz qw: " + frame + " in the world\n";
   const TrackBody* const body = track.find(base);
   for (std::size_t i = 0; body && i < track.times.size(); ++i) {
     const auto motion = track.motion_at(*body, track.times[i]);
@@ -138,7 +138,9 @@ void write_robot_files(const std::string& folder, const std::vector<std::string>
   for (std::size_t i = 0; i < models.size(); ++i) {
     const std::string path = folder + "/robots/" + names[i];
     list.push_back(describe_robot(names[i], models[i], result.first_piece[i], result.robots[i]));
-    write_text_file(path + ".txt", trajectory_text(result.track, result.first_piece[i], start_ns));
+    const int lead = result.first_piece[i] + int(models[i].lead());
+    const std::string frame = models[i].tube ? "the frame of the tip" : "the base frame";
+    write_text_file(path + ".txt", trajectory_text(result.track, frame, lead, start_ns));
     write_text_file(path + "_joints.csv", joints_text(models[i], logs[i]));
     if (models[i].sides.any()) write_text_file(path + "_odometry.csv", odometry_text(logs[i]));
     write_robot_description(folder + "/robots", names[i], models[i]);

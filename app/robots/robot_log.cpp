@@ -43,8 +43,12 @@ void RobotLog::note(const RobotSense& sense) {
     sample.efforts.push_back(joint.torque);
   }
   const std::vector<Pose> links = calc_base_from_links(*model_, sample.positions);
-  for (const RobotJoint& joint : model_->joints)
-    sample.parent_from_child.push_back(parent_from_child(links, joint));
+  for (const RobotJoint& joint : model_->joints) {
+    // Links that have not grown are not where joints would put them.
+    const auto world = [&](int link) { return state.links[std::size_t(link)].world_from_link; };
+    sample.parent_from_child.push_back(model_->tube ? world(joint.parent).inverse() * world(joint.child)
+                                                    : parent_from_child(links, joint));
+  }
   for (std::size_t i = 0; i < state.links.size(); ++i)
     sample.contacts.push_back(wrench_of(state.links[i], model_->links[i].centre_of_mass));
   const RobotState::Link& base = state.links[0];

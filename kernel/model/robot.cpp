@@ -34,6 +34,8 @@ void check_link(const RobotLink& link, const std::string& at, RangeCheck& check)
   check.expect(link.friction >= 0 && link.friction <= 2, at + ".friction", "0 to 2", link.friction);
   check.expect(norm(link.belt_axis) == 0 || is_unit(link.belt_axis), at + ".belt_axis",
                "a unit vector, or zero", norm(link.belt_axis));
+  check.expect(norm(link.eversion_axis) == 0 || is_unit(link.eversion_axis), at + ".eversion_axis",
+               "a unit vector, or zero", norm(link.eversion_axis));
   check.expect(link.belt_speed_limit >= 0, at + ".belt_speed_limit", "0 m/s or more",
                link.belt_speed_limit);
 }
@@ -103,6 +105,13 @@ void validate(const RobotModel& model, const std::string& key) {
   }
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     check_joint(model.joints[i], int(i), ".joints[" + std::to_string(i) + "]", check);
+  }
+  static_assert(kMostTubeLinks + 2 == kMaxLinks);
+  if (model.tube) {
+    check_tube(*model.tube, ".tube", check);
+    check.expect(count == std::size_t(model.tube->links) + 2, ".links",
+                 "a tube has a base, its links and a tip", std::to_string(model.tube->links + 2),
+                 std::to_string(count));
   }
   check.finish();
 }

@@ -7,11 +7,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "kernel/base/mesh.h"
 #include "kernel/model/assembly.h"
+#include "kernel/model/everting_tube.h"
 #include "kernel/model/pile.h"
 
 namespace rubble {
@@ -29,6 +31,9 @@ struct RobotLink {
   // speed drives forwards. At the ends of the axis, where there is no direction, it stands still.
   Vec3 belt_axis;
   double belt_speed_limit = 0;  // unit: m/s; >= 0
+  // Of a tip that grows along this axis (link's frame, unit length; zero: none): the wall turns outwards
+  // there, so that the surface at its sides stands still while the tip moves on.
+  Vec3 eversion_axis;
   // What it looks like, in the link's frame; where empty the parts are drawn.
   TriangleMesh looks;
 };
@@ -68,13 +73,17 @@ struct SideDrive {
 };
 
 // Joints in the order of their children, parents first: joints[i].child == i + 1. 1 to 256 links.
+// With a tube: the base, which is staked to the ground, the tube's links one after another on hinges that
+// turn about Y and Z in turn, and the tip, on a slider with the motor of growth.
 struct RobotModel {
   std::string name;                // of the robot, prefix of its topics and files
   std::vector<RobotLink> links;    // the first is the base
   std::vector<RobotJoint> joints;  // one fewer than the links
   SideDrive sides;  // what twists drive and odometry counts; none: neither is there
+  std::optional<EvertingTube> tube;  // of a robot that grows; none: it has all its links from the start
 
   double mass() const;  // unit: kg
+  std::size_t lead() const { return tube ? links.size() - 1 : 0; }  // the link whose way is the robot's
 };
 
 enum class MotorMode : std::int32_t { off, torque, velocity, position };
@@ -88,6 +97,8 @@ struct MotorCommand {
 struct RobotCommand {
   std::vector<MotorCommand> joints;  // by joint; those without a motor are ignored
   std::vector<double> belts;         // by link: the belt's speed; unit: m/s; ignored without a belt
+  // Of a tube: how what grows from now on is bent, to the left and upwards; unit: 1/m
+  double curve_left = 0, curve_up = 0;
 };
 
 // What a robot is and feels, after a step.
@@ -108,6 +119,9 @@ struct RobotState {
   };
   std::vector<Link> links;    // in the order of RobotModel::links
   std::vector<Joint> joints;  // in the order of RobotModel::joints
+  // Of a tube, else 0: what has grown, and what the tip can push with. Links that have not grown are
+  // folded up in the tip; the joint of growth stands at `length`. unit: m, N
+  double length = 0, tip_force = 0;
   bool lost = false;          // it left the world; the rest is as it was then
 };
 

@@ -83,6 +83,10 @@ struct TreeLink {
   double stiffness = 0, damping = 0, friction = 0, yield = kNever;
   double break_force = kNever, break_torque = kNever;  // unit: N, N m
   double lower = -kNever, upper = kNever;              // of the coordinate; unit: rad, slider m
+  // A hinge of an inflated tube: its spring wrinkles from this moment on (inflated_bend.h), which it shares
+  // with another hinge of equal stiffness that bends the other way; -1: none. unit: N m
+  double wrinkling = kNever;
+  std::int32_t wrinkles_with = -1;
   bool collide = false;                                // true: it touches its parent as other pieces do
   // Where the spring is at rest: it creeps.
   double rest = 0;     // hinge, slider; unit: rad, m
@@ -95,6 +99,7 @@ struct TreeLink {
   TreeMotor motor;
   Vec3 belt_axis;         // see RobotLink; zero: no belt
   double belt_speed = 0;  // unit: m/s
+  Vec3 eversion_axis;     // see RobotLink; belt_speed is then that of growth
   LinkLoads loads;        // of the last step
 };
 
@@ -118,6 +123,7 @@ struct Tree {
   double mass = 0;                        // of what moves; unit: kg
   Pose root;                              // world_from_com of a fixed root
   bool driven = false;                    // a robot: never sleeps, and feels loads
+  bool tube = false;  // grows: links up to two apart are of one fold, and do not touch each other
 
   bool has_fixed_root() const { return !links.empty() && links[0].mobility == Mobility::fixed; }
 };

@@ -4,6 +4,7 @@
 
 #include "kernel/multibody/joints/joint.h"
 #include "kernel/multibody/tree_motion.h"
+#include "kernel/multibody/tree_springs.h"
 
 namespace rubble {
 namespace {
@@ -19,15 +20,6 @@ constexpr double kSpringSpan = 0.6;
 
 }  // namespace
 
-double TreeMotion::calc_spring_energy() const {
-  double sum = 0;
-  for (const TreeLink& link : tree_->links) {
-    if (link.parent < 0) continue;
-    sum += joint_of(link.mobility).calc_spring_energy(link, state_.q.data() + link.first_q);
-  }
-  return sum;
-}
-
 void TreeMotion::calc_accelerations(const std::vector<double>& at,
                                     std::vector<double>& accelerations) {
   simbody_->set_speeds(at);
@@ -39,7 +31,7 @@ void TreeMotion::calc_accelerations(const std::vector<double>& at,
   for (std::size_t i = 1; i < tree_->links.size(); ++i) {
     const TreeLink& link = tree_->links[i];
     double* f = forces_.data() + link.first_u;
-    joint_of(link.mobility).add_spring(link, state_.q.data() + link.first_q, f);
+    add_spring(i, f);
     for (int k = 0; k < speed_count(link.mobility); ++k) {
       f[k] -= resistance_[i] * state_.u[std::size_t(link.first_u + k)];
     }
@@ -114,7 +106,7 @@ std::vector<double> TreeMotion::normalized_coordinates(std::vector<double> q) co
 void TreeMotion::take_free_step(double h, bool fast) {
   Sums wanted = calc_sums(end_, motions_);
   double energy = wanted.energy + tree_->mass * gravity_ * wanted.centre.z;
-  if (has_springs_) energy += calc_spring_energy();
+  if (has_springs_) energy += calc_spring_energy(*tree_, state_.q);
   if (feels_loads_) add_weights(end_, 0.5 * h, external_);
   if (fast) {
     take_runge_kutta_step(h);
@@ -125,7 +117,7 @@ void TreeMotion::take_free_step(double h, bool fast) {
   calc_motions(*tree_, end_, state_.u, motions_);
   wanted.linear.z -= tree_->mass * gravity_ * h;
   energy -= tree_->mass * gravity_ * calc_sums(end_, motions_).centre.z;
-  if (has_springs_) energy -= calc_spring_energy();
+  if (has_springs_) energy -= calc_spring_energy(*tree_, state_.q);
   conserve(wanted, energy, !has_springs_);
 }
 

@@ -74,19 +74,6 @@ void TreeMotion::move_joints(const std::vector<double>& displacement) {
   }
 }
 
-void TreeMotion::set_diagonal(double time, double span) {
-  diagonal_.assign(tree_->links.size(), 0);
-  resistance_.assign(tree_->links.size(), 0);
-  for (std::size_t i = 1; has_springs_ && i < tree_->links.size(); ++i) {
-    const TreeLink& link = tree_->links[i];
-    const double tangent = joint_of(link.mobility)
-                               .calc_tangent_stiffness(link, state_.q.data() + link.first_q,
-                                                       state_.u.data() + link.first_u);
-    resistance_[i] = link.damping + span * tangent;
-    diagonal_[i] = time * resistance_[i];
-  }
-}
-
 void TreeMotion::begin_substeps(double h) {
   substep_ = h;
   set_diagonal(h, h);
@@ -113,7 +100,7 @@ void TreeMotion::add_forces() {
   for (std::size_t i = 1; has_springs_ && i < tree_->links.size(); ++i) {
     const TreeLink& link = tree_->links[i];
     double* f = forces_.data() + link.first_u;
-    joint_of(link.mobility).add_spring(link, state_.q.data() + link.first_q, f);
+    add_spring(i, f);
     for (int k = 0; k < speed_count(link.mobility); ++k) {
       f[k] = substep_ * (f[k] - resistance_[i] * state_.u[std::size_t(link.first_u + k)]);
     }

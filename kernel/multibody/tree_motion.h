@@ -86,7 +86,7 @@ class TreeMotion {
     double energy = 0;             // unit: J
   };
   Sums calc_sums(const TreePose& pose, const std::vector<Spatial>& motions) const;
-  double calc_spring_energy() const;
+  void add_spring(std::size_t link, double* forces) const;
   // By speed; `at`: the speeds that motion's forces are taken at.
   void calc_accelerations(const std::vector<double>& at, std::vector<double>& accelerations);
   void add_weights(const TreePose& pose, double time, std::vector<Spatial>& to) const;

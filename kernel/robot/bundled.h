@@ -37,6 +37,19 @@ struct RoverOptions {
 };
 RobotModel make_rover(const RoverOptions& options = {});
 
+// An inflated tube that grows from its tip. Origin: the middle of the base's mouth, X forwards; the base is
+// a box behind it, staked where it stands. Link i + 1 is the i-th of the tube; joint i bends it about Y (i
+// even) or Z (odd). The last link is the tip, on the joint `growth`.
+struct VineOptions {
+  EvertingTube tube;      // as many links as it can have; everything else: see there
+  double tip_mass = 0.12; // of the mount with camera and lamp; unit: kg; range: 0.001 to 10
+  double friction = 0.4;  // range: 0 to 2
+  double speed = 0.3;     // of growth at most; unit: m/s; range: 0.001 to 1
+};
+RobotModel make_vine(const VineOptions& options = {});
+// As many links as make up the length; unit: m
+int count_vine_links(double length, double link_length);
+
 // What turns twists into tracks and wheels.
 inline constexpr double kCrawlerTrackDistance = 0.397;  // unit: m
 inline constexpr double kRoverTrackDistance = 0.376;    // unit: m

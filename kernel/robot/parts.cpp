@@ -49,13 +49,16 @@ ConvexPart make_paddle(double radius_a, double radius_b, double width, int facet
 
 ConvexPart make_tube(double radius, double end_radius, double from, double to, double narrowing,
                      int facets) {
+  return make_rings({{from, end_radius}, {from + narrowing, radius}, {to - narrowing, radius}, {to, end_radius}},
+                    facets);
+}
+
+ConvexPart make_rings(const std::vector<Ring>& rings, int facets) {
   ConvexPart part;
-  const double xs[4] = {from, from + narrowing, to - narrowing, to};
-  const double radii[4] = {end_radius, radius, radius, end_radius};
-  for (int i = 0; i < 4; ++i) {
+  for (const Ring& ring : rings) {
     for (int k = 0; k < facets; ++k) {
-      const Vec3 c = polygon_corner(radii[i], facets, k);
-      part.points.push_back({xs[i], c.x, c.z});
+      const Vec3 c = polygon_corner(ring.radius, facets, k);
+      part.points.push_back({ring.x, c.x, c.z});
     }
   }
   return part;

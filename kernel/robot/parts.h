@@ -18,6 +18,12 @@ ConvexPart make_paddle(double radius_a, double radius_b, double width, int facet
 ConvexPart make_tube(double radius, double end_radius, double from, double to, double narrowing,
                      int facets);
 
+// Rings of corners round the X axis, each a polygon with a facet below: `radius` to the facets' middles.
+struct Ring {
+  double x = 0, radius = 0;
+};
+ConvexPart make_rings(const std::vector<Ring>& rings, int facets);
+
 // Centre of mass and inertia of the parts, of even density, for a link of that mass.
 void set_mass(double mass, RobotLink& link);
 

@@ -59,7 +59,8 @@ int RobotRun::add(const RobotModel& model, const Pose& world_from_base, RobotCon
   const int robot = world_.add_robot(model, world_from_base);
   Driven driven;
   driven.controller = std::move(controller);
-  driven.start = driven.last = driven.second_ago = world_from_base.translation;
+  driven.start = driven.last = driven.second_ago =
+      world_.robot_state(robot).links[model.lead()].world_from_link.translation;
   driven.summary.lowest = driven.start.z;
   driven.work.assign(model.joints.size(), 0);
   robots_.push_back(driven);
@@ -112,7 +113,7 @@ void RobotRun::measure() {
     const RobotState state = world_.robot_state(int(i));
     r.summary.lost = state.lost;
     if (state.lost) continue;
-    const Vec3 at = state.links[0].world_from_link.translation;
+    const Vec3 at = state.links[world_.robot_model(int(i)).lead()].world_from_link.translation;
     r.summary.path += distance(at, r.last);
     r.summary.distance = distance(at, r.start);
     r.summary.lowest = std::min(r.summary.lowest, at.z);

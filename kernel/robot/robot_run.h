@@ -37,11 +37,11 @@ struct RobotRunOptions {
 
 // What became of one robot.
 struct RobotSummary {
-  double distance = 0;    // of the first link, from start to end; unit: m
+  double distance = 0;    // of its lead (RobotModel::lead), from start to end; unit: m
   double path = 0;        // along its way; unit: m
   double work = 0;        // of the motors, what they took and gave both counted; unit: J
-  double lowest = 0;      // of the first link's origin; unit: m
-  double stuck_time = 0;  // the first link moved less than 2 cm within a second; unit: s
+  double lowest = 0;      // of the lead's origin; unit: m
+  double stuck_time = 0;  // the lead moved less than 2 cm within a second; unit: s
   bool lost = false;      // it left the world
 };
 

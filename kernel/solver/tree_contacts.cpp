@@ -82,7 +82,8 @@ void TreeContacts::solve_friction(Item& item, double limit, View& view) {
   const double length2 = wanted[0] * wanted[0] + wanted[1] * wanted[1];
   const double shrink = contact_law::shrink_into_cone(limit, length2);
   double slide[2] = {wanted[0] * shrink, wanted[1] * shrink};
-  if (item.driven && shrink < 1) contact_law::solve_slide(item.slide_matrix, limit, wanted, slide);
+  if (item.driven && shrink < 1 && !item.one_way)
+    contact_law::solve_slide(item.slide_matrix, limit, wanted, slide);
   for (int t = 0; t < 2; ++t) {
     const double next = slide[t];
     item.slide[t].apply<sides>(next - item.slide[t].impulse, view);

@@ -103,6 +103,7 @@ class TreeContacts {
     Row slide[2], twist;
     double slide_matrix[3] = {}, slide_inverse[3] = {};  // J M^-1 J^T of the two, symmetric
     bool driven = false;  // a robot takes part: see solve_slide()
+    bool one_way = false; // it can slide along one line only
     Spatial total[2];  // impulse of the step, where joints may break
   };
   class Builder;

@@ -13,6 +13,9 @@ namespace {
 // counts as held by the tree's joints.
 constexpr double kRedundant = 1e-6;
 
+// Where the determinant of J M^-1 J^T of the two tangents is less than this share of its trace squared, what
+// is left of it is rounding; unit: 1.
+constexpr double kOneWay = 1e-12;
 // Where the normal leans towards a belt's axis until its part across is less than this, the surface is the
 // belt's edge, which slows down to nothing at the end of the axis; unit: 1.
 constexpr double kBeltEdge = 0.5;
@@ -90,6 +93,10 @@ class TreeContacts::Builder {
     if (!body.awake) return {};
     const TreeLink& link = all_.motion(body.tree).tree().links[std::size_t(body.link)];
     if (link.belt_speed == 0) return {};
+    if (norm(link.eversion_axis) > 0) {  // backwards at the sides, at rest at the very front
+      const Vec3 axis = body.world_from_com.rotation.rotate(link.eversion_axis);
+      return (outwards * dot(axis, outwards) - axis) * link.belt_speed;
+    }
     const Vec3 along = cross(body.world_from_com.rotation.rotate(link.belt_axis), outwards);
     return along * (link.belt_speed / std::max(norm(along), kBeltEdge));
   }
@@ -139,11 +146,13 @@ TreeContacts::Row TreeContacts::make_row(const Item& item, const Spatial& a,
                                          const Spatial& b) const {
   Row row;
   set_row(item, a, b, row);
-  // What other joints hold already leaves nothing but rounding.
+  // What other joints hold already leaves nothing but rounding; so do the first hinges of a staked tube.
   double least = 0;
-  for (int s = 0; s < 2 && item.cross >= 0; ++s) {
+  for (int s = 0; s < 2; ++s) {
+    const Side& side = item.sides[s];
+    if (item.cross < 0 && (side.tree < 0 || !motion(side.tree).tree().tube)) continue;
     least = std::max(least, kRedundant * dot(row.jacobian[s], row.jacobian[s]) /
-                                item.sides[s].push_weight);
+                                side.push_weight);
   }
   const double sum = row.couple<2>(row);
   row.mass = sum > least ? 1 / sum : 0;
@@ -215,6 +224,15 @@ void TreeContacts::place_friction_of(Item& item) {
   const double determinant = k00 * k11 - k01 * k01;
   const double inverse = determinant > 0 ? 1 / determinant : 0;
   item.slide_matrix[0] = k00, item.slide_matrix[1] = k01, item.slide_matrix[2] = k11;
+  // A link with one hinge to the ground slides along one line only: K is lambda a a^T, and K / lambda^2 takes
+  // the place of its inverse.
+  const double trace = k00 + k11;
+  item.one_way = item.driven && determinant <= kOneWay * trace * trace;
+  if (item.one_way) {
+    const double scale = trace > 0 ? 1 / (trace * trace) : 0;
+    item.slide_inverse[0] = k00 * scale, item.slide_inverse[1] = k01 * scale, item.slide_inverse[2] = k11 * scale;
+    return;
+  }
   item.slide_inverse[0] = k11 * inverse;
   item.slide_inverse[1] = -k01 * inverse;
   item.slide_inverse[2] = k00 * inverse;

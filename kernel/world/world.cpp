@@ -8,7 +8,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/inertia.h"
-#include "kernel/multibody/joints/joint.h"
+#include "kernel/multibody/tree_springs.h"
 #include "kernel/solver/wide.h"
 #include "kernel/world/world_impl.h"
 
@@ -75,6 +75,15 @@ World::Impl::Impl(std::vector<PieceType> piece_types, const WorldOptions& world_
   }
 }
 
+void World::Impl::weigh(Body& body) const {
+  const PieceType& type = types[std::size_t(body.type)];
+  const double s3 = body.scale * body.scale * body.scale;
+  body.mass = type.density * body.shape->volume.volume * s3;
+  body.inertia = body.shape->volume.inertia * (type.density * s3 * body.scale * body.scale);
+  body.inverse_mass = float(1 / body.mass);
+  body.inverse_inertia_local = to_float(inverse_of(body.inertia));
+}
+
 void World::Impl::add_body(const NewPiece& piece, FreeBody* free) {
   const Placement& at = piece.placement;
   Body body;
@@ -87,12 +96,7 @@ void World::Impl::add_body(const NewPiece& piece, FreeBody* free) {
   body.world_from_com = {normalized(at.world_from_body.rotation),
                          at.world_from_body * body.com_in_type};
   if (!at.fixed) {
-    const double s3 = at.scale * at.scale * at.scale;
-    body.mass = types[at.type].density * body.shape->volume.volume * s3;
-    body.inertia =
-        body.shape->volume.inertia * (types[at.type].density * s3 * at.scale * at.scale);
-    body.inverse_mass = float(1 / body.mass);
-    body.inverse_inertia_local = to_float(inverse_of(body.inertia));
+    weigh(body);
     body.awake = true;
     body.linear = Vec3f(piece.linear_velocity);
     body.angular = Vec3f(piece.angular_velocity);
@@ -431,10 +435,7 @@ double World::potential_energy() const {
     if (body.movable()) sum += body.mass * impl_->options.gravity * body.world_from_com.translation.z;
   }
   for (std::size_t i = 0; i < impl_->data.trees.size(); ++i) {
-    const TreeState state = impl_->simbody_trees.state(int(i));
-    for (const TreeLink& link : impl_->data.trees[i].links) {
-      sum += joint_of(link.mobility).calc_spring_energy(link, state.q.data() + link.first_q);
-    }
+    sum += calc_spring_energy(impl_->data.trees[i], impl_->simbody_trees.state(int(i)).q);
   }
   return sum;
 }

@@ -23,6 +23,10 @@ namespace rubble {
 // Which bodies are a robot: those from `first_body` on, in the order of its links.
 struct WorldRobot {
   std::int32_t tree = 0, first_body = 0;
+  // Of a tube: how many of its links have grown, how far the tip has come beyond them (unit: m), and the
+  // curvature of what grows now (unit: 1/m).
+  std::int32_t laid = 0;
+  double reached = 0, curve_left = 0, curve_up = 0;
 };
 
 // Pieces that hold together: one rigid body.
@@ -100,6 +104,7 @@ struct World::Impl {
   std::vector<AssemblyType> assemblies;
   std::deque<Shape> shapes;      // by type; bodies point at them
   std::vector<RobotModel> robots;
+  std::vector<Tree> grown_robots;  // by robot: of a tube, the tree when all of it has grown
   WorldOptions options;
   SolverSettings solver_settings;
   NarrowSettings narrow_settings;
@@ -143,6 +148,7 @@ struct World::Impl {
 
   // world.cpp
   void add_body(const NewPiece& piece, FreeBody* free);
+  void weigh(Body& body) const;  // a piece alone, by its type
   void mirror(Body& body);   // q and u from Simbody
   void refresh(Body& body);  // rotation, inertia, corners, boxes
   void add_to_blocks(int first, const std::vector<FreeBody>& free);
@@ -259,10 +265,21 @@ struct World::Impl {
   // world_robots.cpp
   int add_robot(const RobotModel& model, const Pose& world_from_base);
   void set_command(int robot, const RobotCommand& command);
+  TreeLink* find_link(const WorldRobot& robot, int link);
   bool touches_robot(const Contact& contact) const;
   bool is_driven(std::int32_t body) const;
   void stay_awake_near_robots();  // in `slept`
   bool is_of_robot(const Contact& contact, const WorldRobot& robot) const;
+
+  // world_growth.cpp
+  Tree plant_tube(const Tree& grown, const EvertingTube& tube);
+  void stow(Body& body);
+  void grow_tubes();
+  void steer_tip(WorldRobot& robot, const EvertingTube& tube);
+  void lay_link(WorldRobot& robot, const RobotModel& model, const Tree& grown);
+  void set_tip(const WorldRobot& robot, const RobotModel& model);
+  void carry_stowed(const WorldRobot& robot, const RobotModel& model);
+  double tube_length(const WorldRobot& robot, const RobotModel& model) const;
 
   // world_trees.cpp
   void add_assembly(const NewPiece& piece);

@@ -60,6 +60,7 @@ int World::Impl::add_robot(const RobotModel& model, const Pose& world_from_base)
   NewPiece piece;
   piece.placement.world_from_body = {normalized(world_from_base.rotation),
                                      world_from_base.translation};
+  piece.placement.fixed = model.tube.has_value();  // what grows is staked to the ground
   Tree tree = make_tree(make_assembly(model, first_type), piece);
   tree.driven = true;
   std::vector<double> starts;
@@ -68,34 +69,57 @@ int World::Impl::add_robot(const RobotModel& model, const Pose& world_from_base)
   }
   for (std::size_t i = 0; i < model.links.size(); ++i) {
     tree.links[i].belt_axis = model.links[i].belt_axis;
+    tree.links[i].eversion_axis = model.links[i].eversion_axis;
   }
   data.robots.push_back({std::int32_t(data.trees.size()), first});
   robots.push_back(model);
+  grown_robots.emplace_back();
+  if (model.tube) {
+    data.robots.back().laid = model.tube->start_links;
+    tree = plant_tube(tree, *model.tube);
+    starts.clear();
+  }
   start_tree(tree, piece, starts);
   introduce(first);
+  if (model.tube) carry_stowed(data.robots.back(), model);
   return int(data.robots.size()) - 1;
 }
 
 void World::Impl::set_command(int number, const RobotCommand& command) {
   const RobotModel& model = robots[std::size_t(number)];
-  std::vector<TreeLink>& links = data.trees[data.robots[std::size_t(number)].tree].links;
+  WorldRobot& robot = data.robots[std::size_t(number)];
+  std::vector<TreeLink>& links = data.trees[robot.tree].links;
   if (links.empty()) return;  // lost
   const std::string key = "robots[" + std::to_string(number) + "]";
   for (std::size_t i = 0; i < std::min(command.joints.size(), model.joints.size()); ++i) {
     check_number(command.joints[i].target, key + "." + model.joints[i].name);
   }
-  for (std::size_t i = 0; i < std::min(command.belts.size(), links.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(command.belts.size(), model.links.size()); ++i) {
     check_number(command.belts[i], key + "." + model.links[i].name);
   }
+  check_number(command.curve_left, key + ".curve_left");
+  check_number(command.curve_up, key + ".curve_up");
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const MotorCommand wanted = i < command.joints.size() ? command.joints[i] : MotorCommand{};
-    set_motor(model.joints[i], wanted, links[std::size_t(model.joints[i].child)].motor);
+    TreeLink* link = find_link(robot, model.joints[i].child);
+    if (link != nullptr) set_motor(model.joints[i], wanted, link->motor);
+  }
+  if (model.tube) {
+    robot.curve_left = command.curve_left, robot.curve_up = command.curve_up;
+    return set_tip(robot, model);
   }
   for (std::size_t i = 0; i < links.size(); ++i) {
     const double most = norm(model.links[i].belt_axis) > 0 ? model.links[i].belt_speed_limit : 0;
     const double wanted = i < command.belts.size() ? command.belts[i] : 0;
     links[i].belt_speed = std::clamp(wanted, -most, most);
   }
+}
+
+// Of a link of the model; none: it has not grown.
+TreeLink* World::Impl::find_link(const WorldRobot& robot, int link) {
+  const Body& body = data.bodies[std::size_t(robot.first_body + link)];
+  if (body.tree < 0) return nullptr;
+  return &data.trees[body.tree].links[std::size_t(body.link)];
 }
 
 bool World::Impl::is_driven(std::int32_t body) const {
@@ -175,16 +199,15 @@ RobotState World::robot_state(int number) const {
   const Impl& w = *impl_;
   const WorldRobot& robot = w.data.robots[std::size_t(number)];
   const RobotModel& model = w.robots[std::size_t(number)];
-  const Tree& tree = w.data.trees[robot.tree];
   const TreeState state = w.simbody_trees.state(robot.tree);
   RobotState result;
-  result.lost = tree.links.empty();
+  result.lost = w.data.trees[robot.tree].links.empty();
   for (std::size_t i = 0; i < model.links.size(); ++i) {
     const Body& body = w.data.bodies[robot.first_body + int(i)];
     RobotState::Link link;
     link.world_from_link = body.world_from_type();
-    if (!result.lost) {
-      const TreeLink& from = tree.links[i];
+    if (const TreeLink* found = impl_->find_link(robot, int(i))) {
+      const TreeLink& from = *found;
       link.angular = from.angular;
       link.linear = from.linear +
                     cross(from.angular, link.world_from_link.translation -
@@ -197,8 +220,8 @@ RobotState World::robot_state(int number) const {
   }
   for (const RobotJoint& of : model.joints) {
     RobotState::Joint joint;
-    if (!result.lost) {
-      const TreeLink& from = tree.links[std::size_t(of.child)];
+    if (const TreeLink* found = impl_->find_link(robot, of.child)) {
+      const TreeLink& from = *found;
       if (of.kind != JointKind::weld) {
         joint.position = state.q[std::size_t(from.first_q)];
         joint.speed = state.u[std::size_t(from.first_u)];
@@ -209,6 +232,10 @@ RobotState World::robot_state(int number) const {
       joint.load_moment = from.loads.joint_moment;
     }
     result.joints.push_back(joint);
+  }
+  if (model.tube && !result.lost) {
+    result.length = result.joints.back().position = w.tube_length(robot, model);
+    result.tip_force = impl_->find_link(robot, int(model.lead()))->motor.effort;
   }
   return result;
 }
@@ -232,9 +259,10 @@ std::vector<RobotContact> World::robot_contacts(int number) const {
     if (contact.pressed <= 0 && separation >= 0) continue;
     const ContactPoint& one = contact.points[0];
     point = pressed > 0 ? point * (1 / double(pressed)) : Vec3(first ? one.from_a : one.from_b);
-    const Body& link = w.data.bodies[first ? contact.body_a : contact.body_b];
+    const std::int32_t index = first ? contact.body_a : contact.body_b;
+    const Body& link = w.data.bodies[std::size_t(index)];
     RobotContact c;
-    c.link = link.link;
+    c.link = index - robot.first_body;
     c.piece = first ? contact.body_b : contact.body_a;
     c.point = link.world_from_com.translation + point;
     c.normal = Vec3(contact.normal) * (first ? -1.0 : 1.0);

@@ -90,7 +90,8 @@ void each_field(Struct& l, Visit&& visit) {
   visit(l.parent_from_joint), visit(l.link_from_joint), visit(l.stiffness), visit(l.damping), visit(l.friction);
   visit(l.yield), visit(l.break_force), visit(l.break_torque), visit(l.lower), visit(l.upper);
   visit(l.collide), visit(l.rest), visit(l.rest_rotation), visit(l.friction_impulse), visit(l.linear), visit(l.angular);
-  visit(l.motor), visit(l.belt_axis), visit(l.belt_speed), visit(l.loads);
+  visit(l.motor), visit(l.belt_axis), visit(l.belt_speed), visit(l.eversion_axis), visit(l.loads);
+  visit(l.wrinkling), visit(l.wrinkles_with);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, TreeLoop> = 0>
@@ -103,7 +104,7 @@ void each_field(Struct& l, Visit&& visit) {
 template <typename Struct, typename Visit, IfIs<Struct, Tree> = 0>
 void each_field(Struct& t, Visit&& visit) {
   visit(t.links), visit(t.loops), visit(t.q_count), visit(t.u_count), visit(t.mass), visit(t.root);
-  visit(t.driven);
+  visit(t.driven), visit(t.tube);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, TreeState> = 0>
@@ -113,7 +114,8 @@ void each_field(Struct& s, Visit&& visit) {
 
 template <typename Struct, typename Visit, IfIs<Struct, WorldRobot> = 0>
 void each_field(Struct& r, Visit&& visit) {
-  visit(r.tree), visit(r.first_body);
+  visit(r.tree), visit(r.first_body), visit(r.laid), visit(r.reached), visit(r.curve_left);
+  visit(r.curve_up);
 }
 
 template <typename Struct, typename Visit, IfIs<Struct, RigidGroup> = 0>

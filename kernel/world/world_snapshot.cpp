@@ -142,7 +142,7 @@ bool is_consistent(const Tree& tree, const TreeState& state, std::size_t bodies)
   std::int32_t q = 0, u = 0;
   for (std::size_t i = 0; fine && i < tree.links.size(); ++i) {
     const TreeLink& link = tree.links[i];
-    fine = in_range(link.body, bodies) && in_range(std::int32_t(link.mobility), kMobilities) &&
+    fine = in_range(link.body, bodies) && link.wrinkles_with < std::int32_t(tree.links.size()) && in_range(std::int32_t(link.mobility), kMobilities) &&
            link.first_q == q && link.first_u == u &&
            (i == 0 ? link.parent == -1 && link.mobility <= Mobility::fixed
                    : in_range(link.parent, i) && link.mobility > Mobility::fixed);

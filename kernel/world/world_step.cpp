@@ -263,6 +263,7 @@ void World::step() {
     w.break_joints();
     w.update_sleep();
     w.remove_lost();
+    w.grow_tubes();
   }
   ++w.data.steps;
   if (w.data.verification_steps >= 0) ++w.data.verification_steps;

@@ -115,6 +115,7 @@ bool World::Impl::are_joined(int body_a, int body_b) const {
   const Body &a = data.bodies[body_a], &b = data.bodies[body_b];
   if (a.tree >= 0 && a.tree == b.tree) {
     const std::vector<TreeLink>& links = data.trees[a.tree].links;
+    if (data.trees[a.tree].tube && std::abs(a.link - b.link) <= 2) return true;
     const TreeLink &one = links[a.link], &other = links[b.link];
     if (one.parent == b.link) return !one.collide;
     if (other.parent == a.link) return !other.collide;

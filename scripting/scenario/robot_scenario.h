@@ -10,7 +10,7 @@
 
 namespace rubble {
 
-enum class RobotKind { snake, crawler, rover };
+enum class RobotKind { snake, crawler, rover, vine };
 enum class GaitKind { lateral_undulation, sidewinding, rolling, serpenoid, helical_rolling };
 
 // How a robot is driven from a time on.
@@ -24,6 +24,8 @@ struct RobotLeg {
   double rate = 4;          // of its waves; negative: backwards; unit: rad/s; range: -20 to 20
   double amplitude = 1;     // of the gait's own; unit: 1; range: 0 to 2
   double steering_deg = 0;  // added to the sideways joints; range: -45 to 45
+  double growth = 0;        // of a vine's tip; unit: m/s; range: 0 to 1
+  double curvature = 0, curvature_up = 0;  // of what grows, to the left and upwards; unit: 1/m; range: -5 to 5
 };
 
 struct RobotItem {
@@ -38,6 +40,11 @@ struct RobotItem {
   Vec3 rpy_deg;        // R = Rz(yaw) Ry(pitch) Rx(roll)
   int modules = 16;    // of a snake; range: 2 to 64
   bool flippers = true;  // of a crawler
+  // Of a vine: pressure above that outside; the tube, its greatest length, and of a link of its model.
+  double pressure = 10e3;     // unit: Pa; range: above 0 to 1e6
+  double radius = 0.05;       // unit: m; range: 0.01 to 0.3
+  double length = 3;          // unit: m; range: above 0 to 100; at least a link
+  double link_length = 0.05;  // unit: m; range: 0.02 to 0.5
   std::optional<double> friction{};  // against concrete; not given: the model's; range: 0 to 2
   std::vector<RobotLeg> drive{};     // in rising order of t; empty: it stands still
   int control = 0;  // number of a function of the script that drives it instead; 0: none

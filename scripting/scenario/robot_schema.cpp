@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 
+#include "kernel/model/everting_tube.h"
 #include "scripting/scenario/robot_scenario.h"
 #include "scripting/scenario/scenario.h"
 #include "scripting/schema/schema.h"
@@ -8,7 +10,7 @@
 namespace rubble {
 namespace {
 
-constexpr const char* kModelNames[] = {"snake", "crawler", "rover"};
+constexpr const char* kModelNames[] = {"snake", "crawler", "rover", "vine"};
 
 Schema leg_schema(RobotLeg& leg) {
   Schema k;
@@ -33,6 +35,9 @@ Schema leg_schema(RobotLeg& leg) {
   k.value("steering_deg", leg.steering_deg, "Snake: angle that is added to the sideways joints.")
       .between(-45, 45)
       .unit("degree");
+  k.value("growth", leg.growth, "Vine: speed at which the tip grows.").between(0, 1).unit("m/s");
+  k.value("curvature", leg.curvature, "Vine: curvature of what grows, to the left.").between(-5, 5).unit("1/m");
+  k.value("curvature_up", leg.curvature_up, "Vine: curvature of what grows, upwards.").between(-5, 5).unit("1/m");
   return k;
 }
 
@@ -63,6 +68,19 @@ void check_legs(const RobotItem& robot, std::size_t i, std::vector<Diagnostic>& 
     mistakes.push_back({"", 0, key_of(i, "drive"), "contradicts control", "one of both", "both", ""});
 }
 
+void check_vine(const RobotItem& robot, std::size_t i, std::vector<Diagnostic>& mistakes) {
+  if (!robot.urdf.empty() || robot.model != RobotKind::vine) return;
+  const double links = std::floor(robot.length / robot.link_length + 1e-9);
+  if (links < 1)
+    mistakes.push_back({"", 0, key_of(i, "length"), "shorter than a link",
+                        "link_length (" + format_number(robot.link_length) + " m) or more",
+                        format_number(robot.length) + " m", "a shorter link_length makes more of a short vine"});
+  if (links > kMostTubeLinks)
+    mistakes.push_back({"", 0, key_of(i, "length"), "too many links",
+                        std::to_string(kMostTubeLinks) + " links of link_length or fewer",
+                        format_number(links), "a longer link_length needs fewer"});
+}
+
 void check_ride(const Scenario& scenario, const std::vector<std::string>& names,
                 std::vector<Diagnostic>& mistakes) {
   const TrajectorySpec& path = scenario.trajectory;
@@ -91,7 +109,7 @@ void add_robot_keys(Schema& k, Scenario& s) {
   std::vector<RobotItem>& list = s.robots;
   k.list("robots", list, "Robots that are driven through the settled pile (docs/robots.md).");
   k.add("robots[].model", "One of the bundled robots.", [&list](std::size_t i) {
-    return Schema::choice_slot(list[i].model, {kModelNames[0], kModelNames[1], kModelNames[2]});
+    return Schema::choice_slot(list[i].model, {kModelNames[0], kModelNames[1], kModelNames[2], kModelNames[3]});
   });
   k.item("robots[].urdf", list, &RobotItem::urdf,
          "Instead of a bundled robot: a URDF file, relative to the script (docs/robots.md).");
@@ -105,8 +123,8 @@ void add_robot_keys(Schema& k, Scenario& s) {
   k.item("robots[].name", list, &RobotItem::name,
          "Name of its files and topics; not given: the name of the model and a number.");
   k.item("robots[].position", list, &RobotItem::position,
-         "Position of its base frame: on the ground between tracks or wheels, or the centre of the head of a "
-         "snake.")
+         "Position of its base frame: on the ground between tracks or wheels, the centre of the head of a "
+         "snake, or the middle of the mouth that a vine grows from.")
       .between(-1000, 1000)
       .unit("m");
   k.item("robots[].rpy_deg", list, &RobotItem::rpy_deg,
@@ -115,6 +133,17 @@ void add_robot_keys(Schema& k, Scenario& s) {
       .unit("degree");
   k.item("robots[].modules", list, &RobotItem::modules, "Snake: number of modules.").between(2, 64);
   k.item("robots[].flippers", list, &RobotItem::flippers, "Whether a crawler has flippers.");
+  k.item("robots[].pressure", list, &RobotItem::pressure, "Vine: pressure in its tube, above that outside.")
+      .above(0, 1e6)
+      .unit("Pa");
+  k.item("robots[].radius", list, &RobotItem::radius, "Vine: radius of its tube.").between(0.01, 0.3).unit("m");
+  k.item("robots[].length", list, &RobotItem::length, "Vine: length that it can grow to, at least a link.")
+      .above(0, 100)
+      .unit("m");
+  k.item("robots[].link_length", list, &RobotItem::link_length,
+         "Vine: length of the rigid links that its tube is modelled by.")
+      .between(0.02, 0.5)
+      .unit("m");
   k.item("robots[].friction", list, &RobotItem::friction,
          "Coulomb coefficient of tracks, wheels or skin against concrete; not given: that of the model.")
       .between(0, 2);
@@ -166,6 +195,7 @@ void check_robots(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
       mistakes.push_back({"", 0, key_of(i, "name"), "another robot has this name",
                           "a name of its own", "\"" + names[i] + "\"", ""});
     check_legs(scenario.robots[i], i, mistakes);
+    check_vine(scenario.robots[i], i, mistakes);
   }
 }
 

@@ -19,6 +19,22 @@ constexpr const char* kQuick =
     " --set camera.width=48 --set camera.height=48 --set trajectory.rate_hz=0.5 --set robot_run.duration=2"
     " --set outputs.bag=false --set outputs.rawlog=false --set outputs.simplemap=false --out ";
 
+using Rows = std::vector<std::vector<double>>;
+
+// Numbers of a file, line by line; stamps as seconds. Lines that begin with anything else are left out.
+Rows read_rows(const std::string& path) {
+  Rows rows;
+  std::istringstream in(read_file(path));
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] < '0' || line[0] > '9') continue;
+    for (char& c : line) c = c == ',' ? ' ' : c;
+    std::istringstream numbers(line);
+    std::vector<double>& row = rows.emplace_back();
+    for (double value = 0; numbers >> value;) row.push_back(value);
+  }
+  return rows;
+}
+
 TEST(Robots, RunsHaveTheSameBitsOnAnyNumberOfThreadsAndAreVerified) {
   const ScratchFolder scratch;
   std::string tracks[2];
@@ -46,23 +62,29 @@ TEST(Robots, AControllerThatReturnsNoNumberIsAMistakeWithItsLine) {
   EXPECT_NE(run.err.find("m.lua:2: robots[1].control: linear"), std::string::npos) << run.err;
 }
 
-using Rows = std::vector<std::vector<double>>;
-
-// Numbers of a file, line by line; stamps as seconds. Lines that begin with anything else are left out.
-Rows read_rows(const std::string& path) {
-  Rows rows;
-  std::istringstream in(read_file(path));
-  for (std::string line; std::getline(in, line);) {
-    if (line.empty() || line[0] < '0' || line[0] > '9') continue;
-    for (char& c : line) c = c == ',' ? ' ' : c;
-    std::istringstream numbers(line);
-    std::vector<double>& row = rows.emplace_back();
-    for (double value = 0; numbers >> value;) row.push_back(value);
-  }
-  return rows;
-}
-
 Vec3 vector_in(const std::vector<double>& row, std::size_t at) { return {row[at], row[at + 1], row[at + 2]}; }
+
+TEST(Robots, AVineGrowsWithTheSameBitsOnAnyNumberOfThreads) {
+  const ScratchFolder scratch;
+  std::string tracks[2];
+  for (int threads = 1; threads <= 2; ++threads) {
+    const std::string out = scratch / std::to_string(threads);
+    const Outcome run = run_rubble("run scripts/robots/vine.lua --threads " + std::to_string(threads) + kQuick +
+                                   out + " --set robot_run.duration=6");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    tracks[threads - 1] = read_file(out + "/robots/track.bin");
+  }
+  EXPECT_FALSE(tracks[0].empty());
+  EXPECT_TRUE(tracks[0] == tracks[1]);
+  // Stamp, then position, speed and force of growth: its length rises by the speed of growth.
+  const Rows joints = read_rows(scratch / "1/robots/vine_joints.csv");
+  ASSERT_EQ(joints.size(), 360u);
+  EXPECT_NEAR(joints[180][1] - joints[60][1], 2 * 0.25, 0.02);
+  // The pose is that of the tip: it is where the length says.
+  const Rows poses = read_rows(scratch / "1/robots/vine.txt");
+  EXPECT_NEAR(poses.back()[1], -5.2 + joints.back()[1], 0.05);
+  EXPECT_NE(read_file(scratch / "1/robots/vine.urdf").find("growth"), std::string::npos);
+}
 
 // scripts/robots/sensors.lua, with an inertial unit without noise.
 class CarriedSensors : public ::testing::Test {

@@ -57,6 +57,88 @@ TEST(RobotKeys, MistakesAreNamedWithTheirLine) {
             std::string::npos);
 }
 
+TEST(RobotKeys, AVineHasATubeAndGrows) {
+  const Scenario s = scenario_of(R"(return rubble.mission { robots = {
+    rubble.robot.vine { pressure = 2e4, radius = 0.04, length = 2.5, link_length = 0.04,
+                        drive = { { t = 0, growth = 0.1 }, { t = 3, growth = 0.2, curvature = -1, curvature_up = 0.5 } } } } })");
+  ASSERT_EQ(s.robots.size(), 1u);
+  EXPECT_EQ(s.robots[0].model, RobotKind::vine);
+  EXPECT_EQ(s.robots[0].pressure, 2e4);
+  EXPECT_EQ(s.robots[0].radius, 0.04);
+  EXPECT_EQ(s.robots[0].length, 2.5);
+  EXPECT_EQ(s.robots[0].drive[1].curvature, -1);
+  EXPECT_EQ(s.robots[0].drive[1].curvature_up, 0.5);
+  EXPECT_EQ(scenario_to_json(scenario_from_json(scenario_to_json(s), "j")), scenario_to_json(s));
+  const auto vine = [](const std::string& keys) {
+    return error_of("return rubble.mission { robots = {\n  rubble.robot.vine { " + keys + " } } }");
+  };
+  EXPECT_NE(vine("pressure = 0").find("m.lua:2: rubble.robot.vine.pressure: "), std::string::npos) << vine("pressure = 0");
+  EXPECT_NE(vine("radius = 0").find("m.lua:2: rubble.robot.vine.radius: "), std::string::npos) << vine("radius = 0");
+  EXPECT_EQ(vine("length = 0.03"),
+            "m.lua:2: robots[1].length: shorter than a link: expected link_length (0.05 m) or more, found 0.03 m "
+            "(a shorter link_length makes more of a short vine)");
+  EXPECT_NE(vine("length = 99").find("robots[1].length: too many links: expected 254 links"), std::string::npos)
+      << vine("length = 99");
+}
+
+// A vine as its controller is told of it.
+struct Tip {
+  Vec3 at{0, 0, 1}, forwards{1, 0, 0}, left{0, 1, 0};
+  double length = 0;
+
+  Value sense(double t) const {
+    const auto list = [](const Vec3& v) {
+      Value value = Value::make_table();
+      for (int i = 0; i < 3; ++i) value.items.push_back(Value::make_number(v[i]));
+      return value;
+    };
+    Value tip = Value::make_table(), truth = Value::make_table(), vine = Value::make_table(), sense = Value::make_table();
+    tip.set("position", list(at)), tip.set("forwards", list(forwards)), tip.set("left", list(left));
+    tip.set("up", list(cross(forwards, left)));
+    truth.set("tip", tip), vine.set("length", Value::make_number(length));
+    sense.set("t", Value::make_number(t)), sense.set("vine", vine), sense.set("truth", truth);
+    return sense;
+  }
+};
+
+double number_in(const Value& answer, const char* key) {
+  const Value* found = answer.find(key);
+  return found == nullptr ? 0 : found->number;
+}
+
+TEST(RobotControl, AVineGrowsAlongAPath) {
+  LuaSandbox sandbox(1, "rubble.mission");
+  sandbox.run("rubble.controller(rubble.robot.grow_along { path = { { 0, 0, 1 }, { 1, 0, 1 }, { 2, 0.6, 1.4 } }, "
+              "speed = 0.2, lookahead = 0.3 })\nreturn {}", "m.lua");
+  Tip tip;
+  double t = 0, nearest = 1e9;
+  for (; t < 20; t += 1.0 / 30) {
+    const Value wish = sandbox.call_controller(1, tip.sense(t));
+    const double grown = number_in(wish, "growth") / 30;
+    if (grown == 0) break;
+    const Vec3 bend = tip.left * number_in(wish, "curvature") +
+                      cross(tip.forwards, tip.left) * number_in(wish, "curvature_up");
+    tip.forwards = normalized(tip.forwards + bend * grown);
+    tip.left = normalized(tip.left - tip.forwards * dot(tip.left, tip.forwards));
+    tip.at += tip.forwards * grown;
+    tip.length += grown;
+    nearest = std::min(nearest, distance(tip.at, {2, 0.6, 1.4}));
+  }
+  EXPECT_LT(nearest, 0.05);
+  EXPECT_GT(t, 8);
+  EXPECT_LT(t, 14) << "it was to stop at the end of the path";
+}
+
+TEST(RobotControl, AVineThatIsStuckStopsGrowing) {
+  LuaSandbox sandbox(1, "rubble.mission");
+  sandbox.run("rubble.controller(rubble.robot.grow_along { path = { { 0, 0, 1 }, { 1, 0, 1 } }, stuck_after = 1 })\n"
+              "return {}", "m.lua");
+  const Tip tip;
+  EXPECT_EQ(number_in(sandbox.call_controller(1, tip.sense(0)), "growth"), 0.2);
+  EXPECT_EQ(number_in(sandbox.call_controller(1, tip.sense(0.9)), "growth"), 0.2);
+  EXPECT_EQ(number_in(sandbox.call_controller(1, tip.sense(1.1)), "growth"), 0);
+}
+
 TEST(RobotKeys, ARideTakesAsLongAsTheRobotIsDriven) {
   const std::string robot = "robots = { rubble.robot.rover { name = \"r\" } }, robot_run = { duration = 3 }";
   const Scenario s = scenario_of("return rubble.mission { " + robot + R"(,

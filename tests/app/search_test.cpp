@@ -258,6 +258,21 @@ TEST_F(SearchBench, TheAgentOfTheDocumentFindsSomebody) {
   EXPECT_GT(value(table, 0, "path_m"), 1);
 }
 
+// tools/draw_search.py between the two: the agent flies as it does without.
+TEST_F(SearchBench, WhatAnAgentSawIsKeptToBeDrawn) {
+  const std::string agent = "/usr/bin/python3 examples/search/agent.py", seen = folder_ / "seen.json";
+  ASSERT_EQ(search("--seeds 2 --agent '" + agent + "'").exit_code, 0);
+  const std::string alone = read_file(folder_ / "out/searches.csv");
+  const Outcome outcome = search("--seeds 2 --agent 'tools/draw_search.py record " + seen + " " + agent + "'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err << read_file(folder_ / "out/agent_2.log");
+  EXPECT_EQ(read_file(folder_ / "out/searches.csv"), alone);
+  const Json kept = Json::parse(read_file(seen), nullptr, false);
+  ASSERT_TRUE(kept.is_object());
+  EXPECT_EQ(kept["end"]["type"], "end");
+  EXPECT_EQ(kept["best"]["type"], "observation");
+  EXPECT_NEAR(double(kept["way"].size()), 5 * kept["end"]["time"].get<double>(), 1.5);
+}
+
 TEST(SearchAgents, ThatMisbehaveAreNamedAndEndTheirSearchOnly) {
   const ScratchFolder folder;
   const Settled settled = settle_with(folder, "easy", 2);

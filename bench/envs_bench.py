@@ -1,21 +1,24 @@
 #!/usr/bin/python3
-"""Steps a second of rubble/VoidExplore-v0, by the side of its depth picture, and of rubble/CrawlerNav-v0, and memory
-at the end.
+"""Steps a second of the environments: rubble/VoidExplore-v0 by the side of its depth picture, and with colour,
+rubble/CrawlerNav-v0 and rubble/SnakeExplore-v0; and memory at the end. A step of the last two is 0.1 s.
 
 usage: PYTHONPATH=build/release/python /usr/bin/python3 bench/envs_bench.py [--steps 500] [--threads 1,2]
+       ... --colour --write docs/python.md   writes the table into a document, between its marks
 """
 import argparse
+import re
 import resource
 import time
 
 import numpy as np
 
-from rubble.envs import CrawlerNav, VoidExplore
+from rubble.envs import CrawlerNav, SnakeExplore, VoidExplore
 
 
 def measure(env, steps):
+    """Steps in a second of the clock, and in a second of processor."""
     env.reset(seed=1)
-    actions = np.random.default_rng(1).uniform(-1, 1, (steps, 4))
+    actions = np.random.default_rng(1).uniform(-1, 1, (steps, *env.action_space.shape))
     start = time.perf_counter(), time.process_time()
     for action in actions:
         if any(env.step(action)[2:4]):
@@ -23,22 +26,44 @@ def measure(env, steps):
     return steps / (time.perf_counter() - start[0]), steps / (time.process_time() - start[1])
 
 
-def show(rates):
-    return f"{rates[0]:7.0f} steps/s, {rates[1]:7.0f} a second of processor"
+def list_cases(threads, colour):
+    options = {"threads": threads, "pile_seeds": [1]}
+    for size in (16, 32, 64, 128):
+        yield f"`VoidExplore`, depth {size} x {size}", VoidExplore(size=size, max_steps=100, **options)
+    if colour:
+        yield "`VoidExplore`, depth and colour 128 x 128", VoidExplore(size=128, colour=True, max_steps=100, **options)
+    yield "`CrawlerNav`", CrawlerNav(max_steps=10000, **options)
+    yield "`SnakeExplore`, depth 16 x 16", SnakeExplore(max_steps=10000, **options)
+
+
+def write_between_marks(path, text):
+    with open(path) as file:
+        whole = file.read()
+    whole, found = re.subn(r"(<!-- begin envs -->\n).*?(<!-- end envs -->)", lambda m: m[1] + text + m[2], whole,
+                           flags=re.DOTALL)
+    if not found:
+        raise SystemExit(f"{path} has no marks <!-- begin envs --> and <!-- end envs -->")
+    with open(path, "w") as file:
+        file.write(whole)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--steps", type=int, default=500)
     parser.add_argument("--threads", default="1,2")
+    parser.add_argument("--colour", action="store_true", help="with pictures in colour too, whose light is baked first")
+    parser.add_argument("--write", metavar="DOCUMENT")
     args = parser.parse_args()
+    lines = ["| environment | threads | steps in a second | in a second of processor |", "|---|---|---|---|"]
     for threads in map(int, args.threads.split(",")):
-        for size in (16, 32, 64, 128):
-            env = VoidExplore(size=size, threads=threads, max_steps=100, pile_seeds=[1])
-            print(f"VoidExplore, {threads} threads, {size:3d} x {size:3d}: {show(measure(env, args.steps))}")
-        crawler = CrawlerNav(threads=threads, max_steps=10000, pile_seeds=[1])
-        print(f"CrawlerNav, {threads} threads, steps of 0.1 s: {show(measure(crawler, args.steps))}")
-    print(f"memory: {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MiB at most")
+        for name, env in list_cases(threads, args.colour):
+            clock, processor = measure(env, args.steps)
+            lines.append(f"| {name} | {threads} | {clock:.0f} | {processor:.0f} |")
+            print(lines[-1], flush=True)
+    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    print(f"memory: {memory:.0f} MiB at most, for all of them together")
+    if args.write:
+        write_between_marks(args.write, "\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

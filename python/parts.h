@@ -1,12 +1,14 @@
 // The parts of the module, one source each. Internal to python/.
 #pragma once
 
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include <memory>
 
 #include "app/pipeline/resolved_mission.h"
 #include "kernel/model/pile_state.h"
+#include "render/scene/frame.h"
 
 namespace rubble::python {
 
@@ -21,6 +23,11 @@ using SharedPile = std::shared_ptr<SettledMission>;
 void add_errors(pybind11::module_& module);
 void add_pile(pybind11::module_& module);
 void add_sensors(pybind11::module_& module);
+void add_explorer(pybind11::module_& module);
+
+// A flat camera, checked. Throws InputError.
+Intrinsics pinhole(int width, int height, double fov_deg);
+pybind11::array_t<double> camera_matrix(const Intrinsics& k);  // K, 3 by 3
 void add_robots(pybind11::module_& module);
 void add_recordings(pybind11::module_& module);
 

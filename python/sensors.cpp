@@ -7,13 +7,13 @@
 #include "app/pipeline/build_scene.h"
 #include "kernel/base/parallel.h"
 #include "render/gl/gl_context.h"
+#include "render/lidar/depth_rays.h"
 #include "render/lidar/lidar.h"
 #include "render/renderer.h"
 #include "python/arrays.h"
 #include "python/parts.h"
 
 namespace rubble::python {
-namespace {
 
 Intrinsics pinhole(int width, int height, double fov_deg) {
   if (width < 16 || height < 16 || width > 8192 || height > 8192)
@@ -25,6 +25,12 @@ Intrinsics pinhole(int width, int height, double fov_deg) {
   camera.width = width, camera.height = height, camera.fov_deg = fov_deg;
   return camera.intrinsics();
 }
+
+py::array_t<double> camera_matrix(const Intrinsics& k) {
+  return take_vector<double>({k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1}, {3, 3});
+}
+
+namespace {
 
 Scene scene_of(const SettledMission& settled) {
   return build_scene(settled.mission.scenario, settled.mission.assets, settled.state);
@@ -49,10 +55,6 @@ class FrameRenderer {
     return out;
   }
 
-  static py::array_t<double> camera_matrix(const Intrinsics& k) {
-    return take_vector<double>({k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1}, {3, 3});
-  }
-
  private:
   SharedPile settled_;
   GlContext gl_;
@@ -63,52 +65,25 @@ class FrameRenderer {
 class DepthCamera {
  public:
   DepthCamera(SharedPile settled, int width, int height, double fov_deg, double max_range, int threads)
-      : world_(scene_of(*settled)), k_(pinhole(width, height, fov_deg)), max_range_(max_range), pool_(threads) {
-    for (int v = 0; v < height; ++v)
-      for (int u = 0; u < width; ++u) {
-        const Vec3 optical((u - k_.cx) / k_.fx, (v - k_.cy) / k_.fy, 1);
-        cosines_.push_back(1 / norm(optical));
-        directions_.push_back(normalized(camera_from_optical * optical));
-      }
-  }
+      : world_(scene_of(*settled)), rays_(pinhole(width, height, fov_deg), max_range), pool_(threads) {}
 
   py::array_t<float> depth(const DoubleArray& world_from_camera) {
     const Pose pose = to_pose(world_from_camera, "pose");
-    std::vector<float> out(directions_.size());
+    const Intrinsics& k = rays_.intrinsics();
+    py::array_t<float> out({py::ssize_t(k.height), py::ssize_t(k.width)});
+    float* const values = out.mutable_data();
     {
       const py::gil_scoped_release free;
-      pool_.run(int(directions_.size()), kGrain, [&](int begin, int end) { cast(pose, begin, end, out); });
+      rays_.cast(world_, pose, pool_, values);
     }
-    return take_vector(std::move(out), {k_.height, k_.width});
+    return out;
   }
-  py::array_t<double> matrix() const { return FrameRenderer::camera_matrix(k_); }
+  py::array_t<double> matrix() const { return camera_matrix(rays_.intrinsics()); }
 
  private:
-  static constexpr int kGrain = 256;
-  static constexpr int kPacket = int(LidarWorld::kPacket);
-
-  void cast(const Pose& pose, int begin, int end, std::vector<float>& out) const {
-    LidarWorld::Ray rays[kPacket];
-    LidarWorld::Hit hits[kPacket];
-    for (int first = begin; first < end; first += kPacket) {
-      const int count = std::min(kPacket, end - first);
-      for (int i = 0; i < count; ++i)
-        rays[i] = {pose.translation, pose.rotation.rotate(directions_[std::size_t(first + i)]), 0};
-      world_.cast(rays, std::size_t(count), max_range_, hits);
-      for (int i = 0; i < count; ++i) {
-        const double cosine = cosines_[std::size_t(first + i)];
-        out[std::size_t(first + i)] =
-            hits[i].distance < 0 ? std::numeric_limits<float>::infinity() : float(hits[i].distance * cosine);
-      }
-    }
-  }
-
   LidarWorld world_;
-  Intrinsics k_;
-  double max_range_;
+  DepthRays rays_;
   ThreadPool pool_;
-  std::vector<Vec3> directions_;  // in the body of the camera
-  std::vector<double> cosines_;   // planar depth over distance
 };
 
 LidarModel model_named(const std::string& name) {

@@ -14,6 +14,6 @@ for script in scripts/collapse/*.lua; do
   [ $# -eq 0 ] || [[ " $* " == *" $mode "* ]] || continue
   title=$(head -1 "$script" | sed 's/^-- //; s/[.]$//')
   "$build/rubble" settle "$script" --quiet --out "$scratch/$mode" > "$scratch/log"
-  "$build/rubble" cutaway "$scratch/$mode" --quiet --title "$title" \
+  "$build/rubble" cutaway "$scratch/$mode" --title "$title" \
     --out "docs/pictures/collapse/$mode.png"
 done

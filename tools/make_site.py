@@ -82,6 +82,7 @@ def main():
     documents = sorted(PAGES) + sorted("docs/" + n for n in os.listdir(os.path.join(ROOT, "docs")) if n.endswith(".md"))
     for path in documents:
         site.add(path)
+    shutil.copyfile(os.path.join(ROOT, "tools", "site.css"), os.path.join(site.folder, "site.css"))
     for sentence in site.broken:
         print(sentence, file=sys.stderr)
     return 1 if site.broken else 0

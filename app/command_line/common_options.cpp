@@ -57,6 +57,9 @@ void add_run_options(CommandLine& line, RunOptions& options) {
   add_device_option(line, options.gl_device);
   add_threads_option(line, options.threads);
   add_quiet_option(line, options.quiet);
+}
+
+void add_checkpoint_option(CommandLine& line, RunOptions& options) {
   line.add("--checkpoint-every", options.checkpoint_every,
            "Interval of checkpoints while settling")
       .shows_default("s")
@@ -69,7 +72,6 @@ void add_output_options(CommandLine& line, RunRequest& request) {
       .shows_default_text("out/<name of the script>")
       .metavar("DIR");
   line.add_flag("--force", request.force, "Replace the files of an earlier run");
-  add_run_options(line, request.options);
 }
 
 void add_preview_option(CommandLine& line, RunRequest& request) {
@@ -80,7 +82,6 @@ void add_preview_option(CommandLine& line, RunRequest& request) {
 void add_folder_options(CommandLine& line, FolderRequest& request) {
   line.add("folder", request.folder, "The output folder of a run").required();
   add_packs_option(line, request.asset_packs, "A folder with packs of the run, if they were moved");
-  add_run_options(line, request.options);
 }
 
 void add_jobs_options(CommandLine& line, int& jobs, RunOptions& options) {

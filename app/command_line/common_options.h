@@ -25,7 +25,11 @@ void add_quiet_option(CommandLine& line, bool& quiet);
 // Where packs of a run may be now.
 void add_packs_option(CommandLine& line, std::vector<std::string>& folders, const std::string& help);
 
+// For commands that draw frames.
 void add_run_options(CommandLine& line, RunOptions& options);
+
+// For commands that settle, and whose run can be resumed.
+void add_checkpoint_option(CommandLine& line, RunOptions& options);
 
 // Who to publish to; `text` says what --ros1 does. one: ROS 1 or ROS 2, not both.
 void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& text, bool one = false);

@@ -6,9 +6,11 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/common_options.h"
 #include "app/measures/pile_section.h"
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/finished_run.h"
+#include "app/support/run_context.h"
 #include "io/image/picture_sheet.h"
 #include "kernel/base/portable_math.h"
 #include "render/renderer.h"
@@ -175,8 +177,8 @@ ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutawa
   light_up(section.scene);
   const View view(section, cutaway.y, cutaway.width * kOversample);
   RenderOptions options;
-  options.threads = 2;
-  GlContext context({-1, options.threads});
+  options.threads = RunContext(request.options).threads();
+  GlContext context({request.options.gl_device, options.threads});
   Renderer renderer(context, section.scene, options);
   Frame frame;
   for (int i = 0; i < 3; ++i)
@@ -199,6 +201,8 @@ Action declare_cutaway(CommandLine& line) {
   const auto of = std::make_shared<FolderRequest>();
   const auto request = std::make_shared<CutawayRequest>();
   add_folder_options(line, *of);
+  add_device_option(line, of->options.gl_device);
+  add_threads_option(line, of->options.threads);
   line.add("--y", request->y, "Position of the section plane on the Y axis")
       .shows_default()
       .metavar("METRES")

@@ -71,6 +71,7 @@ Action declare_export(CommandLine& line) {
   const auto of = std::make_shared<FolderRequest>();
   const auto request = std::make_shared<ExportRequest>();
   add_folder_options(line, *of);
+  add_quiet_option(line, of->options.quiet);
   line.add("--format", request->formats, join_mesh_formats(" or "))
       .shows_default_text("all")
       .metavar("FORMAT")

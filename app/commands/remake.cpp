@@ -89,6 +89,7 @@ Action declare_remake(CommandLine& line) {
   add_packs_option(line, request->asset_packs,
                    "A folder with packs of the run, if they were moved");
   add_run_options(line, request->options);
+  add_checkpoint_option(line, request->options);
   return [request] { return remake(*request); };
 }
 

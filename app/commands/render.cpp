@@ -52,6 +52,7 @@ Action declare_render(CommandLine& line) {
   add_mission_options(line, *request, "--mission");
   add_seed_option(line, *request);
   add_output_options(line, *request);
+  add_run_options(line, request->options);
   add_live_options(line, request->options.live);
   return [request, from] { return render_finished_pile(*from, *request); };
 }

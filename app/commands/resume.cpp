@@ -20,6 +20,8 @@ ExitCode resume_run(const FolderRequest& request) {
 Action declare_resume(CommandLine& line) {
   const auto request = std::make_shared<FolderRequest>();
   add_folder_options(line, *request);
+  add_run_options(line, request->options);
+  add_checkpoint_option(line, request->options);
   return [request] { return resume_run(*request); };
 }
 

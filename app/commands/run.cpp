@@ -14,6 +14,8 @@ Action declare_run(CommandLine& line) {
   add_seed_option(line, *request);
   add_track_option(line, *request);
   add_output_options(line, *request);
+  add_run_options(line, request->options);
+  add_checkpoint_option(line, request->options);
   add_preview_option(line, *request);
   add_live_options(line, request->options.live);
   return [request] { return run_to_folder(*request, RunKind::run); };

@@ -15,6 +15,9 @@ Action declare_settle(CommandLine& line) {
   add_seed_option(line, *request);
   add_track_option(line, *request);
   add_output_options(line, *request);
+  add_threads_option(line, request->options.threads);
+  add_quiet_option(line, request->options.quiet);
+  add_checkpoint_option(line, request->options);
   add_preview_option(line, *request);
   return [request] { return run_to_folder(*request, RunKind::settle); };
 }

@@ -343,6 +343,7 @@ ExitCode verify_run(const VerifyRequest& request) {
 Action declare_verify(CommandLine& line) {
   const auto request = std::make_shared<VerifyRequest>();
   add_folder_options(line, request->of);
+  add_run_options(line, request->of.options);
   line.add("--work", request->work, "Folder for the new run")
       .shows_default_text("$TMPDIR")
       .metavar("DIR");

@@ -167,6 +167,8 @@ Action declare_voids(CommandLine& line) {
   const auto of = std::make_shared<FolderRequest>();
   const auto request = std::make_shared<VoidRequest>();
   add_folder_options(line, *of);
+  add_threads_option(line, of->options.threads);
+  add_quiet_option(line, of->options.quiet);
   add_space_options(line, request->space);
   line.add("--surfaces", request->surfaces,
            "Number of voids of each radius whose surfaces are written, largest first")

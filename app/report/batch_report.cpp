@@ -5,18 +5,13 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/batch/sweep.h"
-#include "app/report/csv_table.h"
+#include "app/batch/finished_batch.h"
 #include "app/report/html_text.h"
 #include "app/report/svg_plot.h"
-#include "app/support/json_members.h"
-#include "io/base/atomic_file.h"
 #include "io/image/image_file.h"
 #include "io/image/jpeg_file.h"
-#include "kernel/base/error.h"
 
 namespace rubble {
 namespace {
@@ -55,41 +50,14 @@ std::optional<double> to_number(const std::string& text) {
   return value;
 }
 
-struct Report {
-  std::string folder;
+struct Report : FinishedBatch {
   ReportOptions options;
-  CsvTable table;
-  std::string mission, seeds, program;
   std::vector<std::string> varied;  // names of columns: swept keys, and what scripts drew
-
-  std::string run_of(const std::vector<std::string>& row) const {
-    const int variant = table.find("variant");
-    const std::string seed = row[std::size_t(table.find("seed"))];
-    return (variant < 0 ? "" : "v" + row[std::size_t(variant)] + "_") + "seed_" + seed;
-  }
-  const std::string& status_of(const std::vector<std::string>& row) const {
-    return row[std::size_t(table.find("status"))];
-  }
 };
 
 Report read_report(const std::string& folder, const ReportOptions& options) {
-  const std::string file = folder + "/batch.json", index = folder + "/index.csv";
-  std::error_code failed;
-  if (!fs::exists(file, failed) || !fs::exists(index, failed))
-    throw InputError({folder, 0, "", "there is no finished batch", "batch.json and index.csv, as "
-                      "`rubble batch` leaves them", "", ""});
-  const auto json = parse_json_text(read_whole_file(file), file);
-  const JsonMembers members(json, file);
-  Report report{folder, options, parse_csv(read_whole_file(index), index), "", "", "", {}};
-  for (const char* column : {"seed", "status"})
-    if (report.table.find(column) < 0)
-      throw InputError({index, 1, column, "the table has no such column", "", "", ""});
-  report.mission = members.object("script").text("name");
-  report.seeds = members.text("seeds");
-  report.program = members.text("program");
-  if (json.contains("vary"))
-    for (const JsonMembers& text : members.list("vary"))
-      report.varied.push_back(text.as_text().substr(0, text.as_text().find('=')));
+  Report report{open_finished_batch(folder), options, {}};
+  report.varied = report.swept;
   for (const std::string& column : report.table.columns)
     if (column.rfind("random.", 0) == 0) report.varied.push_back(column);
   return report;

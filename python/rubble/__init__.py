@@ -11,10 +11,11 @@ Z up. Mistakes raise InputError, with the attributes file, line, key and diagnos
 """
 import os as _os
 
-# The assets that a build keeps beside its program.
-_beside = _os.path.normpath(_os.path.join(_os.path.dirname(__file__), "..", "..", "assets"))
-if "RUBBLE_ASSETS" not in _os.environ and _os.path.isdir(_beside):
-    _os.environ["RUBBLE_ASSETS"] = _beside
+# The assets that a wheel holds, or those that a build keeps beside its program.
+for _place in ("assets", _os.path.join("..", "..", "assets")):
+    _beside = _os.path.normpath(_os.path.join(_os.path.dirname(__file__), _place))
+    if "RUBBLE_ASSETS" not in _os.environ and _os.path.isdir(_beside):
+        _os.environ["RUBBLE_ASSETS"] = _beside
 
 from ._core import InputError, Pile, RunError, __version__, open_pile, settle  # noqa: E402
 from .dataset import Dataset, open_dataset  # noqa: E402

@@ -110,8 +110,6 @@ TEST(CommandLine, KnowsWhatWasMeant) {
   EXPECT_NE(mode.err.find("did you mean `rubble.collapse.lean_to`?"), std::string::npos) << mode.err;
 }
 
-// A command is a file with a function NAME_command(), and its name in RUBBLE_COMMANDS. A name without
-// the file does not build; a file without the name is found here.
 TEST(CommandLine, TakesHelpAsAWord) {
   const Outcome all = run_rubble("help"), one = run_rubble("help eval map");
   EXPECT_EQ(all.exit_code, 0) << all.err;
@@ -121,6 +119,27 @@ TEST(CommandLine, TakesHelpAsAWord) {
   EXPECT_NE(one.out, all.out);
 }
 
+TEST(CommandLine, OffersAnOptionWhereItHasAnEffect) {
+  std::set<std::string> settling, drawing;
+  for (const char* command :
+       {"run", "settle", "check", "info", "render", "export", "cutaway", "voids", "assets check", "assets show",
+        "verify", "remake", "resume", "suite", "batch", "report", "view", "pack", "drive", "eval trajectory",
+        "eval sfm", "eval surface", "eval map", "bench search"}) {
+    const std::string help = run_rubble(command + std::string(" --help")).out;
+    EXPECT_NE(help.find("--help"), std::string::npos) << command;
+    if (help.find("  --checkpoint-every ") != std::string::npos) settling.insert(command);
+    if (help.find("  --gl-device ") != std::string::npos) drawing.insert(command);
+  }
+  EXPECT_EQ(settling, (std::set<std::string>{"run", "settle", "resume", "remake"})) << "what settles and can be resumed";
+  EXPECT_EQ(drawing, (std::set<std::string>{"run", "render", "resume", "verify", "remake", "drive", "cutaway",
+                                            "assets show", "info"}));
+  const Outcome show = run_rubble("assets show concrete --gl-device 42 --out /dev/null/none.png");
+  EXPECT_EQ(show.exit_code, 2) << show.err;
+  EXPECT_NE(show.err.find("there is no EGL device 42"), std::string::npos) << show.err;
+}
+
+// A command is a file with a function NAME_command(), and its name in RUBBLE_COMMANDS. A name without
+// the file does not build; a file without the name is found here.
 TEST(CommandLine, HasEveryCommandThatIsWritten) {
   const std::string cmake = read_file(RUBBLE_SOURCE_DIR "/app/CMakeLists.txt");
   const std::size_t begin = cmake.find("set(RUBBLE_COMMANDS"), end = cmake.find(')', begin);

@@ -1,9 +1,13 @@
 // What is handed on with a dataset: checksums that sha256sum takes, a card, settings of other programs.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
+#include "app/card/splits.h"
+#include "kernel/base/error.h"
 #include "tests/app/program.h"
 
 namespace rubble::testing {
@@ -43,6 +47,80 @@ TEST_F(Pack, CardAndChecksumsSayWhatIsThere) {
   EXPECT_EQ(run_rubble("info " + folder).exit_code, 0);
   write_file(folder + "/groundtruth.txt", "0");
   EXPECT_NE(std::system(check.c_str()), 0);
+}
+
+// The rule as anybody may write it down again from the card.
+std::string split_by_python(int seeds, int train, int val) {
+  const ScratchFolder scratch;
+  write_file(scratch / "rule.py",
+             "import hashlib\nfor seed in range(" + std::to_string(seeds) + "):\n"
+             "    n = int(hashlib.sha256(b'rubble split %d' % seed).hexdigest()[:8], 16) % 100\n"
+             "    print(0 if n < " + std::to_string(train) + " else 1 if n < " + std::to_string(train + val) + " else 2)\n");
+  EXPECT_EQ(std::system(("/usr/bin/python3 " + (scratch / "rule.py") + " >" + (scratch / "out")).c_str()), 0);
+  return read_file(scratch / "out");
+}
+
+TEST(Splits, FollowFromTheSeedByTheRuleOfTheCardInTheStatedShares) {
+  for (const SplitShares shares : {SplitShares{}, SplitShares{50, 20, 30}, SplitShares{0, 100, 0}}) {
+    std::string found;
+    std::array<int, 3> counts{};
+    for (int seed = 0; seed < 4000; ++seed) {
+      const int split = split_of(std::uint64_t(seed), shares);
+      found += std::to_string(split) + "\n";
+      ++counts.at(std::size_t(split));
+    }
+    EXPECT_EQ(found, split_by_python(4000, shares.train, shares.val));
+    for (std::size_t i = 0; i < 3; ++i) {  // within four deviations of a binomial distribution
+      const double p = shares.as_list()[i] / 100.0;
+      EXPECT_NEAR(counts[i], 4000 * p, 4 * std::sqrt(4000 * p * (1 - p))) << kSplits[i];
+    }
+  }
+}
+
+TEST(Splits, RefusesSharesThatAreNone) {
+  EXPECT_EQ(parse_shares("60,25,15").as_list(), (std::array<int, 3>{60, 25, 15}));
+  for (const char* text : {"", "80,10", "80,10,11", "80,10,10,0", "-10,100,10", "80;10;10", "80,10,10%", "a,b,c"}) {
+    try {
+      parse_shares(text);
+      ADD_FAILURE() << text << " was taken";
+    } catch (const InputError& error) {
+      EXPECT_IN("--splits: no shares of a dataset: expected three whole numbers", std::string(error.what()));
+    }
+  }
+}
+
+TEST_F(Pack, OfABatchHasItsSplitsInTheCardAndAsFiles) {
+  write_file(scratch / "tiny.lua", kTinyMission);
+  const Outcome ran = run_rubble("batch " + (scratch / "tiny.lua") + " --pile-only --quiet --seeds 1..6 "
+                                 "--vary settle.gravity=9.8,1.6 --out " + folder);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Outcome packed = run_rubble("pack " + folder + " --card --licence CC0-1.0 --splits 50,50,0");
+  ASSERT_EQ(packed.exit_code, 0) << packed.err;
+  EXPECT_EQ(packed.err, "") << "nobody asked for a test split";
+  const SplitShares halves{50, 50, 0};
+  std::array<std::string, 3> expected;
+  for (int variant = 1; variant <= 2; ++variant)
+    for (int seed = 1; seed <= 6; ++seed)
+      expected.at(std::size_t(split_of(std::uint64_t(seed), halves))) +=
+          "v" + std::to_string(variant) + "_seed_" + std::to_string(seed) + "\n";
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(read_file(folder + "/splits/" + kSplits[i] + ".txt"), expected[i]);
+  EXPECT_FALSE(expected[0].empty() || expected[1].empty()) << "the test wants seeds in both";
+  const std::string card = read_file(folder + "/README.md");
+  EXPECT_IN("12 runs of `tiny.lua`, seeds 1..6, 12 `done`", card);
+  EXPECT_IN("| `settle.gravity` | 1.6, 9.8 |", card);
+  EXPECT_IN("`train` if n < 50, `val` if n < 100, else `test`", card);
+  EXPECT_IN("| `test` | 0 % | 0 | 0 | `splits/test.txt` |", card);
+  // Every file of every run is in the sums, and a change is found.
+  const std::string check = "cd " + folder + " && sha256sum --quiet -c SHA256SUMS >sums 2>&1";
+  EXPECT_EQ(std::system(check.c_str()), 0) << read_file(folder + "/sums");
+  EXPECT_IN("  v2_seed_6/pile.bin\n", read_file(folder + "/SHA256SUMS"));
+  write_file(folder + "/v2_seed_6/pile.stl", "0");
+  EXPECT_NE(std::system(check.c_str()), 0);
+  // One run of it says where it belongs; a split without a seed is named; settings are of one run.
+  ASSERT_EQ(run_rubble("pack " + folder + "/v1_seed_3 --card").exit_code, 0);
+  EXPECT_IN("Seed 3 is of `" + std::string(kSplits[std::size_t(split_of(3, {}))]) + "`.", read_file(folder + "/v1_seed_3/README.md"));
+  EXPECT_IN("warning: splits/test.txt is empty", run_rubble("pack " + folder + " --card --force --splits 98,1,1").err);
+  EXPECT_IN("settings are of one run", run_rubble("pack " + folder + " --settings --force").err);
 }
 
 TEST_F(Pack, SettingsAreThoseOfTheMission) {

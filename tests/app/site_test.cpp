@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <regex>
+#include <set>
 #include <sstream>
 
 #include "tests/app/program.h"
@@ -37,7 +39,7 @@ TEST(Site, EveryLinkLeadsSomewhere) {
 TEST(Site, NamesLinksThatLeadNowhere) {
   const ScratchFolder scratch;
   for (const char* folder : {"tools", "assets", "docs"}) fs::create_directories(scratch / folder);
-  fs::copy_file(kRoot + "/tools/make_site.py", scratch / "tools/make_site.py");
+  for (const char* file : {"tools/make_site.py", "tools/site.css"}) fs::copy_file(kRoot + "/" + file, scratch / file);
   write_file(scratch / "README.md", "# A\n[one](docs/lua.md#keys) [two](docs/none.md)\n\n    [code](nowhere.md)\n");
   write_file(scratch / "CHANGELOG.md", "# C\n");
   write_file(scratch / "assets/README.md", "# B\n[back](../README.md#a) [out](https://example.org)\n");
@@ -81,6 +83,21 @@ TEST(Faq, QuotesMessagesThatTheProgramHas) {
   EXPECT_GE(quoted, 15);
 }
 
+// What a page loads (scripts, styles, pictures), if it is not in the site.
+std::set<std::string> missing_in(const fs::path& site) {
+  const std::regex loads("(?:<script[^>]* src|<img[^>]* src|<link[^>]* rel=\"(?:stylesheet|icon)\"[^>]* href|"
+                         "<link[^>]* href)=\"([^\"#?]+)");
+  std::set<std::string> missing;
+  for (const auto& page : fs::directory_iterator(site)) {
+    if (page.path().extension() != ".html") continue;
+    const std::string text = read_file(page.path().string());
+    for (std::sregex_iterator at(text.begin(), text.end(), loads), end; at != end; ++at)
+      if (const std::string file = (*at)[1]; !fs::exists(site / file) && !fs::exists(site.string() + file))
+        missing.insert(page.path().filename().string() + ": " + file);
+  }
+  return missing;
+}
+
 TEST(NightlySite, MkdocsMakesIt) {
   if (run("command -v mkdocs >/dev/null") != 0) GTEST_SKIP() << "mkdocs is not installed";
   const ScratchFolder scratch;
@@ -90,6 +107,10 @@ TEST(NightlySite, MkdocsMakesIt) {
       << read_file(scratch / "log");
   EXPECT_NE(read_file(scratch / "build/site/lua.html").find("collapse.lean_to"), std::string::npos);
   EXPECT_TRUE(fs::exists(scratch / "build/site/search/search_index.json"));
+  // Complete without a network; a control that what is not there is found.
+  EXPECT_EQ(missing_in(scratch / "build/site"), std::set<std::string>{});
+  fs::remove(scratch / "build/site/pictures/first_pile.png");
+  EXPECT_EQ(missing_in(scratch / "build/site"), std::set<std::string>{"index.html: pictures/first_pile.png"});
 }
 
 }  // namespace

@@ -197,7 +197,7 @@ TEST_F(Suite, APartOfOursPasses) {
 
 // The commands of the examples for CI servers, as written, on a suite of one mission.
 TEST_F(Suite, ExamplesForCiServersDoWhatTheySay) {
-  for (const std::string name : {"github-actions", "gitlab-ci"}) {
+  for (const std::string name : {"github-actions", "github-actions-package", "gitlab-ci", "gitlab-ci-package"}) {
     const std::string folder = scratch / name;
     for (const std::string& missions : {folder + "/missions", folder + "/robot/missions"}) {
       std::filesystem::create_directories(missions);

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "app/batch/sweep.h"
-#include "app/report/csv_table.h"
+#include "app/batch/csv_table.h"
 #include "app/report/html_text.h"
 #include "app/report/svg_plot.h"
 #include "kernel/base/error.h"

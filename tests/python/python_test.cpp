@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 
 namespace rubble {
@@ -36,6 +38,38 @@ TEST(Python, SensorsAndRobotsAnswer) { expect_tests("test_sensors.py"); }
 TEST(Python, DatasetsAreRead) { expect_tests("test_dataset.py"); }
 TEST(PythonDocument, RunsAsItIsWritten) { expect_tests("test_document.py"); }
 TEST(PythonEnvironments, RepeatTheirEpisodes) { expect_tests("test_envs.py"); }
+
+TEST(PythonBench, WritesItsTableIntoTheDocument) {
+  const std::string copy = std::filesystem::temp_directory_path() / ("rubble_envs_" + std::to_string(getpid()) + ".md");
+  std::ofstream(copy) << "before\n<!-- begin envs -->\nold\n<!-- end envs -->\nafter\n";
+  const Ran ran = run("/usr/bin/python3 bench/envs_bench.py --steps 5 --threads 1 --colour --write " + copy);
+  EXPECT_EQ(ran.status, 0) << ran.output;
+  std::ostringstream text;
+  text << std::ifstream(copy).rdbuf();
+  EXPECT_EQ(text.str().find("old"), std::string::npos) << text.str();
+  for (const char* part : {"before\n", "depth 64 x 64 | 1 | ", "depth and colour 128 x 128 | 1 | ", "| `SnakeExplore`",
+                           "<!-- end envs -->\nafter\n"})
+    EXPECT_NE(text.str().find(part), std::string::npos) << part << "\n" << text.str();
+  std::filesystem::remove(copy);
+}
+
+TEST(NightlyPython, MemoryStaysOverAHundredThousandSteps) {
+  const Ran ran = run("/usr/bin/env RUBBLE_MEMORY_STEPS=100000 /usr/bin/python3 tests/python/test_envs.py -v Memory");
+  EXPECT_EQ(ran.status, 0) << ran.output;
+  EXPECT_NE(ran.output.find("\nOK"), std::string::npos) << ran.output;
+}
+
+// Unpacked anywhere it needs nothing of the build; pip, where it is there, takes it, too.
+TEST(PythonWheel, RunsWhereItIsUnpacked) {
+  const std::string folder = std::filesystem::temp_directory_path() / ("rubble_wheel_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const Ran made = run("tools/make_wheel.py 0.0.1 " RUBBLE_PYTHON_PATH "/rubble " RUBBLE_PYTHON_PATH "/../assets " + folder);
+  ASSERT_EQ(made.status, 0) << made.output;
+  const Ran checked = run("/usr/bin/python3 tests/python/check_wheel.py " + folder);
+  EXPECT_EQ(checked.status, 0) << checked.output;
+  EXPECT_NE(checked.output.find("pieces"), std::string::npos) << checked.output;
+  std::filesystem::remove_all(folder);
+}
 
 TEST(PythonTutorials, Run) {
   const std::string folder = std::filesystem::temp_directory_path() / ("rubble_tutorial_" + std::to_string(getpid()));

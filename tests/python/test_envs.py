@@ -1,13 +1,16 @@
-"""Environments: equal episodes whatever came before, spaces kept, mistakes named."""
+"""Environments: equal episodes whatever came before, spaces kept, mistakes named, nothing left behind."""
+import ctypes
 import hashlib
 import multiprocessing
+import os
 import random
+import sys
 import unittest
 
 import numpy as np
 
 import rubble
-from rubble.envs import CrawlerNav, VoidExplore
+from rubble.envs import CrawlerNav, SnakeExplore, VoidExplore
 
 SMALL = {"size": 16, "max_steps": 12, "pile_seeds": range(1, 4)}
 
@@ -26,7 +29,8 @@ def play(env, seed):
     add(observation, sorted(info.items()))
     done = False
     while not done:
-        observation, reward, terminated, truncated, info = env.step(chance.uniform(-1, 1, 4).astype(np.float32))
+        observation, reward, terminated, truncated, info = env.step(
+            chance.uniform(-1, 1, env.action_space.shape).astype(np.float32))
         add(observation, reward, terminated, truncated, sorted(info.items()))
         done = terminated or truncated
     return digest.hexdigest()
@@ -99,6 +103,104 @@ class Crawler(unittest.TestCase):
         self.assertGreater(reward, 9)
 
 
+class Snake(unittest.TestCase):
+    OPTIONS = {"max_steps": 10, "pile_seeds": [1, 2]}
+
+    def test_episodes_are_equal_whatever_came_before(self):
+        env = SnakeExplore(**self.OPTIONS)
+        first = {seed: play(env, seed) for seed in range(3)}
+        for seed in (2, 0, 1):
+            self.assertEqual(play(env, seed), first[seed])
+        self.assertEqual(play(SnakeExplore(threads=2, **self.OPTIONS), 2), first[2])
+
+    def test_it_lies_on_the_ground_and_moves_as_it_is_told(self):
+        env = SnakeExplore(max_steps=40, pile_seeds=[1])
+        observation, info = env.reset(seed=1)
+        self.assertFalse(info["entered"])
+        self.assertAlmostEqual(float(observation["head"][4]), 1, places=3)  # its Z axis is up
+        np.testing.assert_array_equal(observation["head"][:3], 0)
+        bend = np.zeros(15)
+        bend[::2] = 0.25
+        for _ in range(20):
+            observation, reward, terminated, truncated, info = env.step(bend)
+            self.assertTrue(env.observation_space.contains(observation))
+        np.testing.assert_allclose(observation["joints"][::2], 0.3, atol=0.1)
+        weight = 16 * 0.2 * 9.81
+        self.assertAlmostEqual(float(observation["touch"].sum()), weight, delta=0.6 * weight)
+
+    def test_a_gait_changes_the_distance_to_the_entrance(self):
+        """The reward before it has entered is how much nearer it came, and what it saw."""
+        env = SnakeExplore(max_steps=60, pile_seeds=[1])
+        env.reset(seed=1)
+        before, seen, total = env._to_entrance(), env._world.view.seen, 0.0
+        i = np.arange(15)
+        for step in range(60):
+            even = i % 2 == 0
+            action = np.where(even, 0.75 * np.sin(0.5 * i - 0.4 * step), 0.9 * np.sin(0.5 * i - 0.4 * step + np.pi / 4))
+            _, reward, _, _, info = env.step(action)
+            total += reward
+        self.assertGreater(abs(env._to_entrance() - before), 0.02)
+        if not info["entered"]:
+            share = (env._world.view.seen - seen) / env._world.view.count
+            self.assertAlmostEqual(total, before - env._to_entrance() + 100 * share - 0.6, places=4)
+
+    def test_mistakes_are_named(self):
+        env = SnakeExplore(**self.OPTIONS)
+        with self.assertRaises(RuntimeError):
+            env.step(np.zeros(15))
+        env.reset(seed=1)
+        with self.assertRaises(rubble.InputError) as raised:
+            env.step(np.zeros(4))
+        self.assertEqual(raised.exception.key, "action")
+
+
+class MallocInfo(ctypes.Structure):
+    """struct mallinfo2 of glibc."""
+    _fields_ = [(name, ctypes.c_size_t) for name in
+                "arena ordblks smblks hblks hblkhd usmblks fsmblks uordblks fordblks keepcost".split()]
+
+
+def used_memory():
+    """Bytes that are allocated and not freed. Resident memory would hide a leak behind what was freed before."""
+    ask = ctypes.CDLL(None).mallinfo2
+    ask.restype = MallocInfo
+    info = ask()
+    return info.uordblks + info.hblkhd + 64 * sys.getallocatedblocks()  # Python's own blocks are not of malloc
+
+
+class Memory(unittest.TestCase):
+    STEPS = int(os.environ.get("RUBBLE_MEMORY_STEPS", "3000"))
+    ENVS = ((VoidExplore, {"size": 16}, 1.0), (CrawlerNav, {"rays": 16}, 0.2), (SnakeExplore, {"size": 16}, 0.2))
+
+    @staticmethod
+    def grow(env, steps, keep=lambda observation: None):
+        """How much more memory is in use after so many steps; bytes."""
+        actions = np.random.default_rng(1).uniform(-1, 1, (100, 15))
+        env.reset(seed=1)
+        before = 0
+        for k in range(-400, steps):  # the first of them make what is made once
+            if k == 0:
+                before = used_memory()
+            observation, _, terminated, truncated, _ = env.step(actions[k % 100, :env.action_space.shape[0]])
+            keep(observation)
+            if terminated or truncated:
+                env.reset(seed=1)
+        return used_memory() - before
+
+    def test_does_not_grow(self):
+        """3,000 and 600 steps; 100,000 and 20,000 by `make test-nightly`."""
+        for make, options, share in self.ENVS:
+            steps = int(share * self.STEPS)
+            env = make(max_steps=100, pile_seeds=[1], **options)
+            self.assertLess(self.grow(env, steps), (64 << 10) + steps, make.__name__)
+
+    def test_would_see_observations_that_are_kept(self):
+        for make, options, _ in self.ENVS:
+            kept = []
+            env = make(max_steps=100, pile_seeds=[1], **options)
+            self.assertGreater(self.grow(env, 600, kept.append), (64 << 10) + 600, make.__name__)
+
+
 class Rules(unittest.TestCase):
     def test_observations_are_in_their_space_and_the_body_keeps_its_distance(self):
         env = VoidExplore(**SMALL)
@@ -115,11 +217,41 @@ class Rules(unittest.TestCase):
             seen = info["coverage"]
         self.assertGreater(seen, 0)
 
+    def test_the_body_stops_where_the_pile_says_so(self):
+        """Its short cut over clearances against all clearances on the way."""
+        env = VoidExplore(**SMALL)
+        env.reset(seed=2)
+        chance = np.random.default_rng(4)
+        stops = 0
+        for _ in range(12):
+            before = env._position.copy()
+            action = chance.uniform(-1, 1, 4)
+            _, _, _, _, info = env.step(action)
+            way = env._turned(action[:3] * 0.1, env._world.yaw + env._yaw)
+            fine = before + np.outer(np.linspace(0, 1, 9)[1:], way)
+            free = bool(np.all(env._world.pile.clearance(fine, 1.0) >= 0.15 - 1e-3))
+            if np.allclose(env._position, before + way):
+                self.assertTrue(free)
+            else:
+                stops += 1
+                self.assertFalse(bool(np.all(env._world.pile.clearance(fine, 1.0) >= 0.15 + 1e-3)))
+        self.assertEqual(stops, info["stops"])
+
+    def test_colour_is_what_the_renderer_draws(self):
+        env = VoidExplore(colour=True, size=32, max_steps=3, pile_seeds=[1])
+        observation, _ = env.reset(seed=1)
+        self.assertTrue(env.observation_space.contains(observation))
+        drawn = rubble.Renderer(env._world.pile).render(env._body(), 32, 32)
+        np.testing.assert_array_equal(observation["rgb"], drawn["rgb"])
+        seen = np.isfinite(drawn["depth"]) & (drawn["depth"] < 4.9)
+        self.assertGreater(seen.mean(), 0.3)
+        self.assertLess(np.quantile(np.abs(drawn["depth"] - observation["depth"])[seen], 0.9), 1e-3)
+
     def test_depth_is_that_of_the_pile(self):
         env = VoidExplore(**SMALL)
         observation, _ = env.reset(seed=2)
         body = env._body()
-        k = env._world.camera.K
+        k = env._world.view.K
         v, u = np.mgrid[0:16, 0:16]
         optical = np.stack([np.ones(u.shape), -(u - k[0, 2]) / k[0, 0], -(v - k[1, 2]) / k[1, 1]], axis=-1)
         directions = optical.reshape(-1, 3) @ rubble.matrix(body)[:3, :3].T
@@ -152,6 +284,7 @@ class Rules(unittest.TestCase):
             warnings.simplefilter("error")
             check_env(VoidExplore(**SMALL), skip_render_check=True)
             check_env(CrawlerNav(**Crawler.OPTIONS), skip_render_check=True)
+            check_env(SnakeExplore(**Snake.OPTIONS), skip_render_check=True)
 
 
 if __name__ == "__main__":

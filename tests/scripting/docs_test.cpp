@@ -40,6 +40,19 @@ TEST(Library, HasEveryFile) {
   EXPECT_EQ(files + 1, listed.size()) << "the word RUBBLE_LUA_NAMES is one of them";
 }
 
+TEST(Missions, OfTheProjectAreSound) {
+  int missions = 0;
+  for (const auto& file : std::filesystem::recursive_directory_iterator(RUBBLE_SOURCE_DIR "/scripts")) {
+    if (file.path().extension() != ".lua") continue;
+    std::ostringstream text;
+    text << std::ifstream(file.path()).rdbuf();
+    if (text.str().find("return rubble.mission") == std::string::npos) continue;
+    EXPECT_NO_THROW(load_mission(file.path().string())) << file.path();
+    ++missions;
+  }
+  EXPECT_GT(missions, 50);
+}
+
 TEST(LuaReference, DocumentIsUpToDate) {
   std::ostringstream text;
   text << std::ifstream(RUBBLE_SOURCE_DIR "/docs/lua.md").rdbuf();

@@ -10,7 +10,8 @@
 #include "app/assets/asset_library.h"
 #include "app/assets/assets_tree.h"
 #include "app/command_line/command.h"
-#include "app/support/progress.h"
+#include "app/command_line/common_options.h"
+#include "app/support/run_context.h"
 #include "io/image/picture_sheet.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/geometry/hull.h"
@@ -173,16 +174,24 @@ void draw_row(GlContext& context, std::vector<Exhibit*> row, std::vector<SheetTi
   }
 }
 
-ExitCode show_pack(const std::string& pack_name, const std::string& out, int tile, bool collision) {
+struct AssetsShowRequest {
+  std::string pack, out;   // as of `assets check`; --out; empty: NAME.png
+  int tile = 288;          // --tile; unit: pixel
+  bool collision = false;  // --collision
+  RunOptions options;      // --gl-device, --threads, --quiet
+};
+
+ExitCode show_pack(const AssetsShowRequest& request) {
   const std::vector<Material> materials = load_materials(bundled_assets_folder() + "/materials.lua");
-  const AssetPack pack = load_asset_pack(find_pack(pack_name), materials);
-  Progress progress(choose_progress_style(false));
+  const AssetPack pack = load_asset_pack(find_pack(request.pack), materials);
+  RunContext context(request.options);
+  Progress& progress = context.progress;
   progress.start("assets");
   std::vector<Exhibit> exhibits;
   AssetLibrary library;
   for (const bool articulated : {false, true}) {  // these are made of the others
     for (const Asset& asset : pack.assets) {
-      if (asset.links.empty() != articulated) exhibits.push_back(load_exhibit(asset, library, collision));
+      if (asset.links.empty() != articulated) exhibits.push_back(load_exhibit(asset, library, request.collision));
     }
   }
   progress.finish(std::to_string(exhibits.size()) + " loaded");
@@ -193,8 +202,7 @@ ExitCode show_pack(const std::string& pack_name, const std::string& out, int til
     return exhibits[a].radius < exhibits[b].radius;
   });
   progress.start("render");
-  const int threads = 2;
-  GlContext context({-1, threads});
+  GlContext gl({request.options.gl_device, context.threads()});
   std::vector<SheetTile> tiles(exhibits.size());
   for (std::size_t i = 0; i < order.size();) {
     std::vector<Exhibit*> row;
@@ -202,24 +210,18 @@ ExitCode show_pack(const std::string& pack_name, const std::string& out, int til
     while (i < order.size() && exhibits[order[i]].radius <= kSizeRange * smallest) {
       row.push_back(&exhibits[order[i++]]);
     }
-    draw_row(context, row, tiles, exhibits, tile, threads);
+    draw_row(gl, row, tiles, exhibits, request.tile, context.threads());
     progress.update(double(i) / double(order.size()), std::to_string(i) + " of " +
                                                           std::to_string(order.size()));
   }
   progress.finish(std::to_string(tiles.size()) + " pictures");
-  const std::string path = out.empty() ? pack.name + ".png" : out;
+  const std::string path = request.out.empty() ? pack.name + ".png" : request.out;
   write_picture_sheet(path, "pack " + pack.name + ", " + std::to_string(tiles.size()) +
-                                (collision ? " assets: the parts that collide" : " assets"),
+                                (request.collision ? " assets: the parts that collide" : " assets"),
                       tiles, kColumns);
   std::printf("%s\n", path.c_str());
   return ExitCode::done;
 }
-
-struct AssetsShowRequest {
-  std::string pack, out;  // as of `assets check`; --out; empty: NAME.png
-  int tile = 288;         // --tile; unit: pixel
-  bool collision = false;  // --collision
-};
 
 Action declare_assets_show(CommandLine& line) {
   const auto request = std::make_shared<AssetsShowRequest>();
@@ -232,7 +234,8 @@ Action declare_assets_show(CommandLine& line) {
       .between(64, 1024);
   line.add_flag("--collision", request->collision,
                 "Draw the convex collision parts, each with a look of its own");
-  return [request] { return show_pack(request->pack, request->out, request->tile, request->collision); };
+  add_run_options(line, request->options);
+  return [request] { return show_pack(*request); };
 }
 
 }  // namespace

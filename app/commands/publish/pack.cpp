@@ -3,11 +3,13 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/card/batch_card.h"
 #include "app/card/dataset_card.h"
 #include "app/card/slam_settings.h"
 #include "app/card/viewer_settings.h"
 #include "app/command_line/command.h"
 #include "io/base/atomic_file.h"
+#include "kernel/base/text.h"
 
 namespace rubble {
 namespace {
@@ -15,15 +17,18 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PackRequest {
-  std::string folder;     // of the run
+  std::string folder;     // of a run or a batch
   bool card = false;      // --card
   bool settings = false;  // --settings
   bool force = false;     // --force
   CardText text;          // --title, --licence
+  std::string splits;     // --splits; empty: those of SplitShares
 };
 
+using Files = std::map<std::string, std::string>;  // name in the folder -> text
+
 // A file that somebody else wrote stays.
-void refuse_foreign(const PackRequest& request, const std::map<std::string, std::string>& files) {
+void refuse_foreign(const PackRequest& request, const Files& files) {
   for (const auto& item : files) {
     const std::string path = request.folder + "/" + item.first;
     std::error_code failed;
@@ -32,9 +37,9 @@ void refuse_foreign(const PackRequest& request, const std::map<std::string, std:
   }
 }
 
-ExitCode pack(const PackRequest& request) {
+Files make_run_files(const PackRequest& request) {
   const FinishedRun saved = open_finished_run(request.folder);
-  std::map<std::string, std::string> files;
+  Files files;
   if (request.settings) {
     const Scenario scenario = stated_scenario(saved.manifest.provenance);
     for (const auto& settings : {make_slam_settings(scenario), make_viewer_settings(scenario)})
@@ -42,6 +47,35 @@ ExitCode pack(const PackRequest& request) {
   }
   if (request.card) files["README.md"] = make_dataset_card(saved, request.text);
   files["SHA256SUMS"] = make_checksums(saved, files);
+  return files;
+}
+
+// A split that was asked for and into which no seed falls.
+void warn_of_empty(const Files& splits, const FinishedBatch& batch, const SplitShares& shares) {
+  for (std::size_t i = 0; i < kSplits.size(); ++i)
+    if (shares.as_list()[i] > 0 && splits.at(split_file(i)).empty())
+      std::fprintf(stderr, "warning: %s is empty: none of the seeds %s falls there; run more seeds, or change --splits\n",
+                   split_file(i).c_str(), printable(batch.seeds).c_str());
+}
+
+Files make_batch_files(const PackRequest& request) {
+  if (request.settings)
+    throw InputError({request.folder, 0, "--settings", "settings are of one run, and this is a batch", "", "",
+                      "give the folder of a run in it"});
+  const FinishedBatch batch = open_finished_batch(request.folder);
+  Files files;
+  if (request.card) {
+    files = make_splits(batch, request.text.shares);
+    warn_of_empty(files, batch, request.text.shares);
+    files["README.md"] = make_batch_card(batch, request.text);
+  }
+  files["SHA256SUMS"] = make_batch_checksums(batch, files);
+  return files;
+}
+
+ExitCode pack(PackRequest request) {
+  if (!request.splits.empty()) request.text.shares = parse_shares(request.splits);
+  const Files files = is_batch_folder(request.folder) ? make_batch_files(request) : make_run_files(request);
   refuse_foreign(request, files);
   for (const auto& [name, text] : files) {
     const std::string path = request.folder + "/" + name;
@@ -56,7 +90,7 @@ ExitCode pack(const PackRequest& request) {
 
 Action declare_pack(CommandLine& line) {
   const auto request = std::make_shared<PackRequest>();
-  line.add("folder", request->folder, "The output folder of a run").required();
+  line.add("folder", request->folder, "The output folder of a run or of a batch").required();
   const Option card =
       line.add_flag("--card", request->card,
                     "Write README.md, a card that describes the dataset and how to make it again");
@@ -67,6 +101,10 @@ Action declare_pack(CommandLine& line) {
       .shows_default_text("the script's name and the seed")
       .needs(card);
   line.add("--licence", request->text.licence, "Licence of the dataset, as in CC-BY-4.0")
+      .needs(card);
+  line.add("--splits", request->splits, "Shares of training, validation and test seeds, in percent")
+      .shows_default_text("80,10,10")
+      .metavar("TRAIN,VAL,TEST")
       .needs(card);
   line.add_flag("--force", request->force, "Replace the files of an earlier call");
   return [request] { return pack(*request); };

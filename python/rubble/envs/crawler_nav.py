@@ -19,10 +19,11 @@ The pile stands like rock, so that scans stay true. As in VoidExplore, the episo
 """
 import numpy as np
 
-from .. import _core, geometry
+from .. import geometry
 from ..robots import RobotWorld
 from .settled import settle_text
 from .spaces import Box, Dict, Env
+from .void_world import checked_action
 
 MISSION = """
 return rubble.mission {
@@ -79,12 +80,7 @@ class CrawlerNav(Env):
     def step(self, action):
         if self._robot is None:
             raise RuntimeError("reset() comes before step()")
-        action = np.asarray(action, float)
-        if action.shape != (4,) or not np.all(np.isfinite(action)):
-            error = _core.InputError(f"action: expected 4 finite numbers: found {action!r}")
-            error.key = "action"
-            raise error
-        forwards, turning, front, rear = np.clip(action, -1, 1)
+        forwards, turning, front, rear = checked_action(action, 4)
         self._robot.drive(forwards * self._speed, turning * self._turn_rate, 1.2 * np.array([front, front, rear, rear]))
         self._state = self._robot.step(self._period)
         self._steps += 1

@@ -1,4 +1,4 @@
-#include "app/report/csv_table.h"
+#include "app/batch/csv_table.h"
 
 #include "kernel/base/error.h"
 

@@ -1,0 +1,82 @@
+#include "app/card/card_parts.h"
+
+#include <cstdio>
+
+#include "kernel/base/text.h"
+#include "scripting/values/value.h"
+
+namespace rubble {
+namespace {
+
+std::string fixed(double value, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+std::string describe_lens(const Intrinsics& k) {
+  std::string text = "fx " + fixed(k.fx, 3) + ", fy " + fixed(k.fy, 3) + ", cx " + fixed(k.cx, 3) + ", cy " +
+                     fixed(k.cy, 3) + (k.lens == LensModel::fisheye ? "; fisheye k1..k4" : "; k1 k2 p1 p2 k3");
+  for (const double d : k.distortion) text += " " + format_number(d);
+  return text;
+}
+
+}  // namespace
+
+std::string yaml_quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : printable(text)) out += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  return out + "\"";
+}
+
+std::string table_cell(const std::string& text) {
+  std::string out;
+  for (const char c : printable(text)) out += c == '|' ? "\\|" : std::string(1, c);
+  return out;
+}
+
+std::string table_row(const std::string& a, const std::string& b) { return "| " + a + " | " + b + " |\n"; }
+
+std::string describe_sensors(const Scenario& s, std::size_t frames) {
+  const Intrinsics k = s.camera.intrinsics();
+  std::string text = "## Sensors\n\n| sensor | |\n| --- | --- |\n";
+  text += table_row("colour camera", std::to_string(k.width) + " x " + std::to_string(k.height) + " at " +
+                                   format_number(s.trajectory.rate_hz) + " Hz, " + std::to_string(frames) + " frames");
+  text += table_row("its lens", describe_lens(k));
+  if (s.camera.stereo_baseline > 0)
+    text += table_row("stereo", "a second camera " + format_number(s.camera.stereo_baseline) + " m to the right");
+  text += table_row("depth", s.depth_sensor.type == DepthSensorType::none
+                           ? "exact, along the optical axis, without anti-aliasing"
+                           : "exact, and as the depth sensor of the mission measures it");
+  if (s.imu.on) {
+    const ImuModel& m = s.imu.model;
+    text += table_row("inertial unit", format_number(m.rate_hz) + " Hz in the camera body; densities: gyroscope " +
+                                     format_number(m.gyroscope_noise) + " rad/s/sqrt(Hz), accelerometer " +
+                                     format_number(m.accelerometer_noise) + " m/s2/sqrt(Hz)");
+  }
+  for (const LidarScenario& lidar : s.lidars)
+    text += table_row("LiDAR `" + lidar.name + "`", lidar.spec().model + ", " + format_number(lidar.spec().rate_hz) + " scans/s");
+  if (s.event_camera.on) text += table_row("event camera", "the pixels of the colour camera");
+  return text + "\n";
+}
+
+std::string describe_truth(const Scenario& s) {
+  std::string text = "## Ground truth\n\nPoses of the camera at each stamp; exact depth; the settled pile as a mesh";
+  for (const std::string& channel : s.camera.channels) text += "; per pixel `" + channel + "`";
+  return text + ".\n\n## Frames\n\nMetres, seconds, right-handed. World: Z up, the ground is z = 0. Camera body "
+                "(REP 103): X forward, Y left, Z up. Optical frame: Z forward, X right, Y down. "
+                "`groundtruth.txt` has the optical frame in the world, as TUM writes it.\n\n";
+}
+
+std::string make_card_head(const std::string& title, const std::string& licence) {
+  return "---\npretty_name: " + yaml_quoted(title) + "\nlicense: " +
+         yaml_quoted(licence.empty() ? "not stated" : licence) +
+         "\ntags: [simulation, search-and-rescue, rgb-d, slam]\n---\n\n# " + title + "\n\n";
+}
+
+std::string make_card_licence(const std::string& licence) {
+  return "\n## Licence\n\n" +
+         (licence.empty() ? std::string("Not stated by whoever made this card.") : printable(licence)) + "\n";
+}
+
+}  // namespace rubble

@@ -1,0 +1,125 @@
+// What VoidExplore computes in every step: a depth picture, what it shows of a void, and where there is room.
+// One call a step, and no array that a step leaves behind.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "app/pipeline/build_scene.h"
+#include "kernel/base/parallel.h"
+#include "kernel/queries/queries.h"
+#include "kernel/voids/seen_cells.h"
+#include "python/arrays.h"
+#include "python/parts.h"
+#include "render/lidar/depth_rays.h"
+
+namespace rubble::python {
+namespace {
+
+constexpr int kSeenStride = 4;   // of the pixels whose rays show cells, each way
+constexpr double kProbe = 0.25;  // of the radius: how finely a way is looked at for what stands in it
+
+VoxelGrid grid_around(const std::vector<Vec3>& centres, double voxel) {
+  Aabb box;
+  for (const Vec3& c : centres) box.include(c);
+  VoxelGrid grid;
+  grid.voxel = voxel;
+  grid.corner = box.min - Vec3{0.5, 0.5, 0.5} * voxel;
+  for (int k = 0; k < 3; ++k)
+    grid.size[std::size_t(k)] = int(std::floor((box.max[k] - box.min[k]) / voxel + 0.5)) + 1;
+  return grid;
+}
+
+class Explorer {
+ public:
+  Explorer(const SharedPile& settled, const DoubleArray& cells, double voxel, double radius, int size, double fov_deg,
+           double max_range, int threads)
+      : world_(build_scene(settled->mission.scenario, settled->mission.assets, settled->state)),
+        queries_(settled->state, settled->mission.assets.finest_meshes()), rays_(pinhole(size, size, fov_deg), 2 * max_range),
+        pool_(threads), radius_(radius), max_range_(max_range), seen_(make_seen(to_points(cells, "cells"), voxel)) {}
+
+  void forget() { seen_.forget(); }
+  std::size_t seen() const { return seen_.count(); }
+  std::size_t count() const { return seen_.wanted(); }
+
+  // (picture, clearance): depth, at most max_range; how far the middle of the body is from everything.
+  py::tuple look(const DoubleArray& world_from_body) {
+    const Pose pose = to_pose(world_from_body, "pose");
+    const int size = rays_.intrinsics().width;
+    py::array_t<float> picture({py::ssize_t(size), py::ssize_t(size)});
+    float* const depth = picture.mutable_data();
+    {
+      const py::gil_scoped_release free;
+      rays_.cast(world_, pose, pool_, depth);
+      const float most = float(max_range_);
+      for (int i = 0; i < size * size; ++i) depth[i] = std::min(depth[i], most);
+      mark(pose, depth);
+      clearance_ = queries_.clearance(pose.translation, max_range_);
+      at_ = pose.translation;
+    }
+    return py::make_tuple(picture, clearance_);
+  }
+
+  // (place, whether all the way is free): as far along `way` as the body has room. from: where it looked last.
+  py::tuple move(const DoubleArray& from_row, const DoubleArray& way_row) {
+    const Vec3 from = to_points(from_row, "from").at(0), way = to_points(way_row, "way").at(0);
+    const double length = norm(way);
+    // Clearance changes by no more than the distance that is gone.
+    if (distance(from, at_) == 0 && clearance_ - length >= radius_) return py::make_tuple(from_vector(from + way), true);
+    const int parts = std::max(1, int(std::ceil(length / (kProbe * radius_))));
+    Vec3 place = from;
+    for (int i = 1; i <= parts; ++i) {
+      const Vec3 next = from + way * (double(i) / parts);
+      if (queries_.clearance(next, 2 * radius_) < radius_) return py::make_tuple(from_vector(place), false);
+      place = next;
+    }
+    return py::make_tuple(from_vector(place), true);
+  }
+
+  py::array_t<double> matrix() const { return camera_matrix(rays_.intrinsics()); }
+
+ private:
+  static SeenCells make_seen(const std::vector<Vec3>& centres, double voxel) {
+    const VoxelGrid grid = grid_around(centres, voxel);
+    std::vector<std::uint32_t> cells;
+    for (const Vec3& c : centres) cells.push_back(std::uint32_t(grid.index(grid.find_cell(c))));
+    return {grid, cells};
+  }
+
+  void mark(const Pose& pose, const float* depth) {
+    const int size = rays_.intrinsics().width;
+    for (int v = kSeenStride / 2; v < size; v += kSeenStride)
+      for (int u = kSeenStride / 2; u < size; u += kSeenStride) {
+        const auto pixel = std::size_t(v) * std::size_t(size) + std::size_t(u);
+        seen_.mark(pose.translation, pose.rotation.rotate(rays_.direction(pixel)),
+                   double(depth[pixel]) / rays_.cosine(pixel));
+      }
+  }
+
+  LidarWorld world_;
+  PileQueries queries_;
+  DepthRays rays_;
+  ThreadPool pool_;
+  double radius_, max_range_;
+  SeenCells seen_;
+  double clearance_ = 0;  // where it looked last; unit: m
+  Vec3 at_;
+};
+
+}  // namespace
+
+void add_explorer(py::module_& module) {
+  py::class_<Explorer>(module, "_Explorer")
+      .def(py::init([](const SharedPile& s, const DoubleArray& cells, double voxel, double radius, int size,
+                       double fov_deg, double max_range, int threads) {
+        return std::make_unique<Explorer>(s, cells, voxel, radius, size, fov_deg, max_range, threads);
+      }))
+      .def("forget", &Explorer::forget)
+      .def("look", &Explorer::look, py::arg("pose"))
+      .def("move", &Explorer::move, py::arg("from_"), py::arg("way"))
+      .def_property_readonly("seen", &Explorer::seen)
+      .def_property_readonly("count", &Explorer::count)
+      .def_property_readonly("K", &Explorer::matrix);
+}
+
+}  // namespace rubble::python

@@ -1,0 +1,62 @@
+"""A pile with the void that is explored in it: of VoidExplore and SnakeExplore."""
+import math
+
+import numpy as np
+
+from .. import _core
+from ..sensors import Renderer
+from .settled import settle_text
+
+
+class VoidWorld:
+    """The pile of a seed with its largest void that a ball of `radius` can enter (void: None where there is none),
+    and what is seen of it."""
+
+    def __init__(self, mission, seed, radius, voxel, size, fov_deg, max_range, colour, threads):
+        self.pile = settle_text(mission, seed, threads)
+        voids = [v for v in self.pile.voids(radius, voxel) if v["entrances"]]
+        self.void = voids[0] if voids else None
+        if not self.void:
+            return
+        entrance = self.void["entrances"][0]
+        self.entrance, inward = entrance["position"], entrance["inward"]
+        self.yaw = math.atan2(inward[1], inward[0])
+        self.view = _core._Explorer(self.pile._shared, self.void["cells"], voxel, radius, size, fov_deg, max_range,
+                                    threads)
+        self.renderer = Renderer(self.pile, threads) if colour else None
+        self._size, self._fov_deg = size, fov_deg
+
+    def look(self, pose):
+        """(depth, clearance, colour or None) of a body there; what it shows of the void counts as seen."""
+        depth, clearance = self.view.look(pose)
+        rgb = self.renderer.render(pose, self._size, self._size, self._fov_deg)["rgb"] if self.renderer else None
+        return depth, clearance, rgb
+
+
+class VoidWorlds:
+    """The worlds of some seeds, each settled when it is first asked for, and kept."""
+
+    def __init__(self, seeds, make):
+        self._seeds, self._make, self._made = [int(s) for s in seeds], make, {}
+
+    def choose(self, random, radius):
+        """One with a void, drawn by `random`, and its seed."""
+        for seed in map(int, random.permutation(self._seeds)):
+            if seed not in self._made:
+                self._made[seed] = self._make(seed)
+            if self._made[seed].void:
+                return self._made[seed], seed
+        error = _core.InputError(f"radius: no pile of pile_seeds has a void that a ball of {radius} m can enter: "
+                                 "expected a smaller radius, a smaller voxel or other seeds")
+        error.key = "radius"
+        raise error
+
+
+def checked_action(action, count):
+    """As floats between -1 and 1. Raises InputError for another shape and for what is not finite."""
+    action = np.asarray(action, float)
+    if action.shape != (count,) or not np.all(np.isfinite(action)):
+        error = _core.InputError(f"action: expected {count} finite numbers: found {action!r}")
+        error.key = "action"
+        raise error
+    return np.clip(action, -1, 1)

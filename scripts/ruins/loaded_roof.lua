@@ -1,0 +1,16 @@
+-- A roof that carries 2.5 t on each square metre: floor falls on floor.
+return rubble.mission {
+  seed = 1,
+  pile = rubble.building {
+    storeys = 3, bays_x = 2, bays_y = 2, span_x = 5, span_y = 5,
+    column = 0.3, piece = 1.3,
+    cause = {
+      overloaded_floor = 2, overload = 2500,
+    },
+  },
+  settle = { final_time_limit = 60 },
+  voids = { on = true },
+  camera = { width = 640, height = 480, fov_deg = 60 },
+  trajectory = { waypoints = { { position = { -11.5, -13, 7 }, look_at = { 0, 0, 1.8 } } } },
+  outputs = { frames = true },
+}

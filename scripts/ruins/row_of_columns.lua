@@ -1,0 +1,16 @@
+-- A row of ground columns is gone, and bars end at the beams.
+return rubble.mission {
+  seed = 7,
+  pile = rubble.building {
+    storeys = 3, bays_x = 2, bays_y = 2, span_x = 5, span_y = 5,
+    column = 0.3, piece = 1.3, continuity = 0.1, beam_bars = 0.004, slab_bars = 0.002, infill = "none",
+    cause = {
+      removed = { { storey = 0, i = 1, j = 0 }, { storey = 0, i = 1, j = 1 }, { storey = 0, i = 1, j = 2 } },
+    },
+  },
+  settle = { final_time_limit = 60 },
+  voids = { on = true },
+  camera = { width = 640, height = 480, fov_deg = 60 },
+  trajectory = { waypoints = { { position = { -13, -15, 8 }, look_at = { 0, 0, 3.5 } } } },
+  outputs = { frames = true },
+}

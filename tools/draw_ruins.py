@@ -1,0 +1,99 @@
+#!/usr/bin/python3
+"""Runs each mission of scripts/ruins, draws all ruins from outside and cut open, and writes their table into a
+document, between its marks.
+
+usage: tools/draw_ruins.py [--program build/release/rubble] [--out out/ruins] docs/collapse.md
+
+Needs python3-opencv.
+"""
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+
+import cv2
+import numpy as np
+
+ORDER = ("soft_ground", "soft_middle", "loaded_roof", "loaded_floor", "quake", "quake_frame", "half_removed",
+         "corner_bay", "row_of_columns", "blast", "lorry", "sinking")
+CELL = (420, 315)  # pixels
+COLUMNS = 3
+NOT_SETTLED = 3  # exit code of rubble run
+
+
+def run(args, name):
+    folder = os.path.join(args.out, name)
+    script = f"scripts/ruins/{name}.lua"
+    if not os.path.exists(os.path.join(folder, "manifest.json")):
+        code = subprocess.run([args.program, "run", script, "--quiet", "--force", "--out", folder],
+                              stdout=subprocess.DEVNULL).returncode
+        if code not in (0, NOT_SETTLED):
+            sys.exit(code)
+    cut = os.path.join(folder, "cutaway.png")
+    subprocess.run([args.program, "cutaway", folder, "--quiet", "--y", "0.4", "--out", cut], check=True,
+                   stdout=subprocess.DEVNULL)
+    with open(script) as file:
+        text = file.read()
+    with open(os.path.join(folder, "manifest.json")) as file:
+        manifest = json.load(file)
+    return {"name": name, "title": text.split("\n")[0][3:], "manifest": manifest,
+            "outside": os.path.join(folder, "frames", "rgb", "000000.png"), "cut": cut,
+            "extents": [float(v) for v in re.findall(r"(?:bays|span)_[xy] = ([\d.]+)", text)]}
+
+
+def fit(picture):
+    """Scaled into a cell, on white."""
+    scale = min(CELL[0] / picture.shape[1], CELL[1] / picture.shape[0])
+    small = cv2.resize(picture, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+    cell = np.full((CELL[1], CELL[0], 3), 255, np.uint8)
+    top, left = (CELL[1] - small.shape[0]) // 2, (CELL[0] - small.shape[1]) // 2
+    cell[top:top + small.shape[0], left:left + small.shape[1]] = small
+    return cell
+
+
+def sheet(pictures, names, path):
+    cells = []
+    for picture, name in zip(pictures, names):
+        label = np.full((26, CELL[0], 3), 255, np.uint8)
+        cv2.putText(label, name, (6, 19), cv2.FONT_HERSHEY_SIMPLEX, 0.55, (30, 30, 30), 1, cv2.LINE_AA)
+        cells.append(np.vstack([label, fit(picture)]))
+    rows = [np.hstack(cells[i:i + COLUMNS]) for i in range(0, len(cells), COLUMNS)]
+    cv2.imwrite(path, np.vstack(rows), [cv2.IMWRITE_JPEG_QUALITY, 82])
+
+
+def row(ruin):
+    pile, m = ruin["manifest"]["pile"], ruin["manifest"]["metrics"]
+    half = max(ruin["extents"][0] * ruin["extents"][2], ruin["extents"][1] * ruin["extents"][3]) / 2
+    rest = f"{pile['simulated_s']:.1f}" if pile["settled"] else f"not within {pile['simulated_s']:.0f}"
+    return (f"| `{ruin['name']}` | {ruin['title']} | {ruin['manifest']['seed']} | {pile['pieces']} | "
+            f"{rest} | {m['pile_height_m']:.1f} | {max(0.0, m['pile_radius_m'] - half):.1f} | "
+            f"{m['void_count']:.0f} | {m['void_covered_m3']:.0f} | {m['void_depth_m']:.1f} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", default="build/release/rubble")
+    parser.add_argument("--out", default="out/ruins")
+    parser.add_argument("--pictures", default="docs/pictures")
+    parser.add_argument("document")
+    args = parser.parse_args()
+    ruins = [run(args, name) for name in ORDER]
+    names = [ruin["name"] for ruin in ruins]
+    sheet([cv2.imread(ruin["outside"]) for ruin in ruins], names, os.path.join(args.pictures, "ruins.jpg"))
+    sheet([cv2.imread(ruin["cut"]) for ruin in ruins], names, os.path.join(args.pictures, "ruins_cut.jpg"))
+    lines = ["| mission | what happens | seed | pieces | at rest after, s | height, m | debris beyond the walls, m | "
+             "voids | covered volume, m3 | deepest void, m |", "|---|---|---|---|---|---|---|---|---|---|"]
+    lines += [row(ruin) for ruin in ruins]
+    with open(args.document) as file:
+        text = file.read()
+    text = re.sub(r"(<!-- begin ruins -->\n).*?(<!-- end ruins -->)", lambda m: m[1] + "\n".join(lines) + "\n" + m[2],
+                  text, flags=re.DOTALL)
+    with open(args.document + ".new", "w") as file:
+        file.write(text)
+    os.replace(args.document + ".new", args.document)
+
+
+if __name__ == "__main__":
+    main()

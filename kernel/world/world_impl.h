@@ -265,6 +265,7 @@ struct World::Impl {
   // world_robots.cpp
   int add_robot(const RobotModel& model, const Pose& world_from_base);
   void set_command(int robot, const RobotCommand& command);
+  void wake_neighbours(std::int32_t body);
   TreeLink* find_link(const WorldRobot& robot, int link);
   bool touches_robot(const Contact& contact) const;
   bool is_driven(std::int32_t body) const;

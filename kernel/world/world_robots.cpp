@@ -81,7 +81,10 @@ int World::Impl::add_robot(const RobotModel& model, const Pose& world_from_base)
   }
   start_tree(tree, piece, starts);
   introduce(first);
-  if (model.tube) carry_stowed(data.robots.back(), model);
+  if (model.tube) {
+    carry_stowed(data.robots.back(), model);
+    wake_neighbours(first);
+  }
   return int(data.robots.size()) - 1;
 }
 
@@ -112,6 +115,14 @@ void World::Impl::set_command(int number, const RobotCommand& command) {
     const double most = norm(model.links[i].belt_axis) > 0 ? model.links[i].belt_speed_limit : 0;
     const double wanted = i < command.belts.size() ? command.belts[i] : 0;
     links[i].belt_speed = std::clamp(wanted, -most, most);
+  }
+}
+
+// What sleeps against an immovable base would not be found to overlap it.
+void World::Impl::wake_neighbours(std::int32_t body) {
+  for (const Pair& pair : data.pairs) {
+    if (pair.body_a == body && pair.body_b != kGround) wake(pair.body_b);
+    if (pair.body_b == body) wake(pair.body_a);
   }
 }
 

@@ -1,4 +1,4 @@
--- Five of nine ground columns are gone: one half comes down, the other holds on to it.
+-- Five of nine ground columns are gone; there are no walls.
 return rubble.mission {
   seed = 5,
   pile = rubble.building {

@@ -5,6 +5,8 @@
 #include <ctime>
 
 #include "kernel/base/error.h"
+#include "kernel/robot/robot_run.h"
+#include "kernel/settling/settle.h"
 #include "robot_scenes.h"
 
 namespace rubble {
@@ -61,7 +63,7 @@ Overhang grow_over_an_edge(VineOptions options) {
 }
 
 // The length goes with the diameter and with the root of the pressure.
-TEST(Vine, CollapsesUnderItsOwnWeight) {
+TEST(VineCollapse, CollapsesUnderItsOwnWeight) {
   double first = 0;
   for (const auto& [pressure, radius] : {std::pair{10e3, 0.05}, {20e3, 0.05}, {10e3, 0.04}}) {
     VineOptions options = vine_of(pressure, radius, 6);
@@ -78,7 +80,7 @@ TEST(Vine, CollapsesUnderItsOwnWeight) {
 }
 
 // Loaded by a weight at its end, the root bends in proportion up to pi P R^3 / 2, and more from there on.
-TEST(Vine, WrinklesAtHalfTheCollapseMoment) {
+TEST(VineCollapse, WrinklesAtHalfTheCollapseMoment) {
   for (const auto& [pressure, radius] : {std::pair{10e3, 0.05}, {20e3, 0.05}, {10e3, 0.04}}) {
     for (const double share : {0.98, 1.02}) {
       VineOptions options = vine_of(pressure, radius, 0.6);
@@ -187,7 +189,7 @@ TEST(Vine, GrowsAsFastAsThePressureAllows) {
 
 // Pinned by its tip against a wall and clamped in its base: 20.19 E I / L^2. Below, it stops; above, it gives
 // way to the side and goes on growing.
-TEST(Vine, BucklesBetweenBaseAndWallAtEulersLength) {
+TEST(VineCollapse, BucklesBetweenBaseAndWallAtEulersLength) {
   for (const double pressure : {10e3, 20e3}) {
     VineOptions options = vine_of(pressure, 0.05, 5);
     options.tube.membrane_stiffness = 2e4;
@@ -244,6 +246,28 @@ TEST(Vine, ASnapshotInMidGrowthGoesOnWithTheSameBits) {
   EXPECT_NE(testing::hash_of(world), testing::hash_of(other)) << "the hash was to see the steering";
 }
 
+// A base is immovable, and so is what sleeps: their overlap is found all the same.
+TEST(Vine, ABaseInAPieceIsNamed) {
+  Pile pile;
+  pile.types = {testing::box_type("brick", 0.22, 0.105, 0.065)};
+  pile.placed.push_back({0, 1, {{}, {-0.15, 0.1, 0.034}}, false});
+  const PileState state = settle_pile(pile);
+  RobotRunOptions options;
+  options.duration = 0.1;
+  options.threads = 1;
+  RobotRun run(pile, state, options);
+  const RobotModel model = make_vine();
+  run.add(model, {{}, {0, 0, 0.051}}, [&](const RobotSense&) { return drive_vine(model, {}); });
+  try {
+    run.run();
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string text = error.diagnostics()[0].text();
+    EXPECT_NE(text.find("base_link stands 0.0"), std::string::npos) << text;
+    EXPECT_NE(text.find("deep in brick (piece 0)"), std::string::npos) << text;
+  }
+}
+
 TEST(Vine, MistakesAreNamed) {
   const auto mistake_of = [](const VineOptions& options) {
     try {
@@ -263,7 +287,7 @@ TEST(Vine, MistakesAreNamed) {
 }
 
 // CPU time, of all steps and of the longest quarter second: also where links are laid.
-TEST(VineSpeed, AStepWith100LinksTakesLessThan10Milliseconds) {
+TEST(NightlyVine, AStepWith100LinksTakesLessThan10Milliseconds) {
   World world = make_robot_world();
   VineOptions options = vine_of(10e3, 0.05, 5.2);
   options.tube.start_links = 100;

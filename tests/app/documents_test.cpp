@@ -217,7 +217,7 @@ TEST_P(NightlyDocuments, CommandsRunAsTheyAreWritten) {
   }
 }
 
-constexpr const char* kRun[]{"README.md",         "docs/collapse.md", "docs/formats.md",
+constexpr const char* kRun[]{"README.md",         "docs/autonomy.md", "docs/collapse.md", "docs/formats.md",
                             "docs/headless.md",  "docs/lidar.md",    "docs/lua.md",
                             "docs/performance.md", "docs/search.md"};
 INSTANTIATE_TEST_SUITE_P(All, NightlyDocuments, ::testing::ValuesIn(kRun));

@@ -134,6 +134,19 @@ TEST(EvalTrajectory, PrintsTheKeysThatOthersRead) {
   EXPECT_NEAR(json["rpe_rot_rmse_deg"].get<double>(), 0, 1e-6);
 }
 
+// A straight flight along X; the estimate goes along Y and is 5 cm beside it, on either side so that no turn and no
+// shift is better. The turn about the line is open, the distances are not.
+TEST(EvalTrajectory, ScoresAStraightFlight) {
+  const ScratchFolder scratch;
+  write_file(scratch / "truth.txt", "1.0 0 0 0 0 0 0 1\n1.1 1 0 0 0 0 0 1\n1.2 2 0 0 0 0 0 1\n1.3 3 0 0 0 0 0 1\n");
+  write_file(scratch / "estimate.txt",
+             "1.0 0.05 0 4 0 0 0 1\n1.1 -0.05 1 4 0 0 0 1\n1.2 -0.05 2 4 0 0 0 1\n1.3 0.05 3 4 0 0 0 1\n");
+  const Outcome run = run_rubble("eval trajectory " + (scratch / "estimate.txt") + " " + (scratch / "truth.txt") + " --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_NEAR(json["ate_rmse_se3_m"].get<double>(), 0.05, 1e-9);
+}
+
 struct BadTrajectory {
   const char* text;
   const char* message;  // with the line, if it has one
@@ -152,7 +165,7 @@ TEST(EvalTrajectory, NamesFileAndLineOfWhatIsWrong) {
       {"1.1 0 0 0 0 0 0 1\n1.1 0 0 0 0 0 0 1\n", "bad.txt:2: the stamp repeats"},
       {"9.0 0 0 0 0 0 0 1\n", "no time in common"},
       {"1.0 0 0 0 0 0 0 1\n1.1 1 0 0 0 0 0 1\n", "too few poses"},
-      {"1.0 0 0 0 0 0 0 1\n1.1 1 0 0 0 0 0 1\n1.2 2 0 0 0 0 0 1\n", "on one line"},
+      {"1.0 3 0 0 0 0 0 1\n1.1 3 0 0 0 0 0 1\n1.2 3 0 0 0 0 0 1\n", "all at one place"},
   };
   for (const BadTrajectory& bad : kBad) {
     write_file(scratch / "bad.txt", bad.text);

@@ -47,6 +47,7 @@ class Handed {
 
   ScratchFolder scratch;
   bool ok = false;
+  std::string log;  // of what was made first
 };
 
 // The same dataset as here: the pile's hash in both manifests.
@@ -57,6 +58,28 @@ std::string state_hash_here(Handed& here) {
   const Outcome run = run_rubble("run scripts/" + std::string(kMission) + " --quiet --out " + folder);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   return "state hash " + read_state_hash(folder);
+}
+
+// The commands of an example for CI servers, as written, on that machine with the package in the cache.
+void try_ci_example(Handed& here, const std::string& example, const std::string& root, const std::string& package) {
+  const std::string folder = root + "/tmp/ci";
+  fs::remove_all(folder);
+  for (const std::string& missions : {folder + "/missions", folder + "/robot/missions"}) {
+    fs::create_directories(missions);
+    write_file(missions + "/tiny.lua", kTinyMission);
+    write_file(missions + "/suite.lua", "return suite { runs = { { name = \"one\", mission = \"tiny.lua\", "
+                                        "golden = \"none\", expect = { frames = { 3, 3 } } } } }\n");
+  }
+  fs::create_directories(folder + "/package");
+  fs::copy_file(package, fs::path(folder) / "package" / fs::path(package).filename());
+  const std::string printed = here.run(
+      "/usr/bin/python3 '" RUBBLE_SOURCE_DIR "/tests/app/ci_example.py' '" RUBBLE_SOURCE_DIR "/examples/ci/" + example +
+      "' --script >'" + folder + "/script' && env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/tmp CACHED=1 chroot '" + root +
+      "' sh -c 'cd /tmp/ci && sh -eu script'");
+  EXPECT_TRUE(here.ok) << example << "\n" << printed;
+  EXPECT_NE(read_file(folder + "/report.xml").find("tests=\"1\" failures=\"0\""), std::string::npos)
+      << example << "\n" << read_file(folder + "/report.xml");
+  fs::remove_all(folder);
 }
 
 TEST(NightlyPackage, IsCleanAndMakesADatasetOnABareMachine) {
@@ -73,6 +96,8 @@ TEST(NightlyPackage, IsCleanAndMakesADatasetOnABareMachine) {
   EXPECT_TRUE(here.ok) << printed;
   EXPECT_NE(printed.find("the dataset took"), std::string::npos) << printed;
   EXPECT_NE(printed.find(state_hash_here(here)), std::string::npos) << printed;
+  for (const char* example : {"github-actions-package.yml", "gitlab-ci-package.yml"})
+    try_ci_example(here, example, here.root_of("bookworm") + "/root", package);
 }
 
 TEST(NightlyImage, RunsInAContainerWithoutRootAndNetwork) {
@@ -110,15 +135,26 @@ TEST(NightlyImage, RunsInAContainerWithoutRootAndNetwork) {
 }
 
 // One row a system: its suite, and the archive that it is made from.
-class NightlyArchive : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
+class NightlyArchive : public ::testing::TestWithParam<std::pair<const char*, const char*>> {
+ protected:
+  // The archive, made once for all systems.
+  static void SetUpTestSuite() {
+    made_ = new Handed;
+    if (can_be_tried())
+      made_->log = made_->run("'" + kTools + "make_archive.sh' '" + made_->build() + "' '" + made_->scratch / "made" + "'");
+  }
+  static void TearDownTestSuite() { delete made_; }
+  static bool can_be_tried() { return geteuid() == 0 && has_program("debootstrap") && has_program("makeself"); }
+  static Handed* made_;
+};
+Handed* NightlyArchive::made_ = nullptr;
 
 TEST_P(NightlyArchive, RunsOnAnotherDistribution) {
-  if (geteuid() != 0 || !has_program("debootstrap") || !has_program("makeself"))
-    GTEST_SKIP() << "needs root, debootstrap and makeself";
+  if (!can_be_tried()) GTEST_SKIP() << "needs root, debootstrap and makeself";
   const auto [suite, mirror] = GetParam();
-  Handed here;
-  const std::string made = here.run("'" + kTools + "make_archive.sh' '" + here.build() + "' '" + here.scratch / "made" + "'");
-  ASSERT_TRUE(here.ok) << made;
+  Handed& here = *made_;
+  here.run("ls '" + here.scratch / "made" + "'/rubble-*.run");
+  ASSERT_TRUE(here.ok) << here.log;
   const std::string root = here.root_of(suite);
   const std::string bare = here.run("MIRROR=" + std::string(mirror) + " '" + kTools + "make_root.sh' '" + root + "' '' " + suite);
   ASSERT_TRUE(here.ok) << bare;

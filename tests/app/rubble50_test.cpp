@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "tests/app/program.h"
@@ -40,6 +41,35 @@ TEST(Rubble50, EveryMissionIsSoundAndMadeByItsTool) {
     EXPECT_EQ(checked.exit_code, 0) << names[i] << "\n" << checked.err;
     EXPECT_NE(checked.out.find("\"seed\": " + std::to_string(i + 1)), std::string::npos) << names[i];
   }
+}
+
+// The command of the baselines, on a recording of three frames that lies where the one of mission 2 would.
+TEST(NightlyRubble50, BaselinesFollowARecordingAndFillTheTables) {
+  if (std::system("/usr/bin/python3 -c 'import cv2.rgbd, open3d' 2>/dev/null") != 0)
+    GTEST_SKIP() << "python3-opencv or python3-open3d is not installed";
+  const ScratchFolder scratch;
+  write_file(scratch / "tiny.lua", kTinyMission);
+  const std::string folder = scratch / "02_heap_dark_push", page = scratch / "page.md";
+  ASSERT_EQ(run_rubble("run " + (scratch / "tiny.lua") + " --quiet --set camera.width=320 --set camera.height=240 --out " +
+                       folder).exit_code, 0);
+  fs::copy_file(kRoot + "/docs/rubble50.md", page);
+  const std::string command = "'" + kRoot + "/bench/rubble50/run' --missions 2 --methods rgbd,icp --program '" RUBBLE_PROGRAM
+                              "' --out " + scratch.path().string() + " --document " + page + " >" + (scratch / "log") + " 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0) << read_file(scratch / "log");
+  EXPECT_NE(read_file(scratch / "log").find("02_heap_dark_push rgbd: 0 of 3 frames lost"), std::string::npos);
+  const auto found = nlohmann::json::parse(read_file(folder + "/baselines/rgbd.json"));
+  EXPECT_EQ(found.at("trajectory").at("pairs"), 3);
+  // The camera moved 0.14 m; a track in a wrong frame, or one that stands still, is farther off.
+  EXPECT_LT(found.at("trajectory").at("ate_rmse_se3_m"), 0.02);
+  EXPECT_LT(found.at("trajectory").at("rpe_trans_rmse_m"), 0.03);
+  const std::string written = read_file(page);
+  EXPECT_NE(written.find("| OpenCV `RgbdOdometry` | 1 of 50 | 1 | "), std::string::npos) << written;
+  EXPECT_NE(written.find("| Open3D, hybrid term | 0 of 50 | 0 | - |"), std::string::npos);
+  EXPECT_NE(written.find("\n| 2 | 3 | "), std::string::npos);
+  // Done once: a second call reads what is there.
+  write_file(folder + "/baselines/rgbd.json", [&] { auto other = found; other["lost"] = 1; return other.dump(); }());
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_NE(read_file(page).find("| OpenCV `RgbdOdometry` | 1 of 50 | 0 | - |"), std::string::npos);
 }
 
 TEST(NightlyRubble50, PilesHaveTheExpectedHashes) {

@@ -9,11 +9,15 @@
 
 #include "app/pipeline/finished_run.h"
 #include "app/pipeline/stages.h"
-#include "app/search/confidence.h"
+#include "app/eval/scores/confidence.h"
 #include "app/search/program_agent.h"
 #include "app/search/search_bench.h"
 #include "app/victims/place_victims.h"
+#include "kernel/base/portable_math.h"
 #include "kernel/queries/queries.h"
+#include "kernel/robot/bundled.h"
+#include "kernel/robot/gaits.h"
+#include "kernel/robot/robot_run.h"
 #include "tests/app/program.h"
 #include "tests/app/tiny_run.h"
 
@@ -117,7 +121,50 @@ TEST(Victims, AreInEveryProductOfARunAndTheSameWhenItIsMadeAgain) {
   EXPECT_EQ(read_file(folder / "other/victims.json"), read_file(out + "/victims.json"));
 }
 
-TEST(Victims, LieInAPileThatARobotDrivesBeside) {
+// A crawler of 38 kg drives at one of 75 kg or more: it is stopped, or climbs. One that is twenty times as heavy pushes it.
+TEST(Victims, ArePushedByARobotThatIsHeavyEnough) {
+  const ScratchFolder folder;
+  const Settled settled = settle_with(folder, "easy", 2);
+  std::vector<Victim> victims = find_victims(settled.pile);
+  ASSERT_EQ(victims.size(), 2u);
+  // The nearer one to an open end of the void, which runs along Y from -3 to 3.
+  if (std::fabs(victims[1].trunk.y) > std::fabs(victims[0].trunk.y)) std::swap(victims[0], victims[1]);
+  const double side = victims[0].trunk.y > 0 ? 1 : -1, half = -side * 0.25 * portable::kPi;
+  const Pose start{{portable::cos(half), 0, 0, portable::sin(half)}, {victims[0].trunk.x, side * 4, 0.005}};
+  struct Push {
+    double moved = 0, other_moved = 0;
+    bool touched = false;
+  };
+  const auto push_with = [&](double speed, double mass) {
+    RobotRunOptions options;
+    options.duration = 8, options.threads = 2;
+    RobotRun run(make_laid_pile(settled.mission, settled.pile), settled.pile, options);
+    RobotModel model = make_crawler();
+    for (RobotLink& link : model.links) link.mass *= mass, link.inertia = link.inertia * mass;
+    run.add(model, start, [&](const RobotSense&) { return drive_crawler(model, {speed, 0}, {1, 1, 1, 1}); });
+    Push push;
+    run.run([&](double) {
+      for (const RobotContact& contact : run.world().robot_contacts(0))
+        push.touched = push.touched || (contact.piece == victims[0].piece && contact.force > 0);
+      return true;
+    });
+    const auto moved = [&](const Victim& victim) {
+      return distance(run.world().piece(victim.piece).world_from_body.translation,
+                      settled.pile.pieces[std::size_t(victim.piece)].world_from_body.translation);
+    };
+    push.moved = moved(victims[0]), push.other_moved = moved(victims[1]);
+    return push;
+  };
+  const Push light = push_with(0.4, 1), heavy = push_with(0.4, 20), still = push_with(0, 20);
+  EXPECT_TRUE(light.touched);
+  EXPECT_GT(heavy.moved, 0.1);
+  EXPECT_GT(heavy.moved, 5 * light.moved);
+  EXPECT_LT(heavy.other_moved, 0.01);
+  EXPECT_FALSE(still.touched);
+  EXPECT_LT(still.moved, 0.01);
+}
+
+TEST(Victims, LieInAMissionWithARobot) {
   const ScratchFolder folder;
   std::string text = kMission;
   text.insert(text.find("camera ="), "robots = { rubble.robot.rover { position = { -3, 0, 0.001 }, drive = { { t = 0, "
@@ -125,6 +172,8 @@ TEST(Victims, LieInAPileThatARobotDrivesBeside) {
   write_file(folder / "r.lua", text);
   const Outcome run = run_rubble("run " + (folder / "r.lua") + " --quiet --set outputs.bag=false --out " + (folder / "out"));
   EXPECT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(read_file(folder / "out/victims.json"), nullptr, false);
+  EXPECT_EQ(json["victims"].size(), 2u);
 }
 
 TEST(Victims, MistakesAreNamed) {
@@ -207,6 +256,21 @@ TEST_F(SearchBench, TheAgentOfTheDocumentFindsSomebody) {
   EXPECT_EQ(table["datasets"][0]["name"], "agent");
   EXPECT_GT(value(table, 0, "found_share"), 0);
   EXPECT_GT(value(table, 0, "path_m"), 1);
+}
+
+// tools/draw_search.py between the two: the agent flies as it does without.
+TEST_F(SearchBench, WhatAnAgentSawIsKeptToBeDrawn) {
+  const std::string agent = "/usr/bin/python3 examples/search/agent.py", seen = folder_ / "seen.json";
+  ASSERT_EQ(search("--seeds 2 --agent '" + agent + "'").exit_code, 0);
+  const std::string alone = read_file(folder_ / "out/searches.csv");
+  const Outcome outcome = search("--seeds 2 --agent 'tools/draw_search.py record " + seen + " " + agent + "'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err << read_file(folder_ / "out/agent_2.log");
+  EXPECT_EQ(read_file(folder_ / "out/searches.csv"), alone);
+  const Json kept = Json::parse(read_file(seen), nullptr, false);
+  ASSERT_TRUE(kept.is_object());
+  EXPECT_EQ(kept["end"]["type"], "end");
+  EXPECT_EQ(kept["best"]["type"], "observation");
+  EXPECT_NEAR(double(kept["way"].size()), 5 * kept["end"]["time"].get<double>(), 1.5);
 }
 
 TEST(SearchAgents, ThatMisbehaveAreNamedAndEndTheirSearchOnly) {

@@ -41,6 +41,6 @@ rm "$list" "$list.opened"
 cp "$here/archive_start.sh" "$stage/bin/rubble"
 cp "$here/archive_install.sh" "$stage/install.sh"
 chmod 755 "$stage/bin/rubble" "$stage/install.sh"
-makeself --quiet --nox11 --tar-quietly "$stage" "$output/$name.run" "Rubble $version" ./install.sh
+makeself --quiet --complevel 6 --nox11 --tar-quietly "$stage" "$output/$name.run" "Rubble $version" ./install.sh
 rm -rf "$stage"
 echo "$output/$name.run: $(du -m "$output/$name.run" | cut -f1) MB"

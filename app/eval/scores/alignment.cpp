@@ -11,16 +11,23 @@ Vec3 calc_mean(const std::vector<Vec3>& points) {
   return sum * (1.0 / double(points.size()));
 }
 
-// Whether the points span at least a plane: the second largest spread against the largest.
-bool span_plane(const std::vector<Vec3>& points, const Vec3& mean) {
+// The sums of squared distances from the mean along the principal axes, ascending.
+Eigen::Vector3d calc_spreads(const std::vector<Vec3>& points, const Vec3& mean) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Vec3& p : points) {
     const Eigen::Vector3d d(p.x - mean.x, p.y - mean.y, p.z - mean.z);
     spread += d * d.transpose();
   }
-  const auto values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
-  return values[1] > 1e-12 * values[2];
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
 }
+
+// Whether the points span at least a plane: the second largest spread against the largest.
+bool span_plane(const std::vector<Vec3>& points) {
+  const Eigen::Vector3d spreads = calc_spreads(points, calc_mean(points));
+  return spreads[1] > 1e-12 * spreads[2];
+}
+
+bool span_line(const std::vector<Vec3>& points) { return calc_spreads(points, calc_mean(points))[2] > 0; }
 
 // Horn's matrix, whose eigenvector of the largest eigenvalue is the rotation.
 Eigen::Matrix4d make_matrix(const Eigen::Matrix3d& s) {
@@ -36,9 +43,14 @@ Eigen::Matrix4d make_matrix(const Eigen::Matrix3d& s) {
 
 std::optional<Similarity> align_points(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
                                        bool with_scale) {
-  if (from.size() != to.size() || from.size() < 3) return std::nullopt;
+  if (from.size() < 3 || to.size() < 3 || !span_plane(from) || !span_plane(to)) return std::nullopt;
+  return align_for_distances(from, to, with_scale);
+}
+
+std::optional<Similarity> align_for_distances(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
+                                              bool with_scale) {
+  if (from.size() != to.size() || from.size() < 3 || !span_line(from) || !span_line(to)) return std::nullopt;
   const Vec3 a = calc_mean(from), b = calc_mean(to);
-  if (!span_plane(from, a) || !span_plane(to, b)) return std::nullopt;
   Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < from.size(); ++i) {
     const Vec3 x = from[i] - a, y = to[i] - b;

@@ -27,4 +27,9 @@ struct Similarity {
 std::optional<Similarity> align_points(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
                                        bool with_scale);
 
+// As align_points, for distances alone: points on one line leave the turn about it open, and one of the
+// best is taken, since all have the same distances. Nothing for fewer than 3, or all of a set at one place.
+std::optional<Similarity> align_for_distances(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
+                                              bool with_scale);
+
 }  // namespace rubble

@@ -44,11 +44,10 @@ Similarity align(const std::vector<PosePair>& pairs, bool with_scale) {
     from.push_back(pair.estimate.translation);
     to.push_back(pair.truth.translation);
   }
-  const auto found = align_points(from, to, with_scale);
+  const auto found = align_for_distances(from, to, with_scale);
   if (!found)
-    throw InputError({"", 0, "", "the positions are all at one place or on one line",
-                      "positions that determine a rotation",
-                      std::to_string(pairs.size()) + " pairs", ""});
+    throw InputError({"", 0, "", "the positions are all at one place", "a track that moves",
+                                            std::to_string(pairs.size()) + " pairs", ""});
   return *found;
 }
 

@@ -1,4 +1,4 @@
-#include "app/search/confidence.h"
+#include "app/eval/scores/confidence.h"
 
 #include <algorithm>
 #include <numeric>

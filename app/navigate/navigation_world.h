@@ -1,0 +1,67 @@
+// A settled pile as the navigation benchmark sees it: where the crawler starts, through which void it shall drive,
+// and where to.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/navigate/navigation_rules.h"
+#include "app/pipeline/resolved_mission.h"
+#include "kernel/model/pile.h"
+#include "kernel/model/pile_state.h"
+#include "kernel/queries/queries.h"
+#include "kernel/voids/void_map.h"
+#include "render/lidar/lidar_world.h"
+
+namespace rubble {
+
+class NavigationWorld {
+ public:
+  // Throws InputError with the key `pile`: no void with an entrance on the ground that is wide enough, no room for the
+  // robot before it. The mission and the pile must outlive it.
+  NavigationWorld(const ResolvedMission& mission, const PileState& pile, const NavigationRules& rules, int threads);
+
+  const NavigationRules& rules() const { return rules_; }
+  const ResolvedMission& mission() const { return mission_; }
+  const PileState& pile() const { return pile_; }
+  const std::shared_ptr<LidarWorld>& lidar_world() const { return lidar_world_; }
+  int threads() const { return threads_; }
+
+  const Pose& start() const { return start_; }  // of the robot's base: on the ground, facing an entrance
+  // On the ground: the void's entrance, where the goal is outside again also the other one, and the goal.
+  const std::vector<Vec3>& waypoints() const { return waypoints_; }
+  const Vec3& goal() const { return waypoints_.back(); }
+  bool passes() const { return passes_; }       // the goal is outside again, else inside
+  // Of the ball through the void, from start to goal: the shortest way; unit: m.
+  double shortest() const { return shortest_; }
+  const Aabb& bounds() const { return bounds_; }  // of all that the robot may see; unit: m
+  // Whether a robot whose base is there is in the void.
+  bool is_inside(const Vec3& base) const;
+
+ private:
+  struct Door;
+  void choose_void();
+  bool try_void(const Void& v);
+  std::vector<Door> find_doors(const Void& v) const;
+  std::optional<Vec3> find_low_place(const Vec3& beside) const;
+  std::optional<Vec3> find_room(const Vec3& entrance, const Vec3& out) const;
+  bool has_room(const Vec3& place, const Vec3& ahead) const;
+
+  NavigationRules rules_;
+  const ResolvedMission& mission_;
+  const PileState& pile_;
+  int threads_;
+  std::shared_ptr<LidarWorld> lidar_world_;
+  PileQueries queries_;
+  VoidMap map_;
+  Aabb bounds_;
+  Pose start_;
+  std::vector<Vec3> waypoints_;
+  bool passes_ = false;
+  double shortest_ = 0;
+  std::vector<std::uint32_t> inside_;  // cells of the void, ascending
+};
+
+}  // namespace rubble

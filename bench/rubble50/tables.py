@@ -1,0 +1,53 @@
+"""The tables of baselines in docs/rubble50.md: what stands there between `<!-- begin NAME -->` and `<!-- end NAME -->`
+is made from results; the text around it is written by people."""
+import re
+import statistics
+
+
+def median(values, digits):
+    return "%.*f" % (digits, statistics.median(values)) if values else "-"
+
+
+def finished(found):
+    return found["lost"] == 0 and found["trajectory"] is not None
+
+
+def ate(found):
+    return found["trajectory"]["ate_rmse_se3_m"]
+
+
+def row(cells):
+    return "| " + " | ".join(cells) + " |"
+
+
+def method_table(found, methods):
+    lines = [row(["method", "missions run", "finished", "ATE, m", "RPE, m", "RPE, °"]), "|" + "---|" * 6]
+    for method, title in methods.items():
+        all_of = [result for (_, m), result in found.items() if m == method]
+        good = [result["trajectory"] for result in all_of if finished(result)]
+        lines.append(row([title, "%d of 50" % len(all_of), str(len(good)),
+                          median([t["ate_rmse_se3_m"] for t in good], 3),
+                          median([t["rpe_trans_rmse_m"] for t in good], 4),
+                          median([t["rpe_rot_rmse_deg"] for t in good], 3)]))
+    return lines
+
+
+def mission_table(found, methods):
+    lines = [row(["mission", "frames", "depth, %", *methods.values()]), "|" + "---|" * (3 + len(methods))]
+    for number in sorted({number for number, _ in found}):
+        results = [found.get((number, method)) for method in methods]
+        first = next(result for result in results if result)
+        cells = ["" if result is None else "%.3f" % ate(result) if finished(result)
+                 else "lost in %d" % result["lost"] for result in results]
+        lines.append(row([str(number), str(first["frames"]), "%.0f" % (100 * first["depth_share"]), *cells]))
+    return lines
+
+
+def write(page, found, methods):
+    text = page.read_text()
+    for name, lines in (("methods", method_table(found, methods)), ("missions", mission_table(found, methods))):
+        block = "<!-- begin %s -->\n%s\n<!-- end %s -->" % (name, "\n".join(lines), name)
+        text, count = re.subn("<!-- begin %s -->.*?<!-- end %s -->" % (name, name), lambda _: block, text, flags=re.S)
+        if count != 1:
+            raise SystemExit("%s: expected one block %s, found %d" % (page, name, count))
+    page.write_text(text)

@@ -1,0 +1,217 @@
+// MRPT's reactive navigator behind our interface, and the benchmark in which it drives the crawler.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/navigate/obstacle_map.h"
+#include "io/mrpt/reactive_navigator.h"
+#include "kernel/base/error.h"
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+// A robot on a plane that moves exactly as it is told, among walls that it sees from everywhere.
+struct Plane {
+  std::vector<Vec3> points;
+
+  void wall(double x0, double y0, double x1, double y1) {
+    const double length = std::hypot(x1 - x0, y1 - y0);
+    for (double d = 0; d <= length; d += 0.05)
+      for (double z = 0.12; z < 0.5; z += 0.05) points.push_back({x0 + (x1 - x0) * d / length, y0 + (y1 - y0) * d / length, z});
+  }
+  void block(double x, double y, double half) {
+    wall(x - half, y - half, x + half, y - half), wall(x + half, y - half, x + half, y + half);
+    wall(x + half, y + half, x - half, y + half), wall(x - half, y + half, x - half, y - half);
+  }
+};
+
+NavigatorOptions options_in(const ScratchFolder& folder) {
+  NavigatorOptions options;
+  options.slices = {{0.2, 0.36, 0.33}, {0.3, 0.43, 0.33}};
+  options.max_speed = 0.3, options.give_up_after = 20;
+  options.cache_folder = folder.path().string();
+  return options;
+}
+
+struct Driven {
+  NavigatorState state = NavigatorState::driving;
+  double time = 0, x = 0, y = 0, yaw = 0;
+  double nearest = 1e9;        // of any point to the robot's rectangle; 0: inside
+  std::vector<double> twists;  // all that the navigator said
+};
+
+double gap(const NavigatorSlice& s, double x, double y) {
+  return std::hypot(std::max(0.0, std::fabs(x) - s.half_length), std::max(0.0, std::fabs(y) - s.half_width));
+}
+
+// To (8, 0), for 120 s at most. blind: the navigator is not shown the points.
+Driven drive(const NavigatorOptions& options, const Plane& plane, bool blind = false) {
+  ReactiveNavigator navigator(options);
+  navigator.set_goal(8, 0);
+  Driven d;
+  double linear = 0, angular = 0;
+  for (int k = 0; k < 600 && d.state == NavigatorState::driving; ++k) {
+    NavigatorInput input;
+    input.time = d.time = 0.2 * k;
+    input.x = d.x, input.y = d.y, input.yaw = d.yaw;
+    const double c = std::cos(d.yaw), s = std::sin(d.yaw);
+    input.velocity_x = linear * c, input.velocity_y = linear * s, input.turn_rate = angular;
+    for (const Vec3& p : plane.points) {
+      const Vec3 local{c * (p.x - d.x) + s * (p.y - d.y), c * (p.y - d.y) - s * (p.x - d.x), p.z};
+      d.nearest = std::min(d.nearest, gap(options.slices[p.z < 0.2 ? 0 : 1], local.x, local.y));
+      if (!blind) input.obstacles.push_back(Vec3f(local));
+    }
+    const NavigatorOutput output = navigator.step(input);
+    d.state = output.state, linear = output.linear, angular = output.angular;
+    d.twists.insert(d.twists.end(), {linear, angular});
+    for (int i = 0; i < 20; ++i) {
+      d.x += 0.01 * linear * std::cos(d.yaw), d.y += 0.01 * linear * std::sin(d.yaw), d.yaw += 0.01 * angular;
+    }
+  }
+  return d;
+}
+
+TEST(ReactiveNavigator, DrivesStraightToAGoalInTheOpen) {
+  const ScratchFolder folder;
+  const Driven d = drive(options_in(folder), {});
+  EXPECT_EQ(d.state, NavigatorState::arrived);
+  EXPECT_NEAR(d.x, 7.7, 0.1);
+  EXPECT_NEAR(d.y, 0, 0.02);
+  EXPECT_NEAR(d.time, 7.7 / 0.3, 2);
+}
+
+TEST(ReactiveNavigator, DrivesBetweenWallsRoundBlocksAndTheSameEachTime) {
+  const ScratchFolder folder;
+  Plane plane;
+  plane.block(2.5, 0.1, 0.3), plane.block(5, -0.9, 0.2);
+  plane.wall(1, -1.5, 7, -1.5), plane.wall(1, 1.5, 7, 1.5);
+  const Driven d = drive(options_in(folder), plane);
+  EXPECT_EQ(d.state, NavigatorState::arrived) << "at " << d.x << " " << d.y;
+  EXPECT_GT(d.nearest, 0) << "it drove into something";
+  EXPECT_EQ(drive(options_in(folder), plane, true).nearest, 0) << "nothing was in the way";
+  // Tables of arcs that were loaded give the same as those that were computed.
+  EXPECT_EQ(drive(options_in(folder), plane).twists, d.twists);
+  const ScratchFolder other;
+  EXPECT_EQ(drive(options_in(other), plane).twists, d.twists);
+}
+
+TEST(ReactiveNavigator, GivesUpWhereItIsWalledIn) {
+  const ScratchFolder folder;
+  Plane plane;
+  plane.block(0, 0, 1.2);
+  const Driven d = drive(options_in(folder), plane);
+  EXPECT_EQ(d.state, NavigatorState::gave_up);
+  EXPECT_GT(d.time, 20);
+  EXPECT_LT(std::hypot(d.x, d.y), 0.8);
+  EXPECT_GT(d.nearest, 0);
+}
+
+TEST(ReactiveNavigator, MistakesAreNamed) {
+  const auto key_of = [](const NavigatorOptions& options) -> std::string {
+    try {
+      ReactiveNavigator{options};
+    } catch (const InputError& error) {
+      return error.diagnostics().front().key;
+    }
+    return "none";
+  };
+  const ScratchFolder folder;
+  NavigatorOptions options = options_in(folder);
+  options.slices.clear();
+  EXPECT_EQ(key_of(options), "slices");
+  options = options_in(folder), options.max_speed = -1;
+  EXPECT_EQ(key_of(options), "max_speed");
+  options = options_in(folder), options.horizon = std::nan("");
+  EXPECT_EQ(key_of(options), "horizon");
+}
+
+TEST(ObstacleMap, HoldsCellsThatWereSeenOftenEnough) {
+  Aabb bounds;
+  bounds.include({-1, -1, 0}), bounds.include({1, 1, 1});
+  ObstacleMap map(bounds, 0.1, 2);
+  map.add({0.31, 0.42, 0.55});
+  EXPECT_FALSE(map.is_occupied({0.31, 0.42, 0.55}));
+  map.add({0.38, 0.48, 0.51});  // the same cell
+  map.add({-0.95, 0.0, 0.95}), map.add({-0.95, 0.0, 0.95});
+  map.add({5, 0, 0}), map.add({0, 0, -1});  // outside
+  EXPECT_TRUE(map.is_occupied({0.35, 0.45, 0.5}));
+  EXPECT_FALSE(map.is_occupied({0.45, 0.45, 0.5}));
+  const std::vector<Vec3> near = map.find_around({0, 0, 0}, 0.6, 0.2, 0.8);
+  ASSERT_EQ(near.size(), 1u);
+  EXPECT_NEAR(distance(near[0], {0.35, 0.45, 0.55}), 0, 1e-9);
+  EXPECT_EQ(map.find_around({0, 0, 0}, 3, -1, 3).size(), 2u);
+}
+
+class NavigationBench : public ::testing::Test {
+ protected:
+  // Under the slab is a void that is open at both ends, and a block in it.
+  void SetUp() override {
+    write_file(folder_ / "m.lua", R"(
+return rubble.mission {
+  seed = 2,
+  pile = rubble.join(
+    rubble.collapse.lean_to { length = 6, width = 4, height = rubble.random("m"):uniform(2, 2.2), debris = { layers = 0 } },
+    rubble.collapse.free { pieces = { { box = { 0.3, 0.3, 0.3 }, position = { 1.4, 0, 0.151 } } }, debris = { layers = 0 } }),
+  camera = { width = 64, height = 48 },
+  trajectory = { rate_hz = 5, waypoints = { { t = 0, position = { -5, 0, 2 }, look_at = { 0, 0, 0.5 } },
+                                            { t = 0.4, position = { -5, 0.2, 2 }, look_at = { 0, 0, 0.5 } } } },
+})");
+  }
+  Outcome navigate(const std::string& options) const {
+    return run_rubble("bench navigate " + (folder_ / "m.lua") + " --quiet --out " + (folder_ / "out") + " " + options);
+  }
+  ScratchFolder folder_;
+};
+
+TEST_F(NavigationBench, TheCrawlerDrivesThroughTheVoidEachTimeTheSame) {
+  const Outcome both = navigate("--seeds 2..3 --json");
+  ASSERT_EQ(both.exit_code, 0) << both.err;
+  const Json table = Json::parse(both.out, nullptr, false);
+  ASSERT_TRUE(table.is_object()) << both.out;
+  const Json row = table["datasets"][0];
+  EXPECT_EQ(row["missions"], 2);
+  EXPECT_EQ(row["arrived_share"], 1);
+  EXPECT_GT(row["inside_m"], 2.5);
+  EXPECT_GT(row["path_m"], 3);
+  EXPECT_LT(row["time_s"], 60);
+  EXPECT_TRUE(row.contains("deadlines_missed"));
+  std::istringstream lines(read_file(folder_ / "out/missions.csv"));
+  std::string head, second, third;
+  std::getline(lines, head), std::getline(lines, second), std::getline(lines, third);
+  EXPECT_NE(second.substr(0, 16), third.substr(0, 16)) << "two piles, one drive";
+  // Alone, without the tables of arcs that the other left, and on one thread: to the bit.
+  ASSERT_EQ(navigate("--seeds 3 --threads 1").exit_code, 0);
+  EXPECT_EQ(read_file(folder_ / "out/missions.csv"), head + "\n" + third + "\n");
+  EXPECT_EQ(read_file(folder_ / "out/table.csv").find("deadlines"), std::string::npos) << "the clock is in a file";
+}
+
+TEST_F(NavigationBench, TheTableIsWrittenIntoADocument) {
+  const std::string document = folder_ / "d.md";
+  write_file(document, "before\n<!-- begin navigate -->\nold\n<!-- end navigate -->\nafter\n");
+  const std::string command = "cd '" RUBBLE_SOURCE_DIR "' && /usr/bin/python3 tools/navigate_table.py --seeds 2 --mission " +
+                              (folder_ / "m.lua") + " --out " + (folder_ / "t") + " --program " RUBBLE_PROGRAM " " + document;
+  ASSERT_EQ(std::system((command + " 2>/dev/null").c_str()), 0);
+  const std::string text = read_file(document);
+  EXPECT_EQ(text.find("before\n<!-- begin navigate -->\n| | |\n|---|---|\n| missions | 1 |\n| arrived | 1.00 (95 %: "), 0u) << text;
+  EXPECT_NE(text.find("<!-- end navigate -->\nafter\n"), std::string::npos) << text;
+}
+
+TEST_F(NavigationBench, MistakesAreNamed) {
+  const auto expect = [&](const std::string& options, const std::string& part) {
+    const Outcome outcome = navigate(options);
+    EXPECT_EQ(outcome.exit_code, 1) << options;
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " is not in\n" << outcome.err;
+  };
+  expect("--seeds two", "--seeds");
+  write_file(folder_ / "m.lua", "return rubble.mission { pile = { layers = 1, pieces_per_layer = 5 } }");
+  expect("--seeds 2", "no pile of these seeds has a void for the crawler");
+}
+
+}  // namespace
+}  // namespace rubble::testing

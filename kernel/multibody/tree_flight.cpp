@@ -4,7 +4,7 @@
 
 #include "kernel/multibody/joints/joint.h"
 #include "kernel/multibody/tree_motion.h"
-#include "kernel/multibody/tree_springs.h"
+#include "kernel/multibody/springs/tree_springs.h"
 
 namespace rubble {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/inertia.h"
-#include "kernel/multibody/tree_springs.h"
+#include "kernel/multibody/springs/tree_springs.h"
 #include "kernel/solver/wide.h"
 #include "kernel/world/world_impl.h"
 

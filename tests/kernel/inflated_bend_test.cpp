@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kernel/multibody/inflated_bend.h"
+#include "kernel/multibody/springs/inflated_bend.h"
 
 namespace rubble {
 namespace {

@@ -1,4 +1,4 @@
-#include "kernel/multibody/inflated_bend.h"
+#include "kernel/multibody/springs/inflated_bend.h"
 
 #include "kernel/base/portable_math.h"
 

@@ -1,8 +1,8 @@
-#include "kernel/multibody/tree_springs.h"
+#include "kernel/multibody/springs/tree_springs.h"
 
 #include <cmath>
 
-#include "kernel/multibody/inflated_bend.h"
+#include "kernel/multibody/springs/inflated_bend.h"
 #include "kernel/multibody/joints/joint.h"
 #include "kernel/multibody/tree_motion.h"
 

@@ -16,9 +16,11 @@ import sys
 import cv2
 import numpy as np
 
+from document_marks import write_between_marks
+
 ORDER = ("soft_ground", "soft_middle", "loaded_roof", "loaded_floor", "quake", "quake_frame", "half_removed",
          "corner_bay", "row_of_columns", "blast", "lorry", "sinking")
-CELL = (420, 315)  # pixels
+WIDTH = 420  # of a picture; pixels
 COLUMNS = 3
 NOT_SETTLED = 3  # exit code of rubble run
 
@@ -43,23 +45,19 @@ def run(args, name):
             "extents": [float(v) for v in re.findall(r"(?:bays|span)_[xy] = ([\d.]+)", text)]}
 
 
-def fit(picture):
-    """Scaled into a cell, on white."""
-    scale = min(CELL[0] / picture.shape[1], CELL[1] / picture.shape[0])
-    small = cv2.resize(picture, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
-    cell = np.full((CELL[1], CELL[0], 3), 255, np.uint8)
-    top, left = (CELL[1] - small.shape[0]) // 2, (CELL[0] - small.shape[1]) // 2
-    cell[top:top + small.shape[0], left:left + small.shape[1]] = small
-    return cell
-
-
 def sheet(pictures, names, path):
+    """Rows of pictures of one width under their names; a row is as high as its highest picture."""
     cells = []
     for picture, name in zip(pictures, names):
-        label = np.full((26, CELL[0], 3), 255, np.uint8)
+        label = np.full((26, WIDTH, 3), 255, np.uint8)
         cv2.putText(label, name, (6, 19), cv2.FONT_HERSHEY_SIMPLEX, 0.55, (30, 30, 30), 1, cv2.LINE_AA)
-        cells.append(np.vstack([label, fit(picture)]))
-    rows = [np.hstack(cells[i:i + COLUMNS]) for i in range(0, len(cells), COLUMNS)]
+        height = round(picture.shape[0] * WIDTH / picture.shape[1])
+        cells.append(np.vstack([label, cv2.resize(picture, (WIDTH, height), interpolation=cv2.INTER_AREA)]))
+    rows = []
+    for i in range(0, len(cells), COLUMNS):
+        high = max(cell.shape[0] for cell in cells[i:i + COLUMNS])
+        rows.append(np.hstack([cv2.copyMakeBorder(cell, 0, high - cell.shape[0], 0, 0, cv2.BORDER_CONSTANT,
+                                                  value=(255, 255, 255)) for cell in cells[i:i + COLUMNS]]))
     cv2.imwrite(path, np.vstack(rows), [cv2.IMWRITE_JPEG_QUALITY, 82])
 
 
@@ -86,13 +84,7 @@ def main():
     lines = ["| mission | what happens | seed | pieces | at rest after, s | height, m | debris beyond the walls, m | "
              "voids | covered volume, m3 | deepest void, m |", "|---|---|---|---|---|---|---|---|---|---|"]
     lines += [row(ruin) for ruin in ruins]
-    with open(args.document) as file:
-        text = file.read()
-    text = re.sub(r"(<!-- begin ruins -->\n).*?(<!-- end ruins -->)", lambda m: m[1] + "\n".join(lines) + "\n" + m[2],
-                  text, flags=re.DOTALL)
-    with open(args.document + ".new", "w") as file:
-        file.write(text)
-    os.replace(args.document + ".new", args.document)
+    write_between_marks(args.document, "ruins", "\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ return rubble.mission {
       },
     },
   },
-  settle = { final_time_limit = 60 },
+  settle = { final_time_limit = 120 },
   voids = { on = true },
   camera = { width = 640, height = 480, fov_deg = 60 },
   trajectory = { waypoints = { { position = { -13, -15, 8 }, look_at = { 0, 0, 3.5 } } } },

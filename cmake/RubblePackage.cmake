@@ -20,6 +20,7 @@ set(RUBBLE_PUBLIC_HEADERS
   kernel/geometry/hull.h
   kernel/model/assembly.h
   kernel/model/building.h
+  kernel/model/everting_tube.h
   kernel/model/pile.h
   kernel/model/pile_state.h
   kernel/model/robot.h

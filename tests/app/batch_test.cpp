@@ -105,13 +105,13 @@ TEST_F(Batch, ASuspendedJobIsNamedAndStopped) {
     EXPECT_GT(job, 0);
     if (job > 0) kill(job, SIGSTOP);
   });
-  const auto enough = std::chrono::steady_clock::now() + std::chrono::seconds(15);
-  bool seen = false;
+  std::chrono::steady_clock::time_point suspended;
   const Outcome run = run_rubble_and_signal(
       "batch " + (scratch / "long.lua") + " --pile-only --seeds 1 --jobs 1 --out " + (scratch / "a"),
       [&] {
-        if (begun() && !seen) seen = true, suspender.join();
-        return seen && std::chrono::steady_clock::now() > enough - std::chrono::seconds(10);
+        if (!begun()) return false;
+        if (suspender.joinable()) suspender.join(), suspended = std::chrono::steady_clock::now();
+        return std::chrono::steady_clock::now() - suspended > std::chrono::seconds(5);
       },
       SIGTERM);
   if (suspender.joinable()) suspender.join();

@@ -1,4 +1,5 @@
 """Tables that programs write into documents, between <!-- begin NAME --> and <!-- end NAME -->."""
+import os
 import re
 import sys
 
@@ -11,5 +12,6 @@ def write_between_marks(path, name, text):
     whole, found = re.subn(pattern, lambda marks: marks[1] + text + marks[2], whole, flags=re.DOTALL)
     if not found:
         sys.exit(f"{path} has no marks <!-- begin {name} --> and <!-- end {name} -->")
-    with open(path, "w") as file:
+    with open(f"{path}.part", "w") as file:
         file.write(whole)
+    os.replace(f"{path}.part", path)

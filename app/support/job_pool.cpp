@@ -62,7 +62,12 @@ void note_death(const std::string& log, int status) {
 }
 
 pid_t start(const Job& job) {
-  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  std::error_code failed;
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe", failed).string();
+  if (failed) {
+    throw RunError("cannot start jobs: /proc/self/exe does not say where this program lies (" + failed.message() +
+                   "): mount /proc");
+  }
   std::vector<char*> arguments{const_cast<char*>(program.c_str())};
   for (const std::string& argument : job.arguments)
     arguments.push_back(const_cast<char*>(argument.c_str()));

@@ -1,7 +1,8 @@
 """The tables of baselines in docs/rubble50.md: what stands there between `<!-- begin NAME -->` and `<!-- end NAME -->`
 is made from results; the text around it is written by people."""
-import re
 import statistics
+
+from document_marks import write_between_marks
 
 
 def median(values, digits):
@@ -44,10 +45,5 @@ def mission_table(found, methods):
 
 
 def write(page, found, methods):
-    text = page.read_text()
     for name, lines in (("methods", method_table(found, methods)), ("missions", mission_table(found, methods))):
-        block = "<!-- begin %s -->\n%s\n<!-- end %s -->" % (name, "\n".join(lines), name)
-        text, count = re.subn("<!-- begin %s -->.*?<!-- end %s -->" % (name, name), lambda _: block, text, flags=re.S)
-        if count != 1:
-            raise SystemExit("%s: expected one block %s, found %d" % (page, name, count))
-    page.write_text(text)
+        write_between_marks(page, name, "\n".join(lines) + "\n")

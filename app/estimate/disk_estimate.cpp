@@ -46,12 +46,17 @@ struct FinesSize {
 };
 
 FinesSize size_of_fines(const FinesSpec& f) {
-  constexpr double kOfPiece = 8, kOfDrift = 520, kOfSheet = 500, kOfStrand = 1000, kPiecesOfHeap = 12;  // at most
+  // Triangles at most.
+  constexpr double kOfFlake = 24, kOfDrift = 680, kOfPaper = 200, kOfCloth = 1450, kOfStrand = 2300;
+  constexpr double kPiecesOfHeap = 12, kBytesOfTriangle = 30;
   if (f.amount == 0) return {};
   const double shares = f.grit + f.plaster + f.glass + f.paper + f.cloth;
+  const double of_grit = f.size[0] >= 0.005 ? 20 : 9.5;
+  const double each = (of_grit * f.grit + kOfFlake * (f.plaster + f.glass)) / shares;
   const double sheets = f.amount * (f.paper + f.cloth) / shares, strands = f.cables + f.pipes;
-  const double others = kOfDrift * f.drifts + kOfSheet * sheets + kOfStrand * strands;
-  return {kOfPiece * f.amount + others, 48.0 * f.amount + 24 * others + 1000,
+  const double others = kOfDrift * f.drifts + f.amount * (kOfPaper * f.paper + kOfCloth * f.cloth) / shares +
+                        kOfStrand * strands;
+  return {each * f.amount + others, 48.0 * f.amount + kBytesOfTriangle * others + 1000,
           f.amount / kPiecesOfHeap + f.drifts + sheets + strands};
 }
 

@@ -119,9 +119,10 @@ std::uint64_t hash_work_of(const ResolvedMission& mission, const Pile& pile) {
 // Strews fines over the pile, with what a person sees of it.
 void strew(const ResolvedMission& mission, RunContext& context, PileState& pile) {
   if (mission.pile_scenario.fines.amount == 0) return;
-  context.progress.update(1, "fines");
+  context.progress.start("fines");
   const std::string warning = lay_fines(mission.pile_scenario, mission.assets, context.threads(), pile);
   if (!warning.empty()) context.warnings.push_back(warning);
+  context.progress.finish(std::to_string(pile.fines.pieces.size() + pile.fines.sheets.size()) + " strewn");
 }
 
 // Of a pile with victims; before pile.bin, so that it is there where that is.
@@ -171,8 +172,9 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
   SettledPile settled = loaded ? load(mission.pile_scenario, recorded, folder)
                                : settle_from_checkpoint_or_start(mission, pile, folder, context);
   throw_if_stopped(folder.path());
+  if (!loaded) add_victims(mission, context.threads(), settled.state);
+  context.progress.finish(summarize_settling(settled.state, loaded));
   if (!loaded) {
-    add_victims(mission, context.threads(), settled.state);
     strew(mission, context, settled.state);
     save_victims(mission.pile_scenario.victims, settled.state, folder);
     save_fines_of(mission.pile_scenario, settled.state, folder.path());
@@ -183,7 +185,6 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
   if (mission.pile_scenario.fines.amount > 0) folder.add(kFinesFile);
   if (recorded) folder.add("track.bin");
   add_pile_metrics(settled.state, mission.assets, settled.metrics);
-  context.progress.finish(summarize_settling(settled.state, loaded));
   return settled;
 }
 
@@ -201,9 +202,9 @@ SettledPile settle_in_memory(const ResolvedMission& mission, RunContext& context
   });
   if (stopped) throw Stopped("stopped while the pile settled; nothing is kept");
   add_victims(mission, context.threads(), settled.state);
+  context.progress.finish(summarize_settling(settled.state, false));
   strew(mission, context, settled.state);
   add_pile_metrics(settled.state, mission.assets, settled.metrics);
-  context.progress.finish(summarize_settling(settled.state, false));
   return settled;
 }
 

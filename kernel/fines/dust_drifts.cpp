@@ -13,13 +13,13 @@
 namespace rubble {
 namespace {
 
-constexpr int kRings = 7, kSpokes = 20;
+constexpr int kRings = 7, kSpokes = 26;
 constexpr double kBuried = 0.0015;       // of its rim below the surface, and of all its underside; unit: m
-constexpr double kSmallest = 0.07, kLargest = 0.6;  // radius; unit: m
+constexpr double kSmallest = 0.06, kLargest = 0.34;  // radius; unit: m
 constexpr double kRadiusPower = 1.2;           // larger radii than r: in proportion to r^-kRadiusPower
 constexpr double kStep = 0.06;           // that the ground may rise or fall within a drift; as a share of its radius,
 constexpr double kLeastStep = 0.02;      // and at least so much; unit: m
-constexpr double kLowest = 0.05, kHighestShare = 0.16;  // height over radius
+constexpr double kLowest = 0.08, kHighestShare = 0.24;  // height over radius
 constexpr double kOffGround = 0.25;      // largest share of its places that may be in a wall or off an edge
 constexpr double kApart = 0.6;           // least distance of two drifts, in radii of both
 
@@ -78,8 +78,8 @@ class Mound {
   Vec3 place(int ring, int k) const {
     const double angle = 2 * portable::kPi * k / kSpokes;
     const auto [s, c] = portable::sincos(angle);
-    const double uneven = 1 + 0.22 * portable::cos(2 * angle + waves_[0]) + 0.13 * portable::cos(3 * angle + waves_[1]) +
-                          0.08 * portable::cos(5 * angle + waves_[2]);
+    const double uneven = 1 + 0.22 * portable::cos(2 * angle + waves_[0]) + 0.16 * portable::cos(3 * angle + waves_[1]) +
+                          0.1 * portable::cos(5 * angle + waves_[2]) + 0.07 * portable::cos(8 * angle + waves_[3]);
     const double r = radius_ * uneven * ring / kRings;
     return {middle_.x + r * c, middle_.y + r * s, 0};
   }
@@ -141,13 +141,13 @@ class Mound {
   double radius_ = 0, height_ = 0, lift_ = 0;  // unit: m
   Vec3 middle_, normal_;
   int host_ = -1;
-  std::array<double, 3> waves_{};
+  std::array<double, 4> waves_{};
   std::vector<double> base_;  // by ring, then spoke, without the middle; unit: m
 };
 
 // Corners above all.
 double calc_drift_weight(const FineSite& site) {
-  constexpr double kOpen = 0.02, kFades = 0.3;
+  constexpr double kOpen = 0.01, kFades = 0.3;
   return (kOpen + site.corner * site.corner * 4) * portable::exp(-site.away / kFades);
 }
 

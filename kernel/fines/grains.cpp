@@ -12,7 +12,7 @@
 namespace rubble {
 namespace {
 
-constexpr double kLoneHeaps = 0.3;       // share of heaps that are scattered far
+constexpr double kLoneHeaps = 0.2;       // share of heaps that are scattered far
 constexpr double kLoneSpread = 0.35;     // of those; unit: m
 constexpr double kHeapPower = 1.3;           // heaps of more than n pieces: in proportion to n^-kHeapPower
 constexpr double kHighest = 0.3;         // above its site that a grain starts from; unit: m
@@ -35,7 +35,7 @@ struct Manner {
 Manner manner_of(FineKind kind, const FinesSpec& spec) {
   if (kind == FineKind::plaster) return {2, 30, 0.05, 0.008, 0.11, 1.7, 0.0015, 0.006};
   if (kind == FineKind::glass) return {6, 60, 0.05, 0.004, 0.08, 1.8, 0.003, 0.004};
-  return {6, 260, 0.028, spec.size[0], spec.size[1], spec.exponent, 0, 0};
+  return {8, 700, 0.022, spec.size[0], spec.size[1], spec.exponent, 0, 0};
 }
 
 // Longer than d: in proportion to d^-exponent, between the ends.
@@ -131,7 +131,7 @@ class GrainStrewer {
 }  // namespace
 
 double calc_site_weight(const FineSite& site, const FinePatches& patches) {
-  constexpr double kOpen = 0.3, kFoot = 4, kFades = 0.35;  // the last: on the ground away from the pile; unit: m
+  constexpr double kOpen = 0.12, kFoot = 4, kFades = 0.3;  // the last: on the ground away from the pile; unit: m
   return (kOpen + kFoot * site.corner) * portable::exp(-site.away / kFades) * patches.at(site.point);
 }
 

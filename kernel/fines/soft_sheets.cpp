@@ -17,7 +17,7 @@ constexpr double kPaperThick = 0.0004, kClothThick = 0.002;  // unit: m
 constexpr double kPaperGap = 0.012;   // below a part of a stiff sheet; unit: m
 constexpr double kPoked = 0.0015;     // that a bump may reach through paper; unit: m
 constexpr double kLoose = 0.0003;     // of a sheet above what it lies on; unit: m
-constexpr double kLongestFall = 0.5;  // of a corner of cloth below its middle; unit: m
+constexpr double kLongestFall = 0.2;  // of a corner of cloth below its middle; unit: m
 constexpr int kTriesEachSheet = 12;
 constexpr int kPaperCells = 6, kClothCells = 18;  // along a side
 
@@ -94,9 +94,9 @@ struct Cut {
 Cut draw_paper(RandomStream& random) {
   const double size = random.uniform(), wide = random.uniform(0.3, 1), long_side = random.uniform(0.03, 0.09);
   Cut cut{0.105, 0.1485, {}};                       // ISO 216: A4
-  if (size > 0.35) cut.x = 0.074, cut.y = 0.105;    // A5
-  if (size > 0.6) cut.y = long_side, cut.x = wide * long_side;
-  for (double& t : cut.torn) t = random.uniform() * (size > 0.6 ? 0.5 : 0.0);
+  if (size > 0.2) cut.x = 0.074, cut.y = 0.105;    // A5
+  if (size > 0.4) cut.y = long_side, cut.x = wide * long_side;
+  for (double& t : cut.torn) t = random.uniform() * (size > 0.4 ? 0.5 : 0.0);
   return cut;
 }
 

@@ -19,6 +19,7 @@ constexpr double kHeld = 0.012;                    // of an end in what holds it
 constexpr double kFree = 0.04;                     // near an end, its holder may be as near as it likes; unit: m
 constexpr double kAir = 0.004;                     // between a strand and all else; unit: m
 constexpr double kEye = 0.6;                       // highest place above a site that anchors are looked for from
+constexpr double kLookDown = 0.3;                  // of a unit direction that has any, at most
 constexpr double kSight = 3;                       // farthest anchor from there; unit: m
 constexpr double kRing = 0.05;                     // between rings of a tube; unit: m
 
@@ -26,12 +27,12 @@ struct Make {
   double radius_min, radius_max;  // unit: m
   double slack_min, slack_max;    // of the length, over the distance of the ends
   int sides;
-  FineSurface surface;
+  std::array<FineSurface, 3> surfaces;  // one of them
 };
 
 Make make_of(FineKind kind) {
-  if (kind == FineKind::pipe) return {0.007, 0.02, 0.001, 0.012, 10, FineSurface::galvanised};
-  return {0.0025, 0.007, 0.01, 0.35, 6, FineSurface::rubber};
+  if (kind == FineKind::pipe) return {0.007, 0.02, 0.001, 0.012, 10, {FineSurface::galvanised, FineSurface::rust, FineSurface::rust}};
+  return {0.0025, 0.007, 0.01, 0.35, 6, {FineSurface::rubber, FineSurface::rubber, FineSurface::rubber}};
 }
 
 struct Strand {
@@ -48,7 +49,9 @@ class Hanger {
   std::optional<Strand> find() {
     const double radius = random_.uniform(make_.radius_min, make_.radius_max);
     const double slack = make_.slack_min + (make_.slack_max - make_.slack_min) * square(random_.uniform());
-    const auto a = find_anchor(random_), b = find_anchor(random_);
+    const FineSite& site = ground_.sites[random_.below(ground_.sites.size())];
+    const Vec3 eye = site.point + Vec3(0, 0, std::min(0.7 * site.headroom, kEye) * random_.uniform(0.3, 1));
+    const auto a = find_anchor(eye), b = find_anchor(eye);
     if (!a || !b) return std::nullopt;
     const double apart = distance(a->point, b->point);
     const Vec3 level{b->point.x - a->point.x, b->point.y - a->point.y, 0};
@@ -63,14 +66,12 @@ class Hanger {
  private:
   static double square(double x) { return x * x; }
 
-  // On a piece, in any direction but down, from the air above a site.
-  std::optional<RayHit> find_anchor(RandomStream& random) const {
-    const FineSite& site = ground_.sites[random.below(ground_.sites.size())];
-    Vec3 way = random.direction();
-    way.z = std::fabs(way.z);
-    const Vec3 eye = site.point + Vec3(0, 0, std::min(0.7 * site.headroom, kEye) * random.uniform(0.5, 1));
+  // On a piece, in any direction but steeply down.
+  std::optional<RayHit> find_anchor(const Vec3& eye) {
+    Vec3 way = random_.direction();
+    way.z = std::fabs(way.z) - kLookDown;
     const auto hit = ground_.queries.cast_ray(eye, way, kSight);
-    const bool outside = hit && dot(hit->normal, way) < -0.2;
+    const bool outside = hit && dot(hit->normal, normalized(way)) < -0.2;
     return outside && hit->piece != kGroundPiece ? hit : std::nullopt;
   }
 
@@ -88,7 +89,8 @@ class Hanger {
       if (!held && ground_.queries.cast_ray(before, here - before, distance(here, before))) return false;
       before = here;
     }
-    return true;
+    // It meets no surface on the way, so it is outside of everything if it is so in its middle.
+    return ground_.queries.clearance(curve.at(0.5 * curve.span), 1) > 0;
   }
 
   const GrainGround& ground_;
@@ -143,7 +145,7 @@ void hang_strands(const GrainGround& ground, FineKind kind, int count, std::vect
     for (int n = 0; n < kTriesEach && !strand; ++n) strand = hanger.find();
     if (!strand) return;  // no room for the next one either, or hardly
     FineSheet sheet;
-    sheet.kind = kind, sheet.host = strand->host, sheet.surface = std::uint8_t(make.surface);
+    sheet.kind = kind, sheet.host = strand->host, sheet.surface = std::uint8_t(make.surfaces[random.below(make.surfaces.size())]);
     sheet.mesh = make_tube(*strand, make.sides, world_from_host(ground.pile, strand->host).inverse());
     sheets.push_back(std::move(sheet));
   }

@@ -26,12 +26,12 @@ const std::array<std::string, kFineKinds>& fine_names();
 // How much is strewn. Shares are of `amount`, relative to each other.
 struct FinesSpec {
   int amount = 0;                          // loose pieces; 0: no fines at all; range: 0 to 1000000
-  double grit = 1, plaster = 0.06, glass = 0.02, paper = 0.006, cloth = 0.001;  // shares; >= 0
+  double grit = 1, plaster = 0.05, glass = 0.02, paper = 0.002, cloth = 0.0003;  // shares; >= 0
   std::array<double, 2> size{0.003, 0.05};  // of grit, its longest side; unit: m; range: 0.002 to 0.2
-  // Grit longer than d is in proportion to d to the power of minus this (Turcotte 1986: 2 to 3 for
-  // fragmented rock and concrete); range: 1 to 4
-  double exponent = 2.5;
-  int drifts = 60;  // mounds of dust, at the foot of walls; range: 0 to 2000
+  // Grit longer than d is in proportion to d to the power of minus this (Turcotte 1986, "Fractals and
+  // fragmentation": 1.9 for crushed quartz, 2.5 for broken coal and basalt); range: 1 to 4
+  double exponent = 2.0;
+  int drifts = 80;  // mounds of dust, at the foot of walls; range: 0 to 2000
   int cables = 10;  // hanging; range: 0 to 500
   int pipes = 4;    // likewise
 };

@@ -5,14 +5,12 @@
 // by number. Written out because the order of every operation is then the same on every machine.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
-namespace rubble {
+#include "kernel/structure/block_product.h"
 
-using Block6 = std::array<double, 36>;  // row by row
-using Six = std::array<double, 6>;
+namespace rubble {
 
 struct BlockEntry {
   std::int32_t row = 0, column = 0;  // row > column
@@ -24,17 +22,28 @@ struct BlockMatrix {
   std::vector<BlockEntry> below;  // each pair once, in any fixed order
 };
 
+struct BlockValue {
+  std::int32_t row = 0;
+  Six value{};
+};
+
 class BlockCholesky {
  public:
-  // False when the matrix is not positive definite; solve() must not be called then.
+  // False when the matrix is not positive definite; nothing must be solved then.
   bool factorize(const BlockMatrix& matrix);
-  std::vector<Six> solve(const std::vector<Six>& right) const;
+  std::vector<Six> solve(const std::vector<Six>& right) const { return solve_upper(solve_lower(right)); }
+  // K = L L^T: y of L y = right, in the order of elimination, and x of L^T x = y, by block row.
+  std::vector<Six> solve_lower(const std::vector<Six>& right) const;
+  std::vector<Six> solve_upper(std::vector<Six> y) const;
+  // For a right side that has few blocks: those of y that are not zero, ascending.
+  std::vector<BlockValue> solve_lower(const std::vector<BlockValue>& right) const;
   std::size_t blocks() const { return values_.size(); }  // of the factor, below its diagonal
 
  private:
   void order(const BlockMatrix& matrix);
   void scatter(const BlockMatrix& matrix);
   bool eliminate(std::int32_t column, std::vector<std::int32_t>& place);
+  void solve_diagonal(std::int32_t column, Six& y) const;
 
   std::vector<std::int32_t> position_;  // of a piece in the order of elimination
   std::vector<std::int32_t> starts_;    // of each column in rows_ and values_

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
+
+#include "kernel/structure/elimination_order.h"
 
 namespace rubble {
 namespace {
@@ -68,49 +69,33 @@ void divide_by(Block6& m, const Block6& lower) {
 
 }  // namespace
 
-// Eliminates the piece with the fewest neighbours again and again; its neighbours then all know each
-// other. What is left of a column is its structure in the factor.
+// A column of the factor has the rows of its own column of the matrix, and those of the columns whose first
+// row it is.
 void BlockCholesky::order(const BlockMatrix& matrix) {
-  const std::size_t n = matrix.diagonal.size();
-  std::vector<std::vector<std::int32_t>> neighbours(n);
+  const std::int32_t n = std::int32_t(matrix.diagonal.size());
+  RowNeighbours neighbours(n);
   for (const BlockEntry& entry : matrix.below) {
     neighbours[entry.row].push_back(entry.column);
     neighbours[entry.column].push_back(entry.row);
   }
-  std::set<std::pair<std::int32_t, std::int32_t>> queue;
-  for (std::size_t i = 0; i < n; ++i) {
-    std::sort(neighbours[i].begin(), neighbours[i].end());
-    queue.insert({std::int32_t(neighbours[i].size()), std::int32_t(i)});
-  }
+  const std::vector<std::int32_t> order = find_elimination_order(neighbours, matrix.places);
   position_.assign(n, 0);
-  std::vector<std::vector<std::int32_t>> columns;
-  std::vector<std::int32_t> joined;
-  while (!queue.empty()) {
-    const std::int32_t piece = queue.begin()->second;
-    queue.erase(queue.begin());
-    position_[piece] = std::int32_t(columns.size());
-    const std::vector<std::int32_t> left = std::move(neighbours[piece]);
-    for (const std::int32_t other : left) {
-      std::vector<std::int32_t>& theirs = neighbours[other];
-      queue.erase({std::int32_t(theirs.size()), other});
-      joined.clear();
-      std::set_union(theirs.begin(), theirs.end(), left.begin(), left.end(),
-                     std::back_inserter(joined));
-      theirs.clear();
-      for (const std::int32_t i : joined) {
-        if (i != other && i != piece) theirs.push_back(i);
-      }
-      queue.insert({std::int32_t(theirs.size()), other});
-    }
-    columns.push_back(left);
-  }
+  for (std::int32_t c = 0; c < n; ++c) position_[order[c]] = c;
+  std::vector<std::vector<std::int32_t>> merged(n);  // columns, by their first row
+  std::vector<std::int32_t> seen(n, -1);
   starts_.assign(1, 0);
   rows_.clear();
-  for (std::vector<std::int32_t>& column : columns) {
-    for (std::int32_t& row : column) row = position_[row];
-    std::sort(column.begin(), column.end());
-    rows_.insert(rows_.end(), column.begin(), column.end());
+  for (std::int32_t c = 0; c < n; ++c) {
+    const auto take = [&](std::int32_t row) {
+      if (row > c && seen[row] != c) seen[row] = c, rows_.push_back(row);
+    };
+    for (const std::int32_t other : neighbours[order[c]]) take(position_[other]);
+    for (const std::int32_t earlier : merged[c]) {
+      for (std::int32_t i = starts_[earlier]; i < starts_[earlier + 1]; ++i) take(rows_[i]);
+    }
+    std::sort(rows_.begin() + starts_[c], rows_.end());
     starts_.push_back(std::int32_t(rows_.size()));
+    if (starts_[c] < starts_[c + 1]) merged[rows_[starts_[c]]].push_back(c);
   }
 }
 

@@ -1,13 +1,14 @@
 // Direct solution of K x = b for a symmetric, positive definite K of 6 x 6 blocks: one block row a piece,
 // one block off the diagonal a bond.
 //
-// A sparse block Cholesky factor, its columns eliminated by least degree (Tinney and Walker 1967), ties
-// by number. Written out because the order of every operation is then the same on every machine.
+// A sparse block Cholesky factor. Written out because the order of every operation is then the same on every
+// machine.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "kernel/base/math.h"
 #include "kernel/structure/block_product.h"
 
 namespace rubble {
@@ -20,6 +21,7 @@ struct BlockEntry {
 struct BlockMatrix {
   std::vector<Block6> diagonal;   // one a block row
   std::vector<BlockEntry> below;  // each pair once, in any fixed order
+  std::vector<Vec3> places;       // of the block rows: rows with a common entry are near each other
 };
 
 struct BlockValue {

@@ -10,7 +10,7 @@
 namespace rubble {
 namespace {
 
-constexpr int kMostChanges = 96;     // that a factor follows before it is made anew; unit: 1
+constexpr int kMostChanges = 192;     // that a factor follows before it is made anew; unit: 1
 constexpr int kPiecesPerChange = 8;  // at least: the factor of a small group costs less; unit: 1
 constexpr double kResidual = 1e-6;  // of the loads: more, and the factor is made anew; unit: 1
 
@@ -110,6 +110,7 @@ struct GroupStress::Impl {
   BlockMatrix assemble() const {
     BlockMatrix matrix;
     matrix.diagonal.assign(members.size(), Block6{});
+    for (const std::int32_t piece : members) matrix.places.push_back(structure->pieces[piece].centre);
     for (const Link& l : links) {
       const Block6 &at_a = l.link.at_a, &at_b = l.link.at_b;
       add(matrix.diagonal[l.a], weighted_product(at_a, l.stiffness, at_a));

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "app/navigate/collision_counter.h"
 #include "app/navigate/obstacle_map.h"
 #include "app/pipeline/stages.h"
 #include "io/mrpt/reactive_navigator.h"
@@ -83,7 +84,9 @@ class Drive {
   Drive(const NavigationWorld& world, std::uint64_t seed, const std::string& cache_folder)
       : world_(world), rules_(world.rules()), model_(make_robot()), history_(make_run_options(world).step),
         lidar_(make_lidar(seed)), map_(world.bounds(), rules_.voxel, rules_.hits),
-        navigator_(make_navigator_options(rules_, cache_folder)) {
+        navigator_(make_navigator_options(rules_, cache_folder)),
+        collisions_(int(world.pile().pieces.size()), rules_.step_height,
+                    [&world](const Vec3& place) { return world.is_solid(place); }) {
     score_.passes = world.passes(), score_.shortest = world.shortest();
     history_.add(world.start());
     navigator_.set_goal(next().x, next().y);
@@ -101,6 +104,7 @@ class Drive {
     score_.time = steps * options.step;
     score_.path = result.robots.front().path;
     score_.left = distance_to_goal();
+    score_.collisions = collisions_.count();
     score_.hash = result.hash();
     return score_;
   }
@@ -133,7 +137,7 @@ class Drive {
     const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     score_.late += took > rules_.period;
     score_.slowest = std::max(score_.slowest, took);
-    pressed_before_ = pressed_, pressed_ = false;
+    collisions_.begin_period();
     if (output.state == NavigatorState::gave_up) end_ = NavigationEnd::gave_up;
     if (output.state == NavigatorState::arrived && is_last()) end_ = NavigationEnd::arrived;
     return drive_crawler(model_, {output.linear, output.angular / kTurnShare},
@@ -182,19 +186,9 @@ class Drive {
     if (world_.is_inside(base.translation)) score_.inside += distance(base.translation, history_.last().translation);
     history_.add(base);
     if (base.rotation.rotate({0, 0, 1}).z < kFallen) end_ = NavigationEnd::fell;
-    note_contacts(world, base);
+    collisions_.note(world.robot_contacts(0), base.translation);
     if (end_ != NavigationEnd::time_up) score_.end = end_;
     return end_ == NavigationEnd::time_up;
-  }
-
-  void note_contacts(const World& world, const Pose& base) {
-    const int pieces = int(world_.pile().pieces.size());
-    for (const RobotContact& contact : world.robot_contacts(0)) {
-      const bool high = contact.point.z > base.translation.z + rules_.step_height;
-      if (contact.piece < 0 || contact.piece >= pieces || !high || contact.force <= 0 || pressed_) continue;
-      pressed_ = true;
-      score_.collisions += !pressed_before_;
-    }
   }
 
   double distance_to_goal() const {
@@ -209,10 +203,10 @@ class Drive {
   Lidar lidar_;
   ObstacleMap map_;
   ReactiveNavigator navigator_;
+  CollisionCounter collisions_;
   std::size_t waypoint_ = 0;  // that it drives to
   NavigationScore score_;
   NavigationEnd end_ = NavigationEnd::time_up;  // until something ends it
-  bool pressed_ = false, pressed_before_ = false;  // in this period, in the one before
 };
 
 }  // namespace

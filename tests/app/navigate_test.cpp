@@ -6,7 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/navigate/collision_counter.h"
+#include "app/navigate/navigation_run.h"
 #include "app/navigate/obstacle_map.h"
+#include "app/pipeline/seeded_piles.h"
 #include "io/mrpt/reactive_navigator.h"
 #include "kernel/base/error.h"
 #include "tests/app/program.h"
@@ -148,6 +151,48 @@ TEST(ObstacleMap, HoldsCellsThatWereSeenOftenEnough) {
   EXPECT_EQ(map.find_around({0, 0, 0}, 3, -1, 3).size(), 2u);
 }
 
+// Against a wall whose near side is the plane x = 0.5 and whose top is at `top`.
+RobotContact touch(double z, double force = 10, const Vec3& normal = {-1, 0, 0}) {
+  RobotContact contact;
+  contact.link = 1, contact.piece = 3, contact.force = force;
+  contact.point = {0.5, 0.1, z}, contact.normal = normal;
+  return contact;
+}
+
+int count_of(const RobotContact& contact, double top) {
+  CollisionCounter counter(5, 0.1, [top](const Vec3& p) { return p.x > 0.5 && p.z < top; });
+  counter.note({contact}, {0, 0, 0});
+  return counter.count();
+}
+
+TEST(CollisionCounter, CountsWhatIsHigherThanAStepWhereverItIsTouched) {
+  EXPECT_EQ(count_of(touch(0.2), 0.5), 1);
+  EXPECT_EQ(count_of(touch(0.089), 0.5), 1) << "a track meets a wall at the height of its axle";
+  EXPECT_EQ(count_of(touch(0.089), 0.09), 0) << "it is driven over";
+  EXPECT_EQ(count_of(touch(0.02, 10, {0, 0, 1}), 0.5), 0) << "the robot stands on it";
+  EXPECT_EQ(count_of(touch(0.2, 0), 0.5), 0) << "it does not press";
+  RobotContact other = touch(0.2);
+  other.piece = -1;
+  EXPECT_EQ(count_of(other, 0.5), 0) << "the ground";
+  other.piece = 5;
+  EXPECT_EQ(count_of(other, 0.5), 0) << "the robot itself";
+}
+
+TEST(CollisionCounter, APressureThatLastsIsOneCollision) {
+  CollisionCounter counter(5, 0.1, [](const Vec3& p) { return p.x > 0.5; });
+  const auto play = [&](bool touches) {
+    counter.begin_period();
+    for (int step = 0; step < 3; ++step)
+      counter.note(touches && step > 0 ? std::vector<RobotContact>{touch(0.05)} : std::vector<RobotContact>{}, {0, 0, 0});
+    return counter.count();
+  };
+  EXPECT_EQ(play(false), 0);
+  EXPECT_EQ(play(true), 1);
+  EXPECT_EQ(play(true), 1);
+  EXPECT_EQ(play(false), 1);
+  EXPECT_EQ(play(true), 2);
+}
+
 class NavigationBench : public ::testing::Test {
  protected:
   // Under the slab is a void that is open at both ends, and a block in it.
@@ -189,6 +234,29 @@ TEST_F(NavigationBench, TheCrawlerDrivesThroughTheVoidEachTimeTheSame) {
   ASSERT_EQ(navigate("--seeds 3 --threads 1").exit_code, 0);
   EXPECT_EQ(read_file(folder_ / "out/missions.csv"), head + "\n" + third + "\n");
   EXPECT_EQ(read_file(folder_ / "out/table.csv").find("deadlines"), std::string::npos) << "the clock is in a file";
+}
+
+// A beam lies across the void, too high to be driven over. A robot that sees turns away from it; one that does not drives
+// into it.
+TEST_F(NavigationBench, ARobotThatDoesNotSeeCollides) {
+  write_file(folder_ / "m.lua", R"(
+return rubble.mission {
+  pile = rubble.join(
+    rubble.collapse.lean_to { length = 6, width = 4, height = 2.1, debris = { layers = 0 } },
+    rubble.collapse.free { pieces = { { box = { 4.4, 0.3, 0.45 }, position = { 2.3, 0, 0.226 }, fixed = true } },
+                           debris = { layers = 0 } }),
+})");
+  RunRequest mission;
+  mission.mission = folder_ / "m.lua";
+  for_each_pile({mission, {2}, {}, [](const std::string&) {}}, [](const ResolvedMission&) {}, [&](const SeededPile& pile) {
+    NavigationRules rules;
+    rules.time_limit = 25;
+    const NavigationScore sees = rubble::navigate(NavigationWorld(pile.mission, pile.state, rules, 2), 2, folder_.path());
+    rules.voxel = 100;  // one cell is all of its map
+    const NavigationScore blind = rubble::navigate(NavigationWorld(pile.mission, pile.state, rules, 2), 2, folder_.path());
+    EXPECT_EQ(sees.collisions, 0);
+    EXPECT_GT(blind.collisions, 0);
+  });
 }
 
 TEST_F(NavigationBench, TheTableIsWrittenIntoADocument) {

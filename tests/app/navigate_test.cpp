@@ -1,6 +1,7 @@
 // MRPT's reactive navigator behind our interface, and the benchmark in which it drives the crawler.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -259,6 +260,27 @@ return rubble.mission {
   });
 }
 
+// In this pile the navigator alone drives to and fro before two blocks until it gives up.
+TEST_F(NavigationBench, WithAGlobalPlannerItArrivesWhereTheNavigatorAloneDoesNot) {
+  const auto drive = [&](const std::string& options) {
+    const Outcome outcome = run_rubble("bench navigate scripts/navigate.lua --seeds 5 --quiet --json --out " + (folder_ / "out") + options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return Json::parse(outcome.out, nullptr, false)["datasets"][0];
+  };
+  const Json alone = drive("");
+  EXPECT_EQ(alone["arrived_share"], 0);
+  EXPECT_EQ(alone["plans"], 0);
+  const Json planned = drive(" --planner ompl");
+  const std::string missions = read_file(folder_ / "out/missions.csv"), way = read_file(folder_ / "out/ways/5.csv");
+  EXPECT_EQ(planned["arrived_share"], 1);
+  EXPECT_GE(planned["plans"], 1);
+  EXPECT_LT(planned["time_s"], alone["time_s"]);
+  EXPECT_EQ(way.find("time_s,x,y,yaw,target_x,target_y,goal_x,goal_y\n0.0,"), 0u) << way.substr(0, 200);
+  EXPECT_EQ(double(std::count(way.begin(), way.end(), '\n')), planned["periods"].get<double>() + 1);
+  drive(" --planner ompl --threads 1");
+  EXPECT_EQ(read_file(folder_ / "out/missions.csv"), missions) << "to the bit";
+}
+
 TEST_F(NavigationBench, TheTableIsWrittenIntoADocument) {
   const std::string document = folder_ / "d.md";
   write_file(document, "before\n<!-- begin navigate -->\nold\n<!-- end navigate -->\nafter\n");
@@ -266,7 +288,8 @@ TEST_F(NavigationBench, TheTableIsWrittenIntoADocument) {
                               (folder_ / "m.lua") + " --out " + (folder_ / "t") + " --program " RUBBLE_PROGRAM " " + document;
   ASSERT_EQ(std::system((command + " 2>/dev/null").c_str()), 0);
   const std::string text = read_file(document);
-  EXPECT_EQ(text.find("before\n<!-- begin navigate -->\n| | |\n|---|---|\n| missions | 1 |\n| arrived | 1.00 (95 %: "), 0u) << text;
+  EXPECT_EQ(text.find("before\n<!-- begin navigate -->\n| | navigator alone | with a planner |\n|---|---|---|\n| missions | 1 | 1 |\n| arrived | 1.00 (95 %: "), 0u)
+      << text;
   EXPECT_NE(text.find("<!-- end navigate -->\nafter\n"), std::string::npos) << text;
 }
 
@@ -277,6 +300,7 @@ TEST_F(NavigationBench, MistakesAreNamed) {
     EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " is not in\n" << outcome.err;
   };
   expect("--seeds two", "--seeds");
+  expect("--planner clever", "--planner: no such planner");
   write_file(folder_ / "m.lua", "return rubble.mission { pile = { layers = 1, pieces_per_layer = 5 } }");
   expect("--seeds 2", "no pile of these seeds has a void for the crawler");
 }

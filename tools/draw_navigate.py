@@ -74,7 +74,7 @@ def main():
     figure, axes = plt.subplots(1, len(ways), figsize=(3.8 * len(ways), 5.2), constrained_layout=True, squeeze=False)
     for axis, way in zip(axes[0], ways):
         draw(axis, way, picture, box)
-    axes[0][0].legend(fontsize=7, loc="lower left")
+    axes[0][0].legend(fontsize=7, loc="lower right")
     figure.savefig(out, dpi=90)
 
 

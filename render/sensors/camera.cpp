@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "kernel/base/error.h"
+#include "render/optics/lens_optics.h"
 #include "render/sensors/depth_sensor.h"
 #include "render/sensors/event_camera.h"
 #include "render/sensors/exposure_control.h"
@@ -43,6 +44,7 @@ struct Camera::State {
   Flight flight;
   std::shared_ptr<const LensDirections> directions;  // none: a pinhole that needs none
   ExposureControl exposure;
+  std::unique_ptr<LensOptics> optics;   // none: a perfect lens
   std::unique_ptr<ImageSensor> sensor;  // none: an ideal image
   DepthSensor depth_sensor;
   std::unique_ptr<EventPixels> events;
@@ -68,6 +70,7 @@ struct Camera::State {
   int count_samples(int index, RenderedView& view, const ExposureSettings& settings) const;
   std::vector<float> gather_light(int index, const LinearFrame* middle, int samples, double time,
                                   bool right);
+  std::vector<float> defocus(const LinearFrame& image) const;
   std::vector<float> measure_depth(int index, RenderedView& view);
   void watch(int index, Frame& frame);
 };
@@ -78,10 +81,14 @@ Camera::State::State(Renderer& r, const CameraSpec& s, Flight f)
   const bool modelled = spec.exposure.mode != ExposureMode::ideal;
   if (spec.shutter.motion_blur && !modelled)
     throw RunError("motion blur needs an exposure time: the exposure must not be ideal");
+  if (spec.optics.any() && !modelled)
+    throw RunError("a real lens needs an exposure that is modelled: the exposure must not be ideal");
   if (!Lens(k).is_pinhole()) directions = make_lens_directions(k, spec.threads);
   if (modelled)
     sensor = std::make_unique<ImageSensor>(
         spec, directions ? *directions : *make_lens_directions(k, spec.threads));
+  if (spec.optics.any())
+    optics = std::make_unique<LensOptics>(spec.optics, spec.exposure.f_number, k, spec.seed, spec.threads);
   if (spec.event_camera.on)
     events = std::make_unique<EventPixels>(spec.event_camera, k.width, k.height, spec.seed);
 }
@@ -177,6 +184,12 @@ int Camera::State::count_samples(int index, RenderedView& view, const ExposureSe
   return std::clamp(wanted | 1, 3, most);
 }
 
+// The light of one instant; what is the same at all distances comes after the mean.
+std::vector<float> Camera::State::defocus(const LinearFrame& image) const {
+  const bool flat = spec.intrinsics.lens == LensModel::plumb_bob;
+  return optics->defocus(image.rgb, flat ? image.depth : image.distance);
+}
+
 // The mean light over the exposure: images at the middles of equal parts of it.
 std::vector<float> Camera::State::gather_light(int index, const LinearFrame* middle, int samples,
                                                double time, bool right) {
@@ -190,9 +203,12 @@ std::vector<float> Camera::State::gather_light(int index, const LinearFrame* mid
       image = &drawn;
     }
     if (sum.empty()) sum.assign(image->rgb.size(), 0);
-    add_scaled(sum, image->rgb, 1.0f / float(samples));
+    if (optics && optics->defocuses())
+      add_scaled(sum, defocus(*image), 1.0f / float(samples));
+    else
+      add_scaled(sum, image->rgb, 1.0f / float(samples));
   }
-  return sum;
+  return optics ? optics->spread(std::move(sum), right ? 1 : 0) : sum;
 }
 
 // The settings of this frame, from what the one before measured.

@@ -10,7 +10,7 @@ return rubble.mission {
     height = 240,
     exposure = { mode = "automatic", f_number = 1.8, longest_time = 0.01 },
     optics = {
-      point_spread = 0.5,
+      point_spread = 0.6,
       glare = 0.03,
       focus_distance = 3,
       focal_length = 0.008,
@@ -19,6 +19,7 @@ return rubble.mission {
       drops = 4,
     },
     sensor = {
+      pixel_samples = 2,
       mosaic = "rggb",
       prnu = 0.01,
       dsnu = 2,

@@ -75,6 +75,9 @@ struct ImageSensorSpec {
   Response response = Response::srgb;  // from converter counts to the 8 bits that are stored
   double gamma = 2.2;                  // of Response::gamma; range: 0.2 to 5
   Mosaic mosaic = Mosaic::none;        // formulas: sensors/bayer.h
+  // Images along each axis of a pixel that are added: its colour is the mean over its area, not that of
+  // its middle. Each costs as much as a frame. range: 1 to 4
+  int pixel_samples = 1;
   // What stays the same from picture to picture, by the seed; formulas: sensors/fixed_pattern.h.
   double prnu = 0;           // standard deviation of the gain; share; range: 0 to 0.5
   double dsnu = 0;           // standard deviation of the offset; unit: electron; range: 0 to 1e4

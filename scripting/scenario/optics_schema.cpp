@@ -30,6 +30,10 @@ void add_optics_keys(Schema& k, const std::string& at, OpticsSpec& o) {
 }
 
 void add_sensor_pattern_keys(Schema& k, const std::string& at, ImageSensorSpec& s) {
+  k.value(at + "sensor.pixel_samples", s.pixel_samples,
+          "Samples of a pixel along each axis; their mean is its colour, so edges have no steps. n x n images "
+          "are rendered. Depth and channels stay those of the centre of the pixel.")
+      .between(1, 4);
   k.choice(at + "sensor.mosaic", s.mosaic, {"none", "rggb", "bggr", "grbg", "gbrg"},
            "Bayer mosaic of colour filters; the image is demosaiced (Malvar, He and Cutler 2004).");
   k.value(at + "sensor.prnu", s.prnu,
@@ -62,11 +66,13 @@ void check_optics(const CameraScenario& camera, const std::string& at, std::vect
   if (o.focus_distance > 0 && o.focus_distance <= o.focal_length)
     add("optics.focus_distance", "no lens is sharp within its focal length",
         "more than " + at + "optics.focal_length, or 0");
+  if (camera.colour.quality == RenderQuality::reference && s.pixel_samples > 1)
+    add("sensor.pixel_samples", "the paths of the reference cover the pixel already", "1");
   if (camera.exposure.mode != ExposureMode::ideal) return;
   const std::string modelled = at + "exposure.mode of \"fixed\" or \"automatic\"";
   if (o.any()) add("optics", "an ideal image has a perfect lens", modelled);
-  if (s.mosaic != Mosaic::none || s.has_pattern() || s.jpeg_quality > 0)
-    add("sensor", "an ideal image has no mosaic, no fixed pattern and no artefacts", modelled);
+  if (s.mosaic != Mosaic::none || s.has_pattern() || s.jpeg_quality > 0 || s.pixel_samples > 1)
+    add("sensor", "an ideal image has no mosaic, fixed pattern, artefacts or pixel_samples", modelled);
 }
 
 }  // namespace rubble

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kernel/base/error.h"
+#include "kernel/base/portable_math.h"
 #include "render/optics/lens_surface.h"
 #include "render/sensors/camera.h"
 #include "tests/render/test_scene.h"
@@ -293,6 +294,44 @@ TEST(CameraOptics, ChangesTheColoursAlone) {
   EXPECT_NE(real.rgb_right, perfect.rgb_right);
   spec.exposure.mode = ExposureMode::ideal;
   EXPECT_THROW(Camera(renderer, spec, one_frame()), RunError);
+}
+
+// The colour of a pixel is the mean of pictures that are shifted by parts of it.
+TEST(CameraOptics, PixelsSeeTheirWholeArea) {
+  Scene scene;
+  scene.ground = false, scene.lamp.on = false;
+  scene.light.rpy_deg = {0, 30, 0};
+  scene.meshes.push_back(share(make_box({1, 20, 40}, "plaster")));
+  scene.instances.push_back({0, 1, {{}, {4.5, 10, 0}}, 5});
+  GlContext context;
+  RenderOptions options;
+  options.bake = false, options.shadow_size = 64, options.texture_size = 16;
+  Renderer renderer(context, scene, options);
+  Flight flight = one_frame();
+  flight.world_from_camera = {{portable::quat_from_rpy(0.2, 0, 0), {}}};
+  flight.pose_at = [pose = flight.world_from_camera[0]](std::int64_t) { return pose; };
+  const auto take = [&](int samples, double right, double down) {
+    CameraSpec spec;
+    spec.intrinsics = pinhole(32, 32, 200);
+    spec.intrinsics.cx -= right, spec.intrinsics.cy -= down;
+    spec.exposure.mode = ExposureMode::fixed, spec.exposure.time = 0.00028;
+    spec.sensor.noise = false, spec.sensor.response = Response::linear;
+    spec.sensor.pixel_samples = samples;
+    return Camera(renderer, spec, flight).take(0).rgb;
+  };
+  const std::vector<std::uint8_t> middle = take(1, 0, 0), whole = take(2, 0, 0);
+  std::vector<double> expected(whole.size());
+  for (const double right : {-0.25, 0.25})
+    for (const double down : {-0.25, 0.25}) {
+      const std::vector<std::uint8_t> part = take(1, right, down);
+      for (std::size_t i = 0; i < part.size(); ++i) expected[i] += part[i] / 4.0;
+    }
+  int differ = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_NEAR(whole[i], expected[i], 1.01) << i;
+    differ += std::abs(int(whole[i]) - int(middle[i])) > 8 ? 1 : 0;
+  }
+  EXPECT_GT(differ, 30);  // along the edge of the wall
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ TEST(OpticsKeys, AnIdealImageHasNoFaults) {
             "camera.optics: an ideal image has a perfect lens: expected camera.exposure.mode of \"fixed\" or "
             "\"automatic\"");
   EXPECT_EQ(mistake([](Scenario& s) { s.camera.sensor.mosaic = Mosaic::rggb; }),
-            "camera.sensor: an ideal image has no mosaic, no fixed pattern and no artefacts: expected "
+            "camera.sensor: an ideal image has no mosaic, fixed pattern, artefacts or pixel_samples: expected "
             "camera.exposure.mode of \"fixed\" or \"automatic\"");
   EXPECT_EQ(mistake([](Scenario& s) {
               s.camera.optics.glare = 0.02, s.camera.sensor.hot_pixels = 1e-4;

@@ -58,6 +58,7 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
     scene.instances.push_back(make_instance(piece, i));
   }
   scene.light = resolve_light(scenario);
+  scene.sky = scenario.light.sky;
   scene.more_lights = scenario.lights;
   scene.wetness = scenario.wetness;
   scene.lamp = scenario.lamp;

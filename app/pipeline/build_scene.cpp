@@ -36,6 +36,8 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets) {
     spec.placed.push_back(place_terrain(scenario.pile.terrain, type));
   spec.building = building_of(scenario);
   spec.building_first_type = assets.building_first_type;
+  for (const FurnitureItem& item : scenario.pile.furniture)
+    spec.furniture.push_back({assets.find(item.asset), item.per_bay, item.roof});
   spec.spawn_position = scenario.pile.spawn_position;
   spec.spawn_bounds = scenario.pile.spawn_bounds;
   spec.spawn_density = scenario.pile.spawn_density;

@@ -83,6 +83,9 @@ void check_box(const PlacedItem& item, std::size_t i, std::vector<Diagnostic>& m
 }
 
 void check_names(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
+  if (!pile.furniture.empty() && !pile.building.given())
+    mistakes.push_back({"", 0, "pile.building.furniture", "no building", "pile.building.storeys above 0", "0",
+                        "rubble.building{ furniture = {...} } makes one of four storeys"});
   for (std::size_t i = 0; i < pile.mix.size(); ++i)
     if (pile.mix[i].asset.empty())
       mistakes.push_back({"", 0, item_key("pile.mix", i, ".asset"), "no name",

@@ -62,6 +62,7 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
   }
   add_fines(scenario, assets, pile, scene);
   scene.light = resolve_light(scenario);
+  scene.sky = scenario.light.sky;
   scene.more_lights = scenario.lights;
   scene.wetness = scenario.wetness;
   scene.lamp = scenario.lamp;

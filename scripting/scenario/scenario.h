@@ -96,6 +96,11 @@ struct LightScenario {
   // Draw the position from the box around spec.position of these full edge lengths.
   bool random_position = false;
   Vec3 position_bounds{8, 8, 4};  // unit: m; >= 0
+  SkySpec sky;                    // of the sun
+  // The sun by place and time instead of spec.elevation_deg and spec.azimuth_deg: all three or none.
+  std::optional<double> latitude_deg{}, longitude_deg{};  // north and east are positive; unit: degree
+  std::optional<std::string> time{};                      // UTC: parse_utc()
+  double north_deg = 90;  // where north is, from X towards Y; unit: degree
 };
 
 // What OutputScenario::meshes may name.

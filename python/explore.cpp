@@ -54,7 +54,10 @@ class Explorer {
       const float most = float(max_range_);
       for (int i = 0; i < size * size; ++i) depth[i] = std::min(depth[i], most);
       mark(pose, depth);
-      clearance_ = queries_.clearance(pose.translation, max_range_);
+      // Nothing begins within the ball of free space that was around it before.
+      const bool outside = distance(pose.translation, at_) < clearance_;
+      clearance_ = outside ? queries_.clearance_outside(pose.translation, max_range_)
+                           : queries_.clearance(pose.translation, max_range_);
       at_ = pose.translation;
     }
     return py::make_tuple(picture, clearance_);

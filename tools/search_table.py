@@ -12,7 +12,7 @@ import subprocess
 from document_marks import write_between_marks
 
 DIFFICULTIES = ("easy", "medium", "hard")
-BASELINES = ("oracle", "frontier", "wall", "random")
+BASELINES = ("oracle", "octomap", "frontier", "wall", "random")
 
 
 def play(args, difficulty):

@@ -7,6 +7,7 @@
 #include "app/batch/seed_list.h"
 #include "app/eval/scores/confidence.h"
 #include "app/pipeline/seeded_piles.h"
+#include "io/base/atomic_file.h"
 
 namespace rubble {
 namespace {
@@ -18,17 +19,43 @@ std::string text_of(std::uint64_t seed, const NavigationScore& s) {
   return text;
 }
 
+bool parse_planner(const std::string& name) {
+  if (name == "ompl" || name == "none") return name == "ompl";
+  throw InputError({"", 0, "--planner", "no such planner", "none or ompl", "\"" + name + "\"", ""});
+}
+
+// For drawings: where the robot was, where it drove to, and the goal of the mission.
+void write_way(const std::string& path, const NavigationWorld& world, const NavigationScore& score) {
+  std::string text = "time_s,x,y,yaw,target_x,target_y,goal_x,goal_y\n";
+  double time = 0;
+  for (const NavigationStep& step : score.way) {
+    char line[200];
+    std::snprintf(line, sizeof line, "%.1f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f\n", time, step.base.x, step.base.y, step.yaw,
+                  step.target.x, step.target.y, world.goal().x, world.goal().y);
+    text += line;
+    time += world.rules().period;
+  }
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
 }  // namespace
 
 std::vector<NavigationResult> run_navigation_bench(const NavigationBenchRequest& request,
                                                    const std::function<void(const std::string&)>& note) {
   const SeededPiles piles{request.of, parse_seeds(request.seeds, "--seeds"), {"pile"}, note};
+  const bool plans = parse_planner(request.planner);
   const std::string cache = request.of.out + "/arcs";
+  std::filesystem::create_directories(request.of.out + "/ways");
   std::filesystem::create_directories(cache);
   std::vector<NavigationResult> results;
   for_each_pile(piles, [](const ResolvedMission&) {}, [&](const SeededPile& pile) {
-    const NavigationWorld world(pile.mission, pile.state, NavigationRules(), pile.threads);
+    NavigationRules rules;
+    rules.plans = plans;
+    const NavigationWorld world(pile.mission, pile.state, rules, pile.threads);
     results.push_back({pile.seed, navigate(world, pile.seed, cache)});
+    write_way(request.of.out + "/ways/" + std::to_string(pile.seed) + ".csv", world, results.back().score);
     note(text_of(pile.seed, results.back().score));
   });
   std::filesystem::remove_all(cache);
@@ -53,6 +80,8 @@ std::vector<ScoreRow> list_missions(const std::vector<NavigationResult>& results
                      {"left_m", "left, m", s.left, 2},
                      {"collisions", "collisions", double(s.collisions), 0},
                      {"periods", "periods", double(s.periods), 0},
+                     {"plans", "plans", double(s.plans), 0},
+                     {"plans_failed", "plans failed", double(s.plans_failed), 0},
                      {"time_s", "time, s", s.time, 2}}});
   }
   return rows;
@@ -81,6 +110,7 @@ std::vector<ScoreRow> make_navigation_table(const std::vector<NavigationResult>&
   add("inside_m", "in the void, m", mean([](const NavigationScore& s) { return s.inside; }).mean, 1);
   add("path_m", "path, m", mean([](const NavigationScore& s) { return s.path; }).mean, 1);
   add("time_s", "time, s", mean([](const NavigationScore& s) { return s.time; }).mean, 1);
+  add("plans", "plans", mean([](const NavigationScore& s) { return s.plans; }).mean, 1);
   if (!with_clock) return {row};
   double periods = 0, late = 0, slowest = 0;
   for (const NavigationResult& r : results) {

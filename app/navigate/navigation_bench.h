@@ -14,6 +14,7 @@ namespace rubble {
 struct NavigationBenchRequest {
   RunRequest of;                // the mission; `seed` is not looked at; out: the folder
   std::string seeds = "1..10";  // --seeds
+  std::string planner = "none";  // --planner: none or ompl
 };
 
 struct NavigationResult {
@@ -21,7 +22,7 @@ struct NavigationResult {
   NavigationScore score;
 };
 
-// Settles the pile of each seed and drives through it. Seeds whose piles have no void for the crawler are left out;
+// Settles the pile of each seed and drives through it; the way of each mission goes into ways/SEED.csv. Seeds whose piles have no void for the crawler are left out;
 // `note` is told of them and of each mission. Throws InputError and RunError.
 std::vector<NavigationResult> run_navigation_bench(const NavigationBenchRequest& request,
                                                    const std::function<void(const std::string&)>& note);

@@ -4,7 +4,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "app/navigate/collision_counter.h"
 #include "app/navigate/obstacle_map.h"
+#include "app/navigate/route.h"
 #include "app/pipeline/stages.h"
 #include "io/mrpt/reactive_navigator.h"
 #include "kernel/base/portable_math.h"
@@ -20,9 +22,9 @@ namespace {
 // The crawler with its flippers half up, so that they climb what is low: body and tracks, and above them the flippers.
 constexpr double kFlippers = 0.7;  // unit: rad
 const std::vector<NavigatorSlice> kShape{{0.2, 0.46, 0.33}, {0.3, 0.57, 0.33}};
-constexpr double kHeight = 0.5;  // of both slices; unit: m
 // Tracks that turn on the spot slide: the robot turns by this share of what its belts would give (docs/robots.md).
 constexpr double kTurnShare = 0.4;
+constexpr double kOtherTarget = 0.25;  // a target that is nearer to the one before is not another one; unit: m
 constexpr double kFallen = 0.3;  // what of the base's Z axis is upright when it lies on its side
 
 // Where the base was at every step since the start; before it stood still.
@@ -83,10 +85,13 @@ class Drive {
   Drive(const NavigationWorld& world, std::uint64_t seed, const std::string& cache_folder)
       : world_(world), rules_(world.rules()), model_(make_robot()), history_(make_run_options(world).step),
         lidar_(make_lidar(seed)), map_(world.bounds(), rules_.voxel, rules_.hits),
-        navigator_(make_navigator_options(rules_, cache_folder)) {
+        navigator_(make_navigator_options(rules_, cache_folder)),
+        route_(rules_, seed), collisions_(int(world.pile().pieces.size()), rules_.step_height,
+                    [&world](const Vec3& place) { return world.is_solid(place); }) {
     score_.passes = world.passes(), score_.shortest = world.shortest();
     history_.add(world.start());
-    navigator_.set_goal(next().x, next().y);
+    stuck_at_ = world.start().translation;
+    drive_to(next());
   }
 
   NavigationScore go() {
@@ -101,6 +106,8 @@ class Drive {
     score_.time = steps * options.step;
     score_.path = result.robots.front().path;
     score_.left = distance_to_goal();
+    score_.collisions = collisions_.count();
+    score_.plans = route_.plans(), score_.plans_failed = route_.failed();
     score_.hash = result.hash();
     return score_;
   }
@@ -128,14 +135,18 @@ class Drive {
     const LidarScan scan = lidar_.take(score_.periods++);
     const auto before = std::chrono::steady_clock::now();
     map(scan);
-    choose_waypoint(sense.state.links.front().world_from_link.translation);
+    const Vec3 base = sense.state.links.front().world_from_link.translation;
+    choose_waypoint(base);
+    if (rules_.plans) follow_route(base);
     const NavigatorOutput output = navigator_.step(make_input(sense));
     const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     score_.late += took > rules_.period;
     score_.slowest = std::max(score_.slowest, took);
-    pressed_before_ = pressed_, pressed_ = false;
-    if (output.state == NavigatorState::gave_up) end_ = NavigationEnd::gave_up;
-    if (output.state == NavigatorState::arrived && is_last()) end_ = NavigationEnd::arrived;
+    collisions_.begin_period();
+    if (output.state == NavigatorState::gave_up || is_stuck(base)) end_ = NavigationEnd::gave_up;
+    has_arrived_ = output.state == NavigatorState::arrived;
+    if (has_arrived_ && is_last() && distance(target_, next()) == 0) end_ = NavigationEnd::arrived;
+    score_.way.push_back({base, yaw_of(sense.state.links.front().world_from_link), target_});
     return drive_crawler(model_, {output.linear, output.angular / kTurnShare},
                          std::vector<double>(4, kFlippers));
   }
@@ -148,7 +159,32 @@ class Drive {
     const Vec3 d = next() - base;
     if (is_last() || std::sqrt(d.x * d.x + d.y * d.y) > rules_.waypoint_radius) return;
     ++waypoint_;
-    navigator_.set_goal(next().x, next().y);
+    drive_to(next());
+  }
+
+  void drive_to(const Vec3& place) {
+    target_ = place;
+    navigator_.set_goal(place.x, place.y);
+  }
+
+  // The navigator begins anew with each goal: it is given another one only where that is elsewhere.
+  void follow_route(const Vec3& base) {
+    const Vec3 target = route_.find_target(map_, base, next(), time());
+    const double moved = distance(target, target_);
+    if (moved > kOtherTarget || (moved > 0 && (has_arrived_ || distance(target, next()) == 0))) drive_to(target);
+  }
+
+  double time() const { return (score_.periods - 1) * rules_.period; }
+
+  // As long as the navigator gets new goals it does not tell.
+  bool is_stuck(const Vec3& base) {
+    if (!rules_.plans) return false;
+    if (distance(base, stuck_at_) > rules_.stuck_distance) stuck_at_ = base, stuck_since_ = other_way_since_ = time();
+    if (time() - other_way_since_ > rules_.other_way_after) {
+      route_.avoid_narrowest_ahead(map_, base);
+      other_way_since_ = time();
+    }
+    return time() - stuck_since_ > rules_.stuck_time;
   }
 
   void map(const LidarScan& scan) {
@@ -163,12 +199,12 @@ class Drive {
     const RobotState::Link& base = sense.state.links.front();
     const Vec3 at = base.world_from_link.translation;
     NavigatorInput input;
-    input.time = (score_.periods - 1) * rules_.period;
+    input.time = time();
     input.x = at.x, input.y = at.y, input.yaw = yaw_of(base.world_from_link);
     input.velocity_x = base.linear.x, input.velocity_y = base.linear.y, input.turn_rate = base.angular.z;
     const double c = portable::cos(input.yaw), s = portable::sin(input.yaw);
     // The ground under the robot is not the plane z = 0 where it climbs.
-    for (const Vec3& p : map_.find_around(at, rules_.horizon, at.z + rules_.step_height, at.z + kHeight)) {
+    for (const Vec3& p : map_.find_around(at, rules_.horizon, at.z + rules_.step_height, at.z + rules_.height)) {
       const Vec3 d = p - at;
       input.obstacles.push_back({float(c * d.x + s * d.y), float(c * d.y - s * d.x), float(d.z)});
     }
@@ -182,19 +218,9 @@ class Drive {
     if (world_.is_inside(base.translation)) score_.inside += distance(base.translation, history_.last().translation);
     history_.add(base);
     if (base.rotation.rotate({0, 0, 1}).z < kFallen) end_ = NavigationEnd::fell;
-    note_contacts(world, base);
+    collisions_.note(world.robot_contacts(0), base.translation);
     if (end_ != NavigationEnd::time_up) score_.end = end_;
     return end_ == NavigationEnd::time_up;
-  }
-
-  void note_contacts(const World& world, const Pose& base) {
-    const int pieces = int(world_.pile().pieces.size());
-    for (const RobotContact& contact : world.robot_contacts(0)) {
-      const bool high = contact.point.z > base.translation.z + rules_.step_height;
-      if (contact.piece < 0 || contact.piece >= pieces || !high || contact.force <= 0 || pressed_) continue;
-      pressed_ = true;
-      score_.collisions += !pressed_before_;
-    }
   }
 
   double distance_to_goal() const {
@@ -209,10 +235,15 @@ class Drive {
   Lidar lidar_;
   ObstacleMap map_;
   ReactiveNavigator navigator_;
+  Route route_;
+  CollisionCounter collisions_;
   std::size_t waypoint_ = 0;  // that it drives to
+  Vec3 target_;               // of the navigator
+  bool has_arrived_ = false;  // there
+  Vec3 stuck_at_;             // where it was when it last got anywhere
+  double stuck_since_ = 0, other_way_since_ = 0;  // unit: s
   NavigationScore score_;
   NavigationEnd end_ = NavigationEnd::time_up;  // until something ends it
-  bool pressed_ = false, pressed_before_ = false;  // in this period, in the one before
 };
 
 }  // namespace

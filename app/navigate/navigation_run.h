@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "app/navigate/navigation_world.h"
 
@@ -12,6 +13,13 @@ namespace rubble {
 
 enum class NavigationEnd { arrived, gave_up, time_up, fell, lost };
 std::string name_of(NavigationEnd end);
+
+// The robot at the beginning of a period.
+struct NavigationStep {
+  Vec3 base;       // on its ground, in the world; unit: m
+  double yaw = 0;  // unit: rad
+  Vec3 target;     // of the navigator; unit: m
+};
 
 struct NavigationScore {
   NavigationEnd end = NavigationEnd::time_up;
@@ -23,6 +31,8 @@ struct NavigationScore {
   double time = 0;        // simulated; unit: s
   int collisions = 0;     // periods in which it began to press against something higher than a step
   int periods = 0;
+  int plans = 0, plans_failed = 0;  // of the global planner; of these, that found no way
+  std::vector<NavigationStep> way;  // one for each period
   std::uint64_t hash = 0;  // of the motion of all links: equal missions have equal hashes
   // Of this machine, never part of a result:
   int late = 0;               // periods in which map and navigator took longer than a period of the wall's clock

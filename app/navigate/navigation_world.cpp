@@ -53,6 +53,8 @@ bool NavigationWorld::is_inside(const Vec3& base) const {
   return grid.contains(cell) && std::binary_search(inside_.begin(), inside_.end(), std::uint32_t(grid.index(cell)));
 }
 
+bool NavigationWorld::is_solid(const Vec3& place) const { return queries_.clearance(place, 0.01) == 0; }
+
 // Of the standing robot, a few centimetres wider on all sides: looked for in balls that fill its box.
 bool NavigationWorld::has_room(const Vec3& place, const Vec3& ahead) const {
   constexpr double kBall = 0.065;  // unit: m

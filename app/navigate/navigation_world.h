@@ -39,6 +39,8 @@ class NavigationWorld {
   const Aabb& bounds() const { return bounds_; }  // of all that the robot may see; unit: m
   // Whether a robot whose base is there is in the void.
   bool is_inside(const Vec3& base) const;
+  // Whether a place is inside of a piece, or below the ground.
+  bool is_solid(const Vec3& place) const;
 
  private:
   struct Door;

@@ -25,6 +25,26 @@ bool ObstacleMap::is_occupied(const Vec3& point) const {
   return grid_.contains(cell) && seen_[grid_.index(cell)] == hits_;
 }
 
+VoxelGrid ObstacleMap::flat_grid() const {
+  VoxelGrid flat = grid_;
+  flat.size[2] = 1;
+  return flat;
+}
+
+std::vector<Cell> ObstacleMap::find_columns(double lowest, double highest) const {
+  const int first = std::max(0, grid_.find_cell({0, 0, lowest})[2]);
+  const int last = std::min(grid_.size[2] - 1, grid_.find_cell({0, 0, highest})[2]);
+  std::vector<Cell> columns;
+  for (int y = 0; y < grid_.size[1]; ++y)
+    for (int x = 0; x < grid_.size[0]; ++x)
+      for (int z = first; z <= last; ++z)
+        if (seen_[grid_.index({x, y, z})] == hits_) {
+          columns.push_back({x, y, 0});
+          break;
+        }
+  return columns;
+}
+
 std::vector<Vec3> ObstacleMap::find_around(const Vec3& place, double reach, double lowest, double highest) const {
   Cell first = grid_.find_cell({place.x - reach, place.y - reach, lowest});
   Cell last = grid_.find_cell({place.x + reach, place.y + reach, highest});

@@ -16,6 +16,9 @@ class ObstacleMap {
 
   void add(const Vec3& point);
   bool is_occupied(const Vec3& point) const;
+  // One layer of cells, as wide as the map; of it those with an occupied cell between two heights, ascending; unit: m.
+  VoxelGrid flat_grid() const;
+  std::vector<Cell> find_columns(double lowest, double highest) const;
   // Middles of the occupied cells in an upright box around a place, x fastest, z slowest; unit: m.
   std::vector<Vec3> find_around(const Vec3& place, double reach, double lowest, double highest) const;
 

@@ -37,6 +37,8 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets) {
     spec.placed.push_back(place_terrain(scenario.pile.terrain, type));
   spec.building = building_of(scenario);
   spec.building_first_type = assets.building_first_type;
+  for (const FurnitureItem& item : scenario.pile.furniture)
+    spec.furniture.push_back({assets.find(item.asset), item.per_bay, item.roof});
   spec.spawn_position = scenario.pile.spawn_position;
   spec.spawn_bounds = scenario.pile.spawn_bounds;
   spec.spawn_density = scenario.pile.spawn_density;
@@ -60,6 +62,7 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
   }
   add_fines(scenario, assets, pile, scene);
   scene.light = resolve_light(scenario);
+  scene.sky = scenario.light.sky;
   scene.more_lights = scenario.lights;
   scene.wetness = scenario.wetness;
   scene.lamp = scenario.lamp;

@@ -117,15 +117,23 @@ std::unique_ptr<SearchAgent> make_wall_follower(const SearchBriefing& briefing) 
   return std::make_unique<WallFollower>(briefing);
 }
 
-std::vector<std::string> baseline_names() { return {"random", "wall", "frontier", "oracle"}; }
+std::vector<std::string> baseline_names() { return {"random", "wall", "frontier", "octomap", "oracle"}; }
+
+InputError unknown_baseline(const std::string& name) {
+  std::string expected;
+  const std::vector<std::string> names = baseline_names();
+  for (const std::string& known : names) expected += (expected.empty() ? "" : known == names.back() ? " or " : ", ") + known;
+  return InputError({"", 0, "--baseline", "no such baseline", expected, "\"" + name + "\"", ""});
+}
 
 std::unique_ptr<SearchAgent> make_baseline(const std::string& name, const SearchBriefing& briefing,
                                            const SearchWorld& world) {
   if (name == "random") return make_random_walk(briefing);
   if (name == "wall") return make_wall_follower(briefing);
   if (name == "frontier") return make_frontier_explorer(briefing);
+  if (name == "octomap") return make_octomap_explorer(briefing);
   if (name == "oracle") return make_oracle(briefing, world);
-  throw InputError({"", 0, "--baseline", "no such baseline", "random, wall, frontier or oracle", "\"" + name + "\"", ""});
+  throw unknown_baseline(name);
 }
 
 }  // namespace rubble

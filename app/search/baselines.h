@@ -10,6 +10,7 @@ namespace rubble {
 std::unique_ptr<SearchAgent> make_random_walk(const SearchBriefing& briefing);
 std::unique_ptr<SearchAgent> make_wall_follower(const SearchBriefing& briefing);
 std::unique_ptr<SearchAgent> make_frontier_explorer(const SearchBriefing& briefing);
+std::unique_ptr<SearchAgent> make_octomap_explorer(const SearchBriefing& briefing);
 std::unique_ptr<SearchAgent> make_oracle(const SearchBriefing& briefing, const SearchWorld& world);
 
 // Flies towards a place, the camera ahead: turns on the spot while it looks elsewhere.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/search/search_episode.h"
+#include "kernel/base/error.h"
 
 namespace rubble {
 
@@ -32,9 +33,10 @@ struct AgentFailure {
 };
 
 // random: ahead until something is in the way, then any other direction; wall: along the wall at its right hand;
-// frontier: to the nearest place at the edge of what it knows; oracle: straight to every victim, by the map of the
+// frontier: to the nearest place at the edge of what it knows; octomap: the same on OctoMap's map; oracle: straight to every victim, by the map of the
 // voids, as an upper bound. All but the oracle know only what they are shown.
 std::vector<std::string> baseline_names();
+InputError unknown_baseline(const std::string& name);
 // The world must outlive the agent; only the oracle looks at it. name: of baseline_names().
 std::unique_ptr<SearchAgent> make_baseline(const std::string& name, const SearchBriefing& briefing,
                                            const SearchWorld& world);

@@ -20,7 +20,7 @@ std::vector<std::string> names_of(const SearchBenchRequest& request) {
   const std::vector<std::string> known = baseline_names();
   for (const std::string& name : request.baselines) {
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError({"", 0, "--baseline", "no such baseline", "random, wall, frontier or oracle", "\"" + name + "\"", ""});
+      throw unknown_baseline(name);
     names.push_back(name);
   }
   if (names.empty())

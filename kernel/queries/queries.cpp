@@ -297,7 +297,13 @@ double PileQueries::clearance(const Vec3& point, double max_distance) const {
   if (impl_->ground && point.z <= 0) return 0;
   bool free = true;
   impl_->containing(point, [&](int) { return free = false; });
-  if (!free) return 0;
+  return free ? clearance_outside(point, max_distance) : 0;
+}
+
+double PileQueries::clearance_outside(const Vec3& point, double max_distance) const {
+  expect(is_finite(point) && max_distance >= 0,
+         "clearance: a point that is not finite or a negative distance");
+  if (impl_->ground && point.z <= 0) return 0;
   const double limit = impl_->ground ? std::min(max_distance, point.z) : max_distance;
   return std::min(limit, impl_->find_nearest(point, limit).best());
 }

@@ -65,6 +65,9 @@ class PileQueries {
   // inside a piece and below the ground.
   double clearance(const Vec3& point,
                    double max_distance = std::numeric_limits<double>::infinity()) const;
+  // The same of a point that is known to be outside of every piece, in less time.
+  double clearance_outside(const Vec3& point,
+                           double max_distance = std::numeric_limits<double>::infinity()) const;
 
  private:
   struct Impl;

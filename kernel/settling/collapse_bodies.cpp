@@ -1,5 +1,7 @@
 // Pieces of a structure as bodies of the world: what holds together, what comes apart, what touches
 // it.
+#include <algorithm>
+
 #include "kernel/base/inertia.h"
 #include "kernel/settling/collapse_impl.h"
 #include "kernel/structure/remaining_bars.h"
@@ -35,7 +37,8 @@ Collapse::Impl::Impl(World& w, const Structure& s, int first_type, const Collaps
   replace(0, find_groups(structure, status), true);
 }
 
-void Collapse::Impl::keep(const BondGroup& group) {
+// whole: stresses of the body that the group is left of; null: none.
+void Collapse::Impl::keep(const BondGroup& group, std::unique_ptr<GroupStress> whole) {
   for (const std::int32_t piece : group.pieces) lead_of[piece] = group.pieces[0];
   if (group.pieces.size() < 2 && !(group.anchored && !group.bonds.empty())) return;
   Part part;
@@ -50,7 +53,8 @@ void Collapse::Impl::keep(const BondGroup& group) {
     part.inertia = part.inertia + piece.inertia;
     add_offset(part.inertia, piece.mass, d);
   }
-  part.stress = std::make_unique<GroupStress>(structure, group);
+  part.stress = whole ? std::make_unique<GroupStress>(std::move(*whole), group)
+                      : std::make_unique<GroupStress>(structure, group);
   parts[group.pieces[0]] = std::move(part);
 }
 
@@ -65,10 +69,18 @@ void Collapse::Impl::replace(std::int32_t lead, const std::vector<BondGroup>& gr
   if (!always && groups.size() == 1 &&
       groups[0].anchored == parts.at(lead).stress->group().anchored)
     return;
-  parts.erase(lead);
+  const auto old = parts.find(lead);
+  std::unique_ptr<GroupStress> whole;
+  if (old != parts.end()) {
+    whole = std::move(old->second.stress);
+    parts.erase(old);
+  }
+  const auto largest = std::max_element(
+      groups.begin(), groups.end(),
+      [](const BondGroup& a, const BondGroup& b) { return a.pieces.size() < b.pieces.size(); });
   std::vector<SplitPart> split;
   for (const BondGroup& group : groups) {
-    keep(group);
+    keep(group, &group == &*largest ? std::move(whole) : nullptr);
     SplitPart part;
     for (const std::int32_t piece : group.pieces) part.pieces.push_back(first + piece);
     part.fixed = group.anchored;

@@ -10,8 +10,8 @@ namespace {
 // Bonds whose utilization is less than this share below that of the worst bond fail together with
 // it. unit: 1
 constexpr double kTogether = 0.3;
-// Time in which forces redistribute before further bonds fail. unit: s
-constexpr double kRedistribution = 0.05;
+// Time in which forces redistribute before further bonds fail: a quarter of a floor's period. unit: s
+constexpr double kRedistribution = 0.025;
 constexpr int kBlastRounds = 40;  // of stresses that a blast's step may take; unit: 1
 // Time after which forces count as settled: a few periods of a floor. unit: s
 constexpr double kCalmTime = 0.25;

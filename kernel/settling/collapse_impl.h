@@ -56,7 +56,7 @@ struct Collapse::Impl {
   // collapse_bodies.cpp: pieces, and the bodies that they make up
   Impl(World& w, const Structure& s, int first_type, const CollapseOptions& o,
        std::vector<SectionForces> before);
-  void keep(const BondGroup& group);
+  void keep(const BondGroup& group, std::unique_ptr<GroupStress> whole);
   std::vector<BondGroup> groups_left_of(std::int32_t lead) const;
   void replace(std::int32_t lead, const std::vector<BondGroup>& groups, bool always = false);
   std::map<std::int32_t, Touches> find_touches() const;

@@ -1,6 +1,7 @@
 // Before the sweeps of a step: which bodies move, which thread has them, who counts as heavier than it is,
 // and which contacts share a batch.
 #include <algorithm>
+#include <numeric>
 
 #include "kernel/solver/contact_solver.h"
 
@@ -112,12 +113,34 @@ void ContactSolver::note_places(const std::vector<Body>& bodies) {
   if (high[1] - low[1] > high[0] - low[0]) places_.swap(sorted_places_);
 }
 
+// Joins all that touches, by its lowest number; what does not move has the number behind the last.
+void ContactSolver::find_supported() {
+  touching_.resize(moving_.size() + 1);
+  std::iota(touching_.begin(), touching_.end(), 0);
+  const auto find = [this](std::int32_t i) {
+    while (touching_[i] != i) i = touching_[i] = touching_[touching_[i]];
+    return i;
+  };
+  for (const Head& head : heads_) {
+    const std::int32_t beyond = std::int32_t(moving_.size());
+    const std::int32_t a = find(number_[head.body_a]);
+    const std::int32_t b = find(head.body_b == kGround ? beyond : number_[head.body_b]);
+    touching_[std::max(a, b)] = std::min(a, b);
+  }
+  for (std::int32_t& i : touching_) i = find(i);
+}
+
+bool ContactSolver::is_supported(std::int32_t number) const {
+  return touching_[std::size_t(number)] == touching_[moving_.size()];
+}
+
 // A light piece under a heavy one carries a load of many times its weight, which the sweeps reach
 // only after as many rounds, and in the meantime the heavy one bounces on it. While it is slow, its
 // inertia (not its weight) counts as at least 1/kMassRatio of what lies on it: loads at rest stay
 // exact, and momentum that goes into the light piece is lost, never gained. What nothing holds up from
-// below carries nothing: where two meet in the air, momentum is kept.
+// below carries nothing, nor does what is in the air with all that it touches: momentum is kept there.
 void ContactSolver::share_inertia(const std::vector<Body>& bodies) {
+  find_supported();
   share_.assign(moving_.size() + 1, 1.0F);
   held_.assign(moving_.size() + 1, 0);
   for (const Head& head : heads_) {
@@ -127,7 +150,7 @@ void ContactSolver::share_inertia(const std::vector<Body>& bodies) {
   const auto carry = [&](std::int32_t light, std::int32_t heavy, float up) {
     if (up < kAbove || number_[light] == std::int32_t(moving_.size())) return;
     const Body &l = bodies[light], &h = bodies[heavy];
-    if (held_[number_[light]] == 0 || !h.awake) return;
+    if (held_[number_[light]] == 0 || !is_supported(number_[light]) || !h.awake) return;
     if (dot(l.linear, l.linear) > kCarrySpeed * kCarrySpeed) return;
     const float share = float(kMassRatio * l.mass / h.mass);
     share_[number_[light]] = std::min(share_[number_[light]], share);

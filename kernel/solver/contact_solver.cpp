@@ -221,7 +221,7 @@ bool ContactSolver::is_pushed(const ContactBatch& batch) const {
 
 // A piece whose speed turns it into its neighbours, step after step, while the pushes turn it back,
 // does not go anywhere: the part of its speed that was undone is lost. Only for slow pieces, whose
-// momentum is nothing beside that of the weights they carry.
+// momentum is nothing beside that of the weights they carry, and not for what is in the air.
 void ContactSolver::cancel_correction_velocity(const SolverSettings& settings) {
   const auto drop = [&settings](Quad& speed, Quad push, float slow) {
     const Quad s2 = speed * speed, sp = speed * push;
@@ -230,6 +230,7 @@ void ContactSolver::cancel_correction_velocity(const SolverSettings& settings) {
     speed *= make_quad(std::max(0.0F, 1 + along / (settings.step * length2)));
   };
   for (std::size_t i = 0; i < moving_.size(); ++i) {
+    if (!is_supported(std::int32_t(i))) continue;
     drop(speeds_[i].linear, moved_[i].linear - before_push_[i].linear, kSlowSpeed);
     drop(speeds_[i].angular, moved_[i].angular - before_push_[i].angular, kSlowSpin);
   }

@@ -71,6 +71,8 @@ class ContactSolver {
                   const std::vector<Contact>& contacts, const SolvedTrees& trees,
                   ThreadPool& pool);
   void number_bodies(const std::vector<Body>& bodies);
+  void find_supported();
+  bool is_supported(std::int32_t number) const;  // something immovable is among what it touches
   void share_inertia(const std::vector<Body>& bodies);
   int choose_domain_count(const ThreadPool& pool);
   void divide(const std::vector<Body>& bodies);
@@ -94,6 +96,7 @@ class ContactSolver {
   TreeContacts tree_contacts_;
   std::vector<std::int32_t> moving_;   // awake free bodies with a contact, by domain
   std::vector<std::int32_t> number_;   // of each body in moving_; moving_.size(): does not move
+  std::vector<std::int32_t> touching_; // set of what touches, also through others; by moving body, then what stays
   std::vector<std::uint8_t> held_;     // something is below it; by moving body
   std::vector<float> share_;           // of true inertia in what the solver uses, by moving body
   const RowKernels& kernels_ = best_row_kernels();

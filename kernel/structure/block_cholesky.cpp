@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
+
+#include "kernel/structure/elimination_order.h"
 
 namespace rubble {
 namespace {
@@ -19,18 +20,25 @@ Block6 transposed(const Block6& m) {
   return t;
 }
 
-// target -= a * b. The innermost loop over all the work: each row of the target stays in registers.
-void subtract_product(Block6& target, const Block6& a, const Block6& b) {
-  const Two* rows = reinterpret_cast<const Two*>(b.data());
+// target -= m v.
+void subtract_product(Six& target, const Block6& m, const Six& v) {
+  const Two* rows = reinterpret_cast<const Two*>(m.data());
+  const Two* by = reinterpret_cast<const Two*>(v.data());
   for (int i = 0; i < 6; ++i) {
-    Two* row = reinterpret_cast<Two*>(target.data() + 6 * i);
-    Two r0 = row[0], r1 = row[1], r2 = row[2];
-    for (int k = 0; k < 6; ++k) {
-      const double x = a[6 * i + k];
-      r0 -= x * rows[3 * k], r1 -= x * rows[3 * k + 1], r2 -= x * rows[3 * k + 2];
-    }
-    row[0] = r0, row[1] = r1, row[2] = r2;
+    const Two sum = rows[3 * i] * by[0] + rows[3 * i + 1] * by[1] + rows[3 * i + 2] * by[2];
+    target[i] -= sum[0] + sum[1];
   }
+}
+
+// target -= m^T v.
+void subtract_transposed_product(Six& target, const Block6& m, const Six& v) {
+  const Two* rows = reinterpret_cast<const Two*>(m.data());
+  Two* sum = reinterpret_cast<Two*>(target.data());
+  Two s0 = sum[0], s1 = sum[1], s2 = sum[2];
+  for (int i = 0; i < 6; ++i) {
+    s0 -= v[i] * rows[3 * i], s1 -= v[i] * rows[3 * i + 1], s2 -= v[i] * rows[3 * i + 2];
+  }
+  sum[0] = s0, sum[1] = s1, sum[2] = s2;
 }
 
 bool factorize_block(Block6& m) {
@@ -61,49 +69,33 @@ void divide_by(Block6& m, const Block6& lower) {
 
 }  // namespace
 
-// Eliminates the piece with the fewest neighbours again and again; its neighbours then all know each
-// other. What is left of a column is its structure in the factor.
+// A column of the factor has the rows of its own column of the matrix, and those of the columns whose first
+// row it is.
 void BlockCholesky::order(const BlockMatrix& matrix) {
-  const std::size_t n = matrix.diagonal.size();
-  std::vector<std::vector<std::int32_t>> neighbours(n);
+  const std::int32_t n = std::int32_t(matrix.diagonal.size());
+  RowNeighbours neighbours(n);
   for (const BlockEntry& entry : matrix.below) {
     neighbours[entry.row].push_back(entry.column);
     neighbours[entry.column].push_back(entry.row);
   }
-  std::set<std::pair<std::int32_t, std::int32_t>> queue;
-  for (std::size_t i = 0; i < n; ++i) {
-    std::sort(neighbours[i].begin(), neighbours[i].end());
-    queue.insert({std::int32_t(neighbours[i].size()), std::int32_t(i)});
-  }
+  const std::vector<std::int32_t> order = find_elimination_order(neighbours, matrix.places);
   position_.assign(n, 0);
-  std::vector<std::vector<std::int32_t>> columns;
-  std::vector<std::int32_t> joined;
-  while (!queue.empty()) {
-    const std::int32_t piece = queue.begin()->second;
-    queue.erase(queue.begin());
-    position_[piece] = std::int32_t(columns.size());
-    const std::vector<std::int32_t> left = std::move(neighbours[piece]);
-    for (const std::int32_t other : left) {
-      std::vector<std::int32_t>& theirs = neighbours[other];
-      queue.erase({std::int32_t(theirs.size()), other});
-      joined.clear();
-      std::set_union(theirs.begin(), theirs.end(), left.begin(), left.end(),
-                     std::back_inserter(joined));
-      theirs.clear();
-      for (const std::int32_t i : joined) {
-        if (i != other && i != piece) theirs.push_back(i);
-      }
-      queue.insert({std::int32_t(theirs.size()), other});
-    }
-    columns.push_back(left);
-  }
+  for (std::int32_t c = 0; c < n; ++c) position_[order[c]] = c;
+  std::vector<std::vector<std::int32_t>> merged(n);  // columns, by their first row
+  std::vector<std::int32_t> seen(n, -1);
   starts_.assign(1, 0);
   rows_.clear();
-  for (std::vector<std::int32_t>& column : columns) {
-    for (std::int32_t& row : column) row = position_[row];
-    std::sort(column.begin(), column.end());
-    rows_.insert(rows_.end(), column.begin(), column.end());
+  for (std::int32_t c = 0; c < n; ++c) {
+    const auto take = [&](std::int32_t row) {
+      if (row > c && seen[row] != c) seen[row] = c, rows_.push_back(row);
+    };
+    for (const std::int32_t other : neighbours[order[c]]) take(position_[other]);
+    for (const std::int32_t earlier : merged[c]) {
+      for (std::int32_t i = starts_[earlier]; i < starts_[earlier + 1]; ++i) take(rows_[i]);
+    }
+    std::sort(rows_.begin() + starts_[c], rows_.end());
     starts_.push_back(std::int32_t(rows_.size()));
+    if (starts_[c] < starts_[c + 1]) merged[rows_[starts_[c]]].push_back(c);
   }
 }
 
@@ -126,15 +118,16 @@ void BlockCholesky::scatter(const BlockMatrix& matrix) {
 // Takes a finished column out of all that come after it. place: scratch, by row.
 bool BlockCholesky::eliminate(std::int32_t column, std::vector<std::int32_t>& place) {
   if (!factorize_block(diagonal_[column])) return false;
+  static const SubtractProduct subtract = best_subtract_product();
   const std::int32_t first = starts_[column], last = starts_[column + 1];
   for (std::int32_t i = first; i < last; ++i) divide_by(values_[i], diagonal_[column]);
   for (std::int32_t k = first; k < last; ++k) {
     const std::int32_t target = rows_[k];
     const Block6 turned = transposed(values_[k]);
-    subtract_product(diagonal_[target], values_[k], turned);
+    subtract(diagonal_[target], values_[k], turned);
     for (std::int32_t i = starts_[target]; i < starts_[target + 1]; ++i) place[rows_[i]] = i;
     for (std::int32_t i = k + 1; i < last; ++i) {
-      subtract_product(values_[place[rows_[i]]], values_[i], turned);
+      subtract(values_[place[rows_[i]]], values_[i], turned);
     }
   }
   return true;
@@ -150,37 +143,69 @@ bool BlockCholesky::factorize(const BlockMatrix& matrix) {
   return true;
 }
 
-std::vector<Six> BlockCholesky::solve(const std::vector<Six>& right) const {
-  const std::size_t n = diagonal_.size();
-  std::vector<Six> x(n);
-  for (std::size_t i = 0; i < n; ++i) x[position_[i]] = right[i];
-  for (std::size_t c = 0; c < n; ++c) {
-    for (int i = 0; i < 6; ++i) {
-      for (int k = 0; k < i; ++k) x[c][i] -= diagonal_[c][6 * i + k] * x[c][k];
-      x[c][i] /= diagonal_[c][7 * i];
-    }
+void BlockCholesky::solve_diagonal(std::int32_t column, Six& y) const {
+  const Block6& lower = diagonal_[column];
+  for (int i = 0; i < 6; ++i) {
+    for (int k = 0; k < i; ++k) y[i] -= lower[6 * i + k] * y[k];
+    y[i] /= lower[7 * i];
+  }
+}
+
+std::vector<Six> BlockCholesky::solve_lower(const std::vector<Six>& right) const {
+  const std::int32_t n = std::int32_t(diagonal_.size());
+  std::vector<Six> y(n);
+  for (std::int32_t i = 0; i < n; ++i) y[position_[i]] = right[i];
+  for (std::int32_t c = 0; c < n; ++c) {
+    solve_diagonal(c, y[c]);
     for (std::int32_t e = starts_[c]; e < starts_[c + 1]; ++e) {
-      Six& other = x[rows_[e]];
-      for (int i = 0; i < 6; ++i) {
-        for (int k = 0; k < 6; ++k) other[i] -= values_[e][6 * i + k] * x[c][k];
-      }
+      subtract_product(y[rows_[e]], values_[e], y[c]);
     }
   }
-  for (std::size_t c = n; c-- > 0;) {
+  return y;
+}
+
+// The rows of a column lie on its way to the root, and its first one is the next on that way.
+std::vector<BlockValue> BlockCholesky::solve_lower(const std::vector<BlockValue>& right) const {
+  std::vector<std::int32_t> columns;
+  for (const BlockValue& block : right) {
+    std::int32_t c = position_[block.row];
+    columns.push_back(c);
+    while (starts_[c] < starts_[c + 1]) columns.push_back(c = rows_[starts_[c]]);
+  }
+  std::sort(columns.begin(), columns.end());
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  std::vector<BlockValue> y;
+  for (const std::int32_t c : columns) y.push_back({c, {}});
+  const auto find = [&](std::size_t from, std::int32_t row) {
+    while (columns[from] != row) ++from;
+    return from;
+  };
+  for (const BlockValue& block : right) y[find(0, position_[block.row])].value = block.value;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::int32_t c = columns[i];
+    solve_diagonal(c, y[i].value);
+    std::size_t at = i;
     for (std::int32_t e = starts_[c]; e < starts_[c + 1]; ++e) {
-      const Six& other = x[rows_[e]];
-      for (int i = 0; i < 6; ++i) {
-        for (int k = 0; k < 6; ++k) x[c][k] -= values_[e][6 * i + k] * other[i];
-      }
+      at = find(at, rows_[e]);
+      subtract_product(y[at].value, values_[e], y[i].value);
+    }
+  }
+  return y;
+}
+
+std::vector<Six> BlockCholesky::solve_upper(std::vector<Six> y) const {
+  for (std::size_t c = y.size(); c-- > 0;) {
+    for (std::int32_t e = starts_[c]; e < starts_[c + 1]; ++e) {
+      subtract_transposed_product(y[c], values_[e], y[rows_[e]]);
     }
     for (int i = 6; i-- > 0;) {
-      for (int k = i + 1; k < 6; ++k) x[c][i] -= diagonal_[c][6 * k + i] * x[c][k];
-      x[c][i] /= diagonal_[c][7 * i];
+      for (int k = i + 1; k < 6; ++k) y[c][i] -= diagonal_[c][6 * k + i] * y[c][k];
+      y[c][i] /= diagonal_[c][7 * i];
     }
   }
-  std::vector<Six> result(n);
-  for (std::size_t i = 0; i < n; ++i) result[i] = x[position_[i]];
-  return result;
+  std::vector<Six> x(y.size());
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = y[position_[i]];
+  return x;
 }
 
 }  // namespace rubble

@@ -2,94 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
+
+#include "kernel/structure/bond_stiffness.h"
+#include "kernel/structure/updated_factor.h"
 
 namespace rubble {
 namespace {
 
-constexpr double kHinge = 1e-4;     // a hinge's share of the elastic stiffness: keeps the factor regular; unit: 1
-constexpr int kUpdatedBonds = 4;       // that changed are solved on the old factor; more make a new one; unit: 1
-constexpr int kUpdateIterations = 24;  // on an old factor, before a new one is made
-constexpr double kResidual = 1e-6;   // of the loads, at which the iteration ends; unit: 1
-
-// Displacement and rotation of a piece to those at the section, in the section's axes.
-Block6 at_section(const Section& s, const Vec3& arm) {
-  Block6 b{};
-  const Vec3 axes[3] = {s.normal, s.axis_s, s.axis_t};
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 turned = cross(arm, axes[i]);  // axis . (rotation x arm)
-    for (int k = 0; k < 3; ++k) {
-      b[6 * i + k] = axes[i][k];
-      b[6 * i + 3 + k] = turned[k];
-      b[6 * (i + 3) + 3 + k] = axes[i][k];
-    }
-  }
-  return b;
-}
-
-// A^T diag(d) B.
-Block6 weighted_product(const Block6& a, const Six& d, const Block6& b) {
-  Block6 result{};
-  for (int r = 0; r < 6; ++r) {
-    for (int i = 0; i < 6; ++i) {
-      const double scaled = a[6 * r + i] * d[r];
-      for (int j = 0; j < 6; ++j) result[6 * i + j] += scaled * b[6 * r + j];
-    }
-  }
-  return result;
-}
-
-Six multiply(const Block6& m, const Six& v) {
-  Six result{};
-  for (int i = 0; i < 6; ++i) {
-    for (int k = 0; k < 6; ++k) result[i] += m[6 * i + k] * v[k];
-  }
-  return result;
-}
-
-void add_transposed_product(Six& target, const Block6& m, const Six& v, double sign) {
-  for (int i = 0; i < 6; ++i) {
-    for (int k = 0; k < 6; ++k) target[k] += sign * m[6 * i + k] * v[i];
-  }
-}
-
-void add(Block6& target, const Block6& m, double sign = 1) {
-  for (std::size_t i = 0; i < target.size(); ++i) target[i] += sign * m[i];
-}
-
-// Order of a section's six: axial, shear s, shear t, torque, moment s, moment t.
-Six stiffness_of(const Bond& bond, const BondStatus& status) {
-  if (status.broken) return {};
-  return {bond.axial_stiffness,   bond.shear_stiffness,
-          bond.shear_stiffness,   bond.torsion_stiffness * (status.hinge_n ? kHinge : 1.0),
-          bond.bending_s_stiffness * (status.hinge_s ? kHinge : 1.0),
-          bond.bending_t_stiffness * (status.hinge_t ? kHinge : 1.0)};
-}
-
-Six offset_of(const Bond& bond, const BondStatus& status) {
-  Six offset{};
-  if (status.broken) return offset;
-  const Section& s = bond.section;
-  offset[0] = bond.axial_stiffness * dot(s.normal, status.sunk);
-  offset[1] = bond.shear_stiffness * dot(s.axis_s, status.sunk);
-  offset[2] = bond.shear_stiffness * dot(s.axis_t, status.sunk);
-  if (status.hinge_n) offset[3] = status.torque;
-  if (status.hinge_s) offset[4] = status.moment_s;
-  if (status.hinge_t) offset[5] = status.moment_t;
-  return offset;
-}
-
-// What a force that turns with its piece adds: (rotation x arm) x force, its symmetric part.
-void add_turned_force(Block6& diagonal, const Vec3& arm, const Vec3& force) {
-  const double along = dot(arm, force);
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      const double turned = (arm[i] * force[k] + force[i] * arm[k]) / 2 - (i == k ? along : 0.0);
-      diagonal[6 * (i + 3) + k + 3] -= turned;
-    }
-  }
-}
+constexpr int kMostChanges = 192;     // that a factor follows before it is made anew; unit: 1
+constexpr int kPiecesPerChange = 8;  // at least: the factor of a small group costs less; unit: 1
+constexpr double kResidual = 1e-6;  // of the loads: more, and the factor is made anew; unit: 1
 
 double product(const std::vector<Six>& a, const std::vector<Six>& b) {
   double sum = 0;
@@ -99,58 +22,16 @@ double product(const std::vector<Six>& a, const std::vector<Six>& b) {
   return sum;
 }
 
-// Sets that grow together, by their lowest member.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::int32_t find(std::int32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::int32_t a, std::int32_t b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
+bool is_zero(const Six& v) {
+  return std::all_of(v.begin(), v.end(), [](double x) { return x == 0; });
+}
 
- private:
-  std::vector<std::int32_t> parent_;
-};
+StressResult unstable(StressResult result) {
+  result.stable = false;
+  return result;
+}
 
 }  // namespace
-
-std::vector<BondGroup> find_groups(const Structure& structure, const std::vector<BondStatus>& status,
-                                   const std::vector<std::uint8_t>& gone) {
-  const std::size_t count = structure.pieces.size();
-  const auto is_gone = [&gone](std::int32_t piece) { return !gone.empty() && gone[piece] != 0; };
-  const auto holds = [&](std::size_t i) {
-    const Bond& bond = structure.bonds[i];
-    return !status[i].broken && !is_gone(bond.piece_a) &&
-           (bond.piece_b == kFoundation || !is_gone(bond.piece_b));
-  };
-  Sets sets(count);
-  for (std::size_t i = 0; i < structure.bonds.size(); ++i) {
-    const Bond& bond = structure.bonds[i];
-    if (holds(i) && bond.piece_b != kFoundation) sets.join(bond.piece_a, bond.piece_b);
-  }
-  std::vector<std::int32_t> number(count, -1);
-  std::vector<BondGroup> groups;
-  for (std::int32_t i = 0; i < std::int32_t(count); ++i) {
-    if (is_gone(i)) continue;
-    std::int32_t& group = number[sets.find(i)];
-    if (group < 0) {
-      group = std::int32_t(groups.size());
-      groups.emplace_back();
-    }
-    groups[group].pieces.push_back(i);
-  }
-  for (std::size_t i = 0; i < structure.bonds.size(); ++i) {
-    if (!holds(i)) continue;
-    BondGroup& group = groups[number[sets.find(structure.bonds[i].piece_a)]];
-    group.bonds.push_back(std::int32_t(i));
-    group.anchored = group.anchored || structure.bonds[i].piece_b == kFoundation;
-  }
-  return groups;
-}
 
 std::vector<PieceLoad> calc_weights(const Structure& structure, double gravity) {
   std::vector<PieceLoad> loads(structure.pieces.size());
@@ -161,123 +42,126 @@ std::vector<PieceLoad> calc_weights(const Structure& structure, double gravity) 
 }
 
 struct GroupStress::Impl {
-  // A bond with what its stiffness turns into at its pieces.
+  // A bond of the group, and which stiffness of it the factor knows.
   struct Link {
-    std::int32_t a = 0, b = -1;  // within the group; b: -1 the foundation
-    Block6 at_a{}, at_b{};
-    Vec3 arm_a, arm_b;
+    std::int32_t a = 0, b = -1;  // within the members; b: -1 the foundation
+    BondLink link;
+    Six stiffness{};
+  };
+  // Holds what nothing else anchors; carries nothing, since the loads on it balance.
+  struct Spring {
+    std::int32_t member = 0;
+    Six stiffness{};
   };
 
   const Structure* structure = nullptr;
   BondGroup group;
   StressOptions options;
-  std::vector<Link> links;
-  BlockCholesky factor;
+  std::vector<std::int32_t> members;  // pieces of the factor, ascending; those that came off too
+  std::vector<Link> links;            // by bond of the group
+  std::vector<Spring> springs;
+  UpdatedFactor factor;
   bool made = false, regular = false;
-  std::vector<BondStatus> made_for;  // by bond of the group
-  std::vector<BondStatus> now;
+  int factors_made = 0;
+  std::vector<BondStatus> now;  // by bond of the group
 
   Impl(const Structure& s, BondGroup g, const StressOptions& o)
       : structure(&s), group(std::move(g)), options(o) {
-    for (const std::int32_t index : group.bonds) links.push_back(make_link(s.bonds[index]));
+    begin();
   }
 
-  std::int32_t local(std::int32_t piece) const {
-    return std::int32_t(std::lower_bound(group.pieces.begin(), group.pieces.end(), piece) -
-                        group.pieces.begin());
+  // As if nothing had been solved yet.
+  void begin() {
+    members = group.pieces;
+    made = false;
+    springs.clear();
+    links.clear();
+    for (const std::int32_t index : group.bonds) links.push_back(make_member_link(index));
   }
 
-  Link make_link(const Bond& bond) const {
-    Link link;
-    link.a = local(bond.piece_a);
-    link.arm_a = bond.section.centroid - structure->pieces[bond.piece_a].centre;
-    link.at_a = at_section(bond.section, link.arm_a);
-    if (bond.piece_b == kFoundation) return link;
-    link.b = local(bond.piece_b);
-    link.arm_b = bond.section.centroid - structure->pieces[bond.piece_b].centre;
-    link.at_b = at_section(bond.section, link.arm_b);
-    return link;
+  Link make_member_link(std::int32_t index) const {
+    const Bond& bond = structure->bonds[index];
+    Link result;
+    result.a = member_of(bond.piece_a);
+    if (bond.piece_b != kFoundation) result.b = member_of(bond.piece_b);
+    result.link = make_link(*structure, bond);
+    return result;
+  }
+
+  std::int32_t member_of(std::int32_t piece) const {
+    return std::int32_t(std::lower_bound(members.begin(), members.end(), piece) - members.begin());
   }
 
   const Bond& bond(std::size_t i) const { return structure->bonds[group.bonds[i]]; }
 
+  // What the bonds hold a member by, in each of its six directions.
+  Six held_by(std::int32_t member) const {
+    Six diagonal{};
+    for (const Link& link : links) {
+      if (link.a != member && link.b != member) continue;
+      const Block6& at = link.a == member ? link.link.at_a : link.link.at_b;
+      for (int c = 0; c < 6; ++c) {
+        for (int r = 0; r < 6; ++r) diagonal[c] += at[6 * r + c] * link.stiffness[r] * at[6 * r + c];
+      }
+    }
+    return diagonal;
+  }
+
   BlockMatrix assemble() const {
     BlockMatrix matrix;
-    matrix.diagonal.assign(group.pieces.size(), Block6{});
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      const Link& link = links[i];
-      const Six k = stiffness_of(bond(i), now[i]);
-      add(matrix.diagonal[link.a], weighted_product(link.at_a, k, link.at_a));
-      if (link.b < 0) continue;
-      add(matrix.diagonal[link.b], weighted_product(link.at_b, k, link.at_b));
-      BlockEntry entry{std::max(link.a, link.b), std::min(link.a, link.b), {}};
-      const bool a_is_row = link.a > link.b;
-      add(entry.values,
-          weighted_product(a_is_row ? link.at_a : link.at_b, k, a_is_row ? link.at_b : link.at_a), -1);
+    matrix.diagonal.assign(members.size(), Block6{});
+    for (const std::int32_t piece : members) matrix.places.push_back(structure->pieces[piece].centre);
+    for (const Link& l : links) {
+      const Block6 &at_a = l.link.at_a, &at_b = l.link.at_b;
+      add(matrix.diagonal[l.a], weighted_product(at_a, l.stiffness, at_a));
+      if (l.b < 0) continue;
+      add(matrix.diagonal[l.b], weighted_product(at_b, l.stiffness, at_b));
+      BlockEntry entry{std::max(l.a, l.b), std::min(l.a, l.b), {}};
+      const bool a_is_row = l.a > l.b;
+      add(entry.values, weighted_product(a_is_row ? at_a : at_b, l.stiffness, a_is_row ? at_b : at_a), -1);
       matrix.below.push_back(entry);
     }
-    // Balanced loads leave this spring without force.
-    if (!group.anchored) {
-      for (int i = 0; i < 6; ++i) matrix.diagonal.back()[7 * i] *= 2;
+    for (const Spring& spring : springs) {
+      for (int i = 0; i < 6; ++i) matrix.diagonal[spring.member][7 * i] += spring.stiffness[i];
     }
     return matrix;
   }
 
-  // K u, bond by bond.
+  // K u, bond by bond; only what belongs to the group.
   std::vector<Six> apply(const std::vector<Six>& u) const {
     std::vector<Six> result(u.size(), Six{});
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      const Link& link = links[i];
-      const Six k = stiffness_of(bond(i), now[i]);
+    for (const Link& link : links) {
       Six pull = opening(link, u);
-      for (int r = 0; r < 6; ++r) pull[r] *= k[r];
-      add_transposed_product(result[link.a], link.at_a, pull, -1);
-      if (link.b >= 0) add_transposed_product(result[link.b], link.at_b, pull, 1);
+      for (int r = 0; r < 6; ++r) pull[r] *= link.stiffness[r];
+      add_transposed_product(result[link.a], link.link.at_a, pull, -1);
+      if (link.b >= 0) add_transposed_product(result[link.b], link.link.at_b, pull, 1);
     }
-    if (!group.anchored) {
-      const Six& last = u.back();
-      const Six extra = held_by(last);
-      for (int i = 0; i < 6; ++i) result.back()[i] += extra[i];
+    for (const Spring& spring : springs) {
+      for (int i = 0; i < 6; ++i) result[spring.member][i] += spring.stiffness[i] * u[spring.member][i];
     }
     return result;
   }
 
-  // The spring that holds a free group: as large as what its last piece is held by.
-  Six held_by(const Six& u) const {
-    Six diagonal{};
-    const std::int32_t last = std::int32_t(group.pieces.size()) - 1;
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      const Link& link = links[i];
-      if (link.a != last && link.b != last) continue;
-      const Block6& at = link.a == last ? link.at_a : link.at_b;
-      const Six k = stiffness_of(bond(i), now[i]);
-      for (int c = 0; c < 6; ++c) {
-        for (int r = 0; r < 6; ++r) diagonal[c] += at[6 * r + c] * k[r] * at[6 * r + c];
-      }
-    }
-    for (int c = 0; c < 6; ++c) diagonal[c] *= u[c];
-    return diagonal;
-  }
-
   // How far the second piece leaves the first at the section.
   static Six opening(const Link& link, const std::vector<Six>& u) {
-    const Six of_a = multiply(link.at_a, u[link.a]);
-    Six result = link.b >= 0 ? multiply(link.at_b, u[link.b]) : Six{};
+    const Six of_a = multiply(link.link.at_a, u[link.a]);
+    Six result = link.b >= 0 ? multiply(link.link.at_b, u[link.b]) : Six{};
     for (int r = 0; r < 6; ++r) result[r] -= of_a[r];
     return result;
   }
 
   std::vector<Six> right_side(const std::vector<PieceLoad>& loads) const {
-    std::vector<Six> right(group.pieces.size());
-    for (std::size_t i = 0; i < right.size(); ++i) {
-      const PieceLoad& load = loads[group.pieces[i]];
-      right[i] = {load.force.x, load.force.y, load.force.z, load.moment.x, load.moment.y, load.moment.z};
+    std::vector<Six> right(members.size(), Six{});
+    for (const std::int32_t piece : group.pieces) {
+      const PieceLoad& load = loads[piece];
+      right[member_of(piece)] = {load.force.x,  load.force.y,  load.force.z,
+                                 load.moment.x, load.moment.y, load.moment.z};
     }
     for (std::size_t i = 0; i < links.size(); ++i) {
-      const Six offset = offset_of(bond(i), now[i]);
-      if (std::all_of(offset.begin(), offset.end(), [](double x) { return x == 0; })) continue;
-      add_transposed_product(right[links[i].a], links[i].at_a, offset, 1);
-      if (links[i].b >= 0) add_transposed_product(right[links[i].b], links[i].at_b, offset, -1);
+      const Six offset = calc_offset(bond(i), now[i]);
+      if (is_zero(offset)) continue;
+      add_transposed_product(right[links[i].a], links[i].link.at_a, offset, 1);
+      if (links[i].b >= 0) add_transposed_product(right[links[i].b], links[i].link.at_b, offset, -1);
     }
     return right;
   }
@@ -285,8 +169,8 @@ struct GroupStress::Impl {
   StressResult read(const std::vector<Six>& u) const {
     StressResult result;
     for (std::size_t i = 0; i < links.size(); ++i) {
-      const Six k = stiffness_of(bond(i), now[i]), offset = offset_of(bond(i), now[i]);
-      const Six open = opening(links[i], u);
+      const Six& k = links[i].stiffness;
+      const Six offset = calc_offset(bond(i), now[i]), open = opening(links[i], u);
       Six q;
       for (int r = 0; r < 6; ++r) q[r] = k[r] * open[r] + offset[r];
       result.forces.push_back({q[0], q[1], q[2], q[3], q[4], q[5]});
@@ -297,46 +181,75 @@ struct GroupStress::Impl {
     return result;
   }
 
-  bool is_same(const BondStatus& a, const BondStatus& b) const {
-    return a.broken == b.broken && a.hinge_s == b.hinge_s && a.hinge_t == b.hinge_t &&
-           a.hinge_n == b.hinge_n;
+  // Gives a bond another stiffness in the factor, direction by direction.
+  void change(Link& link, const Six& stiffness) {
+    for (int r = 0; r < 6; ++r) {
+      const double more = stiffness[r] - link.stiffness[r];
+      if (more == 0) continue;
+      std::vector<BlockValue> v = {{link.a, row_of(link.link.at_a, r, -1)}};
+      if (link.b >= 0) v.push_back({link.b, row_of(link.link.at_b, r, 1)});
+      factor.change(v, more);
+    }
+    link.stiffness = stiffness;
   }
 
-  // Conjugate gradients on the old factor: as many steps as stiffnesses changed, about six a bond.
-  // False when that takes too long.
-  bool iterate(const std::vector<Six>& right, std::vector<Six>& u) const {
-    u = factor.solve(right);
-    std::vector<Six> residual = apply(u);
-    for (std::size_t i = 0; i < right.size(); ++i) {
-      for (int k = 0; k < 6; ++k) residual[i][k] = right[i][k] - residual[i][k];
+  static Six row_of(const Block6& m, int row, double sign) {
+    Six result;
+    for (int k = 0; k < 6; ++k) result[k] = sign * m[6 * row + k];
+    return result;
+  }
+
+  void hold(std::int32_t member, const Six& stiffness) {
+    springs.push_back({member, stiffness});
+    for (int i = 0; i < 6; ++i) {
+      BlockValue v{member, {}};
+      v.value[i] = 1;
+      factor.change({v}, stiffness[i]);
     }
-    std::vector<Six> z = factor.solve(residual), p = z;
-    const double target = kResidual * kResidual * product(right, right);
-    double rz = product(residual, z);
-    for (int round = 0; round < kUpdateIterations; ++round) {
-      if (!(product(residual, residual) > target)) return true;
-      const std::vector<Six> kp = apply(p);
-      const double curvature = product(p, kp);
-      if (!(curvature > 0)) return false;
-      const double step = rz / curvature;
-      for (std::size_t i = 0; i < u.size(); ++i) {
-        for (int k = 0; k < 6; ++k) u[i][k] += step * p[i][k], residual[i][k] -= step * kp[i][k];
-      }
-      z = factor.solve(residual);
-      const double next = product(residual, z);
-      const double share = next / rz;
-      rz = next;
-      for (std::size_t i = 0; i < p.size(); ++i) {
-        for (int k = 0; k < 6; ++k) p[i][k] = z[i][k] + share * p[i][k];
-      }
+  }
+
+  int most_changes() const { return std::min(kMostChanges, int(members.size()) / kPiecesPerChange); }
+
+  // Changes by which the bonds differ from what the factor knows.
+  int count_changes() const {
+    int count = 0;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const Six k = calc_stiffness(bond(i), now[i]);
+      for (int r = 0; r < 6; ++r) count += k[r] != links[i].stiffness[r];
     }
-    return false;
+    return count;
+  }
+
+  // Brings the factor to the bonds as they are now.
+  bool follow() {
+    const int changes = made && regular ? count_changes() : 0;
+    if (made && regular && changes == 0) return true;
+    if (!made || !regular || factor.rank() + changes > most_changes()) return refactor();
+    for (std::size_t i = 0; i < links.size(); ++i) change(links[i], calc_stiffness(bond(i), now[i]));
+    return true;
   }
 
   bool refactor() {
-    made_for = now;
+    begin();
+    for (std::size_t i = 0; i < links.size(); ++i) links[i].stiffness = calc_stiffness(bond(i), now[i]);
+    if (!group.anchored) {
+      const std::int32_t last = std::int32_t(members.size()) - 1;
+      springs.push_back({last, held_by(last)});
+    }
     made = true;
-    return regular = factor.factorize(assemble());
+    ++factors_made;
+    return regular = factor.reset(assemble());
+  }
+
+  // False when the factor has followed too many changes to be exact.
+  bool solve_followed(const std::vector<Six>& right, std::vector<Six>& u) {
+    if (!factor.solve(right, u)) return false;
+    if (factor.rank() == 0) return true;
+    std::vector<Six> rest = apply(u);
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      for (int k = 0; k < 6; ++k) rest[i][k] = right[i][k] - rest[i][k];
+    }
+    return product(rest, rest) <= kResidual * kResidual * product(right, right);
   }
 
   StressResult solve_second_order(const std::vector<Six>& right, const StressResult& first) const {
@@ -345,43 +258,90 @@ struct GroupStress::Impl {
       const Section& s = bond(i).section;
       const SectionForces& f = first.forces[i];
       const Vec3 on_a = s.normal * f.axial + s.axis_s * f.shear_s + s.axis_t * f.shear_t;
-      add_turned_force(matrix.diagonal[links[i].a], links[i].arm_a, on_a);
-      if (links[i].b >= 0) add_turned_force(matrix.diagonal[links[i].b], links[i].arm_b, -on_a);
+      add_turned_force(matrix.diagonal[links[i].a], links[i].link.arm_a, on_a);
+      if (links[i].b >= 0) add_turned_force(matrix.diagonal[links[i].b], links[i].link.arm_b, -on_a);
     }
     BlockCholesky bent;
     if (!bent.factorize(matrix)) return unstable(first);
     return read(bent.solve(right));
   }
 
-  static StressResult unstable(StressResult result) {
-    result.stable = false;
-    return result;
-  }
-
   StressResult solve(const std::vector<BondStatus>& status, const std::vector<PieceLoad>& loads) {
     now.clear();
     for (const std::int32_t i : group.bonds) now.push_back(status[i]);
-    const std::vector<Six> right = right_side(loads);
-    int changes = made && regular ? 0 : kUpdatedBonds + 1;
-    for (std::size_t i = 0; made && i < now.size(); ++i) changes += !is_same(now[i], made_for[i]);
-    const bool changed = changes > 0;
     std::vector<Six> u;
-    const bool quick = changed && changes <= kUpdatedBonds && iterate(right, u);
-    if (!quick) {
-      if (changed && !refactor()) return unstable(read(std::vector<Six>(right.size(), Six{})));
-      u = factor.solve(right);
-    }
+    bool solved = follow() && solve_followed(right_side(loads), u);
+    if (!solved) solved = refactor() && solve_followed(right_side(loads), u);
+    if (!solved) return unstable(read(std::vector<Six>(members.size(), Six{})));
     const StressResult first = read(u);
-    return options.second_order ? solve_second_order(right, first) : first;
+    return options.second_order ? solve_second_order(right_side(loads), first) : first;
+  }
+
+  bool has(std::int32_t member) const {
+    return std::binary_search(group.pieces.begin(), group.pieces.end(), members[member]);
+  }
+
+  // What remains when pieces came off: their bonds to it are taken out of the factor. They stay in the
+  // factor, without loads, and are held there so that it stays regular.
+  void leave(BondGroup left) {
+    const BondGroup whole = std::exchange(group, std::move(left));
+    if (!made || !regular || options.second_order || 2 * group.pieces.size() < members.size()) return begin();
+    std::vector<Spring> grips;
+    for (const std::int32_t member : find_loose(whole)) grips.push_back({member, held_by(member)});
+    std::vector<Link> kept;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      Link& link = links[i];
+      if (std::binary_search(group.bonds.begin(), group.bonds.end(), whole.bonds[i])) {
+        kept.push_back(link);
+      } else if (has(link.a) || (link.b >= 0 && has(link.b))) {
+        change(link, Six{});
+      }
+    }
+    links = std::move(kept);
+    for (const Spring& grip : grips) hold(grip.member, grip.stiffness);
+    springs.erase(std::remove_if(springs.begin(), springs.end(),
+                                 [this](const Spring& spring) { return !has(spring.member); }),
+                  springs.end());
+  }
+
+  // The lowest member of each part that nothing holds: of what came off a whole, and of what is left.
+  std::vector<std::int32_t> find_loose(const BondGroup& whole) const {
+    JoinedSets parts(members.size());
+    std::vector<std::uint8_t> held(members.size(), 0), part_held(members.size(), 0);
+    const std::int32_t first = member_of(group.pieces[0]);
+    for (const std::int32_t piece : group.pieces) parts.join(first, member_of(piece));
+    held[first] = group.anchored;
+    for (const Spring& spring : springs) held[spring.member] = 1;
+    for (const Link& link : links) {
+      if (is_zero(link.stiffness) || has(link.a)) continue;
+      if (link.b < 0) {
+        held[link.a] = 1;
+      } else if (!has(link.b)) {
+        parts.join(link.a, link.b);
+      }
+    }
+    for (std::size_t m = 0; m < held.size(); ++m) {
+      if (held[m]) part_held[parts.find(std::int32_t(m))] = 1;
+    }
+    std::vector<std::int32_t> loose;
+    for (const std::int32_t piece : whole.pieces) {
+      const std::int32_t m = member_of(piece);
+      if (parts.find(m) == m && !part_held[m]) loose.push_back(m);
+    }
+    return loose;
   }
 };
 
 GroupStress::GroupStress(const Structure& structure, BondGroup group, const StressOptions& options)
     : impl_(std::make_unique<Impl>(structure, std::move(group), options)) {}
+GroupStress::GroupStress(GroupStress&& whole, BondGroup left) : impl_(std::move(whole.impl_)) {
+  impl_->leave(std::move(left));
+}
 GroupStress::~GroupStress() = default;
 GroupStress::GroupStress(GroupStress&&) noexcept = default;
 GroupStress& GroupStress::operator=(GroupStress&&) noexcept = default;
 const BondGroup& GroupStress::group() const { return impl_->group; }
+int GroupStress::factors_made() const { return impl_->factors_made; }
 StressResult GroupStress::solve(const std::vector<BondStatus>& status,
                                 const std::vector<PieceLoad>& loads) {
   return impl_->solve(status, loads);

@@ -32,6 +32,7 @@ class DepthRays {
   double max_range_;
   std::vector<Vec3> directions_;
   std::vector<double> cosines_;
+  std::vector<std::uint32_t> order_;  // of the pixels that are cast: those beside each other together
 };
 
 }  // namespace rubble

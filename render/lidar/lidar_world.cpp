@@ -76,8 +76,15 @@ struct LidarWorld::Tree {
   void add_resting(const Scene& from);
   void add_movers(const Scene& from);
   void commit();
+  void intersect(const Ray* rays, std::size_t count, double max_distance, RTCRayHit8& query) const;
+  std::int32_t piece_of(unsigned primitive, unsigned instance) const;
   Hit read(unsigned primitive, unsigned instance, const Vec3f& normal, const Ray& ray, double t) const;
-  void meet_ground(const Ray& ray, double max_distance, Hit& hit) const;
+  // Where a ray that has met something at `before` (negative: nothing) meets the ground first; negative: it does not.
+  double meet_ground(const Ray& ray, double max_distance, double before) const {
+    if (!ground || ray.direction.z >= 0 || ray.from.z <= 0) return -1;
+    const double t = -ray.from.z / ray.direction.z;
+    return t > max_distance || (before >= 0 && before <= t) ? -1 : t;
+  }
 };
 
 void LidarWorld::Tree::attach(RTCScene to, const std::vector<Vec3f>& positions,
@@ -150,28 +157,23 @@ LidarWorld::Hit LidarWorld::Tree::read(unsigned primitive, unsigned instance, co
                                        const Ray& ray, double t) const {
   Vec3 out(normal);
   std::uint8_t look = 0;
-  std::int32_t piece = -1;
   if (instance == RTC_INVALID_GEOMETRY_ID) {
     look = resting_looks[primitive];
-    const auto end = std::upper_bound(resting_ends.begin(), resting_ends.end(), primitive);
-    piece = resting_pieces[std::size_t(end - resting_ends.begin())];
   } else {
     const Mover& mover = movers[instance - kResting - 1];
     out = mover.rotation.rotate(out);
     look = mesh_looks.at(mover.mesh)[primitive];
-    piece = mover.piece;
   }
   out = normalized(out);
   const double cosine = dot(out, ray.direction);
   const float up = float(cosine > 0 ? -out.z : out.z);
-  return {t, float(std::fabs(cosine)), mean_red_albedo(all_surface_appearances()[look], up), piece};
+  return {t, float(std::fabs(cosine)), mean_red_albedo(all_surface_appearances()[look], up), piece_of(primitive, instance)};
 }
 
-void LidarWorld::Tree::meet_ground(const Ray& ray, double max_distance, Hit& hit) const {
-  if (!ground || ray.direction.z >= 0 || ray.from.z <= 0) return;
-  const double t = -ray.from.z / ray.direction.z;
-  if (t > max_distance || (hit.distance >= 0 && hit.distance <= t)) return;
-  hit = {t, float(-ray.direction.z), mean_red_albedo(all_surface_appearances().back(), 1), -1};
+std::int32_t LidarWorld::Tree::piece_of(unsigned primitive, unsigned instance) const {
+  if (instance != RTC_INVALID_GEOMETRY_ID) return movers[instance - kResting - 1].piece;
+  const auto end = std::upper_bound(resting_ends.begin(), resting_ends.end(), primitive);
+  return resting_pieces[std::size_t(end - resting_ends.begin())];
 }
 
 LidarWorld::LidarWorld(const Scene& from) : tree_(std::make_unique<Tree>()) {
@@ -214,12 +216,11 @@ void LidarWorld::span(std::int64_t from_ns, std::int64_t to_ns) {
   tree_->commit();
 }
 
-void LidarWorld::cast(const Ray* rays, std::size_t count, double max_distance, Hit* hits) const {
+void LidarWorld::Tree::intersect(const Ray* rays, std::size_t count, double max_distance, RTCRayHit8& query) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   alignas(32) int valid[kPacket];
-  RTCRayHit8 query;
   for (std::size_t i = 0; i < kPacket; ++i) {
     valid[i] = i < count ? -1 : 0;
     const Ray& ray = rays[std::min(i, count - 1)];
@@ -230,14 +231,34 @@ void LidarWorld::cast(const Ray* rays, std::size_t count, double max_distance, H
     query.ray.mask[i] = 0xffffffffu, query.ray.id[i] = 0, query.ray.flags[i] = 0;
     query.hit.geomID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  rtcIntersect8(valid, tree_->scene, &context, &query);
+  rtcIntersect8(valid, scene, &context, &query);
+}
+
+void LidarWorld::cast(const Ray* rays, std::size_t count, double max_distance, Hit* hits) const {
+  RTCRayHit8 query;
+  tree_->intersect(rays, count, max_distance, query);
   for (std::size_t i = 0; i < count; ++i) {
     hits[i] = {};
     if (query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
       hits[i] = tree_->read(query.hit.primID[i], query.hit.instID[0][i],
                             {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]}, rays[i],
                             double(query.ray.tfar[i]));
-    tree_->meet_ground(rays[i], max_distance, hits[i]);
+    const double ground = tree_->meet_ground(rays[i], max_distance, hits[i].distance);
+    if (ground >= 0)
+      hits[i] = {ground, float(-rays[i].direction.z), mean_red_albedo(all_surface_appearances().back(), 1), -1};
+  }
+}
+
+void LidarWorld::cast(const Ray* rays, std::size_t count, double max_distance, double* distances,
+                      std::int32_t* pieces) const {
+  RTCRayHit8 query;
+  tree_->intersect(rays, count, max_distance, query);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool met = query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+    distances[i] = met ? double(query.ray.tfar[i]) : -1;
+    const double ground = tree_->meet_ground(rays[i], max_distance, distances[i]);
+    if (ground >= 0) distances[i] = ground;
+    if (pieces) pieces[i] = met && ground < 0 ? tree_->piece_of(query.hit.primID[i], query.hit.instID[0][i]) : -1;
   }
 }
 

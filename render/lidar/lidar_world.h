@@ -41,6 +41,8 @@ class LidarWorld {
   // hits[i] is what rays[i] meets first, not farther than max_distance. May be called by several
   // threads; the answer for a ray depends on the rays beside it in no way.
   void cast(const Ray* rays, std::size_t count, double max_distance, Hit* hits) const;
+  // The same, of a hit no more than its distance and, unless null, its piece.
+  void cast(const Ray* rays, std::size_t count, double max_distance, double* distances, std::int32_t* pieces) const;
 
  private:
   struct Tree;

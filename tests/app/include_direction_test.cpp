@@ -120,7 +120,8 @@ const Allowed kIo = stack(
      "kernel/model/assembly.h",
      "kernel/settling/settle_checkpoint.h", "render/scene/", "render/streams/image_streams.h"});
 
-const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/"},
+// Of voids and ways through them.
+const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/", "io/ompl/"},
                                  {"kernel/base/", "kernel/voids/"});
 
 const Allowed kScripting = stack(
@@ -145,7 +146,7 @@ const Allowed kTop{{"assets/generator/", {"assets/generator/", "kernel/base/"}},
 const Allowed& allowed_of(const std::string& file) {
   if (starts_with(file, "kernel/")) return kKernel;
   if (starts_with(file, "render/")) return kRender;
-  if (starts_with(file, "io/voids/")) return kVoidFiles;
+  if (starts_with(file, "io/voids/") || starts_with(file, "io/ompl/")) return kVoidFiles;
   if (starts_with(file, "io/")) return kIo;
   if (starts_with(file, "scripting/")) return kScripting;
   return starts_with(file, "app/") ? kApp : kTop;
@@ -224,6 +225,7 @@ const std::map<std::string, Prefixes> kDoors{
     {"dds/", {"io/live/"}},
     {"openvdb/", {"io/voids/"}},
     {"octomap/", {"io/voids/"}},
+    {"ompl/", {"io/ompl/"}},
     {"Imf", {"io/image/exr_file.cpp"}},
     {"png.h", {"io/image/image_file.cpp", "scripting/sandbox/gray_image.cpp"}},
     {"jpeglib.h", {"io/image/jpeg_file.cpp"}},

@@ -1,12 +1,16 @@
 // MRPT's reactive navigator behind our interface, and the benchmark in which it drives the crawler.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/navigate/collision_counter.h"
+#include "app/navigate/navigation_run.h"
 #include "app/navigate/obstacle_map.h"
+#include "app/pipeline/seeded_piles.h"
 #include "io/mrpt/reactive_navigator.h"
 #include "kernel/base/error.h"
 #include "tests/app/program.h"
@@ -148,6 +152,48 @@ TEST(ObstacleMap, HoldsCellsThatWereSeenOftenEnough) {
   EXPECT_EQ(map.find_around({0, 0, 0}, 3, -1, 3).size(), 2u);
 }
 
+// Against a wall whose near side is the plane x = 0.5 and whose top is at `top`.
+RobotContact touch(double z, double force = 10, const Vec3& normal = {-1, 0, 0}) {
+  RobotContact contact;
+  contact.link = 1, contact.piece = 3, contact.force = force;
+  contact.point = {0.5, 0.1, z}, contact.normal = normal;
+  return contact;
+}
+
+int count_of(const RobotContact& contact, double top) {
+  CollisionCounter counter(5, 0.1, [top](const Vec3& p) { return p.x > 0.5 && p.z < top; });
+  counter.note({contact}, {0, 0, 0});
+  return counter.count();
+}
+
+TEST(CollisionCounter, CountsWhatIsHigherThanAStepWhereverItIsTouched) {
+  EXPECT_EQ(count_of(touch(0.2), 0.5), 1);
+  EXPECT_EQ(count_of(touch(0.089), 0.5), 1) << "a track meets a wall at the height of its axle";
+  EXPECT_EQ(count_of(touch(0.089), 0.09), 0) << "it is driven over";
+  EXPECT_EQ(count_of(touch(0.02, 10, {0, 0, 1}), 0.5), 0) << "the robot stands on it";
+  EXPECT_EQ(count_of(touch(0.2, 0), 0.5), 0) << "it does not press";
+  RobotContact other = touch(0.2);
+  other.piece = -1;
+  EXPECT_EQ(count_of(other, 0.5), 0) << "the ground";
+  other.piece = 5;
+  EXPECT_EQ(count_of(other, 0.5), 0) << "the robot itself";
+}
+
+TEST(CollisionCounter, APressureThatLastsIsOneCollision) {
+  CollisionCounter counter(5, 0.1, [](const Vec3& p) { return p.x > 0.5; });
+  const auto play = [&](bool touches) {
+    counter.begin_period();
+    for (int step = 0; step < 3; ++step)
+      counter.note(touches && step > 0 ? std::vector<RobotContact>{touch(0.05)} : std::vector<RobotContact>{}, {0, 0, 0});
+    return counter.count();
+  };
+  EXPECT_EQ(play(false), 0);
+  EXPECT_EQ(play(true), 1);
+  EXPECT_EQ(play(true), 1);
+  EXPECT_EQ(play(false), 1);
+  EXPECT_EQ(play(true), 2);
+}
+
 class NavigationBench : public ::testing::Test {
  protected:
   // Under the slab is a void that is open at both ends, and a block in it.
@@ -191,6 +237,50 @@ TEST_F(NavigationBench, TheCrawlerDrivesThroughTheVoidEachTimeTheSame) {
   EXPECT_EQ(read_file(folder_ / "out/table.csv").find("deadlines"), std::string::npos) << "the clock is in a file";
 }
 
+// A beam lies across the void, too high to be driven over. A robot that sees turns away from it; one that does not drives
+// into it.
+TEST_F(NavigationBench, ARobotThatDoesNotSeeCollides) {
+  write_file(folder_ / "m.lua", R"(
+return rubble.mission {
+  pile = rubble.join(
+    rubble.collapse.lean_to { length = 6, width = 4, height = 2.1, debris = { layers = 0 } },
+    rubble.collapse.free { pieces = { { box = { 4.4, 0.3, 0.45 }, position = { 2.3, 0, 0.226 }, fixed = true } },
+                           debris = { layers = 0 } }),
+})");
+  RunRequest mission;
+  mission.mission = folder_ / "m.lua";
+  for_each_pile({mission, {2}, {}, [](const std::string&) {}}, [](const ResolvedMission&) {}, [&](const SeededPile& pile) {
+    NavigationRules rules;
+    rules.time_limit = 25;
+    const NavigationScore sees = rubble::navigate(NavigationWorld(pile.mission, pile.state, rules, 2), 2, folder_.path());
+    rules.voxel = 100;  // one cell is all of its map
+    const NavigationScore blind = rubble::navigate(NavigationWorld(pile.mission, pile.state, rules, 2), 2, folder_.path());
+    EXPECT_EQ(sees.collisions, 0);
+    EXPECT_GT(blind.collisions, 0);
+  });
+}
+
+// In this pile the navigator alone drives to and fro before two blocks until it gives up.
+TEST_F(NavigationBench, WithAGlobalPlannerItArrivesWhereTheNavigatorAloneDoesNot) {
+  const auto drive = [&](const std::string& options) {
+    const Outcome outcome = run_rubble("bench navigate scripts/navigate.lua --seeds 5 --quiet --json --out " + (folder_ / "out") + options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return Json::parse(outcome.out, nullptr, false)["datasets"][0];
+  };
+  const Json alone = drive("");
+  EXPECT_EQ(alone["arrived_share"], 0);
+  EXPECT_EQ(alone["plans"], 0);
+  const Json planned = drive(" --planner ompl");
+  const std::string missions = read_file(folder_ / "out/missions.csv"), way = read_file(folder_ / "out/ways/5.csv");
+  EXPECT_EQ(planned["arrived_share"], 1);
+  EXPECT_GE(planned["plans"], 1);
+  EXPECT_LT(planned["time_s"], alone["time_s"]);
+  EXPECT_EQ(way.find("time_s,x,y,yaw,target_x,target_y,goal_x,goal_y\n0.0,"), 0u) << way.substr(0, 200);
+  EXPECT_EQ(double(std::count(way.begin(), way.end(), '\n')), planned["periods"].get<double>() + 1);
+  drive(" --planner ompl --threads 1");
+  EXPECT_EQ(read_file(folder_ / "out/missions.csv"), missions) << "to the bit";
+}
+
 TEST_F(NavigationBench, TheTableIsWrittenIntoADocument) {
   const std::string document = folder_ / "d.md";
   write_file(document, "before\n<!-- begin navigate -->\nold\n<!-- end navigate -->\nafter\n");
@@ -198,7 +288,8 @@ TEST_F(NavigationBench, TheTableIsWrittenIntoADocument) {
                               (folder_ / "m.lua") + " --out " + (folder_ / "t") + " --program " RUBBLE_PROGRAM " " + document;
   ASSERT_EQ(std::system((command + " 2>/dev/null").c_str()), 0);
   const std::string text = read_file(document);
-  EXPECT_EQ(text.find("before\n<!-- begin navigate -->\n| | |\n|---|---|\n| missions | 1 |\n| arrived | 1.00 (95 %: "), 0u) << text;
+  EXPECT_EQ(text.find("before\n<!-- begin navigate -->\n| | navigator alone | with a planner |\n|---|---|---|\n| missions | 1 | 1 |\n| arrived | 1.00 (95 %: "), 0u)
+      << text;
   EXPECT_NE(text.find("<!-- end navigate -->\nafter\n"), std::string::npos) << text;
 }
 
@@ -209,6 +300,7 @@ TEST_F(NavigationBench, MistakesAreNamed) {
     EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " is not in\n" << outcome.err;
   };
   expect("--seeds two", "--seeds");
+  expect("--planner clever", "--planner: no such planner");
   write_file(folder_ / "m.lua", "return rubble.mission { pile = { layers = 1, pieces_per_layer = 5 } }");
   expect("--seeds 2", "no pile of these seeds has a void for the crawler");
 }

@@ -219,28 +219,30 @@ class SearchBench : public ::testing::Test {
 };
 
 TEST_F(SearchBench, TheOracleFindsAllAndTheBaselinesFindLessEachTimeTheSame) {
-  const std::string options = "--seeds 2 --baseline oracle --baseline frontier --baseline wall --baseline random --json";
+  const std::string options = "--seeds 2 --baseline oracle --baseline frontier --baseline wall --baseline random --baseline octomap --json";
   const Outcome first = search(options);
   ASSERT_EQ(first.exit_code, 0) << first.err;
   const Json table = Json::parse(first.out, nullptr, false);
   ASSERT_TRUE(table.is_object()) << first.out;
-  ASSERT_EQ(table["datasets"].size(), 4u);
+  ASSERT_EQ(table["datasets"].size(), 5u);
   EXPECT_EQ(value(table, 0, "searches"), 1);
   EXPECT_EQ(value(table, 0, "found_share"), 1);
   EXPECT_EQ(value(table, 0, "false_reports"), 0);
   EXPECT_GT(value(table, 0, "spl"), 0.5);
   EXPECT_GE(value(table, 1, "found_share"), value(table, 3, "found_share"));
   EXPECT_GT(value(table, 1, "found_share"), 0);
-  for (std::size_t i = 0; i < 4; ++i) {
+  EXPECT_GT(value(table, 4, "found_share"), 0);
+  for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_LE(value(table, i, "spl"), value(table, 0, "spl")) << i;
     EXPECT_GT(value(table, i, "coverage"), 0.05) << i;
     EXPECT_LE(value(table, i, "coverage"), 1) << i;
   }
   const std::string searches = read_file(folder_ / "out/searches.csv");
-  const Outcome again = search("--seeds 2 --baseline random --baseline frontier --json --threads 1");
+  const Outcome again = search("--seeds 2 --baseline random --baseline frontier --baseline octomap --json --threads 1");
   const Json other = Json::parse(again.out, nullptr, false);
   EXPECT_EQ(other["datasets"][0], table["datasets"][3]);
   EXPECT_EQ(other["datasets"][1], table["datasets"][1]);
+  EXPECT_EQ(other["datasets"][2], table["datasets"][4]);
   std::istringstream lines(read_file(folder_ / "out/searches.csv"));
   for (std::string line; std::getline(lines, line);) EXPECT_NE(searches.find(line), std::string::npos) << line;
 }

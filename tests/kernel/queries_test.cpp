@@ -233,6 +233,9 @@ TEST(Queries, OverlapsAndClearanceEqualBruteForce) {
     EXPECT_EQ(found, std::vector<int>(expected.begin(), expected.end())) << "ball " << i;
     EXPECT_NEAR(queries.clearance(p), clearance, kSame) << "ball " << i;
     EXPECT_NEAR(queries.clearance(p, 0.2), std::min(0.2, clearance), kSame) << "ball " << i;
+    if (queries.clearance(p) > 0) {
+      EXPECT_EQ(queries.clearance_outside(p, 0.2), queries.clearance(p, 0.2)) << "ball " << i;
+    }
   }
   EXPECT_GT(inside_count, 50);
   EXPECT_GT(found_count, 200);

@@ -1,6 +1,7 @@
 // How members are cut into pieces, what their sections carry, and the forces in their bonds.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/base/error.h"
@@ -159,24 +160,109 @@ TEST(Stress, ReactionsCarryTheWeightAndSymmetryIsKept) {
   EXPECT_NEAR(carried / weight, 1, 1e-9);
 }
 
-TEST(Stress, OldFactorGivesWhatANewOneGives) {
-  Member m = make_beam(6, 0.3, 0.5, 12);
-  m.cut.counts[2] = 2, m.cut.roughness = 0.3;
-  Structure s = build_structure({m}, 4);
-  clamp_end(s, 0, -3, -1);
-  std::vector<BondStatus> status(s.bonds.size());
-  const BondGroup group = find_groups(s, status)[0];
-  const std::vector<PieceLoad> weights = calc_weights(s, 9.81);
-  GroupStress old(s, group);
-  old.solve(status, weights);
-  status[8].broken = true;
-  const StressResult updated = old.solve(status, weights);
-  GroupStress fresh(s, group);
-  const StressResult direct = fresh.solve(status, weights);
-  for (std::size_t i = 0; i < direct.forces.size(); ++i) {
-    EXPECT_NEAR(updated.forces[i].moment_s, direct.forces[i].moment_s, 1.0) << i;
-    EXPECT_NEAR(updated.forces[i].axial, direct.forces[i].axial, 1.0) << i;
+// A plate that sticks out of a wall: 360 pieces, most of which have six neighbours.
+struct Plate {
+  Structure structure;
+  std::vector<BondStatus> status;
+  std::vector<PieceLoad> loads;
+
+  Plate() {
+    static const Structure kBuilt = build();
+    structure = kBuilt;
+    status.resize(structure.bonds.size());
+    loads = calc_weights(structure, 9.81);
   }
+  static Structure build() {
+    Member m = make_beam(12, 6, 0.4, 24);
+    m.cut.counts[1] = 15, m.cut.roughness = 0.3;
+    Structure built = build_structure({m}, 4);
+    for (std::int32_t i = 0; i < std::int32_t(built.pieces.size()); ++i) {
+      if (built.pieces[i].centre.x < -5.7) clamp_end(built, i, -6, -1);
+    }
+    return built;
+  }
+  // Breaks all bonds of the pieces beyond a place to the others.
+  void cut(double x, double y) {
+    const auto beyond = [&](std::int32_t i) {
+      return structure.pieces[i].centre.x > x && structure.pieces[i].centre.y > y;
+    };
+    for (std::size_t i = 0; i < status.size(); ++i) {
+      const Bond& bond = structure.bonds[i];
+      if (bond.piece_b != kFoundation && beyond(bond.piece_a) != beyond(bond.piece_b)) status[i].broken = true;
+    }
+  }
+  BondGroup largest() const {
+    std::vector<BondGroup> groups = find_groups(structure, status);
+    return *std::max_element(groups.begin(), groups.end(), [](const BondGroup& a, const BondGroup& b) {
+      return a.pieces.size() < b.pieces.size();
+    });
+  }
+};
+
+// Against a factor of its own, relative to the largest of each kind.
+void expect_as_from_a_new_factor(const Plate& plate, GroupStress& old, const char* what) {
+  GroupStress anew(plate.structure, old.group());
+  const StressResult a = old.solve(plate.status, plate.loads), b = anew.solve(plate.status, plate.loads);
+  ASSERT_TRUE(a.stable && b.stable) << what;
+  double force = 0, moment = 0;
+  for (const SectionForces& f : b.forces) {
+    force = std::max({force, std::abs(f.axial), std::abs(f.shear_s), std::abs(f.shear_t)});
+    moment = std::max({moment, std::abs(f.torque), std::abs(f.moment_s), std::abs(f.moment_t)});
+  }
+  for (std::size_t i = 0; i < b.forces.size(); ++i) {
+    EXPECT_NEAR(a.forces[i].axial, b.forces[i].axial, 1e-7 * force) << what << i;
+    EXPECT_NEAR(a.forces[i].shear_t, b.forces[i].shear_t, 1e-7 * force) << what << i;
+    EXPECT_NEAR(a.forces[i].moment_s, b.forces[i].moment_s, 1e-7 * moment) << what << i;
+    EXPECT_NEAR(a.forces[i].torque, b.forces[i].torque, 1e-7 * moment) << what << i;
+    EXPECT_NEAR(a.rotation_s[i], b.rotation_s[i], 1e-7 * std::abs(b.rotation_s[i]) + 1e-12) << what << i;
+  }
+}
+
+TEST(Stress, OldFactorGivesWhatANewOneGives) {
+  Plate plate;
+  GroupStress stress(plate.structure, plate.largest());
+  ASSERT_EQ(stress.group().pieces.size(), 360u);
+  stress.solve(plate.status, plate.loads);
+  plate.status[8].broken = true;
+  expect_as_from_a_new_factor(plate, stress, "broken ");
+  plate.status[300].hinge_s = true, plate.status[300].moment_s = 900;
+  plate.status[301].hinge_t = true, plate.status[301].moment_t = -300;
+  plate.status[302].hinge_n = true, plate.status[302].torque = 500;
+  expect_as_from_a_new_factor(plate, stress, "yielded ");
+  EXPECT_EQ(stress.factors_made(), 1);
+}
+
+TEST(Stress, WhatIsLeftOfAGroupGoesOnWithItsFactor) {
+  Plate plate;
+  GroupStress whole(plate.structure, plate.largest());
+  whole.solve(plate.status, plate.loads);
+  plate.cut(5.5, 2.6);
+  GroupStress first(std::move(whole), plate.largest());
+  ASSERT_LT(first.group().pieces.size(), 360u);
+  expect_as_from_a_new_factor(plate, first, "a corner came off ");
+  plate.cut(5.5, 1.8);
+  plate.status[20].broken = true;
+  GroupStress second(std::move(first), plate.largest());
+  expect_as_from_a_new_factor(plate, second, "and what was beside it ");
+  EXPECT_EQ(second.factors_made(), 1);
+}
+
+// Its loads must balance then.
+TEST(Stress, WhatCameOffItsFoundationGoesOnWithItsFactor) {
+  Plate plate;
+  GroupStress whole(plate.structure, plate.largest());
+  whole.solve(plate.status, plate.loads);
+  for (std::size_t i = 0; i < plate.status.size(); ++i) {
+    if (plate.structure.bonds[i].piece_b == kFoundation) plate.status[i].broken = true;
+  }
+  std::fill(plate.loads.begin(), plate.loads.end(), PieceLoad{});
+  const std::int32_t a = 0, b = 359;
+  const Vec3 force{2e4, 1e4, 0}, arm = plate.structure.pieces[b].centre - plate.structure.pieces[a].centre;
+  plate.loads[a].force = -force, plate.loads[b].force = force;
+  plate.loads[b].moment = -cross(arm, force);
+  GroupStress loose(std::move(whole), plate.largest());
+  ASSERT_FALSE(loose.group().anchored);
+  expect_as_from_a_new_factor(plate, loose, "loose ");
 }
 
 TEST(Stress, BalancedLoadsOfAFreeGroupNeedNoSupport) {

@@ -39,6 +39,8 @@ TEST(Python, DatasetsAreRead) { expect_tests("test_dataset.py"); }
 TEST(PythonDocument, RunsAsItIsWritten) { expect_tests("test_document.py"); }
 TEST(PythonEnvironments, RepeatTheirEpisodes) { expect_tests("test_envs.py"); }
 
+TEST(PythonEnvironments, KeepWhatGymnasiumAsksOfThem) { expect_tests("test_env_contract.py"); }
+
 TEST(PythonBench, WritesItsTableIntoTheDocument) {
   const std::string copy = std::filesystem::temp_directory_path() / ("rubble_envs_" + std::to_string(getpid()) + ".md");
   std::ofstream(copy) << "before\n<!-- begin envs -->\nold\n<!-- end envs -->\nafter\n";

@@ -41,6 +41,9 @@ Action declare_navigate(CommandLine& line) {
   NavigationBenchRequest& bench = request->bench;
   add_mission_options(line, bench.of);
   line.add("--seeds", bench.seeds, "The piles, as in 1..100 or 3,5,9").shows_default();
+  line.add("--planner", bench.planner, "ompl: a global planner over the robot's own map; none: the navigator alone")
+      .shows_default()
+      .metavar("NAME");
   line.add("--out", bench.of.out, "Output folder").shows_default_text("out/<script>_navigate").metavar("DIR");
   line.add_flag("--json", request->json, "The table as JSON on standard output");
   add_threads_option(line, bench.of.options.threads);

@@ -47,7 +47,7 @@ Action declare(CommandLine& line) {
   add_mission_options(line, search_request.of);
   line.add("--agent", search_request.agent, "A program that searches: gets and answers lines of JSON")
       .metavar("COMMAND");
-  line.add("--baseline", search_request.baselines, "random, wall, frontier or oracle; again for several")
+  line.add("--baseline", search_request.baselines, "random, wall, frontier, octomap or oracle; again for several")
       .metavar("NAME");
   line.add("--seeds", search_request.seeds, "The piles, as in 1..100 or 3,5,9").shows_default();
   line.add("--deadline", search_request.deadline, "For an answer of the agent; of its first one three times that")

@@ -159,6 +159,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_meshes(scenario.outputs, mistakes);
   check_record_settling(scenario.record_settling, mistakes);
   check_robots(scenario, mistakes);
+  check_fines(scenario.fines, mistakes);
   if (scenario.victims.count > 0 && needs_track(scenario))
     mistakes.push_back({"", 0, "victims.count", "victims lie in the pile only when it has settled",
                         "no record_settling and no outputs.track, or 0", std::to_string(scenario.victims.count), ""});

@@ -14,6 +14,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
+#include "kernel/model/fines.h"
 #include "kernel/model/pile.h"
 #include "kernel/settling/settle.h"
 #include "render/scene/scene.h"
@@ -166,6 +167,7 @@ struct Scenario {
   std::vector<std::string> packs;         // folders; empty: the bundled pack `concrete`
   PileScenario pile;                      // what is dropped, and where
   VictimScenario victims;                 // who lies in it
+  FinesSpec fines;                        // what is strewn over it
   SettleOptions settle;  // its `threads` is not part of a scenario: results do not depend on it
   LightScenario light;   // the main light
   std::vector<LightSpec> lights;  // besides the main one; at most kMostLights - 1

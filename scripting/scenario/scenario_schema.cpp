@@ -392,6 +392,7 @@ Schema make_scenario_schema(Scenario& s) {
   add_top(keys, s);
   add_pile_keys(keys, s.pile);
   add_victim_keys(keys, s.victims);
+  add_fine_keys(keys, s.fines);
   add_settle(keys, s.settle);
   add_light(keys, s.light);
   add_more_lights(keys, s.lights);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/assets/asset_library.h"
+#include "app/fines/lay_fines.h"
 #include "app/pipeline/build_scene.h"
 #include "app/sensors/build_camera.h"
 #include "bench/channel_picture.h"
@@ -43,12 +44,14 @@ class Piles {
                       const AssetLibrary& assets) {
     std::string key = picture.mission;
     for (const std::string& change : picture.set)
-      if (change.rfind("pile.", 0) == 0 || change.rfind("seed", 0) == 0) key += "\n" + change;
+      if (change.rfind("pile.", 0) == 0 || change.rfind("seed", 0) == 0 || change.rfind("fines.", 0) == 0) key += "\n" + change;
     const auto found = piles_.find(key);
     if (found != piles_.end()) return found->second;
     SettleOptions options = scenario.settle;
     options.threads = threads_;
-    return piles_[key] = settle_pile(generate_pile(build_pile_spec(scenario, assets)), options);
+    PileState& pile = piles_[key] = settle_pile(generate_pile(build_pile_spec(scenario, assets)), options);
+    lay_fines(scenario, assets, threads_, pile);
+    return pile;
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/assets/asset_library.h"
+#include "app/fines/lay_fines.h"
 #include "app/pipeline/build_scene.h"
 #include "io/state/pile_state_file.h"
 #include "kernel/base/system/disk_cache.h"
@@ -73,8 +74,8 @@ Scene load_bench_scene(const std::string& mission_path, int threads, void (*repo
   mission.scenario.settle.threads = threads;
   const AssetLibrary assets = load_assets(mission, {});
   const Pile pile = generate_pile(build_pile_spec(mission.scenario, assets));
-  const PileState state =
-      settle_once(pile, mission.scenario.settle, mission_path, assets, report);
+  PileState state = settle_once(pile, mission.scenario.settle, mission_path, assets, report);
+  lay_fines(mission.scenario, assets, threads, state);
   return build_scene(mission.scenario, assets, state);
 }
 

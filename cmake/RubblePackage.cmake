@@ -21,6 +21,7 @@ set(RUBBLE_PUBLIC_HEADERS
   kernel/model/assembly.h
   kernel/model/building.h
   kernel/model/everting_tube.h
+  kernel/model/fines.h
   kernel/model/pile.h
   kernel/model/pile_state.h
   kernel/model/robot.h

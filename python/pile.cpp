@@ -7,6 +7,7 @@
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/finished_run.h"
 #include "app/pipeline/stages.h"
+#include "kernel/geometry/fine_heaps.h"
 #include "kernel/base/parallel.h"
 #include "kernel/queries/queries.h"
 #include "kernel/settling/settle.h"
@@ -160,22 +161,24 @@ py::list voids(const Pile& pile, double radius, double voxel) {
   return out;
 }
 
-// All pieces as one mesh, at their finest.
+// All pieces as one mesh, at their finest, and then the fines.
 py::tuple mesh_of(const Pile& pile) {
   const auto meshes = pile.settled->mission.assets.finest_meshes();
   std::vector<float> positions;
   std::vector<std::int32_t> triangles;
-  for (const PieceState& piece : pile.settled->state.pieces) {
-    if (piece.status == PieceStatus::lost) continue;
-    const TriangleMesh& mesh = *meshes[std::size_t(piece.type)];
+  const auto add = [&](const TriangleMesh& mesh, const Pose& world_from_body, double scale) {
     const auto base = std::int32_t(positions.size() / 3);
     for (const Vec3f& p : mesh.positions) {
-      const Vec3 at = piece.world_from_body * (Vec3(p) * piece.scale);
+      const Vec3 at = world_from_body * (Vec3(p) * scale);
       for (int k = 0; k < 3; ++k) positions.push_back(float(at[k]));
     }
     for (const auto& t : mesh.triangles)
       for (const std::uint32_t v : t) triangles.push_back(base + std::int32_t(v));
-  }
+  };
+  const PileState& state = pile.settled->state;
+  for (const PieceState& piece : state.pieces)
+    if (piece.status != PieceStatus::lost) add(*meshes[std::size_t(piece.type)], piece.world_from_body, piece.scale);
+  for (const FineHeap& heap : make_fine_heaps(state.fines)) add(heap.mesh, world_from_host(state, heap.host), 1);
   const auto vertices = py::ssize_t(positions.size() / 3), faces = py::ssize_t(triangles.size() / 3);
   return py::make_tuple(take_vector(std::move(positions), {vertices, 3}), take_vector(std::move(triangles), {faces, 3}));
 }

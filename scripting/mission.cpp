@@ -92,6 +92,8 @@ void check_assets(const Mission& mission, const std::vector<std::string>& names)
   };
   for (std::size_t i = 0; i < pile.mix.size(); ++i)
     check_asset(pile.mix[i].asset, key("mix", i), names, mistakes);
+  for (std::size_t i = 0; i < pile.furniture.size(); ++i)
+    check_asset(pile.furniture[i].asset, key("building.furniture", i), names, mistakes);
   for (std::size_t i = 0; i < pile.placed.size(); ++i)
     if (!pile.placed[i].box)
       check_asset(pile.placed[i].asset, key("placed", i), names, mistakes);

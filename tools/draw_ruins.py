@@ -18,7 +18,7 @@ import numpy as np
 
 from document_marks import write_between_marks
 
-ORDER = ("soft_ground", "soft_middle", "loaded_roof", "loaded_floor", "quake", "quake_frame", "half_removed",
+ORDER = ("soft_ground", "car_park", "loaded_roof", "loaded_floor", "quake", "quake_frame", "half_removed",
          "corner_bay", "row_of_columns", "blast", "lorry", "sinking")
 WIDTH = 420  # of a picture; pixels
 COLUMNS = 3

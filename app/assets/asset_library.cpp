@@ -47,6 +47,7 @@ std::set<std::string> names_used(const Scenario& scenario, const std::vector<Fou
   for (const PlacedItem& item : scenario.pile.placed)
     if (!item.box) used.insert(item.asset);
   for (const MixItem& item : scenario.pile.mix) used.insert(item.asset);
+  for (const FurnitureItem& item : scenario.pile.furniture) used.insert(item.asset);
   for (const FoundAsset& found : all)
     if (scenario.victims.count > 0 && found.pack->name == kVictimPack) used.insert(found.asset->name);
   if (scenario.pile.mix.empty() && scenario.pile.layers > 0)

@@ -39,6 +39,33 @@ void add(const AssetLibrary& assets, int index, double times, PileModelSize& siz
     add(assets, link.type, times, size);
 }
 
+// What fines leave, from counts of shapes: kernel/geometry/fine_shapes.h, kernel/fines. A heap is a type of its
+// own in exports.
+struct FinesSize {
+  double triangles = 0, bytes = 0, heaps = 0;
+};
+
+FinesSize size_of_fines(const FinesSpec& f) {
+  // Triangles at most.
+  constexpr double kOfFlake = 24, kOfDrift = 680, kOfPaper = 200, kOfCloth = 1450, kOfStrand = 2300;
+  constexpr double kPiecesOfHeap = 12, kBytesOfTriangle = 30;
+  if (f.amount == 0) return {};
+  const double shares = f.grit + f.plaster + f.glass + f.paper + f.cloth;
+  const double of_grit = f.size[0] >= 0.005 ? 20 : 9.5;
+  const double each = (of_grit * f.grit + kOfFlake * (f.plaster + f.glass)) / shares;
+  const double sheets = f.amount * (f.paper + f.cloth) / shares, strands = f.cables + f.pipes;
+  const double others = kOfDrift * f.drifts + f.amount * (kOfPaper * f.paper + kOfCloth * f.cloth) / shares +
+                        kOfStrand * strands;
+  return {each * f.amount + others, 48.0 * f.amount + kBytesOfTriangle * others + 1000,
+          f.amount / kPiecesOfHeap + f.drifts + sheets + strands};
+}
+
+void add_fines(const FinesSpec& fines, PileModelSize& size) {
+  const FinesSize of = size_of_fines(fines);
+  size.pieces += of.heaps, size.types += of.heaps;
+  size.triangles += of.triangles, size.type_triangles += of.triangles;
+}
+
 PileModelSize size_of_pile(const Scenario& s, const AssetLibrary& assets) {
   PileModelSize size;
   double weights = 0;
@@ -48,7 +75,8 @@ PileModelSize size_of_pile(const Scenario& s, const AssetLibrary& assets) {
     if (weights > 0) add(assets, entry.type, dropped * entry.weight / weights, size);
   size.triangles *= kSamplingMargin;
   for (const PlacedItem& item : s.pile.placed) add(assets, assets.find(item), 1, size);
-  size.types = double(assets.types.size());
+  add_fines(s.fines, size);
+  size.types += double(assets.types.size());
   for (std::size_t i = 0; i < assets.types.size(); ++i)
     size.type_triangles += triangles_of(assets, int(i));
   return size;
@@ -94,7 +122,7 @@ void add_recordings(const Scenario& s, const std::vector<RecordedSize>& cameras,
 
 // What `rubble settle` leaves, too.
 bool is_of_pile(const std::string& name) {
-  for (const char* own : {"pile.bin", "victims.json", "manifest.json", "track.bin", "track.glb"})
+  for (const char* own : {"pile.bin", "victims.json", "fines.bin", "manifest.json", "track.bin", "track.glb"})
     if (name == own) return true;
   for (const MeshFormat& format : mesh_formats())
     if (std::count(format.leaves.begin(), format.leaves.end(), name)) return true;
@@ -109,6 +137,7 @@ Estimate estimate_outputs(const Scenario& s, const AssetLibrary& assets) {
   const std::vector<RecordedSize> recorded = sizes_of_recording(s, pile.pieces);
   sizes["pile.bin"] = std::uint64_t(pile.pieces * kPieceBytes + 2000);
   if (s.victims.count > 0) sizes["victims.json"] = std::uint64_t(s.victims.count) * 400;
+  if (s.fines.amount > 0) sizes["fines.bin"] = std::uint64_t(size_of_fines(s.fines).bytes);
   sizes["manifest.json"] = std::uint64_t(count_frames(recorded) * 250 + kManifestBytes);
   add_meshes(s, pile, sizes);
   add_track(s, pile, sizes);

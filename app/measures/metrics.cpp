@@ -39,6 +39,7 @@ const std::vector<std::pair<std::string, std::string>>& metric_names() {
       {"pile_height_m", "Highest point of all pieces except lost ones."},
       {"pile_radius_m", "Radius about the Z axis within which 95 % of the movable pieces have their origins."},
       {"piece_volume_m3", "Volume of all pieces together."},
+      {"fines", "With `fines`: number of loose pieces, drifts, cables and pipes."},
       {"void_volume_m3", "With `voids.on`: free space that a ball of 2 m cannot reach from above."},
       {"void_covered_m3", "With `voids.on`: free space with something solid vertically above it."},
       {"void_robot_m3", "With `voids.on`: volume that a robot of `voids.radius` covers in all voids."},
@@ -84,6 +85,7 @@ void add_pile_metrics(const PileState& pile, const AssetLibrary& assets, Metrics
   metrics["pile_height_m"] = height;
   metrics["pile_radius_m"] = most_of(std::move(squared));
   metrics["piece_volume_m3"] = volume;
+  if (!pile.fines.empty()) metrics["fines"] = double(pile.fines.pieces.size() + pile.fines.sheets.size());
 }
 
 void DepthMetrics::add(const Frame& frame) {

@@ -4,6 +4,7 @@
 
 #include "app/assets/building_assets.h"
 #include "app/assets/terrain.h"
+#include "app/fines/seen_fines.h"
 #include "kernel/base/portable_math.h"
 #include "render/materials/surface_appearance.h"
 
@@ -36,6 +37,8 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets) {
     spec.placed.push_back(place_terrain(scenario.pile.terrain, type));
   spec.building = building_of(scenario);
   spec.building_first_type = assets.building_first_type;
+  for (const FurnitureItem& item : scenario.pile.furniture)
+    spec.furniture.push_back({assets.find(item.asset), item.per_bay, item.roof});
   spec.spawn_position = scenario.pile.spawn_position;
   spec.spawn_bounds = scenario.pile.spawn_bounds;
   spec.spawn_density = scenario.pile.spawn_density;
@@ -57,7 +60,9 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
     if (piece.status == PieceStatus::lost) continue;
     scene.instances.push_back(make_instance(piece, i));
   }
+  add_fines(scenario, assets, pile, scene);
   scene.light = resolve_light(scenario);
+  scene.sky = scenario.light.sky;
   scene.more_lights = scenario.lights;
   scene.wetness = scenario.wetness;
   scene.lamp = scenario.lamp;
@@ -71,6 +76,7 @@ std::vector<std::string> label_names(const Scenario& scenario, const AssetLibrar
   std::vector<std::string> names{"sky", "ground"};
   for (const PieceType& type : assets.types) names.push_back(type.name);
   if (!scenario.robots.empty()) names.push_back("robot");
+  if (scenario.fines.amount > 0) names.insert(names.end(), fine_names().begin(), fine_names().end());
   return names;
 }
 
@@ -95,7 +101,9 @@ PileModel build_model(const AssetLibrary& assets, const PileState& pile, bool lo
 }  // namespace
 
 PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile) {
-  return build_model(assets, pile, false);
+  PileModel model = build_model(assets, pile, false);
+  add_fines(pile, model);
+  return model;
 }
 
 PileModel build_track_model(const AssetLibrary& assets, const PileState& pile) {

@@ -18,15 +18,15 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets);
 // number: of the piece in its pile.
 SceneInstance make_instance(const PieceState& piece, std::size_t number);
 
-// Every piece but the lost ones, with the scenario's light, lamp and air.
+// Every piece but the lost ones, and the fines, with the scenario's light, lamp and air.
 Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile);
 
 // The legend of the stream `label`: the name of each class, by its number.
 std::vector<std::string> label_names(const Scenario& scenario, const AssetLibrary& assets);
 
-// The same pieces at full detail, with names and plain colours, for the exports. Refers to `assets`.
+// The same at full detail, with names and plain colours, for the exports. Refers to `assets`.
 PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile);
-// With the pieces that were lost, which a track has.
+// With the pieces that were lost, which a track has, and without fines, which come when all rests.
 PileModel build_track_model(const AssetLibrary& assets, const PileState& pile);
 
 }  // namespace rubble

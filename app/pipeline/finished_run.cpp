@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "app/fines/lay_fines.h"
 #include "app/provenance/run_folder.h"
 #include "io/base/atomic_file.h"
 #include "io/state/pile_state_file.h"
@@ -44,6 +45,7 @@ PileState load_pile_of(const FinishedRun& saved) {
   if (found != stated)
     throw InputError({path, 0, "", "is not the pile of the manifest beside it",
                       "the state hash " + stated, found, ""});
+  load_fines_of(stated_scenario(saved.manifest.provenance), saved.folder, pile);
   return pile;
 }
 

@@ -30,7 +30,7 @@ FinishedRun open_finished_run(const std::string& folder);
 // Found by content, in `folders`, where they were, or among the bundled packs.
 AssetLibrary load_assets_of(const FinishedRun& saved, const std::vector<std::string>& folders);
 
-// pile.bin. Throws InputError when it is missing, damaged, or not the pile of the manifest.
+// pile.bin, and fines.bin where the mission has fines. Throws InputError when it is missing, damaged, or not the pile of the manifest.
 PileState load_pile_of(const FinishedRun& saved);
 
 }  // namespace rubble

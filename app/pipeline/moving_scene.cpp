@@ -1,5 +1,6 @@
 #include "app/pipeline/moving_scene.h"
 
+#include "app/fines/seen_fines.h"
 #include "app/pipeline/build_scene.h"
 #include "kernel/robot/looks.h"
 
@@ -26,12 +27,19 @@ void add_lost(const PileState& pile, Scene& scene) {
   }
 }
 
-// Sets what of the scene is in the track in motion.
-void set_in_motion(const Track& track, const TrackWindow& window, std::int64_t zero_ns, Scene& scene) {
+// The number of what moves an instance: its own, and of a heap of fines that of the piece it lies on.
+std::int32_t find_mover(const SceneInstance& instance, const std::vector<int>& heap_hosts) {
+  if (instance.id < std::uint32_t(kFirstFineHeap)) return std::int32_t(instance.id);
+  return heap_hosts[instance.id - std::uint32_t(kFirstFineHeap)];
+}
+
+// Sets what of the scene is in the track in motion, with the fines on it. heap_hosts: of all heaps of fines.
+void set_in_motion(const Track& track, const TrackWindow& window, std::int64_t zero_ns,
+                   const std::vector<int>& heap_hosts, Scene& scene) {
   std::vector<const TrackBody*> bodies;
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     SceneInstance& instance = scene.instances[i];
-    const TrackBody* const body = track.find(std::int32_t(instance.id));
+    const TrackBody* const body = track.find(find_mover(instance, heap_hosts));
     if (!body) continue;
     if (track.rests_throughout(*body, window.from, window.to + kAround)) {
       instance.world_from_body = track.motion_at(*body, window.from)->world_from_body;
@@ -71,9 +79,11 @@ void add_robot(const RobotModel& model, int first_piece, std::uint16_t label, Sc
 
 Scene build_moving_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
                          const Track& track, const TrackWindow& window, std::int64_t zero_ns) {
-  Scene scene = build_scene(scenario, assets, pile);
+  PileState without_fines = pile;  // they come when all rests
+  without_fines.fines = {};
+  Scene scene = build_scene(scenario, assets, without_fines);
   add_lost(pile, scene);
-  set_in_motion(track, window, zero_ns, scene);
+  set_in_motion(track, window, zero_ns, {}, scene);
   return scene;
 }
 
@@ -84,7 +94,8 @@ Scene build_robot_scene(const Scenario& scenario, const AssetLibrary& assets, co
   for (std::size_t i = 0; i < robots.models.size(); ++i) {
     add_robot(robots.models[i], robots.first_piece[i], label, scene);
   }
-  set_in_motion(robots.track, {robots.track.begin(), robots.track.end()}, zero_ns, scene);
+  set_in_motion(robots.track, {robots.track.begin(), robots.track.end()}, zero_ns, find_heap_hosts(pile),
+                scene);
   return scene;
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "app/fines/seen_fines.h"
 #include "app/pipeline/build_scene.h"
 #include "io/recording/one_camera.h"
 #include "scripting/scenario/lidar_schema.h"
@@ -102,6 +103,7 @@ Recording describe_recording(const Scenario& scenario, const AssetLibrary& asset
     recording.legend.pieces.push_back(
         {std::uint16_t(kFirstAssetLabel + piece.type), assets.types[type].name});
   }
+  add_fines(scenario, assets, pile, recording.legend);
   return recording;
 }
 

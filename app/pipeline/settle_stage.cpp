@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "app/fines/lay_fines.h"
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/stages.h"
 #include "app/support/stop.h"
@@ -108,11 +109,20 @@ void save(const SettledPile& settled, std::uint64_t work, bool recorded, const R
 std::uint64_t hash_work_of(const ResolvedMission& mission, const Pile& pile) {
   const std::uint64_t settling = hash_work(pile, mission.pile_scenario.settle);
   const VictimScenario& victims = mission.pile_scenario.victims;
-  if (victims.count == 0) return settling;
+  if (victims.count == 0) return hash_fines_work(mission.pile_scenario, settling);
   StateHash hash;
   hash.add(settling), hash.add(mission.pile_scenario.seed);
   hash.add(victims.count), hash.add(int(victims.difficulty)), hash.add(victims.radius);
-  return hash.digest();
+  return hash_fines_work(mission.pile_scenario, hash.digest());
+}
+
+// Strews fines over the pile, with what a person sees of it.
+void strew(const ResolvedMission& mission, RunContext& context, PileState& pile) {
+  if (mission.pile_scenario.fines.amount == 0) return;
+  context.progress.start("fines");
+  const std::string warning = lay_fines(mission.pile_scenario, mission.assets, context.threads(), pile);
+  if (!warning.empty()) context.warnings.push_back(warning);
+  context.progress.finish(std::to_string(pile.fines.pieces.size() + pile.fines.sheets.size()) + " strewn");
 }
 
 // Of a pile with victims; before pile.bin, so that it is there where that is.
@@ -120,9 +130,10 @@ void save_victims(const VictimScenario& victims, const PileState& pile, const Ru
   if (victims.count > 0) write_text_file(folder.file("victims.json"), describe_victims(find_victims(pile)));
 }
 
-SettledPile load(bool recorded, const RunFolder& folder) {
+SettledPile load(const Scenario& scenario, bool recorded, const RunFolder& folder) {
   SettledPile settled;
   settled.state = load_pile_state(folder.file("pile.bin"));
+  load_fines_of(scenario, folder.path(), settled.state);
   if (recorded) settled.track = load_track(folder.file("track.bin"));
   return settled;
 }
@@ -147,6 +158,7 @@ void add_victims(const ResolvedMission& mission, int threads, PileState& pile) {
 
 void keep_pile(const ResolvedMission& mission, const PileState& state, const RunFolder& folder) {
   save_victims(mission.pile_scenario.victims, state, folder);
+  save_fines_of(mission.pile_scenario, state, folder.path());
   save_pile_state(state, folder.file("pile.bin"));
   folder.note_pile(hash_work_of(mission, make_pile(mission)));
 }
@@ -157,19 +169,22 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
   const std::uint64_t work = hash_work_of(mission, pile);
   const bool recorded = needs_track(mission.scenario);
   const bool loaded = folder.has_pile_of(work) && (!recorded || folder.has("track.bin"));
-  SettledPile settled = loaded ? load(recorded, folder)
+  SettledPile settled = loaded ? load(mission.pile_scenario, recorded, folder)
                                : settle_from_checkpoint_or_start(mission, pile, folder, context);
   throw_if_stopped(folder.path());
+  if (!loaded) add_victims(mission, context.threads(), settled.state);
+  context.progress.finish(summarize_settling(settled.state, loaded));
   if (!loaded) {
-    add_victims(mission, context.threads(), settled.state);
+    strew(mission, context, settled.state);
     save_victims(mission.pile_scenario.victims, settled.state, folder);
+    save_fines_of(mission.pile_scenario, settled.state, folder.path());
     save(settled, work, recorded, folder);
   }
   folder.add("pile.bin");
   if (mission.pile_scenario.victims.count > 0) folder.add("victims.json");
+  if (mission.pile_scenario.fines.amount > 0) folder.add(kFinesFile);
   if (recorded) folder.add("track.bin");
   add_pile_metrics(settled.state, mission.assets, settled.metrics);
-  context.progress.finish(summarize_settling(settled.state, loaded));
   return settled;
 }
 
@@ -187,8 +202,9 @@ SettledPile settle_in_memory(const ResolvedMission& mission, RunContext& context
   });
   if (stopped) throw Stopped("stopped while the pile settled; nothing is kept");
   add_victims(mission, context.threads(), settled.state);
-  add_pile_metrics(settled.state, mission.assets, settled.metrics);
   context.progress.finish(summarize_settling(settled.state, false));
+  strew(mission, context, settled.state);
+  add_pile_metrics(settled.state, mission.assets, settled.metrics);
   return settled;
 }
 

@@ -225,7 +225,9 @@ NearestApproach check_contact(const PileGeometry& geometry, const TrajectorySpec
     char when[48];
     std::snprintf(when, sizeof when, "%.3f s (frame %d)", t, int(t * spec.rate_hz + 0.5));
     std::string what = "the ground";
-    if (nearest && nearest->piece != kGroundPiece)
+    if (nearest && nearest->piece >= kFirstFineHeap)
+      what = "fines, piece " + std::to_string(nearest->piece);
+    else if (nearest && nearest->piece != kGroundPiece)
       what = pile.types[std::size_t(pile.pieces[std::size_t(nearest->piece)].type)] + ", piece " +
              std::to_string(nearest->piece);
     throw InputError({"", 0, "trajectory.plan", "the camera's body touches something",

@@ -81,7 +81,7 @@ void add_stated(const std::string& folder, std::vector<std::string>& files) {
 const std::vector<std::string>& usual_run_files() {
   static const std::vector<std::string> files = [] {
     std::vector<std::string> names{"manifest.json", "pile.bin", "track.bin", "track.glb", "labels.csv",
-                                   "flight.json", "victims.json"};
+                                   "flight.json", "victims.json", "fines.bin"};
     for (const RecordingFormat& format : recording_formats())
       if (!format.is_folder) names.push_back(format.leaves);
     for (const MeshFormat& format : mesh_formats())

@@ -122,6 +122,7 @@ void adopt_pile(Scenario& scenario, const Scenario& pile_source) {
   scenario.packs = pile_source.packs;
   scenario.pile = pile_source.pile;
   scenario.victims = pile_source.victims;
+  scenario.fines = pile_source.fines;
   scenario.settle = pile_source.settle;
 }
 

@@ -14,6 +14,7 @@ CameraSpec build_camera(const Scenario& scenario, const MountedCamera& mounted, 
   spec.baseline = camera.stereo_baseline;
   spec.shutter = camera.shutter;
   spec.exposure = camera.exposure;
+  spec.optics = camera.optics;
   spec.sensor = camera.sensor;
   spec.depth_sensor = mounted.depth_sensor;
   spec.event_camera = mounted.event_camera;

@@ -199,7 +199,9 @@ std::string panel(const std::string& title, bool has_voids, std::size_t frames) 
 
 std::string make_dataset_page(const FinishedRun& saved, const AssetLibrary& assets, const ViewOptions& options) {
   const PileState pile = load_pile_of(saved);
-  const PileModel model = build_pile_model(assets, pile);
+  PileState pieces = pile;  // fines are too many triangles for a page
+  pieces.fines = {};
+  const PileModel model = build_pile_model(assets, pieces);
   Aabb bounds;
   for (const PileModel::Piece& piece : model.pieces) bounds.include(piece.world_from_body.translation);
   const Vec3 centre = model.pieces.empty() ? Vec3{} : (bounds.min + bounds.max) * 0.5;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct PileModel {
     Pose world_from_body;      // unit: m
     std::int32_t number = -1;  // its index in the pile; -1: not known
   };
+  std::vector<std::shared_ptr<const TriangleMesh>> kept;  // meshes of types that are nobody else's
   std::vector<Type> types;                          // each with its mesh once
   std::vector<Piece> pieces;                        // in the order of the pile
   std::vector<PlainAppearance> surface_appearance;  // a surface without one is grey

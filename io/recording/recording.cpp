@@ -40,6 +40,10 @@ std::string legend_to_json(const Legend& legend) {
     const Legend::Piece& piece = legend.pieces[i];
     json["instances"].push_back({{"instance", i}, {"label", piece.label}, {"name", piece.asset}});
   }
+  for (std::size_t i = 0; i < legend.fines.size(); ++i)
+    json["instances"].push_back({{"instance", legend.first_fine + i},
+                                 {"label", legend.fines[i].label},
+                                 {"name", legend.fines[i].asset}});
   json["ground_instance"] = kGroundInstance;
   json["no_instance"] = kNoInstance;
   return json.dump();

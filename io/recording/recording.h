@@ -34,6 +34,8 @@ struct Legend {
   };
   std::vector<std::string> labels;  // by label: "sky", "ground", then the assets
   std::vector<Piece> pieces;        // by piece number
+  std::vector<Piece> fines;         // heaps of fines, the first of which has the number ...
+  std::uint32_t first_fine = 0;     // ... this
 };
 
 // The legend as JSON: {"labels": [{"label", "name"}], "instances": [{"instance", "label", "name"}],

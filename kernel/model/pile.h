@@ -62,6 +62,13 @@ struct SpawnDensity {
   std::vector<double> weights;  // columns * rows, finite, >= 0, at least one above 0
 };
 
+// Pieces that stand on every floor of a building.
+struct Furnishing {
+  int type = 0;        // as in MixEntry
+  double per_bay = 1;  // mean number in each bay of each floor; range: 0 to 20
+  bool roof = false;   // also on the roof
+};
+
 // Where and how much to drop.
 struct PileSpec {
   std::uint64_t seed = 0;                // of all that is drawn at random
@@ -75,6 +82,7 @@ struct PileSpec {
   // A building that collapses before the first layer falls; its pieces' types begin at this one.
   BuildingSpec building;
   int building_first_type = 0;  // index into the types; 0 without a building
+  std::vector<Furnishing> furniture;  // of the building
   int layers = 4;               // 0 to 1000
   int pieces_per_layer = 300;   // 0 to 100000; an assembly counts as one
 };

@@ -7,6 +7,7 @@
 
 #include "kernel/base/math.h"
 #include "kernel/model/assembly.h"
+#include "kernel/model/fines.h"
 
 namespace rubble {
 
@@ -66,6 +67,8 @@ struct PileState {
   DeepestOverlap deepest_overlap;  // when settling ended; not kept in files
   int layers_at_limit = 0;         // layers whose time limit came before rest
   int lost = 0;                    // pieces that left the world
+  // Strewn when all rests; none by default. Not in the state's hash, and in a file of their own.
+  Fines fines;
 
   // XXH64 over the bit patterns of every field of the pieces in their order, then of the joints in
   // theirs, each list after its length, then the step count. The names of types are not in it.

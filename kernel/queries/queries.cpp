@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "kernel/geometry/fine_heaps.h"
 #include "kernel/geometry/shape.h"
 #include "kernel/queries/query_tree.h"
 
@@ -48,6 +49,16 @@ QueryPiece make_piece(const PieceState& state, int index, int mesh_index, const 
   return piece;
 }
 
+void add_fines(const PileState& pile, std::vector<QueryMesh>& meshes, std::vector<QueryPiece>& pieces) {
+  const std::vector<FineHeap> heaps = make_fine_heaps(pile.fines);
+  for (std::size_t i = 0; i < heaps.size(); ++i) {
+    PieceState state;
+    state.world_from_body = world_from_host(pile, heaps[i].host);
+    meshes.push_back(make_mesh(heaps[i].mesh));
+    pieces.push_back(make_piece(state, kFirstFineHeap + int(i), int(meshes.size()) - 1, meshes.back()));
+  }
+}
+
 QueryTree make_tree(const PileState& pile, const std::vector<const TriangleMesh*>& meshes) {
   std::vector<int> number(meshes.size(), -1);
   std::vector<QueryMesh> used;
@@ -68,6 +79,7 @@ QueryTree make_tree(const PileState& pile, const std::vector<const TriangleMesh*
     mesh.smallest_scale = std::min(mesh.smallest_scale, state.scale);
     pieces.push_back(make_piece(state, int(i), number[type], mesh));
   }
+  add_fines(pile, used, pieces);
   return {std::move(used), std::move(pieces)};
 }
 

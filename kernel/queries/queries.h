@@ -3,7 +3,8 @@
 // For camera collision, path planning, label checks and void maps. World frame, lengths in metres.
 // Results are those of the exact triangles in double precision, good to 1e-9 m at the distances of
 // a pile, the same on every machine and for any number of threads. Pieces that are lost are not
-// there. Several threads may ask at once.
+// there. The fines of the pile are there: of a heap of them the piece is kFirstFineHeap and its index
+// among make_fine_heaps(). Several threads may ask at once.
 #pragma once
 
 #include <limits>
@@ -29,13 +30,13 @@ struct RayHit {
   double distance = 0;       // from the origin; unit: m
   Vec3 point;                // in the world; unit: m
   Vec3 normal;               // unit length, out of the surface, also when it is met from inside
-  int piece = kGroundPiece;  // index into PileState::pieces, or kGroundPiece
+  int piece = kGroundPiece;  // index into PileState::pieces, a heap of fines, or kGroundPiece
 };
 
 struct ClosestPoint {
   double distance = 0;       // to the surface, from either side; unit: m
   Vec3 point;                // on the surface
-  int piece = kGroundPiece;  // index into PileState::pieces
+  int piece = kGroundPiece;  // as of a RayHit
 };
 
 class PileQueries {

@@ -9,6 +9,7 @@
 #include "kernel/base/random.h"
 #include "kernel/geometry/shape.h"
 #include "kernel/model/pile.h"
+#include "kernel/settling/furnish.h"
 #include "kernel/settling/layer_space.h"
 
 namespace rubble {
@@ -68,6 +69,12 @@ void validate(const PileSpec& spec) {
     const std::string key = "placed[" + std::to_string(i) + "]";
     check.expect(p.type >= 0 && p.type < types, key + ".type", type_range, std::to_string(p.type));
     check.expect(p.scale >= 0.01 && p.scale <= 100, key + ".scale", "0.01 to 100", p.scale);
+  }
+  for (std::size_t i = 0; i < spec.furniture.size(); ++i) {
+    const Furnishing& f = spec.furniture[i];
+    const std::string key = "furniture[" + std::to_string(i) + "]";
+    check.expect(f.type >= 0 && f.type < types, key + ".type", type_range, std::to_string(f.type));
+    check.expect(f.per_bay >= 0 && f.per_bay <= 20, key + ".per_bay", "0 to 20", f.per_bay);
   }
   check.expect(spec.layers >= 0 && spec.layers <= 1000, "layers", "0 to 1000",
                std::to_string(spec.layers));
@@ -195,18 +202,23 @@ double lowest_spawn(const PileSpec& spec, const std::vector<Shape>& shapes) {
 Pile generate_pile(const PileSpec& spec) {
   validate(spec);
   std::vector<Shape> shapes;
+  std::vector<Aabb> bounds;
   for (std::size_t i = 0; i < spec.types.size(); ++i) {
     shapes.push_back(compile_shape(spec.types[i], "types[" + std::to_string(i) + "]"));
+    bounds.push_back(calc_bounds(spec.types[i]));
   }
   for (std::size_t i = 0; i < spec.assemblies.size(); ++i) {  // they take room as one rigid piece
     const std::string key = "assemblies[" + std::to_string(i) + "]";
     validate(spec.assemblies[i], int(spec.types.size()), key);
-    shapes.push_back(compile_shape(make_rigid_type(spec.assemblies[i], spec.types), key));
+    const PieceType rigid = make_rigid_type(spec.assemblies[i], spec.types);
+    shapes.push_back(compile_shape(rigid, key));
+    bounds.push_back(calc_bounds(rigid));
   }
   Pile pile;
   pile.types = spec.types;
   pile.assemblies = spec.assemblies;
   pile.placed = spec.placed;
+  for (const Placement& placement : furnish(spec, bounds)) pile.placed.push_back(placement);
   pile.building = spec.building;
   pile.building_first_type = spec.building_first_type;
   pile.spawn_bottom = std::max(spec.spawn_position.z - spec.spawn_bounds.z / 2,

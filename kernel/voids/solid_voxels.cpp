@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "kernel/geometry/fine_heaps.h"
+
 namespace rubble {
 namespace {
 
@@ -163,6 +165,22 @@ class SurfaceSlab {
   std::vector<std::uint32_t> nearest_;
 };
 
+void add_solid(const TriangleMesh& mesh, const Pose& world_from_body, double scale, int type, Solids& result) {
+  std::vector<Vec3> corners;
+  SolidPiece piece;
+  piece.type = type;
+  for (const Vec3f& p : mesh.positions) {
+    corners.push_back(world_from_body * (Vec3(p) * scale));
+    piece.box.include(corners.back());
+  }
+  piece.first = result.triangles.size();
+  for (const auto& t : mesh.triangles) {
+    result.triangles.push_back({corners.at(t[0]), corners.at(t[1]), corners.at(t[2])});
+  }
+  piece.last = result.triangles.size();
+  result.pieces.push_back(piece);
+}
+
 }  // namespace
 
 Solids place_solids(const PileState& pile, const std::vector<const TriangleMesh*>& meshes) {
@@ -173,21 +191,10 @@ Solids place_solids(const PileState& pile, const std::vector<const TriangleMesh*
     if (state.type < 0 || type >= meshes.size() || meshes[type] == nullptr) {
       throw std::invalid_argument("place_solids: a piece without a mesh");
     }
-    const TriangleMesh& mesh = *meshes[type];
-    std::vector<Vec3> corners;
-    SolidPiece piece;
-    piece.type = state.type;
-    for (const Vec3f& p : mesh.positions) {
-      corners.push_back(state.world_from_body * (Vec3(p) * state.scale));
-      piece.box.include(corners.back());
-    }
-    piece.first = result.triangles.size();
-    for (const auto& t : mesh.triangles) {
-      result.triangles.push_back({corners.at(t[0]), corners.at(t[1]), corners.at(t[2])});
-    }
-    piece.last = result.triangles.size();
-    result.pieces.push_back(piece);
+    add_solid(*meshes[type], state.world_from_body, state.scale, state.type, result);
   }
+  for (const FineHeap& heap : make_fine_heaps(pile.fines))
+    add_solid(heap.mesh, world_from_host(pile, heap.host), 1, kFineType, result);
   return result;
 }
 

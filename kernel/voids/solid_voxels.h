@@ -12,14 +12,16 @@
 
 namespace rubble {
 
+inline constexpr int kFineType = -1;
+
 // A piece's part of all triangles.
 struct SolidPiece {
   std::size_t first = 0, last = 0;  // [first, last)
   Aabb box;                         // of its triangles, in the world; unit: m
-  int type = 0;                     // index into the pile's types
+  int type = 0;                     // index into the pile's types; kFineType: a heap of fines
 };
 
-// The pieces of a pile in the world, but for the lost ones.
+// The pieces of a pile in the world, but for the lost ones, and then its fines.
 struct Solids {
   std::vector<QueryTriangle> triangles;  // of all pieces, in the world
   std::vector<SolidPiece> pieces;        // that count as solid

@@ -26,11 +26,11 @@ bool is_scenery(const SolidPiece& piece, const VoidSpaceOptions& options) {
   return std::find(types.begin(), types.end(), piece.type) != types.end();
 }
 
-// With terrain, the lowest cells are in it.
+// With terrain, the lowest cells are in it. Fines may lie about the pile and do not count.
 Aabb find_bounds(const Solids& solids, const VoidSpaceOptions& options) {
   Aabb box;
   for (const SolidPiece& piece : solids.pieces) {
-    if (piece.box.empty() || is_scenery(piece, options)) continue;
+    if (piece.box.empty() || piece.type == kFineType || is_scenery(piece, options)) continue;
     box.include(piece.box.min);
     box.include(piece.box.max);
   }

@@ -24,7 +24,12 @@ struct Corners {
   const PreparedVertex &a, &b, &c;
 
   Vec3f position(float u, float v) const { return a.position * (1 - u - v) + b.position * u + c.position * v; }
-  Vec3f normal(float u, float v) const { return normalized(a.normal * (1 - u - v) + b.normal * u + c.normal * v); }
+  // That of the triangle where those of the corners cancel.
+  Vec3f normal(float u, float v) const {
+    const Vec3f mean = a.normal * (1 - u - v) + b.normal * u + c.normal * v;
+    return dot(mean, mean) > 1e-8f ? normalized(mean) : face();
+  }
+  Vec3f face() const { return normalized(cross(b.position - a.position, c.position - a.position)); }
   float longest_edge() const {
     return std::max(distance(a.position, b.position),
                     std::max(distance(b.position, c.position), distance(c.position, a.position)));
@@ -62,7 +67,7 @@ void add_grid(PreparedMesh& mesh, std::uint32_t t, float spacing) {
 void add_origins(const PreparedMesh& mesh, const LightNode& node, bool vertex, std::vector<BakeOrigin>& out) {
   const PreparedTriangle& triangle = mesh.triangles[node.triangle];
   const Corners corners(mesh, triangle);
-  const Vec3f face = normalized(cross(corners.b.position - corners.a.position, corners.c.position - corners.a.position));
+  const Vec3f face = corners.face();
   if (vertex || triangle.light_steps < 2) {
     out.push_back({node.position, node.normal});
     return;

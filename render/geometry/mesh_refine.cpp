@@ -75,7 +75,8 @@ class Halver {
     const auto [at, added] = middles_.emplace(key, std::uint32_t(mesh_.positions.size()));
     if (added) {
       mesh_.positions.push_back((mesh_.positions[a] + mesh_.positions[b]) * 0.5f);
-      mesh_.normals.push_back(normalized(mesh_.normals[a] + mesh_.normals[b]));
+      const Vec3f sum = mesh_.normals[a] + mesh_.normals[b];  // nothing where they are opposed
+      mesh_.normals.push_back(dot(sum, sum) > 1e-8f ? normalized(sum) : mesh_.normals[a]);
     }
     return at->second;
   }

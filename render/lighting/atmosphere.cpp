@@ -29,9 +29,9 @@ struct Densities {
   double air, haze, ozone;
 };
 
-Densities densities_at(double height) {
+Densities densities_at(double height, double haze) {
   const double h = std::max(height, 0.0);
-  return {std::exp(-h / kAirHeight), std::exp(-h / kHazeHeight),
+  return {std::exp(-h / kAirHeight), haze * std::exp(-h / kHazeHeight),
           std::max(0.0, 1 - std::fabs(h - 25000) / 15000)};
 }
 
@@ -46,13 +46,13 @@ Vec3 pass(const Densities& depth) {
   return {std::exp(-tau.x), std::exp(-tau.y), std::exp(-tau.z)};
 }
 
-Densities depth_along(const Vec3& p, const Vec3& d, double length) {
-  constexpr int kSteps = 24;
+Densities depth_along(const Vec3& p, const Vec3& d, double length, double haze) {
+  const int steps = haze > 1 ? 192 : 24;  // thick haze lies within the lowest of a few steps
   Densities sum{0, 0, 0};
-  for (int i = 0; i < kSteps; ++i) {
-    const Vec3 q = p + d * (length * (i + 0.5) / kSteps);
-    const Densities here = densities_at(norm(q) - kGround);
-    const double step = length / kSteps;
+  for (int i = 0; i < steps; ++i) {
+    const Vec3 q = p + d * (length * (i + 0.5) / steps);
+    const Densities here = densities_at(norm(q) - kGround, haze);
+    const double step = length / steps;
     sum.air += here.air * step, sum.haze += here.haze * step, sum.ozone += here.ozone * step;
   }
   return sum;
@@ -77,24 +77,26 @@ Vec3 times(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b
 
 }  // namespace
 
-Vec3f sun_illuminance(double elevation_deg) {
+Vec3f sun_illuminance(double elevation_deg, double haze) {
   const double e = elevation_deg * portable::kPi / 180;
   const Vec3 p(0, 0, kGround + 2), d(std::cos(e), 0, std::sin(e));
   // The share of the disc above the horizon, as if the disc were a square.
   const double above = std::clamp(0.5 + 0.5 * e / kSunRadius, 0.0, 1.0);
   if (above <= 0) return {};
   const Vec3 level(std::cos(std::max(e, 0.0)), 0, std::sin(std::max(e, 0.0)));
-  const Vec3 left = pass(depth_along(p, level, leave(p, level, kTop)));
+  const Vec3 left = pass(depth_along(p, level, leave(p, level, kTop), haze));
   return Vec3f(times(left, kSunColour) * (kOuterKlx * above));
 }
 
-ClearSky::ClearSky(const Vec3f& to_sun) : sun_(to_sun) {
+ClearSky::ClearSky(const Vec3f& to_sun, double haze) : sun_(to_sun), haze_(haze) {
   for (int h = 0; h < kHeights; ++h) {
     const double r = radius_of(double(h) / (kHeights - 1));
     for (int c = 0; c < kCosines; ++c) {
       const double mu = cosine_of(double(c) / (kCosines - 1), r);
       const Vec3 p(0, 0, r), d(std::sqrt(std::max(0.0, 1 - mu * mu)), 0, mu);
-      sunlight_.push_back(pass(depth_along(p, d, leave(p, d, kTop))));
+      Densities depth = depth_along(p, d, leave(p, d, kTop), haze);
+      depth.haze *= haze > 1 ? 1 - kHazeScatters * kHazeForward * kHazeForward : 1;
+      sunlight_.push_back(pass(depth));
     }
   }
   // The mean over all directions: those of equal solid angle in the upper half, and the lit ground.
@@ -136,6 +138,9 @@ ClearSky::Scattered ClearSky::scatter(const Vec3& d) const {
   const double air_phase = 3 / (16 * portable::kPi) * (1 + c * c);
   const double haze_phase = 3 / (8 * portable::kPi) * (1 - g * g) * (1 + c * c) /
                             ((2 + g * g) * std::pow(1 + g * g - 2 * g * c, 1.5));
+  // Thick haze scatters its own light again, mostly straight on: what goes on within the forward peak, the
+  // share g^2, is not lost on the way (delta scaling, Joseph, Wiscombe and Weinman 1976).
+  const double kept = haze_ > 1 ? 1 - kHazeScatters * g * g : 1;
   Densities depth{0, 0, 0};
   Scattered sum;
   for (int i = 0; i < kSteps; ++i) {
@@ -143,15 +148,15 @@ ClearSky::Scattered ClearSky::scatter(const Vec3& d) const {
     const auto at = [&](double k) { return length * (k / kSteps) * (k / kSteps); };
     const double step = at(i + 1) - at(i);
     const Vec3 p = eye + d * at(i + 0.5);
-    const Densities here = densities_at(norm(p) - kGround);
+    const Densities here = densities_at(norm(p) - kGround, haze_);
     const Vec3 air = kAir * here.air, haze = kHaze * (kHazeScatters * here.haze);
     // The light that a step adds, weakened on its way by the step itself: exact for even air.
-    const Vec3 tau = (kAir * here.air + kHaze * here.haze + kOzone * here.ozone) * step;
+    const Vec3 tau = (kAir * here.air + kHaze * (here.haze * kept) + kOzone * here.ozone) * step;
     const Vec3 left = times(pass(depth), Vec3(mean_pass(tau.x), mean_pass(tau.y), mean_pass(tau.z)));
     sum.sun += times(times(air * air_phase + haze * haze_phase, left), sunlight_at(p)) *
                (step * kOuterKlx);
     sum.even += times(air + haze, left) * step;
-    depth.air += here.air * step, depth.haze += here.haze * step, depth.ozone += here.ozone * step;
+    depth.air += here.air * step, depth.haze += here.haze * (step * kept), depth.ozone += here.ozone * step;
   }
   return sum;
 }
@@ -162,5 +167,7 @@ Vec3f ClearSky::radiance(const Vec3f& direction) const {
   const Scattered s = scatter(d);
   return Vec3f(s.sun + times(s.even, around_) + Vec3(0.8, 0.9, 1.2) * kNightSky);
 }
+
+Vec3f night_sky() { return Vec3f(Vec3(0.8, 0.9, 1.2) * kNightSky); }
 
 }  // namespace rubble

@@ -12,8 +12,12 @@ namespace rubble {
 
 inline constexpr double kLowestSun = -18;  // degrees; below, night has fallen
 
-// On a surface that faces the sun, at the ground; black once its disc has set. Unit: klx.
-Vec3f sun_illuminance(double elevation_deg);
+// On a surface that faces the sun, at the ground; black once its disc has set. haze: how many times as
+// much haze hangs in the air as on a clear day. Unit: klx.
+Vec3f sun_illuminance(double elevation_deg, double haze = 1);
+
+// Airglow and stars; in ClearSky::radiance already. Unit: kcd/m2.
+Vec3f night_sky();
 
 // Light scattered once is integrated along each ray; what is scattered again is taken to come evenly
 // from everywhere, as bright as the mean of sky and ground. That keeps the horizon from going black
@@ -22,7 +26,7 @@ Vec3f sun_illuminance(double elevation_deg);
 class ClearSky {
  public:
   // to_sun: unit length, also below the horizon.
-  explicit ClearSky(const Vec3f& to_sun);
+  explicit ClearSky(const Vec3f& to_sun, double haze = 1);
 
   // Without the sun's disc. direction: unit length; below the horizon as level. Unit: kcd/m2.
   Vec3f radiance(const Vec3f& direction) const;
@@ -37,6 +41,7 @@ class ClearSky {
 
   static constexpr int kHeights = 32, kCosines = 48;
   Vec3 sun_;
+  double haze_;
   Vec3 around_;                 // mean radiance of sky and ground; unit: kcd/m2
   std::vector<Vec3> sunlight_;  // by height and by the sun's place above that height's horizon
 };

@@ -7,23 +7,10 @@
 #include <vector>
 
 #include "kernel/base/math.h"
+#include "render/lighting/sky.h"
 #include "render/scene/scene.h"
 
 namespace rubble {
-
-// Radiance of the upper half of all directions, on a square map: the octahedron's upper half turned
-// by 45 degrees, so that the zenith is in the middle and the horizon along the border.
-struct Sky {
-  static constexpr int kSide = 96;  // of the map; unit: texel
-  std::vector<Vec3f> map;           // rows; unit: kcd/m2
-  Vec3f mean;                       // irradiance of level ground over pi
-  Vec3f horizon;                    // mean over the horizon
-  Vec3f sun_direction{0, 0, 1};     // also below the horizon
-  Vec3f sun_radiance;               // of its disc; black without one; unit: kcd/m2
-
-  // direction: unit length, pointing up or level; below the horizon it is black. Without the disc.
-  Vec3f radiance(const Vec3f& direction) const;
-};
 
 inline constexpr float kLightReach = 1000.0f;  // of rays that look for light or for what hides it; unit: m
 

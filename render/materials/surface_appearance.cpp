@@ -7,7 +7,7 @@
 namespace rubble {
 
 // Albedos after published tables: concrete 0.2-0.4, brick 0.2-0.3, dry soil 0.25-0.35, weathered
-// zinc 0.4, softwood 0.3-0.5, gypsum plaster 0.6-0.8, tyres 0.03-0.05. The colours within them are our choice.
+// zinc 0.4, softwood 0.3-0.5, gypsum plaster 0.6-0.8, paper 0.6-0.8, tyres 0.03-0.05. The colours within them are our choice.
 // Reflectances at normal incidence by Fresnel's equations: lacquer and rubber of index 1.5 give 0.04, a
 // pane's two faces 0.08; iron oxide of 2.2 gives 0.14, much of it rough; weathered zinc 0.4. The
 // roughnesses are our choice.
@@ -178,6 +178,24 @@ const std::vector<SurfaceAppearance>& all_surface_appearances() {
        0.2f,
        0.04f,
        0.45f},
+      {"paper",
+       Pattern::smooth,
+       {0.52f, 0.51f, 0.48f},
+       {0.76f, 0.755f, 0.73f},
+       {0.30f, 0.29f, 0.27f},
+       0.5f,
+       0.1f,
+       0.35f,
+       0.12f},
+      {"dust",
+       Pattern::soil,
+       {0.25f, 0.238f, 0.215f},
+       {0.42f, 0.405f, 0.375f},
+       {0.40f, 0.385f, 0.36f},
+       0.45f,
+       0.45f,
+       0.3f,
+       0.10f},
       {"ground",
        Pattern::soil,
        {0.095f, 0.079f, 0.061f},

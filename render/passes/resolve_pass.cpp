@@ -155,8 +155,8 @@ GlTexture upload_surface_appearances(const Gl& gl, const std::vector<PatternImag
 }
 
 GlTexture upload_sky(const Gl& gl, const Sky& sky) {
-  GlTexture texture = make_target(gl, GL_RGB32F, Sky::kSide, Sky::kSide);
-  gl.TextureSubImage2D(texture.name(), 0, 0, 0, Sky::kSide, Sky::kSide, GL_RGB, GL_FLOAT,
+  GlTexture texture = make_target(gl, GL_RGB32F, sky.side, sky.side);
+  gl.TextureSubImage2D(texture.name(), 0, 0, 0, sky.side, sky.side, GL_RGB, GL_FLOAT,
                        sky.map.data());
   gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);

@@ -8,6 +8,7 @@
 
 #include "render/scene/frame.h"
 #include "render/scene/image_stream.h"
+#include "render/scene/optics_spec.h"
 
 namespace rubble {
 
@@ -59,6 +60,10 @@ struct ExposureSpec {
 
 enum class Response { srgb, gamma, linear };
 
+// Filters over the photosites, by the colours of the first two of the first two rows; none: every pixel
+// measures all three colours.
+enum class Mosaic { none, rggb, bggr, grbg, gbrg };
+
 // From exposed light to stored numbers, as EMVA 1288 models a linear camera. Only with a modelled
 // exposure.
 struct ImageSensorSpec {
@@ -69,6 +74,19 @@ struct ImageSensorSpec {
   double vignette = 0;       // 0: none; 1: the natural cos^4 fall-off; range: 0 to 4
   Response response = Response::srgb;  // from converter counts to the 8 bits that are stored
   double gamma = 2.2;                  // of Response::gamma; range: 0.2 to 5
+  Mosaic mosaic = Mosaic::none;        // formulas: sensors/bayer.h
+  // Images along each axis of a pixel that are added: its colour is the mean over its area, not that of
+  // its middle. Each costs as much as a frame. range: 1 to 4
+  int pixel_samples = 1;
+  // What stays the same from picture to picture, by the seed; formulas: sensors/fixed_pattern.h.
+  double prnu = 0;           // standard deviation of the gain; share; range: 0 to 0.5
+  double dsnu = 0;           // standard deviation of the offset; unit: electron; range: 0 to 1e4
+  double dark_current = 0;   // unit: electron/s; range: 0 to 1e7
+  double hot_pixels = 0;     // share of photosites; range: 0 to 0.1
+  double hot_current = 2e4;  // of these, the mean; our choice; unit: electron/s; range: 0 to 1e8
+  int jpeg_quality = 0;      // losses of a JPEG of this quality, 1 to 100; 0: none
+
+  bool has_pattern() const { return prnu > 0 || dsnu > 0 || dark_current > 0 || hot_pixels > 0; }
 };
 
 enum class DepthSensorType { none, ideal, structured_light, time_of_flight };
@@ -118,6 +136,7 @@ struct CameraSpec {
   double baseline = 0;  // of a stereo pair: the right camera's distance; 0: none; unit: m
   ShutterSpec shutter;  // when each row is exposed
   ExposureSpec exposure;         // how bright the image is
+  OpticsSpec optics;             // what the lens does to the light
   ImageSensorSpec sensor;        // noise, converter, response
   DepthSensorSpec depth_sensor;  // in the place of the camera
   EventCameraSpec event_camera;  // in the place of the camera

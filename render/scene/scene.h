@@ -28,6 +28,21 @@ struct LightSpec {
   double elevation_deg = 40;  // of the sun above the horizon; range: -18 (night) to 90
   double azimuth_deg = 215;   // of the sun, from X towards Y; unit: degree
 };
+
+// What the sky of LightType::sun looks like; formulas: lighting/sky_model.h. clear is also that of the
+// other types of light.
+enum class SkyType {
+  clear,
+  hazy,       // a clear sky with fourteen times the haze: a visibility of 9 km
+  cloudy,     // broken clouds over a clear sky
+  overcast,   // the overcast sky of the CIE; the sun is hidden
+  moonlit,    // a clear night: in the place of the sun stands the full moon
+  city_night  // the glow of a town on a moonless night; the sun is ignored
+};
+struct SkySpec {
+  SkyType type = SkyType::clear;
+  double cloud_cover = 0.5;  // of cloudy: the share of the layer that is cloud; range: 0 to 1
+};
 inline constexpr std::size_t kMostLights = 4;
 
 enum class LampShape { point, ring, cluster };
@@ -103,6 +118,7 @@ struct Scene {
   SceneMotion motion;                                    // of some of them
   bool ground = true;  // the plane z = 0
   LightSpec light;                     // the main one, which makes the sky
+  SkySpec sky;                         // of a main light that is the sun
   std::vector<LightSpec> more_lights;  // at most kMostLights - 1
   LampSpec lamp;                       // on the camera
   double wetness = 0;  // of all surfaces: darker, and glossy where they face up; range: 0 to 1

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "kernel/base/error.h"
+#include "render/optics/lens_optics.h"
 #include "render/sensors/depth_sensor.h"
 #include "render/sensors/event_camera.h"
 #include "render/sensors/exposure_control.h"
@@ -42,7 +43,10 @@ struct Camera::State {
   CameraSpec spec;
   Flight flight;
   std::shared_ptr<const LensDirections> directions;  // none: a pinhole that needs none
+  std::vector<Intrinsics> pixel_parts;  // of a pixel: the camera shifted to the middle of each
+  std::vector<std::shared_ptr<const LensDirections>> part_directions;  // of each, as above
   ExposureControl exposure;
+  std::unique_ptr<LensOptics> optics;   // none: a perfect lens
   std::unique_ptr<ImageSensor> sensor;  // none: an ideal image
   DepthSensor depth_sensor;
   std::unique_ptr<EventPixels> events;
@@ -58,6 +62,7 @@ struct Camera::State {
   // Of what bears the lamp; nothing: the camera itself.
   std::optional<Pose> rig_of(const Pose& world_from_camera) const;
   ViewRays view_at(int index, double seconds_off = 0) const;
+  ViewRays view_beside(ViewRays view, int part) const;
   ViewRays right_of(ViewRays view) const;
 
   RenderedView open_view(int index);
@@ -68,6 +73,7 @@ struct Camera::State {
   int count_samples(int index, RenderedView& view, const ExposureSettings& settings) const;
   std::vector<float> gather_light(int index, const LinearFrame* middle, int samples, double time,
                                   bool right);
+  std::vector<float> defocus(const LinearFrame& image) const;
   std::vector<float> measure_depth(int index, RenderedView& view);
   void watch(int index, Frame& frame);
 };
@@ -78,10 +84,22 @@ Camera::State::State(Renderer& r, const CameraSpec& s, Flight f)
   const bool modelled = spec.exposure.mode != ExposureMode::ideal;
   if (spec.shutter.motion_blur && !modelled)
     throw RunError("motion blur needs an exposure time: the exposure must not be ideal");
+  if (spec.optics.any() && !modelled)
+    throw RunError("a real lens needs an exposure that is modelled: the exposure must not be ideal");
   if (!Lens(k).is_pinhole()) directions = make_lens_directions(k, spec.threads);
+  const int across = spec.sensor.pixel_samples;
+  for (int i = 0; across > 1 && i < across * across; ++i) {
+    Intrinsics part = k;  // a pixel sees what lies beside it
+    part.cx -= (i % across + 0.5) / across - 0.5;
+    part.cy -= (i / across + 0.5) / across - 0.5;
+    pixel_parts.push_back(part);
+    part_directions.push_back(directions ? make_lens_directions(part, spec.threads) : nullptr);
+  }
   if (modelled)
     sensor = std::make_unique<ImageSensor>(
         spec, directions ? *directions : *make_lens_directions(k, spec.threads));
+  if (spec.optics.any())
+    optics = std::make_unique<LensOptics>(spec.optics, spec.exposure.f_number, k, spec.seed, spec.threads);
   if (spec.event_camera.on)
     events = std::make_unique<EventPixels>(spec.event_camera, k.width, k.height, spec.seed);
 }
@@ -113,6 +131,13 @@ ViewRays Camera::State::view_at(int index, double seconds_off) const {
     const std::int64_t stamp = view.stamp_ns + std::llround(late * 1e9);
     view.row_poses.push_back(pose_at(stamp, frame_ns, at_frame) * camera_from_optical);
   }
+  return view;
+}
+
+ViewRays Camera::State::view_beside(ViewRays view, int part) const {
+  if (pixel_parts.empty()) return view;
+  view.intrinsics = pixel_parts[std::size_t(part)];
+  view.directions = part_directions[std::size_t(part)];
   return view;
 }
 
@@ -177,22 +202,35 @@ int Camera::State::count_samples(int index, RenderedView& view, const ExposureSe
   return std::clamp(wanted | 1, 3, most);
 }
 
-// The mean light over the exposure: images at the middles of equal parts of it.
+// The light of one instant; what is the same at all distances comes after the mean.
+std::vector<float> Camera::State::defocus(const LinearFrame& image) const {
+  const bool flat = spec.intrinsics.lens == LensModel::plumb_bob;
+  return optics->defocus(image.rgb, flat ? image.depth : image.distance);
+}
+
+// The mean light over the exposure, and over the parts of a pixel: images at the middles of equal parts
+// of both. middle: that of the whole pixel in the middle of the exposure, if it is there already.
 std::vector<float> Camera::State::gather_light(int index, const LinearFrame* middle, int samples,
                                                double time, bool right) {
   std::vector<float> sum;
-  for (int i = 0; i < samples; ++i) {
+  const int count = int(std::max<std::size_t>(1, pixel_parts.size()));
+  const float share = 1.0f / float(samples * count);
+  for (int i = 0; i < samples * count; ++i) {
     LinearFrame drawn;
     const LinearFrame* image = middle;
-    if (!middle || i != samples / 2) {
-      const ViewRays view = view_at(index, time * ((i + 0.5) / samples - 0.5));
+    if (!middle || count > 1 || i != samples / 2) {
+      const double seconds_off = time * ((i / count + 0.5) / samples - 0.5);
+      const ViewRays view = view_beside(view_at(index, seconds_off), i % count);
       drawn = renderer.render_linear(right ? right_of(view) : view);
       image = &drawn;
     }
     if (sum.empty()) sum.assign(image->rgb.size(), 0);
-    add_scaled(sum, image->rgb, 1.0f / float(samples));
+    if (optics && optics->defocuses())
+      add_scaled(sum, defocus(*image), share);
+    else
+      add_scaled(sum, image->rgb, share);
   }
-  return sum;
+  return optics ? optics->spread(std::move(sum), right ? 1 : 0) : sum;
 }
 
 // The settings of this frame, from what the one before measured.

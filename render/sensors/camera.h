@@ -1,6 +1,6 @@
 // A camera on its flight: exact frames of the renderer, then the stages that a real one adds.
 //
-//   lens, shutter -> exact light, depth, ground truth -> exposure -> image sensor -> rgb
+//   lens, shutter -> exact light, depth, ground truth -> optics -> exposure -> image sensor -> rgb
 //                                                     -> depth sensor -> measured_depth
 //                                                     -> event camera -> events
 //

@@ -1,4 +1,5 @@
-// From light to stored numbers: vignette, shot and read noise, saturation, converter, response.
+// From light to stored numbers: vignette, mosaic, fixed pattern, shot and read noise, saturation,
+// converter, response, losses of a JPEG.
 //
 // A pixel that gets the share x of saturation holds x * W electrons on average, W = full_well * 100 /
 // speed. Shot noise makes that a Poisson number, the amplifier adds normal noise of read_noise
@@ -7,7 +8,9 @@
 // transfer curve.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "render/camera/view_rays.h"
@@ -16,11 +19,14 @@
 
 namespace rubble {
 
+class FixedPattern;
+
 class ImageSensor {
  public:
   ImageSensor(const CameraSpec& spec, const LensDirections& directions);
+  ~ImageSensor();
 
-  // Converter counts, three a pixel. light: kcd/m2. Noise follows from the seed, the frame's number
+  // Converter counts, three a pixel, of a mosaic as demosaiced. light: kcd/m2. Noise follows from the seed, the frame's number
   // and the eye (0: left or only one, 1: right).
   std::vector<std::uint16_t> count(const std::vector<float>& light,
                                    const ExposureSettings& settings, int frame, int eye) const;
@@ -32,10 +38,13 @@ class ImageSensor {
   double mean_of(const std::vector<float>& light, double factor) const;
 
  private:
+  bool has_mosaic() const { return spec_.sensor.mosaic != Mosaic::none; }
+
   CameraSpec spec_;
   int most_;
   std::vector<float> fall_off_;         // vignette, one a pixel; 0: the lens sees nothing
   std::vector<std::uint8_t> response_;  // by count
+  std::array<std::unique_ptr<FixedPattern>, 2> patterns_;  // of each eye; null: none
 };
 
 }  // namespace rubble

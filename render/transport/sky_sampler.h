@@ -1,7 +1,7 @@
 // Directions towards the sky, drawn in proportion to how bright it is there.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -22,16 +22,17 @@ class SkySampler {
   float density(const Vec3f& direction) const;  // unit: 1/sr
 
  private:
-  // A running sum over the intervals of one line, and for each kSide-th part of [0, 1) the interval
+  // A running sum over the intervals of one line, and for each of as many equal parts of [0, 1) the interval
   // in which it begins, so that a search takes a step or two.
   struct Line {
-    std::array<float, Sky::kSide + 1> sums{};
-    std::array<std::uint8_t, Sky::kSide> start{};
+    std::vector<float> sums;
+    std::vector<std::uint16_t> start;
 
-    void accumulate(const std::array<float, Sky::kSide>& weights);
+    void accumulate(const std::vector<float>& weights);
     int find(float u, float& within) const;
     float share(int i) const { return sums[std::size_t(i) + 1] - sums[std::size_t(i)]; }
   };
+  int side_;  // of the sky's map
   bool black_ = true;
   Line rows_;
   std::vector<Line> columns_;  // of each row

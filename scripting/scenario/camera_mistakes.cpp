@@ -8,6 +8,7 @@
 #include "kernel/base/portable_math.h"
 #include "render/streams/image_streams.h"
 #include "scripting/scenario/lidar_schema.h"
+#include "scripting/scenario/optics_schema.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/schema/schema_json.h"
 
@@ -67,6 +68,7 @@ void check_camera(const MountedCamera& camera, const std::string& at, const std:
   if (c.shutter.motion_blur && c.exposure.mode == ExposureMode::ideal)
     add(at + "shutter.motion_blur", "an ideal image takes no time",
         at + "exposure.mode of \"fixed\" or \"automatic\"", "");
+  check_optics(c, at, mistakes);
   if (camera.depth_sensor.min_range >= camera.depth_sensor.max_range)
     add(beside + "depth_sensor.max_range", "nothing is within reach",
         "more than " + beside + "depth_sensor.min_range", "");

@@ -34,6 +34,7 @@ struct CameraScenario {
   double stereo_baseline = 0;  // to the right camera of a pair; 0: none; unit: m; range: 0 to 10
   ShutterSpec shutter{};       // when each row is exposed
   ExposureSpec exposure{};     // how bright the image is
+  OpticsSpec optics{};         // what the lens does to the light
   ImageSensorSpec sensor{};    // noise, converter, response
   // ROS: what its topics begin with; not given: "/camera", of one of `cameras` "/NAME".
   std::optional<std::string> topic{};

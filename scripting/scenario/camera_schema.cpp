@@ -3,6 +3,7 @@
 #include <string>
 
 #include "render/streams/image_streams.h"
+#include "scripting/scenario/optics_schema.h"
 
 namespace rubble {
 namespace {
@@ -117,6 +118,7 @@ void add_sensor(Schema& k, const std::string& at, ImageSensorSpec& s) {
            "Response curve from the converter to the stored 8 bits.");
   k.value(at + "sensor.gamma", s.gamma, "Exponent 1 / gamma of the response `gamma`.")
       .between(0.2, 5);
+  add_sensor_pattern_keys(k, at, s);
 }
 
 void add_depth_sensor(Schema& k, DepthSensorSpec& d) {
@@ -205,6 +207,10 @@ void add_camera_with(Schema& k, const std::string& at, CameraScenario& c) {
         "Exposure of the image: the share of saturation is 0.65 L t S / (78 N^2), with the luminance L in "
         "cd/m2 (ISO 12232:2006).");
   add_exposure(k, at, c.exposure);
+  group("optics",
+        "Faults of a real lens; they change the colour image only, and need an exposure of `fixed` or "
+        "`automatic` ([optics.md](optics.md)).");
+  add_optics_keys(k, at, c.optics);
   group("sensor", "From light to stored numbers (EMVA 1288); without effect for an ideal exposure.");
   add_sensor(k, at, c.sensor);
 }

@@ -134,6 +134,16 @@ void add_building(Schema& k, BuildingSpec& b) {
           "How irregular the cuts between pieces are; 0: a regular grid.").between(0, 0.45);
 }
 
+void add_furniture(Schema& k, std::vector<FurnitureItem>& items) {
+  k.list("pile.building.furniture", items,
+         "What stands on the floors before the collapse: furniture, appliances, or the cars of a car park.");
+  k.item("pile.building.furniture[].asset", items, &FurnitureItem::asset, "Name of an asset.").must();
+  k.item("pile.building.furniture[].per_bay", items, &FurnitureItem::per_bay,
+         "Mean number in each bay of each floor; what finds no room is left out.")
+      .between(0, 20);
+  k.item("pile.building.furniture[].roof", items, &FurnitureItem::roof, "Whether they stand on the roof as well.");
+}
+
 void add_vehicle(Schema& k, StrikingVehicle& v) {
   k.group("pile.building.cause.vehicle",
           "A vehicle that drives into a column of the ground storey; mass 0: there is none.");
@@ -219,6 +229,7 @@ void add_pile_keys(Schema& keys, PileScenario& pile) {
   add_pile(keys, pile);
   add_terrain(keys, pile.terrain);
   add_building(keys, pile.building);
+  add_furniture(keys, pile.furniture);
   add_cause(keys, pile.building.cause);
 }
 

@@ -7,6 +7,7 @@
 #include "scripting/scenario/camera_mistakes.h"
 #include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/scenario_schema.h"
+#include "scripting/scenario/sky_schema.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -82,6 +83,9 @@ void check_box(const PlacedItem& item, std::size_t i, std::vector<Diagnostic>& m
 }
 
 void check_names(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
+  if (!pile.furniture.empty() && !pile.building.given())
+    mistakes.push_back({"", 0, "pile.building.furniture", "no building", "pile.building.storeys above 0", "0",
+                        "rubble.building{ furniture = {...} } makes one of four storeys"});
   for (std::size_t i = 0; i < pile.mix.size(); ++i)
     if (pile.mix[i].asset.empty())
       mistakes.push_back({"", 0, item_key("pile.mix", i, ".asset"), "no name",
@@ -148,12 +152,14 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_mix(scenario.pile, mistakes);
   check_density(scenario.pile.spawn_density, mistakes);
   check_terrain(scenario.pile.terrain, mistakes);
+  check_sky(scenario.light, mistakes);
   check_cameras(scenario, mistakes);
   check_lidars(scenario, mistakes);
   check_sensor_names(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
   check_record_settling(scenario.record_settling, mistakes);
   check_robots(scenario, mistakes);
+  check_fines(scenario.fines, mistakes);
   if (scenario.victims.count > 0 && needs_track(scenario))
     mistakes.push_back({"", 0, "victims.count", "victims lie in the pile only when it has settled",
                         "no record_settling and no outputs.track, or 0", std::to_string(scenario.victims.count), ""});
@@ -206,6 +212,7 @@ LightSpec resolve_light(const Scenario& scenario) {
     for (int i = 0; i < 3; ++i)
       light.position[i] += random.uniform(-0.5, 0.5) * scenario.light.position_bounds[i];
   }
+  place_sun(scenario.light, light);
   if (!scenario.light.random_rotation) return light;
   RandomStream random(scenario.seed, "light/rotation");
   const double pitch = random.uniform(20, 80);

@@ -14,6 +14,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
+#include "kernel/model/fines.h"
 #include "kernel/model/pile.h"
 #include "kernel/settling/settle.h"
 #include "render/scene/scene.h"
@@ -53,6 +54,13 @@ struct PlacedItem {
   std::vector<std::string> broken{};  // of a box, the faces that broke off: "+x", "-x", "+y", ...
 };
 
+// What stands on every floor of a building before it collapses.
+struct FurnitureItem {
+  std::string asset;   // its name in a pack
+  double per_bay = 1;  // mean number in each bay of each floor; range: 0 to 20
+  bool roof = false;   // also on the roof
+};
+
 // What pieces lie on besides the ground z = 0: heights on a grid, or a mesh. Neither: the ground alone.
 struct TerrainScenario {
   int columns = 0, rows = 0;     // corners of the grid along X and Y; range: 0 to 1024
@@ -78,6 +86,7 @@ struct PileScenario {
   std::vector<PlacedItem> placed;  // put there before anything falls
   TerrainScenario terrain;         // what the pile lies on
   BuildingSpec building;           // collapses before anything falls; seed: the mission's
+  std::vector<FurnitureItem> furniture;  // of the building
 };
 
 struct LightScenario {
@@ -87,6 +96,11 @@ struct LightScenario {
   // Draw the position from the box around spec.position of these full edge lengths.
   bool random_position = false;
   Vec3 position_bounds{8, 8, 4};  // unit: m; >= 0
+  SkySpec sky;                    // of the sun
+  // The sun by place and time instead of spec.elevation_deg and spec.azimuth_deg: all three or none.
+  std::optional<double> latitude_deg{}, longitude_deg{};  // north and east are positive; unit: degree
+  std::optional<std::string> time{};                      // UTC: parse_utc()
+  double north_deg = 90;  // where north is, from X towards Y; unit: degree
 };
 
 // What OutputScenario::meshes may name.
@@ -153,6 +167,7 @@ struct Scenario {
   std::vector<std::string> packs;         // folders; empty: the bundled pack `concrete`
   PileScenario pile;                      // what is dropped, and where
   VictimScenario victims;                 // who lies in it
+  FinesSpec fines;                        // what is strewn over it
   SettleOptions settle;  // its `threads` is not part of a scenario: results do not depend on it
   LightScenario light;   // the main light
   std::vector<LightSpec> lights;  // besides the main one; at most kMostLights - 1

@@ -5,6 +5,7 @@
 #include "scripting/scenario/camera_schema.h"
 #include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/pile_schema.h"
+#include "scripting/scenario/sky_schema.h"
 
 namespace rubble {
 namespace {
@@ -88,6 +89,7 @@ void add_light(Schema& k, LightScenario& l) {
   k.value("light.position_bounds", l.position_bounds, "Full edge lengths of that box.")
       .between(0, 1000)
       .unit("m");
+  add_sky_keys(k, l);
 }
 
 void add_more_lights(Schema& k, std::vector<LightSpec>& lights) {
@@ -390,6 +392,7 @@ Schema make_scenario_schema(Scenario& s) {
   add_top(keys, s);
   add_pile_keys(keys, s.pile);
   add_victim_keys(keys, s.victims);
+  add_fine_keys(keys, s.fines);
   add_settle(keys, s.settle);
   add_light(keys, s.light);
   add_more_lights(keys, s.lights);

@@ -1,9 +1,15 @@
 -- An open ground storey whose columns keep a twentieth of their strength.
 return rubble.mission {
   seed = 1,
+  packs = { "residential" },
   pile = rubble.building {
     storeys = 3, bays_x = 2, bays_y = 2, span_x = 5, span_y = 5,
     column = 0.3, piece = 1.3,
+    furniture = {
+      { asset = "sofa", per_bay = 0.5 }, { asset = "mattress", per_bay = 0.7 },
+      { asset = "table", per_bay = 1 }, { asset = "chair", per_bay = 3 },
+      { asset = "refrigerator", per_bay = 0.3 },
+    },
     cause = {
       weak_storey = 0, weakness = 0.05,
     },

@@ -39,6 +39,23 @@ TEST(RefineMesh, GivesABoxOneNormalASide) {
     EXPECT_NEAR(std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)}), 1, 1e-6);
 }
 
+// Light is baked along them: one of no length has no direction. The first triangle gets a grid of nodes, the
+// second is cut.
+TEST(PrepareMesh, GivesEveryNodeOfLightADirectionWhereNormalsAreOpposed) {
+  for (const float side : {0.19f, 0.6f}) {
+    TriangleMesh sheet;
+    sheet.positions = {{0, 0, 0}, {side, 0, 0}, {0.5f * side, 0.3f * side, 0}};
+    sheet.normals = {{0, 0, 1}, {0, 0, -1}, {0, 0, 1}};
+    sheet.triangles = {{0, 1, 2}}, sheet.surfaces = {0}, sheet.surface_names = {"plaster"};
+    SceneMesh mesh;
+    mesh.levels = {sheet};
+    const PreparedMesh prepared = prepare_mesh(mesh);
+    EXPECT_GT(prepared.light_nodes.size(), 3u);
+    for (const LightNode& node : prepared.light_nodes) EXPECT_NEAR(norm(node.normal), 1, 1e-5);
+    for (const BakePoint& point : prepared.bake_points) EXPECT_NEAR(norm(point.normal), 1, 1e-5);
+  }
+}
+
 TEST(PrepareMesh, ClustersCoverEveryTriangleOnce) {
   SceneMesh mesh;
   mesh.levels = {make_chunk(1, "brick", "brick_fracture"), make_box({1, 1, 1})};

@@ -307,5 +307,21 @@ TEST(MissionAssets, UnknownOnesAreAllNamed) {
   EXPECT_EQ(error_of([&] { check_assets(mission, {"brick", "slap", "zzzzzzzz"}); }), "");
 }
 
+TEST(MissionAssets, FurnitureIsNamedLikePiecesAndNeedsABuilding) {
+  const Mission mission = load_text(R"(return rubble.mission { pile = { building = { storeys = 2,
+    furniture = { { asset = "sofa" },
+                  { asset = "sofas", per_bay = 2, roof = true } } } } })");
+  ASSERT_EQ(mission.scenario.pile.furniture.size(), 2u);
+  EXPECT_EQ(mission.scenario.pile.furniture[1].per_bay, 2);
+  EXPECT_EQ(error_of([&] { check_assets(mission, {"sofa"}); }),
+            "m.lua:3: pile.building.furniture[2].asset: unknown asset `sofas` (did you mean `sofa`?)");
+  EXPECT_EQ(error_of([] {
+              load_text(R"(return rubble.mission { pile = { building = {
+    furniture = { { asset = "sofa" } } } } })");
+            }),
+            "m.lua:2: pile.building.furniture: no building: expected pile.building.storeys above 0, found 0 "
+            "(rubble.building{ furniture = {...} } makes one of four storeys)");
+}
+
 }  // namespace
 }  // namespace rubble

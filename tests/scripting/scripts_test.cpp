@@ -77,6 +77,8 @@ TEST(Scripts, FeaturesAreShown) {
   EXPECT_TRUE(load("blur.lua").scenario.camera.shutter.motion_blur);
   EXPECT_GT(load("rolling_shutter.lua").scenario.camera.shutter.readout, 0);
   EXPECT_EQ(load("exposure.lua").scenario.camera.exposure.mode, ExposureMode::automatic);
+  EXPECT_EQ(load("skies.lua").scenario.light.sky.type, SkyType::cloudy);
+  EXPECT_TRUE(load("optics.lua").scenario.camera.optics.any());
   EXPECT_EQ(load("depth_sensor.lua").scenario.depth_sensor.type, DepthSensorType::structured_light);
   EXPECT_TRUE(load("events.lua").scenario.event_camera.on);
   EXPECT_EQ(load("published_names.lua").scenario.pile.layers, 2);

@@ -1,0 +1,54 @@
+#include "app/fines/lay_fines.h"
+
+#include "io/state/fines_file.h"
+#include "kernel/base/hash.h"
+#include "kernel/fines/strew_fines.h"
+
+namespace rubble {
+namespace {
+
+// Of each kind: what was asked for, and what there is.
+std::string describe_missing(const FinesSpec& spec, const Fines& fines) {
+  std::size_t drifts = 0, strands = 0, sheets = 0;
+  for (const FineSheet& sheet : fines.sheets) {
+    drifts += sheet.kind == FineKind::dust, strands += sheet.kind == FineKind::cable || sheet.kind == FineKind::pipe;
+    sheets += sheet.kind == FineKind::paper || sheet.kind == FineKind::cloth;
+  }
+  const auto lacks = [](std::size_t found, int asked, const char* what) {
+    return int(found) >= asked ? "" : " " + std::to_string(found) + " of " + std::to_string(asked) + " " + what + ",";
+  };
+  std::string text = lacks(fines.pieces.size() + sheets, spec.amount, "loose pieces") +
+                     lacks(drifts, spec.drifts, "drifts") + lacks(strands, spec.cables + spec.pipes, "cables and pipes");
+  if (text.empty()) return {};
+  text.back() = ';';
+  return "fines:" + text + " the pile has no room for more";
+}
+
+}  // namespace
+
+std::string lay_fines(const Scenario& scenario, const AssetLibrary& assets, int threads, PileState& pile) {
+  if (scenario.fines.amount == 0) return {};
+  pile.fines = strew_fines(pile, assets.finest_meshes(), scenario.fines, {scenario.seed, threads, assets.terrain()});
+  return describe_missing(scenario.fines, pile.fines);
+}
+
+std::uint64_t hash_fines_work(const Scenario& scenario, std::uint64_t pile) {
+  const FinesSpec& f = scenario.fines;
+  if (f.amount == 0) return pile;
+  StateHash hash;
+  hash.add(pile), hash.add(scenario.seed);
+  for (const int count : {f.amount, f.drifts, f.cables, f.pipes}) hash.add(std::int32_t(count));
+  for (const double number : {f.grit, f.plaster, f.glass, f.paper, f.cloth, f.size[0], f.size[1], f.exponent})
+    hash.add(number);
+  return hash.digest();
+}
+
+void save_fines_of(const Scenario& scenario, const PileState& pile, const std::string& folder) {
+  if (scenario.fines.amount > 0) save_fines(pile.fines, folder + "/" + kFinesFile);
+}
+
+void load_fines_of(const Scenario& scenario, const std::string& folder, PileState& pile) {
+  if (scenario.fines.amount > 0) pile.fines = load_fines(folder + "/" + kFinesFile, pile.pieces.size());
+}
+
+}  // namespace rubble

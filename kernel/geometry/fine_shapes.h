@@ -1,0 +1,35 @@
+// The shapes of loose fines: a small set, drawn once and for all, that sizes and turns make manifold.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/base/math.h"
+#include "kernel/model/fines.h"
+
+namespace rubble {
+
+// A closed convex polyhedron with corners within the cube from -1 to 1, its origin inside.
+struct FineShape {
+  std::vector<Vec3f> points;                            // corners
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
+};
+
+enum class FineForm {
+  chip,    // four corners: the smallest grit
+  pebble,  // six corners
+  stone,   // up to twelve corners
+  flake,   // a prism of five to seven corners, flat along z: plaster
+  shard    // a prism of three or four corners, flat along z: glass
+};
+inline constexpr int kShapesOfForm = 16;
+static_assert(kFineShapes == 5 * kShapesOfForm, "numbers of shapes are kept in files");
+
+// number: 0 to kShapesOfForm - 1.
+constexpr int fine_shape_number(FineForm form, int number) { return int(form) * kShapesOfForm + number; }
+
+// number: 0 to kFineShapes - 1.
+const FineShape& fine_shape(int number);
+
+}  // namespace rubble

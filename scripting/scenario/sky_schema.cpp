@@ -1,0 +1,66 @@
+#include "scripting/scenario/sky_schema.h"
+
+#include <algorithm>
+
+#include "scripting/scenario/sun_position.h"
+
+namespace rubble {
+
+void add_sky_keys(Schema& k, LightScenario& l) {
+  k.choice("light.sky", l.sky.type, {"clear", "hazy", "cloudy", "overcast", "moonlit", "city_night"},
+           "Sky of the light type `sun`. `hazy`: visibility of 9 km. `cloudy`: broken clouds by the seed, which "
+           "may hide the sun. `overcast`: CIE standard overcast sky, without sun. `moonlit`: the full moon in "
+           "place of the sun. `city_night`: the glow of a town, without sun and moon; add street lamps by "
+           "`lights` ([sky.md](sky.md)).");
+  k.value("light.cloud_cover", l.sky.cloud_cover, "Share of the sky that is cloud, with the sky `cloudy`.")
+      .between(0, 1);
+  k.value("light.latitude_deg", l.latitude_deg,
+          "The sun by place and time, instead of `elevation_deg` and `azimuth_deg`: latitude; north is "
+          "positive.")
+      .between(-90, 90)
+      .unit("degree");
+  k.value("light.longitude_deg", l.longitude_deg, "Longitude; east is positive.")
+      .between(-180, 180)
+      .unit("degree");
+  k.value("light.time", l.time,
+          "Date and time in UTC, from 1900 to 2100, such as \"2026-06-21T12:00:00Z\".");
+  k.value("light.north_deg", l.north_deg,
+          "Direction of north in the world, from X towards Y: 90 means that X is east and Y is north.")
+      .between(-360, 360)
+      .unit("degree");
+}
+
+void check_sky(const LightScenario& l, std::vector<Diagnostic>& mistakes) {
+  const auto add = [&](const char* key, const char* message, const char* expected, std::string found = "") {
+    mistakes.push_back({"", 0, key, message, expected, std::move(found), ""});
+  };
+  if (l.sky.type != SkyType::clear && l.spec.type != LightType::sun)
+    add("light.sky", "only the sun has another sky than the clear one", "light.type of \"sun\", or \"clear\"");
+  const bool by_time = l.latitude_deg || l.longitude_deg || l.time;
+  if (!by_time) return;
+  if (!l.latitude_deg || !l.longitude_deg || !l.time)
+    add("light.time", "the place of the sun needs place and time",
+        "light.latitude_deg, light.longitude_deg and light.time, or none of them");
+  if (l.spec.type != LightType::sun)
+    add("light.time", "only the sun follows from place and time", "light.type of \"sun\"");
+  if (l.random_rotation)
+    add("light.random_rotation", "the sun stands where place and time say", "false");
+  if (l.sky.type == SkyType::moonlit)
+    add("light.time", "place and time give the sun, not the moon",
+        "light.elevation_deg and light.azimuth_deg of the moon");
+  if (l.time && !parse_utc(*l.time))
+    add("light.time", "not a date and time in UTC", "such as \"2026-06-21T12:00:00Z\", from 1900 to 2100",
+        "\"" + *l.time + "\"");
+}
+
+void place_sun(const LightScenario& l, LightSpec& spec) {
+  if (!l.latitude_deg || !l.longitude_deg || !l.time) return;
+  const auto utc = parse_utc(*l.time);
+  if (!utc) return;  // check_sky() has said so
+  constexpr double kNight = -18;  // degrees; lower, nothing changes
+  const SunPosition sun = find_sun(*l.latitude_deg, *l.longitude_deg, *utc);
+  spec.elevation_deg = std::max(kNight, sun.elevation_deg);
+  spec.azimuth_deg = l.north_deg - sun.azimuth_deg;
+}
+
+}  // namespace rubble

@@ -1,0 +1,41 @@
+// What a mission must not say about lens and sensor, and what it may.
+#include <gtest/gtest.h>
+
+#include "scripting/scenario/scenario.h"
+#include "tests/scripting/test_support.h"
+
+namespace rubble::testing {
+namespace {
+
+template <typename Change>
+std::string mistake(Change change) {
+  Scenario s;
+  change(s);
+  return error_of([&] { s.validate(); });
+}
+
+TEST(OpticsKeys, AnIdealImageHasNoFaults) {
+  EXPECT_EQ(mistake([](Scenario& s) { s.camera.optics.glare = 0.02; }),
+            "camera.optics: an ideal image has a perfect lens: expected camera.exposure.mode of \"fixed\" or "
+            "\"automatic\"");
+  EXPECT_EQ(mistake([](Scenario& s) { s.camera.sensor.mosaic = Mosaic::rggb; }),
+            "camera.sensor: an ideal image has no mosaic, fixed pattern, artefacts or pixel_samples: expected "
+            "camera.exposure.mode of \"fixed\" or \"automatic\"");
+  EXPECT_EQ(mistake([](Scenario& s) {
+              s.camera.optics.glare = 0.02, s.camera.sensor.hot_pixels = 1e-4;
+              s.camera.exposure.mode = ExposureMode::automatic;
+            }),
+            "");
+}
+
+TEST(OpticsKeys, NothingIsSharpWithinTheFocalLength) {
+  EXPECT_EQ(mistake([](Scenario& s) {
+              s.camera.exposure.mode = ExposureMode::fixed;
+              s.camera.optics.focal_length = 0.05, s.camera.optics.focus_distance = 0.04;
+            }),
+            "camera.optics.focus_distance: no lens is sharp within its focal length: expected more than "
+            "camera.optics.focal_length, or 0");
+}
+
+}  // namespace
+}  // namespace rubble::testing

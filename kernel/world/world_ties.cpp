@@ -27,7 +27,7 @@ constexpr double kMostError = 0.005;
 // Pieces that are deeper in each other than this lengthen the tie that pulls them together, by as much in each
 // step as follows: the concrete that it presses on spalls. unit: m
 constexpr float kSpallingDepth = 0.005F;
-constexpr double kSpalls = 0.001;  // unit: m
+constexpr double kSpalls = 0.001;  // how much longer; unit: m
 // A tie yields from this share of its largest impulse in a substep on. unit: 1
 constexpr float kYields = 0.999F;
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
-#include "render/sensors/noise_field.h"
+#include "kernel/base/random.h"
 
 namespace rubble {
 
@@ -44,21 +45,21 @@ int reflect(double at, int size) {
 }  // namespace
 
 LensSurface::LensSurface(int width, int height, double dirt, int drops, std::uint64_t seed, int eye) {
-  const auto draw = [&](const NoiseField& field, std::uint64_t i, double smallest, double largest) {
-    Spot spot{field.uniform(4 * i) * width, field.uniform(4 * i + 1) * height, 0, 0};
+  const auto draw = [&](RandomStream& random, double smallest, double largest) {
+    Spot spot;
+    spot.x = random.uniform() * width, spot.y = random.uniform() * height;
     // Radii evenly over their logarithm: many small ones, few large ones.
-    spot.radius = width * smallest * std::pow(largest / smallest, field.uniform(4 * i + 2));
-    spot.opacity = 0.3 + 0.7 * field.uniform(4 * i + 3);
+    spot.radius = width * smallest * std::pow(largest / smallest, random.uniform());
+    spot.opacity = random.uniform(0.3, 1);
     return spot;
   };
-  const NoiseField dirt_field(seed, "optics/dirt", std::uint64_t(eye));
-  const NoiseField drop_field(seed, "optics/drops", std::uint64_t(eye));
-  for (std::uint64_t i = 0; dirt > 0 && i < kSmudges; ++i) {
-    smudges_.push_back(draw(dirt_field, i, kSmallestSmudge, kLargestSmudge));
+  const std::string lens = eye == 0 ? "" : "/right";
+  RandomStream dirt_stream(seed, "optics/dirt" + lens), drop_stream(seed, "optics/drops" + lens);
+  for (int i = 0; dirt > 0 && i < kSmudges; ++i) {
+    smudges_.push_back(draw(dirt_stream, kSmallestSmudge, kLargestSmudge));
     smudges_.back().opacity *= dirt;
   }
-  for (std::uint64_t i = 0; i < std::uint64_t(drops); ++i)
-    drops_.push_back(draw(drop_field, i, kSmallestDrop, kLargestDrop));
+  for (int i = 0; i < drops; ++i) drops_.push_back(draw(drop_stream, kSmallestDrop, kLargestDrop));
 }
 
 void LensSurface::soil(ColourImage& image, const ColourImage& veil) const {

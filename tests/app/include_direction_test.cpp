@@ -109,7 +109,7 @@ Allowed stack(const Prefixes& rooms, const Prefixes& others) {
 const Allowed kRender = stack(
     {"render/scene/", "render/streams/", "render/gl/", "render/camera/", "render/materials/", "render/geometry/",
      "render/lighting/", "render/media/", "render/raster/", "render/passes/",
-     "render/transport/", "render/reference/", "render/view/", "render/renderer.", "render/sensors/",
+     "render/transport/", "render/reference/", "render/view/", "render/renderer.", "render/optics/", "render/sensors/",
      "render/lidar/"},
     {"kernel/base/"});
 

@@ -15,6 +15,8 @@ namespace {
 constexpr std::uint32_t kMostNodes = 1u << 21;  // whose numbers fit beside the rest, see geometry.cpp
 constexpr float kLeastCell = 0.04f, kMostCell = 0.1f;  // of space, one point each; unit: m
 constexpr float kCellShare = 0.4f;              // of the mesh's radius
+constexpr float kGrain = 5e-3f;                 // root of the mean area of triangles, of a heap of grains; unit: m
+constexpr float kGrainsCell = 0.25f, kLeastHeap = 0.3f;  // cell and least radius of such a mesh; unit: m
 constexpr std::size_t kMostOrigins = 8;         // of a point
 constexpr float kAside = 0.3f;                  // of origins from their node; unit: a step
 
@@ -146,6 +148,22 @@ void weigh_points(const PreparedMesh& mesh, const PointGrid& grid, float cell, L
   for (float& w : node.weights) w /= sum;
 }
 
+// A heap of grains takes the light of the floor around it: at a point for each of its parts, light would take
+// minutes to find.
+bool is_heap_of_grains(const PreparedMesh& mesh, std::size_t finest_triangles) {
+  double twice = 0;
+  for (std::size_t t = 0; t < finest_triangles; ++t) {
+    const Corners c(mesh, mesh.triangles[t]);
+    twice += double(norm(cross(c.b.position - c.a.position, c.c.position - c.a.position)));
+  }
+  return mesh.radius > kLeastHeap && 0.5 * twice < double(finest_triangles) * double(kGrain * kGrain);
+}
+
+float choose_cell(const PreparedMesh& mesh, std::size_t finest_triangles) {
+  if (is_heap_of_grains(mesh, finest_triangles)) return kGrainsCell;
+  return std::clamp(mesh.radius * kCellShare, kLeastCell, kMostCell);
+}
+
 }  // namespace
 
 LightNodes find_light_nodes(const PreparedMesh& mesh, std::uint32_t triangle, float u, float v) {
@@ -172,7 +190,7 @@ void make_light_nodes(PreparedMesh& mesh, std::size_t finest_triangles, float sp
   std::vector<std::uint32_t> nodes;
   for (std::uint32_t i = 0; i < mesh.light_nodes.size(); ++i)
     if (i >= finest.size() || finest[i]) nodes.push_back(i);
-  const float cell = std::clamp(mesh.radius * kCellShare, kLeastCell, kMostCell);
+  const float cell = choose_cell(mesh, finest_triangles);
   choose_points(mesh, nodes, cell);
   PointGrid grid(cell);
   for (std::uint32_t i = 0; i < mesh.bake_points.size(); ++i) grid.add(mesh.bake_points[i].position, i);

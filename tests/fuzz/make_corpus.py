@@ -82,6 +82,15 @@ def small_track():
     return content
 
 
+def small_fines():
+    """A grain of grit, and a sheet of one triangle."""
+    content = struct.pack("<II4s", 1, 4, b"dust") + struct.pack("<QBBHi10f", 1, 0, 0, 3, 2, 0, 0, 1, 1, 0, 0, 0, 0.01, 0.01, 0.01)
+    content += struct.pack("<QBBiI", 1, 5, 0, -1, 3)
+    for x, y in ((0, 0), (1, 0), (0, 1)):
+        content += struct.pack("<6f", x, y, 0, 0, 0, 1)
+    return content + struct.pack("<I3I", 1, 0, 1, 2)
+
+
 def run(program, folder):
     script = folder / "m.lua"
     script.write_text(MISSION)
@@ -111,6 +120,7 @@ def add_recordings(corpus, run_folder):
         corpus.add(target, (run_folder / name).read_bytes())
     corpus.add("pile_state", unsealed(run_folder / "pile.bin"))
     corpus.add("track", small_track())
+    corpus.add("fines", small_fines())
     text = "-----".join((run_folder / "colmap" / f).read_text() for f in
                         ("cameras.txt", "images.txt", "points3D.txt")
                         if (run_folder / "colmap" / f).exists())

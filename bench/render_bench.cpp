@@ -31,6 +31,7 @@ struct Request {
   int device = -1;
   bool csv = false, split = false;
   std::string pictures;
+  int fines = 0;
 };
 
 // What goes on from view to view.
@@ -152,7 +153,7 @@ ExitCode bench(const Request& request) {
   const Scene scene = load_bench_scene((program.parent_path() / "render_views.lua").string(),
                                        threads, [](const char* line) {
                                          std::fprintf(stderr, "render_bench: %s\n", line);
-                                       });
+                                       }, request.fines);
   const double load_ms = since(session.start);
   GlContext context({request.device, threads});
   RenderOptions options;
@@ -197,6 +198,9 @@ ExitCode run(int argc, char** argv) {
   app.add_option("--gl-device", request.device, "Number of the EGL device; -1: the first that works")
       ->capture_default_str();
   app.add_option("--pictures", request.pictures, "Also write each view's last frame, PREFIXview.ppm");
+  app.add_option("--fines", request.fines, "Loose pieces that are strewn over the pile first (docs/fines.md)")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
   app.add_flag("--csv", request.csv, "Lines view,size,frames,median_ms,min_ms,fps");
   app.add_flag("--split", request.split,
                "With --csv also processor time, each pass (elapsed/processor), the first frame "

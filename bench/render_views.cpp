@@ -1,6 +1,9 @@
 #include "bench/render_views.h"
 
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <ctime>
 #include <filesystem>
 
 #include "app/assets/asset_library.h"
@@ -67,15 +70,29 @@ PileState settle_once(const Pile& pile, SettleOptions options, const std::string
   return state;
 }
 
+void strew_timed(const Scenario& scenario, const AssetLibrary& assets, int threads, PileState& state,
+                 void (*report)(const char*)) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t processor = std::clock();
+  lay_fines(scenario, assets, threads, state);
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  char line[120];
+  std::snprintf(line, sizeof line, "%zu fines strewn in %.2f s, %.2f CPU s",
+                state.fines.pieces.size() + state.fines.sheets.size(), wall,
+                double(std::clock() - processor) / CLOCKS_PER_SEC);
+  report(line);
+}
+
 }  // namespace
 
-Scene load_bench_scene(const std::string& mission_path, int threads, void (*report)(const char*)) {
+Scene load_bench_scene(const std::string& mission_path, int threads, void (*report)(const char*), int fines) {
   Mission mission = load_mission(mission_path, {});
   mission.scenario.settle.threads = threads;
   const AssetLibrary assets = load_assets(mission, {});
   const Pile pile = generate_pile(build_pile_spec(mission.scenario, assets));
   PileState state = settle_once(pile, mission.scenario.settle, mission_path, assets, report);
-  lay_fines(mission.scenario, assets, threads, state);
+  mission.scenario.fines.amount = fines;
+  if (fines > 0) strew_timed(mission.scenario, assets, threads, state, report);
   return build_scene(mission.scenario, assets, state);
 }
 

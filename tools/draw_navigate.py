@@ -56,8 +56,8 @@ def draw(axis, way, picture, box):
     axis.plot(way["target_x"], way["target_y"], ".", color="tab:orange", markersize=3, label="places it drove to")
     axis.plot(way["x"][0], way["y"][0], "ko", markersize=4, label="start")
     axis.plot(way["goal_x"][0], way["goal_y"][0], "g*", markersize=11, label="goal")
-    axis.set_title(f"{os.path.basename(os.path.dirname(os.path.dirname(os.path.abspath(way['path']))))}: "
-                   f"{way['time_s'][-1]:.0f} s", fontsize=10)
+    folder = os.path.dirname(os.path.dirname(os.path.abspath(way["path"])))
+    axis.set_title(f"{os.path.basename(folder)}: {way['time_s'][-1]:.0f} s", fontsize=10)
     axis.set_xlabel("x, m")
     axis.set_ylabel("y, m")
 

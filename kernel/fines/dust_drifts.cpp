@@ -92,7 +92,7 @@ class Mound {
   Vec3 top(int ring, int k) const {
     const double t = double(ring) / kRings, fall = 1 - t * t;
     Vec3 p = place(ring, k);
-    p.z = base_[std::size_t((ring - 1) * kSpokes + k)] + (ring == kRings ? -kBuried : height_ * fall * fall);
+    p.z = base_[std::size_t((ring - 1) * kSpokes + k)] + (ring == kRings ? -kBuried : height_ * fall * (0.4 + 0.6 * fall));
     return p;
   }
 
@@ -147,7 +147,7 @@ class Mound {
 
 // Corners above all.
 double calc_drift_weight(const FineSite& site) {
-  constexpr double kOpen = 0.01, kFades = 0.3;
+  constexpr double kOpen = 0.001, kFades = 0.3;
   return (kOpen + site.corner * site.corner * 4) * portable::exp(-site.away / kFades);
 }
 

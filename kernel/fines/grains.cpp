@@ -33,7 +33,7 @@ struct Manner {
 };
 
 Manner manner_of(FineKind kind, const FinesSpec& spec) {
-  if (kind == FineKind::plaster) return {2, 30, 0.05, 0.008, 0.11, 1.7, 0.0015, 0.006};
+  if (kind == FineKind::plaster) return {2, 30, 0.05, 0.008, 0.11, 2.0, 0.0015, 0.006};
   if (kind == FineKind::glass) return {6, 60, 0.05, 0.004, 0.08, 1.8, 0.003, 0.004};
   return {8, 700, 0.022, spec.size[0], spec.size[1], spec.exponent, 0, 0};
 }
@@ -131,7 +131,7 @@ class GrainStrewer {
 }  // namespace
 
 double calc_site_weight(const FineSite& site, const FinePatches& patches) {
-  constexpr double kOpen = 0.12, kFoot = 4, kFades = 0.3;  // the last: on the ground away from the pile; unit: m
+  constexpr double kOpen = 0.15, kFoot = 2, kFades = 0.3;  // the last: on the ground away from the pile; unit: m
   return (kOpen + kFoot * site.corner) * portable::exp(-site.away / kFades) * patches.at(site.point);
 }
 

@@ -12,23 +12,6 @@ namespace {
 constexpr double kSunk = 0.03;         // into what it lies on, as a share of the height of its middle
 constexpr double kLook = 0.02;         // above a body, for what is below its corners; unit: m
 
-// The normal and distance from the origin of the largest face of a scaled shape.
-Vec3 find_base(const FineShape& shape, const Vec3f& half, double& distance_out) {
-  const auto scaled = [&](std::uint32_t i) {
-    const Vec3f& p = shape.points[i];
-    return Vec3(double(p.x) * double(half.x), double(p.y) * double(half.y), double(p.z) * double(half.z));
-  };
-  double largest = -1;
-  Vec3 normal;
-  for (const auto& t : shape.triangles) {
-    const Vec3 a = scaled(t[0]), twice = cross(scaled(t[1]) - a, scaled(t[2]) - a);
-    const double area = norm(twice);
-    if (area <= largest) continue;
-    largest = area, normal = twice * (1 / area), distance_out = dot(normal, a);
-  }
-  return normal;
-}
-
 }  // namespace
 
 Quat turn_between(const Vec3& from, const Vec3& to) {
@@ -54,12 +37,11 @@ std::optional<RayHit> find_below(const PileQueries& queries, const Vec3& from, d
 
 Pose rest_on(const Support& support, const FineShape& shape, const Vec3f& half, bool flat, double yaw,
              double& middle_height) {
-  double to_base = double(half.z);
-  const Vec3 base = flat ? Vec3(0, 0, -1) : find_base(shape, half, to_base);
-  middle_height = (1 - kSunk) * to_base;
+  const FineBase base = flat ? FineBase{0, {0, 0, -1}, double(half.z)} : find_base(shape, half);
+  middle_height = (1 - kSunk) * base.distance;
   const auto [s, c] = portable::sincos(0.5 * yaw);
   const Quat about_normal{c, support.normal.x * s, support.normal.y * s, support.normal.z * s};
-  const Quat down = turn_between(base, {0, 0, -1}), tilt = turn_between({0, 0, 1}, support.normal);
+  const Quat down = turn_between(base.normal, {0, 0, -1}), tilt = turn_between({0, 0, 1}, support.normal);
   return {normalized(about_normal * tilt * down), support.point + support.normal * middle_height};
 }
 

@@ -55,12 +55,19 @@ class HeapMesh {
     mesh_.surfaces.push_back(std::uint8_t(number));
   }
 
+  // Normals are means over the faces that are seen: with the one that it lies on, corners would be in the dark
+  // below it.
   void add_round(const std::vector<Vec3f>& points, const FineShape& shape, const FinePiece& piece) {
     const auto base = std::uint32_t(mesh_.positions.size());
-    for (const Vec3f& p : points) {
-      mesh_.positions.push_back(p);
-      mesh_.normals.push_back(normalized(p - piece.position));
+    const std::size_t hidden = find_base(shape, piece.half).triangle;
+    mesh_.positions.insert(mesh_.positions.end(), points.begin(), points.end());
+    std::vector<Vec3f> normals(points.size());
+    for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
+      const auto& t = shape.triangles[i];
+      if (i == hidden) continue;
+      for (const std::uint32_t corner : t) normals[corner] += calc_normal(points[t[0]], points[t[1]], points[t[2]]);
     }
+    for (const Vec3f& n : normals) mesh_.normals.push_back(normalized(n));
     for (const auto& t : shape.triangles) add_triangle(base + t[0], base + t[1], base + t[2], piece.surface);
   }
 

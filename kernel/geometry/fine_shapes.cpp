@@ -23,14 +23,8 @@ std::vector<Vec3> even_directions(FineForm form) {
   return all;
 }
 
-FineShape make_polyhedron(FineForm form, RandomStream& random) {
-  std::vector<Vec3> corners;
-  for (const Vec3& even : even_directions(form)) {
-    Vec3 d = normalized(even);
-    for (int i = 0; i < 3; ++i) d[i] += kUneven * random.uniform(-1, 1);
-    corners.push_back(normalized(d) * random.uniform(kNearest, 1));
-  }
-  const Hull hull = calc_hull(corners);
+FineShape hull_of(const std::vector<Vec3>& points) {
+  const Hull hull = calc_hull(points);
   FineShape shape;
   for (const Vec3& p : hull.points) shape.points.push_back(Vec3f(p));
   for (const std::vector<int>& face : hull.faces)
@@ -39,33 +33,32 @@ FineShape make_polyhedron(FineForm form, RandomStream& random) {
   return shape;
 }
 
-// Corners on an ellipse, at uneven angles: convex. The upper side is a little smaller, as broken edges are
-// not upright.
+FineShape make_polyhedron(FineForm form, RandomStream& random) {
+  std::vector<Vec3> corners;
+  for (const Vec3& even : even_directions(form)) {
+    Vec3 d = normalized(even);
+    for (int i = 0; i < 3; ++i) d[i] += kUneven * random.uniform(-1, 1);
+    corners.push_back(normalized(d) * random.uniform(kNearest, 1));
+  }
+  return hull_of(corners);
+}
+
+// Corners at any angle and distance, but for three that keep the middle inside. The upper side is a little
+// smaller, as broken edges are not upright.
 FineShape make_prism(FineForm form, RandomStream& random) {
   const bool shard = form == FineForm::shard;
-  const auto n = std::uint32_t(shard ? 3 + random.below(2) : 5 + random.below(3));
-  const double bevel = shard ? 0.97 : 0.86, turn = random.uniform(0, 2 * portable::kPi);
-  FineShape shape;
-  for (const double z : {-1.0, 1.0})
-    for (std::uint32_t i = 0; i < n; ++i) shape.points.push_back({0, 0, float(z)});
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const double angle = turn + 2 * portable::kPi * (i + random.uniform(-0.3, 0.3)) / n;
-    const auto [s, c] = portable::sincos(angle);
-    for (const std::uint32_t k : {i, n + i}) {
-      const double r = k < n ? 1 : bevel;
-      shape.points[k].x = float(r * c), shape.points[k].y = float(r * s);
-    }
+  const int more = shard ? int(random.below(2)) : 2 + int(random.below(3));
+  const double bevel = shard ? 0.97 : 0.86;
+  const double turn = random.uniform(0, 2 * portable::kPi);
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 3 + more; ++i) {
+    const double about = i < 3 ? turn + 2 * portable::kPi * (i + random.uniform(-0.2, 0.2)) / 3
+                               : random.uniform(0, 2 * portable::kPi);
+    const auto [s, c] = portable::sincos(about);
+    const double r = i == 0 ? 1 : random.uniform(0.5, 0.95);
+    corners.push_back({r * c, r * s, -1}), corners.push_back({bevel * r * c, bevel * r * s, 1});
   }
-  for (std::uint32_t i = 2; i < n; ++i) {
-    shape.triangles.push_back({0, i, i - 1});
-    shape.triangles.push_back({n, n + i - 1, n + i});
-  }
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t j = (i + 1) % n;
-    shape.triangles.push_back({i, j, n + j});
-    shape.triangles.push_back({i, n + j, n + i});
-  }
-  return shape;
+  return hull_of(corners);
 }
 
 std::vector<FineShape> make_shapes() {
@@ -83,6 +76,23 @@ std::vector<FineShape> make_shapes() {
 const FineShape& fine_shape(int number) {
   static const std::vector<FineShape> shapes = make_shapes();
   return shapes.at(std::size_t(number));
+}
+
+FineBase find_base(const FineShape& shape, const Vec3f& half) {
+  const auto scaled = [&](std::uint32_t i) {
+    const Vec3f& p = shape.points[i];
+    return Vec3(double(p.x) * double(half.x), double(p.y) * double(half.y), double(p.z) * double(half.z));
+  };
+  FineBase base;
+  double largest = -1;
+  for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
+    const auto& t = shape.triangles[i];
+    const Vec3 a = scaled(t[0]), twice = cross(scaled(t[1]) - a, scaled(t[2]) - a);
+    const double area = norm(twice);
+    if (area <= largest) continue;
+    largest = area, base = {i, twice * (1 / area), dot(twice, a) / area};
+  }
+  return base;
 }
 
 }  // namespace rubble

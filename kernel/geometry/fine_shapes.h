@@ -20,7 +20,7 @@ enum class FineForm {
   chip,    // four corners: the smallest grit
   pebble,  // six corners
   stone,   // up to twelve corners
-  flake,   // a prism of five to seven corners, flat along z: plaster
+  flake,   // a prism of three to seven corners, flat along z: plaster
   shard    // a prism of three or four corners, flat along z: glass
 };
 inline constexpr int kShapesOfForm = 16;
@@ -31,5 +31,13 @@ constexpr int fine_shape_number(FineForm form, int number) { return int(form) * 
 
 // number: 0 to kFineShapes - 1.
 const FineShape& fine_shape(int number);
+
+// The largest face of a shape whose axes are scaled by `half`: what it lies on.
+struct FineBase {
+  std::size_t triangle = 0;  // index into the shape's
+  Vec3 normal;               // unit length, out of the shape
+  double distance = 0;       // from its origin; unit: as `half`
+};
+FineBase find_base(const FineShape& shape, const Vec3f& half);
 
 }  // namespace rubble

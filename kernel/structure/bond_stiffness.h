@@ -4,7 +4,7 @@
 // a piece: its displacement and its rotation.
 #pragma once
 
-#include "kernel/structure/block_cholesky.h"
+#include "kernel/structure/factor/block_cholesky.h"
 #include "kernel/structure/bond_group.h"
 
 namespace rubble {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "kernel/structure/bond_stiffness.h"
-#include "kernel/structure/updated_factor.h"
+#include "kernel/structure/factor/updated_factor.h"
 
 namespace rubble {
 namespace {

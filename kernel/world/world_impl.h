@@ -233,6 +233,7 @@ struct World::Impl {
   void begin_ties();
   void end_ties();
   void bend_ties();
+  std::vector<std::pair<std::int32_t, std::int32_t>> find_pressed_deep() const;
   void stretch_ties();
   void lose_ties();
 

@@ -24,6 +24,10 @@ constexpr double kShortest = 1e-6;
 constexpr float kSideways = 0.2F;
 // Largest excess length of a tie that has not yielded. unit: m
 constexpr double kMostError = 0.005;
+// Pieces that are deeper in each other than this lengthen the tie that pulls them together, by as much in each
+// step as follows: the concrete that it presses on spalls. unit: m
+constexpr float kSpallingDepth = 0.005F;
+constexpr double kSpalls = 0.001;  // how much longer; unit: m
 // A tie yields from this share of its largest impulse in a substep on. unit: 1
 constexpr float kYields = 0.999F;
 
@@ -160,14 +164,33 @@ void World::Impl::end_ties() {
   tie_order.clear();
 }
 
+// Bodies that are deep in each other, the lower number first, sorted.
+std::vector<std::pair<std::int32_t, std::int32_t>> World::Impl::find_pressed_deep() const {
+  std::vector<std::pair<std::int32_t, std::int32_t>> deep;
+  for (const std::int32_t i : active) {
+    const Contact& c = data.contacts[i];
+    for (int k = 0; k < c.count; ++k) {
+      if (c.points[k].separation < -kSpallingDepth) {
+        deep.push_back(std::minmax(c.body_a, c.body_b));
+        break;
+      }
+    }
+  }
+  std::sort(deep.begin(), deep.end());
+  return deep;
+}
+
 // What yielded is longer by as much as its anchors are now too far apart, and tears when nothing is
 // left. So does what contacts hold apart: it must not press pieces into each other.
 void World::Impl::stretch_ties() {
   if (data.ties.empty()) return;
+  const auto deep = find_pressed_deep();
   for (Tie& tie : data.ties) {
     if (!tie.solved || !(tie.contact.pressed > 0)) continue;
     const bool yields = tie.contact.highest >= kYields * tie.contact.most;
-    const double longer = pose_tie(tie) - tie.state.length - (yields ? 0 : kMostError);
+    double longer = pose_tie(tie) - tie.state.length - (yields ? 0 : kMostError);
+    const std::pair<std::int32_t, std::int32_t> bodies = std::minmax(tie.contact.body_a, tie.contact.body_b);
+    if (std::binary_search(deep.begin(), deep.end(), bodies)) longer = std::max(longer, kSpalls);
     if (!(longer > 0)) continue;
     tie.state.length += longer;
     if (yields) data.tie_energy += tie.state.strength * std::min(longer, tie.state.stretch);

@@ -74,6 +74,13 @@ Sky draw_sky(int side, const Vec3f& to_sun, const RadianceOf& radiance_of) {
   return sky;
 }
 
+void scale_sky(Sky& sky, float scale) {
+  for (Vec3f& value : sky.map) value *= scale;
+  sky.mean *= scale, sky.horizon *= scale;
+}
+
+float luminance_over(const Vec3f& c) { return dot(c, Vec3f(0.2126f, 0.7152f, 0.0722f)); }
+
 // The clear sky with `haze` times the haze, as a function of direction.
 class ClearDome {
  public:
@@ -122,45 +129,79 @@ Sky make_clear_sky(double sun_elevation_deg, const Vec3f& to_sun, float scale) {
   return draw_sky(Sky::kSide, to_sun, [&](const Vec3f& d) { return dome(d) * scale; });
 }
 
+namespace {
+
+// The sun, or the moon in its place.
+struct SkySource {
+  double elevation_deg;
+  Vec3f direction;
+};
+
+SkyLight make_moonlit(const SkySource& moon) {
+  const ClearDome clear(moon.elevation_deg, moon.direction, 1);
+  const auto radiance = [&](const Vec3f& d) {
+    return (clear(d) - night_sky()) * kMoonOverSun + night_sky();
+  };
+  return {draw_sky(Sky::kSide, moon.direction, radiance),
+          sun_illuminance(moon.elevation_deg) * kMoonOverSun};
+}
+
+SkyLight make_overcast(const SkySource& sun) {
+  const Sky dusk = make_clear_sky(std::min(sun.elevation_deg, 0.0), sun.direction, 1);
+  const float klx = overcast_illuminance(sun.elevation_deg, dusk.mean.y * portable::kPiF);
+  return {draw_sky(Sky::kSide, sun.direction, [&](const Vec3f& d) { return overcast_radiance(d.z, klx); }),
+          {}};
+}
+
+SkyLight make_cloudy(const SkySource& sun, double cover, std::uint64_t seed) {
+  const Vec3f beam = sun_illuminance(sun.elevation_deg);
+  const Sky open = make_clear_sky(sun.elevation_deg, sun.direction, 1);
+  const ClearDome clear(sun.elevation_deg, sun.direction, 1);
+  const CloudLayer clouds(cover, seed, sun.direction, beam, open.mean * portable::kPiF);
+  const auto radiance = [&](const Vec3f& d) { return clouds.cover(d, clear(d), open.horizon); };
+  return {draw_sky(Sky::kFineSide, sun.direction, radiance), beam * clouds.beam_share(sun.direction)};
+}
+
+SkyLight make_hazy(const SkySource& sun) {
+  const Vec3f beam = sun_illuminance(sun.elevation_deg, kHazyDay);
+  Sky sky = draw_sky(Sky::kSide, sun.direction, ClearDome(sun.elevation_deg, sun.direction, kHazyDay));
+  const Vec3f lost = sun_illuminance(sun.elevation_deg) - beam;
+  const Vec3f clear = make_clear_sky(sun.elevation_deg, sun.direction, 1).mean * portable::kPiF;
+  scale_sky(sky, hazy_illuminance(clear.y, lost.y, sun.direction.z) / (sky.mean.y * portable::kPiF));
+  return {std::move(sky), beam};
+}
+
+// The colours of the clear sky, with the luminances of the standard; together as much light.
+SkyLight make_cie_clear(const SkySource& sun) {
+  const ClearDome clear(sun.elevation_deg, sun.direction, 1);
+  Sky sky = draw_sky(Sky::kSide, sun.direction, [&](const Vec3f& d) {
+    const Vec3f colour = clear(d);
+    const float ratio = cie_clear_ratio(d.z, sun.direction.z, dot(d, sun.direction));
+    return colour * (ratio / luminance_over(colour));
+  });
+  const Vec3f mean = make_clear_sky(sun.elevation_deg, sun.direction, 1).mean;
+  scale_sky(sky, luminance_over(mean) / luminance_over(sky.mean));
+  return {std::move(sky), sun_illuminance(sun.elevation_deg)};
+}
+
+}  // namespace
+
 SkyLight make_sky_light(const SkySpec& spec, double sun_elevation_deg, const Vec3f& to_sun,
                         std::uint64_t seed) {
-  const double haze = spec.type == SkyType::hazy ? kHazyDay : 1;
-  const Vec3f beam = sun_illuminance(sun_elevation_deg, haze);
-  if (spec.type == SkyType::clear) return {make_clear_sky(sun_elevation_deg, to_sun, 1), beam};
-  if (spec.type == SkyType::city_night)
-    return {draw_sky(Sky::kSide, to_sun, [](const Vec3f& d) { return city_glow(d.z); }), {}};
-  const ClearDome clear(sun_elevation_deg, to_sun, haze);
+  const SkySource sun{sun_elevation_deg, to_sun};
   switch (spec.type) {
-    case SkyType::moonlit:
-      return {draw_sky(Sky::kSide, to_sun,
-                       [&](const Vec3f& d) {
-                         return (clear(d) - night_sky()) * kMoonOverSun + night_sky();
-                       }),
-              beam * kMoonOverSun};
-    case SkyType::overcast: {
-      const Sky dusk = make_clear_sky(std::min(sun_elevation_deg, 0.0), to_sun, 1);
-      const float klx = overcast_illuminance(sun_elevation_deg, dusk.mean.y * portable::kPiF);
-      return {draw_sky(Sky::kSide, to_sun, [&](const Vec3f& d) { return overcast_radiance(d.z, klx); }),
-              {}};
-    }
-    case SkyType::cloudy: {
-      const Sky open = make_clear_sky(sun_elevation_deg, to_sun, 1);
-      const CloudLayer clouds(spec.cloud_cover, seed, to_sun, beam, open.mean * portable::kPiF);
-      return {draw_sky(Sky::kFineSide, to_sun,
-                       [&](const Vec3f& d) { return clouds.cover(d, clear(d), open.horizon); }),
-              beam * clouds.beam_share(to_sun)};
-    }
-    default: {  // hazy
-      Sky sky = draw_sky(Sky::kSide, to_sun, clear);
-      const Vec3f lost = sun_illuminance(sun_elevation_deg) - beam;
-      const float klx = hazy_illuminance(make_clear_sky(sun_elevation_deg, to_sun, 1).mean.y * portable::kPiF,
-                                         lost.y, to_sun.z);
-      const float scale = klx / (sky.mean.y * portable::kPiF);
-      for (Vec3f& value : sky.map) value *= scale;
-      sky.mean *= scale, sky.horizon *= scale;
-      return {std::move(sky), beam};
-    }
+    case SkyType::hazy: return make_hazy(sun);
+    case SkyType::cloudy: return make_cloudy(sun, spec.cloud_cover, seed);
+    case SkyType::overcast: return make_overcast(sun);
+    case SkyType::moonlit: return make_moonlit(sun);
+    case SkyType::city_night:
+      return {draw_sky(Sky::kSide, to_sun, [](const Vec3f& d) { return city_glow(d.z); }), {}};
+    case SkyType::cie_clear:
+      if (to_sun.z > 0) return make_cie_clear(sun);
+      break;
+    case SkyType::clear: break;
   }
+  return {make_clear_sky(sun_elevation_deg, to_sun, 1), sun_illuminance(sun_elevation_deg)};
 }
 
 }  // namespace rubble

@@ -33,6 +33,19 @@ Vec3f overcast_radiance(float sine, float horizontal_klx) {
   return Vec3f(1, 1, 1) * (zenith * (1 + 2 * std::max(sine, 0.0f)) / 3);
 }
 
+float cie_clear_ratio(float sine, float sun_sine, float sun_cosine) {
+  constexpr double a = -1, b = -0.32, c = 10, d = -3, e = 0.45;
+  const auto gradation = [](double cosine_of_zenith) {
+    return 1 + a * portable::exp(b / std::max(cosine_of_zenith, 1e-3));
+  };
+  const auto indicatrix = [](double cosine) {
+    const double angle = portable::acos(std::clamp(cosine, -1.0, 1.0));
+    return 1 + c * (portable::exp(d * angle) - portable::exp(d * portable::kPi / 2)) + e * cosine * cosine;
+  };
+  return float(gradation(double(sine)) * indicatrix(double(sun_cosine)) /
+               (gradation(1) * indicatrix(double(sun_sine))));
+}
+
 Vec3f city_glow(float sine) {
   const float low = 1 - std::clamp(sine, 0.0f, 1.0f);
   return kStreetLamp * (3e-6f * (1 + 4 * low * low * low));

@@ -30,6 +30,11 @@ float overcast_illuminance(double sun_elevation_deg, float clear_dusk);
 // Unit: kcd/m2.
 Vec3f overcast_radiance(float sine, float horizontal_klx);
 
+// The standard clear sky of the CIE with low turbidity (CIE S 011:2003, ISO 15469:2004, type 12): luminance over
+// that of the zenith, by the sines of the elevations of the direction and of the sun, and by the cosine of the
+// angle between them.
+float cie_clear_ratio(float sine, float sun_sine, float sun_cosine);
+
 // The glow of a town with street lamps of 3000 K: 3 mcd/m2 at the zenith, as over large towns (Falchi et
 // al. 2016, "The New World Atlas of Artificial Night Sky Brightness"), five times that at the horizon; the
 // distribution is our choice. Unit: kcd/m2.

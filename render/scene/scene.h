@@ -37,7 +37,8 @@ enum class SkyType {
   cloudy,     // broken clouds over a clear sky
   overcast,   // the overcast sky of the CIE; the sun is hidden
   moonlit,    // a clear night: in the place of the sun stands the full moon
-  city_night  // the glow of a town on a moonless night; the sun is ignored
+  city_night,  // the glow of a town on a moonless night; the sun is ignored
+  cie_clear    // the standard clear sky of the CIE; the sun below the horizon: clear
 };
 struct SkySpec {
   SkyType type = SkyType::clear;

@@ -150,6 +150,10 @@ TEST(ObstacleMap, HoldsCellsThatWereSeenOftenEnough) {
   ASSERT_EQ(near.size(), 1u);
   EXPECT_NEAR(distance(near[0], {0.35, 0.45, 0.55}), 0, 1e-9);
   EXPECT_EQ(map.find_around({0, 0, 0}, 3, -1, 3).size(), 2u);
+  // The same from above.
+  EXPECT_EQ(map.flat_grid().size, (Cell{20, 20, 1}));
+  EXPECT_EQ(map.find_columns(0, 1), (std::vector<Cell>{{0, 10, 0}, {13, 14, 0}}));
+  EXPECT_EQ(map.find_columns(0.4, 0.7), (std::vector<Cell>{{13, 14, 0}}));
 }
 
 // Against a wall whose near side is the plane x = 0.5 and whose top is at `top`.

@@ -73,6 +73,35 @@ TEST(Overcast, IsTheSkyOfTheCie) {
   EXPECT_GT(dusk(-6), 0);
 }
 
+// CIE S 011:2003, type 12, written out with its own constants: a = -1, b = -0.32, c = 10, d = -3, e = 0.45.
+double standard_ratio(double elevation, double sun_elevation, double apart) {
+  const double rad = M_PI / 180;
+  const auto phi = [](double zenith) { return 1 - std::exp(-0.32 / std::cos(zenith)); };
+  const auto f = [](double chi) {
+    return 1 + 10 * (std::exp(-3 * chi) - std::exp(-1.5 * M_PI)) + 0.45 * std::cos(chi) * std::cos(chi);
+  };
+  return phi((90 - elevation) * rad) * f(apart * rad) / (phi(0) * f((90 - sun_elevation) * rad));
+}
+
+TEST(CieClear, HasTheLuminancesOfTheStandard) {
+  for (const double sun : {20.0, 55.0}) {
+    const Sky sky = make_lights(under(SkyType::cie_clear, sun)).sky;
+    const Vec3f to_sun = sun_direction(sun, 30);
+    const double zenith = luminance(sky.radiance({0, 0, 1}));
+    for (const double elevation : {5.0, 30.0, 75.0})
+      for (const double turn : {60.0, 120.0, 210.0}) {
+        const Vec3f d = sun_direction(elevation, turn);
+        const double apart = std::acos(double(dot(d, to_sun))) * 180 / M_PI;
+        EXPECT_NEAR(luminance(sky.radiance(d)) / zenith / standard_ratio(elevation, sun, apart), 1, 0.03)
+            << sun << " " << elevation << " " << turn;
+      }
+    const Sky clear = make_lights(under(SkyType::clear, sun)).sky;
+    EXPECT_NEAR(horizontal_klx(sky) / horizontal_klx(clear), 1, 0.005);
+  }
+  const Sky dusk = make_lights(under(SkyType::cie_clear, -4)).sky, clear = make_lights(under(SkyType::clear, -4)).sky;
+  EXPECT_TRUE(std::equal(dusk.map.begin(), dusk.map.end(), clear.map.begin()));
+}
+
 // More haze takes the sun's light by Lambert and Beer's law, and brightens the sky.
 TEST(Hazy, FollowsTheOpticalDepth) {
   const Scene clear = under(SkyType::clear, 50), hazy = under(SkyType::hazy, 50);
@@ -163,7 +192,7 @@ TEST(Skies, LightTheGroundAlikeInBothRenderers) {
   GlContext context;
   const Pose down = look_at({0, 0, 2}, {0.01, 0, 0});
   for (const SkyType type : {SkyType::clear, SkyType::hazy, SkyType::cloudy, SkyType::overcast,
-                             SkyType::moonlit, SkyType::city_night}) {
+                             SkyType::moonlit, SkyType::city_night, SkyType::cie_clear}) {
     const auto green = [&](RenderQuality quality) {
       RenderOptions options;
       options.colour.quality = quality, options.colour.samples = 256;

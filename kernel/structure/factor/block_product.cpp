@@ -1,4 +1,4 @@
-#include "kernel/structure/block_product.h"
+#include "kernel/structure/factor/block_product.h"
 
 namespace rubble {
 namespace {

@@ -1,4 +1,4 @@
-#include "kernel/structure/elimination_order.h"
+#include "kernel/structure/factor/elimination_order.h"
 
 #include <algorithm>
 #include <set>

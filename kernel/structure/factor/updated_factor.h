@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/structure/block_cholesky.h"
+#include "kernel/structure/factor/block_cholesky.h"
 
 namespace rubble {
 

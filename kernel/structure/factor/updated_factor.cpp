@@ -1,4 +1,4 @@
-#include "kernel/structure/updated_factor.h"
+#include "kernel/structure/factor/updated_factor.h"
 
 #include <cmath>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kernel/base/math.h"
-#include "kernel/structure/block_product.h"
+#include "kernel/structure/factor/block_product.h"
 
 namespace rubble {
 

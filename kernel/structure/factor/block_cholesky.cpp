@@ -1,10 +1,10 @@
-#include "kernel/structure/block_cholesky.h"
+#include "kernel/structure/factor/block_cholesky.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "kernel/structure/elimination_order.h"
+#include "kernel/structure/factor/elimination_order.h"
 
 namespace rubble {
 namespace {

@@ -14,7 +14,7 @@ return rubble.mission {
       { box = { 0.2, 3.4, 1.3 }, position = { 1.9, 0, 0.65 }, material = "brick", broken = { "+z" } },
     },
   },
-  fines = { amount = 60000, cables = 2, pipes = 1 },
+  fines = { amount = 60000, cloth = 0.00005, cables = 2, pipes = 1 },
   light = { type = "sun", elevation_deg = 40, azimuth_deg = 230 },
   camera = { width = 640, height = 480, fov_deg = 65, channels = { "label", "instance" } },
   outputs = { frames = true },

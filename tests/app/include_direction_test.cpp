@@ -108,7 +108,7 @@ Allowed stack(const Prefixes& rooms, const Prefixes& others) {
 }
 
 const Allowed kRender = stack(
-    {"render/scene/", "render/streams/", "render/gl/", "render/camera/", "render/materials/", "render/geometry/",
+    {"render/scene/", "render/streams/", "render/gl/", "render/camera/", "render/materials/", "render/sky/", "render/geometry/",
      "render/lighting/", "render/media/", "render/raster/", "render/passes/",
      "render/transport/", "render/reference/", "render/view/", "render/renderer.", "render/optics/", "render/sensors/",
      "render/lidar/"},
@@ -127,7 +127,7 @@ const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/", "io/ompl
 
 const Allowed kScripting = stack(
     {"scripting/values/", "scripting/trajectory/", "scripting/schema/", "scripting/sandbox/",
-     "scripting/packs/", "scripting/scenario/", "scripting/reference/", "scripting/"},
+     "scripting/packs/", "scripting/sky/", "scripting/scenario/", "scripting/reference/", "scripting/"},
     {"kernel/base/", "kernel/model/everting_tube.h", "kernel/model/fines.h", "kernel/model/pile.h", "kernel/settling/settle.h",
      "render/scene/",
      "render/streams/image_streams.h"});

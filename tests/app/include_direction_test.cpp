@@ -82,7 +82,6 @@ const Allowed kKernel{
     {"kernel/base/", {"kernel/base/"}},
     {"kernel/model/", kernel_rooms(1)},
     {"kernel/geometry/", kernel_rooms(2)},
-    {"kernel/structure/factor/", {"kernel/base/", "kernel/structure/factor/"}},
     {"kernel/structure/", kernel_rooms(3)},
     {"kernel/collision/", with(kernel_rooms(2), {"kernel/collision/"})},
     {"kernel/multibody/", with(kernel_rooms(2), {"kernel/collision/", "kernel/multibody/"})},

@@ -7,7 +7,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
-#include "render/lighting/atmosphere.h"
+#include "render/sky/atmosphere.h"
 
 namespace rubble {
 

@@ -29,7 +29,7 @@ struct LightSpec {
   double azimuth_deg = 215;   // of the sun, from X towards Y; unit: degree
 };
 
-// What the sky of LightType::sun looks like; formulas: lighting/sky_model.h. clear is also that of the
+// What the sky of LightType::sun looks like; formulas: sky/sky_model.h. clear is also that of the
 // other types of light.
 enum class SkyType {
   clear,

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scripting/scenario/sun_position.h"
+#include "scripting/sky/sun_position.h"
 
 namespace rubble {
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "kernel/base/portable_math.h"
-#include "render/lighting/atmosphere.h"
+#include "render/sky/atmosphere.h"
 #include "render/lighting/lighting.h"
 #include "render/media/medium.h"
 #include "render/renderer.h"

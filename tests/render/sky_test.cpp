@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
-#include "render/lighting/atmosphere.h"
-#include "render/lighting/clouds.h"
+#include "render/sky/atmosphere.h"
+#include "render/sky/clouds.h"
 #include "render/lighting/lighting.h"
-#include "render/lighting/sky_model.h"
+#include "render/sky/sky_model.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
 

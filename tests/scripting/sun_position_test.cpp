@@ -1,5 +1,5 @@
 // The sun by place and time against published positions, and the keys for it.
-#include "scripting/scenario/sun_position.h"
+#include "scripting/sky/sun_position.h"
 
 #include <gtest/gtest.h>
 

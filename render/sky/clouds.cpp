@@ -1,4 +1,4 @@
-#include "render/lighting/clouds.h"
+#include "render/sky/clouds.h"
 
 #include <algorithm>
 #include <cmath>

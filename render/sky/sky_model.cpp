@@ -1,4 +1,4 @@
-#include "render/lighting/sky_model.h"
+#include "render/sky/sky_model.h"
 
 #include <algorithm>
 #include <cmath>

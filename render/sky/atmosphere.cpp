@@ -1,4 +1,4 @@
-#include "render/lighting/atmosphere.h"
+#include "render/sky/atmosphere.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scripting/scenario/sun_position.h"
+#include "scripting/sky/sun_position.h"
 
 #include <algorithm>
 #include <cmath>

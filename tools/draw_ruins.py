@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Runs each mission of scripts/ruins, draws all ruins from outside and cut open, and writes their table into a
-document, between its marks.
+document, between its marks; also a table that compares their voids with those of the stagings in
+scripts/collapse.
 
 usage: tools/draw_ruins.py [--program build/release/rubble] [--out out/ruins] docs/collapse.md
 
@@ -20,26 +21,34 @@ from document_marks import write_between_marks
 
 ORDER = ("soft_ground", "car_park", "loaded_roof", "loaded_floor", "quake", "quake_frame", "half_removed",
          "corner_bay", "row_of_columns", "blast", "lorry", "sinking")
+STANDING = ("blast", "sinking")  # not ruins to compare
+STAGED = ("pancake", "lean_to", "v_shape", "a_frame", "cantilever", "inclined", "lean_over", "curtain", "heap", "culvert")
 WIDTH = 420  # of a picture; pixels
 COLUMNS = 3
 NOT_SETTLED = 3  # exit code of rubble run
 
 
-def run(args, name):
-    folder = os.path.join(args.out, name)
-    script = f"scripts/ruins/{name}.lua"
-    if not os.path.exists(os.path.join(folder, "manifest.json")):
-        code = subprocess.run([args.program, "run", script, "--quiet", "--force", "--out", folder],
+def make(args, script, folder, options=()):
+    """The manifest of a run of the script, which is made unless it is there."""
+    path = os.path.join(folder, "manifest.json")
+    if not os.path.exists(path):
+        code = subprocess.run([args.program, "run", script, "--quiet", "--force", "--out", folder, *options],
                               stdout=subprocess.DEVNULL).returncode
         if code not in (0, NOT_SETTLED):
             sys.exit(code)
+    with open(path) as file:
+        return json.load(file)
+
+
+def run(args, name):
+    folder = os.path.join(args.out, name)
+    script = f"scripts/ruins/{name}.lua"
+    manifest = make(args, script, folder)
     cut = os.path.join(folder, "cutaway.png")
     subprocess.run([args.program, "cutaway", folder, "--y", "0.4", "--out", cut], check=True,
                    stdout=subprocess.DEVNULL)
     with open(script) as file:
         text = file.read()
-    with open(os.path.join(folder, "manifest.json")) as file:
-        manifest = json.load(file)
     return {"name": name, "title": text.split("\n")[0][3:], "manifest": manifest,
             "outside": os.path.join(folder, "frames", "rgb", "000000.png"), "cut": cut,
             "extents": [float(v) for v in re.findall(r"(?:bays|span)_[xy] = ([\d.]+)", text)]}
@@ -70,6 +79,26 @@ def row(ruin):
             f"{m['void_count']:.0f} | {m['void_covered_m3']:.0f} | {m['void_depth_m']:.1f} |")
 
 
+def void_measures(manifest):
+    """Of a pile, per volume of its pieces or of its voids, so that sizes do not matter."""
+    m = manifest["metrics"]
+    return (m["void_covered_m3"] / m["piece_volume_m3"], 10 * m["void_count"] / m["void_covered_m3"],
+            m["void_reachable_m3"] / m["void_robot_m3"] if m["void_robot_m3"] > 0 else 0.0, m["void_depth_m"])
+
+
+def compare_voids(ruins, staged):
+    groups = {f"caused: {len(ruins)} ruins": ruins, f"staged: {len(staged)} modes": list(staged.values())}
+    lines = ["| piles | covered volume for each m3 of pieces | voids for each 10 m3 of it | reachable share | "
+             "deepest void, m |", "|---|---|---|---|---|"]
+    for name, manifests in groups.items():
+        columns = list(zip(*map(void_measures, manifests)))
+        lines.append(f"| {name}, median (least to most) | " + " | ".join(
+            f"{np.median(c):.2f} ({min(c):.2f} to {max(c):.2f})" for c in columns) + " |")
+    for name, manifest in staged.items():
+        lines.append(f"| `rubble.collapse.{name}` | " + " | ".join(f"{x:.2f}" for x in void_measures(manifest)) + " |")
+    return "\n".join(lines) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default="build/release/rubble")
@@ -85,6 +114,10 @@ def main():
              "voids | covered volume, m3 | deepest void, m |", "|---|---|---|---|---|---|---|---|---|---|"]
     lines += [row(ruin) for ruin in ruins]
     write_between_marks(args.document, "ruins", "\n".join(lines) + "\n")
+    staged = {name: make(args, f"scripts/collapse/{name}.lua", os.path.join(args.out, "staged", name),
+                         ["--set", "voids.on=true"]) for name in STAGED}
+    caused = [ruin["manifest"] for ruin in ruins if ruin["name"] not in STANDING]
+    write_between_marks(args.document, "voids", compare_voids(caused, staged))
 
 
 if __name__ == "__main__":

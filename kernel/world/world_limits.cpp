@@ -30,7 +30,8 @@ void World::Impl::return_clamped_momentum(std::size_t piece, const Vec3f& speed)
 }
 
 // A piece squeezed out from under a heavy one must not shoot away: sideways and upwards it may
-// become hardly faster in one step than the points which touch it were before.
+// become hardly faster in one step than the points which touch it were before. Nor must what lies on the ground be
+// shot through it: it moves down no faster than its own points or what strikes it did.
 void World::Impl::clamp_ejection_velocity() {
   const auto outwards = [](const Vec3f& v) { return Vec3f{v.x, v.y, std::max(v.z, 0.0F)}; };
   const auto may_kick = [&](const Body& body) {
@@ -39,13 +40,19 @@ void World::Impl::clamp_ejection_velocity() {
   const auto speed_before = [&](const Body& body) {
     return norm(outwards(body.linear)) + float(options.gravity * options.step);
   };
+  const auto sinking_before = [&](const Body& body) {
+    return std::max(-body.linear.z, 0.0F) + norm(body.angular) * float(body.radius) +
+           float(options.gravity * options.step);
+  };
   const bool any = std::any_of(awake_bodies.begin(), awake_bodies.end(), [&](std::int32_t i) {
     const Body& body = data.bodies[i];
     return may_kick(body) &&
-           norm(outwards(velocities[i].linear)) > std::max(speed_before(body), kFreeKick);
+           (norm(outwards(velocities[i].linear)) > std::max(speed_before(body), kFreeKick) ||
+            -velocities[i].linear.z > sinking_before(body) + kFreeKick);
   });
   if (!any) return;
   fastest.assign(data.bodies.size(), 0);
+  std::vector<std::uint8_t> on_ground(data.bodies.size(), 0);
   neighbour.assign(data.bodies.size(), kNobody);
   const auto note = [this](std::int32_t body, std::int32_t other) {
     if (body == kGround) return;
@@ -55,7 +62,10 @@ void World::Impl::clamp_ejection_velocity() {
     if (contact.pressed <= 0) return;
     note(contact.body_a, contact.body_b);
     note(contact.body_b, contact.body_a);
-    if (contact.body_b == kGround) return;
+    if (contact.body_b == kGround) {
+      on_ground[contact.body_a] = 1;
+      return;
+    }
     const Body &a = data.bodies[contact.body_a], &b = data.bodies[contact.body_b];
     float &of_a = fastest[contact.body_a], &of_b = fastest[contact.body_b];
     for (int i = 0; i < contact.count; ++i) {
@@ -66,6 +76,11 @@ void World::Impl::clamp_ejection_velocity() {
   });
   for (std::int32_t i : awake_bodies) {
     if (!may_kick(data.bodies[i])) continue;
+    const float down = -velocities[i].linear.z;
+    const float most_down = std::max(sinking_before(data.bodies[i]), fastest[i]) + kFreeKick;
+    if (on_ground[i] != 0 && down > most_down) {
+      velocities[i].linear.z *= most_down / down, displacements[i].linear.z *= most_down / down;
+    }
     const float after = norm(outwards(velocities[i].linear));
     const float before = speed_before(data.bodies[i]);
     const float squeezed = std::max(before, kKickShare * fastest[i]) + kFreeKick;

@@ -41,6 +41,14 @@ fs::path beside_bench(const std::string& name) {
   return fs::path(RUBBLE_EQUILIBRIUM_BENCH).parent_path() / name;
 }
 
+// In this pile a sheet of plywood lay between the ground and what fell on it, and was shot through the ground at
+// 54 m/s.
+TEST(EquilibriumBench, NothingIsShotThroughTheGround) {
+  const Outcome settled = run_bench("--one --work mixed --seeds 11 --pile-only");
+  ASSERT_EQ(settled.exit_code, 0) << settled.out;
+  EXPECT_EQ(nlohmann::json::parse(settled.out).at("lost"), 0);
+}
+
 TEST(EquilibriumBench, JudgesAPileAndTheSamePileFromItsFile) {
   const std::string mission = RUBBLE_SOURCE_DIR "/scripts/small.lua";
   const Outcome settled = run_bench("--one --work " + mission + " --seeds 1");

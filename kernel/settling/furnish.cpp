@@ -92,15 +92,19 @@ class Furnisher {
     for (std::size_t i = 0; i < spec_.furniture.size(); ++i) {
       const Aabb& e = bounds_[spec_.furniture[i].type];
       const Vec3 size = e.max - e.min;
-      const double room = std::min(b_.span_x, b_.span_y) - b_.column - 2 * kClearance;
+      const double clear = b_.column + 2 * kClearance;
+      const double across = std::min(b_.span_x, b_.span_y) - clear, along = std::max(b_.span_x, b_.span_y) - clear;
       const auto refuse = [i](const std::string& expected, double found) {
         throw InputError({"", 0, "pile.building.furniture[" + std::to_string(i + 1) + "].asset",
                           "does not fit into the building", expected, std::to_string(found) + " m",
                           "take smaller assets, or a building with higher storeys or larger spans"});
       };
       if (size.z > height) refuse("lower than " + std::to_string(height) + " m, below the beams", size.z);
-      if (std::min(size.x, size.y) > room) {
-        refuse("narrower than " + std::to_string(room) + " m, between the columns", std::min(size.x, size.y));
+      if (std::min(size.x, size.y) > across) {
+        refuse("narrower than " + std::to_string(across) + " m, between the columns", std::min(size.x, size.y));
+      }
+      if (std::max(size.x, size.y) > along) {
+        refuse("shorter than " + std::to_string(along) + " m, between the columns", std::max(size.x, size.y));
       }
     }
   }

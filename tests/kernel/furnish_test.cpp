@@ -92,14 +92,16 @@ TEST(Furnish, DependsOnTheSeed) {
 }
 
 TEST(Furnish, NamesWhatDoesNotFit) {
-  PileSpec spec = make_spec({{1, 1, false}, {0, 1, false}});
-  spec.types[0] = testing::box_type("cupboard", 1.2, 0.5, 2.7);
-  try {
-    generate_pile(spec);
-    FAIL() << "must not be accepted";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("pile.building.furniture[2].asset"), std::string::npos)
-        << error.what();
+  for (const Vec3& size : {Vec3{1.2, 0.5, 2.7}, Vec3{5.2, 0.5, 1}, Vec3{4.8, 4.8, 1}}) {
+    PileSpec spec = make_spec({{1, 1, false}, {0, 1, false}});
+    spec.types[0] = testing::box_type("cupboard", size.x, size.y, size.z);
+    try {
+      generate_pile(spec);
+      ADD_FAILURE() << "must not be accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("pile.building.furniture[2].asset"), std::string::npos)
+          << error.what();
+    }
   }
 }
 

@@ -263,6 +263,7 @@ TEST(Stress, WhatCameOffItsFoundationGoesOnWithItsFactor) {
   GroupStress loose(std::move(whole), plate.largest());
   ASSERT_FALSE(loose.group().anchored);
   expect_as_from_a_new_factor(plate, loose, "loose ");
+  EXPECT_EQ(loose.factors_made(), 1);
 }
 
 TEST(Stress, BalancedLoadsOfAFreeGroupNeedNoSupport) {

@@ -232,7 +232,13 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   add_terrain(mission.scenario.pile.terrain, {fs::path(mission.script.path).parent_path().string()},
               library);
   add_robot_folders(mission.scenario, {fs::path(mission.script.path).parent_path().string()}, library);
-  add_building(building_of(mission.scenario), library);
+  try {
+    add_building(building_of(mission.scenario), library);
+  } catch (const InputError& error) {
+    std::vector<Diagnostic> mistakes = error.diagnostics();
+    locate(mistakes, mission.script.path, mission.lines);
+    throw InputError(std::move(mistakes));
+  }
   load(true);  // made of types, so after all of them
   library.mix = make_mix(mission.scenario, all, library);
   for (std::string& warning : find_suspicious(mission)) library.warnings.push_back(std::move(warning));

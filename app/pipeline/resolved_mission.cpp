@@ -128,7 +128,8 @@ ResolvedMission resolve_unfinished(const RunFolder& folder,
 }
 
 Pile make_pile(const ResolvedMission& mission) {
-  return generate_pile(build_pile_spec(mission.pile_scenario, mission.assets));
+  return with_lines_of_script(
+      mission, [&] { return generate_pile(build_pile_spec(mission.pile_scenario, mission.assets)); });
 }
 
 Pile make_laid_pile(const ResolvedMission& mission, const PileState& state) {

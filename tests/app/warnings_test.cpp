@@ -87,5 +87,21 @@ TEST_F(Warnings, NameAPieceThatTheCameraIsInside) {
   EXPECT_EQ(outside.err.find("inside"), std::string::npos) << outside.err;
 }
 
+// What only the pile tells has its line as well.
+TEST(BuildingErrors, HaveTheLinesOfTheirKeys) {
+  const ScratchFolder scratch;
+  const auto error_of = [&](const std::string& building) {
+    write_file(scratch / "m.lua", "return rubble.mission {\n  packs = { 'residential' }, pile = { layers = 0, building = {\n" +
+                                      building + " } } }");
+    const Outcome run = run_rubble("settle " + (scratch / "m.lua") + " --quiet --out " + (scratch / "a"));
+    EXPECT_EQ(run.exit_code, 1);
+    return run.err;
+  };
+  EXPECT_IN("m.lua:4: pile.building.furniture[1].asset: does not fit into the building: expected lower than 1.69",
+            error_of("storeys = 2, storey_height = 2.2,\nfurniture = { { asset = 'refrigerator' } }"));
+  EXPECT_IN("m.lua:3: pile.building.infill_thickness: out of range",
+            error_of("storeys = 2, column = 0.2, infill_thickness = 0.4"));
+}
+
 }  // namespace
 }  // namespace rubble::testing

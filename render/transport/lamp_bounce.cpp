@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/base/parallel.h"
 #include "kernel/base/portable_math.h"
 #include "render/lighting/light_packing.h"
 #include "render/lighting/reflected_light.h"
@@ -38,11 +37,13 @@ LampBounce::LampBounce(const PreparedScene& scene, BakeLinks links, std::vector<
     : scene_(scene),
       links_(std::move(links)),
       first_point_(std::move(first_point)),
-      threads_(threads),
+      pool_(std::max(1, threads)),
       rays_(scene, RayScene::Detail::finest),
       map_(std::size_t(kSide) * kSide) {
   points_.resize(links_.albedos.size());
-  radiance_.resize(points_.size()), arrived_.resize(points_.size());
+  radiance_.resize(points_.size()), once_.resize(points_.size()), arrived_.resize(points_.size());
+  point_shows_.resize(points_.size()), node_shows_.resize(scene.light_nodes);
+  is_seen_.resize(scene.placed.size());
   for (std::size_t piece = 0; piece < scene.placed.size(); ++piece) {
     if (first_point_[piece] == kNoPoints) continue;
     const PlacedMesh& placed = scene.placed[piece];
@@ -56,13 +57,15 @@ LampBounce::LampBounce(const PreparedScene& scene, BakeLinks links, std::vector<
 
 void LampBounce::cast_map(const Vec3f& from) {
   rays_.follow();
-  parallel_for(kSide, threads_, [&](std::size_t y) {
+  pool_.run(kSide, 8, [&](int begin, int end) {
     std::array<RayScene::Ray, kSide> rays;
     std::array<RayScene::PreciseHit, kSide> hits;
-    for (int x = 0; x < kSide; ++x) rays[std::size_t(x)] = {from, 0, direction_of(x, int(y)), kReach};
-    rays_.cast_many(rays.data(), rays.size(), RayScene::Order::coherent, hits.data());
-    for (std::size_t x = 0; x < kSide; ++x)
-      map_[y * kSide + x] = hits[x].triangle == RayScene::kNone ? kReach : hits[x].distance;
+    for (int y = begin; y < end; ++y) {
+      for (int x = 0; x < kSide; ++x) rays[std::size_t(x)] = {from, 0, direction_of(x, y), kReach};
+      rays_.cast_many(rays.data(), rays.size(), RayScene::Order::coherent, hits.data());
+      for (std::size_t x = 0; x < kSide; ++x)
+        map_[std::size_t(y) * kSide + x] = hits[x].triangle == RayScene::kNone ? kReach : hits[x].distance;
+    }
   });
 }
 
@@ -88,40 +91,96 @@ bool LampBounce::may_see(const PlacedMesh& piece, const PlacedLamp& lamp) const 
   return away - piece.radius < distance_towards(way * (1 / away)) * (1 + kSlack) + kNear;
 }
 
-void LampBounce::light_points(const PlacedLamp& lamp) {
-  seen_.clear();
-  for (std::uint32_t piece = 0; piece < scene_.placed.size(); ++piece)
-    if (first_point_[piece] != kNoPoints && may_see(scene_.placed[piece], lamp)) seen_.push_back(piece);
-  std::fill(radiance_.begin(), radiance_.end(), Vec3f());
-  parallel_for(seen_.size(), threads_, [&](std::size_t k) {
-    const std::uint32_t piece = seen_[k];
-    const std::size_t first = first_point_[piece];
-    const std::size_t count = scene_.meshes[scene_.placed[piece].mesh].bake_points.size();
-    for (std::size_t i = first; i < first + count; ++i) {
-      const Vec3f way = points_[i].position - lamp.position;
-      const float facing = -dot(points_[i].normal, way), away2 = dot(way, way);
-      if (facing <= 0 || away2 > kReach * kReach || away2 < 1e-6f) continue;
-      const float away = std::sqrt(away2);
-      if (away > distance_towards(way) * (1 + kSlack) + kNear) continue;
-      const float kept = kept_at(away) * std::exp(-extinction_ * away) * facing / (away * portable::kPiF);
-      radiance_[i] = multiply(links_.albedos[i], lamp.illuminance(lamp.position, points_[i].position)) * kept;
+std::size_t LampBounce::count_points(std::uint32_t piece) const {
+  return scene_.meshes[scene_.placed[piece].mesh].bake_points.size();
+}
+
+template <typename Work>
+void LampBounce::for_seen(const Work& work) {
+  pool_.run(int(seen_.size()), 1, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const std::size_t first = first_point_[seen_[std::size_t(k)]];
+      const std::size_t count = count_points(seen_[std::size_t(k)]);
+      for (std::size_t i = first; i < first + count; ++i) work(i);
     }
   });
 }
 
-// last: with the direction; before, every other ray will do.
-LampBounce::Arrived LampBounce::gather(std::size_t point, bool last) const {
+void LampBounce::light_points(const PlacedLamp& lamp) {
+  for_seen([&](std::size_t i) { radiance_[i] = Light(); });  // of the lamp before
+  seen_.clear();
+  for (std::uint32_t piece = 0; piece < scene_.placed.size(); ++piece) {
+    is_seen_[piece] = first_point_[piece] != kNoPoints && may_see(scene_.placed[piece], lamp);
+    if (is_seen_[piece]) seen_.push_back(piece);
+  }
+  for_seen([&](std::size_t i) {
+    const Vec3f way = points_[i].position - lamp.position;
+    const float facing = -dot(points_[i].normal, way), away2 = dot(way, way);
+    if (facing <= 0 || away2 > kReach * kReach || away2 < 1e-6f) return;
+    const float away = std::sqrt(away2);
+    if (away > distance_towards(way) * (1 + kSlack) + kNear) return;
+    const float kept = kept_at(away) * std::exp(-extinction_ * away) * facing / (away * portable::kPiF);
+    const Vec3f light = multiply(links_.albedos[i], lamp.illuminance(lamp.position, points_[i].position)) * kept;
+    radiance_[i] = {{light.x, light.y, light.z, 0}};
+  });
+}
+
+void LampBounce::show_node(std::uint32_t placed, std::uint32_t node) {
+  std::uint8_t& shows = node_shows_[scene_.placed[placed].first_light + node];
+  if (shows) return;
+  shows = 1;
+  shown_nodes_.push_back({placed, node});
+  for (const std::uint32_t p : scene_.meshes[scene_.placed[placed].mesh].light_nodes[node].points) {
+    const std::uint32_t point = first_point_[placed] + p;
+    if (point_shows_[point]) continue;
+    point_shows_[point] = 1;
+    shown_points_.push_back(point);
+  }
+}
+
+void LampBounce::find_shown(const std::vector<Shown>& shown) {
+  for (const ShownNode& n : shown_nodes_) node_shows_[scene_.placed[n.placed].first_light + n.node] = 0;
+  for (const std::uint32_t point : shown_points_) point_shows_[point] = 0;
+  shown_nodes_.clear(), shown_points_.clear();
+  for (const Shown& s : shown) {
+    if (!is_seen_[s.placed]) continue;
+    const PreparedTriangle& t = scene_.meshes[scene_.placed[s.placed].mesh].triangles[s.triangle];
+    if (t.light_steps < 2) {
+      for (const std::uint32_t vertex : t.vertices) show_node(s.placed, vertex);
+    } else if (!node_shows_[scene_.placed[s.placed].first_light + t.first_node]) {
+      for (std::uint32_t i = 0; i < light_node_count(t.light_steps); ++i) show_node(s.placed, t.first_node + i);
+    }
+  }
+}
+
+// By every other ray.
+Vec3f LampBounce::gather_colour(std::size_t point) const {
+  const std::uint32_t* links = links_.seen.data() + point * BakeLinks::kPerPoint;
+  Light sum;
+  int rays = 0;
+  for (std::size_t k = 0; k < BakeLinks::kPerPoint; k += 2) {
+    rays += links[k] != BakeLinks::kNoRay;
+    if (links[k] >= BakeLinks::kNoRay) continue;  // or dark
+    const Light& light = radiance_[links[k]];
+    for (std::size_t c = 0; c < 4; ++c) sum.colour[c] += light.colour[c];
+  }
+  const float scale = rays > 0 ? portable::kPiF / float(rays) : 0;
+  return Vec3f(sum.colour[0], sum.colour[1], sum.colour[2]) * scale;
+}
+
+// By all rays, and with the direction.
+LampBounce::Arrived LampBounce::gather(std::size_t point) const {
   const std::uint32_t* links = links_.seen.data() + point * BakeLinks::kPerPoint;
   Arrived out;
   int rays = 0;
-  for (std::size_t k = 0; k < BakeLinks::kPerPoint; k += last ? 1 : 2) {
+  for (std::size_t k = 0; k < BakeLinks::kPerPoint; ++k) {
     if (links[k] == BakeLinks::kNoRay) continue;
     ++rays;
     if (links[k] == BakeLinks::kDark) continue;
-    const Vec3f& light = radiance_[links[k]];
+    const float* colour = radiance_[links[k]].colour;
+    const Vec3f light(colour[0], colour[1], colour[2]);
     if (light.y <= 0) continue;
     out.colour += light;
-    if (!last) continue;
     const Vec3f way = points_[links[k]].position - points_[point].position;
     const Vec3f w = way * (1 / std::max(norm(way), 1e-4f));
     out.vector += w * (luminance(light) / std::max(dot(w, points_[point].normal), 0.35f));
@@ -132,63 +191,65 @@ LampBounce::Arrived LampBounce::gather(std::size_t point, bool last) const {
   return out;
 }
 
-void LampBounce::pass_on(const Vec3f& lamp) {
-  const auto over_seen = [&](const auto& work) {
-    parallel_for(seen_.size(), threads_, [&](std::size_t k) {
-      const std::size_t first = first_point_[seen_[k]];
-      const std::size_t count = scene_.meshes[scene_.placed[seen_[k]].mesh].bake_points.size();
-      for (std::size_t i = first; i < first + count; ++i) work(i);
-    });
-  };
-  const auto kept = [&](std::size_t i) { return kept_at(distance(points_[i].position, lamp)); };
-  over_seen([&](std::size_t i) { arrived_[i] = kept(i) > 0 ? gather(i, false) : Arrived(); });
-  // What comes back of light that was thrown back once: the mean over all light, in order, so that the
-  // number of threads does not matter.
+// The share of light that was thrown back once which comes back again: the mean over all light, in order,
+// so that the number of threads does not matter.
+float LampBounce::share_again() const {
   double before = 0, after = 0;
   for (const std::uint32_t piece : seen_) {
     const std::size_t first = first_point_[piece];
-    const std::size_t count = scene_.meshes[scene_.placed[piece].mesh].bake_points.size();
-    for (std::size_t i = first; i < first + count; ++i) {
-      before += double(luminance(radiance_[i]));
-      after += double(luminance(multiply(links_.albedos[i], arrived_[i].colour))) / portable::kPi;
+    for (std::size_t i = first; i < first + count_points(piece); ++i) {
+      const float* direct = radiance_[i].colour;
+      before += double(luminance(Vec3f(direct[0], direct[1], direct[2])));
+      after += double(luminance(multiply(links_.albedos[i], once_[i]))) / portable::kPi;
     }
   }
-  const float again = before > 0 ? std::min(float(after / before), kMostAgain) : 0;
-  over_seen([&](std::size_t i) {
-    radiance_[i] += multiply(links_.albedos[i], arrived_[i].colour) * (1 / (portable::kPiF * (1 - again)));
+  return before > 0 ? std::min(float(after / before), kMostAgain) : 0;
+}
+
+void LampBounce::pass_on(const Vec3f& lamp) {
+  const auto kept = [&](std::size_t i) { return kept_at(distance(points_[i].position, lamp)); };
+  for_seen([&](std::size_t i) { once_[i] = kept(i) > 0 ? gather_colour(i) : Vec3f(); });
+  const float scale = 1 / (portable::kPiF * (1 - share_again()));
+  for_seen([&](std::size_t i) {
+    const Vec3f more = multiply(links_.albedos[i], once_[i]) * scale;
+    for (int c = 0; c < 3; ++c) radiance_[i].colour[c] += more[c];
   });
-  over_seen([&](std::size_t i) {
-    if (kept(i) <= 0) return;  // dark already
-    arrived_[i] = gather(i, true);
-    arrived_[i].colour *= kept(i), arrived_[i].vector *= kept(i);
+  pool_.run(int(shown_points_.size()), 256, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const std::size_t i = shown_points_[std::size_t(k)];
+      const float share = kept(i);
+      arrived_[i] = share > 0 ? gather(i) : Arrived();
+      arrived_[i].colour *= share, arrived_[i].vector *= share;
+    }
   });
 }
 
-void LampBounce::add_to_nodes(std::size_t piece, const std::vector<BakedLight>& base) {
-  const PlacedMesh& placed = scene_.placed[piece];
-  const std::vector<LightNode>& nodes = scene_.meshes[placed.mesh].light_nodes;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    Vec3f colour, vector;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Arrived& a = arrived_[first_point_[piece] + nodes[i].points[k]];
-      colour += a.colour * nodes[i].weights[k], vector += a.vector * nodes[i].weights[k];
-    }
-    if (colour.y <= 0) continue;
-    const Vec3f n(placed.world_from_mesh.rotation.rotate(Vec3(nodes[i].normal)));
-    BakedLight& out = out_[placed.first_light + i];
-    const UnpackedLight there = unpack_light(base[placed.first_light + i], n);
-    out = pack_light(there.vector + vector, there.colour + colour);
+void LampBounce::add_to_node(const ShownNode& shown, const std::vector<BakedLight>& base) {
+  const PlacedMesh& placed = scene_.placed[shown.placed];
+  const LightNode& node = scene_.meshes[placed.mesh].light_nodes[shown.node];
+  Vec3f colour, vector;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Arrived& a = arrived_[first_point_[shown.placed] + node.points[k]];
+    colour += a.colour * node.weights[k], vector += a.vector * node.weights[k];
   }
+  if (colour.y <= 0) return;
+  const Vec3f n(placed.world_from_mesh.rotation.rotate(Vec3(node.normal)));
+  const std::size_t at = placed.first_light + shown.node;
+  const UnpackedLight there = unpack_light(base[at], n);
+  out_[at] = pack_light(there.vector + vector, there.colour + colour);
 }
 
 const std::vector<BakedLight>& LampBounce::add_to(const std::vector<BakedLight>& base, const PlacedLamp& lamp,
-                                                  float extinction) {
+                                                  float extinction, const std::vector<Shown>& shown) {
   extinction_ = extinction;
   cast_map(lamp.position);
   light_points(lamp);
+  find_shown(shown);
   pass_on(lamp.position);
   out_ = base;
-  parallel_for(seen_.size(), threads_, [&](std::size_t k) { add_to_nodes(seen_[k], base); });
+  pool_.run(int(shown_nodes_.size()), 256, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) add_to_node(shown_nodes_[std::size_t(k)], base);
+  });
   return out_;
 }
 

@@ -3,13 +3,15 @@
 // From the lamp a map of distances is cast in all directions, which says which points of the bake it
 // lights. Their light goes on over the points' links, which the bake has kept (direct-to-indirect
 // transfer: Hasan et al. 2006), to the pieces that the lamp may see: once, and a second time together with
-// the first, whose share stands for all further times. So its cost goes with what is about the lamp, and its
-// noise lies still on the surfaces.
+// the first, whose share stands for all further times. The second time is done for the triangles alone that
+// the picture shows. So its cost goes with what is about the lamp and with what shows, and its noise lies
+// still on the surfaces.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "kernel/base/parallel.h"
 #include "render/geometry/ray_scene.h"
 #include "render/lighting/bake.h"
 #include "render/transport/scene_lights.h"
@@ -23,9 +25,14 @@ class LampBounce {
   static constexpr std::uint32_t kNoPoints = 0xffffffffu;
   LampBounce(const PreparedScene& scene, BakeLinks links, std::vector<std::uint32_t> first_point, int threads);
 
-  // `base` and that light, for every node of the scene. extinction: of the air about the lamp; unit: 1/m.
+  struct Shown {
+    std::uint32_t placed;    // which placed mesh
+    std::uint32_t triangle;  // of its prepared mesh
+  };
+  // `base`, and that light at the nodes of the triangles that show, in any order, some perhaps more than
+  // once. extinction: of the air about the lamp; unit: 1/m.
   const std::vector<BakedLight>& add_to(const std::vector<BakedLight>& base, const PlacedLamp& lamp,
-                                        float extinction);
+                                        float extinction, const std::vector<Shown>& shown);
 
  private:
   struct Point {
@@ -34,26 +41,44 @@ class LampBounce {
   struct Arrived {
     Vec3f colour, vector;  // illuminance; dot(n, vector) is its strength on a normal n
   };
+  struct alignas(16) Light {
+    float colour[4] = {};  // the last is 0, so that all are added at once
+  };
+  struct ShownNode {
+    std::uint32_t placed, node;  // of its mesh
+  };
 
   void cast_map(const Vec3f& from);
   float distance_towards(const Vec3f& direction) const;
   bool may_see(const PlacedMesh& piece, const PlacedLamp& lamp) const;
   void light_points(const PlacedLamp& lamp);
-  Arrived gather(std::size_t point, bool last) const;
+  void find_shown(const std::vector<Shown>& shown);
+  void show_node(std::uint32_t placed, std::uint32_t node);
+  Vec3f gather_colour(std::size_t point) const;
+  Arrived gather(std::size_t point) const;
+  template <typename Work>
+  void for_seen(const Work& work);
+  std::size_t count_points(std::uint32_t piece) const;
+  float share_again() const;
   void pass_on(const Vec3f& lamp);
-  void add_to_nodes(std::size_t piece, const std::vector<BakedLight>& base);
+  void add_to_node(const ShownNode& shown, const std::vector<BakedLight>& base);
 
   const PreparedScene& scene_;
   BakeLinks links_;
   std::vector<std::uint32_t> first_point_;
-  int threads_;
+  ThreadPool pool_;
   RayScene rays_;
   std::vector<Point> points_;
   float extinction_ = 0;
   std::vector<float> map_;                // distances by direction, see distance_towards(); unit: m
   std::vector<std::uint32_t> seen_;       // placed meshes that the lamp may see
-  std::vector<Vec3f> radiance_;           // of each point, matt: of its direct light, then of all
-  std::vector<Arrived> arrived_;          // at each point of the seen
+  std::vector<std::uint8_t> is_seen_;     // of each placed mesh
+  std::vector<ShownNode> shown_nodes_;    // of the seen, each once
+  std::vector<std::uint32_t> shown_points_;            // about them, each once
+  std::vector<std::uint8_t> node_shows_, point_shows_; // of each node and point
+  std::vector<Light> radiance_;           // of each point, matt: of its direct light, then of all
+  std::vector<Vec3f> once_;               // illuminance at each point of the seen by one bounce
+  std::vector<Arrived> arrived_;          // at each point that shows, by all bounces
   std::vector<BakedLight> out_;
 };
 

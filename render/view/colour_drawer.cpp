@@ -62,8 +62,8 @@ void ColourDrawer::restart() {
                                            scene_.ground_map, scene_.patterns);
 }
 
-FrameLight ColourDrawer::light_view(const ViewRays& view) {
-  scene_.light_by_lamp(view.lamp_bearer(), view.stamp_ns);
+FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surfaces) {
+  if (scene_.lamp_bounces()) scene_.light_by_lamp(view.lamp_bearer(), view.stamp_ns, surfaces.shown());
   FrameLight light = scene_.frame_light;
   light.world_from_rig = view.world_from_rig ? &*view.world_from_rig : nullptr;
   if (scene_.medium.clear()) return light;
@@ -95,9 +95,9 @@ void ColourDrawer::draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
                                std::optional<float> exposure, std::vector<std::uint8_t>& rgba,
                                ColourImage& image) {
   const Stopwatch start;
-  const FrameLight light = light_view(view);
   const ViewProjection projection = projection_of(view);
   const SurfaceImages images = surfaces.images();
+  const FrameLight light = light_view(view, surfaces);
   const bool metered = !exposure && scene_.options.fixed_exposure <= 0;
   image.exposure = exposure ? *exposure
                    : expose(metered ? resolve_->meter(projection, view.world_from_camera, images, light)
@@ -135,9 +135,9 @@ ColourImage ColourDrawer::draw(const ViewRays& view, DrawnSurfaces& surfaces,
 std::vector<float> ColourDrawer::draw_radiance(const ViewRays& view, DrawnSurfaces& surfaces) {
   scene_.move_to(view.stamp_ns);
   if (reference_) return trace(view);
-  return three_of(resolve_->draw_linear(projection_of(view), view.world_from_camera,
-                                        surfaces.images(), light_view(view)),
-                  4);
+  const SurfaceImages images = surfaces.images();
+  const FrameLight light = light_view(view, surfaces);
+  return three_of(resolve_->draw_linear(projection_of(view), view.world_from_camera, images, light), 4);
 }
 
 }  // namespace rubble

@@ -37,7 +37,7 @@ class ColourDrawer {
 
  private:
   // What depends on the view: where its lamp is, and the air before it.
-  FrameLight light_view(const ViewRays& view);
+  FrameLight light_view(const ViewRays& view, DrawnSurfaces& surfaces);
   std::vector<float> trace(const ViewRays& view) const;
   void draw_traced(const ViewRays& view, std::optional<float> exposure,
                    std::vector<std::uint8_t>& rgba, ColourImage& image) const;

@@ -102,18 +102,21 @@ LampBounce& LitScene::lamp_bounce() {
   return *lamp_bounce_;
 }
 
-void LitScene::light_by_lamp(const Pose& bearer, std::int64_t stamp_ns) {
+bool LitScene::lamp_bounces() const {
+  const bool lit = frame_light.lamp.on && frame_light.lamp.intensity_cd > 0;
+  return lit_by_lamp_ || (lit && (lamp_bounce_ || !links_.albedos.empty()));
+}
+
+void LitScene::light_by_lamp(const Pose& bearer, std::int64_t stamp_ns,
+                             const std::vector<LampBounce::Shown>& shown) {
   const LampSpec& lamp = frame_light.lamp;
-  const bool bounces = lamp_bounce_ || !links_.albedos.empty();
-  const bool lit = lamp.on && lamp.intensity_cd > 0 && bounces;
   const std::vector<BakedLight>& base = live_light ? live_light->light() : baked_nodes_;
-  if (!lit && !lit_by_lamp_) return;
-  lit_by_lamp_ = lit;
-  if (!lit) return update_light(gl, geometry, base);
+  lit_by_lamp_ = lamp.on && lamp.intensity_cd > 0;
+  if (!lit_by_lamp_) return update_light(gl, geometry, base);
   const PlacedLamp placed = place_lamp(lamp, lamp_colour(lamp), bearer);
   const Air air = air_at(stamp_ns);
   const float extinction = air.clear() ? 0 : float(air.extinction(Vec3(placed.position)));
-  update_light(gl, geometry, lamp_bounce().add_to(base, placed, extinction));
+  update_light(gl, geometry, lamp_bounce().add_to(base, placed, extinction, shown));
 }
 
 Air LitScene::air_at(std::int64_t stamp_ns) const {

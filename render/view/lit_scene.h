@@ -48,9 +48,10 @@ struct LitScene {
   bool is_traced() const { return options.colour.quality == RenderQuality::reference; }
   // Puts what moves where it is at that stamp, and lights it there.
   void move_to(std::int64_t stamp_ns);
-  // Adds the light that the lamp sends by way of surfaces to the baked one. bearer: of the lamp, in the
-  // world.
-  void light_by_lamp(const Pose& bearer, std::int64_t stamp_ns);
+  // light_by_lamp() is due: the lamp's light goes by way of surfaces, or did in the picture before.
+  bool lamp_bounces() const;
+  // Adds that light to the baked one, on the triangles that show. bearer: of the lamp, in the world.
+  void light_by_lamp(const Pose& bearer, std::int64_t stamp_ns, const std::vector<LampBounce::Shown>& shown);
   // The medium at that stamp.
   Air air_at(std::int64_t stamp_ns) const;
   void change(const LampSpec& lamp, const AirSpec& air);

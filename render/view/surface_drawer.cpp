@@ -112,6 +112,17 @@ const std::vector<std::uint32_t>& DrawnSurfaces::ids() {
   return ids_;
 }
 
+std::vector<LampBounce::Shown> DrawnSurfaces::shown() {
+  const std::vector<std::uint32_t>& triangle_of_name = drawer_.scene_.geometry.triangle_of_name;
+  const std::vector<std::uint32_t>& two = ids();
+  std::vector<LampBounce::Shown> out;
+  for (std::size_t i = 0; i < two.size(); i += 2) {
+    const bool again = i > 0 && two[i] == two[i - 2] && two[i + 1] == two[i - 1];
+    if (two[i] && !again) out.push_back({two[i] - 1, triangle_of_name[two[i + 1]]});
+  }
+  return out;
+}
+
 const std::vector<float>& DrawnSurfaces::depth_values() {
   if (!in_pass()) return saved_depth_values_;
   return view_.plain() ? drawer_.visibility_.depth_values() : drawer_.rays_->depth_values();

@@ -44,6 +44,7 @@ class DrawnSurfaces {
   // On the device; until another view is drawn.
   SurfaceImages images();
   const std::vector<std::uint32_t>& ids();            // two a pixel, as VisibilityPass::ids()
+  std::vector<LampBounce::Shown> shown();              // the triangles in ids(), some more than once
   const std::vector<float>& depth_values();           // near / Z; as RayPass has them for rays
   const std::vector<float>& planar_depth();           // NaN: nothing; unit: m
   const std::vector<float>& distances();              // along the rays; NaN: nothing; unit: m

@@ -1,6 +1,7 @@
 // Baked light beside light that is followed path by path.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
@@ -139,6 +140,27 @@ TEST(LampBounce, LightsARoomAsPathsDo) {
     off += std::fabs(fast[i] - paths[i]) / paths[i] / 16, sum += fast[i], expected += paths[i];
   EXPECT_NEAR(sum / expected, 1, 0.08);
   EXPECT_LT(off, 0.12);
+}
+
+// Light is added to what a picture shows: pictures before it, and the number of threads, change nothing.
+TEST(LampBounce, DependsOnThePictureAlone) {
+  GlContext context;
+  const auto draw = [&](int threads, bool look_around) {
+    RenderOptions options;
+    options.threads = threads, options.texture_size = 64, options.bake_rays = 16;
+    Renderer renderer(context, room(), options);
+    const Pose lamp = look_at({-1, 0, 0}, {2, 0, 0});
+    ViewRays aside{0, pinhole(64, 64, 32), look_at({-1, 0, 0}, {-1, 3, 0})}, back = aside;
+    aside.world_from_rig = back.world_from_rig = lamp;
+    back.world_from_camera = look_at({1, 0.5, 0}, {-2, -1, 0.4});
+    if (look_around) renderer.render_linear(back);
+    return renderer.render_linear(aside).rgb;
+  };
+  const std::vector<float> alone = draw(1, false);
+  EXPECT_GT(*std::max_element(alone.begin(), alone.end()), 0);
+  EXPECT_TRUE(alone == draw(1, true));
+  EXPECT_TRUE(alone == draw(2, false));
+  EXPECT_TRUE(alone == draw(3, true));
 }
 
 // The light that was added goes when the lamp does, bit for bit.

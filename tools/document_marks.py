@@ -4,14 +4,23 @@ import re
 import sys
 
 
-def write_between_marks(path, name, text):
-    """Replaces what is between the marks; the text around them stays as it is."""
+def split_at_marks(path, name):
+    """The text up to the first mark with it, between the marks, and from the second mark on."""
     with open(path) as file:
-        whole = file.read()
-    pattern = rf"(<!-- begin {name} -->\n).*?(<!-- end {name} -->)"
-    whole, found = re.subn(pattern, lambda marks: marks[1] + text + marks[2], whole, flags=re.DOTALL)
+        found = re.fullmatch(rf"(.*<!-- begin {name} -->\n)(.*?)(<!-- end {name} -->.*)", file.read(), re.DOTALL)
     if not found:
         sys.exit(f"{path} has no marks <!-- begin {name} --> and <!-- end {name} -->")
+    return found.groups()
+
+
+def read_between_marks(path, name):
+    return split_at_marks(path, name)[1]
+
+
+def write_between_marks(path, name, text):
+    """Replaces what is between the marks; the text around them stays as it is."""
+    before, _, after = split_at_marks(path, name)
+    whole = before + text + after
     with open(f"{path}.part", "w") as file:
         file.write(whole)
     os.replace(f"{path}.part", path)

@@ -1,18 +1,21 @@
 #!/usr/bin/python3
-"""Plays the baselines of `rubble bench search` at each difficulty and writes their table into a document, between
-its marks.
+"""Plays the baselines of `rubble bench search` at each difficulty, and perhaps an agent, and writes their rows into the
+table of a document, between its marks. Rows of what was not played stay.
 
-usage: tools/search_table.py [--seeds 1..30] [--agent COMMAND] [--out out/search] [--reuse] docs/search.md
+usage: tools/search_table.py [--seeds 1..30] [--baselines oracle frontier] [--agent COMMAND --name NAME]
+       [--out out/search] [--reuse] docs/search.md
 """
 import argparse
 import json
 import os
 import subprocess
 
-from document_marks import write_between_marks
+from document_marks import read_between_marks, write_between_marks
 
 DIFFICULTIES = ("easy", "medium", "hard")
 BASELINES = ("oracle", "octomap", "frontier", "wall", "random")
+HEAD = ["| difficulty | agent | searches | found | SPL | coverage | false reports | collisions | time, s |",
+        "|---|---|---|---|---|---|---|---|---|"]
 
 
 def play(args, difficulty):
@@ -22,7 +25,7 @@ def play(args, difficulty):
             return json.load(file)["datasets"]
     command = [args.program, "bench", "search", "scripts/search.lua", "--seeds", args.seeds, "--out", out, "--json",
                "--set", f"victims.difficulty={difficulty}"]
-    for name in BASELINES:
+    for name in args.baselines:
         command += ["--baseline", name]
     if args.agent:
         command += ["--agent", args.agent]
@@ -33,24 +36,38 @@ def cell(row, key):
     return f"{row[key]:.2f} ({row[key + '_low']:.2f} to {row[key + '_high']:.2f})"
 
 
+def key_of(line):
+    return tuple(cell.strip() for cell in line.split("|")[1:3])
+
+
+def rank(key):
+    """Difficulties in their order; in each the baselines in theirs, then agents."""
+    difficulty, name = key
+    return DIFFICULTIES.index(difficulty), BASELINES.index(name) if name in BASELINES else len(BASELINES), name
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seeds", default="1..30")
+    parser.add_argument("--baselines", nargs="*", default=BASELINES, choices=BASELINES)
     parser.add_argument("--agent")
+    parser.add_argument("--name", default="examples/search/agent.py", help="of the agent, in the table")
     parser.add_argument("--out", default="out/search")
     parser.add_argument("--program", default="build/release/rubble")
     parser.add_argument("--reuse", action="store_true", help="take the tables that are in the folder already")
     parser.add_argument("--difficulties", nargs="+", default=DIFFICULTIES, choices=DIFFICULTIES)
     parser.add_argument("document")
     args = parser.parse_args()
-    lines = ["| difficulty | agent | searches | found | SPL | coverage | false reports | collisions | time, s |",
-             "|---|---|---|---|---|---|---|---|---|"]
+    rows = {key_of(line): line for line in read_between_marks(args.document, "search").splitlines()
+            if key_of(line)[0] in DIFFICULTIES}
     for difficulty in args.difficulties:
         for row in play(args, difficulty):
-            name = "examples/search/agent.py" if row["name"] == "agent" else row["name"]
-            lines.append(f"| {difficulty} | {name} | {row['searches']:.0f} | {cell(row, 'found_share')} | "
-                         f"{cell(row, 'spl')} | {cell(row, 'coverage')} | {row['false_reports']:.2f} | "
-                         f"{row['collisions']:.0f} | {row['time_s']:.0f} |")
+            name = args.name if row["name"] == "agent" else row["name"]
+            rows[difficulty, name] = (
+                f"| {difficulty} | {name} | {row['searches']:.0f} | {cell(row, 'found_share')} | "
+                f"{cell(row, 'spl')} | {cell(row, 'coverage')} | {row['false_reports']:.2f} | "
+                f"{row['collisions']:.0f} | {row['time_s']:.0f} |")
+    lines = HEAD + [rows[key] for key in sorted(rows, key=rank)]
     write_between_marks(args.document, "search", "\n".join(lines) + "\n")
 
 

@@ -41,6 +41,9 @@ TEST(PythonEnvironments, RepeatTheirEpisodes) { expect_tests("test_envs.py"); }
 
 TEST(PythonEnvironments, KeepWhatGymnasiumAsksOfThem) { expect_tests("test_env_contract.py"); }
 
+TEST(PythonPolicy, SeesAndAnswers) { expect_tests("test_ppo.py -k Senses -k Agent"); }
+TEST(NightlyPython, APolicyLearns) { expect_tests("test_ppo.py -k Training"); }
+
 TEST(PythonBench, WritesItsTableIntoTheDocument) {
   const std::string copy = std::filesystem::temp_directory_path() / ("rubble_envs_" + std::to_string(getpid()) + ".md");
   std::ofstream(copy) << "before\n<!-- begin envs -->\nold\n<!-- end envs -->\nafter\n";

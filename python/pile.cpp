@@ -10,7 +10,6 @@
 #include "kernel/geometry/fine_heaps.h"
 #include "kernel/base/parallel.h"
 #include "kernel/queries/queries.h"
-#include "kernel/settling/settle.h"
 #include "kernel/voids/void_map.h"
 #include "python/arrays.h"
 #include "python/parts.h"
@@ -47,10 +46,7 @@ Pile settle(const std::string& mission, std::optional<std::uint64_t> seed,
   RunContext context(quiet(threads));
   auto settled = std::make_shared<SettledMission>();
   settled->mission = resolve_mission(request, RunKind::settle, context);
-  SettleOptions options = settled->mission.scenario.settle;
-  options.threads = context.threads();
-  settled->state = settle_pile(make_pile(settled->mission), options);
-  add_victims(settled->mission, context.threads(), settled->state);
+  settled->state = settle_in_memory(settled->mission, context, [] { return true; }).state;
   return {settled, context.threads()};
 }
 

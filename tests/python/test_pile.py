@@ -119,5 +119,24 @@ class SettledPile(unittest.TestCase):
         self.assertEqual(voids[0]["cells"].shape[1], 3)
 
 
+class PileWithFines(unittest.TestCase):
+    def test_it_is_that_of_the_program(self):
+        amount = "fines.amount=400"
+        bare = rubble.settle("scripts/fines.lua", overrides=["fines.amount=0"])
+        strewn = rubble.settle("scripts/fines.lua", overrides=[amount], threads=2)
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, "out")
+            subprocess.run([os.environ["RUBBLE_PROGRAM"], "settle", "scripts/fines.lua", "--set", amount, "--quiet",
+                            "--out", out], check=True)
+            kept = rubble.open_pile(out)
+        self.assertEqual(bare.state_hash, strewn.state_hash)
+        for vertices, of_run in zip(strewn.mesh(), kept.mesh()):
+            np.testing.assert_array_equal(vertices, of_run)
+        self.assertGreater(len(strewn.mesh()[0]), len(bare.mesh()[0]) + 400)
+        points = np.random.default_rng(1).uniform([-1.5, -1.2, 0.02], [1.5, 1.2, 0.3], (500, 3))
+        nearer = strewn.clearance(points) < bare.clearance(points) - 1e-3
+        self.assertGreater(nearer.sum(), 5)
+
+
 if __name__ == "__main__":
     unittest.main()

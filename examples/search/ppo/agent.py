@@ -12,7 +12,7 @@ import sys
 
 import numpy as np
 
-from senses import ACTIONS, Senses, coarse_depth, policy
+from senses import ACTIONS, HOLD, Senses, coarse_depth, policy
 
 
 def find_warm(seen, depth, kelvin, camera):
@@ -32,15 +32,18 @@ def main():
     start = json.loads(sys.stdin.readline())
     camera, reported, senses = start["camera"], [], Senses()
     random = np.random.default_rng(start["seed"])
+    action, left = None, 0
     for line in sys.stdin:
         seen = json.loads(line)
         if seen["type"] == "end":
             break
         depth, kelvin = (np.frombuffer(base64.b64decode(seen[name]), "<u2").reshape(camera["height"], -1) * unit
                          for name, unit in (("depth_mm", 0.001), ("thermal_ck", 0.01)))
-        scores = policy(weights, senses.encode(coarse_depth(depth), seen["position"], seen["yaw"], seen["stopped"]))
-        chance = np.exp(scores - scores.max())
-        action = ACTIONS[random.choice(len(ACTIONS), p=chance / chance.sum())]
+        if left == 0 or seen["stopped"]:
+            scores = policy(weights, senses.encode(coarse_depth(depth), seen["position"], seen["yaw"], seen["stopped"]))
+            chance = np.exp(scores - scores.max())
+            action, left = ACTIONS[random.choice(len(ACTIONS), p=chance / chance.sum())], HOLD
+        left -= 1
         answer = {"velocity": (action[:3] * start["speed"]).tolist(), "turn": action[3] * start["turn_rate"]}
         place = find_warm(seen, depth, kelvin, camera)
         if place and all(math.dist(place, other) > 1 for other in reported):

@@ -12,6 +12,7 @@ FAR = 8.0  # m
 CELL, AROUND, MOST_VISITS = 0.5, 11, 8  # of the map of visits: side of a cell in m, cells, and where counting ends
 SIZE = ROWS * COLUMNS + AROUND * AROUND + 2
 
+HOLD = 3  # steps of 0.2 s that an action lasts, unless the body is stopped
 # Forwards, left, up and turn to the left, each from -1 to 1.
 ACTIONS = np.array([[1, 0, 0, 0], [0.7, 0, 0, 0.7], [0.7, 0, 0, -0.7], [0, 0, 0, 1], [0, 0, 0, -1],
                     [0.3, 0, 0.7, 0], [0.3, 0, -0.7, 0]], float)

@@ -3,7 +3,7 @@
 writes its weights for agent.py, and how it learned.
 
 usage: PYTHONPATH=build/release/python /usr/bin/python3 examples/search/ppo/train.py scripts/search.lua weights.npz
-       [--steps 1000000] [--piles 101..116] [--seed 1] [--curve curve.csv]
+       [--steps 400000] [--piles 101..116] [--seed 1] [--curve curve.csv]
 
 It learns in rubble/VoidExplore-v0, in the piles of the mission at those seeds, to see much of the void. It never sees
 a victim. Needs PyTorch (Debian: python3-torch). One thread; the same seed gives the same weights on one machine.
@@ -18,7 +18,7 @@ import numpy as np
 import torch
 
 from rubble.envs import VoidExplore
-from senses import ACTIONS, COLUMNS, FAR, ROWS, SIZE, Senses
+from senses import ACTIONS, COLUMNS, FAR, HOLD, ROWS, SIZE, Senses
 
 ENVIRONMENTS, ROLLOUT = 8, 256
 DISCOUNT, TRACE, CLIP, ENTROPY, EPOCHS, BATCH, RATE = 0.99, 0.95, 0.2, 0.01, 4, 512, 3e-4
@@ -60,13 +60,18 @@ class Explorer:
         return self.senses.encode(observation["depth"][margin:-margin], (x, y, z), yaw, stopped)
 
     def step(self, action):
-        observation, reward, terminated, truncated, info = self.env.step(ACTIONS[action])
-        self.gained += reward
+        gained = 0.0
+        for _ in range(HOLD):
+            observation, reward, terminated, truncated, info = self.env.step(ACTIONS[action])
+            gained += reward
+            if terminated or truncated or info["stops"] > self.stops:
+                break
+        self.gained += gained
         self.seen = self.encode(observation, info)
         if terminated or truncated:
             self.finished.append((self.gained, info["coverage"]))
             self.begin()
-        return reward, terminated or truncated
+        return gained, terminated or truncated
 
 
 def collect(explorers, net):
@@ -136,7 +141,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mission")
     parser.add_argument("weights")
-    parser.add_argument("--steps", type=int, default=1_000_000)
+    parser.add_argument("--steps", type=int, default=400_000, help="actions")
     parser.add_argument("--piles", type=seed_range, default=range(101, 117), metavar="FIRST..LAST")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--curve", metavar="CSV", help="a row for each 16 rollouts: steps, reward and coverage of episodes")
@@ -146,7 +151,7 @@ def main():
     with open(args.mission) as file:
         mission = file.read()
     explorers = [Explorer(VoidExplore(mission=mission, pile_seeds=args.piles[k::ENVIRONMENTS], size=COLUMNS,
-                                      max_range=FAR, max_steps=600), args.seed * 1_000_000 + k)
+                                      max_range=FAR, max_steps=1500), args.seed * 1_000_000 + k)
                  for k in range(min(ENVIRONMENTS, len(args.piles)))]
     net = Net()
     optimizer = torch.optim.Adam(net.parameters(), lr=RATE, eps=1e-5)

@@ -13,13 +13,29 @@
 namespace rubble {
 namespace {
 
+constexpr double kMostTimesLarger = 20;  // than earlier runs together, for them to tell of it; unit: 1
+
+// Of earlier runs together, so that a small one, most of which is its beginning, says little about a large one.
+struct Effort {
+  double seconds = 0, amount = 0;
+
+  bool tells_of(double much) const { return much == 0 || (amount > 0 && much <= kMostTimesLarger * amount); }
+  double expect(double much) const { return much == 0 ? 0 : seconds / amount * much; }
+  void note(double took, double much) {
+    if (!(took > 0) || !(much > 0)) return;
+    seconds = 0.5 * seconds + took, amount = 0.5 * amount + much;
+  }
+};
+
 struct Speeds {
-  double per_piece = 0;      // to settle; 0: not known; unit: s
-  double per_megapixel = 0;  // to light, draw and record; likewise; unit: s
+  Effort settling, collapsing;  // by pieces
+  Effort driving;               // by simulated seconds of a robot
+  Effort lighting;              // by runs that draw: paths, light, shadows
+  Effort drawing, tracing;      // by megapixels
 };
 
 // One entry for this machine and user: where the cache folder is.
-std::string speeds_key() { return CacheKey("run speeds", 1).hex(); }
+std::string speeds_key() { return CacheKey("run speeds", 2).hex(); }
 
 Speeds read_speeds() {
   Speeds speeds;
@@ -27,10 +43,17 @@ Speeds read_speeds() {
   if (!bytes) return speeds;
   CacheReader reader(*bytes);
   reader.get(speeds);
-  return reader.whole() && std::isfinite(speeds.per_piece + speeds.per_megapixel) ? speeds : Speeds{};
+  return reader.whole() ? speeds : Speeds{};
 }
 
-double mix(double known, double found) { return known > 0 ? 0.5 * (known + found) : found; }
+// What of a run takes time.
+struct Parts {
+  double pieces, robot_seconds, runs, megapixels;
+};
+
+Parts parts_of(const RunPreview& preview, bool settles) {
+  return {settles ? preview.pieces : 0, preview.robot_seconds, preview.frames > 0 ? 1.0 : 0.0, preview.megapixels};
+}
 
 std::string whole(double number) { return std::to_string(std::llround(number)); }
 
@@ -47,21 +70,29 @@ RunPreview preview_run(RunKind kind, const Scenario& s, const Scenario& pile_mis
       const CameraScenario& camera = cameras[i].camera;
       const double frames = size_of_flight(s, i).frames;
       preview.frames += frames;
-      preview.megapixels += frames * camera.width * camera.height / 1e6 *
+      const int samples = camera.sensor.pixel_samples;
+      preview.megapixels += frames * camera.width * camera.height / 1e6 * samples * samples *
                             (camera.stereo_baseline > 0 ? 2 : 1);
     }
+    const double rate = cameras.front().rate_hz.value_or(s.trajectory.rate_hz);
+    preview.robot_seconds = double(s.robots.size()) * size_of_flight(s, 0).frames / rate;
+    preview.traced = s.camera.colour.quality == RenderQuality::reference;
+    if (preview.traced) preview.megapixels *= s.camera.colour.samples;
   }
+  preview.collapses = pile.building.given();
   preview.bytes = estimate_bytes(s, assets, kind == RunKind::settle);
   std::filesystem::path place = std::filesystem::absolute(out);
   std::error_code failed;
   while (place.has_relative_path() && !std::filesystem::exists(place, failed)) place = place.parent_path();
   preview.free = free_bytes(place.string());
   const Speeds speeds = read_speeds();
-  const bool settles = kind != RunKind::render;
-  const bool known = (!settles || speeds.per_piece > 0) && (preview.frames == 0 || speeds.per_megapixel > 0);
-  if (known)
-    preview.seconds = (settles ? speeds.per_piece * preview.pieces : 0) +
-                      speeds.per_megapixel * preview.megapixels;
+  const Parts parts = parts_of(preview, kind != RunKind::render);
+  const Effort& piling = preview.collapses ? speeds.collapsing : speeds.settling;
+  const Effort& colouring = preview.traced ? speeds.tracing : speeds.drawing;
+  if (piling.tells_of(parts.pieces) && speeds.driving.tells_of(parts.robot_seconds) &&
+      speeds.lighting.tells_of(parts.runs) && colouring.tells_of(parts.megapixels))
+    preview.seconds = piling.expect(parts.pieces) + speeds.driving.expect(parts.robot_seconds) +
+                      speeds.lighting.expect(parts.runs) + colouring.expect(parts.megapixels);
   return preview;
 }
 
@@ -69,7 +100,7 @@ std::string describe(const RunPreview& preview) {
   std::string text = whole(preview.pieces) + " pieces";
   if (preview.frames > 0) text += ", " + whole(preview.frames) + " frames";
   text += "; at most " + format_bytes(preview.bytes) + " (" + format_bytes(preview.free) + " free)";
-  if (!preview.seconds) return text + ", time not known before a first run here";
+  if (!preview.seconds) return text + ", time not known: nothing like it was run here yet";
   const double seconds = *preview.seconds;
   const std::string time = seconds < 100 ? whole(std::max(1.0, seconds)) + " s"
                            : seconds < 6000 ? whole(seconds / 60) + " minutes"
@@ -98,11 +129,11 @@ void note_speed(const RunPreview& preview, const Progress& progress) {
     return found == times.end() ? 0.0 : found->second;
   };
   Speeds speeds = read_speeds();
-  if (of("settle") > 0 && preview.pieces > 0)
-    speeds.per_piece = mix(speeds.per_piece, of("settle") / preview.pieces);
-  const double drawn = of("flight") + of("scene") + of("render") + of("record");
-  if (preview.megapixels > 0 && drawn > 0)
-    speeds.per_megapixel = mix(speeds.per_megapixel, drawn / preview.megapixels);
+  const Parts parts = parts_of(preview, of("settle") > 0);
+  (preview.collapses ? speeds.collapsing : speeds.settling).note(of("settle"), parts.pieces);
+  speeds.driving.note(of("robots"), parts.robot_seconds);
+  speeds.lighting.note(of("flight") + of("scene"), parts.runs);
+  (preview.traced ? speeds.tracing : speeds.drawing).note(of("render") + of("record"), parts.megapixels);
   CacheWriter writer;
   writer.put(speeds);
   DiskCache(DiskCache::usual_folder()).store("speeds", speeds_key(), writer.bytes());

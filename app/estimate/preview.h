@@ -13,10 +13,13 @@ namespace rubble {
 
 struct RunPreview {
   double pieces = 0, frames = 0;   // frames: 0 for a pile alone
-  double megapixels = 0;           // of all frames together, a stereo pair twice
+  double megapixels = 0;           // of all pictures that are drawn: of a stereo pair both, of a pixel all its samples
+  double robot_seconds = 0;        // simulated, of all robots together
+  bool collapses = false;          // the pile is a building's
+  bool traced = false;             // pictures are path traced; each sample is a pixel
   std::uint64_t bytes = 0;         // at most
   std::uint64_t free = 0;          // on the disk of the output
-  std::optional<double> seconds;   // about; none: nothing like it was run on this machine yet
+  std::optional<double> seconds;   // about; none: nothing like it, as large as a twentieth, was run here yet
 };
 // pile: the mission whose pile is settled; of a `render` another one than `mission`.
 RunPreview preview_run(RunKind kind, const Scenario& mission, const Scenario& pile,
@@ -27,8 +30,8 @@ std::string describe(const RunPreview& preview);
 // A line a file, largest first, and the sum.
 std::string describe_files(RunKind kind, const Scenario& mission, const AssetLibrary& assets);
 
-// Keeps how long a finished run took, a piece and a megapixel, for later previews: in the cache folder,
-// as a mean in which the latest run has half of the weight. Changes no result.
+// Keeps how long a finished run took, for later previews: in the cache folder, as sums in which each run has
+// twice the weight of the one before. Changes no result.
 void note_speed(const RunPreview& preview, const Progress& progress);
 
 }  // namespace rubble

@@ -95,7 +95,7 @@ TEST(Preview, SaysSizeBeforeAndTimeAfterAFirstRun) {
   const Outcome before = run_rubble(run + " --preview", cache);
   EXPECT_EQ(before.exit_code, 0) << before.err;
   EXPECT_IN("16 pieces, 3 frames; at most ", before.out);
-  EXPECT_IN("time not known before a first run here", before.out);
+  EXPECT_IN("time not known: nothing like it was run here yet", before.out);
   EXPECT_IN("mission.bag ", before.out);
   EXPECT_FALSE(fs::exists(scratch / "a")) << "nothing is run";
   const Outcome first = run_rubble(run, cache);
@@ -103,6 +103,10 @@ TEST(Preview, SaysSizeBeforeAndTimeAfterAFirstRun) {
   EXPECT_IN("16 pieces, 3 frames; at most ", first.err);
   const Outcome after = run_rubble(run + " --preview", cache);
   EXPECT_IN(" s by earlier runs here", after.out);
+  // A run of three small pictures tells nothing of one that is much larger, or path traced.
+  for (const char* larger : {" --set trajectory.rate_hz=800", " --set camera.width=4000",
+                             " --set camera.quality=reference", " --set pile.layers=50"})
+    EXPECT_IN("time not known", run_rubble(run + " --preview" + larger, cache).out) << larger;
   const Outcome pile = run_rubble("settle " + (scratch / "tiny.lua") + " --preview --out " + (scratch / "b"), cache);
   EXPECT_EQ(pile.exit_code, 0);
   EXPECT_EQ(pile.out.find("frames"), std::string::npos) << pile.out;

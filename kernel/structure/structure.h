@@ -32,6 +32,7 @@ struct Reinforcement {
 // How a member is held by others.
 enum class MemberJoint : std::uint8_t {
   cast,    // as one with them, by the weaker material and the bars that both have
+  bedded,  // likewise, and what lies on it lies in soft mortar: a lintel
   seated,  // rests on what is below it, free to turn at its ends; units side by side are grouted
   laid,    // boards nailed onto what is below them
 };

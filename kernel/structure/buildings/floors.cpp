@@ -18,6 +18,7 @@ BuildingPart make_lintel(const std::string& name, int storey, const Aabb& box) {
   part.member.kind = MemberKind::beam;
   part.member.material = find_structural_material("concrete", "building.material");
   part.member.bars = make_bars(kLintelBars, kDowels, 0.04);
+  part.member.joint = MemberJoint::bedded;
   part.member.place.storey = storey;
   part.rank = kLintelRank;
   set_box(part.member, box);

@@ -41,7 +41,9 @@ struct Placed {
   double above = 0;  // as of its part
 };
 
-std::vector<Aabb> subtract_all(const BuildingPart& part, const std::vector<Placed>& placed) {
+// walls: as they were drawn. Boards end before them, also where joists have cut them.
+std::vector<Aabb> subtract_all(const BuildingPart& part, const std::vector<Placed>& placed,
+                               const std::vector<Aabb>& walls) {
   std::vector<Aabb> left = {box_of(part.member)};
   const auto take = [&](const Aabb& box, bool pocket) {
     const Axes axes = split_order(part.member, pocket);
@@ -55,13 +57,11 @@ std::vector<Aabb> subtract_all(const BuildingPart& part, const std::vector<Place
   const bool laid = part.member.joint == MemberJoint::laid;
   for (const Placed& other : placed) {
     Aabb box = other.box;
-    if (laid) {
-      box.min = box.min - Vec3{kLaidApart, kLaidApart, 0};
-      box.max = box.max + Vec3{kLaidApart, kLaidApart, 0};
-    } else {
-      box.max.z += other.above;
-    }
+    if (!laid) box.max.z += other.above;
     take(box, other.above > 0);
+  }
+  for (const Aabb& wall : laid ? walls : std::vector<Aabb>{}) {
+    take({wall.min - Vec3{kLaidApart, kLaidApart, 0}, wall.max + Vec3{kLaidApart, kLaidApart, 0}}, false);
   }
   return left;
 }
@@ -135,8 +135,12 @@ std::vector<Member> resolve_parts(std::vector<BuildingPart> parts, const Buildin
                    [](const BuildingPart& a, const BuildingPart& b) { return a.rank < b.rank; });
   std::vector<Member> members;
   std::vector<Placed> placed;
+  std::vector<Aabb> walls;
   for (const BuildingPart& part : parts) {
-    for (const Aabb& box : subtract_all(part, placed)) {
+    if (part.member.kind == MemberKind::wall) walls.push_back(box_of(part.member));
+  }
+  for (const BuildingPart& part : parts) {
+    for (const Aabb& box : subtract_all(part, placed, walls)) {
       if (is_sliver(box)) continue;
       Member member = part.member;
       set_box(member, box);

@@ -9,7 +9,7 @@
 namespace rubble {
 namespace {
 
-constexpr double kMostLintel = 0.6;     // what is lower between a window and the ceiling is cast in one; unit: m
+constexpr double kMostLintel = 0.9;     // what is lower between a window and the ceiling is cast in one; unit: m
 constexpr double kLeastSpandrel = 0.1;  // above a window; lower ones are left out; unit: m
 
 // Drawings carry more digits than builders measure: to 1 mm, so that faces meet.

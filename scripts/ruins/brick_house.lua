@@ -1,4 +1,4 @@
--- A brick house with timber floors; a blast in a room blows out its walls, and the floors above follow.
+-- A brick house with timber floors: an excavation beside it takes two pieces of its outer wall at a corner.
 return rubble.mission {
   seed = 1,
   packs = { "residential" },
@@ -9,7 +9,7 @@ return rubble.mission {
       { asset = "sofa", per_bay = 0.4 }, { asset = "mattress", per_bay = 0.5 },
       { asset = "table", per_bay = 0.7 }, { asset = "chair", per_bay = 2 },
     },
-    cause = { blast = 15000, blast_at = { -2.2, -2.2, 1.2 } },
+    cause = { removed = { { storey = 0, i = 0, j = 0 }, { storey = 0, i = 1, j = 0 } } },
   },
   settle = { final_time_limit = 90 },
   voids = { on = true },

@@ -13,6 +13,6 @@ return rubble.mission {
   settle = { final_time_limit = 90 },
   voids = { on = true },
   camera = { width = 640, height = 480, fov_deg = 60 },
-  trajectory = { waypoints = { { position = { -20, -22, 10 }, look_at = { -6, 0, 2.5 } } } },
+  trajectory = { waypoints = { { position = { -26, -26, 13 }, look_at = { -4, 0, 1 } } } },
   outputs = { frames = true },
 }

@@ -71,7 +71,7 @@ class FrameMaker {
              });
     };
     for (const Member& member : members_) {
-      if (is_opened(member)) parts.push_back({member, kSlabRank, openings, 0});
+      if (is_opened(member)) parts.push_back({member, kSlabRank, openings, false, 0});
     }
     members_.erase(std::remove_if(members_.begin(), members_.end(), is_opened), members_.end());
     RandomStream random(b_.seed, "building parts");

@@ -145,7 +145,7 @@ std::vector<Member> resolve_parts(std::vector<BuildingPart> parts, const Buildin
       Member member = part.member;
       set_box(member, box);
       member.variant = int(random.below(kVariants));
-      cut_into_pieces(member, building);
+      if (!part.whole) cut_into_pieces(member, building);
       members.push_back(member);
       placed.push_back({box, part.above});
     }

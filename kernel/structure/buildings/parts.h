@@ -14,6 +14,7 @@ struct BuildingPart {
   Member member;            // its box is what was drawn
   int rank = 0;             // parts of a lower rank take their place first, then those drawn first
   std::vector<Aabb> holes;  // taken out of it: windows, openings for stairs
+  bool whole = false;       // it is one piece
   double above = 0;         // what it takes of others above its box: the pocket of a joist; unit: m
 };
 

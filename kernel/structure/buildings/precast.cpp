@@ -56,16 +56,20 @@ class PrecastMaker {
     return parts_.back();
   }
 
+  // Its head, with the corbels, is one piece.
   void add_column(int k, int i, int j) {
     const double x = x_of(b_, i), y = y_of(b_, j), half = b_.column / 2, top = top_of(k);
+    const double high = top - b_.beam_depth, low = high - kCorbelDepth;
     MemberPlace& place = add(place_name("column", k, i, j), MemberKind::column, k,
-                             {{x - half, y - half, top - b_.storey_height}, {x + half, y + half, top}}, b_.column_bars)
+                             {{x - half, y - half, top - b_.storey_height}, {x + half, y + half, low}}, b_.column_bars)
                              .member.place;
     place.i = i, place.j = j, place.bearing = true;
-    const double high = top - b_.beam_depth, low = high - kCorbelDepth;
+    BuildingPart& head = add(place_name("column head", k, i, j), MemberKind::column, k,
+                             {{x - half, y - half, low}, {x + half, y + half, top}}, b_.column_bars);
+    head.whole = head.member.place.bearing = true;
     const std::string name = place_name("corbel", k, i, j);
     const auto corbel = [&](const Vec3& from, const Vec3& to) {
-      add(name, MemberKind::beam, k, {min(from, to), max(from, to)}, b_.column_bars);
+      add(name, MemberKind::beam, k, {min(from, to), max(from, to)}, b_.column_bars).whole = true;
     };
     if (i > 0) corbel({x - half, y - half, low}, {x - half - kCorbelReach, y + half, high});
     if (i < b_.bays_x) corbel({x + half, y - half, low}, {x + half + kCorbelReach, y + half, high});

@@ -11,7 +11,7 @@ namespace rubble {
 namespace {
 
 struct Request {
-  std::string cause = "corner";
+  std::string cause = "corner", kind = "frame";
   int threads = 2, storeys = 4, bays = 3;
   double piece = 0.8, limit = 20, overload = 1500, weakness = 0.2, shake = 4, column = 0.4, blast = 2000, continuity = 0.5,
          sinks = 0.1, vehicle = 20000;
@@ -26,6 +26,17 @@ BuildingSpec make_building(const Request& request) {
   b.column = request.column;
   b.seed = request.seed;
   b.continuity = request.continuity;
+  if (request.kind == "masonry") b.kind = BuildingKind::masonry;
+  if (request.kind == "precast") b.kind = BuildingKind::precast, b.infill = Infill::none;
+  if (request.kind == "bridge") {
+    b.kind = BuildingKind::bridge;
+    b.storeys = 1, b.storey_height = 6.5, b.column = 0.9, b.beam_depth = 1.2, b.slab = 0.22;
+    b.span_x = 14, b.span_y = 2.4;
+  }
+  if (request.kind == "parts") {
+    b.partitions = Infill::brick, b.parapet = 0.9;
+    b.stairs = {{0, 0}}, b.cores = {{1, 1}};
+  }
   CollapseCause& c = b.cause;
   if (request.cause == "corner") c.removed = {{0, 0, 0}};
   if (request.cause == "edge") c.removed = {{0, 1, 0}};
@@ -97,6 +108,7 @@ int main(int argc, char** argv) {
   rubble::Request request;
   CLI::App app("A building from its cause to checked rest");
   app.add_option("--cause", request.cause, "none corner edge interior side storey overload shake blast sinking vehicle");
+  app.add_option("--kind", request.kind, "frame masonry precast bridge, or parts: a frame with all that it may have");
   app.add_option("--threads", request.threads, "threads");
   app.add_option("--storeys", request.storeys, "storeys");
   app.add_option("--bays", request.bays, "bays along X and Y");

@@ -88,6 +88,7 @@ std::string hash_piece(const PieceType& type, const TriangleMesh& mesh) {
 BuildingSpec building_of(const Scenario& scenario) {
   BuildingSpec building = scenario.pile.building;
   building.seed = scenario.seed;
+  if (building.planned()) building.storeys = int(building.plan.heights.size());
   return building;
 }
 

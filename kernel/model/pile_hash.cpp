@@ -65,6 +65,33 @@ void add(StateHash& hash, const std::vector<AssemblyType>& assemblies) {
   }
 }
 
+void add(StateHash& hash, const std::string& text) {
+  add_count(hash, text.size());
+  for (const char c : text) hash.add(std::uint8_t(c));
+}
+
+// What a plain frame does not have.
+void add_parts(StateHash& hash, const BuildingSpec& b) {
+  hash.add(std::uint8_t(b.kind));
+  hash.add(std::uint8_t(b.partitions));
+  for (const double number : {b.parapet, b.wall, b.joist_depth, b.joist_width, b.joist_spacing}) hash.add(number);
+  for (const auto* bays : {&b.stairs, &b.cores}) {
+    add_count(hash, bays->size());
+    for (const BayPlace& bay : *bays) hash.add(std::int32_t(bay.i)), hash.add(std::int32_t(bay.j));
+  }
+  add_count(hash, b.plan.heights.size());
+  for (const double height : b.plan.heights) hash.add(height);
+  add_count(hash, b.plan.parts.size());
+  for (const PlanPart& p : b.plan.parts) {
+    for (const int number : {int(p.kind), p.lowest, p.highest, int(p.material)}) hash.add(std::int32_t(number));
+    for (const double number : {p.x1, p.y1, p.x2, p.y2, p.thickness, p.depth, p.bottom, p.top, p.bars}) hash.add(number);
+    add(hash, p.name);
+  }
+  for (const ColumnPlace& p : b.cause.removed) add(hash, p.part);
+  for (const SinkingFooting& f : b.cause.sinking) add(hash, f.part);
+  add(hash, b.cause.vehicle.part);
+}
+
 void add(StateHash& hash, const BuildingSpec& b) {
   const CollapseCause& c = b.cause;
   for (const int number : {b.storeys, b.bays_x, b.bays_y, c.weak_storey, c.overloaded_floor}) {
@@ -91,6 +118,7 @@ void add(StateHash& hash, const BuildingSpec& b) {
   for (const SinkingFooting& f : c.sinking) {
     hash.add(std::int32_t(f.i)), hash.add(std::int32_t(f.j)), hash.add(f.depth);
   }
+  if (!b.plain()) add_parts(hash, b);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
-#include "kernel/structure/frame_building.h"
+#include "kernel/structure/building.h"
 #include "kernel/structure/standing.h"
 
 namespace rubble {
@@ -36,23 +36,28 @@ BuildingCollapse::BuildingCollapse(World& world, const Pile& pile, const SettleO
   if (building.cause.vehicle.mass > 0) drive_into(damaged);
 }
 
-int BuildingCollapse::find_column(const Structure& structure, int i, int j) const {
+std::vector<int> BuildingCollapse::find_column(const Structure& structure, int i, int j,
+                                               const std::string& part) const {
+  std::vector<int> members;
   for (std::size_t m = 0; m < structure.members.size(); ++m) {
-    if (is_ground_column(structure.members[m], i, j)) return int(m);
+    if (is_ground_column(structure.members[m], i, j, part)) members.push_back(int(m));
   }
-  return -1;
+  return members;
 }
 
 void BuildingCollapse::find_footings(const Structure& structure) {
   for (const SinkingFooting& f : building_.cause.sinking) {
-    footings_.push_back({find_column(structure, f.i, f.j), f.depth});
+    for (const int member : find_column(structure, f.i, f.j, f.part)) footings_.push_back({member, f.depth});
   }
 }
 
+// Into the widest of its members.
 void BuildingCollapse::drive_into(const Structure& structure) {
   const StrikingVehicle& v = building_.cause.vehicle;
-  const int column = find_column(structure, v.i, v.j);
-  if (column < 0) return;
+  const std::vector<int> members = find_column(structure, v.i, v.j, v.part);
+  if (members.empty()) return;
+  const auto width = [&](int m) { return std::max(structure.members[m].size.x, structure.members[m].size.y); };
+  const int column = *std::max_element(members.begin(), members.end(), [&](int m, int n) { return width(m) < width(n); });
   const portable::SinCos direction = portable::sincos(v.direction_deg * portable::kPi / 180);
   Vec3 at = structure.members[column].centre;
   at.z = v.height;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,7 +26,8 @@ class BuildingCollapse {
   CollapseReport report() const { return collapse_->report(); }
 
  private:
-  int find_column(const Structure& structure, int i, int j) const;  // its member; -1: none
+  // Its members; none where it was removed. part: of a plan.
+  std::vector<int> find_column(const Structure& structure, int i, int j, const std::string& part) const;
   void find_footings(const Structure& structure);
   void drive_into(const Structure& structure);
   void sink_footings();

@@ -11,6 +11,8 @@ namespace rubble {
 namespace {
 
 constexpr int kMostChanges = 192;     // that a factor follows before it is made anew; unit: 1
+// What comes off may cut more than that at once: up to here this costs less than a new factor. unit: 1
+constexpr int kMostCuts = 384;
 constexpr int kPiecesPerChange = 8;  // at least: the factor of a small group costs less; unit: 1
 constexpr double kResidual = 1e-6;  // of the loads: more, and the factor is made anew; unit: 1
 
@@ -288,16 +290,22 @@ struct GroupStress::Impl {
     if (!made || !regular || options.second_order || 2 * group.pieces.size() < members.size()) return begin();
     std::vector<Spring> grips;
     for (const std::int32_t member : find_loose(whole)) grips.push_back({member, held_by(member)});
-    std::vector<Link> kept;
+    std::vector<std::size_t> kept, cut;
+    int changes = 6 * int(grips.size());
     for (std::size_t i = 0; i < links.size(); ++i) {
-      Link& link = links[i];
+      const Link& link = links[i];
       if (std::binary_search(group.bonds.begin(), group.bonds.end(), whole.bonds[i])) {
-        kept.push_back(link);
+        kept.push_back(i);
       } else if (has(link.a) || (link.b >= 0 && has(link.b))) {
-        change(link, Six{});
+        cut.push_back(i);
+        changes += int(std::count_if(link.stiffness.begin(), link.stiffness.end(), [](double k) { return k != 0; }));
       }
     }
-    links = std::move(kept);
+    if (factor.rank() + changes > kMostCuts) return begin();
+    for (const std::size_t i : cut) change(links[i], Six{});
+    std::vector<Link> left_links;
+    for (const std::size_t i : kept) left_links.push_back(links[i]);
+    links = std::move(left_links);
     for (const Spring& grip : grips) hold(grip.member, grip.stiffness);
     springs.erase(std::remove_if(springs.begin(), springs.end(),
                                  [this](const Spring& spring) { return !has(spring.member); }),

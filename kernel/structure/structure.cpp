@@ -15,12 +15,78 @@ namespace {
 constexpr double kSamePlane = 1e-6;    // faces of two members meet when nearer; unit: m
 constexpr double kLeastJoint = 1e-4;   // smaller common faces join nothing; unit: m2
 
+// A dry bearing turns freely: its share of the elastic stiffness keeps the factor regular. unit: 1
+constexpr double kPinned = 1e-4;
+// Bedding gives way against what it lies between: mortar, elastomer (G = 0.9 MPa), timber across its grain
+// (370 MPa, EN 338). unit: 1
+constexpr double kBedding = 1e-2;
+// Nails slip by 1 mm under 1 kN (EN 1995-1-1, table 7.1), two at each crossing; grout between floor units is
+// cracked, and they lie on soft strips. unit: 1
+constexpr double kSlip = 1e-3;
+
+// A joint that is weaker than what it joins. EN 1992-1-1, 6.2.5: a very smooth interface has a tenth of the
+// tensile strength as cohesion, and friction of 0.5; 10.9.3 (12): grouted joints of floor units 0.15 MPa.
+// Mortar of a bed: EN 1996-1-1, 3.6.4. Two nails of 1 kN at a crossing of boards: EN 1995-1-1, 8.3.
+// Timber pressed across its grain: 2.5 MPa, EN 338.
+struct Joint {
+  double tension, shear, friction;  // unit: Pa; the last 1
+};
+constexpr Joint kSeat{0.05e6, 0.26e6, 0.5};
+constexpr Joint kGrout{0.05e6, 0.15e6, 0.5};
+constexpr Joint kNails{0.1e6, 0.1e6, 0.3};
+constexpr double kTimberAcross = 2.5e6;  // unit: Pa
+
+// Across vertical planes units interlock: bending strength 0.4 against 0.1 MPa of bed joints (EN 1996-1-1,
+// 3.6.4), shear strength up to 0.065 fb = 1 MPa against 0.2 MPa (3.6.2). unit: 1
+constexpr double kAcrossBeds = 4;
+// Walls lie on lintels and floors in a bed of mortar that evens out their deflection, and floors and lintels that
+// rest on masonry crack its uppermost joint instead of turning the wall. A deck slips a little on its girders.
+// unit: 1
+constexpr double kBed = 0.05;
+
+enum class JoinedBy : std::uint8_t { nothing, casting, bed, rest, seat, grout, nails };
+
+bool is_bearing_masonry(const Member& member) {
+  const std::string& name = member.material.name;
+  return member.place.bearing && (name == "brick_masonry" || name == "block_masonry");
+}
+
+bool is_cast(const Member& member) {
+  return member.joint == MemberJoint::cast || member.joint == MemberJoint::bedded;
+}
+
+bool is_timber(const Member& member) { return member.material.name == "timber"; }
+
+// normal: from a to b.
+JoinedBy find_joint(const Member& a, const Member& b, const Vec3& normal) {
+  const Member &upper = normal.z > 0 ? b : a, &lower = normal.z > 0 ? a : b;
+  if (is_cast(a) && is_cast(b)) {
+    if (std::abs(normal.z) < 0.5) return a.joint == b.joint ? JoinedBy::casting : JoinedBy::bed;
+    if (lower.joint == MemberJoint::bedded || (is_bearing_masonry(upper) && lower.kind == MemberKind::slab)) {
+      return JoinedBy::bed;
+    }
+    const bool rests = upper.kind == MemberKind::slab || upper.kind == MemberKind::beam;
+    return rests && is_bearing_masonry(lower) ? JoinedBy::rest : JoinedBy::casting;
+  }
+  if (std::abs(normal.z) < 0.5) {
+    if (a.joint != b.joint || a.kind != b.kind) return JoinedBy::nothing;
+    if (a.joint == MemberJoint::laid) return JoinedBy::casting;
+    const bool side_by_side = a.kind == MemberKind::slab && std::abs(normal[a.span_axis]) < 0.5;
+    return side_by_side ? JoinedBy::grout : JoinedBy::nothing;
+  }
+  if (upper.joint == MemberJoint::seated) return JoinedBy::seat;
+  if (upper.joint == MemberJoint::laid) return JoinedBy::nails;
+  if (lower.joint == MemberJoint::laid) return JoinedBy::seat;
+  return is_timber(lower) ? JoinedBy::nothing : JoinedBy::bed;
+}
+
 // What makes two members' pieces equal.
-using CutKey = std::tuple<int, double, double, double, int, int, int, double, double, std::string, int>;
+using CutKey = std::tuple<int, double, double, double, int, int, int, double, double, std::string, double, double, int>;
 
 CutKey key_of(const Member& m) {
   return {int(m.kind),     m.size.x,          m.size.y,      m.size.z,          m.cut.counts[0],
-          m.cut.counts[1], m.cut.counts[2],   m.cut.roughness, m.cut.gap, m.material.name, m.variant};
+          m.cut.counts[1], m.cut.counts[2],   m.cut.roughness, m.cut.gap, m.material.name,
+          m.material.density, m.bars.ratio,  m.variant};
 }
 
 // The fragments of one kind of member, and the types that they became.
@@ -167,14 +233,73 @@ class Builder {
     outer_.push_back(face);
   }
 
-  void join(std::int32_t a, std::int32_t b, const Vec3& normal, const Polygon& polygon) {
+  void join(std::int32_t a, std::int32_t b, const Vec3& normal, const Polygon& polygon,
+            JoinedBy by = JoinedBy::casting) {
     const AreaProperties area = calc_area_properties(polygon, make_axes(normal));
     if (area.area < kLeastJoint) return;
     Bond bond;
     bond.piece_a = a, bond.piece_b = b;
-    bond.section = make_section(polygon, normal, weaker(a, b), steel_of(a, b, normal, area.area));
+    if (by == JoinedBy::casting || by == JoinedBy::bed || by == JoinedBy::rest) {
+      bond.section = make_section(polygon, normal, weaker(a, b), steel_of(a, b, normal, area.area));
+      const bool masonry = is_bearing_masonry(member_of(a)) && (b == kFoundation || is_bearing_masonry(member_of(b)));
+      if (masonry && std::abs(normal.z) < 0.5) {
+        bond.section.tension *= kAcrossBeds;
+        bond.section.shear *= kAcrossBeds;
+      }
+    } else {
+      bond.section = make_section(polygon, normal, weaker(a, b), {});
+      weaken(bond, by);
+    }
     set_stiffness(bond);
+    soften(bond, by);
     structure_.bonds.push_back(bond);
+  }
+
+  void weaken(Bond& bond, JoinedBy by) const {
+    const Joint& joint = by == JoinedBy::seat ? kSeat : by == JoinedBy::grout ? kGrout : kNails;
+    Section& s = bond.section;
+    s.tension = std::min(s.tension, joint.tension);
+    s.shear = std::min(s.shear, joint.shear);
+    s.shear_friction = joint.friction;
+    if (is_timber(member_of(bond.piece_a)) || is_timber(member_of(bond.piece_b))) {
+      s.compression = std::min(s.compression, kTimberAcross);
+    }
+  }
+
+  static void scale(Bond& bond, double share) {
+    bond.axial_stiffness *= share, bond.shear_stiffness *= share, bond.torsion_stiffness *= share;
+    bond.bending_s_stiffness *= share, bond.bending_t_stiffness *= share;
+  }
+
+  // A seat turns about the horizontal axis across the span of what rests on it; under floor units about both,
+  // since their bedding gives way to the sag of what carries them.
+  void soften(Bond& bond, JoinedBy by) const {
+    const bool b_is_upper = bond.section.normal.z > 0;
+    const Member& upper = member_of(bond.piece_b == kFoundation || !b_is_upper ? bond.piece_a : bond.piece_b);
+    const bool turns_about_s = std::abs(bond.section.axis_s[upper.span_axis]) < 0.5;
+    const bool freely = by == JoinedBy::grout || upper.kind == MemberKind::slab;
+    switch (by) {
+      case JoinedBy::nothing:
+      case JoinedBy::casting: return;
+      case JoinedBy::bed:
+        scale(bond, kBed);
+        return;
+      case JoinedBy::rest:
+        scale(bond, kBed);
+        bond.bending_s_stiffness *= kPinned, bond.bending_t_stiffness *= kPinned;
+        return;
+      case JoinedBy::nails:
+        scale(bond, kSlip);
+        return;
+      case JoinedBy::seat:
+      case JoinedBy::grout: {
+        const double share = freely ? kSlip : kBedding;
+        scale(bond, share);
+        if (upper.joint != MemberJoint::seated) return;
+        if (turns_about_s || freely) bond.bending_s_stiffness *= kPinned;
+        if (!turns_about_s || freely) bond.bending_t_stiffness *= kPinned;
+      }
+    }
   }
 
   const Member& member_of(std::int32_t piece) const {
@@ -246,6 +371,8 @@ class Builder {
       if (a.box.min[axis] > b.box.max[axis] + kSamePlane) return;
       if (b.box.min[axis] > a.box.max[axis] + kSamePlane) return;
     }
+    const JoinedBy by = find_joint(member_of(a.piece), member_of(b.piece), a.plane.normal);
+    if (by == JoinedBy::nothing) return;
     Polygon common = a.polygon;
     for (std::size_t i = 0; i < b.polygon.size(); ++i) {
       const Vec3 edge = b.polygon[(i + 1) % b.polygon.size()] - b.polygon[i];
@@ -253,7 +380,7 @@ class Builder {
       common = clip(common, {outwards, dot(outwards, b.polygon[i])});
     }
     if (common.empty()) return;
-    join(a.piece, b.piece, a.plane.normal, common);
+    join(a.piece, b.piece, a.plane.normal, common, by);
   }
 
   void join_foundation() {

@@ -29,6 +29,23 @@ struct Reinforcement {
   Steel steel;            // yield and rupture of the bars
 };
 
+// How a member is held by others.
+enum class MemberJoint : std::uint8_t {
+  cast,    // as one with them, by the weaker material and the bars that both have
+  bedded,  // likewise, and what lies on it lies in soft mortar: a lintel
+  seated,  // rests on what is below it, free to turn at its ends; units side by side are grouted
+  laid,    // boards nailed onto what is below them
+};
+
+// Which part of its building a member is, as causes ask for it.
+struct MemberPlace {
+  int storey = -1;        // -1: none
+  int i = -1, j = -1;     // of the column that it is a part of; -1: of none
+  std::string part;       // of a plan: its name
+  bool infill = false;    // a wall that only loads its frame
+  bool bearing = false;   // a wall or column that carries floors
+};
+
 // A box with its material.
 struct Member {
   std::string name;                    // as errors name it
@@ -39,6 +56,9 @@ struct Member {
   CutOptions cut;                      // into pieces
   // Below 1: gaps and soft joints let it carry that share only of what it would as one with the frame.
   double stiffness = 1;  // unit: 1; range: above 0 to 1
+  MemberJoint joint = MemberJoint::cast;
+  int span_axis = 0;  // of a seated member: 0 along X, 1 along Y
+  MemberPlace place;
   int variant = 0;  // members of one kind, size, material and cut with the same one share their pieces
 };
 

@@ -119,6 +119,10 @@ function rubble.wall(box) end
 ---@param building rubble.mission.pile.building
 ---@return rubble.mission.pile
 function rubble.building(building) end
+---The plan of a building from a text file of the script's folder.
+---@param file string
+---@return rubble.mission.pile.building.plan
+function rubble.read_plan(file) end
 ---The parameters of a path, and those that every path has.
 ---@param list table[] as of `rubble.options`
 ---@return table[]

@@ -105,16 +105,20 @@ void add_terrain(Schema& k, TerrainScenario& t) {
 
 void add_building(Schema& k, BuildingSpec& b) {
   k.group("pile.building",
-          "A frame building of reinforced concrete, centred at the origin on the ground z = 0, that "
-          "collapses before the first layer falls. rubble.building makes a pile of it.");
+          "A building, centred at the origin on the ground z = 0, that collapses before the first layer falls. "
+          "rubble.building makes a pile of it.");
+  k.choice("pile.building.kind", b.kind, {"frame", "masonry", "precast", "bridge"},
+           "frame: columns, beams and slabs of reinforced concrete, cast in place; masonry: walls on all grid lines "
+           "with timber floors; precast: beams on corbels and hollow floor units on beams; bridge: girders along X "
+           "on piers and abutments.");
   k.value("pile.building.storeys", b.storeys, "Number of storeys; 0: there is no building.").between(0, 12);
   k.value("pile.building.bays_x", b.bays_x, "Number of bays along X.").between(1, 8);
   k.value("pile.building.bays_y", b.bays_y, "Number of bays along Y.").between(1, 8);
-  k.value("pile.building.span_x", b.span_x, "Distance of column axes along X.").between(2, 12).unit("m");
-  k.value("pile.building.span_y", b.span_y, "Distance of column axes along Y.").between(2, 12).unit("m");
-  k.value("pile.building.storey_height", b.storey_height, "Distance from floor to floor.").between(2.2, 6).unit("m");
-  k.value("pile.building.column", b.column, "Edge length of the columns' section; beams have the same width.").between(0.15, 1.2).unit("m");
-  k.value("pile.building.beam_depth", b.beam_depth, "Depth of the beams, including the slab.").between(0.15, 1.5).unit("m");
+  k.value("pile.building.span_x", b.span_x, "Distance of column axes along X: above 12 m for bridges only.").between(2, 40).unit("m");
+  k.value("pile.building.span_y", b.span_y, "Distance of column axes along Y; of a bridge: of its girders.").between(2, 12).unit("m");
+  k.value("pile.building.storey_height", b.storey_height, "Distance from floor to floor; of a bridge: height of its deck.").between(2.2, 12).unit("m");
+  k.value("pile.building.column", b.column, "Edge length of the columns' section; beams have the same width, girders half of it.").between(0.15, 2).unit("m");
+  k.value("pile.building.beam_depth", b.beam_depth, "Depth of the beams, including the slab.").between(0.15, 3).unit("m");
   k.value("pile.building.slab", b.slab, "Thickness of the slabs.").between(0.1, 0.5).unit("m");
   k.value("pile.building.column_bars", b.column_bars, "Reinforcement of columns, as a share of the section.").between(0, 0.06);
   k.value("pile.building.beam_bars", b.beam_bars, "Reinforcement of beams, as a share of the section.").between(0, 0.06);
@@ -124,7 +128,7 @@ void add_building(Schema& k, BuildingSpec& b) {
           "broken pieces fall.")
       .between(0, 1);
   k.choice("pile.building.infill", b.infill, {"none", "brick", "block"},
-           "Material of the walls between the outer columns.");
+           "Material of the walls between the outer columns, or of masonry (none: brick).");
   k.value("pile.building.infill_thickness", b.infill_thickness, "Thickness of these walls.").between(0.08, 0.5).unit("m");
   k.value("pile.building.openings", b.openings, "Share of the length of each wall that is a window.").between(0, 0.8);
   k.value("pile.building.piece", b.piece, "Approximate length of the pieces that members break into.")
@@ -132,6 +136,52 @@ void add_building(Schema& k, BuildingSpec& b) {
       .unit("m");
   k.value("pile.building.roughness", b.roughness,
           "How irregular the cuts between pieces are; 0: a regular grid.").between(0, 0.45);
+  k.choice("pile.building.partitions", b.partitions, {"none", "brick", "block"},
+           "Material of partition walls with doors between the inner columns of a frame.");
+  k.value("pile.building.parapet", b.parapet, "Height of parapets; 0: none.").between(0, 1.5).unit("m");
+  const auto bays = [&k](const std::string& key, std::vector<BayPlace>& member, const std::string& doc) {
+    k.list("pile.building." + key, member, doc);
+    k.item("pile.building." + key + "[].i", member, &BayPlace::i, "Number of the bay along X, from 0 at the lowest x.").between(0, 7);
+    k.item("pile.building." + key + "[].j", member, &BayPlace::j, "Number of the bay along Y, from 0 at the lowest y.").between(0, 7);
+  };
+  bays("stairs", b.stairs, "Bays of a frame with a flight of stairs from floor to floor, and openings in the slabs.");
+  bays("cores", b.cores, "Bays of a frame with a lift shaft of reinforced walls.");
+  k.value("pile.building.wall", b.wall, "Thickness of masonry walls that carry floors.").between(0.15, 1).unit("m");
+  k.value("pile.building.joist_depth", b.joist_depth, "Depth of the joists of timber floors.").between(0.1, 0.5).unit("m");
+  k.value("pile.building.joist_width", b.joist_width, "Width of these joists.").between(0.04, 0.3).unit("m");
+  k.value("pile.building.joist_spacing", b.joist_spacing, "Distance of the axes of these joists, at most.").between(0.3, 2).unit("m");
+}
+
+void add_plan(Schema& k, BuildingPlan& plan) {
+  k.group("pile.building.plan",
+          "A building of your own instead of a kind, as rubble.read_plan reads it from a file (docs/collapse.md).");
+  k.value("pile.building.plan.heights", plan.heights, "Heights of the storeys from floor to floor, from the ground.")
+      .between(2, 12)
+      .unit("m");
+  k.list("pile.building.plan.parts", plan.parts, "What is drawn; where two walls meet, the first one goes through.");
+  const auto item = [&](const std::string& key, auto PlanPart::*member, const std::string& doc) -> Key& {
+    return k.item("pile.building.plan.parts[]." + key, plan.parts, member, doc);
+  };
+  k.add("pile.building.plan.parts[].kind", "What it is; a door is a window with bottom 0.",
+        [&plan](std::size_t i) {
+          return Schema::choice_slot(plan.parts[i].kind, {"wall", "column", "beam", "slab", "joists", "window", "hole"});
+        })
+      .must();
+  item("name", &PlanPart::name, "Name for errors and causes.");
+  item("lowest", &PlanPart::lowest, "Lowest storey that has it, from 0.").between(0, 11);
+  item("highest", &PlanPart::highest, "Highest storey that has it.").between(0, 11);
+  item("x1", &PlanPart::x1, "First end of its line, or corner of its rectangle, along X.").between(-500, 500).unit("m");
+  item("y1", &PlanPart::y1, "The same along Y.").between(-500, 500).unit("m");
+  item("x2", &PlanPart::x2, "Second end of its line, or opposite corner, along X.").between(-500, 500).unit("m");
+  item("y2", &PlanPart::y2, "The same along Y.").between(-500, 500).unit("m");
+  item("thickness", &PlanPart::thickness, "Thickness of a wall or slab, width of a beam, depth of joists.").between(0.02, 3).unit("m");
+  item("depth", &PlanPart::depth, "Depth of a beam, below the ceiling.").between(0.05, 3).unit("m");
+  item("bottom", &PlanPart::bottom, "Lower edge of a window or wall above the floor.").between(0, 12).unit("m");
+  item("top", &PlanPart::top, "Upper edge; 0: at the ceiling.").between(0, 12).unit("m");
+  k.add("pile.building.plan.parts[].material", "What it is made of.", [&plan](std::size_t i) {
+    return Schema::choice_slot(plan.parts[i].material, {"concrete", "brick", "block", "timber"});
+  });
+  item("bars", &PlanPart::bars, "Reinforcement as a share of the section; below 0: as in a frame.").between(-1, 0.06);
 }
 
 void add_furniture(Schema& k, std::vector<FurnitureItem>& items) {
@@ -157,6 +207,7 @@ void add_vehicle(Schema& k, StrikingVehicle& v) {
   k.value("pile.building.cause.vehicle.height", v.height, "Height of the bumper.").between(0.2, 3).unit("m");
   k.value("pile.building.cause.vehicle.i", v.i, "Number of the column along X, from 0 at the lowest x.").between(0, 8);
   k.value("pile.building.cause.vehicle.j", v.j, "Number of the column along Y, from 0 at the lowest y.").between(0, 8);
+  k.value("pile.building.cause.vehicle.part", v.part, "Of a plan: name of the wall or column, instead of i and j.");
 }
 
 void add_cause(Schema& k, CollapseCause& c) {
@@ -171,7 +222,9 @@ void add_cause(Schema& k, CollapseCause& c) {
   k.item("pile.building.cause.removed[].j", c.removed, &ColumnPlace::j,
           "Number of the column along Y, from 0 at the lowest y.")
       .between(0, 8);
-  k.value("pile.building.cause.weak_storey", c.weak_storey, "Soft storey: its walls are missing, its columns are weak; -1: none.").between(-1, 11);
+  k.item("pile.building.cause.removed[].part", c.removed, &ColumnPlace::part,
+         "Of a plan: name of the wall or column, instead of i and j.");
+  k.value("pile.building.cause.weak_storey", c.weak_storey, "Soft storey: its walls are missing, its columns, or walls that carry floors, are weak; -1: none.").between(-1, 11);
   k.value("pile.building.cause.weakness", c.weakness, "Share of their strength that these columns keep.")
       .between(0, 1);
   k.value("pile.building.cause.overloaded_floor", c.overloaded_floor,
@@ -206,6 +259,8 @@ void add_cause(Schema& k, CollapseCause& c) {
   k.item("pile.building.cause.sinking[].j", c.sinking, &SinkingFooting::j,
           "Number of the column along Y, from 0 at the lowest y.")
       .between(0, 8);
+  k.item("pile.building.cause.sinking[].part", c.sinking, &SinkingFooting::part,
+         "Of a plan: name of the wall or column, instead of i and j.");
   k.item("pile.building.cause.sinking[].depth", c.sinking, &SinkingFooting::depth, "Depth of the sinking.")
       .between(0, 2)
       .unit("m");
@@ -256,6 +311,7 @@ void add_pile_keys(Schema& keys, PileScenario& pile) {
   add_pile(keys, pile);
   add_terrain(keys, pile.terrain);
   add_building(keys, pile.building);
+  add_plan(keys, pile.building.plan);
   add_furniture(keys, pile.furniture);
   add_cause(keys, pile.building.cause);
 }

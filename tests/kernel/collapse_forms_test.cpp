@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kernel/settling/collapse.h"
-#include "kernel/structure/frame_building.h"
+#include "kernel/structure/building.h"
 #include "kernel/structure/remaining_bars.h"
 #include "kernel/structure/standing.h"
 #include "scenes.h"

@@ -8,7 +8,7 @@
 #include "kernel/settling/building_collapse.h"
 #include "kernel/settling/collapse.h"
 #include "kernel/settling/settle.h"
-#include "kernel/structure/frame_building.h"
+#include "kernel/structure/building.h"
 #include "kernel/structure/standing.h"
 
 namespace rubble {

@@ -247,6 +247,20 @@ TEST(Stress, WhatIsLeftOfAGroupGoesOnWithItsFactor) {
   EXPECT_EQ(second.factors_made(), 1);
 }
 
+// Cut along its whole length, a plate loses more bonds than a factor follows.
+TEST(Stress, WhatIsLeftAfterManyCutsHasANewFactor) {
+  Plate plate;
+  GroupStress whole(plate.structure, plate.largest());
+  whole.solve(plate.status, plate.loads);
+  GroupStress left = std::move(whole);
+  for (const double x : {5.5, 4.6, 3.7, 2.8}) {
+    plate.cut(x, -10);
+    left = GroupStress(std::move(left), plate.largest());
+    expect_as_from_a_new_factor(plate, left, "strip after strip ");
+  }
+  EXPECT_GT(left.factors_made(), 1);
+}
+
 // Its loads must balance then.
 TEST(Stress, WhatCameOffItsFoundationGoesOnWithItsFactor) {
   Plate plate;

@@ -256,5 +256,41 @@ TEST(FindVoid, Mistakes) {
   EXPECT_NE(mission_error("return { trajectory = { waypoints = { { position = { find_void = { rank = 0 } } } } } }"), "");
 }
 
+TEST_F(PathFiles, PlansAreReadLineByLine) {
+  write("house.txt",
+        "# a house\nstorey 3\nstorey 2.5\nwall 0 0 6 0 0.3 block name=south\nstoreys 1 1\n"
+        "column 3 2 0.4 0.3 bars=0.02\nbeam,0,2,6,2,0.3,0.45,concrete\ndoor 1 0 2 0 2.1\nwall 0 0 0 4 0.2\n");
+  const Mission mission = load("pile = rubble.building { plan = rubble.read_plan('house.txt') }");
+  const BuildingPlan& plan = mission.scenario.pile.building.plan;
+  EXPECT_EQ(plan.heights, (std::vector<double>{3, 2.5}));
+  ASSERT_EQ(plan.parts.size(), 5u);
+  EXPECT_EQ(plan.parts[0].name, "south");
+  EXPECT_EQ(plan.parts[0].material, PlanMaterial::block);
+  EXPECT_EQ(plan.parts[0].highest, 11);
+  EXPECT_EQ(plan.parts[1].lowest, 1);
+  EXPECT_NEAR(plan.parts[1].x1, 2.8, 1e-12);
+  EXPECT_NEAR(plan.parts[1].y2, 2.15, 1e-12);
+  EXPECT_EQ(plan.parts[1].bars, 0.02);
+  EXPECT_EQ(plan.parts[2].depth, 0.45);
+  EXPECT_EQ(plan.parts[3].kind, PlanKind::window);
+  EXPECT_EQ(plan.parts[3].bottom, 0);
+  EXPECT_EQ(plan.parts[4].material, PlanMaterial::brick) << "what walls are usually made of";
+  EXPECT_EQ(plan.parts[4].name, "house.txt:9");
+}
+
+TEST_F(PathFiles, MistakesInPlansHaveTheirLine) {
+  const auto plan_error = [&](const std::string& text) {
+    write("bad.txt", text);
+    return error("pile = rubble.building { plan = rubble.read_plan('bad.txt') }");
+  };
+  EXPECT_NE(plan_error("storey 3\nwal 0 0 1 0 0.3\n").find("bad.txt:2: unknown part `wal`"), std::string::npos);
+  EXPECT_NE(plan_error("storey 3\nwall 0 0 1 0\n").find("bad.txt:2: wall: expected 5 numbers"), std::string::npos);
+  EXPECT_NE(plan_error("storey 3\nwall 0 0 1 zero 1\n").find("`zero` as y2"), std::string::npos);
+  EXPECT_NE(plan_error("storey 3\nwall 0 0 1 0 0.3 straw\n").find("unknown word `straw`"), std::string::npos);
+  EXPECT_NE(plan_error("wall 0 0 1 0 0.3\n").find("has no storey"), std::string::npos);
+  EXPECT_NE(plan_error("storey 3\n").find("draws nothing"), std::string::npos);
+  EXPECT_NE(plan_error("storey 3\nstoreys 2 1\nwall 0 0 1 0 0.3\n").find("bad.txt:2: storeys"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace rubble

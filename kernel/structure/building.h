@@ -1,6 +1,7 @@
-// A building as members: columns and the blocks where beams meet them, beams, slabs, walls with windows.
+// A building as members, whatever its kind: what it is made of before its cause, and what its cause leaves.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "kernel/model/building.h"
@@ -11,10 +12,11 @@ namespace rubble {
 // Throws InputError naming each key of the building that is out of range.
 void validate(const BuildingSpec& building);
 
-// Whether a member is the column (i, j) of the ground storey.
-bool is_ground_column(const Member& member, int i, int j);
+// Whether a member belongs to the column (i, j) of the ground storey, or to that part of a plan.
+bool is_ground_column(const Member& member, int i, int j, const std::string& part = "");
 
-// The building as it stands before its cause.
+// The building as it stands before its cause: as boxes, and cut into pieces.
+std::vector<Member> list_members(const BuildingSpec& building);
 Structure build_building(const BuildingSpec& building);
 // The same with its cause's removed columns taken out, weak columns weakened and an overload added to its
 // floor. Types keep their numbers, except that an overloaded floor has types of its own after them.

@@ -1,0 +1,16 @@
+-- A car park of precast parts that loses a ground column at its edge: beams and floor units fall off their corbels.
+return rubble.mission {
+  seed = 1,
+  packs = { "parking" },
+  pile = rubble.building {
+    kind = "precast", storeys = 3, bays_x = 3, bays_y = 2, span_x = 6, span_y = 7,
+    storey_height = 2.9, column = 0.4, beam_depth = 0.7, slab = 0.22, piece = 1.5,
+    furniture = { { asset = "car_side", per_bay = 0.8, roof = true } },
+    cause = { removed = { { storey = 0, i = 1, j = 0 } } },
+  },
+  settle = { final_time_limit = 90 },
+  voids = { on = true },
+  camera = { width = 640, height = 480, fov_deg = 60 },
+  trajectory = { waypoints = { { position = { -15, -17, 9 }, look_at = { 0, 0, 2.5 } } } },
+  outputs = { frames = true },
+}

@@ -58,9 +58,9 @@ WindowDesign draw_windows(RandomStream& random) {
 }
 
 void dress(Opening& o, double lit, RandomStream& random) {
-  o.lit = random.uniform() < lit;
-  const double u = random.uniform();
-  o.blind = o.lit ? 0 : u < 0.12 ? 1.0 : u < 0.4 ? random.uniform(0.1, 0.7) : 0;
+  const double light = random.uniform(), u = random.uniform(), drop = random.uniform(0.1, 0.7);
+  o.lit = light < lit;  // by night the same building as by day
+  o.blind = o.lit ? 0 : u < 0.12 ? 1.0 : u < 0.4 ? drop : 0;
   o.curtain = random.uniform() < 0.45;
 }
 

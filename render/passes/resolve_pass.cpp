@@ -247,6 +247,8 @@ Vec3f white_balance(const LightSet& set) {
   const LightModel& main = set.lights.front();
   Vec3f light = set.sky.mean * portable::kPiF;
   if (main.type == LightType::directional) light += main.colour * std::max(-main.axis.z, 0.0f);
+  // Under street lamps theirs is the light, as some metres below them.
+  if (!set.far.empty()) light += set.far.front().colour * (1.0f / 50);
   const float bright = grey_of(light);
   if (bright <= 0) return {1, 1, 1};
   // Less at dusk, which is to look blue: 0.75 in daylight, 0.35 at 10 lx.

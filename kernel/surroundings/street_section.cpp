@@ -178,8 +178,8 @@ double RoughGround::height(double x, double y) const {
   const double beside = y > street_.middle() ? y - street_.near_edge() : street_.far_edge() - y;
   const double bumps = 0.3 + 0.24 * noise(x, y, 19, 1) + 0.11 * noise(x, y, 6, 2) + 0.035 * noise(x, y, 1.7, 3);
   // Never below the plane: what lies below it has no light.
-  const double wild = 0.006 + smoothstep(-0.4, 8, away) * std::max(bumps, 0.02) +
-                      0.018 * (1 + noise(x, y, 0.9, 4)) * smoothstep(0, 2, away);
+  const double wild = 0.003 + smoothstep(0.8, 8.8, away) * std::max(bumps, 0.02) +
+                      0.018 * (1 + noise(x, y, 0.9, 4)) * smoothstep(0.9, 3, away);
   const double street = smoothstep(0, 5, beside);
   return StreetSection::kBack * (1 - street) + wild * street;
 }

@@ -8,6 +8,7 @@
 #include "app/pipeline/live.h"
 #include "app/pipeline/run.h"
 #include "app/support/stop.h"
+#include "app/surroundings/lay_surroundings.h"
 #include "io/state/track_file.h"
 
 namespace rubble {
@@ -29,9 +30,10 @@ ExitCode render_finished_pile(const std::string& from, const RunRequest& request
   stop_on_signals();
   check_live(request.options);
   const FinishedRun saved = open_finished_run(from);
-  const PileState pile = load_pile_of(saved);
+  PileState pile = load_pile_of(saved);
   RunContext context(request.options);
   const ResolvedMission mission = resolve_render(request, saved, context);
+  lay_surroundings(mission.scenario, mission.assets, pile);
   std::error_code failed;
   if (std::filesystem::equivalent(from, choose_output(request), failed))
     throw InputError({from, 0, "--out", "would replace the run that the pile comes from", "", "",

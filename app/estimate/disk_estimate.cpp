@@ -66,6 +66,13 @@ void add_fines(const FinesSpec& fines, PileModelSize& size) {
   size.triangles += of.triangles, size.type_triangles += of.triangles;
 }
 
+// Of a street with as many trees and vehicles as there may be, by counts over its reach.
+void add_surroundings(const SurroundingsSpec& s, PileModelSize& size) {
+  if (!s.on()) return;
+  size.pieces += 220 + 1.5 * s.reach, size.types += 60 + 0.4 * s.reach;
+  size.triangles += 3.5e5 + 6e3 * s.reach, size.type_triangles += 2.2e5 + 1.5e3 * s.reach;
+}
+
 PileModelSize size_of_pile(const Scenario& s, const AssetLibrary& assets) {
   PileModelSize size;
   double weights = 0;
@@ -76,6 +83,7 @@ PileModelSize size_of_pile(const Scenario& s, const AssetLibrary& assets) {
   size.triangles *= kSamplingMargin;
   for (const PlacedItem& item : s.pile.placed) add(assets, assets.find(item), 1, size);
   add_fines(s.fines, size);
+  add_surroundings(s.surroundings, size);
   size.types += double(assets.types.size());
   for (std::size_t i = 0; i < assets.types.size(); ++i)
     size.type_triangles += triangles_of(assets, int(i));

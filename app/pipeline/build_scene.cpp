@@ -5,6 +5,7 @@
 #include "app/assets/building_assets.h"
 #include "app/assets/terrain.h"
 #include "app/fines/seen_fines.h"
+#include "app/surroundings/seen_surroundings.h"
 #include "kernel/base/portable_math.h"
 #include "render/materials/surface_appearance.h"
 
@@ -61,9 +62,11 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
     scene.instances.push_back(make_instance(piece, i));
   }
   add_fines(scenario, assets, pile, scene);
+  add_surroundings(scenario, assets, pile, scene);
   scene.light = resolve_light(scenario);
   scene.sky = scenario.light.sky;
   scene.more_lights = scenario.lights;
+  add_street_lamps(pile, scene);
   scene.wetness = scenario.wetness;
   scene.lamp = scenario.lamp;
   scene.air = scenario.air;
@@ -77,6 +80,8 @@ std::vector<std::string> label_names(const Scenario& scenario, const AssetLibrar
   for (const PieceType& type : assets.types) names.push_back(type.name);
   if (!scenario.robots.empty()) names.push_back("robot");
   if (scenario.fines.amount > 0) names.insert(names.end(), fine_names().begin(), fine_names().end());
+  if (scenario.surroundings.on())
+    names.insert(names.end(), surrounding_names().begin(), surrounding_names().end());
   return names;
 }
 
@@ -103,6 +108,7 @@ PileModel build_model(const AssetLibrary& assets, const PileState& pile, bool lo
 PileModel build_pile_model(const AssetLibrary& assets, const PileState& pile) {
   PileModel model = build_model(assets, pile, false);
   add_fines(pile, model);
+  add_surroundings(pile, model);
   return model;
 }
 

@@ -18,7 +18,7 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets);
 // number: of the piece in its pile.
 SceneInstance make_instance(const PieceState& piece, std::size_t number);
 
-// Every piece but the lost ones, and the fines, with the scenario's light, lamp and air.
+// Every piece but the lost ones, the fines and what stands about the pile, with the scenario's light, lamp and air.
 Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile);
 
 // The legend of the stream `label`: the name of each class, by its number.

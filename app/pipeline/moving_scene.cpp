@@ -30,6 +30,7 @@ void add_lost(const PileState& pile, Scene& scene) {
 // The number of what moves an instance: its own, and of a heap of fines that of the piece it lies on.
 std::int32_t find_mover(const SceneInstance& instance, const std::vector<int>& heap_hosts) {
   if (instance.id < std::uint32_t(kFirstFineHeap)) return std::int32_t(instance.id);
+  if (instance.surrounds) return -1;  // it stands
   return heap_hosts[instance.id - std::uint32_t(kFirstFineHeap)];
 }
 

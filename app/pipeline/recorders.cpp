@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/fines/seen_fines.h"
+#include "app/surroundings/seen_surroundings.h"
 #include "app/pipeline/build_scene.h"
 #include "io/recording/one_camera.h"
 #include "scripting/scenario/lidar_schema.h"
@@ -104,6 +105,7 @@ Recording describe_recording(const Scenario& scenario, const AssetLibrary& asset
         {std::uint16_t(kFirstAssetLabel + piece.type), assets.types[type].name});
   }
   add_fines(scenario, assets, pile, recording.legend);
+  add_surroundings(scenario, assets, pile, recording.legend);
   return recording;
 }
 

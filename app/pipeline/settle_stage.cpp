@@ -7,6 +7,7 @@
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/stages.h"
 #include "app/support/stop.h"
+#include "app/surroundings/lay_surroundings.h"
 #include "app/victims/place_victims.h"
 #include "io/base/atomic_file.h"
 #include "io/mesh/pile_export.h"
@@ -180,6 +181,7 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
     save_fines_of(mission.pile_scenario, settled.state, folder.path());
     save(settled, work, recorded, folder);
   }
+  lay_surroundings(mission.scenario, mission.assets, settled.state);
   folder.add("pile.bin");
   if (mission.pile_scenario.victims.count > 0) folder.add("victims.json");
   if (mission.pile_scenario.fines.amount > 0) folder.add(kFinesFile);
@@ -204,6 +206,7 @@ SettledPile settle_in_memory(const ResolvedMission& mission, RunContext& context
   add_victims(mission, context.threads(), settled.state);
   context.progress.finish(summarize_settling(settled.state, false));
   strew(mission, context, settled.state);
+  lay_surroundings(mission.scenario, mission.assets, settled.state);
   add_pile_metrics(settled.state, mission.assets, settled.metrics);
   return settled;
 }

@@ -44,6 +44,10 @@ std::string legend_to_json(const Legend& legend) {
     json["instances"].push_back({{"instance", legend.first_fine + i},
                                  {"label", legend.fines[i].label},
                                  {"name", legend.fines[i].asset}});
+  for (std::size_t i = 0; i < legend.surroundings.size(); ++i)
+    json["instances"].push_back({{"instance", legend.first_surrounding + i},
+                                 {"label", legend.surroundings[i].label},
+                                 {"name", legend.surroundings[i].asset}});
   json["ground_instance"] = kGroundInstance;
   json["no_instance"] = kNoInstance;
   return json.dump();

@@ -36,6 +36,8 @@ struct Legend {
   std::vector<Piece> pieces;        // by piece number
   std::vector<Piece> fines;         // heaps of fines, the first of which has the number ...
   std::uint32_t first_fine = 0;     // ... this
+  std::vector<Piece> surroundings;  // things about the pile, the first of which has the number ...
+  std::uint32_t first_surrounding = 0;  // ... this
 };
 
 // The legend as JSON: {"labels": [{"label", "name"}], "instances": [{"instance", "label", "name"}],

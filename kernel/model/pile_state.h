@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "kernel/base/math.h"
 #include "kernel/model/assembly.h"
 #include "kernel/model/fines.h"
+#include "kernel/model/surroundings.h"
 
 namespace rubble {
 
@@ -69,6 +71,8 @@ struct PileState {
   int lost = 0;                    // pieces that left the world
   // Strewn when all rests; none by default. Not in the state's hash, and in a file of their own.
   Fines fines;
+  // What stands about it; null by default. In no file: it follows from the scenario and the pile.
+  std::shared_ptr<const Surroundings> surroundings;
 
   // XXH64 over the bit patterns of every field of the pieces in their order, then of the joints in
   // theirs, each list after its length, then the step count. The names of types are not in it.

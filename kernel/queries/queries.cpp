@@ -59,6 +59,21 @@ void add_fines(const PileState& pile, std::vector<QueryMesh>& meshes, std::vecto
   }
 }
 
+void add_surroundings(const PileState& pile, std::vector<QueryMesh>& meshes, std::vector<QueryPiece>& pieces) {
+  if (!pile.surroundings) return;
+  const int first = int(meshes.size());
+  for (const auto& mesh : pile.surroundings->meshes) meshes.push_back(make_mesh(mesh->leafy ? mesh->levels.back() : mesh->levels.front()));
+  int number = kFirstSurrounding;
+  for (const SurroundingThing& thing : pile.surroundings->things) {
+    PieceState state;
+    state.world_from_body = thing.world_from_mesh, state.scale = thing.scale;
+    const int mesh = first + int(thing.mesh);
+    QueryMesh& of_it = meshes[std::size_t(mesh)];
+    of_it.smallest_scale = std::min(of_it.smallest_scale, thing.scale);
+    pieces.push_back(make_piece(state, number++, mesh, of_it));
+  }
+}
+
 QueryTree make_tree(const PileState& pile, const std::vector<const TriangleMesh*>& meshes) {
   std::vector<int> number(meshes.size(), -1);
   std::vector<QueryMesh> used;
@@ -80,6 +95,7 @@ QueryTree make_tree(const PileState& pile, const std::vector<const TriangleMesh*
     pieces.push_back(make_piece(state, int(i), number[type], mesh));
   }
   add_fines(pile, used, pieces);
+  add_surroundings(pile, used, pieces);
   return {std::move(used), std::move(pieces)};
 }
 

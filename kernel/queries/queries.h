@@ -4,7 +4,7 @@
 // Results are those of the exact triangles in double precision, good to 1e-9 m at the distances of
 // a pile, the same on every machine and for any number of threads. Pieces that are lost are not
 // there. The fines of the pile are there: of a heap of them the piece is kFirstFineHeap and its index
-// among make_fine_heaps(). Several threads may ask at once.
+// among make_fine_heaps(). So are its surroundings, from kFirstSurrounding on. Several threads may ask at once.
 #pragma once
 
 #include <limits>
@@ -30,7 +30,7 @@ struct RayHit {
   double distance = 0;       // from the origin; unit: m
   Vec3 point;                // in the world; unit: m
   Vec3 normal;               // unit length, out of the surface, also when it is met from inside
-  int piece = kGroundPiece;  // index into PileState::pieces, a heap of fines, or kGroundPiece
+  int piece = kGroundPiece;  // index into PileState::pieces, a heap of fines, of surroundings, or kGroundPiece
 };
 
 struct ClosestPoint {

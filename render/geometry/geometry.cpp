@@ -29,7 +29,7 @@ void place(PreparedScene& out, PlacedMesh piece, std::uint32_t axis, RandomStrea
                      (std::uint32_t(random.next() >> 32) & ~3u) | axis};
   out.cluster_flags += mesh.levels.front().cluster_count;
   out.light_nodes += mesh.light_nodes.size();
-  if (piece.id != kGroundId && !piece.moves) {
+  if (piece.id != kGroundId && !piece.moves && !piece.surrounds) {
     const Vec3 reach = Vec3(1, 1, 1) * double(piece.radius);
     out.bounds.include(Vec3(piece.centre) - reach);
     out.bounds.include(Vec3(piece.centre) + reach);
@@ -120,7 +120,10 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
     piece.id = instance.id;
     piece.label = instance.label;
     piece.moves = moves[out.placed.size()];
-    place(out, piece, axes[instance.mesh], random);
+    piece.surrounds = instance.surrounds;
+    out.surrounded = out.surrounded || piece.surrounds;
+    // Courses of walls lie level, however high or deep a building is.
+    place(out, piece, piece.surrounds ? 0 : axes[instance.mesh], random);
   }
   include_motion(scene, out);
   if (scene.ground) {
@@ -145,7 +148,7 @@ PreparedScene resting_part(const PreparedScene& scene, std::vector<std::uint32_t
     out.placed.back().first_light = std::uint32_t(out.light_nodes);
     out.cluster_flags += scene.meshes[piece.mesh].levels.front().cluster_count;
     out.light_nodes += scene.meshes[piece.mesh].light_nodes.size();
-    if (piece.id == kGroundId) continue;
+    if (piece.id == kGroundId || piece.surrounds) continue;
     const Vec3 reach = Vec3(1, 1, 1) * double(piece.radius);
     out.bounds.include(Vec3(piece.centre) - reach);
     out.bounds.include(Vec3(piece.centre) + reach);

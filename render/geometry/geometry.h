@@ -26,6 +26,7 @@ struct PlacedMesh {
   std::array<std::uint32_t, 2> look_seed{};  // varies the look
   bool moves = false;                        // its pose is that of the present moment, see MovingPieces
   bool there = true;                         // false: what moves is not there at the present moment
+  bool surrounds = false;                    // of the surroundings, see SceneInstance
 };
 
 inline constexpr std::uint32_t kGroundId = kGroundInstance;
@@ -36,7 +37,8 @@ struct PreparedScene {
   std::vector<PlacedMesh> placed;    // pieces, and the ground where there is one
   std::size_t cluster_flags = 0;     // clusters of the finest level over all placed meshes
   std::size_t light_nodes = 0;       // entries of the table of baked light
-  Aabb bounds;                       // of all pieces, without the ground, wherever they move
+  Aabb bounds;  // of all pieces, without the ground and surroundings, wherever they move
+  bool surrounded = false;           // some of it is of the surroundings
   std::uint64_t moment = 0;          // another number whenever anything has moved
 };
 PreparedScene prepare_scene(const Scene& scene, int threads);

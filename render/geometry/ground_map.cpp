@@ -42,7 +42,7 @@ GroundMap make_ground_map(const PreparedScene& scene) {
   }
   std::vector<float> cover(std::size_t(kSide) * kSide);
   for (const PlacedMesh& piece : scene.placed) {
-    if (piece.id == kGroundId || piece.centre.z - piece.radius > kTooHigh) continue;
+    if (piece.id == kGroundId || piece.surrounds || piece.centre.z - piece.radius > kTooHigh) continue;
     const float inner = 0.8f * piece.radius, outer = piece.radius + kSpread;
     const float strength = 0.8f * std::min(1.0f, piece.radius / kLarge);
     const auto texel = [&](float x, float middle) { return to_texel((x - middle) / map.reach); };

@@ -181,7 +181,7 @@ LightNodes find_light_nodes(const PreparedMesh& mesh, std::uint32_t triangle, fl
   return {{t.first_node + light_node_index(n, i, j), right, above}, {1 - fx - fy, fx, fy}};
 }
 
-void make_light_nodes(PreparedMesh& mesh, std::size_t finest_triangles, float spacing) {
+void make_light_nodes(PreparedMesh& mesh, std::size_t finest_triangles, float spacing, float stated_cell) {
   add_vertex_nodes(mesh);
   std::vector<std::uint8_t> finest(mesh.vertices.size(), 0);
   for (std::size_t t = 0; t < finest_triangles; ++t)
@@ -190,7 +190,7 @@ void make_light_nodes(PreparedMesh& mesh, std::size_t finest_triangles, float sp
   std::vector<std::uint32_t> nodes;
   for (std::uint32_t i = 0; i < mesh.light_nodes.size(); ++i)
     if (i >= finest.size() || finest[i]) nodes.push_back(i);
-  const float cell = choose_cell(mesh, finest_triangles);
+  const float cell = stated_cell > 0 ? stated_cell : choose_cell(mesh, finest_triangles);
   choose_points(mesh, nodes, cell);
   PointGrid grid(cell);
   for (std::uint32_t i = 0; i < mesh.bake_points.size(); ++i) grid.add(mesh.bake_points[i].position, i);

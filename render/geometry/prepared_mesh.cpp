@@ -114,8 +114,10 @@ float longest_edge(const TriangleMesh& mesh) {
                      : std::max(kLongestEdge, kEdgeShare * float(distance(box.min, box.max)) / 2);
 }
 
-void append_level(const TriangleMesh& source, PreparedMesh& out) {
-  const TriangleMesh mesh = refine_mesh(source, longest_edge(source));
+void append_level(const TriangleMesh& source, double light_spacing, PreparedMesh& out) {
+  // Light varies along the nodes of a triangle: where they are far apart, so may its corners be.
+  const float longest = light_spacing > 0 ? float(light_spacing * kMostLightSteps) : longest_edge(source);
+  const TriangleMesh mesh = refine_mesh(source, longest);
   const std::vector<std::uint32_t> materials = material_table(source);
   const std::uint32_t base = std::uint32_t(out.vertices.size());
   const std::size_t first = out.triangles.size();
@@ -147,9 +149,10 @@ int dominant_direction(const Vec3f& n) {
 
 PreparedMesh prepare_mesh(const SceneMesh& mesh) {
   PreparedMesh out;
-  for (const TriangleMesh& level : mesh.levels) append_level(level, out);
+  for (const TriangleMesh& level : mesh.levels) append_level(level, mesh.light_spacing, out);
   if (out.vertices.empty()) throw RunError("a mesh of the scene has no triangles");
-  make_light_nodes(out, out.levels.front().triangle_count, kLightSpacing);
+  const float coarse = float(mesh.light_spacing);
+  make_light_nodes(out, out.levels.front().triangle_count, coarse > 0 ? coarse : kLightSpacing, coarse);
   return out;
 }
 

@@ -39,6 +39,10 @@ void add_light(CacheKey& key, const LightSet& light) {
     key.add(l.type).add(l.cos_outer).add(l.cos_inner);
     for (const Vec3f& v : {l.position, l.axis, l.colour}) add_vec(key, v);
   }
+  for (const LightModel& l : light.far) {
+    key.add(l.type).add(l.cos_outer).add(l.cos_inner);
+    for (const Vec3f& v : {l.position, l.axis, l.colour}) add_vec(key, v);
+  }
   for (const Vec3f& v : light.sky.map) add_vec(key, v);
 }
 

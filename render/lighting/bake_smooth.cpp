@@ -14,6 +14,7 @@ namespace {
 
 constexpr float kReach = 0.5f;       // of smoothing, as a share of the point's clearance
 constexpr float kWidest = 0.3f;      // unit: m
+constexpr float kAround = 8;         // times as wide, and its cells, on surroundings, where points are sparse
 constexpr float kLeastReach = 0.02f; // below, a point keeps what it found; unit: m
 constexpr float kFacing = 0.85f;     // least cosine between the normals of neighbours
 constexpr float kLift = 0.01f;       // of lines of sight between them; unit: m
@@ -26,7 +27,7 @@ constexpr float kContact = 0.7f;     // light left where pieces touch
 // Light varies over a distance that grows with that of what sends it (Ward et al. 1988): so far, and no
 // farther than a free line of sight, a neighbour's light is as good as the point's own.
 float Baker::reach_of(const Point& p) const {
-  const float reach = std::min(kReach * p.clearance, kWidest);
+  const float reach = std::min(kReach * p.clearance, kWidest * (scene_.placed[p.piece].surrounds ? kAround : 1));
   return p.open && reach >= kLeastReach ? reach : 0;
 }
 
@@ -57,7 +58,7 @@ void Baker::join_neighbours(std::uint32_t i, const PointGrid& grid, std::vector<
 void Baker::find_neighbours(std::size_t piece) {
   const std::uint32_t first = first_point_[piece];
   const std::uint32_t end = first + std::uint32_t(scene_.meshes[scene_.placed[piece].mesh].bake_points.size());
-  PointGrid grid(kCell);
+  PointGrid grid(kCell * (scene_.placed[piece].surrounds ? kAround : 1));
   std::vector<RayScene::Ray> lines;
   for (std::uint32_t i = first; i < end; ++i)
     if (points_[i].open) grid.add(points_[i].position, i);

@@ -129,7 +129,16 @@ void Baker::over_points(double from, double to, const std::function<void(double)
   }
 }
 
+// The direct light of far lights comes to no pixel but by the nodes.
+void Baker::show_far_light() {
+  if (light_.far.empty()) return;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    points_[i].indirect += far_light_[i], points_[i].vector += far_vectors_[i];
+  fill_closed();
+}
+
 void Baker::run(const std::function<void(double)>& progress) {
+  if (!light_.far.empty()) far_light_.resize(points_.size()), far_vectors_.resize(points_.size());
   over_points(0, 0.4, progress, [&](std::size_t i) { trace(i); });
   find_substitutes();
   neighbours_.resize(points_.size());
@@ -148,6 +157,7 @@ void Baker::run(const std::function<void(double)>& progress) {
   points_.swap(smoothed);
   fill_closed();
   update_radiance();
+  show_far_light();
 }
 
 std::vector<BakedLight> Baker::node_light() const {

@@ -71,9 +71,12 @@ class Baker {
   // baker_gather.cpp
   Basis basis_of(std::size_t point, std::uint32_t round) const;
   BakeOrigin origin(const Point& p, std::size_t i) const;  // in the world, off the surface
+  bool below_soil(const Point& p) const;
   std::size_t origin_count(const Point& p) const;
   void trace(std::size_t point);         // its first rays
   void find_direct(Point& p) const;
+  Vec3f find_far(Point& p) const;        // adds it to the direct light; the vector of it, as Point::vector
+  void show_far_light();                 // in what is kept at nodes
   void gather_first(std::size_t point);  // by them
   void gather(std::size_t point);        // by them and as many more as were planned
   Sum first_sum(std::size_t point) const;
@@ -101,6 +104,7 @@ class Baker {
   std::vector<std::uint32_t> first_point_;          // of each placed mesh
   std::vector<std::uint32_t> first_hits_;           // of each point in turn: a point, kSky, kInside or kNone
   std::vector<std::vector<std::uint32_t>> nearest_points_;  // of each mesh: to each node, in the mesh
+  std::vector<Vec3f> far_light_, far_vectors_;      // of LightSet::far, of each point; empty: there are none
   std::vector<Sum> sums_;                           // of the rays of each point
   std::vector<int> rounds_;                         // that each point gathers by, besides its first rays
   std::vector<std::vector<Neighbour>> neighbours_;  // of each point

@@ -19,7 +19,10 @@ constexpr float kFaint = 0.01f;        // of the sky's mean light: noise fainter
 constexpr float kHidden = 0.03f;       // clearance of what no camera comes near enough to see; unit: m
 constexpr float kAbout = 0.4f;         // cell of space whose rays tell how much light varies; unit: m
 constexpr float kLift = 0.002f;        // rays start this far off the surface; unit: m
+constexpr float kSoil = 0.4f;          // above soil that lies on the plane; unit: m
+constexpr double kBeside = 0.5;        // of the pile's box: so far out the plane is found as it is; unit: m
 constexpr float kMostInside = 0.3f;    // share of rays that may meet a piece from inside
+constexpr float kRaysAround = 80;      // at most of a point of the surroundings, which the eye does not come near to
 constexpr float kSunSine = 0.00465f;   // radius of the sun's disc; unit: rad
 
 void basis_about(const Vec3f& n, float turn, Vec3f& x, Vec3f& y) {
@@ -64,7 +67,17 @@ BakeOrigin Baker::origin(const Point& p, std::size_t i) const {
   const PreparedMesh& mesh = scene_.meshes[placed.mesh];
   const BakeOrigin& source = mesh.bake_origins[mesh.bake_points[p.source].first_origin + i];
   const Vec3f normal(placed.world_from_mesh.rotation.rotate(Vec3(source.normal)));
-  return {Vec3f(placed.world_from_mesh * (Vec3(source.position) * placed.scale)) + normal * kLift, normal};
+  const Vec3f place(placed.world_from_mesh * (Vec3(source.position) * placed.scale));
+  return {place + normal * (below_soil(p) ? kSoil : kLift), normal};
+}
+
+// The plane goes on below the soil of the surroundings. Were it dark there, it would be dark up to the soil's rim, for
+// light is taken from between points.
+bool Baker::below_soil(const Point& p) const {
+  if (!scene_.surrounded || scene_.placed[p.piece].id != kGroundId || scene_.bounds.empty()) return false;
+  const Vec3 low = scene_.bounds.min, high = scene_.bounds.max;
+  const double x = double(p.position.x), y = double(p.position.y);
+  return x < low.x - kBeside || x > high.x + kBeside || y < low.y - kBeside || y > high.y + kBeside;
 }
 
 // The point nearest to one of the nodes about a place, drawn by its weight there, so that the mean over many rays
@@ -107,6 +120,10 @@ void Baker::trace(std::size_t i) {
   p.sky = seen > 0 ? p.sky * (1 / seen) : Vec3f();
   p.clearance = near > 0 ? seen / near : kLightReach;
   find_direct(p);
+  if (light_.far.empty()) return;
+  const Vec3f near_light = p.direct;
+  far_vectors_[i] = find_far(p);
+  far_light_[i] = p.direct - near_light;
 }
 
 // The mean over the origins outside all pieces, each from another spot of the sun's disc.
@@ -137,6 +154,25 @@ void Baker::find_direct(Point& p) const {
     for (std::size_t k = 0; k < count; ++k)
       if (!hidden[k]) p.direct += light[k];
   }
+}
+
+// From the first of its origins that is outside all pieces: what is far varies little from one to the next.
+Vec3f Baker::find_far(Point& p) const {
+  Vec3f vector;
+  std::size_t o = 0;
+  while (o < origin_count(p) && !(p.open >> o & 1u)) ++o;
+  if (o == origin_count(p)) return vector;
+  const BakeOrigin from = origin(p, o);
+  for (const LightModel& l : light_.far) {
+    const LightModel::Sample sample = l.at(from.position);
+    const float facing = dot(sample.to_light, from.normal);
+    if (facing <= 0 || luminance(sample.illuminance) <= 0) continue;
+    const float distance = std::min(sample.distance * 0.999f, kLightReach);
+    if (rays_.blocked(from.position, sample.to_light, 0, distance)) continue;
+    p.direct += sample.illuminance * facing;
+    vector += sample.to_light * luminance(sample.illuminance);
+  }
+  return vector;
 }
 
 void Baker::gather_first(std::size_t i) {
@@ -201,7 +237,8 @@ int Baker::rounds_for(const Point& p, const Sum& about) const {
   const float error = kNoise / freedom * light;
   if (error <= 0) return 0;
   // Directions that are spread evenly have about half the noise of chance.
-  const float needed = std::min(0.25f * variance * p.noise_left / (error * error), float(options_.rays) * freedom);
+  const float most = scene_.placed[p.piece].surrounds ? std::min(kRaysAround, float(options_.rays)) : float(options_.rays);
+  const float needed = std::min(0.25f * variance * p.noise_left / (error * error), most * freedom);
   return int(std::ceil(std::max(needed - float(first_directions_.size()), 0.0f) / float(directions_.size())));
 }
 

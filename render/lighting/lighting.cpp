@@ -70,6 +70,7 @@ LightSet make_lights(const Scene& scene) {
   LightSet set;
   set.lights.push_back(make_light_model(scene.light));
   for (const LightSpec& spec : scene.more_lights) set.lights.push_back(make_light_model(spec));
+  for (const LightSpec& spec : scene.far_lights) set.far.push_back(make_light_model(spec));
   const LightModel& main = set.lights.front();
   if (scene.light.type == LightType::sun) {
     SkyLight sky = make_sky_light(scene.sky, scene.light.elevation_deg, -main.axis, scene.seed);

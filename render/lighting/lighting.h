@@ -32,6 +32,7 @@ LightModel make_light_model(const LightSpec& spec);
 
 struct LightSet {
   std::vector<LightModel> lights;  // the main one first; 1 to kMostLights
+  std::vector<LightModel> far;     // Scene::far_lights
   Sky sky;                         // that goes with the main light
 };
 // Throws RunError for too many lights.

@@ -24,9 +24,10 @@ enum class Pattern {
   splinters,
   paint,
   weave,
-  smooth
+  smooth,
+  masonry
 };
-inline constexpr int kPatternCount = 14;
+inline constexpr int kPatternCount = 15;
 
 // How a surface reflects. Colours are linear-light albedos (0 to 1).
 struct SurfaceAppearance {
@@ -41,6 +42,7 @@ struct SurfaceAppearance {
   // See transport/reflection.h: the share that its outermost face mirrors at normal incidence (0: matt), and
   // the roughness alpha of that mirror.
   float reflectance = 0, roughness = 1;
+  float glow = 0;  // luminance that it shines with, seen from anywhere; it lights nothing; unit: kcd/m2
 };
 
 // All of them, in a fixed order; the last is the ground's.

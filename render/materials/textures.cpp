@@ -256,6 +256,24 @@ Spot smooth_sheet(float x, float y) {
   return s;
 }
 
+// Stones in a running bond, four by twelve, with sunken joints; no two of one tone.
+Spot masonry(float x, float y) {
+  constexpr int kColumns = 4, kRows = 12;
+  const float wobble = 0.012f * (tile_fractal(x, y, 24, 3, 0.6f, 151) - 0.5f);
+  const float v = (y + 0.25f * wobble) * kRows, row = std::floor(v);
+  const float u = (x + wobble) * kColumns + (int(row) % 2 ? 0.5f : 0.0f), column = std::floor(u);
+  const float across = std::min(u - column, 1 - (u - column)), up = std::min(v - row, 1 - (v - row));
+  const float joint = std::max(1 - ramp(0.012f, 0.026f, across), 1 - ramp(0.05f, 0.095f, up));
+  const int stone = (int(column) + kColumns) % kColumns + kColumns * ((int(row) + kRows) % kRows);
+  const float tone = lattice_value(stone, 5, 152), rough = tile_fractal(x, y, 20, 5, 0.62f, 153);
+  const float stain = tile_fractal(x, y, 3, 4, 0.6f, 154);
+  Spot s;
+  s.height = 0.5f * (1 - joint) + 0.12f * rough;
+  s.bright = 0.12f + 0.42f * tone + 0.3f * rough + 0.35f * (stain - 0.35f);
+  s.mask = 0.92f * joint;
+  return s;
+}
+
 Spot spot_of(Pattern pattern, float x, float y) {
   switch (pattern) {
     case Pattern::cast_concrete:
@@ -286,6 +304,8 @@ Spot spot_of(Pattern pattern, float x, float y) {
       return weave(x, y);
     case Pattern::smooth:
       return smooth_sheet(x, y);
+    case Pattern::masonry:
+      return masonry(x, y);
   }
   return {};
 }
@@ -329,7 +349,7 @@ std::vector<PatternImage> make_patterns(int size, int threads) {
 }
 
 std::vector<PatternImage> make_patterns_once(const DiskCache& cache, int size, int threads) {
-  constexpr int kVersion = 3;  // raise it when a pattern changes
+  constexpr int kVersion = 4;  // raise it when a pattern changes
   const std::string key = CacheKey("make_patterns", kVersion).add(size).hex();
   if (const auto bytes = cache.find("textures", key)) {
     std::vector<PatternImage> images(kPatternCount);

@@ -14,7 +14,7 @@ namespace rubble {
 
 namespace {
 
-constexpr std::size_t kMaxSurfaceAppearances = 20;
+constexpr std::size_t kMaxSurfaceAppearances = 32;  // whose numbers have 5 bits
 // Where the clean air begins to veil what is seen; unit: m.
 constexpr double kVeilFrom = 12;
 constexpr std::size_t kMostViews = 6 * kMostLights;
@@ -71,7 +71,8 @@ void fill_lights(FrameBlock& block, const FrameLight& frame) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const LightModel& light = lights[i];
     set(block.light_position[i], light.position, frame.shadow->lights[i].texel);
-    set(block.light_axis[i], light.axis, light.cos_outer);
+    const bool beam = light.type == LightType::directional;
+    set(block.light_axis[i], light.axis, beam ? frame.shadow->lights[i].far_texel : light.cos_outer);
     set(block.light_colour[i], light.colour,
         1 / std::max(light.cos_inner - light.cos_outer, 1e-6f));
   }
@@ -116,7 +117,7 @@ void fill_surface_appearances(FrameBlock& block, int texture_size) {
   for (std::size_t i = 0; i < looks.size() && i < kMaxSurfaceAppearances; ++i) {
     const SurfaceAppearance& l = looks[i];
     set(block.looks[i * 4], Vec3f(l.dark), 1 / l.tile);
-    set(block.looks[i * 4 + 1], Vec3f(l.light), l.bump);
+    set(block.looks[i * 4 + 1], Vec3f(l.light), l.glow > 0 ? -l.glow : l.bump);
     set(block.looks[i * 4 + 2], Vec3f(l.accent), std::floor(255 * l.reflectance + 0.5f) + 0.99f * l.roughness);
     set(block.looks[i * 4 + 3], {float(l.pattern), l.dust, l.variation},
         std::log2(float(texture_size) / l.tile));
@@ -136,6 +137,8 @@ ShaderDefines variant_of(const FrameLight& frame) {
   if (!frame.clear_air) defines.push_back({"AIR", ""});
   defines.push_back({"AIR_STEPS", std::to_string(AirVolume::kSlices - 1) + ".0"});
   if (frame.wetness > 0) defines.push_back({"WET", ""});
+  if (frame.glows) defines.push_back({"GLOW", ""});
+  if (frame.surrounded) defines.push_back({"SURROUNDED", ""});
   return defines;
 }
 
@@ -244,6 +247,8 @@ Vec3f white_balance(const LightSet& set) {
   const LightModel& main = set.lights.front();
   Vec3f light = set.sky.mean * portable::kPiF;
   if (main.type == LightType::directional) light += main.colour * std::max(-main.axis.z, 0.0f);
+  // Under street lamps theirs is the light, as some metres below them.
+  if (!set.far.empty()) light += set.far.front().colour * (1.0f / 50);
   const float bright = grey_of(light);
   if (bright <= 0) return {1, 1, 1};
   // Less at dusk, which is to look blue: 0.75 in daylight, 0.35 at 10 lx.

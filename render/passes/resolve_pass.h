@@ -24,6 +24,8 @@ struct FrameLight {
   bool clear_air = true;                 // at all times
   double wetness = 0;                    // of surfaces
   float most_gloss = 1;                  // the largest mirrored_peak() of the looks in use
+  bool glows = false;                    // a look in use shines by itself
+  bool surrounded = false;               // as PreparedScene::surrounded
   const AirVolume* air_table = nullptr;  // of this frame, unless the air is clear
   const Pose* world_from_rig = nullptr;  // of what bears the lamp; null: the camera does
 };

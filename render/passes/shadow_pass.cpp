@@ -15,7 +15,9 @@ using Rows = std::array<std::array<double, 4>, 4>;
 
 constexpr double kNearest = 0.05;  // unit: m; nothing nearer to a lamp throws a shadow
 constexpr double kShadowReach = 500;  // unit: m
+constexpr double kWide = 90;  // half a side of the box of surroundings that throw shadows there; unit: m
 constexpr std::size_t kMostTexels = std::size_t(6) * 2048 * 2048;  // of all views
+constexpr std::size_t kMostTexelsAround = std::size_t(2) * 4096 * 4096;  // where there are surroundings
 
 struct Basis {
   Vec3 right, up, forward;
@@ -32,10 +34,11 @@ std::array<double, 4> row(const Vec3& v, const Vec3& origin, double scale) {
 }
 
 // A box along the light around the pieces and what they shade nearby.
-Rows directional_view(const Aabb& bounds, const LightModel& light, int size, float& texel) {
+// least_depth: half of its length along the light.
+Rows directional_view(const Aabb& bounds, const LightModel& light, int size, double least_depth, float& texel) {
   const Basis b = basis_along(Vec3(light.axis));
   const Vec3 middle = (bounds.min + bounds.max) * 0.5;
-  double width = 0.1, height = 0.1, depth = 0.1;
+  double width = 0.1, height = 0.1, depth = least_depth;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
                  corner & 4 ? bounds.max.z : bounds.min.z);
@@ -61,13 +64,22 @@ Rows perspective_view(const Vec3& eye, const Basis& b, double tangent) {
   return rows;
 }
 
-std::vector<Rows> make_views(const PreparedScene& scene, const LightModel& light, int size,
-                             float& texel) {
-  if (light.type == LightType::directional) {
-    Aabb bounds = scene.bounds;
-    if (bounds.empty()) bounds.include({0, 0, 0});
-    return {directional_view(bounds, light, size, texel)};
-  }
+std::vector<Rows> make_beam_views(const PreparedScene& scene, const LightModel& light, int size, ShadowMap::Light& out) {
+  Aabb bounds = scene.bounds;
+  if (bounds.empty()) bounds.include({0, 0, 0});
+  // What is nearer to the light than the box would never be in shadow: surroundings stand there.
+  const double least = scene.surrounded ? 3 * kWide : 0.1;
+  std::vector<Rows> views{directional_view(bounds, light, size, least, out.texel)};
+  if (!scene.surrounded) return views;
+  const Vec3 middle = (bounds.min + bounds.max) * 0.5;
+  bounds.include(Vec3(middle.x - kWide, middle.y - kWide, 0)), bounds.include(Vec3(middle.x + kWide, middle.y + kWide, 25));
+  views.push_back(directional_view(bounds, light, size, least, out.far_texel));
+  return views;
+}
+
+std::vector<Rows> make_views(const PreparedScene& scene, const LightModel& light, int size, ShadowMap::Light& out) {
+  float& texel = out.texel;
+  if (light.type == LightType::directional) return make_beam_views(scene, light, size, out);
   const Vec3 eye(light.position);
   const bool wide = light.type == LightType::point || light.cos_outer < 0.64f;
   if (!wide) {
@@ -113,14 +125,15 @@ ShadowPass::ShadowPass(const Gl& gl, const PreparedScene& scene, const GpuGeomet
     map_.lights.clear();
     for (const LightModel& light : lights.lights) {
       ShadowMap::Light entry;
-      const std::vector<Rows> views = make_views(scene, light, size_, entry.texel);
+      const std::vector<Rows> views = make_views(scene, light, size_, entry);
       entry.first_view = int(views_.size()), entry.views = int(views.size());
       map_.lights.push_back(entry);
       views_.insert(views_.end(), views.begin(), views.end());
     }
   };
   list_views();
-  while (views_.size() * std::size_t(size_) * std::size_t(size_) > kMostTexels) {
+  const std::size_t most_texels = scene.surrounded ? kMostTexelsAround : kMostTexels;
+  while (views_.size() * std::size_t(size_) * std::size_t(size_) > most_texels) {
     size_ /= 2;
     list_views();
   }

@@ -1,5 +1,5 @@
 // The shadow maps of all lights. What rests is drawn once, what moves whenever it has moved. One view
-// for the sun and for narrow spots, six (a cube) for the others.
+// for narrow spots and for the sun (two where there are surroundings), six (a cube) for the others.
 #pragma once
 
 #include <array>
@@ -14,8 +14,10 @@ struct ShadowMap {
   GlTexture depth;  // array of GL_DEPTH_COMPONENT32F, compared by GL_LEQUAL
   std::vector<std::array<std::array<float, 4>, 4>> clip_from_world;  // rows, one a layer
   struct Light {
-    int first_view = 0, views = 1;  // layers of the light; 1 or 6
+    // Layers of the light: 1 or 6; 2 of one that is directional, the second over the surroundings.
+    int first_view = 0, views = 1;
     float texel = 0;                // width across the beam (directional; m) or per metre of distance
+    float far_texel = 0;            // of the second layer of a directional one; m
   };
   std::vector<Light> lights;  // in the order of LightSet::lights
 };

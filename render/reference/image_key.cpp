@@ -35,13 +35,17 @@ void add_lights(CacheKey& key, const LightSet& set) {
     key.add(l.type).add(l.cos_outer).add(l.cos_inner);
     for (const Vec3f& v : {l.position, l.axis, l.colour}) add_vec(key, v);
   }
+  for (const LightModel& l : set.far) {
+    key.add(l.type).add(l.cos_outer).add(l.cos_inner);
+    for (const Vec3f& v : {l.position, l.axis, l.colour}) add_vec(key, v);
+  }
   for (const Vec3f& v : set.sky.map) add_vec(key, v);
   add_vec(key, set.sky.sun_radiance);
 }
 
 void add_look(CacheKey& key, const SurfaceAppearance& look) {
   for (const Vec3f& v : {look.dark, look.light, look.accent}) add_vec(key, v);
-  for (const float f : {look.tile, look.bump, look.dust, look.variation, look.reflectance, look.roughness})
+  for (const float f : {look.tile, look.bump, look.dust, look.variation, look.reflectance, look.roughness, look.glow})
     key.add(f);
 }
 

@@ -29,6 +29,7 @@ struct TracedScene {
   const SurfaceModel& surfaces;  // of that scene
   const SceneLights& lights;     // of the place, without the lamp
   const AirPath& air;            // at the instant of the image
+  bool surrounded = false;       // as PreparedScene::surrounded
 };
 
 // What is seen, and from where it is lit.

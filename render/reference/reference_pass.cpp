@@ -95,7 +95,7 @@ std::vector<float> ReferencePass::State::trace(const TracedView& view, const Air
   TraceOptions trace;
   trace.samples = options.samples, trace.jitter = options.jitter;
   trace.seed = options.seed ^ std::uint64_t(view.rays.stamp_ns) * 0x9e3779b97f4a7c15u;
-  const PathTracer tracer({rays, surfaces, lights, air_path}, trace);
+  const PathTracer tracer({rays, surfaces, lights, air_path, scene.surrounded}, trace);
   const std::vector<PixelBox> boxes = cut_into_boxes(width, height);
   std::vector<PixelSums> sums(std::size_t(width) * std::size_t(height));
   std::atomic<std::size_t> done{0};

@@ -206,7 +206,8 @@ bool Wave::reflect(std::uint32_t index, const RayScene::PreciseHit& hit) {
     path.albedo = mean_albedo(surface.reflection), path.normal = surface.normal;
     // Clean air veils what is far: the horizon has no edge.
     const float there = std::max(hit.distance - kVeilFrom, 0.0f);
-    const float veil = std::exp2(-there * there * 4e-5f / (1 + there * 0.012f));
+    const float veil = std::exp2(scene_.surrounded ? -there * 5.64e-4f
+                                                   : -there * there * 4e-5f / (1 + there * 0.012f));
     if (veil < 1) {
       const Vec3f level = normalized(Vec3f(path.direction.x, path.direction.y, 0.02f));
       path.light += times(path.throughput, scene_.lights.sky(level)) * (1 - veil);
@@ -214,6 +215,7 @@ bool Wave::reflect(std::uint32_t index, const RayScene::PreciseHit& hit) {
     }
   }
   path.light += times(path.throughput, surface.emission);
+  if (path.bounces == 0) path.light += times(path.throughput, surface.glow);
   const Vec3f out = -path.direction;
   if (!surface.reflection.matt()) surface.normal = facing(surface.normal, surface.face_normal, out);
   light_surface(index, surface, out);

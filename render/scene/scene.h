@@ -92,6 +92,8 @@ struct AirSpec {
 
 struct SceneMesh {
   std::vector<TriangleMesh> levels;  // finest first; at least one
+  // Of surroundings: about how far apart light is found on it; 0: as close as on a piece; unit: m
+  double light_spacing = 0;
 };
 
 struct SceneInstance {
@@ -100,6 +102,8 @@ struct SceneInstance {
   Pose world_from_body;    // unit: m
   std::uint32_t id = 0;     // piece number
   std::uint16_t label = 2;  // class, as in the stream `label`; range: 2 and up
+  // Of the surroundings: what is made to measure for the pile, such as its shadow map, does not grow with it.
+  bool surrounds = false;
 };
 
 // What moves, and where it is when. The rest of a scene stays where its instances say, and its light
@@ -121,6 +125,9 @@ struct Scene {
   LightSpec light;                     // the main one, which makes the sky
   SkySpec sky;                         // of a main light that is the sun
   std::vector<LightSpec> more_lights;  // at most kMostLights - 1
+  // Lights far from what matters, such as distant street lamps: found with the baked light, so their shadows are
+  // soft. Any number.
+  std::vector<LightSpec> far_lights;
   LampSpec lamp;                       // on the camera
   double wetness = 0;  // of all surfaces: darker, and glossy where they face up; range: 0 to 1
   AirSpec air;         // fog, smoke, dust

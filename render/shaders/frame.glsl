@@ -5,7 +5,8 @@ layout(std140) uniform Frame {
   vec4 view;                   // near plane, exposure, width, height
   vec4 light_position[4];      // world; spot and point; w: width of a shadow texel (directional)
                                // or of one per metre (others)
-  vec4 light_axis[4];          // the way the light travels; w: cosine of the cone's edge
+  vec4 light_axis[4];          // the way the light travels; w: cosine of the cone's edge; of a directional one
+                               // the width of a texel of its second shadow map
   vec4 light_colour[4];        // klx (directional) or kcd; w: 1 / (inner - outer cosine)
   vec4 lamp_position;          // world; w: what its size adds to the square of the distance, m2
   vec4 lamp_axis;              // the way it looks; w: 1 / (1 - cosine of the half-power angle)
@@ -17,6 +18,6 @@ layout(std140) uniform Frame {
   vec4 ground;                 // middle of the ground's map, 1 / its reach
   vec4 balance;                // white balance of the display image
   vec4 shadow_rows[96];        // rows of clip_from_world, four for each view
-  vec4 looks[80];              // four for each look: dark + 1/tile, light + bump, accent + gloss,
-                               // (layer, dust, variation, log2(texels per m))
+  vec4 looks[128];             // four for each look: dark + 1/tile, light + bump, accent + gloss,
+                               // (layer, dust, variation, log2(texels per m)); a bump below 0 is a glow
 };

@@ -76,8 +76,15 @@ float light_visible(const int i, const int type, const int first_view, const int
   vec3 at;
   if (type == 0) {
     at = vec3(clip.xy * 0.5 + 0.5, min(clip.z, 1.0));
-    // Outside the map nothing is in the way.
-    if (any(notEqual(at.xy, clamp(at.xy, 0.0, 1.0)))) return 1.0;
+    if (any(notEqual(at.xy, clamp(at.xy, 0.0, 1.0)))) {
+      // Outside the last map nothing is in the way.
+      if (views < 2) return 1.0;
+      h.xyz = p + normal * (light_axis[i].w * 1.6);
+      row += 4, view_index += 1;
+      clip = vec4(dot(shadow_rows[row], h), dot(shadow_rows[row + 1], h), dot(shadow_rows[row + 2], h), 1.0);
+      at = vec3(clip.xy * 0.5 + 0.5, min(clip.z, 1.0));
+      if (any(notEqual(at.xy, clamp(at.xy, 0.0, 1.0)))) return 1.0;
+    }
   } else {
     if (clip.w <= 0.0) return 0.0;
     at = vec3(clip.xy / clip.w * 0.5 + 0.5, clip.z / clip.w);

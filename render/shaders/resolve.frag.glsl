@@ -1,7 +1,7 @@
 // From "which triangle is here" to colour: surface, light, air, tone.
 // Variants: LIGHT_COUNT 1 to 4; for each light LIGHT_i as "type, first view, views" with type 0
 // directional, 1 spot, 2 point; LAMP; AIR that is not clear; WET; LINEAR (kcd/m2
-// out, no tone mapping); METER (log2 of luminance of each 4th pixel in each direction, for the
+// out, no tone mapping); GLOW where a look shines; SURROUNDED by a street; METER (log2 of luminance of each 4th pixel in each direction, for the
 // exposure; below -1000: none); RAYS (each pixel has a ray of its own); CONTENT 0 sky, 1 surfaces no farther
 // than VEIL_FROM, 2 surfaces, 3 both.
 #include "frame.glsl"
@@ -63,7 +63,19 @@ vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
 #endif
   // What the mirrors on top throw back of the light all around, the base below does not get.
   float mirrored = mirrored_share(s, dot(s.normal, to_eye));
+#ifdef SURROUNDED
+  // Panes and puddles show the sky above the roofs.
+  vec3 around = s.ambient * open.x, to_sky = reflect(-to_eye, s.normal);
+  float even = s.gloss.x * (1.0 - smoothstep(0.04, 0.12, s.gloss.z));
+#ifdef WET
+  even = max(even, s.film);
+#endif
+  around = mix(around, sky_radiance(vec3(to_sky.xy, max(to_sky.z, 0.01))) * 3.14159,
+               even * smoothstep(0.05, 0.4, to_sky.z));
+  return (sum.e * s.albedo * (1.0 - mirrored) + around * mirrored + sum.glare) * 0.318310;
+#else
   return (sum.e * s.albedo * (1.0 - mirrored) + s.ambient * (open.x * mirrored) + sum.glare) * 0.318310;
+#endif
 }
 
 void main() {
@@ -120,10 +132,17 @@ void main() {
     Surface s = find_surface(seen.x - 1u, seen.y, world, direction, z);
     vec2 open = texture(openness, (vec2(pixel) + 0.5) / view.zw).xy;
     radiance = shade(s, world, -direction, open, passed);
+#ifdef GLOW
+    radiance += s.glow;
+#endif
 #if CONTENT != 1
     // Clean air veils what is far: the horizon has no edge.
     float there = max(far - VEIL_FROM, 0.0);
+#ifdef SURROUNDED
+    float veil = exp2(-there * 5.64e-4);  // what is far is there, at a visibility of 10 km
+#else
     float veil = exp2(-there * there * 4e-5 / (1.0 + there * 0.012));
+#endif
     radiance = mix(sky_radiance(vec3(direction.xy, 0.02)), radiance, veil);
 #endif
   }

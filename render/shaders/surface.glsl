@@ -5,6 +5,9 @@ struct Surface {
   vec3 ambient;  // klx
   // Mirrors on top, as transport/reflection.h has them: share covered, reflectance, roughness.
   vec3 gloss;
+#ifdef GLOW
+  vec3 glow;  // kcd/m2
+#endif
 #ifdef WET
   float film;  // share covered by water
 #endif
@@ -139,7 +142,11 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   vec4 texel = textureLod(look_textures, vec3(uv, more.x), max(level, 0.0));
 
   // Relief.
+#ifdef GLOW
+  vec2 slope = (texel.xy * 4.0 - 2.0) * max(bright.w, 0.0);
+#else
   vec2 slope = (texel.xy * 4.0 - 2.0) * bright.w;
+#endif
   vec3 tu = turn == 1u ? along.zxy : turn == 2u ? along.yzx : along;
   vec3 tv = turn == 1u ? across.zxy : turn == 2u ? across.yzx : across;
   vec3 bent = smooth_normal - tu * slope.x - tv * slope.y;
@@ -156,6 +163,9 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   float tint = (float((mw.w >> 16) & 255u) * (2.0 / 255.0) - 1.0) * more.z;
   float warm = (float(mw.w >> 24) * (2.0 / 255.0) - 1.0) * more.z * 0.25;
   s.albedo *= (1.0 + tint) * vec3(1.0 + warm, 1.0, 1.0 - warm);
+#ifdef GLOW
+  s.glow = s.albedo * (max(-bright.w, 0.0) / max(dot(bright.rgb, vec3(0.2126, 0.7152, 0.0722)), 1e-3));
+#endif
   // Dust settles on what faces up, unevenly, and lets pits and cracks show.
   float dust = smoothstep(0.30, 1.05, up + (texel.z - 0.45) * 0.8) *
                (soil ? 0.85 * map.x : more.y);

@@ -161,6 +161,8 @@ void LookSurfaces::add_colour(const Place& place, SurfacePoint& out) const {
   albedo *= 1 + (place.soil ? 0.3f : 0.16f) * place.slow;
   const float tint = place.piece->tint * look.variation, warm = place.piece->warm * look.variation;
   albedo = times(albedo, Vec3f(1 + warm, 1, 1 - warm)) * (1 + tint);
+  if (look.glow > 0)
+    out.glow = albedo * (look.glow / dot(look.light, Vec3f(0.2126f, 0.7152f, 0.0722f)));
   const float dust = smoothstep(0.30f, 1.05f, place.up + (bright - 0.45f) * 0.8f) *
                      (place.soil ? 0.85f * place.debris : look.dust);
   albedo = mix(albedo, Vec3f(0.375f, 0.36f, 0.335f) * (0.55f + 0.75f * bright), dust);
@@ -188,7 +190,7 @@ void LookSurfaces::find(const SurfaceQuery& query, SurfacePoint& out) const {
   out.position = place.world;
   out.face_normal = place.to_world(place.face);
   out.normal = normalized(place.to_world(place.bent));
-  out.emission = Vec3f();
+  out.emission = out.glow = Vec3f();
   add_colour(place, out);
   if (wetness_ > 0) add_water(place, out);
 }

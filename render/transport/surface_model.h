@@ -18,6 +18,7 @@ struct SurfacePoint {
   Vec3f normal;           // with rounding and relief, unit
   Reflection reflection;  // in the frame of `normal`
   Vec3f emission;         // radiance, the same in all directions; unit: kcd/m2
+  Vec3f glow;             // likewise, but it lights nothing: see SurfaceAppearance::glow
 };
 
 struct SurfaceQuery {

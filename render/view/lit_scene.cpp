@@ -19,6 +19,13 @@ float most_gloss(const PreparedScene& scene) {
   return most;
 }
 
+bool shines(const PreparedScene& scene) {
+  for (const PreparedMesh& mesh : scene.meshes)
+    for (const PreparedTriangle& t : mesh.triangles)
+      if (all_surface_appearances()[t.material].glow > 0) return true;
+  return false;
+}
+
 }  // namespace
 
 LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
@@ -48,7 +55,7 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
   }
   shadow = std::make_unique<ShadowPass>(gl, scene, geometry, light, o.shadow_size);
   shadow->draw_moving();  // nothing yet
-  frame_light = {&light, &shadow->map(), s.lamp, medium.clear(), s.wetness, most_gloss(scene)};
+  frame_light = {&light, &shadow->map(), s.lamp, medium.clear(), s.wetness, most_gloss(scene), shines(scene), scene.surrounded};
   progress(1);
 }
 

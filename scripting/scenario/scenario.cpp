@@ -8,6 +8,7 @@
 #include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/scenario/sky_schema.h"
+#include "scripting/scenario/surroundings_schema.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -160,6 +161,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_record_settling(scenario.record_settling, mistakes);
   check_robots(scenario, mistakes);
   check_fines(scenario.fines, mistakes);
+  check_surroundings(scenario, mistakes);
   if (scenario.victims.count > 0 && needs_track(scenario))
     mistakes.push_back({"", 0, "victims.count", "victims lie in the pile only when it has settled",
                         "no record_settling and no outputs.track, or 0", std::to_string(scenario.victims.count), ""});

@@ -16,6 +16,7 @@
 #include "kernel/base/math.h"
 #include "kernel/model/fines.h"
 #include "kernel/model/pile.h"
+#include "kernel/model/surroundings.h"
 #include "kernel/settling/settle.h"
 #include "render/scene/scene.h"
 #include "scripting/scenario/camera_scenario.h"
@@ -168,6 +169,7 @@ struct Scenario {
   PileScenario pile;                      // what is dropped, and where
   VictimScenario victims;                 // who lies in it
   FinesSpec fines;                        // what is strewn over it
+  SurroundingsSpec surroundings;          // what stands about it
   SettleOptions settle;  // its `threads` is not part of a scenario: results do not depend on it
   LightScenario light;   // the main light
   std::vector<LightSpec> lights;  // besides the main one; at most kMostLights - 1

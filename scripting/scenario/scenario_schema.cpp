@@ -6,6 +6,7 @@
 #include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/pile_schema.h"
 #include "scripting/scenario/sky_schema.h"
+#include "scripting/scenario/surroundings_schema.h"
 
 namespace rubble {
 namespace {
@@ -393,6 +394,7 @@ Schema make_scenario_schema(Scenario& s) {
   add_pile_keys(keys, s.pile);
   add_victim_keys(keys, s.victims);
   add_fine_keys(keys, s.fines);
+  add_surroundings_keys(keys, s.surroundings);
   add_settle(keys, s.settle);
   add_light(keys, s.light);
   add_more_lights(keys, s.lights);

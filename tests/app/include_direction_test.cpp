@@ -91,6 +91,7 @@ const Allowed kKernel{
     {"kernel/robot/", kernel_rooms(9)},
     {"kernel/queries/", with(kernel_rooms(2), {"kernel/queries/"})},
     {"kernel/fines/", with(kernel_rooms(2), {"kernel/queries/", "kernel/fines/"})},
+    {"kernel/surroundings/", with(kernel_rooms(1), {"kernel/surroundings/"})},
     {"kernel/voids/", with(kernel_rooms(2), {"kernel/queries/", "kernel/voids/"})},
 };
 
@@ -127,13 +128,13 @@ const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/", "io/ompl
 const Allowed kScripting = stack(
     {"scripting/values/", "scripting/trajectory/", "scripting/schema/", "scripting/sandbox/",
      "scripting/packs/", "scripting/sky/", "scripting/scenario/", "scripting/reference/", "scripting/"},
-    {"kernel/base/", "kernel/model/everting_tube.h", "kernel/model/fines.h", "kernel/model/pile.h", "kernel/settling/settle.h",
+    {"kernel/base/", "kernel/model/everting_tube.h", "kernel/model/fines.h", "kernel/model/pile.h", "kernel/model/surroundings.h", "kernel/settling/settle.h",
      "render/scene/",
      "render/streams/image_streams.h"});
 
 const Allowed kApp = stack(
     {"app/support/", "app/formats/", "app/provenance/", "app/assets/", "app/measures/",
-     "app/estimate/", "app/planning/", "app/victims/", "app/fines/", "app/sensors/", "app/robots/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
+     "app/estimate/", "app/planning/", "app/victims/", "app/fines/", "app/surroundings/", "app/sensors/", "app/robots/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
      "app/eval/scores/", "app/eval/sfm/", "app/eval/map/", "app/search/", "app/navigate/", "app/view/", "app/drive/", "app/command_line/",
      "app/commands/eval/", "app/commands/assets/", "app/commands/publish/", "app/commands/",
      "app/main.cpp"},

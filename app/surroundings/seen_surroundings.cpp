@@ -1,0 +1,91 @@
+#include "app/surroundings/seen_surroundings.h"
+
+#include <memory>
+#include <string>
+
+#include "render/scene/frame.h"
+
+namespace rubble {
+
+namespace {
+
+// A light-emitting diode lamp of about 5,000 lm at 7 m, which gives 20 lx below it and a mean near 10 lx: class P1
+// of EN 13201-2 asks for a mean of 15 lx, P2 for 10 lx.
+constexpr double kLampIntensity = 1.0;  // unit: kcd
+constexpr double kLampCone = 150;       // unit: degree
+constexpr std::size_t kFarLamps = 12;   // besides, of which light is found
+
+LightSpec lamp_at(const Vec3& place) {
+  LightSpec light;
+  light.type = LightType::spot;
+  light.intensity = kLampIntensity, light.cone_deg = kLampCone;
+  light.rpy_deg = {0, 90, 0};
+  light.position = place;
+  return light;
+}
+
+}  // namespace
+
+std::uint16_t surrounding_label(const Scenario& scenario, const AssetLibrary& assets, SurroundingKind kind) {
+  const std::size_t robots = scenario.robots.empty() ? 0 : 1;
+  const std::size_t fines = scenario.fines.amount > 0 ? std::size_t(kFineKinds) : 0;
+  return std::uint16_t(std::size_t(kFirstAssetLabel) + assets.types.size() + robots + fines + std::size_t(kind));
+}
+
+void add_surroundings(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile, Scene& scene) {
+  if (!pile.surroundings) return;
+  const std::uint32_t first = std::uint32_t(scene.meshes.size());
+  for (const auto& mesh : pile.surroundings->meshes) {
+    auto seen = std::make_shared<SceneMesh>();
+    seen->levels = mesh->levels, seen->light_spacing = mesh->light_spacing;
+    scene.meshes.push_back(std::move(seen));
+  }
+  std::uint32_t number = std::uint32_t(kFirstSurrounding);
+  for (const SurroundingThing& thing : pile.surroundings->things) {
+    SceneInstance instance;
+    instance.mesh = first + thing.mesh;
+    instance.scale = float(thing.scale);
+    instance.world_from_body = thing.world_from_mesh;
+    instance.id = number++;
+    instance.label = surrounding_label(scenario, assets, thing.kind);
+    instance.surrounds = true;
+    scene.instances.push_back(instance);
+  }
+}
+
+void add_street_lamps(const PileState& pile, Scene& scene) {
+  if (!pile.surroundings || !pile.surroundings->lit) return;
+  std::size_t left = kFarLamps;
+  for (const Vec3& place : pile.surroundings->lamps) {
+    if (scene.more_lights.size() + 1 < kMostLights)
+      scene.more_lights.push_back(lamp_at(place));
+    else if (left-- > 0)
+      scene.far_lights.push_back(lamp_at(place));
+    else
+      return;
+  }
+}
+
+void add_surroundings(const PileState& pile, PileModel& model) {
+  if (!pile.surroundings) return;
+  const std::size_t first = model.types.size();
+  for (std::size_t i = 0; i < pile.surroundings->meshes.size(); ++i)
+    model.types.push_back({"surroundings_" + std::to_string(i), &pile.surroundings->meshes[i]->levels.front()});
+  std::size_t number = kFirstSurrounding;
+  for (const SurroundingThing& thing : pile.surroundings->things) {
+    const std::string& kind = surrounding_names()[std::size_t(thing.kind)];
+    model.pieces.push_back({std::uint32_t(first + thing.mesh), piece_name(kind, number), thing.scale,
+                            thing.world_from_mesh, std::int32_t(number)});
+    ++number;
+  }
+}
+
+void add_surroundings(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile, Legend& legend) {
+  if (!pile.surroundings) return;
+  legend.first_surrounding = std::uint32_t(kFirstSurrounding);
+  for (const SurroundingThing& thing : pile.surroundings->things)
+    legend.surroundings.push_back(
+        {surrounding_label(scenario, assets, thing.kind), surrounding_names()[std::size_t(thing.kind)]});
+}
+
+}  // namespace rubble

@@ -1,0 +1,205 @@
+// Surroundings in runs: in pictures, depth, labels, exports and files, lit by their lamps, and nothing of them where a
+// mission has none.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "app/pipeline/build_scene.h"
+#include "app/pipeline/stages.h"
+#include "app/surroundings/lay_surroundings.h"
+#include "app/surroundings/seen_surroundings.h"
+#include "kernel/base/portable_math.h"
+#include "kernel/queries/queries.h"
+#include "render/gl/gl_context.h"
+#include "render/renderer.h"
+#include "tests/app/program.h"
+#include "tests/app/tiny_run.h"
+
+namespace rubble::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const kMission = R"(
+return rubble.mission {
+  seed = 5,
+  surroundings = { type = "street", reach = 40, storeys = { 2, 3 } },
+  light = { type = "sun", sky = "city_night" },
+  lamp = { on = false },
+  pile = { layers = 1, pieces_per_layer = 6, spawn_bounds = { 1.5, 1.5, 1 }, spawn_position = { 0, 0, 1.5 },
+           mix = { { asset = "brick", scale = { 1, 2 } } } },
+  camera = { width = 96, height = 72, channels = { "label", "instance" } },
+  outputs = { frames = true, stl = true, meshes = { "glb" }, rawlog = false, simplemap = false, bag = false },
+  trajectory = { rate_hz = 5, waypoints = { { t = 0, position = { -1, 3, 1.7 }, look_at = { 0, -8, 1 } },
+                                            { t = 0.2, position = { -1, 3.1, 1.7 }, look_at = { 0, -8, 1 } } } },
+})";
+
+struct Settled {
+  ResolvedMission mission;
+  PileState pile;
+};
+
+Settled settle_here(const ScratchFolder& folder) {
+  write_file(folder / "m.lua", kMission);
+  RunRequest request;
+  request.mission = folder / "m.lua", request.options.quiet = true, request.options.threads = 2;
+  RunContext context(request.options);
+  Settled settled{resolve_mission(request, RunKind::settle, context), {}};
+  settled.pile = settle_in_memory(settled.mission, context, [] { return true; }).state;
+  return settled;
+}
+
+struct Eye {
+  Pose pose;
+  Intrinsics k;
+};
+
+Eye towards_the_street() {
+  Eye eye;
+  eye.k.width = 240, eye.k.height = 180, eye.k.fx = eye.k.fy = 120, eye.k.cx = 119.5, eye.k.cy = 89.5;
+  eye.pose = {portable::quat_from_rpy(0, 0.12, -portable::kPi / 2), {0, 3, 2.5}};
+  return eye;
+}
+
+LinearFrame render(const Scene& scene, const Eye& eye, bool bake = false) {
+  GlContext context({-1, 2});
+  RenderOptions options;
+  options.threads = 2, options.bake = bake, options.bake_rays = 16;
+  Renderer renderer(context, scene, options);
+  return renderer.render_linear(eye.pose, eye.k);
+}
+
+TEST(SurroundingsRun, AreInEveryProductAndLeaveThePileAlone) {
+  const ScratchFolder folder;
+  write_file(folder / "m.lua", kMission);
+  const std::string out = folder / "out", bare = folder / "bare";
+  const Outcome run = run_rubble("settle " + (folder / "m.lua") + " --quiet --threads 1 --out " + out);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  ASSERT_EQ(run_rubble("settle " + (folder / "m.lua") + " --quiet --set surroundings.type=none --out " + bare).exit_code, 0);
+  EXPECT_EQ(read_file(out + "/pile.bin"), read_file(bare + "/pile.bin"));
+  EXPECT_EQ(read_state_hash(out), read_state_hash(bare));
+  EXPECT_IN("building_12", read_file(out + "/pile.glb"));
+  EXPECT_EQ(read_file(bare + "/pile.glb").find("building_12"), std::string::npos);
+  EXPECT_GT(fs::file_size(out + "/pile.stl"), fs::file_size(bare + "/pile.stl") + 5'000'000);
+  EXPECT_EQ(run_rubble("export " + out + " --format ply --out " + (folder / "again")).exit_code, 0);
+  EXPECT_GT(fs::file_size(folder / "again/pile.ply"), 2'000'000u);
+}
+
+// Of what a pixel's depth says, against a ray through the middle of the pixel in double precision.
+TEST(SurroundingsRun, DepthAndLabelsAreThoseOfTheTrueMeshes) {
+  const ScratchFolder folder;
+  const Settled settled = settle_here(folder);
+  const Scenario& scenario = settled.mission.scenario;
+  const PileQueries queries(settled.pile, settled.mission.assets.finest_meshes());
+  const Scene scene = build_scene(scenario, settled.mission.assets, settled.pile);
+  const Eye eye = towards_the_street();
+  const LinearFrame frame = render(scene, eye);
+  const auto& things = settled.pile.surroundings->things;
+  int seen = 0, apart = 0;
+  std::set<int> kinds;
+  for (int v = 0; v < eye.k.height; v += 2)
+    for (int u = 0; u < eye.k.width; u += 2) {
+      const Vec3 along =
+          (eye.pose * camera_from_optical).rotation.rotate({(u - eye.k.cx) / eye.k.fx, (v - eye.k.cy) / eye.k.fy, 1});
+      const auto hit = queries.cast_ray(eye.pose.translation, along, 500);
+      if (!hit || hit->piece < kFirstSurrounding) continue;
+      const SurroundingKind kind = things[std::size_t(hit->piece - kFirstSurrounding)].kind;
+      if (kind == SurroundingKind::tree || kind == SurroundingKind::soil || kind == SurroundingKind::fence) continue;
+      const auto i = std::size_t(v) * std::size_t(eye.k.width) + std::size_t(u);
+      if (frame.instance[i] >= std::uint32_t(kFirstSurrounding) && frame.instance[i] < kNoInstance) {
+        const SurroundingKind drawn = things[frame.instance[i] - std::uint32_t(kFirstSurrounding)].kind;
+        if (drawn == SurroundingKind::tree || drawn == SurroundingKind::soil) continue;  // leaves that queries leave out
+      }
+      ++seen, kinds.insert(int(kind));
+      const double expected = hit->distance / norm(along);
+      apart += std::fabs(double(frame.depth[i]) - expected) > 1e-3 + 1e-4 * expected;
+    }
+  EXPECT_GT(seen, 2000);
+  EXPECT_GE(kinds.size(), 4u);
+  EXPECT_LE(apart, seen / 100) << "of " << seen;
+  const std::vector<std::string> names = label_names(scenario, settled.mission.assets);
+  int counted = 0;
+  for (const SceneInstance& instance : scene.instances) {
+    if (!instance.surrounds) continue;
+    const SurroundingKind kind = things[instance.id - std::uint32_t(kFirstSurrounding)].kind;
+    ASSERT_EQ(names.at(instance.label), surrounding_names()[std::size_t(kind)]);
+    ++counted;
+  }
+  EXPECT_EQ(counted, int(things.size()));
+}
+
+double mean_light(const LinearFrame& frame) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < frame.depth.size(); ++i)
+    if (frame.depth[i] > 0) sum += double(frame.rgb[i * 3 + 1]), ++count;
+  return sum / double(count);
+}
+
+TEST(SurroundingsRun, StreetLampsLightTheStreet) {
+  const ScratchFolder folder;
+  Settled settled = settle_here(folder);
+  Scenario scenario = settled.mission.scenario;
+  const Scene lit = build_scene(scenario, settled.mission.assets, settled.pile);
+  EXPECT_EQ(lit.more_lights.size(), kMostLights - 1);
+  EXPECT_GE(lit.far_lights.size(), 3u);
+  scenario.surroundings.lamps = StreetLampState::off;
+  lay_surroundings(scenario, settled.mission.assets, settled.pile);
+  const Scene dark = build_scene(scenario, settled.mission.assets, settled.pile);
+  EXPECT_TRUE(dark.more_lights.empty());
+  EXPECT_TRUE(dark.far_lights.empty());
+  const Eye eye = towards_the_street();
+  EXPECT_GT(mean_light(render(lit, eye)), 5 * mean_light(render(dark, eye)));
+  scenario.surroundings.lamps = StreetLampState::automatic;
+  scenario.light.sky.type = SkyType::clear, scenario.light.spec.elevation_deg = 30;
+  EXPECT_FALSE(is_dark(scenario));
+  scenario.light.spec.elevation_deg = -2;
+  EXPECT_TRUE(is_dark(scenario));
+}
+
+// A lamp over a level slab gives I h / d^3 whether it is one of the sharp lights or a far one.
+TEST(SurroundingsRun, FarLightsGiveTheLightOfTheOthers) {
+  TriangleMesh slab;
+  slab.positions = {{-6, -6, 0}, {6, -6, 0}, {6, 6, 0}, {-6, 6, 0}};
+  slab.triangles = {{0, 1, 2}, {0, 2, 3}};
+  auto mesh = std::make_shared<SceneMesh>();
+  mesh->levels = {slab}, mesh->light_spacing = 0.5;
+  Scene scene;
+  scene.meshes = {mesh};
+  scene.ground = false, scene.lamp.on = false;
+  scene.light.type = LightType::point, scene.light.intensity = 0, scene.light.position = {0, 0, 50};
+  SceneInstance instance;
+  instance.surrounds = true;
+  scene.instances = {instance};
+  LightSpec lamp;
+  lamp.type = LightType::spot, lamp.intensity = 1, lamp.cone_deg = 150, lamp.rpy_deg = {0, 90, 0}, lamp.position = {0, 0, 4};
+  Eye eye = towards_the_street();
+  eye.pose = {portable::quat_from_rpy(0, portable::kPi / 2, 0), {0, 0, 3.5}};
+  Scene sharp = scene, far = scene;
+  sharp.more_lights = {lamp}, far.far_lights = {lamp};
+  const double none = mean_light(render(scene, eye, true)), of_sharp = mean_light(render(sharp, eye, true)),
+               of_far = mean_light(render(far, eye, true));
+  EXPECT_GT(of_sharp, 10 * none);
+  EXPECT_NEAR(of_far / of_sharp, 1, 0.05);
+}
+
+TEST(SurroundingsRun, MistakesAreShownWithTheirLines) {
+  const ScratchFolder folder;
+  const auto check = [&](const std::string& text) {
+    write_file(folder / "m.lua", "return rubble.mission {\n  seed = 1,\n  surroundings = " + text + ",\n}\n");
+    const Outcome outcome = run_rubble("check " + (folder / "m.lua"));
+    EXPECT_EQ(outcome.exit_code, 1) << text;
+    return outcome.err;
+  };
+  EXPECT_IN("m.lua:3: surroundings.type", check("{ type = \"stret\" }"));
+  EXPECT_IN("did you mean `vehicles`?", check("{ vehicels = 1 }"));
+  EXPECT_IN("40 to 400", check("{ reach = 5 }"));
+  EXPECT_IN("surroundings.storeys", check("{ storeys = { 5, 2 } }"));
+  EXPECT_IN("whole numbers", check("{ storeys = { 2, 3.5 } }"));
+  EXPECT_IN("their own ground", check("{ type = \"street\" },\n  pile = { terrain = { columns = 2, rows = 2, heights = { 0, 0, 0, 0 } } }"));
+}
+
+}  // namespace
+}  // namespace rubble::testing

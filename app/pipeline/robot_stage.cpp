@@ -4,13 +4,13 @@
 
 #include "app/pipeline/robot_control.h"
 #include "app/robots/mission_robot.h"
+#include "app/robots/ride_recorder.h"
 #include "app/robots/robot_files.h"
 #include "app/pipeline/stages.h"
 #include "app/support/stop.h"
 #include "kernel/robot/robot_run.h"
 #include "scripting/sandbox/script_file.h"
 #include "scripting/sandbox/source_map.h"
-#include "scripting/trajectory/simulated_path.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -51,60 +51,6 @@ void add_robot_metrics(const RobotRunResult& result, const std::vector<RobotLog>
   metrics["robots_lost"] = lost;
   metrics["robot_pieces_moved"] = result.pieces_moved;
 }
-
-// The way of the rig on a link, a pose a step.
-class RideRecorder {
- public:
-  // Throws InputError for a link that the robot has not.
-  RideRecorder(const Scenario& scenario, const std::vector<MissionRobot>& robots) {
-    const Ride& ride = scenario.trajectory.ride;
-    if (!ride.on()) return;
-    const std::vector<std::string> names = robot_names(scenario.robots);
-    robot_ = std::size_t(std::find(names.begin(), names.end(), ride.robot) - names.begin());
-    find_link(ride, robots[robot_]);
-    on_ = true;
-  }
-
-  void note(const World& world) {
-    if (!on_) return;
-    const RobotState state = world.robot_state(int(robot_));
-    poses_.push_back(state.links[link_].world_from_link * link_from_rig_);
-  }
-
-  void finish(double step, const std::vector<RobotRecord>& records, DrivenRobots& driven) {
-    if (!on_) return;
-    driven.readings.ride = std::make_shared<SimulatedPath>(std::move(poses_), step);
-    driven.mount = RigMount{records[robot_].frame_of(int(link_)), link_from_rig_};
-  }
-
- private:
-  // A link, or a frame on one.
-  void find_link(const Ride& ride, const MissionRobot& robot) {
-    link_from_rig_ = ride.link_from_rig();
-    std::string all;
-    const std::vector<RobotLink>& links = robot.model.links;
-    for (link_ = 0; link_ < links.size(); ++link_) {
-      if (ride.link.empty() || links[link_].name == ride.link) return;
-      all += (all.empty() ? "one of " : ", ") + links[link_].name;
-    }
-    for (const RobotFrame& frame : robot.frames) {
-      if (frame.name != ride.link) {
-        all += ", " + frame.name;
-        continue;
-      }
-      link_ = std::size_t(frame.link);
-      link_from_rig_ = frame.link_from_frame * link_from_rig_;
-      return;
-    }
-    throw InputError(
-        {"", 0, "trajectory.ride.link", "the robot has no such link", all, "\"" + ride.link + "\"", ""});
-  }
-
-  bool on_ = false;
-  std::size_t robot_ = 0, link_ = 0;
-  Pose link_from_rig_;
-  std::vector<Pose> poses_;
-};
 
 // The controller of each robot: legs, or a function of the script.
 RobotController make_controller(const ResolvedMission& mission, std::size_t robot,
@@ -157,7 +103,7 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
   }
   RobotRunResult result;
   with_lines_of_script(mission, [&] {
-    RideRecorder ride(mission.scenario, made);
+    RideRecorder rides(mission.scenario, made);
     const RobotRunOptions options = run_options(mission.scenario, context.threads());
     RobotRun run(make_laid_pile(mission, pile), pile, options);
     for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -167,14 +113,14 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
         return control(sense);
       });
     }
-    ride.note(run.world());
+    rides.note(run.world());
     result = run.run([&](double done) {
-      ride.note(run.world());
+      rides.note(run.world());
       context.progress.update(done, format_number(done * mission.scenario.robot_run.duration) + " s");
       return !stop_requested();
     });
     throw_if_stopped(folder.path());
-    ride.finish(options.step, driven.records, driven);
+    driven.mount = rides.finish(options.step, driven.records, driven.readings);
     return true;
   });
   write_robot_files(folder.path(), names, models, result, logs, mission.scenario.start_ns);

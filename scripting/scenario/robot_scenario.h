@@ -7,6 +7,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
+#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 
@@ -62,6 +63,8 @@ struct RobotRunScenario {
 class Schema;
 struct Scenario;
 
+// at: what the keys begin with: "imu.", or nothing.
+void add_ride_keys(Schema& keys, const std::string& at, Carrier& ride);
 // The scenario must outlive the schema.
 void add_robot_keys(Schema& keys, Scenario& scenario);
 // The names that robots go by, in their order.

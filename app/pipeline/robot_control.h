@@ -12,6 +12,10 @@
 
 namespace rubble {
 
+// Models of the mission's robots, in their order; warnings of files go to the context. Throws InputError.
+std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext& context);
+RobotRunOptions robot_run_options(const Scenario& scenario, int threads);
+
 // Drives by the legs of `drive`.
 RobotController make_leg_controller(const RobotItem& robot, const RobotModel& model);
 

@@ -1,6 +1,5 @@
 // The stage from a settled pile to robots that were driven through it.
 #include <algorithm>
-#include <filesystem>
 
 #include "app/pipeline/robot_control.h"
 #include "app/robots/mission_robot.h"
@@ -15,18 +14,6 @@
 
 namespace rubble {
 namespace {
-
-RobotRunOptions run_options(const Scenario& scenario, int threads) {
-  RobotRunOptions options;
-  options.duration = scenario.robot_run.duration;
-  options.control_hz = scenario.robot_run.control_hz;
-  options.fixed_debris = scenario.robot_run.debris == DebrisMotion::fixed;
-  options.gravity = scenario.settle.gravity;
-  options.lost_below = scenario.settle.lost_below;
-  options.lost_beyond = scenario.settle.lost_beyond;
-  options.threads = threads;
-  return options;
-}
 
 void add_robot_metrics(const RobotRunResult& result, const std::vector<RobotLog>& logs,
                        Metrics& metrics) {
@@ -61,26 +48,6 @@ RobotController make_controller(const ResolvedMission& mission, std::size_t robo
   return with_mimics(script->controller_of(robot, made.model), made.mimics);
 }
 
-// Where URDF files are looked for: beside the script, and in the folders of the run's packs.
-std::vector<std::string> folders_of(const ResolvedMission& mission) {
-  std::vector<std::string> folders{
-      std::filesystem::path(mission.provenance.script.path).parent_path().string()};
-  folders.insert(folders.end(), mission.assets.folders.begin(), mission.assets.folders.end());
-  return folders;
-}
-
-std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext& context) {
-  std::vector<MissionRobot> made;
-  MeshImporter importer;
-  const std::vector<std::string> folders = folders_of(mission);
-  for (std::size_t i = 0; i < mission.scenario.robots.size(); ++i) {
-    made.push_back(make_mission_robot(mission.scenario.robots[i], folders,
-                                      "robots[" + std::to_string(i + 1) + "]", importer));
-    for (const std::string& warning : made.back().warnings) context.warnings.push_back(warning);
-  }
-  return made;
-}
-
 }  // namespace
 
 DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
@@ -104,7 +71,7 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
   RobotRunResult result;
   with_lines_of_script(mission, [&] {
     RideRecorder rides(mission.scenario, made);
-    const RobotRunOptions options = run_options(mission.scenario, context.threads());
+    const RobotRunOptions options = robot_run_options(mission.scenario, context.threads());
     RobotRun run(make_laid_pile(mission, pile), pile, options);
     for (std::size_t i = 0; i < robots.size(); ++i) {
       const RobotController control = make_controller(mission, i, made[i], script);

@@ -28,12 +28,8 @@ void RideRecorder::add(const Carrier& carrier, const std::string& key) {
   ridden_.push_back(find(carrier, key));
 }
 
-// A link, or a frame on one.
-RideRecorder::Ridden RideRecorder::find(const Carrier& carrier, const std::string& key) const {
-  Ridden ridden;
-  ridden.carrier = carrier;
-  ridden.robot = std::size_t(std::find(names_.begin(), names_.end(), carrier.robot) - names_.begin());
-  const MissionRobot& robot = robots_[ridden.robot];
+RiddenLink find_ridden_link(const MissionRobot& robot, const Carrier& carrier, const std::string& key) {
+  RiddenLink ridden;
   const std::vector<RobotLink>& links = robot.model.links;
   std::string all;
   for (ridden.link = 0; ridden.link < links.size(); ++ridden.link) {
@@ -41,15 +37,18 @@ RideRecorder::Ridden RideRecorder::find(const Carrier& carrier, const std::strin
     all += (all.empty() ? "one of " : ", ") + links[ridden.link].name;
   }
   for (const RobotFrame& frame : robot.frames) {
-    if (frame.name != carrier.link) {
-      all += ", " + frame.name;
-      continue;
-    }
-    ridden.link = std::size_t(frame.link);
-    ridden.link_from_rider = frame.link_from_frame;
-    return ridden;
+    if (frame.name == carrier.link) return {std::size_t(frame.link), frame.link_from_frame};
+    all += ", " + frame.name;
   }
   throw InputError({"", 0, key + ".link", "the robot has no such link", all, "\"" + carrier.link + "\"", ""});
+}
+
+RideRecorder::Ridden RideRecorder::find(const Carrier& carrier, const std::string& key) const {
+  Ridden ridden;
+  ridden.carrier = carrier;
+  ridden.robot = std::size_t(std::find(names_.begin(), names_.end(), carrier.robot) - names_.begin());
+  static_cast<RiddenLink&>(ridden) = find_ridden_link(robots_[ridden.robot], carrier, key);
+  return ridden;
 }
 
 void RideRecorder::note(const World& world) {

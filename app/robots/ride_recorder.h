@@ -13,6 +13,14 @@
 
 namespace rubble {
 
+// Where a carrier is on a robot: on a link, or in a frame on one.
+struct RiddenLink {
+  std::size_t link = 0;
+  Pose link_from_rider;  // unit: m
+};
+// Throws InputError, with `key` as that of the carrier, for a link that the robot has not.
+RiddenLink find_ridden_link(const MissionRobot& robot, const Carrier& carrier, const std::string& key);
+
 class RideRecorder {
  public:
   // Throws InputError, with the key of the ride, for a link that the robot has not.
@@ -25,10 +33,9 @@ class RideRecorder {
 
  private:
   // A place on a link, and where it was.
-  struct Ridden {
+  struct Ridden : RiddenLink {
     Carrier carrier;
-    std::size_t robot = 0, link = 0;
-    Pose link_from_rider;
+    std::size_t robot = 0;
     std::vector<Pose> poses;  // one a step
   };
   Ridden find(const Carrier& carrier, const std::string& key) const;

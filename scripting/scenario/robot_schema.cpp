@@ -30,11 +30,18 @@ Schema leg_schema(RobotLeg& leg) {
   k.value("rate", leg.rate, "Snake: angular frequency of its waves; negative: backwards.")
       .between(-20, 20)
       .unit("rad/s");
+  k.value("phase", leg.phase, "Snake: phase that the waves have beside rate * t; keeps a change of `rate` smooth.")
+      .between(-1e6, 1e6)
+      .unit("rad");
   k.value("amplitude", leg.amplitude, "Snake: amplitude, relative to that of the gait.")
       .between(0, 2);
   k.value("steering_deg", leg.steering_deg, "Snake: angle that is added to the sideways joints.")
       .between(-45, 45)
       .unit("degree");
+  k.value("joints", leg.joints,
+          "Positions of all motors, in their order, instead of what the other keys ask of them; sliders in m.")
+      .between(-1000, 1000)
+      .unit("rad");
   k.value("growth", leg.growth, "Vine: speed at which the tip grows.").between(0, 1).unit("m/s");
   k.value("curvature", leg.curvature, "Vine: curvature of what grows, to the left.").between(-5, 5).unit("1/m");
   k.value("curvature_up", leg.curvature_up, "Vine: curvature of what grows, upwards.").between(-5, 5).unit("1/m");

@@ -184,14 +184,6 @@ Value describe_sense(const RobotSense& sense, const RobotModel& model, double gr
   return table;
 }
 
-// Where URDF files are looked for: beside the script, and in the folders of the run's packs.
-std::vector<std::string> folders_of(const ResolvedMission& mission) {
-  std::vector<std::string> folders{
-      std::filesystem::path(mission.provenance.script.path).parent_path().string()};
-  folders.insert(folders.end(), mission.assets.folders.begin(), mission.assets.folders.end());
-  return folders;
-}
-
 }  // namespace
 
 RobotRunOptions robot_run_options(const Scenario& scenario, int threads) {
@@ -206,10 +198,17 @@ RobotRunOptions robot_run_options(const Scenario& scenario, int threads) {
   return options;
 }
 
+std::vector<std::string> robot_folders(const ResolvedMission& mission) {
+  std::vector<std::string> folders{
+      std::filesystem::path(mission.provenance.script.path).parent_path().string()};
+  folders.insert(folders.end(), mission.assets.folders.begin(), mission.assets.folders.end());
+  return folders;
+}
+
 std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext& context) {
   std::vector<MissionRobot> made;
   MeshImporter importer;
-  const std::vector<std::string> folders = folders_of(mission);
+  const std::vector<std::string> folders = robot_folders(mission);
   for (std::size_t i = 0; i < mission.scenario.robots.size(); ++i) {
     made.push_back(make_mission_robot(mission.scenario.robots[i], folders,
                                       "robots[" + std::to_string(i + 1) + "]", importer));

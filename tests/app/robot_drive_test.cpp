@@ -6,8 +6,10 @@
 #include "app/drive/robots/robot_drive.h"
 #include "app/drive/scenario_lua.h"
 #include "app/pipeline/stages.h"
+#include "app/robots/robot_files.h"
 #include "io/state/track_file.h"
 #include "kernel/base/error.h"
+#include "kernel/robot/bundled.h"
 #include "tests/app/program.h"
 
 namespace rubble::testing {
@@ -52,10 +54,10 @@ struct Driven {
 };
 
 // What a run of the kept mission does, against what was driven.
-void expect_same_bits(const ScratchFolder& scratch, Driven& driven) {
-  write_file(scratch / "leg.lua", scenario_to_lua(driven.drive->scenario(driven.mission.scenario), "kept"));
+void expect_same_bits(const ScratchFolder& scratch, Driven& driven, const std::string& in = "") {
+  write_file(scratch / (in + "leg.lua"), scenario_to_lua(driven.drive->scenario(driven.mission.scenario), "kept"));
   save_track(driven.drive->finish().track, scratch / "leg.track");
-  const Outcome run = run_rubble("run " + (scratch / "leg.lua") + " --quiet --set trajectory.rate_hz=0.5 --out " +
+  const Outcome run = run_rubble("run " + (scratch / (in + "leg.lua")) + " --quiet --set trajectory.rate_hz=0.5 --out " +
                                  (scratch / "out"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_FALSE(read_file(scratch / "leg.track").empty());
@@ -89,6 +91,24 @@ TEST(RobotDrive, ASnakeAndAVineToo) {
     EXPECT_GT(distance(driven.drive->world_from_rig().translation, start), 0.02) << robot;
     expect_same_bits(scratch, driven);
   }
+}
+
+// The kept mission lies elsewhere than the script whose file it needs.
+TEST(RobotDrive, ARobotFromAFileTakesItsFileAlong) {
+  const ScratchFolder scratch;
+  write_robot_description(scratch.path().string(), "rover", make_rover());
+  Driven driven(scratch, "", R"(return rubble.mission { pile = { layers = 0 },
+    robots = { { urdf = "rover.urdf", name = "buggy", position = { 0, 0, 0.001 }, friction = 0.8,
+      left_wheels = { "front_left_wheel_joint", "rear_left_wheel_joint" },
+      right_wheels = { "front_right_wheel_joint", "rear_right_wheel_joint" }, wheel_radius = 0.098 } },
+    camera = { width = 32, height = 32 }, outputs = { bag = false, rawlog = false, simplemap = false } })");
+  driven.go(30, [](int) {
+    RobotWish wish;
+    wish.linear.x = 0.4, wish.angular.z = 0.3;
+    return wish;
+  });
+  std::filesystem::create_directories(scratch / "elsewhere");
+  expect_same_bits(scratch, driven, "elsewhere/");
 }
 
 // As /joint_trajectory asks: all motors at once, here the flippers.

@@ -238,6 +238,45 @@ TEST(Robots, EachOfSeveralCarriesItsOwnSensors) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
 }
 
+// The quickest run that drives robots: a frame of a few pixels.
+std::string run_robots_only(const std::string& script, const std::string& out) {
+  return "run scripts/robots/" + script + " --quiet --set camera.width=16 --set camera.height=16"
+         " --set trajectory.rate_hz=0.01 --set outputs.bag=false --set outputs.rawlog=false"
+         " --set outputs.simplemap=false --set outputs.stl=false --set outputs.preview=false --out " + out;
+}
+
+// Missions over the pile of the demo, whose lean-to opens to -X at -4.6 m: how deep a robot gets, and where it is
+// in the end.
+void expect_in_and_out(const std::string& robot, double depth) {
+  const ScratchFolder scratch;
+  const Outcome run = run_rubble(run_robots_only("lean_to_" + robot + ".lua", scratch / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Rows poses = read_rows(scratch / ("out/robots/" + robot + ".txt"));
+  ASSERT_GT(poses.size(), 100U);
+  double deepest = -100;
+  for (const auto& row : poses) deepest = std::max(deepest, row[1]);
+  EXPECT_LT(poses.front()[1], -4.7) << "it was to start outside";
+  EXPECT_GT(deepest, depth);
+  EXPECT_LT(poses.back()[1], -4.7) << "it was to come out again";
+}
+
+TEST(RobotsInTheDemo, ACrawlerGoesIntoTheLeanToAndOut) { expect_in_and_out("crawler", -1.7); }
+TEST(RobotsInTheDemo, ARoverGoesIntoTheLeanToAndOut) { expect_in_and_out("rover", -2.6); }
+TEST(RobotsInTheDemo, AVineGrowsIntoTheLeanToAndOut) { expect_in_and_out("vine", -3.3); }
+
+// Bricks on a slope are held by a block; when a vine has pushed it away, they slide: by more than a piece was pushed.
+TEST(RobotsInTheDemo, ASlideFollowsWhereAVinePushesAwayWhatHoldsIt) {
+  const ScratchFolder scratch;
+  const Outcome run = run_rubble(run_robots_only("slide.lua", scratch / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Manifest manifest = manifest_from_json(read_file(scratch / "out/manifest.json"), "manifest.json");
+  EXPECT_GE(manifest.metrics.at("robot_pieces_moved"), 10);
+  // Nothing moves before it is touched, and without a robot that pushes nothing ever does.
+  const Outcome still = run_rubble(run_robots_only("slide.lua", scratch / "still") + " --set robot_run.duration=2");
+  ASSERT_EQ(still.exit_code, 0) << still.err;
+  EXPECT_EQ(manifest_from_json(read_file(scratch / "still/manifest.json"), "").metrics.at("robot_pieces_moved"), 0);
+}
+
 TEST(Robots, SensorsOnRobotsThatCannotCarryThemAreMistakesWithTheirLine) {
   const ScratchFolder scratch;
   const struct {

@@ -30,7 +30,7 @@ RobotDrive::RobotDrive(const ResolvedMission& mission, const PileState& pile, co
       assets_(mission.assets),
       pile_(pile),
       laid_(make_laid_pile(mission, pile)),
-      folder_(std::filesystem::path(mission.provenance.script.path).parent_path().string()),
+      folders_(robot_folders(mission)),
       threads_(context.threads()),
       names_(robot_names(mission.scenario.robots)),
       made_(make_robots(mission, context)),
@@ -114,10 +114,14 @@ Scenario RobotDrive::scenario(const Scenario& camera) const {
   Scenario kept = camera;
   // The mission that is kept lies elsewhere.
   for (RobotItem& robot : kept.robots) {
-    if (robot.urdf.empty()) continue;
-    std::error_code failed;
-    const std::filesystem::path beside = std::filesystem::absolute(std::filesystem::path(folder_) / robot.urdf);
-    if (std::filesystem::is_regular_file(beside, failed)) robot.urdf = beside.string();
+    for (const std::string& folder : folders_) {
+      if (robot.urdf.empty()) break;
+      std::error_code failed;
+      const std::filesystem::path beside = std::filesystem::absolute(std::filesystem::path(folder) / robot.urdf);
+      if (!std::filesystem::is_regular_file(beside, failed)) continue;
+      robot.urdf = beside.string();
+      break;
+    }
   }
   const std::string urdf = kept.robots[driven_].urdf;
   kept.robots[driven_] = item_;

@@ -43,7 +43,7 @@ class RobotDrive {
   const AssetLibrary& assets_;
   const PileState& pile_;
   Pile laid_;
-  std::string folder_;  // of the script
+  std::vector<std::string> folders_;  // of URDF files
   int threads_;
   std::vector<std::string> names_;
   std::vector<MissionRobot> made_;

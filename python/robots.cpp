@@ -18,17 +18,28 @@ constexpr double kMostDepth = 0.005;  // unit: m; as RobotRun: deeper, and it ca
 
 constexpr std::size_t kFlippers = 4;  // of a crawler
 
-enum class Kind { snake, crawler, rover };
+enum class Kind { snake, crawler, rover, vine };
 
 Kind kind_named(const std::string& name) {
   if (name == "snake") return Kind::snake;
   if (name == "crawler") return Kind::crawler;
   if (name == "rover") return Kind::rover;
-  throw InputError({"", 0, "model", "unknown robot", "snake, crawler or rover", "\"" + name + "\"", ""});
+  if (name == "vine") return Kind::vine;
+  throw InputError({"", 0, "model", "unknown robot", "snake, crawler, rover or vine", "\"" + name + "\"", ""});
 }
 
 RobotModel make_model(Kind kind) {
-  return kind == Kind::snake ? make_snake() : kind == Kind::crawler ? make_crawler() : make_rover();
+  switch (kind) {
+    case Kind::snake:
+      return make_snake();
+    case Kind::crawler:
+      return make_crawler();
+    case Kind::rover:
+      return make_rover();
+    case Kind::vine:
+      break;
+  }
+  return make_vine();
 }
 
 WorldOptions world_options(const Scenario& s, int threads) {
@@ -48,7 +59,7 @@ class RobotWorld {
   }
 
   void drive(double linear, double angular, const std::vector<double>& flippers) {
-    expect(kind_ != Kind::snake, "drive", "a snake has neither tracks nor wheels", "crawler or rover");
+    expect(model_.sides.any(), "drive", "this robot has neither tracks nor wheels", "crawler or rover");
     expect(std::isfinite(linear) && std::isfinite(angular), "drive", "not a finite number", "m/s and rad/s");
     const std::size_t wanted = kind_ == Kind::crawler ? kFlippers : 0;
     expect(flippers.empty() || flippers.size() == wanted, "flippers", "wrong number of angles",
@@ -56,6 +67,14 @@ class RobotWorld {
     for (const double angle : flippers) expect(std::isfinite(angle), "flippers", "not a finite number", "radians");
     const Twist twist{linear, angular};
     command_ = kind_ == Kind::rover ? drive_wheels(model_, twist) : drive_crawler(model_, twist, flippers);
+  }
+
+  // Of a vine: the speed of its tip and the curvature of what grows; unit: m/s, 1/m
+  void grow(double speed, double left, double up) {
+    expect(kind_ == Kind::vine, "grow", "this robot does not grow", "vine");
+    expect(std::isfinite(speed) && speed >= 0 && std::isfinite(left) && std::isfinite(up), "grow", "out of range",
+           "a finite speed of 0 or more, and finite curvatures");
+    command_ = drive_vine(model_, {speed, left, up});
   }
 
   // Targets of the joints; unit: rad.
@@ -103,6 +122,7 @@ class RobotWorld {
     out["joint_torques"] = take_vector(std::move(torques), {joints});
     out["contact_forces"] = take_vector(std::move(forces), {py::ssize_t(s.links.size()), 3});
     out["linear_velocity"] = from_vector(s.links[0].linear), out["angular_velocity"] = from_vector(s.links[0].angular);
+    if (kind_ == Kind::vine) out["length"] = s.length, out["tip_force"] = s.tip_force;
     out["lost"] = s.lost;
     return out;
   }
@@ -154,6 +174,7 @@ void add_robots(py::module_& module) {
       }))
       .def("drive", &RobotWorld::drive, py::arg("linear"), py::arg("angular") = 0.0,
            py::arg("flippers") = std::vector<double>())
+      .def("grow", &RobotWorld::grow, py::arg("speed"), py::arg("left") = 0.0, py::arg("up") = 0.0)
       .def("set_joints", &RobotWorld::set_joints, py::arg("targets"))
       .def("step", &RobotWorld::step, py::arg("seconds") = 1.0 / 60)
       .def("state", &RobotWorld::state)

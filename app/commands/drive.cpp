@@ -33,6 +33,9 @@ Action declare_drive(CommandLine& line) {
   line.add("--steps", request->steps, "Number of steps after which the drive ends")
       .shows_default_text("none")
       .between(0, 1000000000);
+  line.add("--robot", request->robot, "In a mission with robots: which is driven")
+      .shows_default_text("the first")
+      .metavar("NAME");
   line.add_flag("--record", request->record, "Write the mission's recordings while driving");
   add_ros_options(line, request->of.options.live,
                   "Publish the frames to ROS 1, and drive by /cmd_vel and /joy", true);
@@ -49,7 +52,7 @@ Action declare_drive(CommandLine& line) {
 }  // namespace
 
 Command drive_command() {
-  return {"", "drive", "Fly the camera by hand in a window, and save the flight as a mission",
+  return {"", "drive", "Fly the camera or drive a robot by hand in a window, and save that as a mission",
           declare_drive};
 }
 

@@ -3,9 +3,11 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/drive/scenario_lua.h"
 #include "app/pipeline/recorders.h"
 #include "app/sensors/build_camera.h"
 #include "io/base/atomic_file.h"
+#include "io/state/track_file.h"
 
 namespace rubble {
 namespace {
@@ -35,7 +37,8 @@ std::unique_ptr<RecordingQueue> start_recording(const DriveWorld& world,
 
 DriveLeg::DriveLeg(DriveWorld& world, const std::string& folder, int number, bool record,
                    FrameListener listener)
-    : folder_(folder),
+    : world_(world),
+      folder_(folder),
       name_(number_name(number)),
       log_(world.scenario),
       camera_(*world.renderer,
@@ -49,7 +52,8 @@ const Frame& DriveLeg::step(const DrivenPose& pose) {
   const int index = log_.frames();
   log_.add(pose);
   if (index > 0) pass_on();
-  camera_.fly_on(log_.stamp_ns(index), pose.world_from_camera());
+  camera_.fly_on(log_.stamp_ns(index),
+                 world_.robots ? world_.robots->world_from_rig() : pose.world_from_camera());
   frame_ = camera_.take(index);
   if ((index + 1) % kSaveEvery == 0) save();
   return frame_;
@@ -63,6 +67,13 @@ void DriveLeg::pass_on() {
 }
 
 void DriveLeg::save() {
+  if (world_.robots) {
+    write_text_file(folder_ + "/" + name_ + ".lua",
+                    scenario_to_lua(world_.robots->scenario(world_.scenario),
+                                    "The robot " + world_.robots->name() + " was driven by hand with `rubble drive`.\n"
+                                    "`rubble run` on this moves all robots and pieces with the same bits."));
+    return;
+  }
   write_text_file(folder_ + "/" + name_ + ".lua",
                   log_.mission("Driven by hand with `rubble drive`: " +
                                std::to_string(log_.frames()) + " frames.\n`rubble run` on this "
@@ -72,6 +83,7 @@ void DriveLeg::save() {
 void DriveLeg::finish() {
   pass_on();
   save();
+  if (world_.robots) return save_track(world_.robots->finish().track, folder_ + "/" + name_ + ".track");
   const FrameHashes hashes = hashes_.compact();
   std::string text;
   for (const std::string& channel : hashes.channels) text += (text.empty() ? "" : " ") + channel;

@@ -1,7 +1,8 @@
 // One leg of a drive: frames under unchanged lamp, air and pile, and the files about them.
 //
 //   DIR/leg_001.lua      the mission that gives these frames again
-//   DIR/leg_001.hashes   the hashes of the frames that were seen, as in a manifest
+//   DIR/leg_001.hashes   the hashes of the frames that were seen, as in a manifest; of driven robots instead:
+//   DIR/leg_001.track    who moved when, as robots/track.bin of a run
 //   DIR/leg_001/         with --record: the mission's recordings
 #pragma once
 
@@ -26,7 +27,7 @@ class DriveLeg {
   DriveLeg(DriveWorld& world, const std::string& folder, int number, bool record,
            FrameListener listener = {});
 
-  // The frame from there, one step after the one before.
+  // The frame from there, one step after the one before. With robots, from where the camera rides.
   const Frame& step(const DrivenPose& pose);
   const Frame& shown() const { return frame_; }
   int frames() const { return log_.frames(); }
@@ -38,6 +39,7 @@ class DriveLeg {
   void pass_on();  // the last frame, now that its velocity is known
   void save();
 
+  DriveWorld& world_;
   std::string folder_, name_;
   DriveLog log_;
   Camera camera_;

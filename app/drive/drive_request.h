@@ -1,6 +1,8 @@
 // What a person asked `rubble drive` for on the command line.
 #pragma once
 
+#include <string>
+
 #include "app/support/run_request.h"
 #include "kernel/base/error.h"
 
@@ -11,6 +13,7 @@ struct DriveRequest {
   int width = 480, height = 360;  // --size, of the colour image; unit: pixel
   int steps = 0;                 // --steps: ends after so many; 0: when the person quits
   bool record = false;           // --record: the mission's recordings, while driving
+  std::string robot;             // --robot: which of the mission's is driven; empty: the first
 };
 
 // The mission's pile to be driven through in a window: docs/drive.md.

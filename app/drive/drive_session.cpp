@@ -104,7 +104,30 @@ void DriveSession::run() {
   if (link_) link_->finish();
 }
 
+// The world goes on to the time of the next frame; the first is of its start.
+void DriveSession::step_robot(const DriveInput& input) {
+  const double rate = world_->scenario.trajectory.rate_hz;
+  if (!leg_) {
+    leg_ = std::make_unique<DriveLeg>(*world_, folder_, ++legs_, false, listener());
+  } else {
+    RobotWish wish;
+    wish.forward = input.forward, wish.yaw = input.yaw, wish.pitch = -input.pitch, wish.roll = input.roll;
+    wish.linear = input.linear, wish.angular = input.angular;
+    wish.speed = camera_->speed();
+    world_->robots->advance(wish, leg_->frames() / rate);
+  }
+  camera_->put(make_driven_pose(world_->robots->world_from_rig()));
+}
+
 void DriveSession::step(const DriveInput& input) {
+  if (world_->robots) {
+    step_robot(input);
+    leg_->step(camera_->pose());
+    const Vec3& p = camera_->pose().position;
+    picture_.track.push_back({map_frame_.column(p), map_frame_.row(p)});
+    ++steps_;
+    return;
+  }
   if (leg_ && leg_->frames() >= kLongestLeg) {
     end_leg();
     change_lamp_and_air();
@@ -135,6 +158,7 @@ void DriveSession::end_leg() {
 // A leg has one lamp and one air: what was driven so far is complete, and a new leg begins here.
 void DriveSession::change_lamp_and_air() {
   end_leg();
+  if (world_->robots) world_->robots->restart();  // a mission begins at its start
   world_->renderer->restart(world_->scenario.lamp, world_->scenario.air);
 }
 

@@ -29,6 +29,7 @@ class DriveSession {
   void end_leg();
   FrameListener listener();
   void step(const DriveInput& input);
+  void step_robot(const DriveInput& input);
   void show();
   std::vector<std::string> status() const;
   void say(const std::string& words);

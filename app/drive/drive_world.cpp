@@ -70,6 +70,19 @@ void refuse_several_cameras(const ResolvedMission& mission) {
   throw InputError(std::move(mistakes));
 }
 
+// The camera rides: it has no body of its own, and nothing stops it.
+void enter_robots(const DriveRequest& request, const ResolvedMission& mission, RunContext& run, DriveWorld& world) {
+  if (request.record)
+    throw InputError({"", 0, "--record", "nothing is recorded while a robot is driven", "", "",
+                      "`rubble run` on the mission that the drive leaves records all of it"});
+  world.mission = std::make_unique<ResolvedMission>(mission);
+  world.robots = with_lines_of_script(mission, [&] {
+    return std::make_unique<RobotDrive>(*world.mission, world.pile, request.robot, run);
+  });
+  world.plan = Plan::ghost;
+  world.entry = make_driven_pose(world.robots->world_from_rig());
+}
+
 void adapt(Scenario& scenario, const DriveRequest& request, const AssetLibrary& assets) {
   resize_camera(scenario.camera, request.width, request.height);
   // The mission that is saved lies elsewhere.
@@ -93,25 +106,30 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
   auto world = std::make_unique<DriveWorld>();
   world->threads = run.threads();
   world->pile = settle_in_memory(mission, run, go_on).state;
-  world->assets = std::move(mission.assets);
+  world->assets = mission.assets;
   world->scenario = mission.scenario;
   world->plan = mission.scenario.trajectory.plan;
   world->limits = limits_of(mission.scenario.trajectory);
   world->survey = std::make_unique<PileSurvey>(world->assets, world->pile, world->threads);
-  world->entry = find_entry(mission.scenario, *world->survey);
-  world->survey->forget_voids();
+  if (mission.scenario.robots.empty()) {
+    world->entry = find_entry(mission.scenario, *world->survey);
+    world->survey->forget_voids();
+  } else {
+    enter_robots(request, mission, run, *world);
+  }
   adapt(world->scenario, request, world->assets);
-  check_entry(*world);
+  if (!world->robots) check_entry(*world);
 
   run.progress.start("scene");
   // By hand there is no time for the reference; the saved mission keeps what was asked for.
   Scenario drawn = world->scenario;
   drawn.camera.colour = ColourSpec();
-  world->renderer = prepare_renderer(build_scene(drawn, world->assets, world->pile), drawn, context,
-                                     world->threads, [&](double fraction) {
-                                       run.progress.update(fraction, "light");
-                                       go_on();
-                                     });
+  const Scene scene = world->robots ? world->robots->build_scene(drawn)
+                                    : build_scene(drawn, world->assets, world->pile);
+  world->renderer = prepare_renderer(scene, drawn, context, world->threads, [&](double fraction) {
+    run.progress.update(fraction, "light");
+    go_on();
+  });
   run.progress.finish("ready on " + context.info().renderer);
   return world;
 }

@@ -6,6 +6,7 @@
 
 #include "app/drive/drive_request.h"
 #include "app/drive/driven_camera.h"
+#include "app/drive/robots/robot_drive.h"
 #include "app/pipeline/stages.h"
 #include "app/planning/pile_survey.h"
 #include "render/renderer.h"
@@ -20,6 +21,8 @@ struct DriveWorld {
   DrivenPose entry;                    // the first waypoint of the mission
   DriveLimits limits;                  // the mission's speed limits, where it has any
   std::unique_ptr<PileSurvey> survey;  // of that pile
+  std::unique_ptr<ResolvedMission> mission;  // of the robots; none: the camera flies
+  std::unique_ptr<RobotDrive> robots;  // driven instead of the camera
   std::unique_ptr<Renderer> renderer;  // of the scene, lit
   int threads = 1;                     // at least 1
 

@@ -42,6 +42,13 @@ void count_scans(const Scenario& s, double duration, FlightSize& size) {
   }
 }
 
+// Of all together; unit: Hz
+double rate_of_imus(const Scenario& s) {
+  double rate = 0;
+  for (const ImuScenario& imu : all_imus(s)) rate += imu.model.rate_hz;
+  return rate;
+}
+
 double frames_of_settling(const Scenario& s, const MountedCamera& camera) {
   const double usual = s.record_settling.rate_hz.value_or(s.trajectory.rate_hz);
   return std::floor(duration_of_settling(s) * camera.rate_hz.value_or(usual)) + 1;
@@ -51,8 +58,11 @@ double frames_of_settling(const Scenario& s, const MountedCamera& camera) {
 
 FlightSize size_of_flight(const Scenario& s, std::size_t camera) {
   FlightSize size;
-  TrajectorySpec path = flown_trajectory(s);
-  path.rate_hz = all_cameras(s)[camera].rate_hz.value_or(path.rate_hz);
+  const MountedCamera mounted = all_cameras(s)[camera];
+  Scenario carried = s;
+  if (mounted.ride.on()) carried.trajectory.ride.robot = mounted.ride.robot;
+  TrajectorySpec path = flown_trajectory(carried);
+  path.rate_hz = mounted.rate_hz.value_or(path.rate_hz);
   if (leads_into_voids(path)) {
     size.frames = std::floor(path.duration.value_or(kUnknownFlight) * path.rate_hz) + 1;
     size.key_frames = size.frames;
@@ -68,12 +78,13 @@ FlightSize size_of_flight(const Scenario& s, std::size_t camera) {
                             angle_between(a.rotation, b.rotation) * kDegrees / key.angle_deg);
     }
   }
-  if (s.imu.on && camera == 0) size.imu_samples = size.frames * s.imu.model.rate_hz / path.rate_hz;
+  const double imu_rate = camera == 0 ? rate_of_imus(s) : 0;
+  size.imu_samples = size.frames * imu_rate / path.rate_hz;
   if (camera == 0) count_scans(s, size.frames / path.rate_hz, size);
   if (!s.record_settling.on) return size;
   size.frames += frames_of_settling(s, all_cameras(s)[camera]);
   if (camera == 0) count_scans(s, duration_of_settling(s), size);
-  if (s.imu.on && camera == 0) size.imu_samples += duration_of_settling(s) * s.imu.model.rate_hz + 1;
+  if (imu_rate > 0) size.imu_samples += duration_of_settling(s) * imu_rate + 1;
   return size;
 }
 

@@ -74,7 +74,7 @@ PlannedFlight plan_flight(const ResolvedMission& mission, const SettledPile& pil
   flight.flown.trajectory = plan.trajectory;
   const std::shared_ptr<const MotionPath> ride = robots.readings.ride;
   flight.legs = with_lines_of_script(
-      mission, [&] { return plan_legs(flight.flown, ride ? ride : plan.path, pile.track); });
+      mission, [&] { return plan_legs(flight.flown, ride ? ride : plan.path, pile.track, robots.readings); });
   warn_of_cameras_inside(mission, flight.flown, flight.legs.back().flight, pile.state, context);
   return flight;
 }

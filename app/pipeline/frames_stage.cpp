@@ -183,7 +183,6 @@ void finish_recording(const ResolvedMission& mission, const RecorderSet& set, Re
 
 // Links follow the pieces, as their numbers do.
 void add_robots(const DrivenRobots& robots, std::uint16_t label, Recording& recording) {
-  recording.robots = robots.records;
   recording.mount = robots.mount;
   for (const RobotModel& model : robots.moved.models)
     for (const RobotLink& link : model.links)
@@ -197,7 +196,7 @@ void record(const PlannedFlight& flight, const ResolvedMission& mission, const S
   const std::vector<Leg>& legs = flight.legs;
   Taking taking;
   PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, {}, gl, folder, context, taking);
-  Recording recording = describe_recording(flight.flown, mission.assets, pile);
+  Recording recording = describe_recording(flight.flown, mission.assets, pile, seen.robots.records);
   add_robots(seen.robots, std::uint16_t(kFirstAssetLabel + mission.assets.types.size()), recording);
   RecorderSet set = make_recorders(
       {flight.flown, recording, count_frames(legs, legs.size()), title_of(mission, pile)}, folder.path());

@@ -64,7 +64,7 @@ std::int64_t end_of(const Leg& watching, const Track& track) {
 }  // namespace
 
 std::vector<Leg> plan_legs(const Scenario& flown, std::shared_ptr<const MotionPath> path,
-                           const Track& track) {
+                           const Track& track, const RobotReadings& robots) {
   std::vector<Leg> legs;
   Leg flight;
   flight.scenario = flown;
@@ -73,7 +73,7 @@ std::vector<Leg> plan_legs(const Scenario& flown, std::shared_ptr<const MotionPa
     legs.push_back(plan_watching(flown, track));
     flight.scenario.start_ns = end_of(legs.front(), track);
   }
-  flight.flight = build_rig_flight(flight.scenario, std::move(path));
+  flight.flight = build_rig_flight(flight.scenario, std::move(path), robots);
   legs.push_back(std::move(flight));
   return legs;
 }

@@ -24,9 +24,9 @@ struct Leg {
   std::uint64_t noise_seed = 0;       // of the sensors
 };
 
-// flown: the mission with the path that is flown, which `path` was made from. Throws InputError, keyed
-// "record_settling.from", when the pile came to rest before.
+// flown: the mission with the path that is flown, which `path` was made from. robots: what carries sensors.
+// Throws InputError, keyed "record_settling.from", when the pile came to rest before.
 std::vector<Leg> plan_legs(const Scenario& flown, std::shared_ptr<const MotionPath> path,
-                           const Track& track);
+                           const Track& track, const RobotReadings& robots);
 
 }  // namespace rubble

@@ -10,6 +10,8 @@ namespace {
 // What lies outside the window and may still be seen: exposures, and rows of a shutter; unit: s
 constexpr double kAround = 1;
 
+constexpr double kLiveReach = 5;  // beyond what lies there; unit: m
+
 double seconds_between(std::int64_t zero_ns, std::int64_t stamp_ns) {
   return double(stamp_ns - zero_ns) * 1e-9;
 }
@@ -97,6 +99,34 @@ Scene build_robot_scene(const Scenario& scenario, const AssetLibrary& assets, co
   }
   set_in_motion(robots.track, {robots.track.begin(), robots.track.end()}, zero_ns, find_heap_hosts(pile),
                 scene);
+  return scene;
+}
+
+Scene build_live_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
+                       const RobotTrack& robots, LivePose pose_of) {
+  Scene scene = build_scene(scenario, assets, pile);
+  const std::uint16_t label = std::uint16_t(kFirstAssetLabel + assets.types.size());
+  for (std::size_t i = 0; i < robots.models.size(); ++i) {
+    add_robot(robots.models[i], robots.first_piece[i], label, scene);
+  }
+  const std::vector<int> hosts = find_heap_hosts(pile);
+  std::vector<int> movers;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const int mover = find_mover(scene.instances[i], hosts);
+    if (std::size_t(mover) < pile.pieces.size() && pile.pieces[std::size_t(mover)].status == PieceStatus::fixed) continue;
+    scene.motion.moving.push_back(std::uint32_t(i));
+    scene.motion.reach.include(scene.instances[i].world_from_body.translation);
+    movers.push_back(mover);
+  }
+  // Where robots and what they push may get to.
+  scene.motion.reach.include(scene.motion.reach.min - Vec3{kLiveReach, kLiveReach, 0});
+  scene.motion.reach.include(scene.motion.reach.max + Vec3{kLiveReach, kLiveReach, kLiveReach});
+  scene.motion.poses_at = [movers, pose_of = std::move(pose_of)](std::int64_t) {
+    std::vector<std::optional<Pose>> poses;
+    poses.reserve(movers.size());
+    for (const int mover : movers) poses.push_back(pose_of(mover));
+    return poses;
+  };
   return scene;
 }
 

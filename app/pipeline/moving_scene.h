@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "app/assets/asset_library.h"
@@ -37,5 +39,12 @@ struct RobotTrack {
 // time 0. robots: must live as long as the scene.
 Scene build_robot_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
                         const RobotTrack& robots, std::int64_t zero_ns);
+
+// Where a piece or a link is when the next picture is drawn, by its id; nothing: it is not there.
+using LivePose = std::function<std::optional<Pose>(int id)>;
+// The same while they are driven: nobody knows yet what will move. All that is not fixed is lit anew for every
+// picture. robots: models and ids alone are looked at.
+Scene build_live_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
+                       const RobotTrack& robots, LivePose pose_of);
 
 }  // namespace rubble

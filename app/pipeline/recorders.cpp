@@ -37,10 +37,12 @@ CameraRecord record_of(const MountedCamera& mounted, bool several) {
   return record;
 }
 
-ImuRecord record_of(const ImuScenario& imu, const std::string& rig) {
+// carried: the frame of what carries it.
+ImuRecord record_of(const ImuScenario& imu, const std::string& carried) {
   ImuRecord record;
-  record.topic = imu.topic.value_or(record.topic);
-  record.frame_id = imu.frame_id.value_or(imu.is_rig() ? rig : "imu_link");
+  record.name = imu.name;
+  record.topic = imu.topic.value_or("/" + imu.name);
+  record.frame_id = imu.frame_id.value_or(imu.is_rig() ? carried : imu.name + "_link");
   if (!imu.is_rig()) record.rig_from_imu = imu.rig_from_imu();
   record.model = imu.model;
   return record;
@@ -55,6 +57,15 @@ LidarRecord record_of(const Scenario& scenario, std::size_t number) {
   record.rig_from_lidar = lidar.rig_from_lidar();
   record.spec = lidar.spec();
   return record;
+}
+
+// TF: of the link that carries a sensor; empty: the rig does.
+std::string frame_of(const Carrier& ride, const Scenario& scenario, const std::vector<RobotRecord>& robots) {
+  const std::vector<std::string> names = robot_names(scenario.robots);
+  for (std::size_t i = 0; ride.on() && i < robots.size(); ++i)
+    if (names[i] == ride.robot)
+      return ride.link.empty() ? robots[i].frame_of(0) : robots[i].frame + ride.link;
+  return "";
 }
 
 // What a run that was killed had finished is made anew: files are replaced, folders must go.
@@ -77,7 +88,7 @@ void add_recorders_of_cameras(const RecordingInputs& inputs, const std::string& 
       if (!format.one_camera || !(inputs.scenario.outputs.*format.wanted)) continue;
       std::filesystem::create_directories(own);
       set.recorders.push_back(
-          make_one_camera_recorder(int(i), format.make(own + "/" + format.leaves, of_camera)));
+          make_one_camera_recorder(int(i), find_imu_beside(inputs.recording, i), format.make(own + "/" + format.leaves, of_camera)));
       if (set.names.empty() || set.names.back() != kCamerasFolder)
         set.names.push_back(kCamerasFolder);
     }
@@ -87,17 +98,26 @@ void add_recorders_of_cameras(const RecordingInputs& inputs, const std::string& 
 }  // namespace
 
 Recording describe_recording(const Scenario& scenario, const AssetLibrary& assets,
-                             const PileState& pile) {
+                             const PileState& pile, const std::vector<RobotRecord>& robots) {
   Recording recording;
   const bool several = !scenario.cameras.empty();
   // A robot's own base is called base_link.
   if (several) recording.rig = scenario.robots.empty() ? "base_link" : "rig_link";
   recording.cameras.clear();
-  for (const MountedCamera& camera : all_cameras(scenario))
+  recording.robots = robots;
+  for (const MountedCamera& camera : all_cameras(scenario)) {
     recording.cameras.push_back(record_of(camera, several));
-  if (scenario.imu.on) recording.imus.push_back(record_of(scenario.imu, recording.rig));
-  for (std::size_t i = 0; i < scenario.lidars.size(); ++i)
+    recording.cameras.back().carrier = frame_of(camera.ride, scenario, robots);
+  }
+  for (const ImuScenario& imu : all_imus(scenario)) {
+    const std::string carrier = frame_of(imu.ride, scenario, robots);
+    recording.imus.push_back(record_of(imu, recording.frame_of(carrier)));
+    recording.imus.back().carrier = carrier;
+  }
+  for (std::size_t i = 0; i < scenario.lidars.size(); ++i) {
     recording.lidars.push_back(record_of(scenario, i));
+    recording.lidars.back().carrier = frame_of(scenario.lidars[i].ride, scenario, robots);
+  }
   recording.legend.labels = label_names(scenario, assets);
   for (const PieceState& piece : pile.pieces) {
     const auto type = std::size_t(piece.type);

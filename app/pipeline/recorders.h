@@ -19,9 +19,10 @@ struct RecorderSet {
   std::vector<std::string> names;                    // of their files or folders, relative to the run's folder
 };
 
-// Every sensor of the run, what it gives and under which names, and what numbers mean.
+// Every sensor of the run, what it gives and under which names, and what numbers mean. robots: those of the
+// scenario, in their order.
 Recording describe_recording(const Scenario& scenario, const AssetLibrary& assets,
-                             const PileState& pile);
+                             const PileState& pile, const std::vector<RobotRecord>& robots = {});
 
 // Those of recording_formats() that the scenario asks for. Of several cameras, formats that hold one
 // have a recorder for each, in cameras/NAME/.

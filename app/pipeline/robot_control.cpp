@@ -1,6 +1,7 @@
 #include "app/pipeline/robot_control.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <utility>
 
@@ -40,6 +41,7 @@ SnakeGait gait_of(const RobotLeg& leg) {
       break;
   }
   gait.rate = leg.rate;
+  gait.lateral_phase -= leg.phase, gait.vertical_phase -= leg.phase;
   gait.lateral_amplitude *= leg.amplitude;
   gait.vertical_amplitude *= leg.amplitude;
   gait.steering = steering;
@@ -84,20 +86,22 @@ RobotCommand drive_sides(const RobotModel& model, const Twist& twist, const std:
   return model.sides.belts ? drive_crawler(model, twist, flippers) : drive_wheels(model, twist);
 }
 
+// Motors are numbered among themselves.
+void ask_motors(const RobotModel& model, const std::vector<double>& targets, MotorMode mode, RobotCommand& command) {
+  command.joints.resize(model.joints.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < model.joints.size() && next < targets.size(); ++i) {
+    if (model.joints[i].motor.effort > 0) command.joints[i] = {mode, targets[next++]};
+  }
+}
+
 RobotCommand command_of(const Wish& wish, const RobotModel& model) {
   RobotCommand command;
   if (model.sides.any()) command = drive_sides(model, {wish.linear, wish.angular}, wish.flippers);
   if (model.tube) command = drive_vine(model, wish.growth);
-  command.joints.resize(model.joints.size());
-  const auto ask = [&](const std::vector<double>& targets, MotorMode mode) {
-    std::size_t next = 0;  // motors are numbered among themselves
-    for (std::size_t i = 0; i < model.joints.size() && next < targets.size(); ++i) {
-      if (model.joints[i].motor.effort > 0) command.joints[i] = {mode, targets[next++]};
-    }
-  };
-  ask(wish.joints, MotorMode::position);
-  ask(wish.speeds, MotorMode::velocity);
-  ask(wish.torques, MotorMode::torque);
+  ask_motors(model, wish.joints, MotorMode::position, command);
+  ask_motors(model, wish.speeds, MotorMode::velocity, command);
+  ask_motors(model, wish.torques, MotorMode::torque, command);
   return command;
 }
 
@@ -182,6 +186,37 @@ Value describe_sense(const RobotSense& sense, const RobotModel& model, double gr
 
 }  // namespace
 
+RobotRunOptions robot_run_options(const Scenario& scenario, int threads) {
+  RobotRunOptions options;
+  options.duration = scenario.robot_run.duration;
+  options.control_hz = scenario.robot_run.control_hz;
+  options.fixed_debris = scenario.robot_run.debris == DebrisMotion::fixed;
+  options.gravity = scenario.settle.gravity;
+  options.lost_below = scenario.settle.lost_below;
+  options.lost_beyond = scenario.settle.lost_beyond;
+  options.threads = threads;
+  return options;
+}
+
+std::vector<std::string> robot_folders(const ResolvedMission& mission) {
+  std::vector<std::string> folders{
+      std::filesystem::path(mission.provenance.script.path).parent_path().string()};
+  folders.insert(folders.end(), mission.assets.folders.begin(), mission.assets.folders.end());
+  return folders;
+}
+
+std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext& context) {
+  std::vector<MissionRobot> made;
+  MeshImporter importer;
+  const std::vector<std::string> folders = robot_folders(mission);
+  for (std::size_t i = 0; i < mission.scenario.robots.size(); ++i) {
+    made.push_back(make_mission_robot(mission.scenario.robots[i], folders,
+                                      "robots[" + std::to_string(i + 1) + "]", importer));
+    for (const std::string& warning : made.back().warnings) context.warnings.push_back(warning);
+  }
+  return made;
+}
+
 RobotController make_leg_controller(const RobotItem& robot, const RobotModel& model) {
   const bool snake = robot.urdf.empty() && robot.model == RobotKind::snake;
   return [robot, model, snake](const RobotSense& sense) {
@@ -190,9 +225,16 @@ RobotController make_leg_controller(const RobotItem& robot, const RobotModel& mo
     for (const RobotLeg& leg : robot.drive) {
       if (leg.t <= sense.time) now = leg;
     }
-    if (model.tube) return drive_vine(model, {now.growth, now.curvature, now.curvature_up});
-    if (snake) return calc_gait(model, gait_of(now), sense.time);
-    return drive_sides(model, {now.linear, now.angular}, in_radians(now.flippers_deg));
+    RobotCommand command;
+    if (model.tube) {
+      command = drive_vine(model, {now.growth, now.curvature, now.curvature_up});
+    } else if (snake) {
+      command = calc_gait(model, gait_of(now), sense.time);
+    } else {
+      command = drive_sides(model, {now.linear, now.angular}, in_radians(now.flippers_deg));
+    }
+    ask_motors(model, now.joints, MotorMode::position, command);
+    return command;
   };
 }
 

@@ -12,6 +12,13 @@
 
 namespace rubble {
 
+// Where URDF files are looked for: beside the script, and in the folders of the run's packs.
+std::vector<std::string> robot_folders(const ResolvedMission& mission);
+
+// Models of the mission's robots, in their order; warnings of files go to the context. Throws InputError.
+std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext& context);
+RobotRunOptions robot_run_options(const Scenario& scenario, int threads);
+
 // Drives by the legs of `drive`.
 RobotController make_leg_controller(const RobotItem& robot, const RobotModel& model);
 

@@ -1,32 +1,19 @@
 // The stage from a settled pile to robots that were driven through it.
 #include <algorithm>
-#include <filesystem>
 
 #include "app/pipeline/robot_control.h"
 #include "app/robots/mission_robot.h"
+#include "app/robots/ride_recorder.h"
 #include "app/robots/robot_files.h"
 #include "app/pipeline/stages.h"
 #include "app/support/stop.h"
 #include "kernel/robot/robot_run.h"
 #include "scripting/sandbox/script_file.h"
 #include "scripting/sandbox/source_map.h"
-#include "scripting/trajectory/simulated_path.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
 namespace {
-
-RobotRunOptions run_options(const Scenario& scenario, int threads) {
-  RobotRunOptions options;
-  options.duration = scenario.robot_run.duration;
-  options.control_hz = scenario.robot_run.control_hz;
-  options.fixed_debris = scenario.robot_run.debris == DebrisMotion::fixed;
-  options.gravity = scenario.settle.gravity;
-  options.lost_below = scenario.settle.lost_below;
-  options.lost_beyond = scenario.settle.lost_beyond;
-  options.threads = threads;
-  return options;
-}
 
 void add_robot_metrics(const RobotRunResult& result, const std::vector<RobotLog>& logs,
                        Metrics& metrics) {
@@ -52,60 +39,6 @@ void add_robot_metrics(const RobotRunResult& result, const std::vector<RobotLog>
   metrics["robot_pieces_moved"] = result.pieces_moved;
 }
 
-// The way of the rig on a link, a pose a step.
-class RideRecorder {
- public:
-  // Throws InputError for a link that the robot has not.
-  RideRecorder(const Scenario& scenario, const std::vector<MissionRobot>& robots) {
-    const Ride& ride = scenario.trajectory.ride;
-    if (!ride.on()) return;
-    const std::vector<std::string> names = robot_names(scenario.robots);
-    robot_ = std::size_t(std::find(names.begin(), names.end(), ride.robot) - names.begin());
-    find_link(ride, robots[robot_]);
-    on_ = true;
-  }
-
-  void note(const World& world) {
-    if (!on_) return;
-    const RobotState state = world.robot_state(int(robot_));
-    poses_.push_back(state.links[link_].world_from_link * link_from_rig_);
-  }
-
-  void finish(double step, const std::vector<RobotRecord>& records, DrivenRobots& driven) {
-    if (!on_) return;
-    driven.readings.ride = std::make_shared<SimulatedPath>(std::move(poses_), step);
-    driven.mount = RigMount{records[robot_].frame_of(int(link_)), link_from_rig_};
-  }
-
- private:
-  // A link, or a frame on one.
-  void find_link(const Ride& ride, const MissionRobot& robot) {
-    link_from_rig_ = ride.link_from_rig();
-    std::string all;
-    const std::vector<RobotLink>& links = robot.model.links;
-    for (link_ = 0; link_ < links.size(); ++link_) {
-      if (ride.link.empty() || links[link_].name == ride.link) return;
-      all += (all.empty() ? "one of " : ", ") + links[link_].name;
-    }
-    for (const RobotFrame& frame : robot.frames) {
-      if (frame.name != ride.link) {
-        all += ", " + frame.name;
-        continue;
-      }
-      link_ = std::size_t(frame.link);
-      link_from_rig_ = frame.link_from_frame * link_from_rig_;
-      return;
-    }
-    throw InputError(
-        {"", 0, "trajectory.ride.link", "the robot has no such link", all, "\"" + ride.link + "\"", ""});
-  }
-
-  bool on_ = false;
-  std::size_t robot_ = 0, link_ = 0;
-  Pose link_from_rig_;
-  std::vector<Pose> poses_;
-};
-
 // The controller of each robot: legs, or a function of the script.
 RobotController make_controller(const ResolvedMission& mission, std::size_t robot,
                                 const MissionRobot& made, std::unique_ptr<ScriptControl>& script) {
@@ -113,26 +46,6 @@ RobotController make_controller(const ResolvedMission& mission, std::size_t robo
   if (item.control == 0) return with_mimics(make_leg_controller(item, made.model), made.mimics);
   if (!script) script = std::make_unique<ScriptControl>(mission);
   return with_mimics(script->controller_of(robot, made.model), made.mimics);
-}
-
-// Where URDF files are looked for: beside the script, and in the folders of the run's packs.
-std::vector<std::string> folders_of(const ResolvedMission& mission) {
-  std::vector<std::string> folders{
-      std::filesystem::path(mission.provenance.script.path).parent_path().string()};
-  folders.insert(folders.end(), mission.assets.folders.begin(), mission.assets.folders.end());
-  return folders;
-}
-
-std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext& context) {
-  std::vector<MissionRobot> made;
-  MeshImporter importer;
-  const std::vector<std::string> folders = folders_of(mission);
-  for (std::size_t i = 0; i < mission.scenario.robots.size(); ++i) {
-    made.push_back(make_mission_robot(mission.scenario.robots[i], folders,
-                                      "robots[" + std::to_string(i + 1) + "]", importer));
-    for (const std::string& warning : made.back().warnings) context.warnings.push_back(warning);
-  }
-  return made;
 }
 
 }  // namespace
@@ -157,8 +70,8 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
   }
   RobotRunResult result;
   with_lines_of_script(mission, [&] {
-    RideRecorder ride(mission.scenario, made);
-    const RobotRunOptions options = run_options(mission.scenario, context.threads());
+    RideRecorder rides(mission.scenario, made);
+    const RobotRunOptions options = robot_run_options(mission.scenario, context.threads());
     RobotRun run(make_laid_pile(mission, pile), pile, options);
     for (std::size_t i = 0; i < robots.size(); ++i) {
       const RobotController control = make_controller(mission, i, made[i], script);
@@ -167,14 +80,14 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
         return control(sense);
       });
     }
-    ride.note(run.world());
+    rides.note(run.world());
     result = run.run([&](double done) {
-      ride.note(run.world());
+      rides.note(run.world());
       context.progress.update(done, format_number(done * mission.scenario.robot_run.duration) + " s");
       return !stop_requested();
     });
     throw_if_stopped(folder.path());
-    ride.finish(options.step, driven.records, driven);
+    driven.mount = rides.finish(options.step, driven.records, driven.readings);
     return true;
   });
   write_robot_files(folder.path(), names, models, result, logs, mission.scenario.start_ns);

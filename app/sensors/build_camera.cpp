@@ -19,7 +19,8 @@ CameraSpec build_camera(const Scenario& scenario, const MountedCamera& mounted, 
   spec.depth_sensor = mounted.depth_sensor;
   spec.event_camera = mounted.event_camera;
   spec.seed = scenario.seed;
-  if (!mounted.is_rig()) spec.rig_from_camera = mounted.rig_from_camera();
+  // On a link, each camera bears a lamp of its own.
+  if (!mounted.is_rig() && !mounted.ride.on()) spec.rig_from_camera = mounted.rig_from_camera();
   spec.threads = threads;
   return spec;
 }
@@ -42,10 +43,13 @@ Flight build_flight(const Scenario& scenario, const MountedCamera& camera,
   return flight;
 }
 
-RigFlight build_rig_flight(const Scenario& scenario, std::shared_ptr<const MotionPath> path) {
+RigFlight build_rig_flight(const Scenario& scenario, std::shared_ptr<const MotionPath> path,
+                           const RobotReadings& robots) {
   RigFlight flight;
-  for (const MountedCamera& camera : all_cameras(scenario))
-    flight.cameras.push_back(build_flight(scenario, camera, path));
+  for (const MountedCamera& camera : all_cameras(scenario)) {
+    flight.carriers.push_back(robots.path_of(camera.ride, path));
+    flight.cameras.push_back(build_flight(scenario, camera, flight.carriers.back()));
+  }
   flight.path = std::move(path);
   return flight;
 }

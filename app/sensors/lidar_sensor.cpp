@@ -42,15 +42,16 @@ LidarPlace place_of(const LidarScenario& lidar, const Scenario& flown,
 std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const Scene& scene,
                                                         const Medium& medium, std::uint64_t noise_seed,
                                                         std::int64_t last_ns,
-                                                        std::shared_ptr<const MotionPath> path, int threads) {
+                                                        std::shared_ptr<const MotionPath> path,
+                                                        const RobotReadings& robots, int threads) {
   std::vector<std::unique_ptr<Sensor>> sensors;
   if (flown.lidars.empty()) return sensors;
   const auto world = std::make_shared<LidarWorld>(scene);
   for (const LidarScenario& lidar : flown.lidars) {
     const std::uint64_t seed = RandomStream(noise_seed, "lidars/" + lidar.name).next();
     sensors.push_back(std::make_unique<LidarSensor>(
-        std::make_unique<Lidar>(lidar.spec(), world, place_of(lidar, flown, path), medium, seed, threads),
-        int(sensors.size()), last_ns));
+        std::make_unique<Lidar>(lidar.spec(), world, place_of(lidar, flown, robots.path_of(lidar.ride, path)), medium, seed, threads),
+        int(sensors.size()), robots.end_of(lidar.ride, flown.start_ns, last_ns)));
   }
   return sensors;
 }

@@ -1,17 +1,33 @@
 // What the robots of a mission sensed while they were driven, and whether one carries the rig.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "render/scene/robot_sample.h"
 #include "scripting/trajectory/motion_path.h"
+#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
+
+// The way of a link that carries sensors of its own.
+struct LinkWay {
+  Carrier carrier;
+  std::shared_ptr<const MotionPath> path;  // of the link's frame
+};
 
 struct RobotReadings {
   std::vector<std::vector<RobotSample>> samples;  // by robot, in order of stamps
   std::shared_ptr<const MotionPath> ride;  // of the rig, on a link; none: it flies the trajectory
+  std::vector<LinkWay> links;              // each carrier once
+
+  // Of what rides there; `rig` where nothing carries it.
+  const std::shared_ptr<const MotionPath>& path_of(const Carrier& carrier,
+                                                   const std::shared_ptr<const MotionPath>& rig) const;
+  // Stamp after which a sensor has nothing to say: on a link when the robot is no longer driven. last_ns: of the
+  // last frame.
+  std::int64_t end_of(const Carrier& carrier, std::int64_t start_ns, std::int64_t last_ns) const;
 };
 
 }  // namespace rubble

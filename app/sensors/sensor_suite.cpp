@@ -32,7 +32,7 @@ class CameraSensor : public Sensor {
         number_(number),
         first_frame_(begin.frames.empty() ? 0 : begin.frames[std::size_t(number)]),
         start_ns_(flown.start_ns),
-        path_(flight.path),
+        path_(flight.carriers[std::size_t(number)]),
         camera_(renderer, spec_of(flown, mounted, begin, threads), flight_) {}
 
   int frames() const { return camera_.frames(); }
@@ -69,20 +69,26 @@ class CameraSensor : public Sensor {
 // As long as any camera has frames.
 class ImuSensor : public Sensor {
  public:
-  ImuSensor(const Scenario& flown, std::uint64_t noise_seed, std::int64_t last_ns,
-            std::shared_ptr<const MotionPath> path)
-      : last_ns_(last_ns),
+  ImuSensor(const ImuScenario& imu, int number, const Scenario& flown, std::uint64_t noise_seed,
+            std::int64_t last_ns, std::shared_ptr<const MotionPath> path)
+      : number_(number),
+        last_ns_(last_ns),
         path_(std::move(path)),
-        imu_(*path_, flown.imu.model, flown.settle.gravity, noise_seed, flown.start_ns,
-             flown.imu.is_rig() ? std::nullopt : std::optional(flown.imu.rig_from_imu())) {}
+        imu_(*path_, imu.model, flown.settle.gravity, noise_seed, flown.start_ns,
+             imu.is_rig() ? std::nullopt : std::optional(imu.rig_from_imu())) {}
 
   std::optional<std::int64_t> next_stamp() const override {
     const std::int64_t stamp = imu_.next_stamp();
     return stamp <= last_ns_ ? std::optional(stamp) : std::nullopt;
   }
-  Sample take() override { return imu_.take(); }
+  Sample take() override {
+    ImuSample sample = imu_.take();
+    sample.sensor = number_;
+    return sample;
+  }
 
  private:
+  int number_;
   std::int64_t last_ns_;
   std::shared_ptr<const MotionPath> path_;
   Imu imu_;
@@ -122,9 +128,17 @@ SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const S
   }
   for (const std::vector<RobotSample>& samples : robots.samples)
     sensors_.push_back(std::make_unique<RobotSensor>(samples, last_ns));
-  if (flown.imu.on) sensors_.push_back(std::make_unique<ImuSensor>(flown, begin.noise_seed, last_ns, flight.path));
+  int number = 0;
+  for (const ImuScenario& imu : all_imus(flown)) {
+    const std::uint64_t seed = flown.imus.empty()
+                                   ? begin.noise_seed
+                                   : RandomStream(begin.noise_seed, "imus/" + imu.name).next();
+    sensors_.push_back(std::make_unique<ImuSensor>(
+        imu, number++, flown, seed, robots.end_of(imu.ride, flown.start_ns, last_ns),
+        robots.path_of(imu.ride, flight.path)));
+  }
   for (auto& lidar : make_lidar_sensors(flown, scene, renderer.medium(), begin.noise_seed, last_ns,
-                                        flight.path, threads))
+                                        flight.path, robots, threads))
     sensors_.push_back(std::move(lidar));
   for (auto& camera : cameras) sensors_.push_back(std::move(camera));
 }

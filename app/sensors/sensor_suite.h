@@ -20,7 +20,7 @@ struct SensorBegin {
   std::vector<int> frames;       // number of each camera's first frame; empty: 0
 };
 
-// All sensors that ride on one rig, and those of robots, merged by stamp. At equal stamps robots come
+// All sensors, on the rig or on links of robots, and what robots sense, merged by stamp. At equal stamps robots come
 // before inertial units, these before LiDARs, and these before cameras, in the order of all_cameras(). The
 // renderer and the readings must outlive them.
 class SensorSuite {

@@ -84,12 +84,15 @@ class RawlogRecorder : public Recorder {
     }
   }
 
-  // The pose of the rig once for the frames of one instant.
+  // The pose of the rig once for the frames of one instant; of a link that carries a camera, for each.
   template <typename Archive>
   void write_observations(const Frame& frame, Archive& archive) {
     const CameraRecord& camera = recording_.cameras[std::size_t(frame.sensor)];
-    if (frame.stamp_ns != last_ns_) archive << make_truth(frame.stamp_ns, "ground_truth", frame.world_from_rig);
-    last_ns_ = frame.stamp_ns;
+    if (!camera.carrier.empty())
+      archive << make_truth(frame.stamp_ns, camera.name + "_ground_truth", frame.world_from_rig);
+    else if (frame.stamp_ns != last_ns_)
+      archive << make_truth(frame.stamp_ns, "ground_truth", frame.world_from_rig);
+    if (camera.carrier.empty()) last_ns_ = frame.stamp_ns;
     const bool measured = camera.channels.measured_depth;
     fill_scan(frame, camera, camera.name, measured ? frame.measured_depth : frame.depth);
     fill_colour(frame);
@@ -135,7 +138,7 @@ class RawlogRecorder : public Recorder {
     mrpt::obs::CObservationIMU observation;
     observation.timestamp = mrpt_time(sample.stamp_ns);
     observation.sensorLabel = imu.name;
-    if (imu.frame_id != recording_.rig) observation.sensorPose = mrpt_pose(imu.rig_from_imu);
+    if (imu.frame_id != recording_.frame_of(imu.carrier)) observation.sensorPose = mrpt_pose(imu.rig_from_imu);
     const Vec3 &w = sample.angular_velocity, &a = sample.linear_acceleration;
     observation.set(mrpt::obs::IMU_X_ACC, a.x);
     observation.set(mrpt::obs::IMU_Y_ACC, a.y);

@@ -26,6 +26,9 @@ bool Recording::has_legend() const {
 Recording Recording::of_camera(std::size_t camera) const {
   Recording one = *this;
   one.cameras = {cameras.at(camera)};
+  one.imus.clear();
+  for (const ImuRecord& imu : imus)
+    if (imu.carrier == one.cameras.front().carrier) one.imus.push_back(imu);
   return one;
 }
 

@@ -44,6 +44,12 @@ struct Legend {
 // "ground_instance", "no_instance"}.
 std::string legend_to_json(const Legend& legend);
 
+// What carries a sensor or the rig, where that is a link of a robot.
+struct RigMount {
+  std::string parent;    // TF: the link
+  Pose parent_from_rig;  // unit: m; of a sensor nothing: it has a pose of its own
+};
+
 // A camera. Frame::sensor is its number. The defaults are those of a mission's only camera, which is
 // the rig itself.
 struct CameraRecord {
@@ -53,7 +59,8 @@ struct CameraRecord {
   std::string link = "camera_link";           // TF: its body (X forward, Y left, Z up)
   std::string optical = "camera_optical_frame";              // TF: its pictures (Z forward)
   std::string right_optical = "camera_right_optical_frame";  // TF: those of the right camera
-  Pose rig_from_camera;                       // of its body
+  std::string carrier;                        // TF: the link that carries it; empty: the rig
+  Pose rig_from_camera;                       // of its body, or in the link
   double baseline = 0;                        // as Frame::baseline; unit: m
   Channels channels;                          // besides colour and depth
 
@@ -67,7 +74,8 @@ struct ImuRecord {
   std::string name = "imu";               // of labels
   std::string topic = "/imu";             // ROS
   std::string frame_id = "camera_link";   // TF
-  Pose rig_from_imu;                      // axes: X forward, Y left, Z up
+  std::string carrier;                    // TF: the link that carries it; empty: the rig
+  Pose rig_from_imu;                      // or in the link; axes: X forward, Y left, Z up
   ImuModel model;                         // rate and noise
 };
 
@@ -76,7 +84,8 @@ struct LidarRecord {
   std::string name = "lidar";      // of labels and folders
   std::string topic = "/points";   // ROS: PointCloud2, of a planar pattern LaserScan
   std::string frame_id = "lidar_link";  // TF
-  Pose rig_from_lidar;             // axes: X forward, Y left, Z up
+  std::string carrier;             // TF: the link that carries it; empty: the rig
+  Pose rig_from_lidar;             // or in the link; axes: X forward, Y left, Z up
   LidarSpec spec;                  // pattern and limits
 };
 
@@ -101,12 +110,6 @@ struct RobotRecord {
   std::string frame_of(int link) const { return frame + links[std::size_t(link)]; }
 };
 
-// What carries the rig, where it does not fly by itself.
-struct RigMount {
-  std::string parent;  // TF
-  Pose parent_from_rig;
-};
-
 struct Recording {
   std::string rig = "camera_link";       // TF: what flies the trajectory
   std::vector<CameraRecord> cameras{1};  // at least one
@@ -116,8 +119,10 @@ struct Recording {
   std::optional<RigMount> mount;         // of the rig, on a robot
   Legend legend;                         // where a stream of ground truth has one
 
+  // TF: what a sensor with that carrier is fixed to.
+  const std::string& frame_of(const std::string& carrier) const { return carrier.empty() ? rig : carrier; }
   bool has_legend() const;  // whether any camera gives such a stream
-  // The same with one of the cameras alone, as the first.
+  // The same with one of the cameras alone, as the first, and of the inertial units those beside it.
   Recording of_camera(std::size_t camera) const;
 };
 

@@ -50,6 +50,7 @@ class RosRecorder : public Recorder {
     order_.check(frame);
     if (frame.stamp_ns != last_ns_) write_instant(frame);
     const CameraRecord& camera = recording_.cameras[std::size_t(frame.sensor)];
+    write_rig(frame, camera);
     const CameraTopics& topics = cameras_[std::size_t(frame.sensor)];
     const Channels& c = camera.channels;
     write_camera(frame, topics.rgb_info, topics.rgb, camera.optical, frame.rgb, 0);
@@ -179,27 +180,34 @@ class RosRecorder : public Recorder {
   // Once for the frames of all cameras at one instant.
   void write_instant(const Frame& frame) {
     send(clock_, frame, ros::clock(version_, frame.stamp_ns));
-    if (instants_ == 0) write_constants(frame);
-    const ros::Header world{instants_++, frame.stamp_ns, ros::kWorld};
+    if (instants_++ == 0) write_constants(frame);
+    last_ns_ = frame.stamp_ns;
+    write_rig(frame, recording_.cameras[std::size_t(frame.sensor)]);
+    for (const RobotSample& sample : early_) robots_->write(sample, tf_);
+    early_.clear();
+  }
+
+  // By the first frame of a camera on it.
+  void write_rig(const Frame& frame, const CameraRecord& camera) {
+    if (!camera.carrier.empty() || frame.stamp_ns == rig_ns_) return;
+    rig_ns_ = frame.stamp_ns;
+    const ros::Header world{rigs_++, frame.stamp_ns, ros::kWorld};
     if (!recording_.mount)
       send(tf_, frame, ros::transforms(version_, world, {{recording_.rig, frame.world_from_rig}}));
     send(pose_, frame, ros::pose_stamped(version_, world, frame.world_from_rig));
-    last_ns_ = frame.stamp_ns;
-    for (const RobotSample& sample : early_) robots_->write(sample, tf_);
-    early_.clear();
   }
 
   void write_constants(const Frame& frame) {
     std::vector<ros::Transform> fixed;
     for (const CameraRecord& camera : recording_.cameras) add_transforms(camera, fixed);
     for (const ImuRecord& imu : recording_.imus)
-      if (imu.frame_id != recording_.rig)
-        fixed.push_back({imu.frame_id, imu.rig_from_imu, recording_.rig});
+      if (imu.frame_id != recording_.frame_of(imu.carrier))
+        fixed.push_back({imu.frame_id, imu.rig_from_imu, recording_.frame_of(imu.carrier)});
     if (recording_.mount)
       fixed.push_back({recording_.rig, recording_.mount->parent_from_rig, recording_.mount->parent});
     robots_->add_transforms(fixed);
     for (const LidarRecord& lidar : recording_.lidars)
-      fixed.push_back({lidar.frame_id, lidar.rig_from_lidar, recording_.rig});
+      fixed.push_back({lidar.frame_id, lidar.rig_from_lidar, recording_.frame_of(lidar.carrier)});
     send(tf_static_, frame,
          ros::transforms(version_, header(frame, recording_.rig), fixed));
     robots_->write_descriptions(frame.stamp_ns);
@@ -209,8 +217,8 @@ class RosRecorder : public Recorder {
 
   // From the rig to the camera's body, unless that is the rig, and on to its pictures.
   void add_transforms(const CameraRecord& camera, std::vector<ros::Transform>& fixed) const {
-    if (camera.link != recording_.rig)
-      fixed.push_back({camera.link, camera.rig_from_camera, recording_.rig});
+    const std::string& carrier = recording_.frame_of(camera.carrier);
+    if (camera.link != carrier) fixed.push_back({camera.link, camera.rig_from_camera, carrier});
     fixed.push_back({camera.optical, camera_from_optical, camera.link});
     if (!camera.channels.right) return;
     const Vec3 to_the_right{0, -camera.baseline, 0};
@@ -283,7 +291,8 @@ class RosRecorder : public Recorder {
   RosOptions options_;
   Recording recording_;
   FrameOrder order_;
-  std::uint32_t instants_ = 0;
+  std::uint32_t instants_ = 0, rigs_ = 0;
+  std::int64_t rig_ns_ = -1;               // of the last pose of the rig
   std::int64_t last_ns_ = -1;              // of the last instant
   std::vector<std::uint32_t> imu_counts_;   // readings of each unit
   std::vector<std::uint32_t> scan_counts_;  // scans of each LiDAR

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "kernel/base/error.h"
-#include "kernel/settling/track_recorder.h"
 
 namespace rubble {
 namespace {
@@ -49,7 +48,7 @@ std::string text_of(const char* format, double a, double b, double c) {
 }  // namespace
 
 RobotRun::RobotRun(const Pile& pile, const PileState& state, const RobotRunOptions& options)
-    : options_(options), pile_(state), world_(pile.types, world_options(options), pile.assemblies) {
+    : options_(options), laid_(pile), pile_(state), world_(pile.types, world_options(options), pile.assemblies) {
   check(options);
   world_.lay(pile, state, options.fixed_debris);
   world_.set_step(options.step, options.substeps);
@@ -58,6 +57,7 @@ RobotRun::RobotRun(const Pile& pile, const PileState& state, const RobotRunOptio
 int RobotRun::add(const RobotModel& model, const Pose& world_from_base, RobotController controller) {
   const int robot = world_.add_robot(model, world_from_base);
   Driven driven;
+  driven.base = world_from_base;
   driven.controller = std::move(controller);
   driven.start = driven.last = driven.second_ago =
       world_.robot_state(robot).links[model.lead()].world_from_link.translation;
@@ -75,6 +75,23 @@ void RobotRun::control() {
   }
 }
 
+// What is staked has no contacts with what is fixed: the base alone, free to move, has them.
+std::vector<RobotContact> RobotRun::find_base_contacts(int robot) const {
+  RobotModel base;
+  base.name = world_.robot_model(robot).name;
+  base.links = {world_.robot_model(robot).links[0]};
+  World probe(laid_.types, world_options(options_), laid_.assemblies);
+  probe.lay(laid_, pile_, true);
+  probe.set_step(options_.step, options_.substeps);
+  probe.add_robot(base, robots_[std::size_t(robot)].base);
+  probe.step();
+  std::vector<RobotContact> contacts = probe.robot_contacts(0);
+  const int first = probe.robot_piece(0), own = world_.robot_piece(robot);
+  for (RobotContact& c : contacts)
+    if (c.piece == first) c.piece = own;
+  return contacts;
+}
+
 // After the first step: its contacts were found where everything stood before it.
 void RobotRun::check_room() const {
   std::vector<Diagnostic> mistakes;
@@ -82,7 +99,12 @@ void RobotRun::check_room() const {
     const int first = world_.robot_piece(int(i));
     const RobotModel& model = world_.robot_model(int(i));
     RobotContact worst;
-    for (const RobotContact& c : world_.robot_contacts(int(i))) {
+    std::vector<RobotContact> contacts = world_.robot_contacts(int(i));
+    if (model.tube) {
+      const std::vector<RobotContact> of_base = find_base_contacts(int(i));
+      contacts.insert(contacts.end(), of_base.begin(), of_base.end());
+    }
+    for (const RobotContact& c : contacts) {
       const bool own = c.piece >= first && c.piece < first + int(model.links.size());
       if (!own && c.separation < worst.separation) worst = c;
     }
@@ -128,22 +150,19 @@ void RobotRun::measure() {
   }
 }
 
-RobotRunResult RobotRun::run(const std::function<bool(double)>& on_step) {
-  const std::int64_t steps = std::int64_t(options_.duration / options_.step + 0.5);
-  const std::int64_t controls = period(options_.control_hz, options_.step);
-  const std::int64_t samples = period(options_.track_hz, options_.step);
-  TrackRecorder recorder;
-  recorder.observe(world_);
-  for (std::int64_t i = 0; i < steps; ++i) {
-    if (i % controls == 0) control();
-    world_.step();
-    if (i == 0) check_room();
-    measure();
-    if ((i + 1) % samples == 0) recorder.observe(world_);
-    if (on_step && !on_step(double(i + 1) / double(steps))) break;
-  }
+void RobotRun::begin() { recorder_.observe(world_); }
+
+void RobotRun::step() {
+  if (steps_ % period(options_.control_hz, options_.step) == 0) control();
+  world_.step();
+  if (steps_++ == 0) check_room();
+  measure();
+  if (steps_ % period(options_.track_hz, options_.step) == 0) recorder_.observe(world_);
+}
+
+RobotRunResult RobotRun::finish() {
   RobotRunResult result;
-  result.track = recorder.take();
+  result.track = recorder_.take();
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     result.first_piece.push_back(world_.robot_piece(int(i)));
     result.robots.push_back(robots_[i].summary);
@@ -156,6 +175,16 @@ RobotRunResult RobotRun::run(const std::function<bool(double)>& on_step) {
     }
   }
   return result;
+}
+
+RobotRunResult RobotRun::run(const std::function<bool(double)>& on_step) {
+  const std::int64_t steps = std::int64_t(options_.duration / options_.step + 0.5);
+  begin();
+  for (std::int64_t i = 0; i < steps; ++i) {
+    step();
+    if (on_step && !on_step(double(i + 1) / double(steps))) break;
+  }
+  return finish();
 }
 
 }  // namespace rubble

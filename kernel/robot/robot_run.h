@@ -10,6 +10,7 @@
 #include "kernel/model/pile_state.h"
 #include "kernel/model/robot.h"
 #include "kernel/model/track.h"
+#include "kernel/settling/track_recorder.h"
 #include "kernel/world/world.h"
 
 namespace rubble {
@@ -65,10 +66,18 @@ class RobotRun {
   // and where to. on_step: 0 to 1; return false to stop.
   RobotRunResult run(const std::function<bool(double)>& on_step = {});
 
+  // The same one step after another, as long as wanted: begin() once, step() as often as there are steps,
+  // finish() once. The duration of the options is not looked at.
+  void begin();
+  void step();
+  RobotRunResult finish();
+
   const World& world() const { return world_; }
+  std::int64_t steps() const { return steps_; }  // since begin()
 
  private:
   struct Driven {
+    Pose base;  // at the start
     RobotController controller;
     RobotSummary summary;
     Vec3 start, last, second_ago;
@@ -76,12 +85,16 @@ class RobotRun {
   };
   void control();
   void check_room() const;
+  std::vector<RobotContact> find_base_contacts(int robot) const;
   void measure();
 
   RobotRunOptions options_;
+  Pile laid_;
   PileState pile_;
   World world_;
   std::vector<Driven> robots_;
+  TrackRecorder recorder_;
+  std::int64_t steps_ = 0;
 };
 
 }  // namespace rubble

@@ -9,7 +9,7 @@ from . import _core
 
 
 class RobotWorld:
-    """A pile and one robot in it: snake, crawler or rover (docs/robots.md). What it touches moves, unless
+    """A pile and one robot in it: snake, crawler, rover or vine (docs/robots.md). What it touches moves, unless
     fixed_debris. pose: of its first link. The same commands give the same bits."""
 
     def __init__(self, pile: _core.Pile, model: str, pose: ArrayLike, fixed_debris: bool = False,
@@ -22,6 +22,10 @@ class RobotWorld:
         """Of crawler and rover: forwards (m/s), counter-clockwise (rad/s), and a crawler's
         flippers (rad): front left, front right, rear left, rear right; none: as they stood at first."""
         self._made.drive(linear, angular, list(flippers))
+
+    def grow(self, speed: float, left: float = 0.0, up: float = 0.0) -> None:
+        """Of a vine: speed of its tip (m/s), curvature of what grows, to the left and upwards (1/m)."""
+        self._made.grow(speed, left, up)
 
     def set_joints(self, targets: Iterable[float]) -> None:
         """Targets of all joints; rad."""

@@ -64,7 +64,7 @@ struct Frame {
   Intrinsics intrinsics;          // of colour and depth alike: they are registered
   Pose world_from_camera;         // camera body frame: X forward, Y left, Z up
   Vec3 linear_velocity;           // of the camera, in the world; unit: m/s
-  Pose world_from_rig;            // of the carrier that flies the trajectory (X forward, Y left, Z up);
+  Pose world_from_rig;            // of the carrier: the rig (X forward, Y left, Z up), or a robot's link;
   Vec3 rig_velocity;              // its velocity, in the world; unit: m/s. Of the camera of a mission
                                   // that has one camera, both are those of the camera
   std::vector<std::uint8_t> rgb;  // 3 bytes a pixel, rows from the top

@@ -140,6 +140,26 @@ class SensorNames {
   std::map<std::string, std::string> taken_;  // name to key
 };
 
+void check_imu_names(const Scenario& scenario, SensorNames& names, std::vector<Diagnostic>& mistakes) {
+  if (scenario.imus.empty()) {
+    names.check("imu.topic", scenario.imu.topic.value_or("/imu"), true);
+    names.check("imu.frame_id", scenario.imu.frame_id, false);
+  }
+  if (scenario.imu.on && !scenario.imus.empty())
+    mistakes.push_back({"", 0, "imu.on", "contradicts imus", "one of both", "both", ""});
+  for (const ImuScenario& imu : scenario.imus) {
+    const std::string at = "imus." + imu.name;
+    if (!is_name(imu.name)) {
+      mistakes.push_back({"", 0, at, "not a name of an inertial unit",
+                          "a lower-case letter, then such letters, digits and underscores, 32 at most",
+                          "\"" + imu.name + "\"", ""});
+      continue;
+    }
+    names.check(imu.topic ? at + ".topic" : at, imu.topic.value_or("/" + imu.name), true);
+    names.check(imu.frame_id ? at + ".frame_id" : at, imu.frame_id.value_or(imu.name + "_link"), false);
+  }
+}
+
 }  // namespace
 
 void check_cameras(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
@@ -172,8 +192,7 @@ void check_sensor_names(const Scenario& scenario, std::vector<Diagnostic>& mista
                 camera.camera.frame_id.value_or(name + "_optical_frame"), false);
     names.check(at, name + "_link", false);
   }
-  names.check("imu.topic", scenario.imu.topic.value_or("/imu"), true);
-  names.check("imu.frame_id", scenario.imu.frame_id, false);
+  check_imu_names(scenario, names, mistakes);
   for (std::size_t i = 0; i < scenario.lidars.size(); ++i) {
     const LidarScenario& lidar = scenario.lidars[i];
     const std::string at = "lidars." + lidar.name;

@@ -46,6 +46,11 @@ std::vector<MountedCamera> all_cameras(const Scenario& scenario) {
   return {only};
 }
 
+std::vector<ImuScenario> all_imus(const Scenario& scenario) {
+  if (!scenario.imus.empty() || !scenario.imu.on) return scenario.imus;
+  return {scenario.imu};
+}
+
 bool has_channel(const Scenario& scenario, const std::string& name) {
   const std::vector<MountedCamera> cameras = all_cameras(scenario);
   return std::any_of(cameras.begin(), cameras.end(),

@@ -9,6 +9,7 @@
 #include "kernel/base/math.h"
 #include "render/scene/camera_spec.h"
 #include "render/scene/frame.h"
+#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 
@@ -52,10 +53,11 @@ struct CameraScenario {
   bool has_channel(const std::string& name) const;  // whether `channels` names it
 };
 
-// One of several cameras on the rig that flies the trajectory.
+// One of several cameras on the rig that flies the trajectory, or on a link of a robot.
 struct MountedCamera {
   std::string name = "camera";  // lower-case letters, digits and underscores
-  Vec3 position;                // of its body in the rig (X forward, Y left, Z up); unit: m
+  Carrier ride{};               // what carries it instead of the rig
+  Vec3 position;                // of its body in the rig (X forward, Y left, Z up), or the link; unit: m
   Vec3 rpy_deg;                 // of its body, likewise; unit: degree
   std::optional<double> rate_hz{};    // frames per second; not given: trajectory.rate_hz
   CameraScenario camera{};            // image, lens, channels
@@ -69,14 +71,16 @@ struct MountedCamera {
 // What CameraScenario::channels may name.
 std::vector<std::string> channel_names();
 
-// An inertial unit on the rig: of a single camera, in its body.
+// An inertial unit on the rig: of a single camera, in its body; or on a link of a robot.
 struct ImuScenario {
-  bool on = false;  // false: not simulated
+  std::string name = "imu";  // of one of several
+  bool on = false;  // false: not simulated; of one of several without effect
+  Carrier ride{};   // what carries it instead of the rig
   ImuModel model;   // rate, noise and biases
-  Vec3 position;    // in the rig (X forward, Y left, Z up); unit: m; range: -10 to 10
+  Vec3 position;    // in the rig or the link (X forward, Y left, Z up); unit: m; range: -10 to 10
   Vec3 rpy_deg;     // of its axes, likewise; unit: degree
-  std::optional<std::string> topic{};     // ROS; not given: "/imu"
-  std::optional<std::string> frame_id{};  // TF; not given: the rig's where it is there, else "imu_link"
+  std::optional<std::string> topic{};     // ROS; not given: "/NAME"
+  std::optional<std::string> frame_id{};  // TF; not given: the carrier's where it is there, else "NAME_link"
 
   bool is_rig() const { return position == Vec3() && rpy_deg == Vec3(); }
   Pose rig_from_imu() const;

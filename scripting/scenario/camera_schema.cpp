@@ -4,6 +4,7 @@
 
 #include "render/streams/image_streams.h"
 #include "scripting/scenario/optics_schema.h"
+#include "scripting/scenario/robot_scenario.h"
 
 namespace rubble {
 namespace {
@@ -217,10 +218,11 @@ void add_camera_with(Schema& k, const std::string& at, CameraScenario& c) {
 
 Schema mounted_camera_schema(MountedCamera& m) {
   Schema k;
-  k.value("position", m.position, "Position of the camera body in the rig: X forward, Y left, Z up.")
+  add_ride_keys(k, "", m.ride);
+  k.value("position", m.position, "Position of the camera body in the rig, or in the link of `ride`: X forward, Y left, Z up.")
       .between(-10, 10)
       .unit("m");
-  k.value("rpy_deg", m.rpy_deg, "Roll, pitch (positive: down) and yaw (positive: to the left) in the rig.")
+  k.value("rpy_deg", m.rpy_deg, "Roll, pitch (positive: down) and yaw (positive: to the left), likewise.")
       .between(-360, 360)
       .unit("degree");
   k.value("rate_hz", m.rate_hz, "Frames per second; not given: `trajectory.rate_hz`.")
@@ -241,7 +243,7 @@ void add_camera_keys(Schema& keys, Scenario& s) {
   keys.add("cameras",
            "Several cameras instead of `camera`. Names have lower-case letters, digits and underscores: "
            "`cameras = { front = { ... }, left = { ... } }`. Each camera is fixed to the rig, which flies "
-           "the trajectory and has the lamp. Besides the keys below, it has every key of `camera`, and its "
+           "the trajectory and has the lamp, or to a link of a robot (`ride`), with a lamp of its own. Besides the keys below, it has every key of `camera`, and its "
            "own `depth_sensor` and `event_camera`.",
            [&s](std::size_t) {
              return Schema::named_tables(s.cameras, &MountedCamera::name, "front",

@@ -6,17 +6,19 @@
 
 #include "kernel/base/math.h"
 #include "render/scene/lidar_spec.h"
+#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 
 // Figures and sources: lidar_models.cpp.
 enum class LidarModel { vlp16, os0, os1, os2, mid360, utm30lx };
 
-// One of the LiDARs on the rig that flies the trajectory. What is not given is the model's own.
+// One of the LiDARs on the rig that flies the trajectory, or on a link of a robot. What is not given is the model's own.
 struct LidarScenario {
   std::string name = "lidar";             // lower-case letters, digits and underscores
   LidarModel model = LidarModel::vlp16;   // whose figures it has where no key says otherwise
-  Vec3 position;                          // in the rig (X forward, Y left, Z up); unit: m
+  Carrier ride{};                         // what carries it instead of the rig
+  Vec3 position;                          // in the rig or the link (X forward, Y left, Z up); unit: m
   Vec3 rpy_deg;                           // likewise; unit: degree
   int channels = 0;                       // of os0, os1, os2: 32, 64 or 128; 0: 64
   int columns = 0;                        // of os0, os1, os2: 512, 1024 or 2048; 0: 1024

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scripting/scenario/robot_scenario.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -31,8 +32,9 @@ Schema lidar_schema(LidarScenario& l) {
   Schema k;
   k.choice("model", l.model, {"vlp16", "os0", "os1", "os2", "mid360", "utm30lx"},
            "The model, which sets the defaults of the other keys: [lidar.md](lidar.md).");
-  k.value("position", l.position, "Position in the rig: X forward, Y left, Z up.").between(-10, 10).unit("m");
-  k.value("rpy_deg", l.rpy_deg, "Orientation in the rig: roll, pitch (positive: down) and yaw.")
+  add_ride_keys(k, "", l.ride);
+  k.value("position", l.position, "Position in the rig, or in the link of `ride`: X forward, Y left, Z up.").between(-10, 10).unit("m");
+  k.value("rpy_deg", l.rpy_deg, "Orientation likewise: roll, pitch (positive: down) and yaw.")
       .between(-360, 360)
       .unit("degree");
   k.value("channels", l.channels, "Number of rings of an `os0`, `os1` or `os2`: 32, 64 or 128; 0: 64.").between(0, 128);
@@ -82,7 +84,7 @@ void check_lidar(const LidarScenario& lidar, std::vector<Diagnostic>& mistakes) 
 void add_lidar_keys(Schema& keys, Scenario& s) {
   keys.add("lidars",
            "LiDARs. Names have lower-case letters, digits and underscores: `lidars = { top = { model = "
-           "\"vlp16\" } }`. Each LiDAR is fixed to the rig, which flies the trajectory. It scans from the "
+           "\"vlp16\" } }`. Each LiDAR is fixed to the rig, which flies the trajectory, or to a link of a robot (`ride`). It scans from the "
            "start until the last frame of a camera, and sees the same smoke and dust.",
            [&s](std::size_t) {
              return Schema::named_tables(s.lidars, &LidarScenario::name, "top", lidar_schema);

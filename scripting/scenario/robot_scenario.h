@@ -7,6 +7,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
+#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 
@@ -22,8 +23,10 @@ struct RobotLeg {
   std::vector<double> flippers_deg{};
   GaitKind gait = GaitKind::sidewinding;  // of a snake
   double rate = 4;          // of its waves; negative: backwards; unit: rad/s; range: -20 to 20
+  double phase = 0;         // of its waves, beside rate * t; unit: rad; range: -1e6 to 1e6
   double amplitude = 1;     // of the gait's own; unit: 1; range: 0 to 2
   double steering_deg = 0;  // added to the sideways joints; range: -45 to 45
+  std::vector<double> joints{};  // positions of all motors, in their order, beside the rest; unit: rad, slider m
   double growth = 0;        // of a vine's tip; unit: m/s; range: 0 to 1
   double curvature = 0, curvature_up = 0;  // of what grows, to the left and upwards; unit: 1/m; range: -5 to 5
 };
@@ -62,6 +65,8 @@ struct RobotRunScenario {
 class Schema;
 struct Scenario;
 
+// at: what the keys begin with: "imu.", or nothing.
+void add_ride_keys(Schema& keys, const std::string& at, Carrier& ride);
 // The scenario must outlive the schema.
 void add_robot_keys(Schema& keys, Scenario& scenario);
 // The names that robots go by, in their order.

@@ -30,11 +30,18 @@ Schema leg_schema(RobotLeg& leg) {
   k.value("rate", leg.rate, "Snake: angular frequency of its waves; negative: backwards.")
       .between(-20, 20)
       .unit("rad/s");
+  k.value("phase", leg.phase, "Snake: phase that the waves have beside rate * t; keeps a change of `rate` smooth.")
+      .between(-1e6, 1e6)
+      .unit("rad");
   k.value("amplitude", leg.amplitude, "Snake: amplitude, relative to that of the gait.")
       .between(0, 2);
   k.value("steering_deg", leg.steering_deg, "Snake: angle that is added to the sideways joints.")
       .between(-45, 45)
       .unit("degree");
+  k.value("joints", leg.joints,
+          "Positions of all motors, in their order, instead of what the other keys ask of them; sliders in m.")
+      .between(-1000, 1000)
+      .unit("rad");
   k.value("growth", leg.growth, "Vine: speed at which the tip grows.").between(0, 1).unit("m/s");
   k.value("curvature", leg.curvature, "Vine: curvature of what grows, to the left.").between(-5, 5).unit("1/m");
   k.value("curvature_up", leg.curvature_up, "Vine: curvature of what grows, upwards.").between(-5, 5).unit("1/m");
@@ -81,20 +88,27 @@ void check_vine(const RobotItem& robot, std::size_t i, std::vector<Diagnostic>& 
                         format_number(links), "a longer link_length needs fewer"});
 }
 
+// at: the key of the ride, such as "cameras.front.ride"
+void check_carrier(const Carrier& ride, const std::string& at, const std::vector<std::string>& names,
+                   std::vector<Diagnostic>& mistakes) {
+  if (!ride.on() && !ride.link.empty())
+    mistakes.push_back({"", 0, at + ".link", "a link of no robot", at + ".robot besides it", "\"" + ride.link + "\"", ""});
+  if (!ride.on() || std::find(names.begin(), names.end(), ride.robot) != names.end()) return;
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
+  mistakes.push_back({"", 0, at + ".robot", "no robot has this name",
+                      all.empty() ? "a robot in `robots`" : all, "\"" + ride.robot + "\"", ""});
+}
+
 void check_ride(const Scenario& scenario, const std::vector<std::string>& names,
                 std::vector<Diagnostic>& mistakes) {
   const TrajectorySpec& path = scenario.trajectory;
+  check_carrier(path.ride, "trajectory.ride", names, mistakes);
   if (!path.ride.on()) return;
   const auto add = [&](const char* key, const char* message, const char* expected,
                        const std::string& found) {
     mistakes.push_back({"", 0, key, message, expected, found, ""});
   };
-  if (std::find(names.begin(), names.end(), path.ride.robot) == names.end()) {
-    std::string all;
-    for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
-    add("trajectory.ride.robot", "no robot has this name", all.empty() ? "a robot in `robots`" : all.c_str(),
-        "\"" + path.ride.robot + "\"");
-  }
   if (path.waypoints.size() > 1)
     add("trajectory.waypoints", "contradicts ride", "one of both", "both");
   if (path.limits.any() || path.smoothing || path.duration || path.rest_at_ends ||
@@ -103,7 +117,39 @@ void check_ride(const Scenario& scenario, const std::vector<std::string>& names,
         "limits, smoothing, a duration or a plan");
 }
 
+// What a link carries is on no rig: formats that know one moving body alone cannot hold both.
+void check_sensor_rides(const Scenario& scenario, const std::vector<std::string>& names,
+                        std::vector<Diagnostic>& mistakes) {
+  bool mixed = false;
+  for (const MountedCamera& camera : scenario.cameras) {
+    check_carrier(camera.ride, "cameras." + camera.name + ".ride", names, mistakes);
+    mixed = mixed || !(camera.ride == scenario.cameras.front().ride);
+  }
+  for (const LidarScenario& lidar : scenario.lidars)
+    check_carrier(lidar.ride, "lidars." + lidar.name + ".ride", names, mistakes);
+  check_carrier(scenario.imu.ride, "imu.ride", names, mistakes);
+  for (const ImuScenario& imu : scenario.imus)
+    check_carrier(imu.ride, "imus." + imu.name + ".ride", names, mistakes);
+  const auto on_rig = [](const auto& sensor) { return !sensor.ride.on(); };
+  const std::vector<ImuScenario> imus = all_imus(scenario);
+  const bool unseen = !scenario.cameras.empty() &&
+                      std::none_of(scenario.cameras.begin(), scenario.cameras.end(), on_rig);
+  if (unseen && (std::any_of(imus.begin(), imus.end(), on_rig) ||
+                 std::any_of(scenario.lidars.begin(), scenario.lidars.end(), on_rig)))
+    mistakes.push_back({"", 0, "cameras", "none is on the rig, whose pose is recorded with frames",
+                        "a camera on the rig, or a ride for the inertial units and LiDARs on it", "", ""});
+  if (mixed && scenario.outputs.euroc)
+    mistakes.push_back({"", 0, "outputs.euroc", "the format has one moving body",
+                        "cameras on one carrier, or another format", "cameras on several", ""});
+}
+
 }  // namespace
+
+void add_ride_keys(Schema& k, const std::string& at, Carrier& ride) {
+  k.group(at + "ride", "A link of a robot that carries it, instead of the rig.");
+  k.value(at + "ride.robot", ride.robot, "Name of the robot.");
+  k.value(at + "ride.link", ride.link, "Link of the robot; not given: the first link.");
+}
 
 void add_robot_keys(Schema& k, Scenario& s) {
   std::vector<RobotItem>& list = s.robots;
@@ -183,6 +229,7 @@ void check_robots(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
     mistakes.push_back({"", 0, "record_settling", "robots start with the first frame",
                         "one of robots and record_settling", "both", ""});
   check_ride(scenario, names, mistakes);
+  check_sensor_rides(scenario, names, mistakes);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const bool plain = std::all_of(names[i].begin(), names[i].end(), [](char c) {
       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';

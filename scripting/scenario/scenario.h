@@ -182,6 +182,7 @@ struct Scenario {
   LampSpec lamp;                  // on the camera
   TrajectorySpec trajectory;      // where the camera flies
   ImuScenario imu;                // in the camera
+  std::vector<ImuScenario> imus;  // instead of `imu`: several, by name
   std::vector<LidarScenario> lidars;  // on the rig, by name
   RecordSettlingScenario record_settling;  // what is recorded before the flight
   OutputScenario outputs;         // what is written
@@ -198,6 +199,8 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario);
 
 // The cameras of a mission: those of `cameras`, or `camera` as the rig itself.
 std::vector<MountedCamera> all_cameras(const Scenario& scenario);
+// The inertial units: those of `imus`, or `imu` where it is on.
+std::vector<ImuScenario> all_imus(const Scenario& scenario);
 // Whether a camera gives that stream of ground truth.
 bool has_channel(const Scenario& scenario, const std::string& name);
 

@@ -5,6 +5,7 @@
 #include "scripting/scenario/camera_schema.h"
 #include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/pile_schema.h"
+#include "scripting/scenario/robot_scenario.h"
 #include "scripting/scenario/sky_schema.h"
 #include "scripting/scenario/surroundings_schema.h"
 
@@ -269,34 +270,53 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
       .unit("m");
 }
 
-void add_imu(Schema& k, ImuScenario& s) {
+// at: what the keys begin with: "imu.", or nothing.
+void add_imu_figures(Schema& k, const std::string& at, ImuScenario& s) {
   ImuModel& m = s.model;
+  k.value(at + "rate_hz", m.rate_hz, "Samples per second.").between(1, 10000).unit("Hz");
+  k.value(at + "gyroscope_noise", m.gyroscope_noise, "Noise density of the gyroscope.")
+      .between(0, 10)
+      .unit("rad/s/sqrt(Hz)");
+  k.value(at + "gyroscope_walk", m.gyroscope_walk, "Random walk of the gyroscope's bias.")
+      .between(0, 10)
+      .unit("rad/s2/sqrt(Hz)");
+  k.value(at + "accelerometer_noise", m.accelerometer_noise, "Noise density of the accelerometer.")
+      .between(0, 100)
+      .unit("m/s2/sqrt(Hz)");
+  k.value(at + "accelerometer_walk", m.accelerometer_walk, "Random walk of the accelerometer's bias.")
+      .between(0, 100)
+      .unit("m/s3/sqrt(Hz)");
+  add_ride_keys(k, at, s.ride);
+  k.value(at + "position", s.position, "Position on the rig, or on the link of `ride`: X forward, Y left, Z up.")
+      .between(-10, 10)
+      .unit("m");
+  k.value(at + "rpy_deg", s.rpy_deg, "Orientation likewise: roll, pitch (positive: down), yaw.")
+      .between(-360, 360)
+      .unit("degree");
+  k.value(at + "topic", s.topic, "ROS topic; not given: `/imu`, or `/NAME` for one of `imus`.");
+  k.value(at + "frame_id", s.frame_id,
+          "TF frame; not given: the frame of the rig if the IMU has no pose of its own, else `imu_link`, or "
+          "`NAME_link` for one of `imus`.");
+}
+
+Schema named_imu_schema(ImuScenario& s) {
+  Schema k;
+  add_imu_figures(k, "", s);
+  return k;
+}
+
+void add_imu(Schema& k, Scenario& s) {
   k.group("imu",
           "An inertial measurement unit (IMU) on the rig, with white noise and random-walk biases. With one "
           "camera, the rig is the body of the camera.");
-  k.value("imu.on", s.on, "Switches the IMU on.");
-  k.value("imu.rate_hz", m.rate_hz, "Samples per second.").between(1, 10000).unit("Hz");
-  k.value("imu.gyroscope_noise", m.gyroscope_noise, "Noise density of the gyroscope.")
-      .between(0, 10)
-      .unit("rad/s/sqrt(Hz)");
-  k.value("imu.gyroscope_walk", m.gyroscope_walk, "Random walk of the gyroscope's bias.")
-      .between(0, 10)
-      .unit("rad/s2/sqrt(Hz)");
-  k.value("imu.accelerometer_noise", m.accelerometer_noise, "Noise density of the accelerometer.")
-      .between(0, 100)
-      .unit("m/s2/sqrt(Hz)");
-  k.value("imu.accelerometer_walk", m.accelerometer_walk, "Random walk of the accelerometer's bias.")
-      .between(0, 100)
-      .unit("m/s3/sqrt(Hz)");
-  k.value("imu.position", s.position, "Position on the rig: X forward, Y left, Z up.")
-      .between(-10, 10)
-      .unit("m");
-  k.value("imu.rpy_deg", s.rpy_deg, "Orientation on the rig: roll, pitch (positive: down), yaw.")
-      .between(-360, 360)
-      .unit("degree");
-  k.value("imu.topic", s.topic, "ROS topic; not given: `/imu`.");
-  k.value("imu.frame_id", s.frame_id,
-          "TF frame; not given: the frame of the rig if the IMU has no pose of its own, else `imu_link`.");
+  k.value("imu.on", s.imu.on, "Switches the IMU on.");
+  add_imu_figures(k, "imu.", s.imu);
+  k.add("imus",
+        "Several IMUs instead of `imu`. Names have lower-case letters, digits and underscores: "
+        "`imus = { head = { ride = { robot = \"snake\" } } }`. Each has every key of `imu`, except for `on`.",
+        [&s](std::size_t) {
+          return Schema::named_tables(s.imus, &ImuScenario::name, "head", named_imu_schema);
+        });
 }
 
 void add_record_settling(Schema& k, RecordSettlingScenario& r) {
@@ -401,7 +421,7 @@ Schema make_scenario_schema(Scenario& s) {
   add_air_and_lamp(keys, s.air, s.lamp);
   add_camera_keys(keys, s);
   add_trajectory(keys, s.trajectory);
-  add_imu(keys, s.imu);
+  add_imu(keys, s);
   add_lidar_keys(keys, s);
   add_record_settling(keys, s.record_settling);
   add_voids(keys, s.voids);

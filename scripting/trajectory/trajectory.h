@@ -43,14 +43,20 @@ struct VoidPlace {
   double outside_radius = 2;
 };
 
-// A link of a robot that carries the cameras and all that rides with them.
-struct Ride {
-  std::string robot{};  // its name; empty: nothing is ridden, the camera flies
+// A link of a robot that carries something.
+struct Carrier {
+  std::string robot{};  // its name; empty: no robot does
   std::string link{};   // empty: the first, whose frame is the robot's
-  Vec3 position;        // of the rig, in the link's frame; unit: m; range: -10 to 10
-  Vec3 rpy_deg;         // of the rig, likewise; unit: degree
 
   bool on() const { return !robot.empty(); }
+  bool operator==(const Carrier& o) const { return robot == o.robot && link == o.link; }
+};
+
+// A link of a robot that carries the cameras and all that rides with them; none: the camera flies.
+struct Ride : Carrier {
+  Vec3 position;  // of the rig, in the link's frame; unit: m; range: -10 to 10
+  Vec3 rpy_deg;   // of the rig, likewise; unit: degree
+
   Pose link_from_rig() const;
 };
 

@@ -128,6 +128,40 @@ TEST(DriveWindow, AHillsideHoldsTheCameraUp) {
     ASSERT_EQ(row, json["frame_hashes"]["xxh64"].at(i)) << "frame " << i;
 }
 
+const char* const kByKeys = R"(
+d=$1; program=$2
+Xvfb -displayfd 3 -screen 0 448x168x24 -nolisten tcp 3>$d/display >/dev/null 2>&1 & xvfb=$!
+trap 'kill $xvfb' EXIT
+for i in $(seq 100); do [ -s $d/display ] && break; sleep 0.1; done
+export DISPLAY=:$(cat $d/display)
+unset SDL_VIDEODRIVER
+$program drive scripts/robots/crawler.lua --size 160x120 --quiet --set trajectory.rate_hz=10 \
+  --set pile.pieces_per_layer=10 --out $d/out >$d/stdout 2>$d/stderr & drive=$!
+for i in $(seq 600); do grep -q 'drive: ready' $d/stderr && break; sleep 0.1; done
+w=$(xdotool search --sync --onlyvisible --name 'rubble drive' | head -1)
+xdotool windowfocus $w; xdotool keydown w; sleep 2; xdotool keydown a; sleep 1; xdotool keyup w keyup a
+xdotool keydown Down; sleep 0.5; xdotool keyup Down; sleep 0.3
+xdotool key Escape
+wait $drive
+)";
+
+TEST(DriveWindow, ARobotDrivenByKeysRunsAgainWithTheSameBits) {
+  const ScratchFolder scratch;
+  write_file(scratch / "drive.sh", kByKeys);
+  const std::string command = "cd '" RUBBLE_SOURCE_DIR "' && timeout 120 bash " + (scratch / "drive.sh") + " " +
+                              scratch.path().string() + " " RUBBLE_PROGRAM;
+  ASSERT_EQ(std::system(command.c_str()), 0) << read_file(scratch / "stderr");
+  const std::string leg = read_file(scratch / "out/leg_001.lua");
+  EXPECT_NE(leg.find("linear = 0.5"), std::string::npos) << leg;
+  EXPECT_NE(leg.find("angular = 1"), std::string::npos) << leg;
+  EXPECT_NE(leg.find("flippers_deg"), std::string::npos) << leg;
+  const Outcome again = run_rubble("run " + (scratch / "out/leg_001.lua") + " --quiet --out " + (scratch / "leg") +
+                                   " --set camera.width=32 --set camera.height=24 --set trajectory.rate_hz=1");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_GT(read_file(scratch / "out/leg_001.track").size(), 1000U);
+  EXPECT_TRUE(read_file(scratch / "out/leg_001.track") == read_file(scratch / "leg/robots/track.bin"));
+}
+
 TEST(DriveWindow, SaysWhatToDoWithoutADisplay) {
   const ScratchFolder scratch;
   const Outcome outcome =

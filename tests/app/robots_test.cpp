@@ -190,6 +190,118 @@ TEST_F(CarriedSensors, TheRunIsVerified) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
 }
 
+// scripts/robots/team.lua: a crawler, a snake and a rover, each with sensors of its own.
+TEST(Robots, EachOfSeveralCarriesItsOwnSensors) {
+  const ScratchFolder scratch;
+  const std::string out = scratch / "out";
+  std::string small;
+  for (const char* camera : {"overview", "tank_front", "snake_head", "scout_front"})
+    small += std::string(" --set cameras.") + camera + ".width=48 --set cameras." + camera + ".height=48";
+  const Outcome run = run_rubble("run scripts/robots/team.lua --quiet --set robot_run.duration=2"
+                                 " --set outputs.frames=true --out " + out + small);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const struct {
+    const char *camera, *robot;
+    Vec3 position;
+    std::size_t frames;
+  } riders[] = {{"tank_front", "tank", {0.32, 0, 0.3}, 11},
+                {"snake_head", "snake", {0.05, 0, 0}, 11},
+                {"scout_front", "scout", {0.22, 0, 0.25}, 5}};
+  for (const auto& rider : riders) {
+    std::map<long, Pose> base;
+    for (const auto& row : read_rows(out + "/robots/" + rider.robot + ".txt"))
+      base[std::lround(row[0] * 1000)] = {{row[7], row[4], row[5], row[6]}, vector_in(row, 1)};
+    const Rows poses = read_rows(out + "/cameras/" + rider.camera + "/groundtruth.txt");
+    EXPECT_EQ(poses.size(), rider.frames) << "each at its own rate, as long as it is driven";
+    double way = 0;
+    for (const auto& row : poses) {
+      const auto at = base.find(std::lround(row[0] * 1000));
+      ASSERT_NE(at, base.end()) << row[0];
+      EXPECT_LT(distance(at->second * rider.position, vector_in(row, 1)), 1e-6) << rider.camera;
+      way = distance(vector_in(poses[0], 1), vector_in(row, 1));
+    }
+    EXPECT_GT(way, 0.05) << rider.camera << " was to move";
+  }
+  // The inertial units beside two of them: 2 s at their own rates, and both feel their weight.
+  const Rows tank = read_rows(out + "/cameras/tank_front/frames/imu.csv");
+  const Rows snake = read_rows(out + "/cameras/snake_head/frames/imu.csv");
+  EXPECT_EQ(tank.size(), 401U);
+  EXPECT_EQ(snake.size(), 201U);
+  for (const Rows* readings : {&tank, &snake}) {
+    double felt = 0;
+    for (const auto& row : *readings) felt += norm(vector_in(row, 4)) / double(readings->size());
+    EXPECT_GT(felt, 9);
+    EXPECT_LT(felt, 20);
+  }
+  EXPECT_FALSE(std::filesystem::exists(out + "/cameras/scout_front/frames/imu.csv")) << "it has none";
+  const Outcome verified = run_rubble("verify " + out);
+  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+}
+
+// The quickest run that drives robots: a frame of a few pixels.
+std::string run_robots_only(const std::string& script, const std::string& out) {
+  return "run scripts/robots/" + script + " --quiet --set camera.width=16 --set camera.height=16"
+         " --set trajectory.rate_hz=0.01 --set outputs.bag=false --set outputs.rawlog=false"
+         " --set outputs.simplemap=false --set outputs.stl=false --set outputs.preview=false --out " + out;
+}
+
+// Missions over the pile of the demo, whose lean-to opens to -X at -4.6 m: how deep a robot gets, and where it is
+// in the end.
+void expect_in_and_out(const std::string& robot, double depth) {
+  const ScratchFolder scratch;
+  const Outcome run = run_rubble(run_robots_only("lean_to_" + robot + ".lua", scratch / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Rows poses = read_rows(scratch / ("out/robots/" + robot + ".txt"));
+  ASSERT_GT(poses.size(), 100U);
+  double deepest = -100;
+  for (const auto& row : poses) deepest = std::max(deepest, row[1]);
+  EXPECT_LT(poses.front()[1], -4.7) << "it was to start outside";
+  EXPECT_GT(deepest, depth);
+  EXPECT_LT(poses.back()[1], -4.7) << "it was to come out again";
+}
+
+TEST(RobotsInTheDemo, ACrawlerGoesIntoTheLeanToAndOut) { expect_in_and_out("crawler", -1.7); }
+TEST(RobotsInTheDemo, ARoverGoesIntoTheLeanToAndOut) { expect_in_and_out("rover", -2.6); }
+TEST(RobotsInTheDemo, AVineGrowsIntoTheLeanToAndOut) { expect_in_and_out("vine", -3.3); }
+
+// Bricks on a slope are held by a block; when a vine has pushed it away, they slide: by more than a piece was pushed.
+TEST(RobotsInTheDemo, ASlideFollowsWhereAVinePushesAwayWhatHoldsIt) {
+  const ScratchFolder scratch;
+  const Outcome run = run_rubble(run_robots_only("slide.lua", scratch / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Manifest manifest = manifest_from_json(read_file(scratch / "out/manifest.json"), "manifest.json");
+  EXPECT_GE(manifest.metrics.at("robot_pieces_moved"), 10);
+  // Nothing moves before it is touched, and without a robot that pushes nothing ever does.
+  const Outcome still = run_rubble(run_robots_only("slide.lua", scratch / "still") + " --set robot_run.duration=2");
+  ASSERT_EQ(still.exit_code, 0) << still.err;
+  EXPECT_EQ(manifest_from_json(read_file(scratch / "still/manifest.json"), "").metrics.at("robot_pieces_moved"), 0);
+}
+
+TEST(Robots, SensorsOnRobotsThatCannotCarryThemAreMistakesWithTheirLine) {
+  const ScratchFolder scratch;
+  const struct {
+    const char *line, *expected;
+  } cases[] = {
+      {"cameras = { a = { ride = { robot = \"q\" } } }", "m.lua:3: cameras.a.ride.robot: no robot has this name"},
+      {"cameras = { a = { ride = { robot = \"r\", link = \"mast\" } } }",
+       "m.lua:3: cameras.a.ride.link: the robot has no such link: expected one of base_link"},
+      {"imu = { ride = { link = \"mast\" } }", "m.lua:3: imu.ride.link: a link of no robot"},
+      {"imu = true, imus = { a = {} }", "m.lua:3: imu.on: contradicts imus"},
+      {"cameras = { a = { ride = { robot = \"r\" } } }, imu = true",
+       "m.lua:3: cameras: none is on the rig, whose pose is recorded with frames"},
+      {"outputs = { euroc = true }, cameras = { a = { ride = { robot = \"r\" } }, b = {} }",
+       "m.lua:3: outputs.euroc: the format has one moving body"},
+  };
+  for (const auto& c : cases) {
+    write_file(scratch / "m.lua", std::string("return rubble.mission { pile = { layers = 0 },\n"
+                                              "  robots = { rubble.robot.rover { name = \"r\", position = { 0, 0, 0.001 } } },\n  ") +
+                                      c.line + " }\n");
+    const Outcome run = run_rubble("run " + (scratch / "m.lua") + " --force --out " + (scratch / "out"));
+    EXPECT_EQ(run.exit_code, 1) << c.line;
+    EXPECT_NE(run.err.find(c.expected), std::string::npos) << c.line << "\n" << run.err;
+  }
+}
+
 TEST(Robots, ALinkThatIsNotThereIsAMistakeWithItsLine) {
   const ScratchFolder scratch;
   write_file(scratch / "m.lua",

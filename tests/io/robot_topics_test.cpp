@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/base/atomic_file.h"
+#include "io/recording/one_camera.h"
 #include "io/ros/mcap_recorder.h"
 #include "io/ros/rosbag_recorder.h"
 #include "kernel/base/portable_math.h"
@@ -107,6 +108,58 @@ TEST(RobotTopics, TheReaderOfMcapFilesReadsThemByTheirSchemas) {
   const test::CommandResult read = test::run_node("read_robots.mjs", folder / "a.mcap");
   ASSERT_EQ(read.exit_code, 0) << read.output;
   expect_robot(Json::parse(read.output));
+}
+
+// Two cameras and two inertial units: one of each on the rig, one of each on a link.
+TEST(RobotTopics, WhatALinkCarriesHangsOnThatLink) {
+  RosOptions of = options();
+  Recording& recording = of.recording;
+  recording.mount.reset();
+  recording.rig = "rig_link";
+  recording.cameras.resize(2);
+  recording.cameras[0].link = "left_link", recording.cameras[0].optical = "left_optical";
+  CameraRecord& carried = recording.cameras[1];
+  carried.topic = "/eye", carried.link = "eye_link", carried.optical = "eye_optical";
+  carried.carrier = "wheel", carried.rig_from_camera.translation = {0.1, 0, 0};
+  recording.imus.resize(2);
+  recording.imus[0].frame_id = "rig_link";
+  recording.imus[1].topic = "/eye_imu", recording.imus[1].frame_id = "eye_imu_link";
+  recording.imus[1].carrier = "mast";
+  recording.lidars.resize(1);
+  recording.lidars[0].carrier = "base_link";
+  const ScratchFolder folder;
+  const auto recorder = make_rosbag_recorder(folder / "a.bag", of);
+  for (int i = 0; i < 2; ++i) {
+    recorder->write_robot(make_sample(i));
+    for (int camera = 1; camera >= 0; --camera) {  // the carried one first: the rig's pose comes with the other
+      Frame frame = test::make_frame(i);
+      frame.sensor = camera;
+      recorder->write(frame);
+    }
+  }
+  recorder->finish();
+  const test::CommandResult read = test::run_command(
+      std::string(RUBBLE_PYTHON) + " " + RUBBLE_SOURCE_DIR + "/tests/io/read_robots.py " + (folder / "a.bag"));
+  ASSERT_EQ(read.exit_code, 0) << read.output;
+  const Json parents = {{"base_link", "odom"},       {"wheel", "base_link"},      {"mast", "base_link"},
+                        {"odom", "world"},           {"rig_link", "world"},       {"left_link", "rig_link"},
+                        {"left_optical", "left_link"}, {"eye_link", "wheel"},     {"eye_optical", "eye_link"},
+                        {"eye_imu_link", "mast"},    {"lidar_link", "base_link"}};
+  EXPECT_EQ(Json::parse(read.output)["parents"], parents);
+}
+
+// Of two inertial units, that on the camera's carrier is the one of its files.
+TEST(RobotTopics, ACameraAloneHasTheInertialUnitBesideIt) {
+  Recording recording = robot_recording();
+  recording.cameras.resize(2);
+  recording.cameras[1].carrier = "mast";
+  recording.imus.resize(2);
+  recording.imus[0].carrier = "mast", recording.imus[0].name = "high";
+  EXPECT_EQ(find_imu_beside(recording, 0), 1);
+  EXPECT_EQ(find_imu_beside(recording, 1), 0);
+  const Recording alone = recording.of_camera(1);
+  ASSERT_EQ(alone.imus.size(), 1U);
+  EXPECT_EQ(alone.imus[0].name, "high");
 }
 
 class RobotCdr : public testing::TestWithParam<std::string> {

@@ -246,11 +246,11 @@ TEST(Vine, ASnapshotInMidGrowthGoesOnWithTheSameBits) {
   EXPECT_NE(testing::hash_of(world), testing::hash_of(other)) << "the hash was to see the steering";
 }
 
-// A base is immovable, and so is what sleeps: their overlap is found all the same.
-TEST(Vine, ABaseInAPieceIsNamed) {
+// A base is immovable, and so is what sleeps or is fixed: their overlap is found all the same.
+void expect_base_in_brick(bool fixed) {
   Pile pile;
   pile.types = {testing::box_type("brick", 0.22, 0.105, 0.065)};
-  pile.placed.push_back({0, 1, {{}, {-0.15, 0.1, 0.034}}, false});
+  pile.placed.push_back({0, 1, {{}, {-0.15, 0.1, 0.034}}, fixed});
   const PileState state = settle_pile(pile);
   RobotRunOptions options;
   options.duration = 0.1;
@@ -265,7 +265,25 @@ TEST(Vine, ABaseInAPieceIsNamed) {
     const std::string text = error.diagnostics()[0].text();
     EXPECT_NE(text.find("base_link stands 0.0"), std::string::npos) << text;
     EXPECT_NE(text.find("deep in brick (piece 0)"), std::string::npos) << text;
+    EXPECT_NE(text.find("move it by"), std::string::npos) << text;
   }
+}
+
+TEST(Vine, ABaseInAPieceIsNamed) { expect_base_in_brick(false); }
+TEST(Vine, ABaseInAFixedPieceIsNamed) { expect_base_in_brick(true); }
+
+// The same place without the brick has room.
+TEST(Vine, ABaseBesideAFixedPieceHasRoom) {
+  Pile pile;
+  pile.types = {testing::box_type("brick", 0.22, 0.105, 0.065)};
+  pile.placed.push_back({0, 1, {{}, {-0.15, 0.2, 0.034}}, true});
+  RobotRunOptions options;
+  options.duration = 0.1;
+  options.threads = 1;
+  RobotRun run(pile, settle_pile(pile), options);
+  const RobotModel model = make_vine();
+  run.add(model, {{}, {0, 0, 0.051}}, [&](const RobotSense&) { return drive_vine(model, {}); });
+  EXPECT_NO_THROW(run.run());
 }
 
 TEST(Vine, MistakesAreNamed) {

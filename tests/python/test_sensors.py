@@ -82,6 +82,22 @@ class Robots(unittest.TestCase):
         self.assertGreater(states[0]["links"][0, 0], 2.0)
         self.assertEqual(states[0]["links"].tobytes(), states[1]["links"].tobytes())
 
+    def test_a_vine_grows_as_fast_as_it_is_asked_to(self):
+        robot = rubble.RobotWorld(self.pile, "vine", rubble.pose([0, 0, 0.06]))
+        start = robot.state()["length"]
+        robot.grow(0.2)
+        state = robot.step(3.0)
+        self.assertAlmostEqual(state["length"] - start, 0.6, delta=0.05)
+        self.assertAlmostEqual(state["links"][-1, 0], state["length"], delta=0.05)
+        self.assertGreater(state["tip_force"], 10)
+        robot.grow(0.2, left=1.0)
+        self.assertGreater(robot.step(4.0)["links"][-1, 1], 0.2)
+        for call, key in ((lambda: robot.drive(1), "drive"), (lambda: robot.grow(-1), "grow"),
+                          (lambda: robot.grow(0.1, np.nan), "grow")):
+            with self.assertRaises(rubble.InputError) as raised:
+                call()
+            self.assertEqual(raised.exception.key, key)
+
     def test_commands_that_do_not_fit(self):
         crawler = rubble.RobotWorld(self.pile, "crawler", rubble.pose([-2, 0, 0.005]))
         for flippers in ([0, 0], [0, 0, 0, np.nan]):

@@ -1,0 +1,194 @@
+// A robot that is driven live, and the mission that is kept of it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/drive/robots/robot_drive.h"
+#include "app/drive/scenario_lua.h"
+#include "app/pipeline/stages.h"
+#include "app/robots/robot_files.h"
+#include "io/state/track_file.h"
+#include "kernel/base/error.h"
+#include "kernel/robot/bundled.h"
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+const char* const kRobots = R"(return rubble.mission {
+  seed = 3,
+  pile = { layers = 1, pieces_per_layer = 12, spawn_bounds = { 0.8, 0.8, 0.6 }, mix = { { asset = "brick" } } },
+  robots = {
+    rubble.robot.crawler { name = "tank", position = { -1.3, 0, 0.001 } },
+    rubble.robot.snake { name = "snake", position = { -1, 1.5, 0.03 }, drive = { { t = 0, gait = "rolling" } } },
+    rubble.robot.vine { name = "vine", position = { -1, -1.5, 0.052 }, length = 1 },
+  },
+  camera = { width = 32, height = 24 }, trajectory = { rate_hz = 30 },
+  outputs = { bag = false, rawlog = false, simplemap = false, stl = false, preview = false },
+})";
+
+// The mission, settled, and its robots.
+struct Driven {
+  explicit Driven(const ScratchFolder& scratch, const std::string& robot, const char* text = kRobots) : context(options()) {
+    write_file(scratch / "m.lua", text);
+    RunRequest request;
+    request.mission = scratch / "m.lua";
+    mission = resolve_mission(request, RunKind::run, context);
+    pile = settle_in_memory(mission, context, [] { return true; }).state;
+    drive = std::make_unique<RobotDrive>(mission, pile, robot, context);
+  }
+  static RunOptions options() {
+    RunOptions options;
+    options.quiet = true;
+    return options;
+  }
+  // Frames 1 to `frames`, at 30 Hz; the wish by the frame.
+  void go(int frames, const std::function<RobotWish(int)>& wish) {
+    for (int i = 1; i <= frames; ++i) drive->advance(wish(i), i / 30.0);
+  }
+
+  RunContext context;
+  ResolvedMission mission;
+  PileState pile;
+  std::unique_ptr<RobotDrive> drive;
+};
+
+// What a run of the kept mission does, against what was driven.
+void expect_same_bits(const ScratchFolder& scratch, Driven& driven, const std::string& in = "") {
+  write_file(scratch / (in + "leg.lua"), scenario_to_lua(driven.drive->scenario(driven.mission.scenario), "kept"));
+  save_track(driven.drive->finish().track, scratch / "leg.track");
+  const Outcome run = run_rubble("run " + (scratch / (in + "leg.lua")) + " --quiet --set trajectory.rate_hz=0.5 --out " +
+                                 (scratch / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_FALSE(read_file(scratch / "leg.track").empty());
+  EXPECT_TRUE(read_file(scratch / "leg.track") == read_file(scratch / "out/robots/track.bin"));
+}
+
+TEST(RobotDrive, ACrawlerThatIsDrivenIntoBricksRunsAgainWithTheSameBits) {
+  const ScratchFolder scratch;
+  Driven driven(scratch, "tank");
+  const Vec3 start = driven.drive->world_from_rig().translation;
+  driven.go(75, [](int i) {
+    RobotWish wish;
+    wish.forward = i < 60 ? 1 : 0, wish.yaw = i > 30 ? 0.4 : 0, wish.pitch = i % 7 == 0 ? -1 : 0;
+    wish.linear.x = i == 70 ? 0.123456789 : 0;
+    return wish;
+  });
+  EXPECT_GT(driven.drive->world_from_rig().translation.x, start.x + 0.4) << "the camera goes with it";
+  expect_same_bits(scratch, driven);
+}
+
+TEST(RobotDrive, ASnakeAndAVineToo) {
+  for (const char* robot : {"snake", "vine"}) {
+    const ScratchFolder scratch;
+    Driven driven(scratch, robot);
+    const Vec3 start = driven.drive->world_from_rig().translation;
+    driven.go(60, [](int i) {
+      RobotWish wish;
+      wish.forward = i < 50 ? 1 : 0, wish.yaw = i > 40 ? 1 : 0;
+      return wish;
+    });
+    EXPECT_GT(distance(driven.drive->world_from_rig().translation, start), 0.02) << robot;
+    expect_same_bits(scratch, driven);
+  }
+}
+
+// The kept mission lies elsewhere than the script whose file it needs.
+TEST(RobotDrive, ARobotFromAFileTakesItsFileAlong) {
+  const ScratchFolder scratch;
+  write_robot_description(scratch.path().string(), "rover", make_rover());
+  Driven driven(scratch, "", R"(return rubble.mission { pile = { layers = 0 },
+    robots = { { urdf = "rover.urdf", name = "buggy", position = { 0, 0, 0.001 }, friction = 0.8,
+      left_wheels = { "front_left_wheel_joint", "rear_left_wheel_joint" },
+      right_wheels = { "front_right_wheel_joint", "rear_right_wheel_joint" }, wheel_radius = 0.098 } },
+    camera = { width = 32, height = 32 }, outputs = { bag = false, rawlog = false, simplemap = false } })");
+  driven.go(30, [](int) {
+    RobotWish wish;
+    wish.linear.x = 0.4, wish.angular.z = 0.3;
+    return wish;
+  });
+  std::filesystem::create_directories(scratch / "elsewhere");
+  expect_same_bits(scratch, driven, "elsewhere/");
+}
+
+// As /joint_trajectory asks: all motors at once, here the flippers.
+TEST(RobotDrive, JointsGoWhereTheyAreAskedTo) {
+  const ScratchFolder scratch;
+  Driven driven(scratch, "tank");
+  driven.go(60, [](int) {
+    RobotWish wish;
+    wish.joints = {0.25, 0.5, 0.75, 0.5};
+    return wish;
+  });
+  const Scenario kept = driven.drive->scenario(driven.mission.scenario);
+  EXPECT_EQ(kept.robots[0].drive.back().joints, (std::vector<double>{0.25, 0.5, 0.75, 0.5}));
+  expect_same_bits(scratch, driven);
+}
+
+TEST(RobotDrive, AfterARestartItStandsWhereItBegan) {
+  const ScratchFolder scratch;
+  Driven driven(scratch, "");
+  const Pose start = driven.drive->world_from_rig();
+  driven.go(20, [](int) {
+    RobotWish wish;
+    wish.forward = 1;
+    return wish;
+  });
+  EXPECT_GT(distance(driven.drive->world_from_rig().translation, start.translation), 0.05);
+  driven.drive->restart();
+  EXPECT_EQ(driven.drive->world_from_rig().translation, start.translation);
+  EXPECT_EQ(driven.drive->scenario(driven.mission.scenario).robots[0].drive.size(), 1U);
+}
+
+TEST(RobotDrive, MistakesAreNamed) {
+  const ScratchFolder scratch;
+  const auto mistake = [&](const std::string& robot, const char* text) {
+    try {
+      Driven driven(scratch, robot, text);
+    } catch (const InputError& error) {
+      return error.diagnostics()[0].text();
+    }
+    return std::string();
+  };
+  EXPECT_NE(mistake("tonk", kRobots).find("--robot: no robot has this name: expected one of tank, snake, vine"),
+            std::string::npos);
+  const char* const kWithFunction = R"(return rubble.mission { pile = { layers = 0 }, robots = {
+    rubble.robot.rover { position = { 0, 0, 0.001 } },
+    rubble.robot.rover { position = { 0, 2, 0.001 }, control = function() return {} end } } })";
+  EXPECT_NE(mistake("", kWithFunction).find("robots[2].control: a function cannot be kept"), std::string::npos);
+  EXPECT_EQ(mistake("rover_2", kWithFunction), "") << "what is driven has no need of its function";
+}
+
+// The waves of a snake go on from where they are when it is told to go faster, slower or to stop.
+TEST(RobotWish, AChangeOfRateKeepsThePhase) {
+  RobotItem snake;
+  snake.model = RobotKind::snake;
+  RobotLeg leg;
+  leg.rate = 0;
+  double time = 0;
+  for (const double forward : {1.0, 0.5, 0.0, -1.0, 0.0}) {
+    RobotWish wish;
+    wish.forward = forward;
+    const RobotLeg next = make_leg(wish, snake, leg, time, 1.0 / 60);
+    EXPECT_NEAR(next.rate * time + next.phase, leg.rate * time + leg.phase, 1e-12);
+    EXPECT_EQ(next.rate, 4 * forward);
+    leg = next;
+    time += 1.7;
+  }
+}
+
+TEST(RobotWish, FlippersGoOnFromWhereTheyAre) {
+  RobotItem crawler;
+  crawler.model = RobotKind::crawler;
+  RobotWish wish;
+  wish.pitch = 1, wish.roll = -1, wish.forward = 0.5, wish.speed = 0.4;
+  wish.linear.x = 0.1;
+  RobotLeg leg = make_leg(wish, crawler, {}, 0, 1);
+  leg = make_leg(wish, crawler, leg, 1, 1);
+  EXPECT_NEAR(leg.flippers_deg[0], 57.29577951308232 + 90, 1e-9);
+  EXPECT_NEAR(leg.flippers_deg[3], 57.29577951308232 - 90, 1e-9);
+  EXPECT_NEAR(leg.linear, 0.3, 1e-12);
+}
+
+}  // namespace
+}  // namespace rubble::testing

@@ -97,6 +97,7 @@ void add_building(const BuildingSpec& building, AssetLibrary& library) {
   library.building_first_type = int(library.types.size());
   const BuildingTypes made = describe_building_types(building);
   const std::vector<PieceType>& types = made.types;
+  library.building_counts = made.counts;
   for (std::size_t i = 0; i < types.size(); ++i) {
     auto mesh = std::make_shared<SceneMesh>();
     mesh->levels = {PieceMesh(types[i], looks_of(made.materials[i])).take()};

@@ -1,6 +1,7 @@
 #include "app/estimate/disk_estimate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
@@ -73,6 +74,17 @@ void add_surroundings(const SurroundingsSpec& s, PileModelSize& size) {
   size.triangles += 3.5e5 + 6e3 * s.reach, size.type_triangles += 2.2e5 + 1.5e3 * s.reach;
 }
 
+// The building's pieces, and what furnishes it: in each bay of each floor, or on each floor of a plan.
+void add_building(const PileScenario& pile, const AssetLibrary& assets, PileModelSize& size) {
+  for (std::size_t i = 0; i < assets.building_counts.size(); ++i)
+    add(assets, assets.building_first_type + int(i), assets.building_counts[i], size);
+  const BuildingSpec& b = pile.building;
+  const double bays = b.planned() ? 1 : double(b.bays_x) * b.bays_y;
+  const double storeys = b.planned() ? double(b.plan.heights.size()) : b.storeys;
+  for (const FurnitureItem& item : pile.furniture)
+    add(assets, assets.find(item.asset), std::ceil(item.per_bay) * bays * (storeys + item.roof), size);
+}
+
 PileModelSize size_of_pile(const Scenario& s, const AssetLibrary& assets) {
   PileModelSize size;
   double weights = 0;
@@ -82,6 +94,7 @@ PileModelSize size_of_pile(const Scenario& s, const AssetLibrary& assets) {
     if (weights > 0) add(assets, entry.type, dropped * entry.weight / weights, size);
   size.triangles *= kSamplingMargin;
   for (const PlacedItem& item : s.pile.placed) add(assets, assets.find(item), 1, size);
+  if (s.pile.building.given()) add_building(s.pile, assets, size);
   add_fines(s.fines, size);
   add_surroundings(s.surroundings, size);
   size.types += double(assets.types.size());
@@ -164,6 +177,12 @@ std::uint64_t estimate_bytes(const Scenario& s, const AssetLibrary& assets, bool
   std::uint64_t sum = 0;
   for (const auto& item : estimate_files(s, assets, pile_only)) sum += item.second;
   return sum;
+}
+
+double count_building_pieces(const Scenario& scenario, const AssetLibrary& assets) {
+  PileModelSize size;
+  if (scenario.pile.building.given()) add_building(scenario.pile, assets, size);
+  return size.pieces;
 }
 
 std::uint64_t count_bytes(const std::string& folder) {

@@ -25,6 +25,9 @@ std::map<std::string, std::uint64_t> estimate_files(const Scenario& scenario,
 std::uint64_t estimate_bytes(const Scenario& scenario, const AssetLibrary& assets,
                              bool pile_only = false);
 
+// Pieces of the mission's building and of what furnishes it, at most; 0 where there is none.
+double count_building_pieces(const Scenario& scenario, const AssetLibrary& assets);
+
 // Of all files in a folder; 0 when it is not there.
 std::uint64_t count_bytes(const std::string& folder);
 // Of the file system that the folder is on, for a user without privileges.

@@ -63,7 +63,8 @@ RunPreview preview_run(RunKind kind, const Scenario& s, const Scenario& pile_mis
                        const AssetLibrary& assets, const std::string& out) {
   RunPreview preview;
   const PileScenario& pile = pile_mission.pile;
-  preview.pieces = double(pile.layers) * pile.pieces_per_layer + double(pile.placed.size());
+  preview.pieces = double(pile.layers) * pile.pieces_per_layer + double(pile.placed.size()) +
+                   count_building_pieces(pile_mission, assets);
   if (kind != RunKind::settle) {
     const std::vector<MountedCamera> cameras = all_cameras(s);
     for (std::size_t i = 0; i < cameras.size(); ++i) {

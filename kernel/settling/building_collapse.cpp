@@ -99,7 +99,9 @@ std::vector<PieceType> make_building_types(const BuildingSpec& building) {
 BuildingTypes describe_building_types(const BuildingSpec& building) {
   validate(building);
   const Structure structure = build_damaged(building, build_building(building));
-  return {structure.types, structure.type_materials, structure.type_bars};
+  std::vector<int> counts(structure.types.size());
+  for (const StructurePiece& piece : structure.pieces) ++counts[std::size_t(piece.type)];
+  return {structure.types, structure.type_materials, structure.type_bars, counts};
 }
 
 }  // namespace rubble

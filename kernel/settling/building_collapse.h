@@ -48,6 +48,7 @@ struct BuildingTypes {
   std::vector<PieceType> types;
   std::vector<std::string> materials;  // by type: name of the structural material
   std::vector<Reinforcement> bars;     // by type
+  std::vector<int> counts;             // by type: pieces of it in the building
 };
 BuildingTypes describe_building_types(const BuildingSpec& building);
 

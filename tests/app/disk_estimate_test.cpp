@@ -72,6 +72,29 @@ TEST(DiskEstimate, HoldsForEveryOutput) {
   EXPECT_LE(double(sum_said) - 6e6, 5 * double(sum_found));
 }
 
+// Of a building that falls on its furniture: pieces, joints between them and all meshes.
+TEST(DiskEstimate, HoldsForABuilding) {
+  const ScratchFolder scratch;
+  write_file(scratch / "house.lua", R"(return rubble.mission {
+  packs = { "residential" },
+  pile = rubble.building { storeys = 1, bays_x = 1, bays_y = 1, furniture = { { asset = "table", per_bay = 1.5 } },
+                           cause = { weak_storey = 0, weakness = 0.05 } },
+  outputs = { meshes = { "ply", "obj", "glb", "sdf" } },
+})");
+  const Mission mission = load_mission(scratch / "house.lua");
+  const AssetLibrary assets = load_assets(mission, {});
+  const Sizes said = estimate_files(mission.scenario, assets, true);
+  const Outcome run = run_rubble("settle " + (scratch / "house.lua") + " --out " + (scratch / "a"));
+  EXPECT_IN(std::to_string(int(count_building_pieces(mission.scenario, assets))) + " pieces; at most", run.err);
+  const Sizes found = measure(scratch / "a");
+  EXPECT_GT(found.at("pile.bin"), 10000u);
+  for (const auto& [name, bytes] : found) {
+    ASSERT_TRUE(said.count(name)) << name << " has no estimate";
+    EXPECT_GE(said.at(name), bytes) << name;
+    EXPECT_LE(double(said.at(name)), allowed_factor(name) * double(bytes)) << name;
+  }
+}
+
 // The defaults, and a picture packed into messages.
 TEST(DiskEstimate, CountsWhatIsAskedForAndNothingElse) {
   const auto estimate = [](const std::string& more) {

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Runs each mission of scripts/ruins, draws all ruins from outside and cut open, and writes their table into a
 document, between its marks; also a table that compares their voids with those of the stagings in
-scripts/collapse.
+scripts/collapse, and a sheet and a table of buildings that are no frames.
 
-usage: tools/draw_ruins.py [--program build/release/rubble] [--out out/ruins] docs/collapse.md
+usage: tools/draw_ruins.py [--program build/release/rubble] [--out out/ruins] [--kinds] docs/collapse.md
 
 Needs python3-opencv.
 """
@@ -21,6 +21,7 @@ from document_marks import write_between_marks
 
 ORDER = ("soft_ground", "car_park", "loaded_roof", "loaded_floor", "quake", "quake_frame", "half_removed",
          "corner_bay", "row_of_columns", "blast", "lorry", "sinking")
+KINDS = {"brick_house": -1.2, "precast_deck": -3, "bridge_span": 0.4, "planned_house": 3}  # cut at y
 STANDING = ("blast", "sinking")  # not ruins to compare
 STAGED = ("pancake", "lean_to", "v_shape", "a_frame", "cantilever", "inclined", "lean_over", "curtain", "heap", "culvert")
 WIDTH = 420  # of a picture; pixels
@@ -40,12 +41,12 @@ def make(args, script, folder, options=()):
         return json.load(file)
 
 
-def run(args, name):
+def run(args, name, y=0.4):
     folder = os.path.join(args.out, name)
     script = f"scripts/ruins/{name}.lua"
     manifest = make(args, script, folder)
     cut = os.path.join(folder, "cutaway.png")
-    subprocess.run([args.program, "cutaway", folder, "--y", "0.4", "--out", cut], check=True,
+    subprocess.run([args.program, "cutaway", folder, "--y", str(y), "--out", cut], check=True,
                    stdout=subprocess.DEVNULL)
     with open(script) as file:
         text = file.read()
@@ -54,7 +55,7 @@ def run(args, name):
             "extents": [float(v) for v in re.findall(r"(?:bays|span)_[xy] = ([\d.]+)", text)]}
 
 
-def sheet(pictures, names, path):
+def sheet(pictures, names, path, columns=COLUMNS):
     """Rows of pictures of one width under their names; a row is as high as its highest picture."""
     cells = []
     for picture, name in zip(pictures, names):
@@ -63,11 +64,29 @@ def sheet(pictures, names, path):
         height = round(picture.shape[0] * WIDTH / picture.shape[1])
         cells.append(np.vstack([label, cv2.resize(picture, (WIDTH, height), interpolation=cv2.INTER_AREA)]))
     rows = []
-    for i in range(0, len(cells), COLUMNS):
-        high = max(cell.shape[0] for cell in cells[i:i + COLUMNS])
+    for i in range(0, len(cells), columns):
+        high = max(cell.shape[0] for cell in cells[i:i + columns])
         rows.append(np.hstack([cv2.copyMakeBorder(cell, 0, high - cell.shape[0], 0, 0, cv2.BORDER_CONSTANT,
-                                                  value=(255, 255, 255)) for cell in cells[i:i + COLUMNS]]))
+                                                  value=(255, 255, 255)) for cell in cells[i:i + columns]]))
     cv2.imwrite(path, np.vstack(rows), [cv2.IMWRITE_JPEG_QUALITY, 82])
+
+
+def kind_row(ruin):
+    pile, m = ruin["manifest"]["pile"], ruin["manifest"]["metrics"]
+    rest = f"{pile['simulated_s']:.1f}" if pile["settled"] else f"not within {pile['simulated_s']:.0f}"
+    return (f"| `{ruin['name']}` | {ruin['title']} | {ruin['manifest']['seed']} | {pile['pieces']} | {rest} | "
+            f"{m['pile_height_m']:.1f} | {m['void_count']:.0f} | {m['void_covered_m3']:.0f} | {m['void_depth_m']:.1f} |")
+
+
+def draw_kinds(args):
+    """Buildings that are no frames: pictures from outside beside those cut open, and their table."""
+    ruins = [run(args, name, y) for name, y in KINDS.items()]
+    pictures = [cv2.imread(ruin[key]) for ruin in ruins for key in ("outside", "cut")]
+    names = [name for ruin in ruins for name in (ruin["name"], ruin["name"] + ", cut open")]
+    sheet(pictures, names, os.path.join(args.pictures, "ruin_kinds.jpg"), 2)
+    lines = ["| mission | what happens | seed | pieces | at rest after, s | height, m | voids | covered volume, m3 | "
+             "deepest void, m |", "|---|---|---|---|---|---|---|---|---|"]
+    write_between_marks(args.document, "kinds", "\n".join(lines + [kind_row(ruin) for ruin in ruins]) + "\n")
 
 
 def row(ruin):
@@ -104,8 +123,12 @@ def main():
     parser.add_argument("--program", default="build/release/rubble")
     parser.add_argument("--out", default="out/ruins")
     parser.add_argument("--pictures", default="docs/pictures")
+    parser.add_argument("--kinds", action="store_true", help="only the buildings that are no frames")
     parser.add_argument("document")
     args = parser.parse_args()
+    draw_kinds(args)
+    if args.kinds:
+        return
     ruins = [run(args, name) for name in ORDER]
     names = [ruin["name"] for ruin in ruins]
     sheet([cv2.imread(ruin["outside"]) for ruin in ruins], names, os.path.join(args.pictures, "ruins.jpg"))

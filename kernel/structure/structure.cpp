@@ -27,14 +27,14 @@ constexpr double kSlip = 1e-3;
 // A joint that is weaker than what it joins. EN 1992-1-1, 6.2.5: a very smooth interface has a tenth of the
 // tensile strength as cohesion, and friction of 0.5; 10.9.3 (12): grouted joints of floor units 0.15 MPa.
 // Mortar of a bed: EN 1996-1-1, 3.6.4. Two nails of 1 kN at a crossing of boards: EN 1995-1-1, 8.3.
-// Timber pressed across its grain: 2.5 MPa, EN 338.
 struct Joint {
   double tension, shear, friction;  // unit: Pa; the last 1
 };
 constexpr Joint kSeat{0.05e6, 0.26e6, 0.5};
 constexpr Joint kGrout{0.05e6, 0.15e6, 0.5};
 constexpr Joint kNails{0.1e6, 0.1e6, 0.3};
-constexpr double kTimberAcross = 2.5e6;  // unit: Pa
+// Compressive strength of timber across its grain, EN 338. unit: Pa
+constexpr double kTimberAcross = 2.5e6;
 
 // Across vertical planes units interlock: bending strength 0.4 against 0.1 MPa of bed joints (EN 1996-1-1,
 // 3.6.4), shear strength up to 0.065 fb = 1 MPa against 0.2 MPa (3.6.2). unit: 1
@@ -86,7 +86,7 @@ using CutKey = std::tuple<int, double, double, double, int, int, int, double, do
 CutKey key_of(const Member& m) {
   return {int(m.kind),     m.size.x,          m.size.y,      m.size.z,          m.cut.counts[0],
           m.cut.counts[1], m.cut.counts[2],   m.cut.roughness, m.cut.gap, m.material.name,
-          m.material.density, m.bars.ratio,  m.variant};
+          m.material.density, m.bars.ratio,     m.variant};
 }
 
 // The fragments of one kind of member, and the types that they became.

@@ -1,4 +1,4 @@
--- A bridge of three spans whose first pier is knocked away: two spans fall off their bearings.
+-- A bridge of three spans whose first pier is knocked away: spans break, and hang from their seats and bars.
 return rubble.mission {
   seed = 1,
   packs = { "parking" },

@@ -1,12 +1,12 @@
--- A car park of precast parts that loses a ground column at its edge: beams and floor units fall off their corbels.
+-- A car park of precast parts that loses a corner column of its upper storey: beams and floor units fall off their seats.
 return rubble.mission {
   seed = 1,
   packs = { "parking" },
   pile = rubble.building {
-    kind = "precast", storeys = 3, bays_x = 3, bays_y = 2, span_x = 6, span_y = 7,
-    storey_height = 2.9, column = 0.4, beam_depth = 0.7, slab = 0.22, piece = 1.5,
+    kind = "precast", storeys = 2, bays_x = 3, bays_y = 2, span_x = 6, span_y = 7,
+    storey_height = 2.9, column = 0.5, column_bars = 0.025, beam_depth = 0.7, slab = 0.22, piece = 1.8, continuity = 1,
     furniture = { { asset = "car_side", per_bay = 0.8, roof = true } },
-    cause = { removed = { { storey = 0, i = 1, j = 0 } } },
+    cause = { removed = { { storey = 1, i = 0, j = 0 } } },
   },
   settle = { final_time_limit = 90 },
   voids = { on = true },

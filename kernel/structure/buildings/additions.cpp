@@ -12,12 +12,13 @@ constexpr double kPartition = 0.12;     // thickness of partition walls; unit: m
 constexpr double kParapet = 0.15;       // thickness of parapets; unit: m
 constexpr double kMostRise = 0.19;      // of a step; unit: m
 constexpr double kGoing = 0.26;         // of a step; unit: m
-constexpr double kFlightWidth = 1.1;    // unit: m
+constexpr double kFlightWidth = 1.1;    // clear width of stairs; unit: m
 constexpr double kFlightClear = 0.05;   // beside it; unit: m
 constexpr double kHeadroom = 2.0;       // below the edge of an opening for stairs; unit: m
 constexpr double kStairBars = 0.008;    // share of the section; unit: 1
 constexpr double kShaft = 0.2;          // thickness of the walls of a shaft; unit: m
-constexpr double kShaftLength = 2.4, kShaftWidth = 2.2;  // outside; unit: m
+constexpr double kShaftLength = 2.4;    // outside, along X; unit: m
+constexpr double kShaftWidth = 2.2;     // outside, along Y; unit: m
 constexpr double kShaftApart = 0.4;     // from the beams; unit: m
 constexpr double kShaftBars = 0.008;    // share of the section; unit: 1
 

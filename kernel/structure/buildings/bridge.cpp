@@ -13,7 +13,9 @@ constexpr double kCapOverhang = 0.1;     // beyond the columns, on either side; 
 constexpr double kSpansApart = 0.02;     // from the axis of a pier; unit: m
 constexpr double kAbutment = 1.2;        // thickness; unit: m
 constexpr double kDeckOverhang = 0.8;    // beyond the outer girders; unit: m
-constexpr double kPad = 0.1, kPadLength = 0.3;  // height and length of a bearing; unit: m
+constexpr double kPad = 0.1;             // height of a bearing; unit: m
+constexpr double kPadLength = 0.3;       // along the girder; unit: m
+constexpr double kParapetThick = 0.25;   // of a parapet; unit: m
 constexpr double kAbutmentBars = 0.003;  // share of the section; unit: 1
 
 class BridgeMaker {
@@ -92,9 +94,8 @@ class BridgeMaker {
     add(place_name("deck", 0, i, 0), MemberKind::slab, {{x0, low, top - b_.slab}, {x1, high, top}}, b_.slab_bars,
         kDowels);
     if (!(b_.parapet > 0)) return;
-    constexpr double kThick = 0.25;  // unit: m
-    for (const double y : {low, high - kThick}) {
-      add(place_name("parapet", 0, i, 0), MemberKind::wall, {{x0, y, top}, {x1, y + kThick, top + b_.parapet}}, 0.004,
+    for (const double y : {low, high - kParapetThick}) {
+      add(place_name("parapet", 0, i, 0), MemberKind::wall, {{x0, y, top}, {x1, y + kParapetThick, top + b_.parapet}}, 0.004,
           kDowels)
           .place.storey = 1;
     }

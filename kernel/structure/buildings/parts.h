@@ -51,7 +51,8 @@ inline constexpr double kInfillStiffness = 0.01;  // unit: 1
 inline constexpr double kColumnSlope = 1.85;
 inline constexpr double kWindowSill = 0.35;  // height of a window's lower edge, as a share of the wall's height; unit: 1
 inline constexpr double kWindowHead = 0.8;   // height of a window's upper edge, as a share of the wall's height; unit: 1
-inline constexpr double kDoorWidth = 0.9, kDoorHeight = 2.0;  // clear; unit: m
+inline constexpr double kDoorWidth = 0.9;   // clear; unit: m
+inline constexpr double kDoorHeight = 2.0;  // clear; unit: m
 
 // "wall (1, 0) of storey 2"
 std::string place_name(const std::string& what, int storey, int i, int j);

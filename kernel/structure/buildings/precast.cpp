@@ -8,7 +8,8 @@
 namespace rubble {
 namespace {
 
-constexpr double kCorbelReach = 0.25, kCorbelDepth = 0.35;  // unit: m
+constexpr double kCorbelReach = 0.25;  // from its column; unit: m
+constexpr double kCorbelDepth = 0.35;  // height of a corbel; unit: m
 constexpr double kBeamApart = 0.02;   // of the end of a beam from its column; unit: m
 constexpr double kUnitWidth = 1.2;    // of a floor unit, about; EN 1168; unit: m
 constexpr double kUnitApart = 0.005;  // from the beams beside it; unit: m

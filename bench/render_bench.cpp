@@ -32,6 +32,7 @@ struct Request {
   bool csv = false, split = false;
   std::string pictures;
   int fines = 0;
+  bool surroundings = false;
 };
 
 // What goes on from view to view.
@@ -153,7 +154,7 @@ ExitCode bench(const Request& request) {
   const Scene scene = load_bench_scene((program.parent_path() / "render_views.lua").string(),
                                        threads, [](const char* line) {
                                          std::fprintf(stderr, "render_bench: %s\n", line);
-                                       }, request.fines);
+                                       }, request.fines, request.surroundings);
   const double load_ms = since(session.start);
   GlContext context({request.device, threads});
   RenderOptions options;
@@ -201,6 +202,7 @@ ExitCode run(int argc, char** argv) {
   app.add_option("--fines", request.fines, "Loose pieces that are strewn over the pile first (docs/fines.md)")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
+  app.add_flag("--surroundings", request.surroundings, "With a street about the pile (docs/surroundings.md)");
   app.add_flag("--csv", request.csv, "Lines view,size,frames,median_ms,min_ms,fps");
   app.add_flag("--split", request.split,
                "With --csv also processor time, each pass (elapsed/processor), the first frame "

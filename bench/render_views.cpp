@@ -9,6 +9,7 @@
 #include "app/assets/asset_library.h"
 #include "app/fines/lay_fines.h"
 #include "app/pipeline/build_scene.h"
+#include "app/surroundings/lay_surroundings.h"
 #include "io/state/pile_state_file.h"
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/base/error.h"
@@ -85,7 +86,8 @@ void strew_timed(const Scenario& scenario, const AssetLibrary& assets, int threa
 
 }  // namespace
 
-Scene load_bench_scene(const std::string& mission_path, int threads, void (*report)(const char*), int fines) {
+Scene load_bench_scene(const std::string& mission_path, int threads, void (*report)(const char*), int fines,
+                       bool surrounded) {
   Mission mission = load_mission(mission_path, {});
   mission.scenario.settle.threads = threads;
   const AssetLibrary assets = load_assets(mission, {});
@@ -93,6 +95,8 @@ Scene load_bench_scene(const std::string& mission_path, int threads, void (*repo
   PileState state = settle_once(pile, mission.scenario.settle, mission_path, assets, report);
   mission.scenario.fines.amount = fines;
   if (fines > 0) strew_timed(mission.scenario, assets, threads, state, report);
+  if (surrounded) mission.scenario.surroundings.type = SurroundingsType::street;
+  lay_surroundings(mission.scenario, assets, state);
   return build_scene(mission.scenario, assets, state);
 }
 

@@ -11,7 +11,9 @@ namespace rubble {
 
 // bench/render_views.lua, settled. The settled pile is kept in the disk cache. `report` gets lines
 // about what takes long. fines: FinesSpec::amount, in place of the mission's.
-Scene load_bench_scene(const std::string& mission, int threads, void (*report)(const char*), int fines = 0);
+// surrounded: with a street about the pile.
+Scene load_bench_scene(const std::string& mission, int threads, void (*report)(const char*), int fines = 0,
+                       bool surrounded = false);
 
 struct BenchView {
   const char* name;

@@ -281,7 +281,7 @@ TEST_F(PathFiles, PlansAreReadLineByLine) {
 TEST_F(PathFiles, MistakesInPlansHaveTheirLine) {
   const auto plan_error = [&](const std::string& text) {
     write("bad.txt", text);
-    return error("pile = rubble.building { plan = rubble.read_plan('bad.txt') }");
+    return error_of([&] { load("pile = rubble.building { plan = rubble.read_plan('bad.txt') }"); });
   };
   EXPECT_NE(plan_error("storey 3\nwal 0 0 1 0 0.3\n").find("bad.txt:2: unknown part `wal`"), std::string::npos);
   EXPECT_NE(plan_error("storey 3\nwall 0 0 1 0\n").find("bad.txt:2: wall: expected 5 numbers"), std::string::npos);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <vector>
@@ -262,7 +263,27 @@ void expect_in_and_out(const std::string& robot, double depth) {
 
 TEST(RobotsInTheDemo, ACrawlerGoesIntoTheLeanToAndOut) { expect_in_and_out("crawler", -1.7); }
 TEST(RobotsInTheDemo, ARoverGoesIntoTheLeanToAndOut) { expect_in_and_out("rover", -2.6); }
+TEST(RobotsInTheDemo, ASnakeRollsIntoTheLeanToAndOut) { expect_in_and_out("snake", -3.8); }
 TEST(RobotsInTheDemo, AVineGrowsIntoTheLeanToAndOut) { expect_in_and_out("vine", -3.3); }
+
+// The tip ends within the ball that `rubble voids` says gets there, and no deeper place is in any void.
+TEST(RobotsInTheDemo, AVineGrowsToTheDeepestVoid) {
+  const ScratchFolder scratch;
+  const Outcome run = run_rubble(run_robots_only("deepest_void.lua", scratch / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Outcome voids = run_rubble("voids " + (scratch / "out") + " --radius 0.35 --voxel 0.05 --surfaces 0 --quiet");
+  ASSERT_EQ(voids.exit_code, 0) << voids.err;
+  const auto map = nlohmann::json::parse(read_file(scratch / "out/voids/voids.json"));
+  const auto& found = map["robots"][0]["voids"];
+  const auto& at = found[0]["deepest"];
+  const Vec3 deepest{at[0].get<double>(), at[1].get<double>(), at[2].get<double>()};
+  const Vec3 tip = vector_in(read_rows(scratch / "out/robots/vine.txt").back(), 1);
+  EXPECT_LT(distance(tip, deepest), 0.35);
+  for (const auto& other : found) {
+    if (other["entrances"].empty()) continue;  // nothing of this size gets in
+    EXPECT_LE(other["depth"].get<double>(), found[0]["depth"].get<double>());
+  }
+}
 
 // Bricks on a slope are held by a block; when a vine has pushed it away, they slide: by more than a piece was pushed.
 TEST(RobotsInTheDemo, ASlideFollowsWhereAVinePushesAwayWhatHoldsIt) {

@@ -9,7 +9,7 @@ namespace rubble::testing {
 
 // Paths relative to `scripts`.
 inline std::set<std::string> find_bundled_missions(const std::string& scripts) {
-  const std::set<std::string> included{"demonstration_pile", "fifty", "suite"};
+  const std::set<std::string> included{"demonstration_pile", "fifty", "lean_to_pile", "suite"};
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(scripts)) {
     const std::filesystem::path& path = entry.path();

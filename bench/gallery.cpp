@@ -11,6 +11,7 @@
 #include "app/assets/asset_library.h"
 #include "app/fines/lay_fines.h"
 #include "app/pipeline/build_scene.h"
+#include "app/surroundings/lay_surroundings.h"
 #include "app/sensors/build_camera.h"
 #include "bench/channel_picture.h"
 #include "bench/gallery_list.h"
@@ -69,7 +70,9 @@ Frame take(GlContext& context, const GalleryPicture& picture, Piles& piles, int 
   options.threads = threads;
   options.cache_folder = DiskCache::usual_folder();
   options.colour = scenario.camera.colour;
-  Renderer renderer(context, build_scene(scenario, assets, piles.of(picture, scenario, assets)),
+  PileState pile = piles.of(picture, scenario, assets);
+  lay_surroundings(scenario, assets, pile);
+  Renderer renderer(context, build_scene(scenario, assets, pile),
                     options);
   const MountedCamera mounted = all_cameras(scenario).front();
   CameraSpec spec = build_camera(scenario, mounted, threads);

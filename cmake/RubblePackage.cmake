@@ -26,6 +26,7 @@ set(RUBBLE_PUBLIC_HEADERS
   kernel/model/pile_state.h
   kernel/model/robot.h
   kernel/model/size_distribution.h
+  kernel/model/surroundings.h
   kernel/model/track.h
   kernel/model/track_builder.h
   kernel/robot/bundled.h

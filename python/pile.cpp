@@ -7,7 +7,6 @@
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/finished_run.h"
 #include "app/pipeline/stages.h"
-#include "app/surroundings/lay_surroundings.h"
 #include "kernel/geometry/fine_heaps.h"
 #include "kernel/base/parallel.h"
 #include "kernel/queries/queries.h"
@@ -56,8 +55,7 @@ Pile open_pile(const std::string& folder, int threads) {
   const FinishedRun saved = open_finished_run(folder);
   auto settled = std::make_shared<SettledMission>();
   settled->mission = resolve_mission(saved.manifest.provenance, {}, context);
-  settled->state = load_pile_of(saved);
-  lay_surroundings(settled->mission.scenario, settled->mission.assets, settled->state);
+  settled->state = load_pile_of(saved, settled->mission.assets);
   return {settled, context.threads()};
 }
 

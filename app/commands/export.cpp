@@ -9,7 +9,6 @@
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/finished_run.h"
 #include "app/support/progress.h"
-#include "app/surroundings/lay_surroundings.h"
 #include "io/base/atomic_file.h"
 #include "io/mesh/pile_export.h"
 
@@ -51,8 +50,7 @@ ExitCode export_finished_pile(const FolderRequest& request, const ExportRequest&
   const std::vector<MeshFormat> formats = choose_formats(to.formats);
   const FinishedRun saved = open_finished_run(request.folder);
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
-  PileState pile = load_pile_of(saved);
-  lay_surroundings(stated_scenario(saved.manifest.provenance), assets, pile);
+  const PileState pile = load_pile_of(saved, assets);
   const PileModel model = build_pile_model(assets, pile);
   const std::string out = to.out.empty() ? request.folder + "/export" : to.out;
   prepare(out, to.force);

@@ -4,6 +4,7 @@
 
 #include "app/fines/lay_fines.h"
 #include "app/provenance/run_folder.h"
+#include "app/surroundings/lay_surroundings.h"
 #include "io/base/atomic_file.h"
 #include "io/state/pile_state_file.h"
 #include "kernel/base/hash.h"
@@ -46,6 +47,12 @@ PileState load_pile_of(const FinishedRun& saved) {
     throw InputError({path, 0, "", "is not the pile of the manifest beside it",
                       "the state hash " + stated, found, ""});
   load_fines_of(stated_scenario(saved.manifest.provenance), saved.folder, pile);
+  return pile;
+}
+
+PileState load_pile_of(const FinishedRun& saved, const AssetLibrary& assets) {
+  PileState pile = load_pile_of(saved);
+  lay_surroundings(stated_scenario(saved.manifest.provenance), assets, pile);
   return pile;
 }
 

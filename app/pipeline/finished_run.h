@@ -32,5 +32,7 @@ AssetLibrary load_assets_of(const FinishedRun& saved, const std::vector<std::str
 
 // pile.bin, and fines.bin where the mission has fines. Throws InputError when it is missing, damaged, or not the pile of the manifest.
 PileState load_pile_of(const FinishedRun& saved);
+// The same with what stands about it, where the mission has surroundings. assets: those of the run.
+PileState load_pile_of(const FinishedRun& saved, const AssetLibrary& assets);
 
 }  // namespace rubble

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "app/eval/scores/saved_surface.h"
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/stages.h"
 #include "app/surroundings/lay_surroundings.h"
@@ -85,6 +86,12 @@ TEST(SurroundingsRun, AreInEveryProductAndLeaveThePileAlone) {
   EXPECT_GT(fs::file_size(out + "/pile.stl"), fs::file_size(bare + "/pile.stl") + 5'000'000);
   EXPECT_EQ(run_rubble("export " + out + " --format ply --out " + (folder / "again")).exit_code, 0);
   EXPECT_GT(fs::file_size(folder / "again/pile.ply"), 2'000'000u);
+  // Maps are scored against them, too: a ray at eye height meets a front.
+  const SavedSurface scored(out, {});
+  const auto hit = scored.geometry.queries.cast_ray({0, 3, 3}, {0, -1, 0}, 100);
+  ASSERT_TRUE(hit.has_value());
+  EXPECT_GE(hit->piece, kFirstSurrounding);
+  EXPECT_FALSE(SavedSurface(bare, {}).geometry.queries.cast_ray({0, 3, 3}, {0, -1, 0}, 100).has_value());
 }
 
 // Of what a pixel's depth says, against a ray through the middle of the pixel in double precision.

@@ -1,7 +1,6 @@
 """The learned agent of examples/search/ppo: it sees in a search what it saw in training, and answers."""
 import base64
 import csv
-import importlib.util
 import json
 import os
 import subprocess
@@ -97,7 +96,7 @@ class AgentTest(unittest.TestCase):
         self.assertNotIn("report", answers[1])
 
 
-@unittest.skipUnless(importlib.util.find_spec("torch"), "PyTorch is not installed")
+# Only where it is asked for: it needs PyTorch.
 class TrainingTest(unittest.TestCase):
     def test_it_sees_more_of_the_void_than_at_first(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -15,15 +15,15 @@ struct SavedSurface {
   SavedSurface(const std::string& folder, const std::vector<std::string>& asset_packs)
       : saved(open_finished_run(folder)),
         assets(load_assets_of(saved, asset_packs)),
-        pile(load_pile_of(saved)),
+        pile(load_pile_of(saved, assets)),
         geometry(assets, pile) {}
   SavedSurface(const SavedSurface&) = delete;
   SavedSurface& operator=(const SavedSurface&) = delete;
 
   FinishedRun saved;      // its folder and manifest
   AssetLibrary assets;    // that its pile is made of
-  PileState pile;         // settled
-  PileGeometry geometry;  // exact, of that pile
+  PileState pile;         // settled, with what stands about it
+  PileGeometry geometry;  // exact, of both
 };
 
 }  // namespace rubble

@@ -113,6 +113,7 @@ Scene build_live_scene(const Scenario& scenario, const AssetLibrary& assets, con
   std::vector<int> movers;
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const int mover = find_mover(scene.instances[i], hosts);
+    if (mover < 0) continue;  // it stands or lies on the ground
     if (std::size_t(mover) < pile.pieces.size() && pile.pieces[std::size_t(mover)].status == PieceStatus::fixed) continue;
     scene.motion.moving.push_back(std::uint32_t(i));
     scene.motion.reach.include(scene.instances[i].world_from_body.translation);

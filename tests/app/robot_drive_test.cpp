@@ -140,6 +140,22 @@ TEST(RobotDrive, AfterARestartItStandsWhereItBegan) {
   EXPECT_EQ(driven.drive->scenario(driven.mission.scenario).robots[0].drive.size(), 1U);
 }
 
+// Fines on the ground and what stands about the pile belong to no piece: they stay where they are.
+TEST(RobotDrive, SeesFinesAndSurroundingsStandStill) {
+  const ScratchFolder scratch;
+  Driven driven(scratch, "", R"(return rubble.mission { seed = 3,
+    pile = { layers = 1, pieces_per_layer = 5, mix = { { asset = "brick" } } },
+    fines = { amount = 200 }, surroundings = { type = "street", reach = 40 },
+    robots = { rubble.robot.rover { position = { -4, 0, 0.001 } } } })");
+  const Scene scene = driven.drive->build_scene(driven.mission.scenario);
+  std::size_t standing = 0;
+  for (const SceneInstance& instance : scene.instances) standing += instance.surrounds;
+  EXPECT_GT(standing, 100u);
+  for (const std::uint32_t i : scene.motion.moving) EXPECT_FALSE(scene.instances[i].surrounds);
+  EXPECT_LT(scene.motion.reach.max.x, 30) << "a street does not go along";
+  EXPECT_EQ(scene.motion.poses_at(0).size(), scene.motion.moving.size());
+}
+
 TEST(RobotDrive, MistakesAreNamed) {
   const ScratchFolder scratch;
   const auto mistake = [&](const std::string& robot, const char* text) {

@@ -2,9 +2,10 @@
 # one test, so that what a suite's cases share (SetUpTestSuite, the loading of libraries) is done
 # once. A suite whose name begins with "Nightly" has the label `nightly`.
 #
-# rubble_discover_suites(PROGRAM LISTING FOLDER LABEL ENVIRONMENT): tests are called FOLDER.SUITE.
-# LISTING is a file that keeps the list while the program stays the same.
-function(rubble_discover_suites program listing folder label environment)
+# rubble_discover_suites(PROGRAM LISTING FOLDER LABEL ENVIRONMENT TIMEOUT): tests are called
+# FOLDER.SUITE. LISTING is a file that keeps the list while the program stays the same; TIMEOUT is in
+# seconds, of each suite.
+function(rubble_discover_suites program listing folder label environment timeout)
   if(NOT EXISTS ${program})
     get_filename_component(name ${program} NAME)
     add_test(${name}_NOT_BUILT ${name}_NOT_BUILT)
@@ -28,6 +29,6 @@ function(rubble_discover_suites program listing folder label environment)
     set(test ${folder}.${suite})
     add_test(${test} ${program} "--gtest_filter=${suite}.*" --gtest_brief=1)
     set_tests_properties(${test} PROPERTIES
-      LABELS "${labels}" TIMEOUT 600 ENVIRONMENT "${environment}")
+      LABELS "${labels}" TIMEOUT ${timeout} ENVIRONMENT "${environment}")
   endforeach()
 endfunction()

@@ -24,6 +24,7 @@ struct AssetLibrary {
   std::vector<std::string> folders;                      // of the packs, absolute
   int building_first_type = 0;                           // of the building's pieces, if there is one
   std::vector<int> building_counts;                      // of pieces of that type and of those after it
+  std::vector<CutFrom> building_cuts;                    // by piece of the building, in the pile's order
   // What reads the meshes; let go when all are loaded.
   std::shared_ptr<MeshImporter> importer = std::make_shared<MeshImporter>();
 

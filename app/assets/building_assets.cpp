@@ -28,6 +28,13 @@ Looks looks_of(const std::string& material) {
   return {Surface::concrete_cast, Surface::concrete_fracture};
 }
 
+constexpr std::uint32_t kFirstTimber = 100000;  // numbers of bodies: after those of all storeys
+
+int longest_axis(const Vec3& size) {
+  if (size.x >= size.y && size.x >= size.z) return 0;
+  return size.y >= size.z ? 1 : 2;
+}
+
 class PieceMesh {
  public:
   PieceMesh(const PieceType& type, const Looks& looks) {
@@ -75,6 +82,21 @@ class PieceMesh {
   std::uint8_t surface_ = 0;
 };
 
+// What is cast or laid in one, a storey at a time, looks as one; each joist is another tree.
+CutFrom find_cut(const Member& member, const StructurePiece& piece) {
+  const bool along = member.kind == MemberKind::beam || member.kind == MemberKind::column;
+  CutFrom cut;
+  cut.grain = along ? longest_axis(member.size) : 0;
+  if (member.material.name == "timber") {
+    cut.body = kFirstTimber + std::uint32_t(piece.member);
+    cut.origin = piece.position - member.centre;
+  } else {
+    cut.body = 1 + 4 * std::uint32_t(member.place.storey + 1) + std::uint32_t(member.kind);
+    cut.origin = piece.position;
+  }
+  return cut;
+}
+
 std::string hash_piece(const PieceType& type, const TriangleMesh& mesh) {
   Sha256 hash;
   for (const double number : {type.density, type.friction}) hash.add(&number, sizeof number);
@@ -95,13 +117,17 @@ BuildingSpec building_of(const Scenario& scenario) {
 void add_building(const BuildingSpec& building, AssetLibrary& library) {
   if (!building.given()) return;
   library.building_first_type = int(library.types.size());
-  const BuildingTypes made = describe_building_types(building);
+  const Structure made = make_damaged_building(building);
   const std::vector<PieceType>& types = made.types;
-  library.building_counts = made.counts;
+  library.building_counts.assign(types.size(), 0);
+  for (const StructurePiece& piece : made.pieces) {
+    ++library.building_counts[std::size_t(piece.type)];
+    library.building_cuts.push_back(find_cut(made.members[std::size_t(piece.member)], piece));
+  }
   for (std::size_t i = 0; i < types.size(); ++i) {
     auto mesh = std::make_shared<SceneMesh>();
-    mesh->levels = {PieceMesh(types[i], looks_of(made.materials[i])).take()};
-    add_rebar_stubs(types[i], made.bars[i], types[i].name, kRebarSurface, mesh->levels[0]);
+    mesh->levels = {PieceMesh(types[i], looks_of(made.type_materials[i])).take()};
+    add_rebar_stubs(types[i], made.type_bars[i], types[i].name, kRebarSurface, mesh->levels[0]);
     library.contents.push_back({types[i].name, kBuildingPack, hash_piece(types[i], mesh->levels[0]), 0, {1, 1}, {}});
     library.types.push_back(types[i]);
     library.meshes.push_back(std::move(mesh));

@@ -1,5 +1,6 @@
 #include "app/pipeline/build_scene.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "app/assets/building_assets.h"
@@ -23,6 +24,20 @@ Placement place(const PlacedItem& item, const AssetLibrary& assets) {
       item.position};
   placement.fixed = item.fixed;
   return placement;
+}
+
+// The pieces of a building are together in a pile, in their order.
+void set_cuts(const AssetLibrary& assets, const PileState& pile, Scene& scene) {
+  if (assets.building_cuts.empty()) return;
+  const int first_type = assets.building_first_type, types = int(assets.building_counts.size());
+  const auto first = std::find_if(pile.pieces.begin(), pile.pieces.end(), [&](const PieceState& piece) {
+    return piece.type >= first_type && piece.type < first_type + types;
+  });
+  const std::size_t begin = std::size_t(first - pile.pieces.begin());
+  for (SceneInstance& instance : scene.instances) {
+    if (instance.id >= begin && instance.id - begin < assets.building_cuts.size())
+      instance.cut_from = assets.building_cuts[instance.id - begin];
+  }
 }
 
 }  // namespace
@@ -49,8 +64,13 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets) {
 }
 
 SceneInstance make_instance(const PieceState& piece, std::size_t number) {
-  return {std::uint32_t(piece.type), float(piece.scale), piece.world_from_body,
-          std::uint32_t(number), std::uint16_t(kFirstAssetLabel + piece.type)};
+  SceneInstance instance;
+  instance.mesh = std::uint32_t(piece.type);
+  instance.scale = float(piece.scale);
+  instance.world_from_body = piece.world_from_body;
+  instance.id = std::uint32_t(number);
+  instance.label = std::uint16_t(kFirstAssetLabel + piece.type);
+  return instance;
 }
 
 Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile) {
@@ -61,6 +81,7 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
     if (piece.status == PieceStatus::lost) continue;
     scene.instances.push_back(make_instance(piece, i));
   }
+  set_cuts(assets, pile, scene);
   add_fines(scenario, assets, pile, scene);
   add_surroundings(scenario, assets, pile, scene);
   scene.light = resolve_light(scenario);

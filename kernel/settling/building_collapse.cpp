@@ -93,15 +93,12 @@ void BuildingCollapse::after_step() {
 }
 
 std::vector<PieceType> make_building_types(const BuildingSpec& building) {
-  return describe_building_types(building).types;
+  return make_damaged_building(building).types;
 }
 
-BuildingTypes describe_building_types(const BuildingSpec& building) {
+Structure make_damaged_building(const BuildingSpec& building) {
   validate(building);
-  const Structure structure = build_damaged(building, build_building(building));
-  std::vector<int> counts(structure.types.size());
-  for (const StructurePiece& piece : structure.pieces) ++counts[std::size_t(piece.type)];
-  return {structure.types, structure.type_materials, structure.type_bars, counts};
+  return build_damaged(building, build_building(building));
 }
 
 }  // namespace rubble

@@ -25,8 +25,8 @@ void place(PreparedScene& out, PlacedMesh piece, std::uint32_t axis, RandomStrea
   piece.radius = float(mesh.radius * piece.scale);
   piece.first_flag = std::uint32_t(out.cluster_flags);
   piece.first_light = std::uint32_t(out.light_nodes);
-  piece.look_seed = {std::uint32_t(random.next() >> 32),
-                     (std::uint32_t(random.next() >> 32) & ~3u) | axis};
+  const std::uint32_t start = std::uint32_t(random.next() >> 32), tone = std::uint32_t(random.next() >> 32);
+  piece.look_seed = {start, (tone & 0xffff0000u) | axis};
   out.cluster_flags += mesh.levels.front().cluster_count;
   out.light_nodes += mesh.light_nodes.size();
   if (piece.id != kGroundId && !piece.moves && !piece.surrounds) {
@@ -55,6 +55,18 @@ std::uint32_t pack_normal(const Vec3f& n) {
   }
   const auto part = [](float x) { return std::uint32_t(std::lround(x * 32767.0f)) & 0xffffu; };
   return part(u) | part(v) << 16;
+}
+
+// A place in a body: X and Y from -32 m by steps of 1/1024 m, Z from -2 m by steps of 1/256 m. They begin anew
+// after 64 and 32 m, where textures then have a seam.
+std::array<std::uint32_t, 2> pack_cut(const CutFrom& cut, std::uint64_t seed) {
+  const auto steps = [](double x, double least, double a_metre, std::uint32_t mask) {
+    return std::uint32_t(std::int64_t(std::floor((x - least) * a_metre + 0.5))) & mask;
+  };
+  RandomStream random(seed, "render.bodies." + std::to_string(cut.body));
+  const std::uint32_t tone = std::uint32_t(random.next() >> 32) & 0xffff0000u;
+  return {steps(cut.origin.x, -32, 1024, 0xffff) | steps(cut.origin.y, -32, 1024, 0xffff) << 16,
+          tone | steps(cut.origin.z, -2, 256, 0x1fff) << 3 | 4u | std::uint32_t(cut.grain)};
 }
 
 using Texel = std::array<std::uint32_t, 4>;
@@ -124,6 +136,7 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
     out.surrounded = out.surrounded || piece.surrounds;
     // Courses of walls lie level, however high or deep a building is.
     place(out, piece, piece.surrounds ? 0 : axes[instance.mesh], random);
+    if (instance.cut_from.body) out.placed.back().look_seed = pack_cut(instance.cut_from, scene.seed);
   }
   include_motion(scene, out);
   if (scene.ground) {

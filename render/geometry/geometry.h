@@ -23,7 +23,9 @@ struct PlacedMesh {
   std::uint16_t label = 0;                   // class, as in the stream `label`
   std::uint32_t first_flag = 0;              // of its finest level's clusters, in per-cluster tables
   std::uint32_t first_light = 0;             // of its nodes, in the table of baked light
-  std::array<std::uint32_t, 2> look_seed{};  // varies the look
+  // Varies the look: where in the textures it begins; below the tone, whether it is cut from a body, where, and
+  // the axis of its grain. See find_surface in shaders/surface.glsl.
+  std::array<std::uint32_t, 2> look_seed{};
   bool moves = false;                        // its pose is that of the present moment, see MovingPieces
   bool there = true;                         // false: what moves is not there at the present moment
   bool surrounds = false;                    // of the surroundings, see SceneInstance

@@ -96,6 +96,14 @@ struct SceneMesh {
   double light_spacing = 0;
 };
 
+// How an instance's mesh was cut from a larger body. Instances of one body have one tone, and textures that
+// run on from one to the next.
+struct CutFrom {
+  std::uint32_t body = 0;  // any number but 0; 0: it is a body of its own
+  Vec3 origin;             // of the mesh frame in that of the body, whose axes are parallel to it; unit: m
+  int grain = 0;           // axis along which grain and boards run: 0, 1 or 2 for X, Y or Z
+};
+
 struct SceneInstance {
   std::uint32_t mesh = 0;  // index into meshes
   float scale = 1;         // of the mesh; range: above 0
@@ -104,6 +112,7 @@ struct SceneInstance {
   std::uint16_t label = 2;  // class, as in the stream `label`; range: 2 and up
   // Of the surroundings: what is made to measure for the pile, such as its shadow map, does not grow with it.
   bool surrounds = false;
+  CutFrom cut_from{};
 };
 
 // What moves, and where it is when. The rest of a scene stays where its instances say, and its light

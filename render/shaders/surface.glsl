@@ -117,6 +117,12 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   vec4 more = looks[look + 3];
   uint turn = mw.w & 3u;  // which axis of the mesh is longest: grain runs along it
   vec3 q = (turn == 1u ? p.yzx : turn == 2u ? p.zxy : p) * scale;
+  vec2 seed = vec2(float(mw.z & 0xffffu), float(mw.z >> 16));
+  if ((mw.w & 4u) != 0u) {  // cut from a body, whose textures run on
+    vec3 o = vec3(seed * (1.0 / 1024.0) - 32.0, float((mw.w >> 3) & 0x1fffu) * (1.0 / 256.0) - 2.0);
+    q += turn == 1u ? o.yzx : turn == 2u ? o.zxy : o;
+    seed = vec2(0.0);
+  }
   vec3 f = turn == 1u ? smooth_normal.yzx : turn == 2u ? smooth_normal.zxy : smooth_normal;
   vec3 grain = floor(q * 300.0);
   vec3 hash = fract(grain * 0.3057 + grain.yzx * 0.191);
@@ -125,8 +131,7 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   vec3 along = abs(plane.z) > 0.9 ? vec3(1.0, 0.0, 0.0)
                                   : normalize(vec3(-plane.y, plane.x, 0.0));
   vec3 across = cross(plane, along);
-  vec2 seed = vec2(float(mw.z & 0xffffu), float(mw.z >> 16)) * (1.0 / 65536.0);
-  vec2 uv = vec2(dot(q, along), dot(q, across)) * dark.w + seed;
+  vec2 uv = vec2(dot(q, along), dot(q, across)) * dark.w + seed * (1.0 / 65536.0);
   // Slow variation over metres; where it is high the ground shows another part of its texture, so
   // that no repetition meets the eye.
   vec2 above = (world.xy + 0.6 * world.z - ground.xy) * ground.z;

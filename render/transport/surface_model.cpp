@@ -69,8 +69,11 @@ LookSurfaces::Placed LookSurfaces::place(const PlacedMesh& piece) const {
   out.axis_x = Vec3f(r.column(0)), out.axis_y = Vec3f(r.column(1)), out.axis_z = Vec3f(r.column(2));
   out.origin = Vec3f(piece.world_from_mesh.translation);
   out.scale = float(piece.scale);
-  out.seed_u = float(piece.look_seed[0] & 0xffffu) / 65536;
-  out.seed_v = float(piece.look_seed[0] >> 16) / 65536;
+  const float u = float(piece.look_seed[0] & 0xffffu), v = float(piece.look_seed[0] >> 16);
+  if (piece.look_seed[1] & 4u)
+    out.in_body = {u / 1024 - 32, v / 1024 - 32, float(piece.look_seed[1] >> 3 & 0x1fffu) / 256 - 2};
+  else
+    out.seed_u = u / 65536, out.seed_v = v / 65536;
   out.turn = int(piece.look_seed[1] & 3u);
   out.tint = float(piece.look_seed[1] >> 16 & 255u) * kByte - 1;
   out.warm = (float(piece.look_seed[1] >> 24) * kByte - 1) * 0.25f;
@@ -121,7 +124,7 @@ void LookSurfaces::find_place(const SurfaceQuery& query, Place& place) const {
 void LookSurfaces::find_pattern(const SurfaceQuery& query, Place& place) const {
   const Placed& piece = *place.piece;
   const SurfaceAppearance& look = *place.look;
-  const Vec3f q = turned(place.point, piece.turn) * piece.scale;
+  const Vec3f q = turned(place.point * piece.scale + piece.in_body, piece.turn);
   const Vec3f grain(std::floor(q.x * 300), std::floor(q.y * 300), std::floor(q.z * 300));
   const Vec3f noise = grain * 0.3057f + Vec3f(grain.y, grain.z, grain.x) * 0.191f;
   const Vec3f f = turned(place.smooth, piece.turn) +

@@ -50,7 +50,8 @@ class LookSurfaces : public SurfaceModel {
     Vec3f axis_x, axis_y, axis_z;  // of the mesh, in the world, unit
     Vec3f origin;                  // unit: m
     float scale = 1, seed_u = 0, seed_v = 0, tint = 0, warm = 0;
-    int turn = 0;  // which axis of the mesh is longest: grain runs along it
+    int turn = 0;   // axis of the mesh along which grain runs
+    Vec3f in_body;  // of the body that it was cut from: where the mesh's origin lies; unit: m
   };
   struct Place;
   Placed place(const PlacedMesh& piece) const;

@@ -97,6 +97,49 @@ TEST(Reference, KnowsTheSurfacesOfTheShader) {
   }
 }
 
+// The block cut in two: without a word of it two blocks with looks of their own, else nothing is seen of the cut.
+Scene cut_block(const std::string& look, bool told) {
+  Scene scene = block_of(look);
+  const SceneInstance whole = scene.instances[0];
+  scene.meshes[0] = share(make_box({2, 1.5, 1}, look.c_str()));
+  scene.instances.clear();
+  for (const double y : {-0.75, 0.75}) {
+    SceneInstance half = whole;
+    half.world_from_body.translation = whole.world_from_body * Vec3(0, y, 0);
+    half.id = scene.instances.empty() ? 1 : 2;
+    if (told) half.cut_from = {7, {0, y, 0}, 1};
+    scene.instances.push_back(half);
+  }
+  return scene;
+}
+
+TEST(Reference, PiecesOfOneBodyLookLikeTheBody) {
+  GlContext context;
+  for (const std::string look : {"concrete_cast", "brick", "timber"}) {
+    for (const RenderQuality quality : {RenderQuality::fast, RenderQuality::reference}) {
+      RenderOptions options = reference(1);
+      options.colour.quality = quality, options.bake = false;
+      options.antialias = false;
+      options.texture_size = 64;
+      const auto draw = [&](const Scene& scene) {
+        return Renderer(context, scene, options).render_linear({}, pinhole(96, 96, 1500));
+      };
+      Scene block = block_of(look);
+      block.instances[0].cut_from = {7, {}, 1};
+      const LinearFrame whole = draw(block), told = draw(cut_block(look, true)), untold = draw(cut_block(look, false));
+      double sum = 0, off = 0, far_off = 0;
+      for (std::size_t i = 0; i < whole.rgb.size(); ++i) {
+        const double value = double(whole.rgb[i]);
+        sum += value;
+        off += std::fabs(double(told.rgb[i]) - value), far_off += std::fabs(double(untold.rgb[i]) - value);
+      }
+      EXPECT_GT(sum, 100) << look;
+      EXPECT_LT(off / sum, 0.003) << look;
+      EXPECT_GT(far_off / sum, 0.03) << look;
+    }
+  }
+}
+
 // A pinhole as a table of directions, with a pose for each row, is the pinhole.
 TEST(Reference, SeesThroughAnyLensAndShutter) {
   GlContext context;

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "app/assets/rebar_stubs.h"
-#include "assets/generator/solid.h"
 #include "kernel/base/hash.h"
 #include "kernel/geometry/hull.h"
 #include "kernel/settling/building_collapse.h"
@@ -16,16 +15,16 @@ constexpr double kLongestEdge = 0.35;  // of triangles: light is baked at their 
 constexpr double kAlongAxis = 0.99999;
 constexpr std::uint8_t kRebarSurface = 2;  // after the member's own face and its fracture
 
+// Names of surfaces.
 struct Looks {
-  generator::Surface face, fracture;
+  const char *face, *fracture;
 };
 
 Looks looks_of(const std::string& material) {
-  using generator::Surface;
-  if (material == "brick_masonry") return {Surface::brick, Surface::brick_fracture};
-  if (material == "block_masonry") return {Surface::cinder_block, Surface::cinder_block};
-  if (material == "timber") return {Surface::timber, Surface::timber_fracture};
-  return {Surface::concrete_cast, Surface::concrete_fracture};
+  if (material == "brick_masonry") return {"brickwork", "brick_fracture"};
+  if (material == "block_masonry") return {"cinder_block", "cinder_block"};
+  if (material == "timber") return {"timber", "timber_fracture"};
+  return {"concrete_cast", "concrete_fracture"};
 }
 
 constexpr std::uint32_t kFirstTimber = 100000;  // numbers of bodies: after those of all storeys
@@ -38,8 +37,7 @@ int longest_axis(const Vec3& size) {
 class PieceMesh {
  public:
   PieceMesh(const PieceType& type, const Looks& looks) {
-    mesh_.surface_names = {generator::surface_name(looks.face), generator::surface_name(looks.fracture),
-                           generator::surface_name(generator::Surface::rebar)};
+    mesh_.surface_names = {looks.face, looks.fracture, "rebar"};
     const Hull hull = calc_hull(type.parts[0].points);
     for (const auto& face : hull.faces) {
       Vec3 area;

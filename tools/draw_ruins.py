@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Runs each mission of scripts/ruins, draws all ruins from outside and cut open, and writes their table into a
 document, between its marks; also a table that compares their voids with those of the stagings in
-scripts/collapse, and a sheet and a table of buildings that are no frames.
+scripts/collapse, one that compares the debris with what is published, and a sheet and a table of buildings that
+are no frames.
 
 usage: tools/draw_ruins.py [--program build/release/rubble] [--out out/ruins] [--kinds] docs/collapse.md
 
@@ -10,7 +11,6 @@ Needs python3-opencv.
 import argparse
 import json
 import os
-import re
 import subprocess
 import sys
 
@@ -51,8 +51,7 @@ def run(args, name, y=0.4):
     with open(script) as file:
         text = file.read()
     return {"name": name, "title": text.split("\n")[0][3:], "manifest": manifest,
-            "outside": os.path.join(folder, "frames", "rgb", "000000.png"), "cut": cut,
-            "extents": [float(v) for v in re.findall(r"(?:bays|span)_[xy] = ([\d.]+)", text)]}
+            "outside": os.path.join(folder, "frames", "rgb", "000000.png"), "cut": cut}
 
 
 def sheet(pictures, names, path, columns=COLUMNS):
@@ -89,12 +88,18 @@ def draw_kinds(args):
     write_between_marks(args.document, "kinds", "\n".join(lines + [kind_row(ruin) for ruin in ruins]) + "\n")
 
 
+def debris_extent(manifest):
+    """How far the debris of a frame reaches beyond its longer half side; unit: m."""
+    building = manifest["scenario"]["pile"]["building"]
+    half = max(building["bays_x"] * building["span_x"], building["bays_y"] * building["span_y"]) / 2
+    return max(0.0, manifest["metrics"]["pile_radius_m"] - half)
+
+
 def row(ruin):
     pile, m = ruin["manifest"]["pile"], ruin["manifest"]["metrics"]
-    half = max(ruin["extents"][0] * ruin["extents"][2], ruin["extents"][1] * ruin["extents"][3]) / 2
     rest = f"{pile['simulated_s']:.1f}" if pile["settled"] else f"not within {pile['simulated_s']:.0f}"
     return (f"| `{ruin['name']}` | {ruin['title']} | {ruin['manifest']['seed']} | {pile['pieces']} | "
-            f"{rest} | {m['pile_height_m']:.1f} | {max(0.0, m['pile_radius_m'] - half):.1f} | "
+            f"{rest} | {m['pile_height_m']:.1f} | {debris_extent(ruin['manifest']):.1f} | "
             f"{m['void_count']:.0f} | {m['void_covered_m3']:.0f} | {m['void_depth_m']:.1f} |")
 
 
@@ -103,6 +108,22 @@ def void_measures(manifest):
     m = manifest["metrics"]
     return (m["void_covered_m3"] / m["piece_volume_m3"], 10 * m["void_count"] / m["void_covered_m3"],
             m["void_reachable_m3"] / m["void_robot_m3"] if m["void_robot_m3"] > 0 else 0.0, m["void_depth_m"])
+
+
+def compare_published(ruins):
+    """Debris against the height of the building, and its bulk against the building's volume."""
+    lines = ["| mission | height of the building, m | of the ruin, as a share | debris beyond the walls, as a share | "
+             "bulk, as a share of the building's volume |", "|---|---|---|---|---|"]
+    shares = []
+    for ruin in ruins:
+        b, m = ruin["manifest"]["scenario"]["pile"]["building"], ruin["manifest"]["metrics"]
+        height = b["storeys"] * b["storey_height"]
+        volume = b["bays_x"] * b["span_x"] * b["bays_y"] * b["span_y"] * height
+        shares.append((m["pile_height_m"] / height, debris_extent(ruin["manifest"]) / height,
+                       (m["piece_volume_m3"] + m["void_covered_m3"]) / volume))
+        lines.append(f"| `{ruin['name']}` | {height:.1f} | " + " | ".join(f"{x:.2f}" for x in shares[-1]) + " |")
+    lines.append("| median | | " + " | ".join(f"{np.median(column):.2f}" for column in zip(*shares)) + " |")
+    return "\n".join(lines) + "\n"
 
 
 def compare_voids(ruins, staged):
@@ -141,6 +162,8 @@ def main():
                          ["--set", "voids.on=true"]) for name in STAGED}
     caused = [ruin["manifest"] for ruin in ruins if ruin["name"] not in STANDING]
     write_between_marks(args.document, "voids", compare_voids(caused, staged))
+    fallen = [ruin for ruin in ruins if ruin["name"] not in STANDING]
+    write_between_marks(args.document, "published", compare_published(fallen))
 
 
 if __name__ == "__main__":

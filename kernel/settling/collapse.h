@@ -47,8 +47,8 @@ class Collapse {
   // Around each step of the world. The ground is the frame: what moves feels its acceleration backwards.
   void begin_step(const Vec3& ground_acceleration = {});  // unit: m/s2
   void end_step();
-  // In the next step every piece gets this impulse per area at 1 m, less with the square of the distance;
-  // what it breaks off is thrown. unit: N s/m2
+  // Every face that sees the charge gets this impulse per area at 1 m, less with the square of the distance and
+  // with the cosine of its incidence. What comes off by it is thrown at the end of the next step. unit: N s/m2
   void blast(const Vec3& at, double impulse_at_1m);
 
   // From now on a body drives into the piece of a member that is nearest to a place, and on behind it, until

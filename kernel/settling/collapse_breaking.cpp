@@ -12,7 +12,6 @@ namespace {
 constexpr double kTogether = 0.3;
 // Time in which forces redistribute before further bonds fail: a quarter of a floor's period. unit: s
 constexpr double kRedistribution = 0.025;
-constexpr int kBlastRounds = 40;  // of stresses that a blast's step may take; unit: 1
 // Time after which forces count as settled: a few periods of a floor. unit: s
 constexpr double kCalmTime = 0.25;
 
@@ -66,13 +65,10 @@ bool Collapse::Impl::is_arrested(std::int32_t lead, Part& part, const Touches& t
 bool Collapse::Impl::update(std::int32_t lead, const Touches& touches) {
   Part& part = parts.at(lead);
   const BondGroup& group = part.stress->group();
-  const bool blasts = std::any_of(blasted.begin(), blasted.end(),
-                                  [&](const auto& b) { return lead_of[b.first] == lead; });
-  if (!group.anchored && !blasts && (touches.empty() || !world.is_awake(first + lead)))
-    return false;
+  if (!group.anchored && (touches.empty() || !world.is_awake(first + lead))) return false;
   const bool impact =
       std::any_of(touches.begin(), touches.end(), [](const auto& t) { return t.second.impact; });
-  if (part.waits > 0 && !impact && !blasts) return false;
+  if (part.waits > 0 && !impact) return false;
   const std::vector<PieceLoad> loads = calc_loads(lead, part, touches, true);
   if (!is_news(part, loads)) return false;
   const StressResult result = solve(part, loads);
@@ -106,18 +102,7 @@ bool Collapse::Impl::update(std::int32_t lead, const Touches& touches) {
   return apart || parts.size() != before;
 }
 
-// A blast is over within the step: all that it breaks breaks now, round by round.
 bool Collapse::Impl::on_solved() {
-  bool apart = update_all();
-  for (int round = 0; round < kBlastRounds && !blasted.empty(); ++round) {
-    const int before = report.broken + report.hinges;
-    apart = update_all() || apart;
-    if (report.broken + report.hinges == before) break;
-  }
-  return apart;
-}
-
-bool Collapse::Impl::update_all() {
   const auto touches = find_touches();
   std::vector<std::int32_t> leads;
   for (const auto& part : parts) leads.push_back(part.first);

@@ -1,9 +1,8 @@
-// What acts on a building beside contacts: blasts, vehicles, sinking ground, ground that moves; and
+// What acts on a building beside contacts: vehicles, sinking ground, ground that moves; and
 // the energy that breaking took.
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/base/portable_math.h"
 #include "kernel/settling/collapse_impl.h"
 
 namespace rubble {
@@ -98,17 +97,6 @@ void Collapse::Impl::accelerate() {
   for (int i = 0; i < world.size(); ++i) {
     if (lead_in_world(i) != i || world.mass(i) <= 0) continue;
     set_motion(i, ground_acceleration * -options.step, world.piece(i).angular_velocity);
-  }
-}
-
-void Collapse::blast(const Vec3& at, double impulse_at_1m) {
-  for (std::size_t i = 0; i < impl_->structure.pieces.size(); ++i) {
-    const StructurePiece& piece = impl_->structure.pieces[i];
-    const double density = impl_->structure.types[piece.type].density;
-    const Vec3 away = piece.centre - at;
-    const double r = std::max(1.0, norm(away)), volume = piece.mass / density;
-    const double area = portable::exp(2.0 / 3.0 * portable::log(volume));
-    impl_->blasted[std::int32_t(i)] = normalized(away) * (impulse_at_1m * area / (r * r));
   }
 }
 

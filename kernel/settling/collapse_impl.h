@@ -47,7 +47,7 @@ struct Collapse::Impl {
   double driven = 0;         // since it struck; unit: m
   int strike_steps = 0;      // the most that are to come
   bool sinks = false;        // a footing went down since the last solution
-  std::map<std::int32_t, Vec3> blasted;  // impulse by piece; unit: N s
+  std::map<std::int32_t, Vec3> blasted;  // impulse of each piece that a blast broke off, in this step; unit: N s
   std::vector<std::pair<int, double>> drained;  // pieces of the world, and the energy that breaking took
   CollapseReport report;
   bool breaking = true;  // in this step
@@ -78,8 +78,11 @@ struct Collapse::Impl {
                    const std::vector<BondFailure>& failing);
   bool update(std::int32_t lead, const Touches& touches);
   bool on_solved();
-  bool update_all();
   void settle_forces();
+
+  // collapse_blast.cpp
+  bool blow_off(const std::vector<std::int32_t>& pieces, const std::vector<Vec3>& impulses,
+                std::vector<BondFailure>& failures);
 
   // collapse_causes.cpp: what moves bodies beside contacts
   Vec3 strike_force() const;

@@ -28,10 +28,6 @@ std::vector<PieceLoad> Collapse::Impl::calc_loads(std::int32_t lead, const Part&
   for (const auto& [piece, touch] : touches) {
     if (with_impacts || !touch.impact) push(piece, touch.force, touch.point);
   }
-  for (const auto& [piece, impulse] : blasted) {
-    if (lead_of[piece] != lead || !with_impacts) continue;
-    push(piece, back.rotate(impulse) * (1 / options.step), structure.pieces[piece].centre);
-  }
   if (struck >= 0 && lead_of[struck] == lead) {
     const Pose pose = world.piece(first + struck).world_from_body;
     push(struck, back.rotate(strike_force()),

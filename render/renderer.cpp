@@ -38,10 +38,15 @@ void Renderer::restart(const LampSpec& lamp, const AirSpec& air) {
   source_->scene.context.make_current();
   source_->scene.change(lamp, air);
   source_->colours.restart();
+  source_->drops.restart();
 }
 
 RenderedView Renderer::view(const ViewRays& rays, const ViewRays* next) {
   return RenderedView(*source_, rays, next);
+}
+
+void Renderer::add_drops(const ExposedView& exposed, std::vector<float>& radiance) {
+  source_->drops.add(exposed, radiance);
 }
 
 const Medium& Renderer::medium() const { return source_->scene.medium; }

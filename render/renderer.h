@@ -10,6 +10,7 @@
 #include "render/media/medium.h"
 #include "render/scene/frame.h"
 #include "render/scene/scene.h"
+#include "render/view/exposed_view.h"
 #include "render/view/render_options.h"
 #include "render/view/rendered_view.h"
 
@@ -36,6 +37,9 @@ class Renderer {
   // next: the view of the frame that follows, for streams that need it; null: none follows.
   // The renderer must outlive the view. Throws RunError: sizes or focal lengths out of range.
   RenderedView view(const ViewRays& rays, const ViewRays* next = nullptr);
+  // Adds the drops and flakes that fall through an exposure to its light, 3 floats a pixel (unit: kcd/m2), which is
+  // that of linear frames. Nothing where nothing falls.
+  void add_drops(const ExposedView& exposed, std::vector<float>& radiance);
   // What hangs in the air of the scene, for sensors that are not cameras. Until the next restart().
   const Medium& medium() const;
 

@@ -186,11 +186,12 @@ ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutawa
   Picture picture(view, std::move(frame.rgb));
   picture.fill_cut(section);
   picture.draw_person(section.x1 + kMargin / 2 + kRoomForPerson / 2);
-  char note[120];
+  const bool street = stated_scenario(saved.manifest.provenance).surroundings.on();
+  char note[160];
   std::snprintf(
       note, sizeof note,
-      "cut at y = %.2f m; red: what the cut went through; the person is %.2f m tall, the bar 1 m",
-      cutaway.y, kPerson);
+      "cut at y = %.2f m; red: what the cut went through; the person is %.2f m tall, the bar 1 m%s",
+      cutaway.y, kPerson, street ? "; without the surroundings" : "");
   const std::string path = cutaway.out.empty() ? request.folder + "/cutaway.png" : cutaway.out;
   write_picture_sheet(path, cutaway.title, {{picture.shrunk(), "", note}}, 1);
   std::printf("%s\n", path.c_str());

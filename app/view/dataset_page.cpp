@@ -180,7 +180,15 @@ html, body { margin: 0; height: 100%; font: 14px/1.4 system-ui, sans-serif; }
 </style>
 )";
 
-std::string panel(const std::string& title, bool has_voids, std::size_t frames) {
+// What the mission has and the page has not: too many triangles.
+std::string left_out(const Scenario& scenario) {
+  std::string names;
+  if (scenario.fines.amount > 0) names = "fines";
+  if (scenario.surroundings.on()) names += names.empty() ? "surroundings" : ", surroundings";
+  return names.empty() ? "" : "<p id=\"left_out\">not on this page: " + names + "</p>\n";
+}
+
+std::string panel(const std::string& title, bool has_voids, std::size_t frames, const std::string& note) {
   const auto box = [](const char* id, const char* text) {
     return "<label><input type=\"checkbox\" id=\"" + std::string(id) + "\" checked> " + text + "</label>\n";
   };
@@ -191,8 +199,8 @@ std::string panel(const std::string& title, bool has_voids, std::size_t frames) 
          box("voids", has_voids ? "voids" : "voids (none here: `rubble voids` maps them)") +
          box("track", "the camera's path") +
          "<input type=\"range\" id=\"time\" min=\"0\" max=\"0\" value=\"0\"" +
-         std::string(frames ? "" : " hidden") + ">\n<div id=\"frame\"></div>\n<img id=\"picture\" alt=\"\">\n"
-         "<p id=\"status\">loading</p>\n</div>\n";
+         std::string(frames ? "" : " hidden") + ">\n<div id=\"frame\"></div>\n<img id=\"picture\" alt=\"\">\n" +
+         note + "<p id=\"status\">loading</p>\n</div>\n";
 }
 
 }  // namespace
@@ -207,6 +215,7 @@ std::string make_dataset_page(const FinishedRun& saved, const AssetLibrary& asse
   const Vec3 centre = model.pieces.empty() ? Vec3{} : (bounds.min + bounds.max) * 0.5;
   const double radius = model.pieces.empty() ? 1 : std::max(1.0, 0.5 * norm(bounds.max - bounds.min));
   std::size_t frames = 0;
+  const Scenario scenario = stated_scenario(saved.manifest.provenance);
   const std::string title = saved.manifest.provenance.script.path + ", seed " + std::to_string(saved.manifest.seed);
   Json data = {{"title", title},
                {"pieces", model.pieces.size()},
@@ -214,12 +223,12 @@ std::string make_dataset_page(const FinishedRun& saved, const AssetLibrary& asse
                {"radius", radius},
                {"types", describe_types(model, assets, options.triangles)},
                {"voids", describe_voids(saved.folder)},
-               {"track", describe_track(saved.folder, stated_scenario(saved.manifest.provenance), frames)}};
+               {"track", describe_track(saved.folder, scenario, frames)}};
   data["frames"] = describe_frames(saved.folder, frames, options);
   std::string json = data.dump(-1, ' ', true, Json::error_handler_t::replace);
   for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) json.replace(at, 1, "\\u003c");
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + html_escape(title) +
-         "</title>\n" + kLooks + "</head>\n<body>\n" + panel(title, !data["voids"].empty(), frames) +
+         "</title>\n" + kLooks + "</head>\n<body>\n" + panel(title, !data["voids"].empty(), frames, left_out(scenario)) +
          "<script type=\"application/json\" id=\"data\">" + json + "</script>\n<script>\n" + three_code() +
          "\n</script>\n<script>\n" + viewer_code() + "</script>\n</body>\n</html>\n";
 }

@@ -28,6 +28,7 @@ class Site {
     add_trees();
     add_fences();
     add_skyline();
+    add_puddles();
     out_.lit = lit_;
     return std::move(out_);
   }
@@ -59,8 +60,11 @@ class Site {
     put(SurroundingKind::pavement, keep(make_pavements(street_, spec_.reach, random)));
     put(SurroundingKind::soil, keep(make_soil(street_, ground_, spec_.reach)));
     put_some(SurroundingKind::soil, make_tufts(street_, ground_, spec_.reach, random));
-    RandomStream rain = stream("puddles");
-    put_some(SurroundingKind::puddle, make_puddles(street_, spec_.reach, wetness_, rain));
+  }
+  // Last, so that the numbers of all others, which their looks vary by, are those of a dry street.
+  void add_puddles() {
+    RandomStream random = stream("puddles");
+    put_some(SurroundingKind::puddle, make_puddles(street_, spec_.reach, wetness_, random));
   }
   void put_some(SurroundingKind kind, SurroundingMesh mesh) {
     if (!mesh.levels.empty()) put(kind, keep(std::move(mesh)));

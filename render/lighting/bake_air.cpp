@@ -165,6 +165,13 @@ AirLight AirBaker::bake() const {
 
 AirLight bake_air(const AirBakeInput& input) { return AirBaker{input}.bake(); }
 
+Vec3f AirLight::nearest(const Vec3f& point) const {
+  Vec3f out = point;
+  for (int i = 0; i < 3; ++i)
+    out[i] = std::clamp(point[i], origin[i], origin[i] + cell[i] * float(size[std::size_t(i)] - 1));
+  return out;
+}
+
 Vec3f AirLight::at(const Vec3f* grid, const Vec3f& point) const {
   if (radiance.size() == 1) return *grid;
   int low[3];

@@ -11,16 +11,10 @@
 #include "render/camera/view_rays.h"
 #include "render/lighting/bake.h"
 #include "render/lighting/lighting.h"
+#include "render/media/air_glow.h"
 #include "render/media/medium.h"
 
 namespace rubble {
-
-// What shines into the air besides what is baked.
-struct AirLamp {
-  Vec3f position, axis, colour;  // world; the way it looks; kcd
-  float cone = 0;                // 1 / (1 - cosine of the half-power angle)
-  float size2 = 4e-4f;           // square of its size, nearer than which it gets no brighter; m2
-};
 
 class AirVolume {
  public:
@@ -31,9 +25,10 @@ class AirVolume {
   static constexpr double kFarthest = 300;  // unit: m
   static double slice_distance(int slice);
 
-  // light: what is baked; lights: where its direct part comes from.
+  // light: what is baked; lights: where its direct part comes from. drops_drawn: without the drops that cameras
+  // draw one by one.
   void build(const ViewRays& view, const Air& air, const AirLight& light, const LightSet& lights,
-             const AirLamp* lamp, ThreadPool& pool);
+             const AirLamp* lamp, bool drops_drawn, ThreadPool& pool);
 
   // Red, green, blue (kcd/m2) and transmittance; x runs fastest, then y (rows from the top), then
   // the slice. Rays go through the middles of kColumns by kRows equal rectangles of the image.
@@ -48,6 +43,7 @@ class AirVolume {
   const AirLight* light_ = nullptr;
   const LightSet* lights_ = nullptr;
   const AirLamp* lamp_ = nullptr;
+  bool drops_drawn_ = false;
 };
 
 }  // namespace rubble

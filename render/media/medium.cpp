@@ -94,20 +94,21 @@ double Air::billows(const Vec3& p) const {
 double Air::extinction(const Vec3& p) const {
   double sum = fog(p);
   for (const DustPuff& puff : puffs_) sum += puff.at(p);
-  return sum > 0 ? sum * billows(p) : 0;
+  return (sum > 0 ? sum * billows(p) : 0) + drops_;
 }
 
 double Air::scattering(const Vec3& p, double cosine) const {
   double dust = 0;
   for (const DustPuff& puff : puffs_) dust += puff.at(p);
   const double mist = fog(p);
-  if (!(mist + dust > 0)) return 0;
-  return albedo() * billows(p) * (mist * phase_function(fog_asymmetry(), cosine) +
-                                  dust * phase_function(dust_asymmetry(), cosine));
+  const double of_drops = drops_ > 0 ? drops_ * phase_function(Precipitation::kAsymmetry, cosine) : 0;
+  if (!(mist + dust > 0)) return of_drops * albedo();
+  return albedo() * (billows(p) * (mist * phase_function(fog_asymmetry(), cosine) +
+                                   dust * phase_function(dust_asymmetry(), cosine)) + of_drops);
 }
 
 double Air::optical_depth(const Vec3& from, const Vec3& direction, double distance) const {
-  double sum = 0;
+  double sum = drops_ > 0 ? drops_ * distance : 0;
   if (spec_.fog_noise <= 0) {
     for (const DustPuff& puff : puffs_) sum += puff.optical_depth(from, direction, 0, distance);
     return sum + fog_depth(from, direction, distance);
@@ -128,6 +129,8 @@ double Air::optical_depth(const Vec3& from, const Vec3& direction, double distan
 }
 
 Medium::Medium(const AirSpec& spec, std::uint64_t seed) : spec_(spec), seed_(seed) {
+  if (spec.rain_mm_h > 0) falling_.emplace_back(PrecipitationKind::rain, spec.rain_mm_h);
+  if (spec.snow_mm_h > 0) falling_.emplace_back(PrecipitationKind::snow, spec.snow_mm_h);
   if (spec.fog_noise <= 0) return;
   RandomStream random(seed, "air.noise");
   auto block = std::make_shared<std::vector<float>>(kNoiseSide * kNoiseSide * kNoiseSide);
@@ -177,6 +180,8 @@ Air Medium::at(double seconds) const {
   Air air;
   air.spec_ = spec_;
   air.noise_ = noise_;
+  air.falling_ = falling_;
+  for (const Precipitation& kind : falling_) air.drops_ += kind.extinction();
   air.drift_ = spec_.wind * seconds;
   if (!has_dust() || seconds <= 0) return air;
   const double oldest = seconds - kLives * spec_.dust.half_life - spec_.dust.period;

@@ -8,7 +8,8 @@
 //     extinction = density (r/s)^3 m exp(-|p - c|^2 / (2 s^2)),  s^2 = r^2 + 2 spread age,
 //     c = start + wind age + throw * 0.5 s * (1 - exp(-age / 0.5 s)) - fall age,
 //     m = 2^(-age / half_life) (1 - age / (5 half_life)) (1 - exp(-age / 0.2 s))
-// Light that is scattered is turned by the phase function below, of fog and of dust by their own g.
+// Rain and snow add the same extinction everywhere (precipitation.h).
+// Light that is scattered is turned by the phase function below, of fog, dust and drops by their own g.
 // Each burst throws out kPuffs of them in directions of its own; bursts, places and directions
 // follow from the seed and the number of the burst alone. Time zero is the start of the mission.
 #pragma once
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "kernel/base/math.h"
+#include "render/media/precipitation.h"
 #include "render/scene/scene.h"
 
 namespace rubble {
@@ -50,12 +52,12 @@ class Air {
   // steps of a sixth of the largest billow, up to 60 billows away, and the mean beyond.
   double optical_depth(const Vec3& from, const Vec3& direction, double distance) const;
 
-  bool clear() const { return spec_.fog_density <= 0 && puffs_.empty(); }
+  bool clear() const { return spec_.fog_density <= 0 && puffs_.empty() && falling_.empty(); }
   // The same everywhere: optical depth is extinction({}) times distance.
   bool homogeneous() const;
   double albedo() const { return spec_.fog_intensity; }
   // Light that is scattered at p by an angle of this cosine, per metre and steradian, as a share of
-  // the light that comes: of fog and dust, each by its own phase function; unit: 1/(m sr)
+  // the light that comes: of fog, dust and drops, each by its own phase function; unit: 1/(m sr)
   double scattering(const Vec3& p, double cosine) const;
   double fog_asymmetry() const { return spec_.fog_asymmetry; }
   double dust_asymmetry() const { return spec_.dust.asymmetry; }
@@ -65,12 +67,16 @@ class Air {
   double fog_depth(const Vec3& from, const Vec3& direction, double distance) const;
   double billows(const Vec3& p) const;
   const std::vector<DustPuff>& puffs() const { return puffs_; }
+  const std::vector<Precipitation>& falling() const { return falling_; }
+  double drops() const { return drops_; }  // extinction of all that falls; unit: 1/m
 
  private:
   friend class Medium;
   AirSpec spec_;
   Vec3 drift_;  // of the billows so far
   std::vector<DustPuff> puffs_;
+  std::vector<Precipitation> falling_;
+  double drops_ = 0;
   std::shared_ptr<const std::vector<float>> noise_;  // kNoiseSide^3 values from -1 to 1
 };
 
@@ -82,9 +88,11 @@ class Medium {
   Medium() : Medium(AirSpec{}, 0) {}
   Medium(const AirSpec& spec, std::uint64_t seed);
 
-  bool clear() const { return spec_.fog_density <= 0 && !has_dust(); }  // at all times
+  bool clear() const { return spec_.fog_density <= 0 && !has_dust() && falling_.empty(); }  // at all times
   bool homogeneous() const;                                             // at all times
   Air at(double seconds) const;
+  const std::vector<Precipitation>& falling() const { return falling_; }
+  const Vec3& wind() const { return spec_.wind; }
 
   // When burst number `burst` (0, 1, ...) happens; unit: s.
   double burst_time(std::uint64_t burst) const;
@@ -95,6 +103,7 @@ class Medium {
 
   AirSpec spec_;
   std::uint64_t seed_;
+  std::vector<Precipitation> falling_;
   std::shared_ptr<const std::vector<float>> noise_;
 };
 

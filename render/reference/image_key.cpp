@@ -88,6 +88,7 @@ std::string image_key(const std::string& surroundings, const PreparedScene& scen
   key.add(lamp.on).add(lamp.intensity_cd).add(lamp.cone_deg).add(lamp.shape).add(lamp.size);
   add_vec(key, lamp.position);
   key.add(air.albedo()).add(air.fog_asymmetry()).add(air.dust_asymmetry());
+  for (const Precipitation& kind : air.falling()) key.add(kind.kind()).add(kind.extinction());
   // The fog's law by some of its values: it has no other face.
   for (int i = 0; i < 64; ++i) {
     const Vec3 p(0.37 * (i % 7) - 1, 0.41 * (i % 5) - 1, 0.29 * (i % 11));

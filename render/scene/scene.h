@@ -76,7 +76,7 @@ struct DustSpec {
   double asymmetry = 0.75;
 };
 
-// Fog or smoke, and dust. Extinction is what a metre takes away: transmittance exp(-extinction d).
+// Fog or smoke, dust, rain and snow. Extinction is what a metre takes away: transmittance exp(-extinction d).
 struct AirSpec {
   double fog_density = 0;    // extinction at the ground; unit: 1/m; range: 0 to 10
   double fog_intensity = 1;  // share of the extinguished light that is scattered; range: 0 to 1
@@ -86,7 +86,10 @@ struct AirSpec {
   double fog_height = 0;      // scale height: density falls by e every so many metres; 0: it does not
   double fog_noise = 0;       // 0: even; 1: from nothing to double within fog_noise_size
   double fog_noise_size = 2;  // of the largest billows; unit: m; range: 0.05 to 100
-  Vec3 wind;                  // carries billows and plumes; unit: m/s
+  Vec3 wind;                  // carries billows, plumes, drops and flakes; unit: m/s
+  // Of water that falls everywhere, also under roofs as far as its veil goes; formulas: media/precipitation.h
+  double rain_mm_h = 0;  // unit: mm/h; range: 0 to 100
+  double snow_mm_h = 0;  // unit: mm/h; range: 0 to 10
   DustSpec dust;              // bursts; none by default
 };
 

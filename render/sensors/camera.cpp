@@ -74,6 +74,7 @@ struct Camera::State {
   std::vector<float> gather_light(int index, const LinearFrame* middle, int samples, double time,
                                   bool right);
   std::vector<float> defocus(const LinearFrame& image) const;
+  void add_drops(int index, const LinearFrame* middle, double time, bool right, std::vector<float>& light);
   std::vector<float> measure_depth(int index, RenderedView& view);
   void watch(int index, Frame& frame);
 };
@@ -230,7 +231,24 @@ std::vector<float> Camera::State::gather_light(int index, const LinearFrame* mid
     else
       add_scaled(sum, image->rgb, share);
   }
+  if (!renderer.medium().falling().empty()) add_drops(index, middle, time, right, sum);
   return optics ? optics->spread(std::move(sum), right ? 1 : 0) : sum;
+}
+
+// Once over the whole exposure: streaks are mean light already.
+void Camera::State::add_drops(int index, const LinearFrame* middle, double time, bool right, std::vector<float>& light) {
+  const auto view_then = [&](double seconds_off) {
+    const ViewRays view = view_at(index, seconds_off);
+    return right ? right_of(view) : view;
+  };
+  const ViewRays view = view_then(0);
+  std::vector<float> distances;
+  if (right || !middle) distances = renderer.view(view).distances();
+  const OpticsSpec& o = spec.optics;
+  renderer.add_drops({view, view_then(-0.5 * time).world_from_camera, view_then(0.5 * time).world_from_camera, time,
+                      distances.empty() ? middle->distance : distances, o.focus_distance,
+                      o.focal_length / spec.exposure.f_number},
+                     light);
 }
 
 // The settings of this frame, from what the one before measured.

@@ -180,10 +180,16 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   // Water darkens what it soaks into, and stands as a film on what faces up.
   float wet = wetness.x * smoothstep(-0.6, 0.5, up + 0.5 * slow);
   s.albedo *= 1.0 - 0.5 * wet;
-  s.film = wet * (0.35 + 0.65 * smoothstep(0.2, 0.9, up)) * smoothstep(0.75, 0.25, texel.z);
+  float raised = texel.z;
+#ifdef SURROUNDED
+  // Along a street the eye sees a texture repeat: only what is finer than an eighth of it stands out of the water.
+  raised += 0.5 - textureLod(look_textures, vec3(uv, more.x), max(level, log2(float(textureSize(look_textures, 0).x)) - 3.0)).z;
+#endif
+  float even = smoothstep(0.75, 0.25, raised);
+  s.film = wet * (0.35 + 0.65 * smoothstep(0.2, 0.9, up)) * even;
   s.gloss.x *= 1.0 - s.film;
   s.normal = normalize(mix(s.normal, rx * smooth_normal.x + ry * smooth_normal.y + rz * smooth_normal.z,
-                           0.6 * wet * smoothstep(0.75, 0.25, texel.z)));
+                           0.6 * wet * even));
 #endif
 
   float lit = max(dot(light, s.normal), 0.15 * length(light));

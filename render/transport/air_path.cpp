@@ -71,26 +71,33 @@ bool AirPath::find_event(const Vec3f& from, const Vec3f& direction, float near, 
   return true;
 }
 
-float AirPath::fog_share(const Vec3f& p) const {
+AirPath::Shares AirPath::shares(const Vec3f& p) const {
   const Vec3 q(p);
   double dust = 0;
   for (const DustPuff& puff : air_.puffs()) dust += puff.at(q);
-  const double fog = air_.fog(q);
-  return fog + dust > 0 ? float(fog / (fog + dust)) : 1;
+  const double fog = air_.fog(q), drops = air_.drops();
+  if (drops <= 0) return {fog + dust > 0 ? float(fog / (fog + dust)) : 1, 0};
+  const double billows = air_.billows(q), all = (fog + dust) * billows + drops;
+  return {float(fog * billows / all), float(drops / all)};
 }
 
 float AirPath::phase(const Vec3f& p, float cosine) const {
-  const float share = fog_share(p);
+  const Shares share = shares(p);
   const double c = double(cosine);
   float sum = 0;
-  if (share > 0) sum += share * float(phase_function(air_.fog_asymmetry(), c));
-  if (share < 1) sum += (1 - share) * float(phase_function(air_.dust_asymmetry(), c));
+  if (share.fog > 0) sum += share.fog * float(phase_function(air_.fog_asymmetry(), c));
+  if (share.drops > 0) sum += share.drops * float(phase_function(Precipitation::kAsymmetry, c));
+  if (share.fog + share.drops < 1)
+    sum += (1 - share.fog - share.drops) * float(phase_function(air_.dust_asymmetry(), c));
   return sum;
 }
 
 Vec3f AirPath::sample_phase(const Vec3f& p, const Vec3f& direction, SamplePair u,
                             float choice) const {
-  const double g = choice < fog_share(p) ? air_.fog_asymmetry() : air_.dust_asymmetry();
+  const Shares share = shares(p);
+  const double g = choice < share.fog                 ? air_.fog_asymmetry()
+                   : choice < share.fog + share.drops ? Precipitation::kAsymmetry
+                                                      : air_.dust_asymmetry();
   const float cosine = draw_cosine(g, double(u.x));
   const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
   const float turn = 2 * float(portable::kPi) * u.y;

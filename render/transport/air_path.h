@@ -35,7 +35,10 @@ class AirPath {
   Vec3f sample_phase(const Vec3f& p, const Vec3f& direction, SamplePair u, float choice) const;
 
  private:
-  float fog_share(const Vec3f& p) const;
+  struct Shares {
+    float fog = 1, drops = 0;  // of the extinction; the rest: dust
+  };
+  Shares shares(const Vec3f& p) const;
 
   Air air_;
   Aabb box_;

@@ -46,6 +46,7 @@ struct LookSurfaces::Place {
   Vec3f bent;                  // normal with relief, in the mesh
   float debris, slow;          // of the ground's map: cover, and tone from -2 to 2
   float bright, mask, up;      // of the texture, and Z of the smooth normal in the world
+  float raised;                // out of water: bright, in a street against the mean about it
   Vec3f to_world(const Vec3f& v) const {
     return piece->axis_x * v.x + piece->axis_y * v.y + piece->axis_z * v.z;
   }
@@ -149,7 +150,10 @@ void LookSurfaces::find_pattern(const SurfaceQuery& query, Place& place) const {
   const Vec3f tu = turned_back(along, piece.turn), tv = turned_back(across, piece.turn);
   place.bent = place.smooth - tu * ((texel[0] * 4 - 2) * look.bump) -
                tv * ((texel[1] * 4 - 2) * look.bump);
-  place.bright = texel[2], place.mask = texel[3];
+  place.bright = place.raised = texel[2], place.mask = texel[3];
+  if (scene_.surrounded && wetness_ > 0)
+    place.raised += 0.5f - textures_.read(int(look.pattern), u, v,
+                                          std::max(level, std::log2(float(textures_.size())) - 3))[2];
   place.up = place.to_world(place.smooth).z;
 }
 
@@ -179,7 +183,7 @@ void LookSurfaces::add_colour(const Place& place, SurfacePoint& out) const {
 void LookSurfaces::add_water(const Place& place, SurfacePoint& out) const {
   const float wet = wetness_ * smoothstep(-0.6f, 0.5f, place.up + 0.5f * place.slow);
   out.reflection.base *= 1 - 0.5f * wet;
-  const float even = smoothstep(0.75f, 0.25f, place.bright);
+  const float even = smoothstep(0.75f, 0.25f, place.raised);
   const float film = wet * (0.35f + 0.65f * smoothstep(0.2f, 0.9f, place.up)) * even;
   out.reflection.film = {film, kWaterReflectance, kFilmRoughness};
   out.reflection.gloss.cover *= 1 - film;

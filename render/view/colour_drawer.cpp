@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "kernel/base/portable_math.h"
 #include "render/lighting/exposure.h"
 #include "render/passes/antialias.h"
 #include "render/reference/display.h"
+#include "render/view/air_lamp.h"
 #include "render/view/stopwatch.h"
 
 namespace rubble {
@@ -19,16 +19,6 @@ ReferenceOptions reference_options(const RenderOptions& o, std::uint64_t seed) {
   out.cache_folder = o.cache_folder;
   out.progress = o.image_progress;
   return out;
-}
-
-AirLamp glow_of(const LampSpec& lamp, const Pose& bearer) {
-  AirLamp glow;
-  glow.position = Vec3f(bearer * lamp.position);
-  glow.axis = Vec3f(bearer.rotation.rotate({1, 0, 0}));
-  glow.colour = lamp.on ? lamp_colour(lamp) : Vec3f();
-  glow.cone = float(1 / (1 - portable::cos(0.5 * lamp.cone_deg * portable::kPi / 180)));
-  glow.size2 = float(std::max(lamp.shape == LampShape::point ? 0.0 : 0.25 * lamp.size * lamp.size, 1e-4));
-  return glow;
 }
 
 // The first three of every `channels` values.
@@ -62,13 +52,13 @@ void ColourDrawer::restart() {
                                            scene_.ground_map, scene_.patterns);
 }
 
-FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surfaces) {
+FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surfaces, bool drops_drawn) {
   if (scene_.lamp_bounces()) scene_.light_by_lamp(view.lamp_bearer(), view.stamp_ns, surfaces.shown());
   FrameLight light = scene_.frame_light;
   light.world_from_rig = view.world_from_rig ? &*view.world_from_rig : nullptr;
   if (scene_.medium.clear()) return light;
   const AirLamp glow = glow_of(light.lamp, view.lamp_bearer());
-  air_volume_.build(view, scene_.air_at(view.stamp_ns), scene_.air_light, scene_.light, &glow, pool_);
+  air_volume_.build(view, scene_.air_at(view.stamp_ns), scene_.air_light, scene_.light, &glow, drops_drawn, pool_);
   light.air_table = &air_volume_;
   return light;
 }
@@ -97,7 +87,7 @@ void ColourDrawer::draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
   const Stopwatch start;
   const ViewProjection projection = projection_of(view);
   const SurfaceImages images = surfaces.images();
-  const FrameLight light = light_view(view, surfaces);
+  const FrameLight light = light_view(view, surfaces, false);
   const bool metered = !exposure && scene_.options.fixed_exposure <= 0;
   image.exposure = exposure ? *exposure
                    : expose(metered ? resolve_->meter(projection, view.world_from_camera, images, light)
@@ -136,7 +126,7 @@ std::vector<float> ColourDrawer::draw_radiance(const ViewRays& view, DrawnSurfac
   scene_.move_to(view.stamp_ns);
   if (reference_) return trace(view);
   const SurfaceImages images = surfaces.images();
-  const FrameLight light = light_view(view, surfaces);
+  const FrameLight light = light_view(view, surfaces, true);
   return three_of(resolve_->draw_linear(projection_of(view), view.world_from_camera, images, light), 4);
 }
 

@@ -32,12 +32,13 @@ class ColourDrawer {
 
   // exposure: as ColourImage's; none: metered on the view itself.
   ColourImage draw(const ViewRays& view, DrawnSurfaces& surfaces, std::optional<float> exposure);
-  // Before exposure and tone mapping: 3 floats a pixel; unit: kcd/m2.
+  // Before exposure and tone mapping: 3 floats a pixel; unit: kcd/m2. Without the drops of DropDrawer.
   std::vector<float> draw_radiance(const ViewRays& view, DrawnSurfaces& surfaces);
 
  private:
   // What depends on the view: where its lamp is, and the air before it.
-  FrameLight light_view(const ViewRays& view, DrawnSurfaces& surfaces);
+  // drops_drawn: as AirVolume::build().
+  FrameLight light_view(const ViewRays& view, DrawnSurfaces& surfaces, bool drops_drawn);
   std::vector<float> trace(const ViewRays& view) const;
   void draw_traced(const ViewRays& view, std::optional<float> exposure,
                    std::vector<std::uint8_t>& rgba, ColourImage& image) const;

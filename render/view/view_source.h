@@ -3,6 +3,7 @@
 
 #include "render/passes/ground_truth.h"
 #include "render/view/colour_drawer.h"
+#include "render/view/drop_drawer.h"
 #include "render/view/lit_scene.h"
 #include "render/view/surface_drawer.h"
 
@@ -14,11 +15,13 @@ struct ViewSource {
       : scene(context, s, options, progress),
         surfaces(scene),
         colours(scene),
+        drops(scene),
         truth(scene.scene, scene.geometry, options.threads) {}
 
   LitScene scene;          // as prepared by the renderer
   SurfaceDrawer surfaces;  // of that scene
   ColourDrawer colours;    // of that scene
+  DropDrawer drops;        // of that scene
   GroundTruthMaker truth;  // of that scene
 };
 

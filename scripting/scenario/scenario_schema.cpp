@@ -165,7 +165,14 @@ void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
   k.value("air.fog_noise_size", air.fog_noise_size, "Size of the largest billows.")
       .between(0.05, 100)
       .unit("m");
-  k.value("air.wind", air.wind, "Velocity of billows and dust.").between(-50, 50).unit("m/s");
+  k.value("air.rain_mm_h", air.rain_mm_h,
+          "Rain, as a rate of water: streaks in images with a modelled exposure, and a veil (docs/weather.md).")
+      .between(0, 100)
+      .unit("mm/h");
+  k.value("air.snow_mm_h", air.snow_mm_h, "Snow that falls, as a rate of melted water; likewise.")
+      .between(0, 10)
+      .unit("mm/h");
+  k.value("air.wind", air.wind, "Velocity of billows, dust, drops and flakes.").between(-50, 50).unit("m/s");
   add_dust(k, air.dust);
   k.group("lamp", "A lamp on the camera.");
   k.value("lamp.on", lamp.on, "Switches the lamp on.");

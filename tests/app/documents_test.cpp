@@ -220,7 +220,7 @@ TEST_P(NightlyDocuments, CommandsRunAsTheyAreWritten) {
 constexpr const char* kRun[]{"README.md",         "docs/autonomy.md", "docs/collapse.md", "docs/formats.md",
                             "docs/headless.md",  "docs/lidar.md",    "docs/lua.md",
                             "docs/optics.md",    "docs/performance.md", "docs/search.md",
-                            "docs/sky.md",       "docs/surroundings.md"};
+                            "docs/sky.md",       "docs/surroundings.md", "docs/weather.md"};
 INSTANTIATE_TEST_SUITE_P(All, NightlyDocuments, ::testing::ValuesIn(kRun));
 
 // No document with something to run is left out above.

@@ -3,14 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "app/eval/scores/saved_surface.h"
 #include "app/pipeline/build_scene.h"
 #include "app/pipeline/stages.h"
 #include "app/surroundings/lay_surroundings.h"
 #include "app/surroundings/seen_surroundings.h"
+#include "io/image/image_file.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/queries/queries.h"
 #include "render/gl/gl_context.h"
@@ -190,6 +193,127 @@ TEST(SurroundingsRun, FarLightsGiveTheLightOfTheOthers) {
                of_far = mean_light(render(far, eye, true));
   EXPECT_GT(of_sharp, 10 * none);
   EXPECT_NEAR(of_far / of_sharp, 1, 0.05);
+}
+
+// With street lamps, lit windows and baked light.
+TEST(SurroundingsRun, ThreadsChangeNoBitOfAFrame) {
+  const ScratchFolder folder;
+  write_file(folder / "m.lua", kMission);
+  const auto run = [&](const std::string& name, const std::string& more) {
+    const Outcome outcome = run_rubble("run " + (folder / "m.lua") + " --quiet --out " + (folder / name) + more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  };
+  setenv("RUBBLE_CACHE", "off", 1);
+  run("one", " --threads 1"), run("two", " --threads 2");
+  EXPECT_EQ(reproducible(folder / "one"), reproducible(folder / "two"));
+}
+
+struct Triangle {
+  Vec3 a, ab, ac;
+};
+
+std::vector<Triangle> read_stl(const std::string& path) {
+  const std::string bytes = read_file(path);
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + 80, sizeof count);
+  std::vector<Triangle> triangles;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    Vec3f p[3];
+    std::memcpy(p, bytes.data() + 84 + 50 * std::size_t(t) + 12, sizeof p);
+    triangles.push_back({Vec3(p[0]), Vec3(p[1]) - Vec3(p[0]), Vec3(p[2]) - Vec3(p[0])});
+  }
+  return triangles;
+}
+
+// Moeller and Trumbore's test of every triangle in double precision, and the plane z = 0.
+double cast_at_all(const std::vector<Triangle>& triangles, const Vec3& from, const Vec3& along) {
+  double nearest = along.z < 0 ? -from.z / along.z : 1e9;
+  for (const Triangle& t : triangles) {
+    const Vec3 p = cross(along, t.ac);
+    const double det = dot(t.ab, p);
+    if (std::fabs(det) < 1e-14) continue;
+    const Vec3 s = from - t.a;
+    const double u = dot(s, p) / det;
+    if (u < 0 || u > 1) continue;
+    const Vec3 q = cross(s, t.ab);
+    const double v = dot(along, q) / det;
+    if (v < 0 || u + v > 1) continue;
+    const double distance = dot(t.ac, q) / det;
+    if (distance > 1e-6) nearest = std::min(nearest, distance);
+  }
+  return nearest;
+}
+
+// A sensor that stands, without noise, against the exported street.
+TEST(SurroundingsRun, ALidarMeasuresTheStreetOfTheExport) {
+  const ScratchFolder folder;
+  std::string text = kMission;
+  text.replace(text.find("outputs = {"), 11, R"(lidars = { top = { model = "vlp16", noise = false, range_step = 0,
+      divergence_mrad = 0, range_at_10_percent = 500 } },
+  outputs = { pcd = true,)");
+  text.replace(text.find("-1, 3.1, 1.7"), 12, "-1, 3, 1.7");
+  write_file(folder / "m.lua", text);
+  const Outcome run = run_rubble("run " + (folder / "m.lua") + " --quiet --out " + (folder / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::vector<Triangle> world = read_stl(folder / "out/pile.stl");
+  Pose eye;
+  double stamp = 0;
+  std::istringstream(read_file(folder / "out/pcd/top/motion.txt")) >> stamp >> eye.translation.x >> eye.translation.y >> eye.translation.z >> eye.rotation.x >>
+      eye.rotation.y >> eye.rotation.z >> eye.rotation.w;
+  const std::string bytes = read_file(folder / "out/pcd/top/000000.pcd");
+  int measured = 0, apart = 0, fronts = 0;
+  for (std::size_t at = bytes.find("DATA binary\n") + 12; at + 22 <= bytes.size(); at += 22 * 29) {
+    Vec3f p;
+    std::memcpy(&p, bytes.data() + at, sizeof p);
+    const Vec3 along = eye.rotation.rotate(Vec3(p));
+    const double range = norm(along), expected = cast_at_all(world, eye.translation, along * (1 / range));
+    ++measured, apart += std::fabs(range - expected) > 1e-4 * (1 + range);
+    fronts += along.y < -12 && eye.translation.z + along.z > 1;
+  }
+  EXPECT_GT(measured, 500);
+  EXPECT_GT(fronts, 50) << "hardly a ray met the fronts across the street";
+  EXPECT_LE(apart, measured / 100) << "of " << measured;
+}
+
+// Light that was baked and shadow maps against paths.
+TEST(SurroundingsRun, TheReferenceTracesThem) {
+  const ScratchFolder folder;
+  Settled settled = settle_here(folder);
+  Scenario scenario = settled.mission.scenario;
+  scenario.light.sky.type = SkyType::overcast, scenario.light.spec.elevation_deg = 40;
+  lay_surroundings(scenario, settled.mission.assets, settled.pile);
+  const Scene scene = build_scene(scenario, settled.mission.assets, settled.pile);
+  Eye eye = towards_the_street();
+  eye.k.width = 80, eye.k.height = 60, eye.k.fx = eye.k.fy = 40, eye.k.cx = 39.5, eye.k.cy = 29.5;
+  const LinearFrame fast = render(scene, eye, true);
+  GlContext context({-1, 2});
+  RenderOptions options;
+  options.threads = 2, options.colour.quality = RenderQuality::reference, options.colour.samples = 32;
+  const LinearFrame traced = Renderer(context, scene, options).render_linear(eye.pose, eye.k);
+  EXPECT_EQ(fast.instance, traced.instance);
+  EXPECT_EQ(0, std::memcmp(fast.depth.data(), traced.depth.data(), fast.depth.size() * sizeof(float)));
+  EXPECT_NEAR(mean_light(fast) / mean_light(traced), 1, 0.1);
+}
+
+TEST(SurroundingsRun, PagesAndSectionsSayThatTheyLeaveThemOut) {
+  const ScratchFolder folder;
+  write_file(folder / "m.lua", kMission);
+  const std::string out = folder / "out", bare = folder / "bare", none = " --set surroundings.type=none";
+  ASSERT_EQ(run_rubble("run " + (folder / "m.lua") + " --quiet --out " + out).exit_code, 0);
+  ASSERT_EQ(run_rubble("settle " + (folder / "m.lua") + none + " --quiet --out " + bare).exit_code, 0);
+  ASSERT_EQ(run_rubble("view " + out).exit_code, 0);
+  ASSERT_EQ(run_rubble("view " + bare).exit_code, 0);
+  EXPECT_IN("not on this page: surroundings", read_file(out + "/view.html"));
+  EXPECT_EQ(read_file(bare + "/view.html").find("not on this page"), std::string::npos);
+  // Of the two pictures, all but the line below is the same.
+  ASSERT_EQ(run_rubble("cutaway " + out).exit_code, 0);
+  ASSERT_EQ(run_rubble("cutaway " + bare).exit_code, 0);
+  const RgbImage with = read_rgb_png(out + "/cutaway.png"), without = read_rgb_png(bare + "/cutaway.png");
+  ASSERT_EQ(with.width, without.width);
+  ASSERT_EQ(with.height, without.height);
+  const std::size_t row = std::size_t(with.width) * 3, caption = std::size_t(with.height - 40) * row;
+  EXPECT_EQ(0, std::memcmp(with.rgb.data(), without.rgb.data(), caption));
+  EXPECT_NE(with.rgb, without.rgb) << "the line below says nothing of surroundings";
 }
 
 TEST(SurroundingsRun, MistakesAreShownWithTheirLines) {

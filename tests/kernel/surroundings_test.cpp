@@ -150,6 +150,13 @@ TEST(Surroundings, SharesOfPlacesAreKept) {
             finest(full, first(full, SurroundingKind::building)).positions.size());
 }
 
+TEST(Surroundings, RainChangesNoOtherThing) {
+  const Surroundings dry = make(street(), 3), wet = make(street(), 3, false, 1);
+  ASSERT_EQ(wet.things.size(), dry.things.size() + 1);
+  for (std::size_t i = 0; i < dry.things.size(); ++i) EXPECT_EQ(dry.things[i].kind, wet.things[i].kind) << i;
+  EXPECT_EQ(wet.things.back().kind, SurroundingKind::puddle);
+}
+
 // Lit windows by their look; area by area would be the same.
 TEST(Surroundings, LampsAndWindowsAreLitInTheDark) {
   const auto shares = [](const Surroundings& s) {

@@ -179,6 +179,19 @@ TEST(LidarFog, WeakensEchoesByBeersLaw) {
   }
 }
 
+// Rain of 100 mm/h by the sum of the discs of its drops (Marshall and Palmer 1948).
+TEST(LidarRain, WeakensEchoesByItsExtinction) {
+  Scene clear = place_boxes({{kRoom, {}}}), rain = clear;
+  rain.air.rain_mm_h = 100, rain.air.fog_intensity = 0;
+  const double slope = 4.1 * std::pow(100, -0.21), extinction = kPi / 4 * 8000e-6 * 2 / (slope * slope * slope);
+  const LidarScan without = scan_of(ideal(), clear, standing()), with = scan_of(ideal(), rain, standing());
+  ASSERT_EQ(with.points.size(), without.points.size());
+  for (std::size_t i = 0; i < with.points.size(); ++i) {
+    const double range = norm(place_of(with.points[i]));
+    ASSERT_NEAR(double(with.points[i].intensity / without.points[i].intensity), std::exp(-2 * extinction * range), 1e-5);
+  }
+}
+
 // Without anything behind, ranges of fog have the density overlap(r) exp(-2 s r) / r^2.
 TEST(LidarFog, EchoesWithTheDensityOfWhatItThrowsBack) {
   Scene fog;

@@ -10,7 +10,7 @@ namespace rubble {
 namespace {
 
 // Two numbers at a time, in registers that every x86-64 and arm64 has.
-using Two = double __attribute__((vector_size(16), aligned(8), may_alias));
+typedef double Two __attribute__((vector_size(16), aligned(8), may_alias));
 
 Block6 transposed(const Block6& m) {
   Block6 t;

@@ -69,11 +69,11 @@ class RobotWorld {
     command_ = kind_ == Kind::rover ? drive_wheels(model_, twist) : drive_crawler(model_, twist, flippers);
   }
 
-  // Of a vine: the speed of its tip and the curvature of what grows; unit: m/s, 1/m
+  // Of a vine: the speed of its tip (negative: it retracts) and the curvature of what grows; unit: m/s, 1/m
   void grow(double speed, double left, double up) {
     expect(kind_ == Kind::vine, "grow", "this robot does not grow", "vine");
-    expect(std::isfinite(speed) && speed >= 0 && std::isfinite(left) && std::isfinite(up), "grow", "out of range",
-           "a finite speed of 0 or more, and finite curvatures");
+    expect(std::isfinite(speed) && std::isfinite(left) && std::isfinite(up), "grow", "out of range",
+           "a finite speed and finite curvatures");
     command_ = drive_vine(model_, {speed, left, up});
   }
 

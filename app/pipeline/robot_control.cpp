@@ -71,7 +71,7 @@ Schema wish_schema(Wish& wish) {
   Schema k;
   k.value("linear", wish.linear, "Forwards.").between(-5, 5).unit("m/s");
   k.value("angular", wish.angular, "Counter-clockwise.").between(-10, 10).unit("rad/s");
-  k.value("growth", wish.growth.speed, "Speed of a vine's tip.").between(0, 1).unit("m/s");
+  k.value("growth", wish.growth.speed, "Speed of a vine's tip.").between(-1, 1).unit("m/s");
   k.value("curvature", wish.growth.curve_left, "Of what grows, to the left.").between(-5, 5).unit("1/m");
   k.value("curvature_up", wish.growth.curve_up, "Of what grows, upwards.").between(-5, 5).unit("1/m");
   k.value("flippers", wish.flippers, "Angles of a crawler's.").between(-4, 4).unit("rad");

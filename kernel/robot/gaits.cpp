@@ -102,7 +102,7 @@ RobotCommand drive_wheels(const RobotModel& model, const Twist& twist) {
 RobotCommand drive_vine(const RobotModel& model, const Growth& growth) {
   RobotCommand command;
   command.joints.resize(model.joints.size());
-  command.joints.back() = {MotorMode::velocity, std::max(0.0, growth.speed)};
+  command.joints.back() = {MotorMode::velocity, growth.speed};
   command.curve_left = growth.curve_left;
   command.curve_up = growth.curve_up;
   return command;

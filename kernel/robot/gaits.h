@@ -40,7 +40,7 @@ RobotCommand drive_wheels(const RobotModel& model, const Twist& twist);
 
 // How a tube grows: the speed of its tip, and the curvature of what grows, to the left and upwards.
 struct Growth {
-  double speed = 0;                    // unit: m/s; >= 0
+  double speed = 0;                    // unit: m/s; negative: it retracts
   double curve_left = 0, curve_up = 0; // unit: 1/m
 };
 RobotCommand drive_vine(const RobotModel& model, const Growth& growth);

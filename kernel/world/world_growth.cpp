@@ -1,5 +1,7 @@
 // Robots that grow: tubes whose next link is laid where the tip has just come from. What has been laid
-// never slides along; the tree gets a link more, and the tip's slider starts anew at its end.
+// never slides along; the tree gets a link more, and the tip's slider starts anew at its end. Retraction is
+// the inverse: the tip turns the wall back in, bends straighten by as much as they were bent there, and the
+// link that it has passed is taken out of the tree.
 #include <algorithm>
 #include <cmath>
 
@@ -23,6 +25,26 @@ Tree cut_tube(const Tree& grown, std::int32_t laid) {
   number_coordinates(tree);
   return tree;
 }
+
+// The same tube with a link more or less, which goes on as it was.
+Tree cut_anew(const Tree& grown, std::int32_t laid, const Tree& old) {
+  Tree tree = cut_tube(grown, laid);
+  for (std::size_t i = 0; i < tree.links.size(); ++i) {
+    const bool tip = i + 1 == tree.links.size();
+    if (!tip && i + 1 >= old.links.size()) continue;  // the new one
+    TreeLink& to = tree.links[i];
+    const TreeLink shape = to;
+    to = tip ? old.links.back() : old.links[i];
+    to.parent = shape.parent;
+    to.first_q = shape.first_q, to.first_u = shape.first_u;
+    to.upper = shape.upper;
+    to.wrinkles_with = shape.wrinkles_with;
+  }
+  return tree;
+}
+
+// The reel winds back.
+bool retracts(const Tree& tree) { return tree.links.back().motor.speed < 0; }
 
 double mass_of(const Tree& tree, const std::vector<Body>& bodies) {
   double mass = 0;
@@ -78,6 +100,7 @@ void World::Impl::stow(Body& body) {
   body.inverse_mass = 0;
   body.inverse_inertia_local = body.inverse_inertia = {};
   body.inertia = {};
+  body.linear = body.angular = {};
   body.awake = false;
   body.collider_count = 0;
 }
@@ -87,6 +110,13 @@ void World::Impl::grow_tubes() {
     const RobotModel& model = robots[i];
     WorldRobot& robot = data.robots[i];
     if (!model.tube || data.trees[robot.tree].links.empty()) continue;
+    if (retracts(data.trees[robot.tree])) {
+      wind_back(robot, *model.tube);
+      if (robot.reached <= 0 && robot.laid > model.tube->start_links) take_link(robot, model, grown_robots[i]);
+      set_tip(robot, model);
+      carry_stowed(robot, model);
+      continue;
+    }
     steer_tip(robot, *model.tube);
     if (robot.reached >= model.tube->link_length && robot.laid < model.tube->links) {
       lay_link(robot, model, grown_robots[i]);
@@ -109,21 +139,23 @@ void World::Impl::steer_tip(WorldRobot& robot, const EvertingTube& tube) {
   robot.reached = at;
 }
 
+// The inverse: when the tip has passed the last link, that is in line with the one before it.
+void World::Impl::wind_back(WorldRobot& robot, const EvertingTube& tube) {
+  Tree& tree = data.trees[robot.tree];
+  const double at = simbody_trees.state(robot.tree).q[std::size_t(tree.links.back().first_q)];
+  if (at >= robot.reached) return;
+  const double left = std::max(0.0, at);
+  if (robot.reached > 0 && left < tube.link_length)
+    tree.links[std::size_t(robot.laid)].rest *= left / std::min(robot.reached, tube.link_length);
+  robot.reached = robot.laid > tube.start_links ? at : left;
+}
+
 void World::Impl::lay_link(WorldRobot& robot, const RobotModel& model, const Tree& grown) {
   const double length = model.tube->link_length;
   const Tree& old = data.trees[robot.tree];
   const TreeState was = simbody_trees.state(robot.tree);
   const std::int32_t laid = ++robot.laid;
-  Tree tree = cut_tube(grown, laid);
-  for (std::size_t i = 0; i < old.links.size(); ++i) {
-    TreeLink& to = i + 1 < old.links.size() ? tree.links[i] : tree.links.back();
-    const TreeLink shape = to;
-    to = old.links[i];
-    to.parent = shape.parent;
-    to.first_q = shape.first_q, to.first_u = shape.first_u;
-    to.upper = shape.upper;
-    to.wrinkles_with = shape.wrinkles_with;
-  }
+  Tree tree = cut_anew(grown, laid, old);
   TreeState state{std::vector<double>(std::size_t(tree.q_count), 0),
                   std::vector<double>(std::size_t(tree.u_count), 0)};
   std::copy(was.q.begin(), was.q.end() - 1, state.q.begin());
@@ -151,13 +183,37 @@ void World::Impl::lay_link(WorldRobot& robot, const RobotModel& model, const Tre
   find_first_pairs(index);
 }
 
-// What the tip can push with now, and how far it may be pushed back.
+void World::Impl::take_link(WorldRobot& robot, const RobotModel& model, const Tree& grown) {
+  const double length = model.tube->link_length;
+  const TreeState was = simbody_trees.state(robot.tree);
+  const std::int32_t index = robot.first_body + robot.laid;
+  Tree tree = cut_anew(grown, --robot.laid, data.trees[robot.tree]);
+  TreeState state{std::vector<double>(was.q.begin(), was.q.end() - 1), std::vector<double>(was.u.begin(), was.u.end() - 1)};
+  robot.reached += length;
+  state.q.back() = was.q.back() + length;
+  state.u.back() = was.u.back();
+
+  Body& body = data.bodies[std::size_t(index)];
+  drop_contacts([&](const Pair& pair) { return pair.body_a == index || pair.body_b == index; });
+  each_collider(body, [&](int i) { data.broad.remove(i); });
+  stow(body);
+  data.bodies[std::size_t(tree.links.back().body)].link = robot.laid + 1;
+  tree.mass = mass_of(tree, data.bodies);
+  data.trees[robot.tree] = tree;
+  // The tip comes back over links that it could touch from afar.
+  drop_contacts([&](const Pair& pair) { return pair.body_b != kGround && are_joined(pair.body_a, pair.body_b); });
+  simbody_trees.replace(robot.tree, tree, data.bodies, state);
+  mirror_state(robot.tree);
+}
+
+// What the tip can push with now, and how far it may be pushed back. The reel pulls no harder than that.
 void World::Impl::set_tip(const WorldRobot& robot, const RobotModel& model) {
   Tree& tree = data.trees[robot.tree];
   const TreeState state = simbody_trees.state(robot.tree);
   TreeLink& tip = tree.links.back();
   tip.motor.effort = model.tube->tip_force(tube_length(robot, model), calc_turning(tree, state));
-  tip.lower = std::max(0.0, robot.reached - kTipSlack);
+  const bool more = robot.laid > model.tube->start_links;
+  tip.lower = !retracts(tree) ? std::max(0.0, robot.reached - kTipSlack) : more ? -model.tube->link_length : 0;
   tip.belt_speed = state.u[std::size_t(tip.first_u)];
 }
 

@@ -278,6 +278,18 @@ struct World::Impl {
   void stow(Body& body);
   void grow_tubes();
   void steer_tip(WorldRobot& robot, const EvertingTube& tube);
+  void wind_back(WorldRobot& robot, const EvertingTube& tube);
+  void take_link(WorldRobot& robot, const RobotModel& model, const Tree& grown);
+  template <typename If>
+  void drop_contacts(If condition) {
+    for (std::size_t i = 0; i < data.pairs.size();) {
+      if (condition(data.pairs[i])) {
+        remove_contact(i);
+      } else {
+        ++i;
+      }
+    }
+  }
   void lay_link(WorldRobot& robot, const RobotModel& model, const Tree& grown);
   void set_tip(const WorldRobot& robot, const RobotModel& model);
   void carry_stowed(const WorldRobot& robot, const RobotModel& model);

@@ -193,13 +193,7 @@ void World::Impl::lose(int index) {
   body.touching = false;
   ++data.lost;
   if (body.simbody_index >= 0) blocks.set_velocity(body.simbody_index, {}, {});
-  for (std::size_t i = 0; i < data.pairs.size();) {
-    if (data.pairs[i].body_a == index || data.pairs[i].body_b == index) {
-      remove_contact(i);
-    } else {
-      ++i;
-    }
-  }
+  drop_contacts([&](const Pair& pair) { return pair.body_a == index || pair.body_b == index; });
   if (body.group >= 0) data.lost += int(data.groups[body.group].members.size()) - 1;
   each_collider(body, [&](int i) { data.broad.remove(i); });
 }

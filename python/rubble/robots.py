@@ -24,7 +24,7 @@ class RobotWorld:
         self._made.drive(linear, angular, list(flippers))
 
     def grow(self, speed: float, left: float = 0.0, up: float = 0.0) -> None:
-        """Of a vine: speed of its tip (m/s), curvature of what grows, to the left and upwards (1/m)."""
+        """Of a vine: speed of its tip (m/s; negative: it retracts), curvature of what grows, to the left and upwards (1/m)."""
         self._made.grow(speed, left, up)
 
     def set_joints(self, targets: Iterable[float]) -> None:

@@ -26,8 +26,9 @@ struct RobotLeg {
   double phase = 0;         // of its waves, beside rate * t; unit: rad; range: -1e6 to 1e6
   double amplitude = 1;     // of the gait's own; unit: 1; range: 0 to 2
   double steering_deg = 0;  // added to the sideways joints; range: -45 to 45
-  std::vector<double> joints{};  // positions of all motors, in their order, beside the rest; unit: rad, slider m
-  double growth = 0;        // of a vine's tip; unit: m/s; range: 0 to 1
+  std::vector<double> joints{};  // positions of motors, beside the rest; unit: rad, slider m
+  std::vector<std::string> joint_names{};  // whose they are; empty: all motors, in their order
+  double growth = 0;        // of a vine's tip; unit: m/s; negative: it retracts; range: -1 to 1
   double curvature = 0, curvature_up = 0;  // of what grows, to the left and upwards; unit: 1/m; range: -5 to 5
 };
 

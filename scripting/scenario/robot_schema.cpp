@@ -42,7 +42,8 @@ Schema leg_schema(RobotLeg& leg) {
           "Positions of all motors, in their order, instead of what the other keys ask of them; sliders in m.")
       .between(-1000, 1000)
       .unit("rad");
-  k.value("growth", leg.growth, "Vine: speed at which the tip grows.").between(0, 1).unit("m/s");
+  k.value("joint_names", leg.joint_names, "The joints that `joints` is for; not given: all motors.");
+  k.value("growth", leg.growth, "Vine: speed at which the tip grows; negative: it retracts.").between(-1, 1).unit("m/s");
   k.value("curvature", leg.curvature, "Vine: curvature of what grows, to the left.").between(-5, 5).unit("1/m");
   k.value("curvature_up", leg.curvature_up, "Vine: curvature of what grows, upwards.").between(-5, 5).unit("1/m");
   return k;

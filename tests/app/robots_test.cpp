@@ -246,6 +246,23 @@ std::string run_robots_only(const std::string& script, const std::string& out) {
          " --set outputs.simplemap=false --set outputs.stl=false --set outputs.preview=false --out " + out;
 }
 
+TEST(Robots, AVineGrowsAlongAPathAndRetracts) {
+  const ScratchFolder scratch;
+  write_file(scratch / "m.lua", R"(return rubble.mission { pile = { layers = 0 },
+    robots = { rubble.robot.vine { name = "vine", position = { 0, 0, 0.051 }, length = 2,
+      control = rubble.robot.grow_along { path = { { 0, 0, 0.05 }, { 0.6, 0, 0.05 }, { 1.2, 0.4, 0.05 } },
+                                          speed = 0.3, back = true } } },
+    robot_run = { duration = 11 }, camera = { width = 16, height = 16 }, trajectory = { rate_hz = 0.1 },
+    outputs = { bag = false, rawlog = false, simplemap = false, stl = false, preview = false } })");
+  const Outcome run = run_rubble("run " + (scratch / "m.lua") + " --quiet --out " + (scratch / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Rows tip = read_rows(scratch / "out/robots/vine.txt");
+  double farthest = 0;
+  for (const auto& row : tip) farthest = std::max(farthest, row[2]);
+  EXPECT_GT(farthest, 0.3) << "it was to grow to its left";
+  EXPECT_LT(distance(vector_in(tip.front(), 1), vector_in(tip.back(), 1)), 0.005);
+}
+
 // Missions over the pile of the demo, whose lean-to opens to -X at -4.6 m: how deep a robot gets, and where it is
 // in the end.
 void expect_in_and_out(const std::string& robot, double depth) {

@@ -91,8 +91,13 @@ class Robots(unittest.TestCase):
         self.assertAlmostEqual(state["links"][-1, 0], state["length"], delta=0.05)
         self.assertGreater(state["tip_force"], 10)
         robot.grow(0.2, left=1.0)
-        self.assertGreater(robot.step(4.0)["links"][-1, 1], 0.2)
-        for call, key in ((lambda: robot.drive(1), "drive"), (lambda: robot.grow(-1), "grow"),
+        state = robot.step(4.0)
+        self.assertGreater(state["links"][-1, 1], 0.2)
+        robot.grow(-0.2)
+        back = robot.step(2.0)
+        self.assertAlmostEqual(back["length"], state["length"] - 0.4, delta=0.02)
+        self.assertLess(np.linalg.norm(back["links"][-1, :3]), np.linalg.norm(state["links"][-1, :3]) - 0.2)
+        for call, key in ((lambda: robot.drive(1), "drive"), (lambda: robot.grow(np.inf), "grow"),
                           (lambda: robot.grow(0.1, np.nan), "grow")):
             with self.assertRaises(rubble.InputError) as raised:
                 call()

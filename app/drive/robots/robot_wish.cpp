@@ -41,7 +41,7 @@ RobotLeg make_leg(const RobotWish& wish, const RobotItem& robot, const RobotLeg&
     leg.steering_deg = kSteering * within(wish.yaw + wish.angular.z, 1);
   }
   if (robot.model == RobotKind::vine) {
-    leg.growth = std::clamp(leg.linear, 0.0, 1.0);
+    leg.growth = within(leg.linear, 1);
     leg.curvature = kCurvature * within(wish.yaw + wish.angular.z, 1);
     leg.curvature_up = kCurvature * within(wish.pitch - wish.angular.y, 1);
   }

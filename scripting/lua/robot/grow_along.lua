@@ -1,5 +1,6 @@
 -- rubble.robot.grow_along: a controller that grows a vine along a path, by pure pursuit in space: what grows is
--- bent along the arc through the point of the path that is `lookahead` ahead of the tip.
+-- bent along the arc through the point of the path that is `lookahead` ahead of the tip. With `back`, it retracts
+-- from there.
 local name = "rubble.robot.grow_along"
 
 return function(given)
@@ -10,6 +11,7 @@ return function(given)
     { "curvature", 2, min = 0.01, max = 5, unit = "1/m", doc = "Largest curvature of what grows." },
     { "stuck_after", 2, min = 0.1, max = 3600, unit = "s",
       doc = "A tip that has not come on for this time is stuck: growth stops." },
+    { "back", false, doc = "Whether it retracts at the end of the path, and where it is stuck." },
   })
   if #o.path < 2 then
     rubble.reject(name, "path", "two points {x, y, z} or more", o.path)
@@ -64,7 +66,10 @@ return function(given)
     stuck = stuck or sense.t - since > o.stuck_after
     local tip = sense.truth.tip
     along = progress(tip.position, along)
-    if stuck or along >= length[#length] then return {} end
+    if stuck or along >= length[#length] then
+      stuck = true
+      return { growth = o.back and -o.speed or 0 }
+    end
     -- The arc through the target: its curvature is twice the distance to the side over the distance squared.
     local to = minus(point_at(along + o.lookahead), tip.position)
     local left, up = 2 * dot(to, tip.left) / dot(to, to), 2 * dot(to, tip.up) / dot(to, to)

@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "app/measures/metrics.h"
+#include "app/pipeline/stages.h"
 #include "app/provenance/manifest.h"
+#include "app/provenance/run_folder.h"
 #include "kernel/base/math.h"
+#include "scripting/scenario/scenario.h"
 #include "tests/app/program.h"
 
 namespace rubble::testing {
@@ -263,38 +266,65 @@ TEST(Robots, AVineGrowsAlongAPathAndRetracts) {
   EXPECT_LT(distance(vector_in(tip.front(), 1), vector_in(tip.back(), 1)), 0.005);
 }
 
-// Missions over the pile of the demo, whose lean-to opens to -X at -4.6 m: how deep a robot gets, and where it is
-// in the end.
-void expect_in_and_out(const std::string& robot, double depth) {
-  const ScratchFolder scratch;
-  const Outcome run = run_rubble(run_robots_only("lean_to_" + robot + ".lua", scratch / "out"));
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  const Rows poses = read_rows(scratch / ("out/robots/" + robot + ".txt"));
-  ASSERT_GT(poses.size(), 100U);
-  double deepest = -100;
-  for (const auto& row : poses) deepest = std::max(deepest, row[1]);
-  EXPECT_LT(poses.front()[1], -4.7) << "it was to start outside";
-  EXPECT_GT(deepest, depth);
-  EXPECT_LT(poses.back()[1], -4.7) << "it was to come out again";
-}
+// Missions over the pile of the demo, which settles once for all of them. Their robots are driven as a run does it, but
+// no picture is taken: most of such a run is the light of 1,200 pieces.
+class RobotsInTheDemo : public ::testing::Test {
+ protected:
+  // Of mission and pile.
+  static std::string pile_of(const ResolvedMission& mission) {
+    const auto json = nlohmann::json::parse(scenario_to_json(mission.scenario));
+    return json["pile"].dump() + json["settle"].dump() + json["seed"].dump();
+  }
 
-TEST(RobotsInTheDemo, ACrawlerGoesIntoTheLeanToAndOut) { expect_in_and_out("crawler", -1.7); }
-TEST(RobotsInTheDemo, ARoverGoesIntoTheLeanToAndOut) { expect_in_and_out("rover", -2.6); }
-TEST(RobotsInTheDemo, ASnakeRollsIntoTheLeanToAndOut) { expect_in_and_out("snake", -3.8); }
-TEST(RobotsInTheDemo, AVineGrowsIntoTheLeanToAndOut) { expect_in_and_out("vine", -3.3); }
+  // Into the folder `out`.
+  void drive(const std::string& script) {
+    RunOptions options;
+    options.quiet = true;
+    RunContext context(options);
+    RunRequest request;
+    request.mission = RUBBLE_SOURCE_DIR "/scripts/robots/" + script;
+    const ResolvedMission mission = resolve_mission(request, RunKind::run, context);
+    static const std::string settled_as = pile_of(mission);
+    static const PileState settled = settle_in_memory(mission, context, [] { return true; }).state;
+    ASSERT_EQ(pile_of(mission), settled_as) << "the missions have one pile";
+    RunFolder folder = RunFolder::create(scratch_ / "out", false);
+    folder.begin(describe_unfinished(mission));
+    drive_robots(mission, settled, folder, context);
+  }
+
+  // The lean-to opens to -X at -4.6 m: how deep a robot gets, and where it is in the end.
+  void expect_in_and_out(const std::string& robot, double depth) {
+    drive("lean_to_" + robot + ".lua");
+    const Rows poses = read_rows(scratch_ / ("out/robots/" + robot + ".txt"));
+    ASSERT_GT(poses.size(), 100U);
+    double deepest = -100;
+    for (const auto& row : poses) deepest = std::max(deepest, row[1]);
+    EXPECT_LT(poses.front()[1], -4.7) << "it was to start outside";
+    EXPECT_GT(deepest, depth);
+    EXPECT_LT(poses.back()[1], -4.7) << "it was to come out again";
+  }
+
+  ScratchFolder scratch_;
+};
+
+TEST_F(RobotsInTheDemo, ACrawlerGoesIntoTheLeanToAndOut) { expect_in_and_out("crawler", -1.7); }
+TEST_F(RobotsInTheDemo, ARoverGoesIntoTheLeanToAndOut) { expect_in_and_out("rover", -2.6); }
+TEST_F(RobotsInTheDemo, ASnakeRollsIntoTheLeanToAndOut) { expect_in_and_out("snake", -3.8); }
+TEST_F(RobotsInTheDemo, AVineGrowsIntoTheLeanToAndOut) { expect_in_and_out("vine", -3.3); }
 
 // The tip ends within the ball that `rubble voids` says gets there, and no deeper place is in any void.
-TEST(RobotsInTheDemo, AVineGrowsToTheDeepestVoid) {
-  const ScratchFolder scratch;
-  const Outcome run = run_rubble(run_robots_only("deepest_void.lua", scratch / "out"));
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  const Outcome voids = run_rubble("voids " + (scratch / "out") + " --radius 0.35 --voxel 0.05 --surfaces 0 --quiet");
+TEST_F(RobotsInTheDemo, AVineGrowsToTheDeepestVoid) {
+  drive("deepest_void.lua");
+  if (HasFatalFailure()) return;
+  const Outcome settled = run_rubble("settle scripts/robots/deepest_void.lua --quiet --out " + (scratch_ / "pile"));
+  ASSERT_EQ(settled.exit_code, 0) << settled.err;
+  const Outcome voids = run_rubble("voids " + (scratch_ / "pile") + " --radius 0.35 --voxel 0.05 --surfaces 0 --quiet");
   ASSERT_EQ(voids.exit_code, 0) << voids.err;
-  const auto map = nlohmann::json::parse(read_file(scratch / "out/voids/voids.json"));
+  const auto map = nlohmann::json::parse(read_file(scratch_ / "pile/voids/voids.json"));
   const auto& found = map["robots"][0]["voids"];
   const auto& at = found[0]["deepest"];
   const Vec3 deepest{at[0].get<double>(), at[1].get<double>(), at[2].get<double>()};
-  const Vec3 tip = vector_in(read_rows(scratch / "out/robots/vine.txt").back(), 1);
+  const Vec3 tip = vector_in(read_rows(scratch_ / "out/robots/vine.txt").back(), 1);
   EXPECT_LT(distance(tip, deepest), 0.35);
   for (const auto& other : found) {
     if (other["entrances"].empty()) continue;  // nothing of this size gets in
@@ -303,7 +333,7 @@ TEST(RobotsInTheDemo, AVineGrowsToTheDeepestVoid) {
 }
 
 // Bricks on a slope are held by a block; when a vine has pushed it away, they slide: by more than a piece was pushed.
-TEST(RobotsInTheDemo, ASlideFollowsWhereAVinePushesAwayWhatHoldsIt) {
+TEST(Robots, ASlideFollowsWhereAVinePushesAwayWhatHoldsIt) {
   const ScratchFolder scratch;
   const Outcome run = run_rubble(run_robots_only("slide.lua", scratch / "out"));
   ASSERT_EQ(run.exit_code, 0) << run.err;

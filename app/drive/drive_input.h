@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "io/live/drive_commands.h"
 #include "kernel/base/math.h"
 
 namespace rubble {
@@ -32,6 +33,7 @@ struct DriveInput {
   // Y left, Z up); units: m/s, rad/s
   Vec3 linear, angular;
   Vec3 look_deg;                     // turned at once, by the mouse: about X, Y, Z; unit: degree
+  std::vector<JointTrajectoryCommand> trajectories;  // for the joints of a robot, in the order in which they came
   std::vector<DriveAction> actions;  // in the order in which they came
 };
 

@@ -55,11 +55,14 @@ const Frame& DriveLeg::step(const DrivenPose& pose) {
   camera_.fly_on(log_.stamp_ns(index),
                  world_.robots ? world_.robots->world_from_rig() : pose.world_from_camera());
   frame_ = camera_.take(index);
+  // Whoever closes a loop over what is published waits for nothing; the velocity of a carried camera is not told.
+  if (world_.robots && listener_) listener_(frame_);
   if ((index + 1) % kSaveEvery == 0) save();
   return frame_;
 }
 
 void DriveLeg::pass_on() {
+  if (world_.robots) return;  // nothing is recorded, and it was passed on at once
   frame_.rig_velocity = frame_.linear_velocity = log_.velocity(frame_.index);
   hashes_.add(frame_);
   if (queue_) queue_->push(frame_);

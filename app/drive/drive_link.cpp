@@ -42,7 +42,9 @@ DriveLink::DriveLink(std::unique_ptr<DriveStream> stream) : stream_(std::move(st
 DriveLink::~DriveLink() = default;
 
 void DriveLink::enter(const DriveWorld& world) {
-  const Recording recording = describe_recording(world.scenario, world.assets, world.pile);
+  Recording recording = describe_recording(world.scenario, world.assets, world.pile,
+                                           world.robots ? world.robots->records() : std::vector<RobotRecord>());
+  if (world.robots) recording.mount = world.robots->mount();
   recorder_ = make_ros_recorder("the live stream", std::make_unique<KeptStream>(*stream_, topics_),
                                 ros_options(world.scenario.outputs, recording));
   start_ns_ = world.scenario.start_ns;
@@ -56,11 +58,15 @@ void DriveLink::add_to(DriveInput& input, double seconds) {
 }
 
 // Stamps as DriveLog::stamp_ns().
-void DriveLink::publish(const Frame& frame) {
+void DriveLink::publish(const Frame& frame, const std::vector<Sample>& sensed) {
   Frame sent = frame;
   sent.index = of_this_world_++;
   sent.stamp_ns =
       start_ns_ + std::int64_t(std::floor(double(published_++) * 1e9 / rate_hz_ + 0.5));
+  for (Sample sample : sensed) {
+    std::visit([&](auto& of) { of.stamp_ns += sent.stamp_ns - frame.stamp_ns; }, sample);
+    write_sample(*recorder_, sample);
+  }
   recorder_->write(sent);
 }
 

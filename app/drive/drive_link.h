@@ -26,7 +26,8 @@ class DriveLink {
   void add_to(DriveInput& input, double seconds);
   // Every leg begins at the mission's first stamp; what goes out goes on in time over all legs, so
   // that nobody's clock jumps back. Only the stamps of later legs differ from their recordings.
-  void publish(const Frame& frame);
+  // sensed: by robots since the frame before.
+  void publish(const Frame& frame, const std::vector<Sample>& sensed = {});
   void finish();
 
  private:

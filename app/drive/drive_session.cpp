@@ -90,7 +90,10 @@ void DriveSession::run() {
     if (link_) link_->add_to(input, 1 / world_->scenario.trajectory.rate_hz);
     for (const DriveAction action : input.actions) act(action);
     if (quit_) break;
-    if (!paused_) step(input);
+    if (!paused_) {
+      follow(input.trajectories);
+      step(input);
+    }
     show();
     // No faster than simulation time; slower where the machine cannot keep up.
     due = std::max(due + step_time, Clock::now() - step_time);
@@ -102,6 +105,19 @@ void DriveSession::run() {
   }
   end_leg();
   if (link_) link_->finish();
+}
+
+void DriveSession::follow(const std::vector<JointTrajectoryCommand>& trajectories) {
+  for (const JointTrajectoryCommand& trajectory : trajectories) {
+    try {
+      if (!world_->robots)
+        throw InputError({"", 0, "joint_names", "the camera has no joints", "a mission with robots",
+                          std::to_string(trajectory.joints.size()) + " joints", ""});
+      world_->robots->follow(trajectory);
+    } catch (const InputError& error) {
+      complaints_.note("/joint_trajectory", error.what());
+    }
+  }
 }
 
 // The world goes on to the time of the next frame; the first is of its start.
@@ -144,7 +160,9 @@ void DriveSession::step(const DriveInput& input) {
 
 FrameListener DriveSession::listener() {
   if (!link_) return {};
-  return [this](const Frame& frame) { link_->publish(frame); };
+  return [this](const Frame& frame) {
+    link_->publish(frame, world_->robots ? world_->robots->take_sensed() : std::vector<Sample>());
+  };
 }
 
 void DriveSession::end_leg() {

@@ -9,6 +9,7 @@
 #include "app/drive/drive_window.h"
 #include "app/drive/height_map.h"
 #include "io/image/drive_picture.h"
+#include "io/live/complaints.h"
 
 namespace rubble {
 
@@ -30,6 +31,7 @@ class DriveSession {
   FrameListener listener();
   void step(const DriveInput& input);
   void step_robot(const DriveInput& input);
+  void follow(const std::vector<JointTrajectoryCommand>& trajectories);
   void show();
   std::vector<std::string> status() const;
   void say(const std::string& words);
@@ -51,6 +53,7 @@ class DriveSession {
   double fog_ = 0.15;  // what the fog is turned on to; unit: 1/m
   double rate_ = 0;    // steps a second that are reached
   bool help_ = false, paused_ = false, quit_ = false;
+  Complaints complaints_{[this](const std::string& line) { say(line); }};
   std::string notice_;
   int notice_until_ = 0;  // step
 };

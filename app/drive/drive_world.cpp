@@ -130,6 +130,8 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
     run.progress.update(fraction, "light");
     go_on();
   });
+  const bool told = of.options.live.ros1 || of.options.live.ros2;
+  if (world->robots && told) world->robots->sense(scene, world->renderer->medium());
   run.progress.finish("ready on " + context.info().renderer);
   return world;
 }

@@ -62,6 +62,7 @@ void RemoteControls::hear(const DriveCommands& commands, double seconds) {
   if (twist_age_ > kTwistHolds) twist_ = {};
   for (const JoyCommand& joy : commands.joys) hear(joy);
   if (!commands.joy_connected) joy_ = {};
+  trajectories_.insert(trajectories_.end(), commands.trajectories.begin(), commands.trajectories.end());
 }
 
 void RemoteControls::hear(const JoyCommand& joy) {
@@ -85,6 +86,8 @@ void RemoteControls::add_to(DriveInput& input) {
   }
   input.actions.insert(input.actions.end(), actions_.begin(), actions_.end());
   actions_.clear();
+  input.trajectories.insert(input.trajectories.end(), trajectories_.begin(), trajectories_.end());
+  trajectories_.clear();
 }
 
 }  // namespace rubble

@@ -1,4 +1,4 @@
-// From /cmd_vel and /joy to a DriveInput. Knows nothing of networks.
+// From /cmd_vel, /joy and /joint_trajectory to a DriveInput. Knows nothing of networks.
 #pragma once
 
 #include "app/drive/drive_input.h"
@@ -14,7 +14,7 @@ class RemoteControls {
   // simulation time, so that the camera stops when its driver is gone; the last Joy for as long as
   // anybody publishes, because joy_node says nothing while nothing changes.
   void hear(const DriveCommands& commands, double seconds);
-  // What is asked for now, beside what else is. Each button is given once.
+  // What is asked for now, beside what else is. Each button and each trajectory is given once.
   void add_to(DriveInput& input);
 
  private:
@@ -24,6 +24,7 @@ class RemoteControls {
   double twist_age_ = 0;  // unit: s
   JoyCommand joy_;
   std::vector<DriveAction> actions_;
+  std::vector<JointTrajectoryCommand> trajectories_;
 };
 
 }  // namespace rubble

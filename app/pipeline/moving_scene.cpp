@@ -110,11 +110,13 @@ Scene build_live_scene(const Scenario& scenario, const AssetLibrary& assets, con
     add_robot(robots.models[i], robots.first_piece[i], label, scene);
   }
   const std::vector<int> hosts = find_heap_hosts(pile);
+  const bool fixed_debris = scenario.robot_run.debris == DebrisMotion::fixed;
   std::vector<int> movers;
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const int mover = find_mover(scene.instances[i], hosts);
     if (mover < 0) continue;  // it stands or lies on the ground
-    if (std::size_t(mover) < pile.pieces.size() && pile.pieces[std::size_t(mover)].status == PieceStatus::fixed) continue;
+    const bool piece = std::size_t(mover) < pile.pieces.size();
+    if (piece && (fixed_debris || pile.pieces[std::size_t(mover)].status == PieceStatus::fixed)) continue;
     scene.motion.moving.push_back(std::uint32_t(i));
     scene.motion.reach.include(scene.instances[i].world_from_body.translation);
     movers.push_back(mover);
@@ -122,10 +124,10 @@ Scene build_live_scene(const Scenario& scenario, const AssetLibrary& assets, con
   // Where robots and what they push may get to.
   scene.motion.reach.include(scene.motion.reach.min - Vec3{kLiveReach, kLiveReach, 0});
   scene.motion.reach.include(scene.motion.reach.max + Vec3{kLiveReach, kLiveReach, kLiveReach});
-  scene.motion.poses_at = [movers, pose_of = std::move(pose_of)](std::int64_t) {
+  scene.motion.poses_at = [movers, pose_of = std::move(pose_of)](std::int64_t stamp_ns) {
     std::vector<std::optional<Pose>> poses;
     poses.reserve(movers.size());
-    for (const int mover : movers) poses.push_back(pose_of(mover));
+    for (const int mover : movers) poses.push_back(pose_of(mover, stamp_ns));
     return poses;
   };
   return scene;

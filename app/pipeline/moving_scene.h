@@ -40,8 +40,8 @@ struct RobotTrack {
 Scene build_robot_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
                         const RobotTrack& robots, std::int64_t zero_ns);
 
-// Where a piece or a link is when the next picture is drawn, by its id; nothing: it is not there.
-using LivePose = std::function<std::optional<Pose>(int id)>;
+// Where a piece or a link is, by its id, in what is drawn or scanned of that time; nothing: it is not there.
+using LivePose = std::function<std::optional<Pose>(int id, std::int64_t stamp_ns)>;
 // The same while they are driven: nobody knows yet what will move. All that is not fixed is lit anew for every
 // picture. robots: models and ids alone are looked at.
 Scene build_live_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,

@@ -95,6 +95,23 @@ void ask_motors(const RobotModel& model, const std::vector<double>& targets, Mot
   }
 }
 
+void ask_joints(const RobotModel& model, const RobotLeg& leg, RobotCommand& command) {
+  if (leg.joint_names.empty()) return ask_motors(model, leg.joints, MotorMode::position, command);
+  command.joints.resize(model.joints.size());
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const auto name = std::find(leg.joint_names.begin(), leg.joint_names.end(), model.joints[i].name);
+    if (name != leg.joint_names.end())
+      command.joints[i] = {MotorMode::position, leg.joints[std::size_t(name - leg.joint_names.begin())]};
+  }
+}
+
+// key: of the robot. What is named must be there.
+void check_joint_names(const RobotItem& robot, const RobotModel& model, const std::string& key) {
+  for (std::size_t k = 0; k < robot.drive.size(); ++k)
+    for (const std::string& name : robot.drive[k].joint_names)
+      find_motor(model, name, key + ".drive[" + std::to_string(k + 1) + "].joint_names");
+}
+
 RobotCommand command_of(const Wish& wish, const RobotModel& model) {
   RobotCommand command;
   if (model.sides.any()) command = drive_sides(model, {wish.linear, wish.angular}, wish.flippers);
@@ -186,6 +203,17 @@ Value describe_sense(const RobotSense& sense, const RobotModel& model, double gr
 
 }  // namespace
 
+std::size_t find_motor(const RobotModel& model, const std::string& name, const std::string& key) {
+  std::string all;
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (model.joints[i].motor.effort <= 0) continue;
+    if (model.joints[i].name == name) return i;
+    all += (all.empty() ? "one of " : ", ") + model.joints[i].name;
+  }
+  throw InputError({"", 0, key, "the robot has no joint of this name with a motor",
+                    all.empty() ? "no joint: this robot has no motor at a joint" : all, "\"" + name + "\"", ""});
+}
+
 RobotRunOptions robot_run_options(const Scenario& scenario, int threads) {
   RobotRunOptions options;
   options.duration = scenario.robot_run.duration;
@@ -212,6 +240,7 @@ std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext
   for (std::size_t i = 0; i < mission.scenario.robots.size(); ++i) {
     made.push_back(make_mission_robot(mission.scenario.robots[i], folders,
                                       "robots[" + std::to_string(i + 1) + "]", importer));
+    check_joint_names(mission.scenario.robots[i], made.back().model, "robots[" + std::to_string(i + 1) + "]");
     for (const std::string& warning : made.back().warnings) context.warnings.push_back(warning);
   }
   return made;
@@ -220,11 +249,11 @@ std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext
 RobotController make_leg_controller(const RobotItem& robot, const RobotModel& model) {
   const bool snake = robot.urdf.empty() && robot.model == RobotKind::snake;
   return [robot, model, snake](const RobotSense& sense) {
-    RobotLeg now;
-    now.amplitude = snake ? 0 : 1;  // without legs it stands straight
-    for (const RobotLeg& leg : robot.drive) {
-      if (leg.t <= sense.time) now = leg;
-    }
+    RobotLeg still;
+    still.amplitude = snake ? 0 : 1;  // without legs it stands straight
+    const auto next = std::upper_bound(robot.drive.begin(), robot.drive.end(), sense.time,
+                                       [](double time, const RobotLeg& leg) { return time < leg.t; });
+    const RobotLeg& now = next == robot.drive.begin() ? still : *(next - 1);
     RobotCommand command;
     if (model.tube) {
       command = drive_vine(model, {now.growth, now.curvature, now.curvature_up});
@@ -233,7 +262,7 @@ RobotController make_leg_controller(const RobotItem& robot, const RobotModel& mo
     } else {
       command = drive_sides(model, {now.linear, now.angular}, in_radians(now.flippers_deg));
     }
-    ask_motors(model, now.joints, MotorMode::position, command);
+    ask_joints(model, now, command);
     return command;
   };
 }

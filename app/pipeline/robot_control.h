@@ -19,7 +19,11 @@ std::vector<std::string> robot_folders(const ResolvedMission& mission);
 std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext& context);
 RobotRunOptions robot_run_options(const Scenario& scenario, int threads);
 
-// Drives by the legs of `drive`.
+// The joint of that name, which must have a motor: its index. Throws InputError, with that key, naming those that
+// have one.
+std::size_t find_motor(const RobotModel& model, const std::string& name, const std::string& key);
+
+// Drives by the legs of `drive`, which are in order.
 RobotController make_leg_controller(const RobotItem& robot, const RobotModel& model);
 
 // Joints that mimic others follow them: what those are asked for, or where they stand.

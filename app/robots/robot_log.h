@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/robots/mission_robot.h"
@@ -22,6 +23,11 @@ class RobotLog {
   void note(const RobotSense& sense);
 
   const std::vector<RobotSample>& samples() const { return samples_; }
+  // Those since the last call, where they are not to be kept.
+  std::vector<RobotSample> take_samples() {
+    odometry_.clear();
+    return std::exchange(samples_, {});
+  }
   const std::vector<OdometryReading>& odometry() const { return odometry_; }  // none, or one a sample
   double mean_slip() const { return wheels_ ? wheels_->mean_slip() : 0; }
 

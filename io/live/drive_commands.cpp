@@ -31,16 +31,31 @@ class WireCursor {
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) fail();
     return {x, y, z};
   }
-  void skip_text() {
+  std::string text() {
     const std::size_t size = number<std::uint32_t>();
     if (size > rest_.size()) fail();
+    const std::string_view text = rest_.substr(0, size);
     rest_.remove_prefix(size);
+    return std::string(text.substr(0, text.find('\0')));  // ROS 2's end with it
+  }
+  // Of a list, each of at least so many bytes.
+  std::size_t count(std::size_t least) {
+    const std::size_t size = number<std::uint32_t>();
+    if (size > rest_.size() / least) fail();
+    return size;
+  }
+  void skip_header() {
+    for (int i = 0; i < (version_ == ros::Version::ros1 ? 3 : 2); ++i) number<std::uint32_t>();
+    text();
+  }
+  double duration() {
+    const double seconds = number<std::int32_t>();
+    // Nanoseconds are signed in ROS 1 alone; both keep them below a second.
+    return seconds + number<std::int32_t>() * 1e-9;
   }
   template <typename T>
   std::vector<T> list() {
-    const std::size_t count = number<std::uint32_t>();
-    if (count > rest_.size() / sizeof(T)) fail();
-    std::vector<T> values(count);
+    std::vector<T> values(count(sizeof(T)));
     for (T& value : values) {
       value = number<T>();
       if (!std::isfinite(double(value))) fail();
@@ -75,12 +90,27 @@ TwistCommand read_twist(ros::Version version, std::string_view message) {
 
 JoyCommand read_joy(ros::Version version, std::string_view message) {
   WireCursor cursor("sensor_msgs/Joy", version, message);
-  for (int i = 0; i < (version == ros::Version::ros1 ? 3 : 2); ++i) cursor.number<std::uint32_t>();
-  cursor.skip_text();
+  cursor.skip_header();
   JoyCommand joy;
   joy.axes = cursor.list<float>();
   joy.buttons = cursor.list<std::int32_t>();
   return joy;
+}
+
+JointTrajectoryCommand read_joint_trajectory(ros::Version version, std::string_view message) {
+  WireCursor cursor("trajectory_msgs/JointTrajectory", version, message);
+  cursor.skip_header();
+  JointTrajectoryCommand trajectory;
+  for (std::size_t i = cursor.count(4); i > 0; --i) trajectory.joints.push_back(cursor.text());
+  for (std::size_t i = cursor.count(24); i > 0; --i) {
+    JointTrajectoryCommand::Point point;
+    point.positions = cursor.list<double>();
+    point.velocities = cursor.list<double>();
+    for (int other = 0; other < 2; ++other) cursor.list<double>();  // accelerations, efforts
+    point.time = cursor.duration();
+    trajectory.points.push_back(std::move(point));
+  }
+  return trajectory;
 }
 
 }  // namespace rubble

@@ -1,7 +1,8 @@
-// What programs ask of a camera that is driven, over the network: geometry_msgs/Twist and
-// sensor_msgs/Joy, as they are on ROS's wires.
+// What programs ask of a camera or a robot that is driven, over the network: geometry_msgs/Twist,
+// sensor_msgs/Joy and trajectory_msgs/JointTrajectory, as they are on ROS's wires.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,15 +21,27 @@ struct JoyCommand {
   std::vector<std::int32_t> buttons;  // 0 or 1
 };
 
+struct JointTrajectoryCommand {
+  struct Point {
+    std::vector<double> positions, velocities;  // by joint; unit: rad, rad/s; slider m, m/s
+    double time = 0;                            // from the start; unit: s
+  };
+  std::vector<std::string> joints;
+  std::vector<Point> points;
+};
+
 // All that has come since the last look, in the order in which it came.
 struct DriveCommands {
   std::vector<TwistCommand> twists;  // of /cmd_vel
   std::vector<JoyCommand> joys;      // of /joy
+  std::vector<JointTrajectoryCommand> trajectories;  // of /joint_trajectory
   bool joy_connected = false;        // whether anybody publishes /joy now
 };
 
-// Both throw RunError when the bytes are no such message, or hold what is not a finite number.
+// All throw RunError when the bytes are no such message, or hold what is not a finite number.
 TwistCommand read_twist(ros::Version version, std::string_view message);
 JoyCommand read_joy(ros::Version version, std::string_view message);
+// Stamp, accelerations and efforts are left out. What joints there are is not known here.
+JointTrajectoryCommand read_joint_trajectory(ros::Version version, std::string_view message);
 
 }  // namespace rubble

@@ -45,7 +45,7 @@ void check_ros1(const Ros1Options& options);
 // receiving meanwhile.
 std::unique_ptr<RosFile> make_ros1_stream(const Ros1Options& options);
 
-// A stream that hears commands, too: those of /cmd_vel and /joy.
+// A stream that hears commands, too: those of /cmd_vel, /joy and /joint_trajectory.
 class DriveStream : public RosFile {
  public:
   virtual DriveCommands take() = 0;  // what came since the last call; never waits

@@ -92,6 +92,7 @@ class Ros2Stream : public DriveStream {
     // Best effort readers hear reliable writers, too; but of buttons none may be lost.
     twist_ = read("/cmd_vel", "geometry_msgs::msg::dds_::Twist_", DDS_RELIABILITY_BEST_EFFORT);
     joy_ = read("/joy", "sensor_msgs::msg::dds_::Joy_", DDS_RELIABILITY_RELIABLE);
+    trajectory_ = read("/joint_trajectory", "trajectory_msgs::msg::dds_::JointTrajectory_", DDS_RELIABILITY_RELIABLE);
   }
   ~Ros2Stream() override { close(); }
 
@@ -131,6 +132,9 @@ class Ros2Stream : public DriveStream {
       });
     for (const std::string& bytes : take_bytes(joy_, kHeard)) hear("/joy", [&] {
         commands.joys.push_back(read_joy(version(), bytes));
+      });
+    for (const std::string& bytes : take_bytes(trajectory_, kHeard)) hear("/joint_trajectory", [&] {
+        commands.trajectories.push_back(read_joint_trajectory(version(), bytes));
       });
     dds_subscription_matched_status_t status;
     commands.joy_connected =
@@ -185,7 +189,7 @@ class Ros2Stream : public DriveStream {
   Pace pace_;
   DdsLog log_;
   Complaints complaints_;
-  dds_entity_t domain_ = 0, participant_ = 0, twist_ = 0, joy_ = 0;
+  dds_entity_t domain_ = 0, participant_ = 0, twist_ = 0, joy_ = 0, trajectory_ = 0;
   std::vector<dds_entity_t> writers_;
   bool started_ = false;
 };

@@ -71,6 +71,10 @@ Ros1Commands::Ros1Commands(::ros::NodeHandle& node, std::function<void(const std
                    [this](const std::string& bytes) {
                      heard_.joys.push_back(read_joy(kRos1, bytes));
                    });
+  trajectory_ = subscribe(node, "/joint_trajectory", "trajectory_msgs/JointTrajectory",
+                          "65b4f94a94d1ed67169da35a02f33d3f", [this](const std::string& bytes) {
+                            heard_.trajectories.push_back(read_joint_trajectory(kRos1, bytes));
+                          });
 }
 
 DriveCommands Ros1Commands::take() {

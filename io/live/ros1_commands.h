@@ -1,4 +1,4 @@
-// Hears /cmd_vel and /joy of ROS 1. Behind live_ros1.
+// Hears /cmd_vel, /joy and /joint_trajectory of ROS 1. Behind live_ros1.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -28,7 +28,7 @@ class Ros1Commands {
   ::ros::CallbackQueue queue_;
   DriveCommands heard_;
   std::vector<KnownTopic> topics_;
-  ::ros::Subscriber twist_, joy_;  // last: they use the others
+  ::ros::Subscriber twist_, joy_, trajectory_;  // last: they use the others
 };
 
 }  // namespace rubble

@@ -65,6 +65,10 @@ void check_legs(const RobotItem& robot, std::size_t i, std::vector<Diagnostic>& 
       mistakes.push_back({"", 0, leg + ".flippers_deg", "wrong number of angles",
                           "front left, front right, rear left, rear right",
                           std::to_string(flippers), ""});
+    const std::size_t joints = robot.drive[k].joints.size(), names = robot.drive[k].joint_names.size();
+    if (names != 0 && names != joints)
+      mistakes.push_back({"", 0, leg + ".joint_names", "not as many as joints", std::to_string(joints) + " names",
+                          std::to_string(names), ""});
   }
   if (robot.urdf.empty() && (!robot.left_wheels.empty() || !robot.right_wheels.empty()))
     mistakes.push_back({"", 0, key_of(i, robot.left_wheels.empty() ? "right_wheels" : "left_wheels"),

@@ -93,6 +93,54 @@ TEST(RemoteControls, MoveTheCameraAsMuchAsTheySayAndNoMoreThanTheLimits) {
   EXPECT_NEAR(drive({}, {0, 0, -1.5e308}).rpy_deg.z, 45, 1e-9);
 }
 
+// A point with two joints.
+void add_point(ros::Wire& wire, double position, std::int32_t second) {
+  wire.count(2), wire.number(position), wire.number(-0.5);
+  wire.count(2), wire.number(0.25), wire.number(0.125);
+  wire.count(0);                    // accelerations
+  wire.count(1), wire.number(9.0);  // efforts
+  wire.number(second), wire.number(std::int32_t{500000000});
+}
+
+TEST(RemoteControls, ATrajectoryIsReadAndWhatIsNoneIsRefused) {
+  for (const ros::Version version : {ros::Version::ros1, ros::Version::ros2}) {
+    const auto message = [version](double position) {
+      ros::Wire wire(version);
+      if (version == ros::Version::ros1) wire.number(std::uint32_t{7});
+      wire.time(1000000000);
+      wire.text("base_link");
+      wire.count(2), wire.text("elbow"), wire.text("wrist");
+      wire.count(2);
+      add_point(wire, 1.5, 1);
+      add_point(wire, position, 3);
+      return wire.take();
+    };
+    const std::string bytes = message(2.5);
+    const JointTrajectoryCommand read = read_joint_trajectory(version, bytes);
+    EXPECT_EQ(read.joints, (std::vector<std::string>{"elbow", "wrist"}));
+    ASSERT_EQ(read.points.size(), 2U);
+    EXPECT_EQ(read.points[1].positions, (std::vector<double>{2.5, -0.5}));
+    EXPECT_EQ(read.points[1].velocities, (std::vector<double>{0.25, 0.125}));
+    EXPECT_EQ(read.points[0].time, 1.5);
+    EXPECT_EQ(read.points[1].time, 3.5);
+    EXPECT_THROW(read_joint_trajectory(version, message(std::nan(""))), RunError);
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+      EXPECT_THROW(read_joint_trajectory(version, bytes.substr(0, size)), RunError) << size;
+  }
+}
+
+// Each is passed on once; the twist beside it still holds.
+TEST(RemoteControls, TrajectoriesArePassedOnOnce) {
+  RemoteControls controls;
+  DriveCommands commands = twist({0.5, 0, 0}, {});
+  commands.trajectories = {{{"elbow"}, {}}, {{"wrist"}, {}}};
+  const DriveInput first = take(controls, commands), second = take(controls, {});
+  ASSERT_EQ(first.trajectories.size(), 2U);
+  EXPECT_EQ(first.trajectories[1].joints, (std::vector<std::string>{"wrist"}));
+  EXPECT_TRUE(second.trajectories.empty());
+  EXPECT_EQ(second.linear.x, 0.5);
+}
+
 TEST(RemoteControls, WhatIsNoMessageIsRefused) {
   for (const ros::Version version : {ros::Version::ros1, ros::Version::ros2}) {
     ros::Wire wire(version);

@@ -125,6 +125,27 @@ TEST(RobotDrive, JointsGoWhereTheyAreAskedTo) {
   expect_same_bits(scratch, driven);
 }
 
+// Named joints alone, while the belts go on; the mission that is kept says so.
+TEST(RobotDrive, ATrajectoryMovesNamedJointsAndRunsAgainWithTheSameBits) {
+  const ScratchFolder scratch;
+  Driven driven(scratch, "tank");
+  RobotWish wish;
+  wish.linear.x = 0.3;
+  driven.go(15, [&](int) { return wish; });
+  driven.drive->follow({{"rear_right_flipper_joint", "front_left_flipper_joint"},
+                        {{{0.1, 0.2}, {}, 0.4}, {{0.3, -0.3}, {0, 0}, 1}}});
+  EXPECT_THROW(driven.drive->follow({{"tail"}, {{{1}, {}, 1}}}), InputError);
+  for (int i = 16; i <= 60; ++i) driven.drive->advance(wish, i / 30.0);
+  const Scenario kept = driven.drive->scenario(driven.mission.scenario);
+  const RobotLeg& last = kept.robots[0].drive.back();
+  EXPECT_EQ(last.joint_names, (std::vector<std::string>{"front_left_flipper_joint", "rear_right_flipper_joint"}));
+  EXPECT_EQ(last.joints, (std::vector<double>{-0.3, 0.3}));
+  EXPECT_EQ(last.linear, 0.3);
+  expect_same_bits(scratch, driven);
+  const std::string joints = read_file(scratch / "out/robots/tank_joints.csv");
+  EXPECT_NE(joints.find("front_left_flipper_joint_position"), std::string::npos) << joints.substr(0, 400);
+}
+
 TEST(RobotDrive, AfterARestartItStandsWhereItBegan) {
   const ScratchFolder scratch;
   Driven driven(scratch, "");
@@ -156,6 +177,18 @@ TEST(RobotDrive, SeesFinesAndSurroundingsStandStill) {
   EXPECT_EQ(scene.motion.poses_at(0).size(), scene.motion.moving.size());
 }
 
+// Then only robots are lit anew for every picture.
+TEST(RobotDrive, SeesDebrisThatIsFixedStandStill) {
+  const ScratchFolder scratch;
+  Driven driven(scratch, "", kRobots);
+  Scenario scenario = driven.mission.scenario;
+  const Scene free = driven.drive->build_scene(scenario);
+  scenario.robot_run.debris = DebrisMotion::fixed;
+  const Scene fixed = driven.drive->build_scene(scenario);
+  EXPECT_EQ(free.motion.moving.size() - fixed.motion.moving.size(), driven.pile.pieces.size());
+  EXPECT_GT(fixed.motion.moving.size(), 20U) << "links move";
+}
+
 TEST(RobotDrive, MistakesAreNamed) {
   const ScratchFolder scratch;
   const auto mistake = [&](const std::string& robot, const char* text) {
@@ -172,6 +205,11 @@ TEST(RobotDrive, MistakesAreNamed) {
     rubble.robot.rover { position = { 0, 0, 0.001 } },
     rubble.robot.rover { position = { 0, 2, 0.001 }, control = function() return {} end } } })";
   EXPECT_NE(mistake("", kWithFunction).find("robots[2].control: a function cannot be kept"), std::string::npos);
+  const char* const kTail = R"(return rubble.mission { pile = { layers = 0 }, robots = {
+    rubble.robot.rover { position = { 0, 0, 0.001 }, drive = {
+      { t = 0, joints = { 1 }, joint_names = { "tail" } } } } } })";
+  EXPECT_NE(mistake("", kTail).find("robots[1].drive[1].joint_names: the robot has no joint of this name with a motor"),
+            std::string::npos) << mistake("", kTail);
   EXPECT_EQ(mistake("rover_2", kWithFunction), "") << "what is driven has no need of its function";
 }
 

@@ -1,5 +1,5 @@
-"""drive_by_topics.py LOG: drives as teleop_twist and joy_node would, then ends the drive. The topics'
-other ends are waited for, not slept for."""
+"""drive_by_topics.py LOG [robot]: drives as teleop_twist and joy_node would, a robot by trajectories of its joints,
+too, then ends the drive. The topics' other ends are waited for, not slept for."""
 
 import sys
 import time
@@ -7,6 +7,7 @@ import time
 import rospy
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Image, Joy
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 sys.stdout = open(sys.argv[1], "w", 1)
 rospy.init_node("driver", anonymous=True, disable_signals=True)
@@ -14,6 +15,7 @@ frames = [0]
 rospy.Subscriber("/camera/rgb/image_raw", Image, lambda _: frames.__setitem__(0, frames[0] + 1))
 velocity = rospy.Publisher("/cmd_vel", Twist, queue_size=10)
 stick = rospy.Publisher("/joy", Joy, queue_size=10)
+joints = rospy.Publisher("/joint_trajectory", JointTrajectory, queue_size=10)
 
 
 def until(what, condition):
@@ -33,12 +35,22 @@ def steps(count, send):
         time.sleep(0.05)
 
 
-until("the drive to listen", lambda: velocity.get_num_connections() and stick.get_num_connections())
+def trajectory(joint, position):
+    point = JointTrajectoryPoint(positions=[position], velocities=[0], time_from_start=rospy.Duration(0.5))
+    joints.publish(JointTrajectory(joint_names=[joint], points=[point]))
+
+
+until("the drive to listen", lambda: all(p.get_num_connections() for p in (velocity, stick, joints)))
 until("the recorder", lambda: rospy.get_published_topics() and frames[0] > 5)
 twist = Twist()
 twist.linear.x, twist.linear.z, twist.angular.z = 0.5, 0.25, 0.4
 steps(15, lambda: velocity.publish(twist))
 steps(15, lambda: None)  # silence: it stops
+if sys.argv[2:] == ["robot"]:
+    trajectory("tail", 1)
+    trajectory("front_left_flipper_joint", float("nan"))
+    trajectory("front_left_flipper_joint", 0.25)
+    steps(12, lambda: None)
 stick.publish(Joy(axes=[0] * 8, buttons=[1] + [0] * 10))  # the lamp: a new leg
 steps(10, lambda: stick.publish(Joy(axes=[0, 1, 0, 0, 0, 0, 0, 0], buttons=[0] * 11)))
 bad = Twist()

@@ -1,5 +1,5 @@
-// fastdds_driver DOMAIN: drives a camera by /cmd_vel and /joy as drive_by_topics.py does, over ROS 2's
-// topics, with Fast DDS and messages that Fast CDR writes; then ends the drive.
+// fastdds_driver DOMAIN [robot]: drives a camera by /cmd_vel and /joy as drive_by_topics.py does, over ROS 2's
+// topics, with Fast DDS and messages that Fast CDR writes; a robot by /joint_trajectory, too; then ends the drive.
 // fastdds_driver DOMAIN flood: as fast as it can for 3 s, commands that are not finite, huge, cut off or
 // no messages at all; then one of 0.125 m/s, again and again, for 20 s.
 #include <fastcdr/Cdr.h>
@@ -46,6 +46,17 @@ std::string joy(const std::vector<float>& axes, const std::vector<std::int32_t>&
   });
 }
 
+// One joint, to that position.
+std::string trajectory(const std::string& joint, double position) {
+  return cdr([&](eprosima::fastcdr::Cdr& out) {
+    out << std::int32_t(1) << std::uint32_t(2) << std::string("base_link");
+    out << std::vector<std::string>{joint} << std::uint32_t(1);
+    const std::vector<double> none;
+    out << std::vector<double>{position} << std::vector<double>{0.0} << none << none;
+    out << std::int32_t(0) << std::uint32_t(500000000);
+  });
+}
+
 class Driver {
  public:
   explicit Driver(unsigned domain) : participant_(join(domain, false)) {
@@ -57,6 +68,8 @@ class Driver {
         make_topic(participant_, "/cmd_vel", "geometry_msgs::msg::dds_::Twist_"), qos);
     stick_ = publisher->create_datawriter(
         make_topic(participant_, "/joy", "sensor_msgs::msg::dds_::Joy_"), qos);
+    joints_ = publisher->create_datawriter(
+        make_topic(participant_, "/joint_trajectory", "trajectory_msgs::msg::dds_::JointTrajectory_"), qos);
     fast::DataReaderQos reading;
     reading.endpoint().history_memory_policy = qos.endpoint().history_memory_policy;
     fast::Subscriber* const subscriber =
@@ -68,13 +81,15 @@ class Driver {
   ~Driver() { leave(participant_); }
 
   int readers() const {
-    fast::PublicationMatchedStatus a, b;
+    fast::PublicationMatchedStatus a, b, c;
     velocity_->get_publication_matched_status(a);
     stick_->get_publication_matched_status(b);
-    return a.current_count + b.current_count;
+    joints_->get_publication_matched_status(c);
+    return a.current_count + b.current_count + c.current_count;
   }
   void say_velocity(std::string bytes) { velocity_->write(&bytes); }
   void say_stick(std::string bytes) { stick_->write(&bytes); }
+  void say_joints(std::string bytes) { joints_->write(&bytes); }
 
   // Until so many frames more have come, saying it all the while; false: none come any longer.
   template <typename Say>
@@ -93,7 +108,7 @@ class Driver {
 
  private:
   fast::DomainParticipant* participant_;
-  fast::DataWriter *velocity_ = nullptr, *stick_ = nullptr;
+  fast::DataWriter *velocity_ = nullptr, *stick_ = nullptr, *joints_ = nullptr;
   fast::DataReader* frames_ = nullptr;
 };
 
@@ -105,15 +120,21 @@ bool wait_for_readers(const Driver& driver, int count) {
 }
 
 // The same steps as in drive_by_topics.py, which check_drive.py looks for.
-bool drive(Driver& driver) {
+bool drive(Driver& driver, bool robot) {
   const std::vector<float> still(8, 0.0f);
   std::vector<float> forward = still;
   forward[1] = 1;
   std::vector<std::int32_t> none(11, 0), lamp = none, quit = none;
   lamp[0] = 1, quit[6] = 1;
-  bool well = wait_for_readers(driver, 2) && driver.steps(5, [] {});
+  bool well = wait_for_readers(driver, 3) && driver.steps(5, [] {});
   well = well && driver.steps(15, [&] { driver.say_velocity(twist(0.5, 0.25, 0.4)); });
   well = well && driver.steps(15, [] {});
+  if (robot) {
+    driver.say_joints(trajectory("tail", 1));
+    driver.say_joints(trajectory("front_left_flipper_joint", std::nan("")));
+    driver.say_joints(trajectory("front_left_flipper_joint", 0.25));
+    well = well && driver.steps(12, [] {});
+  }
   driver.say_stick(joy(still, lamp));
   well = well && driver.steps(10, [&] { driver.say_stick(joy(forward, none)); });
   well = well && driver.steps(3, [&] { driver.say_velocity(twist(std::nan(""), 0, 0)); });
@@ -123,13 +144,14 @@ bool drive(Driver& driver) {
 
 bool flood(Driver& driver) {
   using Clock = std::chrono::steady_clock;
-  if (!wait_for_readers(driver, 2)) return false;
+  if (!wait_for_readers(driver, 3)) return false;
   const std::string whole = joy({0.5f, -0.5f}, {1, 0, 1});
   std::size_t said = 0;
   for (const auto end = Clock::now() + std::chrono::seconds(3); Clock::now() < end; ++said) {
     const double value = (said % 3 == 0) ? std::nan("") : (said % 3 == 1) ? 1.5e308 : HUGE_VAL;
     driver.say_velocity(twist(value, 0, value));
     driver.say_velocity(std::string(4 + said % 7, '\xff'));
+    driver.say_joints(std::string(4 + said % 90, '\x03'));
     driver.say_stick(said % 2 ? whole.substr(0, 4 + said % (whole.size() - 4)) : std::string(60000, '\x7f'));
   }
   std::printf("%zu times\n", said);
@@ -146,6 +168,7 @@ bool flood(Driver& driver) {
 
 int main(int count, char** argv) {
   rubble::testing::Driver driver(unsigned(std::atoi(argv[1])));
-  if (count > 2) return rubble::testing::flood(driver) ? 0 : 1;
-  return rubble::testing::drive(driver) ? 0 : 1;
+  const std::string what = count > 2 ? argv[2] : "";
+  if (what == "flood") return rubble::testing::flood(driver) ? 0 : 1;
+  return rubble::testing::drive(driver, what == "robot") ? 0 : 1;
 }

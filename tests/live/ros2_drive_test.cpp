@@ -18,5 +18,15 @@ TEST(NightlyLiveRos2Drive, WhatTopicsDriveRunsAgainByteForByte) {
   if (!HasFatalFailure()) expect_the_drive_runs_again(scratch, false);
 }
 
+TEST(NightlyLiveRos2Drive, ARobotGoesAsTopicsAskAndRunsAgainWithTheSameBits) {
+  if (std::system("command -v Xvfb >/dev/null") != 0) GTEST_SKIP() << "no Xvfb";
+  const ScratchFolder scratch;
+  write_robot_mission(scratch);
+  const std::string domain = std::to_string(101 + getpid() % 100);
+  drive_in_a_window(scratch, "", "--ros2 --ros-domain " + domain,
+                    "'" RUBBLE_DRIVER "' " + domain + " robot >$d/published || exit 1", "$d/robot.lua");
+  if (!HasFatalFailure()) expect_the_robot_runs_again(scratch, false);
+}
+
 }  // namespace
 }  // namespace rubble::testing

@@ -55,6 +55,10 @@ TEST(RobotKeys, MistakesAreNamedWithTheirLine) {
                      "flippers_deg = { 1, 2 } } } } } }")
                 .find("flippers_deg: wrong number of angles"),
             std::string::npos);
+  EXPECT_NE(error_of("return rubble.mission { robots = { { model = \"crawler\", drive = { { "
+                     "joints = { 1, 2 }, joint_names = { \"front_left_flipper_joint\" } } } } } }")
+                .find("robots[1].drive[1].joint_names: not as many as joints: expected 2 names, found 1"),
+            std::string::npos);
 }
 
 TEST(RobotKeys, AVineHasATubeAndGrows) {

@@ -57,11 +57,20 @@ RobotDrive::RobotDrive(const ResolvedMission& mission, const PileState& pile, co
 }
 
 RobotController RobotDrive::controller_of(std::size_t robot) {
+  return [this, robot, control = motions_of(robot)](const RobotSense& sense) {
+    if (sensors_) sensors_->note(robot, sense);
+    return control(sense);
+  };
+}
+
+RobotController RobotDrive::motions_of(std::size_t robot) {
   if (robot != driven_)
     return with_mimics(make_leg_controller(scenario_.robots[robot], made_[robot].model), made_[robot].mimics);
   const RobotController follow = [this](const RobotSense& sense) {
     std::vector<RobotLeg>& legs = kept_;
-    const RobotLeg leg = make_leg(wish_, item_, legs.back(), sense.time, sense.time - asked_at_);
+    RobotWish wish = wish_;
+    if (!courses_.empty()) courses_.ask(sense.time, wish);
+    const RobotLeg leg = make_leg(wish, item_, legs.back(), sense.time, sense.time - asked_at_);
     asked_at_ = sense.time;
     if (!same_command(leg, legs.back())) {
       if (leg.t <= legs.back().t) legs.pop_back();
@@ -82,6 +91,7 @@ void RobotDrive::restart() {
   if (!item_.drive.empty()) still.gait = item_.drive.front().gait;
   kept_ = {still};
   asked_at_ = 0;
+  courses_.end();
   run_ = std::make_unique<RobotRun>(laid_, pile_, robot_run_options(scenario_, threads_));
   seen_.first_piece.clear();
   for (std::size_t i = 0; i < made_.size(); ++i) {
@@ -89,13 +99,51 @@ void RobotDrive::restart() {
     seen_.first_piece.push_back(run_->world().robot_piece(int(i)));
   }
   run_->begin();
+  if (sensors_) sensors_->restart(run_->world());
+}
+
+LidarMount RobotDrive::mount_of(const LidarScenario& lidar) const {
+  if (!lidar.ride.on()) return {rig_robot_, rig_link_, link_from_rig_ * lidar.rig_from_lidar()};
+  const std::size_t robot = find_name(names_, lidar.ride.robot);
+  const RiddenLink ridden = find_ridden_link(made_[robot], lidar.ride, "lidars." + lidar.name + ".ride");
+  return {robot, ridden.link, ridden.link_from_rider * lidar.rig_from_lidar()};
+}
+
+void RobotDrive::sense(const Scene& scene, const Medium& medium) {
+  std::vector<LidarMount> mounts;
+  for (const LidarScenario& lidar : scenario_.lidars) mounts.push_back(mount_of(lidar));
+  sensors_ = std::make_unique<LiveSensors>(scenario_, made_, mounts, scene, medium,
+                                           robot_run_options(scenario_, threads_).step, threads_);
+  sensors_->restart(run_->world());
+}
+
+std::vector<Sample> RobotDrive::take_sensed() {
+  if (!sensors_) return {};
+  return sensors_->take();
+}
+
+std::vector<RobotRecord> RobotDrive::records() const {
+  std::vector<RobotRecord> records;
+  for (std::size_t i = 0; i < made_.size(); ++i)
+    records.push_back(describe_robot(made_[i], names_[i], calc_base_pose(scenario_.robots[i]), made_.size() > 1));
+  return records;
+}
+
+RigMount RobotDrive::mount() const { return {records()[rig_robot_].frame_of(int(rig_link_)), link_from_rig_}; }
+
+void RobotDrive::follow(const JointTrajectoryCommand& trajectory) {
+  const double time = double(run_->steps()) * robot_run_options(scenario_, threads_).step;
+  courses_.begin(trajectory, made_[driven_].model, run_->world().robot_state(int(driven_)), time);
 }
 
 void RobotDrive::advance(const RobotWish& wish, double time) {
   wish_ = wish;
   const double step = robot_run_options(scenario_, threads_).step;
   const auto steps = std::int64_t(time / step + 0.5);
-  while (run_->steps() < steps) run_->step();
+  while (run_->steps() < steps) {
+    run_->step();
+    if (sensors_) sensors_->note_step(run_->world());
+  }
 }
 
 Pose RobotDrive::world_from_rig() const {
@@ -103,7 +151,8 @@ Pose RobotDrive::world_from_rig() const {
 }
 
 Scene RobotDrive::build_scene(const Scenario& drawn) const {
-  return build_live_scene(drawn, assets_, pile_, seen_, [this](int id) -> std::optional<Pose> {
+  return build_live_scene(drawn, assets_, pile_, seen_, [this](int id, std::int64_t stamp_ns) -> std::optional<Pose> {
+    if (sensors_ && sensors_->scanning()) return sensors_->pose_of(id, stamp_ns);
     const PieceState piece = run_->world().piece(id);
     if (piece.status == PieceStatus::lost) return std::nullopt;
     return piece.world_from_body;

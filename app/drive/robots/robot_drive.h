@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/drive/robots/joint_courses.h"
+#include "app/drive/robots/live_sensors.h"
 #include "app/drive/robots/robot_wish.h"
 #include "app/pipeline/moving_scene.h"
 #include "app/pipeline/resolved_mission.h"
@@ -23,12 +25,23 @@ class RobotDrive {
 
   // From the start again: what was driven so far is forgotten.
   void restart();
+  // From now on its joints go by that besides what else is asked for. Throws InputError, and goes on as before, for
+  // one that this robot cannot follow: see JointCourses::begin().
+  void follow(const JointTrajectoryCommand& trajectory);
   // So that the world's time is `time` since the start; unit: s
   void advance(const RobotWish& wish, double time);
 
   Pose world_from_rig() const;  // of the camera: as trajectory.ride says, else behind the driven robot
   // The scene with the robots where they are when it is drawn. It must not outlive this.
   Scene build_scene(const Scenario& drawn) const;
+
+  // From now on notes what is sensed. scene: as build_scene() makes it.
+  void sense(const Scene& scene, const Medium& medium);
+  // What was sensed since the last call; nothing before sense().
+  std::vector<Sample> take_sensed();
+  // The robots for recorders, and what carries the camera.
+  std::vector<RobotRecord> records() const;
+  RigMount mount() const;
 
   const std::string& name() const { return names_[driven_]; }
   // The mission that does the same again. camera: everything but robots and their run.
@@ -38,6 +51,8 @@ class RobotDrive {
 
  private:
   RobotController controller_of(std::size_t robot);
+  RobotController motions_of(std::size_t robot);
+  LidarMount mount_of(const LidarScenario& lidar) const;
 
   const Scenario scenario_;
   const AssetLibrary& assets_;
@@ -53,9 +68,11 @@ class RobotDrive {
   RobotItem item_;               // the driven one, with its last command
   std::vector<RobotLeg> kept_;   // all of its commands so far
   RobotWish wish_;
+  JointCourses courses_;
   double asked_at_ = 0;  // of the last command; unit: s
   std::unique_ptr<RobotRun> run_;
   RobotTrack seen_;  // models and ids
+  std::unique_ptr<LiveSensors> sensors_;
 };
 
 }  // namespace rubble

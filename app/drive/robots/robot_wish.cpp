@@ -21,7 +21,7 @@ double within(double value, double most) { return std::clamp(value, -most, most)
 RobotLeg make_leg(const RobotWish& wish, const RobotItem& robot, const RobotLeg& last, double time, double seconds) {
   RobotLeg leg = last;
   leg.t = time;
-  leg.joints = wish.joints;
+  leg.joints = wish.joints, leg.joint_names = wish.joint_names;
   leg.linear = within(wish.forward * wish.speed + wish.linear.x, 5);
   leg.angular = within(wish.yaw * kTurn + wish.angular.z, 10);
   if (!robot.urdf.empty()) return leg;
@@ -52,7 +52,7 @@ bool same_command(const RobotLeg& a, const RobotLeg& b) {
   return a.linear == b.linear && a.angular == b.angular && a.flippers_deg == b.flippers_deg && a.gait == b.gait &&
          a.rate == b.rate && a.phase == b.phase && a.amplitude == b.amplitude && a.steering_deg == b.steering_deg &&
          a.growth == b.growth && a.curvature == b.curvature && a.curvature_up == b.curvature_up &&
-         a.joints == b.joints;
+         a.joints == b.joints && a.joint_names == b.joint_names;
 }
 
 }  // namespace rubble

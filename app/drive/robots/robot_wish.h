@@ -1,6 +1,7 @@
 // What a person or a program asks of a robot that is driven, as a command of its mission.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "kernel/base/math.h"
@@ -16,7 +17,8 @@ struct RobotWish {
   double forward = 0, yaw = 0, pitch = 0, roll = 0;
   Vec3 linear, angular;  // asked for in figures besides, in the base frame; unit: m/s, rad/s
   double speed = 0.3;    // of a full axis; unit: m/s
-  std::vector<double> joints;  // positions of all motors, in their order; empty: none are asked for; unit: rad
+  std::vector<double> joints;  // positions of motors; empty: none are asked for; unit: rad, slider m
+  std::vector<std::string> joint_names;  // whose they are; empty: all motors, in their order
 };
 
 // The command from `time` on, after the command `last`; flippers go on from where they were asked to be.

@@ -10,7 +10,7 @@ namespace rubble::testing {
 
 void drive_in_a_window(const ScratchFolder& scratch, const std::string& before,
                        const std::string& options, const std::string& beside,
-                       const std::string& mission) {
+                       const std::string& mission, int limit_s) {
   write_file(scratch / "drive.sh", "d='" + scratch.path().string() + R"('
 Xvfb -displayfd 3 -screen 0 448x168x24 -nolisten tcp 3>$d/display >/dev/null 2>&1 & screen=$!
 master=
@@ -26,7 +26,8 @@ for i in $(seq 600); do kill -0 $drive || exit 1; grep -q 'drive: ready' $d/stde
 )" + beside + R"(
 wait $drive
 )");
-  ASSERT_EQ(std::system(("cd '" RUBBLE_SOURCE_DIR "' && timeout 120 bash '" + (scratch / "drive.sh") + "'")
+  ASSERT_EQ(std::system(("cd '" RUBBLE_SOURCE_DIR "' && timeout " + std::to_string(limit_s) + " bash '" +
+                         (scratch / "drive.sh") + "'")
                             .c_str()),
             0)
       << read_file(scratch / "stderr") << read_file(scratch / "published");

@@ -9,10 +9,11 @@ namespace rubble::testing {
 
 // Runs `rubble drive` on that mission under Xvfb at 10 steps a second, with these options
 // and what the shell makes of `before`; beside it, once it is ready, `beside`. In both, $d is the scratch
-// folder; its out/ gets the legs, its stderr what the drive said. Fails the test when one of them fails.
+// folder; its out/ gets the legs, its stderr what the drive said. Fails the test when one of them fails, or
+// after so many seconds.
 void drive_in_a_window(const ScratchFolder& scratch, const std::string& before,
                        const std::string& options, const std::string& beside,
-                       const std::string& mission = "scripts/small.lua --record");
+                       const std::string& mission = "scripts/small.lua --record", int limit_s = 120);
 
 // That `rubble run` on the two legs gives the frames that were seen, hash for hash, and that the legs
 // went as was asked, see check_drive.py. heard: whether $d/live.bag has what was heard meanwhile.

@@ -1,7 +1,8 @@
-// `rubble drive --ros1`, driven by a rospy program and heard by rosbag.
+// `rubble drive --ros1`, driven by programs of ROS and heard by rosbag.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "tests/live/background.h"
 #include "tests/live/driven.h"
@@ -9,22 +10,66 @@
 namespace rubble::testing {
 namespace {
 
-TEST(LiveRos1Drive, WhatTopicsDriveRunsAgainByteForByte) {
-  if (std::system("command -v rosmaster rosbag Xvfb >/dev/null") != 0)
-    GTEST_SKIP() << "no rosmaster: see tools/packages-live.txt";
-  const ScratchFolder scratch;
+bool has_ros1() { return std::system("command -v rosmaster rosbag Xvfb >/dev/null") == 0; }
+
+// Starts a master of its own.
+std::string with_a_master() {
   const std::string port = std::to_string(free_port());
-  drive_in_a_window(scratch,
-                    "export ROS_MASTER_URI=http://127.0.0.1:" + port + R"(
+  return "export ROS_MASTER_URI=http://127.0.0.1:" + port + R"(
 export ROS_IP=127.0.0.1 ROS_LOG_DIR=$d/log PYTHONUNBUFFERED=1
 rosmaster --core -p )" + port + R"( >$d/master 2>&1 & master=$!
-for i in $(seq 100); do timeout 5 rostopic list >/dev/null 2>&1 && break; sleep 0.1; done)",
-                    "--ros1", R"(
-rosbag record --quiet -O $d/live.bag /tf /camera/rgb/image_raw /camera/depth_registered/image_raw \
-  >$d/record 2>&1 & record=$!
-')" RUBBLE_PYTHON "' '" RUBBLE_SOURCE_DIR R"(/tests/live/drive_by_topics.py' $d/published || exit 1
-kill -INT $record; wait $record)");
+for i in $(seq 100); do timeout 5 rostopic list >/dev/null 2>&1 && break; sleep 0.1; done)";
+}
+
+// Drives by drive_by_topics.py while rosbag records.
+std::string by_topics(const std::string& heard, const std::string& what = "") {
+  return "\nrosbag record --quiet -O $d/live.bag " + heard + R"( >$d/record 2>&1 & record=$!
+')" RUBBLE_PYTHON "' '" RUBBLE_SOURCE_DIR R"(/tests/live/drive_by_topics.py' $d/published )" + what + R"( || exit 1
+kill -INT $record; wait $record)";
+}
+
+TEST(LiveRos1Drive, WhatTopicsDriveRunsAgainByteForByte) {
+  if (!has_ros1()) GTEST_SKIP() << "no rosmaster: see tools/packages-live.txt";
+  const ScratchFolder scratch;
+  drive_in_a_window(scratch, with_a_master(), "--ros1",
+                    by_topics("/tf /camera/rgb/image_raw /camera/depth_registered/image_raw"));
   if (!HasFatalFailure()) expect_the_drive_runs_again(scratch, true);
+}
+
+TEST(LiveRos1Drive, ARobotGoesAsTopicsAskAndRunsAgainWithTheSameBits) {
+  if (!has_ros1()) GTEST_SKIP() << "no rosmaster: see tools/packages-live.txt";
+  const ScratchFolder scratch;
+  write_robot_mission(scratch);
+  drive_in_a_window(scratch, with_a_master(), "--ros1", by_topics("/odom /joint_states /scan", "robot"), "$d/robot.lua");
+  if (!HasFatalFailure()) expect_the_robot_runs_again(scratch, true);
+}
+
+// A program that knows the robot by its topics alone takes it through a lean-to, in real time; the run of what was
+// driven ends at the same place, behind the lean-to.
+TEST(NightlyLiveRos1Drive, AProgramOfItsOwnDrivesThroughALeanTo) {
+  if (!has_ros1()) GTEST_SKIP() << "no rosmaster: see tools/packages-live.txt";
+  const ScratchFolder scratch;
+  drive_in_a_window(scratch, with_a_master(), "--ros1",
+                    "\n'" RUBBLE_PYTHON "' '" RUBBLE_SOURCE_DIR
+                    "/examples/ros1/follow_the_gap.py' 6.5 >$d/result.json 2>$d/node || touch $d/failed\n"
+                    "kill -TERM $drive",
+                    "examples/ros1/lean_to.lua", 500);
+  if (HasFatalFailure()) return;
+  const std::string text = read_file(scratch / "result.json");
+  std::printf("%s", text.c_str());
+  const auto result = nlohmann::json::parse(text);
+  EXPECT_EQ(result["result"], "arrived") << text << read_file(scratch / "node") << read_file(scratch / "stderr");
+  EXPECT_LT(result["real_time_factor"].get<double>(), 1.05) << "the drive keeps to real time, or is slower";
+  const Outcome run = run_rubble("run " + (scratch / "out/leg_001.lua") + " --quiet --set camera.width=32 --set "
+                                 "camera.height=24 --set trajectory.rate_hz=1 --set lidars.scan.rate_hz=1 --out " + (scratch / "leg"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(read_file(scratch / "out/leg_001.track") == read_file(scratch / "leg/robots/track.bin"));
+  const std::string truth = read_file(scratch / "leg/robots/rover.txt");
+  std::istringstream last(truth.substr(truth.rfind('\n', truth.size() - 2) + 1));
+  double time = 0, x = 0, y = 0;
+  last >> time >> x >> y;
+  std::printf("truly at %.2f, %.2f m\n", x, y);
+  EXPECT_GT(y, 2.2) << "the lean-to ends at 2 m";
 }
 
 }  // namespace

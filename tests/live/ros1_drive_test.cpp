@@ -61,7 +61,7 @@ TEST(NightlyLiveRos1Drive, AProgramOfItsOwnDrivesThroughALeanTo) {
   EXPECT_EQ(result["result"], "arrived") << text << read_file(scratch / "node") << read_file(scratch / "stderr");
   EXPECT_LT(result["real_time_factor"].get<double>(), 1.05) << "the drive keeps to real time, or is slower";
   const Outcome run = run_rubble("run " + (scratch / "out/leg_001.lua") + " --quiet --set camera.width=32 --set "
-                                 "camera.height=24 --set trajectory.rate_hz=1 --set lidars.scan.rate_hz=1 --out " + (scratch / "leg"));
+                                 "camera.height=24 --set trajectory.rate_hz=0.05 --set lidars.scan.rate_hz=1 --out " + (scratch / "leg"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(read_file(scratch / "out/leg_001.track") == read_file(scratch / "leg/robots/track.bin"));
   const std::string truth = read_file(scratch / "leg/robots/rover.txt");

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "bench/calibration.h"
 #include "kernel/settling/building_collapse.h"
 #include "kernel/settling/settle.h"
 
@@ -60,6 +61,7 @@ int run(const Request& request) {
   const auto seconds = [](Clock::time_point from) {
     return std::chrono::duration<double>(Clock::now() - from).count();
   };
+  std::fputs(calibration_text(calibrate()).c_str(), stdout);
   Pile pile;
   pile.building = make_building(request);
   auto start = Clock::now();

@@ -29,11 +29,6 @@ Looks looks_of(const std::string& material) {
 
 constexpr std::uint32_t kFirstTimber = 100000;  // numbers of bodies: after those of all storeys
 
-int longest_axis(const Vec3& size) {
-  if (size.x >= size.y && size.x >= size.z) return 0;
-  return size.y >= size.z ? 1 : 2;
-}
-
 class PieceMesh {
  public:
   PieceMesh(const PieceType& type, const Looks& looks) {

@@ -26,20 +26,6 @@ Placement place(const PlacedItem& item, const AssetLibrary& assets) {
   return placement;
 }
 
-// The pieces of a building are together in a pile, in their order.
-void set_cuts(const AssetLibrary& assets, const PileState& pile, Scene& scene) {
-  if (assets.building_cuts.empty()) return;
-  const int first_type = assets.building_first_type, types = int(assets.building_counts.size());
-  const auto first = std::find_if(pile.pieces.begin(), pile.pieces.end(), [&](const PieceState& piece) {
-    return piece.type >= first_type && piece.type < first_type + types;
-  });
-  const std::size_t begin = std::size_t(first - pile.pieces.begin());
-  for (SceneInstance& instance : scene.instances) {
-    if (instance.id >= begin && instance.id - begin < assets.building_cuts.size())
-      instance.cut_from = assets.building_cuts[instance.id - begin];
-  }
-}
-
 }  // namespace
 
 PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets) {
@@ -73,6 +59,20 @@ SceneInstance make_instance(const PieceState& piece, std::size_t number) {
   return instance;
 }
 
+// The pieces of a building are together in a pile, in their order.
+void set_building_cuts(const AssetLibrary& assets, const PileState& pile, Scene& scene) {
+  if (assets.building_cuts.empty()) return;
+  const int first_type = assets.building_first_type, types = int(assets.building_counts.size());
+  const auto first = std::find_if(pile.pieces.begin(), pile.pieces.end(), [&](const PieceState& piece) {
+    return piece.type >= first_type && piece.type < first_type + types;
+  });
+  const std::size_t begin = std::size_t(first - pile.pieces.begin());
+  for (SceneInstance& instance : scene.instances) {
+    if (instance.id >= begin && instance.id - begin < assets.building_cuts.size())
+      instance.cut_from = assets.building_cuts[instance.id - begin];
+  }
+}
+
 Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile) {
   Scene scene;
   scene.meshes = assets.meshes;
@@ -81,7 +81,7 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
     if (piece.status == PieceStatus::lost) continue;
     scene.instances.push_back(make_instance(piece, i));
   }
-  set_cuts(assets, pile, scene);
+  set_building_cuts(assets, pile, scene);
   add_fines(scenario, assets, pile, scene);
   add_surroundings(scenario, assets, pile, scene);
   scene.light = resolve_light(scenario);

@@ -18,6 +18,9 @@ PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets);
 // number: of the piece in its pile.
 SceneInstance make_instance(const PieceState& piece, std::size_t number);
 
+// Pieces of one member of a building look like one body: sets where each was cut from.
+void set_building_cuts(const AssetLibrary& assets, const PileState& pile, Scene& scene);
+
 // Every piece but the lost ones, the fines and what stands about the pile, with the scenario's light, lamp and air.
 Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile);
 

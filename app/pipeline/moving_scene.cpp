@@ -22,11 +22,12 @@ void include_keys(const TrackBody& body, Aabb& reach) {
 
 // Pieces that were lost in the end were there before: they come last, so that the others keep their
 // looks.
-void add_lost(const PileState& pile, Scene& scene) {
+void add_lost(const AssetLibrary& assets, const PileState& pile, Scene& scene) {
   for (std::size_t i = 0; i < pile.pieces.size(); ++i) {
     const PieceState& piece = pile.pieces[i];
     if (piece.status == PieceStatus::lost) scene.instances.push_back(make_instance(piece, i));
   }
+  set_building_cuts(assets, pile, scene);
 }
 
 // The number of what moves an instance: its own, and of a heap of fines that of the piece it lies on.
@@ -85,7 +86,7 @@ Scene build_moving_scene(const Scenario& scenario, const AssetLibrary& assets, c
   PileState without_fines = pile;  // they come when all rests
   without_fines.fines = {};
   Scene scene = build_scene(scenario, assets, without_fines);
-  add_lost(pile, scene);
+  add_lost(assets, pile, scene);
   set_in_motion(track, window, zero_ns, {}, scene);
   return scene;
 }

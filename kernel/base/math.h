@@ -78,6 +78,12 @@ template <typename T>
 constexpr Vec3T<T> max(const Vec3T<T>& a, const Vec3T<T>& b) {
   return {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
 }
+// 0, 1 or 2: the axis of the largest component, the first of equal ones.
+template <typename T>
+constexpr int longest_axis(const Vec3T<T>& size) {
+  if (size.x >= size.y && size.x >= size.z) return 0;
+  return size.y >= size.z ? 1 : 2;
+}
 
 // Row-major 3x3 matrix.
 template <typename T>

@@ -10,13 +10,11 @@ namespace rubble {
 
 namespace {
 
-std::uint32_t longest_axis(const PreparedMesh& mesh) {
+int find_longest_axis(const PreparedMesh& mesh) {
   Vec3f low = mesh.vertices.front().position, high = low;
   for (const PreparedVertex& v : mesh.vertices)
     low = min(low, v.position), high = max(high, v.position);
-  const Vec3f size = high - low;
-  if (size.x >= size.y && size.x >= size.z) return 0;
-  return size.y >= size.z ? 1 : 2;
+  return longest_axis(high - low);
 }
 
 void place(PreparedScene& out, PlacedMesh piece, std::uint32_t axis, RandomStream& random) {
@@ -117,7 +115,7 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
     out.meshes[i] = prepare_mesh(*scene.meshes[i]);
   });
   std::vector<std::uint32_t> axes;
-  for (const PreparedMesh& mesh : out.meshes) axes.push_back(longest_axis(mesh));
+  for (const PreparedMesh& mesh : out.meshes) axes.push_back(std::uint32_t(find_longest_axis(mesh)));
   std::vector<std::uint8_t> moves;
   mark_moving(scene, moves);
   RandomStream random(scene.seed, "render.looks");

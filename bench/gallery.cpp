@@ -10,9 +10,9 @@
 
 #include "app/assets/asset_library.h"
 #include "app/fines/lay_fines.h"
-#include "app/pipeline/build_scene.h"
-#include "app/surroundings/lay_surroundings.h"
+#include "app/scene/build_scene.h"
 #include "app/sensors/build_camera.h"
+#include "app/surroundings/lay_surroundings.h"
 #include "bench/channel_picture.h"
 #include "bench/gallery_list.h"
 #include "bench/program.h"

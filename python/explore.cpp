@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/pipeline/build_scene.h"
+#include "app/scene/build_scene.h"
 #include "kernel/base/parallel.h"
 #include "kernel/queries/queries.h"
 #include "kernel/voids/seen_cells.h"

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "app/pipeline/resolved_mission.h"
+#include "app/mission/resolved_mission.h"
 #include "kernel/model/pile_state.h"
 #include "render/scene/frame.h"
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <mutex>
 
-#include "app/pipeline/build_scene.h"
-#include "app/pipeline/finished_run.h"
+#include "app/mission/finished_run.h"
 #include "app/pipeline/stages.h"
-#include "kernel/geometry/fine_heaps.h"
+#include "app/scene/build_scene.h"
 #include "kernel/base/parallel.h"
+#include "kernel/geometry/fine_heaps.h"
 #include "kernel/queries/queries.h"
 #include "kernel/voids/void_map.h"
 #include "python/arrays.h"

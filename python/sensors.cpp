@@ -4,14 +4,14 @@
 #include <algorithm>
 
 #include "app/pipeline/stages.h"
-#include "app/pipeline/build_scene.h"
+#include "app/scene/build_scene.h"
 #include "kernel/base/parallel.h"
+#include "python/arrays.h"
+#include "python/parts.h"
 #include "render/gl/gl_context.h"
 #include "render/lidar/depth_rays.h"
 #include "render/lidar/lidar.h"
 #include "render/renderer.h"
-#include "python/arrays.h"
-#include "python/parts.h"
 
 namespace rubble::python {
 

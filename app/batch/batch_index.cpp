@@ -6,7 +6,7 @@
 
 #include "app/batch/batch.h"
 #include "app/batch/batch_folder.h"
-#include "app/pipeline/finished_run.h"
+#include "app/mission/finished_run.h"
 #include "app/provenance/manifest.h"
 #include "scripting/values/value.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "app/card/splits.h"
-#include "app/pipeline/finished_run.h"
+#include "app/mission/finished_run.h"
 
 namespace rubble {
 

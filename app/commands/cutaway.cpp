@@ -6,10 +6,9 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
-#include "app/command_line/common_options.h"
 #include "app/measures/pile_section.h"
-#include "app/pipeline/build_scene.h"
-#include "app/pipeline/finished_run.h"
+#include "app/mission/finished_run.h"
+#include "app/scene/build_scene.h"
 #include "app/support/run_context.h"
 #include "io/image/picture_sheet.h"
 #include "kernel/base/portable_math.h"

@@ -6,8 +6,8 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
-#include "app/pipeline/build_scene.h"
-#include "app/pipeline/finished_run.h"
+#include "app/mission/finished_run.h"
+#include "app/scene/build_scene.h"
 #include "app/support/progress.h"
 #include "io/base/atomic_file.h"
 #include "io/mesh/pile_export.h"

@@ -4,7 +4,7 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
-#include "app/pipeline/finished_run.h"
+#include "app/mission/finished_run.h"
 #include "app/pipeline/live.h"
 #include "app/pipeline/run.h"
 #include "app/support/stop.h"

@@ -9,7 +9,7 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
-#include "app/pipeline/finished_run.h"
+#include "app/mission/finished_run.h"
 #include "app/support/progress.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"

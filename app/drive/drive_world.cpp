@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "app/drive/drive_log.h"
-#include "app/pipeline/build_scene.h"
 #include "app/planning/flight.h"
+#include "app/scene/build_scene.h"
 #include "scripting/sandbox/script_file.h"
 
 namespace rubble {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/pipeline/build_scene.h"
+#include "app/scene/build_scene.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/voids/void_path.h"

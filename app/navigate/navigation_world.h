@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "app/mission/resolved_mission.h"
 #include "app/navigate/navigation_rules.h"
-#include "app/pipeline/resolved_mission.h"
 #include "kernel/model/pile.h"
 #include "kernel/model/pile_state.h"
 #include "kernel/queries/queries.h"

@@ -3,19 +3,19 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/pipeline/build_scene.h"
 #include "app/measures/frame_watch.h"
 #include "app/pipeline/legs.h"
 #include "app/pipeline/live.h"
 #include "app/pipeline/recorders.h"
 #include "app/pipeline/stages.h"
 #include "app/provenance/frame_journal.h"
+#include "app/scene/build_scene.h"
 #include "app/sensors/sensor_suite.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "io/recording/recording_queue.h"
-#include "kernel/base/system/disk_cache.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/system/disk_cache.h"
 #include "kernel/base/text.h"
 #include "render/gl/gl_context.h"
 #include "render/renderer.h"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/pipeline/moving_scene.h"
+#include "app/scene/moving_scene.h"
 #include "app/sensors/build_camera.h"
 #include "kernel/model/track.h"
 #include "scripting/scenario/scenario.h"

@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "app/fines/seen_fines.h"
+#include "app/scene/build_scene.h"
 #include "app/surroundings/seen_surroundings.h"
-#include "app/pipeline/build_scene.h"
 #include "io/recording/one_camera.h"
 #include "scripting/scenario/lidar_schema.h"
 

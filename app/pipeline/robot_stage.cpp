@@ -1,11 +1,13 @@
 // The stage from a settled pile to robots that were driven through it.
 #include <algorithm>
 
-#include "app/pipeline/robot_control.h"
+#include "app/control/robot_control.h"
+#include "app/control/robot_senses.h"
+#include "app/control/script_control.h"
+#include "app/pipeline/stages.h"
 #include "app/robots/mission_robot.h"
 #include "app/robots/ride_recorder.h"
 #include "app/robots/robot_files.h"
-#include "app/pipeline/stages.h"
 #include "app/support/stop.h"
 #include "kernel/robot/robot_run.h"
 #include "scripting/sandbox/script_file.h"
@@ -41,10 +43,11 @@ void add_robot_metrics(const RobotRunResult& result, const std::vector<RobotLog>
 
 // The controller of each robot: legs, or a function of the script.
 RobotController make_controller(const ResolvedMission& mission, std::size_t robot,
-                                const MissionRobot& made, std::unique_ptr<ScriptControl>& script) {
+                                const MissionRobot& made, RobotSenses& senses,
+                                std::unique_ptr<ScriptControl>& script) {
   const RobotItem& item = mission.scenario.robots[robot];
   if (item.control == 0) return with_mimics(make_leg_controller(item, made.model), made.mimics);
-  if (!script) script = std::make_unique<ScriptControl>(mission);
+  if (!script) script = std::make_unique<ScriptControl>(mission, senses);
   return with_mimics(script->controller_of(robot, made.model), made.mimics);
 }
 
@@ -71,18 +74,21 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
   RobotRunResult result;
   with_lines_of_script(mission, [&] {
     RideRecorder rides(mission.scenario, made);
+    RobotSenses senses(mission, pile, made, context.threads());
     const RobotRunOptions options = robot_run_options(mission.scenario, context.threads());
     RobotRun run(make_laid_pile(mission, pile), pile, options);
     for (std::size_t i = 0; i < robots.size(); ++i) {
-      const RobotController control = make_controller(mission, i, made[i], script);
+      const RobotController control = make_controller(mission, i, made[i], senses, script);
       run.add(models[i], calc_base_pose(robots[i]), [control, &log = logs[i]](const RobotSense& sense) {
         log.note(sense);
         return control(sense);
       });
     }
     rides.note(run.world());
+    senses.begin(run, options.step);
     result = run.run([&](double done) {
       rides.note(run.world());
+      senses.note_step(run.world());
       context.progress.update(done, format_number(done * mission.scenario.robot_run.duration) + " s");
       return !stop_requested();
     });

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/pipeline/resolved_mission.h"
+#include "app/mission/resolved_mission.h"
 #include "app/support/run_request.h"
 #include "kernel/base/error.h"
 #include "kernel/model/pile_state.h"

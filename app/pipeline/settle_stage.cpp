@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "app/fines/lay_fines.h"
-#include "app/pipeline/build_scene.h"
 #include "app/pipeline/stages.h"
+#include "app/scene/build_scene.h"
 #include "app/support/stop.h"
 #include "app/surroundings/lay_surroundings.h"
 #include "app/victims/place_victims.h"

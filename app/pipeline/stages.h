@@ -22,11 +22,11 @@
 #include <vector>
 
 #include "app/measures/metrics.h"
+#include "app/mission/resolved_mission.h"
 #include "app/pipeline/legs.h"
-#include "app/pipeline/moving_scene.h"
-#include "app/pipeline/resolved_mission.h"
 #include "app/planning/pile_survey.h"
 #include "app/provenance/frame_hashes.h"
+#include "app/scene/moving_scene.h"
 #include "app/sensors/robot_readings.h"
 #include "io/recording/recording.h"
 #include "kernel/model/pile_state.h"

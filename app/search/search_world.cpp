@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/pipeline/build_scene.h"
+#include "app/scene/build_scene.h"
 #include "app/victims/victim_places.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/voids/void_path.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/pipeline/resolved_mission.h"
+#include "app/mission/resolved_mission.h"
 #include "app/search/search_rules.h"
 #include "app/victims/place_victims.h"
 #include "kernel/model/pile_state.h"

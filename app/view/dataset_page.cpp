@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/eval/scores/trajectory_file.h"
-#include "app/pipeline/build_scene.h"
 #include "app/report/html_text.h"
+#include "app/scene/build_scene.h"
 #include "app/view/viewer_code.h"
 #include "io/image/image_file.h"
 #include "io/image/jpeg_file.h"

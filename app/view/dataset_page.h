@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/pipeline/finished_run.h"
+#include "app/mission/finished_run.h"
 
 namespace rubble {
 

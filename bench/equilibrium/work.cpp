@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/pipeline/build_scene.h"
-#include "app/pipeline/finished_run.h"
+#include "app/mission/finished_run.h"
+#include "app/scene/build_scene.h"
 #include "bench/workload_file.h"
 #include "kernel/base/error.h"
 #include "kernel/settling/generator.h"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "app/assets/asset_library.h"
-#include "app/pipeline/build_scene.h"
+#include "app/scene/build_scene.h"
 #include "bench/gallery_list.h"
 #include "bench/images/image_measures.h"
 #include "bench/images/picture_file.h"

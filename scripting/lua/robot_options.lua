@@ -12,6 +12,7 @@ return function(model, given, list)
     { "drive", {}, type = "table", doc = "As `robots[].drive`." },
     { "control", 0, type = "integer", min = 0, max = 1000,
       doc = "A function of what the robot senses, which returns commands (docs/robots.md)." },
+    { "senses", {}, type = "table", doc = "As `robots[].senses`." },
   }
   local all = {}
   for i, entry in ipairs(list) do all[i] = entry end

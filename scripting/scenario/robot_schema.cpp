@@ -93,6 +93,24 @@ void check_vine(const RobotItem& robot, std::size_t i, std::vector<Diagnostic>& 
                         format_number(links), "a longer link_length needs fewer"});
 }
 
+// What a function is to be told of must be there.
+void check_senses(const Scenario& scenario, std::size_t i, std::vector<Diagnostic>& mistakes) {
+  const RobotItem& robot = scenario.robots[i];
+  if (robot.senses.empty()) return;
+  if (robot.control == 0)
+    mistakes.push_back({"", 0, key_of(i, "senses"), "nobody is told", "a function as `control`", "no function", ""});
+  std::vector<std::string> names;
+  for (const LidarScenario& lidar : scenario.lidars) names.push_back(lidar.name);
+  for (const MountedCamera& camera : all_cameras(scenario)) names.push_back(camera.name);
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
+  for (std::size_t k = 0; k < robot.senses.size(); ++k) {
+    if (std::find(names.begin(), names.end(), robot.senses[k]) != names.end()) continue;
+    mistakes.push_back({"", 0, key_of(i, "senses[" + std::to_string(k + 1) + "]"),
+                        "no LiDAR and no camera has this name", all, "\"" + robot.senses[k] + "\"", ""});
+  }
+}
+
 // at: the key of the ride, such as "cameras.front.ride"
 void check_carrier(const Carrier& ride, const std::string& at, const std::vector<std::string>& names,
                    std::vector<Diagnostic>& mistakes) {
@@ -204,6 +222,8 @@ void add_robot_keys(Schema& k, Scenario& s) {
          "Instead of `drive`: a function of time and of what the robot senses, registered by "
          "rubble.controller.")
       .between(0, 1000);
+  k.item("robots[].senses", list, &RobotItem::senses,
+         "LiDARs and cameras on robots, by name: the function is told what they measure (docs/robots.md).");
   k.group("robot_run", "Time and rate of the robots.");
   k.value("robot_run.duration", s.robot_run.duration, "Time for which they are driven.")
       .above(0, 86400)
@@ -247,6 +267,7 @@ void check_robots(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
       mistakes.push_back({"", 0, key_of(i, "name"), "another robot has this name",
                           "a name of its own", "\"" + names[i] + "\"", ""});
     check_legs(scenario.robots[i], i, mistakes);
+    check_senses(scenario, i, mistakes);
     check_vine(scenario.robots[i], i, mistakes);
   }
 }

@@ -48,8 +48,8 @@ T blend(const HermiteWeights& w, const T& from, const T& to, const T& leave, con
 
 }  // namespace
 
-SimulatedPath::SimulatedPath(std::vector<Pose> poses, double step)
-    : poses_(std::move(poses)), step_(step) {
+SimulatedPath::SimulatedPath(std::vector<Pose> poses, double step, std::int64_t first)
+    : poses_(std::move(poses)), step_(step), first_(double(first)) {
   if (poses_.size() < 2) throw std::logic_error("a simulated path of fewer than two poses");
   std::vector<Vec3> positions;
   std::vector<Quat> rotations;
@@ -63,10 +63,10 @@ SimulatedPath::SimulatedPath(std::vector<Pose> poses, double step)
   turnings_ = central_differences(rotations);
 }
 
-double SimulatedPath::duration() const { return step_ * double(poses_.size() - 1); }
+double SimulatedPath::duration() const { return step_ * (first_ + double(poses_.size() - 1)); }
 
 SimulatedPath::Place SimulatedPath::find(double t) const {
-  const double steps = std::clamp(t / step_, 0.0, double(poses_.size() - 1));
+  const double steps = std::clamp(t / step_ - first_, 0.0, double(poses_.size() - 1));
   Place place;
   place.step = std::min(std::size_t(steps), poses_.size() - 2);
   place.share = steps - double(place.step);

@@ -1,6 +1,7 @@
 // The motion of a body that was simulated in equal steps, at any time: a link of a robot.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "scripting/trajectory/motion_path.h"
@@ -12,8 +13,8 @@ namespace rubble {
 // are continuous. In free fall by symplectic Euler steps the acceleration is exactly that of gravity.
 class SimulatedPath : public MotionPath {
  public:
-  // poses: one a step, from time 0 on; at least two. step: unit: s; > 0
-  SimulatedPath(std::vector<Pose> poses, double step);
+  // poses: one a step, from the step `first` on, which is at first * step; at least two. step: unit: s; > 0
+  SimulatedPath(std::vector<Pose> poses, double step, std::int64_t first = 0);
 
   double duration() const override;
   Pose at(double t) const override;
@@ -31,6 +32,7 @@ class SimulatedPath : public MotionPath {
   std::vector<Vec3> velocities_;  // at the steps, of one step; unit: m
   std::vector<Quat> turnings_;    // likewise, of the quaternions' components
   double step_;
+  double first_;  // step of the first pose
 };
 
 }  // namespace rubble

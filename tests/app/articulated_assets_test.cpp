@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/pipeline/build_scene.h"
+#include "app/scene/build_scene.h"
 #include "kernel/settling/generator.h"
 #include "kernel/world/world.h"
 #include "scripting/mission.h"

@@ -8,10 +8,10 @@
 #include <set>
 
 #include "app/fines/seen_fines.h"
-#include "app/pipeline/build_scene.h"
-#include "app/pipeline/finished_run.h"
-#include "app/pipeline/moving_scene.h"
+#include "app/mission/finished_run.h"
 #include "app/pipeline/stages.h"
+#include "app/scene/build_scene.h"
+#include "app/scene/moving_scene.h"
 #include "io/state/fines_file.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"

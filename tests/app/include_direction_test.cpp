@@ -134,7 +134,7 @@ const Allowed kScripting = stack(
 
 const Allowed kApp = stack(
     {"app/support/", "app/formats/", "app/provenance/", "app/assets/", "app/measures/",
-     "app/estimate/", "app/planning/", "app/victims/", "app/fines/", "app/surroundings/", "app/sensors/", "app/robots/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
+     "app/estimate/", "app/planning/", "app/victims/", "app/fines/", "app/surroundings/", "app/scene/", "app/mission/", "app/sensors/", "app/robots/", "app/control/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
      "app/eval/scores/", "app/eval/sfm/", "app/eval/map/", "app/search/", "app/navigate/", "app/view/", "app/drive/", "app/command_line/",
      "app/commands/eval/", "app/commands/assets/", "app/commands/publish/", "app/commands/",
      "app/main.cpp"},
@@ -199,7 +199,7 @@ TEST(IncludeDirection, TheCheckSeesACrossing) {
   EXPECT_EQ(crossings("render/renderer.cpp", "render/sensors/camera.h"), 1u);
   EXPECT_EQ(crossings("render/sensors/camera.cpp", "render/renderer.h"), 0u);
   EXPECT_EQ(crossings("scripting/scenario/scenario.h", "scripting/mission.h"), 1u);
-  EXPECT_EQ(crossings("app/pipeline/resolved_mission.cpp", "app/commands/inspect_dataset.h"), 1u);
+  EXPECT_EQ(crossings("app/mission/resolved_mission.cpp", "app/commands/inspect_dataset.h"), 1u);
   EXPECT_EQ(crossings("app/commands/run.cpp", "app/pipeline/run.h"), 0u);
   EXPECT_EQ(crossings("app/attic/run.cpp", "app/pipeline/run.h"), 1u);
 }
@@ -242,7 +242,7 @@ const std::map<std::string, Prefixes> kDoors{
     {"Coin", {"bench/equilibrium/"}},
     // The whole of it costs ten seconds in each unit: headers include json_fwd.hpp.
     {"nlohmann/json.hpp",
-     {"app/batch/", "app/card/viewer_settings.cpp", "app/commands/", "app/drive/", "app/eval/", "app/pipeline/resolved_mission.cpp",
+     {"app/batch/", "app/card/viewer_settings.cpp", "app/commands/", "app/drive/", "app/eval/", "app/mission/resolved_mission.cpp",
       "app/robots/robot_files.cpp", "app/planning/flight.cpp", "app/provenance/", "app/report/",
       "app/search/program_agent.cpp", "app/support/", "app/victims/place_victims.cpp", "app/view/", "bench/",
       "io/datasets/frames_recorder.cpp", "io/mesh/glb_writer.cpp", "io/recording/recording.cpp",

@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "app/pipeline/build_scene.h"
 #include "app/provenance/provenance.h"
+#include "app/scene/build_scene.h"
 #include "kernel/geometry/shape.h"
 #include "kernel/settling/generator.h"
 #include "scripting/mission.h"

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/pipeline/finished_run.h"
-#include "app/pipeline/stages.h"
 #include "app/eval/scores/confidence.h"
+#include "app/mission/finished_run.h"
+#include "app/pipeline/stages.h"
 #include "app/search/program_agent.h"
 #include "app/search/search_bench.h"
 #include "app/victims/place_victims.h"

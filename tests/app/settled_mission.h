@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/assets/asset_library.h"
-#include "app/pipeline/build_scene.h"
+#include "app/scene/build_scene.h"
 #include "kernel/queries/queries.h"
 #include "kernel/settling/settle.h"
 #include "scripting/mission.h"

@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "app/eval/scores/saved_surface.h"
-#include "app/pipeline/build_scene.h"
 #include "app/pipeline/stages.h"
+#include "app/scene/build_scene.h"
 #include "app/surroundings/lay_surroundings.h"
 #include "app/surroundings/seen_surroundings.h"
 #include "io/image/image_file.h"

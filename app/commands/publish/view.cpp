@@ -4,7 +4,7 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
-#include "app/pipeline/finished_run.h"
+#include "app/mission/finished_run.h"
 #include "app/view/dataset_page.h"
 #include "app/view/viewer_code.h"
 #include "io/base/atomic_file.h"

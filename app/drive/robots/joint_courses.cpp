@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/pipeline/robot_control.h"
+#include "app/control/robot_control.h"
 #include "kernel/base/error.h"
 #include "scripting/values/value.h"
 

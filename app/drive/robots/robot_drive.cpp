@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/pipeline/robot_control.h"
+#include "app/control/robot_control.h"
 #include "app/robots/ride_recorder.h"
 #include "kernel/base/error.h"
 
@@ -86,6 +86,7 @@ RobotController RobotDrive::motions_of(std::size_t robot) {
 void RobotDrive::restart() {
   item_ = scenario_.robots[driven_];
   item_.control = 0;
+  item_.senses.clear();
   RobotLeg still;
   still.rate = 0;
   if (!item_.drive.empty()) still.gait = item_.drive.front().gait;
@@ -102,18 +103,15 @@ void RobotDrive::restart() {
   if (sensors_) sensors_->restart(run_->world());
 }
 
-LidarMount RobotDrive::mount_of(const LidarScenario& lidar) const {
-  if (!lidar.ride.on()) return {rig_robot_, rig_link_, link_from_rig_ * lidar.rig_from_lidar()};
-  const std::size_t robot = find_name(names_, lidar.ride.robot);
-  const RiddenLink ridden = find_ridden_link(made_[robot], lidar.ride, "lidars." + lidar.name + ".ride");
-  return {robot, ridden.link, ridden.link_from_rider * lidar.rig_from_lidar()};
-}
-
 void RobotDrive::sense(const Scene& scene, const Medium& medium) {
-  std::vector<LidarMount> mounts;
-  for (const LidarScenario& lidar : scenario_.lidars) mounts.push_back(mount_of(lidar));
-  sensors_ = std::make_unique<LiveSensors>(scenario_, made_, mounts, scene, medium,
-                                           robot_run_options(scenario_, threads_).step, threads_);
+  std::vector<RidingSensor> lidars;
+  for (const LidarScenario& lidar : scenario_.lidars) {
+    lidars.push_back({lidars.size(), find_link_mount(lidar.ride, LinkMount{rig_robot_, rig_link_, link_from_rig_},
+                                                     "lidars." + lidar.name, names_, made_)});
+  }
+  sensors_ = std::make_unique<LiveSensors>(
+      scenario_, made_, std::make_unique<LiveRanges>(scenario_, lidars, std::vector<RidingSensor>(), scene, medium,
+                                                     robot_run_options(scenario_, threads_).step, threads_));
   sensors_->restart(run_->world());
 }
 
@@ -152,7 +150,7 @@ Pose RobotDrive::world_from_rig() const {
 
 Scene RobotDrive::build_scene(const Scenario& drawn) const {
   return build_live_scene(drawn, assets_, pile_, seen_, [this](int id, std::int64_t stamp_ns) -> std::optional<Pose> {
-    if (sensors_ && sensors_->scanning()) return sensors_->pose_of(id, stamp_ns);
+    if (sensors_ && sensors_->ranges().measuring()) return sensors_->ranges().pose_of(id, stamp_ns);
     const PieceState piece = run_->world().piece(id);
     if (piece.status == PieceStatus::lost) return std::nullopt;
     return piece.world_from_body;

@@ -10,9 +10,9 @@
 #include "app/drive/robots/joint_courses.h"
 #include "app/drive/robots/live_sensors.h"
 #include "app/drive/robots/robot_wish.h"
-#include "app/pipeline/moving_scene.h"
-#include "app/pipeline/resolved_mission.h"
+#include "app/mission/resolved_mission.h"
 #include "app/robots/mission_robot.h"
+#include "app/scene/moving_scene.h"
 #include "kernel/robot/robot_run.h"
 
 namespace rubble {
@@ -52,7 +52,6 @@ class RobotDrive {
  private:
   RobotController controller_of(std::size_t robot);
   RobotController motions_of(std::size_t robot);
-  LidarMount mount_of(const LidarScenario& lidar) const;
 
   const Scenario scenario_;
   const AssetLibrary& assets_;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/pipeline/finished_run.h"
+#include "app/mission/finished_run.h"
 #include "app/planning/pile_survey.h"
 
 namespace rubble {

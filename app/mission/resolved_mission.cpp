@@ -1,11 +1,11 @@
-#include "app/pipeline/resolved_mission.h"
+#include "app/mission/resolved_mission.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/pipeline/build_scene.h"
-#include "app/pipeline/finished_run.h"
+#include "app/mission/finished_run.h"
+#include "app/scene/build_scene.h"
 #include "app/support/build_info.h"
 #include "app/support/json_members.h"
 #include "app/victims/place_victims.h"

@@ -1,7 +1,7 @@
-#include "app/pipeline/moving_scene.h"
+#include "app/scene/moving_scene.h"
 
 #include "app/fines/seen_fines.h"
-#include "app/pipeline/build_scene.h"
+#include "app/scene/build_scene.h"
 #include "kernel/robot/looks.h"
 
 namespace rubble {

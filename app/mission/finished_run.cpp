@@ -1,4 +1,4 @@
-#include "app/pipeline/finished_run.h"
+#include "app/mission/finished_run.h"
 
 #include <filesystem>
 

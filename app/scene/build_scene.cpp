@@ -1,4 +1,4 @@
-#include "app/pipeline/build_scene.h"
+#include "app/scene/build_scene.h"
 
 #include <algorithm>
 #include <memory>

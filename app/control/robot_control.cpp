@@ -1,0 +1,162 @@
+#include "app/control/robot_control.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "kernel/base/portable_math.h"
+#include "kernel/robot/bundled.h"
+#include "kernel/robot/gaits.h"
+
+namespace rubble {
+
+RobotCommand drive_sides(const RobotModel& model, const Twist& twist, const std::vector<double>& flippers) {
+  return model.sides.belts ? drive_crawler(model, twist, flippers) : drive_wheels(model, twist);
+}
+
+void ask_motors(const RobotModel& model, const std::vector<double>& targets, MotorMode mode, RobotCommand& command) {
+  command.joints.resize(model.joints.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < model.joints.size() && next < targets.size(); ++i) {
+    if (model.joints[i].motor.effort > 0) command.joints[i] = {mode, targets[next++]};
+  }
+}
+
+namespace {
+
+constexpr double kDegree = portable::kPi / 180;
+
+SnakeGait gait_of(const RobotLeg& leg) {
+  const double steering = leg.steering_deg * kDegree;
+  SnakeGait gait;
+  switch (leg.gait) {
+    case GaitKind::lateral_undulation:
+      gait = lateral_undulation();
+      break;
+    case GaitKind::sidewinding:
+      gait = sidewinding();
+      break;
+    case GaitKind::rolling:
+      gait = rolling();
+      break;
+    case GaitKind::serpenoid:
+      gait = serpenoid(0);
+      break;
+    case GaitKind::helical_rolling:
+      gait = helical_rolling();
+      break;
+  }
+  gait.rate = leg.rate;
+  gait.lateral_phase -= leg.phase, gait.vertical_phase -= leg.phase;
+  gait.lateral_amplitude *= leg.amplitude;
+  gait.vertical_amplitude *= leg.amplitude;
+  gait.steering = steering;
+  return gait;
+}
+
+std::vector<double> in_radians(const std::vector<double>& degrees) {
+  std::vector<double> angles;
+  for (double angle : degrees) angles.push_back(angle * kDegree);
+  return angles;
+}
+
+void ask_leg_joints(const RobotModel& model, const RobotLeg& leg, RobotCommand& command) {
+  if (leg.joint_names.empty()) return ask_motors(model, leg.joints, MotorMode::position, command);
+  command.joints.resize(model.joints.size());
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const auto name = std::find(leg.joint_names.begin(), leg.joint_names.end(), model.joints[i].name);
+    if (name != leg.joint_names.end())
+      command.joints[i] = {MotorMode::position, leg.joints[std::size_t(name - leg.joint_names.begin())]};
+  }
+}
+
+// key: of the robot. What is named must be there.
+void check_joint_names(const RobotItem& robot, const RobotModel& model, const std::string& key) {
+  for (std::size_t k = 0; k < robot.drive.size(); ++k)
+    for (const std::string& name : robot.drive[k].joint_names)
+      find_motor(model, name, key + ".drive[" + std::to_string(k + 1) + "].joint_names");
+}
+
+}  // namespace
+
+std::size_t find_motor(const RobotModel& model, const std::string& name, const std::string& key) {
+  std::string all;
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (model.joints[i].motor.effort <= 0) continue;
+    if (model.joints[i].name == name) return i;
+    all += (all.empty() ? "one of " : ", ") + model.joints[i].name;
+  }
+  throw InputError({"", 0, key, "the robot has no joint of this name with a motor",
+                    all.empty() ? "no joint: this robot has no motor at a joint" : all, "\"" + name + "\"", ""});
+}
+
+RobotRunOptions robot_run_options(const Scenario& scenario, int threads) {
+  RobotRunOptions options;
+  options.duration = scenario.robot_run.duration;
+  options.control_hz = scenario.robot_run.control_hz;
+  options.fixed_debris = scenario.robot_run.debris == DebrisMotion::fixed;
+  options.gravity = scenario.settle.gravity;
+  options.lost_below = scenario.settle.lost_below;
+  options.lost_beyond = scenario.settle.lost_beyond;
+  options.threads = threads;
+  return options;
+}
+
+std::vector<std::string> robot_folders(const ResolvedMission& mission) {
+  std::vector<std::string> folders{
+      std::filesystem::path(mission.provenance.script.path).parent_path().string()};
+  folders.insert(folders.end(), mission.assets.folders.begin(), mission.assets.folders.end());
+  return folders;
+}
+
+std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext& context) {
+  std::vector<MissionRobot> made;
+  MeshImporter importer;
+  const std::vector<std::string> folders = robot_folders(mission);
+  for (std::size_t i = 0; i < mission.scenario.robots.size(); ++i) {
+    made.push_back(make_mission_robot(mission.scenario.robots[i], folders,
+                                      "robots[" + std::to_string(i + 1) + "]", importer));
+    check_joint_names(mission.scenario.robots[i], made.back().model, "robots[" + std::to_string(i + 1) + "]");
+    for (const std::string& warning : made.back().warnings) context.warnings.push_back(warning);
+  }
+  return made;
+}
+
+RobotController make_leg_controller(const RobotItem& robot, const RobotModel& model) {
+  const bool snake = robot.urdf.empty() && robot.model == RobotKind::snake;
+  return [robot, model, snake](const RobotSense& sense) {
+    RobotLeg still;
+    still.amplitude = snake ? 0 : 1;  // without legs it stands straight
+    const auto next = std::upper_bound(robot.drive.begin(), robot.drive.end(), sense.time,
+                                       [](double time, const RobotLeg& leg) { return time < leg.t; });
+    const RobotLeg& now = next == robot.drive.begin() ? still : *(next - 1);
+    RobotCommand command;
+    if (model.tube) {
+      command = drive_vine(model, {now.growth, now.curvature, now.curvature_up});
+    } else if (snake) {
+      command = calc_gait(model, gait_of(now), sense.time);
+    } else {
+      command = drive_sides(model, {now.linear, now.angular}, in_radians(now.flippers_deg));
+    }
+    ask_leg_joints(model, now, command);
+    return command;
+  };
+}
+
+RobotController with_mimics(RobotController control, const std::vector<MimicJoint>& mimics) {
+  if (mimics.empty()) return control;
+  return [control = std::move(control), mimics](const RobotSense& sense) {
+    RobotCommand command = control(sense);
+    command.joints.resize(sense.state.joints.size());
+    for (const MimicJoint& mimic : mimics) {
+      const MotorCommand& led = command.joints[std::size_t(mimic.of)];
+      const double at = led.mode == MotorMode::position ? led.target
+                                                        : sense.state.joints[std::size_t(mimic.of)].position;
+      command.joints[std::size_t(mimic.joint)] = {MotorMode::position,
+                                                  mimic.multiplier * at + mimic.offset};
+    }
+    return command;
+  };
+}
+
+}  // namespace rubble

@@ -1,0 +1,104 @@
+#include "app/control/script_control.h"
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/control/robot_control.h"
+#include "app/control/sense_tables.h"
+#include "kernel/robot/bundled.h"
+#include "kernel/robot/odometry.h"
+#include "scripting/sandbox/lua_sandbox.h"
+#include "scripting/sandbox/script_file.h"
+#include "scripting/sandbox/source_map.h"
+#include "scripting/schema/schema.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kMostTarget = 1e6;  // of what a function may ask of a joint; unit: rad, rad/s, N m
+
+// What a function returns.
+struct Wish {
+  double linear = 0, angular = 0;
+  Growth growth;
+  std::vector<double> flippers, joints, speeds, torques;
+};
+
+Schema wish_schema(Wish& wish) {
+  Schema k;
+  k.value("linear", wish.linear, "Forwards.").between(-5, 5).unit("m/s");
+  k.value("angular", wish.angular, "Counter-clockwise.").between(-10, 10).unit("rad/s");
+  k.value("growth", wish.growth.speed, "Speed of a vine's tip.").between(-1, 1).unit("m/s");
+  k.value("curvature", wish.growth.curve_left, "Of what grows, to the left.").between(-5, 5).unit("1/m");
+  k.value("curvature_up", wish.growth.curve_up, "Of what grows, upwards.").between(-5, 5).unit("1/m");
+  k.value("flippers", wish.flippers, "Angles of a crawler's.").between(-4, 4).unit("rad");
+  k.value("joints", wish.joints, "Positions.").between(-kMostTarget, kMostTarget);
+  k.value("speeds", wish.speeds, "Instead of positions.").between(-kMostTarget, kMostTarget);
+  k.value("torques", wish.torques, "Instead of positions.").between(-kMostTarget, kMostTarget);
+  return k;
+}
+
+RobotCommand command_of(const Wish& wish, const RobotModel& model) {
+  RobotCommand command;
+  if (model.sides.any()) command = drive_sides(model, {wish.linear, wish.angular}, wish.flippers);
+  if (model.tube) command = drive_vine(model, wish.growth);
+  ask_motors(model, wish.joints, MotorMode::position, command);
+  ask_motors(model, wish.speeds, MotorMode::velocity, command);
+  ask_motors(model, wish.torques, MotorMode::torque, command);
+  return command;
+}
+
+}  // namespace
+
+struct ScriptControl::State {
+  State(const ResolvedMission& m, RobotSenses& s, const SourceFile& script)
+      : mission(m), senses(s), lines(script.text, "mission"), sandbox(m.scenario.seed, "rubble.mission") {
+    std::map<std::string, std::string> included;
+    for (const SourceFile& file : m.provenance.included) included[file.path] = file.text;
+    sandbox.serve_includes(included);
+    run_script(sandbox, script, lines);
+  }
+  const ResolvedMission& mission;
+  RobotSenses& senses;
+  SourceMap lines;
+  LuaSandbox sandbox;
+};
+
+ScriptControl::ScriptControl(const ResolvedMission& mission, RobotSenses& senses)
+    : state_(std::make_unique<State>(mission, senses, mission.provenance.script)) {}
+ScriptControl::~ScriptControl() = default;
+
+RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel& model) {
+  State& state = *state_;
+  const RobotItem& item = state.mission.scenario.robots[robot];
+  const std::string key = "robots[" + std::to_string(robot + 1) + "].control";
+  const double gravity = state.mission.scenario.settle.gravity;
+  const auto wheels = model.sides.any() ? std::make_shared<WheelOdometry>(model) : nullptr;
+  return [&state, robot, item, model, key, gravity, wheels, last = Vec3{}, last_time = 0.0](
+             const RobotSense& sense) mutable {
+    Value told = describe_sense(sense, model, gravity, last, last_time);
+    if (wheels) told.set("odometry", describe_odometry(wheels->update(sense.state, sense.time)));
+    if (!item.senses.empty()) state.senses.tell(robot, told);
+    const Value answer = state.sandbox.call_controller(item.control, told);
+    Wish wish;
+    std::vector<Diagnostic> mistakes;
+    if (answer.kind != Value::Kind::table) {
+      mistakes.push_back({"", 0, "", "what the function returns cannot be followed",
+                          "a table such as { linear = 0.3, angular = 0 }", describe(answer), ""});
+    } else {
+      read_table(wish_schema(wish), answer, mistakes);
+    }
+    for (Diagnostic& d : mistakes) {
+      d.message += ", at t = " + format_number(sense.time) + " s";
+      d.key = d.key.empty() ? key : key + ": " + d.key;
+      d.file = state.mission.provenance.script.path;
+      d.line = state.lines.line_of(key);
+    }
+    throw_if_any(std::move(mistakes));
+    return command_of(wish, model);
+  };
+}
+
+}  // namespace rubble

@@ -1,0 +1,24 @@
+// What robots sense as tables of a script (docs/robots.md, "A function as controller").
+#pragma once
+
+#include <cstdint>
+
+#include "app/robots/live_ranges.h"
+#include "kernel/model/robot.h"
+#include "kernel/robot/odometry.h"
+#include "kernel/robot/robot_run.h"
+#include "render/scene/lidar_scan.h"
+#include "render/scene/lidar_spec.h"
+#include "scripting/values/value.h"
+
+namespace rubble {
+
+// gravity: unit: m/s2. last, last_time: the base's velocity at the call before, and when that was; become those of
+// this call.
+Value describe_sense(const RobotSense& sense, const RobotModel& model, double gravity, Vec3& last, double& last_time);
+Value describe_odometry(const OdometryReading& reading);
+// start_ns: the stamp of the robots' time 0.
+Value describe_scan(const LidarScan& scan, const LidarSpec& spec, std::int64_t start_ns);
+Value describe_depth(const SensedDepth& image, std::int64_t start_ns);
+
+}  // namespace rubble

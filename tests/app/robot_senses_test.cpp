@@ -1,0 +1,181 @@
+// What the functions that drive robots are told of LiDARs and cameras.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/app/program.h"
+
+namespace rubble::testing {
+namespace {
+
+const std::string kNoFrames =
+    " --set outputs.bag=false --set outputs.rawlog=false --set outputs.simplemap=false --force --out ";
+
+// A rover with a LiDAR on a mast, so that it does not see itself, before a wall and a block. `control` is the body of
+// its function.
+std::string mission(const std::string& control, const std::string& more = "") {
+  return R"(return rubble.mission {
+  seed = 11,
+  pile = { layers = 0, placed = {
+    { box = { 0.2, 6, 3 }, position = { 3.1, 0, 1.5 } }, { box = { 0.4, 0.4, 0.4 }, position = { 1.5, -1.2, 0.2 } } } },
+  robots = { rubble.robot.rover { name = "rover", position = { 0, 0, 0.001 }, senses = { "top", "eye" },
+    control = function(sense)
+)" + control +
+         R"(
+    end } },
+  robot_run = { duration = 0.8 },
+  lidars = { top = { model = "vlp16", ride = { robot = "rover" }, position = { 0, 0, 0.7 }, returns = "dual" } },
+  cameras = {
+    eye = { ride = { robot = "rover" }, position = { 0.3, 0, 0.25 }, width = 40, height = 30, fov_deg = 60, rate_hz = 20 },
+    watch = { width = 32, height = 32 },
+  },
+  trajectory = { rate_hz = 2, waypoints = { { t = 0, position = { -3, 0, 2 }, look_at = { 0, 0, 0 } } } },
+  )" + more + "}\n";
+}
+
+// What the function raises, after "told:".
+std::vector<double> told_by(const std::string& script, const std::string& options = "") {
+  const ScratchFolder scratch;
+  write_file(scratch / "m.lua", script);
+  const Outcome run = run_rubble("run " + (scratch / "m.lua") + options + kNoFrames + (scratch / "out"));
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  const std::size_t at = run.err.find("told:");
+  EXPECT_NE(at, std::string::npos) << run.err;
+  std::vector<double> numbers;
+  if (at == std::string::npos) return numbers;
+  std::istringstream words(run.err.substr(at + 5));
+  for (std::string word; words >> word && word != "end";) numbers.push_back(std::strtod(word.c_str(), nullptr));
+  return numbers;
+}
+
+// Count of its points and sums of x, y, z, intensity and ring, in the order of the file.
+std::vector<double> sum_of_pcd(const std::string& path) {
+  const std::string text = read_file(path);
+  const std::string end = "DATA binary\n";
+  const std::size_t data = text.find(end) + end.size();
+  constexpr std::size_t kSize = 22;  // float32 x, y, z, intensity, uint16 ring, float32 time
+  std::vector<double> sums(6);
+  for (std::size_t at = data; at + kSize <= text.size(); at += kSize) {
+    float values[4];
+    std::uint16_t ring = 0;
+    std::memcpy(values, &text[at], sizeof values);
+    std::memcpy(&ring, &text[at + 16], sizeof ring);
+    sums[0] += 1;
+    for (int i = 0; i < 4; ++i) sums[std::size_t(1 + i)] += double(values[i]);
+    sums[5] += ring;
+  }
+  return sums;
+}
+
+// With noise, second echoes and a sensor that moves: to the last bit.
+TEST(RobotSenses, AFunctionIsToldTheScansThatAreRecorded) {
+  const std::string drive = "local command = { linear = 0.4, angular = 0.5 }\n";
+  const std::vector<double> told = told_by(mission(drive + R"(
+    local scan = sense.lidars.top
+    if not scan or scan.t < 0.35 then return command end
+    local sums = { #scan.x, 0, 0, 0, 0, 0 }
+    for i = 1, #scan.x do
+      sums[2], sums[3], sums[4] = sums[2] + scan.x[i], sums[3] + scan.y[i], sums[4] + scan.z[i]
+      sums[5], sums[6] = sums[5] + scan.intensity[i], sums[6] + scan.ring[i]
+    end
+    error(string.format("told: %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g end", sense.t, scan.t, table.unpack(sums)))
+  )"));
+  ASSERT_EQ(told.size(), 8u);
+  const ScratchFolder scratch;
+  write_file(scratch / "m.lua", mission(drive + "return command", "outputs = { pcd = true },"));
+  const Outcome run = run_rubble("run " + (scratch / "m.lua") + kNoFrames + (scratch / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::vector<double> recorded = sum_of_pcd(scratch / "out/pcd/top/000004.pcd");
+  EXPECT_GT(recorded[0], 5000);
+  EXPECT_EQ(std::vector<double>(told.begin() + 2, told.end()), recorded);
+  // Scan 4 leaves from 0.4 s to 0.5 s, and is told at the next call.
+  EXPECT_DOUBLE_EQ(told[1], 0.4);
+  EXPECT_GT(told[0], 0.5);
+  EXPECT_LT(told[0], 0.5 + 0.03);
+}
+
+TEST(RobotSenses, DepthIsThatOfAWallInFront) {
+  // It stands still: the middle of the image meets the wall at x = 3, 2.7 m ahead of the camera.
+  const std::vector<double> told = told_by(mission(R"(
+    local image = sense.cameras.eye
+    if not image or image.t < 0.28 then return {} end
+    error(string.format("told: %.17g %d %d %d %.17g %.17g end", image.t, image.width, image.height, #image.depth,
+                        image.depth[15 * image.width + 21], image.depth[29 * image.width + 21]))
+  )"));
+  ASSERT_EQ(told.size(), 6u);
+  EXPECT_NEAR(told[0], 0.3, 1e-9);
+  EXPECT_EQ(told[1], 40);
+  EXPECT_EQ(told[2], 30);
+  EXPECT_EQ(told[3], 1200);
+  EXPECT_NEAR(told[4], 2.7, 0.01);
+  // Row 29 looks down by 14.5 pixels: the ground, 0.25 m below, at 0.25 fx / 14.5 along the axis.
+  const double fx = 20 / std::tan(30 * 3.14159265358979 / 180);
+  EXPECT_NEAR(told[5], 0.251 * fx / 14.5, 0.02);
+}
+
+// New readings alone are told, each once; which does not depend on the threads.
+TEST(RobotSenses, EachReadingIsToldOnceOnAnyNumberOfThreads) {
+  const std::string counting = mission(R"(
+    counts = counts or { 0, 0, 0, 0 }
+    local scan, image = sense.lidars.top, sense.cameras.eye
+    if scan then counts[1], counts[2] = counts[1] + 1, counts[2] + #scan.x end
+    if image then
+      counts[3] = counts[3] + 1
+      for _, d in ipairs(image.depth) do counts[4] = counts[4] + math.min(d, 100) end
+    end
+    if sense.t > 0.74 then error(string.format("told: %.17g %.17g %.17g %.17g end", table.unpack(counts))) end
+    return { linear = 0.3, angular = -0.4 }
+  )");
+  const std::vector<double> one = told_by(counting, " --threads 1"), two = told_by(counting, " --threads 2");
+  ASSERT_EQ(one.size(), 4u);
+  EXPECT_EQ(one, two);
+  EXPECT_EQ(one[0], 7);   // begun at 0, 0.1, ... 0.6 s
+  EXPECT_EQ(one[2], 15);  // 0, 0.05, ... 0.7 s
+}
+
+TEST(RobotSenses, WhatCannotBeSensedIsAMistakeWithItsKey) {
+  const std::string robot = "return rubble.mission { pile = { layers = 0 },\n"
+                            "  robots = { rubble.robot.rover { name = \"r\", position = { 0, 0, 0.001 },\n"
+                            "    senses = { \"eye\" }, control = function() return {} end } },\n";
+  const struct {
+    std::string script, expected;
+  } cases[] = {
+      {robot + "  lidars = { top = { ride = { robot = \"r\" } } } }", "robots[1].senses[1]: no LiDAR and no camera"},
+      {robot + "  lidars = { eye = {} } }", "lidars.eye: no robot carries it"},
+      {robot + "  cameras = { eye = { ride = { robot = \"r\" }, lens = { k1 = 0.1 } } } }", "cameras.eye.lens"},
+      {"return rubble.mission { pile = { layers = 0 }, lidars = { eye = {} },\n"
+       "  robots = { rubble.robot.rover { position = { 0, 0, 0.001 }, senses = { \"eye\" } } } }",
+       "robots[1].senses: nobody is told"}};
+  for (const auto& c : cases) {
+    const ScratchFolder scratch;
+    write_file(scratch / "m.lua", c.script);
+    const Outcome run = run_rubble("run " + (scratch / "m.lua") + " --force --out " + (scratch / "out"));
+    EXPECT_EQ(run.exit_code, 1) << c.expected;
+    EXPECT_NE(run.err.find(c.expected), std::string::npos) << run.err;
+  }
+}
+
+// The goal is behind the blocks: a rover that does not look drives into them.
+TEST(RobotSenses, ARoverFindsItsWayThroughALeanToByItsScans) {
+  const ScratchFolder scratch;
+  const Outcome run = run_rubble("run scripts/robots/follow_the_gap.lua --set trajectory.rate_hz=0.01 --set camera.width=32"
+                                 " --set camera.height=32" +
+                                 kNoFrames + (scratch / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::istringstream lines(read_file(scratch / "out/robots/rover.txt"));
+  double stamp = 0, x = 0, y = 0, last_x = 0, last_y = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream words(line);
+    words >> stamp >> x >> y;
+    last_x = x, last_y = y;
+  }
+  EXPECT_NEAR(last_x, 1.1, 0.8);  // the gyroscope is exact, the odometry of skidding wheels is not
+  EXPECT_NEAR(last_y, 2.9, 0.8);
+}
+
+}  // namespace
+}  // namespace rubble::testing

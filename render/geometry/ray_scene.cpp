@@ -1,9 +1,17 @@
 #include "render/geometry/ray_scene.h"
 
+#include <algorithm>
+
 #include "kernel/base/error.h"
 #include "render/geometry/ray_scene_embree.h"
 
 namespace rubble {
+
+RTCScene RayScene::Embree::new_scene() const {
+  const RTCScene made = rtcNewScene(device);
+  rtcSetSceneFlags(made, RTC_SCENE_FLAG_ROBUST);
+  return made;
+}
 
 void RayScene::Embree::attach(RTCScene to, const std::vector<Vec3f>& positions,
                               const std::vector<std::uint32_t>& indices) const {
@@ -22,13 +30,23 @@ void RayScene::Embree::attach(RTCScene to, const std::vector<Vec3f>& positions,
   rtcReleaseGeometry(geometry);
 }
 
+RTCGeometry RayScene::Embree::attach_instance(RTCScene of, unsigned number) const {
+  constexpr float kIdentity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, of);
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, kIdentity);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, number);
+  rtcReleaseGeometry(geometry);  // the tree keeps it
+  return geometry;
+}
+
 RayScene::RayScene(const PreparedScene& scene, Detail detail)
     : scene_(scene), detail_(detail), embree_(std::make_unique<Embree>()) {
   // One thread builds: the tree, and with it the choice among equal hits, is then always the same.
   embree_->device = rtcNewDevice("threads=1,set_affinity=0");
   if (!embree_->device) throw RunError("cannot cast rays: Embree gives no device");
-  embree_->scene = rtcNewScene(embree_->device);
-  rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
+  embree_->scene = embree_->new_scene();
   add_resting();
   add_moving();
   commit();
@@ -59,14 +77,18 @@ void RayScene::add_resting() {
         indices.push_back(base + v);
     }
   }
-  embree_->attach(embree_->scene, positions, indices);
+  const bool alone = std::none_of(scene_.placed.begin(), scene_.placed.end(), [](const PlacedMesh& p) { return p.moves; });
+  if (alone) return embree_->attach(embree_->scene, positions, indices);
+  embree_->resting = embree_->new_scene();
+  embree_->attach(embree_->resting, positions, indices);
+  rtcCommitScene(embree_->resting);
+  embree_->attach_instance(embree_->resting, kResting);
 }
 
 void* RayScene::mesh_scene(std::uint32_t mesh) {
   RTCScene& of_mesh = embree_->meshes[mesh];
   if (of_mesh) return of_mesh;
-  of_mesh = rtcNewScene(embree_->device);
-  rtcSetSceneFlags(of_mesh, RTC_SCENE_FLAG_ROBUST);
+  of_mesh = embree_->new_scene();
   const PreparedMesh& prepared = scene_.meshes[mesh];
   const PreparedLevel& level =
       detail_ == Detail::finest ? prepared.levels.front() : prepared.levels.back();
@@ -91,12 +113,10 @@ void RayScene::add_moving() {
     const PreparedLevel& level = level_of(piece);
     for (std::uint32_t t = 0; t < level.triangle_count; ++t)
       triangles_.push_back({i, level.first_triangle + t});
-    mover.geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(mover.geometry, static_cast<RTCScene>(mesh_scene(piece.mesh)));
-    place(mover);
     // Its number there: one more than its index among the movers.
-    rtcAttachGeometryByID(embree_->scene, mover.geometry, kResting + 1 + unsigned(movers_.size()));
-    rtcReleaseGeometry(mover.geometry);  // the tree keeps it
+    mover.geometry = embree_->attach_instance(static_cast<RTCScene>(mesh_scene(piece.mesh)),
+                                              kResting + 1 + unsigned(movers_.size()));
+    place(mover);
     movers_.push_back(mover);
   }
 }
@@ -131,7 +151,7 @@ void RayScene::follow() {
 
 RayScene::Met RayScene::met_by(std::uint32_t primitive, std::uint32_t instance,
                                const Vec3f& normal) const {
-  if (instance == RTC_INVALID_GEOMETRY_ID) return {primitive, normal};
+  if (instance == RTC_INVALID_GEOMETRY_ID || instance == kResting) return {primitive, normal};
   const Mover& mover = movers_[instance - kResting - 1];
   // Embree gives the normal in the frame of the mesh.
   return {primitive + mover.first_triangle,

@@ -14,7 +14,7 @@
 namespace rubble {
 namespace {
 
-constexpr unsigned kResting = 0;  // geometry number of all that rests; movers follow
+constexpr unsigned kResting = 0;  // geometry number of all that rests, triangles or their instance; movers follow
 
 // The look of each triangle of a mesh, as an index into all_surface_appearances().
 std::vector<std::uint8_t> looks_of(const TriangleMesh& mesh) {
@@ -51,6 +51,9 @@ struct LidarWorld::Tree {
 
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  // What rests, as an instance in `scene`, if anything moves: Embree builds all of a scene anew when anything in it has
+  // changed.
+  RTCScene resting = nullptr;
   std::map<std::uint32_t, RTCScene> mesh_scenes;              // of those that move
   std::map<std::uint32_t, std::vector<std::uint8_t>> mesh_looks;  // likewise
   std::vector<std::uint8_t> resting_looks;
@@ -62,6 +65,7 @@ struct LidarWorld::Tree {
 
   ~Tree() {
     if (scene) rtcReleaseScene(scene);
+    if (resting) rtcReleaseScene(resting);
     for (const auto& [mesh, of_mesh] : mesh_scenes) rtcReleaseScene(of_mesh);
     if (device) rtcReleaseDevice(device);
   }
@@ -73,6 +77,7 @@ struct LidarWorld::Tree {
   }
   void attach(RTCScene to, const std::vector<Vec3f>& positions,
               const std::vector<std::array<std::uint32_t, 3>>& triangles) const;
+  RTCGeometry attach_instance(RTCScene of, unsigned number) const;  // owned by `scene`; neither placed nor committed
   void add_resting(const Scene& from);
   void add_movers(const Scene& from);
   void commit();
@@ -123,7 +128,22 @@ void LidarWorld::Tree::add_resting(const Scene& from) {
     resting_ends.push_back(std::uint32_t(triangles.size()));
     resting_pieces.push_back(std::int32_t(piece.id));
   }
-  attach(scene, positions, triangles);
+  if (from.motion.moving.empty()) return attach(scene, positions, triangles);
+  resting = new_scene();
+  attach(resting, positions, triangles);
+  rtcCommitScene(resting);
+  const RTCGeometry instance = attach_instance(resting, kResting);
+  const RTCQuaternionDecomposition there = decompose({}, 1);
+  rtcSetGeometryTransformQuaternion(instance, 0, &there);
+  rtcCommitGeometry(instance);
+}
+
+RTCGeometry LidarWorld::Tree::attach_instance(RTCScene of, unsigned number) const {
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, of);
+  rtcAttachGeometryByID(scene, geometry, number);
+  rtcReleaseGeometry(geometry);  // the tree keeps it
+  return geometry;
 }
 
 void LidarWorld::Tree::add_movers(const Scene& from) {
@@ -137,11 +157,9 @@ void LidarWorld::Tree::add_movers(const Scene& from) {
       rtcCommitScene(of_mesh);
       mesh_looks[piece.mesh] = looks_of(mesh);
     }
-    Mover mover{rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE), piece.mesh, piece.scale, {}, std::int32_t(piece.id)};
-    rtcSetGeometryInstancedScene(mover.geometry, of_mesh);
-    rtcSetGeometryTimeStepCount(mover.geometry, 2);
-    rtcAttachGeometryByID(scene, mover.geometry, kResting + 1 + unsigned(movers.size()));
-    rtcReleaseGeometry(mover.geometry);  // the tree keeps it
+    const RTCGeometry geometry = attach_instance(of_mesh, kResting + 1 + unsigned(movers.size()));
+    rtcSetGeometryTimeStepCount(geometry, 2);
+    const Mover mover{geometry, piece.mesh, piece.scale, {}, std::int32_t(piece.id)};
     movers.push_back(mover);
   }
 }
@@ -157,7 +175,7 @@ LidarWorld::Hit LidarWorld::Tree::read(unsigned primitive, unsigned instance, co
                                        const Ray& ray, double t) const {
   Vec3 out(normal);
   std::uint8_t look = 0;
-  if (instance == RTC_INVALID_GEOMETRY_ID) {
+  if (instance == RTC_INVALID_GEOMETRY_ID || instance == kResting) {
     look = resting_looks[primitive];
   } else {
     const Mover& mover = movers[instance - kResting - 1];
@@ -171,7 +189,7 @@ LidarWorld::Hit LidarWorld::Tree::read(unsigned primitive, unsigned instance, co
 }
 
 std::int32_t LidarWorld::Tree::piece_of(unsigned primitive, unsigned instance) const {
-  if (instance != RTC_INVALID_GEOMETRY_ID) return movers[instance - kResting - 1].piece;
+  if (instance != RTC_INVALID_GEOMETRY_ID && instance != kResting) return movers[instance - kResting - 1].piece;
   const auto end = std::upper_bound(resting_ends.begin(), resting_ends.end(), primitive);
   return resting_pieces[std::size_t(end - resting_ends.begin())];
 }

@@ -36,19 +36,18 @@ struct SimbodyBlocks::Block {
       SimTK::MobilizedBody::Free(matter.Ground(), SimTK::Transform(),
                                  SimTK::Body::Rigid(mass_properties(bodies[i])), SimTK::Transform());
     system.realizeTopology();
-    system.realizeModel(state());
-    q = state().getQ().getContiguousScalarData();
-    u = state().getU().getContiguousScalarData();
+    // The system's own state: a copy of it would take as much again, three kilobytes a body.
+    SimTK::State& state = system.updDefaultState();
+    system.realizeModel(state);
+    q = state.updQ().updContiguousScalarData();
+    u = state.updU().updContiguousScalarData();
   }
-
-  // The system's own: a copy of it would take as much again, three kilobytes a body.
-  SimTK::State& state() { return system.updDefaultState(); }
-  double* upd_q() { return state().updQ().updContiguousScalarData(); }
-  double* upd_u() { return state().updU().updContiguousScalarData(); }
 
   SimTK::MultibodySystem system;
   SimTK::SimbodyMatterSubsystem matter;
-  const double *q = nullptr, *u = nullptr;  // where the State has them, to read
+  // Where the State has them. Nothing of it is realised beyond its model, so nothing goes stale by what is written here:
+  // updQ() and updU() for each step of a block would only look for that.
+  double *q = nullptr, *u = nullptr;
   int first = 0;                            // number of its first body
   int count = 0;
 };
@@ -56,9 +55,6 @@ struct SimbodyBlocks::Block {
 // The same numbers, kept here: nothing of free bodies is computed by Simbody.
 struct SimbodyBlocks::Block {
   Block(const FreeBody*, int number) : q(7 * std::size_t(number)), u(6 * std::size_t(number)), count(number) {}
-
-  double* upd_q() { return q.data(); }
-  double* upd_u() { return u.data(); }
 
   std::vector<double> q, u;
   int first = 0;
@@ -99,7 +95,7 @@ int SimbodyBlocks::add(const std::vector<FreeBody>& bodies) {
 }
 
 void SimbodyBlocks::set_velocity(int body, const Vec3& linear, const Vec3& angular) {
-  double* u = block_of(body).upd_u();
+  double* u = &block_of(body).u[0];
   const int at = 6 * slot_[body];
   u[at] = angular.x, u[at + 1] = angular.y, u[at + 2] = angular.z;
   u[at + 3] = linear.x, u[at + 4] = linear.y, u[at + 5] = linear.z;
@@ -122,8 +118,8 @@ Vec3 SimbodyBlocks::linear_velocity(int body) const {
 void SimbodyBlocks::advance(int index, const std::vector<std::uint8_t>& moves,
                             const BodyRates* rates, double dt) {
   Block& block = *blocks_[index];
-  double* u = block.upd_u();
-  double* q = block.upd_q();
+  double* u = &block.u[0];
+  double* q = &block.q[0];
   const int count = block.count;
   for (int slot = 0; slot < count; ++slot) {
     const int body = block.first + slot;
@@ -151,7 +147,7 @@ Pose SimbodyBlocks::world_from_com(int body) const {
 }
 
 void SimbodyBlocks::set_pose(int body, const Pose& pose) {
-  double* q = block_of(body).upd_q();
+  double* q = &block_of(body).q[0];
   const int at = 7 * slot_[body];
   q[at] = pose.rotation.w, q[at + 1] = pose.rotation.x;
   q[at + 2] = pose.rotation.y, q[at + 3] = pose.rotation.z;

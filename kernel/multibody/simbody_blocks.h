@@ -3,8 +3,7 @@
 // behind the second one, simbody_trees.h.
 //
 // Simbody owns the state and computes nothing here; contact impulses change u, and advance() changes q. Free bodies need
-// nothing else of a State, so a step does not realise it beyond that: who asks Simbody for more
-// realises it first. The numbers of a sleeping body are never rewritten.
+// nothing else of a State, so it is never realised beyond its model. The numbers of a sleeping body are never rewritten.
 #pragma once
 
 #include <cstdint>

@@ -3,8 +3,8 @@
 //
 //   SurroundingsSpec + seed + the circle of the pile --make_surroundings--> Surroundings
 //
-// They are true geometry: drawn, labelled, exported, asked by queries. The physics does not know them: no
-// piece and no robot feels them.
+// They are true geometry: drawn, labelled, exported, asked by queries, felt by robots (solid_surface.h). A pile settles
+// without them.
 #pragma once
 
 #include <array>

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/base/error.h"
+#include "kernel/surroundings/solid_surface.h"
 
 namespace rubble {
 namespace {
@@ -14,6 +15,8 @@ namespace {
 constexpr double kMostDepth = 0.005;
 constexpr double kStuckDistance = 0.02;  // in a second; unit: m
 constexpr double kMovedDistance = 0.01;  // unit: m
+constexpr double kFeltReach = 60;  // about the Z axis, as far as surroundings are felt; unit: m
+constexpr double kSurroundingsFriction = 0.8;  // of asphalt and walls, as of concrete; unit: 1
 
 WorldOptions world_options(const RobotRunOptions& options) {
   WorldOptions world;
@@ -39,6 +42,12 @@ std::int64_t period(double hz, double step) {
   return std::max(std::int64_t(1), std::int64_t(1 / (hz * step) + 0.5));
 }
 
+std::shared_ptr<const TriangleMesh> find_surroundings(const PileState& state) {
+  if (!state.surroundings) return nullptr;
+  TriangleMesh surface = make_solid_surface(*state.surroundings, kFeltReach);
+  return surface.triangles.empty() ? nullptr : std::make_shared<const TriangleMesh>(std::move(surface));
+}
+
 std::string text_of(const char* format, double a, double b, double c) {
   char text[96];
   std::snprintf(text, sizeof text, format, a, b, c);
@@ -48,7 +57,11 @@ std::string text_of(const char* format, double a, double b, double c) {
 }  // namespace
 
 RobotRun::RobotRun(const Pile& pile, const PileState& state, const RobotRunOptions& options)
-    : options_(options), laid_(pile), pile_(state), world_(pile.types, world_options(options), pile.assemblies) {
+    : options_(options),
+      laid_(pile),
+      pile_(state),
+      surroundings_(find_surroundings(state)),
+      world_(pile.types, world_options(options), pile.assemblies) {
   check(options);
   world_.lay(pile, state, options.fixed_debris);
   world_.set_step(options.step, options.substeps);
@@ -84,12 +97,23 @@ std::vector<RobotContact> RobotRun::find_base_contacts(int robot) const {
   probe.lay(laid_, pile_, true);
   probe.set_step(options_.step, options_.substeps);
   probe.add_robot(base, robots_[std::size_t(robot)].base);
+  if (surroundings_) probe.add_surface(surroundings_, kSurroundingsFriction);
   probe.step();
   std::vector<RobotContact> contacts = probe.robot_contacts(0);
   const int first = probe.robot_piece(0), own = world_.robot_piece(robot);
-  for (RobotContact& c : contacts)
+  for (RobotContact& c : contacts) {
     if (c.piece == first) c.piece = own;
+    if (c.piece == first + 1) c.piece = surface_;
+  }
   return contacts;
+}
+
+// Of what a robot touches.
+std::string RobotRun::name_of(int piece) const {
+  if (piece < 0) return "the ground";
+  if (piece == surface_) return "the surroundings";
+  if (piece >= int(pile_.pieces.size())) return "another robot";
+  return pile_.types[std::size_t(pile_.pieces[std::size_t(piece)].type)] + " (piece " + std::to_string(piece) + ")";
 }
 
 // After the first step: its contacts were found where everything stood before it.
@@ -109,18 +133,11 @@ void RobotRun::check_room() const {
       if (!own && c.separation < worst.separation) worst = c;
     }
     if (worst.separation > -kMostDepth) continue;
-    std::string what = "the ground";
-    if (worst.piece >= int(pile_.pieces.size())) {
-      what = "another robot";
-    } else if (worst.piece >= 0) {
-      what = pile_.types[std::size_t(pile_.pieces[std::size_t(worst.piece)].type)] + " (piece " +
-             std::to_string(worst.piece) + ")";
-    }
     const Vec3 out = worst.normal * -worst.separation;
     Diagnostic d;
     d.key = "robots[" + std::to_string(i + 1) + "].position";
     d.message = model.links[std::size_t(worst.link)].name + " stands " +
-                text_of("%.3f m", -worst.separation, 0, 0) + " deep in " + what;
+                text_of("%.3f m", -worst.separation, 0, 0) + " deep in " + name_of(worst.piece);
     d.expected = "a place that is free";
     d.hint = text_of("move it by {%.3f, %.3f, %.3f} at least", out.x, out.y, out.z);
     mistakes.push_back(d);
@@ -150,7 +167,11 @@ void RobotRun::measure() {
   }
 }
 
-void RobotRun::begin() { recorder_.observe(world_); }
+void RobotRun::begin() {
+  // After all robots: the numbers of their links go on from those of the pieces.
+  if (surroundings_) surface_ = world_.add_surface(surroundings_, kSurroundingsFriction);
+  recorder_.observe(world_);
+}
 
 void RobotRun::step() {
   if (steps_ % period(options_.control_hz, options_.step) == 0) control();

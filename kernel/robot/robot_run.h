@@ -1,8 +1,9 @@
-// Robots in a pile that has settled: control at a rate of its own, what moves kept as a track.
+// Robots in a pile that has settled, and in its surroundings: control at a rate of its own, what moves kept as a track.
 #pragma once
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -85,12 +86,15 @@ class RobotRun {
   };
   void control();
   void check_room() const;
+  std::string name_of(int piece) const;
   std::vector<RobotContact> find_base_contacts(int robot) const;
   void measure();
 
   RobotRunOptions options_;
   Pile laid_;
   PileState pile_;
+  std::shared_ptr<const TriangleMesh> surroundings_;  // what is solid of them; none: the plane alone
+  int surface_ = -1;                                  // its number in the world; -1: none
   World world_;
   std::vector<Driven> robots_;
   TrackRecorder recorder_;

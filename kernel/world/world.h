@@ -93,6 +93,11 @@ class World {
   // Of the last step, those that carry an impulse or overlap; by link.
   std::vector<RobotContact> robot_contacts(int robot) const;
 
+  // Adds an immovable surface of a type that no other piece can have, such as a street about the pile: it collides by
+  // its triangles, from the side that they face. Returns its number. mesh: in the world; unit: m. friction: Coulomb,
+  // against concrete; range: 0 to 2. Throws InputError for a mesh without any area.
+  int add_surface(std::shared_ptr<const TriangleMesh> mesh, double friction);
+
   // Pieces that hold together as one rigid body: a structure before it breaks. bind() makes one of fixed,
   // neighbouring numbers, unscaled and turned alike; they stay fixed until split() frees some. A body
   // that comes apart keeps mass, momentum, angular momentum and energy. All pieces of the body must be in

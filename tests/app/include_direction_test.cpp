@@ -88,7 +88,7 @@ const Allowed kKernel{
     {"kernel/solver/", with(kernel_rooms(2), {"kernel/collision/", "kernel/multibody/", "kernel/solver/"})},
     {"kernel/world/", kernel_rooms(7)},
     {"kernel/settling/", kernel_rooms(8)},
-    {"kernel/robot/", kernel_rooms(9)},
+    {"kernel/robot/", with(kernel_rooms(9), {"kernel/surroundings/"})},
     {"kernel/queries/", with(kernel_rooms(2), {"kernel/queries/"})},
     {"kernel/fines/", with(kernel_rooms(2), {"kernel/queries/", "kernel/fines/"})},
     {"kernel/surroundings/", with(kernel_rooms(1), {"kernel/surroundings/"})},

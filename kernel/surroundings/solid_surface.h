@@ -1,0 +1,13 @@
+// What of the surroundings robots drive on and bump into.
+#pragma once
+
+#include "kernel/base/mesh.h"
+#include "kernel/model/surroundings.h"
+
+namespace rubble {
+
+// All that is solid of what comes nearer than `reach` to the Z axis, as one surface in the world, by the triangles that
+// are drawn: without leaves, tufts, puddles and the skyline. Empty where nothing is there. reach: unit: m
+TriangleMesh make_solid_surface(const Surroundings& surroundings, double reach);
+
+}  // namespace rubble

@@ -9,6 +9,7 @@ namespace rubble {
 
 namespace {
 
+constexpr double kLeastBank = 0.01;  // lower steps need no side; unit: m
 constexpr double kBeyond = 160;  // the street goes on so far without details; unit: m
 
 double smoothstep(double low, double high, double x) {
@@ -209,18 +210,30 @@ double greenness(const RoughGround& ground, double x, double y, double away) {
   return ground.noise(x, y, 4.5, 7) + 0.6 * ground.noise(x, y, 1.3, 8) + 0.22 * (away - 5);
 }
 
+// With a bank down to the plane where it ends at the circle.
 void add_field(const StreetSection& street, const RoughGround& ground, const std::vector<double>& xs,
                const std::vector<double>& ys, MeshBuilder& out) {
-  const auto free_of = [&](double x, double y) { return x * x + y * y > street.circle * street.circle; };
-  for (std::size_t i = 0; i + 1 < xs.size(); ++i)
-    for (std::size_t k = 0; k + 1 < ys.size(); ++k) {
-      const double x0 = xs[i], x1 = xs[i + 1], y0 = ys[k], y1 = ys[k + 1];
-      if (!free_of(x0, y0) || !free_of(x1, y0) || !free_of(x0, y1) || !free_of(x1, y1)) continue;
-      const double mx = (x0 + x1) / 2, my = (y0 + y1) / 2;
+  const auto is_free = [&](double x, double y) { return x * x + y * y > street.circle * street.circle; };
+  const auto is_there = [&](std::size_t i, std::size_t k) {
+    return is_free(xs[i], ys[k]) && is_free(xs[i + 1], ys[k]) && is_free(xs[i], ys[k + 1]) && is_free(xs[i + 1], ys[k + 1]);
+  };
+  const auto at = [&](double x, double y) { return Vec3(x, y, ground.height(x, y)); };
+  const auto add_bank = [&](const Vec3& a, const Vec3& b) {  // seen from the circle, a is on the left
+    if (std::max(a.z, b.z) > kLeastBank) out.quad(a, Vec3(a.x, a.y, 0), Vec3(b.x, b.y, 0), b);
+  };
+  const std::size_t columns = xs.size() - 1, rows = ys.size() - 1;
+  for (std::size_t i = 0; i < columns; ++i)
+    for (std::size_t k = 0; k < rows; ++k) {
+      if (!is_there(i, k)) continue;
+      const double mx = (xs[i] + xs[i + 1]) / 2, my = (ys[k] + ys[k + 1]) / 2;
       const double away = std::sqrt(mx * mx + my * my) - street.circle;
       out.look(greenness(ground, mx, my, away) > 0 ? "grass" : "ground");
-      const auto at = [&](double x, double y) { return Vec3(x, y, ground.height(x, y)); };
-      out.quad(at(x0, y0), at(x1, y0), at(x1, y1), at(x0, y1));
+      const Vec3 corners[4] = {at(xs[i], ys[k]), at(xs[i + 1], ys[k]), at(xs[i + 1], ys[k + 1]), at(xs[i], ys[k + 1])};
+      out.quad(corners[0], corners[1], corners[2], corners[3]);
+      if (k > 0 && !is_there(i, k - 1)) add_bank(corners[0], corners[1]);
+      if (i + 1 < columns && !is_there(i + 1, k)) add_bank(corners[1], corners[2]);
+      if (k + 1 < rows && !is_there(i, k + 1)) add_bank(corners[2], corners[3]);
+      if (i > 0 && !is_there(i - 1, k)) add_bank(corners[3], corners[0]);
     }
 }
 

@@ -16,12 +16,6 @@ struct Surface {
 uniform sampler2DArray look_textures;
 uniform sampler2D ground_map;  // from above: debris on the ground, tone; see ground_map.h
 
-// Noise of a cell's number, from 0 to 1. It lies on the surface and moves with it: what stays on the
-// pixel grid while the camera moves is a false landmark.
-float cell_noise(vec2 cell) {
-  return fract(52.9829189 * fract(dot(cell, vec2(0.06711056, 0.00583715))));
-}
-
 // Schlick's approximation of Fresnel's law.
 float fresnel(float reflectance, float cosine) {
   float c = 1.0 - cosine, c2 = c * c;
@@ -132,12 +126,10 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
                                   : normalize(vec3(-plane.y, plane.x, 0.0));
   vec3 across = cross(plane, along);
   vec2 uv = vec2(dot(q, along), dot(q, across)) * dark.w + seed * (1.0 / 65536.0);
-  // Slow variation over metres; where it is high the ground shows another part of its texture, so
-  // that no repetition meets the eye.
+  // Slow variation over metres.
   vec2 above = (world.xy + 0.6 * world.z - ground.xy) * ground.z;
   vec2 map = texture(ground_map, 0.5 + 0.5 * above / (1.0 + abs(above))).xy;
   float slow = 4.0 * map.y - 2.0;
-  if (more.y < 0.2 && slow + 0.3 * cell_noise(floor(world.xy * 60.0)) > 0.15) uv = uv.yx * 0.83 + 0.37;
   // A wall shows another part of its texture every 1.7 m or so, at the boards' joints.
   if (more.x < 0.5) uv.x += 0.37 * floor(uv.y) + 0.21 * floor(uv.y * 0.5);
   vec3 rx = mx.xyz * scale, ry = my.xyz * scale, rz = mz.xyz * scale;  // rotation rows
@@ -145,6 +137,12 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   float grazing = max(-dot(s.face_normal, direction), 0.05);
   float level = more.w + log2(z * lens.x) - 0.5 * log2(grazing) - 0.25;
   vec4 texel = textureLod(look_textures, vec3(uv, more.x), max(level, 0.0));
+  // Where the slow variation is high the ground shows another part of its texture, so that no repetition meets the eye;
+  // between them what lies higher of both.
+  if (more.y < 0.2 && slow > -0.6) {
+    vec4 other = textureLod(look_textures, vec3(uv.yx * 0.83 + 0.37, more.x), max(level, 0.0)).yxzw;
+    texel = mix(texel, other, smoothstep(-0.15, 0.15, slow - 0.15 + 0.6 * (other.z - texel.z)));
+  }
 
   // Relief.
 #ifdef GLOW

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/materials/surface_appearance.h"
 
@@ -25,10 +26,6 @@ Vec3f turned(const Vec3f& v, int turn) {
 }
 Vec3f turned_back(const Vec3f& v, int turn) {
   return turn == 1 ? Vec3f(v.z, v.x, v.y) : turn == 2 ? Vec3f(v.y, v.z, v.x) : v;
-}
-// Noise of a cell's number, from 0 to 1, as in shaders/surface.glsl.
-float cell_noise(float x, float y) {
-  return fract(52.9829189f * fract(x * 0.06711056f + y * 0.00583715f));
 }
 float ragged(float x) {  // noise without a pattern
   const float hash = fract(x);
@@ -136,17 +133,18 @@ void LookSurfaces::find_pattern(const SurfaceQuery& query, Place& place) const {
                                                 : normalized(Vec3f(-plane.y, plane.x, 0));
   const Vec3f across = cross(plane, along);
   float u = dot(q, along) / look.tile + piece.seed_u, v = dot(q, across) / look.tile + piece.seed_v;
-  const float edge = cell_noise(std::floor(place.world.x * 60), std::floor(place.world.y * 60));
-  if (look.dust < 0.2f && place.slow + 0.3f * edge > 0.15f) {
-    const float old = u;
-    u = v * 0.83f + 0.37f, v = old * 0.83f + 0.37f;
-  }
   if (look.pattern == Pattern::cast_concrete)
     u += 0.37f * std::floor(v) + 0.21f * std::floor(v * 0.5f);
   const float grazing = std::max(-dot(place.to_world(place.face), query.direction), 0.05f);
   const float texels = float(textures_.size()) / look.tile * query.footprint / std::sqrt(grazing);
   const float level = texels > 1 ? std::log2(texels) : 0;
-  const auto texel = textures_.read(int(look.pattern), u, v, level);
+  auto texel = textures_.read(int(look.pattern), u, v, level);
+  if (look.dust < 0.2f && place.slow > -0.6f) {  // as in shaders/surface.glsl
+    auto other = textures_.read(int(look.pattern), v * 0.83f + 0.37f, u * 0.83f + 0.37f, level);
+    std::swap(other[0], other[1]);
+    const float share = smoothstep(-0.15f, 0.15f, place.slow - 0.15f + 0.6f * (other[2] - texel[2]));
+    for (std::size_t i = 0; i < texel.size(); ++i) texel[i] += (other[i] - texel[i]) * share;
+  }
   const Vec3f tu = turned_back(along, piece.turn), tv = turned_back(across, piece.turn);
   place.bent = place.smooth - tu * ((texel[0] * 4 - 2) * look.bump) -
                tv * ((texel[1] * 4 - 2) * look.bump);

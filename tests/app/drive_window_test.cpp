@@ -49,6 +49,7 @@ $program drive scripts/small.lua --size 160x120 --record --set outputs.rawlog=fa
 for i in $(seq 600); do grep -q 'drive: ready' $d/stderr && break; sleep 0.1; done
 w=$(xdotool search --sync --onlyvisible --name 'rubble drive' | head -1)
 xdotool windowfocus $w; xdotool mousemove --window $w 80 60
+for i in $(seq 100); do [ $(tr -d '\000' <$d/Xvfb_screen0 | wc -c) -gt 40000 ] && break; sleep 0.2; done  # drawn
 sleep 0.4; cp $d/Xvfb_screen0 $d/before
 xdotool keydown w keydown d; sleep 0.6; xdotool keyup w keyup d
 xdotool key l; sleep 0.6; xdotool key f; sleep 0.6

@@ -1,4 +1,4 @@
-#include "kernel/surroundings/mesh_builder.h"
+#include "kernel/geometry/mesh_builder.h"
 
 #include <algorithm>
 #include <cmath>

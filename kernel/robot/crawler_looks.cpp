@@ -7,7 +7,7 @@
 namespace rubble {
 namespace {
 
-constexpr int kBeltArc = 16, kWheelFacets = 32;
+constexpr int kBeltArc = 14, kWheelFacets = 22;
 constexpr double kLugHeight = 0.010, kFlipperLugHeight = 0.007, kBeltThickness = 0.006;  // unit: m
 
 // The outlines of a belt's outside and inside below its lugs, from the rear axle along X.
@@ -48,7 +48,7 @@ void add_belt(const TrackSize& size, double lug_height, int lugs, const Pose& at
     add_lug(left, lug_height, foot, top, 0.06 * size.width, half, 0.006, at, out);
     add_lug(right, lug_height, foot, top, -0.06 * size.width, -half, 0.006, at, out);
     // Teeth inside, which run between the wheels' halves.
-    if (k % 2 == 0) {
+    if (k % 3 == 0) {
       const OutlineSpot tooth = find_outline_spot(inner, (k + 0.5) / lugs);
       add_lug({tooth.position, -tooth.normal}, 0.6 * lug_height, 0.006, 0.003, -0.07 * size.width, 0.07 * size.width, 0, at,
               out);
@@ -56,50 +56,43 @@ void add_belt(const TrackSize& size, double lug_height, int lugs, const Pose& at
   }
 }
 
-// A wheel under a belt: two rims with a groove between, spokes, a hub with bolts. Its axis is X of `at`.
+// A wheel under a belt: a rim, spokes, a hub; bolts at the side that looks along X of `at`, which is its axis.
 void add_track_wheel(double radius, double width, int spokes, const Pose& at, MeshBuilder& out) {
   const double half = 0.5 * width, r = radius;
   out.look("polymer_black");
-  for (const double side : {-1.0, 1.0}) {
-    const double a = side < 0 ? -half : 0.12 * width, b = side < 0 ? -0.12 * width : half;
-    add_collar({{a, 0.76 * r}, {a, 0.96 * r}, {a + 0.03 * r, r}, {b - 0.03 * r, r}, {b, 0.96 * r}, {b, 0.76 * r}}, kWheelFacets,
-               at, out);
-  }
+  add_collar({{-half, 0.76 * r}, {-half, 0.97 * r}, {-half + 0.03 * r, r}, {half, r}, {half, 0.76 * r}}, kWheelFacets, at, out);
   add_lathe({{-half + 0.012, 0.8 * r}, {half - 0.012, 0.8 * r}}, kWheelFacets, at, out);
   out.look("aluminium");
   for (int k = 0; k < spokes; ++k) {
     const auto [s, c] = portable::sincos(portable::kPi * k / spokes);
     const Pose spoke = at * Pose{{c, s, 0, 0}, {}};
-    add_chamfered_box({width - 0.008, 0.62 * r, 0.14 * r}, {0, 0.47 * r, 0}, 0.002, spoke, out);
+    const double in = 0.16 * r, end = 0.8 * r, foot = 0.08 * r, top = 0.055 * r, up = half - 0.004;
+    add_block({Vec3{-up, in, -foot}, Vec3{-up, end, -foot}, Vec3{-up, end, foot}, Vec3{-up, in, foot}, Vec3{up, in, -top},
+               Vec3{up, end, -top}, Vec3{up, end, top}, Vec3{up, in, top}}, spoke, out);
   }
-  add_lathe({{-half, 0.2 * r}, {-half + 0.004, 0.27 * r}, {half - 0.004, 0.27 * r}, {half, 0.2 * r}}, 24, at, out);
-  for (const double side : {-1.0, 1.0}) {
-    const Pose face = at * facing({side * (half - 0.001), 0, 0}, {side, 0, 0});
-    out.look("steel_galvanised");
-    add_bolt_circle(0.145 * r, 5, 0.035 * r, face, out);
-    add_bolt_circle(0.86 * r, 2 * spokes, 0.035 * r, at * facing({side * half, 0, 0}, {side, 0, 0}), out);
-  }
+  add_lathe({{-half, 0.24 * r}, {half - 0.004, 0.27 * r}, {half, 0.2 * r}}, 16, at, out);
+  out.look("steel_galvanised");
+  add_bolt_circle(0.86 * r, spokes, 0.04 * r, at * Pose{{}, {half, 0, 0}}, out);
 }
 
 // A small wheel that the belt runs over, with a rubber tread.
 void add_roller(double radius, double width, const Pose& at, MeshBuilder& out) {
   const double half = 0.5 * width, r = radius;
   out.look("rubber");
-  add_collar({{-half, 0.7 * r}, {-half, 0.92 * r}, {-half + 0.08 * r, r}, {half - 0.08 * r, r}, {half, 0.92 * r}, {half, 0.7 * r}},
-             20, at, out);
+  add_collar({{-half, 0.7 * r}, {-half + 0.05 * r, r}, {half - 0.05 * r, r}, {half, 0.7 * r}}, 14, at, out);
   out.look("aluminium");
-  add_lathe({{-half + 0.003, 0.72 * r}, {half - 0.003, 0.72 * r}}, 20, at, out);
-  add_lathe({{-half - 0.001, 0.3 * r}, {half + 0.001, 0.3 * r}}, 12, at, out);
+  add_lathe({{-half + 0.003, 0.72 * r}, {half - 0.003, 0.72 * r}}, 14, at, out);
+  add_lathe({{-half - 0.001, 0.3 * r}, {half + 0.001, 0.3 * r}}, 8, at, out);
 }
 
 // The plate between the wheels at the side that looks out, with holes for the rollers' axles.
 void add_side_plate(double length, double height, double from, double to, double side, const Pose& at, MeshBuilder& out) {
-  Outline plate = make_belt_outline(0.5 * height, 0.5 * height, length, 10);
+  Outline plate = make_belt_outline(0.5 * height, 0.5 * height, length, 8);
   for (Vec3& p : plate) p.x -= 0.5 * length;
   out.look("aluminium");
   add_slab(plate, std::min(side * from, side * to), std::max(side * from, side * to), 0.0025, at, out);
   out.look("polymer_black");
-  Outline inlay = make_belt_outline(0.27 * height, 0.27 * height, 0.62 * length, 10);
+  Outline inlay = make_belt_outline(0.27 * height, 0.27 * height, 0.62 * length, 8);
   for (Vec3& p : inlay) p.x -= 0.31 * length;
   const double a = side * (to - 0.002), b = side * (to + 0.0015);
   add_slab(inlay, std::min(a, b), std::max(a, b), 0.0008, at, out);
@@ -116,13 +109,13 @@ TriangleMesh make_track_looks(const TrackSize& size, double y, double side) {
   MeshBuilder out;
   const double r = size.radius_rear, half = 0.5 * size.width, inside = r - kLugHeight - kBeltThickness;
   out.frame({{}, {0, y, r}});
-  add_belt(size, kLugHeight, 46, {{}, {-0.5 * size.length, 0, 0}}, out);
+  add_belt(size, kLugHeight, 40, {{}, {-0.5 * size.length, 0, 0}}, out);
   for (const double x : {-0.5, 0.5}) {
-    const Pose axle = facing({x * size.length, 0, 0}, {0, 1, 0});
+    const Pose axle = facing({x * size.length, 0, 0}, {0, side, 0});
     add_track_wheel(inside - 0.0005, size.width - 0.012, 6, axle, out);
     // What the flipper hangs on.
     out.look("steel_galvanised");
-    add_lathe({{half - 0.03, 0.022}, {half + 0.006, 0.022}, {half + 0.009, 0.019}}, 24,
+    add_lathe({{half - 0.03, 0.022}, {half + 0.006, 0.022}, {half + 0.009, 0.019}}, 16,
               facing({x * size.length, 0, 0}, {0, side, 0}), out);
   }
   const double low = 0.024, high = 0.015;
@@ -144,34 +137,35 @@ TriangleMesh make_flipper_looks(const TrackSize& size, double direction, double 
   // Built along +X; turned about Z for the rear, which swaps its sides.
   if (direction < 0) out.frame({{0, 0, 0, 1}, {}});
   const double outwards = side * direction;
-  add_belt(size, kFlipperLugHeight, 36, {}, out);
-  add_track_wheel(hub - 0.0005, size.width - 0.01, 5, facing({}, {0, 1, 0}), out);
-  add_track_wheel(tip - 0.0005, size.width - 0.01, 5, facing({size.length, 0, 0}, {0, 1, 0}), out);
+  add_belt(size, kFlipperLugHeight, 30, {}, out);
+  add_track_wheel(hub - 0.0005, size.width - 0.01, 5, facing({}, {0, outwards, 0}), out);
+  add_track_wheel(tip - 0.0005, size.width - 0.01, 5, facing({size.length, 0, 0}, {0, outwards, 0}), out);
   out.look("polymer_black");
-  add_slab(make_belt_outline(0.55 * hub, 0.6 * tip, size.length, 10), -half + 0.012, half - 0.012, 0.004, {}, out);
+  add_slab(make_belt_outline(0.55 * hub, 0.6 * tip, size.length, 8), -half + 0.012, half - 0.012, 0.004, {}, out);
   for (const double y : {-1.0, 1.0}) {
     // A plate from hub to tip.
     out.look("car_paint");
     const double a = y * (half - 0.013), b = y * (half - 0.003);
-    Outline plate = make_belt_outline(0.44 * hub, 0.5 * tip, size.length, 14);
+    Outline plate = make_belt_outline(0.44 * hub, 0.5 * tip, size.length, 8);
     add_slab(plate, std::min(a, b), std::max(a, b), 0.002, {}, out);
+    if (y != outwards) continue;
     out.look("polymer_black");
     for (int k = 0; k < 3; ++k) {
       const double share = 0.28 + 0.2 * k, radius = (0.44 * hub * (1 - share) + 0.5 * tip * share) * 0.62;
-      add_lathe({{-0.003, radius}, {0.0006, radius}, {0.0009, 0.94 * radius}}, 20,
+      add_lathe({{-0.003, radius}, {0.0008, radius}}, 14,
                 facing({share * size.length, b, 0}, {0, y, 0}), out);
     }
     out.look("steel_galvanised");
     for (const double x : {0.0, size.length}) {
       const Pose axle = facing({x, b, 0}, {0, y, 0});
       const double radius = x > 0 ? 0.011 : 0.02;
-      add_lathe({{-0.004, radius}, {0.0015, radius}, {0.0025, 0.85 * radius}}, 20, axle, out);
+      add_lathe({{-0.004, radius}, {0.0015, radius}, {0.0025, 0.85 * radius}}, 16, axle, out);
       add_bolt_circle(0.62 * radius, 5, 0.13 * radius, axle * Pose{{}, {0.0025, 0, 0}}, out);
     }
   }
   // Its axle reaches to the track's.
   out.look("steel_galvanised");
-  add_lathe({{half - 0.01, 0.018}, {half + 0.008, 0.018}}, 20, facing({}, {0, -outwards, 0}), out);
+  add_lathe({{half - 0.01, 0.018}, {half + 0.008, 0.018}}, 16, facing({}, {0, -outwards, 0}), out);
   return out.take_smooth(kLooksCrease);
 }
 
@@ -209,9 +203,9 @@ void add_crawler_ends(MeshBuilder& out) {
   out.look("polymer_black");
   add_chamfered_box({0.006, 0.09, 0.03}, {-0.286, 0, 0.132}, 0.002, {}, out);
   for (const double y : {-0.08, 0.08}) {
-    add_lathe({{0, 0.013}, {0.008, 0.013}, {0.010, 0.011}}, 20, facing({-0.2845, y, 0.12}, {-1, 0, 0}), out);
+    add_lathe({{0, 0.013}, {0.008, 0.013}, {0.010, 0.011}}, 14, facing({-0.2845, y, 0.12}, {-1, 0, 0}), out);
     out.look("aluminium");
-    add_lathe({{0.009, 0.007}, {0.014, 0.007}}, 16, facing({-0.2845, y, 0.12}, {-1, 0, 0}), out);
+    add_lathe({{0.009, 0.007}, {0.014, 0.007}}, 10, facing({-0.2845, y, 0.12}, {-1, 0, 0}), out);
     out.look("polymer_black");
   }
 }

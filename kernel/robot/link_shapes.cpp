@@ -8,7 +8,8 @@
 namespace rubble {
 namespace {
 
-constexpr int kSmallFacets = 16;  // of what is a few cm across
+constexpr int kSmallFacets = 20, kTinyFacets = 10;  // of what is a few cm and one cm across
+constexpr int kLidarFacets = 28;
 
 Vec3 on_ring(const Ring& ring, int k, int facets) {
   const auto [s, c] = portable::sincos(2 * portable::kPi * k / facets);
@@ -62,7 +63,7 @@ Outline inset(const Outline& outline, double by) {
 }
 
 std::vector<Vec3> round_corners(const std::vector<Vec3>& line, double bend) {
-  constexpr int kSteps = 5;
+  constexpr int kSteps = 4;
   std::vector<Vec3> rounded{line.front()};
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
     const Vec3 a = line[i] + normalized(line[i - 1] - line[i]) * bend;
@@ -95,7 +96,7 @@ void add_collar(const std::vector<Ring>& outline, int facets, const Pose& at, Me
 }
 
 void add_bolt(double radius, const Pose& at, MeshBuilder& out) {
-  add_lathe({{-0.5 * radius, radius}, {0.6 * radius, radius}, {0.8 * radius, 0.75 * radius}}, 6, at, out);
+  add_lathe({{-0.5 * radius, radius}, {0.7 * radius, 0.92 * radius}}, 6, at, out);
 }
 
 void add_bolt_circle(double circle, int count, double radius, const Pose& at, MeshBuilder& out) {
@@ -213,20 +214,20 @@ void add_pipe(const std::vector<Vec3>& line, double radius, double bend, int sid
 void add_lamp(double radius, const Pose& at, MeshBuilder& out) {
   const double r = radius;
   out.look("polymer_black");
-  add_collar({{0, 0.86 * r}, {0, r}, {0.5 * r, r}, {0.6 * r, 0.95 * r}, {0.6 * r, 0.86 * r}}, 2 * kSmallFacets, at, out);
+  add_collar({{0, 0.86 * r}, {0, r}, {0.5 * r, r}, {0.6 * r, 0.95 * r}, {0.6 * r, 0.86 * r}}, kSmallFacets, at, out);
   out.look("aluminium");
-  add_lathe({{0, 0.9 * r}, {0.5 * r, 0.9 * r}, {0.12 * r, 0.3 * r}}, 2 * kSmallFacets, at, out);
+  add_lathe({{0, 0.9 * r}, {0.5 * r, 0.9 * r}, {0.12 * r, 0.3 * r}}, kSmallFacets, at, out);
   out.look("paint_light");
-  add_lathe({{0.1 * r, 0.2 * r}, {0.2 * r, 0.2 * r}, {0.28 * r, 0.1 * r}}, kSmallFacets, at, out);
+  add_lathe({{0.1 * r, 0.2 * r}, {0.2 * r, 0.2 * r}, {0.28 * r, 0.1 * r}}, kTinyFacets, at, out);
 }
 
 void add_lens(double radius, const Pose& at, MeshBuilder& out) {
   const double r = radius;
   out.look("polymer_black");
   add_collar({{-0.1 * r, 0.6 * r}, {-0.1 * r, r}, {0.5 * r, r}, {0.6 * r, 0.92 * r}, {0.6 * r, 0.78 * r}, {0.35 * r, 0.6 * r}},
-             2 * kSmallFacets, at, out);
+             kSmallFacets, at, out);
   out.look("pane");
-  add_lathe({{0, 0.65 * r}, {0.3 * r, 0.65 * r}, {0.42 * r, 0.5 * r}, {0.5 * r, 0.25 * r}, {0.52 * r, 0}}, 2 * kSmallFacets, at,
+  add_lathe({{0, 0.65 * r}, {0.3 * r, 0.65 * r}, {0.42 * r, 0.5 * r}, {0.5 * r, 0.25 * r}, {0.52 * r, 0}}, kSmallFacets, at,
             out);
 }
 
@@ -234,20 +235,20 @@ void add_lidar(double radius, double height, const Pose& at, MeshBuilder& out) {
   const double r = radius, h = height;
   const Pose up = at * facing({}, {0, 0, 1});
   out.look("aluminium");
-  add_lathe({{0, 0.96 * r}, {0.05 * h, r}, {0.22 * h, r}, {0.26 * h, 0.95 * r}}, 2 * kSmallFacets, up, out);
+  add_lathe({{0, 0.96 * r}, {0.05 * h, r}, {0.22 * h, r}, {0.26 * h, 0.95 * r}}, kLidarFacets, up, out);
   out.look("pane");
-  add_lathe({{0.24 * h, 0.93 * r}, {0.76 * h, 0.93 * r}}, 2 * kSmallFacets, up, out);
+  add_lathe({{0.24 * h, 0.93 * r}, {0.76 * h, 0.93 * r}}, kLidarFacets, up, out);
   out.look("aluminium");
-  add_lathe({{0.74 * h, 0.95 * r}, {0.78 * h, r}, {0.92 * h, r}, {h, 0.86 * r}}, 2 * kSmallFacets, up, out);
+  add_lathe({{0.74 * h, 0.95 * r}, {0.78 * h, r}, {0.92 * h, r}, {h, 0.86 * r}}, kLidarFacets, up, out);
 }
 
 void add_aerial(double height, const Pose& at, MeshBuilder& out) {
   const Pose up = at * facing({}, {0, 0, 1});
   out.look("aluminium");
-  add_lathe({{-0.002, 0.008}, {0.008, 0.008}, {0.010, 0.006}}, kSmallFacets, up, out);
+  add_lathe({{-0.002, 0.008}, {0.008, 0.008}, {0.010, 0.006}}, kTinyFacets, up, out);
   out.look("polymer_black");
-  add_lathe({{0.009, 0.0055}, {0.3 * height, 0.005}, {0.34 * height, 0.0035}, {height - 0.002, 0.003}, {height, 0.0015}}, 12,
-            up, out);
+  add_lathe({{0.009, 0.0055}, {0.3 * height, 0.005}, {0.34 * height, 0.0035}, {height - 0.002, 0.003}, {height, 0.0015}},
+            kTinyFacets, up, out);
 }
 
 void add_stop_button(const Pose& at, MeshBuilder& out) {
@@ -255,9 +256,9 @@ void add_stop_button(const Pose& at, MeshBuilder& out) {
   add_chamfered_box({0.04, 0.04, 0.016}, {0, 0, 0.007}, 0.003, at, out);
   const Pose up = at * facing({}, {0, 0, 1});
   out.look("polymer_black");
-  add_lathe({{0.014, 0.010}, {0.020, 0.010}}, kSmallFacets, up, out);
+  add_lathe({{0.014, 0.010}, {0.020, 0.010}}, kTinyFacets, up, out);
   out.look("paint_red");
-  add_lathe({{0.019, 0.011}, {0.021, 0.0145}, {0.026, 0.0145}, {0.029, 0.011}, {0.030, 0}}, 2 * kSmallFacets, up, out);
+  add_lathe({{0.019, 0.011}, {0.021, 0.0145}, {0.026, 0.0145}, {0.029, 0.011}, {0.030, 0}}, kSmallFacets, up, out);
 }
 
 }  // namespace rubble

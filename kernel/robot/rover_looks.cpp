@@ -90,20 +90,20 @@ void add_rover_chassis(MeshBuilder& out) {
   add_slab({{-0.21, 0, 0.088}, {-0.192, 0, 0.067}, {0.192, 0, 0.067}, {0.21, 0, 0.088}, {0.21, 0, 0.148}, {0.186, 0, 0.184},
             {-0.186, 0, 0.184}, {-0.21, 0, 0.148}}, -0.134, 0.134, 0.006, {}, out);
   out.look("aluminium");
-  add_chamfered_box({0.36, 0.24, 0.008}, {0, 0, 0.066}, 0.003, {}, out);
+  add_chamfered_box({0.36, 0.24, 0.008}, {0, 0, 0.0695}, 0.003, {}, out);
   out.look("polymer_black");
   add_chamfered_box({0.356, 0.244, 0.008}, {0, 0, 0.187}, 0.0025, {}, out);
   for (const double side : {-1.0, 1.0}) {
     // Panels with slots on the sides; stubs of the axles.
     add_chamfered_box({0.075, 0.006, 0.06}, {0, side * 0.1345, 0.118}, 0.002, {}, out);
     for (const double x : {-0.131, 0.131}) {
-      add_lathe({{0, 0.034}, {0.006, 0.034}, {0.009, 0.03}}, 28, facing({x, side * 0.133, 0.098}, {0, side, 0}), out);
+      add_lathe({{0, 0.034}, {0.006, 0.034}, {0.009, 0.03}}, 18, facing({x, side * 0.133, 0.098}, {0, side, 0}), out);
     }
     out.look("aluminium");
-    for (int k = 0; k < 4; ++k)
-      add_chamfered_box({0.055, 0.004, 0.004}, {0, side * 0.1375, 0.1 + 0.012 * k}, 0.001, {}, out);
+    for (int k = 0; k < 3; ++k)
+      add_chamfered_box({0.055, 0.004, 0.005}, {0, side * 0.1375, 0.103 + 0.015 * k}, 0.001, {}, out);
     for (const double x : {-0.131, 0.131})
-      add_lathe({{0, 0.016}, {0.025, 0.016}}, 24, facing({x, side * 0.135, 0.098}, {0, side, 0}), out);
+      add_lathe({{0, 0.016}, {0.025, 0.016}}, 14, facing({x, side * 0.135, 0.098}, {0, side, 0}), out);
     out.look("polymer_black");
   }
 }
@@ -126,7 +126,7 @@ void add_rover_ends(MeshBuilder& out) {
   }
   out.look("aluminium");
   for (const double y : {-0.016, 0.016})
-    add_lathe({{0, 0.009}, {0.006, 0.009}, {0.007, 0.007}}, 20, facing({-0.2135, y, 0.128}, {-1, 0, 0}), out);
+    add_lathe({{0, 0.009}, {0.006, 0.009}, {0.007, 0.007}}, 12, facing({-0.2135, y, 0.128}, {-1, 0, 0}), out);
 }
 
 // Two cameras on a bracket in front, a LiDAR in the middle, a computer's case behind. What rides at
@@ -143,12 +143,12 @@ void add_rover_deck(MeshBuilder& out) {
   add_lamp(0.008, facing({0.1855, 0, 0.243}, {1, 0, 0}), out);
   out.look("polymer_black");
   add_pipe({{0.155, -0.03, 0.232}, {0.13, -0.03, 0.225}, {0.12, -0.03, 0.185}}, 0.003, 0.012, 8, {}, out);
-  add_lathe({{-0.004, 0.05}, {0.02, 0.05}, {0.026, 0.044}}, 36, facing({0.03, 0, deck}, {0, 0, 1}), out);
+  add_lathe({{-0.004, 0.05}, {0.02, 0.05}, {0.026, 0.044}}, 28, facing({0.03, 0, deck}, {0, 0, 1}), out);
   add_lidar(0.038, 0.056, {{}, {0.03, 0, deck + 0.025}}, out);
   out.look("paint_light");
   add_chamfered_box({0.11, 0.15, 0.05}, {-0.108, 0, deck + 0.024}, 0.006, {}, out);
   out.look("polymer_black");
-  for (int k = 0; k < 7; ++k) add_chamfered_box({0.06, 0.005, 0.003}, {-0.108, -0.03 + 0.01 * k, deck + 0.0495}, 0.001, {}, out);
+  for (int k = 0; k < 5; ++k) add_chamfered_box({0.06, 0.006, 0.003}, {-0.108, -0.028 + 0.014 * k, deck + 0.0495}, 0.001, {}, out);
   for (const double side : {-1.0, 1.0}) {
     add_pipe({{-0.06, side * 0.118, 0.18}, {-0.06, side * 0.118, 0.222}, {-0.16, side * 0.118, 0.222},
               {-0.16, side * 0.118, 0.18}}, 0.0055, 0.015, 10, {}, out);

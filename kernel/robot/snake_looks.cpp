@@ -7,11 +7,11 @@
 namespace rubble {
 namespace {
 
-constexpr int kModuleFacets = 20;
+constexpr int kModuleFacets = 18;
 
 // Rubber about a joint, which looks the same however it is bent.
 void add_bellows(double radius, MeshBuilder& out) {
-  constexpr int kRings = 9;
+  constexpr int kRings = 8;
   std::vector<Ring> rings;
   for (int k = 0; k <= kRings; ++k) {
     const auto [s, c] = portable::sincos(portable::kPi * k / kRings);
@@ -28,7 +28,7 @@ void add_end_cap(double r, double depth, const Pose& at, MeshBuilder& out) {
   out.look("polymer_black");
   for (int k = 0; k < 4; ++k) {
     const auto [s, c] = portable::sincos(portable::kPi * (0.25 + 0.5 * k));
-    add_lathe({{-0.05 * r, 0.075 * r}, {0.012 * r, 0.075 * r}}, 8, at * facing({-0.68 * depth, 0.965 * r * c, 0.965 * r * s}, {0, c, s}),
+    add_lathe({{-0.05 * r, 0.075 * r}, {0.012 * r, 0.075 * r}}, 6, at * facing({-0.68 * depth, 0.965 * r * c, 0.965 * r * s}, {0, c, s}),
               out);
   }
 }
@@ -65,7 +65,7 @@ void add_horns(double r, const Pose& at, MeshBuilder& out) {
   for (const double side : {-1.0, 1.0}) {
     const Pose shaft = at * facing({}, {0, side, 0});
     out.look("polymer_black");
-    add_lathe({{0.6 * r, 0.22 * r}, {0.89 * r, 0.22 * r}, {0.91 * r, 0.19 * r}}, 14, shaft, out);
+    add_lathe({{0.6 * r, 0.22 * r}, {0.9 * r, 0.21 * r}}, 12, shaft, out);
     out.look("steel_galvanised");
     add_bolt(0.09 * r, shaft * Pose{{}, {0.905 * r, 0, 0}}, out);
   }

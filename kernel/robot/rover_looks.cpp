@@ -86,7 +86,7 @@ void add_rim(double radius, double width, const Pose& wheel, MeshBuilder& out) {
 }
 
 void add_rover_chassis(MeshBuilder& out) {
-  out.look("paint_red");
+  out.look("paint_yellow");
   add_slab({{-0.21, 0, 0.088}, {-0.192, 0, 0.067}, {0.192, 0, 0.067}, {0.21, 0, 0.088}, {0.21, 0, 0.148}, {0.186, 0, 0.184},
             {-0.186, 0, 0.184}, {-0.21, 0, 0.148}}, -0.134, 0.134, 0.006, {}, out);
   out.look("aluminium");

@@ -7,21 +7,21 @@ return rubble.mission {
   },
   robots = {
     rubble.robot.crawler {
-      name = "tank", position = { 0, 0.05, 0.001 },
+      name = "tank", position = { 0, 0.12, 0.001 },
       drive = { { t = 0, linear = 0, flippers_deg = { 32, 32, 50, 50 } } },
     },
-    rubble.robot.rover { name = "scout", position = { 0.1, -0.8, 0.001 }, rpy_deg = { 0, 0, 12 } },
+    rubble.robot.rover { name = "scout", position = { 0.2, -0.68, 0.001 }, rpy_deg = { 0, 0, 8 } },
     rubble.robot.snake {
-      name = "snake", position = { 0.62, 0.56, 0.03 }, rpy_deg = { 0, 0, -35 },
+      name = "snake", position = { 0.7, -0.42, 0.03 }, rpy_deg = { 0, 0, -100 },
       drive = { { t = 0, gait = "sidewinding" } },
     },
   },
   robot_run = { duration = 1 },
   light = { type = "sun", elevation_deg = 42, azimuth_deg = -50 },
-  camera = { width = 800, height = 400, fov_deg = 50 },
+  camera = { width = 960, height = 528, fov_deg = 48 },
   trajectory = { rate_hz = 1, waypoints = {
-    { t = 0, position = { 1.75, -0.75, 0.85 }, look_at = { 0.08, -0.12, 0.08 } },
-    { t = 1, position = { 1.75, -0.75, 0.85 }, look_at = { 0.08, -0.12, 0.08 } },
+    { t = 0, position = { 2.1, -0.55, 0.9 }, look_at = { 0.2, -0.12, 0.04 } },
+    { t = 1, position = { 2.1, -0.55, 0.9 }, look_at = { 0.2, -0.12, 0.04 } },
   } },
   outputs = { frames = true, bag = false, rawlog = false, simplemap = false },
 }

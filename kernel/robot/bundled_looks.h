@@ -7,7 +7,7 @@ namespace rubble {
 
 // Sizes of the parts that collide, which the looks keep to.
 struct TrackSize {
-  double length = 0;  // between the axles; unit: m
+  double length = 0;                                    // between the axles; unit: m
   double width = 0, radius_front = 0, radius_rear = 0;  // unit: m
 };
 

@@ -25,9 +25,9 @@ void add_lug(const OutlineSpot& spot, double height, double foot, double top, do
   };
   const double chamfer = (from < to ? 0.5 : -0.5) * (foot - top);
   const double low = -0.4 * kBeltThickness, in = from + chamfer, end = to - chamfer;
-  std::array<Vec3, 8> p{corner(-foot, from, low), corner(foot, from, low), corner(foot, to, low), corner(-foot, to, low),
-                        corner(-top, in, height), corner(top, in, height), corner(top, end, height),
-                        corner(-top, end, height)};
+  std::array<Vec3, 8> p{corner(-foot, from, low), corner(foot, from, low),  corner(foot, to, low),
+                        corner(-foot, to, low),   corner(-top, in, height), corner(top, in, height),
+                        corner(top, end, height), corner(-top, end, height)};
   if (from > to) {
     std::swap(p[0], p[1]), std::swap(p[2], p[3]);
     std::swap(p[4], p[5]), std::swap(p[6], p[7]);
@@ -43,15 +43,16 @@ void add_belt(const TrackSize& size, double lug_height, int lugs, const Pose& at
   out.look("polymer_black");
   for (int k = 0; k < lugs; ++k) {
     // Two rows of slanted lugs, half a pitch apart, and a short one between them.
-    const OutlineSpot left = find_outline_spot(outer, (k + 0.25) / lugs), right = find_outline_spot(outer, (k + 0.75) / lugs);
+    const OutlineSpot left = find_outline_spot(outer, (k + 0.25) / lugs),
+                      right = find_outline_spot(outer, (k + 0.75) / lugs);
     const double foot = 0.45 * lug_height + 0.0025, top = 0.0035;
     add_lug(left, lug_height, foot, top, 0.06 * size.width, half, 0.006, at, out);
     add_lug(right, lug_height, foot, top, -0.06 * size.width, -half, 0.006, at, out);
     // Teeth inside, which run between the wheels' halves.
     if (k % 3 == 0) {
       const OutlineSpot tooth = find_outline_spot(inner, (k + 0.5) / lugs);
-      add_lug({tooth.position, -tooth.normal}, 0.6 * lug_height, 0.006, 0.003, -0.07 * size.width, 0.07 * size.width, 0, at,
-              out);
+      add_lug({tooth.position, -tooth.normal}, 0.6 * lug_height, 0.006, 0.003, -0.07 * size.width, 0.07 * size.width, 0,
+              at, out);
     }
   }
 }
@@ -60,15 +61,17 @@ void add_belt(const TrackSize& size, double lug_height, int lugs, const Pose& at
 void add_track_wheel(double radius, double width, int spokes, const Pose& at, MeshBuilder& out) {
   const double half = 0.5 * width, r = radius;
   out.look("polymer_black");
-  add_collar({{-half, 0.76 * r}, {-half, 0.97 * r}, {-half + 0.03 * r, r}, {half, r}, {half, 0.76 * r}}, kWheelFacets, at, out);
+  add_collar({{-half, 0.76 * r}, {-half, 0.97 * r}, {-half + 0.03 * r, r}, {half, r}, {half, 0.76 * r}}, kWheelFacets,
+             at, out);
   add_lathe({{-half + 0.012, 0.8 * r}, {half - 0.012, 0.8 * r}}, kWheelFacets, at, out);
   out.look("aluminium");
   for (int k = 0; k < spokes; ++k) {
     const auto [s, c] = portable::sincos(portable::kPi * k / spokes);
     const Pose spoke = at * Pose{{c, s, 0, 0}, {}};
     const double in = 0.16 * r, end = 0.8 * r, foot = 0.08 * r, top = 0.055 * r, up = half - 0.004;
-    add_block({Vec3{-up, in, -foot}, Vec3{-up, end, -foot}, Vec3{-up, end, foot}, Vec3{-up, in, foot}, Vec3{up, in, -top},
-               Vec3{up, end, -top}, Vec3{up, end, top}, Vec3{up, in, top}}, spoke, out);
+    add_block({Vec3{-up, in, -foot}, Vec3{-up, end, -foot}, Vec3{-up, end, foot}, Vec3{-up, in, foot},
+               Vec3{up, in, -top}, Vec3{up, end, -top}, Vec3{up, end, top}, Vec3{up, in, top}},
+              spoke, out);
   }
   add_lathe({{-half, 0.24 * r}, {half - 0.004, 0.27 * r}, {half, 0.2 * r}}, 16, at, out);
   out.look("steel_galvanised");
@@ -85,8 +88,9 @@ void add_roller(double radius, double width, const Pose& at, MeshBuilder& out) {
   add_lathe({{-half - 0.001, 0.3 * r}, {half + 0.001, 0.3 * r}}, 8, at, out);
 }
 
-// The plate between the wheels at the side that looks out, with holes for the rollers' axles.
-void add_side_plate(double length, double height, double from, double to, double side, const Pose& at, MeshBuilder& out) {
+// The plate between the wheels at the side that looks out.
+void add_side_plate(double length, double height, double from, double to, double side, const Pose& at,
+                    MeshBuilder& out) {
   Outline plate = make_belt_outline(0.5 * height, 0.5 * height, length, 8);
   for (Vec3& p : plate) p.x -= 0.5 * length;
   out.look("aluminium");
@@ -99,7 +103,8 @@ void add_side_plate(double length, double height, double from, double to, double
   out.look("steel_galvanised");
   for (const double x : {-0.44, 0.44}) {
     add_bolt(0.0042, at * facing({1.2 * x * length, side * to, 0}, {0, side, 0}), out);
-    for (const double z : {-0.35, 0.35}) add_bolt(0.0042, at * facing({x * length, side * to, z * height}, {0, side, 0}), out);
+    for (const double z : {-0.35, 0.35})
+      add_bolt(0.0042, at * facing({x * length, side * to, z * height}, {0, side, 0}), out);
   }
 }
 
@@ -152,8 +157,7 @@ TriangleMesh make_flipper_looks(const TrackSize& size, double direction, double 
     out.look("polymer_black");
     for (int k = 0; k < 3; ++k) {
       const double share = 0.28 + 0.2 * k, radius = (0.44 * hub * (1 - share) + 0.5 * tip * share) * 0.62;
-      add_lathe({{-0.003, radius}, {0.0008, radius}}, 14,
-                facing({share * size.length, b, 0}, {0, y, 0}), out);
+      add_lathe({{-0.003, radius}, {0.0008, radius}}, 14, facing({share * size.length, b, 0}, {0, y, 0}), out);
     }
     out.look("steel_galvanised");
     for (const double x : {0.0, size.length}) {
@@ -174,14 +178,22 @@ namespace {
 // Hull between the tracks with a sloped nose, a lid, rails, panels at both ends.
 void add_crawler_hull(MeshBuilder& out) {
   out.look("polymer_black");
-  add_slab({{-0.28, 0, 0.075}, {-0.258, 0, 0.052}, {0.245, 0, 0.052}, {0.28, 0, 0.085}, {0.28, 0, 0.148}, {0.235, 0, 0.188},
-            {-0.262, 0, 0.188}, {-0.28, 0, 0.17}}, -0.14, 0.14, 0.006, {}, out);
+  add_slab({{-0.28, 0, 0.075},
+            {-0.258, 0, 0.052},
+            {0.245, 0, 0.052},
+            {0.28, 0, 0.085},
+            {0.28, 0, 0.148},
+            {0.235, 0, 0.188},
+            {-0.262, 0, 0.188},
+            {-0.28, 0, 0.17}},
+           -0.14, 0.14, 0.006, {}, out);
   out.look("car_paint");
   add_chamfered_box({0.44, 0.225, 0.02}, {-0.015, 0, 0.194}, 0.006, {}, out);
   out.look("aluminium");
   for (const double side : {-1.0, 1.0}) {
     add_chamfered_box({0.46, 0.014, 0.014}, {-0.015, side * 0.127, 0.191}, 0.003, {}, out);
-    for (const double x : {-0.14, 0.14}) add_chamfered_box({0.07, 0.03, 0.035}, {x, side * 0.146, 0.12}, 0.006, {}, out);
+    for (const double x : {-0.14, 0.14})
+      add_chamfered_box({0.07, 0.03, 0.035}, {x, side * 0.146, 0.12}, 0.006, {}, out);
   }
   add_chamfered_box({0.008, 0.22, 0.05}, {0.2805, 0, 0.117}, 0.002, {}, out);
   add_chamfered_box({0.008, 0.23, 0.07}, {-0.2805, 0, 0.118}, 0.002, {}, out);
@@ -197,9 +209,10 @@ void add_crawler_hull(MeshBuilder& out) {
 void add_crawler_ends(MeshBuilder& out) {
   for (const double y : {-0.07, 0.07}) add_lamp(0.017, facing({0.2845, y, 0.117}, {1, 0, 0}), out);
   out.look("steel_galvanised");
-  add_pipe({{0.28, -0.02, 0.112}, {0.304, -0.02, 0.112}, {0.304, 0.02, 0.112}, {0.28, 0.02, 0.112}}, 0.005, 0.012, 10, {}, out);
-  add_pipe({{-0.28, -0.02, 0.098}, {-0.302, -0.02, 0.098}, {-0.302, 0.02, 0.098}, {-0.28, 0.02, 0.098}}, 0.005, 0.012, 10, {},
-           out);
+  add_pipe({{0.28, -0.02, 0.112}, {0.304, -0.02, 0.112}, {0.304, 0.02, 0.112}, {0.28, 0.02, 0.112}}, 0.005, 0.012, 10,
+           {}, out);
+  add_pipe({{-0.28, -0.02, 0.098}, {-0.302, -0.02, 0.098}, {-0.302, 0.02, 0.098}, {-0.28, 0.02, 0.098}}, 0.005, 0.012,
+           10, {}, out);
   out.look("polymer_black");
   add_chamfered_box({0.006, 0.09, 0.03}, {-0.286, 0, 0.132}, 0.002, {}, out);
   for (const double y : {-0.08, 0.08}) {
@@ -237,12 +250,13 @@ void add_crawler_deck(MeshBuilder& out) {
   add_lidar(0.0515, 0.066, {{}, {0, 0, 0.306}}, out);
   out.look("polymer_black");
   add_chamfered_box({0.075, 0.075, 0.04}, {0, 0, 0.226}, 0.006, {}, out);
-  for (int k = 0; k < 8; ++k) add_chamfered_box({0.006, 0.13, 0.007}, {-0.205 + 0.013 * k, 0, deck + 0.002}, 0.002, {}, out);
+  for (int k = 0; k < 8; ++k)
+    add_chamfered_box({0.006, 0.13, 0.007}, {-0.205 + 0.013 * k, 0, deck + 0.002}, 0.002, {}, out);
   add_chamfered_box({0.07, 0.05, 0.03}, {0.115, 0.065, 0.217}, 0.005, {}, out);
   add_stop_button({{}, {0.12, -0.07, deck}}, out);
   out.look("polymer_black");
-  add_pipe({{-0.245, -0.085, 0.18}, {-0.245, -0.085, 0.252}, {-0.245, 0.085, 0.252}, {-0.245, 0.085, 0.18}}, 0.008, 0.025, 12, {},
-           out);
+  add_pipe({{-0.245, -0.085, 0.18}, {-0.245, -0.085, 0.252}, {-0.245, 0.085, 0.252}, {-0.245, 0.085, 0.18}}, 0.008,
+           0.025, 12, {}, out);
   for (const double y : {-0.115, 0.115}) add_aerial(0.14, {{}, {-0.25, y, 0.187}}, out);
 }
 

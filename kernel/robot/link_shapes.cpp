@@ -121,14 +121,18 @@ void add_chamfered_box(const Vec3& size, const Vec3& centre, double chamfer, con
       const int signs = ((k & 1) != 0 ? w : 0) | ((k & 2) != 0 ? u : 0);
       const Vec3 a = corner(signs, axis), b = corner(signs, third), c = corner(signs | v, third),
                  d = corner(signs | v, axis);
-      if (k == 0 || k == 3) out.quad(a, b, c, d);
-      else out.quad(d, c, b, a);
+      if (k == 0 || k == 3)
+        out.quad(a, b, c, d);
+      else
+        out.quad(d, c, b, a);
     }
   }
   for (int signs = 0; signs < 8; ++signs) {
     const bool odd = ((signs ^ signs >> 1 ^ signs >> 2) & 1) != 0;
-    if (odd) out.triangle(corner(signs, 0), corner(signs, 1), corner(signs, 2));
-    else out.triangle(corner(signs, 0), corner(signs, 2), corner(signs, 1));
+    if (odd)
+      out.triangle(corner(signs, 0), corner(signs, 1), corner(signs, 2));
+    else
+      out.triangle(corner(signs, 0), corner(signs, 2), corner(signs, 1));
   }
 }
 
@@ -185,8 +189,7 @@ OutlineSpot find_outline_spot(const Outline& outline, double share) {
   return {corner(i) + normalized(corner(i + 1) - corner(i)) * left, edge_normal(corner(i), corner(i + 1))};
 }
 
-void add_pipe(const std::vector<Vec3>& line, double radius, double bend, int sides, const Pose& at,
-              MeshBuilder& out) {
+void add_pipe(const std::vector<Vec3>& line, double radius, double bend, int sides, const Pose& at, MeshBuilder& out) {
   const std::vector<Vec3> points = line.size() > 2 ? round_corners(line, bend) : line;
   const Vec3 start = normalized(points[1] - points[0]);
   Vec3 across = normalized(cross(start, std::fabs(start.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0}));
@@ -224,11 +227,12 @@ void add_lamp(double radius, const Pose& at, MeshBuilder& out) {
 void add_lens(double radius, const Pose& at, MeshBuilder& out) {
   const double r = radius;
   out.look("polymer_black");
-  add_collar({{-0.1 * r, 0.6 * r}, {-0.1 * r, r}, {0.5 * r, r}, {0.6 * r, 0.92 * r}, {0.6 * r, 0.78 * r}, {0.35 * r, 0.6 * r}},
-             kSmallFacets, at, out);
+  add_collar(
+      {{-0.1 * r, 0.6 * r}, {-0.1 * r, r}, {0.5 * r, r}, {0.6 * r, 0.92 * r}, {0.6 * r, 0.78 * r}, {0.35 * r, 0.6 * r}},
+      kSmallFacets, at, out);
   out.look("pane");
-  add_lathe({{0, 0.65 * r}, {0.3 * r, 0.65 * r}, {0.42 * r, 0.5 * r}, {0.5 * r, 0.25 * r}, {0.52 * r, 0}}, kSmallFacets, at,
-            out);
+  add_lathe({{0, 0.65 * r}, {0.3 * r, 0.65 * r}, {0.42 * r, 0.5 * r}, {0.5 * r, 0.25 * r}, {0.52 * r, 0}}, kSmallFacets,
+            at, out);
 }
 
 void add_lidar(double radius, double height, const Pose& at, MeshBuilder& out) {
@@ -247,8 +251,9 @@ void add_aerial(double height, const Pose& at, MeshBuilder& out) {
   out.look("aluminium");
   add_lathe({{-0.002, 0.008}, {0.008, 0.008}, {0.010, 0.006}}, kTinyFacets, up, out);
   out.look("polymer_black");
-  add_lathe({{0.009, 0.0055}, {0.3 * height, 0.005}, {0.34 * height, 0.0035}, {height - 0.002, 0.003}, {height, 0.0015}},
-            kTinyFacets, up, out);
+  add_lathe(
+      {{0.009, 0.0055}, {0.3 * height, 0.005}, {0.34 * height, 0.0035}, {height - 0.002, 0.003}, {height, 0.0015}},
+      kTinyFacets, up, out);
 }
 
 void add_stop_button(const Pose& at, MeshBuilder& out) {

@@ -43,8 +43,7 @@ struct OutlineSpot {
 OutlineSpot find_outline_spot(const Outline& outline, double share);
 
 // A round bar along a bent line; corners within it are rounded by `bend`.
-void add_pipe(const std::vector<Vec3>& line, double radius, double bend, int sides, const Pose& at,
-              MeshBuilder& out);
+void add_pipe(const std::vector<Vec3>& line, double radius, double bend, int sides, const Pose& at, MeshBuilder& out);
 
 // What several robots carry.
 // A reflector with a light-emitting diode; its back at x = 0, its glass at x = 0.6 radius.

@@ -12,10 +12,10 @@ constexpr double kTreadDepth = 0.0075;  // unit: m
 
 // A block of tread: from `in` to `end` along the axle, its top at these radii, turned on by `turn` of a pitch.
 struct TreadBlock {
-  double in = 0, end = 0;              // unit: m
+  double in = 0, end = 0;                // unit: m
   double radius_in = 0, radius_end = 0;  // of its top; unit: m
-  double turn_in = 0, turn_end = 0;    // unit: pitches
-  double length = 0;                   // round the tyre; unit: pitches
+  double turn_in = 0, turn_end = 0;      // unit: pitches
+  double length = 0;                     // round the tyre; unit: pitches
 };
 
 void add_tread_block(const TreadBlock& block, int pitch, double floor, const Pose& wheel, MeshBuilder& out) {
@@ -25,8 +25,10 @@ void add_tread_block(const TreadBlock& block, int pitch, double floor, const Pos
   };
   const double half = 0.5 * block.length, top = 0.84 * half, edge = block.in < block.end ? 0.0012 : -0.0012;
   const double in = block.turn_in, end = block.turn_end;
-  std::array<Vec3, 8> p{corner(block.in, in - half, floor),   corner(block.end, end - half, floor),
-                        corner(block.end, end + half, floor), corner(block.in, in + half, floor),
+  std::array<Vec3, 8> p{corner(block.in, in - half, floor),
+                        corner(block.end, end - half, floor),
+                        corner(block.end, end + half, floor),
+                        corner(block.in, in + half, floor),
                         corner(block.in + edge, in - top, block.radius_in),
                         corner(block.end - edge, end - top, block.radius_end),
                         corner(block.end - edge, end + top, block.radius_end),
@@ -42,15 +44,27 @@ void add_tread_block(const TreadBlock& block, int pitch, double floor, const Pos
 void add_tyre(double radius, double width, const Pose& wheel, MeshBuilder& out) {
   const double r = radius, h = 0.5 * width, floor = r - kTreadDepth;
   out.look("rubber");
-  add_collar({{-0.80 * h, 0.64 * r}, {-0.92 * h, 0.67 * r}, {-0.97 * h, 0.74 * r}, {-0.96 * h, 0.82 * r},
-              {-0.90 * h, 0.89 * r}, {-0.72 * h, floor}, {-0.30 * h, floor + 0.001}, {0.30 * h, floor + 0.001},
-              {0.72 * h, floor}, {0.90 * h, 0.89 * r}, {0.96 * h, 0.82 * r}, {0.97 * h, 0.74 * r}, {0.92 * h, 0.67 * r},
-              {0.80 * h, 0.64 * r}}, kTyreFacets, wheel, out);
+  add_collar({{-0.80 * h, 0.64 * r},
+              {-0.92 * h, 0.67 * r},
+              {-0.97 * h, 0.74 * r},
+              {-0.96 * h, 0.82 * r},
+              {-0.90 * h, 0.89 * r},
+              {-0.72 * h, floor},
+              {-0.30 * h, floor + 0.001},
+              {0.30 * h, floor + 0.001},
+              {0.72 * h, floor},
+              {0.90 * h, 0.89 * r},
+              {0.96 * h, 0.82 * r},
+              {0.97 * h, 0.74 * r},
+              {0.92 * h, 0.67 * r},
+              {0.80 * h, 0.64 * r}},
+             kTyreFacets, wheel, out);
   out.look("polymer_black");
   for (int k = 0; k < kTreadPitches; ++k) {
     for (const double side : {-1.0, 1.0}) {
       const double shift = side > 0 ? 0.5 : 0;
-      add_tread_block({side * 0.04 * h, side * 0.46 * h, r, r, shift, shift + 0.28, 0.52}, k, floor - 0.003, wheel, out);
+      add_tread_block({side * 0.04 * h, side * 0.46 * h, r, r, shift, shift + 0.28, 0.52}, k, floor - 0.003, wheel,
+                      out);
       add_tread_block({side * 0.54 * h, side * 0.99 * h, 0.998 * r, 0.93 * r, shift + 0.42, shift + 0.5, 0.56}, k,
                       0.86 * r, wheel, out);
     }
@@ -61,8 +75,16 @@ void add_tyre(double radius, double width, const Pose& wheel, MeshBuilder& out) 
 void add_rim(double radius, double width, const Pose& wheel, MeshBuilder& out) {
   const double r = radius, h = 0.5 * width;
   out.look("aluminium");
-  add_collar({{-0.84 * h, 0.60 * r}, {-0.84 * h, 0.665 * r}, {-0.78 * h, 0.68 * r}, {-0.7 * h, 0.65 * r}, {0.7 * h, 0.65 * r},
-              {0.78 * h, 0.68 * r}, {0.84 * h, 0.665 * r}, {0.84 * h, 0.60 * r}, {0.5 * h, 0.57 * r}, {-0.5 * h, 0.57 * r}},
+  add_collar({{-0.84 * h, 0.60 * r},
+              {-0.84 * h, 0.665 * r},
+              {-0.78 * h, 0.68 * r},
+              {-0.7 * h, 0.65 * r},
+              {0.7 * h, 0.65 * r},
+              {0.78 * h, 0.68 * r},
+              {0.84 * h, 0.665 * r},
+              {0.84 * h, 0.60 * r},
+              {0.5 * h, 0.57 * r},
+              {-0.5 * h, 0.57 * r}},
              kTyreFacets, wheel, out);
   for (int k = 0; k < 6; ++k) {
     for (const double aside : {-0.075, 0.075}) {
@@ -87,8 +109,15 @@ void add_rim(double radius, double width, const Pose& wheel, MeshBuilder& out) {
 
 void add_rover_chassis(MeshBuilder& out) {
   out.look("paint_yellow");
-  add_slab({{-0.21, 0, 0.088}, {-0.192, 0, 0.067}, {0.192, 0, 0.067}, {0.21, 0, 0.088}, {0.21, 0, 0.148}, {0.186, 0, 0.184},
-            {-0.186, 0, 0.184}, {-0.21, 0, 0.148}}, -0.134, 0.134, 0.006, {}, out);
+  add_slab({{-0.21, 0, 0.088},
+            {-0.192, 0, 0.067},
+            {0.192, 0, 0.067},
+            {0.21, 0, 0.088},
+            {0.21, 0, 0.148},
+            {0.186, 0, 0.184},
+            {-0.186, 0, 0.184},
+            {-0.21, 0, 0.148}},
+           -0.134, 0.134, 0.006, {}, out);
   out.look("aluminium");
   add_chamfered_box({0.36, 0.24, 0.008}, {0, 0, 0.0695}, 0.003, {}, out);
   out.look("polymer_black");
@@ -112,8 +141,8 @@ void add_rover_chassis(MeshBuilder& out) {
 void add_rover_ends(MeshBuilder& out) {
   for (const double end : {-1.0, 1.0}) {
     out.look("polymer_black");
-    add_pipe({{end * 0.19, -0.1, 0.1}, {end * 0.218, -0.1, 0.1}, {end * 0.218, 0.1, 0.1}, {end * 0.19, 0.1, 0.1}}, 0.009, 0.02,
-             12, {}, out);
+    add_pipe({{end * 0.19, -0.1, 0.1}, {end * 0.218, -0.1, 0.1}, {end * 0.218, 0.1, 0.1}, {end * 0.19, 0.1, 0.1}},
+             0.009, 0.02, 12, {}, out);
     add_chamfered_box({0.006, 0.19, 0.042}, {end * 0.2105, 0, 0.128}, 0.002, {}, out);
     out.look("steel_galvanised");
     for (const double y : {-0.045, 0.045})
@@ -148,10 +177,14 @@ void add_rover_deck(MeshBuilder& out) {
   out.look("paint_light");
   add_chamfered_box({0.11, 0.15, 0.05}, {-0.108, 0, deck + 0.024}, 0.006, {}, out);
   out.look("polymer_black");
-  for (int k = 0; k < 5; ++k) add_chamfered_box({0.06, 0.006, 0.003}, {-0.108, -0.028 + 0.014 * k, deck + 0.0495}, 0.001, {}, out);
+  for (int k = 0; k < 5; ++k)
+    add_chamfered_box({0.06, 0.006, 0.003}, {-0.108, -0.028 + 0.014 * k, deck + 0.0495}, 0.001, {}, out);
   for (const double side : {-1.0, 1.0}) {
-    add_pipe({{-0.06, side * 0.118, 0.18}, {-0.06, side * 0.118, 0.222}, {-0.16, side * 0.118, 0.222},
-              {-0.16, side * 0.118, 0.18}}, 0.0055, 0.015, 10, {}, out);
+    add_pipe({{-0.06, side * 0.118, 0.18},
+              {-0.06, side * 0.118, 0.222},
+              {-0.16, side * 0.118, 0.222},
+              {-0.16, side * 0.118, 0.18}},
+             0.0055, 0.015, 10, {}, out);
   }
   add_stop_button({{}, {0.1, -0.07, deck}}, out);
   add_aerial(0.09, {{}, {-0.172, 0.1, deck}}, out);

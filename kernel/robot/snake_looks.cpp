@@ -24,12 +24,13 @@ void add_bellows(double radius, MeshBuilder& out) {
 // An end of a case, from x = 0 backwards into it.
 void add_end_cap(double r, double depth, const Pose& at, MeshBuilder& out) {
   out.look("aluminium");
-  add_lathe({{-depth, 0.975 * r}, {-0.35 * depth, 0.975 * r}, {-0.1 * depth, 0.9 * r}, {0, 0.76 * r}}, kModuleFacets, at, out);
+  add_lathe({{-depth, 0.975 * r}, {-0.35 * depth, 0.975 * r}, {-0.1 * depth, 0.9 * r}, {0, 0.76 * r}}, kModuleFacets,
+            at, out);
   out.look("polymer_black");
   for (int k = 0; k < 4; ++k) {
     const auto [s, c] = portable::sincos(portable::kPi * (0.25 + 0.5 * k));
-    add_lathe({{-0.05 * r, 0.075 * r}, {0.012 * r, 0.075 * r}}, 6, at * facing({-0.68 * depth, 0.965 * r * c, 0.965 * r * s}, {0, c, s}),
-              out);
+    add_lathe({{-0.05 * r, 0.075 * r}, {0.012 * r, 0.075 * r}}, 6,
+              at * facing({-0.68 * depth, 0.965 * r * c, 0.965 * r * s}, {0, c, s}), out);
   }
 }
 
@@ -74,8 +75,13 @@ void add_horns(double r, const Pose& at, MeshBuilder& out) {
 // A camera behind glass in a ring of light-emitting diodes. Its mount ends at x = 0.
 void add_snake_eye(double r, const Pose& at, MeshBuilder& out) {
   out.look("aluminium");
-  add_collar({{-0.3 * r, 0.62 * r}, {-0.3 * r, 0.975 * r}, {-0.2 * r, 0.975 * r}, {-0.08 * r, 0.9 * r}, {0.02 * r, 0.74 * r},
-              {0.02 * r, 0.66 * r}}, 28, at, out);
+  add_collar({{-0.3 * r, 0.62 * r},
+              {-0.3 * r, 0.975 * r},
+              {-0.2 * r, 0.975 * r},
+              {-0.08 * r, 0.9 * r},
+              {0.02 * r, 0.74 * r},
+              {0.02 * r, 0.66 * r}},
+             28, at, out);
   out.look("polymer_black");
   add_lathe({{-0.28 * r, 0.65 * r}, {-0.1 * r, 0.65 * r}}, 28, at, out);
   out.look("paint_light");
@@ -85,8 +91,9 @@ void add_snake_eye(double r, const Pose& at, MeshBuilder& out) {
               at * Pose{{}, {0, 0.5 * r * c, 0.5 * r * s}}, out);
   }
   out.look("aluminium");
-  add_collar({{-0.15 * r, 0.27 * r}, {-0.15 * r, 0.36 * r}, {0.03 * r, 0.36 * r}, {0.06 * r, 0.33 * r}, {0.06 * r, 0.28 * r}}, 24, at,
-             out);
+  add_collar(
+      {{-0.15 * r, 0.27 * r}, {-0.15 * r, 0.36 * r}, {0.03 * r, 0.36 * r}, {0.06 * r, 0.33 * r}, {0.06 * r, 0.28 * r}},
+      24, at, out);
   out.look("pane");
   add_lathe({{-0.12 * r, 0.29 * r}, {0, 0.29 * r}, {0.035 * r, 0.2 * r}, {0.05 * r, 0}}, 24, at, out);
 }

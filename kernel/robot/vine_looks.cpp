@@ -37,11 +37,19 @@ TriangleMesh make_vine_tube_looks(double r, double length) {
   MeshBuilder out;
   const double wall = 0.985 * r, seam = 0.06 * length, end = 0.35 * r;
   out.look("fabric");
-  add_lathe({{-end, 0.86 * wall}, {-0.5 * end, 0.95 * wall}, {0, wall}, {length, wall},
-             {length + 0.5 * end, 0.95 * wall}, {length + end, 0.86 * wall}}, kVineFacets, {}, out);
+  add_lathe({{-end, 0.86 * wall},
+             {-0.5 * end, 0.95 * wall},
+             {0, wall},
+             {length, wall},
+             {length + 0.5 * end, 0.95 * wall},
+             {length + end, 0.86 * wall}},
+            kVineFacets, {}, out);
   out.look("rubber");
-  add_collar({{0.5 * length - seam, 0.97 * wall}, {0.5 * length - 0.9 * seam, 0.995 * r},
-              {0.5 * length + 0.9 * seam, 0.995 * r}, {0.5 * length + seam, 0.97 * wall}}, kVineFacets, {}, out);
+  add_collar({{0.5 * length - seam, 0.97 * wall},
+              {0.5 * length - 0.9 * seam, 0.995 * r},
+              {0.5 * length + 0.9 * seam, 0.995 * r},
+              {0.5 * length + seam, 0.97 * wall}},
+             kVineFacets, {}, out);
   return out.take_smooth(kLooksCrease);
 }
 
@@ -51,7 +59,8 @@ TriangleMesh make_vine_tip_looks(double r, double length) {
   MeshBuilder out;
   const double back = -1.02 * length;
   out.look("car_paint");
-  add_lathe({{back, 1.06 * r}, {back + 0.12 * r, 1.1 * r}, {0.1 * r, 1.1 * r}, {0.2 * r, 1.02 * r}}, kVineFacets, {}, out);
+  add_lathe({{back, 1.06 * r}, {back + 0.12 * r, 1.1 * r}, {0.1 * r, 1.1 * r}, {0.2 * r, 1.02 * r}}, kVineFacets, {},
+            out);
   out.look("fabric");
   add_lathe({{0.05 * r, r}, {0.3 * r, 0.96 * r}, {0.55 * r, 0.84 * r}, {0.78 * r, 0.63 * r}, {0.9 * r, 0.44 * r}},
             kVineFacets, {}, out);

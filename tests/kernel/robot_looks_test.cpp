@@ -182,14 +182,14 @@ void expect_free_view(const RobotModel& model, const Mount& mount) {
 TEST(RobotLooks, LeaveSensorsTheirView) {
   CrawlerOptions bare;  // flippers are seen, as they should be
   bare.flippers = false;
-  for (const Mount& mount : {Mount{"camera", {0.3, 0, 0.3}, 45, 52.5, 30}, Mount{"camera", {0.32, 0, 0.3}, 45, 52.5, 30},
-                             Mount{"LiDAR", {0, 0, 0.4}, 180, 15, 15}, Mount{"scanner", {0.3, 0, 0.3}, 135, 0, 0}})
+  for (const Mount& mount :
+       {Mount{"camera", {0.3, 0, 0.3}, 45, 52.5, 30}, Mount{"camera", {0.32, 0, 0.3}, 45, 52.5, 30},
+        Mount{"LiDAR", {0, 0, 0.4}, 180, 15, 15}, Mount{"scanner", {0.3, 0, 0.3}, 135, 0, 0}})
     expect_free_view(make_crawler(bare), mount);
   const RobotModel rover = make_rover();
-  for (const Mount& mount :
-       {Mount{"camera", {0.2, 0, 0.25}, 45, 45, 30}, Mount{"camera", {0.22, 0, 0.25}, 45, 45, 30},
-        Mount{"camera", {0.3, 0, 0.2}, 45, 45, 30}, Mount{"scanner", {0.25, 0, 0.15}, 90, 0, 0},
-        Mount{"scanner", {0, 0, 0.3}, 180, 0, 0}, Mount{"LiDAR", {0, 0, 0.4}, 180, 15, 15}})
+  for (const Mount& mount : {Mount{"camera", {0.2, 0, 0.25}, 45, 45, 30}, Mount{"camera", {0.22, 0, 0.25}, 45, 45, 30},
+                             Mount{"camera", {0.3, 0, 0.2}, 45, 45, 30}, Mount{"scanner", {0.25, 0, 0.15}, 90, 0, 0},
+                             Mount{"scanner", {0, 0, 0.3}, 180, 0, 0}, Mount{"LiDAR", {0, 0, 0.4}, 180, 15, 15}})
     expect_free_view(rover, mount);
   const RobotModel snake = make_snake();
   for (const double x : {0.05, 0.06}) expect_free_view(snake, {"camera", {x, 0, 0}, 60, 45, 45});

@@ -1,4 +1,5 @@
 #include "kernel/robot/bundled.h"
+#include "kernel/robot/bundled_looks.h"
 #include "kernel/robot/parts.h"
 
 namespace rubble {
@@ -37,10 +38,11 @@ RobotLink make_track(const char* name, double y, const CrawlerOptions& options) 
   link.mass = solid.mass;
   link.centre_of_mass = solid.centre_of_mass;
   link.inertia = solid.inertia;
+  link.looks = make_track_looks({kTrackLength, kTrackWidth, kWheelRadius, kWheelRadius}, y, y > 0 ? 1 : -1);
   return link;
 }
 
-RobotLink make_flipper(const char* name, double direction, const CrawlerOptions& options) {
+RobotLink make_flipper(const char* name, double direction, double side, const CrawlerOptions& options) {
   RobotLink link;
   link.name = name;
   link.parts = {make_paddle(kHubRadius, kTipRadius, kFlipperWidth, kCrawlerFacets, {},
@@ -49,6 +51,7 @@ RobotLink make_flipper(const char* name, double direction, const CrawlerOptions&
   link.belt_axis = {0, 1, 0};
   link.belt_speed_limit = options.speed;
   set_mass(kFlipperMass, link);
+  link.looks = make_flipper_looks({kFlipperLength, kFlipperWidth, kTipRadius, kHubRadius}, direction, side);
   return link;
 }
 
@@ -71,6 +74,7 @@ RobotModel make_crawler(const CrawlerOptions& options) {
   body.parts = {make_box({0.56, 0.28, 0.14}, {0, 0, 0.12})};
   body.friction = 0.5;
   set_mass(kCrawlerBodyMass, body);
+  body.looks = make_crawler_body_looks();
   model.links.push_back(body);
   RobotJoint weld;
   weld.kind = JointKind::weld;
@@ -93,7 +97,7 @@ RobotModel make_crawler(const CrawlerOptions& options) {
     joint.axis = {0, -f.direction, 0};
     joint.motor = {kFlipperEffort, kFlipperSpeed, kFlipperStiffness, kFlipperDamping};
     joint.start = options.flipper_start;
-    hang(model, make_flipper(f.name, f.direction, options), joint);
+    hang(model, make_flipper(f.name, f.direction, f.side, options), joint);
   }
   return model;
 }

@@ -1,4 +1,5 @@
 #include "kernel/robot/bundled.h"
+#include "kernel/robot/bundled_looks.h"
 #include "kernel/robot/parts.h"
 
 namespace rubble {
@@ -19,6 +20,7 @@ RobotModel make_rover(const RoverOptions& options) {
   body.parts = {make_box({0.42, 0.27, 0.12}, {0, 0, 0.125})};
   body.friction = 0.4;
   set_mass(kRoverBodyMass, body);
+  body.looks = make_rover_body_looks();
   model.links.push_back(body);
   const struct {
     const char* name;
@@ -33,6 +35,7 @@ RobotModel make_rover(const RoverOptions& options) {
     wheel.parts = {make_wheel(kRoverWheelRadius, kWheelWidth, kRoverFacets)};
     wheel.friction = options.friction;
     set_mass(kWheelMass, wheel);
+    wheel.looks = make_rover_wheel_looks(kRoverWheelRadius, kWheelWidth, w.y);
     RobotJoint joint;
     joint.name = wheel.name + "_joint";
     joint.parent = 0;

@@ -1,6 +1,7 @@
 #include <string>
 
 #include "kernel/robot/bundled.h"
+#include "kernel/robot/bundled_looks.h"
 #include "kernel/robot/parts.h"
 
 namespace rubble {
@@ -27,6 +28,7 @@ RobotModel make_snake(const SnakeOptions& options) {
                             kSnakeFacets)};
     link.friction = options.friction;
     set_mass(options.module_mass, link);
+    link.looks = make_snake_module_looks({radius, length, front}, i % 2 == 1, i == 0, i + 1 == options.modules);
     model.links.push_back(link);
     if (i == 0) continue;
     RobotJoint joint;

@@ -3,7 +3,7 @@
 
 #include "kernel/robot/bundled.h"
 #include "kernel/robot/parts.h"
-#include "kernel/robot/vine_looks.h"
+#include "kernel/robot/bundled_looks.h"
 
 namespace rubble {
 namespace {

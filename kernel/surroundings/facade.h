@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/surroundings/mesh_builder.h"
+#include "kernel/geometry/mesh_builder.h"
 
 namespace rubble {
 

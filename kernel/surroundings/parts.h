@@ -4,7 +4,7 @@
 
 #include "kernel/base/random.h"
 #include "kernel/model/surroundings.h"
-#include "kernel/surroundings/mesh_builder.h"
+#include "kernel/geometry/mesh_builder.h"
 
 namespace rubble {
 

@@ -5,6 +5,7 @@
 #include "kernel/base/error.h"
 #include "kernel/base/parallel.h"
 #include "kernel/base/random.h"
+#include "render/materials/surface_appearance.h"
 
 namespace rubble {
 
@@ -169,8 +170,6 @@ PreparedScene resting_part(const PreparedScene& scene, std::vector<std::uint32_t
 
 namespace {
 
-constexpr int kTurnBit = 9;  // of a triangle's look word, see shaders/geometry.glsl
-
 // Gives each triangle a last vertex of its own, by which a drawn pixel tells its triangle: cheaper
 // than gl_PrimitiveID, for which software drivers leave their fast path. A vertex that is taken is
 // copied to the end of the table. Entry v of the triangle table is the triangle whose last vertex
@@ -187,7 +186,7 @@ class TriangleNamer {
   std::array<std::uint32_t, 3> name(std::array<std::uint32_t, 3> t, std::uint32_t look) {
     std::uint32_t turns = 0;
     for (; turns < 3 && taken_[t[2]]; ++turns) t = {t[1], t[2], t[0]};
-    const Texel entry{t[0], t[1], t[2], look | (turns % 3) << kTurnBit};
+    const Texel entry{t[0], t[1], t[2], look + kMaxSurfaceAppearances * (turns % 3)};
     if (taken_[t[2]]) {
       vertices_.push_back(vertices_[t[2]]);
       triangles_.push_back(entry);
@@ -208,8 +207,8 @@ class TriangleNamer {
 // of its first node it takes the light of its corners.
 std::uint32_t look_word(const PreparedTriangle& t, std::uint32_t first_vertex) {
   const std::uint64_t first_node = std::uint64_t(first_vertex) + t.first_node;
-  if (t.light_steps < 2 || first_node >> 21) return t.material | 1u << 5;
-  return t.material | t.light_steps << 5 | std::uint32_t(first_node) << 11;
+  if (t.light_steps < 2 || first_node >> 21) return t.material;
+  return t.material + kMaxSurfaceAppearances * 3 * (t.light_steps - 1) + (std::uint32_t(first_node) << 11);
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace rubble {
 // and grass 0.05-0.12 in what the eye sees. The colours within them are our choice.
 // Reflectances at normal incidence by Fresnel's equations: lacquer and rubber of index 1.5 give 0.04, a
 // pane's two faces 0.08, water 0.02; iron oxide of 2.2 gives 0.14, much of it rough; weathered zinc 0.4. The
-// roughnesses are our choice.
+// roughnesses are our choice. Anodised aluminium scatters some light in its
+// oxide.
 const std::vector<SurfaceAppearance>& all_surface_appearances() {
   static const std::vector<SurfaceAppearance> looks = {
       {"concrete_cast",
@@ -318,6 +319,39 @@ const std::vector<SurfaceAppearance>& all_surface_appearances() {
        0.0f,
        1.0f,
        0.09f},
+      {"aluminium",
+       Pattern::smooth,
+       {0.19f, 0.193f, 0.198f},
+       {0.25f, 0.254f, 0.26f},
+       {0.18f, 0.176f, 0.168f},
+       0.35f,
+       0.05f,
+       0.2f,
+       0.08f,
+       0.22f,
+       0.25f},
+      {"polymer_black",
+       Pattern::smooth,
+       {0.017f, 0.017f, 0.018f},
+       {0.032f, 0.032f, 0.033f},
+       {0.06f, 0.058f, 0.055f},
+       0.3f,
+       0.15f,
+       0.2f,
+       0.1f,
+       0.04f,
+       0.35f},
+      {"paint_yellow",
+       Pattern::smooth,
+       {0.50f, 0.235f, 0.012f},
+       {0.62f, 0.30f, 0.018f},
+       {0.34f, 0.21f, 0.08f},
+       0.6f,
+       0.02f,
+       0.2f,
+       0.1f,
+       0.045f,
+       0.12f},
       {"ground",
        Pattern::soil,
        {0.095f, 0.079f, 0.061f},

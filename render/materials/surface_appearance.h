@@ -29,6 +29,9 @@ enum class Pattern {
 };
 inline constexpr int kPatternCount = 15;
 
+// So many looks fit into a triangle's word for the shaders: see find_look() in shaders/geometry.glsl.
+inline constexpr std::uint32_t kMaxSurfaceAppearances = 45;
+
 // How a surface reflects. Colours are linear-light albedos (0 to 1).
 struct SurfaceAppearance {
   const char* name;   // as meshes name it: "concrete_cast"

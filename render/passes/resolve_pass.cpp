@@ -14,7 +14,6 @@ namespace rubble {
 
 namespace {
 
-constexpr std::size_t kMaxSurfaceAppearances = 32;  // whose numbers have 5 bits
 // Where the clean air begins to veil what is seen; unit: m.
 constexpr double kVeilFrom = 12;
 constexpr std::size_t kMostViews = 6 * kMostLights;

@@ -18,6 +18,6 @@ layout(std140) uniform Frame {
   vec4 ground;                 // middle of the ground's map, 1 / its reach
   vec4 balance;                // white balance of the display image
   vec4 shadow_rows[96];        // rows of clip_from_world, four for each view
-  vec4 looks[128];             // four for each look: dark + 1/tile, light + bump, accent + gloss,
+  vec4 looks[180];             // four for each look: dark + 1/tile, light + bump, accent + gloss,
                                // (layer, dust, variation, log2(texels per m)); a bump below 0 is a glow
 };

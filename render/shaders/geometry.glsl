@@ -23,11 +23,16 @@ vec3 unpack_light(uvec2 code, out vec2 red_blue) {
   return vec3(unpackHalf2x16(code.x), unpackHalf2x16(code.y).x);
 }
 
+// The last 11 bits of a triangle's word: its look + 45 (turns of its corners + 3 (steps between nodes - 1)).
+int find_look(uvec4 triangle) {
+  return int((triangle.w & 2047u) % 45u);
+}
+
 // The three nodes of light about a place of these weights on a triangle, and their weights; as
 // find_light_nodes() in geometry/light_nodes.h.
 ivec3 find_light_nodes(uvec4 triangle, vec3 w, out vec3 weight) {
-  int n = int(triangle.w >> 5 & 15u), first = int(triangle.w >> 11);
-  uint turns = triangle.w >> 9 & 3u;
+  uint steps = (triangle.w & 2047u) / 45u, turns = steps % 3u;
+  int n = int(steps / 3u) + 1, first = int(triangle.w >> 11);
   vec2 at = (turns == 1u ? w.xy : turns == 2u ? w.zx : w.yz) * float(n);
   int i = min(int(at.x), n - 1), j = min(int(at.y), n - 1 - i);
   float fx = at.x - float(i), fy = at.y - float(j);

@@ -106,7 +106,7 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
 
   // The look, on the one of 26 planes that the surface is nearest to: little stretching, one
   // fetch. Noise breaks the line where the plane changes.
-  int look = int(tri.w & 31u) * 4;
+  int look = find_look(tri) * 4;
   vec4 dark = looks[look], bright = looks[look + 1], accent = looks[look + 2];
   vec4 more = looks[look + 3];
   uint turn = mw.w & 3u;  // which axis of the mesh is longest: grain runs along it

@@ -91,7 +91,7 @@ const Allowed kKernel{
     {"kernel/robot/", with(kernel_rooms(9), {"kernel/surroundings/"})},
     {"kernel/queries/", with(kernel_rooms(2), {"kernel/queries/"})},
     {"kernel/fines/", with(kernel_rooms(2), {"kernel/queries/", "kernel/fines/"})},
-    {"kernel/surroundings/", with(kernel_rooms(1), {"kernel/surroundings/"})},
+    {"kernel/surroundings/", with(kernel_rooms(2), {"kernel/surroundings/"})},
     {"kernel/voids/", with(kernel_rooms(2), {"kernel/queries/", "kernel/voids/"})},
 };
 

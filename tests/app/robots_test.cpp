@@ -186,7 +186,13 @@ TEST_F(CarriedSensors, OdometryIsKeptBesideTheTruth) {
   EXPECT_LT(rows[60][6], 0.41) << "the truth";
   EXPECT_GT(rows[60][6], 0.3);
   EXPECT_TRUE(std::filesystem::is_regular_file(file("robots/tank.urdf")));
-  EXPECT_TRUE(std::filesystem::is_regular_file(file("robots/tank_meshes/left_track_part_0.stl")));
+  // What is seen is the looks; what collides is a box of twelve triangles.
+  const std::string urdf = read_file(file("robots/tank.urdf"));
+  EXPECT_NE(urdf.find("<visual><geometry><mesh filename=\"tank_meshes/left_track.stl\""), std::string::npos);
+  EXPECT_NE(urdf.find("<collision><geometry><mesh filename=\"tank_meshes/left_track_part_0.stl\""), std::string::npos);
+  const std::size_t head = 84, triangle = 50;  // of a binary STL file; unit: byte
+  EXPECT_EQ(std::filesystem::file_size(file("robots/tank_meshes/left_track_part_0.stl")), head + 12 * triangle);
+  EXPECT_GT(std::filesystem::file_size(file("robots/tank_meshes/left_track.stl")), head + 1000 * triangle);
 }
 
 TEST_F(CarriedSensors, TheRunIsVerified) {

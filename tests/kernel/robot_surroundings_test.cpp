@@ -13,7 +13,7 @@
 #include "kernel/robot/gaits.h"
 #include "kernel/robot/robot_run.h"
 #include "kernel/surroundings/make_surroundings.h"
-#include "kernel/surroundings/mesh_builder.h"
+#include "kernel/geometry/mesh_builder.h"
 
 namespace rubble {
 namespace {

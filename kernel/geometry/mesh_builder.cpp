@@ -1,8 +1,7 @@
-#include "kernel/surroundings/mesh_builder.h"
+#include "kernel/geometry/mesh_builder.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <tuple>
 
 #include "kernel/base/portable_math.h"
@@ -74,28 +73,32 @@ TriangleMesh MeshBuilder::take() {
 TriangleMesh MeshBuilder::take_smooth(double crease_deg) {
   TriangleMesh out = take();
   const double least = portable::cos(crease_deg * portable::kPi / 180);
-  using Key = std::tuple<float, float, float, std::uint8_t>;
-  std::map<Key, std::vector<std::size_t>> around;
-  std::vector<Vec3> faces;  // as long as twice the area
-  for (std::size_t t = 0; t < out.triangles.size(); ++t) {
+  struct Corner {
+    std::tuple<float, float, float, std::uint8_t> place;  // its position and look
+    std::uint32_t triangle, vertex;
+  };
+  std::vector<Corner> corners;
+  std::vector<Vec3> faces, units;  // as long as twice the area; of unit length
+  for (std::uint32_t t = 0; t < out.triangles.size(); ++t) {
     const auto& v = out.triangles[t];
     const Vec3 a(out.positions[v[0]]), b(out.positions[v[1]]), c(out.positions[v[2]]);
-    faces.push_back(cross(b - a, c - a));
+    faces.push_back(cross(b - a, c - a)), units.push_back(normalized(faces.back()));
     for (const std::uint32_t i : v) {
       const Vec3f& p = out.positions[i];
-      around[{p.x + 0.0f, p.y + 0.0f, p.z + 0.0f, out.surfaces[t]}].push_back(t);
+      corners.push_back({{p.x + 0.0f, p.y + 0.0f, p.z + 0.0f, out.surfaces[t]}, t, i});
     }
   }
+  std::stable_sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) { return a.place < b.place; });
   out.normals.resize(out.positions.size());
-  for (std::size_t t = 0; t < out.triangles.size(); ++t) {
-    const Vec3 own = normalized(faces[t]);
-    for (const std::uint32_t i : out.triangles[t]) {
-      const Vec3f& p = out.positions[i];
+  for (auto first = corners.begin(); first != corners.end();) {
+    const auto last = std::find_if(first, corners.end(), [&](const Corner& c) { return c.place != first->place; });
+    for (auto own = first; own != last; ++own) {
       Vec3 sum;
-      for (const std::size_t k : around[{p.x + 0.0f, p.y + 0.0f, p.z + 0.0f, out.surfaces[t]}])
-        if (dot(normalized(faces[k]), own) >= least) sum = sum + faces[k];
-      out.normals[i] = Vec3f(dot(sum, sum) > 0 ? normalized(sum) : own);
+      for (auto other = first; other != last; ++other)
+        if (dot(units[other->triangle], units[own->triangle]) >= least) sum = sum + faces[other->triangle];
+      out.normals[own->vertex] = Vec3f(dot(sum, sum) > 0 ? normalized(sum) : units[own->triangle]);
     }
+    first = last;
   }
   return out;
 }

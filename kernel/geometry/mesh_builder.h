@@ -1,4 +1,4 @@
-// Puts meshes of surroundings together from quads, boxes and tubes.
+// Puts meshes together from quads, boxes and tubes: of surroundings and of what robots look like.
 #pragma once
 
 #include <string>

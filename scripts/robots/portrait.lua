@@ -1,4 +1,4 @@
--- The crawler, the rover and the snake side by side: docs/pictures/robots.png.
+-- The crawler, the rover and the snake side by side: docs/pictures/robots.jpg.
 return rubble.mission {
   seed = 4,
   pile = {

@@ -15,7 +15,8 @@ struct Request {
   std::string cause = "corner", kind = "frame";
   int threads = 2, storeys = 4, bays = 3;
   double piece = 0.8, limit = 20, overload = 1500, weakness = 0.2, shake = 4, column = 0.4, blast = 2000, continuity = 0.5,
-         sinks = 0.1, vehicle = 20000;
+         bars = -1, sinks = 0.1, vehicle = 20000;  // bars below 0: as buildings have them
+  bool bare = false;
   std::uint64_t seed = 1;
 };
 
@@ -27,6 +28,8 @@ BuildingSpec make_building(const Request& request) {
   b.column = request.column;
   b.seed = request.seed;
   b.continuity = request.continuity;
+  if (request.bars >= 0) b.beam_bars = b.slab_bars = request.bars;
+  if (request.bare) b.infill = Infill::none;
   if (request.kind == "masonry") b.kind = BuildingKind::masonry;
   if (request.kind == "precast") b.kind = BuildingKind::precast, b.infill = Infill::none;
   if (request.kind == "bridge") {
@@ -123,6 +126,8 @@ int main(int argc, char** argv) {
   app.add_option("--shake", request.shake, "m/s2");
   app.add_option("--blast", request.blast, "N s/m2 at 1 m");
   app.add_option("--continuity", request.continuity, "share of bars that hold on");
+  app.add_option("--bars", request.bars, "bars of beams and slabs, as a share of their sections");
+  app.add_flag("--bare", request.bare, "no walls");
   app.add_option("--sinks", request.sinks, "depth of sinking footings; m");
   app.add_option("--vehicle", request.vehicle, "kg");
   CLI11_PARSE(app, argc, argv);

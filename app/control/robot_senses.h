@@ -18,11 +18,11 @@ namespace rubble {
 class RobotSenses {
  public:
   // Measures what `senses` of the mission's robots name. All but `threads` must outlive this. Throws InputError for a
-  // sensor that no robot carries, and for a camera that find no rays for: see LiveRanges.
+  // sensor that no robot carries.
   RobotSenses(const ResolvedMission& mission, const PileState& pile, const std::vector<MissionRobot>& robots,
               int threads);
 
-  // Once all robots are added, before the first step. step: unit: s
+  // Once all robots are added, before the first step. step: unit: s. Throws InputError for a camera with a lens.
   void begin(const RobotRun& run, double step);
   void note_step(const World& world);  // after each step
   // Adds `lidars` and `cameras` to what the robot's function is told: what was measured since its last call.

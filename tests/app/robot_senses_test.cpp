@@ -1,6 +1,7 @@
 // What the functions that drive robots are told of LiDARs and cameras.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <sstream>
 #include <string>

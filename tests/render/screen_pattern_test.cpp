@@ -14,7 +14,9 @@ namespace {
 
 constexpr int kSide = 192;
 constexpr int kFrames = 7;
-constexpr double kStep = 0.0137;  // of the camera between frames; unit: m
+// Of the camera between frames: over two of them, six pixels, the ground's texture is no longer like itself. Over three
+// pixels it still is by 0.03, whatever stays on the grid. unit: m
+constexpr double kStep = 0.0311;
 
 // The floor on which cameras of robots look: ground, and a slab on it.
 Scene floor_scene() {
@@ -106,7 +108,7 @@ double share_on_grid(const std::vector<Shot>& shots) {
 
 TEST(ScreenPattern, NothingStaysOnThePixelGridWhileTheCameraMoves) {
   GlContext context;
-  EXPECT_LT(share_on_grid(fly(context)), 0.02);
+  EXPECT_LT(share_on_grid(fly(context)), 0.015);
 }
 
 // One step of noise glued to the pixels is enough to be found.

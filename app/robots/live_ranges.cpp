@@ -13,11 +13,12 @@ namespace {
 
 constexpr double kFarthestDepth = 1000;  // along a ray; unit: m
 
-DepthRays make_depth_rays(const MountedCamera& camera) {
+// `key` is that of the camera in the mission.
+DepthRays make_depth_rays(const MountedCamera& camera, const std::string& key) {
   const Intrinsics k = camera.camera.intrinsics();
   const bool straight = std::all_of(k.distortion.begin(), k.distortion.end(), [](double d) { return d == 0; });
   if (camera.camera.lens.model == LensKind::fisheye || !straight)
-    throw InputError({"", 0, "cameras." + camera.name + ".lens", "a function can be told of no such camera",
+    throw InputError({"", 0, key + ".lens", "a function can be told of no such camera",
                       "a pinhole", "a lens with distortion", "a camera of its own, without `lens`, can be sensed"});
   return DepthRays(k, kFarthestDepth);
 }
@@ -56,7 +57,8 @@ LiveRanges::LiveRanges(const Scenario& scenario, const std::vector<RidingSensor>
   const std::vector<MountedCamera> all = all_cameras(scenario);
   for (const RidingSensor& at : cameras) {
     const MountedCamera& camera = all[at.number];
-    imagers_.push_back(std::make_unique<Imager>(Imager{{at, {}, {}, 0}, make_depth_rays(camera),
+    const std::string key = scenario.cameras.empty() ? "camera" : "cameras." + camera.name;
+    imagers_.push_back(std::make_unique<Imager>(Imager{{at, {}, {}, 0}, make_depth_rays(camera, key),
                                                        camera.rate_hz.value_or(scenario.trajectory.rate_hz),
                                                        camera.rig_from_camera()}));
   }

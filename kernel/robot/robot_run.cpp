@@ -102,8 +102,7 @@ std::vector<RobotContact> RobotRun::find_base_contacts(int robot) const {
   std::vector<RobotContact> contacts = probe.robot_contacts(0);
   const int first = probe.robot_piece(0), own = world_.robot_piece(robot);
   for (RobotContact& c : contacts) {
-    if (c.piece == first) c.piece = own;
-    if (c.piece == first + 1) c.piece = surface_;
+    c.piece = c.piece == first ? own : c.piece == first + 1 ? surface_ : c.piece;
   }
   return contacts;
 }

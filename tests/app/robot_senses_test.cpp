@@ -117,6 +117,34 @@ TEST(RobotSenses, DepthIsThatOfAWallInFront) {
   EXPECT_NEAR(told[5], 0.251 * fx / 14.5, 0.02);
 }
 
+TEST(RobotSenses, RangesOfAScannerHaveTheAnglesThatAreTold) {
+  const std::vector<double> told = told_by(R"(return rubble.mission {
+    pile = { layers = 0, placed = { { box = { 0.2, 6, 3 }, position = { 3.1, 0, 1.5 } } } },
+    robots = { rubble.robot.rover { name = "rover", position = { 0, 0, 0.001 }, senses = { "flat" },
+      control = function(sense)
+        local scan = sense.lidars.flat
+        if not scan then return {} end
+        local rays, nearest, farthest = 0, 100, 0
+        for i, range in ipairs(scan.ranges) do
+          local angle = scan.first_angle + (i - 1) * scan.angle_step
+          if math.abs(angle) < 0.7 then
+            local x = range * math.cos(angle)
+            rays, nearest, farthest = rays + 1, math.min(nearest, x), math.max(farthest, x)
+          end
+        end
+        error(string.format("told: %d %.17g %.17g end", rays, nearest, farthest))
+      end } },
+    robot_run = { duration = 0.3 },
+    lidars = { flat = { model = "utm30lx", ride = { robot = "rover" }, position = { 0, 0, 0.7 }, noise = false,
+                        range_step = 0 } },
+    camera = { width = 32, height = 32 },
+  })");
+  ASSERT_EQ(told.size(), 3u);
+  EXPECT_NEAR(told[0], 1.4 / (0.25 * 3.14159265358979 / 180), 2);
+  EXPECT_NEAR(told[1], 3, 0.01);  // the wall at x = 3; the rover settles by millimetres
+  EXPECT_NEAR(told[2], 3, 0.01);
+}
+
 // New readings alone are told, each once; which does not depend on the threads.
 TEST(RobotSenses, EachReadingIsToldOnceOnAnyNumberOfThreads) {
   const std::string counting = mission(R"(
@@ -149,7 +177,11 @@ TEST(RobotSenses, WhatCannotBeSensedIsAMistakeWithItsKey) {
       {robot + "  cameras = { eye = { ride = { robot = \"r\" }, lens = { k1 = 0.1 } } } }", "cameras.eye.lens"},
       {"return rubble.mission { pile = { layers = 0 }, lidars = { eye = {} },\n"
        "  robots = { rubble.robot.rover { position = { 0, 0, 0.001 }, senses = { \"eye\" } } } }",
-       "robots[1].senses: nobody is told"}};
+       "robots[1].senses: nobody is told"},
+      {"return rubble.mission { pile = { layers = 0 }, camera = { lens = { model = \"plumb_bob\", k1 = 0.1 } },\n"
+       "  trajectory = { ride = { robot = \"r\" } }, robots = { rubble.robot.rover { name = \"r\",\n"
+       "    position = { 0, 0, 0.001 }, senses = { \"camera\" }, control = function() return {} end } } }",
+       ": camera.lens: "}};
   for (const auto& c : cases) {
     const ScratchFolder scratch;
     write_file(scratch / "m.lua", c.script);

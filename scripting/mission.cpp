@@ -65,7 +65,7 @@ Mission load_mission_text(const std::string& text, const std::string& path,
   if (options.included) sandbox.serve_includes(*options.included);
   const Value table = run_script(sandbox, mission.script, lines);
   mission.included = sandbox.included();
-  mission.printed = sandbox.printed();
+  mission.printed = sandbox.take_printed();
   mission.drawn = sandbox.drawn();
   require_table(table, mission.script, lines);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/mission/resolved_mission.h"
+#include "app/robots/live_colours.h"
 #include "app/robots/live_ranges.h"
 #include "app/robots/mission_robot.h"
 #include "app/scene/moving_scene.h"
@@ -17,34 +18,41 @@ namespace rubble {
 
 class RobotSenses {
  public:
-  // Measures what `senses` of the mission's robots name. All but `threads` must outlive this. Throws InputError for a
-  // sensor that no robot carries.
+  // Measures what `senses` of the mission's robots name. All but the numbers must outlive this. gl_device: see
+  // GlContextOptions. Throws InputError for a sensor that no robot carries.
   RobotSenses(const ResolvedMission& mission, const PileState& pile, const std::vector<MissionRobot>& robots,
-              int threads);
+              int threads, int gl_device);
 
-  // Once all robots are added, before the first step. step: unit: s. Throws InputError for a camera with a lens.
+  // Once all robots are added, before the first step. step: unit: s. Throws InputError for depth of a camera with a
+  // lens, RunError where colours are asked for and there is no OpenGL.
   void begin(const RobotRun& run, double step);
   void note_step(const World& world);  // after each step
-  // Adds `lidars` and `cameras` to what the robot's function is told: what was measured since its last call.
+  // Adds `lidars`, `cameras` and `images` to what the robot's function is told: what was measured since its last call.
   void tell(std::size_t robot, Value& told);
 
  private:
   // What a robot has not been told yet.
   struct Untold {
     std::vector<std::shared_ptr<const LidarScan>> scans;
-    std::vector<std::shared_ptr<const SensedDepth>> images;
+    std::vector<std::shared_ptr<const SensedDepth>> depths;
+    std::vector<std::shared_ptr<const SensedColours>> colours;
   };
   bool senses(std::size_t robot, const std::string& name) const;
+  bool sensed(const std::string& name) const;  // by any robot
+  // While it measures, `measurer` says where things are; before, the world.
+  template <typename Measurer>
+  Scene build_scene(const World& world, const std::unique_ptr<Measurer>& measurer) const;
   void measure();
 
   const ResolvedMission& mission_;
   const PileState& pile_;
-  int threads_;
+  int threads_, gl_device_;
   std::vector<std::string> camera_names_;
-  std::vector<RidingSensor> lidars_, cameras_;  // that any robot senses
+  std::vector<RidingSensor> lidars_, depth_cameras_, colour_cameras_;  // that any robot senses
   std::vector<Untold> untold_;                  // by robot
   RobotTrack seen_;                             // models and ids
   std::unique_ptr<LiveRanges> ranges_;
+  std::unique_ptr<LiveColours> colours_;  // none: no robot senses colours
 };
 
 }  // namespace rubble

@@ -1,5 +1,6 @@
 #include "app/control/script_control.h"
 
+#include <cstdio>
 #include <map>
 #include <string>
 #include <utility>
@@ -50,6 +51,21 @@ RobotCommand command_of(const Wish& wish, const RobotModel& model) {
   return command;
 }
 
+// What the function prints is shown, also if it fails.
+Value call(LuaSandbox& sandbox, int control, const Value& told) {
+  const auto show = [&sandbox] {
+    for (const std::string& line : sandbox.take_printed()) std::fprintf(stderr, "%s\n", line.c_str());
+  };
+  try {
+    const Value answer = sandbox.call_controller(control, told);
+    show();
+    return answer;
+  } catch (...) {
+    show();
+    throw;
+  }
+}
+
 }  // namespace
 
 struct ScriptControl::State {
@@ -59,6 +75,7 @@ struct ScriptControl::State {
     for (const SourceFile& file : m.provenance.included) included[file.path] = file.text;
     sandbox.serve_includes(included);
     run_script(sandbox, script, lines);
+    sandbox.take_printed();  // that was shown when the mission was loaded
   }
   const ResolvedMission& mission;
   RobotSenses& senses;
@@ -81,7 +98,7 @@ RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel
     Value told = describe_sense(sense, model, gravity, last, last_time);
     if (wheels) told.set("odometry", describe_odometry(wheels->update(sense.state, sense.time)));
     if (!item.senses.empty()) state.senses.tell(robot, told);
-    const Value answer = state.sandbox.call_controller(item.control, told);
+    const Value answer = call(state.sandbox, item.control, told);
     Wish wish;
     std::vector<Diagnostic> mistakes;
     if (answer.kind != Value::Kind::table) {

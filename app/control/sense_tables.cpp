@@ -150,4 +150,13 @@ Value describe_depth(const SensedDepth& image, std::int64_t start_ns) {
   return table;
 }
 
+Value describe_colours(const SensedColours& image, std::int64_t start_ns) {
+  Value table = Value::make_table();
+  table.set("t", describe_stamp(image.stamp_ns, start_ns));
+  table.set("width", Value::make_integer(image.width));
+  table.set("height", Value::make_integer(image.height));
+  table.set("rgb", Value::make_text(std::string(image.rgb.begin(), image.rgb.end())));
+  return table;
+}
+
 }  // namespace rubble

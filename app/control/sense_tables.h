@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "app/robots/live_colours.h"
 #include "app/robots/live_ranges.h"
 #include "kernel/model/robot.h"
 #include "kernel/robot/odometry.h"
@@ -20,5 +21,6 @@ Value describe_odometry(const OdometryReading& reading);
 // start_ns: the stamp of the robots' time 0.
 Value describe_scan(const LidarScan& scan, const LidarSpec& spec, std::int64_t start_ns);
 Value describe_depth(const SensedDepth& image, std::int64_t start_ns);
+Value describe_colours(const SensedColours& image, std::int64_t start_ns);
 
 }  // namespace rubble

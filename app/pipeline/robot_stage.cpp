@@ -74,7 +74,7 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
   RobotRunResult result;
   with_lines_of_script(mission, [&] {
     RideRecorder rides(mission.scenario, made);
-    RobotSenses senses(mission, pile, made, context.threads());
+    RobotSenses senses(mission, pile, made, context.threads(), context.options.gl_device);
     const RobotRunOptions options = robot_run_options(mission.scenario, context.threads());
     RobotRun run(make_laid_pile(mission, pile), pile, options);
     for (std::size_t i = 0; i < robots.size(); ++i) {

@@ -8,31 +8,18 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "app/robots/mission_robot.h"
+#include "app/robots/live_steps.h"
 #include "kernel/base/parallel.h"
-#include "kernel/world/world.h"
 #include "render/lidar/depth_rays.h"
 #include "render/lidar/lidar.h"
 #include "render/media/medium.h"
 #include "render/scene/lidar_scan.h"
 #include "render/scene/scene.h"
 #include "scripting/scenario/scenario.h"
-#include "scripting/trajectory/simulated_path.h"
 
 namespace rubble {
-
-// What carries a sensor: a place on a link of a robot.
-struct LinkMount {
-  std::size_t robot = 0, link = 0;
-  Pose link_from_carrier;  // unit: m
-};
-// Where `carrier` is; what carries nothing of its own is on the rig. key: of the sensor. Throws InputError: the robot
-// has no such link, or no robot carries the rig (`rig` is empty).
-LinkMount find_link_mount(const Carrier& carrier, const std::optional<LinkMount>& rig, const std::string& key,
-                          const std::vector<std::string>& names, const std::vector<MissionRobot>& robots);
 
 struct RidingSensor {
   std::size_t number = 0;  // among the scenario's LiDARs, or all_cameras()
@@ -49,15 +36,14 @@ struct SensedDepth {
 
 class LiveRanges {
  public:
-  // scene: shows everything where it is (build_live_scene, by pose_of() of this while measuring() is true). The
-  // scenario must outlive this. Throws InputError for a camera whose lens is no pinhole.
+  // scene: shows everything where it is (build_live_scene, by pose_of() of this while measuring() is true). Throws InputError for a camera whose lens is no pinhole.
   LiveRanges(const Scenario& scenario, const std::vector<RidingSensor>& lidars,
              const std::vector<RidingSensor>& cameras, const Scene& scene, const Medium& medium, double step,
              int threads);
 
   bool empty() const { return scanners_.empty() && imagers_.empty(); }
-  void restart(const World& world);    // at the robots' time 0
-  void note_step(const World& world);  // after each step
+  void restart(const World& world);  // at the robots' time 0
+  void note_step(const World& world) { steps_.note_step(world); }  // after each step
   // All since the last call, each kind sensor by sensor in the order of stamps.
   struct Readings {
     std::vector<LidarScan> scans;
@@ -65,43 +51,32 @@ class LiveRanges {
   };
   Readings take();
 
-  // While rays are cast: where a piece or a link was, between steps on a straight line; nothing: it was not there.
-  bool measuring() const { return measuring_; }
-  std::optional<Pose> pose_of(int id, std::int64_t stamp_ns) const;
+  // While rays are cast: where a piece or a link was; nothing: it was not there.
+  bool measuring() const { return steps_.measuring(); }
+  std::optional<Pose> pose_of(int id, std::int64_t stamp_ns) const { return steps_.pose_of(id, stamp_ns); }
 
  private:
-  // A sensor, and where its carrier was at the steps that are kept.
-  struct Rider {
-    RidingSensor at;
-    std::vector<Pose> poses;
-    std::unique_ptr<SimulatedPath> way;  // while it measures
-    int next = 0;                        // scan or image
-  };
-  struct Scanner : Rider {
+  struct Scanner {
+    std::size_t number = 0, carrier = 0;
     std::unique_ptr<Lidar> lidar;
+    int next = 0;
   };
-  struct Imager : Rider {
+  struct Imager {
+    std::size_t number = 0, carrier = 0;
     DepthRays rays;
     double rate_hz = 0;
     Pose carrier_from_camera;
+    int next = 0;
     std::int64_t stamp_ns(int image, std::int64_t start_ns) const;
   };
-  double since_start(std::int64_t stamp_ns) const;  // unit: s
-  Pose pose_at(const Rider& rider, std::int64_t stamp_ns) const;
-  std::int64_t known_until() const;
-  void begin_way(Rider& rider);
   void scan(Scanner& scanner, std::vector<LidarScan>& scans);
   void look(Imager& imager, std::vector<SensedDepth>& images);
   void forget();
 
-  const Scenario& scenario_;
-  double step_;
-  std::int64_t steps_ = 0, first_ = 0;
-  std::vector<std::vector<std::optional<Pose>>> poses_;  // of steps from `first_` on, by id
-  bool measuring_ = false;
+  LiveSteps steps_;
   std::shared_ptr<LidarWorld> world_;
-  std::vector<std::unique_ptr<Scanner>> scanners_;
-  std::vector<std::unique_ptr<Imager>> imagers_;
+  std::vector<Scanner> scanners_;
+  std::vector<Imager> imagers_;
   ThreadPool pool_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "kernel/base/random.h"
 #include "scripting/trajectory/sample_path.h"
 
 namespace rubble {
@@ -25,20 +26,25 @@ CameraSpec build_camera(const Scenario& scenario, const MountedCamera& mounted, 
   return spec;
 }
 
+std::uint64_t camera_seed(const Scenario& scenario, const MountedCamera& camera, std::uint64_t noise_seed) {
+  return scenario.cameras.empty() ? noise_seed : RandomStream(noise_seed, "cameras/" + camera.name).next();
+}
+
+// The same bits where the camera is the rig.
+Pose place_on_mount(const MountedCamera& camera, const Pose& carrier) {
+  return camera.is_rig() ? carrier : carrier * camera.rig_from_camera();
+}
+
 Flight build_flight(const Scenario& scenario, const MountedCamera& camera,
                     std::shared_ptr<const MotionPath> path) {
-  // The same bits where the camera is the rig.
-  const bool mounted = !camera.is_rig();
-  const Pose rig_from_camera = camera.rig_from_camera();
-  const auto on_mount = [=](const Pose& rig) { return mounted ? rig * rig_from_camera : rig; };
   const double rate_hz = camera.rate_hz.value_or(scenario.trajectory.rate_hz);
   Flight flight;
   for (const CameraPose& pose : sample_path(*path, rate_hz, scenario.start_ns)) {
     flight.stamps_ns.push_back(pose.stamp_ns);
-    flight.world_from_camera.push_back(on_mount(pose.world_from_camera));
+    flight.world_from_camera.push_back(place_on_mount(camera, pose.world_from_camera));
   }
-  flight.pose_at = [path = std::move(path), on_mount, start = scenario.start_ns](std::int64_t stamp_ns) {
-    return on_mount(path->at(double(stamp_ns - start) * 1e-9));
+  flight.pose_at = [path = std::move(path), camera, start = scenario.start_ns](std::int64_t stamp_ns) {
+    return place_on_mount(camera, path->at(double(stamp_ns - start) * 1e-9));
   };
   return flight;
 }

@@ -1,6 +1,7 @@
 // From a camera of a mission to what renders it, and where it flies.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -14,6 +15,10 @@ namespace rubble {
 
 // A camera of the mission (all_cameras), with what is in its place.
 CameraSpec build_camera(const Scenario& scenario, const MountedCamera& camera, int threads);
+// Of several cameras each has noise of its own. noise_seed: of all sensors.
+std::uint64_t camera_seed(const Scenario& scenario, const MountedCamera& camera, std::uint64_t noise_seed);
+// Where it is when its carrier is there: the rig, or a link.
+Pose place_on_mount(const MountedCamera& camera, const Pose& carrier);
 
 // Where that camera is, at its own rate, along the path of the scenario's trajectory, whose places are
 // resolved (app/planning/flight.h), or along the way of the robot that carries the rig or the camera.

@@ -12,13 +12,10 @@
 namespace rubble {
 namespace {
 
-// Of several cameras each has noise of its own.
 CameraSpec spec_of(const Scenario& flown, const MountedCamera& mounted, const SensorBegin& begin,
                    int threads) {
   CameraSpec spec = build_camera(flown, mounted, threads);
-  spec.seed = flown.cameras.empty()
-                  ? begin.noise_seed
-                  : RandomStream(begin.noise_seed, "cameras/" + mounted.name).next();
+  spec.seed = camera_seed(flown, mounted, begin.noise_seed);
   return spec;
 }
 

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
@@ -383,6 +384,9 @@ const std::vector<std::pair<std::string, std::string>>& LuaSandbox::drawn() cons
   return state_->host.drawn;
 }
 const std::vector<SourceFile>& LuaSandbox::included() const { return state_->included; }
-const std::vector<std::string>& LuaSandbox::printed() const { return state_->host.printed; }
+std::vector<std::string> LuaSandbox::take_printed() {
+  state_->host.printed_bytes = 0;
+  return std::exchange(state_->host.printed, {});
+}
 
 }  // namespace rubble

@@ -70,7 +70,7 @@ class LuaSandbox {
   // choice among tables, the number of the one.
   const std::vector<std::pair<std::string, std::string>>& drawn() const;
   const std::vector<SourceFile>& included() const;  // by rubble.include, in order of first use
-  const std::vector<std::string>& printed() const;  // lines given to print, made printable
+  std::vector<std::string> take_printed();  // lines given to print since the last call, made printable
 
   // The functions of the library with their parameters, in order, for the reference.
   static std::vector<DescribedFunction> describe_library();

@@ -52,7 +52,7 @@ struct RobotItem {
   std::optional<double> friction{};  // against concrete; not given: the model's; range: 0 to 2
   std::vector<RobotLeg> drive{};     // in rising order of t; empty: it stands still
   int control = 0;  // number of a function of the script that drives it instead; 0: none
-  std::vector<std::string> senses{};  // LiDARs and cameras whose readings that function is told
+  std::vector<std::string> senses{};  // LiDARs and cameras whose readings that function is told; see colour_sense()
 };
 
 enum class DebrisMotion { free, fixed };
@@ -71,6 +71,8 @@ struct Scenario;
 void add_ride_keys(Schema& keys, const std::string& at, Carrier& ride);
 // The scenario must outlive the schema.
 void add_robot_keys(Schema& keys, Scenario& scenario);
+// How `senses` names the colours of a camera; its name alone is its depth.
+inline std::string colour_sense(const std::string& camera) { return camera + ".rgb"; }
 // The names that robots go by, in their order.
 std::vector<std::string> robot_names(const std::vector<RobotItem>& robots);
 void check_robots(const Scenario& scenario, std::vector<Diagnostic>& mistakes);

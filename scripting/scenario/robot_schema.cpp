@@ -101,7 +101,10 @@ void check_senses(const Scenario& scenario, std::size_t i, std::vector<Diagnosti
     mistakes.push_back({"", 0, key_of(i, "senses"), "nobody is told", "a function as `control`", "no function", ""});
   std::vector<std::string> names;
   for (const LidarScenario& lidar : scenario.lidars) names.push_back(lidar.name);
-  for (const MountedCamera& camera : all_cameras(scenario)) names.push_back(camera.name);
+  for (const MountedCamera& camera : all_cameras(scenario)) {
+    names.push_back(camera.name);
+    names.push_back(colour_sense(camera.name));
+  }
   std::string all;
   for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
   for (std::size_t k = 0; k < robot.senses.size(); ++k) {
@@ -223,7 +226,8 @@ void add_robot_keys(Schema& k, Scenario& s) {
          "rubble.controller.")
       .between(0, 1000);
   k.item("robots[].senses", list, &RobotItem::senses,
-         "LiDARs and cameras on robots, by name: the function is told what they measure (docs/robots.md).");
+         "LiDARs and cameras on robots, by name: the function is told their scans and depths; colours by the name "
+         "with \".rgb\" (docs/robots.md).");
   k.group("robot_run", "Time and rate of the robots.");
   k.value("robot_run.duration", s.robot_run.duration, "Time for which they are driven.")
       .above(0, 86400)

@@ -333,7 +333,7 @@ TEST(SandboxVectors, Arithmetic) {
 TEST(SandboxPrint, KeepsLinesAndHasALimit) {
   LuaSandbox sandbox(1, "rubble.mission", small_limits());
   sandbox.run("print('a', 1, {}) print()", "h.lua");
-  EXPECT_EQ(sandbox.printed(), (std::vector<std::string>{"a\t1\ttable", ""}));
+  EXPECT_EQ(sandbox.take_printed(), (std::vector<std::string>{"a\t1\ttable", ""}));
   EXPECT_EQ(run_error("for i = 1, 1e5 do print(('x'):rep(100)) end"),
             "h.lua:1: the script prints more than 1 MiB");
 }

@@ -11,14 +11,12 @@ namespace rubble {
 namespace {
 
 constexpr int kDirections = 32;       // rays a probe
-constexpr double kMostProbes = 4000;  // about
 constexpr std::size_t kAlbedoTriangles = 200;  // about; of a mesh, that its albedo is looked up at
-constexpr double kLeastCell = 0.4;    // unit: m
 constexpr double kMargin = 0.8;       // around what moves; unit: m
 constexpr float kLowest = 0.05f;      // of a probe above the ground; unit: m
 constexpr float kBuried = 0.35f;      // share of rays that start inside a piece
-constexpr float kDimmer = 0.6f;       // a probe inside a piece, against its neighbours outside
-constexpr float kTrust = 0.02f;       // weight of such a probe against one outside
+constexpr std::size_t kMostMovers = 64;  // with more, all rays are cast again
+constexpr float kAway = 0.002f;       // a ray this far from a sphere passes it by; unit: m
 constexpr float kOff = 0.5f;          // light is looked up so far off a surface; unit: a cell
 
 // Evenly over the sphere, by a golden-ratio sequence.
@@ -35,32 +33,10 @@ std::vector<Vec3f> sphere_directions() {
 
 }  // namespace
 
-// Radiance from direction w: mean + (slope[0] w.x + slope[1] w.y + slope[2] w.z); unit: kcd/m2
-struct LiveLight::Probe {
-  Vec3f mean, slope[3];
-  bool inside = false;  // of a piece
-  bool known = true;    // or filled in
-
-  void add(const Probe& other, float weight) {
-    mean += other.mean * weight;
-    for (int i = 0; i < 3; ++i) slope[i] += other.slope[i] * weight;
-  }
-  // Illuminance of a surface of normal n: pi mean + 2/3 pi slope n (Ramamoorthi and Hanrahan 2001).
-  Vec3f illuminance(const Vec3f& n) const {
-    const Vec3f along = slope[0] * n.x + slope[1] * n.y + slope[2] * n.z;
-    return max(mean * portable::kPiF + along * (2 * portable::kPiF / 3), Vec3f());
-  }
-  // dot(n, result) is the strength of that light, for normals near n.
-  Vec3f vector(const Vec3f& n) const {
-    const Vec3f rise = Vec3f(luminance(slope[0]), luminance(slope[1]), luminance(slope[2])) *
-                       (2 * portable::kPiF / 3);
-    return n * (luminance(illuminance(n)) - dot(rise, n)) + rise;
-  }
-};
-
 // What a ray from a probe meets.
 struct LiveLight::Hit {
   enum Kind : std::uint8_t { sky, surface, inside } kind = sky;
+  float distance = kLightReach;  // unit: m
   Vec3f point, normal, albedo;
   Vec3f direct;  // of the lights on the surface; unit: klx
 };
@@ -76,7 +52,8 @@ LiveLight::LiveLight(const PreparedScene& scene, const LightSet& light,
       out_(resting_) {
   find_albedos(albedo);
   lay_out_grid();
-  without_ = solve();
+  solve(nullptr, without_);
+  find_resting_nodes();
 }
 
 // As drawn, at a few places of each triangle; of meshes with many triangles of every second or so.
@@ -108,62 +85,99 @@ void LiveLight::lay_out_grid() {
   const Vec3 margin(kMargin, kMargin, kMargin);
   box.min -= margin, box.max += margin;
   box.min.z = std::max(box.min.z, double(kLowest));
-  box.max.z = std::max(box.max.z, box.min.z + kLeastCell);
-  const Vec3 edges = box.max - box.min;
-  const double cell = std::max(kLeastCell, std::cbrt(edges.x * edges.y * edges.z / kMostProbes));
-  origin_ = Vec3f(box.min);
-  for (int i = 0; i < 3; ++i) {
-    size_[i] = std::max(2, int(std::ceil(edges[i] / cell)) + 1);
-    cell_[i] = float(edges[i] / (size_[i] - 1));
-  }
+  grid_.lay_out(box);
 }
 
-Vec3f LiveLight::point_of(std::size_t probe) const {
-  const auto nx = std::size_t(size_[0]), ny = std::size_t(size_[1]);
-  const Vec3f step(float(probe % nx), float(probe / nx % ny), float(probe / (nx * ny)));
-  return origin_ + multiply(cell_, step);
+void LiveLight::find_movers() {
+  movers_.clear();
+  for (const PlacedMesh& piece : scene_.placed)
+    if (piece.moves && piece.there) movers_.push_back({piece.centre, piece.radius + kAway});
 }
 
-LiveLight::Grid LiveLight::solve() {
+// direction: unit length.
+bool LiveLight::meets_mover(const Vec3f& from, const Vec3f& direction, float farthest) const {
+  return std::any_of(movers_.begin(), movers_.end(), [&](const Sphere& mover) {
+    const Vec3f to = mover.centre - from;
+    const float along = std::clamp(dot(to, direction), 0.0f, farthest);
+    const Vec3f off = to - direction * along;
+    return dot(off, off) <= mover.radius * mover.radius;
+  });
+}
+
+// resting: the solution without anything that moves. What no mover touches is taken from there, to the same bits.
+void LiveLight::solve(const Solution* resting, Solution& out) {
   rays_.follow();
-  const std::size_t count = std::size_t(size_[0]) * std::size_t(size_[1]) * std::size_t(size_[2]);
-  const std::size_t row = std::size_t(size_[0]);
-  std::vector<Hit> hits(count * kDirections);
-  Grid first(count), second(count);
+  find_movers();
+  if (movers_.size() > kMostMovers) resting = nullptr;
+  const std::size_t count = grid_.count(), row = grid_.row();
+  out.hits.resize(count * kDirections);
+  out.first.resize(count), out.second.resize(count);
+  std::vector<std::uint8_t> kept(count, 0);
   parallel_for(count / row, threads_, [&](std::size_t job) {
     for (std::size_t i = job * row; i < (job + 1) * row; ++i) {
-      trace(i, hits);
-      first[i] = gather(hits, i * kDirections, nullptr);
+      kept[i] = trace(i, resting, out.hits);
+      out.first[i] = kept[i] ? resting->first[i] : gather(out.hits, i * kDirections, nullptr);
     }
   });
-  fill_inside(first);
+  out.first_filled = grid_.fill_inside(out.first);
+  std::vector<std::uint8_t> changed;
+  if (resting) changed = grid_.find_changed_cells(resting->first_filled, out.first_filled);
+  const auto sees_change = [&](std::size_t probe) {
+    for (std::size_t r = probe * kDirections; r < (probe + 1) * kDirections; ++r)
+      if (out.hits[r].kind == Hit::surface && changed[grid_.cell_of(lookup_of(out.hits[r]))]) return true;
+    return false;
+  };
   parallel_for(count / row, threads_, [&](std::size_t job) {
     for (std::size_t i = job * row; i < (job + 1) * row; ++i)
-      second[i] = gather(hits, i * kDirections, &first);
+      out.second[i] = kept[i] && !sees_change(i) ? resting->second[i]
+                                                 : gather(out.hits, i * kDirections, &out.first_filled);
   });
-  fill_inside(second);
-  return second;
+  out.filled = grid_.fill_inside(out.second);
 }
 
-void LiveLight::trace(std::size_t probe, std::vector<Hit>& hits) const {
-  const Vec3f from = point_of(probe);
+// Whether all is as in `resting`.
+bool LiveLight::trace(std::size_t probe, const Solution* resting, std::vector<Hit>& hits) const {
+  const Vec3f from = grid_.point_of(probe);
+  bool kept = resting;
   for (std::size_t r = 0; r < directions_.size(); ++r) {
-    const RayScene::Hit met = rays_.cast(from, directions_[r], 0, kLightReach);
     Hit& hit = hits[probe * kDirections + r];
-    hit.kind = met.triangle == RayScene::kNone ? Hit::sky : met.back ? Hit::inside : Hit::surface;
-    if (hit.kind != Hit::surface) continue;
-    const RayScene::Triangle& triangle = rays_.triangles()[met.triangle];
-    const PlacedMesh& piece = scene_.placed[triangle.placed];
-    const PreparedMesh& mesh = scene_.meshes[piece.mesh];
-    const PreparedTriangle& source = mesh.triangles[triangle.source];
-    const Vec3f p0 = mesh.vertices[source.vertices[0]].position;
-    const Vec3f area = cross(mesh.vertices[source.vertices[1]].position - p0,
-                             mesh.vertices[source.vertices[2]].position - p0);
-    hit.normal = normalized(Vec3f(piece.world_from_mesh.rotation.rotate(Vec3(area))));
-    hit.point = from + directions_[r] * met.distance + hit.normal * 0.01f;
-    hit.albedo = albedos_[source.material];
-    hit.direct = light_of(hit);
+    const Hit* const before = resting ? &resting->hits[probe * kDirections + r] : nullptr;
+    const bool met = !before || meets_mover(from, directions_[r], before->distance);
+    hit = met ? trace_ray(from, directions_[r]) : *before;
+    if (hit.kind == Hit::surface && (met || !keeps_lights(hit))) hit.direct = light_of(hit);
+    kept = kept && !met && hit.direct == before->direct;
   }
+  return kept;
+}
+
+// Without the lights on what it meets. direction: unit length.
+LiveLight::Hit LiveLight::trace_ray(const Vec3f& from, const Vec3f& direction) const {
+  const RayScene::Hit met = rays_.cast(from, direction, 0, kLightReach);
+  Hit hit;
+  hit.kind = met.triangle == RayScene::kNone ? Hit::sky : met.back ? Hit::inside : Hit::surface;
+  if (hit.kind != Hit::sky) hit.distance = met.distance;
+  if (hit.kind != Hit::surface) return hit;
+  const RayScene::Triangle& triangle = rays_.triangles()[met.triangle];
+  const PlacedMesh& piece = scene_.placed[triangle.placed];
+  const PreparedMesh& mesh = scene_.meshes[piece.mesh];
+  const PreparedTriangle& source = mesh.triangles[triangle.source];
+  const Vec3f p0 = mesh.vertices[source.vertices[0]].position;
+  const Vec3f area = cross(mesh.vertices[source.vertices[1]].position - p0,
+                           mesh.vertices[source.vertices[2]].position - p0);
+  hit.normal = normalized(Vec3f(piece.world_from_mesh.rotation.rotate(Vec3(area))));
+  hit.point = from + direction * met.distance + hit.normal * 0.01f;
+  hit.albedo = albedos_[source.material];
+  return hit;
+}
+
+// No mover stands between what was met and a light that may shine on it.
+bool LiveLight::keeps_lights(const Hit& hit) const {
+  for (const LightModel& light : light_.lights) {
+    const LightModel::Sample sample = light.at(hit.point);
+    if (dot(sample.to_light, hit.normal) <= 0 || luminance(sample.illuminance) <= 0) continue;
+    if (meets_mover(hit.point, sample.to_light, std::min(sample.distance * 0.999f, kLightReach))) return false;
+  }
+  return true;
 }
 
 Vec3f LiveLight::light_of(const Hit& hit) const {
@@ -180,9 +194,9 @@ Vec3f LiveLight::light_of(const Hit& hit) const {
 
 // Projection on the first four spherical harmonics: slope = 3 mean(L w). lit: what lights the surfaces
 // besides the lights; null: nothing does.
-LiveLight::Probe LiveLight::gather(const std::vector<Hit>& hits, std::size_t first,
-                                   const Grid* lit) const {
-  Probe probe;
+LightProbe LiveLight::gather(const std::vector<Hit>& hits, std::size_t first,
+                                   const Probes* lit) const {
+  LightProbe probe;
   int inside = 0;
   for (std::size_t r = 0; r < directions_.size(); ++r) {
     const Hit& hit = hits[first + r];
@@ -192,7 +206,7 @@ LiveLight::Probe LiveLight::gather(const std::vector<Hit>& hits, std::size_t fir
       radiance = light_.sky.radiance(w);
     } else if (hit.kind == Hit::surface) {
       Vec3f e = hit.direct;
-      if (lit) e += sample(*lit, hit.point + multiply(cell_, hit.normal) * kOff).illuminance(hit.normal);
+      if (lit) e += grid_.sample(*lit, lookup_of(hit)).illuminance(hit.normal);
       radiance = multiply(hit.albedo, e) * (1 / portable::kPiF);
     } else {
       ++inside;
@@ -208,65 +222,31 @@ LiveLight::Probe LiveLight::gather(const std::vector<Hit>& hits, std::size_t fir
   return probe;
 }
 
-// Inside pieces: what their neighbours outside have, ring by ring, ever darker.
-void LiveLight::fill_inside(Grid& grid) const {
-  const std::ptrdiff_t nx = size_[0], ny = size_[1];
-  const std::ptrdiff_t steps[6] = {-1, 1, -nx, nx, -nx * ny, nx * ny};
-  for (bool changed = true; changed;) {
-    changed = false;
-    const Grid before = grid;
-    for (std::size_t i = 0; i < grid.size(); ++i) {
-      if (before[i].known) continue;
-      const int x = int(i) % size_[0], y = int(i) / size_[0] % size_[1];
-      const int z = int(i) / (size_[0] * size_[1]);
-      const bool there[6] = {x > 0, x + 1 < size_[0], y > 0, y + 1 < size_[1], z > 0, z + 1 < size_[2]};
-      Probe sum;
-      float count = 0;
-      for (int k = 0; k < 6; ++k) {
-        const auto j = std::size_t(std::ptrdiff_t(i) + steps[k]);
-        if (there[k] && before[j].known) sum.add(before[j], 1), count += 1;
-      }
-      if (count == 0) continue;
-      grid[i] = Probe();
-      grid[i].inside = true;
-      grid[i].add(sum, kDimmer / count);
-      changed = true;
+Vec3f LiveLight::lookup_of(const Hit& hit) const { return hit.point + multiply(grid_.cell(), hit.normal) * kOff; }
+
+// Where light is looked up for a node: half a cell off its surface.
+Vec3f LiveLight::lookup_of(const PlacedMesh& piece, std::size_t node, Vec3f& normal) const {
+  const LightNode& light_node = scene_.meshes[piece.mesh].light_nodes[node];
+  const Vec3f at(piece.world_from_mesh * (Vec3(light_node.position) * piece.scale));
+  normal = Vec3f(piece.world_from_mesh.rotation.rotate(Vec3(light_node.normal)));
+  return at + multiply(grid_.cell(), normal) * kOff;
+}
+
+void LiveLight::find_resting_nodes() {
+  nodes_.assign(resting_.size(), {});
+  parallel_for(scene_.placed.size(), threads_, [&](std::size_t i) {
+    const PlacedMesh& piece = scene_.placed[i];
+    if (piece.moves) return;
+    const PreparedMesh& mesh = scene_.meshes[piece.mesh];
+    for (std::size_t v = 0; v < mesh.light_nodes.size(); ++v) {
+      if (!grid_.covers(Vec3f(piece.world_from_mesh * (Vec3(mesh.light_nodes[v].position) * piece.scale)))) continue;
+      Vec3f n;
+      const Vec3f near = lookup_of(piece, v, n);
+      RestingNode& node = nodes_[piece.first_light + v];
+      node.cell = std::int32_t(grid_.cell_of(near));
+      node.before = luminance(grid_.sample(without_.filled, near).illuminance(n));
     }
-  }
-}
-
-bool LiveLight::covers(const Vec3f& point) const {
-  for (int i = 0; i < 3; ++i) {
-    const float at = (point[i] - origin_[i]) / cell_[i];
-    if (at < -1 || at > float(size_[i])) return false;
-  }
-  return true;
-}
-
-LiveLight::Probe LiveLight::sample(const Grid& grid, const Vec3f& point) const {
-  int low[3];
-  float part[3];
-  for (int i = 0; i < 3; ++i) {
-    const float most = float(size_[i] - 1);
-    const float at = std::clamp((point[i] - origin_[i]) / cell_[i], 0.0f, most);
-    low[i] = std::min(int(at), size_[i] - 2);
-    part[i] = at - float(low[i]);
-  }
-  Probe out;
-  float sum = 0;
-  for (int k = 0; k < 8; ++k) {
-    const int x = low[0] + (k & 1), y = low[1] + (k >> 1 & 1), z = low[2] + (k >> 2);
-    const float weight = (k & 1 ? part[0] : 1 - part[0]) * (k & 2 ? part[1] : 1 - part[1]) *
-                         (k & 4 ? part[2] : 1 - part[2]);
-    if (weight <= 0) continue;
-    const Probe& probe = grid[std::size_t((z * size_[1] + y) * size_[0] + x)];
-    const float trust = probe.inside ? weight * kTrust : weight;
-    out.add(probe, trust);
-    sum += trust;
-  }
-  Probe mean;
-  mean.add(out, 1 / sum);
-  return mean;
+  });
 }
 
 void LiveLight::light_moving(const PlacedMesh& piece) {
@@ -279,7 +259,7 @@ void LiveLight::light_moving(const PlacedMesh& piece) {
   for (const BakePoint& p : mesh.bake_points) {
     const Vec3f at(piece.world_from_mesh * (Vec3(p.position) * piece.scale));
     const Vec3f n(piece.world_from_mesh.rotation.rotate(Vec3(p.normal)));
-    const Probe probe = sample(now_, at + multiply(cell_, n) * kOff);
+    const LightProbe probe = grid_.sample(now_.filled, at + multiply(grid_.cell(), n) * kOff);
     points.push_back({probe.vector(n), probe.illuminance(n)});
   }
   for (std::size_t v = 0; v < mesh.light_nodes.size(); ++v) {
@@ -293,17 +273,17 @@ void LiveLight::light_moving(const PlacedMesh& piece) {
   }
 }
 
+// Only where a probe about it has changed: elsewhere nothing is taken away.
 void LiveLight::light_resting(const PlacedMesh& piece) {
-  const PreparedMesh& mesh = scene_.meshes[piece.mesh];
-  for (std::size_t v = 0; v < mesh.light_nodes.size(); ++v) {
-    const Vec3f at(piece.world_from_mesh * (Vec3(mesh.light_nodes[v].position) * piece.scale));
-    if (!covers(at)) continue;
-    const Vec3f n(piece.world_from_mesh.rotation.rotate(Vec3(mesh.light_nodes[v].normal)));
-    const Vec3f near = at + multiply(cell_, n) * kOff;
-    const float before = luminance(sample(without_, near).illuminance(n));
-    const float now = luminance(sample(now_, near).illuminance(n));
-    if (now >= before) continue;
-    const float kept = now / before;
+  const std::size_t count = scene_.meshes[piece.mesh].light_nodes.size();
+  for (std::size_t v = 0; v < count; ++v) {
+    const RestingNode& node = nodes_[piece.first_light + v];
+    if (node.cell < 0 || !changed_[std::size_t(node.cell)]) continue;
+    Vec3f n;
+    const Vec3f near = lookup_of(piece, v, n);
+    const float now = luminance(grid_.sample(now_.filled, near).illuminance(n));
+    if (now >= node.before) continue;
+    const float kept = now / node.before;
     const BakedLight& baked = resting_[piece.first_light + v];
     BakedLight& out = out_[piece.first_light + v];
     out.x = to_half(from_half(baked.x) * kept);
@@ -313,7 +293,8 @@ void LiveLight::light_resting(const PlacedMesh& piece) {
 }
 
 const std::vector<BakedLight>& LiveLight::update() {
-  now_ = solve();
+  solve(&without_, now_);
+  changed_ = grid_.find_changed_cells(without_.filled, now_.filled);
   out_ = resting_;
   parallel_for(scene_.placed.size(), threads_, [&](std::size_t i) {
     const PlacedMesh& piece = scene_.placed[i];

@@ -14,6 +14,7 @@
 #include "render/geometry/ray_scene.h"
 #include "render/lighting/bake.h"
 #include "render/lighting/lighting.h"
+#include "render/lighting/probe_grid.h"
 
 namespace rubble {
 
@@ -31,20 +32,39 @@ class LiveLight {
   const std::vector<BakedLight>& light() const { return out_; }  // of the update before
 
  private:
-  struct Probe;
   struct Hit;
-  using Grid = std::vector<Probe>;
+  using Probes = ProbeGrid::Probes;
+  // A node of what rests: between which probes light is looked up for it, and what they say where nothing moves.
+  struct RestingNode {
+    std::int32_t cell = -1;  // number of the lowest of the eight probes; -1: outside the grid
+    float before = 0;        // unit: klx
+  };
+
+  // What the probes meet, and what lights them: by dark surfaces, then by what the first grid says lights these.
+  // `filled` are the same grids with the probes inside pieces.
+  struct Solution {
+    std::vector<Hit> hits;
+    Probes first, first_filled, second, filled;
+  };
+  // Of what moves and is there: nothing that it does reaches a ray that passes by.
+  struct Sphere {
+    Vec3f centre;
+    float radius = 0;  // unit: m
+  };
 
   void find_albedos(const AlbedoAt& albedo);
   void lay_out_grid();
-  Vec3f point_of(std::size_t probe) const;
-  Grid solve();
-  void trace(std::size_t probe, std::vector<Hit>& hits) const;
+  void find_movers();
+  bool meets_mover(const Vec3f& from, const Vec3f& direction, float farthest) const;
+  void solve(const Solution* resting, Solution& out);
+  bool trace(std::size_t probe, const Solution* resting, std::vector<Hit>& hits) const;
+  Hit trace_ray(const Vec3f& from, const Vec3f& direction) const;
+  bool keeps_lights(const Hit& hit) const;
   Vec3f light_of(const Hit& hit) const;
-  Probe gather(const std::vector<Hit>& hits, std::size_t first, const Grid* lit) const;
-  void fill_inside(Grid& grid) const;
-  Probe sample(const Grid& grid, const Vec3f& point) const;
-  bool covers(const Vec3f& point) const;
+  LightProbe gather(const std::vector<Hit>& hits, std::size_t first, const Probes* lit) const;
+  Vec3f lookup_of(const Hit& hit) const;
+  Vec3f lookup_of(const PlacedMesh& piece, std::size_t node, Vec3f& normal) const;
+  void find_resting_nodes();
   void light_moving(const PlacedMesh& piece);
   void light_resting(const PlacedMesh& piece);
 
@@ -54,10 +74,12 @@ class LiveLight {
   RayScene rays_;
   std::vector<Vec3f> directions_;
   std::vector<Vec3f> albedos_;  // mean over all that has a material, by material; unit: 1
-  Vec3f origin_, cell_;      // of probe (0, 0, 0), and from probe to probe; unit: m
-  int size_[3] = {2, 2, 2};  // probes along each axis
+  ProbeGrid grid_;
   std::vector<BakedLight> resting_, out_;
-  Grid without_, now_;  // what rests alone; as the scene stands
+  std::vector<RestingNode> nodes_;  // as `resting_`, of what rests
+  Solution without_, now_;       // what rests alone; as the scene stands
+  std::vector<Sphere> movers_;
+  std::vector<std::uint8_t> changed_;  // cells, against what rests alone
 };
 
 }  // namespace rubble

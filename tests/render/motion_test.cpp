@@ -248,6 +248,44 @@ TEST(Motion, IsLitAsIfItRestedThere) {
   }
 }
 
+// With a few movers, light is found anew only where these are; with more than 64, everywhere. Here the many lie under
+// the ground, where nothing meets them, or are not there.
+TEST(Motion, LightFoundWhereItMovesIsThatFoundEverywhere) {
+  constexpr std::size_t kBuried = 70;
+  const auto scene_with = [](bool buried) {
+    Scene scene;
+    scene.lamp.on = false;
+    scene.meshes = {share(make_box({3, 3, 0.3})), share(make_box({0.8, 0.8, 0.8})), share(make_box({1e-4, 1e-4, 1e-4}))};
+    for (const double z : {0.15, 1.8}) scene.instances.push_back({0, 1, {{}, {0, 0, z}}, std::uint32_t(10 * z), 2});
+    scene.instances.push_back({1, 1, {{}, {1.4, -1.2, 0.7}}, 20, 2});
+    scene.instances.push_back({1, 1, {}, 21, 2});
+    for (std::size_t i = 0; i < kBuried; ++i) scene.instances.push_back({2, 1, {}, std::uint32_t(30 + i), 2});
+    const auto pose_of = [buried](std::size_t i, double t) -> std::optional<Pose> {
+      if (i > 0 && !buried) return std::nullopt;
+      if (i == 0) return Pose{portable::quat_from_rpy(0, 0, t), {-1.2 + 1.5 * t, 0.3, 0.7}};
+      return Pose{{}, {0.03 * double(i) - 1, 0, -0.001}};
+    };
+    set_moving(scene, kBuried + 1, pose_of, {{-2, -2, 0}, {2, 2, 2}});
+    return scene;
+  };
+  RenderOptions options = plain();
+  options.bake = true;
+  GlContext context;
+  Renderer few(context, scene_with(false), options), many(context, scene_with(true), options);
+  const Intrinsics k = pinhole(64, 48, 80);
+  const Pose eye{portable::quat_from_rpy(0, 0.15, 0.3), {-4, -1.2, 1.5}};
+  double moved = 0;
+  LinearFrame before;
+  for (const double t : {0.2, 0.9, 1.6}) {
+    const LinearFrame a = few.render_linear(view_at(eye, k, std::llround(t * 1e9)));
+    const LinearFrame b = many.render_linear(view_at(eye, k, std::llround(t * 1e9)));
+    EXPECT_EQ(a.rgb, b.rgb) << t;
+    for (std::size_t i = 0; i < before.rgb.size(); ++i) moved += std::abs(double(a.rgb[i]) - double(before.rgb[i]));
+    before = a;
+  }
+  EXPECT_GT(moved, 0);
+}
+
 TEST(Motion, ShiftsAreThoseOfThePoints) {
   Scene scene = slab_scene({0.2, 2, 2});
   set_moving(scene, 1, [](std::size_t, double t) { return Pose{{}, {5, 0.5 * t, 3}}; },

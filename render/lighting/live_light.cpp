@@ -15,7 +15,7 @@ constexpr std::size_t kAlbedoTriangles = 200;  // about; of a mesh, that its alb
 constexpr double kMargin = 0.8;       // around what moves; unit: m
 constexpr float kLowest = 0.05f;      // of a probe above the ground; unit: m
 constexpr float kBuried = 0.35f;      // share of rays that start inside a piece
-constexpr std::size_t kMostMovers = 64;  // with more, all rays are cast again
+constexpr std::size_t kMostMovers = 200;  // with more, all rays are cast again
 constexpr float kAway = 0.002f;       // a ray this far from a sphere passes it by; unit: m
 constexpr float kOff = 0.5f;          // light is looked up so far off a surface; unit: a cell
 

@@ -248,10 +248,10 @@ TEST(Motion, IsLitAsIfItRestedThere) {
   }
 }
 
-// With a few movers, light is found anew only where these are; with more than 64, everywhere. Here the many lie under
+// With a few movers, light is found anew only where these are; with more than 200, everywhere. Here the many lie under
 // the ground, where nothing meets them, or are not there.
 TEST(Motion, LightFoundWhereItMovesIsThatFoundEverywhere) {
-  constexpr std::size_t kBuried = 70;
+  constexpr std::size_t kBuried = 210;
   const auto scene_with = [](bool buried) {
     Scene scene;
     scene.lamp.on = false;

@@ -33,6 +33,11 @@ RobotSenses::RobotSenses(const ResolvedMission& mission, const PileState& pile, 
     if (sensed(colour_sense(camera.name)))
       colour_cameras_.push_back({number, find_link_mount(camera.ride, rig, key, names, robots)});
   }
+  for (const ImuScenario& imu : all_imus(scenario)) {
+    const std::string key = scenario.imus.empty() ? "imu" : "imus." + imu.name;
+    if (sensed(imu.name)) imus_.push_back({imu_names_.size(), find_link_mount(imu.ride, rig, key, names, robots)});
+    imu_names_.push_back(imu.name);
+  }
 }
 
 bool RobotSenses::senses(std::size_t robot, const std::string& name) const {
@@ -58,7 +63,7 @@ Scene RobotSenses::build_scene(const World& world, const std::unique_ptr<Measure
 }
 
 void RobotSenses::begin(const RobotRun& run, double step) {
-  if (lidars_.empty() && depth_cameras_.empty() && colour_cameras_.empty()) return;
+  if (lidars_.empty() && depth_cameras_.empty() && colour_cameras_.empty() && imus_.empty()) return;
   const World& world = run.world();
   for (std::size_t i = 0; i < seen_.models.size(); ++i) seen_.first_piece.push_back(world.robot_piece(int(i)));
   const Scenario& scenario = mission_.scenario;
@@ -66,6 +71,8 @@ void RobotSenses::begin(const RobotRun& run, double step) {
   ranges_ = std::make_unique<LiveRanges>(scenario, lidars_, depth_cameras_, scene, Medium(scene.air, scene.seed), step,
                                          threads_);
   ranges_->restart(world);
+  readings_ = std::make_unique<LiveImus>(scenario, imus_, step);
+  readings_->restart(world);
   if (colour_cameras_.empty()) return;
   colours_ = std::make_unique<LiveColours>(scenario, colour_cameras_, build_scene(world, colours_), gl_device_, step, threads_);
   colours_->restart(world);
@@ -73,6 +80,7 @@ void RobotSenses::begin(const RobotRun& run, double step) {
 
 void RobotSenses::note_step(const World& world) {
   if (ranges_) ranges_->note_step(world);
+  if (readings_) readings_->note_step(world);
   if (colours_) colours_->note_step(world);
 }
 
@@ -82,6 +90,7 @@ void RobotSenses::measure() {
       if (senses(i, name)) (untold_[i].*list).push_back(reading);
   };
   LiveRanges::Readings readings = ranges_->take();
+  for (const ImuSample& reading : readings_->take()) hand_out(imu_names_[std::size_t(reading.sensor)], reading, &Untold::readings);
   for (LidarScan& scan : readings.scans) {
     const std::string& name = mission_.scenario.lidars[std::size_t(scan.sensor)].name;
     hand_out(name, std::make_shared<const LidarScan>(std::move(scan)), &Untold::scans);
@@ -102,6 +111,7 @@ void RobotSenses::tell(std::size_t robot, Value& told) {
   measure();
   const Scenario& scenario = mission_.scenario;
   Value lidars = Value::make_table(), cameras = Value::make_table(), images = Value::make_table();
+  Value imus = Value::make_table();
   // Of several since the last call, the newest.
   for (const auto& scan : untold_[robot].scans) {
     const LidarScenario& lidar = scenario.lidars[std::size_t(scan->sensor)];
@@ -111,9 +121,14 @@ void RobotSenses::tell(std::size_t robot, Value& told) {
     cameras.set(camera_names_[depth->camera], describe_depth(*depth, scenario.start_ns));
   for (const auto& colours : untold_[robot].colours)
     images.set(camera_names_[colours->camera], describe_colours(*colours, scenario.start_ns));
+  for (std::size_t i = 0; i < imu_names_.size(); ++i) {
+    Value list = describe_readings(untold_[robot].readings, int(i), scenario.start_ns);
+    if (!list.items.empty()) imus.set(imu_names_[i], std::move(list));
+  }
   told.set("lidars", std::move(lidars));
   told.set("cameras", std::move(cameras));
   told.set("images", std::move(images));
+  told.set("imus", std::move(imus));
   untold_[robot] = {};
 }
 

@@ -1,4 +1,4 @@
-// What the functions that drive robots are told of LiDARs and cameras: measured while the robots are driven.
+// What the functions that drive robots are told of LiDARs, cameras and inertial units: measured while the robots are driven.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,7 @@
 
 #include "app/mission/resolved_mission.h"
 #include "app/robots/live_colours.h"
+#include "app/robots/live_imus.h"
 #include "app/robots/live_ranges.h"
 #include "app/robots/mission_robot.h"
 #include "app/scene/moving_scene.h"
@@ -27,7 +28,8 @@ class RobotSenses {
   // lens, RunError where colours are asked for and there is no OpenGL.
   void begin(const RobotRun& run, double step);
   void note_step(const World& world);  // after each step
-  // Adds `lidars`, `cameras` and `images` to what the robot's function is told: what was measured since its last call.
+  // Adds `lidars`, `cameras`, `images` and `imus` to what the robot's function is told: what was measured since its
+  // last call.
   void tell(std::size_t robot, Value& told);
 
  private:
@@ -36,6 +38,7 @@ class RobotSenses {
     std::vector<std::shared_ptr<const LidarScan>> scans;
     std::vector<std::shared_ptr<const SensedDepth>> depths;
     std::vector<std::shared_ptr<const SensedColours>> colours;
+    std::vector<ImuSample> readings;
   };
   bool senses(std::size_t robot, const std::string& name) const;
   bool sensed(const std::string& name) const;  // by any robot
@@ -47,11 +50,12 @@ class RobotSenses {
   const ResolvedMission& mission_;
   const PileState& pile_;
   int threads_, gl_device_;
-  std::vector<std::string> camera_names_;
-  std::vector<RidingSensor> lidars_, depth_cameras_, colour_cameras_;  // that any robot senses
+  std::vector<std::string> camera_names_, imu_names_;
+  std::vector<RidingSensor> lidars_, depth_cameras_, colour_cameras_, imus_;  // that any robot senses
   std::vector<Untold> untold_;                  // by robot
   RobotTrack seen_;                             // models and ids
   std::unique_ptr<LiveRanges> ranges_;
+  std::unique_ptr<LiveImus> readings_;
   std::unique_ptr<LiveColours> colours_;  // none: no robot senses colours
 };
 

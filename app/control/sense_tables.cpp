@@ -150,6 +150,19 @@ Value describe_depth(const SensedDepth& image, std::int64_t start_ns) {
   return table;
 }
 
+Value describe_readings(const std::vector<ImuSample>& readings, int unit, std::int64_t start_ns) {
+  Value list = Value::make_table();
+  for (const ImuSample& reading : readings) {
+    if (reading.sensor != unit) continue;
+    Value table = Value::make_table();
+    table.set("t", describe_stamp(reading.stamp_ns, start_ns));
+    table.set("gyroscope", vector_value(reading.angular_velocity));
+    table.set("accelerometer", vector_value(reading.linear_acceleration));
+    list.items.push_back(std::move(table));
+  }
+  return list;
+}
+
 Value describe_colours(const SensedColours& image, std::int64_t start_ns) {
   Value table = Value::make_table();
   table.set("t", describe_stamp(image.stamp_ns, start_ns));

@@ -23,9 +23,11 @@ std::vector<std::string> adapt_to_driving(Scenario& scenario) {
     if (turn_off(at != channels.end() && stream->needs_next, stream->name)) channels.erase(at);
   }
   if (turn_off(scenario.event_camera.on, "event camera")) scenario.event_camera.on = false;
-  if (turn_off(scenario.imu.on, "inertial unit")) scenario.imu.on = false;
   // Robots carry theirs, along a way that a run goes again.
-  if (scenario.robots.empty() && turn_off(!scenario.lidars.empty(), "LiDARs")) scenario.lidars.clear();
+  if (scenario.robots.empty()) {
+    if (turn_off(!all_imus(scenario).empty(), "inertial units")) scenario.imu.on = false, scenario.imus.clear();
+    if (turn_off(!scenario.lidars.empty(), "LiDARs")) scenario.lidars.clear();
+  }
   scenario.outputs.pcd = scenario.outputs.kitti = false;
   TrajectorySpec& spec = scenario.trajectory;
   spec.limits = {};

@@ -21,11 +21,6 @@
 
 namespace rubble {
 
-struct RidingSensor {
-  std::size_t number = 0;  // among the scenario's LiDARs, or all_cameras()
-  LinkMount mount;
-};
-
 // Without noise, and without what the air does to depth sensors.
 struct SensedDepth {
   std::int64_t stamp_ns = 0;

@@ -55,6 +55,8 @@ void LiveSteps::begin_measuring(std::size_t carrier) {
 
 Pose LiveSteps::carrier_after(double seconds) const { return way_->at(seconds); }
 
+CameraMotion LiveSteps::carrier_motion_after(double seconds) const { return way_->motion_at(seconds); }
+
 std::optional<Pose> LiveSteps::pose_of(int id, std::int64_t stamp_ns) const {
   const double at = std::clamp(since_start(stamp_ns) / step_ - double(first_), 0.0, double(poses_.size() - 1));
   const auto before = std::size_t(at), after = std::min(before + 1, poses_.size() - 1);

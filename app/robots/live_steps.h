@@ -24,6 +24,11 @@ struct LinkMount {
 LinkMount find_link_mount(const Carrier& carrier, const std::optional<LinkMount>& rig, const std::string& key,
                           const std::vector<std::string>& names, const std::vector<MissionRobot>& robots);
 
+struct RidingSensor {
+  std::size_t number = 0;  // among the scenario's LiDARs, all_cameras() or all_imus()
+  LinkMount mount;
+};
+
 // Steps are kept until forget_before() says that nobody asks for them.
 class LiveSteps {
  public:
@@ -45,6 +50,7 @@ class LiveSteps {
   // On a curve through its steps.
   Pose carrier_at(std::int64_t stamp_ns) const { return carrier_after(since_start(stamp_ns)); }
   Pose carrier_after(double seconds) const;  // since the start; unit: s
+  CameraMotion carrier_motion_after(double seconds) const;
   // Of a piece or a link, between steps on a straight line; nothing: it was not there.
   std::optional<Pose> pose_of(int id, std::int64_t stamp_ns) const;
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "app/sensors/build_imu.h"
 #include "app/sensors/lidar_sensor.h"
-#include "kernel/base/random.h"
 #include "render/sensors/camera.h"
 #include "scripting/trajectory/imu.h"
 #include "scripting/trajectory/trajectory.h"
@@ -71,8 +71,7 @@ class ImuSensor : public Sensor {
       : number_(number),
         last_ns_(last_ns),
         path_(std::move(path)),
-        imu_(*path_, imu.model, flown.settle.gravity, noise_seed, flown.start_ns,
-             imu.is_rig() ? std::nullopt : std::optional(imu.rig_from_imu())) {}
+        imu_(build_imu(flown, imu, noise_seed, *path_)) {}
 
   std::optional<std::int64_t> next_stamp() const override {
     const std::int64_t stamp = imu_.next_stamp();
@@ -126,14 +125,10 @@ SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const S
   for (const std::vector<RobotSample>& samples : robots.samples)
     sensors_.push_back(std::make_unique<RobotSensor>(samples, last_ns));
   int number = 0;
-  for (const ImuScenario& imu : all_imus(flown)) {
-    const std::uint64_t seed = flown.imus.empty()
-                                   ? begin.noise_seed
-                                   : RandomStream(begin.noise_seed, "imus/" + imu.name).next();
-    sensors_.push_back(std::make_unique<ImuSensor>(
-        imu, number++, flown, seed, robots.end_of(imu.ride, flown.start_ns, last_ns),
-        robots.path_of(imu.ride, flight.path)));
-  }
+  for (const ImuScenario& imu : all_imus(flown))
+    sensors_.push_back(std::make_unique<ImuSensor>(imu, number++, flown, begin.noise_seed,
+                                                   robots.end_of(imu.ride, flown.start_ns, last_ns),
+                                                   robots.path_of(imu.ride, flight.path)));
   for (auto& lidar : make_lidar_sensors(flown, scene, renderer.medium(), begin.noise_seed, last_ns,
                                         flight.path, robots, threads))
     sensors_.push_back(std::move(lidar));

@@ -52,7 +52,7 @@ struct RobotItem {
   std::optional<double> friction{};  // against concrete; not given: the model's; range: 0 to 2
   std::vector<RobotLeg> drive{};     // in rising order of t; empty: it stands still
   int control = 0;  // number of a function of the script that drives it instead; 0: none
-  std::vector<std::string> senses{};  // LiDARs and cameras whose readings that function is told; see colour_sense()
+  std::vector<std::string> senses{};  // sensors whose readings that function is told; see colour_sense()
 };
 
 enum class DebrisMotion { free, fixed };

@@ -105,12 +105,13 @@ void check_senses(const Scenario& scenario, std::size_t i, std::vector<Diagnosti
     names.push_back(camera.name);
     names.push_back(colour_sense(camera.name));
   }
+  for (const ImuScenario& imu : all_imus(scenario)) names.push_back(imu.name);
   std::string all;
   for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
   for (std::size_t k = 0; k < robot.senses.size(); ++k) {
     if (std::find(names.begin(), names.end(), robot.senses[k]) != names.end()) continue;
     mistakes.push_back({"", 0, key_of(i, "senses[" + std::to_string(k + 1) + "]"),
-                        "no LiDAR and no camera has this name", all, "\"" + robot.senses[k] + "\"", ""});
+                        "no sensor has this name", all, "\"" + robot.senses[k] + "\"", ""});
   }
 }
 
@@ -226,8 +227,8 @@ void add_robot_keys(Schema& k, Scenario& s) {
          "rubble.controller.")
       .between(0, 1000);
   k.item("robots[].senses", list, &RobotItem::senses,
-         "LiDARs and cameras on robots, by name: the function is told their scans and depths; colours by the name "
-         "with \".rgb\" (docs/robots.md).");
+         "LiDARs, cameras and inertial units on robots, by name: the function is told scans, depths and readings; "
+         "colours by the name with \".rgb\" (docs/robots.md).");
   k.group("robot_run", "Time and rate of the robots.");
   k.value("robot_run.duration", s.robot_run.duration, "Time for which they are driven.")
       .above(0, 86400)

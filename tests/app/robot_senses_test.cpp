@@ -148,6 +148,51 @@ TEST(RobotSenses, RangesOfAScannerHaveTheAnglesThatAreTold) {
   EXPECT_NEAR(told[2], 3, 0.01);
 }
 
+// Noise, biases and lever arm included, to the last bit; each once.
+TEST(RobotSenses, ReadingsOfAnInertialUnitAreThoseThatAreRecorded) {
+  const ScratchFolder scratch;
+  write_file(scratch / "m.lua", R"(return rubble.mission {
+    seed = 5,
+    pile = { layers = 0, placed = { { box = { 0.4, 0.4, 0.04 }, position = { 0.5, 0.2, 0.02 } } } },
+    robots = { rubble.robot.rover { name = "rover", position = { 0, 0, 0.001 }, senses = { "imu" },
+      control = function(sense)
+        for _, r in ipairs(sense.imus.imu or {}) do
+          local w, a = r.gyroscope, r.accelerometer
+          print(string.format("reading %.0f %.17g %.17g %.17g %.17g %.17g %.17g", r.t * 1e9, w[1], w[2], w[3], a[1], a[2], a[3]))
+        end
+        return { linear = 0.5, angular = 0.8 }
+      end } },
+    robot_run = { duration = 1.5 },
+    imu = { on = true, rate_hz = 250, position = { 0.1, 0.05, 0.2 }, rpy_deg = { 10, 20, 30 } },
+    camera = { width = 32, height = 32 },
+    trajectory = { rate_hz = 2, ride = { robot = "rover" } },
+    outputs = { euroc = true },
+  })");
+  const Outcome run = run_rubble("run " + (scratch / "m.lua") + kNoFrames + (scratch / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::vector<std::vector<double>> told;
+  std::istringstream lines(run.err);
+  for (std::string line, word; std::getline(lines, line);) {
+    std::istringstream words(line);
+    if (!(words >> word) || word != "reading") continue;
+    told.emplace_back();
+    while (words >> word) told.back().push_back(std::strtod(word.c_str(), nullptr));
+  }
+  std::istringstream rows(read_file(scratch / "out/euroc/mav0/imu0/data.csv"));
+  std::size_t count = 0;
+  for (std::string row; std::getline(rows, row);) {
+    if (row.empty() || row[0] == '#' || count == told.size()) continue;
+    std::istringstream cells(row);
+    std::vector<double> recorded;
+    for (std::string cell; std::getline(cells, cell, ',');) recorded.push_back(std::strtod(cell.c_str(), nullptr));
+    recorded.at(0) -= 1e9;  // start_ns
+    EXPECT_EQ(recorded, told[count]) << "reading " << count;
+    ++count;
+  }
+  EXPECT_EQ(count, told.size());
+  EXPECT_EQ(count, 369u);  // to 1.472 s: the last call is at 1.483 s, and tells what was complete two steps before
+}
+
 // What a function printed of a picture: when it was called, the stamp (s), and the pixels, 3 bytes each.
 struct ToldPicture {
   std::string camera;
@@ -264,7 +309,7 @@ TEST(RobotSenses, WhatCannotBeSensedIsAMistakeWithItsKey) {
   const struct {
     std::string script, expected;
   } cases[] = {
-      {robot + "  lidars = { top = { ride = { robot = \"r\" } } } }", "robots[1].senses[1]: no LiDAR and no camera"},
+      {robot + "  lidars = { top = { ride = { robot = \"r\" } } } }", "robots[1].senses[1]: no sensor has this name"},
       {robot + "  lidars = { eye = {} } }", "lidars.eye: no robot carries it"},
       {robot + "  cameras = { eye = { ride = { robot = \"r\" }, lens = { k1 = 0.1 } } } }", "cameras.eye.lens"},
       {"return rubble.mission { pile = { layers = 0 }, lidars = { eye = {} },\n"

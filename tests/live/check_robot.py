@@ -1,5 +1,5 @@
 """check_robot.py DIR: what was heard of a robot while it was driven, DIR/live.bag, is in the bag of the run of its
-first leg, DIR/leg_001/mission.bag: joints and odometry byte for byte, scans to a millimetre."""
+first leg, DIR/leg_001/mission.bag: joints, odometry and inertial readings byte for byte, scans to a millimetre."""
 
 import sys
 
@@ -13,7 +13,7 @@ def raw(bag, topic):
     return [data for _, (_, data, _, *_), _ in bag.read_messages(topic, raw=True)]
 
 
-for topic in ("/odom", "/joint_states"):
+for topic in ("/odom", "/joint_states", "/imu"):
     heard, recorded = raw(live, topic), raw(run, topic)
     of_leg = [data for data in heard if data in set(recorded)]
     if len(of_leg) < 60:

@@ -52,6 +52,7 @@ void write_robot_mission(const ScratchFolder& scratch) {
   robots = { rubble.robot.crawler { name = "tank", position = { 0, 0, 0.001 } } },
   lidars = { scan = { model = "utm30lx", rate_hz = 10, noise = false, ride = { robot = "tank" },
                       position = { 0.3, 0, 0.3 }, rpy_deg = { 0, 6, 0 } } },
+  imu = { on = true, position = { 0.1, 0, 0.05 } },
   trajectory = { rate_hz = 10 },
   outputs = { simplemap = false, preview = false },
 })");

@@ -1,9 +1,11 @@
-// What the robots of a drive sense while they are driven: joints, odometry, contacts, and the scans of their LiDARs.
+// What the robots of a drive sense while they are driven: joints, odometry, contacts, inertial units and
+// the scans of their LiDARs.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "app/robots/live_imus.h"
 #include "app/robots/live_ranges.h"
 #include "app/robots/mission_robot.h"
 #include "app/robots/robot_log.h"
@@ -16,11 +18,12 @@ namespace rubble {
 class LiveSensors {
  public:
   // The robots must outlive this.
-  LiveSensors(const Scenario& scenario, const std::vector<MissionRobot>& robots, std::unique_ptr<LiveRanges> ranges);
+  LiveSensors(const Scenario& scenario, const std::vector<MissionRobot>& robots, std::unique_ptr<LiveRanges> ranges,
+              std::unique_ptr<LiveImus> imus);
 
   void restart(const World& world);  // at the robots' time 0
   void note(std::size_t robot, const RobotSense& sense) { logs_[robot].note(sense); }
-  void note_step(const World& world) { ranges_->note_step(world); }  // after each step
+  void note_step(const World& world);  // after each step
   // All since the last call, in order of their stamps.
   std::vector<Sample> take();
 
@@ -30,6 +33,7 @@ class LiveSensors {
   const std::vector<MissionRobot>& robots_;
   std::int64_t start_ns_;
   std::unique_ptr<LiveRanges> ranges_;
+  std::unique_ptr<LiveImus> imus_;
   std::vector<RobotLog> logs_;
 };
 

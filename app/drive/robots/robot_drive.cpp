@@ -104,14 +104,19 @@ void RobotDrive::restart() {
 }
 
 void RobotDrive::sense(const Scene& scene, const Medium& medium) {
-  std::vector<RidingSensor> lidars;
-  for (const LidarScenario& lidar : scenario_.lidars) {
-    lidars.push_back({lidars.size(), find_link_mount(lidar.ride, LinkMount{rig_robot_, rig_link_, link_from_rig_},
-                                                     "lidars." + lidar.name, names_, made_)});
-  }
+  const auto find_mount = [&](const Carrier& ride, const std::string& key) {
+    return find_link_mount(ride, LinkMount{rig_robot_, rig_link_, link_from_rig_}, key, names_, made_);
+  };
+  std::vector<RidingSensor> lidars, imus;
+  for (const LidarScenario& lidar : scenario_.lidars)
+    lidars.push_back({lidars.size(), find_mount(lidar.ride, "lidars." + lidar.name)});
+  for (const ImuScenario& imu : all_imus(scenario_))
+    imus.push_back({imus.size(), find_mount(imu.ride, scenario_.imus.empty() ? "imu" : "imus." + imu.name)});
+  const double step = robot_run_options(scenario_, threads_).step;
   sensors_ = std::make_unique<LiveSensors>(
-      scenario_, made_, std::make_unique<LiveRanges>(scenario_, lidars, std::vector<RidingSensor>(), scene, medium,
-                                                     robot_run_options(scenario_, threads_).step, threads_));
+      scenario_, made_,
+      std::make_unique<LiveRanges>(scenario_, lidars, std::vector<RidingSensor>(), scene, medium, step, threads_),
+      std::make_unique<LiveImus>(scenario_, imus, step));
   sensors_->restart(run_->world());
 }
 

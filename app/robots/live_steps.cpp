@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/robots/ride_recorder.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
@@ -15,7 +14,7 @@ LinkMount find_link_mount(const Carrier& carrier, const std::optional<LinkMount>
     throw InputError({"", 0, key, "no robot carries it", "`ride`, or `trajectory.ride` for the rig that it is on", "", ""});
   }
   const auto robot = std::size_t(std::find(names.begin(), names.end(), carrier.robot) - names.begin());
-  const RiddenLink ridden = find_ridden_link(robots[robot], carrier, key + ".ride");
+  const RiddenLink ridden = find_link(robots[robot], carrier.link, key + ".ride");
   return {robot, ridden.link, ridden.link_from_rider};
 }
 

@@ -56,21 +56,58 @@ std::string find_file(const std::string& name, const std::vector<std::string>& f
                     "looked for " + looked});
 }
 
+Quat quat_from_degrees(const Vec3& rpy_deg) {
+  constexpr double kDegree = portable::kPi / 180;
+  return portable::quat_from_rpy(rpy_deg.x * kDegree, rpy_deg.y * kDegree, rpy_deg.z * kDegree);
+}
+
+// key: of the lamp, "robots[1].lamps[1]"
+RobotLamp place_lamp(const LampItem& item, const MissionRobot& robot, const std::string& key) {
+  RobotLamp lamp = robot.model.headlamp;
+  if (!item.link.empty()) {
+    const RiddenLink on = find_link(robot, item.link, key);
+    lamp.link = int(on.link), lamp.link_from_lamp = on.link_from_rider;
+  }
+  const RobotLink& link = robot.model.links[std::size_t(lamp.link)];
+  if (link.parts.empty() && link.looks.triangles.empty())
+    throw InputError({"", 0, key + ".link", "the link has no shape that could carry a lamp", "a link that is seen",
+                      "\"" + link.name + "\"", ""});
+  const Pose& from = lamp.link_from_lamp;
+  lamp.link_from_lamp = from * Pose{quat_from_degrees(item.rpy_deg), item.position.value_or(Vec3())};
+  if (item.link.empty() && item.position) lamp.link_from_lamp.translation = *item.position;
+  lamp.intensity_cd = item.intensity_cd, lamp.cone_deg = item.cone_deg;
+  return lamp;
+}
+
 }  // namespace
+
+RiddenLink find_link(const MissionRobot& robot, const std::string& name, const std::string& key) {
+  RiddenLink ridden;
+  const std::vector<RobotLink>& links = robot.model.links;
+  std::string all;
+  for (ridden.link = 0; ridden.link < links.size(); ++ridden.link) {
+    if (name.empty() || links[ridden.link].name == name) return ridden;
+    all += (all.empty() ? "one of " : ", ") + links[ridden.link].name;
+  }
+  for (const RobotFrame& frame : robot.frames) {
+    if (frame.name == name) return {std::size_t(frame.link), frame.link_from_frame};
+    all += ", " + frame.name;
+  }
+  throw InputError({"", 0, key + ".link", "the robot has no such link", all, "\"" + name + "\"", ""});
+}
 
 MissionRobot make_mission_robot(const RobotItem& robot, const std::vector<std::string>& folders,
                                 const std::string& key, MeshImporter& importer) {
-  if (!robot.urdf.empty()) return make_urdf_robot(robot, find_file(robot.urdf, folders, key), key, importer);
   MissionRobot made;
-  made.model = make_bundled(robot);
+  if (!robot.urdf.empty())
+    made = make_urdf_robot(robot, find_file(robot.urdf, folders, key), key, importer);
+  else
+    made.model = make_bundled(robot);
+  for (std::size_t i = 0; i < robot.lamps.size(); ++i)
+    made.model.lamps.push_back(place_lamp(robot.lamps[i], made, key + ".lamps[" + std::to_string(i + 1) + "]"));
   return made;
 }
 
-Pose calc_base_pose(const RobotItem& robot) {
-  constexpr double kDegree = portable::kPi / 180;
-  return {portable::quat_from_rpy(robot.rpy_deg.x * kDegree, robot.rpy_deg.y * kDegree,
-                                  robot.rpy_deg.z * kDegree),
-          robot.position};
-}
+Pose calc_base_pose(const RobotItem& robot) { return {quat_from_degrees(robot.rpy_deg), robot.position}; }
 
 }  // namespace rubble

@@ -30,6 +30,14 @@ struct MissionRobot {
   std::vector<std::string> warnings;  // of the file
 };
 
+// Where something is on a robot: on a link, or in a frame on one.
+struct RiddenLink {
+  std::size_t link = 0;
+  Pose link_from_rider;  // unit: m
+};
+// The link or frame of that name; empty: the base. key: of what is on it. Throws InputError: the robot has none.
+RiddenLink find_link(const MissionRobot& robot, const std::string& name, const std::string& key);
+
 // folders: where a URDF file is looked for. key: of the robot, "robots[1]". Throws InputError: no such file,
 // and what read_urdf and the making of the model find.
 MissionRobot make_mission_robot(const RobotItem& robot, const std::vector<std::string>& folders,

@@ -28,26 +28,11 @@ void RideRecorder::add(const Carrier& carrier, const std::string& key) {
   ridden_.push_back(find(carrier, key));
 }
 
-RiddenLink find_ridden_link(const MissionRobot& robot, const Carrier& carrier, const std::string& key) {
-  RiddenLink ridden;
-  const std::vector<RobotLink>& links = robot.model.links;
-  std::string all;
-  for (ridden.link = 0; ridden.link < links.size(); ++ridden.link) {
-    if (carrier.link.empty() || links[ridden.link].name == carrier.link) return ridden;
-    all += (all.empty() ? "one of " : ", ") + links[ridden.link].name;
-  }
-  for (const RobotFrame& frame : robot.frames) {
-    if (frame.name == carrier.link) return {std::size_t(frame.link), frame.link_from_frame};
-    all += ", " + frame.name;
-  }
-  throw InputError({"", 0, key + ".link", "the robot has no such link", all, "\"" + carrier.link + "\"", ""});
-}
-
 RideRecorder::Ridden RideRecorder::find(const Carrier& carrier, const std::string& key) const {
   Ridden ridden;
   ridden.carrier = carrier;
   ridden.robot = std::size_t(std::find(names_.begin(), names_.end(), carrier.robot) - names_.begin());
-  static_cast<RiddenLink&>(ridden) = find_ridden_link(robots_[ridden.robot], carrier, key);
+  static_cast<RiddenLink&>(ridden) = find_link(robots_[ridden.robot], carrier.link, key);
   return ridden;
 }
 

@@ -13,14 +13,6 @@
 
 namespace rubble {
 
-// Where a carrier is on a robot: on a link, or in a frame on one.
-struct RiddenLink {
-  std::size_t link = 0;
-  Pose link_from_rider;  // unit: m
-};
-// Throws InputError, with `key` as that of the carrier, for a link that the robot has not.
-RiddenLink find_ridden_link(const MissionRobot& robot, const Carrier& carrier, const std::string& key);
-
 class RideRecorder {
  public:
   // Throws InputError, with the key of the ride, for a link that the robot has not.

@@ -87,7 +87,7 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
   scene.light = resolve_light(scenario);
   scene.sky = scenario.light.sky;
   scene.more_lights = scenario.lights;
-  add_street_lamps(pile, scene);
+  add_street_lamps(pile, count_lamps(scenario.robots), scene);
   scene.wetness = scenario.wetness;
   scene.lamp = scenario.lamp;
   scene.air = scenario.air;

@@ -75,6 +75,10 @@ void add_robot(const RobotModel& model, int first_piece, std::uint16_t label, Sc
     instance.mesh = std::uint32_t(scene.meshes.size()) - 1;
     instance.id = std::uint32_t(first_piece) + std::uint32_t(i);
     instance.label = label;
+    for (const RobotLamp& lamp : model.lamps)
+      if (std::size_t(lamp.link) == i)
+        scene.carried_lights.push_back(
+            {std::uint32_t(scene.instances.size()), lamp.link_from_lamp, lamp.intensity_cd, lamp.cone_deg});
     scene.instances.push_back(instance);
   }
 }

@@ -53,11 +53,11 @@ void add_surroundings(const Scenario& scenario, const AssetLibrary& assets, cons
   }
 }
 
-void add_street_lamps(const PileState& pile, Scene& scene) {
+void add_street_lamps(const PileState& pile, std::size_t reserved, Scene& scene) {
   if (!pile.surroundings || !pile.surroundings->lit) return;
   std::size_t left = kFarLamps;
   for (const Vec3& place : pile.surroundings->lamps) {
-    if (scene.more_lights.size() + 1 < kMostLights)
+    if (scene.more_lights.size() + 1 + reserved < kMostLights)
       scene.more_lights.push_back(lamp_at(place));
     else if (left-- > 0)
       scene.far_lights.push_back(lamp_at(place));

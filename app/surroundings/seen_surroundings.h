@@ -17,7 +17,8 @@ std::uint16_t surrounding_label(const Scenario& scenario, const AssetLibrary& as
 void add_surroundings(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile, Scene& scene);
 // The street lamps, where they are lit: as many of the nearest as there is room for among the lights, which throw
 // sharp shadows, the others as far lights. Call it when the scene has the lights of the mission.
-void add_street_lamps(const PileState& pile, Scene& scene);
+// reserved: lights that come later.
+void add_street_lamps(const PileState& pile, std::size_t reserved, Scene& scene);
 // Likewise at the end of types and pieces, which stay those of the pile.
 void add_surroundings(const PileState& pile, PileModel& model);
 void add_surroundings(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile, Legend& legend);

@@ -72,6 +72,14 @@ struct SideDrive {
   bool any() const { return !left.empty() && !right.empty(); }
 };
 
+// A spot light on a link, along X of its own frame. Nothing of it collides.
+struct RobotLamp {
+  int link = 0;
+  Pose link_from_lamp;        // unit: m
+  double intensity_cd = 100;  // range: 0 to 100000
+  double cone_deg = 70;       // full angle; range: 1 to 170
+};
+
 // Joints in the order of their children, parents first: joints[i].child == i + 1. 1 to 256 links.
 // With a tube: the base, which is staked to the ground, the tube's links one after another on hinges that
 // turn about Y and Z in turn, and the tip, on a slider with the motor of growth.
@@ -80,6 +88,8 @@ struct RobotModel {
   std::vector<RobotLink> links;    // the first is the base
   std::vector<RobotJoint> joints;  // one fewer than the links
   SideDrive sides;  // what twists drive and odometry counts; none: neither is there
+  std::vector<RobotLamp> lamps;      // that shine; none of a robot by itself
+  RobotLamp headlamp;                // where its looks have one; of others the base's origin
   std::optional<EvertingTube> tube;  // of a robot that grows; none: it has all its links from the start
 
   double mass() const;  // unit: kg

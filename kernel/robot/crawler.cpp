@@ -76,6 +76,7 @@ RobotModel make_crawler(const CrawlerOptions& options) {
   set_mass(kCrawlerBodyMass, body);
   body.looks = make_crawler_body_looks();
   model.links.push_back(body);
+  model.headlamp.link_from_lamp.translation = {0.3, 0, 0.25};
   RobotJoint weld;
   weld.kind = JointKind::weld;
   const double y = 0.5 * kCrawlerTrackDistance;

@@ -22,6 +22,7 @@ RobotModel make_rover(const RoverOptions& options) {
   set_mass(kRoverBodyMass, body);
   body.looks = make_rover_body_looks();
   model.links.push_back(body);
+  model.headlamp.link_from_lamp.translation = {0.24, 0, 0.13};
   const struct {
     const char* name;
     double x, y;

@@ -20,6 +20,7 @@ RobotModel make_snake(const SnakeOptions& options) {
   RobotModel model;
   model.name = "snake";
   const double radius = 0.5 * options.diameter, length = options.length;
+  model.headlamp.link_from_lamp.translation = {0.55 * length, 0, 0};
   for (int i = 0; i < options.modules; ++i) {
     RobotLink link;
     link.name = i == 0 ? "head" : "module_" + std::to_string(i);

@@ -95,6 +95,8 @@ RobotModel make_vine(const VineOptions& options) {
   growth.upper = tube.length();
   growth.motor = {tube.pressure * tube.area(), options.speed, 0, kGrowthGain};
   model.joints.push_back(growth);
+  model.headlamp.link = tube.links + 1;
+  model.headlamp.link_from_lamp.translation = {1.05 * tube.radius, 0, 0};
   return model;
 }
 

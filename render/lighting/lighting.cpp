@@ -63,13 +63,35 @@ LightModel make_light_model(const LightSpec& spec) {
   return model;
 }
 
+LightModel place_light(const CarriedLight& light, const Pose& world_from_body) {
+  const Pose world_from_light = world_from_body * light.body_from_light;
+  LightSpec spot;
+  spot.type = LightType::spot;
+  spot.intensity = 1e-3 * light.intensity_cd;
+  spot.position = world_from_light.translation;
+  spot.cone_deg = light.cone_deg;
+  LightModel model = make_light_model(spot);
+  model.axis = Vec3f(world_from_light.rotation.rotate({1, 0, 0}));
+  return model;
+}
+
+LightSet LightSet::without_carried() const {
+  LightSet set = *this;
+  set.lights.resize(first_carried());
+  set.carried = 0;
+  return set;
+}
+
 LightSet make_lights(const Scene& scene) {
-  if (scene.more_lights.size() + 1 > kMostLights)
-    throw RunError("a scene has at most " + std::to_string(kMostLights) + " lights, this one " +
-                   std::to_string(scene.more_lights.size() + 1));
+  const std::size_t count = 1 + scene.more_lights.size() + scene.carried_lights.size();
+  if (count > kMostLights)
+    throw RunError("a scene has at most " + std::to_string(kMostLights) + " lights, this one " + std::to_string(count));
   LightSet set;
   set.lights.push_back(make_light_model(scene.light));
   for (const LightSpec& spec : scene.more_lights) set.lights.push_back(make_light_model(spec));
+  for (const CarriedLight& carried : scene.carried_lights)
+    set.lights.push_back(place_light(carried, scene.instances[carried.instance].world_from_body));
+  set.carried = scene.carried_lights.size();
   for (const LightSpec& spec : scene.far_lights) set.far.push_back(make_light_model(spec));
   const LightModel& main = set.lights.front();
   if (scene.light.type == LightType::sun) {

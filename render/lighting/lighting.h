@@ -29,11 +29,17 @@ struct LightModel {
   Sample at(const Vec3f& point) const;
 };
 LightModel make_light_model(const LightSpec& spec);
+// A carried light where its body is.
+LightModel place_light(const CarriedLight& light, const Pose& world_from_body);
 
 struct LightSet {
-  std::vector<LightModel> lights;  // the main one first; 1 to kMostLights
+  std::vector<LightModel> lights;  // the main one first, carried ones last; 1 to kMostLights
+  std::size_t carried = 0;         // of these
   std::vector<LightModel> far;     // Scene::far_lights
   Sky sky;                         // that goes with the main light
+
+  std::size_t first_carried() const { return lights.size() - carried; }
+  LightSet without_carried() const;
 };
 // Throws RunError for too many lights.
 LightSet make_lights(const Scene& scene);

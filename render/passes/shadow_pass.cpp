@@ -116,26 +116,35 @@ DrawRecord make_record(const Rows& rows, const PlacedMesh& piece) {
 
 ShadowPass::ShadowPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry,
                        const LightSet& lights, int size)
-    : gl_(gl), scene_(scene), geometry_(geometry), moves_(false) {
+    : gl_(gl), scene_(scene), geometry_(geometry), lights_(lights), moves_(false) {
   GLint most = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   size_ = std::min(size, int(most));
-  const auto list_views = [&] {
-    views_.clear();
-    map_.lights.clear();
-    for (const LightModel& light : lights.lights) {
-      ShadowMap::Light entry;
-      const std::vector<Rows> views = make_views(scene, light, size_, entry);
-      entry.first_view = int(views_.size()), entry.views = int(views.size());
-      map_.lights.push_back(entry);
-      views_.insert(views_.end(), views.begin(), views.end());
-    }
-  };
   list_views();
   const std::size_t most_texels = scene.surrounded ? kMostTexelsAround : kMostTexels;
   while (views_.size() * std::size_t(size_) * std::size_t(size_) > most_texels) {
     size_ /= 2;
     list_views();
+  }
+  for (const PlacedMesh& piece : scene.placed) moves_ = moves_ || piece.moves;
+  program_ = make_program(gl, "visibility.vert.glsl", "visibility.frag.glsl", {{"SHADOW", ""}});
+  map_.depth = make_layers();
+  draw_layers(map_.depth, What::resting);
+  if (!moves_) return;
+  resting_ = std::move(map_.depth);
+  map_.depth = make_layers();
+}
+
+void ShadowPass::list_views() {
+  views_.clear();
+  map_.lights.clear();
+  map_.clip_from_world.clear();
+  for (const LightModel& light : lights_.lights) {
+    ShadowMap::Light entry;
+    const std::vector<Rows> views = make_views(scene_, light, size_, entry);
+    entry.first_view = int(views_.size()), entry.views = int(views.size());
+    map_.lights.push_back(entry);
+    views_.insert(views_.end(), views.begin(), views.end());
   }
   for (const Rows& view : views_) {
     std::array<std::array<float, 4>, 4> rows;
@@ -143,13 +152,6 @@ ShadowPass::ShadowPass(const Gl& gl, const PreparedScene& scene, const GpuGeomet
       for (std::size_t c = 0; c < 4; ++c) rows[r][c] = float(view[r][c]);
     map_.clip_from_world.push_back(rows);
   }
-  for (const PlacedMesh& piece : scene.placed) moves_ = moves_ || piece.moves;
-  program_ = make_program(gl, "visibility.vert.glsl", "visibility.frag.glsl", {{"SHADOW", ""}});
-  map_.depth = make_layers();
-  draw_layers(map_.depth, false);
-  if (!moves_) return;
-  resting_ = std::move(map_.depth);
-  map_.depth = make_layers();
 }
 
 GlTexture ShadowPass::make_layers() const {
@@ -170,10 +172,13 @@ void ShadowPass::draw_moving() {
   if (!moves_) return;
   gl_.CopyImageSubData(resting_.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, map_.depth.name(),
                        GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, size_, size_, GLsizei(views_.size()));
-  draw_layers(map_.depth, true);
+  draw_layers(map_.depth, What::moving);
+  if (lights_.carried == 0) return;
+  list_views();
+  draw_layers(map_.depth, What::all, std::size_t(map_.lights[lights_.first_carried()].first_view));
 }
 
-void ShadowPass::draw_layers(const GlTexture& layers, bool moving) {
+void ShadowPass::draw_layers(const GlTexture& layers, What what, std::size_t from) {
   gl_.UseProgram(program_.name());
   gl_.Viewport(0, 0, size_, size_);
   gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -182,25 +187,25 @@ void ShadowPass::draw_layers(const GlTexture& layers, bool moving) {
   gl_.DepthFunc(GL_LESS);
   gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_CULL_FACE);
-  for (std::size_t i = 0; i < views_.size(); ++i) {
+  for (std::size_t i = from; i < views_.size(); ++i) {
     GlFramebuffer target(gl_);
     gl_.NamedFramebufferTextureLayer(target.name(), GL_DEPTH_ATTACHMENT, layers.name(), 0, GLint(i));
     gl_.NamedFramebufferDrawBuffers(target.name(), 0, nullptr);
     const float far_value = 1;
-    if (!moving) gl_.ClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &far_value);
+    if (what != What::moving) gl_.ClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &far_value);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
-    draw_view(views_[i], moving);
+    draw_view(views_[i], what);
     gl_.Finish();
   }
   gl_.Disable(GL_DEPTH_CLAMP);
   check_gl(gl_, "drawing the shadow map");
 }
 
-void ShadowPass::draw_view(const Rows& rows, bool moving) {
+void ShadowPass::draw_view(const Rows& rows, What what) {
   DrawList list(gl_, geometry_);
   for (const PlacedMesh& piece : scene_.placed) {
     if (piece.id == kGroundId) continue;  // nothing lies under it
-    if (piece.moves != moving || !piece.there) continue;
+    if (!piece.there || (what != What::all && piece.moves != (what == What::moving))) continue;
     const PreparedLevel& level = scene_.meshes[piece.mesh].levels.front();
     list.add_record(make_record(rows, piece));
     list.add_run(geometry_.first_index[piece.mesh] + level.first_triangle * 3,

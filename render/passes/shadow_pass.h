@@ -1,4 +1,5 @@
-// The shadow maps of all lights. What rests is drawn once, what moves whenever it has moved. One view
+// The shadow maps of all lights. What rests is drawn once, what moves whenever it has moved, and all that a carried
+// light sees whenever that is. One view
 // for narrow spots and for the sun (two where there are surroundings), six (a cube) for the others.
 #pragma once
 
@@ -24,23 +25,27 @@ struct ShadowMap {
 
 class ShadowPass {
  public:
-  // Draws what rests. size: side of one view at most, with less for many views; unit: texel.
+  // Draws what rests. The lights must outlive it. size: side of one view at most, with less for many views; unit: texel.
   ShadowPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry,
              const LightSet& lights, int size);
 
-  // Adds what moves, where it is in the scene now.
+  // Adds what moves, where it is in the scene now, and puts carried lights where they are.
   void draw_moving();
   const ShadowMap& map() const { return map_; }
 
  private:
   using Rows = std::array<std::array<double, 4>, 4>;
   GlTexture make_layers() const;
-  void draw_layers(const GlTexture& layers, bool moving);
-  void draw_view(const Rows& rows, bool moving);
+  void list_views();
+  enum class What { resting, moving, all };
+  // Of the views from that one on. What rests is drawn on nothing, what moves on what is there.
+  void draw_layers(const GlTexture& layers, What what, std::size_t from = 0);
+  void draw_view(const Rows& rows, What what);
 
   const Gl& gl_;
   const PreparedScene& scene_;
   const GpuGeometry& geometry_;
+  const LightSet& lights_;
   std::vector<Rows> views_;  // one a layer
   int size_;
   bool moves_;

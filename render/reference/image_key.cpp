@@ -29,16 +29,16 @@ void add_mesh(CacheKey& key, const PreparedMesh& mesh) {
   }
 }
 
+void add_light(CacheKey& key, const LightModel& l) {
+  key.add(l.type).add(l.cos_outer).add(l.cos_inner);
+  for (const Vec3f& v : {l.position, l.axis, l.colour}) add_vec(key, v);
+}
+
 void add_lights(CacheKey& key, const LightSet& set) {
   key.add(set.lights.size());
-  for (const LightModel& l : set.lights) {
-    key.add(l.type).add(l.cos_outer).add(l.cos_inner);
-    for (const Vec3f& v : {l.position, l.axis, l.colour}) add_vec(key, v);
-  }
-  for (const LightModel& l : set.far) {
-    key.add(l.type).add(l.cos_outer).add(l.cos_inner);
-    for (const Vec3f& v : {l.position, l.axis, l.colour}) add_vec(key, v);
-  }
+  // Of carried ones image_key() knows where they are.
+  for (std::size_t i = 0; i < set.first_carried(); ++i) add_light(key, set.lights[i]);
+  for (const LightModel& l : set.far) add_light(key, l);
   for (const Vec3f& v : set.sky.map) add_vec(key, v);
   add_vec(key, set.sky.sun_radiance);
 }
@@ -68,9 +68,10 @@ std::string surroundings_key(const ReferenceSurroundings& s) {
 }
 
 std::string image_key(const std::string& surroundings, const PreparedScene& scene,
-                      const ReferenceOptions& options, const ViewRays& view, const LampSpec& lamp,
-                      const Air& air) {
+                      const LightSet& lights, const ReferenceOptions& options, const ViewRays& view,
+                      const LampSpec& lamp, const Air& air) {
   CacheKey key("reference_image", kVersion);
+  for (std::size_t i = lights.first_carried(); i < lights.lights.size(); ++i) add_light(key, lights.lights[i]);
   for (const PlacedMesh& piece : scene.placed) {
     if (!piece.moves) continue;
     key.add(piece.there);

@@ -11,7 +11,7 @@ namespace rubble {
 std::string surroundings_key(const ReferenceSurroundings& surroundings);
 // Of one image of it; scene: where what moves is now.
 std::string image_key(const std::string& surroundings, const PreparedScene& scene,
-                      const ReferenceOptions& options, const ViewRays& view, const LampSpec& lamp,
+                      const LightSet& lights, const ReferenceOptions& options, const ViewRays& view, const LampSpec& lamp,
                       const Air& air);
 
 }  // namespace rubble

@@ -71,6 +71,7 @@ struct ReferencePass::State {
         box(box_of_air(s.scene)),
         rays(s.scene, RayScene::Detail::finest),
         surfaces(s.scene, s.patterns, s.ground, s.wetness),
+        place_lights(s.lights),
         lights(s.lights),
         cache(o.cache_folder),
         key(o.cache_folder.empty() ? "" : surroundings_key(s)) {}
@@ -80,7 +81,8 @@ struct ReferencePass::State {
   Aabb box;
   RayScene rays;
   LookSurfaces surfaces;
-  SceneLights lights;
+  const LightSet& place_lights;
+  SceneLights lights;  // those, as they are now
   DiskCache cache;
   std::string key;
 
@@ -137,10 +139,11 @@ std::vector<float> ReferencePass::draw(const ViewRays& view, const LampSpec& lam
   State& s = *state_;
   s.rays.follow();
   s.surfaces.follow();
+  if (s.place_lights.carried > 0) s.lights = SceneLights(s.place_lights);
   std::string key;
   const std::size_t size = std::size_t(view.intrinsics.width) * std::size_t(view.intrinsics.height) * 3;
   if (!s.key.empty()) {
-    key = image_key(s.key, s.scene, s.options, view, lamp, air);
+    key = image_key(s.key, s.scene, s.place_lights, s.options, view, lamp, air);
     if (const auto bytes = s.cache.find(kKind, key)) {
       std::vector<float> known;
       CacheReader reader(*bytes);

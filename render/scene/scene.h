@@ -46,6 +46,15 @@ struct SkySpec {
 };
 inline constexpr std::size_t kMostLights = 4;
 
+// A spot on a body, such as the headlamp of a robot. It lights surfaces, with shadows; what they reflect and what
+// hangs in the air is lit by it in path-traced pictures alone.
+struct CarriedLight {
+  std::uint32_t instance = 0;  // that bears it: index into Scene::instances
+  Pose body_from_light;        // the beam leaves along X; unit: m
+  double intensity_cd = 100;   // on its axis; range: 0 to 100000
+  double cone_deg = 70;        // full angle; range: 1 to 170
+};
+
 enum class LampShape { point, ring, cluster };
 
 // A lamp carried by the camera, just beside the lens.
@@ -137,6 +146,7 @@ struct Scene {
   LightSpec light;                     // the main one, which makes the sky
   SkySpec sky;                         // of a main light that is the sun
   std::vector<LightSpec> more_lights;  // at most kMostLights - 1
+  std::vector<CarriedLight> carried_lights;  // at most so many that with more_lights they are kMostLights - 1
   // Lights far from what matters, such as distant street lamps: found with the baked light, so their shadows are
   // soft. Any number.
   std::vector<LightSpec> far_lights;

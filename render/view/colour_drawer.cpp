@@ -58,7 +58,7 @@ FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surface
   light.world_from_rig = view.world_from_rig ? &*view.world_from_rig : nullptr;
   if (scene_.medium.clear()) return light;
   const AirLamp glow = glow_of(light.lamp, view.lamp_bearer());
-  air_volume_.build(view, scene_.air_at(view.stamp_ns), scene_.air_light, scene_.light, &glow, drops_drawn, pool_);
+  air_volume_.build(view, scene_.air_at(view.stamp_ns), scene_.air_light, scene_.resting_light, &glow, drops_drawn, pool_);
   light.air_table = &air_volume_;
   return light;
 }

@@ -38,9 +38,11 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
       patterns(make_patterns_once(DiskCache(o.cache_folder), o.texture_size, o.threads)),
       moving(s, scene),
       light(make_lights(s)),
+      resting_light(light.without_carried()),
       medium(s.air, s.seed),
       start_ns(s.start_ns),
-      seed(s.seed) {
+      seed(s.seed),
+      carried_lights_(s.carried_lights) {
   progress(0.05);
   BakedScene baked = bake(s.wetness, [&](double f) { progress(0.05 + 0.9 * f); });
   air_light = std::move(baked.air);
@@ -48,7 +50,7 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
   geometry = upload_geometry(gl, scene, baked.nodes);
   if (moving.any()) {
     const LookSurfaces surfaces(scene, patterns, ground_map, s.wetness);
-    live_light = std::make_unique<LiveLight>(scene, light, std::move(baked.nodes),
+    live_light = std::make_unique<LiveLight>(scene, resting_light, std::move(baked.nodes),
                                              drawn_albedo(surfaces), o.threads);
   } else {
     baked_nodes_ = std::move(baked.nodes);
@@ -71,11 +73,11 @@ BakedScene LitScene::bake(double wetness, const std::function<void(double)>& pro
     bake.rays = options.bake_rays;
     bake.seed = seed;
     const LookSurfaces surfaces(part, patterns, ground_map, wetness);
-    baked = bake_light_once(DiskCache(options.cache_folder), part, light, drawn_albedo(surfaces),
-                            surroundings_key({part, light, patterns, ground_map, wetness}), bake,
+    baked = bake_light_once(DiskCache(options.cache_folder), part, resting_light, drawn_albedo(surfaces),
+                            surroundings_key({part, resting_light, patterns, ground_map, wetness}), bake,
                             progress);
   } else {
-    baked = open_sky_light(part, light);
+    baked = open_sky_light(part, resting_light);
   }
   if (!moving.any()) return baked;
   std::vector<BakedLight> nodes(scene.light_nodes);
@@ -91,9 +93,20 @@ BakedScene LitScene::bake(double wetness, const std::function<void(double)>& pro
 void LitScene::move_to(std::int64_t stamp_ns) {
   if (!moving.move_to(stamp_ns)) return;
   update_poses(gl, scene, geometry);
+  place_carried_lights();
   if (is_traced()) return;  // the path tracer follows the scene itself
   update_light(gl, geometry, live_light->update());
   shadow->draw_moving();
+}
+
+// What is not there does not shine.
+void LitScene::place_carried_lights() {
+  for (std::size_t i = 0; i < carried_lights_.size(); ++i) {
+    const PlacedMesh& body = scene.placed[carried_lights_[i].instance];
+    LightModel& model = light.lights[light.first_carried() + i];
+    model = place_light(carried_lights_[i], body.world_from_mesh);
+    if (!body.there) model.colour = {};
+  }
 }
 
 LampBounce& LitScene::lamp_bounce() {

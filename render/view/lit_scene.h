@@ -34,7 +34,8 @@ struct LitScene {
   GroundMap ground_map;                   // of debris on the ground
   std::vector<PatternImage> patterns;     // of the looks
   MovingPieces moving;                    // what move_to() moves
-  LightSet light;                         // of the place
+  LightSet light;                         // of the place, carried lights as at the moment of the last move_to()
+  LightSet resting_light;                 // without carried ones
   AirLight air_light;                     // baked light in the air
   Medium medium;                          // fog, smoke and dust
   std::int64_t start_ns;                  // the stamp at which the time of the medium is zero
@@ -57,9 +58,11 @@ struct LitScene {
   void change(const LampSpec& lamp, const AirSpec& air);
 
  private:
+  void place_carried_lights();
   BakedScene bake(double wetness, const std::function<void(double)>& progress);
   LampBounce& lamp_bounce();
 
+  std::vector<CarriedLight> carried_lights_;
   std::vector<BakedLight> baked_nodes_;      // the baked light; empty where something moves
   BakeLinks links_;                          // of the same, until lamp_bounce() takes them
   std::unique_ptr<LampBounce> lamp_bounce_;  // made when a lamp is first lit

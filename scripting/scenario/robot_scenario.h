@@ -32,6 +32,15 @@ struct RobotLeg {
   double curvature = 0, curvature_up = 0;  // of what grows, to the left and upwards; unit: 1/m; range: -5 to 5
 };
 
+// A lamp of a robot.
+struct LampItem {
+  std::string link{};               // empty: that of the model's headlamp
+  std::optional<Vec3> position{};   // on the link; not given: the headlamp; unit: m
+  Vec3 rpy_deg;                     // of its beam, from the link's X
+  double intensity_cd = 100;        // on its axis; range: 0 to 100000
+  double cone_deg = 70;             // full angle; range: 1 to 170
+};
+
 struct RobotItem {
   RobotKind model = RobotKind::snake;
   std::string urdf{};  // a file, instead of a bundled model: relative to the script
@@ -50,6 +59,7 @@ struct RobotItem {
   double length = 3;          // unit: m; range: above 0 to 100; at least a link
   double link_length = 0.05;  // unit: m; range: 0.02 to 0.5
   std::optional<double> friction{};  // against concrete; not given: the model's; range: 0 to 2
+  std::vector<LampItem> lamps{};     // that shine
   std::vector<RobotLeg> drive{};     // in rising order of t; empty: it stands still
   int control = 0;  // number of a function of the script that drives it instead; 0: none
   std::vector<std::string> senses{};  // sensors whose readings that function is told; see colour_sense()
@@ -73,6 +83,7 @@ void add_ride_keys(Schema& keys, const std::string& at, Carrier& ride);
 void add_robot_keys(Schema& keys, Scenario& scenario);
 // How `senses` names the colours of a camera; its name alone is its depth.
 inline std::string colour_sense(const std::string& camera) { return camera + ".rgb"; }
+std::size_t count_lamps(const std::vector<RobotItem>& robots);
 // The names that robots go by, in their order.
 std::vector<std::string> robot_names(const std::vector<RobotItem>& robots);
 void check_robots(const Scenario& scenario, std::vector<Diagnostic>& mistakes);

@@ -12,6 +12,20 @@ namespace {
 
 constexpr const char* kModelNames[] = {"snake", "crawler", "rover", "vine"};
 
+Schema lamp_schema(LampItem& lamp) {
+  Schema k;
+  k.value("link", lamp.link, "The link that it is on; \"\": that of the headlamp, of other robots the base.");
+  k.value("position", lamp.position, "Its position on the link; not given: that of the headlamp, or the link's origin.")
+      .between(-10, 10)
+      .unit("m");
+  k.value("rpy_deg", lamp.rpy_deg, "Direction of its beam: roll, pitch (positive: down), yaw, from the link's X axis.")
+      .between(-360, 360)
+      .unit("degree");
+  k.value("intensity_cd", lamp.intensity_cd, "Luminous intensity on its axis.").between(0, 100000).unit("cd");
+  k.value("cone_deg", lamp.cone_deg, "Full angle of its cone.").between(1, 170).unit("degree");
+  return k;
+}
+
 Schema leg_schema(RobotLeg& leg) {
   Schema k;
   k.value("t", leg.t, "Start of this command, since the start of the run.").between(0, 86400).unit("s");
@@ -91,6 +105,15 @@ void check_vine(const RobotItem& robot, std::size_t i, std::vector<Diagnostic>& 
     mistakes.push_back({"", 0, key_of(i, "length"), "too many links",
                         std::to_string(kMostTubeLinks) + " links of link_length or fewer",
                         format_number(links), "a longer link_length needs fewer"});
+}
+
+// They light what the cameras see, as other lights do.
+void check_lamps(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  const std::size_t lamps = count_lamps(scenario.robots);
+  if (lamps == 0 || lamps + scenario.lights.size() + 1 <= kMostLights) return;
+  mistakes.push_back({"", 0, "robots", "too many lamps",
+                      "at most " + std::to_string(kMostLights - 1) + " lamps of robots and `lights` together",
+                      std::to_string(lamps) + " and " + std::to_string(scenario.lights.size()), ""});
 }
 
 // What a function is to be told of must be there.
@@ -220,6 +243,8 @@ void add_robot_keys(Schema& k, Scenario& s) {
   k.item("robots[].friction", list, &RobotItem::friction,
          "Coulomb coefficient of tracks, wheels or skin against concrete; not given: that of the model.")
       .between(0, 2);
+  k.add("robots[].lamps", "Spot lights on its links, beside the `lamp` of cameras; `{ {} }` lights the headlamp.",
+        [&list](std::size_t i) { return Schema::table_list(list[i].lamps, lamp_schema); });
   k.add("robots[].drive", "Commands, each from its time `t` on; empty: it stands still.",
         [&list](std::size_t i) { return Schema::table_list(list[i].drive, leg_schema); });
   k.item("robots[].control", list, &RobotItem::control,
@@ -238,6 +263,12 @@ void add_robot_keys(Schema& k, Scenario& s) {
       .unit("Hz");
   k.choice("robot_run.debris", s.robot_run.debris, {"free", "fixed"},
            "`free`: pieces move when robots push them; `fixed`: pieces do not move.");
+}
+
+std::size_t count_lamps(const std::vector<RobotItem>& robots) {
+  std::size_t lamps = 0;
+  for (const RobotItem& robot : robots) lamps += robot.lamps.size();
+  return lamps;
 }
 
 std::vector<std::string> robot_names(const std::vector<RobotItem>& robots) {
@@ -260,6 +291,7 @@ void check_robots(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
                         "one of robots and record_settling", "both", ""});
   check_ride(scenario, names, mistakes);
   check_sensor_rides(scenario, names, mistakes);
+  check_lamps(scenario, mistakes);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const bool plain = std::all_of(names[i].begin(), names[i].end(), [](char c) {
       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';

@@ -50,7 +50,7 @@ RobotDrive::RobotDrive(const ResolvedMission& mission, const PileState& pile, co
   }
   rig_robot_ = find_name(names_, ride_.robot);
   link_from_rig_ = ride_.link_from_rig();
-  const RiddenLink ridden = find_ridden_link(made_[rig_robot_], ride_, "trajectory.ride");
+  const RiddenLink ridden = find_link(made_[rig_robot_], ride_.link, "trajectory.ride");
   rig_link_ = ridden.link;
   link_from_rig_ = ridden.link_from_rider * link_from_rig_;
   restart();

@@ -20,6 +20,9 @@
 namespace rubble {
 namespace {
 
+// What the program returns to its caller.
+enum class Result { arrived = 0, did_not_arrive = 1, not_started = 2, stopped = 4 };
+
 struct Request {
   std::vector<double> goal;
   std::string robot = "crawler", sensor = "cloud", pose = "odom", planner = "none", localize = "match";
@@ -121,7 +124,7 @@ void write_log(const std::string& path, const TopicReport& report) {
   write_text_file(path, text);
 }
 
-int navigate_over_topics(Request& request) {
+Result navigate_over_topics(Request& request) {
   complete(request);
   stop_on_signals();
   check_ros1(request.ros.ros);
@@ -138,7 +141,8 @@ int navigate_over_topics(Request& request) {
   std::printf("%s\n", to_json(report).dump(2).c_str());
   if (!report.message.empty())
     std::fprintf(stderr, "ros1_navigator: %s: %s\n", name_of(report.end).c_str(), report.message.c_str());
-  return report.end == TopicEnd::arrived ? 0 : report.end == TopicEnd::stopped ? int(ExitCode::stopped) : 1;
+  if (report.end == TopicEnd::stopped) return Result::stopped;
+  return report.end == TopicEnd::arrived ? Result::arrived : Result::did_not_arrive;
 }
 
 }  // namespace
@@ -148,15 +152,17 @@ int main(int argc, char** argv) {
   rubble::Request request;
   CLI::App program("Drives a robot to a goal by MRPT's reactive navigator, over topics of ROS 1 alone (docs/autonomy.md).",
                    "ros1_navigator");
+  program.footer("Exit codes: 0 arrived, 1 did not arrive, 2 could not start (options, no ROS master), 4 stopped by a signal.");
   rubble::declare(program, request);
-  CLI11_PARSE(program, argc, argv);
   try {
-    return rubble::navigate_over_topics(request);
-  } catch (const rubble::InputError& error) {
-    std::fprintf(stderr, "ros1_navigator: %s\n", error.what());
-    return int(rubble::ExitCode::bad_input);
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? int(rubble::Result::arrived) : int(rubble::Result::not_started);
+  }
+  try {
+    return int(rubble::navigate_over_topics(request));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "ros1_navigator: %s\n", rubble::printable(error.what()).c_str());
   }
-  return int(rubble::ExitCode::failure);
+  return int(rubble::Result::not_started);
 }

@@ -19,6 +19,7 @@ constexpr double kMapMoved = 0.25, kMapTurned = 0.1;  // unit: m, rad
 constexpr double kSilence = 0.5, kDeadSilence = 2;
 constexpr double kPatience = 10;                   // without a cloud, once there were some; of the wall's time; unit: s
 constexpr double kPatienceForPoses = 0.1;          // of a cloud, for poses until its end; of the wall's time; unit: s
+constexpr std::size_t kMostWaiting = 5;            // clouds; older ones go
 constexpr double kWallLimit = 10;                  // times the limit of the robot's time
 
 std::int64_t end_of(const HeardCloud& cloud) {
@@ -107,13 +108,13 @@ TopicNavigator::TopicNavigator(const TopicNavigatorOptions& options, std::functi
       track_(options.pose == PoseSource::odometry ? options.robot.turn_share : 1), base_frame_(options.base_frame) {}
 
 void TopicNavigator::hear(const HeardRobot& heard, double wall) {
-  if (!called_) called_ = heard_at_ = wall;
+  if (!called_) called_ = wall;
   if (has_ended()) return;
-  if (!heard.empty()) heard_at_ = wall;
+  const int poses = report_.poses;
   hear_poses(heard);
+  if (report_.poses > poses) pose_at_ = wall;
   for (const HeardCloud& cloud : heard.clouds)
-    if (!has_ended()) hear_cloud(cloud);
-  if (!heard.clouds.empty()) cloud_at_ = wall;
+    if (!has_ended()) hear_cloud(cloud, wall);
   if (!has_ended()) work_off(wall);
   if (!has_ended()) watch(wall);
 }
@@ -146,7 +147,7 @@ void TopicNavigator::hear_pose(std::int64_t stamp_ns, const Pose& fixed_from_bas
   report_.way += std::hypot(track_.last().x - before.x, track_.last().y - before.y);
 }
 
-void TopicNavigator::hear_cloud(const HeardCloud& cloud) {
+void TopicNavigator::hear_cloud(const HeardCloud& cloud, double wall) {
   if (report_.clouds > 0 && cloud.stamp_ns <= last_stamp_) {
     if (last_stamp_ - cloud.stamp_ns > 500'000'000)
       end(TopicEnd::restarted, "the stamps of clouds jumped back: the drive was started again; start this program again");
@@ -157,10 +158,12 @@ void TopicNavigator::hear_cloud(const HeardCloud& cloud) {
   last_stamp_ = cloud.stamp_ns;
   ++report_.clouds;
   report_.points_left_out += long(cloud.left_out);
-  if (cloud.points.empty())
+  if (cloud.points.empty()) {
     ++report_.clouds_empty;
-  else
-    waiting_.push_back(cloud);
+    return;
+  }
+  waiting_.push_back(cloud), cloud_at_ = wall;
+  if (waiting_.size() > kMostWaiting) waiting_.pop_front();
 }
 
 // Poses that are sent after a cloud may be of before its last ray.
@@ -182,11 +185,11 @@ void TopicNavigator::step(const HeardCloud& cloud, double wall) {
   const auto before = std::chrono::steady_clock::now();
   const std::int64_t end_stamp = end_of(cloud);
   if (report_.periods == 0) first_stamp_ = end_stamp, began_ = wall;
-  last_end_ = end_stamp;
   report_.clouds_late += seconds_of(track_.last_stamp() - end_stamp) > rules_.period;
   take_cloud(cloud);
   cloud_time_ = track_.last_stamp();
   report_.time = seconds_of(end_stamp - first_stamp_), report_.wall = wall - began_;
+  if (seconds_of(end_stamp - track_.last_stamp()) > kSilence) return stop();  // nobody knows where it is
   // Of several that came at once, the newest is driven by.
   if (!waiting_.empty() && is_complete(waiting_.front(), wall)) return;
   const PlanarPose pose = pose_now(), velocity = track_.velocity();
@@ -255,18 +258,22 @@ void TopicNavigator::localize(const std::vector<Vec3>& points) {
 }
 
 void TopicNavigator::watch(double wall) {
-  const double since_cloud = report_.clouds > 0 ? wall - cloud_at_ : 0;
-  if (report_.periods > 0) {
-    const bool silent = seconds_of(track_.last_stamp() - cloud_time_) > kSilence || wall - heard_at_ > kDeadSilence ||
-                        since_cloud > kDeadSilence;
-    if (silent && moving_) stop();
-    if (report_.time > options_.time_limit || wall - began_ > kWallLimit * options_.time_limit)
-      return end(TopicEnd::time_up, "the robot had " + std::to_string(int(options_.time_limit)) + " s; `--time-limit` gives it more");
-    if (since_cloud > kPatience || !waiting_.empty())
-      if (wall - std::max(cloud_at_, began_) > kPatience) end(TopicEnd::no_data, "nothing is heard of any more: " + describe_silence());
+  if (report_.periods == 0) {
+    if (wall - *called_ > options_.wait) end(TopicEnd::no_data, describe_silence());
     return;
   }
-  if (wall - *called_ > options_.wait) end(TopicEnd::no_data, describe_silence());
+  watch_for_silence(wall);
+  if (report_.time > options_.time_limit || wall - began_ > kWallLimit * options_.time_limit)
+    end(TopicEnd::time_up, "the robot had " + std::to_string(int(options_.time_limit)) + " s; `--time-limit` gives it more");
+}
+
+void TopicNavigator::watch_for_silence(double wall) {
+  const double silence = wall - std::min(cloud_at_, pose_at_);
+  const bool blind = seconds_of(track_.last_stamp() - cloud_time_) > kSilence;
+  if (moving_ && (blind || silence > kDeadSilence)) stop();
+  if (silence > kPatience)
+    end(TopicEnd::no_data, std::string(pose_at_ < cloud_at_ ? "poses" : "clouds with points") +
+                               " do not come any more: the drive has ended or is paused; start both again");
 }
 
 std::string TopicNavigator::describe_silence() const {
@@ -283,7 +290,7 @@ std::string TopicNavigator::describe_silence() const {
   if (!waiting_.empty() && !frames_.find(base_frame_, waiting_.front().frame))
     return "no chain of transforms leads from " + base_frame_ + " to " + waiting_.front().frame +
            ", the frame of the clouds: /tf_static must have one";
-  return "the drive has ended, or its machine is too slow";
+  return "poses and clouds came, but not at the same time";
 }
 
 void TopicNavigator::stop() {

@@ -87,13 +87,14 @@ class TopicNavigator {
  private:
   void hear_poses(const HeardRobot& heard);
   void hear_pose(std::int64_t stamp_ns, const Pose& fixed_from_base);
-  void hear_cloud(const HeardCloud& cloud);
+  void hear_cloud(const HeardCloud& cloud, double wall);
   bool is_complete(const HeardCloud& cloud, double wall) const;
   void work_off(double wall);
   void take_cloud(const HeardCloud& cloud);
   void localize(const std::vector<Vec3>& points);
   void step(const HeardCloud& cloud, double wall);
   void watch(double wall);
+  void watch_for_silence(double wall);
   std::vector<Vec3> in_base(const HeardCloud& cloud, const Pose& base_from_sensor) const;
   PlanarPose pose_now() const { return correction_ * track_.last(); }
   std::string describe_silence() const;
@@ -113,10 +114,10 @@ class TopicNavigator {
   bool has_upright_ = false;
   std::string base_frame_;
   std::deque<HeardCloud> waiting_;  // for the poses until their ends
-  std::int64_t first_stamp_ = 0, last_end_ = 0, last_stamp_ = 0;  // of clouds
+  std::int64_t first_stamp_ = 0, last_stamp_ = 0;  // of clouds
   double began_ = 0;                 // unit: s, of the wall
   std::optional<double> called_;     // when hear() was first called
-  double heard_at_ = 0, cloud_at_ = 0;  // when something, when a cloud came
+  double pose_at_ = 0, cloud_at_ = 0;  // when a pose, and a cloud with points came
   std::int64_t cloud_time_ = 0;      // the robot's time when the last cloud was used
   bool moving_ = false;
   TopicReport report_;

@@ -24,7 +24,6 @@ struct HeardRobot {
   std::vector<HeardOdometry> odometry;
   std::vector<HeardTransform> transforms;  // of /tf and /tf_static
   std::vector<HeardCloud> clouds;
-  bool empty() const { return odometry.empty() && transforms.empty() && clouds.empty(); }
 };
 
 class Ros1Robot {

@@ -304,7 +304,25 @@ TEST_F(TopicNavigation, StopsWhereCloudsStopAndEndsWithAMessage) {
   robot_.wait(11);
   navigator.hear({}, robot_.clock());
   EXPECT_EQ(navigator.report().end, TopicEnd::no_data);
-  EXPECT_NE(navigator.report().message.find("nothing is heard of any more"), std::string::npos);
+  EXPECT_NE(navigator.report().message.find("clouds with points do not come any more"), std::string::npos);
+}
+
+TEST_F(TopicNavigation, StopsWherePosesStop) {
+  TopicNavigator navigator = make(options_in(folder_));
+  furnish(robot_);
+  drive(navigator, 10);
+  for (int k = 0; k < 5; ++k) {
+    HeardRobot heard = robot_.go();
+    heard.odometry.clear();
+    navigator.hear(heard, robot_.clock());
+    robot_.wait(0.15);
+    navigator.hear({}, robot_.clock());
+  }
+  EXPECT_EQ(robot_.linear(), 0);
+  robot_.wait(11);
+  navigator.hear({}, robot_.clock());
+  EXPECT_EQ(navigator.report().end, TopicEnd::no_data);
+  EXPECT_NE(navigator.report().message.find("poses do not come any more"), std::string::npos) << navigator.report().message;
 }
 
 TEST_F(TopicNavigation, CountsCloudsThatAreMissing) {

@@ -113,10 +113,10 @@ nlohmann::ordered_json to_json(const TopicReport& r) {
 }
 
 void write_log(const std::string& path, const TopicReport& report) {
-  std::string text = "time_s,x_m,y_m,yaw_rad,odometry_x_m,odometry_y_m,odometry_yaw_rad,slope_x,slope_y,ground_m,linear,angular,took_ms\n";
+  std::string text = "stamp_s,x_m,y_m,yaw_rad,odometry_x_m,odometry_y_m,odometry_yaw_rad,slope_x,slope_y,ground_m,linear,angular,took_ms\n";
   for (const TopicPeriod& p : report.course) {
     char row[300];
-    std::snprintf(row, sizeof row, "%.3f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.2f\n", p.time, p.pose.x, p.pose.y,
+    std::snprintf(row, sizeof row, "%.3f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.2f\n", 1e-9 * double(p.stamp_ns), p.pose.x, p.pose.y,
                   p.pose.yaw, p.odometry.x, p.odometry.y, p.odometry.yaw, p.ground.along_x, p.ground.along_y, p.ground.height,
                   p.linear, p.angular, 1000 * p.took);
     text += row;

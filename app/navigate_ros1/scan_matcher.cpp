@@ -13,7 +13,9 @@ struct Search {
 };
 constexpr Search kSearches[]{{6, 2, 0.02, 0.05}, {3, 2, 0.005, 0.02}, {2, 1, 0.002, 0.01}};
 constexpr double kLeastShare = 0.35;  // of points in occupied cells: with less the scan shows other things than the map
-constexpr double kPrior = 0.01;       // that a share must be higher by, for a step of the first search
+// That a share must be higher by, to be believed more than the guess: what comes into sight lies ahead, and pulls matches
+// back to what was seen before, while odometry knows well how far it went, and badly how much it turned.
+constexpr double kPriorOfPlace = 0.8, kPriorOfTurn = 1.5;  // unit: 1/m, 1/rad
 constexpr std::size_t kFewestMatched = 50;   // points
 
 double share_of(const PlanarMap& map, const std::vector<Vec3>& turned, double x, double y) {
@@ -30,9 +32,8 @@ std::vector<Vec3> turned_by(double yaw, const std::vector<Vec3>& points) {
   return turned;
 }
 
-double steps_from(const PlanarPose& guess, const PlanarPose& pose) {
-  return std::hypot(pose.x - guess.x, pose.y - guess.y) / kSearches[0].move +
-         std::fabs(wrapped(pose.yaw - guess.yaw)) / kSearches[0].turn;
+double doubt_of(const PlanarPose& guess, const PlanarPose& pose) {
+  return kPriorOfPlace * std::hypot(pose.x - guess.x, pose.y - guess.y) + kPriorOfTurn * std::fabs(wrapped(pose.yaw - guess.yaw));
 }
 
 }  // namespace
@@ -74,7 +75,7 @@ ScanMatch match_scan(const PlanarMap& map, const std::vector<Vec3>& points, cons
       for (int i = -search.moves; i <= search.moves; ++i)
         for (int k = -search.moves; k <= search.moves; ++k) {
           const PlanarPose pose{middle.x + i * search.move, middle.y + k * search.move, yaw};
-          const double share = share_of(map, turned, pose.x, pose.y), score = share - kPrior * steps_from(guess, pose);
+          const double share = share_of(map, turned, pose.x, pose.y), score = share - doubt_of(guess, pose);
           if (score > best_score) best = {pose, true, share}, best_score = score;
         }
     }

@@ -10,6 +10,9 @@ namespace {
 constexpr double kMargin = 8;                      // of the map, around start and goal; unit: m
 constexpr double kLowest = -0.3, kHighest = 1.3;   // of the map; unit: m
 constexpr double kReach = 6;                       // of points that are mapped; unit: m
+// Of points that are matched: farther away the robot has not seen everything yet, and would find most of what it sees again
+// where it came from; unit: m.
+constexpr double kMatchReach = 4;
 constexpr double kBesideRobot = 0.12;              // nearer to its shape, points are the robot itself, with noise; unit: m
 constexpr double kCell = 0.05;                      // one point of each is matched; unit: m
 constexpr double kMoved = 0.005, kTurned = 0.003;  // less is not matched again; unit: m, rad
@@ -62,7 +65,7 @@ bool is_robot(const Vec3& p, const std::vector<NavigatorSlice>& shape) {
 }
 
 // Of what stands upright, one point of each cell seen from above, in their order.
-std::vector<Vec3> thinned(const std::vector<Vec3>& points) {
+std::vector<Vec3> thinned(const std::vector<Vec3>& points, double reach) {
   VoxelGrid grid;
   grid.voxel = kCell, grid.corner = {-kReach, -kReach, 0};
   grid.size = {int(2 * kReach / kCell), int(2 * kReach / kCell), 1};
@@ -70,7 +73,7 @@ std::vector<Vec3> thinned(const std::vector<Vec3>& points) {
   std::vector<Vec3> kept;
   for (const Vec3& p : points) {
     const Cell cell = grid.find_cell({p.x, p.y, 0.5 * kCell});
-    if (!PlanarMap::holds(p) || !grid.contains(cell) || taken[grid.index(cell)]) continue;
+    if (!PlanarMap::holds(p) || p.x * p.x + p.y * p.y > reach * reach || !grid.contains(cell) || taken[grid.index(cell)]) continue;
     taken[grid.index(cell)] = 1;
     kept.push_back(p);
   }
@@ -206,7 +209,7 @@ void TopicNavigator::step(const HeardCloud& cloud, double wall) {
   ++report_.periods;
   report_.deadlines_missed += took > rules_.period;
   report_.slowest = std::max(report_.slowest, took);
-  report_.course.push_back({report_.time, pose, track_.last(), ground_, output.linear, output.angular, took});
+  report_.course.push_back({track_.last_stamp(), pose, track_.last(), ground_, output.linear, output.angular, took});
   if (output.state == NavigatorState::arrived) end(TopicEnd::arrived, "");
   if (output.state == NavigatorState::gave_up)
     end(TopicEnd::gave_up, "no progress for 30 s: there is no way that the navigator sees, or nobody hears the velocities; "
@@ -245,15 +248,14 @@ void TopicNavigator::take_cloud(const HeardCloud& cloud) {
 
 void TopicNavigator::localize(const std::vector<Vec3>& points) {
   if (has_upright_ && !is_apart(matched_at_, track_.last(), kMoved, kTurned)) return;
-  const std::vector<Vec3> upright = thinned(points);
   matched_at_ = track_.last();
   if (has_upright_) {
-    const ScanMatch match = match_scan(upright_, upright, pose_now());
+    const ScanMatch match = match_scan(upright_, thinned(points, kMatchReach), pose_now());
     report_.matches_failed += !match.found;
     correction_ = match.pose * inverse(track_.last());
     if (!is_apart(mapped_at_, track_.last(), kMapMoved, kMapTurned)) return;
   }
-  for (const Vec3& p : upright) upright_.add(pose_now() * p);
+  for (const Vec3& p : thinned(points, kReach)) upright_.add(pose_now() * p);
   has_upright_ = true, mapped_at_ = track_.last();
 }
 

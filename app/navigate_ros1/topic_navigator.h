@@ -42,7 +42,7 @@ std::string name_of(TopicEnd end);
 
 // One period, for a person who wants to know why it drove so.
 struct TopicPeriod {
-  double time = 0;              // of the robot; unit: s
+  std::int64_t stamp_ns = 0;    // of the pose
   PlanarPose pose, odometry;    // matched, and as it was heard, from the start
   GroundPlane ground;
   double linear = 0, angular = 0;  // that the robot was asked for; unit: m/s, rad/s

@@ -163,9 +163,9 @@ TEST(ScanMatcher, FindsThePoseWithinACell) {
   for (const Vec3& p : corner_room()) seen.push_back(inverse(truth) * p);
   const ScanMatch match = match_scan(map, seen, {});
   EXPECT_TRUE(match.found);
-  EXPECT_NEAR(match.pose.x, truth.x, 0.025);
-  EXPECT_NEAR(match.pose.y, truth.y, 0.025);
-  EXPECT_NEAR(match.pose.yaw, truth.yaw, 0.01);
+  EXPECT_NEAR(match.pose.x, truth.x, 0.045);
+  EXPECT_NEAR(match.pose.y, truth.y, 0.045);
+  EXPECT_NEAR(match.pose.yaw, truth.yaw, 0.015);
 }
 
 TEST(ScanMatcher, KeepsTheGuessWhereItSeesOtherThings) {

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kMargin = 8;                      // of the map, around start and goal; unit: m
 constexpr double kLowest = -0.3, kHighest = 1.3;   // of the map; unit: m
+constexpr double kPlanarHeight = 0.3;              // of what a 2-D scanner sees: it stands upright, as far as is known; unit: m
 constexpr double kReach = 6;                       // of points that are mapped; unit: m
 // Of points that are matched: farther away the robot has not seen everything yet, and would find most of what it sees again
 // where it came from; unit: m.
@@ -233,11 +234,9 @@ std::vector<Vec3> TopicNavigator::in_base(const HeardCloud& cloud, const Pose& b
 
 void TopicNavigator::take_cloud(const HeardCloud& cloud) {
   std::vector<Vec3> points = in_base(cloud, *frames_.find(base_frame_, cloud.frame));
-  if (!options_.planar) {
-    ground_ = find_ground(points, ground_);
-    const Pose level_from_base = ground_.level_from_base();
-    for (Vec3& p : points) p = level_from_base * p;
-  }
+  if (!options_.planar) ground_ = find_ground(points, ground_);
+  const Pose level_from_base = ground_.level_from_base();
+  for (Vec3& p : points) p = options_.planar ? Vec3{p.x, p.y, kPlanarHeight} : level_from_base * p;
   points.erase(std::remove_if(points.begin(), points.end(),
                               [](const Vec3& p) { return p.x * p.x + p.y * p.y > kReach * kReach || p.z > kHighest; }),
                points.end());

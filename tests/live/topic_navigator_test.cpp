@@ -373,6 +373,25 @@ TEST_F(TopicNavigation, EndsWhereTheRobotIsLost) {
   EXPECT_NE(navigator.report().message.find("farther than 8 m"), std::string::npos);
 }
 
+// Of a scanner that is lower than what is matched, and than what is an obstacle.
+TEST_F(TopicNavigation, ArrivesByAScanner) {
+  furnish(robot_);
+  TopicNavigatorOptions options = options_in(folder_);
+  options.planar = true, options.robot = known_robots().back();
+  TopicNavigator navigator = make(options);
+  for (int k = 0; k < 400 && !navigator.has_ended(); ++k) {
+    HeardRobot heard = robot_.go();
+    std::vector<HeardPoint> points;
+    for (const HeardPoint& p : heard.clouds[0].points)
+      if (p.place.z > -0.29f && p.place.z < -0.25f) points.push_back({{p.place.x, p.place.y, -0.35f}, 0});
+    heard.clouds[0].points = points;
+    navigator.hear(heard, robot_.clock());
+  }
+  EXPECT_EQ(navigator.report().end, TopicEnd::arrived) << navigator.report().message;
+  EXPECT_LT(std::hypot(robot_.truth().x - 6, robot_.truth().y - 0.5), 0.45);
+  EXPECT_EQ(navigator.report().matches_failed, 0);
+}
+
 TEST_F(TopicNavigation, GoesByTransformsWhereAskedTo) {
   furnish(robot_);
   TopicNavigatorOptions options = options_in(folder_);

@@ -42,10 +42,12 @@ std::vector<std::string> robot_names() {
 void declare(CLI::App& program, Request& r) {
   const auto one_of = [](std::vector<std::string> names) { return CLI::IsMember(std::move(names)); };
   program.add_option("--goal", r.goal, "ahead and to the left of where the robot starts; m")->expected(2)->required();
-  program.add_option("--robot", r.robot, "its shape, and how it skids")->check(one_of(robot_names()))->capture_default_str();
+  program.add_option("--robot", r.robot, "its shape, and how it skids")->check(one_of(robot_names()))
+      ->capture_default_str();
   program.add_option("--turn-share", r.turn_share, "share of a turn that the robot makes of what its tracks or wheels would give")
       ->check(CLI::Range(0.05, 1.0));
-  program.add_option("--sensor", r.sensor, "cloud: PointCloud2, scan: LaserScan")->check(one_of({"cloud", "scan"}))->capture_default_str();
+  program.add_option("--sensor", r.sensor, "cloud: PointCloud2, scan: LaserScan")->check(one_of({"cloud", "scan"}))
+      ->capture_default_str();
   program.add_option("--topic", r.topic, "of the clouds or scans (default: /points or /scan)");
   program.add_option("--pose", r.pose, "odom: nav_msgs/Odometry, turns scaled by the turn share; tf: /tf, as it is")
       ->check(one_of({"odom", "tf"}))->capture_default_str();
@@ -57,10 +59,12 @@ void declare(CLI::App& program, Request& r) {
   program.add_option("--planner", r.planner, "ompl: RRT* over the robot's own map gives the navigator places to drive to")
       ->check(one_of({"none", "ompl"}))->capture_default_str();
   program.add_option("--cmd-vel", r.ros.velocity, "topic of the velocities")->capture_default_str();
-  program.add_option("--time-limit", r.navigator.time_limit, "of the robot's time; s")->check(CLI::Range(1.0, 86400.0))->capture_default_str();
-  program.add_option("--wait", r.navigator.wait, "for the first messages; s")->check(CLI::Range(1.0, 86400.0))->capture_default_str();
+  program.add_option("--time-limit", r.navigator.time_limit, "of the robot's time; s")->check(CLI::Range(1.0, 86400.0))
+      ->capture_default_str();
+  program.add_option("--wait", r.navigator.wait, "for the first messages; s")->check(CLI::Range(1.0, 86400.0))
+      ->capture_default_str();
   program.add_option("--log", r.log, "a CSV file that gets a row for each period");
-  program.add_option("--ros-master", r.ros.ros.master, "the ROS master (default: $ROS_MASTER_URI, or http://localhost:11311)");
+  program.add_option("--ros-master", r.ros.ros.master, "the master (default: $ROS_MASTER_URI, or http://localhost:11311)");
   program.add_option("--ros-ip", r.ros.ros.address, "address by which other machines reach this program");
 }
 
@@ -70,13 +74,14 @@ void complete(Request& r) {
   if (r.turn_share > 0) r.navigator.robot.turn_share = r.turn_share;
   r.navigator.goal_x = r.goal[0], r.navigator.goal_y = r.goal[1];
   if (!(std::fabs(r.goal[0]) <= 50 && std::fabs(r.goal[1]) <= 50))
-    throw InputError({"", 0, "--goal", "too far", "at most 50 m ahead and aside", std::to_string(r.goal[0]) + " " + std::to_string(r.goal[1]), ""});
+    throw InputError({"", 0, "--goal", "too far", "at most 50 m ahead and aside",
+                      std::to_string(r.goal[0]) + " " + std::to_string(r.goal[1]), ""});
   r.navigator.planar = r.sensor == "scan";
   r.navigator.pose = r.pose == "tf" ? PoseSource::transforms : PoseSource::odometry;
   r.navigator.matches = r.localize == "match";
   r.navigator.plans = r.planner == "ompl";
-  (r.navigator.planar ? r.ros.scan : r.ros.cloud) = !r.topic.empty() ? r.topic : r.navigator.planar ? "/scan" : "/points";
-  if (r.navigator.planar) r.ros.cloud.clear();
+  if (r.navigator.planar) r.ros.scan = "/scan", r.ros.cloud.clear();
+  if (!r.topic.empty()) (r.navigator.planar ? r.ros.scan : r.ros.cloud) = r.topic;
   r.ros.ros.node = "ros1_navigator";
   r.ros.ros.notice = [](const std::string& text) { std::fprintf(stderr, "ros1_navigator: %s\n", printable(text).c_str()); };
 }
@@ -113,11 +118,12 @@ nlohmann::ordered_json to_json(const TopicReport& r) {
 }
 
 void write_log(const std::string& path, const TopicReport& report) {
-  std::string text = "stamp_s,x_m,y_m,yaw_rad,odometry_x_m,odometry_y_m,odometry_yaw_rad,slope_x,slope_y,ground_m,linear,angular,took_ms\n";
+  std::string text = "stamp_s,x_m,y_m,yaw_rad,odometry_x_m,odometry_y_m,odometry_yaw_rad,slope_x,slope_y,ground_m,"
+                     "linear,angular,took_ms\n";
   for (const TopicPeriod& p : report.course) {
     char row[300];
-    std::snprintf(row, sizeof row, "%.3f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.2f\n", 1e-9 * double(p.stamp_ns), p.pose.x, p.pose.y,
-                  p.pose.yaw, p.odometry.x, p.odometry.y, p.odometry.yaw, p.ground.along_x, p.ground.along_y, p.ground.height,
+    std::snprintf(row, sizeof row, "%.3f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.2f\n",
+                  1e-9 * double(p.stamp_ns), p.pose.x, p.pose.y, p.pose.yaw, p.odometry.x, p.odometry.y, p.odometry.yaw, p.ground.along_x, p.ground.along_y, p.ground.height,
                   p.linear, p.angular, 1000 * p.took);
     text += row;
   }

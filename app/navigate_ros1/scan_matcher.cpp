@@ -40,7 +40,8 @@ double doubt_of(const PlanarPose& guess, const PlanarPose& pose) {
 
 PlanarMap::PlanarMap(const Aabb& bounds, double voxel) {
   grid_.voxel = voxel, grid_.corner = {bounds.min.x, bounds.min.y, -0.5 * voxel};
-  grid_.size = {std::max(1, int((bounds.max.x - bounds.min.x) / voxel)), std::max(1, int((bounds.max.y - bounds.min.y) / voxel)), 1};
+  const Vec3 size = (bounds.max - bounds.min) * (1 / voxel);
+  grid_.size = {std::max(1, int(size.x)), std::max(1, int(size.y)), 1};
   halves_.assign(grid_.count(), 0);
 }
 

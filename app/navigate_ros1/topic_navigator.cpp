@@ -74,7 +74,8 @@ std::vector<Vec3> thinned(const std::vector<Vec3>& points, double reach) {
   std::vector<Vec3> kept;
   for (const Vec3& p : points) {
     const Cell cell = grid.find_cell({p.x, p.y, 0.5 * kCell});
-    if (!PlanarMap::holds(p) || p.x * p.x + p.y * p.y > reach * reach || !grid.contains(cell) || taken[grid.index(cell)]) continue;
+    if (!PlanarMap::holds(p) || p.x * p.x + p.y * p.y > reach * reach) continue;
+    if (!grid.contains(cell) || taken[grid.index(cell)]) continue;
     taken[grid.index(cell)] = 1;
     kept.push_back(p);
   }

@@ -23,6 +23,7 @@ constexpr double kMapMoved = 0.25, kMapTurned = 0.1;  // unit: m, rad
 constexpr double kSilence = 0.5, kDeadSilence = 2;
 constexpr double kPatience = 10;                   // without a cloud, once there were some; of the wall's time; unit: s
 constexpr double kPatienceForPoses = 0.1;          // of a cloud, for poses until its end; of the wall's time; unit: s
+constexpr double kShortestPeriod = 0.01;           // of clouds; unit: s
 constexpr std::size_t kMostWaiting = 5;            // clouds; older ones go
 constexpr double kWallLimit = 10;                  // times the limit of the robot's time
 
@@ -158,8 +159,11 @@ void TopicNavigator::hear_cloud(const HeardCloud& cloud, double wall) {
       end(TopicEnd::restarted, "the stamps of clouds jumped back: the drive was started again; start this program again");
     return;
   }
-  const double gap = seconds_of(cloud.stamp_ns - last_stamp_);
-  if (report_.clouds > 0) report_.clouds_dropped += std::max(0, int(std::lround(gap / rules_.period)) - 1);
+  if (report_.clouds > 0) {
+    const double gap = seconds_of(cloud.stamp_ns - last_stamp_);
+    cloud_period_ = std::min(cloud_period_, std::max(gap, kShortestPeriod));
+    report_.clouds_dropped += std::max(0, int(std::lround(gap / cloud_period_)) - 1);
+  }
   last_stamp_ = cloud.stamp_ns;
   ++report_.clouds;
   report_.points_left_out += long(cloud.left_out);

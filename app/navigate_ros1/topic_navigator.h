@@ -115,6 +115,7 @@ class TopicNavigator {
   std::string base_frame_;
   std::deque<HeardCloud> waiting_;  // for the poses until their ends
   std::int64_t first_stamp_ = 0, last_stamp_ = 0;  // of clouds
+  double cloud_period_ = 1e9;                      // the shortest time between two; unit: s
   double began_ = 0;                 // unit: s, of the wall
   std::optional<double> called_;     // when hear() was first called
   double pose_at_ = 0, cloud_at_ = 0;  // when a pose, and a cloud with points came

@@ -5,10 +5,8 @@
 #include <cmath>
 
 #include "app/navigate/collision_counter.h"
-#include "app/navigate/obstacle_map.h"
-#include "app/navigate/route.h"
+#include "app/navigate/pilot.h"
 #include "app/pipeline/stages.h"
-#include "io/mrpt/reactive_navigator.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/robot/bundled.h"
 #include "kernel/robot/gaits.h"
@@ -24,7 +22,6 @@ constexpr double kFlippers = 0.7;  // unit: rad
 const std::vector<NavigatorSlice> kShape{{0.2, 0.46, 0.33}, {0.3, 0.57, 0.33}};
 // Tracks that turn on the spot slide: the robot turns by this share of what its belts would give (docs/robots.md).
 constexpr double kTurnShare = 0.4;
-constexpr double kOtherTarget = 0.25;  // a target that is nearer to the one before is not another one; unit: m
 constexpr double kFallen = 0.3;  // what of the base's Z axis is upright when it lies on its side
 
 // Where the base was at every step since the start; before it stood still.
@@ -53,12 +50,10 @@ LidarSpec make_lidar_spec(const NavigationRules& rules) {
   return lidar.spec();
 }
 
-NavigatorOptions make_navigator_options(const NavigationRules& rules, const std::string& cache_folder) {
-  NavigatorOptions options;
-  options.slices = kShape;
-  options.max_speed = rules.speed, options.max_turn_rate = rules.turn_rate;
-  options.horizon = rules.horizon, options.goal_radius = rules.goal_radius;
-  options.cache_folder = cache_folder;
+PilotOptions make_pilot_options(const NavigationWorld& world, std::uint64_t seed, const std::string& cache_folder) {
+  PilotOptions options;
+  options.rules = world.rules(), options.bounds = world.bounds(), options.shape = kShape;
+  options.waypoints = world.waypoints(), options.seed = seed, options.cache_folder = cache_folder;
   return options;
 }
 
@@ -84,14 +79,11 @@ class Drive {
  public:
   Drive(const NavigationWorld& world, std::uint64_t seed, const std::string& cache_folder)
       : world_(world), rules_(world.rules()), model_(make_robot()), history_(make_run_options(world).step),
-        lidar_(make_lidar(seed)), map_(world.bounds(), rules_.voxel, rules_.hits),
-        navigator_(make_navigator_options(rules_, cache_folder)),
-        route_(rules_, seed), collisions_(int(world.pile().pieces.size()), rules_.step_height,
+        lidar_(make_lidar(seed)), pilot_(make_pilot_options(world, seed, cache_folder)),
+        collisions_(int(world.pile().pieces.size()), rules_.step_height,
                     [&world](const Vec3& place) { return world.is_solid(place); }) {
     score_.passes = world.passes(), score_.shortest = world.shortest();
     history_.add(world.start());
-    stuck_at_ = world.start().translation;
-    drive_to(next());
   }
 
   NavigationScore go() {
@@ -107,7 +99,7 @@ class Drive {
     score_.path = result.robots.front().path;
     score_.left = distance_to_goal();
     score_.collisions = collisions_.count();
-    score_.plans = route_.plans(), score_.plans_failed = route_.failed();
+    score_.plans = pilot_.plans(), score_.plans_failed = pilot_.plans_failed();
     score_.hash = result.hash();
     return score_;
   }
@@ -136,79 +128,31 @@ class Drive {
     const auto before = std::chrono::steady_clock::now();
     map(scan);
     const Vec3 base = sense.state.links.front().world_from_link.translation;
-    choose_waypoint(base);
-    if (rules_.plans) follow_route(base);
-    const NavigatorOutput output = navigator_.step(make_input(sense));
+    const NavigatorOutput output = pilot_.step(make_input(sense));
     const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     score_.late += took > rules_.period;
     score_.slowest = std::max(score_.slowest, took);
     collisions_.begin_period();
-    if (output.state == NavigatorState::gave_up || is_stuck(base)) end_ = NavigationEnd::gave_up;
-    has_arrived_ = output.state == NavigatorState::arrived;
-    if (has_arrived_ && is_last() && distance(target_, next()) == 0) end_ = NavigationEnd::arrived;
-    score_.way.push_back({base, yaw_of(sense.state.links.front().world_from_link), target_});
+    if (output.state == NavigatorState::gave_up) end_ = NavigationEnd::gave_up;
+    if (output.state == NavigatorState::arrived) end_ = NavigationEnd::arrived;
+    score_.way.push_back({base, yaw_of(sense.state.links.front().world_from_link), pilot_.target()});
     return drive_crawler(model_, {output.linear, output.angular / kTurnShare},
                          std::vector<double>(4, kFlippers));
   }
 
-  const Vec3& next() const { return world_.waypoints()[waypoint_]; }
-  bool is_last() const { return waypoint_ + 1 == world_.waypoints().size(); }
-
-  // Goes on to the next one before the robot stops at this one.
-  void choose_waypoint(const Vec3& base) {
-    const Vec3 d = next() - base;
-    if (is_last() || std::sqrt(d.x * d.x + d.y * d.y) > rules_.waypoint_radius) return;
-    ++waypoint_;
-    drive_to(next());
-  }
-
-  void drive_to(const Vec3& place) {
-    target_ = place;
-    navigator_.set_goal(place.x, place.y);
-  }
-
-  // The navigator begins anew with each goal: it is given another one only where that is elsewhere.
-  void follow_route(const Vec3& base) {
-    const Vec3 target = route_.find_target(map_, base, next(), time());
-    const double moved = distance(target, target_);
-    if (moved > kOtherTarget || (moved > 0 && (has_arrived_ || distance(target, next()) == 0))) drive_to(target);
-  }
-
   double time() const { return (score_.periods - 1) * rules_.period; }
-
-  // As long as the navigator gets new goals it does not tell.
-  bool is_stuck(const Vec3& base) {
-    if (!rules_.plans) return false;
-    if (distance(base, stuck_at_) > rules_.stuck_distance) stuck_at_ = base, stuck_since_ = other_way_since_ = time();
-    if (time() - other_way_since_ > rules_.other_way_after) {
-      route_.avoid_narrowest_ahead(map_, base);
-      other_way_since_ = time();
-    }
-    return time() - stuck_since_ > rules_.stuck_time;
-  }
 
   void map(const LidarScan& scan) {
     const int last = int(scan.world_from_lidar.size()) - 1;
     for (const LidarPoint& p : scan.points) {
       const int sample = int(double(p.time) * 1e9 / double(LidarScan::kMotionStep) + 0.5);
-      map_.add(scan.world_from_lidar[std::size_t(std::min(sample, last))] * Vec3{p.x, p.y, p.z});
+      pilot_.see(scan.world_from_lidar[std::size_t(std::min(sample, last))] * Vec3{p.x, p.y, p.z});
     }
   }
 
-  NavigatorInput make_input(const RobotSense& sense) const {
+  PilotInput make_input(const RobotSense& sense) const {
     const RobotState::Link& base = sense.state.links.front();
-    const Vec3 at = base.world_from_link.translation;
-    NavigatorInput input;
-    input.time = time();
-    input.x = at.x, input.y = at.y, input.yaw = yaw_of(base.world_from_link);
-    input.velocity_x = base.linear.x, input.velocity_y = base.linear.y, input.turn_rate = base.angular.z;
-    const double c = portable::cos(input.yaw), s = portable::sin(input.yaw);
-    // The ground under the robot is not the plane z = 0 where it climbs.
-    for (const Vec3& p : map_.find_around(at, rules_.horizon, at.z + rules_.step_height, at.z + rules_.height)) {
-      const Vec3 d = p - at;
-      input.obstacles.push_back({float(c * d.x + s * d.y), float(c * d.y - s * d.x), float(d.z)});
-    }
-    return input;
+    return {time(), base.world_from_link.translation, yaw_of(base.world_from_link), base.linear, base.angular.z};
   }
 
   bool take_step(const World& world) {
@@ -233,15 +177,8 @@ class Drive {
   RobotModel model_;
   PoseHistory history_;
   Lidar lidar_;
-  ObstacleMap map_;
-  ReactiveNavigator navigator_;
-  Route route_;
+  Pilot pilot_;
   CollisionCounter collisions_;
-  std::size_t waypoint_ = 0;  // that it drives to
-  Vec3 target_;               // of the navigator
-  bool has_arrived_ = false;  // there
-  Vec3 stuck_at_;             // where it was when it last got anywhere
-  double stuck_since_ = 0, other_way_since_ = 0;  // unit: s
   NavigationScore score_;
   NavigationEnd end_ = NavigationEnd::time_up;  // until something ends it
 };

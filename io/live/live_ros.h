@@ -25,6 +25,7 @@ struct LiveOptions {
 };
 
 struct Ros1Options : LiveOptions {
+  std::string node = "rubble";  // its name, to which roscpp adds a number
   std::string master;   // URI; empty: $ROS_MASTER_URI, or http://localhost:11311
   std::string address;  // by which others reach this machine; empty: $ROS_HOSTNAME, $ROS_IP, or
                         // 127.0.0.1, and then only programs of this machine can connect

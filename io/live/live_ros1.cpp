@@ -2,7 +2,6 @@
 #include <xmlrpcpp/XmlRpcException.h>
 
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -10,60 +9,17 @@
 #include "io/live/live_ros.h"
 #include "io/live/master_watch.h"
 #include "io/live/pace.h"
+#include "io/live/ros1_bytes.h"
 #include "io/live/ros1_commands.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
 namespace {
 
-// A message that is bytes already. Its type is told to roscpp when its topic is advertised.
-struct SerializedBytes {
-  std::string_view bytes;
-};
-
 // Messages held for a slow subscriber before the oldest goes; pictures are what memory is for.
 constexpr std::uint32_t kPictureQueue = 30, kQueue = 1000;
 // roscpp does not say when all has been sent: after the last message it gets so long to do it.
 constexpr std::chrono::milliseconds kLinger{1000};
-
-}  // namespace
-}  // namespace rubble
-
-namespace ros {
-namespace message_traits {
-
-template <>
-struct MD5Sum<rubble::SerializedBytes> {
-  static const char* value() { return "*"; }  // agrees with every topic
-  static const char* value(const rubble::SerializedBytes&) { return "*"; }
-};
-template <>
-struct DataType<rubble::SerializedBytes> {
-  static const char* value() { return "*"; }
-  static const char* value(const rubble::SerializedBytes&) { return "*"; }
-};
-
-}  // namespace message_traits
-
-namespace serialization {
-
-template <>
-struct Serializer<rubble::SerializedBytes> {
-  template <typename Stream>
-  static void write(Stream& stream, const rubble::SerializedBytes& message) {
-    std::memcpy(stream.advance(std::uint32_t(message.bytes.size())), message.bytes.data(),
-                message.bytes.size());
-  }
-  static std::uint32_t serializedLength(const rubble::SerializedBytes& message) {
-    return std::uint32_t(message.bytes.size());
-  }
-};
-
-}  // namespace serialization
-}  // namespace ros
-
-namespace rubble {
-namespace {
 
 std::string from_environment(const char* name) {
   const char* value = std::getenv(name);
@@ -200,7 +156,7 @@ void check_ros1(const Ros1Options& options) {
   check_uri(uri, options.master.empty() ? "ROS_MASTER_URI" : "--ros-master");
   choose_address(options.address);
   // With a log file named, even one that is none, roscpp makes no folder in the user's home.
-  ::ros::init(::ros::M_string{{"__master", uri}, {"__log", "/dev/null"}}, "rubble",
+  ::ros::init(::ros::M_string{{"__master", uri}, {"__log", "/dev/null"}}, options.node,
               ::ros::init_options::NoSigintHandler | ::ros::init_options::AnonymousName |
                   ::ros::init_options::NoRosout);
   bool answers = false;

@@ -2,62 +2,29 @@
 
 #include <exception>
 
+#include "io/live/ros1_bytes.h"
+
 namespace rubble {
 namespace {
 
-// A message as it came, of whatever type.
-struct HeardBytes {
-  std::string bytes;
-};
-
 // Older ones go when a program sends faster than steps are driven.
-constexpr std::uint32_t kQueue = 100;
+constexpr std::uint32_t kCommands = 100;
 
 }  // namespace
-}  // namespace rubble
-
-namespace ros {
-namespace serialization {
-
-template <>
-struct Serializer<rubble::HeardBytes> {
-  template <typename Stream>
-  static void read(Stream& stream, rubble::HeardBytes& message) {
-    const std::uint32_t size = stream.getLength();
-    message.bytes.assign(reinterpret_cast<const char*>(stream.advance(size)), size);
-  }
-};
-
-}  // namespace serialization
-}  // namespace ros
-
-namespace rubble {
 
 template <typename Read>
 ::ros::Subscriber Ros1Commands::subscribe(::ros::NodeHandle& node, const char* topic,
                                           const char* type, const char* md5, Read read) {
-  using Message = boost::shared_ptr<const HeardBytes>;
   // One that is no such message is said and left out: others go on driving.
-  const auto hear = [this, topic, read](const Message& message) {
+  const auto hear = [this, topic, read](const std::string& bytes) {
     try {
-      read(message->bytes);
+      read(bytes);
     } catch (const std::exception& error) {
       complaints_.note(topic, error.what());
     }
   };
-  ::ros::SubscribeOptions options;
-  options.topic = topic;
-  options.queue_size = kQueue;
-  options.md5sum = md5;  // roscpp refuses publishers of another type
-  options.datatype = type;
-  options.callback_queue = &queue_;
-  options.transport_hints = ::ros::TransportHints().tcpNoDelay();
-  options.helper =
-      boost::make_shared<::ros::SubscriptionCallbackHelperT<const Message&>>(
-          boost::function<void(const Message&)>(hear));
-  const ::ros::Subscriber subscriber = node.subscribe(options);
   topics_.push_back({topic, type, KnownTopic::heard});
-  return subscriber;
+  return subscribe_to_bytes(node, queue_, {topic, type, md5}, kCommands, hear);
 }
 
 Ros1Commands::Ros1Commands(::ros::NodeHandle& node, std::function<void(const std::string&)> notice)

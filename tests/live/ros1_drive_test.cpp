@@ -72,5 +72,35 @@ TEST(NightlyLiveRos1Drive, AProgramOfItsOwnDrivesThroughALeanTo) {
   EXPECT_GT(y, 2.2) << "the lean-to ends at 2 m";
 }
 
+// MRPT's navigator takes a crawler through a lean-to by odometry that slips and a LiDAR; the run of what was driven ends
+// before the goal, behind the lean-to.
+TEST(NightlyLiveRos1Drive, MrptsNavigatorDrivesACrawlerThroughALeanTo) {
+  if (!has_ros1()) GTEST_SKIP() << "no rosmaster: see tools/packages-live.txt";
+  const ScratchFolder scratch;
+  drive_in_a_window(scratch, with_a_master(), "--ros1",
+                    "\n'" RUBBLE_NAVIGATOR "' --goal 8.5 0 >$d/result.json 2>$d/node || touch $d/failed\n"
+                    "kill -TERM $drive",
+                    "examples/ros1/crawler_lean_to.lua", 500);
+  if (HasFatalFailure()) return;
+  const std::string text = read_file(scratch / "result.json");
+  std::printf("%s", text.c_str());
+  const auto result = nlohmann::json::parse(text);
+  EXPECT_EQ(result["result"], "arrived") << text << read_file(scratch / "node") << read_file(scratch / "stderr");
+  EXPECT_LT(result["real_time_factor"].get<double>(), 1.05) << "the drive keeps to real time, or is slower";
+  const Outcome run = run_rubble("run " + (scratch / "out/leg_001.lua") + " --quiet --set camera.width=32 --set "
+                                 "camera.height=24 --set trajectory.rate_hz=1 --set lidars.points.rate_hz=1 --out " + (scratch / "leg"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(read_file(scratch / "out/leg_001.track") == read_file(scratch / "leg/robots/track.bin"));
+  const std::string judge = "'" RUBBLE_PYTHON "' '" RUBBLE_SOURCE_DIR "/tests/live/judge_navigation.py' '" + (scratch / "leg") +
+                            "' >'" + (scratch / "truth.json") + "'";
+  ASSERT_EQ(std::system(judge.c_str()), 0);
+  const auto truth = nlohmann::json::parse(read_file(scratch / "truth.json"));
+  std::printf("%s\n", truth.dump().c_str());
+  const double ahead = truth["ahead_m"], aside = truth["aside_m"];
+  EXPECT_LT(std::hypot(ahead - 8.5, aside), 0.7) << "within 0.3 m of the goal, and what the pose may be wrong by";
+  EXPECT_LT(std::hypot(ahead - result["x_m"].get<double>(), aside - result["y_m"].get<double>()), 0.4);
+  EXPECT_LT(result["left_m"].get<double>(), 0.35);
+}
+
 }  // namespace
 }  // namespace rubble::testing

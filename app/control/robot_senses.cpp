@@ -10,8 +10,8 @@
 namespace rubble {
 
 RobotSenses::RobotSenses(const ResolvedMission& mission, const PileState& pile, const std::vector<MissionRobot>& robots,
-                         int threads, int gl_device)
-    : mission_(mission), pile_(pile), threads_(threads), gl_device_(gl_device), untold_(robots.size()) {
+                         RunContext& context)
+    : mission_(mission), pile_(pile), context_(context), untold_(robots.size()) {
   const Scenario& scenario = mission.scenario;
   const std::vector<std::string> names = robot_names(scenario.robots);
   for (const MissionRobot& robot : robots) seen_.models.push_back(robot.model);
@@ -69,12 +69,15 @@ void RobotSenses::begin(const RobotRun& run, double step) {
   const Scenario& scenario = mission_.scenario;
   const Scene scene = build_scene(world, ranges_);
   ranges_ = std::make_unique<LiveRanges>(scenario, lidars_, depth_cameras_, scene, Medium(scene.air, scene.seed), step,
-                                         threads_);
+                                         context_.threads());
   ranges_->restart(world);
   readings_ = std::make_unique<LiveImus>(scenario, imus_, step);
   readings_->restart(world);
   if (colour_cameras_.empty()) return;
-  colours_ = std::make_unique<LiveColours>(scenario, colour_cameras_, build_scene(world, colours_), gl_device_, step, threads_);
+  colours_ = std::make_unique<LiveColours>(
+      scenario, colour_cameras_, build_scene(world, colours_),
+      LiveColoursOptions{context_.options.gl_device, context_.threads(), step,
+                         [this](double done) { context_.progress.update(0, "light " + std::to_string(int(100 * done)) + " %"); }});
   colours_->restart(world);
 }
 
@@ -90,7 +93,8 @@ void RobotSenses::measure() {
       if (senses(i, name)) (untold_[i].*list).push_back(reading);
   };
   LiveRanges::Readings readings = ranges_->take();
-  for (const ImuSample& reading : readings_->take()) hand_out(imu_names_[std::size_t(reading.sensor)], reading, &Untold::readings);
+  for (const ImuSample& reading : readings_->take())
+    hand_out(imu_names_[std::size_t(reading.sensor)], reading, &Untold::readings);
   for (LidarScan& scan : readings.scans) {
     const std::string& name = mission_.scenario.lidars[std::size_t(scan.sensor)].name;
     hand_out(name, std::make_shared<const LidarScan>(std::move(scan)), &Untold::scans);

@@ -1,4 +1,5 @@
-// What the functions that drive robots are told of LiDARs, cameras and inertial units: measured while the robots are driven.
+// What the functions that drive robots are told of LiDARs, cameras and inertial units: measured while the robots are
+// driven.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +12,7 @@
 #include "app/robots/live_ranges.h"
 #include "app/robots/mission_robot.h"
 #include "app/scene/moving_scene.h"
+#include "app/support/run_context.h"
 #include "kernel/model/pile_state.h"
 #include "kernel/robot/robot_run.h"
 #include "scripting/values/value.h"
@@ -19,10 +21,10 @@ namespace rubble {
 
 class RobotSenses {
  public:
-  // Measures what `senses` of the mission's robots name. All but the numbers must outlive this. gl_device: see
-  // GlContextOptions. Throws InputError for a sensor that no robot carries.
+  // Measures what `senses` of the mission's robots name. All of these must outlive it. Throws InputError for a sensor
+  // that no robot carries.
   RobotSenses(const ResolvedMission& mission, const PileState& pile, const std::vector<MissionRobot>& robots,
-              int threads, int gl_device);
+              RunContext& context);
 
   // Once all robots are added, before the first step. step: unit: s. Throws InputError for depth of a camera with a
   // lens, RunError where colours are asked for and there is no OpenGL.
@@ -49,11 +51,11 @@ class RobotSenses {
 
   const ResolvedMission& mission_;
   const PileState& pile_;
-  int threads_, gl_device_;
+  RunContext& context_;
   std::vector<std::string> camera_names_, imu_names_;
   std::vector<RidingSensor> lidars_, depth_cameras_, colour_cameras_, imus_;  // that any robot senses
-  std::vector<Untold> untold_;                  // by robot
-  RobotTrack seen_;                             // models and ids
+  std::vector<Untold> untold_;  // by robot
+  RobotTrack seen_;             // models and ids
   std::unique_ptr<LiveRanges> ranges_;
   std::unique_ptr<LiveImus> readings_;
   std::unique_ptr<LiveColours> colours_;  // none: no robot senses colours

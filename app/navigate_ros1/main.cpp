@@ -44,7 +44,8 @@ void declare(CLI::App& program, Request& r) {
   program.add_option("--goal", r.goal, "ahead and to the left of where the robot starts; m")->expected(2)->required();
   program.add_option("--robot", r.robot, "its shape, and how it skids")->check(one_of(robot_names()))
       ->capture_default_str();
-  program.add_option("--turn-share", r.turn_share, "share of a turn that the robot makes of what its tracks or wheels would give")
+  program.add_option("--turn-share", r.turn_share,
+                     "share of a turn that the robot makes of what its tracks or wheels would give")
       ->check(CLI::Range(0.05, 1.0));
   program.add_option("--sensor", r.sensor, "cloud: PointCloud2, scan: LaserScan")->check(one_of({"cloud", "scan"}))
       ->capture_default_str();
@@ -109,7 +110,8 @@ nlohmann::ordered_json to_json(const TopicReport& r) {
   json["way_m"] = rounded(r.way);
   json["simulated_s"] = rounded(r.time), json["wall_s"] = rounded(r.wall);
   json["real_time_factor"] = r.wall > 0 ? rounded(r.time / r.wall) : 0;
-  json["periods"] = r.periods, json["deadlines_missed"] = r.deadlines_missed, json["slowest_ms"] = rounded(1000 * r.slowest, 10);
+  json["periods"] = r.periods, json["deadlines_missed"] = r.deadlines_missed;
+  json["slowest_ms"] = rounded(1000 * r.slowest, 10);
   json["clouds"] = r.clouds, json["clouds_dropped"] = r.clouds_dropped, json["clouds_late"] = r.clouds_late;
   json["clouds_empty"] = r.clouds_empty, json["points_left_out"] = r.points_left_out;
   json["poses"] = r.poses, json["matches_failed"] = r.matches_failed;
@@ -123,8 +125,9 @@ void write_log(const std::string& path, const TopicReport& report) {
   for (const TopicPeriod& p : report.course) {
     char row[300];
     std::snprintf(row, sizeof row, "%.3f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.2f\n",
-                  1e-9 * double(p.stamp_ns), p.pose.x, p.pose.y, p.pose.yaw, p.odometry.x, p.odometry.y, p.odometry.yaw, p.ground.along_x, p.ground.along_y, p.ground.height,
-                  p.linear, p.angular, 1000 * p.took);
+                  1e-9 * double(p.stamp_ns), p.pose.x, p.pose.y, p.pose.yaw, p.odometry.x, p.odometry.y,
+                  p.odometry.yaw, p.ground.along_x, p.ground.along_y, p.ground.height, p.linear, p.angular,
+                  1000 * p.took);
     text += row;
   }
   write_text_file(path, text);
@@ -158,7 +161,8 @@ int main(int argc, char** argv) {
   rubble::Request request;
   CLI::App program("Drives a robot to a goal by MRPT's reactive navigator, over topics of ROS 1 alone (docs/autonomy.md).",
                    "ros1_navigator");
-  program.footer("Exit codes: 0 arrived, 1 did not arrive, 2 could not start (options, no ROS master), 4 stopped by a signal.");
+  program.footer("Exit codes: 0 arrived, 1 did not arrive, 2 could not start (options, no ROS master), "
+                 "4 stopped by a signal.");
   rubble::declare(program, request);
   try {
     program.parse(argc, argv);

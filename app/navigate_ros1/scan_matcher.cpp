@@ -33,7 +33,8 @@ std::vector<Vec3> turned_by(double yaw, const std::vector<Vec3>& points) {
 }
 
 double doubt_of(const PlanarPose& guess, const PlanarPose& pose) {
-  return kPriorOfPlace * std::hypot(pose.x - guess.x, pose.y - guess.y) + kPriorOfTurn * std::fabs(wrapped(pose.yaw - guess.yaw));
+  return kPriorOfPlace * std::hypot(pose.x - guess.x, pose.y - guess.y) +
+         kPriorOfTurn * std::fabs(wrapped(pose.yaw - guess.yaw));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // The stage from a settled pile to robots that were driven through it.
 #include <algorithm>
+#include <cstdio>
 
 #include "app/control/robot_control.h"
 #include "app/control/robot_senses.h"
@@ -74,7 +75,7 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
   RobotRunResult result;
   with_lines_of_script(mission, [&] {
     RideRecorder rides(mission.scenario, made);
-    RobotSenses senses(mission, pile, made, context.threads(), context.options.gl_device);
+    RobotSenses senses(mission, pile, made, context);
     const RobotRunOptions options = robot_run_options(mission.scenario, context.threads());
     RobotRun run(make_laid_pile(mission, pile), pile, options);
     for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -89,7 +90,9 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
     result = run.run([&](double done) {
       rides.note(run.world());
       senses.note_step(run.world());
-      context.progress.update(done, format_number(done * mission.scenario.robot_run.duration) + " s");
+      char time[32];
+      std::snprintf(time, sizeof time, "%.1f s", done * mission.scenario.robot_run.duration);
+      context.progress.update(done, time);
       return !stop_requested();
     });
     throw_if_stopped(folder.path());

@@ -37,12 +37,14 @@ std::int64_t half_exposure_ns(const CameraSpec& spec) {
 }  // namespace
 
 LiveColours::LiveColours(const Scenario& scenario, const std::vector<RidingSensor>& cameras, const Scene& scene,
-                         int gl_device, double step, int threads)
-    : steps_(scenario.start_ns, step), gl_({gl_device, threads}), renderer_(gl_, scene, render_options(threads)) {
+                         const LiveColoursOptions& options)
+    : steps_(scenario.start_ns, options.step),
+      gl_({options.gl_device, options.threads}),
+      renderer_(gl_, scene, render_options(options.threads), options.progress) {
   const std::vector<MountedCamera> all = all_cameras(scenario);
   for (const RidingSensor& at : cameras) {
     const MountedCamera& mounted = all[at.number];
-    const CameraSpec spec = build_eye(scenario, mounted, threads);
+    const CameraSpec spec = build_eye(scenario, mounted, options.threads);
     Flight flight;
     flight.pose_at = [this, mounted](std::int64_t stamp_ns) {
       return place_on_mount(mounted, steps_.carrier_at(stamp_ns));

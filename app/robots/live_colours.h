@@ -27,12 +27,19 @@ struct SensedColours {
   std::vector<std::uint8_t> rgb;  // row by row from the top
 };
 
+struct LiveColoursOptions {
+  int gl_device = -1;           // see GlContextOptions
+  int threads = 1;
+  double step = 0;              // of the robots; unit: s
+  Renderer::Progress progress;  // of the light
+};
+
 class LiveColours {
  public:
-  // scene: as for LiveRanges. gl_device: see GlContextOptions. The scenario's colours are drawn by the fast renderer.
-  // Throws RunError as GlContext and Renderer do.
-  LiveColours(const Scenario& scenario, const std::vector<RidingSensor>& cameras, const Scene& scene, int gl_device,
-              double step, int threads);
+  // scene: as for LiveRanges. The scenario's colours are drawn by the fast renderer. Throws RunError as GlContext and
+  // Renderer do.
+  LiveColours(const Scenario& scenario, const std::vector<RidingSensor>& cameras, const Scene& scene,
+              const LiveColoursOptions& options);
   ~LiveColours();
 
   void restart(const World& world) { steps_.restart(world); }  // at the robots' time 0; once

@@ -31,7 +31,8 @@ struct SensedDepth {
 
 class LiveRanges {
  public:
-  // scene: shows everything where it is (build_live_scene, by pose_of() of this while measuring() is true). Throws InputError for a camera whose lens is no pinhole.
+  // scene: shows everything where it is (build_live_scene, by pose_of() of this while measuring() is true).
+  // Throws InputError for a camera whose lens is no pinhole.
   LiveRanges(const Scenario& scenario, const std::vector<RidingSensor>& lidars,
              const std::vector<RidingSensor>& cameras, const Scene& scene, const Medium& medium, double step,
              int threads);

@@ -27,7 +27,8 @@ struct LightProbe {
     return max(mean * portable::kPiF + along * (2 * portable::kPiF / 3), Vec3f());
   }
   bool is_same(const LightProbe& o) const {
-    return mean == o.mean && slope[0] == o.slope[0] && slope[1] == o.slope[1] && slope[2] == o.slope[2] && inside == o.inside;
+    return mean == o.mean && slope[0] == o.slope[0] && slope[1] == o.slope[1] && slope[2] == o.slope[2] &&
+           inside == o.inside;
   }
   // dot(n, result) is the strength of that light, for normals near n.
   Vec3f vector(const Vec3f& n) const {

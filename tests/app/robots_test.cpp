@@ -55,6 +55,24 @@ TEST(Robots, RunsHaveTheSameBitsOnAnyNumberOfThreadsAndAreVerified) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
 }
 
+// The mission whose cost docs/robots.md states.
+TEST(Robots, ASnakeAmongManyContactsHasTheSameBitsOnAnyNumberOfThreads) {
+  const ScratchFolder scratch;
+  std::string tracks[2];
+  for (int threads = 1; threads <= 2; ++threads) {
+    const std::string out = scratch / std::to_string(threads);
+    const Outcome run = run_rubble("run bench/snake_bed.lua --threads " + std::to_string(threads) + kQuick + out);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    tracks[threads - 1] = read_file(out + "/robots/track.bin");
+    const std::string said = "contacts: ";
+    const std::size_t at = run.err.find(said);
+    ASSERT_NE(at, std::string::npos) << run.err;
+    EXPECT_GT(std::stod(run.err.substr(at + said.size())), 20);
+  }
+  EXPECT_FALSE(tracks[0].empty());
+  EXPECT_TRUE(tracks[0] == tracks[1]);
+}
+
 TEST(Robots, AControllerThatReturnsNoNumberIsAMistakeWithItsLine) {
   const ScratchFolder scratch;
   write_file(scratch / "m.lua",

@@ -285,7 +285,7 @@ TEST(SearchAgents, ThatMisbehaveAreNamedAndEndTheirSearchOnly) {
       {"kill -SEGV $$", "the agent ended by signal 11"},
       {"yes", "the agent floods: "},
       {"tr -d '\\n' < /dev/zero", "the agent floods: "},
-      {"while read line; do echo hello; done", "is not understood: expected a JSON object in one line, found hello"},
+      {"read a; while read line; do echo hello; done", "is not understood: expected a JSON object in one line, found hello"},
       {"read a; while read line; do echo '{\"velocity\": [0, 1]}'; done", "three numbers in `velocity`"},
       {"read a; while read line; do echo '{\"speed\": 1}'; done", "not `speed`"},
       {"read a; while read line; do echo '{\"turn\": 1e999}'; done", "1e999"},

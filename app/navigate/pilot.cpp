@@ -33,9 +33,10 @@ NavigatorOutput Pilot::step(const PilotInput& input) {
   if (rules_.plans) follow_route(input);
   NavigatorOutput output = navigator_.step(make_input(input));
   has_arrived_ = output.state == NavigatorState::arrived;
+  if (has_arrived_ && is_last() && distance(target_, next()) == 0) return output;
+  // At a place of the route it goes on with the next call.
+  if (has_arrived_) output.state = NavigatorState::driving;
   if (is_stuck(input)) output.state = NavigatorState::gave_up;
-  // At a place of the route, or on the way to one, it goes on with the next call.
-  if (has_arrived_ && !(is_last() && distance(target_, next()) == 0)) output.state = NavigatorState::driving;
   return output;
 }
 

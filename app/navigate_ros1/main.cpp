@@ -77,6 +77,9 @@ void complete(Request& r) {
   if (!(std::fabs(r.goal[0]) <= 50 && std::fabs(r.goal[1]) <= 50))
     throw InputError({"", 0, "--goal", "too far", "at most 50 m ahead and aside",
                       std::to_string(r.goal[0]) + " " + std::to_string(r.goal[1]), ""});
+  const std::filesystem::path folder = std::filesystem::path(r.log).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+    throw InputError({"", 0, "--log", "its folder is not there", "a file in a folder that is there", r.log, ""});
   r.navigator.planar = r.sensor == "scan";
   r.navigator.pose = r.pose == "tf" ? PoseSource::transforms : PoseSource::odometry;
   r.navigator.matches = r.localize == "match";
@@ -146,8 +149,9 @@ Result navigate_over_topics(Request& request) {
     if (stop_requested()) navigator.end(TopicEnd::stopped, "a signal stopped this program");
   }
   const TopicReport& report = navigator.report();
-  if (!request.log.empty()) write_log(request.log, report);
   std::printf("%s\n", to_json(report).dump(2).c_str());
+  std::fflush(stdout);
+  if (!request.log.empty()) write_log(request.log, report);
   if (!report.message.empty())
     std::fprintf(stderr, "ros1_navigator: %s: %s\n", name_of(report.end).c_str(), report.message.c_str());
   if (report.end == TopicEnd::stopped) return Result::stopped;

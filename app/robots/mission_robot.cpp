@@ -67,14 +67,14 @@ RobotLamp place_lamp(const LampItem& item, const MissionRobot& robot, const std:
   if (!item.link.empty()) {
     const RiddenLink on = find_link(robot, item.link, key);
     lamp.link = int(on.link), lamp.link_from_lamp = on.link_from_rider;
+  } else if (item.position) {
+    lamp.link_from_lamp = {};
   }
   const RobotLink& link = robot.model.links[std::size_t(lamp.link)];
   if (link.parts.empty() && link.looks.triangles.empty())
     throw InputError({"", 0, key + ".link", "the link has no shape that could carry a lamp", "a link that is seen",
                       "\"" + link.name + "\"", ""});
-  const Pose& from = lamp.link_from_lamp;
-  lamp.link_from_lamp = from * Pose{quat_from_degrees(item.rpy_deg), item.position.value_or(Vec3())};
-  if (item.link.empty() && item.position) lamp.link_from_lamp.translation = *item.position;
+  lamp.link_from_lamp = lamp.link_from_lamp * Pose{quat_from_degrees(item.rpy_deg), item.position.value_or(Vec3())};
   lamp.intensity_cd = item.intensity_cd, lamp.cone_deg = item.cone_deg;
   return lamp;
 }

@@ -56,6 +56,13 @@ std::string without_slash(const std::string& frame) {
   return frame.empty() || frame[0] != '/' ? frame : frame.substr(1);
 }
 
+HeardCloud begin_cloud(WireCursor& cursor) {
+  const WireCursor::Header header = cursor.header();
+  HeardCloud cloud;
+  cloud.stamp_ns = header.stamp_ns, cloud.frame = without_slash(header.frame);
+  return cloud;
+}
+
 void add_point(double x, double y, double z, double time, HeardCloud& cloud) {
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z) || !std::isfinite(time))
     ++cloud.left_out;
@@ -85,9 +92,7 @@ std::vector<HeardTransform> read_transforms(ros::Version version, std::string_vi
 
 HeardCloud read_point_cloud(ros::Version version, std::string_view message) {
   WireCursor cursor("sensor_msgs/PointCloud2", version, message);
-  const WireCursor::Header header = cursor.header();
-  HeardCloud cloud;
-  cloud.stamp_ns = header.stamp_ns, cloud.frame = without_slash(header.frame);
+  HeardCloud cloud = begin_cloud(cursor);
   const std::size_t height = cursor.number<std::uint32_t>(), width = cursor.number<std::uint32_t>();
   const PointLayout layout = read_layout(cursor);
   const bool big_endian = cursor.number<std::uint8_t>() != 0;
@@ -107,9 +112,7 @@ HeardCloud read_point_cloud(ros::Version version, std::string_view message) {
 
 HeardCloud read_laser_scan(ros::Version version, std::string_view message) {
   WireCursor cursor("sensor_msgs/LaserScan", version, message);
-  const WireCursor::Header header = cursor.header();
-  HeardCloud cloud;
-  cloud.stamp_ns = header.stamp_ns, cloud.frame = without_slash(header.frame);
+  HeardCloud cloud = begin_cloud(cursor);
   float numbers[7];  // angle_min, angle_max, angle_increment, time_increment, scan_time, range_min, range_max
   for (float& number : numbers) number = cursor.number<float>();
   const double first = double(numbers[0]), step = double(numbers[2]), pause = double(numbers[3]);

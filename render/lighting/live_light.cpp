@@ -194,8 +194,7 @@ Vec3f LiveLight::light_of(const Hit& hit) const {
 
 // Projection on the first four spherical harmonics: slope = 3 mean(L w). lit: what lights the surfaces
 // besides the lights; null: nothing does.
-LightProbe LiveLight::gather(const std::vector<Hit>& hits, std::size_t first,
-                                   const Probes* lit) const {
+LightProbe LiveLight::gather(const std::vector<Hit>& hits, std::size_t first, const Probes* lit) const {
   LightProbe probe;
   int inside = 0;
   for (std::size_t r = 0; r < directions_.size(); ++r) {

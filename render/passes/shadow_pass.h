@@ -1,6 +1,6 @@
 // The shadow maps of all lights. What rests is drawn once, what moves whenever it has moved, and all that a carried
-// light sees whenever that is. One view
-// for narrow spots and for the sun (two where there are surroundings), six (a cube) for the others.
+// light sees whenever that is. One view for narrow spots and for the sun (two where there are surroundings), six (a
+// cube) for the others.
 #pragma once
 
 #include <array>

@@ -65,6 +65,7 @@ SceneLights::SceneLights(const LightSet& lights) : lights_(lights), sky_sampler_
   const LightModel& main = lights.lights.front();
   const bool sunny = main.type == LightType::directional;
   skyline_ = lights.sky.mean * 0.10f + (sunny ? main.colour * 0.02f : Vec3f());
+  lights_.carried = 0;  // here all are alike
   lights_.lights.insert(lights_.lights.end(), lights.far.begin(), lights.far.end());
 }
 

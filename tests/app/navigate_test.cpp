@@ -10,6 +10,7 @@
 #include "app/navigate/collision_counter.h"
 #include "app/navigate/navigation_run.h"
 #include "app/navigate/obstacle_map.h"
+#include "app/navigate/pilot.h"
 #include "app/pipeline/seeded_piles.h"
 #include "io/mrpt/reactive_navigator.h"
 #include "kernel/base/error.h"
@@ -133,6 +134,24 @@ TEST(ReactiveNavigator, MistakesAreNamed) {
   EXPECT_EQ(key_of(options), "max_speed");
   options = options_in(folder), options.horizon = std::nan("");
   EXPECT_EQ(key_of(options), "horizon");
+}
+
+// It is always where the navigator was last sent to, on the way to a goal that it does not come nearer to.
+TEST(Pilot, GivesUpWhereItGetsNoFurtherThoughItReachesPlacesOfItsRoute) {
+  const ScratchFolder scratch;
+  PilotOptions options;
+  options.rules.plans = true, options.rules.goal_radius = 2.5;  // places of the route are at most 2 m ahead
+  options.bounds.include({-4, -4, -0.5}), options.bounds.include({14, 4, 1.5});
+  options.shape = {{0.3, 0.4, 0.3}};
+  options.waypoints = {{10, 0, 0}};
+  options.cache_folder = scratch.path().string();
+  Pilot pilot(options);
+  double gave_up = 0;
+  for (int i = 0; i < 200 && gave_up == 0; ++i) {
+    const double time = 0.2 * i;
+    if (pilot.step({time, {0, 0, 0}, 0, {}, 0}).state == NavigatorState::gave_up) gave_up = time;
+  }
+  EXPECT_NEAR(gave_up, options.rules.stuck_time, 0.5);
 }
 
 TEST(ObstacleMap, HoldsCellsThatWereSeenOftenEnough) {

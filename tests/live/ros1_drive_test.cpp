@@ -44,26 +44,34 @@ TEST(LiveRos1Drive, ARobotGoesAsTopicsAskAndRunsAgainWithTheSameBits) {
   if (!HasFatalFailure()) expect_the_robot_runs_again(scratch, true);
 }
 
+// A program of its own drives the robot of that mission and says that it arrived; the run of what was driven, scratch/leg,
+// has the same bits. result: what it said.
+void drive_by_program(const ScratchFolder& scratch, const std::string& command, const std::string& mission,
+                      const std::string& run_options, nlohmann::json& result) {
+  drive_in_a_window(scratch, with_a_master(), "--ros1",
+                    "\n" + command + " >$d/result.json 2>$d/node || touch $d/failed\nkill -TERM $drive", mission, 500);
+  if (::testing::Test::HasFatalFailure()) return;
+  const std::string text = read_file(scratch / "result.json");
+  std::printf("%s", text.c_str());
+  result = nlohmann::json::parse(text);
+  EXPECT_EQ(result["result"], "arrived") << text << read_file(scratch / "node") << read_file(scratch / "stderr");
+  EXPECT_LT(result["real_time_factor"].get<double>(), 1.05) << "the drive keeps to real time, or is slower";
+  const Outcome run = run_rubble("run " + (scratch / "out/leg_001.lua") + " --quiet --set camera.width=32 --set " +
+                                 "camera.height=24 " + run_options + " --out " + (scratch / "leg"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(read_file(scratch / "out/leg_001.track") == read_file(scratch / "leg/robots/track.bin"));
+}
+
 // A program that knows the robot by its topics alone takes it through a lean-to, in real time; the run of what was
 // driven ends at the same place, behind the lean-to.
 TEST(NightlyLiveRos1Drive, AProgramOfItsOwnDrivesThroughALeanTo) {
   if (!has_ros1()) GTEST_SKIP() << "no rosmaster: see tools/packages-live.txt";
   const ScratchFolder scratch;
-  drive_in_a_window(scratch, with_a_master(), "--ros1",
-                    "\n'" RUBBLE_PYTHON "' '" RUBBLE_SOURCE_DIR
-                    "/examples/ros1/follow_the_gap.py' 6.5 >$d/result.json 2>$d/node || touch $d/failed\n"
-                    "kill -TERM $drive",
-                    "examples/ros1/lean_to.lua", 500);
+  nlohmann::json result;
+  drive_by_program(scratch, "'" RUBBLE_PYTHON "' '" RUBBLE_SOURCE_DIR "/examples/ros1/follow_the_gap.py' 6.5",
+                   "examples/ros1/lean_to.lua", "--set trajectory.rate_hz=0.05 --set lidars.scan.rate_hz=1",
+                   result);
   if (HasFatalFailure()) return;
-  const std::string text = read_file(scratch / "result.json");
-  std::printf("%s", text.c_str());
-  const auto result = nlohmann::json::parse(text);
-  EXPECT_EQ(result["result"], "arrived") << text << read_file(scratch / "node") << read_file(scratch / "stderr");
-  EXPECT_LT(result["real_time_factor"].get<double>(), 1.05) << "the drive keeps to real time, or is slower";
-  const Outcome run = run_rubble("run " + (scratch / "out/leg_001.lua") + " --quiet --set camera.width=32 --set "
-                                 "camera.height=24 --set trajectory.rate_hz=0.05 --set lidars.scan.rate_hz=1 --out " + (scratch / "leg"));
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_TRUE(read_file(scratch / "out/leg_001.track") == read_file(scratch / "leg/robots/track.bin"));
   const std::string truth = read_file(scratch / "leg/robots/rover.txt");
   std::istringstream last(truth.substr(truth.rfind('\n', truth.size() - 2) + 1));
   double time = 0, x = 0, y = 0;
@@ -77,20 +85,10 @@ TEST(NightlyLiveRos1Drive, AProgramOfItsOwnDrivesThroughALeanTo) {
 TEST(NightlyLiveRos1Drive, MrptsNavigatorDrivesACrawlerThroughALeanTo) {
   if (!has_ros1()) GTEST_SKIP() << "no rosmaster: see tools/packages-live.txt";
   const ScratchFolder scratch;
-  drive_in_a_window(scratch, with_a_master(), "--ros1",
-                    "\n'" RUBBLE_NAVIGATOR "' --goal 8.5 0 >$d/result.json 2>$d/node || touch $d/failed\n"
-                    "kill -TERM $drive",
-                    "examples/ros1/crawler_lean_to.lua", 500);
+  nlohmann::json result;
+  drive_by_program(scratch, "'" RUBBLE_NAVIGATOR "' --goal 8.5 0", "examples/ros1/crawler_lean_to.lua",
+                   "--set trajectory.rate_hz=1 --set lidars.points.rate_hz=1", result);
   if (HasFatalFailure()) return;
-  const std::string text = read_file(scratch / "result.json");
-  std::printf("%s", text.c_str());
-  const auto result = nlohmann::json::parse(text);
-  EXPECT_EQ(result["result"], "arrived") << text << read_file(scratch / "node") << read_file(scratch / "stderr");
-  EXPECT_LT(result["real_time_factor"].get<double>(), 1.05) << "the drive keeps to real time, or is slower";
-  const Outcome run = run_rubble("run " + (scratch / "out/leg_001.lua") + " --quiet --set camera.width=32 --set "
-                                 "camera.height=24 --set trajectory.rate_hz=1 --set lidars.points.rate_hz=1 --out " + (scratch / "leg"));
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_TRUE(read_file(scratch / "out/leg_001.track") == read_file(scratch / "leg/robots/track.bin"));
   const std::string judge = "'" RUBBLE_PYTHON "' '" RUBBLE_SOURCE_DIR "/tests/live/judge_navigation.py' '" + (scratch / "leg") +
                             "' >'" + (scratch / "truth.json") + "'";
   ASSERT_EQ(std::system(judge.c_str()), 0);

@@ -13,7 +13,7 @@ class SeenCells {
   // wanted: the cells that count, by their indices, each once.
   SeenCells(const VoxelGrid& grid, const std::vector<std::uint32_t>& wanted);
 
-  // Every cell that a ray passes on its way (Amanatides and Woo 1987, "A fast voxel traversal algorithm").
+  // Every cell that a ray passes on its way.
   // direction: unit length; range: how far it goes; unit: m. Non-finite ranges are not allowed.
   void mark(const Vec3& from, const Vec3& direction, double range);
   void forget();

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "app/eval/scores/space_key.h"
+#include "kernel/voids/cell_walk.h"
 #include "kernel/voids/void_map.h"
 
 namespace rubble {
@@ -29,51 +29,6 @@ std::vector<Vec3> thin_out(const VoxelGrid& grid, const std::vector<Vec3>& point
     means.push_back(sum * (1.0 / double(last - first)));
   }
   return means;
-}
-
-// The part of the way from a to b that is inside a grid, as shares of it; empty where first > last.
-std::pair<double, double> clip(const VoxelGrid& grid, const Vec3& a, const Vec3& b) {
-  double first = 0, last = 1;
-  for (int k = 0; k < 3; ++k) {
-    const double low = grid.corner[k], high = low + grid.size[std::size_t(k)] * grid.voxel;
-    const double way = b[k] - a[k];
-    if (way == 0) {
-      if (a[k] < low || a[k] > high) return {1, 0};
-      continue;
-    }
-    const double s = (low - a[k]) / way, t = (high - a[k]) / way;
-    first = std::max(first, std::min(s, t));
-    last = std::min(last, std::max(s, t));
-  }
-  return {first, last};
-}
-
-// Calls visit(cell) for each cell on the way from a to b in turn, until it returns false (Amanatides
-// and Woo 1987, "A fast voxel traversal algorithm for ray tracing").
-template <typename Visit>
-void walk(const VoxelGrid& grid, const Vec3& a, const Vec3& b, Visit&& visit) {
-  const auto [first, last] = clip(grid, a, b);
-  if (!(first <= last)) return;
-  const Vec3 way = b - a;
-  Cell cell = grid.find_cell(a + way * first);
-  double next[3], step[3];  // shares of the way: to the next border, and from border to border
-  int side[3];
-  for (int k = 0; k < 3; ++k) {
-    const std::size_t i = std::size_t(k);
-    cell[i] = std::clamp(cell[i], 0, grid.size[i] - 1);
-    side[k] = way[k] < 0 ? -1 : 1;
-    const double border = grid.corner[k] + (cell[i] + (side[k] > 0)) * grid.voxel;
-    const bool still = way[k] == 0;
-    next[k] = still ? std::numeric_limits<double>::infinity() : (border - a[k]) / way[k];
-    step[k] = still ? 0 : grid.voxel / std::abs(way[k]);
-  }
-  while (grid.contains(cell)) {
-    if (!visit(grid.index(cell))) return;
-    const int k = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
-    if (next[k] > last) return;
-    cell[std::size_t(k)] += side[k];
-    next[k] += step[k];
-  }
 }
 
 bool may_be_measured(const Vec3& point, std::size_t frame, const PileQueries& truth,
@@ -102,7 +57,7 @@ CarvedSpace::CarvedSpace(const VoxelGrid& grid, const std::vector<Vec3>& map,
 
 // Several threads carve at once: what is surface stays so, and all else that they write is `free`.
 void CarvedSpace::carve(const Vec3& from, const Vec3& to) {
-  walk(grid_, from, to, [&](std::size_t cell) {
+  walk_cells(grid_, from, to - from, 1, [&](std::size_t cell) {
     State* const state = &state_[cell];
     State now;
     __atomic_load(state, &now, __ATOMIC_RELAXED);

@@ -3,9 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rubble {
+#include "kernel/voids/cell_walk.h"
 
-ObstacleMap::ObstacleMap(const Aabb& bounds, double voxel, int hits) : hits_(std::uint8_t(std::clamp(hits, 1, 255))) {
+namespace rubble {
+namespace {
+
+// Evidence: of an echo or a scan with one, of a scan that saw through, and beyond what makes a cell occupied.
+constexpr int kHit = 2, kPass = 1, kMostBeyond = 8;
+constexpr double kNotPassed = 0.1;  // before an echo, as ranges are noisy; unit: m
+
+}  // namespace
+
+ObstacleMap::ObstacleMap(const Aabb& bounds, double voxel, int hits)
+    : occupied_(std::uint8_t(kHit * std::clamp(hits, 1, 100))) {
   grid_.voxel = voxel;
   grid_.corner = bounds.min;
   for (int k = 0; k < 3; ++k)
@@ -17,12 +27,37 @@ void ObstacleMap::add(const Vec3& point) {
   const Cell cell = grid_.find_cell(point);
   if (!grid_.contains(cell)) return;
   std::uint8_t& seen = seen_[grid_.index(cell)];
-  if (seen < hits_) ++seen;
+  seen = std::uint8_t(std::min(seen + kHit, occupied_ + kMostBeyond));
+}
+
+void ObstacleMap::touch(std::size_t cell, Now how) {
+  if (now_[cell] == Now::untouched) touched_.push_back(std::uint32_t(cell));
+  now_[cell] = std::max(now_[cell], how);
+}
+
+void ObstacleMap::add_scan(const Vec3& sensor, const std::vector<Vec3>& echoes) {
+  now_.resize(grid_.count(), Now::untouched);
+  for (const Vec3& echo : echoes) {
+    const Cell cell = grid_.find_cell(echo);
+    if (grid_.contains(cell)) touch(grid_.index(cell), Now::hit);
+    const double range = distance(sensor, echo);
+    if (!(range > kNotPassed)) continue;
+    walk_cells(grid_, sensor, (echo - sensor) * (1 / range), range - kNotPassed, [this](std::size_t passed) {
+      touch(passed, Now::passed);
+      return true;
+    });
+  }
+  for (const std::uint32_t cell : touched_) {
+    const int seen = seen_[cell] + (now_[cell] == Now::hit ? kHit : -kPass);
+    seen_[cell] = std::uint8_t(std::clamp(seen, 0, occupied_ + kMostBeyond));
+    now_[cell] = Now::untouched;
+  }
+  touched_.clear();
 }
 
 bool ObstacleMap::is_occupied(const Vec3& point) const {
   const Cell cell = grid_.find_cell(point);
-  return grid_.contains(cell) && seen_[grid_.index(cell)] == hits_;
+  return grid_.contains(cell) && seen_[grid_.index(cell)] >= occupied_;
 }
 
 VoxelGrid ObstacleMap::flat_grid() const {
@@ -38,7 +73,7 @@ std::vector<Cell> ObstacleMap::find_columns(double lowest, double highest) const
   for (int y = 0; y < grid_.size[1]; ++y)
     for (int x = 0; x < grid_.size[0]; ++x)
       for (int z = first; z <= last; ++z)
-        if (seen_[grid_.index({x, y, z})] == hits_) {
+        if (seen_[grid_.index({x, y, z})] >= occupied_) {
           columns.push_back({x, y, 0});
           break;
         }
@@ -56,7 +91,7 @@ std::vector<Vec3> ObstacleMap::find_around(const Vec3& place, double reach, doub
   for (int z = first[2]; z <= last[2]; ++z)
     for (int y = first[1]; y <= last[1]; ++y)
       for (int x = first[0]; x <= last[0]; ++x)
-        if (seen_[grid_.index({x, y, z})] == hits_) found.push_back(grid_.centre({x, y, z}));
+        if (seen_[grid_.index({x, y, z})] >= occupied_) found.push_back(grid_.centre({x, y, z}));
   return found;
 }
 

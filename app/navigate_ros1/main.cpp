@@ -24,7 +24,7 @@ namespace {
 enum class Result { arrived = 0, did_not_arrive = 1, not_started = 2, stopped = 4 };
 
 struct Request {
-  std::vector<double> goal;
+  std::vector<std::pair<double, double>> goals;
   std::string robot = "crawler", sensor = "cloud", pose = "odom", planner = "none", localize = "match";
   std::string topic;  // empty: /points or /scan
   double turn_share = 0;  // 0: of the robot
@@ -41,7 +41,9 @@ std::vector<std::string> robot_names() {
 
 void declare(CLI::App& program, Request& r) {
   const auto one_of = [](std::vector<std::string> names) { return CLI::IsMember(std::move(names)); };
-  program.add_option("--goal", r.goal, "ahead and to the left of where the robot starts; m")->expected(2)->required();
+  program.add_option("--goal", r.goals,
+                     "ahead and to the left of where the robot starts; m. Several are driven to one after the other")
+      ->required();
   program.add_option("--robot", r.robot, "its shape, and how it skids")->check(one_of(robot_names()))
       ->capture_default_str();
   program.add_option("--turn-share", r.turn_share,
@@ -73,10 +75,13 @@ void complete(Request& r) {
   for (const RobotKindOfNavigator& kind : known_robots())
     if (kind.name == r.robot) r.navigator.robot = kind;
   if (r.turn_share > 0) r.navigator.robot.turn_share = r.turn_share;
-  r.navigator.goal_x = r.goal[0], r.navigator.goal_y = r.goal[1];
-  if (!(std::fabs(r.goal[0]) <= 50 && std::fabs(r.goal[1]) <= 50))
-    throw InputError({"", 0, "--goal", "too far", "at most 50 m ahead and aside",
-                      std::to_string(r.goal[0]) + " " + std::to_string(r.goal[1]), ""});
+  r.navigator.waypoints.clear();
+  for (const auto& [x, y] : r.goals) {
+    if (!(std::fabs(x) <= 50 && std::fabs(y) <= 50))
+      throw InputError({"", 0, "--goal", "too far", "at most 50 m ahead and aside",
+                        std::to_string(x) + " " + std::to_string(y), ""});
+    r.navigator.waypoints.push_back({x, y, 0});
+  }
   const std::filesystem::path folder = std::filesystem::path(r.log).parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder))
     throw InputError({"", 0, "--log", "its folder is not there", "a file in a folder that is there", r.log, ""});

@@ -7,7 +7,7 @@
 namespace rubble {
 namespace {
 
-constexpr double kMargin = 8;                      // of the map, around start and goal; unit: m
+constexpr double kMargin = 8;                      // of the map, around start and waypoints; unit: m
 constexpr double kLowest = -0.3, kHighest = 1.3;   // of the map; unit: m
 constexpr double kPlanarHeight = 0.3;              // of what a 2-D scanner sees: it stands upright, as far as is known; unit: m
 constexpr double kReach = 6;                       // of points that are mapped; unit: m
@@ -41,7 +41,9 @@ NavigationRules make_rules(const TopicNavigatorOptions& options) {
 
 Aabb make_bounds(const TopicNavigatorOptions& options) {
   Aabb bounds;
-  for (const Vec3& place : {Vec3{0, 0, 0}, Vec3{options.goal_x, options.goal_y, 0}}) {
+  std::vector<Vec3> places = options.waypoints;
+  places.push_back({0, 0, 0});
+  for (const Vec3& place : places) {
     bounds.include(place + Vec3{-kMargin, -kMargin, kLowest});
     bounds.include(place + Vec3{kMargin, kMargin, kHighest});
   }
@@ -51,7 +53,7 @@ Aabb make_bounds(const TopicNavigatorOptions& options) {
 PilotOptions make_pilot_options(const TopicNavigatorOptions& options, const Aabb& bounds) {
   PilotOptions pilot;
   pilot.rules = make_rules(options), pilot.bounds = bounds, pilot.shape = options.robot.shape;
-  pilot.waypoints = {{options.goal_x, options.goal_y, 0}}, pilot.cache_folder = options.cache_folder;
+  pilot.waypoints = options.waypoints, pilot.cache_folder = options.cache_folder;
   return pilot;
 }
 
@@ -66,19 +68,30 @@ bool is_robot(const Vec3& p, const std::vector<NavigatorSlice>& shape) {
   return false;
 }
 
-// Of what stands upright, one point of each cell seen from above, in their order.
+// Of what stands upright, one point of each cell seen from above, in their order. A point that is alone among the cells
+// around is left out: beams that meet an edge have echoes in the air behind it.
 std::vector<Vec3> thinned(const std::vector<Vec3>& points, double reach) {
   VoxelGrid grid;
   grid.voxel = kCell, grid.corner = {-kReach, -kReach, 0};
   grid.size = {int(2 * kReach / kCell), int(2 * kReach / kCell), 1};
-  std::vector<std::uint8_t> taken(grid.count(), 0);
-  std::vector<Vec3> kept;
+  std::vector<std::uint8_t> count(grid.count(), 0), taken(grid.count(), 0);
+  std::vector<std::pair<Cell, Vec3>> upright;
   for (const Vec3& p : points) {
     const Cell cell = grid.find_cell({p.x, p.y, 0.5 * kCell});
-    if (!PlanarMap::holds(p) || p.x * p.x + p.y * p.y > reach * reach) continue;
-    if (!grid.contains(cell) || taken[grid.index(cell)]) continue;
+    if (!PlanarMap::holds(p) || p.x * p.x + p.y * p.y > reach * reach || !grid.contains(cell)) continue;
+    std::uint8_t& here = count[grid.index(cell)];
+    here = std::uint8_t(std::min(here + 1, 2));
+    upright.push_back({cell, p});
+  }
+  std::vector<Vec3> kept;
+  for (const auto& [cell, p] : upright) {
+    if (taken[grid.index(cell)]) continue;
     taken[grid.index(cell)] = 1;
-    kept.push_back(p);
+    int around = 0;
+    for (int y = std::max(0, cell[1] - 1); y <= std::min(grid.size[1] - 1, cell[1] + 1); ++y)
+      for (int x = std::max(0, cell[0] - 1); x <= std::min(grid.size[0] - 1, cell[0] + 1); ++x)
+        around += count[grid.index({x, y, 0})];
+    if (around > 1) kept.push_back(p);
   }
   return kept;
 }
@@ -202,7 +215,8 @@ void TopicNavigator::step(const HeardCloud& cloud, double wall) {
   // Of several that came at once, the newest is driven by.
   if (!waiting_.empty() && is_complete(waiting_.front(), wall)) return;
   const PlanarPose pose = pose_now(), velocity = track_.velocity();
-  report_.pose = pose, report_.left = std::hypot(pose.x - options_.goal_x, pose.y - options_.goal_y);
+  const Vec3& goal = options_.waypoints.back();
+  report_.pose = pose, report_.left = std::hypot(pose.x - goal.x, pose.y - goal.y);
   if (!(pose.x > bounds_.min.x && pose.x < bounds_.max.x && pose.y > bounds_.min.y && pose.y < bounds_.max.y))
     return end(TopicEnd::lost, "the robot is farther than 8 m from start and goal: it drives elsewhere than it is told to, or "
                                "its poses are wrong; look at the topic of its pose, and at `--robot`");
@@ -238,7 +252,8 @@ std::vector<Vec3> TopicNavigator::in_base(const HeardCloud& cloud, const Pose& b
 }
 
 void TopicNavigator::take_cloud(const HeardCloud& cloud) {
-  std::vector<Vec3> points = in_base(cloud, *frames_.find(base_frame_, cloud.frame));
+  const Pose base_from_sensor = *frames_.find(base_frame_, cloud.frame);
+  std::vector<Vec3> points = in_base(cloud, base_from_sensor);
   if (!options_.planar) ground_ = find_ground(points, ground_);
   const Pose level_from_base = ground_.level_from_base();
   for (Vec3& p : points) p = options_.planar ? Vec3{p.x, p.y, kPlanarHeight} : level_from_base * p;
@@ -247,7 +262,10 @@ void TopicNavigator::take_cloud(const HeardCloud& cloud) {
                points.end());
   if (options_.matches) localize(points);
   const PlanarPose map_from_base = pose_now();
-  for (const Vec3& p : points) pilot_.see(map_from_base * p);
+  Vec3 sensor = base_from_sensor.translation;
+  sensor = map_from_base * (options_.planar ? Vec3{sensor.x, sensor.y, kPlanarHeight} : level_from_base * sensor);
+  for (Vec3& p : points) p = map_from_base * p;
+  pilot_.see(sensor, points);
 }
 
 void TopicNavigator::localize(const std::vector<Vec3>& points) {

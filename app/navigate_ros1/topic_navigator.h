@@ -25,7 +25,9 @@ namespace rubble {
 enum class PoseSource { odometry, transforms };
 
 struct TopicNavigatorOptions {
-  double goal_x = 0, goal_y = 0;  // ahead and to the left of where the robot is first heard of; unit: m
+  // Driven to one after the other, ahead (X) and to the left (Y) of where the robot is first heard of; the last is the
+  // goal; at least one; unit: m
+  std::vector<Vec3> waypoints{{0, 0, 0}};
   RobotKindOfNavigator robot = known_robots().front();
   bool planar = false;            // a 2-D scanner: no ground is looked for
   bool plans = false;             // a global planner, as NavigationRules::plans

@@ -175,6 +175,34 @@ TEST(ObstacleMap, HoldsCellsThatWereSeenOftenEnough) {
   EXPECT_EQ(map.find_columns(0.4, 0.7), (std::vector<Cell>{{13, 14, 0}}));
 }
 
+TEST(ObstacleMap, ForgetsWhatScansSeeThrough) {
+  Aabb bounds;
+  bounds.include({-1, -1, 0}), bounds.include({2, 1, 1});
+  ObstacleMap map(bounds, 0.1, 2);
+  const Vec3 sensor{-0.95, 0.05, 0.45}, block{0.55, 0.05, 0.45}, wall{1.55, 0.05, 0.45}, aside{0.55, 0.65, 0.45};
+  map.add_scan(sensor, {block});
+  EXPECT_FALSE(map.is_occupied(block)) << "one scan";
+  map.add_scan(sensor, {block, aside});
+  EXPECT_TRUE(map.is_occupied(block));
+  map.add_scan(sensor, {aside, aside, aside});
+  EXPECT_TRUE(map.is_occupied(block)) << "nothing was seen there";
+  // Echoes behind it in the same scan: it hides what is behind only in part.
+  map.add_scan(sensor, {block, wall}), map.add_scan(sensor, {block, wall});
+  EXPECT_TRUE(map.is_occupied(block));
+  EXPECT_TRUE(map.is_occupied(wall));
+  // It is gone; what was seen long is not forgotten at once.
+  map.add_scan(sensor, {wall});
+  EXPECT_TRUE(map.is_occupied(block));
+  for (int k = 0; k < 10; ++k) map.add_scan(sensor, {wall});
+  EXPECT_FALSE(map.is_occupied(block));
+  EXPECT_TRUE(map.is_occupied(wall));
+  EXPECT_TRUE(map.is_occupied(aside));
+  // As fast as it was at first it is there again.
+  map.add_scan(sensor, {block}), map.add_scan(sensor, {block});
+  EXPECT_TRUE(map.is_occupied(block));
+  map.add_scan({5, 5, 5}, {{6, 5, 5}, {5, 5, 5}});  // outside, and an echo at the sensor
+}
+
 // Against a wall whose near side is the plane x = 0.5 and whose top is at `top`.
 RobotContact touch(double z, double force = 10, const Vec3& normal = {-1, 0, 0}) {
   RobotContact contact;

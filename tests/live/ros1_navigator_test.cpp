@@ -69,6 +69,10 @@ TEST_F(LiveRos1Navigator, NamesMistakesOfItsOptions) {
   const auto far = start_navigator("--goal 1000 0");
   EXPECT_EQ(far->wait(20), 2);
   expect_to_say(*far, "--goal: too far");
+  const auto second = start_navigator("--goal 1 0 --goal 3 -60");
+  EXPECT_EQ(second->wait(20), 2);
+  expect_to_say(*second, "3.000000 -60.000000");
+  EXPECT_EQ(start_navigator("--goal 1 0 --goal 3")->wait(20), 2) << "half of a place";
   EXPECT_EQ(start_navigator("--goal 1 0 --robot snake")->wait(20), 2);
 }
 

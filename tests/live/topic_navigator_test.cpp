@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "app/navigate_ros1/topic_navigator.h"
 #include "io/ros/ros_messages.h"
@@ -218,12 +219,18 @@ class PlaneRobot {
   HeardCloud cloud() {
     HeardCloud cloud;
     cloud.stamp_ns = stamp_, cloud.frame = "lidar";
+    std::map<std::pair<int, int>, Vec3> nearest;  // by direction, in steps of 0.01 rad
     for (const Vec3& p : walls_) {
       const Vec3 local = inverse(true_) * p;
       const double in_x = std::fabs(local.x) - 0.46, in_y = std::fabs(local.y) - 0.33;
       nearest_ = std::min(nearest_, std::hypot(std::max(0.0, in_x), std::max(0.0, in_y)));
-      cloud.points.push_back({Vec3f(local - Vec3{0, 0, 0.4}), 0});
+      const Vec3 ray = local - Vec3{0, 0, 0.4};
+      const double flat = std::hypot(ray.x, ray.y);
+      const auto [seen, first] = nearest.try_emplace(
+          {int(std::lround(100 * std::atan2(ray.y, ray.x))), int(std::lround(100 * std::atan2(ray.z, flat)))}, ray);
+      if (!first && dot(ray, ray) < dot(seen->second, seen->second)) seen->second = ray;
     }
+    for (const auto& [direction, ray] : nearest) cloud.points.push_back({Vec3f(ray), 0});
     for (double x = -3; x < 3; x += 0.15)
       for (double y = -3; y < 3; y += 0.15) cloud.points.push_back({Vec3f(float(x), float(y), -0.4f), 0});
     return cloud;
@@ -237,7 +244,7 @@ class PlaneRobot {
 
 TopicNavigatorOptions options_in(const ScratchFolder& folder) {
   TopicNavigatorOptions options;
-  options.goal_x = 6, options.goal_y = 0.5, options.cache_folder = folder.path().string();
+  options.waypoints = {{6, 0.5, 0}}, options.cache_folder = folder.path().string();
   return options;
 }
 
@@ -270,6 +277,22 @@ TEST_F(TopicNavigation, ArrivesByOdometryThatSkids) {
   EXPECT_EQ(r.clouds_dropped, 0);
   EXPECT_EQ(r.clouds_late, 0);
   EXPECT_EQ(robot_.linear(), 0) << "it is told to stop";
+}
+
+// The first of two places lies aside of the straight way; the goal is the last.
+TEST_F(TopicNavigation, DrivesToSeveralPlacesOneAfterTheOther) {
+  TopicNavigatorOptions options = options_in(folder_);
+  options.waypoints = {{2, 2.5, 0}, {4, 0, 0}};
+  TopicNavigator navigator = make(options);
+  double nearest = 1e9;
+  for (int k = 0; k < 400 && !navigator.has_ended(); ++k) {
+    drive(navigator, 1);
+    nearest = std::min(nearest, std::hypot(robot_.truth().x - 2, robot_.truth().y - 2.5));
+  }
+  EXPECT_EQ(navigator.report().end, TopicEnd::arrived) << navigator.report().message;
+  EXPECT_LT(nearest, 0.75);
+  EXPECT_LT(std::hypot(robot_.truth().x - 4, robot_.truth().y), 0.45);
+  EXPECT_LT(navigator.report().left, 0.35);
 }
 
 // Odometry whose turns are taken as they are puts the robot elsewhere; scans put it back.

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "app/drive/scenario_lua.h"
+#include "app/mission/scenario_lua.h"
 #include "app/pipeline/recorders.h"
 #include "app/sensors/build_camera.h"
 #include "io/base/atomic_file.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/drive/scenario_lua.h"
+#include "app/mission/scenario_lua.h"
 #include "render/streams/image_streams.h"
 
 namespace rubble {

@@ -1,4 +1,4 @@
-#include "app/drive/scenario_lua.h"
+#include "app/mission/scenario_lua.h"
 
 #include <nlohmann/json.hpp>
 #include <sstream>

@@ -6,6 +6,7 @@
 
 #include "app/batch/seed_list.h"
 #include "app/eval/scores/confidence.h"
+#include "app/navigate/mission_to_drive.h"
 #include "app/pipeline/seeded_piles.h"
 #include "io/base/atomic_file.h"
 
@@ -47,13 +48,14 @@ std::vector<NavigationResult> run_navigation_bench(const NavigationBenchRequest&
   const SeededPiles piles{request.of, parse_seeds(request.seeds, "--seeds"), {"pile"}, note};
   const bool plans = parse_planner(request.planner);
   const std::string cache = request.of.out + "/arcs";
-  std::filesystem::create_directories(request.of.out + "/ways");
-  std::filesystem::create_directories(cache);
+  for (const char* folder : {"/ways", "/missions", "/arcs"}) std::filesystem::create_directories(request.of.out + folder);
   std::vector<NavigationResult> results;
   for_each_pile(piles, [](const ResolvedMission&) {}, [&](const SeededPile& pile) {
     NavigationRules rules;
     rules.plans = plans;
     const NavigationWorld world(pile.mission, pile.state, rules, pile.threads);
+    write_mission_to_drive(request.of.out + "/missions", pile.seed, world);
+    if (request.missions_only) return results.push_back({pile.seed, {}});
     results.push_back({pile.seed, navigate(world, pile.seed, cache)});
     write_way(request.of.out + "/ways/" + std::to_string(pile.seed) + ".csv", world, results.back().score);
     note(text_of(pile.seed, results.back().score));

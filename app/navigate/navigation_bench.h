@@ -15,6 +15,7 @@ struct NavigationBenchRequest {
   RunRequest of;                // the mission; `seed` is not looked at; out: the folder
   std::string seeds = "1..10";  // --seeds
   std::string planner = "none";  // --planner: none or ompl
+  bool missions_only = false;   // --missions-only: missions for `rubble drive` are written, and nothing drives
 };
 
 struct NavigationResult {
@@ -22,8 +23,9 @@ struct NavigationResult {
   NavigationScore score;
 };
 
-// Settles the pile of each seed and drives through it; the way of each mission goes into ways/SEED.csv. Seeds whose piles have no void for the crawler are left out;
-// `note` is told of them and of each mission. Throws InputError and RunError.
+// Settles the pile of each seed and drives through it; the way of each mission goes into ways/SEED.csv, and the mission
+// as `rubble drive` opens it into missions/SEED.lua. Seeds whose piles have no void for the crawler are left out; `note` is
+// told of them and of each mission. With missions_only scores are empty. Throws InputError and RunError.
 std::vector<NavigationResult> run_navigation_bench(const NavigationBenchRequest& request,
                                                    const std::function<void(const std::string&)>& note);
 

@@ -344,6 +344,38 @@ TEST_F(NavigationBench, TheTableIsWrittenIntoADocument) {
   EXPECT_NE(text.find("<!-- end navigate -->\nafter\n"), std::string::npos) << text;
 }
 
+// As ros1_navigator drives it, and with the robot where the benchmark puts it.
+TEST_F(NavigationBench, WritesMissionsThatAreDrivenOverTopics) {
+  ASSERT_EQ(navigate("--seeds 2 --missions-only").exit_code, 0);
+  EXPECT_EQ(read_file(folder_ / "out/missions.csv"), "") << "nothing was driven";
+  const Json written = Json::parse(read_file(folder_ / "out/missions/2.json"), nullptr, false);
+  ASSERT_TRUE(written.is_object());
+  const Outcome check = run_rubble("check " + (folder_ / "out/missions/2.lua"));
+  ASSERT_EQ(check.exit_code, 0) << check.err;
+  const Json scenario = Json::parse(check.out, nullptr, false);
+  const Json robot = scenario["robots"][0];
+  EXPECT_EQ(scenario["seed"], 2);
+  EXPECT_EQ(scenario["trajectory"]["ride"]["robot"], robot["name"]);
+  // Where the goals are in the world: the last one where the benchmark drives to.
+  ASSERT_EQ(navigate("--seeds 2").exit_code, 0);
+  std::istringstream way(read_file(folder_ / "out/ways/2.csv"));
+  std::string line;
+  std::getline(way, line), std::getline(way, line);
+  std::vector<double> row;
+  std::istringstream cells(line);
+  for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+  ASSERT_EQ(row.size(), 8u) << line;
+  EXPECT_NEAR(robot["position"][0], row[1], 0.02);
+  EXPECT_NEAR(robot["position"][1], row[2], 0.02);
+  const double yaw = robot["rpy_deg"][2].get<double>() * 3.14159265358979 / 180;
+  EXPECT_NEAR(yaw, row[3], 0.01);
+  const Json goal = written["goals"].back();
+  const double ahead = goal[0], left = goal[1];
+  EXPECT_NEAR(row[1] + ahead * std::cos(yaw) - left * std::sin(yaw), row[6], 0.03);
+  EXPECT_NEAR(row[2] + ahead * std::sin(yaw) + left * std::cos(yaw), row[7], 0.03);
+  EXPECT_GE(written["goals"].size(), 2u);
+}
+
 TEST_F(NavigationBench, MistakesAreNamed) {
   const auto expect = [&](const std::string& options, const std::string& part) {
     const Outcome outcome = navigate(options);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/drive/robots/robot_drive.h"
-#include "app/drive/scenario_lua.h"
+#include "app/mission/scenario_lua.h"
 #include "app/pipeline/stages.h"
 #include "app/robots/robot_files.h"
 #include "io/state/track_file.h"

@@ -89,7 +89,7 @@ TEST(NightlyLiveRos1Drive, MrptsNavigatorDrivesACrawlerThroughALeanTo) {
   drive_by_program(scratch, "'" RUBBLE_NAVIGATOR "' --goal 8.5 0", "examples/ros1/crawler_lean_to.lua",
                    "--set trajectory.rate_hz=1 --set lidars.points.rate_hz=1", result);
   if (HasFatalFailure()) return;
-  const std::string judge = "'" RUBBLE_PYTHON "' '" RUBBLE_SOURCE_DIR "/tests/live/judge_navigation.py' '" + (scratch / "leg") +
+  const std::string judge = "'" RUBBLE_PYTHON "' '" RUBBLE_SOURCE_DIR "/bench/ros1_navigate/judge.py' '" + (scratch / "leg") +
                             "' >'" + (scratch / "truth.json") + "'";
   ASSERT_EQ(std::system(judge.c_str()), 0);
   const auto truth = nlohmann::json::parse(read_file(scratch / "truth.json"));
@@ -98,6 +98,28 @@ TEST(NightlyLiveRos1Drive, MrptsNavigatorDrivesACrawlerThroughALeanTo) {
   EXPECT_LT(std::hypot(ahead - 8.5, aside), 0.7) << "within 0.3 m of the goal, and what the pose may be wrong by";
   EXPECT_LT(std::hypot(ahead - result["x_m"].get<double>(), aside - result["y_m"].get<double>()), 0.4);
   EXPECT_LT(result["left_m"].get<double>(), 0.35);
+}
+
+// The bench drives a pile of `rubble bench navigate` over topics, judges it, and writes its table; a second time it has
+// nothing to drive any more.
+TEST(NightlyLiveRos1Drive, TheBenchDrivesAMissionOverTopicsAndTablesIt) {
+  if (!has_ros1()) GTEST_SKIP() << "no rosmaster: see tools/packages-live.txt";
+  const ScratchFolder scratch;
+  const std::string page = scratch / "page.md";
+  write_file(page, "before\n<!-- begin ros1_navigate -->\n<!-- end ros1_navigate -->\n");
+  const std::string bench = "cd '" RUBBLE_SOURCE_DIR "' && timeout 600 bench/ros1_navigate/run --seeds 1 --build \"$(dirname '" RUBBLE_PROGRAM
+                            "')\" --out '" + (scratch / "out") + "' --document '" + page + "' >'" + (scratch / "said") + "' 2>&1";
+  ASSERT_EQ(std::system(bench.c_str()), 0) << read_file(scratch / "said");
+  const auto result = nlohmann::json::parse(read_file(scratch / "out/ompl/1.json"), nullptr, false);
+  ASSERT_TRUE(result.is_object());
+  EXPECT_EQ(result["node"]["result"], "arrived") << result;
+  EXPECT_LT(result["goal_m"], 0.7);
+  EXPECT_LT(result["truth"]["worst_m"], 0.4);
+  EXPECT_GT(result["truth"]["way_m"], 3);
+  const std::string table = read_file(page);
+  EXPECT_NE(table.find("| missions | 1 |\n| arrived | 1.00 (95 %: 0.21 to 1.00) |"), std::string::npos) << table;
+  ASSERT_EQ(std::system(bench.c_str()), 0) << read_file(scratch / "said");
+  EXPECT_EQ(read_file(page), table);
 }
 
 }  // namespace

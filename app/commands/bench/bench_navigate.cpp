@@ -28,6 +28,7 @@ ExitCode navigate_all(const NavigateRequest& request) {
   if (results.empty())
     throw InputError({asked.of.mission, 0, "--seeds", "no pile of these seeds has a void for the crawler",
                       "other seeds, or a pile with larger voids", asked.seeds, ""});
+  if (asked.missions_only) return ExitCode::done;
   write_score_file(asked.of.out + "/missions.csv", list_missions(results));
   for (const char* name : {"/table.csv", "/table.json"})
     write_score_file(asked.of.out + name, make_navigation_table(results, false));
@@ -44,6 +45,7 @@ Action declare_navigate(CommandLine& line) {
   line.add("--planner", bench.planner, "ompl: a global planner over the robot's own map; none: the navigator alone")
       .shows_default()
       .metavar("NAME");
+  line.add_flag("--missions-only", bench.missions_only, "Write missions/SEED.lua for `rubble drive`, and drive nothing");
   line.add("--out", bench.of.out, "Output folder").shows_default_text("out/<script>_navigate").metavar("DIR");
   line.add_flag("--json", request->json, "The table as JSON on standard output");
   add_threads_option(line, bench.of.options.threads);

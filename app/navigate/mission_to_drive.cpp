@@ -1,0 +1,74 @@
+#include "app/navigate/mission_to_drive.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/mission/scenario_lua.h"
+#include "io/base/atomic_file.h"
+#include "kernel/base/portable_math.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kDegree = 57.29577951308232;
+constexpr char kRobot[] = "crawler";
+// Clear of its body and load, which a LiDAR of a mission sees and that of the benchmark does not; unit: m.
+constexpr double kLidarHeight = 0.4;
+
+std::string goal_options(const std::vector<Vec3>& waypoints) {
+  std::string text;
+  for (const Vec3& w : waypoints) {
+    char goal[60];
+    std::snprintf(goal, sizeof goal, " --goal %.2f %.2f", w.x, w.y);
+    text += goal;
+  }
+  return text;
+}
+
+}  // namespace
+
+Scenario make_mission_to_drive(const NavigationWorld& world) {
+  Scenario scenario = world.mission().scenario;
+  const Vec3 ahead = world.start().rotation.rotate({1, 0, 0});
+  RobotItem robot;
+  robot.model = RobotKind::crawler, robot.name = kRobot;
+  robot.position = world.start().translation, robot.rpy_deg = {0, 0, kDegree * portable::atan2(ahead.y, ahead.x)};
+  scenario.robots = {robot};
+  scenario.robot_run = {};
+  LidarScenario lidar;
+  lidar.name = "points", lidar.model = LidarModel::os0, lidar.channels = 32, lidar.columns = 512;
+  lidar.rate_hz = 1 / world.rules().period;
+  lidar.ride.robot = kRobot, lidar.position = {0, 0, kLidarHeight};
+  scenario.lidars = {lidar};
+  scenario.trajectory = {};
+  scenario.trajectory.rate_hz = 10;
+  scenario.trajectory.ride.robot = kRobot, scenario.trajectory.ride.position = {0.3, 0, 0.3};
+  return scenario;
+}
+
+std::vector<Vec3> waypoints_from_start(const NavigationWorld& world) {
+  const Pose start_from_world = world.start().inverse();
+  std::vector<Vec3> waypoints;
+  for (const Vec3& w : world.waypoints()) {
+    const Vec3 place = start_from_world * w;
+    waypoints.push_back({place.x, place.y, 0});
+  }
+  return waypoints;
+}
+
+void write_mission_to_drive(const std::string& folder, std::uint64_t seed, const NavigationWorld& world) {
+  const std::vector<Vec3> waypoints = waypoints_from_start(world);
+  const std::string name = folder + "/" + std::to_string(seed);
+  write_text_file(name + ".lua",
+                  scenario_to_lua(make_mission_to_drive(world),
+                                  "Pile " + std::to_string(seed) + " of `rubble bench navigate`, to be driven through over "
+                                  "ROS 1 (docs/autonomy.md):\n  rubble drive " + std::to_string(seed) + ".lua --ros1 &\n"
+                                  "  ros1_navigator" + goal_options(waypoints)));
+  nlohmann::ordered_json json;
+  json["seed"] = seed;
+  for (const Vec3& w : waypoints) json["goals"].push_back({w.x, w.y});
+  json["shortest_m"] = world.shortest(), json["passes"] = world.passes();
+  write_text_file(name + ".json", json.dump(2) + "\n");
+}
+
+}  // namespace rubble

@@ -43,6 +43,14 @@ TEST(Rubble50, EveryMissionIsSoundAndMadeByItsTool) {
   }
 }
 
+// The table that papers compare with: a change of the kernel that moves a pile changes its hash in the same commit, by
+// `rubble suite scripts/rubble50/suite.lua --update` and tools/rubble50.py.
+TEST(Rubble50, EveryPileHasTheHashOfTheTable) {
+  const ScratchFolder scratch;
+  const Outcome suite = run_rubble("suite scripts/rubble50/suite.lua --quiet --out " + (scratch / "out"));
+  EXPECT_EQ(suite.exit_code, 0) << suite.out << suite.err;
+}
+
 // The command of the baselines, on a recording of three frames that lies where the one of mission 2 would.
 TEST(NightlyRubble50, BaselinesFollowARecordingAndFillTheTables) {
   if (std::system("/usr/bin/python3 -c 'import cv2.rgbd, open3d' 2>/dev/null") != 0)

@@ -13,6 +13,8 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PAGES = {"README.md": "index.md", "assets/README.md": "assets.md", "CHANGELOG.md": "changelog.md"}
 LINK = re.compile(r"(!?\[[^\]]*\])\(([^()\s]+)\)")
+# A list right below a sentence: mkdocs wants an empty line between.
+LIST = re.compile(r"^((?!- |\d+\. |#)\S[^\n]*)\n(?=- |\d+\. )", re.M)
 CODE = re.compile(r"(^```[\s\S]*?^```$|^    [^\n]*$)", re.M)
 
 
@@ -68,7 +70,7 @@ class Site:
             to = self.lead(path, match.group(2))
             return f"{match.group(1)}({to})" if to else match.group(1).lstrip("!")[1:-1]
         parts = CODE.split(text)  # code is every second part
-        parts[::2] = [LINK.sub(replace, part) for part in parts[::2]]
+        parts[::2] = [LIST.sub(r"\1\n\n", LINK.sub(replace, part)) for part in parts[::2]]
         with open(os.path.join(self.folder, page_of(path)), "w", encoding="utf-8") as file:
             file.write("".join(parts))
 

@@ -27,6 +27,8 @@ TEST(Site, EveryLinkLeadsSomewhere) {
   EXPECT_TRUE(fs::exists(scratch / "site/lua.md"));
   EXPECT_TRUE(fs::exists(scratch / "site/pictures/first_pile.png"));
   EXPECT_NE(read_file(scratch / "site/index.md").find("](pictures/first_pile.png)"), std::string::npos);
+  // mkdocs takes a list right below a sentence for its next words.
+  EXPECT_NE(read_file(scratch / "site/formats.md").find("all formats:\n\n- **Stamps.**"), std::string::npos);
   const std::string nav = read_file(kRoot + "/mkdocs.yml");
   for (const auto& page : fs::directory_iterator(scratch / "site")) {
     if (page.path().extension() != ".md") continue;

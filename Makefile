@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all package image archive install site asset-maker live demo gallery pictures test test-nightly test-asan test-tsan fuzz faults determinism platforms format clean
+.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo gallery pictures test test-nightly test-asan test-tsan fuzz faults determinism platforms format clean
 
 PROGRAM := build/release/rubble
 CTEST   := ctest --output-on-failure --parallel 2
@@ -15,6 +15,7 @@ help:
 	@echo "make all        build everything, with the tests and benches"
 	@echo "make install PREFIX=/usr/local  install the program, its assets, manual pages and completions"
 	@echo "make package    make Debian packages: build/package/rubble_*.deb, librubble-dev_*.deb"
+	@echo "make package-arm64  the same for arm64, cross-compiled and tried under an emulator (docs/install.md)"
 	@echo "make image      make a container image: build/package/rubble_*_oci.tar (needs root)"
 	@echo "make archive    make a self-extracting archive for other distributions: build/package/rubble-*.run"
 	@echo "make site       make a site of the documents: build/site/index.html"
@@ -56,6 +57,11 @@ install: build
 
 package: build
 	cpack --config build/release/CPackConfig.cmake -B build/package
+
+# Cross-compiled, and tried under an emulator.
+package-arm64: build
+	@tools/install_packages.sh tools/packages-arm64.txt
+	tools/package_arm64.sh
 
 image: package
 	@tools/install_packages.sh tools/packages-nightly.txt

@@ -13,7 +13,7 @@ set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 
 set(share ${CMAKE_BINARY_DIR}/share)
 add_custom_command(OUTPUT ${share}/rubble.lua
-  COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:rubble> -DOUTPUT=${share}
+  COMMAND ${CMAKE_COMMAND} "-DPROGRAM=${CMAKE_CROSSCOMPILING_EMULATOR};$<TARGET_FILE:rubble>" -DOUTPUT=${share}
     -P ${CMAKE_SOURCE_DIR}/cmake/WriteShare.cmake
   DEPENDS rubble ${CMAKE_SOURCE_DIR}/cmake/WriteShare.cmake
   COMMENT "Writing manual pages, completions and annotations" VERBATIM)
@@ -58,6 +58,15 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
   "libegl1, libegl-mesa0, libgl1-mesa-dri, libgl1")
+# It knows the libraries of this machine alone: tools/package_arm64.sh says what those of another are in.
+set(RUBBLE_PACKAGE_DEPENDS "" CACHE STRING "Packages of the program's libraries, instead of what dpkg-shlibdeps finds")
+if(RUBBLE_PACKAGE_DEPENDS)
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS OFF)
+  string(PREPEND CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "${RUBBLE_PACKAGE_DEPENDS}, ")
+endif()
+if(CMAKE_CROSSCOMPILING AND CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE arm64)
+endif()
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "simulator of collapsed structures for mapping robots
 Rubble makes data sets for people who build mapping and autonomy for
 search-and-rescue robots. A seed and a one-page Lua mission give a

@@ -2,54 +2,25 @@
 
 #include <algorithm>
 
-#include "kernel/base/error.h"
 #include "render/geometry/ray_scene_embree.h"
 
 namespace rubble {
 
-RTCScene RayScene::Embree::new_scene() const {
-  const RTCScene made = rtcNewScene(device);
-  rtcSetSceneFlags(made, RTC_SCENE_FLAG_ROBUST);
-  return made;
+namespace {
+
+constexpr unsigned kResting = EmbreeTree::kResting;
+
+void place(RTCGeometry instance, const float (&columns)[12]) {
+  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
 }
 
-void RayScene::Embree::attach(RTCScene to, const std::vector<Vec3f>& positions,
-                              const std::vector<std::uint32_t>& indices) const {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  void* vertex_memory = rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), positions.size() + 1);
-  void* index_memory = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                               3 * sizeof(std::uint32_t), indices.size() / 3);
-  if (!indices.empty() && (!vertex_memory || !index_memory))
-    throw RunError("cannot cast rays: out of memory for " + std::to_string(indices.size() / 3) +
-                   " triangles");
-  std::copy(positions.begin(), positions.end(), static_cast<Vec3f*>(vertex_memory));
-  std::copy(indices.begin(), indices.end(), static_cast<std::uint32_t*>(index_memory));
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(to, geometry);
-  rtcReleaseGeometry(geometry);
-}
-
-RTCGeometry RayScene::Embree::attach_instance(RTCScene of, unsigned number) const {
-  constexpr float kIdentity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
-  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-  rtcSetGeometryInstancedScene(geometry, of);
-  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, kIdentity);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene, geometry, number);
-  rtcReleaseGeometry(geometry);  // the tree keeps it
-  return geometry;
-}
+}  // namespace
 
 RayScene::RayScene(const PreparedScene& scene, Detail detail)
     : scene_(scene), detail_(detail), embree_(std::make_unique<Embree>()) {
-  // One thread builds: the tree, and with it the choice among equal hits, is then always the same.
-  embree_->device = rtcNewDevice("threads=1,set_affinity=0");
-  if (!embree_->device) throw RunError("cannot cast rays: Embree gives no device");
-  embree_->scene = embree_->new_scene();
   add_resting();
   add_moving();
-  commit();
+  embree_->commit();
   moment_ = scene.moment;
 }
 
@@ -78,11 +49,14 @@ void RayScene::add_resting() {
     }
   }
   const bool alone = std::none_of(scene_.placed.begin(), scene_.placed.end(), [](const PlacedMesh& p) { return p.moves; });
-  if (alone) return embree_->attach(embree_->scene, positions, indices);
+  if (alone) return embree_->attach(embree_->scene, positions, indices.data(), indices.size() / 3);
   embree_->resting = embree_->new_scene();
-  embree_->attach(embree_->resting, positions, indices);
+  embree_->attach(embree_->resting, positions, indices.data(), indices.size() / 3);
   rtcCommitScene(embree_->resting);
-  embree_->attach_instance(embree_->resting, kResting);
+  constexpr float kIdentity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+  const RTCGeometry instance = embree_->attach_instance(embree_->resting, kResting);
+  rubble::place(instance, kIdentity);
+  rtcCommitGeometry(instance);
 }
 
 void* RayScene::mesh_scene(std::uint32_t mesh) {
@@ -98,7 +72,7 @@ void* RayScene::mesh_scene(std::uint32_t mesh) {
   for (std::uint32_t t = 0; t < level.triangle_count; ++t)
     for (std::uint32_t v : prepared.triangles[level.first_triangle + t].vertices)
       indices.push_back(v);
-  embree_->attach(of_mesh, positions, indices);
+  embree_->attach(of_mesh, positions, indices.data(), indices.size() / 3);
   rtcCommitScene(of_mesh);
   return of_mesh;
 }
@@ -128,7 +102,7 @@ void RayScene::place(const Mover& mover) {
   for (int c = 0; c < 3; ++c)
     for (int r = 0; r < 3; ++r) columns[c * 3 + r] = float(turn.rows[std::size_t(r)][c]);
   for (int r = 0; r < 3; ++r) columns[9 + r] = float(piece.world_from_mesh.translation[r]);
-  rtcSetGeometryTransform(mover.geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+  rubble::place(mover.geometry, columns);
   if (piece.there)
     rtcEnableGeometry(mover.geometry);
   else
@@ -136,17 +110,11 @@ void RayScene::place(const Mover& mover) {
   rtcCommitGeometry(mover.geometry);
 }
 
-void RayScene::commit() {
-  rtcCommitScene(embree_->scene);
-  if (rtcGetDeviceError(embree_->device) != RTC_ERROR_NONE)
-    throw RunError("cannot cast rays: Embree reports an error while building its tree");
-}
-
 void RayScene::follow() {
   if (moment_ == scene_.moment) return;
   moment_ = scene_.moment;
   for (const Mover& mover : movers_) place(mover);
-  commit();
+  embree_->commit();
 }
 
 RayScene::Met RayScene::met_by(std::uint32_t primitive, std::uint32_t instance,

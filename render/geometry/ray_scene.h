@@ -73,7 +73,6 @@ class RayScene {
   void add_moving();
   void* mesh_scene(std::uint32_t mesh);  // an Embree scene of that mesh alone
   void place(const Mover& mover);
-  void commit();
 
   const PreparedScene& scene_;
   Detail detail_;

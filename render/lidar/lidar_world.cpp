@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "kernel/base/error.h"
+#include "render/geometry/embree_tree.h"
 #include "render/materials/surface_appearance.h"
 
 namespace rubble {
 namespace {
 
-constexpr unsigned kResting = 0;  // geometry number of all that rests, triangles or their instance; movers follow
+constexpr unsigned kResting = EmbreeTree::kResting;
 
 // The look of each triangle of a mesh, as an index into all_surface_appearances().
 std::vector<std::uint8_t> looks_of(const TriangleMesh& mesh) {
@@ -40,7 +40,7 @@ RTCQuaternionDecomposition decompose(const Pose& pose, float scale) {
 
 }  // namespace
 
-struct LidarWorld::Tree {
+struct LidarWorld::Tree : EmbreeTree {
   struct Mover {
     RTCGeometry geometry = nullptr;  // owned by the tree
     std::uint32_t mesh = 0;
@@ -49,13 +49,7 @@ struct LidarWorld::Tree {
     std::int32_t piece = -1;
   };
 
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-  // What rests, as an instance in `scene`, if anything moves: Embree builds all of a scene anew when anything in it has
-  // changed.
-  RTCScene resting = nullptr;
-  std::map<std::uint32_t, RTCScene> mesh_scenes;              // of those that move
-  std::map<std::uint32_t, std::vector<std::uint8_t>> mesh_looks;  // likewise
+  std::map<std::uint32_t, std::vector<std::uint8_t>> mesh_looks;  // of those that move
   std::vector<std::uint8_t> resting_looks;
   std::vector<std::uint32_t> resting_ends;   // of each instance that rests, one past its last triangle
   std::vector<std::int32_t> resting_pieces;  // its id
@@ -63,24 +57,13 @@ struct LidarWorld::Tree {
   SceneMotion motion;
   bool ground = true;
 
-  ~Tree() {
-    if (scene) rtcReleaseScene(scene);
-    if (resting) rtcReleaseScene(resting);
-    for (const auto& [mesh, of_mesh] : mesh_scenes) rtcReleaseScene(of_mesh);
-    if (device) rtcReleaseDevice(device);
-  }
-
-  RTCScene new_scene() const {
-    const RTCScene made = rtcNewScene(device);
-    rtcSetSceneFlags(made, RTC_SCENE_FLAG_ROBUST);
-    return made;
-  }
   void attach(RTCScene to, const std::vector<Vec3f>& positions,
-              const std::vector<std::array<std::uint32_t, 3>>& triangles) const;
-  RTCGeometry attach_instance(RTCScene of, unsigned number) const;  // owned by `scene`; neither placed nor committed
+              const std::vector<std::array<std::uint32_t, 3>>& triangles) const {
+    static_assert(sizeof(triangles.front()) == 3 * sizeof(std::uint32_t));
+    EmbreeTree::attach(to, positions, triangles.empty() ? nullptr : triangles.front().data(), triangles.size());
+  }
   void add_resting(const Scene& from);
   void add_movers(const Scene& from);
-  void commit();
   void intersect(const Ray* rays, std::size_t count, double max_distance, RTCRayHit8& query) const;
   std::int32_t piece_of(unsigned primitive, unsigned instance) const;
   Hit read(unsigned primitive, unsigned instance, const Vec3f& normal, const Ray& ray, double t) const;
@@ -91,24 +74,6 @@ struct LidarWorld::Tree {
     return t > max_distance || (before >= 0 && before <= t) ? -1 : t;
   }
 };
-
-void LidarWorld::Tree::attach(RTCScene to, const std::vector<Vec3f>& positions,
-                              const std::vector<std::array<std::uint32_t, 3>>& triangles) const {
-  if (triangles.empty()) return;
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  // One vertex more: Embree reads 16 bytes of the last.
-  void* const vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                 sizeof(Vec3f), positions.size() + 1);
-  void* const indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                3 * sizeof(std::uint32_t), triangles.size());
-  if (!vertices || !indices)
-    throw RunError("cannot cast rays: out of memory for " + std::to_string(triangles.size()) + " triangles");
-  std::copy(positions.begin(), positions.end(), static_cast<Vec3f*>(vertices));
-  std::copy(triangles.begin(), triangles.end(), static_cast<std::array<std::uint32_t, 3>*>(indices));
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(to, geometry, kResting);
-  rtcReleaseGeometry(geometry);
-}
 
 void LidarWorld::Tree::add_resting(const Scene& from) {
   std::vector<std::uint8_t> moves(from.instances.size(), 0);
@@ -138,18 +103,10 @@ void LidarWorld::Tree::add_resting(const Scene& from) {
   rtcCommitGeometry(instance);
 }
 
-RTCGeometry LidarWorld::Tree::attach_instance(RTCScene of, unsigned number) const {
-  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-  rtcSetGeometryInstancedScene(geometry, of);
-  rtcAttachGeometryByID(scene, geometry, number);
-  rtcReleaseGeometry(geometry);  // the tree keeps it
-  return geometry;
-}
-
 void LidarWorld::Tree::add_movers(const Scene& from) {
   for (const std::uint32_t i : from.motion.moving) {
     const SceneInstance& piece = from.instances[i];
-    RTCScene& of_mesh = mesh_scenes[piece.mesh];
+    RTCScene& of_mesh = meshes[piece.mesh];
     if (!of_mesh) {
       const TriangleMesh& mesh = from.meshes.at(piece.mesh)->levels.front();
       of_mesh = new_scene();
@@ -162,12 +119,6 @@ void LidarWorld::Tree::add_movers(const Scene& from) {
     const Mover mover{geometry, piece.mesh, piece.scale, {}, std::int32_t(piece.id)};
     movers.push_back(mover);
   }
-}
-
-void LidarWorld::Tree::commit() {
-  rtcCommitScene(scene);
-  if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
-    throw RunError("cannot cast rays: Embree reports an error while building its tree");
 }
 
 // normal: as Embree gives it, in the frame of the mesh.
@@ -196,10 +147,6 @@ std::int32_t LidarWorld::Tree::piece_of(unsigned primitive, unsigned instance) c
 
 LidarWorld::LidarWorld(const Scene& from) : tree_(std::make_unique<Tree>()) {
   Tree& t = *tree_;
-  // One thread builds: the tree, and with it the choice among equal hits, is then always the same.
-  t.device = rtcNewDevice("threads=1,set_affinity=0");
-  if (!t.device) throw RunError("cannot cast rays: Embree gives no device");
-  t.scene = t.new_scene();
   t.motion = from.motion, t.ground = from.ground;
   t.add_resting(from);
   t.add_movers(from);

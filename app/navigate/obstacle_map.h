@@ -13,7 +13,7 @@ class ObstacleMap {
   // bounds: what is outside of them is not mapped; unit: m. hits: echoes that make a cell occupied.
   ObstacleMap(const Aabb& bounds, double voxel, int hits);
 
-  // An echo of something that stays: nothing takes it out again.
+  // An echo. As long as no scan is added, nothing takes it out again.
   void add(const Vec3& point);
   // A scan. What it saw is in the map with as many scans as are `hits`, and gone again when scans see through it: echoes of
   // two things at once lie between them, poses are a little wrong, and debris moves. sensor, echoes: in the map's frame;

@@ -36,7 +36,7 @@ class Pilot {
   // Throws as ReactiveNavigator does.
   explicit Pilot(const PilotOptions& options);
 
-  // An echo of something that stays; unit: m, in the frame of the map.
+  // As ObstacleMap::add(); unit: m, in the frame of the map.
   void see(const Vec3& place) { map_.add(place); }
   // As ObstacleMap::add_scan().
   void see(const Vec3& sensor, const std::vector<Vec3>& echoes) { map_.add_scan(sensor, echoes); }

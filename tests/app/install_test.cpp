@@ -102,6 +102,29 @@ TEST_F(Install, HasWhatAnEditorAndAReaderNeed) {
 #endif
 }
 
+// What a package for another processor depends on; packages as Debian makes them, and a program of this machine.
+TEST(LibraryDepends, AreWhatShlibsFilesSay) {
+  const ScratchFolder scratch;
+  const auto make_package = [&](const std::string& name, const std::string& shlibs) {
+    fs::create_directories(scratch / (name + "/DEBIAN"));
+    write_file(scratch / (name + "/DEBIAN/control"), "Package: " + name + "\nVersion: 1\nArchitecture: all\n"
+                                                     "Maintainer: Nobody <nobody@example.org>\nDescription: none\n");
+    if (!shlibs.empty()) write_file(scratch / (name + "/DEBIAN/shlibs"), shlibs);
+    return std::system(("dpkg-deb -b '" + (scratch / name) + "' '" + (scratch / (name + ".deb")) + "' >/dev/null").c_str());
+  };
+  ASSERT_EQ(make_package("libc6", "libc 6 libc6 (>= 2.36)\nlibm 6 libc6 (>= 2.36)\nudeb: libc 6 libc6-udeb\n"), 0);
+  ASSERT_EQ(make_package("libother1", "libother 1 libother1\n"), 0);
+  ASSERT_EQ(make_package("data", ""), 0);
+  const auto ask = [&](const std::string& packages) {
+    const std::string command = "cd '" + scratch.path().string() + "' && '" RUBBLE_SOURCE_DIR
+                                "/tools/package/library_depends.py' /bin/true " + packages + " >out 2>&1";
+    const int status = std::system(command.c_str());
+    return read_file(scratch / "out") + (status == 0 ? "" : "failed");
+  };
+  EXPECT_EQ(ask("data.deb libother1.deb libc6.deb"), "libc6 (>= 2.36)\n");
+  EXPECT_EQ(ask("data.deb libother1.deb"), "no package says who has libc.so.6\nfailed");
+}
+
 TEST(Manual, SaysWhatIsNotThere) {
   const Outcome unknown = run_rubble("manual nix");
   EXPECT_EQ(unknown.exit_code, 1);

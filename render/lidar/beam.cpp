@@ -83,11 +83,12 @@ void Beam::add_air(const LidarWorld::Ray& axis, const Air& air, double random, P
   edge[0] = kNoOverlap, edge[1] = second;
   for (std::size_t i = 2; i <= kAirSteps; ++i) edge[i] = edge[i - 1] * growth;
   double depth = air.optical_depth(axis.from, axis.direction, kNoOverlap);
+  const AirOnRay on_ray(air, axis.from, axis.direction, kNoOverlap, last);
   for (std::size_t i = 0; i < kAirSteps; ++i) {
     const double length = edge[i + 1] - edge[i], r = edge[i] + 0.5 * length;
-    const Vec3 p = axis.from + axis.direction * r;
-    const double step = air.extinction(p) * length;
-    sum[i + 1] = sum[i] + portable::kPi * air.scattering(p, -1) * overlap(r) * length / (r * r) *
+    const AirOnRay::Sample here = on_ray.at(r, -1);
+    const double step = here.extinction * length;
+    sum[i + 1] = sum[i] + portable::kPi * here.scattering * overlap(r) * length / (r * r) *
                               std::exp(-2 * (depth + 0.5 * step));
     depth += step;
   }

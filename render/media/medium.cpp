@@ -128,6 +128,39 @@ double Air::optical_depth(const Vec3& from, const Vec3& direction, double distan
   return sum + fog_depth(from + direction * near, direction, distance - near);
 }
 
+AirOnRay::AirOnRay(const Air& air, const Vec3& from, const Vec3& direction, double near, double far)
+    : air_(air), from_(from), direction_(direction) {
+  constexpr double kSlack = 1e-6;  // for rounding: relative, and unit: m
+  for (const DustPuff& puff : air.puffs()) {
+    const Vec3 d = from - puff.centre;
+    const double along = dot(d, direction), reach = kWidest * puff.deviation;
+    const double half2 = reach * reach * (1 + kSlack) - (dot(d, d) - along * along);
+    if (half2 < 0) continue;
+    const double half = std::sqrt(half2) + kSlack;
+    if (half - along >= near && -half - along <= far) met_.push_back({&puff, -half - along, half - along});
+  }
+}
+
+AirOnRay::Sample AirOnRay::at(double distance, double cosine) const {
+  const Vec3 p = from_ + direction_ * distance;
+  const double mist = air_.fog(p), drops = air_.drops();
+  double all = mist, dust = 0;  // added in the orders of Air::extinction() and Air::scattering()
+  for (const Met& met : met_) {
+    if (distance < met.first || distance > met.last) continue;
+    const double part = met.puff->at(p);
+    all += part, dust += part;
+  }
+  const double billows = all > 0 || mist + dust > 0 ? air_.billows(p) : 1;
+  Sample sample;
+  sample.extinction = (all > 0 ? all * billows : 0) + drops;
+  sample.scattering = drops > 0 ? drops * phase_function(Precipitation::kAsymmetry, cosine) : 0;
+  if (mist + dust > 0)
+    sample.scattering = billows * (mist * phase_function(air_.fog_asymmetry(), cosine) +
+                                   dust * phase_function(air_.dust_asymmetry(), cosine)) + sample.scattering;
+  sample.scattering *= air_.albedo();
+  return sample;
+}
+
 Medium::Medium(const AirSpec& spec, std::uint64_t seed) : spec_(spec), seed_(seed) {
   if (spec.rain_mm_h > 0) falling_.emplace_back(PrecipitationKind::rain, spec.rain_mm_h);
   if (spec.snow_mm_h > 0) falling_.emplace_back(PrecipitationKind::snow, spec.snow_mm_h);

@@ -80,6 +80,30 @@ class Air {
   std::shared_ptr<const std::vector<float>> noise_;  // kNoiseSide^3 values from -1 to 1
 };
 
+// The air along a ray: what Air says there, to the last bit, and sooner where it is asked at many places. Puffs that the
+// ray does not meet are left out.
+class AirOnRay {
+ public:
+  struct Sample {
+    double extinction = 0, scattering = 0;  // as of Air
+  };
+  // direction: unit length; near, far: between which it is asked; unit: m. The air must outlive it.
+  AirOnRay(const Air& air, const Vec3& from, const Vec3& direction, double near, double far);
+  // cosine: as Air::scattering()
+  Sample at(double distance, double cosine) const;
+
+ private:
+  // A puff that is not nought between two distances.
+  struct Met {
+    const DustPuff* puff;
+    double first, last;
+  };
+
+  const Air& air_;
+  Vec3 from_, direction_;
+  std::vector<Met> met_;  // in their order: sums are the same
+};
+
 class Medium {
  public:
   static constexpr int kPuffs = 7;       // a burst

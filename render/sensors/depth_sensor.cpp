@@ -93,14 +93,15 @@ DepthSensor::Returns DepthSensor::trace_air(const DepthView& view, int u, int v,
     // Each step is longer than the one before, as what comes back falls with the square of range.
     const double growth = std::pow(reach / first, 1.0 / kAirSteps);
     double begin = first;
+    const AirOnRay air(view.air, pose.translation, direction, first, reach);
     for (int i = 0; i < kAirSteps && growth > 1; ++i, begin *= growth) {
       const double end = begin * growth, r = std::sqrt(begin * end);
-      const Vec3 p = pose.translation + direction * r, from = seen * r - emitter;
-      const double extinction = view.air.extinction(p), out2 = dot(from, from);
+      const Vec3 from = seen * r - emitter;
+      const double out2 = dot(from, from);
+      const AirOnRay::Sample here = air.at(r, -dot(from, seen) / std::sqrt(out2));
       out.range[i] = 0.5 * (r + std::sqrt(out2));
-      out.part[i] = view.air.scattering(p, -dot(from, seen) / std::sqrt(out2)) * (end - begin) /
-                    out2 * std::exp(-2 * (depth + extinction * (r - begin)));
-      depth += extinction * (end - begin);
+      out.part[i] = here.scattering * (end - begin) / out2 * std::exp(-2 * (depth + here.extinction * (r - begin)));
+      depth += here.extinction * (end - begin);
     }
     out.sum_up();
   }

@@ -77,6 +77,37 @@ TEST(Medium, FogAndDustScatterEachByItsOwnPhaseFunction) {
     EXPECT_NEAR(air.scattering(p, c), 0.8 * (0.2 * phase_function(0.5, c) + dust * phase_function(0.8, c)), 1e-12);
 }
 
+// With fog, billows, drops and without; in puffs, beside them, and along rays that meet none.
+TEST(AirOnRay, IsTheAirThereToTheLastBit) {
+  RandomStream random(6, "rays");
+  int met = 0;
+  for (const bool fog_too : {false, true})
+    for (const bool billows : {false, true})
+      for (const bool rain : {false, true}) {
+        AirSpec spec = dusty(billows ? 0.8 : 0);
+        if (fog_too) spec.fog_density = 0.1, spec.fog_height = 1.5;
+        if (rain) spec.rain_mm_h = 10;
+        const Air air = Medium(spec, 5).at(30);
+        ASSERT_GT(air.puffs().size(), std::size_t(3 * Medium::kPuffs));
+        for (int i = 0; i < 60; ++i) {
+          const Vec3 from(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-1, 4));
+          const Vec3 direction = i % 3 == 0 ? normalized(air.puffs()[random.below(air.puffs().size())].centre - from)
+                                            : random.direction();
+          const double near = random.uniform(0.05, 2), far = near + random.uniform(0.1, 20);
+          const AirOnRay on_ray(air, from, direction, near, far);
+          for (int k = 0; k <= 40; ++k) {
+            const double r = near + (far - near) * k / 40, cosine = random.uniform(-1, 1);
+            const Vec3 p = from + direction * r;
+            const AirOnRay::Sample here = on_ray.at(r, cosine);
+            ASSERT_EQ(here.extinction, air.extinction(p)) << i << " " << k;
+            ASSERT_EQ(here.scattering, air.scattering(p, cosine)) << i << " " << k;
+            met += here.extinction > (fog_too || rain ? 0.15 : 0.001);
+          }
+        }
+      }
+  EXPECT_GT(met, 1000) << "most rays met nothing";
+}
+
 TEST(Medium, FogThatThinsWithHeightHasItsClosedForm) {
   const Air air = Medium(fog(0.5, 2), 1).at(0);
   EXPECT_FALSE(air.homogeneous());

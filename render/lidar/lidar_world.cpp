@@ -1,7 +1,5 @@
 #include "render/lidar/lidar_world.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <map>
 #include <optional>

@@ -210,7 +210,7 @@ const std::map<std::string, Prefixes> kDoors{
     {"SimTK", {"kernel/multibody/"}},
     {"xxhash.h", {"kernel/base/"}},
     {"openssl/", {"kernel/base/"}},
-    {"embree3/", {"kernel/queries/query_tree.cpp", "render/geometry/ray_", "render/lidar/lidar_world.cpp"}},
+    {"embree3/", {"kernel/queries/query_tree.cpp", "render/geometry/embree_tree.h"}},
     {"EGL/", {"render/gl/"}},
     {"GL/", {"render/gl/"}},
     {"assimp/", {"io/mesh/mesh_file.cpp"}},

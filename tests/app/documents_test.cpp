@@ -224,6 +224,23 @@ constexpr const char* kRun[]{"README.md",         "docs/autonomy.md", "docs/coll
 INSTANTIATE_TEST_SUITE_P(All, NightlyDocuments, ::testing::ValuesIn(kRun));
 
 // No document with something to run is left out above.
+// What other platforms were compared with is what this kernel gives.
+TEST(Documents, ThePlatformsTableHasTheGoldenHashes) {
+  const std::string page = read_file(RUBBLE_SOURCE_DIR "/docs/platforms.md");
+  std::istringstream golden(read_file(RUBBLE_SOURCE_DIR "/tests/golden/kernel.txt"));
+  int scenes = 0;
+  for (std::string line; std::getline(golden, line);) {
+    std::istringstream words(line);
+    std::string scene, step, hash;
+    words >> scene >> step >> hash;
+    if (scene == "#" || scene == "articulated") continue;  // joints need Simbody
+    ++scenes;
+    EXPECT_NE(page.find("| `" + scene + "`, step " + step + " | `" + hash + "` |"), std::string::npos)
+        << scene << ": run `make platforms` and make the table anew";
+  }
+  EXPECT_GE(scenes, 7);
+}
+
 TEST(Documents, ThoseWithCommandsToRunAreRun) {
   for (const auto& [document, entries] : read_list()) {
     const bool any = std::any_of(entries.begin(), entries.end(), [](const Listed& l) { return l.how == "run"; });

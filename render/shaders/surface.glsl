@@ -174,6 +174,16 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
                (soil ? 0.85 * map.x : more.y);
   s.albedo = mix(s.albedo, vec3(0.375, 0.36, 0.335) * (0.55 + 0.75 * texel.z), dust);
   s.gloss = vec3(1.0 - dust, floor(accent.w) * (1.0 / 255.0), max(fract(accent.w) * (1.0 / 0.99), 0.02));
+#ifdef PAINTS
+  bool painted = look == PAINTED * 4;
+  if (painted) {
+    float across = z * lens.x * inversesqrt(grazing) * 0.84 / scale;
+    Paint paint = find_paint(triangle, vec3(w0, w1, w2), ab, ac, smooth_normal, across);
+    s.albedo = paint.albedo * (1.0 - paint.metalness);
+    s.gloss = vec3(paint.reflectance > 0.0 ? 1.0 : 0.0, paint.reflectance, paint.roughness);
+    s.normal = normalize(rx * paint.normal.x + ry * paint.normal.y + rz * paint.normal.z);
+  }
+#endif
 #ifdef WET
   // Water darkens what it soaks into, and stands as a film on what faces up.
   float wet = wetness.x * smoothstep(-0.6, 0.5, up + 0.5 * slow);

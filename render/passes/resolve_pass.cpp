@@ -89,7 +89,7 @@ float lamp_spread(const LampSpec& lamp) {
 
 // gloss_lobe() of shaders/surface.glsl at its highest that counts: seen and lit head-on.
 float lobe_peak(float reflectance, float roughness) {
-  return reflectance / (4 * roughness * roughness * (std::sqrt(roughness) + 0.5f));
+  return reflectance / (4 * roughness * roughness);
 }
 
 float grey_of(const Vec3f& c) { return dot(c, Vec3f(0.2126f, 0.7152f, 0.0722f)); }

@@ -15,7 +15,7 @@ void choose_surfaces(TriangleMesh& mesh, const ChooseLook& choose) {
     const SurfacePaint* paint = mesh.paint_of(s);
     const std::string look = choose(name, paint != nullptr);
     if (look.empty() && paint)
-      name += "#" + paint->sha256.substr(0, kDigits);
+      name = (name.empty() ? "paint" : name) + "_" + paint->sha256.substr(0, kDigits);
     else
       name = look;
     if (!look.empty() && paint) mesh.paints[s] = nullptr;

@@ -24,6 +24,25 @@ std::uint8_t height_of(std::uint8_t x, std::uint8_t y) {
   return std::uint8_t(128 + 127 * std::sqrt(std::max(1 - a * a - b * b, 0.0)) + 0.5);
 }
 
+// To the right and upwards in the images, across a triangle; of any length.
+struct Directions {
+  Vec3f right, up;
+};
+Directions directions_of(const TriangleMesh& mesh, std::size_t t) {
+  const auto& corners = mesh.paint_corners[t];
+  const Vec3f& a = mesh.positions[mesh.triangles[t][0]];
+  const Vec3f ab = mesh.positions[mesh.triangles[t][1]] - a, ac = mesh.positions[mesh.triangles[t][2]] - a;
+  const float u1 = corners[1].u - corners[0].u, v1 = corners[1].v - corners[0].v;
+  const float u2 = corners[2].u - corners[0].u, v2 = corners[2].v - corners[0].v;
+  const float sign = u1 * v2 - v1 * u2 < 0 ? -1.0f : 1.0f;
+  return {(ab * v2 - ac * v1) * sign, (ac * u1 - ab * u2) * sign};
+}
+
+// Any unit vector across a normal.
+Vec3f across(const Vec3f& normal) {
+  return normalized(cross(normal, std::fabs(normal.z) < 0.9f ? Vec3f(0, 0, 1) : Vec3f(1, 0, 0)));
+}
+
 }  // namespace
 
 GlbImages make_glb_images(const SurfacePaint& paint) {
@@ -49,11 +68,19 @@ GlbCorners make_glb_corners(const TriangleMesh& mesh, std::size_t surface) {
   GlbCorners out;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (mesh.surfaces[t] != surface) continue;
+    const Directions images = directions_of(mesh, t);
+    const Vec3f& a = mesh.positions[mesh.triangles[t][0]];
+    const Vec3f face = normalized(cross(mesh.positions[mesh.triangles[t][1]] - a, mesh.positions[mesh.triangles[t][2]] - a));
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = mesh.triangles[t][k];
       const PaintCorner& corner = mesh.paint_corners[t][k];
       out.positions.push_back(mesh.positions[v]);
-      if (!mesh.normals.empty()) out.normals.push_back(mesh.normals[v]);
+      const Vec3f normal = mesh.normals.empty() ? face : mesh.normals[v];
+      const Vec3f right = images.right - normal * dot(images.right, normal);
+      const Vec3f tangent = norm(right) > 0 ? normalized(right) : across(normal);
+      out.normals.push_back(normal);
+      out.tangents.push_back(tangent);
+      out.handedness.push_back(dot(cross(normal, tangent), images.up) < 0 ? -1.0f : 1.0f);
       out.colours.push_back(corner.colour);
       out.places.insert(out.places.end(), {corner.u, 1 - corner.v});
       out.coloured = out.coloured || corner.colour.x != 1 || corner.colour.y != 1 || corner.colour.z != 1;

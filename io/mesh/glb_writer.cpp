@@ -102,8 +102,16 @@ class GlbBuilder {
     const GlbCorners corners = make_glb_corners(mesh, surface);
     if (corners.positions.empty()) return;
     const SurfacePaint& paint = *mesh.paints[surface];
-    Json attributes{{"POSITION", add_vectors(corners.positions, true)}};
-    if (!corners.normals.empty()) attributes["NORMAL"] = add_vectors(corners.normals, false);
+    Json attributes{{"POSITION", add_vectors(corners.positions, true)},
+                    {"NORMAL", add_vectors(corners.normals, false)}};
+    if (paint.relief.side > 0) {
+      std::vector<float> tangents;
+      for (std::size_t i = 0; i < corners.tangents.size(); ++i) {
+        const Vec3f t = to_y_up(corners.tangents[i]);
+        tangents.insert(tangents.end(), {t.x, t.y, t.z, corners.handedness[i]});
+      }
+      attributes["TANGENT"] = add_floats(tangents, "VEC4", kArrayBuffer);
+    }
     if (paint.albedo.side > 0 || paint.relief.side > 0)
       attributes["TEXCOORD_0"] = add_floats(corners.places, "VEC2", kArrayBuffer);
     if (corners.coloured) {

@@ -207,7 +207,7 @@ TEST_F(PileExport, GlbHasThePaintOfUsersMeshes) {
   for (int i = 0; i < 4 * 16; ++i) paint.albedo.texels.push_back(i % 4 == 3 ? 255 : std::uint8_t(3 * i));
   for (int i = 0; i < 4 * 64; ++i) paint.relief.texels.push_back(std::uint8_t(100 + i % 50));
   paint.sha256 = "one";
-  wedge_.surface_names[1] = "brick#one";
+  wedge_.surface_names[1] = "brick_one";
   wedge_.paints = {nullptr, std::make_shared<const SurfacePaint>(paint)};
   for (std::size_t t = 0; t < 4; ++t)
     wedge_.paint_corners.push_back({PaintCorner{0, 0.25f, {1, 0, 0}}, {1, 0.5f, {0, 1, 0}}, {2, 1, {0, 0, 0.5f}}});
@@ -215,7 +215,7 @@ TEST_F(PileExport, GlbHasThePaintOfUsersMeshes) {
   const auto result = test::run_node("validate_gltf.mjs", path);
   EXPECT_NE(result.output.find("errors 0 warnings 0"), std::string::npos) << result.output;
   const TriangleMesh read = load_mesh(path, {1, UpAxis::y});
-  const auto at = std::find(read.surface_names.begin(), read.surface_names.end(), "brick#one");
+  const auto at = std::find(read.surface_names.begin(), read.surface_names.end(), "brick_one");
   ASSERT_NE(at, read.surface_names.end());
   const std::size_t surface = std::size_t(at - read.surface_names.begin());
   const SurfacePaint* found = read.paint_of(surface);

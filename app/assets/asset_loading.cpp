@@ -10,6 +10,7 @@
 #include "app/assets/hull_error.h"
 #include "app/assets/material_variant.h"
 #include "app/assets/placed_box.h"
+#include "app/assets/surface_choice.h"
 #include "app/assets/terrain.h"
 #include "io/mesh/mesh_file.h"
 #include "kernel/base/hash.h"
@@ -49,7 +50,8 @@ PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnit
 // Of what decompose() gives: another one is another content. 2: meshes of boxes are cut without error.
 constexpr double kDecomposeVersion = 2;
 
-std::string hash_content(const Asset& asset, const PieceType& type) {
+std::string hash_content(const Asset& asset, const LoadedAsset& loaded) {
+  const PieceType& type = loaded.type;
   Sha256 hash;
   std::vector<std::string> files = asset.meshes;
   if (!asset.parts.empty()) files.push_back(asset.parts);
@@ -60,16 +62,22 @@ std::string hash_content(const Asset& asset, const PieceType& type) {
   const double up = asset.up == UpAxis::y ? 1 : 0, cut = asset.decompose ? kDecomposeVersion : 0;
   for (const double number : {type.density, type.friction, asset.metres_per_unit, up, cut})
     hash.add(&number, sizeof number);
+  // Images and an OBJ's materials lie in files of their own.
+  for (const TriangleMesh& level : loaded.mesh->levels)
+    for (const auto& paint : level.paints)
+      if (paint) hash.add(paint->sha256.data(), paint->sha256.size());
   return hash.hex();
 }
 
-// The pack's word for it, else a name that is a look, else that of the asset or its material.
-std::string choose_surface_appearance(const Asset& asset, const std::string& surface) {
+// The pack's word for it, else a name that is a look, else the file's colours, else that of the asset or its
+// material.
+std::string choose_surface_appearance(const Asset& asset, const std::string& surface, bool painted) {
   for (const auto& [name, look] : asset.surface_appearance)
     if (name == surface) return look;
   const std::vector<std::string> known = known_surface_appearances();
-  const bool is_surface_appearance = std::find(known.begin(), known.end(), surface) != known.end();
-  return is_surface_appearance || asset.look.empty() ? surface : asset.look;
+  if (std::find(known.begin(), known.end(), surface) != known.end()) return surface;
+  if (painted && !asset.look_given) return "";
+  return asset.look.empty() ? surface : asset.look;
 }
 
 // Of what a mesh is cut into, the share beyond the mesh that is worth a word.
@@ -103,16 +111,6 @@ void warn_of_size(const Asset& asset, const TriangleMesh& mesh, std::vector<std:
   warnings.push_back(asset.meshes.front() + text + ": are its `units` right?");
 }
 
-// One that the pack says nothing of: there the file's own colour may have been what was meant.
-bool has_surface_of_its_own(const Asset& asset, const TriangleMesh& mesh) {
-  const std::vector<std::string> known = known_surface_appearances();
-  return std::any_of(mesh.surface_names.begin(), mesh.surface_names.end(), [&](const auto& name) {
-    const bool given = std::any_of(asset.surface_appearance.begin(), asset.surface_appearance.end(),
-                                   [&name](const auto& look) { return look.first == name; });
-    return !given && std::find(known.begin(), known.end(), name) == known.end();
-  });
-}
-
 // A surface that `looks` names and no mesh of the asset has.
 void warn_of_surface_appearances(const Asset& asset, const std::vector<std::string>& surfaces,
                                  std::vector<std::string>& warnings) {
@@ -136,13 +134,13 @@ LoadedAsset load_asset(const Asset& asset, MeshImporter& importer) {
   std::vector<std::string> surfaces;
   for (const std::string& path : asset.meshes) {
     mesh->levels.push_back(importer.load_mesh(path, units));
-    if (!importer.left_out().empty() && has_surface_of_its_own(asset, mesh->levels.back()))
-      loaded.warnings.push_back(path + ": " + importer.left_out() +
-                                " of the file are not drawn: surfaces look as `looks` says");
-    for (std::string& surface : mesh->levels.back().surface_names) {
-      surfaces.push_back(surface);
-      surface = choose_surface_appearance(asset, surface);
-    }
+    TriangleMesh& level = mesh->levels.back();
+    surfaces.insert(surfaces.end(), level.surface_names.begin(), level.surface_names.end());
+    choose_surfaces(level, [&asset](const std::string& surface, bool painted) {
+      return choose_surface_appearance(asset, surface, painted);
+    });
+    if (!has_paint(level)) continue;
+    for (const std::string& note : importer.notes()) loaded.warnings.push_back(path + ": " + note);
   }
   warn_of_size(asset, mesh->levels.front(), loaded.warnings);
   warn_of_surface_appearances(asset, surfaces, loaded.warnings);
@@ -163,7 +161,7 @@ void add_asset(const FoundAsset& found, AssetLibrary& library) {
   LoadedAsset loaded = load_asset(*found.asset, *library.importer);
   library.warnings.insert(library.warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
   library.contents.push_back({loaded.type.name, found.pack->name,
-                              hash_content(*found.asset, loaded.type), found.asset->weight,
+                              hash_content(*found.asset, loaded), found.asset->weight,
                               found.asset->scale, found.asset->spread});
   library.types.push_back(std::move(loaded.type));
   library.meshes.push_back(std::move(loaded.mesh));

@@ -65,7 +65,12 @@ TriangleMesh merge_links(const AssemblyType& assembly, const AssetLibrary& libra
       whole.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     for (const auto s : mesh.surfaces)
       whole.surfaces.push_back(decltype(whole.surfaces)::value_type(s + surface));
-    for (const std::string& name : mesh.surface_names) whole.surface_names.push_back(name);
+    for (std::size_t s = 0; s < mesh.surface_names.size(); ++s) {
+      whole.surface_names.push_back(mesh.surface_names[s]);
+      whole.paints.push_back(s < mesh.paints.size() ? mesh.paints[s] : nullptr);
+    }
+    whole.paint_corners.insert(whole.paint_corners.end(), mesh.paint_corners.begin(), mesh.paint_corners.end());
+    whole.paint_corners.resize(whole.triangles.size());
   }
   return whole;
 }

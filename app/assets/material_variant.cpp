@@ -41,6 +41,7 @@ Asset make_variant(const Asset& asset, const Material& material) {
   variant.density = material.density;
   variant.friction = material.friction;
   variant.look = material.look;
+  variant.look_given = true;
   const std::string own[] = {stem(asset.look), stem(asset.material)};
   const auto is_own = [&](const std::string& look) {
     return look == asset.look || stem(look) == own[0] || stem(look) == own[1];

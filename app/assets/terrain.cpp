@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/assets/surface_choice.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/mesh_edges.h"
 #include "kernel/geometry/height_field.h"
@@ -22,7 +23,7 @@ bool is_surface_appearance(const std::string& name) {
 }
 
 void check_surface_appearance(const std::string& name) {
-  if (is_surface_appearance(name)) return;
+  if (name.empty() || is_surface_appearance(name)) return;
   Diagnostic d;
   d.key = "pile.terrain.look";
   d.message = "no such look";
@@ -42,7 +43,8 @@ TriangleMesh make_heights(const TerrainScenario& spec) {
                   0};
   field.heights = spec.heights;
   const double lowest = *std::min_element(spec.heights.begin(), spec.heights.end());
-  return make_height_field_mesh(field, lowest + spec.position.z + kDepth, spec.look);
+  return make_height_field_mesh(field, lowest + spec.position.z + kDepth,
+                                spec.look.empty() ? kGroundAppearance : spec.look);
 }
 
 std::string find_file(const std::string& name, const std::vector<std::string>& folders) {
@@ -64,6 +66,8 @@ std::string hash_mesh(const TriangleMesh& mesh, double friction) {
   hash.add(mesh.triangles.data(), mesh.triangles.size() * sizeof mesh.triangles[0]);
   for (const std::string& name : mesh.surface_names) hash.add(name.c_str(), name.size() + 1);
   hash.add(mesh.surfaces.data(), mesh.surfaces.size());
+  for (const auto& paint : mesh.paints)
+    if (paint) hash.add(paint->sha256.data(), paint->sha256.size());
   return hash.hex();
 }
 
@@ -80,8 +84,11 @@ MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::str
     const std::string path = find_file(spec.file, folders);
     scene->levels.push_back(importer.load_mesh(path, {spec.metres_per_unit, spec.up}));
     TriangleMesh& mesh = scene->levels.back();
-    for (std::string& surface : mesh.surface_names)
-      if (!is_surface_appearance(surface)) surface = spec.look;
+    choose_surfaces(mesh, [&spec](const std::string& surface, bool painted) {
+      if (is_surface_appearance(surface)) return surface;
+      if (painted && spec.look.empty()) return std::string();
+      return spec.look.empty() ? std::string(kGroundAppearance) : spec.look;
+    });
     terrain.folder = fs::absolute(fs::path(path).parent_path()).lexically_normal().string();
     if (!is_closed(mesh))
       terrain.warning = path + ": the mesh is not closed: " + describe(find_open_edges(mesh)) +

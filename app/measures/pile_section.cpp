@@ -7,13 +7,14 @@ namespace {
 
 struct Corner {
   Vec3 position, normal;  // in the world
+  PaintCorner paint;
 };
 
 class Cutter {
  public:
   Cutter(const SceneInstance& instance, const TriangleMesh& mesh, double y)
       : instance_(instance), mesh_(mesh), y_(y) {
-    cut_.surface_names = mesh.surface_names;
+    cut_.surface_names = mesh.surface_names, cut_.paints = mesh.paints;
     face_.instance = instance.id;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) add(t);
   }
@@ -21,9 +22,11 @@ class Cutter {
   CutFace& face() { return face_; }
 
  private:
-  Corner corner(std::uint32_t v) const {
+  Corner corner(std::size_t t, std::size_t i) const {
+    const std::uint32_t v = mesh_.triangles[t][i];
     const Pose& pose = instance_.world_from_body;
-    Corner c{pose * (Vec3(mesh_.positions[v]) * double(instance_.scale)), {}};
+    Corner c{pose * (Vec3(mesh_.positions[v]) * double(instance_.scale)), {}, {}};
+    if (!mesh_.paint_corners.empty()) c.paint = mesh_.paint_corners[t][i];
     if (!mesh_.normals.empty()) c.normal = pose.rotation.rotate(Vec3(mesh_.normals[v]));
     return c;
   }
@@ -34,14 +37,13 @@ class Cutter {
     std::vector<Corner> kept;
     std::vector<Vec3> crossings;
     for (int i = 0; i < 3; ++i) {
-      const Corner a = corner(mesh_.triangles[t][std::size_t(i)]);
-      const Corner b = corner(mesh_.triangles[t][std::size_t((i + 1) % 3)]);
+      const Corner a = corner(t, std::size_t(i)), b = corner(t, std::size_t((i + 1) % 3));
       const bool a_behind = a.position.y > y_, b_behind = b.position.y > y_;
       if (a_behind) kept.push_back(a);
       if (a_behind == b_behind) continue;
       const double s = (y_ - a.position.y) / (b.position.y - a.position.y);
       kept.push_back({a.position + (b.position - a.position) * s,
-                      normalized(a.normal + (b.normal - a.normal) * s)});
+                      normalized(a.normal + (b.normal - a.normal) * s), between(a.paint, b.paint, float(s))});
       crossings.push_back(kept.back().position);
     }
     if (crossings.size() == 2)
@@ -54,6 +56,8 @@ class Cutter {
     for (std::uint32_t k = 2; k < kept.size(); ++k) {
       cut_.triangles.push_back({first, first + k - 1, first + k});
       cut_.surfaces.push_back(mesh_.surfaces[t]);
+      if (!mesh_.paint_corners.empty())
+        cut_.paint_corners.push_back({kept[0].paint, kept[k - 1].paint, kept[k].paint});
     }
   }
 

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "app/assets/decompose_cache.h"
+#include "app/assets/surface_choice.h"
 #include "kernel/base/error.h"
+#include "kernel/base/hash.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/robot/looks.h"
 #include "kernel/robot/parts.h"
@@ -17,6 +19,7 @@ constexpr double kFullEffortAt = 0.07;  // error of position control; unit: rad
 constexpr double kFullEffortSlide = 0.007;  // of a slider; unit: m
 constexpr double kDampingTime = 0.05;   // of position control: damping by stiffness; unit: s
 constexpr int kFacets = 32, kSpherePoints = 96;
+constexpr float kPaintReflectance = 0.04f, kPaintRoughness = 0.6f;  // of what has a colour in the file; our choice
 constexpr double kLeftwards = 0.999;    // cosine between a wheel's axis and +Y
 
 // Golden-angle spiral.
@@ -157,20 +160,57 @@ class Builder {
     TriangleMesh mesh;
     if (g.kind == UrdfGeometry::Kind::mesh) {
       mesh = load_scaled(g, importer_);
+      if (!g.colour && has_paint(mesh))
+        for (const std::string& note : importer_.notes()) made_.warnings.push_back(g.file + ": " + note);
     } else {
       RobotLink solid;
       solid.parts = parts_of(g, link);
       mesh = make_link_mesh(solid, "");
     }
+    if (g.colour) paint(*g.colour, mesh);
     const Pose body_from_mesh = place.body_from_link * g.link_from_geometry;
     TriangleMesh& looks = body.looks;
+    const std::string plain = choose_link_surface(made_.model, std::size_t(place.body));
+    choose_surfaces(mesh, [&plain](const std::string&, bool painted) { return painted ? std::string() : plain; });
+    const std::vector<std::uint8_t> surfaces = add_surfaces(mesh, plain, looks);
     const auto first = std::uint32_t(looks.positions.size());
     for (const Vec3f& p : mesh.positions) looks.positions.push_back(Vec3f(body_from_mesh * Vec3(p)));
-    for (const auto& t : mesh.triangles) {
-      looks.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-      looks.surfaces.push_back(0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& v = mesh.triangles[t];
+      looks.triangles.push_back({first + v[0], first + v[1], first + v[2]});
+      looks.surfaces.push_back(mesh.surfaces.empty() ? std::uint8_t(0) : surfaces[mesh.surfaces[t]]);
+      if (mesh.paint_corners.empty() && looks.paint_corners.empty()) continue;
+      looks.paint_corners.resize(looks.triangles.size());
+      if (!mesh.paint_corners.empty()) looks.paint_corners.back() = mesh.paint_corners[t];
     }
-    looks.surface_names = {choose_link_surface(made_.model, std::size_t(place.body))};
+  }
+
+  // All of it, over the colours of its file, as RViz does.
+  static void paint(const Vec3f& colour, TriangleMesh& mesh) {
+    SurfacePaint paint;
+    paint.colour = colour, paint.reflectance = kPaintReflectance, paint.roughness = kPaintRoughness;
+    Sha256 hash;
+    for (const float x : {colour.x, colour.y, colour.z}) hash.add(&x, sizeof x);
+    paint.sha256 = hash.hex();
+    mesh.surface_names = {"material"};
+    mesh.surfaces.assign(mesh.triangles.size(), 0);
+    mesh.paints = {std::make_shared<const SurfacePaint>(std::move(paint))};
+    mesh.paint_corners.assign(mesh.triangles.size(), {});
+  }
+
+  // By surface of the mesh: which it is of the link's looks. The first of those is what has no colours of its own.
+  static std::vector<std::uint8_t> add_surfaces(const TriangleMesh& mesh, const std::string& plain,
+                                                TriangleMesh& looks) {
+    if (looks.surface_names.empty()) looks.surface_names = {plain};
+    std::vector<std::uint8_t> out(std::max<std::size_t>(1, mesh.surface_names.size()), 0);
+    for (std::size_t s = 0; s < mesh.paints.size() && looks.surface_names.size() < 256; ++s) {
+      if (!mesh.paints[s]) continue;
+      out[s] = std::uint8_t(looks.surface_names.size());
+      looks.paints.resize(looks.surface_names.size());
+      looks.surface_names.push_back(mesh.surface_names[s]);
+      looks.paints.push_back(mesh.paints[s]);
+    }
+    return out;
   }
 
   // Of all links of a body, about their common centre (Steiner).

@@ -8,6 +8,7 @@
 #include "app/fines/seen_fines.h"
 #include "app/surroundings/seen_surroundings.h"
 #include "kernel/base/portable_math.h"
+#include "render/materials/paint_layers.h"
 #include "render/materials/surface_appearance.h"
 
 namespace rubble {
@@ -121,6 +122,10 @@ PileModel build_model(const AssetLibrary& assets, const PileState& pile, bool lo
   }
   for (const SurfaceAppearance& look : all_surface_appearances())
     model.surface_appearance.push_back({look.name, (look.dark + look.light) * 0.5f});
+  for (const auto& mesh : assets.meshes)
+    for (const TriangleMesh& level : mesh->levels)
+      for (std::size_t s = 0; s < level.surface_names.size(); ++s)
+        if (level.paint_of(s)) model.surface_appearance.push_back({level.surface_names[s], mean_paint(level, s)});
   return model;
 }
 

@@ -5,6 +5,7 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/little_endian.h"
+#include "io/mesh/glb_paint.h"
 #include "io/mesh/pile_export.h"
 #include "io/mesh/track_glb.h"
 #include "kernel/base/error.h"
@@ -35,6 +36,10 @@ class GlbBuilder {
       const int normals = type.mesh->normals.empty() ? -1 : add_vectors(type.mesh->normals, false);
       const std::size_t surfaces = std::max<std::size_t>(1, type.mesh->surface_names.size());
       for (std::size_t s = 0; s < surfaces; ++s) {
+        if (type.mesh->paint_of(s)) {
+          add_painted(*type.mesh, s, mesh);
+          continue;
+        }
         const int indices = add_indices(*type.mesh, s);
         if (indices < 0) continue;
         Json primitive{{"attributes", {{"POSITION", positions}}}, {"indices", indices}};
@@ -92,6 +97,62 @@ class GlbBuilder {
   }
 
  private:
+  // Its triangles with vertices of their own, which have places in images and colours.
+  void add_painted(const TriangleMesh& mesh, std::size_t surface, Json& out) {
+    const GlbCorners corners = make_glb_corners(mesh, surface);
+    if (corners.positions.empty()) return;
+    const SurfacePaint& paint = *mesh.paints[surface];
+    Json attributes{{"POSITION", add_vectors(corners.positions, true)},
+                    {"NORMAL", add_vectors(corners.normals, false)}};
+    if (paint.relief.side > 0) {
+      std::vector<float> tangents;
+      for (std::size_t i = 0; i < corners.tangents.size(); ++i) {
+        const Vec3f t = to_y_up(corners.tangents[i]);
+        tangents.insert(tangents.end(), {t.x, t.y, t.z, corners.handedness[i]});
+      }
+      attributes["TANGENT"] = add_floats(tangents, "VEC4", kArrayBuffer);
+    }
+    if (paint.albedo.side > 0 || paint.relief.side > 0)
+      attributes["TEXCOORD_0"] = add_floats(corners.places, "VEC2", kArrayBuffer);
+    if (corners.coloured) {
+      std::vector<float> colours;
+      for (const Vec3f& c : corners.colours) colours.insert(colours.end(), {c.x, c.y, c.z});
+      attributes["COLOR_0"] = add_floats(colours, "VEC3", kArrayBuffer);
+    }
+    out["primitives"].push_back(
+        {{"attributes", attributes}, {"material", find_painted(mesh.surface_names[surface], paint)}});
+  }
+
+  std::size_t find_painted(const std::string& name, const SurfacePaint& paint) {
+    for (std::size_t i = 0; i < material_names_.size(); ++i)
+      if (material_names_[i] == name) return i;
+    const Vec3f& c = paint.colour;
+    Json rough{{"baseColorFactor", {c.x, c.y, c.z, 1}},
+               {"metallicFactor", paint.metalness},
+               {"roughnessFactor", paint.roughness}};
+    const GlbImages images = make_glb_images(paint);
+    const auto add = [this](Json& to, const char* key, const std::string& png) {
+      if (!png.empty()) to[key] = {{"index", add_image(png)}};
+    };
+    add(rough, "baseColorTexture", images.base_colour);
+    add(rough, "metallicRoughnessTexture", images.metallic_roughness);
+    Json material{{"name", name}, {"pbrMetallicRoughness", rough}};
+    add(material, "normalTexture", images.normal);
+    json_["materials"].push_back(material);
+    material_names_.push_back(name);
+    return material_names_.size() - 1;
+  }
+
+  std::size_t add_image(const std::string& png) {
+    Json view{{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", png.size()}};
+    bytes_ += png;
+    bytes_.append((4 - bytes_.size() % 4) % 4, '\0');
+    json_["bufferViews"].push_back(view);
+    json_["images"].push_back({{"bufferView", json_["bufferViews"].size() - 1}, {"mimeType", "image/png"}});
+    json_["textures"].push_back({{"source", json_["images"].size() - 1}});
+    return json_["textures"].size() - 1;
+  }
+
   static void put_chunk(std::string& out, std::string_view type, const std::string& content) {
     put(out, static_cast<std::uint32_t>(content.size()));
     out.append(type);
@@ -142,11 +203,11 @@ class GlbBuilder {
         {{"input", input}, {"output", output}, {"interpolation", interpolation}});
   }
 
-  int add_floats(const std::vector<float>& numbers, const char* type) {
+  int add_floats(const std::vector<float>& numbers, const char* type, int target = 0) {
     const std::size_t start = bytes_.size();
     for (const float number : numbers) put(bytes_, number);
-    const std::size_t parts = std::string_view(type) == "VEC4" ? 4 : type[0] == 'V' ? 3 : 1;
-    return add_accessor(start, 0, kFloat, type, numbers.size() / parts);
+    const std::size_t parts = type[0] == 'V' ? std::size_t(type[3] - '0') : 1;  // "VEC3"
+    return add_accessor(start, target, kFloat, type, numbers.size() / parts);
   }
 
   int add_times(const std::vector<float>& times) {

@@ -20,8 +20,24 @@ inline std::string get_text(CacheReader& reader) {
   return {text.begin(), text.end()};
 }
 
-// note: goes with it.
-inline std::string mesh_to_bytes(const TriangleMesh& mesh, const std::string& note) {
+inline void put_paint(CacheWriter& writer, const SurfacePaint& paint) {
+  writer.put(paint.colour);
+  for (const float x : {paint.roughness, paint.metalness, paint.reflectance}) writer.put(x);
+  for (const PaintImage* image : {&paint.albedo, &paint.relief}) writer.put(image->side), writer.put(image->texels);
+  put_text(writer, paint.sha256);
+}
+
+inline std::shared_ptr<const SurfacePaint> get_paint(CacheReader& reader) {
+  SurfacePaint paint;
+  reader.get(paint.colour);
+  for (float* x : {&paint.roughness, &paint.metalness, &paint.reflectance}) reader.get(*x);
+  for (PaintImage* image : {&paint.albedo, &paint.relief}) reader.get(image->side), reader.get(image->texels);
+  paint.sha256 = get_text(reader);
+  return std::make_shared<const SurfacePaint>(std::move(paint));
+}
+
+// notes: go with it.
+inline std::string mesh_to_bytes(const TriangleMesh& mesh, const std::vector<std::string>& notes) {
   CacheWriter writer;
   writer.put(mesh.positions);
   writer.put(mesh.normals);
@@ -29,22 +45,31 @@ inline std::string mesh_to_bytes(const TriangleMesh& mesh, const std::string& no
   writer.put(mesh.surfaces);
   writer.put(std::uint64_t(mesh.surface_names.size()));
   for (const std::string& name : mesh.surface_names) put_text(writer, name);
-  put_text(writer, note);
+  writer.put(std::uint64_t(mesh.paints.size()));
+  for (const auto& paint : mesh.paints) put_paint(writer, *paint);
+  writer.put(mesh.paint_corners);
+  writer.put(std::uint64_t(notes.size()));
+  for (const std::string& note : notes) put_text(writer, note);
   return writer.bytes();
 }
 
-inline TriangleMesh mesh_from_bytes(const std::string& bytes, std::string& note) {
+inline TriangleMesh mesh_from_bytes(const std::string& bytes, std::vector<std::string>& notes) {
   CacheReader reader(bytes);
   TriangleMesh mesh;
   reader.get(mesh.positions);
   reader.get(mesh.normals);
   reader.get(mesh.triangles);
   reader.get(mesh.surfaces);
-  std::uint64_t names = 0;
+  std::uint64_t names = 0, paints = 0, lines = 0;
   reader.get(names);
   for (std::uint64_t i = 0; i < names && i < 256; ++i)
     mesh.surface_names.push_back(get_text(reader));
-  note = get_text(reader);
+  reader.get(paints);
+  for (std::uint64_t i = 0; i < paints && i < 256; ++i) mesh.paints.push_back(get_paint(reader));
+  reader.get(mesh.paint_corners);
+  reader.get(lines);
+  notes.clear();
+  for (std::uint64_t i = 0; i < lines && i < bytes.size(); ++i) notes.push_back(get_text(reader));
   if (!reader.whole()) throw RunError("a mesh was cut short between two processes");
   return mesh;
 }

@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "io/mesh/mesh_bytes.h"
+#include "io/mesh/mesh_paint.h"
 #include "kernel/base/error.h"
 #include "kernel/base/system/isolated_worker.h"
 #include "kernel/base/text.h"
@@ -104,12 +105,12 @@ struct VertexKeyHash {
 // Joins meshes into one. The map is only asked, never walked: numbers follow first use.
 class MeshBuilder {
  public:
-  MeshBuilder(const std::string& path, const MeshUnits& units, bool with_normals)
-      : path_(path), units_(units), with_normals_(with_normals) {}
+  MeshBuilder(const std::string& path, const MeshUnits& units, bool with_normals, MeshPaints& paints)
+      : path_(path), units_(units), with_normals_(with_normals), paints_(paints) {}
 
   void add(const PlacedMesh& placed, const std::string& surface) {
     const aiMesh& mesh = *placed.mesh;
-    const std::uint8_t surface_index = find_surface(surface);
+    const std::uint8_t surface_index = find_surface(surface, paints_.of(mesh));
     aiMatrix3x3 turn(placed.file_from_mesh);
     const bool mirrored = turn.Determinant() < 0;
     turn.Inverse().Transpose();  // normals go by the inverse transpose
@@ -117,15 +118,18 @@ class MeshBuilder {
       const aiFace& face = mesh.mFaces[f];
       check_face(mesh, face);
       std::array<std::uint32_t, 3> triangle{};
+      std::array<PaintCorner, 3> paint{};
       for (unsigned k = 0; k < 3; ++k) {
         const unsigned corner = face.mIndices[mirrored ? 2 - k : k];
         triangle[k] = add_vertex(placed, turn, corner);
+        if (paints_.any()) paint[k] = paints_.corner(mesh, corner);
       }
       if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) {
         continue;  // no area: two corners are one point
       }
       mesh_.triangles.push_back(triangle);
       mesh_.surfaces.push_back(surface_index);
+      if (paints_.any()) mesh_.paint_corners.push_back(paint);
     }
   }
 
@@ -141,12 +145,15 @@ class MeshBuilder {
       if (face.mIndices[k] >= mesh.mNumVertices) refuse(path_, "has a face with a corner too many");
   }
 
-  std::uint8_t find_surface(const std::string& name) {
+  // Two materials of one name are two surfaces if they have two paints.
+  std::uint8_t find_surface(const std::string& name, const std::shared_ptr<const SurfacePaint>& paint) {
     for (std::size_t i = 0; i < mesh_.surface_names.size(); ++i) {
-      if (mesh_.surface_names[i] == printable(name)) return static_cast<std::uint8_t>(i);
+      if (mesh_.surface_names[i] == printable(name) && mesh_.paint_of(i) == paint.get())
+        return static_cast<std::uint8_t>(i);
     }
     if (mesh_.surface_names.size() == 256) refuse(path_, "has more than 256 materials");
     mesh_.surface_names.push_back(printable(name));  // it comes to be text of JSON
+    if (paint) mesh_.paints.push_back(paint);
     return static_cast<std::uint8_t>(mesh_.surface_names.size() - 1);
   }
 
@@ -174,6 +181,7 @@ class MeshBuilder {
   const std::string& path_;
   MeshUnits units_;
   bool with_normals_;
+  MeshPaints& paints_;
   TriangleMesh mesh_;
   std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> numbers_;
 };
@@ -188,32 +196,7 @@ std::string name_of_material(const aiScene& scene, const aiMesh& mesh) {
   return scene.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
 }
 
-bool has_texture(const aiMaterial& material) {
-  for (int type = aiTextureType_DIFFUSE; type <= AI_TEXTURE_TYPE_MAX; ++type)
-    if (material.GetTextureCount(aiTextureType(type)) > 0) return true;
-  return false;
-}
-
-// Grey is no loss: nearly every exporter writes some.
-bool has_colour(const aiMaterial& material) {
-  aiColor3D c;
-  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, c) != aiReturn_SUCCESS) return false;
-  return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b}) > 0.05f;
-}
-
-std::string find_left_out(const aiScene& scene) {
-  bool colours = false, textures = scene.mNumTextures > 0;
-  for (unsigned i = 0; i < scene.mNumMeshes; ++i)
-    colours = colours || scene.mMeshes[i]->HasVertexColors(0);
-  for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
-    colours = colours || has_colour(*scene.mMaterials[i]);
-    textures = textures || has_texture(*scene.mMaterials[i]);
-  }
-  if (colours && textures) return "colours and textures";
-  return colours ? "colours" : textures ? "textures" : "";
-}
-
-TriangleMesh import_mesh(const std::string& path, const MeshUnits& units, std::string& left_out) {
+TriangleMesh import_mesh(const std::string& path, const MeshUnits& units, std::vector<std::string>& notes) {
   Assimp::Importer importer;
   const aiScene& scene = import(importer, path, aiProcess_Triangulate);
   const std::vector<PlacedMesh> placed = collect(scene);
@@ -223,9 +206,10 @@ TriangleMesh import_mesh(const std::string& path, const MeshUnits& units, std::s
     if (p.mesh->mPrimitiveTypes & (aiPrimitiveType_POINT | aiPrimitiveType_LINE))
       refuse_points_and_lines(path);
   }
-  left_out = find_left_out(scene);
-  MeshBuilder builder(path, units, with_normals);
+  MeshPaints paints(scene, path);
+  MeshBuilder builder(path, units, with_normals, paints);
   for (const PlacedMesh& p : placed) builder.add(p, name_of_material(scene, *p.mesh));
+  notes = paints.notes();
   return builder.take();
 }
 
@@ -279,9 +263,9 @@ std::string answer_request(const std::string& request) {
   reader.get(units.up);
   const std::string path = request.substr(size);
   if (kind == kParts) return parts_to_bytes(import_convex_parts(path, units));
-  std::string left_out;
-  const TriangleMesh mesh = import_mesh(path, units, left_out);
-  return mesh_to_bytes(mesh, left_out);
+  std::vector<std::string> notes;
+  const TriangleMesh mesh = import_mesh(path, units, notes);
+  return mesh_to_bytes(mesh, notes);
 }
 
 }  // namespace
@@ -297,7 +281,7 @@ std::string MeshImporter::ask(char kind, const std::string& path, const MeshUnit
 }
 
 TriangleMesh MeshImporter::load_mesh(const std::string& path, const MeshUnits& units) {
-  return mesh_from_bytes(ask(kMesh, path, units), left_out_);
+  return mesh_from_bytes(ask(kMesh, path, units), notes_);
 }
 
 std::vector<std::vector<Vec3>> MeshImporter::load_convex_parts(const std::string& path,

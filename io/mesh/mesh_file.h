@@ -28,19 +28,20 @@ class MeshImporter {
   TriangleMesh load_mesh(const std::string& path, const MeshUnits& units = {});
   std::vector<std::vector<Vec3>> load_convex_parts(const std::string& path,
                                                    const MeshUnits& units = {});
-  // What the last mesh that was loaded has in its file and not here: "colours and textures";
-  // empty: nothing.
-  const std::string& left_out() const { return left_out_; }
+  // What of the colours of the last mesh that was loaded cannot be drawn, a clause each: "the image
+  // wood.bmp is neither PNG nor JPEG".
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   std::string ask(char kind, const std::string& path, const MeshUnits& units);
 
   std::unique_ptr<IsolatedWorker> worker_;
-  std::string left_out_;
+  std::vector<std::string> notes_;
 };
 
 // Reads any format that assimp knows. Every mesh of the file is joined into one; surfaces are the
-// materials' names, in order of first use. Vertices of equal position and normal are welded.
+// materials' names, in order of first use, with paints where the file has colours (io/mesh/mesh_paint.h).
+// Vertices of equal position and normal are welded.
 // Throws InputError, naming the file and the reason, for one that is missing, unreadable, without
 // triangles, or that holds points or lines; that crashes assimp, or makes it take too much time or
 // memory (kernel/base/system/isolated_worker.h).

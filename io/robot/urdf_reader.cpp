@@ -171,9 +171,23 @@ class Reader {
     }
     for (const auto& c : from.collision_array)
       if (c && c->geometry) take_geometry(*c->geometry, c->origin, link, link.collisions);
-    for (const auto& v : from.visual_array)
+    for (const auto& v : from.visual_array) {
+      const std::size_t before = link.visuals.size();
       if (v && v->geometry) take_geometry(*v->geometry, v->origin, link, link.visuals);
+      if (link.visuals.size() > before) link.visuals.back().colour = colour_of(*v);
+    }
     return link;
+  }
+
+  // Colours of URDF files are those of a screen: sRGB.
+  static std::optional<Vec3f> colour_of(const urdf::Visual& visual) {
+    const auto& m = visual.material;
+    if (!m || !m->texture_filename.empty()) return std::nullopt;
+    const auto decode = [](float code) {
+      const float x = code > 0 ? std::min(code, 1.0f) : 0.0f;
+      return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
+    };
+    return Vec3f(decode(m->color.r), decode(m->color.g), decode(m->color.b));
   }
 
   void take_geometry(const urdf::Geometry& from, const urdf::Pose& origin, const UrdfLink& link,

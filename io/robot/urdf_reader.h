@@ -21,6 +21,7 @@ struct UrdfGeometry {
   std::string file;           // of a mesh: a path that exists
   Vec3 scale{1, 1, 1};        // of a mesh; > 0
   Pose link_from_geometry;    // unit: m
+  std::optional<Vec3f> colour;  // linear-light albedo, of a visual whose material names one
 };
 
 struct UrdfLink {

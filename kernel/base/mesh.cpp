@@ -5,6 +5,10 @@
 
 namespace rubble {
 
+PaintCorner between(const PaintCorner& a, const PaintCorner& b, float share) {
+  return {a.u + (b.u - a.u) * share, a.v + (b.v - a.v) * share, a.colour + (b.colour - a.colour) * share};
+}
+
 Aabb TriangleMesh::bounds() const {
   Aabb box;
   for (const Vec3f& p : positions) box.include(Vec3(p));

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,31 @@ namespace rubble {
 // becomes (x, -z, y), as glTF needs.
 enum class UpAxis { y, z };
 
+// A square of texels in rows from the top, 4 bytes each. side 0: there is none.
+struct PaintImage {
+  int side = 0;  // a power of two; unit: texel
+  std::vector<std::uint8_t> texels;
+};
+
+// The colours that a mesh's file gives one of its surfaces: what of glTF's metal-rough material (glTF 2.0,
+// section 3.9) is drawn. A surface without has a look, by its name.
+struct SurfacePaint {
+  Vec3f colour{1, 1, 1};  // linear-light albedo; the image's and the corner's are multiplied by it
+  float roughness = 1;    // the square root of alpha of the microfacets; the image's is multiplied by it
+  float metalness = 0;    // likewise; range: 0 to 1
+  float reflectance = 0;  // at normal incidence, of what is no metal; 0: matt
+  PaintImage albedo;      // encoded as sRGB (IEC 61966-2-1); the fourth byte says nothing
+  PaintImage relief;      // X and Y of the normal, 0 to 255 for -1 to 1; roughness; metalness
+  std::string sha256;     // of all of the above
+};
+
+// Of one corner of a triangle.
+struct PaintCorner {
+  float u = 0, v = 0;     // place in the images: (0, 0) lower left, (1, 1) upper right; they repeat
+  Vec3f colour{1, 1, 1};  // linear-light, see SurfacePaint
+};
+PaintCorner between(const PaintCorner& a, const PaintCorner& b, float share);  // share: of b
+
 // Triangles are counter-clockwise seen from outside. Lengths in metres, frame Z up.
 struct TriangleMesh {
   std::vector<Vec3f> positions;                         // of the vertices; unit: m
@@ -21,7 +47,12 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into the positions
   std::vector<std::uint8_t> surfaces;                   // one per triangle, an index into surface_names
   std::vector<std::string> surface_names;               // looks, e.g. "concrete_cast", "concrete_fracture"
+  std::vector<std::shared_ptr<const SurfacePaint>> paints;  // one per surface name, null: by its look; or empty
+  std::vector<std::array<PaintCorner, 3>> paint_corners;    // one per triangle; empty where there is no paint
 
+  const SurfacePaint* paint_of(std::size_t surface) const {
+    return surface < paints.size() ? paints[surface].get() : nullptr;
+  }
   Aabb bounds() const;
 };
 

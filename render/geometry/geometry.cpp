@@ -1,5 +1,6 @@
 #include "render/geometry/geometry.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "kernel/base/error.h"
@@ -106,6 +107,22 @@ void mark_moving(const Scene& scene, std::vector<std::uint8_t>& moves) {
   }
 }
 
+// Each paint once, however many meshes have it.
+void number_paints(PreparedScene& scene) {
+  std::vector<std::shared_ptr<const SurfacePaint>> all;
+  for (PreparedMesh& mesh : scene.meshes) {
+    std::vector<std::int32_t> numbers;
+    for (const auto& paint : mesh.paints) {
+      const auto found = std::find_if(all.begin(), all.end(), [&](const auto& p) { return p->sha256 == paint->sha256; });
+      numbers.push_back(std::int32_t(found - all.begin()));
+      if (found == all.end()) all.push_back(paint), scene.paint_key += paint->sha256;
+    }
+    for (TrianglePaint& triangle : mesh.paint)
+      if (triangle.paint >= 0) triangle.paint = numbers[std::size_t(triangle.paint)];
+  }
+  if (!all.empty()) scene.paints = std::make_shared<const PaintLayers>(make_paint_layers(all));
+}
+
 }  // namespace
 
 PreparedScene prepare_scene(const Scene& scene, int threads) {
@@ -115,6 +132,7 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
     if (!scene.meshes[i]) throw RunError("the scene has a mesh without data");
     out.meshes[i] = prepare_mesh(*scene.meshes[i]);
   });
+  number_paints(out);
   std::vector<std::uint32_t> axes;
   for (const PreparedMesh& mesh : out.meshes) axes.push_back(std::uint32_t(find_longest_axis(mesh)));
   std::vector<std::uint8_t> moves;
@@ -152,6 +170,7 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
 PreparedScene resting_part(const PreparedScene& scene, std::vector<std::uint32_t>& first_light) {
   PreparedScene out;
   out.meshes = scene.meshes;
+  out.paints = scene.paints, out.paint_key = scene.paint_key;
   for (const PlacedMesh& piece : scene.placed) {
     if (piece.moves) continue;
     first_light.push_back(piece.first_light);
@@ -211,6 +230,71 @@ std::uint32_t look_word(const PreparedTriangle& t, std::uint32_t first_vertex) {
   return t.material + kMaxSurfaceAppearances * 3 * (t.light_steps - 1) + (std::uint32_t(first_node) << 11);
 }
 
+Texel pack_floats(float a, float b, float c, float d) {
+  return {float_bits(a), float_bits(b), float_bits(c), float_bits(d)};
+}
+
+std::uint32_t pack_colour(const Vec3f& c) {
+  return std::uint32_t(encode_srgb(c.x)) | std::uint32_t(encode_srgb(c.y)) << 8 | std::uint32_t(encode_srgb(c.z)) << 16;
+}
+
+// Two texels a paint, then three a triangle, by its name: see shaders/paint.glsl.
+// triangles: their table.
+std::vector<Texel> make_paint_table(const PreparedScene& scene, const GpuGeometry& geometry,
+                                    const std::vector<Texel>& triangles) {
+  std::vector<Texel> out;
+  for (const PaintLayers::Paint& p : scene.paints->paints) {
+    out.push_back(pack_floats(p.colour.x, p.colour.y, p.colour.z, p.roughness));
+    out.push_back(pack_floats(p.metalness, p.reflectance, float(p.albedo), float(p.relief)));
+  }
+  const std::size_t first = out.size();
+  out.resize(first + 3 * triangles.size());
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    for (std::size_t t = 0; t < scene.meshes[m].paint.size(); ++t) {
+      const TrianglePaint& paint = scene.meshes[m].paint[t];
+      if (paint.paint < 0) continue;
+      const std::uint32_t name = geometry.name_of_triangle[geometry.first_index[m] / 3 + t];
+      // By the corners as the table of triangles has them, which may be turned.
+      std::array<PaintCorner, 3> c = paint.corners;
+      for (std::uint32_t turns = (triangles[name][3] & 2047u) / kMaxSurfaceAppearances % 3; turns > 0; --turns)
+        c = {c[1], c[2], c[0]};
+      Texel* at = &out[first + 3 * name];
+      at[0] = pack_floats(c[0].u, c[0].v, c[1].u, c[1].v);
+      at[1] = {float_bits(c[2].u), float_bits(c[2].v), std::uint32_t(paint.paint), 0};
+      at[2] = {pack_colour(c[0].colour), pack_colour(c[1].colour), pack_colour(c[2].colour), 0};
+    }
+  }
+  return out;
+}
+
+GlTexture upload_images(const Gl& gl, const PaintLayers& paints) {
+  GlTexture texture(gl, GLenum(GL_TEXTURE_2D_ARRAY));
+  const TextureStack& images = paints.images;
+  const int count = std::max(1, paints.image_count);
+  gl.TextureStorage3D(texture.name(), images.levels(), GL_RGBA8, images.size(), images.size(), count);
+  for (int i = 0; i < paints.image_count; ++i)
+    for (int level = 0; level < images.levels(); ++level)
+      gl.TextureSubImage3D(texture.name(), level, 0, 0, i, images.size() >> level, images.size() >> level, 1,
+                           GL_RGBA, GL_UNSIGNED_BYTE, images.texels(i, level).data());
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  check_gl(gl, "uploading the images of meshes");
+  return texture;
+}
+
+// The number of entries of the table.
+std::size_t upload_paint(const Gl& gl, const PreparedScene& scene, const std::vector<Texel>& triangles,
+                         GpuGeometry& out) {
+  if (!scene.paints) return 0;
+  const std::vector<Texel> table = make_paint_table(scene, out, triangles);
+  out.paint = make_buffer(gl, table);
+  out.paint_view = make_buffer_texture(gl, out.paint, GL_RGBA32UI);
+  out.paint_images = upload_images(gl, *scene.paints);
+  out.paint_count = scene.paints->paints.size();
+  out.paint_side = scene.paints->images.size();
+  return table.size();
+}
+
 }  // namespace
 
 GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
@@ -252,11 +336,12 @@ GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
   out.triangles_view = make_buffer_texture(gl, out.triangles, GL_RGBA32UI);
   out.placed_view = make_buffer_texture(gl, out.placed, GL_RGBA32UI);
   out.light_view = make_buffer_texture(gl, out.light, GL_RG32UI);
+  const std::size_t painted = upload_paint(gl, scene, triangles, out);
   check_gl(gl, "uploading the scene's geometry");
   GLint most = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
   const std::size_t need =
-      std::max(std::max(vertices.size(), triangles.size()), std::max(placed.size(), light.size()));
+      std::max({vertices.size(), triangles.size(), placed.size(), light.size(), painted});
   if (need > std::size_t(most))
     throw RunError("the scene needs tables of " + std::to_string(need) +
                    " entries; this graphics device holds " + std::to_string(most));

@@ -3,10 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "render/geometry/prepared_mesh.h"
 #include "render/gl/gl_objects.h"
+#include "render/materials/paint_layers.h"
 #include "render/scene/frame.h"
 #include "render/scene/scene.h"
 
@@ -37,6 +40,8 @@ inline constexpr std::uint32_t kGroundId = kGroundInstance;
 struct PreparedScene {
   std::vector<PreparedMesh> meshes;  // each once
   std::vector<PlacedMesh> placed;    // pieces, and the ground where there is one
+  std::shared_ptr<const PaintLayers> paints;  // of all meshes; null where nothing is painted
+  std::string paint_key;                      // another text for other paints
   std::size_t cluster_flags = 0;     // clusters of the finest level over all placed meshes
   std::size_t light_nodes = 0;       // entries of the table of baked light
   Aabb bounds;  // of all pieces, without the ground and surroundings, wherever they move
@@ -59,6 +64,11 @@ struct BakedLight {
 struct GpuGeometry {
   GlBuffer vertices, indices, triangles, placed, light;
   GlTexture vertices_view, triangles_view, placed_view, light_view;
+  // See shaders/paint.glsl; nothing where paint_count is 0.
+  GlBuffer paint;
+  GlTexture paint_view, paint_images;
+  std::size_t paint_count = 0;
+  int paint_side = 1;  // of the images; unit: texel
   std::vector<std::uint32_t> first_index;   // of each prepared mesh, in `indices`
   std::vector<std::uint32_t> first_vertex;  // likewise, in `vertices`
   // A drawn pixel names its triangle by that triangle's last vertex, which is its own. From the

@@ -31,7 +31,7 @@ class Welder {
 
 TriangleMesh weld(const TriangleMesh& mesh) {
   TriangleMesh out;
-  out.surface_names = mesh.surface_names;
+  out.surface_names = mesh.surface_names, out.paints = mesh.paints;
   Welder welder(out);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& tri = mesh.triangles[t];
@@ -44,9 +44,15 @@ TriangleMesh weld(const TriangleMesh& mesh) {
           welder.add(p[k], mesh.normals.empty() ? face : mesh.normals[tri[std::size_t(k)]]);
     out.triangles.push_back(welded);
     out.surfaces.push_back(mesh.surfaces.empty() ? std::uint8_t(0) : mesh.surfaces[t]);
+    if (!mesh.paint_corners.empty()) out.paint_corners.push_back(mesh.paint_corners[t]);
   }
   return out;
 }
+
+struct Corner {
+  std::uint32_t vertex;
+  PaintCorner paint;
+};
 
 // One round: every edge that is too long is halved.
 class Halver {
@@ -56,18 +62,23 @@ class Halver {
   bool run() {
     const auto triangles = std::move(mesh_.triangles);
     const auto surfaces = std::move(mesh_.surfaces);
-    mesh_.triangles.clear(), mesh_.surfaces.clear();
+    const auto paint = std::move(mesh_.paint_corners);
+    mesh_.triangles.clear(), mesh_.surfaces.clear(), mesh_.paint_corners.clear();
+    painted_ = !paint.empty();
     bool cut = false;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       surface_ = surfaces[t];
-      cut |= divide(triangles[t]);
+      std::array<Corner, 3> corners;
+      for (std::size_t i = 0; i < 3; ++i)
+        corners[i] = {triangles[t][i], painted_ ? paint[t][i] : PaintCorner()};
+      cut |= divide(corners);
     }
     return cut;
   }
 
  private:
-  bool too_long(std::uint32_t a, std::uint32_t b) const {
-    const Vec3f d = mesh_.positions[a] - mesh_.positions[b];
+  bool too_long(const Corner& a, const Corner& b) const {
+    const Vec3f d = mesh_.positions[a.vertex] - mesh_.positions[b.vertex];
     return dot(d, d) > limit_;
   }
   std::uint32_t middle(std::uint32_t a, std::uint32_t b) {
@@ -80,11 +91,15 @@ class Halver {
     }
     return at->second;
   }
-  void emit(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    mesh_.triangles.push_back({a, b, c});
-    mesh_.surfaces.push_back(surface_);
+  Corner middle(const Corner& a, const Corner& b) {
+    return {middle(a.vertex, b.vertex), between(a.paint, b.paint, 0.5f)};
   }
-  bool divide(std::array<std::uint32_t, 3> t) {
+  void emit(const Corner& a, const Corner& b, const Corner& c) {
+    mesh_.triangles.push_back({a.vertex, b.vertex, c.vertex});
+    mesh_.surfaces.push_back(surface_);
+    if (painted_) mesh_.paint_corners.push_back({a.paint, b.paint, c.paint});
+  }
+  bool divide(std::array<Corner, 3> t) {
     // Turn the triangle until the pattern of long edges is one of four.
     const auto pattern = [&] {
       return int(too_long(t[0], t[1])) + 2 * int(too_long(t[1], t[2])) +
@@ -95,13 +110,13 @@ class Halver {
       t = {t[1], t[2], t[0]};
       which = pattern();
     }
-    const auto [a, b, c] = t;
+    const auto& [a, b, c] = t;
     if (which == 0) return emit(a, b, c), false;
-    const std::uint32_t ab = middle(a, b);
+    const Corner ab = middle(a, b);
     if (which == 1) return emit(a, ab, c), emit(ab, b, c), true;
-    const std::uint32_t bc = middle(b, c);
+    const Corner bc = middle(b, c);
     if (which == 3) return emit(ab, b, bc), emit(a, ab, c), emit(ab, bc, c), true;
-    const std::uint32_t ca = middle(c, a);
+    const Corner ca = middle(c, a);
     emit(a, ab, ca), emit(ab, b, bc), emit(ca, bc, c), emit(ab, bc, ca);
     return true;
   }
@@ -109,6 +124,7 @@ class Halver {
   TriangleMesh& mesh_;
   float limit_;
   std::uint8_t surface_ = 0;
+  bool painted_ = false;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "kernel/base/error.h"
 #include "render/geometry/mesh_refine.h"
+#include "render/materials/paint_layers.h"
 #include "render/materials/surface_appearance.h"
 
 namespace rubble {
@@ -21,7 +22,8 @@ constexpr float kLightSpacing = 0.1f;  // of nodes of light along long edges; un
 
 std::vector<std::uint32_t> material_table(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> table;
-  for (const std::string& name : mesh.surface_names) table.push_back(find_surface_appearance(name));
+  for (std::size_t s = 0; s < mesh.surface_names.size(); ++s)
+    table.push_back(find_surface_appearance(mesh.paint_of(s) ? kPaintedAppearance : mesh.surface_names[s]));
   if (table.empty()) table.push_back(find_surface_appearance("concrete_cast"));
   return table;
 }
@@ -80,6 +82,7 @@ void cluster_level(PreparedMesh& mesh, std::size_t first) {
   struct Keyed {
     std::uint64_t key;
     PreparedTriangle triangle;
+    std::size_t source;
   };
   std::vector<Keyed> keyed;
   const Vec3f low = mesh.centre - Vec3f(1, 1, 1) * mesh.radius;
@@ -91,12 +94,16 @@ void cluster_level(PreparedMesh& mesh, std::size_t first) {
     const Vec3f q = max((mid - low) * scale, Vec3f());
     const std::uint64_t side = std::uint64_t(dominant_direction(face_normal(mesh, t)));
     keyed.push_back(
-        {side << 32 | morton(std::uint32_t(q.x), std::uint32_t(q.y), std::uint32_t(q.z)), t});
+        {side << 32 | morton(std::uint32_t(q.x), std::uint32_t(q.y), std::uint32_t(q.z)), t, i});
   }
   std::stable_sort(keyed.begin(), keyed.end(),
                    [](const Keyed& a, const Keyed& b) { return a.key < b.key; });
   std::size_t start = 0;
   for (std::size_t i = 0; i < keyed.size(); ++i) mesh.triangles[first + i] = keyed[i].triangle;
+  if (!mesh.paint.empty()) {
+    const std::vector<TrianglePaint> paint = mesh.paint;
+    for (std::size_t i = 0; i < keyed.size(); ++i) mesh.paint[first + i] = paint[keyed[i].source];
+  }
   for (std::size_t i = 1; i <= keyed.size(); ++i) {
     const bool full = i - start == kClusterTriangles;
     const bool turned = i < keyed.size() && keyed[i].key >> 32 != keyed[start].key >> 32;
@@ -112,6 +119,27 @@ float longest_edge(const TriangleMesh& mesh) {
   const Aabb box = mesh.bounds();
   return box.empty() ? kLongestEdge
                      : std::max(kLongestEdge, kEdgeShare * float(distance(box.min, box.max)) / 2);
+}
+
+// Of the triangles of a level, which are the last of `out`.
+void append_paint(const TriangleMesh& source, const TriangleMesh& mesh, PreparedMesh& out) {
+  if (source.paints.empty() && out.paint.empty()) return;
+  out.paint.resize(out.triangles.size() - mesh.triangles.size());
+  std::vector<std::int32_t> numbers;
+  std::vector<float> reds;
+  for (std::size_t s = 0; s < source.surface_names.size(); ++s) {
+    const bool painted = source.paint_of(s);
+    numbers.push_back(painted ? std::int32_t(out.paints.size()) : -1);
+    reds.push_back(painted ? mean_paint(source, s).x : 0);
+    if (painted) out.paints.push_back(source.paints[s]);
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    TrianglePaint paint;
+    const std::size_t surface = mesh.surfaces[t];
+    if (surface < numbers.size() && numbers[surface] >= 0)
+      paint = {mesh.paint_corners[t], numbers[surface], reds[surface]};
+    out.paint.push_back(paint);
+  }
 }
 
 void append_level(const TriangleMesh& source, double light_spacing, PreparedMesh& out) {
@@ -130,6 +158,7 @@ void append_level(const TriangleMesh& source, double light_spacing, PreparedMesh
                      " but names only " + std::to_string(materials.size()));
     out.triangles.push_back({{base + v[0], base + v[1], base + v[2]}, materials[mesh.surfaces[t]]});
   }
+  append_paint(source, mesh, out);
   if (out.levels.empty() && !out.vertices.empty()) {
     std::vector<Vec3f> points;
     for (const PreparedVertex& v : out.vertices) points.push_back(v.position);

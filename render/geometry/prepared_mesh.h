@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "kernel/base/math.h"
@@ -25,6 +26,13 @@ struct PreparedTriangle {
   std::uint32_t first_node = 0;  // of its grid, where it has one
 };
 
+// Of a triangle whose look is kPaintedAppearance.
+struct TrianglePaint {
+  std::array<PaintCorner, 3> corners;
+  std::int32_t paint = -1;  // number in PreparedMesh::paints; of a mesh in a PreparedScene, in that scene's
+  float red = 0;            // mean red albedo of its surface
+};
+
 // Neighbouring triangles that face about the same way.
 struct Cluster {
   std::uint32_t first_triangle = 0, triangle_count = 0;  // of PreparedTriangle
@@ -43,6 +51,8 @@ struct PreparedLevel {
 struct PreparedMesh {
   std::vector<PreparedVertex> vertices;     // of all levels
   std::vector<PreparedTriangle> triangles;  // of all levels, by cluster
+  std::vector<TrianglePaint> paint;         // one per triangle; empty where nothing is painted
+  std::vector<std::shared_ptr<const SurfacePaint>> paints;
   std::vector<Cluster> clusters;            // of all levels, by level
   std::vector<PreparedLevel> levels;        // finest first
   std::vector<LightNode> light_nodes;       // where light is kept: the vertices, then grids of triangles

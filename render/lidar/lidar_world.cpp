@@ -7,23 +7,13 @@
 #include <vector>
 
 #include "render/geometry/embree_tree.h"
+#include "render/materials/paint_layers.h"
 #include "render/materials/surface_appearance.h"
 
 namespace rubble {
 namespace {
 
 constexpr unsigned kResting = EmbreeTree::kResting;
-
-// The look of each triangle of a mesh, as an index into all_surface_appearances().
-std::vector<std::uint8_t> looks_of(const TriangleMesh& mesh) {
-  std::vector<std::uint8_t> known;
-  for (const std::string& name : mesh.surface_names)
-    known.push_back(std::uint8_t(find_surface_appearance(name)));
-  if (known.empty()) known.push_back(std::uint8_t(find_surface_appearance("concrete_cast")));
-  std::vector<std::uint8_t> looks(mesh.triangles.size(), known.front());
-  for (std::size_t t = 0; t < mesh.surfaces.size(); ++t) looks[t] = known.at(mesh.surfaces[t]);
-  return looks;
-}
 
 RTCQuaternionDecomposition decompose(const Pose& pose, float scale) {
   RTCQuaternionDecomposition d;
@@ -47,8 +37,10 @@ struct LidarWorld::Tree : EmbreeTree {
     std::int32_t piece = -1;
   };
 
-  std::map<std::uint32_t, std::vector<std::uint8_t>> mesh_looks;  // of those that move
-  std::vector<std::uint8_t> resting_looks;
+  std::map<std::uint32_t, std::vector<std::uint16_t>> mesh_looks;  // of those that move, as looks_of()
+  std::vector<std::uint16_t> resting_looks;
+  std::vector<float> paint_reds;  // mean red albedo of painted surfaces
+  std::map<const TriangleMesh*, std::vector<std::uint16_t>> known_looks;  // by looks_of()
   std::vector<std::uint32_t> resting_ends;   // of each instance that rests, one past its last triangle
   std::vector<std::int32_t> resting_pieces;  // its id
   std::vector<Mover> movers;
@@ -60,6 +52,7 @@ struct LidarWorld::Tree : EmbreeTree {
     static_assert(sizeof(triangles.front()) == 3 * sizeof(std::uint32_t));
     EmbreeTree::attach(to, positions, triangles.empty() ? nullptr : triangles.front().data(), triangles.size());
   }
+  const std::vector<std::uint16_t>& looks_of(const TriangleMesh& mesh);
   void add_resting(const Scene& from);
   void add_movers(const Scene& from);
   void intersect(const Ray* rays, std::size_t count, double max_distance, RTCRayHit8& query) const;
@@ -86,7 +79,7 @@ void LidarWorld::Tree::add_resting(const Scene& from) {
     for (const Vec3f& p : mesh.positions)
       positions.push_back(Vec3f(piece.world_from_body * (Vec3(p) * double(piece.scale))));
     for (const auto& t : mesh.triangles) triangles.push_back({base + t[0], base + t[1], base + t[2]});
-    const std::vector<std::uint8_t> looks = looks_of(mesh);
+    const std::vector<std::uint16_t>& looks = looks_of(mesh);
     resting_looks.insert(resting_looks.end(), looks.begin(), looks.end());
     resting_ends.push_back(std::uint32_t(triangles.size()));
     resting_pieces.push_back(std::int32_t(piece.id));
@@ -119,11 +112,31 @@ void LidarWorld::Tree::add_movers(const Scene& from) {
   }
 }
 
+// Of each triangle of a mesh: an index into all_surface_appearances(), after its end one into paint_reds.
+const std::vector<std::uint16_t>& LidarWorld::Tree::looks_of(const TriangleMesh& mesh) {
+  const auto [found, is_new] = known_looks.try_emplace(&mesh);
+  if (!is_new) return found->second;
+  std::vector<std::uint16_t> names;
+  for (std::size_t s = 0; s < mesh.surface_names.size(); ++s) {
+    if (!mesh.paint_of(s)) {
+      names.push_back(std::uint16_t(find_surface_appearance(mesh.surface_names[s])));
+      continue;
+    }
+    names.push_back(std::uint16_t(all_surface_appearances().size() + paint_reds.size()));
+    paint_reds.push_back(mean_paint(mesh, s).x);
+  }
+  if (names.empty()) names.push_back(std::uint16_t(find_surface_appearance("concrete_cast")));
+  std::vector<std::uint16_t>& looks = found->second;
+  looks.assign(mesh.triangles.size(), names.front());
+  for (std::size_t t = 0; t < mesh.surfaces.size(); ++t) looks[t] = names.at(mesh.surfaces[t]);
+  return looks;
+}
+
 // normal: as Embree gives it, in the frame of the mesh.
 LidarWorld::Hit LidarWorld::Tree::read(unsigned primitive, unsigned instance, const Vec3f& normal,
                                        const Ray& ray, double t) const {
   Vec3 out(normal);
-  std::uint8_t look = 0;
+  std::uint16_t look = 0;
   if (instance == RTC_INVALID_GEOMETRY_ID || instance == kResting) {
     look = resting_looks[primitive];
   } else {
@@ -134,7 +147,9 @@ LidarWorld::Hit LidarWorld::Tree::read(unsigned primitive, unsigned instance, co
   out = normalized(out);
   const double cosine = dot(out, ray.direction);
   const float up = float(cosine > 0 ? -out.z : out.z);
-  return {t, float(std::fabs(cosine)), mean_red_albedo(all_surface_appearances()[look], up), piece_of(primitive, instance)};
+  const std::vector<SurfaceAppearance>& known = all_surface_appearances();
+  const float red = look < known.size() ? mean_red_albedo(known[look], up) : paint_reds[look - known.size()];
+  return {t, float(std::fabs(cosine)), red, piece_of(primitive, instance)};
 }
 
 std::int32_t LidarWorld::Tree::piece_of(unsigned primitive, unsigned instance) const {

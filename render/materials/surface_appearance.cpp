@@ -352,6 +352,15 @@ const std::vector<SurfaceAppearance>& all_surface_appearances() {
        0.1f,
        0.045f,
        0.12f},
+      {kPaintedAppearance,
+       Pattern::smooth,
+       {0.3f, 0.3f, 0.3f},
+       {0.3f, 0.3f, 0.3f},
+       {0.3f, 0.3f, 0.3f},
+       1.0f,
+       0.0f,
+       0.2f,
+       0.0f},
       {"ground",
        Pattern::soil,
        {0.095f, 0.079f, 0.061f},
@@ -375,7 +384,8 @@ float mean_red_albedo(const SurfaceAppearance& look, float up) {
 std::vector<std::string> known_surface_appearances() {
   std::vector<std::string> names;
   for (const SurfaceAppearance& look : all_surface_appearances())
-    if (look.name != std::string("ground")) names.push_back(look.name);
+    if (look.name != std::string("ground") && look.name != std::string(kPaintedAppearance))
+      names.push_back(look.name);
   return names;
 }
 

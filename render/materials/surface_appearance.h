@@ -48,6 +48,9 @@ struct SurfaceAppearance {
   float glow = 0;  // luminance that it shines with, seen from anywhere; it lights nothing; unit: kcd/m2
 };
 
+// The look of surfaces that have a paint instead (kernel/base/mesh.h), which no mesh may name.
+inline constexpr const char* kPaintedAppearance = "painted";
+
 // All of them, in a fixed order; the last is the ground's.
 const std::vector<SurfaceAppearance>& all_surface_appearances();
 

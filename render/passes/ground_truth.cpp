@@ -195,8 +195,10 @@ std::vector<float> GroundTruthMaker::albedos(const DrawnView& view) const {
       const Vec3 area = cross(c.points[1] - c.points[0], c.points[2] - c.points[0]);
       const Vec3 up = normalized(pixel.piece->world_from_mesh.rotation.rotate(area));
       const PreparedMesh& mesh = scene_.meshes[pixel.piece->mesh];
-      out[i] = mean_red_albedo(all_surface_appearances()[mesh.triangles[pixel.triangle].material],
-                               float(up.z));
+      const bool painted = !mesh.paint.empty() && mesh.paint[pixel.triangle].paint >= 0;
+      out[i] = painted ? mesh.paint[pixel.triangle].red
+                       : mean_red_albedo(all_surface_appearances()[mesh.triangles[pixel.triangle].material],
+                                         float(up.z));
     }
   });
   return out;

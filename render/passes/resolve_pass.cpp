@@ -89,7 +89,7 @@ float lamp_spread(const LampSpec& lamp) {
 
 // gloss_lobe() of shaders/surface.glsl at its highest that counts: seen and lit head-on.
 float lobe_peak(float reflectance, float roughness) {
-  return reflectance / (4 * roughness * roughness * (std::sqrt(roughness) + 0.5f));
+  return reflectance / (4 * roughness * roughness);
 }
 
 float grey_of(const Vec3f& c) { return dot(c, Vec3f(0.2126f, 0.7152f, 0.0722f)); }
@@ -123,7 +123,7 @@ void fill_surface_appearances(FrameBlock& block, int texture_size) {
   }
 }
 
-ShaderDefines variant_of(const FrameLight& frame) {
+ShaderDefines variant_of(const FrameLight& frame, const GpuGeometry& geometry) {
   const auto& lights = frame.lights->lights;
   ShaderDefines defines = {{"LIGHT_COUNT", std::to_string(lights.size())}};
   for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -138,6 +138,11 @@ ShaderDefines variant_of(const FrameLight& frame) {
   if (frame.wetness > 0) defines.push_back({"WET", ""});
   if (frame.glows) defines.push_back({"GLOW", ""});
   if (frame.surrounded) defines.push_back({"SURROUNDED", ""});
+  if (geometry.paint_count > 0) {
+    defines.push_back({"PAINTS", std::to_string(geometry.paint_count)});
+    defines.push_back({"PAINTED", std::to_string(find_surface_appearance(kPaintedAppearance))});
+    defines.push_back({"PAINT_SIDE", std::to_string(geometry.paint_side) + ".0"});
+  }
   return defines;
 }
 
@@ -205,7 +210,9 @@ enum Unit {
   kAir,
   kGround,
   kLensRays,
-  kRowPoses
+  kRowPoses,
+  kPaint,
+  kPaintImages
 };
 
 GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
@@ -224,15 +231,17 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
                  {"air_table", kAir},
                  {"ground_map", kGround},
                  {"lens_rays", kLensRays},
-                 {"row_poses", kRowPoses}});
+                 {"row_poses", kRowPoses},
+                 {"paint_table", kPaint},
+                 {"paint_images", kPaintImages}});
   gl.UniformBlockBinding(program.name(), gl.GetUniformBlockIndex(program.name(), "Frame"), 0);
   return program;
 }
 
 }  // namespace
 
-float mirrored_peak(const SurfaceAppearance& look) {
-  return look.reflectance > 0 ? lobe_peak(look.reflectance, look.roughness) : 0;
+float mirrored_peak(float reflectance, float roughness) {
+  return reflectance > 0 ? lobe_peak(reflectance, roughness) : 0;
 }
 
 Vec3f lamp_colour(const LampSpec& lamp) {
@@ -270,7 +279,7 @@ ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameL
       ground_map_(upload_ground(gl, ground)),
       ground_{ground.x, ground.y, 1 / ground.reach, 0},
       texture_size_(patterns.front().size) {
-  defines_ = variant_of(light);
+  defines_ = variant_of(light, geometry);
 }
 
 const GlProgram& ResolvePass::program(int variant, TileContent content) {
@@ -346,6 +355,10 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
     gl_.BindTextureUnit(kLensRays, surfaces.lens_rays->name());
     gl_.BindTextureUnit(kRowPoses, surfaces.row_poses->name());
     variant |= kRays;
+  }
+  if (geometry_.paint_count > 0) {
+    gl_.BindTextureUnit(kPaint, geometry_.paint_view.name());
+    gl_.BindTextureUnit(kPaintImages, geometry_.paint_images.name());
   }
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
   const int every = variant & kMeter ? kMeterEvery : 1;

@@ -35,7 +35,7 @@ Vec3f lamp_colour(const LampSpec& lamp);
 
 // The most that a look mirrors of a light in any direction, as a multiple of what white matt plaster throws
 // back; see gloss_lobe() in shaders/surface.glsl.
-float mirrored_peak(const SurfaceAppearance& look);
+float mirrored_peak(float reflectance, float roughness);  // as in MirrorLayer
 
 // Cameras take most of the light's own colour away: gains for a level grey surface under the open
 // sky, of luminance 1.

@@ -27,6 +27,10 @@ void add_mesh(CacheKey& key, const PreparedMesh& mesh) {
     const PreparedTriangle& triangle = mesh.triangles[level.first_triangle + t];
     key.add_bytes(triangle.vertices.data(), sizeof triangle.vertices).add(triangle.material);
   }
+  for (const TrianglePaint& paint : mesh.paint) {
+    key.add(paint.paint);
+    for (const PaintCorner& c : paint.corners) key.add(c.u).add(c.v), add_vec(key, c.colour);
+  }
 }
 
 void add_light(CacheKey& key, const LightModel& l) {
@@ -63,7 +67,7 @@ std::string surroundings_key(const ReferenceSurroundings& s) {
   add_lights(key, s.lights);
   for (const PatternImage& p : s.patterns) key.add_bytes(p.texels.data(), p.texels.size());
   for (const SurfaceAppearance& look : all_surface_appearances()) add_look(key, look);
-  key.add(s.wetness);
+  key.add(s.wetness).add_text(s.scene.paint_key);
   return key.hex();
 }
 

@@ -22,13 +22,14 @@ float fresnel(float reflectance, float cosine) {
   return reflectance + (1.0 - reflectance) * c2 * c2 * c;
 }
 
-// pi times the BRDF of a rough mirror: the distribution of Trowbridge and Reitz, with shadowing as
-// Karis (2013) approximates it.
-float mirror_lobe(float reflectance, float alpha, float facing, float half_way) {
+// pi times the BRDF of a rough mirror, as transport/reflection.h has it: the distribution of Trowbridge and Reitz, with
+// Smith's shadowing of correlated heights (Heitz 2014). Cosines: normal and half-way, eye and half-way, normal and
+// light, normal and eye.
+float mirror_lobe(float reflectance, float alpha, float facing, float half_way, float lit, float seen) {
   float a2 = alpha * alpha;
   float d = facing * facing * (a2 - 1.0) + 1.0;
-  return fresnel(reflectance, half_way) * a2 /
-         (d * d * 4.0 * max(half_way * half_way, 0.05) * (sqrt(alpha) + 0.5));
+  float shadowing = lit * sqrt(seen * seen * (1.0 - a2) + a2) + seen * sqrt(lit * lit * (1.0 - a2) + a2);
+  return fresnel(reflectance, half_way) * a2 / (d * d * 2.0 * max(shadowing, 1e-3));
 }
 
 const float kWaterReflectance = 0.02, kFilmRoughness = 0.12;
@@ -36,9 +37,10 @@ const float kWaterReflectance = 0.02, kFilmRoughness = 0.12;
 float gloss_lobe(Surface s, vec3 to_light, vec3 to_eye) {
   vec3 h = normalize(to_light + to_eye);
   float facing = clamp(dot(h, s.normal), 0.0, 1.0), half_way = clamp(dot(h, to_eye), 0.0, 1.0);
-  float lobe = s.gloss.x * mirror_lobe(s.gloss.y, s.gloss.z, facing, half_way);
+  float lit = max(dot(to_light, s.normal), 0.0), seen = max(dot(to_eye, s.normal), 0.0);
+  float lobe = s.gloss.x * mirror_lobe(s.gloss.y, s.gloss.z, facing, half_way, lit, seen);
 #ifdef WET
-  lobe += s.film * mirror_lobe(kWaterReflectance, kFilmRoughness, facing, half_way);
+  lobe += s.film * mirror_lobe(kWaterReflectance, kFilmRoughness, facing, half_way, lit, seen);
 #endif
   return lobe;
 }
@@ -174,6 +176,16 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
                (soil ? 0.85 * map.x : more.y);
   s.albedo = mix(s.albedo, vec3(0.375, 0.36, 0.335) * (0.55 + 0.75 * texel.z), dust);
   s.gloss = vec3(1.0 - dust, floor(accent.w) * (1.0 / 255.0), max(fract(accent.w) * (1.0 / 0.99), 0.02));
+#ifdef PAINTS
+  bool painted = look == PAINTED * 4;
+  if (painted) {
+    float across = z * lens.x * inversesqrt(grazing) * 0.84 / scale;
+    Paint paint = find_paint(triangle, vec3(w0, w1, w2), ab, ac, smooth_normal, across);
+    s.albedo = paint.albedo * (1.0 - paint.metalness);
+    s.gloss = vec3(paint.reflectance > 0.0 ? 1.0 : 0.0, paint.reflectance, paint.roughness);
+    s.normal = normalize(rx * paint.normal.x + ry * paint.normal.y + rz * paint.normal.z);
+  }
+#endif
 #ifdef WET
   // Water darkens what it soaks into, and stands as a film on what faces up.
   float wet = wetness.x * smoothstep(-0.6, 0.5, up + 0.5 * slow);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/materials/surface_appearance.h"
+#include "render/transport/paint_point.h"
 
 namespace rubble {
 
@@ -188,6 +189,22 @@ void LookSurfaces::add_water(const Place& place, SurfacePoint& out) const {
   out.normal = normalized(mix(out.normal, place.to_world(place.smooth), 0.6f * wet * even));
 }
 
+void LookSurfaces::add_paint(const SurfaceQuery& query, const TrianglePaint& paint, const Place& place,
+                             SurfacePoint& out) const {
+  const PreparedMesh& mesh = scene_.meshes[scene_.placed[query.triangle.placed].mesh];
+  const PreparedTriangle& triangle = mesh.triangles[query.triangle.source];
+  PaintQuery at;
+  for (std::size_t i = 0; i < 3; ++i) at.corners[i] = mesh.vertices[triangle.vertices[i]].position;
+  at.weights = {1 - query.u - query.v, query.u, query.v};
+  at.normal = place.smooth;
+  const float grazing = std::max(-dot(out.face_normal, query.direction), 0.05f);
+  at.footprint = query.footprint / std::sqrt(grazing) / place.piece->scale;
+  const PaintPoint found = find_paint(*scene_.paints, paint, at);
+  out.normal = normalized(place.to_world(found.normal));
+  out.reflection.base = found.albedo * (1 - found.metalness);
+  out.reflection.gloss = {found.reflectance > 0 ? 1.0f : 0.0f, found.reflectance, found.roughness};
+}
+
 void LookSurfaces::find(const SurfaceQuery& query, SurfacePoint& out) const {
   Place place;
   find_place(query, place);
@@ -197,6 +214,9 @@ void LookSurfaces::find(const SurfaceQuery& query, SurfacePoint& out) const {
   out.normal = normalized(place.to_world(place.bent));
   out.emission = out.glow = Vec3f();
   add_colour(place, out);
+  const PreparedMesh& mesh = scene_.meshes[scene_.placed[query.triangle.placed].mesh];
+  if (!mesh.paint.empty() && mesh.paint[query.triangle.source].paint >= 0)
+    add_paint(query, mesh.paint[query.triangle.source], place, out);
   if (wetness_ > 0) add_water(place, out);
 }
 

@@ -8,7 +8,7 @@
 #include "render/geometry/ground_map.h"
 #include "render/geometry/ray_scene.h"
 #include "render/transport/reflection.h"
-#include "render/transport/texture_stack.h"
+#include "render/materials/texture_stack.h"
 
 namespace rubble {
 
@@ -58,6 +58,7 @@ class LookSurfaces : public SurfaceModel {
   void find_place(const SurfaceQuery& query, Place& place) const;
   void find_pattern(const SurfaceQuery& query, Place& place) const;
   void add_colour(const Place& place, SurfacePoint& out) const;
+  void add_paint(const SurfaceQuery& query, const TrianglePaint& paint, const Place& place, SurfacePoint& out) const;
   void add_water(const Place& place, SurfacePoint& out) const;
   void read_ground(const Vec3f& world, float& debris, float& tone) const;
 

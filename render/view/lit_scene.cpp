@@ -15,7 +15,14 @@ float most_gloss(const PreparedScene& scene) {
   float most = 0;
   for (const PreparedMesh& mesh : scene.meshes)
     for (const PreparedTriangle& t : mesh.triangles)
-      most = std::max(most, mirrored_peak(all_surface_appearances()[t.material]));
+      most = std::max(most, mirrored_peak(all_surface_appearances()[t.material].reflectance,
+                                          all_surface_appearances()[t.material].roughness));
+  if (!scene.paints) return most;
+  for (const PaintLayers::Paint& paint : scene.paints->paints) {
+    const float roughness = paint.relief >= 0 ? 0.0f : paint.roughness;
+    most = std::max(most, mirrored_peak(paint.metalness > 0 ? 1.0f : paint.reflectance,
+                                        std::max(roughness * roughness, 0.02f)));
+  }
   return most;
 }
 

@@ -82,6 +82,7 @@ class PackBuilder {
     asset.decompose = from.parts.empty() && from.word == 1;
     asset.surface_appearance = from.surface_appearance;
     asset.look = from.look;
+    asset.look_given = !from.look.empty();
     check_name(i, from.name);
     if (from.links.empty()) {
       find_files(i, from, asset);

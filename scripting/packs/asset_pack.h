@@ -49,9 +49,10 @@ struct Asset {
   bool decompose = false;  // cut into convex parts when it is loaded
   std::string material = "reinforced_concrete";  // gives density and friction where those are 0
   // How surfaces look that the files call otherwise than the renderer: by their names (an OBJ's
-  // usemtl, a glTF's materials), and `look` for the rest; default: the material's.
+  // usemtl, a glTF's materials), and `look` for the rest; default: the file's own colours, else the material's.
   std::vector<std::pair<std::string, std::string>> surface_appearance;
   std::string look;                   // of surfaces without one of their own
+  bool look_given = false;            // by the pack, so that it replaces the colours of the file; not the material's
   double density = 0;                 // the pack's, otherwise the material's; unit: kg/m3
   double friction = 0;                // likewise
   std::array<double, 2> scale{1, 1};  // from first to second

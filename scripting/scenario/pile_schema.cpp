@@ -100,7 +100,8 @@ void add_terrain(Schema& k, TerrainScenario& t) {
       .unit("m");
   k.value("pile.terrain.friction", t.friction, "Coulomb coefficient against concrete.").between(0, 2);
   k.value("pile.terrain.look", t.look,
-          "Look of the grid, and of surfaces of the mesh whose name is not a look.");
+          "Look of the grid, and of surfaces of the mesh whose name is not a look. Empty: the colours of the file "
+          "where it has some, else `ground`.");
 }
 
 void add_building(Schema& k, BuildingSpec& b) {

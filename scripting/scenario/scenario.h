@@ -72,7 +72,9 @@ struct TerrainScenario {
   UpAxis up = UpAxis::z;         // of the file
   Vec3 position;                 // of the grid's middle, or of the mesh's origin; unit: m
   double friction = 0.8;         // Coulomb, against concrete; range: 0 to 2
-  std::string look = "ground";   // of the grid, and of surfaces of the mesh that name none
+  // Of the grid, and of surfaces of the mesh that name none. Empty: those keep the colours of the file; "ground"
+  // where it has none, and of a grid.
+  std::string look;
 
   bool given() const { return !heights.empty() || !file.empty(); }
 };

@@ -199,6 +199,37 @@ TEST(Urdf, ARobotThatWasWrittenIsReadAsItWas) {
   EXPECT_NEAR(read.model.sides.distance, kRoverTrackDistance, 1e-9);
 }
 
+// Materials of the file, colours of meshes, and neither; each link has one mesh of them.
+TEST(Urdf, VisualsKeepTheColoursOfTheirFiles) {
+  const ScratchFolder folder;
+  write_file(folder / "mast.mtl", "newmtl red\nKd 0.9 0.1 0\nnewmtl blue\nKd 0 0.1 0.9\n");
+  write_file(folder / "mast.obj", "mtllib mast.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl red\nf 1 3 2\nf 1 2 4\n"
+                                  "usemtl blue\nf 2 3 4\nf 1 4 3\n");
+  const auto looks_with = [&](const std::string& visuals) {
+    write_file(folder / "a.urdf", replaced(kCart, "<visual><geometry><cylinder radius=\"0.02\" length=\"1\"/></geometry></visual>", visuals));
+    RobotItem robot;
+    robot.urdf = "a.urdf";
+    MeshImporter importer;
+    const MissionRobot made = make_mission_robot(robot, {folder.path().string()}, "robots[1]", importer);
+    return make_link_mesh(made.model.links[0], "");
+  };
+  const std::string mesh = "<geometry><mesh filename=\"mast.obj\"/></geometry>", box = "<geometry><box size=\"1 1 1\"/></geometry>";
+  const TriangleMesh plain = looks_with("<visual>" + box + "</visual>");
+  EXPECT_TRUE(plain.paints.empty());
+  const TriangleMesh both = looks_with("<visual>" + box + "</visual><visual>" + mesh + "</visual>");
+  ASSERT_EQ(both.surface_names.size(), 3u) << "what has no colours, red, blue";
+  EXPECT_EQ(both.paint_of(0), nullptr);
+  EXPECT_FLOAT_EQ(both.paint_of(1)->colour.x, 0.9f);
+  EXPECT_FLOAT_EQ(both.paint_of(2)->colour.z, 0.9f);
+  EXPECT_EQ(both.paint_corners.size(), both.triangles.size());
+  EXPECT_EQ(std::count(both.surfaces.begin(), both.surfaces.end(), 2), 2);
+  const std::string green = "<material name=\"g\"><color rgba=\"0 0.5 0 1\"/></material>";
+  const TriangleMesh over = looks_with("<visual>" + mesh + green + "</visual>");
+  ASSERT_EQ(over.surface_names.size(), 2u);
+  EXPECT_EQ(std::count(over.surfaces.begin(), over.surfaces.end(), 1), 4) << "a material of the file is over all of a mesh";
+  EXPECT_NEAR(double(over.paint_of(1)->colour.y), 0.2140, 1e-3) << "it is sRGB";
+}
+
 // And drives as far.
 TEST(Urdf, ARoverFromAFileDrivesAsTheBundledOne) {
   const ScratchFolder folder;

@@ -57,12 +57,13 @@ TEST_F(Warnings, NameAnEdgeOfAMeshThatIsNotClosed) {
   EXPECT_IN("the first, from (", said);
 }
 
-TEST_F(Warnings, NameColoursAndTexturesThatAreNotDrawn) {
+TEST_F(Warnings, NameAnImageOfAMeshThatCannotBeHad) {
   write_file(scratch_ / "a.mtl", "newmtl paint\nKd 0.8 0.1 0.1\nmap_Kd red.png\n");
-  EXPECT_IN("a.obj: colours and textures of the file are not drawn",
+  EXPECT_IN("a.obj: the image red.png lies neither beside the mesh nor in its folder textures",
             of_asset("mtllib a.mtl\n" + std::string(kCube)));
+  EXPECT_EQ(of_asset("mtllib a.mtl\n" + std::string(kCube), ", look = 'brick'"), "") << "it is not asked for";
   write_file(scratch_ / "a.mtl", "newmtl paint\nKd 0.8 0.8 0.8\n");
-  EXPECT_EQ(of_asset("mtllib a.mtl\n" + std::string(kCube)), "") << "grey is no loss";
+  EXPECT_EQ(of_asset("mtllib a.mtl\n" + std::string(kCube)), "") << "grey is no colour";
 }
 
 TEST_F(Warnings, NameAnAngleThatLooksLikeRadians) {

@@ -199,6 +199,39 @@ TEST_F(TrackGlb, KhronosValidatorFindsNothing) {
   EXPECT_NE(result.output.find("errors 0 warnings 0"), std::string::npos) << result.output;
 }
 
+// Images, colours of vertices, metal and relief go into the file and come back; Khronos' validator finds nothing wrong.
+TEST_F(PileExport, GlbHasThePaintOfUsersMeshes) {
+  SurfacePaint paint;
+  paint.colour = {0.5f, 0.75f, 1}, paint.roughness = 0.5f, paint.metalness = 0.25f, paint.reflectance = 0.04f;
+  paint.albedo.side = 4, paint.relief.side = 8;
+  for (int i = 0; i < 4 * 16; ++i) paint.albedo.texels.push_back(i % 4 == 3 ? 255 : std::uint8_t(3 * i));
+  for (int i = 0; i < 4 * 64; ++i) paint.relief.texels.push_back(std::uint8_t(100 + i % 50));
+  paint.sha256 = "one";
+  wedge_.surface_names[1] = "brick_one";
+  wedge_.paints = {nullptr, std::make_shared<const SurfacePaint>(paint)};
+  for (std::size_t t = 0; t < 4; ++t)
+    wedge_.paint_corners.push_back({PaintCorner{0, 0.25f, {1, 0, 0}}, {1, 0.5f, {0, 1, 0}}, {2, 1, {0, 0, 0.5f}}});
+  const std::string path = write("glb");
+  const auto result = test::run_node("validate_gltf.mjs", path);
+  EXPECT_NE(result.output.find("errors 0 warnings 0"), std::string::npos) << result.output;
+  const TriangleMesh read = load_mesh(path, {1, UpAxis::y});
+  const auto at = std::find(read.surface_names.begin(), read.surface_names.end(), "brick_one");
+  ASSERT_NE(at, read.surface_names.end());
+  const std::size_t surface = std::size_t(at - read.surface_names.begin());
+  const SurfacePaint* found = read.paint_of(surface);
+  ASSERT_TRUE(found);
+  EXPECT_FLOAT_EQ(found->colour.y, 0.75f);
+  EXPECT_FLOAT_EQ(found->roughness, 0.5f);
+  EXPECT_FLOAT_EQ(found->metalness, 0.25f);
+  EXPECT_EQ(found->albedo.texels, paint.albedo.texels);
+  EXPECT_EQ(found->relief.texels, paint.relief.texels);
+  const auto first = std::find(read.surfaces.begin(), read.surfaces.end(), surface) - read.surfaces.begin();
+  const auto& corners = read.paint_corners[std::size_t(first)];
+  EXPECT_FLOAT_EQ(corners[1].u, 1);
+  EXPECT_FLOAT_EQ(corners[1].v, 0.5f);
+  EXPECT_FLOAT_EQ(corners[2].colour.z, 0.5f);
+}
+
 TEST_F(PileExport, ObjKeepsNamesAndMaterials) {
   const std::string text = test::read_text(write("obj"));
   for (const char* line : {"mtllib pile.mtl\n", "o wedge_000000\n", "o spike_000001\n",

@@ -49,9 +49,10 @@ void check_levels(const SceneMesh& mesh, AssetReport& report) {
     if (i && level.triangles.size() >= mesh.levels[i - 1].triangles.size())
       report.warnings.push_back("level of detail " + std::to_string(i) +
                                 " is no coarser than the one before");
-    for (const std::string& surface : level.surface_names) {
+    for (std::size_t s = 0; s < level.surface_names.size(); ++s) {
+      if (level.paint_of(s)) continue;
       try {
-        find_surface_appearance(surface);
+        find_surface_appearance(level.surface_names[s]);
       } catch (const RunError& error) {
         if (i == 0) report.errors.push_back(error.what());
       }

@@ -1,4 +1,4 @@
-#include "render/transport/texture_stack.h"
+#include "render/materials/texture_stack.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,13 +23,52 @@ std::vector<std::uint8_t> halve(const std::vector<std::uint8_t>& texels, int siz
   return out;
 }
 
+// Of three colours that are encoded as sRGB; the fourth channel is averaged as it is.
+std::vector<std::uint8_t> halve_encoded(const std::vector<std::uint8_t>& texels, int size) {
+  const std::size_t row = std::size_t(size) * 4, half = std::size_t(size / 2);
+  std::vector<std::uint8_t> out = halve(texels, size);
+  for (std::size_t y = 0; y < half; ++y) {
+    for (std::size_t x = 0; x < half; ++x) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t at = 2 * y * row + 8 * x + c;
+        const float sum = decode_srgb(texels[at]) + decode_srgb(texels[at + 4]) +
+                          decode_srgb(texels[at + row]) + decode_srgb(texels[at + row + 4]);
+        out[(y * half + x) * 4 + c] = encode_srgb(sum / 4);
+      }
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
+float decode_srgb(std::uint8_t code) {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> out;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const float x = float(i) / 255;
+      out[i] = x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
+    }
+    return out;
+  }();
+  return table[code];
+}
+
+std::uint8_t encode_srgb(float linear) {
+  const float x = std::clamp(linear, 0.0f, 1.0f);
+  const float code = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
+  return std::uint8_t(code * 255 + 0.5f);
+}
+
 TextureStack::TextureStack(const std::vector<PatternImage>& patterns)
+    : TextureStack(patterns, std::vector<bool>(patterns.size(), false)) {}
+
+TextureStack::TextureStack(const std::vector<PatternImage>& patterns, const std::vector<bool>& encoded)
     : size_(patterns.front().size), levels_(int(std::lround(std::log2(size_))) + 1) {
-  for (const PatternImage& pattern : patterns) {
-    texels_.push_back(pattern.texels);
-    for (int size = size_; size > 1; size /= 2) texels_.push_back(halve(texels_.back(), size));
+  for (std::size_t i = 0; i < patterns.size(); ++i) {
+    texels_.push_back(patterns[i].texels);
+    for (int size = size_; size > 1; size /= 2)
+      texels_.push_back(encoded[i] ? halve_encoded(texels_.back(), size) : halve(texels_.back(), size));
   }
 }
 

@@ -1,0 +1,113 @@
+#include "io/image/picture_decoder.h"
+
+#include <png.h>
+
+#include <csetjmp>
+#include <cstddef>
+#include <cstdio>
+#include <cstring>
+
+#include <jpeglib.h>
+
+#include "kernel/base/error.h"
+
+namespace rubble {
+namespace {
+
+void check_size(std::uint64_t width, std::uint64_t height) {
+  if (width == 0 || height == 0) throw RunError("has no pixels");
+  if (width > kLargestPicture || height > kLargestPicture)
+    throw RunError("has " + std::to_string(width) + " x " + std::to_string(height) + " pixels; at most " +
+                   std::to_string(kLargestPicture) + " a side are read");
+}
+
+RgbaImage decode_png(std::string_view bytes) {
+  struct Reading {
+    png_image image{};
+    ~Reading() { png_image_free(&image); }
+  } reading;
+  png_image& png = reading.image;
+  png.version = PNG_IMAGE_VERSION;
+  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
+    throw RunError(std::string("is a damaged PNG: ") + png.message);
+  check_size(png.width, png.height);
+  png.format = PNG_FORMAT_RGBA;
+  RgbaImage out{int(png.width), int(png.height), {}};
+  out.rgba.resize(PNG_IMAGE_SIZE(png));
+  if (!png_image_finish_read(&png, nullptr, out.rgba.data(), 0, nullptr))
+    throw RunError(std::string("is a damaged PNG: ") + png.message);
+  return out;
+}
+
+struct JpegErrors {
+  jpeg_error_mgr manager;
+  std::jmp_buf leave;
+  char message[JMSG_LENGTH_MAX];
+};
+
+void leave_by_jump(j_common_ptr jpeg) {
+  auto* errors = reinterpret_cast<JpegErrors*>(jpeg->err);
+  jpeg->err->format_message(jpeg, errors->message);
+  std::longjmp(errors->leave, 1);
+}
+
+void say_nothing(j_common_ptr) {}
+
+// libjpeg leaves by longjmp, which skips destructors: these functions own nothing.
+bool read_header(jpeg_decompress_struct& jpeg, JpegErrors& errors, std::string_view bytes) {
+  if (setjmp(errors.leave)) return false;
+  jpeg_create_decompress(&jpeg);
+  jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+  jpeg_read_header(&jpeg, TRUE);
+  return true;
+}
+
+bool read_rows(jpeg_decompress_struct& jpeg, JpegErrors& errors, std::uint8_t* rgb) {
+  if (setjmp(errors.leave)) return false;
+  jpeg.out_color_space = JCS_RGB;
+  jpeg_start_decompress(&jpeg);
+  const std::size_t row = std::size_t(jpeg.output_width) * 3;
+  while (jpeg.output_scanline < jpeg.output_height) {
+    JSAMPROW at = rgb + jpeg.output_scanline * row;
+    jpeg_read_scanlines(&jpeg, &at, 1);
+  }
+  jpeg_finish_decompress(&jpeg);
+  return true;
+}
+
+RgbaImage decode_jpeg(std::string_view bytes) {
+  struct Reading {
+    jpeg_decompress_struct jpeg{};
+    ~Reading() { jpeg_destroy_decompress(&jpeg); }
+  } reading;
+  JpegErrors errors{};
+  reading.jpeg.err = jpeg_std_error(&errors.manager);
+  errors.manager.error_exit = leave_by_jump;
+  errors.manager.output_message = say_nothing;
+  const auto refuse = [&] { throw RunError(std::string("is a damaged JPEG: ") + errors.message); };
+  if (!read_header(reading.jpeg, errors, bytes)) refuse();
+  check_size(reading.jpeg.image_width, reading.jpeg.image_height);
+  if (reading.jpeg.num_components > 3) throw RunError("is a JPEG of four inks; RGB and grey are read");
+  const int width = int(reading.jpeg.image_width), height = int(reading.jpeg.image_height);
+  std::vector<std::uint8_t> rgb(std::size_t(width) * std::size_t(height) * 3);
+  if (!read_rows(reading.jpeg, errors, rgb.data())) refuse();
+  RgbaImage out{width, height, {}};
+  out.rgba.reserve(rgb.size() / 3 * 4);
+  for (std::size_t i = 0; i < rgb.size(); i += 3)
+    out.rgba.insert(out.rgba.end(), {rgb[i], rgb[i + 1], rgb[i + 2], 255});
+  return out;
+}
+
+bool begins_with(std::string_view bytes, std::string_view magic) {
+  return bytes.substr(0, magic.size()) == magic;
+}
+
+}  // namespace
+
+RgbaImage decode_picture(std::string_view bytes) {
+  if (begins_with(bytes, "\x89PNG\r\n\x1a\n")) return decode_png(bytes);
+  if (begins_with(bytes, "\xff\xd8\xff")) return decode_jpeg(bytes);
+  throw RunError("is neither PNG nor JPEG");
+}
+
+}  // namespace rubble

@@ -1,5 +1,6 @@
 #include "io/mesh/mesh_paint.h"
 
+#include <assimp/GltfMaterial.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
@@ -48,11 +49,23 @@ bool is_same_grey(const Vec3f& a, const Vec3f& b) {
   return std::max({a.x, a.y, a.z, b.x, b.y, b.z}) - std::min({a.x, a.y, a.z, b.x, b.y, b.z}) < kSameGrey;
 }
 
+// Whether the file means the fourth channel of images to be seen through: glTF says so or not.
+bool means_alpha(const aiMaterial& material) {
+  aiString mode;
+  return material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) != aiReturn_SUCCESS || std::string(mode.C_Str()) != "OPAQUE";
+}
+
+bool is_seen_through(const RgbaImage& image) {
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+    if (image.rgba[i] < 128) return true;
+  return false;
+}
+
 bool has_image(const aiMaterial& material) {
   return material.GetTextureCount(aiTextureType_DIFFUSE) + material.GetTextureCount(aiTextureType_BASE_COLOR) > 0;
 }
 
-// Texture coordinates of a URL: "my%20wood.png".
+// A name as a URL has it: "my%20wood.png".
 std::string decode_percent(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -226,6 +239,7 @@ SurfacePaint MeshPaints::read(const aiMaterial& material) {
   if (!albedo) albedo = find(material, aiTextureType_DIFFUSE);
   if (albedo) {
     paint.albedo = make_albedo(albedo->pixels);
+    if (means_alpha(material) && is_seen_through(albedo->pixels)) note("transparent parts of images are drawn opaque");
     if (std::max({paint.colour.x, paint.colour.y, paint.colour.z}) < kBlack) paint.colour = {1, 1, 1};
   }
   read_gloss(material, paint);

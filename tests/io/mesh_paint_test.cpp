@@ -182,6 +182,26 @@ TEST_F(MeshPaint, IsTheMetalRoughMaterialOfAGltf) {
   EXPECT_FLOAT_EQ(mesh.paint_corners.at(0)[0].v, 0) << "the square's lower left is that of the image";
 }
 
+// Two pixels, the second of which is not there: by hand, as the writer of pictures knows no alpha.
+constexpr unsigned char kHalfThere[] = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52,
+    0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x06, 0x00, 0x00, 0x00, 0xf4, 0x22, 0x7f,
+    0x8a, 0x00, 0x00, 0x00, 0x0f, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0xf8, 0xcf, 0xc0, 0xf0,
+    0x1f, 0x88, 0x19, 0x00, 0x10, 0xf8, 0x02, 0xfe, 0xac, 0xe9, 0x46, 0xf8, 0x00, 0x00, 0x00, 0x00,
+    0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+
+TEST_F(MeshPaint, SaysThatNothingIsSeenThrough) {
+  write_text_file(folder_ / "half.png", std::string(reinterpret_cast<const char*>(kHalfThere), sizeof kHalfThere));
+  write_text_file(folder_ / "square.bin", square_bytes());
+  const auto said = [&](const std::string& mode) {
+    load("square.gltf", make_gltf(R"({"name":"m",)" + mode + R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})",
+                                  R"([{"uri":"half.png"},{"uri":"half.png"}])"));
+    return notes();
+  };
+  EXPECT_EQ(said(R"("alphaMode":"BLEND",)"), "transparent parts of images are drawn opaque\n");
+  EXPECT_EQ(said(""), "") << "glTF's default is opaque";
+}
+
 TEST_F(MeshPaint, OfAnySizeKeepsTheMeanOfItsLight) {
   const RgbImage ramp = make_ramp(100, 37);
   write_png(folder_ / "ramp.png", ramp);

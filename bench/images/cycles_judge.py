@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Lets Cycles, the path tracer of Blender, judge ours: judge_scenes traces views with plain surfaces and writes
-them, Cycles draws the same, and this prints how far the images are apart, as docs/reference_renderer.md says.
+"""Lets Cycles, the path tracer of Blender, judge ours: judge_scenes traces views with plain surfaces and
+writes them, Cycles draws the same, and this prints how far the images are apart (docs/reference_renderer.md).
 
-usage: bench/images/cycles_judge.py [--only NAME] [--size PIXELS] [--samples N] [--out DIR] [--document [PAGE]]
+usage: bench/images/cycles_judge.py [--only NAME] [--size PIXELS] [--samples N] [--out DIR] [--document]
 
 Exit status: 0 every view is within the limit; 1 a view is not, or a program failed; 2 bad usage.
 """
@@ -34,7 +34,7 @@ def parse():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     p.add_argument("--only", default="", help="only views whose name has this in it")
     p.add_argument("--size", type=int, default=256, help="side of the square images, pixels; default: 256")
-    p.add_argument("--samples", type=int, default=1024, help="paths a pixel, of both; default: 1024")
+    p.add_argument("--samples", type=int, default=512, help="paths a pixel, of both; default: 512")
     p.add_argument("--limit", type=float, default=3, help="of the mean error, per cent; default: 3")
     p.add_argument("--threads", type=int, default=0, help="of both; default: all processors")
     p.add_argument("--out", default=str(ROOT / "out" / "judge"), help="default: out/judge")
@@ -52,14 +52,19 @@ def find_program(name, advice):
     return found
 
 
+def run_blender(blender, *words):
+    """With nobody's settings."""
+    return subprocess.run([blender, "--background", "--factory-startup", "--python-exit-code", "1", *words],
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
 def check_cycles(blender):
     """Debian builds Blender with Cycles and the importer of glTF; other builds may lack them."""
     code = "import bpy; bpy.context.scene.render.engine = 'CYCLES'; bpy.ops.import_scene.gltf.get_rna_type()"
-    run = subprocess.run([blender, "--background", "--factory-startup", "--python-exit-code", "1", "--python-expr", code],
-                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    run = run_blender(blender, "--python-expr", code)
     if run.returncode != 0:
-        sys.exit("cycles_judge: %s lacks Cycles or the importer of glTF, which Debian's packages blender, blender-data "
-                 "and python3-numpy have:\n%s" % (blender, run.stdout))
+        sys.exit("cycles_judge: %s lacks Cycles or the importer of glTF, which Debian's packages blender, "
+                 "blender-data and python3-numpy have:\n%s" % (blender, run.stdout))
 
 
 def trace_ours(options):
@@ -75,8 +80,9 @@ def trace_ours(options):
 def run_judge_scenes(options, *words):
     program = find_program(str(pathlib.Path(options.build) / "judge_scenes"),
                            "build it by cmake --build build/release --target judge_scenes")
-    run = subprocess.run([program, "--out", options.out, "--size", str(options.size), "--samples", str(options.samples),
-                          "--threads", str(options.threads), *words], cwd=ROOT, stdout=subprocess.PIPE, text=True)
+    numbers = [word for key in ("size", "samples", "threads") for word in ("--" + key, str(getattr(options, key)))]
+    run = subprocess.run([program, "--out", options.out, *numbers, *words], cwd=ROOT, stdout=subprocess.PIPE,
+                         text=True)
     if run.returncode != 0:
         sys.exit("cycles_judge: judge_scenes ended with status %d" % run.returncode)
     return run.stdout.split()
@@ -85,9 +91,8 @@ def run_judge_scenes(options, *words):
 def draw_by_cycles(blender, view, out, samples, threads):
     """Seconds that it took, with loading."""
     start = time.monotonic()
-    run = subprocess.run([blender, "--background", "--factory-startup", "--threads", str(threads), "--python-exit-code",
-                          "1", "--python", str(HERE / "cycles_render.py"), "--", str(view), str(out), str(samples)],
-                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    run = run_blender(blender, "--threads", str(threads), "--python", str(HERE / "cycles_render.py"), "--",
+                      str(view), str(out), str(samples))
     if run.returncode != 0 or not os.path.exists(out):
         sys.exit("cycles_judge: Blender did not draw %s:\n%s" % (view, run.stdout[-4000:]))
     return time.monotonic() - start
@@ -100,12 +105,14 @@ def judge(blender, name, options):
     theirs = folder / (name + "_cycles.pfm")
     theirs.unlink(missing_ok=True)
     seconds = draw_by_cycles(blender, folder / (name + ".json"), theirs, options.samples, options.threads)
-    return dict(compare(read_pfm(folder / view["ours"]), read_pfm(theirs)), ours_s=view["seconds"], cycles_s=seconds)
+    found = compare(read_pfm(folder / view["ours"]), read_pfm(theirs))
+    return dict(found, ours_s=view["seconds"], cycles_s=seconds)
 
 
 def row(name, found):
+    errors = tuple(100 * found[key] for key in ("mean", "signed", "worst"))
     return "| `%s` | %.2f %% | %+.2f %% | %.1f %% | %.0f s / %.0f s |\n" % (
-        name, 100 * found["mean"], 100 * found["signed"], 100 * found["worst"], found["ours_s"], found["cycles_s"])
+        name, *errors, found["ours_s"], found["cycles_s"])
 
 
 def main():

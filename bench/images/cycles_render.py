@@ -1,6 +1,6 @@
 """Draws one view that judge_scenes wrote, by Cycles. Run by Blender:
 
-blender --background --factory-startup --python-exit-code 1 --python cycles_render.py -- VIEW.json OUT.pfm SAMPLES
+blender --background --factory-startup --python cycles_render.py -- VIEW.json OUT.pfm SAMPLES
 """
 import json
 import math
@@ -18,7 +18,7 @@ RING = 32  # point lights that stand for the diodes of a ring
 
 
 def set_surface(material, colour, mirror):
-    """Lambert's law alone, or a mirror without Fresnel's law whose alpha is the square of Blender's roughness."""
+    """Lambert's law alone, or a mirror without Fresnel's law, whose alpha is Blender's roughness squared."""
     material.use_nodes = True
     tree = material.node_tree
     tree.nodes.clear()
@@ -49,7 +49,7 @@ def add_object(name, data):
 
 
 def add_ground(ground, mirror):
-    """Of nine squares: a small one about the pieces, where triangles of kilometres would be met imprecisely."""
+    """Of nine squares: a small one about the pieces, where triangles of kilometres would be imprecise."""
     near = 40
     xs, ys = ((low, -near, near, high) for low, high in zip(ground["low"], ground["high"]))
     mesh = bpy.data.meshes.new("ground")
@@ -84,7 +84,8 @@ def add_camera(camera):
     data.shift_y = ((camera["cy"] + 0.5) - height / 2) / width
     data.clip_start, data.clip_end = 0.01, 1e4
     thing = add_object("camera", data)
-    thing.matrix_world = turned(negative(camera["left"]), camera["up"], negative(camera["forward"]), camera["position"])
+    thing.matrix_world = turned(negative(camera["left"]), camera["up"], negative(camera["forward"]),
+                                camera["position"])
     scene = bpy.context.scene
     scene.camera = thing
     scene.render.resolution_x, scene.render.resolution_y = width, height
@@ -147,7 +148,7 @@ def add_beam(light, lamp):
 def add_lamp(lamp):
     """A ring of points that share one light."""
     if lamp["disc"]:
-        raise ValueError("a lamp with diodes all over a disc is not supported: set lamp.shape to point or ring")
+        raise ValueError("a lamp with diodes all over a disc is not supported: set lamp.shape=ring or point")
     count = RING if lamp["radius"] > 0 else 1
     light = bpy.data.lights.new("lamp", "POINT")
     # A point of P watts has the radiant intensity P / (4 pi).

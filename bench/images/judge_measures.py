@@ -24,15 +24,16 @@ def write_pfm(path, image):
 def region_means(image, regions):
     """Means over a grid of regions x regions rectangles, for each colour."""
     rows = numpy.array_split(image, regions, axis=0)
-    return numpy.array([[part.mean(axis=(0, 1)) for part in numpy.array_split(row, regions, axis=1)] for row in rows])
+    parts = [numpy.array_split(row, regions, axis=1) for row in rows]
+    return numpy.array([[part.mean(axis=(0, 1)) for part in row] for row in parts])
 
 
 def compare(ours, judge, regions=16):
-    """Differences of region means relative to the judge's, for each of red, green and blue: `mean` and `worst` of
-    their sizes over regions and colours, and `signed`, their mean with sign, in which noise cancels out. Regions
-    darker than 1 % of the mean count as that dark, as in compare_regions() of image_measures.h."""
+    """Differences of region means relative to the judge's, for each of red, green and blue: `mean` and
+    `worst` of their sizes over regions and colours, and `signed`, their mean with sign, in which noise cancels out.
+    Regions darker than 1 % of the mean count as that dark, as in compare_regions() of image_measures.h."""
     if ours.shape != judge.shape:
-        raise ValueError("images of different sizes, %s and %s, cannot be compared" % (ours.shape, judge.shape))
+        raise ValueError("images of different sizes, %s and %s" % (ours.shape, judge.shape))
     a, b = region_means(ours, regions), region_means(judge, regions)
     floor = 0.01 * judge.mean(axis=(0, 1))
     differences = (a - b) / numpy.maximum(b, floor)

@@ -11,8 +11,8 @@ local placed = {
   wall({ 3.4, 1.7, 0.2 }, { 0, 0.85, 2.28 }, "reinforced_concrete"),
   wall({ 1.7, 1.72, 0.2 }, { 0.85, -0.85, 2.28 }, "reinforced_concrete"),
   -- The piece of roof that fell in, and what came with it.
-  { box = { 0.9, 0.7, 0.15 }, position = { -0.1, 0.5, 0.3 }, rpy_deg = { 20, 10, 70 }, broken = { "+x", "-y" },
-    fixed = false },
+  { box = { 0.9, 0.7, 0.15 }, position = { -0.1, 0.5, 0.3 }, rpy_deg = { 20, 10, 70 },
+    broken = { "+x", "-y" }, fixed = false },
   { box = { 1.6, 0.12, 0.05 }, position = { 0.1, 0.3, 0.8 }, rpy_deg = { 0, 12, 30 }, material = "timber",
     fixed = false },
 }

@@ -53,11 +53,12 @@ ExitCode bench(Request request) {
 
 ExitCode run(int argc, char** argv) {
   CLI::App app{
-      "Traces the views of a list with matt surfaces of one colour each, and writes them, with meshes, sky, lights "
-      "and camera, for another renderer. Prints the name of each view that it wrote."};
+      "Traces the views of a list with matt surfaces of one colour each, and writes them, with meshes, sky, "
+      "lights and camera, for another renderer. Prints the name of each view that it wrote."};
   Request request;
   request.options.threads = 0;
-  app.add_option("--list", request.list, "The views, as docs/gallery.json lists pictures")->capture_default_str();
+  app.add_option("--list", request.list, "The views, as docs/gallery.json lists pictures")
+      ->capture_default_str();
   app.add_option("--only", request.only, "Only views whose name has this in it");
   app.add_option("--set", request.set, "Another key for every view, as `rubble run --set`");
   app.add_option("--out", request.out, "The folder")->capture_default_str();
@@ -65,7 +66,7 @@ ExitCode run(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--samples", request.options.samples, "Paths a pixel")->check(CLI::Range(1, 65536))
       ->capture_default_str();
-  app.add_option("--colour", request.options.colour, "How far colours are from grey, of what they are exported with")
+  app.add_option("--colour", request.options.colour, "How far from grey, of what colours are exported with")
       ->check(CLI::Range(0.0, 10.0))->capture_default_str();
   app.add_option("--mirror", request.options.mirror,
                  "All surfaces are grey mirrors of this roughness, and views are called NAME_mirror; 0: matt")

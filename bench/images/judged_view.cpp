@@ -1,6 +1,7 @@
 #include "bench/images/judged_view.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "app/scene/build_scene.h"
@@ -33,6 +34,9 @@ void check_shared(const Scenario& scenario, const LightSet& lights) {
   const AirSpec& air = scenario.air;
   if (air.fog_density > 0 || air.dust.period > 0 || air.rain_mm_h > 0 || air.snow_mm_h > 0)
     throw RunError("a judged view has clear air");
+  const Intrinsics lens = scenario.camera.intrinsics();
+  if (lens.lens != LensModel::plumb_bob || lens.distortion != std::array<double, 5>{})
+    throw RunError("a judged view has the lens of a pinhole");
   if (scenario.surroundings.on() || scenario.fines.amount > 0)
     throw RunError("a judged view has pieces and the ground alone");
 }
@@ -88,8 +92,9 @@ TracedImage JudgedView::trace() const {
   const float cover = *std::min_element(image.cover.begin(), image.cover.end());
   const float farthest = *std::max_element(image.distance.begin(), image.distance.end());
   if (cover < 1 || farthest > kFarthest)
-    throw RunError("a judged view shows surfaces within 12 m alone; the farthest is " + std::to_string(farthest) +
-                   " m away, and of some pixel they cover " + std::to_string(cover));
+    throw RunError("a judged view shows surfaces within 12 m alone; the farthest is " +
+                   std::to_string(farthest) + " m away, and of some pixel they cover " +
+                   std::to_string(cover));
   return image;
 }
 

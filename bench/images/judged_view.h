@@ -1,5 +1,5 @@
-// A view in which another renderer can mean the same as ours: plain surfaces, clear air, one sun and the camera's
-// lamp. Traced by our path tracer, and written for the other one.
+// A view in which another renderer can mean the same as ours: plain surfaces, clear air, one sun and the
+// camera's lamp. Traced by our path tracer, and written for the other one.
 #pragma once
 
 #include <string>
@@ -23,17 +23,18 @@ struct JudgeOptions {
 
 class JudgedView {
  public:
-  // Throws RunError for what the renderers do not share: fog, other lights, a lens that is no pinhole. The assets
-  // must outlive it.
+  // Throws RunError for what the renderers do not share: fog, other lights, a lens that is no pinhole. The
+  // assets must outlive it.
   JudgedView(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
              const JudgeOptions& options);
 
-  // Throws RunError when the image shows the sky or what is farther than 12 m: there the path tracer adds a skyline
-  // and the veil of clean air.
+  // Throws RunError when the image shows the sky or what is farther than 12 m: there the path tracer adds a
+  // skyline and the veil of clean air.
   TracedImage trace() const;
-  // FOLDER/NAME.glb, NAME_sky.exr, NAME_ours.pfm (radiance; unit: kcd/m2) and NAME.json, which says how they belong
-  // together. seconds: that trace() took.
-  void write(const std::string& folder, const std::string& name, const TracedImage& image, double seconds) const;
+  // FOLDER/NAME.glb, NAME_sky.exr, NAME_ours.pfm (radiance; unit: kcd/m2) and NAME.json, which says how they
+  // belong together. seconds: that trace() took.
+  void write(const std::string& folder, const std::string& name, const TracedImage& image,
+             double seconds) const;
 
   const PileModel& model() const { return model_; }
 

@@ -8,7 +8,8 @@ namespace rubble {
 
 PlainSurfaces::PlainSurfaces(const PreparedScene& scene, const PileModel& model, double mirror_roughness)
     : scene_(scene), mirror_roughness_(float(mirror_roughness)) {
-  for (const SurfaceAppearance& look : all_surface_appearances()) albedo_.push_back(model.colour_of(look.name));
+  for (const SurfaceAppearance& look : all_surface_appearances())
+    albedo_.push_back(model.colour_of(look.name));
 }
 
 void PlainSurfaces::find(const SurfaceQuery& query, SurfacePoint& out) const {

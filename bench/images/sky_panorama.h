@@ -7,8 +7,8 @@
 
 namespace rubble {
 
-// Twice as wide as high. Column x looks to the azimuth 180 degrees - 360 degrees (x + 0.5) / width, from X towards
-// Y; row y to the elevation 90 degrees - 180 degrees (y + 0.5) / height. Below the horizon it is black.
+// Twice as wide as high. Column x looks to the azimuth 180 - 360 (x + 0.5) / width degrees, from X towards Y;
+// row y to the elevation 90 - 180 (y + 0.5) / height degrees. Below the horizon it is black.
 struct SkyPanorama {
   int width = 0, height = 0;  // unit: pixel
   std::vector<float> rgb;     // 3 a pixel, rows from the top; unit: kcd/m2

@@ -33,7 +33,8 @@ std::vector<PixelBox> cut_into_boxes(int width, int height, int side) {
   return out;
 }
 
-TracedImage trace_image(const PathTracer& tracer, const TracedView& view, int samples, const TraceWork& work) {
+TracedImage trace_image(const PathTracer& tracer, const TracedView& view, int samples,
+                        const TraceWork& work) {
   const int width = view.rays.intrinsics.width, height = view.rays.intrinsics.height;
   const std::vector<PixelBox> boxes = cut_into_boxes(width, height, work.tile);
   std::vector<PixelSums> sums(std::size_t(width) * std::size_t(height));

@@ -31,6 +31,7 @@ struct TraceWork {
   int threads = 1;  // nor on these
 };
 // The whole view. samples: those of the tracer's options.
-TracedImage trace_image(const PathTracer& tracer, const TracedView& view, int samples, const TraceWork& work);
+TracedImage trace_image(const PathTracer& tracer, const TracedView& view, int samples,
+                        const TraceWork& work);
 
 }  // namespace rubble

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""usage: cycles_judge_nightly.py BUILD OUT: Cycles judges small images of every view, and must see a wrong one."""
+"""usage: cycles_judge_nightly.py BUILD OUT: Cycles judges small images of every view, and sees wrong ones."""
 import argparse
 import json
 import pathlib
@@ -12,14 +12,15 @@ sys.path.insert(0, str(ROOT / "bench" / "images"))
 import cycles_judge  # noqa: E402
 
 SIZE, SAMPLES = 128, 512
-# Of the mean error, and of the mean difference, in which noise cancels out; per cent. Twice to three times what was
-# measured: it is the noise of so few paths.
+# Of the mean error, and of the mean difference, in which noise cancels out; per cent. Twice to three times
+# what was measured: it is the noise of so few paths.
 LIMITS = {"heap_noon": (0.6, 0.2), "void_day": (2, 0.4), "room_day": (3, 0.7), "room_lamp": (0.4, 0.1)}
 
 
 def check_views(build, out):
-    run = subprocess.run([str(ROOT / "bench" / "images" / "cycles_judge.py"), "--build", build, "--out", str(out),
-                          "--size", str(SIZE), "--samples", str(SAMPLES)], stdout=subprocess.PIPE, text=True)
+    driver = str(ROOT / "bench" / "images" / "cycles_judge.py")
+    run = subprocess.run([driver, "--build", build, "--out", str(out), "--size", str(SIZE), "--samples",
+                          str(SAMPLES)], stdout=subprocess.PIPE, text=True)
     print(run.stdout)
     assert run.returncode == 0, run.returncode
     for name, (mean, signed) in LIMITS.items():

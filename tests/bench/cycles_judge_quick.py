@@ -42,7 +42,7 @@ def check_measures():
     try:
         compare(ours[:8], judge)
     except ValueError as error:
-        assert "different sizes" in str(error)
+        assert "images of different sizes" in str(error)
     else:
         raise AssertionError("images of different sizes were compared")
 
@@ -62,8 +62,8 @@ def check_files(out):
 
 def check_teaching(build, out):
     """Without Blender it says what to install, before anything is traced."""
-    run = subprocess.run([str(DRIVER), "--blender", "no_such_blender", "--build", build, "--out", str(out / "none")],
-                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    run = subprocess.run([str(DRIVER), "--blender", "no_such_blender", "--build", build, "--out",
+                          str(out / "none")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert run.returncode == 1 and run.stdout == "", run
     assert "Debian's package blender" in run.stderr and "no_such_blender" in run.stderr, run.stderr
     assert not (out / "none").exists()
@@ -73,8 +73,8 @@ def check_teaching(build, out):
 
 def check_views(build, out):
     """What is written of each view."""
-    run = subprocess.run([build + "/judge_scenes", "--only", "room", "--size", "16", "--samples", "2", "--out",
-                          str(out)], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True)
+    run = subprocess.run([build + "/judge_scenes", "--only", "room", "--size", "16", "--samples", "2",
+                          "--out", str(out)], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True)
     assert run.stdout.split() == ["room_day", "room_lamp"], run.stdout
     day, night = (json.loads((out / (name + ".json")).read_text()) for name in ("room_day", "room_lamp"))
     for view in day, night:

@@ -106,7 +106,8 @@ TEST_F(JudgedViewTest, IsWrittenWithTheColoursThatWereTraced) {
   const auto json = nlohmann::json::parse(read_whole_file(folder + "/wall.json"));
   std::vector<Vec3f> colours{view.model().colour_of("ground")};
   for (int i = 0; i < 3; ++i) EXPECT_EQ(json.at("ground").at("colour").at(std::size_t(i)), colours[0][i]);
-  for (const auto& material : materials_of(read_whole_file(folder + "/" + json.at("mesh").get<std::string>()))) {
+  const std::string glb = read_whole_file(folder + "/" + json.at("mesh").get<std::string>());
+  for (const auto& material : materials_of(glb)) {
     const auto& c = material.at("pbrMetallicRoughness").at("baseColorFactor");
     colours.push_back({c.at(0).get<float>(), c.at(1).get<float>(), c.at(2).get<float>()});
     EXPECT_GT(std::fabs(colours.back().x - colours.back().z), 0.1f) << "brick and timber are no grey";
@@ -128,6 +129,7 @@ TEST_F(JudgedViewTest, IsWrittenWithTheColoursThatWereTraced) {
 TEST_F(JudgedViewTest, RefusesWhatTheRenderersDoNotShare) {
   EXPECT_THROW(make({"air.fog_density=0.1"}), RunError);
   EXPECT_THROW(make({"light.type=point"}), RunError);
+  EXPECT_THROW(make({"camera.lens.model=plumb_bob", "camera.lens.k1=-0.2"}), RunError);
   EXPECT_THROW(make({"trajectory.waypoints[1].look_at=-9,0,2.6"}).trace(), RunError);  // the sky
 }
 

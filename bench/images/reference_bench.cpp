@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
-#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -15,19 +14,17 @@
 #include "app/assets/asset_library.h"
 #include "app/scene/build_scene.h"
 #include "bench/gallery_list.h"
+#include "bench/images/gallery_piles.h"
 #include "bench/images/image_measures.h"
 #include "bench/images/picture_file.h"
 #include "bench/program.h"
 #include "io/image/image_file.h"
 #include "kernel/base/system/disk_cache.h"
-#include "kernel/settling/generator.h"
-#include "kernel/settling/settle.h"
 #include "render/gl/gl_context.h"
 #include "render/passes/resolve_pass.h"
 #include "render/reference/display.h"
 #include "render/renderer.h"
 #include "scripting/mission.h"
-#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 namespace {
@@ -83,33 +80,7 @@ void print_statistics(const char* name, const char* quality, const Picture& pict
               drawn.processor);
 }
 
-// Piles that were settled already, by all that a pile follows from.
-class Piles {
- public:
-  const PileState& of(const GalleryPicture& picture, const Scenario& scenario,
-                      const AssetLibrary& assets, int threads) {
-    std::string key = picture.mission;
-    for (const std::string& change : picture.set)
-      if (change.rfind("pile.", 0) == 0 || change.rfind("seed", 0) == 0) key += "\n" + change;
-    const auto found = piles_.find(key);
-    if (found != piles_.end()) return found->second;
-    SettleOptions options = scenario.settle;
-    options.threads = threads;
-    return piles_[key] = settle_pile(generate_pile(build_pile_spec(scenario, assets)), options);
-  }
-
- private:
-  std::map<std::string, PileState> piles_;
-};
-
-ViewRays view_of(const Scenario& scenario, int size) {
-  const CameraPose pose = sample_trajectory(scenario.trajectory, scenario.start_ns).front();
-  Scenario sized = scenario;
-  sized.camera.width = sized.camera.height = size;
-  return {pose.stamp_ns, sized.camera.intrinsics(), pose.world_from_camera};
-}
-
-void compare(GlContext& context, const GalleryPicture& picture, Piles& piles, const Request& request,
+void compare(GlContext& context, const GalleryPicture& picture, GalleryPiles& piles, const Request& request,
              int threads) {
   MissionOptions changes;
   changes.overrides = picture.set;
@@ -153,7 +124,7 @@ ExitCode bench(const Request& request) {
       request.threads > 0 ? request.threads : int(std::max(1u, std::thread::hardware_concurrency()));
   const Gallery list = load_gallery(request.list);
   GlContext context({-1, threads});
-  Piles piles;
+  GalleryPiles piles;
   std::printf("| view | renderer | gradient kurtosis | flat share | SIFT/MP | slope | s | CPU s | "
               "mean error %% | bias %% | SSIM |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const GallerySection& section : list.sections)

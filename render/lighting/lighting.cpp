@@ -107,9 +107,8 @@ LightSet make_lights(const Scene& scene) {
     for (Vec3f& value : set.sky.map) value *= scale;
     set.sky.mean *= scale, set.sky.horizon *= scale;
   }
-  constexpr float kDisc = 6.8e-5f;  // solid angle of the sun; unit: sr
   if (main.type == LightType::directional && main.axis.z < 0.01f)
-    set.sky.sun_radiance = main.colour * (1 / kDisc);
+    set.sky.sun_radiance = main.colour * (1 / kSunSolidAngle);
   return set;
 }
 

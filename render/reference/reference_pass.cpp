@@ -28,14 +28,6 @@ Aabb box_of_air(const PreparedScene& scene) {
   return box;
 }
 
-std::vector<PixelBox> cut_into_boxes(int width, int height) {
-  std::vector<PixelBox> out;
-  for (int y = 0; y < height; y += kTile)
-    for (int x = 0; x < width; x += kTile)
-      out.push_back({x, y, std::min(kTile, width - x), std::min(kTile, height - y)});
-  return out;
-}
-
 std::vector<float> flatten(const std::vector<Vec3f>& light) {
   std::vector<float> out;
   out.reserve(light.size() * 3);
@@ -44,25 +36,6 @@ std::vector<float> flatten(const std::vector<Vec3f>& light) {
 }
 
 }  // namespace
-
-TracedImage average_samples(const std::vector<PixelSums>& sums, int width, int height, int samples) {
-  TracedImage out;
-  out.width = width, out.height = height;
-  const double n = samples;
-  for (const PixelSums& s : sums) {
-    const Vec3 light = s.light * (1 / n);
-    const double grey = dot(light, Vec3(0.2126, 0.7152, 0.0722));
-    const double spread = std::max(0.0, s.luminance2 / n - grey * grey);
-    const float met = float(s.surfaces);
-    out.light.push_back(Vec3f(light));
-    out.variance.push_back(float(spread / std::max(1.0, n - 1)));
-    out.cover.push_back(met / float(n));
-    out.albedo.push_back(met > 0 ? s.albedo * (1 / met) : Vec3f());
-    out.normal.push_back(met > 0 ? s.normal * (1 / met) : Vec3f());
-    out.distance.push_back(met > 0 ? s.distance / met : 0);
-  }
-  return out;
-}
 
 struct ReferencePass::State {
   State(const ReferenceSurroundings& s, const ReferenceOptions& o)
@@ -98,7 +71,7 @@ std::vector<float> ReferencePass::State::trace(const TracedView& view, const Air
   trace.samples = options.samples, trace.jitter = options.jitter;
   trace.seed = options.seed ^ std::uint64_t(view.rays.stamp_ns) * 0x9e3779b97f4a7c15u;
   const PathTracer tracer({rays, surfaces, lights, air_path, scene.surrounded}, trace);
-  const std::vector<PixelBox> boxes = cut_into_boxes(width, height);
+  const std::vector<PixelBox> boxes = cut_into_boxes(width, height, kTile);
   std::vector<PixelSums> sums(std::size_t(width) * std::size_t(height));
   std::atomic<std::size_t> done{0};
   std::atomic<bool> stopped{false};

@@ -23,4 +23,15 @@ struct TracedImage {
 
 TracedImage average_samples(const std::vector<PixelSums>& sums, int width, int height, int samples);
 
+// Boxes of at most this side that cover an image, rows from the top.
+std::vector<PixelBox> cut_into_boxes(int width, int height, int side);
+
+struct TraceWork {
+  int tile = 16;    // side of what is traced at once; unit: pixel; the image does not depend on it
+  int threads = 1;  // nor on these
+};
+// The whole view. samples: those of the tracer's options.
+TracedImage trace_image(const PathTracer& tracer, const TracedView& view, int samples,
+                        const TraceWork& work);
+
 }  // namespace rubble

@@ -9,7 +9,7 @@ namespace rubble {
 
 namespace {
 
-constexpr float kSunCosine = 1 - 6.8e-5f / (2 * portable::kPiF);  // of the disc's radius: a solid angle of 6.8e-5
+constexpr float kSunCosine = 1 - kSunSolidAngle / (2 * portable::kPiF);  // of the disc's radius
 
 float smoothstep(float low, float high, float x) {
   const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);

@@ -35,6 +35,19 @@ float ragged(float x) {  // noise without a pattern
 
 }  // namespace
 
+SurfacePoint find_flat_point(const PreparedScene& scene, const SurfaceQuery& query) {
+  const PlacedMesh& piece = scene.placed[query.triangle.placed];
+  const PreparedMesh& mesh = scene.meshes[piece.mesh];
+  Vec3 p[3];
+  for (std::size_t i = 0; i < 3; ++i)
+    p[i] = piece.world_from_mesh *
+           (Vec3(mesh.vertices[mesh.triangles[query.triangle.source].vertices[i]].position) * piece.scale);
+  SurfacePoint out;
+  out.position = Vec3f(p[0] + (p[1] - p[0]) * double(query.u) + (p[2] - p[0]) * double(query.v));
+  out.face_normal = out.normal = Vec3f(normalized(cross(p[1] - p[0], p[2] - p[0])));
+  return out;
+}
+
 struct LookSurfaces::Place {
   const Placed* piece;
   const SurfaceAppearance* look;

@@ -34,6 +34,9 @@ class SurfaceModel {
   virtual void find(const SurfaceQuery& query, SurfacePoint& out) const = 0;
 };
 
+// Where a flat triangle is met: position and normals; it reflects nothing yet.
+SurfacePoint find_flat_point(const PreparedScene& scene, const SurfaceQuery& query);
+
 // The looks of SurfaceAppearance: the same normals and albedos as shaders/surface.glsl, whose
 // formulas stand here again. Gloss mirrors as Reflection says, not as the shader's lobe.
 class LookSurfaces : public SurfaceModel {

@@ -1,6 +1,5 @@
 #include "tests/render/traced_world.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace rubble::testing {
@@ -12,16 +11,8 @@ class MadeSurfaces : public SurfaceModel {
   MadeSurfaces(const PreparedScene& scene, FindSurface find) : scene_(scene), find_(std::move(find)) {}
 
   void find(const SurfaceQuery& query, SurfacePoint& out) const override {
-    const PlacedMesh& piece = scene_.placed[query.triangle.placed];
-    const PreparedMesh& mesh = scene_.meshes[piece.mesh];
-    Vec3 p[3];
-    for (std::size_t i = 0; i < 3; ++i)
-      p[i] = piece.world_from_mesh *
-             Vec3(mesh.vertices[mesh.triangles[query.triangle.source].vertices[i]].position);
-    out = SurfacePoint();
-    out.position = Vec3f(p[0] + (p[1] - p[0]) * double(query.u) + (p[2] - p[0]) * double(query.v));
-    out.face_normal = out.normal = Vec3f(normalized(cross(p[1] - p[0], p[2] - p[0])));
-    find_(piece.id, query, out);
+    out = find_flat_point(scene_, query);
+    find_(scene_.placed[query.triangle.placed].id, query, out);
   }
 
  private:
@@ -46,16 +37,7 @@ TracedImage TracedWorld::trace(const Pose& world_from_camera, const Intrinsics& 
   const SceneLights scene_lights(lights);
   const PathTracer tracer({*rays_, *surfaces_, scene_lights, air}, options);
   const TracedView view{{0, k, world_from_camera}, {lamp}};
-  std::vector<PixelSums> sums(std::size_t(k.width) * std::size_t(k.height)), part;
-  for (int y = 0; y < k.height; y += tile) {
-    for (int x = 0; x < k.width; x += tile) {
-      const PixelBox box{x, y, std::min(tile, k.width - x), std::min(tile, k.height - y)};
-      tracer.trace(view, box, part);
-      for (int i = 0; i < box.width * box.height; ++i)
-        sums[std::size_t((y + i / box.width) * k.width + x + i % box.width)] = part[std::size_t(i)];
-    }
-  }
-  return average_samples(sums, k.width, k.height, options.samples);
+  return trace_image(tracer, view, options.samples, {tile, 1});
 }
 
 void set_even_sky(LightSet& lights, float radiance) {

@@ -38,7 +38,7 @@ class SurfaceModel {
 SurfacePoint find_flat_point(const PreparedScene& scene, const SurfaceQuery& query);
 
 // The looks of SurfaceAppearance: the same normals and albedos as shaders/surface.glsl, whose
-// formulas stand here again. Gloss mirrors as Reflection says, not as the shader's lobe.
+// formulas stand here again.
 class LookSurfaces : public SurfaceModel {
  public:
   // wetness: as in Scene. The scene must outlive it.

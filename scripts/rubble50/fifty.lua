@@ -77,8 +77,9 @@ function carriers.rover()
   return ridden(rubble.robot.rover { name = "base", position = { -6.5, -0.4, 0.001 }, drive = { { t = 0, linear = 0.4 } } },
                 { position = { 0.2, 0, 0.3 }, rpy_deg = { 0, 5, 0 } })
 end
-function carriers.snake()
-  return ridden(rubble.robot.snake { name = "base", position = { -6, 1, 0.03 }, drive = { { t = 0, gait = "sidewinding" } } },
+function carriers.snake(structure)
+  local x = structure == "lean_over" and -6.6 or -6  -- whose debris reaches farther
+  return ridden(rubble.robot.snake { name = "base", position = { x, 1, 0.03 }, drive = { { t = 0, gait = "sidewinding" } } },
                 { position = { 0.05, 0, 0.04 } })
 end
 
@@ -90,7 +91,7 @@ return function(structure, condition, carrier)
     depth_sensor = { type = "structured_light" },
     outputs = { bag = true, tum = true, rawlog = false, simplemap = false },
   }
-  for _, part in ipairs { conditions[condition], carriers[carrier]() } do
+  for _, part in ipairs { conditions[condition], carriers[carrier](structure) } do
     for key, value in pairs(part) do keys[key] = value end
   end
   return keys

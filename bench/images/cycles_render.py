@@ -32,12 +32,27 @@ def set_surface(material, colour, mirror):
     tree.links.new(shader.outputs[0], tree.nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
 
 
+def make_matt(material, shader, colour):
+    """Lambert's law with what the importer made of image, colours of vertices and factor."""
+    tree = material.node_tree
+    matt = tree.nodes.new("ShaderNodeBsdfDiffuse")
+    matt.inputs["Roughness"].default_value = 0
+    tree.links.new(colour, matt.inputs["Color"])
+    output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+    tree.links.new(matt.outputs[0], output.inputs["Surface"])
+    tree.nodes.remove(shader)
+
+
 def load_pieces(path, mirror):
     """With the base colours of the file, as flat triangles."""
     bpy.ops.import_scene.gltf(filepath=path, import_shading="FLAT")
     for material in bpy.data.materials:
         shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
-        set_surface(material, tuple(shader.inputs["Base Color"].default_value)[:3], mirror)
+        colour = shader.inputs["Base Color"]
+        if colour.is_linked and not mirror:
+            make_matt(material, shader, colour.links[0].from_socket)
+        else:
+            set_surface(material, tuple(colour.default_value)[:3], mirror)
     for mesh in bpy.data.meshes:
         mesh.polygons.foreach_set("use_smooth", [False] * len(mesh.polygons))
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/materials/surface_appearance.h"
+#include "render/transport/paint_point.h"
 
 namespace rubble {
 
@@ -19,7 +20,13 @@ void PlainSurfaces::find(const SurfaceQuery& query, SurfacePoint& out) const {
     return;
   }
   const PreparedMesh& mesh = scene_.meshes[scene_.placed[query.triangle.placed].mesh];
-  out.reflection.base = albedo_[mesh.triangles[query.triangle.source].material];
+  const PreparedTriangle& triangle = mesh.triangles[query.triangle.source];
+  out.reflection.base = albedo_[triangle.material];
+  if (mesh.paint.empty() || mesh.paint[query.triangle.source].paint < 0) return;
+  PaintQuery at;  // of no width: Cycles has no halved levels either
+  for (std::size_t i = 0; i < 3; ++i) at.corners[i] = mesh.vertices[triangle.vertices[i]].position;
+  at.weights = {1 - query.u - query.v, query.u, query.v};
+  out.reflection.base = find_paint(*scene_.paints, mesh.paint[query.triangle.source], at).albedo;
 }
 
 void strengthen_colours(PileModel& model, double strength) {

@@ -12,6 +12,7 @@
 #include "io/image/picture_decoder.h"
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/portable_math.h"
 #include "kernel/base/read_file.h"
 #include "kernel/base/text.h"
 
@@ -32,7 +33,10 @@ constexpr std::uint64_t kLargestFile = std::uint64_t(256) << 20;  // of an image
 constexpr float kBlack = 1e-3f;
 constexpr float kSameGrey = 0.02f;
 
-float from_srgb(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
+// Its texels are part of an asset's content: they must be the same with every libm.
+float power(double x, double exponent) { return float(portable::exp(portable::log(x) * exponent)); }
+
+float from_srgb(float x) { return x <= 0.04045f ? x / 12.92f : power((double(x) + 0.055) / 1.055, 2.4); }
 
 Vec3f colour_of(const aiMaterial& material) {
   aiColor4D c(1, 1, 1, 1);
@@ -141,7 +145,7 @@ void fill(const RgbaImage& image, bool decode, int side, const Put& put) {
 
 std::uint8_t to_byte(float x) { return std::uint8_t(std::clamp(x, 0.0f, 1.0f) * 255 + 0.5f); }
 
-float to_srgb(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f; }
+float to_srgb(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * power(double(x), 1 / 2.4) - 0.055f; }
 
 PaintImage make_albedo(const RgbaImage& image) {
   PaintImage out{side_for(image), {}};
@@ -264,7 +268,7 @@ void MeshPaints::read_gloss(const aiMaterial& material, SurfacePaint& paint) con
   material.Get(AI_MATKEY_SHININESS, exponent);
   const bool shines = std::max({specular.r, specular.g, specular.b}) > kBlack && exponent > 1;
   if (!rough && !metal && !shines) return;
-  if (!rough && shines) roughness = std::pow(2 / (exponent + 2), 0.25f);
+  if (!rough && shines) roughness = std::sqrt(std::sqrt(2 / (exponent + 2)));
   paint.reflectance = kGlossOfPlastics;
   paint.roughness = roughness >= 0 && roughness <= 1 ? roughness : 1;
   paint.metalness = metal && metalness >= 0 && metalness <= 1 ? metalness : 0;

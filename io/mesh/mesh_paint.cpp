@@ -21,6 +21,7 @@ namespace rubble {
 // Empty where it cannot be had.
 struct MeshPaints::Image {
   RgbaImage pixels;
+  std::string sha256;  // of the file: another decoder may round otherwise
 };
 
 namespace {
@@ -33,7 +34,7 @@ constexpr std::uint64_t kLargestFile = std::uint64_t(256) << 20;  // of an image
 constexpr float kBlack = 1e-3f;
 constexpr float kSameGrey = 0.02f;
 
-// Its texels are part of an asset's content: they must be the same with every libm.
+// The same texels with every libm.
 float power(double x, double exponent) { return float(portable::exp(portable::log(x) * exponent)); }
 
 float from_srgb(float x) { return x <= 0.04045f ? x / 12.92f : power((double(x) + 0.055) / 1.055, 2.4); }
@@ -176,15 +177,9 @@ PaintImage make_relief(const RgbaImage* normals, const RgbaImage* roughness, con
   return out;
 }
 
-std::string hash_of(const SurfacePaint& paint) {
+std::string sha256_of(std::string_view bytes) {
   Sha256 hash;
-  for (const float x : {paint.colour.x, paint.colour.y, paint.colour.z, paint.roughness, paint.metalness,
-                        paint.reflectance})
-    hash.add(&x, sizeof x);
-  for (const PaintImage* image : {&paint.albedo, &paint.relief}) {
-    hash.add(&image->side, sizeof image->side);
-    hash.add(image->texels.data(), image->texels.size());
-  }
+  hash.add(bytes.data(), bytes.size());
   return hash.hex();
 }
 
@@ -212,8 +207,8 @@ std::shared_ptr<const SurfacePaint> MeshPaints::of(const aiMesh& mesh) {
   const auto [found, is_new] = paints_.try_emplace(mesh.mMaterialIndex);
   if (is_new) {
     SurfacePaint paint;
+    paint.sha256 = sha256_of("plain");
     if (mesh.mMaterialIndex < scene_.mNumMaterials) paint = read(*scene_.mMaterials[mesh.mMaterialIndex]);
-    paint.sha256 = hash_of(paint);
     found->second = std::make_shared<const SurfacePaint>(std::move(paint));
   }
   return found->second;
@@ -254,6 +249,15 @@ SurfacePaint MeshPaints::read(const aiMaterial& material) {
   const auto pixels = [](const Image* image) { return image ? &image->pixels : nullptr; };
   paint.relief = make_relief(pixels(normals), pixels(roughness), pixels(metalness));
   note_left_out(material);
+  Sha256 hash;
+  for (const float x : {paint.colour.x, paint.colour.y, paint.colour.z, paint.roughness, paint.metalness,
+                        paint.reflectance})
+    hash.add(&x, sizeof x);
+  for (const Image* image : {albedo, normals, roughness, metalness}) {
+    const std::string content = image ? image->sha256 : "none";
+    hash.add(content.data(), content.size());
+  }
+  paint.sha256 = hash.hex();
   return paint;
 }
 
@@ -289,7 +293,8 @@ MeshPaints::Image MeshPaints::load(const std::string& name) {
     if (const aiTexture* inside = scene_.GetEmbeddedTexture(name.c_str())) {
       shown += " in the file";
       if (inside->mHeight != 0) throw RunError("is of raw texels; PNG and JPEG are read");
-      return {decode_picture({reinterpret_cast<const char*>(inside->pcData), inside->mWidth})};
+      const std::string_view bytes(reinterpret_cast<const char*>(inside->pcData), inside->mWidth);
+      return {decode_picture(bytes), sha256_of(bytes)};
     }
     std::string path = decode_percent(name);
     std::replace(path.begin(), path.end(), '\\', '/');
@@ -297,7 +302,10 @@ MeshPaints::Image MeshPaints::load(const std::string& name) {
     std::error_code failed;
     for (const fs::path& tried : {fs::path(folder_) / path, fs::path(folder_) / file,
                                   fs::path(folder_) / "textures" / file})
-      if (fs::is_regular_file(tried, failed)) return {decode_picture(read_file(tried.string(), kLargestFile))};
+      if (fs::is_regular_file(tried, failed)) {
+        const std::string bytes = read_file(tried.string(), kLargestFile);
+        return {decode_picture(bytes), sha256_of(bytes)};
+      }
     throw RunError("lies neither beside the mesh nor in its folder textures");
   } catch (const std::exception& error) {
     note("the image " + shown + " " + error.what());

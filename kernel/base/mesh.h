@@ -30,7 +30,7 @@ struct SurfacePaint {
   float reflectance = 0;  // at normal incidence, of what is no metal; 0: matt
   PaintImage albedo;      // encoded as sRGB (IEC 61966-2-1); the fourth byte says nothing
   PaintImage relief;      // X and Y of the normal, 0 to 255 for -1 to 1; roughness; metalness
-  std::string sha256;     // of all of the above
+  std::string sha256;     // of all that it was made from
 };
 
 // Of one corner of a triangle.

@@ -1,5 +1,6 @@
 // Surfaces that every renderer has, on flat triangles: matt after Lambert with one colour for each surface
-// name, or of the paint of a user's file, or rough mirrors after Trowbridge and Reitz without Fresnel's law, all of one grey.
+// name, or of the paint of a user's file, or rough mirrors after Trowbridge and Reitz without Fresnel's law, all of
+// one grey.
 #pragma once
 
 #include <vector>

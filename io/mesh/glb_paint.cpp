@@ -70,7 +70,8 @@ GlbCorners make_glb_corners(const TriangleMesh& mesh, std::size_t surface) {
     if (mesh.surfaces[t] != surface) continue;
     const Directions images = directions_of(mesh, t);
     const Vec3f& a = mesh.positions[mesh.triangles[t][0]];
-    const Vec3f face = normalized(cross(mesh.positions[mesh.triangles[t][1]] - a, mesh.positions[mesh.triangles[t][2]] - a));
+    const Vec3f ab = mesh.positions[mesh.triangles[t][1]] - a, ac = mesh.positions[mesh.triangles[t][2]] - a;
+    const Vec3f face = normalized(cross(ab, ac));
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = mesh.triangles[t][k];
       const PaintCorner& corner = mesh.paint_corners[t][k];

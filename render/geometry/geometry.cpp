@@ -113,7 +113,8 @@ void number_paints(PreparedScene& scene) {
   for (PreparedMesh& mesh : scene.meshes) {
     std::vector<std::int32_t> numbers;
     for (const auto& paint : mesh.paints) {
-      const auto found = std::find_if(all.begin(), all.end(), [&](const auto& p) { return p->sha256 == paint->sha256; });
+      const auto found =
+          std::find_if(all.begin(), all.end(), [&](const auto& p) { return p->sha256 == paint->sha256; });
       numbers.push_back(std::int32_t(found - all.begin()));
       if (found == all.end()) all.push_back(paint), scene.paint_key += paint->sha256;
     }

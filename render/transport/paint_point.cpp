@@ -31,7 +31,8 @@ PaintPoint find_paint(const PaintLayers& layers, const TrianglePaint& paint, con
     const float u1 = c[1].u - c[0].u, v1 = c[1].v - c[0].v, u2 = c[2].u - c[0].u, v2 = c[2].v - c[0].v;
     const float turn = u1 * v2 - v1 * u2;  // twice the triangle's area in the images
     const float area = norm(cross(ab, ac));
-    const float texels = float(layers.images.size()) * std::sqrt(std::fabs(turn) / std::max(area, 1e-20f)) * query.footprint;
+    const float texels =
+        float(layers.images.size()) * std::sqrt(std::fabs(turn) / std::max(area, 1e-20f)) * query.footprint;
     const float level = texels > 1 ? std::log2(texels) : 0;
     if (p.albedo >= 0) {
       const auto texel = layers.images.read(p.albedo, u, 1 - v, level);

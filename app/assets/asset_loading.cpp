@@ -196,7 +196,7 @@ void add_robot_folders(const Scenario& scenario, const std::vector<std::string>&
       for (const fs::path& tried :
            {fs::path(folder) / robot.urdf, fs::path(folder) / fs::path(robot.urdf).filename()})
         if (fs::is_regular_file(tried, failed))
-          library.folders.push_back(fs::absolute(tried.parent_path()).lexically_normal().string());
+          library.folders.push_back(fs::absolute(tried).parent_path().lexically_normal().string());
   }
 }
 

@@ -89,7 +89,7 @@ MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::str
       if (painted && spec.look.empty()) return std::string();
       return spec.look.empty() ? std::string(kGroundAppearance) : spec.look;
     });
-    terrain.folder = fs::absolute(fs::path(path).parent_path()).lexically_normal().string();
+    terrain.folder = fs::absolute(path).parent_path().lexically_normal().string();
     if (!is_closed(mesh))
       terrain.warning = path + ": the mesh is not closed: " + describe(find_open_edges(mesh)) +
                         ". It has no inside for maps of voids";

@@ -288,5 +288,23 @@ TEST(Urdf, AMissionDrivesARobotFromAFile) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
 }
 
+// Where a user stands most often: files that the mission names have no folder in their path then.
+TEST(Urdf, AMissionIsRunFromItsOwnFolder) {
+  const ScratchFolder scratch;
+  write_robot_description(scratch.path().string(), "rover", make_rover());
+  write_file(scratch / "hill.obj", "v -4 -4 0.1\nv 4 -4 0.1\nv 4 4 0.1\nv -4 4 0.1\nv 0 0 0.4\n"
+                                   "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+  write_file(scratch / "m.lua", R"(return rubble.mission {
+  pile = { layers = 1, pieces_per_layer = 3, terrain = { file = "hill.obj" } },
+  robots = { { urdf = "rover.urdf", name = "rover", position = { 0, -3, 1 } } }, robot_run = { duration = 0.1 },
+  camera = { width = 32, height = 24 },
+  trajectory = { waypoints = { { position = { -6, 0, 3 }, look_at = { 0, 0, 0 } } } },
+})");
+  const std::string command = "cd '" + scratch.path().string() + "' && '" RUBBLE_PROGRAM "' run m.lua --quiet --out out 2>err";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(status, 0) << read_file(scratch / "err");
+  EXPECT_TRUE(std::filesystem::exists(scratch / "out/manifest.json"));
+}
+
 }  // namespace
 }  // namespace rubble::testing

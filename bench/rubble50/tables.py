@@ -14,7 +14,8 @@ def finished(found):
 
 
 def ate(found):
-    return found["trajectory"]["ate_rmse_se3_m"]
+    """After a rigid alignment, of what knows no scale after one with scale."""
+    return found["trajectory"]["ate_rmse_sim3_m" if found.get("scaled") else "ate_rmse_se3_m"]
 
 
 def row(cells):
@@ -25,9 +26,10 @@ def method_table(found, methods):
     lines = [row(["method", "missions run", "finished", "ATE, m", "RPE, m", "RPE, °"]), "|" + "---|" * 6]
     for method, title in methods.items():
         all_of = [result for (_, m), result in found.items() if m == method]
-        good = [result["trajectory"] for result in all_of if finished(result)]
-        lines.append(row([title, "%d of 50" % len(all_of), str(len(good)),
-                          median([t["ate_rmse_se3_m"] for t in good], 3),
+        finishers = [result for result in all_of if finished(result)]
+        good = [result["trajectory"] for result in finishers if not result.get("scaled")]  # RPE needs a scale
+        lines.append(row([title, "%d of 50" % len(all_of), str(len(finishers)),
+                          median([ate(result) for result in finishers], 3),
                           median([t["rpe_trans_rmse_m"] for t in good], 4),
                           median([t["rpe_rot_rmse_deg"] for t in good], 3)]))
     return lines

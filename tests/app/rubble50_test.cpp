@@ -78,10 +78,12 @@ TEST(NightlyRubble50, BaselinesFollowARecordingAndFillTheTables) {
   ASSERT_EQ(run_rubble("run " + (scratch / "tiny.lua") + " --quiet --set camera.width=320 --set camera.height=240 --out " +
                        folder).exit_code, 0);
   fs::copy_file(kRoot + "/docs/rubble50.md", page);
-  const std::string command = "'" + kRoot + "/bench/rubble50/run' --missions 2 --methods rgbd,icp --program '" RUBBLE_PROGRAM
+  const std::string command = "'" + kRoot + "/bench/rubble50/run' --missions 2 --methods rgbd,icp,colmap --program '" RUBBLE_PROGRAM
                               "' --out " + scratch.path().string() + " --document " + page + " >" + (scratch / "log") + " 2>&1";
   ASSERT_EQ(std::system(command.c_str()), 0) << read_file(scratch / "log");
   EXPECT_NE(read_file(scratch / "log").find("02_heap_dark_push rgbd: 0 of 3 frames lost"), std::string::npos);
+  // COLMAP finds a model of these frames or none: both are results.
+  EXPECT_NE(read_file(scratch / "log").find("02_heap_dark_push colmap: "), std::string::npos);
   const auto found = nlohmann::json::parse(read_file(folder + "/baselines/rgbd.json"));
   EXPECT_EQ(found.at("trajectory").at("pairs"), 3);
   // The camera moved 0.14 m; a track in a wrong frame, or one that stands still, is farther off.
@@ -90,6 +92,7 @@ TEST(NightlyRubble50, BaselinesFollowARecordingAndFillTheTables) {
   const std::string written = read_file(page);
   EXPECT_NE(written.find("| OpenCV `RgbdOdometry` | 1 of 50 | 1 | "), std::string::npos) << written;
   EXPECT_NE(written.find("| Open3D, hybrid term | 0 of 50 | 0 | - |"), std::string::npos);
+  EXPECT_NE(written.find("| COLMAP | 1 of 50 | "), std::string::npos);
   EXPECT_NE(written.find("\n| 2 | 3 | "), std::string::npos);
   // Done once: a second call reads what is there.
   write_file(folder + "/baselines/rgbd.json", [&] { auto other = found; other["lost"] = 1; return other.dump(); }());

@@ -69,14 +69,16 @@ std::string hash_content(const Asset& asset, const LoadedAsset& loaded) {
   return hash.hex();
 }
 
-// The pack's word for it, else a name that is a look, else the file's colours, else that of the asset or its
-// material.
-std::string choose_surface_appearance(const Asset& asset, const std::string& surface, bool painted) {
+// The pack's word for it, else the file's image, else a name that is a look, else the file's colours, else that of the
+// asset or its material.
+std::string choose_surface_appearance(const Asset& asset, const std::string& surface, const SurfacePaint* paint) {
   for (const auto& [name, look] : asset.surface_appearance)
     if (name == surface) return look;
   const std::vector<std::string> known = known_surface_appearances();
-  if (std::find(known.begin(), known.end(), surface) != known.end()) return surface;
-  if (painted && !asset.look_given) return "";
+  const bool named = std::find(known.begin(), known.end(), surface) != known.end();
+  if (outdoes_name(paint) && !asset.look_given) return "";
+  if (named) return surface;
+  if (paint && !asset.look_given) return "";
   return asset.look.empty() ? surface : asset.look;
 }
 
@@ -136,8 +138,8 @@ LoadedAsset load_asset(const Asset& asset, MeshImporter& importer) {
     mesh->levels.push_back(importer.load_mesh(path, units));
     TriangleMesh& level = mesh->levels.back();
     surfaces.insert(surfaces.end(), level.surface_names.begin(), level.surface_names.end());
-    choose_surfaces(level, [&asset](const std::string& surface, bool painted) {
-      return choose_surface_appearance(asset, surface, painted);
+    choose_surfaces(level, [&asset](const std::string& surface, const SurfacePaint* paint) {
+      return choose_surface_appearance(asset, surface, paint);
     });
     if (!has_paint(level)) continue;
     for (const std::string& note : importer.notes()) loaded.warnings.push_back(path + ": " + note);

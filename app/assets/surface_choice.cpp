@@ -13,7 +13,7 @@ void choose_surfaces(TriangleMesh& mesh, const ChooseLook& choose) {
   for (std::size_t s = 0; s < mesh.surface_names.size(); ++s) {
     std::string& name = mesh.surface_names[s];
     const SurfacePaint* paint = mesh.paint_of(s);
-    const std::string look = choose(name, paint != nullptr);
+    const std::string look = choose(name, paint);
     if (look.empty() && paint)
       name = (name.empty() ? "paint" : name) + "_" + paint->sha256.substr(0, kDigits);
     else

@@ -84,9 +84,9 @@ MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::str
     const std::string path = find_file(spec.file, folders);
     scene->levels.push_back(importer.load_mesh(path, {spec.metres_per_unit, spec.up}));
     TriangleMesh& mesh = scene->levels.back();
-    choose_surfaces(mesh, [&spec](const std::string& surface, bool painted) {
-      if (is_surface_appearance(surface)) return surface;
-      if (painted && spec.look.empty()) return std::string();
+    choose_surfaces(mesh, [&spec](const std::string& surface, const SurfacePaint* paint) {
+      if (is_surface_appearance(surface) && !outdoes_name(paint)) return surface;
+      if (paint && spec.look.empty()) return std::string();
       return spec.look.empty() ? std::string(kGroundAppearance) : spec.look;
     });
     terrain.folder = fs::absolute(path).parent_path().lexically_normal().string();

@@ -171,7 +171,7 @@ class Builder {
     const Pose body_from_mesh = place.body_from_link * g.link_from_geometry;
     TriangleMesh& looks = body.looks;
     const std::string plain = choose_link_surface(made_.model, std::size_t(place.body));
-    choose_surfaces(mesh, [&plain](const std::string&, bool painted) { return painted ? std::string() : plain; });
+    choose_surfaces(mesh, [&plain](const std::string&, const SurfacePaint* paint) { return paint ? std::string() : plain; });
     const std::vector<std::uint8_t> surfaces = add_surfaces(mesh, plain, looks);
     const auto first = std::uint32_t(looks.positions.size());
     for (const Vec3f& p : mesh.positions) looks.positions.push_back(Vec3f(body_from_mesh * Vec3(p)));

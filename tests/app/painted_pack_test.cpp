@@ -94,6 +94,20 @@ TEST_F(PaintedPack, HasALookIfThePackSaysSo) {
   EXPECT_EQ(share("grey", 0), 0);
 }
 
+// A material that happens to be called as one of our looks: its image is meant, a plain colour is not.
+TEST_F(PaintedPack, KeepsAnImageUnderTheNameOfALook) {
+  std::string mesh = read_file(scratch_ / "pack/block.obj");
+  mesh.replace(mesh.find("usemtl side"), 11, "usemtl glass");
+  write_file(scratch_ / "pack/block.obj", mesh);
+  write_file(scratch_ / "pack/block.mtl", "newmtl glass\nKd 1 1 1\nmap_Kd side.png\n");
+  const std::string image = scratch_ / "image", plain = scratch_ / "plain";
+  ASSERT_EQ(run("run " + (scratch_ / "m.lua") + " --out " + image).exit_code, 0);
+  EXPECT_GT(share("image", 0), 0.05);
+  write_file(scratch_ / "pack/block.mtl", "newmtl glass\nKd 1 0.05 0.05\n");
+  ASSERT_EQ(run("run " + (scratch_ / "m.lua") + " --out " + plain).exit_code, 0);
+  EXPECT_EQ(share("plain", 0), 0);
+}
+
 TEST_F(PaintedPack, GoesThroughCutsSheetsViewsAndExports) {
   const std::string out = scratch_ / "out", mission = scratch_ / "m.lua";
   ASSERT_EQ(run("settle " + mission + " --out " + out).exit_code, 0);

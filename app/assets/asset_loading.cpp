@@ -181,7 +181,7 @@ void add_terrain(const TerrainScenario& spec, const std::vector<std::string>& fo
                  AssetLibrary& library) {
   if (!spec.given()) return;
   MadeTerrain terrain = make_terrain(spec, folders, *library.importer);
-  if (!terrain.warning.empty()) library.warnings.push_back(terrain.warning);
+  library.warnings.insert(library.warnings.end(), terrain.warnings.begin(), terrain.warnings.end());
   if (!terrain.folder.empty()) library.folders.push_back(terrain.folder);
   library.contents.push_back({kTerrainName, kTerrainPack, terrain.sha256, 0, {1, 1}, {}});
   library.types.push_back(std::move(terrain.type));

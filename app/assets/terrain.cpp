@@ -68,6 +68,9 @@ std::string hash_mesh(const TriangleMesh& mesh, double friction) {
   hash.add(mesh.surfaces.data(), mesh.surfaces.size());
   for (const auto& paint : mesh.paints)
     if (paint) hash.add(paint->sha256.data(), paint->sha256.size());
+  for (const auto& corners : mesh.paint_corners)
+    for (const PaintCorner& c : corners)
+      for (const float x : {c.u, c.v, c.colour.x, c.colour.y, c.colour.z}) hash.add(&x, sizeof x);
   return hash.hex();
 }
 
@@ -91,8 +94,10 @@ MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::str
     });
     terrain.folder = fs::absolute(path).parent_path().lexically_normal().string();
     if (!is_closed(mesh))
-      terrain.warning = path + ": the mesh is not closed: " + describe(find_open_edges(mesh)) +
-                        ". It has no inside for maps of voids";
+      terrain.warnings.push_back(path + ": the mesh is not closed: " + describe(find_open_edges(mesh)) +
+                                 ". It has no inside for maps of voids");
+    if (has_paint(mesh))
+      for (const std::string& note : importer.notes()) terrain.warnings.push_back(path + ": " + note);
   }
   const TriangleMesh& mesh = scene->levels.front();
   terrain.sha256 = hash_mesh(mesh, spec.friction);

@@ -21,7 +21,7 @@ struct MadeTerrain {
   std::shared_ptr<const SceneMesh> mesh;  // at full detail, for the renderer
   std::string sha256;                     // over the mesh, its looks and the friction
   std::string folder;                     // absolute, where its file was found; empty: it has none
-  std::string warning;                    // e.g. that the mesh is not closed; empty: none
+  std::vector<std::string> warnings;      // e.g. that the mesh is not closed
 };
 
 // `folders`: where a file may be, in order. Throws InputError for a file that is not there or cannot

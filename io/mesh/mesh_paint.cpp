@@ -9,10 +9,10 @@
 #include <cstring>
 #include <filesystem>
 
+#include "io/base/srgb.h"
 #include "io/image/picture_decoder.h"
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
-#include "kernel/base/portable_math.h"
 #include "kernel/base/read_file.h"
 #include "kernel/base/text.h"
 
@@ -33,11 +33,6 @@ constexpr std::uint64_t kLargestFile = std::uint64_t(256) << 20;  // of an image
 // One factor that an exporter may write on purpose is darker: OBJ files with images often say black.
 constexpr float kBlack = 1e-3f;
 constexpr float kSameGrey = 0.02f;
-
-// The same texels with every libm.
-float power(double x, double exponent) { return float(portable::exp(portable::log(x) * exponent)); }
-
-float from_srgb(float x) { return x <= 0.04045f ? x / 12.92f : power((double(x) + 0.055) / 1.055, 2.4); }
 
 Vec3f colour_of(const aiMaterial& material) {
   aiColor4D c(1, 1, 1, 1);
@@ -90,7 +85,7 @@ std::string decode_percent(const std::string& text) {
 class Averaged {
  public:
   Averaged(const RgbaImage& image, bool decode) : image_(image) {
-    for (int i = 0; i < 256; ++i) table_[std::size_t(i)] = decode ? from_srgb(float(i) / 255) : float(i) / 255;
+    for (int i = 0; i < 256; ++i) table_[std::size_t(i)] = decode ? float(linear_from_srgb(i / 255.0)) : float(i) / 255;
   }
   // The mean over a rectangle of the picture, by as many places as it has pixels.
   std::array<float, 4> mean(double x0, double x1, double y0, double y1) const {
@@ -146,15 +141,13 @@ void fill(const RgbaImage& image, bool decode, int side, const Put& put) {
 
 std::uint8_t to_byte(float x) { return std::uint8_t(std::clamp(x, 0.0f, 1.0f) * 255 + 0.5f); }
 
-float to_srgb(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * power(double(x), 1 / 2.4) - 0.055f; }
-
 PaintImage make_albedo(const RgbaImage& image) {
   PaintImage out{side_for(image), {}};
   const bool as_it_is = image.width == out.side && image.height == out.side;
   if (as_it_is || out.side == 0) return {out.side, image.rgba};
   out.texels.assign(std::size_t(out.side) * std::size_t(out.side) * 4, 255);
   fill(image, true, out.side, [&](std::size_t i, const std::array<float, 4>& mean) {
-    for (std::size_t c = 0; c < 3; ++c) out.texels[4 * i + c] = to_byte(to_srgb(mean[c]));
+    for (std::size_t c = 0; c < 3; ++c) out.texels[4 * i + c] = srgb8_from_linear(double(mean[c]));
   });
   return out;
 }
@@ -224,7 +217,7 @@ PaintCorner MeshPaints::corner(const aiMesh& mesh, unsigned vertex) const {
     const aiColor4D& c = mesh.mColors[0][vertex];
     const auto part = [this](float x) {
       const float share = x > 0 ? std::min(x, 1.0f) : 0.0f;
-      return linear_corners_ ? share : from_srgb(share);
+      return linear_corners_ ? share : float(linear_from_srgb(double(share)));
     };
     out.colour = {part(c.r), part(c.g), part(c.b)};
   }

@@ -4,20 +4,12 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/little_endian.h"
+#include "io/base/srgb.h"
 #include "io/mesh/pile_export.h"
 #include "kernel/base/error.h"
-#include "kernel/base/portable_math.h"
 
 namespace rubble {
 namespace {
-
-// Linear light to the 8 bits of sRGB (IEC 61966-2-1), within a step of the exact curve.
-std::uint8_t to_srgb8(float linear) {
-  const double x = std::clamp(static_cast<double>(linear), 0.0, 1.0);
-  const double s =
-      x <= 0.0031308 ? 12.92 * x : 1.055 * portable::exp(portable::log(x) / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(s * 255 + 0.5);
-}
 
 // All is said of vertices, whose lists come last: some readers know no faces but plain ones.
 std::string header(std::size_t vertices, std::size_t faces) {
@@ -40,7 +32,7 @@ std::vector<std::array<std::uint8_t, 3>> colours_of(const PileModel& model,
     const bool named = surface < mesh.surface_names.size();
     const Vec3f c = model.colour_of(named ? mesh.surface_names[surface] : "");
     for (const std::uint32_t v : welded.triangles[i])
-      colours[v] = {to_srgb8(c.x), to_srgb8(c.y), to_srgb8(c.z)};
+      colours[v] = {srgb8_from_linear(double(c.x)), srgb8_from_linear(double(c.y)), srgb8_from_linear(double(c.z))};
   }
   return colours;
 }

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 
+#include "io/base/srgb.h"
 #include "io/robot/urdf_lines.h"
 #include "kernel/base/error.h"
 #include "kernel/base/system/isolated_worker.h"
@@ -184,8 +185,7 @@ class Reader {
     const auto& m = visual.material;
     if (!m || !m->texture_filename.empty()) return std::nullopt;
     const auto decode = [](float code) {
-      const float x = code > 0 ? std::min(code, 1.0f) : 0.0f;
-      return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
+      return float(linear_from_srgb(double(code > 0 ? std::min(code, 1.0f) : 0.0f)));
     };
     return Vec3f(decode(m->color.r), decode(m->color.g), decode(m->color.b));
   }

@@ -10,8 +10,9 @@ constexpr std::size_t kMostBytes = std::size_t(512) << 20;  // of all images at 
 
 // Of another side, a power of two like its own.
 PatternImage resize(const PaintImage& image, int side, bool encoded) {
+  if (side == image.side) return {side, image.texels};
   const TextureStack stack({{image.side, image.texels}}, {encoded});
-  if (side <= image.side) return {side, stack.texels(0, int(std::lround(std::log2(image.side / side))))};
+  if (side < image.side) return {side, stack.texels(0, int(std::lround(std::log2(image.side / side))))};
   PatternImage out{side, {}};
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x)

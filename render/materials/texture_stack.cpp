@@ -42,13 +42,14 @@ std::vector<std::uint8_t> halve_encoded(const std::vector<std::uint8_t>& texels,
 
 }  // namespace
 
+float linear_from_srgb_code(float code) {
+  return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
+}
+
 float decode_srgb(std::uint8_t code) {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> out;
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const float x = float(i) / 255;
-      out[i] = x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
-    }
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = linear_from_srgb_code(float(i) / 255);
     return out;
   }();
   return table[code];

@@ -9,7 +9,8 @@
 
 namespace rubble {
 
-// IEC 61966-2-1; linear: 0 to 1.
+// IEC 61966-2-1, for 0 to 1.
+float linear_from_srgb_code(float code);
 float decode_srgb(std::uint8_t code);
 std::uint8_t encode_srgb(float linear);
 

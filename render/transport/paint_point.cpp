@@ -8,9 +8,6 @@ namespace {
 
 Vec3f times(const Vec3f& a, const Vec3f& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
-// Between texels, of what is encoded; as the shader decodes it.
-float decode(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
-
 float grey_of(const Vec3f& c) { return dot(c, Vec3f(0.2126f, 0.7152f, 0.0722f)); }
 
 // Where a point lies in the images, how coarse they are to be read, and the directions in the surface that are to the
@@ -60,7 +57,9 @@ PaintPoint find_paint(const PaintLayers& layers, const TrianglePaint& paint, con
   const Place place = p.albedo >= 0 || p.relief >= 0 ? find_place(layers, paint, query) : Place();
   if (p.albedo >= 0) {
     const auto texel = layers.images.read(p.albedo, place.u, 1 - place.v, place.level);
-    out.albedo = times(out.albedo, {decode(texel[0]), decode(texel[1]), decode(texel[2])});
+    // Decoded after it was found between texels, as the shader does.
+    out.albedo = times(out.albedo, {linear_from_srgb_code(texel[0]), linear_from_srgb_code(texel[1]),
+                                    linear_from_srgb_code(texel[2])});
   }
   if (p.relief >= 0) {
     const auto texel = layers.images.read(p.relief, place.u, 1 - place.v, place.level);

@@ -7,8 +7,8 @@
 #include "render/geometry/geometry.h"
 #include "render/geometry/ground_map.h"
 #include "render/geometry/ray_scene.h"
-#include "render/transport/reflection.h"
 #include "render/materials/texture_stack.h"
+#include "render/transport/reflection.h"
 
 namespace rubble {
 

@@ -47,7 +47,8 @@ Schema make_pack_schema(PackTable& pack) {
           return Slot(WordOrFile{{"hull", "decompose"}, &list[i].word, "parts", &list[i].parts});
         });
   item("material", &AssetTable::material, "A name in materials.lua.");
-  item("look", &AssetTable::look, "Look of surfaces without a known look; not given: the colours of the file, else the look of the material.");
+  item("look", &AssetTable::look,
+       "Look of surfaces without a known look; not given: the colours of the file, else the look of the material.");
   item("looks", &AssetTable::surface_appearance,
        "Look of each surface, by the name of the surface in the files.");
   item("density", &AssetTable::density, "Density, instead of that of the material.")

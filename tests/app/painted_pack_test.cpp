@@ -130,5 +130,31 @@ TEST_F(PaintedPack, GoesThroughCutsSheetsViewsAndExports) {
   EXPECT_NE(mtl.find("Kd 0.57758"), std::string::npos) << mtl;  // (200 + 14.025) / 269.025 to the power of 2.4
 }
 
+// A scan as the ground: its colours are part of what a manifest names, though only its vertices have them.
+TEST_F(PaintedPack, ATerrainOfOtherColoursIsAnother) {
+  const auto write_scan = [&](const std::string& colour) {
+    std::string text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                       "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 2\n"
+                       "property list uchar int vertex_indices\nend_header\n";
+    for (const char* place : {"-3 -3 0.1 ", "3 -3 0.1 ", "3 3 0.1 ", "-3 3 0.1 "}) text += place + colour + "\n";
+    write_file(scratch_ / "scan.ply", text + "3 0 1 2\n3 0 2 3\n");
+  };
+  std::string mission = read_file(scratch_ / "m.lua");
+  mission.replace(mission.find("layers = 0"), 10, "layers = 0, terrain = { file = 'scan.ply' }");
+  write_file(scratch_ / "m.lua", mission);
+  write_scan("20 200 30");
+  const std::string out = scratch_ / "green";
+  ASSERT_EQ(run("run " + (scratch_ / "m.lua") + " --out " + out).exit_code, 0);
+  EXPECT_GT(share("green", 1), 0.2);
+  const auto fly_again = [&] {
+    return run("render " + out + " --mission " + (scratch_ / "m.lua") + " --force --out " + (scratch_ / "again"));
+  };
+  EXPECT_EQ(fly_again().exit_code, 0);
+  write_scan("20 200 90");
+  const Outcome other = fly_again();
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.err.find("the content"), std::string::npos) << other.err;
+}
+
 }  // namespace
 }  // namespace rubble::testing

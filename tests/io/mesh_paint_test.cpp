@@ -123,6 +123,16 @@ TEST_F(MeshPaint, TakesHighlightsOfPhong) {
   EXPECT_NEAR(std::pow(double(mesh.paints[0]->roughness), 2), std::sqrt(2.0 / 100), 1e-5);  // alpha
 }
 
+TEST_F(MeshPaint, TakesMetalRoughnessAndNormalsOfAnObj) {
+  write_png(folder_ / "normals.png", make_ramp(8, 8));
+  const TriangleMesh mesh = load("sheet.obj", kSheet,
+                                 "newmtl one\nKd 1 0 0\nPr 0.3\nPm 0.8\nnorm normals.png\nnewmtl two\nKd 1 1 1\n");
+  EXPECT_FLOAT_EQ(mesh.paints.at(0)->roughness, 0.3f);
+  EXPECT_FLOAT_EQ(mesh.paints[0]->metalness, 0.8f);
+  ASSERT_EQ(mesh.paints[0]->relief.side, 8);
+  EXPECT_EQ(mesh.paints[0]->relief.texels[4 * 7], 255) << "X in red";
+}
+
 TEST_F(MeshPaint, IsThatOfTheVerticesOfAScan) {
   const TriangleMesh mesh = load("scan.ply",
                                  "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"

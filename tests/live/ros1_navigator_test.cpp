@@ -9,30 +9,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/app/program.h"
-#include "tests/live/background.h"
+#include "tests/live/ros1_master.h"
 
 namespace rubble::testing {
 namespace {
 
-class LiveRos1Navigator : public ::testing::Test {
+class LiveRos1Navigator : public WithRos1Master {
  protected:
-  void SetUp() override {
-    if (std::system("command -v rosmaster >/dev/null") != 0) GTEST_SKIP() << "no rosmaster: see tools/packages-live.txt";
-    port_ = free_port();
-    uri_ = "http://127.0.0.1:" + std::to_string(port_);
-    environment_ = "exec env ROS_MASTER_URI=" + uri_ + " ROS_IP=127.0.0.1 PYTHONUNBUFFERED=1 ROS_LOG_DIR='" +
-                   (scratch_ / "log") + "' ";
-  }
-  std::unique_ptr<Background> start(const std::string& command, const std::string& output) const {
-    return std::make_unique<Background>(environment_ + command, scratch_ / output);
-  }
-  std::unique_ptr<Background> start_master() const {
-    auto master = start("rosmaster --core -p " + std::to_string(port_), "master.txt");
-    const std::string ask = environment_ + "timeout 5 rostopic list >/dev/null 2>&1";
-    EXPECT_TRUE(eventually(30, [&] { return std::system(ask.c_str()) == 0; })) << master->output();
-    return master;
-  }
   std::unique_ptr<Background> start_robot(const std::string& mode) const {
     auto robot = start("'" RUBBLE_PYTHON "' '" RUBBLE_SOURCE_DIR "/tests/live/fake_robot.py' " + mode, "robot.txt");
     EXPECT_TRUE(eventually(30, [&] { return robot->output().find("ready") != std::string::npos; })) << robot->output();
@@ -51,10 +34,6 @@ class LiveRos1Navigator : public ::testing::Test {
   static void expect_to_say(const Background& program, const std::string& what) {
     EXPECT_NE(program.output().find(what), std::string::npos) << program.output();
   }
-
-  ScratchFolder scratch_;
-  int port_ = 0;
-  std::string uri_, environment_;
 };
 
 TEST_F(LiveRos1Navigator, WithoutAMasterItSaysHowToStartOne) {

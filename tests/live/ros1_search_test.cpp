@@ -1,23 +1,15 @@
 // A program of ROS 1 that searches, by examples/search/ros1_agent.py.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/program.h"
-#include "tests/live/background.h"
+#include "tests/live/ros1_master.h"
 
 namespace rubble::testing {
 namespace {
 
-class LiveRos1Search : public ::testing::Test {
+class LiveRos1Search : public WithRos1Master {
  protected:
-  void SetUp() override {
-    if (std::system("command -v rosmaster >/dev/null") != 0) GTEST_SKIP() << "no rosmaster: see tools/packages-live.txt";
-    port_ = free_port();
-    settings_ = "ROS_MASTER_URI=http://127.0.0.1:" + std::to_string(port_) +
-                " ROS_IP=127.0.0.1 PYTHONUNBUFFERED=1 ROS_LOG_DIR='" + (scratch_ / "log") + "' ";
-  }
   Outcome search(const std::string& agent, const std::string& out) const {
     return run_rubble("bench search scripts/search.lua --seeds 3 --json --agent \"" + agent + "\" --out " + (scratch_ / out),
                       settings_);
@@ -27,37 +19,29 @@ class LiveRos1Search : public ::testing::Test {
     if (table.is_discarded()) return {{"not JSON", outcome.out + outcome.err}};
     return table.at("datasets").at(0);  // of one agent, by its name in the table
   }
-
-  ScratchFolder scratch_;
-  int port_ = 0;
-  std::string settings_;
 };
 
 TEST_F(LiveRos1Search, ObservationsAnswersAndReportsLoseNothingOnTheirWay) {
   const std::string agent = RUBBLE_PYTHON " " RUBBLE_SOURCE_DIR "/tests/live/short_search.py 12";
   nlohmann::json direct = row_of(search(agent, "direct"));
-  Background master("exec env " + settings_ + "rosmaster --core -p " + std::to_string(port_), scratch_ / "master.txt");
-  const std::string ask = "env " + settings_ + "timeout 5 rostopic list >/dev/null 2>&1";
-  ASSERT_TRUE(eventually(30, [&] { return std::system(ask.c_str()) == 0; })) << master.output();
-  Background searcher("exec env " + settings_ + RUBBLE_PYTHON " " RUBBLE_SOURCE_DIR "/tests/live/search_by_topics.py '" +
-                          agent + "'",
-                      scratch_ / "searcher.txt");
-  ASSERT_TRUE(eventually(30, [&] { return searcher.output().find("ready") != std::string::npos; })) << searcher.output();
+  const auto master = start_master();
+  const auto searcher = start(RUBBLE_PYTHON " " RUBBLE_SOURCE_DIR "/tests/live/search_by_topics.py '" + agent + "'",
+                              "searcher.txt");
+  ASSERT_TRUE(eventually(30, [&] { return searcher->output().find("ready") != std::string::npos; }))
+      << searcher->output();
   nlohmann::json by_topics = row_of(search(RUBBLE_SOURCE_DIR "/examples/search/ros1_agent.py", "topics"));
   ASSERT_TRUE(direct.contains("time_s")) << direct;
   EXPECT_EQ(direct["failed_share"], 0);
   EXPECT_EQ(direct["false_reports"], 2);
   EXPECT_NEAR(direct["time_s"].get<double>(), 12, 0.3) << "it said that it was done";
   EXPECT_GT(direct["path_m"], 3);
-  EXPECT_EQ(direct, by_topics) << searcher.output();
-  EXPECT_TRUE(eventually(10, [&] { return searcher.output().find("end {") != std::string::npos; })) << searcher.output();
+  EXPECT_EQ(direct, by_topics) << searcher->output();
+  EXPECT_TRUE(eventually(10, [&] { return searcher->output().find("end {") != std::string::npos; })) << searcher->output();
 }
 
 // Nobody answers: it says so, and the search ends with what was found.
 TEST_F(LiveRos1Search, WithoutACommandItGivesUp) {
-  Background master("exec env " + settings_ + "rosmaster --core -p " + std::to_string(port_), scratch_ / "master.txt");
-  const std::string ask = "env " + settings_ + "timeout 5 rostopic list >/dev/null 2>&1";
-  ASSERT_TRUE(eventually(30, [&] { return std::system(ask.c_str()) == 0; })) << master.output();
+  const auto master = start_master();
   const Outcome alone = search(RUBBLE_SOURCE_DIR "/examples/search/ros1_agent.py 1", "alone");
   EXPECT_EQ(alone.exit_code, 2);
   EXPECT_EQ(row_of(alone)["failed_share"], 1);

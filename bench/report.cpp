@@ -112,7 +112,7 @@ std::string csv_line(const SettleRun& run) {
 std::string table_text(const SettleRun& run) {
   const OverlapReport& o = run.overlaps;
   const PileState& s = run.state;
-  const StepTimes& t = run.stages;
+  const auto time_of = [&run](StepStage stage) { return run.stages[std::size_t(stage)]; };
   std::string text = format("%s, schedule %s, threads %d, %d pieces\n", run.work.c_str(),
                             name_of(run.schedule).c_str(), run.threads, int(s.pieces.size()));
   text += format("  wall, CPU            %.2f s, %.2f s\n", run.wall, run.cpu);
@@ -121,7 +121,8 @@ std::string table_text(const SettleRun& run) {
   text += format(
       "  stages               broad %.2f, narrow %.2f, solve %.2f, advance %.2f, "
       "rest %.2f s\n",
-      t.broad, t.narrow, t.solve, t.advance, t.rest);
+      time_of(StepStage::pairs), time_of(StepStage::points), time_of(StepStage::impulses),
+      time_of(StepStage::motion), time_of(StepStage::rest));
   text += format("  settled              %s; layers that ran into their limit: %d\n",
                  s.settled ? "yes" : "NO", s.layers_at_limit);
   text += format("  touching pairs       %d (closer than %.0f mm), %d overlap\n", o.touching_pairs,

@@ -32,6 +32,7 @@ SettleRun run_settling(const Pile& pile, const SettleJob& job) {
       job.options.threads > 0 ? job.options.threads : int(std::thread::hardware_concurrency());
   const Times begin = read_times();
   World world(pile.types, calc_world_options(job.options), pile.assemblies);
+  StageClock clock(world);
   EjectionWatch watch(world);
   Times watching;  // is not the kernel's
   run.state = settle_pile(world, pile, job.options, [&](const SettleProgress&) {
@@ -43,7 +44,7 @@ SettleRun run_settling(const Pile& pile, const SettleJob& job) {
   const Times spent = read_times() - begin - watching;
   run.wall = spent.wall;
   run.cpu = spent.cpu;
-  run.stages = world.times();
+  run.stages = clock.times();
   run.peak_rss = read_peak_rss();
   run.ejected = watch.ejected();
   for (int i = 0; i < world.size(); ++i) run.masses.push_back(world.mass(i));

@@ -7,6 +7,7 @@
 
 #include "bench/ejection_watch.h"
 #include "bench/overlap_checker.h"
+#include "bench/stage_clock.h"
 #include "kernel/model/pile.h"
 #include "kernel/settling/settle.h"
 #include "kernel/world/world.h"
@@ -22,7 +23,7 @@ struct SettleRun {
   int threads = 1;
 
   double wall = 0, cpu = 0;  // making the world and settling, without what the bench adds; unit: s
-  StepTimes stages;          // wall, of the settling alone; unit: s
+  StageTimes stages{};       // of the settling alone
   double peak_rss = 0;       // of the process, when the pile rests; unit: MiB
 
   PileState state;

@@ -29,6 +29,7 @@ set(RUBBLE_PUBLIC_HEADERS
   kernel/model/surroundings.h
   kernel/model/track.h
   kernel/model/track_builder.h
+  kernel/model/world_input.h
   kernel/robot/bundled.h
   kernel/robot/gaits.h
   kernel/robot/odometry.h

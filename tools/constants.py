@@ -26,7 +26,7 @@ HEAD = """# Constants of the kernel
 This page lists every named number in the kernel's folders of physics, with its unit and its reason. Numbers
 that follow from others are left out. Settings with a default are in `SolverSettings`
 (`kernel/solver/contact_solver.h`) and `NarrowSettings` (`kernel/collision/narrow_phase.h`); the conditions of
-sleep are in `kernel/world/world_sleep.cpp`. [lua.md](lua.md) has the keys that a script may set.
+sleep are in `kernel/world/phases/sleep.cpp`. [lua.md](lua.md) has the keys that a script may set.
 [performance.md](performance.md#closed-forms) measures how far clamps and limits deviate from the laws of Newton
 and Coulomb.
 

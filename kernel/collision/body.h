@@ -24,7 +24,7 @@ struct Body {
   std::int32_t tree = -1;       // the articulated tree that it is a link of; -1: none
   std::int32_t link = -1;       // its number there
   std::int32_t first_collider = 0, collider_count = 0;  // of the piece itself
-  // Pieces that hold together move as the first of them, the lead; see kernel/world/world_groups.cpp.
+  // Pieces that hold together move as the first of them, the lead; see kernel/world/state/groups.h.
   std::int32_t lead = -1;       // the piece that this one moves with, itself where it leads; -1: none
   std::int32_t group = -1;      // of a lead: its number among the groups
   Vec3 origin_in_group;         // of the type's frame, from the group's centre of mass; unit: m

@@ -12,30 +12,9 @@
 #include "kernel/model/pile.h"
 #include "kernel/model/pile_state.h"
 #include "kernel/model/robot.h"
+#include "kernel/model/world_input.h"
 
 namespace rubble {
-
-struct WorldOptions {
-  double gravity = 9.81;        // unit: m/s2, downwards
-  double step = 1.0 / 60.0;     // unit: s; range: 1/1000 to 1/30
-  double lost_below = -0.5;     // unit: m
-  double lost_beyond = 100.0;   // from the Z axis; unit: m
-  int threads = 0;              // 0: all processors; the result does not depend on it
-  bool sleeping = true;         // pieces that stay in place are put to sleep
-};
-
-struct NewPiece {
-  Placement placement;
-  Vec3 linear_velocity;   // of the centre of mass; of an assembly that of its root; unit: m/s
-  Vec3 angular_velocity;  // of an assembly as one rigid body; unit: rad/s
-  int layer = 0;
-};
-
-// Some of the pieces of a rigid group that comes apart; together they go on as one body.
-struct SplitPart {
-  std::vector<int> pieces;  // ascending, not empty
-  bool fixed = false;       // goes on immovable; only where the whole was
-};
 
 // What a piece got at one point of a contact in the last solution, mean over the step.
 struct ContactImpulse {
@@ -46,9 +25,14 @@ struct ContactImpulse {
   double approach = 0;  // speed of the two against each other before, along the normal; unit: m/s
 };
 
-// CPU-independent counters and, for the bench, wall seconds by stage (never part of a result).
-struct StepTimes {
-  double broad = 0, narrow = 0, solve = 0, advance = 0, rest = 0;  // unit: s
+// The stages of a step, in their order.
+enum class StepStage {
+  pairs,     // who may touch whom
+  points,    // where they touch
+  impulses,  // what they give each other
+  motion,
+  rest,      // limits, sleep, what is lost; before the motion and after it
+  none,      // between two steps
 };
 
 class World {
@@ -175,7 +159,9 @@ class World {
   std::shared_ptr<const Snapshot> snapshot() const;
   void restore(const Snapshot& snapshot);
 
-  const StepTimes& times() const;
+  // Called when a stage of a step begins, with `none` at the end of the step: a bench measures stages with
+  // it, as a world reads no clock.
+  void set_on_stage(std::function<void(StepStage)> on_stage);
 
  private:
   struct Impl;

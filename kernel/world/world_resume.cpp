@@ -1,10 +1,6 @@
 // A world that goes on from a pile that has settled: from the plain state, so that it does not matter
 // which run, program or machine settled it.
-#include <algorithm>
-
 #include "kernel/base/error.h"
-#include "kernel/base/portable_math.h"
-#include "kernel/multibody/joints/joint.h"
 #include "kernel/world/world_impl.h"
 
 namespace rubble {
@@ -12,64 +8,6 @@ namespace {
 
 // So long all pieces are awake, until their contacts carry what lies on them; unit: s.
 constexpr double kLoadingTime = 0.5;
-
-// Where each assembly of the pile has its pieces.
-struct Instance {
-  const AssemblyType* assembly = nullptr;
-  int first = 0;
-  double scale = 1;
-};
-
-std::vector<Instance> list_instances(const Pile& pile, int& pieces) {
-  std::vector<Instance> instances;
-  pieces = 0;
-  const auto add = [&](const std::vector<Placement>& placements) {
-    for (const Placement& p : placements) {
-      if (p.type < int(pile.types.size())) {
-        ++pieces;
-        continue;
-      }
-      const AssemblyType& assembly = pile.assemblies[std::size_t(p.type) - pile.types.size()];
-      instances.push_back({&assembly, pieces, p.scale});
-      pieces += int(assembly.links.size());
-    }
-  };
-  add(pile.placed);
-  for (const Layer& layer : pile.layers) add(layer.pieces);
-  return instances;
-}
-
-const JointType* find_type(const std::vector<Instance>& instances, const JointState& joint,
-                           double& scale) {
-  for (const Instance& at : instances) {
-    if (joint.parent < at.first || joint.parent >= at.first + int(at.assembly->links.size())) continue;
-    scale = at.scale;
-    for (const JointType& type : at.assembly->joints) {
-      if (type.parent == joint.parent - at.first && type.child == joint.child - at.first) return &type;
-    }
-  }
-  return nullptr;
-}
-
-// The joint's coordinates that put the link where it is.
-void set_coordinates(const Pose& moved, Mobility mobility, double* q) {
-  const Quat& r = moved.rotation;
-  switch (mobility) {
-    case Mobility::hinge:
-      q[0] = 2 * portable::atan2(r.w < 0 ? -r.z : r.z, r.w < 0 ? -r.w : r.w);
-      break;
-    case Mobility::slider:
-      q[0] = moved.translation.x;
-      break;
-    case Mobility::ball:
-      q[0] = r.w, q[1] = r.x, q[2] = r.y, q[3] = r.z;
-      break;
-    case Mobility::weld:
-    case Mobility::free:
-    case Mobility::fixed:
-      break;
-  }
-}
 
 [[noreturn]] void refuse_state(const std::string& what) {
   Diagnostic d;
@@ -80,100 +18,8 @@ void set_coordinates(const Pose& moved, Mobility mobility, double* q) {
 
 }  // namespace
 
-// Joins the bodies `first` and up that the joints connect. By body: its link's number, -1: none yet.
-void World::Impl::join_settled(const Pile& pile, const PileState& state) {
-  int pieces = 0;
-  const std::vector<Instance> instances = list_instances(pile, pieces);
-  if (pieces != int(state.pieces.size())) refuse_state("another number of pieces");
-  std::vector<const JointState*> hangs_by(state.pieces.size(), nullptr);
-  std::vector<std::uint8_t> joined(state.pieces.size(), 0);
-  std::vector<const JointState*> loops;
-  for (const JointState& joint : state.joints) {
-    joined[std::size_t(joint.parent)] = joined[std::size_t(joint.child)] = 1;
-    const JointState*& tree_joint = hangs_by[std::size_t(joint.child)];
-    if (!tree_joint && joint.parent < joint.child) {
-      tree_joint = &joint;
-    } else {
-      loops.push_back(&joint);
-    }
-  }
-  const auto frame = [&](int body, const Pose& type_from_joint) {
-    return Pose{{}, -data.bodies[body].com_in_type} * type_from_joint;
-  };
-  std::vector<Tree> trees;
-  std::vector<TreeState> states;
-  for (int i = 0; i < pieces; ++i) {
-    if (!joined[std::size_t(i)] || data.bodies[i].lost) continue;
-    Body& body = data.bodies[i];
-    TreeLink link;
-    link.body = i;
-    const JointState* joint = hangs_by[std::size_t(i)];
-    if (!joint) {
-      link.mobility = body.mass > 0 ? Mobility::free : Mobility::fixed;
-      trees.emplace_back();
-      states.emplace_back();
-      trees.back().root = body.world_from_com;
-      body.tree = std::int32_t(trees.size()) - 1;
-    } else {
-      const Body& parent = data.bodies[joint->parent];
-      double scale = 1;
-      const JointType* type = find_type(instances, *joint, scale);
-      if (!type || parent.tree < 0) refuse_state("other joints");
-      body.tree = parent.tree;
-      link.parent = parent.link;
-      link.mobility = mobility_of(joint->kind);
-      link.parent_from_joint = frame(joint->parent, joint->parent_from_joint);
-      link.link_from_joint = frame(i, joint->child_from_joint);
-      joint_of(link.mobility).set_figures(*type, scale, link);
-      link.rest = joint->rest;
-      link.rest_rotation = joint->rest_rotation;
-    }
-    Tree& tree = trees[std::size_t(body.tree)];
-    TreeState& at = states[std::size_t(body.tree)];
-    body.link = std::int32_t(tree.links.size());
-    tree.mass += body.mass;
-    tree.links.push_back(link);
-    number_coordinates(tree);
-    at.q.resize(std::size_t(tree.q_count));
-    at.u.assign(std::size_t(tree.u_count), 0);
-    double* q = at.q.data() + tree.links.back().first_q;
-    const Pose& pose = body.world_from_com;
-    if (link.mobility == Mobility::free) {
-      const Quat& r = pose.rotation;
-      const Vec3& p = pose.translation;
-      const double numbers[7] = {r.w, r.x, r.y, r.z, p.x, p.y, p.z};
-      std::copy(numbers, numbers + 7, q);
-    } else if (joint) {
-      set_coordinates((data.bodies[joint->parent].world_from_com * link.parent_from_joint).inverse() *
-                          pose * link.link_from_joint,
-                      link.mobility, q);
-    }
-  }
-  for (const JointState* joint : loops) {
-    double scale = 1;
-    const JointType* type = find_type(instances, *joint, scale);
-    const Body &a = data.bodies[joint->parent], &b = data.bodies[joint->child];
-    if (!type || a.tree < 0 || a.tree != b.tree) refuse_state("other joints");
-    TreeLoop loop;
-    loop.link_a = a.link;
-    loop.link_b = b.link;
-    loop.mobility = mobility_of(joint->kind);
-    loop.a_from_joint = frame(joint->parent, joint->parent_from_joint);
-    loop.b_from_joint = frame(joint->child, joint->child_from_joint);
-    loop.break_force = type->break_force * (scale * scale);
-    loop.break_torque = type->break_torque * (scale * scale * scale);
-    loop.collide = type->collide;
-    trees[std::size_t(a.tree)].loops.push_back(loop);
-  }
-  for (std::size_t i = 0; i < trees.size(); ++i) {
-    data.trees.push_back(trees[i]);
-    simbody_trees.add(trees[i], data.bodies, states[i]);
-    mirror_state(int(i));
-  }
-}
-
 // Back to where the pile lay, asleep.
-void World::Impl::lay_to_rest(const PileState& state, const std::vector<TreeState>& trees) {
+void World::Impl::lay_to_rest(const PileState& state, const std::vector<TreeState>& tree_states) {
   for (std::size_t i = 0; i < state.pieces.size(); ++i) {
     Body& body = data.bodies[i];
     if (!body.movable() || body.tree >= 0) continue;
@@ -181,13 +27,13 @@ void World::Impl::lay_to_rest(const PileState& state, const std::vector<TreeStat
     const Pose to{normalized(at.rotation), at * body.com_in_type};
     body.travel += distance(body.world_from_com.translation, to.translation) + 2 * double(body.radius);
     blocks.set_pose(body.simbody_index, to);
-    mirror(body);
-    refresh(body);
+    bodies.mirror(body);
+    bodies.refresh(body);
   }
-  for (std::size_t i = 0; i < trees.size(); ++i) {
-    if (simbody_trees.state(int(i)).q.size() != trees[i].q.size()) continue;  // a joint broke
-    simbody_trees.set_state(int(i), trees[i]);
-    mirror_state(int(i));
+  for (std::size_t i = 0; i < tree_states.size(); ++i) {
+    if (simbody_trees.state(int(i)).q.size() != tree_states[i].q.size()) continue;  // a joint broke
+    simbody_trees.set_state(int(i), tree_states[i]);
+    trees.mirror_state(int(i));
   }
 }
 
@@ -197,30 +43,29 @@ void World::lay(const Pile& pile, const PileState& state, bool fixed) {
   std::vector<FreeBody> free(state.pieces.size());
   for (std::size_t i = 0; i < state.pieces.size(); ++i) {
     const PieceState& from = state.pieces[i];
-    if (from.type < 0 || from.type >= w.placeable_types) refuse_state("other types of pieces");
+    if (from.type < 0 || from.type >= w.types.placeable) refuse_state("other types of pieces");
     NewPiece piece;
     piece.layer = from.layer;
-    piece.placement = {from.type, from.scale, from.world_from_body,
-                       fixed || from.status == PieceStatus::fixed};
-    w.add_body(piece, &free[i]);
+    piece.placement = {from.type, from.scale, from.world_from_body, fixed || from.status == PieceStatus::fixed};
+    w.bodies.add(piece, &free[i]);
     w.data.bodies.back().has_touched = true;
     if (from.status != PieceStatus::lost) continue;
     w.data.bodies.back().lost = true;
     w.data.bodies.back().awake = false;
     ++w.data.lost;
   }
-  if (!fixed) w.join_settled(pile, state);
-  w.add_to_blocks(0, free);
-  w.introduce(0);
+  if (!fixed) w.trees.join_settled(pile, state);
+  w.bodies.add_to_blocks(0, free);
+  w.pairs.introduce(0);
   if (fixed) return;
-  std::vector<TreeState> trees;
-  for (int i = 0; i < w.simbody_trees.size(); ++i) trees.push_back(w.simbody_trees.state(i));
-  const bool sleeping = w.options.sleeping;
-  w.options.sleeping = false;
+  std::vector<TreeState> tree_states;
+  for (int i = 0; i < w.simbody_trees.size(); ++i) tree_states.push_back(w.simbody_trees.state(i));
+  const bool sleeping = w.settings.options.sleeping;
+  w.settings.options.sleeping = false;
   while (time() < kLoadingTime) step();
-  w.options.sleeping = sleeping;
+  w.settings.options.sleeping = sleeping;
   put_all_to_sleep();
-  w.lay_to_rest(state, trees);
+  w.lay_to_rest(state, tree_states);
   w.data.steps = 0;
 }
 

@@ -5,9 +5,20 @@
 
 #include <type_traits>
 
-#include "kernel/world/world_impl.h"
+#include "kernel/multibody/simbody_blocks.h"
+#include "kernel/multibody/simbody_trees.h"
+#include "kernel/world/state/world_data.h"
+#include "kernel/world/world.h"
 
 namespace rubble {
+
+struct World::Snapshot {
+  std::uint64_t types = 0;  // hash_types() of the world's types
+  WorldData data;
+  std::vector<FreeBody> simbody;           // by number in SimbodyBlocks
+  std::vector<std::int32_t> block_starts;  // number of each block's first body
+  std::vector<TreeState> tree_states;      // by number of the tree
+};
 
 // Struct is T or const T.
 template <typename Struct, typename T>

@@ -7,6 +7,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/model/pile_hash.h"
+#include "kernel/world/world_impl.h"
 #include "kernel/world/world_serialization.h"
 
 namespace rubble {
@@ -244,7 +245,7 @@ std::shared_ptr<const World::Snapshot> decode_snapshot(const std::vector<std::ui
 std::shared_ptr<const World::Snapshot> World::snapshot() const {
   const Impl& w = *impl_;
   auto snapshot = std::make_shared<Snapshot>();
-  snapshot->types = hash_types(w.types, w.assemblies);
+  snapshot->types = hash_types(w.types.pieces, w.types.assemblies);
   snapshot->data = w.data;
   snapshot->simbody.resize(std::size_t(w.blocks.size()));
   for (const Body& body : w.data.bodies) {
@@ -264,12 +265,12 @@ std::shared_ptr<const World::Snapshot> World::snapshot() const {
 
 void World::restore(const Snapshot& snapshot) {
   Impl& w = *impl_;
-  if (snapshot.types != hash_types(w.types, w.assemblies)) {
+  if (snapshot.types != hash_types(w.types.pieces, w.types.assemblies)) {
     throw RunError("a snapshot can only be restored into a world with the same types of pieces");
   }
   w.data = snapshot.data;
-  for (Body& body : w.data.bodies) body.shape = &w.shapes[body.type];
-  w.list_surfaces();
+  for (Body& body : w.data.bodies) body.shape = &w.types.shapes[body.type];
+  w.pairs.list_surfaces();
   w.simbody_trees = SimbodyTrees();
   for (std::size_t i = 0; i < w.data.trees.size(); ++i) {
     w.simbody_trees.add(w.data.trees[i], w.data.bodies, snapshot.tree_states[i]);

@@ -86,6 +86,9 @@ const Allowed kKernel{
     {"kernel/collision/", with(kernel_rooms(2), {"kernel/collision/"})},
     {"kernel/multibody/", with(kernel_rooms(2), {"kernel/collision/", "kernel/multibody/"})},
     {"kernel/solver/", with(kernel_rooms(2), {"kernel/collision/", "kernel/multibody/", "kernel/solver/"})},
+    // What changes knows nothing of the phases of a step, and no phase of the world around them.
+    {"kernel/world/state/", with(kernel_rooms(6), {"kernel/world/state/"})},
+    {"kernel/world/phases/", with(kernel_rooms(6), {"kernel/world/state/", "kernel/world/phases/"})},
     {"kernel/world/", kernel_rooms(7)},
     {"kernel/settling/", kernel_rooms(8)},
     {"kernel/robot/", with(kernel_rooms(9), {"kernel/surroundings/"})},
@@ -191,6 +194,8 @@ TEST(IncludeDirection, TheCheckSeesACrossing) {
   EXPECT_EQ(crossings("kernel/world/world.cpp", "render/scene/scene.h"), 1u);
   EXPECT_EQ(crossings("kernel/solver/rows.h", "kernel/world/world.h"), 1u);
   EXPECT_EQ(crossings("kernel/world/world.cpp", "kernel/solver/rows.h"), 0u);
+  EXPECT_EQ(crossings("kernel/world/state/bodies.h", "kernel/world/phases/step.h"), 1u);
+  EXPECT_EQ(crossings("kernel/world/phases/sleep.cpp", "kernel/world/world.h"), 1u);
   EXPECT_EQ(crossings("io/datasets/tum.cpp", "render/renderer.h"), 1u);
   EXPECT_EQ(crossings("io/datasets/tum.cpp", "render/scene/frame.h"), 0u);
   EXPECT_EQ(crossings("io/base/gzip.cpp", "io/ros/ros_wire.h"), 1u);
@@ -325,7 +330,7 @@ TEST(Rooms, AreDrawn) {
       rooms.insert(fs::relative(include.file.parent_path(), fs::path(floor)).string());
   EXPECT_GT(rooms.size(), 40u);
   const std::set<std::string> parts_of_rooms{".", "base/system", "multibody/joints", "multibody/springs",
-                                            "structure/buildings", "structure/factor"};
+                                            "structure/buildings", "structure/factor", "world/phases", "world/state"};
   for (const std::string& room : rooms) {
     if (parts_of_rooms.count(room)) continue;
     EXPECT_NE(drawing.find("\n  " + room), std::string::npos)

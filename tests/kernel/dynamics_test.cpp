@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "kernel/settling/generator.h"
 #include "kernel/world/world.h"
@@ -191,6 +192,21 @@ TEST(Energy, HardlyRisesWhileAPileFalls) {
     mean += fall.rises / falls;
   }
   EXPECT_LT(mean, 5e-4);
+}
+
+TEST(WorldStep, SaysWhichOfItsStagesBegins) {
+  World world({box_type("brick", 0.215, 0.1025, 0.065)});
+  world.add({at(0, {0, 0, 0.04})});
+  std::vector<StepStage> stages;
+  world.set_on_stage([&stages](StepStage stage) { stages.push_back(stage); });
+  world.step();
+  const std::vector<StepStage> expected{StepStage::pairs,  StepStage::points, StepStage::impulses,
+                                        StepStage::rest,   StepStage::motion, StepStage::rest,
+                                        StepStage::none};
+  EXPECT_EQ(stages, expected);
+  world.set_on_stage({});
+  world.step();
+  EXPECT_EQ(stages.size(), expected.size());
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernel/world/world.h"
-#include "kernel/world/world_impl.h"
+#include "kernel/world/world_serialization.h"
 #include "closed_forms.h"
 #include "scenes.h"
 

@@ -1,7 +1,7 @@
 // Joints that break: the tree falls into smaller ones and free pieces.
 #include <algorithm>
 
-#include "kernel/world/world_impl.h"
+#include "kernel/world/phases/trees.h"
 
 namespace rubble {
 namespace {
@@ -72,88 +72,81 @@ Tree cut_out(const Tree& from, const TreeState& state, const Fragment& fragment,
       continue;
     }
     const TreeLink& old = from.links[std::size_t(fragment.links[k])];
-    std::copy_n(state.q.begin() + old.first_q, coordinate_count(link.mobility),
-                cut.q.begin() + link.first_q);
-    std::copy_n(state.u.begin() + old.first_u, speed_count(link.mobility),
-                cut.u.begin() + link.first_u);
+    std::copy_n(state.q.begin() + old.first_q, coordinate_count(link.mobility), cut.q.begin() + link.first_q);
+    std::copy_n(state.u.begin() + old.first_u, speed_count(link.mobility), cut.u.begin() + link.first_u);
   }
   return tree;
 }
 
 }  // namespace
 
-// The two pieces of a broken joint touch each other from the next step on. Where they overlap, as a bar
-// does that was cast into a slab, they are pushed apart as any others are.
-void World::Impl::break_joints() {
-  released.clear();
-  for (std::int32_t tree : awake_trees) {
-    const std::vector<Spatial>& loads = tree_motions[tree].loads();
-    const std::vector<TreeLink>& links = data.trees[tree].links;
+void WorldTrees::break_joints(Pairs& pairs) {
+  released_.clear();
+  for (std::int32_t tree : awake_) {
+    const std::vector<Spatial>& loads = motions_[tree].loads();
+    const std::vector<TreeLink>& links = data_.trees[tree].links;
     std::vector<std::uint8_t> broken(links.size(), 0);
     bool any = false;
     for (std::size_t i = 0; i < loads.size(); ++i) {
       if (links[i].parent < 0) continue;
-      broken[i] = norm(loads[i].linear()) > links[i].break_force ||
-                  norm(loads[i].angular()) > links[i].break_torque;
+      broken[i] =
+          norm(loads[i].linear()) > links[i].break_force || norm(loads[i].angular()) > links[i].break_torque;
       any = any || broken[i];
     }
     open_loops(tree);
-    if (any) split_tree(tree, broken);
+    if (any) split(tree, broken);
   }
-  for (const std::int32_t body : released) find_first_pairs(body);
+  for (const std::int32_t body : released_) pairs.find_first(body);
 }
 
 // Joints that closed a loop and broke: the tree stays as it is.
-void World::Impl::open_loops(int index) {
-  Tree& tree = data.trees[index];
+void WorldTrees::open_loops(int index) {
+  Tree& tree = data_.trees[index];
   for (std::size_t i = 0; i < tree.loops.size();) {
     const TreeLoop& loop = tree.loops[i];
     if (!loop.broken) {
       ++i;
       continue;
     }
-    released.push_back(tree.links[std::size_t(loop.link_a)].body);
+    released_.push_back(tree.links[std::size_t(loop.link_a)].body);
     tree.loops.erase(tree.loops.begin() + std::ptrdiff_t(i));
   }
 }
 
-void World::Impl::split_tree(int index, const std::vector<std::uint8_t>& broken) {
-  const Tree old = data.trees[index];
-  const TreeState state = simbody_trees.state(index);
+void WorldTrees::split(int index, const std::vector<std::uint8_t>& broken) {
+  const Tree old = data_.trees[index];
+  const TreeState state = simbody_.state(index);
   for (std::size_t i = 0; i < old.links.size(); ++i) {
-    if (broken[i]) released.push_back(old.links[i].body);
+    if (broken[i]) released_.push_back(old.links[i].body);
   }
-  data.trees[index] = {};
-  simbody_trees.replace(index, {}, data.bodies, {});
+  replace(index, {}, {});
   for (const Fragment& fragment : find_fragments(old, broken)) {
     if (fragment.links.size() == 1) {
       release(old.links[std::size_t(fragment.links[0])]);
       continue;
     }
     TreeState cut;
-    const Tree tree = cut_out(old, state, fragment, data.bodies, cut);
+    const Tree tree = cut_out(old, state, fragment, data_.bodies, cut);
     int number = index;
-    if (data.trees[index].links.empty()) {
-      data.trees[index] = tree;
-      simbody_trees.replace(index, tree, data.bodies, cut);
+    if (data_.trees[index].links.empty()) {
+      replace(index, tree, cut);
     } else {
-      number = simbody_trees.add(tree, data.bodies, cut);
-      data.trees.push_back(tree);
+      number = simbody_.add(tree, data_.bodies, cut);
+      data_.trees.push_back(tree);
     }
     for (std::size_t k = 0; k < tree.links.size(); ++k) {
-      data.bodies[tree.links[k].body].tree = number;
-      data.bodies[tree.links[k].body].link = std::int32_t(k);
+      data_.bodies[tree.links[k].body].tree = number;
+      data_.bodies[tree.links[k].body].link = std::int32_t(k);
     }
   }
 }
 
 // A link that is left alone goes on as an ordinary piece.
-void World::Impl::release(const TreeLink& link) {
-  Body& body = data.bodies[link.body];
+void WorldTrees::release(const TreeLink& link) {
+  Body& body = data_.bodies[link.body];
   body.tree = body.link = -1;
   if (body.mass == 0) return;
-  body.simbody_index =
-      blocks.add({{body.mass, body.inertia, body.world_from_com, link.linear, link.angular}});
+  body.simbody_index = blocks_.add({{body.mass, body.inertia, body.world_from_com, link.linear, link.angular}});
 }
 
 }  // namespace rubble

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "kernel/solver/speed_limits.h"
-#include "kernel/world/world_impl.h"
+#include "kernel/world/phases/sleep.h"
 
 namespace rubble {
 namespace {
@@ -24,64 +24,64 @@ constexpr double kMostDisturbed = 0.5;
 }  // namespace
 
 // Marks the awake pieces that have not stayed in place; returns how many there are.
-int World::Impl::mark_restless() {
-  disturbed.assign(data.bodies.size(), 0);
+int Sleep::mark_restless() {
+  disturbed_.assign(data_.bodies.size(), 0);
   int count = 0;
-  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
-    const Body& body = data.bodies[i];
+  for (std::size_t i = 0; i < data_.bodies.size(); ++i) {
+    const Body& body = data_.bodies[i];
     if (!body.awake || within_rest_tolerance(body)) continue;
-    disturbed[i] = 1;
+    disturbed_[i] = 1;
     ++count;
   }
   return count;
 }
 
-void World::Impl::spread_disturbance() {
+void Sleep::spread_disturbance(const StepPairs& step) {
   for (int ring = 1; ring <= kDisturbedContacts; ++ring) {
-    each_solved([&](const Contact& contact) {
+    each_solved(data_, step, [&](const Contact& contact) {
       if (contact.body_b == kGround || contact.pressed <= 0) return;
-      std::uint8_t &a = disturbed[contact.body_a], &b = disturbed[contact.body_b];
-      if (a == ring && b == 0 && data.bodies[contact.body_b].mass > 0) b = std::uint8_t(ring + 1);
-      if (b == ring && a == 0 && data.bodies[contact.body_a].mass > 0) a = std::uint8_t(ring + 1);
+      std::uint8_t &a = disturbed_[contact.body_a], &b = disturbed_[contact.body_b];
+      if (a == ring && b == 0 && data_.bodies[contact.body_b].mass > 0) b = std::uint8_t(ring + 1);
+      if (b == ring && a == 0 && data_.bodies[contact.body_a].mass > 0) a = std::uint8_t(ring + 1);
     });
   }
 }
 
 // Puts those to sleep that nothing disturbs.
-void World::Impl::doze() {
-  spread_disturbance();
-  const auto stirred = std::count_if(disturbed.begin(), disturbed.end(),
-                                     [](std::uint8_t ring) { return ring > 0; });
-  if (double(stirred) > kMostDisturbed * double(data.bodies.size())) return;
-  for (std::size_t i = 0; i < data.bodies.size(); ++i) {
-    slept[i] = data.bodies[i].awake && disturbed[i] == 0;
+void Sleep::doze(const StepPairs& step) {
+  spread_disturbance(step);
+  const auto stirred =
+      std::count_if(disturbed_.begin(), disturbed_.end(), [](std::uint8_t ring) { return ring > 0; });
+  if (double(stirred) > kMostDisturbed * double(data_.bodies.size())) return;
+  for (std::size_t i = 0; i < data_.bodies.size(); ++i) {
+    slept_[i] = data_.bodies[i].awake && disturbed_[i] == 0;
   }
-  keep_trees_whole();
-  put_to_sleep();
-  data.all_awake_since = -1;
+  trees_.keep_whole(slept_);
+  put_to_sleep(step);
+  data_.all_awake_since = -1;
 }
 
-void World::Impl::wake_dozing() {
-  for (std::size_t i = 0; i < data.bodies.size(); ++i) wake(int(i));
-  data.all_awake_since = data.verification_steps;
+void Sleep::wake_dozing() {
+  for (std::size_t i = 0; i < data_.bodies.size(); ++i) waking_.wake(int(i));
+  data_.all_awake_since = data_.verification_steps;
 }
 
-void World::Impl::update_verification() {
+void Sleep::update_verification(const StepPairs& step) {
   const int restless = mark_restless();
-  const bool dozing = data.all_awake_since < 0;
+  const bool dozing = data_.all_awake_since < 0;
   if (restless == 0) {
     if (dozing) wake_dozing();
     return;
   }
-  const auto steps = [this](double time) { return std::int64_t(time / options.step); };
+  const auto steps = [this](double time) { return std::int64_t(time / settings_.options.step); };
   // What has not come to rest by now may do so among neighbours that are awake.
-  if (data.verification_steps > steps(double(kPatienceEnds))) {
+  if (data_.verification_steps > steps(double(kPatienceEnds))) {
     if (dozing) wake_dozing();
     return;
   }
-  const std::int64_t awake = data.verification_steps - data.all_awake_since - steps(kAllAwakeTime);
+  const std::int64_t awake = data_.verification_steps - data_.all_awake_since - steps(kAllAwakeTime);
   if (!dozing && awake < 0) return;
-  if ((dozing ? data.verification_steps : awake) % steps(kDozeInterval) == 0) doze();
+  if ((dozing ? data_.verification_steps : awake) % steps(kDozeInterval) == 0) doze(step);
 }
 
 }  // namespace rubble

@@ -1,11 +1,7 @@
-// Robots that grow: tubes whose next link is laid where the tip has just come from. What has been laid
-// never slides along; the tree gets a link more, and the tip's slider starts anew at its end. Retraction is
-// the inverse: the tip turns the wall back in, bends straighten by as much as they were bent there, and the
-// link that it has passed is taken out of the tree.
+#include "kernel/world/tubes.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "kernel/world/world_impl.h"
 
 namespace rubble {
 namespace {
@@ -66,8 +62,7 @@ double calc_turning(const Tree& tree, const TreeState& state) {
 
 }  // namespace
 
-// Takes the tree of all links; keeps those of the start, and stows the others.
-Tree World::Impl::plant_tube(const Tree& all, const EvertingTube& tube) {
+Tree Tubes::plant(const Tree& all, const EvertingTube& tube) {
   Tree grown = all;
   grown.tube = true;
   for (std::int32_t i = 1; i <= tube.links; ++i) {
@@ -81,20 +76,20 @@ Tree World::Impl::plant_tube(const Tree& all, const EvertingTube& tube) {
   TreeLink& tip = grown.links.back();
   tip.damping = tube.speed_loss();
   tip.upper = tube.link_length;
-  grown_robots.back() = grown;
+  types_.grown_robots.back() = grown;
   for (std::int32_t i = tube.start_links + 1; i <= tube.links; ++i) {
-    stow(data.bodies[std::size_t(grown.links[std::size_t(i)].body)]);
+    stow(data_.bodies[std::size_t(grown.links[std::size_t(i)].body)]);
   }
   Tree tree = cut_tube(grown, tube.start_links);
   for (std::size_t i = 1; i < tree.links.size(); ++i) {
-    data.bodies[std::size_t(tree.links[i].body)].link = std::int32_t(i);
+    data_.bodies[std::size_t(tree.links[i].body)].link = std::int32_t(i);
   }
-  tree.mass = mass_of(tree, data.bodies);
+  tree.mass = mass_of(tree, data_.bodies);
   return tree;
 }
 
 // A link that has not grown: nothing meets it, and it weighs nothing.
-void World::Impl::stow(Body& body) {
+void Tubes::stow(Body& body) {
   body.tree = body.link = -1;
   body.mass = 0;
   body.inverse_mass = 0;
@@ -105,21 +100,22 @@ void World::Impl::stow(Body& body) {
   body.collider_count = 0;
 }
 
-void World::Impl::grow_tubes() {
-  for (std::size_t i = 0; i < data.robots.size(); ++i) {
-    const RobotModel& model = robots[i];
-    WorldRobot& robot = data.robots[i];
-    if (!model.tube || data.trees[robot.tree].links.empty()) continue;
-    if (retracts(data.trees[robot.tree])) {
+void Tubes::grow() {
+  for (std::size_t i = 0; i < data_.robots.size(); ++i) {
+    const RobotModel& model = types_.robots[i];
+    WorldRobot& robot = data_.robots[i];
+    if (!model.tube || data_.trees[robot.tree].links.empty()) continue;
+    if (retracts(data_.trees[robot.tree])) {
       wind_back(robot, *model.tube);
-      if (robot.reached <= 0 && robot.laid > model.tube->start_links) take_link(robot, model, grown_robots[i]);
+      if (robot.reached <= 0 && robot.laid > model.tube->start_links)
+        take_link(robot, model, types_.grown_robots[i]);
       set_tip(robot, model);
       carry_stowed(robot, model);
       continue;
     }
     steer_tip(robot, *model.tube);
     if (robot.reached >= model.tube->link_length && robot.laid < model.tube->links) {
-      lay_link(robot, model, grown_robots[i]);
+      lay_link(robot, model, types_.grown_robots[i]);
     }
     set_tip(robot, model);
     carry_stowed(robot, model);
@@ -127,9 +123,9 @@ void World::Impl::grow_tubes() {
 }
 
 // The hinge behind the tip bends by the wanted curvature as the tip moves on, for two links.
-void World::Impl::steer_tip(WorldRobot& robot, const EvertingTube& tube) {
-  Tree& tree = data.trees[robot.tree];
-  const double at = simbody_trees.state(robot.tree).q[std::size_t(tree.links.back().first_q)];
+void Tubes::steer_tip(WorldRobot& robot, const EvertingTube& tube) {
+  Tree& tree = data_.trees[robot.tree];
+  const double at = simbody_.state(robot.tree).q[std::size_t(tree.links.back().first_q)];
   if (at <= robot.reached) return;
   TreeLink& link = tree.links[std::size_t(robot.laid)];
   // Hinges turn about Y and Z in turn; a positive angle about Y bends down.
@@ -140,9 +136,9 @@ void World::Impl::steer_tip(WorldRobot& robot, const EvertingTube& tube) {
 }
 
 // The inverse: when the tip has passed the last link, that is in line with the one before it.
-void World::Impl::wind_back(WorldRobot& robot, const EvertingTube& tube) {
-  Tree& tree = data.trees[robot.tree];
-  const double at = simbody_trees.state(robot.tree).q[std::size_t(tree.links.back().first_q)];
+void Tubes::wind_back(WorldRobot& robot, const EvertingTube& tube) {
+  Tree& tree = data_.trees[robot.tree];
+  const double at = simbody_.state(robot.tree).q[std::size_t(tree.links.back().first_q)];
   if (at >= robot.reached) return;
   const double left = std::max(0.0, at);
   if (robot.reached > 0 && left < tube.link_length)
@@ -150,10 +146,10 @@ void World::Impl::wind_back(WorldRobot& robot, const EvertingTube& tube) {
   robot.reached = robot.laid > tube.start_links ? at : left;
 }
 
-void World::Impl::lay_link(WorldRobot& robot, const RobotModel& model, const Tree& grown) {
+void Tubes::lay_link(WorldRobot& robot, const RobotModel& model, const Tree& grown) {
   const double length = model.tube->link_length;
-  const Tree& old = data.trees[robot.tree];
-  const TreeState was = simbody_trees.state(robot.tree);
+  const Tree& old = data_.trees[robot.tree];
+  const TreeState was = simbody_.state(robot.tree);
   const std::int32_t laid = ++robot.laid;
   Tree tree = cut_anew(grown, laid, old);
   TreeState state{std::vector<double>(std::size_t(tree.q_count), 0),
@@ -165,70 +161,68 @@ void World::Impl::lay_link(WorldRobot& robot, const RobotModel& model, const Tre
   state.u.back() = was.u.back();
 
   const std::int32_t index = robot.first_body + laid;
-  Body& body = data.bodies[std::size_t(index)];
-  weigh(body);
+  Body& body = data_.bodies[std::size_t(index)];
+  bodies_.weigh(body);
   body.collider_count = std::int32_t(body.shape->parts.size());
   body.awake = true;
   for (const std::int32_t link : {laid, laid + 1}) {
-    Body& of = data.bodies[std::size_t(tree.links[std::size_t(link)].body)];
+    Body& of = data_.bodies[std::size_t(tree.links[std::size_t(link)].body)];
     of.tree = robot.tree;
     of.link = link;
   }
-  tree.mass = mass_of(tree, data.bodies);
-  data.trees[robot.tree] = tree;
-  simbody_trees.replace(robot.tree, tree, data.bodies, state);
-  mirror_state(robot.tree);
+  tree.mass = mass_of(tree, data_.bodies);
+  trees_.replace(robot.tree, tree, state);
+  trees_.mirror_state(robot.tree);
   body.still_pose = body.loose_pose = body.later_pose = body.world_from_com;
-  each_collider(body, [&](int i) { data.broad.update(i, data.colliders[std::size_t(i)].box, {}); });
-  find_first_pairs(index);
+  bodies_.each_collider(body, [&](int i) { data_.broad.update(i, data_.colliders[std::size_t(i)].box, {}); });
+  pairs_.find_first(index);
 }
 
-void World::Impl::take_link(WorldRobot& robot, const RobotModel& model, const Tree& grown) {
+void Tubes::take_link(WorldRobot& robot, const RobotModel& model, const Tree& grown) {
   const double length = model.tube->link_length;
-  const TreeState was = simbody_trees.state(robot.tree);
+  const TreeState was = simbody_.state(robot.tree);
   const std::int32_t index = robot.first_body + robot.laid;
-  Tree tree = cut_anew(grown, --robot.laid, data.trees[robot.tree]);
-  TreeState state{std::vector<double>(was.q.begin(), was.q.end() - 1), std::vector<double>(was.u.begin(), was.u.end() - 1)};
+  Tree tree = cut_anew(grown, --robot.laid, data_.trees[robot.tree]);
+  TreeState state{std::vector<double>(was.q.begin(), was.q.end() - 1),
+                  std::vector<double>(was.u.begin(), was.u.end() - 1)};
   robot.reached += length;
   state.q.back() = was.q.back() + length;
   state.u.back() = was.u.back();
 
-  Body& body = data.bodies[std::size_t(index)];
-  drop_contacts([&](const Pair& pair) { return pair.body_a == index || pair.body_b == index; });
-  each_collider(body, [&](int i) { data.broad.remove(i); });
+  Body& body = data_.bodies[std::size_t(index)];
+  pairs_.remove_if([&](const Pair& pair) { return pair.body_a == index || pair.body_b == index; });
+  bodies_.each_collider(body, [&](int i) { data_.broad.remove(i); });
   stow(body);
-  data.bodies[std::size_t(tree.links.back().body)].link = robot.laid + 1;
-  tree.mass = mass_of(tree, data.bodies);
-  data.trees[robot.tree] = tree;
+  data_.bodies[std::size_t(tree.links.back().body)].link = robot.laid + 1;
+  tree.mass = mass_of(tree, data_.bodies);
+  trees_.replace(robot.tree, tree, state);
   // The tip comes back over links that it could touch from afar.
-  drop_contacts([&](const Pair& pair) { return pair.body_b != kGround && are_joined(pair.body_a, pair.body_b); });
-  simbody_trees.replace(robot.tree, tree, data.bodies, state);
-  mirror_state(robot.tree);
+  pairs_.remove_if(
+      [&](const Pair& pair) { return pair.body_b != kGround && pairs_.are_joined(pair.body_a, pair.body_b); });
+  trees_.mirror_state(robot.tree);
 }
 
-// What the tip can push with now, and how far it may be pushed back. The reel pulls no harder than that.
-void World::Impl::set_tip(const WorldRobot& robot, const RobotModel& model) {
-  Tree& tree = data.trees[robot.tree];
-  const TreeState state = simbody_trees.state(robot.tree);
+void Tubes::set_tip(const WorldRobot& robot, const RobotModel& model) {
+  Tree& tree = data_.trees[robot.tree];
+  const TreeState state = simbody_.state(robot.tree);
   TreeLink& tip = tree.links.back();
-  tip.motor.effort = model.tube->tip_force(tube_length(robot, model), calc_turning(tree, state));
+  tip.motor.effort = model.tube->tip_force(calc_tube_length(robot, model), calc_turning(tree, state));
   const bool more = robot.laid > model.tube->start_links;
   tip.lower = !retracts(tree) ? std::max(0.0, robot.reached - kTipSlack) : more ? -model.tube->link_length : 0;
   tip.belt_speed = state.u[std::size_t(tip.first_u)];
 }
 
-// Links that have not grown go along, folded up where the next one will be laid.
-void World::Impl::carry_stowed(const WorldRobot& robot, const RobotModel& model) {
-  const Body& tip = data.bodies[std::size_t(robot.first_body + model.tube->links + 1)];
+void Tubes::carry_stowed(const WorldRobot& robot, const RobotModel& model) {
+  const Body& tip = data_.bodies[std::size_t(robot.first_body + model.tube->links + 1)];
   const Pose at = tip.world_from_type() * Pose{{}, {-model.tube->link_length, 0, 0}};
   for (std::int32_t i = robot.laid + 1; i <= model.tube->links; ++i) {
-    Body& body = data.bodies[std::size_t(robot.first_body + i)];
+    Body& body = data_.bodies[std::size_t(robot.first_body + i)];
     body.world_from_com = {at.rotation, at * body.com_in_type};
     body.rotation = tip.rotation;
   }
 }
 
-double World::Impl::tube_length(const WorldRobot& robot, const RobotModel& model) const {
+double calc_tube_length(const WorldRobot& robot, const RobotModel& model) {
   return robot.laid * model.tube->link_length + robot.reached;
 }
 

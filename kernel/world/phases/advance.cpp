@@ -1,0 +1,77 @@
+#include "kernel/world/phases/advance.h"
+
+#include "kernel/multibody/free_rotation.h"
+#include "kernel/solver/speed_limits.h"
+
+namespace rubble {
+
+void Advance::set_rates(std::size_t index, const StepMotions& motions, const ContactSolution& solution,
+                        const SpeedLimiter& limits) {
+  const Body& body = data_.bodies[index];
+  BodyRates& r = rates_[body.simbody_index];
+  r = {};
+  if (body.touching || solution.has_intervened(std::int32_t(index))) {
+    Motion m = motions.velocities[index];
+    const float spin = norm(m.angular);
+    const float most = SpeedLimiter::calc_most_spin(body);
+    if (spin > most && !SpeedLimiter::does_roll(index, motions)) m.angular *= most / spin;
+    if (motions.lateness > 0 && spin < kSwingingSpin) {
+      m.angular *= limits.keep_of_late_spin(body, m.angular, spin, motions.lateness);
+    }
+    r.linear = Vec3(m.linear), r.angular = Vec3(m.angular);
+    const double per_step = 1 / settings_.options.step;
+    r.extra_linear = Vec3(motions.displacements[index].linear) * per_step - r.linear;
+    r.extra_angular = Vec3(motions.displacements[index].angular) * per_step - r.angular;
+  } else {
+    // Nothing touches it: the exact parabola and free rotation, in double precision.
+    const FreeRotation free =
+        rotate_freely(body.world_from_com.rotation, body.inertia, blocks_.angular_velocity(body.simbody_index),
+                      settings_.options.step);
+    r.linear = blocks_.linear_velocity(body.simbody_index);
+    r.linear.z -= settings_.options.gravity * settings_.options.step;
+    r.extra_linear = {0, 0, 0.5 * settings_.options.gravity * settings_.options.step};
+    r.angular = free.angular;
+    r.turns_freely = true;
+    r.rotation = free.rotation;
+  }
+}
+
+// How far any point of a body can have gone in the step.
+double Advance::calc_travel(const Body& body) const {
+  const BodyRates& r = rates_[body.simbody_index];
+  return settings_.options.step *
+         (norm(r.linear + r.extra_linear) + norm(r.angular + r.extra_angular) * double(body.radius));
+}
+
+void Advance::run(const StepPairs& step, const StepMotions& motions, const ContactSolution& solution,
+                  const SpeedLimiter& limits) {
+  moves_.assign(blocks_.size(), 0);
+  rates_.resize(blocks_.size());
+  block_awake_.assign(blocks_.block_count(), 0);
+  body_of_.resize(blocks_.size());
+  for (std::int32_t i : step.awake) {
+    const Body& body = data_.bodies[i];
+    if (body.simbody_index < 0) continue;
+    moves_[body.simbody_index] = 1;
+    body_of_[body.simbody_index] = i;
+    block_awake_[blocks_.block_of_body(body.simbody_index)] = 1;
+  }
+  pool_.run(blocks_.block_count(), 4, [&](int begin, int end) {
+    for (int block = begin; block < end; ++block) {
+      if (!block_awake_[block]) continue;
+      for (int mobile = blocks_.first_of(block); mobile < blocks_.first_of(block + 1); ++mobile) {
+        if (moves_[mobile]) set_rates(body_of_[mobile], motions, solution, limits);
+      }
+      blocks_.advance(block, moves_, rates_.data(), settings_.options.step);
+      for (int mobile = blocks_.first_of(block); mobile < blocks_.first_of(block + 1); ++mobile) {
+        if (!moves_[mobile]) continue;
+        Body& body = data_.bodies[body_of_[mobile]];
+        body.travel += calc_travel(body);
+        bodies_.mirror(body);
+        bodies_.refresh(body);
+      }
+    }
+  });
+}
+
+}  // namespace rubble

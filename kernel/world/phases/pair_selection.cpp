@@ -1,0 +1,136 @@
+#include "kernel/world/phases/pair_selection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rubble {
+namespace {
+
+constexpr double kLookAhead = 4;  // number of steps that an enlarged box reaches ahead
+
+// What becomes of a pair in a step.
+enum PairState : std::uint8_t {
+  kAsleep,   // neither moves
+  kApart,    // the enlarged boxes have parted: it is dropped
+  kWaiting,  // too far apart to touch in this step
+  kActive,
+};
+
+// Bounds on lengths that are found in another order of rounding are this much wider.
+constexpr float kRounding = 1.001F;
+
+}  // namespace
+
+void PairSelection::run(StepPairs& step) {
+  find_pairs(step);
+  select_pairs(step);
+}
+
+// Of those that do not move all is zero.
+void PairSelection::note_sweeps(StepPairs& step) {
+  step.sweeps.assign(data_.bodies.size(), {});
+  pool_.run(int(step.awake.size()), 128, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const Body& body = data_.bodies[step.awake[k]];
+      Sweep& sweep = step.sweeps[step.awake[k]];
+      sweep.awake = true;
+      sweep.linear = body.linear;
+      sweep.turning = norm(body.angular) * body.radius;
+      sweep.reach = settings_.narrow.step * (norm(body.linear) + sweep.turning) * kRounding;
+    }
+  });
+}
+
+// All that a part may sweep in this step.
+Aabb PairSelection::calc_swept_box(int collider) const {
+  const Body& body = data_.bodies[data_.colliders[collider].body];
+  const Vec3 motion = Vec3(body.linear) * settings_.options.step;
+  const double turning = double(norm(body.angular) * body.radius) * settings_.options.step;
+  Aabb box = data_.colliders[collider].box;
+  box.min += min(motion, Vec3{}) - Vec3{turning, turning, turning};
+  box.max += max(motion, Vec3{}) + Vec3{turning, turning, turning};
+  return box;
+}
+
+void PairSelection::find_pairs(StepPairs& step) {
+  step.list_awake(data_.bodies);
+  note_sweeps(step);
+  leaves_box_.assign(data_.colliders.size(), 0);
+  pool_.run(int(step.awake.size()), 64, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const Body& body = data_.bodies[step.awake[k]];
+      bodies_.each_collider(body, [&](int i) { leaves_box_[i] = !data_.broad.holds(i, calc_swept_box(i)); });
+    }
+  });
+  for (std::size_t i = 0; i < leaves_box_.size(); ++i) {
+    if (!leaves_box_[i]) continue;
+    const int collider = int(i);
+    const Vec3 motion = Vec3(data_.bodies[data_.colliders[i].body].linear) * settings_.options.step;
+    data_.broad.update(collider, calc_swept_box(collider), motion * kLookAhead);
+    data_.broad.query(collider, [&](int other) { pairs_.add(collider, other); });
+    if (data_.broad.box(collider).min.z < 0) pairs_.add(collider, kGround);
+    pairs_.update_near_surfaces(collider);
+  }
+}
+
+// Lists the pairs with somebody awake that may touch in this step, and drops those that are apart.
+void PairSelection::select_pairs(StepPairs& step) {
+  pair_states_.resize(data_.pairs.size());
+  pool_.run(int(data_.pairs.size()), 1024, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) pair_states_[i] = classify(step, data_.pairs[i]);
+  });
+  step.active.clear();
+  for (std::size_t i = 0; i < data_.pairs.size();) {
+    const std::uint8_t state = pair_states_[i];
+    if (state == kApart) {
+      pairs_.remove(i);  // the last one takes its place
+      pair_states_[i] = pair_states_[data_.pairs.size()];
+      continue;
+    }
+    if (state == kActive) step.active.push_back(std::int32_t(i));
+    if (state == kWaiting && data_.pairs[i].live) {
+      clear_points(data_.contacts[i]);
+      data_.pairs[i].live = 0;
+    }
+    ++i;
+  }
+}
+
+std::uint8_t PairSelection::classify(const StepPairs& step, const Pair& pair) const {
+  const bool ground = pair.body_b == kGround;
+  if (!step.sweeps[pair.body_a].awake && (ground || !step.sweeps[pair.body_b].awake)) return kAsleep;
+  if (is_surface_collider(pair.collider_b)) return kActive;  // dropped by Pairs
+  if (!is_near(pair)) return kApart;
+  return may_touch(step, pair) ? kActive : kWaiting;
+}
+
+// Whether the enlarged boxes overlap. They did when the pair was made, and only one that has been
+// enlarged anew can have parted.
+bool PairSelection::is_near(const Pair& pair) const {
+  const bool ground = pair.body_b == kGround;
+  if (!leaves_box_[pair.collider_a] && (ground || !leaves_box_[pair.collider_b])) return true;
+  const Aabb& box = data_.broad.box(pair.collider_a);
+  return ground ? box.min.z < 0 : BroadPhase::overlap(box, data_.broad.box(pair.collider_b));
+}
+
+// Whether the boxes can meet in this step.
+bool PairSelection::may_touch(const StepPairs& step, const Pair& pair) const {
+  const Aabb& box = data_.colliders[pair.collider_a].box;
+  if (pair.body_b == kGround)
+    return box.min.z < double(step.calc_margin(pair.body_a, kGround, settings_.narrow));
+  const Aabb& other = data_.colliders[pair.collider_b].box;
+  const auto meet = [&](double margin) {
+    return box.min.x <= other.max.x + margin && other.min.x <= box.max.x + margin &&
+           box.min.y <= other.max.y + margin && other.min.y <= box.max.y + margin &&
+           box.min.z <= other.max.z + margin && other.min.z <= box.max.z + margin;
+  };
+  const float most =
+      settings_.narrow.margin * kRounding + step.sweeps[pair.body_a].reach + step.sweeps[pair.body_b].reach;
+  if (!meet(most)) return false;
+  const double margin = step.calc_margin(pair.body_a, pair.body_b, settings_.narrow);
+  const Body &a = data_.bodies[pair.body_a], &b = data_.bodies[pair.body_b];
+  if (!pair.live && a.travel + b.travel + margin < pair.apart_until) return false;
+  return meet(margin);
+}
+
+}  // namespace rubble

@@ -1,0 +1,40 @@
+// First phase of a step: who is awake, and which pairs may touch. Not for use outside kernel/.
+#pragma once
+
+#include <vector>
+
+#include "kernel/base/parallel.h"
+#include "kernel/world/phases/step.h"
+#include "kernel/world/state/pairs.h"
+
+namespace rubble {
+
+class PairSelection {
+ public:
+  PairSelection(WorldData& data, const WorldSettings& settings, const Bodies& bodies, Pairs& pairs,
+                ThreadPool& pool)
+      : data_(data), settings_(settings), bodies_(bodies), pairs_(pairs), pool_(pool) {}
+
+  // Finds new pairs, drops those that are apart, and lists those with somebody awake that may touch in this
+  // step: fills all of `step` but what overlaps. Pairs that wait lose their points.
+  void run(StepPairs& step);
+
+ private:
+  void find_pairs(StepPairs& step);
+  void select_pairs(StepPairs& step);
+  void note_sweeps(StepPairs& step);
+  Aabb calc_swept_box(int collider) const;
+  std::uint8_t classify(const StepPairs& step, const Pair& pair) const;
+  bool is_near(const Pair& pair) const;
+  bool may_touch(const StepPairs& step, const Pair& pair) const;
+
+  WorldData& data_;
+  const WorldSettings& settings_;
+  const Bodies& bodies_;
+  Pairs& pairs_;
+  ThreadPool& pool_;
+  std::vector<std::uint8_t> leaves_box_;   // by collider
+  std::vector<std::uint8_t> pair_states_;  // by pair: a PairState
+};
+
+}  // namespace rubble

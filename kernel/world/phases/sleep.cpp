@@ -1,0 +1,282 @@
+#include "kernel/world/phases/sleep.h"
+
+#include <cmath>
+
+#include "kernel/world/phases/contact_search.h"
+
+namespace rubble {
+namespace {
+
+// When a piece falls asleep, and what wakes it.
+struct SleepTerms {
+  // It sleeps after it has stayed within this distance for this time.
+  double still_distance;  // of any of its points; unit: m
+  double still_time;      // unit: s
+  // So does one that jitters, but goes nowhere.
+  double loose_distance;  // unit: m
+  double loose_time;      // unit: s
+  // It wakes when the impulse of a contact changes by what would give it this speed, and this share
+  // of its load on top.
+  float wake_speed;  // unit: m/s
+  float wake_load;
+  // It wakes at once when an impact would give it this speed.
+  float hit_speed;  // unit: m/s
+};
+// While a pile grows, what lies still enough sleeps: most of it will be hit again. It must wake as
+// readily as ever, or slopes freeze steeper than they can stand.
+constexpr SleepTerms kGrowing{0.0015, 0.2, 0.006, 0.6, 0.1F, 0.25F, 0.05F};
+// Whether it rests is decided on these: who creeps slowly must not pass for one that stays.
+constexpr SleepTerms kVerifying{0.001, 0.5, 0.004, 1.0, 0.1F, 0.25F, 0.05F};
+
+constexpr double kSleepOverlapTime = 2.0;  // time for which a deep overlap keeps a piece awake; unit: s
+
+// A sleeping piece wakes at once if the impulse of a hit exceeds its mass times `hit_speed`, plus this share of
+// the impulse that it carries in a step. unit: 1
+constexpr float kHitLoad = 0.2F;
+
+// A sleeper wakes when a robot presses on it with this share of its weight; unit: 1.
+constexpr float kRobotTouch = 0.001F;
+// So many contacts away from a robot nothing that is awake falls asleep.
+constexpr int kPushedContacts = 3;
+
+const SleepTerms& terms(const WorldData& data) { return data.verification_steps < 0 ? kGrowing : kVerifying; }
+float hit_impulse(const Body& body, const SleepTerms& t) {
+  return t.hit_speed * float(body.mass) + kHitLoad * body.load;
+}
+
+// How far any point of a body may have gone from `pose`; unit: m.
+double calc_departure(const Body& body, const Vec3f& reach, const Pose& pose) {
+  const Vec3 moved = body.world_from_com.translation - pose.translation;
+  const Quat turn = pose.rotation.conjugate() * body.world_from_com.rotation;
+  // How far a corner has gone at most: a bar may spin about its own axis without going anywhere.
+  const Vec3 r = Vec3(reach) * (2 * body.scale);
+  const Vec3 t{std::abs(turn.x), std::abs(turn.y), std::abs(turn.z)};
+  return norm(moved) + norm(Vec3{t.y * r.z + t.z * r.y, t.z * r.x + t.x * r.z, t.x * r.y + t.y * r.x});
+}
+
+// Counts the steps that a body has stayed near `pose`; starts anew where it is when it has left.
+void count_still(const Body& body, const Vec3f& reach, double distance, Pose& pose, std::int32_t& steps) {
+  ++steps;
+  if (calc_departure(body, reach, pose) <= distance) return;
+  pose = body.world_from_com;
+  steps = 0;
+}
+
+// The same of the looser terms while rest is verified. Who goes slowly leaves one pose after another, each
+// piece at its own time, so that seldom all have stayed at once: it goes on with a later pose that it is
+// still near to, and takes the next such pose after each `wait` steps.
+void count_loose(Body& body, const Vec3f& reach, double distance, int wait) {
+  ++body.loose_steps, ++body.later_steps;
+  const auto go_on = [&body] {
+    body.loose_pose = body.later_pose, body.loose_steps = body.later_steps;
+    body.later_pose = body.world_from_com, body.later_steps = 0;
+  };
+  const bool left = calc_departure(body, reach, body.loose_pose) > distance;
+  if (left && calc_departure(body, reach, body.later_pose) > distance) {
+    body.later_pose = body.world_from_com, body.later_steps = 0;
+    go_on();
+  } else if (left || body.later_steps >= wait) {
+    go_on();
+  }
+}
+
+}  // namespace
+
+// What carries a high load is clamped by it, and changes of a fraction of the load do not matter.
+float Sleep::wake_impulse(const Body& body) const {
+  const float steps = float(settings_.options.step * kStepsPerSecond);
+  return terms(data_).wake_speed * steps * float(body.mass) + terms(data_).wake_load * body.load;
+}
+
+void Sleep::fall_asleep(int index) {
+  Body& body = data_.bodies[index];
+  body.awake = false;
+  if (body.simbody_index >= 0) blocks_.set_velocity(body.simbody_index, {}, {});
+  if (body.tree >= 0) trees_.stop(body.tree);
+  body.linear = {};
+  body.angular = {};
+}
+
+void Sleep::wake_hit(StepPairs& step) {
+  bool any = false;
+  for (std::int32_t index : step.active) {
+    const Pair& pair = data_.pairs[index];
+    if (!pair.live || pair.body_b == kGround) continue;
+    if (step.sweeps[pair.body_a].awake == step.sweeps[pair.body_b].awake) continue;
+    const Contact& contact = data_.contacts[index];
+    const Body &a = data_.bodies[contact.body_a], &b = data_.bodies[contact.body_b];
+    if (a.awake == b.awake) continue;
+    const Body& sleeper = a.awake ? b : a;
+    if (!sleeper.movable()) continue;
+    const float inverse_masses = a.inverse_mass + b.inverse_mass;
+    for (int i = 0; i < contact.count; ++i) {
+      const ContactPoint& p = contact.points[i];
+      const Vec3f v = b.linear + cross(b.angular, p.from_b) - a.linear - cross(a.angular, p.from_a);
+      const float approach = -dot(contact.normal, v);
+      if (p.separation - approach * settings_.solver.step > settings_.solver.rest_gap) continue;
+      // The impulse of a central plastic impact.
+      if (approach < inverse_masses * hit_impulse(sleeper, terms(data_))) continue;
+      waking_.wake(a.awake ? contact.body_b : contact.body_a);
+      any = true;
+      break;
+    }
+  }
+  if (!any) return;
+  step.list_awake(data_.bodies);
+  std::vector<std::uint8_t> listed(data_.pairs.size(), 0);
+  for (std::int32_t index : step.active) listed[index] = 1;
+  for (std::size_t i = 0; i < data_.pairs.size(); ++i) {
+    const Pair& pair = data_.pairs[i];
+    if (listed[i] || !pair.live) continue;
+    const bool awake =
+        data_.bodies[pair.body_a].awake || (pair.body_b != kGround && data_.bodies[pair.body_b].awake);
+    if (!awake) continue;
+    step.active.push_back(std::int32_t(i));
+    step.is_deep[i] = overlaps_deep(data_.contacts[i]);
+  }
+}
+
+// Sleepers that an awake neighbour presses on more, or less, than when they fell asleep; and those
+// whose contacts no longer add up to what they were.
+void Sleep::wake_changed(const StepPairs& step) {
+  lost_support_.resize(data_.bodies.size());
+  unsettled_.clear();
+  each_solved(data_, step, [&](const Contact& contact) {
+    if (step.sweeps[contact.body_a].awake && (contact.body_b == kGround || step.sweeps[contact.body_b].awake))
+      return;
+    for (std::int32_t i : {contact.body_a, contact.body_b}) {
+      if (i == kGround) continue;
+      const Body& body = data_.bodies[i];
+      if (body.awake || !body.movable()) continue;
+      const float change = contact.pressed - contact.rest_pressed;
+      if (std::abs(change) > wake_impulse(body) || touches_robot(contact)) data_.wake_next[i] = 1;
+      lost_support_[i] += contact.normal * (i == contact.body_a ? change : -change);
+      unsettled_.push_back(i);
+    }
+  });
+  for (std::int32_t i : unsettled_) {
+    const Body& body = data_.bodies[i];
+    if (waking_.is_unbalanced(body, body.lost_support + lost_support_[i])) data_.wake_next[i] = 1;
+  }
+  for (std::int32_t i : unsettled_) lost_support_[i] = {};
+}
+
+void Sleep::find_overlapping(const StepPairs& step) {
+  overlapping_.assign(data_.bodies.size(), 0);
+  for (std::int32_t index : step.active) {
+    if (!step.is_deep[index]) continue;
+    const Pair& pair = data_.pairs[index];
+    overlapping_[pair.body_a] = 1;
+    if (pair.body_b != kGround) overlapping_[pair.body_b] = 1;
+  }
+}
+
+// What the pieces that fell asleep in this step carry.
+void Sleep::note_loads(const StepPairs& step) {
+  for (std::size_t i = 0; i < slept_.size(); ++i) {
+    if (slept_[i]) data_.bodies[i].load = 0;
+  }
+  each_solved(data_, step, [&](Contact& contact) {
+    for (std::int32_t i : {contact.body_a, contact.body_b}) {
+      if (i == kGround || !slept_[i]) continue;
+      data_.bodies[i].load += contact.pressed;
+      contact.rest_pressed = contact.pressed;
+    }
+  });
+}
+
+// Of the awake ones; slept_: who has stayed for long enough to fall asleep, unless rest is verified.
+void Sleep::count_still_steps(const StepPairs& step) {
+  const SleepTerms& t = terms(data_);
+  const double duration = settings_.options.step;
+  const int wait = int(t.still_time / duration), loose_wait = int(t.loose_time / duration);
+  const int long_wait = int(kSleepOverlapTime / duration);
+  const bool verifying = data_.verification_steps >= 0;
+  slept_.assign(data_.bodies.size(), 0);
+  pool_.run(int(step.awake.size()), 128, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const std::int32_t i = step.awake[k];
+      Body& body = data_.bodies[i];
+      if (!body.awake) continue;
+      const Vec3f& reach = bodies_.reach_of(body);
+      count_still(body, reach, t.still_distance, body.still_pose, body.still_steps);
+      if (verifying) {
+        count_loose(body, reach, t.loose_distance, loose_wait);
+        continue;
+      }
+      count_still(body, reach, t.loose_distance, body.loose_pose, body.loose_steps);
+      slept_[i] = body.still_steps >= (overlapping_[i] ? long_wait : wait) ||
+                  body.loose_steps >= (overlapping_[i] ? long_wait : loose_wait);
+    }
+  });
+}
+
+void Sleep::run(const StepPairs& step) {
+  wake_changed(step);
+  if (!settings_.options.sleeping) return;
+  find_overlapping(step);
+  count_still_steps(step);
+  if (data_.verification_steps >= 0) return update_verification(step);
+  stay_awake_near_robots(step);
+  trees_.keep_whole(slept_);
+  put_to_sleep(step);
+}
+
+// Those that `slept_` marks.
+void Sleep::put_to_sleep(const StepPairs& step) {
+  bool any = false;
+  for (std::size_t i = 0; i < slept_.size(); ++i) {
+    if (!slept_[i]) continue;
+    fall_asleep(int(i));
+    any = true;
+  }
+  if (any) note_loads(step);
+}
+
+void Sleep::put_all_to_sleep(const StepPairs& step) {
+  slept_.assign(data_.bodies.size(), 0);
+  for (std::size_t i = 0; i < slept_.size(); ++i) slept_[i] = data_.bodies[i].awake;
+  put_to_sleep(step);
+  data_.verification_steps = -1;
+}
+
+bool Sleep::within_rest_tolerance(const Body& body) const {
+  const SleepTerms& t = kVerifying;
+  return body.still_steps >= int(t.still_time / settings_.options.step) ||
+         body.loose_steps >= int(t.loose_time / settings_.options.step);
+}
+
+bool Sleep::is_driven(std::int32_t body) const {
+  if (body == kGround || data_.bodies[body].tree < 0) return false;
+  return data_.trees[data_.bodies[body].tree].driven;
+}
+
+// Whether one side is a robot that presses on the other, a movable piece.
+bool Sleep::touches_robot(const Contact& contact) const {
+  if (data_.robots.empty() || contact.body_b == kGround) return false;
+  const bool a = is_driven(contact.body_a), b = is_driven(contact.body_b);
+  if (a == b) return false;
+  const Body& piece = data_.bodies[a ? contact.body_b : contact.body_a];
+  return contact.pressed > kRobotTouch * float(piece.mass * settings_.options.gravity * settings_.options.step);
+}
+
+// Falling asleep takes what speed is left: not from what a robot pushes, nor from what that pushes.
+void Sleep::stay_awake_near_robots(const StepPairs& step) {
+  if (data_.robots.empty()) return;
+  std::vector<std::uint8_t> ring(data_.bodies.size(), 0);
+  for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = is_driven(std::int32_t(i)) ? 1 : 0;
+  for (int k = 1; k <= kPushedContacts; ++k) {
+    for (std::int32_t index : step.active) {
+      const Contact& contact = data_.contacts[index];
+      if (contact.body_b == kGround || contact.pressed <= 0) continue;
+      std::uint8_t &a = ring[std::size_t(contact.body_a)], &b = ring[std::size_t(contact.body_b)];
+      if (a == k && b == 0) b = std::uint8_t(k + 1);
+      if (b == k && a == 0) a = std::uint8_t(k + 1);
+    }
+  }
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i] > 0) slept_[i] = 0;
+  }
+}
+
+}  // namespace rubble

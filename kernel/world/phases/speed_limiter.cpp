@@ -1,0 +1,131 @@
+// What an impact may do at most, and what is damped; see kernel/solver/speed_limits.h.
+#include "kernel/world/phases/speed_limiter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/solver/speed_limits.h"
+
+namespace rubble {
+namespace {
+
+constexpr std::int32_t kNobody = -2;   // nothing touches the piece; see clamp_ejections()
+constexpr std::int32_t kSeveral = -3;  // several pieces touch the piece
+constexpr std::uint8_t kTouches = 0;   // find_rolling(): nothing is known of the piece yet
+constexpr std::uint8_t kRolls = 1;     // find_rolling(): the piece rolls at its contacts
+constexpr std::uint8_t kPushed = 2;    // find_rolling(): the piece also has a contact where it does not roll
+
+}  // namespace
+
+// What a piece loses goes back to the only one that touches it, if that is as heavy: where two
+// meet, momentum is kept. With several, the one that squeezes is not known.
+void SpeedLimiter::return_momentum(std::size_t piece, const Vec3f& speed, StepMotions& motions) const {
+  const std::int32_t other = neighbour_[piece];
+  if (other < 0) return;
+  const Body &light = data_.bodies[piece], &heavy = data_.bodies[other];
+  if (!heavy.awake || heavy.simbody_index < 0 || heavy.mass < light.mass) return;
+  const Vec3f change = speed * float(light.mass / heavy.mass);
+  motions.velocities[other].linear += change;
+  motions.displacements[other].linear += change * float(settings_.options.step);
+}
+
+void SpeedLimiter::clamp_ejections(const StepPairs& step, StepMotions& motions) {
+  const auto outwards = [](const Vec3f& v) { return Vec3f{v.x, v.y, std::max(v.z, 0.0F)}; };
+  const auto may_kick = [&](const Body& body) {
+    return body.awake && body.touching && body.simbody_index >= 0;
+  };
+  const auto speed_before = [&](const Body& body) {
+    return norm(outwards(body.linear)) + float(settings_.options.gravity * settings_.options.step);
+  };
+  const auto sinking_before = [&](const Body& body) {
+    return std::max(-body.linear.z, 0.0F) + norm(body.angular) * float(body.radius) +
+           float(settings_.options.gravity * settings_.options.step);
+  };
+  const bool any = std::any_of(step.awake.begin(), step.awake.end(), [&](std::int32_t i) {
+    const Body& body = data_.bodies[i];
+    return may_kick(body) &&
+           (norm(outwards(motions.velocities[i].linear)) > std::max(speed_before(body), kFreeKick) ||
+            -motions.velocities[i].linear.z > sinking_before(body) + kFreeKick);
+  });
+  if (!any) return;
+  fastest_.assign(data_.bodies.size(), 0);
+  std::vector<std::uint8_t> on_ground(data_.bodies.size(), 0);
+  neighbour_.assign(data_.bodies.size(), kNobody);
+  const auto note = [this](std::int32_t body, std::int32_t other) {
+    if (body == kGround) return;
+    neighbour_[body] = neighbour_[body] == kNobody || neighbour_[body] == other ? other : kSeveral;
+  };
+  each_solved(data_, step, [&](const Contact& contact) {
+    if (contact.pressed <= 0) return;
+    note(contact.body_a, contact.body_b);
+    note(contact.body_b, contact.body_a);
+    if (contact.body_b == kGround) {
+      on_ground[contact.body_a] = 1;
+      return;
+    }
+    const Body &a = data_.bodies[contact.body_a], &b = data_.bodies[contact.body_b];
+    float &of_a = fastest_[contact.body_a], &of_b = fastest_[contact.body_b];
+    for (int i = 0; i < contact.count; ++i) {
+      const ContactPoint& p = contact.points[i];
+      of_a = std::max(of_a, norm(b.linear + cross(b.angular, p.from_b)));
+      of_b = std::max(of_b, norm(a.linear + cross(a.angular, p.from_a)));
+    }
+  });
+  for (std::int32_t i : step.awake) {
+    if (!may_kick(data_.bodies[i])) continue;
+    const float down = -motions.velocities[i].linear.z;
+    const float most_down = std::max(sinking_before(data_.bodies[i]), fastest_[i]) + kFreeKick;
+    if (on_ground[i] != 0 && down > most_down) {
+      motions.velocities[i].linear.z *= most_down / down, motions.displacements[i].linear.z *= most_down / down;
+    }
+    const float after = norm(outwards(motions.velocities[i].linear));
+    const float before = speed_before(data_.bodies[i]);
+    const float squeezed = std::max(before, kKickShare * fastest_[i]) + kFreeKick;
+    const float struck = fastest_[i] + kFreeKick;  // one neighbour_ alone cannot squeeze
+    const float most = std::max(before, neighbour_[i] == kSeveral ? std::min(squeezed, struck) : struck);
+    if (after <= most) continue;
+    const float keep = most / after;
+    return_momentum(i, outwards(motions.velocities[i].linear) * (1 - keep), motions);
+    for (Vec3f* v : {&motions.velocities[i].linear, &motions.displacements[i].linear}) {
+      v->x *= keep, v->y *= keep;
+      if (v->z > 0) v->z *= keep;
+    }
+  }
+}
+
+float SpeedLimiter::calc_lateness() const {
+  const float seconds = float(data_.verification_steps) * float(settings_.options.step);
+  return std::clamp((seconds - kPatience) / (kPatienceEnds - kPatience), 0.0F, 1.0F);
+}
+
+float SpeedLimiter::keep_of_late_spin(const Body& body, const Vec3f& angular, float spin,
+                                      float lateness) const {
+  if (spin <= 0) return 1;
+  const Vec3f axis = angular * (1 / spin);
+  const float torque = kRollingLever * float(body.mass * settings_.options.gravity);
+  const float stopped = torque * dot(axis, body.inverse_inertia * axis) * float(settings_.options.step);
+  return std::max(0.0F, 1 - lateness * (kLateDamping + stopped / spin));
+}
+
+float SpeedLimiter::calc_most_spin(const Body& body) {
+  return std::max(kFreeSpin, norm(body.angular) + kSpinGain);
+}
+
+void SpeedLimiter::find_rolling(const StepPairs& step, StepMotions& motions) {
+  motions.rolls.assign(data_.bodies.size(), kTouches);
+  const auto note = [&motions](std::int32_t body, bool rolls, bool pressed) {
+    if (body == kGround) return;
+    if (rolls && motions.rolls[body] == kTouches) motions.rolls[body] = kRolls;
+    if (pressed && !rolls) motions.rolls[body] = kPushed;
+  };
+  each_solved(data_, step, [&note](const Contact& contact) {
+    note(contact.body_a, contact.rolls_a, contact.pressed > 0);
+    note(contact.body_b, contact.rolls_b, contact.pressed > 0);
+  });
+}
+
+bool SpeedLimiter::does_roll(std::size_t body, const StepMotions& motions) {
+  return motions.rolls[body] == kRolls;
+}
+
+}  // namespace rubble

@@ -1,0 +1,38 @@
+// What an impact may do at most, and what is damped; see kernel/solver/speed_limits.h. Not for use
+// outside kernel/.
+#pragma once
+
+#include <vector>
+
+#include "kernel/world/phases/step.h"
+
+namespace rubble {
+
+class SpeedLimiter {
+ public:
+  SpeedLimiter(const WorldData& data, const WorldSettings& settings) : data_(data), settings_(settings) {}
+
+  // A piece squeezed out from under a heavy one must not shoot away: sideways and upwards it may become hardly
+  // faster in one step than the points which touch it were before. Nor must what lies on the ground be shot
+  // through it: it moves down no faster than its own points or what strikes it did.
+  void clamp_ejections(const StepPairs& step, StepMotions& motions);
+  // What rolls is pushed where it is, however fast it turns: fills StepMotions::rolls.
+  void find_rolling(const StepPairs& step, StepMotions& motions);
+  static bool does_roll(std::size_t body, const StepMotions& motions);
+  // 0 while a verification of rest may yet succeed by itself, 1 when it has lasted too long.
+  float calc_lateness() const;
+  // The share of its spin that a piece keeps in a step of a verification that lasts. spin: its length.
+  float keep_of_late_spin(const Body& body, const Vec3f& angular, float spin, float lateness) const;
+  // How fast contacts may turn a piece in this step; unit: rad/s.
+  static float calc_most_spin(const Body& body);
+
+ private:
+  void return_momentum(std::size_t piece, const Vec3f& speed, StepMotions& motions) const;
+
+  const WorldData& data_;
+  const WorldSettings& settings_;
+  std::vector<float> fastest_;           // by body: of the points that touch it; unit: m/s
+  std::vector<std::int32_t> neighbour_;  // by body: the only one that touches it
+};
+
+}  // namespace rubble

@@ -1,0 +1,35 @@
+// Pieces that hold together as one rigid body, and come apart.
+//
+// A group moves as its lead, the lowest of its pieces: that one's Body has the mass, the pose and the
+// speeds of all. The others keep their numbers, types and colliders, and count as immovable. As pieces of
+// a group keep the orientation that they were bound in, a piece is known by its offset alone. Not for use
+// outside kernel/.
+#pragma once
+
+#include <vector>
+
+#include "kernel/world/state/pairs.h"
+
+namespace rubble {
+
+class RigidGroups {
+ public:
+  RigidGroups(WorldData& data, Bodies& bodies, SimbodyBlocks& blocks, Pairs& pairs)
+      : data_(data), bodies_(bodies), blocks_(blocks), pairs_(pairs) {}
+
+  void bind(int first, int count);
+  void split(int lead, const std::vector<SplitPart>& parts);
+
+ private:
+  void form(const SplitPart& part, const Body& whole);
+  void set_free(const std::vector<SplitPart>& parts, const Body& whole, const Vec3& linear,
+                const Vec3& angular);
+  void move_contacts(const Vec3& old_centre, int old_lead);
+
+  WorldData& data_;
+  Bodies& bodies_;
+  SimbodyBlocks& blocks_;
+  Pairs& pairs_;
+};
+
+}  // namespace rubble

@@ -26,8 +26,8 @@ const float kMostFootprint = 16.0;  // unit: texel
 // How the eye sees a pixel's surface.
 struct Sight {
   vec3 direction;     // from the eye; unit length
-  vec3 across, down;  // where the next pixels are, across the sight; unit length
-  vec2 size;          // how far, on a surface that faces the eye; unit: m
+  vec3 across, down;  // from pixel to pixel, by the units of the next
+  vec2 size;          // unit: m
 };
 
 // Where a point is on the map.
@@ -146,11 +146,15 @@ void main() {
   float far = length(ray);
   sight.direction = ray / far;
 #ifdef RAYS
-  // Any lens: about as on its axis.
-  vec3 upright = abs(sight.direction.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);
-  sight.across = normalize(cross(sight.direction, upright));
-  sight.down = cross(sight.direction, sight.across);
-  sight.size = lens.xy * far;
+  // To the next ray, or from the one before at the border of the image; none beyond that of the lens.
+  ivec2 forward = ivec2(lessThan(pixel, textureSize(lens_rays, 0) - 1)) * 2 - 1;
+  vec3 right = texelFetch(lens_rays, pixel + ivec2(forward.x, 0), 0).xyz;
+  vec3 below = texelFetch(lens_rays, pixel + ivec2(0, forward.y), 0).xyz;
+  right = right == vec3(0.0) ? right : (right - slope) * float(forward.x);
+  below = below == vec3(0.0) ? below : (below - slope) * float(forward.y);
+  sight.across = vec3(dot(row_x.xyz, right), dot(row_y.xyz, right), dot(row_z.xyz, right));
+  sight.down = vec3(dot(row_x.xyz, below), dot(row_y.xyz, below), dot(row_z.xyz, below));
+  sight.size = vec2(z);
 #else
   sight.across = vec3(row_x.x, row_y.x, row_z.x), sight.down = vec3(row_x.y, row_y.y, row_z.y);
   sight.size = lens.xy * z;

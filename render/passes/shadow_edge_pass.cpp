@@ -108,7 +108,8 @@ void ShadowEdgePass::find_again(const GlTexture& values, const std::vector<std::
 void ShadowEdgePass::read() {
   const std::size_t words = std::size_t(side_) * std::size_t(side_) * 2;
   std::vector<std::uint32_t> all(words * views_.size());
-  gl_.GetTextureImage(edges_.name(), 0, GL_RG_INTEGER, GL_UNSIGNED_INT, GLsizei(all.size() * sizeof all[0]), all.data());
+  gl_.GetTextureImage(edges_.name(), 0, GL_RG_INTEGER, GL_UNSIGNED_INT, GLsizei(all.size() * sizeof all[0]),
+                      all.data());
   pyramids_.clear();
   for (std::size_t i = 0; i < views_.size(); ++i) pyramids_.emplace_back(all.data() + i * words, side_);
 }

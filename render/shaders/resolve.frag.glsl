@@ -1,7 +1,8 @@
 // From "which triangle is here" to colour: surface, light, air, tone.
 // Variants: LIGHT_COUNT 1 to 4; for each light LIGHT_i as "type, first view, views" with type 0
 // directional, 1 spot, 2 point; LAMP; AIR that is not clear; WET; LINEAR (kcd/m2
-// out, no tone mapping); SOFT_SUN where sun_shadow.frag.glsl has drawn; PAINTS, PAINTED and PAINT_SIDE where meshes have colours of their own; GLOW where a look
+// out, no tone mapping); SOFT_SUN where sun_shadow.frag.glsl has drawn; PAINTS, PAINTED and
+// PAINT_SIDE where meshes have colours of their own; GLOW where a look
 // shines; SURROUNDED by a street; METER (log2 of luminance of each 4th pixel in each direction, for the
 // exposure; below -1000: none); RAYS (each pixel has a ray of its own); CONTENT 0 sky, 1 surfaces no farther
 // than VEIL_FROM, 2 surfaces, 3 both.

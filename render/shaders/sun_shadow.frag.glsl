@@ -1,7 +1,8 @@
 // Share of the sun's disc that a pixel's surface sees, as the mean over the pixel: the shadow map is compared about the
 // surface over the pixel's footprint and, as far as the height of what throws the shadow asks, over the disc's image
 // (percentage-closer soft shadows, Fernando 2005). Points and order are the same for all pixels: no noise.
-// Drawn for blocks of 4 x 4 pixels that may see edges of the map (camera/edge_blocks.h), one beside the other: software drivers run all of a shader for each pixel, whatever its branches.
+// Drawn for blocks of 4 x 4 pixels that may see edges of the map (camera/edge_blocks.h), one beside the other: software
+// drivers run all of a shader for each pixel, whatever its branches.
 // Variants: VIEWS 1 or 2 of the sun; RAYS as in resolve.frag.glsl.
 #include "frame.glsl"
 #include "geometry.glsl"
@@ -38,7 +39,7 @@ struct Place {
   float texel;        // its width; unit: m
 };
 
-// Number k of points spread evenly over the unit disc: on a spiral, each turned from the one before by the golden angle.
+// Number k of points spread evenly over the unit disc: a spiral that turns by the golden angle from each to the next.
 vec2 disc_point(int k, float inverse_count, inout vec2 turn) {
   turn = vec2(turn.x * -0.7373688 - turn.y * 0.6754903, turn.x * 0.6754903 + turn.y * -0.7373688);
   return turn * sqrt((float(k) + 0.5) * inverse_count);

@@ -40,6 +40,7 @@ namespace rubble {
   X(Finish, FINISH)                                             \
   X(Flush, FLUSH)                                               \
   X(FrontFace, FRONTFACE)                                       \
+  X(GenTextures, GENTEXTURES)                                   \
   X(GenerateTextureMipmap, GENERATETEXTUREMIPMAP)               \
   X(GetError, GETERROR)                                         \
   X(GetIntegerv, GETINTEGERV)                                   \
@@ -72,6 +73,7 @@ namespace rubble {
   X(TextureSubImage1D, TEXTURESUBIMAGE1D)                       \
   X(TextureSubImage2D, TEXTURESUBIMAGE2D)                       \
   X(TextureSubImage3D, TEXTURESUBIMAGE3D)                       \
+  X(TextureView, TEXTUREVIEW)                                   \
   X(UniformBlockBinding, UNIFORMBLOCKBINDING)                   \
   X(UseProgram, USEPROGRAM)                                     \
   X(VertexArrayAttribBinding, VERTEXARRAYATTRIBBINDING)         \

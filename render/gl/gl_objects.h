@@ -49,6 +49,12 @@ struct TextureKind {
     gl.CreateTextures(target, 1, &n);
     return n;
   }
+  // For TextureView: a name that is no texture yet.
+  static GLuint make(const Gl& gl) {
+    GLuint n = 0;
+    gl.GenTextures(1, &n);
+    return n;
+  }
   static void drop(const Gl& gl, GLuint n) { gl.DeleteTextures(1, &n); }
 };
 struct FramebufferKind {

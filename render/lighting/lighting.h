@@ -13,6 +13,7 @@
 namespace rubble {
 
 inline constexpr float kSunSolidAngle = 6.8e-5f;  // of its disc; unit: sr
+inline constexpr float kSunRadius = 4.6525e-3f;  // of its disc, as that solid angle has it; unit: rad
 inline constexpr float kLightReach = 1000.0f;  // of rays that look for light or for what hides it; unit: m
 
 struct LightModel {

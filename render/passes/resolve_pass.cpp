@@ -212,7 +212,12 @@ enum Unit {
   kLensRays,
   kRowPoses,
   kPaint,
-  kPaintImages
+  kPaintImages,
+  kShadowValues,
+  kShadowEdges,
+  kSunNumbers,
+  kSunShares,
+  kSunBlocks
 };
 
 GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
@@ -233,7 +238,9 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
                  {"lens_rays", kLensRays},
                  {"row_poses", kRowPoses},
                  {"paint_table", kPaint},
-                 {"paint_images", kPaintImages}});
+                 {"paint_images", kPaintImages},
+                 {"sun_numbers", kSunNumbers},
+                 {"sun_shares", kSunShares}});
   gl.UniformBlockBinding(program.name(), gl.GetUniformBlockIndex(program.name(), "Frame"), 0);
   return program;
 }
@@ -280,6 +287,19 @@ ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameL
       ground_{ground.x, ground.y, 1 / ground.reach, 0},
       texture_size_(patterns.front().size) {
   defines_ = variant_of(light, geometry);
+  if (light.shadow->edges)
+    sun_ = std::make_unique<SunShadowPass>(gl, light.shadow->lights.front().views,
+                                           SunShadowPass::Samplers{{"visibility", kVisibility},
+                                                                   {"depth_values", kDepth},
+                                                                   {"vertex_table", kVertices},
+                                                                   {"triangle_table", kTriangles},
+                                                                   {"placed_table", kPlaced},
+                                                                   {"lens_rays", kLensRays},
+                                                                   {"row_poses", kRowPoses},
+                                                                   {"shadow_map", kShadow},
+                                                                   {"shadow_values", kShadowValues},
+                                                                   {"shadow_edges", kShadowEdges}},
+                                           kSunBlocks);
 }
 
 const GlProgram& ResolvePass::program(int variant, TileContent content) {
@@ -290,6 +310,7 @@ const GlProgram& ResolvePass::program(int variant, TileContent content) {
     if (variant & kRays) defines.push_back({"RAYS", ""});
     if (variant & kLamp) defines.push_back({"LAMP", ""});
     if (variant & kMeter) defines.push_back({"METER", ""});
+    if (variant & kSoftSun) defines.push_back({"SOFT_SUN", ""});
     defines.push_back({"CONTENT", std::to_string(int(content))});
     defines.push_back({"VEIL_FROM", std::to_string(kVeilFrom)});
     wanted = make_resolve_program(gl_, defines);
@@ -360,6 +381,8 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
     gl_.BindTextureUnit(kPaint, geometry_.paint_view.name());
     gl_.BindTextureUnit(kPaintImages, geometry_.paint_images.name());
   }
+  // What the exposure is found by needs no smooth shadows.
+  if (sun_ && !(variant & kMeter) && draw_sun(view, surfaces, light)) variant |= kSoftSun;
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
   const int every = variant & kMeter ? kMeterEvery : 1;
   gl_.Viewport(0, 0, (view.intrinsics.width + every - 1) / every,
@@ -368,6 +391,23 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
   gl_.Disable(GL_CULL_FACE);
   gl_.BindVertexArray(empty_array_.name());
   draw_tiles(variant, tiles, every);
+}
+
+// True where there are edges of its shadows.
+bool ResolvePass::draw_sun(const ViewProjection& view, const SurfaceImages& surfaces, const FrameLight& light) {
+  const Intrinsics& k = view.intrinsics;
+  const ShadowMap& shadow = *light.shadow;
+  const std::vector<EdgeBlock> blocks =
+      find_edge_blocks(surfaces.lens_rays ? nullptr : &view, {surfaces.depth_values, k.width, k.height},
+                       shadow.edge_layers(), Vec3(light.lights->lights.front().axis) * -1.0);
+  if (blocks.empty()) return false;
+  sun_->set_blocks(blocks, k.width, k.height);
+  gl_.BindTextureUnit(kShadowValues, shadow.values.name());
+  gl_.BindTextureUnit(kShadowEdges, shadow.edges->edges().name());
+  sun_->draw(surfaces.lens_rays != nullptr);
+  gl_.BindTextureUnit(kSunNumbers, sun_->numbers().name());
+  gl_.BindTextureUnit(kSunShares, sun_->shares().name());
+  return true;
 }
 
 ImageTiles ResolvePass::tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const {

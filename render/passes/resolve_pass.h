@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "render/geometry/geometry.h"
@@ -14,6 +15,7 @@
 #include "render/passes/contact_pass.h"
 #include "render/passes/image_tiles.h"
 #include "render/passes/shadow_pass.h"
+#include "render/passes/sun_shadow_pass.h"
 
 namespace rubble {
 
@@ -77,19 +79,21 @@ class ResolvePass {
 
   const Gl& gl_;
   const GpuGeometry& geometry_;
-  enum Variant { kLinear = 1, kRays = 2, kLamp = 4, kMeter = 8 };
+  enum Variant { kLinear = 1, kRays = 2, kLamp = 4, kMeter = 8, kSoftSun = 16 };
   const GlProgram& program(int variant, TileContent content);  // made when it is first needed
   ImageTiles tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const;
+  bool draw_sun(const ViewProjection& view, const SurfaceImages& surfaces, const FrameLight& light);
   // lamp_offset: from the eye to the lamp; unit: m.
   bool lamp_shows(const FrameLight& light, double lamp_offset, const ImageTiles& tiles,
                   float exposure) const;
   void draw_tiles(int variant, const ImageTiles& tiles, int every);  // n-th pixel
 
   ShaderDefines defines_;
-  GlProgram programs_[16][4];  // by Variant and TileContent
+  GlProgram programs_[32][4];  // by Variant and TileContent
   GlBuffer frame_block_;
   GlVertexArray empty_array_;
   ContactPass contact_;
+  std::unique_ptr<SunShadowPass> sun_;  // null: the main light is no sun
   GlTexture looks_, sky_map_, air_table_, ground_map_;
   float ground_[4];  // as in shaders/frame.glsl
   GlTexture colour_;

@@ -16,6 +16,7 @@ using Rows = std::array<std::array<double, 4>, 4>;
 constexpr double kNearest = 0.05;  // unit: m; nothing nearer to a lamp throws a shadow
 constexpr double kShadowReach = 500;  // unit: m
 constexpr double kWide = 90;  // half a side of the box of surroundings that throw shadows there; unit: m
+constexpr double kMostAside = 0.25;  // of the border that a directional view has for penumbras; unit: m
 constexpr std::size_t kMostTexels = std::size_t(6) * 2048 * 2048;  // of all views
 constexpr std::size_t kMostTexelsAround = std::size_t(2) * 4096 * 4096;  // where there are surroundings
 
@@ -46,6 +47,9 @@ Rows directional_view(const Aabb& bounds, const LightModel& light, int size, dou
     height = std::max(height, std::fabs(dot(p - middle, b.up)));
     depth = std::max(depth, std::fabs(dot(p - middle, b.forward)));
   }
+  // What stands at the border of the box has its penumbra outside of it.
+  const double aside = std::min(double(kSunRadius) * 2 * depth, kMostAside);
+  width += aside, height += aside;
   texel = float(2 * std::max(width, height) / size);
   Rows rows{row(b.right, middle, 1 / width),
             row(b.up, middle, 1 / height),
@@ -98,6 +102,38 @@ std::vector<Rows> make_views(const PreparedScene& scene, const LightModel& light
   return views;
 }
 
+// What finding edges must know of a directional view.
+ShadowEdgePass::View edge_view(const Rows& rows, int size) {
+  ShadowEdgePass::View out;
+  Vec3 axes[3];
+  double scale[3], middle = 0;  // middle: height of the world's point at the centre of the box
+  const double centre[3] = {0, 0, 0.5};
+  for (std::size_t i = 0; i < 3; ++i) {
+    axes[i] = Vec3(rows[i][0], rows[i][1], rows[i][2]);
+    scale[i] = 1 / dot(axes[i], axes[i]);
+    middle += axes[i].z * scale[i] * (centre[i] - rows[i][3]);
+  }
+  out.depth_metres = std::sqrt(scale[2]);
+  out.texel = 2 * std::sqrt(std::min(scale[0], scale[1])) / size;
+  const double sink = axes[2].z * scale[2];  // how the height grows with depth
+  if (sink > -1e-3 * out.depth_metres) return out;
+  const double right = axes[0].z * scale[0] / -sink, up = axes[1].z * scale[1] / -sink;
+  out.ground = {float(0.5 + middle / -sink - right - up), float(2 * right), float(2 * up)};
+  return out;
+}
+
+// Texels that a piece's bounding sphere may cover.
+ShadowEdgePass::Rect rect_of(const Rows& rows, const PlacedMesh& piece, int size) {
+  int low[2], high[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vec3 axis(rows[i][0], rows[i][1], rows[i][2]);
+    const double at = dot(axis, Vec3(piece.centre)) + rows[i][3], reach = norm(axis) * double(piece.radius);
+    const auto texel = [&](double x) { return std::clamp((x * 0.5 + 0.5) * size, -8.0, size + 8.0); };
+    low[i] = int(texel(at - reach)) - 1, high[i] = int(texel(at + reach)) + 2;
+  }
+  return {low[0], low[1], high[0], high[1]};
+}
+
 // rows * world_from_mesh * scale, as a draw record.
 DrawRecord make_record(const Rows& rows, const PlacedMesh& piece) {
   const Mat3 r = piece.world_from_mesh.rotation.matrix() * piece.scale;
@@ -130,9 +166,17 @@ ShadowPass::ShadowPass(const Gl& gl, const PreparedScene& scene, const GpuGeomet
   program_ = make_program(gl, "visibility.vert.glsl", "visibility.frag.glsl", {{"SHADOW", ""}});
   map_.depth = make_layers();
   draw_layers(map_.depth, What::resting);
+  map_.values = make_values(map_.depth);
+  if (has_sun()) {
+    edges_ = std::make_unique<ShadowEdgePass>(gl, size_, edge_views());
+    edges_->find(map_.values);
+    map_.edges = edges_.get();
+  }
   if (!moves_) return;
   resting_ = std::move(map_.depth);
   map_.depth = make_layers();
+  map_.values = make_values(map_.depth);
+  if (edges_) edges_->keep();
 }
 
 void ShadowPass::list_views() {
@@ -168,11 +212,49 @@ GlTexture ShadowPass::make_layers() const {
   return layers;
 }
 
+std::vector<EdgeLayer> ShadowMap::edge_layers() const {
+  std::vector<EdgeLayer> out;
+  for (std::size_t i = 0; i < edges->pyramids().size(); ++i) {
+    const auto& rows = clip_from_world[i];
+    out.push_back({{rows[0], rows[1], rows[2]}, &edges->pyramids()[i]});
+  }
+  return out;
+}
+
+GlTexture ShadowPass::make_values(const GlTexture& layers) const {
+  GlTexture values(gl_);
+  gl_.TextureView(values.name(), GL_TEXTURE_2D_ARRAY, layers.name(), GL_DEPTH_COMPONENT32F, 0, 1, 0,
+                  GLuint(views_.size()));
+  gl_.TextureParameteri(values.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl_.TextureParameteri(values.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  gl_.TextureParameteri(values.name(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
+  check_gl(gl_, "making a view of the shadow map");
+  return values;
+}
+
+bool ShadowPass::has_sun() const { return lights_.lights.front().type == LightType::directional; }
+
+std::vector<ShadowEdgePass::View> ShadowPass::edge_views() const {
+  std::vector<ShadowEdgePass::View> out;
+  for (std::size_t i = 0; i < std::size_t(map_.lights.front().views); ++i) out.push_back(edge_view(views_[i], size_));
+  return out;
+}
+
+// Where a moving piece is on each of the sun's layers.
+void ShadowPass::find_moving_edges() {
+  std::vector<std::vector<ShadowEdgePass::Rect>> changed(std::size_t(map_.lights.front().views));
+  for (const PlacedMesh& piece : scene_.placed)
+    if (piece.moves && piece.there)
+      for (std::size_t i = 0; i < changed.size(); ++i) changed[i].push_back(rect_of(views_[i], piece, size_));
+  edges_->find_again(map_.values, changed);
+}
+
 void ShadowPass::draw_moving() {
   if (!moves_) return;
   gl_.CopyImageSubData(resting_.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, map_.depth.name(),
                        GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, size_, size_, GLsizei(views_.size()));
   draw_layers(map_.depth, What::moving);
+  if (edges_) find_moving_edges();
   if (lights_.carried == 0) return;
   list_views();
   draw_layers(map_.depth, What::all, std::size_t(map_.lights[lights_.first_carried()].first_view));

@@ -4,15 +4,19 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "render/geometry/geometry.h"
 #include "render/lighting/lighting.h"
+#include "render/passes/shadow_edge_pass.h"
 
 namespace rubble {
 
 struct ShadowMap {
   GlTexture depth;  // array of GL_DEPTH_COMPONENT32F, compared by GL_LEQUAL
+  GlTexture values;  // the same, without comparison
+  const ShadowEdgePass* edges = nullptr;  // of the layers of the main light; null: that is no sun
   std::vector<std::array<std::array<float, 4>, 4>> clip_from_world;  // rows, one a layer
   struct Light {
     // Layers of the light: 1 or 6; 2 of one that is directional, the second over the surroundings.
@@ -20,6 +24,7 @@ struct ShadowMap {
     float texel = 0;                // width across the beam (directional; m) or per metre of distance
     float far_texel = 0;            // of the second layer of a directional one; m
   };
+  std::vector<EdgeLayer> edge_layers() const;
   std::vector<Light> lights;  // in the order of LightSet::lights
 };
 
@@ -36,6 +41,10 @@ class ShadowPass {
  private:
   using Rows = std::array<std::array<double, 4>, 4>;
   GlTexture make_layers() const;
+  GlTexture make_values(const GlTexture& layers) const;
+  bool has_sun() const;
+  std::vector<ShadowEdgePass::View> edge_views() const;
+  void find_moving_edges();
   void list_views();
   enum class What { resting, moving, all };
   // Of the views from that one on. What rests is drawn on nothing, what moves on what is there.
@@ -50,6 +59,7 @@ class ShadowPass {
   int size_;
   bool moves_;
   GlProgram program_;
+  std::unique_ptr<ShadowEdgePass> edges_;  // null: the main light is no sun
   GlTexture resting_;  // of what rests alone; only where something moves
   ShadowMap map_;
 };

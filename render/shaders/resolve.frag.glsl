@@ -1,7 +1,8 @@
 // From "which triangle is here" to colour: surface, light, air, tone.
 // Variants: LIGHT_COUNT 1 to 4; for each light LIGHT_i as "type, first view, views" with type 0
 // directional, 1 spot, 2 point; LAMP; AIR that is not clear; WET; LINEAR (kcd/m2
-// out, no tone mapping); PAINTS, PAINTED and PAINT_SIDE where meshes have colours of their own; GLOW where a look
+// out, no tone mapping); SOFT_SUN where sun_shadow.frag.glsl has drawn; PAINTS, PAINTED and
+// PAINT_SIDE where meshes have colours of their own; GLOW where a look
 // shines; SURROUNDED by a street; METER (log2 of luminance of each 4th pixel in each direction, for the
 // exposure; below -1000: none); RAYS (each pixel has a ray of its own); CONTENT 0 sky, 1 surfaces no farther
 // than VEIL_FROM, 2 surfaces, 3 both.
@@ -16,6 +17,8 @@
 
 uniform usampler2D visibility;
 uniform sampler2D depth_values;
+uniform usampler2D sun_numbers;  // see passes/sun_shadow_pass.h
+uniform sampler2D sun_shares;
 uniform sampler2D openness;     // of small corners, and to the lamp; half size
 
 #ifdef RAYS
@@ -38,7 +41,17 @@ void add_light(inout Shading sum, const int i, const int type, const int first_v
   float facing = max(dot(s.normal, to_light), 0.0);
   // A bumped normal must not catch light that the face itself cannot see.
   facing *= clamp(dot(s.face_normal, to_light) * 8.0, 0.0, 1.0);
-  e *= facing * light_visible(i, type, first_view, views, world, s.face_normal);
+  float seen = light_visible(i, type, first_view, views, world, s.face_normal);
+#ifdef SOFT_SUN
+  if (i == 0) {
+    // The first block is none.
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    int block = int(texelFetch(sun_numbers, pixel >> 2, 0).x);
+    float coded = texelFetch(sun_shares, (ivec2(block & 255, block >> 8) << 2) + (pixel & 3), 0).x * 255.0;
+    if (coded > 0.5) seen = (coded - 1.0) * (1.0 / 254.0);
+  }
+#endif
+  e *= facing * seen;
   sum.glare += e * gloss_lobe(s, to_light, to_eye);
   sum.e += e * base_share(s, to_light);
 }

@@ -51,6 +51,7 @@ struct BakeLinks {
   // in turn.
   std::vector<std::uint32_t> seen;
   std::vector<Vec3f> albedos;  // of each point
+  std::vector<Vec3f> radiance; // of each point by the light that was baked, matt; unit: kcd/m2
 };
 
 struct BakedScene {

@@ -5,7 +5,7 @@ namespace rubble {
 
 namespace {
 
-constexpr int kVersion = 8;  // raise it when the same scene bakes to other light
+constexpr int kVersion = 9;  // raise it when the same scene bakes to other light
 
 template <typename T>
 void add_vec(CacheKey& key, const Vec3T<T>& v) {
@@ -70,14 +70,14 @@ BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene, c
     CacheReader reader(*bytes);
     reader.get(out.nodes), reader.get(out.air.origin), reader.get(out.air.cell);
     reader.get(out.air.size), reader.get(out.air.radiance), reader.get(out.air.direct);
-    reader.get(out.links.seen), reader.get(out.links.albedos);
+    reader.get(out.links.seen), reader.get(out.links.albedos), reader.get(out.links.radiance);
     if (reader.whole() && out.nodes.size() == scene.light_nodes) return out;
   }
   const BakedScene out = bake_light(scene, light, albedo, options, progress);
   CacheWriter writer;
   writer.put(out.nodes), writer.put(out.air.origin), writer.put(out.air.cell);
   writer.put(out.air.size), writer.put(out.air.radiance), writer.put(out.air.direct);
-  writer.put(out.links.seen), writer.put(out.links.albedos);
+  writer.put(out.links.seen), writer.put(out.links.albedos), writer.put(out.links.radiance);
   cache.store("baked_light", key, writer.bytes());
   return out;
 }

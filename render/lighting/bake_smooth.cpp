@@ -116,7 +116,7 @@ void Baker::fill_closed() {
 // By a part of the first rays; where one meets a point inside a piece, what stands in for that is seen.
 BakeLinks Baker::links() const {
   BakeLinks out;
-  out.albedos = albedos_;
+  out.albedos = albedos_, out.radiance = radiance_;
   const auto open_point = [&](std::uint32_t p) {
     return points_[p].open ? p : substitutes_[p] != kNone ? substitutes_[p] : BakeLinks::kDark;
   };

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "render/lighting/light_packing.h"
-#include "render/media/air_volume.h"
+#include "render/media/air_box.h"
 
 namespace rubble {
 
@@ -42,20 +42,26 @@ Vec3f lamp_glow(const AirLamp& lamp, const Scatterer& air, const Vec3f& p, const
   return lamp.colour * (strength * air.phase(double(-dot(from, direction) / d)));
 }
 
-// Of the lights that are not the lamp. What fog takes from them on the way to p arrives there all the
-// same, from all around: only the rest still has a direction.
-Vec3f light_glow(const AirLight& baked, const LightSet& lights, const Air& fog, const Scatterer& air,
-                 const Vec3f& p, const Vec3f& direction) {
+Vec3f light_glow(const LitAir& lit, const Air& fog, const Scatterer& air, const Vec3f& p, const Vec3f& direction) {
   Vec3f sum;
-  for (std::size_t i = 0; i < lights.lights.size(); ++i) {
-    Vec3f arriving = baked.direct_at(i, p);
+  if (lit.baked.direct.empty()) return sum;
+  for (std::size_t i = 0; i < lit.lights.lights.size(); ++i) {
+    const LightModel& model = lit.lights.lights[i];
+    const LightModel::Sample light = model.at(p);
+    float near = 0, far = light.distance;
+    Vec3f arriving;
+    if (model.type == LightType::directional) {
+      // Outside the box the shadow is that of where the beam leaves it.
+      const bool through = clip_to_box(lit.box, p, light.to_light, near, far);
+      arriving = through ? lit.baked.direct_at(i, p + light.to_light * near) : light.illuminance;
+      if (!through) far = near;
+    } else {
+      arriving = lit.baked.direct_at(i, p);
+      if (air.drops > 0) arriving = arriving * fading(model, lit.baked.nearest(p), light);
+    }
     if (arriving == Vec3f()) continue;
-    const LightModel::Sample light = lights.lights[i].at(p);
-    if (air.drops > 0) arriving = arriving * fading(lights.lights[i], baked.nearest(p), light);
-    const double way = std::min(double(light.distance), AirVolume::kFarthest);
-    const auto straight = float(std::exp(-fog.fog_depth(Vec3(p), Vec3(light.to_light), way)));
-    const float phase = air.phase(double(dot(light.to_light, direction)));
-    sum += arriving * (straight * phase + (1 - straight) * 0.0795775f);  // 1 / (4 pi)
+    arriving *= float(std::exp(-fog.turned_depth(Vec3(p + light.to_light * near), Vec3(light.to_light), double(far - near))));
+    sum += arriving * air.phase(double(dot(light.to_light, direction)));
   }
   return sum;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/lighting/bake.h"
+#include "render/lighting/radiance_grid.h"
 #include "render/media/medium.h"
 
 namespace rubble {
@@ -13,14 +14,45 @@ struct AirLamp {
   float size2 = 4e-4f;           // square of its size, nearer than which it gets no brighter; m2
 };
 
+// Light of the place where it comes to the air.
+struct LitAir {
+  const AirLight& baked;      // of clear air
+  const LightSet& lights;     // that were baked
+  const RadianceGrid* field;  // in this air, all but beams; null: it is not known, what is baked stands for it
+  Aabb box;                   // in which the air weakens the beams
+};
+
 // What scatters light at a point: shares of fog, of dust and of drops.
 struct Scatterer {
   double fog = 1, dust = 0, drops = 0, fog_g = 0, dust_g = 0;
+  // What scattering leaves of light's variation with direction, of each order of spherical harmonics: of all that is
+  // scattered; and of what does not go nearly straight on, see forward_share().
+  std::array<float, kOrders> turned() const { return orders({fog, dust, drops}, {fog_g, dust_g, Precipitation::kAsymmetry}); }
+  std::array<float, kOrders> turned_less() const {
+    constexpr double kDrops = Precipitation::kAsymmetry;
+    return orders({fog * (1 - forward_share(fog_g)), dust * (1 - forward_share(dust_g)), drops * (1 - forward_share(kDrops))},
+                  {turned_cosine(fog_g), turned_cosine(dust_g), turned_cosine(kDrops)});
+  }
+  // Of extinction, what is left without that.
+  double turned_share(double albedo) const {
+    return 1 - albedo * (fog * forward_share(fog_g) + dust * forward_share(dust_g) +
+                         drops * forward_share(Precipitation::kAsymmetry));
+  }
   // Light of this illuminance that goes on by an angle of this cosine, per unit of scattering.
   float phase(double cosine) const {
     const double of_drops = drops > 0 ? drops * phase_function(Precipitation::kAsymmetry, cosine) : 0;
     return float((fog > 0 ? fog * phase_function(fog_g, cosine) : 0) +
                  (dust > 0 ? dust * phase_function(dust_g, cosine) : 0) + of_drops);
+  }
+
+ private:
+  static std::array<float, kOrders> orders(std::array<double, 3> shares, const std::array<double, 3>& cosines) {
+    std::array<float, kOrders> out;
+    for (float& order : out) {
+      order = float(shares[0] + shares[1] + shares[2]);
+      for (std::size_t i = 0; i < 3; ++i) shares[i] *= cosines[i];
+    }
+    return out;
   }
 };
 
@@ -32,9 +64,8 @@ Vec3f even_glow(const AirLight& baked, const LightSet& lights, const Scatterer& 
 Vec3f lamp_glow(const AirLamp& lamp, const Scatterer& air, const Vec3f& p, const Vec3f& direction,
                 double depth_to_p);
 
-// Of the lights that are not the lamp. What fog takes from them on the way to p arrives there all the
-// same, from all around: only the rest still has a direction.
-Vec3f light_glow(const AirLight& baked, const LightSet& lights, const Air& fog, const Scatterer& air,
-                 const Vec3f& p, const Vec3f& direction);
+// Of the lights that are not the lamp, as far as the fog on the way to p lets them pass: what it scatters is in
+// the field.
+Vec3f light_glow(const LitAir& lit, const Air& fog, const Scatterer& air, const Vec3f& p, const Vec3f& direction);
 
 }  // namespace rubble

@@ -1,10 +1,11 @@
 // The air in front of the camera, tabled for one frame: how much light passes up to each distance,
 // and how much is thrown towards the lens on the way: of the lights and the lamp by the phase function
-// of what hangs there, of sky and surfaces, whose light comes from all around, evenly. Reckoned on the processor from the same Medium
-// that the depth sensor asks.
+// of what hangs there, and of all else by the field of LitAir. Reckoned on the processor from the same Medium that the
+// depth sensor asks.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "kernel/base/parallel.h"
@@ -13,6 +14,7 @@
 #include "render/lighting/lighting.h"
 #include "render/media/air_glow.h"
 #include "render/media/medium.h"
+#include "render/media/near_glow.h"
 
 namespace rubble {
 
@@ -25,24 +27,35 @@ class AirVolume {
   static constexpr double kFarthest = 300;  // unit: m
   static double slice_distance(int slice);
 
-  // light: what is baked; lights: where its direct part comes from. drops_drawn: without the drops that cameras
-  // draw one by one.
-  void build(const ViewRays& view, const Air& air, const AirLight& light, const LightSet& lights,
-             const AirLamp* lamp, bool drops_drawn, ThreadPool& pool);
+  // drops_drawn: without the drops that cameras draw one by one.
+  void build(const ViewRays& view, const Air& air, const LitAir& lit, const AirLamp* lamp, bool drops_drawn,
+             ThreadPool& pool);
 
   // Red, green, blue (kcd/m2) and transmittance; x runs fastest, then y (rows from the top), then
   // the slice. Rays go through the middles of kColumns by kRows equal rectangles of the image.
   const std::vector<std::array<float, 4>>& table() const { return table_; }
 
  private:
+  // Light from all around varies little from ray to ray: it is looked up for the middles of 3 by 3 of them, in
+  // orders of spherical harmonics.
+  static constexpr int kShared = 3;
+  struct Orders {
+    std::array<Vec3f, kOrders> all, of_lamp;  // as of RadianceGrid
+  };
+
+  Vec3 direction(double column, double row, Vec3& eye) const;
+  void look_around(int column, int row);
+  Orders around(int column, int row, int slice) const;
   void trace(int column, int row);
 
   std::vector<std::array<float, 4>> table_;
+  std::vector<Orders> around_;  // as the table, of kColumns / kShared by kRows / kShared rays
   const ViewRays* view_ = nullptr;
   const Air* air_ = nullptr;
-  const AirLight* light_ = nullptr;
-  const LightSet* lights_ = nullptr;
+  const LitAir* lit_ = nullptr;
   const AirLamp* lamp_ = nullptr;
+  std::optional<NearGlow> near_glow_;  // of the lamp
+  float cell_ = 1;                     // of the grid of the field; unit: m
   bool drops_drawn_ = false;
 };
 

@@ -33,6 +33,12 @@ inline double phase_function(double g, double cosine) {
   return (1 - g * g) / (4 * 3.14159265358979324 * base * std::sqrt(base));
 }
 
+// The share of scattered light that goes on nearly straight, for a mean cosine g: it counts as not scattered at all,
+// and what is left has the mean cosine g / (1 + g) (the delta-Eddington approximation, Joseph, Wiscombe and Weinman
+// 1976). So beams reach as far as they do by light that was scattered forwards many times.
+inline double forward_share(double g) { return g > 0 ? g * g : 0; }
+inline double turned_cosine(double g) { return g > 0 ? g / (1 + g) : g; }
+
 struct DustPuff {
   Vec3 centre;            // in the world; unit: m
   double deviation = 1;   // s above; unit: m
@@ -59,12 +65,20 @@ class Air {
   // Light that is scattered at p by an angle of this cosine, per metre and steradian, as a share of
   // the light that comes: of fog, dust and drops, each by its own phase function; unit: 1/(m sr)
   double scattering(const Vec3& p, double cosine) const;
+  double fog_height() const { return spec_.fog_height; }
   double fog_asymmetry() const { return spec_.fog_asymmetry; }
   double dust_asymmetry() const { return spec_.dust.asymmetry; }
 
   // The parts that extinction is made of.
   double fog(const Vec3& p) const;
   double fog_depth(const Vec3& from, const Vec3& direction, double distance) const;
+  // What beams lose, when what is scattered nearly straight on counts as not scattered: of extinction by what has this
+  // mean cosine; and along a ray by fog and drops, without billows and puffs.
+  double turned_share(double g) const { return 1 - albedo() * forward_share(g); }
+  double turned_depth(const Vec3& from, const Vec3& direction, double distance) const {
+    return fog_depth(from, direction, distance) * turned_share(fog_asymmetry()) +
+           drops_ * distance * turned_share(Precipitation::kAsymmetry);
+  }
   double billows(const Vec3& p) const;
   const std::vector<DustPuff>& puffs() const { return puffs_; }
   const std::vector<Precipitation>& falling() const { return falling_; }

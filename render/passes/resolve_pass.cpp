@@ -26,7 +26,7 @@ struct FrameBlock {
   float lamp_position[4], lamp_axis[4], lamp_colour[4];
   float wetness[4];
   float sun_direction[4], sun_radiance[4], skyline[4];
-  float ground[4], balance[4];
+  float ground[4], air_low[4], air_high[4], air_drops[4], balance[4];
   float shadow_rows[kMostViews * 4][4];
   float looks[kMaxSurfaceAppearances * 4][4];
 };
@@ -109,6 +109,12 @@ void fill_air_and_lamp(FrameBlock& block, const FrameLight& frame, const Pose& w
   const bool sunny = main.type == LightType::directional;
   set(block.skyline, sky.mean * 0.10f + (sunny ? main.colour * 0.02f : Vec3f()));
   set(block.balance, white_balance(*frame.lights));
+}
+
+void fill_fog(FrameBlock& block, const MeanFog& fog) {
+  set(block.air_low, Vec3f(fog.box.min), float(fog.extinction));
+  set(block.air_high, Vec3f(fog.box.max), fog.height > 0 ? float(1 / fog.height) : 0);
+  set(block.air_drops, {float(fog.drops), float(fog.turned), 0});
 }
 
 void fill_surface_appearances(FrameBlock& block, int texture_size) {
@@ -353,6 +359,7 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
   fill_view(block, view, exposure);
   fill_lights(block, light);
   fill_air_and_lamp(block, light, bearer);
+  fill_fog(block, light.fog);
   fill_surface_appearances(block, texture_size_);
   set(block.wetness, grain_shift(view) + Vec3f(float(light.wetness), 0, 0));
   std::memcpy(block.ground, ground_, sizeof ground_);

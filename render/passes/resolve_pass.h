@@ -19,6 +19,14 @@
 
 namespace rubble {
 
+// The air without its billows and puffs, as it weakens beams: Air::turned_depth().
+struct MeanFog {
+  double extinction = 0, height = 0;  // at the ground; over which it thins by e, 0: it does not; unit: 1/m; m
+  double drops = 0;                   // extinction of rain and snow; unit: 1/m
+  double turned = 1;                  // of the extinction about the lamp, what weakens its beam
+  Aabb box;                           // air_box()
+};
+
 struct FrameLight {
   const LightSet* lights = nullptr;      // of the place; never null
   const ShadowMap* shadow = nullptr;     // of these lights; never null
@@ -29,6 +37,7 @@ struct FrameLight {
   bool glows = false;                    // a look in use shines by itself
   bool surrounded = false;               // as PreparedScene::surrounded
   const AirVolume* air_table = nullptr;  // of this frame, unless the air is clear
+  MeanFog fog{};                         // of this frame
   const Pose* world_from_rig = nullptr;  // of what bears the lamp; null: the camera does
 };
 

@@ -7,6 +7,7 @@
 
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/base/parallel.h"
+#include "render/media/air_box.h"
 #include "render/passes/resolve_pass.h"
 #include "render/reference/denoise.h"
 #include "render/reference/image_key.h"
@@ -18,15 +19,6 @@ namespace {
 
 constexpr int kTile = 32;  // side; unit: pixel
 constexpr char kKind[] = "reference_image";
-
-// The box of the air that is baked, see lighting/bake_air.h: light from outside comes up to there.
-Aabb box_of_air(const PreparedScene& scene) {
-  constexpr double kMargin = 1.5;  // unit: m
-  Aabb box = scene.bounds;
-  if (box.empty()) box.include({0, 0, 1});
-  box.min = box.min - Vec3(kMargin, kMargin, kMargin), box.max = box.max + Vec3(1, 1, 1) * kMargin;
-  return box;
-}
 
 std::vector<float> flatten(const std::vector<Vec3f>& light) {
   std::vector<float> out;
@@ -41,7 +33,7 @@ struct ReferencePass::State {
   State(const ReferenceSurroundings& s, const ReferenceOptions& o)
       : options(o),
         scene(s.scene),
-        box(box_of_air(s.scene)),
+        box(air_box(s.scene.bounds)),
         rays(s.scene, RayScene::Detail::finest),
         surfaces(s.scene, s.patterns, s.ground, s.wetness),
         place_lights(s.lights),

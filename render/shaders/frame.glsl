@@ -16,6 +16,9 @@ layout(std140) uniform Frame {
   vec4 sun_radiance;           // of its disc, kcd/m2
   vec4 skyline;                // colour of what stands far away, kcd/m2
   vec4 ground;                 // middle of the ground's map, 1 / its reach
+  vec4 air_low;                // corners of the box in which air weakens the beams; w: extinction of fog at the ground, 1/m
+  vec4 air_high;               // w: 1 / the height in which fog thins by e; 0: it does not
+  vec4 air_drops;              // extinction of rain and snow, 1/m; y: share of all extinction that beams lose
   vec4 balance;                // white balance of the display image
   vec4 shadow_rows[96];        // rows of clip_from_world, four for each view
   vec4 looks[180];             // four for each look: dark + 1/tile, light + bump, accent + gloss,

@@ -51,6 +51,40 @@ vec3 lamp_at(vec3 p, out vec3 to_lamp, out float lamp_distance) {
   return lamp_colour.rgb * (exp2(-x * x) / far2);
 }
 
+#ifdef AIR
+// What beams lose in the mean air along a straight line from a height z, as Air::turned_depth().
+float air_depth(float z, float slope, float way) {
+  float drops = air_drops.x * way, rate = air_high.w;
+  float end = z + slope * way;
+  if (rate <= 0.0 || (z <= 0.0 && end <= 0.0)) return air_low.w * way + drops;
+  float low = 0.0, above = way;  // the part below the ground
+  if (z < 0.0 || end < 0.0) {
+    low = z < 0.0 ? -z / slope : end / slope;
+    above = way - low;
+    z = max(z, 0.0);
+  }
+  float x = slope * above * rate;
+  float mean = abs(x) < 1e-3 ? 1.0 - 0.5 * x : (1.0 - exp(-x)) / x;
+  return air_low.w * (low + above * exp(-z * rate) * mean) + drops;
+}
+
+// Share of light i that the air lets pass: of a beam from far away all up to the box.
+float air_passes(const int i, const int type, vec3 p, vec3 to_light) {
+  float near = 0.0, far = 1e5;
+  if (type != 0) {
+    far = length(light_position[i].xyz - p);
+  } else {
+    vec3 way = mix(to_light, vec3(1e-9), lessThan(abs(to_light), vec3(1e-9)));
+    vec3 a = (air_low.xyz - p) / way, b = (air_high.xyz - p) / way;
+    vec3 first = min(a, b), last = max(a, b);
+    near = max(near, max(first.x, max(first.y, first.z)));
+    far = min(far, min(last.x, min(last.y, last.z)));
+    if (near >= far) return 1.0;
+  }
+  return exp(-air_depth(p.z + to_light.z * near, to_light.z, far - near));
+}
+#endif
+
 uniform sampler2DArrayShadow shadow_map;
 
 // 1 where light i arrives, 0 in its shadow.

@@ -52,6 +52,9 @@ void add_light(inout Shading sum, const int i, const int type, const int first_v
   }
 #endif
   e *= facing * seen;
+#ifdef AIR
+  e *= air_passes(i, type, world, to_light);
+#endif
   sum.glare += e * gloss_lobe(s, to_light, to_eye);
   sum.e += e * base_share(s, to_light);
 }
@@ -72,7 +75,9 @@ vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
   vec3 to_lamp;
   float lamp_distance;
   vec3 lamp = lamp_at(world, to_lamp, lamp_distance);
-  lamp *= passed;
+#ifdef AIR
+  lamp *= pow(passed, air_drops.y);
+#endif
   lamp *= max(dot(s.normal, to_lamp), 0.0) * clamp(dot(s.face_normal, to_lamp) * 8.0, 0.0, 1.0) *
           open.y;
   sum.glare += lamp * gloss_lobe(s, to_lamp, to_eye);

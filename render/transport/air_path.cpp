@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "render/media/air_box.h"
 
 namespace rubble {
 
@@ -21,16 +22,7 @@ float draw_cosine(double g, double random) {
 }  // namespace
 
 bool AirPath::clip(const Vec3f& from, const Vec3f& direction, float& near, float& far) const {
-  for (int axis = 0; axis < 3; ++axis) {
-    const float low = float(box_.min[axis]), high = float(box_.max[axis]), d = direction[axis];
-    if (std::fabs(d) < 1e-9f) {
-      if (from[axis] < low || from[axis] > high) return false;
-      continue;
-    }
-    const float a = (low - from[axis]) / d, b = (high - from[axis]) / d;
-    near = std::max(near, std::min(a, b)), far = std::min(far, std::max(a, b));
-  }
-  return near < far;
+  return clip_to_box(box_, from, direction, near, far);
 }
 
 float AirPath::passes(const Vec3f& from, const Vec3f& direction, float near, float far) const {

@@ -153,6 +153,11 @@ void LampBounce::find_shown(const std::vector<Shown>& shown) {
   }
 }
 
+// What the air leaves of light between two points.
+float LampBounce::passes(std::size_t from, std::size_t to) const {
+  return std::exp(-extinction_ * distance(points_[from].position, points_[to].position));
+}
+
 // By every other ray.
 Vec3f LampBounce::gather_colour(std::size_t point) const {
   const std::uint32_t* links = links_.seen.data() + point * BakeLinks::kPerPoint;
@@ -162,10 +167,11 @@ Vec3f LampBounce::gather_colour(std::size_t point) const {
     rays += links[k] != BakeLinks::kNoRay;
     if (links[k] >= BakeLinks::kNoRay) continue;  // or dark
     const Light& light = radiance_[links[k]];
-    for (std::size_t c = 0; c < 4; ++c) sum.colour[c] += light.colour[c];
+    const float share = extinction_ > 0 && light.c[1] > 0 ? passes(point, links[k]) : 1;
+    for (std::size_t c = 0; c < 4; ++c) sum.c[c] += light.c[c] * share;
   }
   const float scale = rays > 0 ? portable::kPiF / float(rays) : 0;
-  return Vec3f(sum.colour[0], sum.colour[1], sum.colour[2]) * scale;
+  return Vec3f(sum.c[0], sum.c[1], sum.c[2]) * scale;
 }
 
 // By all rays, and with the direction.
@@ -177,12 +183,14 @@ LampBounce::Arrived LampBounce::gather(std::size_t point) const {
     if (links[k] == BakeLinks::kNoRay) continue;
     ++rays;
     if (links[k] == BakeLinks::kDark) continue;
-    const float* colour = radiance_[links[k]].colour;
-    const Vec3f light(colour[0], colour[1], colour[2]);
+    const float* colour = radiance_[links[k]].c;
+    Vec3f light(colour[0], colour[1], colour[2]);
     if (light.y <= 0) continue;
-    out.colour += light;
     const Vec3f way = points_[links[k]].position - points_[point].position;
-    const Vec3f w = way * (1 / std::max(norm(way), 1e-4f));
+    const float away = std::max(norm(way), 1e-4f);
+    if (extinction_ > 0) light *= std::exp(-extinction_ * away);
+    out.colour += light;
+    const Vec3f w = way * (1 / away);
     out.vector += w * (luminance(light) / std::max(dot(w, points_[point].normal), 0.35f));
   }
   const float scale = rays > 0 ? portable::kPiF / float(rays) : 0;
@@ -198,7 +206,7 @@ float LampBounce::share_again() const {
   for (const std::uint32_t piece : seen_) {
     const std::size_t first = first_point_[piece];
     for (std::size_t i = first; i < first + count_points(piece); ++i) {
-      const float* direct = radiance_[i].colour;
+      const float* direct = radiance_[i].c;
       before += double(luminance(Vec3f(direct[0], direct[1], direct[2])));
       after += double(luminance(multiply(links_.albedos[i], once_[i]))) / portable::kPi;
     }
@@ -212,7 +220,7 @@ void LampBounce::pass_on(const Vec3f& lamp) {
   const float scale = 1 / (portable::kPiF * (1 - share_again()));
   for_seen([&](std::size_t i) {
     const Vec3f more = multiply(links_.albedos[i], once_[i]) * scale;
-    for (int c = 0; c < 3; ++c) radiance_[i].colour[c] += more[c];
+    for (int c = 0; c < 3; ++c) radiance_[i].c[c] += more[c];
   });
   pool_.run(int(shown_points_.size()), 256, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
@@ -224,7 +232,7 @@ void LampBounce::pass_on(const Vec3f& lamp) {
   });
 }
 
-void LampBounce::add_to_node(const ShownNode& shown, const std::vector<BakedLight>& base) {
+void LampBounce::add_to_node(const ShownNode& shown, const std::vector<BakedLight>& base, const FogLight* fog) {
   const PlacedMesh& placed = scene_.placed[shown.placed];
   const LightNode& node = scene_.meshes[placed.mesh].light_nodes[shown.node];
   Vec3f colour, vector;
@@ -232,23 +240,33 @@ void LampBounce::add_to_node(const ShownNode& shown, const std::vector<BakedLigh
     const Arrived& a = arrived_[first_point_[shown.placed] + node.points[k]];
     colour += a.colour * node.weights[k], vector += a.vector * node.weights[k];
   }
-  if (colour.y <= 0) return;
   const Vec3f n(placed.world_from_mesh.rotation.rotate(Vec3(node.normal)));
+  if (fog) {
+    const Vec3f more = fog->lamp_illuminance(Vec3f(placed.world_from_mesh * (Vec3(node.position) * placed.scale)), n);
+    colour += more, vector += n * luminance(more);
+  }
+  if (colour.y <= 0) return;
   const std::size_t at = placed.first_light + shown.node;
   const UnpackedLight there = unpack_light(base[at], n);
   out_[at] = pack_light(there.vector + vector, there.colour + colour);
 }
 
-const std::vector<BakedLight>& LampBounce::add_to(const std::vector<BakedLight>& base, const PlacedLamp& lamp,
-                                                  float extinction, const std::vector<Shown>& shown) {
+const std::vector<BakedLight>& LampBounce::add_to(const std::vector<BakedLight>& base, const PlacedLamp& lamp, float extinction,
+                                                  const std::vector<Shown>& shown, FogLight* fog) {
   extinction_ = extinction;
   cast_map(lamp.position);
   light_points(lamp);
   find_shown(shown);
   pass_on(lamp.position);
+  if (fog)
+    fog->set_lamp(lamp, radiance_, [&](const Vec3f& p) {
+      const Vec3f way = p - lamp.position;
+      const float away = norm(way);
+      return away < 1e-3f || away < distance_towards(way) * (1 + kSlack) + kNear;
+    });
   out_ = base;
   pool_.run(int(shown_nodes_.size()), 256, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) add_to_node(shown_nodes_[std::size_t(k)], base);
+    for (int k = begin; k < end; ++k) add_to_node(shown_nodes_[std::size_t(k)], base, fog);
   });
   return out_;
 }

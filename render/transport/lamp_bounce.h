@@ -14,6 +14,7 @@
 #include "kernel/base/parallel.h"
 #include "render/geometry/ray_scene.h"
 #include "render/lighting/bake.h"
+#include "render/transport/fog_light.h"
 #include "render/transport/scene_lights.h"
 
 namespace rubble {
@@ -30,9 +31,10 @@ class LampBounce {
     std::uint32_t triangle;  // of its prepared mesh
   };
   // `base`, and that light at the nodes of the triangles that show, in any order, some perhaps more than
-  // once. extinction: of the air about the lamp; unit: 1/m.
-  const std::vector<BakedLight>& add_to(const std::vector<BakedLight>& base, const PlacedLamp& lamp,
-                                        float extinction, const std::vector<Shown>& shown);
+  // once. extinction: of the air about the lamp; unit: 1/m. fog: gets the lamp's light, and gives back what the air
+  // scatters of it; null: the air is clear.
+  const std::vector<BakedLight>& add_to(const std::vector<BakedLight>& base, const PlacedLamp& lamp, float extinction,
+                                        const std::vector<Shown>& shown, FogLight* fog);
 
  private:
   struct Point {
@@ -41,9 +43,7 @@ class LampBounce {
   struct Arrived {
     Vec3f colour, vector;  // illuminance; dot(n, vector) is its strength on a normal n
   };
-  struct alignas(16) Light {
-    float colour[4] = {};  // the last is 0, so that all are added at once
-  };
+  using Light = AirTransfer::Colour;  // the last is 0, so that all are added at once
   struct ShownNode {
     std::uint32_t placed, node;  // of its mesh
   };
@@ -54,6 +54,7 @@ class LampBounce {
   void light_points(const PlacedLamp& lamp);
   void find_shown(const std::vector<Shown>& shown);
   void show_node(std::uint32_t placed, std::uint32_t node);
+  float passes(std::size_t from, std::size_t to) const;
   Vec3f gather_colour(std::size_t point) const;
   Arrived gather(std::size_t point) const;
   template <typename Work>
@@ -61,7 +62,7 @@ class LampBounce {
   std::size_t count_points(std::uint32_t piece) const;
   float share_again() const;
   void pass_on(const Vec3f& lamp);
-  void add_to_node(const ShownNode& shown, const std::vector<BakedLight>& base);
+  void add_to_node(const ShownNode& shown, const std::vector<BakedLight>& base, const FogLight* fog);
 
   const PreparedScene& scene_;
   BakeLinks links_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/lighting/exposure.h"
+#include "render/media/air_box.h"
 #include "render/passes/antialias.h"
 #include "render/reference/display.h"
 #include "render/view/air_lamp.h"
@@ -53,13 +54,20 @@ void ColourDrawer::restart() {
 }
 
 FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surfaces, bool drops_drawn) {
+  scene_.light_air(view.stamp_ns);
   if (scene_.lamp_bounces()) scene_.light_by_lamp(view.lamp_bearer(), view.stamp_ns, surfaces.shown());
   FrameLight light = scene_.frame_light;
   light.world_from_rig = view.world_from_rig ? &*view.world_from_rig : nullptr;
   if (scene_.medium.clear()) return light;
   const AirLamp glow = glow_of(light.lamp, view.lamp_bearer());
-  air_volume_.build(view, scene_.air_at(view.stamp_ns), scene_.air_light, scene_.resting_light, &glow, drops_drawn, pool_);
+  const Air air = scene_.air_at(view.stamp_ns);
+  const FogLight* fog = scene_.fog_light();
+  const LitAir lit{scene_.air_light, scene_.resting_light, fog ? &fog->field() : nullptr, air_box(scene_.scene.bounds)};
+  air_volume_.build(view, air, lit, &glow, drops_drawn, pool_);
   light.air_table = &air_volume_;
+  const double turned = air.turned_share(air.fog_asymmetry());
+  light.fog = {air.fog({}) * turned, air.fog_height(), air.drops() * air.turned_share(Precipitation::kAsymmetry),
+               in_box(lit.box, view.lamp_bearer().translation) ? turned : 1, lit.box};
   return light;
 }
 

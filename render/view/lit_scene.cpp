@@ -4,6 +4,7 @@
 
 #include "kernel/base/system/disk_cache.h"
 #include "render/materials/surface_appearance.h"
+#include "render/media/air_box.h"
 #include "render/reference/image_key.h"
 #include "render/transport/drawn_albedo.h"
 
@@ -54,6 +55,8 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
   BakedScene baked = bake(s.wetness, [&](double f) { progress(0.05 + 0.9 * f); });
   air_light = std::move(baked.air);
   links_ = std::move(baked.links);
+  for (const Vec3f& r : links_.radiance) radiance_.push_back({{r.x, r.y, r.z, 0}});
+  links_.radiance = {};
   geometry = upload_geometry(gl, scene, baked.nodes);
   if (moving.any()) {
     const LookSurfaces surfaces(scene, patterns, ground_map, s.wetness);
@@ -65,6 +68,7 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
   shadow = std::make_unique<ShadowPass>(gl, scene, geometry, light, o.shadow_size);
   shadow->draw_moving();  // nothing yet
   frame_light = {&light, &shadow->map(), s.lamp, medium.clear(), s.wetness, most_gloss(scene), shines(scene), scene.surrounded};
+  air_changed_ = !medium.clear();
   progress(1);
 }
 
@@ -102,8 +106,25 @@ void LitScene::move_to(std::int64_t stamp_ns) {
   update_poses(gl, scene, geometry);
   place_carried_lights();
   if (is_traced()) return;  // the path tracer follows the scene itself
-  update_light(gl, geometry, live_light->update());
+  live_light->update();
+  surfaces_changed_ = true;
   shadow->draw_moving();
+}
+
+void LitScene::light_air(std::int64_t stamp_ns) {
+  if (is_traced() || (!air_changed_ && !surfaces_changed_)) return;
+  if (!medium.clear() && !fog_light_ && !radiance_.empty()) {
+    std::vector<std::uint32_t> first_light;
+    const PreparedScene resting = moving.any() ? resting_part(scene, first_light) : PreparedScene();
+    fog_light_ = std::make_unique<FogLight>(moving.any() ? resting : scene, air_box(scene.bounds), resting_light,
+                                            std::move(radiance_), options.threads);
+  }
+  if (FogLight* fog = fog_light()) {
+    if (air_changed_) fog->set_air(air_at(stamp_ns));
+    weakened_nodes_ = fog->weaken(scene, clear_nodes());
+  }
+  air_changed_ = surfaces_changed_ = false;
+  update_light(gl, geometry, nodes());
 }
 
 // What is not there does not shine.
@@ -137,13 +158,18 @@ bool LitScene::lamp_bounces() const {
 void LitScene::light_by_lamp(const Pose& bearer, std::int64_t stamp_ns,
                              const std::vector<LampBounce::Shown>& shown) {
   const LampSpec& lamp = frame_light.lamp;
-  const std::vector<BakedLight>& base = live_light ? live_light->light() : baked_nodes_;
+  const std::vector<BakedLight>& base = nodes();
   lit_by_lamp_ = lamp.on && lamp.intensity_cd > 0;
-  if (!lit_by_lamp_) return update_light(gl, geometry, base);
+  if (!lit_by_lamp_) {
+    if (FogLight* fog = fog_light()) fog->put_lamp_out();
+    return update_light(gl, geometry, base);
+  }
   const PlacedLamp placed = place_lamp(lamp, lamp_colour(lamp), bearer);
   const Air air = air_at(stamp_ns);
-  const float extinction = air.clear() ? 0 : float(air.extinction(Vec3(placed.position)));
-  update_light(gl, geometry, lamp_bounce().add_to(base, placed, extinction, shown));
+  const Vec3 place(placed.position);
+  const double turned = in_box(air_box(scene.bounds), place) ? air.turned_share(air.fog_asymmetry()) : 1;
+  const float extinction = air.clear() ? 0 : float(air.extinction(place) * turned);
+  update_light(gl, geometry, lamp_bounce().add_to(base, placed, extinction, shown, fog_light()));
 }
 
 Air LitScene::air_at(std::int64_t stamp_ns) const {
@@ -152,6 +178,7 @@ Air LitScene::air_at(std::int64_t stamp_ns) const {
 
 void LitScene::change(const LampSpec& lamp, const AirSpec& air) {
   medium = Medium(air, seed);
+  air_changed_ = true;
   frame_light.lamp = lamp;
   frame_light.clear_air = medium.clear();
 }

@@ -49,6 +49,10 @@ struct LitScene {
   bool is_traced() const { return options.colour.quality == RenderQuality::reference; }
   // Puts what moves where it is at that stamp, and lights it there.
   void move_to(std::int64_t stamp_ns);
+  // Brings the light of the place to the air of that stamp, and to the device, if it is not there yet.
+  void light_air(std::int64_t stamp_ns);
+  // How fog changes it; null: the air is clear, or nothing is baked.
+  FogLight* fog_light() { return medium.clear() ? nullptr : fog_light_.get(); }
   // light_by_lamp() is due: the lamp's light goes by way of surfaces, or did in the picture before.
   bool lamp_bounces() const;
   // Adds that light to the baked one, on the triangles that show. bearer: of the lamp, in the world.
@@ -61,9 +65,15 @@ struct LitScene {
   void place_carried_lights();
   BakedScene bake(double wetness, const std::function<void(double)>& progress);
   LampBounce& lamp_bounce();
+  const std::vector<BakedLight>& clear_nodes() const { return live_light ? live_light->light() : baked_nodes_; }
+  const std::vector<BakedLight>& nodes() { return fog_light() ? weakened_nodes_ : clear_nodes(); }
 
   std::vector<CarriedLight> carried_lights_;
   std::vector<BakedLight> baked_nodes_;      // the baked light; empty where something moves
+  std::vector<BakedLight> weakened_nodes_;   // by the fog
+  FogLight::Radiance radiance_;              // of the bake points, until fog_light_ takes them
+  std::unique_ptr<FogLight> fog_light_;      // made when there is first fog
+  bool air_changed_ = false, surfaces_changed_ = false;  // since light_air()
   BakeLinks links_;                          // of the same, until lamp_bounce() takes them
   std::unique_ptr<LampBounce> lamp_bounce_;  // made when a lamp is first lit
   bool lit_by_lamp_ = false;                 // the light on the device is the lamp's too

@@ -174,13 +174,12 @@ INSTANTIATE_TEST_SUITE_P(Types, Shadow,
 class Fog : public ::testing::TestWithParam<double> {};
 
 TEST_P(Fog, LetsThroughByTheLawOfBeerAndLambert) {
-  // Fog that only absorbs; the wall is lit by the sun, whose own way through the fog is not
-  // counted.
-  Scene scene = with_light(LightType::directional, {}, {0, 40, 0}, 100);
+  // Fog that only absorbs, between camera and wall and between light and wall.
+  Scene scene = with_light(LightType::point, {}, {}, 100);
   scene.air.fog_intensity = 0;
   const double clear = draw_middle(scene);
   scene.air.fog_density = GetParam();
-  EXPECT_NEAR(draw_middle(scene) / clear, std::exp(-GetParam() * 2.0), 1e-3);
+  EXPECT_NEAR(draw_middle(scene) / clear, std::exp(-GetParam() * 4.0), 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Densities, Fog, ::testing::Values(0.05, 0.3, 1.0, 3.0));
@@ -251,8 +250,8 @@ TEST(Air, SunlightIsScatteredForwards) {
   // Against what even scattering gives, the sky behind the fog included.
   EXPECT_GT(seen(0.75, portable::kPi, 1), 1.2 * seen(0, portable::kPi, 1));
   EXPECT_LT(seen(0.75, 0, 1), 0.9 * seen(0, 0, 1));
-  // In fog without end no light comes straight.
-  EXPECT_NEAR(seen(0.75, portable::kPi, 0) / seen(0, portable::kPi, 0), 1, 1e-3);
+  // Also in fog without end: the sun is what comes to the scene.
+  EXPECT_GT(seen(0.75, portable::kPi, 0), 1.2 * seen(0, portable::kPi, 0));
 }
 
 // What is far behind fog cannot be told apart: just below the horizon the ground, just above it the
@@ -360,16 +359,17 @@ TEST(Sky, TheMapIsTheFormula) {
 
 // What the air's table lets through is what the medium says, and so what the image shows.
 TEST(Air, TheImageFollowsTheMedium) {
-  Scene scene = with_light(LightType::directional, {}, {0, 40, 0}, 100);
+  Scene scene = with_light(LightType::point, {}, {}, 100);
   scene.air.fog_intensity = 0;  // it only absorbs
   const double clear = draw_middle(scene);
-  scene.air.fog_density = 0.8;
+  scene.air.fog_density = 0.4;
   scene.air.fog_height = 3;
-  EXPECT_NEAR(draw_middle(scene) / clear, std::exp(-0.8 * 2), 0.01);  // level: as at z = 0
+  EXPECT_NEAR(draw_middle(scene) / clear, std::exp(-0.4 * 4), 0.01);  // level: as at z = 0
   scene.air.fog_noise = 0.9;
   scene.air.fog_noise_size = 0.7;
+  // Billows count on the way to the camera; the light's own way is through their mean.
   const Air air = Medium(scene.air, scene.seed).at(0);
-  EXPECT_NEAR(draw_middle(scene) / clear, std::exp(-air.optical_depth({}, {1, 0, 0}, 2)), 0.03);
+  EXPECT_NEAR(draw_middle(scene) / clear, std::exp(-air.optical_depth({}, {1, 0, 0}, 2) - 0.4 * 2), 0.02);
 }
 
 TEST(Wetness, DarkensAndGlitters) {

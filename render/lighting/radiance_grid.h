@@ -1,0 +1,56 @@
+// Radiance in the air: at the points of a grid, by direction.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "render/lighting/harmonics.h"
+
+namespace rubble {
+
+struct AirGrid {
+  Vec3f origin, cell;                  // of point (0, 0, 0), and from point to point; unit: m
+  std::array<std::int32_t, 3> size{};  // points along x, y and z, at least 2; x runs fastest
+
+  std::size_t count() const { return std::size_t(size[0]) * std::size_t(size[1]) * std::size_t(size[2]); }
+  Vec3f point(std::size_t i) const;
+  Vec3f nearest(const Vec3f& point) const;  // of the box of the grid
+  Vec3f length() const;                     // of that box
+
+  // The eight points about a place, or about the border's nearest, and their weights.
+  struct Corners {
+    std::array<std::uint32_t, 8> at;
+    std::array<float, 8> weight;
+  };
+  Corners about(const Vec3f& point) const;
+};
+
+// One function of direction, of each colour; unit: kcd/m2 times the norm of harmonics_of().
+using RadianceTerms = std::array<Vec3f, kHarmonics>;
+
+// Between the points of a grid.
+RadianceTerms blend(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners);
+
+struct RadianceGrid {
+  AirGrid grid;
+  std::vector<RadianceTerms> terms;  // of each point: what arrives from each direction
+  // Likewise, what the air has scattered of a lamp's light, but for what goes nearly straight on; empty: none.
+  std::vector<RadianceTerms> of_lamp;
+  RadianceTerms open{};              // of places far away, over level ground
+
+  // Between points; outside the box an estimate.
+  RadianceTerms at(const Vec3f& point) const;
+  RadianceTerms of_lamp_at(const Vec3f& point) const;  // outside the box nothing
+
+ private:
+  void add_disc(const Vec3f& point, int quarter, float share, RadianceTerms& out) const;
+};
+
+// The sum over the terms of each order in this direction.
+std::array<Vec3f, kOrders> orders_towards(const RadianceTerms& terms, const Vec3f& direction);
+// Illuminance on a surface of this normal, at least 0; unit: klx
+Vec3f illuminance_of(const RadianceTerms& terms, const Vec3f& normal);
+
+}  // namespace rubble

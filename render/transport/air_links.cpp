@@ -1,0 +1,163 @@
+#include "render/transport/air_links.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kernel/base/parallel.h"
+#include "kernel/base/portable_math.h"
+#include "render/geometry/ray_scene.h"
+#include "render/lighting/lighting.h"
+
+namespace rubble {
+
+namespace {
+
+constexpr float kCell = 0.4f;           // unit: m
+constexpr std::size_t kMost = 2500;    // points
+constexpr float kLowest = 0.05f;        // above the ground; unit: m
+
+std::vector<Vec3f> even_directions() {
+  std::vector<Vec3f> out;
+  for (std::size_t i = 0; i < AirLinks::kDirections; ++i) {
+    const double z = 1 - (2 * double(i) + 1) / AirLinks::kDirections, turn = double(i) * 0.6180339887498949;
+    const portable::SinCos a = portable::sincos(2 * portable::kPi * (turn - std::floor(turn)));
+    const double r = std::sqrt(1 - z * z);
+    out.push_back({float(r * a.cos), float(r * a.sin), float(z)});
+  }
+  return out;
+}
+
+AirGrid make_grid(const Aabb& box, bool above_ground) {
+  AirGrid grid;
+  grid.origin = Vec3f(box.min);
+  if (above_ground) grid.origin.z = std::max(grid.origin.z, kLowest);
+  for (float cell = kCell;; cell *= 1.1f) {
+    for (int i = 0; i < 3; ++i) {
+      const float length = std::max(float(box.max[i]) - grid.origin[i], 0.1f);
+      grid.size[std::size_t(i)] = std::max(int(std::ceil(length / cell)) + 1, 2);
+      grid.cell[i] = length / float(grid.size[std::size_t(i)] - 1);
+    }
+    if (grid.count() <= kMost) return grid;
+  }
+}
+
+class LinkMaker {
+ public:
+  LinkMaker(const PreparedScene& scene, AirLinks& links) : scene_(scene), rays_(scene, RayScene::Detail::finest), links_(links) {
+    std::uint32_t next = 0;
+    for (const PlacedMesh& piece : scene.placed) {
+      first_point_.push_back(next);
+      next += std::uint32_t(scene.meshes[piece.mesh].bake_points.size());
+    }
+  }
+  void make(int threads);
+
+ private:
+  std::uint32_t point_of(const RayScene::PreciseHit& hit) const;
+  bool look_around(std::size_t i);
+  std::uint32_t find_hidden(std::size_t i) const;
+  void find_nearest(const std::vector<std::uint8_t>& open);
+
+  const PreparedScene& scene_;
+  RayScene rays_;
+  AirLinks& links_;
+  std::vector<std::uint32_t> first_point_;
+};
+
+// The heaviest point of the node that weighs most there.
+std::uint32_t LinkMaker::point_of(const RayScene::PreciseHit& hit) const {
+  const RayScene::Triangle& t = rays_.triangles()[hit.triangle];
+  const PreparedMesh& mesh = scene_.meshes[scene_.placed[t.placed].mesh];
+  const LightNodes nodes = find_light_nodes(mesh, t.source, hit.u, hit.v);
+  const auto heaviest = [](const auto& w) { return std::size_t(std::max_element(w.begin(), w.end()) - w.begin()); };
+  const LightNode& node = mesh.light_nodes[nodes.node[heaviest(nodes.weight)]];
+  return first_point_[t.placed] + node.points[heaviest(node.weights)];
+}
+
+// False where the point lies inside a piece.
+bool LinkMaker::look_around(std::size_t i) {
+  const Vec3f from = links_.grid.point(i);
+  std::array<RayScene::Ray, AirLinks::kDirections> rays;
+  std::array<RayScene::PreciseHit, AirLinks::kDirections> hits;
+  for (std::size_t k = 0; k < rays.size(); ++k) rays[k] = {from, 0, links_.directions[k], kLightReach};
+  rays_.cast_many(rays.data(), rays.size(), RayScene::Order::scattered, hits.data());
+  std::size_t inside = 0;
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    AirLinks::End& end = links_.ends[k * links_.grid.count() + i];
+    end = {hits[k].distance, AirLinks::kDark};
+    if (hits[k].triangle == RayScene::kNone)
+      end = {kLightReach, AirLinks::kSky};
+    else if (hits[k].back)
+      ++inside;
+    else
+      end.point = point_of(hits[k]);
+  }
+  return inside <= AirLinks::kDirections / 4;
+}
+
+std::uint32_t LinkMaker::find_hidden(std::size_t i) const {
+  const Vec3f from = links_.grid.point(i);
+  std::uint32_t bits = 0;
+  for (int k = 0; k < 27; ++k) {
+    const std::size_t j = links_.neighbour(i, k);
+    if (j == i) continue;
+    const Vec3f way = links_.grid.point(j) - from;
+    const float length = norm(way);
+    if (rays_.blocked(from, way * (1 / length), 0, length)) bits |= 1u << k;
+  }
+  return bits;
+}
+
+// Ring by ring.
+void LinkMaker::find_nearest(const std::vector<std::uint8_t>& open) {
+  std::vector<std::uint8_t> known = open;
+  for (bool changed = true; changed;) {
+    changed = false;
+    const std::vector<std::uint8_t> before = known;
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      for (const int place : {4, 10, 12, 14, 16, 22}) {
+        const std::size_t j = links_.neighbour(i, place);
+        if (known[i] || !before[j]) continue;
+        links_.nearest[i] = links_.nearest[j], known[i] = 1, changed = true;
+      }
+    }
+  }
+}
+
+void LinkMaker::make(int threads) {
+  const std::size_t count = links_.grid.count();
+  links_.ends.resize(count * AirLinks::kDirections);
+  links_.nearest.resize(count), links_.hidden.resize(count);
+  std::vector<std::uint8_t> open(count);
+  constexpr std::size_t kChunk = 64;
+  parallel_for((count + kChunk - 1) / kChunk, threads, [&](std::size_t job) {
+    for (std::size_t i = job * kChunk; i < std::min(count, (job + 1) * kChunk); ++i) {
+      links_.nearest[i] = std::uint32_t(i);
+      open[i] = look_around(i);
+      if (open[i]) links_.hidden[i] = find_hidden(i);
+    }
+  });
+  find_nearest(open);
+}
+
+}  // namespace
+
+std::size_t AirLinks::neighbour(std::size_t i, int place) const {
+  const auto nx = std::size_t(grid.size[0]), ny = std::size_t(grid.size[1]), nz = std::size_t(grid.size[2]);
+  const std::size_t x = i % nx + std::size_t(place % 3), y = i / nx % ny + std::size_t(place / 3 % 3);
+  const std::size_t z = i / (nx * ny) + std::size_t(place / 9);  // each one too many
+  if (x < 1 || y < 1 || z < 1 || x > nx || y > ny || z > nz) return i;
+  return ((z - 1) * ny + y - 1) * nx + x - 1;
+}
+
+AirLinks make_air_links(const PreparedScene& scene, const Aabb& box, int threads) {
+  AirLinks links;
+  links.grid = make_grid(box, std::any_of(scene.placed.begin(), scene.placed.end(),
+                                          [](const PlacedMesh& piece) { return piece.id == kGroundId; }));
+  links.directions = even_directions();
+  LinkMaker(scene, links).make(threads);
+  return links;
+}
+
+}  // namespace rubble

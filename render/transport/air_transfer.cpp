@@ -1,0 +1,258 @@
+#include "render/transport/air_transfer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/base/portable_math.h"
+#include "render/lighting/light_packing.h"
+
+namespace rubble {
+
+namespace {
+
+constexpr float kMostResponse = 4;
+constexpr float kMean = 0.2820948f;  // from the first term to the mean over all directions
+constexpr float kAngle = 4 * portable::kPiF / AirLinks::kDirections;
+constexpr float kWiden = 0.5f;       // of steps with the distance: what a direction stands for widens, too
+
+Vec3f mean_of(const RadianceTerms& terms) { return terms[0] * kMean; }
+
+}  // namespace
+
+AirMatter turning_matter(const Air& air, const AirGrid& grid) {
+  AirMatter out;
+  const double fog_g = air.fog_asymmetry(), drops_g = Precipitation::kAsymmetry;
+  for (std::size_t i = 0; i < grid.count(); ++i) {
+    const double fog = air.fog(Vec3(grid.point(i))), drops = air.drops();
+    const double all = fog * air.turned_share(fog_g) + drops * air.turned_share(drops_g);
+    out.extinction.push_back(float(all));
+    std::array<float, kOrders>& scattered = out.scattered.emplace_back();
+    if (all <= 0) continue;
+    double of_fog = air.albedo() * fog * (1 - forward_share(fog_g)) / all;
+    double of_drops = air.albedo() * drops * (1 - forward_share(drops_g)) / all;
+    for (float& order : scattered) {
+      order = float(of_fog + of_drops);
+      of_fog *= turned_cosine(fog_g), of_drops *= turned_cosine(drops_g);
+    }
+  }
+  return out;
+}
+
+AirTransfer::AirTransfer(AirLinks links) : links_(std::move(links)) {
+  for (const Vec3f& d : links_.directions) harmonics_.push_back(harmonics_of(d));
+  ends_in_.resize(links_.ends.size()), air_in_.resize(links_.ends.size());
+  const std::size_t count = links_.grid.count();
+  total_.resize(count), stand_in_.resize(count), response_.resize(count), lit_.resize(count);
+}
+
+void AirTransfer::choose_sides(const Sources& sources, const std::vector<RadianceTerms>& ends) {
+  const auto brightness = [&](std::size_t i) { return luminance(mean_of(ends[i]) + mean_of(sources.direct[i])); };
+  for (std::size_t i = 0; i < stand_in_.size(); ++i) {
+    const std::uint32_t self = links_.nearest[i];
+    stand_in_[i] = self;
+    if (self != i) continue;
+    float chosen = brightness(i);
+    for (int k = 0; k < 27; ++k) {
+      if (!(links_.hidden[i] >> k & 1u)) continue;
+      const std::size_t j = links_.neighbour(i, k);
+      if (links_.nearest[j] != j) continue;
+      const float there = brightness(j);
+      if (sources.brighter ? there * 0.7f <= chosen : there >= 0.7f * chosen) continue;
+      chosen = there, stand_in_[i] = std::uint32_t(j);
+    }
+  }
+}
+
+// What arrives at each point from anywhere, to the second order: what is scattered has hardly more.
+void AirTransfer::gather_total(const Sources& sources, ThreadPool& pool) {
+  const std::size_t count = links_.grid.count();
+  own_.resize(count);
+  pool.run(int(count), 256, [&](int begin, int end) {
+    for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i) {
+      Terms& sum = own_[i];
+      for (std::size_t t = 0; t < kTerms; ++t) {
+        const Vec3f& direct = sources.direct[i][t];
+        sum[t] = {{direct.x, direct.y, direct.z, 0}};
+      }
+      for (std::size_t k = 0; lit_[i] && k < AirLinks::kDirections; ++k) {
+        const Colour &a = ends_in_[k * count + i], &b = air_in_[k * count + i];
+        Colour in;
+        for (std::size_t c = 0; c < 4; ++c) in.c[c] = (a.c[c] + b.c[c]) * kAngle;
+        for (std::size_t t = 0; t < kTerms; ++t)
+          for (std::size_t c = 0; c < 4; ++c) sum[t].c[c] += in.c[c] * harmonics_[k][t];
+      }
+    }
+  });
+  pool.run(int(count), 1024, [&](int begin, int end) {
+    for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i) total_[i] = own_[stand_in_[i]];
+  });
+}
+
+void AirTransfer::find_response(const std::vector<Vec3f>& usual) {
+  for (std::size_t i = 0; i < response_.size(); ++i) {
+    const Vec3f& before = usual[stand_in_[i]];
+    for (int c = 0; c < 3; ++c)
+      response_[i].c[c] = before[c] > 0 ? std::clamp(total_[i][0].c[c] * kMean / before[c], 0.0f, kMostResponse) : 1.0f;
+  }
+}
+
+// What the air at each point sends on against this direction, of all that it takes; the last: its extinction.
+void AirTransfer::emit(const AirMatter& air, std::size_t direction, std::vector<Colour>& out) const {
+  const Harmonics& y = harmonics_[direction];
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    Colour sum;
+    for (std::size_t t = 0; t < kTerms; ++t) {
+      const float share = y[t] * air.scattered[i][order_of(t)];
+      for (std::size_t c = 0; c < 4; ++c) sum.c[c] += total_[i][t].c[c] * share;
+    }
+    sum.c[3] = air.extinction[i];
+    out[i] = sum;
+  }
+}
+
+AirTransfer::Colour AirTransfer::between(const std::vector<Colour>& grid, const Vec3f& at) const {
+  const auto [nx, ny, nz] = links_.grid.size;
+  const auto low = [](float a, int n) { return std::clamp(int(a), 0, n - 2); };
+  const int x = low(at.x, nx), y = low(at.y, ny), z = low(at.z, nz);
+  const float u = at.x - float(x), v = at.y - float(y), w = at.z - float(z);
+  const Colour* corner = grid.data() + (z * ny + y) * nx + x;
+  const float weight[8] = {(1 - u) * (1 - v) * (1 - w), u * (1 - v) * (1 - w), (1 - u) * v * (1 - w), u * v * (1 - w),
+                           (1 - u) * (1 - v) * w,       u * (1 - v) * w,       (1 - u) * v * w,       u * v * w};
+  const std::ptrdiff_t row = nx, layer = std::ptrdiff_t(nx) * ny;
+  const std::ptrdiff_t off[8] = {0, 1, row, row + 1, layer, layer + 1, layer + row, layer + row + 1};
+  Colour out;
+  for (std::size_t k = 0; k < 8; ++k)
+    for (std::size_t c = 0; c < 4; ++c) out.c[c] += corner[off[k]].c[c] * weight[k];
+  return out;
+}
+
+// emitted: by the air; none: it only weakens what lies at the ends.
+void AirTransfer::follow(const AirMatter& air, const Sources& sources, std::size_t direction,
+                         const std::vector<Colour>* emitted) {
+  const AirGrid& grid = links_.grid;
+  const std::size_t count = grid.count(), first = direction * count;
+  const Vec3f& d = links_.directions[direction];
+  const Vec3f way(d.x / grid.cell.x, d.y / grid.cell.y, d.z / grid.cell.z);  // in cells for each metre
+  const float cell = std::min(grid.cell.x, std::min(grid.cell.y, grid.cell.z));
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!lit_[i]) {
+      air_in_[first + i] = ends_in_[first + i] = {};
+      continue;
+    }
+    const Vec3f from(float(i % std::size_t(grid.size[0])), float(i / std::size_t(grid.size[0]) % std::size_t(grid.size[1])),
+                     float(i / std::size_t(grid.size[0] * grid.size[1])));
+    float border = 1e9f;
+    for (int a = 0; a < 3; ++a)
+      if (std::fabs(way[a]) > 1e-6f)
+        border = std::min(border, (way[a] > 0 ? float(grid.size[std::size_t(a)] - 1) - from[a] : -from[a]) / way[a]);
+    const AirLinks::End& end = links_.ends[first + i];
+    const float length = std::min(end.distance, border);
+    float passed = 1;
+    Colour sum;
+    if (!emitted) passed = std::exp(-air.extinction[i] * length);
+    for (float s = 0; emitted && s < length;) {
+      const float step = std::min(std::max(cell, kWiden * s), length - s);
+      const Colour here = between(*emitted, from + way * (s + 0.5f * step));
+      const float through = std::exp(-here.c[3] * step), share = passed * (1 - through);
+      for (int c = 0; c < 3; ++c) sum.c[c] += here.c[c] * share;
+      passed *= through, s += step;
+    }
+    air_in_[first + i] = sum;
+    Vec3f far;
+    if (end.point == AirLinks::kSky) {
+      if (sources.sky) far = sources.sky[direction];
+    } else if (end.point != AirLinks::kDark) {
+      const Colour& surface = sources.surfaces[end.point];
+      far = Vec3f(surface.c[0], surface.c[1], surface.c[2]);
+      if (emitted && end.distance <= border) {
+        const Colour response = between(response_, from + way * std::max(length - 0.5f * cell, 0.5f * length));
+        far = Vec3f(far.x * response.c[0], far.y * response.c[1], far.z * response.c[2]);
+      }
+    }
+    far *= passed;
+    ends_in_[first + i] = {{far.x, far.y, far.z, 0}};
+  }
+}
+
+void AirTransfer::sweep(const AirMatter& air, const Sources& sources, bool scatters, ThreadPool& pool) {
+  pool.run(int(AirLinks::kDirections), 1, [&](int begin, int end) {
+    std::vector<Colour> emitted(scatters ? links_.grid.count() : 0);
+    for (std::size_t k = std::size_t(begin); k < std::size_t(end); ++k) {
+      if (scatters) emit(air, k, emitted);
+      follow(air, sources, k, scatters ? &emitted : nullptr);
+    }
+  });
+}
+
+void AirTransfer::project(const std::vector<Colour>& incoming, std::vector<RadianceTerms>& out, ThreadPool& pool) const {
+  const std::size_t count = links_.grid.count();
+  out.resize(count);
+  pool.run(int(count), 256, [&](int begin, int end) {
+    for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i) {
+      out[i] = {};
+      if (!lit_[i]) continue;
+      for (std::size_t k = 0; k < AirLinks::kDirections; ++k) {
+        const Colour& in = incoming[k * count + i];
+        const Vec3f light(in.c[0] * kAngle, in.c[1] * kAngle, in.c[2] * kAngle);
+        for (std::size_t t = 0; t < kHarmonics; ++t) out[i][t] += light * harmonics_[k][t];
+      }
+    }
+  });
+}
+
+// Where nothing comes from a light, nor from what it lights, little of it is scattered to, but for the first few cells.
+void AirTransfer::find_lit(const Sources& sources, const std::vector<RadianceTerms>& ends) {
+  constexpr float kDark = 1e-6f;  // of the brightest
+  constexpr int kRings = 3;
+  std::vector<float> light;
+  for (std::size_t i = 0; i < lit_.size(); ++i)
+    light.push_back(luminance(mean_of(ends[i]) + mean_of(sources.direct[i])));
+  const float least = kDark * *std::max_element(light.begin(), light.end());
+  const std::vector<std::uint8_t> open = lit_;
+  for (std::size_t i = 0; i < lit_.size(); ++i) lit_[i] = open[i] && light[i] > least;
+  for (int ring = 0; ring < kRings; ++ring) {
+    const std::vector<std::uint8_t> before = lit_;
+    for (std::size_t i = 0; i < lit_.size(); ++i)
+      for (const int place : {4, 10, 12, 14, 16, 22})
+        if (open[i] && before[links_.neighbour(i, place)] && !(links_.hidden[i] >> place & 1u)) lit_[i] = 1;
+  }
+}
+
+AirTransfer::Result AirTransfer::solve(const AirMatter& air, const Sources& sources, ThreadPool& pool) {
+  for (std::size_t i = 0; i < lit_.size(); ++i) lit_[i] = links_.nearest[i] == i;
+  sweep(air, sources, false, pool);
+  Result out;
+  project(ends_in_, out.ends, pool);
+  find_lit(sources, out.ends);
+  choose_sides(sources, out.ends);
+  std::vector<Vec3f> usual = sources.usual;
+  if (usual.empty())
+    for (std::size_t i = 0; i < out.ends.size(); ++i) usual.push_back(mean_of(out.ends[i]) + mean_of(sources.direct[i]));
+  const auto all_light = [&] {
+    double sum = 0;
+    for (const Terms& terms : total_) sum += double(terms[0].c[0] + terms[0].c[1] + terms[0].c[2]);
+    return sum;
+  };
+  const bool empty = std::all_of(air.extinction.begin(), air.extinction.end(), [](float e) { return e <= 0; });
+  gather_total(sources, pool);
+  double before = all_light();
+  for (int n = 0; n < sources.most && !empty; ++n) {
+    find_response(usual);
+    sweep(air, sources, true, pool);
+    gather_total(sources, pool);
+    const double now = all_light();
+    if (std::fabs(now - before) <= sources.tolerance * now) break;
+    before = now;
+  }
+  project(ends_in_, out.ends, pool);
+  project(air_in_, out.air, pool);
+  // What stands for another takes its light to the end.
+  const auto stand_in = [&](std::vector<RadianceTerms>& grid) {
+    const std::vector<RadianceTerms> own = grid;
+    for (std::size_t i = 0; i < grid.size(); ++i) grid[i] = own[stand_in_[i]];
+  };
+  stand_in(out.ends), stand_in(out.air);
+  return out;
+}
+
+}  // namespace rubble

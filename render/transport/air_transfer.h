@@ -1,0 +1,71 @@
+// Light that the air scatters any number of times, on the points of a grid: the equation of radiative transfer by
+// discrete ordinates and source iteration (Chandrasekhar 1960; Lewis and Miller 1984). Along each link of a point,
+// what lies at its end arrives weakened, and the air on the way adds what it scattered in the iteration before.
+#pragma once
+
+#include <vector>
+
+#include "kernel/base/parallel.h"
+#include "render/lighting/radiance_grid.h"
+#include "render/media/medium.h"
+#include "render/transport/air_links.h"
+
+namespace rubble {
+
+// The mean air at the points of a grid, without billows and puffs, as it turns light: see forward_share().
+struct AirMatter {
+  std::vector<float> extinction;                      // unit: 1/m
+  std::vector<std::array<float, kOrders>> scattered;  // of what it takes, what it gives back of each order
+};
+AirMatter turning_matter(const Air& air, const AirGrid& grid);
+
+class AirTransfer {
+ public:
+  struct alignas(16) Colour {
+    float c[4] = {};
+  };
+  struct Sources {
+    const Vec3f* sky = nullptr;         // radiance by direction of the links; none: black
+    const Colour* surfaces = nullptr;   // radiance of each bake point, matt
+    std::vector<RadianceTerms> direct;  // of each point: beams that arrive there
+    // Of each point, the mean radiance under which surfaces have that radiance; empty: what arrives without
+    // scattering. Where more arrives, they reflect more.
+    std::vector<Vec3f> usual;
+    // On either side of a wall the light of one side stands for both: the darker, so that no daylight glows in a
+    // void; of a lamp the brighter, which is where its camera is.
+    bool brighter = false;
+    double tolerance = 0.003;  // change of all light by which it ends
+    int most = 60;             // iterations
+  };
+  struct Result {
+    std::vector<RadianceTerms> ends, air;  // what arrives from surfaces and sky, and from the air
+  };
+
+  explicit AirTransfer(AirLinks links);
+  const AirLinks& links() const { return links_; }
+  Result solve(const AirMatter& air, const Sources& sources, ThreadPool& pool);
+
+ private:
+  static constexpr std::size_t kTerms = 9;  // of spherical harmonics, to the second order
+  using Terms = std::array<Colour, kTerms>;
+
+  void choose_sides(const Sources& sources, const std::vector<RadianceTerms>& ends);
+  void find_lit(const Sources& sources, const std::vector<RadianceTerms>& ends);
+  void gather_total(const Sources& sources, ThreadPool& pool);
+  void find_response(const std::vector<Vec3f>& usual);
+  void sweep(const AirMatter& air, const Sources& sources, bool scatters, ThreadPool& pool);
+  void emit(const AirMatter& air, std::size_t direction, std::vector<Colour>& out) const;
+  void follow(const AirMatter& air, const Sources& sources, std::size_t direction, const std::vector<Colour>* emitted);
+  Colour between(const std::vector<Colour>& grid, const Vec3f& at) const;
+  void project(const std::vector<Colour>& incoming, std::vector<RadianceTerms>& out, ThreadPool& pool) const;
+
+  AirLinks links_;
+  std::vector<Harmonics> harmonics_;       // of each direction
+  std::vector<Colour> ends_in_, air_in_;   // by direction, then by point: what arrives
+  std::vector<Terms> own_, total_;         // what arrived last; that of the point that stands for it
+  std::vector<std::uint32_t> stand_in_;    // of each point: whose light it takes
+  std::vector<Colour> response_;           // of surfaces near each point
+  std::vector<std::uint8_t> lit_;          // of each point: outside all pieces, and not dark
+};
+
+}  // namespace rubble

@@ -1,0 +1,53 @@
+// How fog and smoke change the light of a scene: what the air scatters, on surfaces and towards cameras.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "render/lighting/bake.h"
+#include "render/transport/air_transfer.h"
+#include "render/transport/scene_lights.h"
+
+namespace rubble {
+
+class FogLight {
+ public:
+  using Radiance = std::vector<AirTransfer::Colour>;  // of each bake point, matt; unit: kcd/m2
+
+  // scene: what rests; light: of it; radiance: of its bake points by that light in clear air.
+  FogLight(const PreparedScene& scene, const Aabb& box, const LightSet& light, Radiance radiance, int threads);
+
+  // Light of the place in this air, without its billows and puffs.
+  void set_air(const Air& air);
+  // Baked light of a scene in that air. Nodes are those of `scene`, whatever moves there.
+  std::vector<BakedLight> weaken(const PreparedScene& scene, const std::vector<BakedLight>& clear);
+
+  // Light of the lamp. radiance: of the bake points by it; sees: what it shines on directly.
+  void set_lamp(const PlacedLamp& lamp, const Radiance& radiance, const std::function<bool(const Vec3f&)>& sees);
+  void put_lamp_out();
+  // That the air throws on a surface, of the lamp's alone; unit: klx
+  Vec3f lamp_illuminance(const Vec3f& point, const Vec3f& normal) const;
+
+  // All that comes to points of the air but beams.
+  const RadianceGrid& field() const { return field_; }
+
+ private:
+  void find_direct(const Air* air, std::vector<RadianceTerms>& out);
+  void find_open();
+  void add_up();
+
+  Aabb box_;
+  LightSet light_;
+  Radiance radiance_;
+  ThreadPool pool_;
+  AirTransfer transfer_;
+  Air air_;
+  AirMatter matter_;
+  std::vector<Vec3f> sky_, usual_;              // by direction; mean radiance of each point in clear air
+  std::vector<std::vector<std::uint8_t>> lit_;  // by each light: which points of the air
+  std::vector<RadianceTerms> clear_;            // in clear air
+  AirTransfer::Result day_, lamp_;              // lamp_: empty where it is out
+  RadianceGrid field_;
+};
+
+}  // namespace rubble

@@ -33,6 +33,7 @@ struct Request {
   std::string pictures;
   int fines = 0;
   bool surroundings = false;
+  bool draft = false;
 };
 
 // What goes on from view to view.
@@ -158,6 +159,7 @@ ExitCode bench(const Request& request) {
   const double load_ms = since(session.start);
   GlContext context({request.device, threads});
   RenderOptions options;
+  if (request.draft) options.colour.quality = RenderQuality::draft;
   options.threads = threads;
   options.cache_folder = DiskCache::usual_folder();
   const auto light = Clock::now();
@@ -203,6 +205,7 @@ ExitCode run(int argc, char** argv) {
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
   app.add_flag("--surroundings", request.surroundings, "With a street about the pile (docs/surroundings.md)");
+  app.add_flag("--draft", request.draft, "With camera.quality = draft");
   app.add_flag("--csv", request.csv, "Lines view,size,frames,median_ms,min_ms,fps");
   app.add_flag("--split", request.split,
                "With --csv also processor time, each pass (elapsed/processor), the first frame "

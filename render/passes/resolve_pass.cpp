@@ -389,7 +389,7 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
     gl_.BindTextureUnit(kPaintImages, geometry_.paint_images.name());
   }
   // What the exposure is found by needs no smooth shadows.
-  if (sun_ && !(variant & kMeter) && draw_sun(view, surfaces, light)) variant |= kSoftSun;
+  if (sun_ && light.soft_sun && !(variant & kMeter) && draw_sun(view, surfaces, light)) variant |= kSoftSun;
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
   const int every = variant & kMeter ? kMeterEvery : 1;
   gl_.Viewport(0, 0, (view.intrinsics.width + every - 1) / every,

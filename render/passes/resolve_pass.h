@@ -39,6 +39,7 @@ struct FrameLight {
   const AirVolume* air_table = nullptr;  // of this frame, unless the air is clear
   MeanFog fog{};                         // of this frame
   const Pose* world_from_rig = nullptr;  // of what bears the lamp; null: the camera does
+  bool soft_sun = true;                  // its shadows have a penumbra
 };
 
 // Colours of the lamp's light; kcd.

@@ -16,8 +16,9 @@ namespace rubble {
 using StreamSet = std::vector<const ImageStream*>;
 
 // How colours come about. fast: baked light, shadow maps and shading on the graphics device. reference:
-// path tracing, see reference/path_tracer.h; slow, exact but for noise. Depth and channels are the same.
-enum class RenderQuality { fast, reference };
+// path tracing, see reference/path_tracer.h; slow, exact but for noise. draft: as fast, but shadows of the sun have
+// hard edges and air scatters the lamp's light once. Depth and channels are the same.
+enum class RenderQuality { fast, reference, draft };
 
 struct ColourSpec {
   RenderQuality quality = RenderQuality::fast;  // the members below are of the reference alone

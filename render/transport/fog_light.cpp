@@ -178,6 +178,12 @@ void FogLight::put_lamp_out() {
   add_up();
 }
 
+float FogLight::daylight(const Vec3f& point) const {
+  const AirGrid::Corners corners = field_.grid.about(field_.grid.nearest(point));
+  const Vec3f first = blend(day_.ends, corners)[0] + blend(day_.air, corners)[0];
+  return luminance(first) * (harmonics_of({0, 0, 1})[0] * portable::kPiF);
+}
+
 Vec3f FogLight::lamp_illuminance(const Vec3f& point, const Vec3f& normal) const {
   if (lamp_.air.empty()) return {};
   const AirGrid& grid = field_.grid;

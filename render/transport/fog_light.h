@@ -25,6 +25,8 @@ class FogLight {
   // Light of the lamp. radiance: of the bake points by it; sees: what it shines on directly.
   void set_lamp(const PlacedLamp& lamp, const Radiance& radiance, const std::function<bool(const Vec3f&)>& sees);
   void put_lamp_out();
+  // Of a surface there by the light of the place, without direct sun, mean over all orientations; unit: klx
+  float daylight(const Vec3f& point) const;
   // That the air throws on a surface, of the lamp's alone; unit: klx
   Vec3f lamp_illuminance(const Vec3f& point, const Vec3f& normal) const;
 

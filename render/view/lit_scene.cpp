@@ -12,6 +12,10 @@ namespace rubble {
 
 namespace {
 
+// A lamp is drowned by daylight that is this many times brighter there than its own light so far ahead.
+constexpr double kGlowDistance = 2;  // unit: m
+constexpr double kDrowned = 0.02;    // unit: 1
+
 float most_gloss(const PreparedScene& scene) {
   float most = 0;
   for (const PreparedMesh& mesh : scene.meshes)
@@ -68,6 +72,7 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
   shadow = std::make_unique<ShadowPass>(gl, scene, geometry, light, o.shadow_size);
   shadow->draw_moving();  // nothing yet
   frame_light = {&light, &shadow->map(), s.lamp, medium.clear(), s.wetness, most_gloss(scene), shines(scene), scene.surrounded};
+  frame_light.soft_sun = options.colour.quality != RenderQuality::draft;
   air_changed_ = !medium.clear();
   progress(1);
 }
@@ -113,7 +118,8 @@ void LitScene::move_to(std::int64_t stamp_ns) {
 
 void LitScene::light_air(std::int64_t stamp_ns) {
   if (is_traced() || (!air_changed_ && !surfaces_changed_)) return;
-  if (!medium.clear() && !fog_light_ && !radiance_.empty()) {
+  const bool draft = options.colour.quality == RenderQuality::draft;
+  if (!draft && !medium.clear() && !fog_light_ && !radiance_.empty()) {
     std::vector<std::uint32_t> first_light;
     const PreparedScene resting = moving.any() ? resting_part(scene, first_light) : PreparedScene();
     fog_light_ = std::make_unique<FogLight>(moving.any() ? resting : scene, air_box(scene.bounds), resting_light,
@@ -169,7 +175,13 @@ void LitScene::light_by_lamp(const Pose& bearer, std::int64_t stamp_ns,
   const Vec3 place(placed.position);
   const double turned = in_box(air_box(scene.bounds), place) ? air.turned_share(air.fog_asymmetry()) : 1;
   const float extinction = air.clear() ? 0 : float(air.extinction(place) * turned);
-  update_light(gl, geometry, lamp_bounce().add_to(base, placed, extinction, shown, fog_light()));
+  FogLight* fog = fog_light();
+  // By day nobody sees what air scatters twice of a lamp: finding it takes a third of the time of an image.
+  if (fog && lamp.intensity_cd * 1e-3 / (kGlowDistance * kGlowDistance) < kDrowned * fog->daylight(placed.position)) {
+    fog->put_lamp_out();
+    fog = nullptr;
+  }
+  update_light(gl, geometry, lamp_bounce().add_to(base, placed, extinction, shown, fog));
 }
 
 Air LitScene::air_at(std::int64_t stamp_ns) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "kernel/base/portable_math.h"
 #include "render/media/air_box.h"
@@ -85,6 +86,29 @@ TEST(FogLight, OfTheSunIsThatOfPathsOutside) {
     scene.air.fog_density = density;
     expect_as_paths(scene, look_at({5, 2, 1.6}, {0, 0, 0.8}), 64, 0.07, 0.1);
   }
+}
+
+// Air that scatters once is darker.
+TEST(FogLight, ScattersOnceInDrafts) {
+  Scene scene = room({4, 3, 2.4});
+  scene.air.fog_density = 0.6;
+  const Pose eye = look_at({-1.2, 0.3, 0}, {2, 0, 0});
+  const std::vector<double> fast = regions(scene, eye, RenderQuality::fast, 1);
+  const std::vector<double> draft = regions(scene, eye, RenderQuality::draft, 1);
+  const double all = std::accumulate(fast.begin(), fast.end(), 0.0), once = std::accumulate(draft.begin(), draft.end(), 0.0);
+  EXPECT_LT(once, 0.9 * all);
+  EXPECT_GT(once, 0.3 * all);
+}
+
+// Nobody sees by day what air scatters twice of a lamp, which is left out then.
+TEST(FogLight, OfALampIsDrownedByDaylight) {
+  Scene scene = outside();
+  scene.air.fog_density = 0.1;
+  const Pose eye = look_at({5, 2, 1.6}, {0, 0, 0.8});
+  const std::vector<double> without = regions(scene, eye, RenderQuality::fast, 1);
+  scene.lamp = {true, 100, 60, {0, 0.05, 0.05}};
+  const std::vector<double> with = regions(scene, eye, RenderQuality::fast, 1);
+  for (std::size_t i = 0; i < with.size(); ++i) EXPECT_NEAR(with[i], without[i], 0.02 * without[i]) << i;
 }
 
 TEST(FogLight, ThreadsChangeNoBit) {

@@ -63,10 +63,12 @@ struct Pixel {
 };
 
 // Row after row. The light of the sky is what is left in the umbra.
-std::vector<Pixel> draw(double height) {
+std::vector<Pixel> draw(double height, RenderQuality quality = RenderQuality::fast) {
   GlContext context;
+  RenderOptions chosen = options();
+  chosen.colour.quality = quality;
   const ViewRays view{0, kLens, camera(height)};
-  Renderer open(context, edge_scene(0), options()), covered(context, edge_scene(height), options());
+  Renderer open(context, edge_scene(0), chosen), covered(context, edge_scene(height), chosen);
   const std::vector<float> lit = open.render_linear(view).rgb, drawn = covered.render_linear(view).rgb;
   const Frame frame = covered.view(view).into_frame(0, {find_image_stream("position")});
   const std::vector<float>& places = frame.get<float>("position");
@@ -108,6 +110,14 @@ TEST_P(Penumbra, HasNoSteps) {
     const double expected = expected_share(pixels[i].x, GetParam()) - expected_share(pixels[i - 1].x, GetParam());
     EXPECT_LT(std::fabs(pixels[i].share - pixels[i - 1].share), std::fabs(expected) + 0.07) << i;
   }
+}
+
+// Half a penumbra away from the edge all is light or shadow in a draft.
+TEST_P(Penumbra, IsNotInDrafts) {
+  const auto count_partly_lit = [](const std::vector<Pixel>& pixels) {
+    return std::count_if(pixels.begin(), pixels.end(), [](const Pixel& p) { return p.share > 0.15 && p.share < 0.85; });
+  };
+  EXPECT_LT(3 * count_partly_lit(draw(GetParam(), RenderQuality::draft)), count_partly_lit(draw(GetParam())));
 }
 
 INSTANTIATE_TEST_SUITE_P(Heights, Penumbra, ::testing::Values(0.5, 2.0));

@@ -98,7 +98,7 @@ void FogLight::find_open() {
   field_.open = {};
   for (std::size_t k = 0; k < AirLinks::kDirections; ++k) {
     const Vec3f light = links.directions[k].z > 0 ? sky_[k] : ground;
-    add_beam(light * (4 * 3.1415927f / AirLinks::kDirections), links.directions[k], field_.open);
+    add_beam(light * (4 * portable::kPiF / AirLinks::kDirections), links.directions[k], field_.open);
   }
 }
 

@@ -12,7 +12,7 @@ namespace rubble {
 
 namespace {
 
-// A lamp is drowned by daylight that is this many times brighter there than its own light so far ahead.
+// A lamp is drowned where its light so far ahead of it is less than this share of daylight.
 constexpr double kGlowDistance = 2;  // unit: m
 constexpr double kDrowned = 0.02;    // unit: 1
 

@@ -96,27 +96,6 @@ TEST(BakedLight, IsThatOfPathsAlongTheRingsOfABore) {
   }
 }
 
-// A closed room of six slabs, dark but for the lamp on the camera, which looks at one wall.
-Scene room() {
-  Scene scene;
-  scene.ground = false;
-  scene.lamp = {true, 100, 60, {0, 0.05, 0.05}};
-  scene.light.type = LightType::point;
-  scene.light.intensity = 0, scene.light.position = {0, 0, 50};
-  const Vec3 inside(4, 3, 2.4);
-  for (int axis = 0; axis < 3; ++axis) {
-    Vec3 size = inside + Vec3(0.4, 0.4, 0.4), place;
-    size[axis] = 0.2;
-    scene.meshes.push_back(share(make_box(size, "plaster")));
-    for (const double side : {-0.5, 0.5}) {
-      place = Vec3();
-      place[axis] = side * (inside[axis] + 0.2);
-      scene.instances.push_back({std::uint32_t(axis), 1, {{}, place}, std::uint32_t(scene.instances.size() + 1)});
-    }
-  }
-  return scene;
-}
-
 // Light of 4 by 4 regions of a view aside, where no light comes from the lamp itself.
 std::vector<double> beside_the_beam(GlContext& context, RenderQuality quality) {
   RenderOptions options;
@@ -124,7 +103,7 @@ std::vector<double> beside_the_beam(GlContext& context, RenderQuality quality) {
   options.colour.quality = quality, options.colour.samples = 64;
   ViewRays view{0, pinhole(kSide, kSide, 0.5 * kSide), look_at({-1, 0, 0}, {-1, 3, 0})};
   view.world_from_rig = look_at({-1, 0, 0}, {2, 0, 0});
-  const LinearFrame frame = Renderer(context, room(), options).render_linear(view);
+  const LinearFrame frame = Renderer(context, slab_room({4, 3, 2.4}), options).render_linear(view);
   std::vector<double> out(16);
   for (std::size_t i = 0; i < frame.depth.size(); ++i)
     out[i / kSide / (kSide / 4) * 4 + i % kSide / (kSide / 4)] += double(frame.rgb[i * 3 + 1]) / (kSide * kSide / 16.0);
@@ -148,7 +127,7 @@ TEST(LampBounce, DependsOnThePictureAlone) {
   const auto draw = [&](int threads, bool look_around) {
     RenderOptions options;
     options.threads = threads, options.texture_size = 64, options.bake_rays = 16;
-    Renderer renderer(context, room(), options);
+    Renderer renderer(context, slab_room({4, 3, 2.4}), options);
     const Pose lamp = look_at({-1, 0, 0}, {2, 0, 0});
     ViewRays aside{0, pinhole(64, 64, 32), look_at({-1, 0, 0}, {-1, 3, 0})}, back = aside;
     aside.world_from_rig = back.world_from_rig = lamp;
@@ -168,7 +147,7 @@ TEST(LampBounce, LeavesNothingBehind) {
   GlContext context;
   RenderOptions options;
   options.threads = 2, options.texture_size = 64, options.bake_rays = 16;
-  Scene scene = room();
+  Scene scene = slab_room({4, 3, 2.4});
   scene.light.intensity = 1, scene.light.position = {1, 0, 0.5};
   Renderer renderer(context, scene, options);
   const Pose eye = look_at({-1, 0, 0}, {2, 0, 0});

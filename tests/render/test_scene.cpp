@@ -164,4 +164,23 @@ Intrinsics pinhole(int width, int height, double focal) {
   return k;
 }
 
+Scene slab_room(const Vec3& inside) {
+  Scene scene;
+  scene.ground = false;
+  scene.lamp = {true, 100, 60, {0, 0.05, 0.05}};
+  scene.light.type = LightType::point;
+  scene.light.intensity = 0, scene.light.position = {0, 0, 50};
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 size = inside + Vec3(0.4, 0.4, 0.4), place;
+    size[axis] = 0.2;
+    scene.meshes.push_back(share(make_box(size, "plaster")));
+    for (const double side : {-0.5, 0.5}) {
+      place = Vec3();
+      place[axis] = side * (inside[axis] + 0.2);
+      scene.instances.push_back({std::uint32_t(axis), 1, {{}, place}, std::uint32_t(scene.instances.size() + 1)});
+    }
+  }
+  return scene;
+}
+
 }  // namespace rubble::testing

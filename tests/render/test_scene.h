@@ -22,6 +22,9 @@ std::shared_ptr<const SceneMesh> share(TriangleMesh mesh);
 // on two walls: x from -1.5 to 1.5, y from -1.2 to 1.2, open at +x. Deterministic.
 Scene make_heap(int pieces, std::uint64_t seed);
 
+// A closed room of six slabs of one look about the origin, dark but for the lamp on the camera. inside: its size; unit: m
+Scene slab_room(const Vec3& inside);
+
 // Streams of a frame.
 inline const auto& normals_of(const Frame& frame) { return frame.get<float>("normals"); }
 inline const auto& instances_of(const Frame& frame) { return frame.get<std::uint32_t>("instance"); }

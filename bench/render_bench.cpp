@@ -6,6 +6,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -34,6 +35,7 @@ struct Request {
   int fines = 0;
   bool surroundings = false;
   bool draft = false;
+  DrawnBy shading = DrawnBy::automatic;
 };
 
 // What goes on from view to view.
@@ -160,6 +162,7 @@ ExitCode bench(const Request& request) {
   GlContext context({request.device, threads});
   RenderOptions options;
   if (request.draft) options.colour.quality = RenderQuality::draft;
+  options.shading = request.shading;
   options.threads = threads;
   options.cache_folder = DiskCache::usual_folder();
   const auto light = Clock::now();
@@ -206,6 +209,9 @@ ExitCode run(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--surroundings", request.surroundings, "With a street about the pile (docs/surroundings.md)");
   app.add_flag("--draft", request.draft, "With camera.quality = draft");
+  const std::map<std::string, DrawnBy> drawn_by{{"device", DrawnBy::device}, {"processor", DrawnBy::processor}};
+  app.add_option("--shading", request.shading, "Who shades the pixels; as the program chooses if not given")
+      ->transform(CLI::CheckedTransformer(drawn_by));
   app.add_flag("--csv", request.csv, "Lines view,size,frames,median_ms,min_ms,fps");
   app.add_flag("--split", request.split,
                "With --csv also processor time, each pass (elapsed/processor), the first frame "

@@ -13,7 +13,7 @@
 #include "io/mesh/pile_export.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
-#include "render/passes/resolve_pass.h"
+#include "render/colour/frame_light.h"
 
 namespace rubble {
 

@@ -21,7 +21,7 @@
 #include "io/image/image_file.h"
 #include "kernel/base/system/disk_cache.h"
 #include "render/gl/gl_context.h"
-#include "render/passes/resolve_pass.h"
+#include "render/colour/frame_light.h"
 #include "render/reference/display.h"
 #include "render/renderer.h"
 #include "scripting/mission.h"

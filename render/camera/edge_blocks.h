@@ -25,6 +25,9 @@ class EdgePyramid {
 
   // Of a rectangle of the map, 0 to 1, and a little beyond it.
   Range range(float x0, float y0, float x1, float y1) const;
+  // Of each tile, side() x side() of them.
+  const std::vector<Range>& tiles() const { return levels_.front().tiles; }
+  int side() const { return levels_.front().side; }
 
  private:
   struct Level {

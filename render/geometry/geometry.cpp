@@ -69,7 +69,7 @@ std::array<std::uint32_t, 2> pack_cut(const CutFrom& cut, std::uint64_t seed) {
           tone | steps(cut.origin.z, -2, 256, 0x1fff) << 3 | 4u | std::uint32_t(cut.grain)};
 }
 
-using Texel = std::array<std::uint32_t, 4>;
+using Texel = GpuGeometry::Texel;
 
 void append_placed(const PlacedMesh& piece, std::uint32_t first_vertex, std::vector<Texel>& out) {
   // Rows of mesh_from_world.
@@ -293,15 +293,17 @@ std::size_t upload_paint(const Gl& gl, const PreparedScene& scene, const std::ve
   out.paint_images = upload_images(gl, *scene.paints);
   out.paint_count = scene.paints->paints.size();
   out.paint_side = scene.paints->images.size();
+  if (out.on_processor) out.tables.paint = table;
   return table.size();
 }
 
 }  // namespace
 
 GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
-                            const std::vector<BakedLight>& light) {
+                            const std::vector<BakedLight>& light, bool on_processor) {
   static_assert(sizeof(BakedLight) == 8, "shaders read it as two 32-bit words");
   GpuGeometry out;
+  out.on_processor = on_processor;
   std::vector<Texel> vertices, triangles, placed;
   std::vector<std::uint32_t> indices;
   std::vector<std::uint32_t>& first_vertex = out.first_vertex;
@@ -332,7 +334,7 @@ GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
   out.indices = make_buffer(gl, indices);
   out.triangles = make_buffer(gl, triangles);
   out.placed = make_buffer(gl, placed);
-  out.light = make_buffer(gl, light);
+  out.light = make_buffer(gl, on_processor ? std::vector<BakedLight>(1) : light);
   out.vertices_view = make_buffer_texture(gl, out.vertices, GL_RGBA32UI);
   out.triangles_view = make_buffer_texture(gl, out.triangles, GL_RGBA32UI);
   out.placed_view = make_buffer_texture(gl, out.placed, GL_RGBA32UI);
@@ -346,19 +348,25 @@ GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
   if (need > std::size_t(most))
     throw RunError("the scene needs tables of " + std::to_string(need) +
                    " entries; this graphics device holds " + std::to_string(most));
+  if (on_processor) {
+    out.tables.vertices = std::move(vertices), out.tables.triangles = std::move(triangles);
+    out.tables.placed = std::move(placed);
+  }
   return out;
 }
 
-void update_poses(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry) {
+void update_poses(const Gl& gl, const PreparedScene& scene, GpuGeometry& geometry) {
   std::vector<Texel> placed;
   for (const PlacedMesh& piece : scene.placed)
     append_placed(piece, geometry.first_vertex[piece.mesh], placed);
   gl.NamedBufferData(geometry.placed.name(), GLsizeiptr(placed.size() * sizeof(Texel)),
                      placed.data(), GL_STREAM_DRAW);
   check_gl(gl, "moving the pieces");
+  if (geometry.on_processor) geometry.tables.placed = std::move(placed);
 }
 
 void update_light(const Gl& gl, const GpuGeometry& geometry, const std::vector<BakedLight>& light) {
+  if (geometry.on_processor) return;  // it reads them where they are
   gl.NamedBufferData(geometry.light.name(), GLsizeiptr(light.size() * sizeof(BakedLight)),
                      light.data(), GL_STREAM_DRAW);
   check_gl(gl, "handing the light over");

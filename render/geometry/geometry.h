@@ -62,6 +62,13 @@ struct BakedLight {
 
 // What the shaders read. Binding points are in shaders/geometry.glsl.
 struct GpuGeometry {
+  using Texel = std::array<std::uint32_t, 4>;
+  // The tables of the shaders, for shading on the processor; else empty.
+  struct Tables {
+    std::vector<Texel> vertices, triangles, placed, paint;
+  };
+  bool on_processor = false;  // that is who shades
+  Tables tables;
   GlBuffer vertices, indices, triangles, placed, light;
   GlTexture vertices_view, triangles_view, placed_view, light_view;
   // See shaders/paint.glsl; nothing where paint_count is 0.
@@ -76,10 +83,11 @@ struct GpuGeometry {
   // name_of_triangle[first_index[m] / 3 + t].
   std::vector<std::uint32_t> triangle_of_name, name_of_triangle;
 };
+// on_processor: keeps the tables for it, and light is not handed over.
 GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
-                            const std::vector<BakedLight>& light);
+                            const std::vector<BakedLight>& light, bool on_processor);
 // Where the pieces are now, and the light on them.
-void update_poses(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry);
+void update_poses(const Gl& gl, const PreparedScene& scene, GpuGeometry& geometry);
 void update_light(const Gl& gl, const GpuGeometry& geometry, const std::vector<BakedLight>& light);
 
 }  // namespace rubble

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/media/air_box.h"
 
@@ -27,8 +28,8 @@ double AirVolume::slice_distance(int slice) {
 }
 
 void AirVolume::build(const ViewRays& view, const Air& air, const LitAir& lit, const AirLamp* lamp, bool drops_drawn,
-                      ThreadPool& pool) {
-  drops_drawn_ = drops_drawn;
+                      std::vector<float> farthest, ThreadPool& pool) {
+  drops_drawn_ = drops_drawn, farthest_ = std::move(farthest);
   view_ = &view, air_ = &air, lit_ = &lit, lamp_ = lamp;
   table_.resize(std::size_t(kColumns) * kRows * kSlices);
   near_glow_.reset();
@@ -61,11 +62,22 @@ Vec3 AirVolume::direction(double column, double row, Vec3& eye) const {
   return world_from_optical.rotation.rotate(seen);
 }
 
+int AirVolume::slices_of(int column, int row) const {
+  if (farthest_.empty()) return kSlices;
+  const float r = farthest_[std::size_t(row) * kColumns + std::size_t(column)];
+  // Between that slice and the next, and as far again for rounding.
+  return std::min(kSlices, int(r / (r + 2) * (kSlices - 1)) + 3);
+}
+
 void AirVolume::look_around(int column, int row) {
+  int slices = 0;  // that a ray reads which is between this one and its neighbours
+  for (int y = std::max(0, (row - 1) * kShared); y < std::min(kRows, (row + 2) * kShared); ++y)
+    for (int x = std::max(0, (column - 1) * kShared); x < std::min(kColumns, (column + 2) * kShared); ++x)
+      slices = std::max(slices, slices_of(x, y));
   Vec3 eye;
   const Vec3 way = direction((column + 0.5) * kShared, (row + 0.5) * kShared, eye);
   Orders* out = &around_[std::size_t(row * (kColumns / kShared) + column)];
-  for (int slice = 1; slice < kSlices; ++slice) {
+  for (int slice = 1; slice < slices; ++slice) {
     out += std::size_t(kColumns / kShared) * (kRows / kShared);
     const Vec3 middle = eye + way * (0.5 * (slice_distance(slice - 1) + slice_distance(slice)));
     *out = {orders_towards(lit_->field->at(Vec3f(middle)), Vec3f(way)),
@@ -109,7 +121,8 @@ void AirVolume::trace(int column, int row) {
   const std::size_t slice_size = std::size_t(kColumns) * kRows;
   std::array<float, 4>* out = &table_[std::size_t(row) * kColumns + std::size_t(column)];
   *out = {0, 0, 0, 1};
-  for (int slice = 1; slice < kSlices; ++slice) {
+  const int slices = slices_of(column, row);
+  for (int slice = 1; slice < slices; ++slice) {
     const double near = slice_distance(slice - 1), far = slice_distance(slice);
     const Vec3 middle = eye + direction * (0.5 * (near + far));
     const double mist = air_->fog_depth(eye + direction * near, direction, far - near);

@@ -27,9 +27,10 @@ class AirVolume {
   static constexpr double kFarthest = 300;  // unit: m
   static double slice_distance(int slice);
 
-  // drops_drawn: without the drops that cameras draw one by one.
+  // drops_drawn: without the drops that cameras draw one by one. farthest: for each ray of the table, the distance up
+  // to which it is read: what lies beyond is left as it was; empty: all of it; unit: m
   void build(const ViewRays& view, const Air& air, const LitAir& lit, const AirLamp* lamp, bool drops_drawn,
-             ThreadPool& pool);
+             std::vector<float> farthest, ThreadPool& pool);
 
   // Red, green, blue (kcd/m2) and transmittance; x runs fastest, then y (rows from the top), then
   // the slice. Rays go through the middles of kColumns by kRows equal rectangles of the image.
@@ -44,6 +45,7 @@ class AirVolume {
   };
 
   Vec3 direction(double column, double row, Vec3& eye) const;
+  int slices_of(int column, int row) const;  // that are read
   void look_around(int column, int row);
   Orders around(int column, int row, int slice) const;
   void trace(int column, int row);
@@ -57,6 +59,7 @@ class AirVolume {
   std::optional<NearGlow> near_glow_;  // of the lamp
   float cell_ = 1;                     // of the grid of the field; unit: m
   bool drops_drawn_ = false;
+  std::vector<float> farthest_;
 };
 
 }  // namespace rubble

@@ -20,21 +20,24 @@ bool same_pinhole(const Intrinsics& a, const Intrinsics& b) {
 
 }  // namespace
 
-RayPass::RayPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry, int threads)
+RayPass::RayPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry, int threads, bool textures)
     : gl_(gl),
       scene_(scene),
       geometry_(geometry),
       threads_(threads),
+      textures_(textures),
       rays_(scene, RayScene::Detail::finest) {}
 
 void RayPass::resize(const ViewRays& view) {
   const int width = view.intrinsics.width, height = view.intrinsics.height;
   if (width == width_ && height == height_) return;
   width_ = width, height_ = height;
-  ids_ = make_target(gl_, GL_RG32UI, width, height);
-  depth_ = make_target(gl_, GL_R32F, width, height);
-  lens_rays_ = make_target(gl_, GL_RGBA32F, width, height);
-  row_poses_ = make_target(gl_, GL_RGBA32F, 3, height);
+  if (textures_) {
+    ids_ = make_target(gl_, GL_RG32UI, width, height);
+    depth_ = make_target(gl_, GL_R32F, width, height);
+    lens_rays_ = make_target(gl_, GL_RGBA32F, width, height);
+    row_poses_ = make_target(gl_, GL_RGBA32F, 3, height);
+  }
   directions_.reset();
   own_directions_ = false;
   const std::size_t size = std::size_t(width) * std::size_t(height);
@@ -44,33 +47,35 @@ void RayPass::resize(const ViewRays& view) {
   check_gl(gl_, "making the images of a lens");
 }
 
-void RayPass::upload_lens(const ViewRays& view) {
+void RayPass::find_lens(const ViewRays& view) {
   const bool known = view.directions ? directions_ == view.directions
                                      : own_directions_ && same_pinhole(pinhole_, view.intrinsics);
   if (known) return;
   pinhole_ = view.intrinsics;
   own_directions_ = !view.directions;
   directions_ = view.directions ? view.directions : make_lens_directions(view.intrinsics, threads_);
-  std::vector<float> texels;
-  texels.reserve(directions_->size() * 4);
+  ray_values_.clear();
+  ray_values_.reserve(directions_->size() * 4);
   for (const Vec3f& d : *directions_) {
     const Vec3f r = d * (1 / std::max(d.z, kLeastCosine));
-    texels.insert(texels.end(), {r.x, r.y, r.z, 0.0f});
+    ray_values_.insert(ray_values_.end(), {r.x, r.y, r.z, 0.0f});
   }
-  gl_.TextureSubImage2D(lens_rays_.name(), 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT,
-                        texels.data());
+  if (textures_)
+    gl_.TextureSubImage2D(lens_rays_.name(), 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT,
+                          ray_values_.data());
 }
 
-void RayPass::upload_poses(const ViewRays& view) {
-  std::vector<float> texels;
+void RayPass::find_poses(const ViewRays& view) {
+  pose_values_.clear();
   for (int v = 0; v < height_; ++v) {
     const Pose pose = view.pose(v);
     const Mat3 r = pose.rotation.matrix();
     for (int i = 0; i < 3; ++i)
-      texels.insert(texels.end(), {float(r.rows[i].x), float(r.rows[i].y), float(r.rows[i].z),
-                                   float(pose.translation[i])});
+      pose_values_.insert(pose_values_.end(), {float(r.rows[i].x), float(r.rows[i].y), float(r.rows[i].z),
+                                               float(pose.translation[i])});
   }
-  gl_.TextureSubImage2D(row_poses_.name(), 0, 0, 0, 3, height_, GL_RGBA, GL_FLOAT, texels.data());
+  if (textures_)
+    gl_.TextureSubImage2D(row_poses_.name(), 0, 0, 0, 3, height_, GL_RGBA, GL_FLOAT, pose_values_.data());
 }
 
 // Where the ray meets the triangle's plane, in double precision. A sliver, whose plane its corners
@@ -123,10 +128,11 @@ void RayPass::cast_row(const ViewRays& view, int v) {
 
 void RayPass::draw(const ViewRays& view) {
   resize(view);
-  upload_lens(view);
-  upload_poses(view);
+  find_lens(view);
+  find_poses(view);
   rays_.follow();
   parallel_for(std::size_t(height_), threads_, [&](std::size_t v) { cast_row(view, int(v)); });
+  if (!textures_) return;
   gl_.TextureSubImage2D(ids_.name(), 0, 0, 0, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT,
                         id_values_.data());
   gl_.TextureSubImage2D(depth_.name(), 0, 0, 0, width_, height_, GL_RED, GL_FLOAT,

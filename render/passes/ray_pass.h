@@ -21,7 +21,8 @@ class RayPass {
  public:
   static constexpr float kLeastCosine = 0.05f;
 
-  RayPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry, int threads);
+  // textures: false: those below stay empty.
+  RayPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry, int threads, bool textures);
 
   void draw(const ViewRays& view);
 
@@ -30,6 +31,8 @@ class RayPass {
   const GlTexture& lens_rays() const { return lens_rays_; }
   const GlTexture& row_poses() const { return row_poses_; }
   const std::vector<std::uint32_t>& id_values() const { return id_values_; }
+  const std::vector<float>& ray_values() const { return ray_values_; }    // as lens_rays(), four a pixel
+  const std::vector<float>& pose_values() const { return pose_values_; }  // as row_poses(), twelve a row
   const std::vector<float>& depth_values() const { return depth_values_; }
   const std::vector<float>& distances() const { return distances_; }  // NaN: nothing; unit: m
   // Along the optical axis; NaN where there is nothing or it lies beside or behind the camera.
@@ -37,8 +40,8 @@ class RayPass {
 
  private:
   void resize(const ViewRays& view);
-  void upload_lens(const ViewRays& view);
-  void upload_poses(const ViewRays& view);
+  void find_lens(const ViewRays& view);
+  void find_poses(const ViewRays& view);
   void cast_row(const ViewRays& view, int v);
   double exact_distance(const RayScene::Triangle& triangle, const Vec3& eye, const Vec3& direction,
                         double about) const;
@@ -47,14 +50,15 @@ class RayPass {
   const PreparedScene& scene_;
   const GpuGeometry& geometry_;
   int threads_;
+  bool textures_;
   RayScene rays_;
-  std::shared_ptr<const LensDirections> directions_;  // of the lens that is uploaded
+  std::shared_ptr<const LensDirections> directions_;  // of the lens that is there
   Intrinsics pinhole_;                                // what they were made for ...
   bool own_directions_ = false;                       // ... when the view came without
   GlTexture ids_, depth_, lens_rays_, row_poses_;
   int width_ = 0, height_ = 0;
   std::vector<std::uint32_t> id_values_;
-  std::vector<float> depth_values_, distances_;
+  std::vector<float> depth_values_, distances_, ray_values_, pose_values_;
 };
 
 }  // namespace rubble

@@ -151,8 +151,8 @@ DrawRecord make_record(const Rows& rows, const PlacedMesh& piece) {
 }  // namespace
 
 ShadowPass::ShadowPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry,
-                       const LightSet& lights, int size)
-    : gl_(gl), scene_(scene), geometry_(geometry), lights_(lights), moves_(false) {
+                       const LightSet& lights, int size, bool read_back)
+    : gl_(gl), scene_(scene), geometry_(geometry), lights_(lights), moves_(false), read_back_(read_back) {
   GLint most = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   size_ = std::min(size, int(most));
@@ -172,6 +172,8 @@ ShadowPass::ShadowPass(const Gl& gl, const PreparedScene& scene, const GpuGeomet
     edges_->find(map_.values);
     map_.edges = edges_.get();
   }
+  map_.side = size_;
+  read_texels();
   if (!moves_) return;
   resting_ = std::move(map_.depth);
   map_.depth = make_layers();
@@ -255,9 +257,19 @@ void ShadowPass::draw_moving() {
                        GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, size_, size_, GLsizei(views_.size()));
   draw_layers(map_.depth, What::moving);
   if (edges_) find_moving_edges();
-  if (lights_.carried == 0) return;
-  list_views();
-  draw_layers(map_.depth, What::all, std::size_t(map_.lights[lights_.first_carried()].first_view));
+  if (lights_.carried > 0) {
+    list_views();
+    draw_layers(map_.depth, What::all, std::size_t(map_.lights[lights_.first_carried()].first_view));
+  }
+  read_texels();
+}
+
+void ShadowPass::read_texels() {
+  if (!read_back_) return;
+  map_.texels.resize(views_.size() * std::size_t(size_) * std::size_t(size_));
+  gl_.GetTextureImage(map_.depth.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                      GLsizei(map_.texels.size() * sizeof(float)), map_.texels.data());
+  check_gl(gl_, "reading the shadow map");
 }
 
 void ShadowPass::draw_layers(const GlTexture& layers, What what, std::size_t from) {

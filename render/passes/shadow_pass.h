@@ -16,6 +16,8 @@ namespace rubble {
 struct ShadowMap {
   GlTexture depth;  // array of GL_DEPTH_COMPONENT32F, compared by GL_LEQUAL
   GlTexture values;  // the same, without comparison
+  std::vector<float> texels;  // the same where the processor shades, layer by layer; else empty
+  int side = 0;               // of a layer; unit: texel
   const ShadowEdgePass* edges = nullptr;  // of the layers of the main light; null: that is no sun
   std::vector<std::array<std::array<float, 4>, 4>> clip_from_world;  // rows, one a layer
   struct Light {
@@ -31,8 +33,9 @@ struct ShadowMap {
 class ShadowPass {
  public:
   // Draws what rests. The lights must outlive it. size: side of one view at most, with less for many views; unit: texel.
+  // read_back: fills ShadowMap::texels.
   ShadowPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry,
-             const LightSet& lights, int size);
+             const LightSet& lights, int size, bool read_back);
 
   // Adds what moves, where it is in the scene now, and puts carried lights where they are.
   void draw_moving();
@@ -46,6 +49,7 @@ class ShadowPass {
   std::vector<ShadowEdgePass::View> edge_views() const;
   void find_moving_edges();
   void list_views();
+  void read_texels();
   enum class What { resting, moving, all };
   // Of the views from that one on. What rests is drawn on nothing, what moves on what is there.
   void draw_layers(const GlTexture& layers, What what, std::size_t from = 0);
@@ -57,7 +61,7 @@ class ShadowPass {
   const LightSet& lights_;
   std::vector<Rows> views_;  // one a layer
   int size_;
-  bool moves_;
+  bool moves_, read_back_;
   GlProgram program_;
   std::unique_ptr<ShadowEdgePass> edges_;  // null: the main light is no sun
   GlTexture resting_;  // of what rests alone; only where something moves

@@ -10,12 +10,12 @@ namespace {
 class SoftwareRasterPass : public TriangleRaster {
  public:
   SoftwareRasterPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry,
-                     int threads)
-      : gl_(gl), raster_(scene, geometry.name_of_triangle, first_names(geometry), threads) {}
+                     int threads, bool textures)
+      : gl_(gl), textures_(textures), raster_(scene, geometry.name_of_triangle, first_names(geometry), threads) {}
 
   void begin(const ViewProjection& view) override {
     const int width = view.intrinsics.width, height = view.intrinsics.height;
-    if (width != width_ || height != height_) {
+    if (textures_ && (width != width_ || height != height_)) {
       ids_ = make_target(gl_, GL_RG32UI, width, height);
       depth_ = make_target(gl_, GL_R32F, width, height);
       check_gl(gl_, "making the image buffers");
@@ -28,6 +28,7 @@ class SoftwareRasterPass : public TriangleRaster {
   const std::vector<float>& depth_so_far() override { return raster_.depth(); }
 
   void finish() override {
+    if (!textures_) return;
     gl_.TextureSubImage2D(ids_.name(), 0, 0, 0, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT,
                           raster_.ids().data());
     gl_.TextureSubImage2D(depth_.name(), 0, 0, 0, width_, height_, GL_RED, GL_FLOAT,
@@ -46,6 +47,9 @@ class SoftwareRasterPass : public TriangleRaster {
       out.push_back(std::uint32_t(id)), out.push_back(std::uint32_t(id >> 32));
     return out;
   }
+  const std::uint32_t* id_values() const override {
+    return reinterpret_cast<const std::uint32_t*>(raster_.ids().data());
+  }
 
  private:
   static std::vector<std::uint32_t> first_names(const GpuGeometry& geometry) {
@@ -55,6 +59,7 @@ class SoftwareRasterPass : public TriangleRaster {
   }
 
   const Gl& gl_;
+  bool textures_;
   SoftwareRaster raster_;
   GlTexture ids_, depth_;
   int width_ = 0, height_ = 0;
@@ -63,8 +68,8 @@ class SoftwareRasterPass : public TriangleRaster {
 }  // namespace
 
 std::unique_ptr<TriangleRaster> make_software_raster(const Gl& gl, const PreparedScene& scene,
-                                                     const GpuGeometry& geometry, int threads) {
-  return std::make_unique<SoftwareRasterPass>(gl, scene, geometry, threads);
+                                                     const GpuGeometry& geometry, int threads, bool textures) {
+  return std::make_unique<SoftwareRasterPass>(gl, scene, geometry, threads, textures);
 }
 
 }  // namespace rubble

@@ -30,11 +30,14 @@ class TriangleRaster {
   virtual const GlTexture& depth() const = 0;                  // the same
   virtual const GlTexture& ids() const = 0;  // placed mesh + 1 (0: nothing), triangle's name
   virtual std::vector<std::uint32_t> read_ids() const = 0;     // two numbers a pixel
+  // The same where they lie, until the next begin(); null: only on the device.
+  virtual const std::uint32_t* id_values() const { return nullptr; }
 };
 
 std::unique_ptr<TriangleRaster> make_gl_raster(const Gl& gl, const PreparedScene& scene,
                                                const GpuGeometry& geometry);
+// textures: false: ids() and depth() stay empty.
 std::unique_ptr<TriangleRaster> make_software_raster(const Gl& gl, const PreparedScene& scene,
-                                                     const GpuGeometry& geometry, int threads);
+                                                     const GpuGeometry& geometry, int threads, bool textures);
 
 }  // namespace rubble

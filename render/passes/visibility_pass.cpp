@@ -17,7 +17,7 @@ VisibilityPass::VisibilityPass(const Gl& gl, const PreparedScene& scene,
                                const GpuGeometry& geometry, const VisibilityOptions& options)
     : scene_(scene),
       options_(options),
-      raster_(options.software ? make_software_raster(gl, scene, geometry, options.threads)
+      raster_(options.software ? make_software_raster(gl, scene, geometry, options.threads, options.textures)
                                : make_gl_raster(gl, scene, geometry)),
       pool_(std::max(1, options.threads)),
       shown_(scene.cluster_flags, 0),

@@ -20,6 +20,7 @@ struct VisibilityOptions {
   // the finest. unit: pixel
   double coarse_below = 0;
   bool software = false;  // draw on the processor, see triangle_raster.h
+  bool textures = true;   // ids() and depth() are wanted; false: they may be empty
   int threads = 1;        // for that
 };
 
@@ -38,6 +39,7 @@ class VisibilityPass {
 
   // Two numbers a pixel, as ids().
   std::vector<std::uint32_t> read_ids() const { return raster_->read_ids(); }
+  const std::uint32_t* id_values() const { return raster_->id_values(); }  // see TriangleRaster
 
   struct Counts {
     std::size_t triangles = 0, first_batch = 0;  // drawn; of these before any depth was known

@@ -8,7 +8,7 @@
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/base/parallel.h"
 #include "render/media/air_box.h"
-#include "render/passes/resolve_pass.h"
+#include "render/colour/frame_light.h"
 #include "render/reference/denoise.h"
 #include "render/reference/image_key.h"
 #include "render/reference/tile_journal.h"

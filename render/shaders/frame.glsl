@@ -1,4 +1,4 @@
-// What is the same for all pixels of a frame. Mirrors struct FrameBlock in passes/resolve_pass.cpp.
+// What is the same for all pixels of a frame. Mirrors struct FrameBlock in colour/frame_fill.cpp.
 layout(std140) uniform Frame {
   vec4 world_from_optical[3];  // rows
   vec4 lens;                   // 1/fx, 1/fy, cx, cy

@@ -17,7 +17,7 @@
 
 uniform usampler2D visibility;
 uniform sampler2D depth_values;
-uniform usampler2D sun_numbers;  // see passes/sun_shadow_pass.h
+uniform usampler2D sun_numbers;  // see colour/sun_shadow_pass.h
 uniform sampler2D sun_shares;
 uniform sampler2D openness;     // of small corners, and to the lamp; half size
 

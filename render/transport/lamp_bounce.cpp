@@ -251,9 +251,21 @@ void LampBounce::add_to_node(const ShownNode& shown, const std::vector<BakedLigh
   out_[at] = pack_light(there.vector + vector, there.colour + colour);
 }
 
-const std::vector<BakedLight>& LampBounce::add_to(const std::vector<BakedLight>& base, const PlacedLamp& lamp, float extinction,
+// Most of the light is as it was for the picture before: only what that showed is taken back.
+void LampBounce::restore(const std::vector<BakedLight>& base, std::uint64_t version) {
+  if (version != version_) out_ = base;
+  version_ = version;
+  for (const ShownNode& n : shown_nodes_) {
+    const std::size_t at = scene_.placed[n.placed].first_light + n.node;
+    out_[at] = base[at];
+  }
+}
+
+const std::vector<BakedLight>& LampBounce::add_to(const std::vector<BakedLight>& base, std::uint64_t version,
+                                                  const PlacedLamp& lamp, float extinction,
                                                   const std::vector<Shown>& shown, FogLight* fog) {
   extinction_ = extinction;
+  restore(base, version);
   cast_map(lamp.position);
   light_points(lamp);
   find_shown(shown);
@@ -264,7 +276,6 @@ const std::vector<BakedLight>& LampBounce::add_to(const std::vector<BakedLight>&
       const float away = norm(way);
       return away < 1e-3f || away < distance_towards(way) * (1 + kSlack) + kNear;
     });
-  out_ = base;
   pool_.run(int(shown_nodes_.size()), 256, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) add_to_node(shown_nodes_[std::size_t(k)], base, fog);
   });

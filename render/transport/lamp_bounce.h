@@ -33,8 +33,9 @@ class LampBounce {
   // `base`, and that light at the nodes of the triangles that show, in any order, some perhaps more than
   // once. extinction: of the air about the lamp; unit: 1/m. fog: gets the lamp's light, and gives back what the air
   // scatters of it; null: the air is clear.
-  const std::vector<BakedLight>& add_to(const std::vector<BakedLight>& base, const PlacedLamp& lamp, float extinction,
-                                        const std::vector<Shown>& shown, FogLight* fog);
+  // version: another number whenever `base` has changed.
+  const std::vector<BakedLight>& add_to(const std::vector<BakedLight>& base, std::uint64_t version, const PlacedLamp& lamp,
+                                        float extinction, const std::vector<Shown>& shown, FogLight* fog);
 
  private:
   struct Point {
@@ -52,6 +53,7 @@ class LampBounce {
   float distance_towards(const Vec3f& direction) const;
   bool may_see(const PlacedMesh& piece, const PlacedLamp& lamp) const;
   void light_points(const PlacedLamp& lamp);
+  void restore(const std::vector<BakedLight>& base, std::uint64_t version);
   void find_shown(const std::vector<Shown>& shown);
   void show_node(std::uint32_t placed, std::uint32_t node);
   float passes(std::size_t from, std::size_t to) const;
@@ -71,6 +73,7 @@ class LampBounce {
   RayScene rays_;
   std::vector<Point> points_;
   float extinction_ = 0;
+  std::uint64_t version_ = 0;             // of the base that out_ is made of; 0: none
   std::vector<float> map_;                // distances by direction, see distance_towards(); unit: m
   std::vector<std::uint32_t> seen_;       // placed meshes that the lamp may see
   std::vector<std::uint8_t> is_seen_;     // of each placed mesh

@@ -5,7 +5,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/media/air_glow.h"
-#include "render/passes/resolve_pass.h"
+#include "render/colour/frame_light.h"
 
 namespace rubble {
 

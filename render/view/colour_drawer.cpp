@@ -1,6 +1,7 @@
 #include "render/view/colour_drawer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/lighting/exposure.h"
 #include "render/media/air_box.h"
@@ -31,6 +32,45 @@ std::vector<T> three_of(const std::vector<T>& values, std::size_t channels) {
   return out;
 }
 
+// The largest of each entry of such a table and its neighbours.
+std::vector<float> with_neighbours(const std::vector<float>& table) {
+  constexpr int kColumns = AirVolume::kColumns, kRows = AirVolume::kRows;
+  std::vector<float> out(table.size(), 0.0f);
+  for (int row = 0; row < kRows; ++row)
+    for (int column = 0; column < kColumns; ++column)
+      for (int y = std::max(0, row - 1); y < std::min(kRows, row + 2); ++y)
+        for (int x = std::max(0, column - 1); x < std::min(kColumns, column + 2); ++x) {
+          float& most = out[std::size_t(row) * kColumns + std::size_t(column)];
+          most = std::max(most, table[std::size_t(y) * kColumns + std::size_t(x)]);
+        }
+  return out;
+}
+
+// For each ray of the air's table, how far away what lies between it and its neighbours is; empty:
+// not known.
+std::vector<float> farthest_in_air(const ViewRays& view, const std::vector<float>& depth_values) {
+  constexpr int kColumns = AirVolume::kColumns, kRows = AirVolume::kRows;
+  const Intrinsics& k = view.intrinsics;
+  if (!view.plain() || k.width < kColumns || k.height < kRows) return {};
+  // The longest ray that reaches unit depth.
+  const double x = std::max(k.cx + 0.5, k.width - k.cx) / k.fx,
+               y = std::max(k.cy + 0.5, k.height - k.cy) / k.fy;
+  const float longest = kNearPlane * float(std::sqrt(1 + x * x + y * y));
+  std::vector<float> out(std::size_t(kColumns) * kRows, 0.0f);
+  for (int v = 0; v < k.height; ++v) {
+    const int row = v * kRows / k.height;
+    for (int column = 0, u = 0; column < kColumns; ++column) {
+      const float* at = &depth_values[std::size_t(v) * std::size_t(k.width)];
+      float least = 1;
+      for (const int end = (column + 1) * k.width / kColumns; u < end; ++u)
+        least = std::min(least, at[u]);
+      float& far = out[std::size_t(row) * kColumns + std::size_t(column)];
+      far = std::max(far, least > 0 ? longest / least : float(AirVolume::kFarthest));
+    }
+  }
+  return with_neighbours(out);
+}
+
 ViewProjection projection_of(const ViewRays& view) {
   return {view.world_from_camera, view.intrinsics};
 }
@@ -39,8 +79,7 @@ ViewProjection projection_of(const ViewRays& view) {
 
 ColourDrawer::ColourDrawer(LitScene& scene)
     : scene_(scene), pool_(std::max(1, scene.options.threads)) {
-  resolve_ = std::make_unique<ResolvePass>(scene.gl, scene.geometry, scene.frame_light,
-                                           scene.ground_map, scene.patterns);
+  resolve_ = make_pass();
   if (scene.is_traced())
     reference_ = std::make_unique<ReferencePass>(
         ReferenceSurroundings{scene.scene, scene.light, scene.patterns, scene.ground_map,
@@ -48,25 +87,36 @@ ColourDrawer::ColourDrawer(LitScene& scene)
         reference_options(scene.options, scene.seed));
 }
 
-void ColourDrawer::restart() {
-  resolve_ = std::make_unique<ResolvePass>(scene_.gl, scene_.geometry, scene_.frame_light,
-                                           scene_.ground_map, scene_.patterns);
+void ColourDrawer::restart() { resolve_ = make_pass(); }
+
+std::unique_ptr<ColourPass> ColourDrawer::make_pass() {
+  const FrameLight& light = scene_.frame_light;
+  if (scene_.shades_on_processor())
+    return make_processor_colour_pass(scene_.scene, scene_.geometry, light, scene_.ground_map,
+                                      scene_.patterns,
+                                      find_wide_shader(scene_.options.instruction_set), pool_);
+  return make_gl_colour_pass(scene_.gl, scene_.geometry, light, scene_.ground_map, scene_.patterns);
 }
 
-FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surfaces, bool drops_drawn) {
+FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surfaces,
+                                    bool drops_drawn) {
   scene_.light_air(view.stamp_ns);
-  if (scene_.lamp_bounces()) scene_.light_by_lamp(view.lamp_bearer(), view.stamp_ns, surfaces.shown());
+  if (scene_.lamp_bounces())
+    scene_.light_by_lamp(view.lamp_bearer(), view.stamp_ns, surfaces.shown());
   FrameLight light = scene_.frame_light;
   light.world_from_rig = view.world_from_rig ? &*view.world_from_rig : nullptr;
   if (scene_.medium.clear()) return light;
   const AirLamp glow = glow_of(light.lamp, view.lamp_bearer());
   const Air air = scene_.air_at(view.stamp_ns);
   const FogLight* fog = scene_.fog_light();
-  const LitAir lit{scene_.air_light, scene_.resting_light, fog ? &fog->field() : nullptr, air_box(scene_.scene.bounds)};
-  air_volume_.build(view, air, lit, &glow, drops_drawn, pool_);
+  const LitAir lit{scene_.air_light, scene_.resting_light, fog ? &fog->field() : nullptr,
+                   air_box(scene_.scene.bounds)};
+  air_volume_.build(view, air, lit, &glow, drops_drawn,
+                    farthest_in_air(view, surfaces.depth_values()), pool_);
   light.air_table = &air_volume_;
   const double turned = air.turned_share(air.fog_asymmetry());
-  light.fog = {air.fog({}) * turned, air.fog_height(), air.drops() * air.turned_share(Precipitation::kAsymmetry),
+  light.fog = {air.fog({}) * turned, air.fog_height(),
+               air.drops() * air.turned_share(Precipitation::kAsymmetry),
                in_box(lit.box, view.lamp_bearer().translation) ? turned : 1, lit.box};
   return light;
 }
@@ -84,8 +134,7 @@ void ColourDrawer::draw_traced(const ViewRays& view, std::optional<float> exposu
   const Intrinsics& k = view.intrinsics;
   const std::vector<float> radiance = trace(view);
   const Vec3f gains = white_balance(scene_.light);
-  image.exposure =
-      exposure ? *exposure : expose(meter_image(radiance, k.width, k.height, gains));
+  image.exposure = exposure ? *exposure : expose(meter_image(radiance, k.width, k.height, gains));
   rgba = develop_image(radiance, k.width, k.height, gains, image.exposure);
 }
 
@@ -97,9 +146,10 @@ void ColourDrawer::draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
   const SurfaceImages images = surfaces.images();
   const FrameLight light = light_view(view, surfaces, false);
   const bool metered = !exposure && scene_.options.fixed_exposure <= 0;
-  image.exposure = exposure ? *exposure
-                   : expose(metered ? resolve_->meter(projection, view.world_from_camera, images, light)
-                                    : MeteredImage());
+  image.exposure =
+      exposure ? *exposure
+               : expose(metered ? resolve_->meter(projection, view.world_from_camera, images, light)
+                                : MeteredImage());
   resolve_->draw(projection, view.world_from_camera, images, light, image.exposure, metered);
   scene_.gl.Finish();
   image.resolve = start.time();
@@ -123,7 +173,8 @@ ColourImage ColourDrawer::draw(const ViewRays& view, DrawnSurfaces& surfaces,
   const Stopwatch finish;
   const Intrinsics& k = view.intrinsics;
   if (scene_.options.antialias && !reference_)
-    smooth_edges(rgba, surfaces.depth_values(), k.width, k.height, scene_.options.threads, image.rgb);
+    smooth_edges(rgba, surfaces.depth_values(), k.width, k.height, scene_.options.threads,
+                 image.rgb);
   else
     image.rgb = three_of(rgba, 4);
   image.finish = finish.time();
@@ -135,7 +186,8 @@ std::vector<float> ColourDrawer::draw_radiance(const ViewRays& view, DrawnSurfac
   if (reference_) return trace(view);
   const SurfaceImages images = surfaces.images();
   const FrameLight light = light_view(view, surfaces, true);
-  return three_of(resolve_->draw_linear(projection_of(view), view.world_from_camera, images, light), 4);
+  return three_of(resolve_->draw_linear(projection_of(view), view.world_from_camera, images, light),
+                  4);
 }
 
 }  // namespace rubble

@@ -9,7 +9,7 @@
 
 #include "kernel/base/parallel.h"
 #include "render/media/air_volume.h"
-#include "render/passes/resolve_pass.h"
+#include "render/colour/colour_pass.h"
 #include "render/reference/reference_pass.h"
 #include "render/view/lit_scene.h"
 #include "render/view/surface_drawer.h"
@@ -39,6 +39,7 @@ class ColourDrawer {
   // What depends on the view: where its lamp is, and the air before it.
   // drops_drawn: as AirVolume::build().
   FrameLight light_view(const ViewRays& view, DrawnSurfaces& surfaces, bool drops_drawn);
+  std::unique_ptr<ColourPass> make_pass();
   std::vector<float> trace(const ViewRays& view) const;
   void draw_traced(const ViewRays& view, std::optional<float> exposure,
                    std::vector<std::uint8_t>& rgba, ColourImage& image) const;
@@ -49,7 +50,7 @@ class ColourDrawer {
   LitScene& scene_;
   ThreadPool pool_;
   AirVolume air_volume_;
-  std::unique_ptr<ResolvePass> resolve_;
+  std::unique_ptr<ColourPass> resolve_;
   std::unique_ptr<ReferencePass> reference_;  // none: colours are the resolve pass's
 };
 

@@ -31,6 +31,13 @@ float most_gloss(const PreparedScene& scene) {
   return most;
 }
 
+bool drawn_by_processor(DrawnBy choice, const GlInfo& info) {
+  if (choice != DrawnBy::automatic) return choice == DrawnBy::processor;
+  for (const char* software : {"llvmpipe", "softpipe", "swrast"})
+    if (info.renderer.find(software) != std::string::npos) return true;
+  return false;
+}
+
 bool shines(const PreparedScene& scene) {
   for (const PreparedMesh& mesh : scene.meshes)
     for (const PreparedTriangle& t : mesh.triangles)
@@ -61,7 +68,7 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
   links_ = std::move(baked.links);
   for (const Vec3f& r : links_.radiance) radiance_.push_back({{r.x, r.y, r.z, 0}});
   links_.radiance = {};
-  geometry = upload_geometry(gl, scene, baked.nodes);
+  geometry = upload_geometry(gl, scene, baked.nodes, shades_on_processor());
   if (moving.any()) {
     const LookSurfaces surfaces(scene, patterns, ground_map, s.wetness);
     live_light = std::make_unique<LiveLight>(scene, resting_light, std::move(baked.nodes),
@@ -69,10 +76,11 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
   } else {
     baked_nodes_ = std::move(baked.nodes);
   }
-  shadow = std::make_unique<ShadowPass>(gl, scene, geometry, light, o.shadow_size);
+  shadow = std::make_unique<ShadowPass>(gl, scene, geometry, light, o.shadow_size, shades_on_processor());
   shadow->draw_moving();  // nothing yet
   frame_light = {&light, &shadow->map(), s.lamp, medium.clear(), s.wetness, most_gloss(scene), shines(scene), scene.surrounded};
   frame_light.soft_sun = options.colour.quality != RenderQuality::draft;
+  frame_light.nodes = &clear_nodes();
   air_changed_ = !medium.clear();
   progress(1);
 }
@@ -130,8 +138,17 @@ void LitScene::light_air(std::int64_t stamp_ns) {
     weakened_nodes_ = fog->weaken(scene, clear_nodes());
   }
   air_changed_ = surfaces_changed_ = false;
-  update_light(gl, geometry, nodes());
+  ++light_version_;
+  show_light(nodes());
 }
+
+void LitScene::show_light(const std::vector<BakedLight>& shown) {
+  frame_light.nodes = &shown;
+  update_light(gl, geometry, shown);
+}
+
+bool LitScene::rasters_on_processor() const { return drawn_by_processor(options.raster, context.info()); }
+bool LitScene::shades_on_processor() const { return drawn_by_processor(options.shading, context.info()); }
 
 // What is not there does not shine.
 void LitScene::place_carried_lights() {
@@ -168,7 +185,7 @@ void LitScene::light_by_lamp(const Pose& bearer, std::int64_t stamp_ns,
   lit_by_lamp_ = lamp.on && lamp.intensity_cd > 0;
   if (!lit_by_lamp_) {
     if (FogLight* fog = fog_light()) fog->put_lamp_out();
-    return update_light(gl, geometry, base);
+    return show_light(base);
   }
   const PlacedLamp placed = place_lamp(lamp, lamp_colour(lamp), bearer);
   const Air air = air_at(stamp_ns);
@@ -181,7 +198,7 @@ void LitScene::light_by_lamp(const Pose& bearer, std::int64_t stamp_ns,
     fog->put_lamp_out();
     fog = nullptr;
   }
-  update_light(gl, geometry, lamp_bounce().add_to(base, placed, extinction, shown, fog));
+  show_light(lamp_bounce().add_to(base, light_version_, placed, extinction, shown, fog));
 }
 
 Air LitScene::air_at(std::int64_t stamp_ns) const {

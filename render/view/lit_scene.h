@@ -12,7 +12,7 @@
 #include "render/lighting/bake.h"
 #include "render/lighting/live_light.h"
 #include "render/media/medium.h"
-#include "render/passes/resolve_pass.h"
+#include "render/colour/frame_light.h"
 #include "render/passes/shadow_pass.h"
 #include "render/scene/scene.h"
 #include "render/transport/lamp_bounce.h"
@@ -40,11 +40,14 @@ struct LitScene {
   Medium medium;                          // fog, smoke and dust
   std::int64_t start_ns;                  // the stamp at which the time of the medium is zero
   std::uint64_t seed;                     // as Scene::seed
-  GpuGeometry geometry;                   // the scene on the device
+  GpuGeometry geometry;                   // the scene on the device, or where the processor shades it
   std::unique_ptr<ShadowPass> shadow;     // never null
   std::unique_ptr<LiveLight> live_light;  // where something moves
   FrameLight frame_light;                 // without what depends on the view
 
+  // Who draws triangles and colours.
+  bool rasters_on_processor() const;  // triangles
+  bool shades_on_processor() const;   // colours
   // Colours are path traced: nothing of the light is baked or lit live.
   bool is_traced() const { return options.colour.quality == RenderQuality::reference; }
   // Puts what moves where it is at that stamp, and lights it there.
@@ -68,6 +71,9 @@ struct LitScene {
   const std::vector<BakedLight>& clear_nodes() const { return live_light ? live_light->light() : baked_nodes_; }
   const std::vector<BakedLight>& nodes() { return fog_light() ? weakened_nodes_ : clear_nodes(); }
 
+  // The light of an image: handed to the device, or noted for the processor.
+  void show_light(const std::vector<BakedLight>& light);
+
   std::vector<CarriedLight> carried_lights_;
   std::vector<BakedLight> baked_nodes_;      // the baked light; empty where something moves
   std::vector<BakedLight> weakened_nodes_;   // by the fog
@@ -76,6 +82,7 @@ struct LitScene {
   bool air_changed_ = false, surfaces_changed_ = false;  // since light_air()
   BakeLinks links_;                          // of the same, until lamp_bounce() takes them
   std::unique_ptr<LampBounce> lamp_bounce_;  // made when a lamp is first lit
+  std::uint64_t light_version_ = 1;          // of nodes()
   bool lit_by_lamp_ = false;                 // the light on the device is the lamp's too
 };
 

@@ -8,13 +8,6 @@ namespace rubble {
 
 namespace {
 
-bool draws_on_processor(const RenderOptions& options, const GlInfo& info) {
-  if (options.raster != RasterChoice::automatic) return options.raster == RasterChoice::processor;
-  for (const char* software : {"llvmpipe", "softpipe", "swrast"})
-    if (info.renderer.find(software) != std::string::npos) return true;
-  return false;
-}
-
 std::vector<float> metric_depth(const std::vector<float>& values) {
   std::vector<float> out(values.size());
   const float none = std::numeric_limits<float>::quiet_NaN();
@@ -39,7 +32,7 @@ SurfaceDrawer::SurfaceDrawer(LitScene& scene)
     : scene_(scene),
       visibility_(scene.gl, scene.scene, scene.geometry,
                   VisibilityOptions{scene.options.occlusion_culling, scene.options.coarse_below,
-                                    draws_on_processor(scene.options, scene.context.info()),
+                                    scene.rasters_on_processor(), !scene.shades_on_processor(),
                                     scene.options.threads}) {}
 
 DrawnSurfaces::DrawnSurfaces(SurfaceDrawer& drawer, const ViewRays& view)
@@ -63,8 +56,8 @@ void DrawnSurfaces::draw() {
     triangles_ = drawer_.visibility_.counts().triangles;
   } else {
     if (!drawer_.rays_)
-      drawer_.rays_ =
-          std::make_unique<RayPass>(lit.gl, lit.scene, lit.geometry, lit.options.threads);
+      drawer_.rays_ = std::make_unique<RayPass>(lit.gl, lit.scene, lit.geometry,
+                                                lit.options.threads, !lit.shades_on_processor());
     drawer_.rays_->draw(view_);
   }
   drawn = this;
@@ -94,16 +87,30 @@ void DrawnSurfaces::upload() {
 }
 
 SurfaceImages DrawnSurfaces::images() {
+  if (!view_.plain() && !in_pass()) draw();
+  if (drawer_.scene_.shades_on_processor()) return images_in_memory();
   if (!view_.plain()) {
-    if (!in_pass()) draw();
     const RayPass& rays = *drawer_.rays_;
-    return {rays.ids(), rays.depth(), rays.depth_values(), &rays.lens_rays(), &rays.row_poses()};
+    return {&rays.ids(), &rays.depth(),     rays.depth_values(),
+            nullptr,     &rays.lens_rays(), &rays.row_poses()};
   }
   if (in_pass())
-    return {drawer_.visibility_.ids(), drawer_.visibility_.depth(),
-            drawer_.visibility_.depth_values()};
+    return {&drawer_.visibility_.ids(), &drawer_.visibility_.depth(),
+            drawer_.visibility_.depth_values(), nullptr};
   if (!saved_ids_) upload();
-  return {saved_ids_, saved_depth_, saved_depth_values_};
+  return {&saved_ids_, &saved_depth_, saved_depth_values_, nullptr};
+}
+
+SurfaceImages DrawnSurfaces::images_in_memory() {
+  SurfaceImages out{nullptr, nullptr, depth_values(), nullptr};
+  if (!view_.plain()) {
+    const RayPass& rays = *drawer_.rays_;
+    out.ray_values = rays.ray_values().data(), out.pose_values = rays.pose_values().data();
+  }
+  const std::uint32_t* in_raster =
+      view_.plain() && in_pass() ? drawer_.visibility_.id_values() : nullptr;
+  out.id_values = in_raster ? in_raster : ids().data();
+  return out;
 }
 
 const std::vector<std::uint32_t>& DrawnSurfaces::ids() {
@@ -114,9 +121,13 @@ const std::vector<std::uint32_t>& DrawnSurfaces::ids() {
 
 std::vector<LampBounce::Shown> DrawnSurfaces::shown() {
   const std::vector<std::uint32_t>& triangle_of_name = drawer_.scene_.geometry.triangle_of_name;
-  const std::vector<std::uint32_t>& two = ids();
+  const std::uint32_t* drawn =
+      view_.plain() && in_pass() ? drawer_.visibility_.id_values() : nullptr;
+  const std::uint32_t* two = drawn ? drawn : ids().data();
+  const std::size_t count =
+      2 * std::size_t(view_.intrinsics.width) * std::size_t(view_.intrinsics.height);
   std::vector<LampBounce::Shown> out;
-  for (std::size_t i = 0; i < two.size(); i += 2) {
+  for (std::size_t i = 0; i < count; i += 2) {
     const bool again = i > 0 && two[i] == two[i - 2] && two[i + 1] == two[i - 1];
     if (two[i] && !again) out.push_back({two[i] - 1, triangle_of_name[two[i + 1]]});
   }

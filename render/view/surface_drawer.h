@@ -8,7 +8,7 @@
 
 #include "render/camera/view_rays.h"
 #include "render/passes/ray_pass.h"
-#include "render/passes/resolve_pass.h"
+#include "render/colour/colour_pass.h"
 #include "render/passes/visibility_pass.h"
 #include "render/view/lit_scene.h"
 
@@ -41,7 +41,7 @@ class DrawnSurfaces {
   DrawnSurfaces(const DrawnSurfaces&) = delete;
   DrawnSurfaces& operator=(const DrawnSurfaces&) = delete;
 
-  // On the device; until another view is drawn.
+  // Where colours are shaded; until another view is drawn.
   SurfaceImages images();
   const std::vector<std::uint32_t>& ids();            // two a pixel, as VisibilityPass::ids()
   std::vector<LampBounce::Shown> shown();              // the triangles in ids(), some more than once
@@ -57,6 +57,7 @@ class DrawnSurfaces {
   void draw();
   void save();
   bool in_pass() const;
+  SurfaceImages images_in_memory();
   void upload();
 
   SurfaceDrawer& drawer_;

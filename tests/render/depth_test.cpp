@@ -12,7 +12,7 @@ namespace rubble::testing {
 namespace {
 
 // Both ways of drawing triangles must be exact, whatever this machine would choose.
-RenderOptions plain(RasterChoice raster) {
+RenderOptions plain(DrawnBy raster) {
   RenderOptions options;
   options.raster = raster;
   options.bake = false;
@@ -41,8 +41,8 @@ Intrinsics odd_pinhole() {
 // 0.1 mm to 10 m, in all cases; beyond, a hundred-thousandth.
 double allowed(double depth) { return depth <= 10 ? 1e-4 : depth * 1e-5; }
 
-using Case = std::tuple<RasterChoice, double>;
-const auto kBoth = ::testing::Values(RasterChoice::device, RasterChoice::processor);
+using Case = std::tuple<DrawnBy, double>;
+const auto kBoth = ::testing::Values(DrawnBy::device, DrawnBy::processor);
 
 class FacingPlane : public ::testing::TestWithParam<Case> {};
 
@@ -125,13 +125,13 @@ TEST_P(SphereDepth, FollowsTheRaySphereFormula) {
 INSTANTIATE_TEST_SUITE_P(Distances, SphereDepth,
                          ::testing::Combine(kBoth, ::testing::Values(0.15, 1.0, 10.0, 30.0)));
 
-class Raster : public ::testing::TestWithParam<RasterChoice> {};
+class Raster : public ::testing::TestWithParam<DrawnBy> {};
 INSTANTIATE_TEST_SUITE_P(Both, Raster, kBoth);
 
 // The convention of pixel centres, on both axes: an edge at column 40 and row 20 exactly between
 // centres decides which pixels are covered.
 TEST_P(Raster, HasPixelCentresAtWholeNumbers) {
-  const RasterChoice raster = GetParam();
+  const DrawnBy raster = GetParam();
   Intrinsics k;
   k.width = 96, k.height = 64;
   k.fx = 80, k.fy = 80, k.cx = 30, k.cy = 25;
@@ -148,7 +148,7 @@ TEST_P(Raster, HasPixelCentresAtWholeNumbers) {
 }
 
 TEST_P(Raster, IsMissingWhereThereIsOnlySky) {
-  const RasterChoice raster = GetParam();
+  const DrawnBy raster = GetParam();
   Scene scene;
   scene.ground = false;
   GlContext context;
@@ -161,7 +161,7 @@ TEST_P(Raster, IsMissingWhereThereIsOnlySky) {
 }
 
 TEST_P(Raster, OfTheGroundWithoutPieces) {
-  const RasterChoice raster = GetParam();
+  const DrawnBy raster = GetParam();
   GlContext context;
   Renderer renderer(context, Scene{}, plain(raster));
   const Intrinsics k = pinhole(64, 64, 60);
@@ -175,7 +175,7 @@ TEST_P(Raster, OfTheGroundWithoutPieces) {
 
 // A rotated camera far from the origin sees what a camera at the origin does.
 TEST_P(Raster, DoesNotDependOnWhereTheCameraStands) {
-  const RasterChoice raster = GetParam();
+  const DrawnBy raster = GetParam();
   const Pose moved{portable::quat_from_rpy(0.3, -0.4, 2.0), {41.5, -23.25, 7.75}};
   const Pose box{portable::quat_from_rpy(0.1, 0.2, 0.5), {3, 0.2, -0.1}};
   GlContext context;
@@ -234,9 +234,9 @@ TEST_P(Raster, IsExactOnATriangleFromVeryNearToFar) {
 TEST(RasterChoices, AgreeOnAHeap) {
   Scene heap = make_heap(300, 4);
   GlContext context;
-  RenderOptions options = plain(RasterChoice::device);
+  RenderOptions options = plain(DrawnBy::device);
   Renderer device(context, heap, options);
-  options.raster = RasterChoice::processor;
+  options.raster = DrawnBy::processor;
   options.threads = 2;
   Renderer processor(context, heap, options);
   for (const Vec3& eye : {Vec3(6, 2, 2), Vec3(1, 0.2, 0.6), Vec3(0.2, 0.1, 0.3)}) {

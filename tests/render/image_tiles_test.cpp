@@ -1,5 +1,5 @@
 // Which parts of an image are coloured by which shader, and that leaving light out does not show.
-#include "render/passes/image_tiles.h"
+#include "render/colour/image_tiles.h"
 
 #include <gtest/gtest.h>
 

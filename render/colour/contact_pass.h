@@ -1,4 +1,5 @@
-// Contact darkness and shadows of the lamp from the depth image, at half its size: see shaders/contact.frag.glsl.
+// Contact darkness and shadows of the lamp from the depth image, at half its size: see
+// shaders/contact.frag.glsl.
 #pragma once
 
 #include "render/camera/projection.h"
@@ -8,6 +9,9 @@ namespace rubble {
 
 class ContactPass {
  public:
+  static constexpr float kReach =
+      0.04f;  // how far a hollow darkens: less than baked light resolves; unit: m
+
   explicit ContactPass(const Gl& gl);
 
   struct Lamp {

@@ -1,4 +1,4 @@
-#include "render/passes/contact_pass.h"
+#include "render/colour/contact_pass.h"
 
 #include <algorithm>
 
@@ -7,8 +7,6 @@
 namespace rubble {
 
 namespace {
-
-constexpr float kReach = 0.04f;  // how far a hollow darkens: less than baked light resolves; unit: m
 
 ShaderDefines defines_for(bool lamp) {
   if (!lamp) return {};

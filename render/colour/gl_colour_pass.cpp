@@ -1,11 +1,12 @@
-#include "render/passes/resolve_pass.h"
+#include "render/colour/gl_colour_pass.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include "kernel/base/error.h"
-#include "kernel/base/portable_math.h"
+#include "render/colour/frame_fill.h"
+#include "render/colour/view_lamp.h"
 #include "render/gl/shader.h"
 #include "render/materials/surface_appearance.h"
 #include "render/passes/ray_pass.h"
@@ -13,121 +14,6 @@
 namespace rubble {
 
 namespace {
-
-// Where the clean air begins to veil what is seen; unit: m.
-constexpr double kVeilFrom = 12;
-constexpr std::size_t kMostViews = 6 * kMostLights;
-
-// Mirrors shaders/frame.glsl.
-struct FrameBlock {
-  float world_from_optical[3][4];
-  float lens[4], view[4];
-  float light_position[kMostLights][4], light_axis[kMostLights][4], light_colour[kMostLights][4];
-  float lamp_position[4], lamp_axis[4], lamp_colour[4];
-  float wetness[4];
-  float sun_direction[4], sun_radiance[4], skyline[4];
-  float ground[4], air_low[4], air_high[4], air_drops[4], balance[4];
-  float shadow_rows[kMostViews * 4][4];
-  float looks[kMaxSurfaceAppearances * 4][4];
-};
-
-void set(float (&out)[4], const Vec3f& v, float w = 0) {
-  out[0] = v.x, out[1] = v.y, out[2] = v.z, out[3] = w;
-}
-
-bool has_lamp(const FrameLight& frame) {
-  return frame.lamp.on && frame.lamp.intensity_cd > 0;
-}
-
-void fill_view(FrameBlock& block, const ViewProjection& view, float exposure) {
-  const Mat3 r = view.world_from_optical.rotation.matrix();
-  for (int i = 0; i < 3; ++i)
-    set(block.world_from_optical[i], Vec3f(r.rows[i]),
-        float(view.world_from_optical.translation[i]));
-  const Intrinsics& k = view.intrinsics;
-  set(block.lens, {float(1 / k.fx), float(1 / k.fy), float(k.cx)}, float(k.cy));
-  set(block.view, {kNearPlane, exposure, float(k.width)}, float(k.height));
-}
-
-// A shift of the noise that hides the steps of 8 bits, by the bits of the pose: noise that stayed where
-// it is while the camera moves would be a landmark. Range: 0 to 1023 pixels either way.
-Vec3f grain_shift(const ViewProjection& view) {
-  std::uint64_t hash = 0;
-  const auto add = [&hash](double x) {
-    std::uint64_t bits;
-    std::memcpy(&bits, &x, sizeof bits);
-    hash = (hash ^ bits ^ bits >> 32) * 0x9e3779b97f4a7c15u;
-    hash ^= hash >> 29;
-  };
-  const Pose& pose = view.world_from_optical;
-  for (int i = 0; i < 3; ++i) add(pose.translation[i]);
-  for (const double x : {pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z}) add(x);
-  return {0, float(hash >> 40 & 1023u), float(hash >> 50 & 1023u)};
-}
-
-void fill_lights(FrameBlock& block, const FrameLight& frame) {
-  const auto& lights = frame.lights->lights;
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    const LightModel& light = lights[i];
-    set(block.light_position[i], light.position, frame.shadow->lights[i].texel);
-    const bool beam = light.type == LightType::directional;
-    set(block.light_axis[i], light.axis, beam ? frame.shadow->lights[i].far_texel : light.cos_outer);
-    set(block.light_colour[i], light.colour,
-        1 / std::max(light.cos_inner - light.cos_outer, 1e-6f));
-  }
-  for (std::size_t v = 0; v < frame.shadow->clip_from_world.size(); ++v)
-    std::memcpy(block.shadow_rows[v * 4], frame.shadow->clip_from_world[v].data(),
-                sizeof block.shadow_rows[0] * 4);
-}
-
-// What the size of the lamp adds to squares of distances.
-float lamp_spread(const LampSpec& lamp) {
-  const float r2 = float(lamp.size * lamp.size / 4);
-  if (lamp.shape == LampShape::point) return 0;
-  return lamp.shape == LampShape::ring ? r2 : 0.5f * r2;
-}
-
-// gloss_lobe() of shaders/surface.glsl at its highest that counts: seen and lit head-on.
-float lobe_peak(float reflectance, float roughness) {
-  return reflectance / (4 * roughness * roughness);
-}
-
-float grey_of(const Vec3f& c) { return dot(c, Vec3f(0.2126f, 0.7152f, 0.0722f)); }
-
-void fill_air_and_lamp(FrameBlock& block, const FrameLight& frame, const Pose& world_from_rig) {
-  const double half = 0.5 * frame.lamp.cone_deg * portable::kPi / 180;
-  set(block.lamp_position, Vec3f(world_from_rig * frame.lamp.position),
-      lamp_spread(frame.lamp));
-  set(block.lamp_axis, Vec3f(world_from_rig.rotation.rotate({1, 0, 0})),
-      float(1 / (1 - portable::cos(half))));
-  set(block.lamp_colour, lamp_colour(frame.lamp));
-  const Sky& sky = frame.lights->sky;
-  set(block.sun_direction, sky.sun_direction);
-  set(block.sun_radiance, sky.sun_radiance);
-  // Trees and roofs reflect about a tenth of what the sky and the sun give them.
-  const LightModel& main = frame.lights->lights.front();
-  const bool sunny = main.type == LightType::directional;
-  set(block.skyline, sky.mean * 0.10f + (sunny ? main.colour * 0.02f : Vec3f()));
-  set(block.balance, white_balance(*frame.lights));
-}
-
-void fill_fog(FrameBlock& block, const MeanFog& fog) {
-  set(block.air_low, Vec3f(fog.box.min), float(fog.extinction));
-  set(block.air_high, Vec3f(fog.box.max), fog.height > 0 ? float(1 / fog.height) : 0);
-  set(block.air_drops, {float(fog.drops), float(fog.turned), 0});
-}
-
-void fill_surface_appearances(FrameBlock& block, int texture_size) {
-  const std::vector<SurfaceAppearance>& looks = all_surface_appearances();
-  for (std::size_t i = 0; i < looks.size() && i < kMaxSurfaceAppearances; ++i) {
-    const SurfaceAppearance& l = looks[i];
-    set(block.looks[i * 4], Vec3f(l.dark), 1 / l.tile);
-    set(block.looks[i * 4 + 1], Vec3f(l.light), l.glow > 0 ? -l.glow : l.bump);
-    set(block.looks[i * 4 + 2], Vec3f(l.accent), std::floor(255 * l.reflectance + 0.5f) + 0.99f * l.roughness);
-    set(block.looks[i * 4 + 3], {float(l.pattern), l.dust, l.variation},
-        std::log2(float(texture_size) / l.tile));
-  }
-}
 
 ShaderDefines variant_of(const FrameLight& frame, const GpuGeometry& geometry) {
   const auto& lights = frame.lights->lights;
@@ -200,8 +86,6 @@ GlTexture make_air_table(const Gl& gl) {
   return texture;
 }
 
-constexpr int kMeterEvery = 4;  // as METER in resolve.frag.glsl
-
 enum Unit {
   kVisibility,
   kDepth,
@@ -253,34 +137,8 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
 
 }  // namespace
 
-float mirrored_peak(float reflectance, float roughness) {
-  return reflectance > 0 ? lobe_peak(reflectance, roughness) : 0;
-}
-
-Vec3f lamp_colour(const LampSpec& lamp) {
-  // White light-emitting diodes, a little cold; luminance 1 by Rec. 709 weights.
-  const Vec3f tint(0.96f, 1.0f, 1.12f);
-  return tint * float(lamp.intensity_cd * 1e-3 /
-                      double(dot(tint, Vec3f(0.2126f, 0.7152f, 0.0722f))));
-}
-
-Vec3f white_balance(const LightSet& set) {
-  const LightModel& main = set.lights.front();
-  Vec3f light = set.sky.mean * portable::kPiF;
-  if (main.type == LightType::directional) light += main.colour * std::max(-main.axis.z, 0.0f);
-  // Under street lamps theirs is the light, as some metres below them.
-  if (!set.far.empty()) light += set.far.front().colour * (1.0f / 50);
-  const float bright = grey_of(light);
-  if (bright <= 0) return {1, 1, 1};
-  // Less at dusk, which is to look blue: 0.75 in daylight, 0.35 at 10 lx.
-  const float adapted = std::clamp(0.35f + 0.1f * std::log10(bright * 100), 0.35f, 0.75f);
-  const auto gain = [&](float c) { return 1 / (1 + adapted * (c / bright - 1)); };
-  const Vec3f gains(gain(light.x), gain(light.y), gain(light.z));
-  return gains * (1 / grey_of(gains));
-}
-
-ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,
-                         const GroundMap& ground, const std::vector<PatternImage>& patterns)
+GlColourPass::GlColourPass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,
+                           const GroundMap& ground, const std::vector<PatternImage>& patterns)
     : gl_(gl),
       geometry_(geometry),
       frame_block_(gl),
@@ -290,7 +148,7 @@ ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameL
       sky_map_(upload_sky(gl, light.lights->sky)),
       air_table_(make_air_table(gl)),
       ground_map_(upload_ground(gl, ground)),
-      ground_{ground.x, ground.y, 1 / ground.reach, 0},
+      ground_(ground),
       texture_size_(patterns.front().size) {
   defines_ = variant_of(light, geometry);
   if (light.shadow->edges)
@@ -308,7 +166,7 @@ ResolvePass::ResolvePass(const Gl& gl, const GpuGeometry& geometry, const FrameL
                                            kSunBlocks);
 }
 
-const GlProgram& ResolvePass::program(int variant, TileContent content) {
+const GlProgram& GlColourPass::program(int variant, TileContent content) {
   GlProgram& wanted = programs_[variant][int(content)];
   if (!wanted) {
     ShaderDefines defines = defines_;
@@ -324,7 +182,7 @@ const GlProgram& ResolvePass::program(int variant, TileContent content) {
   return wanted;
 }
 
-void ResolvePass::resize(int width, int height) {
+void GlColourPass::resize(int width, int height) {
   if (width == width_ && height == height_) return;
   width_ = width, height_ = height;
   colour_ = make_target(gl_, GL_RGBA8, width, height);
@@ -333,40 +191,27 @@ void ResolvePass::resize(int width, int height) {
   check_gl(gl_, "making the colour buffer");
 }
 
-void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
-                            const ViewProjection& view, const Pose& world_from_camera,
-                            const SurfaceImages& surfaces, const FrameLight& light,
-                            float exposure, bool with_contact) {
+void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const ViewProjection& view,
+                             const Pose& world_from_camera, const SurfaceImages& surfaces,
+                             const FrameLight& light, float exposure, bool with_contact) {
   const ImageTiles tiles = tiles_of(view, surfaces);
   const bool all_light = variant & (kLinear | kMeter);
-  const Pose& bearer = light.world_from_rig ? *light.world_from_rig : world_from_camera;
-  const Vec3 lamp_place = light.world_from_rig
-                              ? view.optical_from_world * (bearer * light.lamp.position)
-                              : camera_from_optical.inverse() * light.lamp.position;
-  const double lamp_offset = norm(light.world_from_rig ? lamp_place : light.lamp.position);
-  const bool lamp =
-      has_lamp(light) && (all_light || lamp_shows(light, lamp_offset, tiles, exposure));
+  const ViewLamp place = find_view_lamp(view, world_from_camera, light);
+  const bool lamp = has_lamp(light) &&
+                    (all_light || lamp_shows(light, place.offset, tiles.nearest_value, exposure));
   if (lamp) variant |= kLamp;
   if (with_contact)
-    contact_.draw(view, surfaces.depth,
-                  {lamp, Vec3f(lamp_place),
-                   light.lamp.shape == LampShape::point ? 0.004f : float(light.lamp.size / 2)},
-                  tiles.first_row, tiles.last_row);
+    contact_.draw(view, *surfaces.depth, place.contact(lamp, light), tiles.first_row,
+                  tiles.last_row);
   if (light.air_table)
     gl_.TextureSubImage3D(air_table_.name(), 0, 0, 0, 0, AirVolume::kColumns, AirVolume::kRows,
                           AirVolume::kSlices, GL_RGBA, GL_FLOAT, light.air_table->table().data());
-  FrameBlock block{};
-  fill_view(block, view, exposure);
-  fill_lights(block, light);
-  fill_air_and_lamp(block, light, bearer);
-  fill_fog(block, light.fog);
-  fill_surface_appearances(block, texture_size_);
-  set(block.wetness, grain_shift(view) + Vec3f(float(light.wetness), 0, 0));
-  std::memcpy(block.ground, ground_, sizeof ground_);
+  const FrameBlock block =
+      fill_frame_block(view, light, place.bearer, ground_, texture_size_, exposure);
   gl_.NamedBufferData(frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
-  const GLuint textures[] = {surfaces.ids.name(),
-                             surfaces.depth.name(),
+  const GLuint textures[] = {surfaces.ids->name(),
+                             surfaces.depth->name(),
                              geometry_.vertices_view.name(),
                              geometry_.triangles_view.name(),
                              geometry_.placed_view.name(),
@@ -389,7 +234,8 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
     gl_.BindTextureUnit(kPaintImages, geometry_.paint_images.name());
   }
   // What the exposure is found by needs no smooth shadows.
-  if (sun_ && light.soft_sun && !(variant & kMeter) && draw_sun(view, surfaces, light)) variant |= kSoftSun;
+  if (sun_ && light.soft_sun && !(variant & kMeter) && draw_sun(view, surfaces, light))
+    variant |= kSoftSun;
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
   const int every = variant & kMeter ? kMeterEvery : 1;
   gl_.Viewport(0, 0, (view.intrinsics.width + every - 1) / every,
@@ -401,12 +247,13 @@ void ResolvePass::draw_with(int variant, const GlFramebuffer& target,
 }
 
 // True where there are edges of its shadows.
-bool ResolvePass::draw_sun(const ViewProjection& view, const SurfaceImages& surfaces, const FrameLight& light) {
+bool GlColourPass::draw_sun(const ViewProjection& view, const SurfaceImages& surfaces,
+                            const FrameLight& light) {
   const Intrinsics& k = view.intrinsics;
   const ShadowMap& shadow = *light.shadow;
-  const std::vector<EdgeBlock> blocks =
-      find_edge_blocks(surfaces.lens_rays ? nullptr : &view, {surfaces.depth_values, k.width, k.height},
-                       shadow.edge_layers(), Vec3(light.lights->lights.front().axis) * -1.0);
+  const std::vector<EdgeBlock> blocks = find_edge_blocks(
+      surfaces.lens_rays ? nullptr : &view, {surfaces.depth_values, k.width, k.height},
+      shadow.edge_layers(), Vec3(light.lights->lights.front().axis) * -1.0);
   if (blocks.empty()) return false;
   sun_->set_blocks(blocks, k.width, k.height);
   gl_.BindTextureUnit(kShadowValues, shadow.values.name());
@@ -417,7 +264,7 @@ bool ResolvePass::draw_sun(const ViewProjection& view, const SurfaceImages& surf
   return true;
 }
 
-ImageTiles ResolvePass::tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const {
+ImageTiles GlColourPass::tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const {
   const Intrinsics& k = view.intrinsics;
   // The longest ray that reaches unit depth.
   const double x = std::max(k.cx + 0.5, k.width - k.cx) / k.fx;
@@ -428,23 +275,7 @@ ImageTiles ResolvePass::tiles_of(const ViewProjection& view, const SurfaceImages
                         float(double(kNearPlane) * longest / kVeilFrom));
 }
 
-// In daylight the lamp adds less than the image's steps can show.
-bool ResolvePass::lamp_shows(const FrameLight& light, double lamp_offset,
-                             const ImageTiles& tiles, float exposure) const {
-  // Exposed radiance that moves the darkest of 8-bit values by a quarter, see shaders/tone.glsl.
-  constexpr float kUnseen = 4e-4f;
-  const Vec3f colour = lamp_colour(light.lamp);
-  const float intensity = std::max(colour.x, std::max(colour.y, colour.z)) * exposure;
-  if (tiles.nearest_value <= 0) return false;
-  // Of albedo 1, and the peak of the mirrored part; of water, see surface.glsl.
-  const float film = light.wetness > 0 ? lobe_peak(0.02f, 0.12f) : 0.0f;
-  const float reflected = (1 + light.most_gloss + film) / float(portable::kPi);
-  const float offset = float(lamp_offset);
-  const float distance = std::max(kNearPlane / tiles.nearest_value - offset, 0.01f);
-  return intensity * reflected / (distance * distance) > kUnseen;
-}
-
-void ResolvePass::draw_tiles(int variant, const ImageTiles& tiles, int every) {
+void GlColourPass::draw_tiles(int variant, const ImageTiles& tiles, int every) {
   // Of pixels `every` apart, the first at half of that: those before `end`.
   const auto count = [every](int end) { return std::max(0, end + every - 1 - every / 2) / every; };
   gl_.Enable(GL_SCISSOR_TEST);
@@ -460,12 +291,13 @@ void ResolvePass::draw_tiles(int variant, const ImageTiles& tiles, int every) {
   gl_.Disable(GL_SCISSOR_TEST);
 }
 
-MeteredImage ResolvePass::meter(const ViewProjection& view, const Pose& world_from_camera,
-                                const SurfaceImages& surfaces, const FrameLight& light) {
+MeteredImage GlColourPass::meter(const ViewProjection& view, const Pose& world_from_camera,
+                                 const SurfaceImages& surfaces, const FrameLight& light) {
   const auto count = [](int pixels) { return (pixels + kMeterEvery / 2 - 1) / kMeterEvery; };
   MeteredImage out;
   out.width = count(view.intrinsics.width), out.height = count(view.intrinsics.height);
-  const GlTexture texture = make_target(gl_, GL_R32F, std::max(1, out.width), std::max(1, out.height));
+  const GlTexture texture =
+      make_target(gl_, GL_R32F, std::max(1, out.width), std::max(1, out.height));
   const GlFramebuffer target(gl_);
   gl_.NamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
   draw_with(kMeter, target, view, world_from_camera, surfaces, light, 1);
@@ -476,24 +308,24 @@ MeteredImage ResolvePass::meter(const ViewProjection& view, const Pose& world_fr
   return out;
 }
 
-void ResolvePass::draw(const ViewProjection& view, const Pose& world_from_camera,
-                       const SurfaceImages& surfaces, const FrameLight& light, float exposure,
-                       bool metered) {
+void GlColourPass::draw(const ViewProjection& view, const Pose& world_from_camera,
+                        const SurfaceImages& surfaces, const FrameLight& light, float exposure,
+                        bool metered) {
   resize(view.intrinsics.width, view.intrinsics.height);
   draw_with(0, target_, view, world_from_camera, surfaces, light, exposure, !metered);
 }
 
-void ResolvePass::read(std::vector<std::uint8_t>& rgba) {
+void GlColourPass::read(std::vector<std::uint8_t>& rgba) {
   rgba.resize(std::size_t(width_) * std::size_t(height_) * 4);
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
   gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   check_gl(gl_, "reading the image back");
 }
 
-std::vector<float> ResolvePass::draw_linear(const ViewProjection& view,
-                                            const Pose& world_from_camera,
-                                            const SurfaceImages& surfaces,
-                                            const FrameLight& light) {
+std::vector<float> GlColourPass::draw_linear(const ViewProjection& view,
+                                             const Pose& world_from_camera,
+                                             const SurfaceImages& surfaces,
+                                             const FrameLight& light) {
   const int width = view.intrinsics.width, height = view.intrinsics.height;
   const GlTexture texture = make_target(gl_, GL_RGBA32F, width, height);
   const GlFramebuffer target(gl_);
@@ -504,6 +336,12 @@ std::vector<float> ResolvePass::draw_linear(const ViewProjection& view,
   gl_.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, out.data());
   check_gl(gl_, "reading the linear image back");
   return out;
+}
+
+std::unique_ptr<ColourPass> make_gl_colour_pass(const Gl& gl, const GpuGeometry& geometry,
+                                                const FrameLight& light, const GroundMap& ground,
+                                                const std::vector<PatternImage>& patterns) {
+  return std::make_unique<GlColourPass>(gl, geometry, light, ground, patterns);
 }
 
 }  // namespace rubble

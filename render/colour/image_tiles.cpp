@@ -1,4 +1,4 @@
-#include "render/passes/image_tiles.h"
+#include "render/colour/image_tiles.h"
 
 #include <algorithm>
 #include <cstddef>

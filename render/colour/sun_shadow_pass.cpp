@@ -1,4 +1,4 @@
-#include "render/passes/sun_shadow_pass.h"
+#include "render/colour/sun_shadow_pass.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -16,7 +16,11 @@ int blocks_in(int pixels) { return (pixels + kEdgeBlock - 1) / kEdgeBlock; }
 }  // namespace
 
 SunShadowPass::SunShadowPass(const Gl& gl, int views, Samplers samplers, int blocks)
-    : gl_(gl), views_(views), samplers_(std::move(samplers)), blocks_unit_(blocks), empty_array_(gl) {
+    : gl_(gl),
+      views_(views),
+      samplers_(std::move(samplers)),
+      blocks_unit_(blocks),
+      empty_array_(gl) {
   samplers_.push_back({"sun_blocks", blocks});
 }
 
@@ -57,12 +61,15 @@ void SunShadowPass::set_blocks(const std::vector<EdgeBlock>& blocks, int width, 
   std::vector<std::uint32_t> places(std::size_t(rows_) * kColumns * 2, 0xffffffffu);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const EdgeBlock& block = blocks[i];
-    numbers[(block.place >> 16) * std::size_t(across) + (block.place & 65535)] = std::uint32_t(i + 1);
+    numbers[(block.place >> 16) * std::size_t(across) + (block.place & 65535)] =
+        std::uint32_t(i + 1);
     places[2 * i + 2] = block.place;
     std::memcpy(&places[2 * i + 3], &block.nearest, sizeof block.nearest);
   }
-  gl_.TextureSubImage2D(numbers_.name(), 0, 0, 0, across, down, GL_RED_INTEGER, GL_UNSIGNED_INT, numbers.data());
-  gl_.TextureSubImage2D(places_.name(), 0, 0, 0, kColumns, rows_, GL_RG_INTEGER, GL_UNSIGNED_INT, places.data());
+  gl_.TextureSubImage2D(numbers_.name(), 0, 0, 0, across, down, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                        numbers.data());
+  gl_.TextureSubImage2D(places_.name(), 0, 0, 0, kColumns, rows_, GL_RG_INTEGER, GL_UNSIGNED_INT,
+                        places.data());
 }
 
 void SunShadowPass::draw(bool rays) {

@@ -1,4 +1,5 @@
-// How much of the sun's disc the pixels near edges of shadows see, see shaders/sun_shadow.frag.glsl.
+// How much of the sun's disc the pixels near edges of shadows see, see
+// shaders/sun_shadow.frag.glsl.
 #pragma once
 
 #include <utility>
@@ -11,20 +12,25 @@ namespace rubble {
 
 class SunShadowPass {
  public:
-  static constexpr int kColumns = 256;  // of blocks in the image that is drawn; as in resolve.frag.glsl
+  static constexpr int kColumns =
+      256;  // of blocks in the image that is drawn; as in resolve.frag.glsl
 
   using Samplers = std::vector<std::pair<const char*, int>>;  // names, and their texture units
 
-  // views: layers of the shadow map that are of the sun, 1 or 2. blocks: the unit of sun_blocks there.
+  // views: layers of the shadow map that are of the sun, 1 or 2. blocks: the unit of sun_blocks
+  // there.
   SunShadowPass(const Gl& gl, int views, Samplers samplers, int blocks);
 
   // Puts what is to be drawn on the device. width, height: of the image.
   void set_blocks(const std::vector<EdgeBlock>& blocks, int width, int height);
-  // With the block of the frame and the textures bound as for the resolve pass. rays: as its variant.
+  // With the block of the frame and the textures bound as for the resolve pass. rays: as its
+  // variant.
   void draw(bool rays);
 
   const GlTexture& numbers() const { return numbers_; }  // of each block of the image; 0: not drawn
-  const GlTexture& shares() const { return shares_; }    // of the blocks by number, in rows of kColumns; of 0 nothing
+  const GlTexture& shares() const {
+    return shares_;
+  }  // of the blocks by number, in rows of kColumns; of 0 nothing
 
  private:
   const GlProgram& program(bool rays);  // made when it is first needed

@@ -1,0 +1,58 @@
+// ColourPass by the graphics device, see shaders/resolve.frag.glsl.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/colour/colour_pass.h"
+#include "render/colour/contact_pass.h"
+#include "render/colour/image_tiles.h"
+#include "render/colour/sun_shadow_pass.h"
+#include "render/gl/shader.h"
+
+namespace rubble {
+
+class GlColourPass : public ColourPass {
+ public:
+  GlColourPass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,
+               const GroundMap& ground, const std::vector<PatternImage>& patterns);
+
+  MeteredImage meter(const ViewProjection& view, const Pose& world_from_camera,
+                     const SurfaceImages& surfaces, const FrameLight& light) override;
+  void draw(const ViewProjection& view, const Pose& world_from_camera,
+            const SurfaceImages& surfaces, const FrameLight& light, float exposure,
+            bool metered) override;
+  void read(std::vector<std::uint8_t>& rgba) override;
+  std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
+                                 const SurfaceImages& surfaces, const FrameLight& light) override;
+
+ private:
+  void resize(int width, int height);
+  void draw_with(int variant, const GlFramebuffer& target, const ViewProjection& view,
+                 const Pose& world_from_camera, const SurfaceImages& surfaces,
+                 const FrameLight& light, float exposure, bool with_contact = true);
+
+  const Gl& gl_;
+  const GpuGeometry& geometry_;
+  enum Variant { kLinear = 1, kRays = 2, kLamp = 4, kMeter = 8, kSoftSun = 16 };
+  const GlProgram& program(int variant, TileContent content);  // made when it is first needed
+  ImageTiles tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const;
+  bool draw_sun(const ViewProjection& view, const SurfaceImages& surfaces, const FrameLight& light);
+  void draw_tiles(int variant, const ImageTiles& tiles, int every);  // n-th pixel
+
+  ShaderDefines defines_;
+  GlProgram programs_[32][4];  // by Variant and TileContent
+  GlBuffer frame_block_;
+  GlVertexArray empty_array_;
+  ContactPass contact_;
+  std::unique_ptr<SunShadowPass> sun_;  // null: the main light is no sun
+  GlTexture looks_, sky_map_, air_table_, ground_map_;
+  const GroundMap& ground_;
+  GlTexture colour_;
+  GlFramebuffer target_;
+  int width_ = 0, height_ = 0;
+  int texture_size_ = 1;
+};
+
+}  // namespace rubble

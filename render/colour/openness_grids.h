@@ -1,0 +1,30 @@
+// Darkness in small corners and shadows of the lamp on the processor, see shading/contact.h; as
+// ContactPass.
+#pragma once
+
+#include <vector>
+
+#include "kernel/base/parallel.h"
+#include "render/camera/projection.h"
+#include "render/colour/contact_pass.h"
+#include "render/shading/wide_shader.h"
+
+namespace rubble {
+
+class OpennessGrids {
+ public:
+  // depth_values: near / Z, of the view's size.
+  void find(const WideShader& shader, const ViewProjection& view,
+            const std::vector<float>& depth_values, const ContactPass::Lamp& lamp,
+            ThreadPool& pool);
+  OpennessGrid view() const;
+
+ private:
+  void smooth(const std::vector<float>& from, std::vector<float>& to, ThreadPool& pool) const;
+
+  int width_ = 0, height_ = 0, stride_ = 0;
+  bool lamp_ = false;
+  std::vector<float> raw_corners_, raw_lamp_, corners_, lamp_seen_;
+};
+
+}  // namespace rubble

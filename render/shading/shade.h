@@ -1,0 +1,302 @@
+// From "which triangle is here" to colour: surface, light, air, tone. The formulas of
+// shaders/resolve.frag.glsl and shaders/tone.glsl, by the same names.
+#pragma once
+
+#include "render/shading/contact.h"
+#include "render/shading/find_surface.h"
+#include "render/shading/lights.h"
+#include "render/shading/soft_sun.h"
+
+namespace rubble::RUBBLE_ISA {
+
+inline constexpr float kWaterReflectance = 0.02f, kFilmRoughness = 0.12f;
+
+// Schlick's approximation of Fresnel's law.
+RUBBLE_INLINE Real fresnel(Real reflectance, Real cosine) {
+  const Real c = 1.0f - cosine, c2 = c * c;
+  return reflectance + (1.0f - reflectance) * c2 * c2 * c;
+}
+
+// pi times the BRDF of a rough mirror; see surface.glsl.
+RUBBLE_INLINE Real mirror_lobe(Real reflectance, Real alpha, Real facing, Real half_way, Real lit,
+                               Real seen) {
+  const Real a2 = alpha * alpha;
+  const Real d = facing * facing * (a2 - 1.0f) + 1.0f;
+  const Real shadowing =
+      lit * sqrt(seen * seen * (1.0f - a2) + a2) + seen * sqrt(lit * lit * (1.0f - a2) + a2);
+  return fresnel(reflectance, half_way) * a2 / (d * d * 2.0f * max(shadowing, 1e-3f));
+}
+
+RUBBLE_INLINE Real gloss_lobe(const ShadingData& d, const Surface& s, const Real3& to_light,
+                              const Real3& to_eye) {
+  const Real3 h = normalize(to_light + to_eye);
+  const Real facing = clamp(dot(h, s.normal), 0.0f, 1.0f),
+             half_way = clamp(dot(h, to_eye), 0.0f, 1.0f);
+  const Real lit = max(dot(to_light, s.normal), 0.0f), seen = max(dot(to_eye, s.normal), 0.0f);
+  Real lobe = s.cover * mirror_lobe(s.reflectance, s.roughness, facing, half_way, lit, seen);
+  if (d.wet)
+    lobe += s.film *
+            mirror_lobe(real(kWaterReflectance), real(kFilmRoughness), facing, half_way, lit, seen);
+  return lobe;
+}
+
+// Share of even light from all around that the mirrors throw back at an angle of this cosine
+// (Lagarde 2011).
+RUBBLE_INLINE Real mirrored_share(const ShadingData& d, const Surface& s, Real cosine) {
+  const Real c = 1.0f - clamp(cosine, 0.0f, 1.0f), c2 = c * c, steep = c2 * c2 * c;
+  Real share =
+      s.cover * (s.reflectance + max(1.0f - sqrt(s.roughness) - s.reflectance, 0.0f) * steep);
+  if (d.wet) share += s.film * (kWaterReflectance + (1.0f - std::sqrt(kFilmRoughness)) * steep);
+  return share;
+}
+
+// What mirrors let through to the base from a light, as a multiple of what they let through of even
+// light.
+RUBBLE_INLINE Real base_share(const ShadingData& d, const Surface& s, const Real3& to_light) {
+  const Real mean =
+      s.cover * (s.reflectance + max(1.0f - sqrt(s.roughness) - s.reflectance, 0.0f) * (1.0f / 21));
+  return (1.0f - mirrored_share(d, s, dot(s.normal, to_light))) / (1.0f - mean);
+}
+
+// A pixel's ray and what it meets.
+struct Pixel {
+  Int x, y, index;
+  Real3 eye, direction;  // unit length
+  Real3 slope;           // of the ray, in the optical frame
+  Real3 across, down;    // how the ray changes from pixel to pixel, at unit depth, in the world
+  Real size_across, size_down;
+  Real length;  // of the ray at unit depth
+  Real z;
+  Word placed, triangle;  // the first is 0: nothing
+};
+
+struct Shading {
+  Real3 e, glare;  // on the albedo, and mirrored
+};
+
+// Soft shadows of the sun at pixels whose block meets an edge.
+RUBBLE_INLINE void soften(const ShadingData& d, const Pixel& pixel, const Surface& s,
+                          const Real3& world, Real& seen) {
+  const Real edge =
+      gather(d.sun_edges.blocks, (pixel.y >> 2) * d.sun_edges.blocks_across + (pixel.x >> 2));
+  const Mask wanted = Mask(edge < 2.0f) & Mask(pixel.placed != 0u);
+  if (!any(wanted)) return;
+  const Sight sight{pixel.direction, pixel.across, pixel.down, pixel.size_across * pixel.z,
+                    pixel.size_down * pixel.z};
+  const SunShare share = sun_share(d, wanted, edge, world, s.face_normal, sight);
+  seen = select(share.partly, share.share, seen);
+}
+
+RUBBLE_INLINE void add_light(const ShadingData& d, int i, const Pixel& pixel, const Surface& s,
+                             const Real3& world, Shading& sum) {
+  const Arriving light = light_at(d, i, world);
+  // A bumped normal must not catch light that the face itself cannot see.
+  const Real facing = max(dot(s.normal, light.to_light), 0.0f) *
+                      clamp(dot(s.face_normal, light.to_light) * 8.0f, 0.0f, 1.0f);
+  const Mask lit = Mask(facing * light.illuminance.y > 0.0f) & Mask(pixel.placed != 0u);
+  if (!any(lit)) return;
+  Real seen = light_visible(d, i, world, s.face_normal);
+  if (i == 0 && d.sun_edges.blocks) soften(d, pixel, s, world, seen);
+  if (!any(lit & Mask(seen > 0.0f))) return;
+  Real3 e = light.illuminance * (facing * seen);
+  if (d.air) e *= air_passes(d, i, world, light.to_light);
+  sum.glare += e * gloss_lobe(d, s, light.to_light, -pixel.direction);
+  sum.e += e * base_share(d, s, light.to_light);
+}
+
+RUBBLE_INLINE void add_lamp(const ShadingData& d, const Pixel& pixel, const Surface& s,
+                            const Real3& world, Real in_sight, Real passed, Shading& sum) {
+  const Arriving lamp = lamp_at(d, world);
+  Real share = max(dot(s.normal, lamp.to_light), 0.0f) *
+               clamp(dot(s.face_normal, lamp.to_light) * 8.0f, 0.0f, 1.0f) * in_sight;
+  if (d.air) share *= pow(passed, d.frame.air_drops[1]);
+  const Real3 e = lamp.illuminance * share;
+  sum.glare += e * gloss_lobe(d, s, lamp.to_light, -pixel.direction);
+  sum.e += e * base_share(d, s, lamp.to_light);
+}
+
+inline Real3 shade_surface(const ShadingData& d, const Pixel& pixel, const Real3& world,
+                           Real passed) {
+  // Lanes that see nothing take the first triangle of the first mesh, and nobody reads what they
+  // find.
+  const Mask nothing = Mask(pixel.placed == 0u);
+  const Surface s = find_surface(d, Word(select(nothing, integer(0), Int(pixel.placed) - 1)),
+                                 Word(select(nothing, integer(0), Int(pixel.triangle))), world,
+                                 pixel.direction, pixel.z);
+  const OpennessGrid& o = d.openness;
+  const Between x = between_clamped((to_real(pixel.x) + 0.5f) * (1.0f / float(d.width)), o.width);
+  const Between y = between_clamped((to_real(pixel.y) + 0.5f) * (1.0f / float(d.height)), o.height);
+  const Real3 ambient = s.ambient * read_half(o.corners, o.stride, x, y);
+  Shading sum{ambient, {real(0), real(0), real(0)}};
+  for (int i = 0; i < d.light_count; ++i) add_light(d, i, pixel, s, world, sum);
+  if (d.lamp) add_lamp(d, pixel, s, world, read_half(o.lamp, o.stride, x, y), passed, sum);
+  // What the mirrors on top throw back of the light all around, the base below does not get.
+  const Real mirrored = mirrored_share(d, s, -dot(s.normal, pixel.direction));
+  Real3 around = ambient;
+  if (d.surrounded) {
+    // Panes and puddles show the sky above the roofs.
+    const Real3 to_sky = pixel.direction - s.normal * (2.0f * dot(s.normal, pixel.direction));
+    Real even = s.cover * (1.0f - smoothstep(0.04f, 0.12f, s.roughness));
+    if (d.wet) even = max(even, s.film);
+    even *= smoothstep(0.05f, 0.4f, to_sky.z);
+    if (any(even > 0.0f))
+      around =
+          mix(around, sky_radiance(d, {to_sky.x, to_sky.y, max(to_sky.z, 0.01f)}) * real(3.14159f),
+              even);
+  }
+  Real3 out =
+      (sum.e * s.albedo * (1.0f - mirrored) + around * mirrored + sum.glare) * real(0.318310f);
+  if (d.glow) out += s.glow;
+  return out;
+}
+
+// Clean air veils what is far: the horizon has no edge.
+RUBBLE_INLINE Real3 veil(const ShadingData& d, const Pixel& pixel, Real far,
+                         const Real3& radiance) {
+  const Real there = max(far - d.veil_from, 0.0f);
+  if (!any(Mask(there > 0.0f) & Mask(pixel.placed != 0u))) return radiance;
+  // What is far in a street is there, at a visibility of 10 km.
+  const Real share = d.surrounded ? exp2(there * -5.64e-4f)
+                                  : exp2(there * there * -4e-5f / (1.0f + there * 0.012f));
+  return mix(sky_radiance(d, {pixel.direction.x, pixel.direction.y, real(0.02f)}), radiance, share);
+}
+
+RUBBLE_INLINE Pixel find_pixel(const ShadingData& d, Int column, Int row) {
+  Pixel p;
+  p.x = column, p.y = row, p.index = row * d.width + column;
+  p.placed = gather(d.ids, p.index * 2), p.triangle = gather(d.ids, p.index * 2 + 1);
+  p.z = d.frame.view[0] / max(gather(d.depth_values, p.index), 1e-9f);
+  const auto colour = [](const Row& r) { return Real3{as_real(r.x), as_real(r.y), as_real(r.z)}; };
+  Real3 rows[3];
+  if (d.lens_rays) {
+    // Any lens, and for each row the pose at its own time; see passes/ray_pass.h.
+    p.slope = colour(load_rows(d.lens_rays, p.index));
+    const auto pose = [&](int i, Real& eye) {
+      const Row r = load_rows(d.row_poses, row * 3 + i);
+      eye = as_real(r.w);
+      return colour(r);
+    };
+    rows[0] = pose(0, p.eye.x), rows[1] = pose(1, p.eye.y), rows[2] = pose(2, p.eye.z);
+  } else {
+    const auto& lens = d.frame.lens;
+    p.slope = {(to_real(column) - lens[2]) * lens[0], (to_real(row) - lens[3]) * lens[1], real(1)};
+    for (int i = 0; i < 3; ++i) rows[i] = all_lanes(d.frame.world_from_optical[i]);
+    p.eye = {real(d.frame.world_from_optical[0][3]), real(d.frame.world_from_optical[1][3]),
+             real(d.frame.world_from_optical[2][3])};
+  }
+  const auto to_world = [&](const Real3& v) {
+    return Real3{dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
+  };
+  p.length = length(p.slope);
+  p.direction = to_world(p.slope) * (1.0f / p.length);
+  if (!d.lens_rays) {
+    p.across = {rows[0].x, rows[1].x, rows[2].x}, p.down = {rows[0].y, rows[1].y, rows[2].y};
+    p.size_across = real(d.frame.lens[0]), p.size_down = real(d.frame.lens[1]);
+  } else if (d.sun_edges.blocks) {
+    // To the next ray, or from the one before at the border of the image; none beyond that of the
+    // lens.
+    const auto beside = [&](Mask forward, Int next, Int before) {
+      const Real3 other = colour(load_rows(d.lens_rays, select(forward, next, before)));
+      const Mask none = Mask(other.x == 0.0f) & Mask(other.y == 0.0f) & Mask(other.z == 0.0f);
+      const Real sign = select(forward, real(1), real(-1));
+      return to_world(select(none, other, (other - p.slope) * sign));
+    };
+    p.across = beside(column < d.width - 1, p.index + 1, p.index - 1);
+    p.down = beside(row < d.height - 1, p.index + d.width, p.index - d.width);
+    p.size_across = p.size_down = real(1);
+  }
+  return p;
+}
+
+// Radiance before exposure; kcd/m2.
+inline Real3 find_radiance(const ShadingData& d, const Pixel& p) {
+  const Mask surface = p.placed != 0u;
+  const Real far = select(surface, p.z * p.length, real(1e9f));
+  Texel air{real(0), real(0), real(0), real(1)};
+  if (d.air)
+    air = read_air(
+        d, (to_real(p.x) + 0.5f) * (1.0f / float(d.width)),
+        (to_real(p.y) + 0.5f) * (1.0f / float(d.height)),
+        (far / (far + 2.0f) * float(d.air_slices - 1) + 0.5f) * (1.0f / float(d.air_slices)));
+  Real3 radiance{real(0), real(0), real(0)};
+  if (any(~surface)) radiance = backdrop(d, p.direction);
+  if (any(surface)) {
+    const Real3 world = p.eye + p.direction * select(surface, far, real(1));
+    const Real3 shaded = veil(d, p, far, shade_surface(d, p, world, air.w));
+    radiance = select(surface, shaded, radiance);
+  }
+  if (d.air) radiance = radiance * air.w + Real3{air.x, air.y, air.z};
+  return radiance;
+}
+
+// From exposed radiance to display values; the noise hides the steps of 8 bits.
+RUBBLE_INLINE Real develop(Real x, Real noise) {
+  x *= 0.8f;
+  x = clamp((x * (2.51f * x + 0.12f)) / (x * (2.43f * x + 0.66f) + 0.14f), 0.0f, 1.0f);
+  const Real a = sqrt(x), b = sqrt(a), c = sqrt(b);
+  return clamp(0.585122381f * a + 0.783140355f * b - 0.368262736f * c, 0.0f, 1.0f) +
+         (noise - 0.5f) * (1.0f / 255);
+}
+
+RUBBLE_INLINE Word display_code(const ShadingData& d, const Pixel& p, const Real3& radiance) {
+  const FrameBlock& f = d.frame;
+  const Real noise = fract(52.9829189f * fract((to_real(p.x) + f.wetness[1]) * 0.06711056f +
+                                               (to_real(p.y) + f.wetness[2]) * 0.00583715f));
+  const auto code = [&](Real x, float gain, int shift) {
+    const Real shown = clamp(develop(x * (f.view[1] * gain), noise), 0.0f, 1.0f);
+    return Word(to_int(shown * 255.0f + 0.5f)) << shift;
+  };
+  return code(radiance.x, f.balance[0], 0) | code(radiance.y, f.balance[1], 8) |
+         code(radiance.z, f.balance[2], 16) | 0xff000000u;
+}
+
+struct BlockPlace {
+  int x, y, columns,
+      rows;  // of a block of the grid; the last two: how many of its lanes are within
+};
+
+template <typename Value>
+RUBBLE_INLINE void store_block(const Value& value, const BlockPlace& b, int width, void* out) {
+  static_assert(sizeof(Value) == kWidth * 4);
+  for (int i = 0; i < b.rows; ++i)
+    std::memcpy(static_cast<char*>(out) + (std::ptrdiff_t(b.y + i) * width + b.x) * 4,
+                reinterpret_cast<const char*>(&value) + i * 16, std::size_t(b.columns) * 4);
+}
+
+inline void store_linear(const Real3& radiance, const BlockPlace& b, int width, float* out) {
+  for (int i = 0; i < b.rows; ++i) {
+    for (int k = 0; k < b.columns; ++k) {
+      float* at = out + (std::ptrdiff_t(b.y + i) * width + b.x + k) * 4;
+      const int lane = i * 4 + k;
+      at[0] = radiance.x[lane], at[1] = radiance.y[lane], at[2] = radiance.z[lane], at[3] = 1;
+    }
+  }
+}
+
+inline void shade_block(const ShadingData& d, const ShadedPixels& out, int x, int y) {
+  const BlockPlace b{x, y, out.width - x < 4 ? out.width - x : 4,
+                     out.height - y < kLaneRows ? out.height - y : kLaneRows};
+  const auto to_image = [&](Int at, int size) {
+    return min(at * d.every + d.every / 2, integer(size - 1));
+  };
+  const Pixel p = find_pixel(d, to_image(min(lane_columns() + x, integer(out.width - 1)), d.width),
+                             to_image(min(lane_rows() + y, integer(out.height - 1)), d.height));
+  Real3 radiance = find_radiance(d, p);
+  const Mask beyond = d.lens_rays ? Mask(p.length <= 0.0f) : mask(false);  // outside of the lens
+  radiance = select(beyond, {real(0), real(0), real(0)}, radiance);
+  if (out.display) store_block(display_code(d, p, radiance), b, out.width, out.display);
+  if (out.linear) store_linear(radiance, b, out.width, out.linear);
+  if (out.stops) {
+    const auto& gains = d.frame.balance;
+    const Real luminance =
+        grey_of({radiance.x * gains[0], radiance.y * gains[1], radiance.z * gains[2]});
+    store_block(select(beyond, real(-2000), log2(max(luminance, 1e-30f))), b, out.width, out.stops);
+  }
+}
+
+inline void shade(const ShadingData& d, const ShadedPixels& out, int first, int last) {
+  for (int y = first * 4; y < last * 4 && y < out.height; y += kLaneRows)
+    for (int x = 0; x < out.width; x += 4) shade_block(d, out, x, y);
+}
+
+}  // namespace rubble::RUBBLE_ISA

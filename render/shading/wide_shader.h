@@ -1,0 +1,44 @@
+// The shading of pixels on the processor, compiled for several instruction sets: all give the same
+// bits.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/shading/shading_data.h"
+
+namespace rubble {
+
+// For the darkness in corners and the shadows of the lamp, see contact.h.
+struct ContactData {
+  static constexpr int kLampSteps = 8;
+
+  const float* depth_values = nullptr;          // near / Z
+  int width = 0, height = 0;                    // of the image
+  int half_width = 0, half_height = 0;          // of the grid
+  int stride = 0;                               // from row to row of it: a multiple of four
+  float near = 0, reach = 0, reach_pixels = 0;  // unit: m, m, m pixel
+  float fx = 1, fy = 1, cx = 0, cy = 0;
+  float cosine[16], sine[16];  // of the first direction, by the place in a pattern of 4 x 4
+  bool lamp_on = false;
+  float lamp[3] = {};                    // in the optical frame; unit: m
+  float lamp_radius = 0;                 // unit: m
+  float lamp_cosine[16], lamp_sine[16];  // of its spots
+  float *corners = nullptr,
+        *lamp_seen = nullptr;  // the grids that are written, as OpennessGrid, not smoothed
+};
+
+struct WideShader {
+  const char* name;  // of the instruction set
+  // Rows [first, last) of blocks of four rows of pixels: of the grid of ShadedPixels.
+  void (*shade)(const ShadingData& data, const ShadedPixels& out, int first, int last);
+  // Rows [first, last) of the grid; the first is a multiple of four.
+  void (*find_contacts)(const ContactData& data, int first, int last);
+};
+
+// Those that this processor can run, the fastest first. Never empty.
+const std::vector<WideShader>& wide_shaders();
+// By name; "": the fastest. Throws RunError that names those that there are.
+const WideShader& find_wide_shader(const std::string& name);
+
+}  // namespace rubble

@@ -1,0 +1,178 @@
+// Colours by the processor beside those by the graphics device's shaders, whose formulas they
+// repeat; and the same bits from every instruction set.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <string>
+
+#include "kernel/base/error.h"
+#include "render/camera/lens.h"
+#include "render/renderer.h"
+#include "render/shading/wide_shader.h"
+#include "tests/render/test_scene.h"
+
+namespace rubble::testing {
+namespace {
+
+constexpr int kWidth = 186, kHeight = 143;  // no multiple of any width of registers
+
+struct View {
+  const char* name;
+  std::function<void(Scene&)> change;
+  Vec3 eye, target;
+  bool wide = false;  // by a lens with distortion, each pixel with a ray of its own
+};
+
+void to_sun(Scene& scene) {
+  scene.light = {};
+  scene.light.type = LightType::sun, scene.light.elevation_deg = 35, scene.light.azimuth_deg = 60;
+}
+
+void to_night(Scene& scene) {
+  scene.light = {};
+  scene.light.type = LightType::spot, scene.light.intensity = 2, scene.light.cone_deg = 70;
+  scene.light.position = {3, -2, 4}, scene.light.rpy_deg = {0, 50, 145};
+  LightSpec point;
+  point.type = LightType::point, point.intensity = 0.3, point.position = {-1, 2, 1.5};
+  scene.more_lights.push_back(point);
+}
+
+const std::vector<View>& views() {
+  static const std::vector<View> all{
+      {"sun", to_sun, {5, 2, 2}, {-1.5, 0.1, 0.5}},
+      {"sun, wide lens", to_sun, {3, 2, 2}, {-1.5, 0.1, 0.5}, true},
+      {"void with lamp", [](Scene& s) { s.lamp.on = true; }, {1, 0.2, 0.6}, {-1.5, 0.1, 0.5}},
+      {"fog with lamp",
+       [](Scene& s) { s.lamp.on = true, s.air.fog_density = 0.15, s.air.fog_noise = 0.5; },
+       {1, 0.2, 0.6},
+       {-1.5, 0.1, 0.5}},
+      {"fog that thins",
+       [](Scene& s) { to_sun(s), s.air.fog_density = 0.2, s.air.fog_height = 3; },
+       {5, 2, 2},
+       {-1.5, 0.1, 0.5}},
+      {"wet", [](Scene& s) { to_sun(s), s.wetness = 0.8; }, {4, -3, 2}, {-1.5, 0.1, 0.5}},
+      {"night", to_night, {4, -3, 2}, {-1.5, 0.1, 0.5}},
+      {"night, wet, lamp",
+       [](Scene& s) { to_night(s), s.wetness = 1, s.lamp.on = true; },
+       {3, 1, 1},
+       {-1.5, 0.1, 0.5}},
+      {"horizon", to_sun, {7, 1, 1.2}, {0, 0, 1.3}}};
+  return all;
+}
+
+RenderOptions plain() {
+  RenderOptions options;
+  options.threads = 2;
+  options.texture_size = 128, options.shadow_size = 1024, options.bake_rays = 16;
+  options.antialias = false;
+  return options;
+}
+
+ViewRays rays_of(const View& view) {
+  Intrinsics k = pinhole(kWidth, kHeight, view.wide ? 70 : 120);
+  if (view.wide) k.lens = LensModel::fisheye;
+  ViewRays rays{1000000000, k, look_at(view.eye, view.target)};
+  if (view.wide) rays.directions = make_lens_directions(k, 1);
+  return rays;
+}
+
+class Shading : public ::testing::TestWithParam<std::size_t> {
+ protected:
+  const View& view() const { return views()[GetParam()]; }
+  Scene scene() const {
+    Scene heap = make_heap(120, 4);
+    view().change(heap);
+    return heap;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Views, Shading, ::testing::Range(std::size_t(0), views().size()));
+
+// Textures are halved and mixed with other roundings there, so pixels differ by a step or two.
+TEST_P(Shading, IsThatOfTheDevicesShaders) {
+  GlContext context;
+  RenderOptions options = plain();
+  options.shading = DrawnBy::device;
+  Renderer device(context, scene(), options);
+  options.shading = DrawnBy::processor;
+  Renderer processor(context, scene(), options);
+  RenderedView a = device.view(rays_of(view())), b = processor.view(rays_of(view()));
+  EXPECT_NEAR(double(b.exposure() / a.exposure()), 1, 0.01);
+  const std::vector<std::uint8_t>& expected = a.rgb();
+  const std::vector<std::uint8_t>& found = b.rgb();
+  ASSERT_EQ(expected.size(), found.size());
+  double sum = 0, bias = 0;
+  int far = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const int difference = int(found[i]) - int(expected[i]);
+    sum += std::abs(difference), bias += difference, far += std::abs(difference) > 8;
+  }
+  EXPECT_LT(sum / double(found.size()), 0.7) << view().name;
+  EXPECT_LT(std::fabs(bias) / double(found.size()), 0.25) << view().name;
+  EXPECT_LT(double(far) / double(found.size()), 0.004) << view().name;
+}
+
+// As the control of the one above: a light that is 3 % brighter is seen.
+TEST(ShadingControl, SeesALittleMoreLight) {
+  GlContext context;
+  RenderOptions options = plain();
+  options.fixed_exposure = 0.05;
+  const View& view = views().front();
+  Scene heap = make_heap(120, 4);
+  view.change(heap);
+  Renderer one(context, heap, options);
+  options.fixed_exposure *= 1.03;
+  Renderer other(context, heap, options);
+  RenderedView a = one.view(rays_of(view)), b = other.view(rays_of(view));
+  double bias = 0;
+  for (std::size_t i = 0; i < a.rgb().size(); ++i) bias += int(b.rgb()[i]) - int(a.rgb()[i]);
+  EXPECT_GT(bias / double(a.rgb().size()), 0.5);
+}
+
+TEST_P(Shading, HasTheSameBitsByEveryInstructionSet) {
+  GlContext context;
+  std::vector<float> first;
+  for (const WideShader& shader : wide_shaders()) {
+    RenderOptions options = plain();
+    options.shading = DrawnBy::processor, options.instruction_set = shader.name;
+    Renderer renderer(context, scene(), options);
+    const std::vector<float> found = renderer.view(rays_of(view())).radiance();
+    if (first.empty()) first = found;
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      differ += std::memcmp(&found[i], &first[i], sizeof(float)) != 0;
+    EXPECT_EQ(differ, 0u) << view().name << " by " << shader.name;
+  }
+}
+
+TEST_P(Shading, HasTheSameBitsByAnyNumberOfThreads) {
+  GlContext context;
+  RenderOptions options = plain();
+  options.shading = DrawnBy::processor;
+  std::vector<std::uint8_t> first;
+  for (const int threads : {1, 2, 3}) {
+    options.threads = threads;
+    const std::vector<std::uint8_t> found =
+        Renderer(context, scene(), options).view(rays_of(view())).rgb();
+    if (first.empty()) first = found;
+    EXPECT_TRUE(found == first) << view().name << ", " << threads;
+  }
+}
+
+TEST(WideShaders, AreNamedWhereOneIsUnknown) {
+  EXPECT_EQ(find_wide_shader("plain").name, std::string("plain"));
+  EXPECT_EQ(find_wide_shader("").name, wide_shaders().front().name);
+  try {
+    find_wide_shader("mmx");
+    FAIL();
+  } catch (const RunError& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("cannot shade with the instruction set mmx; it can with"),
+        std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace rubble::testing

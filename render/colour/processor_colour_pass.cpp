@@ -28,6 +28,8 @@ class ProcessorColourPass : public ColourPass {
         looks_(TextureStack(patterns), int(patterns.size())),
         pool_(pool),
         shader_(shader) {
+    if (!scene.placed.empty())
+      data_.any_triangle = geometry.name_of_triangle[geometry.first_index[scene.placed.front().mesh] / 3];
     if (scene.paints) paints_ = PackedImages(scene.paints->images, scene.paints->image_count);
     fill_scene(light);
   }

@@ -25,36 +25,16 @@ struct LitAir {
 // What scatters light at a point: shares of fog, of dust and of drops.
 struct Scatterer {
   double fog = 1, dust = 0, drops = 0, fog_g = 0, dust_g = 0;
-  // What scattering leaves of light's variation with direction, of each order of spherical harmonics: of all that is
-  // scattered; and of what does not go nearly straight on, see forward_share().
-  std::array<float, kOrders> turned() const { return orders({fog, dust, drops}, {fog_g, dust_g, Precipitation::kAsymmetry}); }
-  std::array<float, kOrders> turned_less() const {
-    constexpr double kDrops = Precipitation::kAsymmetry;
-    return orders({fog * (1 - forward_share(fog_g)), dust * (1 - forward_share(dust_g)), drops * (1 - forward_share(kDrops))},
-                  {turned_cosine(fog_g), turned_cosine(dust_g), turned_cosine(kDrops)});
-  }
-  // Of extinction, what is left without that.
-  double turned_share(double albedo) const {
-    return 1 - albedo * (fog * forward_share(fog_g) + dust * forward_share(dust_g) +
-                         drops * forward_share(Precipitation::kAsymmetry));
-  }
   // Light of this illuminance that goes on by an angle of this cosine, per unit of scattering.
   float phase(double cosine) const {
     const double of_drops = drops > 0 ? drops * phase_function(Precipitation::kAsymmetry, cosine) : 0;
     return float((fog > 0 ? fog * phase_function(fog_g, cosine) : 0) +
                  (dust > 0 ? dust * phase_function(dust_g, cosine) : 0) + of_drops);
   }
-
- private:
-  static std::array<float, kOrders> orders(std::array<double, 3> shares, const std::array<double, 3>& cosines) {
-    std::array<float, kOrders> out;
-    for (float& order : out) {
-      order = float(shares[0] + shares[1] + shares[2]);
-      for (std::size_t i = 0; i < 3; ++i) shares[i] *= cosines[i];
-    }
-    return out;
-  }
 };
+
+// Of what is far away.
+inline constexpr float kGroundReflectance = 0.2f;
 
 // Light from all around: the mean radiance of sky and surfaces. Beyond the baked air, what local lights add to it falls
 // with the square of the distance in units of that air's size, down to that of the sky over level ground.
@@ -63,9 +43,5 @@ Vec3f even_glow(const AirLight& baked, const LightSet& lights, const Scatterer& 
 // Light of the lamp that is scattered at p towards the lens, against `direction`.
 Vec3f lamp_glow(const AirLamp& lamp, const Scatterer& air, const Vec3f& p, const Vec3f& direction,
                 double depth_to_p);
-
-// Of the lights that are not the lamp, as far as the fog on the way to p lets them pass: what it scatters is in
-// the field.
-Vec3f light_glow(const LitAir& lit, const Air& fog, const Scatterer& air, const Vec3f& p, const Vec3f& direction);
 
 }  // namespace rubble

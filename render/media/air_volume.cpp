@@ -4,20 +4,78 @@
 #include <cmath>
 #include <utility>
 
-#include "render/media/air_box.h"
+#include "render/lighting/light_packing.h"
 
 namespace rubble {
 
 namespace {
 
-constexpr double kNearGlow = 4;  // from the eye, as far as a lamp near it has a near glow; unit: cell of the grid
+static_assert(AirVolume::kSlices <= AirTraceData::kMostSlices);
+static_assert(AirVolume::kColumns % 4 == 0 && AirVolume::kRows % 4 == 0);
 
-// Of light from all around, by what scattering leaves of each order.
-Vec3f scattered(const std::array<Vec3f, kOrders>& orders, const std::array<float, kOrders>& left) {
-  Vec3f sum;
-  for (std::size_t l = 0; l < kOrders; ++l) sum += orders[l] * left[l];
-  for (int c = 0; c < 3; ++c) sum[c] = std::max(sum[c], 0.0f);
-  return sum;
+constexpr float kNearGlow = 4;  // from the eye, as far as a lamp near it has a near glow; unit: cell of the grid
+
+void set(float (&out)[3], const Vec3f& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
+
+// Four numbers for each three.
+std::vector<float> padded(const std::vector<Vec3f>& values) {
+  std::vector<float> out;
+  out.reserve(values.size() * 4);
+  for (const Vec3f& v : values) out.insert(out.end(), {v.x, v.y, v.z, 0.0f});
+  return out;
+}
+
+void fill_medium(const Air& air, AirTraceData& out) {
+  out.fog_density = float(air.fog_density()), out.albedo = float(air.albedo());
+  out.fog_rate = air.fog_height() > 0 ? float(1 / air.fog_height()) : 0;
+  out.fog_g = float(air.fog_asymmetry()), out.dust_g = float(air.dust_asymmetry());
+  out.drops_g = float(Precipitation::kAsymmetry);
+  const Air::Billows billows = air.billow_noise();
+  out.billows = float(billows.strength), out.billow_scale = float(1 / billows.size);
+  set(out.drift, Vec3f(billows.drift));
+  out.noise = billows.noise, out.noise_side = Medium::kNoiseSide;
+  out.beam_fog = float(air.turned_share(air.fog_asymmetry()));
+  out.beam_drops = float(air.drops() * air.turned_share(Precipitation::kAsymmetry));
+}
+
+// Optical depth of what falls, from each entry of the table to the next.
+void fill_drops(const Air& air, bool drops_drawn, AirTraceData& out) {
+  for (int slice = 0; slice < AirVolume::kSlices; ++slice) {
+    const double far = AirVolume::slice_distance(slice);
+    out.distance[slice] = float(far);
+    if (slice == 0) continue;
+    const double near = AirVolume::slice_distance(slice - 1);
+    double sum = 0;
+    for (const Precipitation& kind : air.falling())
+      sum += (far - near) * (drops_drawn ? kind.veil(0.5 * (near + far)) : kind.extinction());
+    out.drops[slice] = float(sum);
+  }
+}
+
+void fill_lights(const LitAir& lit, AirTraceData& out) {
+  const AirLight& baked = lit.baked;
+  set(out.origin, baked.origin), set(out.cell, baked.cell);
+  const bool grid = baked.radiance.size() > 1;
+  for (std::size_t i = 0; i < 3; ++i) out.size[i] = grid ? baked.size[i] : 1;
+  out.light_count = int(lit.lights.lights.size());
+  for (std::size_t i = 0; i < lit.lights.lights.size(); ++i) {
+    const LightModel& from = lit.lights.lights[i];
+    AirTraceData::Light& to = out.lights[i];
+    to.type = int(from.type);
+    set(to.position, from.position), set(to.axis, from.axis), set(to.colour, from.colour);
+    to.cos_outer = from.cos_outer, to.cone_width = 1 / std::max(from.cos_inner - from.cos_outer, 1e-6f);
+    out.local = out.local || from.type != LightType::directional;
+  }
+  set(out.open, lit.lights.sky.mean * (0.5f * (1 + kGroundReflectance)));
+  const Vec3f size = (baked.nearest({1e9f, 1e9f, 1e9f}) - baked.origin) * 0.5f;
+  out.half_size = std::max(norm(size), 1e-6f);
+  set(out.box_low, Vec3f(lit.box.min)), set(out.box_high, Vec3f(lit.box.max));
+}
+
+void fill_lamp(const AirLamp& lamp, AirTraceData& out) {
+  out.lamp = true;
+  set(out.lamp_position, lamp.position), set(out.lamp_axis, lamp.axis), set(out.lamp_colour, lamp.colour);
+  out.lamp_cone = lamp.cone, out.lamp_size2 = lamp.size2;
 }
 
 }  // namespace
@@ -28,146 +86,104 @@ double AirVolume::slice_distance(int slice) {
 }
 
 void AirVolume::build(const ViewRays& view, const Air& air, const LitAir& lit, const AirLamp* lamp, bool drops_drawn,
-                      std::vector<float> farthest, ThreadPool& pool) {
-  drops_drawn_ = drops_drawn, farthest_ = std::move(farthest);
-  view_ = &view, air_ = &air, lit_ = &lit, lamp_ = lamp;
+                      const std::vector<float>& farthest, const WideShader& shader, ThreadPool& pool) {
   table_.resize(std::size_t(kColumns) * kRows * kSlices);
-  near_glow_.reset();
-  if (lit.field) {
-    const Vec3f& cell = lit.field->grid.cell;
-    cell_ = std::min(cell.x, std::min(cell.y, cell.z));
-    if (lamp && !lit.field->of_lamp.empty()) near_glow_.emplace(lamp->cone, turned_cosine(air.fog_asymmetry()));
-    around_.resize(table_.size() / (kShared * kShared));
-    pool.run(kRows / kShared, 1, [&](int begin, int end) {
-      for (int row = begin; row < end; ++row)
-        for (int column = 0; column < kColumns / kShared; ++column) look_around(column, row);
-    });
+  find_rays(view);
+  find_wanted(farthest);
+  AirTraceData data;
+  data.columns = kColumns, data.rows = kRows, data.slices = kSlices;
+  data.rays = rays_.data(), data.wanted = wanted_.data(), data.table = table_.front().data();
+  fill_medium(air, data);
+  fill_drops(air, drops_drawn, data);
+  fill_lights(lit, data);
+  if (lamp) fill_lamp(*lamp, data);
+  puffs_.clear();
+  for (const DustPuff& puff : air.puffs()) {
+    const Vec3f c(puff.centre);
+    puffs_.push_back({{c.x, c.y, c.z}, float(puff.deviation), float(puff.extinction)});
   }
-  pool.run(kRows, 2, [&](int begin, int end) {
-    for (int row = begin; row < end; ++row)
-      for (int column = 0; column < kColumns; ++column) trace(column, row);
-  });
+  data.puffs = puffs_.data(), data.puff_count = int(puffs_.size());
+  if (baked_radiance_.empty()) baked_radiance_ = padded(lit.baked.radiance), baked_direct_ = padded(lit.baked.direct);
+  data.radiance = baked_radiance_.data(), data.direct = baked_direct_.empty() ? nullptr : baked_direct_.data();
+  std::optional<NearGlow> near_glow;
+  if (lit.field) {
+    look_around(lit, pool);
+    data.around = around_.front().data(), data.shared = kShared;
+    data.around_columns = kColumns / kShared, data.around_rows = kRows / kShared;
+    if (lamp && !lit.field->of_lamp.empty()) {
+      near_glow.emplace(lamp->cone, turned_cosine(air.fog_asymmetry()));
+      const Vec3f& cell = lit.field->grid.cell;
+      data.near_glow = near_glow->table().front().data(), data.near_glow_steps = int(NearGlow::kAngles);
+      data.near_glow_cell = std::min(cell.x, std::min(cell.y, cell.z));
+      data.near_glow_reach = kNearGlow * data.near_glow_cell;
+    }
+  }
+  pool.run(kRows / 4, 1, [&](int begin, int end) { shader.trace_air(data, begin, end); });
 }
 
 // Of the ray through that place of the table, 0.5 in the middle of its first column or row.
-Vec3 AirVolume::direction(double column, double row, Vec3& eye) const {
-  const Intrinsics& k = view_->intrinsics;
+Vec3 AirVolume::direction(const ViewRays& view, double column, double row, Vec3& eye) {
+  const Intrinsics& k = view.intrinsics;
   const double u = column * k.width / kColumns - 0.5, v = row * k.height / kRows - 0.5;
   const int pixel_u = std::clamp(int(u + 0.5), 0, k.width - 1);
   const int pixel_v = std::clamp(int(v + 0.5), 0, k.height - 1);
-  const Vec3 seen = view_->directions ? view_->direction(pixel_u, pixel_v)
-                                      : normalized(Vec3((u - k.cx) / k.fx, (v - k.cy) / k.fy, 1));
-  const Pose world_from_optical = view_->pose(pixel_v);
+  const Vec3 seen = view.directions ? view.direction(pixel_u, pixel_v)
+                                    : normalized(Vec3((u - k.cx) / k.fx, (v - k.cy) / k.fy, 1));
+  const Pose world_from_optical = view.pose(pixel_v);
   eye = world_from_optical.translation;
   return world_from_optical.rotation.rotate(seen);
 }
 
-int AirVolume::slices_of(int column, int row) const {
-  if (farthest_.empty()) return kSlices;
-  const float r = farthest_[std::size_t(row) * kColumns + std::size_t(column)];
-  // Between that slice and the next, and as far again for rounding.
-  return std::min(kSlices, int(r / (r + 2) * (kSlices - 1)) + 3);
-}
-
-void AirVolume::look_around(int column, int row) {
-  int slices = 0;  // that a ray reads which is between this one and its neighbours
-  for (int y = std::max(0, (row - 1) * kShared); y < std::min(kRows, (row + 2) * kShared); ++y)
-    for (int x = std::max(0, (column - 1) * kShared); x < std::min(kColumns, (column + 2) * kShared); ++x)
-      slices = std::max(slices, slices_of(x, y));
-  Vec3 eye;
-  const Vec3 way = direction((column + 0.5) * kShared, (row + 0.5) * kShared, eye);
-  Orders* out = &around_[std::size_t(row * (kColumns / kShared) + column)];
-  for (int slice = 1; slice < slices; ++slice) {
-    out += std::size_t(kColumns / kShared) * (kRows / kShared);
-    const Vec3 middle = eye + way * (0.5 * (slice_distance(slice - 1) + slice_distance(slice)));
-    *out = {orders_towards(lit_->field->at(Vec3f(middle)), Vec3f(way)),
-            orders_towards(lit_->field->of_lamp_at(Vec3f(middle)), Vec3f(way))};
+void AirVolume::find_rays(const ViewRays& view) {
+  constexpr std::size_t kRays = std::size_t(kColumns) * kRows;
+  rays_.resize(6 * kRays);
+  for (std::size_t i = 0; i < kRays; ++i) {
+    Vec3 eye;
+    const Vec3f way(direction(view, double(i % kColumns) + 0.5, double(i / kColumns) + 0.5, eye)), from(eye);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      rays_[axis * kRays + i] = from[int(axis)];
+      rays_[(axis + 3) * kRays + i] = way[int(axis)];
+    }
   }
 }
 
-// Between the rays that were looked up.
-AirVolume::Orders AirVolume::around(int column, int row, int slice) const {
-  constexpr int kWide = kColumns / kShared, kHigh = kRows / kShared;
-  const auto place = [](int i, int count, int& low) {
-    const float at = std::clamp((float(i) + 0.5f) / kShared - 0.5f, 0.0f, float(count - 1));
-    low = std::min(int(at), count - 2);
-    return at - float(low);
-  };
-  int x = 0, y = 0;
-  const float u = place(column, kWide, x), v = place(row, kHigh, y);
-  const Orders* first = &around_[std::size_t((slice * kHigh + y) * kWide + x)];
-  const Orders &a = first[0], &b = first[1], &c = first[kWide], &d = first[kWide + 1];
-  Orders out;
-  const auto mix = [&](std::array<Vec3f, kOrders> Orders::*part) {
-    for (std::size_t l = 0; l < kOrders; ++l)
-      (out.*part)[l] = ((a.*part)[l] * (1 - u) + (b.*part)[l] * u) * (1 - v) + ((c.*part)[l] * (1 - u) + (d.*part)[l] * u) * v;
-  };
-  mix(&Orders::all), mix(&Orders::of_lamp);
-  return out;
+void AirVolume::find_wanted(const std::vector<float>& farthest) {
+  wanted_.assign(std::size_t(kColumns) * kRows, kSlices);
+  for (std::size_t i = 0; i < farthest.size(); ++i) {
+    const float r = farthest[i];
+    // Between that slice and the next, and as far again for rounding.
+    wanted_[i] = std::min(kSlices, int(r / (r + 2) * (kSlices - 1)) + 3);
+  }
 }
 
-void AirVolume::trace(int column, int row) {
-  Vec3 eye;
-  const Vec3 direction = this->direction(column + 0.5, row + 0.5, eye);
-  // Only the puffs that this ray comes near.
-  std::vector<const DustPuff*> puffs;
-  for (const DustPuff& puff : air_->puffs())
-    if (puff.optical_depth(eye, direction, 0, kFarthest) > 1e-5) puffs.push_back(&puff);
-  // Outside the box light is scattered once: what is scattered straight on is lost there, too.
-  float box_near = 0, box_far = float(kFarthest);
-  const bool through = clip_to_box(lit_->box, Vec3f(eye), Vec3f(direction), box_near, box_far);
-  Vec3f glow;
-  double depth = 0, turned_depth = 0;  // the latter as Air::turned_depth(), but for that
-  const std::size_t slice_size = std::size_t(kColumns) * kRows;
-  std::array<float, 4>* out = &table_[std::size_t(row) * kColumns + std::size_t(column)];
-  *out = {0, 0, 0, 1};
-  const int slices = slices_of(column, row);
+void AirVolume::look_around(const LitAir& lit, ThreadPool& pool) {
+  constexpr int kWide = kColumns / kShared, kHigh = kRows / kShared;
+  around_.resize(std::size_t(kWide) * kHigh * kSlices);
+  pool.run(kHigh, 1, [&](int begin, int end) {
+    for (int row = begin; row < end; ++row)
+      for (int column = 0; column < kWide; ++column) look_around_ray(*lit.field, column, row);
+  });
+}
+
+void AirVolume::look_around_ray(const RadianceGrid& field, int column, int row) {
+  int slices = 0;  // that a ray reads which is between this one and its neighbours
+  for (int y = std::max(0, (row - 1) * kShared); y < std::min(kRows, (row + 2) * kShared); ++y)
+    for (int x = std::max(0, (column - 1) * kShared); x < std::min(kColumns, (column + 2) * kShared); ++x)
+      slices = std::max(slices, wanted_[std::size_t(y) * kColumns + std::size_t(x)]);
+  // A ray in the middle of those that share it.
+  const std::size_t ray = std::size_t(row * kShared + kShared / 2) * kColumns + std::size_t(column * kShared + kShared / 2);
+  const auto part = [&](std::size_t i) { return rays_[i * std::size_t(kColumns) * kRows + ray]; };
+  const Vec3f eye(part(0), part(1), part(2)), way(part(3), part(4), part(5));
+  Orders* out = &around_[std::size_t(row * (kColumns / kShared) + column)];
   for (int slice = 1; slice < slices; ++slice) {
-    const double near = slice_distance(slice - 1), far = slice_distance(slice);
-    const Vec3 middle = eye + direction * (0.5 * (near + far));
-    const double mist = air_->fog_depth(eye + direction * near, direction, far - near);
-    double dust = 0;
-    for (const DustPuff* puff : puffs) dust += puff->optical_depth(eye, direction, near, far);
-    double drops = 0;
-    for (const Precipitation& kind : air_->falling())
-      drops += (far - near) * (drops_drawn_ ? kind.veil(0.5 * (near + far)) : kind.extinction());
-    const double all = mist + dust + drops;
-    if (all > 1e-9) {
-      const Scatterer scatterer{mist / all, dust / all, drops / all, air_->fog_asymmetry(), air_->dust_asymmetry()};
-      const double step = (mist + dust) * air_->billows(middle) + drops;
-      const Vec3f p(middle), way(direction);
-      const Orders orders = lit_->field ? around(column, row, slice) : Orders();
-      Vec3f source = light_glow(*lit_, *air_, scatterer, p, way);
-      source += lit_->field ? scattered(orders.all, scatterer.turned()) : even_glow(lit_->baked, lit_->lights, scatterer, p);
-      glow += source * float(std::exp(-depth) * (1 - std::exp(-step)) * air_->albedo());
-      // The lamp's light goes the same way out and back. Most of what is scattered nearly straight on stays in its
-      // beam and in the camera's ray, so both are weakened by what is turned alone; how much is thrown back is by
-      // the whole phase function (Nakajima and Tanaka 1988).
-      const double at = 0.5 * (near + far);
-      const bool inside = through && at > double(box_near) && at < double(box_far);
-      const double turned_step = inside ? step * scatterer.turned_share(air_->albedo()) : step;
-      const double share = turned_step > 0 ? std::exp(-turned_depth) * (1 - std::exp(-turned_step)) * step / turned_step * air_->albedo() : 0;
-      // Next to the lamp its light varies within a slice.
-      const int parts = near < 0.5 ? 4 : near < 2 ? 2 : 1;
-      for (int i = 0; lamp_ && i < parts; ++i) {
-        const double part = (i + 0.5) / parts;
-        const Vec3f q(eye + direction * (near + (far - near) * part));
-        glow += lamp_glow(*lamp_, scatterer, q, way, turned_depth + part * turned_step) * float(share / parts);
-      }
-      const std::array<float, kOrders> less = scatterer.turned_less();
-      Vec3f again = scattered(orders.of_lamp, less);
-      if (near_glow_ && inside && near < kNearGlow * cell_) {
-        const std::array<float, kOrders> missing = near_glow_->at(*lamp_, p, way, cell_);
-        float sum = 0;
-        for (std::size_t l = 0; l < kOrders; ++l) sum += missing[l] * less[l];
-        const double scattering = air_->albedo() * double(less[0]) * step / (far - near);
-        again += lamp_->colour * float(std::max(sum, 0.0f) * scattering * std::exp(-turned_depth));
-      }
-      glow += again * float(share);
-      depth += step, turned_depth += turned_step;
-    }
-    out += slice_size;
-    *out = {glow.x, glow.y, glow.z, float(std::exp(-depth))};
+    out += std::size_t(kColumns / kShared) * (kRows / kShared);
+    const Vec3f middle = eye + way * float(0.5 * (slice_distance(slice - 1) + slice_distance(slice)));
+    const auto put = [&](const RadianceTerms& terms, std::size_t first) {
+      const std::array<Vec3f, kOrders> orders = orders_towards(terms, way);
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t l = 0; l < kOrders; ++l) (*out)[(first + c) * kOrders + l] = orders[l][int(c)];
+    };
+    put(field.at(middle), 0), put(field.of_lamp_at(middle), 3);
   }
 }
 

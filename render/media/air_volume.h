@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "render/media/air_glow.h"
 #include "render/media/medium.h"
 #include "render/media/near_glow.h"
+#include "render/shading/wide_shader.h"
 
 namespace rubble {
 
@@ -28,9 +30,10 @@ class AirVolume {
   static double slice_distance(int slice);
 
   // drops_drawn: without the drops that cameras draw one by one. farthest: for each ray of the table, the distance up
-  // to which it is read: what lies beyond is left as it was; empty: all of it; unit: m
+  // to which it is read: what lies beyond is left as it was; empty: all of it; unit: m. Baked light is that of the first
+  // call.
   void build(const ViewRays& view, const Air& air, const LitAir& lit, const AirLamp* lamp, bool drops_drawn,
-             std::vector<float> farthest, ThreadPool& pool);
+             const std::vector<float>& farthest, const WideShader& shader, ThreadPool& pool);
 
   // Red, green, blue (kcd/m2) and transmittance; x runs fastest, then y (rows from the top), then
   // the slice. Rays go through the middles of kColumns by kRows equal rectangles of the image.
@@ -40,26 +43,20 @@ class AirVolume {
   // Light from all around varies little from ray to ray: it is looked up for the middles of 3 by 3 of them, in
   // orders of spherical harmonics.
   static constexpr int kShared = 3;
-  struct Orders {
-    std::array<Vec3f, kOrders> all, of_lamp;  // as of RadianceGrid
-  };
+  using Orders = std::array<float, 6 * kOrders>;  // red, green, blue, and those of the lamp's light
 
-  Vec3 direction(double column, double row, Vec3& eye) const;
-  int slices_of(int column, int row) const;  // that are read
-  void look_around(int column, int row);
-  Orders around(int column, int row, int slice) const;
-  void trace(int column, int row);
+  static Vec3 direction(const ViewRays& view, double column, double row, Vec3& eye);
+  void find_rays(const ViewRays& view);
+  void find_wanted(const std::vector<float>& farthest);
+  void look_around(const LitAir& lit, ThreadPool& pool);
+  void look_around_ray(const RadianceGrid& field, int column, int row);
 
   std::vector<std::array<float, 4>> table_;
-  std::vector<Orders> around_;  // as the table, of kColumns / kShared by kRows / kShared rays
-  const ViewRays* view_ = nullptr;
-  const Air* air_ = nullptr;
-  const LitAir* lit_ = nullptr;
-  const AirLamp* lamp_ = nullptr;
-  std::optional<NearGlow> near_glow_;  // of the lamp
-  float cell_ = 1;                     // of the grid of the field; unit: m
-  bool drops_drawn_ = false;
-  std::vector<float> farthest_;
+  std::vector<float> rays_;           // as AirTraceData::rays
+  std::vector<std::int32_t> wanted_;  // slices of each ray
+  std::vector<Orders> around_;        // as the table, of kColumns / kShared by kRows / kShared rays
+  std::vector<AirTraceData::Puff> puffs_;
+  std::vector<float> baked_radiance_, baked_direct_;  // four numbers a point
 };
 
 }  // namespace rubble

@@ -65,6 +65,7 @@ class Air {
   // Light that is scattered at p by an angle of this cosine, per metre and steradian, as a share of
   // the light that comes: of fog, dust and drops, each by its own phase function; unit: 1/(m sr)
   double scattering(const Vec3& p, double cosine) const;
+  double fog_density() const { return spec_.fog_density; }
   double fog_height() const { return spec_.fog_height; }
   double fog_asymmetry() const { return spec_.fog_asymmetry; }
   double dust_asymmetry() const { return spec_.dust.asymmetry; }
@@ -80,6 +81,13 @@ class Air {
            drops_ * distance * turned_share(Precipitation::kAsymmetry);
   }
   double billows(const Vec3& p) const;
+  // What these are made of: strength as AirSpec::fog_noise; noise: kNoiseSide^3 values, null where the strength is 0.
+  struct Billows {
+    double strength, size;
+    Vec3 drift;
+    const float* noise;
+  };
+  Billows billow_noise() const { return {spec_.fog_noise, spec_.fog_noise_size, drift_, noise_ ? noise_->data() : nullptr}; }
   const std::vector<DustPuff>& puffs() const { return puffs_; }
   const std::vector<Precipitation>& falling() const { return falling_; }
   double drops() const { return drops_; }  // extinction of all that falls; unit: 1/m

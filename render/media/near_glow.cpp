@@ -47,24 +47,4 @@ NearGlow::NearGlow(float cone, double cosine) {
   }
 }
 
-std::array<float, kOrders> NearGlow::at(const AirLamp& lamp, const Vec3f& p, const Vec3f& direction, float cell) const {
-  const Vec3f way = p - lamp.position;
-  const float r2 = std::max(dot(way, way), lamp.size2), r = std::sqrt(r2);
-  const float missing = 1 / r - 1 / std::sqrt(r2 + cell * cell);
-  const float cosine = std::clamp(dot(way, lamp.axis) / r, -1.0f, 1.0f);
-  const Vec3f aside = way - lamp.axis * dot(way, lamp.axis);
-  const float off = norm(aside);
-  Vec3f x = aside * (1 / std::max(off, 1e-6f));
-  if (off < 1e-6f) x = normalized(cross(lamp.axis, std::fabs(lamp.axis.z) < 0.9f ? Vec3f(0, 0, 1) : Vec3f(1, 0, 0)));
-  const Vec3f y = cross(lamp.axis, x);
-  const Harmonics terms = harmonics_of({dot(direction, x), dot(direction, y), dot(direction, lamp.axis)});
-  const float at = std::acos(cosine) / portable::kPiF * kAngles;
-  const std::size_t low = std::min(std::size_t(at), kAngles - 1);
-  const float part = at - float(low);
-  std::array<float, kOrders> out{};
-  for (std::size_t t = 0; t < kHarmonics; ++t)
-    out[order_of(t)] += (table_[low][t] * (1 - part) + table_[low + 1][t] * part) * terms[t] * missing;
-  return out;
-}
-
 }  // namespace rubble

@@ -19,14 +19,12 @@ class NearGlow {
   // cone: as of AirLamp; cosine: mean cosine of the first scattering.
   NearGlow(float cone, double cosine);
 
-  // By each order of spherical harmonics: radiance at p from this direction, of a lamp of intensity 1, over the
-  // scattering coefficient; unit: 1/m
-  std::array<float, kOrders> at(const AirLamp& lamp, const Vec3f& p, const Vec3f& direction, float cell) const;
+  static constexpr std::size_t kAngles = 32;
+  // By the angle from the axis, in kAngles equal steps to 180 degrees: G, in a frame whose Z is the axis and whose Y is
+  // normal to the plane of axis and point.
+  const std::vector<Harmonics>& table() const { return table_; }
 
  private:
-  static constexpr std::size_t kAngles = 32;
-  // By the angle from the axis, in equal steps to 180 degrees; in a frame whose Z is the axis and whose Y is normal to
-  // the plane of axis and point.
   std::vector<Harmonics> table_;
 };
 

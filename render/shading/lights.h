@@ -2,6 +2,7 @@
 // names.
 #pragma once
 
+#include "render/shading/fog_depth.h"
 #include "render/shading/texture_reads.h"
 
 namespace rubble::RUBBLE_ISA {
@@ -71,21 +72,7 @@ RUBBLE_INLINE Arriving lamp_at(const ShadingData& data, const Real3& p) {
 // What beams lose in the mean air along a straight line from a height z, as Air::turned_depth().
 RUBBLE_INLINE Real air_depth(const ShadingData& data, Real z, Real slope, Real way) {
   const FrameBlock& f = data.frame;
-  const Real drops = f.air_drops[0] * way;
-  const float rate = f.air_high[3];
-  const Real even = f.air_low[3] * way + drops;
-  if (rate <= 0) return even;
-  const Real end = z + slope * way;
-  const Mask below = Mask(z < 0.0f), ends_below = Mask(end < 0.0f);
-  const Mask all_below = Mask(z <= 0.0f) & Mask(end <= 0.0f), partly = below | ends_below;
-  // The part below the ground.
-  const Real steep = select(partly, slope, real(1));
-  const Real low = select(partly, select(below, -z / steep, end / steep), real(0));
-  const Real above = select(partly, way - low, way), from = select(partly, max(z, 0.0f), z);
-  const Real x = slope * above * rate;
-  const Mask level = abs(x) < 1e-3f;
-  const Real mean = select(level, 1.0f - 0.5f * x, (1.0f - exp(-x)) / select(level, real(1), x));
-  return select(all_below, even, f.air_low[3] * (low + above * exp(-from * rate) * mean) + drops);
+  return fog_depth(f.air_low[3], f.air_high[3], z, slope, way) + f.air_drops[0] * way;
 }
 
 // Share of light i that the air lets pass: of a beam from far away all up to the box.

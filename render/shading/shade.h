@@ -117,12 +117,11 @@ RUBBLE_INLINE void add_lamp(const ShadingData& d, const Pixel& pixel, const Surf
 
 inline Real3 shade_surface(const ShadingData& d, const Pixel& pixel, const Real3& world,
                            Real passed) {
-  // Lanes that see nothing take the first triangle of the first mesh, and nobody reads what they
-  // find.
+  // Lanes that see nothing take a triangle of the first mesh, and nobody reads what they find.
   const Mask nothing = Mask(pixel.placed == 0u);
-  const Surface s = find_surface(d, Word(select(nothing, integer(0), Int(pixel.placed) - 1)),
-                                 Word(select(nothing, integer(0), Int(pixel.triangle))), world,
-                                 pixel.direction, pixel.z);
+  const Word placed = Word(select(nothing, integer(0), Int(pixel.placed) - 1));
+  const Word triangle = Word(select(nothing, integer(int(d.any_triangle)), Int(pixel.triangle)));
+  const Surface s = find_surface(d, placed, triangle, world, pixel.direction, pixel.z);
   const OpennessGrid& o = d.openness;
   const Between x = between_clamped((to_real(pixel.x) + 0.5f) * (1.0f / float(d.width)), o.width);
   const Between y = between_clamped((to_real(pixel.y) + 0.5f) * (1.0f / float(d.height)), o.height);

@@ -54,6 +54,7 @@ struct ShadingData {
   int width = 0, height = 0;  // of the image
   int every = 1;  // shades each so-many-th pixel in both directions, the first at half of that
   const std::uint32_t* ids = nullptr;  // two a pixel: placed mesh + 1, name of the triangle
+  std::uint32_t any_triangle = 0;      // name of one of the first placed mesh
   const float* depth_values = nullptr;
   const float* lens_rays = nullptr;  // four a pixel, as RayPass has them; null: a pinhole
   const float* row_poses = nullptr;  // three rows of four numbers for each row of pixels

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "render/shading/air_trace_data.h"
 #include "render/shading/shading_data.h"
 
 namespace rubble {
@@ -34,6 +35,8 @@ struct WideShader {
   void (*shade)(const ShadingData& data, const ShadedPixels& out, int first, int last);
   // Rows [first, last) of the grid; the first is a multiple of four.
   void (*find_contacts)(const ContactData& data, int first, int last);
+  // Rows [first, last) of blocks of four rows of rays.
+  void (*trace_air)(const AirTraceData& data, int first, int last);
 };
 
 // Those that this processor can run, the fastest first. Never empty.

@@ -112,7 +112,7 @@ Allowed stack(const Prefixes& rooms, const Prefixes& others) {
 
 const Allowed kRender = stack(
     {"render/scene/", "render/streams/", "render/gl/", "render/camera/", "render/materials/", "render/sky/", "render/geometry/",
-     "render/lighting/", "render/media/", "render/raster/", "render/shading/", "render/passes/", "render/colour/",
+     "render/lighting/", "render/shading/", "render/media/", "render/raster/", "render/passes/", "render/colour/",
      "render/transport/", "render/reference/", "render/view/", "render/renderer.", "render/optics/", "render/sensors/",
      "render/lidar/"},
     {"kernel/base/"});

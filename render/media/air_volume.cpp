@@ -105,20 +105,24 @@ void AirVolume::build(const ViewRays& view, const Air& air, const LitAir& lit, c
   data.puffs = puffs_.data(), data.puff_count = int(puffs_.size());
   if (baked_radiance_.empty()) baked_radiance_ = padded(lit.baked.radiance), baked_direct_ = padded(lit.baked.direct);
   data.radiance = baked_radiance_.data(), data.direct = baked_direct_.empty() ? nullptr : baked_direct_.data();
-  std::optional<NearGlow> near_glow;
   if (lit.field) {
     look_around(lit, pool);
     data.around = around_.front().data(), data.shared = kShared;
     data.around_columns = kColumns / kShared, data.around_rows = kRows / kShared;
     if (lamp && !lit.field->of_lamp.empty()) {
-      near_glow.emplace(lamp->cone, turned_cosine(air.fog_asymmetry()));
       const Vec3f& cell = lit.field->grid.cell;
-      data.near_glow = near_glow->table().front().data(), data.near_glow_steps = int(NearGlow::kAngles);
+      data.near_glow = near_glow(lamp->cone, turned_cosine(air.fog_asymmetry())).table().front().data(), data.near_glow_steps = int(NearGlow::kAngles);
       data.near_glow_cell = std::min(cell.x, std::min(cell.y, cell.z));
       data.near_glow_reach = kNearGlow * data.near_glow_cell;
     }
   }
   pool.run(kRows / 4, 1, [&](int begin, int end) { shader.trace_air(data, begin, end); });
+}
+
+const NearGlow& AirVolume::near_glow(float cone, double cosine) {
+  if (!near_glow_ || near_glow_cone_ != cone || near_glow_cosine_ != cosine) near_glow_.emplace(cone, cosine);
+  near_glow_cone_ = cone, near_glow_cosine_ = cosine;
+  return *near_glow_;
 }
 
 // Of the ray through that place of the table, 0.5 in the middle of its first column or row.

@@ -49,6 +49,7 @@ class AirVolume {
   void find_rays(const ViewRays& view);
   void find_wanted(const std::vector<float>& farthest);
   void look_around(const LitAir& lit, ThreadPool& pool);
+  const NearGlow& near_glow(float cone, double cosine);
   void look_around_ray(const RadianceGrid& field, int column, int row);
 
   std::vector<std::array<float, 4>> table_;
@@ -57,6 +58,10 @@ class AirVolume {
   std::vector<Orders> around_;        // as the table, of kColumns / kShared by kRows / kShared rays
   std::vector<AirTraceData::Puff> puffs_;
   std::vector<float> baked_radiance_, baked_direct_;  // four numbers a point
+  // Of the lamp as it was in the picture before.
+  std::optional<NearGlow> near_glow_;
+  float near_glow_cone_ = 0;
+  double near_glow_cosine_ = 0;
 };
 
 }  // namespace rubble

@@ -41,6 +41,8 @@ LampBounce::LampBounce(const PreparedScene& scene, BakeLinks links, std::vector<
       rays_(scene, RayScene::Detail::finest),
       map_(std::size_t(kSide) * kSide) {
   points_.resize(links_.albedos.size());
+  lit_.resize(points_.size() / 64 + 1);
+  for (std::size_t i = 0; i < links_.seen.size(); i += 2) coarse_links_.push_back(links_.seen[i]);
   radiance_.resize(points_.size()), once_.resize(points_.size()), arrived_.resize(points_.size());
   point_shows_.resize(points_.size()), node_shows_.resize(scene.light_nodes);
   is_seen_.resize(scene.placed.size());
@@ -158,16 +160,27 @@ float LampBounce::passes(std::size_t from, std::size_t to) const {
   return std::exp(-extinction_ * distance(points_[from].position, points_[to].position));
 }
 
-// By every other ray.
+void LampBounce::mark_lit() {
+  std::fill(lit_.begin(), lit_.end(), 0);
+  for (const std::uint32_t piece : seen_) {
+    const std::size_t first = first_point_[piece];
+    for (std::size_t i = first; i < first + count_points(piece); ++i)
+      if (radiance_[i].c[1] > 0) lit_[i / 64] |= std::uint64_t(1) << (i % 64);
+  }
+}
+
+// By every other ray. Most end where the lamp does not shine, which the bits say without a look at the light.
 Vec3f LampBounce::gather_colour(std::size_t point) const {
-  const std::uint32_t* links = links_.seen.data() + point * BakeLinks::kPerPoint;
+  constexpr std::size_t kRays = BakeLinks::kPerPoint / 2;
+  const std::uint32_t* links = coarse_links_.data() + point * kRays;
   Light sum;
   int rays = 0;
-  for (std::size_t k = 0; k < BakeLinks::kPerPoint; k += 2) {
+  for (std::size_t k = 0; k < kRays; ++k) {
     rays += links[k] != BakeLinks::kNoRay;
     if (links[k] >= BakeLinks::kNoRay) continue;  // or dark
+    if (!(lit_[links[k] / 64] >> (links[k] % 64) & 1)) continue;
     const Light& light = radiance_[links[k]];
-    const float share = extinction_ > 0 && light.c[1] > 0 ? passes(point, links[k]) : 1;
+    const float share = extinction_ > 0 ? passes(point, links[k]) : 1;
     for (std::size_t c = 0; c < 4; ++c) sum.c[c] += light.c[c] * share;
   }
   const float scale = rays > 0 ? portable::kPiF / float(rays) : 0;
@@ -216,6 +229,7 @@ float LampBounce::share_again() const {
 
 void LampBounce::pass_on(const Vec3f& lamp) {
   const auto kept = [&](std::size_t i) { return kept_at(distance(points_[i].position, lamp)); };
+  mark_lit();
   for_seen([&](std::size_t i) { once_[i] = kept(i) > 0 ? gather_colour(i) : Vec3f(); });
   const float scale = 1 / (portable::kPiF * (1 - share_again()));
   for_seen([&](std::size_t i) {

@@ -57,6 +57,7 @@ class LampBounce {
   void find_shown(const std::vector<Shown>& shown);
   void show_node(std::uint32_t placed, std::uint32_t node);
   float passes(std::size_t from, std::size_t to) const;
+  void mark_lit();
   Vec3f gather_colour(std::size_t point) const;
   Arrived gather(std::size_t point) const;
   template <typename Work>
@@ -75,6 +76,9 @@ class LampBounce {
   float extinction_ = 0;
   std::uint64_t version_ = 0;             // of the base that out_ is made of; 0: none
   std::vector<float> map_;                // distances by direction, see distance_towards(); unit: m
+  // For gather_colour(): every other link of each point, and a bit for each point that is lit.
+  std::vector<std::uint32_t> coarse_links_;
+  std::vector<std::uint64_t> lit_;
   std::vector<std::uint32_t> seen_;       // placed meshes that the lamp may see
   std::vector<std::uint8_t> is_seen_;     // of each placed mesh
   std::vector<ShownNode> shown_nodes_;    // of the seen, each once

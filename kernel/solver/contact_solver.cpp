@@ -281,6 +281,7 @@ void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body
       std::copy_n(planned.a, kLanes, batch->a);
       std::copy_n(planned.b, kLanes, batch->b);
       std::copy_n(planned.contact, kLanes, batch->contact);
+      batch->used = planned.used;
     }
     kernels_.prepare(part, contacts.data(), terms_.data(), settings.rest_gap);
   });

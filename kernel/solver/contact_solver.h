@@ -4,7 +4,7 @@
 // start; separations follow the motion. Overlaps are then pushed apart by displacements that never
 // enter the velocities.
 //
-// Contacts are packed eight to a batch such that within a batch no moving body appears twice and
+// Contacts are packed sixteen to a batch such that within a batch no moving body appears twice and
 // that contacts of one body keep their order: the result is that of solving them one by one.
 #pragma once
 

@@ -1,21 +1,23 @@
 // Which contacts are solved together, and by which thread.
 //
 // Projected Gauss-Seidel depends on the order in which a body meets its contacts, and on no other order.
-// So contacts that share no moving body may be solved together, eight to a batch, or by different
+// So contacts that share no moving body may be solved together, sixteen to a batch, or by different
 // threads, and the result is bit for bit that of solving them one by one: each body meets its contacts
 // in the order in which they were added.
 //
 // Every moving body belongs to a domain, and each domain to a thread, which solves the contacts inside it
-// and, of those between two domains, the ones that fall to it. A batch has a time: later than
-// those of all batches before it on its thread, and of all before it with one of its bodies. Where such a
-// batch is another thread's, the thread waits until that has been solved. Times only rise, so no two
-// threads wait for each other.
+// and, of those between two domains, the ones that fall to it. The plan imagines the threads at work, each
+// batch taking as long as it has rows: whoever is free takes a batch of what may be solved by then
+// (ready_contacts.h). The time of a batch is its end in this: later than the ends of all batches before it
+// on its thread, and of all before it with one of its bodies. Where such a batch is another thread's, the
+// thread waits until that has been solved. Times only rise, so no two threads wait for each other.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "kernel/collision/contact.h"
+#include "kernel/solver/ready_contacts.h"
 #include "kernel/solver/wide.h"
 
 namespace rubble {
@@ -59,21 +61,48 @@ class SweepPlan {
 
  private:
   static constexpr int kRowCounts = Contact::kMaxPoints + 1;
-  using BatchList = std::vector<std::int32_t>;
+  static constexpr int kKinds = 2 * kRowCounts;  // inside a domain, and between two
+  using IndexList = std::vector<std::int32_t>;
 
-  int find_batch(int domain, bool between, int rows, std::int32_t after);
-  void wait_for_body(int batch, std::int32_t body);
+  // A contact, by what it must wait for. Sides: a, b.
+  struct Task {
+    std::int32_t contact, body[2];
+    std::int32_t before[2] = {-1, -1}, after[2] = {-1, -1};  // tasks with the same body
+    std::int32_t rank = 0;
+    std::int32_t ready = 0;   // the time when it may begin, once none is open
+    std::int32_t batch = -1;
+    std::uint8_t rows, kind = 0, domain = 0;
+    std::uint8_t open = 0;    // tasks before it that are not planned
+  };
+  // A thread at work.
+  struct Worker {
+    ReadyContacts ready;
+    IndexList waiting;        // tasks that other threads make ready later than `clock`
+    std::int32_t clock = 0;
+    IndexList batches;        // in order of time
+  };
+
+  int rank_tasks();
+  int choose_worker() const;
+  std::int32_t earliest(const Worker& worker) const;
+  void offer(std::int32_t task);
+  void wait_until_ready(Worker& worker);
+  void plan_batch(int domain);
+  void put(std::int32_t task, std::int32_t batch);
+  void release_after(std::int32_t task, std::int32_t time);
+  void wait_for_body(int batch, const Task& task, int side);
   void add_segments(int domain);
 
   int domain_count_ = 1;
   std::int32_t beyond_ = 0, last_time_ = 0;
   const std::vector<std::uint8_t>* domains_ = nullptr;
-  std::vector<PlannedBatch> batches_;     // in the order in which they were begun
-  BatchList order_;
-  std::vector<BatchList> of_domain_;      // by domain, in order of time
-  std::vector<BatchList> open_;           // batches with room, by domain, kind and row count
-  BatchList last_batch_;                  // of each moving body
-  std::vector<std::int32_t> needs_;       // by batch and domain
+  std::vector<Task> tasks_;               // in the order of adding
+  IndexList last_task_;                   // of each moving body
+  IndexList next_ready_;                  // by task, see ReadyContacts
+  std::vector<Worker> workers_;           // by domain
+  std::vector<PlannedBatch> batches_;     // in the order in which they were planned
+  IndexList order_;
+  IndexList needs_;                       // by batch and domain
   std::vector<std::vector<SweepSegment>> segments_;
 };
 

@@ -1,8 +1,8 @@
 // Contacts that a thread may solve next, by kind and rank. For sweep_plan.cpp.
 //
-// Those of a kind may share a batch: as many points each, and inside one domain or between two. The rank of
-// a contact is the length of the longest chain of contacts that must wait for each other from it on:
-// whoever has the highest must not be left behind (Hu 1961; Graham 1969: list scheduling).
+// Those of a kind may share a batch: they have as many points each. The rank of a contact is the length of the
+// longest chain of contacts that must wait for each other from it on: whoever has the highest must not be left
+// behind (Hu 1961; Graham 1969: list scheduling).
 #pragma once
 
 #include <cstdint>

@@ -37,7 +37,6 @@ void SweepPlan::add(std::int32_t contact, std::int32_t a, std::int32_t b, int ro
   const int of_b = b != beyond_ ? (*domains_)[b] : of_a;
   // Those between two domains take turns.
   task.domain = std::uint8_t((contact & 1) != 0 ? of_a : of_b);
-  task.kind = std::uint8_t(rows + (of_a != of_b ? kRowCounts : 0));
   tasks_.push_back(task);
 }
 
@@ -78,7 +77,7 @@ void SweepPlan::offer(std::int32_t index) {
   const Task& task = tasks_[index];
   Worker& worker = workers_[task.domain];
   if (task.ready > worker.clock) return worker.waiting.push_back(index);
-  worker.ready.add(task.kind, task.rank, index);
+  worker.ready.add(task.rows, task.rank, index);
 }
 
 void SweepPlan::wait_until_ready(Worker& worker) {
@@ -87,22 +86,18 @@ void SweepPlan::wait_until_ready(Worker& worker) {
     return tasks_[task].ready > worker.clock;
   });
   for (auto task = end; task != worker.waiting.end(); ++task) {
-    worker.ready.add(tasks_[*task].kind, tasks_[*task].rank, *task);
+    worker.ready.add(tasks_[*task].rows, tasks_[*task].rank, *task);
   }
   worker.waiting.erase(end, worker.waiting.end());
 }
 
-// Where the body was solved last, or belongs, on another thread.
-void SweepPlan::wait_for_body(int index, const Task& task, int side) {
-  PlannedBatch& batch = batches_[index];
-  const std::int32_t before = task.before[side];
-  PlannedBatch* last = before >= 0 ? &batches_[tasks_[before].batch] : nullptr;
-  const int domain = last != nullptr ? last->domain : (*domains_)[task.body[side]];
-  if (domain == batch.domain) return;
-  std::int32_t& need = needs_[std::size_t(index * domain_count_ + domain)];
-  need = std::max(need, last != nullptr ? last->time : 0);
-  batch.waits = true;
-  if (last != nullptr) last->awaited = true;
+// Another batch, which ends at that time: earlier in the sweep, or in the sweep before.
+void SweepPlan::wait_for(int index, int other, std::int32_t time) {
+  PlannedBatch &batch = batches_[index], &last = batches_[other];
+  if (last.domain == batch.domain) return;
+  std::int32_t& need = needs_[std::size_t(index * domain_count_ + last.domain)];
+  need = std::max(need, time);
+  batch.waits = last.awaited = true;
 }
 
 void SweepPlan::put(std::int32_t index, std::int32_t batch_index) {
@@ -114,8 +109,10 @@ void SweepPlan::put(std::int32_t index, std::int32_t batch_index) {
   if (task.body[0] != beyond_) batch.a[lane] = task.body[0];
   if (task.body[1] != beyond_) batch.b[lane] = task.body[1];
   if (domain_count_ == 1) return;
-  for (int side = 0; side < 2; ++side) {
-    if (task.body[side] != beyond_) wait_for_body(batch_index, task, side);
+  for (std::int32_t before : task.before) {
+    if (before < 0) continue;
+    const std::int32_t other = tasks_[before].batch;
+    wait_for(batch_index, other, batches_[other].time);
   }
 }
 
@@ -131,24 +128,50 @@ void SweepPlan::release_after(std::int32_t index, std::int32_t time) {
 void SweepPlan::plan_batch(int domain) {
   Worker& worker = workers_[domain];
   if (!worker.waiting.empty()) wait_until_ready(worker);
-  const int kind = worker.ready.choose(kLanes);
+  const int rows = worker.ready.choose(kLanes);
   const std::int32_t index = std::int32_t(batches_.size());
   batches_.emplace_back();
   PlannedBatch& batch = batches_.back();
   std::fill_n(batch.a, kLanes, beyond_ + kImmovableStride * domain);
   std::fill_n(batch.b, kLanes, beyond_ + kImmovableStride * domain);
   std::fill_n(batch.contact, kLanes, -1);
-  batch.rows = kind % kRowCounts;
+  batch.rows = rows;
   batch.domain = domain;
-  batch.time = worker.clock + batch.rows + kBatchCost;
-  if (domain_count_ > 1) needs_.resize(needs_.size() + std::size_t(domain_count_), -1);
+  batch.time = worker.clock + rows + kBatchCost;
+  if (domain_count_ > 1) needs_.resize(needs_.size() + std::size_t(domain_count_), kAnyTime);
   std::int32_t taken[kLanes];
-  const int count = std::min(kLanes, worker.ready.count(kind));
-  for (int i = 0; i < count; ++i) put(taken[i] = worker.ready.take(kind), index);
+  const int count = std::min(kLanes, worker.ready.count(rows));
+  for (int i = 0; i < count; ++i) put(taken[i] = worker.ready.take(rows), index);
   worker.batches.push_back(index);
   worker.clock = batch.time;
   last_time_ = std::max(last_time_, batch.time);
   for (int i = 0; i < count; ++i) release_after(taken[i], batch.time);
+}
+
+void SweepPlan::join_sweeps_at(const Task& task, int side) {
+  const std::int32_t body = task.body[side];
+  PlannedBatch& batch = batches_[task.batch];
+  const int owner = (*domains_)[body];
+  if (batch.domain != owner) {
+    std::int32_t& visit = last_visits_[std::size_t(batch.domain * domain_count_ + owner)];
+    visit = std::max(visit, batch.time);
+    batch.awaited = true;
+  }
+  if (task.before[side] >= 0) return;
+  if (batch.domain != owner) batch.owners |= 1u << owner, batch.waits = true;
+  const std::int32_t last = tasks_[last_task_[body]].batch;
+  wait_for(task.batch, last, batches_[last].time - length());
+}
+
+// What threads wait for from one sweep to the next.
+void SweepPlan::join_sweeps() {
+  last_visits_.assign(std::size_t(domain_count_ * domain_count_), kAnyTime);
+  if (domain_count_ == 1) return;
+  for (const Task& task : tasks_) {
+    for (int side = 0; side < 2; ++side) {
+      if (task.body[side] != beyond_) join_sweeps_at(task, side);
+    }
+  }
 }
 
 void SweepPlan::add_segments(int domain) {
@@ -159,7 +182,7 @@ void SweepPlan::add_segments(int domain) {
     const PlannedBatch& batch = batches_[index];
     const std::int32_t at = std::int32_t(order_.size());
     if (fresh || batch.waits) {
-      segments.push_back({at, at, 0, batch.waits ? index * domain_count_ : -1});
+      segments.push_back({at, at, 0, batch.waits ? index * domain_count_ : -1, batch.owners});
     }
     segments.back().end = at + 1;
     segments.back().time = batch.time;
@@ -177,7 +200,7 @@ void SweepPlan::finish() {
   next_ready_.resize(tasks_.size());
   workers_.resize(std::size_t(domain_count_));
   for (Worker& worker : workers_) {
-    worker.ready.begin(kKinds, ranks, next_ready_);
+    worker.ready.begin(kRowCounts, ranks, next_ready_);
     worker.clock = 0;
     worker.waiting.clear();
     worker.batches.clear();
@@ -187,6 +210,7 @@ void SweepPlan::finish() {
     if (tasks_[i].open == 0) offer(i);
   }
   for (int domain = choose_worker(); domain >= 0; domain = choose_worker()) plan_batch(domain);
+  join_sweeps();
   segments_.resize(std::size_t(domain_count_));
   for (int domain = 0; domain < domain_count_; ++domain) add_segments(domain);
 }

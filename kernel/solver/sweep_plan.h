@@ -11,6 +11,9 @@
 // (ready_contacts.h). The time of a batch is its end in this: later than the ends of all batches before it
 // on its thread, and of all before it with one of its bodies. Where such a batch is another thread's, the
 // thread waits until that has been solved. Times only rise, so no two threads wait for each other.
+//
+// Sweeps follow each other without a meeting of all threads: whoever comes first to a body in a sweep waits
+// for the one who came last to it in the sweep before, length() earlier in time.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +36,7 @@ struct PlannedBatch {
   std::int32_t used = 0;              // lanes
   std::int32_t domain = 0, time = 0;  // times start at 1
   bool waits = false, awaited = false;
+  std::uint32_t owners = 0;  // domains, by bit, of bodies that this batch is the first to meet
 };
 
 // Batches that a thread solves without looking at the others.
@@ -40,6 +44,7 @@ struct SweepSegment {
   std::int32_t begin = 0, end = 0;  // in the order of SweepPlan::batch()
   std::int32_t time = 0;            // of the last batch
   std::int32_t needs = -1;          // index of what it waits for; -1: nothing
+  std::uint32_t owners = 0;         // in the first sweep after they moved their bodies, also for their begin
 };
 
 class SweepPlan {
@@ -55,13 +60,19 @@ class SweepPlan {
   int batch_count() const { return int(order_.size()); }
   const PlannedBatch& batch(int index) const { return batches_[order_[index]]; }
   const std::vector<SweepSegment>& segments(int domain) const { return segments_[domain]; }
-  // The time that each domain must have reached before a segment, by domain; -1: any.
+  // The time that each domain must have reached before a segment, by domain; below zero: in the sweep before.
   const std::int32_t* needs(const SweepSegment& segment) const { return &needs_[segment.needs]; }
+  static constexpr std::int32_t kAnyTime = INT32_MIN;  // nothing is waited for
   std::int32_t last_time() const { return last_time_; }
+  // From the beginning of a sweep to that of the next: later than all batches.
+  std::int32_t length() const { return last_time_ + 2; }
+  // When the domain meets the bodies of another, the owner, for the last time; kAnyTime: never.
+  std::int32_t last_visit(int domain, int owner) const {
+    return last_visits_[std::size_t(domain * domain_count_ + owner)];
+  }
 
  private:
   static constexpr int kRowCounts = Contact::kMaxPoints + 1;
-  static constexpr int kKinds = 2 * kRowCounts;  // inside a domain, and between two
   using IndexList = std::vector<std::int32_t>;
 
   // A contact, by what it must wait for. Sides: a, b.
@@ -71,7 +82,7 @@ class SweepPlan {
     std::int32_t rank = 0;
     std::int32_t ready = 0;   // the time when it may begin, once none is open
     std::int32_t batch = -1;
-    std::uint8_t rows, kind = 0, domain = 0;
+    std::uint8_t rows, domain = 0;
     std::uint8_t open = 0;    // tasks before it that are not planned
   };
   // A thread at work.
@@ -90,7 +101,9 @@ class SweepPlan {
   void plan_batch(int domain);
   void put(std::int32_t task, std::int32_t batch);
   void release_after(std::int32_t task, std::int32_t time);
-  void wait_for_body(int batch, const Task& task, int side);
+  void wait_for(int batch, int other, std::int32_t time);
+  void join_sweeps();
+  void join_sweeps_at(const Task& task, int side);
   void add_segments(int domain);
 
   int domain_count_ = 1;
@@ -103,6 +116,7 @@ class SweepPlan {
   std::vector<PlannedBatch> batches_;     // in the order in which they were planned
   IndexList order_;
   IndexList needs_;                       // by batch and domain
+  IndexList last_visits_;                 // by domain and owner
   std::vector<std::vector<SweepSegment>> segments_;
 };
 

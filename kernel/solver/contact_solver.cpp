@@ -39,6 +39,25 @@ void ContactSolver::note_bodies(const std::vector<Body>& bodies) {
   }
 }
 
+void ContactSolver::note_motions(const std::vector<Motion>& velocities) {
+  speeds_.assign(slot_count(), {});
+  moved_.assign(slot_count(), {});
+  for (std::size_t i = 0; i < moving_.size(); ++i) speeds_[i] = padded(velocities[moving_[i]]);
+}
+
+// Which contacts share a batch, and what the solver asks of the bodies: neither reads what the other writes.
+void ContactSolver::pack_and_note(const std::vector<Body>& bodies, const std::vector<Motion>& velocities,
+                                  ThreadPool& pool) {
+  const auto note = [&] {
+    share_inertia(bodies);
+    note_bodies(bodies);
+    note_motions(velocities);
+  };
+  pool.run(2, 1, [&](int begin, int end) {
+    for (int job = begin; job < end; ++job) job == 0 ? pack() : note();
+  });
+}
+
 // One substep after another, on the thread of a domain. Whoever shares a body with another thread waits
 // for it as the plan says, also from one sweep to the next, and whoever moves his bodies waits until the others have
 // left them. So each number of a body is written and read by one thread after the other. All meet only where trees
@@ -287,10 +306,8 @@ void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body
   note_heads(bodies, order, contacts, trees, pool);
   domain_count_ = choose_domain_count(pool);
   number_bodies(bodies);
-  share_inertia(bodies);
-  pack();
+  pack_and_note(bodies, velocities, pool);
   tree_contacts_.begin(settings, bodies, tree_order_, contacts, number_, share_, trees);
-  note_bodies(bodies);
   each_batch(pool, [&](const BatchRange& part) {
     for (ContactBatch* batch = part.begin; batch != part.end; ++batch) {
       const PlannedBatch& planned = plan_.batch(int(batch - batches_.data()));
@@ -301,9 +318,6 @@ void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body
     }
     kernels_.prepare(part, contacts.data(), terms_.data(), settings.rest_gap);
   });
-  speeds_.assign(slot_count(), {});
-  moved_.assign(slot_count(), {});
-  for (std::size_t i = 0; i < moving_.size(); ++i) speeds_[i] = padded(velocities[moving_[i]]);
   run_substeps(settings, pool);
   before_push_ = moved_;
   solve_position_constraints(settings, pool);

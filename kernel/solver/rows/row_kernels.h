@@ -3,6 +3,7 @@
 
 #include "kernel/solver/rows/contact_prepare.h"
 #include "kernel/solver/rows/contact_sweeps.h"
+#include "kernel/solver/rows/push_sweeps.h"
 
 namespace rubble {
 

@@ -1,4 +1,4 @@
-// A piece as the kernel sees it between two steps. Simbody holds q and u; the fields here mirror
+// A piece as the kernel sees it between two steps. FreeBodies or Simbody holds q and u; the fields here mirror
 // them in the form that contacts need.
 #pragma once
 
@@ -20,7 +20,7 @@ struct Body {
   Mat3f inverse_inertia_local;  // unit: 1/(kg m2)
   float inverse_mass = 0;       // unit: 1/kg
   float radius = 0;             // about the centre of mass, scaled; unit: m
-  std::int32_t simbody_index = -1;     // its number in SimbodyBlocks; -1: immovable, or a tree's link
+  std::int32_t free_index = -1;     // its number in FreeBodies; -1: immovable, or a tree's link
   std::int32_t tree = -1;       // the articulated tree that it is a link of; -1: none
   std::int32_t link = -1;       // its number there
   std::int32_t first_collider = 0, collider_count = 0;  // of the piece itself

@@ -40,7 +40,7 @@ struct Pair {
   std::int32_t collider_a = 0, collider_b = 0;  // b may be kGround or a surface
   std::int32_t body_a = 0, body_b = 0;  // of the colliders; b may be kGround
   std::int32_t live = 0;  // 1: the contact had points in the last step
-  double apart_until = 0;   // no points while the sum of the two travels is less; unit: m
+  double apart_until = 0;   // no points, and boxes apart, while the sum of the travels is less; unit: m
   double searched_until = 0;  // its points are only moved along while that sum is less; unit: m
   float order = 1e30F;    // height that decides its place in the solver's order; unit: m
 };

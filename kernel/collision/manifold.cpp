@@ -68,8 +68,9 @@ void clip_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, con
   const Vec3f n = flip ? -normal : normal;  // away from the reference
   const Vec3f ref_normal = ref.face_normal(flip ? face_b : face_a);
 
-  ClipPolygon buffers[2];
+  thread_local ClipPolygon buffers[2];  // made once: to clear them takes as long as to clip
   ClipPolygon *in = &buffers[0], *out = &buffers[1];
+  in->count = 0;
   for (int i = 0; i < count_corners(inc_face); ++i) {
     in->add(corner(inc, inc_face, i) + inc_offset);
   }

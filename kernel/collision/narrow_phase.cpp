@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "kernel/collision/manifold.h"
@@ -26,6 +27,14 @@ constexpr float kNearestShiftCosine = 0.9F;
 constexpr float kRetainDistance = 0.004F;
 // A point is retained only while the normal has turned by at most 8 degrees since the last search.
 constexpr float kRetainCosine = 0.99F;
+
+// An empty manifold of this thread, until the next call: to clear all of its points would take as long as to
+// find those of a contact.
+Manifold& begin_manifold() {
+  thread_local Manifold manifold;
+  manifold.count = 0;
+  return manifold;
+}
 
 struct Axis {
   Vec3f normal;
@@ -149,10 +158,11 @@ void keep_some(std::vector<ManifoldPoint>& found, Manifold& m) {
 void store(Contact& contact, const Manifold& m, const Vec3f& normal, const PosedBody& a,
            const PosedBody* b, const Vec3f& offset) {
   const bool keep = contact.count > 0 && dot(normal, contact.normal) > kKeepCosine;
-  ContactPoint before[Contact::kMaxPoints], old[Contact::kMaxPoints];
+  thread_local ContactPoint before[Contact::kMaxPoints];
   std::copy(contact.points.begin(), contact.points.begin() + contact.count, before);
   int old_count = keep ? contact.count : 0;
-  std::copy(before, before + old_count, old);
+  int old[Contact::kMaxPoints];  // of `before`, not found again so far
+  std::iota(old, old + old_count, 0);
   if (!keep) {
     contact.friction_impulse = {};
     contact.twist_impulse = 0;
@@ -180,12 +190,13 @@ void store(Contact& contact, const Manifold& m, const Vec3f& normal, const Posed
     float best = kMatchDistance * kMatchDistance;
     for (int j = 0; j < old_count; ++j) {
       // A corner stays in one of the two frames when the pieces slide.
-      const Vec3f da = old[j].local_a - p.local_a, db = old[j].local_b - p.local_b;
+      const ContactPoint& q = before[old[j]];
+      const Vec3f da = q.local_a - p.local_a, db = q.local_b - p.local_b;
       const float d2 = std::min(dot(da, da), dot(db, db));
       if (d2 < best) best = d2, match = j;
     }
     if (match < 0) continue;
-    p.normal_impulse = old[match].normal_impulse;
+    p.normal_impulse = before[old[match]].normal_impulse;
     old[match] = old[--old_count];
   }
 }
@@ -193,7 +204,7 @@ void store(Contact& contact, const Manifold& m, const Vec3f& normal, const Posed
 // The points along an axis; none where the parts stay apart in this step.
 void make_points(Contact& contact, const PosedBody& a, const PosedBody& b, const Vec3f& offset,
                  const Axis& axis, float margin, const NarrowSettings& settings) {
-  Manifold m;
+  Manifold& m = begin_manifold();
   clip_faces(a.part, b.part, offset, axis.normal, margin, m);
   add_axis_point(m, axis);
   retain_points(contact, a, b, offset, axis.normal, m);
@@ -284,7 +295,7 @@ void update_ground_contact(Contact& contact, const PosedBody& a, float margin,
     found.push_back({{p.x, p.y, p.z - 0.5F * s}, apart, predicted, -1});
   }
   if (found.empty()) return clear_points(contact);
-  Manifold m;
+  Manifold& m = begin_manifold();
   keep_some(found, m);
   if (contact.rolls_a) carry_below_axis(m, normal, a.angular, {});
   reduce(m, normal, Contact::kMaxPoints);

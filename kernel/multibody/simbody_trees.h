@@ -1,4 +1,4 @@
-// The kernel's second door to Simbody: a tree of bodies joined by mobilizers as a MultibodySystem,
+// The kernel's door to Simbody: a tree of bodies joined by mobilizers as a MultibodySystem,
 // with a State that holds the tree's q and u.
 //
 // Simbody computes what is articulated: where the links are, their inertias and hinge matrices in

@@ -25,13 +25,22 @@ RUBBLE_INLINE T choose(Condition condition, T a, T b) {
     return select(condition, a, b);
   }
 }
+// The second of two that are equal, as the instructions for packets return it.
 template <typename T>
 RUBBLE_INLINE T larger(T a, T b) {
-  return choose(a > b, a, b);
+  if constexpr (kIsNumber<T>) {
+    return a > b ? a : b;
+  } else {
+    return max(a, b);
+  }
 }
 template <typename T>
 RUBBLE_INLINE T smaller(T a, T b) {
-  return choose(b > a, a, b);
+  if constexpr (kIsNumber<T>) {
+    return b > a ? a : b;
+  } else {
+    return min(a, b);
+  }
 }
 template <typename T>
 RUBBLE_INLINE T root(T a) {

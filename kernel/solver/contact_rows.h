@@ -1,10 +1,11 @@
-// The inner loops of the contact solver: eight contacts at a time, no two of which share a moving
+// The inner loops of the contact solver: batches of sixteen contacts, no two of which share a moving
 // body. A row is one scalar constraint with Jacobian (-n, -arm_a, n, arm_b).
 //
-// The loops exist twice, for any machine and for those with AVX2. Both give the same bits.
+// The loops exist three times, for any machine and for those with AVX2 or AVX-512. All give the same bits.
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "kernel/collision/contact.h"
 #include "kernel/solver/wide.h"
@@ -41,8 +42,7 @@ struct ContactRow {
 struct NormalRow {
   ContactRow row;
   Lanes gap;      // separation at the step's start, less the rest gap; unit: m
-  Lanes impulse;  // unit: N s
-  Lanes carried;  // what the substep started from
+  Lanes impulse;  // at the start of a substep; unit: N s
 };
 
 // The position correction of a normal row; apart from it, as the sweeps over speeds do not need it.
@@ -56,12 +56,13 @@ struct FrictionRow {
   Lanes impulse;
 };
 
-// Up to eight contacts with as many points each; `first_row` and `rows` say where their normal rows
+// Up to sixteen contacts with as many points each; `first_row` and `rows` say where their normal rows
 // are.
 struct ContactBatch {
   std::int32_t a[kLanes], b[kLanes];        // indices of moving bodies; one beyond: immovable
   std::int32_t contact[kLanes];             // index of the contact; -1: lane not in use
   std::int32_t first_row = 0, rows = 0;
+  std::int32_t used = 0;                    // the lanes with a contact come first
   Lanes inverse_mass_a, inverse_mass_b, friction, radius;
   Lanes push_share_a, push_share_b;         // see contact_law; 0 for immovable bodies
   Lanes push_mass_a, push_mass_b;           // share times mass, or 0
@@ -107,6 +108,10 @@ struct RowKernels {
 };
 
 const RowKernels& portable_row_kernels();
+const RowKernels& avx2_row_kernels();
+const RowKernels& avx512_row_kernels();
+// All that this processor can run, the portable ones first and the fastest last.
+std::vector<const RowKernels*> all_row_kernels();
 // Those for the processor that this runs on.
 const RowKernels& best_row_kernels();
 

@@ -39,8 +39,29 @@ void ContactSolver::note_bodies(const std::vector<Body>& bodies) {
   }
 }
 
+void ContactSolver::note_motions(const std::vector<Motion>& velocities) {
+  speeds_.assign(slot_count(), {});
+  moved_.assign(slot_count(), {});
+  for (std::size_t i = 0; i < moving_.size(); ++i) speeds_[i] = padded(velocities[moving_[i]]);
+}
+
+// Which contacts share a batch, and what the solver asks of the bodies: neither reads what the other writes.
+void ContactSolver::pack_and_note(const std::vector<Body>& bodies, const std::vector<Motion>& velocities,
+                                  ThreadPool& pool) {
+  const auto note = [&] {
+    share_inertia(bodies);
+    note_bodies(bodies);
+    note_motions(velocities);
+  };
+  pool.run(2, 1, [&](int begin, int end) {
+    for (int job = begin; job < end; ++job) job == 0 ? pack() : note();
+  });
+}
+
 // One substep after another, on the thread of a domain. Whoever shares a body with another thread waits
-// for it as the plan says; between two phases all wait for each other.
+// for it as the plan says, also from one sweep to the next, and whoever moves his bodies waits until the others have
+// left them. So each number of a body is written and read by one thread after the other. All meet only where trees
+// are solved between two sweeps.
 class ContactSolver::Sweeper {
  public:
   Sweeper(ContactSolver& solver, const SolverSettings& settings)
@@ -48,49 +69,41 @@ class ContactSolver::Sweeper {
         substeps_(settings.substeps),
         h_(settings.step / float(settings.substeps)),
         weight_(settings.gravity * h_),
+        trees_(!solver.tree_contacts_.empty()),
         progress_(solver.domain_count_) {}
 
   void run(int domain) {
-    const bool trees = !s_.tree_contacts_.empty();
     for (int substep = 0; substep < substeps_; ++substep) {
-      const std::int64_t start = substep * 4 * length(), solve = start + length();
-      begin_substep(domain, substep > 0);
+      const std::int64_t start = substep * step_length(), solve = start + length();
+      begin_substep(domain, substep, start);
       progress_.reach(domain, start);
-      sweep(domain, start, [this](const SweepSegment& segment) {
+      sweep(domain, start, true, [this](const SweepSegment& segment) {
         s_.kernels_.warm_start(s_.range(segment.begin, segment.end), s_.speeds_.data());
       });
-      progress_.meet(domain, solve - 1);
-      if (trees) {
-        if (domain == 0) begin_trees(substep == 0);
-        progress_.meet(domain, solve);
-      }
+      if (trees_) let_trees(domain, solve, [&] { begin_trees(substep == 0); });
       progress_.reach(domain, solve);
-      sweep(domain, solve, [this, substep](const SweepSegment& segment) {
+      sweep(domain, solve, false, [this, substep](const SweepSegment& segment) {
         s_.kernels_.solve_velocities(s_.range(segment.begin, segment.end), is_backwards(substep),
                                      1 / h_, weight_,
                                      s_.moved_.data(), s_.speeds_.data());
       });
-      progress_.meet(domain, solve + length() - 1);
-      if (trees) {
-        if (domain == 0) solve_trees();
-        progress_.meet(domain, solve + length());
-      }
+      if (trees_) let_trees(domain, solve + length(), [&] { solve_trees(); });
     }
+    wait_for_visitors(domain, substeps_ * step_length());
     move(domain);
   }
 
   void push(int domain, int iterations) {
-    const bool trees = !s_.tree_contacts_.empty();
+    const std::int64_t step = (trees_ ? 2 : 1) * length();
     for (int iteration = 0; iteration < iterations; ++iteration) {
-      const std::int64_t start = iteration * 2 * length();
+      const std::int64_t start = iteration * step;
       progress_.reach(domain, start);
-      sweep(domain, start, [this](const SweepSegment& segment) {
+      sweep(domain, start, false, [this](const SweepSegment& segment) {
         for (int i = segment.begin; i < segment.end; ++i) s_.push(i);
       });
-      progress_.meet(domain, start + length() - 1);
-      if (!trees) continue;
-      if (domain == 0) s_.tree_contacts_.solve_pushes(s_.moved_.data());
-      progress_.meet(domain, start + length());
+      if (trees_) {
+        let_trees(domain, start + length(), [&] { s_.tree_contacts_.solve_pushes(s_.moved_.data()); });
+      }
     }
   }
 
@@ -100,7 +113,9 @@ class ContactSolver::Sweeper {
   // A sweep favours the point that it comes to last; always the same one would push a tower over. There, back,
   // back and there again, the four errors cancel.
   static bool is_backwards(int substep) { return substep % 4 == 1 || substep % 4 == 2; }
-  std::int64_t length() const { return std::int64_t(s_.plan_.last_time()) + 2; }
+  std::int64_t length() const { return s_.plan_.length(); }
+  // Two sweeps, and with trees what they do after each.
+  std::int64_t step_length() const { return (trees_ ? 4 : 2) * length(); }
 
   void move(int domain) {
     const Quad h = make_quad(h_);
@@ -109,26 +124,45 @@ class ContactSolver::Sweeper {
       s_.moved_[i].angular += s_.speeds_[i].angular * h;
     }
   }
-  void begin_substep(int domain, bool moves) {
-    if (moves) move(domain);
+  // Until all others have met the domain's bodies for the last time in the sweep before.
+  void wait_for_visitors(int domain, std::int64_t start) {
+    for (int other = 0; other < s_.domain_count_; ++other) {
+      const std::int32_t visit = s_.plan_.last_visit(other, domain);
+      if (visit != SweepPlan::kAnyTime) progress_.wait_for(other, start - step_length() + length() + visit);
+    }
+  }
+  void begin_substep(int domain, int substep, std::int64_t start) {
+    if (substep > 0) {
+      wait_for_visitors(domain, start);
+      move(domain);
+    }
     const Quad fall{0, 0, -weight_, 0};
     for (int i = s_.domain_starts_[domain]; i < s_.domain_starts_[domain + 1]; ++i) {
       s_.speeds_[i].linear += fall * make_quad(s_.share_[i]);
     }
   }
+  // begins: bodies were moved by their owners before it.
   template <typename Action>
-  void sweep(int domain, std::int64_t start, const Action& action) {
+  void sweep(int domain, std::int64_t start, bool begins, const Action& action) {
     for (const SweepSegment& segment : s_.plan_.segments(domain)) {
-      if (segment.needs >= 0) wait(segment, start);
+      if (segment.needs >= 0) wait(segment, start, begins);
       action(segment);
       progress_.reach(domain, start + segment.time);
     }
   }
-  void wait(const SweepSegment& segment, std::int64_t start) {
+  void wait(const SweepSegment& segment, std::int64_t start, bool begins) {
     const std::int32_t* needs = s_.plan_.needs(segment);
     for (int other = 0; other < s_.domain_count_; ++other) {
-      if (needs[other] >= 0) progress_.wait_for(other, start + needs[other]);
+      if (needs[other] != SweepPlan::kAnyTime) progress_.wait_for(other, start + needs[other]);
+      if (begins && (segment.owners >> other & 1) != 0) progress_.wait_for(other, start);
     }
+  }
+  // By one thread, at the end of a sweep, while all others wait.
+  template <typename Action>
+  void let_trees(int domain, std::int64_t point, const Action& action) {
+    progress_.meet(domain, point - 1);
+    if (domain == 0) action();
+    progress_.meet(domain, point);
   }
   void begin_trees(bool first) {
     s_.tree_contacts_.begin_substep(s_.speeds_.data(), first, double(weight_));
@@ -141,6 +175,7 @@ class ContactSolver::Sweeper {
   ContactSolver& s_;
   int substeps_;
   float h_, weight_;  // unit: s, m/s
+  bool trees_;
   SweepProgress progress_;
 };
 
@@ -271,22 +306,18 @@ void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body
   note_heads(bodies, order, contacts, trees, pool);
   domain_count_ = choose_domain_count(pool);
   number_bodies(bodies);
-  share_inertia(bodies);
-  pack();
+  pack_and_note(bodies, velocities, pool);
   tree_contacts_.begin(settings, bodies, tree_order_, contacts, number_, share_, trees);
-  note_bodies(bodies);
   each_batch(pool, [&](const BatchRange& part) {
     for (ContactBatch* batch = part.begin; batch != part.end; ++batch) {
       const PlannedBatch& planned = plan_.batch(int(batch - batches_.data()));
       std::copy_n(planned.a, kLanes, batch->a);
       std::copy_n(planned.b, kLanes, batch->b);
       std::copy_n(planned.contact, kLanes, batch->contact);
+      batch->used = planned.used;
     }
     kernels_.prepare(part, contacts.data(), terms_.data(), settings.rest_gap);
   });
-  speeds_.assign(slot_count(), {});
-  moved_.assign(slot_count(), {});
-  for (std::size_t i = 0; i < moving_.size(); ++i) speeds_[i] = padded(velocities[moving_[i]]);
   run_substeps(settings, pool);
   before_push_ = moved_;
   solve_position_constraints(settings, pool);

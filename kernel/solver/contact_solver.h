@@ -4,7 +4,7 @@
 // start; separations follow the motion. Overlaps are then pushed apart by displacements that never
 // enter the velocities.
 //
-// Contacts are packed eight to a batch such that within a batch no moving body appears twice and
+// Contacts are packed sixteen to a batch such that within a batch no moving body appears twice and
 // that contacts of one body keep their order: the result is that of solving them one by one.
 #pragma once
 
@@ -79,6 +79,8 @@ class ContactSolver {
   void note_places(const std::vector<Body>& bodies);
   void pack();
   void note_bodies(const std::vector<Body>& bodies);
+  void note_motions(const std::vector<Motion>& velocities);
+  void pack_and_note(const std::vector<Body>& bodies, const std::vector<Motion>& velocities, ThreadPool& pool);
   std::size_t slot_count() const;  // moving bodies, and what does not move
   BatchRange range(int begin, int end);
   // Calls action(range) for ranges that cover all batches, on the threads of the pool.

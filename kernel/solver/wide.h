@@ -1,5 +1,5 @@
-// Eight single-precision lanes as they lie in memory; packets.h computes with them. Written with the
-// vector extension of GCC and Clang.
+// Sixteen single-precision lanes as they lie in memory, in one line of a cache; packets.h computes with
+// them. Written with the vector extension of GCC and Clang.
 #pragma once
 
 #include <cstring>
@@ -11,7 +11,7 @@
 
 namespace rubble {
 
-inline constexpr int kLanes = 8;  // contacts that are solved at a time: one register of AVX2, or two
+inline constexpr int kLanes = 16;  // contacts of a batch: one register of AVX-512, two of AVX2, or four
 
 // Four lanes, in a register of any machine.
 typedef float Quad __attribute__((vector_size(16)));
@@ -23,7 +23,7 @@ RUBBLE_INLINE Quad load_quad(const float* from) {
   return q;
 }
 
-struct alignas(32) Lanes {
+struct alignas(64) Lanes {
   float lane[kLanes];
 
   float& operator[](int i) { return lane[i]; }

@@ -146,7 +146,7 @@ void World::set_velocity(int index, const Vec3& linear, const Vec3& angular) {
   if (!body.movable()) return;
   impl_->waking.wake(int(&body - impl_->data.bodies.data()));
   if (body.tree >= 0) return impl_->trees.set_motion(index, linear, angular);
-  impl_->blocks.set_velocity(body.simbody_index, linear, angular);
+  impl_->blocks.set_velocity(body.free_index, linear, angular);
   impl_->bodies.mirror(body);
 }
 
@@ -163,7 +163,7 @@ void World::set_pose(int index, const Pose& world_from_body) {
                  2 * norm(body.com_in_type);
   const Pose world_from_com{normalized(world_from_body.rotation), world_from_body * body.com_in_type};
   if (body.tree >= 0) return impl_->trees.set_pose(index, world_from_com);
-  impl_->blocks.set_pose(body.simbody_index, world_from_com);
+  impl_->blocks.set_pose(body.free_index, world_from_com);
   impl_->bodies.mirror(body);
   impl_->bodies.refresh(body);
 }

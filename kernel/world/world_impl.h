@@ -28,7 +28,7 @@ struct World::Impl {
   WorldSettings settings;
   ThreadPool pool;
   WorldData data;
-  SimbodyBlocks blocks;
+  FreeBodies blocks;
   SimbodyTrees simbody_trees;
   std::function<bool()> on_solved;           // see World::set_on_solved()
   std::function<void(StepStage)> on_stage;  // see World::set_on_stage()

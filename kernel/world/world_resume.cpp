@@ -26,7 +26,7 @@ void World::Impl::lay_to_rest(const PileState& state, const std::vector<TreeStat
     const Pose& at = state.pieces[i].world_from_body;
     const Pose to{normalized(at.rotation), at * body.com_in_type};
     body.travel += distance(body.world_from_com.translation, to.translation) + 2 * double(body.radius);
-    blocks.set_pose(body.simbody_index, to);
+    blocks.set_pose(body.free_index, to);
     bodies.mirror(body);
     bodies.refresh(body);
   }

@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-#include "kernel/multibody/simbody_blocks.h"
+#include "kernel/multibody/free_bodies.h"
 #include "kernel/multibody/simbody_trees.h"
 #include "kernel/world/state/world_data.h"
 #include "kernel/world/world.h"
@@ -15,7 +15,7 @@ namespace rubble {
 struct World::Snapshot {
   std::uint64_t types = 0;  // hash_types() of the world's types
   WorldData data;
-  std::vector<FreeBody> simbody;           // by number in SimbodyBlocks
+  std::vector<FreeBody> free;              // by number in FreeBodies
   std::vector<std::int32_t> block_starts;  // number of each block's first body
   std::vector<TreeState> tree_states;      // by number of the tree
 };
@@ -28,7 +28,7 @@ template <typename Struct, typename Visit, IfIs<Struct, Body> = 0>
 void each_field(Struct& b, Visit&& visit) {
   visit(b.type), visit(b.layer), visit(b.scale), visit(b.shape), visit(b.mass);
   visit(b.com_in_type), visit(b.inertia), visit(b.inverse_inertia_local), visit(b.inverse_mass);
-  visit(b.radius), visit(b.simbody_index), visit(b.tree), visit(b.link), visit(b.first_collider), visit(b.collider_count);
+  visit(b.radius), visit(b.free_index), visit(b.tree), visit(b.link), visit(b.first_collider), visit(b.collider_count);
   visit(b.lead), visit(b.group), visit(b.origin_in_group);
   visit(b.world_from_com), visit(b.linear), visit(b.angular), visit(b.rotation);
   visit(b.inverse_inertia), visit(b.travel), visit(b.still_pose), visit(b.still_steps);
@@ -162,7 +162,7 @@ void each_field(Struct& f, Visit&& visit) {
 
 template <typename Struct, typename Visit, IfIs<Struct, World::Snapshot> = 0>
 void each_field(Struct& s, Visit&& visit) {
-  visit(s.types), visit(s.data), visit(s.simbody), visit(s.block_starts);
+  visit(s.types), visit(s.data), visit(s.free), visit(s.block_starts);
   visit(s.tree_states);
 }
 

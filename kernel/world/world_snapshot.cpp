@@ -165,7 +165,7 @@ bool is_consistent(const World::Snapshot& s) {
   bool fine = d.wake_next.size() == d.bodies.size() && d.pairs.size() == d.contacts.size() &&
               d.contact_of_pair.size() == d.contacts.size();
   for (const Body& b : d.bodies) {
-    fine = fine && b.type >= 0 && (b.simbody_index == -1 || in_range(b.simbody_index, s.simbody.size())) &&
+    fine = fine && b.type >= 0 && (b.free_index == -1 || in_range(b.free_index, s.free.size())) &&
            b.collider_count >= 0 && b.first_collider >= 0 &&
            std::int64_t(b.first_collider) + b.collider_count <= std::int64_t(d.colliders.size());
   }
@@ -211,7 +211,7 @@ bool is_consistent(const World::Snapshot& s) {
   }
   std::int32_t start = 0;
   for (const std::int32_t next : s.block_starts) {
-    fine = fine && next >= start && next <= std::int32_t(s.simbody.size());
+    fine = fine && next >= start && next <= std::int32_t(s.free.size());
     start = next;
   }
   return fine;
@@ -247,12 +247,12 @@ std::shared_ptr<const World::Snapshot> World::snapshot() const {
   auto snapshot = std::make_shared<Snapshot>();
   snapshot->types = hash_types(w.types.pieces, w.types.assemblies);
   snapshot->data = w.data;
-  snapshot->simbody.resize(std::size_t(w.blocks.size()));
+  snapshot->free.resize(std::size_t(w.blocks.size()));
   for (const Body& body : w.data.bodies) {
-    if (body.simbody_index < 0) continue;
-    snapshot->simbody[body.simbody_index] = {body.mass, body.inertia, w.blocks.world_from_com(body.simbody_index),
-                                      w.blocks.linear_velocity(body.simbody_index),
-                                      w.blocks.angular_velocity(body.simbody_index)};
+    if (body.free_index < 0) continue;
+    snapshot->free[body.free_index] = {body.mass, body.inertia, w.blocks.world_from_com(body.free_index),
+                                      w.blocks.linear_velocity(body.free_index),
+                                      w.blocks.angular_velocity(body.free_index)};
   }
   for (int block = 0; block < w.blocks.block_count(); ++block) {
     snapshot->block_starts.push_back(w.blocks.first_of(block));
@@ -275,12 +275,12 @@ void World::restore(const Snapshot& snapshot) {
   for (std::size_t i = 0; i < w.data.trees.size(); ++i) {
     w.simbody_trees.add(w.data.trees[i], w.data.bodies, snapshot.tree_states[i]);
   }
-  w.blocks = SimbodyBlocks();
+  w.blocks = FreeBodies();
   const std::vector<std::int32_t>& starts = snapshot.block_starts;
   for (std::size_t block = 0; block < starts.size(); ++block) {
-    const auto first = snapshot.simbody.begin() + starts[block];
-    const auto last = block + 1 < starts.size() ? snapshot.simbody.begin() + starts[block + 1]
-                                                : snapshot.simbody.end();
+    const auto first = snapshot.free.begin() + starts[block];
+    const auto last = block + 1 < starts.size() ? snapshot.free.begin() + starts[block + 1]
+                                                : snapshot.free.end();
     w.blocks.add({first, last});
   }
 }

@@ -33,7 +33,7 @@ void World::Impl::lose(int index) {
   body.awake = false;
   body.touching = false;
   ++data.lost;
-  if (body.simbody_index >= 0) blocks.set_velocity(body.simbody_index, {}, {});
+  if (body.free_index >= 0) blocks.set_velocity(body.free_index, {}, {});
   pairs.remove_if([&](const Pair& pair) { return pair.body_a == index || pair.body_b == index; });
   if (body.group >= 0) data.lost += int(data.groups[body.group].members.size()) - 1;
   bodies.each_collider(body, [&](int i) { data.broad.remove(i); });

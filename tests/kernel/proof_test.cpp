@@ -200,7 +200,7 @@ TEST(ProofOfRest, WhoSleepsInTheAirDoesNotPass) {
     body.awake = false;
     body.linear = body.angular = {};
   }
-  for (FreeBody& body : snapshot->simbody) body.linear_velocity = body.angular_velocity = {};
+  for (FreeBody& body : snapshot->free) body.linear_velocity = body.angular_velocity = {};
   world.restore(*snapshot);
   run(world, 0.5);
   ASSERT_TRUE(world.at_rest(kSpeed, kAngularSpeed));

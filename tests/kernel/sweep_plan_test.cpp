@@ -50,12 +50,15 @@ void meet_both(History& history, std::int32_t a, std::int32_t b, std::int32_t co
   meet(history, b, std::uint64_t(contact), of_a);
 }
 
-void sweep(const SweepPlan& plan, int domain, std::int64_t start, SweepProgress& progress,
+// One thread in one sweep. begins: all bodies were moved by their owners before it.
+void sweep(const SweepPlan& plan, int domain, std::int64_t start, bool begins, SweepProgress& progress,
            History& history) {
   progress.reach(domain, start);
   for (const SweepSegment& segment : plan.segments(domain)) {
     for (int other = 0; segment.needs >= 0 && other < plan.domain_count(); ++other) {
-      if (plan.needs(segment)[other] >= 0) progress.wait_for(other, start + plan.needs(segment)[other]);
+      const std::int32_t need = plan.needs(segment)[other];
+      if (need != SweepPlan::kAnyTime) progress.wait_for(other, start + need);
+      if (begins && (segment.owners >> other & 1) != 0) progress.wait_for(other, start);
     }
     for (int i = segment.begin; i < segment.end; ++i) {
       const PlannedBatch& batch = plan.batch(i);
@@ -65,14 +68,27 @@ void sweep(const SweepPlan& plan, int domain, std::int64_t start, SweepProgress&
     }
     progress.reach(domain, start + segment.time);
   }
-  progress.meet(domain, start + plan.last_time() + 1);
 }
 
+// The owner moves his bodies, after all others have left them.
+void move(const SweepPlan& plan, int domain, std::int64_t start, const std::vector<std::uint8_t>& domains,
+          SweepProgress& progress, History& history) {
+  for (int other = 0; other < plan.domain_count(); ++other) {
+    const std::int32_t visit = plan.last_visit(other, domain);
+    if (visit != SweepPlan::kAnyTime) progress.wait_for(other, start - plan.length() + visit);
+  }
+  for (int body = 0; body < kBodies; ++body) {
+    if (domains[std::size_t(body)] == domain) meet(history, body, kContacts, 0);
+  }
+}
+
+// Bodies are moved before every second sweep, and nobody meets in between.
 TEST(SweepPlan, EveryBodyMeetsItsContactsInOrderWithAnyNumberOfThreads) {
   const std::vector<Touch> touches = make_touches();
-  constexpr int kSweeps = 20;
+  constexpr int kSweeps = 40;
   History expected(kBodies, 1);
   for (int k = 0; k < kSweeps; ++k) {
+    for (int body = 0; k % 2 == 0 && body < kBodies; ++body) meet(expected, body, kContacts, 0);
     for (int i = 0; i < kContacts; ++i) meet_both(expected, touches[i].a, touches[i].b, i);
   }
   for (int count : {1, 2, 3, 7}) {
@@ -87,7 +103,9 @@ TEST(SweepPlan, EveryBodyMeetsItsContactsInOrderWithAnyNumberOfThreads) {
     for (int domain = 0; domain < count; ++domain) {
       threads.emplace_back([&, domain] {
         for (int k = 0; k < kSweeps; ++k) {
-          sweep(plan, domain, std::int64_t(k) * (plan.last_time() + 2), progress, history);
+          const std::int64_t start = std::int64_t(k) * plan.length();
+          if (k % 2 == 0) move(plan, domain, start, domains, progress, history);
+          sweep(plan, domain, start, k % 2 == 0, progress, history);
         }
       });
     }

@@ -5,11 +5,10 @@
 
 namespace rubble {
 
-void Advance::set_rates(std::size_t index, const StepMotions& motions, const ContactSolution& solution,
-                        const SpeedLimiter& limits) {
+BodyRates Advance::find_rates(std::size_t index, const StepMotions& motions, const ContactSolution& solution,
+                              const SpeedLimiter& limits) const {
   const Body& body = data_.bodies[index];
-  BodyRates& r = rates_[body.simbody_index];
-  r = {};
+  BodyRates r;
   if (body.touching || solution.has_intervened(std::int32_t(index))) {
     Motion m = motions.velocities[index];
     const float spin = norm(m.angular);
@@ -25,50 +24,56 @@ void Advance::set_rates(std::size_t index, const StepMotions& motions, const Con
   } else {
     // Nothing touches it: the exact parabola and free rotation, in double precision.
     const FreeRotation free =
-        rotate_freely(body.world_from_com.rotation, body.inertia, blocks_.angular_velocity(body.simbody_index),
+        rotate_freely(body.world_from_com.rotation, body.inertia, blocks_.angular_velocity(body.free_index),
                       settings_.options.step);
-    r.linear = blocks_.linear_velocity(body.simbody_index);
+    r.linear = blocks_.linear_velocity(body.free_index);
     r.linear.z -= settings_.options.gravity * settings_.options.step;
     r.extra_linear = {0, 0, 0.5 * settings_.options.gravity * settings_.options.step};
     r.angular = free.angular;
     r.turns_freely = true;
     r.rotation = free.rotation;
   }
+  return r;
 }
 
 // How far any point of a body can have gone in the step.
-double Advance::calc_travel(const Body& body) const {
-  const BodyRates& r = rates_[body.simbody_index];
+double Advance::calc_travel(const Body& body, const BodyRates& r) const {
   return settings_.options.step *
          (norm(r.linear + r.extra_linear) + norm(r.angular + r.extra_angular) * double(body.radius));
 }
 
-void Advance::run(const StepPairs& step, const StepMotions& motions, const ContactSolution& solution,
-                  const SpeedLimiter& limits) {
-  moves_.assign(blocks_.size(), 0);
-  rates_.resize(blocks_.size());
-  block_awake_.assign(blocks_.block_count(), 0);
-  body_of_.resize(blocks_.size());
+// Those that were added together, one after the other: neighbours in height.
+void Advance::list_blocks(const StepPairs& step) {
+  moves_.assign(std::size_t(blocks_.size()), 0);
+  block_awake_.assign(std::size_t(blocks_.block_count()), 0);
+  body_of_.resize(std::size_t(blocks_.size()));
   for (std::int32_t i : step.awake) {
     const Body& body = data_.bodies[i];
-    if (body.simbody_index < 0) continue;
-    moves_[body.simbody_index] = 1;
-    body_of_[body.simbody_index] = i;
-    block_awake_[blocks_.block_of_body(body.simbody_index)] = 1;
+    if (body.free_index < 0) continue;
+    moves_[body.free_index] = 1;
+    body_of_[body.free_index] = i;
+    block_awake_[blocks_.block_of_body(body.free_index)] = 1;
   }
+}
+
+void Advance::run(const StepPairs& step, const StepMotions& motions, const ContactSolution& solution,
+                  const SpeedLimiter& limits) {
+  list_blocks(step);
+  const auto move = [&](int mobile) {
+    const std::int32_t index = body_of_[mobile];
+    Body& body = data_.bodies[index];
+    const BodyRates rates = find_rates(std::size_t(index), motions, solution, limits);
+    blocks_.advance(mobile, rates, settings_.options.step);
+    body.travel += calc_travel(body, rates);
+    bodies_.mirror(body);
+    bodies_.refresh(body);
+  };
   pool_.run(blocks_.block_count(), 4, [&](int begin, int end) {
     for (int block = begin; block < end; ++block) {
       if (!block_awake_[block]) continue;
-      for (int mobile = blocks_.first_of(block); mobile < blocks_.first_of(block + 1); ++mobile) {
-        if (moves_[mobile]) set_rates(body_of_[mobile], motions, solution, limits);
-      }
-      blocks_.advance(block, moves_, rates_.data(), settings_.options.step);
-      for (int mobile = blocks_.first_of(block); mobile < blocks_.first_of(block + 1); ++mobile) {
-        if (!moves_[mobile]) continue;
-        Body& body = data_.bodies[body_of_[mobile]];
-        body.travel += calc_travel(body);
-        bodies_.mirror(body);
-        bodies_.refresh(body);
+      const int last = blocks_.first_of(block + 1);
+      for (int mobile = blocks_.first_of(block); mobile < last; ++mobile) {
+        if (moves_[mobile]) move(mobile);
       }
     }
   });

@@ -11,7 +11,7 @@ namespace rubble {
 
 class Advance {
  public:
-  Advance(WorldData& data, const WorldSettings& settings, Bodies& bodies, SimbodyBlocks& blocks,
+  Advance(WorldData& data, const WorldSettings& settings, Bodies& bodies, FreeBodies& blocks,
           ThreadPool& pool)
       : data_(data), settings_(settings), bodies_(bodies), blocks_(blocks), pool_(pool) {}
 
@@ -21,19 +21,19 @@ class Advance {
 
  private:
   // The speeds after the step, and the extra rates that make up its displacement.
-  void set_rates(std::size_t body, const StepMotions& motions, const ContactSolution& solution,
-                 const SpeedLimiter& limits);
-  double calc_travel(const Body& body) const;
+  BodyRates find_rates(std::size_t body, const StepMotions& motions, const ContactSolution& solution,
+                       const SpeedLimiter& limits) const;
+  double calc_travel(const Body& body, const BodyRates& rates) const;
+  void list_blocks(const StepPairs& step);
 
   WorldData& data_;
   const WorldSettings& settings_;
   Bodies& bodies_;
-  SimbodyBlocks& blocks_;
+  FreeBodies& blocks_;
   ThreadPool& pool_;
   std::vector<std::uint8_t> block_awake_;
-  std::vector<std::int32_t> body_of_;  // by number in SimbodyBlocks
-  std::vector<std::uint8_t> moves_;    // by number in SimbodyBlocks
-  std::vector<BodyRates> rates_;       // by number in SimbodyBlocks
+  std::vector<std::int32_t> body_of_;  // by number in FreeBodies
+  std::vector<std::uint8_t> moves_;    // by number in FreeBodies
 };
 
 }  // namespace rubble

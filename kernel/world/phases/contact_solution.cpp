@@ -54,10 +54,10 @@ void ContactSolution::turn_freely(const StepPairs& step, StepMotions& motions) {
     for (int k = begin; k < end; ++k) {
       const std::int32_t i = step.awake[k];
       const Body& body = data_.bodies[i];
-      if (body.simbody_index < 0) continue;
+      if (body.free_index < 0) continue;
       const FreeRotation free =
           rotate_freely(body.world_from_com.rotation, body.inertia,
-                        blocks_.angular_velocity(body.simbody_index), settings_.options.step);
+                        blocks_.angular_velocity(body.free_index), settings_.options.step);
       motions.velocities[i] = {body.linear, Vec3f(free.angular)};
     }
   });

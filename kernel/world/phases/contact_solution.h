@@ -12,7 +12,7 @@ namespace rubble {
 
 class ContactSolution {
  public:
-  ContactSolution(WorldData& data, const WorldSettings& settings, const SimbodyBlocks& blocks, ThreadPool& pool)
+  ContactSolution(WorldData& data, const WorldSettings& settings, const FreeBodies& blocks, ThreadPool& pool)
       : data_(data), settings_(settings), blocks_(blocks), pool_(pool) {}
 
   // Sorts the active pairs, solves them with the trees and ties, and leaves the impulses in the contacts.
@@ -37,7 +37,7 @@ class ContactSolution {
 
   WorldData& data_;
   const WorldSettings& settings_;
-  const SimbodyBlocks& blocks_;
+  const FreeBodies& blocks_;
   ThreadPool& pool_;
   ContactSolver solver_;
   std::vector<OrderKey> keys_, scratch_;

@@ -18,6 +18,11 @@ enum PairState : std::uint8_t {
 
 // Bounds on lengths that are found in another order of rounding are this much wider.
 constexpr float kRounding = 1.001F;
+// Boxes are not looked at until their pieces have travelled this share of the gap between them: so nothing is
+// missed where a piece goes twice as far as its travel says.
+constexpr double kTrustedShare = 0.5;
+// And less this, for the rounding of corners; unit: m
+constexpr double kHair = 1e-3;
 
 }  // namespace
 
@@ -26,9 +31,10 @@ void PairSelection::run(StepPairs& step) {
   select_pairs(step);
 }
 
-// Of those that do not move all is zero.
+// Of those that do not move all is zero but the travel.
 void PairSelection::note_sweeps(StepPairs& step) {
   step.sweeps.assign(data_.bodies.size(), {});
+  for (std::size_t i = 0; i < step.sweeps.size(); ++i) step.sweeps[i].travel = data_.bodies[i].travel;
   pool_.run(int(step.awake.size()), 128, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const Body& body = data_.bodies[step.awake[k]];
@@ -96,7 +102,7 @@ void PairSelection::select_pairs(StepPairs& step) {
   }
 }
 
-std::uint8_t PairSelection::classify(const StepPairs& step, const Pair& pair) const {
+std::uint8_t PairSelection::classify(const StepPairs& step, Pair& pair) const {
   const bool ground = pair.body_b == kGround;
   if (!step.sweeps[pair.body_a].awake && (ground || !step.sweeps[pair.body_b].awake)) return kAsleep;
   if (is_surface_collider(pair.collider_b)) return kActive;  // dropped by Pairs
@@ -113,23 +119,37 @@ bool PairSelection::is_near(const Pair& pair) const {
   return ground ? box.min.z < 0 : BroadPhase::overlap(box, data_.broad.box(pair.collider_b));
 }
 
+// How far the boxes are apart along the axis where they are farthest; unit: m.
+double PairSelection::calc_gap(const Aabb& a, const Aabb& b) {
+  const Vec3 gap = max(a.min - b.max, b.min - a.max);
+  return std::max({gap.x, gap.y, gap.z});
+}
+
 // Whether the boxes can meet in this step.
-bool PairSelection::may_touch(const StepPairs& step, const Pair& pair) const {
+bool PairSelection::may_touch(const StepPairs& step, Pair& pair) const {
+  if (pair.body_b == kGround) {
+    return data_.colliders[pair.collider_a].box.min.z <
+           double(step.calc_margin(pair.body_a, kGround, settings_.narrow));
+  }
+  const Sweep &a = step.sweeps[pair.body_a], &b = step.sweeps[pair.body_b];
+  const double travel = a.travel + b.travel;
+  const float most = settings_.narrow.margin * kRounding + a.reach + b.reach;
+  // First what is known without a look at the boxes, which are far apart in memory.
+  if (!pair.live && travel + double(most) < pair.apart_until) return false;
   const Aabb& box = data_.colliders[pair.collider_a].box;
-  if (pair.body_b == kGround)
-    return box.min.z < double(step.calc_margin(pair.body_a, kGround, settings_.narrow));
   const Aabb& other = data_.colliders[pair.collider_b].box;
   const auto meet = [&](double margin) {
     return box.min.x <= other.max.x + margin && other.min.x <= box.max.x + margin &&
            box.min.y <= other.max.y + margin && other.min.y <= box.max.y + margin &&
            box.min.z <= other.max.z + margin && other.min.z <= box.max.z + margin;
   };
-  const float most =
-      settings_.narrow.margin * kRounding + step.sweeps[pair.body_a].reach + step.sweeps[pair.body_b].reach;
-  if (!meet(most)) return false;
+  if (!meet(most)) {
+    const double until = travel + kTrustedShare * calc_gap(box, other) - kHair;
+    pair.apart_until = std::max(pair.apart_until, until);
+    return false;
+  }
   const double margin = step.calc_margin(pair.body_a, pair.body_b, settings_.narrow);
-  const Body &a = data_.bodies[pair.body_a], &b = data_.bodies[pair.body_b];
-  if (!pair.live && a.travel + b.travel + margin < pair.apart_until) return false;
+  if (!pair.live && travel + margin < pair.apart_until) return false;
   return meet(margin);
 }
 

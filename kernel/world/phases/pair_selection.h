@@ -24,9 +24,10 @@ class PairSelection {
   void select_pairs(StepPairs& step);
   void note_sweeps(StepPairs& step);
   Aabb calc_swept_box(int collider) const;
-  std::uint8_t classify(const StepPairs& step, const Pair& pair) const;
+  std::uint8_t classify(const StepPairs& step, Pair& pair) const;
   bool is_near(const Pair& pair) const;
-  bool may_touch(const StepPairs& step, const Pair& pair) const;
+  static double calc_gap(const Aabb& a, const Aabb& b);
+  bool may_touch(const StepPairs& step, Pair& pair) const;
 
   WorldData& data_;
   const WorldSettings& settings_;

@@ -91,7 +91,7 @@ float Sleep::wake_impulse(const Body& body) const {
 void Sleep::fall_asleep(int index) {
   Body& body = data_.bodies[index];
   body.awake = false;
-  if (body.simbody_index >= 0) blocks_.set_velocity(body.simbody_index, {}, {});
+  if (body.free_index >= 0) blocks_.set_velocity(body.free_index, {}, {});
   if (body.tree >= 0) trees_.stop(body.tree);
   body.linear = {};
   body.angular = {};

@@ -14,7 +14,7 @@ namespace rubble {
 
 class Sleep {
  public:
-  Sleep(WorldData& data, const WorldSettings& settings, const Bodies& bodies, SimbodyBlocks& blocks,
+  Sleep(WorldData& data, const WorldSettings& settings, const Bodies& bodies, FreeBodies& blocks,
         WorldTrees& trees, Waking& waking, ThreadPool& pool)
       : data_(data),
         settings_(settings),
@@ -54,7 +54,7 @@ class Sleep {
   WorldData& data_;
   const WorldSettings& settings_;
   const Bodies& bodies_;
-  SimbodyBlocks& blocks_;
+  FreeBodies& blocks_;
   WorldTrees& trees_;
   Waking& waking_;
   ThreadPool& pool_;

@@ -23,7 +23,7 @@ void SpeedLimiter::return_momentum(std::size_t piece, const Vec3f& speed, StepMo
   const std::int32_t other = neighbour_[piece];
   if (other < 0) return;
   const Body &light = data_.bodies[piece], &heavy = data_.bodies[other];
-  if (!heavy.awake || heavy.simbody_index < 0 || heavy.mass < light.mass) return;
+  if (!heavy.awake || heavy.free_index < 0 || heavy.mass < light.mass) return;
   const Vec3f change = speed * float(light.mass / heavy.mass);
   motions.velocities[other].linear += change;
   motions.displacements[other].linear += change * float(settings_.options.step);
@@ -32,7 +32,7 @@ void SpeedLimiter::return_momentum(std::size_t piece, const Vec3f& speed, StepMo
 void SpeedLimiter::clamp_ejections(const StepPairs& step, StepMotions& motions) {
   const auto outwards = [](const Vec3f& v) { return Vec3f{v.x, v.y, std::max(v.z, 0.0F)}; };
   const auto may_kick = [&](const Body& body) {
-    return body.awake && body.touching && body.simbody_index >= 0;
+    return body.awake && body.touching && body.free_index >= 0;
   };
   const auto speed_before = [&](const Body& body) {
     return norm(outwards(body.linear)) + float(settings_.options.gravity * settings_.options.step);

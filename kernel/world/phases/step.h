@@ -9,11 +9,13 @@
 
 namespace rubble {
 
-// What the search for pairs asks of every piece in every step, close together in memory.
+// What the search for pairs asks of every piece in every step, close together in memory. Of those asleep only
+// the travel is set.
 struct Sweep {
   Vec3f linear;       // unit: m/s
   float turning = 0;  // angular speed times radius; unit: m/s
   float reach = 0;    // no point goes farther in this step; unit: m
+  double travel = 0;  // as Body::travel; unit: m
   bool awake = false;
 };
 

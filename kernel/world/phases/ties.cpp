@@ -77,9 +77,9 @@ void Ties::bend(std::vector<Motion>& velocities) const {
     const Contact& c = tie.contact;
     if (!tie.solved || !(c.points[0].normal_impulse > 0) || !(tie.state.bending > 0)) continue;
     const Body& a = data_.bodies[c.body_a];
-    const bool a_moves = a.awake && a.simbody_index >= 0;
+    const bool a_moves = a.awake && a.free_index >= 0;
     const bool b_moves =
-        c.body_b != kGround && data_.bodies[c.body_b].awake && data_.bodies[c.body_b].simbody_index >= 0;
+        c.body_b != kGround && data_.bodies[c.body_b].awake && data_.bodies[c.body_b].free_index >= 0;
     Vec3f turning, of_a, of_b;
     if (a_moves) turning += velocities[c.body_a].angular;
     if (b_moves) turning -= velocities[c.body_b].angular;

@@ -146,7 +146,7 @@ void WorldTrees::release(const TreeLink& link) {
   Body& body = data_.bodies[link.body];
   body.tree = body.link = -1;
   if (body.mass == 0) return;
-  body.simbody_index = blocks_.add({{body.mass, body.inertia, body.world_from_com, link.linear, link.angular}});
+  body.free_index = blocks_.add({{body.mass, body.inertia, body.world_from_com, link.linear, link.angular}});
 }
 
 }  // namespace rubble

@@ -15,7 +15,7 @@ namespace rubble {
 class WorldTrees {
  public:
   WorldTrees(const WorldTypes& types, WorldData& data, const WorldSettings& settings, Bodies& bodies,
-             SimbodyBlocks& blocks, SimbodyTrees& simbody, ThreadPool& pool)
+             FreeBodies& blocks, SimbodyTrees& simbody, ThreadPool& pool)
       : types_(types),
         data_(data),
         settings_(settings),
@@ -65,7 +65,7 @@ class WorldTrees {
   WorldData& data_;
   const WorldSettings& settings_;
   Bodies& bodies_;
-  SimbodyBlocks& blocks_;
+  FreeBodies& blocks_;
   SimbodyTrees& simbody_;
   ThreadPool& pool_;
   std::vector<TreeMotion> motions_;  // by number of the tree

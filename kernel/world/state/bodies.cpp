@@ -91,13 +91,13 @@ void Bodies::add_to_blocks(int first, const std::vector<FreeBody>& free) {
   std::vector<FreeBody> sorted;
   for (int body : order) sorted.push_back(free[std::size_t(body - first)]);
   int mobile = blocks_.add(sorted);
-  for (int body : order) data_.bodies[body].simbody_index = mobile++;
+  for (int body : order) data_.bodies[body].free_index = mobile++;
 }
 
 void Bodies::mirror(Body& body) {
-  body.world_from_com = blocks_.world_from_com(body.simbody_index);
-  body.linear = Vec3f(blocks_.linear_velocity(body.simbody_index));
-  body.angular = Vec3f(blocks_.angular_velocity(body.simbody_index));
+  body.world_from_com = blocks_.world_from_com(body.free_index);
+  body.linear = Vec3f(blocks_.linear_velocity(body.free_index));
+  body.angular = Vec3f(blocks_.angular_velocity(body.free_index));
 }
 
 void Bodies::refresh(Body& body) {
@@ -171,12 +171,12 @@ double Bodies::friction_of(std::int32_t collider) const {
 
 Vec3 Bodies::linear_velocity(const Body& body) const {
   if (body.tree >= 0) return data_.trees[body.tree].links[body.link].linear;
-  return body.simbody_index >= 0 ? blocks_.linear_velocity(body.simbody_index) : Vec3{};
+  return body.free_index >= 0 ? blocks_.linear_velocity(body.free_index) : Vec3{};
 }
 
 Vec3 Bodies::angular_velocity(const Body& body) const {
   if (body.tree >= 0) return data_.trees[body.tree].links[body.link].angular;
-  return body.simbody_index >= 0 ? blocks_.angular_velocity(body.simbody_index) : Vec3{};
+  return body.free_index >= 0 ? blocks_.angular_velocity(body.free_index) : Vec3{};
 }
 
 PosedBody Bodies::posed(const Collider& collider) const {

@@ -1,26 +1,26 @@
-// The bodies of a world, their parts and their coordinates in Simbody. Not for use outside kernel/.
+// The bodies of a world, their parts and their coordinates. Not for use outside kernel/.
 #pragma once
 
 #include <vector>
 
-#include "kernel/multibody/simbody_blocks.h"
+#include "kernel/multibody/free_bodies.h"
 #include "kernel/world/state/world_data.h"
 
 namespace rubble {
 
 class Bodies {
  public:
-  Bodies(const WorldTypes& types, WorldData& data, SimbodyBlocks& blocks)
+  Bodies(const WorldTypes& types, WorldData& data, FreeBodies& blocks)
       : types_(types), data_(data), blocks_(blocks) {}
 
-  // Adds a piece by itself. free: receives what Simbody needs of one that moves; see add_to_blocks().
+  // Adds a piece by itself. free: receives where one that moves is; see add_to_blocks().
   void add(const NewPiece& piece, FreeBody* free);
   // Gives those from `first` on that move freely their coordinates. free: by body, from `first` on.
   void add_to_blocks(int first, const std::vector<FreeBody>& free);
 
   void weigh(Body& body) const;                     // a piece alone, by its type
   void weigh(Body& lead, const RigidGroup& group);  // a group; the offsets of its pieces are from anywhere
-  void mirror(Body& body);                          // pose and speeds from Simbody
+  void mirror(Body& body);                          // pose and speeds from FreeBodies
   void refresh(Body& body);                         // rotation, inertia, corners and boxes from the pose
 
   // The body that a piece moves with.
@@ -48,7 +48,7 @@ class Bodies {
 
   const WorldTypes& types_;
   WorldData& data_;
-  SimbodyBlocks& blocks_;
+  FreeBodies& blocks_;
 };
 
 }  // namespace rubble

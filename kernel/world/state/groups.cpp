@@ -37,10 +37,10 @@ void RigidGroups::form(const SplitPart& part, const Body& whole) {
     for (int i = 0; i < piece.collider_count; ++i) data_.colliders[piece.first_collider + i].body = lead;
   }
   Body& body = data_.bodies[lead];
-  const std::int32_t simbody_index = body.simbody_index;
+  const std::int32_t free_index = body.free_index;
   body.world_from_com = whole.world_from_com;
   bodies_.weigh(body, group);
-  body.simbody_index = simbody_index;
+  body.free_index = free_index;
   body.travel = whole.travel;
   body.has_touched = whole.has_touched, body.touching = false;
   body.load = 0, body.lost_support = {};
@@ -82,17 +82,17 @@ void RigidGroups::set_free(const std::vector<SplitPart>& parts, const Body& whol
     const Vec3 moved = body.world_from_com.translation - whole.world_from_com.translation;
     const Vec3 velocity = linear + cross(angular, moved);
     bodies.push_back(part.pieces[0]);
-    if (body.simbody_index < 0) {
+    if (body.free_index < 0) {
       fresh.push_back({body.mass, body.inertia, body.world_from_com, velocity, angular});
     } else {
-      blocks_.set_pose(body.simbody_index, body.world_from_com);
-      blocks_.set_velocity(body.simbody_index, velocity, angular);
+      blocks_.set_pose(body.free_index, body.world_from_com);
+      blocks_.set_velocity(body.free_index, velocity, angular);
     }
   }
   int index = fresh.empty() ? 0 : blocks_.add(fresh);
   for (const std::int32_t i : bodies) {
     Body& body = data_.bodies[i];
-    if (body.simbody_index < 0) body.simbody_index = index++;
+    if (body.free_index < 0) body.free_index = index++;
     bodies_.mirror(body);
     bodies_.refresh(body);
   }

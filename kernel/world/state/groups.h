@@ -14,7 +14,7 @@ namespace rubble {
 
 class RigidGroups {
  public:
-  RigidGroups(WorldData& data, Bodies& bodies, SimbodyBlocks& blocks, Pairs& pairs)
+  RigidGroups(WorldData& data, Bodies& bodies, FreeBodies& blocks, Pairs& pairs)
       : data_(data), bodies_(bodies), blocks_(blocks), pairs_(pairs) {}
 
   void bind(int first, int count);
@@ -28,7 +28,7 @@ class RigidGroups {
 
   WorldData& data_;
   Bodies& bodies_;
-  SimbodyBlocks& blocks_;
+  FreeBodies& blocks_;
   Pairs& pairs_;
 };
 

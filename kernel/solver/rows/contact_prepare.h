@@ -1,5 +1,5 @@
-// Filling the rows of contact_rows.h from contacts and bodies, for either kind of packet. Not for use
-// outside kernel/.
+// Filling the rows of contact_rows.h from contacts and bodies, for any kind of packet: `first` is the
+// packet's first lane. Not for use outside kernel/.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include "kernel/solver/contact_law.h"
 #include "kernel/solver/contact_rows.h"
 #include "kernel/solver/friction_axes.h"
-#include "kernel/solver/packets.h"
+#include "kernel/solver/rows/packets.h"
 
 namespace rubble::contact_prepare {
 
@@ -19,12 +19,10 @@ struct Side {
   P inverse_mass, mass, share;
 
   RUBBLE_INLINE Side(const BodyTerms* terms, const std::int32_t* index) {
-    const auto row = [&](float (BodyTerms::*numbers)[3], int i) __attribute__((always_inline)) {
-      return load_quad(terms[index[i]].*numbers);
-    };
-    const auto gather = [&](float (BodyTerms::*n)[3]) __attribute__((always_inline)) {
-      return P::gather(row(n, 0), row(n, 1), row(n, 2), row(n, 3), row(n, 4), row(n, 5), row(n, 6),
-                       row(n, 7));
+    const auto gather = [&](float (BodyTerms::*numbers)[3]) __attribute__((always_inline)) {
+      return P::gather([&](int i) __attribute__((always_inline)) {
+        return load_quad(terms[index[i]].*numbers);
+      });
     };
     const Columns<P> first = gather(&BodyTerms::row0), second = gather(&BodyTerms::row1),
                      third = gather(&BodyTerms::row2);
@@ -59,14 +57,14 @@ struct Around {
 // Stores a row.
 template <typename P>
 RUBBLE_INLINE Around<P> store(const Turns<P>& turns, const Side<P>& a, const Side<P>& b,
-                      typename P::Mask used, ContactRow& row) {
-  turns.arm_a.store(row.arm_a);
-  turns.arm_b.store(row.arm_b);
-  turns.turn_a.store(row.turn_a);
-  turns.turn_b.store(row.turn_b);
+                      typename P::Mask used, int first, ContactRow& row) {
+  turns.arm_a.store(row.arm_a, first);
+  turns.arm_b.store(row.arm_b, first);
+  turns.turn_a.store(row.turn_a, first);
+  turns.turn_b.store(row.turn_b, first);
   const Around<P> around{dot(turns.arm_a, turns.turn_a), dot(turns.arm_b, turns.turn_b)};
   const P mass = P(1) / (a.inverse_mass + b.inverse_mass + around.a + around.b);
-  select(used, mass, P{}).store(row.mass);
+  select(used, mass, P{}).store(row.mass, first);
   return around;
 }
 
@@ -91,13 +89,12 @@ struct Points {
   RUBBLE_INLINE Points(const Contact* const* contact, int point) {
     static_assert(offsetof(ContactPoint, normal_impulse) == 7 * sizeof(float),
                   "eight numbers in a row");
-    const auto quad = [&](int i, int half) __attribute__((always_inline)) {
-      return read_quad(&contact[i]->points[point], half);
+    const auto half = [&](int which) __attribute__((always_inline)) {
+      return P::gather([&](int i) __attribute__((always_inline)) {
+        return read_quad(&contact[i]->points[point], which);
+      });
     };
-    const Columns<P> c = P::gather(quad(0, 0), quad(1, 0), quad(2, 0), quad(3, 0), quad(4, 0),
-                                   quad(5, 0), quad(6, 0), quad(7, 0));
-    const Columns<P> d = P::gather(quad(0, 1), quad(1, 1), quad(2, 1), quad(3, 1), quad(4, 1),
-                                   quad(5, 1), quad(6, 1), quad(7, 1));
+    const Columns<P> c = half(0), d = half(1);
     from_a = {c.x, c.y, c.z};
     from_b = {c.w, d.x, d.y};
     separation = d.z, impulse = d.w;
@@ -107,10 +104,9 @@ struct Points {
 // Four numbers of each contact, from `offset` on.
 template <typename P>
 RUBBLE_INLINE Columns<P> gather(const Contact* const* contact, std::size_t offset) {
-  const auto quad = [&](int i) __attribute__((always_inline)) {
+  return P::gather([&](int i) __attribute__((always_inline)) {
     return read_quad(reinterpret_cast<const char*>(contact[i]) + offset, 0);
-  };
-  return P::gather(quad(0), quad(1), quad(2), quad(3), quad(4), quad(5), quad(6), quad(7));
+  });
 }
 
 // Two unit vectors across a normal; the same for the same normal.
@@ -127,7 +123,7 @@ RUBBLE_INLINE void make_tangents(const Packet3<P>& n, Packet3<P>* tangent) {
 template <typename P>
 RUBBLE_INLINE void prepare_friction(const Side<P>& a, const Side<P>& b, const Packet3<P>& middle_a,
                                     const Packet3<P>& middle_b, const Packet3<P>& impulse,
-                                    const Packet3<P>& normal, typename P::Mask used,
+                                    const Packet3<P>& normal, typename P::Mask used, int first,
                                     ContactBatch& batch) {
   Packet3<P> tangent[2];
   make_tangents(normal, tangent);
@@ -139,32 +135,34 @@ RUBBLE_INLINE void prepare_friction(const Side<P>& a, const Side<P>& b, const Pa
   turn.apply(s.arm_b, t.arm_b);
   turn.apply(s.turn_a, t.turn_a);
   turn.apply(s.turn_b, t.turn_b);
-  store(s, a, b, used, batch.slide[0].row);
-  store(t, a, b, used, batch.slide[1].row);
+  store(s, a, b, used, first, batch.slide[0].row);
+  store(t, a, b, used, first, batch.slide[1].row);
   for (int k = 0; k < 2; ++k) {
-    tangent[k].store(batch.slide[k].direction);
-    dot(tangent[k], impulse).store(batch.slide[k].impulse);
+    tangent[k].store(batch.slide[k].direction, first);
+    dot(tangent[k], impulse).store(batch.slide[k].impulse, first);
   }
 }
 
 template <typename P>
-RUBBLE_INLINE void prepare_batch(ContactBatch& batch, const Contact* contacts,
-                                 const BodyTerms* terms, float rest_gap, NormalRow* rows,
-                                 PushRow* pushes) {
+RUBBLE_INLINE void prepare_packet(ContactBatch& batch, int first, const Contact* contacts,
+                                  const BodyTerms* terms, float rest_gap, NormalRow* rows,
+                                  PushRow* pushes) {
   static_assert(offsetof(Contact, friction) == offsetof(Contact, normal) + sizeof(Vec3f) &&
                     offsetof(Contact, twist_impulse) ==
                         offsetof(Contact, friction_impulse) + sizeof(Vec3f),
                 "each vector and its number in a row");
-  const Contact* contact[kLanes];
-  Lanes in_use;
-  for (int i = 0; i < kLanes; ++i) {
+  const Contact* contact[P::width()];
+  Lanes in_use, most;
+  for (int i = 0; i < P::width(); ++i) {
     // Lanes not in use compute with the first contact, and their rows weigh nothing.
-    contact[i] = &contacts[batch.contact[batch.contact[i] >= 0 ? i : 0]];
-    in_use[i] = batch.contact[i] >= 0 ? 1.0F : 0.0F;
+    const std::int32_t index = batch.contact[first + i];
+    contact[i] = &contacts[index >= 0 ? index : batch.contact[0]];
+    in_use[i] = index >= 0 ? 1.0F : 0.0F;
+    most[i] = contact[i]->most;
   }
   const P one(1), zero{};
-  const auto used = P(in_use) > zero;
-  const Side<P> a(terms, batch.a), b(terms, batch.b);
+  const auto used = P(in_use, 0) > zero;
+  const Side<P> a(terms, batch.a + first), b(terms, batch.b + first);
   const Columns<P> across = gather<P>(contact, offsetof(Contact, normal));
   const Columns<P> along = gather<P>(contact, offsetof(Contact, friction_impulse));
   const Packet3<P> normal{across.x, across.y, across.z};
@@ -177,19 +175,18 @@ RUBBLE_INLINE void prepare_batch(ContactBatch& batch, const Contact* contacts,
     const Points<P> p(contact, i);
     const Turns<P> turns(a, b, normal, p.from_a, p.from_b);
     NormalRow& n = rows[i];
-    const Around<P> around = store(turns, a, b, used, n.row);
+    const Around<P> around = store(turns, a, b, used, first, n.row);
     const P push_mass =
         one / (share_a + mass_a * around.a + share_b + mass_b * around.b);
-    select(used, push_mass, zero).store(pushes[i].mass);
-    (p.separation - P(rest_gap)).store(n.gap);
+    select(used, push_mass, zero).store(pushes[i].mass, first);
+    (p.separation - P(rest_gap)).store(n.gap, first);
     const P impulse = select(used, p.impulse, zero);
-    impulse.store(n.impulse);
-    impulse.store(n.carried);
+    impulse.store(n.impulse, first);
     total = total + impulse;
   }
   const P count(float(batch.rows));
   const auto shares = contact_law::find_centre_shares(total, count);
-  Packet3<P> middle_a, middle_b;
+  Packet3<P> middle_a{}, middle_b{};
   for (int i = 0; i < batch.rows; ++i) {
     const Points<P> p(contact, i);
     const P share = shares.each + shares.per_impulse * p.impulse;
@@ -202,36 +199,36 @@ RUBBLE_INLINE void prepare_batch(ContactBatch& batch, const Contact* contacts,
     const Packet3<P> from = p.from_a - middle_a;
     radius = radius + sqrt(dot(from, from)) * (shares.each + shares.per_impulse * p.impulse);
   }
-  prepare_friction(a, b, middle_a, middle_b, friction_impulse, normal, used, batch);
+  prepare_friction(a, b, middle_a, middle_b, friction_impulse, normal, used, first, batch);
   const Packet3<P> twist_a = a.turn(normal), twist_b = b.turn(normal);
   const P twist = dot(normal, twist_a + twist_b);
   const P twist_mass = select(twist > zero, one / twist, zero);
-  select(used, twist_mass, zero).store(batch.twist_mass);
-  select(used, along.w, zero).store(batch.twist_impulse);
-  select(used, across.w, zero).store(batch.friction);
-  max(radius, P(contact_law::kPatchRadius)).store(batch.radius);
-  normal.store(batch.normal);
-  twist_a.store(batch.twist_a);
-  twist_b.store(batch.twist_b);
-  a.inverse_mass.store(batch.inverse_mass_a);
-  b.inverse_mass.store(batch.inverse_mass_b);
-  share_a.store(batch.push_share_a);
-  share_b.store(batch.push_share_b);
-  mass_a.store(batch.push_mass_a);
-  mass_b.store(batch.push_mass_b);
-  zero.store(batch.pressed);
-  zero.store(batch.highest);
-  Lanes most;
-  for (int i = 0; i < kLanes; ++i) most[i] = contact[i]->most;
-  P(most).store(batch.most);
+  select(used, twist_mass, zero).store(batch.twist_mass, first);
+  select(used, along.w, zero).store(batch.twist_impulse, first);
+  select(used, across.w, zero).store(batch.friction, first);
+  max(radius, P(contact_law::kPatchRadius)).store(batch.radius, first);
+  normal.store(batch.normal, first);
+  twist_a.store(batch.twist_a, first);
+  twist_b.store(batch.twist_b, first);
+  a.inverse_mass.store(batch.inverse_mass_a, first);
+  b.inverse_mass.store(batch.inverse_mass_b, first);
+  share_a.store(batch.push_share_a, first);
+  share_b.store(batch.push_share_b, first);
+  mass_a.store(batch.push_mass_a, first);
+  mass_b.store(batch.push_mass_b, first);
+  zero.store(batch.pressed, first);
+  zero.store(batch.highest, first);
+  P(most, 0).store(batch.most, first);
 }
 
 template <typename P>
 RUBBLE_INLINE void prepare(const BatchRange& range, const Contact* contacts,
                            const BodyTerms* terms, float rest_gap) {
   for (ContactBatch* batch = range.begin; batch != range.end; ++batch) {
-    prepare_batch<P>(*batch, contacts, terms, rest_gap, range.rows + batch->first_row,
-                     range.pushes + batch->first_row);
+    for (int first = 0; first < batch->used; first += P::width()) {
+      prepare_packet<P>(*batch, first, contacts, terms, rest_gap, range.rows + batch->first_row,
+                        range.pushes + batch->first_row);
+    }
   }
 }
 

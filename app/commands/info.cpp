@@ -10,6 +10,7 @@
 #include "app/support/build_info.h"
 #include "io/live/live_ros.h"
 #include "render/gl/gl_context.h"
+#include "render/view/drawn_by.h"
 
 namespace rubble {
 namespace {
@@ -59,6 +60,7 @@ ExitCode print_info(const InfoRequest& request) {
   std::printf("EGL           %s, %s\n", info.egl_version.c_str(), info.egl_device.c_str());
   std::printf("GL renderer   %s\n", info.renderer.c_str());
   std::printf("GL version    %s (%s)\n", info.version.c_str(), info.vendor.c_str());
+  std::printf("shading       %s\n", describe_shading(info).c_str());
   if (request.gl) print_limits(info);
   return ExitCode::done;
 }

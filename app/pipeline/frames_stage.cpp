@@ -19,6 +19,7 @@
 #include "kernel/base/text.h"
 #include "render/gl/gl_context.h"
 #include "render/renderer.h"
+#include "render/view/drawn_by.h"
 
 namespace rubble {
 namespace {
@@ -44,6 +45,7 @@ std::map<std::string, std::string> describe_environment(const GlInfo& info, int 
   return {{"gl_renderer", info.renderer},
           {"gl_version", info.version},
           {"egl_device", info.egl_device},
+          {"shading", describe_shading(info)},
           {"threads", std::to_string(threads)}};
 }
 

@@ -50,6 +50,7 @@ namespace rubble {
   X(GetShaderiv, GETSHADERIV)                                   \
   X(GetString, GETSTRING)                                       \
   X(GetTextureImage, GETTEXTUREIMAGE)                           \
+  X(GetTextureSubImage, GETTEXTURESUBIMAGE)                     \
   X(GetUniformBlockIndex, GETUNIFORMBLOCKINDEX)                 \
   X(GetUniformLocation, GETUNIFORMLOCATION)                     \
   X(LinkProgram, LINKPROGRAM)                                   \

@@ -242,12 +242,17 @@ std::vector<ShadowEdgePass::View> ShadowPass::edge_views() const {
   return out;
 }
 
-// Where a moving piece is on each of the sun's layers.
-void ShadowPass::find_moving_edges() {
-  std::vector<std::vector<ShadowEdgePass::Rect>> changed(std::size_t(map_.lights.front().views));
+// Where moving pieces are on a directional layer.
+std::vector<ShadowPass::Rect> ShadowPass::moving_rects(std::size_t view) const {
+  std::vector<Rect> out;
   for (const PlacedMesh& piece : scene_.placed)
-    if (piece.moves && piece.there)
-      for (std::size_t i = 0; i < changed.size(); ++i) changed[i].push_back(rect_of(views_[i], piece, size_));
+    if (piece.moves && piece.there) out.push_back(rect_of(views_[view], piece, size_));
+  return out;
+}
+
+void ShadowPass::find_moving_edges() {
+  std::vector<std::vector<Rect>> changed;
+  for (std::size_t i = 0; i < std::size_t(map_.lights.front().views); ++i) changed.push_back(moving_rects(i));
   edges_->find_again(map_.values, changed);
 }
 
@@ -261,15 +266,46 @@ void ShadowPass::draw_moving() {
     list_views();
     draw_layers(map_.depth, What::all, std::size_t(map_.lights[lights_.first_carried()].first_view));
   }
-  read_texels();
+  read_moved_texels();
 }
 
+// All of it.
 void ShadowPass::read_texels() {
   if (!read_back_) return;
   map_.texels.resize(views_.size() * std::size_t(size_) * std::size_t(size_));
   gl_.GetTextureImage(map_.depth.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT,
                       GLsizei(map_.texels.size() * sizeof(float)), map_.texels.data());
   check_gl(gl_, "reading the shadow map");
+}
+
+// What may have changed since it was read: of directional layers where something moves or moved, of others all.
+void ShadowPass::read_moved_texels() {
+  if (!read_back_) return;
+  moved_.resize(views_.size());
+  for (std::size_t i = 0; i < lights_.lights.size(); ++i) {
+    const ShadowMap::Light& light = map_.lights[i];
+    for (std::size_t v = std::size_t(light.first_view); v < std::size_t(light.first_view + light.views); ++v) {
+      if (lights_.lights[i].type != LightType::directional) {
+        read_part(v, {0, 0, size_, size_});
+        continue;
+      }
+      std::vector<Rect> rects = std::move(moved_[v]);
+      moved_[v] = moving_rects(v);
+      rects.insert(rects.end(), moved_[v].begin(), moved_[v].end());
+      for (const Rect& rect : merge_rects(std::move(rects))) read_part(v, rect);
+    }
+  }
+  check_gl(gl_, "reading the shadow map");
+}
+
+void ShadowPass::read_part(std::size_t view, const Rect& rect) {
+  const int x0 = std::max(rect.x0, 0), y0 = std::max(rect.y0, 0), x1 = std::min(rect.x1, size_), y1 = std::min(rect.y1, size_);
+  if (x0 >= x1 || y0 >= y1) return;
+  const std::size_t side = std::size_t(size_), first = (view * side + std::size_t(y0)) * side + std::size_t(x0);
+  gl_.PixelStorei(GL_PACK_ROW_LENGTH, size_);
+  gl_.GetTextureSubImage(map_.depth.name(), 0, x0, y0, GLint(view), x1 - x0, y1 - y0, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+                         GLsizei((map_.texels.size() - first) * sizeof(float)), map_.texels.data() + first);
+  gl_.PixelStorei(GL_PACK_ROW_LENGTH, 0);
 }
 
 void ShadowPass::draw_layers(const GlTexture& layers, What what, std::size_t from) {

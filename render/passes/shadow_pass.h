@@ -49,7 +49,11 @@ class ShadowPass {
   std::vector<ShadowEdgePass::View> edge_views() const;
   void find_moving_edges();
   void list_views();
+  using Rect = ShadowEdgePass::Rect;
+  std::vector<Rect> moving_rects(std::size_t view) const;
   void read_texels();
+  void read_moved_texels();
+  void read_part(std::size_t view, const Rect& rect);
   enum class What { resting, moving, all };
   // Of the views from that one on. What rests is drawn on nothing, what moves on what is there.
   void draw_layers(const GlTexture& layers, What what, std::size_t from = 0);
@@ -65,6 +69,7 @@ class ShadowPass {
   GlProgram program_;
   std::unique_ptr<ShadowEdgePass> edges_;  // null: the main light is no sun
   GlTexture resting_;  // of what rests alone; only where something moves
+  std::vector<std::vector<Rect>> moved_;  // by view: where something moved that was read back last
   ShadowMap map_;
 };
 

@@ -8,8 +8,8 @@
 namespace rubble::RUBBLE_ISA {
 
 struct Surface {
-  Real3 normal, face_normal;  // world; with and without relief
-  Real3 albedo;
+  Real3 normal, face_normal;           // world; with and without relief
+  Real3 albedo;                        // of the matt base; 0 to 1
   Real3 ambient;                       // klx
   Real cover, reflectance, roughness;  // of the mirror on top
   Real3 glow;                          // kcd/m2
@@ -18,10 +18,10 @@ struct Surface {
 
 // What a placed mesh is, and the point in its frame.
 struct PlacedPoint {
-  Real3 rows[3];  // of mesh_from_world, without the origin
-  Real scale;
+  Real3 rows[3];                  // of mesh_from_world, without the origin
+  Real scale;                     // of the mesh
   Word first_light, seed, turns;  // the second and last as PlacedMesh::look_seed
-  Real3 point;
+  Real3 point;                    // in the mesh frame
 
   RUBBLE_INLINE Real3 to_world(const Real3& v) const {
     return (rows[0] * v.x + rows[1] * v.y + rows[2] * v.z) * scale;
@@ -83,8 +83,8 @@ RUBBLE_INLINE Real unpack_half(Word half) {
 }
 
 struct NodeLight {
-  Real3 vector;
-  Real red, blue;
+  Real3 vector;    // dot(normal, vector) is the illuminance; unit: klx
+  Real red, blue;  // shares of the light; red, green and blue add up to 1
 };
 
 RUBBLE_INLINE NodeLight load_light(const ShadingData& d, Int node) {
@@ -140,7 +140,7 @@ RUBBLE_INLINE Real ragged(Real x) {
 }
 
 struct Look {
-  Real3 dark, bright, accent;
+  Real3 dark, bright, accent;           // albedos
   Real density;                         // 1 / tile
   Real bump;                            // below 0: it shines
   Real gloss;                           // packed
@@ -157,7 +157,7 @@ RUBBLE_INLINE Look load_look(const ShadingData& d, Int look) {
 
 // The look on the one of 26 planes that the surface is nearest to: little stretching, one texture.
 struct Pattern {
-  Texel texel;
+  Texel texel;   // slopes, brightness, mask
   Real3 bent;    // normal with relief, in the mesh
   Real slow;     // variation over metres, -2 to 2
   Real debris;   // that covers the ground

@@ -18,7 +18,8 @@ RUBBLE_INLINE Real fog_depth(float density, float rate, Real z, Real slope, Real
   const Real above = select(partly, way - low, way), from = select(partly, max(z, 0.0f), z);
   const Real x = slope * above * rate;
   const Mask level = abs(x) < 1e-2f;
-  const Real mean = select(level, 1.0f - x * (0.5f - x * (1.0f / 6)), (1.0f - exp(-x)) / select(level, real(1), x));
+  const Real mean = select(level, 1.0f - x * (0.5f - x * (1.0f / 6)),
+                           (1.0f - exp(-x)) / select(level, real(1), x));
   return select(all_below, even, density * (low + above * exp(-from * rate) * mean));
 }
 

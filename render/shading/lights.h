@@ -38,7 +38,7 @@ inline Real3 backdrop(const ShadingData& data, const Real3& d) {
 
 struct Arriving {
   Real3 illuminance;  // on a facing surface
-  Real3 to_light;
+  Real3 to_light;     // unit length; of the lamp shorter near it
 };
 
 RUBBLE_INLINE Arriving light_at(const ShadingData& data, int i, const Real3& p) {
@@ -97,8 +97,8 @@ RUBBLE_INLINE Real air_passes(const ShadingData& data, int i, const Real3& p,
 }
 
 struct ShadowPlace {
-  Real u, v, depth;
-  Mask inside;  // of the map
+  Real u, v, depth;  // 0 to 1
+  Mask inside;       // of the map
 };
 
 // rows: of a view that is the same for all lanes.

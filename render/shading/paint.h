@@ -14,8 +14,8 @@ RUBBLE_INLINE Real3 decode_srgb(const Real3& c) {
 }
 
 struct Paint {
-  Real3 albedo, normal;  // the latter in the mesh frame
-  Real roughness, metalness, reflectance;
+  Real3 albedo, normal;                    // the latter in the mesh frame
+  Real roughness, metalness, reflectance;  // as of PaintPoint
 };
 
 // w: weights of the corners; ab, ac: edges, mesh frame; footprint: width of what is seen across the

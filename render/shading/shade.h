@@ -60,14 +60,14 @@ RUBBLE_INLINE Real base_share(const ShadingData& d, const Surface& s, const Real
 
 // A pixel's ray and what it meets.
 struct Pixel {
-  Int x, y, index;
+  Int x, y, index;       // of the image; the last counts rows
   Real3 eye, direction;  // unit length
   Real3 slope;           // of the ray, in the optical frame
   Real3 across, down;    // how the ray changes from pixel to pixel, at unit depth, in the world
-  Real size_across, size_down;
-  Real length;  // of the ray at unit depth
-  Real z;
-  Word placed, triangle;  // the first is 0: nothing
+  Real size_across, size_down;  // what the two before are times; unit: 1
+  Real length;                  // of the ray at unit depth
+  Real z;                       // depth along the optical axis; unit: m
+  Word placed, triangle;        // the first is 0: nothing
 };
 
 struct Shading {

@@ -20,7 +20,7 @@ struct Sight {
 // Points spread evenly over the unit disc: a spiral that turns by the golden angle from each to the
 // next.
 struct DiscPoints {
-  float x = 1, y = 0;
+  float x = 1, y = 0;  // unit length
   RUBBLE_INLINE void turn() {
     const float was = x;
     x = was * -0.7373688f - y * 0.6754903f, y = was * 0.6754903f + y * -0.7373688f;
@@ -34,12 +34,12 @@ RUBBLE_INLINE float pixel_point(int k, float step) {
 }
 
 struct SunView {
-  Mask first;  // the finer of two views shows it
-  Real u, v, depth;
-  Real3 a, b, c;  // rows of the view
-  Real texel;     // its width; unit: m
-  Int layer;
-  Mask known;
+  Mask first;        // the finer of two views shows it
+  Real u, v, depth;  // place on the map; 0 to 1
+  Real3 a, b, c;     // rows of the view
+  Real texel;        // its width; unit: m
+  Int layer;         // of the map
+  Mask known;        // the place is on the map
 };
 
 RUBBLE_INLINE SunView view_of(const ShadingData& d, const Real3& p) {
@@ -90,7 +90,7 @@ RUBBLE_INLINE Real nearest_edge(const ShadingData& d, const SunView& view) {
 }
 
 struct SunShare {
-  Real share;
+  Real share;   // of the disc that is seen
   Mask partly;  // elsewhere one comparison says all
 };
 

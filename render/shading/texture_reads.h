@@ -7,7 +7,7 @@
 namespace rubble::RUBBLE_ISA {
 
 struct Texel {
-  Real x, y, z, w;
+  Real x, y, z, w;  // red, green, blue, alpha; 0 to 1
 };
 
 RUBBLE_INLINE Texel mix(const Texel& a, const Texel& b, Real t) {
@@ -18,8 +18,8 @@ RUBBLE_INLINE Real byte_of(Word w, int shift) { return to_real(Int((w >> shift) 
 
 // Two texels along an axis, and where between them.
 struct Between {
-  Int first, second;
-  Real share;  // of the second
+  Int first, second;  // their numbers
+  Real share;         // of the second
 };
 
 // at: 0 to 1 over all texels; beyond the border is the border.

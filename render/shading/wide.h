@@ -121,7 +121,7 @@ RUBBLE_INLINE Word gather(const std::uint32_t* base, Int i) {
 
 // Of a table whose rows have four words: the row of each lane, by columns.
 struct Row {
-  Word x, y, z, w;
+  Word x, y, z, w;  // columns
 };
 
 RUBBLE_INLINE Row load_rows(const void* table, Int row) {

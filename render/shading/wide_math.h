@@ -55,11 +55,11 @@ RUBBLE_INLINE Real sin(Real x) {
 }
 
 struct Real2 {
-  Real x, y;
+  Real x, y;  // a lane each
 };
 
 struct Real3 {
-  Real x, y, z;
+  Real x, y, z;  // a lane each
 
   RUBBLE_INLINE Real3& operator+=(const Real3& b) { return x += b.x, y += b.y, z += b.z, *this; }
   RUBBLE_INLINE Real3& operator*=(const Real3& b) { return x *= b.x, y *= b.y, z *= b.z, *this; }

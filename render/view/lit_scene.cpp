@@ -7,6 +7,7 @@
 #include "render/media/air_box.h"
 #include "render/reference/image_key.h"
 #include "render/transport/drawn_albedo.h"
+#include "render/view/drawn_by.h"
 
 namespace rubble {
 
@@ -29,13 +30,6 @@ float most_gloss(const PreparedScene& scene) {
                                         std::max(roughness * roughness, 0.02f)));
   }
   return most;
-}
-
-bool drawn_by_processor(DrawnBy choice, const GlInfo& info) {
-  if (choice != DrawnBy::automatic) return choice == DrawnBy::processor;
-  for (const char* software : {"llvmpipe", "softpipe", "swrast"})
-    if (info.renderer.find(software) != std::string::npos) return true;
-  return false;
 }
 
 bool shines(const PreparedScene& scene) {

@@ -14,7 +14,8 @@ namespace {
 struct Case {
   const char* name;
   AirSpec air;
-  double most;  // difference of the transmittance
+  double most;      // difference of the transmittance
+  double farthest;  // unit: m
 };
 
 AirSpec thinning() {
@@ -43,11 +44,12 @@ AirSpec rainy() {
 }
 
 std::vector<Case> cases() {
-  // Billows are sampled once a slice here, and in steps there.
-  return {{"thinning", thinning(), 1e-5},
-          {"dusty", dusty(), 2e-5},
-          {"rainy", rainy(), 1e-5},
-          {"billowing", billowing(), 0.02}};
+  // Billows are sampled once a slice here and in steps there: far away slices are wider than
+  // billows.
+  return {{"thinning", thinning(), 1e-5, 300},
+          {"dusty", dusty(), 2e-5, 300},
+          {"rainy", rainy(), 1e-5, 300},
+          {"billowing", billowing(), 0.03, 6}};
 }
 
 ViewRays view() { return {0, pinhole(192, 192, 100), look_at({-1, 0, 1}, {3, 0.4, 0.6})}; }
@@ -96,13 +98,14 @@ TEST(AirVolume, LetsThroughWhatTheMediumSays) {
         for (int column = 2; column < AirVolume::kColumns; column += 17)
           for (int slice = 0; slice < AirVolume::kSlices; slice += 3) {
             const double way = AirVolume::slice_distance(slice);
+            if (way > c.farthest) break;
             const double expected =
                 std::exp(-air.optical_depth({-1, 0, 1}, direction(view(), column, row), way));
             ASSERT_NEAR(double(found[AirTable::at(column, row, slice)][3]), expected, c.most)
                 << c.name << ", " << shader.name << ", " << column << ", " << row << ", " << slice;
             least = std::min(least, expected);
           }
-      EXPECT_LT(least, 0.3) << c.name;  // the air is thick enough to tell
+      EXPECT_LT(least, 0.4) << c.name;  // the air is thick enough to tell
     }
   }
 }

@@ -9,11 +9,11 @@ namespace rubble {
 
 // The air without its billows and puffs, as it weakens beams: Air::turned_depth().
 struct MeanFog {
-  double extinction = 0,
-         height = 0;  // at the ground; over which it thins by e, 0: it does not; unit: 1/m; m
-  double drops = 0;   // extinction of rain and snow; unit: 1/m
-  double turned = 1;  // of the extinction about the lamp, what weakens its beam
-  Aabb box;           // air_box()
+  double extinction = 0;  // at the ground; unit: 1/m
+  double height = 0;      // over which it thins by e; 0: it does not; unit: m
+  double drops = 0;       // extinction of rain and snow; unit: 1/m
+  double turned = 1;      // of the extinction about the lamp, what weakens its beam
+  Aabb box;               // air_box()
 };
 
 struct FrameLight {
@@ -29,8 +29,8 @@ struct FrameLight {
   MeanFog fog{};                         // of this frame
   const Pose* world_from_rig = nullptr;  // of what bears the lamp; null: the camera does
   bool soft_sun = true;                  // its shadows have a penumbra
-  const std::vector<BakedLight>* nodes =
-      nullptr;  // light that arrives at the nodes; never null where the processor shades
+  // Light that arrives at the nodes; never null where the processor shades.
+  const std::vector<BakedLight>* nodes = nullptr;
 };
 
 // Colours of the lamp's light; kcd.

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "kernel/base/portable_math.h"
-#include "render/media/air_glow.h"
 #include "render/colour/frame_light.h"
+#include "render/media/air_glow.h"
 
 namespace rubble {
 

@@ -29,6 +29,7 @@ void place(PreparedScene& out, PlacedMesh piece, std::uint32_t axis, RandomStrea
   piece.look_seed = {start, (tone & 0xffff0000u) | axis};
   out.cluster_flags += mesh.levels.front().cluster_count;
   out.light_nodes += mesh.light_nodes.size();
+  out.glass = out.glass || mesh.glass;
   if (piece.id != kGroundId && !piece.moves && !piece.surrounds) {
     const Vec3 reach = Vec3(1, 1, 1) * double(piece.radius);
     out.bounds.include(Vec3(piece.centre) - reach);
@@ -180,6 +181,7 @@ PreparedScene resting_part(const PreparedScene& scene, std::vector<std::uint32_t
     out.placed.back().first_light = std::uint32_t(out.light_nodes);
     out.cluster_flags += scene.meshes[piece.mesh].levels.front().cluster_count;
     out.light_nodes += scene.meshes[piece.mesh].light_nodes.size();
+    out.glass = out.glass || scene.meshes[piece.mesh].glass;
     if (piece.id == kGroundId || piece.surrounds) continue;
     const Vec3 reach = Vec3(1, 1, 1) * double(piece.radius);
     out.bounds.include(Vec3(piece.centre) - reach);

@@ -46,6 +46,7 @@ struct PreparedScene {
   std::size_t light_nodes = 0;       // entries of the table of baked light
   Aabb bounds;  // of all pieces, without the ground and surroundings, wherever they move
   bool surrounded = false;           // some of it is of the surroundings
+  bool glass = false;                // some of it is of glass
   std::uint64_t moment = 0;          // another number whenever anything has moved
 };
 PreparedScene prepare_scene(const Scene& scene, int threads);

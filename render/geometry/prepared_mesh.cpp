@@ -6,6 +6,7 @@
 
 #include "kernel/base/error.h"
 #include "render/geometry/mesh_refine.h"
+#include "render/materials/glass.h"
 #include "render/materials/paint_layers.h"
 #include "render/materials/surface_appearance.h"
 
@@ -156,7 +157,9 @@ void append_level(const TriangleMesh& source, double light_spacing, PreparedMesh
     if (mesh.surfaces[t] >= materials.size())
       throw RunError("a mesh has a triangle of surface " + std::to_string(mesh.surfaces[t]) +
                      " but names only " + std::to_string(materials.size()));
-    out.triangles.push_back({{base + v[0], base + v[1], base + v[2]}, materials[mesh.surfaces[t]]});
+    const std::uint32_t material = materials[mesh.surfaces[t]];
+    out.triangles.push_back({{base + v[0], base + v[1], base + v[2]}, material});
+    out.glass = out.glass || material == glass_appearance();
   }
   append_paint(source, mesh, out);
   if (out.levels.empty() && !out.vertices.empty()) {

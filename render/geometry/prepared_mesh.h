@@ -60,6 +60,7 @@ struct PreparedMesh {
   std::vector<BakeOrigin> bake_origins;     // of all points
   Vec3f centre, half;                       // of a box around it; unit: m
   float radius = 0;                         // of a sphere about the same centre
+  bool glass = false;                       // some triangle is of glass
 };
 
 // The side that a normal looks to: 0 and 1 are +x and -x, 2 and 3 y, 4 and 5 z.

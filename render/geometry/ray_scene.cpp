@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/geometry/ray_scene_embree.h"
+#include "render/materials/glass.h"
 
 namespace rubble {
 
@@ -16,8 +17,8 @@ void place(RTCGeometry instance, const float (&columns)[12]) {
 
 }  // namespace
 
-RayScene::RayScene(const PreparedScene& scene, Detail detail)
-    : scene_(scene), detail_(detail), embree_(std::make_unique<Embree>()) {
+RayScene::RayScene(const PreparedScene& scene, Detail detail, Part part)
+    : scene_(scene), detail_(detail), part_(part), embree_(std::make_unique<Embree>()) {
   add_resting();
   add_moving();
   embree_->commit();
@@ -26,9 +27,12 @@ RayScene::RayScene(const PreparedScene& scene, Detail detail)
 
 RayScene::~RayScene() = default;
 
-const PreparedLevel& RayScene::level_of(const PlacedMesh& piece) const {
-  const PreparedMesh& mesh = scene_.meshes[piece.mesh];
+const PreparedLevel& RayScene::level_of(const PreparedMesh& mesh) const {
   return detail_ == Detail::finest ? mesh.levels.front() : mesh.levels.back();
+}
+
+bool RayScene::has(const PreparedTriangle& triangle) const {
+  return part_ == Part::all || (triangle.material == glass_appearance()) == (part_ == Part::glass);
 }
 
 void RayScene::add_resting() {
@@ -38,11 +42,13 @@ void RayScene::add_resting() {
     const PlacedMesh& piece = scene_.placed[i];
     if (piece.moves) continue;
     const PreparedMesh& mesh = scene_.meshes[piece.mesh];
-    const PreparedLevel& level = level_of(piece);
+    if (part_ == Part::glass && !mesh.glass) continue;
+    const PreparedLevel& level = level_of(mesh);
     const std::uint32_t base = std::uint32_t(positions.size());
     for (const PreparedVertex& v : mesh.vertices)
       positions.push_back(Vec3f(piece.world_from_mesh * (Vec3(v.position) * piece.scale)));
     for (std::uint32_t t = 0; t < level.triangle_count; ++t) {
+      if (!has(mesh.triangles[level.first_triangle + t])) continue;
       triangles_.push_back({i, level.first_triangle + t});
       for (std::uint32_t v : mesh.triangles[level.first_triangle + t].vertices)
         indices.push_back(base + v);
@@ -64,14 +70,14 @@ void* RayScene::mesh_scene(std::uint32_t mesh) {
   if (of_mesh) return of_mesh;
   of_mesh = embree_->new_scene();
   const PreparedMesh& prepared = scene_.meshes[mesh];
-  const PreparedLevel& level =
-      detail_ == Detail::finest ? prepared.levels.front() : prepared.levels.back();
+  const PreparedLevel& level = level_of(prepared);
   std::vector<Vec3f> positions;
   std::vector<std::uint32_t> indices;
   for (const PreparedVertex& v : prepared.vertices) positions.push_back(v.position);
-  for (std::uint32_t t = 0; t < level.triangle_count; ++t)
-    for (std::uint32_t v : prepared.triangles[level.first_triangle + t].vertices)
-      indices.push_back(v);
+  for (std::uint32_t t = 0; t < level.triangle_count; ++t) {
+    const PreparedTriangle& triangle = prepared.triangles[level.first_triangle + t];
+    if (has(triangle)) indices.insert(indices.end(), triangle.vertices.begin(), triangle.vertices.end());
+  }
   embree_->attach(of_mesh, positions, indices.data(), indices.size() / 3);
   rtcCommitScene(of_mesh);
   return of_mesh;
@@ -80,13 +86,14 @@ void* RayScene::mesh_scene(std::uint32_t mesh) {
 void RayScene::add_moving() {
   for (std::uint32_t i = 0; i < scene_.placed.size(); ++i) {
     const PlacedMesh& piece = scene_.placed[i];
-    if (!piece.moves) continue;
+    const PreparedMesh& mesh = scene_.meshes[piece.mesh];
+    if (!piece.moves || (part_ == Part::glass && !mesh.glass)) continue;
     Mover mover;
     mover.placed = i;
     mover.first_triangle = std::uint32_t(triangles_.size());
-    const PreparedLevel& level = level_of(piece);
+    const PreparedLevel& level = level_of(mesh);
     for (std::uint32_t t = 0; t < level.triangle_count; ++t)
-      triangles_.push_back({i, level.first_triangle + t});
+      if (has(mesh.triangles[level.first_triangle + t])) triangles_.push_back({i, level.first_triangle + t});
     // Its number there: one more than its index among the movers.
     mover.geometry = embree_->attach_instance(static_cast<RTCScene>(mesh_scene(piece.mesh)),
                                               kResting + 1 + unsigned(movers_.size()));

@@ -26,6 +26,7 @@ class RayScene {
   };
 
   enum class Detail { coarsest, finest };  // which level of each piece
+  enum class Part { all, solid, glass };   // which of its triangles: solid ones are those that are no glass
 
   struct Ray {
     Vec3f from;          // in the world; unit: m
@@ -43,7 +44,7 @@ class RayScene {
   enum class Order { coherent, scattered };
 
   // The scene must outlive it.
-  explicit RayScene(const PreparedScene& scene, Detail detail = Detail::coarsest);
+  explicit RayScene(const PreparedScene& scene, Detail detail = Detail::coarsest, Part part = Part::all);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
@@ -68,7 +69,8 @@ class RayScene {
     Vec3f normal;
   };
   Met met_by(std::uint32_t primitive, std::uint32_t instance, const Vec3f& normal) const;
-  const PreparedLevel& level_of(const PlacedMesh& piece) const;
+  const PreparedLevel& level_of(const PreparedMesh& mesh) const;
+  bool has(const PreparedTriangle& triangle) const;  // it is of the part
   void add_resting();
   void add_moving();
   void* mesh_scene(std::uint32_t mesh);  // an Embree scene of that mesh alone
@@ -76,6 +78,7 @@ class RayScene {
 
   const PreparedScene& scene_;
   Detail detail_;
+  Part part_;
   std::unique_ptr<Embree> embree_;
   std::vector<Triangle> triangles_;
   std::vector<Mover> movers_;

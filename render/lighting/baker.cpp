@@ -58,7 +58,8 @@ Baker::Baker(const PreparedScene& scene, const LightSet& light, const AlbedoAt& 
     : scene_(scene),
       light_(light),
       options_(options),
-      rays_(scene, RayScene::Detail::finest),
+      rays_(scene, RayScene::Detail::finest, RayScene::Part::solid),
+      sheets_(scene),
       first_directions_(cosine_directions(std::min(kFirstRays, std::size_t(options.rays)))),
       directions_(cosine_directions(std::min(kRound, std::size_t(options.rays)))) {
   list_points();
@@ -80,6 +81,7 @@ void Baker::list_points() {
     }
   }
   first_hits_.resize(points_.size() * first_directions_.size());
+  if (sheets_.any()) first_cleared_.assign(first_hits_.size(), 255);
   radiance_.resize(points_.size());
 }
 

@@ -10,6 +10,7 @@
 #include <functional>
 #include <vector>
 
+#include "render/geometry/glass_sheets.h"
 #include "render/geometry/point_grid.h"
 #include "render/geometry/ray_scene.h"
 #include "render/lighting/bake.h"
@@ -73,6 +74,9 @@ class Baker {
   BakeOrigin origin(const Point& p, std::size_t i) const;  // in the world, off the surface
   bool below_soil(const Point& p) const;
   std::size_t origin_count(const Point& p) const;
+  // Share of light that glass leaves of what comes along a ray, grey; `farthest` where it meets something.
+  float cleared(const RayScene::Ray& ray, float farthest) const;
+  float first_cleared(std::size_t ray) const;  // of a first ray
   void trace(std::size_t point);         // its first rays
   void find_direct(Point& p) const;
   Vec3f find_far(Point& p) const;        // adds it to the direct light; the vector of it, as Point::vector
@@ -98,11 +102,13 @@ class Baker {
   const PreparedScene& scene_;
   const LightSet& light_;
   BakeOptions options_;
-  RayScene rays_;
+  RayScene rays_;       // of all but glass
+  GlassSheets sheets_;  // of glass, which dims light and does nothing else to it
   std::vector<Vec3f> first_directions_, directions_;  // about +Z
   std::vector<Point> points_;                       // of all placed meshes
   std::vector<std::uint32_t> first_point_;          // of each placed mesh
   std::vector<std::uint32_t> first_hits_;           // of each point in turn: a point, kSky, kInside or kNone
+  std::vector<std::uint8_t> first_cleared_;         // share that glass leaves of each, 255: all; empty: there is no glass
   std::vector<std::vector<std::uint32_t>> nearest_points_;  // of each mesh: to each node, in the mesh
   std::vector<Vec3f> far_light_, far_vectors_;      // of LightSet::far, of each point; empty: there are none
   std::vector<Sum> sums_;                           // of the rays of each point

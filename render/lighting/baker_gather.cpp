@@ -90,6 +90,16 @@ std::uint32_t Baker::drawn_point(const RayScene::PreciseHit& hit, float draw) co
   return first_point_[t.placed] + nearest_points_[mesh][nodes.node[k]];
 }
 
+float Baker::cleared(const RayScene::Ray& ray, float farthest) const {
+  if (!sheets_.any()) return 1;
+  const Vec3f passed = sheets_.passed({ray.from, ray.nearest, ray.direction, farthest});
+  return (passed.x + passed.y + passed.z) * (1.0f / 3);
+}
+
+float Baker::first_cleared(std::size_t ray) const {
+  return first_cleared_.empty() ? 1 : float(first_cleared_[ray]) * (1.0f / 255);
+}
+
 // Which of its origins are inside a piece shows in what their rays meet.
 void Baker::trace(std::size_t i) {
   Point& p = points_[i];
@@ -115,7 +125,10 @@ void Baker::trace(std::size_t i) {
     const bool open = hits[r].triangle == RayScene::kNone;
     seen += 1, near += open ? 0 : 1 / std::max(hits[r].distance, 0.01f);
     code = open ? kSky : hits[r].back ? kInside : drawn_point(hits[r], lattice_value(int(i), int(r), draws));
-    if (open) p.sky += light_.sky.radiance(rays[r].direction);
+    if (!first_cleared_.empty())
+      first_cleared_[i * count + r] =
+          std::uint8_t(255 * cleared(rays[r], open ? kLightReach : hits[r].distance) + 0.5f);
+    if (open) p.sky += light_.sky.radiance(rays[r].direction) * first_cleared(i * count + r);
   }
   p.sky = seen > 0 ? p.sky * (1 / seen) : Vec3f();
   p.clearance = near > 0 ? seen / near : kLightReach;
@@ -152,7 +165,7 @@ void Baker::find_direct(Point& p) const {
     std::array<std::uint8_t, kMostOrigins> hidden;
     if (count) rays_.blocked_many(rays.data(), count, RayScene::Order::coherent, hidden.data());
     for (std::size_t k = 0; k < count; ++k)
-      if (!hidden[k]) p.direct += light[k];
+      if (!hidden[k]) p.direct += light[k] * cleared(rays[k], rays[k].farthest);
   }
 }
 
@@ -169,8 +182,9 @@ Vec3f Baker::find_far(Point& p) const {
     if (facing <= 0 || luminance(sample.illuminance) <= 0) continue;
     const float distance = std::min(sample.distance * 0.999f, kLightReach);
     if (rays_.blocked(from.position, sample.to_light, 0, distance)) continue;
-    p.direct += sample.illuminance * facing;
-    vector += sample.to_light * luminance(sample.illuminance);
+    const float clear = cleared({from.position, 0, sample.to_light, distance}, distance);
+    p.direct += sample.illuminance * (facing * clear);
+    vector += sample.to_light * (luminance(sample.illuminance) * clear);
   }
   return vector;
 }
@@ -182,7 +196,7 @@ void Baker::gather_first(std::size_t i) {
   int rays = 0;
   for (std::size_t r = 0; r < count; ++r) {
     rays += codes[r] != kNone;
-    if (codes[r] < kNone) sum += radiance_[codes[r]];
+    if (codes[r] < kNone) sum += radiance_[codes[r]] * first_cleared(i * count + r);
   }
   points_[i].indirect = rays ? (sum * (1 / float(rays)) + points_[i].sky) * portable::kPiF : Vec3f();
 }
@@ -195,8 +209,8 @@ Baker::Sum Baker::first_sum(std::size_t i) const {
     const std::uint32_t code = first_hits_[i * count + r];
     if (code == kNone) continue;
     const Vec3f w = basis * first_directions_[r];
-    sum.add(code == kSky ? light_.sky.radiance(w) : code == kInside ? Vec3f() : radiance_[code], w,
-            first_directions_[r].z);
+    const Vec3f light = code == kSky ? light_.sky.radiance(w) : code == kInside ? Vec3f() : radiance_[code];
+    sum.add(light * first_cleared(i * count + r), w, first_directions_[r].z);
   }
   return sum;
 }
@@ -221,7 +235,7 @@ void Baker::add_round(std::size_t i, std::uint32_t round, Sum& sum) const {
     const Vec3f light = open ? light_.sky.radiance(w)
                         : hits[r].back ? Vec3f()
                                        : radiance_[drawn_point(hits[r], lattice_value(int(i), int(r), draws))];
-    sum.add(light, w, directions_[r].z);
+    sum.add(light * cleared(rays[r], open ? kLightReach : hits[r].distance), w, directions_[r].z);
   }
 }
 

@@ -46,7 +46,7 @@ LiveLight::LiveLight(const PreparedScene& scene, const LightSet& light,
     : scene_(scene),
       light_(light),
       threads_(threads),
-      rays_(scene),
+      rays_(scene, RayScene::Detail::coarsest, RayScene::Part::solid),
       directions_(sphere_directions()),
       resting_(std::move(resting)),
       out_(resting_) {

@@ -7,7 +7,8 @@ namespace rubble {
 
 namespace {
 
-constexpr int kVersion = 2;  // raise it when the same scene gives another image
+constexpr int kVersion = 2;       // raise it when the same scene gives another image,
+constexpr int kGlassVersion = 1;  // or this when one with glass does
 
 template <typename T>
 void add_vec(CacheKey& key, const Vec3T<T>& v) {
@@ -68,6 +69,7 @@ std::string surroundings_key(const ReferenceSurroundings& s) {
   for (const PatternImage& p : s.patterns) key.add_bytes(p.texels.data(), p.texels.size());
   for (const SurfaceAppearance& look : all_surface_appearances()) add_look(key, look);
   key.add(s.wetness).add_text(s.scene.paint_key);
+  if (s.scene.glass) key.add(kGlassVersion);
   return key.hex();
 }
 

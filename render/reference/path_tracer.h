@@ -3,13 +3,15 @@
 // from each lamp, the sun's disc and a point of the sky, and of what the path's end meets. The sky is
 // weighed against the chance that the path itself finds it (multiple importance sampling, Veach 1997,
 // balance heuristic); lamps seen through air are sampled by equal angles along the ray (Kulla and Fajardo
-// 2012); paths end by Russian roulette.
+// 2012); paths end by Russian roulette. At a sheet of glass a path goes straight on as often as light does, and what
+// a lamp or the sky sends to a point comes weakened by the sheets on its way.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "render/camera/view_rays.h"
+#include "render/geometry/glass_sheets.h"
 #include "render/geometry/ray_scene.h"
 #include "render/transport/air_path.h"
 #include "render/transport/scene_lights.h"
@@ -25,11 +27,12 @@ struct TraceOptions {
 };
 
 struct TracedScene {
-  const RayScene& rays;          // of the finest level
+  const RayScene& rays;          // of the finest level, without what is in `sheets`
   const SurfaceModel& surfaces;  // of that scene
   const SceneLights& lights;     // of the place, without the lamp
   const AirPath& air;            // at the instant of the image
   bool surrounded = false;       // as PreparedScene::surrounded
+  const GlassSheets* sheets = nullptr;  // of that scene; null: there are none
 };
 
 // What is seen, and from where it is lit.

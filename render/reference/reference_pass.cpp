@@ -34,7 +34,8 @@ struct ReferencePass::State {
       : options(o),
         scene(s.scene),
         box(air_box(s.scene.bounds)),
-        rays(s.scene, RayScene::Detail::finest),
+        rays(s.scene, RayScene::Detail::finest, RayScene::Part::solid),
+        sheets(s.scene),
         surfaces(s.scene, s.patterns, s.ground, s.wetness),
         place_lights(s.lights),
         lights(s.lights),
@@ -45,6 +46,7 @@ struct ReferencePass::State {
   const PreparedScene& scene;
   Aabb box;
   RayScene rays;
+  GlassSheets sheets;
   LookSurfaces surfaces;
   const LightSet& place_lights;
   SceneLights lights;  // those, as they are now
@@ -62,7 +64,7 @@ std::vector<float> ReferencePass::State::trace(const TracedView& view, const Air
   TraceOptions trace;
   trace.samples = options.samples, trace.jitter = options.jitter;
   trace.seed = options.seed ^ std::uint64_t(view.rays.stamp_ns) * 0x9e3779b97f4a7c15u;
-  const PathTracer tracer({rays, surfaces, lights, air_path, scene.surrounded}, trace);
+  const PathTracer tracer({rays, surfaces, lights, air_path, scene.surrounded, &sheets}, trace);
   const std::vector<PixelBox> boxes = cut_into_boxes(width, height, kTile);
   std::vector<PixelSums> sums(std::size_t(width) * std::size_t(height));
   std::atomic<std::size_t> done{0};
@@ -103,6 +105,7 @@ ReferencePass::~ReferencePass() = default;
 std::vector<float> ReferencePass::draw(const ViewRays& view, const LampSpec& lamp, const Air& air) {
   State& s = *state_;
   s.rays.follow();
+  s.sheets.follow();
   s.surfaces.follow();
   if (s.place_lights.carried > 0) s.lights = SceneLights(s.place_lights);
   std::string key;

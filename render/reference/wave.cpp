@@ -5,6 +5,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/camera/projection.h"
+#include "render/geometry/glass_sheets.h"
 #include "render/media/air_volume.h"
 
 namespace rubble {
@@ -12,6 +13,7 @@ namespace rubble {
 namespace {
 
 constexpr float kFarthest = 1e5f;    // unit: m
+constexpr int kMostSheets = 32;      // of glass that a path goes straight through
 constexpr int kMostBacks = 16;       // surfaces seen from behind that the camera's ray passes
 constexpr float kVeilFrom = 12;      // as in shaders/resolve.frag.glsl; unit: m
 constexpr float kSurvival = 1.5f;    // of Russian roulette, see survive()
@@ -57,7 +59,8 @@ Wave::Wave(const TracedScene& scene, const TracedView& view, const TraceOptions&
     : scene_(scene), view_(view), options_(options), towards_(scene.lights.count() + 1) {}
 
 SamplePair Wave::draw(const Path& path, Use use) const {
-  return path.numbers.pair(path.sample, std::uint32_t(path.bounces * kUses + use));
+  const int segment = path.bounces + path.sheets * (options_.most_bounces + 1);
+  return path.numbers.pair(path.sample, std::uint32_t(segment * kUses + use));
 }
 
 // False: the lens sees nothing there.
@@ -91,6 +94,7 @@ bool Wave::aim(Path& path, int u, int v) {
 void Wave::begin(const PixelBox& box, int first, int last) {
   paths_.clear();
   active_.clear();
+  first_ = true;
   const int width = view_.rays.intrinsics.width;
   for (int sample = first; sample < last; ++sample) {
     for (int i = 0; i < box.width * box.height; ++i) {
@@ -119,19 +123,30 @@ void Wave::pass_backs(std::size_t active) {
   RayScene::PreciseHit& hit = hits_[active];
   RayScene::Ray ray = rays_[active];
   for (int i = 0; i < kMostBacks && hit.triangle != RayScene::kNone && hit.back; ++i) {
-    ray.nearest = hit.distance * (1 + 1e-6f) + 1e-6f;
+    ray.nearest = just_behind(hit.distance);
     scene_.rays.cast_many(&ray, 1, RayScene::Order::scattered, &hit);
   }
 }
 
+Wave::Met Wave::met(std::size_t active) const {
+  Met out{hits_[active]};
+  if (!scene_.sheets || !scene_.sheets->any()) return out;
+  RayScene::Ray ray = rays_[active];
+  if (out.hit.triangle != RayScene::kNone) ray.farthest = out.hit.distance;
+  const RayScene::PreciseHit sheet = scene_.sheets->next(ray);
+  if (sheet.triangle != RayScene::kNone) out = {sheet, true};
+  return out;
+}
+
 bool Wave::step() {
   if (active_.empty()) return false;
-  const bool first = paths_[active_.front()].bounces == 0;
+  const bool first = first_;
+  first_ = false;
   cast(first ? RayScene::Order::coherent : RayScene::Order::scattered);
   next_.clear();
   for (std::size_t i = 0; i < active_.size(); ++i) {
     if (first) pass_backs(i);
-    if (follow(active_[i], hits_[i])) next_.push_back(active_[i]);
+    if (follow(active_[i], met(i))) next_.push_back(active_[i]);
   }
   for (std::size_t i = 0; i + 1 < towards_.size(); ++i)
     answer(towards_[i], RayScene::Order::coherent);
@@ -140,11 +155,12 @@ bool Wave::step() {
   return true;
 }
 
-bool Wave::follow(std::uint32_t index, const RayScene::PreciseHit& hit) {
+bool Wave::follow(std::uint32_t index, const Met& met) {
   Path& path = paths_[index];
+  const RayScene::PreciseHit& hit = met.hit;
   const bool open = hit.triangle == RayScene::kNone;
   if (!scene_.air.clear()) {
-    float near = 0, far = open ? kFarthest : hit.distance, at = 0;
+    float near = path.air_from, far = open ? kFarthest : hit.distance, at = 0;
     const bool camera = path.bounces == 0;
     if (camera) far = std::min(far, float(AirVolume::kFarthest));
     if (camera || scene_.air.clip(path.from, path.direction, near, far)) {
@@ -155,7 +171,7 @@ bool Wave::follow(std::uint32_t index, const RayScene::PreciseHit& hit) {
   }
   if (open) return leave(path);
   if (hit.back) return false;  // inside a piece it is dark
-  return reflect(index, hit);
+  return reflect(index, met);
 }
 
 bool Wave::leave(Path& path) {
@@ -188,29 +204,44 @@ bool Wave::scatter_in_air(std::uint32_t index, float at) {
   const Vec3f in =
       scene_.air.sample_phase(p, path.direction, draw(path, kReflect), choices.x);
   path.density = scene_.air.phase(p, dot(path.direction, in));
-  path.from = p, path.direction = in, path.nearest = 0;
+  path.from = p, path.direction = in, path.nearest = path.air_from = 0;
   path.spread = kRoughSpread;
   ++path.bounces;
   return survive(path, choices.y);
 }
 
-bool Wave::reflect(std::uint32_t index, const RayScene::PreciseHit& hit) {
+// Goes straight on; share: of the light that passes, over the chance that it is followed.
+bool Wave::pass_sheet(Path& path, const Vec3f& share, float distance) const {
+  path.throughput = times(path.throughput, share);
+  path.nearest = just_behind(distance), path.air_from = distance;
+  return ++path.sheets < kMostSheets;
+}
+
+bool Wave::reflect(std::uint32_t index, const Met& met) {
   Path& path = paths_[index];
+  const RayScene::PreciseHit& hit = met.hit;
   const SamplePair choices = draw(path, kChoices);
+  const auto& triangles = met.sheet ? scene_.sheets->triangles() : scene_.rays.triangles();
   SurfacePoint surface;
-  scene_.surfaces.find({scene_.rays.triangles()[hit.triangle], hit.u, hit.v, path.direction,
-                        path.spread * hit.distance},
-                       surface);
+  scene_.surfaces.find(
+      {triangles[hit.triangle], hit.u, hit.v, path.direction, path.spread * hit.distance}, surface);
+  // Of the second number the path needs whether it goes on, of the first what it does.
+  const float chance = (surface.passed.x + surface.passed.y + surface.passed.z) * (1.0f / 3);
+  const bool passes = met.sheet && choices.x < chance;
+  const Vec3f arriving = path.throughput;
   if (!path.met_surface && path.bounces == 0) {
-    path.met_surface = true, path.first_distance = hit.distance;
-    path.albedo = mean_albedo(surface.reflection), path.normal = surface.normal;
+    if (!passes) {
+      path.met_surface = true, path.first_distance = hit.distance;
+      path.albedo = mean_albedo(surface.reflection), path.normal = surface.normal;
+    }
     // Clean air veils what is far: the horizon has no edge.
     const float there = std::max(hit.distance - kVeilFrom, 0.0f);
     const float veil = std::exp2(scene_.surrounded ? -there * 5.64e-4f
                                                    : -there * there * 4e-5f / (1 + there * 0.012f));
     if (veil < 1) {
       const Vec3f level = normalized(Vec3f(path.direction.x, path.direction.y, 0.02f));
-      path.light += times(path.throughput, scene_.lights.sky(level)) * (1 - veil);
+      const Vec3f before = times(path.throughput, Vec3f(1, 1, 1) - surface.passed);  // what passes is veiled there
+      path.light += times(before, scene_.lights.sky(level)) * (1 - veil);
       path.throughput *= veil;
     }
   }
@@ -219,13 +250,19 @@ bool Wave::reflect(std::uint32_t index, const RayScene::PreciseHit& hit) {
   const Vec3f out = -path.direction;
   if (!surface.reflection.matt()) surface.normal = facing(surface.normal, surface.face_normal, out);
   light_surface(index, surface, out);
+  if (passes) {
+    path.throughput = arriving;
+    return pass_sheet(path, surface.passed * (1 / chance), hit.distance);
+  }
+  if (met.sheet) path.throughput *= 1 / (1 - chance);
   const Basis basis(surface.normal);
   const ReflectedSample sample =
-      sample_reflection(surface.reflection, basis.to_local(out), draw(path, kReflect), choices.x);
+      sample_reflection(surface.reflection, basis.to_local(out), draw(path, kReflect),
+                        met.sheet ? (choices.x - chance) / (1 - chance) : choices.x);
   const Vec3f in = basis.to_world(sample.in);
   if (sample.density <= 0 || dot(in, surface.face_normal) <= 0) return false;
   path.throughput = times(path.throughput, sample.weight);
-  path.from = lifted(surface), path.direction = in, path.nearest = 0;
+  path.from = lifted(surface), path.direction = in, path.nearest = path.air_from = 0;
   path.density = sample.density, path.spread = kRoughSpread;
   ++path.bounces;
   return survive(path, choices.y);
@@ -243,10 +280,29 @@ void Wave::answer(ShadowList& list, RayScene::Order order) {
   if (list.rays.empty()) return;
   hidden_.resize(list.rays.size());
   scene_.rays.blocked_many(list.rays.data(), list.rays.size(), order, hidden_.data());
-  for (std::size_t i = 0; i < list.rays.size(); ++i)
-    if (!hidden_[i]) paths_[list.shadows[i].path].light += list.shadows[i].light;
+  const bool sheets = scene_.sheets && scene_.sheets->any();
+  for (std::size_t i = 0; i < list.rays.size(); ++i) {
+    if (hidden_[i]) continue;
+    const Vec3f& light = list.shadows[i].light;
+    paths_[list.shadows[i].path].light += sheets ? times(light, passed(list.rays[i])) : light;
+  }
   list.rays.clear();
   list.shadows.clear();
+}
+
+Vec3f Wave::passed(RayScene::Ray ray) const {
+  Vec3f share(1, 1, 1);
+  for (int i = 0; i < kMostSheets; ++i) {
+    const RayScene::PreciseHit hit = scene_.sheets->next(ray);
+    if (hit.triangle == RayScene::kNone) return share;
+    SurfacePoint surface;
+    scene_.surfaces.find({scene_.sheets->triangles()[hit.triangle], hit.u, hit.v, ray.direction,
+                          kRoughSpread * hit.distance},
+                         surface);
+    share = times(share, surface.passed);
+    ray.nearest = just_behind(hit.distance);
+  }
+  return {};
 }
 
 void Wave::light_surface(std::uint32_t index, const SurfacePoint& surface, const Vec3f& out) {

@@ -21,6 +21,8 @@ struct Path {
   Vec3f throughput{1, 1, 1};         // share of the light at its end that reaches the camera
   Vec3f light;                       // so far; unit: kcd/m2
   int bounces = 0;                   // so far
+  int sheets = 0;                    // of glass that it has gone straight through so far
+  float air_from = 0;                // so far from `from` the air was met already; unit: m
   bool met_surface = false;          // or only air and sky
   Vec3f albedo, normal;              // where a surface was first met
   float first_distance = 0;          // from the camera to that surface; unit: m
@@ -38,6 +40,10 @@ class Wave {
 
  private:
   enum Use { kLens, kLight, kSky, kReflect, kChoices, kAir, kAlong, kUses };
+  struct Met {  // what a segment ends at
+    RayScene::PreciseHit hit;
+    bool sheet = false;  // it is of a sheet of glass
+  };
   struct Shadow {
     std::uint32_t path;
     Vec3f light;  // added where nothing is in the way
@@ -51,11 +57,13 @@ class Wave {
   bool aim(Path& path, int u, int v);
   void cast(RayScene::Order order);
   void pass_backs(std::size_t active);
+  Met met(std::size_t active) const;
   // Each returns whether the path goes on.
-  bool follow(std::uint32_t index, const RayScene::PreciseHit& hit);
+  bool follow(std::uint32_t index, const Met& met);
   bool leave(Path& path);
   bool scatter_in_air(std::uint32_t index, float at);
-  bool reflect(std::uint32_t index, const RayScene::PreciseHit& hit);
+  bool reflect(std::uint32_t index, const Met& met);
+  bool pass_sheet(Path& path, const Vec3f& share, float distance) const;
   bool survive(Path& path, float random);
 
   void light_air_along(std::uint32_t index, float near, float far);
@@ -64,10 +72,12 @@ class Wave {
   void ask(std::uint32_t index, std::size_t list, const Vec3f& from, const Vec3f& to_light,
            float distance, const Vec3f& light);
   void answer(ShadowList& list, RayScene::Order order);
+  Vec3f passed(RayScene::Ray ray) const;  // share of a light that comes through glass
 
   const TracedScene& scene_;
   const TracedView& view_;
   const TraceOptions& options_;
+  bool first_ = true;  // the next step is the camera's
   std::vector<Path> paths_;
   std::vector<std::uint32_t> active_, next_;
   std::vector<RayScene::Ray> rays_;

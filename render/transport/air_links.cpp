@@ -44,7 +44,7 @@ AirGrid make_grid(const Aabb& box, bool above_ground) {
 
 class LinkMaker {
  public:
-  LinkMaker(const PreparedScene& scene, AirLinks& links) : scene_(scene), rays_(scene, RayScene::Detail::finest), links_(links) {
+  LinkMaker(const PreparedScene& scene, AirLinks& links) : scene_(scene), rays_(scene, RayScene::Detail::finest, RayScene::Part::solid), links_(links) {
     std::uint32_t next = 0;
     for (const PlacedMesh& piece : scene.placed) {
       first_point_.push_back(next);

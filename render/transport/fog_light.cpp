@@ -37,7 +37,7 @@ FogLight::FogLight(const PreparedScene& scene, const Aabb& box, const LightSet& 
       transfer_(make_air_links(scene, box, threads)) {
   const AirGrid& grid = transfer_.links().grid;
   for (const Vec3f& d : transfer_.links().directions) sky_.push_back(d.z > 0 ? light_.sky.radiance(d) : Vec3f());
-  const RayScene rays(scene, RayScene::Detail::finest);
+  const RayScene rays(scene, RayScene::Detail::finest, RayScene::Part::solid);
   for (const LightModel& model : light_.lights) {
     std::vector<std::uint8_t>& lit = lit_.emplace_back(grid.count());
     pool_.run(int(grid.count()), 64, [&](int begin, int end) {

@@ -38,7 +38,7 @@ LampBounce::LampBounce(const PreparedScene& scene, BakeLinks links, std::vector<
       links_(std::move(links)),
       first_point_(std::move(first_point)),
       pool_(std::max(1, threads)),
-      rays_(scene, RayScene::Detail::finest),
+      rays_(scene, RayScene::Detail::finest, RayScene::Part::solid),
       map_(std::size_t(kSide) * kSide) {
   points_.resize(links_.albedos.size());
   lit_.resize(points_.size() / 64 + 1);

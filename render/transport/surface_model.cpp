@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
+#include "render/materials/glass.h"
 #include "render/materials/surface_appearance.h"
 #include "render/transport/paint_point.h"
 
@@ -28,6 +30,7 @@ Vec3f turned(const Vec3f& v, int turn) {
 Vec3f turned_back(const Vec3f& v, int turn) {
   return turn == 1 ? Vec3f(v.z, v.x, v.y) : turn == 2 ? Vec3f(v.y, v.z, v.x) : v;
 }
+Vec3f dust_albedo(float bright) { return Vec3f(0.375f, 0.36f, 0.335f) * (0.55f + 0.75f * bright); }
 float ragged(float x) {  // noise without a pattern
   const float hash = fract(x);
   return (fract(hash * (hash + 3.33f) * 97.0f) - 0.5f) * 0.12f;
@@ -169,7 +172,7 @@ void LookSurfaces::find_pattern(const SurfaceQuery& query, Place& place) const {
   place.up = place.to_world(place.smooth).z;
 }
 
-void LookSurfaces::add_colour(const Place& place, SurfacePoint& out) const {
+void LookSurfaces::add_colour(const SurfaceQuery& query, const Place& place, SurfacePoint& out) const {
   const SurfaceAppearance& look = *place.look;
   const float bright = place.bright;
   // On the ground the mask ranks crumbs: the more debris, the more of them lie there, and dust.
@@ -184,11 +187,23 @@ void LookSurfaces::add_colour(const Place& place, SurfacePoint& out) const {
     out.glow = albedo * (look.glow / dot(look.light, Vec3f(0.2126f, 0.7152f, 0.0722f)));
   const float dust = smoothstep(0.30f, 1.05f, place.up + (bright - 0.45f) * 0.8f) *
                      (place.soil ? 0.85f * place.debris : look.dust);
-  albedo = mix(albedo, Vec3f(0.375f, 0.36f, 0.335f) * (0.55f + 0.75f * bright), dust);
+  albedo = mix(albedo, dust_albedo(bright), dust);
   const Vec3f white(1, 1, 1);
   out.reflection.base = min(max(albedo, Vec3f()), white);
   out.reflection.gloss = {look.reflectance > 0 ? 1 - dust : 0, look.reflectance, look.roughness};
   out.reflection.film = MirrorLayer();
+  if (look.name == std::string_view(kGlassAppearance)) add_glass(query, dust, place, out);
+}
+
+// Dust and dirt lie on a part of it and are matt; the rest is clear, and mirrors as its angle says. As layers: a
+// mirror that covers as much as is mirrored, over a base as bright as makes what the dust throws back.
+void LookSurfaces::add_glass(const SurfaceQuery& query, float dust, const Place& place, SurfacePoint& out) const {
+  const float covered = dust + (1 - dust) * (kHazeLeast + kHazeMore * place.bright);
+  const SheetShares sheet = find_sheet_shares(-dot(out.face_normal, query.direction));
+  const float mirrored = (1 - covered) * sheet.mirrored;
+  out.reflection.base = dust_albedo(place.bright) * (covered / (1 - mirrored));
+  out.reflection.gloss = {mirrored, 1, place.look->roughness};
+  out.passed = sheet.passed * (1 - covered);
 }
 
 // Water darkens what it soaks into, and stands as a film on what faces up.
@@ -225,8 +240,8 @@ void LookSurfaces::find(const SurfaceQuery& query, SurfacePoint& out) const {
   out.position = place.world;
   out.face_normal = place.to_world(place.face);
   out.normal = normalized(place.to_world(place.bent));
-  out.emission = out.glow = Vec3f();
-  add_colour(place, out);
+  out.emission = out.glow = out.passed = Vec3f();
+  add_colour(query, place, out);
   const PreparedMesh& mesh = scene_.meshes[scene_.placed[query.triangle.placed].mesh];
   if (!mesh.paint.empty() && mesh.paint[query.triangle.source].paint >= 0)
     add_paint(query, mesh.paint[query.triangle.source], place, out);

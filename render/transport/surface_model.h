@@ -19,6 +19,7 @@ struct SurfacePoint {
   Reflection reflection;  // in the frame of `normal`
   Vec3f emission;         // radiance, the same in all directions; unit: kcd/m2
   Vec3f glow;             // likewise, but it lights nothing: see SurfaceAppearance::glow
+  Vec3f passed;           // share of light that goes straight through, of a sheet of glass; else 0
 };
 
 struct SurfaceQuery {
@@ -60,9 +61,10 @@ class LookSurfaces : public SurfaceModel {
   Placed place(const PlacedMesh& piece) const;
   void find_place(const SurfaceQuery& query, Place& place) const;
   void find_pattern(const SurfaceQuery& query, Place& place) const;
-  void add_colour(const Place& place, SurfacePoint& out) const;
+  void add_colour(const SurfaceQuery& query, const Place& place, SurfacePoint& out) const;
   void add_paint(const SurfaceQuery& query, const TrianglePaint& paint, const Place& place, SurfacePoint& out) const;
   void add_water(const Place& place, SurfacePoint& out) const;
+  void add_glass(const SurfaceQuery& query, float dust, const Place& place, SurfacePoint& out) const;
   void read_ground(const Vec3f& world, float& debris, float& tone) const;
 
   const PreparedScene& scene_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "render/materials/glass.h"
 #include "render/reference/traced_image.h"
 #include "tests/render/traced_world.h"
 
@@ -188,6 +189,107 @@ TEST(FormFactor, OfTwoPlatesIsTheKnownOne) {
   EXPECT_NEAR(mean_green(image) / 0.199825, 1, 0.005);
 }
 
+// Glass without dust; what it absorbs it glows.
+void find_clean_glass(const SurfaceQuery& q, SurfacePoint& p, bool glows) {
+  const SheetShares sheet = find_sheet_shares(-dot(q.direction, p.face_normal));
+  p.reflection = glossy(0, 1, 0.03f), p.reflection.gloss.cover = sheet.mirrored;
+  p.passed = sheet.passed;
+  if (glows) p.emission = Vec3f(1, 1, 1) * (1 - sheet.mirrored) - sheet.passed;
+}
+
+// By Fresnel's equations, in green, of one sheet without dust.
+struct Pane {
+  double mirrored = 0, passed = 0;
+};
+Pane pane_at(double angle) {
+  const double n = 1.52, inner = std::asin(std::sin(angle) / n), a = std::pow(0.905, 1 / std::cos(inner));
+  const double s = angle > 0 ? std::sin(angle - inner) / std::sin(angle + inner) : (n - 1) / (n + 1);
+  const double p = angle > 0 ? std::tan(angle - inner) / std::tan(angle + inner) : (n - 1) / (n + 1);
+  Pane out;
+  for (const double r : {s * s, p * p}) {
+    double light = 1 - r;  // that is in the glass, before it crosses
+    out.mirrored += 0.5 * r;
+    for (int crossing = 0; crossing < 60; ++crossing) {
+      light *= a;
+      (crossing % 2 ? out.mirrored : out.passed) += 0.5 * light * (1 - r);
+      light *= r;
+    }
+  }
+  return out;
+}
+
+TEST(Glass, SharesAreThoseOfFresnelsEquations) {
+  EXPECT_NEAR(2 * std::pow(0.52 / 2.52, 2) / (1 + std::pow(0.52 / 2.52, 2)), 0.0817, 1e-4);  // without absorption
+  for (const double degrees : {0.0, 30.0, 56.66, 70.0, 85.0}) {
+    const double angle = degrees * kPi / 180;
+    const SheetShares sheet = find_sheet_shares(float(std::cos(angle)));
+    EXPECT_NEAR(double(sheet.mirrored), pane_at(angle).mirrored, 1e-4) << degrees;
+    EXPECT_NEAR(double(sheet.passed.y), pane_at(angle).passed, 1e-4) << degrees;
+  }
+  const SheetShares facing = find_sheet_shares(1);
+  EXPECT_NEAR(double(facing.passed.x), 0.79, 0.005);
+  EXPECT_NEAR(double(facing.passed.y), 0.83, 0.005);
+  EXPECT_NEAR(double(facing.passed.z), 0.80, 0.005);
+}
+
+// Panes in balance with an even light cannot be seen, neither one by itself nor one through another.
+TEST(Furnace, PanesInABalancedRoomVanish) {
+  Scene scene = bare(make_room({4, 3, 2.5}));
+  scene.meshes.push_back(share(make_pane({0.006, 1.6, 1.2})));
+  scene.instances.push_back({1, 1, {portable::quat_from_rpy(0.1, 0.2, 0.5), {0.9, 0.1, 0}}, 2});
+  scene.instances.push_back({1, 1, {portable::quat_from_rpy(0, 0.6, -0.4), {1.4, 0, 0}}, 3});
+  TracedWorld world(scene, [](std::uint32_t piece, const SurfaceQuery& q, SurfacePoint& p) {
+    if (piece > 1) return find_clean_glass(q, p, true);
+    p.reflection = matt(0.5f), p.emission = {0.5f, 0.5f, 0.5f};
+  });
+  const TracedImage image =
+      world.trace(look_at({-1.2, 0, 0}, {2, 0, 0}), pinhole(16, 16, 12), with_samples(512));
+  EXPECT_NEAR(mean_green(image), 1, 0.005);
+  for (const Vec3f& light : image.light) EXPECT_NEAR(double(light.y), 1, 0.1);
+}
+
+// A wall that glows behind a tilted pane, and nothing else to see: the light that passes. Then a sky that the pane mirrors.
+TEST(TracedGlass, ShowsWhatIsBehindAndBesideAsFresnelsEquationsSay) {
+  for (const double degrees : {20.0, 45.0, 70.0}) {
+    const double angle = degrees * kPi / 180;
+    Scene scene = bare(make_plate(1), {portable::quat_from_rpy(0, -kPi / 2, 0), {3, 0, 0}});
+    scene.meshes.push_back(share(make_pane({0.006, 1, 1})));
+    scene.instances.push_back({1, 1, {portable::quat_from_rpy(0, angle, 0), {1, 0, 0}}, 2});
+    TracedWorld world(scene, [](std::uint32_t piece, const SurfaceQuery& q, SurfacePoint& p) {
+      if (piece > 1) return find_clean_glass(q, p, false);
+      p.emission = {1, 1, 1};
+    });
+    const TracedImage image = world.trace({}, pinhole(16, 16, 4000), with_samples(1024));
+    EXPECT_NEAR(mean_green(image) / pane_at(angle).passed, 1, 0.005) << degrees;
+    set_even_sky(world.lights, 1);
+    const TracedImage with_sky = world.trace({}, pinhole(16, 16, 4000), with_samples(1024));
+    const double expected = pane_at(angle).passed + pane_at(angle).mirrored;
+    EXPECT_NEAR(mean_green(with_sky) / expected, 1, 0.01) << degrees;
+  }
+}
+
+// The sun on a plane under a pane, and a lamp behind one.
+TEST(TracedGlass, WeakensTheLightOfLampAndSun) {
+  Scene scene = bare(make_plate(1000));
+  scene.meshes.push_back(share(make_pane({4, 4, 0.004})));
+  scene.instances.push_back({1, 1, {portable::quat_from_rpy(0.5, 0, 0), {0, 0, 3}}, 2});
+  TracedWorld world(scene, [](std::uint32_t piece, const SurfaceQuery& q, SurfacePoint& p) {
+    if (piece > 1) return find_clean_glass(q, p, false);
+    p.reflection = matt(0.02f);  // or the pane would throw its light back
+  });
+  LightModel& sun = world.lights.lights.front();
+  sun.type = LightType::directional, sun.colour = {100, 100, 100}, sun.axis = {0, 0, -1};
+  const Pose down{portable::quat_from_rpy(0, kPi / 2, 0), {0, 0, 1}};
+  const TracedImage by_sun = world.trace(down, pinhole(4, 4, 100), with_samples(64));
+  EXPECT_NEAR(mean_green(by_sun) / (100 * 0.02 / kPi), pane_at(0.5).passed, 0.003);
+  sun.colour = {};
+  LampSpec lamp;
+  lamp.position = {-4, 0, 0};  // above the pane
+  world.lamp = place_lamp(lamp, {0.1f, 0.1f, 0.1f}, down);
+  const TracedImage by_lamp = world.trace(down, pinhole(4, 4, 4000), with_samples(64));
+  EXPECT_NEAR(mean_green(by_lamp) / (0.1 / 25 * 0.02 / kPi), pane_at(0.5).passed, 0.003);
+}
+
 Air even_air(double density, double albedo, double g) {
   AirSpec spec;
   spec.fog_density = density, spec.fog_intensity = albedo, spec.fog_asymmetry = g;
@@ -273,6 +375,21 @@ TEST(PathTracer, GivesTheSameBitsInTilesOfAnySize) {
   EXPECT_TRUE(draw(8, 3) == draw(16, 3));
   EXPECT_TRUE(draw(5, 3) == draw(64, 3));
   EXPECT_FALSE(draw(8, 3) == draw(8, 4));
+}
+
+TEST(PathTracer, GivesTheSameBitsBehindGlass) {
+  Scene scene = bare(make_room({4, 3, 2.5}));
+  scene.meshes.push_back(share(make_pane({0.006, 1, 1})));
+  scene.instances.push_back({1, 1, {portable::quat_from_rpy(0.1, 0.2, 0.5), {1.2, 0.1, 0}}, 2});
+  TracedWorld world(scene, [](std::uint32_t piece, const SurfaceQuery& q, SurfacePoint& p) {
+    if (piece > 1) return find_clean_glass(q, p, false);
+    p.reflection = glossy(0.5f, 0.1f, 0.2f), p.emission = {p.position.x > 1 ? 1.0f : 0, 0.1f, 0};
+  });
+  const auto draw = [&](int tile) {
+    return world.trace(look_at({0.4, 0.2, 0.1}, {2, 1, 0}), pinhole(33, 17, 20), with_samples(9), tile).light;
+  };
+  EXPECT_TRUE(draw(8) == draw(16));
+  EXPECT_TRUE(draw(5) == draw(64));
 }
 
 // The error of a well spread sequence falls faster than that of dice, as one over the root of n.

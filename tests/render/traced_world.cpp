@@ -1,5 +1,6 @@
 #include "tests/render/traced_world.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace rubble::testing {
@@ -24,7 +25,8 @@ class MadeSurfaces : public SurfaceModel {
 
 TracedWorld::TracedWorld(const Scene& scene, FindSurface find)
     : scene_(prepare_scene(scene, 1)),
-      rays_(std::make_unique<RayScene>(scene_, RayScene::Detail::finest)),
+      rays_(std::make_unique<RayScene>(scene_, RayScene::Detail::finest, RayScene::Part::solid)),
+      sheets_(std::make_unique<GlassSheets>(scene_)),
       surfaces_(std::make_shared<MadeSurfaces>(scene_, std::move(find))) {
   LightModel none;
   none.type = LightType::point;
@@ -35,7 +37,7 @@ TracedWorld::TracedWorld(const Scene& scene, FindSurface find)
 TracedImage TracedWorld::trace(const Pose& world_from_camera, const Intrinsics& k,
                                const TraceOptions& options, int tile) const {
   const SceneLights scene_lights(lights);
-  const PathTracer tracer({*rays_, *surfaces_, scene_lights, air}, options);
+  const PathTracer tracer({*rays_, *surfaces_, scene_lights, air, false, sheets_.get()}, options);
   const TracedView view{{0, k, world_from_camera}, {lamp}};
   return trace_image(tracer, view, options.samples, {tile, 1});
 }
@@ -52,6 +54,13 @@ TriangleMesh make_plate(double side) {
   mesh.positions = {{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   mesh.surfaces = {0, 0};
+  return mesh;
+}
+
+TriangleMesh make_pane(const Vec3& size) {
+  TriangleMesh mesh = make_box(size);
+  mesh.surface_names = {"glass"};
+  std::fill(mesh.surfaces.begin(), mesh.surfaces.end(), 0);
   return mesh;
 }
 

@@ -28,12 +28,15 @@ class TracedWorld {
  private:
   PreparedScene scene_;
   std::unique_ptr<RayScene> rays_;
+  std::unique_ptr<GlassSheets> sheets_;
   std::shared_ptr<const SurfaceModel> surfaces_;
 };
 
 void set_even_sky(LightSet& lights, float radiance);
 // A square that faces +Z of its body, of this side; seen and lit from there alone.
 TriangleMesh make_plate(double side);
+// A closed box of glass.
+TriangleMesh make_pane(const Vec3& size);
 // A closed box that faces inwards.
 TriangleMesh make_room(const Vec3& size);
 double mean_green(const TracedImage& image);

@@ -1,0 +1,30 @@
+// Sheets of glass: how much a pane mirrors, and how much goes straight through it. Unpolarised light, both
+// faces with all reflections between them; what passes is not displaced, for a pane is thin.
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/base/math.h"
+
+namespace rubble {
+
+inline constexpr const char* kGlassAppearance = "glass";  // the look that is clear
+std::uint32_t glass_appearance();                          // its index into all_surface_appearances()
+
+inline constexpr float kGlassIndex = 1.52f;  // refractive index of soda-lime glass
+// What the glass itself lets through on its way straight through a sheet: with both faces 0.79, 0.83 and 0.80, as
+// the green safety glass of cars.
+inline constexpr float kGlassClear[3] = {0.86f, 0.905f, 0.875f};
+// Share of a sheet that dust and dirt cover wherever it faces: kHazeLeast + kHazeMore times the brightness of its
+// texture; our choice.
+inline constexpr float kHazeLeast = 0.03f, kHazeMore = 0.11f;
+inline constexpr float kMeanHaze = kHazeLeast + 0.5f * kHazeMore;
+
+struct SheetShares {
+  float mirrored = 0;  // of green light; the other colours differ by a fiftieth of it
+  Vec3f passed;        // straight on
+};
+// Of clean glass; cosine: of the light with the normal, on either side.
+SheetShares find_sheet_shares(float cosine);
+
+}  // namespace rubble

@@ -14,6 +14,7 @@
 #include "render/geometry/ground_map.h"
 #include "render/lighting/exposure.h"
 #include "render/materials/textures.h"
+#include "render/passes/glass_layers.h"
 #include "render/shading/wide_shader.h"
 
 namespace rubble {
@@ -29,6 +30,9 @@ struct SurfaceImages {
   const GlTexture* row_poses = nullptr;  // null with lens_rays
   const float* ray_values = nullptr;     // the same: four a pixel
   const float* pose_values = nullptr;    // twelve a row of pixels
+  const std::vector<GlassLayer>* behind = nullptr;  // glass; null: as none
+
+  bool through_glass() const { return behind && !behind->empty(); }
 
   bool has_rays() const { return lens_rays || ray_values; }
 };

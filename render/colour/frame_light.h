@@ -25,6 +25,7 @@ struct FrameLight {
   float most_gloss = 1;                  // the largest mirrored_peak() of the looks in use
   bool glows = false;                    // a look in use shines by itself
   bool surrounded = false;               // as PreparedScene::surrounded
+  bool glass = false;                    // as PreparedScene::glass
   const AirVolume* air_table = nullptr;  // of this frame, unless the air is clear
   MeanFog fog{};                         // of this frame
   const Pose* world_from_rig = nullptr;  // of what bears the lamp; null: the camera does

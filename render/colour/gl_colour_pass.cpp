@@ -8,6 +8,7 @@
 #include "render/colour/frame_fill.h"
 #include "render/colour/view_lamp.h"
 #include "render/gl/shader.h"
+#include "render/materials/glass.h"
 #include "render/materials/surface_appearance.h"
 #include "render/passes/ray_pass.h"
 
@@ -30,6 +31,15 @@ ShaderDefines variant_of(const FrameLight& frame, const GpuGeometry& geometry) {
   if (frame.wetness > 0) defines.push_back({"WET", ""});
   if (frame.glows) defines.push_back({"GLOW", ""});
   if (frame.surrounded) defines.push_back({"SURROUNDED", ""});
+  if (frame.glass) {
+    const auto& clear = kGlassLog2Clear;
+    defines.push_back({"GLASS", std::to_string(glass_appearance())});
+    defines.push_back({"GLASS_INDEX", std::to_string(kGlassIndex)});
+    defines.push_back({"GLASS_CLEAR", "vec3(" + std::to_string(clear[0]) + ", " + std::to_string(clear[1]) + ", " +
+                                          std::to_string(clear[2]) + ")"});
+    defines.push_back({"HAZE_LEAST", std::to_string(kHazeLeast)});
+    defines.push_back({"HAZE_MORE", std::to_string(kHazeMore)});
+  }
   if (geometry.paint_count > 0) {
     defines.push_back({"PAINTS", std::to_string(geometry.paint_count)});
     defines.push_back({"PAINTED", std::to_string(find_surface_appearance(kPaintedAppearance))});
@@ -107,7 +117,8 @@ enum Unit {
   kShadowEdges,
   kSunNumbers,
   kSunShares,
-  kSunBlocks
+  kSunBlocks,
+  kBehindUnit
 };
 
 GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
@@ -130,7 +141,8 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
                  {"paint_table", kPaint},
                  {"paint_images", kPaintImages},
                  {"sun_numbers", kSunNumbers},
-                 {"sun_shares", kSunShares}});
+                 {"sun_shares", kSunShares},
+                 {"behind", kBehindUnit}});
   gl.UniformBlockBinding(program.name(), gl.GetUniformBlockIndex(program.name(), "Frame"), 0);
   return program;
 }
@@ -175,6 +187,7 @@ const GlProgram& GlColourPass::program(int variant, TileContent content) {
     if (variant & kLamp) defines.push_back({"LAMP", ""});
     if (variant & kMeter) defines.push_back({"METER", ""});
     if (variant & kSoftSun) defines.push_back({"SOFT_SUN", ""});
+    if (variant & kBehind) defines.push_back({"BEHIND", ""});
     defines.push_back({"CONTENT", std::to_string(int(content))});
     defines.push_back({"VEIL_FROM", std::to_string(kVeilFrom)});
     wanted = make_resolve_program(gl_, defines);
@@ -193,7 +206,8 @@ void GlColourPass::resize(int width, int height) {
 
 void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const ViewProjection& view,
                              const Pose& world_from_camera, const SurfaceImages& surfaces,
-                             const FrameLight& light, float exposure, bool with_contact) {
+                             const FrameLight& light, float exposure, bool with_contact,
+                             const GlassLayer* layer) {
   const ImageTiles tiles = tiles_of(view, surfaces);
   const bool all_light = variant & (kLinear | kMeter);
   const ViewLamp place = find_view_lamp(view, world_from_camera, light);
@@ -233,6 +247,10 @@ void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const Vie
     gl_.BindTextureUnit(kPaint, geometry_.paint_view.name());
     gl_.BindTextureUnit(kPaintImages, geometry_.paint_images.name());
   }
+  if (shown_behind_) {
+    gl_.BindTextureUnit(kBehindUnit, shown_behind_->name());
+    variant |= kBehind;
+  }
   // What the exposure is found by needs no smooth shadows.
   if (sun_ && light.soft_sun && !(variant & kMeter) && draw_sun(view, surfaces, light))
     variant |= kSoftSun;
@@ -243,7 +261,33 @@ void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const Vie
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_CULL_FACE);
   gl_.BindVertexArray(empty_array_.name());
-  draw_tiles(variant, tiles, every);
+  draw_tiles(variant, tiles, every, layer);
+}
+
+// From the farthest on: a layer shows the one behind it. Leaves the outermost to be shown.
+void GlColourPass::draw_behind(const ViewProjection& view, const Pose& world_from_camera,
+                               const SurfaceImages& surfaces, const FrameLight& light) {
+  shown_behind_ = nullptr;
+  if (!surfaces.through_glass()) return;
+  const int width = view.intrinsics.width, height = view.intrinsics.height;
+  behind_.clear();
+  behind_.resize(surfaces.behind->size());
+  for (std::size_t k = behind_.size(); k-- > 0;) {
+    const GlassLayer& layer = (*surfaces.behind)[k];
+    Behind& out = behind_[k];
+    out.ids = make_target(gl_, GL_RG32UI, width, height);
+    out.depth = make_target(gl_, GL_R32F, width, height);
+    out.colour = make_target(gl_, GL_RGBA32F, width, height);
+    gl_.TextureSubImage2D(out.ids.name(), 0, 0, 0, width, height, GL_RG_INTEGER, GL_UNSIGNED_INT, layer.ids.data());
+    gl_.TextureSubImage2D(out.depth.name(), 0, 0, 0, width, height, GL_RED, GL_FLOAT, layer.depth_values.data());
+    out.target = GlFramebuffer(gl_);
+    gl_.NamedFramebufferTexture(out.target.name(), GL_COLOR_ATTACHMENT0, out.colour.name(), 0);
+    SurfaceImages images{&out.ids, &out.depth, layer.depth_values, nullptr};
+    images.lens_rays = surfaces.lens_rays, images.row_poses = surfaces.row_poses;
+    draw_with(kLinear, out.target, view, world_from_camera, images, light, 1, true, &layer);
+    shown_behind_ = &out.colour;
+  }
+  check_gl(gl_, "drawing what is behind glass");
 }
 
 // True where there are edges of its shadows.
@@ -275,12 +319,15 @@ ImageTiles GlColourPass::tiles_of(const ViewProjection& view, const SurfaceImage
                         float(double(kNearPlane) * longest / kVeilFrom));
 }
 
-void GlColourPass::draw_tiles(int variant, const ImageTiles& tiles, int every) {
+void GlColourPass::draw_tiles(int variant, const ImageTiles& tiles, int every, const GlassLayer* layer) {
   // Of pixels `every` apart, the first at half of that: those before `end`.
   const auto count = [every](int end) { return std::max(0, end + every - 1 - every / 2) / every; };
   gl_.Enable(GL_SCISSOR_TEST);
   const GlProgram* current = nullptr;
   for (const TileRun& run : tiles.runs) {
+    if (layer && (run.x >= layer->x1 || run.x + run.width <= layer->x0 || run.y >= layer->y1 ||
+                  run.y + run.height <= layer->y0))
+      continue;
     const GlProgram& wanted = program(variant, run.content);
     if (current != &wanted) gl_.UseProgram(wanted.name());
     current = &wanted;
@@ -300,6 +347,7 @@ MeteredImage GlColourPass::meter(const ViewProjection& view, const Pose& world_f
       make_target(gl_, GL_R32F, std::max(1, out.width), std::max(1, out.height));
   const GlFramebuffer target(gl_);
   gl_.NamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+  draw_behind(view, world_from_camera, surfaces, light);
   draw_with(kMeter, target, view, world_from_camera, surfaces, light, 1);
   out.stops.resize(std::size_t(out.width) * std::size_t(out.height));
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target.name());
@@ -312,6 +360,7 @@ void GlColourPass::draw(const ViewProjection& view, const Pose& world_from_camer
                         const SurfaceImages& surfaces, const FrameLight& light, float exposure,
                         bool metered) {
   resize(view.intrinsics.width, view.intrinsics.height);
+  if (!metered) draw_behind(view, world_from_camera, surfaces, light);
   draw_with(0, target_, view, world_from_camera, surfaces, light, exposure, !metered);
 }
 
@@ -330,6 +379,7 @@ std::vector<float> GlColourPass::draw_linear(const ViewProjection& view,
   const GlTexture texture = make_target(gl_, GL_RGBA32F, width, height);
   const GlFramebuffer target(gl_);
   gl_.NamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+  draw_behind(view, world_from_camera, surfaces, light);
   draw_with(kLinear, target, view, world_from_camera, surfaces, light, 1);
   std::vector<float> out(std::size_t(width) * std::size_t(height) * 4);
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target.name());

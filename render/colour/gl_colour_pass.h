@@ -28,27 +28,38 @@ class GlColourPass : public ColourPass {
                                  const SurfaceImages& surfaces, const FrameLight& light) override;
 
  private:
+  // What is drawn behind glass, as a view by itself: see GlassLayer.
+  struct Behind {
+    GlTexture ids, depth, colour;
+    GlFramebuffer target;
+  };
   void resize(int width, int height);
+  void draw_behind(const ViewProjection& view, const Pose& world_from_camera, const SurfaceImages& surfaces,
+                   const FrameLight& light);
   void draw_with(int variant, const GlFramebuffer& target, const ViewProjection& view,
                  const Pose& world_from_camera, const SurfaceImages& surfaces,
-                 const FrameLight& light, float exposure, bool with_contact = true);
+                 const FrameLight& light, float exposure, bool with_contact = true,
+                 const GlassLayer* layer = nullptr);  // layer: that alone is drawn
 
   const Gl& gl_;
   const GpuGeometry& geometry_;
-  enum Variant { kLinear = 1, kRays = 2, kLamp = 4, kMeter = 8, kSoftSun = 16 };
+  enum Variant { kLinear = 1, kRays = 2, kLamp = 4, kMeter = 8, kSoftSun = 16, kBehind = 32 };
   const GlProgram& program(int variant, TileContent content);  // made when it is first needed
   ImageTiles tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const;
   bool draw_sun(const ViewProjection& view, const SurfaceImages& surfaces, const FrameLight& light);
-  void draw_tiles(int variant, const ImageTiles& tiles, int every);  // n-th pixel
+  void draw_tiles(int variant, const ImageTiles& tiles, int every,  // n-th pixel
+                  const GlassLayer* layer);
 
   ShaderDefines defines_;
-  GlProgram programs_[32][4];  // by Variant and TileContent
+  GlProgram programs_[64][4];  // by Variant and TileContent
   GlBuffer frame_block_;
   GlVertexArray empty_array_;
   ContactPass contact_;
   std::unique_ptr<SunShadowPass> sun_;  // null: the main light is no sun
   GlTexture looks_, sky_map_, air_table_, ground_map_;
   const GroundMap& ground_;
+  std::vector<Behind> behind_;  // the outermost first
+  const GlTexture* shown_behind_ = nullptr;  // by what is drawn next; null: nothing
   GlTexture colour_;
   GlFramebuffer target_;
   int width_ = 0, height_ = 0;

@@ -6,6 +6,7 @@
 #include "render/colour/frame_fill.h"
 #include "render/colour/openness_grids.h"
 #include "render/colour/view_lamp.h"
+#include "render/materials/glass.h"
 #include "render/materials/surface_appearance.h"
 #include "render/passes/shadow_edge_pass.h"
 #include "render/shading/mip_images.h"
@@ -40,6 +41,7 @@ class ProcessorColourPass : public ColourPass {
     MeteredImage out;
     out.width = count(view.intrinsics.width), out.height = count(view.intrinsics.height);
     out.stops.resize(std::size_t(out.width) * std::size_t(out.height));
+    shade_behind(view, world_from_camera, surfaces, light);
     prepare(view, world_from_camera, surfaces, light, 1, Purpose::meter);
     ShadedPixels pixels;
     pixels.stops = out.stops.data(), pixels.width = out.width, pixels.height = out.height;
@@ -50,6 +52,7 @@ class ProcessorColourPass : public ColourPass {
   void draw(const ViewProjection& view, const Pose& world_from_camera,
             const SurfaceImages& surfaces, const FrameLight& light, float exposure,
             bool metered) override {
+    if (!metered) shade_behind(view, world_from_camera, surfaces, light);
     prepare(view, world_from_camera, surfaces, light, exposure,
             metered ? Purpose::display_metered : Purpose::display);
     ShadedPixels pixels;
@@ -63,6 +66,7 @@ class ProcessorColourPass : public ColourPass {
 
   std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
                                  const SurfaceImages& surfaces, const FrameLight& light) override {
+    shade_behind(view, world_from_camera, surfaces, light);
     prepare(view, world_from_camera, surfaces, light, 1, Purpose::linear);
     ShadedPixels pixels;
     pixels.width = data_.width, pixels.height = data_.height;
@@ -84,6 +88,7 @@ class ProcessorColourPass : public ColourPass {
     }
     data_.air = !light.clear_air, data_.wet = light.wetness > 0, data_.glow = light.glows;
     data_.surrounded = light.surrounded;
+    if (light.glass) data_.glass_look = int(glass_appearance());
     data_.soil = float(int(Pattern::soil)), data_.veil_from = float(kVeilFrom);
     data_.paint_count = int(geometry_.paint_count), data_.paint_side = geometry_.paint_side;
     if (data_.paint_count > 0)
@@ -110,6 +115,7 @@ class ProcessorColourPass : public ColourPass {
       openness_.find(shader_, view, surfaces.depth_values, lamp.contact(data_.lamp, light), pool_);
     data_.openness = openness_.view();
     if (!data_.openness.lamp) data_.lamp = false;  // it was found not to show
+    data_.behind = surfaces.through_glass() ? behind_.front().data() : nullptr;
     data_.frame = fill_frame_block(view, light, lamp.bearer, ground_, texture_size_, exposure);
     data_.width = view.intrinsics.width, data_.height = view.intrinsics.height;
     data_.every = purpose == Purpose::meter ? kMeterEvery : 1;
@@ -125,6 +131,26 @@ class ProcessorColourPass : public ColourPass {
     data_.sun_edges = {};
     if (light.soft_sun && light.shadow->edges && purpose != Purpose::meter)
       fill_edges(view, surfaces, light);
+  }
+
+  // The layers behind glass into behind_, the farthest first; a layer shows the one after it.
+  void shade_behind(const ViewProjection& view, const Pose& world_from_camera, const SurfaceImages& surfaces,
+                    const FrameLight& light) {
+    if (!surfaces.through_glass()) return;
+    const std::size_t size = surfaces.depth_values.size() * 4;
+    behind_.resize(std::max(behind_.size(), surfaces.behind->size()));
+    for (std::size_t k = surfaces.behind->size(); k-- > 0;) {
+      const GlassLayer& layer = (*surfaces.behind)[k];
+      SurfaceImages images{nullptr, nullptr, layer.depth_values, layer.ids.data()};
+      images.ray_values = surfaces.ray_values, images.pose_values = surfaces.pose_values;
+      prepare(view, world_from_camera, images, light, 1, Purpose::linear);
+      if (k + 1 < surfaces.behind->size()) data_.behind = behind_[k + 1].data();
+      behind_[k].resize(size);
+      ShadedPixels pixels;
+      pixels.width = data_.width, pixels.height = data_.height;
+      pixels.linear = behind_[k].data(), pixels.blocks = layer.blocks.data();
+      shade(pixels);
+    }
   }
 
   void fill_edges(const ViewProjection& view, const SurfaceImages& surfaces,
@@ -165,6 +191,7 @@ class ProcessorColourPass : public ColourPass {
   ShadingData data_;
   std::vector<float> edge_blocks_;
   std::vector<std::uint8_t> display_;
+  std::vector<std::vector<float>> behind_;  // each glass, four a pixel, as ShadingData::behind
 };
 
 }  // namespace

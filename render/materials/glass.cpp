@@ -37,7 +37,7 @@ SheetShares find_sheet_shares(float cosine) {
   const float s = across * across, p = along * along;
   SheetShares out;
   float clear[3];
-  for (int i = 0; i < 3; ++i) clear[i] = std::pow(kGlassClear[i], 1 / inner);
+  for (int i = 0; i < 3; ++i) clear[i] = std::exp2(kGlassLog2Clear[i] / inner);
   const auto mean = [&](float a) { return 0.5f * (passed(s, a) + passed(p, a)); };
   out.passed = {mean(clear[0]), mean(clear[1]), mean(clear[2])};
   out.mirrored = 0.5f * (mirrored(s, clear[1]) + mirrored(p, clear[1]));

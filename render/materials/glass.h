@@ -12,9 +12,9 @@ inline constexpr const char* kGlassAppearance = "glass";  // the look that is cl
 std::uint32_t glass_appearance();                          // its index into all_surface_appearances()
 
 inline constexpr float kGlassIndex = 1.52f;  // refractive index of soda-lime glass
-// What the glass itself lets through on its way straight through a sheet: with both faces 0.79, 0.83 and 0.80, as
-// the green safety glass of cars.
-inline constexpr float kGlassClear[3] = {0.86f, 0.905f, 0.875f};
+// What the glass itself lets through on its way straight through a sheet, 0.86, 0.905 and 0.875, as binary logarithms:
+// with both faces 0.79, 0.83 and 0.80, as the green safety glass of cars.
+inline constexpr float kGlassLog2Clear[3] = {-0.21759f, -0.14401f, -0.19265f};
 // Share of a sheet that dust and dirt cover wherever it faces: kHazeLeast + kHazeMore times the brightness of its
 // texture; our choice.
 inline constexpr float kHazeLeast = 0.03f, kHazeMore = 0.11f;

@@ -5,6 +5,7 @@
 
 #include "kernel/base/error.h"
 #include "render/gl/shader.h"
+#include "render/materials/glass.h"
 #include "render/passes/draw_list.h"
 
 namespace rubble {
@@ -146,6 +147,18 @@ DrawRecord make_record(const Rows& rows, const PlacedMesh& piece) {
     out[i][3] = float(dot(v, t) + rows[i][3]);
   }
   return record;
+}
+
+// The finest level but its glass, which lets light pass.
+void add_solid(const PreparedMesh& mesh, std::uint32_t first_index, DrawList& list) {
+  const PreparedLevel& level = mesh.levels.front();
+  const std::uint32_t last = level.first_triangle + level.triangle_count;
+  const auto is_glass = [&](std::uint32_t t) { return mesh.glass && mesh.triangles[t].material == glass_appearance(); };
+  for (std::uint32_t t = level.first_triangle, end; t < last; t = end) {
+    end = mesh.glass ? t + 1 : last;
+    while (end < last && is_glass(end) == is_glass(t)) ++end;
+    if (!is_glass(t)) list.add_run(first_index + t * 3, (end - t) * 3);
+  }
 }
 
 }  // namespace
@@ -336,10 +349,8 @@ void ShadowPass::draw_view(const Rows& rows, What what) {
   for (const PlacedMesh& piece : scene_.placed) {
     if (piece.id == kGroundId) continue;  // nothing lies under it
     if (!piece.there || (what != What::all && piece.moves != (what == What::moving))) continue;
-    const PreparedLevel& level = scene_.meshes[piece.mesh].levels.front();
     list.add_record(make_record(rows, piece));
-    list.add_run(geometry_.first_index[piece.mesh] + level.first_triangle * 3,
-                 level.triangle_count * 3);
+    add_solid(scene_.meshes[piece.mesh], geometry_.first_index[piece.mesh], list);
   }
   list.draw();
 }

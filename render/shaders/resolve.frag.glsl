@@ -3,7 +3,7 @@
 // directional, 1 spot, 2 point; LAMP; AIR that is not clear; WET; LINEAR (kcd/m2
 // out, no tone mapping); SOFT_SUN where sun_shadow.frag.glsl has drawn; PAINTS, PAINTED and
 // PAINT_SIDE where meshes have colours of their own; GLOW where a look
-// shines; SURROUNDED by a street; METER (log2 of luminance of each 4th pixel in each direction, for the
+// shines; GLASS, the look that is clear, where a mesh has it, and BEHIND where what is behind it was drawn; SURROUNDED by a street; METER (log2 of luminance of each 4th pixel in each direction, for the
 // exposure; below -1000: none); RAYS (each pixel has a ray of its own); CONTENT 0 sky, 1 surfaces no farther
 // than VEIL_FROM, 2 surfaces, 3 both.
 #include "frame.glsl"
@@ -19,6 +19,9 @@ uniform usampler2D visibility;
 uniform sampler2D depth_values;
 uniform usampler2D sun_numbers;  // see colour/sun_shadow_pass.h
 uniform sampler2D sun_shares;
+#ifdef BEHIND
+uniform sampler2D behind;  // glass: radiance, kcd/m2, and 0 where it is dark
+#endif
 uniform sampler2D openness;     // of small corners, and to the lamp; half size
 
 #ifdef RAYS
@@ -137,6 +140,9 @@ void main() {
   float ray_length = length(slope);
   vec3 direction = ray / ray_length;
   vec3 radiance;
+#ifdef BEHIND
+  vec3 clear = vec3(0.0), before = vec3(0.0);  // before: what the air before the glass adds
+#endif
   float far = 1e9;
   float value = texelFetch(depth_values, pixel, 0).x;
   float z = view.x / max(value, 1e-9);
@@ -154,6 +160,9 @@ void main() {
     Surface s = find_surface(seen.x - 1u, seen.y, world, direction, z);
     vec2 open = texture(openness, (vec2(pixel) + 0.5) / view.zw).xy;
     radiance = shade(s, world, -direction, open, passed);
+#ifdef BEHIND
+    clear = s.clear;
+#endif
 #ifdef GLOW
     radiance += s.glow;
 #endif
@@ -165,16 +174,30 @@ void main() {
 #else
     float veil = exp2(-there * there * 4e-5 / (1.0 + there * 0.012));
 #endif
-    radiance = mix(sky_radiance(vec3(direction.xy, 0.02)), radiance, veil);
+    vec3 veiling = sky_radiance(vec3(direction.xy, 0.02));
+    radiance = mix(veiling, radiance, veil);
+#ifdef BEHIND
+    before = veiling * (1.0 - veil);
+#endif
 #endif
   }
 #ifdef AIR
   radiance = radiance * air.a + air.rgb;
+#ifdef BEHIND
+  before = before * air.a + air.rgb;
+#endif
+#endif
+#ifdef BEHIND
+  // With all air up to there, in place of what is behind no more than the air before the glass.
+  if (clear.y > 0.0) {
+    vec4 through = texelFetch(behind, pixel, 0);
+    radiance += (through.rgb - before) * clear * through.a;
+  }
 #endif
 #ifdef METER
   colour.x = log2(max(dot(radiance * balance.rgb, vec3(0.2126, 0.7152, 0.0722)), 1e-30));
 #elif defined LINEAR
-  colour = vec4(radiance, 1.0);
+  colour = vec4(radiance, value < 0.0 ? 0.0 : 1.0);
 #else
   colour = vec4(develop(radiance * (view.y * balance.rgb), grain(vec2(pixel) + wetness.yz)), 1.0);
 #endif

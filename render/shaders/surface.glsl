@@ -11,6 +11,9 @@ struct Surface {
 #ifdef WET
   float film;  // share covered by water
 #endif
+#ifdef GLASS
+  vec3 clear;  // share of light that goes straight through
+#endif
 };
 
 uniform sampler2DArray look_textures;
@@ -55,6 +58,26 @@ float mirrored_share(Surface s, float cosine) {
 #endif
   return share;
 }
+
+#ifdef GLASS
+// A sheet of glass, see materials/glass.h and LookSurfaces::add_glass(). bright: of its texture.
+void add_glass(inout Surface s, float cosine, float bright) {
+  float c = clamp(cosine, 0.01, 1.0);
+  float inner = sqrt(1.0 - (1.0 - c * c) / (GLASS_INDEX * GLASS_INDEX));
+  vec2 face = vec2((c - GLASS_INDEX * inner) / (c + GLASS_INDEX * inner),
+                   (GLASS_INDEX * c - inner) / (GLASS_INDEX * c + inner));
+  face *= face;
+  vec2 enters = (1.0 - face) * (1.0 - face), twice = face * face;
+  vec3 clear = exp2(GLASS_CLEAR / inner), both = clear * clear;
+  vec3 passed = 0.5 * (enters.x * clear / (1.0 - twice.x * both) + enters.y * clear / (1.0 - twice.y * both));
+  vec2 mirrored = face + face * enters * both.y / (1.0 - twice * both.y);
+  // What dust covers is matt.
+  float covered = 1.0 - s.gloss.x + s.gloss.x * (HAZE_LEAST + HAZE_MORE * bright);
+  s.gloss.xy = vec2((1.0 - covered) * 0.5 * (mirrored.x + mirrored.y), 1.0);
+  s.albedo = vec3(0.375, 0.36, 0.335) * ((0.55 + 0.75 * bright) * covered / (1.0 - s.gloss.x));
+  s.clear = passed * (1.0 - covered);
+}
+#endif
 
 // What mirrors let through to the base from a light, as a multiple of what they let through of even light
 // (Kelemen and Szirmay-Kalos 2001); a twenty-first is the mean of Schlick's slope.
@@ -185,6 +208,10 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
     s.gloss = vec3(paint.reflectance > 0.0 ? 1.0 : 0.0, paint.reflectance, paint.roughness);
     s.normal = normalize(rx * paint.normal.x + ry * paint.normal.y + rz * paint.normal.z);
   }
+#endif
+#ifdef GLASS
+  s.clear = vec3(0.0);
+  if (look == GLASS * 4) add_glass(s, -dot(s.face_normal, direction), texel.z);
 #endif
 #ifdef WET
   // Water darkens what it soaks into, and stands as a film on what faces up.

@@ -2,6 +2,7 @@
 // formulas of shaders/surface.glsl and shaders/geometry.glsl, by the same names.
 #pragma once
 
+#include "render/materials/glass.h"
 #include "render/shading/paint.h"
 #include "render/shading/texture_reads.h"
 
@@ -14,6 +15,7 @@ struct Surface {
   Real cover, reflectance, roughness;  // of the mirror on top
   Real3 glow;                          // kcd/m2
   Real film;                           // share covered by water
+  Real3 clear;                         // share of light that goes straight through
 };
 
 // What a placed mesh is, and the point in its frame.
@@ -256,6 +258,36 @@ RUBBLE_INLINE void add_colour(const ShadingData& d, const PlacedPoint& placed, c
   s.roughness = max((look.gloss - whole) * (1.0f / 0.99f), 0.02f);
 }
 
+// A sheet of glass, see materials/glass.h and LookSurfaces::add_glass().
+RUBBLE_INLINE void add_glass(Mask glass, const Pattern& p, Real cosine, Surface& s) {
+  const Real c = clamp(cosine, 0.01f, 1.0f);
+  const Real inner = sqrt(1.0f - (1.0f - c * c) * (1.0f / (kGlassIndex * kGlassIndex)));
+  const Real across = (c - kGlassIndex * inner) / (c + kGlassIndex * inner);
+  const Real along = (kGlassIndex * c - inner) / (kGlassIndex * c + inner);
+  const Real faces[2] = {across * across, along * along};
+  const auto passed = [&](Real clear) {
+    Real sum = real(0);
+    for (const Real face : faces)
+      sum += (1.0f - face) * (1.0f - face) * clear / (1.0f - face * face * clear * clear);
+    return sum * 0.5f;
+  };
+  const Real way = 1.0f / inner;
+  const auto clear = [&](int i) { return exp2(way * kGlassLog2Clear[i]); };
+  const Real green = clear(1), twice = green * green;
+  Real mirrored = real(0);
+  for (const Real face : faces)
+    mirrored += 0.5f * (face + face * (1.0f - face) * (1.0f - face) * twice / (1.0f - face * face * twice));
+  // What dust covers is matt.
+  const Real dust = 1.0f - s.cover, grey = 0.55f + 0.75f * p.texel.z;
+  const Real covered = dust + s.cover * (kHazeLeast + kHazeMore * p.texel.z);
+  const Real cover = (1.0f - covered) * mirrored, base = grey * covered / (1.0f - cover);
+  s.albedo = select(glass, {base * 0.375f, base * 0.36f, base * 0.335f}, s.albedo);
+  s.cover = select(glass, cover, s.cover), s.reflectance = select(glass, real(1), s.reflectance);
+  const Real none = real(0), share = 1.0f - covered;
+  s.clear = select(glass, {passed(clear(0)) * share, passed(green) * share, passed(clear(2)) * share},
+                   {none, none, none});
+}
+
 // Water darkens what it soaks into, and stands as a film on what faces up.
 RUBBLE_INLINE void add_water(const ShadingData& d, const Real3& smooth, const Pattern& p,
                              Surface& s) {
@@ -271,7 +303,7 @@ RUBBLE_INLINE void add_water(const ShadingData& d, const Real3& smooth, const Pa
 RUBBLE_INLINE Surface find_surface(const ShadingData& d, Word placed_id, Word triangle,
                                    const Real3& world, const Real3& direction, Real z) {
   Surface s;
-  s.film = real(0), s.glow = {real(0), real(0), real(0)};
+  s.film = real(0), s.glow = s.clear = {real(0), real(0), real(0)};
   const PlacedPoint placed = find_placed(d, placed_id, world);
   const TrianglePoint t = find_triangle(d, triangle, placed.point);
   const NodeLight light = find_light(d, t, placed.first_light);
@@ -295,6 +327,8 @@ RUBBLE_INLINE Surface find_surface(const ShadingData& d, Word placed_id, Word tr
       s.normal = select(painted, normalize(placed.to_world(paint.normal)), s.normal);
     }
   }
+  const Mask glass = look_number == d.glass_look;
+  if (d.glass_look >= 0 && any(glass)) add_glass(glass, p, -dot(s.face_normal, direction), s);
   if (d.wet) add_water(d, smooth, p, s);
   const Real lit = max(dot(light.vector, s.normal), 0.15f * length(light.vector));
   s.ambient = Real3{light.red, 1.0f - light.red - light.blue, light.blue} * (3.0f * lit);

@@ -115,13 +115,15 @@ RUBBLE_INLINE void add_lamp(const ShadingData& d, const Pixel& pixel, const Surf
   sum.e += e * base_share(d, s, lamp.to_light);
 }
 
+// clear: share of light that goes straight through.
 inline Real3 shade_surface(const ShadingData& d, const Pixel& pixel, const Real3& world,
-                           Real passed) {
+                           Real passed, Real3& clear) {
   // Lanes that see nothing take a triangle of the first mesh, and nobody reads what they find.
   const Mask nothing = Mask(pixel.placed == 0u);
   const Word placed = Word(select(nothing, integer(0), Int(pixel.placed) - 1));
   const Word triangle = Word(select(nothing, integer(int(d.any_triangle)), Int(pixel.triangle)));
   const Surface s = find_surface(d, placed, triangle, world, pixel.direction, pixel.z);
+  clear = s.clear;
   const OpennessGrid& o = d.openness;
   const Between x = between_clamped((to_real(pixel.x) + 0.5f) * (1.0f / float(d.width)), o.width);
   const Between y = between_clamped((to_real(pixel.y) + 0.5f) * (1.0f / float(d.height)), o.height);
@@ -207,6 +209,19 @@ RUBBLE_INLINE Pixel find_pixel(const ShadingData& d, Int column, Int row) {
   return p;
 }
 
+// What is behind glass, with all air up to there, in place of what is behind no more than the air before the glass.
+// radiance: of the glass, with the air before it; air: that.
+RUBBLE_INLINE Real3 add_behind(const ShadingData& d, const Pixel& p, Real far, const Texel& air,
+                               const Real3& clear, const Real3& radiance) {
+  const Mask glass = Mask(clear.y > 0.0f) & Mask(p.placed != 0u);
+  if (!any(glass)) return radiance;
+  const Row row = load_rows(d.behind, p.index);
+  Real3 before = veil(d, p, far, {real(0), real(0), real(0)});
+  if (d.air) before = before * air.w + Real3{air.x, air.y, air.z};
+  const Real3 behind = Real3{as_real(row.x), as_real(row.y), as_real(row.z)} - before;
+  return select(glass, radiance + behind * clear * as_real(row.w), radiance);
+}
+
 // Radiance before exposure; kcd/m2.
 inline Real3 find_radiance(const ShadingData& d, const Pixel& p) {
   const Mask surface = p.placed != 0u;
@@ -217,15 +232,15 @@ inline Real3 find_radiance(const ShadingData& d, const Pixel& p) {
         d, (to_real(p.x) + 0.5f) * (1.0f / float(d.width)),
         (to_real(p.y) + 0.5f) * (1.0f / float(d.height)),
         (far / (far + 2.0f) * float(d.air_slices - 1) + 0.5f) * (1.0f / float(d.air_slices)));
-  Real3 radiance{real(0), real(0), real(0)};
+  Real3 radiance{real(0), real(0), real(0)}, clear = radiance;
   if (any(~surface)) radiance = backdrop(d, p.direction);
   if (any(surface)) {
     const Real3 world = p.eye + p.direction * select(surface, far, real(1));
-    const Real3 shaded = veil(d, p, far, shade_surface(d, p, world, air.w));
+    const Real3 shaded = veil(d, p, far, shade_surface(d, p, world, air.w, clear));
     radiance = select(surface, shaded, radiance);
   }
   if (d.air) radiance = radiance * air.w + Real3{air.x, air.y, air.z};
-  return radiance;
+  return d.behind ? add_behind(d, p, far, air, clear, radiance) : radiance;
 }
 
 // From exposed radiance to display values; the noise hides the steps of 8 bits.
@@ -262,12 +277,12 @@ RUBBLE_INLINE void store_block(const Value& value, const BlockPlace& b, int widt
                 reinterpret_cast<const char*>(&value) + i * 16, std::size_t(b.columns) * 4);
 }
 
-inline void store_linear(const Real3& radiance, const BlockPlace& b, int width, float* out) {
+inline void store_linear(const Real3& radiance, Real light, const BlockPlace& b, int width, float* out) {
   for (int i = 0; i < b.rows; ++i) {
     for (int k = 0; k < b.columns; ++k) {
       float* at = out + (std::ptrdiff_t(b.y + i) * width + b.x + k) * 4;
       const int lane = i * 4 + k;
-      at[0] = radiance.x[lane], at[1] = radiance.y[lane], at[2] = radiance.z[lane], at[3] = 1;
+      at[0] = radiance.x[lane], at[1] = radiance.y[lane], at[2] = radiance.z[lane], at[3] = light[lane];
     }
   }
 }
@@ -284,7 +299,10 @@ inline void shade_block(const ShadingData& d, const ShadedPixels& out, int x, in
   const Mask beyond = d.lens_rays ? Mask(p.length <= 0.0f) : mask(false);  // outside of the lens
   radiance = select(beyond, {real(0), real(0), real(0)}, radiance);
   if (out.display) store_block(display_code(d, p, radiance), b, out.width, out.display);
-  if (out.linear) store_linear(radiance, b, out.width, out.linear);
+  if (out.linear) {
+    const Mask dark = gather(d.depth_values, p.index) < 0.0f;
+    store_linear(radiance, select(dark, real(0), real(1)), b, out.width, out.linear);
+  }
   if (out.stops) {
     const auto& gains = d.frame.balance;
     const Real luminance =
@@ -294,8 +312,10 @@ inline void shade_block(const ShadingData& d, const ShadedPixels& out, int x, in
 }
 
 inline void shade(const ShadingData& d, const ShadedPixels& out, int first, int last) {
+  const int across = (out.width + 3) / 4;
   for (int y = first * 4; y < last * 4 && y < out.height; y += kLaneRows)
-    for (int x = 0; x < out.width; x += 4) shade_block(d, out, x, y);
+    for (int x = 0; x < out.width; x += 4)
+      if (!out.blocks || out.blocks[(y >> 2) * across + (x >> 2)]) shade_block(d, out, x, y);
 }
 
 }  // namespace rubble::RUBBLE_ISA

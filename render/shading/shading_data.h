@@ -51,6 +51,7 @@ struct ShadingData {
   bool lamp = false, air = false, wet = false, glow = false, surrounded = false;
   float soil = 0;       // layer of the ground's texture
   float veil_from = 0;  // unit: m
+  int glass_look = -1;  // the look that is clear; below 0: nothing is
   int paint_count = 0, painted_look = -1,
       paint_side = 1;  // as PAINTS, PAINTED and PAINT_SIDE in shaders/paint.glsl
 
@@ -58,7 +59,8 @@ struct ShadingData {
   int every = 1;  // shades each so-many-th pixel in both directions, the first at half of that
   const std::uint32_t* ids = nullptr;   // two a pixel: placed mesh + 1, name of the triangle
   std::uint32_t any_triangle = 0;       // name of one of the first placed mesh
-  const float* depth_values = nullptr;  // near / Z; 0: nothing
+  const float* depth_values = nullptr;  // near / Z; 0: nothing; below 0: nothing, and dark
+  const float* behind = nullptr;        // glass, four a pixel: radiance, and 0 where it is dark; null: nothing is
   const float* lens_rays = nullptr;     // four a pixel, as RayPass has them; null: a pinhole
   const float* row_poses = nullptr;     // three rows of four numbers for each row of pixels
 
@@ -81,9 +83,11 @@ struct ShadingData {
 // What comes out for each shaded pixel, in rows of a grid; one of the three.
 struct ShadedPixels {
   std::uint32_t* display = nullptr;  // RGBA8
-  float* linear = nullptr;           // red, green, blue, 1; unit: kcd/m2
+  float* linear = nullptr;           // red, green, blue, 1, or 0 where it is dark; unit: kcd/m2
   float* stops = nullptr;            // log2 of luminance; below -1000: none
   int width = 0, height = 0;         // of the grid
+  // Of blocks of 4 x 4 pixels, in rows: 0: it is left out. Null: none is.
+  const std::uint8_t* blocks = nullptr;
 };
 
 }  // namespace rubble

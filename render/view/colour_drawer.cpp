@@ -112,7 +112,7 @@ FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surface
   const LitAir lit{scene_.air_light, scene_.resting_light, fog ? &fog->field() : nullptr,
                    air_box(scene_.scene.bounds)};
   air_volume_.build(view, air, lit, &glow, drops_drawn,
-                    farthest_in_air(view, surfaces.depth_values()),
+                    farthest_in_air(view, surfaces.depth_behind()),
                     find_wide_shader(scene_.options.instruction_set), pool_);
   light.air_table = &air_volume_;
   const double turned = air.turned_share(air.fog_asymmetry());

@@ -74,6 +74,7 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
   shadow->draw_moving();  // nothing yet
   frame_light = {&light, &shadow->map(), s.lamp, medium.clear(), s.wetness, most_gloss(scene), shines(scene), scene.surrounded};
   frame_light.soft_sun = options.colour.quality != RenderQuality::draft;
+  frame_light.glass = scene.glass;
   frame_light.nodes = &clear_nodes();
   air_changed_ = !medium.clear();
   progress(1);

@@ -26,6 +26,15 @@ std::vector<float> distances_of(const std::vector<float>& depth, const Intrinsic
   return out;
 }
 
+// two: numbers a pixel, as VisibilityPass::ids(); count: of all numbers.
+void add_shown(const std::uint32_t* two, std::size_t count, const std::vector<std::uint32_t>& triangle_of_name,
+               std::vector<LampBounce::Shown>& out) {
+  for (std::size_t i = 0; i < count; i += 2) {
+    const bool again = i > 0 && two[i] == two[i - 2] && two[i + 1] == two[i - 1];
+    if (two[i] && !again) out.push_back({two[i] - 1, triangle_of_name[two[i + 1]]});
+  }
+}
+
 }  // namespace
 
 SurfaceDrawer::SurfaceDrawer(LitScene& scene)
@@ -86,7 +95,27 @@ void DrawnSurfaces::upload() {
   check_gl(gl, "bringing back the surfaces of a view");
 }
 
+void DrawnSurfaces::find_behind() {
+  LitScene& lit = drawer_.scene_;
+  if (found_behind_ || !lit.scene.glass) return;
+  found_behind_ = true;
+  if (!drawer_.glass_)
+    drawer_.glass_ = std::make_unique<GlassRays>(lit.scene, lit.geometry, lit.options.threads);
+  behind_ = drawer_.glass_->find(view_, ids().data(), depth_values());
+}
+
 SurfaceImages DrawnSurfaces::images() {
+  SurfaceImages out = front_images();
+  find_behind();
+  out.behind = &behind_;
+  return out;
+}
+
+const std::vector<float>& DrawnSurfaces::depth_behind() {
+  return behind_.empty() ? depth_values() : behind_.back().depth_values;
+}
+
+SurfaceImages DrawnSurfaces::front_images() {
   if (!view_.plain() && !in_pass()) draw();
   if (drawer_.scene_.shades_on_processor()) return images_in_memory();
   if (!view_.plain()) {
@@ -120,17 +149,15 @@ const std::vector<std::uint32_t>& DrawnSurfaces::ids() {
 }
 
 std::vector<LampBounce::Shown> DrawnSurfaces::shown() {
-  const std::vector<std::uint32_t>& triangle_of_name = drawer_.scene_.geometry.triangle_of_name;
   const std::uint32_t* drawn =
       view_.plain() && in_pass() ? drawer_.visibility_.id_values() : nullptr;
   const std::uint32_t* two = drawn ? drawn : ids().data();
   const std::size_t count =
       2 * std::size_t(view_.intrinsics.width) * std::size_t(view_.intrinsics.height);
   std::vector<LampBounce::Shown> out;
-  for (std::size_t i = 0; i < count; i += 2) {
-    const bool again = i > 0 && two[i] == two[i - 2] && two[i + 1] == two[i - 1];
-    if (two[i] && !again) out.push_back({two[i] - 1, triangle_of_name[two[i + 1]]});
-  }
+  add_shown(two, count, drawer_.scene_.geometry.triangle_of_name, out);
+  for (const GlassLayer& layer : behind_)
+    add_shown(layer.ids.data(), count, drawer_.scene_.geometry.triangle_of_name, out);
   return out;
 }
 

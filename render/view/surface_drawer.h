@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/camera/view_rays.h"
+#include "render/passes/glass_layers.h"
 #include "render/passes/ray_pass.h"
 #include "render/colour/colour_pass.h"
 #include "render/passes/visibility_pass.h"
@@ -25,7 +26,8 @@ class SurfaceDrawer {
 
   LitScene& scene_;
   VisibilityPass visibility_;
-  std::unique_ptr<RayPass> rays_;  // made when a view first needs it
+  std::unique_ptr<RayPass> rays_;     // made when a view first needs it
+  std::unique_ptr<GlassRays> glass_;  // likewise
   // Whose the images of the two passes are now.
   DrawnSurfaces* in_visibility_ = nullptr;
   DrawnSurfaces* in_rays_ = nullptr;
@@ -41,10 +43,13 @@ class DrawnSurfaces {
   DrawnSurfaces(const DrawnSurfaces&) = delete;
   DrawnSurfaces& operator=(const DrawnSurfaces&) = delete;
 
-  // Where colours are shaded; until another view is drawn.
+  // Where colours are shaded; until another view is drawn. With what is behind glass, for which the scene must be at
+  // the moment of the view.
   SurfaceImages images();
+  // Of images(): depth values of the farthest that is seen in each pixel, through glass.
+  const std::vector<float>& depth_behind();
   const std::vector<std::uint32_t>& ids();            // two a pixel, as VisibilityPass::ids()
-  std::vector<LampBounce::Shown> shown();              // the triangles in ids(), some more than once
+  std::vector<LampBounce::Shown> shown();              // the triangles in images(), some more than once
   const std::vector<float>& depth_values();           // near / Z; as RayPass has them for rays
   const std::vector<float>& planar_depth();           // NaN: nothing; unit: m
   const std::vector<float>& distances();              // along the rays; NaN: nothing; unit: m
@@ -57,7 +62,9 @@ class DrawnSurfaces {
   void draw();
   void save();
   bool in_pass() const;
+  SurfaceImages front_images();
   SurfaceImages images_in_memory();
+  void find_behind();
   void upload();
 
   SurfaceDrawer& drawer_;
@@ -67,6 +74,8 @@ class DrawnSurfaces {
   std::vector<float> planar_depth_, distances_;
   std::vector<float> saved_depth_values_;
   GlTexture saved_ids_, saved_depth_;
+  std::vector<GlassLayer> behind_;  // glass
+  bool found_behind_ = false;
 };
 
 }  // namespace rubble

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "kernel/base/error.h"
+#include "kernel/base/portable_math.h"
 #include "render/camera/lens.h"
 #include "render/renderer.h"
 #include "render/shading/wide_shader.h"
@@ -39,6 +40,19 @@ void to_night(Scene& scene) {
   scene.more_lights.push_back(point);
 }
 
+// Four sheets of glass between the eye and the heap, some behind each other, and a block with glass all about.
+void put_panes(Scene& scene) {
+  to_sun(scene);
+  scene.meshes.push_back(share(make_box({0.006, 1.6, 1.2}, "glass")));
+  scene.meshes.push_back(share(make_box({0.5, 0.4, 0.4}, "glass")));
+  const std::uint32_t pane = std::uint32_t(scene.meshes.size()) - 2;
+  for (int i = 0; i < 4; ++i)
+    scene.instances.push_back({pane, 1,
+                               {portable::quat_from_rpy(0.1 * i, 0.3 - 0.2 * i, 0.3 * i), {3.2 - 0.4 * i, 1.2 - 0.4 * i, 1.5}},
+                               std::uint32_t(scene.instances.size())});
+  scene.instances.push_back({pane + 1, 1, {{}, {3, 2, 1}}, std::uint32_t(scene.instances.size())});
+}
+
 const std::vector<View>& views() {
   static const std::vector<View> all{
       {"sun", to_sun, {5, 2, 2}, {-1.5, 0.1, 0.5}},
@@ -58,7 +72,13 @@ const std::vector<View>& views() {
        [](Scene& s) { to_night(s), s.wetness = 1, s.lamp.on = true; },
        {3, 1, 1},
        {-1.5, 0.1, 0.5}},
-      {"horizon", to_sun, {7, 1, 1.2}, {0, 0, 1.3}}};
+      {"horizon", to_sun, {7, 1, 1.2}, {0, 0, 1.3}},
+      {"panes", put_panes, {5, 2, 2}, {-1.5, 0.1, 0.5}},
+      {"panes, wide lens", put_panes, {4.5, 2, 2}, {-1.5, 0.1, 0.5}, true},
+      {"panes, fog, wet, lamp",
+       [](Scene& s) { put_panes(s), s.air.fog_density = 0.1, s.wetness = 0.5, s.lamp.on = true; },
+       {5, 2, 2},
+       {-1.5, 0.1, 0.5}}};
   return all;
 }
 

@@ -37,6 +37,7 @@ ShaderDefines variant_of(const FrameLight& frame, const GpuGeometry& geometry) {
     defines.push_back({"GLASS_INDEX", std::to_string(kGlassIndex)});
     defines.push_back({"GLASS_CLEAR", "vec3(" + std::to_string(clear[0]) + ", " + std::to_string(clear[1]) + ", " +
                                           std::to_string(clear[2]) + ")"});
+    defines.push_back({"GLASS_DUST", std::to_string(kGlassDust)});
     defines.push_back({"HAZE_LEAST", std::to_string(kHazeLeast)});
     defines.push_back({"HAZE_MORE", std::to_string(kHazeMore)});
   }

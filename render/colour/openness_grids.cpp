@@ -38,7 +38,7 @@ ContactData contact_data(const ViewProjection& view, const std::vector<float>& d
 
 void OpennessGrids::find(const WideShader& shader, const ViewProjection& view,
                          const std::vector<float>& depth_values, const ContactPass::Lamp& lamp,
-                         ThreadPool& pool) {
+                         int first_row, int last_row, ThreadPool& pool) {
   ContactData data = contact_data(view, depth_values, lamp);
   width_ = std::max(1, (data.width + 1) / 2), height_ = std::max(1, (data.height + 1) / 2);
   stride_ = (width_ + 3) / 4 * 4, lamp_ = lamp.on;
@@ -47,8 +47,11 @@ void OpennessGrids::find(const WideShader& shader, const ViewProjection& view,
   if (lamp_) raw_lamp_.resize(size), lamp_seen_.resize(size);
   data.half_width = width_, data.half_height = height_, data.stride = stride_;
   data.corners = raw_corners_.data(), data.lamp_seen = raw_lamp_.data();
-  pool.run((height_ + kRows - 1) / kRows, 1, [&](int begin, int end) {
-    shader.find_contacts(data, begin * kRows, std::min(end * kRows, height_));
+  // A pixel reads the means about it, and they the four rows about them.
+  const int first = std::max(first_row / 2 - 4, 0) / kRows;
+  const int last = (std::min(last_row / 2 + 5, height_) + kRows - 1) / kRows;
+  pool.run(last - first, 1, [&](int begin, int end) {
+    shader.find_contacts(data, (first + begin) * kRows, std::min((first + end) * kRows, height_));
   });
   smooth(raw_corners_, corners_, pool);
   if (lamp_) smooth(raw_lamp_, lamp_seen_, pool);

@@ -13,10 +13,10 @@ namespace rubble {
 
 class OpennessGrids {
  public:
-  // depth_values: near / Z, of the view's size.
+  // depth_values: near / Z, of the view's size. Only the rows [first_row, last_row) of the view are wanted.
   void find(const WideShader& shader, const ViewProjection& view,
             const std::vector<float>& depth_values, const ContactPass::Lamp& lamp,
-            ThreadPool& pool);
+            int first_row, int last_row, ThreadPool& pool);
   OpennessGrid view() const;
 
  private:

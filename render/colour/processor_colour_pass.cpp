@@ -104,7 +104,7 @@ class ProcessorColourPass : public ColourPass {
 
   void prepare(const ViewProjection& view, const Pose& world_from_camera,
                const SurfaceImages& surfaces, const FrameLight& light, float exposure,
-               Purpose purpose) {
+               Purpose purpose, const GlassLayer* layer = nullptr) {
     const ViewLamp lamp = find_view_lamp(view, world_from_camera, light);
     const float nearest =
         *std::max_element(surfaces.depth_values.begin(), surfaces.depth_values.end());
@@ -112,7 +112,8 @@ class ProcessorColourPass : public ColourPass {
     data_.lamp =
         has_lamp(light) && (all_light || lamp_shows(light, lamp.offset, nearest, exposure));
     if (purpose != Purpose::display_metered)
-      openness_.find(shader_, view, surfaces.depth_values, lamp.contact(data_.lamp, light), pool_);
+      openness_.find(shader_, view, surfaces.depth_values, lamp.contact(data_.lamp, light), layer ? layer->y0 : 0,
+                     layer ? layer->y1 : view.intrinsics.height, pool_);
     data_.openness = openness_.view();
     if (!data_.openness.lamp) data_.lamp = false;  // it was found not to show
     data_.behind = surfaces.through_glass() ? behind_.front().data() : nullptr;
@@ -143,7 +144,7 @@ class ProcessorColourPass : public ColourPass {
       const GlassLayer& layer = (*surfaces.behind)[k];
       SurfaceImages images{nullptr, nullptr, layer.depth_values, layer.ids.data()};
       images.ray_values = surfaces.ray_values, images.pose_values = surfaces.pose_values;
-      prepare(view, world_from_camera, images, light, 1, Purpose::linear);
+      prepare(view, world_from_camera, images, light, 1, Purpose::linear, &layer);
       if (k + 1 < surfaces.behind->size()) data_.behind = behind_[k + 1].data();
       behind_[k].resize(size);
       ShadedPixels pixels;

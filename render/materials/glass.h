@@ -18,6 +18,8 @@ inline constexpr float kGlassLog2Clear[3] = {-0.21759f, -0.14401f, -0.19265f};
 // Share of a sheet that dust and dirt cover wherever it faces: kHazeLeast + kHazeMore times the brightness of its
 // texture; our choice.
 inline constexpr float kHazeLeast = 0.03f, kHazeMore = 0.11f;
+// Of the share of dust that lies on other things that face up as much: a pane keeps less of it; our choice.
+inline constexpr float kGlassDust = 0.45f;
 inline constexpr float kMeanHaze = kHazeLeast + 0.5f * kHazeMore;
 
 struct SheetShares {

@@ -72,7 +72,8 @@ void add_glass(inout Surface s, float cosine, float bright) {
   vec3 passed = 0.5 * (enters.x * clear / (1.0 - twice.x * both) + enters.y * clear / (1.0 - twice.y * both));
   vec2 mirrored = face + face * enters * both.y / (1.0 - twice * both.y);
   // What dust covers is matt.
-  float covered = 1.0 - s.gloss.x + s.gloss.x * (HAZE_LEAST + HAZE_MORE * bright);
+  float dust = (1.0 - s.gloss.x) * GLASS_DUST;
+  float covered = dust + (1.0 - dust) * (HAZE_LEAST + HAZE_MORE * bright);
   s.gloss.xy = vec2((1.0 - covered) * 0.5 * (mirrored.x + mirrored.y), 1.0);
   s.albedo = vec3(0.375, 0.36, 0.335) * ((0.55 + 0.75 * bright) * covered / (1.0 - s.gloss.x));
   s.clear = passed * (1.0 - covered);

@@ -2,7 +2,7 @@
 // formulas of shaders/surface.glsl and shaders/geometry.glsl, by the same names.
 #pragma once
 
-#include "render/materials/glass.h"
+#include "render/shading/glass_sheet.h"
 #include "render/shading/paint.h"
 #include "render/shading/texture_reads.h"
 
@@ -258,34 +258,15 @@ RUBBLE_INLINE void add_colour(const ShadingData& d, const PlacedPoint& placed, c
   s.roughness = max((look.gloss - whole) * (1.0f / 0.99f), 0.02f);
 }
 
-// A sheet of glass, see materials/glass.h and LookSurfaces::add_glass().
+// As LookSurfaces::add_glass(): what dust covers is matt.
 RUBBLE_INLINE void add_glass(Mask glass, const Pattern& p, Real cosine, Surface& s) {
-  const Real c = clamp(cosine, 0.01f, 1.0f);
-  const Real inner = sqrt(1.0f - (1.0f - c * c) * (1.0f / (kGlassIndex * kGlassIndex)));
-  const Real across = (c - kGlassIndex * inner) / (c + kGlassIndex * inner);
-  const Real along = (kGlassIndex * c - inner) / (kGlassIndex * c + inner);
-  const Real faces[2] = {across * across, along * along};
-  const auto passed = [&](Real clear) {
-    Real sum = real(0);
-    for (const Real face : faces)
-      sum += (1.0f - face) * (1.0f - face) * clear / (1.0f - face * face * clear * clear);
-    return sum * 0.5f;
-  };
-  const Real way = 1.0f / inner;
-  const auto clear = [&](int i) { return exp2(way * kGlassLog2Clear[i]); };
-  const Real green = clear(1), twice = green * green;
-  Real mirrored = real(0);
-  for (const Real face : faces)
-    mirrored += 0.5f * (face + face * (1.0f - face) * (1.0f - face) * twice / (1.0f - face * face * twice));
-  // What dust covers is matt.
-  const Real dust = 1.0f - s.cover, grey = 0.55f + 0.75f * p.texel.z;
-  const Real covered = dust + s.cover * (kHazeLeast + kHazeMore * p.texel.z);
-  const Real cover = (1.0f - covered) * mirrored, base = grey * covered / (1.0f - cover);
+  const SheetShares sheet = find_sheet_shares(cosine);
+  const Real dust = (1.0f - s.cover) * kGlassDust, grey = 0.55f + 0.75f * p.texel.z;
+  const Real covered = dust + (1.0f - dust) * (kHazeLeast + kHazeMore * p.texel.z);
+  const Real cover = (1.0f - covered) * sheet.mirrored, base = grey * covered / (1.0f - cover);
   s.albedo = select(glass, {base * 0.375f, base * 0.36f, base * 0.335f}, s.albedo);
   s.cover = select(glass, cover, s.cover), s.reflectance = select(glass, real(1), s.reflectance);
-  const Real none = real(0), share = 1.0f - covered;
-  s.clear = select(glass, {passed(clear(0)) * share, passed(green) * share, passed(clear(2)) * share},
-                   {none, none, none});
+  s.clear = select(glass, sheet.passed * (1.0f - covered), s.clear);
 }
 
 // Water darkens what it soaks into, and stands as a film on what faces up.

@@ -198,6 +198,7 @@ void LookSurfaces::add_colour(const SurfaceQuery& query, const Place& place, Sur
 // Dust and dirt lie on a part of it and are matt; the rest is clear, and mirrors as its angle says. As layers: a
 // mirror that covers as much as is mirrored, over a base as bright as makes what the dust throws back.
 void LookSurfaces::add_glass(const SurfaceQuery& query, float dust, const Place& place, SurfacePoint& out) const {
+  dust *= kGlassDust;
   const float covered = dust + (1 - dust) * (kHazeLeast + kHazeMore * place.bright);
   const SheetShares sheet = find_sheet_shares(-dot(out.face_normal, query.direction));
   const float mirrored = (1 - covered) * sheet.mirrored;

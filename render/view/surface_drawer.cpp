@@ -95,18 +95,19 @@ void DrawnSurfaces::upload() {
   check_gl(gl, "bringing back the surfaces of a view");
 }
 
-void DrawnSurfaces::find_behind() {
+// Glass. ids: of the view.
+void DrawnSurfaces::find_behind(const std::uint32_t* ids) {
   LitScene& lit = drawer_.scene_;
   if (found_behind_ || !lit.scene.glass) return;
   found_behind_ = true;
   if (!drawer_.glass_)
     drawer_.glass_ = std::make_unique<GlassRays>(lit.scene, lit.geometry, lit.options.threads);
-  behind_ = drawer_.glass_->find(view_, ids().data(), depth_values());
+  behind_ = drawer_.glass_->find(view_, ids ? ids : this->ids().data(), depth_values());
 }
 
 SurfaceImages DrawnSurfaces::images() {
   SurfaceImages out = front_images();
-  find_behind();
+  find_behind(out.id_values);
   out.behind = &behind_;
   return out;
 }

@@ -64,7 +64,7 @@ class DrawnSurfaces {
   bool in_pass() const;
   SurfaceImages front_images();
   SurfaceImages images_in_memory();
-  void find_behind();
+  void find_behind(const std::uint32_t* ids);
   void upload();
 
   SurfaceDrawer& drawer_;

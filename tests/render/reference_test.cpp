@@ -8,6 +8,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "kernel/base/portable_math.h"
 #include "render/materials/surface_appearance.h"
 #include "render/reference/denoise.h"
 #include "render/reference/tile_journal.h"
@@ -95,6 +96,28 @@ TEST(Reference, KnowsTheSurfacesOfTheShader) {
     const double limit = look.reflectance > 0.2f ? 0.05 : 0.02;
     EXPECT_LT(off / sum, limit) << look.name;
   }
+}
+
+// A block behind two panes, whose depth is that of the first.
+TEST(Reference, SeesThroughGlassAsMuchAsTheFastRendererDoes) {
+  GlContext context;
+  Scene scene = block_of("plaster");
+  scene.meshes.push_back(share(make_box({0.006, 0.3, 0.3}, "glass")));
+  scene.instances.push_back({1, 1, {portable::quat_from_rpy(0, 0, 0.6), {0.8, 0, 0}}, 2});
+  scene.instances.push_back({1, 1, {portable::quat_from_rpy(0, 0.4, 0), {1.2, 0, 0}}, 3});
+  const auto draw = [&](RenderQuality quality) {
+    RenderOptions options = reference(256);
+    options.colour.quality = quality, options.bake = false;
+    return Renderer(context, scene, options).render_linear({}, pinhole(64, 64, 1500));
+  };
+  const LinearFrame fast = draw(RenderQuality::fast), slow = draw(RenderQuality::reference);
+  double shown = 0, traced = 0;
+  for (const float light : fast.rgb) shown += double(light);
+  for (const float light : slow.rgb) traced += double(light);
+  EXPECT_GT(traced, 100);
+  EXPECT_NEAR(shown / traced, 1, 0.03);
+  for (const float depth : fast.depth) EXPECT_NEAR(double(depth), 0.8, 0.03);
+  EXPECT_EQ(fast.instance[0], 2u);
 }
 
 // The block cut in two: without a word of it two blocks with looks of their own, else nothing is seen of the cut.

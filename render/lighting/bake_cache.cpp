@@ -54,6 +54,7 @@ std::string key_of(const PreparedScene& scene, const LightSet& light, const std:
   for (const PreparedMesh& mesh : scene.meshes) add_mesh(key, mesh);
   key.add(scene.placed.size());
   for (const PlacedMesh& piece : scene.placed) add_placed(key, piece);
+  if (scene.glass) key.add_text("light passes through glass");
   add_light(key, light);
   return key.hex();
 }

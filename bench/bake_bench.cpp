@@ -60,7 +60,8 @@ void bench(const Request& request, const std::string& mission, int threads) {
   options.threads = threads, options.seed = given.seed;
   const auto bake = [&](int rays) {
     options.rays = rays;
-    return bake_light(scene, light, drawn_albedo(surfaces), options, {});
+    SceneRays scene_rays(scene);
+    return bake_light(scene, scene_rays, light, drawn_albedo(surfaces), options, {});
   };
   const Times start = read_times();
   const BakedScene baked = bake(request.rays);

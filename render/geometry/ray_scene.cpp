@@ -38,6 +38,14 @@ bool RayScene::has(const PreparedTriangle& triangle) const {
 void RayScene::add_resting() {
   std::vector<Vec3f> positions;
   std::vector<std::uint32_t> indices;
+  std::size_t vertices = 0, triangles = 0;
+  for (const PlacedMesh& piece : scene_.placed) {
+    const PreparedMesh& mesh = scene_.meshes[piece.mesh];
+    if (part_ == Part::glass && !mesh.glass) continue;
+    triangles += level_of(mesh).triangle_count;
+    if (!piece.moves) vertices += mesh.vertices.size();
+  }
+  positions.reserve(vertices), indices.reserve(3 * triangles), triangles_.reserve(triangles);
   for (std::uint32_t i = 0; i < scene_.placed.size(); ++i) {
     const PlacedMesh& piece = scene_.placed[i];
     if (piece.moves) continue;

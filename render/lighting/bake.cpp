@@ -25,9 +25,9 @@ BakedScene open_sky_light(const PreparedScene& scene, const LightSet& light) {
   return out;
 }
 
-BakedScene bake_light(const PreparedScene& scene, const LightSet& light, const AlbedoAt& albedo,
+BakedScene bake_light(const PreparedScene& scene, SceneRays& rays, const LightSet& light, const AlbedoAt& albedo,
                       const BakeOptions& options, const std::function<void(double)>& progress) {
-  Baker baker(scene, light, albedo, options);
+  Baker baker(scene, rays.solid(), light, albedo, options);
   baker.run(progress);
   const std::vector<Vec3f> radiance = baker.triangle_radiance();
   BakedScene out{baker.node_light(), bake_air({scene, light, baker.rays(), radiance, options.threads}), baker.links()};

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kernel/base/system/disk_cache.h"
-#include "render/geometry/ray_scene.h"
+#include "render/geometry/scene_rays.h"
 #include "render/lighting/lighting.h"
 
 namespace rubble {
@@ -67,14 +67,14 @@ BakedScene open_sky_light(const PreparedScene& scene, const LightSet& light);
 // mean over some centimetres. Called from several threads.
 using AlbedoAt = std::function<Vec3f(const RayScene::Triangle& triangle, float u, float v)>;
 
-// progress: called with the done fraction, on the calling thread.
-BakedScene bake_light(const PreparedScene& scene, const LightSet& light, const AlbedoAt& albedo,
+// rays: of that scene. progress: called with the done fraction, on the calling thread.
+BakedScene bake_light(const PreparedScene& scene, SceneRays& rays, const LightSet& light, const AlbedoAt& albedo,
                       const BakeOptions& options, const std::function<void(double)>& progress);
 
 // The same by way of the disk cache: made only if it is not there. surfaces: what the albedos follow from
 // besides the scene, as a hash.
-BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene, const LightSet& light,
-                           const AlbedoAt& albedo, const std::string& surfaces, const BakeOptions& options,
+BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene, SceneRays& rays,
+                           const LightSet& light, const AlbedoAt& albedo, const std::string& surfaces, const BakeOptions& options,
                            const std::function<void(double)>& progress);
 
 }  // namespace rubble

@@ -61,10 +61,10 @@ std::string key_of(const PreparedScene& scene, const LightSet& light, const std:
 
 }  // namespace
 
-BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene, const LightSet& light,
-                           const AlbedoAt& albedo, const std::string& surfaces, const BakeOptions& options,
+BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene, SceneRays& rays,
+                           const LightSet& light, const AlbedoAt& albedo, const std::string& surfaces, const BakeOptions& options,
                            const std::function<void(double)>& progress) {
-  if (cache.folder().empty()) return bake_light(scene, light, albedo, options, progress);
+  if (cache.folder().empty()) return bake_light(scene, rays, light, albedo, options, progress);
   const std::string key = key_of(scene, light, surfaces, options);
   if (const auto bytes = cache.find("baked_light", key)) {
     BakedScene out;
@@ -74,7 +74,7 @@ BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene, c
     reader.get(out.links.seen), reader.get(out.links.albedos), reader.get(out.links.radiance);
     if (reader.whole() && out.nodes.size() == scene.light_nodes) return out;
   }
-  const BakedScene out = bake_light(scene, light, albedo, options, progress);
+  const BakedScene out = bake_light(scene, rays, light, albedo, options, progress);
   CacheWriter writer;
   writer.put(out.nodes), writer.put(out.air.origin), writer.put(out.air.cell);
   writer.put(out.air.size), writer.put(out.air.radiance), writer.put(out.air.direct);

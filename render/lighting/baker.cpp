@@ -54,11 +54,12 @@ std::vector<NodesOfPoint> nodes_of_points(const std::vector<std::uint32_t>& near
 
 }  // namespace
 
-Baker::Baker(const PreparedScene& scene, const LightSet& light, const AlbedoAt& albedo, const BakeOptions& options)
+Baker::Baker(const PreparedScene& scene, const RayScene& solid, const LightSet& light, const AlbedoAt& albedo,
+             const BakeOptions& options)
     : scene_(scene),
       light_(light),
       options_(options),
-      rays_(scene, RayScene::Detail::finest, RayScene::Part::solid),
+      rays_(solid),
       sheets_(scene),
       first_directions_(cosine_directions(std::min(kFirstRays, std::size_t(options.rays)))),
       directions_(cosine_directions(std::min(kRound, std::size_t(options.rays)))) {

@@ -19,7 +19,8 @@ namespace rubble {
 
 class Baker {
  public:
-  Baker(const PreparedScene& scene, const LightSet& light, const AlbedoAt& albedo, const BakeOptions& options);
+  Baker(const PreparedScene& scene, const RayScene& solid, const LightSet& light, const AlbedoAt& albedo,
+        const BakeOptions& options);
 
   void run(const std::function<void(double)>& progress);
   std::vector<BakedLight> node_light() const;
@@ -102,8 +103,8 @@ class Baker {
   const PreparedScene& scene_;
   const LightSet& light_;
   BakeOptions options_;
-  RayScene rays_;       // of all but glass
-  GlassSheets sheets_;  // of glass, which dims light and does nothing else to it
+  const RayScene& rays_;  // of all but glass
+  GlassSheets sheets_;    // of glass, which dims light and does nothing else to it
   std::vector<Vec3f> first_directions_, directions_;  // about +Z
   std::vector<Point> points_;                       // of all placed meshes
   std::vector<std::uint32_t> first_point_;          // of each placed mesh

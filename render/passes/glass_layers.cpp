@@ -21,11 +21,11 @@ float behind(float distance) { return distance * (1 + 1e-5f) + 1e-4f; }
 
 }  // namespace
 
-GlassRays::GlassRays(const PreparedScene& scene, const GpuGeometry& geometry, int threads)
+GlassRays::GlassRays(const PreparedScene& scene, const GpuGeometry& geometry, SceneRays& rays, int threads)
     : scene_(scene),
       geometry_(geometry),
       threads_(threads),
-      solid_(scene, RayScene::Detail::finest, RayScene::Part::solid),
+      rays_(rays),
       sheets_(scene) {}
 
 bool GlassRays::shows_glass(const std::uint32_t* ids) const {
@@ -53,7 +53,7 @@ bool GlassRays::begin_layer(const ViewRays& view, const std::uint32_t* ids, Glas
   return true;
 }
 
-void GlassRays::cast(const ViewRays& view, const Pixel& pixel, bool last, GlassLayer& out) const {
+void GlassRays::cast(const RayScene& solid, const ViewRays& view, const Pixel& pixel, bool last, GlassLayer& out) const {
   const Pose pose = view.pose(pixel.v);
   const Vec3f d(view.direction(pixel.u, pixel.v));
   const float slope = 1 / std::max(d.z, RayPass::kLeastCosine);
@@ -63,7 +63,7 @@ void GlassRays::cast(const ViewRays& view, const Pixel& pixel, bool last, GlassL
   const float before = kNearPlane * slope / value;
   RayScene::Ray ray{Vec3f(pose.translation), behind(before), Vec3f(pose.rotation.rotate(Vec3(d))), kRayEnd};
   RayScene::PreciseHit hit, sheet;
-  solid_.cast_many(&ray, 1, RayScene::Order::scattered, &hit);
+  solid.cast_many(&ray, 1, RayScene::Order::scattered, &hit);
   if (hit.triangle != RayScene::kNone) ray.farthest = hit.distance;
   if (!last) sheet = sheets_.next(ray);
   if (sheet.triangle != RayScene::kNone && sheet.distance - before < kSameSheet &&
@@ -79,7 +79,7 @@ void GlassRays::cast(const ViewRays& view, const Pixel& pixel, bool last, GlassL
     value = GlassLayer::kDark;
     return;
   }
-  const RayScene::Triangle& t = glass ? sheets_.triangles()[hit.triangle] : solid_.triangles()[hit.triangle];
+  const RayScene::Triangle& t = glass ? sheets_.triangles()[hit.triangle] : solid.triangles()[hit.triangle];
   id[0] = t.placed + 1;
   id[1] = geometry_.name_of_triangle[geometry_.first_index[scene_.placed[t.placed].mesh] / 3 + t.source];
   value = kNearPlane * slope / hit.distance;
@@ -87,7 +87,7 @@ void GlassRays::cast(const ViewRays& view, const Pixel& pixel, bool last, GlassL
 
 std::vector<GlassLayer> GlassRays::find(const ViewRays& view, const std::uint32_t* ids,
                                         const std::vector<float>& depth_values) {
-  solid_.follow();
+  const RayScene& solid = rays_.solid();
   sheets_.follow();
   std::vector<GlassLayer> out;
   while (out.size() < kMostLayers) {
@@ -98,7 +98,7 @@ std::vector<GlassLayer> GlassRays::find(const ViewRays& view, const std::uint32_
     const bool last = out.size() + 1 == kMostLayers;
     parallel_for((pixels_.size() + kPixelChunk - 1) / kPixelChunk, threads_, [&](std::size_t job) {
       for (std::size_t i = job * kPixelChunk; i < std::min((job + 1) * kPixelChunk, pixels_.size()); ++i)
-        cast(view, pixels_[i], last, layer);
+        cast(solid, view, pixels_[i], last, layer);
     });
     out.push_back(std::move(layer));
   }

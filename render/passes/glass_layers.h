@@ -8,6 +8,7 @@
 #include "render/camera/view_rays.h"
 #include "render/geometry/geometry.h"
 #include "render/geometry/glass_sheets.h"
+#include "render/geometry/scene_rays.h"
 
 namespace rubble {
 
@@ -28,7 +29,7 @@ class GlassRays {
   static constexpr std::size_t kMostLayers = 3;  // sheets behind as many are not there
 
   // What they refer to must outlive it.
-  GlassRays(const PreparedScene& scene, const GpuGeometry& geometry, int threads);
+  GlassRays(const PreparedScene& scene, const GpuGeometry& geometry, SceneRays& rays, int threads);
 
   // Outermost first; none: no pixel shows glass. ids, depth_values: of the view, as in GlassLayer.
   std::vector<GlassLayer> find(const ViewRays& view, const std::uint32_t* ids, const std::vector<float>& depth_values);
@@ -40,12 +41,12 @@ class GlassRays {
   };
   bool shows_glass(const std::uint32_t* ids) const;
   bool begin_layer(const ViewRays& view, const std::uint32_t* ids, GlassLayer& out);  // finds pixels_
-  void cast(const ViewRays& view, const Pixel& pixel, bool last, GlassLayer& out) const;
+  void cast(const RayScene& solid, const ViewRays& view, const Pixel& pixel, bool last, GlassLayer& out) const;
 
   const PreparedScene& scene_;
   const GpuGeometry& geometry_;
   int threads_;
-  RayScene solid_;
+  SceneRays& rays_;
   GlassSheets sheets_;
   std::vector<Pixel> pixels_;
 };

@@ -77,7 +77,7 @@ class GroundTruthMaker::Seen : public SeenSurface {
 
   Vec3 normal() const override { return maker_.find_normal(pixel, world_from_optical); }
   bool blocked(const Vec3f& from, const Vec3f& direction, float farthest) const override {
-    return maker_.rays_->blocked(from, direction, 0, farthest);
+    return maker_.free_->blocked(from, direction, 0, farthest);
   }
   std::optional<std::array<double, 2>> in_next_frame() const override {
     if (!view_.next) return std::nullopt;
@@ -155,15 +155,9 @@ std::vector<Vec3f> GroundTruthMaker::shifts(const DrawnView& view) const {
   return out;
 }
 
-const RayScene& GroundTruthMaker::rays() {
-  if (!rays_) rays_ = std::make_unique<RayScene>(scene_, RayScene::Detail::finest);
-  rays_->follow();
-  return *rays_;
-}
-
 std::vector<std::uint8_t> GroundTruthMaker::line_of_sight_mask(const DrawnView& view,
                                                                const Vec3& place_in_camera) {
-  const RayScene& free = rays();
+  const RayScene& free = rays_.all();
   const Vec3 place = camera_from_optical.inverse() * place_in_camera;
   const std::size_t width = std::size_t(view.rays.intrinsics.width);
   std::vector<std::uint8_t> out(view.distances.size(), 0);
@@ -210,7 +204,7 @@ void GroundTruthMaker::fill(const StreamSet& streams, const DrawnView& view, Tru
     ImageValues& image = truth[stream->name];
     image = stream->blank(view.distances.size());
     images.emplace_back(stream, &image);
-    if (stream->casts_rays) rays();
+    if (stream->casts_rays) free_ = &rays_.all();
   }
   const Lens lens(view.rays.intrinsics);
   const std::size_t width = std::size_t(view.rays.intrinsics.width);

@@ -3,13 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "render/camera/view_rays.h"
 #include "render/geometry/geometry.h"
 #include "render/geometry/moving_pieces.h"
-#include "render/geometry/ray_scene.h"
+#include "render/geometry/scene_rays.h"
 #include "render/scene/camera_spec.h"
 #include "render/scene/frame.h"
 
@@ -28,8 +27,8 @@ struct DrawnView {
 
 class GroundTruthMaker {
  public:
-  GroundTruthMaker(const PreparedScene& scene, const GpuGeometry& geometry, int threads)
-      : scene_(scene), geometry_(geometry), threads_(threads) {}
+  GroundTruthMaker(const PreparedScene& scene, const GpuGeometry& geometry, SceneRays& rays, int threads)
+      : scene_(scene), geometry_(geometry), rays_(rays), threads_(threads) {}
 
   // Makes these streams of ground truth.
   void fill(const StreamSet& streams, const DrawnView& view, TruthImages& truth);
@@ -45,7 +44,6 @@ class GroundTruthMaker {
   struct Corners;
   class Seen;
 
-  const RayScene& rays();
   Corners corners_of(const Pixel& pixel) const;
   std::optional<Vec3> where_next(const DrawnView& view, std::uint32_t placed, const Vec3& world) const;
   Vec3 find_normal(const Pixel& pixel, const Pose& world_from_optical) const;
@@ -55,8 +53,9 @@ class GroundTruthMaker {
 
   const PreparedScene& scene_;
   const GpuGeometry& geometry_;
+  SceneRays& rays_;
+  const RayScene* free_ = nullptr;  // all as they stood when they were last asked for
   int threads_;
-  std::unique_ptr<RayScene> rays_;  // made when they are first asked for
 };
 
 }  // namespace rubble

@@ -20,13 +20,14 @@ bool same_pinhole(const Intrinsics& a, const Intrinsics& b) {
 
 }  // namespace
 
-RayPass::RayPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry, int threads, bool textures)
+RayPass::RayPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry, SceneRays& rays, int threads,
+                 bool textures)
     : gl_(gl),
       scene_(scene),
       geometry_(geometry),
       threads_(threads),
       textures_(textures),
-      rays_(scene, RayScene::Detail::finest) {}
+      rays_(rays) {}
 
 void RayPass::resize(const ViewRays& view) {
   const int width = view.intrinsics.width, height = view.intrinsics.height;
@@ -109,13 +110,13 @@ void RayPass::cast_row(const ViewRays& view, int v) {
     const Vec3 along = pose.rotation.rotate(Vec3(d));
     const Vec3f ray(along);
     float near = kNearPlane * slope;
-    RayScene::Hit hit = rays_.cast(eye, ray, near, kFarthest);
+    RayScene::Hit hit = scene_rays_->cast(eye, ray, near, kFarthest);
     for (int back = 0; hit.triangle != RayScene::kNone && hit.back && back < kMostBacks; ++back) {
       near = hit.distance * (1 + 1e-6f) + 1e-6f;
-      hit = rays_.cast(eye, ray, near, kFarthest);
+      hit = scene_rays_->cast(eye, ray, near, kFarthest);
     }
     if (hit.triangle == RayScene::kNone || hit.back) continue;
-    const RayScene::Triangle& triangle = rays_.triangles()[hit.triangle];
+    const RayScene::Triangle& triangle = scene_rays_->triangles()[hit.triangle];
     const double t = exact_distance(triangle, pose.translation, along, double(hit.distance));
     const std::uint32_t mesh = scene_.placed[triangle.placed].mesh;
     id_values_[i * 2] = triangle.placed + 1;
@@ -130,7 +131,7 @@ void RayPass::draw(const ViewRays& view) {
   resize(view);
   find_lens(view);
   find_poses(view);
-  rays_.follow();
+  scene_rays_ = &rays_.all();
   parallel_for(std::size_t(height_), threads_, [&](std::size_t v) { cast_row(view, int(v)); });
   if (!textures_) return;
   gl_.TextureSubImage2D(ids_.name(), 0, 0, 0, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT,

@@ -12,7 +12,7 @@
 
 #include "render/camera/view_rays.h"
 #include "render/geometry/geometry.h"
-#include "render/geometry/ray_scene.h"
+#include "render/geometry/scene_rays.h"
 #include "render/gl/gl_objects.h"
 
 namespace rubble {
@@ -22,7 +22,8 @@ class RayPass {
   static constexpr float kLeastCosine = 0.05f;
 
   // textures: false: those below stay empty.
-  RayPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry, int threads, bool textures);
+  RayPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry, SceneRays& rays, int threads,
+          bool textures);
 
   void draw(const ViewRays& view);
 
@@ -51,7 +52,8 @@ class RayPass {
   const GpuGeometry& geometry_;
   int threads_;
   bool textures_;
-  RayScene rays_;
+  SceneRays& rays_;
+  const RayScene* scene_rays_ = nullptr;              // as the view is drawn
   std::shared_ptr<const LensDirections> directions_;  // of the lens that is there
   Intrinsics pinhole_;                                // what they were made for ...
   bool own_directions_ = false;                       // ... when the view came without

@@ -6,7 +6,6 @@
 
 #include "kernel/base/parallel.h"
 #include "kernel/base/portable_math.h"
-#include "render/geometry/ray_scene.h"
 #include "render/lighting/lighting.h"
 
 namespace rubble {
@@ -44,7 +43,8 @@ AirGrid make_grid(const Aabb& box, bool above_ground) {
 
 class LinkMaker {
  public:
-  LinkMaker(const PreparedScene& scene, AirLinks& links) : scene_(scene), rays_(scene, RayScene::Detail::finest, RayScene::Part::solid), links_(links) {
+  LinkMaker(const PreparedScene& scene, const RayScene& rays, AirLinks& links)
+      : scene_(scene), rays_(rays), links_(links) {
     std::uint32_t next = 0;
     for (const PlacedMesh& piece : scene.placed) {
       first_point_.push_back(next);
@@ -60,7 +60,7 @@ class LinkMaker {
   void find_nearest(const std::vector<std::uint8_t>& open);
 
   const PreparedScene& scene_;
-  RayScene rays_;
+  const RayScene& rays_;
   AirLinks& links_;
   std::vector<std::uint32_t> first_point_;
 };
@@ -151,12 +151,12 @@ std::size_t AirLinks::neighbour(std::size_t i, int place) const {
   return ((z - 1) * ny + y - 1) * nx + x - 1;
 }
 
-AirLinks make_air_links(const PreparedScene& scene, const Aabb& box, int threads) {
+AirLinks make_air_links(const PreparedScene& scene, const RayScene& rays, const Aabb& box, int threads) {
   AirLinks links;
   links.grid = make_grid(box, std::any_of(scene.placed.begin(), scene.placed.end(),
                                           [](const PlacedMesh& piece) { return piece.id == kGroundId; }));
   links.directions = even_directions();
-  LinkMaker(scene, links).make(threads);
+  LinkMaker(scene, rays, links).make(threads);
   return links;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/geometry/geometry.h"
+#include "render/geometry/ray_scene.h"
 #include "render/lighting/radiance_grid.h"
 
 namespace rubble {
@@ -29,7 +30,7 @@ struct AirLinks {
 };
 
 // Points 0.4 m apart over the box, farther where that would be more than some thousands. scene: without what moves;
-// bake points are counted over its placed meshes in turn.
-AirLinks make_air_links(const PreparedScene& scene, const Aabb& box, int threads);
+// bake points are counted over its placed meshes in turn. rays: of what light does not pass through there.
+AirLinks make_air_links(const PreparedScene& scene, const RayScene& rays, const Aabb& box, int threads);
 
 }  // namespace rubble

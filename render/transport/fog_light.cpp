@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/geometry/ray_scene.h"
 #include "render/lighting/light_packing.h"
 #include "render/media/air_box.h"
 
@@ -29,15 +28,15 @@ float passes_to(const Air& air, const Aabb& box, const LightModel& light, const 
 
 }  // namespace
 
-FogLight::FogLight(const PreparedScene& scene, const Aabb& box, const LightSet& light, Radiance radiance, int threads)
+FogLight::FogLight(const PreparedScene& scene, const RayScene& rays, const Aabb& box, const LightSet& light,
+                   Radiance radiance, int threads)
     : box_(box),
       light_(light),
       radiance_(std::move(radiance)),
       pool_(std::max(1, threads)),
-      transfer_(make_air_links(scene, box, threads)) {
+      transfer_(make_air_links(scene, rays, box, threads)) {
   const AirGrid& grid = transfer_.links().grid;
   for (const Vec3f& d : transfer_.links().directions) sky_.push_back(d.z > 0 ? light_.sky.radiance(d) : Vec3f());
-  const RayScene rays(scene, RayScene::Detail::finest, RayScene::Part::solid);
   for (const LightModel& model : light_.lights) {
     std::vector<std::uint8_t>& lit = lit_.emplace_back(grid.count());
     pool_.run(int(grid.count()), 64, [&](int begin, int end) {

@@ -14,8 +14,10 @@ class FogLight {
  public:
   using Radiance = std::vector<AirTransfer::Colour>;  // of each bake point, matt; unit: kcd/m2
 
-  // scene: what rests; light: of it; radiance: of its bake points by that light in clear air.
-  FogLight(const PreparedScene& scene, const Aabb& box, const LightSet& light, Radiance radiance, int threads);
+  // scene: what rests; rays: of what light does not pass through there, for the constructor only; light: of the scene;
+  // radiance: of its bake points by that light in clear air.
+  FogLight(const PreparedScene& scene, const RayScene& rays, const Aabb& box, const LightSet& light, Radiance radiance,
+           int threads);
 
   // Light of the place in this air, without its billows and puffs.
   void set_air(const Air& air);

@@ -32,13 +32,13 @@ Vec3f direction_of(int x, int y) {
 
 }  // namespace
 
-LampBounce::LampBounce(const PreparedScene& scene, BakeLinks links, std::vector<std::uint32_t> first_point,
-                       int threads)
+LampBounce::LampBounce(const PreparedScene& scene, SceneRays& rays, BakeLinks links,
+                       std::vector<std::uint32_t> first_point, int threads)
     : scene_(scene),
       links_(std::move(links)),
       first_point_(std::move(first_point)),
       pool_(std::max(1, threads)),
-      rays_(scene, RayScene::Detail::finest, RayScene::Part::solid),
+      rays_(rays),
       map_(std::size_t(kSide) * kSide) {
   points_.resize(links_.albedos.size());
   lit_.resize(points_.size() / 64 + 1);
@@ -58,13 +58,13 @@ LampBounce::LampBounce(const PreparedScene& scene, BakeLinks links, std::vector<
 }
 
 void LampBounce::cast_map(const Vec3f& from) {
-  rays_.follow();
+  const RayScene& scene_rays = rays_.solid();
   pool_.run(kSide, 8, [&](int begin, int end) {
     std::array<RayScene::Ray, kSide> rays;
     std::array<RayScene::PreciseHit, kSide> hits;
     for (int y = begin; y < end; ++y) {
       for (int x = 0; x < kSide; ++x) rays[std::size_t(x)] = {from, 0, direction_of(x, y), kReach};
-      rays_.cast_many(rays.data(), rays.size(), RayScene::Order::coherent, hits.data());
+      scene_rays.cast_many(rays.data(), rays.size(), RayScene::Order::coherent, hits.data());
       for (std::size_t x = 0; x < kSide; ++x)
         map_[std::size_t(y) * kSide + x] = hits[x].triangle == RayScene::kNone ? kReach : hits[x].distance;
     }

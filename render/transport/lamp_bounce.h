@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "kernel/base/parallel.h"
-#include "render/geometry/ray_scene.h"
+#include "render/geometry/scene_rays.h"
 #include "render/lighting/bake.h"
 #include "render/transport/fog_light.h"
 #include "render/transport/scene_lights.h"
@@ -24,7 +24,8 @@ class LampBounce {
   // The scene must outlive it. links: of a bake of what rests there; what moves gets nothing.
   // first_point: of each placed mesh in turn, in the links; kNoPoints: it is not among them.
   static constexpr std::uint32_t kNoPoints = 0xffffffffu;
-  LampBounce(const PreparedScene& scene, BakeLinks links, std::vector<std::uint32_t> first_point, int threads);
+  LampBounce(const PreparedScene& scene, SceneRays& rays, BakeLinks links, std::vector<std::uint32_t> first_point,
+             int threads);
 
   struct Shown {
     std::uint32_t placed;    // which placed mesh
@@ -71,7 +72,7 @@ class LampBounce {
   BakeLinks links_;
   std::vector<std::uint32_t> first_point_;
   ThreadPool pool_;
-  RayScene rays_;
+  SceneRays& rays_;
   std::vector<Point> points_;
   float extinction_ = 0;
   std::uint64_t version_ = 0;             // of the base that out_ is made of; 0: none

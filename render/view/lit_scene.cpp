@@ -47,6 +47,7 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
       gl(c.gl()),
       options(o),
       scene(prepare_scene(s, o.threads)),
+      rays(scene),
       ground_map(make_ground_map(scene)),
       patterns(make_patterns_once(DiskCache(o.cache_folder), o.texture_size, o.threads)),
       moving(s, scene),
@@ -85,6 +86,7 @@ BakedScene LitScene::bake(double wetness, const std::function<void(double)>& pro
   std::vector<std::uint32_t> first_light;  // in the whole scene, of each piece that rests
   const PreparedScene resting = moving.any() ? resting_part(scene, first_light) : PreparedScene();
   const PreparedScene& part = moving.any() ? resting : scene;
+  SceneRays resting_rays(resting);
   BakedScene baked;
   if (options.bake && !is_traced()) {
     BakeOptions bake;
@@ -92,7 +94,7 @@ BakedScene LitScene::bake(double wetness, const std::function<void(double)>& pro
     bake.rays = options.bake_rays;
     bake.seed = seed;
     const LookSurfaces surfaces(part, patterns, ground_map, wetness);
-    baked = bake_light_once(DiskCache(options.cache_folder), part, resting_light, drawn_albedo(surfaces),
+    baked = bake_light_once(DiskCache(options.cache_folder), part, moving.any() ? resting_rays : rays, resting_light, drawn_albedo(surfaces),
                             surroundings_key({part, resting_light, patterns, ground_map, wetness}), bake,
                             progress);
   } else {
@@ -125,8 +127,9 @@ void LitScene::light_air(std::int64_t stamp_ns) {
   if (!draft && !medium.clear() && !fog_light_ && !radiance_.empty()) {
     std::vector<std::uint32_t> first_light;
     const PreparedScene resting = moving.any() ? resting_part(scene, first_light) : PreparedScene();
-    fog_light_ = std::make_unique<FogLight>(moving.any() ? resting : scene, air_box(scene.bounds), resting_light,
-                                            std::move(radiance_), options.threads);
+    SceneRays resting_rays(resting);
+    fog_light_ = std::make_unique<FogLight>(moving.any() ? resting : scene, (moving.any() ? resting_rays : rays).solid(),
+                                            air_box(scene.bounds), resting_light, std::move(radiance_), options.threads);
   }
   if (FogLight* fog = fog_light()) {
     if (air_changed_) fog->set_air(air_at(stamp_ns));
@@ -163,8 +166,7 @@ LampBounce& LitScene::lamp_bounce() {
     first_point.push_back(piece.moves ? LampBounce::kNoPoints : next);
     if (!piece.moves) next += std::uint32_t(scene.meshes[piece.mesh].bake_points.size());
   }
-  lamp_bounce_ = std::make_unique<LampBounce>(scene, std::move(links_), std::move(first_point),
-                                              options.threads);
+  lamp_bounce_ = std::make_unique<LampBounce>(scene, rays, std::move(links_), std::move(first_point), options.threads);
   return *lamp_bounce_;
 }
 

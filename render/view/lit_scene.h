@@ -8,6 +8,7 @@
 #include "render/geometry/geometry.h"
 #include "render/geometry/ground_map.h"
 #include "render/geometry/moving_pieces.h"
+#include "render/geometry/scene_rays.h"
 #include "render/gl/gl_context.h"
 #include "render/lighting/bake.h"
 #include "render/lighting/live_light.h"
@@ -31,6 +32,7 @@ struct LitScene {
   const Gl& gl;                           // of that context
   RenderOptions options;                  // as given
   PreparedScene scene;                    // as it stands at the moment of the last move_to()
+  SceneRays rays;                         // of that scene
   GroundMap ground_map;                   // of debris on the ground
   std::vector<PatternImage> patterns;     // of the looks
   MovingPieces moving;                    // what move_to() moves

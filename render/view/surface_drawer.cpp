@@ -65,7 +65,7 @@ void DrawnSurfaces::draw() {
     triangles_ = drawer_.visibility_.counts().triangles;
   } else {
     if (!drawer_.rays_)
-      drawer_.rays_ = std::make_unique<RayPass>(lit.gl, lit.scene, lit.geometry,
+      drawer_.rays_ = std::make_unique<RayPass>(lit.gl, lit.scene, lit.geometry, lit.rays,
                                                 lit.options.threads, !lit.shades_on_processor());
     drawer_.rays_->draw(view_);
   }
@@ -101,7 +101,7 @@ void DrawnSurfaces::find_behind(const std::uint32_t* ids) {
   if (found_behind_ || !lit.scene.glass) return;
   found_behind_ = true;
   if (!drawer_.glass_)
-    drawer_.glass_ = std::make_unique<GlassRays>(lit.scene, lit.geometry, lit.options.threads);
+    drawer_.glass_ = std::make_unique<GlassRays>(lit.scene, lit.geometry, lit.rays, lit.options.threads);
   behind_ = drawer_.glass_->find(view_, ids ? ids : this->ids().data(), depth_values());
 }
 

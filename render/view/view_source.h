@@ -16,7 +16,7 @@ struct ViewSource {
         surfaces(scene),
         colours(scene),
         drops(scene),
-        truth(scene.scene, scene.geometry, options.threads) {}
+        truth(scene.scene, scene.geometry, scene.rays, options.threads) {}
 
   LitScene scene;          // as prepared by the renderer
   SurfaceDrawer surfaces;  // of that scene

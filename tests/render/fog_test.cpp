@@ -123,7 +123,8 @@ TEST(AirTransfer, KeepsEvenLightAndWeakensItByTheLaw) {
   const PreparedScene prepared = prepare_scene(scene, 1);
   Aabb box;
   box.include({-2, -1.5, -1.2}), box.include({2, 1.5, 1.2});
-  AirTransfer transfer(make_air_links(prepared, box, 1));
+  const RayScene rays(prepared, RayScene::Detail::finest);
+  AirTransfer transfer(make_air_links(prepared, rays, box, 1));
   const std::size_t count = transfer.links().grid.count();
   std::size_t points = 0;
   for (const PlacedMesh& piece : prepared.placed) points += prepared.meshes[piece.mesh].bake_points.size();

@@ -35,5 +35,11 @@ fi
 
 echo "Installing with apt:$missing"
 $as_root env DEBIAN_FRONTEND=noninteractive apt-get update -q
+# An installation that was cut off leaves packages half configured, and apt refuses to go on.
+if [ -n "$(dpkg --audit)" ]; then
+  echo "An earlier installation was interrupted: finishing it first (dpkg --configure -a)"
+  $as_root env DEBIAN_FRONTEND=noninteractive dpkg --configure -a ||
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -f -q -y --no-install-recommends
+fi
 # shellcheck disable=SC2086  # the names are words on purpose
 $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing

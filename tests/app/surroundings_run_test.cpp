@@ -252,6 +252,7 @@ TEST(SurroundingsRun, ALidarMeasuresTheStreetOfTheExport) {
       divergence_mrad = 0, range_at_10_percent = 500 } },
   outputs = { pcd = true,)");
   text.replace(text.find("-1, 3.1, 1.7"), 12, "-1, 3, 1.7");
+  text.replace(text.find("frames = true"), 13, "frames = false");
   write_file(folder / "m.lua", text);
   const Outcome run = run_rubble("run " + (folder / "m.lua") + " --quiet --out " + (folder / "out"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -299,7 +300,7 @@ TEST(SurroundingsRun, PagesAndSectionsSayThatTheyLeaveThemOut) {
   const ScratchFolder folder;
   write_file(folder / "m.lua", kMission);
   const std::string out = folder / "out", bare = folder / "bare", none = " --set surroundings.type=none";
-  ASSERT_EQ(run_rubble("run " + (folder / "m.lua") + " --quiet --out " + out).exit_code, 0);
+  ASSERT_EQ(run_rubble("settle " + (folder / "m.lua") + " --quiet --out " + out).exit_code, 0);
   ASSERT_EQ(run_rubble("settle " + (folder / "m.lua") + none + " --quiet --out " + bare).exit_code, 0);
   ASSERT_EQ(run_rubble("view " + out).exit_code, 0);
   ASSERT_EQ(run_rubble("view " + bare).exit_code, 0);

@@ -26,9 +26,11 @@ namespace {
 void show_settling(const SettleProgress& p, const SettleOptions& options, Progress& progress) {
   const double limit = p.layer < p.layers ? options.layer_time_limit : options.final_time_limit;
   const double layer = std::min(1.0, p.layer_time / limit);
+  const std::string pieces = std::to_string(p.pieces) + " pieces";
   progress.update((std::max(0, p.layer - 1) + layer) / std::max(1, p.layers),
                   "layer " + std::to_string(p.layer) + " of " + std::to_string(p.layers) + ", " +
-                      std::to_string(p.awake) + " of " + std::to_string(p.pieces) + " pieces moving");
+                      (p.verifying ? "verifying that " + pieces + " rest"
+                                   : std::to_string(p.awake) + " of " + pieces + " awake"));
 }
 
 // Shows how far it is, and keeps a checkpoint every few seconds of the clock on the wall: when one

@@ -151,6 +151,7 @@ class Settling {
     p.simulated = world_.time();
     p.pieces = world_.size();
     p.awake = world_.awake_count();
+    p.verifying = world_.verifying_rest();
     if (!collapse_) p.make_checkpoint = [this] { return make_checkpoint(); };
     if (collapse_) p.collapse = collapse_->report();
     return progress_(p);

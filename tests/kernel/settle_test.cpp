@@ -91,6 +91,21 @@ TEST(Settle, LoosePlacedPiecesSettleFirst) {
   EXPECT_EQ(state.pieces[0].layer, -1);
 }
 
+TEST(Settle, TheCallbackHearsWhenRestIsVerified) {
+  const Pile pile = generate_pile(small_pile(24));
+  int verifying = 0;
+  bool falling = false, went_back = false;
+  const PileState state = settle_pile(pile, {}, [&](const SettleProgress& p) {
+    if (p.verifying) EXPECT_EQ(p.layer, p.layers);
+    went_back = went_back || (verifying > 0 && !p.verifying);
+    p.verifying ? void(++verifying) : void(falling = true);
+    return true;
+  });
+  EXPECT_TRUE(state.settled && falling);
+  EXPECT_GE(verifying, 30) << "half a second";
+  EXPECT_FALSE(went_back);
+}
+
 TEST(Settle, TheCallbackCanStopIt) {
   const Pile pile = generate_pile(small_pile(24));
   int calls = 0;

@@ -14,7 +14,8 @@ inline constexpr float kKickShare = 0.4F;
 // without it, a bent bar on two supports swings for minutes, where a real one rests after seconds. Sliding is
 // not damped, so a piece that creeps down a slope does not count as at rest. unit: s
 inline constexpr float kPatience = 3;
-// From this time of a verification on, rolling resistance has its full strength, and no piece sleeps. unit: s
+// From this time of a verification on, rolling resistance has its full strength, and no piece sleeps. It is
+// switched off to see what it alone holds, see kernel/world/phases/verification.cpp. unit: s
 inline constexpr float kPatienceEnds = 5;
 // Largest share of its angular speed that rolling resistance takes from a piece in a step. A larger share
 // makes a slow swing creep instead of swinging out. unit: 1

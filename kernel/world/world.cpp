@@ -179,6 +179,8 @@ void World::begin_rest_verification() {
     body.later_steps = 0;
   }
   impl_->data.verification_steps = impl_->data.all_awake_since = 0;
+  impl_->data.undamped_since = -1;
+  impl_->data.undamped_tries = 0;
 }
 
 void World::set_sleeping(bool allowed) {

@@ -134,7 +134,8 @@ class World {
   bool verifying_rest() const;
   // Since begin_rest_verification(): every piece is awake, below both speeds, touches something, and
   // has stayed within 1 mm for 0.5 s or within 4 mm for 1 s, all at the same time. So nothing that
-  // slides or creeps faster than 4 mm/s passes.
+  // slides or creeps faster than 4 mm/s passes, nor what goes faster and faster. What rolling resistance alone
+  // holds (kernel/solver/speed_limits.h) is let go up to three times before it passes.
   bool rest_verified(double speed, double angular_speed) const;
   // Whether a piece sleeps, or has stayed in place as rest_verified() demands.
   bool within_rest_tolerance(int index) const;

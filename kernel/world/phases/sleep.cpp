@@ -28,6 +28,15 @@ constexpr SleepTerms kGrowing{0.0015, 0.2, 0.006, 0.6, 0.1F, 0.25F, 0.05F};
 // Whether it rests is decided on these: who creeps slowly must not pass for one that stays.
 constexpr SleepTerms kVerifying{0.001, 0.5, 0.004, 1.0, 0.1F, 0.25F, 0.05F};
 
+// Who has gone farther than this in `still_time`, while rest is verified, has to stay for twice that time: at a
+// steady acceleration it would go four times as far. unit: m
+constexpr double kSurelyStill = 0.0003;
+// A piece that has only stayed within `loose_distance` goes faster and faster if its latest pace is larger than its
+// mean by this factor. unit: 1
+constexpr double kHasteningRatio = 1.5;
+constexpr double kHasteningPace = 0.002;  // and if it is larger than this; unit: m/s
+constexpr double kPaceTime = 0.25;        // the shortest time over which a pace is taken; unit: s
+
 constexpr double kSleepOverlapTime = 2.0;  // time for which a deep overlap keeps a piece awake; unit: s
 
 // A sleeping piece wakes at once if the impulse of a hit exceeds its mass times `hit_speed`, plus this share of
@@ -240,10 +249,26 @@ void Sleep::put_all_to_sleep(const StepPairs& step) {
   data_.verification_steps = -1;
 }
 
+// Whether a piece that stays near its loose pose goes faster and faster: it will not stay for long.
+bool Sleep::is_hastening(const Body& body) const {
+  const double step = settings_.options.step;
+  const Vec3f& reach = bodies_.reach_of(body);
+  const double pace = calc_departure(body, reach, body.loose_pose) / (double(body.loose_steps) * step);
+  const int least = int(kPaceTime / step);
+  const bool apart = body.later_steps >= least && body.loose_steps >= body.later_steps + least;
+  const double later = apart ? calc_departure(body, reach, body.later_pose) / (double(body.later_steps) * step)
+                             : double(norm(body.linear));
+  return later > kHasteningPace && later > kHasteningRatio * pace;
+}
+
 bool Sleep::within_rest_tolerance(const Body& body) const {
   const SleepTerms& t = kVerifying;
-  return body.still_steps >= int(t.still_time / settings_.options.step) ||
-         body.loose_steps >= int(t.loose_time / settings_.options.step);
+  const int wait = int(t.still_time / settings_.options.step);
+  if (body.still_steps >= 2 * wait) return true;
+  if (body.still_steps >= wait && calc_departure(body, bodies_.reach_of(body), body.still_pose) <= kSurelyStill) {
+    return true;
+  }
+  return body.loose_steps >= int(t.loose_time / settings_.options.step) && !is_hastening(body);
 }
 
 bool Sleep::is_driven(std::int32_t body) const {

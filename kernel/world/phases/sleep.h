@@ -39,6 +39,7 @@ class Sleep {
   void find_overlapping(const StepPairs& step);
   void count_still_steps(const StepPairs& step);
   void stay_awake_near_robots(const StepPairs& step);
+  bool is_hastening(const Body& body) const;
   bool is_driven(std::int32_t body) const;
   bool touches_robot(const Contact& contact) const;
   void put_to_sleep(const StepPairs& step);  // those that slept_ marks
@@ -50,6 +51,8 @@ class Sleep {
   void spread_disturbance(const StepPairs& step);
   void doze(const StepPairs& step);
   void wake_dozing();
+  bool is_damped() const;
+  void begin_undamped_try();
 
   WorldData& data_;
   const WorldSettings& settings_;

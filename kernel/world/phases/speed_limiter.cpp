@@ -94,6 +94,7 @@ void SpeedLimiter::clamp_ejections(const StepPairs& step, StepMotions& motions) 
 }
 
 float SpeedLimiter::calc_lateness() const {
+  if (data_.undamped_since >= 0) return 0;
   const float seconds = float(data_.verification_steps) * float(settings_.options.step);
   return std::clamp((seconds - kPatience) / (kPatienceEnds - kPatience), 0.0F, 1.0F);
 }

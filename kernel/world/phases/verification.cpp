@@ -3,7 +3,8 @@
 // Rest is verified with every piece awake. As long as a few pieces still move, the others need not be
 // computed: those that have been verified to stay in place, and are some contacts away from what
 // moves, doze. They wake as sleepers do. When nothing moves any more all are woken, and the verification
-// asks again: it succeeds only when all have stayed in place at the same time and awake.
+// asks again: it succeeds only when all have stayed in place at the same time and awake. If that took so long
+// that rolling resistance was on, it is switched off, and all must stay in place without it.
 #include <algorithm>
 
 #include "kernel/solver/speed_limits.h"
@@ -20,6 +21,11 @@ constexpr double kDozeInterval = 0.25;  // interval in which pieces that may sle
 constexpr int kDisturbedContacts = 3;
 // No piece sleeps while more than this share of the pieces would have to stay awake; unit: 1.
 constexpr double kMostDisturbed = 0.5;
+// When all stay in place with rolling resistance, they must do so without it. A try is given up after this time: a
+// piece that jitters needs 1 s to pass. unit: s
+constexpr double kUndampedTime = 1.2;
+// After so many tries rolling resistance is left on: what swings for minutes is held by it. unit: 1
+constexpr int kUndampedTries = 3;
 
 }  // namespace
 
@@ -66,14 +72,34 @@ void Sleep::wake_dozing() {
   data_.all_awake_since = data_.verification_steps;
 }
 
+bool Sleep::is_damped() const {
+  const double lasted = double(data_.verification_steps) * settings_.options.step;
+  return data_.undamped_since < 0 && lasted > double(kPatience);
+}
+
+// What rolling resistance may hold has to stay in place without it: all time that counts starts anew.
+void Sleep::begin_undamped_try() {
+  data_.undamped_since = data_.verification_steps;
+  ++data_.undamped_tries;
+  for (Body& body : data_.bodies) {
+    body.still_pose = body.loose_pose = body.later_pose = body.world_from_com;
+    body.still_steps = body.loose_steps = body.later_steps = 0;
+  }
+}
+
 void Sleep::update_verification(const StepPairs& step) {
   const int restless = mark_restless();
   const bool dozing = data_.all_awake_since < 0;
+  const auto steps = [this](double time) { return std::int64_t(time / settings_.options.step); };
   if (restless == 0) {
     if (dozing) wake_dozing();
+    if (is_damped() && data_.undamped_tries < kUndampedTries) begin_undamped_try();
     return;
   }
-  const auto steps = [this](double time) { return std::int64_t(time / settings_.options.step); };
+  if (data_.undamped_since >= 0) {
+    if (data_.verification_steps - data_.undamped_since > steps(kUndampedTime)) data_.undamped_since = -1;
+    return;
+  }
   // What has not come to rest by now may do so among neighbours that are awake.
   if (data_.verification_steps > steps(double(kPatienceEnds))) {
     if (dozing) wake_dozing();

@@ -113,7 +113,9 @@ class Settling {
       }
       if (is_collapsing()) return false;
       const bool waited = double(layer_steps_) * options_.step > kVerifyAfter;
-      if (waited || world_.at_rest(speed, angular_speed)) world_.begin_rest_verification();
+      if (waited || world_.at_rest(speed, angular_speed)) {
+        world_.begin_rest_verification(options_.final_time_limit - double(layer_steps_) * options_.step);
+      }
       return false;
     });
     overlap_ = world_.deepest_overlap();

@@ -172,13 +172,14 @@ void World::wake_all() {
   for (int i = 0; i < size(); ++i) impl_->waking.wake(i);
 }
 
-void World::begin_rest_verification() {
+void World::begin_rest_verification(double limit) {
   wake_all();
   for (Body& body : impl_->data.bodies) {
     body.later_pose = body.world_from_com;
     body.later_steps = 0;
   }
   impl_->data.verification_steps = impl_->data.all_awake_since = 0;
+  impl_->data.verification_limit = std::int64_t(std::min(limit, kLongestVerification) / impl_->settings.options.step);
   impl_->data.undamped_since = -1;
   impl_->data.undamped_tries = 0;
 }

@@ -35,6 +35,9 @@ enum class StepStage {
   none,      // between two steps
 };
 
+// As long as a verification of rest may take where no limit is given; unit: s.
+inline constexpr double kLongestVerification = 1e6;
+
 class World {
  public:
   // Throws InputError for a type or assembly whose geometry, material or joints are not valid.
@@ -129,13 +132,13 @@ class World {
   // Sleep is cheap to fall into while a pile grows, and who sleeps holds up others whatever they
   // weigh. This wakes every piece. Those that stay in place, far from what still moves, may doze until
   // nothing moves; then all are woken again, as rest is that of all at once. Needs sleeping to be
-  // allowed: nobody counts the time otherwise.
-  void begin_rest_verification();
+  // allowed: nobody counts the time otherwise. limit: when it is given up if it has not succeeded; unit: s.
+  void begin_rest_verification(double limit = kLongestVerification);
   bool verifying_rest() const;
   // Since begin_rest_verification(): every piece is awake, below both speeds, touches something, and
   // has stayed within 1 mm for 0.5 s or within 4 mm for 1 s, all at the same time. So nothing that
   // slides or creeps faster than 4 mm/s passes, nor what goes faster and faster. What rolling resistance alone
-  // holds (kernel/solver/speed_limits.h) is let go up to three times before it passes.
+  // holds (kernel/solver/speed_limits.h) is let go up to three times before it passes, while there is time.
   bool rest_verified(double speed, double angular_speed) const;
   // Whether a piece sleeps, or has stayed in place as rest_verified() demands.
   bool within_rest_tolerance(int index) const;

@@ -151,7 +151,7 @@ void each_field(Struct& d, Visit&& visit) {
   visit(d.contacts);
   visit(d.contact_of_pair), visit(d.wake_next), visit(d.trees), visit(d.groups), visit(d.steps);
   visit(d.verification_steps), visit(d.all_awake_since), visit(d.lost);
-  visit(d.undamped_since), visit(d.undamped_tries);
+  visit(d.verification_limit), visit(d.undamped_since), visit(d.undamped_tries);
   visit(d.robots), visit(d.ties), visit(d.tie_energy);
 }
 

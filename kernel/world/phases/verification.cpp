@@ -26,6 +26,9 @@ constexpr double kMostDisturbed = 0.5;
 constexpr double kUndampedTime = 1.2;
 // After so many tries rolling resistance is left on: what swings for minutes is held by it. unit: 1
 constexpr int kUndampedTries = 3;
+// No try begins this long before the end of the time that the verification may take: one that fails is followed by
+// some 2 s in which all come to rest again. unit: s
+constexpr double kTimeForTry = 4;
 
 }  // namespace
 
@@ -93,7 +96,8 @@ void Sleep::update_verification(const StepPairs& step) {
   const auto steps = [this](double time) { return std::int64_t(time / settings_.options.step); };
   if (restless == 0) {
     if (dozing) wake_dozing();
-    if (is_damped() && data_.undamped_tries < kUndampedTries) begin_undamped_try();
+    const bool in_time = data_.verification_steps <= data_.verification_limit - steps(kTimeForTry);
+    if (in_time && is_damped() && data_.undamped_tries < kUndampedTries) begin_undamped_try();
     return;
   }
   if (data_.undamped_since >= 0) {

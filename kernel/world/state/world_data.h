@@ -60,6 +60,7 @@ struct WorldData {
   std::int64_t steps = 0;
   std::int64_t verification_steps = -1;  // since begin_rest_verification(); -1: no verification
   std::int64_t all_awake_since = -1;     // in verification_steps; -1: some pieces doze
+  std::int64_t verification_limit = 0;   // steps after which nobody waits for its end any more
   // In verification_steps: since when rest is tried without rolling resistance; -1: it is not.
   std::int64_t undamped_since = -1;
   std::int32_t undamped_tries = 0;  // in this verification

@@ -1,6 +1,7 @@
 #include "kernel/world/phases/contact_search.h"
 
 #include "kernel/collision/surface_contact.h"
+#include "kernel/world/state/pairs.h"
 
 namespace rubble {
 namespace {

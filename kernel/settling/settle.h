@@ -40,7 +40,7 @@ struct SettleProgress {
   double layer_time = 0;      // simulated since the last spawn; unit: s
   double simulated = 0;       // unit: s
   int pieces = 0, awake = 0;
-  bool verifying = false;     // rest is verified: those that stay in place are awake, too
+  bool verifying = false;     // rest is verified: those that stay in place may be awake, too
   CollapseReport collapse;    // of a building, so far
   // Makes a checkpoint of this moment; may be called in the callback only. Empty where there is a
   // building: what was computed of its stresses is not kept, and settling starts anew.

@@ -136,8 +136,8 @@ class World {
   void begin_rest_verification(double limit = kLongestVerification);
   bool verifying_rest() const;
   // Since begin_rest_verification(): every piece is awake, below both speeds, touches something, and
-  // has stayed within 1 mm for 0.5 s or within 4 mm for 1 s, all at the same time. So nothing that
-  // slides or creeps faster than 4 mm/s passes, nor what goes faster and faster. What rolling resistance alone
+  // has stayed within 0.3 mm for 0.5 s, within 1 mm for 1 s, or within 4 mm for 1 s without going faster and
+  // faster, all at the same time. So nothing that slides or creeps faster than 4 mm/s passes. What rolling resistance alone
   // holds (kernel/solver/speed_limits.h) is let go up to three times before it passes, while there is time.
   bool rest_verified(double speed, double angular_speed) const;
   // Whether a piece sleeps, or has stayed in place as rest_verified() demands.

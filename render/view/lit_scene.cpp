@@ -94,7 +94,8 @@ BakedScene LitScene::bake(double wetness, const std::function<void(double)>& pro
     bake.rays = options.bake_rays;
     bake.seed = seed;
     const LookSurfaces surfaces(part, patterns, ground_map, wetness);
-    baked = bake_light_once(DiskCache(options.cache_folder), part, moving.any() ? resting_rays : rays, resting_light, drawn_albedo(surfaces),
+    baked = bake_light_once(DiskCache(options.cache_folder), part, moving.any() ? resting_rays : rays,
+                            resting_light, drawn_albedo(surfaces),
                             surroundings_key({part, resting_light, patterns, ground_map, wetness}), bake,
                             progress);
   } else {

@@ -119,18 +119,21 @@ FrameBlock fill_frame_block(const ViewProjection& view, const FrameLight& light,
 
 bool has_lamp(const FrameLight& frame) { return frame.lamp.on && frame.lamp.intensity_cd > 0; }
 
-bool lamp_shows(const FrameLight& light, double lamp_offset, float nearest_value, float exposure) {
+bool light_shows(const FrameLight& light, float white_radiance, float exposure) {
   // Exposed radiance that moves the darkest of 8-bit values by a quarter, see shaders/tone.glsl.
   constexpr float kUnseen = 4e-4f;
-  const Vec3f colour = lamp_colour(light.lamp);
-  const float intensity = std::max(colour.x, std::max(colour.y, colour.z)) * exposure;
-  if (nearest_value <= 0) return false;
-  // Of albedo 1, and the peak of the mirrored part; of water, see surface.glsl.
+  // And the peak of the mirrored part; of water, see surface.glsl.
   const float film = light.wetness > 0 ? mirrored_peak(0.02f, 0.12f) : 0.0f;
-  const float reflected = (1 + light.most_gloss + film) / float(portable::kPi);
+  return white_radiance * exposure * (1 + light.most_gloss + film) > kUnseen;
+}
+
+bool lamp_shows(const FrameLight& light, double lamp_offset, float nearest_value, float exposure) {
+  if (nearest_value <= 0) return false;
+  const Vec3f colour = lamp_colour(light.lamp);
+  const float intensity = std::max(colour.x, std::max(colour.y, colour.z));
   const float offset = float(lamp_offset);
   const float distance = std::max(kNearPlane / nearest_value - offset, 0.01f);
-  return intensity * reflected / (distance * distance) > kUnseen;
+  return light_shows(light, intensity / (float(portable::kPi) * distance * distance), exposure);
 }
 
 }  // namespace rubble

@@ -15,6 +15,8 @@ FrameBlock fill_frame_block(const ViewProjection& view, const FrameLight& light,
                             const GroundMap& ground, int texture_size, float exposure);
 
 bool has_lamp(const FrameLight& light);
+// Whether light changes an 8-bit image. white_radiance: the most that a matt white surface sends of it.
+bool light_shows(const FrameLight& light, float white_radiance, float exposure);
 // Whether the lamp changes an 8-bit image: in daylight it adds less than its steps can show.
 // lamp_offset: from the eye to the lamp; unit: m. nearest_value: the largest depth value of the
 // image.

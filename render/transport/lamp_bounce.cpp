@@ -84,8 +84,8 @@ float LampBounce::distance_towards(const Vec3f& d) const {
 }
 
 // Not where all of it lies behind what the lamp meets first.
-bool LampBounce::may_see(const PlacedMesh& piece, const PlacedLamp& lamp) const {
-  const Vec3f way = piece.centre - lamp.position;
+bool LampBounce::may_see(const PlacedMesh& piece) const {
+  const Vec3f way = piece.centre - lamp_.position;
   const float away = norm(way);
   if (away - piece.radius > kReach) return false;
   // A piece that fills more than a few directions may stick out somewhere.
@@ -108,21 +108,21 @@ void LampBounce::for_seen(const Work& work) {
   });
 }
 
-void LampBounce::light_points(const PlacedLamp& lamp) {
+void LampBounce::light_points() {
   for_seen([&](std::size_t i) { radiance_[i] = Light(); });  // of the lamp before
   seen_.clear();
   for (std::uint32_t piece = 0; piece < scene_.placed.size(); ++piece) {
-    is_seen_[piece] = first_point_[piece] != kNoPoints && may_see(scene_.placed[piece], lamp);
+    is_seen_[piece] = first_point_[piece] != kNoPoints && may_see(scene_.placed[piece]);
     if (is_seen_[piece]) seen_.push_back(piece);
   }
   for_seen([&](std::size_t i) {
-    const Vec3f way = points_[i].position - lamp.position;
+    const Vec3f way = points_[i].position - lamp_.position;
     const float facing = -dot(points_[i].normal, way), away2 = dot(way, way);
     if (facing <= 0 || away2 > kReach * kReach || away2 < 1e-6f) return;
     const float away = std::sqrt(away2);
     if (away > distance_towards(way) * (1 + kSlack) + kNear) return;
     const float kept = kept_at(away) * std::exp(-extinction_ * away) * facing / (away * portable::kPiF);
-    const Vec3f light = multiply(links_.albedos[i], lamp.illuminance(lamp.position, points_[i].position)) * kept;
+    const Vec3f light = multiply(links_.albedos[i], lamp_.illuminance(lamp_.position, points_[i].position)) * kept;
     radiance_[i] = {{light.x, light.y, light.z, 0}};
   });
 }
@@ -227,8 +227,8 @@ float LampBounce::share_again() const {
   return before > 0 ? std::min(float(after / before), kMostAgain) : 0;
 }
 
-void LampBounce::pass_on(const Vec3f& lamp) {
-  const auto kept = [&](std::size_t i) { return kept_at(distance(points_[i].position, lamp)); };
+void LampBounce::pass_on() {
+  const auto kept = [&](std::size_t i) { return kept_at(distance(points_[i].position, lamp_.position)); };
   mark_lit();
   for_seen([&](std::size_t i) { once_[i] = kept(i) > 0 ? gather_colour(i) : Vec3f(); });
   const float scale = 1 / (portable::kPiF * (1 - share_again()));
@@ -275,18 +275,35 @@ void LampBounce::restore(const std::vector<BakedLight>& base, std::uint64_t vers
   }
 }
 
-const std::vector<BakedLight>& LampBounce::add_to(const std::vector<BakedLight>& base, std::uint64_t version,
-                                                  const PlacedLamp& lamp, float extinction,
-                                                  const std::vector<Shown>& shown, FogLight* fog) {
-  extinction_ = extinction;
-  restore(base, version);
+void LampBounce::set_lamp(const PlacedLamp& lamp, float extinction) {
+  lamp_ = lamp, extinction_ = extinction;
   cast_map(lamp.position);
-  light_points(lamp);
+  light_points();
+}
+
+float LampBounce::open_share() const {
+  return float(std::count(map_.begin(), map_.end(), kReach)) / float(map_.size());
+}
+
+// What arrives at a point is a mean of what points send, and they send what they got from the lamp, and again.
+float LampBounce::most_radiance() const {
+  float most = 0;
+  for (const std::uint32_t piece : seen_) {
+    const std::size_t first = first_point_[piece];
+    for (std::size_t i = first; i < first + count_points(piece); ++i)
+      most = std::max(most, *std::max_element(radiance_[i].c, radiance_[i].c + 3));
+  }
+  return most / (1 - kMostAgain);
+}
+
+const std::vector<BakedLight>& LampBounce::add_to(const std::vector<BakedLight>& base, std::uint64_t version,
+                                                  const std::vector<Shown>& shown, FogLight* fog) {
+  restore(base, version);
   find_shown(shown);
-  pass_on(lamp.position);
+  pass_on();
   if (fog)
-    fog->set_lamp(lamp, radiance_, [&](const Vec3f& p) {
-      const Vec3f way = p - lamp.position;
+    fog->set_lamp(lamp_, radiance_, [&](const Vec3f& p) {
+      const Vec3f way = p - lamp_.position;
       const float away = norm(way);
       return away < 1e-3f || away < distance_towards(way) * (1 + kSlack) + kNear;
     });

@@ -31,12 +31,17 @@ class LampBounce {
     std::uint32_t placed;    // which placed mesh
     std::uint32_t triangle;  // of its prepared mesh
   };
+  // Finds which points the lamp lights. extinction: of the air about it; unit: 1/m
+  void set_lamp(const PlacedLamp& lamp, float extinction);
+  // The share of directions in which nothing lies within reach of the lamp.
+  float open_share() const;
+  // No flat white surface sends more of this lamp's indirect light: radiance, in the colour that there is most of.
+  float most_radiance() const;
   // `base`, and that light at the nodes of the triangles that show, in any order, some perhaps more than
-  // once. extinction: of the air about the lamp; unit: 1/m. fog: gets the lamp's light, and gives back what the air
-  // scatters of it; null: the air is clear.
+  // once. fog: gets the lamp's light, and gives back what the air scatters of it; null: the air is clear.
   // version: another number whenever `base` has changed.
-  const std::vector<BakedLight>& add_to(const std::vector<BakedLight>& base, std::uint64_t version, const PlacedLamp& lamp,
-                                        float extinction, const std::vector<Shown>& shown, FogLight* fog);
+  const std::vector<BakedLight>& add_to(const std::vector<BakedLight>& base, std::uint64_t version,
+                                        const std::vector<Shown>& shown, FogLight* fog);
 
  private:
   struct Point {
@@ -52,8 +57,8 @@ class LampBounce {
 
   void cast_map(const Vec3f& from);
   float distance_towards(const Vec3f& direction) const;
-  bool may_see(const PlacedMesh& piece, const PlacedLamp& lamp) const;
-  void light_points(const PlacedLamp& lamp);
+  bool may_see(const PlacedMesh& piece) const;
+  void light_points();
   void restore(const std::vector<BakedLight>& base, std::uint64_t version);
   void find_shown(const std::vector<Shown>& shown);
   void show_node(std::uint32_t placed, std::uint32_t node);
@@ -65,7 +70,7 @@ class LampBounce {
   void for_seen(const Work& work);
   std::size_t count_points(std::uint32_t piece) const;
   float share_again() const;
-  void pass_on(const Vec3f& lamp);
+  void pass_on();
   void add_to_node(const ShownNode& shown, const std::vector<BakedLight>& base, const FogLight* fog);
 
   const PreparedScene& scene_;
@@ -74,7 +79,8 @@ class LampBounce {
   ThreadPool pool_;
   SceneRays& rays_;
   std::vector<Point> points_;
-  float extinction_ = 0;
+  PlacedLamp lamp_;
+  float extinction_ = 0;                  // of the air about it; unit: 1/m
   std::uint64_t version_ = 0;             // of the base that out_ is made of; 0: none
   std::vector<float> map_;                // distances by direction, see distance_towards(); unit: m
   // For gather_colour(): every other link of each point, and a bit for each point that is lit.

@@ -100,9 +100,6 @@ std::unique_ptr<ColourPass> ColourDrawer::make_pass() {
 
 FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surfaces,
                                     bool drops_drawn) {
-  scene_.light_air(view.stamp_ns);
-  if (scene_.lamp_bounces())
-    scene_.light_by_lamp(view.lamp_bearer(), view.stamp_ns, surfaces.shown());
   FrameLight light = scene_.frame_light;
   light.world_from_rig = view.world_from_rig ? &*view.world_from_rig : nullptr;
   if (scene_.medium.clear()) return light;
@@ -145,12 +142,27 @@ void ColourDrawer::draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
   const Stopwatch start;
   const ViewProjection projection = projection_of(view);
   const SurfaceImages images = surfaces.images();
-  const FrameLight light = light_view(view, surfaces, false);
   const bool metered = !exposure && scene_.options.fixed_exposure <= 0;
-  image.exposure =
-      exposure ? *exposure
-               : expose(metered ? resolve_->meter(projection, view.world_from_camera, images, light)
-                                : MeteredImage());
+  if (!metered) image.exposure = exposure ? *exposure : expose(MeteredImage());
+  FrameLight light;
+  const auto light_and_expose = [&] {
+    light = light_view(view, surfaces, false);
+    if (metered) image.exposure = expose(resolve_->meter(projection, view.world_from_camera, images, light));
+  };
+  scene_.light_air(view.stamp_ns);
+  bool bounce = scene_.aim_lamp(view.lamp_bearer(), view.stamp_ns);
+  if (bounce && !metered) bounce = scene_.bounce_shows(image.exposure);
+  // In daylight it hardly ever shows. What the image is like without it tells.
+  const bool try_without = bounce && metered && scene_.lamp_is_in_the_open();
+  if (bounce && !try_without)
+    scene_.add_bounce(surfaces.shown());
+  else
+    scene_.leave_bounce_out();
+  light_and_expose();
+  if (try_without && scene_.bounce_shows(image.exposure)) {
+    scene_.add_bounce(surfaces.shown());
+    light_and_expose();
+  }
   resolve_->draw(projection, view.world_from_camera, images, light, image.exposure, metered);
   scene_.gl.Finish();
   image.resolve = start.time();
@@ -186,6 +198,11 @@ std::vector<float> ColourDrawer::draw_radiance(const ViewRays& view, DrawnSurfac
   scene_.move_to(view.stamp_ns);
   if (reference_) return trace(view);
   const SurfaceImages images = surfaces.images();
+  scene_.light_air(view.stamp_ns);
+  if (scene_.aim_lamp(view.lamp_bearer(), view.stamp_ns))
+    scene_.add_bounce(surfaces.shown());
+  else
+    scene_.leave_bounce_out();
   const FrameLight light = light_view(view, surfaces, true);
   return three_of(resolve_->draw_linear(projection_of(view), view.world_from_camera, images, light),
                   4);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernel/base/system/disk_cache.h"
+#include "render/colour/frame_fill.h"
 #include "render/materials/surface_appearance.h"
 #include "render/media/air_box.h"
 #include "render/reference/image_key.h"
@@ -16,6 +17,7 @@ namespace {
 // A lamp is drowned where its light so far ahead of it is less than this share of daylight.
 constexpr double kGlowDistance = 2;  // unit: m
 constexpr double kDrowned = 0.02;    // unit: 1
+constexpr float kOpen = 0.25f;       // share of free directions about a lamp that daylight may hide; unit: 1
 
 float most_gloss(const PreparedScene& scene) {
   float most = 0;
@@ -171,32 +173,39 @@ LampBounce& LitScene::lamp_bounce() {
   return *lamp_bounce_;
 }
 
-bool LitScene::lamp_bounces() const {
-  const bool lit = frame_light.lamp.on && frame_light.lamp.intensity_cd > 0;
-  return lit_by_lamp_ || (lit && (lamp_bounce_ || !links_.albedos.empty()));
+bool LitScene::aim_lamp(const Pose& bearer, std::int64_t stamp_ns) {
+  const LampSpec& lamp = frame_light.lamp;
+  const bool lit = lamp.on && lamp.intensity_cd > 0 && (lamp_bounce_ || !links_.albedos.empty());
+  FogLight* fog = fog_light();
+  lamp_fog_ = nullptr;
+  if (lit) {
+    const PlacedLamp placed = place_lamp(lamp, lamp_colour(lamp), bearer);
+    const Air air = air_at(stamp_ns);
+    const Vec3 place(placed.position);
+    const double turned = in_box(air_box(scene.bounds), place) ? air.turned_share(air.fog_asymmetry()) : 1;
+    lamp_bounce().set_lamp(placed, air.clear() ? 0 : float(air.extinction(place) * turned));
+    // By day nobody sees what air scatters twice of a lamp: finding it takes a third of the time of an image.
+    const double glow = lamp.intensity_cd * 1e-3 / (kGlowDistance * kGlowDistance);
+    if (fog && glow >= kDrowned * fog->daylight(placed.position)) lamp_fog_ = fog;
+  }
+  if (fog && !lamp_fog_) fog->put_lamp_out();
+  return lit;
 }
 
-void LitScene::light_by_lamp(const Pose& bearer, std::int64_t stamp_ns,
-                             const std::vector<LampBounce::Shown>& shown) {
-  const LampSpec& lamp = frame_light.lamp;
-  const std::vector<BakedLight>& base = nodes();
-  lit_by_lamp_ = lamp.on && lamp.intensity_cd > 0;
-  if (!lit_by_lamp_) {
-    if (FogLight* fog = fog_light()) fog->put_lamp_out();
-    return show_light(base);
-  }
-  const PlacedLamp placed = place_lamp(lamp, lamp_colour(lamp), bearer);
-  const Air air = air_at(stamp_ns);
-  const Vec3 place(placed.position);
-  const double turned = in_box(air_box(scene.bounds), place) ? air.turned_share(air.fog_asymmetry()) : 1;
-  const float extinction = air.clear() ? 0 : float(air.extinction(place) * turned);
-  FogLight* fog = fog_light();
-  // By day nobody sees what air scatters twice of a lamp: finding it takes a third of the time of an image.
-  if (fog && lamp.intensity_cd * 1e-3 / (kGlowDistance * kGlowDistance) < kDrowned * fog->daylight(placed.position)) {
-    fog->put_lamp_out();
-    fog = nullptr;
-  }
-  show_light(lamp_bounce().add_to(base, light_version_, placed, extinction, shown, fog));
+bool LitScene::bounce_shows(float exposure) const {
+  return lamp_fog_ || light_shows(frame_light, lamp_bounce_->most_radiance(), exposure);
+}
+
+bool LitScene::lamp_is_in_the_open() const { return !lamp_fog_ && lamp_bounce_->open_share() > kOpen; }
+
+void LitScene::add_bounce(const std::vector<LampBounce::Shown>& shown) {
+  show_light(lamp_bounce_->add_to(nodes(), light_version_, shown, lamp_fog_));
+  lit_by_lamp_ = true;
+}
+
+void LitScene::leave_bounce_out() {
+  if (lit_by_lamp_) show_light(nodes());
+  lit_by_lamp_ = false;
 }
 
 Air LitScene::air_at(std::int64_t stamp_ns) const {

@@ -58,10 +58,14 @@ struct LitScene {
   void light_air(std::int64_t stamp_ns);
   // How fog changes it; null: the air is clear, or nothing is baked.
   FogLight* fog_light() { return medium.clear() ? nullptr : fog_light_.get(); }
-  // light_by_lamp() is due: the lamp's light goes by way of surfaces, or did in the picture before.
-  bool lamp_bounces() const;
-  // Adds that light to the baked one, on the triangles that show. bearer: of the lamp, in the world.
-  void light_by_lamp(const Pose& bearer, std::int64_t stamp_ns, const std::vector<LampBounce::Shown>& shown);
+  // Finds what the lamp lights, bearer: its own, in the world. False: none of its light goes by way of surfaces.
+  bool aim_lamp(const Pose& bearer, std::int64_t stamp_ns);
+  // Since aim_lamp(): whether an image at that exposure may show that light, and whether it is worth asking.
+  bool bounce_shows(float exposure) const;
+  bool lamp_is_in_the_open() const;
+  // Adds that light to the baked one, on the triangles that show, and to the fog.
+  void add_bounce(const std::vector<LampBounce::Shown>& shown);
+  void leave_bounce_out();
   // The medium at that stamp.
   Air air_at(std::int64_t stamp_ns) const;
   void change(const LampSpec& lamp, const AirSpec& air);
@@ -86,6 +90,7 @@ struct LitScene {
   std::unique_ptr<LampBounce> lamp_bounce_;  // made when a lamp is first lit
   std::uint64_t light_version_ = 1;          // of nodes()
   bool lit_by_lamp_ = false;                 // the light on the device is the lamp's too
+  FogLight* lamp_fog_ = nullptr;             // the fog that shows the lamp's light; null: none does
 };
 
 }  // namespace rubble

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "render/colour/frame_light.h"
+#include "render/lighting/exposure.h"
+#include "render/reference/display.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
 
@@ -84,6 +87,36 @@ int difference_by_lamp(double sun_klx, double intensity_cd) {
 TEST(LampInDaylight, IsLeftOutOnlyWhereItCannotBeSeen) {
   EXPECT_LE(difference_by_lamp(80, 5), 1);
   EXPECT_GT(difference_by_lamp(80, 5000), 3);  // too strong to be left out
+}
+
+// The largest difference of the 8-bit image of a heap from all of the light there, which nothing is left out of.
+int difference_from_all_light(double sun_klx, double intensity_cd, bool bake) {
+  constexpr int kWidth = 96, kHeight = 72;
+  Scene scene = make_heap(25, 3);
+  scene.light.intensity = sun_klx;
+  scene.lamp.intensity_cd = intensity_cd;
+  RenderOptions options;
+  options.shadow_size = 256, options.texture_size = 32, options.bake_rays = 16;
+  options.antialias = false;
+  const Pose eye = look_at({5, 2, 2.5}, {0, 0, 0.3});
+  const Intrinsics k = pinhole(kWidth, kHeight, 60);
+  GlContext context;
+  const std::vector<float> all = Renderer(context, scene, options).render_linear(eye, k).rgb;
+  options.bake = bake;
+  const std::vector<std::uint8_t> shown = Renderer(context, scene, options).render(eye, k, 0, 0).rgb;
+  const Vec3f gains = white_balance(make_lights(scene));
+  const float exposure = find_exposure({0.21, 0}, meter_image(all, kWidth, kHeight, gains));
+  const std::vector<std::uint8_t> expected = develop_image(all, kWidth, kHeight, gains, exposure);
+  int most = 0;
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    most = std::max(most, std::abs(int(shown[i]) - int(expected[i / 3 * 4 + i % 3])));
+  return most;
+}
+
+TEST(LampInDaylight, ComesByWayOfSurfacesWhereItCanBeSeen) {
+  EXPECT_LE(difference_from_all_light(80, 5, true), 2);
+  EXPECT_LE(difference_from_all_light(0.001, 50, true), 2);
+  EXPECT_GT(difference_from_all_light(0.001, 50, false), 8);  // without baked points there is no such light
 }
 
 }  // namespace

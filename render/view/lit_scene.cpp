@@ -34,6 +34,23 @@ float most_gloss(const PreparedScene& scene) {
   return most;
 }
 
+// What of a scene rests, and its rays; where nothing moves, the scene itself.
+struct RestingPart {
+  RestingPart(const PreparedScene& whole, SceneRays& whole_rays, bool moves)
+      : own(moves ? resting_part(whole, first_light) : PreparedScene()),
+        own_rays(own),
+        scene(moves ? own : whole),
+        rays(moves ? own_rays : whole_rays) {}
+  RestingPart(const RestingPart&) = delete;
+  RestingPart& operator=(const RestingPart&) = delete;
+
+  std::vector<std::uint32_t> first_light;  // in the whole scene, of each piece that rests; empty: it is the whole
+  PreparedScene own;                       // empty: it is the whole
+  SceneRays own_rays;
+  const PreparedScene& scene;
+  SceneRays& rays;
+};
+
 bool shines(const PreparedScene& scene) {
   for (const PreparedMesh& mesh : scene.meshes)
     for (const PreparedTriangle& t : mesh.triangles)
@@ -85,10 +102,8 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
 
 // What rests. Of a still scene that is all of it.
 BakedScene LitScene::bake(double wetness, const std::function<void(double)>& progress) {
-  std::vector<std::uint32_t> first_light;  // in the whole scene, of each piece that rests
-  const PreparedScene resting = moving.any() ? resting_part(scene, first_light) : PreparedScene();
-  const PreparedScene& part = moving.any() ? resting : scene;
-  SceneRays resting_rays(resting);
+  const RestingPart resting(scene, rays, moving.any());
+  const PreparedScene& part = resting.scene;
   BakedScene baked;
   if (options.bake && !is_traced()) {
     BakeOptions bake;
@@ -96,8 +111,7 @@ BakedScene LitScene::bake(double wetness, const std::function<void(double)>& pro
     bake.rays = options.bake_rays;
     bake.seed = seed;
     const LookSurfaces surfaces(part, patterns, ground_map, wetness);
-    baked = bake_light_once(DiskCache(options.cache_folder), part, moving.any() ? resting_rays : rays,
-                            resting_light, drawn_albedo(surfaces),
+    baked = bake_light_once(DiskCache(options.cache_folder), part, resting.rays, resting_light, drawn_albedo(surfaces),
                             surroundings_key({part, resting_light, patterns, ground_map, wetness}), bake,
                             progress);
   } else {
@@ -108,7 +122,7 @@ BakedScene LitScene::bake(double wetness, const std::function<void(double)>& pro
   for (std::size_t i = 0; i < part.placed.size(); ++i) {
     const std::size_t count = part.meshes[part.placed[i].mesh].light_nodes.size();
     std::copy_n(baked.nodes.begin() + part.placed[i].first_light, count,
-                nodes.begin() + first_light[i]);
+                nodes.begin() + resting.first_light[i]);
   }
   baked.nodes = std::move(nodes);
   return baked;
@@ -128,11 +142,9 @@ void LitScene::light_air(std::int64_t stamp_ns) {
   if (is_traced() || (!air_changed_ && !surfaces_changed_)) return;
   const bool draft = options.colour.quality == RenderQuality::draft;
   if (!draft && !medium.clear() && !fog_light_ && !radiance_.empty()) {
-    std::vector<std::uint32_t> first_light;
-    const PreparedScene resting = moving.any() ? resting_part(scene, first_light) : PreparedScene();
-    SceneRays resting_rays(resting);
-    fog_light_ = std::make_unique<FogLight>(moving.any() ? resting : scene, (moving.any() ? resting_rays : rays).solid(),
-                                            air_box(scene.bounds), resting_light, std::move(radiance_), options.threads);
+    const RestingPart resting(scene, rays, moving.any());
+    fog_light_ = std::make_unique<FogLight>(resting.scene, resting.rays.solid(), air_box(scene.bounds), resting_light,
+                                            std::move(radiance_), options.threads);
   }
   if (FogLight* fog = fog_light()) {
     if (air_changed_) fog->set_air(air_at(stamp_ns));

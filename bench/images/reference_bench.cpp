@@ -33,7 +33,7 @@ namespace {
 struct Request {
   std::string list = "bench/images/reference_views.json", only, pictures;
   std::vector<std::string> set;
-  int size = 512, samples = 64, threads = 0, regions = 16;
+  int size = 512, samples = 64, bake_rays = 512, threads = 0, regions = 16;
   bool denoise = false, reference_only = false, reuse = false;
 };
 
@@ -117,6 +117,7 @@ void compare(GlContext& context, const GalleryPicture& picture, GalleryPiles& pi
   std::fflush(stdout);
   if (request.reference_only) return;
   options.colour = {};
+  options.bake_rays = request.bake_rays;
   options.cache_folder = DiskCache::usual_folder();
   const Drawn fast = draw(context, scene, view, options);
   const Picture found = develop_fast(fast.frame, gains, exposure, threads);
@@ -156,6 +157,9 @@ ExitCode run(int argc, char** argv) {
   app.add_option("--size", request.size, "Side of the square images")->check(CLI::Range(32, 8192))
       ->capture_default_str();
   app.add_option("--samples", request.samples, "Paths a pixel")->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  app.add_option("--bake-rays", request.bake_rays, "Rays of a bake point of the fast renderer at most")
+      ->check(CLI::Range(8, 1024))
       ->capture_default_str();
   app.add_flag("--denoise", request.denoise, "Filter the noise of the reference");
   app.add_option("--regions", request.regions, "Regions across and down")->check(CLI::Range(1, 64))

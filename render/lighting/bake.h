@@ -15,7 +15,7 @@ namespace rubble {
 
 struct BakeOptions {
   int threads = 1;         // the result does not depend on it
-  int rays = 256;          // a bake point at most, fewer where light is even; range: 8 to 1024
+  int rays = 512;          // a bake point at most, fewer where light is even; range: 8 to 1024
   int bounces = 5;         // between surfaces
   std::uint64_t seed = 0;  // of the directions of rays
 };

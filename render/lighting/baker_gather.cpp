@@ -15,7 +15,7 @@ namespace {
 constexpr float kNoise = 0.02f;        // standard error that may be left at a point whose clearance is ...
 constexpr float kWide = 0.3f;          // ... this (unit: m); more in cracks, of which little is seen, ...
 constexpr float kCrack = 0.25f;        // ... by the clearance over kWide, or by this if that is more
-constexpr float kFaint = 0.01f;        // of the sky's mean light: noise fainter than that of so much does not count
+constexpr float kFaint = 0.0005f;        // of the sky's mean light: noise fainter than that of so much does not count
 constexpr float kHidden = 0.03f;       // clearance of what no camera comes near enough to see; unit: m
 constexpr float kAbout = 0.4f;         // cell of space whose rays tell how much light varies; unit: m
 constexpr float kLift = 0.002f;        // rays start this far off the surface; unit: m

@@ -17,7 +17,7 @@ struct RenderOptions {
   std::string cache_folder;
   int threads = 1;         // for preparing and baking; the result does not depend on it
   bool bake = true;        // light by way of the sky and other surfaces; false: open sky everywhere
-  int bake_rays = 256;     // a bake point at most; range: 8 to 1024
+  int bake_rays = 512;     // a bake point at most; range: 8 to 1024
   int shadow_size = 4096;  // side of the main light's shadow map; unit: texel
   int texture_size = 512;  // side of the procedural textures; a power of two
   DrawnBy raster = DrawnBy::automatic;   // the triangles; the image is the same but for ties of depth

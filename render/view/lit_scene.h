@@ -58,7 +58,7 @@ struct LitScene {
   void light_air(std::int64_t stamp_ns);
   // How fog changes it; null: the air is clear, or nothing is baked.
   FogLight* fog_light() { return medium.clear() ? nullptr : fog_light_.get(); }
-  // Finds what the lamp lights, bearer: its own, in the world. False: none of its light goes by way of surfaces.
+  // Finds what the lamp lights. bearer: of it, in the world. False: none of its light goes by way of surfaces.
   bool aim_lamp(const Pose& bearer, std::int64_t stamp_ns);
   // Since aim_lamp(): whether an image at that exposure may show that light, and whether it is worth asking.
   bool bounce_shows(float exposure) const;

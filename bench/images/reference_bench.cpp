@@ -33,7 +33,7 @@ namespace {
 struct Request {
   std::string list = "bench/images/reference_views.json", only, pictures;
   std::vector<std::string> set;
-  int size = 512, samples = 64, bake_rays = 512, threads = 0, regions = 16;
+  int size = 512, samples = 64, bake_rays = RenderOptions().bake_rays, threads = 0, regions = 16;
   bool denoise = false, reference_only = false, reuse = false;
 };
 

@@ -12,22 +12,24 @@ namespace rubble {
 
 namespace {
 
-constexpr float kReach = 0.5f;       // of smoothing, as a share of the point's clearance
-constexpr float kWidest = 0.3f;      // unit: m
-constexpr float kAround = 8;         // times as wide, and its cells, on surroundings, where points are sparse
-constexpr float kLeastReach = 0.02f; // below, a point keeps what it found; unit: m
-constexpr float kFacing = 0.85f;     // least cosine between the normals of neighbours
-constexpr float kLift = 0.01f;       // of lines of sight between them; unit: m
-constexpr float kCell = 0.15f;       // of space; unit: m
-constexpr float kSearch = 0.35f;     // for a point that is inside a piece; unit: m
-constexpr float kContact = 0.7f;     // light left where pieces touch
+constexpr float kReach = 0.5f;   // of smoothing, as a share of the distance of what is seen
+constexpr float kWidest = 0.3f;  // unit: m
+constexpr float kAround = 8;     // times as wide, and its cells, on surroundings, where points are sparse
+constexpr float kLeastReach = 0.02f;  // below, a point keeps what it found; unit: m
+constexpr float kFacing = 0.85f;      // least cosine between the normals of neighbours
+constexpr float kLift = 0.01f;        // of lines of sight between them; unit: m
+constexpr float kCell = 0.15f;        // of space; unit: m
+constexpr float kSearch = 0.35f;      // for a point that is inside a piece; unit: m
+constexpr float kContact = 0.7f;      // light left where pieces touch
 
 }  // namespace
 
-// Light varies over a distance that grows with that of what sends it (Ward et al. 1988): so far, and no
-// farther than a free line of sight, a neighbour's light is as good as the point's own.
+// Light varies over a distance that grows with that of what is seen (Ward et al. 1988): so far, and no farther than a
+// free line of sight, a neighbour's light is as good as the point's own. What is dark counts less, so this is the
+// geometric mean of the distances of all that is seen and of what sends the light.
 float Baker::reach_of(const Point& p) const {
-  const float reach = std::min(kReach * p.clearance, kWidest * (scene_.placed[p.piece].surrounds ? kAround : 1));
+  const float away = std::sqrt(p.clearance * std::max(p.clearance, p.light_distance));
+  const float reach = std::min(kReach * away, kWidest * (scene_.placed[p.piece].surrounds ? kAround : 1));
   return p.open && reach >= kLeastReach ? reach : 0;
 }
 
@@ -56,8 +58,7 @@ void Baker::join_neighbours(std::uint32_t i, const PointGrid& grid, std::vector<
 }
 
 void Baker::find_neighbours(std::size_t piece) {
-  const std::uint32_t first = first_point_[piece];
-  const std::uint32_t end = first + std::uint32_t(scene_.meshes[scene_.placed[piece].mesh].bake_points.size());
+  const std::uint32_t first = first_point_[piece], end = std::uint32_t(end_point(piece));
   PointGrid grid(kCell * (scene_.placed[piece].surrounds ? kAround : 1));
   std::vector<RayScene::Ray> lines;
   for (std::uint32_t i = first; i < end; ++i)
@@ -120,7 +121,7 @@ BakeLinks Baker::links() const {
   const auto open_point = [&](std::uint32_t p) {
     return points_[p].open ? p : substitutes_[p] != kNone ? substitutes_[p] : BakeLinks::kDark;
   };
-  const std::size_t rays = first_directions_.size(), kept = std::min(BakeLinks::kPerPoint, rays);
+  const std::size_t rays = first_spokes_.size(), kept = std::min(BakeLinks::kPerPoint, rays);
   out.seen.assign(points_.size() * BakeLinks::kPerPoint, BakeLinks::kNoRay);
   for (std::size_t i = 0; i < points_.size(); ++i)
     for (std::size_t k = 0; k < kept; ++k) {

@@ -16,26 +16,26 @@ constexpr std::size_t kAlbedos = 4;  // nodes whose mean albedo is that of a poi
 constexpr std::size_t kChunk = 256;  // points a job
 using NodesOfPoint = std::vector<std::uint32_t>;
 
-// Directions spread evenly, cosine-weighted about +Z (Malley's method over a golden-ratio sequence), in an order
-// in which those that follow each other go about the same way, for packets: first the steep half, then the
-// other, each once around.
-std::vector<Vec3f> cosine_directions(std::size_t count) {
+// Of directions spread evenly, cosine-weighted (Malley's method over a golden-ratio sequence), in
+// an order in which those that follow each other go about the same way, for packets: first the
+// steep half, then the other, each once around.
+std::vector<Baker::Spoke> make_spokes(std::size_t count) {
   struct Place {
-    double u, turn;
+    std::size_t stratum;
+    double turn;
   };
   std::vector<Place> places;
   for (std::size_t i = 0; i < count; ++i) {
     const double turn = double(i) * 0.6180339887498949;
-    places.push_back({(double(i) + 0.5) / double(count), turn - std::floor(turn)});
+    places.push_back({i, turn - std::floor(turn)});
   }
   const auto half = places.begin() + std::ptrdiff_t(count / 2);
   const auto before = [](const Place& a, const Place& b) { return a.turn < b.turn; };
   std::sort(places.begin(), half, before), std::sort(half, places.end(), before);
-  std::vector<Vec3f> out;
+  std::vector<Baker::Spoke> out;
   for (const Place& p : places) {
     const portable::SinCos a = portable::sincos(2 * portable::kPi * p.turn);
-    const double r = std::sqrt(p.u);
-    out.push_back({float(r * a.cos), float(r * a.sin), float(std::sqrt(1 - p.u))});
+    out.push_back({float(p.stratum), float(a.cos), float(a.sin)});
   }
   return out;
 }
@@ -61,8 +61,8 @@ Baker::Baker(const PreparedScene& scene, const RayScene& solid, const LightSet& 
       options_(options),
       rays_(solid),
       sheets_(scene),
-      first_directions_(cosine_directions(std::min(kFirstRays, std::size_t(options.rays)))),
-      directions_(cosine_directions(std::min(kRound, std::size_t(options.rays)))) {
+      first_spokes_(make_spokes(std::min(kFirstRays, std::size_t(options.rays)))),
+      spokes_(make_spokes(std::min(kRound, std::size_t(options.rays)))) {
   list_points();
   find_nearest_points();
   find_albedos(albedo);
@@ -81,7 +81,7 @@ void Baker::list_points() {
       points_.push_back(p);
     }
   }
-  first_hits_.resize(points_.size() * first_directions_.size());
+  first_hits_.resize(points_.size() * first_spokes_.size());
   if (sheets_.any()) first_cleared_.assign(first_hits_.size(), 255);
   radiance_.resize(points_.size());
 }
@@ -144,16 +144,14 @@ void Baker::run(const std::function<void(double)>& progress) {
   if (!light_.far.empty()) far_light_.resize(points_.size()), far_vectors_.resize(points_.size());
   over_points(0, 0.4, progress, [&](std::size_t i) { trace(i); });
   find_substitutes();
-  neighbours_.resize(points_.size());
-  parallel_for(scene_.placed.size(), options_.threads, [&](std::size_t piece) { find_neighbours(piece); });
   for (int bounce = 0; bounce < options_.bounces; ++bounce) {
     update_radiance();
     over_points(0.5, 0.5, progress, [&](std::size_t i) { gather_first(i); });
     fill_closed();
   }
   update_radiance();
-  sums_.resize(points_.size()), rounds_.resize(points_.size());
-  parallel_for(scene_.placed.size(), options_.threads, [&](std::size_t piece) { plan_rounds(piece); });
+  neighbours_.resize(points_.size()), sums_.resize(points_.size()), rounds_.resize(points_.size());
+  parallel_for(scene_.placed.size(), options_.threads, [&](std::size_t piece) { plan(piece); });
   over_points(0.5, 0.85, progress, [&](std::size_t i) { gather(i); });
   std::vector<Point> smoothed = points_;
   over_points(0.85, 0.9, progress, [&](std::size_t i) { smooth(i, smoothed[i]); });

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <vector>
 
 #include "render/geometry/glass_sheets.h"
@@ -19,8 +20,13 @@ namespace rubble {
 
 class Baker {
  public:
-  Baker(const PreparedScene& scene, const RayScene& solid, const LightSet& light, const AlbedoAt& albedo,
-        const BakeOptions& options);
+  struct Spoke {     // of a fan of rays
+    float stratum;   // of heights, from 0
+    float cos, sin;  // of its azimuth
+  };
+
+  Baker(const PreparedScene& scene, const RayScene& solid, const LightSet& light,
+        const AlbedoAt& albedo, const BakeOptions& options);
 
   void run(const std::function<void(double)>& progress);
   std::vector<BakedLight> node_light() const;
@@ -39,11 +45,13 @@ class Baker {
   struct Point {
     Vec3f position, normal;  // in the world
     Vec3f direct;            // of the lights; unit: klx
-    Vec3f sky;               // mean radiance that its first rays meet, of the sky alone; unit: kcd/m2
-    Vec3f indirect;          // of sky and surfaces; unit: klx
-    Vec3f vector;            // dot(n, vector) is the strength of `indirect` on a normal n near its own
-    float clearance = 0;     // harmonic mean of the distances of what it sees; unit: m
-    float noise_left = 1;    // variance of the mean over its neighbours, as a share of its own
+    Vec3f sky;            // mean radiance that its first rays meet, of the sky alone; unit: kcd/m2
+    Vec3f indirect;       // of sky and surfaces; unit: klx
+    Vec3f vector;         // dot(n, vector) is the strength of `indirect` on a normal n near its own
+    float clearance = 0;  // harmonic mean of the distances of what it sees; unit: m
+    float light_distance = 0;  // harmonic mean of the distances that light comes from; unit: m
+    float room = 0;            // mean distance of what it sees, where more than kWide counts as that; unit: m
+    float noise_left = 1;      // variance of the mean over its neighbours, as a share of its own
     std::uint32_t piece = 0, source = 0;  // placed mesh, and its bake point
     std::uint8_t open = 0;   // origins outside all pieces, one bit each
   };
@@ -51,9 +59,13 @@ class Baker {
     std::uint32_t point;
     float weight;  // beside 1 for the point itself
   };
-  struct Basis {
+  // Turned by another angle and moved within their strata for each set of rays: light through a slit far away comes
+  // from a few heights alone, which fixed ones would miss at many points.
+  struct Fan {
+    const std::vector<Spoke>& spokes;
     Vec3f x, y, z;
-    Vec3f operator*(const Vec3f& d) const { return x * d.x + y * d.y + z * d.z; }
+    float height;  // within each stratum, in [0, 1)
+    Vec3f direction(std::size_t spoke) const;
   };
   struct Sum {  // of what rays say
     Vec3f light, direction;  // of radiance; and of directions by its strength
@@ -63,7 +75,16 @@ class Baker {
     void add(const Vec3f& radiance, const Vec3f& w, float cosine);  // cosine: of the ray with the normal
     void finish(Point& p) const;
   };
+  struct Region {
+    std::vector<std::uint32_t> points;
+    Sum sum;                    // of their first rays
+    float bright_nearness = 0;  // the sum of their radiance over the distance that it comes from
+  };
+  using Regions = std::map<std::array<int, 4>, Region>;  // of cells of space, and the side of the surface
 
+  std::size_t end_point(std::size_t piece) const {
+    return piece + 1 < first_point_.size() ? first_point_[piece + 1] : points_.size();
+  }
   void list_points();
   void find_nearest_points();
   void find_albedos(const AlbedoAt& albedo);
@@ -71,7 +92,7 @@ class Baker {
   void over_points(double from, double to, const std::function<void(double)>& progress, const Work& work);
 
   // baker_gather.cpp
-  Basis basis_of(std::size_t point, std::uint32_t round) const;
+  Fan fan(std::size_t point, std::uint32_t round) const;   // round 0: that of the first rays
   BakeOrigin origin(const Point& p, std::size_t i) const;  // in the world, off the surface
   bool below_soil(const Point& p) const;
   std::size_t origin_count(const Point& p) const;
@@ -79,13 +100,16 @@ class Baker {
   float cleared(const RayScene::Ray& ray, float farthest) const;
   float first_cleared(std::size_t ray) const;  // of a first ray
   void trace(std::size_t point);         // its first rays
+  std::vector<BakeOrigin> direct_places(const Point& p) const;
   void find_direct(Point& p) const;
   Vec3f find_far(Point& p) const;        // adds it to the direct light; the vector of it, as Point::vector
   void show_far_light();                 // in what is kept at nodes
   void gather_first(std::size_t point);  // by them
   void gather(std::size_t point);        // by them and as many more as were planned
   Sum first_sum(std::size_t point) const;
-  void plan_rounds(std::size_t piece);
+  void plan(std::size_t piece);
+  Regions look_about(std::size_t piece);
+  float bright_nearness(std::size_t point) const;
   int rounds_for(const Point& p, const Sum& about) const;
   void add_round(std::size_t point, std::uint32_t round, Sum& sum) const;
   std::uint32_t drawn_point(const RayScene::PreciseHit& hit, float draw) const;
@@ -105,15 +129,18 @@ class Baker {
   BakeOptions options_;
   const RayScene& rays_;  // of all but glass
   GlassSheets sheets_;    // of glass, which dims light and does nothing else to it
-  std::vector<Vec3f> first_directions_, directions_;  // about +Z
-  std::vector<Point> points_;                       // of all placed meshes
-  std::vector<std::uint32_t> first_point_;          // of each placed mesh
-  std::vector<std::uint32_t> first_hits_;           // of each point in turn: a point, kSky, kInside or kNone
-  std::vector<std::uint8_t> first_cleared_;         // share that glass leaves of each, 255: all; empty: there is no glass
-  std::vector<std::vector<std::uint32_t>> nearest_points_;  // of each mesh: to each node, in the mesh
-  std::vector<Vec3f> far_light_, far_vectors_;      // of LightSet::far, of each point; empty: there are none
-  std::vector<Sum> sums_;                           // of the rays of each point
-  std::vector<int> rounds_;                         // that each point gathers by, besides its first rays
+  std::vector<Spoke> first_spokes_, spokes_;  // spread evenly, cosine-weighted
+  std::vector<Point> points_;                 // of all placed meshes
+  std::vector<std::uint32_t> first_point_;    // of each placed mesh
+  std::vector<std::uint32_t> first_hits_;  // of each point in turn: a point, kSky, kInside or kNone
+  std::vector<std::uint8_t>
+      first_cleared_;  // share that glass leaves of each, 255: all; empty: there is no glass
+  std::vector<std::vector<std::uint32_t>>
+      nearest_points_;  // of each mesh: to each node, in the mesh
+  std::vector<Vec3f> far_light_,
+      far_vectors_;          // of LightSet::far, of each point; empty: there are none
+  std::vector<Sum> sums_;    // of the rays of each point
+  std::vector<int> rounds_;  // that each point gathers by, besides its first rays
   std::vector<std::vector<Neighbour>> neighbours_;  // of each point
   std::vector<std::uint32_t> substitutes_;          // for a point that is inside a piece: whose light it takes
   std::vector<Vec3f> albedos_, radiance_;           // of each point, matt; unit of the latter: kcd/m2

@@ -12,17 +12,19 @@ namespace rubble {
 
 namespace {
 
-constexpr float kNoise = 0.02f;        // standard error that may be left at a point whose clearance is ...
+constexpr float kNoise = 0.02f;        // standard error that may be left at a point whose room is ...
 constexpr float kWide = 0.3f;          // ... this (unit: m); more in cracks, of which little is seen, ...
-constexpr float kCrack = 0.25f;        // ... by the clearance over kWide, or by this if that is more
-constexpr float kFaint = 0.0005f;        // of the sky's mean light: noise fainter than that of so much does not count
-constexpr float kHidden = 0.03f;       // clearance of what no camera comes near enough to see; unit: m
-constexpr float kAbout = 0.4f;         // cell of space whose rays tell how much light varies; unit: m
+constexpr float kCrack = 0.25f;        // ... by the room over kWide, or by this if that is more
+constexpr float kFaint = 0.0005f;      // of the sky's mean light: noise fainter than that of so much does not count
+constexpr float kHidden = 0.03f;       // room of what no camera comes near enough to see; unit: m
+constexpr float kAbout = 1;            // cell of space whose rays tell how much light varies; unit: m
 constexpr float kLift = 0.002f;        // rays start this far off the surface; unit: m
 constexpr float kSoil = 0.4f;          // above soil that lies on the plane; unit: m
 constexpr double kBeside = 0.5;        // of the pile's box: so far out the plane is found as it is; unit: m
 constexpr float kMostInside = 0.3f;    // share of rays that may meet a piece from inside
 constexpr float kRaysAround = 80;      // at most of a point of the surroundings, which the eye does not come near to
+constexpr std::size_t kDirectPlaces = 32;  // of a point, from which it looks for the lights
+constexpr float kOneFace = 0.999f;     // least cosine between normals on one face
 constexpr float kSunSine = 0.00465f;   // radius of the sun's disc; unit: rad
 
 void basis_about(const Vec3f& n, float turn, Vec3f& x, Vec3f& y) {
@@ -50,12 +52,18 @@ void Baker::Sum::finish(Point& p) const {
   p.vector = direction * scale + p.normal * (luminance(p.indirect) - dot(direction, p.normal) * scale);
 }
 
-Baker::Basis Baker::basis_of(std::size_t point, std::uint32_t round) const {
-  Basis basis;
-  basis.z = points_[point].normal;
-  const float turn = lattice_value(int(point), int(round), std::uint32_t(options_.seed));
-  basis_about(basis.z, turn, basis.x, basis.y);
-  return basis;
+Vec3f Baker::Fan::direction(std::size_t k) const {
+  const Spoke& spoke = spokes[k];
+  const float u = (spoke.stratum + height) / float(spokes.size()), r = std::sqrt(u);
+  return x * (r * spoke.cos) + y * (r * spoke.sin) + z * std::sqrt(1 - u);
+}
+
+Baker::Fan Baker::fan(std::size_t point, std::uint32_t round) const {
+  const std::uint32_t seed = std::uint32_t(options_.seed);
+  Fan fan{round == 0 ? first_spokes_ : spokes_, {}, {}, points_[point].normal, 0};
+  basis_about(fan.z, lattice_value(int(point), int(round), seed), fan.x, fan.y);
+  fan.height = std::min(lattice_value(int(point), int(round), seed + 0x68bc21ebu), 0.999f);
+  return fan;
 }
 
 std::size_t Baker::origin_count(const Point& p) const {
@@ -103,13 +111,14 @@ float Baker::first_cleared(std::size_t ray) const {
 // Which of its origins are inside a piece shows in what their rays meet.
 void Baker::trace(std::size_t i) {
   Point& p = points_[i];
-  const std::size_t count = first_directions_.size(), origins = origin_count(p);
+  const std::size_t count = first_spokes_.size(), origins = origin_count(p);
   std::array<Vec3f, kMostOrigins> from;
   for (std::size_t o = 0; o < origins; ++o) from[o] = origin(p, o).position;
-  const Basis basis = basis_of(i, 0);
+  const Fan fan = this->fan(i, 0);
   std::array<RayScene::Ray, kFirstRays> rays;
   std::array<RayScene::PreciseHit, kFirstRays> hits;
-  for (std::size_t r = 0; r < count; ++r) rays[r] = {from[r % origins], 0, basis * first_directions_[r], kLightReach};
+  for (std::size_t r = 0; r < count; ++r)
+    rays[r] = {from[r % origins], 0, fan.direction(r), kLightReach};
   rays_.cast_many(rays.data(), count, RayScene::Order::scattered, hits.data());
   std::array<int, kMostOrigins> cast{}, inside{};
   for (std::size_t r = 0; r < count; ++r)
@@ -117,13 +126,14 @@ void Baker::trace(std::size_t i) {
   for (std::size_t o = 0; o < origins; ++o)
     if (float(inside[o]) <= kMostInside * float(cast[o])) p.open = std::uint8_t(p.open | 1u << o);
   const std::uint32_t draws = std::uint32_t(options_.seed) + 0x51ed270bu;
-  float near = 0, seen = 0;
+  float near = 0, seen = 0, room = 0;
   for (std::size_t r = 0; r < count; ++r) {
     std::uint32_t& code = first_hits_[i * count + r];
     code = kNone;
     if (!(p.open >> (r % origins) & 1u)) continue;
     const bool open = hits[r].triangle == RayScene::kNone;
     seen += 1, near += open ? 0 : 1 / std::max(hits[r].distance, 0.01f);
+    room += open ? kWide : std::min(hits[r].distance, kWide);
     code = open ? kSky : hits[r].back ? kInside : drawn_point(hits[r], lattice_value(int(i), int(r), draws));
     if (!first_cleared_.empty())
       first_cleared_[i * count + r] =
@@ -132,6 +142,7 @@ void Baker::trace(std::size_t i) {
   }
   p.sky = seen > 0 ? p.sky * (1 / seen) : Vec3f();
   p.clearance = near > 0 ? seen / near : kLightReach;
+  p.room = room / std::max(seen, 1.0f);
   find_direct(p);
   if (light_.far.empty()) return;
   const Vec3f near_light = p.direct;
@@ -139,30 +150,45 @@ void Baker::trace(std::size_t i) {
   far_light_[i] = p.direct - near_light;
 }
 
-// The mean over the origins outside all pieces, each from another spot of the sun's disc.
+// From places on the surface that the point stands for, in turn: its origins, then places between two that lie on one face.
+// Sunbeams in a void are narrow, and all light there may be theirs.
+std::vector<BakeOrigin> Baker::direct_places(const Point& p) const {
+  std::vector<BakeOrigin> out;
+  for (std::size_t o = 0; o < origin_count(p); ++o)
+    if (p.open >> o & 1u) out.push_back(origin(p, o));
+  const std::size_t origins = out.size();
+  if (origins < 2) return out;
+  for (std::size_t k = 0; out.size() < kDirectPlaces && k < 2 * kDirectPlaces; ++k) {
+    const BakeOrigin &a = out[k % origins], &b = out[(k + 1 + k / origins % (origins - 1)) % origins];
+    if (dot(a.normal, b.normal) < kOneFace || std::fabs(dot(a.normal, b.position - a.position)) > kLift) continue;
+    const float part = lattice_value(int(&p - points_.data()), int(k), std::uint32_t(options_.seed) + 0x2545f491u);
+    out.push_back({a.position + (b.position - a.position) * part, a.normal});
+  }
+  return out;
+}
+
+// The mean over these places, each from another spot of the sun's disc.
 void Baker::find_direct(Point& p) const {
-  int open = 0;
-  for (std::size_t o = 0; o < origin_count(p); ++o) open += p.open >> o & 1;
   p.direct = Vec3f();
+  const std::vector<BakeOrigin> places = direct_places(p);
   for (const LightModel& l : light_.lights) {
-    std::array<RayScene::Ray, kMostOrigins> rays;
-    std::array<Vec3f, kMostOrigins> light;
+    std::array<RayScene::Ray, kDirectPlaces> rays;
+    std::array<Vec3f, kDirectPlaces> light;
     std::size_t count = 0;
-    for (std::size_t o = 0; o < origin_count(p); ++o) {
-      if (!(p.open >> o & 1u)) continue;
-      const BakeOrigin from = origin(p, o);
+    for (std::size_t o = 0; o < places.size(); ++o) {
+      const BakeOrigin& from = places[o];
       const LightModel::Sample sample = l.at(from.position);
       Vec3f to_light = sample.to_light, x, y;
       if (l.type == LightType::directional) {
         basis_about(to_light, float(o) * 0.618034f, x, y);
-        to_light = normalized(to_light + x * (kSunSine * std::sqrt((float(o) + 0.5f) / float(kMostOrigins))));
+        to_light = normalized(to_light + x * (kSunSine * std::sqrt((float(o) + 0.5f) / float(kDirectPlaces))));
       }
       const float facing = dot(to_light, from.normal);
       if (facing <= 0 || luminance(sample.illuminance) <= 0) continue;
       rays[count] = {from.position, 0, to_light, std::min(sample.distance * 0.999f, kLightReach)};
-      light[count++] = sample.illuminance * (facing / float(open));
+      light[count++] = sample.illuminance * (facing / float(places.size()));
     }
-    std::array<std::uint8_t, kMostOrigins> hidden;
+    std::array<std::uint8_t, kDirectPlaces> hidden;
     if (count) rays_.blocked_many(rays.data(), count, RayScene::Order::coherent, hidden.data());
     for (std::size_t k = 0; k < count; ++k)
       if (!hidden[k]) p.direct += light[k] * cleared(rays[k], rays[k].farthest);
@@ -190,7 +216,7 @@ Vec3f Baker::find_far(Point& p) const {
 }
 
 void Baker::gather_first(std::size_t i) {
-  const std::size_t count = first_directions_.size();
+  const std::size_t count = first_spokes_.size();
   const std::uint32_t* codes = first_hits_.data() + i * count;
   Vec3f sum;
   int rays = 0;
@@ -203,14 +229,14 @@ void Baker::gather_first(std::size_t i) {
 
 Baker::Sum Baker::first_sum(std::size_t i) const {
   Sum sum;
-  const std::size_t count = first_directions_.size();
-  const Basis basis = basis_of(i, 0);
+  const std::size_t count = first_spokes_.size();
+  const Fan fan = this->fan(i, 0);
   for (std::size_t r = 0; r < count; ++r) {
     const std::uint32_t code = first_hits_[i * count + r];
     if (code == kNone) continue;
-    const Vec3f w = basis * first_directions_[r];
+    const Vec3f w = fan.direction(r);
     const Vec3f light = code == kSky ? light_.sky.radiance(w) : code == kInside ? Vec3f() : radiance_[code];
-    sum.add(light * first_cleared(i * count + r), w, first_directions_[r].z);
+    sum.add(light * first_cleared(i * count + r), w, dot(w, fan.z));
   }
   return sum;
 }
@@ -221,12 +247,12 @@ void Baker::add_round(std::size_t i, std::uint32_t round, Sum& sum) const {
   std::size_t origins = 0;
   for (std::size_t o = 0; o < origin_count(p); ++o)
     if (p.open >> o & 1u) from[origins++] = origin(p, o).position;
-  const Basis basis = basis_of(i, round);
+  const Fan fan = this->fan(i, round);
   std::array<RayScene::Ray, kRound> rays;
   std::array<RayScene::PreciseHit, kRound> hits;
-  const std::size_t count = directions_.size();
+  const std::size_t count = spokes_.size();
   for (std::size_t r = 0; r < count; ++r)
-    rays[r] = {from[(r + round) % origins], 0, basis * directions_[r], kLightReach};
+    rays[r] = {from[(r + round) % origins], 0, fan.direction(r), kLightReach};
   rays_.cast_many(rays.data(), count, RayScene::Order::scattered, hits.data());
   const std::uint32_t draws = std::uint32_t(options_.seed) + round * 0x9e3779b9u;
   for (std::size_t r = 0; r < count; ++r) {
@@ -235,15 +261,14 @@ void Baker::add_round(std::size_t i, std::uint32_t round, Sum& sum) const {
     const Vec3f light = open ? light_.sky.radiance(w)
                         : hits[r].back ? Vec3f()
                                        : radiance_[drawn_point(hits[r], lattice_value(int(i), int(r), draws))];
-    sum.add(light * cleared(rays[r], open ? kLightReach : hits[r].distance), w, directions_[r].z);
+    sum.add(light * cleared(rays[r], open ? kLightReach : hits[r].distance), w, dot(w, fan.z));
   }
 }
 
-// about: what rays near the point say, its own among them. A point that went by its own alone would stop too
-// early just where they missed what is bright, and be too dark.
+// about: what rays near the point say, its own among them.
 int Baker::rounds_for(const Point& p, const Sum& about) const {
-  if (!p.open || p.clearance < kHidden || about.rays == 0) return 0;
-  const float freedom = std::clamp(p.clearance / kWide, kCrack, 1.0f);
+  if (!p.open || p.room < kHidden || about.rays == 0) return 0;
+  const float freedom = std::clamp(p.room / kWide, kCrack, 1.0f);
   const float mean = luminance(about.light) / float(about.rays);
   const float variance = std::max(about.squares / float(about.rays) - mean * mean, 0.0f);
   // Of direct light half is counted, for a place beside the point may lie in shadow.
@@ -253,24 +278,46 @@ int Baker::rounds_for(const Point& p, const Sum& about) const {
   // Directions that are spread evenly have about half the noise of chance.
   const float most = scene_.placed[p.piece].surrounds ? std::min(kRaysAround, float(options_.rays)) : float(options_.rays);
   const float needed = std::min(0.25f * variance * p.noise_left / (error * error), most * freedom);
-  return int(std::ceil(std::max(needed - float(first_directions_.size()), 0.0f) / float(directions_.size())));
+  return int(std::ceil(std::max(needed - float(first_spokes_.size()), 0.0f) / float(spokes_.size())));
 }
 
-void Baker::plan_rounds(std::size_t piece) {
-  const std::size_t first = first_point_[piece];
-  const std::size_t end = first + scene_.meshes[scene_.placed[piece].mesh].bake_points.size();
-  using Cell = std::array<int, 4>;  // of space, and the side of the surface
-  const auto cell_of = [](const Point& p) -> Cell {
-    const auto at = [](float x) { return int(std::floor(x / kAbout)); };
-    return {at(p.position.x), at(p.position.y), at(p.position.z), dominant_direction(p.normal)};
-  };
-  std::map<Cell, Sum> about;
-  for (std::size_t i = first; i < end; ++i) {
+// What the first rays of points of one piece and side in a cell of space say together. A point that went by its own
+// rays alone would stop too early just where they missed what is bright, and be too dark.
+Baker::Regions Baker::look_about(std::size_t piece) {
+  Regions regions;
+  const auto at = [](float x) { return int(std::floor(x / kAbout)); };
+  for (std::size_t i = first_point_[piece]; i < end_point(piece); ++i) {
+    const Point& p = points_[i];
+    Region& region = regions[{at(p.position.x), at(p.position.y), at(p.position.z), dominant_direction(p.normal)}];
+    region.points.push_back(std::uint32_t(i));
     sums_[i] = first_sum(i);
-    Sum& sum = about[cell_of(points_[i])];
-    sum.light += sums_[i].light, sum.squares += sums_[i].squares, sum.rays += sums_[i].rays;
+    region.sum.light += sums_[i].light, region.sum.squares += sums_[i].squares, region.sum.rays += sums_[i].rays;
+    region.bright_nearness += bright_nearness(i);
   }
-  for (std::size_t i = first; i < end; ++i) rounds_[i] = rounds_for(points_[i], about[cell_of(points_[i])]);
+  for (const auto& [cell, region] : regions) {
+    const float near = region.bright_nearness;
+    const float far = near > 0 ? luminance(region.sum.light) / near : kLightReach;
+    for (const std::uint32_t i : region.points) points_[i].light_distance = far;
+  }
+  return regions;
+}
+
+// The sum over its first rays of radiance by the inverse distance that it comes from.
+float Baker::bright_nearness(std::size_t i) const {
+  float sum = 0;
+  const std::uint32_t* codes = first_hits_.data() + i * first_spokes_.size();
+  for (std::size_t r = 0; r < first_spokes_.size(); ++r)
+    if (codes[r] < kNone)
+      sum += luminance(radiance_[codes[r]]) /
+             std::max(distance(points_[codes[r]].position, points_[i].position), 0.01f);
+  return sum;
+}
+
+void Baker::plan(std::size_t piece) {
+  const Regions regions = look_about(piece);
+  find_neighbours(piece);
+  for (const auto& [cell, region] : regions)
+    for (const std::uint32_t i : region.points) rounds_[i] = rounds_for(points_[i], region.sum);
 }
 
 void Baker::gather(std::size_t i) {

@@ -5,6 +5,10 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "render/geometry/geometry.h"
+#include "render/geometry/prepared_mesh.h"
+#include "render/lighting/bake.h"
+#include "render/lighting/light_packing.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
 
@@ -161,6 +165,72 @@ TEST(LampBounce, LeavesNothingBehind) {
   renderer.restart(off, scene.air);
   EXPECT_TRUE(before == draw());
 }
+
+// A black disc above black ground, under an overcast sky: about its middle all light comes from
+// lower than a few degrees. E = integral of L sin(elevation) over this strip of the sky.
+class LowSlit : public ::testing::TestWithParam<double> {};
+
+TEST_P(LowSlit, LightsTheGroundAsItsSkyDoes) {
+  const double height = GetParam();
+  constexpr double kRadius = 3, kThick = 0.1;
+  constexpr int kSides = 48;
+  Scene scene;
+  scene.lamp.on = false;
+  scene.light.type = LightType::sun, scene.light.elevation_deg = 50, scene.sky.type = SkyType::overcast;
+  TriangleMesh disc;
+  disc.surface_names = {"concrete_cast"};
+  const auto rim = [&](int i, double z) {
+    const portable::SinCos a = portable::sincos(2 * portable::kPi * (i % kSides) / kSides);
+    return Vec3f(Vec3(kRadius * a.cos, kRadius * a.sin, z));
+  };
+  const auto add = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+    const auto first = std::uint32_t(disc.positions.size());
+    for (const Vec3f& p : {a, b, c}) disc.positions.push_back(p);
+    disc.triangles.push_back({first, first + 1, first + 2}), disc.surfaces.push_back(0);
+  };
+  for (int i = 0; i < kSides; ++i) {
+    add({0, 0, float(kThick)}, rim(i, kThick), rim(i + 1, kThick)),
+        add({0, 0, 0}, rim(i + 1, 0), rim(i, 0));
+    add(rim(i, 0), rim(i + 1, 0), rim(i + 1, kThick)),
+        add(rim(i, 0), rim(i + 1, kThick), rim(i, kThick));
+  }
+  scene.meshes.push_back(share(disc));
+  scene.instances.push_back({0, 1, {{}, {0, 0, height}}, 1});
+
+  const PreparedScene prepared = prepare_scene(scene, 2);
+  SceneRays rays(prepared);
+  const LightSet light = make_lights(scene);
+  BakeOptions options;
+  options.threads = 2;
+  const auto black = [](const RayScene::Triangle&, float, float) { return Vec3f(); };
+  const BakedScene baked = bake_light(prepared, rays, light, black, options, {});
+
+  double expected = 0;
+  constexpr int kSteps = 400;
+  const double top = std::atan(height / kRadius);
+  for (int i = 0; i < kSteps; ++i) {
+    const double up = (i + 0.5) / kSteps * top;
+    const Vec3f w(Vec3(std::cos(up), 0, std::sin(up)));
+    expected += double(luminance(light.sky.radiance(w))) * std::sin(up) * std::cos(up) * 2 *
+                portable::kPi * top / kSteps;
+  }
+  double found = 0;
+  int count = 0;
+  for (const PlacedMesh& placed : prepared.placed) {
+    if (placed.id != kGroundId) continue;
+    const std::vector<LightNode>& nodes = prepared.meshes[placed.mesh].light_nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Vec3f& at = nodes[i].position;
+      if (at.x * at.x + at.y * at.y > 0.5f * 0.5f) continue;
+      const UnpackedLight here = unpack_light(baked.nodes[placed.first_light + i], {0, 0, 1});
+      found += double(luminance(here.colour)), ++count;
+    }
+  }
+  ASSERT_GT(count, 20);
+  EXPECT_NEAR(found / count / expected, 1, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(BakedLight, LowSlit, ::testing::Values(0.2, 0.3, 0.5));
 
 }  // namespace
 }  // namespace rubble::testing

@@ -136,6 +136,13 @@ void ColourDrawer::draw_traced(const ViewRays& view, std::optional<float> exposu
   rgba = develop_image(radiance, k.width, k.height, gains, image.exposure);
 }
 
+void ColourDrawer::set_bounce(bool shows, DrawnSurfaces& surfaces) {
+  if (shows)
+    scene_.add_bounce(surfaces.shown());
+  else
+    scene_.leave_bounce_out();
+}
+
 void ColourDrawer::draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
                                std::optional<float> exposure, std::vector<std::uint8_t>& rgba,
                                ColourImage& image) {
@@ -154,13 +161,10 @@ void ColourDrawer::draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
   if (bounce && !metered) bounce = scene_.bounce_shows(image.exposure);
   // In daylight it hardly ever shows. What the image is like without it tells.
   const bool try_without = bounce && metered && scene_.lamp_is_in_the_open();
-  if (bounce && !try_without)
-    scene_.add_bounce(surfaces.shown());
-  else
-    scene_.leave_bounce_out();
+  set_bounce(bounce && !try_without, surfaces);
   light_and_expose();
   if (try_without && scene_.bounce_shows(image.exposure)) {
-    scene_.add_bounce(surfaces.shown());
+    set_bounce(true, surfaces);
     light_and_expose();
   }
   resolve_->draw(projection, view.world_from_camera, images, light, image.exposure, metered);
@@ -199,10 +203,7 @@ std::vector<float> ColourDrawer::draw_radiance(const ViewRays& view, DrawnSurfac
   if (reference_) return trace(view);
   const SurfaceImages images = surfaces.images();
   scene_.light_air(view.stamp_ns);
-  if (scene_.aim_lamp(view.lamp_bearer(), view.stamp_ns))
-    scene_.add_bounce(surfaces.shown());
-  else
-    scene_.leave_bounce_out();
+  set_bounce(scene_.aim_lamp(view.lamp_bearer(), view.stamp_ns), surfaces);
   const FrameLight light = light_view(view, surfaces, true);
   return three_of(resolve_->draw_linear(projection_of(view), view.world_from_camera, images, light),
                   4);

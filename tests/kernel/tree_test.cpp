@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "kernel/base/random.h"
-#include "kernel/multibody/joints/joint.h"
 #include "kernel/multibody/simbody_trees.h"
 #include "simbody_judge.h"
 

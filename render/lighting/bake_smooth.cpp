@@ -12,15 +12,15 @@ namespace rubble {
 
 namespace {
 
-constexpr float kReach = 0.5f;   // of smoothing, as a share of the distance of what is seen
-constexpr float kWidest = 0.3f;  // unit: m
-constexpr float kAround = 8;     // times as wide, and its cells, on surroundings, where points are sparse
-constexpr float kLeastReach = 0.02f;  // below, a point keeps what it found; unit: m
-constexpr float kFacing = 0.85f;      // least cosine between the normals of neighbours
-constexpr float kLift = 0.01f;        // of lines of sight between them; unit: m
-constexpr float kCell = 0.15f;        // of space; unit: m
-constexpr float kSearch = 0.35f;      // for a point that is inside a piece; unit: m
-constexpr float kContact = 0.7f;      // light left where pieces touch
+constexpr float kReach = 0.5f;       // of smoothing, as a share of the distance of what is seen
+constexpr float kWidest = 0.3f;      // unit: m
+constexpr float kAround = 8;         // times as wide, and its cells, on surroundings, where points are sparse
+constexpr float kLeastReach = 0.02f; // below, a point keeps what it found; unit: m
+constexpr float kFacing = 0.85f;     // least cosine between the normals of neighbours
+constexpr float kLift = 0.01f;       // of lines of sight between them; unit: m
+constexpr float kCell = 0.15f;       // of space; unit: m
+constexpr float kSearch = 0.35f;     // for a point that is inside a piece; unit: m
+constexpr float kContact = 0.7f;     // light left where pieces touch
 
 }  // namespace
 

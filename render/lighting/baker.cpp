@@ -16,9 +16,8 @@ constexpr std::size_t kAlbedos = 4;  // nodes whose mean albedo is that of a poi
 constexpr std::size_t kChunk = 256;  // points a job
 using NodesOfPoint = std::vector<std::uint32_t>;
 
-// Of directions spread evenly, cosine-weighted (Malley's method over a golden-ratio sequence), in
-// an order in which those that follow each other go about the same way, for packets: first the
-// steep half, then the other, each once around.
+// Of directions spread evenly, cosine-weighted (Malley's method over a golden-ratio sequence), in an order in which those
+// that follow each other go about the same way, for packets: first the steep half, then the other, each once around.
 std::vector<Baker::Spoke> make_spokes(std::size_t count) {
   struct Place {
     std::size_t stratum;

@@ -20,13 +20,13 @@ namespace rubble {
 
 class Baker {
  public:
-  struct Spoke {     // of a fan of rays
+  struct Spoke {  // of a fan of rays
     float stratum;   // of heights, from 0
     float cos, sin;  // of its azimuth
   };
 
-  Baker(const PreparedScene& scene, const RayScene& solid, const LightSet& light,
-        const AlbedoAt& albedo, const BakeOptions& options);
+  Baker(const PreparedScene& scene, const RayScene& solid, const LightSet& light, const AlbedoAt& albedo,
+        const BakeOptions& options);
 
   void run(const std::function<void(double)>& progress);
   std::vector<BakedLight> node_light() const;
@@ -45,13 +45,13 @@ class Baker {
   struct Point {
     Vec3f position, normal;  // in the world
     Vec3f direct;            // of the lights; unit: klx
-    Vec3f sky;            // mean radiance that its first rays meet, of the sky alone; unit: kcd/m2
-    Vec3f indirect;       // of sky and surfaces; unit: klx
-    Vec3f vector;         // dot(n, vector) is the strength of `indirect` on a normal n near its own
-    float clearance = 0;  // harmonic mean of the distances of what it sees; unit: m
+    Vec3f sky;               // mean radiance that its first rays meet, of the sky alone; unit: kcd/m2
+    Vec3f indirect;          // of sky and surfaces; unit: klx
+    Vec3f vector;            // dot(n, vector) is the strength of `indirect` on a normal n near its own
+    float clearance = 0;     // harmonic mean of the distances of what it sees; unit: m
     float light_distance = 0;  // harmonic mean of the distances that light comes from; unit: m
-    float room = 0;            // mean distance of what it sees, where more than kWide counts as that; unit: m
-    float noise_left = 1;      // variance of the mean over its neighbours, as a share of its own
+    float room = 0;          // mean distance of what it sees, where more than kWide counts as that; unit: m
+    float noise_left = 1;    // variance of the mean over its neighbours, as a share of its own
     std::uint32_t piece = 0, source = 0;  // placed mesh, and its bake point
     std::uint8_t open = 0;   // origins outside all pieces, one bit each
   };
@@ -129,18 +129,15 @@ class Baker {
   BakeOptions options_;
   const RayScene& rays_;  // of all but glass
   GlassSheets sheets_;    // of glass, which dims light and does nothing else to it
-  std::vector<Spoke> first_spokes_, spokes_;  // spread evenly, cosine-weighted
-  std::vector<Point> points_;                 // of all placed meshes
-  std::vector<std::uint32_t> first_point_;    // of each placed mesh
-  std::vector<std::uint32_t> first_hits_;  // of each point in turn: a point, kSky, kInside or kNone
-  std::vector<std::uint8_t>
-      first_cleared_;  // share that glass leaves of each, 255: all; empty: there is no glass
-  std::vector<std::vector<std::uint32_t>>
-      nearest_points_;  // of each mesh: to each node, in the mesh
-  std::vector<Vec3f> far_light_,
-      far_vectors_;          // of LightSet::far, of each point; empty: there are none
-  std::vector<Sum> sums_;    // of the rays of each point
-  std::vector<int> rounds_;  // that each point gathers by, besides its first rays
+  std::vector<Spoke> first_spokes_, spokes_;        // spread evenly, cosine-weighted
+  std::vector<Point> points_;                       // of all placed meshes
+  std::vector<std::uint32_t> first_point_;          // of each placed mesh
+  std::vector<std::uint32_t> first_hits_;           // of each point in turn: a point, kSky, kInside or kNone
+  std::vector<std::uint8_t> first_cleared_;         // share that glass leaves of each, 255: all; empty: there is no glass
+  std::vector<std::vector<std::uint32_t>> nearest_points_;  // of each mesh: to each node, in the mesh
+  std::vector<Vec3f> far_light_, far_vectors_;      // of LightSet::far, of each point; empty: there are none
+  std::vector<Sum> sums_;                           // of the rays of each point
+  std::vector<int> rounds_;                         // that each point gathers by, besides its first rays
   std::vector<std::vector<Neighbour>> neighbours_;  // of each point
   std::vector<std::uint32_t> substitutes_;          // for a point that is inside a piece: whose light it takes
   std::vector<Vec3f> albedos_, radiance_;           // of each point, matt; unit of the latter: kcd/m2

@@ -1,7 +1,12 @@
 // scaling_bench: how the time per piece grows with the number of pieces.
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -36,20 +41,39 @@ void print(const SettleRun& run) {
   std::fflush(stdout);
 }
 
+// In a process of its own: what a pile before it gave back stays with the process in part, and would count as memory of
+// this one.
+ExitCode settle_alone(const Pile& work, int pieces, const Request& request) {
+  const pid_t child = fork();
+  if (child < 0) throw RunError(std::string("scaling_bench: cannot start a process: ") + std::strerror(errno));
+  if (child == 0) {
+    const int code = run_program("scaling_bench", [&] {
+      SettleJob job;
+      job.work = std::to_string(pieces);
+      job.options.threads = request.threads;
+      job.judge = false;
+      print(run_settling(generate_pile(make_standard_mix(work, pieces, request.seed)), job));
+      return ExitCode::done;
+    });
+    _exit(code);
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? ExitCode(WEXITSTATUS(status)) : ExitCode::failure;
+}
+
 ExitCode bench(const Request& request) {
   const Pile work = load_workload(standard_work());
   std::printf(
       "pieces,threads,wall_s,cpu_s,sim_s,steps,settled,cpu_ms_per_piece,"
       "cpu_us_per_piece_and_step,peak_rss_mib,%s\n",
       calibration_csv_header().c_str());
-  for (int pieces : request.pieces) {
-    SettleJob job;
-    job.work = std::to_string(pieces);
-    job.options.threads = request.threads;
-    job.judge = false;
-    print(run_settling(generate_pile(make_standard_mix(work, pieces, request.seed)), job));
-  }
-  return ExitCode::done;
+  std::fflush(stdout);
+  ExitCode code = ExitCode::done;
+  for (std::size_t i = 0; i < request.pieces.size() && code == ExitCode::done; ++i)
+    code = settle_alone(work, request.pieces[i], request);
+  return code;
 }
 
 ExitCode run(int argc, char** argv) {

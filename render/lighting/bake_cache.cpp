@@ -5,7 +5,7 @@ namespace rubble {
 
 namespace {
 
-constexpr int kVersion = 11;  // raise it when the same scene bakes to other light
+constexpr int kVersion = 12;  // raise it when the same scene bakes to other light
 
 template <typename T>
 void add_vec(CacheKey& key, const Vec3T<T>& v) {

@@ -100,8 +100,8 @@ class Baker {
   float cleared(const RayScene::Ray& ray, float farthest) const;
   float first_cleared(std::size_t ray) const;  // of a first ray
   void trace(std::size_t point);         // its first rays
-  std::vector<BakeOrigin> direct_places(const Point& p) const;
-  void find_direct(Point& p) const;
+  std::vector<BakeOrigin> direct_places(std::size_t point) const;
+  void find_direct(std::size_t point);
   Vec3f find_far(Point& p) const;        // adds it to the direct light; the vector of it, as Point::vector
   void show_far_light();                 // in what is kept at nodes
   void gather_first(std::size_t point);  // by them

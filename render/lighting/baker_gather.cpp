@@ -143,34 +143,38 @@ void Baker::trace(std::size_t i) {
   p.sky = seen > 0 ? p.sky * (1 / seen) : Vec3f();
   p.clearance = near > 0 ? seen / near : kLightReach;
   p.room = room / std::max(seen, 1.0f);
-  find_direct(p);
+  find_direct(i);
   if (light_.far.empty()) return;
   const Vec3f near_light = p.direct;
   far_vectors_[i] = find_far(p);
   far_light_[i] = p.direct - near_light;
 }
 
-// From places on the surface that the point stands for, in turn: its origins, then places between two that lie on one face.
-// Sunbeams in a void are narrow, and all light there may be theirs.
-std::vector<BakeOrigin> Baker::direct_places(const Point& p) const {
+// From places on the surface that the point stands for: its origins, then places from each on the way to another that lies
+// on the same face; as many for one as for another. Sunbeams in a void are narrow, and all light there may be theirs.
+std::vector<BakeOrigin> Baker::direct_places(std::size_t i) const {
+  const Point& p = points_[i];
   std::vector<BakeOrigin> out;
+  out.reserve(kDirectPlaces);
   for (std::size_t o = 0; o < origin_count(p); ++o)
     if (p.open >> o & 1u) out.push_back(origin(p, o));
   const std::size_t origins = out.size();
   if (origins < 2) return out;
-  for (std::size_t k = 0; out.size() < kDirectPlaces && k < 2 * kDirectPlaces; ++k) {
-    const BakeOrigin &a = out[k % origins], &b = out[(k + 1 + k / origins % (origins - 1)) % origins];
-    if (dot(a.normal, b.normal) < kOneFace || std::fabs(dot(a.normal, b.position - a.position)) > kLift) continue;
-    const float part = lattice_value(int(&p - points_.data()), int(k), std::uint32_t(options_.seed) + 0x2545f491u);
-    out.push_back({a.position + (b.position - a.position) * part, a.normal});
+  for (std::size_t k = 0; out.size() < kDirectPlaces; ++k) {
+    const BakeOrigin a = out[k % origins], b = out[(k + 1 + k / origins % (origins - 1)) % origins];
+    const bool one_face =
+        dot(a.normal, b.normal) >= kOneFace && std::fabs(dot(a.normal, b.position - a.position)) <= kLift;
+    const float part = lattice_value(int(i), int(k), std::uint32_t(options_.seed) + 0x2545f491u);
+    out.push_back({one_face ? a.position + (b.position - a.position) * part : a.position, a.normal});
   }
   return out;
 }
 
 // The mean over these places, each from another spot of the sun's disc.
-void Baker::find_direct(Point& p) const {
+void Baker::find_direct(std::size_t i) {
+  Point& p = points_[i];
   p.direct = Vec3f();
-  const std::vector<BakeOrigin> places = direct_places(p);
+  const std::vector<BakeOrigin> places = direct_places(i);
   for (const LightModel& l : light_.lights) {
     std::array<RayScene::Ray, kDirectPlaces> rays;
     std::array<Vec3f, kDirectPlaces> light;

@@ -87,6 +87,13 @@ float base_share(Surface s, vec3 to_light) {
   return (1.0 - mirrored_share(s, dot(s.normal, to_light))) / (1.0 - mean);
 }
 
+// Breaks the line where the plane of a texture changes, by waves of 40 to 7 mm, as in render/shading/find_surface.h.
+vec3 zigzag(vec3 x) { return abs(fract(x) - 0.5); }
+vec3 ragged(vec3 x, vec3 y) {
+  return 0.14 * zigzag(x * 23.0 + y * 11.0) + 0.09 * zigzag(y * 61.0 - x * 29.0) +
+         0.03 * zigzag(x * 127.0 + y * 71.0) - 0.065;
+}
+
 Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, float z) {
   Surface s;
   // The point in the mesh frame.
@@ -130,8 +137,7 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
   vec3 light = lw.x * l0 + lw.y * l1 + lw.z * l2;
   vec2 red_blue = lw.x * rb0 + lw.y * rb1 + lw.z * rb2;
 
-  // The look, on the one of 26 planes that the surface is nearest to: little stretching, one
-  // fetch. Noise breaks the line where the plane changes.
+  // The look, on the one of 26 planes that the surface is nearest to: little stretching, one fetch.
   int look = find_look(tri) * 4;
   vec4 dark = looks[look], bright = looks[look + 1], accent = looks[look + 2];
   vec4 more = looks[look + 3];
@@ -144,9 +150,7 @@ Surface find_surface(uint placed, uint triangle, vec3 world, vec3 direction, flo
     seed = vec2(0.0);
   }
   vec3 f = turn == 1u ? smooth_normal.yzx : turn == 2u ? smooth_normal.zxy : smooth_normal;
-  vec3 grain = floor(q * 300.0);
-  vec3 hash = fract(grain * 0.3057 + grain.yzx * 0.191);
-  f += (fract(hash * (hash + 3.33) * 97.0) - 0.5) * 0.12;
+  f += ragged(q, q.yzx);
   vec3 plane = normalize(round(f * 1.2));
   vec3 along = abs(plane.z) > 0.9 ? vec3(1.0, 0.0, 0.0)
                                   : normalize(vec3(-plane.y, plane.x, 0.0));

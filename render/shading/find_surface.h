@@ -135,10 +135,12 @@ RUBBLE_INLINE Real3 turned_back(const Real3& v, Mask once, Mask twice) {
   return turned(v, twice, once);
 }
 
-// Noise that breaks the line where the plane of a texture changes.
-RUBBLE_INLINE Real ragged(Real x) {
-  const Real hash = fract(x);
-  return (fract(hash * (hash + 3.33f) * 97.0f) - 0.5f) * 0.12f;
+RUBBLE_INLINE Real zigzag(Real x) { return abs(fract(x) - 0.5f); }
+// Breaks the line where the plane of a texture changes, by waves of 40 to 7 mm. It is even, for grains of one value
+// each would show as blocks from near to, and finer waves as a comb. x, y: unit: m.
+RUBBLE_INLINE Real ragged(Real x, Real y) {
+  return 0.14f * zigzag(x * 23.0f + y * 11.0f) + 0.09f * zigzag(y * 61.0f - x * 29.0f) +
+         0.03f * zigzag(x * 127.0f + y * 71.0f) - 0.065f;
 }
 
 struct Look {
@@ -183,11 +185,9 @@ RUBBLE_INLINE Pattern find_pattern(const ShadingData& d, const PlacedPoint& plac
     seed_u = select(cut, real(0), seed_u), seed_v = select(cut, real(0), seed_v);
   }
   const Real3 f = turned(t.smooth, once, twice);
-  const Real3 grain{floor(q.x * 300.0f), floor(q.y * 300.0f), floor(q.z * 300.0f)};
   const auto nearest = [](Real x) { return floor(x * 1.2f + 0.5f); };
-  const Real3 plane = normalize(Real3{nearest(f.x + ragged(grain.x * 0.3057f + grain.y * 0.191f)),
-                                      nearest(f.y + ragged(grain.y * 0.3057f + grain.z * 0.191f)),
-                                      nearest(f.z + ragged(grain.z * 0.3057f + grain.x * 0.191f))});
+  const Real3 plane =
+      normalize(Real3{nearest(f.x + ragged(q.x, q.y)), nearest(f.y + ragged(q.y, q.z)), nearest(f.z + ragged(q.z, q.x))});
   const Mask level_plane = abs(plane.z) > 0.9f;
   const Real inverse = inverse_sqrt(max(plane.x * plane.x + plane.y * plane.y, 1e-12f));
   const Real3 along{select(level_plane, real(1), -plane.y * inverse),

@@ -31,9 +31,9 @@ Vec3f turned_back(const Vec3f& v, int turn) {
   return turn == 1 ? Vec3f(v.z, v.x, v.y) : turn == 2 ? Vec3f(v.y, v.z, v.x) : v;
 }
 Vec3f dust_albedo(float bright) { return Vec3f(0.375f, 0.36f, 0.335f) * (0.55f + 0.75f * bright); }
-float ragged(float x) {  // noise without a pattern
-  const float hash = fract(x);
-  return (fract(hash * (hash + 3.33f) * 97.0f) - 0.5f) * 0.12f;
+float zigzag(float x) { return std::fabs(fract(x) - 0.5f); }
+float ragged(float x, float y) {  // as in render/shading/find_surface.h
+  return 0.14f * zigzag(x * 23 + y * 11) + 0.09f * zigzag(y * 61 - x * 29) + 0.03f * zigzag(x * 127 + y * 71) - 0.065f;
 }
 
 }  // namespace
@@ -140,10 +140,7 @@ void LookSurfaces::find_pattern(const SurfaceQuery& query, Place& place) const {
   const Placed& piece = *place.piece;
   const SurfaceAppearance& look = *place.look;
   const Vec3f q = turned(place.point * piece.scale + piece.in_body, piece.turn);
-  const Vec3f grain(std::floor(q.x * 300), std::floor(q.y * 300), std::floor(q.z * 300));
-  const Vec3f noise = grain * 0.3057f + Vec3f(grain.y, grain.z, grain.x) * 0.191f;
-  const Vec3f f = turned(place.smooth, piece.turn) +
-                  Vec3f(ragged(noise.x), ragged(noise.y), ragged(noise.z));
+  const Vec3f f = turned(place.smooth, piece.turn) + Vec3f(ragged(q.x, q.y), ragged(q.y, q.z), ragged(q.z, q.x));
   const auto nearest = [](float x) { return std::floor(x * 1.2f + 0.5f); };
   const Vec3f plane = normalized(Vec3f(nearest(f.x), nearest(f.y), nearest(f.z)));
   const Vec3f along = std::fabs(plane.z) > 0.9f ? Vec3f(1, 0, 0)

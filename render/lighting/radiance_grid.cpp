@@ -7,6 +7,12 @@
 
 namespace rubble {
 
+namespace {
+
+constexpr float kEnough = 0.25f;  // of the weight of all eight corners, for those that are seen to stand for all
+
+}  // namespace
+
 Vec3f AirGrid::point(std::size_t i) const {
   const auto nx = std::size_t(size[0]), ny = std::size_t(size[1]);
   return {origin.x + cell.x * float(i % nx), origin.y + cell.y * float(i / nx % ny),
@@ -43,6 +49,39 @@ AirGrid::Corners AirGrid::about(const Vec3f& point) const {
   return out;
 }
 
+void AirGrid::Corners::keep(std::uint8_t seen, const std::vector<std::uint32_t>& stand_in) {
+  if (seen == 255 || stand_in.empty()) return;
+  float sum = 0;
+  for (std::size_t k = 0; k < 8; ++k)
+    if (seen >> k & 1u) sum += weight[k];
+  const float share = std::min(sum / kEnough, 1.0f);
+  const float of_seen = sum > 0 ? share / sum : 0, of_others = sum < 1 ? (1 - share) / (1 - sum) : 0;
+  for (std::size_t k = 0; k < 8; ++k) {
+    const bool is_seen = seen >> k & 1u;
+    weight[k] *= is_seen ? of_seen : of_others;
+    if (!is_seen) at[k] = stand_in[at[k]];
+  }
+}
+
+std::uint8_t SeenCorners::at(const AirGrid& grid, const Vec3f& point) const {
+  if (seen.empty()) return 255;
+  std::size_t cell = 0, part = 0, row = 1, parts = 1;
+  for (int i = 0; i < 3; ++i) {
+    const int last = grid.size[std::size_t(i)] - 2;
+    const float at = std::max((point[i] - grid.origin[i]) / grid.cell[i], 0.0f);
+    const int low = std::min(int(at), last), within = std::clamp(int((at - float(low)) * float(cuts)), 0, cuts - 1);
+    cell += std::size_t(low) * row, part += std::size_t(within) * parts;
+    row *= std::size_t(grid.size[std::size_t(i)]), parts *= std::size_t(cuts);
+  }
+  return seen[cell * parts + part];
+}
+
+AirGrid::Corners RadianceGrid::corners(const Vec3f& point, const std::vector<std::uint32_t>& stands_in) const {
+  AirGrid::Corners out = grid.about(point);
+  out.keep(seen.at(grid, point), stands_in);
+  return out;
+}
+
 RadianceTerms blend(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners) {
   RadianceTerms out{};
   for (std::size_t k = 0; k < 8; ++k)
@@ -54,7 +93,7 @@ RadianceTerms blend(const std::vector<RadianceTerms>& grid, const AirGrid::Corne
 // seen as four discs that have the area that it shows.
 RadianceTerms RadianceGrid::at(const Vec3f& point) const {
   const Vec3f near = grid.nearest(point);
-  RadianceTerms out = blend(terms, grid.about(near));
+  RadianceTerms out = blend(terms, corners(near, stand_in));
   const float off = norm(point - near);
   if (off <= 0) return out;
   const Vec3f size = grid.length();
@@ -84,7 +123,7 @@ void RadianceGrid::add_disc(const Vec3f& point, int quarter, float share, Radian
   // Integrals over the disc of Legendre's polynomials.
   const float disc[kOrders] = {1 - edge, (1 - e2) / 2, edge * (1 - e2) / 2, (1 - e2) * (5 * e2 - 1) / 8};
   const Harmonics y = harmonics_of(direction);
-  const RadianceTerms there = blend(terms, grid.about(point + way * enters));
+  const RadianceTerms there = blend(terms, corners(point + way * enters, stand_in));
   Vec3f instead;
   for (std::size_t t = 0; t < kHarmonics; ++t) instead += (there[t] - open[t]) * y[t];
   for (std::size_t t = 0; t < kHarmonics; ++t)
@@ -92,7 +131,7 @@ void RadianceGrid::add_disc(const Vec3f& point, int quarter, float share, Radian
 }
 
 RadianceTerms RadianceGrid::of_lamp_at(const Vec3f& point) const {
-  return of_lamp.empty() || norm(point - grid.nearest(point)) > 0 ? RadianceTerms{} : blend(of_lamp, grid.about(point));
+  return of_lamp.empty() || norm(point - grid.nearest(point)) > 0 ? RadianceTerms{} : blend(of_lamp, corners(point, lamp_stand_in));
 }
 
 std::array<Vec3f, kOrders> orders_towards(const RadianceTerms& terms, const Vec3f& direction) {

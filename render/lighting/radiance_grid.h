@@ -23,8 +23,21 @@ struct AirGrid {
   struct Corners {
     std::array<std::uint32_t, 8> at;
     std::array<float, 8> weight;
+
+    // Takes those that are seen alone, one bit each; as far as these weigh little, with what stands for the others.
+    void keep(std::uint8_t seen, const std::vector<std::uint32_t>& stand_in);
   };
   Corners about(const Vec3f& point) const;
+};
+
+// Which of the corners about it a place sees, near enough: of the middle of the part of the cell in which it lies.
+struct SeenCorners {
+  int cuts = 1;  // of a cell along each axis
+  // Of each part, one bit a corner; parts are counted along x, then y, then z in the cell, and cells by their lowest
+  // corners. Empty: all see all.
+  std::vector<std::uint8_t> seen;
+
+  std::uint8_t at(const AirGrid& grid, const Vec3f& point) const;
 };
 
 // One function of direction, of each colour; unit: kcd/m2 times the norm of harmonics_of().
@@ -35,14 +48,19 @@ RadianceTerms blend(const std::vector<RadianceTerms>& grid, const AirGrid::Corne
 
 struct RadianceGrid {
   AirGrid grid;
+  SeenCorners seen;
   std::vector<RadianceTerms> terms;  // of each point: what arrives from each direction
   // Likewise, what the air has scattered of a lamp's light, but for what goes nearly straight on; empty: none.
   std::vector<RadianceTerms> of_lamp;
+  // Of each point, whose light stands for it at places that see none of the corners about them: of all, and of the lamp.
+  std::vector<std::uint32_t> stand_in, lamp_stand_in;
   RadianceTerms open{};              // of places far away, over level ground
 
   // Between points; outside the box an estimate.
   RadianceTerms at(const Vec3f& point) const;
   RadianceTerms of_lamp_at(const Vec3f& point) const;  // outside the box nothing
+
+  AirGrid::Corners corners(const Vec3f& point, const std::vector<std::uint32_t>& stands_in) const;
 
  private:
   void add_disc(const Vec3f& point, int quarter, float share, RadianceTerms& out) const;

@@ -7,6 +7,7 @@
 #include "kernel/base/parallel.h"
 #include "kernel/base/portable_math.h"
 #include "render/lighting/lighting.h"
+#include "render/transport/corner_sight.h"
 
 namespace rubble {
 
@@ -57,6 +58,7 @@ class LinkMaker {
   std::uint32_t point_of(const RayScene::PreciseHit& hit) const;
   bool look_around(std::size_t i);
   std::uint32_t find_hidden(std::size_t i) const;
+  void look_along(std::size_t i, const CornerSight& sight, std::vector<std::uint8_t>& seen);
   void find_nearest(const std::vector<std::uint8_t>& open);
 
   const PreparedScene& scene_;
@@ -109,6 +111,19 @@ std::uint32_t LinkMaker::find_hidden(std::size_t i) const {
   return bits;
 }
 
+// For all places of the links of a point. What a link meets lies within a stretch, or beyond the box, where nothing is asked.
+void LinkMaker::look_along(std::size_t i, const CornerSight& sight, std::vector<std::uint8_t>& seen) {
+  const Vec3f from = links_.grid.point(i);
+  for (std::size_t k = 0; k < AirLinks::kDirections; ++k) {
+    links_.first_place[i * AirLinks::kDirections + k] = std::uint32_t(seen.size());
+    const Vec3f& d = links_.directions[k];
+    const float length = links_.length(k, i);
+    links_.cut(length, [&](float middle, float) { seen.push_back(sight.seen_from(from + d * middle)); });
+    const bool meets = links_.ends[k * links_.grid.count() + i].distance <= length;
+    seen.push_back(meets ? sight.seen_from(from + d * links_.place_before_end(length)) : 255);
+  }
+}
+
 // Ring by ring.
 void LinkMaker::find_nearest(const std::vector<std::uint8_t>& open) {
   std::vector<std::uint8_t> known = open;
@@ -129,15 +144,27 @@ void LinkMaker::make(int threads) {
   const std::size_t count = links_.grid.count();
   links_.ends.resize(count * AirLinks::kDirections);
   links_.nearest.resize(count), links_.hidden.resize(count);
+  links_.first_place.resize(count * AirLinks::kDirections);
   std::vector<std::uint8_t> open(count);
+  const CornerSight sight(scene_, rays_, links_.grid);
   constexpr std::size_t kChunk = 64;
-  parallel_for((count + kChunk - 1) / kChunk, threads, [&](std::size_t job) {
+  const std::size_t jobs = (count + kChunk - 1) / kChunk;
+  std::vector<std::vector<std::uint8_t>> seen(jobs);
+  parallel_for(jobs, threads, [&](std::size_t job) {
     for (std::size_t i = job * kChunk; i < std::min(count, (job + 1) * kChunk); ++i) {
       links_.nearest[i] = std::uint32_t(i);
       open[i] = look_around(i);
-      if (open[i]) links_.hidden[i] = find_hidden(i);
+      if (!open[i]) continue;
+      links_.hidden[i] = find_hidden(i);
+      look_along(i, sight, seen[job]);
     }
   });
+  for (std::size_t job = 0; job < jobs; ++job) {
+    const std::size_t end = std::min(count, (job + 1) * kChunk) * AirLinks::kDirections;
+    for (std::size_t n = job * kChunk * AirLinks::kDirections; n < end; ++n)
+      links_.first_place[n] += std::uint32_t(links_.seen.size());
+    links_.seen.insert(links_.seen.end(), seen[job].begin(), seen[job].end());
+  }
   find_nearest(open);
 }
 
@@ -149,6 +176,14 @@ std::size_t AirLinks::neighbour(std::size_t i, int place) const {
   const std::size_t z = i / (nx * ny) + std::size_t(place / 9);  // each one too many
   if (x < 1 || y < 1 || z < 1 || x > nx || y > ny || z > nz) return i;
   return ((z - 1) * ny + y - 1) * nx + x - 1;
+}
+
+float AirLinks::length(std::size_t direction, std::size_t point) const {
+  const Vec3f d = directions[direction], from = grid.point(point) - grid.origin, box = grid.length();
+  float border = kLightReach;
+  for (int a = 0; a < 3; ++a)
+    if (std::fabs(d[a]) > 1e-6f) border = std::min(border, (d[a] > 0 ? box[a] - from[a] : -from[a]) / d[a]);
+  return std::max(std::min(ends[direction * grid.count() + point].distance, border), 0.0f);
 }
 
 AirLinks make_air_links(const PreparedScene& scene, const RayScene& rays, const Aabb& box, int threads) {

@@ -2,6 +2,7 @@
 // scene; light of any kind is then carried along these links.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -24,9 +25,29 @@ struct AirLinks {
   std::vector<End> ends;              // by direction, then by point of the grid
   std::vector<std::uint32_t> nearest; // of each point: itself, or where it is inside a piece the nearest that is not
   std::vector<std::uint32_t> hidden;  // of each point: which of the 27 points about it it does not see, one bit each
+  // Of each link, by point, then by direction: where its places begin in `seen`.
+  std::vector<std::uint32_t> first_place;
+  // Of each place which of the corners about it it sees (see CornerSight): the middles of the link's stretches in turn, and
+  // where the light of what it meets is asked for.
+  std::vector<std::uint8_t> seen;
 
   // Of the point that is number `place` of the 27 about point i; i itself at the border.
   std::size_t neighbour(std::size_t i, int place) const;
+
+  // From here on the functions say where the places of a link lie: how far from its point. unit: m
+  float cell() const { return std::min(grid.cell.x, std::min(grid.cell.y, grid.cell.z)); }
+  float length(std::size_t direction, std::size_t point) const;  // of its part within the box
+  float place_before_end(float length) const { return std::max(length - 0.5f * cell(), 0.5f * length); }
+  // Cuts it into stretches that grow with the distance, as what a direction stands for does: work(middle, length).
+  template <typename Work>
+  void cut(float length, const Work& work) const {
+    constexpr float kWiden = 0.5f;
+    for (float s = 0; s < length;) {
+      const float step = std::min(std::max(cell(), kWiden * s), length - s);
+      work(s + 0.5f * step, step);
+      s += step;
+    }
+  }
 };
 
 // Points 0.4 m apart over the box, farther where that would be more than some thousands. scene: without what moves;

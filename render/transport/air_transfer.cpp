@@ -13,7 +13,7 @@ namespace {
 constexpr float kMostResponse = 4;
 constexpr float kMean = 0.2820948f;  // from the first term to the mean over all directions
 constexpr float kAngle = 4 * portable::kPiF / AirLinks::kDirections;
-constexpr float kWiden = 0.5f;       // of steps with the distance: what a direction stands for widens, too
+constexpr float kLeastShare = 0.02f;  // of what the corners weigh that a place sees, for them to stand for all eight
 
 Vec3f mean_of(const RadianceTerms& terms) { return terms[0] * kMean; }
 
@@ -42,34 +42,39 @@ AirTransfer::AirTransfer(AirLinks links) : links_(std::move(links)) {
   for (const Vec3f& d : links_.directions) harmonics_.push_back(harmonics_of(d));
   ends_in_.resize(links_.ends.size()), air_in_.resize(links_.ends.size());
   const std::size_t count = links_.grid.count();
-  total_.resize(count), stand_in_.resize(count), response_.resize(count), lit_.resize(count);
+  total_.resize(count), response_.resize(count), lit_.resize(count);
 }
 
-void AirTransfer::choose_sides(const Sources& sources, const std::vector<RadianceTerms>& ends) {
-  const auto brightness = [&](std::size_t i) { return luminance(mean_of(ends[i]) + mean_of(sources.direct[i])); };
-  for (std::size_t i = 0; i < stand_in_.size(); ++i) {
-    const std::uint32_t self = links_.nearest[i];
-    stand_in_[i] = self;
-    if (self != i) continue;
-    float chosen = brightness(i);
+// The darkest, or the brightest, of what a point does not see about it; of points inside a piece, of all about it.
+std::vector<std::uint32_t> AirTransfer::choose_sides(bool brighter) const {
+  constexpr float kClearly = 0.7f;
+  std::vector<float> light;
+  for (const Terms& terms : total_) light.push_back(luminance({terms[0].c[0], terms[0].c[1], terms[0].c[2]}));
+  std::vector<std::uint32_t> out = links_.nearest;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const bool open = links_.nearest[i] == i;
+    float chosen = light[out[i]];
     for (int k = 0; k < 27; ++k) {
-      if (!(links_.hidden[i] >> k & 1u)) continue;
       const std::size_t j = links_.neighbour(i, k);
-      if (links_.nearest[j] != j) continue;
-      const float there = brightness(j);
-      if (sources.brighter ? there * 0.7f <= chosen : there >= 0.7f * chosen) continue;
-      chosen = there, stand_in_[i] = std::uint32_t(j);
+      if (links_.nearest[j] != j || (open && !(links_.hidden[i] >> k & 1u))) continue;
+      if (brighter ? light[j] * kClearly <= chosen : light[j] >= kClearly * chosen) continue;
+      chosen = light[j], out[i] = std::uint32_t(j);
     }
   }
+  return out;
+}
+
+AirGrid::Corners AirTransfer::Result::shown(AirGrid::Corners corners) const {
+  for (std::uint32_t& i : corners.at) i = stand_in[i];
+  return corners;
 }
 
 // What arrives at each point from anywhere, to the second order: what is scattered has hardly more.
 void AirTransfer::gather_total(const Sources& sources, ThreadPool& pool) {
   const std::size_t count = links_.grid.count();
-  own_.resize(count);
   pool.run(int(count), 256, [&](int begin, int end) {
     for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i) {
-      Terms& sum = own_[i];
+      Terms& sum = total_[i];
       for (std::size_t t = 0; t < kTerms; ++t) {
         const Vec3f& direct = sources.direct[i][t];
         sum[t] = {{direct.x, direct.y, direct.z, 0}};
@@ -83,14 +88,11 @@ void AirTransfer::gather_total(const Sources& sources, ThreadPool& pool) {
       }
     }
   });
-  pool.run(int(count), 1024, [&](int begin, int end) {
-    for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i) total_[i] = own_[stand_in_[i]];
-  });
 }
 
 void AirTransfer::find_response(const std::vector<Vec3f>& usual) {
   for (std::size_t i = 0; i < response_.size(); ++i) {
-    const Vec3f& before = usual[stand_in_[i]];
+    const Vec3f& before = usual[i];
     for (int c = 0; c < 3; ++c)
       response_[i].c[c] = before[c] > 0 ? std::clamp(total_[i][0].c[c] * kMean / before[c], 0.0f, kMostResponse) : 1.0f;
   }
@@ -110,7 +112,9 @@ void AirTransfer::emit(const AirMatter& air, std::size_t direction, std::vector<
   }
 }
 
-AirTransfer::Colour AirTransfer::between(const std::vector<Colour>& grid, const Vec3f& at) const {
+// Of the corners about a place, in cells, that it sees; `otherwise`: a point that stands for them where it sees none.
+AirTransfer::Colour AirTransfer::between(const std::vector<Colour>& grid, const Vec3f& at, std::uint8_t seen,
+                                         std::size_t otherwise) const {
   const auto [nx, ny, nz] = links_.grid.size;
   const auto low = [](float a, int n) { return std::clamp(int(a), 0, n - 2); };
   const int x = low(at.x, nx), y = low(at.y, ny), z = low(at.z, nz);
@@ -121,8 +125,19 @@ AirTransfer::Colour AirTransfer::between(const std::vector<Colour>& grid, const 
   const std::ptrdiff_t row = nx, layer = std::ptrdiff_t(nx) * ny;
   const std::ptrdiff_t off[8] = {0, 1, row, row + 1, layer, layer + 1, layer + row, layer + row + 1};
   Colour out;
-  for (std::size_t k = 0; k < 8; ++k)
+  if (seen == 255) {
+    for (std::size_t k = 0; k < 8; ++k)
+      for (std::size_t c = 0; c < 4; ++c) out.c[c] += corner[off[k]].c[c] * weight[k];
+    return out;
+  }
+  float sum = 0;
+  for (std::size_t k = 0; k < 8; ++k) {
+    if (!(seen >> k & 1u)) continue;
+    sum += weight[k];
     for (std::size_t c = 0; c < 4; ++c) out.c[c] += corner[off[k]].c[c] * weight[k];
+  }
+  if (sum < kLeastShare) return grid[otherwise];
+  for (float& c : out.c) c *= 1 / sum;
   return out;
 }
 
@@ -133,7 +148,6 @@ void AirTransfer::follow(const AirMatter& air, const Sources& sources, std::size
   const std::size_t count = grid.count(), first = direction * count;
   const Vec3f& d = links_.directions[direction];
   const Vec3f way(d.x / grid.cell.x, d.y / grid.cell.y, d.z / grid.cell.z);  // in cells for each metre
-  const float cell = std::min(grid.cell.x, std::min(grid.cell.y, grid.cell.z));
   for (std::size_t i = 0; i < count; ++i) {
     if (!lit_[i]) {
       air_in_[first + i] = ends_in_[first + i] = {};
@@ -141,21 +155,19 @@ void AirTransfer::follow(const AirMatter& air, const Sources& sources, std::size
     }
     const Vec3f from(float(i % std::size_t(grid.size[0])), float(i / std::size_t(grid.size[0]) % std::size_t(grid.size[1])),
                      float(i / std::size_t(grid.size[0] * grid.size[1])));
-    float border = 1e9f;
-    for (int a = 0; a < 3; ++a)
-      if (std::fabs(way[a]) > 1e-6f)
-        border = std::min(border, (way[a] > 0 ? float(grid.size[std::size_t(a)] - 1) - from[a] : -from[a]) / way[a]);
     const AirLinks::End& end = links_.ends[first + i];
-    const float length = std::min(end.distance, border);
+    const float length = links_.length(direction, i);
+    const std::uint8_t* seen = links_.seen.data() + links_.first_place[i * AirLinks::kDirections + direction];
     float passed = 1;
     Colour sum;
     if (!emitted) passed = std::exp(-air.extinction[i] * length);
-    for (float s = 0; emitted && s < length;) {
-      const float step = std::min(std::max(cell, kWiden * s), length - s);
-      const Colour here = between(*emitted, from + way * (s + 0.5f * step));
-      const float through = std::exp(-here.c[3] * step), share = passed * (1 - through);
-      for (int c = 0; c < 3; ++c) sum.c[c] += here.c[c] * share;
-      passed *= through, s += step;
+    if (emitted) {
+      links_.cut(length, [&](float middle, float step) {
+        const Colour here = between(*emitted, from + way * middle, *seen++, i);
+        const float through = std::exp(-here.c[3] * step), share = passed * (1 - through);
+        for (int c = 0; c < 3; ++c) sum.c[c] += here.c[c] * share;
+        passed *= through;
+      });
     }
     air_in_[first + i] = sum;
     Vec3f far;
@@ -164,8 +176,8 @@ void AirTransfer::follow(const AirMatter& air, const Sources& sources, std::size
     } else if (end.point != AirLinks::kDark) {
       const Colour& surface = sources.surfaces[end.point];
       far = Vec3f(surface.c[0], surface.c[1], surface.c[2]);
-      if (emitted && end.distance <= border) {
-        const Colour response = between(response_, from + way * std::max(length - 0.5f * cell, 0.5f * length));
+      if (emitted && end.distance <= length) {
+        const Colour response = between(response_, from + way * links_.place_before_end(length), *seen, i);
         far = Vec3f(far.x * response.c[0], far.y * response.c[1], far.z * response.c[2]);
       }
     }
@@ -224,7 +236,6 @@ AirTransfer::Result AirTransfer::solve(const AirMatter& air, const Sources& sour
   Result out;
   project(ends_in_, out.ends, pool);
   find_lit(sources, out.ends);
-  choose_sides(sources, out.ends);
   std::vector<Vec3f> usual = sources.usual;
   if (usual.empty())
     for (std::size_t i = 0; i < out.ends.size(); ++i) usual.push_back(mean_of(out.ends[i]) + mean_of(sources.direct[i]));
@@ -246,12 +257,7 @@ AirTransfer::Result AirTransfer::solve(const AirMatter& air, const Sources& sour
   }
   project(ends_in_, out.ends, pool);
   project(air_in_, out.air, pool);
-  // What stands for another takes its light to the end.
-  const auto stand_in = [&](std::vector<RadianceTerms>& grid) {
-    const std::vector<RadianceTerms> own = grid;
-    for (std::size_t i = 0; i < grid.size(); ++i) grid[i] = own[stand_in_[i]];
-  };
-  stand_in(out.ends), stand_in(out.air);
+  out.stand_in = choose_sides(sources.brighter);
   return out;
 }
 

@@ -39,6 +39,10 @@ class AirTransfer {
   };
   struct Result {
     std::vector<RadianceTerms> ends, air;  // what arrives from surfaces and sky, and from the air
+    // Of each point, whose light stands for it where nobody knows which corners a place sees.
+    std::vector<std::uint32_t> stand_in;
+
+    AirGrid::Corners shown(AirGrid::Corners corners) const;  // with what stands for each
   };
 
   explicit AirTransfer(AirLinks links);
@@ -49,21 +53,20 @@ class AirTransfer {
   static constexpr std::size_t kTerms = 9;  // of spherical harmonics, to the second order
   using Terms = std::array<Colour, kTerms>;
 
-  void choose_sides(const Sources& sources, const std::vector<RadianceTerms>& ends);
+  std::vector<std::uint32_t> choose_sides(bool brighter) const;
   void find_lit(const Sources& sources, const std::vector<RadianceTerms>& ends);
   void gather_total(const Sources& sources, ThreadPool& pool);
   void find_response(const std::vector<Vec3f>& usual);
   void sweep(const AirMatter& air, const Sources& sources, bool scatters, ThreadPool& pool);
   void emit(const AirMatter& air, std::size_t direction, std::vector<Colour>& out) const;
   void follow(const AirMatter& air, const Sources& sources, std::size_t direction, const std::vector<Colour>* emitted);
-  Colour between(const std::vector<Colour>& grid, const Vec3f& at) const;
+  Colour between(const std::vector<Colour>& grid, const Vec3f& at, std::uint8_t seen, std::size_t otherwise) const;
   void project(const std::vector<Colour>& incoming, std::vector<RadianceTerms>& out, ThreadPool& pool) const;
 
   AirLinks links_;
   std::vector<Harmonics> harmonics_;       // of each direction
   std::vector<Colour> ends_in_, air_in_;   // by direction, then by point: what arrives
-  std::vector<Terms> own_, total_;         // what arrived last; that of the point that stands for it
-  std::vector<std::uint32_t> stand_in_;    // of each point: whose light it takes
+  std::vector<Terms> total_;               // what arrived last
   std::vector<Colour> response_;           // of surfaces near each point
   std::vector<std::uint8_t> lit_;          // of each point: outside all pieces, and not dark
 };

@@ -5,6 +5,7 @@
 
 #include "render/lighting/light_packing.h"
 #include "render/media/air_box.h"
+#include "render/transport/corner_sight.h"
 
 namespace rubble {
 
@@ -13,6 +14,10 @@ namespace {
 constexpr float kMostFactor = 4;  // of what fog does to baked light
 constexpr float kLampReach = 10;  // beyond which the lamp's light is left out, as in lamp_bounce.cpp; unit: m
 constexpr int kLampIterations = 12;
+constexpr int kPlaces = 32;       // of a cell, at which the lights are looked for
+constexpr float kFromAround = 0.1f;
+constexpr float kPart = 0.15f;    // of a cell, whose middle tells which corners are seen there; unit: m
+constexpr float kLift = 0.01f;    // rays start this far off a surface; unit: m
 
 void add_beam(const Vec3f& illuminance, const Vec3f& to_light, RadianceTerms& out) {
   const Harmonics y = harmonics_of(to_light);
@@ -37,19 +42,11 @@ FogLight::FogLight(const PreparedScene& scene, const RayScene& rays, const Aabb&
       transfer_(make_air_links(scene, rays, box, threads)) {
   const AirGrid& grid = transfer_.links().grid;
   for (const Vec3f& d : transfer_.links().directions) sky_.push_back(d.z > 0 ? light_.sky.radiance(d) : Vec3f());
-  for (const LightModel& model : light_.lights) {
-    std::vector<std::uint8_t>& lit = lit_.emplace_back(grid.count());
-    pool_.run(int(grid.count()), 64, [&](int begin, int end) {
-      for (int i = begin; i < end; ++i) {
-        const Vec3f p = grid.point(std::size_t(i));
-        const LightModel::Sample sample = model.at(p);
-        lit[std::size_t(i)] = !rays.blocked(p, sample.to_light, 0, std::min(sample.distance * 0.999f, kLightReach));
-      }
-    });
-  }
+  find_lit(rays);
   AirTransfer::Sources sources;
   sources.sky = sky_.data(), sources.surfaces = radiance_.data();
   find_direct(nullptr, sources.direct);
+  find_places(scene, rays);
   AirMatter none;
   none.extinction.resize(grid.count()), none.scattered.resize(grid.count());
   clear_ = transfer_.solve(none, sources, pool_).ends;
@@ -59,6 +56,59 @@ FogLight::FogLight(const PreparedScene& scene, const RayScene& rays, const Aabb&
   find_open();
 }
 
+// Of the places of its cell that a point sees: sunbeams in a void are narrower than a cell, and may be all light there.
+void FogLight::find_lit(const RayScene& rays) {
+  const AirGrid& grid = transfer_.links().grid;
+  std::vector<Vec3f> places(1);  // from the point
+  for (int n = 1; n < kPlaces; ++n) {  // R3 sequence (Roberts 2018)
+    const auto part = [n](double step) { return float(n * step - std::floor(n * step)) - 0.5f; };
+    places.push_back({part(0.8191725) * grid.cell.x, part(0.6710436) * grid.cell.y, part(0.5497005) * grid.cell.z});
+  }
+  lit_.assign(light_.lights.size(), std::vector<float>(grid.count()));
+  pool_.run(int(grid.count()), 16, [&](int begin, int end) {
+    for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i) {
+      const Vec3f point = grid.point(i);
+      int seen = 0;
+      for (const Vec3f& off : places) {
+        const Vec3f p = point + off;
+        if (dot(off, off) > 0 && (p.z <= 0 || rays.blocked(point, off, 0, 1))) continue;
+        ++seen;
+        for (std::size_t l = 0; l < lit_.size(); ++l) {
+          const LightModel::Sample sample = light_.lights[l].at(p);
+          lit_[l][i] += float(!rays.blocked(p, sample.to_light, 0, std::min(sample.distance * 0.999f, kLightReach)));
+        }
+      }
+      for (std::vector<float>& lit : lit_) lit[i] /= float(seen);
+    }
+  });
+}
+
+// Half a cell off the surface, or in the middle of what is left of a narrow gap.
+void FogLight::find_places(const PreparedScene& scene, const RayScene& rays) {
+  const CornerSight sight(scene, rays, transfer_.links().grid);
+  field_.seen = sight.table(kPart, pool_);
+  std::vector<std::size_t> first;
+  std::size_t count = 0;
+  for (const PlacedMesh& placed : scene.placed)
+    first.push_back(count), count += scene.meshes[placed.mesh].bake_points.size();
+  places_.resize(count);
+  pool_.run(int(scene.placed.size()), 1, [&](int begin, int end) {
+    for (std::size_t k = std::size_t(begin); k < std::size_t(end); ++k) {
+      const PlacedMesh& placed = scene.placed[k];
+      const std::vector<BakePoint>& points = scene.meshes[placed.mesh].bake_points;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3f n(placed.world_from_mesh.rotation.rotate(Vec3(points[i].normal)));
+        const Vec3f p = Vec3f(placed.world_from_mesh * (Vec3(points[i].position) * placed.scale)) + n * kLift;
+        const float free = rays.cast(p, n, 0, 2 * usual_off()).distance;
+        const float off = free > 0 ? std::min(0.5f * free, usual_off()) : usual_off();
+        places_[first[k] + i] = {kLift + off, sight.seen_from(p + n * off)};
+      }
+    }
+  });
+}
+
+float FogLight::usual_off() const { return 0.5f * transfer_.links().cell(); }
+
 // air: none: clear.
 void FogLight::find_direct(const Air* air, std::vector<RadianceTerms>& out) {
   const AirGrid& grid = transfer_.links().grid;
@@ -67,10 +117,11 @@ void FogLight::find_direct(const Air* air, std::vector<RadianceTerms>& out) {
     const LightModel& model = light_.lights[l];
     pool_.run(int(grid.count()), 256, [&](int begin, int end) {
       for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i) {
-        if (!lit_[l][i]) continue;
+        if (lit_[l][i] <= 0) continue;
         const Vec3f p = grid.point(i);
         const LightModel::Sample sample = model.at(p);
-        add_beam(sample.illuminance * (air ? passes_to(*air, box_, model, sample, p) : 1.0f), sample.to_light, out[i]);
+        const float passes = air ? passes_to(*air, box_, model, sample, p) : 1.0f;
+        add_beam(sample.illuminance * (passes * lit_[l][i]), sample.to_light, out[i]);
       }
     });
   }
@@ -119,27 +170,58 @@ void FogLight::add_up() {
   };
   add(day_.air), add(lamp_.ends);
   field_.of_lamp = lamp_.air;
+  field_.stand_in = day_.stand_in, field_.lamp_stand_in = lamp_.stand_in;
 }
 
+FogLight::Change FogLight::change_at(const Vec3f& surface, const Vec3f& normal, const Place& place) const {
+  const AirGrid& grid = field_.grid;
+  const Vec3f p = surface + normal * place.off;
+  if (!(norm(p - grid.nearest(p)) <= usual_off())) return {};  // outside the box
+  AirGrid::Corners corners = grid.about(p);
+  corners.keep(place.seen, day_.stand_in);
+  // With a part of the light from all around, as there may be next to none from before the surface.
+  const auto light = [&](const std::vector<RadianceTerms>& field) {
+    const RadianceTerms terms = blend(field, corners);
+    return illuminance_of(terms, normal) + terms[0] * (kFromAround * portable::kPiF * harmonics_of({0, 0, 1})[0]);
+  };
+  const Vec3f before = light(clear_), ends = light(day_.ends);
+  Change out;
+  for (int c = 0; c < 3; ++c) out.factor[c] = before[c] > 0 ? std::min(ends[c] / before[c], kMostFactor) : 1.0f;
+  out.air = illuminance_of(blend(day_.air, corners), normal);
+  return out;
+}
+
+// What moves is lit as by places that see no corner: nobody looks for those from where it is now.
 std::vector<BakedLight> FogLight::weaken(const PreparedScene& scene, const std::vector<BakedLight>& clear) {
   std::vector<BakedLight> out = clear;
-  const AirGrid& grid = field_.grid;
-  const float off = 0.5f * std::min(grid.cell.x, std::min(grid.cell.y, grid.cell.z));
+  std::vector<std::size_t> first;
+  std::size_t count = 0;
+  for (const PlacedMesh& placed : scene.placed) {
+    first.push_back(count);
+    if (!placed.moves) count += scene.meshes[placed.mesh].bake_points.size();
+  }
   pool_.run(int(scene.placed.size()), 1, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) {
-      const PlacedMesh& placed = scene.placed[std::size_t(k)];
-      const std::vector<LightNode>& nodes = scene.meshes[placed.mesh].light_nodes;
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const Vec3f n(placed.world_from_mesh.rotation.rotate(Vec3(nodes[i].normal)));
-        const Vec3f p = Vec3f(placed.world_from_mesh * (Vec3(nodes[i].position) * placed.scale)) + n * off;
-        if (!(norm(p - grid.nearest(p)) <= off)) continue;  // outside the box
-        const AirGrid::Corners corners = grid.about(p);
-        const Vec3f before = illuminance_of(blend(clear_, corners), n), ends = illuminance_of(blend(day_.ends, corners), n);
-        const Vec3f air = illuminance_of(blend(day_.air, corners), n);
+    for (std::size_t k = std::size_t(begin); k < std::size_t(end); ++k) {
+      const PlacedMesh& placed = scene.placed[k];
+      const PreparedMesh& mesh = scene.meshes[placed.mesh];
+      std::vector<Change> changes;
+      for (std::size_t i = 0; i < mesh.bake_points.size(); ++i) {
+        const BakePoint& point = mesh.bake_points[i];
+        changes.push_back(change_at(Vec3f(placed.world_from_mesh * (Vec3(point.position) * placed.scale)),
+                                    Vec3f(placed.world_from_mesh.rotation.rotate(Vec3(point.normal))),
+                                    placed.moves ? Place{usual_off(), 0} : places_[first[k] + i]));
+      }
+      for (std::size_t i = 0; i < mesh.light_nodes.size(); ++i) {
+        const LightNode& node = mesh.light_nodes[i];
+        const Vec3f n(placed.world_from_mesh.rotation.rotate(Vec3(node.normal)));
+        Vec3f factor, air;
+        for (std::size_t w = 0; w < node.points.size(); ++w) {
+          const Change& change = changes[node.points[w]];
+          factor += change.factor * node.weights[w], air += change.air * node.weights[w];
+        }
         UnpackedLight light = unpack_light(clear[placed.first_light + i], n);
         const float strength = luminance(light.colour);
-        for (int c = 0; c < 3; ++c)
-          light.colour[c] = light.colour[c] * (before[c] > 0 ? std::min(ends[c] / before[c], kMostFactor) : 1.0f);
+        for (int c = 0; c < 3; ++c) light.colour[c] *= factor[c];
         if (strength > 0) light.vector = light.vector * (luminance(light.colour) / strength);
         out[placed.first_light + i] = pack_light(light.vector + n * luminance(air), light.colour + air);
       }
@@ -154,7 +236,7 @@ void FogLight::set_lamp(const PlacedLamp& lamp, const Radiance& radiance, const 
   sources.tolerance = 0.02, sources.most = kLampIterations;
   const AirGrid& grid = field_.grid;
   sources.direct.resize(grid.count());
-  const float cell = std::min(grid.cell.x, std::min(grid.cell.y, grid.cell.z));
+  const float cell = transfer_.links().cell();
   pool_.run(int(grid.count()), 256, [&](int begin, int end) {
     for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i) {
       const Vec3f p = grid.point(i), way = lamp.position - p;
@@ -178,7 +260,7 @@ void FogLight::put_lamp_out() {
 }
 
 float FogLight::daylight(const Vec3f& point) const {
-  const AirGrid::Corners corners = field_.grid.about(field_.grid.nearest(point));
+  const AirGrid::Corners corners = day_.shown(field_.grid.about(field_.grid.nearest(point)));
   const Vec3f first = blend(day_.ends, corners)[0] + blend(day_.air, corners)[0];
   return luminance(first) * (harmonics_of({0, 0, 1})[0] * portable::kPiF);
 }
@@ -186,10 +268,10 @@ float FogLight::daylight(const Vec3f& point) const {
 Vec3f FogLight::lamp_illuminance(const Vec3f& point, const Vec3f& normal) const {
   if (lamp_.air.empty()) return {};
   const AirGrid& grid = field_.grid;
-  const float off = 0.5f * std::min(grid.cell.x, std::min(grid.cell.y, grid.cell.z));
+  const float off = usual_off();
   const Vec3f p = point + normal * off;
   if (norm(p - grid.nearest(p)) > off) return {};
-  return illuminance_of(blend(lamp_.air, grid.about(p)), normal);
+  return illuminance_of(blend(lamp_.air, lamp_.shown(grid.about(p))), normal);
 }
 
 }  // namespace rubble

@@ -36,8 +36,21 @@ class FogLight {
   const RadianceGrid& field() const { return field_; }
 
  private:
+  struct Place {       // of a bake point: where the air's light is asked for
+    float off;         // its surface; unit: m
+    std::uint8_t seen; // which of the corners about it
+  };
+  struct Change {  // of the baked light of a point
+    Vec3f factor{1, 1, 1};
+    Vec3f air;  // what the air throws on it; unit: klx
+  };
+
+  void find_lit(const RayScene& rays);
+  void find_places(const PreparedScene& scene, const RayScene& rays);
   void find_direct(const Air* air, std::vector<RadianceTerms>& out);
   void find_open();
+  float usual_off() const;  // from surfaces; unit: m
+  Change change_at(const Vec3f& surface, const Vec3f& normal, const Place& place) const;
   void add_up();
 
   Aabb box_;
@@ -48,8 +61,9 @@ class FogLight {
   Air air_;
   AirMatter matter_;
   std::vector<Vec3f> sky_, usual_;              // by direction; mean radiance of each point in clear air
-  std::vector<std::vector<std::uint8_t>> lit_;  // by each light: which points of the air
+  std::vector<std::vector<float>> lit_;         // by each light: share of the air that each point stands for
   std::vector<RadianceTerms> clear_;            // in clear air
+  std::vector<Place> places_;                   // of each bake point of what rests
   AirTransfer::Result day_, lamp_;              // lamp_: empty where it is out
   RadianceGrid field_;
 };

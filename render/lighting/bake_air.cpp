@@ -12,10 +12,31 @@ namespace rubble {
 
 namespace {
 
+constexpr int kRays = 64;
 
 Vec3f times(const Vec3f& a, const Vec3f& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
+struct SkyRay {
+  Vec3f direction;
+  Vec3f radiance;  // of the sky there; unit: kcd/m2
+};
+
+// All over the sphere.
+std::vector<SkyRay> sky_rays(const LightSet& light) {
+  std::vector<SkyRay> out;
+  for (int i = 0; i < kRays; ++i) {
+    const double z = 1 - (2 * i + 1.0) / kRays, turn = i * 0.6180339887498949;
+    const portable::SinCos a = portable::sincos(2 * portable::kPi * (turn - std::floor(turn)));
+    const double r = std::sqrt(1 - z * z);
+    const Vec3f w(float(r * a.cos), float(r * a.sin), float(z));
+    out.push_back({w, light.sky.radiance(w)});
+  }
+  return out;
+}
+
 struct AirBaker : AirBakeInput {
+  std::vector<SkyRay> sky;
+
   AirLight bake() const;
   bool air_radiance(const Vec3f& point, Vec3f& mean) const;
   void add_lights(const Vec3f& point, AirLight& air, std::size_t at) const;
@@ -24,17 +45,12 @@ struct AirBaker : AirBakeInput {
 
 // False where the point lies inside a piece.
 bool AirBaker::air_radiance(const Vec3f& point, Vec3f& mean) const {
-  constexpr int kRays = 64;
   Vec3f sum;
   int inside = 0;
-  for (int i = 0; i < kRays; ++i) {
-    const double z = 1 - (2 * i + 1.0) / kRays, turn = i * 0.6180339887498949;
-    const portable::SinCos a = portable::sincos(2 * portable::kPi * (turn - std::floor(turn)));
-    const double r = std::sqrt(1 - z * z);
-    const Vec3f w(float(r * a.cos), float(r * a.sin), float(z));
-    const RayScene::Hit hit = rays.cast(point, w, 0, kLightReach);
+  for (const SkyRay& ray : sky) {
+    const RayScene::Hit hit = rays.cast(point, ray.direction, 0, kLightReach);
     if (hit.triangle == RayScene::kNone)
-      sum += light.sky.radiance(w);
+      sum += ray.radiance;
     else if (hit.back)
       ++inside;
     else
@@ -163,7 +179,7 @@ AirLight AirBaker::bake() const {
 
 }  // namespace
 
-AirLight bake_air(const AirBakeInput& input) { return AirBaker{input}.bake(); }
+AirLight bake_air(const AirBakeInput& input) { return AirBaker{input, sky_rays(input.light)}.bake(); }
 
 Vec3f AirLight::nearest(const Vec3f& point) const {
   Vec3f out = point;

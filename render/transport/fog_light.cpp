@@ -191,7 +191,10 @@ FogLight::Change FogLight::change_at(const Vec3f& surface, const Vec3f& normal, 
   return out;
 }
 
-// What moves is lit as by places that see no corner: nobody looks for those from where it is now.
+FogLight::Place FogLight::place_of_mover(const Vec3f& surface, const Vec3f& normal) const {
+  return {usual_off(), field_.seen.at(field_.grid, surface + normal * usual_off())};
+}
+
 std::vector<BakedLight> FogLight::weaken(const PreparedScene& scene, const std::vector<BakedLight>& clear) {
   std::vector<BakedLight> out = clear;
   std::vector<std::size_t> first;
@@ -207,9 +210,9 @@ std::vector<BakedLight> FogLight::weaken(const PreparedScene& scene, const std::
       std::vector<Change> changes;
       for (std::size_t i = 0; i < mesh.bake_points.size(); ++i) {
         const BakePoint& point = mesh.bake_points[i];
-        changes.push_back(change_at(Vec3f(placed.world_from_mesh * (Vec3(point.position) * placed.scale)),
-                                    Vec3f(placed.world_from_mesh.rotation.rotate(Vec3(point.normal))),
-                                    placed.moves ? Place{usual_off(), 0} : places_[first[k] + i]));
+        const Vec3f p(placed.world_from_mesh * (Vec3(point.position) * placed.scale));
+        const Vec3f n(placed.world_from_mesh.rotation.rotate(Vec3(point.normal)));
+        changes.push_back(change_at(p, n, placed.moves ? place_of_mover(p, n) : places_[first[k] + i]));
       }
       for (std::size_t i = 0; i < mesh.light_nodes.size(); ++i) {
         const LightNode& node = mesh.light_nodes[i];

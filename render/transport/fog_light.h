@@ -50,6 +50,7 @@ class FogLight {
   void find_direct(const Air* air, std::vector<RadianceTerms>& out);
   void find_open();
   float usual_off() const;  // from surfaces; unit: m
+  Place place_of_mover(const Vec3f& surface, const Vec3f& normal) const;  // as what rests sees it
   Change change_at(const Vec3f& surface, const Vec3f& normal, const Place& place) const;
   void add_up();
 

@@ -28,10 +28,11 @@ Scene outside() {
 }
 
 // Light of 4 by 4 regions of the image.
-std::vector<double> regions(const Scene& scene, const Pose& eye, RenderQuality quality, int samples) {
+std::vector<double> regions(const Scene& scene, const Pose& eye, RenderQuality quality, int samples,
+                            int bake_rays = RenderOptions().bake_rays) {
   GlContext context;
   RenderOptions options;
-  options.threads = 2, options.texture_size = 64;
+  options.threads = 2, options.texture_size = 64, options.bake_rays = bake_rays;
   options.colour.quality = quality, options.colour.samples = samples;
   const LinearFrame frame = Renderer(context, scene, options).render_linear({0, pinhole(kSide, kSide, 0.6 * kSide), eye});
   std::vector<double> out(kRegions * kRegions);
@@ -87,7 +88,7 @@ TEST(FogLight, ComesThroughNoWall) {
     scene.instances.push_back({3, 5, {{}, {-at, 0, 0.5 * height}}, 1});
     const auto light_inside = [&] {
       const std::vector<double> all =
-          regions(scene, look_at({-2, 0.3, 0.5 * height}, {2, 0, 0.45 * height}), RenderQuality::fast, 1);
+          regions(scene, look_at({-2, 0.3, 0.5 * height}, {2, 0, 0.45 * height}), RenderQuality::fast, 1, 32);
       return std::accumulate(all.begin(), all.end(), 0.0);
     };
     const double in_fog = light_inside();

@@ -60,7 +60,9 @@ ExitCode settle_alone(const Pile& work, int pieces, const Request& request) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  return WIFEXITED(status) ? ExitCode(WEXITSTATUS(status)) : ExitCode::failure;
+  if (WIFEXITED(status)) return ExitCode(WEXITSTATUS(status));
+  std::fprintf(stderr, "scaling_bench: %d pieces: stopped by signal %d\n", pieces, WTERMSIG(status));
+  return ExitCode::failure;
 }
 
 ExitCode bench(const Request& request) {

@@ -60,9 +60,8 @@ struct RadianceGrid {
   RadianceTerms at(const Vec3f& point) const;
   RadianceTerms of_lamp_at(const Vec3f& point) const;  // outside the box nothing
 
-  AirGrid::Corners corners(const Vec3f& point, const std::vector<std::uint32_t>& stands_in) const;
-
  private:
+  AirGrid::Corners corners(const Vec3f& point, const std::vector<std::uint32_t>& stands_in) const;
   void add_disc(const Vec3f& point, int quarter, float share, RadianceTerms& out) const;
 };
 

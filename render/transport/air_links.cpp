@@ -7,7 +7,7 @@
 #include "kernel/base/parallel.h"
 #include "kernel/base/portable_math.h"
 #include "render/lighting/lighting.h"
-#include "render/transport/corner_sight.h"
+#include "render/media/corner_sight.h"
 
 namespace rubble {
 

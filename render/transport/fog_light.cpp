@@ -5,7 +5,7 @@
 
 #include "render/lighting/light_packing.h"
 #include "render/media/air_box.h"
-#include "render/transport/corner_sight.h"
+#include "render/media/corner_sight.h"
 
 namespace rubble {
 
@@ -15,7 +15,7 @@ constexpr float kMostFactor = 4;  // of what fog does to baked light
 constexpr float kLampReach = 10;  // beyond which the lamp's light is left out, as in lamp_bounce.cpp; unit: m
 constexpr int kLampIterations = 12;
 constexpr int kPlaces = 32;       // of a cell, at which the lights are looked for
-constexpr float kFromAround = 0.1f;
+constexpr float kFromAround = 0.1f;  // share of light from all around in what a surface is asked for
 constexpr float kPart = 0.15f;    // of a cell, whose middle tells which corners are seen there; unit: m
 constexpr float kLift = 0.01f;    // rays start this far off a surface; unit: m
 

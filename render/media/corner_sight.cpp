@@ -1,4 +1,4 @@
-#include "render/transport/corner_sight.h"
+#include "render/media/corner_sight.h"
 
 #include <algorithm>
 #include <array>

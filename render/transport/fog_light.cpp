@@ -71,7 +71,7 @@ void FogLight::find_lit(const RayScene& rays) {
       int seen = 0;
       for (const Vec3f& off : places) {
         const Vec3f p = point + off;
-        if (dot(off, off) > 0 && (p.z <= 0 || rays.blocked(point, off, 0, 1))) continue;
+        if (dot(off, off) > 0 && rays.blocked(point, off, 0, 1)) continue;
         ++seen;
         for (std::size_t l = 0; l < lit_.size(); ++l) {
           const LightModel::Sample sample = light_.lights[l].at(p);

@@ -115,27 +115,78 @@ void choose_points(PreparedMesh& mesh, const std::vector<std::uint32_t>& nodes, 
   }
 }
 
-// The four nearest points, where turning away by 60 degrees costs as much as `turn_cost`. A point's weight
-// is zero where a fifth is as near (Franke and Little's weights), so light has no steps where the four change.
-void weigh_points(const PreparedMesh& mesh, const PointGrid& grid, float cell, LightNode& node) {
-  struct Near {
-    float cost;
+typedef float FourFloats __attribute__((vector_size(16)));
+
+// Points that nodes choose from, four beside each other; what is over lies infinitely far away.
+struct Candidates {
+  struct Four {
+    FourFloats x, y, z, normal_x, normal_y, normal_z;
+    std::array<std::uint32_t, 4> point;
+  };
+  std::vector<Four> fours;
+  std::size_t count = 0;
+
+  void clear() { fours.clear(), count = 0; }
+  void add(const BakePoint& p, std::uint32_t point) {
+    const std::size_t k = count++ % 4;
+    if (k == 0) {
+      fours.emplace_back();
+      fours.back().x = FourFloats{} + 1e30f;
+    }
+    Four& f = fours.back();
+    f.x[k] = p.position.x, f.y[k] = p.position.y, f.z[k] = p.position.z;
+    f.normal_x[k] = p.normal.x, f.normal_y[k] = p.normal.y, f.normal_z[k] = p.normal.z, f.point[k] = point;
+  }
+};
+
+// The five points that cost least, the cheapest first; of equal ones the first that was looked at.
+class NearestPoints {
+ public:
+  struct Entry {
+    float cost;  // unit: m
     std::uint32_t point;
   };
+
+  // turn_cost: of turning away by 60 degrees; unit: m
+  NearestPoints(const LightNode& node, float turn_cost) : node_(node), turn_cost_(turn_cost) {
+    best_.fill({1e30f, 0});
+  }
+
+  void look_at(const Candidates::Four& f) {
+    const Vec3f& p = node_.position;
+    const Vec3f& n = node_.normal;
+    const FourFloats x = f.x - p.x, y = f.y - p.y, z = f.z - p.z;
+    const FourFloats turn = 1.0f - (f.normal_x * n.x + f.normal_y * n.y + f.normal_z * n.z);
+    const FourFloats squares = x * x + y * y + z * z + 4.0f * turn * turn * turn_cost_ * turn_cost_;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (squares[k] < worst_) take({std::sqrt(squares[k]), f.point[k]}, squares[k]);
+  }
+  const Entry& operator[](std::size_t k) const { return best_[k]; }
+
+ private:
+  // What costs more than the fifth has a square above `worst_`, too: roots are rounded in order.
+  void take(Entry entry, float square) {
+    for (std::size_t k = 0; k < best_.size(); ++k)
+      if (entry.cost < best_[k].cost) {
+        std::swap(entry, best_[k]);
+        std::swap(square, squares_[k]);
+      }
+    worst_ = squares_.back();
+  }
+
+  const LightNode& node_;
+  float turn_cost_;
+  float worst_ = 1e38f;
+  std::array<Entry, 5> best_;
+  std::array<float, 5> squares_{1e38f, 1e38f, 1e38f, 1e38f, 1e38f};  // of their costs
+};
+
+// A point's weight is zero where the fifth is as near (Franke and Little's weights), so light has no steps where
+// the four nearest change.
+void weigh_points(const Candidates& candidates, float cell, LightNode& node) {
   const float turn_cost = 2.5f * cell;
-  std::array<Near, 5> best;
-  best.fill({1e30f, 0});
-  const auto visit = [&](std::uint32_t i) {
-    const BakePoint& p = mesh.bake_points[i];
-    const Vec3f d = p.position - node.position;
-    const float turn = 1 - dot(p.normal, node.normal);
-    Near entry{std::sqrt(dot(d, d) + 4 * turn * turn * turn_cost * turn_cost), i};
-    for (Near& b : best)
-      if (entry.cost < b.cost) std::swap(entry, b);
-  };
-  for (int reach = 2; best[0].cost > 1e29f && reach < 256; reach *= 2) grid.near(node.position, reach, visit);
-  if (best[0].cost > 1e29f)
-    for (std::uint32_t i = 0; i < mesh.bake_points.size(); ++i) visit(i);
+  NearestPoints best(node, turn_cost);
+  for (const Candidates::Four& f : candidates.fours) best.look_at(f);
   float sum = 0;
   const float far = std::min(best[4].cost, 3 * best[0].cost + 2 * turn_cost), soft = 0.02f * cell;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -146,6 +197,29 @@ void weigh_points(const PreparedMesh& mesh, const PointGrid& grid, float cell, L
   }
   if (sum <= 0) node.weights = {1, 0, 0, 0}, sum = 1;
   for (float& w : node.weights) w /= sum;
+}
+
+// Nodes in one cell of space choose from the same points, which are looked for once.
+void weigh_all(PreparedMesh& mesh, float cell) {
+  std::vector<PointGrid::Point> points;
+  for (std::uint32_t i = 0; i < mesh.bake_points.size(); ++i) points.push_back({mesh.bake_points[i].position, i});
+  const PointGrid grid(cell, points);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;  // cell, node
+  for (std::uint32_t i = 0; i < mesh.light_nodes.size(); ++i)
+    order.emplace_back(grid.cell_of(mesh.light_nodes[i].position), i);
+  std::sort(order.begin(), order.end());
+  Candidates candidates;
+  const auto add = [&](std::uint32_t i) { candidates.add(mesh.bake_points[i], i); };
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    LightNode& node = mesh.light_nodes[order[n].second];
+    if (n == 0 || order[n].first != order[n - 1].first) {
+      candidates.clear();
+      for (int reach = 2; candidates.count == 0 && reach < 256; reach *= 2) grid.near(node.position, reach, add);
+      if (candidates.count == 0)
+        for (std::uint32_t i = 0; i < mesh.bake_points.size(); ++i) add(i);
+    }
+    weigh_points(candidates, cell, node);
+  }
 }
 
 // A heap of grains takes the light of the floor around it: at a point for each of its parts, light would take
@@ -192,9 +266,7 @@ void make_light_nodes(PreparedMesh& mesh, std::size_t finest_triangles, float sp
     if (i >= finest.size() || finest[i]) nodes.push_back(i);
   const float cell = stated_cell > 0 ? stated_cell : choose_cell(mesh, finest_triangles);
   choose_points(mesh, nodes, cell);
-  PointGrid grid(cell);
-  for (std::uint32_t i = 0; i < mesh.bake_points.size(); ++i) grid.add(mesh.bake_points[i].position, i);
-  for (LightNode& node : mesh.light_nodes) weigh_points(mesh, grid, cell, node);
+  weigh_all(mesh, cell);
 }
 
 void make_ground_nodes(PreparedMesh& mesh, float spacing, float longest) {

@@ -33,16 +33,26 @@ float Baker::reach_of(const Point& p) const {
   return p.open && reach >= kLeastReach ? reach : 0;
 }
 
+std::vector<PointGrid::Point> Baker::open_points(std::uint32_t first, std::uint32_t end) const {
+  std::vector<PointGrid::Point> out;
+  for (std::uint32_t i = first; i < end; ++i)
+    if (points_[i].open) out.push_back({points_[i].position, i});
+  return out;
+}
+
 // Looks at those after it alone: each line of sight is cast once, for both of its ends.
 void Baker::join_neighbours(std::uint32_t i, const PointGrid& grid, std::vector<RayScene::Ray>& lines) {
   const Point& p = points_[i];
+  const float reach_of_p = reach_of(p);
   std::vector<std::uint32_t> ends;
   lines.clear();
   grid.near(p.position, int(std::ceil(kWidest / kCell)), [&](std::uint32_t k) {
     const Point& q = points_[k];
     const Vec3f d = q.position - p.position;
-    const float reach = std::max(reach_of(p), reach_of(q)), away2 = dot(d, d);
-    if (k <= i || away2 >= reach * reach || dot(p.normal, q.normal) < kFacing) return;
+    const float away2 = dot(d, d);
+    if (k <= i || dot(p.normal, q.normal) < kFacing) return;
+    const float reach = std::max(reach_of_p, reach_of(q));
+    if (away2 >= reach * reach) return;
     const float away = std::sqrt(std::max(away2, 1e-12f));
     lines.push_back({p.position + p.normal * kLift, 0, (d + (q.normal - p.normal) * kLift) * (1 / away), away});
     ends.push_back(k);
@@ -59,10 +69,8 @@ void Baker::join_neighbours(std::uint32_t i, const PointGrid& grid, std::vector<
 
 void Baker::find_neighbours(std::size_t piece) {
   const std::uint32_t first = first_point_[piece], end = std::uint32_t(end_point(piece));
-  PointGrid grid(kCell * (scene_.placed[piece].surrounds ? kAround : 1));
+  const PointGrid grid(kCell * (scene_.placed[piece].surrounds ? kAround : 1), open_points(first, end));
   std::vector<RayScene::Ray> lines;
-  for (std::uint32_t i = first; i < end; ++i)
-    if (points_[i].open) grid.add(points_[i].position, i);
   for (std::uint32_t i = first; i < end; ++i)
     if (points_[i].open) join_neighbours(i, grid, lines);
   for (std::uint32_t i = first; i < end; ++i) {
@@ -87,12 +95,9 @@ void Baker::smooth(std::size_t i, Point& out) const {
 void Baker::find_substitutes() {
   substitutes_.assign(points_.size(), kNone);
   parallel_for(scene_.placed.size(), options_.threads, [&](std::size_t piece) {
-    const std::size_t first = first_point_[piece];
-    const std::size_t count = scene_.meshes[scene_.placed[piece].mesh].bake_points.size();
-    PointGrid grid(kCell);
-    for (std::size_t i = first; i < first + count; ++i)
-      if (points_[i].open) grid.add(points_[i].position, std::uint32_t(i));
-    for (std::size_t i = first; i < first + count; ++i) {
+    const std::uint32_t first = first_point_[piece], end = std::uint32_t(end_point(piece));
+    const PointGrid grid(kCell, open_points(first, end));
+    for (std::uint32_t i = first; i < end; ++i) {
       if (points_[i].open) continue;
       float nearest = kSearch;
       grid.near(points_[i].position, 2, [&](std::uint32_t k) {

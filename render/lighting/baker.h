@@ -116,6 +116,7 @@ class Baker {
 
   // bake_smooth.cpp
   float reach_of(const Point& p) const;  // of neighbours; 0: none; unit: m
+  std::vector<PointGrid::Point> open_points(std::uint32_t first, std::uint32_t end) const;
   void join_neighbours(std::uint32_t point, const PointGrid& grid, std::vector<RayScene::Ray>& lines);
   void find_neighbours(std::size_t piece);
   void smooth(std::size_t point, Point& out) const;

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "kernel/base/error.h"
+#include "kernel/base/random.h"
 #include "render/geometry/mesh_refine.h"
+#include "render/geometry/point_grid.h"
 #include "render/geometry/prepared_mesh.h"
 #include "render/gl/gl_context.h"
 #include "render/gl/shader.h"
@@ -17,6 +19,43 @@
 
 namespace rubble::testing {
 namespace {
+
+TEST(PointGrid, FindsAllPointsOfTheCellsAboutAPlaceInOrder) {
+  const float cell = 0.25f;
+  RandomStream random(3, "point_grid");
+  std::vector<PointGrid::Point> points;
+  // Thick about the origin, and a few far away from it.
+  for (std::uint32_t i = 0; i < 600; ++i) {
+    const float size = i % 6 == 0 ? 40.0f : 1.5f;
+    const auto along = [&] { return size * float(random.uniform(-1, 1)); };
+    const float x = along(), y = along(), z = along();
+    points.push_back({{x, y, z}, 1000 + i});
+  }
+  const PointGrid grid(cell, points);
+  const auto cells = [&](const Vec3f& p) {
+    return std::array{int(std::floor(p.z / cell)), int(std::floor(p.y / cell)), int(std::floor(p.x / cell))};
+  };
+  std::size_t most = 0;
+  for (const int reach : {0, 1, 2, 7, 100})
+    for (std::size_t n = 0; n < points.size(); n += 7) {
+      const Vec3f place = points[n].position + Vec3f{0.1f, -0.2f, 0.3f};
+      const auto middle = cells(place);
+      std::vector<std::pair<std::array<int, 3>, std::uint32_t>> expected;
+      for (const PointGrid::Point& p : points) {
+        const auto c = cells(p.position);
+        bool near = true;
+        for (std::size_t k = 0; k < 3; ++k) near = near && std::abs(c[k] - middle[k]) <= reach;
+        if (near) expected.emplace_back(c, p.index);
+      }
+      std::sort(expected.begin(), expected.end());
+      std::vector<std::uint32_t> sorted, found;
+      for (const auto& [c, index] : expected) sorted.push_back(index);
+      grid.near(place, reach, [&](std::uint32_t index) { found.push_back(index); });
+      ASSERT_EQ(found, sorted) << "reach " << reach << ", point " << n;
+      most = std::max(most, found.size());
+    }
+  EXPECT_GT(most, 400u);
+}
 
 TEST(RefineMesh, CutsLongEdgesAndKeepsTheSurfaceClosed) {
   const TriangleMesh slab = make_box({3, 2, 0.2});

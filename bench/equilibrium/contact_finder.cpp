@@ -93,7 +93,7 @@ double depth_of_corner(const PlacedSurfaces& surfaces, const Vec3& corner) {
 
 double depth_in_hull(const ConvexRegion& region, const Vec3& point) {
   double depth = 1e300;
-  for (const HalfSpace& plane : region.planes)
+  for (const RegionPlane& plane : region.planes)
     depth = std::min(depth, plane.offset - dot(plane.normal, point));
   return std::max(depth, 0.0);
 }

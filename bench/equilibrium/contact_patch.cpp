@@ -13,7 +13,7 @@ constexpr double kLevel = 1e-7;  // a plane whose normal has less along a line i
 
 using Polygon = std::vector<Vec3>;
 
-Polygon clip(const Polygon& polygon, const HalfSpace& plane) {
+Polygon clip(const Polygon& polygon, const RegionPlane& plane) {
   Polygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
@@ -29,7 +29,7 @@ void add_clipped(const ConvexRegion& faces, const Vec3& moved, const ConvexRegio
                  const Vec3& by_moved, std::vector<Vec3>& points) {
   for (Polygon polygon : faces.faces) {
     for (Vec3& p : polygon) p += moved;
-    for (const HalfSpace& plane : by.planes) {
+    for (const RegionPlane& plane : by.planes) {
       if (polygon.empty()) break;
       polygon = clip(polygon, {plane.normal, plane.offset + dot(plane.normal, by_moved)});
     }
@@ -40,7 +40,7 @@ void add_clipped(const ConvexRegion& faces, const Vec3& moved, const ConvexRegio
 // How far the line from p along `direction` goes before it leaves the region.
 double find_exit(const ConvexRegion& region, const Vec3& p, const Vec3& direction) {
   double exit = 1e300;
-  for (const HalfSpace& plane : region.planes) {
+  for (const RegionPlane& plane : region.planes) {
     const double along = dot(plane.normal, direction);
     if (along > kLevel) exit = std::min(exit, (plane.offset - dot(plane.normal, p)) / along);
   }

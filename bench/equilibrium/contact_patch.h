@@ -13,14 +13,14 @@
 
 namespace rubble {
 
-struct HalfSpace {
+struct RegionPlane {
   Vec3 normal;        // unit length, outwards
   double offset = 0;  // inside: dot(normal, p) <= offset; unit: m
 };
 
 // Where half-spaces meet, with those of its faces that bound it.
 struct ConvexRegion {
-  std::vector<HalfSpace> planes;
+  std::vector<RegionPlane> planes;
   std::vector<std::vector<Vec3>> faces;  // corners in order; unit: m
 };
 ConvexRegion make_region(const PlacedHull& hull);

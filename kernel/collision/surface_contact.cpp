@@ -33,7 +33,7 @@ bool is_known(const Manifold& m, const Vec3f& position) {
   return false;
 }
 
-void add(Cluster& cluster, const SurfacePoint& point, float predicted) {
+void add(Cluster& cluster, const SurfaceGap& point, float predicted) {
   Manifold& m = cluster.manifold;
   if (m.count == Manifold::kMaxClipped || is_known(m, point.position)) return;
   m.points[m.count++] = {point.position, point.separation, predicted, -1};
@@ -46,14 +46,14 @@ struct Predicted {
 };
 
 // Deepest first: what is left over when the slots are full matters least.
-int make_clusters(const std::vector<SurfacePoint>& points, const PosedBody& a, float step,
+int make_clusters(const std::vector<SurfaceGap>& points, const PosedBody& a, float step,
                   Cluster (&clusters)[kSurfaceSlots]) {
   thread_local std::vector<Predicted> order;
   order.clear();
   const bool round = !points.empty() && rolls(a, points[0].normal, step);
   const Vec3f angular = round ? Vec3f{} : a.angular;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const SurfacePoint& p = points[i];
+    const SurfaceGap& p = points[i];
     const float speed = dot(p.normal, a.linear + cross(angular, p.position));
     const float when = p.separation + step * speed;
     if (std::min(when, p.separation) < kPointMargin) order.push_back({when, std::int32_t(i)});
@@ -63,7 +63,7 @@ int make_clusters(const std::vector<SurfacePoint>& points, const PosedBody& a, f
   });
   int count = 0;
   for (const Predicted& next : order) {
-    const SurfacePoint& p = points[next.point];
+    const SurfaceGap& p = points[next.point];
     int cluster = 0;
     while (cluster < count && dot(clusters[cluster].first, p.normal) < kMergeCosine) ++cluster;
     if (cluster == kSurfaceSlots) continue;
@@ -113,7 +113,7 @@ Aabb PosedSurface::to_local(const Aabb& world_box) const {
 void update_surface_contacts(Contact* const (&slots)[kSurfaceSlots], const PosedBody& a,
                              const Aabb& box, const PosedSurface& b, float margin,
                              const NarrowSettings& settings) {
-  thread_local std::vector<SurfacePoint> points;
+  thread_local std::vector<SurfaceGap> points;
   find_surface_points(a.part, a.centre, box, b, margin, margin - settings.margin, points);
   Cluster clusters[kSurfaceSlots];
   const int count = make_clusters(points, a, settings.step, clusters);

@@ -54,7 +54,7 @@ const ConvexShape& front_face() {
 class SurfaceSearch {
  public:
   SurfaceSearch(const PosedPart& part, const Vec3& centre, const PosedSurface& surface, float margin,
-         float reach, std::vector<SurfacePoint>& points)
+         float reach, std::vector<SurfaceGap>& points)
       : part_(part), centre_(centre), surface_(surface), margin_(margin), reach_(reach),
         points_(points) {}
 
@@ -220,7 +220,7 @@ class SurfaceSearch {
   const Vec3& centre_;
   const PosedSurface& surface_;
   float margin_, reach_;
-  std::vector<SurfacePoint>& points_;
+  std::vector<SurfaceGap>& points_;
   PosedTriangle t_;
   bool has_point_ = false;
   Vec3f point_;  // midway between the closest points
@@ -230,7 +230,7 @@ class SurfaceSearch {
 
 void find_surface_points(const PosedPart& part, const Vec3& centre, const Aabb& box,
                          const PosedSurface& surface, float margin, float reach,
-                         std::vector<SurfacePoint>& points) {
+                         std::vector<SurfaceGap>& points) {
   const Vec3 grow = Vec3{1, 1, 1} * double(margin);
   thread_local std::vector<std::int32_t> near;
   surface.surface->find(surface.to_local({box.min - grow, box.max + grow}), near);

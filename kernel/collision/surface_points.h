@@ -7,7 +7,7 @@
 
 namespace rubble {
 
-struct SurfacePoint {
+struct SurfaceGap {
   Vec3f position;        // from the centre of mass of the part's piece, midway between the two; m
   Vec3f normal;          // unit length, out of the surface
   float separation = 0;  // along it; unit: m
@@ -17,6 +17,6 @@ struct SurfacePoint {
 // this step.
 void find_surface_points(const PosedPart& part, const Vec3& centre, const Aabb& box,
                          const PosedSurface& surface, float margin, float reach,
-                         std::vector<SurfacePoint>& points);
+                         std::vector<SurfaceGap>& points);
 
 }  // namespace rubble

@@ -15,7 +15,7 @@ enum class Roof { gable, hip, flat };
 
 // What is drawn before anything is built.
 struct Design {
-  BuildingPlan plan;
+  NeighbourPlan plan;
   double ground_height = 3.8, storey_height = 3.0;  // unit: m
   Roof roof = Roof::gable;
   double pitch = 0.8;  // rise per metre
@@ -116,7 +116,7 @@ void find_heights(Design& d) {
   d.heights.erase(std::unique(d.heights.begin(), d.heights.end()), d.heights.end());
 }
 
-Design draw_design(const BuildingPlan& plan, RandomStream& random) {
+Design draw_design(const NeighbourPlan& plan, RandomStream& random) {
   Design d;
   d.plan = plan;
   d.ground_height = random.uniform(3.4, 4.1), d.storey_height = random.uniform(2.75, 3.2);
@@ -139,7 +139,7 @@ Design draw_design(const BuildingPlan& plan, RandomStream& random) {
   return d;
 }
 
-Pose side_frame(const BuildingPlan& plan, int side) {
+Pose side_frame(const NeighbourPlan& plan, int side) {
   const double turn = portable::kPi / 2 * side;
   const Vec3 at[4] = {{0, 0, 0}, {plan.width, 0, 0}, {plan.width, plan.depth, 0}, {0, plan.depth, 0}};
   return {portable::quat_from_rpy(0, 0, turn), at[side]};
@@ -265,7 +265,7 @@ TriangleMesh build(const Design& d, bool plain) {
 
 }  // namespace
 
-SurroundingMesh make_building(const BuildingPlan& plan, RandomStream& random) {
+SurroundingMesh make_building(const NeighbourPlan& plan, RandomStream& random) {
   const Design design = draw_design(plan, random);
   SurroundingMesh out;
   if (!plan.plain) out.levels.push_back(build(design, false));

@@ -70,8 +70,8 @@ class Site {
     if (!mesh.levels.empty()) put(kind, keep(std::move(mesh)));
   }
 
-  BuildingPlan draw_plan(RandomStream& random) const {
-    BuildingPlan plan;
+  NeighbourPlan draw_plan(RandomStream& random) const {
+    NeighbourPlan plan;
     const int low = int(spec_.storeys[0]), high = int(spec_.storeys[1]);
     plan.width = random.uniform(10, 18), plan.depth = random.uniform(10, 12.5);
     plan.storeys = low + int(random.below(std::uint64_t(std::max(1, high - low + 1))));
@@ -84,7 +84,7 @@ class Site {
   void add_row(double from, double sign, double towards, RandomStream& random) {
     const double edge = towards < 0 ? street_.near_edge() : street_.far_edge();
     for (double x = from; x < spec_.reach;) {
-      BuildingPlan plan = draw_plan(random);
+      NeighbourPlan plan = draw_plan(random);
       const double gap = random.uniform() < 0.18 ? random.uniform(3, 7) : 0;
       plan.windows_left = plan.windows_right = gap > 0;
       // Its own left, seen from its front, is towards +x for what looks to +y.
@@ -109,7 +109,7 @@ class Site {
   void add_rear() {
     RandomStream random = stream("rear");
     for (double x = -spec_.reach * 0.7; x < spec_.reach * 0.7;) {
-      BuildingPlan plan = draw_plan(random);
+      NeighbourPlan plan = draw_plan(random);
       const double gap = random.uniform() < 0.4 ? random.uniform(2.5, 9) : 0, y = rear_edge() + random.uniform(0, 4);
       plan.windows_left = plan.windows_right = gap > 0;
       const double z = ground_.height(x + plan.width / 2, y) - 0.1;
@@ -196,7 +196,7 @@ class Site {
     RandomStream random = stream("skyline");
     std::vector<std::uint32_t> meshes;
     for (int i = 0; i < 12; ++i) {
-      BuildingPlan plan = draw_plan(random);
+      NeighbourPlan plan = draw_plan(random);
       plan.plain = true, plan.windows_left = plan.windows_right = true;
       plan.width *= random.uniform(1, 2.2);
       plan.storeys += i < 8 ? int(random.below(3)) : 4 + int(random.below(9));

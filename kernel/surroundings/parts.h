@@ -9,14 +9,14 @@
 namespace rubble {
 
 // A building: its front lies in the plane y = 0 and looks to -y, from x = 0 to width; z = 0 is the pavement.
-struct BuildingPlan {
+struct NeighbourPlan {
   double width = 14, depth = 11;  // unit: m
   int storeys = 3;                // with the ground floor
   bool windows_left = false, windows_right = false;  // in the sides, which are fire walls otherwise
   double lit = 0;                 // share of the windows that are lit
   bool plain = false;             // without reveals, frames, balconies and so on: for what is far
 };
-SurroundingMesh make_building(const BuildingPlan& plan, RandomStream& random);
+SurroundingMesh make_building(const NeighbourPlan& plan, RandomStream& random);
 
 // Root at the origin; about `height` m high.
 SurroundingMesh make_tree(double height, RandomStream& random);

@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "render/geometry/point_grid.h"
+#include "render/geometry/point_cells.h"
 #include "render/geometry/prepared_mesh.h"
 
 namespace rubble {
@@ -201,9 +201,9 @@ void weigh_points(const Candidates& candidates, float cell, LightNode& node) {
 
 // Nodes in one cell of space choose from the same points, which are looked for once.
 void weigh_all(PreparedMesh& mesh, float cell) {
-  std::vector<PointGrid::Point> points;
+  std::vector<PointCells::Point> points;
   for (std::uint32_t i = 0; i < mesh.bake_points.size(); ++i) points.push_back({mesh.bake_points[i].position, i});
-  const PointGrid grid(cell, points);
+  const PointCells grid(cell, points);
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order;  // cell, node
   for (std::uint32_t i = 0; i < mesh.light_nodes.size(); ++i)
     order.emplace_back(grid.cell_of(mesh.light_nodes[i].position), i);

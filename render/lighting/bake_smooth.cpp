@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/parallel.h"
-#include "render/geometry/point_grid.h"
+#include "render/geometry/point_cells.h"
 #include "render/lighting/baker.h"
 #include "render/lighting/reflected_light.h"
 
@@ -33,15 +33,15 @@ float Baker::reach_of(const Point& p) const {
   return p.open && reach >= kLeastReach ? reach : 0;
 }
 
-std::vector<PointGrid::Point> Baker::open_points(std::uint32_t first, std::uint32_t end) const {
-  std::vector<PointGrid::Point> out;
+std::vector<PointCells::Point> Baker::open_points(std::uint32_t first, std::uint32_t end) const {
+  std::vector<PointCells::Point> out;
   for (std::uint32_t i = first; i < end; ++i)
     if (points_[i].open) out.push_back({points_[i].position, i});
   return out;
 }
 
 // Looks at those after it alone: each line of sight is cast once, for both of its ends.
-void Baker::join_neighbours(std::uint32_t i, const PointGrid& grid, std::vector<RayScene::Ray>& lines) {
+void Baker::join_neighbours(std::uint32_t i, const PointCells& grid, std::vector<RayScene::Ray>& lines) {
   const Point& p = points_[i];
   const float reach_of_p = reach_of(p);
   std::vector<std::uint32_t> ends;
@@ -69,7 +69,7 @@ void Baker::join_neighbours(std::uint32_t i, const PointGrid& grid, std::vector<
 
 void Baker::find_neighbours(std::size_t piece) {
   const std::uint32_t first = first_point_[piece], end = std::uint32_t(end_point(piece));
-  const PointGrid grid(kCell * (scene_.placed[piece].surrounds ? kAround : 1), open_points(first, end));
+  const PointCells grid(kCell * (scene_.placed[piece].surrounds ? kAround : 1), open_points(first, end));
   std::vector<RayScene::Ray> lines;
   for (std::uint32_t i = first; i < end; ++i)
     if (points_[i].open) join_neighbours(i, grid, lines);
@@ -96,7 +96,7 @@ void Baker::find_substitutes() {
   substitutes_.assign(points_.size(), kNone);
   parallel_for(scene_.placed.size(), options_.threads, [&](std::size_t piece) {
     const std::uint32_t first = first_point_[piece], end = std::uint32_t(end_point(piece));
-    const PointGrid grid(kCell, open_points(first, end));
+    const PointCells grid(kCell, open_points(first, end));
     for (std::uint32_t i = first; i < end; ++i) {
       if (points_[i].open) continue;
       float nearest = kSearch;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "render/geometry/glass_sheets.h"
-#include "render/geometry/point_grid.h"
+#include "render/geometry/point_cells.h"
 #include "render/geometry/ray_scene.h"
 #include "render/lighting/bake.h"
 
@@ -116,8 +116,8 @@ class Baker {
 
   // bake_smooth.cpp
   float reach_of(const Point& p) const;  // of neighbours; 0: none; unit: m
-  std::vector<PointGrid::Point> open_points(std::uint32_t first, std::uint32_t end) const;
-  void join_neighbours(std::uint32_t point, const PointGrid& grid, std::vector<RayScene::Ray>& lines);
+  std::vector<PointCells::Point> open_points(std::uint32_t first, std::uint32_t end) const;
+  void join_neighbours(std::uint32_t point, const PointCells& grid, std::vector<RayScene::Ray>& lines);
   void find_neighbours(std::size_t piece);
   void smooth(std::size_t point, Point& out) const;
   void find_substitutes();

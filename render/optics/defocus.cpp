@@ -42,7 +42,7 @@ struct Layer {
 
 class Spreader {
  public:
-  Spreader(const ColourImage& sharp, const std::vector<float>& depth, const ThinLens& lens)
+  Spreader(const LinearImage& sharp, const std::vector<float>& depth, const ThinLens& lens)
       : sharp_(sharp) {
     static const std::vector<float> shares = make_shares();
     radius_.resize(depth.size()), share_.resize(depth.size());
@@ -60,7 +60,7 @@ class Spreader {
   int tiles_across() const { return (sharp_.width + kTile - 1) / kTile; }
   int tiles_down() const { return (sharp_.height + kTile - 1) / kTile; }
 
-  void fill_tile(int tx, int ty, ColourImage& out) const {
+  void fill_tile(int tx, int ty, LinearImage& out) const {
     const int reach = int(std::ceil(reach_of(tx, ty)));
     for (int y = ty * kTile; y < std::min((ty + 1) * kTile, sharp_.height); ++y) {
       for (int x = tx * kTile; x < std::min((tx + 1) * kTile, sharp_.width); ++x) {
@@ -132,7 +132,7 @@ class Spreader {
     return nearer.mean() * covered + under * (1 - covered);
   }
 
-  const ColourImage& sharp_;
+  const LinearImage& sharp_;
   std::vector<float> radius_;    // signed, of each pixel; unit: pixel
   std::vector<float> share_;     // of a fully covered pixel
   std::vector<float> distance_;  // of the places around the middle of a square
@@ -146,9 +146,9 @@ double ThinLens::signed_radius(double depth) const {
   return std::clamp(0.5 * focal * aperture * (1 / focus - inverse), -kMostDefocus, kMostDefocus);
 }
 
-ColourImage defocus(const ColourImage& sharp, const std::vector<float>& depth, const ThinLens& lens,
+LinearImage defocus(const LinearImage& sharp, const std::vector<float>& depth, const ThinLens& lens,
                     int threads) {
-  ColourImage out = sharp;
+  LinearImage out = sharp;
   const Spreader spreader(sharp, depth, lens);
   parallel_for(std::size_t(spreader.tiles_down()), threads, [&](std::size_t row) {
     for (int tx = 0; tx < spreader.tiles_across(); ++tx) spreader.fill_tile(tx, int(row), out);

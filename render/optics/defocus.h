@@ -27,7 +27,7 @@ struct ThinLens {
 inline constexpr double kMostDefocus = 32;  // larger radii are cut to this; unit: pixel
 
 // depth: one a pixel, in m; NaN: infinitely far.
-ColourImage defocus(const ColourImage& sharp, const std::vector<float>& depth, const ThinLens& lens,
+LinearImage defocus(const LinearImage& sharp, const std::vector<float>& depth, const ThinLens& lens,
                     int threads);
 
 }  // namespace rubble

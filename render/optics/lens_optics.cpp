@@ -28,7 +28,7 @@ struct Cubic {
   float weights[4];
 };
 
-float sample_cubic(const ColourImage& image, const Cubic& u, const Cubic& v, std::size_t colour) {
+float sample_cubic(const LinearImage& image, const Cubic& u, const Cubic& v, std::size_t colour) {
   float sum = 0;
   for (int j = 0; j < 4; ++j) {
     const std::size_t y = std::size_t(std::clamp(v.first + j, 0, image.height - 1));
@@ -48,8 +48,8 @@ double farthest_corner(const Intrinsics& k) {
 
 }  // namespace
 
-ColourImage spread_glare(const ColourImage& image, int threads) {
-  ColourImage level = image, sum = image;
+LinearImage spread_glare(const LinearImage& image, int threads) {
+  LinearImage level = image, sum = image;
   std::fill(sum.rgb.begin(), sum.rgb.end(), 0.0f);
   double reached = 0;  // variance of `level`
   for (int i = 0; i < kOctaves; ++i) {
@@ -77,13 +77,13 @@ LensOptics::~LensOptics() = default;
 
 std::vector<float> LensOptics::defocus(std::vector<float> rgb, const std::vector<float>& depth) const {
   if (!defocuses()) return rgb;
-  const ColourImage sharp{intrinsics_.width, intrinsics_.height, std::move(rgb)};
+  const LinearImage sharp{intrinsics_.width, intrinsics_.height, std::move(rgb)};
   return rubble::defocus(sharp, depth, lens_, threads_).rgb;
 }
 
-ColourImage LensOptics::shift_colours(const ColourImage& image) const {
+LinearImage LensOptics::shift_colours(const LinearImage& image) const {
   const double half = 0.5 * spec_.lateral_colour / farthest_corner(intrinsics_);
-  ColourImage out = image;
+  LinearImage out = image;
   parallel_for(std::size_t(image.height), threads_, [&](std::size_t y) {
     for (const std::size_t colour : {0u, 2u}) {
       const double back = 1 / (1 + (colour == 0 ? half : -half));
@@ -99,10 +99,10 @@ ColourImage LensOptics::shift_colours(const ColourImage& image) const {
 }
 
 std::vector<float> LensOptics::spread(std::vector<float> rgb, int eye) const {
-  ColourImage image{intrinsics_.width, intrinsics_.height, std::move(rgb)};
+  LinearImage image{intrinsics_.width, intrinsics_.height, std::move(rgb)};
   const LensSurface& surface = *surfaces_[eye];
   if (spec_.drops > 0) {
-    ColourImage soft = image;
+    LinearImage soft = image;
     const double sigma = kDropBlur * image.width;
     blur_boxes(soft, sigma * sigma / 3, 3, threads_);
     surface.wet(image, soft);
@@ -111,7 +111,7 @@ std::vector<float> LensOptics::spread(std::vector<float> rgb, int eye) const {
   if (spec_.lateral_colour != 0) image = shift_colours(image);
   if (spec_.point_spread > 0) blur_gaussian(image, spec_.point_spread, threads_);
   if (spec_.glare > 0) {
-    const ColourImage skirt = spread_glare(image, threads_);
+    const LinearImage skirt = spread_glare(image, threads_);
     const float share = float(spec_.glare);
     for (std::size_t i = 0; i < image.rgb.size(); ++i)
       image.rgb[i] += share * (skirt.rgb[i] - image.rgb[i]);

@@ -41,7 +41,7 @@ class LensOptics {
   std::vector<float> spread(std::vector<float> rgb, int eye) const;
 
  private:
-  ColourImage shift_colours(const ColourImage& image) const;
+  LinearImage shift_colours(const LinearImage& image) const;
 
   OpticsSpec spec_;
   Intrinsics intrinsics_;
@@ -51,6 +51,6 @@ class LensOptics {
 };
 
 // The skirt of the point spread function: all light of the picture spread wide.
-ColourImage spread_glare(const ColourImage& image, int threads);
+LinearImage spread_glare(const LinearImage& image, int threads);
 
 }  // namespace rubble

@@ -23,7 +23,7 @@ double soft_step(double x) {  // 1 at 0, 0 from 1 on
 
 // Calls visit(x, y, distance from the middle over the radius) for the pixels of a disc.
 template <typename Visit>
-void for_disc(const ColourImage& image, double cx, double cy, double radius, const Visit& visit) {
+void for_disc(const LinearImage& image, double cx, double cy, double radius, const Visit& visit) {
   const int top = std::max(0, int(std::ceil(cy - radius)));
   const int left = std::max(0, int(std::ceil(cx - radius)));
   for (int y = top; y < image.height && y <= cy + radius; ++y)
@@ -31,7 +31,7 @@ void for_disc(const ColourImage& image, double cx, double cy, double radius, con
       if (const double d = std::hypot(x - cx, y - cy) / radius; d < 1) visit(x, y, d);
 }
 
-std::size_t place(const ColourImage& image, int x, int y) {
+std::size_t place(const LinearImage& image, int x, int y) {
   return 3 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
 }
 
@@ -62,7 +62,7 @@ LensSurface::LensSurface(int width, int height, double dirt, int drops, std::uin
   for (int i = 0; i < drops; ++i) drops_.push_back(draw(drop_stream, kSmallestDrop, kLargestDrop));
 }
 
-void LensSurface::soil(ColourImage& image, const ColourImage& veil) const {
+void LensSurface::soil(LinearImage& image, const LinearImage& veil) const {
   std::vector<float> passed(image.rgb.size() / 3, 1);
   for (const Spot& spot : smudges_)
     for_disc(image, spot.x, spot.y, spot.radius, [&](int x, int y, double d) {
@@ -74,7 +74,7 @@ void LensSurface::soil(ColourImage& image, const ColourImage& veil) const {
   }
 }
 
-void LensSurface::wet(ColourImage& image, const ColourImage& soft) const {
+void LensSurface::wet(LinearImage& image, const LinearImage& soft) const {
   for (const Spot& spot : drops_)
     for_disc(image, spot.x, spot.y, spot.radius, [&](int x, int y, double d) {
       const int u = reflect(spot.x - kMinified * (x - spot.x), image.width);

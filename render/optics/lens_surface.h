@@ -15,10 +15,10 @@ class LensSurface {
 
   // Smudges take part of the light and throw half of it over the picture: image = t image + (1 - t) / 2
   // veil, t the share that passes. veil: the light of the picture spread far and wide.
-  void soil(ColourImage& image, const ColourImage& veil) const;
+  void soil(LinearImage& image, const LinearImage& veil) const;
   // A drop is a lens of a few millimetres before the lens: within its disc stands a small picture of the
   // scene upside down, out of focus and darker to its rim. soft: the picture, a little blurred.
-  void wet(ColourImage& image, const ColourImage& soft) const;
+  void wet(LinearImage& image, const LinearImage& soft) const;
 
  private:
   struct Spot {

@@ -20,7 +20,7 @@ std::size_t mirrored(std::ptrdiff_t i, std::ptrdiff_t n) {
 
 // The lines of an image in one direction: of each row, or column, and colour.
 struct Lines {
-  Lines(const ColourImage& image, bool across)
+  Lines(const LinearImage& image, bool across)
       : horizontal(across), width(std::size_t(image.width)), height(std::size_t(image.height)) {}
   std::size_t count() const { return 3 * (horizontal ? height : width); }
   std::size_t length() const { return horizontal ? width : height; }
@@ -35,7 +35,7 @@ struct Lines {
 
 // Calls filter(padded line, output) for every line; `pad` pixels are mirrored on either side.
 template <typename Filter>
-void filter_lines(ColourImage& image, const Lines& lines, std::size_t pad, int threads,
+void filter_lines(LinearImage& image, const Lines& lines, std::size_t pad, int threads,
                   const Filter& filter) {
   const std::size_t n = lines.length(), wide = n + 2 * pad;
   parallel_for((lines.count() + kTogether - 1) / kTogether, threads, [&](std::size_t job) {
@@ -61,7 +61,7 @@ void filter_lines(ColourImage& image, const Lines& lines, std::size_t pad, int t
 }
 
 template <typename Filter>
-void filter_image(ColourImage& image, std::size_t pad, int threads, const Filter& filter) {
+void filter_image(LinearImage& image, std::size_t pad, int threads, const Filter& filter) {
   for (const bool across : {true, false})
     filter_lines(image, Lines(image, across), pad, threads, filter);
 }
@@ -90,7 +90,7 @@ std::vector<double> gaussian_weights(double sigma) {
   return weights;
 }
 
-void blur_gaussian(ColourImage& image, double sigma, int threads) {
+void blur_gaussian(LinearImage& image, double sigma, int threads) {
   const std::vector<double> weights = gaussian_weights(sigma);
   const std::size_t reach = weights.size() - 1;
   if (reach == 0) return;
@@ -113,7 +113,7 @@ ExtendedBox make_extended_box(double variance) {
   return box;
 }
 
-void blur_boxes(ColourImage& image, double variance, int passes, int threads) {
+void blur_boxes(LinearImage& image, double variance, int passes, int threads) {
   const ExtendedBox box = make_extended_box(variance);
   const std::size_t r = std::size_t(box.radius);
   const double share = 1 / (2 * double(r) + 1 + 2 * box.edge);

@@ -7,7 +7,7 @@
 namespace rubble {
 
 // Three floats a pixel, rows from the top.
-struct ColourImage {
+struct LinearImage {
   int width = 0, height = 0;  // unit: pixel
   std::vector<float> rgb;     // linear light
 };
@@ -16,7 +16,7 @@ struct ColourImage {
 // "Scale-space for discrete signals"): its variance is sigma^2 for any sigma, and its sum, both sides
 // taken, 1. Cut off where a weight is below 1e-9.
 std::vector<double> gaussian_weights(double sigma);
-void blur_gaussian(ColourImage& image, double sigma, int threads);
+void blur_gaussian(LinearImage& image, double sigma, int threads);
 
 // A box of 2 radius + 1 pixels of weight 1 and one pixel of weight `edge` on either side, of any
 // variance (Gwosdek, Grewenig, Bruhn and Weickert 2011, "Theoretical Foundations of Gaussian Convolution
@@ -28,6 +28,6 @@ struct ExtendedBox {
 ExtendedBox make_extended_box(double variance);
 // `passes` such boxes of this variance together, which come near a Gaussian; the time does not depend on
 // the variance.
-void blur_boxes(ColourImage& image, double variance, int passes, int threads);
+void blur_boxes(LinearImage& image, double variance, int passes, int threads);
 
 }  // namespace rubble

@@ -62,10 +62,10 @@ std::string png_to_pgm(const std::string& bytes) {
   return text.str();
 }
 
-GrayImage parse_pgm(const std::string& text) {
+GrayGrid parse_pgm(const std::string& text) {
   std::istringstream in(text);
   std::string magic;
-  GrayImage image;
+  GrayGrid image;
   int most = 0;
   in >> magic >> image.columns >> image.rows >> most;
   if (!in || magic != "P2" || image.columns < 1 || image.rows < 1 || most < 1 ||

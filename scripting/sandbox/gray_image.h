@@ -7,7 +7,7 @@
 
 namespace rubble {
 
-struct GrayImage {
+struct GrayGrid {
   int columns = 0, rows = 0;   // unit: pixel; range: 1 to 256
   std::vector<double> values;  // row by row from the top; 0: black, 1: white
 };
@@ -19,6 +19,6 @@ bool is_png(const std::string& bytes);
 std::string png_to_pgm(const std::string& bytes);
 
 // Throws std::runtime_error for what is no such text.
-GrayImage parse_pgm(const std::string& text);
+GrayGrid parse_pgm(const std::string& text);
 
 }  // namespace rubble

@@ -314,7 +314,7 @@ int read_image_file(lua_State* lua) {
   LuaHost& host = host_of(lua);
   std::string error;
   const int chunk = host.open_include(name, error);
-  GrayImage image;
+  GrayGrid image;
   try {
     if (chunk >= 0) image = parse_pgm(host.chunk(chunk).text);
   } catch (const std::runtime_error& failure) {

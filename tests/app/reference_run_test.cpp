@@ -1,9 +1,8 @@
 // Missions whose colours are path traced, through the program.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "tests/app/program.h"
+#include "tests/base/environment.h"
 
 namespace rubble::testing {
 namespace {
@@ -18,7 +17,7 @@ TEST(ReferenceRun, StoppedWithinAnImageGoesOnToTheSameBytes) {
   const ScratchFolder scratch;
   write_file(scratch / "tiny.lua", kTinyMission);
   const std::string keys = " --set camera.quality=reference --set camera.samples=512";
-  setenv("RUBBLE_CACHE", (scratch / "cache").c_str(), 1);
+  const Environment cached("RUBBLE_CACHE", scratch / "cache");
   const auto tracing = [&] {
     std::error_code failed;
     return !fs::is_empty(scratch / "cache/reference_tiles", failed) && !failed;
@@ -28,7 +27,7 @@ TEST(ReferenceRun, StoppedWithinAnImageGoesOnToTheSameBytes) {
   ASSERT_EQ(stopped.exit_code, 4) << stopped.err;
   EXPECT_EQ(run_rubble("resume " + (scratch / "a")).exit_code, 0);
   EXPECT_TRUE(fs::is_empty(scratch / "cache/reference_tiles"));
-  setenv("RUBBLE_CACHE", "off", 1);
+  const Environment uncached("RUBBLE_CACHE", "off");
   const Outcome whole = run_rubble("run " + (scratch / "tiny.lua") + " --out " + (scratch / "b") + keys);
   EXPECT_EQ(whole.exit_code, 0) << whole.err;
   EXPECT_EQ(read_file(scratch / "a/mission.rawlog"), read_file(scratch / "b/mission.rawlog"));

@@ -20,6 +20,7 @@
 #include "render/renderer.h"
 #include "tests/app/program.h"
 #include "tests/app/tiny_run.h"
+#include "tests/base/environment.h"
 
 namespace rubble::testing {
 namespace {
@@ -203,7 +204,7 @@ TEST(SurroundingsRun, ThreadsChangeNoBitOfAFrame) {
     const Outcome outcome = run_rubble("run " + (folder / "m.lua") + " --quiet --out " + (folder / name) + more);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   };
-  setenv("RUBBLE_CACHE", "off", 1);
+  const Environment uncached("RUBBLE_CACHE", "off");
   run("one", " --threads 1"), run("two", " --threads 2");
   EXPECT_EQ(reproducible(folder / "one"), reproducible(folder / "two"));
 }

@@ -4,15 +4,17 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>
+
+#include "tests/base/environment.h"
 
 namespace rubble {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::Environment;
 
 class DiskCacheTest : public ::testing::Test {
  protected:
@@ -156,31 +158,9 @@ TEST(CacheReader, SaysWhenBytesAreMissingOrLeftOver) {
   }
 }
 
-class Environment {
- public:
-  Environment(const char* name, const char* value) : name_(name) {
-    if (const char* old = std::getenv(name)) old_ = old, had_ = true;
-    if (value)
-      setenv(name, value, 1);
-    else
-      unsetenv(name);
-  }
-  ~Environment() {
-    if (had_)
-      setenv(name_, old_.c_str(), 1);
-    else
-      unsetenv(name_);
-  }
-
- private:
-  const char* name_;
-  std::string old_;
-  bool had_ = false;
-};
-
 TEST(UsualFolder, FollowsTheEnvironmentInOrder) {
   const Environment home("HOME", "/home/me");
-  const Environment none("RUBBLE_CACHE", nullptr), unset("XDG_CACHE_HOME", nullptr);
+  const Environment none("RUBBLE_CACHE", std::nullopt), unset("XDG_CACHE_HOME", std::nullopt);
   EXPECT_EQ(DiskCache::usual_folder(), "/home/me/.cache/rubble");
   const Environment relative("XDG_CACHE_HOME", "here");
   EXPECT_EQ(DiskCache::usual_folder(), "/home/me/.cache/rubble");

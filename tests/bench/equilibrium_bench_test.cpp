@@ -10,11 +10,13 @@
 #include <sstream>
 
 #include "bench/equilibrium/work.h"
+#include "tests/base/environment.h"
 
 namespace rubble {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::Environment;
 
 struct Outcome {
   int exit_code = -1;
@@ -92,7 +94,7 @@ TEST(EquilibriumBench, SaysWhatIsWrong) {
 
 // Each mission of the list is one that the program reads, with a pile that fits its box.
 TEST(EquilibriumBench, EveryMissionOfTheListCanBeGenerated) {
-  setenv("RUBBLE_ASSETS", beside_bench("assets").c_str(), 1);
+  const Environment assets("RUBBLE_ASSETS", beside_bench("assets"));
   for (const std::string& name : expand_work_names({"packs", "collapse", "demo"})) {
     const Work work = load_work(name, 1);
     EXPECT_GT(work.pile.placed.size() + work.pile.layers.size(), 0U) << name;

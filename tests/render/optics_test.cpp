@@ -18,15 +18,15 @@
 namespace rubble::testing {
 namespace {
 
-ColourImage even_image(int width, int height, float value) {
+LinearImage even_image(int width, int height, float value) {
   return {width, height, std::vector<float>(std::size_t(width) * std::size_t(height) * 3, value)};
 }
-std::size_t place(const ColourImage& image, int x, int y) {
+std::size_t place(const LinearImage& image, int x, int y) {
   return 3 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
 }
 // All light in one pixel.
-ColourImage spot_image(int width, int height, int x, int y, float value = 1000) {
-  ColourImage image = even_image(width, height, 0);
+LinearImage spot_image(int width, int height, int x, int y, float value = 1000) {
+  LinearImage image = even_image(width, height, 0);
   for (std::size_t c = 0; c < 3; ++c) image.rgb[place(image, x, y) + c] = value;
   return image;
 }
@@ -35,7 +35,7 @@ ColourImage spot_image(int width, int height, int x, int y, float value = 1000) 
 struct Light {
   double sum = 0, x = 0, y = 0, variance_x = 0;
 };
-Light measure(const ColourImage& image, std::size_t colour = 1) {
+Light measure(const LinearImage& image, std::size_t colour = 1) {
   Light light;
   double squares = 0;
   for (int y = 0; y < image.height; ++y)
@@ -48,7 +48,7 @@ Light measure(const ColourImage& image, std::size_t colour = 1) {
   return light;
 }
 
-ColourImage apply(const OpticsSpec& spec, const ColourImage& image, int threads = 1) {
+LinearImage apply(const OpticsSpec& spec, const LinearImage& image, int threads = 1) {
   const LensOptics optics(spec, 2, pinhole(image.width, image.height, 100), 5, threads);
   return {image.width, image.height, optics.spread(image.rgb, 0)};
 }
@@ -92,12 +92,12 @@ TEST(Glare, KeepsTheLightAndWhatIsEven) {
   OpticsSpec spec;
   spec.glare = 0.2;
   for (const auto& [x, y] : {std::pair(128, 100), std::pair(3, 0), std::pair(255, 190)}) {
-    const ColourImage out = apply(spec, spot_image(256, 191, x, y));
+    const LinearImage out = apply(spec, spot_image(256, 191, x, y));
     EXPECT_NEAR(measure(out).sum / 1000, 1, 1e-4);
     EXPECT_NEAR(out.rgb[place(out, x, y)], 800, 0.2 * 1000 / 10);  // and a little of the skirt's middle
     EXPECT_GT(out.rgb[place(out, 255 - x, 190 - y)], 0);
   }
-  const ColourImage even = apply(spec, even_image(256, 191, 3));
+  const LinearImage even = apply(spec, even_image(256, 191, 3));
   for (const float value : even.rgb) ASSERT_NEAR(value, 3, 1e-4);
 }
 
@@ -109,7 +109,7 @@ TEST(Glare, FillsABlackDiscAsTheSkirtSays) {
   OpticsSpec spec;
   spec.glare = kGlare;
   for (const double radius : {4.0, 12.0, 40.0}) {
-    ColourImage image = even_image(kSide, kSide, 1);
+    LinearImage image = even_image(kSide, kSide, 1);
     for (int y = 0; y < kSide; ++y)
       for (int x = 0; x < kSide; ++x)
         if (std::hypot(x - 128, y - 128) < radius)
@@ -119,7 +119,7 @@ TEST(Glare, FillsABlackDiscAsTheSkirtSays) {
       const double s = double(kSide) / 256 * std::exp2(i);
       expected += kGlare * std::exp(-radius * radius / (2 * s * s)) / 7;
     }
-    const ColourImage out = apply(spec, image);
+    const LinearImage out = apply(spec, image);
     EXPECT_NEAR(out.rgb[place(out, 128, 128)] / expected, 1, 0.05) << radius;
   }
 }
@@ -135,10 +135,10 @@ double textbook_radius(double focal, double f_number, double focus, double depth
 TEST(Defocus, SpreadsOverTheDiscOfTheThinLens) {
   const double fx = 900, focal = 0.016, f_number = 1.4, focus = 2;
   const ThinLens lens{focal / f_number, focus, fx};
-  const ColourImage spot = spot_image(121, 121, 60, 60);
+  const LinearImage spot = spot_image(121, 121, 60, 60);
   for (const double depth : {0.4, 0.8, 1.5, 4.0, 1000.0}) {
     const std::vector<float> depths(spot.rgb.size() / 3, float(depth));
-    const ColourImage out = defocus(spot, depths, lens, 1);
+    const LinearImage out = defocus(spot, depths, lens, 1);
     const double radius = textbook_radius(focal, f_number, focus, depth, fx);
     const Light light = measure(out);
     EXPECT_NEAR(light.sum / 1000, 1, 1e-4) << depth;
@@ -163,10 +163,10 @@ struct TwoSurfaces {
       }
   }
   float at(const ThinLens& lens, int x) const {
-    const ColourImage out = defocus(image, depth, lens, 1);
+    const LinearImage out = defocus(image, depth, lens, 1);
     return out.rgb[place(out, x, 30)];
   }
-  ColourImage image;
+  LinearImage image;
   std::vector<float> depth;
 };
 
@@ -188,7 +188,7 @@ TEST(Defocus, NearSurfacesCoverFarOnes) {
 TEST(LateralColour, ShiftsRedAgainstBlueInProportionToTheRadius) {
   OpticsSpec spec;
   spec.lateral_colour = 3;
-  ColourImage image = even_image(200, 150, 0);
+  LinearImage image = even_image(200, 150, 0);
   const double cx = 99.5, cy = 74.5, corner = std::hypot(99.5, 74.5);
   for (const double share : {0.0, 0.4, 0.85}) {
     const double x = cx + share * cx, y = cy + share * cy;  // on the diagonal
@@ -197,7 +197,7 @@ TEST(LateralColour, ShiftsRedAgainstBlueInProportionToTheRadius) {
         for (std::size_t c = 0; c < 3; ++c)
           image.rgb[place(image, u, v) + c] =
               float(std::exp(-((u - x) * (u - x) + (v - y) * (v - y)) / (2 * 4)));
-    const ColourImage out = apply(spec, image);
+    const LinearImage out = apply(spec, image);
     const Light red = measure(out, 0), green = measure(out, 1), blue = measure(out, 2);
     EXPECT_NEAR(std::hypot(red.x - blue.x, red.y - blue.y), 3 * share, 0.03) << share;
     EXPECT_GE(std::hypot(red.x - cx, red.y - cy), std::hypot(blue.x - cx, blue.y - cy) - 1e-3);
@@ -208,24 +208,24 @@ TEST(LateralColour, ShiftsRedAgainstBlueInProportionToTheRadius) {
 
 TEST(LensSurface, SmudgesTakeHalfOfWhatTheyDoNotThrowOn) {
   const LensSurface dirty(200, 150, 0.8, 0, 7, 0);
-  ColourImage even = even_image(200, 150, 2);
+  LinearImage even = even_image(200, 150, 2);
   dirty.soil(even, even_image(200, 150, 2));
   const auto [least, most] = std::minmax_element(even.rgb.begin(), even.rgb.end());
   EXPECT_EQ(*most, 2);
   EXPECT_LT(*least, 1.7);
   EXPECT_GE(*least, 1);
-  ColourImage other = even_image(200, 150, 2);
+  LinearImage other = even_image(200, 150, 2);
   LensSurface(200, 150, 0.8, 0, 8, 0).soil(other, even_image(200, 150, 2));
   EXPECT_NE(other.rgb, even.rgb);
 }
 
 // A picture that grows brighter to the right is turned over in a drop, and 3.5 times as steep.
 TEST(LensSurface, DropsShowTheSceneUpsideDown) {
-  ColourImage ramp = even_image(1200, 300, 0);
+  LinearImage ramp = even_image(1200, 300, 0);
   for (int y = 0; y < ramp.height; ++y)
     for (int x = 0; x < ramp.width; ++x)
       std::fill_n(ramp.rgb.begin() + std::ptrdiff_t(place(ramp, x, y)), 3, float(x - 600));
-  ColourImage wet = ramp;
+  LinearImage wet = ramp;
   LensSurface(1200, 300, 0, 12, 3, 0).wet(wet, ramp);
   std::size_t inverted = 0, changed = 0;
   for (int y = 0; y < ramp.height; ++y)
@@ -246,8 +246,8 @@ OpticsSpec all_faults() {
 }
 
 TEST(LensOptics, DoesNotDependOnThreads) {
-  const ColourImage image = [] {
-    ColourImage made = even_image(131, 77, 0);
+  const LinearImage image = [] {
+    LinearImage made = even_image(131, 77, 0);
     for (std::size_t i = 0; i < made.rgb.size(); ++i) made.rgb[i] = float((i * 7919) % 1013);
     return made;
   }();

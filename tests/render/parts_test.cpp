@@ -7,7 +7,7 @@
 #include "kernel/base/error.h"
 #include "kernel/base/random.h"
 #include "render/geometry/mesh_refine.h"
-#include "render/geometry/point_grid.h"
+#include "render/geometry/point_cells.h"
 #include "render/geometry/prepared_mesh.h"
 #include "render/gl/gl_context.h"
 #include "render/gl/shader.h"
@@ -20,10 +20,10 @@
 namespace rubble::testing {
 namespace {
 
-TEST(PointGrid, FindsAllPointsOfTheCellsAboutAPlaceInOrder) {
+TEST(PointCells, FindsAllPointsOfTheCellsAboutAPlaceInOrder) {
   const float cell = 0.25f;
-  RandomStream random(3, "point_grid");
-  std::vector<PointGrid::Point> points;
+  RandomStream random(3, "point_cells");
+  std::vector<PointCells::Point> points;
   // Thick about the origin, and a few far away from it.
   for (std::uint32_t i = 0; i < 600; ++i) {
     const float size = i % 6 == 0 ? 40.0f : 1.5f;
@@ -31,7 +31,7 @@ TEST(PointGrid, FindsAllPointsOfTheCellsAboutAPlaceInOrder) {
     const float x = along(), y = along(), z = along();
     points.push_back({{x, y, z}, 1000 + i});
   }
-  const PointGrid grid(cell, points);
+  const PointCells grid(cell, points);
   const auto cells = [&](const Vec3f& p) {
     return std::array{int(std::floor(p.z / cell)), int(std::floor(p.y / cell)), int(std::floor(p.x / cell))};
   };
@@ -41,7 +41,7 @@ TEST(PointGrid, FindsAllPointsOfTheCellsAboutAPlaceInOrder) {
       const Vec3f place = points[n].position + Vec3f{0.1f, -0.2f, 0.3f};
       const auto middle = cells(place);
       std::vector<std::pair<std::array<int, 3>, std::uint32_t>> expected;
-      for (const PointGrid::Point& p : points) {
+      for (const PointCells::Point& p : points) {
         const auto c = cells(p.position);
         bool near = true;
         for (std::size_t k = 0; k < 3; ++k) near = near && std::abs(c[k] - middle[k]) <= reach;

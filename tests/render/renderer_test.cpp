@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
 #include "render/materials/surface_appearance.h"
+#include "tests/base/environment.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
@@ -109,16 +109,6 @@ TEST(Renderer, RefusesWhatItCannotDraw) {
   EXPECT_NE(error_of(Scene{}, distorted).find("distortion"), std::string::npos);
   EXPECT_NE(error_of(Scene{}, pinhole(32, 32, 0)).find("positive"), std::string::npos);
 }
-
-// Sets a variable for a while.
-class Environment {
- public:
-  Environment(const char* name, const char* value) : name_(name) { setenv(name, value, 1); }
-  ~Environment() { unsetenv(name_); }
-
- private:
-  const char* name_;
-};
 
 std::string context_error() {
   try {

@@ -99,7 +99,7 @@ MapFindings score_map(const MapRequest& request, const SavedSurface& surface, Pl
   findings.samples = sample_surface(findings.map, sample_spacing(request));
   step(0, "visible surface");
   findings.seen = find_seen_surface(surface.pile, surface.geometry.meshes, queries, views,
-                                    std::min(SeenSurface().spacing, request.space.voxel / 2), pool);
+                                    std::min(SeenPoints().spacing, request.space.voxel / 2), pool);
   step(0.4, "accuracy");
   findings.accuracy = calc_map_accuracy(findings.samples, queries, findings.seen, pool);
   step(0.5, "completeness");

@@ -58,7 +58,7 @@ class MapSurface {
 }  // namespace
 
 MapAccuracy calc_map_accuracy(const std::vector<Vec3>& points, const PileQueries& truth,
-                              const SeenSurface& seen, ThreadPool& pool) {
+                              const SeenPoints& seen, ThreadPool& pool) {
   MapAccuracy score;
   score.distances.resize(points.size());
   std::vector<char> unseen(points.size(), 0);
@@ -77,7 +77,7 @@ MapAccuracy calc_map_accuracy(const std::vector<Vec3>& points, const PileQueries
   return score;
 }
 
-MapCompleteness calc_map_completeness(const PlyMesh& map, const SeenSurface& seen,
+MapCompleteness calc_map_completeness(const PlyMesh& map, const SeenPoints& seen,
                                       ThreadPool& pool) {
   MapCompleteness score;
   score.distances.resize(seen.points.size());

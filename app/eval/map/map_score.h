@@ -24,7 +24,7 @@ struct MapAccuracy {
 };
 // points: not empty.
 MapAccuracy calc_map_accuracy(const std::vector<Vec3>& points, const PileQueries& truth,
-                              const SeenSurface& seen, ThreadPool& pool);
+                              const SeenPoints& seen, ThreadPool& pool);
 
 // Of the surface that the frames saw, by area.
 struct MapCompleteness {
@@ -33,7 +33,7 @@ struct MapCompleteness {
   double within_1cm = 0, within_2cm = 0, within_5cm = 0;  // shares; range: 0 to 1
 };
 // To the triangles of a mesh, or to the nearest point of a cloud.
-MapCompleteness calc_map_completeness(const PlyMesh& map, const SeenSurface& seen,
+MapCompleteness calc_map_completeness(const PlyMesh& map, const SeenPoints& seen,
                                       ThreadPool& pool);
 
 }  // namespace rubble

@@ -172,7 +172,7 @@ bool is_seen(const Vec3& point, const FramesOfCells& frames, const PileQueries& 
 
 }  // namespace
 
-SeenSurface find_seen_surface(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
+SeenPoints find_seen_surface(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
                               const PileQueries& queries, const RecordedViews& views,
                               double spacing, ThreadPool& pool) {
   const FramesOfCells frames(queries, views, pool);
@@ -187,7 +187,7 @@ SeenSurface find_seen_surface(const PileState& pile, const std::vector<const Tri
     for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i)
       seen[i] = is_seen(points[i], frames, queries, views);
   });
-  SeenSurface surface;
+  SeenPoints surface;
   surface.spacing = spacing;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (seen[i]) surface.points.push_back(points[i]);

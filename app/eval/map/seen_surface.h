@@ -11,7 +11,7 @@
 
 namespace rubble {
 
-struct SeenSurface {
+struct SeenPoints {
   std::vector<Vec3> points;  // unit: m
   double spacing = 0.02;     // each stands for spacing^2 of surface; unit: m
 
@@ -25,7 +25,7 @@ struct SeenSurface {
 // So that not every point of a pile is tried against every frame, rays through a grid of 128 points
 // a row first find where each frame sees anything at all: a point farther than 0.2 m from all that
 // a frame's grid met is not tried with that frame. meshes: by type, as PileQueries takes them.
-SeenSurface find_seen_surface(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
+SeenPoints find_seen_surface(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
                               const PileQueries& queries, const RecordedViews& views,
                               double spacing, ThreadPool& pool);
 

@@ -38,7 +38,7 @@ void PairSelection::note_sweeps(StepPairs& step) {
   pool_.run(int(step.awake.size()), 128, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const Body& body = data_.bodies[step.awake[k]];
-      Sweep& sweep = step.sweeps[step.awake[k]];
+      StepMotion& sweep = step.sweeps[step.awake[k]];
       sweep.awake = true;
       sweep.linear = body.linear;
       sweep.turning = norm(body.angular) * body.radius;
@@ -131,7 +131,7 @@ bool PairSelection::may_touch(const StepPairs& step, Pair& pair) const {
     return data_.colliders[pair.collider_a].box.min.z <
            double(step.calc_margin(pair.body_a, kGround, settings_.narrow));
   }
-  const Sweep &a = step.sweeps[pair.body_a], &b = step.sweeps[pair.body_b];
+  const StepMotion &a = step.sweeps[pair.body_a], &b = step.sweeps[pair.body_b];
   const double travel = a.travel + b.travel;
   const float most = settings_.narrow.margin * kRounding + a.reach + b.reach;
   // First what is known without a look at the boxes, which are far apart in memory.

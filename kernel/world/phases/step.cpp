@@ -10,9 +10,9 @@ void StepPairs::list_awake(const std::vector<Body>& bodies) {
 }
 
 float StepPairs::calc_margin(int body_a, int body_b, const NarrowSettings& settings) const {
-  const Sweep& a = sweeps[body_a];
+  const StepMotion& a = sweeps[body_a];
   if (body_b == kGround) return motion_margin(a.linear, a.turning, settings);
-  const Sweep& b = sweeps[body_b];
+  const StepMotion& b = sweeps[body_b];
   return motion_margin(a.linear - b.linear, a.turning + b.turning, settings);
 }
 

@@ -11,7 +11,7 @@ namespace rubble {
 
 // What the search for pairs asks of every piece in every step, close together in memory. Of those asleep only
 // the travel is set.
-struct Sweep {
+struct StepMotion {
   Vec3f linear;       // unit: m/s
   float turning = 0;  // angular speed times radius; unit: m/s
   float reach = 0;    // no point goes farther in this step; unit: m
@@ -23,7 +23,7 @@ struct Sweep {
 // overlaps, and Solution sorts. It stays as it is until the next step.
 struct StepPairs {
   std::vector<std::int32_t> awake;         // bodies, ascending
-  std::vector<Sweep> sweeps;               // by body
+  std::vector<StepMotion> sweeps;               // by body
   std::vector<std::int32_t> active;        // pairs with somebody awake that may touch
   std::vector<std::uint8_t> is_deep;       // by pair: overlaps deeper than sleep allows
   std::vector<std::uint8_t> may_be_stuck;  // by pair: is_stuck(), or was led out before

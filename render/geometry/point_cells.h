@@ -10,7 +10,7 @@
 
 namespace rubble {
 
-class PointGrid {
+class PointCells {
  public:
   struct Point {
     Vec3f position;  // unit: m
@@ -18,7 +18,7 @@ class PointGrid {
   };
 
   // cell: its side; unit: m
-  PointGrid(float cell, const std::vector<Point>& points) : cell_(cell) {
+  PointCells(float cell, const std::vector<Point>& points) : cell_(cell) {
     entries_.reserve(points.size());
     for (const Point& p : points) entries_.push_back({cell_of(p.position), p.index});
     std::stable_sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.cell < b.cell; });

@@ -30,8 +30,8 @@ class PointCells {
   // A number of the cell that a place lies in. Places in one cell are near the same points.
   std::uint64_t cell_of(const Vec3f& p) const { return number(at(p.x), at(p.y), at(p.z)); }
 
-  // Calls visit(index) for all that lie within `reach` cells of the place's own, and some more: cell by cell,
-  // and those of one cell in the order in which they were given.
+  // Calls visit(index) for all in the cells up to `reach` away from the place's own along each axis: cell by cell, and
+  // those of one cell in the order in which they were given.
   template <typename Visit>
   void near(const Vec3f& p, int reach, const Visit& visit) const {
     const int x = at(p.x), y = at(p.y), z = at(p.z);

@@ -15,7 +15,7 @@ namespace rubble {
 struct MapFindings {
   PlyMesh map;                   // in the world
   std::vector<Vec3> samples;     // of it
-  SeenPoints seen;              // what the camera could have mapped
+  SeenPoints seen;               // what the camera could have mapped
   MapAccuracy accuracy;          // how far the map's points are from the true surface
   MapCompleteness completeness;  // how much of the seen surface the map has
   // By the map, and by the seen surface itself in its place: what the best map could have found.

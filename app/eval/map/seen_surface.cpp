@@ -173,8 +173,8 @@ bool is_seen(const Vec3& point, const FramesOfCells& frames, const PileQueries& 
 }  // namespace
 
 SeenPoints find_seen_surface(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
-                              const PileQueries& queries, const RecordedViews& views,
-                              double spacing, ThreadPool& pool) {
+                             const PileQueries& queries, const RecordedViews& views,
+                             double spacing, ThreadPool& pool) {
   const FramesOfCells frames(queries, views, pool);
   Sampler sampler(frames, spacing);
   for (std::size_t i = 0; i < pile.pieces.size(); ++i)

@@ -26,7 +26,7 @@ struct SeenPoints {
 // a row first find where each frame sees anything at all: a point farther than 0.2 m from all that
 // a frame's grid met is not tried with that frame. meshes: by type, as PileQueries takes them.
 SeenPoints find_seen_surface(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
-                              const PileQueries& queries, const RecordedViews& views,
-                              double spacing, ThreadPool& pool);
+                             const PileQueries& queries, const RecordedViews& views,
+                             double spacing, ThreadPool& pool);
 
 }  // namespace rubble

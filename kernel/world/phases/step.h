@@ -23,7 +23,7 @@ struct StepMotion {
 // overlaps, and Solution sorts. It stays as it is until the next step.
 struct StepPairs {
   std::vector<std::int32_t> awake;         // bodies, ascending
-  std::vector<StepMotion> sweeps;               // by body
+  std::vector<StepMotion> sweeps;          // by body
   std::vector<std::int32_t> active;        // pairs with somebody awake that may touch
   std::vector<std::uint8_t> is_deep;       // by pair: overlaps deeper than sleep allows
   std::vector<std::uint8_t> may_be_stuck;  // by pair: is_stuck(), or was led out before

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rubble {
@@ -76,7 +77,14 @@ Opened what_opens(const std::string& head) {
       spaced += word ? std::string(1, head[i]) : std::string(" ") + head[i] + " ";
   }
   std::istringstream in(spaced);
-  const std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
+  std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
+  for (const auto& [open, close] : {std::pair("alignas", ")"), std::pair("[", "]")})
+    for (auto from = std::find(words.begin(), words.end(), open); from != words.end();
+         from = std::find(words.begin(), words.end(), open)) {
+      const auto to = std::find(from, words.end(), close);
+      words.erase(from, to == words.end() ? to : to + 1);
+    }
+  words.erase(std::remove(words.begin(), words.end(), "]"), words.end());  // the second of an attribute
   for (std::size_t i = 0; i < words.size(); ++i)
     if (words[i] == "namespace") return {true, i + 1 < words.size() ? words[i + 1] : ""};
   // After the parameters of a template, whose words "class" are none.
@@ -124,14 +132,16 @@ TEST(OneDefinition, FindsWhatASourceDefines) {
     enum class Colour : int { red };
     template <typename T> struct Box { T value; };
     struct A::Part { int y; };
+    struct alignas(16) Wide { float x[4]; };
+    class [[nodiscard]] Marked { };
     const char* text = "struct Text {";
     inline A make() { return A{}; }
     namespace { struct Hidden {}; }
     namespace inner { union U { int i; float f; }; }
     }
   )cpp";
-  EXPECT_EQ(classes_of(source), (std::set<std::string>{"rubble::A", "rubble::B", "rubble::Colour", "rubble::Box",
-                                                       "rubble::inner::U"}));
+  EXPECT_EQ(classes_of(source), (std::set<std::string>{"rubble::A", "rubble::B", "rubble::Colour", "rubble::Box", "rubble::Wide",
+                                                       "rubble::Marked", "rubble::inner::U"}));
 }
 
 TEST(OneDefinition, EveryClassHasANameOfItsOwn) {

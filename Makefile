@@ -87,8 +87,9 @@ demo: build
 	$(PROGRAM) run scripts/first_pile.lua --out out/first_pile --force
 
 # The picture of the README, from the frames that the demo recorded; its voids, a sheet of each pack,
-# and each collapse mode cut open.
+# each collapse mode cut open, and the missions that documents show.
 pictures: demo
+	@tools/install_packages.sh tools/packages-pictures.txt
 	mkdir -p docs/pictures
 	tools/frames_of_bag.py out/first_pile/mission.bag docs/pictures/first_pile.png 341 0 55 118
 	for pack in concrete residential parking bridge victims; do \
@@ -97,6 +98,7 @@ pictures: demo
 	cp out/first_pile/voids/plan_r200.png docs/pictures/void_plan.png
 	cp out/first_pile/voids/cut_y_r200.png docs/pictures/void_cut.png
 	tools/collapse_pictures.sh
+	tools/mission_pictures.py
 
 # Every picture of docs/gallery.md, from bundled missions.
 gallery: all

@@ -6,7 +6,7 @@ are no frames.
 
 usage: tools/draw_ruins.py [--program build/release/rubble] [--out out/ruins] [--kinds] docs/collapse.md
 
-Needs python3-opencv.
+Needs python3-opencv (tools/packages-pictures.txt).
 """
 import argparse
 import json

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "tests/app/program.h"
+#include "tests/base/slowdown.h"
 
 namespace rubble::testing {
 namespace {
@@ -68,12 +69,8 @@ TEST_F(Batch, GivesTheSameIndexWhateverTheJobsTheShardsAndTheKills) {
 
 // A job that the kernel kills cannot say so itself.
 TEST_F(Batch, TheLogOfAKilledJobNamesTheSignal) {
-  // SIGXCPU is for the job, which computes; the batch itself needs little CPU time, though seconds with a sanitizer.
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-  const std::string cpu_seconds = "15";
-#else
-  const std::string cpu_seconds = "2";
-#endif
+  // SIGXCPU is for the job, which computes; the batch itself needs little CPU time.
+  const std::string cpu_seconds = std::to_string(2 * kSlowdown);
   write_file(scratch / "long.lua",
              "return rubble.mission { seed = 1, pile = { layers = 20, pieces_per_layer = 300 } }");
   const Outcome run = run_rubble("batch " + (scratch / "long.lua") +

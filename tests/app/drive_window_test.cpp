@@ -7,6 +7,7 @@
 
 #include "tests/app/driven_leg.h"
 #include "tests/app/program.h"
+#include "tests/base/slowdown.h"
 
 namespace rubble::testing {
 namespace {
@@ -36,23 +37,40 @@ int count_changes(const Screen& a, const Screen* b, unsigned x0, unsigned y0, un
   return count;
 }
 
-// Starts Xvfb and the drive, sends keys, keeps what the screen showed before and after.
-const char* const kScript = R"(
-d=$1; program=$2
+// Before each script: a screen; pause SECONDS, longer under a sanitizer; find_window, of the drive when it is ready.
+const char* const kPrologue = R"(
+d=$1; program=$2; slowdown=$3
+pause() { for i in $(seq $slowdown); do sleep $1; done; }
 Xvfb -displayfd 3 -screen 0 448x168x24 -fbdir $d -nolisten tcp 3>$d/display >/dev/null 2>&1 & xvfb=$!
 trap 'kill $xvfb' EXIT
 for i in $(seq 100); do [ -s $d/display ] && break; sleep 0.1; done
 export DISPLAY=:$(cat $d/display)
 unset SDL_VIDEODRIVER
+find_window() {
+  until grep -q 'drive: ready' $d/stderr; do kill -0 $drive || exit 1; sleep 0.1; done
+  w=$(xdotool search --sync --onlyvisible --name 'rubble drive' | head -1)
+}
+)";
+
+// The exit code of the script, which drives and leaves what it wrote in the folder.
+int drive(const ScratchFolder& scratch, const std::string& script) {
+  write_file(scratch / "drive.sh", kPrologue + script);
+  const std::string command = "cd '" RUBBLE_SOURCE_DIR "' && timeout " + std::to_string(120 * kSlowdown) + " bash " +
+                              (scratch / "drive.sh") + " " + scratch.path().string() + " " RUBBLE_PROGRAM " " +
+                              std::to_string(kSlowdown);
+  return std::system(command.c_str());
+}
+
+// Sends keys, keeps what the screen showed before and after.
+const char* const kScript = R"(
 $program drive scripts/small.lua --size 160x120 --record --set outputs.rawlog=false --quiet \
   --set outputs.stl=false --out $d/out >$d/stdout 2>$d/stderr & drive=$!
-for i in $(seq 600); do grep -q 'drive: ready' $d/stderr && break; sleep 0.1; done
-w=$(xdotool search --sync --onlyvisible --name 'rubble drive' | head -1)
+find_window
 xdotool windowfocus $w; xdotool mousemove --window $w 80 60
 for i in $(seq 100); do [ $(tr -d '\000' <$d/Xvfb_screen0 | wc -c) -gt 40000 ] && break; sleep 0.2; done  # drawn
-sleep 0.4; cp $d/Xvfb_screen0 $d/before
-xdotool keydown w keydown d; sleep 0.6; xdotool keyup w keyup d
-xdotool key l; sleep 0.6; xdotool key f; sleep 0.6
+pause 0.4; cp $d/Xvfb_screen0 $d/before
+xdotool keydown w keydown d; pause 0.6; xdotool keyup w keyup d
+xdotool key l; pause 0.6; xdotool key f; pause 0.6
 cp $d/Xvfb_screen0 $d/after
 xdotool key Escape
 wait $drive
@@ -60,11 +78,7 @@ wait $drive
 
 TEST(DriveWindow, WhatIsDrivenByKeysRunsAgainByteForByte) {
   const ScratchFolder scratch;
-  write_file(scratch / "drive.sh", kScript);
-  const std::string command = "cd '" RUBBLE_SOURCE_DIR "' && timeout 120 bash " +
-                              (scratch / "drive.sh") + " " + scratch.path().string() +
-                              " " RUBBLE_PROGRAM;
-  ASSERT_EQ(std::system(command.c_str()), 0) << read_file(scratch / "stderr");
+  ASSERT_EQ(drive(scratch, kScript), 0) << read_file(scratch / "stderr");
 
   const Screen before{read_file(scratch / "before")}, after{read_file(scratch / "after")};
   for (const unsigned pane : {0u, 160u, 320u}) {
@@ -92,16 +106,9 @@ const char* const kHillside = R"(return rubble.mission {
 )";
 
 const char* const kDownhill = R"(
-d=$1; program=$2
-Xvfb -displayfd 3 -screen 0 448x168x24 -nolisten tcp 3>$d/display >/dev/null 2>&1 & xvfb=$!
-trap 'kill $xvfb' EXIT
-for i in $(seq 100); do [ -s $d/display ] && break; sleep 0.1; done
-export DISPLAY=:$(cat $d/display)
-unset SDL_VIDEODRIVER
 $program drive $d/hillside.lua --size 160x120 --quiet --steps 45 --set outputs.rawlog=false \
   --set outputs.bag=false --out $d/out >$d/stdout 2>$d/stderr & drive=$!
-for i in $(seq 600); do grep -q 'drive: ready' $d/stderr && break; sleep 0.1; done
-w=$(xdotool search --sync --onlyvisible --name 'rubble drive' | head -1)
+find_window
 xdotool windowfocus $w; xdotool keydown w
 wait $drive
 )";
@@ -109,11 +116,7 @@ wait $drive
 TEST(DriveWindow, AHillsideHoldsTheCameraUp) {
   const ScratchFolder scratch;
   write_file(scratch / "hillside.lua", kHillside);
-  write_file(scratch / "drive.sh", kDownhill);
-  const std::string command = "cd '" RUBBLE_SOURCE_DIR "' && timeout 120 bash " +
-                              (scratch / "drive.sh") + " " + scratch.path().string() +
-                              " " RUBBLE_PROGRAM;
-  ASSERT_EQ(std::system(command.c_str()), 0) << read_file(scratch / "stderr");
+  ASSERT_EQ(drive(scratch, kDownhill), 0) << read_file(scratch / "stderr");
   // With the plan "refuse" the run would complain of a touch.
   const Outcome again =
       run_rubble("run " + (scratch / "out/leg_001.lua") + " --quiet --out " + (scratch / "leg"));
@@ -130,28 +133,18 @@ TEST(DriveWindow, AHillsideHoldsTheCameraUp) {
 }
 
 const char* const kByKeys = R"(
-d=$1; program=$2
-Xvfb -displayfd 3 -screen 0 448x168x24 -nolisten tcp 3>$d/display >/dev/null 2>&1 & xvfb=$!
-trap 'kill $xvfb' EXIT
-for i in $(seq 100); do [ -s $d/display ] && break; sleep 0.1; done
-export DISPLAY=:$(cat $d/display)
-unset SDL_VIDEODRIVER
 $program drive scripts/robots/crawler.lua --size 160x120 --quiet --set trajectory.rate_hz=10 \
   --set pile.pieces_per_layer=10 --out $d/out >$d/stdout 2>$d/stderr & drive=$!
-for i in $(seq 600); do grep -q 'drive: ready' $d/stderr && break; sleep 0.1; done
-w=$(xdotool search --sync --onlyvisible --name 'rubble drive' | head -1)
-xdotool windowfocus $w; xdotool keydown w; sleep 2; xdotool keydown a; sleep 1; xdotool keyup w keyup a
-xdotool keydown Down; sleep 0.5; xdotool keyup Down; sleep 0.3
+find_window
+xdotool windowfocus $w; xdotool keydown w; pause 2; xdotool keydown a; pause 1; xdotool keyup w keyup a
+xdotool keydown Down; pause 0.5; xdotool keyup Down; pause 0.3
 xdotool key Escape
 wait $drive
 )";
 
 TEST(DriveWindow, ARobotDrivenByKeysRunsAgainWithTheSameBits) {
   const ScratchFolder scratch;
-  write_file(scratch / "drive.sh", kByKeys);
-  const std::string command = "cd '" RUBBLE_SOURCE_DIR "' && timeout 120 bash " + (scratch / "drive.sh") + " " +
-                              scratch.path().string() + " " RUBBLE_PROGRAM;
-  ASSERT_EQ(std::system(command.c_str()), 0) << read_file(scratch / "stderr");
+  ASSERT_EQ(drive(scratch, kByKeys), 0) << read_file(scratch / "stderr");
   const std::string leg = read_file(scratch / "out/leg_001.lua");
   EXPECT_NE(leg.find("linear = 0.5"), std::string::npos) << leg;
   EXPECT_NE(leg.find("angular = 1"), std::string::npos) << leg;

@@ -4,7 +4,6 @@
 usage: tools/mission_pictures.py [--program build/release/rubble] [--out out/pictures] [NAME ...]
 NAME: file names in docs/pictures; all of the list below if none is given.
 
-A mission that was run already is not run again: delete its folder in --out after a change of the program.
 Needs python3-opencv (tools/packages-pictures.txt).
 """
 import argparse
@@ -91,8 +90,6 @@ def write(path, image):
 
 def run_mission(program, mission, folder):
     """A mission of which only sections are shown is settled and not flown."""
-    if os.path.exists(os.path.join(folder, "manifest.json")):
-        return
     if all(isinstance(part, Section) for other, part in PICTURES.values() if other == mission):
         command = [program, "settle", mission]
     else:
@@ -113,11 +110,14 @@ def main():
     if unknown:
         sys.exit(f"{', '.join(unknown)}: not in the list; it has {', '.join(PICTURES)}")
     names = args.names or list(PICTURES)
+    done = set()  # missions: some have two pictures
     for i, name in enumerate(names):
         mission, part = PICTURES[name]
         print(f"{i + 1} of {len(names)}: {name}", flush=True)
         run = os.path.join(args.out, mission[len("scripts/"):-len(".lua")].replace("/", "_"))
-        run_mission(args.program, mission, run)
+        if mission not in done:
+            run_mission(args.program, mission, run)
+            done.add(mission)
         part.draw(args.program, run, os.path.join(FOLDER, name))
 
 

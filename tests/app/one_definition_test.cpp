@@ -140,8 +140,8 @@ TEST(OneDefinition, FindsWhatASourceDefines) {
     namespace inner { union U { int i; float f; }; }
     }
   )cpp";
-  EXPECT_EQ(classes_of(source), (std::set<std::string>{"rubble::A", "rubble::B", "rubble::Colour", "rubble::Box", "rubble::Wide",
-                                                       "rubble::Marked", "rubble::inner::U"}));
+  EXPECT_EQ(classes_of(source), (std::set<std::string>{"rubble::A", "rubble::B", "rubble::Colour", "rubble::Box",
+                                                       "rubble::Wide", "rubble::Marked", "rubble::inner::U"}));
 }
 
 TEST(OneDefinition, EveryClassHasANameOfItsOwn) {

@@ -12,10 +12,8 @@
 namespace rubble {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int kLongestLeg = 9000;    // frames: five minutes; then a new leg goes on from there
-constexpr int kNoticeSteps = 90;
+constexpr std::chrono::seconds kNoticeTime{3};
 constexpr double kLeastLamp = 1, kMostLamp = 100000;  // unit: cd
 constexpr double kLeastFog = 0.005, kMostFog = 10;    // unit: 1/m
 
@@ -234,7 +232,7 @@ void DriveSession::show() {
   const double level = std::sqrt(ahead.x * ahead.x + ahead.y * ahead.y);
   picture_.heading = {ahead.x / std::max(level, 1e-3), -ahead.y / std::max(level, 1e-3)};
   picture_.status = status();
-  picture_.notice = steps_ < notice_until_ ? notice_ : "";
+  picture_.notice = !help_ && Clock::now() < notice_until_ ? notice_ : "";  // help covers its place
   picture_.help.clear();
   if (help_) {
     picture_.help.push_back({"", "keys", "gamepad"});
@@ -262,7 +260,7 @@ std::vector<std::string> DriveSession::status() const {
 void DriveSession::say(const std::string& text) {
   std::fprintf(stderr, "drive: %s\n", text.c_str());
   notice_ = text;
-  notice_until_ = steps_ + kNoticeSteps;
+  notice_until_ = Clock::now() + kNoticeTime;
 }
 
 void DriveSession::save_picture() {

@@ -1,6 +1,7 @@
 // A drive from the first step to the last: events -> step -> frame -> window -> log.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -23,6 +24,8 @@ class DriveSession {
   void run();
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   bool stay();  // looks at events while something takes long
   void enter(std::optional<std::uint64_t> seed);
   void act(DriveAction action);
@@ -55,7 +58,7 @@ class DriveSession {
   bool help_ = false, paused_ = false, quit_ = false;
   Complaints complaints_{[this](const std::string& line) { say(line); }};
   std::string notice_;
-  int notice_until_ = 0;  // step
+  Clock::time_point notice_until_;
 };
 
 }  // namespace rubble

@@ -109,7 +109,11 @@ class Shading : public ::testing::TestWithParam<std::size_t> {
   }
 };
 
+// A suite of its own, so that the two run beside each other.
+class ShadingBits : public Shading {};
+
 INSTANTIATE_TEST_SUITE_P(Views, Shading, ::testing::Range(std::size_t(0), views().size()));
+INSTANTIATE_TEST_SUITE_P(Views, ShadingBits, ::testing::Range(std::size_t(0), views().size()));
 
 // Textures are halved and mixed with other roundings there, so pixels differ by a step or two.
 TEST_P(Shading, IsThatOfTheDevicesShaders) {
@@ -153,7 +157,7 @@ TEST(ShadingControl, SeesALittleMoreLight) {
 }
 
 // Each set with another number of threads.
-TEST_P(Shading, HasTheSameBitsByEveryInstructionSetAndAnyNumberOfThreads) {
+TEST_P(ShadingBits, AreTheSameByEveryInstructionSetAndAnyNumberOfThreads) {
   GlContext context;
   const std::vector<WideShader>& sets = wide_shaders();
   std::vector<float> first;

@@ -158,13 +158,15 @@ void find_depths(const float* values, int width, int rows, std::vector<float>& l
 }  // namespace
 
 std::vector<EdgeBlock> find_edge_blocks(const ViewProjection* view, const DepthValues& depth,
-                                        const std::vector<EdgeLayer>& layers, const Vec3& to_sun) {
-  std::vector<EdgeBlock> out;
+                                        const std::vector<EdgeLayer>& layers, const Vec3& to_sun, ThreadPool& pool) {
+  constexpr int kRowsAJob = 8;  // of blocks
   std::vector<BlockFinder> finder;
   if (view) finder.emplace_back(*view, layers, to_sun);
   const std::size_t columns = std::size_t((depth.width + kEdgeBlock - 1) / kEdgeBlock);
-  std::vector<float> least(columns), most(columns);
-  for (int v = 0; v < depth.height; v += kEdgeBlock) {
+  const int rows = (depth.height + kEdgeBlock - 1) / kEdgeBlock;
+  std::vector<std::vector<EdgeBlock>> found(std::size_t((rows + kRowsAJob - 1) / kRowsAJob));
+  const auto look_in = [&](int row, std::vector<float>& least, std::vector<float>& most, std::vector<EdgeBlock>& out) {
+    const int v = row * kEdgeBlock;
     find_depths(depth.values.data() + std::size_t(v) * std::size_t(depth.width), depth.width,
                 std::min(kEdgeBlock, depth.height - v), least, most);
     for (std::size_t i = 0; i < columns; ++i) {
@@ -173,10 +175,17 @@ std::vector<EdgeBlock> find_edge_blocks(const ViewProjection* view, const DepthV
       const std::uint16_t nearest =
           view ? finder.front().nearest(float(u) - 0.5f, float(v) - 0.5f, kNearPlane / most[i], kNearPlane / least[i])
                : std::uint16_t(65534);
-      if (nearest < 65535)
-        out.push_back({std::uint32_t(i) | std::uint32_t(v / kEdgeBlock) << 16, float(nearest) / 65535});
+      if (nearest < 65535) out.push_back({std::uint32_t(i) | std::uint32_t(row) << 16, float(nearest) / 65535});
     }
-  }
+  };
+  pool.run(int(found.size()), 1, [&](int begin, int end) {
+    std::vector<float> least(columns), most(columns);
+    for (int job = begin; job < end; ++job)
+      for (int row = job * kRowsAJob; row < std::min((job + 1) * kRowsAJob, rows); ++row)
+        look_in(row, least, most, found[std::size_t(job)]);
+  });
+  std::vector<EdgeBlock> out;
+  for (const std::vector<EdgeBlock>& some : found) out.insert(out.end(), some.begin(), some.end());
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/base/parallel.h"
 #include "render/camera/projection.h"
 
 namespace rubble {
@@ -55,8 +56,8 @@ struct DepthValues {
 };
 
 // In order of rows; not those whose surface looks away from the sun. view: null where pixels have rays of their own:
-// then all blocks with surfaces. to_sun: in the world, unit length.
+// then all blocks with surfaces. to_sun: in the world, unit length. The same for any number of threads.
 std::vector<EdgeBlock> find_edge_blocks(const ViewProjection* view, const DepthValues& depth,
-                                        const std::vector<EdgeLayer>& layers, const Vec3& to_sun);
+                                        const std::vector<EdgeLayer>& layers, const Vec3& to_sun, ThreadPool& pool);
 
 }  // namespace rubble

@@ -63,7 +63,7 @@ class ColourPass {
 // What they refer to must outlive them.
 std::unique_ptr<ColourPass> make_gl_colour_pass(const Gl& gl, const GpuGeometry& geometry,
                                                 const FrameLight& light, const GroundMap& ground,
-                                                const std::vector<PatternImage>& patterns);
+                                                const std::vector<PatternImage>& patterns, ThreadPool& pool);
 std::unique_ptr<ColourPass> make_processor_colour_pass(const PreparedScene& scene,
                                                        const GpuGeometry& geometry,
                                                        const FrameLight& light,

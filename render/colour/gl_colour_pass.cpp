@@ -151,9 +151,10 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
 }  // namespace
 
 GlColourPass::GlColourPass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,
-                           const GroundMap& ground, const std::vector<PatternImage>& patterns)
+                           const GroundMap& ground, const std::vector<PatternImage>& patterns, ThreadPool& pool)
     : gl_(gl),
       geometry_(geometry),
+      pool_(pool),
       frame_block_(gl),
       empty_array_(gl),
       contact_(gl),
@@ -207,18 +208,18 @@ void GlColourPass::resize(int width, int height) {
 
 void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const ViewProjection& view,
                              const Pose& world_from_camera, const SurfaceImages& surfaces,
-                             const FrameLight& light, float exposure, bool with_contact,
+                             const FrameLight& light, float exposure, bool anew,
                              const GlassLayer* layer) {
-  const ImageTiles tiles = tiles_of(view, surfaces);
+  if (anew) tiles_ = tiles_of(view, surfaces);
   const bool all_light = variant & (kLinear | kMeter);
   const ViewLamp place = find_view_lamp(view, world_from_camera, light);
   const bool lamp = has_lamp(light) &&
-                    (all_light || lamp_shows(light, place.offset, tiles.nearest_value, exposure));
+                    (all_light || lamp_shows(light, place.offset, tiles_.nearest_value, exposure));
   if (lamp) variant |= kLamp;
-  if (with_contact)
-    contact_.draw(view, *surfaces.depth, place.contact(lamp, light), tiles.first_row,
-                  tiles.last_row);
-  if (light.air_table)
+  if (anew)
+    contact_.draw(view, *surfaces.depth, place.contact(lamp, light), tiles_.first_row,
+                  tiles_.last_row);
+  if (anew && light.air_table)
     gl_.TextureSubImage3D(air_table_.name(), 0, 0, 0, 0, AirVolume::kColumns, AirVolume::kRows,
                           AirVolume::kSlices, GL_RGBA, GL_FLOAT, light.air_table->table().data());
   const FrameBlock block =
@@ -262,7 +263,7 @@ void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const Vie
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_CULL_FACE);
   gl_.BindVertexArray(empty_array_.name());
-  draw_tiles(variant, tiles, every, layer);
+  draw_tiles(variant, tiles_, every, layer);
 }
 
 // From the farthest on: a layer shows the one behind it. Leaves the outermost to be shown.
@@ -298,7 +299,7 @@ bool GlColourPass::draw_sun(const ViewProjection& view, const SurfaceImages& sur
   const ShadowMap& shadow = *light.shadow;
   const std::vector<EdgeBlock> blocks = find_edge_blocks(
       surfaces.lens_rays ? nullptr : &view, {surfaces.depth_values, k.width, k.height},
-      shadow.edge_layers(), Vec3(light.lights->lights.front().axis) * -1.0);
+      shadow.edge_layers(), Vec3(light.lights->lights.front().axis) * -1.0, pool_);
   if (blocks.empty()) return false;
   sun_->set_blocks(blocks, k.width, k.height);
   gl_.BindTextureUnit(kShadowValues, shadow.values.name());
@@ -317,7 +318,7 @@ ImageTiles GlColourPass::tiles_of(const ViewProjection& view, const SurfaceImage
   const double longest =
       surfaces.lens_rays ? 1 / double(RayPass::kLeastCosine) : std::sqrt(1 + x * x + y * y);
   return cut_into_tiles(surfaces.depth_values, k.width, k.height,
-                        float(double(kNearPlane) * longest / kVeilFrom));
+                        float(double(kNearPlane) * longest / kVeilFrom), pool_);
 }
 
 void GlColourPass::draw_tiles(int variant, const ImageTiles& tiles, int every, const GlassLayer* layer) {
@@ -391,8 +392,8 @@ std::vector<float> GlColourPass::draw_linear(const ViewProjection& view,
 
 std::unique_ptr<ColourPass> make_gl_colour_pass(const Gl& gl, const GpuGeometry& geometry,
                                                 const FrameLight& light, const GroundMap& ground,
-                                                const std::vector<PatternImage>& patterns) {
-  return std::make_unique<GlColourPass>(gl, geometry, light, ground, patterns);
+                                                const std::vector<PatternImage>& patterns, ThreadPool& pool) {
+  return std::make_unique<GlColourPass>(gl, geometry, light, ground, patterns, pool);
 }
 
 }  // namespace rubble

@@ -16,7 +16,7 @@ namespace rubble {
 class GlColourPass : public ColourPass {
  public:
   GlColourPass(const Gl& gl, const GpuGeometry& geometry, const FrameLight& light,
-               const GroundMap& ground, const std::vector<PatternImage>& patterns);
+               const GroundMap& ground, const std::vector<PatternImage>& patterns, ThreadPool& pool);
 
   MeteredImage meter(const ViewProjection& view, const Pose& world_from_camera,
                      const SurfaceImages& surfaces, const FrameLight& light) override;
@@ -36,13 +36,15 @@ class GlColourPass : public ColourPass {
   void resize(int width, int height);
   void draw_behind(const ViewProjection& view, const Pose& world_from_camera, const SurfaceImages& surfaces,
                    const FrameLight& light);
+  // anew: not as the time before, so what is found from the surfaces and the light is not there yet.
   void draw_with(int variant, const GlFramebuffer& target, const ViewProjection& view,
                  const Pose& world_from_camera, const SurfaceImages& surfaces,
-                 const FrameLight& light, float exposure, bool with_contact = true,
+                 const FrameLight& light, float exposure, bool anew = true,
                  const GlassLayer* layer = nullptr);  // layer: that alone is drawn
 
   const Gl& gl_;
   const GpuGeometry& geometry_;
+  ThreadPool& pool_;
   enum Variant { kLinear = 1, kRays = 2, kLamp = 4, kMeter = 8, kSoftSun = 16, kBehind = 32 };
   const GlProgram& program(int variant, TileContent content);  // made when it is first needed
   ImageTiles tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const;
@@ -58,6 +60,7 @@ class GlColourPass : public ColourPass {
   std::unique_ptr<SunShadowPass> sun_;  // null: the main light is no sun
   GlTexture looks_, sky_map_, air_table_, ground_map_;
   const GroundMap& ground_;
+  ImageTiles tiles_;  // of what was drawn last
   std::vector<Behind> behind_;  // the outermost first
   const GlTexture* shown_behind_ = nullptr;  // by what is drawn next; null: nothing
   GlTexture colour_;

@@ -33,15 +33,25 @@ TileContent content_of(const Bounds& b, float near_value) {
 }  // namespace
 
 ImageTiles cut_into_tiles(const std::vector<float>& depth_values, int width, int height,
-                          float near_value) {
+                          float near_value, ThreadPool& pool) {
+  const int across = (width + kTile - 1) / kTile, down = (height + kTile - 1) / kTile;
+  std::vector<Bounds> bounds(std::size_t(across) * std::size_t(down));
+  pool.run(down, 1, [&](int begin, int end) {
+    for (int row = begin; row < end; ++row)
+      for (int column = 0; column < across; ++column) {
+        const int x = column * kTile, y = row * kTile;
+        const float* corner = depth_values.data() + std::size_t(y) * std::size_t(width) + x;
+        bounds[std::size_t(row * across + column)] =
+            bounds_of(corner, std::size_t(width), std::min(kTile, width - x), std::min(kTile, height - y));
+      }
+  });
   ImageTiles out;
   out.first_row = height;
   for (int y = 0; y < height; y += kTile) {
     const int rows = std::min(kTile, height - y);
     for (int x = 0; x < width; x += kTile) {
       const int columns = std::min(kTile, width - x);
-      const float* corner = depth_values.data() + std::size_t(y) * std::size_t(width) + x;
-      const Bounds b = bounds_of(corner, std::size_t(width), columns, rows);
+      const Bounds b = bounds[std::size_t(y / kTile * across + x / kTile)];
       const TileContent content = content_of(b, near_value);
       if (x > 0 && out.runs.back().content == content)
         out.runs.back().width += columns;

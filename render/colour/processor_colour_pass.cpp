@@ -159,7 +159,7 @@ class ProcessorColourPass : public ColourPass {
     const ShadowMap& shadow = *light.shadow;
     const std::vector<EdgeBlock> blocks = find_edge_blocks(
         surfaces.has_rays() ? nullptr : &view, {surfaces.depth_values, data_.width, data_.height},
-        shadow.edge_layers(), Vec3(light.lights->lights.front().axis) * -1.0);
+        shadow.edge_layers(), Vec3(light.lights->lights.front().axis) * -1.0, pool_);
     if (blocks.empty()) return;
     SunEdges& out = data_.sun_edges;
     out.blocks_across = (data_.width + kEdgeBlock - 1) / kEdgeBlock;

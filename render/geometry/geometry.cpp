@@ -374,4 +374,13 @@ void update_light(const Gl& gl, const GpuGeometry& geometry, const std::vector<B
   check_gl(gl, "handing the light over");
 }
 
+void update_light(const Gl& gl, const GpuGeometry& geometry, const std::vector<BakedLight>& light,
+                  const std::vector<LightRange>& changed) {
+  if (geometry.on_processor) return;
+  for (const LightRange& range : changed)
+    gl.NamedBufferSubData(geometry.light.name(), GLintptr(range.begin * sizeof(BakedLight)),
+                          GLsizeiptr((range.end - range.begin) * sizeof(BakedLight)), light.data() + range.begin);
+  check_gl(gl, "handing over some of the light");
+}
+
 }  // namespace rubble

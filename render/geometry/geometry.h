@@ -61,6 +61,11 @@ struct BakedLight {
   std::uint8_t red = 85, blue = 85;  // see above; 85: a third, grey
 };
 
+// Of consecutive light nodes of a scene.
+struct LightRange {
+  std::size_t begin, end;
+};
+
 // What the shaders read. Binding points are in shaders/geometry.glsl.
 struct GpuGeometry {
   using Texel = std::array<std::uint32_t, 4>;
@@ -90,5 +95,8 @@ GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
 // Where the pieces are now, and the light on them.
 void update_poses(const Gl& gl, const PreparedScene& scene, GpuGeometry& geometry);
 void update_light(const Gl& gl, const GpuGeometry& geometry, const std::vector<BakedLight>& light);
+// Of light that is new in these ranges alone.
+void update_light(const Gl& gl, const GpuGeometry& geometry, const std::vector<BakedLight>& light,
+                  const std::vector<LightRange>& changed);
 
 }  // namespace rubble

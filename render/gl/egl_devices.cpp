@@ -26,7 +26,7 @@ EglCandidate describe_device(const Egl& egl, EGLDeviceEXT device, int number) {
           device, number, software};
 }
 
-// Variables by which people steer libglvnd, Mesa and NVIDIA's container runtime, and what each does.
+// Variables by which people steer libglvnd and Mesa, and what each does.
 struct Variable {
   const char* name;
   const char* does;
@@ -42,8 +42,13 @@ constexpr Variable kVariables[] = {
     {"GALLIUM_DRIVER", "Mesa draws in software with only this driver"},
     {"LIBGL_ALWAYS_SOFTWARE", "Mesa draws in software"},
     {"MESA_GL_VERSION_OVERRIDE", "Mesa pretends to this version of OpenGL; 4.5 is needed"},
-    {"NVIDIA_DRIVER_CAPABILITIES", "in a container it must hold `graphics` or `all`"},
 };
+
+// NVIDIA's container runtime hands over the parts of the driver that this list names.
+bool lacks_graphics(const char* capabilities) {
+  const std::string list = capabilities ? capabilities : "all";
+  return list.find("graphics") == std::string::npos && list.find("all") == std::string::npos;
+}
 
 std::string missing_path(const char* value) {
   std::string missing;
@@ -114,6 +119,10 @@ std::vector<std::string> egl_circumstances() {
     lines.push_back(
         "no driver is registered in /usr/share/glvnd/egl_vendor.d: install libegl-mesa0 or the "
         "vendor's driver; a container must be given the driver's EGL files too");
+  const char* capabilities = std::getenv("NVIDIA_DRIVER_CAPABILITIES");
+  if (lacks_graphics(capabilities))
+    lines.push_back(std::string("NVIDIA_DRIVER_CAPABILITIES=") + capabilities +
+                    " is set: NVIDIA's driver cannot draw in such a container; add `graphics`, or give `all`");
   note_device_files(lines);
   return lines;
 }

@@ -57,6 +57,7 @@ namespace rubble {
   X(AttachShader, ATTACHSHADER)                                 \
   X(MultiDrawElementsIndirect, MULTIDRAWELEMENTSINDIRECT)       \
   X(NamedBufferData, NAMEDBUFFERDATA)                           \
+  X(NamedBufferSubData, NAMEDBUFFERSUBDATA)                     \
   X(NamedFramebufferDrawBuffers, NAMEDFRAMEBUFFERDRAWBUFFERS)   \
   X(NamedFramebufferReadBuffer, NAMEDFRAMEBUFFERREADBUFFER)     \
   X(NamedFramebufferTexture, NAMEDFRAMEBUFFERTEXTURE)           \

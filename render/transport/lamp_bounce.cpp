@@ -155,6 +155,17 @@ void LampBounce::find_shown(const std::vector<Shown>& shown) {
   }
 }
 
+void LampBounce::add_shown_to_changed() {
+  std::vector<LightRange> of_piece(scene_.placed.size(), LightRange{std::size_t(-1), 0});
+  for (const ShownNode& n : shown_nodes_) {
+    const std::size_t at = scene_.placed[n.placed].first_light + n.node;
+    LightRange& range = of_piece[n.placed];
+    range = {std::min(range.begin, at), std::max(range.end, at + 1)};
+  }
+  for (const LightRange& range : of_piece)
+    if (range.end > 0) changed_.push_back(range);
+}
+
 // What the air leaves of light between two points.
 float LampBounce::passes(std::size_t from, std::size_t to) const {
   return std::exp(-extinction_ * distance(points_[from].position, points_[to].position));
@@ -298,8 +309,11 @@ float LampBounce::most_radiance() const {
 
 const std::vector<BakedLight>& LampBounce::add_to(const std::vector<BakedLight>& base, std::uint64_t version,
                                                   const std::vector<Shown>& shown, FogLight* fog) {
+  changed_.clear();
+  if (version == version_) add_shown_to_changed();
   restore(base, version);
   find_shown(shown);
+  add_shown_to_changed();
   pass_on();
   if (fog)
     fog->set_lamp(lamp_, radiance_, [&](const Vec3f& p) {

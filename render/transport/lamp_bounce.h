@@ -42,6 +42,9 @@ class LampBounce {
   // version: another number whenever `base` has changed.
   const std::vector<BakedLight>& add_to(const std::vector<BakedLight>& base, std::uint64_t version,
                                         const std::vector<Shown>& shown, FogLight* fog);
+  // Where that differs from `base`, of the last add_to() or, if it was of the same base, the last two. Of each
+  // placed mesh at most one range of each, in order.
+  const std::vector<LightRange>& changed() const { return changed_; }
 
  private:
   struct Point {
@@ -61,6 +64,7 @@ class LampBounce {
   void light_points();
   void restore(const std::vector<BakedLight>& base, std::uint64_t version);
   void find_shown(const std::vector<Shown>& shown);
+  void add_shown_to_changed();
   void show_node(std::uint32_t placed, std::uint32_t node);
   float passes(std::size_t from, std::size_t to) const;
   void mark_lit();
@@ -95,6 +99,7 @@ class LampBounce {
   std::vector<Vec3f> once_;               // illuminance at each point of the seen by one bounce
   std::vector<Arrived> arrived_;          // at each point that shows, by all bounces
   std::vector<BakedLight> out_;
+  std::vector<LightRange> changed_;
 };
 
 }  // namespace rubble

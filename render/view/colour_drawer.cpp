@@ -95,7 +95,7 @@ std::unique_ptr<ColourPass> ColourDrawer::make_pass() {
     return make_processor_colour_pass(scene_.scene, scene_.geometry, light, scene_.ground_map,
                                       scene_.patterns,
                                       find_wide_shader(scene_.options.instruction_set), pool_);
-  return make_gl_colour_pass(scene_.gl, scene_.geometry, light, scene_.ground_map, scene_.patterns);
+  return make_gl_colour_pass(scene_.gl, scene_.geometry, light, scene_.ground_map, scene_.patterns, pool_);
 }
 
 FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surfaces,

@@ -155,9 +155,12 @@ void LitScene::light_air(std::int64_t stamp_ns) {
   show_light(nodes());
 }
 
-void LitScene::show_light(const std::vector<BakedLight>& shown) {
+void LitScene::show_light(const std::vector<BakedLight>& shown, const std::vector<LightRange>* changed) {
   frame_light.nodes = &shown;
-  update_light(gl, geometry, shown);
+  if (changed)
+    update_light(gl, geometry, shown, *changed);
+  else
+    update_light(gl, geometry, shown);
 }
 
 bool LitScene::rasters_on_processor() const { return drawn_by_processor(options.raster, context.info()); }
@@ -211,12 +214,13 @@ bool LitScene::bounce_shows(float exposure) const {
 bool LitScene::lamp_is_in_the_open() const { return !lamp_fog_ && lamp_bounce_->open_share() > kOpen; }
 
 void LitScene::add_bounce(const std::vector<LampBounce::Shown>& shown) {
-  show_light(lamp_bounce_->add_to(nodes(), light_version_, shown, lamp_fog_));
+  // What was shown before is these nodes, or what was lit the time before.
+  show_light(lamp_bounce_->add_to(nodes(), light_version_, shown, lamp_fog_), &lamp_bounce_->changed());
   lit_by_lamp_ = true;
 }
 
 void LitScene::leave_bounce_out() {
-  if (lit_by_lamp_) show_light(nodes());
+  if (lit_by_lamp_) show_light(nodes(), &lamp_bounce_->changed());
   lit_by_lamp_ = false;
 }
 

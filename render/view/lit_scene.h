@@ -77,8 +77,9 @@ struct LitScene {
   const std::vector<BakedLight>& clear_nodes() const { return live_light ? live_light->light() : baked_nodes_; }
   const std::vector<BakedLight>& nodes() { return fog_light() ? weakened_nodes_ : clear_nodes(); }
 
-  // The light of an image: handed to the device, or noted for the processor.
-  void show_light(const std::vector<BakedLight>& light);
+  // The light of an image: handed to the device, or noted for the processor. changed: where it differs from what was
+  // shown before; null: anywhere.
+  void show_light(const std::vector<BakedLight>& light, const std::vector<LightRange>* changed = nullptr);
 
   std::vector<CarriedLight> carried_lights_;
   std::vector<BakedLight> baked_nodes_;      // the baked light; empty where something moves

@@ -94,6 +94,15 @@ TEST(MissingEgl, AVariableThatHidesTheDriversIsNamed) {
   EXPECT_TRUE(holds(folder.err, {"__EGL_VENDOR_LIBRARY_DIRS=", "drivers are looked for only there"}));
 }
 
+TEST(MissingEgl, AContainersDriverThatCannotDrawIsNamed) {
+  const Outcome without = run_rubble("info --gl", "NVIDIA_DRIVER_CAPABILITIES=compute,utility");
+  EXPECT_TRUE(holds(without.out, {"NVIDIA_DRIVER_CAPABILITIES=compute,utility is set", "add `graphics`"}));
+  for (const char* with : {"compute,graphics", "all"}) {
+    const Outcome info = run_rubble("info --gl", std::string("NVIDIA_DRIVER_CAPABILITIES=") + with);
+    EXPECT_EQ(info.out.find("NVIDIA_DRIVER_CAPABILITIES"), std::string::npos) << info.out;
+  }
+}
+
 TEST(MissingEgl, ADriverTooOldIsNamed) {
   const Outcome info = run_rubble("info", "MESA_GL_VERSION_OVERRIDE=3.3");
   EXPECT_EQ(info.exit_code, 2);

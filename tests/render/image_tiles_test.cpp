@@ -26,7 +26,8 @@ std::vector<float> make_landscape() {
 
 TEST(ImageTiles, CoverEveryPixelOnceWithAContentThatHoldsThere) {
   const std::vector<float> values = make_landscape();
-  const ImageTiles tiles = cut_into_tiles(values, 100, 70, 0.001f);
+  ThreadPool pool(3);
+  const ImageTiles tiles = cut_into_tiles(values, 100, 70, 0.001f, pool);
   std::vector<int> covered(values.size(), 0);
   int of_content[4] = {};
   for (const TileRun& run : tiles.runs) {
@@ -55,7 +56,8 @@ TEST(ImageTiles, CoverEveryPixelOnceWithAContentThatHoldsThere) {
 }
 
 TEST(ImageTiles, OfSkyAloneHaveNoRows) {
-  const ImageTiles tiles = cut_into_tiles(std::vector<float>(64 * 64, 0), 64, 64, 0.001f);
+  ThreadPool pool(1);
+  const ImageTiles tiles = cut_into_tiles(std::vector<float>(64 * 64, 0), 64, 64, 0.001f, pool);
   ASSERT_EQ(tiles.runs.size(), 2u);
   EXPECT_EQ(tiles.first_row, tiles.last_row);
   EXPECT_EQ(tiles.nearest_value, 0);

@@ -175,6 +175,31 @@ TEST_P(ShadingBits, AreTheSameByEveryInstructionSetAndAnyNumberOfThreads) {
   }
 }
 
+// The device keeps the light of the image before, and gets what the lamp changes. So an image after others, of other
+// places of the camera and of the lamp, is that of a renderer which has drawn nothing else.
+TEST(DeviceLight, IsThatOfARendererWhichDrewNothingBefore) {
+  GlContext context;
+  RenderOptions options = plain();
+  options.shading = DrawnBy::device, options.fixed_exposure = 2;
+  Scene heap = make_heap(120, 4);
+  heap.light.intensity = 0, heap.lamp.on = true;
+  const auto look = [](const Vec3& target) {
+    return ViewRays{1000000000, pinhole(kWidth, kHeight, 120), look_at({1, 0.2, 0.6}, target)};
+  };
+  const ViewRays at_heap = look({-1.5, 0.1, 0.5}), away = look({8, 0.2, 0.3});
+  ViewRays lamp_far = at_heap;  // no piece is lit
+  lamp_far.world_from_rig = look_at({60, 0, 5}, {80, 0, 5});
+  Renderer used(context, heap, options);
+  const std::vector<std::uint8_t> lit = used.view(at_heap).rgb();
+  used.view(away).rgb();
+  const std::vector<std::uint8_t> unlit = used.view(lamp_far).rgb(), again = used.view(at_heap).rgb();
+  EXPECT_EQ(again, lit);
+  Renderer fresh(context, heap, options);
+  EXPECT_EQ(fresh.view(lamp_far).rgb(), unlit);
+  EXPECT_NE(lit, unlit);
+  EXPECT_EQ(fresh.view(at_heap).rgb(), lit);
+}
+
 TEST(WideShaders, AreNamedWhereOneIsUnknown) {
   EXPECT_EQ(find_wide_shader("plain").name, std::string("plain"));
   EXPECT_EQ(find_wide_shader("").name, wide_shaders().front().name);

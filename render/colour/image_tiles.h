@@ -22,8 +22,8 @@ struct ImageTiles {
   float nearest_value = 0;          // the largest depth value
 };
 
-// depth_values: near / Z, 0: nothing. near_value: a surface is near where its value is above this. The same for any number of
-// threads.
+// depth_values: near / Z, 0: nothing. near_value: a surface is near where its value is above this. The same for
+// any number of threads.
 ImageTiles cut_into_tiles(const std::vector<float>& depth_values, int width, int height,
                           float near_value, ThreadPool& pool);
 

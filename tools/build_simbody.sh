@@ -55,8 +55,10 @@ END
 if ! ls -d "$folder"/simbody-*/ >/dev/null 2>&1; then fetch_source; fi
 source=$(ls -d "$folder"/simbody-*/ | head -1)
 
-set -- -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -ffp-contract=off" \
-  "-DCMAKE_C_FLAGS_RELEASE=-O2 -ffp-contract=off" -DBUILD_TESTING=OFF -DBUILD_EXAMPLES=OFF \
+# As Debian builds it, without a type: with one, Simbody's CMake file takes flags of its own in the place of these, and
+# NDEBUG, with which classes of its headers have other members than in Debian's package.
+set -- -DCMAKE_BUILD_TYPE=None "-DCMAKE_CXX_FLAGS=-O2 -ffp-contract=off" \
+  "-DCMAKE_C_FLAGS=-O2 -ffp-contract=off" -DBUILD_TESTING=OFF -DBUILD_EXAMPLES=OFF \
   -DBUILD_VISUALIZER=OFF "-DSIMBODY_VISUALIZER_INSTALL_DIR=$folder/prefix/bin" -DINSTALL_DOCS=OFF -DCMAKE_INSTALL_LIBDIR=lib \
   "-DBUILD_USING_OTHER_LAPACK=lapack;blas" "-DCMAKE_INSTALL_PREFIX=$folder/prefix"
 if [ -n "$sysroot" ]; then
@@ -64,6 +66,11 @@ if [ -n "$sysroot" ]; then
     "-DRUBBLE_ARM64_ROOT=$sysroot/root"
 fi
 cmake -S "$source" -B "$folder/build" -G Ninja "$@"
+if grep '^  FLAGS = ' "$folder/build/build.ninja" | grep -q -e '-DNDEBUG' ||
+  grep '^  FLAGS = ' "$folder/build/build.ninja" | grep -q -v -e '-ffp-contract=off'; then
+  echo "build_simbody: Simbody's CMake file changed the flags of the compiler; see FLAGS in $folder/build/build.ninja" >&2
+  exit 1
+fi
 cmake --build "$folder/build"
 cmake --install "$folder/build"
 

@@ -1,14 +1,16 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo gallery pictures test test-nightly test-asan test-tsan fuzz faults determinism platforms format clean
+.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo gallery pictures test check test-nightly test-asan test-tsan fuzz faults determinism platforms format clean
 
 PROGRAM := build/release/rubble
-CTEST   := ctest --output-on-failure --parallel 2
+# Tests have one thread each, so as many run at once as there are processors.
+CTEST   := ctest --output-on-failure --parallel $(shell nproc)
 
 help:
 	@echo "make demo       install what is missing, build, and run scripts/first_pile.lua"
 	@echo "make test       install what is missing, build, and run the test suite"
+	@echo "make check T=kernel  build and run the tests of one part, or suites of it: T=app.Batch"
 	@echo "make gallery    write docs/gallery.md and its pictures"
 	@echo "make pictures   draw the other pictures of the documents"
 	@echo "make build      build the program and its assets only: $(PROGRAM)"
@@ -104,8 +106,17 @@ pictures: demo
 gallery: all
 	build/release/gallery
 
+# What tests make once and share (baked light, textures) is made anew, by the program that is tested.
 test: all
+	rm -rf build/release/cache
 	$(CTEST) --preset release --label-exclude nightly
+
+# The tests of one folder of tests/, or some suites of it: T=kernel, T=app.Batch (a regular expression of their names).
+T := kernel
+check: packages build/release/build.ninja
+	@grep -q '^BUILD_TESTING:BOOL=ON' build/release/CMakeCache.txt || cmake --preset release -DBUILD_TESTING=ON
+	cmake --build --preset release --target tests_$(firstword $(subst ., ,$(T)))
+	$(CTEST) --preset release --label-exclude "nightly|slow" --tests-regex '^$(subst .,\.,$(T))'
 
 test-nightly: live
 	@tools/install_packages.sh tools/packages-nightly.txt tools/packages-sfm.txt tools/packages-site.txt

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "bench/process_times.h"
 #include "bench/program.h"
 #include "bench/render_views.h"
+#include "kernel/base/parallel.h"
 #include "kernel/base/system/disk_cache.h"
 #include "render/lighting/bake.h"
 #include "render/lighting/light_packing.h"
@@ -78,7 +78,7 @@ void bench(const Request& request, const std::string& mission, int threads) {
 
 ExitCode bench_all(const Request& request) {
   const int threads =
-      request.threads > 0 ? request.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+      request.threads > 0 ? request.threads : default_thread_count();
   std::printf("| mission | pieces | points | nodes | bake s | CPU s |%s\n|---|---|---|---|---|---|%s\n",
               request.against ? " apart % |" : "", request.against ? "---|" : "");
   for (const std::string& mission : request.missions) bench(request, mission, threads);

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <map>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "app/assets/asset_library.h"
@@ -18,6 +17,7 @@
 #include "bench/program.h"
 #include "io/base/atomic_file.h"
 #include "io/image/jpeg_file.h"
+#include "kernel/base/parallel.h"
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"
@@ -98,7 +98,7 @@ void write_jpeg(const std::string& path, const RgbImage& image) {
 ExitCode draw(const Request& request) {
   namespace fs = std::filesystem;
   const int threads =
-      request.threads > 0 ? request.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+      request.threads > 0 ? request.threads : default_thread_count();
   const Gallery gallery = load_gallery(request.list);
   const fs::path folder = fs::path(request.page).parent_path() / "pictures/gallery";
   fs::create_directories(folder);

@@ -8,13 +8,13 @@
 #include <fstream>
 #include <map>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "bench/calibration.h"
 #include "bench/process_times.h"
 #include "bench/program.h"
 #include "bench/render_views.h"
+#include "kernel/base/parallel.h"
 #include "kernel/base/system/disk_cache.h"
 #include "render/gl/gl_context.h"
 #include "render/renderer.h"
@@ -149,7 +149,7 @@ void print_head(const Request& request, const GlContext& context, double load_ms
 ExitCode bench(const Request& request) {
   namespace fs = std::filesystem;
   const int threads =
-      request.threads > 0 ? request.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+      request.threads > 0 ? request.threads : default_thread_count();
   const fs::path program = fs::read_symlink("/proc/self/exe");
   const Calibration machine = calibrate();  // before the clock of the program starts
   Session session;

@@ -1,9 +1,9 @@
 #include "bench/settle_run.h"
 
 #include <cmath>
-#include <thread>
 
 #include "bench/process_times.h"
+#include "kernel/base/parallel.h"
 
 namespace rubble {
 namespace {
@@ -29,7 +29,7 @@ SettleRun run_settling(const Pile& pile, const SettleJob& job) {
   run.work = job.work;
   run.schedule = job.options.schedule;
   run.threads =
-      job.options.threads > 0 ? job.options.threads : int(std::thread::hardware_concurrency());
+      job.options.threads > 0 ? job.options.threads : default_thread_count();
   const Times begin = read_times();
   World world(pile.types, calc_world_options(job.options), pile.assemblies);
   StageClock clock(world);

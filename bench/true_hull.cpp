@@ -12,7 +12,7 @@ namespace {
 // Points nearer to a plane than this, relative to the size of the hull, lie in it.
 constexpr double kFlat = 1e-9;
 // Unit directions whose cross product is shorter than this are parallel.
-constexpr double kParallel = 1e-9;
+constexpr double kParallelSine = 1e-9;
 
 using Members = std::vector<int>;  // corners in one supporting plane, ascending
 
@@ -41,7 +41,7 @@ Plane find_plane(const std::vector<Vec3>& points, int i, int j, int k, double si
 void add_direction(std::vector<Vec3>& directions, const Vec3& direction) {
   const Vec3 unit = normalized(direction);
   for (const Vec3& d : directions) {
-    if (norm(cross(d, unit)) < kParallel) return;
+    if (norm(cross(d, unit)) < kParallelSine) return;
   }
   directions.push_back(unit);
 }

@@ -2,13 +2,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
-#include <thread>
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/commands/inspect_dataset.h"
 #include "app/support/build_info.h"
 #include "io/live/live_ros.h"
+#include "kernel/base/parallel.h"
 #include "render/gl/gl_context.h"
 #include "render/view/drawn_by.h"
 
@@ -43,7 +43,7 @@ ExitCode print_info(const InfoRequest& request) {
   std::printf("rubble        %s (%s)\n", build.version.c_str(), build.commit.c_str());
   std::printf("built with    %s, %s, for %s\n", build.compiler.c_str(), build.flags.c_str(),
               build.target.c_str());
-  std::printf("threads       %u\n", std::thread::hardware_concurrency());
+  std::printf("threads       %d\n", default_thread_count());
   for (const auto& [name, version] : build.libraries)
     std::printf("%-13s %s\n", name.c_str(), version.c_str());
   std::printf("Simbody bits  %s\n",

@@ -8,6 +8,7 @@
 
 #include "app/pipeline/live.h"
 #include "app/support/stop.h"
+#include "kernel/base/parallel.h"
 
 namespace rubble {
 namespace {
@@ -45,7 +46,7 @@ DriveSession::DriveSession(const DriveRequest& request)
       window_("rubble drive", window_size(request)[0], window_size(request)[1]),
       context_({request.of.options.gl_device,
                 request.of.options.threads > 0 ? request.of.options.threads
-                                               : int(std::thread::hardware_concurrency())}) {
+                                               : default_thread_count()}) {
   prepare_drive_folder(folder_, request_.of.force);
   link_ = DriveLink::connect(request_.of.options);
   enter(std::nullopt);

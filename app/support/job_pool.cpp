@@ -20,6 +20,7 @@
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "kernel/base/error.h"
+#include "kernel/base/parallel.h"
 
 namespace rubble {
 namespace {
@@ -168,7 +169,7 @@ void run_jobs(const std::vector<Job>& jobs, int at_once,
 }
 
 JobShape choose_job_shape(int at_once, int threads) {
-  const int processors = std::max(1, int(std::thread::hardware_concurrency()));
+  const int processors = default_thread_count();
   JobShape shape;
   shape.at_once = at_once > 0 ? at_once : processors;
   shape.threads = threads > 0 ? threads : std::max(1, processors / shape.at_once);

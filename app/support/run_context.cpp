@@ -1,7 +1,8 @@
 #include "app/support/run_context.h"
 
 #include <algorithm>
-#include <thread>
+
+#include "kernel/base/parallel.h"
 
 namespace rubble {
 
@@ -10,7 +11,7 @@ RunContext::RunContext(const RunOptions& asked)
 
 int RunContext::threads() const {
   if (options.threads > 0) return options.threads;
-  return std::max(1, int(std::thread::hardware_concurrency()));
+  return default_thread_count();
 }
 
 }  // namespace rubble

@@ -6,13 +6,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "bench/gallery_list.h"
 #include "bench/images/gallery_piles.h"
 #include "bench/images/judged_view.h"
 #include "bench/program.h"
+#include "kernel/base/parallel.h"
 
 namespace rubble {
 namespace {
@@ -42,7 +42,7 @@ void judge(const GalleryPicture& picture, GalleryPiles& piles, const Request& re
 
 ExitCode bench(Request request) {
   int& threads = request.options.threads;
-  if (threads == 0) threads = int(std::max(1u, std::thread::hardware_concurrency()));
+  if (threads == 0) threads = default_thread_count();
   std::filesystem::create_directories(request.out);
   GalleryPiles piles;
   for (const GallerySection& section : load_gallery(request.list).sections)

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <ctime>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "app/assets/asset_library.h"
@@ -19,6 +18,7 @@
 #include "bench/images/picture_file.h"
 #include "bench/program.h"
 #include "io/image/image_file.h"
+#include "kernel/base/parallel.h"
 #include "kernel/base/system/disk_cache.h"
 #include "render/colour/frame_light.h"
 #include "render/gl/gl_context.h"
@@ -133,7 +133,7 @@ void compare(GlContext& context, const GalleryPicture& picture, GalleryPiles& pi
 
 ExitCode bench(const Request& request) {
   const int threads =
-      request.threads > 0 ? request.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+      request.threads > 0 ? request.threads : default_thread_count();
   const Gallery list = load_gallery(request.list);
   GlContext context({-1, threads});
   GalleryPiles piles;

@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "kernel/base/parallel.h"
+
 namespace rubble {
 
 struct OrderedTasks::Shared {
@@ -107,7 +109,7 @@ void OrderedTasks::add(Task task) {
 void OrderedTasks::finish() { shared_->commit_until(0); }
 
 int recording_threads() {
-  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()) / 2, 1, 4);
+  return std::clamp(default_thread_count() / 2, 1, 4);
 }
 
 }  // namespace rubble

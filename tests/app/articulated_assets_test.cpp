@@ -11,7 +11,7 @@
 #include "scripting/mission.h"
 
 namespace rubble::testing {
-namespace {
+namespace articulated_assets_test {
 
 struct Exhibit {
   const char* pack;
@@ -121,5 +121,5 @@ INSTANTIATE_TEST_SUITE_P(Bundled, ArticulatedAsset,
                                            Exhibit{"parking", "car_with_door"}),
                          [](const auto& test) { return std::string(test.param.name); });
 
-}  // namespace
+}  // namespace articulated_assets_test
 }  // namespace rubble::testing

@@ -8,7 +8,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace assets_test {
 
 using Json = nlohmann::json;
 
@@ -426,5 +426,5 @@ TEST(Assets, AreFoundByTheNameOfABundledPack) {
       << wrong.err;
 }
 
-}  // namespace
+}  // namespace assets_test
 }  // namespace rubble::testing

@@ -10,7 +10,7 @@
 #include "tests/base/slowdown.h"
 
 namespace rubble::testing {
-namespace {
+namespace batch_test {
 
 namespace fs = std::filesystem;
 
@@ -220,5 +220,5 @@ TEST_F(Batch, RefusesSeedsAndShardsThatAreNone) {
   }
 }
 
-}  // namespace
+}  // namespace batch_test
 }  // namespace rubble::testing

@@ -6,7 +6,7 @@
 #include "tests/app/tiny_run.h"
 
 namespace rubble::testing {
-namespace {
+namespace building_run_test {
 
 namespace fs = std::filesystem;
 
@@ -100,5 +100,5 @@ TEST_F(BuildingRun, SaysWhichPartOfThePlanDoesNotStand) {
   EXPECT_FALSE(fs::exists(folder_ / "a/pile.bin"));
 }
 
-}  // namespace
+}  // namespace building_run_test
 }  // namespace rubble::testing

@@ -15,7 +15,7 @@
 #include "tests/io/support.h"
 
 namespace rubble::testing {
-namespace {
+namespace cameras_test {
 
 using Json = nlohmann::json;
 
@@ -317,5 +317,5 @@ TEST(CamerasInput, OverridesReachATableByName) {
   EXPECT_EQ(wrong.exit_code, 1);
 }
 
-}  // namespace
+}  // namespace cameras_test
 }  // namespace rubble::testing

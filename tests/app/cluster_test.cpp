@@ -9,7 +9,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace cluster_test {
 
 class Cluster : public ::testing::Test {
  protected:
@@ -52,5 +52,5 @@ TEST_F(Cluster, GnuParallelSpreadsTheShards) {
   EXPECT_NE(index("spread").find("\n7,done,"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace cluster_test
 }  // namespace rubble::testing

@@ -9,7 +9,7 @@
 #include "tests/app/settled_mission.h"
 
 namespace rubble::testing {
-namespace {
+namespace collapse_test {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 const std::string kBare = "debris = { layers = 0 }, ";
@@ -284,5 +284,5 @@ TEST(PlacedBoxes, AreMadeAgainFromARecipe) {
   EXPECT_THROW(load_assets(provenance, {}), InputError);
 }
 
-}  // namespace
+}  // namespace collapse_test
 }  // namespace rubble::testing

@@ -10,7 +10,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace command_line_test {
 
 // Runs `check` on a script with this text.
 Outcome check_text(const std::string& text, const std::string& options = "") {
@@ -192,5 +192,5 @@ TEST(Info, SaysWhatWasTriedWithoutAWorkingEgl) {
   EXPECT_NE(info.err.find("RUBBLE_EGL_DEVICE"), std::string::npos) << info.err;
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace rubble::testing

@@ -7,7 +7,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace disk_estimate_test {
 
 using Sizes = std::map<std::string, std::uint64_t>;
 
@@ -131,5 +131,5 @@ TEST(DiskEstimate, IsThereForPathsIntoVoidsAndAssemblies) {
   }
 }
 
-}  // namespace
+}  // namespace disk_estimate_test
 }  // namespace rubble::testing

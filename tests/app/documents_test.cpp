@@ -13,7 +13,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace documents_test {
 
 namespace fs = std::filesystem;
 const std::string kRoot = RUBBLE_SOURCE_DIR;
@@ -248,5 +248,5 @@ TEST(Documents, ThoseWithCommandsToRunAreRun) {
   }
 }
 
-}  // namespace
+}  // namespace documents_test
 }  // namespace rubble::testing

@@ -5,7 +5,7 @@
 #include "app/drive/controls.h"
 
 namespace rubble {
-namespace {
+namespace drive_controls_test {
 
 class DriveControls : public ::testing::Test {
  protected:
@@ -78,5 +78,5 @@ TEST_F(DriveControls, AVirtualGamepadDrivesAndStopsWhenItIsUnplugged) {
   EXPECT_EQ(controls.take().forward, 0);
 }
 
-}  // namespace
+}  // namespace drive_controls_test
 }  // namespace rubble

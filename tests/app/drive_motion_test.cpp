@@ -6,7 +6,7 @@
 #include "tests/app/settled_mission.h"
 
 namespace rubble::testing {
-namespace {
+namespace drive_motion_test {
 
 constexpr double kStep = 1.0 / 30;
 
@@ -88,5 +88,5 @@ TEST(DriveLog, TheMissionGivesThePosesAgainBitForBit) {
   }
 }
 
-}  // namespace
+}  // namespace drive_motion_test
 }  // namespace rubble::testing

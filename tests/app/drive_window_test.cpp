@@ -10,7 +10,7 @@
 #include "tests/base/slowdown.h"
 
 namespace rubble::testing {
-namespace {
+namespace drive_window_test {
 
 // What the screen shows, as Xvfb keeps it: X's window dump format, big-endian header.
 struct Screen {
@@ -167,5 +167,5 @@ TEST(DriveWindow, SaysWhatToDoWithoutADisplay) {
   EXPECT_EQ(outcome.err.find("settle"), std::string::npos) << outcome.err;
 }
 
-}  // namespace
+}  // namespace drive_window_test
 }  // namespace rubble::testing

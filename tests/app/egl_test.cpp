@@ -5,7 +5,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace egl_test {
 
 // Whether a text holds all of these.
 ::testing::AssertionResult holds(const std::string& text, const std::vector<const char*>& parts) {
@@ -151,5 +151,5 @@ TEST(OutOfMemory, IsAnErrorAndNoBlackFrame) {
 }
 #endif
 
-}  // namespace
+}  // namespace egl_test
 }  // namespace rubble::testing

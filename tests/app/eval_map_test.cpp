@@ -9,7 +9,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace eval_map_test {
 
 namespace fs = std::filesystem;
 
@@ -313,5 +313,5 @@ TEST_F(EvalMap, SaysWhatIsWrongWithTheInput) {
   fs::rename(dataset() + "/away", dataset() + "/groundtruth.txt");
 }
 
-}  // namespace
+}  // namespace eval_map_test
 }  // namespace rubble::testing

@@ -13,7 +13,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace eval_sfm_test {
 
 namespace fs = std::filesystem;
 
@@ -284,5 +284,5 @@ TEST(AlignPoses, HoldsTheTurnAboutAStraightTrack) {
   EXPECT_FALSE(align_poses({from[0]}, {to[0]}));
 }
 
-}  // namespace
+}  // namespace eval_sfm_test
 }  // namespace rubble::testing

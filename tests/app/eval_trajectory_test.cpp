@@ -12,7 +12,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace eval_trajectory_test {
 
 Pose pose_at(const Vec3& position, const Quat& rotation = {}) { return {rotation, position}; }
 
@@ -179,5 +179,5 @@ TEST(EvalTrajectory, NamesFileAndLineOfWhatIsWrong) {
             1);
 }
 
-}  // namespace
+}  // namespace eval_trajectory_test
 }  // namespace rubble::testing

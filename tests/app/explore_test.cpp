@@ -7,7 +7,7 @@
 #include "io/voids/occupancy_octree.h"
 
 namespace rubble::testing {
-namespace {
+namespace explore_test {
 
 // Rays from the middle of cell (0, 0, 0) along X, to the middle of cell (`cells`, 0, 0).
 std::vector<OccupancyOctree::Change> look_along_x(OccupancyOctree& tree, int cells, double max_range = 5) {
@@ -116,5 +116,5 @@ TEST(DepthMapping, BothWaysSeeAWallAndWhatIsBeforeIt) {
   }
 }
 
-}  // namespace
+}  // namespace explore_test
 }  // namespace rubble::testing

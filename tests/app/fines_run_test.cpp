@@ -23,7 +23,7 @@
 #include "tests/app/tiny_run.h"
 
 namespace rubble::testing {
-namespace {
+namespace fines_run_test {
 
 namespace fs = std::filesystem;
 
@@ -197,5 +197,5 @@ TEST(FinesRun, MistakesAreShownWithTheirLines) {
   EXPECT_IN("share above 0", check("{ amount = 5, grit = 0, plaster = 0, glass = 0, paper = 0, cloth = 0 }"));
 }
 
-}  // namespace
+}  // namespace fines_run_test
 }  // namespace rubble::testing

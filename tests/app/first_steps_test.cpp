@@ -8,7 +8,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace first_steps_test {
 
 struct Block {
   std::string language, text;
@@ -63,5 +63,5 @@ TEST(FirstSteps, WorkAsWritten) {
     EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
 }
 
-}  // namespace
+}  // namespace first_steps_test
 }  // namespace rubble::testing

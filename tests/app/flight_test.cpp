@@ -11,7 +11,7 @@
 #include "tests/scripting/dead_reckoning.h"
 
 namespace rubble::testing {
-namespace {
+namespace flight_test {
 
 FlightPlan plan(const SettledMission& m) {
   PileSurvey survey(m.assets, m.state, 1);
@@ -318,5 +318,5 @@ TEST(FindVoid, IntoTheDeepestVoidForAnySeed) {
   }
 }
 
-}  // namespace
+}  // namespace flight_test
 }  // namespace rubble::testing

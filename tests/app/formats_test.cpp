@@ -12,7 +12,7 @@
 #include "scripting/scenario/scenario_schema.h"
 
 namespace rubble::testing {
-namespace {
+namespace formats_test {
 
 // Each row names the key that sets its member, and no other row the same.
 TEST(Formats, HaveTheirKey) {
@@ -54,5 +54,5 @@ TEST(Formats, LeaveNothingThatAnotherRunDoesNotKnow) {
     EXPECT_TRUE(is_known(name)) << name;
 }
 
-}  // namespace
+}  // namespace formats_test
 }  // namespace rubble::testing

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace rubble::testing {
-namespace {
+namespace frame_watch_test {
 
 Frame even_frame(int index, std::uint8_t value, float depth) {
   Frame frame;
@@ -45,5 +45,5 @@ TEST(FrameWatch, SaysWhatToDoByWhatTheCameraSees) {
   EXPECT_NE(warning(even_frame(0, 255, 3)).find("thick air"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace frame_watch_test
 }  // namespace rubble::testing

@@ -8,7 +8,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace hostile_input_test {
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -91,5 +91,5 @@ TEST_F(HostileInput, NothingOfAScriptSteersTheTerminal) {
   EXPECT_TRUE(contains(sound.err, "\\x1b]0;owned\\x07")) << sound.err;
 }
 
-}  // namespace
+}  // namespace hostile_input_test
 }  // namespace rubble::testing

@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace rubble {
-namespace {
+namespace include_direction_test {
 
 namespace fs = std::filesystem;
 
@@ -339,5 +339,5 @@ TEST(Rooms, AreDrawn) {
   }
 }
 
-}  // namespace
+}  // namespace include_direction_test
 }  // namespace rubble

@@ -8,7 +8,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace info_test {
 
 namespace fs = std::filesystem;
 
@@ -113,5 +113,5 @@ TEST_F(InfoOfData, LooksIntoASingleFileWithoutAManifest) {
   EXPECT_IN("no such file or folder", gone.err);
 }
 
-}  // namespace
+}  // namespace info_test
 }  // namespace rubble::testing

@@ -7,7 +7,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace install_test {
 
 namespace fs = std::filesystem;
 
@@ -136,5 +136,5 @@ TEST(Manual, SaysWhatIsNotThere) {
   EXPECT_NE(shell.err.find("expected bash or zsh, found `fish`"), std::string::npos) << shell.err;
 }
 
-}  // namespace
+}  // namespace install_test
 }  // namespace rubble::testing

@@ -6,7 +6,7 @@
 #include "kernel/robot/bundled.h"
 
 namespace rubble {
-namespace {
+namespace joint_courses_test {
 
 using Point = JointTrajectoryCommand::Point;
 
@@ -117,5 +117,5 @@ TEST(JointCourses, AVineHasNone) {
   }
 }
 
-}  // namespace
+}  // namespace joint_courses_test
 }  // namespace rubble

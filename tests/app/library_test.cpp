@@ -10,7 +10,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace library_test {
 
 namespace fs = std::filesystem;
 
@@ -90,5 +90,5 @@ TEST(Library, SaysWhatItCannotGive) {
   EXPECT_NE(configure("0.2;REQUIRED").find("with requested version \"0.2\""), std::string::npos);
 }
 
-}  // namespace
+}  // namespace library_test
 }  // namespace rubble::testing

@@ -15,7 +15,7 @@
 #include "tests/io/support.h"
 
 namespace rubble::testing {
-namespace {
+namespace lidar_run_test {
 
 using Json = nlohmann::json;
 
@@ -290,5 +290,5 @@ TEST(LidarInput, MistakesAreNamed) {
   expect("outputs = { pcd = true }", "outputs.pcd: there is nothing to write");
 }
 
-}  // namespace
+}  // namespace lidar_run_test
 }  // namespace rubble::testing

@@ -10,7 +10,7 @@
 #include "scripting/mission.h"
 
 namespace rubble::testing {
-namespace {
+namespace mix_materials_test {
 
 Mission load(const std::string& mix, int seed = 1) {
   return load_mission_text("return rubble.mission { seed = " + std::to_string(seed) +
@@ -131,5 +131,5 @@ TEST(MixMaterials, MistakesAreNamed) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace mix_materials_test
 }  // namespace rubble::testing

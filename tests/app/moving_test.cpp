@@ -13,7 +13,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace moving_test {
 
 namespace fs = std::filesystem;
 
@@ -192,5 +192,5 @@ TEST(RecordSettling, SaysWhatIsWrong) {
          "m.lua:2: record_settling.from: the pile rests by then: expected less than ");
 }
 
-}  // namespace
+}  // namespace moving_test
 }  // namespace rubble::testing

@@ -17,7 +17,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace navigate_test {
 
 using Json = nlohmann::json;
 
@@ -388,5 +388,5 @@ TEST_F(NavigationBench, MistakesAreNamed) {
   expect("--seeds 2", "no pile of these seeds has a void for the crawler");
 }
 
-}  // namespace
+}  // namespace navigate_test
 }  // namespace rubble::testing

@@ -15,7 +15,7 @@
 #include <vector>
 
 namespace rubble {
-namespace {
+namespace one_definition_test {
 
 namespace fs = std::filesystem;
 
@@ -166,5 +166,5 @@ TEST(OneDefinition, EveryClassHasANameOfItsOwn) {
   }
 }
 
-}  // namespace
+}  // namespace one_definition_test
 }  // namespace rubble

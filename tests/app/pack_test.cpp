@@ -11,7 +11,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace pack_test {
 
 namespace fs = std::filesystem;
 
@@ -199,5 +199,5 @@ TEST_F(Pack, LeavesOutWhatTheMissionHasNotAndKeepsWhatIsThere) {
   EXPECT_EQ(run_rubble("pack " + folder + " --licence MIT").exit_code, 1) << "--card is needed";
 }
 
-}  // namespace
+}  // namespace pack_test
 }  // namespace rubble::testing

@@ -10,7 +10,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace package_test {
 
 namespace fs = std::filesystem;
 
@@ -180,5 +180,5 @@ INSTANTIATE_TEST_SUITE_P(Systems, NightlyArchive,
                                            std::pair("noble", "http://archive.ubuntu.com/ubuntu")),
                          [](const auto& row) { return std::string(row.param.first); });
 
-}  // namespace
+}  // namespace package_test
 }  // namespace rubble::testing

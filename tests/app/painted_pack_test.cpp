@@ -7,7 +7,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace painted_pack_test {
 
 // A block whose sides all have the image; its material is called as the test likes.
 constexpr char kBlock[] = R"(mtllib block.mtl
@@ -156,5 +156,5 @@ TEST_F(PaintedPack, ATerrainOfOtherColoursIsAnother) {
   EXPECT_NE(other.err.find("the content"), std::string::npos) << other.err;
 }
 
-}  // namespace
+}  // namespace painted_pack_test
 }  // namespace rubble::testing

@@ -8,7 +8,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace readers_test {
 
 // One small dataset for all tests of this file.
 class Readers : public ::testing::Test {
@@ -107,5 +107,5 @@ TEST_F(Readers, DepthUnprojectsOntoThePile) {
   EXPECT_LT(max_mm, 2.0);
 }
 
-}  // namespace
+}  // namespace readers_test
 }  // namespace rubble::testing

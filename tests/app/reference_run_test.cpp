@@ -5,7 +5,7 @@
 #include "tests/base/environment.h"
 
 namespace rubble::testing {
-namespace {
+namespace reference_run_test {
 
 namespace fs = std::filesystem;
 
@@ -44,5 +44,5 @@ TEST(ReferenceRun, NamesWhatIsNoQuality) {
   EXPECT_TRUE(holds(none.err, "from 1 to 65536")) << none.err;
 }
 
-}  // namespace
+}  // namespace reference_run_test
 }  // namespace rubble::testing

@@ -9,7 +9,7 @@
 #include "tests/app/settled_mission.h"
 
 namespace rubble::testing {
-namespace {
+namespace remote_controls_test {
 
 constexpr double kStep = 1.0 / 30;
 
@@ -167,5 +167,5 @@ TEST(RemoteControls, WhatIsNoMessageIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace remote_controls_test
 }  // namespace rubble::testing

@@ -12,7 +12,7 @@
 #include "tests/app/tiny_run.h"
 
 namespace rubble::testing {
-namespace {
+namespace resume_test {
 
 namespace fs = std::filesystem;
 
@@ -229,5 +229,5 @@ TEST(Run, NamesAnOutputPathThatIsTakenOrCannotBeWritten) {
   EXPECT_IN("/proc/rubble", read_only.err);
 }
 
-}  // namespace
+}  // namespace resume_test
 }  // namespace rubble::testing

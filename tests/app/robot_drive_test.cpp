@@ -13,7 +13,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace robot_drive_test {
 
 const char* const kRobots = R"(return rubble.mission {
   seed = 3,
@@ -244,5 +244,5 @@ TEST(RobotWish, FlippersGoOnFromWhereTheyAre) {
   EXPECT_NEAR(leg.linear, 0.3, 1e-12);
 }
 
-}  // namespace
+}  // namespace robot_drive_test
 }  // namespace rubble::testing

@@ -8,7 +8,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace robot_lamps_test {
 
 // By night a camera that stands beside watches a robot drive towards a block.
 std::string night(const std::string& robot, const std::string& more = "") {
@@ -66,5 +66,5 @@ TEST(RobotLamps, MistakesNameTheLamp) {
   }
 }
 
-}  // namespace
+}  // namespace robot_lamps_test
 }  // namespace rubble::testing

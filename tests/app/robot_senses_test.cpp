@@ -13,7 +13,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace robot_senses_test {
 
 const std::string kNoFrames =
     " --set outputs.bag=false --set outputs.rawlog=false --set outputs.simplemap=false --force --out ";
@@ -347,5 +347,5 @@ TEST(RobotSenses, ARoverFindsItsWayThroughALeanToByItsScans) {
   EXPECT_NEAR(last_y, 2.9, 0.8);
 }
 
-}  // namespace
+}  // namespace robot_senses_test
 }  // namespace rubble::testing

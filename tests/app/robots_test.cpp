@@ -17,7 +17,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace robots_test {
 
 constexpr const char* kQuick =
     " --set camera.width=48 --set camera.height=48 --set trajectory.rate_hz=0.5 --set robot_run.duration=2"
@@ -444,5 +444,5 @@ TEST(Robots, ARobotInASlabIsAMistakeThatSaysWhereToPutIt) {
   EXPECT_NE(run.err.find("move it by {0.000, 0.000, 0.08"), std::string::npos) << run.err;
 }
 
-}  // namespace
+}  // namespace robots_test
 }  // namespace rubble::testing

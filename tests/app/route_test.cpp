@@ -10,7 +10,7 @@
 #include "kernel/base/portable_math.h"
 
 namespace rubble::testing {
-namespace {
+namespace route_test {
 
 constexpr double kCell = 0.05;
 
@@ -156,5 +156,5 @@ TEST_F(Routes, WhereItIsStuckAnotherWayIsPlanned) {
   EXPECT_EQ(route_.failed(), 0);
 }
 
-}  // namespace
+}  // namespace route_test
 }  // namespace rubble::testing

@@ -10,7 +10,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace rubble50_test {
 
 namespace fs = std::filesystem;
 const std::string kRoot = RUBBLE_SOURCE_DIR;
@@ -100,5 +100,5 @@ TEST(NightlyRubble50, BaselinesFollowARecordingAndFillTheTables) {
   EXPECT_NE(read_file(page).find("| OpenCV `RgbdOdometry` | 1 of 50 | 0 | - |"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace rubble50_test
 }  // namespace rubble::testing

@@ -9,7 +9,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace run_test {
 
 namespace fs = std::filesystem;
 
@@ -209,5 +209,5 @@ TEST(Run, LeavesNothingHalfWrittenWhenTheDiskIsFull) {
     EXPECT_NE(entry.path().extension(), ".part") << entry.path();
 }
 
-}  // namespace
+}  // namespace run_test
 }  // namespace rubble::testing

@@ -22,7 +22,7 @@
 #include "tests/app/tiny_run.h"
 
 namespace rubble::testing {
-namespace {
+namespace search_test {
 
 using Json = nlohmann::json;
 
@@ -398,5 +398,5 @@ TEST(SearchEpisodes, TheRobotStopsBeforeSurfacesAndSeesWarmthWhereVictimsAre) {
   EXPECT_THROW(episode.step(bad), InputError);
 }
 
-}  // namespace
+}  // namespace search_test
 }  // namespace rubble::testing

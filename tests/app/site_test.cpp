@@ -10,7 +10,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace site_test {
 
 namespace fs = std::filesystem;
 const std::string kRoot = RUBBLE_SOURCE_DIR;
@@ -115,5 +115,5 @@ TEST(NightlySite, MkdocsMakesIt) {
   EXPECT_EQ(missing_in(scratch / "build/site"), std::set<std::string>{"index.html: pictures/first_pile.png"});
 }
 
-}  // namespace
+}  // namespace site_test
 }  // namespace rubble::testing

@@ -9,7 +9,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace suite_test {
 
 #define EXPECT_IN(part, text) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
@@ -222,5 +222,5 @@ TEST_F(NightlySuite, OursPasses) {
   EXPECT_IN("5 of 5 passed", ours.out);
 }
 
-}  // namespace
+}  // namespace suite_test
 }  // namespace rubble::testing

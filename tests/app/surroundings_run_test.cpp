@@ -23,7 +23,7 @@
 #include "tests/base/environment.h"
 
 namespace rubble::testing {
-namespace {
+namespace surroundings_run_test {
 
 namespace fs = std::filesystem;
 
@@ -334,5 +334,5 @@ TEST(SurroundingsRun, MistakesAreShownWithTheirLines) {
   EXPECT_IN("their own ground", check("{ type = \"street\" },\n  pile = { terrain = { columns = 2, rows = 2, heights = { 0, 0, 0, 0 } } }"));
 }
 
-}  // namespace
+}  // namespace surroundings_run_test
 }  // namespace rubble::testing

@@ -14,7 +14,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace sweep_test {
 
 namespace fs = std::filesystem;
 
@@ -236,5 +236,5 @@ TEST_F(NightlyReport, SortsInABrowser) {
   EXPECT_GT(plain.find("v3_seed_1/", plain.find("<tbody>")), plain.find("v1_seed_1/", plain.find("<tbody>")));
 }
 
-}  // namespace
+}  // namespace sweep_test
 }  // namespace rubble::testing

@@ -12,7 +12,7 @@
 #include "tests/app/settled_mission.h"
 
 namespace rubble::testing {
-namespace {
+namespace terrain_test {
 
 namespace fs = std::filesystem;
 
@@ -155,5 +155,5 @@ TEST(Terrain, MistakesAreNamed) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace terrain_test
 }  // namespace rubble::testing

@@ -17,7 +17,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace urdf_test {
 
 // A cart: a footprint without mass, a body with a mast fixed to it, a gripper whose fingers mimic each other.
 const char* const kCart = R"(<?xml version="1.0"?>
@@ -306,5 +306,5 @@ TEST(Urdf, AMissionIsRunFromItsOwnFolder) {
   EXPECT_TRUE(std::filesystem::exists(scratch / "out/manifest.json"));
 }
 
-}  // namespace
+}  // namespace urdf_test
 }  // namespace rubble::testing

@@ -10,7 +10,7 @@
 #include "tests/app/tiny_run.h"
 
 namespace rubble::testing {
-namespace {
+namespace verify_test {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -319,5 +319,5 @@ TEST(Render, RefusesADamagedOrForeignPile) {
   EXPECT_IN("would replace", itself.err);
 }
 
-}  // namespace
+}  // namespace verify_test
 }  // namespace rubble::testing

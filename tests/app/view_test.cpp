@@ -7,13 +7,12 @@
 
 #include "io/image/image_file.h"
 #include "tests/app/program.h"
+#include "tests/app/tiny_run.h"
 
 namespace rubble::testing {
-namespace {
+namespace view_test {
 
 namespace fs = std::filesystem;
-
-#define EXPECT_IN(part, text) EXPECT_NE((text).find(part), std::string::npos) << (text).substr(0, 3000)
 
 class View : public ::testing::Test {
  protected:
@@ -113,5 +112,5 @@ TEST(Preview, SaysSizeBeforeAndTimeAfterAFirstRun) {
   EXPECT_EQ(pile.out.find("mission.bag"), std::string::npos) << pile.out;
 }
 
-}  // namespace
+}  // namespace view_test
 }  // namespace rubble::testing

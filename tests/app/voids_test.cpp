@@ -8,7 +8,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace voids_test {
 
 namespace fs = std::filesystem;
 
@@ -68,5 +68,5 @@ TEST(Cutaway, DrawsARunsPile) {
   EXPECT_NE(beside.err.find("--y: the plane cuts no piece"), std::string::npos) << beside.err;
 }
 
-}  // namespace
+}  // namespace voids_test
 }  // namespace rubble::testing

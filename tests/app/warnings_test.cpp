@@ -4,7 +4,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace warnings_test {
 
 constexpr char kCube[] =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nusemtl paint\n"
@@ -104,5 +104,5 @@ TEST(BuildingErrors, HaveTheLinesOfTheirKeys) {
             error_of("storeys = 2, column = 0.2, infill_thickness = 0.4"));
 }
 
-}  // namespace
+}  // namespace warnings_test
 }  // namespace rubble::testing

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace rubble::generator {
-namespace {
+namespace box_test {
 
 const std::vector<Vec3> kSizes{{5, 6, 0.2}, {0.3, 6, 2}, {0.25, 0.3, 0.6}, {0.02, 0.02, 1}, {30, 20, 0.3}};
 
@@ -76,5 +76,5 @@ TEST(Box, MaterialsHaveTheirLooks) {
   EXPECT_EQ(surface_of_material("reinforced_concrete"), Surface::concrete_cast);
 }
 
-}  // namespace
+}  // namespace box_test
 }  // namespace rubble::generator

@@ -14,7 +14,7 @@
 #include "tests/assets/obj_reader.h"
 
 namespace rubble::generator {
-namespace {
+namespace generator_test {
 
 Wear no_wear() { return {0, 0.1, 0.02, 0, 1e-6, 0, 0.05}; }
 
@@ -185,7 +185,7 @@ TEST(Determinism, TheSameBytesAgain) {
   }
 }
 
-class Golden : public testing::TestWithParam<std::string> {};
+class Golden : public ::testing::TestWithParam<std::string> {};
 
 // Changes when a piece does; a difference with unchanged sources means lost determinism.
 TEST_P(Golden, TheSameBytesOnEveryMachine) {
@@ -195,7 +195,7 @@ TEST_P(Golden, TheSameBytesOnEveryMachine) {
                       .substr(0, 64));
 }
 
-INSTANTIATE_TEST_SUITE_P(Packs, Golden, testing::ValuesIn(pack_names()),
+INSTANTIATE_TEST_SUITE_P(Packs, Golden, ::testing::ValuesIn(pack_names()),
                          [](const auto& test) { return test.param; });
 
 TEST(Determinism, AnotherSeedGivesAnotherPiece) {
@@ -206,5 +206,5 @@ TEST(Determinism, AnotherSeedGivesAnotherPiece) {
   EXPECT_NE(one.positions, mesh_solid(solid, 0.02).positions);
 }
 
-}  // namespace
+}  // namespace generator_test
 }  // namespace rubble::generator

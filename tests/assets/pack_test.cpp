@@ -11,7 +11,7 @@
 #include "tests/assets/probe.h"
 
 namespace rubble::test {
-namespace {
+namespace pack_test {
 
 const std::string kFolder = std::string(RUBBLE_ASSETS_DIR) + "/concrete/";
 
@@ -36,10 +36,10 @@ GapLimits gap_limits(const std::string& name) {
   return is_masonry(name) ? GapLimits{0.004, 0.008} : GapLimits{0.010, 0.020};
 }
 
-class PackTest : public testing::TestWithParam<std::string> {};
+class PackTest : public ::testing::TestWithParam<std::string> {};
 
 // Every pack: what its files promise.
-class FilesTest : public testing::TestWithParam<std::string> {
+class FilesTest : public ::testing::TestWithParam<std::string> {
  protected:
   std::string folder() const { return std::string(RUBBLE_ASSETS_DIR) + "/" + GetParam() + "/"; }
   std::vector<std::string> names() const { return read_asset_names(folder() + "pack.lua"); }
@@ -132,7 +132,7 @@ TEST_P(FilesTest, PartsAreConvexAndSolid) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Packs, FilesTest,
-                         testing::Values("concrete", "residential", "parking", "bridge", "victims"),
+                         ::testing::Values("concrete", "residential", "parking", "bridge", "victims"),
                          [](const auto& test) { return test.param; });
 
 TEST_P(PackTest, PartsContainTheSurface) {
@@ -188,7 +188,7 @@ std::vector<std::string> followed_closely() {
   return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Concrete, PackTest, testing::ValuesIn(followed_closely()),
+INSTANTIATE_TEST_SUITE_P(Concrete, PackTest, ::testing::ValuesIn(followed_closely()),
                          [](const auto& test) { return test.param; });
 
 TEST(Pack, NamesAreUniqueAndEnough) {
@@ -216,5 +216,5 @@ TEST(Pack, IsSmall) {
   }
 }
 
-}  // namespace
+}  // namespace pack_test
 }  // namespace rubble::test

@@ -6,7 +6,7 @@
 #include "tests/assets/obj_reader.h"
 
 namespace rubble::test {
-namespace {
+namespace readme_test {
 
 std::string folder_of(const std::string& pack) {
   return std::string(RUBBLE_ASSETS_DIR) + "/" + pack + "/";
@@ -57,5 +57,5 @@ TEST(Readme, ListsThePiecesAsTheyAre) {
   }
 }
 
-}  // namespace
+}  // namespace readme_test
 }  // namespace rubble::test

@@ -11,7 +11,7 @@
 #include "tests/base/environment.h"
 
 namespace rubble {
-namespace {
+namespace disk_cache_test {
 
 namespace fs = std::filesystem;
 using testing::Environment;
@@ -172,5 +172,5 @@ TEST(UsualFolder, FollowsTheEnvironmentInOrder) {
   EXPECT_EQ(DiskCache::usual_folder(), "");
 }
 
-}  // namespace
+}  // namespace disk_cache_test
 }  // namespace rubble

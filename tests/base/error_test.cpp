@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace rubble {
-namespace {
+namespace error_test {
 
 TEST(Diagnostic, SaysWhereWhatAndWhy) {
   const Diagnostic d{"m.lua", 12, "camera.width", "wrong type", "an integer", "the string \"a\"",
@@ -19,5 +19,5 @@ TEST(InputError, CarriesEveryMistake) {
   EXPECT_STREQ(error.what(), "a:1: x: bad\na:2: y: bad");
 }
 
-}  // namespace
+}  // namespace error_test
 }  // namespace rubble

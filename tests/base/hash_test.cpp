@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace rubble {
-namespace {
+namespace hash_test {
 
 // Known answers from FIPS 180-4 and from the xxHash specification's reference program.
 TEST(Hash, GivesKnownAnswers) {
@@ -22,5 +22,5 @@ TEST(StateHash, SeesTheLastBitAndTheSignOfZero) {
   EXPECT_NE(hash(0.0), hash(-0.0));
 }
 
-}  // namespace
+}  // namespace hash_test
 }  // namespace rubble

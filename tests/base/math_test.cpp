@@ -6,7 +6,7 @@
 #include "kernel/base/portable_math.h"
 
 namespace rubble {
-namespace {
+namespace math_test {
 
 TEST(PortableMath, AgreesWithLibm) {
   for (int i = -20000; i <= 20000; ++i) {
@@ -61,5 +61,5 @@ TEST(Pose, OpticalFrameLooksAlongCameraX) {
   EXPECT_LT(distance(camera_from_optical * Vec3{0, 1, 0}, {0, 0, -1}), 1e-15);  // down
 }
 
-}  // namespace
+}  // namespace math_test
 }  // namespace rubble

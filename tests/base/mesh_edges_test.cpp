@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace rubble {
-namespace {
+namespace mesh_edges_test {
 
 TriangleMesh make_tetrahedron() {
   TriangleMesh mesh;
@@ -52,5 +52,5 @@ TEST(OpenEdges, WeldEqualPositions) {
   EXPECT_TRUE(is_closed(mesh));
 }
 
-}  // namespace
+}  // namespace mesh_edges_test
 }  // namespace rubble

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace rubble {
-namespace {
+namespace mesh_test {
 
 // An axis-aligned box from `low` to `high`, triangles outwards.
 TriangleMesh make_box(const Vec3f& low, const Vec3f& high) {
@@ -33,5 +33,5 @@ TEST(IsClosed, NoticesAMissingTriangle) {
   EXPECT_FALSE(is_closed(mesh));
 }
 
-}  // namespace
+}  // namespace mesh_test
 }  // namespace rubble

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 namespace rubble {
-namespace {
+namespace random_test {
 
 TEST(RandomStream, IsTheSameForTheSameSeedAndName) {
   RandomStream a(42, "pile"), b(42, "pile"), other_name(42, "light"), other_seed(43, "pile");
@@ -72,5 +72,5 @@ TEST(WeightedChoice, RefusesWhatCannotBeDrawn) {
   EXPECT_THROW(WeightedChoice({1, -1}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace random_test
 }  // namespace rubble

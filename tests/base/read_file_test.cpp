@@ -13,7 +13,7 @@
 #include "kernel/base/error.h"
 
 namespace rubble {
-namespace {
+namespace read_file_test {
 
 class ReadFile : public ::testing::Test {
  protected:
@@ -72,5 +72,5 @@ TEST_F(ReadFile, WaitsForAWriterThatIsThere) {
   writer.join();
 }
 
-}  // namespace
+}  // namespace read_file_test
 }  // namespace rubble

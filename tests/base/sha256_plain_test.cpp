@@ -9,7 +9,7 @@
 #undef Sha256
 
 namespace rubble {
-namespace {
+namespace sha256_plain_test {
 
 std::string plain(const std::string& bytes, std::size_t step) {
   PlainSha256 hash;
@@ -32,5 +32,5 @@ TEST(Sha256Plain, EqualsOpenSsls) {
   EXPECT_NE(plain("abd", 3), sha256("abc")) << "the control";
 }
 
-}  // namespace
+}  // namespace sha256_plain_test
 }  // namespace rubble

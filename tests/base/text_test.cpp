@@ -5,7 +5,7 @@
 #include "kernel/base/error.h"
 
 namespace rubble {
-namespace {
+namespace text_test {
 
 TEST(Utf8, FindsTheFirstByteThatIsNone) {
   const std::size_t none = std::string_view::npos;
@@ -30,5 +30,5 @@ TEST(Printable, EveryMessageIs) {
   EXPECT_STREQ(error.what(), "m.lua:2: key\\x1b[2J: unknown");
 }
 
-}  // namespace
+}  // namespace text_test
 }  // namespace rubble

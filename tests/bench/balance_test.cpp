@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace rubble {
-namespace {
+namespace balance_test {
 
 constexpr double kWeight = 100;  // of every body here; unit: N
 constexpr double kSolved = 1e-5;  // a residual below this is none
@@ -186,5 +186,5 @@ TEST(Balance, WhatFloatsIsOffByItsWholeWeight) {
   EXPECT_NEAR(result.mean_residual(), 0.5, kSolved);
 }
 
-}  // namespace
+}  // namespace balance_test
 }  // namespace rubble

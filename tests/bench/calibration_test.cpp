@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace rubble {
-namespace {
+namespace calibration_test {
 
 // The same work on every machine, or figures could not be compared: its result is this number.
 TEST(Calibration, DoesTheSameWorkEverywhere) {
@@ -24,5 +24,5 @@ TEST(Calibration, HasAFigureForEveryColumn) {
             "calibration of the machine: 12.3 ms on one thread, 23.5 ms on two\n");
 }
 
-}  // namespace
+}  // namespace calibration_test
 }  // namespace rubble

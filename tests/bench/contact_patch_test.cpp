@@ -10,7 +10,7 @@
 #include "kernel/base/portable_math.h"
 
 namespace rubble {
-namespace {
+namespace contact_patch_test {
 
 std::vector<Vec3> box_points(const Vec3& half) {
   std::vector<Vec3> points;
@@ -158,5 +158,5 @@ TEST(ContactFinder, SeesAPeakThatReachesIntoAPiece) {
   EXPECT_NEAR(find_surface_depth({make_type({0.3, 0.3, 0.1}), peak}, state).depth, 0.020, 1e-6);
 }
 
-}  // namespace
+}  // namespace contact_patch_test
 }  // namespace rubble

@@ -13,7 +13,7 @@
 #include "tests/base/environment.h"
 
 namespace rubble {
-namespace {
+namespace equilibrium_bench_test {
 
 namespace fs = std::filesystem;
 using testing::Environment;
@@ -101,5 +101,5 @@ TEST(EquilibriumBench, EveryMissionOfTheListCanBeGenerated) {
   }
 }
 
-}  // namespace
+}  // namespace equilibrium_bench_test
 }  // namespace rubble

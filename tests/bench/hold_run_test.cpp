@@ -7,7 +7,7 @@
 #include "bench/workload_file.h"
 
 namespace rubble {
-namespace {
+namespace hold_run_test {
 
 TEST(HoldRun, KeepsEveryPieceAwakeAndGivesTheSameBitsForAnyThreads) {
   const Pile pile = load_workload(RUBBLE_WORKLOADS "/w0.txt");
@@ -45,5 +45,5 @@ TEST(HoldRun, LineHasAFigureForEveryColumn) {
   EXPECT_EQ(line, "w9,layers,2,10,1,120,1200,1.5000,2.5000,1.2500,150.0000,40.0,0000000000000000");
 }
 
-}  // namespace
+}  // namespace hold_run_test
 }  // namespace rubble

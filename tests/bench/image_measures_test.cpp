@@ -15,7 +15,7 @@
 #include "kernel/base/random.h"
 
 namespace rubble {
-namespace {
+namespace image_measures_test {
 
 namespace fs = std::filesystem;
 
@@ -130,5 +130,5 @@ TEST(PictureFile, ReadsWhatWeWriteAndCountsSpots) {
   fs::remove_all(folder);
 }
 
-}  // namespace
+}  // namespace image_measures_test
 }  // namespace rubble

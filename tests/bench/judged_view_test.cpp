@@ -20,7 +20,7 @@
 #include "scripting/mission.h"
 
 namespace rubble {
-namespace {
+namespace judged_view_test {
 
 namespace fs = std::filesystem;
 
@@ -133,5 +133,5 @@ TEST_F(JudgedViewTest, RefusesWhatTheRenderersDoNotShare) {
   EXPECT_THROW(make({"trajectory.waypoints[1].look_at=-9,0,2.6"}).trace(), RunError);  // the sky
 }
 
-}  // namespace
+}  // namespace judged_view_test
 }  // namespace rubble

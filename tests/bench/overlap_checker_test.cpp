@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace rubble {
-namespace {
+namespace overlap_checker_test {
 
 PieceType make_cube(double half) {
   PieceType type;
@@ -91,5 +91,5 @@ TEST(Percentile, IsTheNearestRank) {
   EXPECT_EQ(percentile({7}, 0), 7);
 }
 
-}  // namespace
+}  // namespace overlap_checker_test
 }  // namespace rubble

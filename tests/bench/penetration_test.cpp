@@ -11,7 +11,7 @@
 #include "kernel/base/random.h"
 
 namespace rubble {
-namespace {
+namespace penetration_test {
 
 constexpr double kExact = 1e-12;  // unit: m
 constexpr double kCcd = 2e-6;     // what libccd is trusted to in these simple cases; unit: m
@@ -170,5 +170,5 @@ TEST(CloserThan, MeasuresCornersByTheirTrueDistance) {
   EXPECT_FALSE(closer_than_ccd(a, at(0.0021), 0.002));
 }
 
-}  // namespace
+}  // namespace penetration_test
 }  // namespace rubble

@@ -16,7 +16,7 @@
 #include "kernel/world/world.h"
 
 namespace rubble {
-namespace {
+namespace physics_sense_test {
 
 constexpr int kChunkTypes = 8;  // the first eight of the standard work are broken lumps
 
@@ -154,5 +154,5 @@ TEST(HeapMeasures, FindTheFilledShareOfAHalfFullBox) {
   EXPECT_NEAR(calc_filled_share({make_box({0.5, 0.5, 0.5})}, state, twice, 20000), 0.5, 0.015);
 }
 
-}  // namespace
+}  // namespace physics_sense_test
 }  // namespace rubble

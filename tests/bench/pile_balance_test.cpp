@@ -9,7 +9,7 @@
 #include "kernel/base/portable_math.h"
 
 namespace rubble {
-namespace {
+namespace pile_balance_test {
 
 constexpr double kGravity = 9.81;
 constexpr double kSolved = 1e-5;
@@ -199,5 +199,5 @@ TEST(PileBalance, RefusesAJointThatTheMissionHasNot) {
   EXPECT_THROW(judge(flap.pile, flap.state), InputError);
 }
 
-}  // namespace
+}  // namespace pile_balance_test
 }  // namespace rubble

@@ -11,7 +11,7 @@
 #include "kernel/base/error.h"
 
 namespace rubble {
-namespace {
+namespace pile_record_test {
 
 Record make_settled(const std::string& work, int seed, bool settled, double overlap) {
   return {{"work", work},           {"seed", seed},        {"settled", settled},
@@ -58,5 +58,5 @@ TEST(Work, GroupsExpandAndUnknownNamesAreMistakes) {
   EXPECT_THROW(expand_work_names({"nonsense"}), InputError);
 }
 
-}  // namespace
+}  // namespace pile_record_test
 }  // namespace rubble

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 namespace rubble {
-namespace {
+namespace report_test {
 
 SettleRun make_run() {
   SettleRun run;
@@ -48,5 +48,5 @@ TEST(Report, NamesTheWorstPieces) {
   EXPECT_NE(text.find("step 17 at (1.00, 2.00, 3.00)"), std::string::npos) << text;
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace rubble

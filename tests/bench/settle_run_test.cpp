@@ -5,7 +5,7 @@
 #include "bench/workload_file.h"
 
 namespace rubble {
-namespace {
+namespace settle_run_test {
 
 SettleJob make_job(int threads) {
   SettleJob job;
@@ -62,5 +62,5 @@ TEST(EjectionWatch, SeesFastPiecesSidewaysAndUpButNotFalling) {
   EXPECT_EQ(watch.ejected()[0].step, 1);
 }
 
-}  // namespace
+}  // namespace settle_run_test
 }  // namespace rubble

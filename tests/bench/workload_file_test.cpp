@@ -5,7 +5,7 @@
 #include "kernel/base/error.h"
 
 namespace rubble {
-namespace {
+namespace workload_file_test {
 
 const char* const kTetra =
     "shapes 1\n"
@@ -93,5 +93,5 @@ TEST(TurnPieces, DrawsOrientationsFromTheSeedAlone) {
   }
 }
 
-}  // namespace
+}  // namespace workload_file_test
 }  // namespace rubble

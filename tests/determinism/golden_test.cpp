@@ -11,7 +11,7 @@ namespace rubble::determinism {
 
 void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
 
-namespace {
+namespace golden_test {
 
 constexpr char kHint[] =
     "if the change of results is meant: cmake --build <build> --target "
@@ -55,5 +55,5 @@ TEST(GoldenTable, HasALineForEachSceneAndNoOther) {
   for (const Scene& scene : standard_scenes()) EXPECT_EQ(lines.count(scene.name), 1u) << scene.name;
 }
 
-}  // namespace
+}  // namespace golden_test
 }  // namespace rubble::determinism

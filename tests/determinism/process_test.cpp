@@ -11,7 +11,7 @@
 #include <string>
 
 namespace rubble::determinism {
-namespace {
+namespace process_test {
 
 struct Outcome {
   int status = -1;
@@ -120,5 +120,5 @@ TEST(Symbols, TheCheckSeesThem) {
   EXPECT_EQ(found.count("exp") + found.count("pow"), 2u);
 }
 
-}  // namespace
+}  // namespace process_test
 }  // namespace rubble::determinism

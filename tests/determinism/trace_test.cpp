@@ -11,7 +11,7 @@
 #include "tests/kernel/scenes.h"
 
 namespace rubble::determinism {
-namespace {
+namespace trace_test {
 
 // A path in the build folder; the file is removed at the end.
 class TraceFile {
@@ -100,5 +100,5 @@ TEST(Trace, RefusesAForeignAndACutFile) {
   EXPECT_THROW(compare_traces(a.path(), b.path()), RunError);
 }
 
-}  // namespace
+}  // namespace trace_test
 }  // namespace rubble::determinism

@@ -10,7 +10,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace atomic_file_test {
 
 using test::read_text;
 using test::ScratchFolder;
@@ -132,5 +132,5 @@ TEST(ReadWholeFile, NamesAMissingFile) {
   }
 }
 
-}  // namespace
+}  // namespace atomic_file_test
 }  // namespace rubble

@@ -12,7 +12,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace checkpoint_file_test {
 
 using test::read_text;
 using test::ScratchFolder;
@@ -141,5 +141,5 @@ TEST(CheckpointFile, SaysWhatIsWrong) {
   expect_in(error_of(folder / "newer"), "format version 9; this program reads version 1");
 }
 
-}  // namespace
+}  // namespace checkpoint_file_test
 }  // namespace rubble

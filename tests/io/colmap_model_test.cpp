@@ -13,7 +13,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace colmap_model_test {
 
 const std::string kWritten = std::string(RUBBLE_SOURCE_DIR) + "/tests/io/colmap/";
 
@@ -212,5 +212,5 @@ TEST(PlyReader, BelievesNoNumberThatTheFileCannotHold) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace colmap_model_test
 }  // namespace rubble

@@ -18,7 +18,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace dataset_folders_test {
 
 using test::make_full_frame;
 using test::read_text;
@@ -290,5 +290,5 @@ TEST(DatasetFolder, ReplacesWhatAKilledRunLeft) {
   EXPECT_EQ(rows_of(folder / "tum/rgb.txt", ' ').size(), std::size_t(kFrames));
 }
 
-}  // namespace
+}  // namespace dataset_folders_test
 }  // namespace rubble

@@ -18,7 +18,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace full_disk_test {
 
 using test::make_full_frame;
 using test::ScratchFolder;
@@ -181,5 +181,5 @@ TEST(FullDisk, ARealOneStopsTheQueueAndLeavesNothing) {
   EXPECT_GE(filled, 9);
 }
 
-}  // namespace
+}  // namespace full_disk_test
 }  // namespace rubble

@@ -7,7 +7,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace hostile_mesh_test {
 
 using test::ScratchFolder;
 
@@ -70,5 +70,5 @@ TEST(HostileMeshes, AreErrorsThatNameTheFile) {
   }
 }
 
-}  // namespace
+}  // namespace hostile_mesh_test
 }  // namespace rubble

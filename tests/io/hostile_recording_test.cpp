@@ -10,7 +10,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace hostile_recording_test {
 
 constexpr std::uint32_t kStated = 3'000'000'000;  // unit: byte
 constexpr long kAllowed = 256 << 10;              // unit: KiB
@@ -87,5 +87,5 @@ TEST(HostileRecording, BagChunkThatStatesThreeGigabytes) {
   expect_refused_in_little_memory("mission.bag", bytes);
 }
 
-}  // namespace
+}  // namespace hostile_recording_test
 }  // namespace rubble

@@ -16,7 +16,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace isolated_worker_test {
 
 using test::ScratchFolder;
 
@@ -164,5 +164,5 @@ TEST(IsolatedWorker, ThreadsMayDoItAtOnce) {
     EXPECT_EQ(results[i], std::string(100000, char('a' + i)));
 }
 
-}  // namespace
+}  // namespace isolated_worker_test
 }  // namespace rubble

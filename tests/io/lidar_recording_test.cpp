@@ -13,7 +13,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace lidar_recording_test {
 
 // Three LiDARs that see the same two echoes; ring 1 of two, column 3 of eight.
 Recording three_lidars() {
@@ -82,5 +82,5 @@ TEST(LidarRawlog, MrptReadsRangesPointsAndPlaces) {
   EXPECT_NEAR(planar->getScanAngle(3), (-78.75 + 3 * 22.5) * std::acos(-1.0) / 180, 1e-6);
 }
 
-}  // namespace
+}  // namespace lidar_recording_test
 }  // namespace rubble

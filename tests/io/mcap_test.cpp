@@ -8,7 +8,7 @@
 #include "tests/io/ros_expectation.h"
 
 namespace rubble {
-namespace {
+namespace mcap_test {
 
 using test::CommandResult;
 using test::FastCdr;
@@ -76,7 +76,7 @@ TEST(McapWriter, RefusesNegativeStamps) {
 constexpr ros::Version kRos2 = ros::Version::ros2;
 
 // Frame names of every length modulo 8, so that every alignment occurs.
-class Cdr : public testing::TestWithParam<std::string> {
+class Cdr : public ::testing::TestWithParam<std::string> {
  protected:
   ros::Header header_{7, 1'700'000'000'123'456'789, GetParam()};
   Pose pose_{{0.5, -0.5, 0.5, 0.25}, {1.25, -2.5, 1e-9}};
@@ -141,8 +141,8 @@ TEST_P(Cdr, ImuAndEventsEqualFastCdr) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Frames, Cdr,
-                         testing::Values("", "a", "ab", "abc", "abcd", "abcde", "abcdef",
+                         ::testing::Values("", "a", "ab", "abc", "abcd", "abcde", "abcdef",
                                          "abcdefg"));
 
-}  // namespace
+}  // namespace mcap_test
 }  // namespace rubble

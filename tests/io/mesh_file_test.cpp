@@ -13,7 +13,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace mesh_file_test {
 
 using test::ScratchFolder;
 
@@ -177,5 +177,5 @@ TEST(WriteStl, AnEmptyPileIsAnEmptyFile) {
   EXPECT_EQ(test::read_text(folder / "a.stl").size(), 84u);
 }
 
-}  // namespace
+}  // namespace mesh_file_test
 }  // namespace rubble

@@ -13,7 +13,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace mesh_paint_test {
 
 using test::ScratchFolder;
 
@@ -243,5 +243,5 @@ TEST_F(MeshPaint, IsAnotherForAnotherImage) {
   EXPECT_EQ(hash(16), first);
 }
 
-}  // namespace
+}  // namespace mesh_paint_test
 }  // namespace rubble

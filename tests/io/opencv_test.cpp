@@ -10,7 +10,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace opencv_test {
 
 using test::make_full_frame;
 using test::ScratchFolder;
@@ -52,5 +52,5 @@ TEST(OpenCv, ReadsTheNumbersOfEveryExr) {
   EXPECT_EQ(std::count(pieces.begin(), pieces.end(), -1.0f), std::count(frame.get<std::uint32_t>("instance").begin(), frame.get<std::uint32_t>("instance").end(), kGroundInstance));
 }
 
-}  // namespace
+}  // namespace opencv_test
 }  // namespace rubble

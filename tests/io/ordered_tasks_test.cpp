@@ -9,9 +9,9 @@
 #include <vector>
 
 namespace rubble {
-namespace {
+namespace ordered_tasks_test {
 
-class OrderedTasksTest : public testing::TestWithParam<int> {};
+class OrderedTasksTest : public ::testing::TestWithParam<int> {};
 
 // Later tasks are the quicker ones, so that they would overtake.
 TEST_P(OrderedTasksTest, CommitsInOrderOnTheCallersThread) {
@@ -60,7 +60,7 @@ TEST_P(OrderedTasksTest, CanBeLeftWithWorkUnderWay) {
   EXPECT_LE(ran, 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Threads, OrderedTasksTest, testing::Values(1, 2, 4));
+INSTANTIATE_TEST_SUITE_P(Threads, OrderedTasksTest, ::testing::Values(1, 2, 4));
 
-}  // namespace
+}  // namespace ordered_tasks_test
 }  // namespace rubble

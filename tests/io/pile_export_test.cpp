@@ -20,7 +20,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace pile_export_test {
 
 using test::ScratchFolder;
 
@@ -51,7 +51,7 @@ TriangleMesh make_flat_tetrahedron() {  // without normals, of one surface
   return mesh;
 }
 
-class PileExport : public testing::Test {
+class PileExport : public ::testing::Test {
  protected:
   PileExport() {
     model_.types = {{"wedge", &wedge_}, {"spike", &spike_}};
@@ -344,5 +344,5 @@ TEST_F(PileExport, NamesTheFormatsThatItKnows) {
   }
 }
 
-}  // namespace
+}  // namespace pile_export_test
 }  // namespace rubble

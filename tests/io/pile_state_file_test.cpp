@@ -12,7 +12,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace pile_state_file_test {
 
 using test::read_text;
 using test::ScratchFolder;
@@ -198,5 +198,5 @@ TEST(PileStateFile, SaysWhatIsWrong) {
   expect_in(error_of(folder / "longer"), "longer than it says");
 }
 
-}  // namespace
+}  // namespace pile_state_file_test
 }  // namespace rubble

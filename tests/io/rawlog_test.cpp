@@ -18,7 +18,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace rawlog_test {
 
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservation3DRangeScan;
@@ -257,5 +257,5 @@ TEST(Rawlog, RawlogEditMakesPointCloudsThatLieOnTheScene) {
   EXPECT_GT(count, 3000u);
 }
 
-}  // namespace
+}  // namespace rawlog_test
 }  // namespace rubble

@@ -15,7 +15,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace recorded_picture_test {
 
 using test::ScratchFolder;
 
@@ -70,7 +70,7 @@ std::vector<Kept> all_kept() {
            {"rgb", "rgb_right"}}};
 }
 
-class RecordedPictures : public testing::TestWithParam<Kept> {
+class RecordedPictures : public ::testing::TestWithParam<Kept> {
  protected:
   void record(int altered = -1) {
     std::filesystem::remove_all(folder_ / GetParam().name);
@@ -132,7 +132,7 @@ TEST_P(RecordedPictures, AreNotThereBeyondTheLastFrameOrWhenLeftOut) {
   EXPECT_FALSE(find_recorded_picture(folder_.path(), {"rgb", 0, true}, {found->file}));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RecordedPictures, testing::ValuesIn(all_kept()),
+INSTANTIATE_TEST_SUITE_P(All, RecordedPictures, ::testing::ValuesIn(all_kept()),
                          [](const auto& test) {
                            std::string name = test.param.name;
                            return name.substr(name.find('.') + 1);
@@ -155,5 +155,5 @@ TEST(RecordedPicture, PrefersWhatIsExact) {
   EXPECT_EQ(find_recorded_picture(folder.path(), {"depth", 0, false})->file, "mission.mcap");
 }
 
-}  // namespace
+}  // namespace recorded_picture_test
 }  // namespace rubble

@@ -17,7 +17,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace recorder_test {
 
 using test::make_frame;
 using test::read_text;
@@ -35,7 +35,7 @@ std::unique_ptr<Recorder> make_sheet(const std::string& path) {
   return nullptr;
 }
 
-class AnyRecorder : public testing::TestWithParam<RecorderKind> {};
+class AnyRecorder : public ::testing::TestWithParam<RecorderKind> {};
 
 void record(Recorder& recorder, int shift = 0) {
   for (int i = 0; i < kFrames; ++i) {
@@ -147,7 +147,7 @@ TEST_P(AnyRecorder, ReportsAFolderThatIsReadOnly) {
   EXPECT_THROW(GetParam().make("/proc/a"), RunError);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, AnyRecorder, testing::ValuesIn(test::all_recorders(kFrames)),
+INSTANTIATE_TEST_SUITE_P(All, AnyRecorder, ::testing::ValuesIn(test::all_recorders(kFrames)),
                          [](const auto& test) { return test.param.name; });
 
 TEST(TumTrajectory, HoldsThePoseOfTheOpticalFrame) {
@@ -238,5 +238,5 @@ TEST(ContactSheet, NamesTheOptionThatIsOutOfRange) {
   }
 }
 
-}  // namespace
+}  // namespace recorder_test
 }  // namespace rubble

@@ -15,7 +15,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace recording_check_test {
 
 using test::ScratchFolder;
 
@@ -33,7 +33,7 @@ std::unique_ptr<Recorder> make_packed_rawlog(const std::string& p) {
   return make_rawlog_recorder(p, {1, 0.001, {}});
 }
 
-class Damage : public testing::TestWithParam<Kind> {
+class Damage : public ::testing::TestWithParam<Kind> {
  protected:
   // Several chunks: a picture is larger than what closes one.
   std::string record() {
@@ -99,7 +99,7 @@ TEST_P(Damage, OfAnAlteredBitIsFoundInItsChunk) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Damage,
-                         testing::Values(Kind{"lz4.bag", make_bag},
+                         ::testing::Values(Kind{"lz4.bag", make_bag},
                                          Kind{"zstd.mcap", make_mcap},
                                          Kind{"stored.rawlog", make_stored_rawlog},
                                          Kind{"packed.rawlog", make_packed_rawlog}),
@@ -145,5 +145,5 @@ TEST(RecordingCheck, KnowsWhatItDoesNotKnow) {
   EXPECT_THROW(check_recording(folder / "missing.bag"), InputError);
 }
 
-}  // namespace
+}  // namespace recording_check_test
 }  // namespace rubble

@@ -13,7 +13,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace recording_queue_test {
 
 using test::make_frame;
 
@@ -186,5 +186,5 @@ TEST(RecordingQueue, AFrameAfterTheLastIsRefused) {
   EXPECT_THROW(queue.push(make_frame(1, 8, 8)), RunError);
 }
 
-}  // namespace
+}  // namespace recording_queue_test
 }  // namespace rubble

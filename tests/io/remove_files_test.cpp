@@ -11,7 +11,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace remove_files_test {
 
 namespace fs = std::filesystem;
 using test::ScratchFolder;
@@ -83,5 +83,5 @@ TEST_F(RemoveFiles, OfAFolderThatCannotBeMade) {
   EXPECT_FALSE(there("tum"));
 }
 
-}  // namespace
+}  // namespace remove_files_test
 }  // namespace rubble

@@ -13,7 +13,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace robot_topics_test {
 
 using test::FastCdr;
 using test::ScratchFolder;
@@ -162,7 +162,7 @@ TEST(RobotTopics, ACameraAloneHasTheInertialUnitBesideIt) {
   EXPECT_EQ(alone.imus[0].name, "high");
 }
 
-class RobotCdr : public testing::TestWithParam<std::string> {
+class RobotCdr : public ::testing::TestWithParam<std::string> {
  protected:
   static constexpr ros::Version kRos2 = ros::Version::ros2;
   ros::Header header_{7, 1'700'000'000'123'456'789, GetParam()};
@@ -184,7 +184,7 @@ TEST_P(RobotCdr, MessagesEqualFastCdr) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Frames, RobotCdr,
-                         testing::Values("", "a", "ab", "abc", "abcd", "abcde", "abcdef", "abcdefg"));
+                         ::testing::Values("", "a", "ab", "abc", "abcd", "abcde", "abcdef", "abcdefg"));
 
-}  // namespace
+}  // namespace robot_topics_test
 }  // namespace rubble

@@ -7,7 +7,7 @@
 #include "tests/io/ros_expectation.h"
 
 namespace rubble {
-namespace {
+namespace rosbag_test {
 
 using test::CommandResult;
 using test::run_command;
@@ -100,5 +100,5 @@ TEST(BagWriter, RefusesStampsThatRosCannotHold) {
   EXPECT_NO_THROW(bag.write(connection, 1, ""));
 }
 
-}  // namespace
+}  // namespace rosbag_test
 }  // namespace rubble

@@ -12,7 +12,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace track_file_test {
 
 using test::read_text;
 using test::ScratchFolder;
@@ -114,5 +114,5 @@ TEST(TrackFile, SaysWhatIsWrong) {
   expect_in(error_of(folder / "newer"), "format version 9; this program reads version 1");
 }
 
-}  // namespace
+}  // namespace track_file_test
 }  // namespace rubble

@@ -6,7 +6,7 @@
 #include "articulated_scene.h"
 
 namespace rubble {
-namespace {
+namespace articulated_breaking_test {
 
 using testing::at;
 using testing::awake_options;
@@ -132,5 +132,5 @@ TEST(Articulated, PiecesOfABrokenJointComeApartAndGainNoEnergy) {
   }
 }
 
-}  // namespace
+}  // namespace articulated_breaking_test
 }  // namespace rubble

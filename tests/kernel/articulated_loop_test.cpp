@@ -7,7 +7,7 @@
 #include "kernel/base/error.h"
 
 namespace rubble {
-namespace {
+namespace articulated_loop_test {
 
 using testing::awake_options;
 using testing::box_type;
@@ -126,5 +126,5 @@ TEST(Articulated, RefusesWhatIsNoTree) {
   EXPECT_NE(error_of(bad).find("joints[0].stiffness"), std::string::npos) << error_of(bad);
 }
 
-}  // namespace
+}  // namespace articulated_loop_test
 }  // namespace rubble

@@ -11,7 +11,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace articulated_pile_test {
 
 using testing::at;
 using testing::run;
@@ -112,5 +112,5 @@ TEST(ArticulatedPile, LayersDropAssembliesWithoutOverlap) {
   EXPECT_EQ(pile.layers[0].pieces.size(), 40u);
 }
 
-}  // namespace
+}  // namespace articulated_pile_test
 }  // namespace rubble

@@ -6,7 +6,7 @@
 #include "articulated_scene.h"
 
 namespace rubble {
-namespace {
+namespace articulated_test {
 
 using testing::at;
 using testing::awake_options;
@@ -261,5 +261,5 @@ TEST(Articulated, ATreeOf200LinksFallsAndRests) {
   EXPECT_EQ(world.lost_count(), 0);
 }
 
-}  // namespace
+}  // namespace articulated_test
 }  // namespace rubble

@@ -8,7 +8,7 @@
 #include "tests/kernel/member_scenes.h"
 
 namespace rubble {
-namespace {
+namespace beam_theory_test {
 
 // A mast under a force across its top: breaks at its foot at f_t W / L.
 TEST(BeamTheory, CantileverBreaksAtItsFootAtTheLoadOfItsSection) {
@@ -279,5 +279,5 @@ TEST(BeamTheory, BarsAndStirrupsYieldInTorsionAndHold) {
   EXPECT_NEAR(find_limit(0, 4 * limit, loads, breaks) / limit, 1, 0.02);
 }
 
-}  // namespace
+}  // namespace beam_theory_test
 }  // namespace rubble

@@ -8,7 +8,7 @@
 #include "tests/kernel/member_scenes.h"
 
 namespace rubble {
-namespace {
+namespace blast_test {
 
 // A wall of one piece, 2 m wide, 1 m high and 0.2 m thick, across X at x; its lower edge in the ground.
 Member make_wall(const char* name, double x) {
@@ -111,5 +111,5 @@ TEST(Blast, LeavesTheFrameOnItsFeet) {
   EXPECT_GT(thrown_walls, 5);
 }
 
-}  // namespace
+}  // namespace blast_test
 }  // namespace rubble

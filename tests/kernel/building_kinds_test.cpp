@@ -10,7 +10,7 @@
 #include "tests/kernel/member_scenes.h"
 
 namespace rubble {
-namespace {
+namespace building_kinds_test {
 
 Member make_block(const char* material, const Vec3& centre, const Vec3& size) {
   Member m;
@@ -324,5 +324,5 @@ TEST(Plan, ACauseTakesTheWallThatItNames) {
   EXPECT_GT(gone, 0.9 * 3 * 3.7 * 0.3 * 1900);
 }
 
-}  // namespace
+}  // namespace building_kinds_test
 }  // namespace rubble

@@ -8,7 +8,7 @@
 #include "closed_forms.h"
 
 namespace rubble {
-namespace {
+namespace closed_forms_impact_test {
 
 using namespace testing;
 
@@ -196,5 +196,5 @@ TEST(ClosedFormImpact, DISABLED_ManyLightPiecesMoveAHeavySleeper) {
   EXPECT_NEAR(hits.after, hits.before, 0.02 * hits.before);
 }
 
-}  // namespace
+}  // namespace closed_forms_impact_test
 }  // namespace rubble

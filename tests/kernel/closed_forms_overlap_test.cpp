@@ -9,7 +9,7 @@
 #include "kernel/settling/settle.h"
 
 namespace rubble {
-namespace {
+namespace closed_forms_overlap_test {
 
 using namespace testing;
 
@@ -157,5 +157,5 @@ TEST(ClosedFormOverlap, WhatIsInTheAirFallsAsOneWhateverItsPiecesDoToEachOther) 
   EXPECT_NEAR(moved.y, 0, 0.015);
 }
 
-}  // namespace
+}  // namespace closed_forms_overlap_test
 }  // namespace rubble

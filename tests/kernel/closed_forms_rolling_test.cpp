@@ -7,7 +7,7 @@
 #include "kernel/base/portable_math.h"
 
 namespace rubble {
-namespace {
+namespace closed_forms_rolling_test {
 
 using namespace testing;
 
@@ -191,5 +191,5 @@ TEST(ClosedFormRolling, ADrumOfManyFacetsStandsOnItsEnd) {
   }
 }
 
-}  // namespace
+}  // namespace closed_forms_rolling_test
 }  // namespace rubble

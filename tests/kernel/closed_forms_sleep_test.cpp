@@ -9,7 +9,7 @@
 #include "kernel/settling/generator.h"
 
 namespace rubble {
-namespace {
+namespace closed_forms_sleep_test {
 
 using namespace testing;
 
@@ -120,5 +120,5 @@ TEST(ClosedFormSleep, AFallThirtyMetresAwayDoesNotChangeAPile) {
   }
 }
 
-}  // namespace
+}  // namespace closed_forms_sleep_test
 }  // namespace rubble

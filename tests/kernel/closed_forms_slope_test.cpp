@@ -6,7 +6,7 @@
 #include "closed_forms.h"
 
 namespace rubble {
-namespace {
+namespace closed_forms_slope_test {
 
 using namespace testing;
 
@@ -119,5 +119,5 @@ TEST(ClosedFormSlope, FrictionOfAnUnevenlyLoadedBarTurnsItNoMoreThanItsCornersCa
   EXPECT_GT(lost, 0.05 * most);  // the load spreads over some of its base
 }
 
-}  // namespace
+}  // namespace closed_forms_slope_test
 }  // namespace rubble

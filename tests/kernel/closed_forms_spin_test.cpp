@@ -7,7 +7,7 @@
 #include "closed_forms.h"
 
 namespace rubble {
-namespace {
+namespace closed_forms_spin_test {
 
 using namespace testing;
 
@@ -178,5 +178,5 @@ TEST(ClosedFormSpin, ThePatchUnderACornerBrakesASpinAboutIt) {
   }
 }
 
-}  // namespace
+}  // namespace closed_forms_spin_test
 }  // namespace rubble

@@ -8,7 +8,7 @@
 #include "kernel/base/random.h"
 
 namespace rubble {
-namespace {
+namespace closed_forms_terrain_test {
 
 using namespace testing;
 
@@ -80,5 +80,5 @@ TEST(NightlyClosedFormTerrain, NothingEndsBelowSpikesOfManySeeds) {
   for (std::uint64_t seed = 11; seed <= 60; ++seed) EXPECT_EQ(count_below(seed), 0) << seed;
 }
 
-}  // namespace
+}  // namespace closed_forms_terrain_test
 }  // namespace rubble

@@ -6,7 +6,7 @@
 #include "closed_forms.h"
 
 namespace rubble {
-namespace {
+namespace closed_forms_tipping_test {
 
 using namespace testing;
 
@@ -197,5 +197,5 @@ TEST(ClosedFormTipping, ATallBlockThatSlidesTipsWhereFrictionIsHigh) {
   EXPECT_GT(tilt_of(world, 1), std::atan(0.6) + 1);
 }
 
-}  // namespace
+}  // namespace closed_forms_tipping_test
 }  // namespace rubble

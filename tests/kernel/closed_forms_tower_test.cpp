@@ -8,7 +8,7 @@
 #include "kernel/base/random.h"
 
 namespace rubble {
-namespace {
+namespace closed_forms_tower_test {
 
 using namespace testing;
 
@@ -73,5 +73,5 @@ TEST(ClosedFormTower, ThirtyBricksStandForAMinuteAndSleep) {
   }
 }
 
-}  // namespace
+}  // namespace closed_forms_tower_test
 }  // namespace rubble

@@ -7,7 +7,7 @@
 #include "closed_forms.h"
 
 namespace rubble {
-namespace {
+namespace closed_forms_tree_test {
 
 using namespace testing;
 
@@ -128,5 +128,5 @@ TEST(ClosedFormTree, ASlowPendulumThatLiesOnASmoothRampSwingsOn) {
               0.05 * angle);  // at the end of a period
 }
 
-}  // namespace
+}  // namespace closed_forms_tree_test
 }  // namespace rubble

@@ -11,7 +11,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace collapse_forms_test {
 
 constexpr double kGravity = 9.81;
 
@@ -228,5 +228,5 @@ TEST(Building, OfFourStoreysHasTributaryWeightsInTheColumnsOfEach) {
   }
 }
 
-}  // namespace
+}  // namespace collapse_forms_test
 }  // namespace rubble

@@ -12,7 +12,7 @@
 #include "kernel/structure/standing.h"
 
 namespace rubble {
-namespace {
+namespace collapse_test {
 
 BuildingSpec small_building() {
   BuildingSpec b;
@@ -306,5 +306,5 @@ TEST(GroundMotion, PeaksAtItsLargestAccelerationAndEnds) {
   EXPECT_FALSE(motion.over(359));
 }
 
-}  // namespace
+}  // namespace collapse_test
 }  // namespace rubble

@@ -13,7 +13,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace collision_test {
 
 struct Posed {
   Posed(const Shape& compiled, const Quat& q) : shape(compiled.parts[0]) {
@@ -200,5 +200,5 @@ TEST(GroundContact, DoesNotThrowAFastWheelUp) {
   EXPECT_NEAR(most, 3 - 0.06, 0.05);
 }
 
-}  // namespace
+}  // namespace collision_test
 }  // namespace rubble

@@ -11,7 +11,7 @@
 #include "kernel/geometry/shape.h"
 
 namespace rubble {
-namespace {
+namespace decompose_test {
 
 void add_box(TriangleMesh& mesh, const Vec3f& low, const Vec3f& high) {
   const auto first = std::uint32_t(mesh.positions.size());
@@ -180,5 +180,5 @@ TEST(Decompose, GivesTheSameBitsAgain) {
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].points, b[i].points);
 }
 
-}  // namespace
+}  // namespace decompose_test
 }  // namespace rubble

@@ -7,7 +7,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace determinism_test {
 
 using testing::hash_of;
 using testing::small_pile;
@@ -154,5 +154,5 @@ TEST(StateHash, ChangesWithEveryFieldOfPiecesAndJoints) {
   EXPECT_EQ(PileState(state).state_hash(), before);
 }
 
-}  // namespace
+}  // namespace determinism_test
 }  // namespace rubble

@@ -9,7 +9,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace dynamics_test {
 
 using testing::at;
 using testing::box_type;
@@ -209,5 +209,5 @@ TEST(WorldStep, SaysWhichOfItsStagesBegins) {
   EXPECT_EQ(stages.size(), expected.size());
 }
 
-}  // namespace
+}  // namespace dynamics_test
 }  // namespace rubble

@@ -18,7 +18,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace fines_test {
 
 constexpr double kWallX = 1.5, kWallY = 1.2;  // faces of two walls of a corner; unit: m
 
@@ -299,5 +299,5 @@ TEST(Catenary, HasTheHyperbolicFunctionsOfTheLibrary) {
   }
 }
 
-}  // namespace
+}  // namespace fines_test
 }  // namespace rubble

@@ -11,7 +11,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace friction_test {
 
 using testing::at;
 using testing::bar_type;
@@ -89,5 +89,5 @@ TEST(Friction, BarsAcrossTiltedEdgesStayWhereTheyLie) {
   EXPECT_GT(lying, 80);
 }
 
-}  // namespace
+}  // namespace friction_test
 }  // namespace rubble

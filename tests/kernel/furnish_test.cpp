@@ -12,7 +12,7 @@
 #include "tests/kernel/scenes.h"
 
 namespace rubble {
-namespace {
+namespace furnish_test {
 
 PileSpec make_spec(const std::vector<Furnishing>& furniture) {
   PileSpec spec;
@@ -105,5 +105,5 @@ TEST(Furnish, NamesWhatDoesNotFit) {
   }
 }
 
-}  // namespace
+}  // namespace furnish_test
 }  // namespace rubble

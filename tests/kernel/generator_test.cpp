@@ -9,7 +9,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace generator_test {
 
 TEST(Generator, NoTwoPiecesOfALayerTouch) {
   const PileSpec spec = testing::small_pile(3, 2, 120);
@@ -127,5 +127,5 @@ TEST(Generator, AllMistakesAreNamedAtOnce) {
   }
 }
 
-}  // namespace
+}  // namespace generator_test
 }  // namespace rubble

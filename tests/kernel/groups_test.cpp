@@ -5,7 +5,7 @@
 #include "kernel/world/world_snapshot.h"
 
 namespace rubble {
-namespace {
+namespace groups_test {
 
 PieceType make_box(double x, double y, double z) {
   PieceType type;
@@ -137,5 +137,5 @@ TEST(Groups, WhatBreaksUnderAnImpactDoesNotStopIt) {
   EXPECT_LT(world.piece(0).linear_velocity.z, -1);
 }
 
-}  // namespace
+}  // namespace groups_test
 }  // namespace rubble

@@ -13,7 +13,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace hull_test {
 
 using testing::box_part;
 
@@ -158,5 +158,5 @@ TEST(Shape, BadTypesAreNamed) {
   }
 }
 
-}  // namespace
+}  // namespace hull_test
 }  // namespace rubble

@@ -6,7 +6,7 @@
 #include "kernel/multibody/springs/inflated_bend.h"
 
 namespace rubble {
-namespace {
+namespace inflated_bend_test {
 
 // The tube of radius 1 with P = 2 and E t = 1: it wrinkles at a curvature of 1 with a moment of pi. At
 // a curvature k the wall at angle a has the strain e - k cos a, and no tension where that is negative.
@@ -59,5 +59,5 @@ TEST(InflatedBend, TheMomentIsTheSlopeOfTheEnergyAndTheTangentThatOfTheMoment) {
   }
 }
 
-}  // namespace
+}  // namespace inflated_bend_test
 }  // namespace rubble

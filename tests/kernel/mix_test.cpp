@@ -8,7 +8,7 @@
 #include "kernel/settling/generator.h"
 
 namespace rubble {
-namespace {
+namespace mix_test {
 
 double chi_square(const std::vector<int>& counts, const std::vector<double>& shares) {
   double total = 0, sum = 0;
@@ -117,5 +117,5 @@ TEST(Mix, ARangeFarInATailIsStillDrawnFrom) {
   EXPECT_LE(size, 2.5);
 }
 
-}  // namespace
+}  // namespace mix_test
 }  // namespace rubble

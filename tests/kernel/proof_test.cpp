@@ -12,7 +12,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace proof_test {
 
 using testing::at;
 using testing::box_type;
@@ -263,5 +263,5 @@ TEST(ProofOfRest, WhoSleepsInTheAirDoesNotPass) {
   EXPECT_LT(seconds, 3);
 }
 
-}  // namespace
+}  // namespace proof_test
 }  // namespace rubble

@@ -7,7 +7,7 @@
 #include "query_scenes.h"
 
 namespace rubble {
-namespace {
+namespace queries_brute_force_test {
 
 using testing::QueryScene, testing::random_point, testing::random_scene;
 
@@ -168,5 +168,5 @@ TEST(Queries, OverlapsAndClearanceEqualBruteForce) {
   EXPECT_GT(found_count, 200);
 }
 
-}  // namespace
+}  // namespace queries_brute_force_test
 }  // namespace rubble

@@ -12,7 +12,7 @@
 #include "query_scenes.h"
 
 namespace rubble {
-namespace {
+namespace queries_test {
 
 using testing::QueryScene, testing::box_mesh, testing::piece_at, testing::random_point, testing::random_scene,
     testing::sphere_mesh;
@@ -226,5 +226,5 @@ TEST(Queries, MistakesAreRefused) {
   EXPECT_THROW(scene.queries(), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace queries_test
 }  // namespace rubble

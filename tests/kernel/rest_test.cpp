@@ -8,7 +8,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace rest_test {
 
 using testing::at;
 using testing::box_type;
@@ -200,5 +200,5 @@ TEST(Rest, AnImpactWakesASleeper) {
   EXPECT_GT(world.piece(0).world_from_body.translation.x, 0.05);
 }
 
-}  // namespace
+}  // namespace rest_test
 }  // namespace rubble

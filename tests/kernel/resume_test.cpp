@@ -10,7 +10,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace resume_test {
 
 // Loose placed pieces, three layers, one of which runs into its limit.
 Pile make_pile() {
@@ -140,5 +140,5 @@ TEST(ResumeErrors, OtherWorkIsRefused) {
   EXPECT_NE(error_of(checkpoint, pile, options).find("ends too early"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace resume_test
 }  // namespace rubble

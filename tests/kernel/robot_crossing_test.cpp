@@ -9,7 +9,7 @@
 #include "robot_scenes.h"
 
 namespace rubble {
-namespace {
+namespace robot_crossing_test {
 
 using testing::drive;
 using testing::make_robot_world;
@@ -167,5 +167,5 @@ TEST(Robot, MotorsAndWeightGiveAllEnergyOfMotion) {
   EXPECT_NEAR(given, world.kinetic_energy(), 0.01 * given);
 }
 
-}  // namespace
+}  // namespace robot_crossing_test
 }  // namespace rubble

@@ -7,7 +7,7 @@
 #include "robot_scenes.h"
 
 namespace rubble {
-namespace {
+namespace robot_ground_test {
 
 using testing::drive;
 using testing::make_robot_world;
@@ -273,5 +273,5 @@ TEST(Robot, ASleepingPieceThatIsPushedWakesAndSlides) {
   EXPECT_FALSE(world.is_awake(brick));
 }
 
-}  // namespace
+}  // namespace robot_ground_test
 }  // namespace rubble

@@ -10,7 +10,7 @@
 #include "robot_scenes.h"
 
 namespace rubble {
-namespace {
+namespace robot_judge_test {
 
 using testing::centre_of;
 using testing::drive;
@@ -206,5 +206,5 @@ TEST(RobotJudge, StepTimesSideBySide) {
   EXPECT_GT(their_contacts, 960u);
 }
 
-}  // namespace
+}  // namespace robot_judge_test
 }  // namespace rubble

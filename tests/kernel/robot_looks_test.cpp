@@ -12,7 +12,7 @@
 #include "robot_scenes.h"
 
 namespace rubble {
-namespace {
+namespace robot_looks_test {
 
 std::vector<RobotModel> all_models() {
   VineOptions vine;
@@ -219,5 +219,5 @@ TEST(RobotLooks, DoNotChangeTheMotion) {
   }
 }
 
-}  // namespace
+}  // namespace robot_looks_test
 }  // namespace rubble

@@ -9,7 +9,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace robot_motor_test {
 
 constexpr double kStep = 1.0 / 240;
 constexpr int kSubsteps = 4;
@@ -203,5 +203,5 @@ TEST(RobotModel, MistakesAreNamed) {
   EXPECT_EQ(key_of(bad), "robot.joints[0].parent");
 }
 
-}  // namespace
+}  // namespace robot_motor_test
 }  // namespace rubble

@@ -8,7 +8,7 @@
 #include "robot_scenes.h"
 
 namespace rubble {
-namespace {
+namespace robot_odometry_test {
 
 struct Ride {
   OdometryReading last;
@@ -97,5 +97,5 @@ TEST(Odometry, AgainstAWallAllIsSlip) {
   EXPECT_LT(stuck.last.slip_left(), 1.05);
 }
 
-}  // namespace
+}  // namespace robot_odometry_test
 }  // namespace rubble

@@ -10,7 +10,7 @@
 #include "robot_scenes.h"
 
 namespace rubble {
-namespace {
+namespace robot_run_test {
 
 struct Settled {
   Pile pile;
@@ -195,5 +195,5 @@ TEST(RobotRun, ASnapshotGoesOnWithTheSameBits) {
   EXPECT_EQ(testing::hash_of(world), testing::hash_of(other));
 }
 
-}  // namespace
+}  // namespace robot_run_test
 }  // namespace rubble

@@ -16,7 +16,7 @@
 #include "kernel/geometry/mesh_builder.h"
 
 namespace rubble {
-namespace {
+namespace robot_surroundings_test {
 
 // One box with this look, of this kind. leafy: as trees are.
 std::shared_ptr<const Surroundings> box(const Vec3& low, const Vec3& high, const std::string& look = "concrete_cast",
@@ -119,5 +119,5 @@ TEST(RobotSurroundings, ARoverFollowsTheRoad) {
   std::printf("within %.1f mm of the road, which rises and falls by %.1f mm\n", worst * 1e3, (most - least) * 1e3);
 }
 
-}  // namespace
+}  // namespace robot_surroundings_test
 }  // namespace rubble

@@ -11,7 +11,7 @@
 #include "kernel/solver/contact_rows.h"
 
 namespace rubble {
-namespace {
+namespace row_kernels_test {
 
 constexpr int kBodies = 80, kBatches = 24;
 
@@ -181,5 +181,5 @@ TEST(RowKernels, ContactsDoNotFeelTheOthersOfTheirBatch) {
   }
 }
 
-}  // namespace
+}  // namespace row_kernels_test
 }  // namespace rubble

@@ -7,7 +7,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace settle_test {
 
 using testing::small_pile;
 
@@ -137,5 +137,5 @@ TEST(Settle, AnEmptyPileIsAtRest) {
   EXPECT_TRUE(settle_pile(Pile{}).settled);
 }
 
-}  // namespace
+}  // namespace settle_test
 }  // namespace rubble

@@ -12,7 +12,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace settling_track_test {
 
 // A wall, a loose block, two layers; the ground is small, so that some pieces leave the world.
 Pile make_pile() {
@@ -128,5 +128,5 @@ TEST(SettlingTrack, IsTheSameWhenMoreWasWrittenThanTheCheckpointKnows) {
   EXPECT_EQ(hex64(second.track().hash()), hex64(whole.track.hash()));
 }
 
-}  // namespace
+}  // namespace settling_track_test
 }  // namespace rubble

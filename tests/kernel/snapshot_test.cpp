@@ -12,7 +12,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace snapshot_test {
 
 using testing::at;
 using testing::hash_of;
@@ -251,5 +251,5 @@ TEST(Snapshot, RefusesAWorldWithOtherTypes) {
   EXPECT_THROW(other.restore(*world.snapshot()), RunError);
 }
 
-}  // namespace
+}  // namespace snapshot_test
 }  // namespace rubble

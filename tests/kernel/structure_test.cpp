@@ -9,7 +9,7 @@
 #include "tests/kernel/member_scenes.h"
 
 namespace rubble {
-namespace {
+namespace structure_test {
 
 TEST(Fragments, FillTheirBoxButForTheGaps) {
   CutOptions cut;
@@ -289,5 +289,5 @@ TEST(Stress, BalancedLoadsOfAFreeGroupNeedNoSupport) {
   for (const SectionForces& f : stress.solve(status, loads).forces) EXPECT_NEAR(f.axial, 5000, 1e-3);
 }
 
-}  // namespace
+}  // namespace structure_test
 }  // namespace rubble

@@ -14,7 +14,7 @@
 #include "kernel/queries/queries.h"
 
 namespace rubble {
-namespace {
+namespace surroundings_test {
 
 const Circle kPile{3, -2, 6};
 
@@ -228,5 +228,5 @@ TEST(Surroundings, CircleHoldsAllPieces) {
   EXPECT_NEAR(circle.radius, std::hypot(6, 1), 1e-9);
 }
 
-}  // namespace
+}  // namespace surroundings_test
 }  // namespace rubble

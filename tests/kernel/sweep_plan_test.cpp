@@ -12,7 +12,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace sweep_plan_test {
 
 constexpr int kBodies = 300, kContacts = 2000;
 
@@ -163,5 +163,5 @@ TEST(SweepPlan, AHeapHasTheSameBitsWithAnyNumberOfThreads) {
   EXPECT_EQ(drop(3), one);
 }
 
-}  // namespace
+}  // namespace sweep_plan_test
 }  // namespace rubble

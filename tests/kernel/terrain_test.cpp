@@ -16,7 +16,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace terrain_test {
 
 using testing::at;
 using testing::box_type;
@@ -283,5 +283,5 @@ TEST(HeightField, IsAClosedBlock) {
   EXPECT_NEAR(calc_volume_properties(*type.surface).volume, 36 * (2 - 0.1 + 0.1 * 0.25 / 12), 1e-4);
 }
 
-}  // namespace
+}  // namespace terrain_test
 }  // namespace rubble

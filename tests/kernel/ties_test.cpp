@@ -9,7 +9,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace ties_test {
 
 constexpr double kGravity = 9.81, kStep = 1.0 / 60;
 
@@ -211,5 +211,5 @@ TEST(Ties, OutOfRangeAreRefusedByTheirKey) {
   EXPECT_NE(message({0, 1, {}, {}, 1, -1, 1}).find("tie.strength"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace ties_test
 }  // namespace rubble

@@ -11,7 +11,7 @@
 #include "kernel/model/track_builder.h"
 
 namespace rubble {
-namespace {
+namespace track_test {
 
 constexpr double kGravity = 9.81, kStep = 1.0 / 60;
 
@@ -225,5 +225,5 @@ TEST(Track, NamesWhatIsUnsound) {
   EXPECT_NE(fault_after([](Track& t) { t.bodies[0].id = -1; }), "");
 }
 
-}  // namespace
+}  // namespace track_test
 }  // namespace rubble

@@ -6,7 +6,7 @@
 #include "kernel/multibody/tree_motion.h"
 
 namespace rubble {
-namespace {
+namespace tree_joint_test {
 
 TEST(Spatial, InvertsWhatIsPositiveDefinite) {
   RandomStream random(7, "matrix");
@@ -62,5 +62,5 @@ TEST(TreeJoint, SpringsFollowTheirEnergy) {
   }
 }
 
-}  // namespace
+}  // namespace tree_joint_test
 }  // namespace rubble

@@ -11,7 +11,7 @@
 #include "simbody_judge.h"
 
 namespace rubble {
-namespace {
+namespace tree_test {
 
 constexpr double kGravity = 9.81;
 
@@ -421,5 +421,5 @@ TEST(TreeDynamics, AFreeTreeKeepsItsMomentumAndEnergy) {
   }
 }
 
-}  // namespace
+}  // namespace tree_test
 }  // namespace rubble

@@ -7,7 +7,7 @@
 #include "kernel/base/random.h"
 
 namespace rubble {
-namespace {
+namespace updated_factor_test {
 
 constexpr int kRows = 12;
 
@@ -158,5 +158,5 @@ TEST(UpdatedFactor, RefusesWhatNothingHoldsAnyMore) {
   EXPECT_FALSE(factor.solve({Six{}, Six{0, 0, 0, 1, 0, 0}}, x));
 }
 
-}  // namespace
+}  // namespace updated_factor_test
 }  // namespace rubble

@@ -7,7 +7,7 @@
 #include "robot_scenes.h"
 
 namespace rubble {
-namespace {
+namespace vine_retraction_test {
 
 using testing::kRobotStep;
 using testing::make_robot_world;
@@ -125,5 +125,5 @@ TEST(VineRetraction, ASnapshotInMidRetractionGoesOnWithTheSameBits) {
   EXPECT_EQ(go_on(other), hash);
 }
 
-}  // namespace
+}  // namespace vine_retraction_test
 }  // namespace rubble

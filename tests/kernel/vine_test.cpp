@@ -10,7 +10,7 @@
 #include "robot_scenes.h"
 
 namespace rubble {
-namespace {
+namespace vine_test {
 
 using testing::kRobotStep;
 using testing::make_robot_world;
@@ -318,5 +318,5 @@ TEST(NightlyVine, AStepWith100LinksTakesLessThan10Milliseconds) {
   EXPECT_LT(step, 0.010);
 }
 
-}  // namespace
+}  // namespace vine_test
 }  // namespace rubble

@@ -8,7 +8,7 @@
 #include "tests/live/driven.h"
 
 namespace rubble::testing {
-namespace {
+namespace ros1_drive_test {
 
 bool has_ros1() { return std::system("command -v rosmaster rosbag Xvfb >/dev/null") == 0; }
 
@@ -122,5 +122,5 @@ TEST(NightlyLiveRos1Drive, TheBenchDrivesAMissionOverTopicsAndTablesIt) {
   EXPECT_EQ(read_file(page), table);
 }
 
-}  // namespace
+}  // namespace ros1_drive_test
 }  // namespace rubble::testing

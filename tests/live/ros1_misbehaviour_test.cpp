@@ -17,7 +17,7 @@
 #include "tests/live/background.h"
 
 namespace rubble::testing {
-namespace {
+namespace ros1_misbehaviour_test {
 
 constexpr char kScripts[] = RUBBLE_PYTHON " '" RUBBLE_SOURCE_DIR "/tests/live/";
 constexpr char kImageMd5[] = "060021388200f6f0f447d0fcd9c64743";  // of sensor_msgs/Image
@@ -197,5 +197,5 @@ TEST(Complaints, AreMadeEverMoreSeldom) {
                                       "/joy: bad, 1000 times", "/cmd_vel: bad"}));
 }
 
-}  // namespace
+}  // namespace ros1_misbehaviour_test
 }  // namespace rubble::testing

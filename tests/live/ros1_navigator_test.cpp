@@ -12,7 +12,7 @@
 #include "tests/live/ros1_master.h"
 
 namespace rubble::testing {
-namespace {
+namespace ros1_navigator_test {
 
 class LiveRos1Navigator : public WithRos1Master {
  protected:
@@ -132,5 +132,5 @@ TEST_F(LiveRos1Navigator, ASignalStopsTheRobotAndStillReports) {
   })) << robot->output();
 }
 
-}  // namespace
+}  // namespace ros1_navigator_test
 }  // namespace rubble::testing

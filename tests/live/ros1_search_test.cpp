@@ -6,7 +6,7 @@
 #include "tests/live/ros1_master.h"
 
 namespace rubble::testing {
-namespace {
+namespace ros1_search_test {
 
 class LiveRos1Search : public WithRos1Master {
  protected:
@@ -48,5 +48,5 @@ TEST_F(LiveRos1Search, WithoutACommandItGivesUp) {
   EXPECT_NE(read_file(scratch_ / "alone/agent_3.log").find("nobody answered by /cmd_vel within 3 s"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace ros1_search_test
 }  // namespace rubble::testing

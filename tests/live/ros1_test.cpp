@@ -11,7 +11,7 @@
 #include "tests/live/background.h"
 
 namespace rubble::testing {
-namespace {
+namespace ros1_test {
 
 constexpr char kTopics[] =
     "/clock /tf /tf_static /ground_truth/pose /camera/rgb/image_raw /camera/rgb/camera_info "
@@ -180,5 +180,5 @@ TEST_F(NightlyLiveRos1, CommandsAreHeardAgainWhenAMasterReturns) {
   drive->finish();
 }
 
-}  // namespace
+}  // namespace ros1_test
 }  // namespace rubble::testing

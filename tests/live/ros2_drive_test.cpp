@@ -7,7 +7,7 @@
 #include "tests/live/driven.h"
 
 namespace rubble::testing {
-namespace {
+namespace ros2_drive_test {
 
 TEST(NightlyLiveRos2Drive, WhatTopicsDriveRunsAgainByteForByte) {
   if (std::system("command -v Xvfb >/dev/null") != 0) GTEST_SKIP() << "no Xvfb";
@@ -28,5 +28,5 @@ TEST(NightlyLiveRos2Drive, ARobotGoesAsTopicsAskAndRunsAgainWithTheSameBits) {
   if (!HasFatalFailure()) expect_the_robot_runs_again(scratch, false);
 }
 
-}  // namespace
+}  // namespace ros2_drive_test
 }  // namespace rubble::testing

@@ -16,7 +16,7 @@
 #include "tests/live/background.h"
 
 namespace rubble::testing {
-namespace {
+namespace ros2_misbehaviour_test {
 
 using Clock = std::chrono::steady_clock;
 
@@ -72,5 +72,5 @@ TEST(LiveRos2Flood, OfBadCommandsIsLeftOutAndTheNextGoodOneHeard) {
   EXPECT_EQ(flood.wait(30), 0) << flood.output();
 }
 
-}  // namespace
+}  // namespace ros2_misbehaviour_test
 }  // namespace rubble::testing

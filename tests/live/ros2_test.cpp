@@ -16,7 +16,7 @@
 #include "tests/live/background.h"
 
 namespace rubble::testing {
-namespace {
+namespace ros2_test {
 
 struct Topic {
   std::string name, type;  // as DDS knows them
@@ -183,5 +183,5 @@ TEST_F(LiveRos2, WhatCannotStartIsSaidBeforeAnythingIsMade) {
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "none"));
 }
 
-}  // namespace
+}  // namespace ros2_test
 }  // namespace rubble::testing

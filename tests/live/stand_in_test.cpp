@@ -8,7 +8,7 @@
 #include "kernel/base/error.h"
 
 namespace rubble {
-namespace {
+namespace stand_in_test {
 
 TEST(LiveStandIn, NamesThePackageThatRos1Needs) {
   EXPECT_NE(describe_ros1().find("libroscpp-dev"), std::string::npos);
@@ -38,5 +38,5 @@ TEST(LiveStandIn, NamesThePackageThatRos2Needs) {
   EXPECT_THROW(make_ros2_drive({}), InputError);
 }
 
-}  // namespace
+}  // namespace stand_in_test
 }  // namespace rubble

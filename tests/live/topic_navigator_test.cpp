@@ -12,7 +12,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace topic_navigator_test {
 
 constexpr auto kRos1 = ros::Version::ros1;
 constexpr double kPi = portable::kPi;
@@ -432,5 +432,5 @@ TEST_F(TopicNavigation, GoesByTransformsWhereAskedTo) {
   EXPECT_LT(std::hypot(robot_.truth().x - 6, robot_.truth().y - 0.5), 0.4);
 }
 
-}  // namespace
+}  // namespace topic_navigator_test
 }  // namespace rubble::testing

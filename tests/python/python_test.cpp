@@ -9,7 +9,7 @@
 #include <string>
 
 namespace rubble {
-namespace {
+namespace python_test {
 
 struct Ran {
   int status = -1;
@@ -91,5 +91,5 @@ TEST(PythonTutorials, Run) {
   std::filesystem::remove_all(folder);
 }
 
-}  // namespace
+}  // namespace python_test
 }  // namespace rubble

@@ -9,7 +9,7 @@
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace air_volume_test {
 
 struct Case {
   const char* name;
@@ -133,5 +133,5 @@ TEST(AirVolume, EndsWhereNobodyReadsOn) {
   EXPECT_GT(beyond, 0);
 }
 
-}  // namespace
+}  // namespace air_volume_test
 }  // namespace rubble::testing

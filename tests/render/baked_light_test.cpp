@@ -13,7 +13,7 @@
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace baked_light_test {
 
 constexpr int kSegments = 24;
 
@@ -232,5 +232,5 @@ TEST_P(LowSlit, LightsTheGroundAsItsSkyDoes) {
 
 INSTANTIATE_TEST_SUITE_P(BakedLight, LowSlit, ::testing::Values(0.2, 0.3, 0.5));
 
-}  // namespace
+}  // namespace baked_light_test
 }  // namespace rubble::testing

@@ -10,7 +10,7 @@
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace cache_test {
 
 namespace fs = std::filesystem;
 
@@ -62,5 +62,5 @@ TEST(RenderCache, NeverChangesAFrame) {
   fs::remove_all(folder);
 }
 
-}  // namespace
+}  // namespace cache_test
 }  // namespace rubble::testing

@@ -14,7 +14,7 @@
 #include "tests/render/camera_scenes.h"
 
 namespace rubble::testing {
-namespace {
+namespace camera_test {
 
 TEST(Camera, WithEveryStageOffIsTheRenderer) {
   const Scene scene = make_heap(60, 2);
@@ -282,5 +282,5 @@ TEST(AutoExposure, LeavesFramesOverexposedAfterASuddenChange) {
   EXPECT_LT(std::fabs(means[11] - means[2]), 12);
 }
 
-}  // namespace
+}  // namespace camera_test
 }  // namespace rubble::testing

@@ -9,7 +9,7 @@
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace carried_light_test {
 
 constexpr std::uint32_t kBody = 20;
 constexpr double kIntensity = 400;  // unit: cd
@@ -109,5 +109,5 @@ TEST(CarriedLights, ReferencePicturesFollowThem) {
   EXPECT_GT(std::abs(column[0] - column[1]), 3) << "the middle of the light, in pixels";
 }
 
-}  // namespace
+}  // namespace carried_light_test
 }  // namespace rubble::testing

@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "render/renderer.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace culling_test {
 
 RenderOptions options_with(bool culling) {
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake = false;
   options.shadow_size = 256;
   options.texture_size = 32;
@@ -91,5 +92,5 @@ TEST(FacesAway, OnlyWhenAllOfTheConeDoes) {
   EXPECT_FALSE(faces_away({0, 0, -5}, {}, 0.1f, up, -1));
 }
 
-}  // namespace
+}  // namespace culling_test
 }  // namespace rubble::testing

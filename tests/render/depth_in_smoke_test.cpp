@@ -7,7 +7,7 @@
 #include "tests/render/depth_scenes.h"
 
 namespace rubble::testing {
-namespace {
+namespace depth_in_smoke_test {
 
 // In fog the air answers too: range is pulled towards the camera, as the sum of phasors says. The
 // emitter is 3 cm to the right, and lights what the one pixel sees: from z = 3 cm * 0.6 / 0.5 on.
@@ -164,5 +164,5 @@ TEST(StructuredLight, DropsOutAndGrowsNoisierInSmoke) {
   EXPECT_GT(lost / double(thick.size()), 0.6);
 }
 
-}  // namespace
+}  // namespace depth_in_smoke_test
 }  // namespace rubble::testing

@@ -9,7 +9,7 @@
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace depth_rays_test {
 
 // Pictures of all shapes are cast in tiles of pixels; a pixel knows nothing of its tile.
 TEST(DepthRays, ArePixelForPixelThoseOfSingleRays) {
@@ -42,5 +42,5 @@ TEST(DepthRays, ArePixelForPixelThoseOfSingleRays) {
   }
 }
 
-}  // namespace
+}  // namespace depth_rays_test
 }  // namespace rubble::testing

@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/render/cached_options.h"
 #include "tests/render/depth_scenes.h"
 
 namespace rubble::testing {
-namespace {
+namespace depth_sensor_test {
 
 // Khoshelham and Elberink 2012, figure 10 and eq. 10: sigma_Z = 1.425e-5 /cm Z^2, which is 1.4 mm at
 // 1 m and 3.6 cm at 5 m.
@@ -103,7 +104,7 @@ TEST(StructuredLight, HasTheShadowOfItsProjector) {
   scene.instances.push_back({0, 1, {{}, {3.5, 0, 0}}, 1});   // wall at 3 m
   scene.instances.push_back({1, 1, {{}, {1.1, 0, 0}}, 2});   // box at 1 m
   GlContext context;
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake = false, options.shadow_size = 64, options.texture_size = 16;
   Renderer renderer(context, scene, options);
   CameraSpec spec = kinect();
@@ -203,7 +204,7 @@ double noise_on(const char* look, double stated, double albedo) {
   scene.meshes.push_back(share(make_box({1, 30, 30}, look)));
   scene.instances.push_back({0, 1, {{}, {3.5, 0, 0}}, 1});
   GlContext context;
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake = false, options.shadow_size = 64, options.texture_size = 16;
   Renderer renderer(context, scene, options);
   CameraSpec spec = time_of_flight();
@@ -244,5 +245,5 @@ TEST(IdealDepthSensor, OnlyHasLimits) {
   EXPECT_GT(kept, 200);
 }
 
-}  // namespace
+}  // namespace depth_sensor_test
 }  // namespace rubble::testing

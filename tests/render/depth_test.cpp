@@ -6,14 +6,15 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/renderer.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace depth_test {
 
 // Both ways of drawing triangles must be exact, whatever this machine would choose.
 RenderOptions plain(DrawnBy raster) {
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.raster = raster;
   options.bake = false;
   options.shadow_size = 64;
@@ -237,7 +238,6 @@ TEST(RasterChoices, AgreeOnAHeap) {
   RenderOptions options = plain(DrawnBy::device);
   Renderer device(context, heap, options);
   options.raster = DrawnBy::processor;
-  options.threads = 2;
   Renderer processor(context, heap, options);
   for (const Vec3& eye : {Vec3(6, 2, 2), Vec3(1, 0.2, 0.6), Vec3(0.2, 0.1, 0.3)}) {
     const Pose pose = look_at(eye, {-1.5, 0.1, 0.5});
@@ -252,5 +252,5 @@ TEST(RasterChoices, AgreeOnAHeap) {
   }
 }
 
-}  // namespace
+}  // namespace depth_test
 }  // namespace rubble::testing

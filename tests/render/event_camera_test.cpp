@@ -7,10 +7,11 @@
 #include <cmath>
 
 #include "render/sensors/camera.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace event_camera_test {
 
 EventCameraSpec quiet() {
   EventCameraSpec spec;
@@ -114,7 +115,7 @@ TEST(EventCamera, ReportsAMovingEdge) {
   scene.meshes.push_back(share(make_box({1, 20, 40}, "plaster")));
   scene.instances.push_back({0, 1, {{}, {4.5, 10, 0}}, 5});
   GlContext context;
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake = false, options.shadow_size = 64, options.texture_size = 16;
   Renderer renderer(context, scene, options);
   CameraSpec spec;
@@ -177,7 +178,7 @@ TEST(EventCamera, ReportsTheEdgeOfWhatMoves) {
     return std::vector<std::optional<Pose>>{Pose{{}, {4.5, 10.1 - 2e-9 * double(ns), 0}}};
   };
   GlContext context;
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake = false, options.shadow_size = 64, options.texture_size = 16;
   Renderer renderer(context, scene, options);
   CameraSpec spec;
@@ -202,5 +203,5 @@ TEST(EventCamera, ReportsTheEdgeOfWhatMoves) {
   EXPECT_EQ(edge, 4 * 16);
 }
 
-}  // namespace
+}  // namespace event_camera_test
 }  // namespace rubble::testing

@@ -9,10 +9,11 @@
 #include "render/media/air_box.h"
 #include "render/renderer.h"
 #include "render/transport/air_transfer.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace fog_test {
 
 constexpr int kSide = 48, kRegions = 4;
 
@@ -31,8 +32,8 @@ Scene outside() {
 std::vector<double> regions(const Scene& scene, const Pose& eye, RenderQuality quality, int samples,
                             int bake_rays = RenderOptions().bake_rays) {
   GlContext context;
-  RenderOptions options;
-  options.threads = 2, options.texture_size = 64, options.bake_rays = bake_rays;
+  RenderOptions options = quality == RenderQuality::fast ? cached_options() : RenderOptions();
+  options.threads = 1, options.texture_size = 64, options.bake_rays = bake_rays;
   options.colour.quality = quality, options.colour.samples = samples;
   const LinearFrame frame = Renderer(context, scene, options).render_linear({0, pinhole(kSide, kSide, 0.6 * kSide), eye});
   std::vector<double> out(kRegions * kRegions);
@@ -223,5 +224,5 @@ TEST(Harmonics, AreOrthonormal) {
   EXPECT_NEAR(illuminance_of(even, normalized(Vec3f(1, 2, -0.5f))).y, portable::kPi, 1e-4);
 }
 
-}  // namespace
+}  // namespace fog_test
 }  // namespace rubble::testing

@@ -17,7 +17,7 @@
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace image_golden_test {
 
 namespace fs = std::filesystem;
 
@@ -173,5 +173,5 @@ TEST(ImageGoldenControl, ComparesWhatIsStored) {
   EXPECT_EQ(compare(noon, noon).most, 0);
 }
 
-}  // namespace
+}  // namespace image_golden_test
 }  // namespace rubble::testing

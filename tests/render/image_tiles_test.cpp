@@ -10,10 +10,11 @@
 #include "render/lighting/exposure.h"
 #include "render/reference/display.h"
 #include "render/renderer.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace image_tiles_test {
 
 // 100 by 70: tiles at the right and lower edge are cut. Sky above, ground from row 40 on, the left
 // half of it near.
@@ -68,7 +69,7 @@ int difference_by_lamp(double sun_klx, double intensity_cd) {
   Scene scene = make_heap(60, 3);
   scene.light.intensity = sun_klx;
   scene.lamp.intensity_cd = intensity_cd;
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake = false;
   options.shadow_size = 256;
   options.texture_size = 32;
@@ -97,7 +98,7 @@ int difference_from_all_light(double sun_klx, double intensity_cd, bool bake) {
   Scene scene = make_heap(25, 3);
   scene.light.intensity = sun_klx;
   scene.lamp.intensity_cd = intensity_cd;
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.shadow_size = 256, options.texture_size = 32, options.bake_rays = 16;
   options.antialias = false;
   const Pose eye = look_at({5, 2, 2.5}, {0, 0, 0.3});
@@ -121,5 +122,5 @@ TEST(LampInDaylight, ComesByWayOfSurfacesWhereItCanBeSeen) {
   EXPECT_GT(difference_from_all_light(0.001, 50, false), 8);  // without baked points there is no such light
 }
 
-}  // namespace
+}  // namespace image_tiles_test
 }  // namespace rubble::testing

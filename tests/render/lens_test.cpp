@@ -9,10 +9,11 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/renderer.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace lens_test {
 
 Intrinsics lens_of(LensModel model, const std::array<double, 5>& distortion, double focal) {
   Intrinsics k = pinhole(320, 240, focal);
@@ -112,7 +113,7 @@ TEST(Lens, AFisheyeSeesBehindItself) {
 }
 
 RenderOptions plain() {
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake = false;
   options.shadow_size = 64;
   options.texture_size = 16;
@@ -279,5 +280,5 @@ TEST(RollingShutter, SlantsAnEdgeByTheMotionDuringReadout) {
   }
 }
 
-}  // namespace
+}  // namespace lens_test
 }  // namespace rubble::testing

@@ -14,7 +14,7 @@
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace lidar_test {
 
 constexpr double kPi = portable::kPi;
 
@@ -323,5 +323,5 @@ TEST(LidarPattern, OfARosetteFillsTheViewWithTime) {
   EXPECT_GT(filled[1], filled[0] * 5 / 4);
 }
 
-}  // namespace
+}  // namespace lidar_test
 }  // namespace rubble::testing

@@ -10,10 +10,11 @@
 #include "render/lighting/lighting.h"
 #include "render/media/medium.h"
 #include "render/renderer.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace light_test {
 
 // The camera looks along +X at a wall 2 m away.
 Scene wall() {
@@ -28,7 +29,7 @@ Scene wall() {
 }
 
 RenderOptions plain() {
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake = false;
   options.shadow_size = 256;
   options.texture_size = 64;
@@ -389,5 +390,5 @@ TEST(LightModel, TheBeamLeavesAlongXAndPitchLowersIt) {
   EXPECT_NEAR(0.2126f * e.x + 0.7152f * e.y + 0.0722f * e.z, 60, 1e-3);
 }
 
-}  // namespace
+}  // namespace light_test
 }  // namespace rubble::testing

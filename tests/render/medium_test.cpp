@@ -9,7 +9,7 @@
 #include "kernel/base/random.h"
 
 namespace rubble {
-namespace {
+namespace medium_test {
 
 AirSpec fog(double density, double height = 0, double noise = 0) {
   AirSpec air;
@@ -229,5 +229,5 @@ TEST(Medium, FollowsFromTheSeed) {
   }
 }
 
-}  // namespace
+}  // namespace medium_test
 }  // namespace rubble

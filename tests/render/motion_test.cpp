@@ -6,16 +6,17 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/renderer.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace motion_test {
 
 constexpr double kGravity = 9.81;
 constexpr std::int64_t kSecond = 1'000'000'000;
 
 RenderOptions plain() {
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake = false;
   options.shadow_size = 512;
   options.texture_size = 16;
@@ -300,5 +301,5 @@ TEST(Motion, ShiftsAreThoseOfThePoints) {
   EXPECT_TRUE(still.view(view).shifts(kSecond).empty());
 }
 
-}  // namespace
+}  // namespace motion_test
 }  // namespace rubble::testing

@@ -7,7 +7,7 @@
 #include "tests/render/camera_scenes.h"
 
 namespace rubble::testing {
-namespace {
+namespace moving_camera_test {
 
 // Levels of a row as shares of the wall's: the wall is left of the edge.
 std::vector<double> profile(const Frame& frame, int row) {
@@ -186,5 +186,5 @@ TEST(Stereo, BothPicturesSeeTheSameLamp) {
   }
 }
 
-}  // namespace
+}  // namespace moving_camera_test
 }  // namespace rubble::testing

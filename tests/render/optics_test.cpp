@@ -13,10 +13,11 @@
 #include "kernel/base/portable_math.h"
 #include "render/optics/lens_surface.h"
 #include "render/sensors/camera.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace optics_test {
 
 LinearImage even_image(int width, int height, float value) {
   return {width, height, std::vector<float>(std::size_t(width) * std::size_t(height) * 3, value)};
@@ -273,7 +274,7 @@ Flight one_frame() {
 TEST(CameraOptics, ChangesTheColoursAlone) {
   const Scene scene = make_heap(40, 2);
   GlContext context;
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake = false, options.shadow_size = 64, options.texture_size = 16;
   Renderer renderer(context, scene, options);
   CameraSpec spec;
@@ -304,7 +305,7 @@ TEST(CameraOptics, PixelsSeeTheirWholeArea) {
   scene.meshes.push_back(share(make_box({1, 20, 40}, "plaster")));
   scene.instances.push_back({0, 1, {{}, {4.5, 10, 0}}, 5});
   GlContext context;
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake = false, options.shadow_size = 64, options.texture_size = 16;
   Renderer renderer(context, scene, options);
   Flight flight = one_frame();
@@ -334,5 +335,5 @@ TEST(CameraOptics, PixelsSeeTheirWholeArea) {
   EXPECT_GT(differ, 30);  // along the edge of the wall
 }
 
-}  // namespace
+}  // namespace optics_test
 }  // namespace rubble::testing

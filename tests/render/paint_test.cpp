@@ -14,7 +14,7 @@
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace paint_test {
 
 using MakeTexel = std::function<std::array<std::uint8_t, 4>(int x, int y)>;
 
@@ -265,5 +265,5 @@ TEST(Paint, OfManyMeshesIsKeptOnce) {
   EXPECT_EQ(prepared.meshes[2].paint.front().paint, 1);
 }
 
-}  // namespace
+}  // namespace paint_test
 }  // namespace rubble::testing

@@ -18,7 +18,7 @@
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace parts_test {
 
 TEST(PointCells, FindsAllPointsOfTheCellsAboutAPlaceInOrder) {
   const float cell = 0.25f;
@@ -277,5 +277,5 @@ TEST(SmoothEdges, LeavesTexturesAlone) {
   EXPECT_EQ(slope.error(rgb, 3), slope.error(slope.rgba, 4));
 }
 
-}  // namespace
+}  // namespace parts_test
 }  // namespace rubble::testing

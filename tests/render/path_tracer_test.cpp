@@ -9,7 +9,7 @@
 #include "tests/render/traced_world.h"
 
 namespace rubble::testing {
-namespace {
+namespace path_tracer_test {
 
 constexpr double kPi = portable::kPi;
 
@@ -406,5 +406,5 @@ TEST(SampleSequence, FillsSquaresEvenly) {
   }
 }
 
-}  // namespace
+}  // namespace path_tracer_test
 }  // namespace rubble::testing

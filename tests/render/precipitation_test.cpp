@@ -14,9 +14,10 @@
 #include "render/media/medium.h"
 #include "render/media/streaks.h"
 #include "render/renderer.h"
+#include "tests/render/cached_options.h"
 
 namespace rubble {
-namespace {
+namespace precipitation_test {
 
 constexpr PrecipitationKind kRain = PrecipitationKind::rain, kSnow = PrecipitationKind::snow;
 
@@ -198,14 +199,14 @@ Scene rainy(bool roof, double rain = 20, double snow = 0) {
 struct Exposure {
   Scene scene;
   double seconds = 0.01;
-  int threads = 2;
+  int threads = 1;
   float before = 1;  // of all pixels
   Intrinsics k = wide(160, 120);
 
   // The mean of `images` at every half second.
   std::vector<float> light(int images = 1) const {
-    GlContext context({-1, 2});
-    RenderOptions options;
+    GlContext context({-1, 1});
+    RenderOptions options = testing::cached_options();
     options.threads = threads, options.bake = false;
     Renderer renderer(context, scene, options);
     std::vector<float> sum(std::size_t(k.width) * std::size_t(k.height) * 3);
@@ -262,5 +263,5 @@ TEST(DropDrawer, ThreadsChangeNoBit) {
   EXPECT_EQ(one.light(), three.light());
 }
 
-}  // namespace
+}  // namespace precipitation_test
 }  // namespace rubble

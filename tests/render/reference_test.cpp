@@ -16,7 +16,7 @@
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace reference_test {
 
 namespace fs = std::filesystem;
 
@@ -376,5 +376,5 @@ TEST(TileJournal, DoesNotTakeWhatWasChanged) {
   EXPECT_FALSE(TileJournal(folder.path.string(), "a").find(7, 10));
 }
 
-}  // namespace
+}  // namespace reference_test
 }  // namespace rubble::testing

@@ -8,15 +8,16 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/renderer.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace rendered_view_test {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
 RenderOptions small() {
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake_rays = 8;
   options.shadow_size = 256;
   options.texture_size = 16;
@@ -148,5 +149,5 @@ TEST(RenderedView, FramesHoldTheStreamsThatAreAskedFor) {
   EXPECT_EQ(frame.rgb.size(), frame.depth.size() * 3);
 }
 
-}  // namespace
+}  // namespace rendered_view_test
 }  // namespace rubble::testing

@@ -11,7 +11,7 @@
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace renderer_test {
 
 RenderOptions small(int threads) {
   RenderOptions options;
@@ -150,5 +150,5 @@ TEST(GlContext, DescribesItself) {
   EXPECT_EQ(context.info().version.find("4."), 0u);
 }
 
-}  // namespace
+}  // namespace renderer_test
 }  // namespace rubble::testing

@@ -7,10 +7,11 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/renderer.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace screen_pattern_test {
 
 constexpr int kSide = 192;
 constexpr int kFrames = 7;
@@ -34,7 +35,7 @@ struct Shot {
 };
 
 std::vector<Shot> fly(GlContext& context) {
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake = false, options.antialias = false;
   options.texture_size = 256;
   Renderer renderer(context, floor_scene(), options);
@@ -122,5 +123,5 @@ TEST(ScreenPattern, AFaintPatternOnThePixelGridIsFound) {
   EXPECT_GT(share_on_grid(shots), without + 0.05);
 }
 
-}  // namespace
+}  // namespace screen_pattern_test
 }  // namespace rubble::testing

@@ -14,7 +14,7 @@
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace sensor_pattern_test {
 
 constexpr int kSide = 200;
 constexpr std::size_t kPixels = std::size_t(kSide) * kSide;
@@ -235,5 +235,5 @@ TEST(JpegLoss, IsOfTheStoredImage) {
   EXPECT_NE(expected, whole);
 }
 
-}  // namespace
+}  // namespace sensor_pattern_test
 }  // namespace rubble::testing

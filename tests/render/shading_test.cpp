@@ -13,10 +13,11 @@
 #include "render/camera/lens.h"
 #include "render/renderer.h"
 #include "render/shading/wide_shader.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace shading_test {
 
 constexpr int kWidth = 186, kHeight = 143;  // no multiple of any width of registers
 
@@ -84,8 +85,7 @@ const std::vector<View>& views() {
 }
 
 RenderOptions plain() {
-  RenderOptions options;
-  options.threads = 2;
+  RenderOptions options = cached_options();
   options.texture_size = 128, options.shadow_size = 1024, options.bake_rays = 16;
   options.antialias = false;
   return options;
@@ -103,7 +103,7 @@ class Shading : public ::testing::TestWithParam<std::size_t> {
  protected:
   const View& view() const { return views()[GetParam()]; }
   Scene scene() const {
-    Scene heap = make_heap(120, 4);
+    Scene heap = make_heap(60, 4);
     view().change(heap);
     return heap;
   }
@@ -145,7 +145,7 @@ TEST(ShadingControl, SeesALittleMoreLight) {
   RenderOptions options = plain();
   options.fixed_exposure = 0.05;
   const View& view = views().front();
-  Scene heap = make_heap(120, 4);
+  Scene heap = make_heap(60, 4);
   view.change(heap);
   Renderer one(context, heap, options);
   options.fixed_exposure *= 1.03;
@@ -181,7 +181,7 @@ TEST(DeviceLight, IsThatOfARendererWhichDrewNothingBefore) {
   GlContext context;
   RenderOptions options = plain();
   options.shading = DrawnBy::device, options.fixed_exposure = 2;
-  Scene heap = make_heap(120, 4);
+  Scene heap = make_heap(60, 4);
   heap.light.intensity = 0, heap.lamp.on = true;
   const auto look = [](const Vec3& target) {
     return ViewRays{1000000000, pinhole(kWidth, kHeight, 120), look_at({1, 0.2, 0.6}, target)};
@@ -213,5 +213,5 @@ TEST(WideShaders, AreNamedWhereOneIsUnknown) {
   }
 }
 
-}  // namespace
+}  // namespace shading_test
 }  // namespace rubble::testing

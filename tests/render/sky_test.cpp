@@ -15,7 +15,7 @@
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace sky_test {
 
 double luminance(const Vec3f& c) {
   return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z);
@@ -209,5 +209,5 @@ TEST(Skies, LightTheGroundAlikeInBothRenderers) {
   }
 }
 
-}  // namespace
+}  // namespace sky_test
 }  // namespace rubble::testing

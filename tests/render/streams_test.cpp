@@ -11,10 +11,11 @@
 #include "kernel/base/portable_math.h"
 #include "render/renderer.h"
 #include "render/streams/image_streams.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace streams_test {
 
 std::string read(const std::string& path) {
   std::ifstream in(path);
@@ -93,7 +94,7 @@ TEST(Streams, StateSizeAndEncodingOfTheirValues) {
 // distance from the world's origin.
 TEST(PositionStream, LiesOnThePlanesThatAreSeen) {
   GlContext context;
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake = false;
   options.shadow_size = 64;
   options.texture_size = 16;
@@ -128,5 +129,5 @@ TEST(PositionStream, LiesOnThePlanesThatAreSeen) {
   EXPECT_GT(plane, 300);
 }
 
-}  // namespace
+}  // namespace streams_test
 }  // namespace rubble::testing

@@ -9,10 +9,11 @@
 #include "render/lighting/lighting.h"
 #include "render/passes/shadow_edge_pass.h"
 #include "render/renderer.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace sun_shadow_test {
 
 constexpr double kElevation = 60 * portable::kPi / 180;
 constexpr double kSlab = 0.01;  // thickness of what throws the shadow; unit: m
@@ -44,7 +45,7 @@ double expected_share(double x, double height) {
 }
 
 RenderOptions options(int threads = 1) {
-  RenderOptions out;
+  RenderOptions out = cached_options();
   out.bake = false, out.antialias = false, out.threads = threads;
   out.texture_size = 16;
   return out;
@@ -183,5 +184,5 @@ TEST(SunShadow, BlocksAreFoundWhereEdgesAre) {
   EXPECT_EQ(pyramid.range(x, y, x, y).most, 60000);
 }
 
-}  // namespace
+}  // namespace sun_shadow_test
 }  // namespace rubble::testing

@@ -8,15 +8,16 @@
 #include "kernel/base/portable_math.h"
 #include "render/camera/lens.h"
 #include "render/renderer.h"
+#include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
-namespace {
+namespace truth_test {
 
 constexpr double kPi = portable::kPi;
 
 RenderOptions plain() {
-  RenderOptions options;
+  RenderOptions options = cached_options();
   options.bake = false;
   options.shadow_size = 64;
   options.texture_size = 16;
@@ -263,5 +264,5 @@ TEST(Channels, AreLeftOutUnlessAskedFor) {
   EXPECT_TRUE(normals_of(frame).empty() && instances_of(frame).empty());
 }
 
-}  // namespace
+}  // namespace truth_test
 }  // namespace rubble::testing

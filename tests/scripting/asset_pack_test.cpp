@@ -8,15 +8,15 @@
 #include "tests/scripting/test_support.h"
 
 namespace rubble {
-namespace {
+namespace asset_pack_test {
 
 const std::vector<Material> kMaterials = {{"concrete", 2400, 0.8, "s"}, {"steel", 7850, 0.57, "s"}};
 
-class AssetPackTest : public testing::Test {
+class AssetPackTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
     for (const char* name : {"a.obj", "a.lod1.obj", "a.parts.obj", "b.stl"}) write(name, "");
@@ -234,7 +234,7 @@ TEST(Materials, TheBundledTable) {
 }
 
 TEST(Materials, MistakesHaveLines) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "materials_with_mistakes.lua";
+  const auto path = std::filesystem::path(::testing::TempDir()) / "materials_with_mistakes.lua";
   std::ofstream(path)
       << "return materials {\n  { name = 'a', density = 5, friction = 1, source = 's' "
          "},\n  { name = 'b', friction = 1, source = 's', colour = 1 },\n"
@@ -257,5 +257,5 @@ TEST(Materials, MistakesHaveLines) {
   std::filesystem::remove(path);
 }
 
-}  // namespace
+}  // namespace asset_pack_test
 }  // namespace rubble

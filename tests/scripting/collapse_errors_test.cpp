@@ -6,7 +6,7 @@
 #include "tests/scripting/test_support.h"
 
 namespace rubble {
-namespace {
+namespace collapse_errors_test {
 
 TEST(CollapseErrors, NameFileLineAndWhatWasMeant) {
   EXPECT_EQ(mission_error("return rubble.mission {\n  pile = rubble.collapse.lean_to { hieght = 1 },\n}"),
@@ -134,5 +134,5 @@ TEST(CollapseLibrary, EveryParameterIsDescribed) {
   }
 }
 
-}  // namespace
+}  // namespace collapse_errors_test
 }  // namespace rubble

@@ -15,7 +15,7 @@
 #include "scripting/scenario/scenario_schema.h"
 
 namespace rubble {
-namespace {
+namespace docs_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -205,5 +205,5 @@ TEST(JsonSchema, HoldsTheDefaults) {
   EXPECT_EQ(schema["properties"]["light"]["properties"]["type"]["default"], "directional");
 }
 
-}  // namespace
+}  // namespace docs_test
 }  // namespace rubble

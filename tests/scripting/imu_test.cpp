@@ -8,7 +8,7 @@
 #include "kernel/base/portable_math.h"
 
 namespace rubble {
-namespace {
+namespace imu_test {
 
 constexpr double kGravity = 9.81;
 
@@ -245,5 +245,5 @@ TEST(Imu, IsTheSameForTheSameSeedHoweverItIsAsked) {
   EXPECT_FALSE(whole[5].angular_velocity == other[5].angular_velocity);
 }
 
-}  // namespace
+}  // namespace imu_test
 }  // namespace rubble

@@ -5,7 +5,7 @@
 #include "tests/scripting/test_support.h"
 
 namespace rubble {
-namespace {
+namespace mission_test {
 
 TEST(Mission, EmptyOneHasEveryDefault) {
   const Mission mission = load_text("return rubble.mission {}");
@@ -323,5 +323,5 @@ TEST(MissionAssets, FurnitureIsNamedLikePiecesAndNeedsABuilding) {
             "(rubble.building{ furniture = {...} } makes one of four storeys)");
 }
 
-}  // namespace
+}  // namespace mission_test
 }  // namespace rubble

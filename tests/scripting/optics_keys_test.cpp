@@ -5,7 +5,7 @@
 #include "tests/scripting/test_support.h"
 
 namespace rubble::testing {
-namespace {
+namespace optics_keys_test {
 
 template <typename Change>
 std::string mistake(Change change) {
@@ -37,5 +37,5 @@ TEST(OpticsKeys, NothingIsSharpWithinTheFocalLength) {
             "camera.optics.focal_length, or 0");
 }
 
-}  // namespace
+}  // namespace optics_keys_test
 }  // namespace rubble::testing

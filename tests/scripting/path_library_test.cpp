@@ -9,7 +9,7 @@
 #include "tests/scripting/test_support.h"
 
 namespace rubble {
-namespace {
+namespace path_library_test {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
@@ -96,11 +96,11 @@ TEST(Paths, AFunctionIsAskedOnceAFrame) {
   EXPECT_NE(mission_error("return { trajectory = rubble.trajectory.along(function(t) while true do end end) }"), "");
 }
 
-class PathFiles : public testing::Test {
+class PathFiles : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }
@@ -292,5 +292,5 @@ TEST_F(PathFiles, MistakesInPlansHaveTheirLine) {
   EXPECT_NE(plan_error("storey 3\nstoreys 2 1\nwall 0 0 1 0 0.3\n").find("bad.txt:2: storeys"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace path_library_test
 }  // namespace rubble

@@ -8,7 +8,7 @@
 #include "scripting/mission.h"
 
 namespace rubble {
-namespace {
+namespace robot_keys_test {
 
 Scenario scenario_of(const std::string& text) { return load_mission_text(text, "m.lua").scenario; }
 
@@ -266,5 +266,5 @@ TEST(RobotControl, AnErrorHasItsLine) {
   }
 }
 
-}  // namespace
+}  // namespace robot_keys_test
 }  // namespace rubble

@@ -13,7 +13,7 @@
 #include "tests/scripting/test_support.h"
 
 namespace rubble {
-namespace {
+namespace sandbox_test {
 
 SandboxLimits small_limits() {
   SandboxLimits limits;
@@ -338,11 +338,11 @@ TEST(SandboxPrint, KeepsLinesAndHasALimit) {
             "h.lua:1: the script prints more than 1 MiB");
 }
 
-class SandboxInclude : public testing::Test {
+class SandboxInclude : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_ / "sub");
     write("sub/part.lua", "return { n = 3 }");
@@ -389,5 +389,5 @@ TEST_F(SandboxInclude, OnlyFilesOfTheScriptsFolder) {
   EXPECT_NE(error("rubble.include('endless.lua')"), "");
 }
 
-}  // namespace
+}  // namespace sandbox_test
 }  // namespace rubble

@@ -9,7 +9,7 @@
 #include "tests/scripting/test_support.h"
 
 namespace rubble {
-namespace {
+namespace scenario_test {
 
 // Every member away from its default.
 Scenario unusual() {
@@ -173,5 +173,5 @@ TEST(Light, RandomRotationFollowsTheSeed) {
   }
 }
 
-}  // namespace
+}  // namespace scenario_test
 }  // namespace rubble

@@ -7,7 +7,7 @@
 #include "tests/scripting/bundled_missions.h"
 
 namespace rubble {
-namespace {
+namespace scripts_test {
 
 const std::string kScripts = RUBBLE_SOURCE_DIR "/scripts";
 
@@ -84,5 +84,5 @@ TEST(Scripts, FeaturesAreShown) {
   EXPECT_EQ(load("published_names.lua").scenario.pile.layers, 2);
 }
 
-}  // namespace
+}  // namespace scripts_test
 }  // namespace rubble

@@ -9,7 +9,7 @@
 #include "tests/scripting/dead_reckoning.h"
 
 namespace rubble {
-namespace {
+namespace simulated_path_test {
 
 constexpr double kStep = 1.0 / 240, kGravity = 9.81;
 
@@ -116,5 +116,5 @@ TEST(ImuOnASimulatedBody, ReadingsAtInstantsWouldNot) {
   EXPECT_GT(reckon(path, 100, 5).worst, 0.2);
 }
 
-}  // namespace
+}  // namespace simulated_path_test
 }  // namespace rubble

@@ -12,7 +12,7 @@
 #include "tests/scripting/test_support.h"
 
 namespace rubble {
-namespace {
+namespace smooth_path_test {
 
 constexpr double kGoal = 0.01;  // after 10 s; unit: m
 const std::string kScripts = RUBBLE_SOURCE_DIR "/scripts";
@@ -198,5 +198,5 @@ TEST(TrajectoryErrors, TimesTooCloseToBeTold) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace smooth_path_test
 }  // namespace rubble

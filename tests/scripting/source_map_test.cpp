@@ -5,7 +5,7 @@
 #include "scripting/sandbox/lua_tokens.h"
 
 namespace rubble {
-namespace {
+namespace source_map_test {
 
 SourceMap map_of(const std::string& text) { return SourceMap(text, "mission"); }
 
@@ -117,5 +117,5 @@ TEST(SourceMap, DeepNestingIsNoTrouble) {
   EXPECT_EQ(map_of(deep).line_of("x"), 1);
 }
 
-}  // namespace
+}  // namespace source_map_test
 }  // namespace rubble

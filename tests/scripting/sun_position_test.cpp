@@ -9,7 +9,7 @@
 #include "tests/scripting/test_support.h"
 
 namespace rubble::testing {
-namespace {
+namespace sun_position_test {
 
 SunPosition sun_at(double latitude, double longitude, const char* utc) {
   const auto seconds = parse_utc(utc);
@@ -122,5 +122,5 @@ TEST(SkyKeys, NameWhatContradicts) {
             "light.time: only the sun follows from place and time: expected light.type of \"sun\"");
 }
 
-}  // namespace
+}  // namespace sun_position_test
 }  // namespace rubble::testing

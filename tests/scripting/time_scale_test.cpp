@@ -7,7 +7,7 @@
 #include "tests/scripting/test_support.h"
 
 namespace rubble {
-namespace {
+namespace time_scale_test {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
@@ -126,5 +126,5 @@ TEST(Limits, APauseStaysAPause) {
   EXPECT_LT(CameraPath(spec).duration(), 7.2);
 }
 
-}  // namespace
+}  // namespace time_scale_test
 }  // namespace rubble

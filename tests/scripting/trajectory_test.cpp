@@ -9,7 +9,7 @@
 #include "tests/scripting/test_support.h"
 
 namespace rubble {
-namespace {
+namespace trajectory_test {
 
 constexpr std::int64_t kEpoch = 1'000'000'000;
 
@@ -243,5 +243,5 @@ TEST(CameraPath, IsTheFramesPathAtAnyTime) {
   EXPECT_FALSE(path.at(0.55).translation == path.at(0.5).translation);
 }
 
-}  // namespace
+}  // namespace trajectory_test
 }  // namespace rubble

@@ -8,7 +8,7 @@
 #include "kernel/base/random.h"
 
 namespace rubble {
-namespace {
+namespace distance_transform_test {
 
 VoxelGrid make_grid(int x, int y, int z) {
   VoxelGrid grid;
@@ -63,5 +63,5 @@ TEST(DistanceTransform, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(find_nearest_seeds(grid, seeds, one), find_nearest_seeds(grid, seeds, three));
 }
 
-}  // namespace
+}  // namespace distance_transform_test
 }  // namespace rubble

@@ -11,7 +11,7 @@
 #include "void_scenes.h"
 
 namespace rubble {
-namespace {
+namespace seen_cells_test {
 
 VoxelGrid small_grid() {
   VoxelGrid grid;
@@ -122,5 +122,5 @@ TEST(WaysThrough, AreTheLengthsOfTheShortestOnes) {
   EXPECT_LT(way_to({7, 0, 0.5}), 9.5f);
 }
 
-}  // namespace
+}  // namespace seen_cells_test
 }  // namespace rubble

@@ -23,7 +23,7 @@
 #include "void_scenes.h"
 
 namespace rubble {
-namespace {
+namespace void_files_test {
 
 std::string make_folder() {
   std::string pattern = (std::filesystem::temp_directory_path() / "rubble-voids-XXXXXX").string();
@@ -185,5 +185,5 @@ TEST_F(VoidFiles, PicturesShowTheCut) {
   EXPECT_GT(plan.width, 600);
 }
 
-}  // namespace
+}  // namespace void_files_test
 }  // namespace rubble

@@ -9,7 +9,7 @@
 #include "void_scenes.h"
 
 namespace rubble {
-namespace {
+namespace void_map_test {
 
 using testing::VoidScene;
 constexpr double kPi = 3.14159265358979323846;
@@ -181,5 +181,5 @@ TEST(VoidMap, RefusesARobotSmallerThanAVoxel) {
   }
 }
 
-}  // namespace
+}  // namespace void_map_test
 }  // namespace rubble

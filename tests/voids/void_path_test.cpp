@@ -10,7 +10,7 @@
 #include "void_scenes.h"
 
 namespace rubble {
-namespace {
+namespace void_path_test {
 
 using testing::VoidScene;
 
@@ -102,5 +102,5 @@ TEST(VoidPath, FindsTheNearestPlaceWithRoom) {
   EXPECT_FALSE(find_nearest_place(space, {0.5, 0.5, 0.5}, 0.8, 0.3).found);
 }
 
-}  // namespace
+}  // namespace void_path_test
 }  // namespace rubble

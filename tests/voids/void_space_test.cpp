@@ -11,7 +11,7 @@
 #include "void_scenes.h"
 
 namespace rubble {
-namespace {
+namespace void_space_test {
 
 using testing::VoidScene;
 constexpr double kPi = 3.14159265358979323846;
@@ -165,5 +165,5 @@ TEST(VoidSpace, NamesOptionsOutOfRange) {
   EXPECT_THROW(calc_void_space(scene.pile, {}, options_with(0.1, 0.1)), InputError);
 }
 
-}  // namespace
+}  // namespace void_space_test
 }  // namespace rubble

@@ -16,6 +16,7 @@ ProgramText program_text() {
   text.environment = {
       {"RUBBLE_ASSETS", "Folder of the bundled packs, instead of `assets` beside the program or "
                         "`../share/rubble/assets`"},
+      {"RUBBLE_THREADS", "Number of threads where --threads is not given, instead of the number of processors"},
       {"RUBBLE_CACHE", "Folder of the cache, instead of ~/.cache/rubble; `off`: no cache"},
       {"RUBBLE_EGL_DEVICE", "Number of the EGL device that draws, as --gl-device"}};
   return text;

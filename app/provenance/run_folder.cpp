@@ -88,9 +88,12 @@ RunFolder RunFolder::open_unfinished(const std::string& path) {
   std::error_code failed;
   if (!fs::is_directory(path, failed))
     throw InputError({path, 0, "", "no such folder", "the output folder of a run", "", ""});
-  if (fs::exists(path + "/manifest.json", failed))
+  if (fs::exists(path + "/manifest.json", failed)) {
+    // Killed between its last two steps, the run left its notes.
+    if (fs::is_directory(path + "/unfinished", failed)) remove_unfinished(path);
     throw InputError({path, 0, "", "the run in it is finished; nothing is left to do", "", "",
                       "`rubble verify " + path + "` checks it"});
+  }
   throw InputError({path, 0, "", "there is no unfinished run in this folder", "", "",
                     "if the run was killed before it had read its mission, start it again with `rubble run`"});
 }

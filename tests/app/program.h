@@ -14,7 +14,8 @@ struct Outcome {
   std::string out, err;
 };
 
-// Runs `rubble ARGUMENTS` through the shell, from the root of the sources.
+// Runs `rubble ARGUMENTS` from the root of the sources: in a process forked from this one, or by the shell where the
+// arguments need one, where `before` stands before the program's name, or where this process has other threads.
 Outcome run_rubble(const std::string& arguments, const std::string& before = "");
 
 // With its standard output elsewhere, as in ">/dev/full".

@@ -28,9 +28,11 @@ void kill_and_resume(std::uint64_t seed, int kills, const ScratchFolder& scratch
   };
   for (int i = 0; i < kills && !fs::exists(folder + "/manifest.json"); ++i)
     run_rubble_and_signal(next(), random.uniform(0, seconds), SIGKILL);
-  if (!fs::exists(folder + "/manifest.json") || fs::exists(folder + "/unfinished")) {
+  if (!fs::exists(folder + "/manifest.json") || fs::exists(folder + "/unfinished/run.json")) {
     const Outcome last = run_rubble(next());
     ASSERT_EQ(last.exit_code, 0) << last.err;
+  } else if (fs::exists(folder + "/unfinished")) {  // killed between the last two steps
+    EXPECT_IN("is finished", run_rubble("resume " + folder).err);
   }
   EXPECT_EQ(reproducible(folder), reproducible(scratch / command));
   for (const auto& [name, hash] : read_outputs(scratch / command))

@@ -121,9 +121,6 @@ void compare(const char* name, const Scene& scene, const SnakeGait& gait, int se
 
 TEST(RobotJudge, SidewindingIsAsFastAsInMujoco) { compare("sidewinding", flat(), sidewinding(), 3); }
 TEST(RobotJudge, RollingIsAsFastAsInMujoco) { compare("rolling", flat(), rolling(), 3); }
-TEST(RobotJudge, UndulationIsAsFastAsInMujoco) {
-  compare("undulation", flat(), lateral_undulation(), 3);
-}
 TEST(NightlyRobotJudge, GaitsAreAsFastAsInMujoco) {
   compare("sidewinding", flat(), sidewinding(), 10);
   compare("rolling", flat(), rolling(), 10);
@@ -174,7 +171,7 @@ TEST(RobotJudge, AFallingChainGoesWhereMujocosGoes) {
 }
 
 // Step times side by side, in turns: the snake on the ground.
-TEST(RobotJudge, StepTimesSideBySide) {
+TEST(NightlyRobotJudge, StepTimesSideBySide) {
   const RobotModel model = make_judged_snake();
   World world = make_robot_world();
   const int robot = world.add_robot(model, {{}, {0, 0, 0.03}});

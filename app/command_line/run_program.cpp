@@ -1,0 +1,60 @@
+#include "app/command_line/run_program.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+#include <system_error>
+
+#include "app/command_line/command.h"
+#include "app/support/stop.h"
+#include "kernel/base/text.h"
+
+namespace rubble {
+namespace {
+
+// A descriptor that is closed would become the number of the first file that is opened, and what is
+// printed would go into that. One that only reads in its place makes printing fail, as it should.
+void reserve_standard_files() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) < 0 && errno == EBADF) open("/dev/null", O_RDONLY);
+}
+
+// What was printed is a result: a full disk must not look like success.
+ExitCode check_standard_output(ExitCode code) {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
+  const std::string reason = errno ? ": " + std::generic_category().message(errno) : "";
+  std::fprintf(stderr, "\nrubble: cannot write to standard output%s\n", reason.c_str());
+  return code == ExitCode::done ? ExitCode::failure : code;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of write(), like a full disk
+  reserve_standard_files();
+  try {
+    return int(check_standard_output(run_command_line(argc, argv, all_commands())));
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "\n%s\n", error.what());
+    return int(ExitCode::bad_input);
+  } catch (const Stopped& stopped) {
+    std::fprintf(stderr, "\n%s\n", stopped.what());
+    return int(ExitCode::stopped);
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "\nrubble: out of memory\n");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "\nrubble: %s\n", printable(error.what()).c_str());
+  }
+  return int(ExitCode::failure);
+}
+
+}  // namespace rubble

@@ -78,8 +78,9 @@ void check_parts(const Shape& shape, AssetReport& report) {
   }
 }
 
-void check_hull(const TriangleMesh& mesh, const Shape& shape, AssetReport& report) {
+void check_hull(const Asset& asset, const TriangleMesh& mesh, const Shape& shape, AssetReport& report) {
   report.error = calc_hull_error(mesh, shape);
+  if (asset.decompose) return;  // load_asset() says where its parts do not fit
   double area = 0;
   for (const auto& t : mesh.triangles) {
     const Vec3 a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
@@ -89,7 +90,8 @@ void check_hull(const TriangleMesh& mesh, const Shape& shape, AssetReport& repor
   if (out > kLooseHull)
     report.warnings.push_back(
         "the parts stand out of the mesh by " + millimetres(out) +
-        " in the mean: pieces will seem to float; try collision = \"decompose\"");
+        " in the mean: pieces will seem to float; " +
+        (asset.parts.empty() ? "try collision = \"decompose\"" : "bring the parts of " + asset.parts + " nearer to it"));
   if (in > kLooseHull)
     report.warnings.push_back("the parts stay behind the mesh by " + millimetres(in) +
                               " in the mean: pieces will sink into it");
@@ -110,7 +112,7 @@ AssetReport check_asset(const Asset& asset, AssetLibrary& library) {
     report.volume = shape.volume.volume;
     report.mass = report.volume * loaded.type.density;
     check_parts(shape, report);
-    if (report.closed) check_hull(mesh, shape, report);
+    if (report.closed) check_hull(asset, mesh, shape, report);
     library.types.push_back(loaded.type);
     library.meshes.push_back(loaded.mesh);
   } catch (const InputError& error) {

@@ -39,20 +39,30 @@ std::string describe_length(double metres) {
 // Of a part that its file gives more corners than collision takes.
 constexpr double kSimplified = 0.0025;  // of its size: how much of it is lost at most, if it has not the corners for it
 
+constexpr std::size_t kManyPoints = 5000;  // whose hull takes long if it has many corners
+constexpr double kHullGrid = 1e-5;         // of its size: corners that stand out by less do not count then
+
+// The number of corners that is too many, in words; empty: there are few enough.
+std::string too_many_corners(const ConvexPart& part, double size) {
+  if (part.points.size() <= kMostPartCorners) return "";
+  if (part.points.size() > kManyPoints)
+    return simplify_hull(part.points, kMostPartCorners, kHullGrid * size).error > kHullGrid * size ? "many" : "";
+  const std::size_t corners = calc_hull(part.points).points.size();
+  return corners > kMostPartCorners ? std::to_string(corners) : "";
+}
+
 void simplify_part(const std::string& file, ConvexPart& part, std::vector<std::string>& warnings) {
-  if (part.points.size() <= kMostPartCorners) return;
+  Aabb box;
+  for (const Vec3& p : part.points) box.include(p);
+  const Vec3 extent = box.max - box.min;
+  const double size = std::max({extent.x, extent.y, extent.z});
   try {
-    const std::size_t corners = calc_hull(part.points).points.size();
-    if (corners <= kMostPartCorners) return;
-    Aabb box;
-    for (const Vec3& p : part.points) box.include(p);
-    const Vec3 size = box.max - box.min;
-    const double longest = std::max({size.x, size.y, size.z});
-    SimpleHull simple = simplify_hull(part.points, kMostPartCorners, kSimplified * longest);
-    warnings.push_back(file + ": its hull has " + std::to_string(corners) + " corners, more than the " +
-                       std::to_string(kMostPartCorners) + " that a part may have: it collides with " +
-                       std::to_string(simple.points.size()) + " of them, from which no other stands out by more than " +
-                       describe_length(simple.error));
+    const std::string corners = too_many_corners(part, size);
+    if (corners.empty()) return;
+    SimpleHull simple = simplify_hull(part.points, kMostPartCorners, kSimplified * size);
+    warnings.push_back(file + ": its hull has " + corners + " corners, more than the " + std::to_string(kMostPartCorners) +
+                       " that a part may have: it collides with " + std::to_string(simple.points.size()) +
+                       " of them, from which no other stands out by more than " + describe_length(simple.error));
     part.points = std::move(simple.points);
   } catch (const std::invalid_argument&) {
     // Flat: compile_shape() says so.

@@ -29,22 +29,28 @@ namespace {
 constexpr double kNotedOverlap = 0.005;
 constexpr std::size_t kNotedOverlaps = 3;  // that are named
 
-// Nobody sees such a thing in a picture, and what can move is thrown apart.
-void note_placed_overlaps(const Pile& pile, RunContext& context) {
-  const std::vector<PlacedOverlap> overlaps = find_placed_overlaps(pile.types, pile.placed, kNotedOverlap);
-  for (std::size_t i = 0; i < std::min(overlaps.size(), kNotedOverlaps); ++i) {
-    const auto name = [&pile](int placed) {
-      const Placement& placement = pile.placed[std::size_t(placed)];
-      return "pile.placed[" + std::to_string(placed + 1) + "] (" + pile.types[std::size_t(placement.type)].name +
-             (placement.fixed ? ", fixed)" : ")");
-    };
-    char depth[64];
-    std::snprintf(depth, sizeof depth, "%.0f mm", overlaps[i].depth * 1000);
-    const std::size_t more = i + 1 == kNotedOverlaps ? overlaps.size() - kNotedOverlaps : 0;
-    context.warnings.push_back(name(overlaps[i].a) + " and " + name(overlaps[i].b) + " reach " + depth +
-                               " into each other from the start" +
-                               (more > 0 ? "; so do " + std::to_string(more) + " more pairs, less deep" : ""));
+// Nobody sees such a thing in a picture, and what can move is thrown apart. Of fixed pieces the deepest pair is named.
+void note_placed_overlaps(const ResolvedMission& mission, const Pile& pile, RunContext& context) {
+  // The mission's own come first, before terrain and furniture.
+  const std::size_t own = std::min(pile.placed.size(), mission.pile_scenario.pile.placed.size());
+  const std::vector<Placement> placed(pile.placed.begin(), pile.placed.begin() + std::ptrdiff_t(own));
+  const auto name = [&](int i) {
+    const Placement& placement = placed[std::size_t(i)];
+    return "pile.placed[" + std::to_string(i + 1) + "] (" + pile.types[std::size_t(placement.type)].name +
+           (placement.fixed ? ", fixed)" : ")");
+  };
+  std::size_t told = 0, fixed = 0;
+  for (const PlacedOverlap& overlap : find_placed_overlaps(pile.types, placed, kNotedOverlap)) {
+    const bool both_fixed = placed[std::size_t(overlap.a)].fixed && placed[std::size_t(overlap.b)].fixed;
+    if (both_fixed ? fixed++ > 0 : told++ >= kNotedOverlaps) continue;
+    char depth[32];
+    std::snprintf(depth, sizeof depth, "%.0f mm", overlap.depth * 1000);
+    context.warnings.push_back(name(overlap.a) + " and " + name(overlap.b) + " reach " + depth +
+                               " into each other from the start");
   }
+  const std::size_t more = (told > kNotedOverlaps ? told - kNotedOverlaps : 0) + (fixed > 1 ? fixed - 1 : 0);
+  if (more > 0)
+    context.warnings.push_back(std::to_string(more) + " more pairs of pile.placed reach into each other, less deep");
 }
 
 constexpr double kStandsWithin = 0.1;   // of its place as built: a piece that has not fallen; unit: m
@@ -58,8 +64,11 @@ bool has_cause(const CollapseCause& c) {
 // A building that stands has come to rest, too, but nobody gives it a cause for that.
 void note_standing_building(const Pile& pile, const PileState& state, RunContext& context) {
   if (!pile.building.given() || !has_cause(pile.building.cause)) return;
-  const std::vector<StructurePiece> pieces = make_damaged_building(pile.building).pieces;
-  const std::size_t first = pile.placed.size();
+  const Structure building = make_damaged_building(pile.building);
+  const std::vector<StructurePiece>& pieces = building.pieces;
+  const int type = pile.building_first_type, end = type + int(building.types.size());
+  std::size_t first = 0;  // of its pieces, after what is placed
+  while (first < state.pieces.size() && (state.pieces[first].type < type || state.pieces[first].type >= end)) ++first;
   if (state.pieces.size() < first + pieces.size()) return;
   std::size_t fallen = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i)
@@ -219,7 +228,7 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
   const std::uint64_t work = hash_work_of(mission, pile);
   const bool recorded = needs_track(mission.scenario);
   const bool loaded = folder.has_pile_of(work) && (!recorded || folder.has("track.bin"));
-  note_placed_overlaps(pile, context);
+  note_placed_overlaps(mission, pile, context);
   SettledPile settled = loaded ? load(mission.pile_scenario, recorded, folder)
                                : settle_from_checkpoint_or_start(mission, pile, folder, context);
   throw_if_stopped(folder.path());

@@ -312,12 +312,13 @@ Decomposition decompose(const TriangleMesh& mesh, const DecomposeOptions& option
   if (box.empty() || !(norm(box.max - box.min) > 0)) fail_without_volume();
   const Solid solid(turned, options.resolution);
   std::vector<Hull> hulls;
-  for (const Points& points : find_parts(turned, solid, options)) {
-    Points part = make_part(points, options);
+  for (Points& points : find_parts(turned, solid, options)) {
+    for (Vec3& p : points) p = mesh_from_frame * p;
+    Points part = make_part(points, options);  // which keeps its length, width and height
     if (part.empty()) continue;
+    result.parts.push_back({part});
+    for (Vec3& p : part) p = frame_from_mesh * p;
     hulls.push_back(calc_hull(part));
-    for (Vec3& p : part) p = mesh_from_frame * p;
-    result.parts.push_back({std::move(part)});
   }
   if (result.parts.empty()) fail_without_volume();
   result.volume = solid.volume();

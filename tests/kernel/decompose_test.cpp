@@ -133,7 +133,7 @@ TEST(Decompose, LeavesTheSpaceUnderATableFree) {
   EXPECT_NEAR(volume_of(parts), expected, 0.15 * expected);
   // The negative control: one part would hold ten times as much.
   DecomposeOptions one;
-  one.max_parts = one.most_parts = 1;
+  one.max_parts = one.most_parts = 1, one.resolution = 32;
   EXPECT_GT(volume_of(decompose(table, one).parts), 5 * expected);
 }
 
@@ -259,7 +259,7 @@ TEST(Decompose, KeepsHollowsOpen) {
     ASSERT_TRUE(is_closed(hollow.mesh) && volume > 0);
     const Decomposition made = decompose(hollow.mesh, options);
     EXPECT_LE(made.parts.size(), 64u);
-    EXPECT_LT(volume_of(made.parts), 1.15 * volume);
+    EXPECT_LT(volume_of(made.parts), 1.25 * volume) << "parts may overlap";
     EXPECT_GT(volume_of(made.parts), 0.98 * volume);
     EXPECT_LT(made.misfit.outside, 0.12 * volume);
     for (const Vec3& point : hollow.free) EXPECT_FALSE(is_inside(made.parts, point)) << point.x << ", " << point.y << ", " << point.z;

@@ -95,7 +95,8 @@ void warn_of_misfit(const Asset& asset, const TriangleMesh& mesh, const Decompos
 }
 
 PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnits& units,
-                    MeshImporter& importer, bool& exact, std::vector<std::string>& warnings) {
+                    MeshImporter& importer, LoadedAsset& loaded) {
+  std::vector<std::string>& warnings = loaded.warnings;
   PieceType type;
   type.name = asset.name;
   type.density = asset.density;
@@ -104,7 +105,7 @@ PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnit
     Decomposition made = decompose_cached(mesh, DiskCache(DiskCache::usual_folder()));
     warn_of_misfit(asset, mesh, made, warnings);
     type.parts = std::move(made.parts);
-    exact = made.exact;
+    loaded.exact_parts = made.exact, loaded.parts_gap = made.misfit.gap;
   } else if (asset.parts.empty()) {
     type.parts.emplace_back();
     for (const Vec3f& p : mesh.positions) type.parts[0].points.push_back(Vec3(p));
@@ -209,7 +210,7 @@ LoadedAsset load_asset(const Asset& asset, MeshImporter& importer) {
   }
   warn_of_size(asset, mesh->levels.front(), loaded.warnings);
   warn_of_surface_appearances(asset, surfaces, loaded.warnings);
-  loaded.type = make_type(asset, mesh->levels.front(), units, importer, loaded.exact_parts, loaded.warnings);
+  loaded.type = make_type(asset, mesh->levels.front(), units, importer, loaded);
   loaded.mesh = std::move(mesh);
   return loaded;
 }

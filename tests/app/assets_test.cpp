@@ -321,6 +321,8 @@ TEST(AssetsCheck, DecomposesAndKeepsThePartsOnDisk) {
   EXPECT_LT(cut.at("parts_outside_mesh_m3"), 0.01);
   EXPECT_LT(cut.at("mesh_outside_parts_m3"), 0.005);
   EXPECT_GE(cut.at("parts"), 5);
+  EXPECT_EQ(cut.at("parts_farthest_from_mesh_m"), 0) << "boxes are cut without error";
+  EXPECT_FALSE(hull.contains("parts_farthest_from_mesh_m"));
 
   // The second run reads what the first one kept; a damaged entry is noticed and made anew.
   std::vector<std::filesystem::path> entries;

@@ -28,6 +28,7 @@ struct AssetReport {
   std::size_t parts = 0, corners = 0;  // corners: of the part that has most
   double thinnest = 0;                 // unit: m
   HullError error;                     // of closed meshes
+  double gap = -1;                     // of parts that are cut from the mesh, from it; unit: m
   std::vector<std::size_t> triangles;
   std::vector<std::string> errors, warnings;
 };
@@ -107,6 +108,7 @@ AssetReport check_asset(const Asset& asset, AssetLibrary& library) {
     report.size = mesh.bounds().max - mesh.bounds().min;
     report.closed = is_closed(mesh);
     report.warnings.insert(report.warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
+    if (asset.decompose) report.gap = loaded.parts_gap;
     check_levels(*loaded.mesh, report);
     const Shape shape = compile_shape(loaded.type, asset.name);
     report.volume = shape.volume.volume;
@@ -196,6 +198,7 @@ void print_json(const AssetPack& pack, const std::vector<AssetReport>& reports,
       entry["parts_outside_mesh_m3"] = r.error.outside;
       entry["mesh_outside_parts_m3"] = r.error.inside;
     }
+    if (r.gap >= 0) entry["parts_farthest_from_mesh_m"] = r.gap;
     entry["errors"] = r.errors;
     entry["warnings"] = r.warnings;
     list.push_back(std::move(entry));

@@ -74,7 +74,7 @@ constexpr double kNotedExcess = 0.1;   // of the mesh's volume: of the parts out
 constexpr double kNotedLack = 0.05;    // likewise: of it outside the parts
 constexpr double kFineGap = 0.01;      // of the mesh's size: parts that stand out by less are near enough, however thin it is
 constexpr double kNotedGap = 0.03;     // likewise: parts that stand out by more close a hollow, however small
-constexpr double kThinPart = 0.012;    // unit: m
+constexpr double kThinPart = 0.006;    // half of what thin parts are widened to; unit: m
 
 void warn_of_misfit(const Asset& asset, const TriangleMesh& mesh, const Decomposition& made,
                     std::vector<std::string>& warnings) {
@@ -82,7 +82,7 @@ void warn_of_misfit(const Asset& asset, const TriangleMesh& mesh, const Decompos
   const Vec3 extent = mesh.bounds().max - mesh.bounds().min;
   const double size = std::max({extent.x, extent.y, extent.z});
   const double outside = made.misfit.outside / made.volume, inside = made.misfit.inside / made.volume;
-  const bool far = made.misfit.gap > std::max(kThinPart, kNotedGap * size);
+  const bool far = made.misfit.gap > std::max(2 * kThinPart, kNotedGap * size);
   const bool large = outside > kNotedExcess && made.misfit.gap > std::max(kThinPart, kFineGap * size);
   if (!far && !large && inside <= kNotedLack) return;
   std::string text = asset.meshes.front() + ": its " + std::to_string(made.parts.size()) + " convex parts ";

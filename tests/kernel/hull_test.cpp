@@ -173,10 +173,11 @@ TEST(SimplifyHull, KeepsItsErrorAndItsLength) {
   EXPECT_EQ(coarse.points.size(), 64u);
   EXPECT_GT(coarse.error, fine.error);
   for (const SimpleHull* hull : {&fine, &coarse}) {
+    const std::vector<HullPlane> planes = calc_planes(calc_hull(hull->points));
     double outside = 0;
     for (const Vec3& p : ball) {
       double height = -1;
-      for (const HullPlane& plane : calc_planes(calc_hull(hull->points)))
+      for (const HullPlane& plane : planes)
         height = std::max(height, dot(plane.normal, p) - plane.offset);
       outside = std::max(outside, height);
     }

@@ -18,6 +18,7 @@ set(RUBBLE_PUBLIC_HEADERS
   kernel/base/random.h
   kernel/geometry/decompose.h
   kernel/geometry/hull.h
+  kernel/geometry/simplify_hull.h
   kernel/model/assembly.h
   kernel/model/building.h
   kernel/model/everting_tube.h
@@ -44,11 +45,11 @@ set(RUBBLE_LIBRARIES rubble_base rubble_kernel rubble_files)
 if(TARGET rubble_voids)
   list(APPEND RUBBLE_LIBRARIES rubble_queries rubble_voids)
   list(APPEND RUBBLE_PUBLIC_HEADERS
+    kernel/geometry/voxel_grid.h
     kernel/queries/queries.h
     kernel/voids/void_map.h
     kernel/voids/void_path.h
     kernel/voids/void_space.h
-    kernel/voids/voxel_grid.h
     kernel/voids/widest_path.h)
 endif()
 

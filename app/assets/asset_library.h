@@ -50,6 +50,8 @@ AssetLibrary load_assets(const Provenance& provenance, const std::vector<std::st
 struct LoadedAsset {
   PieceType type;
   std::shared_ptr<const SceneMesh> mesh;
+  bool exact_parts = false;  // cut by decompose() without any error
+  double parts_gap = 0;      // largest distance of parts that decompose() made from the mesh; unit: m
   std::vector<std::string> warnings;  // e.g. that the mesh is not closed; each begins with a file
 };
 LoadedAsset load_asset(const Asset& asset, MeshImporter& importer);

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <cstdio>
 #include <map>
+#include <stdexcept>
 
 #include "app/assets/assemblies.h"
 #include "app/assets/decompose_cache.h"
-#include "app/assets/hull_error.h"
 #include "app/assets/material_variant.h"
 #include "app/assets/placed_box.h"
 #include "app/assets/surface_choice.h"
@@ -15,20 +15,97 @@
 #include "io/mesh/mesh_file.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/mesh_edges.h"
+#include "kernel/geometry/hull.h"
+#include "kernel/geometry/shape.h"
+#include "kernel/geometry/simplify_hull.h"
 #include "render/materials/surface_appearance.h"
 #include "scripting/schema/schema.h"
 
 namespace rubble {
 namespace {
 
+std::string describe_share(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.0f %%", 100 * share);
+  return text;
+}
+
+std::string describe_length(double metres) {
+  char text[32];
+  metres < 0.1 ? std::snprintf(text, sizeof text, "%.3g mm", 1000 * metres) : std::snprintf(text, sizeof text, "%.3g m", metres);
+  return text;
+}
+
+// Of a part that its file gives more corners than collision takes.
+constexpr double kSimplified = 0.0025;  // of its size: how much of it is lost at most, if it has not the corners for it
+
+constexpr std::size_t kManyPoints = 5000;  // whose hull takes long if it has many corners
+constexpr double kHullGrid = 1e-5;         // of its size: corners that stand out by less do not count then
+
+// The number of corners that is too many, in words; empty: there are few enough.
+std::string too_many_corners(const ConvexPart& part, double size) {
+  if (part.points.size() <= kMostPartCorners) return "";
+  if (part.points.size() > kManyPoints)
+    return simplify_hull(part.points, kMostPartCorners, kHullGrid * size).error > kHullGrid * size ? "many" : "";
+  const std::size_t corners = calc_hull(part.points).points.size();
+  return corners > kMostPartCorners ? std::to_string(corners) : "";
+}
+
+void simplify_part(const std::string& file, ConvexPart& part, std::vector<std::string>& warnings) {
+  Aabb box;
+  for (const Vec3& p : part.points) box.include(p);
+  const Vec3 extent = box.max - box.min;
+  const double size = std::max({extent.x, extent.y, extent.z});
+  try {
+    const std::string corners = too_many_corners(part, size);
+    if (corners.empty()) return;
+    SimpleHull simple = simplify_hull(part.points, kMostPartCorners, kSimplified * size);
+    warnings.push_back(file + ": its hull has " + corners + " corners, more than the " + std::to_string(kMostPartCorners) +
+                       " that a part may have: it collides with " + std::to_string(simple.points.size()) +
+                       " of them, from which no other stands out by more than " + describe_length(simple.error));
+    part.points = std::move(simple.points);
+  } catch (const std::invalid_argument&) {
+    // Flat: compile_shape() says so.
+  }
+}
+
+// What of a decomposition is worth a word. A part is at least as thick as collision needs, which a thin sheet is not.
+constexpr double kNotedExcess = 0.1;   // of the mesh's volume: of the parts outside it
+constexpr double kNotedLack = 0.05;    // likewise: of it outside the parts
+constexpr double kFineGap = 0.01;      // of the mesh's size: parts that stand out by less are near enough, however thin it is
+constexpr double kNotedGap = 0.03;     // likewise: parts that stand out by more close a hollow, however small
+constexpr double kThinPart = 0.006;    // half of what thin parts are widened to; unit: m
+
+void warn_of_misfit(const Asset& asset, const TriangleMesh& mesh, const Decomposition& made,
+                    std::vector<std::string>& warnings) {
+  if (made.exact || !(made.volume > 0)) return;
+  const Vec3 extent = mesh.bounds().max - mesh.bounds().min;
+  const double size = std::max({extent.x, extent.y, extent.z});
+  const double outside = made.misfit.outside / made.volume, inside = made.misfit.inside / made.volume;
+  const bool far = made.misfit.gap > std::max(2 * kThinPart, kNotedGap * size);
+  const bool large = outside > kNotedExcess && made.misfit.gap > std::max(kThinPart, kFineGap * size);
+  if (!far && !large && inside <= kNotedLack) return;
+  std::string text = asset.meshes.front() + ": its " + std::to_string(made.parts.size()) + " convex parts ";
+  if (far || large)
+    text += "hold " + describe_share(outside) + " more than the mesh and stand out of it by up to " +
+            describe_length(made.misfit.gap) + ": pieces will keep apart that would touch";
+  else
+    text += "lack " + describe_share(inside) + " of the mesh: pieces will sink into it";
+  warnings.push_back(text + "; name parts of your own by collision = { parts = FILE }, or make it of several assets");
+}
+
 PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnits& units,
-                    MeshImporter& importer, std::vector<std::string>& warnings) {
+                    MeshImporter& importer, LoadedAsset& loaded) {
+  std::vector<std::string>& warnings = loaded.warnings;
   PieceType type;
   type.name = asset.name;
   type.density = asset.density;
   type.friction = asset.friction;
   if (asset.decompose) {
-    type.parts = decompose_cached(mesh, DiskCache(DiskCache::usual_folder()));
+    Decomposition made = decompose_cached(mesh, DiskCache(DiskCache::usual_folder()));
+    warn_of_misfit(asset, mesh, made, warnings);
+    type.parts = std::move(made.parts);
+    loaded.exact_parts = made.exact, loaded.parts_gap = made.misfit.gap;
   } else if (asset.parts.empty()) {
     type.parts.emplace_back();
     for (const Vec3f& p : mesh.positions) type.parts[0].points.push_back(Vec3(p));
@@ -36,6 +113,7 @@ PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnit
     for (std::vector<Vec3>& points : importer.load_convex_parts(asset.parts, units))
       type.parts.push_back({std::move(points)});
   }
+  for (ConvexPart& part : type.parts) simplify_part(asset.parts.empty() ? asset.meshes.front() : asset.parts, part, warnings);
   const bool closed = is_closed(mesh);
   if (closed && calc_volume_properties(mesh).volume > 0)
     type.volume = calc_volume_properties(mesh);
@@ -47,8 +125,8 @@ PieceType make_type(const Asset& asset, const TriangleMesh& mesh, const MeshUnit
   return type;
 }
 
-// Of what decompose() gives: another one is another content. 2: meshes of boxes are cut without error.
-constexpr double kDecomposeVersion = 2;
+// Of what decompose() gives: another one is another content. Exact parts have been the same since 2; others: 3.
+constexpr double kExactDecomposeVersion = 2, kDecomposeVersion = 3;
 
 std::string hash_content(const Asset& asset, const LoadedAsset& loaded) {
   const PieceType& type = loaded.type;
@@ -59,7 +137,7 @@ std::string hash_content(const Asset& asset, const LoadedAsset& loaded) {
     const std::string content = sha256_of_file(file);
     hash.add(content.data(), content.size());
   }
-  const double up = asset.up == UpAxis::y ? 1 : 0, cut = asset.decompose ? kDecomposeVersion : 0;
+  const double up = asset.up == UpAxis::y ? 1 : 0, cut = !asset.decompose ? 0 : loaded.exact_parts ? kExactDecomposeVersion : kDecomposeVersion;
   for (const double number : {type.density, type.friction, asset.metres_per_unit, up, cut})
     hash.add(&number, sizeof number);
   // Images and an OBJ's materials lie in files of their own.
@@ -82,31 +160,17 @@ std::string choose_surface_appearance(const Asset& asset, const std::string& sur
   return asset.look.empty() ? surface : asset.look;
 }
 
-// Of what a mesh is cut into, the share beyond the mesh that is worth a word.
-constexpr double kNotedExcess = 0.1;
-
-// The sum of the parts' volumes is quick to tell; it counts twice where parts overlap.
-void warn_of_excess(const Asset& asset, const TriangleMesh& mesh, const PieceType& type,
-                    std::vector<std::string>& warnings) {
-  if (!asset.decompose || !type.volume) return;
-  double sum = 0;
-  for (const ConvexPart& part : type.parts) sum += calc_volume_properties(part).volume;
-  if (sum <= (1 + kNotedExcess) * type.volume->volume) return;
-  const HullError error = calc_hull_error(mesh, compile_shape(type, type.name));
-  if (error.outside <= kNotedExcess * error.mesh) return;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                ": its %zu convex parts hold %.0f %% more than the mesh: pieces will keep apart that would "
-                "touch; name parts of your own by collision = { parts = FILE }",
-                type.parts.size(), 100 * error.outside / error.mesh);
-  warnings.push_back(asset.meshes.front() + text);
-}
-
 constexpr double kSmallest = 1e-3, kLargest = 1e3;  // of a piece that was meant so; unit: m
 
 void warn_of_size(const Asset& asset, const TriangleMesh& mesh, std::vector<std::string>& warnings) {
-  const Vec3 size = mesh.bounds().max - mesh.bounds().min;
+  const Aabb box = mesh.bounds();
+  const Vec3 size = box.max - box.min;
   const double largest = std::max({size.x, size.y, size.z});
+  const double off = norm(max(max(box.min, -box.max), Vec3{}));
+  if (off > largest)
+    warnings.push_back(asset.meshes.front() + ": the mesh lies " + describe_length(off) +
+                       " from its origin, which is what the `position` of a placed piece means; move it there when "
+                       "it is exported");
   if (largest >= kSmallest && largest <= kLargest) return;
   char text[64];
   std::snprintf(text, sizeof text, ": the mesh is %.3g m large", largest);
@@ -146,8 +210,7 @@ LoadedAsset load_asset(const Asset& asset, MeshImporter& importer) {
   }
   warn_of_size(asset, mesh->levels.front(), loaded.warnings);
   warn_of_surface_appearances(asset, surfaces, loaded.warnings);
-  loaded.type = make_type(asset, mesh->levels.front(), units, importer, loaded.warnings);
-  warn_of_excess(asset, mesh->levels.front(), loaded.type, loaded.warnings);
+  loaded.type = make_type(asset, mesh->levels.front(), units, importer, loaded);
   loaded.mesh = std::move(mesh);
   return loaded;
 }

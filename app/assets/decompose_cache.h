@@ -9,7 +9,7 @@
 namespace rubble {
 
 // As decompose(). The entry goes by the mesh's content and the options; a damaged one is made anew.
-std::vector<ConvexPart> decompose_cached(const TriangleMesh& mesh, const DiskCache& cache,
-                                         const DecomposeOptions& options = {});
+Decomposition decompose_cached(const TriangleMesh& mesh, const DiskCache& cache,
+                               const DecomposeOptions& options = {});
 
 }  // namespace rubble

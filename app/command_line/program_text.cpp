@@ -11,7 +11,7 @@ ProgramText program_text() {
       "camera flight, RGB-D frames, an MRPT rawlog, a ROS bag and the ground truth.";
   text.version = "rubble " + build_info().version;
   text.exit_codes = {{0, "done"},    {1, "bad input"},
-                     {2, "failure"}, {3, "finished but did not settle"},
+                     {2, "failure"}, {3, "finished but did not settle, or lost pieces"},
                      {4, "stopped by a signal"}, {5, "results or files differ, or are missing"}};
   text.environment = {
       {"RUBBLE_ASSETS", "Folder of the bundled packs, instead of `assets` beside the program or "

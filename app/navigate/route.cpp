@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/voids/distance_transform.h"
+#include "kernel/geometry/distance_transform.h"
 
 namespace rubble {
 namespace {

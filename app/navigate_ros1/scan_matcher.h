@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/navigate_ros1/planar_pose.h"
-#include "kernel/voids/voxel_grid.h"
+#include "kernel/geometry/voxel_grid.h"
 
 namespace rubble {
 

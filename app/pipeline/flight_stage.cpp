@@ -1,4 +1,6 @@
 // The stages that ask where a settled pile has room: the measures of its voids, and the flight.
+#include <cstdio>
+
 #include "app/measures/void_metrics.h"
 #include "app/pipeline/stages.h"
 #include "app/planning/camera_inside.h"
@@ -61,7 +63,9 @@ Metrics measure_voids(const ResolvedMission& mission, PileSurvey& survey, const 
   add_void_metrics(survey.find_voids(make_void_options(asked), {asked.radius}, report), asked.radius,
                    metrics);
   if (!mission.scenario.trajectory.needs_pile()) survey.forget_voids();
-  context.progress.finish(format_number(metrics["void_volume_m3"]) + " m3");
+  char volume[48];
+  std::snprintf(volume, sizeof volume, "%.4g m3", metrics["void_volume_m3"]);
+  context.progress.finish(volume);
   return metrics;
 }
 

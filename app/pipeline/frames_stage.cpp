@@ -16,7 +16,6 @@
 #include "io/recording/recording_queue.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/system/disk_cache.h"
-#include "kernel/base/text.h"
 #include "render/gl/gl_context.h"
 #include "render/renderer.h"
 #include "render/view/drawn_by.h"
@@ -173,8 +172,6 @@ std::vector<int> count_frames(const std::vector<Leg>& legs, std::size_t count) {
 
 void finish_recording(const ResolvedMission& mission, const RecorderSet& set, RecordingQueue& queue,
                       RunFolder& folder, RunContext& context) {
-  for (const std::string& warning : context.warnings)
-    std::fprintf(stderr, "rubble: warning: %s\n", printable(warning).c_str());
   context.progress.start("record");
   queue.finish();
   for (const std::string& name : set.names) folder.add(name);

@@ -1,5 +1,6 @@
 #include "app/pipeline/run.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "app/support/build_info.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
+#include "kernel/base/text.h"
 
 namespace rubble {
 namespace {
@@ -46,16 +48,33 @@ std::string describe_overlap(const PileState& pile) {
   return name(o.piece_a) + " and " + name(o.piece_b) + " reach " + depth + " into each other";
 }
 
+bool is_lost(const PieceState& piece) { return piece.status == PieceStatus::lost; }
+
+// Of the pieces that left the world the number, and where the first was seen last. There is one.
+std::string describe_lost(const PileState& pile, const SettleOptions& options) {
+  const auto first = std::find_if(pile.pieces.begin(), pile.pieces.end(), is_lost);
+  const Vec3& p = first->world_from_body.translation;
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "%d of %zu pieces left the world, the first %s, piece %td, last seen with its origin at {%.2f, %.2f, %.2f}: "
+                "lower than settle.lost_below = %g m, or farther than settle.lost_beyond = %g m from the Z axis",
+                pile.lost, pile.pieces.size(), pile.types[std::size_t(first->type)].c_str(), first - pile.pieces.begin(), p.x,
+                p.y, p.z, options.lost_below, options.lost_beyond);
+  return text;
+}
+
 ExitCode report(const ResolvedMission& mission, const PileState& pile, const RunFolder& folder) {
   std::printf("%s\n", folder.path().c_str());
   const SettleOptions& options = mission.pile_scenario.settle;
+  const bool lost = std::any_of(pile.pieces.begin(), pile.pieces.end(), is_lost);
+  if (lost) std::fprintf(stderr, "%s\n", describe_lost(pile, options).c_str());
   const double depth = pile.deepest_overlap.depth;
   if (pile.settled) {
     if (depth > kNotedOverlap) {
       std::fprintf(stderr, "warning: %s; settle.rest_overlap = %g m allows it\n",
                    describe_overlap(pile).c_str(), options.rest_overlap);
     }
-    return ExitCode::done;
+    return lost ? ExitCode::did_not_settle : ExitCode::done;
   }
   const std::string why =
       depth > options.rest_overlap ? describe_overlap(pile) : describe_moving(pile);
@@ -145,6 +164,8 @@ ExitCode complete(const ResolvedMission& mission, RunFolder& folder, RunContext&
     throw RunError(error.what() + std::string("\nwhat is finished is kept: `rubble resume ") +
                    folder.path() + "` continues");
   }
+  for (const std::string& warning : context.warnings)
+    std::fprintf(stderr, "rubble: warning: %s\n", printable(warning).c_str());
   folder.finish();
   return report(mission, results.pile, folder);
 }

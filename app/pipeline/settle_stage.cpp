@@ -16,6 +16,8 @@
 #include "io/state/pile_state_file.h"
 #include "io/state/track_file.h"
 #include "kernel/base/hash.h"
+#include "kernel/collision/placed_overlaps.h"
+#include "kernel/settling/building_collapse.h"
 #include "kernel/settling/settle.h"
 #include "kernel/settling/settle_checkpoint.h"
 #include "kernel/settling/track_recorder.h"
@@ -23,12 +25,66 @@
 namespace rubble {
 namespace {
 
+// From here on an overlap of placed pieces is worth a word; unit: m
+constexpr double kNotedOverlap = 0.005;
+constexpr std::size_t kNotedOverlaps = 3;  // that are named
+
+// Nobody sees such a thing in a picture, and what can move is thrown apart. Of fixed pieces the deepest pair is named.
+void note_placed_overlaps(const ResolvedMission& mission, const Pile& pile, RunContext& context) {
+  // The mission's own come first, before terrain and furniture.
+  const std::size_t own = std::min(pile.placed.size(), mission.pile_scenario.pile.placed.size());
+  const std::vector<Placement> placed(pile.placed.begin(), pile.placed.begin() + std::ptrdiff_t(own));
+  const auto name = [&](int i) {
+    const Placement& placement = placed[std::size_t(i)];
+    return "pile.placed[" + std::to_string(i + 1) + "] (" + pile.types[std::size_t(placement.type)].name +
+           (placement.fixed ? ", fixed)" : ")");
+  };
+  std::size_t told = 0, fixed = 0;
+  for (const PlacedOverlap& overlap : find_placed_overlaps(pile.types, placed, kNotedOverlap)) {
+    const bool both_fixed = placed[std::size_t(overlap.a)].fixed && placed[std::size_t(overlap.b)].fixed;
+    if (both_fixed ? fixed++ > 0 : told++ >= kNotedOverlaps) continue;
+    char depth[32];
+    std::snprintf(depth, sizeof depth, "%.0f mm", overlap.depth * 1000);
+    context.warnings.push_back(name(overlap.a) + " and " + name(overlap.b) + " reach " + depth +
+                               " into each other from the start");
+  }
+  const std::size_t more = (told > kNotedOverlaps ? told - kNotedOverlaps : 0) + (fixed > 1 ? fixed - 1 : 0);
+  if (more > 0)
+    context.warnings.push_back(std::to_string(more) + " more pairs of pile.placed reach into each other, less deep");
+}
+
+constexpr double kStandsWithin = 0.1;   // of its place as built: a piece that has not fallen; unit: m
+constexpr double kFewPieces = 0.02;     // of a building's pieces: where no more fell, it did not collapse
+
+bool has_cause(const CollapseCause& c) {
+  return !c.removed.empty() || c.weak_storey >= 0 || c.overloaded_floor >= 0 || c.shake > 0 || c.blast > 0 ||
+         c.vehicle.mass > 0 || !c.sinking.empty();
+}
+
+// A building that stands has come to rest, too, but nobody gives it a cause for that.
+void note_standing_building(const Pile& pile, const PileState& state, RunContext& context) {
+  if (!pile.building.given() || !has_cause(pile.building.cause)) return;
+  const Structure building = make_damaged_building(pile.building);
+  const std::vector<StructurePiece>& pieces = building.pieces;
+  const int type = pile.building_first_type, end = type + int(building.types.size());
+  std::size_t first = 0;  // of its pieces, after what is placed
+  while (first < state.pieces.size() && (state.pieces[first].type < type || state.pieces[first].type >= end)) ++first;
+  if (state.pieces.size() < first + pieces.size()) return;
+  std::size_t fallen = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    fallen += distance(state.pieces[first + i].world_from_body.translation, pieces[i].position) > kStandsWithin;
+  if (double(fallen) > kFewPieces * double(pieces.size())) return;
+  context.warnings.push_back("pile.building.cause: the building did not collapse: " + std::to_string(fallen) + " of its " +
+                             std::to_string(pieces.size()) + " pieces moved by more than 10 cm; a stronger cause brings it " +
+                             "down, such as a smaller `weakness`, a higher `overload` or `shake`, or more columns `removed`");
+}
+
 void show_settling(const SettleProgress& p, const SettleOptions& options, Progress& progress) {
   const double limit = p.layer < p.layers ? options.layer_time_limit : options.final_time_limit;
   const double layer = std::min(1.0, p.layer_time / limit);
   const std::string pieces = std::to_string(p.pieces) + " pieces";
   progress.update((std::max(0, p.layer - 1) + layer) / std::max(1, p.layers),
-                  "layer " + std::to_string(p.layer) + " of " + std::to_string(p.layers) + ", " +
+                  (p.layers > 0 ? "layer " + std::to_string(p.layer) + " of " + std::to_string(p.layers) + ", " : "") +
                       (p.verifying ? "verifying that " + pieces + " rest"
                                    : std::to_string(p.awake) + " of " + pieces + " awake"));
 }
@@ -172,9 +228,11 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
   const std::uint64_t work = hash_work_of(mission, pile);
   const bool recorded = needs_track(mission.scenario);
   const bool loaded = folder.has_pile_of(work) && (!recorded || folder.has("track.bin"));
+  note_placed_overlaps(mission, pile, context);
   SettledPile settled = loaded ? load(mission.pile_scenario, recorded, folder)
                                : settle_from_checkpoint_or_start(mission, pile, folder, context);
   throw_if_stopped(folder.path());
+  note_standing_building(pile, settled.state, context);
   if (!loaded) add_victims(mission, context.threads(), settled.state);
   context.progress.finish(summarize_settling(settled.state, loaded));
   if (!loaded) {

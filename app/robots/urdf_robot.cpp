@@ -136,7 +136,7 @@ class Builder {
         break;
     }
     try {
-      return decompose_cached(load_scaled(g, importer_), DiskCache(DiskCache::usual_folder()));
+      return decompose_cached(load_scaled(g, importer_), DiskCache(DiskCache::usual_folder())).parts;
     } catch (const InputError& error) {
       add(link.line, link.name, "its mesh has no use as a solid: " + error.diagnostics().front().text(),
           "a mesh with a volume", g.file);

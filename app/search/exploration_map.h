@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/search/search_agent.h"
-#include "kernel/voids/voxel_grid.h"
+#include "kernel/geometry/voxel_grid.h"
 
 namespace rubble {
 

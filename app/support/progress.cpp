@@ -9,6 +9,8 @@ namespace rubble {
 namespace {
 
 constexpr int kBarWidth = 28;
+// From here on nothing is said of the time that is left: what is done then, nobody has counted.
+constexpr double kNearlyDone = 0.99;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -46,9 +48,10 @@ void Progress::update(double fraction, const std::string& detail) {
 }
 
 void Progress::draw(double fraction, const std::string& detail) {
+  fraction = std::min(fraction, kNearlyDone);  // it is done when finish() says so
   const double elapsed = seconds_since(started_);
   std::string left;
-  if (fraction > 0.02 && elapsed > 1.0)
+  if (fraction > 0.02 && fraction < kNearlyDone && elapsed > 1.0)
     left = ", about " + format_seconds(elapsed * (1 - fraction) / fraction) + " left";
   if (style_ == ProgressStyle::lines) {
     std::fprintf(stderr, "%s: %d %%  %s%s\n", stage_.c_str(), int(100 * fraction), detail.c_str(),

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -83,6 +84,10 @@ Vec3 turn_up(const aiVector3D& v, UpAxis up) {
   refuse(path, "holds points or lines beside its faces", "export faces only");
 }
 
+// Corners may be rounded by this share of the mesh's size; by more than `kCoarse`, only by `kCoarseShare` of it.
+constexpr double kRoundedAway = 1e-3, kCoarseShare = 1e-5;
+constexpr double kCoarse = 1e-3;  // unit: m
+
 // What makes two vertices one: equal bits of position and normal.
 struct VertexKey {
   float values[6];
@@ -135,10 +140,28 @@ class MeshBuilder {
 
   TriangleMesh take() {
     if (mesh_.triangles.empty()) refuse(path_, "holds no triangles");
+    check_place();
     return std::move(mesh_);
   }
 
  private:
+  // Far from the origin single precision rounds corners to places that make another shape.
+  void check_place() const {
+    const Aabb box = mesh_.bounds();
+    const Vec3 size = box.max - box.min, far = max(box.max, -box.min);
+    const double longest = std::max({size.x, size.y, size.z}), farthest = std::max({far.x, far.y, far.z});
+    const double rounding = farthest * double(std::numeric_limits<float>::epsilon());
+    if (rounding <= kRoundedAway * longest && (rounding <= kCoarse || rounding <= kCoarseShare * longest)) return;
+    char found[160], hint[160];
+    std::snprintf(found, sizeof found, "a mesh of %.3g m at up to %.6g m, where corners are rounded to %.2g m", longest,
+                  farthest, rounding);
+    const Vec3 middle = (box.min + box.max) * 0.5;
+    std::snprintf(hint, sizeof hint, "subtract about (%.0f, %.0f, %.0f) m from its corners before it is exported", middle.x,
+                  middle.y, middle.z);
+    throw InputError({path_, 0, "", "lies too far from its origin", "corners near the origin, not in map coordinates",
+                      found, hint});
+  }
+
   void check_face(const aiMesh& mesh, const aiFace& face) const {
     if (face.mNumIndices != 3) refuse_points_and_lines(path_);
     for (unsigned k = 0; k < 3; ++k)

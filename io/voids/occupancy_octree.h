@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "kernel/voids/voxel_grid.h"
+#include "kernel/geometry/voxel_grid.h"
 
 namespace rubble {
 

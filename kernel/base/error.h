@@ -13,7 +13,7 @@ enum class ExitCode {
   done = 0,
   bad_input = 1,
   failure = 2,
-  did_not_settle = 3,
+  did_not_settle = 3,  // or pieces left the world: the pile is not the one that was asked for
   stopped = 4,  // by SIGINT, SIGTERM or SIGHUP; `rubble resume` continues
   differs = 5,  // verify found a difference, or a suite an expectation that is not met
 };

@@ -1,145 +1,34 @@
 #include "kernel/geometry/decompose.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "kernel/base/error.h"
-#include "kernel/geometry/decompose_exact.h"
-#include "kernel/geometry/decompose_voxels.h"
+#include "kernel/geometry/decomposing/decompose_cells.h"
+#include "kernel/geometry/decomposing/decompose_exact.h"
+#include "kernel/geometry/decomposing/solid.h"
 #include "kernel/geometry/hull.h"
+#include "kernel/geometry/simplify_hull.h"
 
 namespace rubble {
 namespace {
 
-using decomposing::Box;
-using decomposing::calc_hull_volume;
-using decomposing::Cell3;
-using decomposing::Voxels;
-
-constexpr int kPlanesPerAxis = 12;  // that are tried for a cut
-constexpr double kBalance = 0.02;   // of the hull, that an uneven cut must save besides
-
 using Points = std::vector<Vec3>;
 
-struct Leaf {
-  Box box;
-  Voxels::Fill fill;
-};
-
-bool is_empty(const Box& box) { return box.low[0] >= box.high[0]; }
-
-struct Cut {
-  Leaf below, above;
-  double cost = 1e300;  // hull volumes of both
-};
-
-// The best of some planes across each axis; cost stays huge when the box is too small to cut.
-Cut find_cut(const Voxels& voxels, const Leaf& leaf) {
-  Cut best;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const int low = leaf.box.low[axis], high = leaf.box.high[axis];
-    const int step = std::max(1, (high - low) / kPlanesPerAxis);
-    for (int at = low + step; at < high; at += step) {
-      Box below = leaf.box, above = leaf.box;
-      below.high[axis] = above.low[axis] = at;
-      below = voxels.tight(below), above = voxels.tight(above);
-      if (is_empty(below) || is_empty(above)) continue;
-      const Leaf a{below, voxels.measure(below)}, b{above, voxels.measure(above)};
-      const double uneven = std::fabs(a.fill.voxels - b.fill.voxels) / leaf.fill.voxels;
-      const double cost = a.fill.hull + b.fill.hull + kBalance * uneven * leaf.fill.hull;
-      if (cost < best.cost) best = {a, b, cost};
-    }
-  }
-  return best;
-}
-
-std::vector<Leaf> cut_up(const Voxels& voxels, const DecomposeOptions& options) {
-  Box whole{{0, 0, 0}, voxels.size()};
-  whole = voxels.tight(whole);
-  std::vector<Leaf> leaves{{whole, voxels.measure(whole)}};
-  const double tolerated = options.tolerance * leaves[0].fill.voxels;
-  // Twice as many as wanted: joining afterwards mends cuts that went too far.
-  const std::size_t most = std::size_t(2 * options.max_parts);
-  std::vector<bool> final(1, false);
-  while (leaves.size() < most) {
-    double total = 0, worst = 0;
-    std::size_t chosen = leaves.size();
-    for (std::size_t i = 0; i < leaves.size(); ++i) {
-      total += std::max(0.0, leaves[i].fill.excess());
-      if (!final[i] && leaves[i].fill.excess() > worst) worst = leaves[i].fill.excess(), chosen = i;
-    }
-    if (chosen == leaves.size() || total < tolerated) break;
-    const Cut cut = find_cut(voxels, leaves[chosen]);
-    // A cut that saves nothing yet is right too: the halves of a ring are as large as the ring.
-    if (cut.cost > 1e299) {
-      final[chosen] = true;
-      continue;
-    }
-    leaves[chosen] = cut.below;
-    leaves.insert(leaves.begin() + long(chosen) + 1, cut.above);
-    final.insert(final.begin() + long(chosen) + 1, false);
-  }
-  return leaves;
-}
-
-// What is left of a convex polygon on one side of a plane across an axis.
-Points clip(const Points& polygon, int axis, double at, double side) {
-  Points kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const double ha = side * (a[axis] - at), hb = side * (b[axis] - at);
-    if (ha <= 0) kept.push_back(a);
-    if ((ha < 0 && hb > 0) || (ha > 0 && hb < 0)) {
-      Vec3 p = a + (b - a) * (ha / (ha - hb));
-      p[axis] = at;
-      kept.push_back(p);
-    }
-  }
-  return kept;
-}
-
-// The exact surface within the box, and the box's corners that are inside the solid.
-Points points_in(const TriangleMesh& mesh, const Voxels& voxels, const Box& box) {
-  const Vec3 low = voxels.position(box.low), high = voxels.position(box.high);
-  Points points;
-  for (const auto& t : mesh.triangles) {
-    Points polygon;
-    for (const auto v : t) polygon.push_back(Vec3(mesh.positions[v]));
-    for (int axis = 0; axis < 3 && !polygon.empty(); ++axis) {
-      polygon = clip(polygon, axis, low[axis], -1);
-      polygon = clip(polygon, axis, high[axis], 1);
-    }
-    points.insert(points.end(), polygon.begin(), polygon.end());
-  }
-  for (int i = 0; i < 8; ++i) {
-    Cell3 corner;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      corner[axis] = i >> axis & 1 ? box.high[axis] : box.low[axis];
-    }
-    if (voxels.surely_inside(corner)) points.push_back(voxels.position(corner));
-  }
-  return points;
-}
-
-struct Plane {
-  Vec3 normal;
-  double offset;
-};
-
-std::vector<Plane> planes_of(const Hull& hull) {
-  std::vector<Plane> planes;
-  for (const std::vector<int>& face : hull.faces) {
-    Vec3 area;
-    const Vec3& a = hull.points[std::size_t(face[0])];
-    for (std::size_t k = 2; k < face.size(); ++k) {
-      area += cross(hull.points[std::size_t(face[k - 1])] - a, hull.points[std::size_t(face[k])] - a);
-    }
-    const Vec3 n = normalized(area);
-    planes.push_back({n, dot(n, a)});
-  }
-  return planes;
-}
+constexpr double kLeastGap = 0.006;        // that counts as one; unit: m
+constexpr double kCheapJoin = 0.1;         // of the tolerance, that a join below the wanted number may cost
+constexpr std::size_t kBoxesPerPart = 3;   // cut for each of max_parts at most: joining mends cuts that went too far
+constexpr std::size_t kLeastBoxes = 24, kMostBoxes = 112;
+constexpr double kCornerTolerance = 5e-4;  // unit: m; corners that stand out by less are no gain
+constexpr double kCornerShare = 1e-3;      // likewise, of the size of a part
+constexpr std::size_t kManyPoints = 1500;  // of a part, from which on its hull is a simplified one
+constexpr std::size_t kJoinCorners = 300;  // of such a hull
+constexpr double kFrameCosine = 0.9998;    // between faces that count as parallel: 1 degree
+constexpr double kFrameShare = 0.08;       // of the surface, that the faces of a frame have at least
+constexpr std::size_t kFrameFaces = 48;    // the largest, that are tried as the first direction of a frame
 
 // Flat points get the thickness that collision needs; empty when they lie in a line.
 Points thickened(const Points& points, double thickness) {
@@ -160,41 +49,11 @@ Points thickened(const Points& points, double thickness) {
   return both;
 }
 
-// At most `count` of the hull's corners: extremes first, then whatever stands out farthest.
-Points choose_corners(const Points& points, int count) {
-  Points kept;
-  const auto keep = [&](const Vec3& p) {
-    if (std::find(kept.begin(), kept.end(), p) == kept.end()) kept.push_back(p);
-  };
-  for (int i = 0; i < 14; ++i) {
-    static const int kAxes[7][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1},
-                                    {1, -1, 1}, {1, 1, -1}, {1, -1, -1}};
-    const Vec3 d = Vec3(kAxes[i / 2][0], kAxes[i / 2][1], kAxes[i / 2][2]) * (i % 2 ? -1.0 : 1.0);
-    keep(*std::max_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
-      return dot(d, a) < dot(d, b);
-    }));
-  }
-  while (int(kept.size()) < count) {
-    const std::vector<Plane> planes = planes_of(calc_hull(kept));
-    double highest = 5e-4;  // half a millimetre more is no gain
-    const Vec3* farthest = nullptr;
-    for (const Vec3& p : points) {
-      double height = -1e300;
-      for (const Plane& plane : planes) height = std::max(height, dot(plane.normal, p) - plane.offset);
-      if (height > highest) highest = height, farthest = &p;
-    }
-    if (!farthest) break;
-    kept.push_back(*farthest);
-  }
-  return calc_hull(kept).points;
-}
-
 // Widened across its thinnest direction to what collision needs.
 Points widened(Points points, double thinnest) {
-  const std::vector<Plane> planes = planes_of(calc_hull(points));
   double least = 1e300, middle = 0;
   Vec3 across;
-  for (const Plane& plane : planes) {
+  for (const HullPlane& plane : calc_planes(calc_hull(points))) {
     double depth = 0;
     for (const Vec3& p : points) depth = std::max(depth, plane.offset - dot(plane.normal, p));
     if (depth < least) least = depth, across = plane.normal, middle = plane.offset - 0.5 * depth;
@@ -206,75 +65,264 @@ Points widened(Points points, double thinnest) {
   return calc_hull(points).points;
 }
 
-Points make_part(Points points, const DecomposeOptions& options) {
-  if (calc_hull_volume(points) <= 0) points = thickened(points, options.thinnest);
-  if (calc_hull_volume(points) <= 0) return {};
+double calc_size(const Points& points) {
+  Aabb box;
+  for (const Vec3& p : points) box.include(p);
+  const Vec3 extent = box.max - box.min;
+  return std::max({extent.x, extent.y, extent.z});
+}
+
+// The corners of the hull, or nearly; empty: flat.
+Points hull_corners(const Points& points) {
   try {
-    return widened(choose_corners(points, options.max_corners), options.thinnest);
+    if (points.size() <= kManyPoints) return calc_hull(points).points;
+    return simplify_hull(points, kJoinCorners, 0.1 * kCornerShare * calc_size(points)).points;
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+}
+
+// Empty: the points lie in a line.
+Points make_part(const Points& points, const DecomposeOptions& options) {
+  try {
+    const bool flat = calc_hull_volume(points) <= 0;
+    const Points solid = flat ? thickened(points, options.thinnest) : points;
+    const double tolerance = std::max(kCornerTolerance, kCornerShare * calc_size(solid));
+    return widened(restore_volume(simplify_hull(solid, std::size_t(options.max_corners), tolerance), solid),
+                   options.thinnest);
   } catch (const std::invalid_argument&) {
     return {};  // thinner than the hull's lattice tells
   }
 }
 
-// Joins the pair whose common hull is larger by least, until few enough are left and any further
-// one would stand out of the mesh.
-void join_parts(std::vector<Points>& parts, const DecomposeOptions& options) {
-  std::vector<double> volumes;
-  double total = 0;
-  for (const Points& part : parts) volumes.push_back(calc_hull_volume(part)), total += volumes.back();
-  // The growth of each pair, computed once; infinite for pairs that were joined away.
-  const std::size_t count = parts.size();
-  std::vector<double> growth(count * count, 1e300);
-  const auto both = [&](std::size_t i, std::size_t j) {
-    Points points = parts[i];
-    points.insert(points.end(), parts[j].begin(), parts[j].end());
-    return points;
-  };
-  const auto update = [&](std::size_t i, std::size_t j) {
-    growth[i * count + j] = calc_hull_volume(both(i, j)) - volumes[i] - volumes[j];
-  };
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = i + 1; j < count; ++j) update(i, j);
+// What parts may do at most.
+struct Limits {
+  double cheap = 0, outside = 0, most_outside = 0;  // unit: m3
+  double gap = 0;                                   // unit: m
+};
+
+// Joins the pair whose common hull has least more volume outside the solid, again and again.
+class Joiner {
+ public:
+  Joiner(const Solid& solid, std::vector<decomposing::Piece> pieces, const Limits& limits)
+      : solid_(solid), limits_(limits) {
+    for (decomposing::Piece& piece : pieces) {
+      Part part;
+      part.points = hull_corners(piece.points);
+      if (part.points.empty()) {  // flat
+        part.points = std::move(piece.points);
+      } else {
+        part.misfit = solid.measure(calc_hull(part.points));
+      }
+      for (const Vec3& p : part.points) part.box.include(p);
+      outside_ += part.misfit.outside;
+      parts_.push_back(std::move(part));
+    }
+    left_ = parts_.size();
+    joins_.resize(left_ * left_);
+    for (std::size_t i = 0; i < left_; ++i)
+      for (std::size_t j = i + 1; j < left_; ++j) try_join(i, j);
   }
-  std::size_t left = count;
-  while (left > 1) {
-    const std::size_t best = std::size_t(std::min_element(growth.begin(), growth.end()) - growth.begin());
-    const std::size_t i = best / count, j = best % count;
-    const bool cheap = growth[best] < 0.1 * options.tolerance * total;
-    if (growth[best] > 1e299 || (left <= std::size_t(options.max_parts) && !cheap)) break;
-    parts[i] = make_part(both(i, j), options);
-    volumes[i] = calc_hull_volume(parts[i]);
-    parts[j].clear();
-    --left;
-    for (std::size_t k = 0; k < count; ++k) {
-      growth[std::min(j, k) * count + std::max(j, k)] = 1e300;
-      if (k != i && !parts[k].empty()) update(std::min(i, k), std::max(i, k));
+
+  // until: the parts that are wanted, and those that there may be at most.
+  std::vector<Points> run(std::size_t wanted, std::size_t most) {
+    while (left_ > 1) {
+      const std::size_t best = find_join(left_ > most, left_ > wanted);
+      if (best == joins_.size()) break;
+      join(best / parts_.size(), best % parts_.size());
+    }
+    std::vector<Points> result;
+    for (Part& part : parts_)
+      if (!part.joined) result.push_back(std::move(part.points));
+    return result;
+  }
+
+ private:
+  struct Part {
+    Points points;
+    Aabb box;
+    Misfit misfit;
+    bool joined = false;  // to another
+  };
+  struct Join {
+    double growth = 1e300;  // of the volume outside the solid; unit: m3
+    double gap = 0;
+  };
+
+  static bool touch(const Aabb& a, const Aabb& b, double margin) {
+    for (int k = 0; k < 3; ++k)
+      if (a.min[k] > b.max[k] + margin || b.min[k] > a.max[k] + margin) return false;
+    return true;
+  }
+
+  Points both(std::size_t i, std::size_t j) const {
+    Points points = parts_[i].points;
+    points.insert(points.end(), parts_[j].points.begin(), parts_[j].points.end());
+    return points;
+  }
+
+  void try_join(std::size_t i, std::size_t j) {
+    Join& join = joins_[i * parts_.size() + j];
+    join = {};
+    if (!touch(parts_[i].box, parts_[j].box, solid_.cell())) return;
+    try {
+      const Misfit common = solid_.measure(calc_hull(both(i, j)));
+      join.growth = common.outside - parts_[i].misfit.outside - parts_[j].misfit.outside;
+      join.gap = common.gap;
+    } catch (const std::invalid_argument&) {
+      join.growth = 0;  // both lie in one plane
     }
   }
-  parts.erase(std::remove_if(parts.begin(), parts.end(), [](const Points& p) { return p.empty(); }),
-              parts.end());
+
+  // The cheapest that keeps to the limits; `forced`: that does most nearly. joins_.size(): none.
+  std::size_t find_join(bool forced, bool many) const {
+    std::size_t best = joins_.size();
+    double least = 1e299;
+    for (std::size_t n = 0; n < joins_.size(); ++n) {
+      const Join& join = joins_[n];
+      if (join.growth > 1e299) continue;
+      const double outside = outside_ + join.growth;
+      const bool fits = join.gap <= limits_.gap && outside <= (many ? limits_.most_outside : limits_.outside) &&
+                        (many || join.growth <= limits_.cheap);
+      if (!fits && !forced) continue;
+      // A gap too large costs as much as all volume that parts may have outside, each time.
+      const double cost = join.growth + limits_.most_outside * std::max(0.0, join.gap / limits_.gap - 1);
+      if (cost < least) least = cost, best = n;
+    }
+    return best;
+  }
+
+  void join(std::size_t i, std::size_t j) {
+    const Join done = joins_[i * parts_.size() + j];
+    Part& part = parts_[i];
+    Points points = both(i, j), corners = hull_corners(points);
+    part.points = corners.empty() ? std::move(points) : std::move(corners);
+    part.misfit.outside += parts_[j].misfit.outside + done.growth;
+    part.misfit.gap = done.gap;
+    for (const Vec3& p : part.points) part.box.include(p);
+    outside_ += done.growth;
+    parts_[j].joined = true, parts_[j].points.clear();
+    --left_;
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      joins_[std::min(j, k) * parts_.size() + std::max(j, k)] = {};
+      if (k != i && !parts_[k].joined) try_join(std::min(i, k), std::max(i, k));
+    }
+  }
+
+  const Solid& solid_;
+  Limits limits_;
+  std::vector<Part> parts_;
+  std::vector<Join> joins_;  // of parts i < j: at i * parts + j
+  double outside_ = 0;
+  std::size_t left_ = 0;
+};
+
+// The directions across which most of the surface lies, where that is much; else the mesh's own axes. Pipes, profiles
+// and boxes are then cut as well in any pose.
+Mat3 find_frame(const TriangleMesh& mesh) {
+  std::vector<Vec3> areas;
+  double total = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a(mesh.positions[t[0]]);
+    areas.push_back(cross(Vec3(mesh.positions[t[1]]) - a, Vec3(mesh.positions[t[2]]) - a));
+    total += norm(areas.back());
+  }
+  std::vector<std::size_t> order(areas.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return norm(areas[a]) > norm(areas[b]); });
+  const auto across = [&](const Vec3& direction) {
+    double sum = 0;
+    for (const Vec3& area : areas)
+      if (std::fabs(dot(area, direction)) > kFrameCosine * norm(area)) sum += norm(area);
+    return sum;
+  };
+  const auto widest = [&](const auto& fits, double& share) {
+    Vec3 best;
+    std::size_t tried = 0;
+    share = 0;
+    for (const std::size_t i : order) {
+      if (!fits(areas[i])) continue;
+      const Vec3 direction = normalized(areas[i]);
+      if (const double sum = across(direction); sum > 1.0001 * share) share = sum, best = direction;
+      if (++tried == kFrameFaces) break;
+    }
+    return best;
+  };
+  double first_share = 0, second_share = 0, own = 0;
+  const Vec3 first = widest([](const Vec3&) { return true; }, first_share);
+  const Vec3 second = widest([&](const Vec3& area) { return std::fabs(dot(area, first)) < 1e-3 * norm(area); }, second_share);
+  for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) own += across(axis);
+  if (norm(second) < 0.5 || first_share + second_share < std::max(kFrameShare * total, 1.01 * own)) return Mat3::identity();
+  const Vec3 third = normalized(cross(first, second));
+  return {{first, cross(third, first), third}};
+}
+
+TriangleMesh turn(const TriangleMesh& mesh, const Mat3& rotation) {
+  TriangleMesh turned;
+  turned.triangles = mesh.triangles;
+  for (const Vec3f& p : mesh.positions) turned.positions.push_back(Vec3f(rotation * Vec3(p)));
+  return turned;
+}
+
+// The frame with its axes renamed, so that the mesh is longest along z.
+Mat3 with_longest_last(const Mat3& frame, const TriangleMesh& mesh) {
+  const Aabb box = turn(mesh, frame).bounds();
+  const Vec3 extent = box.max - box.min;
+  if (extent.z >= extent.x && extent.z >= extent.y) return frame;
+  if (extent.x >= extent.y) return {{frame.rows[1], frame.rows[2], frame.rows[0]}};
+  return {{frame.rows[2], frame.rows[0], frame.rows[1]}};
+}
+
+[[noreturn]] void fail_without_volume() {
+  throw InputError({"", 0, "", "the mesh cannot be cut into convex parts", "a mesh with a volume",
+                    "points in one line or one place", ""});
+}
+
+// Parts in the frame of the mesh.
+std::vector<Points> find_parts(const TriangleMesh& mesh, const Solid& solid, const DecomposeOptions& options) {
+  const Vec3 extent = mesh.bounds().max - mesh.bounds().min;
+  Limits limits;
+  limits.outside = options.tolerance * solid.volume();
+  limits.cheap = kCheapJoin * limits.outside;
+  limits.most_outside = std::max(options.tolerance, options.most_outside) * solid.volume();
+  limits.gap = std::max(kLeastGap, options.most_gap * std::min(std::max({extent.x, extent.y, extent.z}),
+                                                               4 * std::min({extent.x, extent.y, extent.z})));
+  const std::size_t wanted = std::size_t(options.max_parts), most = std::size_t(std::max(options.max_parts, options.most_parts));
+  decomposing::CutLimits cuts;
+  cuts.most = std::clamp(kBoxesPerPart * most, kLeastBoxes, kMostBoxes);
+  cuts.volume = 0.5 * limits.outside;
+  cuts.gap = 0.5 * limits.gap;
+  return Joiner(solid, decomposing::cut_into_boxes(mesh, solid, cuts), limits).run(wanted, most);
 }
 
 }  // namespace
 
-std::vector<ConvexPart> decompose(const TriangleMesh& mesh, const DecomposeOptions& options) {
-  std::vector<ConvexPart> exact;
+Decomposition decompose(const TriangleMesh& mesh, const DecomposeOptions& options) {
+  Decomposition result;
   for (Points& part : decomposing::find_exact_parts(mesh, options.max_parts, options.max_corners))
-    exact.push_back({widened(std::move(part), options.thinnest)});
-  if (!exact.empty()) return exact;
-  const Voxels voxels(mesh, options.resolution);
-  std::vector<Points> parts;
-  for (const Leaf& leaf : cut_up(voxels, options)) {
-    Points part = make_part(points_in(mesh, voxels, leaf.box), options);
-    if (!part.empty()) parts.push_back(std::move(part));
+    result.parts.push_back({widened(std::move(part), options.thinnest)});
+  if (!result.parts.empty()) {
+    result.exact = true;
+    result.volume = calc_volume_properties(mesh).volume;
+    return result;
   }
-  if (parts.empty()) {
-    throw InputError({"", 0, "", "the mesh cannot be cut into convex parts", "a mesh with a volume",
-                      "points in one line or one place", ""});
+  const Mat3 frame_from_mesh = with_longest_last(find_frame(mesh), mesh), mesh_from_frame = frame_from_mesh.transposed();
+  const TriangleMesh turned = turn(mesh, frame_from_mesh);
+  const Aabb box = turned.bounds();
+  if (box.empty() || !(norm(box.max - box.min) > 0)) fail_without_volume();
+  const Solid solid(turned, options.resolution);
+  std::vector<Hull> hulls;
+  for (Points& points : find_parts(turned, solid, options)) {
+    for (Vec3& p : points) p = mesh_from_frame * p;
+    Points part = make_part(points, options);  // which keeps its length, width and height
+    if (part.empty()) continue;
+    result.parts.push_back({part});
+    for (Vec3& p : part) p = frame_from_mesh * p;
+    hulls.push_back(calc_hull(part));
   }
-  join_parts(parts, options);
-  std::vector<ConvexPart> result;
-  for (Points& part : parts) result.push_back({std::move(part)});
+  if (result.parts.empty()) fail_without_volume();
+  result.volume = solid.volume();
+  result.misfit = solid.measure(hulls);
   return result;
 }
 

@@ -13,6 +13,7 @@ namespace {
 
 // With 2^19 steps every product below stays under 2^60.
 constexpr double kGridSteps = 524288.0;
+constexpr double kNarrowSteps = 8;  // faces that are narrower than so many are of rounding alone
 // Faces are merged when their normals differ by less than about 1 degree, and only while every
 // corner stays this near to the plane of the largest among them. The angle alone would make one
 // bent polygon of several sides of a fine drum. Packs write corners to 0.01 mm.
@@ -265,6 +266,44 @@ Hull calc_hull(const std::vector<Vec3>& points) {
     }
   }
   return hull;
+}
+
+std::vector<HullPlane> calc_planes(const Hull& hull) {
+  std::vector<HullPlane> planes;
+  Aabb box;
+  for (const Vec3& p : hull.points) box.include(p);
+  const Vec3 extent = box.max - box.min;
+  const double size = std::max({extent.x, extent.y, extent.z});
+  for (const std::vector<int>& face : hull.faces) {
+    const Vec3 area = area_vector(hull.points, face), normal = normalized(area);
+    double longest = 0;
+    for (std::size_t i = 0; i < face.size(); ++i)
+      longest = std::max(longest, distance(hull.points[std::size_t(face[i])],
+                                           hull.points[std::size_t(face[(i + 1) % face.size()])]));
+    const bool narrow = norm(area) <= 2 * kNarrowSteps / kGridSteps * size * longest;
+    planes.push_back(narrow ? HullPlane{{}, 1e300} : HullPlane{normal, dot(normal, hull.points[std::size_t(face[0])])});
+  }
+  return planes;
+}
+
+double calc_volume(const Hull& hull) {
+  double six = 0;
+  for (const std::vector<int>& face : hull.faces) {
+    const Vec3 a = hull.points[std::size_t(face[0])] - hull.points[0];
+    for (std::size_t k = 2; k < face.size(); ++k)
+      six += dot(a, cross(hull.points[std::size_t(face[k - 1])] - hull.points[0],
+                          hull.points[std::size_t(face[k])] - hull.points[0]));
+  }
+  return six / 6;
+}
+
+double calc_hull_volume(const std::vector<Vec3>& points) {
+  if (points.size() < 4) return 0;
+  try {
+    return calc_volume(calc_hull(points));
+  } catch (const std::invalid_argument&) {
+    return 0;
+  }
 }
 
 }  // namespace rubble

@@ -161,8 +161,9 @@ Shape compile_shape(const PieceType& type, const std::string& key) {
            "at least 4 points that are not in one plane",
            std::to_string(type.parts[i].points.size()) + " points");
     }
-    if (hulls.back().points.size() > 1000) {
-      fail(key + ".parts[" + std::to_string(i) + "]", "too many corners", "1000 at most",
+    if (hulls.back().points.size() > kMostPartCorners) {
+      fail(key + ".parts[" + std::to_string(i) + "]", "too many corners",
+           std::to_string(kMostPartCorners) + " at most, as simplify_hull() gives them",
            std::to_string(hulls.back().points.size()));
     }
     volumes.push_back(volume_of_hull(hulls.back()));

@@ -3,6 +3,7 @@
 // scale is applied to the turned corners.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -38,6 +39,9 @@ struct Shape {
   float radius = 0;         // of the sphere about the centre of mass; unit: m
   Vec3f reach;              // largest |x|, |y|, |z| of any corner from there; unit: m
 };
+
+// Corners of a part at most: they are numbered in 16 bits, and contact takes longer with each.
+inline constexpr std::size_t kMostPartCorners = 1000;
 
 // Throws InputError, with `key` as the path of the type, when a part does not span a volume, when
 // the volume is not positive or a material figure is out of range.

@@ -28,7 +28,7 @@ struct SettleOptions {
   double rest_overlap = 0.005;
   double layer_time_limit = 4.0;    // the next layer comes at the latest then; unit: s
   double final_time_limit = 20.0;   // after the last layer; unit: s
-  double lost_below = -0.5;         // a piece whose origin is lower has left the world; unit: m
+  double lost_below = -0.5;         // a piece whose centre of mass is lower has left the world; unit: m
   double lost_beyond = 100.0;       // likewise farther than this from the Z axis; unit: m
   int threads = 0;                  // 0: all processors; the result does not depend on it
 

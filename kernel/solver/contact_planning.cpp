@@ -68,7 +68,7 @@ void ContactSolver::divide(const std::vector<Body>& bodies) {
   domains_.assign(moving_.size(), 0);
   domain_starts_.assign(std::size_t(domain_count_) + 1, std::int32_t(moving_.size()));
   domain_starts_[0] = 0;
-  if (domain_count_ < 2) return;
+  if (domain_count_ < 2 || moving_.empty()) return;
   note_places(bodies);
   sorted_places_ = places_;
   std::vector<float> borders;
@@ -182,9 +182,11 @@ void ContactSolver::pack() {
 }
 
 // Threads take part where there is enough to do for each, unless other programs kept them from it lately:
-// waiting for a thread that does not run costs more than doing its work.
+// waiting for a thread that does not run costs more than doing its work. Contacts of trees are not in the
+// sweeps, so they do not count: where trees alone move, there is nothing to divide.
 int ContactSolver::choose_domain_count(const ThreadPool& pool) {
-  const int most = std::min({pool.threads(), int(heads_.size()) / kLeastContacts, kMostDomains});
+  const int swept = int(heads_.size() - tree_order_.size());
+  const int most = std::min({pool.threads(), swept / kLeastContacts, kMostDomains});
   if (most < 2) return 1;
   if (crowded_steps_ > 0) return --crowded_steps_, 1;
   return most;

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "kernel/voids/distance_transform.h"
+#include "kernel/geometry/distance_transform.h"
 #include "kernel/voids/void_map.h"
 #include "kernel/voids/ways_from.h"
 

@@ -8,7 +8,7 @@
 #include "kernel/base/parallel.h"
 #include "kernel/model/pile_state.h"
 #include "kernel/queries/query_triangle.h"
-#include "kernel/voids/voxel_grid.h"
+#include "kernel/geometry/voxel_grid.h"
 
 namespace rubble {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "kernel/base/error.h"
-#include "kernel/voids/distance_transform.h"
+#include "kernel/geometry/distance_transform.h"
 #include "kernel/voids/solid_voxels.h"
 
 namespace rubble {

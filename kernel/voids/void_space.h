@@ -13,7 +13,7 @@
 
 #include "kernel/base/mesh.h"
 #include "kernel/model/pile_state.h"
-#include "kernel/voids/voxel_grid.h"
+#include "kernel/geometry/voxel_grid.h"
 
 namespace rubble {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/voids/voxel_grid.h"
+#include "kernel/geometry/voxel_grid.h"
 
 namespace rubble {
 

@@ -43,7 +43,8 @@ void World::Impl::remove_lost() {
   for (std::int32_t i : step_pairs.awake) {
     const Body& body = data.bodies[i];
     if (!body.awake) continue;
-    const Vec3 p = body.world_from_type().translation;
+    // Not the origin of its type's frame, which may lie anywhere: files come from whole scenes.
+    const Vec3& p = body.world_from_com.translation;
     // Written so that a pose that is not a number is lost too.
     const bool inside = p.z >= settings.options.lost_below &&
                         p.x * p.x + p.y * p.y <= settings.options.lost_beyond * settings.options.lost_beyond;

@@ -321,6 +321,8 @@ TEST(AssetsCheck, DecomposesAndKeepsThePartsOnDisk) {
   EXPECT_LT(cut.at("parts_outside_mesh_m3"), 0.01);
   EXPECT_LT(cut.at("mesh_outside_parts_m3"), 0.005);
   EXPECT_GE(cut.at("parts"), 5);
+  EXPECT_EQ(cut.at("parts_farthest_from_mesh_m"), 0) << "boxes are cut without error";
+  EXPECT_FALSE(hull.contains("parts_farthest_from_mesh_m"));
 
   // The second run reads what the first one kept; a damaged entry is noticed and made anew.
   std::vector<std::filesystem::path> entries;
@@ -378,37 +380,84 @@ TEST(AssetsShow, DrawsThePartsThatCollide) {
   EXPECT_NEAR(asset.at("parts_outside_mesh_m3"), 0, 1e-6);
 }
 
-// A thin half shell of many facets: no few convex parts follow it.
+// A thin wide bowl: no few convex parts follow it. The advice is another than the option that is set.
 TEST(AssetsCheck, WarnsWherePartsHoldMuchMoreThanTheMesh) {
   const ScratchFolder scratch;
   std::string obj;
-  const int n = 48;
-  for (const double radius : {0.5, 0.48})
-    for (const double y : {0.0, 1.0})
-      for (int i = 0; i <= n; ++i) {
-        const double angle = 3.14159265358979 * 1.9 * i / n;
-        obj += "v " + std::to_string(radius * std::cos(angle)) + " " + std::to_string(y) + " " +
-               std::to_string(radius * std::sin(angle)) + "\n";
+  const int rings = 4, sides = 16;
+  for (const double radius : {1.0, 0.97})
+    for (int i = 0; i <= rings; ++i)
+      for (int k = 0; k < sides; ++k) {
+        const double down = 1.5707963 * i / rings, round = 6.2831853 * k / sides;
+        obj += "v " + std::to_string(radius * std::sin(down) * std::cos(round)) + " " +
+               std::to_string(radius * std::sin(down) * std::sin(round)) + " " + std::to_string(-radius * std::cos(down)) + "\n";
       }
-  const auto at = [&](int shell, int end, int i) { return std::to_string((shell * 2 + end) * (n + 1) + i + 1); };
-  const auto quad = [&](const std::string& a, const std::string& b, const std::string& c, const std::string& d) {
-    obj += "f " + a + " " + b + " " + c + "\nf " + a + " " + c + " " + d + "\n";
+  const auto at = [&](int shell, int ring, int k) {
+    return std::to_string((shell * (rings + 1) + ring) * sides + (ring == 0 ? 0 : k % sides) + 1);
   };
-  for (int i = 0; i < n; ++i) {
-    quad(at(0, 0, i), at(0, 1, i), at(0, 1, i + 1), at(0, 0, i + 1));
-    quad(at(1, 0, i), at(1, 0, i + 1), at(1, 1, i + 1), at(1, 1, i));
-    quad(at(0, 0, i), at(0, 0, i + 1), at(1, 0, i + 1), at(1, 0, i));
-    quad(at(0, 1, i), at(1, 1, i), at(1, 1, i + 1), at(0, 1, i + 1));
-  }
-  for (const int i : {0, n}) {
-    if (i == 0) quad(at(0, 0, i), at(1, 0, i), at(1, 1, i), at(0, 1, i));
-    if (i == n) quad(at(0, 0, i), at(0, 1, i), at(1, 1, i), at(1, 0, i));
+  const auto face = [&](const std::string& a, const std::string& b, const std::string& c) {
+    if (a != b && b != c && c != a) obj += "f " + a + " " + b + " " + c + "\n";
+  };
+  for (int k = 0; k < sides; ++k) {
+    for (int i = 0; i < rings; ++i) {
+      face(at(0, i, k), at(0, i + 1, k + 1), at(0, i + 1, k)), face(at(0, i, k), at(0, i, k + 1), at(0, i + 1, k + 1));
+      face(at(1, i, k), at(1, i + 1, k), at(1, i + 1, k + 1)), face(at(1, i, k), at(1, i + 1, k + 1), at(1, i, k + 1));
+    }
+    face(at(0, rings, k), at(0, rings, k + 1), at(1, rings, k + 1)), face(at(0, rings, k), at(1, rings, k + 1), at(1, rings, k));
   }
   write_file(scratch / "cube.obj", obj);
   write_file(scratch / "pack.lua", one_asset("collision = \"decompose\""));
   const Outcome outcome = run_rubble("assets check " + scratch.path().string());
-  EXPECT_NE((outcome.out + outcome.err).find("% more than the mesh"), std::string::npos)
-      << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("% more than the mesh and stand out of it by up to"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("collision = { parts = FILE }"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("try collision"), std::string::npos) << outcome.out;
+}
+
+// In map coordinates: rounded to half a metre, another shape.
+TEST(AssetsCheck, RefusesAMeshInMapCoordinates) {
+  const ScratchFolder scratch;
+  std::string obj;
+  for (int i = 0; i < 8; ++i)
+    obj += "v " + std::to_string(358123.25 + (i & 1)) + " " + std::to_string(4512345.75 + (i >> 1 & 1)) + " " +
+           std::to_string(i >> 2) + "\n";
+  for (const auto& f : kBoxFaces)
+    obj += "f " + std::to_string(f[0] + 1) + " " + std::to_string(f[1] + 1) + " " + std::to_string(f[2] + 1) + "\n";
+  write_file(scratch / "cube.obj", obj);
+  write_file(scratch / "pack.lua", one_asset("collision = \"hull\""));
+  const Outcome outcome = run_rubble("assets check " + scratch.path().string());
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("lies too far from its origin"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("subtract about (35812"), std::string::npos) << outcome.out;
+}
+
+// A ball of 1,200 corners.
+TEST(AssetsCheck, SimplifiesAHullOfMoreCornersThanAPartMayHave) {
+  const ScratchFolder scratch;
+  std::string obj;
+  const int rings = 30, sides = 40;
+  for (int i = 0; i < rings; ++i)
+    for (int k = 0; k < sides; ++k) {
+      const double z = 3.14159265358979 * (i + 0.5) / rings, round = 6.28318530717959 * k / sides;
+      obj += "v " + std::to_string(0.5 * std::sin(z) * std::cos(round)) + " " + std::to_string(0.5 * std::sin(z) * std::sin(round)) +
+             " " + std::to_string(0.5 * std::cos(z)) + "\n";
+    }
+  const auto at = [&](int i, int k) { return std::to_string(i * sides + k % sides + 1); };
+  for (int k = 0; k < sides; ++k) {
+    for (int i = 0; i + 1 < rings; ++i)
+      obj += "f " + at(i, k) + " " + at(i + 1, k) + " " + at(i + 1, k + 1) + "\nf " + at(i, k) + " " + at(i + 1, k + 1) + " " +
+             at(i, k + 1) + "\n";
+    if (k > 1)
+      obj += "f " + at(0, 0) + " " + at(0, k - 1) + " " + at(0, k) + "\nf " + at(rings - 1, 0) + " " + at(rings - 1, k) + " " +
+             at(rings - 1, k - 1) + "\n";
+  }
+  write_file(scratch / "cube.obj", obj);
+  write_file(scratch / "pack.lua", one_asset("collision = \"hull\""));
+  const Outcome outcome = run_rubble("assets check --json " + scratch.path().string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  const Json ball = Json::parse(outcome.out).at("assets")[0];
+  EXPECT_LE(ball.at("most_corners"), 1000);
+  EXPECT_LT(ball.at("mesh_outside_parts_m3"), 0.01 * double(ball.at("volume_m3")));
+  EXPECT_NE(ball.at("warnings").dump().find("more than the 1000 that a part may have"), std::string::npos);
 }
 
 TEST(Assets, AreFoundByTheNameOfABundledPack) {

@@ -81,6 +81,23 @@ TEST(Run, SaysWhenThePileDidNotSettle) {
   EXPECT_TRUE(fs::exists(scratch / "a/pile.bin")) << "what was computed is kept";
 }
 
+TEST(Run, SaysWhatLeftTheWorldAndWhatOverlapsFromTheStart) {
+  const ScratchFolder scratch;
+  write_file(scratch / "boxes.lua",
+             "return rubble.mission { settle = { lost_beyond = 10 }, pile = { layers = 0, placed = {\n"
+             "  { box = { 1, 1, 1 }, position = { 0, 0, 0.5 } },\n"
+             "  { box = { 1, 1, 1 }, position = { 0.96, 0, 0.5 } },\n"
+             "  { box = { 1, 1, 1 }, position = { 20, 0, 0.5 }, fixed = false } } } }\n");
+  const Outcome run = run_rubble("settle " + (scratch / "boxes.lua") + " --out " + (scratch / "a"));
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_NE(run.err.find("1 of 3 pieces left the world"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("piece 2, last seen with its origin at {20.00, 0.00"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("reach 40 mm into each other from the start"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("pile.placed[1] ("), std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find("layer 0 of 0"), std::string::npos) << run.err;
+  EXPECT_TRUE(fs::exists(scratch / "a/pile.bin")) << "what was computed is kept";
+}
+
 // A bundled script, made small: what users copy from must work.
 void run_script(const fs::path& path) {
   const ScratchFolder scratch;

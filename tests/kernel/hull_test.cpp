@@ -10,6 +10,7 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "kernel/geometry/shape.h"
+#include "kernel/geometry/simplify_hull.h"
 #include "scenes.h"
 
 namespace rubble {
@@ -156,6 +157,49 @@ TEST(Shape, BadTypesAreNamed) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.diagnostics()[0].key, "types[0].parts[0]");
   }
+}
+
+// A ball of 2,000 points: corners within the stated error, and no more than are asked for.
+TEST(SimplifyHull, KeepsItsErrorAndItsLength) {
+  std::vector<Vec3> ball;
+  for (int i = 0; i < 2000; ++i) {
+    const double z = 1 - 2 * (i + 0.5) / 2000, level = std::sqrt(1 - z * z);
+    const auto [s, c] = portable::sincos(2.399963229728653 * i);
+    ball.push_back(Vec3{level * c, level * s, z} * 0.5);
+  }
+  const SimpleHull fine = simplify_hull(ball, 1000, 0.0025), coarse = simplify_hull(ball, 64, 0);
+  EXPECT_LE(fine.error, 0.0025);
+  EXPECT_LT(fine.points.size(), 1000u);
+  EXPECT_EQ(coarse.points.size(), 64u);
+  EXPECT_GT(coarse.error, fine.error);
+  for (const SimpleHull* hull : {&fine, &coarse}) {
+    const std::vector<HullPlane> planes = calc_planes(calc_hull(hull->points));
+    double outside = 0;
+    for (const Vec3& p : ball) {
+      double height = -1;
+      for (const HullPlane& plane : planes)
+        height = std::max(height, dot(plane.normal, p) - plane.offset);
+      outside = std::max(outside, height);
+    }
+    EXPECT_NEAR(outside, hull->error, 1e-5);
+    Aabb box, all;
+    for (const Vec3& p : hull->points) box.include(p);
+    for (const Vec3& p : ball) all.include(p);
+    EXPECT_EQ(box.min, all.min);
+    EXPECT_EQ(box.max, all.max);
+  }
+  const double whole = calc_hull_volume(ball);
+  EXPECT_LT(calc_hull_volume(coarse.points), 0.95 * whole);
+  EXPECT_NEAR(calc_hull_volume(restore_volume(coarse, ball)), whole, 0.005 * whole);
+}
+
+TEST(SimplifyHull, ABoxKeepsItsEightCorners) {
+  std::vector<Vec3> points = box_part(1, 2, 3).points;
+  points.push_back({0, 0, 0}), points.push_back({0.5, 0.1, 0.2});
+  const SimpleHull box = simplify_hull(points, 64, 1e-4);
+  EXPECT_EQ(box.points.size(), 8u);
+  EXPECT_NEAR(calc_hull_volume(box.points), 6, 1e-9);
+  EXPECT_THROW(simplify_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, 64, 1e-4), std::invalid_argument);
 }
 
 }  // namespace hull_test

@@ -273,5 +273,20 @@ TEST(Robot, ASleepingPieceThatIsPushedWakesAndSlides) {
   EXPECT_FALSE(world.is_awake(brick));
 }
 
+// Only links move: nothing is there for the sweeps, however many contacts there are.
+TEST(Snake, ManyAloneMoveAlikeOnAnyNumberOfThreads) {
+  SnakeOptions options;
+  options.modules = 64;
+  const RobotModel model = make_snake(options);
+  std::vector<Vec3> centres;
+  for (const int threads : {1, 2, 4, 8}) {
+    World world = make_robot_world({}, threads);
+    for (int i = 0; i < 6; ++i) world.add_robot(model, {{}, {0, double(i), 0.03}});
+    for (int i = 0; i < 8; ++i) world.step();
+    for (int i = 0; i < 6; ++i) centres.push_back(testing::centre_of(world, i));
+  }
+  for (std::size_t i = 6; i < centres.size(); ++i) EXPECT_EQ(centres[i], centres[i % 6]);
+}
+
 }  // namespace robot_ground_test
 }  // namespace rubble

@@ -137,5 +137,20 @@ TEST(Settle, AnEmptyPileIsAtRest) {
   EXPECT_TRUE(settle_pile(Pile{}).settled);
 }
 
+// A piece whose corners are 3 m from the origin of its file, which comes to lie below the ground or above it.
+TEST(Settle, APieceFarFromItsOriginIsNotLost) {
+  PieceType type = testing::box_type("stone", 0.6, 0.5, 0.4);
+  for (Vec3& p : type.parts[0].points) p += Vec3{3, 2, 1};
+  PileSpec spec;
+  spec.seed = 1;
+  spec.types = {type};
+  spec.mix = {{0, 1, 1, 1}};
+  spec.layers = 1, spec.pieces_per_layer = 8;
+  spec.spawn_bounds = {6, 6, 3};
+  const PileState state = settle_pile(generate_pile(spec), SettleOptions{});
+  EXPECT_EQ(state.lost, 0);
+  EXPECT_TRUE(state.settled);
+}
+
 }  // namespace settle_test
 }  // namespace rubble

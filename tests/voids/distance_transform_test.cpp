@@ -1,5 +1,5 @@
 // The feature transform against trying every seed.
-#include "kernel/voids/distance_transform.h"
+#include "kernel/geometry/distance_transform.h"
 
 #include <gtest/gtest.h>
 

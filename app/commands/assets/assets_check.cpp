@@ -28,6 +28,7 @@ struct AssetReport {
   std::size_t parts = 0, corners = 0;  // corners: of the part that has most
   double thinnest = 0;                 // unit: m
   HullError error;                     // of closed meshes
+  double gap = -1;                     // of parts that are cut from the mesh, from it; unit: m
   std::vector<std::size_t> triangles;
   std::vector<std::string> errors, warnings;
 };
@@ -78,8 +79,9 @@ void check_parts(const Shape& shape, AssetReport& report) {
   }
 }
 
-void check_hull(const TriangleMesh& mesh, const Shape& shape, AssetReport& report) {
+void check_hull(const Asset& asset, const TriangleMesh& mesh, const Shape& shape, AssetReport& report) {
   report.error = calc_hull_error(mesh, shape);
+  if (asset.decompose) return;  // load_asset() says where its parts do not fit
   double area = 0;
   for (const auto& t : mesh.triangles) {
     const Vec3 a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
@@ -89,7 +91,8 @@ void check_hull(const TriangleMesh& mesh, const Shape& shape, AssetReport& repor
   if (out > kLooseHull)
     report.warnings.push_back(
         "the parts stand out of the mesh by " + millimetres(out) +
-        " in the mean: pieces will seem to float; try collision = \"decompose\"");
+        " in the mean: pieces will seem to float; " +
+        (asset.parts.empty() ? "try collision = \"decompose\"" : "bring the parts of " + asset.parts + " nearer to it"));
   if (in > kLooseHull)
     report.warnings.push_back("the parts stay behind the mesh by " + millimetres(in) +
                               " in the mean: pieces will sink into it");
@@ -105,12 +108,13 @@ AssetReport check_asset(const Asset& asset, AssetLibrary& library) {
     report.size = mesh.bounds().max - mesh.bounds().min;
     report.closed = is_closed(mesh);
     report.warnings.insert(report.warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
+    if (asset.decompose) report.gap = loaded.parts_gap;
     check_levels(*loaded.mesh, report);
     const Shape shape = compile_shape(loaded.type, asset.name);
     report.volume = shape.volume.volume;
     report.mass = report.volume * loaded.type.density;
     check_parts(shape, report);
-    if (report.closed) check_hull(mesh, shape, report);
+    if (report.closed) check_hull(asset, mesh, shape, report);
     library.types.push_back(loaded.type);
     library.meshes.push_back(loaded.mesh);
   } catch (const InputError& error) {
@@ -194,6 +198,7 @@ void print_json(const AssetPack& pack, const std::vector<AssetReport>& reports,
       entry["parts_outside_mesh_m3"] = r.error.outside;
       entry["mesh_outside_parts_m3"] = r.error.inside;
     }
+    if (r.gap >= 0) entry["parts_farthest_from_mesh_m"] = r.gap;
     entry["errors"] = r.errors;
     entry["warnings"] = r.warnings;
     list.push_back(std::move(entry));

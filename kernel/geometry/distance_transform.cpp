@@ -1,4 +1,4 @@
-#include "kernel/voids/distance_transform.h"
+#include "kernel/geometry/distance_transform.h"
 
 namespace rubble {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kernel/base/parallel.h"
-#include "kernel/voids/voxel_grid.h"
+#include "kernel/geometry/voxel_grid.h"
 
 namespace rubble {
 

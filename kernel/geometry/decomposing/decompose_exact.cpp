@@ -1,4 +1,4 @@
-#include "kernel/geometry/decompose_exact.h"
+#include "kernel/geometry/decomposing/decompose_exact.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "kernel/geometry/decompose_voxels.h"
 #include "kernel/geometry/hull.h"
 
 namespace rubble::decomposing {

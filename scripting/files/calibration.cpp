@@ -14,9 +14,9 @@
 namespace rubble {
 namespace {
 
-using Names = std::initializer_list<const char*>;
+using KeyNames = std::initializer_list<const char*>;
 
-struct Lens {
+struct CalibratedLens {
   std::string model = "pinhole";  // of `lens.model`
   double width = 0, height = 0;
   double fx = 0, fy = 0, cx = 0, cy = 0;
@@ -29,7 +29,7 @@ class CalibrationReader {
     if (root_.kind != Value::Kind::table) refuse("", "is no calibration", kKnown, describe(root_));
   }
 
-  Calibration read() {
+  SensorCalibration read() {
     if (const Value* chain = find_chain()) {
       read_chain(*chain);
     } else if (is_ouster()) {
@@ -59,7 +59,7 @@ class CalibrationReader {
     return keys.substr(0, 200);
   }
 
-  static const Value* find(const Value& table, Names names) {
+  static const Value* find(const Value& table, KeyNames names) {
     for (const char* name : names)
       if (const Value* found = table.find(name)) return found;
     return nullptr;
@@ -96,22 +96,22 @@ class CalibrationReader {
     return list;
   }
 
-  void check_lens(const Lens& lens, const std::string& key) const {
+  void check_lens(const CalibratedLens& lens, const std::string& key) const {
     const bool whole = lens.width == std::floor(lens.width) && lens.height == std::floor(lens.height);
     if (!whole || lens.width < 1 || lens.height < 1)
       refuse(key, "no size of the image", "a width and a height", format_number(lens.width) + " x " + format_number(lens.height));
     if (!(lens.fx > 0) || !(lens.fy > 0)) refuse(key, "no focal length", "fx and fy above 0", format_number(lens.fx));
   }
 
-  Value camera_keys(const Lens& lens, const std::string& key) const {
+  Value camera_keys(const CalibratedLens& lens, const std::string& key) const {
     check_lens(lens, key);
-    const Names plumb_bob{"k1", "k2", "p1", "p2", "k3"}, fisheye{"k1", "k2", "k3", "k4"};
+    const KeyNames plumb_bob{"k1", "k2", "p1", "p2", "k3"}, fisheye{"k1", "k2", "k3", "k4"};
     Value of_lens = Value::make_table(), camera = Value::make_table();
     of_lens.set("model", Value::make_text(lens.model));
     for (const auto& [name, value] :
          {std::pair{"fx", lens.fx}, {"fy", lens.fy}, {"cx", lens.cx}, {"cy", lens.cy}})
       of_lens.set(name, Value::make_number(value));
-    const Names& names = lens.model == "fisheye" ? fisheye : plumb_bob;
+    const KeyNames& names = lens.model == "fisheye" ? fisheye : plumb_bob;
     for (std::size_t i = 0; i < lens.coefficients.size() && i < names.size(); ++i)
       of_lens.set(names.begin()[i], Value::make_number(lens.coefficients[i]));
     camera.set("width", Value::make_integer(std::int64_t(lens.width)));
@@ -121,11 +121,11 @@ class CalibrationReader {
   }
 
   // From the model's name, or "" where the number of coefficients tells it.
-  void set_distortion(Lens& lens, const std::string& name, std::vector<double> d, const std::string& key) const {
+  void set_distortion(CalibratedLens& lens, const std::string& name, std::vector<double> d, const std::string& key) const {
     while (!d.empty() && d.back() == 0 && d.size() > 5) d.pop_back();  // rational terms and others of value 0
     const bool none = std::all_of(d.begin(), d.end(), [](double v) { return v == 0; });
     const std::string low = lower_case(name);
-    const auto is = [&low](Names names) { return std::any_of(names.begin(), names.end(), [&](const char* n) { return low == n; }); };
+    const auto is = [&low](KeyNames names) { return std::any_of(names.begin(), names.end(), [&](const char* n) { return low == n; }); };
     const bool fisheye = is({"equidistant", "equi", "fisheye", "kannala_brandt", "kannalabrandt8"});
     if (!fisheye && !is({"", "none", "radtan", "plumb_bob", "rational_polynomial", "pinhole"}))
       refuse(key, "a model of lenses that is not simulated", "radtan (plumb_bob), equidistant (fisheye) or none", name);
@@ -145,8 +145,8 @@ class CalibrationReader {
     return first && first->find("intrinsics") ? &root_ : nullptr;
   }
 
-  Lens chain_lens(const Value& camera, const std::string& name) const {
-    Lens lens;
+  CalibratedLens chain_lens(const Value& camera, const std::string& name) const {
+    CalibratedLens lens;
     const std::string model = text(camera.find("camera_model"), name + ".camera_model");
     if (model != "pinhole")
       refuse(name + ".camera_model", "a model of cameras that is not simulated", "pinhole", model,
@@ -280,7 +280,7 @@ class CalibrationReader {
       const Value* found = root_.find(at + name);
       return found ? number(found, at + name) : 0.0;
     };
-    Lens lens;
+    CalibratedLens lens;
     lens.fx = value(at + "fx"), lens.fy = value(at + "fy"), lens.cx = value(at + "cx"), lens.cy = value(at + "cy");
     lens.width = value("Camera.width"), lens.height = value("Camera.height");
     const Value* type = root_.find("Camera.type");
@@ -300,7 +300,7 @@ class CalibrationReader {
     const Value* model = root_.find("distortion_model");
     const bool ros = model || root_.find("camera_name");
     result_.format = ros ? "ROS camera_info" : "OpenCV";
-    Lens lens;
+    CalibratedLens lens;
     const auto k = numbers(&matrix, "camera_matrix", 9);
     lens.fx = k[0], lens.fy = k[4], lens.cx = k[2], lens.cy = k[5];
     if (k[1] != 0) result_.notes.push_back("the skew of the camera matrix is left out");
@@ -333,12 +333,12 @@ class CalibrationReader {
 
   std::string path_;
   Value root_;
-  Calibration result_{"", Value::make_table(), {}};
+  SensorCalibration result_{"", Value::make_table(), {}};
 };
 
 }  // namespace
 
-Calibration parse_calibration(std::string_view text, const std::string& path) {
+SensorCalibration parse_calibration(std::string_view text, const std::string& path) {
   return CalibrationReader(text, path).read();
 }
 

@@ -9,7 +9,7 @@
 
 namespace rubble {
 
-struct Calibration {
+struct SensorCalibration {
   std::string format;  // "Kalibr camchain", "OpenCV", "ROS camera_info", "ORB-SLAM settings", "Ouster metadata"
   // "camera": the keys of a `camera`; of a chain of several, "cameras": by their names, with position and
   // rpy_deg in the rig, whose origin is the first camera. Of Ouster metadata "lidar": the keys of a `lidar`.
@@ -27,6 +27,6 @@ struct Calibration {
 //   Ouster sensors' metadata, old and new: product, lidar_mode
 // Throws InputError with `path` and the key: a model of lenses that is not simulated, by its name; a
 // size, matrix or mode that is missing or has another form.
-Calibration parse_calibration(std::string_view text, const std::string& path);
+SensorCalibration parse_calibration(std::string_view text, const std::string& path);
 
 }  // namespace rubble

@@ -158,7 +158,7 @@ int read_image_file(lua_State* lua) {
 // read_calibration(file) -> { format =, notes =, camera =, cameras =, lidar = }
 int read_calibration_file(lua_State* lua) {
   const std::string name = luaL_checkstring(lua, 1);
-  Calibration read;
+  SensorCalibration read;
   Diagnostic mistake;
   try {
     read = parse_calibration(text_of(lua, "rubble.read_calibration", name), name);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace rubble {
-namespace {
+namespace text_table_test {
 
 TEST(TextTable, NumbersAreReadInEveryUsualForm) {
   EXPECT_EQ(parse_number("+1.5"), 1.5);
@@ -59,5 +59,5 @@ TEST(TextTable, KnowsUtf16) {
   EXPECT_FALSE(is_utf16("\xef\xbb\xbf" "1"));
 }
 
-}  // namespace
+}  // namespace text_table_test
 }  // namespace rubble

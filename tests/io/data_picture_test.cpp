@@ -12,7 +12,7 @@
 #include "tests/io/tiff_bytes.h"
 
 namespace rubble::testing {
-namespace {
+namespace data_picture_test {
 
 std::string refusal_of(const std::string& bytes) {
   try {
@@ -92,5 +92,5 @@ TEST(DataPicture, WhatIsNotReadIsNamed) {
   EXPECT_NE(refusal_of("\x89PNG\r\n\x1a\n....").find("is a damaged PNG"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace data_picture_test
 }  // namespace rubble::testing

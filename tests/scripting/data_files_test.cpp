@@ -13,7 +13,7 @@
 #include "tests/scripting/test_support.h"
 
 namespace rubble {
-namespace {
+namespace data_files_test {
 
 using testing::TiffBytes;
 
@@ -240,5 +240,5 @@ TEST(Calibrations, WhatIsNotSimulatedIsNamed) {
   EXPECT_NE(error(std::string(1000, '[')).find("nested too deeply"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace data_files_test
 }  // namespace rubble

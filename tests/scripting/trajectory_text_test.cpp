@@ -9,7 +9,7 @@
 #include "tests/scripting/test_support.h"
 
 namespace rubble {
-namespace {
+namespace trajectory_text_test {
 
 RecordedTrajectory read(const std::string& text, const std::string& columns = "") { return parse_trajectory(text, "a", columns); }
 std::string refusal(const std::string& text) {
@@ -178,5 +178,5 @@ TEST(RollPitchYaw, InvertsTheRotation) {
   EXPECT_EQ(portable::rpy_from_quat(Quat{}), Vec3(0, 0, 0));
 }
 
-}  // namespace
+}  // namespace trajectory_text_test
 }  // namespace rubble

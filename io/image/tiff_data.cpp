@@ -256,20 +256,28 @@ void put(CacheWriter& writer, const DataPicture& picture) {
 
 }  // namespace
 
+// In the child: the refusal, then the picture.
+static std::string answer_tiff(const std::string& bytes) {
+  std::vector<char> refusal;
+  DataPicture picture;
+  try {
+    picture = TiffFile(bytes).read();
+  } catch (const RunError& error) {
+    refusal.assign(error.what(), error.what() + std::strlen(error.what()));
+  }
+  CacheWriter writer;
+  writer.put(refusal);
+  put(writer, picture);
+  return writer.bytes();
+}
+
 DataPicture decode_tiff_data(std::string_view bytes) {
-  const std::string answer = run_isolated("the picture", "TIFF", [&] {
-    CacheWriter writer;
-    std::vector<char> refusal;
-    DataPicture picture;
-    try {
-      picture = TiffFile(bytes).read();
-    } catch (const RunError& error) {
-      refusal.assign(error.what(), error.what() + std::strlen(error.what()));
-    }
-    writer.put(refusal);
-    put(writer, picture);
-    return writer.bytes();
-  });
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+  static IsolatedWorker worker("TIFF", answer_tiff);  // until an input ends it
+#else
+  IsolatedWorker worker("TIFF", answer_tiff);
+#endif
+  const std::string answer = worker.ask("the picture", std::string(bytes));
   CacheReader reader(answer);
   std::vector<char> refusal;
   DataPicture picture;

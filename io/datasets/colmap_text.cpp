@@ -6,6 +6,7 @@
 #include "io/base/atomic_file.h"
 #include "io/datasets/colmap_parts.h"
 #include "kernel/base/error.h"
+#include "kernel/base/tables/text_table.h"
 
 namespace rubble {
 namespace {
@@ -13,7 +14,9 @@ namespace {
 // A file by its lines, with the errors that a line can have.
 class Lines {
  public:
-  explicit Lines(std::string path) : path_(std::move(path)), text_(read_whole_file(path_)) {}
+  explicit Lines(std::string path) : path_(std::move(path)), text_(read_whole_file(path_)) {
+    at_ = text_.size() - skip_byte_order_mark(text_).size();
+  }
 
   // The next line that says something; false at the end.
   bool next() {
@@ -162,9 +165,9 @@ void read_text_points(const std::string& path, ColmapParts& parts) {
 }  // namespace
 
 bool parse_colmap_number(const std::string& word, double& value) {
-  const char* last = word.data() + word.size();
-  const auto [end, failed] = std::from_chars(word.data(), last, value);
-  return failed == std::errc() && end == last && std::isfinite(value);
+  const auto number = parse_number(word);
+  value = number.value_or(0);
+  return number && std::isfinite(value);
 }
 
 ColmapParts read_colmap_text(const std::string& folder) {

@@ -9,16 +9,33 @@
 
 #include <jpeglib.h>
 
+#include "io/image/png_pixels.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
-namespace {
 
-void check_size(std::uint64_t width, std::uint64_t height) {
+void check_picture_size(std::uint64_t width, std::uint64_t height) {
   if (width == 0 || height == 0) throw RunError("has no pixels");
   if (width > kLargestPicture || height > kLargestPicture)
     throw RunError("has " + std::to_string(width) + " x " + std::to_string(height) + " pixels; at most " +
                    std::to_string(kLargestPicture) + " a side are read");
+}
+
+namespace {
+
+// libpng's simple reader takes 16 bits for linear light, which no program writes.
+RgbaImage decode_png_of_16_bits(std::string_view bytes) {
+  const PngPixels png = read_png_pixels(bytes);
+  RgbaImage out{png.width, png.height, {}};
+  const std::size_t channels = std::size_t(png.channels);
+  const auto rounded = [](std::uint16_t v) { return std::uint8_t((std::uint32_t(v) * 255 + 32767) / 65535); };
+  out.rgba.reserve(png.values.size() / channels * 4);
+  for (std::size_t i = 0; i < png.values.size(); i += channels) {
+    const std::uint16_t* p = &png.values[i];
+    for (std::size_t k = 0; k < 3; ++k) out.rgba.push_back(rounded(p[channels >= 3 ? k : 0]));
+    out.rgba.push_back(channels % 2 == 0 ? rounded(p[channels - 1]) : std::uint8_t(255));
+  }
+  return out;
 }
 
 RgbaImage decode_png(std::string_view bytes) {
@@ -30,7 +47,8 @@ RgbaImage decode_png(std::string_view bytes) {
   png.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
     throw RunError(std::string("is a damaged PNG: ") + png.message);
-  check_size(png.width, png.height);
+  check_picture_size(png.width, png.height);
+  if (png.format & PNG_FORMAT_FLAG_LINEAR) return decode_png_of_16_bits(bytes);
   png.format = PNG_FORMAT_RGBA;
   RgbaImage out{int(png.width), int(png.height), {}};
   out.rgba.resize(PNG_IMAGE_SIZE(png));
@@ -86,7 +104,7 @@ RgbaImage decode_jpeg(std::string_view bytes) {
   errors.manager.output_message = say_nothing;
   const auto refuse = [&] { throw RunError(std::string("is a damaged JPEG: ") + errors.message); };
   if (!read_header(reading.jpeg, errors, bytes)) refuse();
-  check_size(reading.jpeg.image_width, reading.jpeg.image_height);
+  check_picture_size(reading.jpeg.image_width, reading.jpeg.image_height);
   if (reading.jpeg.num_components > 3) throw RunError("is a JPEG of four inks; RGB and grey are read");
   const int width = int(reading.jpeg.image_width), height = int(reading.jpeg.image_height);
   std::vector<std::uint8_t> rgb(std::size_t(width) * std::size_t(height) * 3);

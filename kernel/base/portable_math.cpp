@@ -95,6 +95,21 @@ Quat quat_from_rpy(double roll, double pitch, double yaw) {
   return normalized(qz * qy * qx);
 }
 
+// With h = pitch / 2: w + y = (cos h + sin h) cos((roll - yaw) / 2), x - z the same with the sine;
+// w - y = (cos h - sin h) cos((roll + yaw) / 2), x + z the same with the sine.
+Vec3 rpy_from_quat(const Quat& q) {
+  const double difference = 2 * atan2(q.x - q.z, q.w + q.y), sum = 2 * atan2(q.x + q.z, q.w - q.y);
+  const double rising = std::sqrt((q.w + q.y) * (q.w + q.y) + (q.x - q.z) * (q.x - q.z));
+  const double falling = std::sqrt((q.w - q.y) * (q.w - q.y) + (q.x + q.z) * (q.x + q.z));
+  const auto wrapped = [](double angle) {
+    return angle > kPi ? angle - 2 * kPi : angle <= -kPi ? angle + 2 * kPi : angle;
+  };
+  // Where one of the two vanishes, its angle is that of rounding errors.
+  const bool up = falling < 1e-12, down = rising < 1e-12;
+  const double s = up ? 0 : sum, d = down ? 0 : difference;
+  return {wrapped((s + d) / 2), atan2(rising * rising - falling * falling, 2 * rising * falling), wrapped((s - d) / 2)};
+}
+
 Quat slerp(const Quat& a, const Quat& b, double t) {
   double c = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
   const double sign = c < 0.0 ? -1.0 : 1.0;

@@ -34,6 +34,9 @@ double log(double x);
 // The rotation of a robot's roll, pitch and yaw (REP 103): R = Rz(yaw) Ry(pitch) Rx(roll), so a
 // positive pitch lowers the nose of a camera that looks along X. unit: rad.
 Quat quat_from_rpy(double roll, double pitch, double yaw);
+// Its inverse, to the last bits at every pitch. At a pitch of +-90 degrees, where only the sum or the
+// difference of roll and yaw is determined, both are half of it. Roll, pitch, yaw; unit: rad.
+Vec3 rpy_from_quat(const Quat& q);
 // Shortest-arc interpolation at constant angular speed; t in [0, 1].
 Quat slerp(const Quat& a, const Quat& b, double t);
 

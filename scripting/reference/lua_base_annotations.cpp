@@ -78,10 +78,26 @@ function rubble.include(file) end
 ---@param file string
 ---@return {rows: (number|string)[][], names: string[]?, lines: integer[]}
 function rubble.read_table(file) end
----A PNG file of the script's folder, row by row from the top.
+---A picture or an elevation model of the script's folder, row by row from the top: grey levels from 0 to 1, or
+---where `metric`, heights in m. `block`: points of the file, a side, over which each value is averaged.
 ---@param file string
----@return {columns: integer, rows: integer, values: number[]}
-function rubble.read_image(file) end
+---@param side? integer points a side, at most; 256
+---@return {columns: integer, rows: integer, values: number[], metric: boolean, levels: number?, block: integer, spacing: number?, east: number?, north: number?, degrees: boolean, colour: boolean}
+function rubble.read_image(file, side) end
+---A recorded trajectory of the script's folder; bodies have X forward and Z up.
+---@param file string
+---@param options {frame: string?, columns: string?}
+---@return {format: string, stamped: boolean, poses: rubble.mission.trajectory.waypoints[], notes: string[]}
+function rubble.read_trajectory(file, options) end
+---An accelerogram of the script's folder. unit: m/s2, s
+---@param file string
+---@param options? {step: number?, unit: string?}
+---@return {values: number[], step: number, peak: number, format: string, notes: string[]}
+function rubble.read_accelerogram(file, options) end
+---A calibration of cameras or a LiDAR from the script's folder, as keys of a mission.
+---@param file string
+---@return {format: string, notes: string[], camera: table?, cameras: table?, lidar: table?}
+function rubble.read_calibration(file) end
 ---Every parameter of a function with its value, checked.
 ---@param name string of the function, for messages
 ---@param given table?
@@ -150,11 +166,11 @@ rubble.terrain = {}
 rubble.trajectory = {}
 rubble.robot = {}
 
----A density from a PNG file of the script's folder: white where most falls, its upper edge at +Y.
+---A density from a picture of the script's folder: white where most falls, its upper edge at +Y.
 ---@param file string
 ---@return table # a `pile.spawn_density`
 function rubble.density.image(file) end
----A terrain from a PNG file of the script's folder: black is 0, white is `amplitude`.
+---A terrain from a picture or an elevation model of the script's folder: black is 0, white is `amplitude`.
 ---@param file string
 ---@param options table
 ---@return table # a `pile.terrain`

@@ -169,12 +169,15 @@ std::string library_reference() {
       folder_sections("collapse", "debris.layers",
                       "Common parameters of all modes except `heap`") +
       "## Densities\n\nHorizontal distributions of pieces, for `pile.spawn_density`. "
-      "`rubble.density.image(file)` takes a PNG file of the script's folder: white pixels get the "
+      "`rubble.density.image(file)` takes a picture of the script's folder: white pixels get the "
       "most pieces, and the upper edge is at +Y.\n\n" +
       folder_sections("density", "", "") +
       "## Terrain\n\nTerrain on the ground, for `pile.terrain`. `rubble.terrain.image(file, { length = 40, "
-      "amplitude = 2, smooth = 1 })` takes a PNG file of the script's folder: black is 0, white is "
-      "`amplitude`, and the upper edge is at +Y. The other options are those of `rubble.terrain.from`. "
+      "amplitude = 2 })` takes a picture or an elevation model of the script's folder "
+      "([formats.md](formats.md#elevation-models)): black is 0, white is `amplitude`, heights in metres keep their "
+      "scale, and the upper edge is at +Y. `samples` (default 256, at most 900) limits the points a side, `missing` is "
+      "the height of points without one, `smooth` averages neighbours. The other options are those of "
+      "`rubble.terrain.from`. "
       "A mesh is given as `pile.terrain = { file = \"site.obj\" }`.\n\n" +
       folder_sections("terrain", "", "") + "## Paths\n\n" +
       folder_sections("trajectory", "rate_hz", "Common parameters of all paths");

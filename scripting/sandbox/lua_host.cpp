@@ -1,17 +1,15 @@
 #include "scripting/sandbox/lua_host.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 #include <new>
 #include <type_traits>
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "kernel/base/text.h"
-#include "scripting/sandbox/gray_image.h"
+#include "scripting/sandbox/lua_files.h"
 #include "scripting/sandbox/lua_options.h"
 #include "scripting/sandbox/lua_value.h"
 #include "scripting/values/value.h"
@@ -238,101 +236,6 @@ int reject_option(lua_State* lua) {
   return 0;
 }
 
-// A word as a number where it is one.
-void push_word(lua_State* lua, const std::string& word) {
-  double number = 0;
-  const char* const end = word.data() + word.size();
-  const auto result = std::from_chars(word.data(), end, number);
-  if (result.ec == std::errc() && result.ptr == end && std::isfinite(number))
-    lua_pushnumber(lua, number);
-  else
-    lua_pushlstring(lua, word.data(), word.size());
-}
-
-std::vector<std::string> split_words(const std::string& line) {
-  std::vector<std::string> words;
-  const bool commas = line.find(',') != std::string::npos;
-  std::string word;
-  for (const char c : line + (commas ? "," : " ")) {
-    const bool space = c == ' ' || c == '\t' || c == '\r';
-    if (commas ? c == ',' : space) {
-      if (commas || !word.empty()) words.push_back(word);
-      word.clear();
-    } else if (!space) {
-      word += c;
-    }
-  }
-  return words;
-}
-
-void push_words(lua_State* lua, const std::vector<std::string>& words) {
-  lua_createtable(lua, int(words.size()), 0);
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    push_word(lua, words[i]);
-    lua_rawseti(lua, -2, lua_Integer(i) + 1);
-  }
-}
-
-// read_table(file) -> { names = {...}, rows = {{...}, ...}, lines = {...} }: the words of each line,
-// between commas or blanks; `#` begins a comment. names: a first line that holds no number.
-int read_table_file(lua_State* lua) {
-  const std::string name = luaL_checkstring(lua, 1);
-  LuaHost& host = host_of(lua);
-  std::string error;
-  const int chunk = host.open_include(name, error);
-  if (chunk < 0) return luaL_error(lua, "rubble.read_table: %s", error.c_str());
-  std::istringstream text(host.chunk(chunk).text);
-  lua_createtable(lua, 0, 3);
-  for (const char* part : {"names", "rows", "lines"}) lua_newtable(lua), lua_setfield(lua, -2, part);
-  lua_getfield(lua, -1, "rows"), lua_getfield(lua, -2, "lines");
-  std::string line;
-  lua_Integer count = 0;
-  for (int number = 1; std::getline(text, line); ++number) {
-    const std::vector<std::string> words = split_words(line.substr(0, line.find('#')));
-    if (words.empty()) continue;
-    push_words(lua, words);
-    bool numbers = false;
-    for (std::size_t i = 1; i <= words.size(); ++i) {
-      numbers = lua_rawgeti(lua, -1, lua_Integer(i)) == LUA_TNUMBER || numbers;
-      lua_pop(lua, 1);
-    }
-    if (!numbers && count == 0) {
-      lua_setfield(lua, -4, "names");
-      continue;
-    }
-    lua_rawseti(lua, -3, ++count);
-    lua_pushinteger(lua, number);
-    lua_rawseti(lua, -2, count);
-  }
-  lua_pop(lua, 2);
-  return 1;
-}
-
-// read_image(file) -> { columns =, rows =, values = {...} }
-int read_image_file(lua_State* lua) {
-  const std::string name = luaL_checkstring(lua, 1);
-  LuaHost& host = host_of(lua);
-  std::string error;
-  const int chunk = host.open_include(name, error);
-  GrayGrid image;
-  try {
-    if (chunk >= 0) image = parse_pgm(host.chunk(chunk).text);
-  } catch (const std::runtime_error& failure) {
-    error = "\"" + name + "\": " + failure.what();
-  }
-  if (image.values.empty()) return luaL_error(lua, "rubble.read_image: %s", error.c_str());
-  lua_createtable(lua, 0, 3);
-  lua_pushinteger(lua, image.columns), lua_setfield(lua, -2, "columns");
-  lua_pushinteger(lua, image.rows), lua_setfield(lua, -2, "rows");
-  lua_createtable(lua, int(image.values.size()), 0);
-  for (std::size_t i = 0; i < image.values.size(); ++i) {
-    lua_pushnumber(lua, image.values[i]);
-    lua_rawseti(lua, -2, lua_Integer(i) + 1);
-  }
-  lua_setfield(lua, -2, "values");
-  return 1;
-}
-
 // rotate({roll, pitch, yaw} in degrees, {x, y, z}) -> {x, y, z}
 int rotate_vector(lua_State* lua) {
   const auto numbers_at = [lua](int index) {
@@ -388,7 +291,7 @@ int math_log(lua_State* lua) {
 }
 
 const luaL_Reg kFunctions[] = {
-    {"options", read_options}, {"read_image", read_image_file}, {"read_table", read_table_file}, {"reject", reject_option}, {"rotate", rotate_vector}, {"stream", make_stream}, {"controller", keep_controller}, {"print", print_line}, {"include", include_file}, {"sin", math_sin},
+    {"options", read_options}, {"reject", reject_option}, {"rotate", rotate_vector}, {"stream", make_stream}, {"controller", keep_controller}, {"print", print_line}, {"include", include_file}, {"sin", math_sin},
     {"cos", math_cos},       {"tan", math_tan},     {"asin", math_asin},       {"acos", math_acos},
     {"atan", math_atan},     {"exp", math_exp},     {"log", math_log},         {nullptr, nullptr}};
 
@@ -408,6 +311,7 @@ void push_host_functions(lua_State* lua) {
   lua_setfield(lua, -2, "__index");
   lua_pop(lua, 1);
   luaL_newlib(lua, kFunctions);
+  add_file_functions(lua);
 }
 
 }  // namespace rubble

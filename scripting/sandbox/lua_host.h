@@ -27,6 +27,9 @@ struct LuaHost {
   // Reads a file for rubble.include and returns its index among the chunks; on failure it puts the
   // reason into `error` and returns -1.
   std::function<int(const std::string& name, std::string& error)> open_include;
+  // Likewise a picture or an elevation model, kept as text (scripting/files/data_grid.h) with at most `side`
+  // points a side.
+  std::function<int(const std::string& name, int side, std::string& error)> open_grid;
   std::function<const SourceFile&(int chunk)> chunk;
 
   // What rubble.options found, and, while the reference is made, what it was asked for.

@@ -181,6 +181,9 @@ rubble = {
   reject = host.reject,
   read_table = host.read_table,
   read_image = host.read_image,
+  read_trajectory = host.read_trajectory,
+  read_accelerogram = host.read_accelerogram,
+  read_calibration = host.read_calibration,
   rotate = function(rpy_deg, v) return make_vec(host.rotate(rpy_deg, v)) end,
 }
 if entry == "rubble.mission" then rubble.mission = entry_function else _G[entry] = entry_function end

@@ -12,8 +12,9 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/tables/text_table.h"
 #include "kernel/base/text.h"
-#include "scripting/sandbox/gray_image.h"
+#include "scripting/files/data_grid.h"
 #include "scripting/sandbox/lua_host.h"
 #include "scripting/sandbox/lua_library.h"
 #include "scripting/sandbox/lua_library_code.h"
@@ -30,6 +31,7 @@ constexpr int kHookEvery = 1000;  // instructions
 constexpr std::size_t kMostIncludes = 64;
 constexpr std::uint64_t kInstructionsPerCall = 2'000'000;  // of a controller
 constexpr std::uintmax_t kLargestInclude = 4 << 20;  // unit: byte
+constexpr std::uintmax_t kLargestGrid = 512 << 20;   // of a picture or an elevation model; unit: byte
 
 double thread_cpu_seconds() {
   timespec t{};
@@ -87,7 +89,8 @@ int complete_message(lua_State* lua) {
 // Everything that a mission script may call below `rubble`, by its whole name.
 std::vector<std::string> library_names() {
   std::vector<std::string> names{"controller", "include", "mission",    "options", "random", "read_image",
-                                 "read_table", "reject",     "rotate",  "vec"};
+                                 "read_table", "read_trajectory", "read_accelerogram", "read_calibration", "reject",
+                                 "rotate", "vec"};
   for (const LibraryFile& file : lua_library()) names.push_back(file.name);
   for (std::string& name : names) {
     std::replace(name.begin(), name.end(), '/', '.');
@@ -138,8 +141,7 @@ void count_work(lua_State* lua, std::uint64_t instructions) {
 }
 
 std::string_view lua_source(std::string_view text) {
-  constexpr std::string_view kMark = "\xef\xbb\xbf";  // of UTF-8, which some editors write
-  if (text.substr(0, kMark.size()) == kMark) text.remove_prefix(kMark.size());
+  text = skip_byte_order_mark(text);
   if (!text.empty() && text[0] == '#')  // "#!/usr/bin/env ...": the line feed keeps the line numbers
     text.remove_prefix(std::min(text.find('\n'), text.size()));
   return text;
@@ -157,7 +159,9 @@ struct LuaSandbox::State {
   }
 
   int open_include(const std::string& name, std::string& error);
-  std::optional<std::string> read_include(const fs::path& relative, std::string& error) const;
+  int open_grid(const std::string& name, int side, std::string& error);
+  std::optional<fs::path> path_inside(const std::string& name, std::string& error) const;
+  std::optional<std::string> read_include(const fs::path& relative, std::uintmax_t largest, std::string& error) const;
   int keep_include(const fs::path& relative, std::string text);
   Diagnostic diagnostic_of(const std::string& raised) const;
   void call(int arguments, int results);  // throws InputError
@@ -165,7 +169,7 @@ struct LuaSandbox::State {
 };
 
 // The file's text; otherwise the reason goes into `error`.
-std::optional<std::string> LuaSandbox::State::read_include(const fs::path& relative,
+std::optional<std::string> LuaSandbox::State::read_include(const fs::path& relative, std::uintmax_t largest,
                                                            std::string& error) const {
   const std::string name = "\"" + relative.string() + "\"";
   if (served) {
@@ -181,8 +185,9 @@ std::optional<std::string> LuaSandbox::State::read_include(const fs::path& relat
   if (failed || (apart.first != folder.end() && !apart.first->empty()))
     return error = name + " leads out of the script's folder", std::nullopt;
   error = "no readable file " + name + " beside the script";
-  if (!fs::is_regular_file(path, failed) || fs::file_size(path, failed) > kLargestInclude)
-    return std::nullopt;
+  if (!fs::is_regular_file(path, failed)) return std::nullopt;
+  if (fs::file_size(path, failed) > largest)
+    return error = name + " is larger than " + std::to_string(largest >> 20) + " MiB", std::nullopt;
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
@@ -201,22 +206,47 @@ int LuaSandbox::State::keep_include(const fs::path& relative, std::string text) 
   return int(chunks.size()) - 1;
 }
 
-int LuaSandbox::State::open_include(const std::string& name, std::string& error) {
+std::optional<fs::path> LuaSandbox::State::path_inside(const std::string& name, std::string& error) const {
   const fs::path relative(name);
   const bool climbs = std::find(relative.begin(), relative.end(), "..") != relative.end();
-  if (name.empty() || relative.is_absolute() || climbs)
-    return error = "\"" + name + "\" is not a path inside the script's folder", -1;
-  std::optional<std::string> text = read_include(relative, error);
+  if (!name.empty() && !relative.is_absolute() && !climbs) return relative;
+  error = "\"" + name + "\" is not a path inside the script's folder";
+  return std::nullopt;
+}
+
+int LuaSandbox::State::open_include(const std::string& name, std::string& error) {
+  const auto relative = path_inside(name, error);
+  if (!relative) return -1;
+  std::optional<std::string> text = read_include(*relative, kLargestInclude, error);
   if (!text) return -1;
   if (chunks.size() > kMostIncludes) return error = "more than 64 files", -1;
-  try {
-    if (is_png(*text)) *text = png_to_pgm(*text);  // manifests keep text
-  } catch (const std::runtime_error& failure) {
-    return error = "\"" + name + "\": " + failure.what(), -1;
+  if (find_invalid_utf8(*text) != std::string_view::npos) {
+    error = "\"" + name + "\" is not UTF-8 text";
+    if (is_utf16(*text)) error += " but UTF-16: save it as UTF-8";
+    if (is_data_grid(*text)) error += " but a picture: rubble.read_image reads it";
+    return -1;
   }
-  if (find_invalid_utf8(*text) != std::string_view::npos)
-    return error = "\"" + name + "\" is not UTF-8 text", -1;
-  return keep_include(relative, std::move(*text));
+  return keep_include(*relative, std::move(*text));
+}
+
+// Manifests keep text. One that was made for another side than usual has it in its name.
+int LuaSandbox::State::open_grid(const std::string& name, int side, std::string& error) {
+  auto relative = path_inside(name, error);
+  if (!relative) return -1;
+  fs::path kept = *relative;
+  if (side != kUsualSide) kept += "#" + std::to_string(side);
+  std::optional<std::string> bytes = read_include(served ? kept : *relative, kLargestGrid, error);
+  if (!bytes) return -1;
+  if (chunks.size() > kMostIncludes) return error = "more than 64 files", -1;
+  try {
+    const bool small_text = bytes->size() <= kLargestInclude && find_invalid_utf8(*bytes) == std::string_view::npos;
+    const DataGrid whole = read_data_grid(*bytes);
+    DataGrid grid = thinned(whole, side);
+    if (!small_text || grid.block != whole.block) *bytes = data_grid_text(grid);
+  } catch (const std::runtime_error& failure) {
+    return error = "\"" + name + "\" " + failure.what(), -1;
+  }
+  return keep_include(kept, std::move(*bytes));
 }
 
 // "chunk0:12: text" -> the file's path, 12 and the text.
@@ -279,6 +309,9 @@ LuaSandbox::LuaSandbox(std::uint64_t seed, const std::string& entry, const Sandb
   s.host.limits = limits;
   s.host.open_include = [&s](const std::string& name, std::string& error) {
     return s.open_include(name, error);
+  };
+  s.host.open_grid = [&s](const std::string& name, int side, std::string& error) {
+    return s.open_grid(name, side, error);
   };
   s.host.chunk = [&s](int chunk) -> const SourceFile& { return s.chunks[std::size_t(chunk)]; };
   s.host.limited = false;

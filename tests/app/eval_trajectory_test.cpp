@@ -147,6 +147,27 @@ TEST(EvalTrajectory, ScoresAStraightFlight) {
   EXPECT_NEAR(json["ate_rmse_se3_m"].get<double>(), 0.05, 1e-9);
 }
 
+// TUM's freiburg2_desk has a stamp twice; ORB-SLAM3 writes nanoseconds into TUM's columns.
+TEST(EvalTrajectory, SaysWhatItReadAndWhatIsDoubtful) {
+  const ScratchFolder scratch;
+  write_file(scratch / "truth.txt", std::string(kTruth) + "1.30 0 1.001 0 0 0 0 1\n1.40 0 2 1 0 0 0 1\n");
+  write_file(scratch / "estimate.txt",
+             "1000000000 0 0 0 0.5 -0.5 0.5 -0.5\n1100000000 1 0 0 0.5 -0.5 0.5 -0.5\n1200000000 1 1 0 0.5 -0.5 0.5 -0.5\n"
+             "1400000000 0 2 1 0.5 -0.5 0.5 -0.5\n");
+  const Outcome run = run_rubble("eval trajectory " + (scratch / "estimate.txt") + " " + (scratch / "truth.txt") + " --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NEAR(nlohmann::json::parse(run.out)["ate_rmse_se3_m"].get<double>(), 0, 1e-9);
+  for (const char* words : {"estimate.txt: 4 poses, read as TUM", "stamps in ns", "truth.txt: line 6 repeats the stamp",
+                            "differ by the same turn of 120 degrees"})
+    EXPECT_NE(run.err.find(words), std::string::npos) << words << "\n" << run.err;
+  std::string late;
+  for (int i = 0; i < 9; ++i) late += "1." + std::to_string(i) + "5 0 " + std::to_string(i * i) + " 0 0 0 0 1\n";
+  write_file(scratch / "late.txt", "1.0 0 0 0 0 0 0 1\n1.1 1 0 0 0 0 0 1\n1.2 1 1 0 0 0 0 1\n" + late.substr(late.find("1.25")));
+  write_file(scratch / "long.txt", kTruth + late.substr(late.find("1.85")) + "2 0 0 0 0 0 0 1\n3 0 0 0 0 0 0 1\n4 0 0 0 0 0 0 1\n5 0 0 0 0 0 0 1\n6 0 0 0 0 0 0 1\n");
+  const Outcome few = run_rubble("eval trajectory " + (scratch / "late.txt") + " " + (scratch / "long.txt"));
+  EXPECT_NE(few.err.find("warning: only 4 of 10 poses have a partner in time"), std::string::npos) << few.err;
+}
+
 struct BadTrajectory {
   const char* text;
   const char* message;  // with the line, if it has one
@@ -156,14 +177,17 @@ TEST(EvalTrajectory, NamesFileAndLineOfWhatIsWrong) {
   const ScratchFolder scratch;
   write_file(scratch / "truth.txt", kTruth);
   const BadTrajectory kBad[] = {
-      {"", "holds no pose"},
+      {"", "has no pose"},
       {"1.0 0 0 0 0 0 0 1\n1.1 1 0 0 0 0 0\n", "bad.txt:2: not a pose"},
       {"1.0 0 0 0 0 0 0 1\n\n1.1 x 0 0 0 0 0 1\n", "bad.txt:3: not a number"},
       {"1.0 nan 0 0 0 0 0 1\n", "bad.txt:1: not finite"},
       {"1.0 0 0 0 0 0 0 2\n", "bad.txt:1: not a rotation"},
       {"1.1 0 0 0 0 0 0 1\n1.0 0 0 0 0 0 0 1\n", "bad.txt:2: out of order"},
-      {"1.1 0 0 0 0 0 0 1\n1.1 0 0 0 0 0 0 1\n", "bad.txt:2: the stamp repeats"},
       {"9.0 0 0 0 0 0 0 1\n", "no time in common"},
+      {"1.0,0,0,0,0,0,0,1\n1.1,0,0,0,0,0,0,1\n", "bad.txt:1: the order of the columns is not known"},
+      {"t [ns],x,y,z,qx,qy,qz,qw\n1,0,0,0,0,0,0,1\n2,0,0,0,0,0,0,1\n3,0,0,0,0,0,0,1\n", "all stamps at nearly one time"},
+      {"1 0 0 0 0 1 0 0 0 0 1 0\n", "has no stamps"},
+      {"t,x,y,z\n1,0,0,0\n", "has no orientations"},
       {"1.0 0 0 0 0 0 0 1\n1.1 1 0 0 0 0 0 1\n", "too few poses"},
       {"1.0 3 0 0 0 0 0 1\n1.1 3 0 0 0 0 0 1\n1.2 3 0 0 0 0 0 1\n", "all at one place"},
   };

@@ -74,6 +74,25 @@ ASCII_PLY = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\npropert
              "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
 
 
+def geo_tiff():
+    """Two heights of 32 bits, 30 m apart."""
+    tags = [(256, 3, 1, struct.pack("<H", 2)), (257, 3, 1, struct.pack("<H", 1)), (258, 3, 1, struct.pack("<H", 32)),
+            (259, 3, 1, struct.pack("<H", 1)), (262, 3, 1, struct.pack("<H", 1)), (273, 4, 1, b""),
+            (277, 3, 1, struct.pack("<H", 1)), (278, 3, 1, struct.pack("<H", 1)), (279, 4, 1, struct.pack("<I", 8)),
+            (339, 3, 1, struct.pack("<H", 3)), (33550, 12, 3, struct.pack("<3d", 30, 30, 0)),
+            (33922, 12, 6, struct.pack("<6d", 0, 0, 0, 5e5, 4e6, 0)), (42113, 2, 6, b"-9999\0")]
+    after = 8 + 2 + 12 * len(tags) + 4
+    long = sum(len(value) for _, _, _, value in tags if len(value) > 4)
+    directory, values = struct.pack("<H", len(tags)), b""
+    for tag, kind, count, value in tags:
+        if tag == 273:
+            value = struct.pack("<I", after + long)
+        if len(value) > 4:
+            value, values = struct.pack("<I", after + len(values)), values + value
+        directory += struct.pack("<HHI", tag, kind, count) + value.ljust(4, b"\0")
+    return b"II*\0" + struct.pack("<I", 8) + directory + struct.pack("<I", 0) + values + struct.pack("<2f", 812, -9999)
+
+
 def small_track():
     """One body that falls for two samples."""
     content = struct.pack("<QddQ", 2, 0.0, 0.5, 1) + struct.pack("<idddIQ", 4, 0, 0, 0, 2**32 - 1, 2)
@@ -150,8 +169,22 @@ def main():
         corpus.add("override", text)
     corpus.add("frame_journal", "0123456789abcdef 0123456789abcdef 0\n" * 3)
     corpus.add("flow", struct.pack("<fii", 202021.25, 2, 1) + bytes(16))
-    corpus.add("pgm", "P2\n2 2\n255\n0 1 2 3\n")
-    corpus.add("trajectory", "1000,0,0,0,1,0,0,0\n")
+    corpus.add("data_grid", "P2\n2 2\n255\n0 1 2 3\n")
+    corpus.add("data_grid", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 30\nNODATA_value -9999\n1 -9999\n")
+    corpus.add("data_grid", geo_tiff())
+    for trajectory in ("1403636579763555584,0,0,0,1,0,0,0\n", "#t [ns],x,y,z,qx,qy,qz,qw\n0,1,2,3,0,0,0,1\n",
+                       "1 0 0 0 0 1 0 0 0 0 1 0\n", "t;x;y;z;yaw_deg\n0;1;2;3;90\n"):
+        corpus.add("trajectory", trajectory)
+        corpus.add("text_table", trajectory)
+    corpus.add("accelerogram", "PEER\nx, 090\nACCELERATION TIME SERIES IN UNITS OF G\n 2 .005 NPTS, DT\n .1 -.2E-1\n")
+    corpus.add("accelerogram", "SAMPLING_INTERVAL_S: 0.005\nNDATA: 2\nUNITS: cm/s^2\nDATA_TYPE: ACCELERATION\n1\n2\n")
+    corpus.add("accelerogram", "Sampling Freq(Hz) 100Hz\nScale Factor 2000(gal)/8388608\nMemo.\n 1 2\n 3\n")
+    corpus.add("accelerogram", "t [s],a [g]\n0,1\n0.01,2\n")
+    corpus.add("calibration", "cam0:\n  camera_model: pinhole\n  distortion_coeffs: [0, 0, 0, 0]\n  distortion_model: "
+                              "radtan\n  intrinsics: [400, 400, 320, 240]\n  resolution: [640, 480]\n")
+    corpus.add("calibration", "%YAML:1.0\n---\nimage_width: 4\nimage_height: 3\ncamera_matrix: !!opencv-matrix\n   "
+                              "rows: 3\n   cols: 3\n   dt: d\n   data: [ 5., 0., 2., 0., 5., 1., 0., 0., 1. ]\n")
+    corpus.add("calibration", '{"prod_line":"OS-1-64","lidar_mode":"1024x10","beam_altitude_angles":[1,2]}')
     corpus.add("ply_map", ASCII_PLY)
     corpus.add("ply_map", binary_ply())
     corpus.add("colmap_binary", colmap_binary())
@@ -166,7 +199,7 @@ def main():
         add_recordings(corpus, made)
         corpus.add("mesh_stl", (made / "pile.stl").read_bytes()[:84 + 50 * 12])
         corpus.add("mesh_glb", (Path(folder) / "export/pile.glb").read_bytes())
-        corpus.add("gray_png", sorted((made / "frames/rgb").glob("*.png"))[0].read_bytes())
+        corpus.add("data_grid", sorted((made / "frames/rgb").glob("*.png"))[0].read_bytes())
         checkpoint = Path(folder) / "checkpoint"
         corpus.add("checkpoint", unsealed(checkpoint) if checkpoint.exists() else b"")
         scenario = subprocess.run([program, "check", str(Path(folder) / "m.lua")], check=True,

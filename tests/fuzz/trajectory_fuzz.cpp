@@ -1,9 +1,9 @@
-#include "app/eval/scores/trajectory_file.h"
+#include "scripting/trajectory/trajectory_text.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;
 
 void fuzz_one(std::string_view bytes) {
-  const std::string path = fuzz::folder().write("t.txt", bytes);
-  fuzz::knock([&] { load_trajectory(path); });
+  fuzz::knock([&] { parse_trajectory(bytes, "t"); });
+  fuzz::knock([&] { parse_trajectory(bytes, "t", "t,x,y,z,qx,qy,qz,qw"); });
 }

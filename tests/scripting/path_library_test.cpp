@@ -151,6 +151,51 @@ TEST_F(PathFiles, ACsvFileNamesItsColumns) {
   ASSERT_EQ(mission.included.size(), 1u) << "what it was made from belongs to the recipe";
 }
 
+// A camera that looks straight down and turns: pitch is 90 degrees all along.
+TEST_F(PathFiles, ANadirPathKeepsItsTurn) {
+  std::string text;
+  std::vector<Quat> optical;
+  for (int i = 0; i < 12; ++i) {
+    const double half = 0.3 * i;
+    optical.push_back({0, std::cos(half), std::sin(half), 0});
+    char line[128];
+    std::snprintf(line, sizeof line, "%.1f %.1f 0 3 %.12f %.12f 0 0\n", 0.1 * i, 0.1 * i, optical.back().x, optical.back().y);
+    text += line;
+  }
+  write("down.txt", text);
+  const auto flown = poses("rubble.trajectory.file { path = 'down.txt', rate_hz = 10 }");
+  ASSERT_EQ(flown.size(), optical.size());
+  for (std::size_t i = 0; i < flown.size(); ++i) {
+    const Quat d = (flown[i].world_from_camera.rotation * camera_from_optical.rotation).conjugate() * optical[i];
+    EXPECT_NEAR(norm(Vec3{d.x, d.y, d.z}), 0, 1e-8) << i;
+  }
+}
+
+TEST_F(PathFiles, EveryFormatFliesTheSamePath) {
+  write("tum.txt", "1.7e9 0 -4 2 -0.5 0.5 -0.5 0.5\n1700000000.005 1 -4 2 -0.5 0.5 -0.5 0.5\n1700000000.005 9 9 9 0 0 0 1\n1700000000.01 2 -4 2 -0.5 0.5 -0.5 0.5\n");
+  write("euroc.csv", "\xef\xbb\xbf#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z []\r\n"
+                     "1700000000000000000,0,-4,2,1,0,0,0\r\n1700000000005000000,1,-4,2,1,0,0,0\r\n1700000000010000000,2,-4,2,1,0,0,0\r\n");
+  write("named.csv", "#t,x,y,z,qx,qy,qz,qw\n0,+0,-4,2,0,0,0,1\n5e-3,1,-4,2,0,0,0,1\n0.01,2,-4,2,0,0,0,1\n");
+  write("mm.csv", "yaw_rad;z_mm;y (mm);x (mm);t_ms\n0;2000;-4000;0;0\n0;2000;-4000;1000;5\n0;2000;-4000;2000;10\n");
+  // In KITTI's world Z is forward and Y is down.
+  write("kitti.txt", "1 0 0 4 0 1 0 -2 0 0 1 0\n1 0 0 4 0 1 0 -2 0 0 1 1\n1 0 0 4 0 1 0 -2 0 0 1 2\n");
+  const std::pair<const char*, const char*> files[] = {{"tum.txt", "TUM"}, {"euroc.csv", "stamps in ns"}, {"named.csv", "line 1 names"},
+                                                       {"mm.csv", "stamps in ms"}, {"kitti.txt", "KITTI"}};
+  for (const auto& [file, format] : files) {
+    const std::string more = std::string(format) == "KITTI" ? ", interval = 0.005" : "";
+    const Mission mission = load("trajectory = rubble.trajectory.file { path = '" + std::string(file) + "'" + more + " }");
+    const auto& w = mission.scenario.trajectory.waypoints;
+    ASSERT_EQ(w.size(), 3u) << file;
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(*w[i].t, 0.005 * double(i), 1e-12) << file;
+      EXPECT_NEAR(distance(w[i].position, {double(i), -4, 2}), 0, 1e-12) << file;
+      EXPECT_NEAR(norm(w[i].rpy_deg), 0, 1e-9) << file;
+    }
+    ASSERT_FALSE(mission.printed.empty());
+    EXPECT_NE(mission.printed[0].find(format), std::string::npos) << mission.printed[0];
+  }
+}
+
 TEST_F(PathFiles, MistakesInFilesNameTheirLine) {
   const auto error = [&](const std::string& text) { return error_of([&] { load(text); }); };
   write("a.csv", "t,x,y,z\n0,1,2,3\n1,1,two,3\n");
@@ -161,6 +206,11 @@ TEST_F(PathFiles, MistakesInFilesNameTheirLine) {
   write("c.txt", "# nothing\n");
   EXPECT_NE(error("trajectory = rubble.trajectory.file { path = 'c.txt' }").find("c.txt has no pose"), std::string::npos);
   EXPECT_NE(error("trajectory = rubble.trajectory.file { path = '../c.txt' }").find("is not a path inside"), std::string::npos);
+  write("d.csv", "0,1,2,3,0,0,0,1\n0.1,1,2,3,0,0,0,1\n");
+  EXPECT_NE(error("trajectory = rubble.trajectory.file { path = 'd.csv' }").find("d.csv:1: the order of the columns is not known"), std::string::npos);
+  EXPECT_EQ(load("trajectory = rubble.trajectory.file { path = 'd.csv', columns = 't,x,y,z,qx,qy,qz,qw' }").scenario.trajectory.waypoints.size(), 2u);
+  write("e.txt", "1 0 0 4 0 1 0 -2 0 0 1 0\n");
+  EXPECT_NE(error("trajectory = rubble.trajectory.file { path = 'e.txt' }").find("e.txt has no stamps: give `interval`"), std::string::npos);
   EXPECT_NE(error("trajectory = rubble.trajectory.file {}").find("rubble.trajectory.file.path: out of range"), std::string::npos);
 }
 
@@ -190,10 +240,10 @@ TEST_F(PathFiles, ADensityImageIsReadTopDown) {
   const Mission again = load_mission_text(mission.script.text, mission.script.path, options);
   EXPECT_EQ(again.scenario.pile.spawn_density.weights, d.weights);
   write("bad.png", std::string(reinterpret_cast<const char*>(kPng), 40));
-  EXPECT_NE(error_of([&] { load("pile = { spawn_density = rubble.density.image('bad.png') }"); }).find("not a readable PNG"),
+  EXPECT_NE(error_of([&] { load("pile = { spawn_density = rubble.density.image('bad.png') }"); }).find("\"bad.png\" is a damaged PNG"),
             std::string::npos);
   write("no.png", "P7");
-  EXPECT_NE(error_of([&] { load("pile = { spawn_density = rubble.density.image('no.png') }"); }).find("not a PNG file"),
+  EXPECT_NE(error_of([&] { load("pile = { spawn_density = rubble.density.image('no.png') }"); }).find("\"no.png\" is no picture; PNG, JPEG, TIFF and PGM are read"),
             std::string::npos);
 }
 

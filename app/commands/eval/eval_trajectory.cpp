@@ -5,13 +5,15 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
-#include "app/eval/scores/trajectory_error.h"
+#include "app/eval/scores/trajectory_doubts.h"
+#include "kernel/base/text.h"
 
 namespace rubble {
 namespace {
 
 struct TrajectoryRequest {
-  std::string estimate, truth;   // TUM or EuRoC files
+  std::string estimate, truth;   // files
+  std::string columns;           // --columns: names of the columns of both; empty: the files name them
   int delta = 1;                 // --delta: poses between which relative errors are taken
   double max_difference = 0.01;  // --max-difference: of the stamps of a pair; unit: s
   bool json = false;             // --json
@@ -34,6 +36,14 @@ auto with_file(const std::string& path, Work&& work) {
   }
 }
 
+// What a file was read as belongs to the result, but not among the numbers that programs read.
+void describe(const std::string& path, const RecordedTrajectory& track) {
+  std::fprintf(stderr, "%s: %zu poses, read as %s\n", printable(path).c_str(), track.poses.size(),
+               printable(track.format).c_str());
+  for (const std::string& note : track.notes)
+    std::fprintf(stderr, "%s: %s\n", printable(path).c_str(), printable(note).c_str());
+}
+
 void print_table(const TrajectoryError& e) {
   std::printf("pairs                       %d\n", e.pairs);
   std::printf("ATE, rigid alignment        %.6f m\n", e.ate_rmse_se3);
@@ -43,16 +53,22 @@ void print_table(const TrajectoryError& e) {
 }
 
 ExitCode eval_trajectory(const TrajectoryRequest& request) {
-  const auto estimate = load_trajectory(request.estimate);
-  const auto truth = load_trajectory(request.truth);
-  const auto pairs = associate(estimate, truth, request.max_difference);
+  const ComparedTracks tracks{request.estimate, request.truth,
+                              load_recorded_trajectory(request.estimate, request.columns),
+                              load_recorded_trajectory(request.truth, request.columns)};
+  describe(request.estimate, tracks.estimate);
+  describe(request.truth, tracks.truth);
+  check_comparable(tracks, request.max_difference);
+  const auto pairs = associate(tracks.estimate.poses, tracks.truth.poses, request.max_difference);
   if (pairs.empty())
     throw InputError(
         {request.estimate, 0, "", "has no time in common with " + request.truth,
-         "stamps within " + std::to_string(request.max_difference) + " s of " + span_of(truth),
-         span_of(estimate), "--max-difference allows more"});
+         "stamps within " + std::to_string(request.max_difference) + " s of " + span_of(tracks.truth.poses),
+         span_of(tracks.estimate.poses), explain_no_overlap(tracks)});
   const TrajectoryError error =
       with_file(request.estimate, [&] { return calc_trajectory_error(pairs, request.delta); });
+  for (const std::string& doubt : find_doubts(tracks, pairs))
+    std::fprintf(stderr, "warning: %s\n", printable(doubt).c_str());
   if (!request.json) {
     print_table(error);
     return ExitCode::done;
@@ -69,14 +85,16 @@ ExitCode eval_trajectory(const TrajectoryRequest& request) {
 
 Action declare_eval_trajectory(CommandLine& line) {
   const auto request = std::make_shared<TrajectoryRequest>();
-  line.add("estimate", request->estimate, "The estimate: a TUM or EuRoC file").required();
-  line.add("truth", request->truth, "The truth: a TUM or EuRoC file").required();
+  line.add("estimate", request->estimate, "The estimate: a TUM, EuRoC or KITTI file, or one that names its columns").required();
+  line.add("truth", request->truth, "The truth, likewise").required();
   line.add("--delta", request->delta, "Number of poses over which relative errors are computed")
       .shows_default();
   line.add("--max-difference", request->max_difference, "Largest time difference of matched poses")
       .shows_default()
       .metavar("SECONDS")
       .non_negative();
+  line.add("--columns", request->columns, "Names of the columns, for files that do not name them: t,x,y,z,qx,qy,qz,qw")
+      .metavar("NAMES");
   line.add_flag("--json", request->json, "Print the result as JSON");
   return [request] { return eval_trajectory(*request); };
 }

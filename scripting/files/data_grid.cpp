@@ -1,0 +1,187 @@
+#include "scripting/files/data_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "io/image/data_picture.h"
+#include "kernel/base/error.h"
+#include "kernel/base/tables/text_table.h"
+#include "scripting/values/value.h"
+
+namespace rubble {
+namespace {
+
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMostStretch = 0.01;      // by which pixels may differ from squares
+constexpr double kLeastMetres = 0.1;       // spacing below which an ESRI grid's is taken for degrees; unit: m
+// Comments of the kept text.
+constexpr const char *kThinnedBy = "averaged over blocks of ", *kInDegrees = "cells in degrees",
+                     *kOfColours = "brightness of colours";
+
+[[noreturn]] void decline_grid(const std::string& what) { throw std::runtime_error(what); }
+
+bool is_esri_grid(std::string_view bytes) {
+  return lower_case(trimmed(skip_byte_order_mark(bytes.substr(0, 64)))).rfind("ncols", 0) == 0;
+}
+
+DataGrid grid_of_picture(DataPicture picture) {
+  DataGrid grid;
+  grid.columns = picture.width, grid.rows = picture.height;
+  grid.values.assign(picture.values.begin(), picture.values.end());
+  grid.white = picture.ground ? 0 : picture.white;
+  grid.colour = picture.colour;
+  if (!picture.ground) return grid;
+  const PictureGround& g = *picture.ground;
+  if (std::abs(g.pixel_x - g.pixel_y) > kMostStretch * g.pixel_x)
+    decline_grid("has pixels of " + format_number(g.pixel_x) + " by " + format_number(g.pixel_y) + "; resample it to squares");
+  grid.spacing = g.pixel_x, grid.degrees = g.degrees;
+  grid.east = g.left, grid.north = g.top - g.pixel_y * picture.height;
+  return grid;
+}
+
+// What the comments of data_grid_text() say.
+void read_grid_comments(std::string_view text, DataGrid& grid) {
+  text = text.substr(0, 300);
+  grid.degrees = grid.degrees || text.find(kInDegrees) != std::string_view::npos;
+  grid.colour = grid.colour || text.find(kOfColours) != std::string_view::npos;
+  const std::size_t at = text.find(kThinnedBy);
+  if (at == std::string_view::npos) return;
+  const std::string_view rest = text.substr(at + std::string_view(kThinnedBy).size());
+  const auto block = parse_number(rest.substr(0, rest.find(' ')));
+  if (block && *block >= 1 && *block <= 1e5) grid.block = int(*block);
+}
+
+// The number after a key of an ESRI grid's head.
+class EsriHead {
+ public:
+  void add(const std::string& key, double value) { entries_.emplace_back(key, value); }
+  std::optional<double> find(const char* key) const {
+    for (const auto& [name, value] : entries_)
+      if (name == key) return value;
+    return std::nullopt;
+  }
+  double require(const char* key) const {
+    const auto value = find(key);
+    if (!value) decline_grid(std::string("is an ESRI ASCII grid without ") + key);
+    return *value;
+  }
+  double either(const char* key, const char* other, double half) const {
+    if (const auto value = find(key)) return *value;
+    const auto centre = find(other);
+    return centre ? *centre - half : 0;
+  }
+
+ private:
+  std::vector<std::pair<std::string, double>> entries_;
+};
+
+DataGrid parse_esri_grid(std::string_view text) {
+  EsriHead head;
+  DataGrid grid;
+  std::optional<double> none;
+  bool in_head = true;
+  for (const TextRow& row : read_text_table(text).rows) {
+    const std::string first = row.words.empty() ? "" : lower_case(row.words[0]);
+    const bool key = in_head && row.words.size() == 2 && !first.empty() && first[0] >= 'a' && first[0] <= 'z' && first != "nan";
+    if (key) {
+      const auto value = parse_number(row.words[1]);
+      if (!value) decline_grid("is an ESRI ASCII grid with no number after " + first);
+      head.add(first, *value);
+      continue;
+    }
+    if (in_head) none = head.find("nodata_value");
+    in_head = false;
+    for (const std::string_view word : row.words) {
+      const auto value = parse_number(word);
+      if (!value) decline_grid("has no number in line " + std::to_string(row.line) + ": `" + std::string(word) + "`");
+      grid.values.push_back(none && *value == *none ? kNoValue : *value);
+    }
+    if (grid.values.size() > kMostDataPixels) decline_grid("has more than 64 million values");
+  }
+  const double columns = head.require("ncols"), rows = head.require("nrows");
+  if (!(columns >= 1 && rows >= 1) || columns * rows != double(grid.values.size()))
+    decline_grid("has " + std::to_string(grid.values.size()) + " values instead of " + format_number(columns) + " times " +
+            format_number(rows));
+  grid.columns = int(columns), grid.rows = int(rows);
+  grid.spacing = head.require("cellsize");
+  if (!(grid.spacing >= 0)) decline_grid("has a cellsize below 0");
+  grid.degrees = grid.spacing > 0 && grid.spacing < kLeastMetres;
+  grid.east = head.either("xllcorner", "xllcenter", grid.spacing / 2);
+  grid.north = head.either("yllcorner", "yllcenter", grid.spacing / 2);
+  return grid;
+}
+
+// Of a plain PGM the levels as they are; its size is bounded by the text's own.
+DataGrid read_unthinned(std::string_view bytes) {
+  if (is_esri_grid(bytes)) return parse_esri_grid(bytes);
+  try {
+    return grid_of_picture(decode_data_picture(bytes));
+  } catch (const RunError& error) {
+    decline_grid(error.what());
+  }
+}
+
+std::string number_text(double value) { return std::isnan(value) ? "nan" : format_number(value); }
+
+}  // namespace
+
+bool is_data_grid(std::string_view bytes) { return !picture_kind(bytes).empty() || is_esri_grid(bytes); }
+
+DataGrid read_data_grid(std::string_view bytes) {
+  DataGrid grid = read_unthinned(bytes);
+  if (std::uint64_t(grid.columns) * std::uint64_t(grid.rows) > kMostDataPixels)
+    decline_grid("has more than 64 million pixels");
+  if (is_esri_grid(bytes) || bytes.substr(0, 2) == "P2") read_grid_comments(bytes, grid);
+  return grid;
+}
+
+DataGrid thinned(DataGrid grid, int side) {
+  const int block = (std::max(grid.columns, grid.rows) + side - 1) / side;
+  if (block <= 1) return grid;
+  DataGrid out = grid;
+  out.columns = (grid.columns + block - 1) / block, out.rows = (grid.rows + block - 1) / block;
+  out.values.clear();
+  out.block = grid.block * block, out.spacing = grid.spacing * block;
+  for (int r = 0; r < out.rows; ++r) {
+    for (int c = 0; c < out.columns; ++c) {
+      double sum = 0;
+      int count = 0;
+      for (int y = r * block; y < std::min(grid.rows, (r + 1) * block); ++y)
+        for (int x = c * block; x < std::min(grid.columns, (c + 1) * block); ++x) {
+          const double value = grid.values[std::size_t(y) * std::size_t(grid.columns) + std::size_t(x)];
+          if (std::isnan(value)) continue;
+          sum += value, ++count;
+        }
+      const double mean = count == 0 ? kNoValue : sum / count;
+      out.values.push_back(grid.metric() || count == 0 ? mean : std::floor((2 * sum + count) / (2 * count)));
+    }
+  }
+  return out;
+}
+
+std::string data_grid_text(const DataGrid& grid) {
+  std::string text, comments;
+  if (grid.block > 1) comments += std::string("# ") + kThinnedBy + std::to_string(grid.block) + " points a side\n";
+  if (grid.degrees) comments += std::string("# ") + kInDegrees + "\n";
+  if (grid.colour) comments += std::string("# ") + kOfColours + "\n";
+  if (grid.metric()) {
+    text = "ncols " + std::to_string(grid.columns) + "\nnrows " + std::to_string(grid.rows) + "\n" + comments + "xllcorner " +
+           format_number(grid.east) + "\nyllcorner " + format_number(grid.north) + "\ncellsize " +
+           format_number(grid.spacing) + "\n";
+  } else {
+    text = "P2\n" + comments + std::to_string(grid.columns) + " " + std::to_string(grid.rows) + "\n" +
+           format_number(grid.white) + "\n";
+  }
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.columns; ++c)
+      text += (c > 0 ? " " : "") +
+              number_text(grid.values[std::size_t(r) * std::size_t(grid.columns) + std::size_t(c)]);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace rubble

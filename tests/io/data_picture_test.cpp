@@ -1,0 +1,96 @@
+// Pictures whose pixels are numbers, and colour pictures of 16 bits.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "io/image/data_picture.h"
+#include "io/image/image_file.h"
+#include "io/image/jpeg_file.h"
+#include "io/image/picture_decoder.h"
+#include "kernel/base/error.h"
+#include "tests/io/tiff_bytes.h"
+
+namespace rubble::testing {
+namespace data_picture_test {
+
+std::string refusal_of(const std::string& bytes) {
+  try {
+    decode_data_picture(bytes);
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "read";
+}
+
+TEST(DataPicture, SixteenBitsStayLinear) {
+  const DataPicture data = decode_data_picture(encode_png(DepthImage{5, 1, {0, 16384, 32768, 49152, 65535}}));
+  EXPECT_EQ(data.values, (std::vector<float>{0, 16384, 32768, 49152, 65535}));
+  EXPECT_EQ(data.white, 65535);
+  // As a colour: half of white is half of 255.
+  const RgbaImage colour = decode_picture(encode_png(DepthImage{3, 1, {0, 32768, 65535}}));
+  EXPECT_EQ(colour.rgba, (std::vector<std::uint8_t>{0, 0, 0, 255, 128, 128, 128, 255, 255, 255, 255, 255}));
+}
+
+TEST(DataPicture, EightBitsAndColoursAreTheirStoredValues) {
+  EXPECT_EQ(decode_data_picture(encode_png(GrayImage{3, 1, {0, 128, 255}})).values, (std::vector<float>{0, 128, 255}));
+  const DataPicture rgb = decode_data_picture(encode_png(RgbImage{2, 1, {90, 90, 90, 0, 255, 0}}));
+  EXPECT_TRUE(rgb.colour);
+  EXPECT_EQ(rgb.values[0], 90);
+  EXPECT_NEAR(rgb.values[1], 0.7152 * 255, 1e-3);
+  const std::vector<std::uint8_t> grey(8 * 8 * 3, 77);
+  const DataPicture jpeg = decode_data_picture(encode_jpeg(8, 8, grey.data(), 95));
+  EXPECT_EQ(jpeg.values.size(), 64u);
+  EXPECT_NEAR(jpeg.values[20], 77, 1);
+  EXPECT_FALSE(jpeg.colour);
+}
+
+TEST(DataPicture, PgmOfBothKindsAndSizes) {
+  const std::vector<float> expected{0, 256, 65535};
+  EXPECT_EQ(decode_data_picture("P2\n# made by hand\n3 1\n65535\n0 256 65535\n").values, expected);
+  EXPECT_EQ(decode_data_picture(std::string("P5 3 1 65535\n\0\0\1\0\xff\xff", 19)).values, expected);
+  EXPECT_NE(refusal_of("P5 3 1 255\nab").find("ends too early"), std::string::npos);
+  EXPECT_NE(refusal_of("P2 2 1 255\n1 256\n").find("not a whole image"), std::string::npos);
+}
+
+TEST(DataPicture, TiffOfIntegersAndRealNumbers) {
+  EXPECT_EQ(decode_data_picture(TiffBytes(2, 1, 1, std::vector<std::uint16_t>{7, 65535}).bytes()).white, 65535);
+  const DataPicture sign = decode_data_picture(TiffBytes(2, 1, 2, std::vector<std::int16_t>{-5, 900}).bytes());
+  EXPECT_EQ(sign.values, (std::vector<float>{-5, 900}));
+  EXPECT_EQ(sign.white, 0) << "numbers, not grey levels";
+  const DataPicture real = decode_data_picture(TiffBytes(1, 2, 3, std::vector<double>{0.25, 1e3}).bytes());
+  EXPECT_EQ(real.values, (std::vector<float>{0.25, 1e3}));
+  EXPECT_FALSE(real.ground);
+}
+
+TEST(DataPicture, GeoTiffKeepsItsScaleAndPlace) {
+  const std::string bytes = TiffBytes(2, 2, 3, std::vector<float>{1, 2, -9999, 4})
+                                .ground(30, 30, 500000, 4100000).geo_keys(1).no_data("-9999").bytes();
+  const DataPicture data = decode_data_picture(bytes);
+  ASSERT_TRUE(data.ground);
+  EXPECT_EQ(data.ground->pixel_x, 30);
+  EXPECT_EQ(data.ground->left, 500000);
+  EXPECT_EQ(data.ground->top, 4100000);
+  EXPECT_FALSE(data.ground->degrees);
+  EXPECT_TRUE(std::isnan(data.values[2]));
+  EXPECT_EQ(data.values[3], 4);
+  const auto degrees = TiffBytes(1, 1, 2, std::vector<std::int16_t>{3}).ground(0.0003, 0.0003, 8, 47).geo_keys(2);
+  EXPECT_TRUE(decode_data_picture(degrees.bytes()).ground->degrees);
+  const auto feet = TiffBytes(1, 1, 2, std::vector<std::int16_t>{3}).ground(30, 30, 8, 47).geo_keys(1, 9003);
+  EXPECT_NE(refusal_of(feet.bytes()).find("feet"), std::string::npos);
+}
+
+TEST(DataPicture, WhatIsNotReadIsNamed) {
+  EXPECT_EQ(refusal_of("GIF89a"), "is a GIF picture; PNG, JPEG, TIFF and PGM are read");
+  EXPECT_EQ(refusal_of(std::string("RIFF\0\0\0\0WEBPVP8 ", 16)), "is a WebP picture; PNG, JPEG, TIFF and PGM are read");
+  EXPECT_EQ(refusal_of("heights"), "is no picture; PNG, JPEG, TIFF and PGM are read");
+  EXPECT_EQ(picture_kind("P2P networks are text"), "");
+  EXPECT_EQ(picture_kind("BMW"), "");
+  const std::string whole = TiffBytes(2, 2, 3, std::vector<float>{1, 2, 3, 4}).bytes();
+  EXPECT_NE(refusal_of(whole.substr(0, whole.size() - 4)).find("is a damaged TIFF"), std::string::npos);
+  EXPECT_NE(refusal_of(whole.substr(0, 20)).find("is a damaged TIFF"), std::string::npos);
+  EXPECT_NE(refusal_of("\x89PNG\r\n\x1a\n....").find("is a damaged PNG"), std::string::npos);
+}
+
+}  // namespace data_picture_test
+}  // namespace rubble::testing

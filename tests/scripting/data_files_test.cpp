@@ -1,0 +1,244 @@
+// Pictures, elevation models, accelerograms and calibrations that a script reads.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "scripting/files/accelerogram.h"
+#include "scripting/files/calibration.h"
+#include "scripting/files/data_grid.h"
+#include "tests/io/tiff_bytes.h"
+#include "tests/scripting/test_support.h"
+
+namespace rubble {
+namespace data_files_test {
+
+using testing::TiffBytes;
+
+class DataFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void write(const std::string& name, const std::string& bytes) {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+  }
+  Mission load(const std::string& text) {
+    return load_mission_text("return rubble.mission { " + text + " }", (folder_ / "m.lua").string());
+  }
+  Mission terrain(const std::string& arguments) { return load("pile = { terrain = rubble.terrain.image(" + arguments + ") }"); }
+  std::string terrain_error(const std::string& arguments) {
+    return error_of([&] { terrain(arguments); });
+  }
+  static bool printed(const Mission& mission, const std::string& words) {
+    for (const std::string& line : mission.printed)
+      if (line.find(words) != std::string::npos) return true;
+    return false;
+  }
+  std::filesystem::path folder_;
+};
+
+// 5 x 2 pixels of 16 bits, each row 0, 1/4, 1/2, 3/4 and 1 of white. Written by another program.
+const unsigned char kRamp16[] = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
+    0x00, 0x00, 0x05, 0x00, 0x00, 0x00, 0x02, 0x10, 0x00, 0x00, 0x00, 0x00, 0xe5, 0x91, 0x95, 0xc2, 0x00,
+    0x00, 0x00, 0x16, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63, 0x60, 0x60, 0x70, 0x60, 0x68, 0x60, 0xd8,
+    0xff, 0xff, 0xff, 0x7f, 0x06, 0x04, 0x13, 0x00, 0x4d, 0x56, 0x08, 0xf9, 0xdf, 0x16, 0x28, 0x90, 0x00,
+    0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+
+TEST_F(DataFiles, SixteenBitHeightsAreARamp) {
+  write("ramp.png", std::string(reinterpret_cast<const char*>(kRamp16), sizeof kRamp16));
+  const Mission mission = terrain("'ramp.png', { length = 4, amplitude = 4 }");
+  const auto& t = mission.scenario.pile.terrain;
+  ASSERT_EQ(t.heights.size(), 10u);
+  for (int i = 0; i < 5; ++i) EXPECT_NEAR(t.heights[std::size_t(i)], i, 1e-4) << i;
+  // The kept text is read again as the picture was.
+  MissionOptions options;
+  options.included.emplace();
+  (*options.included)["ramp.png"] = mission.included[0].text;
+  EXPECT_EQ(load_mission_text(mission.script.text, mission.script.path, options).scenario.pile.terrain.heights, t.heights);
+}
+
+TEST_F(DataFiles, GeoTiffHeightsKeepTheirScale) {
+  write("dem.tif", TiffBytes(3, 2, 3, std::vector<float>{812, 813, 815, 810, 811, 812}).ground(30, 30, 500000, 4100060).geo_keys(1).bytes());
+  const Mission mission = terrain("'dem.tif'");
+  const auto& t = mission.scenario.pile.terrain;
+  EXPECT_EQ(t.spacing, 30);
+  EXPECT_EQ(t.heights, (std::vector<double>{0, 1, 2, 2, 3, 5})) << "the lowest y first, the lowest height at 0";
+  EXPECT_TRUE(printed(mission, "heights from 810 to 815 m"));
+  EXPECT_TRUE(printed(mission, "the centre at east 500045, north 4100030"));
+  EXPECT_EQ(terrain("'dem.tif', { amplitude = 10, length = 4 }").scenario.pile.terrain.heights.back(), 10);
+  EXPECT_EQ(terrain("'dem.tif', { amplitude = 10, length = 4 }").scenario.pile.terrain.spacing, 2);
+}
+
+TEST_F(DataFiles, WhatAnElevationModelLacksIsSaid) {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  write("gap.tif", TiffBytes(2, 2, 3, std::vector<float>{1, none, 3, 4}).bytes());
+  EXPECT_NE(terrain_error("'gap.tif'").find("1 of 4 points of gap.tif have no height: give `missing`"), std::string::npos);
+  EXPECT_EQ(terrain("'gap.tif', { missing = 1 }").scenario.pile.terrain.heights, (std::vector<double>{2, 3, 0, 0}));
+  write("degrees.tif", TiffBytes(2, 2, 2, std::vector<std::int16_t>{1, 2, 3, 4}).ground(0.0003, 0.0003, 8, 47).geo_keys(2).bytes());
+  EXPECT_NE(terrain_error("'degrees.tif'").find("degrees: give `length`"), std::string::npos);
+  EXPECT_EQ(terrain("'degrees.tif', { length = 30 }").scenario.pile.terrain.spacing, 30);
+  write("map.gif", "GIF89a");
+  EXPECT_NE(terrain_error("'map.gif'").find("is a GIF picture; PNG, JPEG, TIFF and PGM are read"), std::string::npos);
+  write("m.tif", TiffBytes(2, 2, 3, std::vector<float>{1, 2, 3, 4}).bytes());
+  EXPECT_NE(error_of([&] { load("pile = rubble.include('m.tif')"); }).find("but a picture: rubble.read_image reads it"), std::string::npos);
+}
+
+TEST_F(DataFiles, ThinningIsPrintedAndCanBeAvoided) {
+  std::vector<std::uint16_t> ramp(600 * 4);
+  for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = std::uint16_t(100 * (i % 600));
+  write("wide.tif", TiffBytes(600, 4, 1, ramp).bytes());
+  const Mission thin = terrain("'wide.tif'");
+  EXPECT_EQ(thin.scenario.pile.terrain.columns, 200);
+  EXPECT_TRUE(printed(thin, "averaged over blocks of 3 by 3"));
+  const Mission whole = terrain("'wide.tif', { samples = 600 }");
+  EXPECT_EQ(whole.scenario.pile.terrain.columns, 600);
+  EXPECT_FALSE(printed(whole, "averaged"));
+  EXPECT_NEAR(whole.scenario.pile.terrain.heights[599], 2 * 59900.0 / 65535, 1e-9);
+  MissionOptions options;
+  options.included.emplace();
+  (*options.included)["wide.tif#600"] = whole.included[0].text;
+  EXPECT_EQ(load_mission_text(whole.script.text, whole.script.path, options).scenario.pile.terrain.heights,
+            whole.scenario.pile.terrain.heights);
+}
+
+TEST(DataGrid, AnEsriGridIsReadWithItsGapsAndWrittenBack) {
+  const std::string text = "ncols 3\r\nnrows 2\nxllcorner 500000\nyllcorner 4.1e6\ncellsize 30\nNODATA_value -9999\n1 2 3\n4 -9999 6.5\n";
+  ASSERT_TRUE(is_data_grid(text));
+  const DataGrid grid = read_data_grid(text);
+  EXPECT_TRUE(grid.metric());
+  EXPECT_EQ(grid.spacing, 30);
+  EXPECT_EQ(grid.north, 4.1e6);
+  EXPECT_TRUE(std::isnan(grid.values[4]));
+  EXPECT_EQ(grid.values[5], 6.5);
+  const DataGrid thin = thinned(grid, 2);
+  EXPECT_EQ(thin.columns, 2);
+  EXPECT_EQ(thin.spacing, 60);
+  EXPECT_EQ(thin.values[0], (1 + 2 + 4) / 3.0) << "the mean of what has a value";
+  const DataGrid again = read_data_grid(data_grid_text(thin));
+  EXPECT_EQ(again.values, thin.values);
+  EXPECT_EQ(again.block, 2);
+  EXPECT_THROW(read_data_grid("ncols 3\nnrows 2\ncellsize 1\n1 2\n"), std::runtime_error);
+}
+
+TEST(DataGrid, GreyLevelsStayIntegers) {
+  const DataGrid grid = read_data_grid("P2 3 1 255\n0 255 10\n");
+  EXPECT_EQ(data_grid_text(grid), "P2\n3 1\n255\n0 255 10\n");
+  EXPECT_EQ(thinned(grid, 2).values, (std::vector<double>{128, 10}));
+}
+
+const char* const kPeer5 =
+    "PEER NGA STRONG MOTION DATABASE RECORD\n IMPERIAL VALLEY 10/15/79 2316, EL CENTRO ARRAY 6, 230\n"
+    " ACCELERATION TIME HISTORY IN UNITS OF G\n 7    .0050    NPTS, DT\n"
+    "  -.1468930E-02  .2E-02 -3.0E-02 .1E-02 .5E-3\n 0.1 -.2\n";
+const char* const kPeer8 =
+    "PEER STRONG MOTION DATABASE\r\nLoma Prieta, 10/18/1989, Gilroy, 090\r\nACCELERATION TIME SERIES IN UNITS OF G\r\n"
+    "NPTS=   10, DT=   .02000 SEC\r\n .1 .2 .3 .4 .5 .6 .7 -.8\r\n .01 .02\r\n";
+const char* const kEsm =
+    "EVENT_NAME: CENTRAL_ITALY\nORIGINAL_DATA_MEDIATOR: \nSAMPLING_INTERVAL_S: 0.005000\nNDATA: 4\nUNITS: cm/s^2\n"
+    "DATA_TYPE: ACCELERATION\nUSER5:\n-100.0\n50\n0.5\n1e1\n";
+const char* const kKnet =
+    "Origin Time       2011/03/11 14:46:00\nLat.              38.103\nLong.             142.860\nDepth. (km)       24\n"
+    "Mag.              9.0\nStation Code      MYG004\nStation Lat.      38.7292\nStation Long.     141.0217\n"
+    "Station Height(m) 39\nRecord Time       2011/03/11 14:46:51\nSampling Freq(Hz) 100Hz\nDuration Time(s)  300\n"
+    "Dir.              N-S\nScale Factor      2000(gal)/8000000\nMax. Acc. (gal)   2699.850\n"
+    "Last Correction   2011/03/11 14:46:36\nMemo.\n   1000  2000  3000\n   4000\n";
+
+TEST(Accelerograms, OfEachArchiveAreInMetresPerSecondSquared) {
+  const Accelerogram five = parse_accelerogram(kPeer5, "a.at2"), eight = parse_accelerogram(kPeer8, "b.at2");
+  EXPECT_EQ(five.values.size(), 7u);
+  EXPECT_EQ(five.step, 0.005);
+  EXPECT_NEAR(five.values[0], -0.001468930 * 9.80665, 1e-12);
+  EXPECT_NEAR(five.peak, 0.2 * 9.80665, 1e-12);
+  EXPECT_EQ(eight.values.size(), 10u);
+  EXPECT_EQ(eight.step, 0.02);
+  EXPECT_NEAR(eight.peak, 0.8 * 9.80665, 1e-12);
+  EXPECT_EQ(parse_accelerogram(kEsm, "c.asc").values, (std::vector<double>{-1, 0.5, 0.005, 0.1}));
+  const Accelerogram knet = parse_accelerogram(kKnet, "d.NS");
+  EXPECT_EQ(knet.step, 0.01);
+  ASSERT_EQ(knet.values.size(), 4u);
+  EXPECT_NEAR(knet.values[0], -1500 * 2000.0 / 8e6 * 0.01, 1e-12) << "without the mean of 2500";
+  const Accelerogram named = parse_accelerogram("t [s],a [g]\n0,0.1\n0.01,-0.2\n", "e.csv");
+  EXPECT_NEAR(named.peak, 0.2 * 9.80665, 1e-12);
+  EXPECT_NEAR(named.step, 0.01, 1e-15);
+  EXPECT_EQ(parse_accelerogram("1\n-2\n", "f.txt", {0.01, "gal"}).values, (std::vector<double>{0.01, -0.02}));
+}
+
+TEST(Accelerograms, WhatIsWrongIsNamed) {
+  const auto error = [](const std::string& text) { return error_of([&] { parse_accelerogram(text, "a"); }); };
+  EXPECT_NE(error("PEER\nx\nVELOCITY TIME SERIES IN UNITS OF CM/S\nNPTS= 2, DT= .02 SEC\n1 2\n").find("a:3: holds no accelerations"), std::string::npos);
+  EXPECT_NE(error("PEER\nx\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 3, DT= .02 SEC\n1 2\n").find("a:4: another number of values: expected 3"), std::string::npos);
+  EXPECT_NE(error("PEER\nx\nACCELERATION TIME SERIES IN UNITS OF FT\nNPTS= 2, DT= .02 SEC\n1 2\n").find("no known unit of acceleration"), std::string::npos);
+  EXPECT_NE(error("PEER\nx\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 2, DT= .02 SEC\n1 x\n").find("a:5: not a number"), std::string::npos);
+  EXPECT_NE(error("1\n2\n").find("has no time step"), std::string::npos);
+  EXPECT_NE(error("1 2 3\n").find("not a known accelerogram"), std::string::npos);
+  EXPECT_NE(error("t,a [g]\n0,1\n1,1\n3,1\n").find("a:4: unequal time steps"), std::string::npos);
+}
+
+TEST_F(DataFiles, TheHeadOfAnAccelerogramIsNoRow) {
+  write("quake.at2", kPeer8);
+  const Mission mission = load(
+      "pile = rubble.building { cause = (function() local q = rubble.read_accelerogram('quake.at2') local n = 0 "
+      "for _, row in ipairs(rubble.read_table('quake.at2').rows) do n = n + #row end print('words ' .. n) "
+      "return { accelerogram = q.values, accelerogram_step = q.step, shake = q.peak } end)() }");
+  const auto& cause = mission.scenario.pile.building.cause;
+  EXPECT_EQ(cause.accelerogram.size(), 10u);
+  EXPECT_EQ(cause.accelerogram_step, 0.02);
+  EXPECT_NEAR(cause.shake, 0.8 * 9.80665, 1e-12);
+  EXPECT_TRUE(printed(mission, "words 10"));
+}
+
+const char* const kKalibr =
+    "cam0:\n  cam_overlaps: [1]\n  camera_model: pinhole\n  distortion_coeffs: [-0.28, 0.07, 0.0002, 1.8e-05]\n"
+    "  distortion_model: radtan\n  intrinsics: [458.6, 457.3, 367.2, 248.4]\n  resolution: [752, 480]\n"
+    "cam1:\n  T_cn_cnm1:\n  - [1.0, 0.0, 0.0, -0.11]\n  - [0.0, 1.0, 0.0, 0.0]\n  - [0.0, 0.0, 1.0, 0.0]\n  - [0.0, 0.0, 0.0, 1.0]\n"
+    "  camera_model: pinhole\n  distortion_coeffs: [0.1, 0.2, 0.3, 0.4]\n  distortion_model: equidistant\n"
+    "  intrinsics: [457.6, 456.1, 380.0, 255.2]\n  resolution: [752, 480]\n";
+const char* const kOpenCv =
+    "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\ncamera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+    "   data: [ 5.3e+02, 0., 3.42e+02, 0.,\n       5.31e+02, 2.35e+02, 0., 0., 1. ]\ndistortion_coefficients: !!opencv-matrix\n"
+    "   rows: 5\n   cols: 1\n   dt: d\n   data: [ -0.26, -0.038, 0.0017, -0.00028, 0.23 ]\n";
+
+TEST_F(DataFiles, CalibrationsBecomeCameras) {
+  write("chain.yaml", kKalibr);
+  const Scenario s = load("cameras = rubble.read_calibration('chain.yaml').cameras").scenario;
+  ASSERT_EQ(s.cameras.size(), 2u);
+  EXPECT_EQ(s.cameras[0].camera.width, 752);
+  EXPECT_EQ(s.cameras[0].camera.lens.model, LensKind::plumb_bob);
+  EXPECT_EQ(s.cameras[0].camera.lens.p2, 1.8e-5);
+  EXPECT_EQ(s.cameras[1].camera.lens.model, LensKind::fisheye);
+  EXPECT_EQ(s.cameras[1].camera.lens.k4, 0.4);
+  EXPECT_EQ(s.cameras[1].position, Vec3(0, -0.11, 0)) << "on the right";
+  EXPECT_EQ(s.cameras[1].rpy_deg, Vec3(0, 0, 0));
+  write("opencv.yaml", kOpenCv);
+  const Scenario o = load("camera = rubble.read_calibration('opencv.yaml').camera").scenario;
+  EXPECT_EQ(o.camera.height, 480);
+  EXPECT_EQ(o.camera.lens.fy, 531);
+  EXPECT_EQ(o.camera.lens.k3, 0.23);
+  write("os.json", "{\"sensor_info\":{\"prod_line\":\"OS-0-32\"},\"config_params\":{\"lidar_mode\":\"2048x10\"}}");
+  const Scenario l = load("lidars = { top = rubble.read_calibration('os.json').lidar }").scenario;
+  ASSERT_EQ(l.lidars.size(), 1u);
+  EXPECT_EQ(l.lidars[0].columns, 2048);
+  EXPECT_EQ(l.lidars[0].channels, 32);
+}
+
+TEST(Calibrations, WhatIsNotSimulatedIsNamed) {
+  const auto error = [](const std::string& text) { return error_of([&] { parse_calibration(text, "c"); }); };
+  EXPECT_NE(error("cam0:\n  camera_model: omni\n  intrinsics: [1, 2, 3, 4, 5]\n").find("`cam0.camera_model`: a model of cameras that is not simulated"), std::string::npos);
+  EXPECT_NE(error("width: 4\nheight: 3\nK: [1,0,1,0,1,1,0,0,1]\nD: [1,1,1,1,1,1,1,1]\n").find("rational model"), std::string::npos);
+  EXPECT_NE(error("width: 4\nheight: 3\nK: [1,0,1,0,1,1]\n").find("`camera_matrix`: another number of values: expected 9, found 6"), std::string::npos);
+  EXPECT_NE(error("prod_line: OS-1-16\nlidar_mode: 1024x10\n").find("a number of rings that is not simulated"), std::string::npos);
+  EXPECT_NE(error("a: 1\n").find("is no calibration"), std::string::npos);
+  EXPECT_NE(error("a: [1\nb: }").find("c:2: is neither YAML nor JSON"), std::string::npos);
+  EXPECT_NE(error(std::string(1000, '[')).find("nested too deeply"), std::string::npos);
+}
+
+}  // namespace data_files_test
+}  // namespace rubble

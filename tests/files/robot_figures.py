@@ -97,6 +97,12 @@ def rounded(values):
     return [float(f"{v:.6g}") for v in values]
 
 
+def is_possible(inertia):
+    """Whether a body can have it: its principal moments are above 0, none above the sum of the others."""
+    low, middle, high = numpy.linalg.eigvalsh(inertia)
+    return low > 0 and high <= (low + middle) * (1 + 1e-9)
+
+
 def robot_figures(urdf):
     """At the zeros of all joints, in the frame of the root link. Raises where pinocchio does."""
     root, _ = outline(urdf)
@@ -112,10 +118,12 @@ def robot_figures(urdf):
     mass = sum(inertia.mass for inertia in model.inertias)
     figures = {"joints": model.njoints - 2, "mass_kg": float(f"{mass:.9g}")}
     if mass > 0:
-        inertia = numpy.array(data.Ig.inertia)
+        inertia = data.Ig.inertia
         figures["centre_of_mass_m"] = rounded(data.com[0])
-        figures["inertia_kg_m2"] = rounded(inertia[i][j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)))
-    figures["massless"] = sum(1 for inertia in list(model.inertias)[2:] if not inertia.mass > 0)
+        figures["inertia_kg_m2"] = rounded(inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)))
+    bodies = list(model.inertias)[1:]  # the root first
+    figures["massless"] = sum(not body.mass > 0 for body in bodies[1:])
+    figures["impossible"] = sum(body.mass > 0 and not is_possible(numpy.array(body.inertia)) for body in bodies)
     for kind in ("collision", "visual"):
         box = bounds(root, kind, urdf, links)
         if box:

@@ -6,6 +6,7 @@ that pinocchio, trimesh and evo computed. Packages are downloaded into CACHE; re
 $RUBBLE_FILES/OWNER/NAME. Results are kept in CACHE/results.json, by file and program: a second call goes on.
 
   --seconds N      start no new file after N seconds (default: 3600)
+  --again          try again what was not as expected
   --only WORD      only sources and paths that contain WORD
   --report FILE    write the table and every difference there as well (default: CACHE/report.md)
 
@@ -176,7 +177,7 @@ def try_all(options, manifest, results):
         if is_other_version(kind, entry, folder):
             return kind, entry, "other version", "the file is not the one of the manifest"
         key = results.key(kind, entry)
-        if key not in results.all:
+        if key not in results.all or options.again and results.all[key][0] not in GOOD:
             if time.monotonic() > end:
                 return kind, entry, "", ""
             results.add(key, try_file(options.program, kind, entry, folder))
@@ -219,6 +220,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("cache")
     parser.add_argument("--seconds", type=float, default=3600)
+    parser.add_argument("--again", action="store_true")
     parser.add_argument("--only", default="")
     parser.add_argument("--report", default="")
     options = parser.parse_args()

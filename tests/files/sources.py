@@ -21,7 +21,7 @@ def short_hash(path):
 
 class Sources:
     def __init__(self, cache):
-        self.cache = Path(cache)
+        self.cache = Path(cache).resolve()
         self.repositories = os.environ.get("RUBBLE_FILES", "")
         self.missing = {}  # source: why its files are not here
 
@@ -31,7 +31,7 @@ class Sources:
             return None
         kind, name = source.split(":", 1)
         if kind == "repository":
-            folder = Path(self.repositories, name.split("@")[0])
+            folder = Path(self.repositories, name.split("@")[0]).resolve()
             if not self.repositories or not folder.is_dir():
                 self.missing[source] = ("not in $RUBBLE_FILES" if self.repositories
                                         else "RUBBLE_FILES is not set")

@@ -37,18 +37,31 @@ class Mesh:
 
     def figures(self):
         used = self.bounding_points
-        low, high = used.min(axis=0), used.max(axis=0)
-        if not numpy.isfinite(high - low).all():
+        size = used.max(axis=0) - used.min(axis=0)
+        if not numpy.isfinite(size).all():
             raise ValueError("corners that are not finite")
+        figures = {"size_m": [float(f"{v:.6g}") for v in size], "faces": int(len(self.mesh.faces))}
+        spread = numpy.linalg.svd(used - used.mean(axis=0), compute_uv=False)
+        if len(spread) < 3 or spread[2] < 1e-9 * spread[0]:
+            figures["flat"] = True  # no solid
         merged = self.mesh.copy()
         merged.merge_vertices(merge_tex=True, merge_norm=True)
-        merged.update_faces(merged.nondegenerate_faces(height=0))
-        closed = bool(merged.is_watertight and merged.is_winding_consistent)
-        figures = {"size_m": [float(f"{v:.6g}") for v in high - low], "faces": int(len(self.mesh.faces)),
-                   "closed": closed}
-        if closed:
+        balanced, paired = edges_of(merged.faces)
+        if paired or not balanced:  # in between, programs differ: four faces meet in an edge
+            figures["closed"] = balanced
+        if balanced:
             figures["volume_m3"] = float(f"{abs(merged.volume):.6g}")
         return figures
+
+
+def edges_of(faces):
+    """Whether every edge is passed as often one way as the other, and whether every edge has two faces."""
+    a, b, c = faces.T
+    whole = faces[(a != b) & (b != c) & (c != a)]
+    edges = numpy.vstack([whole[:, [0, 1]], whole[:, [1, 2]], whole[:, [2, 0]]])
+    _, group = numpy.unique(numpy.sort(edges, axis=1), axis=0, return_inverse=True)
+    turns = numpy.where(edges[:, 0] < edges[:, 1], 1, -1)
+    return not numpy.bincount(group.ravel(), weights=turns).any(), bool((numpy.bincount(group.ravel()) == 2).all())
 
 
 @functools.lru_cache(maxsize=64)

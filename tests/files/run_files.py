@@ -7,6 +7,7 @@ $RUBBLE_FILES/OWNER/NAME. Results are kept in CACHE/results.json, by file and pr
 
   --seconds N      start no new file after N seconds (default: 3600)
   --again          try again what was not as expected
+  --lists FOLDER   the lists to use (default: those beside this file)
   --only WORD      only sources and paths that contain WORD
   --report FILE    write the table and every difference there as well (default: CACHE/report.md)
 
@@ -40,6 +41,9 @@ TOLERANCES = {"mass_kg": 1e-5, "centre_of_mass_m": 1e-4, "inertia_kg_m2": 1e-4, 
               "rpe_rot_rmse_deg": 1e-5}
 ZERO = {"centre_of_mass_m": 1e-5, "inertia_kg_m2": 1e-9, "collision_bounds_m": 1e-3, "visual_bounds_m": 1e-3,
         "ate_rmse_se3_m": 1e-8, "ate_rmse_sim3_m": 1e-8, "rpe_trans_rmse_m": 1e-8, "rpe_rot_rmse_deg": 1e-5}
+
+# Files that are broken, though other programs take them, and a part of the message that says so.
+REFUSED = json.loads((HERE / "refused.json").read_text())
 
 MISSION = """return rubble.mission {{
   seed = 1, pile = {{ layers = 0 }}, robot_run = {{ duration = 0.1 }},
@@ -101,38 +105,46 @@ class Trial:
         return data, ""
 
     def run(self):
-        """(outcome, message)"""
+        """What the program said: "found", its figures; "refused", its message; or "failed" and a message."""
         try:
             done = subprocess.run([self.program, *map(str, self.arguments())], capture_output=True, text=True,
                                   errors="replace", timeout=MOST_SECONDS, cwd=self.work)
         except subprocess.TimeoutExpired:
-            return "too slow", f"no result within {MOST_SECONDS} s"
-        refused = "\n".join(line for line in done.stderr.splitlines() if not line.startswith("warning"))
+            return {"failed": "too slow", "message": f"no result within {MOST_SECONDS} s"}
+        message = "\n".join(line for line in done.stderr.splitlines() if line and not line.startswith("warning"))
         found = {}
         if done.stdout.startswith(("{", "[")):
             found, mistakes = self.found(done.stdout)
-            refused = mistakes or refused
+            message = mistakes or message
+        message = message.replace(str(self.folder) + "/", "").replace(str(self.work), ".")[:2000]
         if done.returncode not in (0, 1):
-            return "crashed", f"exit code {done.returncode}: {refused}"
+            return {"failed": "crashed", "message": f"exit code {done.returncode}: {message}"}
         if done.returncode == 1:
-            return self.judge_refusal(refused.replace(str(self.folder.resolve()) + "/", "").replace(str(self.work), "."))
-        return self.judge(found)
+            return {"refused": message}
+        return {"found": {name: found.get(name) for name in (*TOLERANCES, "warnings")}}
 
-    def judge_refusal(self, message):
-        if self.entry.get("massless") and "has no mass" in message:
-            return "refused as expected", message
-        return "refused", message
 
-    def is_repaired(self, name, found):
-        """An inertia that no body has may be replaced, with a warning."""
-        return (name == "inertia_kg_m2" and self.entry.get("impossible")
-                and any("inertia" in warning for warning in found.get("warnings", ())))
+def judge(entry, said):
+    """(outcome, message) of what the program said of a file."""
+    if "failed" in said:
+        return said["failed"], said["message"]
+    if "refused" in said:
+        expected = ("has no mass" if entry.get("massless") else
+                    "do not span a volume" if entry.get("flat") else REFUSED.get(entry["path"]))
+        right = expected is not None and expected in said["refused"]
+        return ("refused as expected" if right else "refused"), said["refused"]
+    found = said["found"]
+    bad = [f"{name} {brief(found[name])}, expected {brief(entry[name])}" for name in TOLERANCES
+           if name in entry and not is_free(entry, name, found) and differs(name, entry[name], found[name])]
+    return ("differs", "; ".join(bad)) if bad else ("as expected", "")
 
-    def judge(self, found):
-        bad = [f"{name} {brief(found.get(name))}, expected {brief(self.entry[name])}"
-               for name in TOLERANCES if name in self.entry and not self.is_repaired(name, found)
-               and differs(name, self.entry[name], found.get(name))]
-        return ("differs", "; ".join(bad)) if bad else ("as expected", "")
+
+def is_free(entry, name, found):
+    """Figures that are not compared: the inertia in place of one that no body has, which needs a warning, and the
+    volume of a mesh that is open for the program, which is that of its hull."""
+    if name == "inertia_kg_m2" and entry.get("impossible"):
+        return any("inertia" in warning for warning in found["warnings"] or ())
+    return name == "volume_m3" and not found["closed"]
 
 
 class Results:
@@ -143,8 +155,7 @@ class Results:
         self.lock = threading.Lock()
 
     def key(self, kind, entry):
-        figures = hashlib.sha256(json.dumps(entry, sort_keys=True).encode()).hexdigest()[:16]
-        return f"{self.program} {kind} {figures}"
+        return f"{self.program} {kind} {entry['source']} {entry['path']} {entry['sha256']}"
 
     def add(self, key, result):
         with self.lock:
@@ -177,11 +188,11 @@ def try_all(options, manifest, results):
         if is_other_version(kind, entry, folder):
             return kind, entry, "other version", "the file is not the one of the manifest"
         key = results.key(kind, entry)
-        if key not in results.all or options.again and results.all[key][0] not in GOOD:
+        if key not in results.all or options.again and judge(entry, results.all[key])[0] not in GOOD:
             if time.monotonic() > end:
                 return kind, entry, "", ""
             results.add(key, try_file(options.program, kind, entry, folder))
-        return (kind, entry, *results.all[key])
+        return (kind, entry, *judge(entry, results.all[key]))
 
     for source in sorted({entry["source"] for _, entry in manifest}):  # one download at a time
         sources.folder(source)
@@ -221,12 +232,13 @@ def main():
     parser.add_argument("cache")
     parser.add_argument("--seconds", type=float, default=3600)
     parser.add_argument("--again", action="store_true")
+    parser.add_argument("--lists", type=Path, default=HERE)
     parser.add_argument("--only", default="")
     parser.add_argument("--report", default="")
     options = parser.parse_args()
     options.program = str(Path(options.program).resolve())
     Path(options.cache).mkdir(parents=True, exist_ok=True)
-    manifest = [(kind, entry) for kind in KINDS for entry in json.loads((HERE / f"{kind}.json").read_text())
+    manifest = [(kind, entry) for kind in KINDS for entry in json.loads((options.lists / f"{kind}.json").read_text())
                 if options.only in entry["source"] + " " + entry["path"]]
     tried, sources = try_all(options, manifest, Results(options.cache, options.program))
     for source, reason in sorted(sources.missing.items()):

@@ -91,7 +91,8 @@ TEST(Check, PrintsFiguresOfRobots) {
   const auto robot = nlohmann::json::parse(check.out).at(0);
   const auto expect_near = [&robot](const char* key, const std::vector<double>& expected) {
     std::vector<double> found;
-    for (const auto& [path, number] : robot.at(key).flatten().items()) found.push_back(number);
+    const nlohmann::json flat = robot.at(key).flatten();  // a range of its items only refers to it
+    for (const auto& [path, number] : flat.items()) found.push_back(number);
     ASSERT_EQ(found.size(), expected.size()) << key;
     for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-6) << key << " " << i;
   };

@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo gallery pictures test check test-nightly test-asan test-tsan fuzz faults determinism platforms format clean
+.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo gallery pictures test check test-nightly test-asan test-tsan test-files fuzz faults determinism platforms format clean
 
 PROGRAM := build/release/rubble
 # Tests have one thread each, so as many run at once as there are processors.
@@ -25,6 +25,7 @@ help:
 	@echo "make test-nightly  run the tests that take long, or need a cluster of one node"
 	@echo "make test-asan  run the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
 	@echo "make test-tsan  run the suite under ThreadSanitizer"
+	@echo "make test-files  try public robots, meshes and trajectories against figures of other programs (docs/reliability.md)"
 	@echo "make fuzz SECONDS=60  run every fuzz target for this time, two at once (docs/reliability.md)"
 	@echo "make faults     interrupt a small run at many places, continue it, compare the bytes (an hour)"
 	@echo "make determinism  compare hashes of other compilers, levels and processors (half an hour)"
@@ -133,6 +134,10 @@ test-tsan: asset-maker
 test-asan test-tsan: test-%: packages build/%/build.ninja
 	cmake --build --preset $*
 	$(CTEST) --preset $* --label-exclude "slow|nightly"
+
+# Not part of any suite: it downloads 1.3 GB of packages. FILES_OPTIONS: see tests/files/run_files.py.
+test-files: build
+	tests/files/run_files.py $(PROGRAM) build/files $(FILES_OPTIONS)
 
 # TARGETS: some of tests/fuzz alone, as in TARGETS="ply_map pack".
 SECONDS := 60

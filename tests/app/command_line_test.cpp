@@ -70,6 +70,44 @@ TEST(Check, PrintsASchemaOfEveryKey) {
   EXPECT_EQ(run_rubble("check").exit_code, 1) << "a mission is needed otherwise";
 }
 
+// Two boxes of 2 kg, the second on a mount that is turned by 90 degrees and on a hinge.
+TEST(Check, PrintsFiguresOfRobots) {
+  const ScratchFolder scratch;
+  const std::string solid =
+      "<inertial><mass value=\"2\"/><inertia ixx=\"0.1\" iyy=\"0.2\" izz=\"0.25\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/>"
+      "</inertial><collision><geometry><box size=\"1 0.4 0.2\"/></geometry></collision>"
+      "<visual><geometry><box size=\"1.2 0.4 0.2\"/></geometry></visual></link>";
+  write_file(scratch / "r.urdf",
+             "<robot name=\"r\"><link name=\"base_link\">" + solid + "<link name=\"mount\"/><link name=\"arm\">" + solid +
+                 "<joint name=\"weld\" type=\"fixed\"><parent link=\"base_link\"/><child link=\"mount\"/>"
+                 "<origin xyz=\"3 0 0\" rpy=\"0 0 1.5707963267948966\"/></joint>"
+                 "<joint name=\"hinge\" type=\"revolute\"><parent link=\"mount\"/><child link=\"arm\"/>"
+                 "<origin xyz=\"1 0 0\"/><axis xyz=\"0 0 1\"/>"
+                 "<limit lower=\"-1\" upper=\"2\" effort=\"5\" velocity=\"3\"/></joint></robot>");
+  write_file(scratch / "m.lua",
+             "return rubble.mission { robots = { { urdf = \"r.urdf\", name = \"r\", position = { 0, 0, 9 } } } }");
+  const Outcome check = run_rubble("check " + (scratch / "m.lua") + " --robots");
+  ASSERT_EQ(check.exit_code, 0) << check.err;
+  const auto robot = nlohmann::json::parse(check.out).at(0);
+  const auto expect_near = [&robot](const char* key, const std::vector<double>& expected) {
+    std::vector<double> found;
+    const nlohmann::json flat = robot.at(key).flatten();  // a range of its items only refers to it
+    for (const auto& [path, number] : flat.items()) found.push_back(number);
+    ASSERT_EQ(found.size(), expected.size()) << key;
+    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-6) << key << " " << i;
+  };
+  EXPECT_NEAR(robot.at("mass_kg").get<double>(), 4, 1e-12);
+  expect_near("centre_of_mass_m", {1.5, 0.5, 0});
+  // The arm's axes are swapped, and both are (1.5, 0.5) off the centre.
+  expect_near("inertia_kg_m2", {0.3 + 4 * 0.25, 0.3 + 4 * 2.25, 0.5 + 4 * 2.5, -4 * 0.75, 0, 0});
+  expect_near("collision_bounds_m", {-0.5, -0.2, -0.1, 3.2, 1.5, 0.1});
+  expect_near("visual_bounds_m", {-0.6, -0.2, -0.1, 3.2, 1.6, 0.1});
+  ASSERT_EQ(robot.at("joints").size(), 1u);
+  EXPECT_EQ(robot.at("joints")[0].at("name"), "hinge");
+  EXPECT_EQ(robot.at("joints")[0].at("upper"), 2);
+  EXPECT_EQ(robot.at("links").size(), 2u);
+}
+
 TEST(Check, NamesAnUnknownAsset) {
   const Outcome check = check_text(
       "return rubble.mission {\n"

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/robots/robot_log.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/robot/bundled.h"
 #include "kernel/robot/gaits.h"
@@ -70,24 +71,43 @@ void ask_leg_joints(const RobotModel& model, const RobotLeg& leg, RobotCommand& 
   }
 }
 
-// key: of the robot. What is named must be there.
-void check_joint_names(const RobotItem& robot, const RobotModel& model, const std::string& key) {
-  for (std::size_t k = 0; k < robot.drive.size(); ++k)
-    for (const std::string& name : robot.drive[k].joint_names)
-      find_motor(model, name, key + ".drive[" + std::to_string(k + 1) + "].joint_names");
+// key: of the robot. What is named must be there, and no value may be left over.
+void check_joints(const RobotItem& robot, const RobotModel& model, const std::string& key) {
+  for (std::size_t k = 0; k < robot.drive.size(); ++k) {
+    const std::string leg = key + ".drive[" + std::to_string(k + 1) + "]";
+    for (const std::string& name : robot.drive[k].joint_names) find_motor(model, name, leg + ".joint_names");
+    if (!robot.drive[k].joint_names.empty()) continue;
+    if (const auto mistake = find_surplus(model, robot.drive[k].joints.size(), leg + ".joints")) throw InputError(*mistake);
+  }
 }
 
 }  // namespace
 
 std::size_t find_motor(const RobotModel& model, const std::string& name, const std::string& key) {
-  std::string all;
+  std::string all, hint;
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    if (model.joints[i].motor.effort <= 0) continue;
+    if (model.joints[i].motor.effort <= 0) {
+      if (model.joints[i].name == name) hint = "`efforts` of a URDF robot gives its joints motors";
+      continue;
+    }
     if (model.joints[i].name == name) return i;
     all += (all.empty() ? "one of " : ", ") + model.joints[i].name;
   }
   throw InputError({"", 0, key, "the robot has no joint of this name with a motor",
-                    all.empty() ? "no joint: this robot has no motor at a joint" : all, "\"" + name + "\"", ""});
+                    all.empty() ? "no joint: this robot has no motor at a joint" : all, "\"" + name + "\"", hint});
+}
+
+std::optional<Diagnostic> find_surplus(const RobotModel& model, std::size_t values, const std::string& key) {
+  std::string names;
+  std::size_t motors = 0;
+  for (const RobotJoint& joint : model.joints) {
+    if (joint.motor.effort <= 0) continue;
+    names += (motors++ == 0 ? "" : ", ") + joint.name;
+  }
+  if (values <= motors) return std::nullopt;
+  return Diagnostic{"", 0, key, "more values than the robot has motors at joints",
+                    motors == 0 ? "none: no joint has a motor" : std::to_string(motors) + " at most: " + names,
+                    std::to_string(values), ""};
 }
 
 RobotRunOptions robot_run_options(const Scenario& scenario, int threads) {
@@ -116,8 +136,12 @@ std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext
   for (std::size_t i = 0; i < mission.scenario.robots.size(); ++i) {
     made.push_back(make_mission_robot(mission.scenario.robots[i], folders,
                                       "robots[" + std::to_string(i + 1) + "]", importer));
-    check_joint_names(mission.scenario.robots[i], made.back().model, "robots[" + std::to_string(i + 1) + "]");
+    check_joints(mission.scenario.robots[i], made.back().model, "robots[" + std::to_string(i + 1) + "]");
     for (const std::string& warning : made.back().warnings) context.warnings.push_back(warning);
+    const std::string clash = mission.scenario.robots.size() > 1 ? "" : find_frame_clash(mission.scenario, made.back());
+    if (!clash.empty())
+      context.warnings.push_back("robots[1]: its link `" + clash + "` has the name of another frame of the mission: in /tf its "
+                                 "frames begin with `" + robot_names(mission.scenario.robots)[i] + "/`");
   }
   return made;
 }

@@ -1,6 +1,7 @@
 // From the robots of a mission to models and controllers.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ RobotRunOptions robot_run_options(const Scenario& scenario, int threads);
 // The joint of that name, which must have a motor: its index. Throws InputError, with that key, naming those that
 // have one.
 std::size_t find_motor(const RobotModel& model, const std::string& name, const std::string& key);
+
+// The mistake, with that key, of more values than there are motors at joints.
+std::optional<Diagnostic> find_surplus(const RobotModel& model, std::size_t values, const std::string& key);
 
 // A twist for what tracks or wheels drive. flippers: of a crawler; unit: rad; empty: as they stood.
 RobotCommand drive_sides(const RobotModel& model, const Twist& twist, const std::vector<double>& flippers);

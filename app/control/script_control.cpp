@@ -106,6 +106,10 @@ RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel
                           "a table such as { linear = 0.3, angular = 0 }", describe(answer), ""});
     } else {
       read_table(wish_schema(wish), answer, mistakes);
+      const std::pair<const char*, std::size_t> counts[] = {
+          {"joints", wish.joints.size()}, {"speeds", wish.speeds.size()}, {"torques", wish.torques.size()}};
+      for (const auto& [member, count] : counts)
+        if (auto surplus = find_surplus(model, count, member)) mistakes.push_back(std::move(*surplus));
     }
     for (Diagnostic& d : mistakes) {
       d.message += ", at t = " + format_number(sense.time) + " s";

@@ -141,7 +141,8 @@ Pile make_laid_pile(const ResolvedMission& mission, const PileState& state) {
 InputError with_lines(const ResolvedMission& mission, const InputError& error) {
   std::vector<Diagnostic> mistakes = error.diagnostics();
   const SourceFile& script = mission.provenance.script;
-  if (std::none_of(mistakes.begin(), mistakes.end(), [](const Diagnostic& d) { return d.line > 0; }))
+  // Those of other files keep their lines.
+  if (std::any_of(mistakes.begin(), mistakes.end(), [](const Diagnostic& d) { return d.file.empty() && d.line == 0; }))
     locate(mistakes, script.path, SourceMap(script.text, "mission"));
   return InputError(std::move(mistakes));
 }

@@ -64,7 +64,7 @@ std::string frame_of(const Carrier& ride, const Scenario& scenario, const std::v
   const std::vector<std::string> names = robot_names(scenario.robots);
   for (std::size_t i = 0; ride.on() && i < robots.size(); ++i)
     if (names[i] == ride.robot)
-      return ride.link.empty() ? robots[i].frame_of(0) : robots[i].frame + ride.link;
+      return ride.link.empty() ? robots[i].frame_of(0) : robots[i].frame_named(ride.link);
   return "";
 }
 

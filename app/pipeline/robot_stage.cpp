@@ -47,9 +47,9 @@ RobotController make_controller(const ResolvedMission& mission, std::size_t robo
                                 const MissionRobot& made, RobotSenses& senses,
                                 std::unique_ptr<ScriptControl>& script) {
   const RobotItem& item = mission.scenario.robots[robot];
-  if (item.control == 0) return with_mimics(make_leg_controller(item, made.model), made.mimics);
+  if (item.control == 0) return with_mimics(make_leg_controller(item, made.model), made.model.mimics);
   if (!script) script = std::make_unique<ScriptControl>(mission, senses);
-  return with_mimics(script->controller_of(robot, made.model), made.mimics);
+  return with_mimics(script->controller_of(robot, made.model), made.model.mimics);
 }
 
 }  // namespace
@@ -67,11 +67,8 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
   folder.expect(robot_file_names(names, models));
   std::unique_ptr<ScriptControl> script;
   std::vector<RobotLog> logs;
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    logs.emplace_back(models[i], int(i), mission.scenario.start_ns);
-    driven.records.push_back(
-        describe_robot(made[i], names[i], calc_base_pose(robots[i]), robots.size() > 1));
-  }
+  for (std::size_t i = 0; i < robots.size(); ++i) logs.emplace_back(models[i], int(i), mission.scenario.start_ns);
+  driven.records = with_lines_of_script(mission, [&] { return describe_robots(mission.scenario, made); });
   RobotRunResult result;
   with_lines_of_script(mission, [&] {
     RideRecorder rides(mission.scenario, made);
@@ -80,7 +77,7 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
     RobotRun run(make_laid_pile(mission, pile), pile, options);
     for (std::size_t i = 0; i < robots.size(); ++i) {
       const RobotController control = make_controller(mission, i, made[i], senses, script);
-      run.add(models[i], calc_base_pose(robots[i]), [control, &log = logs[i]](const RobotSense& sense) {
+      run.add(models[i], calc_base_pose(robots[i], made[i]), [control, &log = logs[i]](const RobotSense& sense) {
         log.note(sense);
         return control(sense);
       });

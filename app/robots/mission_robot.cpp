@@ -79,6 +79,39 @@ RobotLamp place_lamp(const LampItem& item, const MissionRobot& robot, const std:
   return lamp;
 }
 
+std::size_t find_joint(const RobotModel& model, const std::string& name, const std::string& key) {
+  std::string all;
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (model.joints[i].kind == JointKind::weld) continue;
+    if (model.joints[i].name == name) return i;
+    all += (all.empty() ? "one of " : ", ") + model.joints[i].name;
+  }
+  throw InputError({"", 0, key, "the robot has no such joint that moves", all.empty() ? "nothing: no joint moves" : all,
+                    "\"" + name + "\"", ""});
+}
+
+// Where joints stand at first; a mimic where what it follows puts it.
+void set_starts(const RobotItem& robot, const std::string& key, RobotModel& model) {
+  if (model.tube && !robot.start.empty())
+    throw InputError({"", 0, key, "the joints of a vine start as it grows", "nothing", "a table", ""});
+  for (RobotJoint& joint : model.joints) joint.start = std::clamp(joint.start, joint.lower, joint.upper);
+  std::vector<std::size_t> given;
+  for (const auto& [name, position] : robot.start) {
+    given.push_back(find_joint(model, name, key));
+    RobotJoint& joint = model.joints[given.back()];
+    if (position < joint.lower || position > joint.upper)
+      throw InputError({"", 0, key + "." + name, "outside of the joint's range",
+                        std::to_string(joint.lower) + " to " + std::to_string(joint.upper), std::to_string(position), ""});
+    joint.start = position;
+  }
+  for (const MimicJoint& mimic : model.mimics) {
+    if (std::find(given.begin(), given.end(), std::size_t(mimic.joint)) != given.end()) continue;
+    RobotJoint& joint = model.joints[std::size_t(mimic.joint)];
+    const double follows = mimic.multiplier * model.joints[std::size_t(mimic.of)].start + mimic.offset;
+    joint.start = std::clamp(follows, joint.lower, joint.upper);
+  }
+}
+
 }  // namespace
 
 RiddenLink find_link(const MissionRobot& robot, const std::string& name, const std::string& key) {
@@ -89,7 +122,7 @@ RiddenLink find_link(const MissionRobot& robot, const std::string& name, const s
     if (name.empty() || links[ridden.link].name == name) return ridden;
     all += (all.empty() ? "one of " : ", ") + links[ridden.link].name;
   }
-  for (const RobotFrame& frame : robot.frames) {
+  for (const RobotFrame& frame : robot.model.frames) {
     if (frame.name == name) return {std::size_t(frame.link), frame.link_from_frame};
     all += ", " + frame.name;
   }
@@ -103,11 +136,14 @@ MissionRobot make_mission_robot(const RobotItem& robot, const std::vector<std::s
     made = make_urdf_robot(robot, find_file(robot.urdf, folders, key), key, importer);
   else
     made.model = make_bundled(robot);
+  set_starts(robot, key + ".start", made.model);
   for (std::size_t i = 0; i < robot.lamps.size(); ++i)
     made.model.lamps.push_back(place_lamp(robot.lamps[i], made, key + ".lamps[" + std::to_string(i + 1) + "]"));
   return made;
 }
 
-Pose calc_base_pose(const RobotItem& robot) { return {quat_from_degrees(robot.rpy_deg), robot.position}; }
+Pose calc_base_pose(const RobotItem& robot, const MissionRobot& made) {
+  return Pose{quat_from_degrees(robot.rpy_deg), robot.position} * made.placed_from_base;
+}
 
 }  // namespace rubble

@@ -10,23 +10,9 @@
 
 namespace rubble {
 
-// A frame on a link, such as a camera's: a link of a URDF file that is fixed to another.
-struct RobotFrame {
-  std::string name;
-  int link = 0;
-  Pose link_from_frame;
-};
-
-// A joint that a servo keeps at multiplier * q + offset of another.
-struct MimicJoint {
-  int joint = 0, of = 0;
-  double multiplier = 1, offset = 0;
-};
-
 struct MissionRobot {
   RobotModel model;
-  std::vector<RobotFrame> frames;
-  std::vector<MimicJoint> mimics;
+  Pose placed_from_base;  // of a URDF robot on a link `world`: from that link to its first body
   std::vector<std::string> warnings;  // of the file
 };
 
@@ -43,6 +29,7 @@ RiddenLink find_link(const MissionRobot& robot, const std::string& name, const s
 MissionRobot make_mission_robot(const RobotItem& robot, const std::vector<std::string>& folders,
                                 const std::string& key, MeshImporter& importer);
 
-Pose calc_base_pose(const RobotItem& robot);
+// Of its first link, in the world.
+Pose calc_base_pose(const RobotItem& robot, const MissionRobot& made);
 
 }  // namespace rubble

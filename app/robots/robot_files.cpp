@@ -94,6 +94,13 @@ std::string odometry_text(const RobotLog& log) {
   return text;
 }
 
+// Makes the folder a package, so that ROS finds the meshes of /robot_description.
+std::string package_text() {
+  return std::string("<?xml version=\"1.0\"?>\n<package format=\"2\">\n  <name>") + kRobotsPackage +
+         "</name>\n  <version>1.0.0</version>\n  <description>Robots of a run of Rubble</description>\n"
+         "  <maintainer email=\"nobody@example.org\">nobody</maintainer>\n  <license>unknown</license>\n</package>\n";
+}
+
 void write_mesh(const std::string& path, const RobotLink& link) {
   const TriangleMesh mesh = make_link_mesh(link, "");
   write_stl(path, {{&mesh, 1, {}}});
@@ -119,7 +126,7 @@ void write_robot_description(const std::string& folder, const std::string& name,
 
 std::vector<std::string> robot_file_names(const std::vector<std::string>& robots,
                                           const std::vector<RobotModel>& models) {
-  std::vector<std::string> names{"robots/track.bin", "robots/robots.json"};
+  std::vector<std::string> names{"robots/track.bin", "robots/robots.json", "robots/package.xml"};
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const std::string own = "robots/" + robots[i];
     names.insert(names.end(), {own + ".txt", own + "_joints.csv", own + ".urdf", own + "_meshes"});
@@ -149,6 +156,7 @@ void write_robot_files(const std::string& folder, const std::vector<std::string>
                     {"pieces_moved", result.pieces_moved},
                     {"robots", list}};
   write_text_file(folder + "/robots/robots.json", all.dump(2) + "\n");
+  write_text_file(folder + "/robots/package.xml", package_text());
 }
 
 }  // namespace rubble

@@ -14,8 +14,8 @@ namespace rubble {
 std::vector<std::string> robot_file_names(const std::vector<std::string>& robots,
                                           const std::vector<RobotModel>& models);
 
-// robots/track.bin, robots/robots.json, and of each robot NAME.txt (TUM: the base's true pose),
-// NAME_joints.csv, NAME_odometry.csv where it has two driven sides, and NAME.urdf with the meshes in
+// robots/track.bin, robots/robots.json, robots/package.xml (for ROS), and of each robot NAME.txt (TUM: the base's
+// true pose), NAME_joints.csv, NAME_odometry.csv where it has two driven sides, and NAME.urdf with the meshes in
 // NAME_meshes/. start_ns: the stamp of the track's time 0. Throws RunError.
 void write_robot_files(const std::string& folder, const std::vector<std::string>& names,
                        const std::vector<RobotModel>& models, const RobotRunResult& result,

@@ -1,7 +1,12 @@
 #include "app/robots/robot_log.h"
 
+#include <algorithm>
+#include <set>
+
 #include "io/robot/urdf_writer.h"
+#include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
+#include "scripting/scenario/camera_mistakes.h"
 
 namespace rubble {
 namespace {
@@ -63,27 +68,75 @@ void RobotLog::note(const RobotSense& sense) {
   samples_.push_back(sample);
 }
 
-RobotRecord describe_robot(const MissionRobot& robot, const std::string& name,
-                           const Pose& world_from_base, bool several) {
+namespace {
+
+// Names of links and frames, as TF has them.
+std::vector<std::string> plain_frames(const RobotModel& model) {
+  std::vector<std::string> names;
+  const RobotRecord record;
+  for (const RobotLink& link : model.links) names.push_back(record.frame_named(link.name));
+  for (const RobotFrame& frame : model.frames) names.push_back(record.frame_named(frame.name));
+  return names;
+}
+
+// several: its topics have a prefix. prefixed: its frames have one.
+RobotRecord describe_robot(const MissionRobot& robot, const std::string& name, const Pose& world_from_base, bool several,
+                           bool prefixed) {
   const RobotModel& model = robot.model;
   RobotRecord record;
   record.name = name;
-  if (several) record.topic = "/" + name, record.frame = name + "/";
+  if (several) record.topic = "/" + name;
+  if (prefixed) record.frame = name + "/";
   for (const RobotLink& link : model.links) record.links.push_back(link.name);
   const std::vector<Pose> links = calc_base_from_links(model);
   for (const RobotJoint& joint : model.joints) {
     record.joints.push_back({joint.name, joint.parent, joint.child, joint.kind == JointKind::weld});
     record.parent_from_child.push_back(parent_from_child(links, joint));
   }
-  for (const RobotFrame& frame : robot.frames) {
+  for (const RobotFrame& frame : model.frames) {
     record.joints.push_back({frame.name + "_frame", frame.link, int(record.links.size()), true});
     record.links.push_back(frame.name);
     record.parent_from_child.push_back(frame.link_from_frame);
   }
   record.world_from_base = world_from_base;
   record.has_odometry = model.sides.any();
-  record.description = robot_to_urdf(model, name, name + "_meshes");
+  record.description = robot_to_urdf(model, name, std::string("package://") + kRobotsPackage + "/" + name + "_meshes",
+                                     world_from_base);
   return record;
+}
+
+// What the prefix cannot part: the mission gave a sensor such a name, or two links differ by slashes in front alone.
+void check_frames(const RobotRecord& record, const std::vector<std::string>& taken, const std::string& key) {
+  std::set<std::string> frames(taken.begin(), taken.end());
+  if (record.has_odometry) frames.insert(record.frame + "odom");
+  for (std::size_t i = 0; i < record.links.size(); ++i)
+    if (!frames.insert(record.frame_of(int(i))).second)
+      throw InputError({"", 0, key, "two frames of /tf would have one name", "another name for the sensor or the link",
+                        "\"" + record.frame_of(int(i)) + "\"", ""});
+}
+
+}  // namespace
+
+std::string find_frame_clash(const Scenario& scenario, const MissionRobot& robot) {
+  const std::vector<std::string> taken = list_sensor_frames(scenario);
+  for (const std::string& name : plain_frames(robot.model))
+    if (std::find(taken.begin(), taken.end(), name) != taken.end()) return name;
+  return "";
+}
+
+std::vector<RobotRecord> describe_robots(const Scenario& scenario, const std::vector<MissionRobot>& made) {
+  const std::vector<std::string> names = robot_names(scenario.robots), taken = list_sensor_frames(scenario);
+  const bool several = made.size() > 1;
+  std::vector<RobotRecord> records;
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    const bool prefixed = several || !find_frame_clash(scenario, made[i]).empty();
+    records.push_back(describe_robot(made[i], names[i], calc_base_pose(scenario.robots[i], made[i]), several, prefixed));
+    std::vector<std::string> others;
+    for (const std::string& name : taken)
+      if (name != records.back().frame + "odom") others.push_back(name);
+    check_frames(records.back(), others, "robots[" + std::to_string(i + 1) + "]");
+  }
+  return records;
 }
 
 }  // namespace rubble

@@ -12,6 +12,7 @@
 #include "kernel/robot/odometry.h"
 #include "kernel/robot/robot_run.h"
 #include "render/scene/robot_sample.h"
+#include "scripting/scenario/scenario.h"
 
 namespace rubble {
 
@@ -40,8 +41,11 @@ class RobotLog {
   std::vector<OdometryReading> odometry_;
 };
 
-// The robot for recorders. several: whether the mission has others.
-RobotRecord describe_robot(const MissionRobot& robot, const std::string& name,
-                           const Pose& world_from_base, bool several);
+// A link of the robot that has the name of a sensor's frame, or of one that is always there; empty: none has.
+std::string find_frame_clash(const Scenario& scenario, const MissionRobot& robot);
+
+// The robots of a mission for recorders. Frames have the robot's name in front where there are several robots, or where
+// find_frame_clash() finds one. Throws InputError for frames whose names are equal all the same.
+std::vector<RobotRecord> describe_robots(const Scenario& scenario, const std::vector<MissionRobot>& made);
 
 }  // namespace rubble

@@ -3,11 +3,14 @@
 
 #include <string>
 
+#include "kernel/base/text.h"
+
 namespace rubble {
 
-// For an attribute or an element. Bytes that XML forbids, or that may be no UTF-8, become question
-// marks.
+// For an attribute or an element. Bytes that XML forbids, and all beyond ASCII of a text that is not UTF-8, become
+// question marks.
 inline std::string xml_text(const std::string& text) {
+  const bool utf8 = find_invalid_utf8(text) == std::string::npos;
   std::string out;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
@@ -21,7 +24,7 @@ inline std::string xml_text(const std::string& text) {
       out += "&quot;";
     else if (c == '\n')
       out += "&#10;";
-    else if ((byte < 0x20 && c != '\t') || byte >= 0x7f)
+    else if ((byte < 0x20 && c != '\t') || byte == 0x7f || (byte > 0x7f && !utf8))
       out += '?';
     else
       out += c;

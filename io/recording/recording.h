@@ -2,6 +2,7 @@
 // that carries them, what each gives, under which names, and what numbers mean.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -99,7 +100,8 @@ struct RobotRecord {
 
   std::string name = "robot";  // of labels
   std::string topic;           // ROS: what its topics begin with, "/NAME"; of the only robot nothing
-  std::string frame;           // TF: what its frames begin with, "NAME/"; of the only robot nothing
+  // TF: what its frames begin with, "NAME/"; nothing, if no other frame has the name of one of its links
+  std::string frame;
   std::vector<std::string> links;
   std::vector<Joint> joints;
   std::vector<Pose> parent_from_child;  // by joint, at the start
@@ -107,7 +109,11 @@ struct RobotRecord {
   bool has_odometry = false;
   std::string description;  // URDF
 
-  std::string frame_of(int link) const { return frame + links[std::size_t(link)]; }
+  std::string frame_of(int link) const { return frame_named(links[std::size_t(link)]); }
+  // TF: of the link of that name. tf2 refuses slashes in front.
+  std::string frame_named(const std::string& link) const {
+    return frame + link.substr(std::min(link.size(), link.find_first_not_of('/')));
+  }
 };
 
 struct Recording {

@@ -1,265 +1,327 @@
 #include "io/robot/urdf_reader.h"
 
-#include <console_bridge/console.h>
-#include <urdf_parser/urdf_parser.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 
 #include "io/base/srgb.h"
-#include "io/robot/urdf_lines.h"
+#include "io/base/xml_document.h"
+#include "io/robot/urdf_elements.h"
+#include "io/robot/urdf_meshes.h"
+#include "io/robot/urdf_tree.h"
+#include "io/robot/xacro_tool.h"
 #include "kernel/base/error.h"
-#include "kernel/base/system/isolated_worker.h"
 #include "kernel/base/read_file.h"
 
 namespace rubble {
 namespace {
 
-namespace fs = std::filesystem;
+constexpr double kLeastAxis = 1e-9;  // length of an axis that has a direction
 
-// What liburdfdom complains of, instead of on the standard error.
-class Complaints : public console_bridge::OutputHandler {
+// Reads the children of <robot>, one by one.
+class PartReader {
  public:
-  Complaints() { console_bridge::useOutputHandler(this); }
-  ~Complaints() override { console_bridge::restorePreviousOutputHandler(); }
-  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first_.empty()) first_ = text;
-  }
-  const std::string& first() const { return first_; }
-
- private:
-  std::string first_;
-};
-
-Vec3 vec(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
-
-Pose pose(const urdf::Pose& p) {
-  double x = 0, y = 0, z = 0, w = 1;
-  p.rotation.getQuaternion(x, y, z, w);
-  return {normalized(Quat{w, x, y, z}), vec(p.position)};
-}
-
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-class Reader {
- public:
-  Reader(const std::string& path, const std::string& text) : lines_(text) {
-    file_.path = path;
-    urdf::ModelInterfaceSharedPtr model;
-    std::string why;
-    {
-      const Complaints complaints;
-      model = urdf::parseURDF(text);
-      why = complaints.first();
-    }
-    check_tree();
-    if (!model || !why.empty()) add(0, "", "cannot be read as URDF: " + why, "a robot as ROS describes it", "");
-    if (!mistakes_.empty()) throw InputError(std::move(mistakes_));
-    file_.name = model->getName();
-    warn_of_what_is_left_out();
-    take(*model, *model->getRoot(), {});
-    if (file_.links.size() != model->links_.size())
-      add(0, "", "some links hang on nothing that leads to the root", "one tree of links",
-          std::to_string(model->links_.size() - file_.links.size()) + " apart");
-    if (!mistakes_.empty()) throw InputError(std::move(mistakes_));
+  PartReader(UrdfElements& elements, const XmlElement& robot) : elements_(elements) {
+    collect_colours(robot);
   }
 
-  UrdfFile take_file() { return std::move(file_); }
-
- private:
-  void add(int line, const std::string& key, const std::string& message, const std::string& expected,
-           const std::string& found) {
-    mistakes_.push_back({file_.path, line, key, message, expected, found, ""});
-  }
-
-  void check_tree() {
-    for (const char* element : {"link", "joint"})
-      for (const std::string& name : lines_.doubled(element))
-        add(lines_.line_of(element, name), name, std::string("two ") + element + "s have this name",
-            "a name of its own", "");
-  }
-
-  void warn_of_what_is_left_out() {
-    for (const char* element : {"transmission", "gazebo", "safety_controller", "calibration", "sensor"})
-      for (int line : lines_.lines_of(element))
-        file_.warnings.push_back(file_.path + ":" + std::to_string(line) + ": <" + element +
-                                 "> is left out");
-  }
-
-  // The link, and what hangs on it, depth first.
-  void take(const urdf::ModelInterface& model, const urdf::Link& link, const urdf::JointSharedPtr& by) {
-    const auto known = numbers_.find(link.name);
-    if (known != numbers_.end()) {
-      add(by ? lines_.line_of("joint", by->name) : 0, by ? by->name : link.name,
-          "closes a loop: link `" + link.name + "` hangs on another joint already",
-          "a tree: each link is the child of one joint", "");
-      return;
-    }
-    const int number = int(file_.links.size());
-    numbers_[link.name] = number;
-    if (by) file_.joints.push_back(make_joint(*by, number));
-    file_.links.push_back(make_link(link));
-    for (const auto& [name, joint] : model.joints_) {
-      if (joint->parent_link_name != link.name) continue;
-      const auto child = model.links_.find(joint->child_link_name);
-      if (child != model.links_.end()) take(model, *child->second, joint);
-    }
-  }
-
-  UrdfJoint make_joint(const urdf::Joint& from, int child) {
-    UrdfJoint joint;
-    joint.name = from.name;
-    joint.line = lines_.line_of("joint", from.name);
-    joint.parent = numbers_.at(from.parent_link_name);
-    joint.child = child;
-    joint.parent_from_child = pose(from.parent_to_joint_origin_transform);
-    switch (from.type) {
-      case urdf::Joint::FIXED:
-        return joint;
-      case urdf::Joint::REVOLUTE:
-      case urdf::Joint::CONTINUOUS:
-        joint.kind = JointKind::hinge;
-        break;
-      case urdf::Joint::PRISMATIC:
-        joint.kind = JointKind::slider;
-        break;
-      default:
-        add(joint.line, from.name, "this type of joint is not supported",
-            "fixed, revolute, continuous or prismatic", "planar or floating");
-        return joint;
-    }
-    take_axis(from, joint);
-    take_limits(from, joint);
-    if (from.dynamics) joint.damping = from.dynamics->damping, joint.friction = from.dynamics->friction;
-    if (from.mimic)
-      joint.mimic = UrdfJoint::Mimic{from.mimic->joint_name, from.mimic->multiplier, from.mimic->offset};
-    return joint;
-  }
-
-  void take_axis(const urdf::Joint& from, UrdfJoint& joint) {
-    const Vec3 axis = vec(from.axis);
-    if (!finite(axis) || norm(axis) < 1e-9)
-      add(joint.line, from.name, "its axis has no direction", "a vector that is not zero", "");
-    else
-      joint.axis = axis * (1 / norm(axis));
-  }
-
-  void take_limits(const urdf::Joint& from, UrdfJoint& joint) {
-    if (!from.limits) return;
-    joint.effort = std::max(0.0, from.limits->effort);
-    joint.speed = std::max(0.0, from.limits->velocity);
-    if (from.type == urdf::Joint::CONTINUOUS) return;
-    joint.lower = from.limits->lower, joint.upper = from.limits->upper;
-    if (joint.lower <= 0 && joint.upper >= 0) return;
-    add(joint.line, from.name, "its zero lies outside of its limits, which is not supported",
-        "lower <= 0 <= upper", std::to_string(joint.lower) + " to " + std::to_string(joint.upper));
-  }
-
-  UrdfLink make_link(const urdf::Link& from) {
+  UrdfLink read_link(const XmlElement& from) {
     UrdfLink link;
-    link.name = from.name;
-    link.line = lines_.line_of("link", from.name);
-    if (from.inertial) {
-      const urdf::Inertial& i = *from.inertial;
-      link.has_inertial = true;
-      link.mass = i.mass;
-      link.link_from_inertial = pose(i.origin);
-      link.inertia.rows[0] = {i.ixx, i.ixy, i.ixz};
-      link.inertia.rows[1] = {i.ixy, i.iyy, i.iyz};
-      link.inertia.rows[2] = {i.ixz, i.iyz, i.izz};
-    }
-    for (const auto& c : from.collision_array)
-      if (c && c->geometry) take_geometry(*c->geometry, c->origin, link, link.collisions);
-    for (const auto& v : from.visual_array) {
-      const std::size_t before = link.visuals.size();
-      if (v && v->geometry) take_geometry(*v->geometry, v->origin, link, link.visuals);
-      if (link.visuals.size() > before) link.visuals.back().colour = colour_of(*v);
+    link.line = from.line;
+    elements_.set_owner("");
+    link.name = elements_.name_of(from, "name");
+    elements_.set_owner(link.name);
+    elements_.expect(from, {"name", "type"}, {"inertial", "visual", "collision"});
+    for (const XmlElement& child : from.children) {
+      if (child.name == "inertial") read_inertial(child, link);
+      if (child.name == "collision") {
+        elements_.expect(child, {"name"}, {"origin", "geometry"});
+        read_shape(child, link.collisions);
+      }
+      if (child.name == "visual") read_visual(child, link.visuals);
     }
     return link;
   }
 
-  // Colours of URDF files are those of a screen: sRGB.
-  static std::optional<Vec3f> colour_of(const urdf::Visual& visual) {
-    const auto& m = visual.material;
-    if (!m || !m->texture_filename.empty()) return std::nullopt;
-    const auto decode = [](float code) {
-      return float(linear_from_srgb(double(code > 0 ? std::min(code, 1.0f) : 0.0f)));
-    };
-    return Vec3f(decode(m->color.r), decode(m->color.g), decode(m->color.b));
+  UrdfNamedJoint read_joint(const XmlElement& from) {
+    UrdfNamedJoint named;
+    UrdfJoint& joint = named.joint;
+    joint.line = from.line;
+    elements_.set_owner("");
+    joint.name = elements_.name_of(from, "name");
+    elements_.set_owner(joint.name);
+    elements_.expect(from, {"name", "type"}, {"parent", "child", "origin", "axis", "limit", "dynamics", "mimic"});
+    named.parent = read_end(from, "parent");
+    named.child = read_end(from, "child");
+    joint.parent_from_child = elements_.origin(from);
+    const std::string* type = from.find("type");
+    const std::string kind = type ? *type : "";
+    named.floating = kind == "floating";
+    if (kind == "fixed" || named.floating) return named;
+    if (kind == "revolute" || kind == "continuous")
+      joint.kind = JointKind::hinge;
+    else if (kind == "prismatic")
+      joint.kind = JointKind::slider;
+    else
+      return elements_.mistake(from.line, "this type of joint is not supported",
+                               "fixed, revolute, continuous or prismatic", "\"" + kind + "\""),
+             named;
+    read_axis(from, joint);
+    read_limit(from, kind == "continuous", joint);
+    read_dynamics(from, joint);
+    return named;
   }
 
-  void take_geometry(const urdf::Geometry& from, const urdf::Pose& origin, const UrdfLink& link,
-                     std::vector<UrdfGeometry>& list) {
+ private:
+  // Materials that are defined anywhere, by name: a visual may name one that comes later.
+  void collect_colours(const XmlElement& robot) {
+    for (const XmlElement& child : robot.children)
+      if (child.name == "material") add_colour(child);
+    for (const XmlElement& link : robot.children)
+      for (const XmlElement& visual : link.children)
+        for (const XmlElement& material : visual.children)
+          if (link.name == "link" && visual.name == "visual" && material.name == "material") add_colour(material);
+  }
+
+  // The first one counts.
+  void add_colour(const XmlElement& material) {
+    elements_.expect(material, {"name"}, {"color"});
+    const std::string* name = material.find("name");
+    if (name && !name->empty() && material.child("color")) colours_.emplace(*name, material.child("color"));
+    if (name && !name->empty() && material.child("texture")) textured_.insert({*name, true});
+  }
+
+  // Colours of URDF files are those of a screen: sRGB. A fault in a colour costs the colour alone.
+  std::optional<Vec3f> read_colour(const XmlElement& color) {
+    elements_.expect(color, {"rgba"}, {});
+    const std::string* text = color.find("rgba");
+    const std::vector<double> n = text ? UrdfElements::numbers_in(*text) : std::vector<double>();
+    if (n.size() != 4 || !std::all_of(n.begin(), n.end(), [](double x) { return std::isfinite(x); })) {
+      elements_.warn(color.line, "<color> is left out: `rgba` is to be four numbers from 0 to 1, and is " +
+                                     (text ? "\"" + *text + "\"" : std::string("missing")));
+      return std::nullopt;
+    }
+    if (n[3] < 1)
+      elements_.warn(color.line, "the transparency of <color> is left out: it is drawn as a solid");
+    const auto decode = [](double code) { return float(linear_from_srgb(std::clamp(code, 0.0, 1.0))); };
+    return Vec3f(decode(n[0]), decode(n[1]), decode(n[2]));
+  }
+
+  std::optional<Vec3f> colour_of(const XmlElement& visual) {
+    const XmlElement* material = visual.child("material");
+    if (!material) return std::nullopt;
+    const XmlElement* color = material->child("color");
+    const std::string* name = material->find("name");
+    if (!color && name && colours_.count(*name) > 0) color = colours_.at(*name);
+    if (color) return read_colour(*color);
+    const bool textured = material->child("texture") || (name && textured_.count(*name) > 0);
+    if (!textured)
+      elements_.warn(material->line, "the material " + (name ? "`" + *name + "`" : std::string("without a name")) +
+                                         " is defined nowhere in the file: drawn without a colour");
+    return std::nullopt;
+  }
+
+  void read_inertial(const XmlElement& from, UrdfLink& link) {
+    elements_.expect(from, {}, {"origin", "mass", "inertia"});
+    link.link_from_inertial = elements_.origin(from);
+    if (const XmlElement* mass = from.child("mass")) {
+      elements_.expect(*mass, {"value"}, {});
+      link.mass = elements_.number(*mass, "value", 0, true);
+      if (link.mass < 0)
+        elements_.mistake(mass->line, "a mass below 0", "0 kg or more", std::to_string(link.mass) + " kg");
+    }
+    double i[6] = {};
+    if (const XmlElement* inertia = from.child("inertia")) {
+      elements_.expect(*inertia, {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {});
+      const char* const names[6] = {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
+      for (int k = 0; k < 6; ++k) i[k] = elements_.number(*inertia, names[k], 0);
+    }
+    link.inertia.rows[0] = {i[0], i[1], i[2]};
+    link.inertia.rows[1] = {i[1], i[3], i[4]};
+    link.inertia.rows[2] = {i[2], i[4], i[5]};
+    link.has_inertial = link.mass != 0 || std::any_of(i, i + 6, [](double x) { return x != 0; });
+    if (link.has_inertial && link.mass == 0)
+      elements_.warn(from.line, "`" + link.name + "` has moments of inertia without a mass");
+  }
+
+  void read_visual(const XmlElement& from, std::vector<UrdfGeometry>& list) {
+    elements_.expect(from, {"name"}, {"origin", "geometry", "material"});
+    const std::size_t before = list.size();
+    read_shape(from, list);
+    if (list.size() > before) list.back().colour = colour_of(from);
+  }
+
+  void read_shape(const XmlElement& from, std::vector<UrdfGeometry>& list) {
     UrdfGeometry g;
-    g.link_from_geometry = pose(origin);
-    bool fine = true;
-    if (from.type == urdf::Geometry::BOX) {
-      g.kind = UrdfGeometry::Kind::box;
-      g.size = vec(static_cast<const urdf::Box&>(from).dim);
-      fine = finite(g.size) && g.size.x > 0 && g.size.y > 0 && g.size.z > 0;
-    } else if (from.type == urdf::Geometry::CYLINDER) {
-      g.kind = UrdfGeometry::Kind::cylinder;
-      g.radius = static_cast<const urdf::Cylinder&>(from).radius;
-      g.length = static_cast<const urdf::Cylinder&>(from).length;
-      fine = g.radius > 0 && g.length > 0;
-    } else if (from.type == urdf::Geometry::SPHERE) {
+    g.link_from_geometry = elements_.origin(from);
+    const XmlElement* geometry = from.child("geometry");
+    g.line = geometry ? geometry->line : from.line;
+    if (!geometry || geometry->children.empty())
+      return elements_.mistake(g.line, "<" + from.name + "> has no shape",
+                               "a <geometry> with one of <box>, <cylinder>, <capsule>, <sphere>, <mesh>",
+                               geometry ? "an empty <geometry>" : "no <geometry>");
+    const XmlElement& shape = geometry->children.front();
+    if (geometry->children.size() > 1)
+      elements_.warn(geometry->children[1].line, "a <geometry> is one shape: what follows the first is left out");
+    g.line = shape.line;
+    double least = 0;  // of its sizes; unit: m
+    if (shape.name == "box") {
+      elements_.expect(shape, {"size"}, {});
+      g.size = elements_.vector(shape, "size", {1, 1, 1}, true);
+      least = std::min({g.size.x, g.size.y, g.size.z});
+    } else if (shape.name == "cylinder" || shape.name == "capsule") {
+      elements_.expect(shape, {"radius", "length"}, {});
+      g.kind = shape.name == "capsule" ? UrdfGeometry::Kind::capsule : UrdfGeometry::Kind::cylinder;
+      g.radius = elements_.number(shape, "radius", 1, true);
+      g.length = elements_.number(shape, "length", 1, true);
+      least = std::min(g.radius, g.length);
+    } else if (shape.name == "sphere") {
+      elements_.expect(shape, {"radius"}, {});
       g.kind = UrdfGeometry::Kind::sphere;
-      g.radius = static_cast<const urdf::Sphere&>(from).radius;
-      fine = g.radius > 0;
+      g.radius = elements_.number(shape, "radius", 1, true);
+      least = g.radius;
+    } else if (shape.name == "mesh") {
+      if (!read_mesh(shape, g)) return;
+      least = 1;
     } else {
-      g.kind = UrdfGeometry::Kind::mesh;
-      const auto& mesh = static_cast<const urdf::Mesh&>(from);
-      g.scale = vec(mesh.scale);
-      fine = finite(g.scale) && g.scale.x > 0 && g.scale.y > 0 && g.scale.z > 0;
-      g.file = find_mesh(mesh.filename);
-      if (g.file.empty()) {
-        add(link.line, link.name, "its mesh is missing", "a file beside the URDF file, or below one of its folders",
-            "\"" + mesh.filename + "\"");
-        return;
-      }
+      return elements_.mistake(shape.line, "<" + shape.name + "> is not a shape that can be read",
+                               "<box>, <cylinder>, <capsule>, <sphere> or <mesh>", "<" + shape.name + ">");
     }
-    if (!fine) add(link.line, link.name, "its geometry has no size", "sizes and scales above 0", "");
-    list.push_back(g);
+    if (least < 0) elements_.mistake(shape.line, "its geometry has a size below 0", "sizes above 0 m", std::to_string(least));
+    if (least == 0)
+      elements_.warn(shape.line, "<" + shape.name + "> of " + from.name + " has a size of 0 and is left out");
+    else
+      list.push_back(g);
   }
 
-  // "package://NAME/PATH" and "file:PATH" too: PATH is looked for in the folder of the URDF file and in those
-  // that it lies in; absolute paths are those of another machine. Empty: not found.
-  std::string find_mesh(const std::string& name) const {
-    std::string path = name;
-    if (path.rfind("package://", 0) == 0) {
-      path.erase(0, 10);
-    } else if (path.rfind("file:", 0) == 0) {
-      path.erase(0, path.find_first_not_of('/', 5));
+  bool read_mesh(const XmlElement& shape, UrdfGeometry& g) {
+    elements_.expect(shape, {"filename", "scale"}, {});
+    g.kind = UrdfGeometry::Kind::mesh;
+    g.scale = elements_.vector(shape, "scale", {1, 1, 1});
+    if (g.scale.x == 0 || g.scale.y == 0 || g.scale.z == 0)
+      elements_.mistake(shape.line, "the scale of its mesh is 0", "three numbers that are not 0", "0");
+    const std::string name = elements_.name_of(shape, "filename");
+    if (name.empty()) return false;
+    g.file = find_urdf_mesh(name, elements_.path());
+    if (!g.file.empty()) return true;
+    elements_.mistake(shape.line, "its mesh is missing", "a file beside the URDF file, or below one of its folders",
+                      "\"" + name + "\"",
+                      name.find("://") != std::string::npos ? "put the package beside the URDF file, or name its "
+                                                              "workspace in ROS_PACKAGE_PATH or AMENT_PREFIX_PATH"
+                                                            : "");
+    return false;
+  }
+
+  std::string read_end(const XmlElement& joint, const char* end) {
+    const XmlElement* element = joint.child(end);
+    if (!element) {
+      elements_.mistake(joint.line, std::string("it has no <") + end + ">", "<parent link=...> and <child link=...>",
+                        "none");
+      return "";
     }
-    const std::string below = path.substr(std::min(path.size(), path.find('/') + 1));
-    std::error_code failed;
-    fs::path folder = fs::absolute(fs::path(file_.path)).parent_path();
-    for (;; folder = folder.parent_path()) {
-      for (const std::string& tried : {path, below})
-        if (!tried.empty() && fs::is_regular_file(folder / tried, failed))
-          return (folder / tried).lexically_normal().string();
-      if (folder == folder.parent_path()) return "";
+    elements_.expect(*element, {"link"}, {});
+    return elements_.name_of(*element, "link");
+  }
+
+  void read_axis(const XmlElement& from, UrdfJoint& joint) {
+    const XmlElement* axis = from.child("axis");
+    if (!axis) return;  // X
+    elements_.expect(*axis, {"xyz"}, {});
+    const Vec3 v = elements_.vector(*axis, "xyz", {1, 0, 0});
+    if (norm(v) < kLeastAxis)
+      elements_.mistake(axis->line, "its axis has no direction", "a vector that is not zero", "0 0 0");
+    else
+      joint.axis = v * (1 / norm(v));
+  }
+
+  // What is optional in a continuous joint's limit is forgiven in others with a warning, but for the range.
+  void read_limit(const XmlElement& from, bool endless, UrdfJoint& joint) {
+    const XmlElement* limit = from.child("limit");
+    if (!limit) {
+      if (!endless)
+        elements_.mistake(from.line, "it has no <limit>", "<limit lower= upper= effort= velocity=>, or type=\"continuous\"",
+                          "none");
+      return;
+    }
+    elements_.expect(*limit, {"lower", "upper", "effort", "velocity"}, {});
+    joint.effort = read_most(*limit, "effort");
+    joint.speed = read_most(*limit, "velocity");
+    if (endless) return;
+    joint.lower = elements_.number(*limit, "lower", 0, false, true);
+    joint.upper = elements_.number(*limit, "upper", 0, false, true);
+    if (joint.lower > joint.upper || joint.lower == kNever || joint.upper == -kNever)
+      elements_.mistake(limit->line, "its range is empty", "lower <= upper",
+                        std::to_string(joint.lower) + " to " + std::to_string(joint.upper));
+  }
+
+  // 0: there is no such limit, or it is below 0, which some programs write for "none".
+  double read_most(const XmlElement& limit, const char* attribute) {
+    const double most = elements_.number(limit, attribute, 0, false, true);
+    if (most >= 0) return std::min(most, kMostFigure);
+    elements_.warn(limit.line, std::string("`") + attribute + "` of <limit> is below 0: taken as not given");
+    return 0;
+  }
+
+  void read_dynamics(const XmlElement& from, UrdfJoint& joint) {
+    if (const XmlElement* dynamics = from.child("dynamics")) {
+      elements_.expect(*dynamics, {"damping", "friction"}, {});
+      joint.damping = elements_.number(*dynamics, "damping", 0);
+      joint.friction = elements_.number(*dynamics, "friction", 0);
+      if (joint.damping < 0 || joint.friction < 0)
+        elements_.mistake(dynamics->line, "damping or friction below 0", "0 or more", "less");
+    }
+    if (const XmlElement* mimic = from.child("mimic")) {
+      elements_.expect(*mimic, {"joint", "multiplier", "offset"}, {});
+      joint.mimic = UrdfJoint::Mimic{elements_.name_of(*mimic, "joint"), elements_.number(*mimic, "multiplier", 1),
+                                     elements_.number(*mimic, "offset", 0)};
     }
   }
 
-  UrdfLines lines_;
-  UrdfFile file_;
-  std::map<std::string, int> numbers_;
-  std::vector<Diagnostic> mistakes_;
+  static constexpr double kMostFigure = 1e9;  // of efforts and speeds: as good as endless; unit: N m, rad/s
+
+  UrdfElements& elements_;
+  std::map<std::string, const XmlElement*> colours_;
+  std::map<std::string, bool> textured_;
 };
+
+UrdfFile read_document(const XmlDocument& document, const std::string& path) {
+  UrdfElements elements(path);
+  const XmlElement& root = document.root;
+  if (root.name != "robot") {
+    elements.mistake(root.line, "is no URDF", "a <robot>", "<" + root.name + ">",
+                     root.name == "sdf" || root.name == "mujoco" ? "convert it to URDF" : "");
+    elements.throw_mistakes();
+  }
+  elements.expect(root, {"name", "version"}, {"link", "joint", "material"});
+  UrdfFile file;
+  file.path = path;
+  file.name = root.find("name") ? *root.find("name") : "";
+  if (file.name.empty()) file.name = "robot", elements.warn(root.line, "<robot> has no name: called `robot`");
+  PartReader parts(elements, root);
+  std::vector<UrdfLink> links;
+  std::vector<UrdfNamedJoint> joints;
+  for (const XmlElement& child : root.children) {
+    if (child.name == "link") links.push_back(parts.read_link(child));
+    if (child.name == "joint") joints.push_back(parts.read_joint(child));
+  }
+  elements.throw_mistakes();
+  order_urdf_tree(elements, std::move(links), std::move(joints), file);
+  file.warnings = document.warnings;
+  for (std::string& warning : elements.take_warnings()) file.warnings.push_back(std::move(warning));
+  return file;
+}
 
 }  // namespace
 
-UrdfFile read_urdf(const std::string& path) {
-  const std::string text = read_file(path);
-  run_isolated(path, "URDF", [&] {
-    const Complaints complaints;
-    urdf::parseURDF(text);
-    return std::string();
-  });
-  return Reader(path, text).take_file();
+UrdfFile read_urdf(const std::string& path, const std::vector<std::pair<std::string, std::string>>& arguments) {
+  const XmlDocument document = parse_xml(read_file(path), path);
+  const XmlElement* xacro = find_xacro(document.root);
+  if (!xacro) return read_document(document, path);
+  if (!is_xacro_file(path))
+    throw InputError({path, xacro->line, "", "<" + xacro->name + "> of xacro is not expanded", "a URDF file", "a xacro file",
+                      "with a name that ends in .xacro, the xacro tool is called for it"});
+  const std::string text = expand_xacro(path, *xacro, arguments);
+  return read_document(parse_xml(text, path + " (expanded)"), path + " (expanded)");
 }
 
 }  // namespace rubble

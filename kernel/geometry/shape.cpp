@@ -121,10 +121,11 @@ void check_material(const PieceType& type, const std::string& key) {
   if (!(type.friction >= 0 && type.friction <= 2)) {
     fail(key + ".friction", "out of range", "0 to 2", std::to_string(type.friction));
   }
-  if (type.parts.empty() == !type.surface) {
-    fail(key + ".parts", type.surface ? "both parts and a surface" : "no collision part",
-         "at least one part, or a surface", type.surface ? "both" : "none");
-  }
+  // What touches nothing has its mass from its volume.
+  if (!type.parts.empty() && type.surface)
+    fail(key + ".parts", "both parts and a surface", "at least one part, or a surface", "both");
+  if (type.parts.empty() && !type.surface && !type.volume)
+    fail(key + ".parts", "no collision part", "at least one part, a surface, or a volume that touches nothing", "none");
 }
 
 // It never moves: mass and centre do not matter.

@@ -49,8 +49,7 @@ void check_joint(const RobotJoint& joint, int number, const std::string& at, Ran
   check.expect(joint.kind != JointKind::ball, at + ".kind", "not a joint of robots",
                "weld, hinge or slider", "ball");
   check.expect(is_unit(joint.axis), at + ".axis", "a unit vector", norm(joint.axis));
-  check.expect(joint.lower <= 0, at + ".lower", "0 or less", joint.lower);
-  check.expect(joint.upper >= 0, at + ".upper", "0 or more", joint.upper);
+  check.expect(joint.lower <= joint.upper, at + ".lower", "at most the upper limit", joint.lower);
   check.expect(joint.start >= joint.lower && joint.start <= joint.upper, at + ".start",
                "within the joint's limits", joint.start);
   const RobotMotor& motor = joint.motor;

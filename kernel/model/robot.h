@@ -55,11 +55,24 @@ struct RobotJoint {
   JointKind kind = JointKind::hinge;  // weld, hinge or slider
   Pose parent_from_child;  // at the joint's zero; unit: m
   Vec3 axis{0, 0, 1};      // in the child's frame, unit length: it turns about this or slides along it
-  double lower = -kNever, upper = kNever;  // unit: rad, slider m; lower <= 0 <= upper
+  double lower = -kNever, upper = kNever;  // unit: rad, slider m; lower <= upper
   double damping = 0;      // unit: N m s/rad, slider N s/m
   double friction = 0;     // dry; unit: N m, slider N
   RobotMotor motor;  // effort 0: the joint is passive
-  double start = 0;        // where it stands when the robot is put down; unit: rad, slider m
+  double start = 0;        // where it stands when the robot is put down, in its range; unit: rad, slider m
+};
+
+// A frame on a link, such as a camera's: a link of a URDF file that is fixed to another.
+struct RobotFrame {
+  std::string name;
+  int link = 0;
+  Pose link_from_frame;  // unit: m
+};
+
+// A joint that a servo keeps at multiplier * q + offset of another, which is no mimic itself.
+struct MimicJoint {
+  int joint = 0, of = 0;
+  double multiplier = 1, offset = 0;
 };
 
 // What drives a robot on two sides: belts, or wheels that skid or turn in place.
@@ -87,6 +100,9 @@ struct RobotModel {
   std::string name;                // of the robot, prefix of its topics and files
   std::vector<RobotLink> links;    // the first is the base
   std::vector<RobotJoint> joints;  // one fewer than the links
+  bool fixed_base = false;         // the first link stands where it is put, as if bolted to the ground
+  std::vector<RobotFrame> frames;  // beside the links; their names are no links'
+  std::vector<MimicJoint> mimics;
   SideDrive sides;  // what twists drive and odometry counts; none: neither is there
   std::vector<RobotLamp> lamps;      // that shine; none of a robot by itself
   RobotLamp headlamp;                // where its looks have one; of others the base's origin

@@ -47,7 +47,7 @@ void set_motor(const RobotJoint& joint, const MotorCommand& command, TreeMotor& 
 }  // namespace
 
 int WorldRobots::add(const RobotModel& model, const Pose& world_from_base) {
-  const std::string key = "robots[" + std::to_string(types_.robots.size()) + "]";
+  const std::string key = "robots[" + std::to_string(types_.robots.size() + 1) + "]";
   validate(model, key);
   const int first_type = int(types_.pieces.size()), first = int(data_.bodies.size());
   for (const PieceType& type : make_link_types(model)) {
@@ -56,7 +56,7 @@ int WorldRobots::add(const RobotModel& model, const Pose& world_from_base) {
   }
   NewPiece piece;
   piece.placement.world_from_body = {normalized(world_from_base.rotation), world_from_base.translation};
-  piece.placement.fixed = model.tube.has_value();  // what grows is staked to the ground
+  piece.placement.fixed = model.fixed_base || model.tube;  // what grows is staked to the ground
   Tree tree = trees_.make(make_assembly(model, first_type), piece);
   tree.driven = true;
   std::vector<double> starts;
@@ -77,10 +77,8 @@ int WorldRobots::add(const RobotModel& model, const Pose& world_from_base) {
   }
   trees_.start(tree, piece, starts);
   pairs_.introduce(first);
-  if (model.tube) {
-    tubes_.carry_stowed(data_.robots.back(), model);
-    wake_neighbours(first);
-  }
+  if (model.tube) tubes_.carry_stowed(data_.robots.back(), model);
+  if (piece.placement.fixed) wake_neighbours(first);
   return int(data_.robots.size()) - 1;
 }
 
@@ -89,7 +87,7 @@ void WorldRobots::set_command(int number, const RobotCommand& command) {
   WorldRobot& robot = data_.robots[std::size_t(number)];
   std::vector<TreeLink>& links = data_.trees[robot.tree].links;
   if (links.empty()) return;  // lost
-  const std::string key = "robots[" + std::to_string(number) + "]";
+  const std::string key = "robots[" + std::to_string(number + 1) + "]";
   for (std::size_t i = 0; i < std::min(command.joints.size(), model.joints.size()); ++i) {
     check_number(command.joints[i].target, key + "." + model.joints[i].name);
   }

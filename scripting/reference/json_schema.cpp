@@ -79,6 +79,9 @@ struct TypeOf {
   Json operator()(TextMap*) const {
     return {{"type", "object"}, {"additionalProperties", {{"type", "string"}}}};
   }
+  Json operator()(NumberMap*) const {
+    return {{"type", "object"}, {"additionalProperties", with_range({{"type", "number"}}, range)}};
+  }
   Json operator()(const WordOrFile& slot) const {
     const Json file = {{"type", "object"},
                        {"properties", {{slot.key, {{"type", "string"}}}}},

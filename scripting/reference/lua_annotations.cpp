@@ -43,6 +43,7 @@ struct LuaTypeOf {
   std::string operator()(const NamedTables&) const { return "table<string, table>"; }
   std::string operator()(const PlaceSlot&) const { return "rubble.Vector|table"; }
   std::string operator()(TextMap*) const { return "table<string, string>"; }
+  std::string operator()(NumberMap*) const { return "table<string, number>"; }
 };
 
 // "rubble.mission" and "pile.mix[]": "rubble.mission.pile.mix".

@@ -133,17 +133,79 @@ class SensorNames {
     else if (!taken_.emplace(*given, key).second)
       mistakes_.push_back({"", 0, key, "the name is taken", "a name of its own", "\"" + *given + "\"",
                            taken_[*given] + " has it"});
+    else if (const std::string* owner = topic ? find_owner(*given) : nullptr)
+      mistakes_.push_back({"", 0, key, "the name is taken", "a name of its own", "\"" + *given + "\"", *owner + " has it"});
+  }
+  // A name that nothing else may have, of something that is no key.
+  void reserve(const std::string& name, const std::string& owner) { taken_.emplace(name, owner); }
+  // Topics that begin with these words and a slash.
+  void reserve_below(const std::string& topic, const std::string& owner) { owners_.emplace(topic, owner); }
+  // A label of a rawlog.
+  void label(const std::string& key, const std::string& text) {
+    const auto [at, is_new] = labels_.emplace(text, key);
+    if (!is_new)
+      mistakes_.push_back({"", 0, key, "two observations of the rawlog would have one label", "another name",
+                           "\"" + text + "\"", at->second + " has it"});
+  }
+
+  std::vector<std::string> frames() const {
+    std::vector<std::string> frames;
+    for (const auto& [name, key] : taken_)
+      if (name[0] != '/' && name != "base_link") frames.push_back(name);
+    return frames;
   }
 
  private:
+  const std::string* find_owner(const std::string& topic) const {
+    for (const auto& [above, owner] : owners_)
+      if (topic.compare(0, above.size() + 1, above + "/") == 0) return &owner;
+    return nullptr;
+  }
+
   std::vector<Diagnostic>& mistakes_;
-  std::map<std::string, std::string> taken_;  // name to key
+  std::map<std::string, std::string> taken_;   // name to key
+  std::map<std::string, std::string> owners_;  // of topics below another: that one to key
+  std::map<std::string, std::string> labels_;  // to key
 };
+
+// Topics or frames of robots, which no sensor may have.
+void reserve_robot_names(const Scenario& scenario, bool topics, SensorNames& names) {
+  const std::vector<std::string> robots = robot_names(scenario.robots);
+  if (!topics && !robots.empty() && !scenario.cameras.empty()) names.reserve("rig_link", "the rig");
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const std::string owner = "robots[" + std::to_string(i + 1) + "]";
+    const std::string prefix = robots.size() > 1 ? robots[i] + "/" : "";
+    if (!topics) names.reserve(prefix + "odom", owner);
+    for (const char* topic : {"joint_states", "odom", "ground_truth/odom", "contacts", "robot_description"})
+      if (topics) names.reserve("/" + prefix + topic, owner);
+  }
+}
+
+// What rawlogs call observations (io/mrpt).
+void check_labels(const Scenario& scenario, SensorNames& names) {
+  if (!scenario.outputs.rawlog) return;
+  for (const char* label : {"ground_truth", "ground_truth_depth"}) names.label("the rig", label);
+  for (const MountedCamera& camera : all_cameras(scenario)) {
+    const std::string at = scenario.cameras.empty() ? "camera" : "cameras." + camera.name;
+    names.label(at, camera.name);
+    if (camera.camera.stereo_baseline > 0) names.label(at, camera.name + "_right");
+    if (camera.ride.on()) names.label(at, camera.name + "_ground_truth");
+    if (camera.depth_sensor.type != DepthSensorType::none && scenario.cameras.size() > 1)
+      names.label(at, camera.name + "_ground_truth_depth");
+  }
+  for (const ImuScenario& imu : all_imus(scenario)) names.label(scenario.imus.empty() ? "imu" : "imus." + imu.name, imu.name);
+  for (const LidarScenario& lidar : scenario.lidars) names.label("lidars." + lidar.name, lidar.name);
+  const std::vector<std::string> robots = robot_names(scenario.robots);
+  for (std::size_t i = 0; i < robots.size(); ++i)
+    for (const char* what : {"_odometry", "_ground_truth"})
+      names.label("robots[" + std::to_string(i + 1) + "].name", robots[i] + what);
+}
 
 void check_imu_names(const Scenario& scenario, SensorNames& names, std::vector<Diagnostic>& mistakes) {
   if (scenario.imus.empty()) {
     names.check("imu.topic", scenario.imu.topic.value_or("/imu"), true);
     names.check("imu.frame_id", scenario.imu.frame_id, false);
+    if (scenario.imu.on && !scenario.imu.frame_id && !scenario.imu.is_rig()) names.check("imu", "imu_link", false);
   }
   if (scenario.imu.on && !scenario.imus.empty())
     mistakes.push_back({"", 0, "imu.on", "contradicts imus", "one of both", "both", ""});
@@ -157,6 +219,41 @@ void check_imu_names(const Scenario& scenario, SensorNames& names, std::vector<D
     }
     names.check(imu.topic ? at + ".topic" : at, imu.topic.value_or("/" + imu.name), true);
     names.check(imu.frame_id ? at + ".frame_id" : at, imu.frame_id.value_or(imu.name + "_link"), false);
+  }
+}
+
+// Of all topics and frames.
+void check_all_names(const Scenario& scenario, SensorNames& names, std::vector<Diagnostic>& mistakes) {
+  for (const char* taken : {"/clock", "/tf", "/tf_static", "/ground_truth"}) names.check(taken, taken, true);
+  names.reserve_below("/ground_truth", "ground truth");
+  for (const char* taken : {"world", "base_link"}) names.check(taken, taken, false);
+  reserve_robot_names(scenario, false, names);
+  for (const MountedCamera& camera : all_cameras(scenario)) {
+    const std::string at = scenario.cameras.empty() ? "camera" : "cameras." + camera.name;
+    const std::string& name = camera.name;
+    if (!is_name(name)) continue;
+    names.check(camera.camera.topic ? at + ".topic" : at, camera.camera.topic.value_or("/" + name), true);
+    names.check(camera.camera.frame_id ? at + ".frame_id" : at,
+                camera.camera.frame_id.value_or(name + "_optical_frame"), false);
+    names.check(at, name + "_link", false);
+    if (camera.camera.stereo_baseline > 0) names.check(at, name + "_right_optical_frame", false);
+    const std::string topic = camera.camera.topic.value_or("/" + name);
+    for (const char* below : {"/rgb", "/depth_registered", "/right", "/ground_truth"}) names.reserve_below(topic + below, at);
+    names.reserve(topic + "/events", at);
+  }
+  reserve_robot_names(scenario, true, names);  // a camera's topics lie below its own: no clash with these
+  check_imu_names(scenario, names, mistakes);
+  for (std::size_t i = 0; i < scenario.lidars.size(); ++i) {
+    const LidarScenario& lidar = scenario.lidars[i];
+    const std::string at = "lidars." + lidar.name;
+    if (!is_name(lidar.name)) {
+      mistakes.push_back({"", 0, at, "not a name of a LiDAR",
+                          "a lower-case letter, then such letters, digits and underscores, 32 at most",
+                          "\"" + lidar.name + "\"", ""});
+      continue;
+    }
+    names.check(lidar.topic ? at + ".topic" : at, lidar_topic(scenario, i), true);
+    names.check(lidar.frame_id ? at + ".frame_id" : at, lidar.frame_id.value_or(lidar.name + "_link"), false);
   }
 }
 
@@ -181,30 +278,15 @@ void check_cameras(const Scenario& scenario, std::vector<Diagnostic>& mistakes) 
 
 void check_sensor_names(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   SensorNames names(mistakes);
-  for (const char* taken : {"/clock", "/tf", "/tf_static", "/ground_truth"}) names.check(taken, taken, true);
-  for (const char* taken : {"world", "base_link"}) names.check(taken, taken, false);
-  for (const MountedCamera& camera : all_cameras(scenario)) {
-    const std::string at = scenario.cameras.empty() ? "camera" : "cameras." + camera.name;
-    const std::string& name = camera.name;
-    if (!is_name(name)) continue;
-    names.check(camera.camera.topic ? at + ".topic" : at, camera.camera.topic.value_or("/" + name), true);
-    names.check(camera.camera.frame_id ? at + ".frame_id" : at,
-                camera.camera.frame_id.value_or(name + "_optical_frame"), false);
-    names.check(at, name + "_link", false);
-  }
-  check_imu_names(scenario, names, mistakes);
-  for (std::size_t i = 0; i < scenario.lidars.size(); ++i) {
-    const LidarScenario& lidar = scenario.lidars[i];
-    const std::string at = "lidars." + lidar.name;
-    if (!is_name(lidar.name)) {
-      mistakes.push_back({"", 0, at, "not a name of a LiDAR",
-                          "a lower-case letter, then such letters, digits and underscores, 32 at most",
-                          "\"" + lidar.name + "\"", ""});
-      continue;
-    }
-    names.check(lidar.topic ? at + ".topic" : at, lidar_topic(scenario, i), true);
-    names.check(lidar.frame_id ? at + ".frame_id" : at, lidar.frame_id.value_or(lidar.name + "_link"), false);
-  }
+  check_all_names(scenario, names, mistakes);
+  check_labels(scenario, names);
+}
+
+std::vector<std::string> list_sensor_frames(const Scenario& scenario) {
+  std::vector<Diagnostic> mistakes;  // that were reported before
+  SensorNames names(mistakes);
+  check_all_names(scenario, names, mistakes);
+  return names.frames();
 }
 
 }  // namespace rubble

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/base/error.h"
@@ -44,6 +45,11 @@ struct LampItem {
 struct RobotItem {
   RobotKind model = RobotKind::snake;
   std::string urdf{};  // a file, instead of a bundled model: relative to the script
+  std::vector<std::pair<std::string, std::string>> urdf_arguments{};  // of a .xacro file, by name
+  // By joint of a robot from a file: instead of what its <limit> gives. unit: N m, slider N; rad/s, slider m/s
+  std::vector<std::pair<std::string, double>> efforts{}, speeds{};
+  // By joint: where it stands at first. Others: 0, or where their range is nearest to it. unit: rad, slider m
+  std::vector<std::pair<std::string, double>> start{};
   // Of a robot from a file: the joints of its driven wheels, whose axes point left. Neither: twists do not
   // drive it and it has no odometry.
   std::vector<std::string> left_wheels{}, right_wheels{};

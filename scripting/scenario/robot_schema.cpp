@@ -84,6 +84,12 @@ void check_legs(const RobotItem& robot, std::size_t i, std::vector<Diagnostic>& 
       mistakes.push_back({"", 0, leg + ".joint_names", "not as many as joints", std::to_string(joints) + " names",
                           std::to_string(names), ""});
   }
+  const std::pair<const char*, bool> of_files[] = {{"urdf_arguments", !robot.urdf_arguments.empty()},
+                                                    {"efforts", !robot.efforts.empty()},
+                                                    {"speeds", !robot.speeds.empty()}};
+  for (const auto& [member, given] : of_files)
+    if (robot.urdf.empty() && given)
+      mistakes.push_back({"", 0, key_of(i, member), "only a robot from a URDF file has these", "nothing", "a table", ""});
   if (robot.urdf.empty() && (!robot.left_wheels.empty() || !robot.right_wheels.empty()))
     mistakes.push_back({"", 0, key_of(i, robot.left_wheels.empty() ? "right_wheels" : "left_wheels"),
                         "only a robot from a URDF file has these", "nothing", "a list", ""});
@@ -209,6 +215,21 @@ void add_robot_keys(Schema& k, Scenario& s) {
   });
   k.item("robots[].urdf", list, &RobotItem::urdf,
          "Instead of a bundled robot: a URDF file, relative to the script (docs/robots.md).");
+  k.item("robots[].urdf_arguments", list, &RobotItem::urdf_arguments,
+         "URDF robot: arguments of a `.xacro` file, which the xacro tool expands, by name.");
+  k.item("robots[].efforts", list, &RobotItem::efforts,
+         "URDF robot: greatest torque of joints' motors, by joint, instead of the file's; sliders in N.")
+      .between(0, 1e9)
+      .unit("N m");
+  k.item("robots[].speeds", list, &RobotItem::speeds,
+         "URDF robot: greatest speed of joints' motors, by joint, instead of the file's; sliders in m/s; 0: no limit.")
+      .between(0, 1e9)
+      .unit("rad/s");
+  k.item("robots[].start", list, &RobotItem::start,
+         "Positions of joints at the start, by joint, within their ranges; others start at 0 or, if their range does not "
+         "hold it, where that is nearest to 0; sliders in m.")
+      .between(-1000, 1000)
+      .unit("rad");
   k.item("robots[].left_wheels", list, &RobotItem::left_wheels,
          "URDF robot: joints of the driven wheels on its left, for `linear`, `angular` and odometry.");
   k.item("robots[].right_wheels", list, &RobotItem::right_wheels,

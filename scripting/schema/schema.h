@@ -59,13 +59,14 @@ struct NamedTables {  // { name = { ... }, ... }: each table has a schema of its
   std::string example;  // of a name, for documents
 };
 using TextMap = std::vector<std::pair<std::string, std::string>>;  // { name = "text", ... }
+using NumberMap = std::vector<std::pair<std::string, double>>;     // { name = 1.5, ... }
 
 // Where a key's value lives, and with that its type. Value*: any table, taken as it is.
 using Slot = std::variant<bool*, Negated, int*, std::int64_t*, std::uint64_t*, double*,
                           std::optional<double>*, std::string*, std::optional<std::string>*, Choice,
                           Vec3*, std::optional<Vec3>*, NumberPair*, std::optional<NumberPair>*,
                           std::vector<std::string>*, StringOrList, WordOrFile, Value*, TableList, NamedTables,
-                           PlaceSlot, std::vector<double>*, TextMap*>;
+                           PlaceSlot, std::vector<double>*, TextMap*, NumberMap*>;
 
 struct Range {
   double min = -std::numeric_limits<double>::infinity();  // allowed, unless above_min

@@ -154,6 +154,18 @@ Outcome store_map(const Value& value, TextMap& out) {
   return Outcome::stored;
 }
 
+Outcome store_map(const Range& range, const Value& value, NumberMap& out) {
+  if (value.kind != Value::Kind::table || !value.items.empty() || !value.strange_keys.empty())
+    return Outcome::wrong_type;
+  NumberMap map;
+  for (const auto& [name, number] : value.fields) {
+    const Outcome outcome = store_number(range, number, map.emplace_back(name, 0.0).second);
+    if (outcome != Outcome::stored) return outcome;
+  }
+  out = std::move(map);
+  return Outcome::stored;
+}
+
 Outcome store_word_or_file(const WordOrFile& to, const Value& value) {
   if (value.kind == Value::Kind::text) {
     const auto at = std::find(to.words.begin(), to.words.end(), value.text);
@@ -253,6 +265,8 @@ Outcome store_as(const Range& range, const T& to, const Value& value) {
     return Outcome::wrong_type;  // read table by table, by whoever knows its items
   } else if constexpr (std::is_same_v<T, TextMap*>) {
     return store_map(value, *to);
+  } else if constexpr (std::is_same_v<T, NumberMap*>) {
+    return store_map(range, value, *to);
   } else {
     return store_strings(value, *to);
   }
@@ -348,6 +362,10 @@ Value read_as(const T& from) {
     Value table = Value::make_table();
     for (const auto& [name, text] : *from) table.set(name, Value::make_text(text));
     return table;
+  } else if constexpr (std::is_same_v<T, NumberMap*>) {
+    Value table = Value::make_table();
+    for (const auto& [name, number] : *from) table.set(name, Value::make_number(number));
+    return table;
   } else {
     return list_of(*from);
   }
@@ -381,6 +399,7 @@ std::string expected_as(const Key& key, const T& slot) {
   if constexpr (std::is_same_v<T, NamedTables>)
     return "tables by name { " + slot.example + " = { ... } }";
   if constexpr (std::is_same_v<T, TextMap*>) return "a table { name = \"text\" }";
+  if constexpr (std::is_same_v<T, NumberMap*>) return "a table { name = number }" + (range.empty() ? "" : ", each" + range);
   return "a list of strings";
 }
 

@@ -162,6 +162,18 @@ def main():
     for script in sorted((sources / "scripts").glob("*.lua")):
         corpus.add("mission", script.read_text())
         corpus.add("source_map", script.read_text())
+    for text in (
+        '<?xml version="1.0" encoding="ISO-8859-1"?><robot name="r\xe4"><link name="world"/><link name="a"><visual>'
+        '<geometry><capsule radius="1" length="2"/></geometry><material name="m"/></visual></link>'
+        '<joint name="j" type="floating"><parent link="world"/><child link="a"/></joint></robot>',
+        '<robot name="r"><link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial>'
+        '<collision><origin xyz="0 0 1" rpy="0 1 0"/><geometry><mesh filename="package://p/a.stl" scale="1 -1 1"/></geometry>'
+        '</collision></link><link name="b"/><joint name="j" type="revolute"><parent link="a"/><child link="b"/>'
+        '<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="5" velocity="2"/><mimic joint="k"/></joint>'
+        '<material name="m"><color rgba="1 0 0 1"/></material><gazebo><![CDATA[x]]></gazebo></robot>',
+        '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r"><xacro:include filename="$(find p)/a.xacro"/></robot>',
+    ):
+        corpus.add("urdf", text.encode("latin-1"))
     corpus.add("suite", (sources / "scripts/ci/suite.lua").read_text())
     corpus.add("pack", "return pack { name = 'p', assets = { { name = 'a', mesh = 'a.obj', "
                        "collision = 'hull', material = 'brick', looks = { x = 'brick' } } } }")

@@ -174,7 +174,7 @@ TEST(RobotMotor, ACommandThatIsNotANumberIsRefused) {
     world.set_command(robot, ask(MotorMode::velocity, std::nan("")));
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(error.diagnostics()[0].key, "robots[0].spin");
+    EXPECT_EQ(error.diagnostics()[0].key, "robots[1].spin");
   }
 }
 

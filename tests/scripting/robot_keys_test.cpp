@@ -61,6 +61,46 @@ TEST(RobotKeys, MistakesAreNamedWithTheirLine) {
             std::string::npos);
 }
 
+TEST(RobotKeys, FiguresOfJointsAreTablesByTheirNames) {
+  const Scenario s = scenario_of(R"(return rubble.mission { robots = { { urdf = "a.urdf.xacro",
+    urdf_arguments = { prefix = "left_", arms = "2" }, start = { knee = -1.5, ["X1/hip"] = 0.25 },
+    efforts = { wheel = 5 }, speeds = { wheel = 3 } },
+    rubble.robot.crawler { start = { front_left_flipper_joint = 0.5 } } } })");
+  using Numbers = std::vector<std::pair<std::string, double>>;
+  EXPECT_EQ(s.robots[0].start, (Numbers{{"X1/hip", 0.25}, {"knee", -1.5}}));
+  EXPECT_EQ(s.robots[0].efforts, (Numbers{{"wheel", 5}}));
+  EXPECT_EQ(s.robots[0].speeds, (Numbers{{"wheel", 3}}));
+  ASSERT_EQ(s.robots[0].urdf_arguments.size(), 2U);
+  EXPECT_EQ(s.robots[0].urdf_arguments[1].second, "left_");
+  EXPECT_EQ(s.robots[1].start, (Numbers{{"front_left_flipper_joint", 0.5}}));
+  EXPECT_EQ(scenario_to_json(scenario_from_json(scenario_to_json(s), "j")), scenario_to_json(s));
+  const auto in_robot = [](const std::string& keys) { return error_of("return rubble.mission { robots = { { " + keys + " } } }"); };
+  EXPECT_NE(in_robot("urdf = \"a\", start = { 1, 2 }").find("robots[1].start"), std::string::npos);
+  EXPECT_NE(in_robot("urdf = \"a\", start = { knee = \"up\" }").find("expected a table { name = number }"), std::string::npos);
+  EXPECT_NE(in_robot("urdf = \"a\", efforts = { w = -1 }").find("each from 0 to"), std::string::npos);
+  EXPECT_NE(in_robot("efforts = { w = 1 }").find("robots[1].efforts: only a robot from a URDF file has these"), std::string::npos);
+}
+
+// Of topics, frames and labels of a rawlog: two of one name are a mistake, wherever the name comes from.
+TEST(RobotKeys, NamesOfSensorsAreNotThoseOfRobots) {
+  const auto with = [](const std::string& more) {
+    return error_of("return rubble.mission { robots = { rubble.robot.rover { name = \"tank\" } }, " + more + " }");
+  };
+  EXPECT_EQ(with("imus = { front = { ride = { robot = \"tank\" } } }"), "none");
+  for (const char* topic : {"/odom", "/joint_states", "/contacts", "/robot_description", "/ground_truth/odom", "/ground_truth/pose",
+                            "/camera/rgb/image_raw", "/camera/depth_registered/image"})
+    EXPECT_NE(with(std::string("imu = { topic = \"") + topic + "\" }").find("imu.topic: the name is taken"), std::string::npos) << topic;
+  EXPECT_NE(with("imus = { odom = { ride = { robot = \"tank\" } } }").find("imus.odom: the name is taken"), std::string::npos);
+  EXPECT_NE(with("imu = { frame_id = \"odom\" }").find("imu.frame_id: the name is taken"), std::string::npos);
+  EXPECT_NE(with("camera = { frame_id = \"odom\" }").find("camera.frame_id: the name is taken"), std::string::npos);
+  EXPECT_NE(with("cameras = { rig = {} }").find("cameras.rig: the name is taken"), std::string::npos);
+  EXPECT_NE(with("cameras = { tank = { ride = { robot = \"tank\" } } }").find("two observations of the rawlog would have one label"),
+            std::string::npos);
+  EXPECT_EQ(with("cameras = { tank = { ride = { robot = \"tank\" } } }, outputs = { rawlog = false }"), "none");
+  EXPECT_NE(error_of("return rubble.mission { cameras = { a = { stereo_baseline = 0.1 }, a_right = {} } }").find("the name is taken"),
+            std::string::npos);
+}
+
 TEST(RobotKeys, AVineHasATubeAndGrows) {
   const Scenario s = scenario_of(R"(return rubble.mission { robots = {
     rubble.robot.vine { pressure = 2e4, radius = 0.04, length = 2.5, link_length = 0.04,

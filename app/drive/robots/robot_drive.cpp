@@ -65,7 +65,7 @@ RobotController RobotDrive::controller_of(std::size_t robot) {
 
 RobotController RobotDrive::motions_of(std::size_t robot) {
   if (robot != driven_)
-    return with_mimics(make_leg_controller(scenario_.robots[robot], made_[robot].model), made_[robot].mimics);
+    return with_mimics(make_leg_controller(scenario_.robots[robot], made_[robot].model), made_[robot].model.mimics);
   const RobotController follow = [this](const RobotSense& sense) {
     std::vector<RobotLeg>& legs = kept_;
     RobotWish wish = wish_;
@@ -80,7 +80,7 @@ RobotController RobotDrive::motions_of(std::size_t robot) {
     item_.drive = {legs.back()};
     return make_leg_controller(item_, made_[driven_].model)(sense);
   };
-  return with_mimics(follow, made_[robot].mimics);
+  return with_mimics(follow, made_[robot].model.mimics);
 }
 
 void RobotDrive::restart() {
@@ -96,7 +96,7 @@ void RobotDrive::restart() {
   run_ = std::make_unique<RobotRun>(laid_, pile_, robot_run_options(scenario_, threads_));
   seen_.first_piece.clear();
   for (std::size_t i = 0; i < made_.size(); ++i) {
-    run_->add(made_[i].model, calc_base_pose(scenario_.robots[i]), controller_of(i));
+    run_->add(made_[i].model, calc_base_pose(scenario_.robots[i], made_[i]), controller_of(i));
     seen_.first_piece.push_back(run_->world().robot_piece(int(i)));
   }
   run_->begin();
@@ -125,12 +125,7 @@ std::vector<Sample> RobotDrive::take_sensed() {
   return sensors_->take();
 }
 
-std::vector<RobotRecord> RobotDrive::records() const {
-  std::vector<RobotRecord> records;
-  for (std::size_t i = 0; i < made_.size(); ++i)
-    records.push_back(describe_robot(made_[i], names_[i], calc_base_pose(scenario_.robots[i]), made_.size() > 1));
-  return records;
-}
+std::vector<RobotRecord> RobotDrive::records() const { return describe_robots(scenario_, made_); }
 
 RigMount RobotDrive::mount() const { return {records()[rig_robot_].frame_of(int(rig_link_)), link_from_rig_}; }
 

@@ -1,11 +1,10 @@
 // `rubble check`: resolves everything and runs nothing.
-#include <cstdio>
 #include <memory>
 
 #include "app/assets/asset_library.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
-#include "kernel/base/text.h"
+#include "app/support/print.h"
 #include "scripting/mission.h"
 #include "scripting/reference/schema_docs.h"
 
@@ -17,11 +16,11 @@ ExitCode check_mission(const RunRequest& request) {
   options.seed = request.seed;
   options.overrides = request.overrides;
   const Mission mission = load_mission(request.mission, options);
-  for (const std::string& line : mission.printed) std::fprintf(stderr, "%s\n", line.c_str());
+  for (const std::string& line : mission.printed) print_err("%s\n", line.c_str());
   const AssetLibrary assets = load_assets(mission, request.asset_packs);
   for (const std::string& warning : assets.warnings)
-    std::fprintf(stderr, "warning: %s\n", printable(warning).c_str());
-  std::printf("%s\n", scenario_to_json(mission.scenario).c_str());
+    print_err("warning: %s\n", warning.c_str());
+  print_json(scenario_to_json(mission.scenario) + "\n");
   return ExitCode::done;
 }
 

@@ -1,11 +1,11 @@
 // `rubble eval trajectory`: an estimate against the truth.
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/eval/scores/trajectory_error.h"
+#include "app/support/print.h"
 
 namespace rubble {
 namespace {
@@ -35,11 +35,11 @@ auto with_file(const std::string& path, Work&& work) {
 }
 
 void print_table(const TrajectoryError& e) {
-  std::printf("pairs                       %d\n", e.pairs);
-  std::printf("ATE, rigid alignment        %.6f m\n", e.ate_rmse_se3);
-  std::printf("ATE, aligned with scale     %.6f m (scale %.6f)\n", e.ate_rmse_sim3, e.sim3_scale);
-  std::printf("RPE, translation            %.6f m\n", e.rpe_trans_rmse);
-  std::printf("RPE, rotation               %.6f degrees\n", e.rpe_rot_rmse_deg);
+  print_out("pairs                       %d\n", e.pairs);
+  print_out("ATE, rigid alignment        %.6f m\n", e.ate_rmse_se3);
+  print_out("ATE, aligned with scale     %.6f m (scale %.6f)\n", e.ate_rmse_sim3, e.sim3_scale);
+  print_out("RPE, translation            %.6f m\n", e.rpe_trans_rmse);
+  print_out("RPE, rotation               %.6f degrees\n", e.rpe_rot_rmse_deg);
 }
 
 ExitCode eval_trajectory(const TrajectoryRequest& request) {
@@ -63,7 +63,7 @@ ExitCode eval_trajectory(const TrajectoryRequest& request) {
                                     {"sim3_scale", error.sim3_scale},
                                     {"rpe_trans_rmse_m", error.rpe_trans_rmse},
                                     {"rpe_rot_rmse_deg", error.rpe_rot_rmse_deg}};
-  std::printf("%s\n", json.dump(1).c_str());
+  print_json(json.dump(1) + "\n");
   return ExitCode::done;
 }
 

@@ -85,7 +85,7 @@ std::string to_text(double value, double least, double most) {
     char text[32];
     std::snprintf(text, sizeof text, "%.*g", digits, value);
     double rounded = 0;
-    if (parse_number(text, rounded) && rounded >= least && rounded <= most) return text;
+    if (parse_number(text, rounded) && rounded >= least && rounded < most) return text;
   }
   return exact_text(value);
 }

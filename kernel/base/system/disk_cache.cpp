@@ -181,12 +181,19 @@ void DiskCache::trim() const {
     }
   }
   if (total <= limit_) return;
+  const auto is_foreign = [&total](const Entry& entry) {
+    const bool foreign = !has_bytes_of_entry(entry.path);
+    if (foreign) total -= entry.size;
+    return foreign;
+  };
+  entries.erase(std::remove_if(entries.begin(), entries.end(), is_foreign), entries.end());
+  if (total <= limit_) return;
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     return a.used != b.used ? a.used < b.used : a.path < b.path;
   });
   for (const Entry& entry : entries) {
     if (double(total) <= kTrimmedTo * double(limit_)) break;
-    if (has_bytes_of_entry(entry.path)) remove_output_file(entry.path.string());
+    remove_output_file(entry.path.string());
     total -= entry.size;
   }
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace rubble {
-namespace {
+namespace guarded_calls_test {
 
 namespace fs = std::filesystem;
 
@@ -125,5 +125,5 @@ TEST(GuardedCalls, TheCheckSeesABypass) {
   EXPECT_EQ(find_bypasses("kernel/base/system/output_files.cpp", 1, "mkdir(path.c_str(), 0777);").size(), 0u);
 }
 
-}  // namespace
+}  // namespace guarded_calls_test
 }  // namespace rubble

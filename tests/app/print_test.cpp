@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 namespace rubble {
-namespace {
+namespace print_test {
 
 using testing::internal::CaptureStderr, testing::internal::CaptureStdout;
 using testing::internal::GetCapturedStderr, testing::internal::GetCapturedStdout;
@@ -42,5 +42,5 @@ TEST(Print, ALineIsRedrawnByOurOwnControlsAlone) {
   EXPECT_EQ(GetCapturedStderr(), "\r\033[Ka\\x1b[2J\n");
 }
 
-}  // namespace
+}  // namespace print_test
 }  // namespace rubble

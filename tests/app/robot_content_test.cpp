@@ -8,7 +8,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace robot_content_test {
 
 std::string urdf_of(const std::string& mass) {
   return "<robot name=\"r\"><link name=\"base\"><inertial><mass value=\"" + mass +
@@ -79,5 +79,5 @@ TEST_F(RobotContents, StayInTheManifest) {
   EXPECT_FALSE(without.contains("robots")) << "a manifest without URDF files is as it was";
 }
 
-}  // namespace
+}  // namespace robot_content_test
 }  // namespace rubble::testing

@@ -84,7 +84,9 @@ TEST(Sweep, SamplesHaveAsManyDigitsAsTheirRangeNeeds) {
       const double at = (std::stod(variant[0]) - range.low) / (range.high - range.low);
       ASSERT_TRUE(at >= 0 && at <= 1) << variant[0];
       parts.insert(std::min(9, int(at * 10)));
-      if (range.low > 1e6) EXPECT_EQ(variant[0].find_first_not_of("0123456789"), std::string::npos) << variant[0];
+      if (range.low > 1e6) {
+        EXPECT_EQ(variant[0].find_first_not_of("0123456789"), std::string::npos) << variant[0];
+      }
     }
     EXPECT_EQ(parts.size(), 10u) << text;
   }

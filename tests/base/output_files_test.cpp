@@ -13,7 +13,7 @@
 #include "kernel/base/read_file.h"
 
 namespace rubble {
-namespace {
+namespace output_files_test {
 
 namespace fs = std::filesystem;
 
@@ -132,5 +132,5 @@ TEST_F(OutputFiles, PrivateFoldersHaveNamesOfTheirOwn) {
   EXPECT_EQ(status.st_mode & 077u, 0u) << "others may not look in";
 }
 
-}  // namespace
+}  // namespace output_files_test
 }  // namespace rubble

@@ -150,7 +150,7 @@ std::string seconds(double value) {
 }  // namespace
 
 AgentProcess::AgentProcess(const std::string& command, const std::string& log) {
-  log_ = create_output_file(log);
+  log_ = create_log_file(log);
   const Ends in = make_ends(), out = make_pipe(), err = make_pipe();
   const Ends control = make_ends();
   pid_ = fork();

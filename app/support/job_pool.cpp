@@ -75,7 +75,7 @@ pid_t start(const Job& job) {
   for (const std::string& argument : job.arguments)
     arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
-  const int log = create_output_file(job.log);
+  const int log = create_log_file(job.log);
   const pid_t parent = getpid(), child = fork();
   if (child == 0) become_program(program.c_str(), arguments.data(), log, parent);
   close(log);

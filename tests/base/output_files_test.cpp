@@ -69,6 +69,14 @@ TEST_F(OutputFiles, OneWriterAtATime) {
   EXPECT_FALSE(fs::exists(at("out/f.part/x")));
 }
 
+TEST_F(OutputFiles, ALogIsTakenOverFromAWriterThatIsAboutToEnd) {
+  const int before = create_log_file(at("out/log")), now = create_log_file(at("out/log"));
+  write_all(before, "before", "log");
+  write_all(now, "now", "log");
+  close(before), close(now);
+  EXPECT_EQ(read_file(at("out/log")), "now");
+}
+
 TEST_F(OutputFiles, ALockedFolderIsMadeInThePlaceOfALink) {
   std::ofstream(at("elsewhere/x")) << "x";
   fs::create_symlink(at("elsewhere"), at("out/f.part"));

@@ -75,6 +75,12 @@ int create_output_file(const std::string& path) {
   throw RunError("cannot create " + path + ": other processes write it all the time");
 }
 
+int create_log_file(const std::string& path) {
+  const int descriptor = create_output_file(path);
+  flock(descriptor, LOCK_UN);
+  return descriptor;
+}
+
 void write_all(int descriptor, std::string_view bytes, const std::string& path) {
   while (!bytes.empty()) {
     const ssize_t written = write(descriptor, bytes.data(), bytes.size());

@@ -15,6 +15,10 @@ namespace rubble {
 // exec. Throws RunError naming the path.
 int create_output_file(const std::string& path);
 
+// The same without the lock, for a log: a process that is about to end may still write one of that name, and goes on
+// in a file without a name.
+int create_log_file(const std::string& path);
+
 // Whether the descriptor is that of the file which has this name now.
 bool is_file_at(int descriptor, const std::string& path);
 

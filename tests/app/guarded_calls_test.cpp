@@ -39,7 +39,7 @@ const std::vector<Rule>& rules() {
       {"a file is renamed", "AtomicFile or FolderWriter", {"rename("}, {},
        {"io/base/atomic_file", "kernel/base/system/disk_cache.cpp", "app/batch/batch_folder.cpp"}},
       {"a file is read that may be a pipe without an end", "read_file, read_whole_file or FileCursor",
-       {"ifstream", "fopen("}, {"\"w", "\"a"},
+       {"ifstream", "fopen("}, {"\"w", "\"a", "\"/proc/", "\"/sys/"},
        {"io/base/file_cursor", "kernel/base/read_file_windows.cpp", "kernel/base/hash.cpp", "kernel/base/system/",
         "scripting/sandbox/lua_sandbox.cpp", "app/provenance/compare.cpp", "io/base/atomic_file_windows.cpp"}},
       {"something is printed", "print_out, print_err or print_json",

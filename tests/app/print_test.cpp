@@ -8,8 +8,8 @@
 namespace rubble {
 namespace print_test {
 
-using testing::internal::CaptureStderr, testing::internal::CaptureStdout;
-using testing::internal::GetCapturedStderr, testing::internal::GetCapturedStdout;
+using ::testing::internal::CaptureStderr, ::testing::internal::CaptureStdout;
+using ::testing::internal::GetCapturedStderr, ::testing::internal::GetCapturedStdout;
 
 TEST(Print, EscapesWhatSteersATerminal) {
   CaptureStdout(), CaptureStderr();

@@ -4,6 +4,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -52,6 +54,16 @@ inline Pose to_pose(const DoubleArray& values, const char* name) {
   if (!(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z > 1e-12))
     throw InputError({"", 0, name, "no rotation", "a quaternion that is not zero", "zeros", ""});
   return {normalized(q), {v[0], v[1], v[2]}};
+}
+
+// A whole number of 64 bits without a sign. Throws InputError for anything else, where pybind11 would list signatures.
+inline std::uint64_t to_seed(const py::object& value) {
+  const py::object whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+  const std::uint64_t seed = whole ? PyLong_AsUnsignedLongLong(whole.ptr()) : 0;
+  if (whole && !PyErr_Occurred()) return seed;
+  PyErr_Clear();
+  throw InputError({"", 0, "seed", "out of range", "a whole number from 0 to 18446744073709551615",
+                    py::repr(value).cast<std::string>(), ""});
 }
 
 inline void put_pose(const Pose& pose, double* to) {

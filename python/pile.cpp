@@ -39,10 +39,11 @@ RunOptions quiet(int threads) {
   return options;
 }
 
-Pile settle(const std::string& mission, std::optional<std::uint64_t> seed,
-            const std::vector<std::string>& overrides, int threads) {
+Pile settle(const std::string& mission, const py::object& seed, const std::vector<std::string>& overrides,
+            int threads) {
   RunRequest request;
-  request.mission = mission, request.seed = seed, request.overrides = overrides;
+  request.mission = mission, request.overrides = overrides;
+  if (!seed.is_none()) request.seed = to_seed(seed);
   RunContext context(quiet(threads));
   auto settled = std::make_shared<SettledMission>();
   settled->mission = resolve_mission(request, RunKind::settle, context);
@@ -54,7 +55,7 @@ Pile open_pile(const std::string& folder, int threads) {
   RunContext context(quiet(threads));
   const FinishedRun saved = open_finished_run(folder);
   auto settled = std::make_shared<SettledMission>();
-  settled->mission = resolve_mission(saved.manifest.provenance, {}, context);
+  settled->mission = resolve_pile(saved.manifest.provenance, {}, context);
   settled->state = load_pile_of(saved, settled->mission.assets);
   return {settled, context.threads()};
 }

@@ -146,8 +146,8 @@ void add_sensors(py::module_& module) {
       .def_property_readonly("K", &DepthCamera::matrix);
   py::class_<PyLidar>(module, "_Lidar")
       .def(py::init([](const SharedPile& s, const std::string& model, bool noise,
-                       std::uint64_t seed, int threads) {
-        return std::make_unique<PyLidar>(s, model, noise, seed, threads);
+                       const py::object& seed, int threads) {
+        return std::make_unique<PyLidar>(s, model, noise, to_seed(seed), threads);
       }))
       .def("scan", &PyLidar::scan, py::arg("pose"), py::arg("number") = 0);
 }

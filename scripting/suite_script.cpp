@@ -37,9 +37,9 @@ void check_names(const std::vector<SuiteRun>& runs, std::vector<Diagnostic>& mis
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const std::string key = "runs[" + std::to_string(i + 1) + "].name";
     const std::string& name = runs[i].name;
-    if (name.find('/') != std::string::npos || name == "." || name == "..")
-      mistakes.push_back(
-          {"", 0, key, "cannot be the name of a folder", "", "\"" + name + "\"", ""});
+    const std::string fault = name.empty() ? "" : find_name_fault(name);
+    if (!fault.empty())
+      mistakes.push_back({"", 0, key, "the name " + fault, kNameRule, "\"" + name + "\"", "it is the name of a folder"});
     if (!name.empty() && !names.insert(name).second)
       mistakes.push_back({"", 0, key, "two runs have the name `" + name + "`", "", "", ""});
   }

@@ -29,7 +29,7 @@ def drive(args, planner):
     if not (args.reuse and os.path.exists(kept)):
         os.makedirs(out, exist_ok=True)
         command = [args.program, "bench", "navigate", args.mission, "--seeds", args.seeds, "--planner", planner,
-                   "--out", out, "--json"]
+                   "--out", out, "--json", "--force"]
         printed = subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout
         with open(kept, "wb") as file:
             file.write(printed)

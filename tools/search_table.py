@@ -23,7 +23,7 @@ def play(args, difficulty):
     if args.reuse and os.path.exists(os.path.join(out, "table.json")):
         with open(os.path.join(out, "table.json")) as file:
             return json.load(file)["datasets"]
-    command = [args.program, "bench", "search", "scripts/search.lua", "--seeds", args.seeds, "--out", out, "--json",
+    command = [args.program, "bench", "search", "scripts/search.lua", "--seeds", args.seeds, "--out", out, "--json", "--force",
                "--set", f"victims.difficulty={difficulty}"]
     for name in args.baselines:
         command += ["--baseline", name]

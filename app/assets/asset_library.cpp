@@ -231,8 +231,8 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   add_boxes(mission, materials, library);
   add_terrain(mission.scenario.pile.terrain, {fs::path(mission.script.path).parent_path().string()},
               library);
-  add_robot_folders(mission.scenario, {fs::path(mission.script.path).parent_path().string()}, library);
   try {
+    add_robot_files(mission.scenario, {fs::path(mission.script.path).parent_path().string()}, library);
     add_building(building_of(mission.scenario), library);
   } catch (const InputError& error) {
     std::vector<Diagnostic> mistakes = error.diagnostics();

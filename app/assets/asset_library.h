@@ -22,6 +22,8 @@ struct AssetLibrary {
   std::vector<MixEntry> mix;                             // what the mission draws from
   std::vector<std::string> warnings;                     // e.g. a mesh that is not closed
   std::vector<std::string> folders;                      // of the packs, absolute
+  std::vector<RobotContent> robots;                      // of the mission's URDF files
+  std::vector<std::string> robot_files;                  // their paths, one per robot; "": a bundled robot
   int building_first_type = 0;                           // of the building's pieces, if there is one
   std::vector<int> building_counts;                      // of pieces of that type and of those after it
   std::vector<CutFrom> building_cuts;                    // by piece of the building, in the pile's order
@@ -46,6 +48,13 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
 // `folders` (packs, or folders of packs), then among the bundled ones, and takes what has the same
 // content. Throws InputError naming each that is missing, and where it was looked for.
 AssetLibrary load_assets(const Provenance& provenance, const std::vector<std::string>& folders);
+
+// The URDF files of a mission's robots, looked for in these folders: their contents and paths go into the library, and
+// their folders into library.folders. Throws InputError for one that is missing or no URDF.
+void add_robot_files(const Scenario& scenario, const std::vector<std::string>& folders, AssetLibrary& library);
+// The same of a provenance. Throws InputError, too, where one has another content than the provenance says. That of an
+// older program does not say.
+void recall_robots(const Provenance& provenance, const std::vector<std::string>& folders, AssetLibrary& library);
 // One asset with all that it refers to. Throws InputError for a file that cannot be read.
 struct LoadedAsset {
   PieceType type;

@@ -13,6 +13,7 @@
 #include "app/assets/surface_choice.h"
 #include "app/assets/terrain.h"
 #include "io/mesh/mesh_file.h"
+#include "io/robot/urdf_reader.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/mesh_edges.h"
 #include "kernel/geometry/hull.h"
@@ -251,17 +252,47 @@ void add_terrain(const TerrainScenario& spec, const std::vector<std::string>& fo
   library.meshes.push_back(std::move(terrain.mesh));
 }
 
-void add_robot_folders(const Scenario& scenario, const std::vector<std::string>& folders,
-                       AssetLibrary& library) {
+namespace {
+
+// In one of the folders, under its whole name or its last part.
+std::string find_urdf(const std::string& name, const std::vector<std::string>& folders, const std::string& key) {
   namespace fs = std::filesystem;
+  std::string looked;
   std::error_code failed;
-  for (const RobotItem& robot : scenario.robots) {
+  for (const std::string& folder : folders)
+    for (const fs::path& tried : {fs::path(folder) / name, fs::path(folder) / fs::path(name).filename()}) {
+      if (fs::is_regular_file(tried, failed)) return fs::absolute(tried).lexically_normal().string();
+      looked += (looked.empty() ? "" : ", ") + tried.string();
+    }
+  throw InputError({"", 0, key + ".urdf", "no such file", "a URDF file", "\"" + name + "\"", "looked for " + looked});
+}
+
+std::string hash_urdf(const std::string& path) {
+  Sha256 hash;
+  const auto add = [&hash](const std::string& file) {
+    const std::string sum = sha256_of_file(file);
+    hash.add(sum.data(), sum.size());
+  };
+  add(path);
+  for (const UrdfLink& link : read_urdf(path).links)
+    for (const auto* list : {&link.collisions, &link.visuals})
+      for (const UrdfGeometry& geometry : *list)
+        if (!geometry.file.empty()) add(geometry.file);
+  return hash.hex();
+}
+
+}  // namespace
+
+void add_robot_files(const Scenario& scenario, const std::vector<std::string>& folders,
+                     AssetLibrary& library) {
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    const RobotItem& robot = scenario.robots[i];
+    library.robot_files.emplace_back();
     if (robot.urdf.empty()) continue;
-    for (const std::string& folder : folders)
-      for (const fs::path& tried :
-           {fs::path(folder) / robot.urdf, fs::path(folder) / fs::path(robot.urdf).filename()})
-        if (fs::is_regular_file(tried, failed))
-          library.folders.push_back(fs::absolute(tried).parent_path().lexically_normal().string());
+    const std::string path = find_urdf(robot.urdf, folders, "robots[" + std::to_string(i + 1) + "]");
+    library.robot_files.back() = path;
+    library.robots.push_back({robot.urdf, hash_urdf(path)});
+    library.folders.push_back(std::filesystem::path(path).parent_path().string());
   }
 }
 

@@ -19,10 +19,6 @@ void add_asset(const FoundAsset& found, AssetLibrary& library);
 
 void add_box(const PlacedItem& item, const std::vector<Material>& materials, AssetLibrary& library);
 
-// Folders that hold URDF files of the mission's robots go into library.folders, so that a manifest names them.
-void add_robot_folders(const Scenario& scenario, const std::vector<std::string>& folders,
-                       AssetLibrary& library);
-
 // Nothing where the specification gives none. folders: where its file is looked for.
 void add_terrain(const TerrainScenario& spec, const std::vector<std::string>& folders,
                  AssetLibrary& library);

@@ -170,10 +170,20 @@ AssetLibrary load_assets(const Provenance& provenance, const std::vector<std::st
       search.find(wanted, provenance.script.path, library);
   }
   if (!search.missing.empty()) throw InputError(std::move(search.missing));
-  add_robot_folders(stated_scenario(provenance), folders, library);
   library.mix = make_mix(scenario, library);
   library.importer.reset();
   return library;
+}
+
+void recall_robots(const Provenance& provenance, const std::vector<std::string>& folders, AssetLibrary& library) {
+  add_robot_files(stated_scenario(provenance), folders, library);
+  for (std::size_t i = 0; i < provenance.robots.size(); ++i) {
+    const RobotContent& wanted = provenance.robots[i];
+    const std::string found = i < library.robots.size() ? library.robots[i].sha256 : "no such robot";
+    if (found != wanted.sha256)
+      throw InputError({provenance.script.path, 0, "robots", "the URDF file \"" + wanted.urdf + "\" or a mesh of it is another one now",
+                        "the content " + wanted.sha256, found, "name the folder of the file as it was with --assets"});
+  }
 }
 
 }  // namespace rubble

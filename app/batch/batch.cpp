@@ -1,7 +1,6 @@
 #include "app/batch/batch.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -14,6 +13,7 @@
 #include "app/provenance/provenance.h"
 #include "app/support/build_info.h"
 #include "app/support/job_pool.h"
+#include "app/support/print.h"
 #include "app/support/progress.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
@@ -95,6 +95,7 @@ class Batch {
     provenance_ =
         make_provenance(request_.pile_only ? RunKind::settle : RunKind::run, mission, options);
     provenance_.assets = assets.contents;
+    provenance_.robots = assets.robots;
     provenance_.seed.reset();
   }
 
@@ -153,8 +154,7 @@ class Batch {
     const std::uint64_t needed = bytes_each * (jobs_.size() - tally_.ended);
     const std::uint64_t there = free_bytes(folder_.path());
     if (tally_.ended == 0)
-      std::fprintf(stderr,
-                   "batch: %zu runs to do, %zu done before; %s %s each, %s in all; %s free\n",
+      print_err("batch: %zu runs to do, %zu done before; %s %s each, %s in all; %s free\n",
                    jobs_.size(), tally_.done_before, how, format_bytes(bytes_each).c_str(),
                    format_bytes(needed).c_str(), format_bytes(there).c_str());
     if (needed <= there || request_.of.force) return;
@@ -222,15 +222,15 @@ class Batch {
     std::sort(failures_.begin(), failures_.end());
     for (const std::string& run : failures_) {
       const std::string log = folder_.failure_log(run);
-      std::fprintf(stderr, "%s failed (%s):\n%s\n", words_for(run).c_str(), log.c_str(),
+      print_err("%s failed (%s):\n%s\n", words_for(run).c_str(), log.c_str(),
                    tail_of_log(log, 3).c_str());
     }
     if (stop_requested())
       throw Stopped("stopped by a signal, with " + words() + "; the same command continues");
     if (!too_small_.empty()) throw RunError(too_small_);
-    std::printf("%s/index.csv\n", folder_.path().c_str());
+    print_out("%s/index.csv\n", folder_.path().c_str());
     for (const std::string& sentence : altered_)
-      std::fprintf(stderr, "%s\nremove its folder and run the batch again\n", sentence.c_str());
+      print_err("%s\nremove its folder and run the batch again\n", sentence.c_str());
     if (tally_.failed > 0 || !altered_.empty()) return ExitCode::failure;
     return tally_.not_settled > 0 ? ExitCode::did_not_settle : ExitCode::done;
   }

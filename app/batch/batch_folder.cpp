@@ -9,19 +9,12 @@
 #include "app/support/json_members.h"
 #include "io/base/atomic_file.h"
 #include "kernel/base/error.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 namespace {
 
 namespace fs = std::filesystem;
-
-void create_folder(const std::string& path) {
-  std::error_code failed;
-  if (fs::exists(path, failed) && !fs::is_directory(path, failed))
-    throw InputError({path, 0, "--out", "is not a folder", "", "", "choose another output folder"});
-  fs::create_directories(path, failed);
-  if (failed) throw RunError("cannot create the folder " + path + ": " + failed.message());
-}
 
 }  // namespace
 
@@ -46,7 +39,7 @@ bool BatchFolder::is_at_work(const std::string& run) const {
 }
 
 void BatchFolder::open(const std::string& description) const {
-  create_folder(path_);
+  make_output_folder(path_);
   const std::string file = path_ + "/batch.json";
   const FolderLock lock(path_ + "/batch.lock", FolderLock::Wait::yes);
   std::error_code failed;
@@ -61,8 +54,7 @@ void BatchFolder::open(const std::string& description) const {
   if (!fs::is_empty(path_, failed) && fs::exists(path_ + "/manifest.json", failed))
     throw InputError({path_, 0, "--out", "a single run is in the output folder", "", "",
                       "choose another folder"});
-  create_folder(path_ + "/failed");
-  create_folder(path_ + "/running");
+  for (const char* name : {"failed", "running"}) make_folder_below(path_, name);
   write_text_file(file, description);
 }
 
@@ -71,8 +63,8 @@ void BatchFolder::file_log(const std::string& run, bool failed) const {
   if (failed) {
     fs::rename(running_log(run), failure_log(run), ignored);
   } else {
-    fs::remove(running_log(run), ignored);
-    fs::remove(failure_log(run), ignored);
+    remove_output_file(running_log(run));
+    remove_output_file(failure_log(run));
   }
 }
 

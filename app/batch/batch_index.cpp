@@ -8,6 +8,7 @@
 #include "app/batch/batch_folder.h"
 #include "app/mission/finished_run.h"
 #include "app/provenance/manifest.h"
+#include "io/base/csv_text.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -82,14 +83,6 @@ Row make_row(const BatchFolder& folder, const Sweep& sweep, std::size_t variant,
   return row;
 }
 
-// As RFC 4180 has it.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 // What is drawn by name comes in the order in which a script draws it.
 using DrawnNames = std::vector<std::string>;
 void add_names(const Row& row, DrawnNames& names) {
@@ -102,11 +95,11 @@ std::string format_row(const Row& row, const Sweep& sweep, const DrawnNames& dra
   std::string line = std::to_string(row.seed) + "," + name_of(row) + "," + row.state_hash + ",";
   if (row.state == RunState::done && row.altered.empty()) line += std::to_string(row.bytes);
   if (sweep.varies()) line += "," + std::to_string(row.variant + 1);
-  for (const std::string& value : sweep.variants[row.variant]) line += "," + csv_field(value);
+  for (const std::string& value : sweep.variants[row.variant]) line += "," + csv_text(value);
   for (const std::string& name : drawn) {
     line += ",";
     for (const auto& [of, value] : row.drawn)
-      if (of == name) line += csv_field(value);
+      if (of == name) line += csv_text(value);
   }
   for (const std::string& column : columns) {
     const auto found = row.metrics.find(column);
@@ -133,8 +126,8 @@ BatchIndex make_batch_index(const std::string& path, const Sweep& sweep,
   std::string& text = index.text;
   text = "seed,status,state_hash,bytes";
   if (sweep.varies()) text += ",variant";
-  for (const std::string& key : sweep.keys) text += "," + csv_field(key);
-  for (const std::string& name : drawn) text += "," + csv_field("random." + name);
+  for (const std::string& key : sweep.keys) text += "," + csv_text(key);
+  for (const std::string& name : drawn) text += "," + csv_text("random." + name);
   for (const std::string& column : columns) text += "," + column;
   text += "\n";
   for (const Row& row : rows) {

@@ -11,10 +11,12 @@
 #include "app/provenance/compare.h"
 #include "app/provenance/manifest.h"
 #include "app/support/job_pool.h"
+#include "app/support/print.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "io/playback/recorded_picture.h"
 #include "io/state/pile_state_file.h"
+#include "kernel/base/system/output_files.h"
 #include "scripting/suite_script.h"
 #include "scripting/values/value.h"
 
@@ -113,10 +115,7 @@ class Suite {
       if (!seeds_[i].empty()) job.arguments.insert(job.arguments.end(), {"--seed", seeds_[i]});
       for (const std::string& text : c.run->set)
         job.arguments.insert(job.arguments.end(), {"--set", text});
-      std::error_code failed;
-      fs::create_directories(fs::path(c.folder).parent_path(), failed);
-      if (failed)
-        throw RunError("cannot create the folder for " + c.folder + ": " + failed.message());
+      make_output_folder(fs::path(c.folder).parent_path().string());
       jobs.push_back(std::move(job));
     }
     return jobs;
@@ -198,11 +197,11 @@ class Suite {
 
   void print(const CaseResult& result) const {
     if (request_.options.quiet && result.passed()) return;
-    std::printf("%s %s (%.1f s)\n", result.passed() ? "ok  " : "FAIL", result.name.c_str(),
+    print_out("%s %s (%.1f s)\n", result.passed() ? "ok  " : "FAIL", result.name.c_str(),
                 result.seconds);
     if (!result.error.empty())
-      std::printf("     %s\n%s\n", result.error.c_str(), result.log.c_str());
-    for (const std::string& sentence : result.failures) std::printf("     %s\n", sentence.c_str());
+      print_out("     %s\n%s\n", result.error.c_str(), result.log.c_str());
+    for (const std::string& sentence : result.failures) print_out("     %s\n", sentence.c_str());
     std::fflush(stdout);
   }
 
@@ -217,8 +216,8 @@ class Suite {
     if (request_.only.empty())
       for (const std::string& line : golden_.keep_only(names)) diff.push_back(line);
     golden_.save();
-    for (const std::string& line : diff) std::printf("%s\n", line.c_str());
-    if (diff.empty()) std::printf("the golden hashes are as they were\n");
+    for (const std::string& line : diff) print_out("%s\n", line.c_str());
+    if (diff.empty()) print_out("the golden hashes are as they were\n");
   }
 
   void write_junit() const {
@@ -231,7 +230,7 @@ class Suite {
   ExitCode report() const {
     const auto passed = std::count_if(cases_.begin(), cases_.end(),
                                       [](const Case& c) { return c.result.passed(); });
-    std::printf("%d of %zu passed\n", int(passed), cases_.size());
+    print_out("%d of %zu passed\n", int(passed), cases_.size());
     return std::size_t(passed) == cases_.size() ? ExitCode::done : ExitCode::differs;
   }
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "io/base/number_text.h"
 #include "kernel/base/error.h"
 #include "kernel/base/random.h"
 #include "scripting/scenario/scenario_schema.h"
@@ -78,10 +79,15 @@ bool is_integer_key(const std::string& name) {
          std::holds_alternative<std::uint64_t*>(slot);
 }
 
-std::string to_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
+// With six digits, or with as many more as keep the value within its part of the range.
+std::string to_text(double value, double least, double most) {
+  for (int digits = 6; digits < 17; ++digits) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    double rounded = 0;
+    if (parse_number(text, rounded) && rounded >= least && rounded < most) return text;
+  }
+  return exact_text(value);
 }
 
 // One value out of each of `samples` equal parts of the range, in random order.
@@ -91,12 +97,16 @@ void sample_range(Varied& varied, int samples) {
   std::vector<int> parts(std::size_t(samples), 0);
   std::iota(parts.begin(), parts.end(), 0);
   for (std::size_t i = parts.size(); i > 1; --i) std::swap(parts[i - 1], parts[random.below(i)]);
+  const double width = varied.high - varied.low;
   for (const int part : parts) {
     const double at = (part + random.uniform(0, 1)) / samples;
-    const double width = varied.high - varied.low;
-    const double value = integers ? std::floor(std::ceil(varied.low) + at * (std::floor(varied.high) - std::ceil(varied.low) + 1))
-                                  : varied.low + at * width;
-    varied.values.push_back(to_text(std::min(std::max(value, varied.low), varied.high)));
+    if (integers) {
+      const double least = std::ceil(varied.low), count = std::floor(varied.high) - least + 1;
+      varied.values.push_back(fixed_text(std::clamp(std::floor(least + at * count), varied.low, varied.high), 0));
+      continue;
+    }
+    const double least = varied.low + part * width / samples, most = varied.low + (part + 1) * width / samples;
+    varied.values.push_back(to_text(std::clamp(varied.low + at * width, varied.low, varied.high), least, most));
   }
 }
 

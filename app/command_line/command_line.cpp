@@ -2,14 +2,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "app/command_line/command.h"
 #include "app/command_line/command_description.h"
 #include "app/command_line/program_text.h"
-#include "kernel/base/text.h"
+#include "app/support/print.h"
 #include "scripting/schema/schema.h"
 #include "scripting/values/value.h"
 
@@ -122,7 +122,7 @@ Option CommandLine::add_read(const std::string& name, ReadOption read, const std
 void CommandLine::add_print(const std::string& name, std::function<std::string()> make_text,
                             const std::string& help) {
   const auto print = [make_text = std::move(make_text)] {
-    std::printf("%s\n", make_text().c_str());
+    print_out("%s\n", make_text().c_str());
     throw CLI::Success();
   };
   command_->add_flag_callback(name, print, help);
@@ -169,8 +169,8 @@ bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
   const bool known = std::find(names.begin(), names.end(), word) != names.end();
   if (word.empty() || word[0] == '-' || known) return false;
   const std::string near = nearest_name(word, names);
-  std::fprintf(stderr, "no such command: `%s`%s\n`rubble --help` lists all commands\n",
-               printable(word).c_str(),
+  print_err("no such command: `%s`%s\n`rubble --help` lists all commands\n",
+               word.c_str(),
                near.empty() ? "" : (" (did you mean `" + near + "`?)").c_str());
   return true;
 }
@@ -243,7 +243,11 @@ ExitCode run_command_line(int argc, char** argv, const std::vector<Command>& com
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0 && is_unknown_command(app, int(words.size()), words.data()))
       return ExitCode::bad_input;
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
+    std::ostringstream out, err;
+    const int code = app.exit(error, out, err);
+    print_out("%s", out.str().c_str());
+    print_err("%s", err.str().c_str());
+    return code == 0 ? ExitCode::done : ExitCode::bad_input;
   }
   for (const auto& [command, action] : actions)
     if (*command) return action();

@@ -7,14 +7,13 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <iostream>
 #include <new>
 #include <string>
 #include <system_error>
 
 #include "app/command_line/command.h"
+#include "app/support/print.h"
 #include "app/support/stop.h"
-#include "kernel/base/text.h"
 
 namespace rubble {
 namespace {
@@ -29,10 +28,9 @@ void reserve_standard_files() {
 // What was printed is a result: a full disk must not look like success.
 ExitCode check_standard_output(ExitCode code) {
   errno = 0;
-  std::cout.flush();
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   const std::string reason = errno ? ": " + std::generic_category().message(errno) : "";
-  std::fprintf(stderr, "\nrubble: cannot write to standard output%s\n", reason.c_str());
+  print_err("\nrubble: cannot write to standard output%s\n", reason.c_str());
   return code == ExitCode::done ? ExitCode::failure : code;
 }
 
@@ -44,15 +42,15 @@ int run_program(int argc, char** argv) {
   try {
     return int(check_standard_output(run_command_line(argc, argv, all_commands())));
   } catch (const InputError& error) {
-    std::fprintf(stderr, "\n%s\n", error.what());
+    print_err("\n%s\n", error.what());
     return int(ExitCode::bad_input);
   } catch (const Stopped& stopped) {
-    std::fprintf(stderr, "\n%s\n", stopped.what());
+    print_err("\n%s\n", stopped.what());
     return int(ExitCode::stopped);
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "\nrubble: out of memory\n");
+    print_err("\nrubble: out of memory\n");
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "\nrubble: %s\n", printable(error.what()).c_str());
+    print_err("\nrubble: %s\n", error.what());
   }
   return int(ExitCode::failure);
 }

@@ -1,7 +1,6 @@
 // `rubble check`: resolves everything and runs nothing.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,7 +9,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/robots/mission_robot.h"
-#include "kernel/base/text.h"
+#include "app/support/print.h"
 #include "scripting/mission.h"
 #include "scripting/reference/schema_docs.h"
 
@@ -106,7 +105,7 @@ void print_robots(const std::string& script, const Mission& mission, const Asset
   for (std::size_t i = 0; i < mission.scenario.robots.size(); ++i)
     robots.push_back(json_of(make_mission_robot(mission.scenario.robots[i], folders,
                                                 "robots[" + std::to_string(i + 1) + "]", importer)));
-  std::printf("%s\n", robots.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+  print_json(robots.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 ExitCode check_mission(const CheckRequest& check) {
@@ -115,14 +114,14 @@ ExitCode check_mission(const CheckRequest& check) {
   options.seed = request.seed;
   options.overrides = request.overrides;
   const Mission mission = load_mission(request.mission, options);
-  for (const std::string& line : mission.printed) std::fprintf(stderr, "%s\n", line.c_str());
+  for (const std::string& line : mission.printed) print_err("%s\n", line.c_str());
   const AssetLibrary assets = load_assets(mission, request.asset_packs);
   for (const std::string& warning : assets.warnings)
-    std::fprintf(stderr, "warning: %s\n", printable(warning).c_str());
+    print_err("warning: %s\n", warning.c_str());
   if (check.robots)
     print_robots(request.mission, mission, assets);
   else
-    std::printf("%s\n", scenario_to_json(mission.scenario).c_str());
+    print_json(scenario_to_json(mission.scenario) + "\n");
   return ExitCode::done;
 }
 

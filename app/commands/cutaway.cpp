@@ -9,6 +9,7 @@
 #include "app/measures/pile_section.h"
 #include "app/mission/finished_run.h"
 #include "app/scene/build_scene.h"
+#include "app/support/print.h"
 #include "app/support/run_context.h"
 #include "io/image/picture_sheet.h"
 #include "kernel/base/portable_math.h"
@@ -193,7 +194,7 @@ ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutawa
       cutaway.y, kPerson, street ? "; without the surroundings" : "");
   const std::string path = cutaway.out.empty() ? request.folder + "/cutaway.png" : cutaway.out;
   write_picture_sheet(path, cutaway.title, {{picture.shrunk(), "", note}}, 1);
-  std::printf("%s\n", path.c_str());
+  print_out("%s\n", path.c_str());
   return ExitCode::done;
 }
 

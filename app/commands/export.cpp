@@ -1,15 +1,15 @@
 // `rubble export`: the pile of a finished run in other programs' formats.
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
 #include <memory>
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/mission/finished_run.h"
 #include "app/scene/build_scene.h"
+#include "app/support/print.h"
 #include "app/support/progress.h"
 #include "io/base/atomic_file.h"
+#include "io/base/remove_files.h"
 #include "io/mesh/pile_export.h"
 
 namespace rubble {
@@ -34,16 +34,18 @@ std::vector<MeshFormat> choose_formats(const std::vector<std::string>& asked) {
   return chosen;
 }
 
-// What an earlier export left is ours to replace, its folders, too.
+// What an earlier export left is ours to replace; a file of somebody else in a folder of ours stays, and is an error.
 void prepare(const std::string& out, bool force) {
-  std::vector<std::string> files, folders;
+  std::vector<std::string> files;
   for (const MeshFormat& format : mesh_formats())
-    for (const std::string& name : format.leaves)
-      (format.is_folder ? folders : files).push_back(name);
+    for (const std::string& name : format.leaves) {
+      if (!format.is_folder) files.push_back(name);
+      if (!format.is_folder || !force) continue;
+      for (const std::string& file : list_plain_files(out, name))
+        if (is_sdf_file(file.substr(name.size() + 1))) files.push_back(file);
+    }
   prepare_output_folder(out, force, files);
-  std::error_code error;
-  if (!force) return;
-  for (const std::string& name : folders) std::filesystem::remove_all(out + "/" + name, error);
+  remove_empty_parents(out, files);
 }
 
 ExitCode export_finished_pile(const FolderRequest& request, const ExportRequest& to) {
@@ -51,8 +53,9 @@ ExitCode export_finished_pile(const FolderRequest& request, const ExportRequest&
   const FinishedRun saved = open_finished_run(request.folder);
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
   const PileState pile = load_pile_of(saved, assets);
-  const PileModel model = build_pile_model(assets, pile);
-  const std::string out = to.out.empty() ? request.folder + "/export" : to.out;
+  PileModel model = build_pile_model(assets, pile);
+  model.gravity = stated_scenario(saved.manifest.provenance).settle.gravity;
+  const std::string out = output_folder_of(to.out, request.folder, "export");
   prepare(out, to.force);
   Progress progress(choose_progress_style(request.options.quiet));
   progress.start("export");
@@ -63,7 +66,7 @@ ExitCode export_finished_pile(const FolderRequest& request, const ExportRequest&
   }
   progress.finish(std::to_string(model.pieces.size()) + " pieces, " + std::to_string(files) +
                   " files and folders");
-  std::printf("%s\n", out.c_str());
+  print_out("%s\n", out.c_str());
   return ExitCode::done;
 }
 

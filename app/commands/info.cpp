@@ -7,6 +7,7 @@
 #include "app/command_line/common_options.h"
 #include "app/commands/inspect_dataset.h"
 #include "app/support/build_info.h"
+#include "app/support/print.h"
 #include "io/live/live_ros.h"
 #include "kernel/base/parallel.h"
 #include "render/gl/gl_context.h"
@@ -24,43 +25,43 @@ struct InfoRequest {
 // Every way to draw on this machine, and what decides how it fares.
 void print_ways() {
   const GlReport report = report_gl();
-  std::printf("ways to draw, in the order in which they are tried\n");
+  print_out("ways to draw, in the order in which they are tried\n");
   for (const GlReport::Candidate& candidate : report.candidates)
-    std::printf("  %s: %s\n", candidate.name.c_str(), candidate.outcome.c_str());
+    print_out("  %s: %s\n", candidate.name.c_str(), candidate.outcome.c_str());
   const char* environment = std::getenv("RUBBLE_EGL_DEVICE");
-  std::printf("RUBBLE_EGL_DEVICE: %s\n", environment && *environment ? environment : "not set");
-  for (const std::string& line : report.circumstances) std::printf("note: %s\n", line.c_str());
+  print_out("RUBBLE_EGL_DEVICE: %s\n", environment && *environment ? environment : "not set");
+  for (const std::string& line : report.circumstances) print_out("note: %s\n", line.c_str());
   std::fflush(stdout);
 }
 
 void print_limits(const GlInfo& info) {
-  std::printf("chosen        %s: %s\n", info.egl_device.c_str(), info.why.c_str());
-  for (const auto& [name, value] : info.limits) std::printf("  %-24s%d\n", name.c_str(), value);
+  print_out("chosen        %s: %s\n", info.egl_device.c_str(), info.why.c_str());
+  for (const auto& [name, value] : info.limits) print_out("  %-24s%d\n", name.c_str(), value);
 }
 
 ExitCode print_info(const InfoRequest& request) {
   const BuildInfo build = build_info();
-  std::printf("rubble        %s (%s)\n", build.version.c_str(), build.commit.c_str());
-  std::printf("built with    %s, %s, for %s\n", build.compiler.c_str(), build.flags.c_str(),
+  print_out("rubble        %s (%s)\n", build.version.c_str(), build.commit.c_str());
+  print_out("built with    %s, %s, for %s\n", build.compiler.c_str(), build.flags.c_str(),
               build.target.c_str());
-  std::printf("threads       %d\n", default_thread_count());
+  print_out("threads       %d\n", default_thread_count());
   for (const auto& [name, version] : build.libraries)
-    std::printf("%-13s %s\n", name.c_str(), version.c_str());
-  std::printf("Simbody bits  %s\n",
+    print_out("%-13s %s\n", name.c_str(), version.c_str());
+  print_out("Simbody bits  %s\n",
               build.simbody_bits == "reference"
                   ? "reference: piles with joints are the same on every machine that says so"
                   : "other: piles with joints differ in last bits from those of x86-64; see "
                     "docs/determinism.md");
-  std::printf("live ROS 1    %s\n", describe_ros1().c_str());
-  std::printf("live ROS 2    %s\n", describe_ros2().c_str());
+  print_out("live ROS 1    %s\n", describe_ros1().c_str());
+  print_out("live ROS 2    %s\n", describe_ros2().c_str());
   std::fflush(stdout);  // the versions are worth having even if EGL fails below
   if (request.gl) print_ways();
   const GlContext context({request.gl_device, 0});
   const GlInfo& info = context.info();
-  std::printf("EGL           %s, %s\n", info.egl_version.c_str(), info.egl_device.c_str());
-  std::printf("GL renderer   %s\n", info.renderer.c_str());
-  std::printf("GL version    %s (%s)\n", info.version.c_str(), info.vendor.c_str());
-  std::printf("shading       %s\n", describe_shading(info).c_str());
+  print_out("EGL           %s, %s\n", info.egl_version.c_str(), info.egl_device.c_str());
+  print_out("GL renderer   %s\n", info.renderer.c_str());
+  print_out("GL version    %s (%s)\n", info.version.c_str(), info.vendor.c_str());
+  print_out("shading       %s\n", describe_shading(info).c_str());
   if (request.gl) print_limits(info);
   return ExitCode::done;
 }

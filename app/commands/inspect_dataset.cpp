@@ -1,6 +1,5 @@
 #include "app/commands/inspect_dataset.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <map>
 
@@ -11,6 +10,7 @@
 #include "app/provenance/manifest.h"
 #include "app/provenance/run_folder.h"
 #include "app/support/json_members.h"
+#include "app/support/print.h"
 #include "io/base/atomic_file.h"
 #include "io/playback/recording_check.h"
 #include "kernel/base/error.h"
@@ -39,8 +39,8 @@ std::uint64_t size_of(const std::string& path) {
 }
 
 void print_row(const std::string& name, const FileReport& report) {
-  std::printf("%-24s %-12s %s\n", printable(name).c_str(), kFileVerdictNames[int(report.verdict)],
-              printable(report.detail).c_str());
+  print_out("%-24s %-12s %s\n", name.c_str(), kFileVerdictNames[int(report.verdict)],
+              report.detail.c_str());
 }
 
 bool is_sound(FileVerdict verdict) {
@@ -59,13 +59,13 @@ std::optional<std::string> stated_hash(const std::string& path) {
 }
 
 void print_summary(const Manifest& m) {
-  std::printf("script                   %s, seed %llu, by rubble %s (%s)\n",
-              printable(m.provenance.script.path).c_str(), static_cast<unsigned long long>(m.seed),
-              printable(m.program.version).c_str(), printable(m.program.commit).c_str());
-  std::printf("pile                     %lld pieces, %s, state hash %s\n",
+  print_out("script                   %s, seed %llu, by rubble %s (%s)\n",
+              m.provenance.script.path.c_str(), static_cast<unsigned long long>(m.seed),
+              m.program.version.c_str(), m.program.commit.c_str());
+  print_out("pile                     %lld pieces, %s, state hash %s\n",
               static_cast<long long>(m.pile.pieces), m.pile.settled ? "at rest" : "not at rest",
-              printable(m.pile.state_hash).c_str());
-  std::printf("frames                   %zu\n", m.frames.frames.size());
+              m.pile.state_hash.c_str());
+  print_out("frames                   %zu\n", m.frames.frames.size());
 }
 
 // The files of a recording that is a folder, as one row; those that are not sound have one each.
@@ -115,8 +115,8 @@ bool print_batch(const std::string& folder) {
       const std::string number = std::to_string(seed), name = sweep.run_name(variant, number);
       by_state[batch.state_of(name)].push_back(sweep.varies() ? name : "seed " + number);
     }
-  std::printf("batch                    %s, seeds %s\n",
-              printable(members.object("script").text("name")).c_str(), printable(seeds).c_str());
+  print_out("batch                    %s, seeds %s\n",
+              printable(members.object("script").text("name")).c_str(), seeds.c_str());
   for (const auto& [state, name] :
        {std::pair(RunState::done, "done"), std::pair(RunState::failed, "failed"),
         std::pair(RunState::unfinished, "unfinished"), std::pair(RunState::missing, "not begun")}) {
@@ -125,11 +125,11 @@ bool print_batch(const std::string& folder) {
     for (std::size_t i = 0; i < of.size() && i < 5 && state != RunState::done; ++i)
       first += (i ? ", " : ": ") + of[i];
     if (!first.empty() && of.size() > 5) first += ", ...";
-    if (!of.empty()) std::printf("%-24s %zu%s\n", name, of.size(), first.c_str());
+    if (!of.empty()) print_out("%-24s %zu%s\n", name, of.size(), first.c_str());
   }
   std::error_code failed;
   if (fs::exists(folder + "/index.csv", failed))
-    std::printf("%-24s %s/index.csv\n", "table", folder.c_str());
+    print_out("%-24s %s/index.csv\n", "table", folder.c_str());
   return by_state[RunState::failed].empty();
 }
 
@@ -139,7 +139,7 @@ bool print_folder(const std::string& folder) {
   if (!fs::exists(file, failed) && fs::exists(folder + "/batch.json", failed))
     return print_batch(folder);
   if (!fs::exists(file, failed) && is_unfinished(folder)) {
-    std::printf("unfinished: `rubble resume %s` continues it\n", folder.c_str());
+    print_out("unfinished: `rubble resume %s` continues it\n", folder.c_str());
     return true;
   }
   const std::string text = read_whole_file(file);

@@ -1,5 +1,4 @@
 // `rubble remake`: a dataset from its manifest alone.
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -8,6 +7,7 @@
 #include "app/mission/finished_run.h"
 #include "app/pipeline/run.h"
 #include "app/provenance/compare.h"
+#include "app/support/print.h"
 #include "app/support/stop.h"
 
 namespace rubble {
@@ -43,21 +43,21 @@ std::vector<std::string> compare(const Manifest& was, const Manifest& is) {
 
 ExitCode report(const Manifest& was, const Manifest& is) {
   const std::vector<std::string> apart = compare(was, is);
-  for (const std::string& sentence : apart) std::printf("differs: %s\n", sentence.c_str());
+  for (const std::string& sentence : apart) print_out("differs: %s\n", sentence.c_str());
   if (apart.empty()) {
-    std::printf("the same: state hash %s, %zu frames, %zu files\n", is.pile.state_hash.c_str(),
+    print_out("the same: state hash %s, %zu frames, %zu files\n", is.pile.state_hash.c_str(),
                 is.frames.frames.size(), is.outputs.size());
     return ExitCode::done;
   }
   for (const std::string& line : describe_differences(was.program, is.program))
-    std::printf("here is %s\n", line.c_str());
+    print_out("here is %s\n", line.c_str());
   for (const auto& [name, value] : is.environment) {
     const auto before = was.environment.find(name);
     if (name != "threads" && before != was.environment.end() && before->second != value)
-      std::printf("here is %s %s instead of %s\n", name.c_str(), value.c_str(),
+      print_out("here is %s %s instead of %s\n", name.c_str(), value.c_str(),
                   before->second.c_str());
   }
-  std::printf("not the same\n");
+  print_out("not the same\n");
   return ExitCode::differs;
 }
 

@@ -1,6 +1,5 @@
 // `rubble verify`: whether a dataset can be had again. Everything is run anew from its manifest
 // alone, and compared.
-#include <unistd.h>
 #include <memory>
 
 #include <algorithm>
@@ -16,12 +15,14 @@
 #include "app/pipeline/run.h"
 #include "app/provenance/compare.h"
 #include "app/provenance/manifest.h"
+#include "app/support/print.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "io/playback/recorded_picture.h"
 #include "io/playback/recording_check.h"
 #include "io/state/pile_state_file.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/system/output_files.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -58,15 +59,10 @@ struct VerifyRequest {
 class WorkFolder {
  public:
   explicit WorkFolder(const std::string& asked) {
-    if (!asked.empty()) fs::create_directories(asked);
-    path_ = ((asked.empty() ? fs::temp_directory_path() : fs::path(asked)) / "rubble-verify-XXXXXX")
-                .string();
-    if (!mkdtemp(path_.data())) throw RunError("cannot create a folder such as " + path_);
+    if (!asked.empty()) make_output_folder(asked);
+    path_ = make_private_folder(asked.empty() ? fs::temp_directory_path().string() : asked, "rubble-verify");
   }
-  ~WorkFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
+  ~WorkFolder() { remove_output_folder(path_); }
   WorkFolder(const WorkFolder&) = delete;
   WorkFolder& operator=(const WorkFolder&) = delete;
   const std::string& path() const { return path_; }
@@ -336,7 +332,7 @@ std::string to_json(const Verification& verification) {
 
 ExitCode verify_run(const VerifyRequest& request) {
   const Verification verification = verify(request);
-  std::fputs((request.json ? to_json(verification) : to_text(verification)).c_str(), stdout);
+  print_result(request.json ? to_json(verification) : to_text(verification), request.json);
   return is_equal(verification) ? ExitCode::done : ExitCode::differs;
 }
 

@@ -10,6 +10,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/mission/finished_run.h"
+#include "app/support/print.h"
 #include "app/support/progress.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
@@ -109,8 +110,8 @@ std::vector<std::function<void()>> list_jobs(const VoidMap& map, int surfaces,
     const std::size_t shown = std::min(robot.voids.size(), std::size_t(surfaces));
     for (std::size_t i = 0; i < shown; ++i)
       jobs.push_back([&map, &robot, i, folder] {
-        write_ply(folder + "/" + surface_name(robot.radius, i + 1),
-                  make_void_surface(map.space, robot.voids[i]));
+        write_void_surface(folder + "/" + surface_name(robot.radius, i + 1), make_void_surface(map.space, robot.voids[i]),
+                           map.space.pile_state);
       });
   }
   jobs.push_back([&map, folder] { write_text_file(folder + "/voids.json", make_void_json(map)); });
@@ -119,7 +120,7 @@ std::vector<std::function<void()>> list_jobs(const VoidMap& map, int surfaces,
 }
 
 void print_summary(const VoidMap& map) {
-  std::printf("%-8s %6s %11s %11s %9s %9s %9s\n", "radius", "voids", "volume", "reachable",
+  print_out("%-8s %6s %11s %11s %9s %9s %9s\n", "radius", "voids", "volume", "reachable",
               "entrances", "longest", "deepest");
   for (const RobotVoids& robot : map.robots) {
     std::size_t entrances = 0;
@@ -129,11 +130,11 @@ void print_summary(const VoidMap& map) {
       longest = std::max(longest, v.path_length);
       deepest = std::max(deepest, v.depth);
     }
-    std::printf("%6.3f m %6zu %8.3f m3 %8.3f m3 %9zu %7.2f m %7.2f m\n", robot.radius,
+    print_out("%6.3f m %6zu %8.3f m3 %8.3f m3 %9zu %7.2f m %7.2f m\n", robot.radius,
                 robot.voids.size(), robot.volume, robot.reachable_volume, entrances, longest,
                 deepest);
     if (robot.voids.empty())
-      std::fprintf(stderr, "no void has room for a robot of radius %g m\n", robot.radius);
+      print_err("no void has room for a robot of radius %g m\n", robot.radius);
   }
 }
 
@@ -141,7 +142,6 @@ ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids) {
   stop_on_signals();
   check_radii(voids.space.radii);
   Progress progress(choose_progress_style(request.options.quiet));
-  const std::string folder = voids.out.empty() ? request.folder + "/voids" : voids.out;
   progress.start("voids");
   const VoidMap map = make_map(request, voids, progress);
   char text[160];
@@ -152,6 +152,7 @@ ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids) {
   progress.finish(text);
 
   progress.start("files");
+  const std::string folder = output_folder_of(voids.out, request.folder, "voids");
   prepare_output_folder(folder, voids.force, list_outputs(voids));
   const std::string title = std::filesystem::path(request.folder).filename().string();
   const auto jobs = list_jobs(map, voids.surfaces, title, folder);
@@ -159,7 +160,7 @@ ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids) {
                [&](std::size_t i) { jobs[i](); });
   progress.finish(folder);
   print_summary(map);
-  std::printf("%s\n", folder.c_str());
+  print_out("%s\n", folder.c_str());
   return ExitCode::done;
 }
 

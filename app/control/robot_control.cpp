@@ -134,7 +134,9 @@ std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext
   MeshImporter importer;
   const std::vector<std::string> folders = robot_folders(mission);
   for (std::size_t i = 0; i < mission.scenario.robots.size(); ++i) {
-    made.push_back(make_mission_robot(mission.scenario.robots[i], folders,
+    RobotItem robot = mission.scenario.robots[i];
+    if (i < mission.assets.robot_files.size() && !robot.urdf.empty()) robot.urdf = mission.assets.robot_files[i];
+    made.push_back(make_mission_robot(robot, folders,
                                       "robots[" + std::to_string(i + 1) + "]", importer));
     check_joints(mission.scenario.robots[i], made.back().model, "robots[" + std::to_string(i + 1) + "]");
     for (const std::string& warning : made.back().warnings) context.warnings.push_back(warning);

@@ -1,6 +1,5 @@
 #include "app/control/script_control.h"
 
-#include <cstdio>
 #include <map>
 #include <string>
 #include <utility>
@@ -8,6 +7,7 @@
 
 #include "app/control/robot_control.h"
 #include "app/control/sense_tables.h"
+#include "app/support/print.h"
 #include "kernel/robot/bundled.h"
 #include "kernel/robot/odometry.h"
 #include "scripting/sandbox/lua_sandbox.h"
@@ -54,7 +54,7 @@ RobotCommand command_of(const Wish& wish, const RobotModel& model) {
 // What the function prints is shown, also if it fails.
 Value call(LuaSandbox& sandbox, int control, const Value& told) {
   const auto show = [&sandbox] {
-    for (const std::string& line : sandbox.take_printed()) std::fprintf(stderr, "%s\n", line.c_str());
+    for (const std::string& line : sandbox.take_printed()) print_err("%s\n", line.c_str());
   };
   try {
     const Value answer = sandbox.call_controller(control, told);

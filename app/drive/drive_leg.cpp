@@ -7,6 +7,7 @@
 #include "app/pipeline/recorders.h"
 #include "app/sensors/build_camera.h"
 #include "io/base/atomic_file.h"
+#include "kernel/base/system/output_files.h"
 #include "io/state/track_file.h"
 
 namespace rubble {
@@ -22,12 +23,20 @@ std::string number_name(int number) {
   return text;
 }
 
+// "leg_003", the folder of a recording, and files of that name.
+bool is_of_a_drive(const fs::path& path) {
+  const std::string name = path.stem().string(), end = path.extension().string();
+  const bool numbered = name.size() >= 7 && name.rfind("leg_", 0) == 0 &&
+                        name.find_first_not_of("0123456789", 4) == std::string::npos;
+  return numbered && (end.empty() || end == ".lua" || end == ".track" || end == ".hashes" || end == ".part");
+}
+
 // How many frames will come is not known, so there is no contact sheet.
 std::unique_ptr<RecordingQueue> start_recording(const DriveWorld& world,
                                                 const std::string& folder) {
   Scenario scenario = world.scenario;
   scenario.outputs.preview = false;
-  fs::create_directories(folder);
+  make_output_folder(folder);
   const Recording recording = describe_recording(scenario, world.assets, world.pile);
   RecorderSet set = make_recorders({scenario, recording, {}, ""}, folder);
   return std::make_unique<RecordingQueue>(std::move(set.recorders));
@@ -97,17 +106,17 @@ void DriveLeg::finish() {
 }
 
 void prepare_drive_folder(const std::string& folder, bool force) {
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed)
-    throw InputError({folder, 0, "--out", "the folder cannot be made", "", failed.message(), ""});
+  make_output_folder(folder);
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().filename().string().rfind("leg_", 0) != 0) continue;
+    if (!is_of_a_drive(entry.path())) continue;
     if (!force)
       throw InputError({folder, 0, "--out", "an earlier drive is in it", "",
                         entry.path().filename().string(),
                         "choose another folder, or --force to replace it"});
-    fs::remove_all(entry.path());
+    if (entry.is_directory())
+      remove_output_folder(entry.path().string());
+    else
+      remove_output_file(entry.path().string());
   }
 }
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/pipeline/live.h"
+#include "app/support/print.h"
 #include "app/support/stop.h"
 #include "kernel/base/parallel.h"
 
@@ -50,7 +51,7 @@ DriveSession::DriveSession(const DriveRequest& request)
   prepare_drive_folder(folder_, request_.of.force);
   link_ = DriveLink::connect(request_.of.options);
   enter(std::nullopt);
-  std::fprintf(stderr, "drive: ready, H for help\n");
+  print_err("drive: ready, H for help\n");
 }
 
 DriveSession::~DriveSession() = default;
@@ -167,7 +168,7 @@ FrameListener DriveSession::listener() {
 void DriveSession::end_leg() {
   if (!leg_) return;
   leg_->finish();
-  std::printf("%s/%s.lua\n", folder_.c_str(), leg_->name().c_str());
+  print_out("%s/%s.lua\n", folder_.c_str(), leg_->name().c_str());
   std::fflush(stdout);
   leg_.reset();
 }
@@ -259,7 +260,7 @@ std::vector<std::string> DriveSession::status() const {
 }
 
 void DriveSession::say(const std::string& text) {
-  std::fprintf(stderr, "drive: %s\n", text.c_str());
+  print_err("drive: %s\n", text.c_str());
   notice_ = text;
   notice_until_ = Clock::now() + kNoticeTime;
 }

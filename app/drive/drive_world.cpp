@@ -6,6 +6,7 @@
 #include "app/drive/drive_log.h"
 #include "app/planning/flight.h"
 #include "app/scene/build_scene.h"
+#include "app/support/print.h"
 #include "scripting/sandbox/script_file.h"
 
 namespace rubble {
@@ -90,7 +91,7 @@ void adapt(Scenario& scenario, const DriveRequest& request, const AssetLibrary& 
   double& rate = scenario.trajectory.rate_hz;
   if (rate < kLeastRate || rate > kMostRate) rate = TrajectorySpec{}.rate_hz;
   for (const std::string& off : adapt_to_driving(scenario))
-    std::fprintf(stderr, "drive: without %s, which needs the way ahead\n", off.c_str());
+    print_err("drive: without %s, which needs the way ahead\n", off.c_str());
 }
 
 }  // namespace

@@ -1,16 +1,16 @@
 #include "app/mission/resolved_mission.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "app/mission/finished_run.h"
 #include "app/scene/build_scene.h"
 #include "app/support/build_info.h"
 #include "app/support/json_members.h"
+#include "app/support/print.h"
 #include "app/victims/place_victims.h"
 #include "io/base/atomic_file.h"
-#include "kernel/base/text.h"
 #include "kernel/settling/generator.h"
 #include "scripting/sandbox/script_file.h"
 #include "scripting/sandbox/source_map.h"
@@ -32,7 +32,7 @@ MissionOptions mission_options(const RunRequest& request) {
 
 Mission load_and_print(const RunRequest& request) {
   Mission mission = load_mission(request.mission, mission_options(request));
-  for (const std::string& line : mission.printed) std::fprintf(stderr, "%s\n", line.c_str());
+  for (const std::string& line : mission.printed) print_err("%s\n", line.c_str());
   return mission;
 }
 
@@ -42,7 +42,7 @@ void load_with_progress(ResolvedMission& mission, RunContext& context, const Loa
   context.progress.start("assets");
   mission.assets = load();
   for (const std::string& warning : mission.assets.warnings)
-    std::fprintf(stderr, "warning: %s\n", printable(warning).c_str());
+    print_err("warning: %s\n", warning.c_str());
   context.progress.finish(std::to_string(mission.assets.types.size()) + " loaded, seed " +
                           std::to_string(mission.scenario.seed));
 }
@@ -73,17 +73,25 @@ ResolvedMission resolve_mission(const RunRequest& request, RunKind kind, RunCont
   mission.scenario = mission.pile_scenario = loaded.scenario;
   load_with_progress(mission, context, [&] { return load_assets(loaded, request.asset_packs); });
   mission.provenance.assets = mission.assets.contents;
+  mission.provenance.robots = mission.assets.robots;
   return mission;
 }
 
-ResolvedMission resolve_mission(const Provenance& provenance,
-                                const std::vector<std::string>& pack_folders, RunContext& context) {
+ResolvedMission resolve_pile(const Provenance& provenance, const std::vector<std::string>& pack_folders,
+                             RunContext& context) {
   ResolvedMission mission;
   mission.provenance = provenance;
   mission.scenario = stated_scenario(provenance);
   mission.pile_scenario =
       provenance.pile_from ? stated_scenario(*provenance.pile_from) : mission.scenario;
   load_with_progress(mission, context, [&] { return load_assets(provenance, pack_folders); });
+  return mission;
+}
+
+ResolvedMission resolve_mission(const Provenance& provenance,
+                                const std::vector<std::string>& pack_folders, RunContext& context) {
+  ResolvedMission mission = resolve_pile(provenance, pack_folders, context);
+  recall_robots(provenance, pack_folders, mission.assets);
   return mission;
 }
 
@@ -101,6 +109,8 @@ ResolvedMission resolve_render(const RunRequest& request, const FinishedRun& sav
   mission.provenance.assets = pile_from->assets;
   mission.provenance.pile_from = pile_from;
   load_with_progress(mission, context, [&] { return load_assets_of(saved, request.asset_packs); });
+  add_robot_files(mission.scenario, {std::filesystem::path(request.mission).parent_path().string()}, mission.assets);
+  mission.provenance.robots = mission.assets.robots;
   return mission;
 }
 

@@ -24,7 +24,10 @@ struct ResolvedMission {
 
 // From a script on the disk. Prints what the script prints, and warnings of the assets.
 ResolvedMission resolve_mission(const RunRequest& request, RunKind kind, RunContext& context);
-// From a provenance; the packs are looked for in `pack_folders` and among the bundled ones.
+// The pile of a provenance; the packs are looked for in `pack_folders` and among the bundled ones.
+ResolvedMission resolve_pile(const Provenance& provenance, const std::vector<std::string>& pack_folders,
+                             RunContext& context);
+// The same with the URDF files of its robots: for a run that is made again. Throws InputError where one is not the same.
 ResolvedMission resolve_mission(const Provenance& provenance,
                                 const std::vector<std::string>& pack_folders, RunContext& context);
 // A new camera and light over the pile of a finished run, in `saved`; its packs as above.

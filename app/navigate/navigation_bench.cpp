@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 
 #include "app/batch/seed_list.h"
 #include "app/eval/scores/confidence.h"
 #include "app/navigate/mission_to_drive.h"
 #include "app/pipeline/seeded_piles.h"
 #include "io/base/atomic_file.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 namespace {
@@ -48,7 +48,8 @@ std::vector<NavigationResult> run_navigation_bench(const NavigationBenchRequest&
   const SeededPiles piles{request.of, parse_seeds(request.seeds, "--seeds"), {"pile"}, note};
   const bool plans = parse_planner(request.planner);
   const std::string cache = request.of.out + "/arcs";
-  for (const char* folder : {"/ways", "/missions", "/arcs"}) std::filesystem::create_directories(request.of.out + folder);
+  make_output_folder(request.of.out);
+  for (const char* folder : {"ways", "missions", "arcs"}) make_folder_below(request.of.out, folder);
   std::vector<NavigationResult> results;
   for_each_pile(piles, [](const ResolvedMission&) {}, [&](const SeededPile& pile) {
     NavigationRules rules;
@@ -60,7 +61,7 @@ std::vector<NavigationResult> run_navigation_bench(const NavigationBenchRequest&
     write_way(request.of.out + "/ways/" + std::to_string(pile.seed) + ".csv", world, results.back().score);
     note(text_of(pile.seed, results.back().score));
   });
-  std::filesystem::remove_all(cache);
+  remove_output_folder(cache);
   return results;
 }
 

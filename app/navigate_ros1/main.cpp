@@ -1,6 +1,5 @@
 // ros1_navigator: MRPT's reactive navigator as a node of ROS 1. It drives a robot that it knows by topics alone, and ends
 // with a report as JSON.
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -11,10 +10,12 @@
 #include <thread>
 
 #include "app/navigate_ros1/topic_navigator.h"
+#include "app/support/print.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "io/live/ros1_robot.h"
 #include "kernel/base/error.h"
+#include "kernel/base/system/output_files.h"
 #include "kernel/base/text.h"
 
 namespace rubble {
@@ -92,17 +93,13 @@ void complete(Request& r) {
   if (r.navigator.planar) r.ros.scan = "/scan", r.ros.cloud.clear();
   if (!r.topic.empty()) (r.navigator.planar ? r.ros.scan : r.ros.cloud) = r.topic;
   r.ros.ros.node = "ros1_navigator";
-  r.ros.ros.notice = [](const std::string& text) { std::fprintf(stderr, "ros1_navigator: %s\n", printable(text).c_str()); };
+  r.ros.ros.notice = [](const std::string& text) { print_err("ros1_navigator: %s\n", text.c_str()); };
 }
 
 // A folder of its own, gone when this goes.
 struct ArcsFolder {
-  std::string path = std::filesystem::temp_directory_path() / ("ros1_navigator_" + std::to_string(getpid()));
-  ArcsFolder() { std::filesystem::create_directories(path); }
-  ~ArcsFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
+  std::string path = rubble::make_private_folder(std::filesystem::temp_directory_path().string(), "ros1_navigator");
+  ~ArcsFolder() { rubble::remove_output_folder(path); }
 };
 
 double wall() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -154,11 +151,11 @@ Result navigate_over_topics(Request& request) {
     if (stop_requested()) navigator.end(TopicEnd::stopped, "a signal stopped this program");
   }
   const TopicReport& report = navigator.report();
-  std::printf("%s\n", to_json(report).dump(2).c_str());
+  print_json(to_json(report).dump(2) + "\n");
   std::fflush(stdout);
   if (!request.log.empty()) write_log(request.log, report);
   if (!report.message.empty())
-    std::fprintf(stderr, "ros1_navigator: %s: %s\n", name_of(report.end).c_str(), report.message.c_str());
+    print_err("ros1_navigator: %s: %s\n", name_of(report.end).c_str(), report.message.c_str());
   if (report.end == TopicEnd::stopped) return Result::stopped;
   return report.end == TopicEnd::arrived ? Result::arrived : Result::did_not_arrive;
 }
@@ -181,7 +178,7 @@ int main(int argc, char** argv) {
   try {
     return int(rubble::navigate_over_topics(request));
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "ros1_navigator: %s\n", rubble::printable(error.what()).c_str());
+    rubble::print_err("ros1_navigator: %s\n", error.what());
   }
   return int(rubble::Result::not_started);
 }

@@ -1,5 +1,4 @@
 // The stage from a planned flight over a settled pile to recorded frames.
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -11,8 +10,10 @@
 #include "app/provenance/frame_journal.h"
 #include "app/scene/build_scene.h"
 #include "app/sensors/sensor_suite.h"
+#include "app/support/print.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
+#include "io/base/csv_text.h"
 #include "io/recording/recording_queue.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/system/disk_cache.h"
@@ -28,7 +29,7 @@ void write_legend(const ResolvedMission& mission, RunFolder& folder) {
   if (!has_channel(mission.scenario, "label")) return;
   std::string text = "label,name\n";
   const std::vector<std::string> names = label_names(mission.scenario, mission.assets);
-  for (std::size_t i = 0; i < names.size(); ++i) text += std::to_string(i) + "," + names[i] + "\n";
+  for (std::size_t i = 0; i < names.size(); ++i) text += std::to_string(i) + "," + csv_text(names[i]) + "\n";
   write_text_file(folder.file("labels.csv"), text);
   folder.add("labels.csv");
 }

@@ -1,8 +1,8 @@
 #include "app/pipeline/live.h"
 
-#include <cstdio>
 #include <cstdlib>
 
+#include "app/support/print.h"
 #include "app/support/stop.h"
 #include "io/live/live_ros.h"
 #include "kernel/base/error.h"
@@ -16,7 +16,7 @@ void set_common(LiveOptions& live, const RunOptions& options) {
   live.stopped = stop_requested;
   if (options.quiet) return;
   live.notice = [](const std::string& line) {
-    std::fprintf(stderr, "\nrubble: %s\n", line.c_str());
+    print_err("\nrubble: %s\n", line.c_str());
   };
 }
 

@@ -6,6 +6,7 @@
 #include "app/scene/build_scene.h"
 #include "app/surroundings/seen_surroundings.h"
 #include "io/recording/one_camera.h"
+#include "kernel/base/system/output_files.h"
 #include "scripting/scenario/lidar_schema.h"
 
 namespace rubble {
@@ -71,7 +72,7 @@ std::string frame_of(const Carrier& ride, const Scenario& scenario, const std::v
 // What a run that was killed had finished is made anew: files are replaced, folders must go.
 void remove_folder(const std::string& path) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) std::filesystem::remove_all(path, ignored);
+  if (std::filesystem::is_directory(path, ignored)) remove_output_folder(path);
 }
 
 // Of the formats that hold one camera: into cameras/NAME/.
@@ -86,7 +87,7 @@ void add_recorders_of_cameras(const RecordingInputs& inputs, const std::string& 
     of_camera.camera = i;
     for (const RecordingFormat& format : recording_formats()) {
       if (!format.one_camera || !(inputs.scenario.outputs.*format.wanted)) continue;
-      std::filesystem::create_directories(own);
+      make_folder_below(folder, kCamerasFolder + ("/" + alone.cameras.front().name));
       set.recorders.push_back(
           make_one_camera_recorder(int(i), find_imu_beside(inputs.recording, i), format.make(own + "/" + format.leaves, of_camera)));
       if (set.names.empty() || set.names.back() != kCamerasFolder)

@@ -7,11 +7,12 @@
 
 #include "app/pipeline/live.h"
 #include "app/estimate/preview.h"
+#include "app/provenance/earlier_files.h"
 #include "app/provenance/manifest.h"
 #include "app/support/build_info.h"
+#include "app/support/print.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
-#include "kernel/base/text.h"
 
 namespace rubble {
 namespace {
@@ -64,21 +65,21 @@ std::string describe_lost(const PileState& pile, const SettleOptions& options) {
 }
 
 ExitCode report(const ResolvedMission& mission, const PileState& pile, const RunFolder& folder) {
-  std::printf("%s\n", folder.path().c_str());
+  print_out("%s\n", folder.path().c_str());
   const SettleOptions& options = mission.pile_scenario.settle;
   const bool lost = std::any_of(pile.pieces.begin(), pile.pieces.end(), is_lost);
-  if (lost) std::fprintf(stderr, "%s\n", describe_lost(pile, options).c_str());
+  if (lost) print_err("%s\n", describe_lost(pile, options).c_str());
   const double depth = pile.deepest_overlap.depth;
   if (pile.settled) {
     if (depth > kNotedOverlap) {
-      std::fprintf(stderr, "warning: %s; settle.rest_overlap = %g m allows it\n",
+      print_err("warning: %s; settle.rest_overlap = %g m allows it\n",
                    describe_overlap(pile).c_str(), options.rest_overlap);
     }
     return lost ? ExitCode::did_not_settle : ExitCode::done;
   }
   const std::string why =
       depth > options.rest_overlap ? describe_overlap(pile) : describe_moving(pile);
-  std::fprintf(stderr, "the pile did not settle: %s when the time limit came "
+  print_err("the pile did not settle: %s when the time limit came "
                "(settle.final_time_limit = %g s)\n",
                why.c_str(), options.final_time_limit);
   return ExitCode::did_not_settle;
@@ -91,6 +92,16 @@ std::string choose_output(const RunRequest& request) {
   return "out/" + std::filesystem::path(request.mission).stem().string();
 }
 
+void warn_of_derived_files(const std::string& folder) {
+  std::string names;
+  for (const std::string& name : find_derived_files(folder)) names += (names.empty() ? "" : ", ") + name;
+  if (!names.empty())
+    print_err("warning: in %s, %s %s made of the earlier run and not of this one: make %s anew (`rubble voids --force` and "
+              "others), or remove %s\n",
+              folder.c_str(), names.c_str(), names.find(',') == std::string::npos ? "was" : "were",
+              names.find(',') == std::string::npos ? "it" : "them", names.find(',') == std::string::npos ? "it" : "them");
+}
+
 ExitCode run_to_folder(const RunRequest& request, RunKind kind) {
   stop_on_signals();
   check_live(request.options);
@@ -99,13 +110,17 @@ ExitCode run_to_folder(const RunRequest& request, RunKind kind) {
   const RunPreview preview = preview_run(kind, mission.scenario, mission.pile_scenario,
                                          mission.assets, choose_output(request));
   if (request.preview) {
-    std::printf("%s%s\n", describe_files(kind, mission.scenario, mission.assets).c_str(), describe(preview).c_str());
+    print_out("%s%s\n", describe_files(kind, mission.scenario, mission.assets).c_str(), describe(preview).c_str());
     return ExitCode::done;
   }
-  if (!request.options.quiet) std::fprintf(stderr, "%s\n", describe(preview).c_str());
+  if (!request.options.quiet) print_err("%s\n", describe(preview).c_str());
+  if (preview.bytes / 20 > preview.free)
+    throw InputError({choose_output(request), 0, "", "the disk is far too small for this run",
+                      "room for the files", describe(preview), "fewer frames, smaller pictures or fewer outputs"});
   if (preview.bytes > preview.free)
-    std::fprintf(stderr, "warning: the disk may be too small for this run\n");
+    print_err("warning: the disk may be too small for this run\n");
   RunFolder folder = RunFolder::create(choose_output(request), request.force);
+  if (request.force) warn_of_derived_files(folder.path());
   const ExitCode code = complete(mission, folder, context);
   note_speed(preview, context.progress);
   return code;
@@ -165,7 +180,7 @@ ExitCode complete(const ResolvedMission& mission, RunFolder& folder, RunContext&
                    folder.path() + "` continues");
   }
   for (const std::string& warning : context.warnings)
-    std::fprintf(stderr, "rubble: warning: %s\n", printable(warning).c_str());
+    print_err("rubble: warning: %s\n", warning.c_str());
   folder.finish();
   return report(mission, results.pile, folder);
 }

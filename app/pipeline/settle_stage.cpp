@@ -6,6 +6,7 @@
 #include "app/fines/lay_fines.h"
 #include "app/pipeline/stages.h"
 #include "app/scene/build_scene.h"
+#include "app/support/print.h"
 #include "app/support/stop.h"
 #include "app/surroundings/lay_surroundings.h"
 #include "app/victims/place_victims.h"
@@ -118,7 +119,7 @@ class SettleWatch {
       if (track_) save_track(track_->track(), folder_.track_so_far_file());
       save_checkpoint(checkpoint, folder_.checkpoint_file());
     } catch (const RunError& error) {
-      if (!warned_) std::fprintf(stderr, "warning: no checkpoint: %s\n", error.what());
+      if (!warned_) print_err("warning: no checkpoint: %s\n", error.what());
       warned_ = true;
     }
   }
@@ -278,7 +279,8 @@ void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, R
   if (outputs.stl) formats.push_back("stl");
   if (formats.empty() && !outputs.track) return;
   context.progress.start("export");
-  const PileModel model = build_pile_model(mission.assets, pile.state);
+  PileModel model = build_pile_model(mission.assets, pile.state);
+  model.gravity = mission.pile_scenario.settle.gravity;
   for (const std::string& format : formats)
     for (const std::string& name : export_pile(model, format, folder.path())) folder.add(name);
   if (outputs.track) {

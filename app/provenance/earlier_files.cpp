@@ -98,6 +98,15 @@ std::vector<std::string> files_of_earlier_run(const std::string& folder) {
   return files;
 }
 
+std::vector<std::string> find_derived_files(const std::string& folder) {
+  std::vector<std::string> found;
+  for (const char* name : {"README.md", "SHA256SUMS", "cutaway.png", "export", "settings", "view.html", "voids"}) {
+    std::error_code failed;
+    if (fs::exists(fs::symlink_status(fs::path(folder) / name, failed))) found.emplace_back(name);
+  }
+  return found;
+}
+
 void clear_unfinished(const std::string& folder) {
   const std::vector<std::string> files{"unfinished/run.json", "unfinished/settle.checkpoint",
                                        "unfinished/settle.track",

@@ -21,6 +21,10 @@ void clear_unfinished(const std::string& folder);
 // folder then, too.
 void remove_unfinished(const std::string& folder);
 
+// What other commands made of the run that was here, such as a map of its voids: it stays, and is of another pile then.
+// Names in the folder, sorted.
+std::vector<std::string> find_derived_files(const std::string& folder);
+
 // Throws InputError when a folder that recordings are written into holds files which the earlier run
 // did not write: to write there, they would have to go.
 void refuse_foreign_recordings(const std::string& folder);

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "kernel/base/error.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 
@@ -41,12 +42,10 @@ FolderLock::FolderLock(const std::string& file, Wait wait, const std::string& me
 void FolderLock::open_file(const std::string& file) {
   constexpr int kTries = 100;
   for (int i = 0; i < kTries; ++i) {
-    descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     if (descriptor_ >= 0 || errno != ENOENT) break;
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (failed) throw RunError("cannot create the folder " + folder.string() + ": " + failed.message());
+    make_output_folder(folder.string());
     errno = ENOENT;
   }
   if (descriptor_ < 0)
@@ -69,7 +68,7 @@ bool FolderLock::is_still(const std::string& file) const {
 }
 
 bool FolderLock::is_held(const std::string& file) {
-  const int descriptor = open(file.c_str(), O_RDWR | O_CLOEXEC);
+  const int descriptor = open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (descriptor < 0) return false;
   const bool held = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   close(descriptor);

@@ -6,9 +6,10 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
 #include <string>
 #include <vector>
+
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 
@@ -23,8 +24,8 @@ class FrameJournal {
   void note(std::size_t index, const std::vector<std::uint64_t>& hashes);
 
  private:
+  AppendedFile file_;
   std::vector<std::string> lines_;
-  std::ofstream out_;
 };
 
 }  // namespace rubble

@@ -22,7 +22,7 @@ const std::vector<Part>& sealed_parts() {
   static const std::vector<Part> parts{{"program", {"format", "program", "libraries"}},
                                        {"script", {"kind", "script", "included", "request"}},
                                        {"scenario", {"seed", "scenario", "pile_from"}},
-                                       {"assets", {"assets"}},
+                                       {"assets", {"assets", "robots"}},
                                        {"pile", {"state_hash", "pile"}},
                                        {"frames", {"frames", "frame_hashes"}},
                                        {"metrics", {"metrics"}},

@@ -79,6 +79,9 @@ Provenance read_provenance(const JsonMembers& json) {
   provenance.scenario = json.object("scenario").dump();
   for (const JsonMembers& asset : json.list("assets"))
     provenance.assets.push_back(read_asset(asset));
+  if (json.has("robots"))
+    for (const JsonMembers& robot : json.list("robots"))
+      provenance.robots.push_back({robot.text("urdf"), robot.text("sha256")});
   if (json.has("pile_from"))
     provenance.pile_from =
         std::make_shared<const Provenance>(read_provenance(json.object("pile_from")));
@@ -137,6 +140,8 @@ void add_provenance(Json& json, const Provenance& provenance) {
   json["scenario"] = Json::parse(provenance.scenario);
   json["assets"] = Json::array();
   for (const AssetContent& asset : provenance.assets) json["assets"].push_back(json_of(asset));
+  for (const RobotContent& robot : provenance.robots)
+    json["robots"].push_back({{"urdf", robot.urdf}, {"sha256", robot.sha256}});
   if (!provenance.pile_from) return;
   json["pile_from"] = Json::object();
   add_provenance(json["pile_from"], *provenance.pile_from);

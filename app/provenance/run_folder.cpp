@@ -1,7 +1,6 @@
 #include "app/provenance/run_folder.h"
 
 #include <filesystem>
-#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/parallel.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 namespace {
@@ -66,8 +66,7 @@ RunFolder RunFolder::create(const std::string& path, bool force) {
   if (!left) prepare_output_folder(path, force, {});
   RunFolder folder(path);
   while (!folder.lock_) {
-    fs::create_directories(path + "/unfinished", failed);
-    if (failed) throw RunError("cannot create " + path + "/unfinished: " + failed.message());
+    make_folder_below(path, "unfinished");
     folder.lock_ = lock_run(path);
   }
   refuse_unfinished(path, force);
@@ -81,6 +80,7 @@ RunFolder RunFolder::create(const std::string& path, bool force) {
 
 RunFolder RunFolder::open_unfinished(const std::string& path) {
   if (is_unfinished(path)) {
+    make_folder_below(path, "unfinished");  // which is there: it must be no link
     RunFolder folder(path);
     folder.lock_ = lock_run(path);
     if (folder.lock_ && is_unfinished(path)) return folder;
@@ -117,15 +117,15 @@ void RunFolder::begin(const std::string& run_json) {
 }
 
 void RunFolder::expect(const std::vector<std::string>& names) const {
-  std::ofstream list(path_ + kFileList, std::ios::app);
-  for (const std::string& name : names) list << name << '\n';
+  std::string lines;
+  for (const std::string& name : names) lines += name + "\n";
+  AppendedFile(path_ + kFileList).append(lines);
 }
 
 // run.json goes first: without it nothing is unfinished.
 void RunFolder::finish() const {
-  std::error_code error;
-  fs::remove(run_file(), error);
-  if (error) throw RunError("cannot remove " + run_file() + ": " + error.message());
+  remove_output_file(run_file());
+  if (is_unfinished(path_)) throw RunError("cannot remove " + run_file());
   remove_unfinished(path_);
 }
 

@@ -1,13 +1,14 @@
 #include "app/robots/robot_files.h"
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "io/base/atomic_file.h"
+#include "io/base/csv_text.h"
 #include "io/base/number_text.h"
 #include "io/mesh/stl_writer.h"
 #include "io/robot/urdf_writer.h"
 #include "io/state/track_file.h"
+#include "kernel/base/system/output_files.h"
 #include "kernel/robot/looks.h"
 #include "scripting/values/value.h"
 
@@ -63,7 +64,7 @@ std::string joints_text(const RobotModel& model, const RobotLog& log) {
   std::string text = "stamp";
   for (const RobotJoint& joint : model.joints) {
     if (joint.motor.effort <= 0) continue;
-    for (const char* what : {"position", "speed", "torque"}) text += "," + joint.name + "_" + what;
+    for (const char* what : {"position", "speed", "torque"}) text += "," + csv_text(joint.name + "_" + what);
   }
   text += "\n";
   for (const RobotSample& sample : log.samples()) {
@@ -110,8 +111,7 @@ void write_mesh(const std::string& path, const RobotLink& link) {
 
 void write_robot_description(const std::string& folder, const std::string& name, const RobotModel& model) {
   const std::string meshes = name + "_meshes";
-  std::error_code failed;  // what follows says so
-  std::filesystem::create_directories(folder + "/" + meshes, failed);
+  make_folder_below(folder, meshes);
   for (const RobotLink& link : model.links) {
     if (link.parts.empty() && link.looks.triangles.empty()) continue;
     write_mesh(folder + "/" + link_mesh_file(meshes, link.name), link);
@@ -138,8 +138,7 @@ std::vector<std::string> robot_file_names(const std::vector<std::string>& robots
 void write_robot_files(const std::string& folder, const std::vector<std::string>& names,
                        const std::vector<RobotModel>& models, const RobotRunResult& result,
                        const std::vector<RobotLog>& logs, std::int64_t start_ns) {
-  std::error_code failed;  // what follows says so
-  std::filesystem::create_directories(folder + "/robots", failed);
+  make_folder_below(folder, "robots");
   save_track(result.track, folder + "/robots/track.bin");
   Json list = Json::array();
   for (std::size_t i = 0; i < models.size(); ++i) {

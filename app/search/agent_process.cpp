@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,18 +12,22 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <system_error>
 
 #include "app/search/search_agent.h"
 #include "app/support/stop.h"
 #include "kernel/base/error.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 namespace {
 
 constexpr std::size_t kMostLog = 1 << 20;  // unit: byte
 constexpr std::size_t kLastWords = 400;    // unit: byte
+constexpr double kKilling = 5;             // what forks faster than it is killed is left after this; unit: s
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -52,14 +57,82 @@ Ends make_pipe() {
 }
 
 // Only calls that are safe between fork and exec.
-[[noreturn]] void become_agent(const char* command, int in, int out, int err, pid_t parent) {
+[[noreturn]] void become_agent(const char* command, int in, int out, int err) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(127);
+  if (getppid() == 1) _exit(127);
   dup2(in, STDIN_FILENO), dup2(out, STDOUT_FILENO), dup2(err, STDERR_FILENO);
   signal(SIGINT, SIG_DFL), signal(SIGTERM, SIG_DFL), signal(SIGHUP, SIG_DFL);
   execl("/bin/sh", "sh", "-c", command, static_cast<char*>(nullptr));
   _exit(127);
+}
+
+// The parent of a process, out of "12 (its name) S 7 ..."; 0: it is gone.
+pid_t parent_of(const std::string& process) {
+  char text[512];
+  const int file = open(("/proc/" + process + "/stat").c_str(), O_RDONLY | O_CLOEXEC);
+  const ssize_t size = file < 0 ? -1 : read(file, text, sizeof text - 1);
+  if (file >= 0) close(file);
+  if (size <= 0) return 0;
+  text[size] = 0;
+  const char* const end = std::strrchr(text, ')');  // the name may have any characters
+  return end && std::strlen(end) > 4 ? pid_t(std::atoi(end + 4)) : 0;
+}
+
+void kill_children() {
+  const pid_t own = getpid();
+  std::error_code failed;
+  for (std::filesystem::directory_iterator at("/proc", failed), end; !failed && at != end; at.increment(failed)) {
+    const std::string name = at->path().filename().string();
+    if (name.find_first_not_of("0123456789") == std::string::npos && parent_of(name) == own)
+      kill(pid_t(std::atoi(name.c_str())), SIGKILL);
+  }
+}
+
+// Kills all processes that the agent started, also those with a session of their own: a child whose parent is gone
+// becomes a child of this one. agent: its group, for where /proc is missing; 0: it is gone.
+void kill_descendants(pid_t agent) {
+  const double end = now() + kKilling;
+  while (now() < end) {
+    if (agent > 0) kill(-agent, SIGKILL);
+    kill_children();
+    pid_t gone = 0;
+    while ((gone = waitpid(-1, nullptr, WNOHANG)) > 0) {
+    }
+    if (gone < 0 && errno == ECHILD) return;
+    usleep(2000);
+  }
+}
+
+// Stands between this program and the agent, as the parent of all that the agent starts. It ends as the agent
+// ended, or when `control` is closed or written to: with this program, however that ends. What is left is killed.
+[[noreturn]] void guard_agent(const char* command, int in, int out, int err, int control) {
+  setpgid(0, 0);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  for (const int ignored : {SIGINT, SIGTERM, SIGHUP}) signal(ignored, SIG_IGN);
+  const pid_t agent = fork();
+  if (agent == 0) become_agent(command, in, out, err);
+  if (agent < 0) _exit(127);
+  setpgid(agent, agent);  // whoever comes first
+  // The other ends of the agent's pipes and the locks of this program must not live on in here.
+  if (dup2(control, 3) != 3 || close_range(4, ~0u, 0) != 0) kill_descendants(agent), _exit(127);
+  for (const int unused : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) close(unused);
+  int status = 0;
+  for (pollfd closed{3, POLLIN, 0}; poll(&closed, 1, 5) == 0 || errno == EINTR;) {
+    errno = 0;
+    for (pid_t gone = 0; (gone = waitpid(-1, &status, WNOHANG)) > 0;) {
+      if (gone != agent) continue;
+      kill_descendants(0);
+      if (WIFEXITED(status)) _exit(WEXITSTATUS(status));
+      const rlimit no_core{0, 0};
+      setrlimit(RLIMIT_CORE, &no_core);
+      signal(WTERMSIG(status), SIG_DFL);
+      kill(getpid(), WTERMSIG(status));
+      _exit(128 + WTERMSIG(status));
+    }
+  }
+  kill_descendants(agent);
+  _exit(0);
 }
 
 std::string how_it_ended(int status) {
@@ -77,28 +150,27 @@ std::string seconds(double value) {
 }  // namespace
 
 AgentProcess::AgentProcess(const std::string& command, const std::string& log) {
-  log_ = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (log_ < 0) throw RunError("cannot create " + log + ": " + std::generic_category().message(errno));
+  log_ = create_log_file(log);
   const Ends in = make_ends(), out = make_pipe(), err = make_pipe();
-  const pid_t parent = getpid();
+  const Ends control = make_ends();
   pid_ = fork();
-  if (pid_ == 0) become_agent(command.c_str(), in.theirs, out.theirs, err.theirs, parent);
-  for (const int end : {in.theirs, out.theirs, err.theirs}) close(end);
-  in_ = in.ours, out_ = out.ours, err_ = err.ours;
+  if (pid_ == 0) guard_agent(command.c_str(), in.theirs, out.theirs, err.theirs, control.theirs);
+  for (const int end : {in.theirs, out.theirs, err.theirs, control.theirs}) close(end);
+  in_ = in.ours, out_ = out.ours, err_ = err.ours, control_ = control.ours;
   if (pid_ < 0) fail_to_start();
-  setpgid(pid_, pid_);  // whoever comes first
 }
 
 AgentProcess::~AgentProcess() {
   kill_all();
-  for (const int end : {in_, out_, err_, log_})
+  for (const int end : {in_, out_, err_, log_, control_})
     if (end >= 0) close(end);
 }
 
-// The group outlives its leader where that left children behind.
+// A byte, too: a child of this program may hold the pipe open.
 void AgentProcess::kill_all() {
   if (pid_ <= 0) return;
-  kill(-pid_, SIGKILL);
+  send(control_, "k", 1, MSG_NOSIGNAL);
+  kill(pid_, SIGCONT);
   waitpid(pid_, nullptr, 0);
   pid_ = -1;
 }
@@ -141,7 +213,6 @@ void AgentProcess::fail_ended() {
   std::string text = "the agent closed its output";
   if (gone == pid_) {
     text = "the agent ended " + how_it_ended(status);
-    kill(-pid_, SIGKILL);
     pid_ = -1;
   }
   while (!last_words_.empty() && last_words_.back() == '\n') last_words_.pop_back();
@@ -210,7 +281,6 @@ void AgentProcess::finish(double grace) {
     usleep(2000);
   }
   take_errors();
-  kill(-pid_, SIGKILL);  // what it left behind
   pid_ = -1;
 }
 

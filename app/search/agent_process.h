@@ -9,7 +9,8 @@ namespace rubble {
 
 class AgentProcess {
  public:
-  // Starts `/bin/sh -c command` in a process group of its own, which ends with this object and with this process.
+  // Starts `/bin/sh -c command` below a process that guards it: all that it starts, also in sessions of its own, ends
+  // with the agent, with this object and with this process.
   // What it writes to standard error goes to the file `log`, 1 MiB at most. Throws RunError.
   AgentProcess(const std::string& command, const std::string& log);
   ~AgentProcess();
@@ -36,8 +37,8 @@ class AgentProcess {
   [[noreturn]] void fail_ended();
   void kill_all();
 
-  pid_t pid_ = -1;
-  int in_ = -1, out_ = -1, err_ = -1, log_ = -1;
+  pid_t pid_ = -1;  // of the process that guards the agent, and ends as it does
+  int in_ = -1, out_ = -1, err_ = -1, log_ = -1, control_ = -1;
   std::size_t logged_ = 0;
   std::string answers_, last_words_;
 };

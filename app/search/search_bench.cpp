@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 
 #include "app/batch/seed_list.h"
 #include "app/eval/scores/confidence.h"
 #include "app/pipeline/seeded_piles.h"
 #include "app/search/program_agent.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 namespace {
@@ -56,7 +56,7 @@ std::vector<SearchResult> run_search_bench(const SearchBenchRequest& request,
                                            const std::function<void(const std::string&)>& note) {
   const std::vector<std::string> names = names_of(request);
   const SeededPiles piles{request.of, parse_seeds(request.seeds, "--seeds"), {"victims.count", "pile"}, note};
-  std::filesystem::create_directories(request.of.out);
+  make_output_folder(request.of.out);
   std::vector<SearchResult> results;
   const auto check = [&](const ResolvedMission& mission) { expect_victims(mission, request.of.mission); };
   for_each_pile(piles, check, [&](const SeededPile& pile) {

@@ -9,18 +9,18 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <system_error>
 #include <thread>
 
+#include "app/support/print.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "kernel/base/error.h"
 #include "kernel/base/parallel.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 namespace {
@@ -42,9 +42,11 @@ std::string signal_words(int signal) {
 // What the job itself cannot say any more. A log that cannot be written is no reason to fail.
 void note_death(const std::string& log, int status) {
   if (!WIFSIGNALED(status)) return;
-  std::ofstream(log, std::ios::app) << "killed by " << signal_words(WTERMSIG(status))
-                                    << (WTERMSIG(status) == SIGKILL ? ": was memory short?" : "")
-                                    << "\n";
+  try {
+    AppendedFile(log).append("killed by " + signal_words(WTERMSIG(status)) +
+                             (WTERMSIG(status) == SIGKILL ? ": was memory short?" : "") + "\n");
+  } catch (const std::runtime_error&) {
+  }
 }
 
 // Only calls that are safe between fork and exec.
@@ -73,9 +75,7 @@ pid_t start(const Job& job) {
   for (const std::string& argument : job.arguments)
     arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
-  const int log = open(job.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (log < 0)
-    throw RunError("cannot create " + job.log + ": " + std::generic_category().message(errno));
+  const int log = create_log_file(job.log);
   const pid_t parent = getpid(), child = fork();
   if (child == 0) become_program(program.c_str(), arguments.data(), log, parent);
   close(log);
@@ -122,7 +122,7 @@ class Pool {
         int status = 0;
         if (waitpid(pid, &status, WNOHANG | WUNTRACED) != pid) continue;
         if (WIFSTOPPED(status)) {
-          std::fprintf(stderr, "process %d was suspended by %s; `kill -CONT %d` continues it\n",
+          print_err("process %d was suspended by %s; `kill -CONT %d` continues it\n",
                        int(pid), signal_words(WSTOPSIG(status)).c_str(), int(pid));
           continue;
         }

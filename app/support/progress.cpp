@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/support/print.h"
+
 namespace rubble {
 namespace {
 
@@ -25,6 +27,12 @@ std::string format_seconds(double seconds) {
   return text;
 }
 
+std::string padded(std::string stage) {
+  constexpr std::size_t kWidth = 8;
+  if (stage.size() < kWidth) stage.resize(kWidth, ' ');
+  return stage;
+}
+
 }  // namespace
 
 ProgressStyle choose_progress_style(bool quiet) {
@@ -35,7 +43,7 @@ ProgressStyle choose_progress_style(bool quiet) {
 void Progress::start(const std::string& stage) {
   stage_ = stage;
   started_ = drawn_ = Clock::now();
-  if (style_ == ProgressStyle::lines) std::fprintf(stderr, "%s ...\n", stage.c_str());
+  if (style_ == ProgressStyle::lines) print_err("%s ...\n", stage.c_str());
   if (style_ == ProgressStyle::bar) draw(0, "");
 }
 
@@ -54,24 +62,24 @@ void Progress::draw(double fraction, const std::string& detail) {
   if (fraction > 0.02 && fraction < kNearlyDone && elapsed > 1.0)
     left = ", about " + format_seconds(elapsed * (1 - fraction) / fraction) + " left";
   if (style_ == ProgressStyle::lines) {
-    std::fprintf(stderr, "%s: %d %%  %s%s\n", stage_.c_str(), int(100 * fraction), detail.c_str(),
-                 left.c_str());
+    print_err("%s: %d %%  %s%s\n", stage_.c_str(), int(100 * fraction), detail.c_str(), left.c_str());
     return;
   }
   const int filled = int(fraction * kBarWidth);
   const std::string bar =
       std::string(std::size_t(filled), '#') + std::string(std::size_t(kBarWidth - filled), '.');
-  std::fprintf(stderr, "\r\033[K%-8s [%s] %3d %%  %s%s", stage_.c_str(), bar.c_str(),
-               int(100 * fraction), detail.c_str(), left.c_str());
-  std::fflush(stderr);
+  char share[16];
+  std::snprintf(share, sizeof share, "%3d %%", int(100 * fraction));
+  redraw_line(padded(stage_) + " [" + bar + "] " + share + "  " + detail + left, false);
 }
 
 void Progress::finish(const std::string& result) {
   const double elapsed = seconds_since(started_);
   wall_seconds_[stage_] = elapsed;
   if (style_ == ProgressStyle::quiet) return;
-  std::fprintf(stderr, "%s%-8s %s (%s)\n", style_ == ProgressStyle::bar ? "\r\033[K" : "",
-               stage_.c_str(), result.c_str(), format_seconds(elapsed).c_str());
+  const std::string line = padded(stage_) + " " + result + " (" + format_seconds(elapsed) + ")";
+  if (style_ == ProgressStyle::bar) return redraw_line(line, true);
+  print_err("%s\n", line.c_str());
 }
 
 }  // namespace rubble

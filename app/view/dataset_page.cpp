@@ -15,6 +15,7 @@
 #include "io/image/jpeg_file.h"
 #include "io/mesh/ply_reader.h"
 #include "io/playback/recorded_picture.h"
+#include "io/voids/void_surface.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
@@ -99,13 +100,28 @@ Json describe_types(const PileModel& model, const AssetLibrary& assets, int tria
   return types;
 }
 
-// Of the smallest robot that was asked for: its voids hold those of the larger ones.
-Json describe_voids(const std::string& folder) {
+// Surfaces of voids in the folder: those of this pile, and how many are of another one, or do not say of which.
+struct FoundVoids {
   std::vector<fs::path> files;
+  int of_other_piles = 0;
+};
+
+FoundVoids find_voids(const std::string& folder, const PileState& pile) {
+  FoundVoids found;
   std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder + "/voids", failed))
-    if (entry.path().extension() == ".ply") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
+  for (const auto& entry : fs::directory_iterator(folder + "/voids", failed)) {
+    if (entry.path().extension() != ".ply") continue;
+    if (is_void_surface_of(entry.path().string(), pile.state_hash()))
+      found.files.push_back(entry.path());
+    else
+      ++found.of_other_piles;
+  }
+  std::sort(found.files.begin(), found.files.end());
+  return found;
+}
+
+// Of the smallest robot that was asked for: its voids hold those of the larger ones.
+Json describe_voids(const std::vector<fs::path>& files) {
   Json voids = Json::array();
   std::string robot;
   for (const fs::path& file : files) {
@@ -180,11 +196,12 @@ html, body { margin: 0; height: 100%; font: 14px/1.4 system-ui, sans-serif; }
 </style>
 )";
 
-// What the mission has and the page has not: too many triangles.
-std::string left_out(const Scenario& scenario) {
+// What the mission has and the page has not: too many triangles, or of another pile.
+std::string left_out(const Scenario& scenario, int voids_of_other_piles) {
   std::string names;
   if (scenario.fines.amount > 0) names = "fines";
   if (scenario.surroundings.on()) names += names.empty() ? "surroundings" : ", surroundings";
+  if (voids_of_other_piles > 0) names += std::string(names.empty() ? "" : ", ") + "voids of another pile";
   return names.empty() ? "" : "<p id=\"left_out\">not on this page: " + names + "</p>\n";
 }
 
@@ -205,6 +222,10 @@ std::string panel(const std::string& title, bool has_voids, std::size_t frames, 
 
 }  // namespace
 
+int count_voids_of_other_piles(const FinishedRun& saved) {
+  return find_voids(saved.folder, load_pile_of(saved)).of_other_piles;
+}
+
 std::string make_dataset_page(const FinishedRun& saved, const AssetLibrary& assets, const ViewOptions& options) {
   const PileState pile = load_pile_of(saved);
   PileState pieces = pile;  // fines are too many triangles for a page
@@ -215,6 +236,7 @@ std::string make_dataset_page(const FinishedRun& saved, const AssetLibrary& asse
   const Vec3 centre = model.pieces.empty() ? Vec3{} : (bounds.min + bounds.max) * 0.5;
   const double radius = model.pieces.empty() ? 1 : std::max(1.0, 0.5 * norm(bounds.max - bounds.min));
   std::size_t frames = 0;
+  const FoundVoids voids = find_voids(saved.folder, pile);
   const Scenario scenario = stated_scenario(saved.manifest.provenance);
   const std::string title = saved.manifest.provenance.script.path + ", seed " + std::to_string(saved.manifest.seed);
   Json data = {{"title", title},
@@ -222,13 +244,14 @@ std::string make_dataset_page(const FinishedRun& saved, const AssetLibrary& asse
                {"centre", {centre.x, centre.y, centre.z}},
                {"radius", radius},
                {"types", describe_types(model, assets, options.triangles)},
-               {"voids", describe_voids(saved.folder)},
+               {"voids", describe_voids(voids.files)},
                {"track", describe_track(saved.folder, scenario, frames)}};
+  const std::string not_shown = left_out(scenario, voids.of_other_piles);
   data["frames"] = describe_frames(saved.folder, frames, options);
   std::string json = data.dump(-1, ' ', true, Json::error_handler_t::replace);
   for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) json.replace(at, 1, "\\u003c");
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + html_escape(title) +
-         "</title>\n" + kLooks + "</head>\n<body>\n" + panel(title, !data["voids"].empty(), frames, left_out(scenario)) +
+         "</title>\n" + kLooks + "</head>\n<body>\n" + panel(title, !data["voids"].empty(), frames, not_shown) +
          "<script type=\"application/json\" id=\"data\">" + json + "</script>\n<script>\n" + three_code() +
          "\n</script>\n<script>\n" + viewer_code() + "</script>\n</body>\n</html>\n";
 }

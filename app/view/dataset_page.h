@@ -19,4 +19,7 @@ struct ViewOptions {
 std::string make_dataset_page(const FinishedRun& saved, const AssetLibrary& assets,
                               const ViewOptions& options);
 
+// How many surfaces in the folder `voids` are of another pile, or do not say of which: the page leaves them out.
+int count_voids_of_other_piles(const FinishedRun& saved);
+
 }  // namespace rubble

@@ -11,6 +11,7 @@
 #include "io/base/remove_files.h"
 #include "kernel/base/error.h"
 #include "kernel/base/read_file.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 namespace {
@@ -22,16 +23,6 @@ std::string reason(int error) { return std::generic_category().message(error); }
 
 [[noreturn]] void fail(const char* what, const std::string& path, int error) {
   throw RunError(std::string("cannot ") + what + " " + path + ": " + reason(error));
-}
-
-void write_all(int descriptor, const char* data, std::size_t size, const std::string& path) {
-  while (size > 0) {
-    const ssize_t written = ::write(descriptor, data, size);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail("write", path, written < 0 ? errno : ENOSPC);
-    data += written;
-    size -= static_cast<std::size_t>(written);
-  }
 }
 
 void write_all_at(int descriptor, std::uint64_t offset, std::string_view bytes,
@@ -79,30 +70,16 @@ std::string folder_of(const std::string& path) {
 
 }  // namespace
 
-PendingPath::PendingPath(std::string final_path)
-    : path_(std::move(final_path)), part_(path_ + ".part") {}
-
-PendingPath::~PendingPath() {
-  if (!committed_) ::unlink(part_.c_str());
-}
-
-void PendingPath::commit() {
-  sync_path(part_, O_RDONLY);
-  if (::rename(part_.c_str(), path_.c_str()) != 0) fail("give its final name to", part_, errno);
-  committed_ = true;
-  sync_path(folder_of(path_), O_RDONLY | O_DIRECTORY);
-}
-
-AtomicFile::AtomicFile(const std::string& final_path) : pending_(final_path) {
+AtomicFile::AtomicFile(const std::string& final_path) : path_(final_path), part_(final_path + ".part") {
   // Found out now rather than when all is written: a file cannot take a folder's name.
   if (std::error_code error; std::filesystem::is_directory(final_path, error))
     fail("create", final_path, EISDIR);
-  descriptor_ = ::open(pending_.part().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail("create", pending_.part(), errno);
+  descriptor_ = create_output_file(part_);
   buffer_.reserve(kBufferSize);
 }
 
 AtomicFile::~AtomicFile() {
+  if (!committed_ && descriptor_ >= 0 && is_file_at(descriptor_, part_)) remove_output_file(part_);
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
@@ -110,7 +87,7 @@ void AtomicFile::write(const void* data, std::size_t size) {
   const char* bytes = static_cast<const char*>(data);
   if (buffer_.size() + size > kBufferSize) flush();
   if (size >= kBufferSize) {
-    write_all(descriptor_, bytes, size, pending_.part());
+    write_all(descriptor_, {bytes, size}, part_);
   } else {
     buffer_.insert(buffer_.end(), bytes, bytes + size);
   }
@@ -119,28 +96,30 @@ void AtomicFile::write(const void* data, std::size_t size) {
 
 void AtomicFile::overwrite(std::uint64_t offset, std::string_view bytes) {
   flush();
-  write_all_at(descriptor_, offset, bytes, pending_.part());
+  write_all_at(descriptor_, offset, bytes, part_);
 }
 
 void AtomicFile::flush() {
-  write_all(descriptor_, buffer_.data(), buffer_.size(), pending_.part());
+  write_all(descriptor_, {buffer_.data(), buffer_.size()}, part_);
   buffer_.clear();
 }
 
 void AtomicFile::commit() {
   flush();
-  const int descriptor = descriptor_;
-  descriptor_ = -1;
-  // Network file systems report a full disk only here.
-  if (::close(descriptor) != 0) fail("close", pending_.part(), errno);
-  pending_.commit();
+  sync_descriptor(descriptor_, part_);
+  // Network file systems report a full disk only when a file is closed; the file stays locked by the second descriptor.
+  const int closed = ::dup(descriptor_);
+  if (closed < 0 || ::close(closed) != 0) fail("close", part_, errno);
+  if (!is_file_at(descriptor_, part_)) throw RunError("cannot finish " + path_ + ": " + part_ + " was replaced meanwhile");
+  if (::rename(part_.c_str(), path_.c_str()) != 0) fail("give its final name to", part_, errno);
+  committed_ = true;
+  sync_path(folder_of(path_), O_RDONLY | O_DIRECTORY);
 }
 
 void write_part_file(const std::string& path, std::string_view bytes) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) fail("create", path, errno);
+  const int descriptor = create_output_file(path);
   try {
-    write_all(descriptor, bytes.data(), bytes.size(), path);
+    write_all(descriptor, bytes, path);
   } catch (...) {
     ::close(descriptor);
     throw;
@@ -169,15 +148,9 @@ std::string read_whole_file(const std::string& path) { return read_file(path); }
 
 void prepare_output_folder(const std::string& folder, bool force,
                            const std::vector<std::string>& outputs) {
-  namespace fs = std::filesystem;
+  make_output_folder(folder);
   std::error_code error;
-  const fs::file_status status = fs::status(folder, error);
-  if (fs::exists(status) && !fs::is_directory(status)) {
-    refuse(folder, "is not a folder", "choose another output folder");
-  }
-  fs::create_directories(folder, error);
-  if (error) throw RunError("cannot create the folder " + folder + ": " + error.message());
-  const bool empty = fs::is_empty(folder, error);
+  const bool empty = std::filesystem::is_empty(folder, error);
   if (error) throw RunError("cannot read the folder " + folder + ": " + error.message());
   if (empty) return;
   if (!force) {
@@ -186,6 +159,19 @@ void prepare_output_folder(const std::string& folder, bool force,
   }
   remove_plain_files(folder, outputs);
   remove_plain_files(folder, outputs, ".part");
+}
+
+void refuse_to_replace(const std::string& folder, const std::vector<std::string>& names, bool force) {
+  for (const std::string& name : names) {
+    std::error_code failed;
+    const std::string path = folder + "/" + name;
+    if (!force && std::filesystem::exists(std::filesystem::symlink_status(path, failed)))
+      refuse(path, "is there already", "--force replaces it");
+  }
+}
+
+std::string output_folder_of(const std::string& asked, const std::string& dataset, const std::string& name) {
+  return asked.empty() ? make_folder_below(dataset, name) : asked;
 }
 
 }  // namespace rubble

@@ -1,7 +1,9 @@
 // Files that have their final name only when they are complete.
 //
 // Everything is written as "NAME.part" in the same folder, flushed to the disk, and then renamed,
-// so a full disk, a kill or a power cut leaves either no NAME or a whole one.
+// so a full disk, a kill or a power cut leaves either no NAME or a whole one. Links are not followed: what has one
+// of the two names is replaced. A second writer of the same name is refused while the first one is at work
+// (kernel/base/system/output_files.h).
 #pragma once
 
 #include <cstddef>
@@ -11,24 +13,6 @@
 #include <vector>
 
 namespace rubble {
-
-// A final name and the temporary one beside it, for a library that opens files by itself.
-class PendingPath {
- public:
-  explicit PendingPath(std::string final_path);
-  ~PendingPath();  // without commit(): removes the temporary file
-  PendingPath(const PendingPath&) = delete;
-  PendingPath& operator=(const PendingPath&) = delete;
-
-  const std::string& part() const { return part_; }
-  const std::string& path() const { return path_; }
-  // Flushes the temporary file to the disk and renames it. Throws RunError.
-  void commit();
-
- private:
-  std::string path_, part_;
-  bool committed_ = false;
-};
 
 // A buffered binary file. Every call throws RunError, with path and reason, on any failure.
 class AtomicFile {
@@ -43,14 +27,15 @@ class AtomicFile {
   // Replaces bytes that were written before, e.g. a header with offsets known at the end.
   void overwrite(std::uint64_t offset, std::string_view bytes);
   std::uint64_t size() const { return size_; }  // bytes written so far
-  const std::string& path() const { return pending_.path(); }
+  const std::string& path() const { return path_; }
   void commit();  // nothing may be written afterwards
 
  private:
   void flush();
 
-  PendingPath pending_;
+  std::string path_, part_;
   int descriptor_ = -1;
+  bool committed_ = false;
   std::uint64_t size_ = 0;
   std::vector<char> buffer_;
 };
@@ -73,5 +58,11 @@ std::string read_whole_file(const std::string& path);
 // those names, and their ".part", are removed; any other file stays untouched.
 void prepare_output_folder(const std::string& folder, bool force,
                            const std::vector<std::string>& outputs);
+
+// Throws InputError when one of these files is in the folder, unless `force`: somebody else may have written it.
+void refuse_to_replace(const std::string& folder, const std::vector<std::string>& names, bool force);
+
+// Where a command writes: `asked`, or, if that is empty, DATASET/NAME, which is made there and must be no link.
+std::string output_folder_of(const std::string& asked, const std::string& dataset, const std::string& name);
 
 }  // namespace rubble

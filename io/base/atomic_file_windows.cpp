@@ -16,26 +16,15 @@ namespace {
 
 }  // namespace
 
-PendingPath::PendingPath(std::string final_path) : path_(std::move(final_path)), part_(path_ + ".part") {}
-
-PendingPath::~PendingPath() {
-  std::error_code ignored;
-  if (!committed_) std::filesystem::remove(part_, ignored);
-}
-
-void PendingPath::commit() {
-  std::error_code failed;
-  std::filesystem::rename(part_, path_, failed);
-  if (failed) fail("give its final name to", part_, failed.message());
-  committed_ = true;
-}
-
 // All is kept until commit(): these files are small.
-AtomicFile::AtomicFile(const std::string& final_path) : pending_(final_path) {
+AtomicFile::AtomicFile(const std::string& final_path) : path_(final_path), part_(final_path + ".part") {
   std::error_code failed;
   if (std::filesystem::is_directory(final_path, failed)) fail("create", final_path, "it is a folder");
 }
-AtomicFile::~AtomicFile() = default;
+AtomicFile::~AtomicFile() {
+  std::error_code ignored;
+  if (!committed_) std::filesystem::remove(part_, ignored);
+}
 
 void AtomicFile::write(const void* data, std::size_t size) {
   const char* bytes = static_cast<const char*>(data);
@@ -48,11 +37,14 @@ void AtomicFile::overwrite(std::uint64_t offset, std::string_view bytes) {
 }
 
 void AtomicFile::commit() {
-  std::FILE* file = std::fopen(pending_.part().c_str(), "wb");
-  if (!file) fail("create", pending_.part(), "it cannot be opened");
+  std::FILE* file = std::fopen(part_.c_str(), "wb");
+  if (!file) fail("create", part_, "it cannot be opened");
   const bool written = std::fwrite(buffer_.data(), 1, buffer_.size(), file) == buffer_.size();
-  if (std::fclose(file) != 0 || !written) fail("write", pending_.part(), "the disk may be full");
-  pending_.commit();
+  if (std::fclose(file) != 0 || !written) fail("write", part_, "the disk may be full");
+  std::error_code failed;
+  std::filesystem::rename(part_, path_, failed);
+  if (failed) fail("give its final name to", part_, failed.message());
+  committed_ = true;
 }
 
 void write_text_file(const std::string& path, std::string_view text) {

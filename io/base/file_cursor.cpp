@@ -3,14 +3,14 @@
 #include <filesystem>
 
 #include "kernel/base/error.h"
+#include "kernel/base/read_file.h"
 
 namespace rubble {
 
 FileCursor::FileCursor(const std::string& path) {
   std::error_code failed;
-  if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed))
-    throw InputError({path, 0, "", "cannot be read", "a file", "a pipe, folder or device", ""});
-  in_.open(path, std::ios::binary);  // opening a pipe would wait for its writer
+  refuse_endless_file(path);
+  in_.open(path, std::ios::binary);
   size_ = std::filesystem::file_size(path, failed);
   if (!in_ || failed)
     throw InputError({path, 0, "", "cannot be read", "a file",

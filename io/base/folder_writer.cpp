@@ -1,10 +1,13 @@
 #include "io/base/folder_writer.h"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <memory>
 
 #include "io/base/atomic_file.h"
 #include "kernel/base/error.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 
@@ -16,19 +19,19 @@ FolderWriter::FolderWriter(std::string final_path, const std::vector<std::string
   std::error_code error;
   if (fs::exists(fs::symlink_status(path_, error)))
     throw RunError("cannot create " + path_ + ": something of that name is there");
-  fs::remove_all(part_, error);
-  fs::create_directory(part_, error);
-  for (const std::string& folder : folders)
-    if (!error) fs::create_directories(fs::path(part_) / folder, error);
-  if (!error) return;
-  std::error_code ignored;
-  fs::remove_all(part_, ignored);  // the destructor will not run
-  throw RunError("cannot create " + part_ + ": " + error.message());
+  lock_ = create_locked_folder(part_);
+  try {
+    for (const std::string& folder : folders) make_folder_below(part_, folder);
+  } catch (...) {
+    remove_output_folder(part_);  // the destructor will not run
+    close(lock_);
+    throw;
+  }
 }
 
 FolderWriter::~FolderWriter() {
-  std::error_code ignored;
-  if (!finished_) fs::remove_all(part_, ignored);
+  if (!finished_) remove_output_folder(part_);
+  close(lock_);
 }
 
 void FolderWriter::write(const std::string& name, std::string_view bytes) {

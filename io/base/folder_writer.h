@@ -16,7 +16,7 @@ namespace rubble {
 class FolderWriter {
  public:
   // Creates "NAME.part" with `folders` in it; one left by a run that was killed is replaced. Throws
-  // RunError when it cannot, or when something of the final name is there.
+  // RunError when it cannot, when another process is writing it, or when something of the final name is there.
   FolderWriter(std::string final_path, const std::vector<std::string>& folders, int threads);
   ~FolderWriter();  // without finish(): removes everything
   FolderWriter(const FolderWriter&) = delete;
@@ -32,6 +32,7 @@ class FolderWriter {
 
  private:
   std::string path_, part_;
+  int lock_ = -1;  // on "NAME.part"
   bool finished_ = false;
   OrderedTasks tasks_;
 };

@@ -27,6 +27,17 @@ inline std::string seconds_text(std::int64_t stamp_ns) {
   return std::to_string(stamp_ns / kSecond) + "." + digits.substr(1);
 }
 
+// The same with ten digits before the point, and nanoseconds with nineteen digits: sort by name as by number, and are
+// as long as stamps of today.
+inline std::string sorted_stamp_text(std::int64_t stamp_ns) {
+  const std::string digits = std::to_string(stamp_ns);
+  return digits.size() < 19 ? std::string(19 - digits.size(), '0') + digits : digits;
+}
+inline std::string sorted_seconds_text(std::int64_t stamp_ns) {
+  const std::string digits = sorted_stamp_text(stamp_ns);
+  return digits.substr(0, digits.size() - 9) + "." + digits.substr(digits.size() - 9);
+}
+
 // 7 as "000007": sorts by name as by number.
 inline std::string index_text(int index) {
   const std::string digits = std::to_string(index);

@@ -97,12 +97,12 @@ class EurocRecorder : public Recorder {
     Seen& seen = seen_[std::size_t(frame.sensor)];
     if (frame.index == 0) seen.first = header_of(frame);
     if (frame.index == 1) seen.period_ns = frame.stamp_ns - seen.first.stamp_ns;
-    const std::string name = std::to_string(frame.stamp_ns) + ".png";
+    const std::string stamp = sorted_stamp_text(frame.stamp_ns), name = stamp + ".png";  // programs make the one of the other
     for (const EurocCamera& c : cameras_)
       if (c.camera == frame.sensor)
         add_picture("mav0/" + c.name + "/data/" + name, frame,
                     c.right ? frame.rgb_right : frame.rgb);
-    seen.pictures += std::to_string(frame.stamp_ns) + "," + name + "\n";
+    seen.pictures += stamp + "," + name + "\n";
     if (frame.stamp_ns != last_state_ns_) add_state(frame);
   }
 

@@ -56,7 +56,7 @@ class TumRecorder : public Recorder {
     order_.check(frame);
     if (frame.index == 0) write_calibration(frame.intrinsics);
     const Intrinsics& k = frame.intrinsics;
-    const std::string stamp = seconds_text(frame.stamp_ns), name = stamp + ".png";
+    const std::string stamp = seconds_text(frame.stamp_ns), name = sorted_seconds_text(frame.stamp_ns) + ".png";
     folder_.add("rgb/" + name,
                 [image = RgbImage{k.width, k.height, frame.rgb}] { return encode_png(image); });
     add_depth("depth/" + name, frame,

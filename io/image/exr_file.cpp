@@ -12,6 +12,7 @@
 
 #include "io/image/isolated_picture.h"
 #include "kernel/base/error.h"
+#include "kernel/base/read_file.h"
 
 namespace rubble {
 namespace {
@@ -77,6 +78,7 @@ void read_channel(Imf::InputFile& file, const std::string& name, int width, int 
 }
 
 ExrImage import_exr(const std::string& path, const std::vector<std::string>& channels) {
+  refuse_endless_file(path);
   try {
     Imf::InputFile file(path.c_str(), 0);
     const auto window = file.header().dataWindow();

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 
 #include "io/base/atomic_file.h"
 #include "io/mesh/pile_export.h"
+#include "kernel/base/system/output_files.h"
+#include "kernel/base/text.h"
 
 namespace rubble {
 namespace {
@@ -38,13 +39,13 @@ void put_face(std::string& text, const std::array<std::uint32_t, 3>& v, std::siz
 // Faces of one surface together: a `usemtl` for each change would make thousands of groups.
 void put_obj_object(std::string& text, const PileModel::Piece& piece, const TriangleMesh& mesh,
                     const WeldedMesh& welded, std::size_t& vertices, std::size_t& normals) {
-  text += "o " + piece.name + "\n";
+  text += "o " + one_line(piece.name) + "\n";
   for (const Vec3f& p : welded.positions) put_vector(text, "v", world_position(piece, p));
   for (const Vec3f& n : mesh.normals)
     put_vector(text, "vn", Vec3f(piece.world_from_body.rotation.rotate(Vec3(n))));
   const std::size_t surfaces = std::max<std::size_t>(1, mesh.surface_names.size());
   for (std::size_t s = 0; s < surfaces; ++s) {
-    if (s < mesh.surface_names.size()) text += "usemtl " + mesh.surface_names[s] + "\n";
+    if (s < mesh.surface_names.size()) text += "usemtl " + one_line(mesh.surface_names[s]) + "\n";
     for (std::size_t i = 0; i < welded.triangles.size(); ++i) {
       if (welded.surfaces[i] != s) continue;
       put_face(text, welded.triangles[i], vertices,
@@ -63,7 +64,7 @@ std::string make_mtl(const PileModel& model) {
   names.erase(std::unique(names.begin(), names.end()), names.end());
   std::string text = kComment;
   for (const std::string& name : names) {
-    text += "newmtl " + name + "\n";
+    text += "newmtl " + one_line(name) + "\n";
     put_vector(text, "Kd", model.colour_of(name));
     text += "Ks 0 0 0\nillum 1\n";
   }
@@ -90,7 +91,7 @@ void write_obj(const std::string& path, const PileModel& model) {
   try {
     file.commit();
   } catch (...) {  // neither is of use without the other
-    std::remove((stem + ".mtl").c_str());
+    remove_output_file(stem + ".mtl");
     throw;
   }
 }

@@ -20,6 +20,8 @@ void write_ply(const std::string& path, const PileModel& model);
 void write_obj(const std::string& path, const PileModel& model);  // and .mtl for .obj
 void write_glb(const std::string& path, const PileModel& model);
 void write_sdf(const std::string& folder, const PileModel& model);
+// Whether write_sdf() may have written it. name: relative to its folder.
+bool is_sdf_file(const std::string& name);
 
 // What a format's size depends on. A mesh counts once for each piece that has it in `triangles`,
 // and once at all in `type_triangles`.

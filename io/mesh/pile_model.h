@@ -34,6 +34,7 @@ struct PileModel {
   std::vector<Type> types;                          // each with its mesh once
   std::vector<Piece> pieces;                        // in the order of the pile
   std::vector<PlainAppearance> surface_appearance;  // a surface without one is grey
+  double gravity = 9.81;  // in which the pile settled, downwards; unit: m/s2
 
   Vec3f colour_of(const std::string& surface) const;
 };

@@ -37,14 +37,13 @@ std::vector<std::array<std::uint8_t, 3>> colours_of(const PileModel& model,
   return colours;
 }
 
-void put_vertices(std::string& bytes, const PileModel::Piece& piece, std::int32_t number,
-                  const WeldedMesh& welded,
+void put_vertices(std::string& bytes, const PileModel::Piece& piece, const WeldedMesh& welded,
                   const std::vector<std::array<std::uint8_t, 3>>& colours) {
   for (std::size_t v = 0; v < welded.positions.size(); ++v) {
     const Vec3f p = world_position(piece, welded.positions[v]);
     for (int i = 0; i < 3; ++i) put(bytes, p[i]);
     for (const std::uint8_t c : colours[v]) put(bytes, c);
-    put(bytes, number);
+    put(bytes, piece.number);
   }
 }
 
@@ -68,11 +67,9 @@ void write_ply(const std::string& path, const PileModel& model) {
   AtomicFile file(path);
   file.write(header(vertices, faces));
   std::string bytes;
-  for (std::size_t n = 0; n < model.pieces.size(); ++n) {
-    const PileModel::Piece& piece = model.pieces[n];
+  for (const PileModel::Piece& piece : model.pieces) {
     bytes.clear();
-    put_vertices(bytes, piece, static_cast<std::int32_t>(n), welded[piece.type],
-                 colours[piece.type]);
+    put_vertices(bytes, piece, welded[piece.type], colours[piece.type]);
     file.write(bytes);
   }
   std::uint32_t first = 0;

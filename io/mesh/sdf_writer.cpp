@@ -4,6 +4,7 @@
 #include "io/base/xml_text.h"
 #include "io/mesh/obj_writer.h"
 #include "io/mesh/pile_export.h"
+#include "kernel/base/text.h"
 
 namespace rubble {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 constexpr char kBegin[] = R"(<?xml version="1.0"?>
 <sdf version="1.9">
   <world name="rubble">
-    <gravity>0 0 -9.81</gravity>
+    <gravity>0 0 -%</gravity>
     <light name="sun" type="directional">
       <pose>0 0 20 0 0 0</pose>
       <diffuse>0.9 0.9 0.9 1</diffuse>
@@ -41,7 +42,7 @@ std::string model_element(const PileModel::Piece& piece, const std::string& mesh
   const Vec3& t = piece.world_from_body.translation;
   const Quat& q = piece.world_from_body.rotation;
   const std::string geometry =
-      "          <geometry><mesh><uri>meshes/" + xml_text(mesh) + ".obj</uri><scale>" +
+      "          <geometry><mesh><uri>meshes/" + xml_text(file_name_of(mesh)) + ".obj</uri><scale>" +
       numbers({piece.scale, piece.scale, piece.scale}) + "</scale></mesh></geometry>\n";
   return "    <model name=\"" + xml_text(piece.name) +
          "\">\n      <static>true</static>\n      <pose rotation_format=\"quat_xyzw\">" +
@@ -65,16 +66,24 @@ std::string mesh_obj(const PileModel& model, std::uint32_t type) {
 
 }  // namespace
 
+bool is_sdf_file(const std::string& name) {
+  const auto ends = [&name](const std::string& end) {
+    return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+  };
+  return name == "pile.sdf" || (name.compare(0, 7, "meshes/") == 0 && (ends(".obj") || ends(".mtl")));
+}
+
 void write_sdf(const std::string& folder, const PileModel& model) {
   FolderWriter files(folder, {"meshes"}, 1);
   std::string world = kBegin;
+  world.replace(world.find('%'), 1, exact_text(model.gravity));
   for (const PileModel::Piece& piece : model.pieces)
     world += model_element(piece, model.types[piece.type].name);
   world += "  </world>\n</sdf>\n";
   files.write("pile.sdf", world);
   files.write("meshes/materials.mtl", make_mtl(model));
   for (std::uint32_t type = 0; type < model.types.size(); ++type)
-    files.write("meshes/" + model.types[type].name + ".obj", mesh_obj(model, type));
+    files.write("meshes/" + file_name_of(model.types[type].name) + ".obj", mesh_obj(model, type));
   files.finish();
 }
 

@@ -9,6 +9,7 @@
 
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/base/error.h"
+#include "kernel/base/read_file.h"
 #include "kernel/base/system/isolated_worker.h"
 
 namespace rubble {
@@ -59,6 +60,7 @@ RecordedPicture picture_of(const mrpt::obs::CObservation& observation, bool colo
 // Of no pixels: there is none.
 RecordedPicture import_picture(const std::string& path, const std::string& label,
                                const PictureWanted& wanted) {
+  refuse_endless_file(path);
   try {
     mrpt::io::CFileGZInputStream file;
     if (!file.open(path)) throw std::runtime_error("no such file");

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 
 #include "io/base/number_text.h"
 #include "io/image/exr_file.h"
@@ -12,6 +12,7 @@
 #include "io/playback/rawlog_pictures.h"
 #include "io/playback/ros_pictures.h"
 #include "kernel/base/error.h"
+#include "kernel/base/read_file.h"
 #include "render/streams/image_streams.h"
 
 namespace rubble {
@@ -80,7 +81,7 @@ Found from_frames(const std::string& folder, Wanted wanted) {
 
 // The file of a row of a TUM list, such as rgb.txt; empty: it has not so many.
 std::string name_in_list(const std::string& list, int row) {
-  std::ifstream in(list);
+  std::istringstream in(read_file(list));
   for (std::string line; std::getline(in, line);)
     if (!line.empty() && line[0] != '#' && row-- == 0) return line.substr(line.find(' ') + 1);
   return "";

@@ -6,6 +6,7 @@
 #include "io/base/number_text.h"
 #include "io/base/xml_text.h"
 #include "kernel/base/portable_math.h"
+#include "kernel/base/text.h"
 
 namespace rubble {
 namespace {
@@ -109,11 +110,11 @@ std::string frame_text(const RobotModel& model, const RobotFrame& frame) {
 }  // namespace
 
 std::string link_mesh_file(const std::string& folder, const std::string& link) {
-  return folder + "/" + link + ".stl";
+  return folder + "/" + file_name_of(link) + ".stl";
 }
 
 std::string part_mesh_file(const std::string& folder, const std::string& link, std::size_t part) {
-  return folder + "/" + link + "_part_" + std::to_string(part) + ".stl";
+  return folder + "/" + file_name_of(link) + "_part_" + std::to_string(part) + ".stl";
 }
 
 std::string robot_to_urdf(const RobotModel& model, const std::string& name, const std::string& folder,

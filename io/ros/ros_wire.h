@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "io/base/little_endian.h"
+#include "kernel/base/error.h"
 
 namespace rubble::ros {
 
@@ -44,8 +45,14 @@ class Wire {
     count(value.size());
     bytes_.append(value);
   }
-  // stamp_ns: >= 0, seconds below 2^31 (ROS 2) or 2^32 (ROS 1).
+  // Seconds have 32 bits: with a sign in ROS 2, until 19 January 2038; without in ROS 1, until 2106. Throws RunError
+  // for a stamp that does not fit.
   void time(std::int64_t stamp_ns) {
+    const std::int64_t limit = std::int64_t{1} << (version_ == Version::ros2 ? 31 : 32);
+    if (stamp_ns < 0 || stamp_ns / 1000000000 >= limit)
+      throw RunError("a message of ROS " + std::string(version_ == Version::ros2 ? "2" : "1") +
+                     " cannot hold the stamp " + std::to_string(stamp_ns) + " ns: its seconds end at " +
+                     std::to_string(limit - 1) + "; begin earlier (start_ns)");
     number(static_cast<std::uint32_t>(stamp_ns / 1000000000));
     number(static_cast<std::uint32_t>(stamp_ns % 1000000000));
   }

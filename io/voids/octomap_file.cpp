@@ -5,6 +5,7 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/number_text.h"
+#include "kernel/base/hash.h"
 
 namespace rubble {
 namespace {
@@ -89,7 +90,7 @@ class TreeWriter {
 void write_octomap(const std::string& path, const VoidSpace& space) {
   TreeWriter tree(space);
   tree.run();
-  write_text_file(path, "# Octomap OcTree binary file\nid OcTree\nsize " +
+  write_text_file(path, "# Octomap OcTree binary file\n# pile state " + hex64(space.pile_state) + "\nid OcTree\nsize " +
                             std::to_string(tree.nodes) + "\nres " + exact_text(space.grid.voxel) +
                             "\ndata\n" + tree.bytes);
 }

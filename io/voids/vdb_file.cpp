@@ -25,18 +25,19 @@ openvdb::math::Transform::Ptr make_transform(const VoxelGrid& grid) {
 }
 
 template <typename Grid>
-typename Grid::Ptr make_grid(const VoxelGrid& voxels, const std::string& name,
+typename Grid::Ptr make_grid(const VoidSpace& space, const std::string& name,
                              typename Grid::ValueType background) {
   typename Grid::Ptr grid = Grid::create(background);
   grid->setName(name);
-  grid->setTransform(make_transform(voxels));
+  grid->setTransform(make_transform(space.grid));
   grid->setSaveFloatAsHalf(false);
+  grid->insertMeta("pile_state_hash", openvdb::StringMetadata(hex64(space.pile_state)));
   return grid;
 }
 
 openvdb::FloatGrid::Ptr make_float_grid(const VoidSpace& space, const std::vector<float>& values,
                                         const std::string& name) {
-  auto grid = make_grid<openvdb::FloatGrid>(space.grid, name, 0.0f);
+  auto grid = make_grid<openvdb::FloatGrid>(space, name, 0.0f);
   auto accessor = grid->getAccessor();
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (space.kind[i] == CellKind::free_void)
@@ -47,7 +48,7 @@ openvdb::FloatGrid::Ptr make_float_grid(const VoidSpace& space, const std::vecto
 }
 
 openvdb::BoolGrid::Ptr make_solid_grid(const VoidSpace& space) {
-  auto grid = make_grid<openvdb::BoolGrid>(space.grid, "solid", false);
+  auto grid = make_grid<openvdb::BoolGrid>(space, "solid", false);
   auto accessor = grid->getAccessor();
   for (std::size_t i = 0; i < space.kind.size(); ++i) {
     if (space.kind[i] == CellKind::solid) accessor.setValue(to_coord(space.grid.cell(i)), true);
@@ -58,7 +59,7 @@ openvdb::BoolGrid::Ptr make_solid_grid(const VoidSpace& space) {
 
 openvdb::Int32Grid::Ptr make_label_grid(const VoidSpace& space, const RobotVoids& robot) {
   const std::string name = "voids_r" + std::to_string(int(std::lround(robot.radius * 1000)));
-  auto grid = make_grid<openvdb::Int32Grid>(space.grid, name, 0);
+  auto grid = make_grid<openvdb::Int32Grid>(space, name, 0);
   auto accessor = grid->getAccessor();
   for (std::size_t v = 0; v < robot.voids.size(); ++v) {
     for (const std::uint32_t i : robot.voids[v].cells)

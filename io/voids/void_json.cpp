@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "kernel/base/hash.h"
+
 namespace rubble {
 namespace {
 
@@ -74,6 +76,7 @@ std::string make_void_json(const VoidMap& map) {
   Json robots = Json::array();
   for (const RobotVoids& robot : map.robots) robots.push_back(describe(robot));
   const Json json{{"format", 1},
+                  {"pile_state_hash", hex64(map.space.pile_state)},
                   {"voxel", grid.voxel},
                   {"rolling_radius", map.space.rolling_radius},
                   {"grid", {{"corner", point(grid.corner)}, {"size", grid.size}}},

@@ -10,6 +10,7 @@
 
 #include "io/base/atomic_file.h"
 #include "io/voids/vdb_grids.h"
+#include "kernel/base/hash.h"
 
 namespace rubble {
 
@@ -61,6 +62,8 @@ void add_faces(const std::vector<openvdb::Vec4I>& quads, const std::vector<std::
   std::sort(mesh.triangles.begin(), mesh.triangles.end());
 }
 
+constexpr const char* kBegin = "ply\nformat binary_little_endian 1.0\ncomment pile state ";
+
 }  // namespace
 
 TriangleMesh make_void_surface(const VoidSpace& space, const Void& v) {
@@ -79,9 +82,9 @@ TriangleMesh make_void_surface(const VoidSpace& space, const Void& v) {
   return mesh;
 }
 
-void write_ply(const std::string& path, const TriangleMesh& mesh) {
+void write_void_surface(const std::string& path, const TriangleMesh& mesh, std::uint64_t pile_state) {
   AtomicFile file(path);
-  file.write("ply\nformat binary_little_endian 1.0\nelement vertex " +
+  file.write(kBegin + hex64(pile_state) + "\nelement vertex " +
              std::to_string(mesh.positions.size()) +
              "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
              std::to_string(mesh.triangles.size()) +
@@ -94,6 +97,11 @@ void write_ply(const std::string& path, const TriangleMesh& mesh) {
     file.write(t.data(), sizeof t);
   }
   file.commit();
+}
+
+bool is_void_surface_of(const std::string& path, std::uint64_t pile_state) {
+  const std::string begin = kBegin + hex64(pile_state) + "\n";
+  return read_whole_file(path).compare(0, begin.size(), begin) == 0;
 }
 
 }  // namespace rubble

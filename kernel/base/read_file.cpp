@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <filesystem>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -93,6 +94,13 @@ class Reader {
 
 std::string read_file(const std::string& path, std::uint64_t limit) {
   return Reader(path).read_all(limit);
+}
+
+void refuse_endless_file(const std::string& path) {
+  std::error_code failed;
+  const std::filesystem::file_status status = std::filesystem::status(path, failed);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw InputError({path, 0, "", "cannot be read", "a file", "a pipe, folder or device", ""});
 }
 
 }  // namespace rubble

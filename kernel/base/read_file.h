@@ -11,4 +11,8 @@ namespace rubble {
 // that nobody writes to, or holds more than `limit` bytes.
 std::string read_file(const std::string& path, std::uint64_t limit = ~std::uint64_t{0});
 
+// For files that are read in parts, or by a library: opening a pipe would wait for its writer. Throws InputError for
+// a pipe, folder or device; what is not there is left to whoever opens it.
+void refuse_endless_file(const std::string& path);
+
 }  // namespace rubble

@@ -25,4 +25,11 @@ std::string read_file(const std::string& path, std::uint64_t limit) {
   return content;
 }
 
+void refuse_endless_file(const std::string& path) {
+  std::error_code failed;
+  const std::filesystem::file_status status = std::filesystem::status(path, failed);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw InputError({path, 0, "", "cannot be read", "a file", "a pipe, folder or device", ""});
+}
+
 }  // namespace rubble

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "kernel/base/hash.h"
+
 namespace rubble {
 namespace {
+
+constexpr std::size_t kLongestName = 100;  // unit: byte
 
 std::uint8_t byte_at(std::string_view text, std::size_t i) {
   return i < text.size() ? std::uint8_t(text[i]) : std::uint8_t(0);
@@ -74,6 +78,38 @@ std::string printable(std::string_view text) {
     }
   }
   return shown;
+}
+
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : printable(text)) {
+    if (c == '\n')
+      line += "\\x0a";
+    else if (c == '\t')
+      line += "\\x09";
+    else
+      line += c;
+  }
+  return line;
+}
+
+std::string find_name_fault(std::string_view name) {
+  if (name.empty()) return "is empty";
+  if (name.size() > kLongestName) return "has more than 100 bytes";
+  if (find_invalid_utf8(name) != std::string_view::npos) return "is not UTF-8";
+  if (one_line(name) != name) return "has control characters";
+  if (name.find_first_of("/\\") != std::string_view::npos) return "has a slash or backslash";
+  return name[0] == '.' ? "begins with a dot" : "";
+}
+
+std::string file_name_of(std::string_view name) {
+  if (find_name_fault(name).empty()) return std::string(name);
+  std::string plain;
+  for (const char c : name.substr(0, kLongestName / 2)) {
+    const bool kept = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    plain += kept ? c : '_';
+  }
+  return plain + "_" + hex64(hash64(name));
 }
 
 }  // namespace rubble

@@ -36,6 +36,7 @@ VoidSpace crop_to_pile(const VoidSpace& space, double margin) {
   VoidSpace result;
   result.grid.voxel = space.grid.voxel;
   result.rolling_radius = space.rolling_radius;
+  result.pile_state = space.pile_state;
   for (std::size_t k = 0; k < 3; ++k) {
     box.first[k] = std::max(0, box.first[k] - more);
     box.last[k] = std::min(space.grid.size[k] - 1, box.last[k] + more);

@@ -325,7 +325,9 @@ VoidSpace calc_void_space(const PileState& pile, const std::vector<const Triangl
   options.validate();
   Solids solids = place_solids(pile, meshes);
   check_memory(solids, options);
-  return Builder(std::move(solids), options, progress).build();
+  VoidSpace space = Builder(std::move(solids), options, progress).build();
+  space.pile_state = pile.state_hash();
+  return space;
 }
 
 }  // namespace rubble

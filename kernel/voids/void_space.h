@@ -49,6 +49,7 @@ struct VoidSpace {
   // Never too small; unit: m.
   std::vector<float> clearance;
   double rolling_radius = kOutsideRadius;  // as asked; unit: m
+  std::uint64_t pile_state = 0;            // PileState::state_hash() of the pile that it is of
 
   double cell_volume() const { return grid.voxel * grid.voxel * grid.voxel; }  // unit: m3
   double volume(CellKind wanted) const;                                        // unit: m3

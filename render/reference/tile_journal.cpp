@@ -1,13 +1,11 @@
 #include "render/reference/tile_journal.h"
 
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <type_traits>
 
+#include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 
@@ -36,12 +34,16 @@ std::string record_of(std::uint32_t tile, const std::vector<PixelSums>& sums) {
 
 TileJournal::TileJournal(const std::string& folder, const std::string& key) {
   if (folder.empty()) return;
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) return;
-  path_ = folder + "/" + key + ".tiles";
-  std::ifstream in(path_, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  std::string bytes;
+  try {
+    make_output_folder(folder);
+    path_ = folder + "/" + key + ".tiles";
+    file_ = std::make_unique<AppendedFile>(path_);
+    bytes = file_->read_all();
+  } catch (const std::runtime_error&) {  // what cannot be kept is traced again
+    file_.reset();
+    return;
+  }
   std::string_view rest(bytes);
   RecordHead head;
   while (rest.size() >= sizeof head) {
@@ -56,7 +58,7 @@ TileJournal::TileJournal(const std::string& folder, const std::string& key) {
     rest.remove_prefix(size);
   }
   // What a kill cut off must not stand before the records to come.
-  if (!rest.empty()) std::filesystem::resize_file(path_, bytes.size() - rest.size(), failed);
+  if (!rest.empty()) file_->cut(bytes.size() - rest.size());
 }
 
 const std::vector<PixelSums>* TileJournal::find(std::uint32_t tile, std::size_t pixels) const {
@@ -65,17 +67,19 @@ const std::vector<PixelSums>* TileJournal::find(std::uint32_t tile, std::size_t 
 }
 
 void TileJournal::note(std::uint32_t tile, const std::vector<PixelSums>& sums) {
-  if (path_.empty()) return;
+  if (!file_) return;
   const std::string record = record_of(tile, sums);
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::FILE* file = std::fopen(path_.c_str(), "ab");
-  if (!file) return;
-  std::fwrite(record.data(), 1, record.size(), file);
-  std::fclose(file);
+  try {
+    file_->append(record);
+  } catch (const RunError&) {
+  }
 }
 
 void TileJournal::remove() {
-  if (!path_.empty()) std::remove(path_.c_str());
+  if (!file_) return;
+  file_.reset();
+  remove_output_file(path_);
 }
 
 }  // namespace rubble

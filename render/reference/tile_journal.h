@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "kernel/base/system/output_files.h"
 #include "render/reference/path_tracer.h"
 
 namespace rubble {
@@ -25,7 +27,8 @@ class TileJournal {
   void remove();  // the image is finished
 
  private:
-  std::string path_;  // "": keeps nothing
+  std::string path_;
+  std::unique_ptr<AppendedFile> file_;  // null: keeps nothing
   std::unordered_map<std::uint32_t, std::vector<PixelSums>> tiles_;
   std::mutex mutex_;
 };

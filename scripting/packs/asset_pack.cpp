@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "kernel/base/text.h"
 #include "scripting/packs/asset_links.h"
 #include "scripting/packs/pack_schema.h"
 #include "scripting/sandbox/script_file.h"
@@ -95,6 +96,9 @@ class PackBuilder {
 
  private:
   void check_name(std::size_t i, const std::string& name) {
+    if (const std::string fault = find_name_fault(name); !fault.empty())
+      mistakes_.push_back({"", 0, asset_key(i, "name"), "the name " + fault, kNameRule, "\"" + name + "\"",
+                           "names of assets become names of files and labels"});
     if (!names_.insert(name).second)
       mistakes_.push_back({"", 0, asset_key(i, "name"), "two assets have the name `" + name + "`",
                            "", "", "rename one of them"});

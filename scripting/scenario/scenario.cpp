@@ -125,6 +125,15 @@ void check_record_settling(const RecordSettlingScenario& r, std::vector<Diagnost
     add("look_at", "is where the camera is", "a point 0.01 m away or farther", "");
 }
 
+// A run that reaches the limit later ends there with an error.
+void check_stamps(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  constexpr std::int64_t kEnd = std::int64_t{1} << 31;  // builtin_interfaces/Time has 32 bits with a sign; unit: s
+  if (!scenario.outputs.mcap || scenario.start_ns / 1000000000 < kEnd) return;
+  mistakes.push_back({"", 0, "start_ns", "too late for the stamps of ROS 2, which outputs.mcap holds",
+                      "before 2147483648000000000 (19 January 2038)", std::to_string(scenario.start_ns),
+                      "begin earlier, or set outputs.mcap = false"});
+}
+
 // What can be told before there is a pile.
 void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   const TrajectorySpec spec = flown_trajectory(scenario);
@@ -158,6 +167,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_lidars(scenario, mistakes);
   check_sensor_names(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
+  check_stamps(scenario, mistakes);
   check_record_settling(scenario.record_settling, mistakes);
   check_robots(scenario, mistakes);
   check_fines(scenario.fines, mistakes);

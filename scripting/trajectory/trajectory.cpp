@@ -281,6 +281,23 @@ static double table_step(double duration, double rate_hz) {
   return std::max(duration / kMostEntries, std::min(duration / 2000, 0.125 / rate_hz));
 }
 
+// Before a list of so many entries is made.
+static void check_size_of_path(const TrajectorySpec& spec, double duration, double knot) {
+  const double frames = duration * spec.rate_hz, knots = knot > 0 ? duration / knot : 0;
+  if (frames < kMostFrames && knots < kMostFrames) return;
+  const SpeedLimits& limits = spec.limits;
+  const char* const key = frames < kMostFrames       ? "trajectory.smoothing"
+                          : limits.max_speed         ? "trajectory.max_speed"
+                          : limits.max_turn_rate_deg ? "trajectory.max_turn_rate_deg"
+                          : limits.max_acceleration  ? "trajectory.max_acceleration"
+                          : limits.max_jerk          ? "trajectory.max_jerk"
+                                                     : "trajectory";
+  throw InputError({"", 0, key, "the path takes too long", "at most 10000000 frames, and as many steps of smoothing",
+                    format_number(duration) + " s, " + format_number(std::floor(frames)) + " frames at " +
+                        format_number(spec.rate_hz) + " Hz",
+                    limits.any() ? "the limits slow the path down; speeds are in m/s" : ""});
+}
+
 CameraPath::CameraPath(const TrajectorySpec& spec) {
   std::vector<Diagnostic> mistakes = find_mistakes(spec);
   for (std::size_t i = 0; i < spec.waypoints.size(); ++i)
@@ -296,6 +313,7 @@ CameraPath::CameraPath(const TrajectorySpec& spec) {
                      table_step(asked_duration_, spec.rate_hz), spec.limits, spec.rest_at_ends);
   const bool smooth = spec.limits.max_jerk || spec.rest_at_ends;
   knot_ = spec.smoothing.value_or(smooth ? kUsualSmoothing : 0);
+  check_size_of_path(spec, scale_.duration(asked_duration_), knot_);
   if (!(knot_ > 0) || !(asked_duration_ > 0)) return;
   make_smooth(spec);
   if (spec.limits.max_jerk) fit_jerk(spec);
@@ -306,6 +324,7 @@ CameraPath::~CameraPath() = default;
 // The path before smoothing is walked at 1 / slower_ of its speed.
 void CameraPath::make_smooth(const TrajectorySpec& spec) {
   const double length = scale_.duration(asked_duration_);
+  check_size_of_path(spec, length * slower_, knot_);
   smooth_.emplace(
       [&](double t) { return curves_->at(own_time(std::min(t / slower_, length)).time); },
       length * slower_, knot_, spec.rest_at_ends ? PathEnds::at_rest : PathEnds::moving);
@@ -382,6 +401,9 @@ std::vector<CameraPose> sample_trajectory(const TrajectorySpec& spec, std::int64
 std::vector<CameraPose> sample_path(const MotionPath& path, double rate_hz, std::int64_t epoch_ns) {
   // A waypoint at 3.0 s gets its frame although 3.0 * 30 may round to just under 90.
   constexpr double kSlack = 1e-6;
+  if (!(path.duration() * rate_hz < kMostFrames))
+    throw InputError({"", 0, "rate_hz", "too many frames", "at most 10000000",
+                      format_number(rate_hz) + " Hz for " + format_number(path.duration()) + " s", ""});
   const auto last = static_cast<std::int64_t>(std::floor(path.duration() * rate_hz + kSlack));
   std::vector<CameraPose> poses;
   poses.reserve(std::size_t(last) + 1);

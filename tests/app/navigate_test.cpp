@@ -261,7 +261,7 @@ return rubble.mission {
 })");
   }
   Outcome navigate(const std::string& options) const {
-    return run_rubble("bench navigate " + (folder_ / "m.lua") + " --quiet --out " + (folder_ / "out") + " " + options);
+    return run_rubble("bench navigate " + (folder_ / "m.lua") + " --quiet --force --out " + (folder_ / "out") + " " + options);
   }
   ScratchFolder folder_;
 };
@@ -314,7 +314,7 @@ return rubble.mission {
 // In this pile the navigator alone drives to and fro before two blocks until it gives up.
 TEST_F(NavigationBench, WithAGlobalPlannerItArrivesWhereTheNavigatorAloneDoesNot) {
   const auto drive = [&](const std::string& options) {
-    const Outcome outcome = run_rubble("bench navigate scripts/navigate.lua --seeds 5 --quiet --json --out " + (folder_ / "out") + options);
+    const Outcome outcome = run_rubble("bench navigate scripts/navigate.lua --seeds 5 --quiet --json --force --out " + (folder_ / "out") + options);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return Json::parse(outcome.out, nullptr, false)["datasets"][0];
   };

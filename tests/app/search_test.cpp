@@ -3,13 +3,16 @@
 
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "app/eval/scores/confidence.h"
 #include "app/mission/finished_run.h"
 #include "app/pipeline/stages.h"
+#include "app/search/agent_process.h"
 #include "app/search/program_agent.h"
 #include "app/search/search_bench.h"
 #include "app/victims/place_victims.h"
@@ -209,7 +212,7 @@ class SearchBench : public ::testing::Test {
   void SetUp() override { write_file(folder_ / "m.lua", kMission); }
 
   Outcome search(const std::string& options) const {
-    return run_rubble("bench search " + (folder_ / "m.lua") + " --quiet --out " + (folder_ / "out") + " " + options);
+    return run_rubble("bench search " + (folder_ / "m.lua") + " --quiet --force --out " + (folder_ / "out") + " " + options);
   }
   static double value(const Json& table, std::size_t row, const char* key) {
     return table["datasets"][row][key].get<double>();
@@ -299,6 +302,47 @@ TEST(SearchAgents, ThatMisbehaveAreNamedAndEndTheirSearchOnly) {
     EXPECT_EQ(score.found, 0);
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 20) << command;
   }
+}
+
+// An agent may start helpers with sessions of their own, as roslaunch does: none of them is left. Each writes its number.
+TEST(SearchAgents, LeaveNoProcessBehind) {
+  const ScratchFolder folder;
+  const std::string helper = folder / "helper";
+  const auto helpers = [&] {
+    std::vector<int> numbers;
+    std::istringstream in(read_file(helper));
+    for (int number = 0; in >> number;) numbers.push_back(number);
+    return numbers;
+  };
+  const std::string start = "setsid sh -c 'echo $$ >>" + helper + "; exec sleep 1000' </dev/null >/dev/null 2>&1 & "
+                            "(setsid sh -c 'setsid sh -c \"echo \\$\\$ >>" + helper + "; exec sleep 1000\" & exit' </dev/null >/dev/null 2>&1 &) ; "
+                            "while [ $(wc -l <" + helper + ") -lt 2 ]; do sleep 0.02; done; ";
+  write_file(helper, "");
+  for (const char* end : {"read line; echo done", "sleep 1000", "exit 3", "trap '' TERM; read line; echo done; sleep 1000"}) {
+    write_file(helper, "");
+    {
+      AgentProcess agent(start + end, folder / "log");
+      const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+      while (helpers().size() < 2 && std::chrono::steady_clock::now() < until)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      if (std::string(end).find("echo done") != std::string::npos) {
+        agent.write_line("go", 10);
+        EXPECT_EQ(agent.read_line(10), "done");
+        agent.finish(0.2);
+      }
+    }
+    ASSERT_EQ(helpers().size(), 2u) << end;
+    for (const int number : helpers()) EXPECT_NE(kill(number, 0), 0) << end << ": process " << number << " is left";
+  }
+}
+
+TEST_F(SearchBench, ReplacesATableOnlyWhereItIsAsked) {
+  std::filesystem::create_directories(folder_ / "out");
+  write_file(folder_ / "out/table.csv", "mine");
+  const Outcome outcome = run_rubble("bench search " + (folder_ / "m.lua") + " --seeds 2 --baseline random --quiet --out " + (folder_ / "out"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("table.csv: is there already (--force replaces it)"), std::string::npos) << outcome.err;
+  EXPECT_EQ(read_file(folder_ / "out/table.csv"), "mine");
 }
 
 TEST_F(SearchBench, AnAgentThatDiesHasItsTableAndItsExitCode) {

@@ -59,15 +59,37 @@ TEST(Sweep, ALatinHypercubeHasOneSampleInEveryPartOfEveryRange) {
     for (const auto& variant : sweep.variants) {
       const double at = (std::stod(variant[key]) - low[key]) / width[key];
       ASSERT_TRUE(at >= 0 && at <= 1) << variant[key];
-      parts.insert(std::min(samples - 1, int(at * samples + 1e-4)));
+      parts.insert(std::min(samples - 1, int(at * samples + 1e-9)));
     }
-    EXPECT_GE(parts.size(), std::size_t(samples - 1)) << "six digits may round one into its neighbour";
+    EXPECT_EQ(parts.size(), std::size_t(samples));
   }
   for (const auto& variant : sweep.variants)
     product += (std::stod(variant[0]) - 1.5) / 2 * (std::stod(variant[1]) - 0.5);
   // Were both keys matched in order, it would be the variance of a uniform number, 1/12.
   EXPECT_LT(std::abs(product / samples), 0.5 / 12) << "the keys are matched at random";
   EXPECT_EQ(make_sweep({"fogdensity=0.5..2.5", "wetness=0..1"}, samples).variants, sweep.variants);
+}
+
+// Six digits do not tell the samples of a narrow range or of a stamp apart.
+TEST(Sweep, SamplesHaveAsManyDigitsAsTheirRangeNeeds) {
+  const struct { const char* key; double low, high; } ranges[] = {
+      {"start_ns", 1700000000000000000.0, 1700000001000000000.0},
+      {"light.position.x", 999.99991, 999.99999},
+      {"trajectory.rate_hz", 1e-3, 1.0000001e-3}};
+  for (const auto& range : ranges) {
+    char text[120];
+    std::snprintf(text, sizeof text, "%s=%.17g..%.17g", range.key, range.low, range.high);
+    std::set<int> parts;
+    for (const auto& variant : make_sweep({text}, 10).variants) {
+      const double at = (std::stod(variant[0]) - range.low) / (range.high - range.low);
+      ASSERT_TRUE(at >= 0 && at <= 1) << variant[0];
+      parts.insert(std::min(9, int(at * 10)));
+      if (range.low > 1e6) {
+        EXPECT_EQ(variant[0].find_first_not_of("0123456789"), std::string::npos) << variant[0];
+      }
+    }
+    EXPECT_EQ(parts.size(), 10u) << text;
+  }
 }
 
 TEST(Sweep, WholeNumbersStayWholeAndReachBothEnds) {

@@ -50,6 +50,41 @@ TEST_F(View, HoldsThePiecesTheWayAndPictures) {
     EXPECT_EQ(page.find(outside), std::string::npos) << outside << " leads out of the page";
 }
 
+// A triangle as `rubble voids` writes it.
+std::string make_surface(const std::string& pile_state) {
+  std::string text = "ply\nformat binary_little_endian 1.0\n" + pile_state +
+                     "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+                     "property list uchar uint vertex_indices\nend_header\n";
+  const float corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::uint32_t face[] = {0, 1, 2};
+  text.append(reinterpret_cast<const char*>(corners), sizeof corners).append(1, '\3');
+  return text.append(reinterpret_cast<const char*>(face), sizeof face);
+}
+
+// A folder may come from a stranger, and may have been run again.
+TEST_F(View, ShowsVoidsOfThisPileAloneAndFollowsNoLinks) {
+  const std::string state = read_state_hash(scratch / "a");
+  fs::create_directories(scratch / "a/voids");
+  write_file(scratch / "mine", "precious");
+  fs::create_symlink(scratch / "mine", scratch / "a/view.html.part");
+  write_file(scratch / "a/voids/void_r50_1.ply", make_surface("comment pile state " + state + "\n"));
+  const Outcome right = run_rubble("view " + (scratch / "a") + " --frames 0");
+  ASSERT_EQ(right.exit_code, 0) << right.err;
+  EXPECT_EQ(right.err, "");
+  EXPECT_EQ(data_of(read_file(scratch / "a/view.html")).at("voids").size(), 1u);
+  EXPECT_EQ(read_file(scratch / "mine"), "precious");
+  write_file(scratch / "a/voids/void_r50_1.ply", make_surface("comment pile state 0123456789abcdef\n"));
+  write_file(scratch / "a/voids/void_r50_2.ply", make_surface(""));
+  const Outcome stale = run_rubble("view " + (scratch / "a") + " --frames 0");
+  ASSERT_EQ(stale.exit_code, 0) << stale.err;
+  EXPECT_IN("warning: 2 surfaces in " + (scratch / "a") + "/voids are of another pile, or do not say of which", stale.err);
+  const std::string page = read_file(scratch / "a/view.html");
+  EXPECT_TRUE(data_of(page).at("voids").empty());
+  EXPECT_IN("not on this page: voids of another pile", page);
+  const Outcome again = run_rubble("settle " + (scratch / "tiny.lua") + " --seed 3 --force --quiet --out " + (scratch / "a"));
+  EXPECT_IN("view.html, voids were made of the earlier run", again.err);
+}
+
 TEST_F(View, SaysWhatIsWrong) {
   EXPECT_EQ(run_rubble("view " + (scratch / "none")).exit_code, 1);
   EXPECT_EQ(run_rubble("view " + (scratch / "a") + " --frames -1").exit_code, 1);

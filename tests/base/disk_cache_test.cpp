@@ -100,6 +100,31 @@ TEST_F(DiskCacheTest, StaysWithinItsBoundAndKeepsWhatWasUsedLast) {
   EXPECT_FALSE(cache.store("thing", key_of(9), std::string(20000, 'x')));  // larger than the bound
 }
 
+// The folder may be one that is used for other things, too.
+TEST_F(DiskCacheTest, LeavesTheFilesOfOthersAlone) {
+  const std::string hex(64, 'a');
+  const std::vector<std::string> others{"mine.part", "downloads/data.tar.part", "downloads/model.cache", "thing/notes.cache",
+                                        "thing/" + hex + ".cache", "thing/" + hex + ".part", "thing/deep/" + hex + ".cache",
+                                        "thing/" + hex + ".cache.1.x.part"};
+  for (const std::string& name : others) {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << std::string(5000, 'o');
+    fs::last_write_time(folder_ / name, fs::file_time_type::clock::now() - std::chrono::hours(1000));
+  }
+  fs::create_directories(folder_ / "elsewhere");
+  fs::create_directory_symlink(folder_ / "elsewhere", folder_ / "linked");
+  const std::string left = "thing/" + key_of(7) + ".cache.123.4.part";  // of a process that was killed
+  std::ofstream(folder_ / left) << "";
+  fs::last_write_time(folder_ / left, fs::file_time_type::clock::now() - std::chrono::hours(1000));
+  const DiskCache cache(folder_.string(), 10000);
+  for (int i = 0; i < 6; ++i) ASSERT_TRUE(cache.store("thing", key_of(i), std::string(2000, 'x')));
+  for (const std::string& name : others) EXPECT_EQ(fs::file_size(folder_ / name), 5000u) << name;
+  EXPECT_TRUE(cache.find("thing", key_of(5)));
+  EXPECT_FALSE(fs::exists(folder_ / left));
+  EXPECT_FALSE(cache.store("linked", key_of(1), "x")) << "a link is no folder of ours";
+  EXPECT_TRUE(fs::is_empty(folder_ / "elsewhere"));
+}
+
 TEST_F(DiskCacheTest, DoesWithoutAFolderThatCannotBeWritten) {
   EXPECT_FALSE(DiskCache().store("thing", key_of(1), "x"));
   EXPECT_FALSE(DiskCache().find("thing", key_of(1)));

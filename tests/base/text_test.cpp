@@ -25,6 +25,31 @@ TEST(Printable, MakesVisibleWhatSteersATerminal) {
   EXPECT_EQ(printable("\x9b" "31m\r"), "\\x9b31m\\x0d");
 }
 
+TEST(Names, HaveNoControlsSlashesOrDotsInFront) {
+  for (const char* name : {"slab", "slab 2, broken", "d\xc3\xa9" "combres", "a.b", "-x", "\"quoted\"", "a<b>&c"})
+    EXPECT_EQ(find_name_fault(name), "") << name;
+  for (const char* name : {"", "../up", "a/b", "a\\b", ".", "..", ".hidden", "a\nb", "a\tb", "\x1b[2J", "\x7f", "\xc2\x9b" "2J", "\xff"})
+    EXPECT_NE(find_name_fault(name), "") << name;
+  EXPECT_EQ(find_name_fault(std::string(100, 'x')), "");
+  EXPECT_NE(find_name_fault(std::string(101, 'x')), "");
+  EXPECT_NE(find_name_fault(std::string_view("a\0b", 3)), "");
+}
+
+TEST(Names, MakeFileNamesThatAreEachTheirOwn) {
+  EXPECT_EQ(file_name_of("base_link"), "base_link");
+  EXPECT_EQ(file_name_of("arm 2"), "arm 2");
+  const std::string up = file_name_of("../../up"), other = file_name_of("..\\../up"), slash = file_name_of("a/b");
+  for (const std::string& name : {up, other, slash, file_name_of(""), file_name_of(std::string(5000, 'x')), file_name_of("\n")})
+    EXPECT_EQ(find_name_fault(name), "") << name;
+  EXPECT_NE(up, other) << "both are ______up without the hash";
+  EXPECT_NE(slash, file_name_of("a_b"));
+}
+
+TEST(OneLine, HasNoBreak) {
+  EXPECT_EQ(one_line("a\nb\tc\rd"), "a\\x0ab\\x09c\\x0dd");
+  EXPECT_EQ(one_line("plain, \xc3\xa9"), "plain, \xc3\xa9");
+}
+
 TEST(Printable, EveryMessageIs) {
   const InputError error({"m.lua", 2, "key\x1b[2J", "unknown", "", "", ""});
   EXPECT_STREQ(error.what(), "m.lua:2: key\\x1b[2J: unknown");

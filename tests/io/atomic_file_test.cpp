@@ -62,30 +62,42 @@ TEST(AtomicFile, SaysWhichFileAndWhy) {
   }
 }
 
-TEST(AtomicFile, WritingToAFullDeviceFails) {
+// What a stranger's folder has under the names of a file and of its temporary one.
+TEST(AtomicFile, ReplacesLinksAndPipesAndLeavesWhatTheyLeadTo) {
   ScratchFolder folder;
-  std::filesystem::create_symlink("/dev/full", folder / "a.bin.part");
-  AtomicFile file(folder / "a.bin");
-  file.write("does not fit");
-  EXPECT_THROW(file.commit(), RunError);
-  EXPECT_FALSE(test::exists(folder / "a.bin"));
-}
-
-TEST(PendingPath, CommitsWhatAnotherWriterMade) {
-  ScratchFolder folder;
-  {
-    PendingPath kept(folder / "kept"), dropped(folder / "dropped");
-    std::ofstream(kept.part()) << "k";
-    std::ofstream(dropped.part()) << "d";
-    kept.commit();
+  write_text_file(folder / "mine", "precious");
+  std::filesystem::create_symlink(folder / "mine", folder / "a.part");
+  std::filesystem::create_symlink(folder / "mine", folder / "a");
+  ASSERT_EQ(mkfifo((folder / "b.part").c_str(), 0666), 0);
+  ASSERT_EQ(mkfifo((folder / "b").c_str(), 0666), 0);
+  for (const char* name : {"a", "b"}) {
+    write_text_file(folder / name, "ours");
+    EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(folder / name))) << name;
+    EXPECT_EQ(read_text(folder / name), "ours");
   }
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"kept"});
+  EXPECT_EQ(read_text(folder / "mine"), "precious");
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a", "b", "mine"}));
 }
 
-TEST(PendingPath, CommitOfAMissingFileFails) {
+TEST(AtomicFile, ASecondWriterIsRefusedAndTheFirstOneFinishes) {
   ScratchFolder folder;
-  PendingPath pending(folder / "never-written");
-  EXPECT_THROW(pending.commit(), RunError);
+  AtomicFile first(folder / "a");
+  first.write("first");
+  EXPECT_THROW(AtomicFile(folder / "a"), RunError);
+  first.commit();
+  EXPECT_EQ(read_text(folder / "a"), "first");
+  write_text_file(folder / "a", "second");
+  EXPECT_EQ(read_text(folder / "a"), "second");
+}
+
+TEST(AtomicFile, DoesNotFinishWithSomebodyElsesFile) {
+  ScratchFolder folder;
+  AtomicFile file(folder / "a");
+  file.write("ours");
+  std::filesystem::remove(folder / "a.part");
+  std::ofstream(folder / "a.part") << "another's";
+  EXPECT_THROW(file.commit(), RunError);
+  EXPECT_FALSE(test::exists(folder / "a"));
 }
 
 TEST(OutputFolder, IsCreatedWithItsParents) {

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "io/base/number_text.h"
 #include "io/datasets/colmap_recorder.h"
 #include "io/datasets/euroc_recorder.h"
 #include "io/datasets/frames_recorder.h"
@@ -111,6 +112,21 @@ TEST(Tum, MeasuredDepthTakesThePlaceOfTheExactOne) {
   EXPECT_NE(measured, exact);
 }
 
+// 1 s, 2 s and 10 s by name as by time.
+TEST(Tum, NamesSortAsStampsDo) {
+  EXPECT_EQ(sorted_seconds_text(1'000'000'000), "0000000001.000000000");
+  EXPECT_EQ(sorted_seconds_text(1'305'031'102'175'304'000), "1305031102.175304000");
+  EXPECT_EQ(sorted_stamp_text(9), "0000000000000000009");
+  EXPECT_LT(sorted_seconds_text(2'000'000'000), sorted_seconds_text(10'000'000'000));
+  EXPECT_LT(sorted_stamp_text(999'999'999'999), sorted_stamp_text(1'000'000'000'000));
+  ScratchFolder folder;
+  record(make_tum_recorder(folder / "tum", test::full_recording(), 1));
+  for (const auto& row : rows_of(folder / "tum/rgb.txt", ' ')) {
+    EXPECT_EQ(row[1].size(), std::string("rgb/0000000001.000000000.png").size()) << row[1];
+    EXPECT_EQ(std::stod(row[1].substr(4)), std::stod(row[0]));
+  }
+}
+
 TEST(Euroc, TablesAndCalibrationsAreThoseOfTheFrames) {
   ScratchFolder folder;
   const Recording recording = test::full_recording();
@@ -124,7 +140,7 @@ TEST(Euroc, TablesAndCalibrationsAreThoseOfTheFrames) {
   std::size_t sample = 0;
   for (int i = 0; i < kFrames; ++i) {
     const Frame frame = make_full_frame(i);
-    const std::string stamp = std::to_string(frame.stamp_ns);
+    const std::string number = std::to_string(frame.stamp_ns), stamp = std::string(19 - number.size(), '0') + number;
     EXPECT_EQ(pictures[std::size_t(i)][0], stamp);
     EXPECT_EQ(pictures[std::size_t(i)][1], stamp + ".png");
     for (const char* camera : {"cam0", "cam1"})

@@ -75,6 +75,17 @@ TEST(McapWriter, RefusesNegativeStamps) {
 
 constexpr ros::Version kRos2 = ros::Version::ros2;
 
+// Seconds are int32 in ROS 2 and uint32 in ROS 1: one more would wrap round to 1901 or 1970.
+TEST(RosWire, RefusesStampsThatDoNotFit) {
+  constexpr std::int64_t kSecond = 1'000'000'000, kEnd2 = (std::int64_t{1} << 31) * kSecond, kEnd1 = 2 * kEnd2;
+  EXPECT_NO_THROW(ros::clock(kRos2, kEnd2 - 1));
+  EXPECT_THROW(ros::clock(kRos2, kEnd2), RunError);
+  EXPECT_THROW(ros::clock(kRos2, -1), RunError);
+  EXPECT_NO_THROW(ros::clock(ros::Version::ros1, kEnd2));
+  EXPECT_NO_THROW(ros::clock(ros::Version::ros1, kEnd1 - 1));
+  EXPECT_THROW(ros::clock(ros::Version::ros1, kEnd1), RunError);
+}
+
 // Frame names of every length modulo 8, so that every alignment occurs.
 class Cdr : public ::testing::TestWithParam<std::string> {
  protected:

@@ -247,6 +247,45 @@ TEST_F(PileExport, PlyHasDistinctPositionsAndPieceNumbers) {
   EXPECT_NE(text.find("property int piece\n"), std::string::npos);
 }
 
+// A lost piece is left out, and fines have numbers far above: the order in the file is no number.
+TEST_F(PileExport, PlyNumbersPiecesAsThePileDoes) {
+  const std::int32_t numbers[] = {4, 7, 1 << 24};
+  for (std::size_t i = 0; i < 3; ++i) model_.pieces[i].number = numbers[i];
+  const std::string text = test::read_text(write("ply"));
+  const std::size_t begin = text.find("end_header\n") + 11, size = 3 * 4 + 3 + 4;
+  std::vector<std::int32_t> found;
+  for (std::size_t v = 0; v < 12; v += 4) {
+    std::int32_t number = 0;
+    text.copy(reinterpret_cast<char*>(&number), 4, begin + v * size + 15);
+    found.push_back(number);
+  }
+  EXPECT_EQ(found, (std::vector<std::int32_t>{4, 7, 1 << 24}));
+}
+
+// Names come from packs and mesh files of others.
+TEST_F(PileExport, NamesLeaveNeitherTheirLineNorTheFolder) {
+  model_.types[0].name = "../../../outside";
+  model_.pieces[0].name = "wedge\nv 9 9 9";
+  wedge_.surface_names[1] = "brick\nmap_Kd /etc/passwd";
+  const std::string text = test::read_text(write("obj"));
+  EXPECT_EQ(text.find("\nv 9 9 9"), std::string::npos);
+  EXPECT_NE(text.find("o wedge\\x0av 9 9 9\n"), std::string::npos);
+  EXPECT_EQ(test::read_text(folder_ / "pile.mtl").find("\nmap_Kd"), std::string::npos);
+  write("sdf");
+  EXPECT_FALSE(test::exists(folder_.path() + "/../outside.obj"));
+  std::vector<std::string> meshes;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "sdf/meshes"))
+    meshes.push_back(entry.path().filename().string());
+  ASSERT_EQ(meshes.size(), 3u) << "two meshes and their materials";
+  const std::string world = test::read_text(folder_ / "sdf/pile.sdf");
+  int named = 0;
+  for (const std::string& mesh : meshes) named += world.find("meshes/" + mesh + "<") != std::string::npos;
+  EXPECT_EQ(named, 2) << "the world names its files";
+  for (const std::string& mesh : meshes) EXPECT_TRUE(is_sdf_file("meshes/" + mesh)) << mesh;
+  EXPECT_TRUE(is_sdf_file("pile.sdf"));
+  for (const char* other : {"notes.txt", "meshes/photo.png", "mine/a.obj", "meshes/.obj2"}) EXPECT_FALSE(is_sdf_file(other)) << other;
+}
+
 TEST_F(PileExport, OtherReadersFindTheSameVolume) {
   const std::string measure =
       "; q = p.astype(float)[t]; print('triangles', len(t), 'volume %.6f' % (np.einsum('ij,ij->i', "
@@ -287,6 +326,10 @@ TEST_F(PileExport, GazebosParserLoadsTheWorld) {
   ASSERT_EQ(root.WorldCount(), 1u);
   const sdf::World& world = *root.WorldByIndex(0);
   EXPECT_EQ(world.ModelCount(), 4u) << "the ground and three pieces";
+  EXPECT_NEAR(world.Gravity().Z(), -9.81, 1e-12);
+  model_.gravity = 1.62;
+  export_pile(model_, "sdf", folder_ / "moon");
+  EXPECT_NE(test::read_text(folder_ / "moon/sdf/pile.sdf").find("<gravity>0 0 -1.62</gravity>"), std::string::npos);
   const sdf::Model* model = world.ModelByName("wedge_000007");
   ASSERT_TRUE(model);
   EXPECT_TRUE(model->Static());

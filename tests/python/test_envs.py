@@ -264,10 +264,19 @@ class Rules(unittest.TestCase):
         with self.assertRaises(RuntimeError):
             env.step(np.zeros(4))
         env.reset(seed=1)
-        for action in (np.zeros(3), [0, 0, np.nan, 0], np.zeros((4, 1))):
+        for action in (np.zeros(3), [0, 0, np.nan, 0], np.zeros((4, 1)), [0, 0, 1.5, 0], [-2, 0, 0, 0]):
             with self.assertRaises(rubble.InputError) as raised:
                 env.step(action)
             self.assertEqual(raised.exception.key, "action")
+        for seed in (-1, 2**64, 1.5, "1"):
+            with self.assertRaises(rubble.InputError) as raised:
+                rubble.settle("scripts/first_pile.lua", seed=seed)
+            self.assertEqual(raised.exception.key, "seed")
+        with self.assertRaises(Exception) as raised:  # gymnasium has an error of its own
+            env.reset(seed=-1)
+        self.assertIn("seed", str(raised.exception).lower())
+        self.assertIn("float32", repr(env.action_space))
+        self.assertIn("depth", repr(env.observation_space))
         with self.assertRaises(rubble.InputError) as raised:
             VoidExplore(radius=3.0, voxel=0.5, pile_seeds=[1]).reset(seed=1)
         self.assertEqual(raised.exception.key, "radius")

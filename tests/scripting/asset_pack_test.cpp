@@ -75,6 +75,18 @@ TEST_F(AssetPackTest, EveryKey) {
   EXPECT_EQ(b.line, 7);
 }
 
+// Names become names of files, of labels and of objects, and are printed.
+TEST_F(AssetPackTest, NamesThatLeaveTheirFolderOrLineAreRefused) {
+  for (const char* name : {"../../../outside", "a/b", "a\\\\b", "..", ".hidden", "a\\nb", "a\\27[2J", ""}) {
+    const std::string text = error(std::string("return pack { name = \"x\", assets = { { name = \"") + name +
+                                   "\", mesh = \"a.obj\", material = \"steel\" } } }");
+    EXPECT_NE(text.find("assets[1].name: the name "), std::string::npos) << name << "\n" << text;
+    EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  }
+  EXPECT_EQ(load("return pack { name = \"x\", assets = { { name = \"slab 2, broken\", mesh = \"a.obj\", material = \"steel\" } } }")
+                .assets[0].name, "slab 2, broken");
+}
+
 TEST_F(AssetPackTest, ReadsArticulatedAssets) {
   const AssetPack pack = load(R"(return pack {
   name = "x",

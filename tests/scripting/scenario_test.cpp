@@ -79,6 +79,16 @@ TEST(ScenarioValidate, DefaultAndUnusualAreFine) {
   EXPECT_EQ(error_of([] { unusual().validate(); }), "");
 }
 
+TEST(ScenarioValidate, StampsOfRos2EndIn2038) {
+  Scenario s;
+  s.start_ns = 2147483648000000000;
+  EXPECT_EQ(error_of([&] { s.validate(); }), "") << "ROS 1 has them until 2106";
+  s.outputs.mcap = true;
+  EXPECT_NE(error_of([&] { s.validate(); }).find("start_ns: too late for the stamps of ROS 2"), std::string::npos);
+  s.start_ns = 2147483647999999999;
+  EXPECT_EQ(error_of([&] { s.validate(); }), "");
+}
+
 TEST(ScenarioValidate, FindsEveryMistake) {
   Scenario s;
   s.pile.layers = -1;

@@ -221,6 +221,25 @@ TEST(TrajectoryErrors, EachInItsWords) {
             "trajectory: too long: expected at most 10000000 frames, found 30000000");
 }
 
+// A limit that is far too small, such as one in km/s: refused before lists of that length are made.
+TEST(TrajectoryErrors, APathThatLimitsStretchWithoutEndIsRefused) {
+  const auto error_with = [](const auto& change) {
+    TrajectorySpec spec = spec_of({at(0, {-4, -4, 2}), at(1, {-2, -4, 2}, {0, 0, 90})});
+    change(spec);
+    return error_of([&] { sample_trajectory(spec, kEpoch); });
+  };
+  for (const double least : {1e-7, 1e-30, 1e-300}) {
+    EXPECT_NE(error_with([&](auto& s) { s.limits.max_speed = least; }).find("trajectory.max_speed: the path takes too long"), std::string::npos);
+    EXPECT_NE(error_with([&](auto& s) { s.limits.max_turn_rate_deg = least; }).find("trajectory.max_turn_rate_deg"), std::string::npos);
+    EXPECT_NE(error_with([&](auto& s) { s.limits.max_speed = least, s.smoothing = 0.1; }).find("trajectory.max_speed"), std::string::npos);
+  }
+  EXPECT_NE(error_with([](auto& s) { s.smoothing = 1e-9; }).find("trajectory.smoothing"), std::string::npos);
+  EXPECT_NE(error_with([](auto& s) { s.limits.max_speed = 1e-7; }).find("frames at 30 Hz"), std::string::npos);
+  TrajectorySpec slow = spec_of({at(0, {0, 0, 0}), at(1, {1, 0, 0})});
+  slow.limits.max_speed = 0.01, slow.rate_hz = 1;
+  EXPECT_EQ(sample_trajectory(slow, kEpoch).size(), 101u);
+}
+
 TEST(CameraPath, IsTheFramesPathAtAnyTime) {
   TrajectorySpec spec;
   spec.rate_hz = 10;

@@ -144,7 +144,9 @@ TEST_F(VoidFiles, TheSurfaceOfAVoidHoldsItsVolume) {
   EXPECT_TRUE(is_closed(mesh));
   EXPECT_NEAR(calc_volume_properties(mesh).volume, v.volume, 0.03 * v.volume) << "outward";
 
-  write_ply(folder_ + "/void.ply", mesh);
+  write_void_surface(folder_ + "/void.ply", mesh, 0x1234);
+  EXPECT_TRUE(is_void_surface_of(folder_ + "/void.ply", 0x1234));
+  EXPECT_FALSE(is_void_surface_of(folder_ + "/void.ply", 0x1235));
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(folder_ + "/void.ply", aiProcess_JoinIdenticalVertices);
   ASSERT_NE(scene, nullptr) << importer.GetErrorString();

@@ -7,6 +7,7 @@
 #include "app/assets/assets_tree.h"
 #include "app/assets/hull_error.h"
 #include "app/command_line/command.h"
+#include "app/support/print.h"
 #include "render/materials/surface_appearance.h"
 
 namespace rubble {
@@ -135,42 +136,42 @@ template <typename Report>
 void print_remarks(const std::vector<Report>& reports) {
   for (const Report& r : reports) {
     for (const std::string& text : r.errors)
-      std::printf("error: %s: %s\n", r.name.c_str(), text.c_str());
+      print_out("error: %s: %s\n", r.name.c_str(), text.c_str());
     for (const std::string& text : r.warnings)
-      std::printf("warning: %s: %s\n", r.name.c_str(), text.c_str());
+      print_out("warning: %s: %s\n", r.name.c_str(), text.c_str());
   }
 }
 
 void print_trees(const std::vector<TreeReport>& trees) {
   if (trees.empty()) return;
-  std::printf("\n%-24s %6s %6s %10s %5s  %s\n", "articulated", "links", "joints", "mass (kg)",
+  print_out("\n%-24s %6s %6s %10s %5s  %s\n", "articulated", "links", "joints", "mass (kg)",
               "parts", "size (m)");
   for (const TreeReport& t : trees)
-    std::printf("%-24s %6zu %6zu %10.2f %5zu  %.2f x %.2f x %.2f\n", t.name.c_str(), t.links,
+    print_out("%-24s %6zu %6zu %10.2f %5zu  %.2f x %.2f x %.2f\n", t.name.c_str(), t.links,
                 t.joints, t.mass, t.parts, t.size.x, t.size.y, t.size.z);
 }
 
 void print_table(const AssetPack& pack, const std::vector<AssetReport>& reports,
                  const std::vector<TreeReport>& trees) {
-  std::printf("%-24s %6s %12s %10s %5s %7s %8s %8s %8s  %s\n", "asset", "closed", "volume (m3)",
+  print_out("%-24s %6s %12s %10s %5s %7s %8s %8s %8s  %s\n", "asset", "closed", "volume (m3)",
               "mass (kg)", "parts", "corners", "thin(mm)", "out (%)", "in (%)", "triangles");
   for (const AssetReport& r : reports) {
     std::string triangles;
     for (const std::size_t n : r.triangles)
       triangles += (triangles.empty() ? "" : ", ") + std::to_string(n);
     const double scale = r.closed && r.error.mesh > 0 ? 100 / r.error.mesh : 0;
-    std::printf("%-24s %6s %12.5f %10.2f %5zu %7zu %8.1f ", r.name.c_str(), r.closed ? "yes" : "no",
+    print_out("%-24s %6s %12.5f %10.2f %5zu %7zu %8.1f ", r.name.c_str(), r.closed ? "yes" : "no",
                 r.volume, r.mass, r.parts, r.corners, 1000 * r.thinnest);
     if (scale > 0)
-      std::printf("%8.1f %8.1f", scale * r.error.outside, scale * r.error.inside);
+      print_out("%8.1f %8.1f", scale * r.error.outside, scale * r.error.inside);
     else
-      std::printf("%8s %8s", "-", "-");
-    std::printf("  %s\n", triangles.c_str());
+      print_out("%8s %8s", "-", "-");
+    print_out("  %s\n", triangles.c_str());
   }
   print_trees(trees);
   print_remarks(reports);
   print_remarks(trees);
-  std::printf("%s: %zu assets, %zu of them articulated\n", pack.name.c_str(),
+  print_out("%s: %zu assets, %zu of them articulated\n", pack.name.c_str(),
               reports.size() + trees.size(), trees.size());
 }
 
@@ -181,7 +182,7 @@ nlohmann::ordered_json json_of(const TreeReport& t) {
           {"errors", t.errors}, {"warnings", t.warnings}};
 }
 
-void print_json(const AssetPack& pack, const std::vector<AssetReport>& reports,
+void print_report_json(const AssetPack& pack, const std::vector<AssetReport>& reports,
                 const std::vector<TreeReport>& trees) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const AssetReport& r : reports) {
@@ -207,7 +208,7 @@ void print_json(const AssetPack& pack, const std::vector<AssetReport>& reports,
   for (const TreeReport& tree : trees) articulated.push_back(json_of(tree));
   const nlohmann::ordered_json whole{
       {"pack", pack.name}, {"folder", pack.folder}, {"assets", list}, {"articulated", articulated}};
-  std::printf("%s\n", whole.dump(2).c_str());
+  print_json(whole.dump(2) + "\n");
 }
 
 // `bad_input` when something is not sound.
@@ -226,7 +227,7 @@ ExitCode check_pack(const std::string& pack_name, bool json) {
   }
   for (const Asset& asset : pack.assets)
     if (!asset.links.empty()) sound = add_tree(asset, library, trees) && sound;
-  json ? print_json(pack, reports, trees) : print_table(pack, reports, trees);
+  json ? print_report_json(pack, reports, trees) : print_table(pack, reports, trees);
   return sound ? ExitCode::done : ExitCode::bad_input;
 }
 

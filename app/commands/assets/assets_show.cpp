@@ -11,6 +11,7 @@
 #include "app/assets/assets_tree.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/support/print.h"
 #include "app/support/run_context.h"
 #include "io/image/picture_sheet.h"
 #include "kernel/base/portable_math.h"
@@ -219,7 +220,7 @@ ExitCode show_pack(const AssetsShowRequest& request) {
   write_picture_sheet(path, "pack " + pack.name + ", " + std::to_string(tiles.size()) +
                                 (request.collision ? " assets: the parts that collide" : " assets"),
                       tiles, kColumns);
-  std::printf("%s\n", path.c_str());
+  print_out("%s\n", path.c_str());
   return ExitCode::done;
 }
 

@@ -1,19 +1,21 @@
 // `rubble bench navigate`: MRPT's reactive navigator drives a crawler through the voids of many piles (docs/autonomy.md).
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/navigate/navigation_bench.h"
+#include "app/support/print.h"
 #include "app/support/stop.h"
+#include "io/base/atomic_file.h"
 
 namespace rubble {
 namespace {
 
 struct NavigateRequest {
   NavigationBenchRequest bench;
-  bool json = false;
+  bool json = false;   // --json
+  bool force = false;  // --force
 };
 
 ExitCode navigate_all(const NavigateRequest& request) {
@@ -21,9 +23,11 @@ ExitCode navigate_all(const NavigateRequest& request) {
   NavigationBenchRequest asked = request.bench;
   if (asked.of.out.empty())
     asked.of.out = "out/" + std::filesystem::path(asked.of.mission).stem().string() + "_navigate";
+  if (!asked.missions_only)
+    refuse_to_replace(asked.of.out, {"missions.csv", "table.csv", "table.json"}, request.force);
   const bool quiet = asked.of.options.quiet;
   const std::vector<NavigationResult> results = run_navigation_bench(asked, [quiet](const std::string& line) {
-    if (!quiet) std::fprintf(stderr, "%s\n", line.c_str());
+    if (!quiet) print_err("%s\n", line.c_str());
   });
   if (results.empty())
     throw InputError({asked.of.mission, 0, "--seeds", "no pile of these seeds has a void for the crawler",
@@ -33,7 +37,7 @@ ExitCode navigate_all(const NavigateRequest& request) {
   for (const char* name : {"/table.csv", "/table.json"})
     write_score_file(asked.of.out + name, make_navigation_table(results, false));
   const std::vector<ScoreRow> table = make_navigation_table(results, true);
-  std::fputs((request.json ? score_json(table) : score_text(table)).c_str(), stdout);
+  print_result(request.json ? score_json(table) : score_text(table), request.json);
   return ExitCode::done;
 }
 
@@ -47,6 +51,7 @@ Action declare_navigate(CommandLine& line) {
       .metavar("NAME");
   line.add_flag("--missions-only", bench.missions_only, "Write missions/SEED.lua for `rubble drive`, and drive nothing");
   line.add("--out", bench.of.out, "Output folder").shows_default_text("out/<script>_navigate").metavar("DIR");
+  line.add_flag("--force", request->force, "Replace the tables of an earlier call");
   line.add_flag("--json", request->json, "The table as JSON on standard output");
   add_threads_option(line, bench.of.options.threads);
   add_quiet_option(line, bench.of.options.quiet);

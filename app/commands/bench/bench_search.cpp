@@ -1,20 +1,22 @@
 // `rubble bench search`: who finds the people in the voids of many piles (docs/search.md).
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/search/search_bench.h"
+#include "app/support/print.h"
 #include "app/support/stop.h"
+#include "io/base/atomic_file.h"
 
 namespace rubble {
 namespace {
 
 struct Request {
   SearchBenchRequest search;
-  bool json = false;
+  bool json = false;   // --json
+  bool force = false;  // --force
 };
 
 ExitCode search(const Request& request) {
@@ -22,9 +24,10 @@ ExitCode search(const Request& request) {
   SearchBenchRequest asked = request.search;
   if (asked.of.out.empty())
     asked.of.out = "out/" + std::filesystem::path(asked.of.mission).stem().string() + "_search";
+  refuse_to_replace(asked.of.out, {"searches.csv", "table.csv", "table.json"}, request.force);
   const bool quiet = asked.of.options.quiet;
   const std::vector<SearchResult> results = run_search_bench(asked, [quiet](const std::string& line) {
-    if (!quiet) std::fprintf(stderr, "%s\n", line.c_str());
+    if (!quiet) print_err("%s\n", line.c_str());
   });
   if (results.empty())
     throw InputError({asked.of.mission, 0, "--seeds", "no pile of these seeds has room for the victims",
@@ -32,11 +35,11 @@ ExitCode search(const Request& request) {
   write_score_file(asked.of.out + "/searches.csv", list_searches(results));
   const std::vector<ScoreRow> table = make_search_table(results);
   for (const char* name : {"/table.csv", "/table.json"}) write_score_file(asked.of.out + name, table);
-  std::fputs((request.json ? score_json(table) : score_text(table)).c_str(), stdout);
+  print_result(request.json ? score_json(table) : score_text(table), request.json);
   const auto failed = std::find_if(results.begin(), results.end(),
                                    [](const SearchResult& r) { return !r.score.failure.empty(); });
   if (failed == results.end()) return ExitCode::done;
-  std::fprintf(stderr, "the agent failed, first with seed %llu: %s\n", static_cast<unsigned long long>(failed->seed),
+  print_err("the agent failed, first with seed %llu: %s\n", static_cast<unsigned long long>(failed->seed),
                failed->score.failure.c_str());
   return ExitCode::failure;
 }
@@ -57,6 +60,7 @@ Action declare(CommandLine& line) {
   line.add("--out", search_request.of.out, "Output folder")
       .shows_default_text("out/<script>_search")
       .metavar("DIR");
+  line.add_flag("--force", request->force, "Replace the tables of an earlier call");
   line.add_flag("--json", request->json, "The table as JSON on standard output");
   add_threads_option(line, search_request.of.options.threads);
   add_quiet_option(line, search_request.of.options.quiet);

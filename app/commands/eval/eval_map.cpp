@@ -1,6 +1,5 @@
 // `rubble eval map`: a reconstructed map against the surface and the voids that its run saw.
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -11,8 +10,10 @@
 #include "app/eval/scores/surface_score.h"
 #include "app/eval/sfm/sfm_score.h"
 #include "app/provenance/provenance.h"
+#include "app/support/print.h"
 #include "app/support/progress.h"
 #include "app/support/stop.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 namespace {
@@ -116,11 +117,11 @@ void print_map(const MapRequest& request, const MapFindings& findings, const Voi
   const std::vector<ScoreRow> rows{make_map_row(name, findings, voids)};
   for (const std::string& path : request.output.files) write_score_file(path, rows);
   if (!request.details.empty()) {
-    std::filesystem::create_directories(request.details);
+    make_output_folder(request.details);
     write_map_details(request.details, name, findings, voids);
   }
-  std::fputs((request.output.json ? score_json(rows) : score_text(rows)).c_str(), stdout);
-  if (!request.output.json) std::fputs(entrance_text(findings, voids).c_str(), stdout);
+  print_result(request.output.json ? score_json(rows) : score_text(rows), request.output.json);
+  if (!request.output.json) print_out("%s", entrance_text(findings, voids).c_str());
 }
 
 ExitCode eval_map(const MapRequest& request) {

@@ -7,6 +7,7 @@
 #include "app/eval/scores/saved_surface.h"
 #include "app/eval/sfm/sfm_details.h"
 #include "app/eval/sfm/sfm_score.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 namespace {
@@ -54,7 +55,7 @@ ExitCode eval_sfm(const SfmRequest& request) {
   if (request.datasets.size() > 1 && std::filesystem::path(request.model).is_absolute())
     throw InputError({"", 0, "--model", "is one folder for several datasets",
                       "a path inside each dataset", request.model, ""});
-  if (!request.details.empty()) std::filesystem::create_directories(request.details);
+  if (!request.details.empty()) make_output_folder(request.details);
   std::vector<ScoreRow> rows;
   for (const std::string& dataset : request.datasets)
     rows.push_back(score_dataset(dataset, request));

@@ -1,12 +1,12 @@
 // `rubble eval trajectory`: an estimate against the truth.
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/eval/scores/trajectory_doubts.h"
-#include "kernel/base/text.h"
+#include "app/eval/scores/trajectory_error.h"
+#include "app/support/print.h"
 
 namespace rubble {
 namespace {
@@ -38,18 +38,18 @@ auto with_file(const std::string& path, Work&& work) {
 
 // What a file was read as belongs to the result, but not among the numbers that programs read.
 void describe(const std::string& path, const RecordedTrajectory& track) {
-  std::fprintf(stderr, "%s: %zu poses, read as %s\n", printable(path).c_str(), track.poses.size(),
-               printable(track.format).c_str());
+  print_err("%s: %zu poses, read as %s\n", path.c_str(), track.poses.size(),
+               track.format.c_str());
   for (const std::string& note : track.notes)
-    std::fprintf(stderr, "%s: %s\n", printable(path).c_str(), printable(note).c_str());
+    print_err("%s: %s\n", path.c_str(), note.c_str());
 }
 
 void print_table(const TrajectoryError& e) {
-  std::printf("pairs                       %d\n", e.pairs);
-  std::printf("ATE, rigid alignment        %.6f m\n", e.ate_rmse_se3);
-  std::printf("ATE, aligned with scale     %.6f m (scale %.6f)\n", e.ate_rmse_sim3, e.sim3_scale);
-  std::printf("RPE, translation            %.6f m\n", e.rpe_trans_rmse);
-  std::printf("RPE, rotation               %.6f degrees\n", e.rpe_rot_rmse_deg);
+  print_out("pairs                       %d\n", e.pairs);
+  print_out("ATE, rigid alignment        %.6f m\n", e.ate_rmse_se3);
+  print_out("ATE, aligned with scale     %.6f m (scale %.6f)\n", e.ate_rmse_sim3, e.sim3_scale);
+  print_out("RPE, translation            %.6f m\n", e.rpe_trans_rmse);
+  print_out("RPE, rotation               %.6f degrees\n", e.rpe_rot_rmse_deg);
 }
 
 ExitCode eval_trajectory(const TrajectoryRequest& request) {
@@ -68,7 +68,7 @@ ExitCode eval_trajectory(const TrajectoryRequest& request) {
   const TrajectoryError error =
       with_file(request.estimate, [&] { return calc_trajectory_error(pairs, request.delta); });
   for (const std::string& doubt : find_doubts(tracks, pairs))
-    std::fprintf(stderr, "warning: %s\n", printable(doubt).c_str());
+    print_err("warning: %s\n", doubt.c_str());
   if (!request.json) {
     print_table(error);
     return ExitCode::done;
@@ -79,7 +79,7 @@ ExitCode eval_trajectory(const TrajectoryRequest& request) {
                                     {"sim3_scale", error.sim3_scale},
                                     {"rpe_trans_rmse_m", error.rpe_trans_rmse},
                                     {"rpe_rot_rmse_deg", error.rpe_rot_rmse_deg}};
-  std::printf("%s\n", json.dump(1).c_str());
+  print_json(json.dump(1) + "\n");
   return ExitCode::done;
 }
 

@@ -1,7 +1,8 @@
 #include "app/commands/eval/score_output.h"
 
-#include <cstdio>
 #include <filesystem>
+
+#include "app/support/print.h"
 
 namespace rubble {
 
@@ -26,7 +27,7 @@ void add_surface_cells(const std::optional<SurfaceScore>& s, std::vector<ScoreCe
 
 void print_score(const std::vector<ScoreRow>& rows, const ScoreOutput& output) {
   for (const std::string& path : output.files) write_score_file(path, rows);
-  std::fputs((output.json ? score_json(rows) : score_text(rows)).c_str(), stdout);
+  print_result(output.json ? score_json(rows) : score_text(rows), output.json);
 }
 
 }  // namespace rubble

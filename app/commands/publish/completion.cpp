@@ -1,10 +1,10 @@
 // `rubble completion`: what bash and zsh complete.
 #include "app/command_line/completion.h"
 
-#include <cstdio>
 #include <memory>
 
 #include "app/command_line/command.h"
+#include "app/support/print.h"
 #include "scripting/reference/schema_docs.h"
 
 namespace rubble {
@@ -17,7 +17,7 @@ ExitCode print_completion(const std::string& shell) {
         {"", 0, "shell", "no completion for this shell", "bash or zsh", "`" + shell + "`", ""});
   const std::string text = shell == "bash" ? make_bash_completion(commands, mission_keys())
                                            : make_zsh_completion(commands, mission_keys());
-  std::fputs(text.c_str(), stdout);
+  print_out("%s", text.c_str());
   return ExitCode::done;
 }
 

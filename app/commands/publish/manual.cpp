@@ -1,11 +1,11 @@
 // `rubble manual`: the manual pages of the program, for man(1).
-#include <cstdio>
-#include <filesystem>
 #include <memory>
 
 #include "app/command_line/command.h"
 #include "app/command_line/manual.h"
+#include "app/support/print.h"
 #include "io/base/atomic_file.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 namespace {
@@ -18,9 +18,7 @@ struct ManualRequest {
 ExitCode write_all(const std::string& folder) {
   const ProgramText text = program_text();
   const auto commands = describe_commands(all_commands());
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) throw RunError("cannot create the folder " + folder + ": " + failed.message());
+  make_output_folder(folder);
   write_text_file(folder + "/" + manual_file(""), make_manual(text, commands));
   for (const CommandDescription& command : commands)
     write_text_file(folder + "/" + manual_file(command.name), make_manual(text, command));
@@ -32,10 +30,10 @@ ExitCode print_page(const std::vector<std::string>& words) {
   const auto commands = describe_commands(all_commands());
   std::string name;
   for (const std::string& word : words) name += (name.empty() ? "" : " ") + word;
-  if (name.empty()) return std::fputs(make_manual(text, commands).c_str(), stdout), ExitCode::done;
+  if (name.empty()) return print_out("%s", make_manual(text, commands).c_str()), ExitCode::done;
   for (const CommandDescription& command : commands)
     if (command.name == name)
-      return std::fputs(make_manual(text, command).c_str(), stdout), ExitCode::done;
+      return print_out("%s", make_manual(text, command).c_str()), ExitCode::done;
   throw InputError({"", 0, "command", "no such command", "one of those that `rubble --help` lists",
                     "`" + name + "`", ""});
 }

@@ -1,6 +1,4 @@
 // `rubble pack`: what a dataset needs to be handed on.
-#include <cstdio>
-#include <filesystem>
 #include <memory>
 
 #include "app/card/batch_card.h"
@@ -8,13 +6,12 @@
 #include "app/card/slam_settings.h"
 #include "app/card/viewer_settings.h"
 #include "app/command_line/command.h"
+#include "app/support/print.h"
 #include "io/base/atomic_file.h"
-#include "kernel/base/text.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct PackRequest {
   std::string folder;     // of a run or a batch
@@ -26,16 +23,6 @@ struct PackRequest {
 };
 
 using Files = std::map<std::string, std::string>;  // name in the folder -> text
-
-// A file that somebody else wrote stays.
-void refuse_foreign(const PackRequest& request, const Files& files) {
-  for (const auto& item : files) {
-    const std::string path = request.folder + "/" + item.first;
-    std::error_code failed;
-    if (!request.force && fs::exists(path, failed))
-      throw InputError({path, 0, "", "is there already", "", "", "--force replaces it"});
-  }
-}
 
 Files make_run_files(const PackRequest& request) {
   const FinishedRun saved = open_finished_run(request.folder);
@@ -54,8 +41,8 @@ Files make_run_files(const PackRequest& request) {
 void warn_of_empty(const Files& splits, const FinishedBatch& batch, const SplitShares& shares) {
   for (std::size_t i = 0; i < kSplits.size(); ++i)
     if (shares.as_list()[i] > 0 && splits.at(split_file(i)).empty())
-      std::fprintf(stderr, "warning: %s is empty: none of the seeds %s falls there; run more seeds, or change --splits\n",
-                   split_file(i).c_str(), printable(batch.seeds).c_str());
+      print_err("warning: %s is empty: none of the seeds %s falls there; run more seeds, or change --splits\n",
+                   split_file(i).c_str(), batch.seeds.c_str());
 }
 
 Files make_batch_files(const PackRequest& request) {
@@ -76,14 +63,15 @@ Files make_batch_files(const PackRequest& request) {
 ExitCode pack(PackRequest request) {
   if (!request.splits.empty()) request.text.shares = parse_shares(request.splits);
   const Files files = is_batch_folder(request.folder) ? make_batch_files(request) : make_run_files(request);
-  refuse_foreign(request, files);
+  std::vector<std::string> names;
+  for (const auto& item : files) names.push_back(item.first);
+  refuse_to_replace(request.folder, names, request.force);
   for (const auto& [name, text] : files) {
     const std::string path = request.folder + "/" + name;
-    std::error_code failed;
-    fs::create_directories(fs::path(path).parent_path(), failed);
-    if (failed) throw RunError("cannot create the folder of " + path + ": " + failed.message());
+    if (const std::size_t slash = name.rfind('/'); slash != std::string::npos)
+      make_folder_below(request.folder, name.substr(0, slash));
     write_text_file(path, text);
-    std::printf("%s\n", path.c_str());
+    print_out("%s\n", path.c_str());
   }
   return ExitCode::done;
 }

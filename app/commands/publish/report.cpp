@@ -1,10 +1,10 @@
 // `rubble report`: a web page about a batch.
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "app/command_line/command.h"
 #include "app/report/batch_report.h"
+#include "app/support/print.h"
 #include "io/base/atomic_file.h"
 
 namespace rubble {
@@ -23,7 +23,7 @@ ExitCode write_report(const ReportRequest& request) {
   const std::string way = fs::proximate(request.folder, fs::absolute(path).parent_path()).string();
   options.way = way == "." ? "" : way + "/";
   write_text_file(path, make_batch_report(request.folder, options));
-  std::printf("%s\n", path.c_str());
+  print_out("%s\n", path.c_str());
   return ExitCode::done;
 }
 

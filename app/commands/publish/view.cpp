@@ -1,10 +1,10 @@
 // `rubble view`: a web page that shows a dataset in three dimensions.
-#include <cstdio>
 #include <memory>
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/mission/finished_run.h"
+#include "app/support/print.h"
 #include "app/view/dataset_page.h"
 #include "app/view/viewer_code.h"
 #include "io/base/atomic_file.h"
@@ -27,7 +27,10 @@ ExitCode write_page(const ViewRequest& request) {
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
   const std::string path = request.out.empty() ? request.folder + "/view.html" : request.out;
   write_text_file(path, make_dataset_page(saved, assets, request.options));
-  std::printf("%s\n", path.c_str());
+  if (const int others = count_voids_of_other_piles(saved); others > 0)
+    print_err("warning: %d surfaces in %s/voids are of another pile, or do not say of which: left out; `rubble voids %s "
+              "--force` maps the voids anew\n", others, saved.folder.c_str(), saved.folder.c_str());
+  print_out("%s\n", path.c_str());
   return ExitCode::done;
 }
 

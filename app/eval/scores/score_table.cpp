@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/base/atomic_file.h"
+#include "io/base/csv_text.h"
 #include "io/base/number_text.h"
 #include "kernel/base/error.h"
 
@@ -22,13 +23,6 @@ std::string escape_latex(const std::string& text) {
     escaped += c;
   }
   return escaped;
-}
-
-std::string quote_csv(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
 }
 
 std::string extension_of(const std::string& path) {
@@ -56,7 +50,7 @@ std::string score_csv(const std::vector<ScoreRow>& rows) {
   for (const ScoreCell& cell : rows.front().cells) text += "," + cell.key;
   text += "\n";
   for (const ScoreRow& row : rows) {
-    text += quote_csv(row.name);
+    text += csv_text(row.name);
     for (const ScoreCell& cell : row.cells)
       text += "," + (cell.value ? exact_text(*cell.value) : "");
     text += "\n";

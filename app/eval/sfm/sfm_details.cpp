@@ -3,6 +3,7 @@
 #include <map>
 
 #include "io/base/atomic_file.h"
+#include "io/base/csv_text.h"
 #include "io/base/little_endian.h"
 #include "io/base/number_text.h"
 
@@ -46,7 +47,7 @@ void write_track(const std::string& path, const std::vector<SfmSegment>& segment
           *segment.for_positions() * image.camera_from_world.inverse().translation;
       const Vec3& true_position =
           truth.world_from_optical[std::size_t(segment.frames[i])].translation;
-      rows[segment.frames[i]] += std::to_string(segment.frames[i]) + "," + image.name + "," +
+      rows[segment.frames[i]] += std::to_string(segment.frames[i]) + "," + csv_text(image.name) + "," +
                                  std::to_string(s) + "," + position_text(estimate) + "," +
                                  position_text(true_position) + "," +
                                  exact_text(distance(estimate, true_position)) + "\n";

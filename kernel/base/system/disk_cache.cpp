@@ -9,6 +9,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
+
+#include "kernel/base/read_file.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 
@@ -41,24 +45,58 @@ std::string entry_path(const std::string& folder, std::string_view kind, const s
 
 // All of a file, or nothing: the reason does not matter to a cache.
 std::optional<std::string> read_all(const std::string& path) {
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (!file) return std::nullopt;
-  std::string bytes;
-  struct stat status{};
-  if (fstat(fileno(file), &status) == 0 && S_ISREG(status.st_mode))
-    bytes.resize(std::size_t(status.st_size));
-  const bool good = std::fread(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  std::fclose(file);
-  if (!good) return std::nullopt;
-  return bytes;
+  try {
+    return read_file(path);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
 }
 
-bool write_all(const std::string& path, const Header& header, std::string_view bytes) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
+bool write_entry(const std::string& path, const Header& header, std::string_view bytes) {
+  try {
+    const int file = create_output_file(path);
+    try {
+      write_all(file, {reinterpret_cast<const char*>(&header), sizeof header}, path);
+      write_all(file, bytes, path);
+    } catch (...) {
+      close(file);
+      throw;
+    }
+    return close(file) == 0;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
+// A folder may be used for other things, too: only what this cache wrote counts, by place, name and first bytes. A
+// file that was begun and has no bytes yet counts by its name: KEY.cache.PROCESS.NUMBER.part.
+bool has_name_of_entry(const fs::path& path) {
+  std::string name = path.filename().string();
+  const auto drop_end = [&name](const char* end) {
+    const std::size_t at = name.rfind(end);
+    const bool there = at != std::string::npos && at > 0 && at + std::string_view(end).size() == name.size();
+    if (there) name.resize(at);
+    return there;
+  };
+  const auto drop_number = [&name] {
+    const std::size_t dot = name.rfind('.');
+    const bool there = dot != std::string::npos && dot + 1 < name.size() &&
+                       name.find_first_not_of("0123456789", dot + 1) == std::string::npos;
+    if (there) name.resize(dot);
+    return there;
+  };
+  if (drop_end(".part") && !(drop_number() && drop_number())) return false;
+  return drop_end(".cache") && name.size() == 64 &&
+         name.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+bool has_bytes_of_entry(const fs::path& path) {
+  std::FILE* file = std::fopen(path.c_str(), "rb");
   if (!file) return false;
-  bool good = std::fwrite(&header, sizeof header, 1, file) == 1;
-  good = good && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  return std::fclose(file) == 0 && good;
+  char magic[sizeof kMagic];
+  const std::size_t count = std::fread(magic, 1, sizeof magic, file);
+  std::fclose(file);
+  return std::memcmp(magic, kMagic, count) == 0 && (count == sizeof magic || path.extension() == ".part");
 }
 
 std::string temporary_name(const std::string& path) {
@@ -96,8 +134,7 @@ std::optional<std::string> DiskCache::find(std::string_view kind, const std::str
       return bytes;
     }
   }
-  std::error_code ignored;
-  fs::remove(path, ignored);
+  remove_output_file(path);
   return std::nullopt;
 }
 
@@ -105,15 +142,19 @@ bool DiskCache::store(std::string_view kind, const std::string& key, std::string
   if (folder_.empty() || bytes.size() > limit_) return false;
   const std::string path = entry_path(folder_, kind, key);
   std::error_code error;
-  fs::create_directories(fs::path(path).parent_path(), error);
-  if (error) return false;
+  try {
+    make_output_folder(folder_);
+    make_folder_below(folder_, std::string(kind));
+  } catch (const std::runtime_error&) {
+    return false;
+  }
   const std::string part = temporary_name(path);
-  bool kept = write_all(part, make_header(kind, key, bytes), bytes);
+  bool kept = write_entry(part, make_header(kind, key, bytes), bytes);
   if (kept) {
     fs::rename(part, path, error);
     kept = !error;
   }
-  if (!kept) fs::remove(part, error);
+  if (!kept) remove_output_file(part);
   if (kept) trim();
   return kept;
 }
@@ -127,23 +168,32 @@ void DiskCache::trim() const {
   std::vector<Entry> entries;
   std::uint64_t total = 0;
   std::error_code error;
-  for (fs::recursive_directory_iterator it(folder_, error), end; !error && it != end;
-       it.increment(error)) {
+  for (const auto& kind : fs::directory_iterator(folder_, error)) {
     std::error_code gone;  // another process may remove it meanwhile
-    if (!it->is_regular_file(gone)) continue;
-    const Entry entry{it->last_write_time(gone), it->file_size(gone), it->path()};
-    if (gone || (entry.path.extension() != ".cache" && entry.path.extension() != ".part")) continue;
-    total += entry.size;
-    entries.push_back(entry);
+    if (!fs::is_directory(kind.symlink_status(gone))) continue;
+    for (const auto& file : fs::directory_iterator(kind.path(), gone)) {
+      std::error_code lost;
+      if (!has_name_of_entry(file.path()) || !fs::is_regular_file(file.symlink_status(lost))) continue;
+      const Entry entry{file.last_write_time(lost), file.file_size(lost), file.path()};
+      if (lost) continue;
+      total += entry.size;
+      entries.push_back(entry);
+    }
   }
+  if (total <= limit_) return;
+  const auto is_foreign = [&total](const Entry& entry) {
+    const bool foreign = !has_bytes_of_entry(entry.path);
+    if (foreign) total -= entry.size;
+    return foreign;
+  };
+  entries.erase(std::remove_if(entries.begin(), entries.end(), is_foreign), entries.end());
   if (total <= limit_) return;
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     return a.used != b.used ? a.used < b.used : a.path < b.path;
   });
   for (const Entry& entry : entries) {
     if (double(total) <= kTrimmedTo * double(limit_)) break;
-    std::error_code ignored;
-    fs::remove(entry.path, ignored);
+    remove_output_file(entry.path.string());
     total -= entry.size;
   }
 }

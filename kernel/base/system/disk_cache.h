@@ -4,7 +4,7 @@
 // One file an entry, with its kind, key, size and checksum; written under a temporary name, then
 // renamed, so that any number of processes may share a folder. A file that is damaged in any way
 // counts as absent and is removed. When the folder outgrows its bound, the entries that were not
-// used for the longest time go first.
+// used for the longest time go first. Files of others in it, or below it, are neither counted nor removed.
 #pragma once
 
 #include <cstddef>

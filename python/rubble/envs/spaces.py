@@ -1,6 +1,8 @@
 """Env, Box and Dict: gymnasium's where it is installed, else as much of them as an environment needs."""
 import numpy as np
 
+from .. import _core
+
 try:
     from gymnasium import Env
     from gymnasium.spaces import Box, Dict
@@ -11,6 +13,10 @@ try:
 except ImportError:
 
     def make_random(seed):
+        if seed is not None and not (isinstance(seed, (int, np.integer)) and seed >= 0):
+            error = _core.InputError(f"seed: expected a whole number of at least 0: found {seed!r}")
+            error.key = "seed"
+            raise error
         sequence = np.random.SeedSequence(seed)
         return np.random.Generator(np.random.PCG64(sequence)), sequence.entropy
 
@@ -57,6 +63,9 @@ except ImportError:
         def seed(self, seed=None):
             self._random, _ = make_random(seed)
 
+        def __repr__(self):
+            return f"Box({self.low.min()}, {self.high.max()}, {self.shape}, {self.dtype})"
+
         def sample(self):
             return self._random.uniform(self.low, self.high).astype(self.dtype)
 
@@ -73,6 +82,9 @@ except ImportError:
 
         def __getitem__(self, name):
             return self.spaces[name]
+
+        def __repr__(self):
+            return f"Dict({', '.join(f'{name!r}: {space!r}' for name, space in self.spaces.items())})"
 
         def contains(self, value):
             return value.keys() == self.spaces.keys() and all(s.contains(value[k]) for k, s in self.spaces.items())

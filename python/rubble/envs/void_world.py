@@ -53,10 +53,11 @@ class VoidWorlds:
 
 
 def checked_action(action, count):
-    """As floats between -1 and 1. Raises InputError for another shape and for what is not finite."""
+    """As floats between -1 and 1. Raises InputError for another shape and for what is not finite or beyond these by more
+    than rounding: gymnasium.wrappers.ClipAction clips what a policy draws."""
     action = np.asarray(action, float)
-    if action.shape != (count,) or not np.all(np.isfinite(action)):
-        error = _core.InputError(f"action: expected {count} finite numbers: found {action!r}")
+    if action.shape != (count,) or not np.all(np.isfinite(action)) or not np.all(np.abs(action) <= 1 + 1e-6):
+        error = _core.InputError(f"action: expected {count} numbers from -1 to 1: found {action!r}")
         error.key = "action"
         raise error
     return np.clip(action, -1, 1)

@@ -68,7 +68,7 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
   std::unique_ptr<ScriptControl> script;
   std::vector<RobotLog> logs;
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    logs.emplace_back(models[i], int(i), mission.scenario.start_ns);
+    logs.emplace_back(models[i], mission.scenario.start_ns, odometry_noise(mission.scenario, i));
     driven.records.push_back(
         describe_robot(made[i], names[i], calc_base_pose(robots[i]), robots.size() > 1));
   }

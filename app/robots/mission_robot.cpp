@@ -108,6 +108,10 @@ MissionRobot make_mission_robot(const RobotItem& robot, const std::vector<std::s
   return made;
 }
 
+OdometryNoise odometry_noise(const Scenario& scenario, std::size_t robot) {
+  return {scenario.robots[robot].odometry_noise, scenario.seed, int(robot)};
+}
+
 Pose calc_base_pose(const RobotItem& robot) { return {quat_from_degrees(robot.rpy_deg), robot.position}; }
 
 }  // namespace rubble

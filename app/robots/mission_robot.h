@@ -5,17 +5,15 @@
 #include <vector>
 
 #include "io/mesh/mesh_file.h"
+#include "io/robot/urdf_writer.h"
 #include "kernel/model/robot.h"
-#include "scripting/scenario/robot_scenario.h"
+#include "kernel/robot/odometry.h"
+#include "scripting/scenario/scenario.h"
 
 namespace rubble {
 
 // A frame on a link, such as a camera's: a link of a URDF file that is fixed to another.
-struct RobotFrame {
-  std::string name;
-  int link = 0;
-  Pose link_from_frame;
-};
+using RobotFrame = UrdfFrame;
 
 // A joint that a servo keeps at multiplier * q + offset of another.
 struct MimicJoint {
@@ -44,5 +42,7 @@ MissionRobot make_mission_robot(const RobotItem& robot, const std::vector<std::s
                                 const std::string& key, MeshImporter& importer);
 
 Pose calc_base_pose(const RobotItem& robot);
+// Of the odometry of the mission's robot of that number, from 0.
+OdometryNoise odometry_noise(const Scenario& scenario, std::size_t robot);
 
 }  // namespace rubble

@@ -27,9 +27,9 @@ Pose parent_from_child(const std::vector<Pose>& base_from_links, const RobotJoin
 
 }  // namespace
 
-RobotLog::RobotLog(const RobotModel& model, int number, std::int64_t start_ns)
-    : model_(&model), number_(number), start_ns_(start_ns) {
-  if (model.sides.any()) wheels_.emplace(model);
+RobotLog::RobotLog(const RobotModel& model, std::int64_t start_ns, const OdometryNoise& noise)
+    : model_(&model), number_(noise.robot), start_ns_(start_ns) {
+  if (model.sides.any()) wheels_.emplace(model, noise);
 }
 
 void RobotLog::note(const RobotSense& sense) {
@@ -82,7 +82,7 @@ RobotRecord describe_robot(const MissionRobot& robot, const std::string& name,
   }
   record.world_from_base = world_from_base;
   record.has_odometry = model.sides.any();
-  record.description = robot_to_urdf(model, name, name + "_meshes");
+  record.description = robot_to_urdf(model, name, name + "_meshes", record.frame, robot.frames);
   return record;
 }
 

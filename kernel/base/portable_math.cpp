@@ -95,6 +95,15 @@ Quat quat_from_rpy(double roll, double pitch, double yaw) {
   return normalized(qz * qy * qx);
 }
 
+Vec3 rpy_from_quat(const Quat& rotation) {
+  constexpr double kSteep = 1e-8;  // below it, rounding turns roll and yaw by more than leaving yaw out; unit: 1
+  const Mat3 r = rotation.matrix();
+  const double level = std::sqrt(r.rows[0].x * r.rows[0].x + r.rows[1].x * r.rows[1].x);
+  const double pitch = atan2(-r.rows[2].x, level);
+  if (level < kSteep) return {atan2(-r.rows[1].z, r.rows[1].y), pitch, 0};
+  return {atan2(r.rows[2].y, r.rows[2].z), pitch, atan2(r.rows[1].x, r.rows[0].x)};
+}
+
 Quat slerp(const Quat& a, const Quat& b, double t) {
   double c = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
   const double sign = c < 0.0 ? -1.0 : 1.0;

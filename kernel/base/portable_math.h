@@ -34,6 +34,8 @@ double log(double x);
 // The rotation of a robot's roll, pitch and yaw (REP 103): R = Rz(yaw) Ry(pitch) Rx(roll), so a
 // positive pitch lowers the nose of a camera that looks along X. unit: rad.
 Quat quat_from_rpy(double roll, double pitch, double yaw);
+// {roll, pitch, yaw} of a rotation; where it looks straight up or down, yaw is 0.
+Vec3 rpy_from_quat(const Quat& rotation);
 // Shortest-arc interpolation at constant angular speed; t in [0, 1].
 Quat slerp(const Quat& a, const Quat& b, double t);
 

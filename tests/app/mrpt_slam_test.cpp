@@ -13,7 +13,7 @@
 #include "tests/app/program.h"
 
 namespace rubble::testing {
-namespace {
+namespace mrpt_slam_test {
 
 struct Place {
   double x = 0, y = 0;
@@ -145,5 +145,5 @@ TEST_F(NightlyMrptSlam, EveryCombination) {
   }
 }
 
-}  // namespace
+}  // namespace mrpt_slam_test
 }  // namespace rubble::testing

@@ -8,7 +8,7 @@
 #include "tests/app/tiny_run.h"
 
 namespace rubble::testing {
-namespace {
+namespace ruin_drive_test {
 
 namespace fs = std::filesystem;
 
@@ -97,5 +97,5 @@ TEST_F(RuinDrive, APathOfOneCarrierIsNotThatOfAnother) {
   EXPECT_NEAR(metrics.at("path_m").get<double>(), metrics.at("robot_path_m").get<double>(), 0.06);
 }
 
-}  // namespace
+}  // namespace ruin_drive_test
 }  // namespace rubble::testing

@@ -13,7 +13,7 @@
 #include "scenes.h"
 
 namespace rubble {
-namespace {
+namespace laid_building_test {
 
 constexpr double kGravity = 9.81;
 
@@ -168,5 +168,5 @@ TEST(LaidBuilding, ACollapsedStoreyStaysAsItCameToRest) {
   EXPECT_EQ(run.run().pieces_moved, 0);
 }
 
-}  // namespace
+}  // namespace laid_building_test
 }  // namespace rubble

@@ -4,7 +4,7 @@
 #include "tests/scripting/test_support.h"
 
 namespace rubble {
-namespace {
+namespace parameters_test {
 
 const char kScript[] = R"(
 local height = rubble.parameter("height", 2.4, { min = 1, max = 3, unit = "m" })
@@ -87,5 +87,5 @@ TEST(Parameters, OfFunctionsOfOnesOwn) {
   EXPECT_EQ(load_text(script, with_overrides({"wall.layers=5"})).scenario.pile.layers, 5);
 }
 
-}  // namespace
+}  // namespace parameters_test
 }  // namespace rubble

@@ -66,29 +66,47 @@ inline std::uint64_t to_seed(const py::object& value) {
                     py::repr(value).cast<std::string>(), ""});
 }
 
+inline std::vector<py::ssize_t> c_strides(const std::vector<py::ssize_t>& shape, std::size_t item) {
+  std::vector<py::ssize_t> strides(shape.size());
+  py::ssize_t stride = py::ssize_t(item);
+  for (std::size_t i = shape.size(); i-- > 0;) {
+    strides[i] = stride;
+    stride *= shape[i];
+  }
+  return strides;
+}
+
+// An array to be filled. Every array of the module is made here or by take_vector(), with its strides: pybind11 before
+// 2.12 reads the size of an item of numpy 2 as 0, and makes arrays all of whose elements are one. A test looks for
+// arrays that are made elsewhere.
+template <typename T>
+py::array_t<T> make_array(const std::vector<py::ssize_t>& shape) {
+  return py::array_t<T>(shape, c_strides(shape, sizeof(T)));
+}
+
+// An array that owns the vector it was made from: nothing is copied.
+template <typename T>
+py::array_t<T> take_vector(std::vector<T>&& values, const std::vector<py::ssize_t>& shape) {
+  auto* const kept = new std::vector<T>(std::move(values));
+  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
+  return py::array_t<T>(shape, c_strides(shape, sizeof(T)), kept->data(), owner);
+}
+
 inline void put_pose(const Pose& pose, double* to) {
   const auto& [q, t] = pose;
   for (const double value : {t.x, t.y, t.z, q.w, q.x, q.y, q.z}) *to++ = value;
 }
 
 inline py::array_t<double> from_pose(const Pose& pose) {
-  py::array_t<double> out(7);
+  py::array_t<double> out = make_array<double>({7});
   put_pose(pose, out.mutable_data());
   return out;
 }
 
 inline py::array_t<double> from_vector(const Vec3& v) {
-  py::array_t<double> out(3);
+  py::array_t<double> out = make_array<double>({3});
   for (int i = 0; i < 3; ++i) out.mutable_data()[i] = v[i];
   return out;
-}
-
-// An array that owns the vector it was made from: nothing is copied.
-template <typename T>
-py::array_t<T> take_vector(std::vector<T>&& values, std::vector<py::ssize_t> shape) {
-  auto* const kept = new std::vector<T>(std::move(values));
-  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
-  return py::array_t<T>(std::move(shape), kept->data(), owner);
 }
 
 }  // namespace rubble::python

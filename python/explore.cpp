@@ -46,7 +46,7 @@ class Explorer {
   py::tuple look(const DoubleArray& world_from_body) {
     const Pose pose = to_pose(world_from_body, "pose");
     const int size = rays_.intrinsics().width;
-    py::array_t<float> picture({py::ssize_t(size), py::ssize_t(size)});
+    py::array_t<float> picture = make_array<float>({size, size});
     float* const depth = picture.mutable_data();
     {
       const py::gil_scoped_release free;

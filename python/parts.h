@@ -23,6 +23,7 @@ using SharedPile = std::shared_ptr<SettledMission>;
 void add_errors(pybind11::module_& module);
 void add_pile(pybind11::module_& module);
 void add_sensors(pybind11::module_& module);
+void add_geometry(pybind11::module_& module);
 void add_explorer(pybind11::module_& module);
 
 // A flat camera, checked. Throws InputError.

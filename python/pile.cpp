@@ -62,7 +62,7 @@ Pile open_pile(const std::string& folder, int threads) {
 
 py::array_t<double> poses_of(const Pile& pile) {
   const auto& pieces = pile.settled->state.pieces;
-  py::array_t<double> out({py::ssize_t(pieces.size()), py::ssize_t(7)});
+  py::array_t<double> out = make_array<double>({py::ssize_t(pieces.size()), 7});
   for (std::size_t i = 0; i < pieces.size(); ++i) put_pose(pieces[i].world_from_body, out.mutable_data() + 7 * i);
   return out;
 }

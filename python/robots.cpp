@@ -107,7 +107,7 @@ class RobotWorld {
   py::dict state() const {
     const RobotState s = world_.robot_state(0);
     py::dict out;
-    py::array_t<double> links({py::ssize_t(s.links.size()), py::ssize_t(7)});
+    py::array_t<double> links = make_array<double>({py::ssize_t(s.links.size()), 7});
     for (std::size_t i = 0; i < s.links.size(); ++i) put_pose(s.links[i].world_from_link, links.mutable_data() + 7 * i);
     std::vector<double> angles, speeds, torques, forces;
     for (const RobotState::Joint& j : s.joints)

@@ -44,10 +44,10 @@ class FrameRenderer {
         gl_({-1, threads}),
         renderer_(prepare_renderer(scene_of(*settled_), settled_->mission.scenario, gl_, threads, {})) {}
 
-  py::dict render(const DoubleArray& world_from_camera, int width, int height, double fov_deg) {
+  py::dict render(const DoubleArray& world_from_camera, int width, int height, double fov_deg, int number) {
     const Pose pose = to_pose(world_from_camera, "pose");
     const Intrinsics k = pinhole(width, height, fov_deg);
-    Frame frame = renderer_->render(pose, k, 0, settled_->mission.scenario.start_ns);
+    Frame frame = renderer_->render(pose, k, number, settled_->mission.scenario.start_ns);
     py::dict out;
     out["rgb"] = take_vector(std::move(frame.rgb), {height, width, 3});
     out["depth"] = take_vector(std::move(frame.depth), {height, width});
@@ -70,7 +70,7 @@ class DepthCamera {
   py::array_t<float> depth(const DoubleArray& world_from_camera) {
     const Pose pose = to_pose(world_from_camera, "pose");
     const Intrinsics& k = rays_.intrinsics();
-    py::array_t<float> out({py::ssize_t(k.height), py::ssize_t(k.width)});
+    py::array_t<float> out = make_array<float>({k.height, k.width});
     float* const values = out.mutable_data();
     {
       const py::gil_scoped_release free;
@@ -136,7 +136,7 @@ void add_sensors(py::module_& module) {
         return std::make_unique<FrameRenderer>(s, threads);
       }))
       .def("render", &FrameRenderer::render, py::arg("pose"), py::arg("width") = 640, py::arg("height") = 480,
-           py::arg("fov_deg") = 90.0);
+           py::arg("fov_deg") = 90.0, py::arg("number") = 0);
   py::class_<DepthCamera>(module, "_DepthCamera")
       .def(py::init([](const SharedPile& s, int width, int height, double fov_deg,
                        double max_range, int threads) {

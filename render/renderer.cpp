@@ -53,7 +53,9 @@ const Medium& Renderer::medium() const { return source_->scene.medium; }
 
 Frame Renderer::render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,
                        std::int64_t stamp_ns) {
-  return render(pinhole_view(world_from_camera, intrinsics, stamp_ns), index);
+  ViewRays rays = pinhole_view(world_from_camera, intrinsics, stamp_ns);
+  rays.noise = 2 * std::uint64_t(index);  // as the left image of a Camera
+  return render(rays, index);
 }
 
 Frame Renderer::render(const ViewRays& rays, int index) { return view(rays).into_frame(index); }

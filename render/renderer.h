@@ -44,7 +44,7 @@ class Renderer {
   const Medium& medium() const;
 
   // Colour and depth of a view, metered on the frame itself: a frame is the same whichever were drawn
-  // before it. Distortion in `intrinsics` is not applied: it must be zero.
+  // before it. Its noise follows from `index`, or of a view from ViewRays::noise. Distortion in `intrinsics` is not applied: it must be zero.
   Frame render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,
                std::int64_t stamp_ns);
   Frame render(const ViewRays& rays, int index);

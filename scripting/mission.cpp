@@ -10,6 +10,28 @@
 namespace rubble {
 namespace {
 
+// "pile" of "pile.mix[1].weight=2".
+std::string first_word(const std::string& text) { return text.substr(0, text.find_first_of(".[=")); }
+
+// The first words of the keys of a mission.
+std::vector<std::string> mission_words() {
+  Scenario scenario;
+  const Schema schema = make_scenario_schema(scenario);
+  std::vector<std::string> words;
+  for (const Key& key : schema.keys()) words.push_back(first_word(key.path));
+  for (const Alias& alias : schema.aliases()) words.push_back(alias.name);
+  std::sort(words.begin(), words.end());
+  words.erase(std::unique(words.begin(), words.end()), words.end());
+  return words;
+}
+
+// A key of the mission; anything else is for the script.
+bool is_for_script(const std::string& override_text, const std::vector<std::string>& words) {
+  const std::size_t equals = override_text.find('=');
+  return equals != std::string::npos && equals > 0 &&
+         !std::binary_search(words.begin(), words.end(), first_word(override_text));
+}
+
 // The seed that rubble.random uses while the script runs: before its table is known, only a number
 // that stands in it literally can be.
 std::uint64_t seed_for_script(const SourceMap& lines, const MissionOptions& options) {
@@ -52,6 +74,14 @@ std::string placed_key(std::size_t i, const char* name) {
 
 }  // namespace
 
+void give_overrides(const std::vector<std::string>& overrides, LuaSandbox& sandbox) {
+  const std::vector<std::string> words = mission_words();
+  std::vector<std::string> given;
+  for (const std::string& text : overrides)
+    if (is_for_script(text, words)) given.push_back(text);
+  sandbox.set_overrides(given, words);
+}
+
 Mission load_mission(const std::string& path, const MissionOptions& options) {
   return load_mission_text(read_script(path).text, path, options);
 }
@@ -63,18 +93,30 @@ Mission load_mission_text(const std::string& text, const std::string& path,
   const std::uint64_t seed = seed_for_script(lines, options);
   LuaSandbox sandbox(seed, "rubble.mission", options.limits);
   if (options.included) sandbox.serve_includes(*options.included);
+  give_overrides(options.overrides, sandbox);
   const Value table = run_script(sandbox, mission.script, lines);
   mission.included = sandbox.included();
   mission.printed = sandbox.take_printed();
   mission.drawn = sandbox.drawn();
+  mission.parameters = sandbox.parameters();
   require_table(table, mission.script, lines);
 
   Scenario& scenario = mission.scenario;
   const Schema schema = make_scenario_schema(scenario);
   std::vector<Diagnostic> mistakes = sandbox.mistakes();
   read_table(schema, table, mistakes);
+  const std::vector<std::string> words = mission_words();
   for (const std::string& override_text : options.overrides)
-    apply_override(schema, override_text, mistakes);
+    if (!is_for_script(override_text, words)) apply_override(schema, override_text, mistakes);
+  for (const auto& [override_text, hint] : sandbox.unused_overrides()) {
+    std::vector<Diagnostic> unknown;
+    apply_override(schema, override_text, unknown);
+    for (Diagnostic& d : unknown) {
+      const bool knows = d.hint.rfind("did you mean", 0) == 0, better = hint.rfind("did you mean", 0) == 0;
+      if (better || (!knows && !hint.empty())) d.hint = hint;
+      mistakes.push_back(std::move(d));
+    }
+  }
   if (options.seed) scenario.seed = *options.seed;
   check_seed(sandbox, seed, scenario, mistakes);
   add_duplicates(lines, mistakes);

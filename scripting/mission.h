@@ -20,7 +20,9 @@ namespace rubble {
 
 struct MissionOptions {
   std::optional<std::uint64_t> seed;   // instead of the script's
-  std::vector<std::string> overrides;  // "key=value", in order; see apply_override in schema.h
+  // "key=value", in order: of keys of the mission (apply_override in schema.h), of parameters that the script declares,
+  // and of options of functions that it calls (LuaSandbox::set_overrides).
+  std::vector<std::string> overrides;
   // What rubble.include reads, by path relative to the script, instead of files.
   std::optional<std::map<std::string, std::string>> included;
   SandboxLimits limits;  // of memory, instructions and time
@@ -33,6 +35,7 @@ struct Mission {
   std::vector<std::string> printed;                        // lines that the script printed
   SourceMap lines;                                         // where each key was written
   std::vector<std::pair<std::string, std::string>> drawn;  // by rubble.random: LuaSandbox::drawn
+  std::map<std::string, std::string> parameters{};         // that the script declared: LuaSandbox::parameters
 };
 
 // What is allowed and hardly meant, each with file and line: an angle that looks like radians.
@@ -44,6 +47,9 @@ Mission load_mission(const std::string& path, const MissionOptions& options = {}
 // The same for a text that is at hand, as from a manifest; `path` names it.
 Mission load_mission_text(const std::string& text, const std::string& path,
                           const MissionOptions& options = {});
+
+// Gives a sandbox the overrides that are no keys of the mission. Before it runs the script.
+void give_overrides(const std::vector<std::string>& overrides, LuaSandbox& sandbox);
 
 // Throws InputError with the line of every asset that a mission names and no pack has.
 void check_assets(const Mission& mission, const std::vector<std::string>& names);

@@ -9,6 +9,7 @@
 #include "app/batch/batch_folder.h"
 #include "app/batch/seed_list.h"
 #include "app/estimate/disk_estimate.h"
+#include "app/estimate/preview.h"
 #include "app/provenance/folder_lock.h"
 #include "app/provenance/provenance.h"
 #include "app/support/build_info.h"
@@ -23,6 +24,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
+
+constexpr std::size_t kMostListed = 20;  // variants of a preview
 
 struct Tally {
   std::size_t ended = 0, failed = 0, not_settled = 0, done_before = 0;
@@ -57,6 +60,7 @@ class Batch {
 
   ExitCode run() {
     check_mission();
+    if (request_.of.preview) return show_preview();
     folder_.open(describe());
     make_jobs();
     check_disk(estimate_, "estimated");
@@ -86,8 +90,36 @@ class Batch {
       const Mission mission = load_mission(request_.of.mission, varied);
       const AssetLibrary assets = load_assets(mission, request_.of.asset_packs);
       estimate_ = std::max(estimate_, estimate_bytes(mission.scenario, assets, request_.pile_only));
+      if (request_.of.preview) {
+        const RunKind kind = request_.pile_only ? RunKind::settle : RunKind::run;
+        previews_.push_back(preview_run(kind, mission.scenario, mission.scenario, assets, folder_.path()));
+      }
       if (variant == 0) describe_mission(mission, assets, options);
     }
+  }
+
+  // Each new value was looked at once: the longest time and the largest size of these stand for all runs.
+  ExitCode show_preview() const {
+    const std::size_t runs = mine_.size();
+    std::printf("%zu runs: %zu seeds, %zu variants%s; %d at once on %d threads each\n", runs, all_.size(),
+                sweep_.variants.size(), request_.shard.empty() ? "" : (", shard " + request_.shard).c_str(), shape_.at_once,
+                shape_.threads);
+    for (std::size_t variant = 0; sweep_.varies() && variant < sweep_.variants.size(); ++variant) {
+      if (variant == kMostListed) {
+        std::printf("... and %zu variants more\n", sweep_.variants.size() - variant);
+        break;
+      }
+      std::string line = "v" + std::to_string(variant + 1) + ":";
+      for (const std::string& value : sweep_.overrides(variant)) line += " " + value;
+      std::printf("%s\n", line.c_str());
+    }
+    const auto less = [](const RunPreview& a, const RunPreview& b) {
+      return std::make_pair(a.seconds.value_or(0), a.bytes) < std::make_pair(b.seconds.value_or(0), b.bytes);
+    };
+    const RunPreview& most = *std::max_element(previews_.begin(), previews_.end(), less);
+    std::printf("a run: %s\n", rubble::describe(most).c_str());
+    std::printf("in all: at most %s\n", format_bytes(estimate_ * runs).c_str());
+    return ExitCode::done;
   }
 
   void describe_mission(const Mission& mission, const AssetLibrary& assets,
@@ -249,6 +281,7 @@ class Batch {
   Progress progress_;
   Provenance provenance_;
   std::uint64_t estimate_ = 0;
+  std::vector<RunPreview> previews_;  // of the values that were looked at
   std::vector<std::string> runs_;  // names, one per job
   std::vector<Job> jobs_;
   std::vector<std::string> failures_;

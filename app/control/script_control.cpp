@@ -10,6 +10,7 @@
 #include "app/support/print.h"
 #include "kernel/robot/bundled.h"
 #include "kernel/robot/odometry.h"
+#include "scripting/mission.h"
 #include "scripting/sandbox/lua_sandbox.h"
 #include "scripting/sandbox/script_file.h"
 #include "scripting/sandbox/source_map.h"
@@ -74,6 +75,7 @@ struct ScriptControl::State {
     std::map<std::string, std::string> included;
     for (const SourceFile& file : m.provenance.included) included[file.path] = file.text;
     sandbox.serve_includes(included);
+    give_overrides(m.provenance.overrides, sandbox);
     run_script(sandbox, script, lines);
     sandbox.take_printed();  // that was shown when the mission was loaded
   }
@@ -92,7 +94,7 @@ RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel
   const RobotItem& item = state.mission.scenario.robots[robot];
   const std::string key = "robots[" + std::to_string(robot + 1) + "].control";
   const double gravity = state.mission.scenario.settle.gravity;
-  const auto wheels = model.sides.any() ? std::make_shared<WheelOdometry>(model) : nullptr;
+  const auto wheels = model.sides.any() ? std::make_shared<WheelOdometry>(model, odometry_noise(state.mission.scenario, robot)) : nullptr;
   return [&state, robot, item, model, key, gravity, wheels, last = Vec3{}, last_time = 0.0](
              const RobotSense& sense) mutable {
     Value told = describe_sense(sense, model, gravity, last, last_time);

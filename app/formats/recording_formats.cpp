@@ -33,6 +33,18 @@ SimplemapOptions simplemap_options(In in) {
   return options;
 }
 
+RawlogOptions rawlog_options(In in) {
+  RawlogOptions options;
+  options.gzip_level = in.scenario.outputs.rawlog_gzip;
+  options.recording = in.recording;
+  const auto& robots = in.recording.robots;
+  const auto robot =
+      std::find_if(robots.begin(), robots.end(), [](const RobotRecord& r) { return r.has_odometry; });
+  if (in.scenario.outputs.rawlog_format == RawlogFormat::actions && robot != robots.end())
+    options.actions_of = int(robot - robots.begin());
+  return options;
+}
+
 ContactSheetOptions sheet_options(int frames, const std::string& title) {
   ContactSheetOptions sheet;
   sheet.total_frames = frames;
@@ -52,7 +64,7 @@ RosOptions ros_of(In in) { return ros_options(in.scenario.outputs, in.recording)
 const std::vector<RecordingFormat> kFormats{
     {"rawlog", "mission.rawlog", false, &OutputScenario::rawlog,
      [](Path p, In in) -> Made {
-       return make_rawlog_recorder(p, {in.scenario.outputs.rawlog_gzip, 0.001, in.recording});
+       return make_rawlog_recorder(p, rawlog_options(in));
      },
      [](Size s) {
        return s.of(s.picture.rawlog() + kFrameOverhead, 420) + size_of_scans(s.flight, 2000, 16);

@@ -56,7 +56,7 @@ const std::vector<std::pair<std::string, std::string>>& metric_names() {
       {"robots_lost", "With robots: number of robots that left the world."},
       {"robot_pieces_moved", "With robots: number of pieces that moved more than 1 cm."},
       {"frames", "Number of frames of the flight, of all cameras."},
-      {"path_m", "Length of the flight."},
+      {"path_m", "Length of the flight: path of the rig; where no camera is on it, of what carries cameras, summed."},
       {"depth_min_m", "Smallest depth of all pixels of all frames."},
       {"depth_mean_m", "Mean depth of all pixels that have a depth."},
       {"depth_max_m", "Largest depth."},
@@ -101,15 +101,25 @@ void DepthMetrics::add(const Frame& frame) {
   sum_ += sum;
   pixels_ += std::int64_t(frame.depth.size());
   const Vec3& position = frame.world_from_rig.translation;
-  const Vec3 leg = position - last_position_;
-  if (frames_ > 0) path_ += std::sqrt(dot(leg, leg));
-  last_position_ = position;
+  const auto [path, is_first] = paths_.insert({carriers_.at(std::size_t(frame.sensor)), {0, position}});
+  const Vec3 leg = position - path->second.last;
+  if (!is_first) path->second.length += std::sqrt(dot(leg, leg));
+  path->second.last = position;
   ++frames_;
+}
+
+// Of the rig; where no camera is on it, of all that carry one.
+double DepthMetrics::flown() const {
+  const auto rig = paths_.find("");
+  if (rig != paths_.end()) return rig->second.length;
+  double sum = 0;
+  for (const auto& [carrier, path] : paths_) sum += path.length;
+  return sum;
 }
 
 void DepthMetrics::add_to(Metrics& metrics) const {
   metrics["frames"] = double(frames_);
-  metrics["path_m"] = path_;
+  metrics["path_m"] = flown();
   if (pixels_ == 0) return;
   metrics["depth_min_m"] = min_;
   metrics["depth_max_m"] = max_;

@@ -25,13 +25,22 @@ void add_pile_metrics(const PileState& pile, const AssetLibrary& assets, Metrics
 // Those of the flight and of the depth over all its frames.
 class DepthMetrics {
  public:
+  // carriers: by camera, what it is on; "": the rig.
+  explicit DepthMetrics(std::vector<std::string> carriers) : carriers_(std::move(carriers)) {}
   void add(const Frame& frame);
   void add_to(Metrics& metrics) const;
 
  private:
   std::int64_t frames_ = 0, pixels_ = 0, returns_ = 0;
-  double min_ = 0, max_ = 0, sum_ = 0, path_ = 0;
-  Vec3 last_position_;
+  double min_ = 0, max_ = 0, sum_ = 0;
+  struct Path {
+    double length = 0;
+    Vec3 last;
+  };
+  double flown() const;
+
+  std::vector<std::string> carriers_;
+  std::map<std::string, Path> paths_;  // by carrier
 };
 
 }  // namespace rubble

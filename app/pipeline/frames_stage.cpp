@@ -85,7 +85,10 @@ void take_samples(SensorSuite& sensors, const Leg& leg, FrameSinks& sinks, const
                   RunContext& context, Taking& taking, RecordedFrames& recorded) {
   taking.frame = 0;
   taking.frames = sensors.count_frames();
-  DepthMetrics depth;
+  std::vector<std::string> carriers;
+  for (const MountedCamera& camera : all_cameras(leg.scenario))
+    carriers.push_back(camera.ride.on() ? camera.ride.robot + "/" + camera.ride.link : "");
+  DepthMetrics depth(std::move(carriers));
   throw_if_stopped(folder.path());
   while (std::optional<Sample> sample = sensors.take()) {
     if (const auto* reading = std::get_if<ImuSample>(&*sample)) {

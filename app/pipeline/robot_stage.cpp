@@ -67,7 +67,8 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
   folder.expect(robot_file_names(names, models));
   std::unique_ptr<ScriptControl> script;
   std::vector<RobotLog> logs;
-  for (std::size_t i = 0; i < robots.size(); ++i) logs.emplace_back(models[i], int(i), mission.scenario.start_ns);
+  for (std::size_t i = 0; i < robots.size(); ++i)
+    logs.emplace_back(models[i], mission.scenario.start_ns, odometry_noise(mission.scenario, i));
   driven.records = with_lines_of_script(mission, [&] { return describe_robots(mission.scenario, made); });
   RobotRunResult result;
   with_lines_of_script(mission, [&] {

@@ -142,6 +142,10 @@ MissionRobot make_mission_robot(const RobotItem& robot, const std::vector<std::s
   return made;
 }
 
+OdometryNoise odometry_noise(const Scenario& scenario, std::size_t robot) {
+  return {scenario.robots[robot].odometry_noise, scenario.seed, int(robot)};
+}
+
 Pose calc_base_pose(const RobotItem& robot, const MissionRobot& made) {
   return Pose{quat_from_degrees(robot.rpy_deg), robot.position} * made.placed_from_base;
 }

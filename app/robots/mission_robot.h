@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "io/mesh/mesh_file.h"
+#include "io/robot/urdf_writer.h"
 #include "kernel/model/robot.h"
-#include "scripting/scenario/robot_scenario.h"
+#include "kernel/robot/odometry.h"
+#include "scripting/scenario/scenario.h"
 
 namespace rubble {
 
@@ -31,5 +33,7 @@ MissionRobot make_mission_robot(const RobotItem& robot, const std::vector<std::s
 
 // Of its first link, in the world.
 Pose calc_base_pose(const RobotItem& robot, const MissionRobot& made);
+// Of the odometry of the mission's robot of that number, from 0.
+OdometryNoise odometry_noise(const Scenario& scenario, std::size_t robot);
 
 }  // namespace rubble

@@ -32,9 +32,9 @@ Pose parent_from_child(const std::vector<Pose>& base_from_links, const RobotJoin
 
 }  // namespace
 
-RobotLog::RobotLog(const RobotModel& model, int number, std::int64_t start_ns)
-    : model_(&model), number_(number), start_ns_(start_ns) {
-  if (model.sides.any()) wheels_.emplace(model);
+RobotLog::RobotLog(const RobotModel& model, std::int64_t start_ns, const OdometryNoise& noise)
+    : model_(&model), number_(noise.robot), start_ns_(start_ns) {
+  if (model.sides.any()) wheels_.emplace(model, noise);
 }
 
 void RobotLog::note(const RobotSense& sense) {
@@ -101,7 +101,7 @@ RobotRecord describe_robot(const MissionRobot& robot, const std::string& name, c
   record.world_from_base = world_from_base;
   record.has_odometry = model.sides.any();
   record.description = robot_to_urdf(model, name, std::string("package://") + kRobotsPackage + "/" + name + "_meshes",
-                                     world_from_base);
+                                     record.frame, world_from_base);
   return record;
 }
 

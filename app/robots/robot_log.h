@@ -18,8 +18,8 @@ namespace rubble {
 
 class RobotLog {
  public:
-  // number: of the robot; start_ns: the stamp of its time 0. The model must outlive the log.
-  RobotLog(const RobotModel& model, int number, std::int64_t start_ns);
+  // start_ns: the stamp of its time 0; noise: with the number of the robot. The model must outlive the log.
+  RobotLog(const RobotModel& model, std::int64_t start_ns, const OdometryNoise& noise);
 
   void note(const RobotSense& sense);
 

@@ -67,7 +67,7 @@ std::string load_sealed(const SealedKind& kind, const std::string& path) {
   if (all.size() < kHeaderSize + kDigestSize) header.fail("the " + name + " is truncated");
   header.bytes(kind.magic.size());
   const auto version = header.number<std::uint32_t>();
-  if (version != kind.version) {
+  if (version > kind.version || version < (kind.oldest > 0 ? kind.oldest : kind.version)) {
     header.fail("the " + name + " has format version " + std::to_string(version) +
                     "; this program reads version " + std::to_string(kind.version),
                 kind.if_other_version);

@@ -19,10 +19,11 @@ namespace rubble {
 
 struct SealedKind {
   std::string_view magic;             // 8 bytes
-  std::uint32_t version = 1;          // of the format
+  std::uint32_t version = 1;          // of the format, as it is written
   std::string_view name;              // in messages, e.g. "pile state"
   std::string_view where;             // for someone who gave another file: where one is found
   std::string_view if_other_version;  // what to do about a file of another version
+  std::uint32_t oldest = 0;           // version that is read as well; 0: `version` alone
 };
 
 // Throws RunError when the file cannot be written.

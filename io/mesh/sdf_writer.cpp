@@ -4,6 +4,7 @@
 #include "io/base/xml_text.h"
 #include "io/mesh/obj_writer.h"
 #include "io/mesh/pile_export.h"
+#include "kernel/base/portable_math.h"
 #include "kernel/base/text.h"
 
 namespace rubble {
@@ -40,13 +41,14 @@ std::string numbers(const std::vector<double>& values) {
 
 std::string model_element(const PileModel::Piece& piece, const std::string& mesh) {
   const Vec3& t = piece.world_from_body.translation;
-  const Quat& q = piece.world_from_body.rotation;
+  // Roll, pitch and yaw: readers other than Gazebo's take any six or seven numbers as these.
+  const Vec3 rpy = portable::rpy_from_quat(piece.world_from_body.rotation);
   const std::string geometry =
       "          <geometry><mesh><uri>meshes/" + xml_text(file_name_of(mesh)) + ".obj</uri><scale>" +
       numbers({piece.scale, piece.scale, piece.scale}) + "</scale></mesh></geometry>\n";
   return "    <model name=\"" + xml_text(piece.name) +
-         "\">\n      <static>true</static>\n      <pose rotation_format=\"quat_xyzw\">" +
-         numbers({t.x, t.y, t.z, q.x, q.y, q.z, q.w}) +
+         "\">\n      <static>true</static>\n      <pose>" +
+         numbers({t.x, t.y, t.z, rpy.x, rpy.y, rpy.z}) +
          "</pose>\n      <link name=\"link\">\n        <collision name=\"collision\">\n" +
          geometry + "        </collision>\n        <visual name=\"visual\">\n" + geometry +
          "        </visual>\n      </link>\n    </model>\n";

@@ -93,16 +93,14 @@ mrpt::obs::CObservation2DRangeScan planar_scan(const LidarScan& scan, const Lida
 }  // namespace
 
 void write_lidar_observation(const LidarScan& scan, const LidarRecord& lidar,
-                             mrpt::serialization::CArchive& archive) {
+                             const std::function<void(const mrpt::obs::CObservation&)>& write) {
   switch (lidar.spec.pattern) {
     case LidarPattern::spinning:
-      archive << rotating_scan(scan, lidar);
-      return;
+      return write(rotating_scan(scan, lidar));
     case LidarPattern::rosette:
-      archive << point_cloud(scan, lidar);
-      return;
+      return write(point_cloud(scan, lidar));
     case LidarPattern::planar:
-      archive << planar_scan(scan, lidar);
+      return write(planar_scan(scan, lidar));
   }
 }
 

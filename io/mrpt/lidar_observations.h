@@ -1,7 +1,9 @@
 // Scans of LiDARs as MRPT's observations. Internal to io/mrpt.
 #pragma once
 
-#include <mrpt/serialization/CArchive.h>
+#include <mrpt/obs/CObservation.h>
+
+#include <functional>
 
 #include "io/recording/recording.h"
 #include "render/scene/lidar_scan.h"
@@ -12,7 +14,8 @@ namespace rubble {
 //   turns; ranges are multiples of 2 mm, beyond a reach of 131 m of 4 mm and so on, 0 without an echo. The second echo of a ray is in the layer "SECOND".
 // rosette: CObservationPointCloud with a CPointsMapXYZI. planar: CObservation2DRangeScan, whose
 //   rays MRPT takes to lie evenly about X.
+// write: called once.
 void write_lidar_observation(const LidarScan& scan, const LidarRecord& lidar,
-                             mrpt::serialization::CArchive& archive);
+                             const std::function<void(const mrpt::obs::CObservation&)>& write);
 
 }  // namespace rubble

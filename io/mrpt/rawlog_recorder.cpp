@@ -6,9 +6,12 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
+#include <cmath>
+
 #include "io/base/atomic_file.h"
 #include "io/base/gzip.h"
 #include "io/image/depth_encoding.h"
+#include "io/mrpt/action_frames.h"
 #include "io/mrpt/lidar_observations.h"
 #include "io/mrpt/mrpt_types.h"
 #include "io/recording/frame_order.h"
@@ -16,6 +19,9 @@
 
 namespace rubble {
 namespace {
+
+// Odometry that turns more slowly than this has no velocities in a rawlog; unit: rad/s.
+constexpr double kLeastTurning = 1e-6;
 
 class RawlogRecorder : public Recorder {
  public:
@@ -30,30 +36,42 @@ class RawlogRecorder : public Recorder {
 
   void write(const Frame& frame) override {
     order_.check(frame);
-    observe([&](auto& archive) { write_observations(frame, archive); });
+    guard([&] { write_observations(frame); });
+    write_frames(false);
+    if (stream_.bytes().empty()) return;  // actions wait for their odometry
     file_.write(make_gzip_member(stream_.bytes(), options_.gzip_level));
     stream_.clear();
   }
 
   // Into the gzip member of the next frame.
   void write_imu(const ImuSample& sample) override {
-    observe([&](auto& archive) { archive << make_imu(sample); });
+    guard([&] {
+      if (acts()) frames_.keep_for_next(make_imu(sample));
+      if (!acts()) emit(sample.stamp_ns, make_imu(sample));
+    });
   }
 
   void write_robot(const RobotSample& sample) override {
     const std::string& name = recording_.robots.at(std::size_t(sample.sensor)).name;
-    observe([&](auto& archive) {
-      if (sample.odometry) archive << make_odometry(sample, name + "_odometry");
-      archive << make_truth(sample.stamp_ns, name + "_ground_truth", sample.world_from_base);
+    guard([&] {
+      const bool moves = acts() && sample.sensor == options_.actions_of && sample.odometry;
+      if (moves) frames_.note_odometry(sample.stamp_ns, make_odometry(sample, "").odometry);
+      if (acts()) return;  // actions have the odometry, and robots/NAME.txt the truth
+      if (sample.odometry) emit(sample.stamp_ns, make_odometry(sample, name + "_odometry"));
+      emit(sample.stamp_ns, make_truth(sample.stamp_ns, name + "_ground_truth", sample.world_from_base));
     });
+    write_frames(false);
   }
 
   void write_lidar(const LidarScan& scan) override {
     const LidarRecord& lidar = recording_.lidars.at(std::size_t(scan.sensor));
-    observe([&](auto& archive) { write_lidar_observation(scan, lidar, archive); });
+    guard([&] {
+      write_lidar_observation(scan, lidar, [&](const auto& observation) { emit(scan.stamp_ns, observation); });
+    });
   }
 
   void finish() override {
+    write_frames(true);
     if (!stream_.bytes().empty())
       file_.write(make_gzip_member(stream_.bytes(), options_.gzip_level));
     file_.commit();
@@ -71,12 +89,13 @@ class RawlogRecorder : public Recorder {
     return recording;
   }
 
-  // write: with an archive.
-  template <typename Write>
-  void observe(const Write& write) {
+  bool acts() const { return options_.actions_of >= 0; }
+
+  // MRPT's errors as ours.
+  template <typename Work>
+  void guard(const Work& work) {
     try {
-      auto archive = mrpt::serialization::archiveFrom(static_cast<mrpt::io::CStream&>(stream_));
-      write(archive);
+      work();
     } catch (const RunError&) {
       throw;
     } catch (const std::exception& error) {
@@ -84,25 +103,51 @@ class RawlogRecorder : public Recorder {
     }
   }
 
+  void put(const mrpt::serialization::CSerializable& object) {
+    auto archive = mrpt::serialization::archiveFrom(static_cast<mrpt::io::CStream&>(stream_));
+    archive << object;
+  }
+
+  void emit(std::int64_t stamp_ns, const mrpt::obs::CObservation& observation) {
+    if (acts()) return frames_.add(stamp_ns, observation);
+    put(observation);
+  }
+
+  // Of sensory frames those whose action is known.
+  void write_frames(bool all) {
+    if (!acts()) return;
+    guard([&] {
+      frames_.write(
+          [&](const auto& actions, const auto& frame) {
+            put(actions);
+            put(frame);
+          },
+          all);
+    });
+  }
+
   // The pose of the rig once for the frames of one instant; of a link that carries a camera, for each.
-  template <typename Archive>
-  void write_observations(const Frame& frame, Archive& archive) {
+  void write_observations(const Frame& frame) {
     const CameraRecord& camera = recording_.cameras[std::size_t(frame.sensor)];
-    if (!camera.carrier.empty())
-      archive << make_truth(frame.stamp_ns, camera.name + "_ground_truth", frame.world_from_rig);
-    else if (frame.stamp_ns != last_ns_)
-      archive << make_truth(frame.stamp_ns, "ground_truth", frame.world_from_rig);
-    if (camera.carrier.empty()) last_ns_ = frame.stamp_ns;
+    if (!acts()) put_truth(frame, camera);
     const bool measured = camera.channels.measured_depth;
     fill_scan(frame, camera, camera.name, measured ? frame.measured_depth : frame.depth);
     fill_colour(frame);
-    archive << scan_;
+    emit(frame.stamp_ns, scan_);
     if (measured) {
       fill_scan(frame, camera, truth_label(camera), frame.depth);
       scan_.hasIntensityImage = false;
-      archive << scan_;
+      emit(frame.stamp_ns, scan_);
     }
-    if (camera.channels.right) archive << make_right(frame, camera);
+    if (camera.channels.right) emit(frame.stamp_ns, make_right(frame, camera));
+  }
+
+  void put_truth(const Frame& frame, const CameraRecord& camera) {
+    if (!camera.carrier.empty())
+      put(make_truth(frame.stamp_ns, camera.name + "_ground_truth", frame.world_from_rig));
+    else if (frame.stamp_ns != last_ns_)
+      put(make_truth(frame.stamp_ns, "ground_truth", frame.world_from_rig));
+    if (camera.carrier.empty()) last_ns_ = frame.stamp_ns;
   }
 
   std::string truth_label(const CameraRecord& camera) const {
@@ -128,8 +173,8 @@ class RawlogRecorder : public Recorder {
     observation.timestamp = mrpt_time(sample.stamp_ns);
     observation.sensorLabel = label;
     observation.odometry = mrpt::poses::CPose2D(pose.x(), pose.y(), pose.yaw());
-    observation.hasVelocities = true;
-    observation.velocityLocal = {from.linear, 0, from.angular};
+    observation.hasVelocities = std::abs(from.angular) > kLeastTurning;
+    if (observation.hasVelocities) observation.velocityLocal = {from.linear, 0, from.angular};
     return observation;
   }
 
@@ -199,6 +244,7 @@ class RawlogRecorder : public Recorder {
   std::int64_t last_ns_ = -1;  // of the last pose
   RawlogOptions options_;
   MemoryStream stream_;
+  ActionFrames frames_;
   mrpt::obs::CObservation3DRangeScan scan_;  // reused: its buffers are large
 };
 

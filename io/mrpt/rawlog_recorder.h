@@ -9,7 +9,8 @@
 // non-repeating one CObservationPointCloud, of a 2-D scanner CObservation2DRangeScan. Several cameras:
 // labels NAME, NAME_ground_truth_depth and NAME_right, each where it is mounted, and one pose an instant.
 // Robots: CObservationOdometry NAME_odometry and CObservationRobotPose NAME_ground_truth, both of the
-// robot's own base frame. MRPT's clock ticks every 100 ns:
+// robot's own base frame. Velocities go with odometry that turns only: MRPT 2.5 divides by the rate of turn, and a
+// rate of 0 makes its icp-slam lose the robot. MRPT's clock ticks every 100 ns:
 // stamps are rounded down to that.
 #pragma once
 
@@ -24,7 +25,10 @@ namespace rubble {
 struct RawlogOptions {
   int gzip_level = 0;         // 0 to 9; 1 halves the file and takes 3.5 times the CPU time
   double depth_unit = 0.001;  // of the stored integers, up to 65535 of them; unit: m; > 0
-  Recording recording;        // what is recorded, and under which names
+  Recording recording{};      // what is recorded, and under which names
+  // Of the robot of this number, from 0: actions by its odometry and sensory frames, see action_frames.h. The sensors
+  // of others are in it as well. -1: single observations, as above.
+  int actions_of = -1;
 };
 
 // Throws RunError when `path` cannot be created.

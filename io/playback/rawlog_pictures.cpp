@@ -1,8 +1,10 @@
 #include "io/playback/rawlog_pictures.h"
 
 #include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <exception>
@@ -57,6 +59,16 @@ RecordedPicture picture_of(const mrpt::obs::CObservation& observation, bool colo
   return colour ? colour_of(scan.intensityImage) : depth_of(scan);
 }
 
+// Of an object of a rawlog: itself, or those of a sensory frame; none of an action.
+std::vector<mrpt::obs::CObservation::Ptr> observations_of(const mrpt::serialization::CSerializable::Ptr& object) {
+  if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
+    return {frame->begin(), frame->end()};
+  if (std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object)) return {};
+  const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
+  if (!observation) throw std::runtime_error("it holds something that is no observation");
+  return {observation};
+}
+
 // Of no pixels: there is none.
 RecordedPicture import_picture(const std::string& path, const std::string& label,
                                const PictureWanted& wanted) {
@@ -65,10 +77,11 @@ RecordedPicture import_picture(const std::string& path, const std::string& label
     mrpt::io::CFileGZInputStream file;
     if (!file.open(path)) throw std::runtime_error("no such file");
     auto archive = mrpt::serialization::archiveFrom(file);
+    const bool colour = wanted.channel == "rgb" || wanted.channel == "rgb_right";
     for (int left = wanted.frame; !file.checkEOF();) {
-      const auto object = archive.ReadObject<mrpt::obs::CObservation>();
-      if (object->sensorLabel != label || left-- > 0) continue;
-      return picture_of(*object, wanted.channel == "rgb" || wanted.channel == "rgb_right");
+      for (const mrpt::obs::CObservation::Ptr& observation : observations_of(archive.ReadObject())) {
+        if (observation->sensorLabel == label && left-- == 0) return picture_of(*observation, colour);
+      }
     }
   } catch (const std::exception& error) {
     throw InputError(

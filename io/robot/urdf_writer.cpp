@@ -16,17 +16,8 @@ constexpr double kAnySpeed = 1e9;  // of a motor without a limit: 0 would hold i
 
 std::string triple(const Vec3& v) { return exact_text(v.x) + " " + exact_text(v.y) + " " + exact_text(v.z); }
 
-// R = Rz(yaw) Ry(pitch) Rx(roll)
-Vec3 rpy_of(const Quat& rotation) {
-  const Mat3 r = rotation.matrix();
-  const double level = std::sqrt(r.rows[0].x * r.rows[0].x + r.rows[1].x * r.rows[1].x);
-  const double pitch = portable::atan2(-r.rows[2].x, level);
-  if (level < 1e-9) return {portable::atan2(-r.rows[1].z, r.rows[1].y), pitch, 0};
-  return {portable::atan2(r.rows[2].y, r.rows[2].z), pitch, portable::atan2(r.rows[1].x, r.rows[0].x)};
-}
-
 std::string origin(const Pose& pose) {
-  return "<origin xyz=\"" + triple(pose.translation) + "\" rpy=\"" + triple(rpy_of(pose.rotation)) +
+  return "<origin xyz=\"" + triple(pose.translation) + "\" rpy=\"" + triple(portable::rpy_from_quat(pose.rotation)) +
          "\"/>";
 }
 
@@ -35,9 +26,9 @@ std::string geometry(const char* kind, const std::string& file) {
          "\"/></geometry></" + kind + ">\n";
 }
 
-std::string link_text(const RobotLink& link, const std::string& folder) {
+std::string link_text(const RobotLink& link, const std::string& folder, const std::string& prefix) {
   const Mat3& i = link.inertia;
-  std::string text = "  <link name=\"" + xml_text(link.name) + "\">\n    <inertial>" +
+  std::string text = "  <link name=\"" + xml_text(prefix + link.name) + "\">\n    <inertial>" +
                      origin({{}, link.centre_of_mass}) + "<mass value=\"" + exact_text(link.mass) +
                      "\"/><inertia ixx=\"" + exact_text(i.rows[0].x) + "\" ixy=\"" + exact_text(i.rows[0].y) +
                      "\" ixz=\"" + exact_text(i.rows[0].z) + "\" iyy=\"" + exact_text(i.rows[1].y) + "\" iyz=\"" +
@@ -76,14 +67,14 @@ std::string mimic_text(const RobotModel& model, int joint) {
   return "";
 }
 
-std::string joint_text(const RobotModel& model, const RobotJoint& joint) {
+std::string joint_text(const RobotModel& model, const RobotJoint& joint, const std::string& prefix) {
   const bool limited = joint.lower > -kFree || joint.upper < kFree;
   const char* kind = joint.kind == JointKind::weld     ? "fixed"
                      : joint.kind == JointKind::slider ? "prismatic"
                      : limited                         ? "revolute"
                                                        : "continuous";
-  std::string text = joint_head(joint.name, kind, model.links[std::size_t(joint.parent)].name,
-                                model.links[std::size_t(joint.child)].name, joint.parent_from_child);
+  std::string text = joint_head(joint.name, kind, prefix + model.links[std::size_t(joint.parent)].name,
+                                prefix + model.links[std::size_t(joint.child)].name, joint.parent_from_child);
   if (joint.kind == JointKind::weld) return text + "  </joint>\n";
   text += "    <axis xyz=\"" + triple(joint.axis) + "\"/>" + limit_text(joint, limited) + "<dynamics damping=\"" +
           exact_text(joint.damping) + "\" friction=\"" + exact_text(joint.friction) + "\"/>\n";
@@ -100,10 +91,10 @@ std::string free_joint_name(const RobotModel& model, std::string name) {
 // A link without a body.
 std::string empty_link(const std::string& name) { return "  <link name=\"" + xml_text(name) + "\"/>\n"; }
 
-std::string frame_text(const RobotModel& model, const RobotFrame& frame) {
-  return empty_link(frame.name) +
-         joint_head(free_joint_name(model, frame.name + "_frame"), "fixed", model.links[std::size_t(frame.link)].name,
-                    frame.name, frame.link_from_frame) +
+std::string frame_text(const RobotModel& model, const RobotFrame& frame, const std::string& prefix) {
+  return empty_link(prefix + frame.name) +
+         joint_head(free_joint_name(model, frame.name + "_frame"), "fixed",
+                    prefix + model.links[std::size_t(frame.link)].name, prefix + frame.name, frame.link_from_frame) +
          "  </joint>\n";
 }
 
@@ -118,14 +109,14 @@ std::string part_mesh_file(const std::string& folder, const std::string& link, s
 }
 
 std::string robot_to_urdf(const RobotModel& model, const std::string& name, const std::string& folder,
-                          const Pose& world_from_base) {
+                          const std::string& prefix, const Pose& world_from_base) {
   std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + xml_text(name) + "\">\n";
-  for (const RobotLink& link : model.links) text += link_text(link, folder);
-  for (const RobotJoint& joint : model.joints) text += joint_text(model, joint);
-  for (const RobotFrame& frame : model.frames) text += frame_text(model, frame);
+  for (const RobotLink& link : model.links) text += link_text(link, folder, prefix);
+  for (const RobotJoint& joint : model.joints) text += joint_text(model, joint, prefix);
+  for (const RobotFrame& frame : model.frames) text += frame_text(model, frame, prefix);
   if (model.fixed_base)
-    text += empty_link("world") +
-            joint_head(free_joint_name(model, "world_joint"), "fixed", "world", model.links[0].name, world_from_base) +
+    text += empty_link("world") + joint_head(free_joint_name(model, "world_joint"), "fixed", "world",
+                                             prefix + model.links[0].name, world_from_base) +
             "  </joint>\n";
   return text + "</robot>\n";
 }

@@ -11,10 +11,13 @@ namespace {
 
 constexpr SealedKind kPileStateKind{"RUBPILE\n", kPileStateVersion, "pile state",
                            "a pile state is the pile.bin of a run",
-                           "settle the pile again, or use the program that wrote it"};
+                           "settle the pile again, or use the program that wrote it",
+                           2};
+constexpr std::uint32_t kWithoutBuilding = 2;  // the version of such a pile
 constexpr double kFarthest = 1e6;  // of a piece from the origin; unit: m
 constexpr std::size_t kPieceSize = 2 * 4 + 14 * 8 + 1;   // unit: byte
 constexpr std::size_t kJointSize = 2 * 4 + 1 + 19 * 8;  // unit: byte
+constexpr std::size_t kTieSize = 2 * 4 + 10 * 8;         // unit: byte
 
 void put_vector(std::string& bytes, const Vec3& v) {
   for (int i = 0; i < 3; ++i) put(bytes, v[i]);
@@ -48,6 +51,24 @@ void put_joint(std::string& bytes, const JointState& joint) {
   put_rotation(bytes, joint.rest_rotation);
 }
 
+void put_building(std::string& bytes, const BuildingState& building) {
+  put(bytes, building.first);
+  put(bytes, building.count);
+  put(bytes, static_cast<std::uint32_t>(building.bodies.size()));
+  for (const std::vector<std::int32_t>& body : building.bodies) {
+    put(bytes, static_cast<std::uint32_t>(body.size()));
+    for (const std::int32_t piece : body) put(bytes, piece);
+  }
+  put(bytes, static_cast<std::uint32_t>(building.ties.size()));
+  for (const TieState& tie : building.ties) {
+    put(bytes, tie.piece_a);
+    put(bytes, tie.piece_b);
+    put_vector(bytes, tie.anchor_a);
+    put_vector(bytes, tie.anchor_b);
+    for (const double number : {tie.length, tie.strength, tie.stretch, tie.bending}) put(bytes, number);
+  }
+}
+
 std::string make_content(const PileState& state) {
   std::string bytes;
   put(bytes, static_cast<std::uint32_t>(state.types.size()));
@@ -64,6 +85,7 @@ std::string make_content(const PileState& state) {
   for (const PieceState& piece : state.pieces) put_piece(bytes, piece);
   put(bytes, static_cast<std::uint32_t>(state.joints.size()));
   for (const JointState& joint : state.joints) put_joint(bytes, joint);
+  if (state.building.count > 0) put_building(bytes, state.building);
   return bytes;
 }
 
@@ -140,6 +162,64 @@ JointState read_joint(SealedReader& reader, std::uint64_t piece_count) {
   return joint;
 }
 
+std::vector<std::int32_t> read_body(SealedReader& reader, const BuildingState& building) {
+  const auto size = reader.number<std::uint32_t>();
+  if (size < 2 || size > std::uint32_t(building.count)) {
+    reader.fail("what holds together of the building has " + std::to_string(size) + " pieces");
+  }
+  std::vector<std::int32_t> body;
+  for (std::uint32_t i = 0; i < size; ++i) {
+    const auto piece = reader.number<std::int32_t>();
+    if (piece < building.first || piece >= building.first + building.count || (i > 0 && piece <= body.back())) {
+      reader.fail("what holds together of the building has a piece that is not the building's, or in no order");
+    }
+    body.push_back(piece);
+  }
+  return body;
+}
+
+TieState read_tie(SealedReader& reader, std::uint64_t piece_count) {
+  TieState tie;
+  tie.piece_a = reader.number<std::int32_t>();
+  tie.piece_b = reader.number<std::int32_t>();
+  tie.anchor_a = reader.vector();
+  tie.anchor_b = reader.vector();
+  for (double* number : {&tie.length, &tie.strength, &tie.stretch, &tie.bending}) *number = reader.number<double>();
+  const Vec3 &a = tie.anchor_a, &b = tie.anchor_b;
+  check_finite(reader, {a.x, a.y, a.z, b.x, b.y, b.z, tie.length, tie.strength, tie.stretch, tie.bending}, "a tie");
+  const bool pieces = tie.piece_a >= 0 && std::uint64_t(tie.piece_a) < piece_count && tie.piece_b >= -1 &&
+                      (tie.piece_b < 0 || std::uint64_t(tie.piece_b) < piece_count) && tie.piece_a != tie.piece_b;
+  if (!pieces) reader.fail("a tie holds a piece that the pile does not have");
+  if (!(tie.length > 0 && tie.strength > 0 && tie.stretch >= 0 && tie.bending >= 0)) {
+    reader.fail("a tie has a length, strength, stretch or moment out of range");
+  }
+  return tie;
+}
+
+BuildingState read_building(SealedReader& reader, std::uint64_t piece_count) {
+  BuildingState building;
+  building.first = reader.number<std::int32_t>();
+  building.count = reader.number<std::int32_t>();
+  if (building.first < 0 || building.count < 1 || std::uint64_t(building.first) + std::uint64_t(building.count) > piece_count) {
+    reader.fail("the building has pieces that the pile does not have");
+  }
+  const auto bodies = reader.number<std::uint32_t>();
+  std::vector<bool> seen(std::size_t(piece_count), false);
+  for (std::uint32_t i = 0; i < bodies; ++i) {
+    building.bodies.push_back(read_body(reader, building));
+    for (const std::int32_t piece : building.bodies.back()) {
+      if (seen[std::size_t(piece)]) reader.fail("a piece of the building is in two bodies");
+      seen[std::size_t(piece)] = true;
+    }
+  }
+  const auto ties = reader.number<std::uint32_t>();
+  if (ties != reader.left() / kTieSize || reader.left() % kTieSize != 0) {
+    reader.fail("the pile state does not hold as many ties as it says");
+  }
+  for (std::uint32_t i = 0; i < ties; ++i) building.ties.push_back(read_tie(reader, piece_count));
+  return building;
+}
+
 PileState parse_content(std::string_view content, const std::string& path) {
   SealedReader reader(kPileStateKind, content, path);
   PileState state;
@@ -158,17 +238,20 @@ PileState parse_content(std::string_view content, const std::string& path) {
   state.pieces.reserve(pieces);
   for (std::uint64_t i = 0; i < pieces; ++i) state.pieces.push_back(read_piece(reader, types));
   const auto joints = reader.number<std::uint32_t>();
-  if (joints != reader.left() / kJointSize || reader.left() % kJointSize != 0) {
+  if (joints > reader.left() / kJointSize) {
     reader.fail("the pile state does not hold as many joints as it says");
   }
   for (std::uint32_t i = 0; i < joints; ++i) state.joints.push_back(read_joint(reader, pieces));
+  if (reader.left() > 0) state.building = read_building(reader, pieces);
   return state;
 }
 
 }  // namespace
 
 void save_pile_state(const PileState& state, const std::string& path) {
-  save_sealed(kPileStateKind, make_content(state), path);
+  SealedKind kind = kPileStateKind;
+  if (state.building.count == 0) kind.version = kWithoutBuilding;
+  save_sealed(kind, make_content(state), path);
 }
 
 PileState load_pile_state(const std::string& path) {

@@ -7,7 +7,13 @@
 //       f64 translation x y z, f64 linear velocity x y z, f64 angular velocity x y z, u8 status;
 //   u32 count of joints, each: i32 parent, i32 child, u8 kind, the poses of the joint in the frames
 //       of the two pieces, f64 rotation w x y z and translation x y z each, f64 rest, f64 rest
-//       rotation w x y z
+//       rotation w x y z;
+//   of a pile with a building, in version 3: i32 its first piece, i32 count of its pieces;
+//       u32 count of rigid bodies of several pieces, each u32 count, then i32 pieces, ascending;
+//       u32 count of ties, each: i32 pieces a and b (-1: the ground), f64 anchor in a and in b x y z each,
+//       f64 length, f64 strength, f64 stretch that is left, f64 bending moment
+// A pile without a building is of version 2, as are piles with buildings from before version 3: these can be drawn
+// and measured, but nothing of them can move again.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +23,7 @@
 
 namespace rubble {
 
-inline constexpr std::uint32_t kPileStateVersion = 2;
+inline constexpr std::uint32_t kPileStateVersion = 3;  // the newest
 
 // Throws RunError when the file cannot be written.
 void save_pile_state(const PileState& state, const std::string& path);

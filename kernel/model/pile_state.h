@@ -51,6 +51,15 @@ struct TieState {
   double bending = 0;       // moment by which bent bars brake their pieces' turning; unit: N m; >= 0
 };
 
+// A building after its collapse: what of it still holds together. Needed wherever its pieces can move again.
+struct BuildingState {
+  std::int32_t first = 0, count = 0;  // its pieces, after the placed ones; count 0: no building
+  // Pieces that move as one rigid body, two or more each, ascending. Their statuses are equal. Pieces in none
+  // of these move alone.
+  std::vector<std::vector<std::int32_t>> bodies;
+  std::vector<TieState> ties;  // that hold, in the order in which they were added
+};
+
 // Two pieces, or one and the ground, that reach into each other.
 struct DeepestOverlap {
   double depth = 0;                        // 0: none; unit: m
@@ -60,6 +69,7 @@ struct DeepestOverlap {
 struct PileState {
   std::vector<PieceState> pieces;   // in creation order, lost ones too
   std::vector<JointState> joints;   // of articulated debris, by parent and child
+  BuildingState building;           // its pieces are among those above
   std::vector<std::string> types;   // names of the types
   std::int64_t steps = 0;           // steps taken until rest or until the limit
   double simulated = 0;             // unit: s
@@ -75,7 +85,8 @@ struct PileState {
   std::shared_ptr<const Surroundings> surroundings;
 
   // XXH64 over the bit patterns of every field of the pieces in their order, then of the joints in
-  // theirs, each list after its length, then the step count. The names of types are not in it.
+  // theirs, each list after its length, then the step count. The names of types are not in it, nor is the
+  // BuildingState.
   std::uint64_t state_hash() const;
 };
 

@@ -1,6 +1,7 @@
 #include "kernel/robot/odometry.h"
 
 #include <cmath>
+#include <string>
 
 #include "kernel/base/portable_math.h"
 
@@ -28,6 +29,13 @@ double yaw_of(const Quat& rotation) {
 double OdometryReading::slip_left() const { return slip_of(left, true_left); }
 double OdometryReading::slip_right() const { return slip_of(right, true_right); }
 
+WheelOdometry::WheelOdometry(const RobotModel& model, const OdometryNoise& noise)
+    : model_(&model), noise_(noise.over_a_metre), random_(noise.seed, "odometry/" + std::to_string(noise.robot)) {}
+
+double WheelOdometry::as_measured(double way) {
+  return noise_ > 0 ? way + noise_ * std::sqrt(std::abs(way)) * random_.normal() : way;
+}
+
 double WheelOdometry::way_of(const std::vector<int>& side, const RobotState& state, double dt) const {
   double way = 0;
   for (int i : side) {
@@ -45,8 +53,9 @@ OdometryReading WheelOdometry::update(const RobotState& state, double time) {
   if (started_ && dt > 0) {
     OdometryReading& r = reading_;
     const double half = 0.5 * model_->sides.distance;
-    const double left = way_of(model_->sides.left, state, dt);
-    const double right = way_of(model_->sides.right, state, dt);
+    const double ran_left = way_of(model_->sides.left, state, dt);
+    const double ran_right = way_of(model_->sides.right, state, dt);
+    const double left = as_measured(ran_left), right = as_measured(ran_right);
     const double way = 0.5 * (left + right), turn = 0.5 * (right - left) / half;
     const auto [s, c] = portable::sincos(r.yaw + 0.5 * turn);
     r.x += way * c, r.y += way * s;
@@ -56,8 +65,8 @@ OdometryReading WheelOdometry::update(const RobotState& state, double time) {
     const double true_way =
         (base.translation.x - place_.x) * tc + (base.translation.y - place_.y) * ts;
     const double true_left = true_way - true_turn * half, true_right = true_way + true_turn * half;
-    slipped_ += std::abs(left - true_left) + std::abs(right - true_right);
-    ran_ += std::abs(left) + std::abs(right);
+    slipped_ += std::abs(ran_left - true_left) + std::abs(ran_right - true_right);
+    ran_ += std::abs(ran_left) + std::abs(ran_right);
     const double rate = 1 / dt;
     r.linear = way * rate, r.angular = turn * rate;
     r.left = left * rate, r.right = right * rate;

@@ -82,6 +82,18 @@ bool BuildingCollapse::goes_on() const {
   return !motion_.over(step_) || sinks || collapse_->is_breaking();
 }
 
+BuildingState BuildingCollapse::state(const World& world) const {
+  BuildingState state;
+  state.first = collapse_->first_piece(), state.count = collapse_->piece_count();
+  for (int i = state.first; i < state.first + state.count; ++i) {
+    const std::vector<int> bound = world.bound_with(i);
+    if (bound.size() < 2 || bound.front() != i || world.piece(i).status == PieceStatus::lost) continue;
+    state.bodies.emplace_back(bound.begin(), bound.end());
+  }
+  state.ties = world.ties();
+  return state;
+}
+
 void BuildingCollapse::before_step() {
   sink_footings();
   collapse_->begin_step(motion_.at(step_));

@@ -24,6 +24,8 @@ class BuildingCollapse {
   // The ground still moves, or bonds broke in the last step: what stands still is not at rest.
   bool goes_on() const;
   CollapseReport report() const { return collapse_->report(); }
+  // What of the building holds together now. world: the one that it collapses in.
+  BuildingState state(const World& world) const;
 
  private:
   // Its members; none where it was removed. part: of a plan.

@@ -30,6 +30,7 @@ void Collapse::end_step() {
 bool Collapse::is_breaking() const { return impl_->breaking || impl_->struck >= 0; }
 int Collapse::arrests() const { return impl_->arrests; }
 int Collapse::first_piece() const { return impl_->first; }
+int Collapse::piece_count() const { return int(impl_->structure.pieces.size()); }
 
 CollapseReport Collapse::report() const {
   CollapseReport report = impl_->report;

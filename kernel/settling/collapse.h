@@ -61,6 +61,7 @@ class Collapse {
   // Impacts so far that overloaded bonds but brought too little energy to break them.
   int arrests() const;
   int first_piece() const;
+  int piece_count() const;
   CollapseReport report() const;
 
  private:

@@ -186,6 +186,7 @@ class Settling {
       state.pieces.push_back(piece);
     }
     state.joints = world_.joints();
+    if (collapse_) state.building = collapse_->state(world_);
     state.steps = world_.steps();
     state.simulated = world_.time();
     state.settled = settled;

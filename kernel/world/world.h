@@ -53,7 +53,8 @@ class World {
   int add(const std::vector<NewPiece>& pieces);
 
   // Lays a pile that has settled into an empty world with the pile's types and assemblies, every piece
-  // where it was, asleep, with its joints; pieces keep their numbers. What each contact carries is found by
+  // where it was, asleep, with its joints, and what holds together of a building as the rigid bodies and ties that it
+  // came to; those bodies break no more. Pieces keep their numbers. What each contact carries is found by
   // letting all of them be awake for half a second. fixed: nothing of it ever moves. Throws InputError for
   // a state of another pile.
   void lay(const Pile& pile, const PileState& state, bool fixed = false);

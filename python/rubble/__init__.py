@@ -19,9 +19,10 @@ for _place in ("assets", _os.path.join("..", "..", "assets")):
 
 from ._core import InputError, Pile, RunError, __version__, open_pile, settle  # noqa: E402
 from .dataset import Dataset, open_dataset  # noqa: E402
-from .geometry import compose, look_at, matrix, pose  # noqa: E402
+from .geometry import compose, look_at, matrix, pose, rotate  # noqa: E402
 from .robots import RobotWorld  # noqa: E402
 from .sensors import DepthCamera, Lidar, Renderer  # noqa: E402
 
 __all__ = ["Dataset", "DepthCamera", "InputError", "Lidar", "Pile", "Renderer", "RobotWorld", "RunError",
-           "__version__", "compose", "look_at", "matrix", "open_dataset", "open_pile", "pose", "settle"]
+           "__version__", "compose", "look_at", "matrix", "open_dataset", "open_pile", "pose", "rotate",
+           "settle"]

@@ -23,6 +23,9 @@ struct ViewRays {
   std::vector<Pose> row_poses{};         // world_from_optical of each row; empty: all as above
   std::shared_ptr<const LensDirections> directions{};  // none: a pinhole
 
+  // Number of the noise that hides the steps of 8 bits: another one for each image of each camera.
+  std::uint64_t noise = 0;
+
   // A pinhole with one pose for all rows can be drawn the fast way.
   bool plain() const { return !directions && row_poses.empty(); }
   const Pose& lamp_bearer() const { return world_from_rig ? *world_from_rig : world_from_camera; }

@@ -27,20 +27,13 @@ void fill_view(FrameBlock& block, const ViewProjection& view, float exposure) {
   set(block.view, {kNearPlane, exposure, float(k.width)}, float(k.height));
 }
 
-// A shift of the noise that hides the steps of 8 bits, by the bits of the pose: noise that stayed
-// where it is while the camera moves would be a landmark. Range: 0 to 1023 pixels either way.
-Vec3f grain_shift(const ViewProjection& view) {
-  std::uint64_t hash = 0;
-  const auto add = [&hash](double x) {
-    std::uint64_t bits;
-    std::memcpy(&bits, &x, sizeof bits);
-    hash = (hash ^ bits ^ bits >> 32) * 0x9e3779b97f4a7c15u;
-    hash ^= hash >> 29;
-  };
-  const Pose& pose = view.world_from_optical;
-  for (int i = 0; i < 3; ++i) add(pose.translation[i]);
-  for (const double x : {pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z})
-    add(x);
+// A shift of the noise that hides the steps of 8 bits: noise that stayed where it is while the camera moves would be
+// a landmark. number: of the image. It must not follow from the pose, or pictures of equal places would differ.
+// Range: 0 to 1023 pixels either way.
+Vec3f grain_shift(std::uint64_t number) {
+  std::uint64_t hash = (number + 1) * 0x9e3779b97f4a7c15u;
+  hash = (hash ^ hash >> 29) * 0xbf58476d1ce4e5b9u;
+  hash ^= hash >> 32;
   return {0, float(hash >> 40 & 1023u), float(hash >> 50 & 1023u)};
 }
 
@@ -112,7 +105,7 @@ FrameBlock fill_frame_block(const ViewProjection& view, const FrameLight& light,
   fill_air_and_lamp(block, light, bearer);
   fill_fog(block, light.fog);
   fill_surface_appearances(block, texture_size);
-  set(block.wetness, grain_shift(view) + Vec3f(float(light.wetness), 0, 0));
+  set(block.wetness, grain_shift(light.noise) + Vec3f(float(light.wetness), 0, 0));
   set(block.ground, {ground.x, ground.y, 1 / ground.reach});
   return block;
 }

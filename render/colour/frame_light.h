@@ -29,6 +29,7 @@ struct FrameLight {
   const AirVolume* air_table = nullptr;  // of this frame, unless the air is clear
   MeanFog fog{};                         // of this frame
   const Pose* world_from_rig = nullptr;  // of what bears the lamp; null: the camera does
+  std::uint64_t noise = 0;               // as ViewRays::noise
   bool soft_sun = true;                  // its shadows have a penumbra
   // Light that arrives at the nodes; never null where the processor shades.
   const std::vector<BakedLight>* nodes = nullptr;

@@ -125,6 +125,7 @@ ViewRays Camera::State::view_at(int index, double seconds_off) const {
   view.world_from_camera = pose_at(view.stamp_ns, frame_ns, at_frame);
   view.directions = directions;
   view.world_from_rig = rig_of(view.world_from_camera);
+  view.noise = spec.seed + 2 * std::uint64_t(index);
   if (spec.shutter.readout <= 0) return view;
   const int rows = spec.intrinsics.height;
   for (int v = 0; v < rows; ++v) {
@@ -144,6 +145,7 @@ ViewRays Camera::State::view_beside(ViewRays view, int part) const {
 
 ViewRays Camera::State::right_of(ViewRays view) const {
   view.world_from_rig = view.lamp_bearer();  // the one lamp of the pair stays where it is
+  ++view.noise;
   const Pose right{{}, {0, -spec.baseline, 0}};
   view.world_from_camera = view.world_from_camera * right;
   const Pose in_optical = camera_from_optical.inverse() * right * camera_from_optical;

@@ -11,7 +11,7 @@ layout(std140) uniform Frame {
   vec4 lamp_position;          // world; w: what its size adds to the square of the distance, m2
   vec4 lamp_axis;              // the way it looks; w: 1 / (1 - cosine of the half-power angle)
   vec4 lamp_colour;            // kcd
-  vec4 wetness;                // of surfaces, 0..1; y, z: what shifts the noise of 8 bits, by the pose
+  vec4 wetness;                // of surfaces, 0..1; y, z: what shifts the noise of 8 bits, by the number of the image
   vec4 sun_direction;
   vec4 sun_radiance;           // of its disc, kcd/m2
   vec4 skyline;                // colour of what stands far away, kcd/m2

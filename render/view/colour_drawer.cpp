@@ -102,6 +102,7 @@ FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surface
                                     bool drops_drawn) {
   FrameLight light = scene_.frame_light;
   light.world_from_rig = view.world_from_rig ? &*view.world_from_rig : nullptr;
+  light.noise = view.noise;
   if (scene_.medium.clear()) return light;
   const AirLamp glow = glow_of(light.lamp, view.lamp_bearer());
   const Air air = scene_.air_at(view.stamp_ns);

@@ -98,6 +98,12 @@ function rubble.read_accelerogram(file, options) end
 ---@param file string
 ---@return {format: string, notes: string[], camera: table?, cameras: table?, lidar: table?}
 function rubble.read_calibration(file) end
+---A parameter of the script: `--set NAME=VALUE` and `--vary NAME=...` give it another value.
+---@param name string letters, digits and _; not that of a key of the mission
+---@param default any its type follows from it, as of `rubble.options`
+---@param more table? `{ min =, above =, max =, unit =, type =, choices =, doc = }`
+---@return any
+function rubble.parameter(name, default, more) end
 ---Every parameter of a function with its value, checked.
 ---@param name string of the function, for messages
 ---@param given table?
@@ -119,7 +125,7 @@ function rubble.structure_options(list) end
 ---@param placed rubble.mission.pile.placed[]
 ---@return rubble.mission.pile
 function rubble.assemble(options, placed) end
----One pile from several.
+---One pile from several: all that is placed, at most one building and one terrain, and what falls.
 ---@param ... rubble.mission.pile
 ---@return rubble.mission.pile
 function rubble.join(...) end

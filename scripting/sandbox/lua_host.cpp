@@ -204,6 +204,54 @@ void note_mistakes(lua_State* lua, const std::string& function, std::vector<Diag
   }
 }
 
+// Values from outside, instead of those of the script. prefix: of their names, "rubble.wall." or nothing.
+void apply_overrides(LuaHost& host, const std::string& prefix, const Schema& schema) {
+  for (LuaHost::Override& o : host.overrides) {
+    if (o.name.rfind(prefix, 0) != 0) continue;
+    const std::string key = o.name.substr(prefix.size());
+    if (prefix.empty() && !schema.find(key)) continue;
+    std::vector<Diagnostic> mistakes;
+    apply_override(schema, key + "=" + o.value, mistakes);
+    for (Diagnostic& d : mistakes) {
+      d.key = prefix + d.key;
+      if (!o.used) host.mistakes.push_back(std::move(d));
+    }
+    o.used = true;
+  }
+}
+
+// parameter(name, {name, default, ...}) -> its value: the default, or what was given from outside.
+int read_parameter(lua_State* lua) {
+  const std::string name = luaL_checkstring(lua, 1);
+  const auto is_word = [](char c) { return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  if (name.empty() || name.size() > 64 || !std::all_of(name.begin(), name.end(), is_word) || (name[0] >= '0' && name[0] <= '9'))
+    return luaL_error(lua, "rubble.parameter: a name is a word of letters, digits and _, not \"%s\"", printable(name).c_str());
+  LuaHost& host = host_of(lua);
+  if (std::find(host.taken_names.begin(), host.taken_names.end(), name) != host.taken_names.end())
+    return luaL_error(lua, "rubble.parameter: \"%s\" is a key of the mission: give the parameter another name", name.c_str());
+  Value description = Value::make_table();
+  description.items.push_back(read_lua_value(lua, 2));
+  std::string failure;
+  try {
+    OptionTable table(description);
+    apply_overrides(host, "", table.schema());
+    const Value values = table.values();
+    const Value* const value = values.find(name);
+    host.parameters[name] = value ? describe(*value) : "nil";
+    if (value)
+      push_lua_value(lua, *value);
+    else
+      lua_pushnil(lua);
+  } catch (const InputError& error) {
+    failure = error.diagnostics().front().text();
+    for (const char* const word : {"rubble.options: entry 1 ", "rubble.options"}) {
+      const std::size_t at = failure.find(word);
+      if (at != std::string::npos) failure.replace(at, std::string(word).size(), "rubble.parameter ");
+    }
+  }
+  return failure.empty() ? 1 : luaL_error(lua, "%s", failure.c_str());
+}
+
 // options(function, given, description) -> every parameter, given or default. Mistakes are noted,
 // not raised: all of them come in one run.
 int read_options(lua_State* lua) {
@@ -217,6 +265,11 @@ int read_options(lua_State* lua) {
   try {
     OptionTable table(description);
     note_mistakes(lua, function, table.read(function, given));
+    if (!host.overrides.empty()) {
+      for (const Key& key : table.schema().keys())
+        if (key.kind == KeyKind::value) host.options.push_back(function + "." + key.path);
+      apply_overrides(host, function + ".", table.schema());
+    }
     push_lua_value(lua, table.values());
   } catch (const InputError& error) {
     failure = error.diagnostics().front().text();
@@ -291,7 +344,7 @@ int math_log(lua_State* lua) {
 }
 
 const luaL_Reg kFunctions[] = {
-    {"options", read_options}, {"reject", reject_option}, {"rotate", rotate_vector}, {"stream", make_stream}, {"controller", keep_controller}, {"print", print_line}, {"include", include_file}, {"sin", math_sin},
+    {"options", read_options}, {"parameter", read_parameter}, {"reject", reject_option}, {"rotate", rotate_vector}, {"stream", make_stream}, {"controller", keep_controller}, {"print", print_line}, {"include", include_file}, {"sin", math_sin},
     {"cos", math_cos},       {"tan", math_tan},     {"asin", math_asin},       {"acos", math_acos},
     {"atan", math_atan},     {"exp", math_exp},     {"log", math_log},         {nullptr, nullptr}};
 

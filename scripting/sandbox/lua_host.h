@@ -32,6 +32,16 @@ struct LuaHost {
   std::function<int(const std::string& name, int side, std::string& error)> open_grid;
   std::function<const SourceFile&(int chunk)> chunk;
 
+  // Values from outside for parameters of the script and options of functions, by name; used: some took it.
+  struct Override {
+    std::string name, value;
+    bool used = false;
+  };
+  std::vector<Override> overrides;
+  std::vector<std::string> taken_names;                  // no parameter may have: those of the mission's keys
+  std::map<std::string, std::string> parameters;         // that the script declared, with their values as text
+  std::vector<std::string> options;                      // every "FUNCTION.OPTION" that a function asked for
+
   // What rubble.options found, and, while the reference is made, what it was asked for.
   std::vector<Diagnostic> mistakes;
   std::vector<DescribedFunction>* described = nullptr;  // null: no reference is made

@@ -178,6 +178,12 @@ rubble = {
   controller = host.controller,
   vec = make_vec,
   options = host.options,
+  parameter = function(name, default, more)
+    local entry = { name, default }
+    if more ~= nil and type(more) ~= "table" then error("rubble.parameter takes its limits as a table", 2) end
+    for key, value in next, more or {} do if type(key) == "string" then entry[key] = value end end
+    return host.parameter(name, entry)
+  end,
   reject = host.reject,
   read_table = host.read_table,
   read_image = host.read_image,

@@ -88,7 +88,7 @@ int complete_message(lua_State* lua) {
 
 // Everything that a mission script may call below `rubble`, by its whole name.
 std::vector<std::string> library_names() {
-  std::vector<std::string> names{"controller", "include", "mission",    "options", "random", "read_image",
+  std::vector<std::string> names{"controller", "include", "mission",    "options", "parameter", "random", "read_image",
                                  "read_table", "read_trajectory", "read_accelerogram", "read_calibration", "reject",
                                  "rotate", "vec"};
   for (const LibraryFile& file : lua_library()) names.push_back(file.name);
@@ -340,6 +340,33 @@ LuaSandbox::~LuaSandbox() = default;
 void LuaSandbox::serve_includes(std::map<std::string, std::string> texts) {
   state_->served = std::move(texts);
 }
+
+void LuaSandbox::set_overrides(const std::vector<std::string>& overrides, std::vector<std::string> taken_names) {
+  state_->host.taken_names = std::move(taken_names);
+  for (const std::string& text : overrides) {
+    const std::size_t equals = std::min(text.find('='), text.size());
+    state_->host.overrides.push_back({text.substr(0, equals), text.substr(std::min(equals + 1, text.size()))});
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> LuaSandbox::unused_overrides() const {
+  const LuaHost& host = state_->host;
+  std::vector<std::string> names = host.options;
+  std::string declared;
+  for (const auto& [name, value] : host.parameters) {
+    names.push_back(name);
+    declared += (declared.empty() ? "the script declares " : ", ") + name;
+  }
+  std::vector<std::pair<std::string, std::string>> unused;
+  for (const LuaHost::Override& o : host.overrides) {
+    if (o.used) continue;
+    const std::string near = nearest_name(o.name, names);
+    unused.emplace_back(o.name + "=" + o.value, near.empty() ? declared : "did you mean `" + near + "`?");
+  }
+  return unused;
+}
+
+const std::map<std::string, std::string>& LuaSandbox::parameters() const { return state_->host.parameters; }
 
 Value LuaSandbox::run(const std::string& text, const std::string& path) {
   State& s = *state_;

@@ -53,6 +53,13 @@ class LuaSandbox {
   // no file: a script that is kept in a manifest runs without its folder.
   void serve_includes(std::map<std::string, std::string> texts);
 
+  // Values of parameters that the script declares by rubble.parameter, "NAME=VALUE", and of options of functions,
+  // "rubble.collapse.lean_to.height=2", instead of the script's. Before run(). taken_names: no parameter's.
+  void set_overrides(const std::vector<std::string>& overrides, std::vector<std::string> taken_names);
+  // Those that nothing in the script took, each with a hint at what there is; empty: no idea.
+  std::vector<std::pair<std::string, std::string>> unused_overrides() const;
+  const std::map<std::string, std::string>& parameters() const;  // that the script declared, with their values
+
   // Runs the script once and returns its value. `path` names it in errors, and files that it
   // includes are looked for beside it. Throws InputError with file and line.
   Value run(const std::string& text, const std::string& path);

@@ -65,6 +65,7 @@ struct RobotItem {
   double length = 3;          // unit: m; range: above 0 to 100; at least a link
   double link_length = 0.05;  // unit: m; range: 0.02 to 0.5
   std::optional<double> friction{};  // against concrete; not given: the model's; range: 0 to 2
+  double odometry_noise = 0;  // standard deviation of a side's way over one metre; unit: m; range: 0 to 0.1; 0: exact
   std::vector<LampItem> lamps{};     // that shine
   std::vector<RobotLeg> drive{};     // in rising order of t; empty: it stands still
   int control = 0;  // number of a function of the script that drives it instead; 0: none

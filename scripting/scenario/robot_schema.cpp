@@ -264,6 +264,11 @@ void add_robot_keys(Schema& k, Scenario& s) {
   k.item("robots[].friction", list, &RobotItem::friction,
          "Coulomb coefficient of tracks, wheels or skin against concrete; not given: that of the model.")
       .between(0, 2);
+  k.item("robots[].odometry_noise", list, &RobotItem::odometry_noise,
+         "Random error of the way that the tracks or wheels of a side report: standard deviation over one metre; it grows "
+         "with the root of the way. 0: exact; 0.001: as published for tracks (docs/robots.md).")
+      .between(0, 0.1)
+      .unit("m");
   k.add("robots[].lamps", "Spot lights on its links, beside the `lamp` of cameras; `{ {} }` lights the headlamp.",
         [&list](std::size_t i) { return Schema::table_list(list[i].lamps, lamp_schema); });
   k.add("robots[].drive", "Commands, each from its time `t` on; empty: it stands still.",

@@ -5,6 +5,7 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "scripting/scenario/camera_mistakes.h"
+#include "scripting/scenario/pile_schema.h"
 #include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/scenario/sky_schema.h"
@@ -110,6 +111,19 @@ void check_meshes(const OutputScenario& outputs, std::vector<Diagnostic>& mistak
   }
 }
 
+void check_rawlog(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  if (scenario.outputs.rawlog_format == RawlogFormat::observations) return;
+  const auto has_odometry = [](const RobotItem& robot) {
+    return robot.urdf.empty() ? robot.model == RobotKind::crawler || robot.model == RobotKind::rover
+                              : !robot.left_wheels.empty();
+  };
+  const auto count = std::count_if(scenario.robots.begin(), scenario.robots.end(), has_odometry);
+  if (count == 1) return;
+  mistakes.push_back({"", 0, "outputs.rawlog_format", "actions are what one robot did by its odometry",
+                      "one robot with odometry: a crawler, a rover, or a URDF robot with left_wheels and right_wheels",
+                      std::to_string(count) + " of them", "\"observations\" has the odometry of every robot"});
+}
+
 void check_record_settling(const RecordSettlingScenario& r, std::vector<Diagnostic>& mistakes) {
   const auto add = [&](const char* key, const char* message, std::string expected, std::string found) {
     mistakes.push_back({"", 0, std::string("record_settling.") + key, message, std::move(expected),
@@ -168,6 +182,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_sensor_names(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
   check_stamps(scenario, mistakes);
+  check_rawlog(scenario, mistakes);
   check_record_settling(scenario.record_settling, mistakes);
   check_robots(scenario, mistakes);
   check_fines(scenario.fines, mistakes);

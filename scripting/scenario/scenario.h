@@ -116,8 +116,14 @@ enum class DepthEncoding {
 
 enum class PictureEncoding { raw, png, jpeg };
 
+enum class RawlogFormat {
+  observations,  // one after the other
+  actions,       // what a robot did, and a frame of observations, in turns
+};
+
 struct OutputScenario {
   bool rawlog = true;               // MRPT: mission.rawlog
+  RawlogFormat rawlog_format = RawlogFormat::observations;
   int rawlog_gzip = 0;              // range: 0 to 9
   bool simplemap = true;            // MRPT: mission.simplemap
   bool bag = true;                  // ROS 1: mission.bag

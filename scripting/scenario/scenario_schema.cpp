@@ -355,6 +355,9 @@ void add_record_settling(Schema& k, RecordSettlingScenario& r) {
 void add_outputs(Schema& k, OutputScenario& o) {
   k.group("outputs", "Files that are written; docs/formats.md describes each format.");
   k.value("outputs.rawlog", o.rawlog, "MRPT rawlog: mission.rawlog.");
+  k.choice("outputs.rawlog_format", o.rawlog_format, {"observations", "actions"},
+           "observations: each by itself, with odometry and true poses; actions: what the one robot did by its odometry, and a "
+           "sensory frame, in turns, as rbpf-slam reads them (docs/mrpt_slam.md).");
   k.value("outputs.rawlog_gzip", o.rawlog_gzip,
           "Level of compression; 1 halves the size and takes 3.5 times as long.")
       .between(0, 9);

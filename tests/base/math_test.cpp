@@ -38,6 +38,21 @@ TEST(PortableMath, RollPitchYawFollowsRep103) {
   EXPECT_LT(distance(portable::quat_from_rpy(0.7, 0, 0).rotate({1, 0, 0}), {1, 0, 0}), 1e-15);
 }
 
+TEST(PortableMath, RollPitchYawOfARotationTurnsAsItDoes) {
+  constexpr double kUp = portable::kPi / 2;
+  for (const double roll : {-3.0, -0.4, 0.0, 1.2, 3.1})
+    for (const double pitch : {-kUp, -kUp + 1e-9, -kUp + 1e-6, -1.2, 0.0, 0.7, kUp - 1e-7, kUp})
+      for (const double yaw : {-2.9, -0.1, 0.0, 1.9}) {
+        const Quat q = portable::quat_from_rpy(roll, pitch, yaw);
+        const Vec3 rpy = portable::rpy_from_quat(q);
+        const Quat back = portable::quat_from_rpy(rpy.x, rpy.y, rpy.z);
+        for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+          EXPECT_LT(distance(q.rotate(axis), back.rotate(axis)), 1e-7) << roll << " " << pitch << " " << yaw;
+      }
+  const Vec3 up = portable::rpy_from_quat(portable::quat_from_rpy(0.3, kUp, 0.5));
+  EXPECT_EQ(up.z, 0);
+}
+
 TEST(PortableMath, SlerpKeepsAngularSpeed) {
   const Quat a = portable::quat_from_rpy(0, 0, 0), b = portable::quat_from_rpy(0, 0, 2.0);
   for (const double t : {0.0, 0.25, 0.5, 1.0}) {

@@ -335,6 +335,16 @@ TEST_F(PileExport, GazebosParserLoadsTheWorld) {
   EXPECT_TRUE(model->Static());
   EXPECT_NEAR(model->RawPose().Pos().Y(), -5, 1e-12);
   EXPECT_NEAR(model->RawPose().Rot().Yaw(), -1, 1e-9);
+  for (const PileModel::Piece& piece : model_.pieces) {
+    const auto read = world.ModelByName(piece.name)->RawPose().Rot();
+    const Quat& q = piece.world_from_body.rotation;
+    const double dot = read.W() * q.w + read.X() * q.x + read.Y() * q.y + read.Z() * q.z;
+    EXPECT_NEAR(std::abs(dot), 1, 1e-9) << piece.name;
+  }
+  // Six numbers and no attribute: what every reader takes as roll, pitch and yaw.
+  const std::string text = test::read_text(folder_ / "sdf/pile.sdf");
+  EXPECT_EQ(text.find("rotation_format"), std::string::npos);
+  EXPECT_NE(text.find("<pose>0 -5 0 0 0 -1</pose>"), std::string::npos) << text;
   const sdf::Mesh* mesh = model->LinkByIndex(0)->CollisionByIndex(0)->Geom()->MeshShape();
   ASSERT_TRUE(mesh);
   EXPECT_EQ(mesh->Uri(), "meshes/wedge.obj");

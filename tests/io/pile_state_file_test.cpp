@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -49,6 +50,14 @@ PileState make_state(int pieces) {
     state.joints.push_back(joint);
   }
   return state;
+}
+
+BuildingState make_building() {
+  BuildingState building;
+  building.first = 3, building.count = 10;
+  building.bodies = {{3, 5, 12}, {4, 7}};
+  building.ties = {{3, 4, {0.1, -0.0, 1e-300}, {1, 2, 3}, 0.1 + 0.2, 1e5, 0, 12}, {12, -1, {}, {4, 5, 6}, 1, 2, 3, 0}};
+  return building;
 }
 
 // Without the flush to the disk that write_text_file makes: there are hundreds of files.
@@ -108,6 +117,49 @@ TEST(PileStateFile, ReloadsBitForBit) {
     EXPECT_TRUE(same_bits(a.rest, b.rest));
     EXPECT_TRUE(same_bits(a.rest_rotation, b.rest_rotation));
   }
+}
+
+TEST(PileStateFile, KeepsWhatHoldsTogetherOfABuilding) {
+  ScratchFolder folder;
+  PileState state = make_state(20);
+  save_pile_state(state, folder / "without");
+  state.building = make_building();
+  save_pile_state(state, folder / "a");
+  const PileState loaded = load_pile_state(folder / "a");
+  EXPECT_EQ(loaded.building.first, 3);
+  EXPECT_EQ(loaded.building.count, 10);
+  EXPECT_EQ(loaded.building.bodies, state.building.bodies);
+  ASSERT_EQ(loaded.building.ties.size(), 2u);
+  EXPECT_TRUE(same_bits(loaded.building.ties[0], state.building.ties[0]));
+  EXPECT_TRUE(same_bits(loaded.building.ties[1], state.building.ties[1]));
+  save_pile_state(loaded, folder / "b");
+  EXPECT_EQ(read_text(folder / "a"), read_text(folder / "b"));
+  // A file without a building is that of the version before, byte for byte.
+  EXPECT_EQ(read_text(folder / "without")[8], 2);
+  EXPECT_EQ(read_text(folder / "a")[8], 3);
+  EXPECT_EQ(load_pile_state(folder / "without").building.count, 0);
+}
+
+TEST(PileStateFile, RefusesABuildingThatCannotBe) {
+  ScratchFolder folder;
+  const auto error_with = [&](const auto& change) {
+    PileState state = make_state(20);
+    state.building = make_building();
+    change(state.building);
+    save_pile_state(state, folder / "pile.bin");
+    return error_of(folder / "pile.bin");
+  };
+  expect_in(error_with([](BuildingState&) {}), "no error");
+  expect_in(error_with([](BuildingState& b) { b.count = 18; }), "pieces that the pile does not have");
+  expect_in(error_with([](BuildingState& b) { b.first = -1; }), "pieces that the pile does not have");
+  expect_in(error_with([](BuildingState& b) { b.bodies[0] = {3}; }), "has 1 pieces");
+  expect_in(error_with([](BuildingState& b) { b.bodies[0] = {3, 13}; }), "not the building's");
+  expect_in(error_with([](BuildingState& b) { b.bodies[0] = {5, 3}; }), "in no order");
+  expect_in(error_with([](BuildingState& b) { b.bodies[1] = {4, 5}; }), "in two bodies");
+  expect_in(error_with([](BuildingState& b) { b.ties[0].piece_a = 20; }), "a tie holds a piece");
+  expect_in(error_with([](BuildingState& b) { b.ties[0].piece_b = 3; }), "a tie holds a piece");
+  expect_in(error_with([](BuildingState& b) { b.ties[0].length = 0; }), "out of range");
+  expect_in(error_with([](BuildingState& b) { b.ties[1].anchor_b.x = std::nan(""); }), "not finite");
 }
 
 TEST(PileStateFile, IsTheSameFileForTheSameStateAndAnotherForAnother) {

@@ -7,8 +7,10 @@
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CRawlog.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <cmath>
 #include <map>
 #include <sstream>
 
@@ -209,6 +211,70 @@ TEST(Rawlog, RobotsHaveOdometryAndTheirTruePose) {
   ASSERT_TRUE(truth);
   EXPECT_EQ(truth->sensorLabel, "cart_ground_truth");
   expect_pose(truth->pose.mean, sample.world_from_base);
+}
+
+RobotSample make_reading(std::int64_t stamp_ns, double x, double yaw, double angular) {
+  RobotSample sample;
+  sample.stamp_ns = stamp_ns;
+  sample.odometry = RobotSample::Odometry{{{std::cos(yaw / 2), 0, 0, std::sin(yaw / 2)}, {x, 0, 0}}, 0.4, angular};
+  return sample;
+}
+
+// MRPT's filters divide by the rate of turn.
+TEST(Rawlog, OdometryThatDoesNotTurnHasNoVelocities) {
+  const ScratchFolder folder;
+  RawlogOptions options;
+  options.recording.robots.resize(1);
+  const auto recorder = make_rawlog_recorder(folder / "a.rawlog", options);
+  for (const double angular : {0.0, -0.0, 1e-12, 1e-4, -0.3}) recorder->write_robot(make_reading(1000000000, 1, 0, angular));
+  recorder->finish();
+  std::vector<bool> found;
+  for (const auto& observation : read_rawlog(folder / "a.rawlog"))
+    if (const auto o = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observation)) found.push_back(o->hasVelocities);
+  EXPECT_EQ(found, (std::vector<bool>{false, false, false, true, true}));
+}
+
+// As MRPT's programs read it. Between two readings odometry goes on evenly.
+TEST(Rawlog, ActionsAndSensoryFramesTakeTurns) {
+  const ScratchFolder folder;
+  RawlogOptions options;
+  options.recording.robots.resize(2);
+  options.recording.imus.resize(1);
+  options.actions_of = 1;
+  const auto recorder = make_rawlog_recorder(folder / "a.rawlog", options);
+  const std::int64_t first = make_frame(0).stamp_ns, second = make_frame(1).stamp_ns, gap = second - first;
+  const auto reading = [&](std::int64_t stamp_ns, double x, double yaw, int robot) {
+    RobotSample sample = make_reading(stamp_ns, x, yaw, 0);
+    sample.sensor = robot;
+    recorder->write_robot(sample);
+  };
+  reading(first - 1000000, 0.5, 0, 1);
+  recorder->write(make_frame(0));
+  reading(first, 99, 3, 0);  // the other robot
+  reading(first, 0.5, 0, 1);
+  ImuSample inertial;
+  inertial.stamp_ns = first + gap / 8;
+  recorder->write_imu(inertial);
+  reading(second - gap / 4, 1, 0.2, 1);
+  recorder->write(make_frame(1));
+  reading(second + gap / 4, 2, 0.4, 1);
+  recorder->finish();
+  mrpt::obs::CRawlog log;
+  ASSERT_TRUE(log.loadFromRawLogFile(folder / "a.rawlog"));
+  ASSERT_EQ(log.size(), 4u);
+  const auto movement = [&](std::size_t i) {
+    return log.getAsAction(i)->getBestMovementEstimation()->rawOdometryIncrementReading;
+  };
+  EXPECT_EQ(movement(0).norm(), 0);
+  EXPECT_NEAR(movement(2).x(), 1, 1e-9);  // from 0.5 to the middle of 1 and 2
+  EXPECT_NEAR(movement(2).phi(), 0.3, 1e-9);
+  EXPECT_GT(log.getAsAction(2)->getBestMovementEstimation()->poseChange->getCovariance()(2, 2), std::pow(0.3 * 0.3, 2) / 2);
+  const auto frame = log.getAsObservations(1), next = log.getAsObservations(3);
+  EXPECT_EQ(frame->size(), 1u);
+  ASSERT_TRUE(frame->getObservationByClass<CObservation3DRangeScan>());
+  EXPECT_EQ(next->size(), 2u);
+  EXPECT_TRUE(next->getObservationByClass<mrpt::obs::CObservationIMU>());
+  EXPECT_FALSE(next->getObservationByClass<CObservationRobotPose>()) << "a filter must not be told the truth";
 }
 
 TEST(Simplemap, Observations2mapPutsEveryPointOnTheScene) {

@@ -97,5 +97,34 @@ TEST(Odometry, AgainstAWallAllIsSlip) {
   EXPECT_LT(stuck.last.slip_left(), 1.05);
 }
 
+// A straight way of 40.5 m by tracks whose reports have the published noise, in steps of a 60th of a second.
+TEST(OdometryNoise, OfTracksIsAsPublished) {
+  const RobotModel model = make_crawler();
+  const auto end_of = [&](double noise, std::uint64_t seed, int robot) {
+    WheelOdometry odometry(model, {noise, seed, robot});
+    RobotState state;
+    state.links.resize(model.links.size());
+    state.joints.resize(model.joints.size());
+    for (const auto& side : {model.sides.left, model.sides.right})
+      for (int i : side) state.links[std::size_t(i)].belt_speed = 0.5;
+    OdometryReading reading;
+    for (int i = 0; i <= 81 * 60; ++i) reading = odometry.update(state, i / 60.0);
+    return reading;
+  };
+  const OdometryReading exact = end_of(0, 1, 0);
+  EXPECT_NEAR(exact.x, 40.5, 1e-6);
+  EXPECT_EQ(exact.angular, 0);
+  constexpr int kRuns = 60;
+  double error = 0;
+  for (int seed = 0; seed < kRuns; ++seed) {
+    const OdometryReading end = end_of(0.001, std::uint64_t(seed), 0);
+    error += std::hypot(end.x - 40.5, end.y) / kRuns;
+    EXPECT_NE(end.angular, 0) << "no real odometry is that exact";
+  }
+  EXPECT_NEAR(error, 0.43, 0.11) << "unit: m";
+  EXPECT_EQ(end_of(0.001, 5, 0).y, end_of(0.001, 5, 0).y);
+  EXPECT_NE(end_of(0.001, 5, 0).y, end_of(0.001, 5, 1).y) << "each robot has noise of its own";
+}
+
 }  // namespace robot_odometry_test
 }  // namespace rubble

@@ -27,8 +27,9 @@ Ran run(const std::string& command) {
   return ran;
 }
 
-void expect_tests(const std::string& file) {
-  const Ran ran = run("/usr/bin/python3 -m unittest -v tests/python/" + file);
+// more: for the environment, before the rest.
+void expect_tests(const std::string& file, const std::string& more = "") {
+  const Ran ran = run(more + " /usr/bin/python3 -m unittest -v tests/python/" + file);
   EXPECT_EQ(ran.status, 0) << ran.output;
   EXPECT_NE(ran.output.find("\nOK"), std::string::npos) << ran.output;
 }
@@ -36,6 +37,22 @@ void expect_tests(const std::string& file) {
 TEST(Python, PilesAnswer) { expect_tests("test_pile.py"); }
 TEST(Python, SensorsAndRobotsAnswer) { expect_tests("test_sensors.py"); }
 TEST(Python, DatasetsAreRead) { expect_tests("test_dataset.py"); }
+TEST(Python, ArraysAreWhole) { expect_tests("test_arrays.py"); }
+
+// With the oldest and the newest numpy that pip has for Debian's Python: what the module gives does not depend on it.
+TEST(NightlyPython, ArraysAreWholeWithNumpyOneAndTwo) {
+  for (const std::string version : {"numpy<2", "numpy>=2"}) {
+    const std::string folder = std::filesystem::temp_directory_path() / ("rubble_numpy_" + std::to_string(getpid()));
+    const Ran pip = run("python3 -m pip install --quiet --disable-pip-version-check --only-binary=:all: --python-version "
+                        "$(/usr/bin/python3 -c 'import sys; print(\"%d.%d\" % sys.version_info[:2])') --target " + folder +
+                        " '" + version + "'");
+    if (pip.status != 0) GTEST_SKIP() << "no index of packages is reached: " << pip.output;
+    expect_tests("test_arrays.py", "PYTHONPATH=" + folder + ":'" RUBBLE_PYTHON_PATH "'");
+    expect_tests("test_envs.py", "PYTHONPATH=" + folder + ":'" RUBBLE_PYTHON_PATH "'");
+    std::filesystem::remove_all(folder);
+  }
+}
+
 TEST(PythonDocument, RunsAsItIsWritten) { expect_tests("test_document.py"); }
 TEST(PythonEnvironments, RepeatTheirEpisodes) { expect_tests("test_envs.py"); }
 

@@ -123,6 +123,30 @@ class Robots(unittest.TestCase):
             robot.step()
         self.assertEqual(raised.exception.key, "pose")
 
+RUIN = """return rubble.mission { seed = 4,
+  pile = rubble.building { storeys = 1, bays_x = 1, bays_y = 1, span_x = 4, span_y = 4, column = 0.25, piece = 2,
+    infill = "none", continuity = 0.3, cause = { shake = 8, shake_seconds = 2, weak_storey = 0, weakness = 0.1 } },
+  settle = { final_time_limit = 30 } }"""
+
+
+class Ruin(unittest.TestCase):
+    def test_a_crawler_drives_where_a_building_collapsed(self):
+        file = tempfile.NamedTemporaryFile("w", suffix=".lua", delete=False)
+        with file:
+            file.write(RUIN)
+        pile = rubble.settle(file.name, threads=2)
+        os.remove(file.name)
+        self.assertLess(pile.poses[:, 2].max(), 2, "it fell")
+        ways = []
+        for fixed in (False, True):
+            robot = rubble.RobotWorld(pile, "crawler", rubble.pose([-3.6, 0, 0.002]), fixed_debris=fixed, threads=1)
+            robot.drive(0.6)
+            for _ in range(3):
+                state = robot.step(0.5)
+            self.assertFalse(state["lost"])
+            ways.append(state["links"][0][0] + 3.6)
+            self.assertGreater(ways[-1], 0.4)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -78,12 +78,37 @@ TEST(Camera, BothEyesShareOneExposure) {
   for (int i = 0; i < camera.frames(); ++i) {
     const Frame frame = camera.take(i);
     ASSERT_EQ(frame.rgb.size(), frame.rgb_right.size());
-    // Dither is of the pose: the last bit may differ, and a few pixels at edges.
+    // Dither is of the image: the last bit may differ, and a few pixels at edges.
     int differ = 0;
     for (std::size_t k = 0; k < frame.rgb.size(); ++k)
       differ += std::abs(int(frame.rgb[k]) - int(frame.rgb_right[k])) > 1 ? 1 : 0;
     EXPECT_LT(differ, 0.02 * double(frame.rgb.size())) << i;
   }
+}
+
+// A camera that is moved by a nanometre gives the same picture; the next image of it has other noise.
+TEST(Camera, NoiseIsOfTheImageAndThePixelNotOfThePose) {
+  const Scene scene = make_heap(60, 2);
+  GlContext context;
+  Renderer renderer(context, scene, plain());
+  CameraSpec spec;
+  spec.intrinsics = pinhole(64, 48, 40);
+  const auto take = [&](double shift, int index) {
+    return Camera(renderer, spec, fly(3, [&](double) { return look_at({5 + shift, 1, 1.4}, {0, 0, 0.5}); })).take(index).rgb;
+  };
+  const auto count_different = [](const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+    std::size_t pixels = 0;
+    for (std::size_t i = 0; i < a.size(); i += 3) pixels += a[i] != b[i] || a[i + 1] != b[i + 1] || a[i + 2] != b[i + 2];
+    return pixels;
+  };
+  const auto first = take(0, 0);
+  EXPECT_EQ(first, take(0, 0));
+  EXPECT_LT(count_different(first, take(1e-9, 0)), 64u * 48 / 100);
+  EXPECT_LT(count_different(first, take(-1e-12, 0)), 64u * 48 / 100);
+  EXPECT_GT(count_different(first, take(0, 1)), 64u * 48 / 4) << "the same noise in each image would be a landmark";
+  // Noise of 8 bits is no more than a level.
+  const auto second = take(0, 1);
+  for (std::size_t i = 0; i < first.size(); ++i) ASSERT_LE(std::abs(int(first[i]) - int(second[i])), 2) << i;
 }
 
 // Mean of an 8-bit linear image, without clipped pixels to spoil it.

@@ -134,5 +134,68 @@ TEST(CollapseLibrary, EveryParameterIsDescribed) {
   }
 }
 
+PileScenario join(const std::string& parts) {
+  return load_mission_text("return { pile = rubble.join(" + parts + ") }", "m.lua").scenario.pile;
+}
+
+TEST(JoinedPiles, KeepBuildingAndTerrain) {
+  const PileScenario pile = join(
+      "rubble.building { storeys = 2, bays_x = 1, cause = { weak_storey = 0 }, furniture = { { asset = 'table' } } }, "
+      "rubble.collapse.lean_to { position = { 9, 0, 0 } }, "
+      "{ terrain = rubble.terrain.from(function() return 1 end, { length = 2, width = 2, spacing = 1 }) }");
+  EXPECT_EQ(pile.building.storeys, 2);
+  EXPECT_EQ(pile.building.bays_x, 1);
+  EXPECT_EQ(pile.building.cause.weak_storey, 0);
+  EXPECT_EQ(pile.furniture.size(), 1u);
+  EXPECT_EQ(pile.terrain.heights.size(), 9u);
+  EXPECT_FALSE(pile.placed.empty());
+  EXPECT_GT(pile.layers, 0);
+  // In another order the same.
+  EXPECT_EQ(join("rubble.collapse.lean_to {}, rubble.building { storeys = 3 }").building.storeys, 3);
+}
+
+// Half of the pieces fall where the first part says, half where the second does, spread as each says.
+TEST(JoinedPiles, KeepDensitiesWhereTheyAre) {
+  const std::string alone = "{ layers = 1, pieces_per_layer = 30, spawn_position = { 2, 0, 3 }, spawn_bounds = { 4, 2, 3 }, "
+                            "spawn_density = { columns = 4, rows = 1, weights = { 0, 1, 0, 3 } } }";
+  const PileScenario one = join(alone + ", rubble.building { storeys = 1 }");
+  EXPECT_EQ(one.spawn_density.weights, (std::vector<double>{0, 1, 0, 3}));
+  EXPECT_EQ(one.spawn_bounds.x, 4);
+  const PileScenario two = join(alone + ", { layers = 2, pieces_per_layer = 10, spawn_position = { x = -1, y = 0, z = 3 }, "
+                                        "spawn_bounds = { 2, 2, 3 } }");
+  EXPECT_EQ(two.layers, 2);
+  EXPECT_EQ(two.pieces_per_layer, 40);
+  EXPECT_EQ(two.spawn_position.x, 1);
+  EXPECT_EQ(two.spawn_bounds.x, 6);
+  ASSERT_EQ(two.spawn_density.columns, 6);
+  ASSERT_EQ(two.spawn_density.rows, 1);
+  const double right[] = {5, 5, 0, 7.5, 0, 22.5};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(two.spawn_density.weights[i], right[i], 1e-9) << i;
+  EXPECT_TRUE(join("rubble.collapse.lean_to {}, rubble.collapse.pancake {}").spawn_density.weights.empty());
+}
+
+TEST(JoinedPiles, WhatFallsHasTheDefaultsOfAMission) {
+  const PileScenario pile = join("{ placed = {}, mix = { { asset = 'brick' } } }, rubble.building {}");
+  EXPECT_EQ(pile.layers, 4);
+  EXPECT_EQ(pile.pieces_per_layer, 300);
+  EXPECT_EQ(pile.spawn_bounds.x, 10);
+  EXPECT_EQ(join("{ placed = {} }, rubble.building {}").layers, 0);
+}
+
+TEST(JoinedPiles, RefuseWhatCannotBeJoined) {
+  const auto error = [](const std::string& parts) { return mission_error("return {\n pile = rubble.join(" + parts + ") }"); };
+  EXPECT_EQ(error("rubble.building {}, {}, rubble.building {}"),
+            "m.lua:2: rubble.join: parts 1 and 3 both have a building: a pile has one at most");
+  EXPECT_EQ(error("{}, { layres = 2 }"),
+            "m.lua:2: rubble.join: part 2 has the key \"layres\", which no pile has, or which it cannot join");
+  EXPECT_EQ(error("{}, 5"), "m.lua:2: rubble.join: part 2 is no pile but a number");
+  const std::string ground = "{ terrain = rubble.terrain.from(function() return 1 end) }";
+  EXPECT_EQ(error(ground + ", " + ground),
+            "m.lua:2: rubble.join: parts 1 and 2 both have a terrain: a pile has one at most");
+  const std::string fine = "{ layers = 1, spawn_density = rubble.density.from(function() return 1 end, { columns = 200 }) }";
+  EXPECT_NE(error(fine + ", { layers = 1 }").find("100 x 100 at most"), std::string::npos);
+  EXPECT_EQ(error(fine + ", rubble.building {}"), "");
+}
+
 }  // namespace collapse_errors_test
 }  // namespace rubble

@@ -7,11 +7,12 @@ namespace rubble {
 
 LiveSensors::LiveSensors(const Scenario& scenario, const std::vector<MissionRobot>& robots,
                          std::unique_ptr<LiveRanges> ranges, std::unique_ptr<LiveImus> imus)
-    : robots_(robots), start_ns_(scenario.start_ns), ranges_(std::move(ranges)), imus_(std::move(imus)) {}
+    : scenario_(scenario), robots_(robots), ranges_(std::move(ranges)), imus_(std::move(imus)) {}
 
 void LiveSensors::restart(const World& world) {
   logs_.clear();
-  for (std::size_t i = 0; i < robots_.size(); ++i) logs_.emplace_back(robots_[i].model, int(i), start_ns_);
+  for (std::size_t i = 0; i < robots_.size(); ++i)
+    logs_.emplace_back(robots_[i].model, scenario_.start_ns, odometry_noise(scenario_, i));
   ranges_->restart(world);
   imus_->restart(world);
 }

@@ -17,7 +17,7 @@ namespace rubble {
 
 class LiveSensors {
  public:
-  // The robots must outlive this.
+  // The scenario and the robots must outlive this.
   LiveSensors(const Scenario& scenario, const std::vector<MissionRobot>& robots, std::unique_ptr<LiveRanges> ranges,
               std::unique_ptr<LiveImus> imus);
 
@@ -30,8 +30,8 @@ class LiveSensors {
   const LiveRanges& ranges() const { return *ranges_; }
 
  private:
+  const Scenario& scenario_;
   const std::vector<MissionRobot>& robots_;
-  std::int64_t start_ns_;
   std::unique_ptr<LiveRanges> ranges_;
   std::unique_ptr<LiveImus> imus_;
   std::vector<RobotLog> logs_;

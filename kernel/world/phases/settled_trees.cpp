@@ -14,7 +14,15 @@ struct Instance {
   double scale = 1;
 };
 
-std::vector<Instance> list_instances(const Pile& pile, int& pieces) {
+[[noreturn]] void refuse_joints(const std::string& what) {
+  Diagnostic d;
+  d.message = "the settled pile is not of this mission: " + what;
+  d.hint = "settle it again";
+  throw InputError(d);
+}
+
+// pieces: how many the pile has, with those of the building, which come after the placed ones.
+std::vector<Instance> list_instances(const Pile& pile, const BuildingState& building, int& pieces) {
   std::vector<Instance> instances;
   pieces = 0;
   const auto add = [&](const std::vector<Placement>& placements) {
@@ -29,6 +37,8 @@ std::vector<Instance> list_instances(const Pile& pile, int& pieces) {
     }
   };
   add(pile.placed);
+  if (building.count > 0 && building.first != pieces) refuse_joints("another building");
+  pieces += building.count;
   for (const Layer& layer : pile.layers) add(layer.pieces);
   return instances;
 }
@@ -64,19 +74,14 @@ void set_coordinates(const Pose& moved, Mobility mobility, double* q) {
   }
 }
 
-[[noreturn]] void refuse_joints(const std::string& what) {
-  Diagnostic d;
-  d.message = "the settled pile is not of this mission: " + what;
-  d.hint = "settle it again";
-  throw InputError(d);
-}
-
 }  // namespace
 
 void WorldTrees::join_settled(const Pile& pile, const PileState& state) {
   int pieces = 0;
-  const std::vector<Instance> instances = list_instances(pile, pieces);
-  if (pieces != int(state.pieces.size())) refuse_joints("another number of pieces");
+  const std::vector<Instance> instances = list_instances(pile, state.building, pieces);
+  if (pieces != int(state.pieces.size())) {
+    refuse_joints("it has " + std::to_string(state.pieces.size()) + " pieces, the mission " + std::to_string(pieces));
+  }
   std::vector<const JointState*> hangs_by(state.pieces.size(), nullptr);
   std::vector<std::uint8_t> joined(state.pieces.size(), 0);
   std::vector<const JointState*> loops;

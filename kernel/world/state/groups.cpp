@@ -20,6 +20,13 @@ void RigidGroups::bind(int first, int count) {
   pairs_.find_first(first);
 }
 
+void RigidGroups::lay(const SplitPart& part, FreeBody* free) {
+  const Body whole = data_.bodies[part.pieces[0]];
+  form(part, whole);
+  const Body& body = data_.bodies[part.pieces[0]];
+  if (!part.fixed) *free = {body.mass, body.inertia, body.world_from_com, {}, {}};
+}
+
 // The pieces' offsets are still those of `whole`.
 void RigidGroups::form(const SplitPart& part, const Body& whole) {
   const std::int32_t lead = part.pieces[0];

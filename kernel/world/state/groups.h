@@ -18,6 +18,9 @@ class RigidGroups {
       : data_(data), bodies_(bodies), blocks_(blocks), pairs_(pairs) {}
 
   void bind(int first, int count);
+  // The same of fixed pieces of equal orientation before their pairs are looked for. free: where the new body
+  // is, unless it is fixed.
+  void lay(const SplitPart& part, FreeBody* free);
   void split(int lead, const std::vector<SplitPart>& parts);
 
  private:

@@ -16,7 +16,7 @@ void Pairs::introduce(int first) {
   const int count = int(data_.bodies.size());
   for (int i = first; i < count; ++i) {
     Body& body = data_.bodies[i];
-    bodies_.refresh(body);
+    if (body.lead < 0 || body.lead == i) bodies_.refresh(body);  // a lead refreshes the pieces of its group
     for (int c = 0; c < body.collider_count && !body.lost; ++c) {
       const int collider = body.first_collider + c;
       data_.broad.update(collider, data_.colliders[collider].box, {});

@@ -19,7 +19,7 @@ The pile stands like rock, so that scans stay true. As in VoidExplore, the episo
 """
 import numpy as np
 
-from .. import geometry
+from .. import _core, geometry
 from ..robots import RobotWorld
 from .settled import settle_text
 from .spaces import Box, Dict, Env
@@ -44,8 +44,8 @@ class CrawlerNav(Env):
         self._speed, self._turn_rate, self._period = speed, turn_rate, period
         self._max_steps, self._reach, self._around = max_steps, reach, around
         self._max_range, self._robot, self._piles = max_range, None, {}
-        turns = 2 * np.pi * np.arange(rays) / rays
-        self._rays = np.stack([np.cos(turns), np.sin(turns), np.zeros(rays)], axis=1)
+        turns = _core._directions(2 * np.pi * np.arange(rays) / rays)
+        self._rays = np.append(turns, np.zeros((rays, 1)), axis=1)
         self.action_space = Box(-1.0, 1.0, (4,), np.float32)
         self.observation_space = Dict({
             "goal": Box(np.array([0, -1, -1]), np.array([2 * _MOST, 1, 1]), (3,), np.float32),
@@ -59,7 +59,7 @@ class CrawlerNav(Env):
         if seed not in self._piles:
             pile = settle_text(self._mission, seed, self._threads)
             vertices, _ = pile.mesh()
-            radius = float(np.linalg.norm(vertices[:, :2], axis=1).max()) if len(vertices) else 1.0
+            radius = float(_core._lengths(vertices[:, :2]).max()) if len(vertices) else 1.0
             self._piles[seed] = pile, radius
         return self._piles[seed]
 
@@ -70,8 +70,9 @@ class CrawlerNav(Env):
         # On one side of the pile, facing it; the goal on the other.
         start, goal = self.np_random.uniform(-np.pi, np.pi), self.np_random.uniform(-1, 1)
         ring = radius + self._around
-        self._goal = ring * np.array([-np.cos(start + goal), -np.sin(start + goal), 0])
-        base = geometry.pose([ring * np.cos(start), ring * np.sin(start), 0.005], (0, 0, start + np.pi))
+        (start_x, start_y), (goal_x, goal_y) = ring * _core._directions([start, start + goal])
+        self._goal = np.array([-goal_x, -goal_y, 0])
+        base = geometry.pose([start_x, start_y, 0.005], (0, 0, start + np.pi))
         self._robot = RobotWorld(self._pile, "crawler", base, fixed_debris=True, threads=self._threads)
         self._state, self._steps = self._robot.state(), 0
         self._distance = self._to_goal()[0]
@@ -98,17 +99,17 @@ class CrawlerNav(Env):
         return self._base()[2, :3]
 
     def _to_goal(self):
-        base = self._base()
-        away = base[:3, :3].T @ (self._goal - base[:3, 3])
-        flat = max(float(np.hypot(away[0], away[1])), 1e-9)
-        return float(np.linalg.norm(away)), away[0] / flat, away[1] / flat
+        base = self._state["links"][0]
+        away = geometry.rotate(base, self._goal - base[:3], back=True)
+        flat = max(float(_core._lengths(away[None, :2])[0]), 1e-9)
+        return float(_core._lengths(away[None])[0]), away[0] / flat, away[1] / flat
 
     def _observe(self):
-        base = self._base()
-        turned = base[:3, :3]
-        hits = self._pile.cast_rays((base[:3, 3] + turned @ _EYE)[None], self._rays @ turned.T, self._max_range)
         state = self._state
-        motion = np.concatenate([turned.T @ state["linear_velocity"], turned.T @ state["angular_velocity"]])
+        base = state["links"][0]
+        hits = self._pile.cast_rays((base[:3] + geometry.rotate(base, _EYE))[None], geometry.rotate(base, self._rays),
+                                    self._max_range)
+        motion = geometry.rotate(base, [state["linear_velocity"], state["angular_velocity"]], back=True).ravel()
         return {"goal": np.array(self._to_goal(), np.float32).clip([0, -1, -1], [2 * _MOST, 1, 1]).astype(np.float32),
                 "joints": np.clip(state["joint_positions"][-4:], -_MOST, _MOST).astype(np.float32),
                 "motion": np.clip(motion, -_MOST, _MOST).astype(np.float32),

@@ -57,8 +57,8 @@ class SnakeExplore(Env):
         world = self._world
         for turn in (0.0, 0.4, -0.4, 0.8, -0.8):
             yaw = world.yaw + turn
-            ahead = np.array([math.cos(yaw), math.sin(yaw), 0.0])
-            for back in np.arange(0.2, 6.0, 0.2):
+            ahead = np.append(_core._directions([yaw])[0], 0.0)
+            for back in (0.2 + 0.2 * k for k in range(29)):
                 head = world.entrance * [1, 1, 0] - back * ahead + [0, 0, _HEIGHT]
                 body = head - np.outer(np.linspace(-0.05, _LENGTH, 21), ahead)
                 # Its own height above the ground is the clearance of an empty place.
@@ -96,16 +96,15 @@ class SnakeExplore(Env):
             "coverage": view.seen / view.count, "entered": self._entered}
 
     def _to_entrance(self):
-        return float(np.linalg.norm(self._state["links"][0][:3] - self._world.entrance))
+        return float(_core._lengths((self._state["links"][0][:3] - self._world.entrance)[None])[0])
 
     def _observe(self):
         state = self._state
         head = state["links"][0]
         depth, _, _ = self._world.look(head)
-        start, now = geometry.matrix(self._start), geometry.matrix(head)
-        moved = start[:3, :3].T @ (head[:3] - start[:3, 3])
-        turned = start[:3, :3].T @ now[:3, 0]
-        flat = max(math.hypot(turned[0], turned[1]), 1e-9)
+        now = geometry.matrix(head)
+        moved, turned = geometry.rotate(self._start, [head[:3] - self._start[:3], now[:3, 0]], back=True)
+        flat = max(math.sqrt(turned[0] * turned[0] + turned[1] * turned[1]), 1e-9)
 
         def within(values):
             return np.clip(values, -_MOST, _MOST).astype(np.float32)
@@ -114,4 +113,4 @@ class SnakeExplore(Env):
                 "head": within(np.append(moved, [now[2, 0], now[2, 2], turned[0] / flat, turned[1] / flat])),
                 "joints": within(state["joint_positions"]), "speeds": within(state["joint_speeds"]),
                 "torques": within(state["joint_torques"]),
-                "touch": np.linalg.norm(state["contact_forces"], axis=1).clip(0, 100 * _MOST).astype(np.float32)}
+                "touch": _core._lengths(state["contact_forces"]).clip(0, 100 * _MOST).astype(np.float32)}

@@ -18,10 +18,9 @@ cut off (truncated) after max_steps.
 The pile of an episode is drawn from pile_seeds by the episode's own seed, which alone decides the episode:
 not those before it, nor the process, nor the threads. Piles are settled once and kept in memory.
 """
-import math
-
 import numpy as np
 
+from .. import _core, geometry
 from .spaces import Box, Dict, Env
 from .void_world import VoidWorld, VoidWorlds, checked_action
 
@@ -79,13 +78,11 @@ class VoidExplore(Env):
 
     @staticmethod
     def _turned(vector, yaw):
-        c, s = math.cos(yaw), math.sin(yaw)
+        c, s = _core._directions([yaw])[0]
         return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1], vector[2]])
 
     def _body(self):
-        half = 0.5 * (self._world.yaw + self._yaw)
-        x, y, z = self._position
-        return np.array([x, y, z, math.cos(half), 0, 0, math.sin(half)])
+        return geometry.pose(self._position, (0, 0, self._world.yaw + self._yaw))
 
     def _observe(self):
         depth, clearance, rgb = self._world.look(self._body())

@@ -1,6 +1,4 @@
 """A pile with the void that is explored in it: of VoidExplore and SnakeExplore."""
-import math
-
 import numpy as np
 
 from .. import _core
@@ -20,7 +18,7 @@ class VoidWorld:
             return
         entrance = self.void["entrances"][0]
         self.entrance, inward = entrance["position"], entrance["inward"]
-        self.yaw = math.atan2(inward[1], inward[0])
+        self.yaw = _core._atan2(inward[1], inward[0])
         self.view = _core._Explorer(self.pile._shared, self.void["cells"], voxel, radius, size, fov_deg, max_range,
                                     threads)
         self.renderer = Renderer(self.pile, threads) if colour else None

@@ -29,7 +29,7 @@ help:
 	@echo "make fuzz SECONDS=60  run every fuzz target for this time, two at once (docs/reliability.md)"
 	@echo "make faults     interrupt a small run at many places, continue it, compare the bytes (an hour)"
 	@echo "make determinism  compare hashes of other compilers, levels and processors (half an hour)"
-	@echo "make platforms  test the kernel for Windows, riscv64 and arm64, under emulators (docs/platforms.md)"
+	@echo "make platforms PLATFORM=debian13  demo and tests in a bare Debian 13; or windows, riscv64, arm64 (docs/platforms.md)"
 	@echo "make format     clang-format over the tree"
 	@echo "make clean      remove build/ and out/"
 
@@ -157,10 +157,11 @@ determinism: packages
 	@tools/install_packages.sh tools/packages-determinism.txt
 	tools/determinism_matrix.sh $(DETERMINISM_OPTIONS)
 
-# Not part of any suite: it installs compilers and emulators and builds the kernel four times.
+# Not part of any suite: it installs compilers and emulators and builds the kernel four times; and all of it, with
+# the suite, in a bare Debian 13. PLATFORM: some of the platforms alone, as in PLATFORM=debian13.
 platforms: packages
 	@tools/install_packages.sh tools/packages-platforms.txt
-	tools/platforms.sh
+	tools/platforms.sh $(PLATFORM)
 
 format:
 	git ls-files '*.h' '*.cpp' | xargs clang-format -i

@@ -8,6 +8,12 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 set_property(GLOBAL PROPERTY USE_FOLDERS ON)
 
+# Warnings are errors for those who develop: the presets but `release`, and wherever CI is set. Another compiler
+# warns of other things, which must not stop those who only build.
+if(NOT DEFINED CMAKE_COMPILE_WARNING_AS_ERROR AND "$ENV{CI}")
+  set(CMAKE_COMPILE_WARNING_AS_ERROR ON CACHE BOOL "Warnings are errors")
+endif()
+
 find_package(Threads REQUIRED)
 
 # A compiler cache, where one is installed: an object that was compiled before, here or in another checkout, is copied.
@@ -25,7 +31,7 @@ add_library(rubble_options INTERFACE)
 target_include_directories(rubble_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_link_libraries(rubble_options INTERFACE Threads::Threads)
 target_compile_options(rubble_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
   # The same bits from every compiler: no fused multiply-add unless written out.
   -ffp-contract=off)
 
@@ -56,10 +62,10 @@ function(rubble_optimize_for_thread_sanitizer)
   endif()
 endfunction()
 
-# `make fuzz`: every function reports what it reaches to libFuzzer. Clang warns of more than GCC does.
+# `make fuzz`: every function reports what it reaches to libFuzzer.
 option(RUBBLE_FUZZ "Build the fuzz targets alone, by clang" OFF)
 if(RUBBLE_FUZZ)
-  target_compile_options(rubble_options INTERFACE -fsanitize=fuzzer-no-link -Wno-error)
+  target_compile_options(rubble_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # A fast linker, where one is installed: there are more than seventy programs to link.

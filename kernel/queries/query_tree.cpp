@@ -1,12 +1,11 @@
 #include "kernel/queries/query_tree.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "kernel/base/error.h"
+#include "kernel/base/system/embree.h"
 
 namespace rubble {
 namespace {
@@ -58,9 +57,9 @@ void bound_triangle(const RTCBoundsFunctionArguments* args) {
   write_bounds(box, *args->bounds_o);
 }
 
-struct RayVisit : RTCIntersectContext {
-  const QueryTree::VisitTriangle* visit;
-  double start, margin;
+struct RayVisit : EmbreeRayContext {
+  const QueryTree::VisitTriangle* visit = nullptr;
+  double start = 0, margin = 0;
 };
 
 void visit_by_ray(const RTCIntersectFunctionNArguments* args) {
@@ -228,8 +227,7 @@ void QueryTree::along_ray(const Vec3& origin, const Vec3& direction, double limi
   if (pieces_.empty()) return;
   const auto [enter, leave] = clip(box_, origin, direction, limit);
   if (enter > leave) return;
-  RayVisit context{};
-  rtcInitIntersectContext(&context);
+  RayVisit context;
   context.visit = &visit;
   context.start = enter;
   context.margin = margin_;
@@ -239,7 +237,7 @@ void QueryTree::along_ray(const Vec3& origin, const Vec3& direction, double limi
                0xffffffffu, 0,      0};
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(trees_->instances, &context, &query);
+  embree_intersect(trees_->instances, query, context);
 }
 
 void QueryTree::around(const Vec3& point, double limit, const VisitTriangle& visit) const {

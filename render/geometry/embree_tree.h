@@ -1,13 +1,12 @@
 // A tree of Embree for triangles that rest and meshes that move, and all that it owns. Internal to what casts rays.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <cstdint>
 #include <map>
 #include <vector>
 
 #include "kernel/base/math.h"
+#include "kernel/base/system/embree.h"
 
 namespace rubble {
 

@@ -31,25 +31,17 @@ RTCRay one(const RayScene::Ray& ray) {
           0,               0};
 }
 
-RTCIntersectContext make_context(RayScene::Order order) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = order == RayScene::Order::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                                     : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  return context;
-}
-
 }  // namespace
 
 void RayScene::cast_many(const Ray* rays, std::size_t count, Order order, PreciseHit* hits) const {
-  RTCIntersectContext context = make_context(order);
+  EmbreeRayContext context(order == Order::coherent);
   if (order == Order::scattered) {
     for (std::size_t i = 0; i < count; ++i) {
       RTCRayHit query{};
       query.ray = one(rays[i]);
       query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
       query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(embree_->scene, &context, &query);
+      embree_intersect(embree_->scene, query, context);
       hits[i] = PreciseHit();
       if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
       const Met met = met_by(query.hit.primID, query.hit.instID[0],
@@ -65,7 +57,7 @@ void RayScene::cast_many(const Ray* rays, std::size_t count, Order order, Precis
     fill(rays + first, count - first, lanes, query.ray);
     for (unsigned& id : query.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
     for (unsigned& id : query.hit.instID[0]) id = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect8(lanes.valid, embree_->scene, &context, &query);
+    embree_intersect(embree_->scene, lanes.valid, query, context);
     for (std::size_t i = 0; i < std::min(kWidth, count - first); ++i) {
       hits[first + i] = PreciseHit();
       if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
@@ -79,11 +71,11 @@ void RayScene::cast_many(const Ray* rays, std::size_t count, Order order, Precis
 
 void RayScene::blocked_many(const Ray* rays, std::size_t count, Order order,
                             std::uint8_t* hidden) const {
-  RTCIntersectContext context = make_context(order);
+  EmbreeRayContext context(order == Order::coherent);
   if (order == Order::scattered) {
     for (std::size_t i = 0; i < count; ++i) {
       RTCRay ray = one(rays[i]);
-      rtcOccluded1(embree_->scene, &context, &ray);
+      embree_occlude(embree_->scene, ray, context);
       hidden[i] = ray.tfar < 0;
     }
     return;
@@ -92,7 +84,7 @@ void RayScene::blocked_many(const Ray* rays, std::size_t count, Order order,
     Lanes lanes;
     RTCRay8 query;
     fill(rays + first, count - first, lanes, query);
-    rtcOccluded8(lanes.valid, embree_->scene, &context, &query);
+    embree_occlude(embree_->scene, lanes.valid, query, context);
     for (std::size_t i = 0; i < std::min(kWidth, count - first); ++i)
       hidden[first + i] = query.tfar[i] < 0;
   }

@@ -143,13 +143,12 @@ RayScene::Met RayScene::met_by(std::uint32_t primitive, std::uint32_t instance,
 
 RayScene::Hit RayScene::cast(const Vec3f& from, const Vec3f& d, float nearest,
                              float farthest) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  EmbreeRayContext context;
   RTCRayHit query{};
   query.ray = {from.x, from.y, from.z, nearest, d.x, d.y, d.z, 0, farthest, 0xffffffffu, 0, 0};
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(embree_->scene, &context, &query);
+  embree_intersect(embree_->scene, query, context);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   const Met met = met_by(query.hit.primID, query.hit.instID[0],
                          {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
@@ -157,10 +156,9 @@ RayScene::Hit RayScene::cast(const Vec3f& from, const Vec3f& d, float nearest,
 }
 
 bool RayScene::blocked(const Vec3f& from, const Vec3f& d, float nearest, float farthest) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  EmbreeRayContext context;
   RTCRay ray = {from.x, from.y, from.z, nearest, d.x, d.y, d.z, 0, farthest, 0xffffffffu, 0, 0};
-  rtcOccluded1(embree_->scene, &context, &ray);
+  embree_occlude(embree_->scene, ray, context);
   return ray.tfar < 0;
 }
 

@@ -195,9 +195,7 @@ void LidarWorld::span(std::int64_t from_ns, std::int64_t to_ns) {
 }
 
 void LidarWorld::Tree::intersect(const Ray* rays, std::size_t count, double max_distance, RTCRayHit8& query) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  EmbreeRayContext context(true);
   alignas(32) int valid[kPacket];
   for (std::size_t i = 0; i < kPacket; ++i) {
     valid[i] = i < count ? -1 : 0;
@@ -209,7 +207,7 @@ void LidarWorld::Tree::intersect(const Ray* rays, std::size_t count, double max_
     query.ray.mask[i] = 0xffffffffu, query.ray.id[i] = 0, query.ray.flags[i] = 0;
     query.hit.geomID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  rtcIntersect8(valid, scene, &context, &query);
+  embree_intersect(scene, valid, query, context);
 }
 
 void LidarWorld::cast(const Ray* rays, std::size_t count, double max_distance, Hit* hits) const {

@@ -215,7 +215,7 @@ const std::map<std::string, Prefixes> kDoors{
     {"SimTK", {"kernel/multibody/"}},
     {"xxhash.h", {"kernel/base/"}},
     {"openssl/", {"kernel/base/"}},
-    {"embree3/", {"kernel/queries/query_tree.cpp", "render/geometry/embree_tree.h"}},
+    {"embree", {"kernel/base/system/embree.h"}},
     {"EGL/", {"render/gl/"}},
     {"GL/", {"render/gl/"}},
     {"assimp/", {"io/mesh/mesh_file.cpp", "io/mesh/mesh_paint.cpp"}},

@@ -1,5 +1,6 @@
 // What `cmake --install` leaves: found from where it lies, complete, and true to the program.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -123,6 +124,84 @@ TEST(LibraryDepends, AreWhatShlibsFilesSay) {
   };
   EXPECT_EQ(ask("data.deb libother1.deb libc6.deb"), "libc6 (>= 2.36)\n");
   EXPECT_EQ(ask("data.deb libother1.deb"), "no package says who has libc.so.6\nfailed");
+}
+
+// An archive of a program that only tells its version.
+class SelfExtractingArchive : public ::testing::Test {
+ protected:
+  SelfExtractingArchive() {
+    fs::create_directories(scratch_ / "stage/bin");
+    fs::create_directories(scratch_ / "stage/libexec");
+    fs::create_directories(scratch_ / "home");
+    write_file(scratch_ / "stage/bin/rubble", "#!/bin/sh\necho rubble 1.2.3\n");
+    fs::permissions(scratch_ / "stage/bin/rubble", fs::perms::owner_all);
+    write_file(scratch_ / "stage/libexec/rubble", "");
+    EXPECT_EQ(run("'" RUBBLE_SOURCE_DIR "/tools/package/self_extracting.sh' stage 1.2.3 rubble.run"), "exit 0\n");
+  }
+  // What the shell prints there, and its exit code on a last line.
+  std::string run(const std::string& command) {
+    const std::string out = scratch_ / "out";
+    std::system(("cd '" + scratch_.path().string() + "' && export HOME=\"$PWD/home\" && (" + command + ") >'" + out +
+                 "' 2>&1; echo exit $? >>'" + out + "'").c_str());
+    return read_file(out);
+  }
+  static bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+  const ScratchFolder scratch_;
+};
+
+TEST_F(SelfExtractingArchive, HasTheHelpOfRubble) {
+  const std::string help = run("sh rubble.run --help");
+  EXPECT_EQ(help.substr(0, 23), "Installs Rubble 1.2.3, ") << help;
+  EXPECT_TRUE(has(help, "usage: sh rubble.run [FOLDER]") && has(help, "exit 0")) << help;
+  EXPECT_TRUE(has(run("sh rubble.run --list"), "./libexec/rubble\n"));
+  const std::string unknown = run("sh rubble.run --target x");
+  EXPECT_TRUE(has(unknown, "expected FOLDER, --list or --help, found: --target") && has(unknown, "exit 2")) << unknown;
+}
+
+TEST_F(SelfExtractingArchive, InstallsBesideWhatIsThere) {
+  // A checkout of that name, say.
+  fs::create_directories(scratch_ / "home/rubble");
+  write_file(scratch_ / "home/rubble/mine", "mine");
+  EXPECT_TRUE(has(run("sh rubble.run"), "rubble 1.2.3 is in " + (scratch_ / "home/rubble-1.2.3")));
+  EXPECT_TRUE(has(run("sh rubble.run home/rubble"), "is in home/rubble/rubble-1.2.3"));
+  EXPECT_EQ(read_file(scratch_ / "home/rubble/mine"), "mine");
+  EXPECT_TRUE(has(run("sh rubble.run -- new/folder && new/folder/bin/rubble"), "rubble 1.2.3\nexit 0"));
+  // One that is there is neither replaced nor nested.
+  const std::string again = run("sh rubble.run new/folder");
+  EXPECT_TRUE(has(again, "Rubble is in new/folder already") && has(again, "exit 1")) << again;
+}
+
+TEST_F(SelfExtractingArchive, LeavesNothingWhereItIsDamaged) {
+  const std::string printed = run("head -c $(($(wc -c <rubble.run) - 9)) rubble.run >cut.run; sh cut.run new");
+  EXPECT_TRUE(has(printed, "the archive is damaged or cut off") && has(printed, "exit 1")) << printed;
+  EXPECT_FALSE(fs::exists(scratch_ / "new") || fs::exists(scratch_ / "new.part"));
+}
+
+// Lists of packages for several releases. Asks for none that would be installed.
+TEST(PackageLists, TakeWhatTheReleaseHas) {
+  ScratchFolder scratch;
+  const auto install = [&](const std::string& list) {
+    write_file(scratch / "list", list);
+    const int status = std::system(("PATH='" + scratch.path().string() + ":/usr/sbin:/usr/bin:/sbin:/bin' '" RUBBLE_SOURCE_DIR
+                                    "/tools/install_packages.sh' '" + (scratch / "list") + "' >'" + (scratch / "out") + "' 2>&1").c_str());
+    return read_file(scratch / "out") + "exit " + std::to_string(WEXITSTATUS(status));
+  };
+  // apt-get as a program that only says what it was asked for.
+  write_file(scratch / "apt-get", "#!/bin/sh\necho apt-get $*\n");
+  write_file(scratch / "sudo", "#!/bin/sh\nexec \"$@\"\n");
+  write_file(scratch / "apt-cache", "#!/bin/sh\ncase $2 in has-*) echo '  Candidate: 1' ;; *) echo '  Candidate: (none)' ;; esac\n");
+  for (const char* name : {"apt-get", "sudo", "apt-cache"}) fs::permissions(scratch / name, fs::perms::owner_all);
+
+  EXPECT_EQ(install("# a comment\n\nno-such|dpkg\nno-such if-missing sh\nno-such if-available\n"), "exit 0");
+  EXPECT_EQ(install("no-such|has-it|has-more\nhas-another if-available\n"),
+            "apt-get update -q\nInstalling with apt: has-it has-another\n"
+            "apt-get install -q -y --no-install-recommends has-it has-another\nexit 0");
+  const std::string lacking = install("no-such|no-other\n");
+  EXPECT_NE(lacking.find("This release has no package of these names: no-such|no-other\n"), std::string::npos) << lacking;
+  EXPECT_NE(lacking.find("exit 2"), std::string::npos) << lacking;
+  const std::string slip = install("dpkg if-avaliable\n");
+  EXPECT_NE(slip.find("expected NAME, if-missing COMMAND or if-available, found: dpkg if-avaliable"), std::string::npos) << slip;
 }
 
 TEST(Manual, SaysWhatIsNotThere) {

@@ -48,6 +48,21 @@ TEST(Library, PublicHeadersIncludeOnlyPublicOnes) {
   EXPECT_NE(shell(scratch, compile).find("kernel/model/track_builder.h"), std::string::npos);
 }
 
+// The kernel does without Embree; the program says in one error what is missing.
+TEST(Library, WithoutEmbreeTheKernelAloneCanBeConfigured) {
+  const ScratchFolder scratch;
+  const std::string configure = "cmake -S '" RUBBLE_SOURCE_DIR "' -G Ninja -DCMAKE_DISABLE_FIND_PACKAGE_embree=ON ";
+  const std::string kernel =
+      shell(scratch, configure + "-B kernel -DRUBBLE_KERNEL_ONLY=ON && ninja -C kernel -t targets all");
+  EXPECT_NE(kernel.find("librubble_kernel.a"), std::string::npos) << kernel;
+  EXPECT_EQ(kernel.find("librubble_voids.a"), std::string::npos) << kernel;
+  EXPECT_EQ(kernel.find("CMake Error"), std::string::npos) << kernel;
+  const std::string program = shell(scratch, configure + "-B program");
+  const std::size_t error = program.find("CMake Error");
+  EXPECT_NE(program.find("libembree-dev"), std::string::npos) << program;
+  EXPECT_EQ(program.find("CMake Error", error + 1), std::string::npos) << program;
+}
+
 TEST(Library, AConsumersProgramHasTheResultsOfThisTree) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a consumer without the sanitizer cannot link these libraries";

@@ -16,7 +16,7 @@ class FastCdr {
  public:
   FastCdr()
       : buffer_(memory_.data(), memory_.size()),
-        cdr_(buffer_, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS, eprosima::fastcdr::Cdr::DDS_CDR) {
+        cdr_(buffer_, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS, Version::DDS_CDR) {
     cdr_.serialize_encapsulation();
   }
 
@@ -35,9 +35,17 @@ class FastCdr {
     const Quat& q = p.rotation;
     return vector(p.translation) << q.x << q.y << q.z << q.w;
   }
+#if FASTCDR_VERSION_MAJOR >= 2  // Debian 13
+  std::string bytes() const { return {buffer_.getBuffer(), cdr_.get_serialized_data_length()}; }
+
+ private:
+  using Version = eprosima::fastcdr::CdrVersion;
+#else
   std::string bytes() const { return {buffer_.getBuffer(), cdr_.getSerializedDataLength()}; }
 
  private:
+  using Version = eprosima::fastcdr::Cdr;
+#endif
   std::vector<char> memory_ = std::vector<char>(4096);  // zeros: Fast-CDR leaves padding as it is
   eprosima::fastcdr::FastBuffer buffer_;
   eprosima::fastcdr::Cdr cdr_;

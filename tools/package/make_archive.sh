@@ -1,7 +1,7 @@
 #!/bin/sh
-# Makes a self-extracting archive for distributions other than Debian 12: the program with every library
+# Makes a self-extracting archive for other distributions than this one: the program with every library
 # that it loads, Mesa's llvmpipe among them, but for the C library. It runs where that is as new as the
-# one of this machine, or newer. Needs makeself and a built program (make build).
+# one of this machine, or newer. Needs a built program (make build).
 # usage: tools/package/make_archive.sh BUILD_FOLDER OUTPUT_FOLDER
 set -eu
 build=$1
@@ -39,8 +39,7 @@ sed 's#^/usr##; p; s#^#/usr#' "$list" | xargs dpkg -S 2>/dev/null | sed 's/[:,].
 rm "$list" "$list.opened"
 
 cp "$here/archive_start.sh" "$stage/bin/rubble"
-cp "$here/archive_install.sh" "$stage/install.sh"
-chmod 755 "$stage/bin/rubble" "$stage/install.sh"
-makeself --quiet --complevel 6 --nox11 --tar-quietly "$stage" "$output/$name.run" "Rubble $version" ./install.sh
+chmod 755 "$stage/bin/rubble"
+"$here/self_extracting.sh" "$stage" "$version" "$output/$name.run"
 rm -rf "$stage"
 echo "$output/$name.run: $(du -m "$output/$name.run" | cut -f1) MB"

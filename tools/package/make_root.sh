@@ -13,6 +13,8 @@ mirror=${MIRROR:-http://deb.debian.org/debian}
 mkdir -p "$root"
 
 if [ ! -e "$root/installed" ]; then
+  # An interrupted debootstrap leaves its own folder.
+  [ ! -e "$root/debootstrap" ] || rm -rf "$root"
   # Suites that this debootstrap does not know yet are made as their elders are.
   script=/usr/share/debootstrap/scripts/$suite
   if [ ! -e "$script" ]; then

@@ -25,9 +25,9 @@ void LiveSensors::note_step(const World& world) {
 std::vector<Sample> LiveSensors::take() {
   std::vector<Sample> samples;
   for (RobotLog& log : logs_)
-    for (RobotSample& sample : log.take_samples()) samples.push_back(std::move(sample));
-  for (ImuSample& reading : imus_->take()) samples.push_back(reading);
-  for (LidarScan& scan : ranges_->take().scans) samples.push_back(std::move(scan));
+    for (RobotSample& sample : log.take_samples()) samples.emplace_back(std::move(sample));
+  for (ImuSample& reading : imus_->take()) samples.emplace_back(reading);
+  for (LidarScan& scan : ranges_->take().scans) samples.emplace_back(std::move(scan));
   std::stable_sort(samples.begin(), samples.end(),
                    [](const Sample& a, const Sample& b) { return stamp_of(a) < stamp_of(b); });
   return samples;

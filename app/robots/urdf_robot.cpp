@@ -41,8 +41,15 @@ ConvexPart make_cylinder(double radius, double length) {
   return part;
 }
 
-TriangleMesh load_scaled(const UrdfGeometry& g, MeshImporter& importer) {
-  TriangleMesh mesh = importer.load_mesh(g.file);
+// warnings: gets once what of the file is left out.
+TriangleMesh load_scaled(const UrdfGeometry& g, MeshImporter& importer, std::vector<std::string>& warnings) {
+  MeshUnits units;
+  units.heed_stated_axis = false;
+  TriangleMesh mesh = importer.load_mesh(g.file, units);
+  for (const std::string& note : importer.notes().shape) {
+    const std::string warning = g.file + ": " + note;
+    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+  }
   for (Vec3f& p : mesh.positions)
     p = {float(p.x * g.scale.x), float(p.y * g.scale.y), float(p.z * g.scale.z)};
   mesh.normals.clear();  // an uneven scale turns them
@@ -136,7 +143,7 @@ class Builder {
         break;
     }
     try {
-      return decompose_cached(load_scaled(g, importer_), DiskCache(DiskCache::usual_folder()));
+      return decompose_cached(load_scaled(g, importer_, made_.warnings), DiskCache(DiskCache::usual_folder()));
     } catch (const InputError& error) {
       add(link.line, link.name, "its mesh has no use as a solid: " + error.diagnostics().front().text(),
           "a mesh with a volume", g.file);
@@ -159,9 +166,9 @@ class Builder {
   void add_looks(const UrdfGeometry& g, const Place& place, const UrdfLink& link, RobotLink& body) {
     TriangleMesh mesh;
     if (g.kind == UrdfGeometry::Kind::mesh) {
-      mesh = load_scaled(g, importer_);
+      mesh = load_scaled(g, importer_, made_.warnings);
       if (!g.colour && has_paint(mesh))
-        for (const std::string& note : importer_.notes()) made_.warnings.push_back(g.file + ": " + note);
+        for (const std::string& note : importer_.notes().looks) made_.warnings.push_back(g.file + ": " + note);
     } else {
       RobotLink solid;
       solid.parts = parts_of(g, link);

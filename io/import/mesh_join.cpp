@@ -106,7 +106,10 @@ class MeshJoiner {
 
   Vec3f place_of(const ImportedMesh& mesh, std::uint32_t i) const {
     const Vec3f p(turn_up(mesh.positions[i], frame_.up) * frame_.metres_per_unit);
-    if (!is_finite(p)) refuse_mesh(path_, "has a vertex that is not a number");
+    if (!is_finite(p))
+      refuse_mesh(path_, "has a vertex that is not a number: vertex " + std::to_string(i) + " (from 0) of its mesh " +
+                             std::to_string(&mesh - scene_.meshes.data()) + " (from 0)",
+                  "export without it, or repair the mesh in a modeller");
     return p;
   }
 

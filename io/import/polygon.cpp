@@ -8,7 +8,7 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-constexpr std::size_t kMostClipped = 4096;  // ear clipping takes time with the square of the corners
+constexpr std::size_t kMostClipped = 1024;  // ear clipping may take time with the cube of the corners
 
 struct Flat {
   double x = 0, y = 0;

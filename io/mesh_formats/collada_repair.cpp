@@ -6,6 +6,21 @@
 #include "io/import/xml_scan.h"
 
 namespace rubble {
+namespace {
+
+// <init_from> </init_from> ends assimp by an assertion; <init_from/> is refused.
+std::string without_empty_names(std::string xml) {
+  const std::string open = "<init_from>", close = "</init_from>";
+  for (std::size_t at = xml.find(open); at != std::string::npos; at = xml.find(open, at + 1)) {
+    const std::size_t content = xml.find_first_not_of(" \t\r\n", at + open.size());
+    if (content != std::string::npos && xml.compare(content, close.size(), close) == 0)
+      xml.replace(at, content + close.size() - at, "<init_from/>");
+  }
+  return xml;
+}
+
+}  // namespace
+
 std::string repair_collada(const std::string& xml) {
   if (xml.find('\0') != std::string::npos) return xml;  // UTF-16: assimp's own conversion reads it
   std::string out;
@@ -23,7 +38,7 @@ std::string repair_collada(const std::string& xml) {
     out += content;
     at = end;
   }
-  return out;
+  return without_empty_names(std::move(out));
 }
 
 std::string without_looks(const std::string& collada) {

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::uint32_t kMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
-constexpr std::size_t kMostElements = std::size_t(1) << 27;  // of an accessor without bytes behind it
+constexpr std::size_t kMostElements = std::size_t(1) << 22;  // of an accessor without bytes behind it
 
 // Extensions whose effect is applied, or that say nothing of shapes and looks.
 constexpr const char* kKnown[] = {"KHR_mesh_quantization",     "KHR_texture_transform", "KHR_draco_mesh_compression",
@@ -29,7 +29,7 @@ bool is_known(const std::string& extension) {
 // By the naming of Khronos: materials, textures and images, whose lack costs only looks.
 bool is_of_looks(const std::string& extension) {
   return extension.find("_materials_") != std::string::npos || extension.find("_texture_") != std::string::npos ||
-         extension.find("_image_") != std::string::npos;
+         extension.find("_image_") != std::string::npos || extension.find("_technique") != std::string::npos;
 }
 
 std::uint32_t read_word(std::string_view bytes, std::size_t at) {
@@ -106,9 +106,10 @@ GltfDocument::GltfDocument(const std::string& path, ImportedScene& scene) : path
     const std::size_t length = read_word(bytes_, 12);
     if (read_word(bytes_, 16) != kJsonChunk || length > bytes_.size() - 20) refuse("", "its first chunk is not JSON, or it is cut short");
     text = text.substr(20, length);
-    const std::size_t next = 20 + (length + 3) / 4 * 4;
-    if (read_word(bytes_, next + 4) == kBinaryChunk && next + 8 <= bytes_.size())
-      chunk_ = std::string_view(bytes_).substr(next + 8, read_word(bytes_, next));
+    // Chunks begin at multiples of four bytes; some writers forget to fill up.
+    for (const std::size_t next : {20 + length, 20 + (length + 3) / 4 * 4})
+      if (chunk_.empty() && read_word(bytes_, next + 4) == kBinaryChunk && next + 8 <= bytes_.size())
+        chunk_ = std::string_view(bytes_).substr(next + 8, read_word(bytes_, next));
   }
   parse(text);
   check_extensions(scene);
@@ -133,7 +134,10 @@ std::string GltfDocument::version_of(const std::string& path) {
   if (calc_json_depth(bytes) > kDeepestJson) return "";
   const Json json = Json::parse(bytes, nullptr, false);
   try {
-    return json.is_object() ? gltf_text(json.value("asset", Json::object()), "version") : "";
+    const Json asset = json.is_object() ? json.value("asset", Json::object()) : Json::object();
+    const Json* version = gltf_member(asset, "version");
+    if (!version) return "";
+    return version->is_number() ? std::to_string(version->get<double>()) : version->get<std::string>();  // glTF 1.0 has both
   } catch (const Json::exception&) {
     return "";
   }

@@ -12,6 +12,7 @@
 namespace rubble {
 namespace {
 
+constexpr const char* kVertex = "vertex";
 constexpr std::size_t kMostCorners = std::size_t(1) << 20;  // of one face
 
 class ObjReader {
@@ -119,17 +120,19 @@ class ObjReader {
   std::int64_t read_index(std::string_view text, std::size_t count, const char* what) {
     if (text.empty()) return -1;
     const std::optional<std::int64_t> index = read_integer(text);
-    if (!index) refuse("expected the number of " + std::string(what) + ", found \"" + printable(text) + "\"");
+    if (!index) refuse("expected the number of a " + std::string(what) + ", found \"" + printable(text) + "\"");
     const std::int64_t at = *index > 0 ? *index - 1 : std::int64_t(count) + *index;
-    if (*index == 0 || at < 0 || at >= std::int64_t(count))
-      refuse("a face names " + std::string(what) + " " + std::to_string(*index) + ", and there are " + std::to_string(count));
-    return at;
+    if (*index != 0 && at >= 0 && at < std::int64_t(count)) return at;
+    if (what == kVertex)
+      refuse("a face names vertex " + std::to_string(*index) + ", and there are " + std::to_string(count));
+    note_once("corners without the " + std::string(what) + " that they name have none");
+    return -1;
   }
 
   Corner read_corner(std::string_view word) {
     Corner corner;
     std::size_t slash = word.find('/');
-    corner.position = read_index(word.substr(0, slash), positions_.size(), "vertex");
+    corner.position = read_index(word.substr(0, slash), positions_.size(), kVertex);
     if (corner.position < 0) refuse("a corner without a vertex: \"" + printable(word) + "\"");
     if (slash == std::string_view::npos) return corner;
     word.remove_prefix(slash + 1);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstring>
 
 #include "io/base/atomic_file.h"
 #include "io/image/image_file.h"
@@ -74,6 +74,12 @@ TEST_F(MeshFormats, ObjLeavesOutLinesAndPointsWithAWord) {
   EXPECT_TRUE(has(notes(), "points beside its faces")) << notes();
   EXPECT_TRUE(has(notes(), "faces of less than three corners")) << notes();
   EXPECT_NE(error_of("b.obj", std::string(kCube) + "l 1 7\n"), "no error");
+}
+
+TEST_F(MeshFormats, ObjNeedsNoTexturePlaceOrNormalThatAFaceNames) {
+  expect_size(load("a.obj", std::string(kCube) + "f 1/1/9 4/2/9 3/3/9\nf 5/-1 6 7\n"), {1, 1, 1});
+  EXPECT_TRUE(has(notes(), "corners without the texture coordinate that they name have none (first in line 9)")) << notes();
+  EXPECT_TRUE(has(notes(), "corners without the normal that they name")) << notes();
 }
 
 TEST_F(MeshFormats, AFaultInAMaterialFileNeverCostsTheMesh) {
@@ -186,7 +192,7 @@ std::string binary_ply(bool big_endian, float first) {
 
 TEST_F(MeshFormats, PlyMayBeginWithAnyByteAndHaveEitherOrder) {
   for (const bool big : {false, true})
-    for (const std::uint32_t bits : {0x0000000au, 0x0a000000u, 0x0d0a0d0au & 0x0fffffffu, 0x20202020u & 0x00ffffffu}) {
+    for (const std::uint32_t bits : {0x0000000au, 0x0a000000u, 0x0d00000du, 0x20000020u}) {
       float first = 0;
       std::memcpy(&first, &bits, 4);
       const TriangleMesh mesh = load("a.ply", binary_ply(big, first));
@@ -271,9 +277,12 @@ TEST_F(MeshFormats, BlanksInColladaAreNoFault) {
 }
 
 TEST_F(MeshFormats, ColladaKeepsItsShapeWhereItsLooksAreBroken) {
-  const TriangleMesh mesh = load("a.dae", plate_dae("", "red", "<library_images><image id=\"i\"><init_from></init_from></image></library_images>"));
-  expect_size(mesh, {4, 2, 1});
-  EXPECT_TRUE(has(notes(), "its materials are left out, since they cannot be read")) << notes();
+  for (const auto& [colour, image] : {std::pair("red", ""), std::pair("1 0 0 1", "<init_from></init_from>"), std::pair("1 0 0 1", "<init_from> \n</init_from>"),
+                                      std::pair("1 0 0 1", "<init_from/>")}) {
+    const TriangleMesh mesh = load("a.dae", plate_dae("", colour, "<library_images><image id=\"i\">" + std::string(image) + "</image></library_images>"));
+    expect_size(mesh, {4, 2, 1});
+    if (std::string(image).empty() || image[0] == '<') EXPECT_TRUE(has(notes(), "its materials are left out, since they cannot be read")) << image << notes();
+  }
 }
 
 // A ZIP archive with its files stored.

@@ -13,7 +13,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace gltf_reader_test {
 
 using test::ScratchFolder;
 
@@ -288,5 +288,5 @@ TEST_F(Gltf, NamesTheElementThatIsWrong) {
   EXPECT_THROW(importer_.load_mesh(folder_ / "c.glb"), InputError);
 }
 
-}  // namespace
+}  // namespace gltf_reader_test
 }  // namespace rubble

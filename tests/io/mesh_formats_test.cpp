@@ -15,7 +15,7 @@
 #include "tests/io/support.h"
 
 namespace rubble {
-namespace {
+namespace mesh_formats_test {
 
 using test::ScratchFolder;
 
@@ -365,5 +365,5 @@ TEST(Triangulate, KeepsTheAreaOfPolygonsThatAreNotConvex) {
   }
 }
 
-}  // namespace
+}  // namespace mesh_formats_test
 }  // namespace rubble

@@ -8,13 +8,19 @@
 namespace rubble {
 namespace {
 
-// <init_from> </init_from> ends assimp by an assertion; <init_from/> is refused.
+// Without <init_from/> and <init_from> </init_from>, which end assimp by an assertion: an image without a name is only
+// refused where it is used.
 std::string without_empty_names(std::string xml) {
-  const std::string open = "<init_from>", close = "</init_from>";
-  for (std::size_t at = xml.find(open); at != std::string::npos; at = xml.find(open, at + 1)) {
-    const std::size_t content = xml.find_first_not_of(" \t\r\n", at + open.size());
-    if (content != std::string::npos && xml.compare(content, close.size(), close) == 0)
-      xml.replace(at, content + close.size() - at, "<init_from/>");
+  const std::string name = "<init_from", close = "</init_from>";
+  for (std::size_t at = xml.find(name); at != std::string::npos; at = xml.find(name, at)) {
+    const std::size_t tag = end_of_markup(xml, at);
+    const std::size_t content = xml.find_first_not_of(" \t\r\n", tag);
+    if (tag >= 2 && xml[tag - 2] == '/')
+      xml.erase(at, tag - at);
+    else if (content != std::string::npos && xml.compare(content, close.size(), close) == 0)
+      xml.erase(at, content + close.size() - at);
+    else
+      at = tag;
   }
   return xml;
 }

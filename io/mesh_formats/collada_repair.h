@@ -9,8 +9,8 @@
 namespace rubble {
 
 // The document without the blanks that XML allows around the content of an element: assimp 5.2 takes those of <color>
-// for a part of the number and refuses the file. Names of images that are empty become empty elements, which assimp
-// refuses, while it ends by an assertion otherwise. Comments and CDATA stay.
+// for a part of the number and refuses the file. Names of images that are empty are
+// removed: they end assimp by an assertion. Comments and CDATA stay.
 std::string repair_collada(const std::string& xml);
 
 // The document without images, effects and materials: for one whose looks assimp refuses, so that the shape is left.

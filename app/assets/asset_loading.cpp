@@ -206,8 +206,9 @@ LoadedAsset load_asset(const Asset& asset, MeshImporter& importer) {
     choose_surfaces(level, [&asset](const std::string& surface, const SurfacePaint* paint) {
       return choose_surface_appearance(asset, surface, paint);
     });
+    for (const std::string& note : importer.notes().shape) loaded.warnings.push_back(path + ": " + note);
     if (!has_paint(level)) continue;
-    for (const std::string& note : importer.notes()) loaded.warnings.push_back(path + ": " + note);
+    for (const std::string& note : importer.notes().looks) loaded.warnings.push_back(path + ": " + note);
   }
   warn_of_size(asset, mesh->levels.front(), loaded.warnings);
   warn_of_surface_appearances(asset, surfaces, loaded.warnings);

@@ -96,8 +96,9 @@ MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::str
     if (!is_closed(mesh))
       terrain.warnings.push_back(path + ": the mesh is not closed: " + describe(find_open_edges(mesh)) +
                                  ". It has no inside for maps of voids");
+    for (const std::string& note : importer.notes().shape) terrain.warnings.push_back(path + ": " + note);
     if (has_paint(mesh))
-      for (const std::string& note : importer.notes()) terrain.warnings.push_back(path + ": " + note);
+      for (const std::string& note : importer.notes().looks) terrain.warnings.push_back(path + ": " + note);
   }
   const TriangleMesh& mesh = scene->levels.front();
   terrain.sha256 = hash_mesh(mesh, spec.friction);

@@ -139,7 +139,7 @@ class Builder {
 
   std::vector<ConvexPart> parts_of(const UrdfGeometry& g, const UrdfLink& link) {
     try {
-      return make_urdf_parts(g, importer_);
+      return make_urdf_parts(g, importer_, made_.warnings);
     } catch (const InputError& error) {
       add(g.line, link.name, "its mesh has no use as a solid: " + error.diagnostics().front().text(),
           "a mesh with a volume", g.file);

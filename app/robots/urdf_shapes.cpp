@@ -43,8 +43,15 @@ void turn_triangles(TriangleMesh& mesh) {
   for (auto& corners : mesh.paint_corners) std::swap(corners[1], corners[2]);
 }
 
-TriangleMesh load_scaled(const UrdfGeometry& g, MeshImporter& importer) {
-  TriangleMesh mesh = importer.load_mesh(g.file);
+// warnings: gets once what of the file's shape is left out.
+TriangleMesh load_scaled(const UrdfGeometry& g, MeshImporter& importer, std::vector<std::string>& warnings) {
+  MeshUnits units;
+  units.heed_stated_axis = false;
+  TriangleMesh mesh = importer.load_mesh(g.file, units);
+  for (const std::string& note : importer.notes().shape) {
+    const std::string warning = g.file + ": " + note;
+    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+  }
   for (Vec3f& p : mesh.positions)
     p = {float(p.x * g.scale.x), float(p.y * g.scale.y), float(p.z * g.scale.z)};
   mesh.normals.clear();  // an uneven scale turns them
@@ -81,18 +88,21 @@ std::vector<std::uint8_t> add_surfaces(const TriangleMesh& mesh, const std::stri
 
 TriangleMesh make_looks(const UrdfGeometry& g, MeshImporter& importer, std::vector<std::string>& warnings) {
   if (g.kind == UrdfGeometry::Kind::mesh) {
-    TriangleMesh mesh = load_scaled(g, importer);
-    for (const std::string& note : importer.notes()) warnings.push_back(g.file + ": " + note);
+    TriangleMesh mesh = load_scaled(g, importer, warnings);
+    const bool painted = std::any_of(mesh.paints.begin(), mesh.paints.end(), [](const auto& paint) { return paint != nullptr; });
+    if (!g.colour && painted)
+      for (const std::string& note : importer.notes().looks) warnings.push_back(g.file + ": " + note);
     return mesh;
   }
   RobotLink solid;
-  solid.parts = make_urdf_parts(g, importer);
+  solid.parts = make_urdf_parts(g, importer, warnings);
   return make_link_mesh(solid, "");
 }
 
 }  // namespace
 
-std::vector<ConvexPart> make_urdf_parts(const UrdfGeometry& g, MeshImporter& importer) {
+std::vector<ConvexPart> make_urdf_parts(const UrdfGeometry& g, MeshImporter& importer,
+                                        std::vector<std::string>& warnings) {
   switch (g.kind) {
     case UrdfGeometry::Kind::box:
       return {make_box(g.size)};
@@ -105,7 +115,7 @@ std::vector<ConvexPart> make_urdf_parts(const UrdfGeometry& g, MeshImporter& imp
     case UrdfGeometry::Kind::mesh:
       break;
   }
-  return decompose_cached(load_scaled(g, importer), DiskCache(DiskCache::usual_folder())).parts;
+  return decompose_cached(load_scaled(g, importer, warnings), DiskCache(DiskCache::usual_folder())).parts;
 }
 
 void add_urdf_looks(const UrdfGeometry& g, const Pose& body_from_link, RobotModel& model, std::size_t body,

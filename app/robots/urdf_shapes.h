@@ -11,8 +11,9 @@
 namespace rubble {
 
 // What a shape of <collision> is for contacts, in its own frame. Meshes are cut, as those of assets.
-// Throws InputError for a mesh that is no solid.
-std::vector<ConvexPart> make_urdf_parts(const UrdfGeometry& g, MeshImporter& importer);
+// Notes of the importer go to `warnings`. Throws InputError for a mesh that is no solid.
+std::vector<ConvexPart> make_urdf_parts(const UrdfGeometry& g, MeshImporter& importer,
+                                        std::vector<std::string>& warnings);
 
 // Adds a shape of <visual> to the looks of a link of the model. body_from_link: of the link that the file has it on.
 // Notes of the importer go to `warnings`.

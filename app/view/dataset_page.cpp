@@ -13,7 +13,7 @@
 #include "app/view/viewer_code.h"
 #include "io/image/image_file.h"
 #include "io/image/jpeg_file.h"
-#include "io/mesh/ply_reader.h"
+#include "io/mesh_formats/ply_reader.h"
 #include "io/playback/recorded_picture.h"
 #include "io/voids/void_surface.h"
 #include "kernel/base/error.h"

@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "kernel/base/system/disk_cache.h"
+#include "io/mesh/mesh_file.h"
 #include "kernel/base/error.h"
 #include "kernel/base/mesh.h"
+#include "kernel/base/system/disk_cache.h"
 
 namespace rubble {
 
@@ -36,40 +37,49 @@ inline std::shared_ptr<const SurfacePaint> get_paint(CacheReader& reader) {
   return std::make_shared<const SurfacePaint>(std::move(paint));
 }
 
+inline void put_texts(CacheWriter& writer, const std::vector<std::string>& texts) {
+  writer.put(std::uint64_t(texts.size()));
+  for (const std::string& text : texts) put_text(writer, text);
+}
+
+inline std::vector<std::string> get_texts(CacheReader& reader, std::size_t most) {
+  std::uint64_t count = 0;
+  reader.get(count);
+  std::vector<std::string> texts;
+  for (std::uint64_t i = 0; i < count && i < most; ++i) texts.push_back(get_text(reader));
+  return texts;
+}
+
 // notes: go with it.
-inline std::string mesh_to_bytes(const TriangleMesh& mesh, const std::vector<std::string>& notes) {
+inline std::string mesh_to_bytes(const TriangleMesh& mesh, const MeshNotes& notes) {
   CacheWriter writer;
   writer.put(mesh.positions);
   writer.put(mesh.normals);
   writer.put(mesh.triangles);
   writer.put(mesh.surfaces);
-  writer.put(std::uint64_t(mesh.surface_names.size()));
-  for (const std::string& name : mesh.surface_names) put_text(writer, name);
+  put_texts(writer, mesh.surface_names);
   writer.put(std::uint64_t(mesh.paints.size()));
   for (const auto& paint : mesh.paints) put_paint(writer, *paint);
   writer.put(mesh.paint_corners);
-  writer.put(std::uint64_t(notes.size()));
-  for (const std::string& note : notes) put_text(writer, note);
+  put_texts(writer, notes.shape);
+  put_texts(writer, notes.looks);
   return writer.bytes();
 }
 
-inline TriangleMesh mesh_from_bytes(const std::string& bytes, std::vector<std::string>& notes) {
+inline TriangleMesh mesh_from_bytes(const std::string& bytes, MeshNotes& notes) {
   CacheReader reader(bytes);
   TriangleMesh mesh;
   reader.get(mesh.positions);
   reader.get(mesh.normals);
   reader.get(mesh.triangles);
   reader.get(mesh.surfaces);
-  std::uint64_t names = 0, paints = 0, lines = 0;
-  reader.get(names);
-  for (std::uint64_t i = 0; i < names && i < 256; ++i)
-    mesh.surface_names.push_back(get_text(reader));
+  mesh.surface_names = get_texts(reader, 256);
+  std::uint64_t paints = 0;
   reader.get(paints);
   for (std::uint64_t i = 0; i < paints && i < 256; ++i) mesh.paints.push_back(get_paint(reader));
   reader.get(mesh.paint_corners);
-  reader.get(lines);
-  notes.clear();
-  for (std::uint64_t i = 0; i < lines && i < bytes.size(); ++i) notes.push_back(get_text(reader));
+  notes.shape = get_texts(reader, bytes.size());
+  notes.looks = get_texts(reader, bytes.size());
   if (!reader.whole()) throw RunError("a mesh was cut short between two processes");
   return mesh;
 }

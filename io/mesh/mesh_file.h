@@ -15,7 +15,16 @@ class IsolatedWorker;
 // How the numbers of a file become metres with Z up.
 struct MeshUnits {
   double metres_per_unit = 1;  // range: > 0; 0.001 for millimetres
-  UpAxis up = UpAxis::z;       // of the file
+  UpAxis up = UpAxis::z;       // of a file that does not state its own
+  // Whether <up_axis> of a COLLADA file counts. Meshes of URDF files are taken as they are, as RViz takes them: many
+  // programs write a statement that does not hold.
+  bool heed_stated_axis = true;
+};
+
+// What of a file is not as the file says, a clause each.
+struct MeshNotes {
+  std::vector<std::string> shape;  // left out or repaired, whatever the mesh looks like: "lines beside its faces are left out"
+  std::vector<std::string> looks;  // of its colours, which a look may replace: "the image wood.bmp is neither PNG nor JPEG"
 };
 
 // Reads many files by one child process: a child for each would cost 13 ms more a file.
@@ -28,22 +37,21 @@ class MeshImporter {
   TriangleMesh load_mesh(const std::string& path, const MeshUnits& units = {});
   std::vector<std::vector<Vec3>> load_convex_parts(const std::string& path,
                                                    const MeshUnits& units = {});
-  // What of the colours of the last mesh that was loaded cannot be drawn, a clause each: "the image
-  // wood.bmp is neither PNG nor JPEG".
-  const std::vector<std::string>& notes() const { return notes_; }
+  // Of the last mesh that was loaded.
+  const MeshNotes& notes() const { return notes_; }
 
  private:
   std::string ask(char kind, const std::string& path, const MeshUnits& units);
 
   std::unique_ptr<IsolatedWorker> worker_;
-  std::vector<std::string> notes_;
+  MeshNotes notes_;
 };
 
-// Reads any format that assimp knows. Every mesh of the file is joined into one; surfaces are the
-// materials' names, in order of first use, with paints where the file has colours (io/mesh/mesh_paint.h).
-// Vertices of equal position and normal are welded.
-// Throws InputError, naming the file and the reason, for one that is missing, unreadable, without
-// triangles, or that holds points or lines; that crashes assimp, or makes it take too much time or
+// Reads OBJ, STL, PLY, glTF 2.0 and 3MF by readers of our own, and any other format by assimp (io/mesh_formats). Every mesh of the
+// file is joined into one; surfaces are the materials' names, in order of first use, with paints where the file has
+// colours (io/import/mesh_paint.h). Vertices of equal position and normal are welded, and cracks that are only rounding
+// are closed. Throws InputError, naming the file and the reason, for one that is missing, unreadable or without
+// triangles, or that needs what is not known; that crashes a reader, or makes it take too much time or
 // memory (kernel/base/system/isolated_worker.h).
 TriangleMesh load_mesh(const std::string& path, const MeshUnits& units = {});
 

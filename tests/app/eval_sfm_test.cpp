@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/eval/sfm/sfm_score.h"
-#include "io/mesh/ply_reader.h"
+#include "io/mesh_formats/ply_reader.h"
 #include "kernel/base/random.h"
 #include "tests/app/program.h"
 

@@ -118,7 +118,7 @@ const Allowed kRender = stack(
     {"kernel/base/"});
 
 const Allowed kIo = stack(
-    {"io/base/", "io/image/", "io/mesh/", "io/state/", "io/robot/", "io/recording/", "io/ros/", "io/mrpt/",
+    {"io/base/", "io/image/", "io/import/", "io/mesh_formats/", "io/mesh/", "io/state/", "io/robot/", "io/recording/", "io/ros/", "io/mrpt/",
      "io/datasets/", "io/playback/", "io/live/"},
     {"kernel/base/", "kernel/model/fines.h", "kernel/model/pile_state.h", "kernel/model/pile.h", "kernel/model/track.h", "kernel/model/robot.h",
      "kernel/model/assembly.h",
@@ -218,7 +218,8 @@ const std::map<std::string, Prefixes> kDoors{
     {"embree", {"kernel/base/system/embree.h"}},
     {"EGL/", {"render/gl/"}},
     {"GL/", {"render/gl/"}},
-    {"assimp/", {"io/mesh/mesh_file.cpp", "io/mesh/mesh_paint.cpp"}},
+    {"assimp/", {"io/mesh_formats/assimp_reader.cpp"}},
+    {"draco/", {"io/mesh_formats/draco_decoder.cpp"}},
     {"expat.h", {"io/base/xml_document.cpp"}},
     {"pybind11/", {"python/"}},
     {"opencv2/", {"bench/images/picture_file.cpp", "io/image/", "io/recording/contact_sheet.cpp", "io/voids/void_picture.cpp"}},
@@ -236,7 +237,7 @@ const std::map<std::string, Prefixes> kDoors{
     {"tiff", {"io/image/tiff_data.cpp"}},
     {"yaml-cpp/", {"scripting/files/yaml_value.cpp"}},
     {"jpeglib.h", {"io/image/jpeg_file.cpp", "io/image/picture_decoder.cpp"}},
-    {"zlib.h", {"io/base/gzip.cpp", "io/ros/mcap_format.h"}},
+    {"zlib.h", {"io/base/gzip.cpp", "io/base/zip_file.cpp", "io/ros/mcap_format.h"}},
     {"lz4", {"io/ros/"}},
     {"zstd.h", {"io/ros/"}},
     {"lua.h", {"scripting/sandbox/"}},
@@ -252,7 +253,7 @@ const std::map<std::string, Prefixes> kDoors{
       "app/navigate/mission_to_drive.cpp", "app/navigate_ros1/main.cpp",
       "app/robots/robot_files.cpp", "app/planning/flight.cpp", "app/provenance/", "app/report/",
       "app/search/program_agent.cpp", "app/support/", "app/victims/place_victims.cpp", "app/view/", "bench/",
-      "io/datasets/frames_recorder.cpp", "io/mesh/glb_writer.cpp", "io/recording/recording.cpp",
+      "io/datasets/frames_recorder.cpp", "io/mesh_formats/gltf_document.h", "io/mesh/glb_writer.cpp", "io/recording/recording.cpp",
       "io/voids/void_json.cpp", "scripting/reference/json_schema.cpp",
       "scripting/scenario/scenario_json.cpp"}}};
 

@@ -4,12 +4,14 @@
 Scripts and packs are those that come with Rubble; recordings and saved states are of a run of 16 x 16
 pixels, made by PROGRAM. OUT gets a folder for each target and is made anew.
 """
+import io
 import os
 import shutil
 import struct
 import subprocess
 import sys
 import tempfile
+import zipfile
 from pathlib import Path
 
 MISSION = """return rubble.mission {
@@ -148,6 +150,30 @@ def add_recordings(corpus, run_folder):
     corpus.add("picture_exr", sorted((run_folder / "frames/depth").glob("*.exr"))[0].read_bytes())
 
 
+GLTF = ('{"asset":{"version":"2.0"},"extensionsRequired":["KHR_mesh_quantization"],"scenes":[{"nodes":[0,1]}],'
+        '"nodes":[{"mesh":0,"skin":0},{"scale":[1,-2,1]}],"skins":[{"joints":[1]}],"materials":[{"pbrMetallicRoughness":'
+        '{"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":{"scale":[2,1]}}}}}],"textures":[{"source":0}],'
+        '"images":[{"uri":"a.png"}],"meshes":[{"weights":[1],"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1,'
+        '"JOINTS_0":2,"WEIGHTS_0":2},"indices":3,"material":0,"targets":[{"POSITION":0}]}]}],"buffers":[{"byteLength":24,'
+        '"uri":"data:;base64,AAAAAQAAAAEAAAABAAECAQIDAAABAAEB"}],"bufferViews":[{"buffer":0,"byteLength":24}],"accessors":['
+        '{"bufferView":0,"componentType":5120,"count":4,"type":"VEC3"},{"bufferView":0,"componentType":5121,"normalized":true,'
+        '"count":4,"type":"VEC2"},{"bufferView":0,"componentType":5121,"count":4,"type":"VEC4"},'
+        '{"bufferView":0,"byteOffset":12,"componentType":5121,"count":6,"type":"SCALAR"}]}')
+
+
+def threemf():
+    model = ('<model xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06" requiredextensions="p"><resources>'
+             '<basematerials id="5"><base name="a" displaycolor="#FF0000"/></basematerials><object id="1" pid="5" pindex="0"><mesh>'
+             '<vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/></vertices><triangles>'
+             '<triangle v1="0" v2="1" v3="2"/></triangles></mesh></object><object id="2"><components><component objectid="1" '
+             'p:path="/3D/3dmodel.model" transform="1 0 0 0 1 0 0 0 1 0 0 2"/></components></object></resources><build>'
+             '<item objectid="2"/></build></model>')
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_STORED) as archive:
+        archive.writestr(zipfile.ZipInfo("3D/3dmodel.model"), model)
+    return packed.getvalue()
+
+
 def colmap_binary():
     cameras = struct.pack("<QIiQQ4d", 1, 1, 1, 16, 16, 8, 8, 8, 8)
     images = struct.pack("<QI7dI", 1, 1, 1, 0, 0, 0, 0, 0, 0, 1) + b"a.png\0"
@@ -203,6 +229,9 @@ def main():
     corpus.add("colmap_text", "1 PINHOLE 16 16 8 8 8 8\n-----1 1 0 0 0 0 0 0 1 a.png\n1 2 7\n-----"
                               "7 0 0 1 9 9 9 0.5 1 0\n")
     corpus.add("mesh_obj", CUBE)
+    corpus.add("mesh_mtl", "newmtl a\nKd 1 0 0\nNs 9\nPm 1\nmap_Kd -s 2 2 1 -clamp on a b.png\nnorm n.png\n")
+    corpus.add("mesh_gltf", GLTF)
+    corpus.add("mesh_3mf", threemf())
     corpus.add("mesh_dae", DAE)
     corpus.add("mesh_ply", binary_ply())
     corpus.add("mesh_ply", ASCII_PLY)

@@ -1,10 +1,3 @@
-#include "io/mesh/mesh_file.h"
-#include "tests/fuzz/fuzz_file.h"
+#include "tests/fuzz/fuzz_mesh.h"
 
-using namespace rubble;
-
-void fuzz_one(std::string_view bytes) {
-  static MeshImporter importer;
-  const std::string path = fuzz::folder().write("a.obj", bytes);
-  fuzz::knock([&] { calc_volume_properties(importer.load_mesh(path)); });
-}
+void fuzz_one(std::string_view bytes) { rubble::fuzz::read_mesh("a.obj", bytes); }

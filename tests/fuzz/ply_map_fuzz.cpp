@@ -1,4 +1,4 @@
-#include "io/mesh/ply_reader.h"
+#include "io/mesh_formats/ply_reader.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

@@ -13,8 +13,7 @@ import sys
 from pathlib import Path
 
 # Of targets whose work is done in a child that may crash: its death is no finding.
-ISOLATED = ("mesh_dae", "mesh_glb", "mesh_obj", "mesh_ply", "mesh_stl", "picture_exr",
-            "picture_png", "rawlog")
+ISOLATED = ("mesh_dae", "picture_exr", "picture_png", "rawlog")
 # The small quarantine and the short stacks of allocations double the speed.
 ASAN_OPTIONS = "detect_leaks=0:quarantine_size_mb=8:malloc_context_size=2:max_malloc_fill_size=0"
 # A child that runs out of memory gets std::bad_alloc where that can be, and dies without words.

@@ -8,7 +8,7 @@
 
 #include "io/base/atomic_file.h"
 #include "io/datasets/colmap_model.h"
-#include "io/mesh/ply_reader.h"
+#include "io/mesh_formats/ply_reader.h"
 #include "kernel/base/error.h"
 #include "tests/io/support.h"
 

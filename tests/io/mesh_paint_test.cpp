@@ -52,7 +52,8 @@ class MeshPaint : public ::testing::Test {
   }
   std::string notes() const {
     std::string all;
-    for (const std::string& note : importer_.notes()) all += note + "\n";
+    for (const std::vector<std::string>* notes : {&importer_.notes().shape, &importer_.notes().looks})
+      for (const std::string& note : *notes) all += note + "\n";
     return all;
   }
 

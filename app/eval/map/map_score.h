@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/eval/map/seen_surface.h"
-#include "io/mesh/ply_reader.h"
+#include "io/mesh_formats/ply_reader.h"
 #include "kernel/base/parallel.h"
 #include "kernel/queries/queries.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/datasets/colmap_model.h"
-#include "io/mesh/ply_reader.h"
+#include "io/mesh_formats/ply_reader.h"
 #include "kernel/queries/queries.h"
 
 namespace rubble {

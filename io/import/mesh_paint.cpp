@@ -1,7 +1,4 @@
-#include "io/mesh/mesh_paint.h"
-
-#include <assimp/GltfMaterial.h>
-#include <assimp/scene.h>
+#include "io/import/mesh_paint.h"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +8,10 @@
 
 #include "io/base/srgb.h"
 #include "io/image/picture_decoder.h"
+#include "io/import/uri.h"
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/portable_math.h"
 #include "kernel/base/read_file.h"
 #include "kernel/base/text.h"
 
@@ -34,25 +33,13 @@ constexpr std::uint64_t kLargestFile = std::uint64_t(256) << 20;  // of an image
 constexpr float kBlack = 1e-3f;
 constexpr float kSameGrey = 0.02f;
 
-Vec3f colour_of(const aiMaterial& material) {
-  aiColor4D c(1, 1, 1, 1);
-  if (material.Get(AI_MATKEY_BASE_COLOR, c) != aiReturn_SUCCESS) {
-    aiColor3D diffuse(1, 1, 1);
-    material.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
-    c = aiColor4D(diffuse.r, diffuse.g, diffuse.b, 1);
-  }
+Vec3f colour_of(const ImportedMaterial& material) {
   const auto share = [](float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; };  // also of what is no number
-  return {share(c.r), share(c.g), share(c.b)};
+  return {share(material.colour.x), share(material.colour.y), share(material.colour.z)};
 }
 
 bool is_same_grey(const Vec3f& a, const Vec3f& b) {
   return std::max({a.x, a.y, a.z, b.x, b.y, b.z}) - std::min({a.x, a.y, a.z, b.x, b.y, b.z}) < kSameGrey;
-}
-
-// Whether the file means the fourth channel of images to be seen through: glTF says so or not.
-bool means_alpha(const aiMaterial& material) {
-  aiString mode;
-  return material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) != aiReturn_SUCCESS || std::string(mode.C_Str()) != "OPAQUE";
 }
 
 bool is_seen_through(const RgbaImage& image) {
@@ -61,24 +48,18 @@ bool is_seen_through(const RgbaImage& image) {
   return false;
 }
 
-bool has_image(const aiMaterial& material) {
-  return material.GetTextureCount(aiTextureType_DIFFUSE) + material.GetTextureCount(aiTextureType_BASE_COLOR) > 0;
+// The placement of a material's images: that of the first one it has.
+const TexturePlace& place_of(const ImportedMaterial& material) {
+  for (const ImportedTexture* texture : {&material.albedo, &material.roughness_map, &material.metalness_map, &material.normals})
+    if (texture->image >= 0) return texture->place;
+  return material.albedo.place;
 }
 
-// A name as a URL has it: "my%20wood.png".
-std::string decode_percent(const std::string& text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto digit = [&](std::size_t at) {
-      return at < text.size() ? std::string("0123456789abcdef").find(char(std::tolower(text[at]))) : std::string::npos;
-    };
-    const std::size_t high = digit(i + 1), low = digit(i + 2);
-    if (text[i] == '%' && high != std::string::npos && low != std::string::npos)
-      out += char(high * 16 + low), i += 2;
-    else
-      out += text[i];
-  }
-  return out;
+std::array<float, 2> apply_place(const TexturePlace& place, const std::array<float, 2>& at) {
+  if (!place.moved()) return at;
+  const auto [s, c] = portable::sincos(place.rotation);
+  const double u = double(at[0]) * place.scale[0], v = (1 - double(at[1])) * place.scale[1];  // v downwards
+  return {float(c * u + s * v + place.offset[0]), float(1 - (-s * u + c * v + place.offset[1]))};
 }
 
 // A picture as floats from 0 to 1, colours decoded to linear light if asked: what may be averaged.
@@ -178,70 +159,73 @@ std::string sha256_of(std::string_view bytes) {
 
 }  // namespace
 
-MeshPaints::MeshPaints(const aiScene& scene, const std::string& path)
+MeshPaints::MeshPaints(const ImportedScene& scene, const std::string& path)
     : scene_(scene), folder_(fs::path(path).parent_path().string()) {
-  std::string extension = fs::path(path).extension().string();
-  for (char& c : extension) c = char(std::tolower(c));
-  linear_corners_ = extension == ".gltf" || extension == ".glb";
   std::vector<Vec3f> colours;
-  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-    const aiMesh& mesh = *scene.mMeshes[i];
-    any_ = any_ || mesh.HasVertexColors(0);
-    if (mesh.mMaterialIndex >= scene.mNumMaterials) continue;
-    const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
-    any_ = any_ || has_image(material);
+  for (const ImportedMesh& mesh : scene.meshes) {
+    if (mesh.triangles.empty()) continue;
+    any_ = any_ || !mesh.colours.empty();
+    if (mesh.material < 0) continue;
+    const ImportedMaterial& material = scene.materials[std::size_t(mesh.material)];
+    any_ = any_ || material.albedo.image >= 0;
     colours.push_back(colour_of(material));
     any_ = any_ || !is_same_grey(colours.front(), colours.back());
   }
 }
 
-std::shared_ptr<const SurfacePaint> MeshPaints::of(const aiMesh& mesh) {
+std::shared_ptr<const SurfacePaint> MeshPaints::of(int material) {
   if (!any_) return nullptr;
-  const auto [found, is_new] = paints_.try_emplace(mesh.mMaterialIndex);
+  const auto [found, is_new] = paints_.try_emplace(material);
   if (is_new) {
     SurfacePaint paint;
     paint.sha256 = sha256_of("plain");
-    if (mesh.mMaterialIndex < scene_.mNumMaterials) paint = read(*scene_.mMaterials[mesh.mMaterialIndex]);
+    if (material >= 0) paint = read(scene_.materials[std::size_t(material)]);
     found->second = std::make_shared<const SurfacePaint>(std::move(paint));
   }
   return found->second;
 }
 
-PaintCorner MeshPaints::corner(const aiMesh& mesh, unsigned vertex) const {
+PaintCorner MeshPaints::corner(const ImportedMesh& mesh, std::uint32_t vertex) {
   PaintCorner out;
-  if (mesh.HasTextureCoords(0)) {
-    const aiVector3D& at = mesh.mTextureCoords[0][vertex];
-    if (std::isfinite(at.x) && std::isfinite(at.y)) out.u = at.x, out.v = at.y;
+  TexturePlace place;
+  if (mesh.material >= 0) place = place_of(scene_.materials[std::size_t(mesh.material)]);
+  const std::size_t set = place.uv_set < mesh.uv_sets.size() && !mesh.uv_sets[place.uv_set].empty() ? place.uv_set : 0;
+  if (set < mesh.uv_sets.size() && !mesh.uv_sets[set].empty()) {
+    const std::array<float, 2> at = apply_place(place, mesh.uv_sets[set][vertex]);
+    if (std::isfinite(at[0]) && std::isfinite(at[1])) out.u = at[0], out.v = at[1];
   }
-  if (mesh.HasVertexColors(0)) {
-    const aiColor4D& c = mesh.mColors[0][vertex];
+  if (!mesh.colours.empty()) {
+    const Vec3f& c = mesh.colours[vertex];
+    if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z)) {
+      note("colours of vertices that are not numbers are drawn white");
+      return out;
+    }
     const auto part = [this](float x) {
       const float share = x > 0 ? std::min(x, 1.0f) : 0.0f;
-      return linear_corners_ ? share : float(linear_from_srgb(double(share)));
+      return scene_.linear_colours ? share : float(linear_from_srgb(double(share)));
     };
-    out.colour = {part(c.r), part(c.g), part(c.b)};
+    out.colour = {part(c.x), part(c.y), part(c.z)};
   }
   return out;
 }
 
-SurfacePaint MeshPaints::read(const aiMaterial& material) {
+SurfacePaint MeshPaints::read(const ImportedMaterial& material) {
   SurfacePaint paint;
   paint.colour = colour_of(material);
-  const Image* albedo = find(material, aiTextureType_BASE_COLOR);
-  if (!albedo) albedo = find(material, aiTextureType_DIFFUSE);
+  const Image* albedo = find(material, material.albedo, "colours");
   if (albedo) {
     paint.albedo = make_albedo(albedo->pixels);
-    if (means_alpha(material) && is_seen_through(albedo->pixels)) note("transparent parts of images are drawn opaque");
+    if (material.alpha_of_image && is_seen_through(albedo->pixels)) note("transparent parts of images are drawn opaque");
     if (std::max({paint.colour.x, paint.colour.y, paint.colour.z}) < kBlack) paint.colour = {1, 1, 1};
   }
   read_gloss(material, paint);
-  const Image* normals = find(material, aiTextureType_NORMALS);
-  const Image* both = find(material, aiTextureType_UNKNOWN);  // glTF's, where assimp puts it
-  const Image* roughness = both ? both : find(material, aiTextureType_DIFFUSE_ROUGHNESS);
-  const Image* metalness = both ? both : find(material, aiTextureType_METALNESS);
+  const Image* normals = find(material, material.normals, "normals");
+  const Image* roughness = find(material, material.roughness_map, "roughness");
+  const Image* metalness = find(material, material.metalness_map, "metal");
   const auto pixels = [](const Image* image) { return image ? &image->pixels : nullptr; };
   paint.relief = make_relief(pixels(normals), pixels(roughness), pixels(metalness));
-  note_left_out(material);
+  for (const std::string& clause : material.left_out) note(clause);
+  if (material.opacity < 0.99f && material.opacity > 0) note("transparent materials are drawn opaque");
   Sha256 hash;
   for (const float x : {paint.colour.x, paint.colour.y, paint.colour.z, paint.roughness, paint.metalness,
                         paint.reflectance})
@@ -250,70 +234,68 @@ SurfacePaint MeshPaints::read(const aiMaterial& material) {
     const std::string content = image ? image->sha256 : "none";
     hash.add(content.data(), content.size());
   }
+  const TexturePlace& place = place_of(material);
+  if (place.moved()) {
+    hash.add(place.offset.data(), sizeof place.offset), hash.add(place.scale.data(), sizeof place.scale);
+    hash.add(&place.rotation, sizeof place.rotation);
+  }
+  if (place.uv_set != 0) hash.add(&place.uv_set, sizeof place.uv_set);
   paint.sha256 = hash.hex();
   return paint;
 }
 
 // Metal and roughness where the file says them; otherwise an OBJ's highlight: exponents of Phong's become
 // alpha = sqrt(2 / (n + 2)) (Walter et al. 2007).
-void MeshPaints::read_gloss(const aiMaterial& material, SurfacePaint& paint) const {
-  float roughness = 1, metalness = 0, exponent = 0;
-  const bool rough = material.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) == aiReturn_SUCCESS;
-  const bool metal = material.Get(AI_MATKEY_METALLIC_FACTOR, metalness) == aiReturn_SUCCESS;
-  aiColor3D specular(0, 0, 0);
-  material.Get(AI_MATKEY_COLOR_SPECULAR, specular);
-  material.Get(AI_MATKEY_SHININESS, exponent);
-  const bool shines = std::max({specular.r, specular.g, specular.b}) > kBlack && exponent > 1;
-  if (!rough && !metal && !shines) return;
-  if (!rough && shines) roughness = std::sqrt(std::sqrt(2 / (exponent + 2)));
+void MeshPaints::read_gloss(const ImportedMaterial& material, SurfacePaint& paint) const {
+  const Vec3f& specular = material.specular;
+  const bool shines = std::max({specular.x, specular.y, specular.z}) > kBlack && material.exponent > 1;
+  if (!material.roughness && !material.metalness && !shines) return;
+  float roughness = material.roughness.value_or(1);
+  if (!material.roughness && shines) roughness = std::sqrt(std::sqrt(2 / (material.exponent + 2)));
+  const float metalness = material.metalness.value_or(0);
   paint.reflectance = kGlossOfPlastics;
   paint.roughness = roughness >= 0 && roughness <= 1 ? roughness : 1;
-  paint.metalness = metal && metalness >= 0 && metalness <= 1 ? metalness : 0;
+  paint.metalness = metalness >= 0 && metalness <= 1 ? metalness : 0;
 }
 
 // Null where the material has none, or it cannot be had.
-const MeshPaints::Image* MeshPaints::find(const aiMaterial& material, int type) {
-  aiString name;
-  if (material.GetTexture(aiTextureType(type), 0, &name) != aiReturn_SUCCESS || name.length == 0) return nullptr;
-  const auto [found, is_new] = images_.try_emplace(name.C_Str());
-  if (is_new) found->second = std::make_shared<const Image>(load(name.C_Str()));
+const MeshPaints::Image* MeshPaints::find(const ImportedMaterial& material, const ImportedTexture& texture,
+                                          const char* what) {
+  if (texture.image < 0) return nullptr;
+  const ImportedImage& source = scene_.images[std::size_t(texture.image)];
+  const std::string shown = source.name.empty() ? std::to_string(texture.image) : printable(source.name);
+  const std::string of_material = " of the material \"" + printable(material.name) + "\"";
+  if (!(texture.place == place_of(material))) {
+    note("the image " + shown + " with the " + what + of_material + " is left out: it lies otherwise on the surface " +
+         "(texture coordinates or transform) than its other images");
+    return nullptr;
+  }
+  for (const ImportedMesh& mesh : scene_.meshes) {
+    if (mesh.triangles.empty() || mesh.material < 0 || &scene_.materials[std::size_t(mesh.material)] != &material) continue;
+    if (texture.place.uv_set < mesh.uv_sets.size() && !mesh.uv_sets[texture.place.uv_set].empty()) continue;
+    note("the image " + shown + of_material + " lies by texture coordinates (set " + std::to_string(texture.place.uv_set) +
+         ") that its mesh does not have");
+    break;
+  }
+  const auto [found, is_new] = images_.try_emplace(texture.image);
+  if (is_new) found->second = std::make_shared<const Image>(load(source));
   return found->second->pixels.rgba.empty() ? nullptr : found->second.get();
 }
 
-MeshPaints::Image MeshPaints::load(const std::string& name) {
-  std::string shown = printable(name);
+MeshPaints::Image MeshPaints::load(const ImportedImage& image) {
+  std::string shown = printable(image.name);
   try {
-    if (const aiTexture* inside = scene_.GetEmbeddedTexture(name.c_str())) {
-      shown += " in the file";
-      if (inside->mHeight != 0) throw RunError("is of raw texels; PNG and JPEG are read");
-      const std::string_view bytes(reinterpret_cast<const char*>(inside->pcData), inside->mWidth);
-      return {decode_picture(bytes), sha256_of(bytes)};
-    }
-    std::string path = decode_percent(name);
-    std::replace(path.begin(), path.end(), '\\', '/');
-    const std::string file = fs::path(path).filename().string();
-    std::error_code failed;
-    for (const fs::path& tried : {fs::path(folder_) / path, fs::path(folder_) / file,
-                                  fs::path(folder_) / "textures" / file})
-      if (fs::is_regular_file(tried, failed)) {
-        const std::string bytes = read_file(tried.string(), kLargestFile);
-        return {decode_picture(bytes), sha256_of(bytes)};
-      }
-    throw RunError("lies neither beside the mesh nor in its folder textures");
+    if (image.bytes) shown += " in the file";
+    if (!image.fault.empty()) throw RunError(image.fault);
+    if (image.bytes) return {decode_picture(*image.bytes), sha256_of(*image.bytes)};
+    const auto found = find_beside(folder_, image.name, "textures");
+    if (!found) throw RunError("lies neither beside the mesh nor in its folder textures");
+    const std::string bytes = read_file(*found, kLargestFile);
+    return {decode_picture(bytes), sha256_of(bytes)};
   } catch (const std::exception& error) {
     note("the image " + shown + " " + error.what());
     return {};
   }
-}
-
-void MeshPaints::note_left_out(const aiMaterial& material) {
-  for (const auto& [type, what] :
-       {std::pair(aiTextureType_EMISSIVE, "images of light that surfaces give"),
-        std::pair(aiTextureType_OPACITY, "images of transparency"), std::pair(aiTextureType_HEIGHT, "height images")})
-    if (material.GetTextureCount(type) > 0) note(std::string(what) + " are not drawn");
-  float opacity = 1;
-  if (material.Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS && opacity < 0.99f && opacity > 0)
-    note("transparent materials are drawn opaque");
 }
 
 void MeshPaints::note(const std::string& text) {

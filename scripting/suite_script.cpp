@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "kernel/base/text.h"
 #include "scripting/sandbox/lua_sandbox.h"
 #include "scripting/sandbox/script_file.h"
 #include "scripting/sandbox/source_map.h"

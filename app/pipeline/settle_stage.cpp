@@ -27,7 +27,7 @@ namespace rubble {
 namespace {
 
 // From here on an overlap of placed pieces is worth a word; unit: m
-constexpr double kNotedOverlap = 0.005;
+constexpr double kNotedPlacedOverlap = 0.005;
 constexpr std::size_t kNotedOverlaps = 3;  // that are named
 
 // Nobody sees such a thing in a picture, and what can move is thrown apart. Of fixed pieces the deepest pair is named.
@@ -41,7 +41,7 @@ void note_placed_overlaps(const ResolvedMission& mission, const Pile& pile, RunC
            (placement.fixed ? ", fixed)" : ")");
   };
   std::size_t told = 0, fixed = 0;
-  for (const PlacedOverlap& overlap : find_placed_overlaps(pile.types, placed, kNotedOverlap)) {
+  for (const PlacedOverlap& overlap : find_placed_overlaps(pile.types, placed, kNotedPlacedOverlap)) {
     const bool both_fixed = placed[std::size_t(overlap.a)].fixed && placed[std::size_t(overlap.b)].fixed;
     if (both_fixed ? fixed++ > 0 : told++ >= kNotedOverlaps) continue;
     char depth[32];

@@ -68,12 +68,6 @@ bool LineScanner::next() {
   return true;
 }
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
-
 std::string_view take_word(std::string_view& text) {
   text.remove_prefix(std::min(text.size(), text.find_first_not_of(kBlanks)));
   const std::string_view word = text.substr(0, text.find_first_of(kBlanks));

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "kernel/base/tables/text_table.h"
+
 namespace rubble {
 
 // Lines of a text with LF, CRLF or CR; a backslash at the end of a line joins the next one to it. A byte order mark at
@@ -30,7 +32,6 @@ class LineScanner {
 // Takes the next word, without the blanks around it; empty: the end.
 std::string_view take_word(std::string_view& text);
 std::vector<std::string_view> split_words(std::string_view text);
-std::string_view trimmed(std::string_view text);
 
 // The value of a decimal number: "-1.5", ".5", "5.", "+2", "1e-3", "nan". Nothing: it is no number.
 // A number of at most five digits before the point and no exponent is the sum of its whole part and its fraction, each

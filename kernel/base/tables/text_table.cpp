@@ -51,9 +51,9 @@ std::string lower_case(std::string_view text) {
 }
 
 std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && (is_blank(text.back()) || text.back() == '\r')) text.remove_suffix(1);
-  return text;
+  constexpr const char* kWhite = " \t\r\n\f\v";
+  const std::size_t begin = text.find_first_not_of(kWhite);
+  return begin == std::string_view::npos ? std::string_view() : text.substr(begin, text.find_last_not_of(kWhite) - begin + 1);
 }
 
 std::optional<double> parse_number(std::string_view word) {

@@ -47,7 +47,7 @@ TextRow split_words(std::string_view text, int line);
 // As ASCII: other letters stay.
 std::string lower_case(std::string_view text);
 
-// Without blanks and tabs at both ends.
+// Without white space at both ends.
 std::string_view trimmed(std::string_view text);
 
 }  // namespace rubble

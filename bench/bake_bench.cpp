@@ -9,7 +9,7 @@
 #include "bench/process_times.h"
 #include "bench/program.h"
 #include "bench/render_views.h"
-#include "kernel/base/parallel.h"
+#include "kernel/base/system/thread_count.h"
 #include "kernel/base/system/disk_cache.h"
 #include "render/lighting/bake.h"
 #include "render/lighting/light_packing.h"

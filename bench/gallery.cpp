@@ -17,7 +17,7 @@
 #include "bench/program.h"
 #include "io/base/atomic_file.h"
 #include "io/image/jpeg_file.h"
-#include "kernel/base/parallel.h"
+#include "kernel/base/system/thread_count.h"
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"

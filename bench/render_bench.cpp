@@ -14,7 +14,7 @@
 #include "bench/process_times.h"
 #include "bench/program.h"
 #include "bench/render_views.h"
-#include "kernel/base/parallel.h"
+#include "kernel/base/system/thread_count.h"
 #include "kernel/base/system/disk_cache.h"
 #include "render/gl/gl_context.h"
 #include "render/renderer.h"

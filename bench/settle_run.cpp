@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "bench/process_times.h"
-#include "kernel/base/parallel.h"
+#include "kernel/base/system/thread_count.h"
 
 namespace rubble {
 namespace {

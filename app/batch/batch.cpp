@@ -101,24 +101,24 @@ class Batch {
   // Each new value was looked at once: the longest time and the largest size of these stand for all runs.
   ExitCode show_preview() const {
     const std::size_t runs = mine_.size();
-    std::printf("%zu runs: %zu seeds, %zu variants%s; %d at once on %d threads each\n", runs, all_.size(),
+    print_out("%zu runs: %zu seeds, %zu variants%s; %d at once on %d threads each\n", runs, all_.size(),
                 sweep_.variants.size(), request_.shard.empty() ? "" : (", shard " + request_.shard).c_str(), shape_.at_once,
                 shape_.threads);
     for (std::size_t variant = 0; sweep_.varies() && variant < sweep_.variants.size(); ++variant) {
       if (variant == kMostListed) {
-        std::printf("... and %zu variants more\n", sweep_.variants.size() - variant);
+        print_out("... and %zu variants more\n", sweep_.variants.size() - variant);
         break;
       }
       std::string line = "v" + std::to_string(variant + 1) + ":";
       for (const std::string& value : sweep_.overrides(variant)) line += " " + value;
-      std::printf("%s\n", line.c_str());
+      print_out("%s\n", line.c_str());
     }
     const auto less = [](const RunPreview& a, const RunPreview& b) {
       return std::make_pair(a.seconds.value_or(0), a.bytes) < std::make_pair(b.seconds.value_or(0), b.bytes);
     };
     const RunPreview& most = *std::max_element(previews_.begin(), previews_.end(), less);
-    std::printf("a run: %s\n", rubble::describe(most).c_str());
-    std::printf("in all: at most %s\n", format_bytes(estimate_ * runs).c_str());
+    print_out("a run: %s\n", rubble::describe(most).c_str());
+    print_out("in all: at most %s\n", format_bytes(estimate_ * runs).c_str());
     return ExitCode::done;
   }
 

@@ -80,12 +80,13 @@ bool is_integer_key(const std::string& name) {
 }
 
 // With six digits, or with as many more as keep the value within its part of the range.
-std::string to_text(double value, double least, double most) {
+std::string to_text(double value, const Varied& range, int part, int samples) {
+  const auto part_of = [&](double x) { return std::floor((x - range.low) / (range.high - range.low) * samples); };
   for (int digits = 6; digits < 17; ++digits) {
     char text[32];
     std::snprintf(text, sizeof text, "%.*g", digits, value);
     double rounded = 0;
-    if (parse_number(text, rounded) && rounded >= least && rounded < most) return text;
+    if (parse_number(text, rounded) && part_of(rounded) == part) return text;
   }
   return exact_text(value);
 }
@@ -105,8 +106,7 @@ void sample_range(Varied& varied, int samples) {
       varied.values.push_back(fixed_text(std::clamp(std::floor(least + at * count), varied.low, varied.high), 0));
       continue;
     }
-    const double least = varied.low + part * width / samples, most = varied.low + (part + 1) * width / samples;
-    varied.values.push_back(to_text(std::clamp(varied.low + at * width, varied.low, varied.high), least, most));
+    varied.values.push_back(to_text(std::clamp(varied.low + at * width, varied.low, varied.high), varied, part, samples));
   }
 }
 

@@ -9,7 +9,7 @@
 #include "app/support/build_info.h"
 #include "app/support/print.h"
 #include "io/live/live_ros.h"
-#include "kernel/base/parallel.h"
+#include "kernel/base/system/thread_count.h"
 #include "render/gl/gl_context.h"
 #include "render/view/drawn_by.h"
 

@@ -9,7 +9,7 @@
 #include "app/pipeline/live.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
-#include "kernel/base/parallel.h"
+#include "kernel/base/system/thread_count.h"
 
 namespace rubble {
 namespace {

@@ -20,6 +20,7 @@ using Estimate = std::map<std::string, std::uint64_t>;
 constexpr double kManifestBytes = 3e5;       // scripts, scenario, assets
 constexpr double kSamplingMargin = 4.0 / 3;  // what the draw may favour large meshes by
 constexpr double kPieceBytes = 137;          // in pile.bin
+constexpr double kBondedPieceBytes = 400;    // of a building's piece besides, for bodies and up to four ties
 constexpr double kKeyBytes = 84, kClipBytes = 32;  // in track.bin and track.glb
 constexpr double kMovingTime = 4;  // of a piece after its layer's time limit; unit: s
 
@@ -156,7 +157,8 @@ Estimate estimate_outputs(const Scenario& s, const AssetLibrary& assets) {
   Estimate sizes;
   const PileModelSize pile = size_of_pile(s, assets);
   const std::vector<RecordedSize> recorded = sizes_of_recording(s, pile.pieces);
-  sizes["pile.bin"] = std::uint64_t(pile.pieces * kPieceBytes + 2000);
+  sizes["pile.bin"] =
+      std::uint64_t(pile.pieces * kPieceBytes + count_building_pieces(s, assets) * kBondedPieceBytes + 2000);
   if (s.victims.count > 0) sizes["victims.json"] = std::uint64_t(s.victims.count) * 400;
   if (s.fines.amount > 0) sizes["fines.bin"] = std::uint64_t(size_of_fines(s.fines).bytes);
   sizes["manifest.json"] = std::uint64_t(count_frames(recorded) * 250 + kManifestBytes);
@@ -196,7 +198,7 @@ std::uint64_t count_bytes(const std::string& folder) {
 std::uint64_t free_bytes(const std::string& folder) {
   std::error_code failed;
   const fs::space_info space = fs::space(folder, failed);
-  return failed ? UINT64_MAX : space.available;
+  return failed || space.capacity == 0 ? UINT64_MAX : space.available;  // 0: of a folder such as /proc
 }
 
 std::string format_bytes(std::uint64_t bytes) {

@@ -42,6 +42,21 @@ void add_robot_metrics(const RobotRunResult& result, const std::vector<RobotLog>
   metrics["robot_pieces_moved"] = result.pieces_moved;
 }
 
+// Its links have no place any more, but what rides on it goes on measuring where it was last.
+void note_lost_robots(const RobotRunResult& result, const std::vector<std::string>& names,
+                      const std::vector<RobotLog>& logs, RunContext& context) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!result.robots[i].lost) continue;
+    const std::vector<RobotSample>& samples = logs[i].samples();
+    char when[32] = "";
+    if (!samples.empty())
+      std::snprintf(when, sizeof when, " after %.1f s", 1e-9 * double(samples.back().stamp_ns - samples.front().stamp_ns));
+    context.warnings.push_back("robot " + names[i] + " was lost" + when +
+                               ": it left the world by settle.lost_below or settle.lost_beyond; what its sensors record "
+                               "after that is from where it was last");
+  }
+}
+
 // The controller of each robot: legs, or a function of the script.
 RobotController make_controller(const ResolvedMission& mission, std::size_t robot,
                                 const MissionRobot& made, RobotSenses& senses,
@@ -100,6 +115,7 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
   write_robot_files(folder.path(), names, models, result, logs, mission.scenario.start_ns);
   for (const std::string& name : robot_file_names(names, models)) folder.add(name);
   add_robot_metrics(result, logs, driven.metrics);
+  note_lost_robots(result, names, logs, context);
   for (const RobotLog& log : logs) driven.readings.samples.push_back(log.samples());
   driven.moved.track = std::move(result.track);
   driven.moved.first_piece = std::move(result.first_piece);

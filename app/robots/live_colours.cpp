@@ -18,8 +18,9 @@ RenderOptions render_options(int threads) {
 }
 
 // What is developed is what the recorded camera gives, and nothing besides.
-CameraSpec build_eye(const Scenario& scenario, const MountedCamera& mounted, int threads) {
+CameraSpec build_eye(const Scenario& scenario, const MountedCamera& mounted, std::size_t number, int threads) {
   CameraSpec spec = build_camera(scenario, mounted, threads);
+  spec.number = int(number);
   spec.seed = camera_seed(scenario, mounted, scenario.seed);
   spec.channels.clear();
   spec.baseline = 0;
@@ -44,7 +45,7 @@ LiveColours::LiveColours(const Scenario& scenario, const std::vector<RidingSenso
   const std::vector<MountedCamera> all = all_cameras(scenario);
   for (const RidingSensor& at : cameras) {
     const MountedCamera& mounted = all[at.number];
-    const CameraSpec spec = build_eye(scenario, mounted, options.threads);
+    const CameraSpec spec = build_eye(scenario, mounted, at.number, options.threads);
     Flight flight;
     flight.pose_at = [this, mounted](std::int64_t stamp_ns) {
       return place_on_mount(mounted, steps_.carrier_at(stamp_ns));

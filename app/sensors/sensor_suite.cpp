@@ -12,9 +12,10 @@
 namespace rubble {
 namespace {
 
-CameraSpec spec_of(const Scenario& flown, const MountedCamera& mounted, const SensorBegin& begin,
+CameraSpec spec_of(const Scenario& flown, const MountedCamera& mounted, int number, const SensorBegin& begin,
                    int threads) {
   CameraSpec spec = build_camera(flown, mounted, threads);
+  spec.number = number;
   spec.seed = camera_seed(flown, mounted, begin.noise_seed);
   return spec;
 }
@@ -30,7 +31,7 @@ class CameraSensor : public Sensor {
         first_frame_(begin.frames.empty() ? 0 : begin.frames[std::size_t(number)]),
         start_ns_(flown.start_ns),
         path_(flight.carriers[std::size_t(number)]),
-        camera_(renderer, spec_of(flown, mounted, begin, threads), flight_) {}
+        camera_(renderer, spec_of(flown, mounted, number, begin, threads), flight_) {}
 
   int frames() const { return camera_.frames(); }
   std::int64_t last_stamp() const { return flight_.stamps_ns.back(); }

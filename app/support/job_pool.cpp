@@ -19,7 +19,7 @@
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "kernel/base/error.h"
-#include "kernel/base/parallel.h"
+#include "kernel/base/system/thread_count.h"
 #include "kernel/base/system/output_files.h"
 
 namespace rubble {

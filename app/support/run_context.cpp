@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kernel/base/parallel.h"
+#include "kernel/base/system/thread_count.h"
 
 namespace rubble {
 

@@ -12,7 +12,7 @@
 #include "bench/images/gallery_piles.h"
 #include "bench/images/judged_view.h"
 #include "bench/program.h"
-#include "kernel/base/parallel.h"
+#include "kernel/base/system/thread_count.h"
 
 namespace rubble {
 namespace {

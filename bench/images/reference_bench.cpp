@@ -18,7 +18,7 @@
 #include "bench/images/picture_file.h"
 #include "bench/program.h"
 #include "io/image/image_file.h"
-#include "kernel/base/parallel.h"
+#include "kernel/base/system/thread_count.h"
 #include "kernel/base/system/disk_cache.h"
 #include "render/colour/frame_light.h"
 #include "render/gl/gl_context.h"

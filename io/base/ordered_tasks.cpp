@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "kernel/base/parallel.h"
+#include "kernel/base/system/thread_count.h"
 
 namespace rubble {
 

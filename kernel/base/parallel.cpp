@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <condition_variable>
-#include <cstdlib>
-#include <fstream>
 #include <mutex>
-#include <string>
 #include <thread>
 #include <vector>
 
@@ -47,32 +43,7 @@ class LookOut {
   int pause_ = 0;
 };
 
-// Processors that a quota of Linux' control groups (version 2, then 1) leaves this process; 0: no quota is seen.
-double quota_of_processors() {
-  std::string quota;
-  double period = 0;
-  if (std::ifstream("/sys/fs/cgroup/cpu.max") >> quota >> period)
-    return quota == "max" || period <= 0 ? 0 : std::strtod(quota.c_str(), nullptr) / period;
-  double microseconds = 0;
-  if (std::ifstream("/sys/fs/cgroup/cpu/cpu.cfs_quota_us") >> microseconds && microseconds > 0 &&
-      std::ifstream("/sys/fs/cgroup/cpu/cpu.cfs_period_us") >> period && period > 0)
-    return microseconds / period;
-  return 0;
-}
-
 }  // namespace
-
-int default_thread_count() {
-  if (const char* asked = std::getenv("RUBBLE_THREADS")) {
-    char* end = nullptr;
-    const long count = std::strtol(asked, &end, 10);
-    if (end != asked && *end == '\0' && count >= 1 && count <= 1024) return int(count);
-  }
-  // Where affinity is set, the standard library of Linux counts only the processors that it leaves.
-  const int processors = std::max(1, int(std::thread::hardware_concurrency()));
-  const double quota = quota_of_processors();
-  return quota > 0 ? std::clamp(int(std::ceil(quota - 0.01)), 1, processors) : processors;
-}
 
 struct ThreadPool::Shared {
   std::vector<std::thread> workers;
@@ -111,7 +82,7 @@ struct ThreadPool::Shared {
 };
 
 ThreadPool::ThreadPool(int threads) : shared_(std::make_unique<Shared>()) {
-  if (threads <= 0) threads = default_thread_count();
+  if (threads <= 0) threads = std::max(1, int(std::thread::hardware_concurrency()));
   for (int i = 1; i < threads; ++i) {
     shared_->workers.emplace_back([shared = shared_.get()] { shared->work(); });
   }

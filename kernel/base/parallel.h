@@ -14,14 +14,9 @@
 
 namespace rubble {
 
-// How many threads work when nobody says a number: that of the environment variable RUBBLE_THREADS if it is a whole
-// number of at least 1, else as many as there are processors that this process may use (taskset, cgroups with a quota
-// of processor time, containers). At least 1.
-int default_thread_count();
-
 class ThreadPool {
  public:
-  // 0: default_thread_count(). 1: everything runs in the caller.
+  // 0: as many as the machine has processors. 1: everything runs in the caller.
   explicit ThreadPool(int threads = 0);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;

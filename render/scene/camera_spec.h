@@ -143,7 +143,8 @@ struct CameraSpec {
   EventCameraSpec event_camera;  // in the place of the camera
   // Where it is on its carrier, which bears the lamp; not given: the camera bears the lamp itself.
   std::optional<Pose> rig_from_camera;
-  std::uint64_t seed = 0;  // of all noise
+  int number = 0;          // among the cameras of the recording: each hides the steps of 8 bits by noise of its own
+  std::uint64_t seed = 0;  // of all other noise
   int threads = 1;         // the result does not depend on it
 };
 

@@ -125,7 +125,7 @@ ViewRays Camera::State::view_at(int index, double seconds_off) const {
   view.world_from_camera = pose_at(view.stamp_ns, frame_ns, at_frame);
   view.directions = directions;
   view.world_from_rig = rig_of(view.world_from_camera);
-  view.noise = spec.seed + 2 * std::uint64_t(index);
+  view.noise = (std::uint64_t(spec.number) << 33) + 2 * std::uint64_t(index);
   if (spec.shutter.readout <= 0) return view;
   const int rows = spec.intrinsics.height;
   for (int v = 0; v < rows; ++v) {

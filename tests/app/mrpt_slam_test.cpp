@@ -110,7 +110,7 @@ class MrptSlam : public ::testing::Test {
 };
 
 // A short drive along a wall; pictures of 16 x 12 pixels, as nobody looks at them.
-const std::string kShort = "--set seconds=10 --set pieces=0 --set camera.width=16 --set camera.height=12 --set trajectory.rate_hz=0.5";
+const std::string kShort = "--set seconds=10 --set pieces=0 --set camera.width=16 --set camera.height=16 --set trajectory.rate_hz=0.5";
 
 TEST_F(MrptSlam, IcpFollowsACrawler) {
   record("observations", kShort);

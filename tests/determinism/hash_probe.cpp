@@ -3,6 +3,10 @@
 //   hash_probe [--threads N] [--push METRES] [--scene NAME] [--trace FILE]
 //   hash_probe --compare A B    exit status 1 and the first difference when the traces differ
 //   hash_probe --libm           a hash of what this machine's sin, cos, exp and pow return
+#if defined(__linux__)
+#include <dlfcn.h>
+#endif
+
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -14,11 +18,15 @@
 #include "tests/determinism/standard_scenes.h"
 #include "tests/determinism/trace.h"
 
-// Defined by libm_tripwire when that is preloaded.
-extern "C" void rubble_arm_tripwire() __attribute__((weak));
-
 namespace rubble::determinism {
 namespace {
+
+// Of libm_tripwire, where that is preloaded. Not by a weak symbol: linkers differ in what they make of it.
+void arm_tripwire() {
+#if defined(__linux__)
+  if (void* const arm = dlsym(RTLD_DEFAULT, "rubble_arm_tripwire")) reinterpret_cast<void (*)()>(arm)();
+#endif
+}
 
 struct Arguments {
   SceneOptions scene;
@@ -103,7 +111,7 @@ int main(int argc, char** argv) {
   using namespace rubble::determinism;
   try {
     const Arguments arguments = parse(argc, argv);
-    if (rubble_arm_tripwire) rubble_arm_tripwire();
+    arm_tripwire();
     if (arguments.libm) return print_libm();
     return arguments.compare_a.empty() ? run(arguments) : compare(arguments);
   } catch (const std::exception& e) {

@@ -331,6 +331,7 @@ TEST_F(PileExport, GazebosParserLoadsTheWorld) {
   EXPECT_EQ(world.ModelCount(), 4u) << "the ground and three pieces";
   EXPECT_NEAR(world.Gravity().Z(), -9.81, 1e-12);
   model_.gravity = 1.62;
+  std::filesystem::create_directories(folder_ / "moon");
   export_pile(model_, "sdf", folder_ / "moon");
   EXPECT_NE(test::read_text(folder_ / "moon/sdf/pile.sdf").find("<gravity>0 0 -1.62</gravity>"), std::string::npos);
   const sdf::Model* model = world.ModelByName("wedge_000007");

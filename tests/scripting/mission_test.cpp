@@ -213,11 +213,12 @@ TEST(MissionOverrides, MistakesNameSet) {
       "--set: camera.width: wrong type: expected an integer from 16 to 8192, found the "
       "string \"a\"\n"
       "--set: camera.width: out of range: expected an integer from 16 to 8192, found 5\n"
-      "--set: width: unknown key `width` (did you mean `camera.width`?)\n"
-      "--set: zzz: unknown key `zzz` (`rubble check` prints every key)\n"
       "--set: not an assignment: expected KEY=VALUE, found \"pile\"\n"
       "--set: trajectory.waypoints[9].t: no such item: the list has 1\n"
-      "--set: pile.mix: not a single value: expected a script for lists and tables");
+      "--set: pile.mix: not a single value: expected a script for lists and tables\n"
+      // What a parameter of the script might have been, at its end.
+      "--set: width: unknown key `width` (did you mean `camera.width`?)\n"
+      "--set: zzz: unknown key `zzz` (`rubble check` prints every key)");
 }
 
 // The published simulator's parameters, each against the member that it means.

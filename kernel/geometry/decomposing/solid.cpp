@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/parallel.h"
+#include "kernel/base/portable_math.h"
 #include "kernel/geometry/distance_transform.h"
 
 namespace rubble {
@@ -61,7 +62,7 @@ Solid::Solid(const TriangleMesh& mesh, int resolution) : mesh_(mesh) {
   const Vec3 extent = box.max - box.min;
   // As many cells of a long thing as of a cube.
   const double longest = std::max({extent.x, extent.y, extent.z});
-  grid_.voxel = std::max(std::cbrt(extent.x * extent.y * extent.z) / resolution, longest / kMostCells);
+  grid_.voxel = std::max(portable::exp(portable::log(extent.x * extent.y * extent.z) / 3) / resolution, longest / kMostCells);
   for (int i = 0; i < 3; ++i) grid_.size[std::size_t(i)] = int(extent[i] / grid_.voxel) + 3;
   const Vec3 span = Vec3(grid_.size[0], grid_.size[1], grid_.size[2]) * grid_.voxel;
   grid_.corner = (box.min + box.max) * 0.5 - span * 0.5;

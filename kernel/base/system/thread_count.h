@@ -1,0 +1,11 @@
+// Threads for those who run programs: nothing that results depend on.
+#pragma once
+
+namespace rubble {
+
+// How many threads work when nobody says a number: that of the environment variable RUBBLE_THREADS if it is a whole
+// number of at least 1, else as many as there are processors that this process may use (taskset, cgroups with a quota
+// of processor time, containers). At least 1.
+int default_thread_count();
+
+}  // namespace rubble

@@ -1,7 +1,7 @@
 // The functions by which a script reads files of its folder as data. Private to scripting.
 #pragma once
 
-#include <lua.hpp>
+#include "scripting/sandbox/lua_api.h"
 
 namespace rubble {
 

@@ -7,9 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include <lua.hpp>
-
 #include "kernel/base/error.h"
+#include "scripting/sandbox/lua_api.h"
 #include "scripting/sandbox/lua_sandbox.h"
 #include "scripting/sandbox/lua_tokens.h"
 

@@ -1,8 +1,7 @@
 // From a value on Lua's stack to plain data and back. Private to scripting.
 #pragma once
 
-#include <lua.hpp>
-
+#include "scripting/sandbox/lua_api.h"
 #include "scripting/values/value.h"
 
 namespace rubble {

@@ -7,7 +7,9 @@
 namespace rubble {
 
 RunContext::RunContext(const RunOptions& asked)
-    : options(asked), progress(choose_progress_style(asked.quiet)) {}
+    : options(asked), progress(choose_progress_style(asked.quiet)) {
+  threads();  // a mistake in RUBBLE_THREADS is told before anything begins
+}
 
 int RunContext::threads() const {
   if (options.threads > 0) return options.threads;

@@ -230,5 +230,14 @@ TEST(Info, SaysWhatWasTriedWithoutAWorkingEgl) {
   EXPECT_NE(info.err.find("RUBBLE_EGL_DEVICE"), std::string::npos) << info.err;
 }
 
+TEST(CommandLine, AWrongNumberOfThreadsInTheEnvironmentIsNamed) {
+  const ScratchFolder scratch;
+  for (const char* wrong : {"two", "0", "1.5", ""}) {
+    const Outcome run = run_rubble("settle scripts/small.lua --out " + (scratch / "a"), std::string("RUBBLE_THREADS='") + wrong + "'");
+    EXPECT_EQ(run.exit_code, 1) << wrong;
+    EXPECT_NE(run.err.find("RUBBLE_THREADS"), std::string::npos) << run.err;
+  }
+}
+
 }  // namespace command_line_test
 }  // namespace rubble::testing

@@ -7,6 +7,8 @@
 #include <string>
 #include <thread>
 
+#include "kernel/base/error.h"
+
 namespace rubble {
 namespace {
 
@@ -30,6 +32,8 @@ int default_thread_count() {
     char* end = nullptr;
     const long count = std::strtol(asked, &end, 10);
     if (end != asked && *end == '\0' && count >= 1 && count <= 1024) return int(count);
+    throw InputError({"the environment", 0, "RUBBLE_THREADS", "wrong value", "a whole number from 1 to 1024", asked,
+                      "unset it for the number of processors"});
   }
   // Where affinity is set, the standard library of Linux counts only the processors that it leaves.
   const int processors = std::max(1, int(std::thread::hardware_concurrency()));

@@ -37,20 +37,7 @@ std::string describe_length(double metres) {
   return text;
 }
 
-// Of a part that its file gives more corners than collision takes.
-constexpr double kSimplified = 0.0025;  // of its size: how much of it is lost at most, if it has not the corners for it
-
-constexpr std::size_t kManyPoints = 5000;  // whose hull takes long if it has many corners
-constexpr double kHullGrid = 1e-5;         // of its size: corners that stand out by less do not count then
-
-// The number of corners that is too many, in words; empty: there are few enough.
-std::string too_many_corners(const ConvexPart& part, double size) {
-  if (part.points.size() <= kMostPartCorners) return "";
-  if (part.points.size() > kManyPoints)
-    return simplify_hull(part.points, kMostPartCorners, kHullGrid * size).error > kHullGrid * size ? "many" : "";
-  const std::size_t corners = calc_hull(part.points).points.size();
-  return corners > kMostPartCorners ? std::to_string(corners) : "";
-}
+constexpr double kSimplified = 0.0025;  // of the size of a part with too many corners: how much of it is lost, if it can be so little
 
 void simplify_part(const std::string& file, ConvexPart& part, std::vector<std::string>& warnings) {
   Aabb box;
@@ -58,10 +45,11 @@ void simplify_part(const std::string& file, ConvexPart& part, std::vector<std::s
   const Vec3 extent = box.max - box.min;
   const double size = std::max({extent.x, extent.y, extent.z});
   try {
-    const std::string corners = too_many_corners(part, size);
-    if (corners.empty()) return;
+    if (part.points.size() <= kMostPartCorners) return;
+    const std::size_t corners = calc_hull(part.points).points.size();
+    if (corners <= kMostPartCorners) return;
     SimpleHull simple = simplify_hull(part.points, kMostPartCorners, kSimplified * size);
-    warnings.push_back(file + ": its hull has " + corners + " corners, more than the " + std::to_string(kMostPartCorners) +
+    warnings.push_back(file + ": its hull has " + std::to_string(corners) + " corners, more than the " + std::to_string(kMostPartCorners) +
                        " that a part may have: it collides with " + std::to_string(simple.points.size()) +
                        " of them, from which no other stands out by more than " + describe_length(simple.error));
     part.points = std::move(simple.points);

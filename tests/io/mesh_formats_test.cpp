@@ -12,37 +12,12 @@
 #include "io/mesh/mesh_file.h"
 #include "io/mesh_formats/collada_repair.h"
 #include "kernel/base/error.h"
-#include "tests/io/support.h"
+#include "tests/io/mesh_files.h"
 
 namespace rubble {
 namespace mesh_formats_test {
 
-using test::ScratchFolder;
-
-class MeshFormats : public ::testing::Test {
- protected:
-  TriangleMesh load(const std::string& file, const std::string& bytes, const MeshUnits& units = {}) {
-    write_text_file(folder_ / file, bytes);
-    return importer_.load_mesh(folder_ / file, units);
-  }
-  std::string error_of(const std::string& file, const std::string& bytes) {
-    try {
-      load(file, bytes);
-    } catch (const InputError& error) {
-      return error.diagnostics().front().text();
-    }
-    return "no error";
-  }
-  std::string notes() const {
-    std::string all;
-    for (const std::vector<std::string>* list : {&importer_.notes().shape, &importer_.notes().looks})
-      for (const std::string& note : *list) all += note + "\n";
-    return all;
-  }
-
-  ScratchFolder folder_;
-  MeshImporter importer_;
-};
+class MeshFormats : public test::MeshFiles {};
 
 Vec3 size_of(const TriangleMesh& mesh) { return mesh.bounds().max - mesh.bounds().min; }
 
@@ -329,6 +304,27 @@ TEST_F(MeshFormats, ThreemfPlacesComponentsOfOtherFilesOfThePackage) {
   EXPECT_TRUE(is_closed(mesh));
   EXPECT_NEAR(calc_volume_properties(mesh).volume, 4, 1e-5);
   EXPECT_EQ(notes(), "");
+}
+
+// Colours of base materials are drawn; of what is not, each is named.
+TEST_F(MeshFormats, ThreemfColoursAreDrawnOrNamed) {
+  const auto with = [](const std::string& resources, const std::string& attributes) {
+    std::string object = tetrahedron_3mf("1");
+    object.replace(object.find(" type="), 0, attributes);
+    return zip({{"3D/3dmodel.model", "<model " + kCoreSpace + " xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\">"
+                                     "<resources>" + resources + object + "</resources><build><item objectid=\"1\"/></build></model>"}});
+  };
+  const std::string base = "<basematerials id=\"5\"><base name=\"red\" displaycolor=\"#FF0000\"/></basematerials>";
+  const TriangleMesh red = load("a.3mf", with(base, " pid=\"5\" pindex=\"0\""));
+  ASSERT_NE(red.paint_of(0), nullptr);
+  EXPECT_EQ(red.paint_of(0)->colour, (Vec3f{1, 0, 0}));
+  EXPECT_EQ(notes(), "");
+  load("b.3mf", with(base + "<m:multiproperties id=\"6\" pids=\"5\"><m:multi pindices=\"0\"/></m:multiproperties>"
+                            "<m:pbmetallicdisplayproperties id=\"7\"/>", " pid=\"6\" pindex=\"0\""));
+  EXPECT_TRUE(has(notes(), "the mixed colours of its <multiproperties> are not drawn")) << notes();
+  EXPECT_TRUE(has(notes(), "its <pbmetallicdisplayproperties>, which say how surfaces shine, are left out")) << notes();
+  load("c.3mf", with("<basematerials id=\"5\"><base name=\"red\" displaycolor=\"red\"/></basematerials>", " pid=\"5\" pindex=\"0\""));
+  EXPECT_TRUE(has(notes(), "the colour \"red\" is none")) << notes();
 }
 
 TEST_F(MeshFormats, ThreemfRefusesWhatItMustKnowByName) {

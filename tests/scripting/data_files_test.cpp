@@ -10,28 +10,15 @@
 #include "scripting/files/calibration.h"
 #include "scripting/files/data_grid.h"
 #include "tests/io/tiff_bytes.h"
-#include "tests/scripting/test_support.h"
+#include "tests/scripting/script_files.h"
 
 namespace rubble {
 namespace data_files_test {
 
 using testing::TiffBytes;
 
-class DataFiles : public ::testing::Test {
+class DataFiles : public ScriptFiles {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  void write(const std::string& name, const std::string& bytes) {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-  }
-  Mission load(const std::string& text) {
-    return load_mission_text("return rubble.mission { " + text + " }", (folder_ / "m.lua").string());
-  }
   Mission terrain(const std::string& arguments) { return load("pile = { terrain = rubble.terrain.image(" + arguments + ") }"); }
   std::string terrain_error(const std::string& arguments) {
     return error_of([&] { terrain(arguments); });
@@ -41,7 +28,6 @@ class DataFiles : public ::testing::Test {
       if (line.find(words) != std::string::npos) return true;
     return false;
   }
-  std::filesystem::path folder_;
 };
 
 // 5 x 2 pixels of 16 bits, each row 0, 1/4, 1/2, 3/4 and 1 of white. Written by another program.

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/scripting/test_support.h"
+#include "tests/scripting/script_files.h"
 
 namespace rubble {
 namespace path_library_test {
@@ -96,24 +96,12 @@ TEST(Paths, AFunctionIsAskedOnceAFrame) {
   EXPECT_NE(mission_error("return { trajectory = rubble.trajectory.along(function(t) while true do end end) }"), "");
 }
 
-class PathFiles : public ::testing::Test {
+class PathFiles : public ScriptFiles {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
-  Mission load(const std::string& text) {
-    return load_mission_text("return rubble.mission { " + text + " }", (folder_ / "m.lua").string());
-  }
   std::vector<CameraPose> poses(const std::string& trajectory) {
     const Scenario s = load("trajectory = " + trajectory).scenario;
     return sample_trajectory(s.trajectory, s.start_ns);
   }
-  std::filesystem::path folder_;
 };
 
 // What we wrote ourselves, read back: groundtruth.txt holds optical frames.

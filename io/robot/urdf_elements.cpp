@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include "kernel/base/portable_math.h"
 
@@ -72,8 +73,13 @@ void UrdfElements::expect(const XmlElement& element, std::initializer_list<const
     if (known(attributes, name) || name == "xmlns" || name.compare(0, 6, "xmlns:") == 0) continue;
     left_out_[{element.name, "@" + name}].push_back(element.line);
   }
-  for (const XmlElement& child : element.children)
-    if (!known(children, child.name)) leave_out(child, element.name);
+  std::set<std::string> seen;
+  for (const XmlElement& child : element.children) {
+    if (!known(children, child.name))
+      leave_out(child, element.name);
+    else if (!seen.insert(child.name).second && !known({"link", "joint", "material", "visual", "collision"}, child.name))
+      warn(child.line, "a second <" + child.name + "> of <" + element.name + "> is left out: the first counts");
+  }
 }
 
 std::string UrdfElements::name_of(const XmlElement& element, const char* attribute) {

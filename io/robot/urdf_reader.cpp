@@ -32,8 +32,8 @@ class PartReader {
     link.name = elements_.name_of(from, "name");
     elements_.set_owner(link.name);
     elements_.expect(from, {"name", "type"}, {"inertial", "visual", "collision"});
+    if (const XmlElement* inertial = from.child("inertial")) read_inertial(*inertial, link);
     for (const XmlElement& child : from.children) {
-      if (child.name == "inertial") read_inertial(child, link);
       if (child.name == "collision") {
         elements_.expect(child, {"name"}, {"origin", "geometry"});
         read_shape(child, link.collisions);

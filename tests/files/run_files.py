@@ -172,8 +172,11 @@ def as_asked(kind, entry, path):
 
 def is_free(entry, name, found):
     """Figures that are not compared: the inertia in place of one that no body has and the mass of links without one,
-    which need a warning each, and the volume of a mesh that is open for the program, which is that of its hull."""
+    bounds without shapes of size 0, which need a warning each, and the volume of a mesh that is open for the program,
+    which is that of its hull."""
     got_mass = re.findall(r"the link `([^`]*)` (?:moves and )?has no mass", "\n".join(found["warnings"] or ()))
+    if name.endswith("bounds_m") and any("has a size of 0 and is left out" in w for w in found["warnings"] or ()):
+        return True
     if name in ("mass_kg", "centre_of_mass_m", "inertia_kg_m2") and got_mass:
         return all(link in entry.get("without_mass", ()) for link in got_mass)
     if name == "inertia_kg_m2" and entry.get("impossible"):

@@ -306,6 +306,20 @@ TEST_F(MeshFormats, ThreemfPlacesComponentsOfOtherFilesOfThePackage) {
   EXPECT_EQ(notes(), "");
 }
 
+// Lines with more numbers than the header says, and items that share a line.
+TEST_F(MeshFormats, PlyOfTextHasALineForEachItem) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+  const TriangleMesh more = load("a.ply", header + "0 0 0 9\n1 0 0 9\n0 1 0 9\n0 0 1 9\n3 0 2 1 7 7\n3 0 1 3 7 7\n3 1 2 3 7 7\n3 0 3 2 7 7\n");
+  expect_size(more, {1, 1, 1});
+  EXPECT_TRUE(is_closed(more));
+  EXPECT_TRUE(has(notes(), "numbers beyond the properties of its header are left out")) << notes();
+  EXPECT_TRUE(is_closed(load("b.ply", header + "0 0 0 1 0 0 0 1 0\n0 0 1 3 0 2 1 3 0 1 3\n3 1 2 3 3 0 3 2\n")));
+  EXPECT_EQ(notes(), "");
+  EXPECT_TRUE(is_closed(load("c.ply", header + "0 0\n0\n1 0 0\n0 1 0\n0 0 1\n3 0\n2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")));
+}
+
 // Colours of base materials are drawn; of what is not, each is named.
 TEST_F(MeshFormats, ThreemfColoursAreDrawnOrNamed) {
   const auto with = [](const std::string& resources, const std::string& attributes) {

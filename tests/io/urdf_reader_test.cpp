@@ -98,6 +98,18 @@ TEST(UrdfReader, WhatIsOptionalHasItsDefault) {
   EXPECT_TRUE(file.warnings.empty()) << all_of(file.warnings);
 }
 
+// As urdfdom reads them.
+TEST(UrdfReader, OfWhatIsOneThingTheFirstCounts) {
+  const UrdfFile file = read("<robot name=\"r\">\n<link name=\"a\">\n<inertial><mass value=\"3\"/><mass value=\"4\"/></inertial>\n"
+                             "<inertial><mass value=\"5\"/></inertial>\n<visual><geometry><box size=\"1 1 1\"/></geometry></visual>\n"
+                             "<visual><geometry><box size=\"1 1 1\"/></geometry></visual></link></robot>");
+  EXPECT_EQ(file.links[0].mass, 3);
+  EXPECT_EQ(file.links[0].visuals.size(), 2u);
+  ASSERT_EQ(file.warnings.size(), 2u) << all_of(file.warnings);
+  EXPECT_TRUE(holds(file.warnings[0], "a.urdf:3: a second <mass> of <inertial> is left out: the first counts")) << file.warnings[0];
+  EXPECT_TRUE(holds(file.warnings[1], "a.urdf:4: a second <inertial> of <link> is left out: the first counts")) << file.warnings[1];
+}
+
 TEST(UrdfReader, RangesNeedNotHoldZero) {
   const UrdfJoint joint = read(arm("<limit lower=\"-2.6\" upper=\"-0.8\" effort=\"20\" velocity=\"15\"/>")).joints.at(0);
   EXPECT_EQ(joint.lower, -2.6);

@@ -38,6 +38,25 @@ const unsigned char kRamp16[] = {
     0xff, 0xff, 0xff, 0x7f, 0x06, 0x04, 0x13, 0x00, 0x4d, 0x56, 0x08, 0xf9, 0xdf, 0x16, 0x28, 0x90, 0x00,
     0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 
+// Two pixels of 8 bits: green, and (10, 20, 30). Written by another program.
+const unsigned char kColours[] = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
+    0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x7b, 0x40, 0xe8, 0xdd, 0x00,
+    0x00, 0x00, 0x0f, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x60, 0xf8, 0xcf, 0xc0, 0x25, 0x22, 0x07,
+    0x00, 0x05, 0x66, 0x01, 0x3c, 0x18, 0x56, 0x15, 0xac, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44,
+    0xae, 0x42, 0x60, 0x82};
+
+// The text that a run keeps has whole levels: those of brightness are finer ones.
+TEST(DataGridText, OfColoursIsReadAgain) {
+  const DataGrid grid = read_data_grid({reinterpret_cast<const char*>(kColours), sizeof kColours});
+  EXPECT_EQ(grid.white, 65535);
+  EXPECT_EQ(grid.values, (std::vector<double>{46871, 4779}));
+  const DataGrid again = read_data_grid(data_grid_text(grid));
+  EXPECT_EQ(again.values, grid.values);
+  EXPECT_EQ(again.white, grid.white);
+  EXPECT_TRUE(again.colour);
+}
+
 TEST_F(DataFiles, SixteenBitHeightsAreARamp) {
   write("ramp.png", std::string(reinterpret_cast<const char*>(kRamp16), sizeof kRamp16));
   const Mission mission = terrain("'ramp.png', { length = 4, amplitude = 4 }");
@@ -72,7 +91,7 @@ TEST_F(DataFiles, WhatAnElevationModelLacksIsSaid) {
   EXPECT_NE(terrain_error("'degrees.tif'").find("degrees: give `length`"), std::string::npos);
   EXPECT_EQ(terrain("'degrees.tif', { length = 30 }").scenario.pile.terrain.spacing, 30);
   write("map.gif", "GIF89a");
-  EXPECT_NE(terrain_error("'map.gif'").find("is a GIF picture; PNG, JPEG, TIFF and PGM are read"), std::string::npos);
+  EXPECT_NE(terrain_error("'map.gif'").find("is a GIF picture; PNG, JPEG, TIFF, PGM and OpenEXR are read"), std::string::npos);
   write("m.tif", TiffBytes(2, 2, 3, std::vector<float>{1, 2, 3, 4}).bytes());
   EXPECT_NE(error_of([&] { load("pile = rubble.include('m.tif')"); }).find("but a picture: rubble.read_image reads it"), std::string::npos);
 }

@@ -124,13 +124,10 @@ DataGrid read_unthinned(std::string_view bytes) {
   }
 }
 
-// Brightness of colours has values between levels. The text that is kept has whole ones: finer ones then.
-void make_levels_whole(DataGrid& grid) {
-  constexpr double kFine = 65535;
-  const auto is_whole = [](double value) { return value == std::floor(value); };
-  if (grid.metric() || std::all_of(grid.values.begin(), grid.values.end(), is_whole)) return;
-  for (double& value : grid.values) value = std::floor(value * (kFine / grid.white) + 0.5);
-  grid.white = kFine;
+// Brightness of colours lies between levels. The text that is kept has whole ones.
+void round_levels(DataGrid& grid) {
+  if (grid.metric()) return;
+  for (double& value : grid.values) value = std::floor(value + 0.5);
 }
 
 std::string number_text(double value) { return std::isnan(value) ? "nan" : format_number(value); }
@@ -144,7 +141,7 @@ DataGrid read_data_grid(std::string_view bytes) {
   if (std::uint64_t(grid.columns) * std::uint64_t(grid.rows) > kMostDataPixels)
     decline_grid("has more than 64 million pixels");
   if (is_esri_grid(bytes) || bytes.substr(0, 2) == "P2") read_grid_comments(bytes, grid);
-  make_levels_whole(grid);
+  round_levels(grid);
   return grid;
 }
 

@@ -46,11 +46,11 @@ const unsigned char kColours[] = {
     0x00, 0x05, 0x66, 0x01, 0x3c, 0x18, 0x56, 0x15, 0xac, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44,
     0xae, 0x42, 0x60, 0x82};
 
-// The text that a run keeps has whole levels: those of brightness are finer ones.
+// The text that a run keeps has whole levels; brightness lies between them.
 TEST(DataGridText, OfColoursIsReadAgain) {
   const DataGrid grid = read_data_grid({reinterpret_cast<const char*>(kColours), sizeof kColours});
-  EXPECT_EQ(grid.white, 65535);
-  EXPECT_EQ(grid.values, (std::vector<double>{46871, 4779}));
+  EXPECT_EQ(grid.white, 255);
+  EXPECT_EQ(grid.values, (std::vector<double>{182, 19}));
   const DataGrid again = read_data_grid(data_grid_text(grid));
   EXPECT_EQ(again.values, grid.values);
   EXPECT_EQ(again.white, grid.white);

@@ -50,7 +50,7 @@ class CrawlerNav(Env):
             ("forwards", f"of {speed:g} m/s"), ("turning to the left", f"of {turn_rate:g} rad/s"),
             ("front flippers", "of 1.2 rad"), ("rear flippers", "of 1.2 rad")])
         self.observation_space = Dict({
-            "goal": Box(np.array([0, -1, -1]), np.array([2 * _MOST, 1, 1]), (3,), np.float32,
+            "goal": Box(np.float32([0, -1, -1]), np.float32([2 * _MOST, 1, 1]), (3,), np.float32,
                         parts=[("distance", "m"), ("cosine of bearing", ""), ("sine of bearing", "")]),
             "joints": Box(-_MOST, _MOST, (4,), np.float32, unit="rad"),
             "motion": Box(-_MOST, _MOST, (6,), np.float32, parts=[

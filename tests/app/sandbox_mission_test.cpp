@@ -78,7 +78,7 @@ struct Kind {
   std::map<std::string, std::string> files;  // of the sandbox, with their texts
   std::string where;                         // of the refusal
   bool links_only = false;                   // other ways are refused without a sandbox as well
-  std::string always;                        // what a link is refused for without a sandbox; empty: it is not
+  std::string always{};                      // what a link is refused for without a sandbox; empty: it is not
 };
 
 std::vector<Kind> all_kinds() {
@@ -217,7 +217,7 @@ TEST_F(SandboxMission, LooksForMeshesOfRobotsInPackagesToo) {
   write_file(root_ / "in/m.lua", mission_of(kRobot));
   write_file(root_ / "in/robot.urdf", robot_of("package://arm/meshes/block.obj"));
   setenv("ROS_PACKAGE_PATH", (root_ / "out/ws").c_str(), 1);
-  expect_refused({"", "", "", {}, "robot.urdf:4", false, ""}, "package://");
+  expect_refused({"", "", "", {}, "robot.urdf:4", false}, "package://");
   unsetenv("ROS_PACKAGE_PATH");
   fs::create_directories(root_ / "arm/meshes");  // above the sandbox
   write_file(root_ / "arm/meshes/block.obj", kBlock);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the bench and writes its figures into docs/performance.md and docs/equilibrium.md.
+"""Runs the bench and writes its figures into docs/development/performance.md and docs/explanation/equilibrium.md.
 
 Everything between `<!-- begin NAME -->` and `<!-- end NAME -->` there is replaced; the text around
 it is written by people. Nothing in those tables is typed by hand.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Lists the kernel's constants of physics on one page: value, unit, reason and where each stands.
 
-  tools/constants.py            writes docs/constants.md
+  tools/constants.py            writes docs/development/constants.md
   tools/constants.py --check    fails when the page is not what the sources say, when a name has two
                                 values, or when a number has no reason
 """
@@ -10,7 +10,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs" / "constants.md"
+PAGE = ROOT / "docs" / "development" / "constants.md"
 ROOMS = {
     "collision": "Collision: pairs and contact points",
     "solver": "Contact forces",
@@ -26,7 +26,7 @@ HEAD = """# Constants of the kernel
 This page lists every named number in the kernel's folders of physics, with its unit and its reason. Numbers
 that follow from others are left out. Settings with a default are in `SolverSettings`
 (`kernel/solver/contact_solver.h`) and `NarrowSettings` (`kernel/collision/narrow_phase.h`); the conditions of
-sleep are in `kernel/world/phases/sleep.cpp`. [lua.md](lua.md) has the keys that a script may set.
+sleep are in `kernel/world/phases/sleep.cpp`. [missions.md](../reference/missions.md) has the keys that a script may set.
 [performance.md](performance.md#closed-forms) measures how far clamps and limits deviate from the laws of Newton
 and Coulomb.
 
@@ -89,7 +89,7 @@ def main():
     page = make_page(problems)
     if "--check" in sys.argv:
         if not PAGE.exists() or PAGE.read_text() != page:
-            problems.append("docs/constants.md is not what the sources say: run tools/constants.py")
+            problems.append("docs/development/constants.md is not what the sources say: run tools/constants.py")
     else:
         PAGE.write_text(page)
     for problem in problems:

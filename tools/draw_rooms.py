@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Draws the rooms of the source tree, from the ground up, with what each uses, into
-docs/contributing.md. The arrows are the includes that are there; tests/app/include_direction_test.cpp
+docs/development/contributing.md. The arrows are the includes that are there; tests/app/include_direction_test.cpp
 says which may be.
 
-usage: tools/draw_rooms.py           # writes docs/contributing.md anew
+usage: tools/draw_rooms.py           # writes docs/development/contributing.md anew
        tools/draw_rooms.py --print
 """
 import os
@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 FLOORS = ["kernel", "render", "io", "scripting", "assets", "app", "bench", "python"]
-PAGE = "docs/contributing.md"
+PAGE = "docs/development/contributing.md"
 BEGIN, END = "<!-- rooms: made by tools/draw_rooms.py -->", "<!-- end of rooms -->"
 
 

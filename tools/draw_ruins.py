@@ -4,7 +4,7 @@ document, between its marks; also a table that compares their voids with those o
 scripts/collapse, one that compares the debris with what is published, and a sheet and a table of buildings that
 are no frames.
 
-usage: tools/draw_ruins.py [--program build/release/rubble] [--out out/ruins] [--kinds] docs/collapse.md
+usage: tools/draw_ruins.py [--program build/release/rubble] [--out out/ruins] [--kinds] docs/explanation/collapse.md
 
 Needs python3-opencv (tools/packages-pictures.txt).
 """

@@ -2,7 +2,7 @@
 """Runs `rubble bench navigate` without and with a global planner and writes their table into a document, between its
 marks.
 
-usage: tools/navigate_table.py [--seeds 1..64] [--out out/navigate] [--reuse] docs/autonomy.md
+usage: tools/navigate_table.py [--seeds 1..64] [--out out/navigate] [--reuse] docs/explanation/autonomy.md
 """
 import argparse
 import json

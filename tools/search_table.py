@@ -3,7 +3,7 @@
 table of a document, between its marks. Rows of what was not played stay.
 
 usage: tools/search_table.py [--seeds 1..30] [--baselines oracle frontier] [--agent COMMAND --name NAME]
-       [--out out/search] [--reuse] docs/search.md
+       [--out out/search] [--reuse] docs/explanation/search.md
 """
 import argparse
 import json

@@ -36,7 +36,7 @@ struct RecordingFormat {
   bool one_camera = false;                       // whether it holds a single camera
 };
 
-// In the order in which they take a frame. docs/contributing.md says how to add one.
+// In the order in which they take a frame. docs/development/contributing.md says how to add one.
 const std::vector<RecordingFormat>& recording_formats();
 
 // How messages of ROS hold the frames of that scenario, in files and live.

@@ -1,4 +1,4 @@
-"""Writes the figures of docs/sfm.md and docs/map_score.md: what stands there between `<!-- begin NAME -->` and
+"""Writes the figures of docs/explanation/sfm.md and docs/explanation/map_score.md: what stands there between `<!-- begin NAME -->` and
 `<!-- end NAME -->` is made from the results in --out; the text around it is written by people."""
 import json
 import re
@@ -121,7 +121,7 @@ def map_table(scores):
 
 
 def write_maps(work):
-    """The table and the picture of docs/map_score.md, where maps of pile 1 were scored."""
+    """The table and the picture of docs/explanation/map_score.md, where maps of pile 1 were scored."""
     if not (work.out / "seed1" / "maps").exists():
         return
     scores = work.map_scores(1, conditions.find(["lit"])[0])

@@ -1,4 +1,4 @@
-// The bundled robots. Figures and their sources: docs/robots.md. SI.
+// The bundled robots. Figures and their sources: docs/reference/robots.md. SI.
 #pragma once
 
 #include "kernel/model/robot.h"

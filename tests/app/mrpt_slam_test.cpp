@@ -1,4 +1,4 @@
-// Rawlogs of driven robots in MRPT's own SLAM programs: each must follow the robot (docs/mrpt_slam.md).
+// Rawlogs of driven robots in MRPT's own SLAM programs: each must follow the robot (docs/how_to/mrpt_slam.md).
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -112,8 +112,6 @@ def void_measures(manifest):
 
 def compare_published(ruins):
     """Debris against the height of the building, and its bulk against the building's volume."""
-    lines = ["| mission | height of the building, m | of the ruin, as a share | debris beyond the walls, as a share | "
-             "bulk, as a share of the building's volume |", "|---|---|---|---|---|"]
     shares = []
     for ruin in ruins:
         b, m = ruin["manifest"]["scenario"]["pile"]["building"], ruin["manifest"]["metrics"]
@@ -121,21 +119,23 @@ def compare_published(ruins):
         volume = b["bays_x"] * b["span_x"] * b["bays_y"] * b["span_y"] * height
         shares.append((m["pile_height_m"] / height, debris_extent(ruin["manifest"]) / height,
                        (m["piece_volume_m3"] + m["void_covered_m3"]) / volume))
-        lines.append(f"| `{ruin['name']}` | {height:.1f} | " + " | ".join(f"{x:.2f}" for x in shares[-1]) + " |")
-    lines.append("| median | | " + " | ".join(f"{np.median(column):.2f}" for column in zip(*shares)) + " |")
+    lines = ["| | height of the ruin / of the building | debris beyond the walls / height of the building | "
+             "bulk / volume of the building |", "|---|---|---|---|",
+             f"| {len(ruins)} ruins, median (least to most) | " + " | ".join(medians(shares)) + " |"]
     return "\n".join(lines) + "\n"
 
 
+def medians(rows):
+    """Of each column, with its range."""
+    return [f"{np.median(c):.2f} ({min(c):.2f} to {max(c):.2f})" for c in zip(*rows)]
+
+
 def compare_voids(ruins, staged):
-    groups = {f"caused: {len(ruins)} ruins": ruins, f"staged: {len(staged)} modes": list(staged.values())}
+    groups = {f"caused: {len(ruins)} ruins": ruins, f"staged: {len(staged)} modes": staged}
     lines = ["| piles | covered volume for each m3 of pieces | voids for each 10 m3 of it | reachable share | "
              "deepest void, m |", "|---|---|---|---|---|"]
     for name, manifests in groups.items():
-        columns = list(zip(*map(void_measures, manifests)))
-        lines.append(f"| {name}, median (least to most) | " + " | ".join(
-            f"{np.median(c):.2f} ({min(c):.2f} to {max(c):.2f})" for c in columns) + " |")
-    for name, manifest in staged.items():
-        lines.append(f"| `rubble.collapse.{name}` | " + " | ".join(f"{x:.2f}" for x in void_measures(manifest)) + " |")
+        lines.append(f"| {name}, median (least to most) | " + " | ".join(medians(map(void_measures, manifests))) + " |")
     return "\n".join(lines) + "\n"
 
 
@@ -158,8 +158,8 @@ def main():
              "voids | covered volume, m3 | deepest void, m |", "|---|---|---|---|---|---|---|---|---|---|"]
     lines += [row(ruin) for ruin in ruins]
     write_between_marks(args.document, "ruins", "\n".join(lines) + "\n")
-    staged = {name: make(args, f"scripts/collapse/{name}.lua", os.path.join(args.out, "staged", name),
-                         ["--set", "voids.on=true"]) for name in STAGED}
+    staged = [make(args, f"scripts/collapse/{name}.lua", os.path.join(args.out, "staged", name), ["--set", "voids.on=true"])
+              for name in STAGED]
     caused = [ruin["manifest"] for ruin in ruins if ruin["name"] not in STANDING]
     write_between_marks(args.document, "voids", compare_voids(caused, staged))
     fallen = [ruin for ruin in ruins if ruin["name"] not in STANDING]

@@ -73,7 +73,7 @@ def sheet(pictures, names, path, columns=COLUMNS):
 def kind_row(ruin):
     pile, m = ruin["manifest"]["pile"], ruin["manifest"]["metrics"]
     rest = f"{pile['simulated_s']:.1f}" if pile["settled"] else f"not within {pile['simulated_s']:.0f}"
-    return (f"| `{ruin['name']}` | {ruin['title']} | {ruin['manifest']['seed']} | {pile['pieces']} | {rest} | "
+    return (f"| `{ruin['name']}` | {ruin['title']} | {pile['pieces']} | {rest} | "
             f"{m['pile_height_m']:.1f} | {m['void_count']:.0f} | {m['void_covered_m3']:.0f} | {m['void_depth_m']:.1f} |")
 
 
@@ -83,8 +83,8 @@ def draw_kinds(args):
     pictures = [cv2.imread(ruin[key]) for ruin in ruins for key in ("outside", "cut")]
     names = [name for ruin in ruins for name in (ruin["name"], ruin["name"] + ", cut open")]
     sheet(pictures, names, os.path.join(args.pictures, "ruin_kinds.jpg"), 2)
-    lines = ["| mission | what happens | seed | pieces | at rest after, s | height, m | voids | covered volume, m3 | "
-             "deepest void, m |", "|---|---|---|---|---|---|---|---|---|"]
+    lines = ["| mission | cause and effect | pieces | at rest after, s | height, m | voids | covered volume, m3 | "
+             "deepest void, m |", "|---|---|---|---|---|---|---|---|"]
     write_between_marks(args.document, "kinds", "\n".join(lines + [kind_row(ruin) for ruin in ruins]) + "\n")
 
 
@@ -98,7 +98,7 @@ def debris_extent(manifest):
 def row(ruin):
     pile, m = ruin["manifest"]["pile"], ruin["manifest"]["metrics"]
     rest = f"{pile['simulated_s']:.1f}" if pile["settled"] else f"not within {pile['simulated_s']:.0f}"
-    return (f"| `{ruin['name']}` | {ruin['title']} | {ruin['manifest']['seed']} | {pile['pieces']} | "
+    return (f"| `{ruin['name']}` | {ruin['title']} | {pile['pieces']} | "
             f"{rest} | {m['pile_height_m']:.1f} | {debris_extent(ruin['manifest']):.1f} | "
             f"{m['void_count']:.0f} | {m['void_covered_m3']:.0f} | {m['void_depth_m']:.1f} |")
 
@@ -154,8 +154,8 @@ def main():
     names = [ruin["name"] for ruin in ruins]
     sheet([cv2.imread(ruin["outside"]) for ruin in ruins], names, os.path.join(args.pictures, "ruins.jpg"))
     sheet([cv2.imread(ruin["cut"]) for ruin in ruins], names, os.path.join(args.pictures, "ruins_cut.jpg"))
-    lines = ["| mission | what happens | seed | pieces | at rest after, s | height, m | debris beyond the walls, m | "
-             "voids | covered volume, m3 | deepest void, m |", "|---|---|---|---|---|---|---|---|---|---|"]
+    lines = ["| mission | cause and effect | pieces | at rest after, s | height, m | debris beyond the walls, m | "
+             "voids | covered volume, m3 | deepest void, m |", "|---|---|---|---|---|---|---|---|---|"]
     lines += [row(ruin) for ruin in ruins]
     write_between_marks(args.document, "ruins", "\n".join(lines) + "\n")
     staged = [make(args, f"scripts/collapse/{name}.lua", os.path.join(args.out, "staged", name), ["--set", "voids.on=true"])

@@ -51,7 +51,7 @@ ExitCode print_info(const InfoRequest& request) {
             build.simbody_bits == "reference"
                 ? "reference: piles with joints are the same on every machine that says so"
                 : "other: piles with joints differ in last bits from those of x86-64; see "
-                  "docs/determinism.md");
+                  "docs/explanation/determinism.md");
   print_out("live ROS 1    %s\n", describe_ros1().c_str());
   print_out("live ROS 2    %s\n", describe_ros2().c_str());
   std::fflush(stdout);  // the versions are worth having even if EGL fails below

@@ -227,7 +227,7 @@ std::string summary(const Report& report) {
   for (const auto& [status, count] : counts)
     text += ", " + std::to_string(count) + " " + html_escape(status);
   return text + ". Made by rubble " + html_escape(report.program) +
-         ". The figures: <a href=\"" + url_escape(report.options.way) + "index.csv\">index.csv</a>; what they mean: docs/reproducing.md.</p>\n";
+         ". The figures: <a href=\"" + url_escape(report.options.way) + "index.csv\">index.csv</a>; what they mean: docs/how_to/reproducing.md.</p>\n";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 """Rubble from Python: settle piles, ask them questions, look at them, drive robots through them, and read
-what a run recorded. Metres, seconds, radians; the world has Z up. docs/python.md shows each.
+what a run recorded. Metres, seconds, radians; the world has Z up. docs/reference/python.md shows each.
 
     import rubble
     pile = rubble.settle("scripts/small.lua", seed=7)

@@ -110,7 +110,7 @@ std::string hint_for(const std::string& message) {
                                         "setmetatable", "getmetatable", "coroutine", "pcall"};
   for (const char* name : kClosed)
     if (message.find(std::string("global '") + name + "'") != std::string::npos)
-      return std::string("`") + name + "` is closed to scripts; docs/lua.md lists what is open";
+      return std::string("`") + name + "` is closed to scripts; docs/reference/missions.md lists what is open";
   if (message.find("binary chunk") != std::string::npos) return "only Lua source text is run";
   const std::string near = find_near_function(message);
   return near.empty() ? "" : "did you mean `" + near + "`?";

@@ -1,5 +1,5 @@
 -- A robot drives through a walled yard with rubble and walls left standing, for SLAM programs that read rawlogs
--- (docs/mrpt_slam.md). Choose robot, LiDAR and time by --set robot=rover, --set lidar=vlp16, --set seconds=60.
+-- (docs/how_to/mrpt_slam.md). Choose robot, LiDAR and time by --set robot=rover, --set lidar=vlp16, --set seconds=60.
 local robot = rubble.parameter("robot", "crawler", { choices = { "crawler", "rover" }, doc = "What drives." })
 local lidar = rubble.parameter("lidar", "utm30lx", { choices = { "utm30lx", "vlp16" }, doc = "What scans." })
 local pieces = rubble.parameter("pieces", 30, { type = "integer", min = 0, max = 2000, doc = "Pieces of rubble in the yard." })

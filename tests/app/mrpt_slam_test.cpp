@@ -1,4 +1,4 @@
-// Rawlogs of driven robots in MRPT's own SLAM programs: each must follow the robot (docs/mrpt_slam.md).
+// Rawlogs of driven robots in MRPT's own SLAM programs: each must follow the robot (docs/how_to/mrpt_slam.md).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -132,7 +132,7 @@ class NightlyMrptSlam : public MrptSlam {
  protected:
   // MRPT 2.5 makes no map of scans of 3-D LiDARs: the path is that of odometry, and graphslam-engine has no nodes.
   // alone: nothing is in the rawlog but odometry and scans. With more the programs must come to an end and a path: which
-  // scan they take for which pose then is their affair, and docs/mrpt_slam.md says by how much it is worse.
+  // scan they take for which pose then is their affair, and docs/how_to/mrpt_slam.md says by how much it is worse.
   void check_programs(const std::string& format, const std::string& which, bool rotating, bool alone) {
     const double any = 1000, by_odometry = distance(odometry_, truth_) + 0.3;
     if (format == "actions") expect_near("rbpf-slam" + which, rbpf(), alone ? 1 : any);

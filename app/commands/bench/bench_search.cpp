@@ -1,4 +1,4 @@
-// `rubble bench search`: who finds the people in the voids of many piles (docs/search.md).
+// `rubble bench search`: who finds the people in the voids of many piles (docs/explanation/search.md).
 #include <algorithm>
 #include <filesystem>
 #include <memory>

@@ -38,12 +38,6 @@ std::optional<double> number_in(const std::string& text) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 std::vector<double> values_of(const Rows& rows, std::size_t column) {
   std::vector<double> values;
   for (const auto* row : rows)
@@ -51,7 +45,22 @@ std::vector<double> values_of(const Rows& rows, std::size_t column) {
   return values;
 }
 
-bool is_share(const Rows& all, std::size_t column) {
+// With as many decimals as `scale` needs to have two digits; of 0: six digits.
+std::string rounded(double value, double scale) {
+  char text[64];
+  if (!(scale > 0)) {
+    std::snprintf(text, sizeof text, "%.6g", value);
+  } else {
+    const int decimals = 1 - int(std::floor(std::log10(scale)));
+    std::snprintf(text, sizeof text, "%.*f", std::clamp(decimals, 0, 12), value);
+  }
+  return text;
+}
+
+// A score that is yes or no; numbers of things are not, though they may be 0 and 1.
+bool is_share(const FinishedBatch& batch, const Rows& all, std::size_t column) {
+  const std::string& name = batch.table.columns[column];
+  if (name.find("count") != std::string::npos) return false;
   const std::vector<double> values = values_of(all, column);
   return std::all_of(values.begin(), values.end(), [](double v) { return v == 0 || v == 1; });
 }
@@ -67,16 +76,17 @@ std::string share_cell(const std::vector<double>& values) {
 
 std::string mean_cell(const std::vector<double>& values) {
   const MeanInterval m = calc_mean_interval(values);
-  if (m.count == 1) return "<td>" + short_number(m.mean) + "<small>n 1: no interval</small></td>";
-  return "<td>" + short_number(m.mean) + " ± " + short_number(m.half) + "<small>sd " + short_number(m.deviation) + ", n " +
+  if (m.count == 1) return "<td>" + rounded(m.mean, 0) + "<small>n 1: no interval</small></td>";
+  return "<td>" + rounded(m.mean, m.half) + " ± " + rounded(m.half, m.half) + "<small>sd " + rounded(m.deviation, m.deviation) + ", n " +
          std::to_string(m.count) + "</small></td>";
 }
 
-std::string group_row(const std::string& name, const Rows& rows, const Rows& all, const std::vector<std::size_t>& metrics) {
+std::string group_row(const FinishedBatch& batch, const std::string& name, const Rows& rows, const Rows& all,
+                      const std::vector<std::size_t>& metrics) {
   std::string text = "<tr><td>" + html_escape(name) + "</td><td>" + std::to_string(rows.size()) + "</td>";
   for (const std::size_t metric : metrics) {
     const std::vector<double> values = values_of(rows, metric);
-    text += values.empty() ? "<td>none</td>" : is_share(all, metric) ? share_cell(values) : mean_cell(values);
+    text += values.empty() ? "<td>none</td>" : is_share(batch, all, metric) ? share_cell(values) : mean_cell(values);
   }
   return text + "</tr>\n";
 }
@@ -87,7 +97,7 @@ std::string table_of(const FinishedBatch& batch, const std::string& key, const G
                      "</th><th scope=\"col\">runs</th>";
   for (const std::size_t metric : metrics) text += "<th scope=\"col\">" + html_escape(batch.table.columns[metric]) + "</th>";
   text += "</tr></thead>\n<tbody>\n";
-  for (const auto& [name, rows] : groups) text += group_row(name, rows, all, metrics);
+  for (const auto& [name, rows] : groups) text += group_row(batch, name, rows, all, metrics);
   return text + "</tbody>\n</table></div>\n";
 }
 

@@ -260,20 +260,23 @@ TEST(ScoreMeans, ByValueOfAKeyWithTheNumberOfRuns) {
                                         {"5", "done", "2", "", "1"}});
   const std::string page = make_mean_tables(batch, {"wetness"}, {3, 4});
   for (const char* part : {"1 run without scores is not counted", "1 run that did not settle is counted",
-                           "<tr><td>all</td><td>4</td><td>4 ± 8.957<small>sd 3.606, n 3</small></td><td>3 of 4<small>30 to 95 %",
-                           "<tr><td>0.5</td><td>2</td><td>2 ± 12.71<small>sd 1.414, n 2</small></td><td>2 of 2<small>34 to 100 %",
+                           "<tr><td>all</td><td>4</td><td>4.0 ± 9.0<small>sd 3.6, n 3</small></td><td>3 of 4<small>30 to 95 %",
+                           "<tr><td>0.5</td><td>2</td><td>2 ± 13<small>sd 1.4, n 2</small></td><td>2 of 2<small>34 to 100 %",
                            "<tr><td>2</td><td>1</td><td>none</td>", "<tr><td>10</td><td>1</td><td>8<small>n 1: no interval</small></td>"})
     EXPECT_IN(part, page);
   EXPECT_LT(page.find("<td>2</td><td>1"), page.find("<td>10</td><td>1")) << "as numbers";
   EXPECT_EQ(page.find("over all values of the other keys"), std::string::npos);
   EXPECT_EQ(make_mean_tables(batch, {"wetness"}, {}), "");
+  FinishedBatch counted = batch;
+  counted.table.columns[4] = "void_count";
+  EXPECT_IN("<td>0.75 ± 0.80<small>sd 0.50, n 4</small></td>", make_mean_tables(counted, {"wetness"}, {4}));
 }
 
 TEST(ScoreMeans, ByRangesWhereThereAreManyValues) {
   std::vector<std::vector<std::string>> rows;
   for (int i = 0; i < 20; ++i) rows.push_back({std::to_string(i), "done", std::to_string(i), std::to_string(2 * i), "1"});
   const std::string page = make_mean_tables(batch_of(rows), {"wetness"}, {3});
-  for (const char* part : {"<td>0 to 3</td><td>4</td><td>3 ±", "<td>16 to 19</td><td>4</td><td>35 ±"}) EXPECT_IN(part, page);
+  for (const char* part : {"<td>0 to 3</td><td>4</td><td>3.0 ± 4.1<", "<td>16 to 19</td><td>4</td><td>35.0 ± 4.1<"}) EXPECT_IN(part, page);
   EXPECT_EQ(page.find("<td>4</td><td>1</td>"), std::string::npos);
 }
 

@@ -75,7 +75,7 @@ std::string share_cell(const std::vector<double>& values) {
 }
 
 std::string mean_cell(const std::vector<double>& values) {
-  const MeanInterval m = calc_mean_interval(values);
+  const StudentInterval m = calc_student_interval(values);
   if (m.count == 1) return "<td>" + rounded(m.mean, 0) + "<small>n 1: no interval</small></td>";
   return "<td>" + rounded(m.mean, m.half) + " ± " + rounded(m.half, m.half) + "<small>sd " + rounded(m.deviation, m.deviation) + ", n " +
          std::to_string(m.count) + "</small></td>";
@@ -137,8 +137,8 @@ std::string plural(std::size_t count, const char* noun) {
 
 }  // namespace
 
-MeanInterval calc_mean_interval(const std::vector<double>& values) {
-  MeanInterval m;
+StudentInterval calc_student_interval(const std::vector<double>& values) {
+  StudentInterval m;
   m.count = values.size();
   if (m.count == 0) return m;
   for (const double value : values) m.mean += value / double(m.count);

@@ -9,14 +9,15 @@
 
 namespace rubble {
 
-// Of numbers that are taken for independent draws.
-struct MeanInterval {
+// Of numbers that are taken for independent draws. Not by the bootstrap, as the scores of benchmarks (app/eval/scores): a
+// batch often has two to five runs for a value of a key, for which a bootstrap interval is far too narrow.
+struct StudentInterval {
   std::size_t count = 0;
   double mean = 0;       // 0 of none
   double deviation = 0;  // standard deviation, by count - 1; 0 of fewer than two
   double half = 0;       // of the 95 % interval of the mean, by Student's t; 0 of fewer than two
 };
-MeanInterval calc_mean_interval(const std::vector<double>& values);
+StudentInterval calc_student_interval(const std::vector<double>& values);
 
 // The 95 % interval of a share, of which `hits` of `count` were seen (Wilson 1927). count: above 0
 struct ShareInterval {

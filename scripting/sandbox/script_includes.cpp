@@ -6,6 +6,7 @@
 #include "kernel/base/hash.h"
 #include "kernel/base/read_file.h"
 #include "kernel/base/system/file_sandbox.h"
+#include "kernel/base/tables/text_table.h"
 #include "kernel/base/text.h"
 #include "scripting/files/data_grid.h"
 

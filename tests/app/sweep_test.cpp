@@ -237,17 +237,17 @@ FinishedBatch batch_of(std::vector<std::vector<std::string>> rows) {
 
 // 1, 2, 3, 4, 5: mean 3, deviation sqrt(2.5), and 2.776 of it over the root of 5.
 TEST(ScoreMeans, AreThoseOfTheTextbook) {
-  const MeanInterval five = calc_mean_interval({1, 2, 3, 4, 5});
+  const StudentInterval five = calc_student_interval({1, 2, 3, 4, 5});
   EXPECT_EQ(five.count, 5u);
   EXPECT_NEAR(five.mean, 3, 1e-12);
   EXPECT_NEAR(five.deviation, 1.5811, 1e-4);
   EXPECT_NEAR(five.half, 1.9629, 1e-3);
-  EXPECT_NEAR(calc_mean_interval({0, 1}).half, 12.706 * 0.5, 1e-3);
+  EXPECT_NEAR(calc_student_interval({0, 1}).half, 12.706 * 0.5, 1e-3);
   std::vector<double> many;
   for (int i = 0; i < 51; ++i) many.push_back(i);
-  EXPECT_NEAR(calc_mean_interval(many).half, 2.0086 * std::sqrt(51.0 * 52 / 12) / std::sqrt(51.0), 5e-3);
-  EXPECT_EQ(calc_mean_interval({7}).half, 0) << "one run says nothing of others";
-  EXPECT_EQ(calc_mean_interval({}).count, 0u);
+  EXPECT_NEAR(calc_student_interval(many).half, 2.0086 * std::sqrt(51.0 * 52 / 12) / std::sqrt(51.0), 5e-3);
+  EXPECT_EQ(calc_student_interval({7}).half, 0) << "one run says nothing of others";
+  EXPECT_EQ(calc_student_interval({}).count, 0u);
   const ShareInterval all = calc_share_interval(5, 5);  // Wilson: 1 / (1 + z2 / n)
   EXPECT_NEAR(all.low, 1 / (1 + 1.959964 * 1.959964 / 5), 1e-6);
   EXPECT_EQ(all.high, 1);

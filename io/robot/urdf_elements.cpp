@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <set>
 
 #include "kernel/base/portable_math.h"
 
@@ -73,12 +72,11 @@ void UrdfElements::expect(const XmlElement& element, std::initializer_list<const
     if (known(attributes, name) || name == "xmlns" || name.compare(0, 6, "xmlns:") == 0) continue;
     left_out_[{element.name, "@" + name}].push_back(element.line);
   }
-  std::set<std::string> seen;
   for (const XmlElement& child : element.children) {
-    if (!known(children, child.name))
-      leave_out(child, element.name);
-    else if (!seen.insert(child.name).second && !known({"link", "joint", "material", "visual", "collision"}, child.name))
-      warn(child.line, "a second <" + child.name + "> of <" + element.name + "> is left out: the first counts");
+    if (!known(children, child.name)) leave_out(child, element.name);
+    else if (!known({"link", "joint", "material", "visual", "collision"}, child.name) &&
+             &child != element.child(child.name))
+      warn(child.line, "a second <" + child.name + "> in <" + element.name + "> is left out: the first counts");
   }
 }
 

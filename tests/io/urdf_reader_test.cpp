@@ -84,6 +84,21 @@ TEST(UrdfReader, UnknownAttributesAndInnerElementsAreNamed) {
   EXPECT_TRUE(read(arm(kLimit)).warnings.empty()) << "what is known is not named";
 }
 
+// As other readers do it: the first of its kind counts. Visuals and collisions may be many.
+TEST(UrdfReader, WhatStandsTwiceIsNamed) {
+  const UrdfFile file = read("<robot name=\"r\"><link name=\"a\">\n<inertial><mass value=\"1\"/><mass value=\"2\"/></inertial>\n"
+                             "<inertial><mass value=\"3\"/></inertial>\n" + std::string(kBox) + kBox +
+                             "<visual><geometry><sphere radius=\"1\"/></geometry>\n<material name=\"m\">"
+                             "<color rgba=\"255 0 0 1\"/></material></visual></link></robot>");
+  EXPECT_EQ(file.links.at(0).mass, 1);
+  EXPECT_EQ(file.links.at(0).collisions.size(), 2U);
+  const std::string warnings = all_of(file.warnings);
+  EXPECT_TRUE(holds(warnings, "a.urdf:2: a second <mass> in <inertial> is left out: the first counts")) << warnings;
+  EXPECT_TRUE(holds(warnings, "a.urdf:3: a second <inertial> in <link> is left out: the first counts")) << warnings;
+  EXPECT_TRUE(holds(warnings, "a.urdf:5: `rgba` is to be four numbers from 0 to 1, and is \"255 0 0 1\"")) << warnings;
+  EXPECT_EQ(file.warnings.size(), 3U) << warnings;
+}
+
 TEST(UrdfReader, WhatIsOptionalHasItsDefault) {
   const std::string text = "<robot name=\"r\"><link name=\"base\"/><link name=\"arm\"/>"
                            "<joint name=\"j\" type=\"continuous\"><parent link=\"base\"/><child link=\"arm\"/></joint></robot>";
@@ -96,18 +111,6 @@ TEST(UrdfReader, WhatIsOptionalHasItsDefault) {
   EXPECT_EQ(joint.parent_from_child.translation.x, 0);
   EXPECT_FALSE(file.links[0].has_inertial);
   EXPECT_TRUE(file.warnings.empty()) << all_of(file.warnings);
-}
-
-// As urdfdom reads them.
-TEST(UrdfReader, OfWhatIsOneThingTheFirstCounts) {
-  const UrdfFile file = read("<robot name=\"r\">\n<link name=\"a\">\n<inertial><mass value=\"3\"/><mass value=\"4\"/></inertial>\n"
-                             "<inertial><mass value=\"5\"/></inertial>\n<visual><geometry><box size=\"1 1 1\"/></geometry></visual>\n"
-                             "<visual><geometry><box size=\"1 1 1\"/></geometry></visual></link></robot>");
-  EXPECT_EQ(file.links[0].mass, 3);
-  EXPECT_EQ(file.links[0].visuals.size(), 2u);
-  ASSERT_EQ(file.warnings.size(), 2u) << all_of(file.warnings);
-  EXPECT_TRUE(holds(file.warnings[0], "a.urdf:3: a second <mass> of <inertial> is left out: the first counts")) << file.warnings[0];
-  EXPECT_TRUE(holds(file.warnings[1], "a.urdf:4: a second <inertial> of <link> is left out: the first counts")) << file.warnings[1];
 }
 
 TEST(UrdfReader, RangesNeedNotHoldZero) {

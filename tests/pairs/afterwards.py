@@ -24,7 +24,7 @@ folder = sys.argv[1]
 pile = rubble.open_pile(folder)
 vertices, triangles = pile.mesh()
 distance = pile.cast_rays(np.array([[0.0, 0.0, 50.0]]), np.array([[0.0, 0.0, -1.0]]))["distance"]
-answer = {"state": str(pile.state_hash), "settled": bool(pile.settled), "triangles": len(triangles), "down": float(distance[0])}
+answer = {"state": "%016x" % pile.state_hash, "settled": bool(pile.settled), "triangles": len(triangles), "down": float(distance[0])}
 if len(sys.argv) > 2:
     data = rubble.open_dataset(folder)
     answer["topics"] = {name: int(count) for name, count in data.topics.items()}

@@ -155,7 +155,7 @@ DEPTHS = {
 
 EVENTS = {
     "off": {},
-    "on": {"@events": {"on": True, "most_motion": 4}},
+    "on": {"@events": {"on": True, "most_motion": 100}},
 }
 
 EXPOSURES = {
@@ -233,7 +233,7 @@ LAMPS = {
 
 SETTLING_RECORDS = {
     "off": {},
-    "all": {"record_settling": {"on": True, "rate_hz": 2}},
+    "all": {"record_settling": {"on": True, "rate_hz": 1}},
     "window": {"record_settling": {"from": 0.2, "to": 0.6, "rate_hz": 5, "position": [-5, 1, 2], "look_at": [0, 0, 0.5]}},
 }
 

@@ -27,7 +27,8 @@ def imu_meets_poses(data):
         lever = np.array(settings["position"])
         places = places + turns @ lever
         turns = turns @ offset
-        times = np.array([m["header"]["stamp"] for m in messages]) / 1e9
+        first = messages[0]["header"]["stamp"]  # seconds since the epoch have too few digits after the point
+        times = np.array([m["header"]["stamp"] - first for m in messages]) / 1e9
         gyro = np.array([[m["angular_velocity"][a] for a in "xyz"] for m in messages])
         force = np.array([[m["linear_acceleration"][a] for a in "xyz"] for m in messages])
         need(np.allclose(np.diff(times), 1 / settings["rate_hz"], atol=2e-8), "%s: samples are not %g Hz apart", topic,
@@ -36,7 +37,7 @@ def imu_meets_poses(data):
         riding = bool(ride_of(settings)["robot"] or data.scenario["trajectory"]["ride"]["robot"])
         noise = 1 if settings["gyroscope_noise"] == 0 else 3
         for k in range(1, len(stamps) - 1):
-            t0, t1, t2 = stamps[k - 1:k + 2] / 1e9
+            t0, t1, t2 = (stamps[k - 1:k + 2] - first) / 1e9
             if not np.isclose(t1 - t0, t2 - t1, atol=1e-6) or t1 - t0 > TIME or t2 > times[-1] + 1e-6 or t0 < times[0] - 1e-6:
                 continue
             grid = np.linspace(t0, t2, 401)

@@ -41,7 +41,7 @@ BUILDINGS = {
                   "@packs": ["concrete", "residential"]},
     "masonry": {"@building": dict(SMALL, kind="masonry")},
     "precast": {"@building": dict(SMALL, kind="precast", infill="none")},
-    "bridge": {"@building": dict(SMALL, kind="bridge", bays_x=2, span_x=5)},
+    "bridge": {"@building": dict(SMALL, kind="bridge", bays_x=2)},
     "plan": {"@building": {"plan": Lua('rubble.read_plan("house.txt")')}, "@files": ["house.txt"]},
 }
 

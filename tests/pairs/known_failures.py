@@ -16,6 +16,8 @@ KNOWN = [
     ("odometry-certain", "odometry_has_covariance", r"covariance is all zero", any_row, "odometry says that it is exact"),
     ("scan-outlasts-imu", "imus_outlast_scans", r"past the last inertial reading", any_row,
      "a scan that begins before the last picture ends after it; inertial units end with the picture"),
+    ("imu-pauses", "imu_is_steady", r"pauses", lambda row: row.get("record_settling", "off") != "off",
+     "with record_settling, inertial units are silent between the last picture of the settling and the flight"),
     ("pose-undeclared", "topics_have_messages", r"/ground_truth/pose", any_row,
      "/ground_truth/pose is declared where no camera is on the rig"),
 ]

@@ -144,16 +144,15 @@ def run_refusal(program, number, pair, words, work):
 
 def load_array(folder):
     """The rows, made once for the factors, rules and dozen as they are."""
-    sources = "".join(hash_file(os.path.join(os.path.dirname(os.path.abspath(__file__)), name))
-                      for name in ("factors.py", "rules.py", "covering_array.py"))
-    key = hashlib.sha256((sources + json.dumps(DOZEN)).encode()).hexdigest()
+    refused, meaningless = rules.expand(rules.REFUSED), rules.expand(rules.MEANINGLESS)
+    names = {factor: list(levels) for factor, levels in FACTORS.items()}
+    key = hashlib.sha256(json.dumps([names, list(refused), list(meaningless), DOZEN, hash_file(covering_array.__file__)]).encode()).hexdigest()
     path = os.path.join(folder, "array.json")
     if os.path.exists(path):
         with open(path, encoding="utf-8") as file:
             stored = json.load(file)
         if stored["key"] == key:
             return stored
-    refused, meaningless = rules.expand(rules.REFUSED), rules.expand(rules.MEANINGLESS)
     rows, implied = covering_array.make_array(FACTORS, list(refused) + list(meaningless), DOZEN)
     stored = {"key": key, "rows": rows, "implied": implied}
     with open(path + ".part", "w", encoding="utf-8") as file:
@@ -195,7 +194,7 @@ def main():
     results = read_results(os.path.join(folder, "results.jsonl"), key)
     began, started = time.monotonic(), cpu()
     tasks = [("row %d" % number, run_row, (program, number, array["rows"][number], folder, arguments.python, arguments.keep),
-              json.dumps(array["rows"][number], sort_keys=True)) for number in chosen]
+              task_of(array["rows"][number], number + 1)) for number in chosen]
     tasks += [(" and ".join("%s=%s" % item for item in pair), run_refusal, (program, number, pair, words, folder), json.dumps([pair, words]))
               for number, (pair, words) in enumerate(refusals)]
     if arguments.rows or arguments.afresh:
@@ -230,6 +229,11 @@ def main():
     if arguments.report:
         report.write(arguments.report, summary, answers, program, datetime.date.today().isoformat())
     return 0 if summary["red"] == 0 and summary["left"] == 0 else 1
+
+
+def task_of(row, seed):
+    """What names a result: the mission and what is done with it."""
+    return hashlib.sha256(json.dumps([make_mission(row, seed), row["afterwards"]]).encode()).hexdigest()
 
 
 def read_results(path, key):

@@ -288,7 +288,7 @@ SCAN_FILES = {
 
 MESHES = {
     "none": {"outputs": {"stl": False}},
-    "stl": {"outputs": {"stl": True}},
+    "stl": {"outputs": {"stl": True, "meshes": ["ply"]}},
     "all": {"outputs": {"stl": True, "meshes": ["ply", "obj", "glb", "sdf"]}},
 }
 

@@ -150,5 +150,5 @@ def nearest(corners, origin, direction):
         q = np.cross(s, e1)
         v = q @ direction * inverse
         t = np.einsum("ij,ij->i", e2, q) * inverse
-    hit = (np.abs(scale) > 1e-14) & (u >= -1e-9) & (v >= -1e-9) & (u + v <= 1 + 1e-9) & (t > 1e-6)
+        hit = (np.abs(scale) > 1e-14) & (u >= -1e-9) & (v >= -1e-9) & (u + v <= 1 + 1e-9) & (t > 1e-6)
     return t[hit].min() if hit.any() else np.inf

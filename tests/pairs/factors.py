@@ -11,7 +11,7 @@ FEW = "{ layers = 1, pieces_per_layer = 6 }"
 PILES = {
     "spawned": {"pile": LOOSE},
     "empty": {"pile": {"layers": 0}},
-    "density": {"pile": dict(LOOSE, spawn_density=Lua("rubble.density.gaussian { deviation = 0.3 }"))},
+    "density": {"pile": dict(LOOSE, pieces_per_layer=5, spawn_density=Lua("rubble.density.gaussian { deviation = 0.3 }"))},
     "mix": {"pile": dict(LOOSE, mix=[{"asset": "brick", "weight": 2, "scale": [0.7, 1.4], "spread": "normal"},
                                      {"asset": "chunk_1", "materials": [{"material": "brick"}, {"material": "timber"}]}])},
     "heap": {"@pile": "rubble.collapse.heap { layers = 1, pieces_per_layer = 10, length = 1.6, width = 1.6, height = 1.6 }"},
@@ -72,7 +72,7 @@ FINES = {
 
 SURROUNDINGS = {
     "none": {},
-    "street": {"surroundings": {"type": "street", "reach": 40, "trees": 0.2, "vehicles": 0.2, "storeys": [1, 2]}},
+    "street": {"surroundings": {"type": "street", "reach": 40, "clearance": 8, "trees": 0.2, "vehicles": 0.2, "storeys": [1, 2]}},
 }
 
 VICTIMS = {

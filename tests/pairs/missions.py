@@ -142,6 +142,7 @@ def add_pile(mission, special, row):
             cause["vehicle"] = dict(here, mass=20000, speed=15, direction_deg=90)
         if cause:
             building["cause"] = cause
+            put(mission, "settle.final_time_limit", 60)
         more += "local building = rubble.building " + to_lua(building) + "\n"
         # The two ways in which a building and other pieces come into one pile.
         more += "pile = rubble.join(pile, building)\n" if "@pile" in special else "pile.building = building.building\n"
@@ -165,7 +166,7 @@ def add_robots(mission, special):
             robot["drive"] = [dict(drive, t=0)]
         elif control:
             robot["control"] = Lua("rubble.controller(function(s) return %s end)" % told)
-        if special.get("@robot_lamps"):
+        if special.get("@robot_lamps") and robot is robots[0]:  # three lights beside the main one are the most
             robot["lamps"] = [{"link": "foot" if kind == "arm" else "base_link"} if "urdf" in robot else {}]
     mission["robots"] = robots
     put(mission, "robot_run.duration", SECONDS)

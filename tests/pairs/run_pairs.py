@@ -36,7 +36,7 @@ JUDGES = judges_streams.JUDGES + judges_formats.JUDGES + judges_motion.JUDGES + 
 DOZEN = [
     {"pile": "lean_to", "robots": "crawler", "path": "ride", "imu": "exact", "lidar": "utm30lx", "control": "senses",
      "rawlog": "actions", "ros2": "mcap", "afterwards": "info", "surroundings": "none", "quality": "fast"},
-    {"pile": "spawned", "building": "bare", "cause": "removed", "fines": "few", "folders": "all", "afterwards": "remake",
+    {"pile": "spawned", "building": "bare", "cause": "removed", "fines": "few", "folders": "all", "afterwards": "pack",
      "surroundings": "none", "quality": "fast", "record_settling": "off"},
     {"pile": "placed", "cameras": "rig", "imu": "noisy", "lidar": "two", "scans": "both", "afterwards": "python",
      "surroundings": "none", "quality": "fast", "ros1": "bag", "robots": "none"},
@@ -46,15 +46,15 @@ DOZEN = [
      "surroundings": "none", "quality": "fast"},
     {"pile": "residential", "lens": "fisheye", "depth": "time_of_flight", "air": "smoke", "lamp": "ring", "afterwards": "view",
      "surroundings": "none", "quality": "draft", "robots": "none"},
-    {"pile": "joined", "terrain": "function", "victims": "one", "path": "void", "afterwards": "voids", "surroundings": "none",
+    {"pile": "joined", "terrain": "function", "victims": "one", "path": "void", "afterwards": "nothing", "surroundings": "none",
      "quality": "fast"},
-    {"pile": "culvert", "robots": "snake", "control": "function", "path": "spline", "ros1": "bag", "afterwards": "render",
+    {"pile": "culvert", "robots": "snake", "control": "function", "path": "spline", "ros1": "bag", "afterwards": "nothing",
      "surroundings": "none", "quality": "fast"},
-    {"pile": "mix", "events": "on", "shutter": "rolling", "exposure": "automatic", "imu": "two", "afterwards": "pack",
+    {"pile": "mix", "events": "on", "shutter": "rolling", "exposure": "automatic", "imu": "two", "afterwards": "remake",
      "surroundings": "none", "quality": "fast", "robots": "none"},
     {"pile": "pancake", "robots": "cart", "lidar": "vlp16", "scans": "pcd", "start": "today", "afterwards": "export",
      "surroundings": "none", "quality": "fast"},
-    {"pile": "density", "lens": "calibrated", "cameras": "stereo", "depth": "ideal", "rawlog": "gzip", "afterwards": "report",
+    {"pile": "density", "lens": "calibrated", "cameras": "stereo", "depth": "ideal", "rawlog": "gzip", "afterwards": "nothing",
      "surroundings": "none", "quality": "fast", "record_settling": "off"},
     {"pile": "empty", "robots": "vine", "settle": "mars", "light": "sun", "afterwards": "verify", "surroundings": "none",
      "quality": "fast"},
@@ -195,10 +195,10 @@ def main():
     key = hash_file(program)
     results = read_results(os.path.join(folder, "results.jsonl"), key)
     began, started = time.monotonic(), cpu()
-    tasks = [("row %d" % number, run_row, (program, number, array["rows"][number], folder, arguments.python, arguments.keep),
-              task_of(array["rows"][number], number + 1)) for number in chosen]
-    tasks += [(" and ".join("%s=%s" % item for item in pair), run_refusal, (program, number, pair, words, folder), json.dumps([pair, words]))
+    tasks = [(" and ".join("%s=%s" % item for item in pair), run_refusal, (program, number, pair, words, folder), json.dumps([pair, words]))
               for number, (pair, words) in enumerate(refusals)]
+    tasks += [("row %d" % number, run_row, (program, number, array["rows"][number], folder, arguments.python, arguments.keep),
+              task_of(array["rows"][number], number + 1)) for number in chosen]
     if arguments.rows or arguments.afresh:
         results = {}
     todo = [task for task in tasks if task[3] not in results]

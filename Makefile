@@ -17,20 +17,20 @@ help:
 	@echo "make all        build everything, with the tests and benches"
 	@echo "make install PREFIX=/usr/local  install the program, its assets, manual pages and completions"
 	@echo "make package    make Debian packages: build/package/rubble_*.deb, librubble-dev_*.deb"
-	@echo "make package-arm64  the same for arm64, cross-compiled and tried under an emulator (docs/install.md)"
+	@echo "make package-arm64  the same for arm64, cross-compiled and tried under an emulator (docs/how_to/install.md)"
 	@echo "make image      make a container image: build/package/rubble_*_oci.tar (needs root)"
 	@echo "make archive    make a self-extracting archive for other distributions: build/package/rubble-*.run"
 	@echo "make site       make a site of the documents: build/site/index.html"
-	@echo "make live       build everything, with publishing over ROS 1 and ROS 2 (docs/live.md)"
+	@echo "make live       build everything, with publishing over ROS 1 and ROS 2 (docs/how_to/live.md)"
 	@echo "make test-nightly  run the tests that take long, or need a cluster of one node"
 	@echo "make test-asan  run the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
 	@echo "make test-tsan  run the suite under ThreadSanitizer"
-	@echo "make test-files  try public robots, meshes and trajectories against figures of other programs (docs/reliability.md)"
-	@echo "make fuzz SECONDS=60  run every fuzz target for this time, two at once (docs/reliability.md)"
+	@echo "make test-files  try public robots, meshes and trajectories against figures of other programs (docs/development/reliability.md)"
+	@echo "make fuzz SECONDS=60  run every fuzz target for this time, two at once (docs/development/reliability.md)"
 	@echo "make faults     interrupt a small run at many places, continue it, compare the bytes (an hour)"
-	@echo "make pairs      any two features of a mission together, judged by their data; goes on where it stopped (docs/pairs.md)"
+	@echo "make pairs      any two features of a mission together, judged by their data; goes on where it stopped (docs/development/pairs.md)"
 	@echo "make determinism  compare hashes of other compilers, levels and processors (half an hour)"
-	@echo "make platforms PLATFORM=debian13  demo and tests in a bare Debian 13; or windows, riscv64, arm64 (docs/platforms.md)"
+	@echo "make platforms PLATFORM=debian13  demo and tests in a bare Debian 13; or windows, riscv64, arm64 (docs/development/platforms.md)"
 	@echo "make format     clang-format over the tree"
 	@echo "make clean      remove build/ and out/"
 
@@ -129,8 +129,8 @@ test-nightly: live
 asset-maker: program-packages build/release/build.ninja
 	cmake --build --preset release --target rubble_make_assets
 
-build/tsan/build.ninja: | asset-maker
-test-tsan: asset-maker
+build/asan/build.ninja build/tsan/build.ninja: | asset-maker
+test-asan test-tsan: asset-maker
 
 test-asan test-tsan: test-%: packages build/%/build.ninja
 	cmake --build --preset $*
@@ -156,7 +156,7 @@ faults: build
 # Two hours on two processors at most; what is done is kept in build/pairs, by the hash of the program.
 # PAIRS_OPTIONS: see tests/pairs/run_pairs.py.
 pairs: all
-	tests/pairs/run_pairs.py $(PROGRAM) build/pairs --python build/release/python --report docs/pairs.md $(PAIRS_OPTIONS)
+	tests/pairs/run_pairs.py $(PROGRAM) build/pairs --python build/release/python --report docs/development/pairs.md $(PAIRS_OPTIONS)
 
 # Not part of any suite: it installs compilers and builds the kernel fifteen times.
 determinism: packages

@@ -204,10 +204,10 @@ ExitCode run(int argc, char** argv) {
   app.add_option("--gl-device", request.device, "Number of the EGL device; -1: the first that works")
       ->capture_default_str();
   app.add_option("--pictures", request.pictures, "Also write each view's last frame, PREFIXview.ppm");
-  app.add_option("--fines", request.fines, "Loose pieces that are strewn over the pile first (docs/fines.md)")
+  app.add_option("--fines", request.fines, "Loose pieces that are strewn over the pile first (docs/explanation/fines.md)")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
-  app.add_flag("--surroundings", request.surroundings, "With a street about the pile (docs/surroundings.md)");
+  app.add_flag("--surroundings", request.surroundings, "With a street about the pile (docs/explanation/surroundings.md)");
   app.add_flag("--draft", request.draft, "With camera.quality = draft");
   const std::map<std::string, DrawnBy> drawn_by{{"device", DrawnBy::device}, {"processor", DrawnBy::processor}};
   app.add_option("--shading", request.shading, "Who shades the pixels; as the program chooses if not given")

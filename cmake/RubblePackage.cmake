@@ -1,4 +1,4 @@
-# The libraries for programs of others: `find_package(Rubble)`, docs/library.md.
+# The libraries for programs of others: `find_package(Rubble)`, docs/reference/library.md.
 #
 #   lib/librubble_*.a           static archives
 #   include/rubble/kernel, io   their public headers; whatever is not listed here may change at any time

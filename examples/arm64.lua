@@ -1,5 +1,5 @@
 -- Small, with all recorders, a robot, a LiDAR and an inertial unit: what tools/package_arm64.sh tries under an emulator. Its pieces
--- have no joints: Debian's Simbody for arm64 rounds otherwise (docs/determinism.md).
+-- have no joints: Debian's Simbody for arm64 rounds otherwise (docs/explanation/determinism.md).
 return rubble.mission {
   seed = 5,
   packs = { "concrete", "residential" },

@@ -1,4 +1,4 @@
--- Fines: grit, flakes of plaster, glass, paper, dust and cables on what has settled (docs/fines.md). With
+-- Fines: grit, flakes of plaster, glass, paper, dust and cables on what has settled (docs/explanation/fines.md). With
 -- `--set fines.amount=0` the same corner of a broken room is bare.
 return rubble.mission {
   seed = 3,

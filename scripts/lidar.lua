@@ -1,5 +1,5 @@
 -- LiDARs on the rig of a camera: a spinning one on top, a non-repeating one in front, a 2-D scanner low.
--- docs/lidar.md says what each key does.
+-- docs/reference/lidar.md says what each key does.
 return rubble.mission {
   seed = 3,
   pile = { layers = 1, pieces_per_layer = 40, spawn_position = { 0, 0, 2.5 }, spawn_bounds = { 4, 4, 3 } },

@@ -1,4 +1,4 @@
--- Voids that a crawler drives through: the piles of `rubble bench navigate` (docs/autonomy.md).
+-- Voids that a crawler drives through: the piles of `rubble bench navigate` (docs/explanation/autonomy.md).
 --   rubble bench navigate scripts/navigate.lua --seeds 1..10
 local random = rubble.random("navigate")
 -- Blocks on the ground under a slab that leans on a wall; the void runs along Y and is open at both ends.

@@ -1,4 +1,4 @@
--- Every format at once, with every channel: what docs/formats.md describes.
+-- Every format at once, with every channel: what docs/reference/formats.md describes.
 return rubble.mission {
   seed = 2,
   start_ns = 1700000000000000000,

@@ -1,6 +1,6 @@
 -- The pile seen settling: a camera beside it stands and watches the layers fall onto a wall, then it
 -- flies around what came to rest. All of it is one recording: flow and piece numbers follow what
--- falls, and track.bin and track.glb say who moved when (docs/moving_worlds.md).
+-- falls, and track.bin and track.glb say who moved when (docs/explanation/moving_worlds.md).
 return rubble.mission {
   seed = 5,
   pile = {

@@ -1,4 +1,4 @@
--- People in the voids of a collapsed building: the piles of `rubble bench search` (docs/search.md).
+-- People in the voids of a collapsed building: the piles of `rubble bench search` (docs/explanation/search.md).
 --   rubble bench search scripts/search.lua --baseline frontier --seeds 1..10
 --   rubble bench search scripts/search.lua --agent "python3 examples/search/agent.py" --set victims.difficulty=hard
 local random = rubble.random("search")

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds Debian's Simbody without fused multiply-adds, which g++ makes by default on arm64: piles
-# with joints then have the same bits there as on x86-64. See docs/determinism.md.
+# with joints then have the same bits there as on x86-64. See docs/explanation/determinism.md.
 # usage: tools/build_simbody.sh FOLDER [--arm64 SYSROOT]
 #   FOLDER/prefix gets the libraries and headers: configure Rubble with -DCMAKE_PREFIX_PATH=FOLDER/prefix
 #   --arm64: cross-compiles against what tools/arm64_sysroot.sh put into SYSROOT/root, and puts the

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds the kernel with several compilers, levels and processors, runs the standard scenes, and
-# compares their hashes with tests/golden/kernel.txt. Contract: docs/determinism.md.
+# compares their hashes with tests/golden/kernel.txt. Contract: docs/explanation/determinism.md.
 # usage: tools/determinism_matrix.sh [--without-arm64] [--simbody] [--build FOLDER]  (from the root)
 # --simbody: builds Simbody for arm64 without fused multiply-adds first, half an hour. Without it the
 # scene with joints is left out of the arm64 rows.

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Drives through two missions by keys on a screen of its own, for the pictures of docs/drive.md: the
+# Drives through two missions by keys on a screen of its own, for the pictures of docs/how_to/drive.md: the
 # window in the first mission, and six moments over a terrain on one sheet. Needs xvfb, xdotool and
 # python3-opencv. How far each key leads depends on how fast the machine draws, so let it be idle.
 # usage: tools/drive_sheet.sh [PROGRAM] [FOLDER]

@@ -71,7 +71,7 @@ $as_root env DEBIAN_FRONTEND=noninteractive apt-get update -q
 choose $wanted
 if [ -n "$lacking" ]; then
   echo "This release has no package of these names:$lacking" >&2
-  echo "Rubble is built on Debian 12 and 13 (docs/platforms.md); the archives of this machine are in /etc/apt." >&2
+  echo "Rubble is built on Debian 12 and 13 (docs/development/platforms.md); the archives of this machine are in /etc/apt." >&2
   exit 2
 fi
 missing=$chosen

@@ -22,8 +22,7 @@ def page_of(path):
     """The name in the site of a document of the tree; None: it is no page."""
     if path in PAGES:
         return PAGES[path]
-    folder, name = os.path.split(path)
-    return name if folder == "docs" and name.endswith(".md") else None
+    return path[len("docs/"):] if path.startswith("docs/") and path.endswith(".md") else None
 
 
 def slug(heading):
@@ -49,18 +48,18 @@ class Site:
         if not os.path.exists(os.path.join(ROOT, to)):
             self.broken.append(f"{path}: {target} leads nowhere")
             return None
-        page = page_of(to)
+        page, here = page_of(to), os.path.dirname(page_of(path)) or "."
         if page:
             if anchor and anchor not in anchors_of(to):
                 self.broken.append(f"{path}: {target}: no such heading in {to}")
-            return (page if name else "") + ("#" + anchor if anchor else "")
+            return (os.path.relpath(page, here) if name else "") + ("#" + anchor if anchor else "")
         if os.path.isdir(os.path.join(ROOT, to)):
             return None
         own = to[len("docs/"):] if to.startswith("docs/") else "files/" + to
         copy = os.path.join(self.folder, own)
         os.makedirs(os.path.dirname(copy), exist_ok=True)
         shutil.copyfile(os.path.join(ROOT, to), copy)
-        return own
+        return os.path.relpath(own, here)
 
     def add(self, path):
         with open(os.path.join(ROOT, path), encoding="utf-8") as file:
@@ -71,7 +70,9 @@ class Site:
             return f"{match.group(1)}({to})" if to else match.group(1).lstrip("!")[1:-1]
         parts = CODE.split(text)  # code is every second part
         parts[::2] = [LIST.sub(r"\1\n\n", LINK.sub(replace, part)) for part in parts[::2]]
-        with open(os.path.join(self.folder, page_of(path)), "w", encoding="utf-8") as file:
+        page = os.path.join(self.folder, page_of(path))
+        os.makedirs(os.path.dirname(page), exist_ok=True)
+        with open(page, "w", encoding="utf-8") as file:
             file.write("".join(parts))
 
 
@@ -81,7 +82,9 @@ def main():
     site = Site(sys.argv[1])
     shutil.rmtree(site.folder, ignore_errors=True)
     os.makedirs(site.folder)
-    documents = sorted(PAGES) + sorted("docs/" + n for n in os.listdir(os.path.join(ROOT, "docs")) if n.endswith(".md"))
+    documents = sorted(PAGES) + sorted(os.path.relpath(os.path.join(folder, name), ROOT)
+                                       for folder, _, names in os.walk(os.path.join(ROOT, "docs"))
+                                       for name in names if name.endswith(".md"))
     for path in documents:
         site.add(path)
     shutil.copyfile(os.path.join(ROOT, "tools", "site.css"), os.path.join(site.folder, "site.css"))

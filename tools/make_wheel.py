@@ -18,7 +18,7 @@ License: BSD-3-Clause
 Requires-Python: >=3.11
 Requires-Dist: numpy
 
-Simulates collapsed structures. The module links libraries of Debian 12: see docs/install.md and docs/python.md.
+Simulates collapsed structures. The module links libraries of Debian 12: see docs/how_to/install.md and docs/reference/python.md.
 """
 WHEEL = """Wheel-Version: 1.0
 Generator: rubble

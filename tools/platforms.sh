@@ -1,5 +1,5 @@
 #!/bin/sh
-# Tries other platforms. Table: docs/platforms.md.
+# Tries other platforms. Table: docs/development/platforms.md.
 #   debian12, debian13        make demo and make test in a bare root of that release (tools/bare_debian.sh)
 #   windows, riscv64, arm64   the kernel and rubble-core, run under emulators: their hashes are compared with
 #                             tests/golden/kernel.txt, and their files with those of this machine

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the missions of Rubble-50, their suite and the table of docs/rubble50.md.
+"""Writes the missions of Rubble-50, their suite and the table of docs/explanation/rubble50.md.
 usage: tools/rubble50.py [ROOT]    ROOT: of the tree; default this one"""
 import json
 import pathlib
@@ -9,7 +9,7 @@ STRUCTURES = ["heap", "lean_to", "cantilever", "v_shape", "a_frame", "pancake", 
 CONDITIONS = ["clear", "dark", "smoke", "dust", "wet"]
 CARRIERS = ["orbit", "push", "crawler", "rover", "snake"]
 # The seed stands in the mission itself: structures draw numbers from it.
-MISSION = """-- Rubble-50, mission {number}: docs/rubble50.md. Made by tools/rubble50.py.
+MISSION = """-- Rubble-50, mission {number}: docs/explanation/rubble50.md. Made by tools/rubble50.py.
 local keys = rubble.include("fifty.lua")({words})
 return rubble.mission {{
   seed = {number},
@@ -43,7 +43,7 @@ def write_missions(folder):
         (folder / (names[-1] + ".lua")).write_text(MISSION.format(number=number, words=words))
     lines = "".join(f'    {{ name = "{name}", mission = "{name}.lua", pile_only = true }},\n' for name in names)
     (folder / "suite.lua").write_text(
-        "-- The piles of Rubble-50 against the expected hashes: docs/rubble50.md. Made by tools/rubble50.py.\n"
+        "-- The piles of Rubble-50 against the expected hashes: docs/explanation/rubble50.md. Made by tools/rubble50.py.\n"
         "return suite {\n  runs = {\n" + lines + "  },\n}\n")
 
 
@@ -54,7 +54,7 @@ def write_table(root):
     for number, *parts in rows():
         found = hashes.get(name_of(number, *parts), {}).get("state_hash", "not run")
         table += f"| {number} | {' | '.join(f'`{part}`' for part in parts)} | `{found}` |\n"
-    page = root / "docs/rubble50.md"
+    page = root / "docs/explanation/rubble50.md"
     text = page.read_text()
     begin, end = text.index(BEGIN) + len(BEGIN), text.index(END)
     page.write_text(text[:begin] + "\n" + table + text[end:])

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Measures how the code is written: the length of files and functions, include cycles, comments, and
-how many members of headers say what they mean. docs/contributing.md shows the table.
+how many members of headers say what they mean. docs/development/contributing.md shows the table.
 
 usage: tools/style_table.py [--members] [folders...]   (default: kernel render io scripting app)
     --members: lists the header members that have no comment, too

@@ -1,4 +1,4 @@
-// A subcommand of `rubble`. docs/contributing.md says how to add one: its file, and its name in
+// A subcommand of `rubble`. docs/development/contributing.md says how to add one: its file, and its name in
 // RUBBLE_COMMANDS of app/CMakeLists.txt, which makes the list.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The options of live publishing (docs/live.md).
+// The options of live publishing (docs/how_to/live.md).
 #include <charconv>
 
 #include "app/command_line/common_options.h"

@@ -1,4 +1,4 @@
-// `rubble batch`: one mission with many seeds and values of keys (docs/batch.md).
+// `rubble batch`: one mission with many seeds and values of keys (docs/how_to/batch.md).
 #include "app/batch/batch.h"
 
 #include <memory>

@@ -1,4 +1,4 @@
-// `rubble drive`: the mission's pile, flown through by hand in a window (docs/drive.md).
+// `rubble drive`: the mission's pile, flown through by hand in a window (docs/how_to/drive.md).
 #include <cstdio>
 #include <memory>
 

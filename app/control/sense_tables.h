@@ -1,4 +1,4 @@
-// What robots sense as tables of a script (docs/robots.md, "A function as controller").
+// What robots sense as tables of a script (docs/reference/robots.md, "A function as controller").
 #pragma once
 
 #include <cstdint>

@@ -14,7 +14,7 @@ union SDL_Event;
 
 namespace rubble {
 
-// One line of the help overlay and of docs/drive.md.
+// One line of the help overlay and of docs/how_to/drive.md.
 struct KeyHelp {
   const char* what;     // what it does, in a few words
   const char* keys;     // on the keyboard; empty: none

@@ -1,5 +1,5 @@
 // What a drive has with a network, where it was asked to: frames go out, commands come in
-// (docs/live.md).
+// (docs/how_to/live.md).
 #pragma once
 
 #include <map>

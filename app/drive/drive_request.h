@@ -16,7 +16,7 @@ struct DriveRequest {
   std::string robot;             // --robot: which of the mission's is driven; empty: the first
 };
 
-// The mission's pile to be driven through in a window: docs/drive.md.
+// The mission's pile to be driven through in a window: docs/how_to/drive.md.
 ExitCode drive_mission(const DriveRequest& request);
 
 }  // namespace rubble

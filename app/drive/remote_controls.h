@@ -7,7 +7,7 @@
 namespace rubble {
 
 // The sticks, pads and buttons of a sensor_msgs/Joy do what those of a gamepad at the window do
-// (docs/drive.md), by the numbers that ROS's joy_node gives an Xbox controller on Linux.
+// (docs/how_to/drive.md), by the numbers that ROS's joy_node gives an Xbox controller on Linux.
 class RemoteControls {
  public:
   // What came before this step of so many seconds. The last Twist holds for half a second of

@@ -62,7 +62,7 @@ void write_mission_to_drive(const std::string& folder, std::uint64_t seed, const
   write_text_file(name + ".lua",
                   scenario_to_lua(make_mission_to_drive(world),
                                   "Pile " + std::to_string(seed) + " of `rubble bench navigate`, to be driven through over "
-                                  "ROS 1 (docs/autonomy.md):\n  rubble drive " + std::to_string(seed) + ".lua --ros1 &\n"
+                                  "ROS 1 (docs/explanation/autonomy.md):\n  rubble drive " + std::to_string(seed) + ".lua --ros1 &\n"
                                   "  ros1_navigator" + goal_options(waypoints)));
   nlohmann::ordered_json json;
   json["seed"] = seed;

@@ -1,5 +1,5 @@
 // A pile of the navigation benchmark as a mission for `rubble drive`: the crawler stands before the void with its LiDAR,
-// and is driven by whoever listens to its topics (docs/autonomy.md).
+// and is driven by whoever listens to its topics (docs/explanation/autonomy.md).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // The rules of the navigation benchmark, version 1: the robot, what it senses, how long it has, what counts.
-// docs/autonomy.md states them for people.
+// docs/explanation/autonomy.md states them for people.
 #pragma once
 
 namespace rubble {

@@ -20,7 +20,7 @@ namespace {
 // The crawler with its flippers half up, so that they climb what is low: body and tracks, and above them the flippers.
 constexpr double kFlippers = 0.7;  // unit: rad
 const std::vector<NavigatorSlice> kShape{{0.2, 0.46, 0.33}, {0.3, 0.57, 0.33}};
-// Tracks that turn on the spot slide: the robot turns by this share of what its belts would give (docs/robots.md).
+// Tracks that turn on the spot slide: the robot turns by this share of what its belts would give (docs/reference/robots.md).
 constexpr double kTurnShare = 0.4;
 constexpr double kFallen = 0.3;  // what of the base's Z axis is upright when it lies on its side
 

@@ -165,7 +165,7 @@ Result navigate_over_topics(Request& request) {
 
 int main(int argc, char** argv) {
   rubble::Request request;
-  CLI::App program("Drives a robot to a goal by MRPT's reactive navigator, over topics of ROS 1 alone (docs/autonomy.md).",
+  CLI::App program("Drives a robot to a goal by MRPT's reactive navigator, over topics of ROS 1 alone (docs/explanation/autonomy.md).",
                    "ros1_navigator");
   program.footer("Exit codes: 0 arrived, 1 did not arrive, 2 could not start (options, no ROS master), "
                  "4 stopped by a signal.");

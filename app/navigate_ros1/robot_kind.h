@@ -12,7 +12,7 @@ struct RobotKindOfNavigator {
   std::string name;
   std::vector<NavigatorSlice> shape;
   double plan_radius = 0.36;  // of the disc that a global planner plans for; unit: m
-  // What skids turns by this share of what tracks or wheels would give (docs/robots.md): commands are divided by it, and
+  // What skids turns by this share of what tracks or wheels would give (docs/reference/robots.md): commands are divided by it, and
   // turns of odometry multiplied.
   double turn_share = 1;
 };

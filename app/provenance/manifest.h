@@ -2,7 +2,7 @@
 //
 // Stable keys that other programs read: "state_hash" (16 hexadecimal digits), "outputs" (file name
 // to SHA-256), "frames" (their number), "metrics". All but "not_reproducible" is the same for the
-// same input and program. docs/reproducing.md describes every member.
+// same input and program. docs/how_to/reproducing.md describes every member.
 #pragma once
 
 #include <cstdint>

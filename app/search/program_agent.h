@@ -1,5 +1,5 @@
 // An agent of the user's: a program that gets observations as lines of JSON and answers each with one.
-// docs/search.md describes the lines.
+// docs/explanation/search.md describes the lines.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // The rules of the search benchmark, version 1: what the robot is, what it senses, how long it has, what counts.
-// docs/search.md states them for people; results are comparable only under the same version.
+// docs/explanation/search.md states them for people; results are comparable only under the same version.
 #pragma once
 
 #include <cstdint>

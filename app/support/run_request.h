@@ -8,7 +8,7 @@
 
 namespace rubble {
 
-// What goes over a network while frames are drawn; nothing unless asked (docs/live.md).
+// What goes over a network while frames are drawn; nothing unless asked (docs/how_to/live.md).
 struct LiveRequest {
   bool ros1 = false;       // --ros1
   std::string ros_master;  // --ros-master

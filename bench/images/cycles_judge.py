@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Lets Cycles, the path tracer of Blender, judge ours: judge_scenes traces views with plain surfaces and
-writes them, Cycles draws the same, and this prints how far the images are apart (docs/reference_renderer.md).
+writes them, Cycles draws the same, and this prints how far the images are apart (docs/development/reference_renderer.md).
 
 usage: bench/images/cycles_judge.py [--only NAME] [--size PIXELS] [--samples N] [--out DIR] [--document]
 
@@ -19,7 +19,7 @@ from judge_measures import compare, read_pfm
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-PAGE = ROOT / "docs" / "reference_renderer.md"
+PAGE = ROOT / "docs/development/reference_renderer.md"
 sys.path.insert(0, str(ROOT / "tools"))
 import document_marks  # noqa: E402
 
@@ -41,7 +41,7 @@ def parse():
     p.add_argument("--build", default=str(ROOT / "build" / "release"), help="where judge_scenes is")
     p.add_argument("--blender", default="blender", help="the program")
     p.add_argument("--document", nargs="?", const=str(PAGE), metavar="PAGE",
-                   help="write the table of docs/reference_renderer.md, or of another page")
+                   help="write the table of docs/development/reference_renderer.md, or of another page")
     return p.parse_args()
 
 

@@ -1,4 +1,4 @@
-"""The tables of baselines in docs/rubble50.md: what stands there between `<!-- begin NAME -->` and `<!-- end NAME -->`
+"""The tables of baselines in docs/explanation/rubble50.md: what stands there between `<!-- begin NAME -->` and `<!-- end NAME -->`
 is made from results; the text around it is written by people."""
 import statistics
 

@@ -27,7 +27,7 @@ CONDITIONS = [
     condition("lit_blur", "60 cd, automatic exposure, noise and motion blur", "void_lit",
               AUTO + ("camera.shutter.motion_blur=true", "camera.exposure.longest_time=0.033")),
 ]
-# Daylight drowns a lamp (see docs/sfm.md), so its power counts at night alone, with a camera that has noise.
+# Daylight drowns a lamp (see docs/explanation/sfm.md), so its power counts at night alone, with a camera that has noise.
 NIGHT = AUTO + ("light.intensity=0",)
 CONDITIONS += [condition("night_%d" % power, "night, lamp of %d cd, automatic exposure and noise" % power, "void_lit",
                          NIGHT + ("lamp.intensity_cd=%d" % power,)) for power in (2, 20, 180)]

@@ -1,4 +1,4 @@
-"""The maps that docs/map_score.md compares."""
+"""The maps that docs/explanation/map_score.md compares."""
 
 # Name, title, and where it lies below the folder of a seed.
 MAPS = [

@@ -1,5 +1,5 @@
 -- A crawler before a lean-to, with an OS0 LiDAR of 32 rings, 512 columns and 5 scans a second: the world for
--- ros1_navigator (docs/autonomy.md). The void is 5 m long, along Y, and open at both ends; bricks lie in it, and blocks
+-- ros1_navigator (docs/explanation/autonomy.md). The void is 5 m long, along Y, and open at both ends; bricks lie in it, and blocks
 -- stand in the way, elsewhere for each seed. The goal is 8.5 m ahead of the start, behind the lean-to.
 local random = rubble.random("blocks")
 local blocks = {}

@@ -7,7 +7,7 @@
 
 Each observation goes out once, in this order, all with its time as their stamp; the search waits for /cmd_vel.
 
-    /search/start                std_msgs/String, latched  the line of the type `start`, docs/search.md
+    /search/start                std_msgs/String, latched  the line of the type `start`, docs/explanation/search.md
     /odom                        nav_msgs/Odometry         the true pose of the robot in the frame `map`
     /camera/thermal/image_raw    sensor_msgs/Image         16UC1, hundredths of a kelvin
     /camera/depth/image_raw      sensor_msgs/Image         16UC1, millimetres

@@ -4,7 +4,7 @@
 
 namespace rubble {
 
-std::string describe_ros1() { return "not built in: needs Debian's libroscpp-dev, see docs/live.md"; }
+std::string describe_ros1() { return "not built in: needs Debian's libroscpp-dev, see docs/how_to/live.md"; }
 
 void check_ros1(const Ros1Options&) {
   throw InputError({"", 0, "--ros1", "this program was built without ROS 1", "", "",

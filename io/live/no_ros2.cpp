@@ -4,7 +4,7 @@
 
 namespace rubble {
 
-std::string describe_ros2() { return "not built in: needs Debian's cyclonedds-dev, see docs/live.md"; }
+std::string describe_ros2() { return "not built in: needs Debian's cyclonedds-dev, see docs/how_to/live.md"; }
 
 void check_ros2(const Ros2Options&) {
   throw InputError({"", 0, "--ros2", "this program was built without ROS 2", "", "",

@@ -39,7 +39,7 @@ struct MeshFormat {
   double (*estimate)(const PileModelSize& size);                   // unit: byte
 };
 
-// Every format. docs/contributing.md says how to add one.
+// Every format. docs/development/contributing.md says how to add one.
 const std::vector<MeshFormat>& mesh_formats();
 
 // Their names joined by commas and a last word: "stl, ply, obj, glb or sdf".

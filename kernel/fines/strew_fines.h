@@ -2,7 +2,7 @@
 // at the foot of walls, cables and pipes that hang between pieces.
 //
 // The result follows from pile, meshes, spec and seed alone, and is the same on every machine and for any number
-// of threads. docs/fines.md describes what is drawn and which limits tests hold it to.
+// of threads. docs/explanation/fines.md describes what is drawn and which limits tests hold it to.
 #pragma once
 
 #include <cstdint>

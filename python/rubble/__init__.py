@@ -1,5 +1,5 @@
 """Rubble from Python: settle piles, ask them questions, look at them, drive robots through them, and read
-what a run recorded. Metres, seconds, radians; the world has Z up. docs/python.md shows each.
+what a run recorded. Metres, seconds, radians; the world has Z up. docs/reference/python.md shows each.
 
     import rubble
     pile = rubble.settle("scripts/small.lua", seed=7)
@@ -17,7 +17,7 @@ for _place in ("assets", _os.path.join("..", "..", "assets")):
     if "RUBBLE_ASSETS" not in _os.environ and _os.path.isdir(_beside):
         _os.environ["RUBBLE_ASSETS"] = _beside
 
-from ._core import InputError, Pile, RunError, __version__, open_pile, settle  # noqa: E402
+from ._core import InputError, Pile, RunError, __version__, open_pile, set_sandbox, settle  # noqa: E402
 from .dataset import Dataset, open_dataset  # noqa: E402
 from .geometry import compose, look_at, matrix, pose, rotate  # noqa: E402
 from .robots import RobotWorld  # noqa: E402
@@ -25,4 +25,4 @@ from .sensors import DepthCamera, Lidar, Renderer  # noqa: E402
 
 __all__ = ["Dataset", "DepthCamera", "InputError", "Lidar", "Pile", "Renderer", "RobotWorld", "RunError",
            "__version__", "compose", "look_at", "matrix", "open_dataset", "open_pile", "pose", "rotate",
-           "settle"]
+           "set_sandbox", "settle"]

@@ -9,7 +9,7 @@ from . import _core
 
 
 class RobotWorld:
-    """A pile and one robot in it: snake, crawler, rover or vine (docs/robots.md). What it touches moves, unless
+    """A pile and one robot in it: snake, crawler, rover or vine (docs/reference/robots.md). What it touches moves, unless
     fixed_debris. pose: of its first link. The same commands give the same bits."""
 
     def __init__(self, pile: _core.Pile, model: str, pose: ArrayLike, fixed_debris: bool = False,

@@ -37,7 +37,7 @@ class DepthCamera:
 
 
 class Lidar:
-    """A LiDAR that stands still: vlp16, os0, os1, os2, mid360 or utm30lx (docs/lidar.md)."""
+    """A LiDAR that stands still: vlp16, os0, os1, os2, mid360 or utm30lx (docs/reference/lidar.md)."""
 
     def __init__(self, pile: _core.Pile, model: str = "vlp16", noise: bool = True, seed: int = 0,
                  threads: int = 0) -> None:

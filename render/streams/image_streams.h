@@ -1,4 +1,4 @@
-// The table of all image streams. docs/contributing.md says how to add one: its file, and its name in
+// The table of all image streams. docs/development/contributing.md says how to add one: its file, and its name in
 // RUBBLE_STREAMS of render/streams/CMakeLists.txt, which makes the table.
 #pragma once
 

@@ -9,7 +9,7 @@ return function(given)
     { "by", "volume", choices = { "volume", "depth" },
       doc = "Order of the voids: the largest first, or the one that the sphere enters deepest first." },
     { "outside_radius", 2, min = 0.2, max = 10, unit = "m",
-      doc = "Outside is the space that a sphere of this radius reaches from the sky; all other free space is void, as for `rubble voids` (docs/voids.md)." },
+      doc = "Outside is the space that a sphere of this radius reaches from the sky; all other free space is void, as for `rubble voids` (docs/explanation/voids.md)." },
     { "approach", 1, min = 0, max = 100, unit = "m", doc = "Distance of the place `approach` from the entrance." },
   })
   local void = {}

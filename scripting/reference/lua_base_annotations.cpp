@@ -155,7 +155,7 @@ function rubble.trajectory_options(list) end
 ---@param interpolation? string
 ---@return rubble.mission.trajectory
 function rubble.fly(options, waypoints, interpolation) end
----Keeps a function that drives a robot, for `control` (docs/robots.md).
+---Keeps a function that drives a robot, for `control` (docs/reference/robots.md).
 ---@param f fun(sense: table): table
 ---@return integer
 function rubble.controller(f) end

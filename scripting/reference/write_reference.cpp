@@ -1,4 +1,4 @@
-// Brings the reference in docs/lua.md up to date: rubble_write_reference docs/lua.md
+// Brings the reference in docs/reference/missions.md up to date: rubble_write_reference docs/reference/missions.md
 #include <cstdio>
 #include <exception>
 #include <fstream>

@@ -4,7 +4,7 @@
 // metatables, bounded memory, instructions and time, and the same result on every machine: random
 // numbers come from the seed, `pairs` goes in the order of the keys, `table.sort` is stable, and
 // sin, cos and the like have portable bits. (`x ^ y` is the C library's pow, the one exception.)
-// What scripts have instead is listed in docs/lua.md and made in lua_prelude.cpp.
+// What scripts have instead is listed in docs/reference/missions.md and made in lua_prelude.cpp.
 #pragma once
 
 #include <cstddef>

@@ -32,7 +32,7 @@ void add_camera(Schema& k, const std::string& at, CameraScenario& c) {
   k.value(at + "channels", c.channels, describe_channels());
   k.choice(at + "quality", c.colour.quality, {"fast", "reference", "draft"},
            "How colours are computed: `fast`: baked light and shadow maps; `reference`: path tracing, which "
-           "takes a minute or more per image ([reference_renderer.md](reference_renderer.md)); `draft`: as "
+           "takes a minute or more per image ([reference_renderer.md](../development/reference_renderer.md)); `draft`: as "
            "`fast`, but shadows of the sun have hard edges and air scatters light once, which saves a sixth "
            "to a third of the time in fog. Depth and channels are the same.");
   k.value(at + "samples", c.colour.samples, "Paths per pixel, with the quality `reference`.").between(1, 65536);
@@ -211,7 +211,7 @@ void add_camera_with(Schema& k, const std::string& at, CameraScenario& c) {
   add_exposure(k, at, c.exposure);
   group("optics",
         "Faults of a real lens; they change the colour image only, and need an exposure of `fixed` or "
-        "`automatic` ([optics.md](optics.md)).");
+        "`automatic` ([optics.md](../explanation/optics.md)).");
   add_optics_keys(k, at, c.optics);
   group("sensor", "From light to stored numbers (EMVA 1288); without effect for an ideal exposure.");
   add_sensor(k, at, c.sensor);

@@ -155,7 +155,7 @@ void add_building(Schema& k, BuildingSpec& b) {
 
 void add_plan(Schema& k, BuildingPlan& plan) {
   k.group("pile.building.plan",
-          "A building of your own instead of a kind, as rubble.read_plan reads it from a file (docs/collapse.md).");
+          "A building of your own instead of a kind, as rubble.read_plan reads it from a file (docs/explanation/collapse.md).");
   k.value("pile.building.plan.heights", plan.heights, "Heights of the storeys from floor to floor, from the ground.")
       .between(2, 12)
       .unit("m");
@@ -272,7 +272,7 @@ void add_cause(Schema& k, CollapseCause& c) {
 void add_victim_keys(Schema& k, VictimScenario& v) {
   k.group("victims",
           "People in the voids of the settled pile, as rigid figures: for missions that search for them "
-          "(docs/search.md).");
+          "(docs/explanation/search.md).");
   k.value("victims.count", v.count, "Number of victims.").between(0, 50);
   k.choice("victims.difficulty", v.difficulty, {"easy", "medium", "hard"},
            "Distance from the entrances: the nearest, the middle or the farthest third of the possible places.");
@@ -284,7 +284,7 @@ void add_victim_keys(Schema& k, VictimScenario& v) {
 void add_fine_keys(Schema& k, FinesSpec& f) {
   k.group("fines",
           "Fines on the settled pile, as true geometry: grit, flakes, shards, paper, cloth, drifts of dust, hanging "
-          "cables and pipes (docs/fines.md).");
+          "cables and pipes (docs/explanation/fines.md).");
   k.value("fines.amount", f.amount, "Number of loose pieces; 0: no fines of any kind.").between(0, 1000000);
   k.value("fines.grit", f.grit, "Share of grit: broken concrete, brick, block or wood, like the pieces near it.")
       .between(0, 1000);

@@ -209,12 +209,12 @@ void add_ride_keys(Schema& k, const std::string& at, Carrier& ride) {
 
 void add_robot_keys(Schema& k, Scenario& s) {
   std::vector<RobotItem>& list = s.robots;
-  k.list("robots", list, "Robots that are driven through the settled pile (docs/robots.md).");
+  k.list("robots", list, "Robots that are driven through the settled pile (docs/reference/robots.md).");
   k.add("robots[].model", "One of the bundled robots.", [&list](std::size_t i) {
     return Schema::choice_slot(list[i].model, {kModelNames[0], kModelNames[1], kModelNames[2], kModelNames[3]});
   });
   k.item("robots[].urdf", list, &RobotItem::urdf,
-         "Instead of a bundled robot: a URDF file, relative to the script (docs/robots.md).");
+         "Instead of a bundled robot: a URDF file, relative to the script (docs/reference/robots.md).");
   k.item("robots[].urdf_arguments", list, &RobotItem::urdf_arguments,
          "URDF robot: arguments of a `.xacro` file, which the xacro tool expands, by name.");
   k.item("robots[].efforts", list, &RobotItem::efforts,
@@ -266,7 +266,7 @@ void add_robot_keys(Schema& k, Scenario& s) {
       .between(0, 2);
   k.item("robots[].odometry_noise", list, &RobotItem::odometry_noise,
          "Random error of the way that the tracks or wheels of a side report: standard deviation over one metre; it grows "
-         "with the root of the way. 0: exact; 0.001: as published for tracks (docs/robots.md).")
+         "with the root of the way. 0: exact; 0.001: as published for tracks (docs/reference/robots.md).")
       .between(0, 0.1)
       .unit("m");
   k.add("robots[].lamps", "Spot lights on its links, beside the `lamp` of cameras; `{ {} }` lights the headlamp.",
@@ -279,7 +279,7 @@ void add_robot_keys(Schema& k, Scenario& s) {
       .between(0, 1000);
   k.item("robots[].senses", list, &RobotItem::senses,
          "LiDARs, cameras and inertial units on robots, by name: the function is told scans, depths and readings; "
-         "colours by the name with \".rgb\" (docs/robots.md).");
+         "colours by the name with \".rgb\" (docs/reference/robots.md).");
   k.group("robot_run", "Time and rate of the robots.");
   k.value("robot_run.duration", s.robot_run.duration, "Time for which they are driven.")
       .above(0, 86400)

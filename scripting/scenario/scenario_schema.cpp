@@ -166,7 +166,7 @@ void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
       .between(0.05, 100)
       .unit("m");
   k.value("air.rain_mm_h", air.rain_mm_h,
-          "Rain, as a rate of water: streaks in images with a modelled exposure, and a veil (docs/weather.md).")
+          "Rain, as a rate of water: streaks in images with a modelled exposure, and a veil (docs/explanation/weather.md).")
       .between(0, 100)
       .unit("mm/h");
   k.value("air.snow_mm_h", air.snow_mm_h, "Snow that falls, as a rate of melted water; likewise.")
@@ -329,7 +329,7 @@ void add_imu(Schema& k, Scenario& s) {
 void add_record_settling(Schema& k, RecordSettlingScenario& r) {
   k.group("record_settling",
           "Records the pile while it settles: before its flight, the camera stands still and sees the layers "
-          "fall (docs/moving_worlds.md).")
+          "fall (docs/explanation/moving_worlds.md).")
       .on_when_written();
   k.value("record_settling.on", r.on,
           "Switches the recording on; a table without this key, even an empty one, also switches it on.");
@@ -353,11 +353,11 @@ void add_record_settling(Schema& k, RecordSettlingScenario& r) {
 }
 
 void add_outputs(Schema& k, OutputScenario& o) {
-  k.group("outputs", "Files that are written; docs/formats.md describes each format.");
+  k.group("outputs", "Files that are written; docs/reference/formats.md describes each format.");
   k.value("outputs.rawlog", o.rawlog, "MRPT rawlog: mission.rawlog.");
   k.choice("outputs.rawlog_format", o.rawlog_format, {"observations", "actions"},
            "observations: each by itself, with odometry and true poses; actions: what the one robot did by its odometry, and a "
-           "sensory frame, in turns, as rbpf-slam reads them (docs/mrpt_slam.md).");
+           "sensory frame, in turns, as rbpf-slam reads them (docs/how_to/mrpt_slam.md).");
   k.value("outputs.rawlog_gzip", o.rawlog_gzip,
           "Level of compression; 1 halves the size and takes 3.5 times as long.")
       .between(0, 9);

@@ -12,7 +12,7 @@ void add_sky_keys(Schema& k, LightScenario& l) {
            "Sky of the light type `sun`. `hazy`: visibility of 9 km. `cloudy`: broken clouds by the seed, which "
            "may hide the sun. `overcast`: CIE standard overcast sky, without sun. `moonlit`: the full moon in "
            "place of the sun. `city_night`: the glow of a town, without sun and moon; add street lamps by "
-           "`lights`. `cie_clear`: CIE standard clear sky ([sky.md](sky.md)).");
+           "`lights`. `cie_clear`: CIE standard clear sky ([sky.md](../explanation/sky.md)).");
   k.value("light.cloud_cover", l.sky.cloud_cover, "Share of the sky that is cloud, with the sky `cloudy`.")
       .between(0, 1);
   k.value("light.latitude_deg", l.latitude_deg,

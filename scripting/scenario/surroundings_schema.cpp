@@ -7,7 +7,7 @@
 namespace rubble {
 
 void add_surroundings_keys(Schema& k, SurroundingsSpec& s) {
-  k.group("surroundings", "What stands about the pile, as true geometry (docs/surroundings.md).");
+  k.group("surroundings", "What stands about the pile, as true geometry (docs/explanation/surroundings.md).");
   k.choice("surroundings.type", s.type, {"none", "street"},
            "`street`: a street with neighbouring buildings, trees, fences, parked vehicles, street lamps, uneven "
            "ground and a skyline. `none`: a plain.");

@@ -1,7 +1,7 @@
 // A schema: one entry for every key that a user can write, bound to the member it fills.
 //
 // The loader, the checker, --set, the JSON of a resolved scenario, the JSON Schema and the
-// reference in docs/lua.md are all made from these entries, so they cannot drift apart.
+// reference in docs/reference/missions.md are all made from these entries, so they cannot drift apart.
 #pragma once
 
 #include <array>

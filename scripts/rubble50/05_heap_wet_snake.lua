@@ -1,4 +1,4 @@
--- Rubble-50, mission 5: docs/rubble50.md. Made by tools/rubble50.py.
+-- Rubble-50, mission 5: docs/explanation/rubble50.md. Made by tools/rubble50.py.
 local keys = rubble.include("fifty.lua")("heap", "wet", "snake")
 return rubble.mission {
   seed = 5,

@@ -1,4 +1,4 @@
--- Rubble-50, mission 8: docs/rubble50.md. Made by tools/rubble50.py.
+-- Rubble-50, mission 8: docs/explanation/rubble50.md. Made by tools/rubble50.py.
 local keys = rubble.include("fifty.lua")("lean_to", "smoke", "rover")
 return rubble.mission {
   seed = 8,

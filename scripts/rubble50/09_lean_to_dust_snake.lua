@@ -1,4 +1,4 @@
--- Rubble-50, mission 9: docs/rubble50.md. Made by tools/rubble50.py.
+-- Rubble-50, mission 9: docs/explanation/rubble50.md. Made by tools/rubble50.py.
 local keys = rubble.include("fifty.lua")("lean_to", "dust", "snake")
 return rubble.mission {
   seed = 9,

@@ -1,4 +1,4 @@
--- Rubble-50, mission 17: docs/rubble50.md. Made by tools/rubble50.py.
+-- Rubble-50, mission 17: docs/explanation/rubble50.md. Made by tools/rubble50.py.
 local keys = rubble.include("fifty.lua")("v_shape", "dark", "snake")
 return rubble.mission {
   seed = 17,

@@ -1,4 +1,4 @@
--- Rubble-50, mission 23: docs/rubble50.md. Made by tools/rubble50.py.
+-- Rubble-50, mission 23: docs/explanation/rubble50.md. Made by tools/rubble50.py.
 local keys = rubble.include("fifty.lua")("a_frame", "smoke", "push")
 return rubble.mission {
   seed = 23,

@@ -1,4 +1,4 @@
--- Rubble-50, mission 24: docs/rubble50.md. Made by tools/rubble50.py.
+-- Rubble-50, mission 24: docs/explanation/rubble50.md. Made by tools/rubble50.py.
 local keys = rubble.include("fifty.lua")("a_frame", "dust", "crawler")
 return rubble.mission {
   seed = 24,

@@ -1,4 +1,4 @@
--- Rubble-50, mission 33: docs/rubble50.md. Made by tools/rubble50.py.
+-- Rubble-50, mission 33: docs/explanation/rubble50.md. Made by tools/rubble50.py.
 local keys = rubble.include("fifty.lua")("inclined", "smoke", "rover")
 return rubble.mission {
   seed = 33,

@@ -1,4 +1,4 @@
--- Rubble-50, mission 37: docs/rubble50.md. Made by tools/rubble50.py.
+-- Rubble-50, mission 37: docs/explanation/rubble50.md. Made by tools/rubble50.py.
 local keys = rubble.include("fifty.lua")("lean_over", "dark", "rover")
 return rubble.mission {
   seed = 37,

@@ -1,4 +1,4 @@
--- Rubble-50, mission 42: docs/rubble50.md. Made by tools/rubble50.py.
+-- Rubble-50, mission 42: docs/explanation/rubble50.md. Made by tools/rubble50.py.
 local keys = rubble.include("fifty.lua")("culvert", "dark", "snake")
 return rubble.mission {
   seed = 42,

@@ -1,4 +1,4 @@
--- Rubble-50, mission 45: docs/rubble50.md. Made by tools/rubble50.py.
+-- Rubble-50, mission 45: docs/explanation/rubble50.md. Made by tools/rubble50.py.
 local keys = rubble.include("fifty.lua")("culvert", "wet", "crawler")
 return rubble.mission {
   seed = 45,

@@ -1,4 +1,4 @@
--- Rubble-50, mission 50: docs/rubble50.md. Made by tools/rubble50.py.
+-- Rubble-50, mission 50: docs/explanation/rubble50.md. Made by tools/rubble50.py.
 local keys = rubble.include("fifty.lua")("curtain", "wet", "rover")
 return rubble.mission {
   seed = 50,

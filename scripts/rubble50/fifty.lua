@@ -1,5 +1,5 @@
 -- The parts that the missions of Rubble-50 are made of: structures, conditions and carriers.
--- docs/rubble50.md has the table and the rules.
+-- docs/explanation/rubble50.md has the table and the rules.
 local function debris(pieces) return { layers = 1, pieces_per_layer = pieces } end
 
 local structures = {}

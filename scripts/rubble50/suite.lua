@@ -1,4 +1,4 @@
--- The piles of Rubble-50 against the expected hashes: docs/rubble50.md. Made by tools/rubble50.py.
+-- The piles of Rubble-50 against the expected hashes: docs/explanation/rubble50.md. Made by tools/rubble50.py.
 return suite {
   runs = {
     { name = "01_heap_clear_orbit", mission = "01_heap_clear_orbit.lua", pile_only = true },

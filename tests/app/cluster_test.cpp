@@ -44,7 +44,7 @@ TEST_F(Cluster, SlurmSpreadsTheShardsOfAnArray) {
   EXPECT_NE(index("spread").find("\n7,done,"), std::string::npos);
 }
 
-// The line of docs/batch.md.
+// The line of docs/how_to/batch.md.
 TEST_F(Cluster, GnuParallelSpreadsTheShards) {
   expect_to_work("bash -c \"parallel '" RUBBLE_PROGRAM "' batch " + arguments("spread") +
                  " --jobs 1 --quiet --shard {}/4 ::: {1..4}\"");

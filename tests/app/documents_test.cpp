@@ -86,8 +86,8 @@ std::vector<std::string> commands_of(const std::string& document) {
 
 std::vector<std::string> documents() {
   std::vector<std::string> names{"README.md", "assets/README.md"};
-  for (const auto& entry : fs::directory_iterator(kRoot + "/docs"))
-    if (entry.path().extension() == ".md") names.push_back("docs/" + entry.path().filename().string());
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot + "/docs"))
+    if (entry.path().extension() == ".md") names.push_back(fs::relative(entry.path(), kRoot).string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -133,7 +133,7 @@ TEST(Documents, EveryCommandIsListedWithWhatRunsIt) {
 
 // The control: a command that nobody listed is found.
 TEST(Documents, ACommandIsFoundInEveryKindOfBlock) {
-  const std::vector<std::string> commands = commands_of("docs/formats.md");
+  const std::vector<std::string> commands = commands_of("docs/reference/formats.md");
   const auto has = [&](const std::string& begin) {
     return std::any_of(commands.begin(), commands.end(), [&](const std::string& c) { return c.rfind(begin, 0) == 0; });
   };
@@ -180,7 +180,7 @@ class Place {
 
 // What a reader has when a page says `out/first_pile`, `mission.rawlog` or `estimate.txt`.
 void prepare(const Place& place, const std::string& document) {
-  if (document == "docs/formats.md") {
+  if (document == "docs/reference/formats.md") {
     const std::string run =
         "rubble run scripts/small.lua --set camera.width=320 --set camera.height=240 --set trajectory.rate_hz=60 "
         "--set outputs.colmap=true --out out/first_pile";
@@ -212,21 +212,21 @@ TEST_P(NightlyDocuments, CommandsRunAsTheyAreWritten) {
     EXPECT_TRUE(ends_well(printed)) << document << ": " << command << "\n" << printed;
   }
   EXPECT_GE(run, 1) << "nothing to run: take it out of the list below";
-  if (document == "docs/formats.md" && colmap) {
+  if (document == "docs/reference/formats.md" && colmap) {
     EXPECT_TRUE(fs::exists(place.at("points/points3D.bin")));
   }
 }
 
-constexpr const char* kRun[]{"README.md",         "docs/autonomy.md", "docs/collapse.md", "docs/formats.md",
-                            "docs/headless.md",  "docs/lidar.md",    "docs/lua.md",
-                            "docs/optics.md",    "docs/performance.md", "docs/search.md",
-                            "docs/sky.md",       "docs/surroundings.md", "docs/weather.md"};
+constexpr const char* kRun[]{"README.md",         "docs/explanation/autonomy.md", "docs/explanation/collapse.md", "docs/reference/formats.md",
+                            "docs/how_to/headless.md",  "docs/reference/lidar.md",    "docs/reference/missions.md",
+                            "docs/explanation/optics.md",    "docs/development/performance.md", "docs/explanation/search.md",
+                            "docs/explanation/sky.md",       "docs/explanation/surroundings.md", "docs/explanation/weather.md"};
 INSTANTIATE_TEST_SUITE_P(All, NightlyDocuments, ::testing::ValuesIn(kRun));
 
 // No document with something to run is left out above.
 // What other platforms were compared with is what this kernel gives.
 TEST(Documents, ThePlatformsTableHasTheGoldenHashes) {
-  const std::string page = read_file(RUBBLE_SOURCE_DIR "/docs/platforms.md");
+  const std::string page = read_file(RUBBLE_SOURCE_DIR "/docs/development/platforms.md");
   std::istringstream golden(read_file(RUBBLE_SOURCE_DIR "/tests/golden/kernel.txt"));
   int scenes = 0;
   for (std::string line; std::getline(golden, line);) {

@@ -1,4 +1,4 @@
-// docs/first_steps.md, run as it is written.
+// docs/tutorials/first_steps.md, run as it is written.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -44,7 +44,7 @@ TEST(FirstSteps, WorkAsWritten) {
   const ScratchFolder folder;
   std::string printed;
   int run = 0, compared = 0;
-  for (const Block& block : read_blocks(std::string(RUBBLE_SOURCE_DIR) + "/docs/first_steps.md")) {
+  for (const Block& block : read_blocks(std::string(RUBBLE_SOURCE_DIR) + "/docs/tutorials/first_steps.md")) {
     if (block.language == "sh") {
       printed = run_block(folder, block.text);
       ++run;

@@ -320,9 +320,9 @@ TEST(Rooms, AreSmall) {
   }
 }
 
-// docs/contributing.md shows every room.
+// docs/development/contributing.md shows every room.
 TEST(Rooms, AreDrawn) {
-  std::ifstream in(RUBBLE_SOURCE_DIR "/docs/contributing.md");
+  std::ifstream in(RUBBLE_SOURCE_DIR "/docs/development/contributing.md");
   const std::string page{std::istreambuf_iterator<char>(in), {}};
   const std::size_t begin = page.find("<!-- rooms"), end = page.find("<!-- end of rooms");
   ASSERT_LT(begin, end);
@@ -338,7 +338,7 @@ TEST(Rooms, AreDrawn) {
   for (const std::string& room : rooms) {
     if (parts_of_rooms.count(room)) continue;
     EXPECT_NE(drawing.find("\n  " + room), std::string::npos)
-        << room << " is not in docs/contributing.md: run tools/draw_rooms.py";
+        << room << " is not in docs/development/contributing.md: run tools/draw_rooms.py";
   }
 }
 

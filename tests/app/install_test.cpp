@@ -90,7 +90,7 @@ TEST_F(Install, BashCompletesCommandsOptionsAndKeys) {
 
 TEST_F(Install, HasWhatAnEditorAndAReaderNeed) {
   for (const char* name : {"share/rubble/editor/rubble.lua", "share/rubble/scripts/first_pile.lua",
-                           "share/rubble/assets/concrete/pack.lua", "share/doc/rubble/docs/lua.md",
+                           "share/rubble/assets/concrete/pack.lua", "share/doc/rubble/docs/reference/missions.md",
                            "share/doc/rubble/copyright"})
     EXPECT_TRUE(fs::exists(at(name))) << name;
   EXPECT_EQ(read_file(at("share/rubble/editor/rubble.lua")), run_rubble("check --annotations").out);

@@ -55,7 +55,7 @@ TEST(Robots, RunsHaveTheSameBitsOnAnyNumberOfThreadsAndAreVerified) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
 }
 
-// The mission whose cost docs/robots.md states.
+// The mission whose cost docs/reference/robots.md states.
 TEST(Robots, ASnakeAmongManyContactsHasTheSameBitsOnAnyNumberOfThreads) {
   const ScratchFolder scratch;
   std::string tracks[2];
@@ -337,7 +337,9 @@ TEST_F(RobotsInTheDemo, ASnakeRollsIntoTheLeanToAndOut) { expect_in_and_out("sna
 TEST_F(RobotsInTheDemo, AVineGrowsIntoTheLeanToAndOut) { expect_in_and_out("vine", -3.3); }
 
 // The tip ends within the ball that `rubble voids` says gets there, and no deeper place is in any void.
-TEST_F(RobotsInTheDemo, AVineGrowsToTheDeepestVoid) {
+class NightlyRobotsInTheDemo : public RobotsInTheDemo {};
+
+TEST_F(NightlyRobotsInTheDemo, AVineGrowsToTheDeepestVoid) {
   drive("deepest_void.lua");
   if (HasFatalFailure()) return;
   const Outcome settled = run_rubble("settle scripts/robots/deepest_void.lua --quiet --out " + (scratch_ / "pile"));

@@ -25,12 +25,12 @@ std::vector<std::string> missions() {
 
 TEST(Rubble50, EveryMissionIsSoundAndMadeByItsTool) {
   const ScratchFolder scratch;
-  fs::create_directories(scratch / "docs");
+  fs::create_directories(scratch / "docs/explanation");
   fs::create_directories(scratch / "scripts/rubble50");
-  fs::copy(kRoot + "/docs/rubble50.md", scratch / "docs/rubble50.md");
+  fs::copy(kRoot + "/docs/explanation/rubble50.md", scratch / "docs/explanation/rubble50.md");
   fs::copy(kRoot + "/scripts/rubble50/suite.golden.json", scratch / "scripts/rubble50/suite.golden.json");
   ASSERT_EQ(std::system(("'" + kRoot + "/tools/rubble50.py' '" + scratch.path().string() + "'").c_str()), 0);
-  EXPECT_EQ(read_file(scratch / "docs/rubble50.md"), read_file(kRoot + "/docs/rubble50.md"));
+  EXPECT_EQ(read_file(scratch / "docs/explanation/rubble50.md"), read_file(kRoot + "/docs/explanation/rubble50.md"));
   EXPECT_EQ(read_file(scratch / "scripts/rubble50/suite.lua"), read_file(kRoot + "/scripts/rubble50/suite.lua"));
   const std::vector<std::string> names = missions();
   ASSERT_EQ(names.size(), 50u);
@@ -86,7 +86,7 @@ TEST(NightlyRubble50, BaselinesFollowARecordingAndFillTheTables) {
   const std::string folder = scratch / "02_heap_dark_push", page = scratch / "page.md";
   ASSERT_EQ(run_rubble("run " + (scratch / "tiny.lua") + " --quiet --set camera.width=320 --set camera.height=240 --out " +
                        folder).exit_code, 0);
-  fs::copy_file(kRoot + "/docs/rubble50.md", page);
+  fs::copy_file(kRoot + "/docs/explanation/rubble50.md", page);
   const std::string command = "'" + kRoot + "/bench/rubble50/run' --missions 2 --methods rgbd,icp,colmap --program '" RUBBLE_PROGRAM
                               "' --out " + scratch.path().string() + " --document " + page + " >" + (scratch / "log") + " 2>&1";
   ASSERT_EQ(std::system(command.c_str()), 0) << read_file(scratch / "log");

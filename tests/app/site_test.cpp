@@ -24,31 +24,32 @@ TEST(Site, EveryLinkLeadsSomewhere) {
   const ScratchFolder scratch;
   EXPECT_EQ(run("'" + kRoot + "/tools/make_site.py' " + (scratch / "site") + " 2>" + (scratch / "err")), 0)
       << read_file(scratch / "err");
-  EXPECT_TRUE(fs::exists(scratch / "site/lua.md"));
+  EXPECT_TRUE(fs::exists(scratch / "site/reference/missions.md"));
   EXPECT_TRUE(fs::exists(scratch / "site/pictures/first_pile.png"));
   EXPECT_NE(read_file(scratch / "site/index.md").find("](pictures/first_pile.png)"), std::string::npos);
   // mkdocs takes a list right below a sentence for its next words.
-  EXPECT_NE(read_file(scratch / "site/formats.md").find("all formats:\n\n- **Stamps.**"), std::string::npos);
+  EXPECT_NE(read_file(scratch / "site/reference/formats.md").find("all formats:\n\n- **Stamps.**"), std::string::npos);
   const std::string nav = read_file(kRoot + "/mkdocs.yml");
-  for (const auto& page : fs::directory_iterator(scratch / "site")) {
+  for (const auto& page : fs::recursive_directory_iterator(scratch / "site")) {
     if (page.path().extension() != ".md") continue;
-    EXPECT_NE(nav.find(": " + page.path().filename().string()), std::string::npos)
-        << page.path().filename() << " has no place in the nav of mkdocs.yml";
+    const std::string name = fs::relative(page.path(), scratch / "site").string();
+    EXPECT_NE(nav.find(": " + name), std::string::npos)
+        << name << " has no place in the nav of mkdocs.yml";
   }
 }
 
 // The control: what leads nowhere is named.
 TEST(Site, NamesLinksThatLeadNowhere) {
   const ScratchFolder scratch;
-  for (const char* folder : {"tools", "assets", "docs"}) fs::create_directories(scratch / folder);
+  for (const char* folder : {"tools", "assets", "docs/reference"}) fs::create_directories(scratch / folder);
   for (const char* file : {"tools/make_site.py", "tools/site.css"}) fs::copy_file(kRoot + "/" + file, scratch / file);
-  write_file(scratch / "README.md", "# A\n[one](docs/lua.md#keys) [two](docs/none.md)\n\n    [code](nowhere.md)\n");
+  write_file(scratch / "README.md", "# A\n[one](docs/reference/lua.md#keys) [two](docs/none.md)\n\n    [code](nowhere.md)\n");
   write_file(scratch / "CHANGELOG.md", "# C\n");
   write_file(scratch / "assets/README.md", "# B\n[back](../README.md#a) [out](https://example.org)\n");
-  write_file(scratch / "docs/lua.md", "# Lua\n\n## Keys\n\n[gone](#no-such-heading)\n");
+  write_file(scratch / "docs/reference/lua.md", "# Lua\n\n## Keys\n\n[gone](#no-such-heading)\n");
   EXPECT_EQ(run((scratch / "tools/make_site.py") + " " + (scratch / "site") + " 2>" + (scratch / "err")), 1);
   EXPECT_EQ(read_file(scratch / "err"), "README.md: docs/none.md leads nowhere\n"
-                                        "docs/lua.md: #no-such-heading: no such heading in docs/lua.md\n");
+                                        "docs/reference/lua.md: #no-such-heading: no such heading in docs/reference/lua.md\n");
 }
 
 // Without the quotation marks between which a literal goes on in the next line.
@@ -73,14 +74,14 @@ std::string program_text() {
 TEST(Faq, QuotesMessagesThatTheProgramHas) {
   const std::string program = program_text();
   EXPECT_EQ(program.find("a message that nobody wrote, " "ever"), std::string::npos) << "the control";
-  std::istringstream page(read_file(kRoot + "/docs/faq.md"));
+  std::istringstream page(read_file(kRoot + "/docs/how_to/faq.md"));
   int quoted = 0;
   for (std::string line; std::getline(page, line);) {
     if (line.rfind("### `", 0) != 0) continue;
     std::string message = line.substr(5);
     if (message.back() == '`') message.pop_back();
     ++quoted;
-    EXPECT_NE(program.find(message), std::string::npos) << "docs/faq.md quotes what the program does not say: " << message;
+    EXPECT_NE(program.find(message), std::string::npos) << "docs/how_to/faq.md quotes what the program does not say: " << message;
   }
   EXPECT_GE(quoted, 15);
 }

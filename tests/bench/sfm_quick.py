@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""usage: sfm_quick.py PROGRAM OUT: makes the quick table of docs/sfm.md afresh and checks what must hold of it
+"""usage: sfm_quick.py PROGRAM OUT: makes the quick table of docs/explanation/sfm.md afresh and checks what must hold of it
 on any machine. COLMAP's threads make its results vary a little from run to run."""
 import json
 import pathlib

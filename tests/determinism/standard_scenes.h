@@ -1,4 +1,4 @@
-// The scenes whose state hashes are promised to be the same everywhere; see docs/determinism.md.
+// The scenes whose state hashes are promised to be the same everywhere; see docs/explanation/determinism.md.
 #pragma once
 
 #include <cstdint>

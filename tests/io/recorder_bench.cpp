@@ -1,6 +1,6 @@
 // recorder_bench FOLDER [FRAMES [PNG...]]: what each recorder costs at 1024x1024, as CSV: CPU and
 // elapsed milliseconds a frame, frames per second, megabytes a frame. bench/performance.py puts it
-// into docs/performance.md. PNG: pictures of 1024x1024 to take the colour from; without them each
+// into docs/development/performance.md. PNG: pictures of 1024x1024 to take the colour from; without them each
 // pixel has noise of 16 grey levels, which compresses worse than rendered concrete.
 #include <chrono>
 #include <cstdio>

@@ -122,7 +122,7 @@ TEST(ClosedFormRolling, DrumsOfManyFacetsStayOnALongTerrain) { roll_all_far(true
 
 // 2/3 g sin(a) t = 6.7 m/s after 3 s, at 335 rad/s. Facets of half the angle pi / 320 ahead of the
 // axis carry at most a lever of that share of the radius: 2.7 % of the slope of 20 degrees.
-// Not yet: see docs/performance.md, "Closed forms".
+// Not yet: see docs/development/performance.md, "Closed forms".
 TEST(ClosedFormRolling, DISABLED_ASmallDrumReachesItsSpeed) {
   const Ramp ramp{24, 20 * portable::kPi / 180, 0.02, 0.1, 320};
   World world = ramp.make();

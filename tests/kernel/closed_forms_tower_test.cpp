@@ -56,12 +56,12 @@ void expect_to_stand(int bricks, double seconds, bool sleeping, double drift) {
   }
 }
 
-// Not yet: see docs/performance.md, "Closed forms".
+// Not yet: see docs/development/performance.md, "Closed forms".
 TEST(ClosedFormTower, DISABLED_TwentyBricksStandAwakeForTenSeconds) {
   expect_to_stand(20, 10, false, 0.003);
 }
 
-// Not yet: see docs/performance.md, "Closed forms".
+// Not yet: see docs/development/performance.md, "Closed forms".
 TEST(ClosedFormTower, DISABLED_ThirtyBricksStandAwakeForAMinute) { expect_to_stand(30, 60, false, 0.004); }
 
 TEST(ClosedFormTower, ThirtyBricksStandForAMinuteAndSleep) {

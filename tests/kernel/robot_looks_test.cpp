@@ -178,7 +178,7 @@ void expect_free_view(const RobotModel& model, const Mount& mount) {
       EXPECT_FALSE(meets(model, mount.position, direction_of(yaw, up), 1)) << mount.what << " " << yaw << " " << up;
 }
 
-// Where missions put cameras and scanners: docs/robots.md and scripts/robots.
+// Where missions put cameras and scanners: docs/reference/robots.md and scripts/robots.
 TEST(RobotLooks, LeaveSensorsTheirView) {
   CrawlerOptions bare;  // flippers are seen, as they should be
   bare.flippers = false;

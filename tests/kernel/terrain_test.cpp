@@ -144,7 +144,7 @@ PieceType wavy_sheet() {
   return type;
 }
 
-// Of the thin bars one in twenty tumbles past an edge: docs/performance.md, "Where the physics gives way".
+// Of the thin bars one in twenty tumbles past an edge: docs/development/performance.md, "Where the physics gives way".
 TEST(Terrain, NothingButThinBarsFallsThroughAMeshAtTenMetresASecond) {
   constexpr int kBar = 3;
   std::set<std::pair<int, int>> bars_below;

@@ -115,7 +115,7 @@ TEST_F(NightlyLiveRos1, ToolsSeeTheStreamInRealTimeAndLateComersTheStaticTransfo
   Background frequency(shell("rostopic hz -w 20 /camera/rgb/image_raw"), scratch_ / "hz.txt");
   Background fixed(shell("rostopic echo -n 1 /tf_static"), scratch_ / "static.txt");
   Background clock(shell("rostopic echo -n 3 /clock"), scratch_ / "clock.txt");
-  // Messages on the loopback interface alone; the other is roscpp's XML-RPC port (docs/live.md).
+  // Messages on the loopback interface alone; the other is roscpp's XML-RPC port (docs/how_to/live.md).
   EXPECT_EQ(listening_addresses(run.pid()),
             (std::multiset<std::string>{"00000000", "0100007F"}));
   EXPECT_EQ(fixed.wait(8), 0);

@@ -43,7 +43,7 @@ class Camera:
 
     @functools.cached_property
     def lens(self):
-        """K row by row, model and coefficients: as the scenario says, by the formulas of docs/lua.md."""
+        """K row by row, model and coefficients: as the scenario says, by the formulas of docs/reference/missions.md."""
         s, lens = self.settings, self.settings["lens"]
         width, height = s["width"], s["height"]
         half = np.radians(s["fov_deg"]) / 2

@@ -320,7 +320,7 @@ NOT_FACTORS = {
     "seed": "every mission has its own: the number of its row",
 }
 
-# The names of the published simulator stand for other keys, one to one (docs/lua.md); tests/scripting compares them.
+# The names of the published simulator stand for other keys, one to one (docs/reference/missions.md); tests/scripting compares them.
 PUBLISHED_NAMES = "spawnpos spawnbound lightrot lightpos".split()
 PUBLISHED_WHOLE = "numlayers numobjs setlightrot lighttype lightintensity fogdensity fogintensity randomseed exportstl".split()
 

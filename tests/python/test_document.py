@@ -1,4 +1,4 @@
-"""Every block of Python in docs/python.md runs as it is written, one after the other."""
+"""Every block of Python in docs/reference/python.md runs as it is written, one after the other."""
 import os
 import re
 import subprocess
@@ -35,7 +35,7 @@ class Document(unittest.TestCase):
         names = {"origins": np.array([[0.0, 0.0, 5.0]]), "directions": np.array([[0.0, 0.0, -1.0]]),
                  "points": np.array([[0.0, 0.0, 5.0]])}
         for block in blocks:
-            exec(compile(block, "docs/python.md", "exec"), names)
+            exec(compile(block, "docs/reference/python.md", "exec"), names)
         self.assertEqual(names["frame"]["rgb"].shape, (480, 640, 3))
         self.assertGreater(len(names["images"]), 0)
         self.assertGreater(len(names["clouds"]), 0)

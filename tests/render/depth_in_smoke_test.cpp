@@ -79,7 +79,7 @@ Light light_through_smoke(const Plane& plane, int u, double density, const Depth
 
 struct Smoke {
   double density, emitter_offset;
-  double right;  // share of the pixels within 10 cm, as docs/lua.md states it
+  double right;  // share of the pixels within 10 cm, as docs/reference/missions.md states it
 };
 
 class TimeOfFlightInSmoke : public ::testing::TestWithParam<Smoke> {

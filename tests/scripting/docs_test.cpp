@@ -55,7 +55,7 @@ TEST(Missions, OfTheProjectAreSound) {
 
 TEST(LuaReference, DocumentIsUpToDate) {
   std::ostringstream text;
-  text << std::ifstream(RUBBLE_SOURCE_DIR "/docs/lua.md").rdbuf();
+  text << std::ifstream(RUBBLE_SOURCE_DIR "/docs/reference/missions.md").rdbuf();
   EXPECT_TRUE(with_reference(text.str()) == text.str())
       << "run: cmake --build build/release --target lua_reference";
 }
@@ -117,7 +117,7 @@ TEST(LuaReference, HasEveryKeyAndName) {
 // Everything a reader copies from the page.
 TEST(LuaReference, EveryMissionOfTheTutorialLoads) {
   std::ostringstream page;
-  page << std::ifstream(RUBBLE_SOURCE_DIR "/docs/lua.md").rdbuf();
+  page << std::ifstream(RUBBLE_SOURCE_DIR "/docs/reference/missions.md").rdbuf();
   const std::string text = page.str();
   int count = 0;
   for (std::size_t at = text.find("```lua\n"); at != std::string::npos; ++count) {

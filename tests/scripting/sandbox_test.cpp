@@ -198,7 +198,7 @@ TEST(Sandbox, DoorsAreClosed) {
     EXPECT_EQ(run(std::string("return { ") + name + " == nil }").items.at(0).boolean, true) << name;
   EXPECT_EQ(run_error("os.exit()"),
             "h.lua:1: attempt to index a nil value (global 'os') (`os` is closed to scripts; "
-            "docs/lua.md lists what is open)");
+            "docs/reference/missions.md lists what is open)");
   EXPECT_NE(run_error("local f = load('return 1')"), "");
 }
 

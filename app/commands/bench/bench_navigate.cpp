@@ -1,4 +1,4 @@
-// `rubble bench navigate`: MRPT's reactive navigator drives a crawler through the voids of many piles (docs/autonomy.md).
+// `rubble bench navigate`: MRPT's reactive navigator drives a crawler through the voids of many piles (docs/explanation/autonomy.md).
 #include <filesystem>
 #include <memory>
 

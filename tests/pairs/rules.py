@@ -8,13 +8,13 @@ def but(factor, *left_out):
     return [level for level in FACTORS[factor] if level not in left_out]
 
 
-WHEELED = ("crawler", "rover", "cart")
+ONE_WITH_ODOMETRY = ("crawler", "rover", "cart", "team")
 
 # (factor, levels, other factor, its levels, words of the message that the program must give)
 REFUSED = [
     ("robots", but("robots", "none"), "record_settling", ["all", "window"], "robots start with the first frame"),
     ("robots", ["none"], "path", ["ride", "links"], "no robot has this name"),
-    ("robots", but("robots", *WHEELED), "rawlog", ["actions"], "actions are what one robot did by its odometry"),
+    ("robots", but("robots", *ONE_WITH_ODOMETRY), "rawlog", ["actions"], "actions are what one robot did by its odometry"),
     ("start", ["after_2038"], "ros2", ["mcap"], "19 January 2038"),
     ("shutter", ["blur"], "exposure", ["ideal"], "an ideal image takes no time"),
     ("quality", ["reference"], "exposure", ["automatic"], "the paths of the reference cover the pixel already"),

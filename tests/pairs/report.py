@@ -53,9 +53,11 @@ def write(path, summary, answers, program, date):
         text = file.read()
     before, rest = text.split(BEGIN)
     _, after = rest.split(END)
-    commit = subprocess.run([program, "--version"], capture_output=True, text=True, check=False).stdout.strip()
+    here = os.path.dirname(os.path.abspath(__file__))
+    version = subprocess.run([program, "--version"], capture_output=True, text=True, check=False).stdout.strip()
+    commit = subprocess.run(["git", "-C", here, "rev-parse", "--short=8", "HEAD"], capture_output=True, text=True, check=False).stdout.strip()
     s = summary
-    lines = ["", "`make pairs`, %s, %s." % (date, commit), "",
+    lines = ["", "`make pairs`, %s, %s, %s." % (date, version, commit or "no commit"), "",
              "| pairs of levels | number |", "|---|---|",
              "| all | %d |" % s["total"],
              "| refused with a reason | %d |" % s["refused"],
@@ -63,7 +65,7 @@ def write(path, summary, answers, program, date):
              "| excluded because of these | %d |" % s["implied"],
              "| allowed | %d |" % s["allowed"],
              "| covered by a mission that ran | %d |" % s["covered"], "",
-             "%d of %d missions were run, in %.0f minutes of processor time; %d failures are not known." %
+             "%d of %d missions were run, in %.1f minutes of processor time; %d failures are not known." %
              (s["done"], s["missions"], s["cpu"] / 60, s["red"]), "",
              "### What is refused", "", "| one | other | the message says |", "|---|---|---|"]
     lines += ["| %s | %s | %s |" % (named(a, x), named(b, y), words) for a, x, b, y, words in rules.REFUSED]

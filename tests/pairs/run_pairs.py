@@ -82,7 +82,7 @@ def write_mission(row, seed, folder):
 
 def run_row(program, number, row, work, python, keep):
     """The findings of one row: (judge, text) each, and processor seconds."""
-    began, findings = cpu(), []
+    began, findings, commit = cpu(), [], None
     folder = os.path.join(work, "row_%03d" % number)
     shutil.rmtree(folder, ignore_errors=True)
     mission = write_mission(row, number + 1, folder)
@@ -97,6 +97,7 @@ def run_row(program, number, row, work, python, keep):
             subprocess.run([program, "export", out, "--format", "ply", "--out", exported, "--quiet"], capture_output=True, check=False)
             ply = os.path.join(exported, "pile.ply")
         data = Dataset(out, row, ply if os.path.exists(ply) else None)
+        commit = data.manifest["program"]["commit"]
         for judge in JUDGES:
             try:
                 judge(data)
@@ -112,7 +113,7 @@ def run_row(program, number, row, work, python, keep):
     red = [item for item in findings if known_failures.find(row, *item) is None]
     if not keep and not red:
         shutil.rmtree(folder, ignore_errors=True)
-    return {"row": number, "levels": row, "findings": findings, "cpu": round(cpu() - began, 2)}
+    return {"row": number, "levels": row, "findings": findings, "commit": commit, "cpu": round(cpu() - began, 2)}
 
 
 def refusal_row(pair):

@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo gallery pictures test check test-nightly test-asan test-tsan test-files fuzz faults determinism platforms format clean
+.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo gallery pictures test check test-nightly test-asan test-tsan test-files fuzz faults pairs determinism platforms format clean
 
 PROGRAM := build/release/rubble
 # Tests have one thread each, so as many run at once as there are processors.
@@ -28,6 +28,7 @@ help:
 	@echo "make test-files  try public robots, meshes and trajectories against figures of other programs (docs/development/reliability.md)"
 	@echo "make fuzz SECONDS=60  run every fuzz target for this time, two at once (docs/development/reliability.md)"
 	@echo "make faults     interrupt a small run at many places, continue it, compare the bytes (an hour)"
+	@echo "make pairs      any two features of a mission together, judged by their data; goes on where it stopped (docs/development/pairs.md)"
 	@echo "make determinism  compare hashes of other compilers, levels and processors (half an hour)"
 	@echo "make platforms PLATFORM=debian13  demo and tests in a bare Debian 13; or windows, riscv64, arm64 (docs/development/platforms.md)"
 	@echo "make format     clang-format over the tree"
@@ -151,6 +152,11 @@ fuzz: build
 # 200 kills, and 40 places of each call that can fail.
 faults: build
 	tests/faults/run_faults.py $(PROGRAM) build/faults 200 40
+
+# Two hours on two processors at most; what is done is kept in build/pairs, by the hash of the program.
+# PAIRS_OPTIONS: see tests/pairs/run_pairs.py.
+pairs: all
+	tests/pairs/run_pairs.py $(PROGRAM) build/pairs --python build/release/python --report docs/development/pairs.md $(PAIRS_OPTIONS)
 
 # Not part of any suite: it installs compilers and builds the kernel fifteen times.
 determinism: packages

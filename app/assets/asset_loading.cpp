@@ -170,6 +170,7 @@ void warn_of_size(const Asset& asset, const TriangleMesh& mesh, std::vector<std:
 // A surface that `looks` names and no mesh of the asset has.
 void warn_of_surface_appearances(const Asset& asset, const std::vector<std::string>& surfaces,
                                  std::vector<std::string>& warnings) {
+  if (is_variant(asset)) return;  // which names every look that the other material changes, whoever has it
   for (const auto& [name, look] : asset.surface_appearance) {
     if (std::find(surfaces.begin(), surfaces.end(), name) != surfaces.end()) continue;
     const std::string near = nearest_name(name, surfaces);
@@ -191,7 +192,8 @@ LoadedAsset load_asset(const Asset& asset, MeshImporter& importer) {
   for (const std::string& path : asset.meshes) {
     mesh->levels.push_back(importer.load_mesh(path, units));
     TriangleMesh& level = mesh->levels.back();
-    surfaces.insert(surfaces.end(), level.surface_names.begin(), level.surface_names.end());
+    for (const std::string& name : level.surface_names)
+      if (std::find(surfaces.begin(), surfaces.end(), name) == surfaces.end()) surfaces.push_back(name);
     choose_surfaces(level, [&asset](const std::string& surface, const SurfacePaint* paint) {
       return choose_surface_appearance(asset, surface, paint);
     });

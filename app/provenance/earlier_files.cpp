@@ -10,6 +10,7 @@
 #include "io/base/remove_files.h"
 #include "io/mesh/pile_export.h"
 #include "kernel/base/error.h"
+#include "kernel/base/system/output_files.h"
 #include "kernel/base/text.h"
 
 namespace rubble {
@@ -121,6 +122,11 @@ void remove_unfinished(const std::string& folder) {
   const std::vector<std::string> lock{"unfinished/lock"};
   remove_plain_files(folder, lock);
   remove_empty_parents(folder, lock);
+}
+
+void remove_folder_of_killed_run(const std::string& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) remove_output_folder(path);
 }
 
 void refuse_foreign_recordings(const std::string& folder) {

@@ -238,7 +238,7 @@ struct AssetsCheckRequest {
 
 Action declare_assets_check(CommandLine& line) {
   const auto request = std::make_shared<AssetsCheckRequest>();
-  line.add("pack", request->pack, "A folder with a pack.lua, or a bundled pack").required();
+  line.add("pack", request->pack, "A folder with a pack.lua, or the name of a bundled pack").required().metavar("PACK");
   line.add_flag("--json", request->json, "Print JSON instead of a table");
   return [request] { return check_pack(request->pack, request->json); };
 }

@@ -1,16 +1,16 @@
 -- rubble.robot.follow: a controller that drives a robot with tracks or wheels along a path, by pure
--- pursuit (Coulter 1992, "Implementation of the pure pursuit path tracking algorithm"): it steers along
+-- pursuit (Coulter 1992, "Implementation of the pure pursuit path tracking algorithm"). It steers along
 -- the arc through the point of the path that is `lookahead` ahead of the robot.
 local name = "rubble.robot.follow"
 
 return function(given)
   local o = rubble.options(name, given, {
     { "path", {}, type = "table",
-      doc = "Points {x, y}; unit: m. With `truth` in the world, with `odometry` relative to the start of the robot." },
+      doc = "Points {x, y}, in the world, or with `odometry` relative to the start of the robot; unit: m." },
     { "speed", 0.3, min = 0.01, max = 5, unit = "m/s", doc = "Speed along the path." },
-    { "lookahead", 0.4, min = 0.05, max = 10, unit = "m", doc = "Lookahead distance; shorter: corners are cut less, and the robot oscillates more." },
+    { "lookahead", 0.4, min = 0.05, max = 10, unit = "m", doc = "Lookahead distance. A shorter one cuts corners less and oscillates more." },
     { "turn", 1, min = 0.05, max = 10, unit = "rad/s", doc = "Largest angular velocity." },
-    { "by", "truth", type = "choice", choices = { "truth", "odometry" }, doc = "How the robot is localized: by ground truth or by its odometry." },
+    { "by", "truth", type = "choice", choices = { "truth", "odometry" }, doc = "Localization by ground truth or by odometry." },
     { "flippers", {}, type = "table", doc = "Crawler: four flipper angles, constant during the run; unit: rad." },
   })
   if #o.path < 2 then

@@ -55,7 +55,7 @@ TEST(Robots, RunsHaveTheSameBitsOnAnyNumberOfThreadsAndAreVerified) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
 }
 
-// The mission whose cost docs/reference/robots.md states.
+// The mission whose cost docs/development/robots.md states.
 TEST(Robots, ASnakeAmongManyContactsHasTheSameBitsOnAnyNumberOfThreads) {
   const ScratchFolder scratch;
   std::string tracks[2];

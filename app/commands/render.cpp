@@ -20,7 +20,7 @@ Track load_track_of(const std::string& from) {
   std::error_code failed;
   if (!std::filesystem::exists(path, failed))
     throw InputError(
-        {from, 0, "", "the run kept no track of who moved when its pile settled", "a track.bin",
+        {from, 0, "", "the run has no track of the settling pile", "a track.bin",
          "none",
          "run its mission again with --track, or without record_settling and outputs.track"});
   return load_track(path);

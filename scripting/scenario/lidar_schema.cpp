@@ -65,15 +65,15 @@ void check_lidar(const LidarScenario& lidar, std::vector<Diagnostic>& mistakes) 
     std::string list;
     for (const int v : allowed) list += (list.empty() ? "" : ", ") + std::to_string(v);
     if (!lidar.has_channels() && value != 0)
-      add(key, "this model has no choice of them", "no such key", std::to_string(value));
+      add(key, "this model has a fixed number", "no such key", std::to_string(value));
     else if (value != 0 && !one_of(value, allowed))
-      add(key, "no such sensor is made", list, std::to_string(value));
+      add(key, "the model has no such version", list, std::to_string(value));
   };
   check_count("channels", lidar.channels, {32, 64, 128});
   check_count("columns", lidar.columns, {512, 1024, 2048});
   const LidarSpec spec = lidar.spec();
   if (spec.min_range >= spec.max_range)
-    add("max_range", "nothing is within reach", "more than min_range, " + format_number(spec.min_range) + " m",
+    add("max_range", "the range is empty", "more than min_range, " + format_number(spec.min_range) + " m",
         format_number(spec.max_range) + " m");
 }
 

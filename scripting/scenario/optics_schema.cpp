@@ -67,7 +67,7 @@ void check_optics(const CameraScenario& camera, const std::string& at, std::vect
     add("optics.focus_distance", "no lens is sharp within its focal length",
         "more than " + at + "optics.focal_length, or 0");
   if (camera.colour.quality == RenderQuality::reference && s.pixel_samples > 1)
-    add("sensor.pixel_samples", "the paths of the reference cover the pixel already", "1");
+    add("sensor.pixel_samples", "path tracing samples the pixel already", "1");
   if (camera.exposure.mode != ExposureMode::ideal) return;
   const std::string modelled = at + "exposure.mode of \"fixed\" or \"automatic\"";
   if (o.any()) add("optics", "an ideal image has a perfect lens", modelled);

@@ -129,7 +129,7 @@ void check_senses(const Scenario& scenario, std::size_t i, std::vector<Diagnosti
   const RobotItem& robot = scenario.robots[i];
   if (robot.senses.empty()) return;
   if (robot.control == 0)
-    mistakes.push_back({"", 0, key_of(i, "senses"), "nobody is told", "a function as `control`", "no function", ""});
+    mistakes.push_back({"", 0, key_of(i, "senses"), "there is no controller", "a function as `control`", "no function", ""});
   std::vector<std::string> names;
   for (const LidarScenario& lidar : scenario.lidars) names.push_back(lidar.name);
   for (const MountedCamera& camera : all_cameras(scenario)) {
@@ -150,7 +150,7 @@ void check_senses(const Scenario& scenario, std::size_t i, std::vector<Diagnosti
 void check_carrier(const Carrier& ride, const std::string& at, const std::vector<std::string>& names,
                    std::vector<Diagnostic>& mistakes) {
   if (!ride.on() && !ride.link.empty())
-    mistakes.push_back({"", 0, at + ".link", "a link of no robot", at + ".robot besides it", "\"" + ride.link + "\"", ""});
+    mistakes.push_back({"", 0, at + ".link", "a link without a robot", at + ".robot as well", "\"" + ride.link + "\"", ""});
   if (!ride.on() || std::find(names.begin(), names.end(), ride.robot) != names.end()) return;
   std::string all;
   for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
@@ -171,7 +171,7 @@ void check_ride(const Scenario& scenario, const std::vector<std::string>& names,
     add("trajectory.waypoints", "contradicts ride", "one of both", "both");
   if (path.limits.any() || path.smoothing || path.duration || path.rest_at_ends ||
       path.plan != Plan::ghost)
-    add("trajectory.ride", "a robot's way cannot be changed", "rate_hz alone besides it",
+    add("trajectory.ride", "the path of a robot cannot be changed", "rate_hz only",
         "limits, smoothing, a duration or a plan");
 }
 
@@ -194,8 +194,8 @@ void check_sensor_rides(const Scenario& scenario, const std::vector<std::string>
                       std::none_of(scenario.cameras.begin(), scenario.cameras.end(), on_rig);
   if (unseen && (std::any_of(imus.begin(), imus.end(), on_rig) ||
                  std::any_of(scenario.lidars.begin(), scenario.lidars.end(), on_rig)))
-    mistakes.push_back({"", 0, "cameras", "none is on the rig, whose pose is recorded with frames",
-                        "a camera on the rig, or a ride for the inertial units and LiDARs on it", "", ""});
+    mistakes.push_back({"", 0, "cameras", "no camera is on the rig, but an IMU or LiDAR is",
+                        "a camera on the rig, or a `ride` for every IMU and LiDAR on it", "", ""});
   if (mixed && scenario.outputs.euroc)
     mistakes.push_back({"", 0, "outputs.euroc", "the format has one moving body",
                         "cameras on one carrier, or another format", "cameras on several", ""});

@@ -36,16 +36,16 @@ void check_sky(const LightScenario& l, std::vector<Diagnostic>& mistakes) {
     mistakes.push_back({"", 0, key, message, expected, std::move(found), ""});
   };
   if (l.sky.type != SkyType::clear && l.spec.type != LightType::sun)
-    add("light.sky", "only the sun has another sky than the clear one", "light.type of \"sun\", or \"clear\"");
+    add("light.sky", "only the light type `sun` has this sky", "light.type of \"sun\", or \"clear\"");
   const bool by_time = l.latitude_deg || l.longitude_deg || l.time;
   if (!by_time) return;
   if (!l.latitude_deg || !l.longitude_deg || !l.time)
-    add("light.time", "the place of the sun needs place and time",
+    add("light.time", "the position of the sun needs place and time",
         "light.latitude_deg, light.longitude_deg and light.time, or none of them");
   if (l.spec.type != LightType::sun)
     add("light.time", "only the sun follows from place and time", "light.type of \"sun\"");
   if (l.random_rotation)
-    add("light.random_rotation", "the sun stands where place and time say", "false");
+    add("light.random_rotation", "place and time give the direction of the sun", "false");
   if (l.sky.type == SkyType::moonlit)
     add("light.time", "place and time give the sun, not the moon",
         "light.elevation_deg and light.azimuth_deg of the moon");

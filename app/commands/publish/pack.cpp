@@ -47,7 +47,7 @@ void warn_of_empty(const Files& splits, const FinishedBatch& batch, const SplitS
 
 Files make_batch_files(const PackRequest& request) {
   if (request.settings)
-    throw InputError({request.folder, 0, "--settings", "settings are of one run, and this is a batch", "", "",
+    throw InputError({request.folder, 0, "--settings", "settings belong to one run, and this is a batch", "", "",
                       "give the folder of a run in it"});
   const FinishedBatch batch = open_finished_batch(request.folder);
   Files files;

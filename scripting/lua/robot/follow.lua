@@ -19,7 +19,7 @@ return function(given)
   end
   for i, p in ipairs(o.path) do
     if type(p) ~= "table" or type(p[1]) ~= "number" or type(p[2]) ~= "number" then
-      error(name .. ".path[" .. i .. "] is no point {x, y}", 2)
+      error(name .. ".path[" .. i .. "] is not a point {x, y}", 2)
     end
   end
 
@@ -28,7 +28,7 @@ return function(given)
   for i = 2, #o.path do
     local dx, dy = o.path[i][1] - o.path[i - 1][1], o.path[i][2] - o.path[i - 1][2]
     length[i] = length[i - 1] + math.sqrt(dx * dx + dy * dy)
-    if length[i] == length[i - 1] then error(name .. ".path[" .. i .. "] is the point before it", 2) end
+    if length[i] == length[i - 1] then error(name .. ".path[" .. i .. "] repeats the point before it", 2) end
   end
 
   -- How far along the path the robot is: the nearest point, not before the last one and not beyond the

@@ -57,7 +57,7 @@ return function(given)
     py = py + sense.odometry.linear * dt * math.sin(yaw)
     local scan = sense.lidars[o.scan]
     if not scan then return command end  -- nothing new
-    if not scan.ranges then error(name .. ": " .. o.scan .. " is no 2-D scanner", 2) end
+    if not scan.ranges then error(name .. ": " .. o.scan .. " is not a 2-D scanner", 2) end
     local dx, dy = ahead - px, aside - py
     local far = math.sqrt(dx * dx + dy * dy)
     if far < o.near then

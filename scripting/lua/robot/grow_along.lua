@@ -18,7 +18,7 @@ return function(given)
   end
   for i, p in ipairs(o.path) do
     for k = 1, 3 do
-      if type(p) ~= "table" or type(p[k]) ~= "number" then error(name .. ".path[" .. i .. "] is no point {x, y, z}", 2) end
+      if type(p) ~= "table" or type(p[k]) ~= "number" then error(name .. ".path[" .. i .. "] is not a point {x, y, z}", 2) end
     end
   end
 
@@ -30,7 +30,7 @@ return function(given)
   for i = 2, #o.path do
     local leg = minus(o.path[i], o.path[i - 1])
     length[i] = length[i - 1] + math.sqrt(dot(leg, leg))
-    if length[i] == length[i - 1] then error(name .. ".path[" .. i .. "] is the point before it", 2) end
+    if length[i] == length[i - 1] then error(name .. ".path[" .. i .. "] repeats the point before it", 2) end
   end
 
   local function point_at(s)

@@ -92,7 +92,7 @@ Schema make_link_schema(LinkTable& l) {
   k.value("joint_position", l.joint_position, "Position of the joint in the whole asset.")
       .between(-100, 100)
       .unit("m");
-  k.value("joint_axis", l.joint_axis, "Axis of a hinge or slider in the whole asset; any length.")
+  k.value("joint_axis", l.joint_axis, "Axis of a hinge or slider in the whole asset; any length above 0.")
       .between(-1000, 1000);
   k.value("stiffness", l.stiffness,
           "Stiffness of the spring towards the designed pose: torque per angle; for a slider force per length.")

@@ -22,7 +22,7 @@ void add_figures(Schema& k, LidarScenario& l) {
   k.value("range_noise", l.range_noise, "Standard deviation of the range.").between(0, 1).unit("m");
   k.value("range_step", l.range_step, "Resolution of the range; 0: not rounded.").between(0, 1).unit("m");
   k.value("divergence_mrad", l.divergence_mrad,
-          "Full angle of the beam at 1/e^2 of its central intensity; 0: a line, with one echo per ray.")
+          "Full angle of the beam at 1/e^2 of its central intensity; 0: a line, without echoes of two surfaces.")
       .between(0, 100)
       .unit("mrad");
 }

@@ -14,10 +14,10 @@ Schema mix_material_schema(MixMaterial& m) {
 void add_pile(Schema& k, PileScenario& p) {
   k.group("pile", "The falling pieces and the structure.");
   k.value("pile.spawn_position", p.spawn_position,
-          "Centre of the box in which the pieces of a layer start; Z is up.")
+          "Centre of the box in which pieces start; Z is up.")
       .between(-1000, 1000)
       .unit("m");
-  k.value("pile.spawn_bounds", p.spawn_bounds, "Full edge lengths of this box.")
+  k.value("pile.spawn_bounds", p.spawn_bounds, "Full edge lengths of the box in which pieces start.")
       .above(0, 1000)
       .unit("m");
   k.group("pile.spawn_density",
@@ -128,8 +128,8 @@ void add_building(Schema& k, BuildingSpec& b) {
       .between(0, 1);
   k.choice("pile.building.infill", b.infill, {"none", "brick", "block"},
            "Material of the walls between the outer columns, or of masonry (none: brick).");
-  k.value("pile.building.infill_thickness", b.infill_thickness, "Thickness of these walls.").between(0.08, 0.5).unit("m");
-  k.value("pile.building.openings", b.openings, "Share of the length of each wall that is a window.").between(0, 0.8);
+  k.value("pile.building.infill_thickness", b.infill_thickness, "Thickness of the infill.").between(0.08, 0.5).unit("m");
+  k.value("pile.building.openings", b.openings, "Share of windows in the length of each wall.").between(0, 0.8);
   k.value("pile.building.piece", b.piece, "Approximate length of the pieces that members break into.")
       .between(0.3, 3)
       .unit("m");
@@ -147,8 +147,8 @@ void add_building(Schema& k, BuildingSpec& b) {
   bays("cores", b.cores, "Bays of a frame with a lift shaft of reinforced walls.");
   k.value("pile.building.wall", b.wall, "Thickness of masonry walls that carry floors.").between(0.15, 1).unit("m");
   k.value("pile.building.joist_depth", b.joist_depth, "Depth of the joists of timber floors.").between(0.1, 0.5).unit("m");
-  k.value("pile.building.joist_width", b.joist_width, "Width of these joists.").between(0.04, 0.3).unit("m");
-  k.value("pile.building.joist_spacing", b.joist_spacing, "Distance of the axes of these joists, at most.").between(0.3, 2).unit("m");
+  k.value("pile.building.joist_width", b.joist_width, "Width of the joists.").between(0.04, 0.3).unit("m");
+  k.value("pile.building.joist_spacing", b.joist_spacing, "Largest distance of the axes of the joists.").between(0.3, 2).unit("m");
 }
 
 void add_plan(Schema& k, BuildingPlan& plan) {
@@ -231,7 +231,7 @@ void add_cause(Schema& k, CollapseCause& c) {
   k.value("pile.building.cause.overloaded_floor", c.overloaded_floor,
           "Floor with an additional load; 0: the slab above the ground storey; -1: none.")
       .between(-1, 11);
-  k.value("pile.building.cause.overload", c.overload, "Additional load of this floor.").between(0, 3000).unit("kg/m2");
+  k.value("pile.building.cause.overload", c.overload, "Additional load of `overloaded_floor`.").between(0, 3000).unit("kg/m2");
   k.value("pile.building.cause.shake", c.shake, "Peak ground acceleration.").between(0, 20).unit("m/s2");
   k.value("pile.building.cause.shake_hz", c.shake_hz, "Centre of the frequency range of the motion.").between(0.2, 20).unit("Hz");
   k.value("pile.building.cause.shake_seconds", c.shake_seconds, "Duration of the motion.").between(1, 60).unit("s");

@@ -126,7 +126,7 @@ void add_dust(Schema& k, DustSpec& dust) {
   k.value("air.dust.position", dust.position, "Centre of the box in which bursts start.")
       .between(-1000, 1000)
       .unit("m");
-  k.value("air.dust.bounds", dust.bounds, "Full edge lengths of this box.")
+  k.value("air.dust.bounds", dust.bounds, "Full edge lengths of the box in which bursts start.")
       .between(0, 1000)
       .unit("m");
   k.value("air.dust.density", dust.density, "Extinction in the centre of a fresh plume.")

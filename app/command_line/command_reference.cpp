@@ -38,7 +38,7 @@ std::string option_text(const OptionDescription& option) {
   return option.help + (option.required && !option.by_place ? "; required" : "") + ".";
 }
 
-using Counts = std::map<std::string, int>;  // of rows with the same term and text
+using Rows = std::map<std::string, std::string>;  // of common options, by their names
 
 std::string option_row(const OptionDescription& option) { return table_row(option_term(option), option_text(option)); }
 
@@ -54,11 +54,12 @@ std::string usage_of(const CommandDescription& command) {
   return as_code(line + " [OPTION] ...");
 }
 
-std::string command_section(const CommandDescription& command, const Counts& counts) {
+std::string command_section(const CommandDescription& command, const Rows& common_rows) {
   std::string rows, common;
   for (const OptionDescription& option : command.options) {
     const std::string line = option_row(option);
-    if (counts.at(line) < kFewest)
+    const auto found = common_rows.find(option.names.back());
+    if (found == common_rows.end() || found->second != line)
       rows += line;
     else if (option.names.back() != "--help")
       common += (common.empty() ? "" : ", ") + as_code(option.names.back());
@@ -70,14 +71,16 @@ std::string command_section(const CommandDescription& command, const Counts& cou
 }  // namespace
 
 std::string make_command_reference(const ProgramText& text, const std::vector<CommandDescription>& commands) {
-  Counts counts;
+  std::map<std::string, int> counts;
+  Rows common_rows;
   std::string common, codes, variables, sections;
   for (const CommandDescription& command : commands)
     for (const OptionDescription& option : command.options) {
       const std::string line = option_row(option);
-      if (++counts[line] == kFewest) common += line;
+      // Of several options with one name, the first that is common.
+      if (++counts[line] == kFewest && common_rows.emplace(option.names.back(), line).second) common += line;
     }
-  for (const CommandDescription& command : commands) sections += command_section(command, counts);
+  for (const CommandDescription& command : commands) sections += command_section(command, common_rows);
   for (const auto& [number, meaning] : text.exit_codes) codes += table_row(as_code(std::to_string(number)), meaning + ".");
   for (const auto& [name, meaning] : text.environment) variables += table_row(as_code(name), meaning + ".");
   sections.pop_back();

@@ -177,7 +177,7 @@ void warn_of_surface_appearances(const Asset& asset, const std::vector<std::stri
     std::string there;
     for (const std::string& surface : surfaces) there += (there.empty() ? "`" : ", `") + surface + "`";
     warnings.push_back(asset.meshes.front() + ": `looks` of `" + asset.name +
-                       "` names the surface `" + name + "`, which the mesh has not: " +
+                       "` names the surface `" + name + "`, which the mesh does not have: " +
                        (near.empty() ? "it has " + there : "did you mean `" + near + "`?"));
   }
 }

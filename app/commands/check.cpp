@@ -128,14 +128,14 @@ Action declare_check(CommandLine& line) {
   line.add_print("--schema", mission_json_schema,
                  "Print a JSON Schema of every key of a mission instead");
   line.add_print("--annotations", lua_annotations,
-                 "Print LuaCATS annotations instead, with which editors check and complete missions");
+                 "Print LuaCATS annotations instead, for the checks and completions of editors");
   return [request] { return check_mission(*request); };
 }
 
 }  // namespace
 
 Command check_command() {
-  return {"", "check", "Print the complete scenario as JSON; run nothing", declare_check};
+  return {"", "check", "Check a mission and print its complete scenario as JSON; run nothing", declare_check};
 }
 
 }  // namespace rubble

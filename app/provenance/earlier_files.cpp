@@ -135,7 +135,7 @@ void refuse_foreign_recordings(const std::string& folder) {
     const fs::path path = fs::path(folder) / name;
     if (!fs::exists(fs::symlink_status(path, failed))) continue;
     const std::vector<std::string> files = list_plain_files(folder, name);
-    throw InputError({path.string(), 0, "", "holds what the earlier run did not write", "",
+    throw InputError({path.string(), 0, "", "has files that the earlier run did not write", "",
                       files.empty() ? "" : files.front(), "move it elsewhere"});
   }
 }

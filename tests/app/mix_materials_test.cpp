@@ -126,7 +126,7 @@ TEST(MixMaterials, MistakesAreNamed) {
                 .find("did you mean `brick`?"),
             std::string::npos);
   EXPECT_NE(error_of("{ asset = 'chunk_4', materials = { { material = 'brick', weight = 0 } } }")
-                .find("nothing to draw"),
+                .find("all weights are 0"),
             std::string::npos);
   EXPECT_NE(error_of("{ asset = 'hinged_slab', materials = { { material = 'brick' } } }")
                 .find("keeps its materials"),

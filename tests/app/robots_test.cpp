@@ -55,7 +55,7 @@ TEST(Robots, RunsHaveTheSameBitsOnAnyNumberOfThreadsAndAreVerified) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
 }
 
-// The mission whose cost docs/reference/robots.md states.
+// The mission whose cost docs/development/robots.md states.
 TEST(Robots, ASnakeAmongManyContactsHasTheSameBitsOnAnyNumberOfThreads) {
   const ScratchFolder scratch;
   std::string tracks[2];
@@ -379,10 +379,10 @@ TEST(Robots, SensorsOnRobotsThatCannotCarryThemAreMistakesWithTheirLine) {
       {"cameras = { a = { ride = { robot = \"q\" } } }", "m.lua:3: cameras.a.ride.robot: no robot has this name"},
       {"cameras = { a = { ride = { robot = \"r\", link = \"mast\" } } }",
        "m.lua:3: cameras.a.ride.link: the robot has no such link: expected one of base_link"},
-      {"imu = { ride = { link = \"mast\" } }", "m.lua:3: imu.ride.link: a link of no robot"},
+      {"imu = { ride = { link = \"mast\" } }", "m.lua:3: imu.ride.link: a link without a robot"},
       {"imu = true, imus = { a = {} }", "m.lua:3: imu.on: contradicts imus"},
       {"cameras = { a = { ride = { robot = \"r\" } } }, imu = true",
-       "m.lua:3: cameras: none is on the rig, whose pose is recorded with frames"},
+       "m.lua:3: cameras: no camera is on the rig, but an IMU or LiDAR is"},
       {"outputs = { euroc = true }, cameras = { a = { ride = { robot = \"r\" } }, b = {} }",
        "m.lua:3: outputs.euroc: the format has one moving body"},
   };
@@ -418,7 +418,7 @@ TEST(Robots, ControllersThatNeverReturnOrAskTooMuchAreMistakesWithTheirLine) {
   } cases[] = {{"while true do end", "m.lua:3"},
                {"return { torques = { 1e9 } }", "robots[1].control: torques"},
                {"return { linear = 80 }", "robots[1].control: linear"},
-               {"return 5", "robots[1].control: what the function returns cannot be followed"},
+               {"return 5", "robots[1].control: the function returned no valid commands"},
                {"error(\"no idea\")", "no idea"}};
   for (const auto& c : cases) {
     write_file(scratch / "m.lua",

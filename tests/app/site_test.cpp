@@ -108,7 +108,7 @@ TEST(NightlySite, MkdocsMakesIt) {
   fs::copy_file(kRoot + "/mkdocs.yml", scratch / "mkdocs.yml");
   ASSERT_EQ(run("cd " + scratch.path().string() + " && mkdocs build --strict >log 2>&1"), 0)
       << read_file(scratch / "log");
-  EXPECT_NE(read_file(scratch / "build/site/lua.html").find("collapse.lean_to"), std::string::npos);
+  EXPECT_NE(read_file(scratch / "build/site/reference/missions.html").find("collapse.lean_to"), std::string::npos);
   EXPECT_TRUE(fs::exists(scratch / "build/site/search/search_index.json"));
   // Complete without a network; a control that what is not there is found.
   EXPECT_EQ(missing_in(scratch / "build/site"), std::set<std::string>{});

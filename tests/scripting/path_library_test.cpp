@@ -262,7 +262,7 @@ TEST(Densities, Mistakes) {
             "m.lua:1: pile.spawn_density.weights: not a whole grid: expected columns * rows = 4 numbers, found 3 "
             "(rubble.density makes such grids)");
   EXPECT_EQ(mission_error("return { pile = { spawn_density = { columns = 1, rows = 2, weights = {0, 0} } } }"),
-            "m.lua:1: pile.spawn_density.weights: nowhere to draw: expected a weight above 0, found only weights of 0 "
+            "m.lua:1: pile.spawn_density.weights: all weights are 0: expected a weight above 0, found only weights of 0 "
             "(rubble.density makes such grids)");
 }
 
@@ -286,7 +286,7 @@ TEST(FindVoid, Mistakes) {
   EXPECT_EQ(mission_error("local v = rubble.find_void { radios = 1 }\nreturn {}"),
             "m.lua:1: rubble.find_void.radios: unknown key `radios` (did you mean `radius`?)");
   EXPECT_EQ(mission_error("return { trajectory = { plan = 'avoid', waypoints = { { position = {0, 0, 1} } } } }"),
-            "m.lua:1: trajectory.waypoints: nowhere to go: expected at least two waypoints for the plan \"avoid\", found 1");
+            "m.lua:1: trajectory.waypoints: the plan needs a destination: expected at least two waypoints for the plan \"avoid\", found 1");
   EXPECT_EQ(mission_error("return { trajectory = { plan = 'avoid', waypoints = { { position = {0, 0, 1} },\n"
                           "{ position = {1, 0, 1}, t = 2 } } } }"),
             "m.lua:2: trajectory.waypoints[2].t: contradicts the plan \"avoid\": expected `speed`: how long the way is, "

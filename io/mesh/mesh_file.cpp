@@ -9,9 +9,11 @@
 #include "io/import/imported_scene.h"
 #include "io/import/mesh_join.h"
 #include "io/import/mesh_paint.h"
+#include "io/import/mesh_winding.h"
 #include "io/mesh/mesh_bytes.h"
 #include "io/mesh_formats/scene_reader.h"
 #include "kernel/base/error.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/system/isolated_worker.h"
 
 // Importers are called in child processes alone: kernel/base/system/isolated_worker.h says why.
@@ -21,6 +23,7 @@ namespace {
 
 void check_readable(const std::string& path) {
   namespace fs = std::filesystem;
+  check_may_read(path);
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) refuse_mesh(path, "the mesh file does not exist");
@@ -67,6 +70,8 @@ TriangleMesh import_mesh(const std::string& path, const MeshUnits& units, MeshNo
   TriangleMesh mesh = join_meshes(scene, path, frame_of(scene, units), paints);
   check_place(mesh, path);
   weld_cracks(mesh);
+  const std::string turned = agree_on_outside(mesh);
+  if (!turned.empty()) scene.note(turned);
   notes.shape = scene.notes;
   notes.looks = paints.notes();
   return mesh;

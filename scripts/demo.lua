@@ -1,0 +1,44 @@
+-- The mission of `make demo`: an earthquake brings down a car park, and a crawler drives by its lamp, through dust,
+-- into what is left between the cars. Others start from here: docs/tutorials/first_steps.md.
+--   rubble run scripts/demo.lua --out out/demo
+--   rubble run scripts/demo.lua --seed 2 --out out/other   # another ruin: the robot's path may be blocked
+
+-- What falls. Two storeys of a frame whose ground storey is weak; cars stand on the floors, and on the roof.
+local building = rubble.building {
+  storeys = 2, bays_x = 2, bays_y = 2, span_x = 5.5, span_y = 5, column = 0.3, infill = "none", piece = 1.3,
+  furniture = { { asset = "car_side", per_bay = 1.2 } },
+  cause = { shake = 7, weak_storey = 0, weakness = 0.1 },
+}
+
+-- A robot that follows a path: its points are {x, y}, in metres. `rubble voids out/demo` draws where there is room.
+local crawler = rubble.robot.crawler {
+  name = "tank", position = { -3.6, -7.4, 0.001 }, rpy_deg = { 0, 0, 90 }, odometry_noise = 0.001,
+  lamps = { { intensity_cd = 80 } },
+  control = rubble.robot.follow {
+    path = { { -3.6, -7.4 }, { -3.4, -5.8 }, { -3, -4.4 }, { -2, -3.6 }, { -0.9, -3.4 } }, speed = 0.35,
+    flippers = { 0.7, 0.7, 0.7, 0.7 },
+  },
+}
+
+return rubble.mission {
+  seed = 1,
+  packs = { "parking" },
+  pile = building,
+  robots = { crawler },
+  robot_run = { duration = 16 },
+
+  -- Thin smoke that billows and lies low, and bursts of dust where the robot goes.
+  air = {
+    fog_density = 0.04, fog_height = 2, fog_noise = 0.8, wind = { 0.1, 0.05, 0 },
+    dust = { period = 3, position = { -2, -3.5, 0.5 }, bounds = { 3, 2, 0.4 }, density = 1 },
+  },
+
+  -- What is measured: colour and depth of a camera on a mast, a LiDAR, an inertial unit.
+  light = { type = "sun", elevation_deg = 35, azimuth_deg = 230 },
+  camera = { width = 640, height = 480, fov_deg = 90, exposure = { mode = "automatic" } },
+  lamp = { on = false },
+  trajectory = { rate_hz = 2, ride = { robot = "tank", position = { 0.25, 0, 0.35 }, rpy_deg = { 0, 5, 0 } } },
+  lidars = { top = { model = "vlp16", rate_hz = 5, ride = { robot = "tank" }, position = { 0, 0, 0.45 } } },
+  imu = { on = true },
+  outputs = { bag = true, rawlog = true, simplemap = false },
+}

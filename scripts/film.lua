@@ -9,8 +9,8 @@ local outside = { width = 640, height = 360, fov_deg = 60, exposure = { mode = "
 if part == "collapse" then
   mission.robots, mission.robot_run, mission.lidars, mission.imu = nil, nil, nil, nil
   mission.camera = outside
-  mission.record_settling = { from = 1, to = 15, rate_hz = 12 }
-  mission.trajectory = { waypoints = { { position = { -11, -12, 4 }, look_at = { 0, 0, 2 } } } }
+  mission.record_settling = { rate_hz = 24 }  -- shown at half speed
+  mission.trajectory = { waypoints = { { position = { -9.5, -12.5, 3 }, look_at = { 0, 0, 2.2 } } } }
   return mission
 end
 
@@ -22,8 +22,8 @@ mission.cameras = { front = front, outside = outside }
 mission.trajectory = {
   rate_hz = 12,
   waypoints = {
-    { t = 0, position = { -12, -6, 2.2 }, look_at = { -3, 0, 0.8 } },
-    { t = mission.robot_run.duration, position = { -8, -4, 1.4 }, look_at = { -1, 0, 0.5 } },
+    { t = 0, position = { -7.5, -10, 1.9 }, look_at = { -3, -5.5, 0.6 } },
+    { t = mission.robot_run.duration, position = { -4.6, -7.6, 0.9 }, look_at = { -1.6, -3.6, 0.5 } },
   },
 }
 return mission

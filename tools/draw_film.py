@@ -5,7 +5,7 @@ usage: tools/draw_film.py [--program build/release/rubble] [--mission scripts/fi
                           [--out docs/pictures/demo.mp4] [--rate 12] [--kilobytes 1000]
 
 The mission has two parts (`--set part=...`): `collapse`, which one camera records, and `way`, with a camera `front` on the
-robot and a camera `outside`; all have the rate of the film. A part that is finished in the folder of --run is used again.
+robot and a camera `outside` at the rate of the film. A part that is finished in the folder of --run is used again.
 Needs python3-opencv and ffmpeg (tools/packages-pictures.txt).
 """
 import argparse
@@ -87,7 +87,7 @@ def scenes(reel, rate):
     hold = round(HOLD * rate)
     yield from [title(["Rubble", "a building, an earthquake, a robot: computed, not drawn"])] * hold
     for i in range(reel.count(reel.fallen) - 1):  # the last one is the flight's
-        yield caption(fit(reel.colour(reel.fallen, i), SIZE), "An earthquake, and a weak ground storey. Bonds break, floors fall on cars.")
+        yield caption(fit(reel.colour(reel.fallen, i), SIZE), "An earthquake under a weak ground storey, at half speed: bonds break, floors fall")
     yield from [title(["The way in", "a crawler with a lamp, a camera, a LiDAR and an inertial unit"])] * hold
     for i in range(min(reel.count(reel.front), reel.count(reel.outside))):
         yield caption(split(reel, i), f"By its lamp, through dust: colour and exact depth   {i / rate:.1f} s")

@@ -143,8 +143,8 @@ test-nightly: live
 asset-maker: program-packages build/release/build.ninja
 	cmake --build --preset release --target rubble_make_assets
 
-build/tsan/build.ninja: | asset-maker
-test-tsan: asset-maker
+build/asan/build.ninja build/tsan/build.ninja: | asset-maker
+test-asan test-tsan: asset-maker
 
 test-asan test-tsan: test-%: packages build/%/build.ninja
 	cmake --build --preset $*

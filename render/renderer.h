@@ -21,30 +21,29 @@ class Renderer {
   // Called with the done fraction (0 to 1) while the scene is prepared.
   using Progress = std::function<void(double)>;
 
-  // Prepares everything that does not depend on the camera. The context must outlive the renderer
-  // and be used by one thread at a time. Throws RunError: unknown look, out of memory.
+  // Prepares all that does not depend on the camera. The context must outlive the renderer and be used by one thread at
+  // a time. Throws RunError for an unknown look or if memory is exhausted.
   Renderer(GlContext& context, const Scene& scene, const RenderOptions& options = {},
            const Progress& progress = {});
   ~Renderer();
 
-  // Another lamp and other air over the same scene: the frames are those of a new Renderer for it, but
-  // light that was baked is not baked again. Views that were made before must not be asked any more.
+  // Replaces the lamp and the air of the scene. Frames are those of a new Renderer, but light is not baked again. Earlier
+  // views must not be used any more.
   void restart(const LampSpec& lamp, const AirSpec& air);
 
-  // A view through any lens and shutter, exact for each pixel's own ray, without resampling. Nothing is
-  // drawn until it is asked. What moves in the scene is where it is at the stamp of the view; of a view
-  // whose rows have times of their own, all rows see it there.
-  // next: the view of the frame that follows, for streams that need it; null: none follows.
+  // A view through any lens and shutter, exact for the ray of each pixel, without resampling. It draws on demand. Moving
+  // instances have their poses at the stamp of the view, also if rows have times of their own. next: the view of the
+  // next frame, for streams that need it; null: there is none.
   // The renderer must outlive the view. Throws RunError: sizes or focal lengths out of range.
   RenderedView view(const ViewRays& rays, const ViewRays* next = nullptr);
-  // Adds the drops and flakes that fall through an exposure to its light, 3 floats a pixel (unit: kcd/m2), which is
-  // that of linear frames. Nothing where nothing falls.
+  // Adds drops and flakes to the light of an exposure, 3 floats a pixel as in linear frames; unit: kcd/m2. No effect
+  // without rain and snow.
   void add_drops(const ExposedView& exposed, std::vector<float>& radiance);
-  // What hangs in the air of the scene, for sensors that are not cameras. Until the next restart().
+  // The air of the scene, for sensors that are not cameras. Valid until the next restart().
   const Medium& medium() const;
 
-  // Colour and depth of a view, metered on the frame itself: a frame is the same whichever were drawn
-  // before it. Its noise follows from `index`, or of a view from ViewRays::noise. Distortion in `intrinsics` is not applied: it must be zero.
+  // Colour and depth of a view. Exposure is metered on the frame itself, so a frame does not depend on earlier ones. Noise
+  // follows from `index`, or for a view from ViewRays::noise. `intrinsics` must have zero distortion.
   Frame render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,
                std::int64_t stamp_ns);
   Frame render(const ViewRays& rays, int index);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Lists the kernel's constants of physics on one page: value, unit, reason and where each stands.
+"""Lists the kernel's constants of physics on one page: value and unit, by file. The reasons stay in the sources.
 
   tools/constants.py            writes docs/development/constants.md
   tools/constants.py --check    fails when the page is not what the sources say, when a name has two
@@ -23,14 +23,15 @@ DECLARATION = re.compile(r"^\s*(?:inline |static )*constexpr (?:float|double|int
 UNIT = re.compile(r"[;,]?\s*unit: ([^;.)]+)")
 HEAD = """# Constants of the kernel
 
-This page lists every named number in the kernel's folders of physics, with its unit and its reason. Numbers
-that follow from others are left out. Settings with a default are in `SolverSettings`
-(`kernel/solver/contact_solver.h`) and `NarrowSettings` (`kernel/collision/narrow_phase.h`); the conditions of
-sleep are in `kernel/world/phases/sleep.cpp`. [missions.md](../reference/missions.md) has the keys that a script may set.
-[performance.md](performance.md#closed-forms) measures how far clamps and limits deviate from the laws of Newton
-and Coulomb.
+This page lists every named number in the kernel's folders of physics: name, value and unit; without a unit it is a ratio,
+a count or a code. The comment beside each constant in its file has the reason. A test fails if a constant has no comment,
+or if one name has two values. Numbers that follow from others are left out.
 
-This page is written by `tools/constants.py` from the comments beside the constants; a test compares the two.
+Settings with a default are in `SolverSettings` (`kernel/solver/contact_solver.h`) and `NarrowSettings`
+(`kernel/collision/narrow_phase.h`). The [reference](../reference/missions.md) has the keys that a mission may set.
+[Performance](performance.md#closed-forms) measures how far clamps and limits deviate from the laws of Newton and Coulomb.
+
+`tools/constants.py` writes this page.
 """
 
 
@@ -67,20 +68,22 @@ def is_number(value):
 def make_page(problems):
     text, known = HEAD, {}
     for room, title in ROOMS.items():
-        text += f"\n## {title} (`kernel/{room}`)\n\n| constant | value | unit | meaning and reason | in |\n|---|---|---|---|---|\n"
+        text += f"\n## {title}\n\n| in `kernel/{room}` | constants |\n|---|---|\n"
         for path in sorted((ROOT / "kernel" / room).rglob("*")):
             if path.suffix not in (".h", ".cpp"):
                 continue
+            where, cells = path.relative_to(ROOT / "kernel" / room), []
             for name, value, unit, reason in read_constants(path):
                 if not is_number(value):
                     continue
-                where = path.relative_to(ROOT / "kernel" / room)
                 value = value.rstrip("fF")
                 if known.setdefault(name, value) != value:
                     problems.append(f"kernel/{room}/{where}: {name} is {value} here and {known[name]} elsewhere: give it a name of its own")
                 if not reason:
                     problems.append(f"kernel/{room}/{where}: {name} has no comment: say why it is {value}, and its unit")
-                text += f"| `{name}` | {value} | {unit or '1'} | {reason.replace('|', chr(92) + '|')} | `{where}` |\n"
+                cells.append(f"`{name}` {value} {'' if unit == '1' else unit}".strip())
+            if cells:
+                text += f"| `{where}` | {', '.join(cells)} |\n"
     return text
 
 

@@ -4,6 +4,11 @@ goal.
 
 usage: PYTHONPATH=build/release/python tools/draw_navigate.py MISSION SEED FOLDER/ways/SEED.csv... OUT.png
 
+docs/pictures/navigate.png:
+  rubble bench navigate scripts/navigate.lua --seeds 2 --planner none --out out/navigate/none
+  rubble bench navigate scripts/navigate.lua --seeds 2 --planner ompl --out out/navigate/ompl
+  tools/draw_navigate.py scripts/navigate.lua 2 out/navigate/none/ways/2.csv out/navigate/ompl/ways/2.csv docs/pictures/navigate.png
+
 Several ways of one seed, as of different planners, are drawn side by side. Needs python3-numpy and python3-matplotlib.
 """
 import csv

@@ -13,6 +13,7 @@ import sys
 
 FLOORS = ["kernel", "render", "io", "scripting", "assets", "app", "bench", "python"]
 PAGE = "docs/development/contributing.md"
+EVERYWHERE = "base"  # of its own part and of the kernel: left out of the arrows
 BEGIN, END = "<!-- rooms: made by tools/draw_rooms.py -->", "<!-- end of rooms -->"
 
 
@@ -58,9 +59,10 @@ def draw():
         rooms = [r for r in uses if r.split("/")[0] == floor]
         lines.append(floor)
         for room in order(rooms, uses):
-            inside = sorted(r.split("/", 1)[-1] for r in uses[room] if r.split("/")[0] == floor)
+            arrows_to = [r for r in uses[room] if r not in (f"{floor}/{EVERYWHERE}", f"kernel/{EVERYWHERE}")]
+            inside = sorted(r.split("/", 1)[-1] for r in arrows_to if r.split("/")[0] == floor)
             outside = sorted({r if r.startswith("kernel") else r.split("/")[0]
-                              for r in uses[room] if r.split("/")[0] != floor})
+                              for r in arrows_to if r.split("/")[0] != floor})
             arrows = ", ".join(inside)
             if outside:
                 arrows += (" | " if arrows else "| ") + ", ".join(outside)

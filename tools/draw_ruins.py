@@ -73,7 +73,7 @@ def sheet(pictures, names, path, columns=COLUMNS):
 def kind_row(ruin):
     pile, m = ruin["manifest"]["pile"], ruin["manifest"]["metrics"]
     rest = f"{pile['simulated_s']:.1f}" if pile["settled"] else f"not within {pile['simulated_s']:.0f}"
-    return (f"| `{ruin['name']}` | {ruin['title']} | {ruin['manifest']['seed']} | {pile['pieces']} | {rest} | "
+    return (f"| `{ruin['name']}` | {ruin['title']} | {pile['pieces']} | {rest} | "
             f"{m['pile_height_m']:.1f} | {m['void_count']:.0f} | {m['void_covered_m3']:.0f} | {m['void_depth_m']:.1f} |")
 
 
@@ -83,8 +83,8 @@ def draw_kinds(args):
     pictures = [cv2.imread(ruin[key]) for ruin in ruins for key in ("outside", "cut")]
     names = [name for ruin in ruins for name in (ruin["name"], ruin["name"] + ", cut open")]
     sheet(pictures, names, os.path.join(args.pictures, "ruin_kinds.jpg"), 2)
-    lines = ["| mission | what happens | seed | pieces | at rest after, s | height, m | voids | covered volume, m3 | "
-             "deepest void, m |", "|---|---|---|---|---|---|---|---|---|"]
+    lines = ["| mission | cause and effect | pieces | at rest after, s | height, m | voids | covered volume, m3 | "
+             "deepest void, m |", "|---|---|---|---|---|---|---|---|"]
     write_between_marks(args.document, "kinds", "\n".join(lines + [kind_row(ruin) for ruin in ruins]) + "\n")
 
 
@@ -98,7 +98,7 @@ def debris_extent(manifest):
 def row(ruin):
     pile, m = ruin["manifest"]["pile"], ruin["manifest"]["metrics"]
     rest = f"{pile['simulated_s']:.1f}" if pile["settled"] else f"not within {pile['simulated_s']:.0f}"
-    return (f"| `{ruin['name']}` | {ruin['title']} | {ruin['manifest']['seed']} | {pile['pieces']} | "
+    return (f"| `{ruin['name']}` | {ruin['title']} | {pile['pieces']} | "
             f"{rest} | {m['pile_height_m']:.1f} | {debris_extent(ruin['manifest']):.1f} | "
             f"{m['void_count']:.0f} | {m['void_covered_m3']:.0f} | {m['void_depth_m']:.1f} |")
 
@@ -112,8 +112,6 @@ def void_measures(manifest):
 
 def compare_published(ruins):
     """Debris against the height of the building, and its bulk against the building's volume."""
-    lines = ["| mission | height of the building, m | of the ruin, as a share | debris beyond the walls, as a share | "
-             "bulk, as a share of the building's volume |", "|---|---|---|---|---|"]
     shares = []
     for ruin in ruins:
         b, m = ruin["manifest"]["scenario"]["pile"]["building"], ruin["manifest"]["metrics"]
@@ -121,21 +119,23 @@ def compare_published(ruins):
         volume = b["bays_x"] * b["span_x"] * b["bays_y"] * b["span_y"] * height
         shares.append((m["pile_height_m"] / height, debris_extent(ruin["manifest"]) / height,
                        (m["piece_volume_m3"] + m["void_covered_m3"]) / volume))
-        lines.append(f"| `{ruin['name']}` | {height:.1f} | " + " | ".join(f"{x:.2f}" for x in shares[-1]) + " |")
-    lines.append("| median | | " + " | ".join(f"{np.median(column):.2f}" for column in zip(*shares)) + " |")
+    lines = ["| | height of the ruin / of the building | debris beyond the walls / height of the building | "
+             "bulk / volume of the building |", "|---|---|---|---|",
+             f"| {len(ruins)} ruins, median (least to most) | " + " | ".join(medians(shares)) + " |"]
     return "\n".join(lines) + "\n"
 
 
+def medians(rows):
+    """Of each column, with its range."""
+    return [f"{np.median(c):.2f} ({min(c):.2f} to {max(c):.2f})" for c in zip(*rows)]
+
+
 def compare_voids(ruins, staged):
-    groups = {f"caused: {len(ruins)} ruins": ruins, f"staged: {len(staged)} modes": list(staged.values())}
+    groups = {f"caused: {len(ruins)} ruins": ruins, f"staged: {len(staged)} modes": staged}
     lines = ["| piles | covered volume for each m3 of pieces | voids for each 10 m3 of it | reachable share | "
              "deepest void, m |", "|---|---|---|---|---|"]
     for name, manifests in groups.items():
-        columns = list(zip(*map(void_measures, manifests)))
-        lines.append(f"| {name}, median (least to most) | " + " | ".join(
-            f"{np.median(c):.2f} ({min(c):.2f} to {max(c):.2f})" for c in columns) + " |")
-    for name, manifest in staged.items():
-        lines.append(f"| `rubble.collapse.{name}` | " + " | ".join(f"{x:.2f}" for x in void_measures(manifest)) + " |")
+        lines.append(f"| {name}, median (least to most) | " + " | ".join(medians(map(void_measures, manifests))) + " |")
     return "\n".join(lines) + "\n"
 
 
@@ -154,12 +154,12 @@ def main():
     names = [ruin["name"] for ruin in ruins]
     sheet([cv2.imread(ruin["outside"]) for ruin in ruins], names, os.path.join(args.pictures, "ruins.jpg"))
     sheet([cv2.imread(ruin["cut"]) for ruin in ruins], names, os.path.join(args.pictures, "ruins_cut.jpg"))
-    lines = ["| mission | what happens | seed | pieces | at rest after, s | height, m | debris beyond the walls, m | "
-             "voids | covered volume, m3 | deepest void, m |", "|---|---|---|---|---|---|---|---|---|---|"]
+    lines = ["| mission | cause and effect | pieces | at rest after, s | height, m | debris beyond the walls, m | "
+             "voids | covered volume, m3 | deepest void, m |", "|---|---|---|---|---|---|---|---|---|"]
     lines += [row(ruin) for ruin in ruins]
     write_between_marks(args.document, "ruins", "\n".join(lines) + "\n")
-    staged = {name: make(args, f"scripts/collapse/{name}.lua", os.path.join(args.out, "staged", name),
-                         ["--set", "voids.on=true"]) for name in STAGED}
+    staged = [make(args, f"scripts/collapse/{name}.lua", os.path.join(args.out, "staged", name), ["--set", "voids.on=true"])
+              for name in STAGED]
     caused = [ruin["manifest"] for ruin in ruins if ruin["name"] not in STANDING]
     write_between_marks(args.document, "voids", compare_voids(caused, staged))
     fallen = [ruin for ruin in ruins if ruin["name"] not in STANDING]

@@ -65,7 +65,7 @@ def main():
             name = args.name if row["name"] == "agent" else row["name"]
             rows[difficulty, name] = (
                 f"| {difficulty} | {name} | {row['searches']:.0f} | {cell(row, 'found_share')} | "
-                f"{cell(row, 'spl')} | {cell(row, 'coverage')} | {row['false_reports']:.2f} | "
+                f"{row['spl']:.2f} | {row['coverage']:.2f} | {row['false_reports']:.2f} | "
                 f"{row['collisions']:.0f} | {row['time_s']:.0f} |")
     lines = HEAD + [rows[key] for key in sorted(rows, key=rank)]
     write_between_marks(args.document, "search", "\n".join(lines) + "\n")

@@ -161,7 +161,7 @@ std::string choose_surface_appearance(const Asset& asset, const std::string& sur
   return asset.look.empty() ? surface : asset.look;
 }
 
-constexpr double kSmallest = 1e-3, kLargest = 1e3;  // of a piece that was meant so; unit: m
+constexpr double kSmallest = 1e-3, kLargest = 100;  // of a piece that was meant so; unit: m
 
 void warn_of_size(const Asset& asset, const TriangleMesh& mesh, std::vector<std::string>& warnings) {
   const Aabb box = mesh.bounds();

@@ -1,4 +1,4 @@
-// Every file or folder that the frames of a run can be recorded into: one row a format.
+// The table of recording formats: one row for each file or folder.
 #pragma once
 
 #include <memory>
@@ -13,33 +13,33 @@
 
 namespace rubble {
 
-// Of several cameras, what formats that hold one camera leave is in this folder of the run, a folder
-// for each: cameras/front/groundtruth.txt.
+// With several cameras, formats that hold one camera write into this folder of the run, one folder for each camera:
+// cameras/front/groundtruth.txt.
 inline constexpr char kCamerasFolder[] = "cameras";
 
-// What recorders are made from.
+// Inputs of recorders.
 struct RecordingInputs {
-  const Scenario& scenario;    // with the path that is flown
-  const Recording& recording;  // of a format that holds one camera: with that one alone
-  std::vector<int> frames;     // that will come of each camera; empty: not known
+  const Scenario& scenario;    // with the resolved path
+  const Recording& recording;  // with one camera only for a format that holds one camera
+  std::vector<int> frames;     // number of frames of each camera; empty: unknown
   std::string title;           // of the contact sheet
-  std::size_t camera = 0;      // of a format that holds one: its number among all_cameras()
+  std::size_t camera = 0;      // for a format that holds one camera: its index in all_cameras()
 };
 
 struct RecordingFormat {
   std::string name;        // of the key in `outputs`: "bag"
-  std::string leaves;      // in the run's folder: "mission.bag", "tum"
-  bool is_folder = false;  // what it leaves
+  std::string leaves;      // file or folder in the run's folder: "mission.bag", "tum"
+  bool is_folder = false;  // whether `leaves` is a folder
   bool OutputScenario::*wanted;
   std::unique_ptr<Recorder> (*make)(const std::string& path, const RecordingInputs& inputs);
-  double (*estimate)(const RecordedSize& size);  // of one camera, at most; unit: byte
+  double (*estimate)(const RecordedSize& size);  // largest size for one camera; unit: byte
   bool one_camera = false;                       // whether it holds a single camera
 };
 
-// In the order in which they take a frame. docs/development/contributing.md says how to add one.
+// In the order in which they receive a frame. docs/development/contributing.md describes how to add one.
 const std::vector<RecordingFormat>& recording_formats();
 
-// How messages of ROS hold the frames of that scenario, in files and live.
+// Options of ROS messages for this scenario, in files and live.
 RosOptions ros_options(const OutputScenario& outputs, const Recording& recording);
 
 }  // namespace rubble

@@ -1,4 +1,4 @@
-// The sensors of a mission, ready to measure, each with its own rate and place on the rig.
+// The sensors of a mission, each with its own rate and pose on the rig.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +14,25 @@
 
 namespace rubble {
 
-// How a leg of a recording goes on from the one before.
+// State in which a leg of a recording continues the previous one.
 struct SensorBegin {
   std::uint64_t noise_seed = 0;  // of all sensors
   std::vector<int> frames;       // number of each camera's first frame; empty: 0
 };
 
-// All sensors, on the rig or on links of robots, and what robots sense, merged by stamp. At equal stamps robots come
-// before inertial units, these before LiDARs, and these before cameras, in the order of all_cameras(). The
-// renderer and the readings must outlive them.
+// All sensors on the rig and on links of robots, and the readings of robots, merged by stamp. Samples with equal stamps
+// come in this order: robots, inertial units, LiDARs, cameras in the order of all_cameras(). The renderer and the
+// readings must outlive the suite.
 class SensorSuite {
  public:
-  // flown: the scenario with the path that is flown, which `flight` was made from. scene: what the renderer
-  // draws.
+  // flown: the scenario with the resolved path, from which `flight` was made. scene: the scene of the renderer.
   SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin, const Scene& scene,
               Renderer& renderer, int threads, const RobotReadings& robots);
 
-  // Frames of each camera over the whole flight.
+  // Number of frames of each camera in the flight.
   const std::vector<int>& frames() const { return frames_; }
   int count_frames() const;
-  // The sample that comes next. Nothing: every camera has given its last frame.
+  // The next sample. Empty: every camera has given its last frame.
   std::optional<Sample> take();
 
  private:

@@ -19,7 +19,7 @@ from judge_measures import compare, read_pfm
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-PAGE = ROOT / "docs" / "reference_renderer.md"
+PAGE = ROOT / "docs/development/reference_renderer.md"
 sys.path.insert(0, str(ROOT / "tools"))
 import document_marks  # noqa: E402
 

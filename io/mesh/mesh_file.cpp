@@ -9,6 +9,7 @@
 #include "io/import/imported_scene.h"
 #include "io/import/mesh_join.h"
 #include "io/import/mesh_paint.h"
+#include "io/import/mesh_winding.h"
 #include "io/mesh/mesh_bytes.h"
 #include "io/mesh_formats/scene_reader.h"
 #include "kernel/base/error.h"
@@ -67,6 +68,8 @@ TriangleMesh import_mesh(const std::string& path, const MeshUnits& units, MeshNo
   TriangleMesh mesh = join_meshes(scene, path, frame_of(scene, units), paints);
   check_place(mesh, path);
   weld_cracks(mesh);
+  const std::string turned = agree_on_outside(mesh);
+  if (!turned.empty()) scene.note(turned);
   notes.shape = scene.notes;
   notes.looks = paints.notes();
   return mesh;

@@ -42,6 +42,10 @@ void read_binary(const std::string& path, std::string_view bytes, ImportedScene&
     refuse_mesh(path, "the STL file ends early: " + std::to_string(count) + " facets take " +
                           std::to_string(kStlHeader + kStlFacet * count) + " bytes, and it has " + std::to_string(bytes.size()));
   const bool magics = bytes.substr(0, 80).find("COLOR=") != std::string_view::npos;
+  const std::size_t beyond = bytes.size() - std::size_t(kStlHeader + kStlFacet * count);
+  if (beyond >= kStlFacet)
+    scene.note(std::to_string(beyond) + " bytes behind the " + std::to_string(count) +
+               " facets that the file states are left out: is the count right?");
   ImportedMesh& mesh = mesh_for(scene, 0, 0);
   for (std::uint64_t i = 0; i < count; ++i) {
     const char* at = bytes.data() + kStlHeader + kStlFacet * i;
@@ -69,6 +73,8 @@ class TextReader {
       for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) take(lower(word), rest);
     }
     if (corner_ > 0) refuse("a facet of less than three corners");
+    if (in_facet_) refuse("the STL file ends early: within a facet");
+    if (open_) scene_.note("`endsolid` is missing: the file may be cut off");
   }
 
  private:
@@ -80,7 +86,7 @@ class TextReader {
 
   void take(const std::string& word, std::string_view& rest) {
     if (word == "solid" || word == "endsolid") {
-      object_ += word == "solid";
+      object_ += word == "solid", open_ = word == "solid";
       rest = {};  // a name
     } else if (word == "normal") {
       for (int i = 0; i < 3; ++i) normal_[i] = float(number(rest));
@@ -89,8 +95,9 @@ class TextReader {
       if (++corner_ == 3) add_facet(mesh_for(scene_, 0, object_), normal_, corners_), corner_ = 0;
     } else if (word == "endfacet" || word == "endloop") {
       if (corner_ > 0) refuse("a facet of less than three corners");
+      if (word == "endfacet") in_facet_ = false;
     } else if (word == "facet") {
-      normal_ = {};
+      normal_ = {}, in_facet_ = true;
     } else if (word != "outer" && word != "loop") {
       refuse("unknown word \"" + printable(word) + "\"; STL has facet, normal, outer loop, vertex, endloop, endfacet");
     }
@@ -109,6 +116,7 @@ class TextReader {
   LineScanner lines_;
   ImportedScene& scene_;
   int object_ = 0, corner_ = 0;
+  bool open_ = false, in_facet_ = false;
   Vec3f normal_;
   std::array<Vec3, 3> corners_;
 };

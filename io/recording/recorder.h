@@ -1,4 +1,4 @@
-// Recorders turn frames into files. Each writes to "NAME.part" and renames on finish().
+// Recorders write samples to files. Each writes to "NAME.part" and renames it in finish().
 #pragma once
 
 #include <string>
@@ -9,12 +9,11 @@ namespace rubble {
 
 class Recorder {
  public:
-  virtual ~Recorder() = default;  // without finish(): removes what it wrote
-  // Samples come in the order of their stamps; of one stamp, robots, inertial units and scans before
-  // frames.
-  // A frame that is missing or out of order throws RunError.
+  virtual ~Recorder() = default;  // without finish(): removes its files
+  // Samples come in the order of their stamps. With equal stamps, robots, inertial units and scans come before frames.
+  // Throws RunError for a frame that is missing or out of order.
   virtual void write(const Frame& frame) = 0;
-  // Unless a format has a place for it, left out.
+  // Formats without a place for these samples leave them out.
   virtual void write_imu(const ImuSample&) {}
   virtual void write_robot(const RobotSample&) {}
   virtual void write_lidar(const LidarScan&) {}

@@ -72,8 +72,12 @@ void UrdfElements::expect(const XmlElement& element, std::initializer_list<const
     if (known(attributes, name) || name == "xmlns" || name.compare(0, 6, "xmlns:") == 0) continue;
     left_out_[{element.name, "@" + name}].push_back(element.line);
   }
-  for (const XmlElement& child : element.children)
+  for (const XmlElement& child : element.children) {
     if (!known(children, child.name)) leave_out(child, element.name);
+    else if (!known({"link", "joint", "material", "visual", "collision"}, child.name) &&
+             &child != element.child(child.name))
+      warn(child.line, "a second <" + child.name + "> in <" + element.name + "> is left out: the first counts");
+  }
 }
 
 std::string UrdfElements::name_of(const XmlElement& element, const char* attribute) {

@@ -32,7 +32,8 @@ class UrdfElements {
   // Elements of one name in one parent make one warning with all their lines.
   void leave_out(const XmlElement& element, const std::string& parent);
 
-  // Names as left out what is in neither list. Attributes of the namespace (xmlns:...) say nothing.
+  // Names as left out what is in neither list, and children that stand twice where there is but one (<inertial>).
+  // Attributes of the namespace (xmlns:...) say nothing.
   void expect(const XmlElement& element, std::initializer_list<const char*> attributes,
               std::initializer_list<const char*> children);
 

@@ -32,8 +32,8 @@ class PartReader {
     link.name = elements_.name_of(from, "name");
     elements_.set_owner(link.name);
     elements_.expect(from, {"name", "type"}, {"inertial", "visual", "collision"});
+    if (const XmlElement* inertial = from.child("inertial")) read_inertial(*inertial, link);
     for (const XmlElement& child : from.children) {
-      if (child.name == "inertial") read_inertial(child, link);
       if (child.name == "collision") {
         elements_.expect(child, {"name"}, {"origin", "geometry"});
         read_shape(child, link.collisions);
@@ -101,6 +101,8 @@ class PartReader {
                                      (text ? "\"" + *text + "\"" : std::string("missing")));
       return std::nullopt;
     }
+    if (std::any_of(n.begin(), n.end(), [](double x) { return x < 0 || x > 1; }))
+      elements_.warn(color.line, "`rgba` is to be four numbers from 0 to 1, and is \"" + *text + "\": cut to this range");
     if (n[3] < 1)
       elements_.warn(color.line, "the transparency of <color> is left out: it is drawn as a solid");
     const auto decode = [](double code) { return float(linear_from_srgb(std::clamp(code, 0.0, 1.0))); };

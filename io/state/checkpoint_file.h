@@ -1,9 +1,9 @@
-// A pause in settling as a file, from which settling continues bit for bit as if it had not paused.
+// A checkpoint of settling as a file. Settling continues from it, bit for bit.
 //
 // In the envelope of io/base/sealed_file.h, kind "RUBCHKP\n":
-//   u64 fingerprint of the pile and the options; i32 layers spawned, i32 layers that ran into their
-//   limit, i64 steps since the last spawn; u64 size of the world's state and its bytes, whose
-//   format and version are those of kernel/world/world_snapshot.h
+//   u64 fingerprint of the pile and the options; i32 layers spawned, i32 layers that reached their
+//   limit, i64 steps since the last spawn; u64 size of the world's state and its bytes, in the
+//   format and version of kernel/world/world_snapshot.h
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A settled pile as a file: pile.bin. What is loaded equals what was saved bit for bit.
+// A settled pile as a file: pile.bin. Loading gives the saved bits.
 //
 // In the envelope of io/base/sealed_file.h, kind "RUBPILE\n":
 //   u32 count of types, each u32 length + UTF-8 name;
@@ -12,8 +12,8 @@
 //       u32 count of rigid bodies of several pieces, each u32 count, then i32 pieces, ascending;
 //       u32 count of ties, each: i32 pieces a and b (-1: the ground), f64 anchor in a and in b x y z each,
 //       f64 length, f64 strength, f64 stretch that is left, f64 bending moment
-// A pile without a building is of version 2, as are piles with buildings from before version 3: these can be drawn
-// and measured, but nothing of them can move again.
+// Piles without a building have version 2. So have older piles with buildings: they can be drawn and measured, but
+// their pieces cannot move again.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ inline constexpr std::uint32_t kPileStateVersion = 3;  // the newest
 // Throws RunError when the file cannot be written.
 void save_pile_state(const PileState& state, const std::string& path);
 
-// Throws InputError for a missing, foreign, truncated or altered file, another version, and
-// numbers that are not finite.
+// Throws InputError for a missing, foreign, truncated or altered file, another version, or a number that is not
+// finite.
 PileState load_pile_state(const std::string& path);
 
 }  // namespace rubble

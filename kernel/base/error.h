@@ -1,5 +1,5 @@
-// Errors by audience: an assertion for our own bugs, InputError for what the user wrote, and
-// RunError for what the machine could not do. Only main() turns them into exit codes.
+// Errors by audience: assertions for our own bugs, InputError for mistakes of the user, and RunError
+// for failures of the machine. Only main() turns them into exit codes.
 #pragma once
 
 #include <stdexcept>
@@ -13,27 +13,27 @@ enum class ExitCode {
   done = 0,
   bad_input = 1,
   failure = 2,
-  did_not_settle = 3,  // or pieces left the world: the pile is not the one that was asked for
+  did_not_settle = 3,  // or pieces left the world: the pile is not the requested one
   stopped = 4,  // by SIGINT, SIGTERM or SIGHUP; `rubble resume` continues
   differs = 5,  // verify found a difference, or a suite an expectation that is not met
 };
 
-// One mistake in something a user wrote. Fields that do not apply stay empty (line: 0).
+// One mistake in a user's file or option. Fields that do not apply stay empty (line: 0).
 struct Diagnostic {
   std::string file;      // as the user named it; empty: no file
   int line = 0;          // 1-based
   std::string key;       // whole path, e.g. "camera.width"
-  std::string message;   // what is wrong, in a few words
+  std::string message;   // the fault, in a few words
   std::string expected;  // e.g. "an integer from 16 to 8192"
   std::string found;     // e.g. "the string \"wide\""
-  std::string hint;      // what to do about it
+  std::string hint;      // the remedy
 
-  // "file:line: key: message: expected E, found F (hint)", leaving out what is empty and
-  // with control characters made visible (kernel/base/text.h).
+  // "file:line: key: message: expected E, found F (hint)". Empty fields are left out; control
+  // characters are made visible (kernel/base/text.h).
   std::string text() const;
 };
 
-// Bad input; carries every mistake found in one pass. Exit code 1.
+// Bad input. Holds all mistakes of one pass. Exit code 1.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(Diagnostic diagnostic);
@@ -44,7 +44,7 @@ class InputError : public std::runtime_error {
   std::vector<Diagnostic> diagnostics_;
 };
 
-// Something failed that is not the input's fault: disk, EGL, memory. Exit code 2.
+// A failure that is not the fault of the input: disk, EGL, memory. Exit code 2.
 class RunError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,5 +1,5 @@
-// Two hashes: a fast 64-bit one for states and streams, and SHA-256 for files and content, which
-// anyone can check with `sha256sum`.
+// Two hashes: a fast 64-bit hash for states and streams, and SHA-256 for files and content, as
+// `sha256sum` computes it.
 #pragma once
 
 #include <cstddef>

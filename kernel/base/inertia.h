@@ -1,4 +1,4 @@
-// What the inertia of rigid bodies needs of 3 x 3 matrices.
+// 3 x 3 matrix functions for the inertia of rigid bodies.
 #pragma once
 
 #include "kernel/base/math.h"

@@ -1,9 +1,9 @@
 // Vectors, quaternions and rigid transforms with a fixed order of operations.
 //
-// Eigen picks its instructions by the compiler's target, and with them the order of additions;
-// the kernel promises the same bits on every machine, so what touches a result uses these types,
-// whose every operation is written out. Everything is header-only, trivially copyable and free of
-// alignment rules. Quaternions are (w, x, y, z), unit length unless a function says otherwise.
+// Eigen chooses instructions, and with them the order of additions, by the target of the compiler.
+// The kernel promises the same bits on every machine. So all arithmetic of results uses these types,
+// which write out every operation. They are header-only, trivially copyable and free of alignment
+// rules. Quaternions are (w, x, y, z) with unit length, unless a function states otherwise.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace rubble {
 
 template <typename T>
 struct Vec3T {
-  T x{}, y{}, z{};  // components; the unit is that of what the vector means
+  T x{}, y{}, z{};  // components, in the unit of the vector's quantity
 
   constexpr Vec3T() = default;
   constexpr Vec3T(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
@@ -156,7 +156,7 @@ inline Mat3f to_float(const Mat3& m) {
   return {{Vec3f(m.rows[0]), Vec3f(m.rows[1]), Vec3f(m.rows[2])}};
 }
 
-// A rigid transform; named for both frames: `world_from_body` takes body coordinates to the world.
+// A rigid transform. Its name has both frames: `world_from_body` maps body coordinates to the world.
 struct Pose {
   Quat rotation;     // unit length
   Vec3 translation;  // unit: m

@@ -1,4 +1,4 @@
-// A triangle mesh as plain data: what assets are made of, what is drawn and what is exported.
+// A triangle mesh as plain data, for assets, drawing and export.
 #pragma once
 
 #include <array>
@@ -21,16 +21,16 @@ struct PaintImage {
   std::vector<std::uint8_t> texels;
 };
 
-// The colours that a mesh's file gives one of its surfaces: what of glTF's metal-rough material (glTF 2.0,
-// section 3.9) is drawn. A surface without has a look, by its name.
+// Colours of a surface from the file of a mesh: the supported part of glTF's metal-rough material (glTF 2.0,
+// section 3.9). A surface without colours has the look of its name.
 struct SurfacePaint {
   Vec3f colour{1, 1, 1};  // linear-light albedo; the image's and the corner's are multiplied by it
   float roughness = 1;    // the square root of alpha of the microfacets; the image's is multiplied by it
-  float metalness = 0;    // likewise; range: 0 to 1
-  float reflectance = 0;  // at normal incidence, of what is no metal; 0: matt
-  PaintImage albedo;      // encoded as sRGB (IEC 61966-2-1); the fourth byte says nothing
+  float metalness = 0;    // multiplied in the same way; range: 0 to 1
+  float reflectance = 0;  // of the non-metal share, at normal incidence; 0: matt
+  PaintImage albedo;      // encoded as sRGB (IEC 61966-2-1); the fourth byte is unused
   PaintImage relief;      // X and Y of the normal, 0 to 255 for -1 to 1; roughness; metalness
-  std::string sha256;     // of all that it was made from
+  std::string sha256;     // of all its sources
 };
 
 // Of one corner of a triangle.

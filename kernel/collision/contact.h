@@ -35,7 +35,7 @@ struct ContactPoint {
 // so that the order, and with it what the solver makes of it, is the same from step to step; unit: m.
 inline constexpr float kOrderDistance = 0.1F;
 
-// Who meets whom: read for every pair in every step, so kept small and apart from the contact.
+// The two bodies of a pair: read for every pair in every step, so it is small and apart from the contact.
 struct Pair {
   std::int32_t collider_a = 0, collider_b = 0;  // b may be kGround or a surface
   std::int32_t body_a = 0, body_b = 0;  // of the colliders; b may be kGround

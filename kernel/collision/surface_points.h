@@ -1,4 +1,4 @@
-// Where a convex part may touch a surface: points with the normals of single triangles.
+// Possible contact points of a convex part with a surface, with the normals of single triangles.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Where fines come to lie: places that face up, found along vertical lines through the whole pile, so that a place
-// in a void counts as much as one under the sky, each for the area that it stands for seen from above.
+// Sites where fines may lie: surfaces that face up, found along vertical lines through the whole pile. A site in a void
+// counts as much as one under the sky. Each site is weighted by its area seen from above.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What breaks off which piece: the looks of fines near it.
+// Looks of fines near a piece, by the look of the piece.
 #pragma once
 
 #include <array>

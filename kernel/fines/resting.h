@@ -1,4 +1,4 @@
-// How a small shape comes to rest on a surface: a face of it down, or on several points of rough ground.
+// Resting poses of a small shape on a surface: on one of its faces, or on several points of rough ground.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// A box of space cut into cubes.
+// A grid of cubic cells.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace rubble {
 
 using Cell = std::array<int, 3>;  // x, y, z
 
-// Cells are numbered x fastest, z slowest; values belong to the centres of cells.
+// Cells are numbered with x fastest and z slowest. Values belong to the centres of cells.
 struct VoxelGrid {
   Vec3 corner;         // the lowest corner of cell (0, 0, 0), in the world; unit: m
   double voxel = 0.1;  // edge length; unit: m
@@ -36,14 +36,14 @@ struct VoxelGrid {
     return corner + Vec3{c[0] + 0.5, c[1] + 0.5, c[2] + 0.5} * voxel;
   }
   Vec3 centre(std::size_t index) const { return centre(cell(index)); }
-  // The cell that a point lies in; outside of the grid too.
+  // The cell of a point, also outside of the grid.
   Cell find_cell(const Vec3& p) const {
     const Vec3 q = (p - corner) * (1 / voxel);
     return {int(std::floor(q.x)), int(std::floor(q.y)), int(std::floor(q.z))};
   }
 };
 
-// Calls visit(neighbour's index) for the up to six cells that share a face with a cell.
+// Calls visit(index) for each neighbour that shares a face with a cell, at most six.
 template <typename Visit>
 void for_each_neighbour(const VoxelGrid& grid, std::size_t index, Visit&& visit) {
   const Cell c = grid.cell(index);

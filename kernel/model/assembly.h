@@ -19,7 +19,7 @@ namespace rubble {
 struct PieceType;
 
 enum class JointKind : std::uint8_t {
-  weld,    // holds everything, until it breaks
+  weld,    // permits no motion until it breaks
   hinge,   // turns about Z of the joint's frame
   slider,  // the child moves along X of the joint's frame
   ball,    // turns in every direction
@@ -41,27 +41,27 @@ struct AssemblyLink {
 // move by an angle or a travel x; a ball is turned by an angle x about some axis.
 //
 // The spring's torque is stiffness * x for a hinge (a slider: force) and 2 stiffness sin(x / 2) for
-// a ball, which is the same for small angles and needs no inverse sine. Where it would exceed
-// `yield`, the spring's rest creeps after the joint: the bend stays.
+// a ball. The latter is equal for small angles and needs no inverse sine. If the torque would exceed
+// `yield`, the rest position of the spring follows the joint: the bend remains.
 struct JointType {
   int parent = 0, child = 1;  // indices into the links
-  JointKind kind = JointKind::ball;  // what the joint leaves free
+  JointKind kind = JointKind::ball;  // the permitted motion
   Pose assembly_from_joint;                // unit: m
   double stiffness = 0;                    // unit: N m/rad, slider N/m; range: 0 to 1e9
   double damping = 0;                      // unit: N m s/rad, slider N s/m; range: 0 to 1e9
-  double friction = 0;                     // dry, in the joint: holds up to it, and resists with it
-                                           // when it moves; unit: N m, slider N; range: 0 to 1e9
+  double friction = 0;                     // dry: the joint holds up to this torque, and resists motion
+                                           // with it; unit: N m, slider N; range: 0 to 1e9
   double yield = kNever;                   // unit: N m, slider N; > 0
-  double break_force = kNever;             // that the joint carries, mean of a step; unit: N; > 0
-  double break_torque = kNever;            // likewise, about the joint; unit: N m; > 0
-  double lower = -kNever, upper = kNever;  // of x: unit: rad, slider m; lower <= 0 <= upper. A ball
-                                           // has `upper` only. 0 to 3.1 rad where given
-  bool collide = false;  // whether the two links touch each other as other pieces do
+  double break_force = kNever;             // largest force of the joint, mean of a step; unit: N; > 0
+  double break_torque = kNever;            // largest torque about the joint, mean of a step; unit: N m; > 0
+  double lower = -kNever, upper = kNever;  // limits of x; unit: rad, slider m; lower <= 0 <= upper. A ball
+                                           // has only `upper`, from 0 to 3.1 rad
+  bool collide = false;  // whether the two links collide with each other
 };
 
-// The first link is the root; every other is the child of a joint, whose parent is listed before it:
-// the first joint of each child makes the tree. Further joints of a child close loops: they hold it to
-// another link, without spring, friction and stops of their own. 2 to 256 links.
+// The first link is the root. Every other link is the child of a joint, and its parent is listed before
+// it. The first joint of each child forms the tree. Further joints of a child close loops: they hold it
+// to another link, and have no spring, friction or stops. 2 to 256 links.
 struct AssemblyType {
   std::string name;                 // unique among the assemblies of a pile
   std::vector<AssemblyLink> links;  // the root first
@@ -73,7 +73,7 @@ inline constexpr int kMaxLinks = 256;
 // Throws InputError naming the member, with `key` as the path of the assembly.
 void validate(const AssemblyType& assembly, int types, const std::string& key);
 
-// The convex parts of all links as one rigid piece in the assembly's frame: how much room it takes.
+// The convex parts of all links as one rigid piece in the frame of the assembly, to find room for it.
 PieceType make_rigid_type(const AssemblyType& assembly, const std::vector<PieceType>& types);
 
 }  // namespace rubble

@@ -1,10 +1,10 @@
-// Fines: what lies on and hangs in a settled pile and is too small or too limp to settle with it. Grit,
-// flakes, shards, sheets and drifts of dust lie on the pieces; cables and pipes hang between them.
+// Fines: debris in a settled pile that is too small or too limp to settle with it. Grit, flakes, shards,
+// sheets and drifts of dust lie on the pieces; cables and pipes hang between them.
 //
 //   PileState + FinesSpec --strew_fines--> Fines --make_fine_heaps--> one mesh a kind, host and cell
 //
-// They are true geometry: drawn, labelled, exported, asked by queries and counted in voids. The physics does
-// not know them: no piece and no robot feels them.
+// Fines are true geometry: they are drawn, labelled and exported, and count in queries and voids. They have no
+// contacts: no piece and no robot feels them.
 #pragma once
 
 #include <array>
@@ -23,17 +23,17 @@ inline constexpr int kFineKinds = 8;
 // Their names: "grit", "plaster", ...
 const std::array<std::string, kFineKinds>& fine_names();
 
-// How much is strewn. Shares are of `amount`, relative to each other.
+// Amounts of fines. Shares divide `amount`; only their ratios matter.
 struct FinesSpec {
-  int amount = 0;                          // loose pieces; 0: no fines at all; range: 0 to 1000000
+  int amount = 0;                          // number of loose pieces; 0: no fines; range: 0 to 1000000
   double grit = 1, plaster = 0.05, glass = 0.02, paper = 0.002, cloth = 0.0003;  // shares; >= 0
   std::array<double, 2> size{0.003, 0.05};  // of grit, its longest side; unit: m; range: 0.002 to 0.2
-  // Grit longer than d is in proportion to d to the power of minus this (Turcotte 1986, "Fractals and
+  // The number of grains longer than d is proportional to d^-exponent (Turcotte 1986, "Fractals and
   // fragmentation": 1.9 for crushed quartz, 2.5 for broken coal and basalt); range: 1 to 4
   double exponent = 2.0;
   int drifts = 80;  // mounds of dust, at the foot of walls; range: 0 to 2000
-  int cables = 10;  // hanging; range: 0 to 500
-  int pipes = 4;    // likewise
+  int cables = 10;  // hanging cables; range: 0 to 500
+  int pipes = 4;    // hanging pipes; range: 0 to 500
 };
 
 inline constexpr int kFineShapes = 80;
@@ -46,10 +46,10 @@ struct FinePiece {
   std::int32_t host = -1;     // index of the piece that it lies on; -1: the ground
   Vec3f position;             // of its middle, in the frame of the host; unit: m
   Quatf rotation;             // host from shape
-  Vec3f half;                 // what the shape's axes are scaled by; unit: m
+  Vec3f half;                 // scale of the shape along its axes; unit: m
 };
 
-// What has a shape of its own: paper, cloth, a drift, a cable, a pipe.
+// A fine with a shape of its own: paper, cloth, a drift, a cable, a pipe.
 struct FineSheet {
   FineKind kind = FineKind::dust;
   std::int32_t host = -1;    // as of a FinePiece
@@ -66,15 +66,15 @@ struct Fines {
   bool empty() const { return pieces.empty() && sheets.empty(); }
 };
 
-// What fines of a kind, on one host and in one cell of its frame, are together: one mesh, one number.
+// All fines of one kind on one host within one cell of its frame: one mesh with one number.
 struct FineHeap {
   FineKind kind = FineKind::grit;
   std::int32_t host = -1;  // as of a FinePiece
-  TriangleMesh mesh;       // in the frame of the host, whose scale does not count; closed
+  TriangleMesh mesh;       // closed; in the frame of the host, without its scale
 };
 
-// The number of a pile's first heap, where pieces have their index: in the stream `instance`, in exports
-// and in answers of queries. Floats hold it exactly, which EXR files need.
+// The number of a pile's first heap in the stream `instance`, in exports and in results of queries, where pieces
+// have their index. A float holds it exactly, as EXR files need.
 inline constexpr int kFirstFineHeap = 10'000'000;
 
 }  // namespace rubble

@@ -1,4 +1,4 @@
-// A pile at one instant: plain data, the product of settling and the input of all that follows.
+// A pile at one instant, as plain data: the result of settling and the input of all later stages.
 #pragma once
 
 #include <cstdint>
@@ -30,63 +30,63 @@ struct PieceState {
   PieceStatus status = PieceStatus::moving;  // when settling ended
 };
 
-// A joint that holds. Joints that broke are not there any more.
+// An unbroken joint. Broken joints are not listed.
 struct JointState {
   std::int32_t parent = 0, child = 0;        // indices of the pieces
-  JointKind kind = JointKind::ball;          // of the joint that the pack states
+  JointKind kind = JointKind::ball;          // as defined in the pack
   Pose parent_from_joint, child_from_joint;  // in the frames of the pieces' types, scaled; unit: m
-  double rest = 0;                           // of the spring of a hinge or slider, crept; unit: rad, m
-  Quat rest_rotation;                        // of a ball's; on the parent's side
+  double rest = 0;                           // rest of the spring of a hinge or slider; unit: rad, m
+  Quat rest_rotation;                        // rest of the spring of a ball, on the parent's side
 };
 
-// A tie between two pieces, or a piece and the ground: bars that hold after the concrete around them has
-// failed. It only pulls, and when it is longer than `length`: with `strength` at most. Then it yields, which
-// makes it longer, and tears when that has taken all of `stretch`.
+// A tie between two pieces, or a piece and the ground: reinforcing bars that hold after the concrete around
+// them has failed. It pulls when it is longer than `length`, with at most `strength`. At this force it yields
+// and becomes longer. It tears when it has used up `stretch`.
 struct TieState {
   std::int32_t piece_a = 0, piece_b = -1;  // b: -1 is the ground
   Vec3 anchor_a, anchor_b;  // in the frames of the pieces' types, scaled; of the ground in the world; unit: m
   double length = 0;        // unit: m; > 0
   double strength = 0;      // unit: N; > 0
-  double stretch = 0;       // that is left; unit: m; >= 0
-  double bending = 0;       // moment by which bent bars brake their pieces' turning; unit: N m; >= 0
+  double stretch = 0;       // remaining elongation; unit: m; >= 0
+  double bending = 0;       // moment by which bent bars damp the rotation of the pieces; unit: N m; >= 0
 };
 
-// A building after its collapse: what of it still holds together. Needed wherever its pieces can move again.
+// The connections that remain in a collapsed building. They are needed if its pieces can move again.
 struct BuildingState {
   std::int32_t first = 0, count = 0;  // its pieces, after the placed ones; count 0: no building
-  // Pieces that move as one rigid body, two or more each, ascending. Their statuses are equal. Pieces in none
-  // of these move alone.
+  // Groups of two or more pieces that move as one rigid body, ascending. All pieces of a group have the same
+  // status. Pieces in no group move alone.
   std::vector<std::vector<std::int32_t>> bodies;
-  std::vector<TieState> ties;  // that hold, in the order in which they were added
+  std::vector<TieState> ties;  // unbroken, in the order of their creation
 };
 
-// Two pieces, or one and the ground, that reach into each other.
+// The deepest overlap of two pieces, or of a piece and the ground.
 struct DeepestOverlap {
   double depth = 0;                        // 0: none; unit: m
   std::int32_t piece_a = -1, piece_b = -1;  // b: -1 is the ground
 };
 
 struct PileState {
-  std::vector<PieceState> pieces;   // in creation order, lost ones too
+  std::vector<PieceState> pieces;   // in creation order, with lost pieces
   std::vector<JointState> joints;   // of articulated debris, by parent and child
   BuildingState building;           // its pieces are among those above
   std::vector<std::string> types;   // names of the types
-  std::int64_t steps = 0;           // steps taken until rest or until the limit
+  std::int64_t steps = 0;           // number of steps until rest or until the limit
   double simulated = 0;             // unit: s
-  // Every piece rests, no layer ran into its limit at the end, and no overlap is deeper than the
-  // options allow.
+  // Every piece rests, the time limit after the last layer was not reached, and no overlap is deeper than
+  // the options allow.
   bool settled = false;
   DeepestOverlap deepest_overlap;  // when settling ended; not kept in files
   int layers_at_limit = 0;         // layers whose time limit came before rest
   int lost = 0;                    // pieces that left the world
-  // Strewn when all rests; none by default. Not in the state's hash, and in a file of their own.
+  // Added when the pile rests; none by default. Not in the state hash; saved in a file of their own.
   Fines fines;
-  // What stands about it; null by default. In no file: it follows from the scenario and the pile.
+  // Surroundings of the pile; null by default. Not saved: they follow from the scenario and the pile.
   std::shared_ptr<const Surroundings> surroundings;
 
-  // XXH64 over the bit patterns of every field of the pieces in their order, then of the joints in
-  // theirs, each list after its length, then the step count. The names of types are not in it, nor is the
-  // BuildingState.
+  // XXH64 over the bit patterns of every field of the pieces in their order, then of the joints in their
+  // order, each list after its length, then the step count. Names of types and the BuildingState are left
+  // out.
   std::uint64_t state_hash() const;
 };
 

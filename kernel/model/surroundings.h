@@ -1,10 +1,10 @@
-// Surroundings: what stands about a pile. A street with kerbs and pavements, neighbouring buildings, trees,
-// fences, parked vehicles, street lamps, uneven ground, and what makes the horizon.
+// Surroundings of a pile: a street with kerbs and pavements, neighbouring buildings, trees, fences, parked
+// vehicles, street lamps, uneven ground, and the skyline.
 //
 //   SurroundingsSpec + seed + the circle of the pile --make_surroundings--> Surroundings
 //
-// They are true geometry: drawn, labelled, exported, asked by queries, felt by robots (solid_surface.h). A pile settles
-// without them.
+// Surroundings are true geometry: they are drawn, labelled and exported, count in queries, and are felt by robots
+// (solid_surface.h). The pile settles without them.
 #pragma once
 
 #include <array>
@@ -41,26 +41,26 @@ enum class StreetLampState { automatic, on, off };
 
 struct SurroundingsSpec {
   SurroundingsType type = SurroundingsType::none;  // none: the plain
-  double clearance = 2;                  // kept free about the pile; unit: m; range: 0.5 to 200
-  double reach = 120;                    // of what has details, along the street; unit: m; range: 40 to 400
+  double clearance = 2;                  // free distance around the pile; unit: m; range: 0.5 to 200
+  double reach = 120;                    // of the detailed part, along the street; unit: m; range: 40 to 400
   double turn_deg = 0;                   // of the street from the X axis towards Y; unit: degree
-  std::array<double, 2> storeys{2, 5};   // of buildings, from first to second, whole; range: 1 to 12
+  std::array<double, 2> storeys{2, 5};   // smallest and largest number, integers; range: 1 to 12
   double trees = 0.6;                    // share of the places for trees that have one; range: 0 to 1
   double vehicles = 0.5;                 // share of the places for vehicles that have one; range: 0 to 1
-  double lit_windows = 0.3;              // share of them when the street lamps are lit; range: 0 to 1
-  StreetLampState lamps = StreetLampState::automatic;  // lit; automatic: when it is dark
+  double lit_windows = 0.3;              // share of lit windows while street lamps are lit; range: 0 to 1
+  StreetLampState lamps = StreetLampState::automatic;  // automatic: lit when it is dark
 
   bool on() const { return type != SurroundingsType::none; }
 };
 
-// What several things may look like.
+// A mesh that several things may share.
 struct SurroundingMesh {
   std::vector<TriangleMesh> levels;  // finest first; at least one
-  double light_spacing = 1;          // of places where light is found; unit: m
-  bool leafy = false;  // of sheets without an inside, so many that queries take its coarsest level
+  double light_spacing = 1;          // distance between bake points; unit: m
+  bool leafy = false;  // many sheets without an inside: queries use the coarsest level
 };
 
-// A thing with a number of its own.
+// One object with a number of its own.
 struct SurroundingThing {
   SurroundingKind kind = SurroundingKind::road;
   std::uint32_t mesh = 0;  // index into Surroundings::meshes
@@ -70,13 +70,13 @@ struct SurroundingThing {
 
 struct Surroundings {
   std::vector<std::shared_ptr<const SurroundingMesh>> meshes;
-  std::vector<SurroundingThing> things;  // their order is that of their numbers
-  std::vector<Vec3> lamps;               // where street lamps shine from, nearest to the pile first
-  bool lit = false;                      // whether they do
+  std::vector<SurroundingThing> things;  // in the order of their numbers
+  std::vector<Vec3> lamps;               // positions of the street lamps, nearest to the pile first
+  bool lit = false;                      // whether the street lamps shine
 };
 
-// The number of the first thing, in the stream `instance`, in exports and in answers of queries. Above those
-// of heaps of fines; floats hold it exactly.
+// The number of the first thing in the stream `instance`, in exports and in results of queries. It is above the
+// numbers of heaps of fines. A float holds it exactly.
 inline constexpr int kFirstSurrounding = 12'000'000;
 
 }  // namespace rubble

@@ -1,4 +1,4 @@
-// How a world is made, and what is put into it.
+// Options of a world, and the pieces that are added to it.
 #pragma once
 
 #include <vector>
@@ -13,20 +13,20 @@ struct WorldOptions {
   double lost_below = -0.5;    // unit: m
   double lost_beyond = 100.0;  // from the Z axis; unit: m
   int threads = 0;             // 0: all processors; the result does not depend on it
-  bool sleeping = true;        // pieces that stay in place are put to sleep
+  bool sleeping = true;        // whether motionless pieces fall asleep
 };
 
 struct NewPiece {
   Placement placement;
-  Vec3 linear_velocity;   // of the centre of mass; of an assembly that of its root; unit: m/s
-  Vec3 angular_velocity;  // of an assembly as one rigid body; unit: rad/s
+  Vec3 linear_velocity;   // of the centre of mass, or of that of an assembly's root; unit: m/s
+  Vec3 angular_velocity;  // an assembly moves as one rigid body; unit: rad/s
   int layer = 0;
 };
 
-// Some of the pieces of a rigid group that comes apart; together they go on as one body.
+// One part of a rigid group that comes apart. Its pieces form one body.
 struct SplitPart {
   std::vector<int> pieces;  // ascending, not empty
-  bool fixed = false;       // goes on immovable; only where the whole was
+  bool fixed = false;       // immovable; only if the whole group was
 };
 
 }  // namespace rubble

@@ -1,10 +1,9 @@
-// How a tree answers to impulses: M^-1 in time proportional to the number of links, where M is the
-// mass matrix and a diagonal of the joints (articulated bodies; Featherstone 2008, chapter 7).
+// Response of a tree to impulses: M^-1 in time proportional to the number of links, where M is the mass matrix plus a
+// diagonal of the joints (articulated bodies; Featherstone 2008, chapter 7).
 //
-// Simbody's multiplyByMInv() gives the same where the diagonal is zero. It cannot carry the
-// diagonal that implicit springs need, and it answers for all links at once; the contact solver
-// asks for one link at a time, many times a step. So the factors are summed here, from the hinge
-// matrices and spatial inertias that Simbody computes (TreePose).
+// Simbody's multiplyByMInv() gives the same result if the diagonal is zero. But it cannot include the diagonal of
+// implicit springs, and it computes the response of all links at once. The contact solver needs single links, many times
+// a step. So the factors are computed here, from the hinge matrices and spatial inertias of Simbody (TreePose).
 #pragma once
 
 #include <vector>

@@ -1,6 +1,5 @@
-// Where a tree is, in world axes: what Simbody computes from its coordinates and everything else
-// here is made of. Spatial vectors are about `reference`, a point near the tree, so that no digits
-// are lost far from the world's origin.
+// Pose of a tree in world axes, as Simbody computes it from its coordinates. All other files of this folder use it.
+// Spatial vectors are about `reference`, a point near the tree, so that no digits are lost far from the world's origin.
 #pragma once
 
 #include <vector>

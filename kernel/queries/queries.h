@@ -1,10 +1,10 @@
-// Questions about a settled pile: what a ray meets, what is nearest, what is within reach.
+// Geometric queries on a settled pile: ray casts, closest points, overlaps, clearance.
 //
-// For camera collision, path planning, label checks and void maps. World frame, lengths in metres.
-// Results are those of the exact triangles in double precision, good to 1e-9 m at the distances of
-// a pile, the same on every machine and for any number of threads. Pieces that are lost are not
-// there. The fines of the pile are there: of a heap of them the piece is kFirstFineHeap and its index
-// among make_fine_heaps(). So are its surroundings, from kFirstSurrounding on. Several threads may ask at once.
+// For camera collision, path planning, label checks and void maps. World frame, lengths in metres. Results are those
+// of the exact triangles in double precision, accurate to 1e-9 m at the distances of a pile, and the same on every
+// machine and for any number of threads. Lost pieces are left out. Fines are included: the number of a heap is
+// kFirstFineHeap plus its index in make_fine_heaps(). Surroundings are included, from kFirstSurrounding on. Several
+// threads may call at once.
 #pragma once
 
 #include <limits>
@@ -19,18 +19,18 @@
 
 namespace rubble {
 
-// Stands for a piece's index where the answer is the ground plane z = 0.
+// Index of the ground plane z = 0 in results.
 inline constexpr int kGroundPiece = -1;
 
-// Of answers that are equally far, to within this, the piece with the lowest index is given, and
-// the ground only when no piece is as near; unit: m.
+// Of results whose distances differ by less than this, the piece with the lowest index is returned, and the ground
+// only if no piece is as near; unit: m.
 inline constexpr double kQueryTie = 1e-9;
 
 struct RayHit {
   double distance = 0;       // from the origin; unit: m
   Vec3 point;                // in the world; unit: m
-  Vec3 normal;               // unit length, out of the surface, also when it is met from inside
-  int piece = kGroundPiece;  // index into PileState::pieces, a heap of fines, of surroundings, or kGroundPiece
+  Vec3 normal;               // unit length, outwards, also for a hit from inside
+  int piece = kGroundPiece;  // index into PileState::pieces, number of a heap or of a surrounding, or kGroundPiece
 };
 
 struct ClosestPoint {
@@ -41,10 +41,9 @@ struct ClosestPoint {
 
 class PileQueries {
  public:
-  // meshes: by type index, in the frame of the type at scale 1; not kept. One that no piece uses
-  // may be null. ground: whether the plane z = 0 counts as a surface, and below it as solid.
-  // Throws std::invalid_argument for a piece without a mesh or a triangle without its corners, and
-  // RunError when there is no memory.
+  // meshes: by type index, in the frame of the type at scale 1; copied. Meshes of unused types may be null. ground:
+  // whether the plane z = 0 is a surface with solid below. Throws std::invalid_argument for a piece without a mesh or
+  // a triangle with invalid corners, and RunError when memory is exhausted.
   PileQueries(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
               bool ground = true);
   ~PileQueries();
@@ -54,18 +53,18 @@ class PileQueries {
   // Points must be finite, a direction not zero (of any length), distances and radii >= 0, also
   // infinite; std::invalid_argument otherwise.
 
-  // The first surface on the way, met from either side, not farther than max_distance.
+  // The first hit from either side, within max_distance.
   std::optional<RayHit> cast_ray(const Vec3& origin, const Vec3& direction,
                                  double max_distance) const;
-  // The nearest surface, not farther than max_distance.
+  // The nearest surface within max_distance.
   std::optional<ClosestPoint> find_closest(const Vec3& point, double max_distance) const;
-  // The pieces that a ball touches, is inside of or contains; ascending. Never the ground.
+  // Pieces that a ball touches, contains or lies in; ascending. Never the ground.
   std::vector<int> find_overlaps(const Vec3& centre, double radius) const;
-  // How far a point is from everything solid, at most max_distance (the smaller, the faster); 0
-  // inside a piece and below the ground.
+  // Distance from a point to the nearest solid, at most max_distance (smaller is faster); 0 inside a piece and below
+  // the ground.
   double clearance(const Vec3& point,
                    double max_distance = std::numeric_limits<double>::infinity()) const;
-  // The same of a point that is known to be outside of every piece, in less time.
+  // The same for a point outside of every piece, in less time.
   double clearance_outside(const Vec3& point,
                            double max_distance = std::numeric_limits<double>::infinity()) const;
 
@@ -74,7 +73,7 @@ class PileQueries {
   std::unique_ptr<Impl> impl_;
 };
 
-// The convex parts of each type as a mesh, for queries on what the physics sees.
+// The convex parts of each type as a mesh, for queries on the collision geometry.
 std::vector<TriangleMesh> make_collision_meshes(const std::vector<PieceType>& types);
 
 }  // namespace rubble

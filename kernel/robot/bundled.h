@@ -5,8 +5,8 @@
 
 namespace rubble {
 
-// A chain of equal modules whose hinges turn about Z and Y in turn, as the CMU unified snake. Link 0 is
-// the head, X forwards; joint i holds link i + 1 behind link i. Origin: the middle of the head.
+// A chain of equal modules with hinges about Z and Y in turn, as the CMU unified snake. Link 0 is the head,
+// X forwards. Joint i connects link i + 1 behind link i. Origin: the middle of the head.
 struct SnakeOptions {
   int modules = 16;          // range: 2 to 64
   double diameter = 0.052;   // unit: m; range: 0.01 to 1
@@ -18,14 +18,14 @@ struct SnakeOptions {
 };
 RobotModel make_snake(const SnakeOptions& options = {});
 
-// Two tracks whose contact surface moves and four flippers with belts of their own, as the tracked robot
+// Two tracks with moving contact surfaces and four flippers with belts of their own, as the tracked robot
 // Absolem. Origin: on the ground between the tracks. Joints: front left, front right, rear left, rear
 // right flipper; 0: stretched out level, positive: raised.
 struct CrawlerOptions {
   bool flippers = true;
   double friction = 0.7;      // range: 0 to 2
   double speed = 0.6;         // of the belts at most; unit: m/s; range: 0.01 to 5
-  double flipper_start = 1.0; // where the flippers stand; unit: rad; range: -3.1 to 3.1
+  double flipper_start = 1.0; // initial angle of the flippers; unit: rad; range: -3.1 to 3.1
 };
 RobotModel make_crawler(const CrawlerOptions& options = {});
 
@@ -37,20 +37,20 @@ struct RoverOptions {
 };
 RobotModel make_rover(const RoverOptions& options = {});
 
-// An inflated tube that grows from its tip. Origin: the middle of the base's mouth, X forwards; the base is
-// a box behind it, staked where it stands. Link i + 1 is the i-th of the tube; joint i bends it about Y (i
-// even) or Z (odd). The last link is the tip, on the joint `growth`.
+// An inflated tube that grows from its tip. Origin: the middle of the mouth of the base, X forwards. The base is
+// a box behind it that is staked to the ground. Link i + 1 is the i-th link of the tube; joint i bends it about Y
+// (i even) or Z (i odd). The last link is the tip, on the joint `growth`.
 struct VineOptions {
-  EvertingTube tube;      // as many links as it can have; everything else: see there
+  EvertingTube tube;      // with the largest number of links
   double tip_mass = 0.12; // of the mount with camera and lamp; unit: kg; range: 0.001 to 10
   double friction = 0.4;  // range: 0 to 2
   double speed = 0.3;     // of growth at most; unit: m/s; range: 0.001 to 1
 };
 RobotModel make_vine(const VineOptions& options = {});
-// As many links as make up the length; unit: m
+// Number of links for a length; unit: m
 int count_vine_links(double length, double link_length);
 
-// What turns twists into tracks and wheels.
+// Dimensions that convert twists to speeds of tracks and wheels.
 inline constexpr double kCrawlerTrackDistance = 0.397;  // unit: m
 inline constexpr double kRoverTrackDistance = 0.376;    // unit: m
 inline constexpr double kRoverWheelRadius = 0.098;      // unit: m

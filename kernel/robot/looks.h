@@ -1,4 +1,4 @@
-// What robots look like.
+// Visual meshes of the bundled robots.
 #pragma once
 
 #include "kernel/model/robot.h"

@@ -1,4 +1,4 @@
-// Robots in a pile that has settled, and in its surroundings: control at a rate of its own, what moves kept as a track.
+// Drives robots through a settled pile and its surroundings. Control has its own rate; motion is kept as a track.
 #pragma once
 
 #include <functional>
@@ -16,11 +16,11 @@
 
 namespace rubble {
 
-// What a controller is told.
+// Input of a controller.
 struct RobotSense {
   double time = 0;                     // since the start; unit: s
   RobotState state;                    // after the step
-  std::vector<RobotContact> contacts;  // of its links, in the step
+  std::vector<RobotContact> contacts;  // of its links, in this step
 };
 using RobotController = std::function<RobotCommand(const RobotSense&)>;
 
@@ -29,21 +29,21 @@ struct RobotRunOptions {
   double step = 1.0 / 240;      // unit: s; range: 1/1000 to 1/30
   int substeps = 4;             // of the contact solver in a step; range: 1 to 64
   double control_hz = 60;       // rounded to whole steps; range: 1 to 1000
-  double track_hz = 60;         // likewise: samples of the track
-  bool fixed_debris = false;    // true: nothing of the pile ever moves
+  double track_hz = 60;         // samples of the track; rounded to whole steps; range: 1 to 1000
+  bool fixed_debris = false;    // true: the pile never moves
   double gravity = 9.81;        // unit: m/s2, downwards
   double lost_below = -0.5;     // unit: m
   double lost_beyond = 100;     // from the Z axis; unit: m
   int threads = 0;              // 0: all processors; the result does not depend on it
 };
 
-// What became of one robot.
+// Result for one robot.
 struct RobotSummary {
-  double distance = 0;    // of its lead (RobotModel::lead), from start to end; unit: m
-  double path = 0;        // along its way; unit: m
-  double work = 0;        // of the motors, what they took and gave both counted; unit: J
+  double distance = 0;    // of its lead (RobotModel::lead) from start to end, straight; unit: m
+  double path = 0;        // length of the path of the lead; unit: m
+  double work = 0;        // of the motors; negative work counts by its amount, too; unit: J
   double lowest = 0;      // of the lead's origin; unit: m
-  double stuck_time = 0;  // the lead moved less than 2 cm within a second; unit: s
+  double stuck_time = 0;  // time in which the lead moved by less than 2 cm within a second; unit: s
   bool lost = false;      // it left the world
 };
 
@@ -63,12 +63,12 @@ class RobotRun {
   // world_from_base: of the first link's frame.
   int add(const RobotModel& model, const Pose& world_from_base, RobotController controller);
 
-  // Throws InputError where a robot stands in a piece, in the ground or in another robot: which, how deep
-  // and where to. on_step: 0 to 1; return false to stop.
+  // Throws InputError if a robot overlaps a piece, the ground or another robot at its start. The error names the
+  // obstacle, the depth and a free place. on_step: progress from 0 to 1; return false to stop.
   RobotRunResult run(const std::function<bool(double)>& on_step = {});
 
-  // The same one step after another, as long as wanted: begin() once, step() as often as there are steps,
-  // finish() once. The duration of the options is not looked at.
+  // The same in single steps, for any duration: call begin() once, step() repeatedly, finish() once. The duration
+  // of the options is ignored.
   void begin();
   void step();
   RobotRunResult finish();

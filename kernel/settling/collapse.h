@@ -1,11 +1,11 @@
-// A structure that breaks while its world goes on: loads of every step to stresses, stresses to what
-// fails, and bodies that come apart.
+// A structure that breaks in a running world: the loads of each step give stresses, stresses give failures, and bodies
+// come apart.
 //
 //   Structure --Collapse--> pieces in a World, bound --step--> bonds fail --split--> a ruin
 //
-// What is anchored stands immovable until it breaks; what came loose is rigid between its breaks. A
-// sudden change of load overshoots: a bond must carry what it will carry at rest and a share of the
-// change on top. An impact breaks bonds only if it brings the energy that they take.
+// Anchored parts are immovable until they break; loose parts are rigid between breaks. A sudden change of load
+// overshoots: a bond must carry its load at rest plus a share of the change. An impact breaks bonds only if its energy is
+// sufficient.
 #pragma once
 
 #include <memory>

@@ -1,14 +1,14 @@
-// What a collapse has come to, as plain data.
+// Figures of a collapse, as plain data.
 #pragma once
 
 namespace rubble {
 
-// How far a collapse has come.
+// Progress of a collapse.
 struct CollapseReport {
   int bonds = 0, broken = 0, hinges = 0;
-  int ties = 0, torn = 0;       // bars that held on when the concrete failed, and those of them that tore
-  double tie_energy = 0;        // what they took as they yielded; unit: J
-  double energy_taken = 0;      // by what broke under impacts; unit: J
+  int ties = 0, torn = 0;       // bars that held after the concrete failed; those of them that tore
+  double tie_energy = 0;        // absorbed by yielding ties; unit: J
+  double energy_taken = 0;      // absorbed by fracture under impacts; unit: J
   double stress_seconds = 0;    // wall time of the stress solutions; for benches, never part of a result
   int solutions = 0;
 };

@@ -1,4 +1,4 @@
-// What stands in a building before it collapses.
+// Places furniture in a building before the collapse.
 #pragma once
 
 #include <vector>

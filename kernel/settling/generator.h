@@ -1,12 +1,12 @@
-// From a specification to the pieces that will be dropped.
+// Makes the pieces to drop from a specification.
 #pragma once
 
 #include "kernel/model/pile.h"
 
 namespace rubble {
 
-// Draws every layer. Within a layer no two pieces overlap (a placement that would is redrawn).
-// Throws InputError when a layer does not fit, saying how many pieces did.
+// Draws every layer. Pieces of a layer do not overlap: an overlapping placement is drawn again. Throws InputError
+// when a layer does not fit; the error states how many pieces fit.
 Pile generate_pile(const PileSpec& spec);
 
 }  // namespace rubble

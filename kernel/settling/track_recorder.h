@@ -1,4 +1,4 @@
-// Keeps the track of a world: who moved when, at every step.
+// Records the track of a world: the motion of all pieces at every step.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@ class World;
 class TrackRecorder {
  public:
   TrackRecorder() = default;
-  // Goes on from what was recorded before a pause: what it holds of the first step that is observed, or
-  // of later ones, is forgotten and comes again.
+  // Continues a track that was recorded before a pause. Its samples from the first observed step on are forgotten
+  // and recorded again.
   explicit TrackRecorder(Track so_far) : builder_(std::move(so_far)) {}
 
-  // Between two steps; a WorldObserver. A step that was seen already is not taken again.
+  // Call between two steps, as a WorldObserver. A repeated step is ignored.
   void observe(const World& world);
 
   const Track& track() const { return builder_.track(); }

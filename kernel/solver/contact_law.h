@@ -97,8 +97,8 @@ inline void solve_slide(const double* matrix, double limit, const double* sticki
   x[0] = x0 * shrink, x[1] = x1 * shrink;
 }
 
-// What a patch that slides has left for friction about its normal: on the ellipsoid that bounds both
-// together (Howe and Cutkosky 1996), as the limit of a patch that only turns.
+// Friction about the normal that remains for a sliding patch, on the ellipsoid of both (Howe and Cutkosky 1996), as the
+// limit of a patch that only turns.
 inline double left_for_twist(double limit, const double* slide) {
   const double left2 = limit * limit - slide[0] * slide[0] - slide[1] * slide[1];
   return left2 > 0 ? std::sqrt(left2) : 0;
@@ -111,9 +111,8 @@ RUBBLE_INLINE T clamp_twist(T limit, T radius, T twist) {
   return smaller(most, larger(-most, twist));
 }
 
-// What a substep starts from: an impulse may double from one substep to the next and grow by
-// `weight` (a speed) times its mass. Loads build up fast, but the impulse of an impact is not given
-// twice. carried: what the substep before started from.
+// Warm start of a substep: an impulse may double from one substep to the next, plus `weight` (a speed) times its mass. So
+// loads build up fast, but the impulse of an impact is not applied twice. carried: warm start of the previous substep.
 template <typename T>
 RUBBLE_INLINE T clamp_accumulated_impulses(T impulse, T carried, T mass, T weight) {
   return smaller(impulse, carried + carried + mass * weight);
@@ -125,12 +124,10 @@ RUBBLE_INLINE T closing_speed(T gap, T per_substep) {
   return larger(T{}, gap) * per_substep;
 }
 
-// Who gives way when an overlap is undone: all pieces count as equally heavy, so that a light bar is
-// cleared from under a heavy slab as fast as any other pair, but the one below as up to ten times as heavy
-// as the one above. Otherwise a slab with hundreds of bricks on it is pressed into its support, as each of
-// them pushes it as much as the support does. A push moves a body by its share. `up`: the rise of the
-// normal, which points from A to B. Only for free pieces: with it, articulated trees gained speed until they
-// left the pile.
+// Shares by which two pieces are displaced to remove an overlap. All pieces count as equally heavy, so a light bar under a
+// heavy slab is freed as fast as any other pair. But the lower piece counts as up to ten times as heavy as the upper one.
+// Otherwise hundreds of bricks would press a slab into its support, because each of them pushes as much as the support.
+// `up`: vertical component of the normal from A to B. For free pieces only: articulated trees would gain speed.
 template <typename T>
 struct PushShares {
   T a, b;
@@ -141,8 +138,8 @@ RUBBLE_INLINE PushShares<T> find_push_shares(T up) {
   return {one - less * larger(T{}, up), one - less * larger(T{}, -up)};
 }
 
-// Where friction acts: at the centre of the points, each with a share by its normal impulse of the
-// substep before; the same for all where none is pressed. share = each + per_impulse * impulse.
+// Centre of friction: the mean of the points, weighted by their normal impulses of the previous substep, or equally if
+// there are none. share = each + per_impulse * impulse.
 template <typename T>
 struct CentreShares {
   T each, per_impulse;

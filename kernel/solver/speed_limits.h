@@ -1,4 +1,4 @@
-// What an impact may do at most. Not for use outside kernel/.
+// Limits of speeds after impacts, and damping. Not for use outside kernel/.
 #pragma once
 
 namespace rubble {

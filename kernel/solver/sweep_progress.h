@@ -1,4 +1,4 @@
-// How far each thread has come in the sweeps of a step. Not for use outside kernel/.
+// Progress of each thread in the sweeps of a step. Not for use outside kernel/.
 #pragma once
 
 #include <atomic>

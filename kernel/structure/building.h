@@ -1,4 +1,4 @@
-// A building as members, whatever its kind: what it is made of before its cause, and what its cause leaves.
+// A building of any kind as members: the undamaged building, and the building after its cause.
 #pragma once
 
 #include <string>

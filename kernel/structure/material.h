@@ -1,7 +1,7 @@
-// What members of a building are made of: the strengths that decide when a section fails.
+// Materials of members: the strengths at which a section fails.
 //
-// Strengths are mean values, not design values: a simulation asks when a real section breaks, not when
-// a designer may no longer trust it. Each bundled figure names its source in material.cpp.
+// Strengths are mean values, not design values: a simulation needs the load at which a real section breaks. Each bundled
+// figure has its source in material.cpp.
 #pragma once
 
 #include <string>

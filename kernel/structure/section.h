@@ -1,4 +1,4 @@
-// What a cross-section carries: strengths of its material and its bars against the forces in it.
+// Capacity of a cross-section: strengths of its material and bars against its forces.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What stands about a pile, drawn by the seed.
+// Makes the surroundings of a pile from the seed.
 #pragma once
 
 #include <cstdint>

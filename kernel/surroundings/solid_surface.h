@@ -1,4 +1,4 @@
-// What of the surroundings robots drive on and bump into.
+// The solid surface of the surroundings, for contacts of robots.
 #pragma once
 
 #include "kernel/base/mesh.h"

@@ -1,4 +1,4 @@
-// Ways through the free space of a pile for a ball.
+// Paths of a ball through the free space of a pile.
 #pragma once
 
 #include <vector>
@@ -8,28 +8,27 @@
 namespace rubble {
 
 struct FoundPath {
-  bool found = false;  // false: there is no way, and the rest means nothing
-  // From start to goal, corners of straight legs along which the clearance is kept; unit: m.
+  bool found = false;  // false: there is no path, and `points` and `length` have no meaning
+  // Corners of straight segments from start to goal; every segment keeps the clearance; unit: m.
   std::vector<Vec3> points;
   double length = 0;  // unit: m
-  // Of the way that was found or, where the ball does not pass, of the widest way that there is:
-  // where it is narrowest, and how wide.
-  double narrowest_radius = 0;  // unit: m; 0: no way for anything
-  Vec3 narrowest;               // place on the way with the least clearance; unit: m
+  // The narrowest place of the path, or of the widest possible path if the ball does not pass.
+  double narrowest_radius = 0;  // unit: m; 0: no path for any ball
+  Vec3 narrowest;               // place with the least clearance; unit: m
 };
 
-// The shortest way, outside and through voids, on which the ball's centre keeps `radius` from all
-// surfaces (A* over the 26 neighbours of cells, then pulled tight). Start and goal are those of the
-// cells they lie in, and must be inside the grid (std::invalid_argument otherwise).
+// The shortest path, outside and through voids, on which the centre of the ball keeps the distance `radius` from all
+// surfaces (A* over the 26 neighbours of cells, then shortened). Start and goal are replaced by the centres of their
+// cells, and must be inside the grid (std::invalid_argument otherwise).
 FoundPath find_path(const VoidSpace& space, const Vec3& start, const Vec3& goal, double radius);
 
-// The length of the shortest way of a ball's centre from a point to every cell, by steps to the 26 neighbours
-// between cells with clearance >= radius; infinite where none leads, and everywhere when the cell of the point
-// has less. from: inside the grid (std::invalid_argument otherwise). unit: m
+// Length of the shortest path of a ball's centre from a point to every cell, in steps between the 26 neighbours with
+// clearance >= radius. Infinite without a path, and everywhere if the cell of the point has less clearance. from:
+// inside the grid (std::invalid_argument otherwise). unit: m
 std::vector<float> calc_ways_through(const VoidSpace& space, const Vec3& from, double radius);
 
-// The free cell with clearance >= radius that is nearest to a point, not farther than `reach`; its
-// centre, or the point itself when there is none (`found` tells).
+// Centre of the nearest free cell with clearance >= radius within `reach` of a point. If there is none, `found` is
+// false and the position is the point itself.
 struct NearestPlace {
   bool found = false;
   Vec3 position;

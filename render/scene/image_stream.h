@@ -1,8 +1,8 @@
-// What an image stream is: one value or more for every pixel of a camera's frames.
+// An image stream: one or more values for every pixel of a camera's frames.
 //
-// Each is a file render/streams/NAME.cpp that describes it and, where it is ground truth, makes it from
-// what a pixel shows. Recorders, hashes, sizes, the keys of missions and the documents read the table
-// of all of them, image_streams() in render/streams/image_streams.h.
+// Each stream is a file render/streams/NAME.cpp, which describes it and, for ground truth, computes it from the visible
+// surface of a pixel. Recorders, hashes, sizes, the keys of missions and the documents read the table of all streams,
+// image_streams() in render/streams/image_streams.h.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +17,12 @@ namespace rubble {
 struct Frame;
 class SeenSurface;
 
-// Where nothing is seen a pixel keeps ImageStream::nothing.
+// Computes a pixel. Pixels without a surface keep ImageStream::nothing.
 template <typename T>
 using PixelMaker = void (*)(const SeenSurface& seen, T* pixel);
 
-// How a folder of files keeps one image. png: 8 or 16 bit integers; exr: floats, 32-bit integers as
-// signed numbers; flo: two floats, Middlebury.
+// File type of an image in a folder. png: 8 or 16 bit integers; exr: floats, or 32-bit integers as signed numbers; flo:
+// two floats, Middlebury.
 enum class ImageFile { png, exr, flo };
 
 struct ImageStream {
@@ -30,23 +30,23 @@ struct ImageStream {
   std::string meaning;  // one sentence, for the documents
   std::string unit;     // "m"; empty: none
   int components = 1;   // values a pixel; range: 1 to 3
-  // Makes a pixel, and with that says the type of the values. monostate: the camera's own model makes
-  // the image, and `of` finds it in a frame.
+  // Computes a pixel; its type is that of the values. monostate: the camera model makes the image, and `of` finds it in
+  // a frame.
   std::variant<std::monostate, PixelMaker<std::uint8_t>, PixelMaker<std::uint16_t>,
                PixelMaker<std::uint32_t>, PixelMaker<float>>
       make{};
-  double nothing = 0;       // value where no surface is seen; NaN only of floats
+  double nothing = 0;       // value of pixels without a surface; NaN for floats only
   bool casts_rays = false;  // calls SeenSurface::blocked
-  bool needs_next = false;  // calls SeenSurface::in_next_frame: not where the way ahead is unknown
-  bool has_legend = false;  // its numbers are those of pieces or classes
-  ImageFile file = ImageFile::exr;  // in a folder of files
-  ImageView (*of)(const Frame& frame) = nullptr;  // of what the camera's own model makes
+  bool needs_next = false;  // calls SeenSurface::in_next_frame: impossible if the next pose is unknown
+  bool has_legend = false;  // its values are numbers of pieces or classes
+  ImageFile file = ImageFile::exr;  // file type in a folder
+  ImageView (*of)(const Frame& frame) = nullptr;  // for images of the camera model
 
-  bool is_truth() const { return make.index() != 0; }  // what camera.channels may name
-  std::size_t bytes_per_pixel() const;                 // of truth
-  // ROS's name of the pixel format: "32FC3", "32SC1", "16UC1", "mono8", "rgb8". Of truth.
+  bool is_truth() const { return make.index() != 0; }  // a valid name of camera.channels
+  std::size_t bytes_per_pixel() const;                 // for ground truth
+  // Pixel format of ROS: "32FC3", "32SC1", "16UC1", "mono8", "rgb8". For ground truth.
   const char* ros_encoding() const;
-  // As many values as that many pixels need, all `nothing`. Of truth.
+  // Values of this many pixels, all `nothing`. For ground truth.
   ImageValues blank(std::size_t pixels) const;
 };
 

@@ -1,4 +1,4 @@
-// What the sensors of a robot report: joint encoders, motor torques, contact switches, odometry.
+// Readings of the sensors of a robot: joint encoders, motor torques, contacts, odometry.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ struct RobotSample {
 
   std::int64_t stamp_ns = 0;
   int sensor = 0;  // number among the recording's robots
-  // By joint of RobotRecord: of hinges rad, rad/s and N m, of sliders m, m/s and N. Efforts: of the motors.
+  // By joint of RobotRecord; units: rad, rad/s and N m for hinges, m, m/s and N for sliders. Efforts are of motors.
   std::vector<double> positions, speeds, efforts;
   std::vector<Pose> parent_from_child;  // by joint: the child's frame at these positions; unit: m
-  std::vector<Wrench> contacts;  // by link: of all that touches it, in its frame, about its origin
+  std::vector<Wrench> contacts;  // by link: sum of all contacts, in its frame, about its origin
   std::optional<Odometry> odometry;
-  // The truth of its first link: in the world; unit: m; and its velocities in its own frame; unit: m/s, rad/s
+  // True pose of the first link in the world, and its velocities in its own frame; unit: m, m/s, rad/s
   Pose world_from_base;
   Vec3 linear_velocity, angular_velocity;
 };

@@ -1,5 +1,5 @@
-// One sample of one sensor, and what gives samples: cameras, inertial units, LiDARs and robots are peers,
-// each with a rate of its own. A further type of sensor is one more alternative here.
+// One sample of one sensor, and the interface of sensors. Cameras, inertial units, LiDARs and robots are peers, each with
+// a rate of its own. A new type of sensor adds an alternative here.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ inline std::int64_t stamp_of(const Sample& sample) {
 class Sensor {
  public:
   virtual ~Sensor() = default;
-  // Of the sample that comes next; later than all before it. Nothing: no more come.
+  // Stamp of the next sample, later than all earlier ones. Empty: there are no more samples.
   virtual std::optional<std::int64_t> next_stamp() const = 0;
   virtual Sample take() = 0;
 };

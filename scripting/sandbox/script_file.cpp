@@ -15,6 +15,20 @@ static std::string section_of(const std::string& key) {
   return key.substr(0, key.find_first_of(".["));
 }
 
+// What else than a script users give: no Lua begins so.
+static void check_is_script(const std::string& text, const std::string& path) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  if (first == std::string::npos) return;
+  const std::string expected = "a Lua script";
+  if (text[first] == '<')
+    throw InputError({path, 0, "", "is no Lua script", expected, "XML",
+                      "a mission drives a robot of a URDF file: `robots = { { urdf = \"FILE\", position = { 0, 0, 1 } } }`"});
+  if (text[first] == '{')
+    throw InputError({path, 0, "", "is no Lua script", expected, "JSON", "`rubble remake` takes a run's manifest.json"});
+  if (text.find('\0') != std::string::npos)
+    throw InputError({path, 0, "", "is no Lua script", expected, "a file of bytes", "`rubble --help` says which command takes it"});
+}
+
 SourceFile read_script(const std::string& path) {
   std::error_code failed;
   if (!std::filesystem::exists(path, failed))
@@ -22,6 +36,7 @@ SourceFile read_script(const std::string& path) {
   if (std::filesystem::is_directory(path, failed))
     throw InputError({path, 0, "", "is a folder", "a Lua script", "", ""});
   const std::string text = read_file(path, kLargestScript);
+  check_is_script(text, path);
   check_utf8(text, path);
   return {path, text, sha256(text)};
 }

@@ -1,9 +1,9 @@
-// What a mission is, complete and in plain data: the product of a script, the input of a run.
+// A complete mission as plain data: the result of a script and the input of a run.
 //
 //   mission.lua --load_mission--> Scenario --> Pile, Scene, frames, files
 //
-// Every member has a default, so an empty mission is a valid one. scenario_schema.cpp lists every
-// key that a script can set; the names there are the names here.
+// Every member has a default, so an empty mission is valid. scenario_schema.cpp lists every key that a
+// script can set, with the names of these members.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@
 
 namespace rubble {
 
-// What a piece of the mix may be made of instead of what its pack says.
+// A material of a piece of the mix that replaces the material of its pack.
 struct MixMaterial {
   std::string material;  // a name in materials.lua
   double weight = 1;     // relative; >= 0
@@ -39,41 +39,40 @@ struct MixItem {
   // From first to second; default: the asset's own range and spread. range: 0.01 to 100
   std::optional<std::array<double, 2>> scale;
   SizeDistribution spread{};  // over `scale`
-  std::vector<MixMaterial> materials{};  // drawn for every piece; empty: as the pack says
+  std::vector<MixMaterial> materials{};  // drawn for every piece; empty: the material of the pack
 };
 
-// A piece that stands or lies there before the first layer falls: an asset of a pack, or a box made
-// to measure.
+// A piece that is placed before the first layer falls: an asset of a pack, or a box of given size.
 struct PlacedItem {
   std::string asset;  // empty: a box
   Vec3 position;      // of the piece's origin, in the world; unit: m
   Vec3 rpy_deg;       // roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll); unit: degree
   double scale = 1;   // range: 0.01 to 100
-  bool fixed = true;  // immovable; false: it settles with the rest
-  std::optional<Vec3> box{};  // full edge lengths; unit: m; range: 0.02 to 100; the origin: its middle
+  bool fixed = true;  // immovable; false: it settles with the pile
+  std::optional<Vec3> box{};  // full edge lengths; unit: m; range: 0.02 to 100; its origin is its middle
   std::string material = "reinforced_concrete";  // of a box
   std::vector<std::string> broken{};  // of a box, the faces that broke off: "+x", "-x", "+y", ...
 };
 
-// What stands on every floor of a building before it collapses.
+// An asset that stands on every floor of a building before the collapse.
 struct FurnitureItem {
   std::string asset;   // its name in a pack
   double per_bay = 1;  // mean number in each bay of each floor; range: 0 to 20
   bool roof = false;   // also on the roof
 };
 
-// What pieces lie on besides the ground z = 0: heights on a grid, or a mesh. Neither: the ground alone.
+// Terrain above the ground z = 0: heights on a grid, or a mesh. Without both there is only the ground.
 struct TerrainScenario {
   int columns = 0, rows = 0;     // corners of the grid along X and Y; range: 0 to 1024
   double spacing = 0.5;          // of neighbouring corners; unit: m; range: 0.01 to 100
   std::vector<double> heights{};  // row by row from the lowest y; above `position`; unit: m
-  std::string file{};            // instead: a mesh, relative to the script
+  std::string file{};            // a mesh instead of a grid; path relative to the script
   double metres_per_unit = 1;    // of the file; range: > 0
   UpAxis up = UpAxis::z;         // of the file
   Vec3 position;                 // of the grid's middle, or of the mesh's origin; unit: m
   double friction = 0.8;         // Coulomb, against concrete; range: 0 to 2
-  // Of the grid, and of surfaces of the mesh that name none. Empty: those keep the colours of the file; "ground"
-  // where it has none, and of a grid.
+  // Look of the grid, and of surfaces of the mesh without a look. Empty: such surfaces keep the colours of the file;
+  // surfaces without colours, and the grid, have the look "ground".
   std::string look;
 
   bool given() const { return !heights.empty() || !file.empty(); }
@@ -82,13 +81,13 @@ struct TerrainScenario {
 struct PileScenario {
   Vec3 spawn_position{0, 0, 4.5};  // centre of the box that layers are drawn in; unit: m
   Vec3 spawn_bounds{10, 10, 7};    // its full edge lengths; unit: m; > 0
-  SpawnDensity spawn_density;      // where in the box; without weights: evenly
+  SpawnDensity spawn_density;      // over the box; without weights uniform
   int layers = 4;                  // range: 0 to 1000
   int pieces_per_layer = 300;      // range: 0 to 100000
   std::vector<MixItem> mix;        // empty: every asset of the packs, by its own weight
-  std::vector<PlacedItem> placed;  // put there before anything falls
-  TerrainScenario terrain;         // what the pile lies on
-  BuildingSpec building;           // collapses before anything falls; seed: the mission's
+  std::vector<PlacedItem> placed;  // placed before the first layer falls
+  TerrainScenario terrain;         // below the pile
+  BuildingSpec building;           // collapses before the first layer falls; its seed is that of the mission
   std::vector<FurnitureItem> furniture;  // of the building
 };
 
@@ -100,13 +99,13 @@ struct LightScenario {
   bool random_position = false;
   Vec3 position_bounds{8, 8, 4};  // unit: m; >= 0
   SkySpec sky;                    // of the sun
-  // The sun by place and time instead of spec.elevation_deg and spec.azimuth_deg: all three or none.
+  // Place and time, instead of spec.elevation_deg and spec.azimuth_deg of the sun: all three or none.
   std::optional<double> latitude_deg{}, longitude_deg{};  // north and east are positive; unit: degree
   std::optional<std::string> time{};                      // UTC: parse_utc()
-  double north_deg = 90;  // where north is, from X towards Y; unit: degree
+  double north_deg = 90;  // direction of north, from X towards Y; unit: degree
 };
 
-// What OutputScenario::meshes may name.
+// Valid names of OutputScenario::meshes.
 std::vector<std::string> export_names();
 
 enum class DepthEncoding {
@@ -117,8 +116,8 @@ enum class DepthEncoding {
 enum class PictureEncoding { raw, png, jpeg };
 
 enum class RawlogFormat {
-  observations,  // one after the other
-  actions,       // what a robot did, and a frame of observations, in turns
+  observations,  // a sequence of observations
+  actions,       // actions of a robot and frames of observations in turn
 };
 
 struct OutputScenario {
@@ -135,28 +134,28 @@ struct OutputScenario {
   bool pcd = false;                 // PCL: a folder of a file a scan
   bool kitti = false;               // KITTI: a folder of a file a scan
   bool stl = true;                  // pile.stl
-  bool track = false;               // who moved when: track.bin and, as glTF animation, track.glb
+  bool track = false;               // motion of the pieces: track.bin and, as glTF animation, track.glb
   std::vector<std::string> meshes;  // the pile in further formats, of export_names()
   bool groundtruth = true;          // TUM: groundtruth.txt
   bool preview = true;              // preview.png, a contact sheet
   DepthEncoding depth = DepthEncoding::millimetres;  // in bag and MCAP file
-  PictureEncoding pictures = PictureEncoding::raw;   // likewise
+  PictureEncoding pictures = PictureEncoding::raw;   // in bag and MCAP file
 };
 
-// The pile seen settling: a standing camera watches the layers fall, before its flight.
+// Records the pile while it settles, by a standing camera before its flight.
 struct RecordSettlingScenario {
   bool on = false;                 // false: the recording begins when the pile rests
-  double from = 0;                 // simulated, since the first step; unit: s; range: 0 to 86400
-  std::optional<double> to{};      // not given: until the pile rests; unit: s; range: from, to 86400
-  std::optional<double> rate_hz{};  // not given: that of the trajectory; unit: Hz
-  // Where the camera is and the point in the middle of its view, in the world; not given: as the
-  // flight begins. Both or neither. unit: m
+  double from = 0;                 // simulated time since the first step; unit: s; range: 0 to 86400
+  std::optional<double> to{};      // by default until the pile rests; unit: s; range: from, to 86400
+  std::optional<double> rate_hz{};  // by default that of the trajectory; unit: Hz
+  // Position of the camera and the point in the middle of its view, in the world; by default as at the start of the
+  // flight. Both or neither. unit: m
   std::optional<Vec3> position{}, look_at{};
 };
 
 // The voids of the settled pile, measured for suites and batches; kernel/voids/void_map.h.
 struct VoidScenario {
-  bool on = false;       // false: not simulated
+  bool on = false;       // false: not measured
   double voxel = 0.05;   // unit: m; range: 0.01 to 1
   double radius = 0.15;  // of a robot, at least a voxel; unit: m; range: 0.02 to 5
 };
@@ -165,19 +164,19 @@ struct VoidScenario {
 enum class VictimDifficulty { easy, medium, hard };
 struct VictimScenario {
   int count = 0;  // range: 0 to 50
-  // How far from the entrances of the voids: the nearest, the middle, the farthest third of the places.
+  // Distance from the entrances of the voids: the nearest, middle or farthest third of the places.
   VictimDifficulty difficulty = VictimDifficulty::medium;
-  double radius = 0.15;  // of the robot that gets near each of them and sees it; unit: m; range: 0.05 to 1
+  double radius = 0.15;  // of a robot that can reach and see each victim; unit: m; range: 0.05 to 1
 };
 
 struct Scenario {
   std::uint64_t seed = 0;                 // range: 0 to 2^63 - 1
   std::int64_t start_ns = 1'000'000'000;  // stamp of the first frame; ROS time 0 means invalid
   std::vector<std::string> packs;         // folders; empty: the bundled pack `concrete`
-  PileScenario pile;                      // what is dropped, and where
-  VictimScenario victims;                 // who lies in it
-  FinesSpec fines;                        // what is strewn over it
-  SurroundingsSpec surroundings;          // what stands about it
+  PileScenario pile;                      // pieces, terrain, building
+  VictimScenario victims;                 // people in the voids
+  FinesSpec fines;                        // small debris
+  SurroundingsSpec surroundings;          // street around the pile
   SettleOptions settle;  // its `threads` is not part of a scenario: results do not depend on it
   LightScenario light;   // the main light
   std::vector<LightSpec> lights;  // besides the main one; at most kMostLights - 1
@@ -185,46 +184,46 @@ struct Scenario {
   AirSpec air;                    // fog, smoke, dust
   CameraScenario camera;          // image, lens, channels
   std::vector<MountedCamera> cameras;  // instead of `camera`: several, by name
-  DepthSensorSpec depth_sensor;   // what a real depth sensor would report
+  DepthSensorSpec depth_sensor;   // model of a real depth sensor
   EventCameraSpec event_camera;   // changes of brightness
   LampSpec lamp;                  // on the camera
-  TrajectorySpec trajectory;      // where the camera flies
+  TrajectorySpec trajectory;      // path of the camera
   ImuScenario imu;                // in the camera
   std::vector<ImuScenario> imus;  // instead of `imu`: several, by name
   std::vector<LidarScenario> lidars;  // on the rig, by name
-  RecordSettlingScenario record_settling;  // what is recorded before the flight
-  OutputScenario outputs;         // what is written
-  VoidScenario voids;             // whether voids are measured
+  RecordSettlingScenario record_settling;  // recording before the flight
+  OutputScenario outputs;         // files
+  VoidScenario voids;             // measurement of voids
   std::vector<RobotItem> robots;  // driven through the settled pile
-  RobotRunScenario robot_run;     // how long
+  RobotRunScenario robot_run;     // duration and rates
 
-  // Throws InputError with every mistake: out of range, not finite, contradicting each other.
+  // Throws InputError with every mistake: values out of range, not finite, or in contradiction.
   void validate() const;
 };
 
-// What validate() would throw; empty: none. Keys are schema paths such as "pile.mix[1].scale".
+// The mistakes that validate() throws; empty: none. Keys are schema paths such as "pile.mix[1].scale".
 std::vector<Diagnostic> find_mistakes(const Scenario& scenario);
 
 // The cameras of a mission: those of `cameras`, or `camera` as the rig itself.
 std::vector<MountedCamera> all_cameras(const Scenario& scenario);
-// The inertial units: those of `imus`, or `imu` where it is on.
+// The inertial units: those of `imus`, or `imu` if it is on.
 std::vector<ImuScenario> all_imus(const Scenario& scenario);
-// Whether a camera gives that stream of ground truth.
+// Whether a camera has this stream of ground truth.
 bool has_channel(const Scenario& scenario, const std::string& name);
 
-// The trajectory with its smoothing chosen where the mission leaves that open: kUsualSmoothing where
-// an inertial unit is on, and for a curve around what lies there; none elsewhere. Of a ride, which is known
-// only when the robot has been driven, a stand-in of the same times.
+// The trajectory with a default smoothing if the mission sets none: kUsualSmoothing with an inertial unit and for
+// curves around obstacles, else none. The path of a ride is known only after the robot was driven; until then a
+// placeholder with the same times is returned.
 TrajectorySpec flown_trajectory(const Scenario& scenario);
 
-// Whether settling keeps who moved when: track.bin.
+// Whether settling records a track: track.bin.
 bool needs_track(const Scenario& scenario);
 
-// The main light as it shines: with random_rotation, a pitch of 20 to 80 degrees down and any yaw (a
-// sun 5 to 70 degrees high, anywhere), drawn from the seed; with random_position, a place in its box.
+// The main light after random draws. With random_rotation, the seed draws a pitch of 20 to 80 degrees down and any yaw
+// (a sun 5 to 70 degrees high at any azimuth); with random_position, a position in its box.
 LightSpec resolve_light(const Scenario& scenario);
 
-// Complete, in the schema's order, numbers that read back to the same bits. null: not set.
+// All members in the order of the schema. Numbers read back to the same bits. null: not set.
 std::string scenario_to_json(const Scenario& scenario);
 // The inverse. `file` names the text in errors. Throws InputError with every mistake.
 Scenario scenario_from_json(const std::string& text, const std::string& file);

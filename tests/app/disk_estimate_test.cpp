@@ -15,7 +15,7 @@ using Sizes = std::map<std::string, std::uint64_t>;
 const char* const kEverything = R"(return rubble.mission {
   seed = 3,
   pile = { layers = 1, pieces_per_layer = 30, spawn_position = { 0, 0, 2 }, spawn_bounds = { 2, 2, 2 } },
-  camera = { width = 160, height = 120, stereo_baseline = 0.1,
+  camera = { width = 160, height = 120, stereo_baseline = 0.1, quality = "draft",
              channels = { "normals", "instance", "label", "flow", "sky_visibility" } },
   depth_sensor = { type = "structured_light" },
   event_camera = { on = true },
@@ -25,7 +25,7 @@ const char* const kEverything = R"(return rubble.mission {
     { t = 0.5, position = { -3.4, 0.6, 1.4 }, look_at = { 0, 0, 0.2 } } } },
   outputs = { mcap = true, tum = true, euroc = true, colmap = true, frames = true, depth = "32FC1",
               meshes = { "ply", "obj", "glb", "sdf" }, track = true },
-  record_settling = { rate_hz = 2, to = 3 },
+  record_settling = { rate_hz = 2, to = 1 },
 }
 )";
 

@@ -20,10 +20,10 @@ namespace fs = std::filesystem;
 // Bricks fall past a camera that stands; then it flies.
 const char* const kFalling = R"(return rubble.mission {
   seed = 4,
-  pile = { layers = 2, pieces_per_layer = 12, spawn_position = { 0, 0, 2.5 },
+  pile = { layers = 2, pieces_per_layer = 6, spawn_position = { 0, 0, 2.5 },
            spawn_bounds = { 1.5, 1.5, 2 }, mix = { { asset = "brick", scale = { 2, 3 } } } },
   camera = { width = 64, height = 48, channels = { "instance", "flow" } },
-  record_settling = { rate_hz = 10, position = { -3, -1, 1.2 }, look_at = { 0, 0, 1 } },
+  record_settling = { rate_hz = 4, position = { -3, -1, 1.2 }, look_at = { 0, 0, 1 } },
   trajectory = { rate_hz = 10, waypoints = {
     { t = 0, position = { -3, 0, 1.2 }, look_at = { 0, 0, 0.3 } },
     { t = 0.3, position = { -3, 0.5, 1.2 }, look_at = { 0, 0, 0.3 } } } },
@@ -79,10 +79,10 @@ class Falling : public ::testing::Test {
 TEST_F(Falling, IsOneRecordingWhoseStampsGoOn) {
   const std::vector<Row> rows = read_poses(folder() + "/groundtruth.txt");
   const double settled = read_manifest(folder()).at("pile").at("simulated_s");
-  const auto watched = std::size_t(std::floor(settled * 10 + 1e-6)) + 1;
+  const auto watched = std::size_t(std::floor(settled * 4 + 1e-6)) + 1;
   ASSERT_EQ(rows.size(), watched + 4);
   for (std::size_t i = 0; i < watched; ++i) {
-    EXPECT_NEAR(rows[i].stamp, 1 + 0.1 * double(i), 1e-6);
+    EXPECT_NEAR(rows[i].stamp, 1 + 0.25 * double(i), 1e-6);
     EXPECT_NEAR(rows[i].y, -1, 1e-9);
   }
   EXPECT_GE(rows[watched].stamp, 1 + settled - 1e-6);
@@ -104,7 +104,7 @@ TEST_F(Falling, TheFlightIsTheSameWithoutIt) {
     ASSERT_EQ(without.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i)
       EXPECT_EQ(read_file(with[with.size() - 4 + i]), read_file(without[i])) << channel << " " << i;
-    EXPECT_NE(read_file(with[5]), read_file(with[7])) << channel;  // something falls
+    EXPECT_NE(read_file(with[1]), read_file(with[2])) << channel;  // something falls
   }
   EXPECT_EQ(read_manifest(plain).at("metrics"), read_manifest(folder()).at("metrics"));
 }

@@ -16,7 +16,7 @@ bool holds(const std::string& text, const std::string& part) {
 TEST(ReferenceRun, StoppedWithinAnImageGoesOnToTheSameBytes) {
   const ScratchFolder scratch;
   write_file(scratch / "tiny.lua", kTinyMission);
-  const std::string keys = " --set camera.quality=reference --set camera.samples=512";
+  const std::string keys = " --set camera.quality=reference --set camera.samples=128";
   const Environment cached("RUBBLE_CACHE", scratch / "cache");
   const auto tracing = [&] {
     std::error_code failed;

@@ -3,6 +3,7 @@
 
 #include "io/import/mesh_join.h"
 #include "io/import/mesh_paint.h"
+#include "io/import/mesh_winding.h"
 #include "io/mesh_formats/scene_reader.h"
 #include "tests/fuzz/fuzz_file.h"
 
@@ -15,6 +16,7 @@ inline void read_mesh(const std::string& name, std::string_view bytes) {
     MeshPaints paints(scene, path);
     TriangleMesh mesh = join_meshes(scene, path, {}, paints);
     weld_cracks(mesh);
+    agree_on_outside(mesh);
     calc_volume_properties(mesh);
   });
 }

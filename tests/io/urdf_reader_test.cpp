@@ -84,6 +84,21 @@ TEST(UrdfReader, UnknownAttributesAndInnerElementsAreNamed) {
   EXPECT_TRUE(read(arm(kLimit)).warnings.empty()) << "what is known is not named";
 }
 
+// As other readers do it: the first of its kind counts. Visuals and collisions may be many.
+TEST(UrdfReader, WhatStandsTwiceIsNamed) {
+  const UrdfFile file = read("<robot name=\"r\"><link name=\"a\">\n<inertial><mass value=\"1\"/><mass value=\"2\"/></inertial>\n"
+                             "<inertial><mass value=\"3\"/></inertial>\n" + std::string(kBox) + kBox +
+                             "<visual><geometry><sphere radius=\"1\"/></geometry>\n<material name=\"m\">"
+                             "<color rgba=\"255 0 0 1\"/></material></visual></link></robot>");
+  EXPECT_EQ(file.links.at(0).mass, 1);
+  EXPECT_EQ(file.links.at(0).collisions.size(), 2U);
+  const std::string warnings = all_of(file.warnings);
+  EXPECT_TRUE(holds(warnings, "a.urdf:2: a second <mass> in <inertial> is left out: the first counts")) << warnings;
+  EXPECT_TRUE(holds(warnings, "a.urdf:3: a second <inertial> in <link> is left out: the first counts")) << warnings;
+  EXPECT_TRUE(holds(warnings, "a.urdf:5: `rgba` is to be four numbers from 0 to 1, and is \"255 0 0 1\"")) << warnings;
+  EXPECT_EQ(file.warnings.size(), 3U) << warnings;
+}
+
 TEST(UrdfReader, WhatIsOptionalHasItsDefault) {
   const std::string text = "<robot name=\"r\"><link name=\"base\"/><link name=\"arm\"/>"
                            "<joint name=\"j\" type=\"continuous\"><parent link=\"base\"/><child link=\"arm\"/></joint></robot>";

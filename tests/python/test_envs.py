@@ -42,11 +42,11 @@ def play_alone(seed):
 
 class Episodes(unittest.TestCase):
     def test_are_equal_in_any_order(self):
-        """1,000 episodes of 40 seeds, shuffled, in one environment."""
+        """200 episodes of 40 seeds, shuffled, in one environment."""
         env = VoidExplore(**SMALL)
         first = {seed: play(env, seed) for seed in range(40)}
         self.assertGreater(len(set(first.values())), 38)  # other seeds are other episodes
-        order = [seed for seed in range(40) for _ in range(24)]
+        order = [seed for seed in range(40) for _ in range(4)]
         random.Random(1).shuffle(order)
         for seed in order:
             self.assertEqual(play(env, seed), first[seed])

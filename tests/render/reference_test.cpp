@@ -83,7 +83,7 @@ TEST(Reference, KnowsTheSurfacesOfTheShader) {
       options.colour.quality = quality, options.bake = false;
       options.antialias = false;
       options.texture_size = 32;  // each texel wider than a pixel: both read the finest level
-      return Renderer(context, block_of(look.name), options).render_linear({}, pinhole(96, 96, 1500));
+      return Renderer(context, block_of(look.name), options).render_linear({}, pinhole(64, 64, 1000));
     };
     const LinearFrame fast = draw(RenderQuality::fast), slow = draw(RenderQuality::reference);
     double sum = 0, off = 0;
@@ -145,7 +145,7 @@ TEST(Reference, PiecesOfOneBodyLookLikeTheBody) {
       options.antialias = false;
       options.texture_size = 64;
       const auto draw = [&](const Scene& scene) {
-        return Renderer(context, scene, options).render_linear({}, pinhole(96, 96, 1500));
+        return Renderer(context, scene, options).render_linear({}, pinhole(64, 64, 1000));
       };
       Scene block = block_of(look);
       block.instances[0].cut_from = {7, {}, 1};

@@ -1,6 +1,10 @@
 #include "scripting/mission.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
 
 #include "tests/scripting/test_support.h"
 
@@ -182,6 +186,16 @@ TEST(MissionErrors, SyntaxAndRuntimeHaveTheirLine) {
 TEST(MissionErrors, NoSuchFile) {
   EXPECT_EQ(error_of([] { load_mission("/nowhere/m.lua"); }), "/nowhere/m.lua: no such file");
   EXPECT_EQ(error_of([] { load_mission("/"); }), "/: is a folder: expected a Lua script");
+  const auto given = [](const std::string& text) {
+    const std::string path = ::testing::TempDir() + "rubble_no_script_" + std::to_string(getpid());
+    std::ofstream(path, std::ios::binary) << text;
+    const std::string error = error_of([&] { load_mission(path); });
+    std::remove(path.c_str());
+    return error.substr(std::min(error.size(), path.size()));
+  };
+  EXPECT_EQ(given("\xef\xbb\xbf<?xml version=\"1.0\"?><robot/>").rfind(": is no Lua script: expected a Lua script, found XML", 0), 0u);
+  EXPECT_EQ(given("{ \"version\": 1 }").rfind(": is no Lua script: expected a Lua script, found JSON (`rubble remake`", 0), 0u);
+  EXPECT_EQ(given(std::string("glTF\0\2", 6)).rfind(": is no Lua script: expected a Lua script, found a file of bytes", 0), 0u);
 }
 
 TEST(MissionOverrides, AreParsedByTheKeysType) {

@@ -1,16 +1,15 @@
-// Reading what strangers made, in a child process with limits: whatever a third-party importer does
-// with a hostile file (crash, take all memory, never end), this process gets an InputError.
+// Reads untrusted files in a child process with limits. If a third-party importer crashes, takes all memory or never ends
+// on a hostile file, this process gets an InputError.
 //
-// The child is forked without exec. A program of its own would have to be found, and would have to
-// load two hundred libraries anew. After a fork of a process with several threads only the forking one
-// exists in the child, and locks that others held stay locked: glibc takes care of malloc, stdio and
-// the loader, and the importers are called in such children only, so nobody holds locks of theirs.
-// The child leaves by _exit: no destructor and no buffer of stdio runs twice. It closes every file of
-// the parent's, locks of folders among them.
+// The child is forked without exec. A separate program would have to be found and would load two hundred libraries again.
+// After a fork of a process with several threads, only the forking thread exists in the child, and locks of other threads
+// stay locked. glibc handles the locks of malloc, stdio and the loader. Importers run in such children only, so no thread
+// holds their locks. The child leaves by _exit: no destructor and no buffer of stdio runs twice. It closes all files of
+// the parent, including locks of folders.
 //
-// A fork of `rubble` costs about 13 ms, mostly for its 200 libraries, so one child serves many files
-// of one folder. It ends, and the next file gets another one, after any error and when the folder
-// changes: strangers do not share a child.
+// A fork of `rubble` costs about 13 ms, mostly for its 200 libraries, so one child reads many files of one folder. After
+// an error, and when the folder changes, the child ends and the next file gets a new one. So files of different owners do
+// not share a child.
 #pragma once
 
 #include <sys/types.h>

@@ -1,5 +1,5 @@
-// What is written to the disk, and what is removed from it: one function for each way. A folder may come from a
-// stranger, with links and pipes where our files are to be. None is followed or waited for.
+// All functions that write to the disk or remove files. A folder may be untrusted, with links and pipes in place of output
+// files. They are never followed or waited for.
 //
 // tests/app/guarded_calls_test.cpp finds the sources that open, make or remove files by other means.
 #pragma once

@@ -1,4 +1,4 @@
-// Threads for those who run programs: nothing that results depend on.
+// Number of threads of programs. No result depends on it.
 #pragma once
 
 namespace rubble {

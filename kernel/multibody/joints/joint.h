@@ -1,6 +1,5 @@
-// What a joint is: one file a joint, and this table. A joint that is new needs a file here, a case
-// in joint_table.cpp, and names where it is written and read; the compiler names the switches that
-// lack it.
+// The table of joints: one file for each joint. A new joint needs a file here, a case in joint_table.cpp, and names where
+// it is written and read. The compiler reports switches without it.
 #pragma once
 
 #include "kernel/model/assembly.h"

@@ -1,4 +1,4 @@
-// Where a joint goes in a Simbody system. Only for kernel/multibody.
+// Input for the mobilizer of a joint in a Simbody system. Only for kernel/multibody.
 #pragma once
 
 #ifndef RUBBLE_WITHOUT_SIMBODY

@@ -1,4 +1,4 @@
-// What a hinge and a slider share: one coordinate x whose rate is the speed.
+// Common code of hinge and slider: one coordinate x whose rate is the speed.
 #pragma once
 
 #include "kernel/multibody/joints/joint.h"

@@ -1,4 +1,4 @@
-// What the springs of a tree's joints hold, those of inflated tubes too.
+// Springs of the joints of a tree, also of inflated tubes.
 #pragma once
 
 #include "kernel/multibody/tree.h"

@@ -1,5 +1,5 @@
-// Who takes part in the next step: falling asleep, being woken by what neighbours do, and the
-// verification of rest. Not for use outside kernel/.
+// Selects the pieces of the next step: falling asleep, waking by neighbours, and the verification of rest. Not for use
+// outside kernel/.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,4 @@
-// What an impact may do at most, and what is damped; see kernel/solver/speed_limits.h. Not for use
-// outside kernel/.
+// Limits speeds after impacts, and damps; see kernel/solver/speed_limits.h. Not for use outside kernel/.
 #pragma once
 
 #include <vector>

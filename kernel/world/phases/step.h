@@ -1,5 +1,4 @@
-// What the phases of a step hand to each other. World::step() in world_step.cpp has their order. Not for
-// use outside kernel/.
+// Data that the phases of a step exchange. World::step() in world_step.cpp has their order. Not for use outside kernel/.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +8,8 @@
 
 namespace rubble {
 
-// What the search for pairs asks of every piece in every step, close together in memory. Of those asleep only
-// the travel is set.
+// Input of the search for pairs: read for every piece in every step, so it is compact. Only `travel` is set for sleeping
+// pieces.
 struct StepMotion {
   Vec3f linear;       // unit: m/s
   float turning = 0;  // angular speed times radius; unit: m/s
@@ -19,21 +18,21 @@ struct StepMotion {
   bool awake = false;
 };
 
-// Who takes part in a step: made by PairSelection, Sleep::wake_hit() adds to it; ContactSearch looks at what
-// overlaps, and Solution sorts. It stays as it is until the next step.
+// Bodies and pairs of a step. PairSelection makes them, Sleep::wake_hit() adds woken ones, ContactSearch marks overlaps,
+// and Solution sorts. They are kept until the next step.
 struct StepPairs {
   std::vector<std::int32_t> awake;         // bodies, ascending
   std::vector<StepMotion> sweeps;          // by body
-  std::vector<std::int32_t> active;        // pairs with somebody awake that may touch
-  std::vector<std::uint8_t> is_deep;       // by pair: overlaps deeper than sleep allows
-  std::vector<std::uint8_t> may_be_stuck;  // by pair: is_stuck(), or was led out before
+  std::vector<std::int32_t> active;        // pairs with an awake body that may touch
+  std::vector<std::uint8_t> is_deep;       // by pair: overlap deeper than sleep allows
+  std::vector<std::uint8_t> may_be_stuck;  // by pair: is_stuck(), or was separated by a way out before
 
   void list_awake(const std::vector<Body>& bodies);
   // Parts that are farther apart cannot touch in this step; body_b may be kGround. unit: m
   float calc_margin(int body_a, int body_b, const NarrowSettings& settings) const;
 };
 
-// How bodies move in a step: made by Solution, bounded by SpeedLimiter, carried out by Advance.
+// Motions of bodies in a step: computed by Solution, limited by SpeedLimiter, applied by Advance.
 struct StepMotions {
   std::vector<Motion> velocities;     // at the end of the step; by body
   std::vector<Motion> displacements;  // in the step; by body

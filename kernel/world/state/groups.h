@@ -1,9 +1,8 @@
-// Pieces that hold together as one rigid body, and come apart.
+// Groups of pieces that form one rigid body and come apart.
 //
-// A group moves as its lead, the lowest of its pieces: that one's Body has the mass, the pose and the
-// speeds of all. The others keep their numbers, types and colliders, and count as immovable. As pieces of
-// a group keep the orientation that they were bound in, a piece is known by its offset alone. Not for use
-// outside kernel/.
+// The lead of a group is the piece with the lowest number. Its Body has the mass, the pose and the velocities of the
+// group. The other pieces keep their numbers, types and colliders, and count as immovable. Pieces keep the orientation in
+// which they were bound, so an offset describes each of them. Not for use outside kernel/.
 #pragma once
 
 #include <vector>

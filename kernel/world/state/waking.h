@@ -1,5 +1,5 @@
-// How sleepers are woken, at once or in the next step. Who falls asleep: kernel/world/phases/sleep.h. Not for use
-// outside kernel/.
+// Wakes sleeping pieces, at once or in the next step. Falling asleep: kernel/world/phases/sleep.h. Not for use outside
+// kernel/.
 #pragma once
 
 #include "kernel/world/state/world_data.h"

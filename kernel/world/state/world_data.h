@@ -1,5 +1,4 @@
-// What a world is: what changes from step to step, and what its pieces are made from. Not for use
-// outside kernel/.
+// Data of a world: the state that changes from step to step, and the types of its pieces. Not for use outside kernel/.
 #pragma once
 
 #include <cstdint>
@@ -67,7 +66,7 @@ struct WorldData {
   int lost = 0;
 };
 
-// What pieces are made from.
+// Types of the pieces.
 struct WorldTypes {
   std::vector<PieceType> pieces;  // those of surfaces and of the links of robots come last
   int placeable = 0;              // the others

@@ -13,7 +13,7 @@ local building = rubble.building {
 -- A robot that follows a path: its points are {x, y}, in metres. `rubble voids out/demo` draws where there is room.
 local crawler = rubble.robot.crawler {
   name = "tank", position = { -3.6, -7.4, 0.001 }, rpy_deg = { 0, 0, 90 }, odometry_noise = 0.001,
-  lamps = { { intensity_cd = 80 } },
+  lamps = { { intensity_cd = 150 } },
   control = rubble.robot.follow {
     path = { { -3.6, -7.4 }, { -3.4, -5.8 }, { -3, -4.4 }, { -2, -3.6 }, { -0.9, -3.4 } }, speed = 0.35,
     flippers = { 0.7, 0.7, 0.7, 0.7 },
@@ -31,11 +31,11 @@ return rubble.mission {
   air = { fog_density = 0.15, fog_height = 1.5, fog_noise = 0.8 },
 
   -- What is measured: colour and depth of a camera on a mast, a LiDAR, an inertial unit.
-  light = { type = "sun", elevation_deg = 35, azimuth_deg = 230 },
+  light = { type = "sun", elevation_deg = -4, azimuth_deg = 230 },  -- dusk
   camera = { width = 480, height = 360, fov_deg = 90, exposure = { mode = "automatic" } },
   lamp = { on = false },
   trajectory = { rate_hz = 2, ride = { robot = "tank", position = { 0.25, 0, 0.35 }, rpy_deg = { 0, 5, 0 } } },
-  lidars = { top = { model = "vlp16", rate_hz = 5, ride = { robot = "tank" }, position = { 0, 0, 0.45 } } },
+  lidars = { top = { model = "os0", columns = 512, rate_hz = 2, ride = { robot = "tank" }, position = { 0, 0, 0.45 } } },
   imu = { on = true },
   outputs = { bag = true, rawlog = true, simplemap = false },
 }

@@ -13,10 +13,10 @@ import os
 import subprocess
 import sys
 
+from mission_pictures import NOT_SETTLED, colour_depth, fit, read  # before OpenCV, which it tells of EXR files
+
 import cv2
 import numpy as np
-
-from mission_pictures import NOT_SETTLED, colour_depth, fit, read
 
 SIZE = (960, 540)  # of the film; pixels
 SIDE = (320, 240)  # of a picture in the column on the right
@@ -66,7 +66,7 @@ class Reel:
         return read(os.path.join(folder, f"{i:06d}.png"))
 
     def depth(self, i):
-        return colour_depth(os.path.join(self.depths, f"{i:06d}.png"))
+        return colour_depth(os.path.join(self.depths, f"{i:06d}.exr"))
 
 
 def split(reel, i):

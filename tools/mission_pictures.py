@@ -11,8 +11,10 @@ import os
 import subprocess
 import sys
 
-import cv2
-import numpy as np
+os.environ["OPENCV_IO_ENABLE_OPENEXR"] = "1"  # before OpenCV is loaded: depths are EXR files
+
+import cv2  # noqa: E402
+import numpy as np  # noqa: E402
 
 FOLDER = "docs/pictures"
 JPEG = [cv2.IMWRITE_JPEG_QUALITY, 88]
@@ -42,7 +44,7 @@ class Depth:
         self.index = index
 
     def picture(self, program, run):
-        return colour_depth(os.path.join(run, "frames", "depth", f"{self.index:06d}.png"))
+        return colour_depth(os.path.join(run, "frames", "depth", f"{self.index:06d}.exr"))
 
 
 class Preview:
@@ -100,8 +102,8 @@ PICTURES = {  # file name: mission, what of it, and keys of the mission for a pi
 }
 
 
-def read(path):
-    image = cv2.imread(path)
+def read(path, how=cv2.IMREAD_COLOR):
+    image = cv2.imread(path, how)
     if image is None:
         sys.exit(f"{path}: no such picture")
     return image
@@ -126,11 +128,12 @@ def paper(height, width):
 
 
 def colour_depth(path):
-    """Near is warm, as on the contact sheet; no return is grey. The file has millimetres."""
-    metres = cv2.imread(path, cv2.IMREAD_UNCHANGED).astype(np.float32) / 1000
-    share = np.log(np.maximum(metres, 1e-3) / NEAR) / np.log(FAR / NEAR)
+    """Near is warm, as on the contact sheet; no return is grey. The file has metres."""
+    metres = read(path, cv2.IMREAD_UNCHANGED)
+    seen = np.isfinite(metres) & (metres > 0)
+    share = np.log(np.where(seen, metres, FAR) / NEAR) / np.log(FAR / NEAR)
     colours = cv2.applyColorMap(np.uint8(255 * (1 - np.clip(share, 0, 1))), cv2.COLORMAP_TURBO)
-    colours[metres == 0] = (52, 48, 46)
+    colours[~seen] = (52, 48, 46)
     return colours
 
 

@@ -1,9 +1,9 @@
 -- The mission of `make demo`: an earthquake brings down a car park, and a crawler drives by its lamp, through dust,
--- into what is left between the cars. Others start from here: docs/tutorials/first_steps.md.
+-- into what is left between the cars. Copy this page to start a mission of your own.
 --   rubble run scripts/demo.lua --out out/demo
 --   rubble run scripts/demo.lua --seed 2 --out out/other   # another ruin: the robot's path may be blocked
 
--- What falls. Two storeys of a frame whose ground storey is weak; cars stand on the floors, and on the roof.
+-- What falls. Two storeys of a frame whose ground storey is weak; cars stand on both floors.
 local building = rubble.building {
   storeys = 2, bays_x = 2, bays_y = 2, span_x = 5.5, span_y = 5, column = 0.3, infill = "none", piece = 1.3,
   furniture = { { asset = "car_side", per_bay = 1.2 } },

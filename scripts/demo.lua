@@ -34,7 +34,7 @@ return rubble.mission {
   light = { type = "sun", elevation_deg = -4, azimuth_deg = 230 },  -- dusk
   camera = { width = 480, height = 360, fov_deg = 90, exposure = { mode = "automatic" } },
   lamp = { on = false },
-  trajectory = { rate_hz = 2, ride = { robot = "tank", position = { 0.25, 0, 0.35 }, rpy_deg = { 0, 5, 0 } } },
+  trajectory = { rate_hz = 1, ride = { robot = "tank", position = { 0.25, 0, 0.35 }, rpy_deg = { 0, 5, 0 } } },
   lidars = { top = { model = "os0", columns = 512, rate_hz = 2, ride = { robot = "tank" }, position = { 0, 0, 0.45 } } },
   imu = { on = true },
   outputs = { bag = true, rawlog = true, simplemap = false },

@@ -372,7 +372,7 @@ void add_outputs(Schema& k, OutputScenario& o) {
   k.value("outputs.meshes", o.meshes,
           "The settled pile in further formats: any of `ply`, `obj`, `glb`, `sdf`.");
   k.value("outputs.groundtruth", o.groundtruth, "Poses of the camera in TUM format: groundtruth.txt.");
-  k.value("outputs.preview", o.preview, "A contact sheet of colour and depth: preview.png.");
+  k.value("outputs.preview", o.preview, "A contact sheet of colour, depth and the first LiDAR's scans from above: preview.png.");
   k.choice("outputs.depth", o.depth, {"16UC1", "32FC1"},
            "Depth in bag and MCAP files: millimetres (0: none) or metres (NaN: none).");
   k.choice(

@@ -290,9 +290,9 @@ TEST(Robots, AVineGrowsAlongAPathAndRetracts) {
   EXPECT_LT(distance(vector_in(tip.front(), 1), vector_in(tip.back(), 1)), 0.005);
 }
 
-// Missions over the pile of the demo, which settles once for all of them. Their robots are driven as a run does it, but
+// Missions over the pile of first_pile.lua, which settles once for all of them. Their robots are driven as a run does it, but
 // no picture is taken: most of such a run is the light of 1,200 pieces.
-class RobotsInTheDemo : public ::testing::Test {
+class RobotsInTheFirstPile : public ::testing::Test {
  protected:
   // Of mission and pile.
   static std::string pile_of(const ResolvedMission& mission) {
@@ -331,15 +331,15 @@ class RobotsInTheDemo : public ::testing::Test {
   ScratchFolder scratch_;
 };
 
-TEST_F(RobotsInTheDemo, ACrawlerGoesIntoTheLeanToAndOut) { expect_in_and_out("crawler", -1.7); }
-TEST_F(RobotsInTheDemo, ARoverGoesIntoTheLeanToAndOut) { expect_in_and_out("rover", -2.6); }
-TEST_F(RobotsInTheDemo, ASnakeRollsIntoTheLeanToAndOut) { expect_in_and_out("snake", -3.8); }
-TEST_F(RobotsInTheDemo, AVineGrowsIntoTheLeanToAndOut) { expect_in_and_out("vine", -3.3); }
+TEST_F(RobotsInTheFirstPile, ACrawlerGoesIntoTheLeanToAndOut) { expect_in_and_out("crawler", -1.7); }
+TEST_F(RobotsInTheFirstPile, ARoverGoesIntoTheLeanToAndOut) { expect_in_and_out("rover", -2.6); }
+TEST_F(RobotsInTheFirstPile, ASnakeRollsIntoTheLeanToAndOut) { expect_in_and_out("snake", -3.8); }
+TEST_F(RobotsInTheFirstPile, AVineGrowsIntoTheLeanToAndOut) { expect_in_and_out("vine", -3.3); }
 
 // The tip ends within the ball that `rubble voids` says gets there, and no deeper place is in any void.
-class NightlyRobotsInTheDemo : public RobotsInTheDemo {};
+class NightlyRobotsInTheFirstPile : public RobotsInTheFirstPile {};
 
-TEST_F(NightlyRobotsInTheDemo, AVineGrowsToTheDeepestVoid) {
+TEST_F(NightlyRobotsInTheFirstPile, AVineGrowsToTheDeepestVoid) {
   drive("deepest_void.lua");
   if (HasFatalFailure()) return;
   const Outcome settled = run_rubble("settle scripts/robots/deepest_void.lua --quiet --out " + (scratch_ / "pile"));

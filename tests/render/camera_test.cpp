@@ -106,9 +106,15 @@ TEST(Camera, NoiseIsOfTheImageAndThePixelNotOfThePose) {
   EXPECT_LT(count_different(first, take(1e-9, 0)), 64u * 48 / 100);
   EXPECT_LT(count_different(first, take(-1e-12, 0)), 64u * 48 / 100);
   EXPECT_GT(count_different(first, take(0, 1)), 64u * 48 / 20) << "the same noise in each image would be a landmark";
-  // Noise of 8 bits is about a level.
+  // Noise of 8 bits is about a level; in the dark, where sRGB is steep, a few.
   const auto second = take(0, 1);
-  for (std::size_t i = 0; i < first.size(); ++i) ASSERT_LE(std::abs(int(first[i]) - int(second[i])), 4) << i;
+  std::size_t strong = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const int step = std::abs(int(first[i]) - int(second[i]));
+    strong += step > 4;
+    ASSERT_LE(step, 12) << i;
+  }
+  EXPECT_LT(strong, first.size() / 500);
 }
 
 // Mean of an 8-bit linear image, without clipped pixels to spoil it.
